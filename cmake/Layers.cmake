@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: MIT
+# The dependency rule of the house, enforced by include paths.
+#
+# Every layer folder (spec, golden, rtl_model, tb) is visible to a compiler only through a private
+# include root that holds a link to that one folder. A target that does not link deburr::golden has
+# no include path on which "golden/..." could be found, so the rule cannot be broken by accident.
+
+# deburr_layer_root(<variable> <layer>): the include root that shows <layer> and nothing else.
+function(deburr_layer_root variable layer)
+  set(root "${PROJECT_BINARY_DIR}/layers/${layer}")
+  file(MAKE_DIRECTORY "${root}")
+  if(NOT IS_SYMLINK "${root}/${layer}")
+    file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${layer}" "${root}/${layer}" SYMBOLIC)
+  endif()
+  set(${variable} "${root}" PARENT_SCOPE)
+endfunction()
+
+# deburr_library(<name> LAYER <layer> SOURCES ... LINK ...): a static library of one layer; linking
+# it makes its layer's headers visible, and those of what it links publicly.
+function(deburr_library name)
+  cmake_parse_arguments(ARG "" "LAYER" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  deburr_layer_root(root ${ARG_LAYER})
+  if(ARG_SOURCES)
+    add_library(deburr_${name} STATIC ${ARG_SOURCES})
+    target_include_directories(deburr_${name} PUBLIC "${root}")
+    target_link_libraries(deburr_${name} PUBLIC ${ARG_LINK} PRIVATE deburr_options
+                                                                    ${ARG_PRIVATE_LINK})
+  else()
+    add_library(deburr_${name} INTERFACE)
+    target_include_directories(deburr_${name} INTERFACE "${root}")
+    target_link_libraries(deburr_${name} INTERFACE ${ARG_LINK})
+  endif()
+  add_library(deburr::${name} ALIAS deburr_${name})
+endfunction()
+
+# deburr_test(<name> LABELS ... SOURCES ... LINK ... [TIMEOUT s]): a GoogleTest program. Every TEST
+# becomes a ctest entry of its own and so a process of its own: SystemC elaborates once a process.
+function(deburr_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;SOURCES;LINK" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} deburr_options GTest::gmock)
+  gtest_discover_tests(${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
+                       PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+endfunction()

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: MIT
+# Compiler options shared by every target of the project.
+option(DEBURR_WERROR "Treat warnings as errors (on in CI)" OFF)
+option(DEBURR_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
+option(DEBURR_COVERAGE "Build with gcov line coverage" OFF)
+
+add_library(deburr_options INTERFACE)
+target_compile_features(deburr_options INTERFACE cxx_std_20)
+# -ffp-contract=off: the same source gives the same double on every machine.
+target_compile_options(deburr_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -ffp-contract=off
+  $<$<BOOL:${DEBURR_WERROR}>:-Werror>)
+if(DEBURR_SANITIZE)
+  target_compile_options(deburr_options INTERFACE
+    -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(deburr_options INTERFACE -fsanitize=address,undefined)
+endif()
+if(DEBURR_COVERAGE)
+  target_compile_options(deburr_options INTERFACE --coverage -fprofile-update=atomic)
+  target_link_options(deburr_options INTERFACE --coverage)
+endif()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+endif()
