@@ -1,0 +1,94 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Checks the dependency rule of the house on the sources themselves.
+
+The build's include roots already keep golden and rtl_model apart; this test also catches relative
+paths, forbidden words, missing licence lines, and says which line breaks which rule.
+"""
+import argparse
+import pathlib
+import re
+import sys
+import tempfile
+
+# layer -> layers whose headers it may include
+ALLOWED = {
+    "spec": {"spec"},
+    "golden": {"spec", "golden"},
+    "rtl_model": {"spec", "rtl_model"},
+    "tb": {"spec", "golden", "rtl_model", "tb"},
+}
+SOURCE = {".h", ".cpp", ".cmake", ".py", ".txt"}
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
+FLOATING = re.compile(r"\b(float|double)\b")
+THREADS = re.compile(r"\bSC_C?THREAD\b")
+CONDITIONAL = re.compile(r"^\s*#\s*if(n?def)?\b")
+
+
+def violations(root):
+    """Yields 'file:line: rule' for every broken rule below root."""
+    for layer, allowed in ALLOWED.items():
+        for path in sorted((root / layer).rglob("*")):
+            if not path.is_file() or path.suffix not in SOURCE:
+                continue
+            where = path.relative_to(root)
+            lines = path.read_text(encoding="utf-8").splitlines()
+            if "SPDX-License-Identifier: MIT" not in "\n".join(lines[:3]):
+                yield f"{where}:1: no SPDX licence line"
+            if path.suffix not in {".h", ".cpp"}:
+                continue
+            ideal = where.parts[:2] == ("golden", "ideal")
+            for number, line in enumerate(lines, 1):
+                include = INCLUDE.match(line)
+                if include:
+                    name = include.group(1)
+                    if ".." in name:
+                        yield f"{where}:{number}: relative include {name}"
+                    first = name.split("/")[0]
+                    if first in ALLOWED and first not in allowed:
+                        yield f"{where}:{number}: {layer} includes {first}"
+                if layer in {"golden", "rtl_model"} and not ideal and FLOATING.search(line):
+                    yield f"{where}:{number}: floating point in {layer}"
+                if layer == "rtl_model" and THREADS.search(line):
+                    yield f"{where}:{number}: a thread process in rtl_model"
+                if layer in {"golden", "rtl_model"} and CONDITIONAL.match(line):
+                    yield f"{where}:{number}: compile-time configuration in {layer}"
+
+
+def planted_faults_are_caught():
+    """Plants one fault of each kind and returns the kinds that were missed."""
+    faults = {
+        "golden/a.cpp": '#include "rtl_model/fabric/link.h"',
+        "rtl_model/a.cpp": '#include "golden/texture/x.h"',
+        "rtl_model/b.cpp": "SC_THREAD(run);",
+        "golden/b.cpp": "double x;",
+        "golden/ideal/c.cpp": '#include "../../rtl_model/x.h"',
+        "spec/a.h": '#include "tb/scene/image.h"',
+        "golden/c.h": "#ifdef FAST",
+    }
+    missed = []
+    for name, line in faults.items():
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / name
+            path.parent.mkdir(parents=True)
+            path.write_text("// SPDX-License-Identifier: MIT\n" + line + "\n", encoding="utf-8")
+            if len(list(violations(pathlib.Path(folder)))) != 1:
+                missed.append(f"{name}: {line}")
+    return missed
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("root", type=pathlib.Path, help="the checkout")
+    root = parser.parse_args().root
+    missed = planted_faults_are_caught()
+    for fault in missed:
+        print(f"planted fault not caught: {fault}")
+    found = list(violations(root))
+    for violation in found:
+        print(violation)
+    sys.exit(1 if found or missed else 0)
+
+
+if __name__ == "__main__":
+    main()
