@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Image files in and out, through OpenImageIO. Every failure is a spec::FileError that names the
+// file, the reason and what to do; a failed write leaves neither a half-written file nor a
+// temporary one.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tb/scene/image.h"
+
+namespace deburr::tb {
+
+inline constexpr int kMaxImageSide = 8192;  // checked on the header, before anything is allocated
+
+// How a file became RGBA8; one line for each conversion that changed something, for the report.
+struct ReadReport {
+  int channels = 0;
+  std::string format;  // the file's own pixel type: "uint8", "uint16", "half", "float"
+  std::vector<std::string> conversions;
+};
+
+// Reads any format that OpenImageIO knows, as RGBA8 with alpha not premultiplied.
+//   16-bit and other integers  v * 255 / max, rounded half up
+//   half, float                NaN -> 0, clamped to [0, 1]; where the file declares linear light
+//   (EXR,
+//                              HDR) the sRGB curve is applied; times 255, rounded half up
+//   palette                    expanded
+//   one channel                copied to R, G and B; alpha 255
+//   two channels               grey and alpha
+//   three channels             alpha 255
+//   more than four             the first four
+// Only the first sub-image and level 0 are read. Throws FileError: missing, not a regular file,
+// empty, unknown format, truncated or corrupt, side over kMaxImageSide, volume or deep image.
+Image read_image(const std::filesystem::path& path, ReadReport* report = nullptr);
+// The same from an encoded file in memory (an image embedded in a glTF); `name` is for error texts.
+Image read_image_memory(const std::string& name, std::string_view bytes,
+                        ReadReport* report = nullptr);
+
+// Reads without quantising and without a transfer curve; integers are divided by their maximum.
+FloatImage read_float_image(const std::filesystem::path& path);
+
+// A depth picture: either 24 bits in R, G, B (most significant first; 8-bit file with three or more
+// channels) as value / (2^24 - 1), or one float channel as it is. Throws FileError for anything
+// else.
+DepthImage read_depth(const std::filesystem::path& path);
+
+// Encodes by extension (.png, .exr, .tif, ... whatever OpenImageIO writes to memory), decodes what
+// was encoded, compares it pixel by pixel (lossy formats: size only) and then writes it atomically.
+void write_image(const std::filesystem::path& path, const Image& image);
+void write_image(const std::filesystem::path& path, const FloatImage& image);
+// 24-bit depth in R, G, B, as read_depth reads it: round(depth * (2^24 - 1)).
+void write_depth24(const std::filesystem::path& path, const DepthImage& depth);
+void write_mask(const std::filesystem::path& path, const Mask& mask);  // 0 and 255
+
+// Writes `bytes` to a temporary file in the same folder, fsyncs, closes, checks the size and
+// renames it to `path`. Every step is checked: a full disk is reported here and the old file stays
+// as it was.
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+// Throws FileError unless a file can be created, written and removed in `folder`; makes the folder.
+void prove_writable(const std::filesystem::path& folder);
+
+}  // namespace deburr::tb

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Triangle meshes with materials and textures, and their import from OBJ (tinyobjloader) and
+// glTF/GLB (tinygltf). Right-handed, y up. (s, t) = (0, 0) is the top left corner of the texture's
+// top left texel.
+#pragma once
+
+#include <Imath/ImathVec.h>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tb/scene/image.h"
+
+namespace deburr::tb {
+
+enum class Wrap : std::uint8_t { kRepeat, kMirroredRepeat, kClampToEdge };
+
+struct Texture {
+  std::string name;
+  Image image;  // level 0; mip_chain() makes the rest
+  Wrap wrap_s = Wrap::kRepeat, wrap_t = Wrap::kRepeat;
+};
+
+struct Material {
+  std::string name;
+  Imath::V3d colour{1, 1, 1};  // linear light, multiplies the texture in lit frames
+  int texture = -1;            // index into Mesh::textures, -1: plain colour
+};
+
+struct Vertex {
+  Imath::V3d position{0, 0, 0};
+  Imath::V3d normal{0, 0, 0};  // unit length
+  Imath::V2d uv{0, 0};         // (s, t)
+};
+
+struct Triangle {
+  std::array<std::uint32_t, 3> vertex{};  // counter-clockwise seen from outside
+  std::uint32_t material = 0;
+};
+
+struct Mesh {
+  std::string name;
+  std::vector<Vertex> vertices;
+  std::vector<Triangle> triangles;
+  std::vector<Material> materials;  // at least one
+  std::vector<Texture> textures;
+  std::vector<std::string> notes;  // what import had to decide: missing uv, missing normals, ...
+};
+
+struct Bounds {
+  Imath::V3d low, high;
+  Imath::V3d centre() const { return (low + high) * 0.5; }
+  double radius() const { return (high - low).length() * 0.5; }
+};
+Bounds bounds(const Mesh& mesh);
+
+// Limits of an import, checked before memory is spent on it.
+inline constexpr std::uint64_t kMaxMeshFileBytes = std::uint64_t{1} << 30;
+inline constexpr std::uint64_t kMaxTriangles = 16'000'000;
+
+// Reads .obj (with its .mtl and textures), .gltf or .glb (all nodes of the default scene with their
+// transforms; embedded and external textures). Polygons become triangles; lines and points are left
+// out with a note. Where a triangle has no texture coordinates it gets a box projection: (s, t) are
+// the two coordinates across the largest component of its face normal, one repeat to a quarter of
+// the mesh's longest side. Where it has no normals it gets its face normal. OBJ's v axis is flipped
+// to t = 1 - v. Throws FileError that names the file and what to do: missing, empty, truncated,
+// malformed, a number that is not finite, an index out of range, no triangles, too large, texture
+// missing or unreadable.
+Mesh import_mesh(const std::filesystem::path& path);
+
+// Every material that has no texture gets one: its colour becomes a cell of a common palette
+// texture and the triangles' coordinates the centre of that cell, so that an engine that only knows
+// textures draws it exactly. If no material has a texture, all get `fallback` instead.
+void texture_everything(Mesh& mesh, const Texture& fallback);
+
+}  // namespace deburr::tb

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// How good is a picture: PSNR over a frame or a mask, edge and silhouette masks (exploration.md,
+// "Quality"). All on stored 8-bit R, G and B; alpha is never compared.
+#pragma once
+
+#include <cstdint>
+
+#include "tb/scene/image.h"
+
+namespace deburr::tb {
+
+// Mean squared error over R, G and B, in units of 1/255. Sizes must agree (ConfigError).
+double mean_squared_error(const Image& a, const Image& b);
+double mean_squared_error(const Image& a, const Image& b, const Mask& mask);  // NaN: mask is empty
+
+// 10 log10(255^2 / mse) in dB: +infinity for equal pictures, NaN for an empty mask.
+double psnr(const Image& a, const Image& b);
+double psnr(const Image& a, const Image& b, const Mask& mask);
+double psnr_from_mse(double mse);
+
+std::int64_t count(const Mask& mask);
+// Pixels that differ by more than `tolerance` in R, G or B, and the largest difference.
+std::int64_t count_different(const Image& a, const Image& b, int tolerance = 0);
+int max_difference(const Image& a, const Image& b);
+
+// Edge pixels: truth and unfiltered input differ by more than 2/255 in a channel.
+Mask edge_mask(const Image& truth, const Image& input, int threshold = 2);
+
+// Silhouette pixels: those of `edges` where the depth of one of the four neighbours differs by more
+// than 5 %: max > 1.05 min. The ratio makes it hold for depth and for inverse depth alike; 0,
+// infinity and NaN are the background, and background against a surface is a step.
+Mask silhouette_mask(const Mask& edges, const DepthImage& depth, double relative_step = 0.05);
+
+}  // namespace deburr::tb

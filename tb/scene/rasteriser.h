@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Turns a scene into the texture unit's input: 2 x 2 quads of fragments with snapped coordinates.
+//
+// Sits before TextureUnit (docs/scenes.md). Formats: vertices 24.8, edge functions exact 64-bit
+// integers with the top-left rule, coordinates S7.24. Perspective correct: (s, t) at a pixel centre
+// come from the edge functions in double with + - * / only and without contraction, so that the
+// same scene gives the same bits on every machine.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "spec/fragment.h"
+#include "tb/scene/image.h"
+#include "tb/scene/scenes.h"
+
+namespace deburr::tb {
+
+// Order of the quads of one triangle; triangles come in the order of the mesh.
+enum class Traversal : std::uint8_t {
+  kRaster,   // rows of quads, top to bottom
+  kTiles8x8  // 8 x 8 pixel tiles in rows, quads in rows inside a tile
+};
+
+enum class Visibility : std::uint8_t {
+  kVisible,  // as after a depth pre-pass: every pixel gets at most one fragment, the nearest
+  kOverdraw  // every fragment of every triangle, hidden ones too
+};
+
+struct RasterOptions {
+  int width = 512, height = 512;  // pixels, 1..8192
+  Traversal traversal = Traversal::kTiles8x8;
+  Visibility visibility = Visibility::kVisible;
+};
+
+struct RasterCounts {
+  std::uint64_t triangles = 0;   // of the mesh
+  std::uint64_t outside = 0;     // wholly outside the picture or behind the near plane
+  std::uint64_t clipped = 0;     // cut by the near plane or the guard band
+  std::uint64_t degenerate = 0;  // no area after snapping, or a vertex that is not finite
+  std::uint64_t quads = 0;
+  std::uint64_t fragments = 0;      // covered lanes
+  std::uint64_t clamped_lanes = 0;  // lanes with a NaN, infinite or saturated coordinate
+};
+
+// A frame as a list of quads. quads[i].tag == i, so a colour's tag and lane give its pixel.
+struct FragmentStream {
+  int width = 0, height = 0;
+  std::vector<spec::Quad> quads;
+  // Lanes whose colour is the one to be seen: equal to coverage in kVisible, less in kOverdraw.
+  std::vector<std::uint8_t> visible;
+  DepthImage depth;  // near/w of the nearest surface at pixel centres, 0 where there is none
+  RasterCounts counts;
+
+  struct Pixel {
+    int x, y;
+  };
+  Pixel pixel(std::uint32_t tag, int lane) const {
+    return {quads[tag].x + (lane & 1), quads[tag].y + (lane >> 1)};
+  }
+};
+
+// Throws ConfigError for a size outside 1..8192 or a camera that cannot look.
+FragmentStream rasterise(const Scene& scene, const RasterOptions& options);
+
+// Snaps one coordinate to S7.24, rounding half up. NaN -> 0, beyond the range -> the nearest limit;
+// both return true in `clamped`, which is left alone otherwise.
+std::int32_t snap_coordinate(double coordinate, bool& clamped);
+
+// Puts colours back where they belong. The background is the scene's sky.
+class FrameAssembler {
+ public:
+  FrameAssembler(const FragmentStream& stream, const Scene& scene);
+  // Throws CheckFailed for an unknown tag, a lane that is not covered or a second colour for it.
+  void put(const spec::Colour& colour);
+  std::uint64_t missing() const { return missing_; }  // covered lanes without a colour so far
+  const Image& frame() const { return frame_; }
+
+ private:
+  const FragmentStream& stream_;
+  Image frame_;
+  std::vector<std::uint8_t> pending_;  // lanes of each quad still without a colour
+  std::uint64_t missing_ = 0;
+};
+
+// The colour of the sky behind pixel row y (may be fractional) of a picture `height` pixels high.
+Rgba8 sky(const Scene& scene, double y, int height);
+
+}  // namespace deburr::tb

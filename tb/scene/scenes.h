@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// What is looked at and from where: named scenes made by formula, and imported ones. docs/scenes.md
+// lists cameras, conventions and pictures.
+#pragma once
+
+#include <Imath/ImathVec.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "tb/scene/mesh.h"
+
+namespace deburr::tb {
+
+// Perspective without a far plane. Looks from eye to target; the picture's aspect ratio is its
+// size's.
+struct Camera {
+  Imath::V3d eye{0, 0, 1}, target{0, 0, 0}, up{0, 1, 0};
+  double fov_y = 1.0;       // vertical field of view, radian, in (0, pi)
+  double near_plane = 0.1;  // distance along the view direction, > 0
+};
+
+// Two directional lights and ambient, for lit frames; directions point towards the light.
+struct Lighting {
+  Imath::V3d key_direction{0.45, 0.8, 0.4}, fill_direction{-0.6, 0.3, -0.7};
+  double key = 0.75, fill = 0.2, ambient = 0.15;
+  bool smooth = true;  // interpolated vertex normals, else one normal a face
+};
+
+struct Scene {
+  std::string name;
+  Mesh mesh;  // every material has a texture, at most 16 textures (descriptor handles)
+  Camera camera;
+  Lighting lighting;
+  Rgba8 sky_top{115, 158, 219, 255}, sky_bottom{200, 214, 235, 255};  // stored; linear between
+};
+
+struct SceneOptions {
+  std::string texture;      // a name of texture_names() or an image file; empty: the scene's own
+  int texture_size = 1024;  // side of a texture made by formula
+  std::uint32_t seed = 1;
+  Wrap wrap = Wrap::kRepeat;
+  std::optional<Camera> camera;  // instead of the scene's own
+};
+
+struct SceneName {
+  std::string_view name, meaning;
+};
+// plane, quad, tunnel, object, road, cylinders
+std::span<const SceneName> scene_names();
+
+// Throws ConfigError for an unknown name (listing the known) or an impossible camera.
+Scene make_scene(std::string_view name, const SceneOptions& options = {});
+
+// Imports a mesh (mesh.h); without options.camera the whole mesh is framed from above front right.
+// A texture in the options replaces all of the file's. Throws FileError, also for more than 16
+// textures.
+Scene import_scene(const std::filesystem::path& path, const SceneOptions& options = {});
+
+// `source` is a name of scene_names(), or else a mesh file.
+Scene load_scene(const std::string& source, const SceneOptions& options = {});
+
+}  // namespace deburr::tb
