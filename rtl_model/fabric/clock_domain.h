@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// One clock: owns the rising edge and ticks its units in a fixed order, in a single SystemC
+// process.
+//
+// Edge number c is at the time c x period. What other processes do at that very time, in the same
+// delta cycle, counts as before the edge. While no other process has anything pending up to and
+// including the next edge, the domain runs on through further cycles in the same activation. That
+// is invisible as long as units keep to two rules: they never ask for sc_time_stamp() (use
+// time_of(cycle)), and they raise events and call TLM targets with the offset of the domain added
+// (notify(), offset()). The first rule cannot be checked, the second is checked.
+// Running on needs to know where sc_start() will end, so it happens inside run(), run_until() and
+// run_free() only; a bare sc_start() gives the same results cycle by cycle.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <optional>
+#include <systemc>
+#include <vector>
+
+#include "rtl_model/fabric/clocked.h"
+#include "rtl_model/fabric/link.h"
+
+namespace deburr::rtl {
+
+class Unit;
+
+class ClockDomain final : public sc_core::sc_module {
+ public:
+  ClockDomain(const sc_core::sc_module_name& name, const sc_core::sc_time& period);
+  const char* kind() const override { return "deburr_clock_domain"; }
+
+  // --- Building. Order of addition is order of evaluation. ---
+  void add(Unit& unit);               // done by Unit's constructor
+  void add(Clocked& clocked);         // something clocked that is not a Unit
+  void add_before(Clocked& clocked);  // ticked before all units (stalls, faults)
+  void add_after(Clocked& clocked);   // ticked after all units (checkers, traces)
+  void add(LinkBase& link);  // only for a link that no Unit's port is bound to: reset with the rest
+
+  // --- Options, before or between runs ---
+  void set_fast_path(bool on) { fast_path_ = on; }
+  // Evaluates the units in another random order each cycle; nullopt: in the order of addition.
+  void shuffle(std::optional<std::uint64_t> seed);
+  // From now on every edge is an activation of its own (traces).
+  void require_cycle_by_cycle() { cycle_by_cycle_ = true; }
+  // Active low. While false, every edge resets instead of ticking.
+  void set_reset_n(bool reset_n) { reset_n_ = reset_n; }
+
+  // --- Running ---
+  void run(Cycle cycles);
+  // Runs until `done` is true after an edge: true; or for `limit` cycles: false.
+  bool run_until(const std::function<bool()>& done, Cycle limit);
+  // Runs until request_stop() is called.
+  void run_free();
+  // Ends run_free(), run() or run_until() after the cycle that is being evaluated.
+  void request_stop() { stop_requested_ = true; }
+
+  // --- Time ---
+  const sc_core::sc_time& period() const { return period_; }
+  Cycle cycle() const { return cycle_; }  // inside tick: the current edge; outside: the next one
+  Cycle cycles_since_reset() const { return cycle_ - reset_cycle_; }
+  sc_core::sc_time time_of(Cycle cycle) const;
+  // How far the edge that is being evaluated is ahead of sc_time_stamp().
+  sc_core::sc_time offset() const;
+  // Raises an event `delay` after the edge that is being evaluated (in the next delta if zero).
+  void notify(sc_core::sc_event& event, const sc_core::sc_time& delay = sc_core::SC_ZERO_TIME);
+  // Raised at every edge, after the units have been ticked. Asking for it ends running on.
+  const sc_core::sc_event& edge();
+
+  const std::vector<Unit*>& units() const { return units_; }
+  const std::vector<LinkBase*>& links() const { return links_; }  // complete after elaboration
+  std::uint64_t activations() const { return activations_; }      // to see whether it runs on
+
+  // Checks busy + stalled + idle = cycles for every unit; run() and run_until() do it at their end.
+  void check_accounting() const;
+
+ private:
+  struct Slot {
+    Clocked* clocked;
+    std::uint64_t* activity;  // kActivities counters
+  };
+  SC_HAS_PROCESS(ClockDomain);
+  void end_of_elaboration() override;
+  void start_of_simulation() override;
+  void activate();
+  void evaluate();
+  void evaluate_reset();
+  void reset_all();
+  bool may_run_on() const;
+  void start(const sc_core::sc_time& duration);
+  void reorder();
+
+  sc_core::sc_time period_;
+  std::uint64_t period_value_;
+  std::vector<Slot> slots_;
+  std::vector<Clocked*> before_, after_;
+  std::vector<Unit*> units_;
+  std::vector<LinkBase*> links_;
+  std::vector<ClockDomain*> domains_;  // all of the simulation, this one included
+  std::uint64_t ignored_[kActivities] = {};
+
+  Cycle cycle_ = 0, block_start_ = 0, reset_cycle_ = 0;
+  std::uint64_t horizon_ = 0;  // sc_time value up to which the current run will certainly go
+  std::uint64_t activations_ = 0;
+  std::uint64_t shuffle_state_ = 0;
+  bool shuffled_ = false, fast_path_ = true, cycle_by_cycle_ = false, reset_n_ = true;
+  bool deferred_ = false, stop_requested_ = false, stopping_ = false, in_run_ = false;
+  bool evaluating_ = false;
+  const std::function<bool()>* done_ = nullptr;
+  bool done_reached_ = false;
+  sc_core::sc_event edge_;
+  bool observed_ = false;
+  std::exception_ptr failure_;
+};
+
+}  // namespace deburr::rtl

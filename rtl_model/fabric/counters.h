@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Event counters. A counter cannot be declared without its unit and its meaning in one line;
+// tables, JSON and docs derive from that. Cost: one 64-bit adder each (a 32-bit register may show
+// part of it).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <systemc>
+
+namespace deburr::rtl {
+
+// Declared as a member of the unit that counts: its full name follows the hierarchy.
+//   Counter lines_fetched_{"lines_fetched", "lines", "cache lines requested from memory"};
+class Counter : public sc_core::sc_object {
+ public:
+  Counter(const char* name, const char* unit, const char* meaning);
+  const char* kind() const override { return "deburr_counter"; }
+
+  Counter& operator++() {
+    ++value_;
+    return *this;
+  }
+  Counter& operator+=(std::uint64_t amount) {
+    value_ += amount;
+    return *this;
+  }
+  // Keeps the larger of the two: for high-water marks.
+  void raise_to(std::uint64_t value) {
+    if (value > value_) value_ = value;
+  }
+  std::uint64_t value() const { return value_; }
+  void reset() { value_ = 0; }
+
+  const std::string& unit() const { return unit_; }  // "lines", "bytes", "clk", ...
+  const std::string& meaning() const { return meaning_; }
+
+ private:
+  std::uint64_t value_ = 0;
+  std::string unit_, meaning_;
+};
+
+// Calls `visit` for `root` and everything below it in the SystemC hierarchy, in declaration order;
+// without a root, for every object of the simulation.
+void walk(sc_core::sc_object& root, const std::function<void(sc_core::sc_object&)>& visit);
+void walk_all(const std::function<void(sc_core::sc_object&)>& visit);
+
+// The same for objects of one type: for_each<Counter>(unit, [](Counter& c) { ... }).
+template <class T, class F>
+void for_each(sc_core::sc_object& root, F&& visit) {
+  walk(root, [&](sc_core::sc_object& object) {
+    if (auto* wanted = dynamic_cast<T*>(&object)) visit(*wanted);
+  });
+}
+template <class T, class F>
+void for_each(F&& visit) {
+  walk_all([&](sc_core::sc_object& object) {
+    if (auto* wanted = dynamic_cast<T*>(&object)) visit(*wanted);
+  });
+}
+
+}  // namespace deburr::rtl

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/fabric/link.h"
+
+#include <fmt/format.h>
+
+namespace deburr::rtl {
+
+LinkBase::LinkBase(const char* name, std::uint32_t depth, std::size_t payload_bytes)
+    : sc_object(name),
+      mask_(std::bit_ceil(depth ? depth : 1) - 1),
+      depth_(depth),
+      payload_bytes_(payload_bytes) {
+  DEBURR_CHECK(depth >= 1 && depth <= (1U << 24),
+               fmt::format("{}: depth {} is not in 1..2^24", this->name(), depth));
+}
+
+std::string LinkBase::misuse(const char* what, Cycle cycle) const {
+  return fmt::format("{}: cycle {}: {} ({} of {} beats in the link; producer {}, consumer {})",
+                     name(), cycle, what, occupancy(), depth_,
+                     producer_.empty() ? "unbound" : producer_,
+                     consumer_.empty() ? "unbound" : consumer_);
+}
+
+bool LinkBase::drop_newest() {
+  if (empty()) return false;
+  --pushes_;
+  if (empty()) pop_from_ = kNever;
+  push_from_ = std::min(push_from_, last_push_ + 1);
+  return true;
+}
+
+bool LinkBase::duplicate_newest(Cycle cycle) {
+  if (empty() || occupancy() == depth_) return false;
+  std::memcpy(beat(pushes_), beat(pushes_ - 1), payload_bytes_);
+  ++pushes_;
+  if (occupancy() == depth_) push_from_ = kNever;
+  pop_from_ = std::min(pop_from_, cycle);
+  return true;
+}
+
+void PortBase::bind_link(LinkBase& link) {
+  DEBURR_CHECK(!base_ && !outer_, fmt::format("{} is bound twice", name()));
+  resolve(link);
+}
+
+void PortBase::bind_port(PortBase& outer) {
+  DEBURR_CHECK(!base_ && !outer_, fmt::format("{} is bound twice", name()));
+  DEBURR_CHECK(outer.inner_.empty(),
+               fmt::format("{} already hands its link on to {}", outer.name(),
+                           outer.inner_.front()->name()));
+  outer_ = &outer;
+  outer.inner_.push_back(this);
+  if (outer.base_) {
+    // The outer port may have claimed the link already; the claim moves inwards.
+    std::string& owner =
+        side_ == Side::kProducer ? outer.base_->producer_ : outer.base_->consumer_;
+    owner.clear();
+    resolve(*outer.base_);
+  }
+}
+
+void PortBase::resolve(LinkBase& link) {
+  base_ = &link;
+  resolved(link);
+  if (!inner_.empty()) {
+    for (PortBase* port : inner_) port->resolve(link);
+    return;
+  }
+  std::string& owner = side_ == Side::kProducer ? link.producer_ : link.consumer_;
+  DEBURR_CHECK(owner.empty(),
+               fmt::format("{} has two {}s: {} and {}", link.name(),
+                           side_ == Side::kProducer ? "producer" : "consumer", owner, name()));
+  owner = name();
+}
+
+}  // namespace deburr::rtl

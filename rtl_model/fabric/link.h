@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+// A valid/ready link with registered hand-over between two units, and the ports that it binds.
+//
+// Timing: what is pushed in cycle t can be popped from t+1 on; a slot that is freed in t can be
+// refilled from t+1 on; at most one push and one pop a cycle. Depth 2 sustains one transfer a
+// clock, depth 1 every other clock. Latency 1, initiation interval 1. Stalls: `can_push` is "ready"
+// as the producer sees it, `can_pop` is "valid" as the consumer sees it. Cost: depth x payload bits
+// of registers, two pointers, one counter.
+//
+// The link keeps no "next state" that somebody would have to clock. It keeps, for each side, the
+// first cycle in which that side may act; each action moves these two stamps to the next cycle.
+// So a hand-shake is one comparison, and it does not matter which side is evaluated first.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <systemc>
+#include <type_traits>
+#include <vector>
+
+#include "rtl_model/fabric/clocked.h"
+#include "spec/error.h"
+
+namespace deburr::rtl {
+
+// The part of a link that does not depend on its payload. An sc_object: name and place in the
+// hierarchy come from the module that declares it.
+class LinkBase : public sc_core::sc_object {
+ public:
+  const char* kind() const override { return "deburr_link"; }
+
+  bool can_push(Cycle cycle) const { return cycle >= push_from_; }
+  bool can_pop(Cycle cycle) const { return cycle >= pop_from_; }
+
+  std::uint32_t depth() const { return depth_; }
+  std::uint32_t occupancy() const { return static_cast<std::uint32_t>(pushes_ - pops_); }
+  bool empty() const { return pushes_ == pops_; }
+  std::uint64_t pushes() const { return pushes_; }  // since reset
+  std::uint64_t pops() const { return pops_; }      // since reset
+  Cycle last_push() const { return last_push_; }    // kNever if there was none since reset
+  Cycle last_pop() const { return last_pop_; }      // kNever if there was none since reset
+  std::size_t payload_bytes() const { return payload_bytes_; }
+
+  void reset() {
+    pushes_ = pops_ = 0;
+    last_push_ = last_pop_ = kNever;
+    push_from_ = 0;
+    pop_from_ = kNever;
+  }
+
+  // --- For testbenches: stalls, faults, checkers and traces. They cost nothing when unused. ---
+
+  // Makes the link not ready (not valid) in this cycle. Call before the units are ticked.
+  void hold_push(Cycle cycle) { push_from_ = std::max(push_from_, cycle + 1); }
+  void hold_pop(Cycle cycle) { pop_from_ = std::max(pop_from_, cycle + 1); }
+  // The bytes of beat number `beat` (counted from reset). They are there from its push until its
+  // slot is refilled, at the earliest one cycle after its pop.
+  std::byte* beat(std::uint64_t beat) { return bytes_ + (beat & mask_) * payload_bytes_; }
+  const std::byte* beat(std::uint64_t beat) const {
+    return bytes_ + (beat & mask_) * payload_bytes_;
+  }
+  // Takes back the newest beat, or pushes it a second time, behind the back of both sides; false
+  // if there is none, or no room.
+  bool drop_newest();
+  bool duplicate_newest(Cycle cycle);
+
+  // Who is bound to the two sides, for diagrams and error texts; empty if used without ports.
+  const std::string& producer() const { return producer_; }
+  const std::string& consumer() const { return consumer_; }
+
+ protected:
+  LinkBase(const char* name, std::uint32_t depth, std::size_t payload_bytes);
+
+  // Moves the stamps for a push (pop) in `cycle`; gives the number of the beat.
+  std::uint64_t advance_push(Cycle cycle) {
+    DEBURR_CHECK(can_push(cycle), misuse("push without can_push()", cycle));
+    const std::uint64_t number = pushes_++;
+    last_push_ = cycle;
+    push_from_ = pushes_ - pops_ == depth_ ? kNever : cycle + 1;
+    pop_from_ = std::min(pop_from_, cycle + 1);
+    return number;
+  }
+  void advance_pop(Cycle cycle) {
+    DEBURR_CHECK(can_pop(cycle), misuse("pop without can_pop()", cycle));
+    ++pops_;
+    last_pop_ = cycle;
+    pop_from_ = pushes_ == pops_ ? kNever : cycle + 1;
+    push_from_ = std::min(push_from_, cycle + 1);
+  }
+  std::string misuse(const char* what, Cycle cycle) const;
+
+  Cycle push_from_ = 0;
+  Cycle pop_from_ = kNever;
+  std::uint64_t pushes_ = 0, pops_ = 0;
+  std::uint64_t mask_;
+  std::uint32_t depth_;
+  std::byte* bytes_ = nullptr;
+  Cycle last_push_ = kNever, last_pop_ = kNever;
+
+ private:
+  friend class PortBase;
+  std::size_t payload_bytes_;
+  std::string producer_, consumer_;
+};
+
+// Payloads are wires: trivially copyable, without pointers to anything that changes.
+template <class T>
+class Link final : public LinkBase {
+  static_assert(std::is_trivially_copyable_v<T>, "a payload is a bundle of wires");
+
+ public:
+  explicit Link(const char* name, std::uint32_t depth = 2) : LinkBase(name, depth, sizeof(T)) {
+    slots_ = std::make_unique<T[]>(mask_ + 1);
+    bytes_ = reinterpret_cast<std::byte*>(slots_.get());
+  }
+
+  // The oldest beat. Needs can_pop(cycle).
+  const T& front(Cycle cycle) const {
+    DEBURR_CHECK(can_pop(cycle), misuse("front without can_pop()", cycle));
+    return slots_[pops_ & mask_];
+  }
+  void pop(Cycle cycle) { advance_pop(cycle); }
+  // front and pop in one.
+  T take(Cycle cycle) {
+    const T value = front(cycle);
+    advance_pop(cycle);
+    return value;
+  }
+
+  // Needs can_push(cycle).
+  void push(Cycle cycle, const T& value) { slots_[advance_push(cycle) & mask_] = value; }
+  // Pushes a beat that the caller fills in place, within the same tick(). It holds old bits.
+  T& emplace(Cycle cycle) { return slots_[advance_push(cycle) & mask_]; }
+
+ private:
+  std::unique_ptr<T[]> slots_;
+};
+
+// A named end of a link on a unit's border. Bind it to a link, or to the port of the same kind of
+// the unit around it (in any order).
+class PortBase : public sc_core::sc_object {
+ public:
+  enum class Side { kConsumer, kProducer };
+  Side side() const { return side_; }
+  bool bound() const { return base_ != nullptr; }
+  // The link at the end of the chain; nullptr while not bound.
+  LinkBase* link_base() const { return base_; }
+
+ protected:
+  PortBase(const char* name, Side side) : sc_object(name), side_(side) {}
+  void bind_link(LinkBase& link);
+  void bind_port(PortBase& outer);
+
+ private:
+  virtual void resolved(LinkBase& link) = 0;
+  void resolve(LinkBase& link);
+  Side side_;
+  LinkBase* base_ = nullptr;
+  PortBase* outer_ = nullptr;
+  std::vector<PortBase*> inner_;
+};
+
+template <class T>
+class In final : public PortBase {
+ public:
+  explicit In(const char* name) : PortBase(name, Side::kConsumer) {}
+  const char* kind() const override { return "deburr_in"; }
+  void bind(Link<T>& link) { bind_link(link); }
+  void bind(In<T>& outer) { bind_port(outer); }
+  void operator()(Link<T>& link) { bind(link); }
+  void operator()(In<T>& outer) { bind(outer); }
+
+  bool can_pop(Cycle cycle) const { return link_->can_pop(cycle); }
+  const T& front(Cycle cycle) const { return link_->front(cycle); }
+  void pop(Cycle cycle) { link_->pop(cycle); }
+  T take(Cycle cycle) { return link_->take(cycle); }
+  Link<T>& link() const { return *link_; }
+
+ private:
+  void resolved(LinkBase& link) override { link_ = static_cast<Link<T>*>(&link); }
+  Link<T>* link_ = nullptr;
+};
+
+template <class T>
+class Out final : public PortBase {
+ public:
+  explicit Out(const char* name) : PortBase(name, Side::kProducer) {}
+  const char* kind() const override { return "deburr_out"; }
+  void bind(Link<T>& link) { bind_link(link); }
+  void bind(Out<T>& outer) { bind_port(outer); }
+  void operator()(Link<T>& link) { bind(link); }
+  void operator()(Out<T>& outer) { bind(outer); }
+
+  bool can_push(Cycle cycle) const { return link_->can_push(cycle); }
+  void push(Cycle cycle, const T& value) { link_->push(cycle, value); }
+  T& emplace(Cycle cycle) { return link_->emplace(cycle); }
+  Link<T>& link() const { return *link_; }
+
+ private:
+  void resolved(LinkBase& link) override { link_ = static_cast<Link<T>*>(&link); }
+  Link<T>* link_ = nullptr;
+};
+
+}  // namespace deburr::rtl

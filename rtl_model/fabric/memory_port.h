@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Where a unit's memory requests leave the clocked world: links on one side, a TLM-2.0 initiator
+// socket on the other, to which any target of the base protocol can be bound (the testbench's
+// memory, a DRAM simulator).
+//
+// Non-blocking, four phases, several outstanding, matched by transaction. One request a cycle while
+// the target ends requests at once. A target may also skip phases or complete early, or know only
+// b_transport (behind tlm_utils::simple_target_socket).
+// Latency: request popped in cycle c leaves in c; a response that arrives at a time before edge d
+// is pushed in d, so d is at the earliest c+1. It can be popped in d+1. Stalls: `outstanding`
+// (limit reached), `request_channel` (the target has not ended the last request), `downstream`
+// (nobody takes the responses). Cost: outstanding x (line + tag) bits of buffer, a tag table, one
+// multiplexer.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <systemc>
+#include <tlm>
+#include <vector>
+
+#include "rtl_model/fabric/unit.h"
+
+namespace deburr::rtl {
+
+inline constexpr std::uint32_t kLineBytes = 64;
+using Line = std::array<std::uint8_t, kLineBytes>;
+
+// One beat. A burst read is one beat with lines > 1. A burst write is `lines` beats in a row: the
+// first carries address, tag and lines, the others only data.
+struct MemoryRequest {
+  std::uint64_t address = 0;  // bytes; a multiple of kLineBytes
+  std::uint32_t tag = 0;      // comes back with the response; the unit's own business
+  std::uint16_t lines = 1;    // burst length, 1..MemoryPortParameters::max_burst_lines
+  bool write = false;
+  std::uint64_t byte_mask = ~std::uint64_t{0};  // bit i: byte i is written; of the first beat
+  Line data{};
+};
+
+enum class MemoryStatus : std::uint8_t { kOk, kAddressError, kError };
+
+// One beat a line for reads, one beat in all for writes.
+struct MemoryResponse {
+  std::uint64_t address = 0;  // of this line
+  std::uint32_t tag = 0;
+  std::uint16_t line = 0;  // number of the line within its burst
+  bool last = true;
+  bool write = false;
+  MemoryStatus status = MemoryStatus::kOk;  // if not kOk, data is zero
+  Line data{};
+};
+
+struct MemoryPortParameters {
+  std::uint32_t outstanding = 16;     // transactions; 1..1024
+  std::uint32_t max_burst_lines = 1;  // lines; 1..64
+  bool in_order = false;              // responses in the order of requests
+};
+
+class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tlm_mm_interface {
+ public:
+  In<MemoryRequest> requests_in{"requests_in"};
+  Out<MemoryResponse> responses_out{"responses_out"};
+  tlm::tlm_initiator_socket<512> memory{"memory"};
+
+  MemoryPort(const sc_core::sc_module_name& name, ClockDomain& clock,
+             const MemoryPortParameters& parameters = {});
+  ~MemoryPort() override;
+
+  Activity tick(Cycle cycle) override;
+  void reset() override;
+
+  std::uint32_t in_flight() const;
+  // Untimed access through transport_dbg; the number of bytes that the target handled.
+  unsigned debug_read(std::uint64_t address, void* data, unsigned bytes);
+  unsigned debug_write(std::uint64_t address, const void* data, unsigned bytes);
+
+  Counter reads{"reads", "transactions", "read transactions sent"};
+  Counter writes{"writes", "transactions", "write transactions sent"};
+  Counter bytes_read{"bytes_read", "bytes", "bytes requested from memory"};
+  Counter bytes_written{"bytes_written", "bytes", "bytes enabled in write transactions"};
+  Counter errors{"errors", "transactions", "transactions with an error response"};
+  Counter most_outstanding{"most_outstanding", "transactions", "largest number in flight"};
+  Histogram latency{"latency", "clk", "from sending a request to having its response"};
+
+ private:
+  struct Transaction;
+  tlm::tlm_sync_enum nb_transport_bw(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
+                                     sc_core::sc_time& delay) override;
+  void invalidate_direct_mem_ptr(sc_dt::uint64, sc_dt::uint64) override {}
+  void free(tlm::tlm_generic_payload* payload) override;
+  Transaction& allocate();
+  void send(Transaction& transaction, Cycle cycle);
+  void arrived(Transaction& transaction, const sc_core::sc_time& when);
+  bool respond(Cycle cycle);
+
+  MemoryPortParameters parameters_;
+  Activity stalled_outstanding_, stalled_channel_;
+  std::vector<std::unique_ptr<Transaction>> pool_;
+  std::vector<Transaction*> free_;
+  std::deque<Transaction*> in_flight_;  // in the order of requests
+  std::deque<Transaction*> arrived_;    // in the order of arrival
+  Transaction* requesting_ = nullptr;   // BEGIN_REQ sent, END_REQ not yet seen
+  Transaction* gathering_ = nullptr;    // burst write whose beats are still coming in
+  sc_core::sc_time channel_free_;       // end of the last request
+  std::uint32_t epoch_ = 0;             // counts resets: late responses of older epochs are dropped
+};
+
+}  // namespace deburr::rtl

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// 32-bit registers behind a TLM-2.0 target socket, from one table of descriptions that also gives
+// the docs table and a C++ header.
+//
+// Access: one aligned 32-bit word a transaction, no byte enables. Errors: unknown or unaligned
+// address
+// -> ADDRESS_ERROR; other length or streaming width -> BURST_ERROR; byte enables ->
+// BYTE_ENABLE_ERROR; write to a read-only or read of a write-only register -> COMMAND_ERROR.
+// transport_dbg reads and writes any span of whole registers without side effects and stops at the
+// first hole. A write at the time of a clock edge counts for that edge. Cost: 32 flip-flops a
+// writable register.
+#pragma once
+
+#include <tlm_utils/simple_target_socket.h>
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <systemc>
+#include <tlm>
+#include <vector>
+
+#include "rtl_model/fabric/counters.h"
+
+namespace deburr::rtl {
+
+enum class Access : std::uint8_t {
+  kReadWrite,
+  kReadOnly,
+  kWriteOnly,  // a command: reads are an error
+  kWriteOneToClear
+};
+
+struct RegisterDescription {
+  std::uint32_t offset;  // bytes, multiple of 4
+  const char* name;      // UPPER_SNAKE
+  Access access;
+  std::uint32_t reset;
+  const char* meaning;  // one line: fields, unit, format
+};
+
+class RegisterBlock final : public sc_core::sc_module {
+ public:
+  tlm_utils::simple_target_socket<RegisterBlock> bus{"bus"};
+
+  // The table must outlive the block (a constant array).
+  RegisterBlock(const sc_core::sc_module_name& name, std::span<const RegisterDescription> table);
+  const char* kind() const override { return "deburr_registers"; }
+
+  // From the hardware's side, by position in the table (an enum beside it): no bus, no checks of
+  // access.
+  std::uint32_t get(std::size_t index) const { return values_[index]; }
+  void set(std::size_t index, std::uint32_t value) { values_[index] = value; }
+  // Called after a bus write with the value that was written (a command register, for instance).
+  void on_write(std::size_t index, std::function<void(std::uint32_t)> action);
+  // A read-only register that shows the low (or, with shift 32, the high) word of a counter.
+  void show(std::size_t index, const Counter& counter, int shift = 0);
+  void reset();
+
+  std::span<const RegisterDescription> table() const { return table_; }
+  std::size_t index_of(const std::string& register_name) const;  // ConfigError if there is none
+
+ private:
+  struct Shown {
+    const Counter* counter = nullptr;
+    int shift = 0;
+  };
+  void b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
+  unsigned transport_dbg(tlm::tlm_generic_payload& payload);
+  std::uint32_t read(std::size_t index) const;
+  int find(std::uint64_t offset) const;
+
+  std::span<const RegisterDescription> table_;
+  std::vector<std::uint32_t> values_;
+  std::vector<int> index_by_word_;
+  std::vector<std::function<void(std::uint32_t)>> actions_;
+  std::vector<Shown> shown_;
+};
+
+// | offset | name | access | reset | meaning | as Markdown.
+std::string register_table_markdown(std::span<const RegisterDescription> table);
+// constexpr offsets for drivers, in the given namespace.
+std::string register_header(std::span<const RegisterDescription> table, const std::string& space);
+
+}  // namespace deburr::rtl

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// VCD waves of links, units and counters, chosen by scope and cycle window.
+//
+// Of each link: occupancy, push, pop, head payload. Of each unit: its activity (as a string). Of
+// each counter and register: its value. Sampled at the end of every cycle of the clock domain and
+// written with the time of the edge. While a trace is attached, the domain goes cycle by cycle, so
+// that signals that other SystemC code traces by itself are right as well. Off by default; costs
+// nothing when off.
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <systemc>
+#include <vector>
+
+#include "rtl_model/fabric/clock_domain.h"
+
+namespace deburr::rtl {
+
+struct TraceOptions {
+  std::string file;                      // *.vcd
+  std::vector<std::string> scopes{"*"};  // globs (* and ?) on full hierarchical names
+  Cycle from = 0, to = kNever;           // cycles [from, to)
+  bool payloads = true;                  // the bits at the head of links, not only the hand-shake
+};
+
+class Trace final : public Clocked {
+ public:
+  // Attaches to the domain; write nothing before the first cycle in the window.
+  Trace(ClockDomain& clock, const TraceOptions& options);
+  ~Trace() override;
+
+  // Something else, sampled each cycle in the window; name is hierarchical. Before the first cycle.
+  void add(const std::string& name, int bits, std::function<std::uint64_t()> sample);
+
+  Activity tick(Cycle cycle) override;
+  void reset() override {}
+  std::size_t signals() const { return signals_.size(); }
+
+ private:
+  struct Signal {
+    std::string name;
+    int bits;  // 0: a string
+    std::function<std::string(Cycle)> sample;
+    std::string id, last;
+  };
+  bool wanted(const std::string& name) const;
+  void collect();
+  void write_header(Cycle cycle);
+
+  ClockDomain& clock_;
+  TraceOptions options_;
+  std::ofstream file_;
+  std::vector<Signal> signals_;
+  bool started_ = false;
+};
+
+// Does `text` match a pattern with * and ?
+bool glob_match(const std::string& pattern, const std::string& text);
+
+}  // namespace deburr::rtl

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Base of every hardware unit: an sc_module with named link ports, ticked by its clock domain, that
+// accounts for each cycle exactly once.
+//
+//   class Halver final : public Unit {
+//    public:
+//     In<Token> tokens_in{"tokens_in"};
+//     Out<Token> halves_out{"halves_out"};
+//     Halver(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
+//     Activity tick(Cycle cycle) override {
+//       if (!tokens_in.can_pop(cycle)) return kIdle;
+//       if (!halves_out.can_push(cycle)) return kStalledDownstream;
+//       halves_out.push(cycle, halve(tokens_in.take(cycle)));
+//       return kBusy;
+//     }
+//     void reset() override {}
+//   };
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <systemc>
+#include <vector>
+
+#include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/fabric/clocked.h"
+#include "rtl_model/fabric/counters.h"
+#include "rtl_model/fabric/histogram.h"
+#include "rtl_model/fabric/link.h"
+
+namespace deburr::rtl {
+
+class Unit : public sc_core::sc_module, public Clocked {
+ public:
+  struct StallCause {
+    std::string name, meaning;
+    std::uint64_t cycles;
+  };
+
+  const char* kind() const override { return "deburr_unit"; }
+  ClockDomain& clock() const { return clock_; }
+
+  std::uint64_t idle_cycles() const { return activity_[kIdle.code]; }
+  std::uint64_t busy_cycles() const { return activity_[kBusy.code]; }
+  std::uint64_t stalled_cycles() const;
+  std::uint64_t cycles_of(Activity activity) const { return activity_[activity.code]; }
+  std::vector<StallCause> stalls() const;
+  // "idle", "busy" or the name of the cause.
+  const std::string& activity_name(Activity activity) const;
+  int activities() const { return static_cast<int>(names_.size()); }
+
+  // busy + stalled + idle = cycles since reset.
+  void check_accounting() const;
+  // Every port is bound; done at the end of elaboration.
+  void check_ports();
+
+ protected:
+  Unit(const sc_core::sc_module_name& name, ClockDomain& clock);
+  // A cause that a cycle can be lost to; in the constructor. "downstream" is there already.
+  Activity declare_stall(const char* cause, const char* meaning);
+
+  void end_of_elaboration() override { check_ports(); }
+
+ private:
+  friend class ClockDomain;
+  ClockDomain& clock_;
+  std::array<std::uint64_t, kActivities> activity_{};
+  std::vector<std::string> names_, meanings_;
+};
+
+}  // namespace deburr::rtl
