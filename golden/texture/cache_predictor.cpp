@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "golden/texture/cache_predictor.h"
+
+#include <algorithm>
+#include <bit>
+#include <string>
+
+#include "spec/error.h"
+
+namespace deburr::golden::texture {
+namespace {
+
+constexpr std::uint32_t kShiftRegisterStart = 0xACE1;
+
+std::uint32_t power_of_two(const char* name, std::int32_t value) {
+  if (value <= 0 || !std::has_single_bit(static_cast<std::uint32_t>(value))) {
+    throw spec::ConfigError(std::string(name) + " is " + std::to_string(value) +
+                            ": it must be a power of two");
+  }
+  return static_cast<std::uint32_t>(value);
+}
+
+}  // namespace
+
+CachePredictor::CachePredictor(const spec::TextureParameters& parameters)
+    : replacement_(parameters.cache_replacement) {
+  const std::uint32_t bytes = power_of_two("cache.bytes", parameters.cache_bytes);
+  const std::uint32_t line = power_of_two("cache.line_bytes", parameters.cache_line_bytes);
+  ways_ = power_of_two("cache.ways", parameters.cache_ways);
+  if (bytes < line * ways_) {
+    throw spec::ConfigError("cache.bytes is " + std::to_string(bytes) + ", less than one set of " +
+                            std::to_string(ways_) + " ways of " + std::to_string(line) +
+                            " bytes: raise cache.bytes or lower cache.ways");
+  }
+  line_shift_ = std::countr_zero(line);
+  set_mask_ = bytes / (line * ways_) - 1;
+  tags_.resize(bytes / line);
+  reset();
+}
+
+void CachePredictor::invalidate() {
+  std::fill(tags_.begin(), tags_.end(), Way{});
+  any_ = false;
+}
+
+void CachePredictor::reset() {
+  invalidate();
+  time_ = 0;
+  shift_register_ = kShiftRegisterStart;
+}
+
+bool CachePredictor::present(std::uint32_t line) const {
+  const auto set = std::span(tags_).subspan(std::size_t{line & set_mask_} * ways_, ways_);
+  return std::any_of(set.begin(), set.end(),
+                     [&](const Way& way) { return way.valid && way.line == line; });
+}
+
+bool CachePredictor::lookup_in_set(std::uint32_t line) {
+  const auto set = std::span(tags_).subspan(std::size_t{line & set_mask_} * ways_, ways_);
+  ++time_;
+  for (Way& way : set) {
+    if (way.valid && way.line == line) {
+      if (replacement_ == spec::Replacement::kLru) way.time = time_;
+      return true;
+    }
+  }
+  set[victim(set)] = {line, true, time_};
+  return false;
+}
+
+std::uint32_t CachePredictor::victim(std::span<const Way> set) {
+  for (std::uint32_t way = 0; way < ways_; ++way) {
+    if (!set[way].valid) return way;
+  }
+  if (replacement_ == spec::Replacement::kRandom) {
+    const std::uint32_t r = shift_register_;
+    const std::uint32_t in = (r ^ (r >> 2) ^ (r >> 3) ^ (r >> 5)) & 1;
+    shift_register_ = r >> 1 | in << 15;
+    return shift_register_ % ways_;
+  }
+  const auto oldest = std::min_element(set.begin(), set.end(),
+                                       [](const Way& a, const Way& b) { return a.time < b.time; });
+  return static_cast<std::uint32_t>(oldest - set.begin());
+}
+
+}  // namespace deburr::golden::texture

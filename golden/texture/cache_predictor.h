@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Predicts which cache lines a sequence of bilinear requests fetches, and in which order.
+//
+// Beside the filter arithmetic of the texture golden: colours do not depend on it, memory traffic
+// does. Holds tags only. docs/number_formats.md, "Cache and traffic".
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "spec/texture.h"
+
+namespace deburr::golden::texture {
+
+class CachePredictor {
+ public:
+  // Throws ConfigError: capacity, line size or ways no powers of two, or less than one set.
+  explicit CachePredictor(const spec::TextureParameters& parameters);
+
+  // Looks a line up and makes it present. True: it was present; false: one fill of the whole line.
+  bool lookup(std::uint32_t line) {
+    // The line looked up last is present and the most recent of its set: nothing would change.
+    if (any_ && line == last_) return true;
+    any_ = true;
+    last_ = line;
+    return lookup_in_set(line);
+  }
+
+  // The lines of one bilinear request, given in the order of its texels 00, 10, 01, 11: each
+  // distinct one is looked up once, in the order of first use; fill(line) is called for each miss.
+  template <class Fill>
+  void request(const std::array<std::uint32_t, 4>& lines, Fill&& fill) {
+    for (int i = 0; i < 4; ++i) {
+      bool repeated = false;
+      for (int j = 0; j < i; ++j) repeated = repeated || lines[j] == lines[i];
+      if (!repeated && !lookup(lines[i])) fill(lines[i]);
+    }
+  }
+
+  bool present(std::uint32_t line) const;
+  void invalidate();  // forgets every line; the random sequence goes on
+  void reset();       // as new
+  std::uint32_t line_of(std::uint32_t address) const { return address >> line_shift_; }
+  std::uint32_t line_bytes() const { return 1u << line_shift_; }
+  std::uint32_t sets() const { return set_mask_ + 1; }
+  std::uint32_t ways() const { return ways_; }
+
+ private:
+  struct Way {
+    std::uint32_t line = 0;
+    bool valid = false;
+    std::uint64_t time = 0;  // of the last use (lru) or of the fill (fifo, random)
+  };
+  bool lookup_in_set(std::uint32_t line);
+  std::uint32_t victim(std::span<const Way> set);
+
+  spec::Replacement replacement_;
+  int line_shift_ = 0;
+  std::uint32_t ways_ = 0, set_mask_ = 0;
+  std::vector<Way> tags_;  // set by set
+  std::uint64_t time_ = 0;
+  std::uint32_t shift_register_ = 0;  // 16 bits
+  bool any_ = false;
+  std::uint32_t last_ = 0;
+};
+
+}  // namespace deburr::golden::texture

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// From bytes of a texel to the colour of a fragment: unpack, bilinear, level lerp, kernel sum.
+//
+// Last part of the texture golden (paper 004, section 2.3 and equation 4). Pure functions of
+// integers, a channel at a time; docs/number_formats.md, table. Inline since they are the inner
+// loop.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "spec/texture.h"
+#include "spec/texture_tables.h"
+
+namespace deburr::golden::texture {
+
+using Texel = std::array<std::uint32_t, 4>;  // R, G, B, A in U8.4
+
+// A texel from its bytes, read little-endian into one word (low 8, 16 or 32 bits used).
+inline Texel decode_texel(spec::Format format, std::uint32_t word) {
+  const auto five = [](std::uint32_t v) { return (v << 3 | v >> 2) << 4; };
+  const auto six = [](std::uint32_t v) { return (v << 2 | v >> 4) << 4; };
+  const auto four = [](std::uint32_t v) { return (v << 4 | v) << 4; };
+  switch (format) {
+    case spec::Format::kRgba8:
+      return {(word & 255) << 4, (word >> 8 & 255) << 4, (word >> 16 & 255) << 4,
+              (word >> 24) << 4};
+    case spec::Format::kRgb565:
+      return {five(word >> 11 & 31), six(word >> 5 & 63), five(word & 31), 255 << 4};
+    case spec::Format::kRgba4444:
+      return {four(word >> 12 & 15), four(word >> 8 & 15), four(word >> 4 & 15), four(word & 15)};
+    case spec::Format::kL8:
+      return {(word & 255) << 4, (word & 255) << 4, (word & 255) << 4, 255 << 4};
+    case spec::Format::kSrgb8A8:
+      return {spec::kSrgbToLinear[word & 255], spec::kSrgbToLinear[word >> 8 & 255],
+              spec::kSrgbToLinear[word >> 16 & 255], (word >> 24) << 4};
+  }
+  return {};
+}
+
+// a (1 - f) + b f: U8.4 and U0.8 to U8.12, exact.
+inline std::uint32_t horizontal_lerp(std::uint32_t a, std::uint32_t b, std::uint32_t f_u) {
+  return a * (256 - f_u) + b * f_u;
+}
+
+// The same for two rows: U8.12 and U0.8 to U8.12, rounded.
+inline std::uint32_t vertical_lerp(std::uint32_t top, std::uint32_t bottom, std::uint32_t f_v) {
+  return (top * (256 - f_v) + bottom * f_v + 128) >> 8;
+}
+
+// The same for two levels: U8.12 and U0.8 to U8.12, rounded. f = 0 gives `level` unchanged.
+inline std::uint32_t level_lerp(std::uint32_t level, std::uint32_t next_level, std::uint32_t f) {
+  return (level * (256 - f) + next_level * f + 128) >> 8;
+}
+
+// Sum of kernel weight x level result, U15.12, divided by 2^lb_sum of the weights and rounded to 8
+// bits.
+inline std::uint8_t round_result(std::uint32_t accumulator, int lb_sum) {
+  return static_cast<std::uint8_t>((accumulator + (1u << (11 + lb_sum))) >> (12 + lb_sum));
+}
+
+}  // namespace deburr::golden::texture

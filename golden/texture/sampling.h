@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Where the samples of a fragment lie, what they weigh, and which texels each one touches.
+//
+// Between level selection and memory (paper 004, section 1.1 step 3 and section 2.2; equation 4).
+// Pure functions of integers, one for each line of docs/number_formats.md, "Sample walker" and
+// "Addresses". Inline since they are the inner loop.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "spec/fragment.h"
+#include "spec/texture.h"
+
+namespace deburr::golden::texture {
+
+// (x + half of the last kept place) >> drop, for every sign of x; drop >= 1.
+inline std::int64_t round_shift(std::int64_t x, int drop) {
+  return (x + (std::int64_t{1} << (drop - 1))) >> drop;
+}
+
+// Offset of sample i of N = 2^lb_n from the pixel centre, S9.24, along one coordinate of the major
+// axis. difference: S8.24 of that coordinate; spread: U1.6.
+inline std::int64_t sample_offset(int i, int lb_n, std::int32_t spread, std::int64_t difference) {
+  const std::int64_t places = 2 * i + 1 - (1 << lb_n);  // in halves of the distance of two samples
+  return round_shift(places * spread * difference, 7 + lb_n);
+}
+
+// Weight of sample i of N.
+inline std::uint32_t sample_weight(spec::Kernel kernel, int i, int lb_n) {
+  const int n = 1 << lb_n;
+  const int weight = kernel == spec::Kernel::kBox ? 1 : std::min(2 * i + 1, 2 * (n - i) - 1);
+  return static_cast<std::uint32_t>(weight);
+}
+
+// lb of the sum of the N weights: N for the box, N^2 / 2 for the tent (1 for N = 1).
+inline int kernel_log2_sum(spec::Kernel kernel, int lb_n) {
+  if (kernel == spec::Kernel::kBox || lb_n == 0) return lb_n;
+  return 2 * lb_n - 1;
+}
+
+// Side of mip level k of a side of level 0: max(1, size >> k).
+inline std::int32_t level_size(std::uint32_t size, int level) {
+  return std::max(1, static_cast<std::int32_t>(size >> level));
+}
+
+// The wrap mode applied to a sample coordinate S9.24: U0.24, or S9.24 unchanged for clamp_to_edge.
+inline std::int64_t wrap_coordinate(spec::Wrap wrap, std::int64_t p) {
+  constexpr std::int64_t kOne = spec::kCoordinateOne;
+  switch (wrap) {
+    case spec::Wrap::kRepeat:
+      return p & (kOne - 1);
+    case spec::Wrap::kMirroredRepeat: {
+      const std::int64_t q = p & (2 * kOne - 1);
+      return q < kOne ? q : 2 * kOne - 1 - q;
+    }
+    case spec::Wrap::kClampToEdge:
+      break;
+  }
+  return p;
+}
+
+// The one or two neighbouring texels of a sample on one axis.
+struct TexelPosition {
+  std::int32_t i0 = 0, i1 = 0;  // 0..size - 1
+  std::uint32_t fraction = 0;   // U0.8, weight of i1
+  friend bool operator==(const TexelPosition&, const TexelPosition&) = default;
+};
+
+// A texel index one step or far outside 0..size - 1 brought into range.
+inline std::int32_t texel_in_range(spec::Wrap wrap, std::int64_t i, std::int32_t size) {
+  if (wrap == spec::Wrap::kRepeat) {
+    if (i < 0) return size - 1;
+    return i >= size ? 0 : static_cast<std::int32_t>(i);
+  }
+  return static_cast<std::int32_t>(std::clamp<std::int64_t>(i, 0, size - 1));
+}
+
+// The two texels around a sample coordinate S9.24 on a side of `size` texels.
+inline TexelPosition linear_position(spec::Wrap wrap, std::int64_t p, std::int32_t size) {
+  const std::int64_t half_texel = spec::kCoordinateOne / 2;
+  const std::int64_t u = round_shift(wrap_coordinate(wrap, p) * size - half_texel,
+                                     spec::kCoordinateFractionBits - 8);  // S.8
+  const std::int64_t i0 = u >> 8;
+  return {texel_in_range(wrap, i0, size), texel_in_range(wrap, i0 + 1, size),
+          static_cast<std::uint32_t>(u & 255)};
+}
+
+// The texel that holds a sample coordinate S9.24.
+inline TexelPosition nearest_position(spec::Wrap wrap, std::int64_t p, std::int32_t size) {
+  const std::int64_t i = (wrap_coordinate(wrap, p) * size) >> spec::kCoordinateFractionBits;
+  const std::int32_t in_range = texel_in_range(wrap, i, size);
+  return {in_range, in_range, 0};
+}
+
+// Byte address of texel (x, y) of a level, modulo 2^32. 0 <= x < level_size(width, level), y alike.
+std::uint32_t texel_address(const spec::TextureDescriptor& descriptor, int level, std::int32_t x,
+                            std::int32_t y);
+
+// Bytes from base[level] to the end of the level, padding of rows and of tile grids included.
+std::uint64_t level_bytes(const spec::TextureDescriptor& descriptor, int level);
+
+// Why the unit refuses the descriptor, or nullptr when it is valid.
+const char* descriptor_fault(const spec::TextureDescriptor& descriptor);
+inline bool valid(const spec::TextureDescriptor& descriptor) {
+  return descriptor_fault(descriptor) == nullptr;
+}
+
+}  // namespace deburr::golden::texture

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include "golden/texture/texture_golden.h"
+
+#include <string>
+
+#include "spec/error.h"
+
+namespace deburr::golden::texture {
+
+TextureGolden::TextureGolden(const spec::TextureParameters& parameters,
+                             std::span<const std::uint8_t> memory, Traffic traffic)
+    : parameters_(parameters),
+      memory_(memory),
+      predict_(traffic == Traffic::kPredict),
+      cache_(parameters) {}
+
+void TextureGolden::set_texture(int handle, const spec::TextureDescriptor& descriptor) {
+  if (handle < 0 || handle >= spec::kMaxTextures) {
+    throw spec::ConfigError("texture handle " + std::to_string(handle) + " is outside 0..15");
+  }
+  Texture& texture = textures_[static_cast<std::size_t>(handle)];
+  texture.descriptor = descriptor;
+  texture.valid = valid(descriptor);
+  texture.levels.clear();
+  if (!texture.valid) return;
+  texture.levels.resize(descriptor.levels);
+  for (int k = 0; k < descriptor.levels; ++k) {
+    LevelTable& table = texture.levels[static_cast<std::size_t>(k)];
+    table.width = level_size(descriptor.width, k);
+    table.height = level_size(descriptor.height, k);
+    const std::uint32_t base = texel_address(descriptor, k, 0, 0);
+    for (std::int32_t x = 0; x < table.width; ++x) {
+      table.column.push_back(texel_address(descriptor, k, x, 0) - base);
+    }
+    for (std::int32_t y = 0; y < table.height; ++y) {
+      table.row.push_back(texel_address(descriptor, k, 0, y));
+    }
+  }
+  find_plain_levels(texture);
+}
+
+const spec::TextureDescriptor& TextureGolden::texture(int handle) const {
+  return textures_.at(static_cast<std::size_t>(handle)).descriptor;
+}
+
+void TextureGolden::set_error_lines(LinePredicate error) {
+  error_ = std::move(error);
+  for (Texture& texture : textures_) find_plain_levels(texture);
+}
+
+void TextureGolden::set_error_ranges(std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges) {
+  set_error_lines([ranges = std::move(ranges), bytes = cache_.line_bytes()](std::uint32_t line) {
+    const std::uint64_t first = std::uint64_t{line} * bytes;
+    for (const auto& [low, high] : ranges) {
+      if (low < first + bytes && first < high) return true;
+    }
+    return false;
+  });
+}
+
+void TextureGolden::find_plain_levels(Texture& texture) const {
+  for (std::size_t k = 0; k < texture.levels.size(); ++k) {
+    const std::uint64_t end = std::uint64_t{texture.descriptor.base[k]} +
+                              level_bytes(texture.descriptor, static_cast<int>(k));
+    const std::uint64_t line_bytes = cache_.line_bytes();
+    const std::uint64_t end_of_last_line = (end + line_bytes - 1) / line_bytes * line_bytes;
+    texture.levels[k].plain = !error_ && end_of_last_line <= memory_.size();
+  }
+}
+
+bool TextureGolden::fails(std::uint32_t line) const {
+  return (std::uint64_t{line} + 1) * cache_.line_bytes() > memory_.size() ||
+         (error_ && error_(line));
+}
+
+void TextureGolden::reset() {
+  cache_.reset();
+  clear_work();
+  clear_fills();
+}
+
+FragmentAnalysis TextureGolden::analyse(const spec::Quad& quad, int lane) const {
+  FragmentAnalysis result;
+  if (quad.texture >= spec::kMaxTextures) return result;
+  const Texture& texture = textures_[quad.texture];
+  result.valid = texture.valid;
+  if (!texture.valid) return result;
+
+  const auto difference = [](const std::array<std::int32_t, 4>& c, int to, int from) {
+    return std::int64_t{c[static_cast<std::size_t>(to)]} - c[static_cast<std::size_t>(from)];
+  };
+  const int left = lane & 2, upper = lane & 1;  // first lane of the own row, of the own column
+  result.s_x = difference(quad.s, left + 1, left);
+  result.t_x = difference(quad.t, left + 1, left);
+  result.s_y = difference(quad.s, upper + 2, upper);
+  result.t_y = difference(quad.t, upper + 2, upper);
+
+  const auto scale = [&](std::int64_t d, std::uint32_t size) {
+    const Derivative derivative = derivative_in_texels(d, size);
+    result.saturated |= derivative.saturated;
+    return derivative.texels;
+  };
+  result.abs_s_x = scale(result.s_x, texture.descriptor.width);
+  result.abs_t_x = scale(result.t_x, texture.descriptor.height);
+  result.abs_s_y = scale(result.s_y, texture.descriptor.width);
+  result.abs_t_y = scale(result.t_y, texture.descriptor.height);
+
+  result.footprint = footprint(parameters_.footprint, result.abs_s_x, result.abs_t_x,
+                               result.abs_s_y, result.abs_t_y);
+  result.lod = select_level(parameters_, texture.descriptor,
+                            log2_fixed(parameters_.log2, result.footprint.d_max),
+                            log2_fixed(parameters_.log2, result.footprint.d_min));
+  return result;
+}
+
+QuadColours TextureGolden::process(const spec::Quad& quad) {
+  QuadColours result;
+  for (int lane = 0; lane < 4; ++lane) {
+    if ((quad.coverage >> lane & 1) == 0) continue;
+    spec::Colour& colour = result.colours[static_cast<std::size_t>(result.count++)];
+    colour.tag = quad.tag;
+    colour.lane = static_cast<std::uint8_t>(lane);
+    colour.last = (quad.coverage & 0xF) >> (lane + 1) == 0;
+
+    ++work_.fragments;
+    if ((quad.clamped >> lane & 1) != 0) ++work_.clamped;
+    const FragmentAnalysis fragment = analyse(quad, lane);
+    if (!fragment.valid) {
+      ++work_.invalid_fragments;
+      continue;
+    }
+    if (fragment.saturated) ++work_.saturated;
+    if (fragment.lod.magnified) ++work_.magnified;
+    ++work_.by_lb_n[static_cast<std::size_t>(fragment.lod.lb_n)];
+    work_.samples += static_cast<std::uint64_t>(fragment.lod.samples());
+    const auto i = static_cast<std::size_t>(lane);
+    colour.rgba = filter_fragment(textures_[quad.texture], fragment, quad.s[i], quad.t[i]);
+  }
+  return result;
+}
+
+std::array<std::uint8_t, 4> TextureGolden::filter_fragment(const Texture& texture,
+                                                           const FragmentAnalysis& fragment,
+                                                           std::int32_t s, std::int32_t t) {
+  const LevelOfDetail& lod = fragment.lod;
+  const std::int64_t major_s = fragment.major_s(), major_t = fragment.major_t();
+  std::array<std::uint32_t, 4> accumulator{};  // U15.12
+  for (int i = 0; i < lod.samples(); ++i) {
+    const std::int64_t sample_s = s + sample_offset(i, lod.lb_n, parameters_.spread, major_s);
+    const std::int64_t sample_t = t + sample_offset(i, lod.lb_n, parameters_.spread, major_t);
+    Filtered value = bilinear(texture, lod.level, lod.linear, sample_s, sample_t);
+    if (lod.fraction != 0) {
+      const Filtered next = bilinear(texture, lod.level + 1, lod.linear, sample_s, sample_t);
+      for (std::size_t c = 0; c < 4; ++c) value[c] = level_lerp(value[c], next[c], lod.fraction);
+    }
+    const std::uint32_t weight = sample_weight(parameters_.kernel, i, lod.lb_n);
+    for (std::size_t c = 0; c < 4; ++c) accumulator[c] += weight * value[c];
+  }
+  const int lb_sum = kernel_log2_sum(parameters_.kernel, lod.lb_n);
+  std::array<std::uint8_t, 4> rgba{};
+  for (std::size_t c = 0; c < 4; ++c) rgba[c] = round_result(accumulator[c], lb_sum);
+  return rgba;
+}
+
+TextureGolden::Filtered TextureGolden::bilinear(const Texture& texture, int level, bool linear,
+                                                std::int64_t s, std::int64_t t) {
+  const spec::TextureDescriptor& descriptor = texture.descriptor;
+  const LevelTable& table = texture.levels[static_cast<std::size_t>(level)];
+  const auto position = linear ? linear_position : nearest_position;
+  const TexelPosition x = position(descriptor.wrap_s, s, table.width);
+  const TexelPosition y = position(descriptor.wrap_t, t, table.height);
+  const auto address = [&](std::int32_t column, std::int32_t row) {
+    return table.column[static_cast<std::size_t>(column)] +
+           table.row[static_cast<std::size_t>(row)];
+  };
+  const std::array<std::uint32_t, 4> addresses = {address(x.i0, y.i0), address(x.i1, y.i0),
+                                                  address(x.i0, y.i1), address(x.i1, y.i1)};
+  ++work_.bilinears;
+  ++work_.by_level[static_cast<std::size_t>(level)];
+  if (predict_) predict(addresses);
+
+  std::array<Texel, 4> texels;
+  for (std::size_t i = 0; i < 4; ++i) {
+    texels[i] = decode_texel(descriptor.format, read(table, descriptor.format, addresses[i]));
+  }
+  Filtered result;
+  for (std::size_t c = 0; c < 4; ++c) {
+    const std::uint32_t top = horizontal_lerp(texels[0][c], texels[1][c], x.fraction);
+    const std::uint32_t bottom = horizontal_lerp(texels[2][c], texels[3][c], x.fraction);
+    result[c] = vertical_lerp(top, bottom, y.fraction);
+  }
+  return result;
+}
+
+std::uint32_t TextureGolden::read(const LevelTable& table, spec::Format format,
+                                  std::uint32_t address) const {
+  if (!table.plain && fails(cache_.line_of(address))) return 0;
+  const std::uint8_t* bytes = memory_.data() + address;
+  switch (spec::kFormatBytes[static_cast<std::size_t>(format)]) {
+    case 1:
+      return bytes[0];
+    case 2:
+      return static_cast<std::uint32_t>(bytes[0] | bytes[1] << 8);
+    default:
+      return bytes[0] | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
+             std::uint32_t{bytes[3]} << 24;
+  }
+}
+
+void TextureGolden::predict(const std::array<std::uint32_t, 4>& addresses) {
+  const std::array<std::uint32_t, 4> lines = {
+      cache_.line_of(addresses[0]), cache_.line_of(addresses[1]), cache_.line_of(addresses[2]),
+      cache_.line_of(addresses[3])};
+  cache_.request(lines, [this](std::uint32_t line) {
+    ++work_.line_fills;
+    if (fails(line)) ++work_.memory_errors;
+    if (record_fills_) fills_.push_back(line);
+    if (fill_sink_) fill_sink_(line);
+  });
+}
+
+}  // namespace deburr::golden::texture

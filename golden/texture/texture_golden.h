@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// Bit-exact reference of the whole texture unit: quads in, colours and predicted memory traffic
+// out.
+//
+// No time, no SystemC, integers only (docs/texture_unit.md, docs/number_formats.md; paper 004). The
+// blocks it is made of are pure functions in footprint.h, level_of_detail.h, sampling.h, filter.h;
+// TextureGolden strings them together over whole quads, with the tables that make it fast.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "golden/texture/cache_predictor.h"
+#include "golden/texture/filter.h"
+#include "golden/texture/footprint.h"
+#include "golden/texture/level_of_detail.h"
+#include "golden/texture/sampling.h"
+#include "spec/fragment.h"
+#include "spec/texture.h"
+
+namespace deburr::golden::texture {
+
+// Everything that is decided about a fragment before its first texel is read.
+struct FragmentAnalysis {
+  bool valid = false;      // the descriptor is; otherwise nothing below is meant
+  bool saturated = false;  // a derivative is beyond U15.16 texels
+  std::int64_t s_x = 0, t_x = 0, s_y = 0, t_y = 0;  // S8.24: row and column difference
+  std::uint32_t abs_s_x = 0, abs_t_x = 0, abs_s_y = 0, abs_t_y = 0;  // U15.16 texels of level 0
+  Footprint footprint;
+  LevelOfDetail lod;
+
+  std::int64_t major_s() const { return footprint.major_is_x ? s_x : s_y; }  // S8.24
+  std::int64_t major_t() const { return footprint.major_is_x ? t_x : t_y; }
+};
+
+// What was done so far, by the names of the status registers. line_fills and memory_errors stay 0
+// while the cache is not predicted.
+struct TextureWork {
+  std::uint64_t fragments = 0;          // colours delivered
+  std::uint64_t invalid_fragments = 0;  // of them: invalid descriptor, colour zero
+  std::uint64_t clamped = 0;            // fragments with Quad::clamped set
+  std::uint64_t saturated = 0;          // fragments with a saturated derivative
+  std::uint64_t magnified = 0;          // fragments with l <= 0
+  std::uint64_t samples = 0;            // sum of N
+  std::uint64_t bilinears = 0;          // requests to the cache: samples x (1 or 2)
+  std::uint64_t line_fills = 0;
+  std::uint64_t memory_errors = 0;                         // line fills answered with an error
+  std::array<std::uint64_t, 5> by_lb_n{};                  // valid fragments with N = 2^i
+  std::array<std::uint64_t, spec::kMaxLevels> by_level{};  // bilinear requests to level i
+  friend bool operator==(const TextureWork&, const TextureWork&) = default;
+};
+
+// The colours of one quad, covered lanes ascending.
+struct QuadColours {
+  std::array<spec::Colour, 4> colours{};
+  int count = 0;
+  const spec::Colour* begin() const { return colours.data(); }
+  const spec::Colour* end() const { return colours.data() + count; }
+};
+
+class TextureGolden {
+ public:
+  enum class Traffic { kPredict, kIgnore };  // kIgnore: no fills and no memory errors; faster
+
+  // `memory` is not copied: it must outlive this object, and may change between quads only where no
+  // predicted line is present. Throws ConfigError (cache geometry).
+  TextureGolden(const spec::TextureParameters& parameters, std::span<const std::uint8_t> memory,
+                Traffic traffic = Traffic::kPredict);
+
+  // handle 0..15 (ConfigError otherwise). An invalid descriptor is taken: its fragments become
+  // zero.
+  void set_texture(int handle, const spec::TextureDescriptor& descriptor);
+  const spec::TextureDescriptor& texture(int handle) const;
+
+  // Filters the covered lanes of a quad.
+  QuadColours process(const spec::Quad& quad);
+  template <class Sink>
+  void process(const spec::Quad& quad, Sink&& sink) {
+    for (const spec::Colour& colour : process(quad)) sink(colour);
+  }
+
+  // What process() decides for one lane, covered or not; changes nothing.
+  FragmentAnalysis analyse(const spec::Quad& quad, int lane) const;
+
+  const TextureWork& work() const { return work_; }
+  void clear_work() { work_ = {}; }  // the counters, as CONTROL's clear bit does
+
+  // Called with the line number of each fill, in order. Without a sink fills are only counted.
+  using FillSink = std::function<void(std::uint32_t line)>;
+  void set_fill_sink(FillSink sink) { fill_sink_ = std::move(sink); }
+  // Keeps every fill in fills(): 4 bytes a fill.
+  void record_fills(bool on) { record_fills_ = on; }
+  const std::vector<std::uint32_t>& fills() const { return fills_; }
+  void clear_fills() { fills_.clear(); }
+
+  // Lines that memory answers with an error: their bytes read as zero and each fill is counted.
+  // Lines that reach past the end of `memory` always do.
+  using LinePredicate = std::function<bool(std::uint32_t line)>;
+  void set_error_lines(LinePredicate error);
+  // The same by byte ranges [first, last).
+  void set_error_ranges(std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges);
+
+  void invalidate_cache() { cache_.invalidate(); }  // CONTROL's invalidate bit
+  void reset();                                     // cache, counters, fills; textures stay
+  const CachePredictor& cache() const { return cache_; }
+  const spec::TextureParameters& parameters() const { return parameters_; }
+
+ private:
+  // texel_address() split into the sum of a column's and a row's share; both layouts allow that.
+  struct LevelTable {
+    std::int32_t width = 0, height = 0;
+    std::vector<std::uint32_t> column, row;  // row holds the base
+    bool plain = false;                      // wholly in memory, no line of it can fail
+  };
+  struct Texture {
+    spec::TextureDescriptor descriptor;
+    bool valid = false;
+    std::vector<LevelTable> levels;
+  };
+  using Filtered = std::array<std::uint32_t, 4>;  // R, G, B, A in U8.12
+
+  std::array<std::uint8_t, 4> filter_fragment(const Texture& texture,
+                                              const FragmentAnalysis& fragment, std::int32_t s,
+                                              std::int32_t t);
+  Filtered bilinear(const Texture& texture, int level, bool linear, std::int64_t s, std::int64_t t);
+  std::uint32_t read(const LevelTable& table, spec::Format format, std::uint32_t address) const;
+  void predict(const std::array<std::uint32_t, 4>& addresses);
+  bool fails(std::uint32_t line) const;
+  void find_plain_levels(Texture& texture) const;
+
+  spec::TextureParameters parameters_;
+  std::span<const std::uint8_t> memory_;
+  bool predict_;
+  CachePredictor cache_;
+  std::array<Texture, spec::kMaxTextures> textures_;
+  TextureWork work_;
+  FillSink fill_sink_;
+  bool record_fills_ = false;
+  std::vector<std::uint32_t> fills_;
+  LinePredicate error_;
+};
+
+}  // namespace deburr::golden::texture
