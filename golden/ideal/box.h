@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// What a pixel shows when its parallelogram in the texture is averaged with equal weights.
+//
+// Reference of texture quality: n x n points of the parallelogram, each read from level 0.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "golden/ideal/footprint.h"
+#include "golden/ideal/texture_image.h"
+
+namespace deburr::golden::ideal {
+
+enum class Tap { kPoint, kBilinear };
+
+// n x n points at ((i + 1/2) / n - 1/2, (j + 1/2) / n - 1/2) of the two sides around the centre.
+Colour box(const TextureImage& texture, const PixelFootprint& footprint, int n = 32,
+           Tap tap = Tap::kBilinear);
+
+// One colour a footprint, in order.
+std::vector<Colour> box_image(const TextureImage& texture,
+                              std::span<const PixelFootprint> footprints, int n = 32,
+                              Tap tap = Tap::kBilinear);
+
+}  // namespace deburr::golden::ideal

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Elliptical weighted average with a Gaussian, the reference of texture quality that papers use.
+//
+// P. Heckbert, Fundamentals of Texture Mapping and Image Warping, 1989, section 3.5: a Gaussian
+// pixel filter mapped to the texture, convolved with a Gaussian that reconstructs the texture.
+// Summed over every texel of level 0 inside the ellipse; no table, no approximate level.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "golden/ideal/footprint.h"
+#include "golden/ideal/texture_image.h"
+
+namespace deburr::golden::ideal {
+
+struct EwaOptions {
+  double alpha = 2;           // weight exp(-alpha r^2), r = 1: the ellipse of the footprint
+  double radius = 1;          // the sum ends at this r; Heckbert: 1
+  double reconstruction = 1;  // variance of the reconstruction filter added, texel^2
+  // More texels than this in an ellipse: read the first level where there are fewer.
+  double most_texels = 1 << 20;
+};
+
+Colour ewa(const TextureImage& texture, const PixelFootprint& footprint,
+           const EwaOptions& options = {});
+
+// One colour a footprint, in order.
+std::vector<Colour> ewa_image(const TextureImage& texture,
+                              std::span<const PixelFootprint> footprints,
+                              const EwaOptions& options = {});
+
+}  // namespace deburr::golden::ideal

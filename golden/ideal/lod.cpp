@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "golden/ideal/lod.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "golden/ideal/integrate.h"
+
+namespace deburr::golden::ideal {
+
+LevelOfDetail level_of_detail(const spec::TextureParameters& parameters,
+                              const spec::TextureDescriptor& descriptor,
+                              const PixelFootprint& footprint) {
+  constexpr double kSmallest = 1.0 / 65536;
+  const Sides d = sides(footprint);
+  LevelOfDetail result;
+  result.lb_d_max = std::log2(std::max(d.d_max, kSmallest));
+  result.lb_d_min = std::log2(std::max(d.d_min, kSmallest));
+  result.anisotropy = result.lb_d_max - result.lb_d_min;
+  if (result.lb_d_max > 0) {
+    const double rounded = parameters.count == spec::CountRule::kCeil
+                               ? std::ceil(result.anisotropy)
+                               : std::floor(result.anisotropy);
+    result.lb_n = std::min(static_cast<int>(rounded), int{descriptor.max_anisotropy_log2});
+    if (parameters.count_cap == spec::CountCap::kTexel) {
+      result.lb_n = std::min(result.lb_n, static_cast<int>(std::ceil(result.lb_d_max)));
+    }
+  }
+  const double biased = result.lb_d_max - result.lb_n + descriptor.lod_bias / 256.0;
+  result.l = std::min(std::max(biased, descriptor.min_lod / 256.0), descriptor.max_lod / 256.0);
+  return result;
+}
+
+LogarithmError logarithm_error() {
+  const auto error = [](double y) { return std::log2(1 + y) - y; };
+  LogarithmError result;
+  result.mean = mean(0, 1, error);
+  result.mean_square = mean(0, 1, [&](double y) { return error(y) * error(y); });
+  result.root_mean_square = std::sqrt(result.mean_square);
+  result.at = 1 / std::numbers::ln2 - 1;  // where the derivative 1 / ((1 + y) ln 2) - 1 vanishes
+  result.largest = error(result.at);
+  return result;
+}
+
+double level_flip_area() {
+  // Between the curves (1 + 2 s1)(1 + k / 2) = 2 and (1 + 2 s1) sqrt(1 + k^2) = 2.
+  return mean(0, 1, [](double k) { return 1 / std::sqrt(1 + k * k) - 1 / (1 + 0.5 * k); });
+}
+
+double level_flip_probability() { return level_flip_area() / 0.5; }
+
+LevelError level_error(const std::function<double(double a, double b)>& approximate) {
+  constexpr int kRatios = 512, kLengths = 4096;
+  LevelError result;
+  double sum = 0;
+  std::int64_t mismatches = 0;
+  for (int i = 0; i < kLengths; ++i) {
+    const double a = std::exp2(4 + 8 * (i + 0.5) / kLengths);
+    for (int j = 0; j < kRatios; ++j) {
+      const double b = a * (j + 0.5) / kRatios;
+      const double exact = std::log2(std::sqrt(a * a + b * b));
+      const double approximation = approximate(a, b);
+      const double error = approximation - exact;
+      sum += error * error;
+      result.largest = std::max(result.largest, std::abs(error));
+      if (std::floor(approximation) != std::floor(exact)) ++mismatches;
+    }
+  }
+  constexpr double kCount = double{kRatios} * kLengths;
+  result.root_mean_square = std::sqrt(sum / kCount);
+  result.floor_mismatch = static_cast<double>(mismatches) / kCount;
+  return result;
+}
+
+}  // namespace deburr::golden::ideal

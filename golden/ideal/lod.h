@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Level of detail and sample count in real arithmetic, and what the n + y logarithm costs.
+//
+// Truth for golden/texture/level_of_detail.h (paper 004, sections 1.3 to 1.5). Double precision.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "golden/ideal/footprint.h"
+#include "spec/texture.h"
+
+namespace deburr::golden::ideal {
+
+struct LevelOfDetail {
+  double lb_d_max = 0, lb_d_min = 0;
+  double anisotropy = 0;  // L = lb(d_max / d_min), equation 12
+  int lb_n = 0;           // N = 2^lb_n
+  double l = 0;           // equation 3, with bias, clamped to [min_lod, max_lod]
+};
+
+// The unit's rules (docs/number_formats.md, "Level and count") with exact sides and logarithms.
+// Uses count and count_cap of the parameters, and N_max, bias and limits of the descriptor. A side
+// of zero counts as 2^-16 texel.
+LevelOfDetail level_of_detail(const spec::TextureParameters& parameters,
+                              const spec::TextureDescriptor& descriptor,
+                              const PixelFootprint& footprint);
+
+// n + y against lb(2^n (1 + y)), y uniform in [0, 1): section 1.4, where the paper prints 3.12 %.
+struct LogarithmError {
+  double mean = 0, mean_square = 0, root_mean_square = 0;
+  double largest = 0, at = 0;  // the largest error and the y where it occurs
+};
+LogarithmError logarithm_error();
+
+// Equation 23: the area of (k, s1) in [0, 1] x [0, 1/2] in which the integer part of the level
+// differs, and that area as a probability (the domain's area is 1/2).
+double level_flip_area();
+double level_flip_probability();
+
+// Error of an approximate level of detail lb(side(a, b)) over sides of log-uniform length and
+// directions whose ratio k = b / a is uniform in [0, 1]; a in [2^4, 2^12) texels.
+struct LevelError {
+  double root_mean_square = 0, largest = 0;
+  double floor_mismatch = 0;  // share of sides whose integer level differs from the exact one
+};
+// approximate(a, b): lb of the side with components a >= b >= 0, in texels.
+LevelError level_error(const std::function<double(double a, double b)>& approximate);
+
+}  // namespace deburr::golden::ideal
