@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "spec/parameters.h"
+#include "spec/registers.h"
 
 namespace deburr::spec {
 
@@ -129,16 +130,6 @@ void describe(TextureParameters& p, Visitor& v) {
 }
 
 // ---- registers (32 bits each, byte addresses) ---------------------------------------------------
-
-enum class Access : std::uint8_t { kReadOnly, kReadWrite, kWriteOneToClear, kCommand };
-
-struct RegisterInfo {
-  std::uint32_t offset;
-  std::string_view name;
-  Access access;
-  std::uint32_t reset;
-  std::string_view meaning;
-};
 
 namespace texture_register {
 inline constexpr std::uint32_t kId = 0x00;
