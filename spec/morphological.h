@@ -89,6 +89,7 @@ struct MorphologicalParameters {
   std::int32_t reach_columns = 256;
   std::int32_t line_pixels = kMaxFrameSize;
   std::int32_t record_fifo = 64;
+  std::int32_t predictor_units = 2;
   std::int32_t divider_latency = 24;
   std::int32_t divider_interval = 1;
   Storage storage = Storage::kLineBuffers;
@@ -99,7 +100,7 @@ template <class Visitor>
 void describe(MorphologicalParameters& p, Visitor& v) {
   v.choice("preset", p.preset, kMorphologicalPresetNames,
            "Named set of the rules below; rules given beside it override it.");
-  v.choice("lanes", p.lanes, kLanesNames, "Pixels a clock, and record units for each axis.");
+  v.choice("lanes", p.lanes, kLanesNames, "Pixels a clock.");
   v.choice("edges.source", p.edge_source, kEdgeSourceNames,
            "What makes an edge: luma, depth, or luma with a threshold that depth moves.");
   v.choice("edges.threshold_mode", p.threshold_mode, kThresholdModeNames,
@@ -139,7 +140,9 @@ void describe(MorphologicalParameters& p, Visitor& v) {
   v.integer("line_pixels", p.line_pixels, 1, kMaxFrameSize, "pixel",
             "Widest frame that the line buffers hold.");
   v.integer("record_fifo", p.record_fifo, 2, 4096, "record",
-            "Runs waiting for a predictor, for each record unit.");
+            "Runs waiting for a predictor, for each axis and lane.");
+  v.integer("predictor_units", p.predictor_units, 1, 16, "unit",
+            "Predictors for each axis and lane; each tries one step of both sides a clock.");
   v.integer("divider.latency", p.divider_latency, 1, 64, "clock", "Latency of the divider.");
   v.integer("divider.interval", p.divider_interval, 1, 64, "clock",
             "Initiation interval of the divider.");

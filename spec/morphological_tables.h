@@ -11,7 +11,7 @@ namespace deburr::spec {
 
 // clang-format off
 // U0.8 sRGB code -> linear light, U0.12 scaled so that 4095 is one: round(4095 * decode(i / 255)).
-inline constexpr std::array<std::uint16_t, 256> kSrgbToLinear = {
+inline constexpr std::array<std::uint16_t, 256> kLinear12FromSrgb = {
     0, 1, 2, 4, 5, 6, 7, 9, 10, 11, 12, 14, 15, 16, 18, 20, 21, 23, 25, 27, 29, 31, 33, 35, 37, 40,
     42, 45, 48, 50, 53, 56, 59, 62, 66, 69, 72, 76, 79, 83, 87, 91, 95, 99, 103, 107, 112, 116, 121,
     126, 131, 136, 141, 146, 151, 156, 162, 168, 173, 179, 185, 191, 197, 204, 210, 216, 223, 230,
@@ -29,7 +29,7 @@ inline constexpr std::array<std::uint16_t, 256> kSrgbToLinear = {
     4095};
 
 // Linear light 0..4095 -> nearest sRGB code: round(255 * encode(j / 4095)). Inverts the table above.
-inline constexpr std::array<std::uint8_t, 4096> kLinearToSrgb = {
+inline constexpr std::array<std::uint8_t, 4096> kSrgbFromLinear12 = {
     0, 1, 2, 2, 3, 4, 5, 6, 6, 7, 8, 9, 10, 10, 11, 12, 13, 13, 14, 15, 15, 16, 16, 17, 18, 18, 19,
     19, 20, 20, 21, 21, 22, 22, 23, 23, 23, 24, 24, 25, 25, 25, 26, 26, 27, 27, 27, 28, 28, 29, 29,
     29, 30, 30, 30, 31, 31, 31, 32, 32, 32, 33, 33, 33, 34, 34, 34, 34, 35, 35, 35, 36, 36, 36, 37,
