@@ -80,23 +80,26 @@ class ClockDomain final : public sc_core::sc_module {
     Clocked* clocked;
     std::uint64_t* activity;  // kActivities counters
   };
+  enum class Phase { kEdge, kStop };  // what the next activation is for
   SC_HAS_PROCESS(ClockDomain);
   void end_of_elaboration() override;
-  void start_of_simulation() override;
   void activate();
   void evaluate();
-  void evaluate_reset();
   void reset_all();
   bool may_run_on() const;
-  void start(const sc_core::sc_time& duration);
+  void start(Cycle end, std::uint64_t horizon);
   void reorder();
+  void claim(LinkBase& link);
 
   sc_core::sc_time period_;
   std::uint64_t period_value_;
-  std::vector<Slot> slots_;
+  std::vector<Slot> slots_, unshuffled_;
   std::vector<Clocked*> before_, after_;
   std::vector<Unit*> units_;
   std::vector<LinkBase*> links_;
+  std::vector<class Storage*> storages_;
+  std::vector<class Counter*> counters_;
+  std::vector<class Histogram*> histograms_;
   std::vector<ClockDomain*> domains_;  // all of the simulation, this one included
   std::uint64_t ignored_[kActivities] = {};
 
@@ -104,13 +107,13 @@ class ClockDomain final : public sc_core::sc_module {
   std::uint64_t horizon_ = 0;  // sc_time value up to which the current run will certainly go
   std::uint64_t activations_ = 0;
   std::uint64_t shuffle_state_ = 0;
+  Phase phase_ = Phase::kEdge;
   bool shuffled_ = false, fast_path_ = true, cycle_by_cycle_ = false, reset_n_ = true;
-  bool deferred_ = false, stop_requested_ = false, stopping_ = false, in_run_ = false;
-  bool evaluating_ = false;
+  bool deferred_ = false, stop_requested_ = false, in_run_ = false, evaluating_ = false;
+  bool observed_ = false;
   const std::function<bool()>* done_ = nullptr;
   bool done_reached_ = false;
-  sc_core::sc_event edge_;
-  bool observed_ = false;
+  sc_core::sc_event edge_{"edge"};
   std::exception_ptr failure_;
 };
 

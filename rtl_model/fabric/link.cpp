@@ -45,15 +45,13 @@ void PortBase::bind_link(LinkBase& link) {
 
 void PortBase::bind_port(PortBase& outer) {
   DEBURR_CHECK(!base_ && !outer_, fmt::format("{} is bound twice", name()));
-  DEBURR_CHECK(outer.inner_.empty(),
-               fmt::format("{} already hands its link on to {}", outer.name(),
-                           outer.inner_.front()->name()));
+  DEBURR_CHECK(outer.inner_.empty(), fmt::format("{} already hands its link on to {}", outer.name(),
+                                                 outer.inner_.front()->name()));
   outer_ = &outer;
   outer.inner_.push_back(this);
   if (outer.base_) {
     // The outer port may have claimed the link already; the claim moves inwards.
-    std::string& owner =
-        side_ == Side::kProducer ? outer.base_->producer_ : outer.base_->consumer_;
+    std::string& owner = side_ == Side::kProducer ? outer.base_->producer_ : outer.base_->consumer_;
     owner.clear();
     resolve(*outer.base_);
   }

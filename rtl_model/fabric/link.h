@@ -104,7 +104,9 @@ class LinkBase : public sc_core::sc_object {
 
  private:
   friend class PortBase;
+  friend class ClockDomain;
   std::size_t payload_bytes_;
+  const void* clock_ = nullptr;  // the domain that both ends belong to
   std::string producer_, consumer_;
 };
 

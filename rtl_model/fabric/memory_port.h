@@ -62,7 +62,7 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
  public:
   In<MemoryRequest> requests_in{"requests_in"};
   Out<MemoryResponse> responses_out{"responses_out"};
-  tlm::tlm_initiator_socket<512> memory{"memory"};
+  tlm::tlm_initiator_socket<> memory{"memory"};  // default bus width: binds to most targets
 
   MemoryPort(const sc_core::sc_module_name& name, ClockDomain& clock,
              const MemoryPortParameters& parameters = {});
@@ -96,7 +96,7 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   bool respond(Cycle cycle);
 
   MemoryPortParameters parameters_;
-  Activity stalled_outstanding_, stalled_channel_;
+  Activity stalled_outstanding_, stalled_channel_, stalled_memory_;
   std::vector<std::unique_ptr<Transaction>> pool_;
   std::vector<Transaction*> free_;
   std::deque<Transaction*> in_flight_;  // in the order of requests

@@ -8,9 +8,11 @@
 // nothing when off.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <string>
 #include <systemc>
 #include <vector>
@@ -47,13 +49,14 @@ class Trace final : public Clocked {
     std::string id, last;
   };
   bool wanted(const std::string& name) const;
-  void collect();
-  void write_header(Cycle cycle);
+  void collect(Cycle cycle);
+  void write_header();
 
   ClockDomain& clock_;
   TraceOptions options_;
   std::ofstream file_;
   std::vector<Signal> signals_;
+  std::map<const Unit*, std::array<std::uint64_t, kActivities>> initial_;  // when it was attached
   bool started_ = false;
 };
 

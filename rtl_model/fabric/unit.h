@@ -52,15 +52,13 @@ class Unit : public sc_core::sc_module, public Clocked {
 
   // busy + stalled + idle = cycles since reset.
   void check_accounting() const;
-  // Every port is bound; done at the end of elaboration.
-  void check_ports();
+  // Every port is bound; the domain asks at the end of elaboration.
+  void check_ports() const;
 
  protected:
   Unit(const sc_core::sc_module_name& name, ClockDomain& clock);
   // A cause that a cycle can be lost to; in the constructor. "downstream" is there already.
   Activity declare_stall(const char* cause, const char* meaning);
-
-  void end_of_elaboration() override { check_ports(); }
 
  private:
   friend class ClockDomain;

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/fabric/clock_domain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "rtl_model/fabric/counters.h"
+#include "rtl_model/fabric/histogram.h"
+#include "rtl_model/fabric/storage.h"
+#include "rtl_model/fabric/unit.h"
+
+namespace deburr::rtl {
+
+ClockDomain::ClockDomain(const sc_core::sc_module_name& name, const sc_core::sc_time& period)
+    : sc_module(name), period_(period), period_value_(period.value()) {
+  DEBURR_CHECK(period_value_ > 0, fmt::format("{}: the period is zero", this->name()));
+  SC_METHOD(activate);
+}
+
+void ClockDomain::add(Unit& unit) {
+  units_.push_back(&unit);
+  slots_.push_back({&unit, unit.activity_.data()});
+}
+void ClockDomain::add(Clocked& clocked) { slots_.push_back({&clocked, ignored_}); }
+void ClockDomain::add_before(Clocked& clocked) { before_.push_back(&clocked); }
+void ClockDomain::add_after(Clocked& clocked) { after_.push_back(&clocked); }
+void ClockDomain::add(LinkBase& link) { claim(link); }
+
+void ClockDomain::claim(LinkBase& link) {
+  DEBURR_CHECK(link.clock_ == nullptr || link.clock_ == this,
+               fmt::format("{} joins two clock domains ({} is one): a link has one clock",
+                           link.name(), name()));
+  if (link.clock_ == this) return;
+  link.clock_ = this;
+  links_.push_back(&link);
+}
+
+void ClockDomain::end_of_elaboration() {
+  std::set<sc_core::sc_object*> seen;  // units may nest
+  for (Unit* unit : units_) {
+    unit->check_ports();
+    walk(*unit, [&](sc_core::sc_object& object) {
+      if (!seen.insert(&object).second) return;
+      if (auto* port = dynamic_cast<PortBase*>(&object)) {
+        if (port->link_base()) claim(*port->link_base());
+      } else if (auto* link = dynamic_cast<LinkBase*>(&object)) {
+        claim(*link);
+      } else if (auto* storage = dynamic_cast<Storage*>(&object)) {
+        storages_.push_back(storage);
+      } else if (auto* counter = dynamic_cast<Counter*>(&object)) {
+        counters_.push_back(counter);
+      } else if (auto* histogram = dynamic_cast<Histogram*>(&object)) {
+        histograms_.push_back(histogram);
+      }
+    });
+  }
+}
+
+void ClockDomain::shuffle(std::optional<std::uint64_t> seed) {
+  if (shuffled_) slots_ = unshuffled_;
+  shuffled_ = seed.has_value();
+  if (!shuffled_) return;
+  unshuffled_ = slots_;
+  shuffle_state_ = (*seed * 0x9E3779B97F4A7C15) | 1;
+}
+
+void ClockDomain::reorder() {
+  if (unshuffled_.size() != slots_.size()) unshuffled_ = slots_;  // units were added meanwhile
+  for (std::size_t i = slots_.size(); i > 1; --i) {
+    shuffle_state_ ^= shuffle_state_ << 13;
+    shuffle_state_ ^= shuffle_state_ >> 7;
+    shuffle_state_ ^= shuffle_state_ << 17;
+    std::swap(slots_[i - 1], slots_[(shuffle_state_ >> 11) % i]);
+  }
+}
+
+sc_core::sc_time ClockDomain::time_of(Cycle cycle) const {
+  return sc_core::sc_time::from_value(cycle * period_value_);
+}
+
+sc_core::sc_time ClockDomain::offset() const {
+  return evaluating_ ? time_of(cycle_ - block_start_) : sc_core::SC_ZERO_TIME;
+}
+
+void ClockDomain::notify(sc_core::sc_event& event, const sc_core::sc_time& delay) {
+  event.notify(offset() + delay);
+}
+
+const sc_core::sc_event& ClockDomain::edge() {
+  observed_ = true;
+  return edge_;
+}
+
+// An activation at the time of an edge. It first lets the other processes of that time go by, if
+// there are any: whether they come before or after this one in the kernel's queue depends on how
+// long the last block was, and must not matter.
+void ClockDomain::activate() {
+  using sc_core::SC_ZERO_TIME;
+  if (!deferred_ &&
+      sc_core::sc_pending_activity_at_current_time(sc_core::sc_get_curr_simcontext())) {
+    deferred_ = true;
+    next_trigger(SC_ZERO_TIME);
+    return;
+  }
+  deferred_ = false;
+  if (phase_ == Phase::kStop) {
+    // The time has caught up with the cycles that were run: this is where sc_start() may return.
+    phase_ = Phase::kEdge;
+    sc_core::sc_pause();
+    next_trigger(SC_ZERO_TIME);
+    return;
+  }
+  DEBURR_CHECK(sc_core::sc_time_stamp() == time_of(cycle_),
+               fmt::format("{}: edge {} came at the wrong time", name(), cycle_));
+  ++activations_;
+  block_start_ = cycle_;
+  evaluating_ = true;
+  try {
+    do {
+      evaluate();
+    } while (may_run_on());
+  } catch (...) {
+    evaluating_ = false;
+    if (!in_run_) throw;  // the kernel turns it into a report
+    failure_ = std::current_exception();
+    sc_core::sc_pause();
+    return;
+  }
+  evaluating_ = false;
+  if (observed_) edge_.notify(SC_ZERO_TIME);
+  if (stop_requested_ || done_reached_) {
+    stop_requested_ = false;
+    phase_ = Phase::kStop;
+  }
+  next_trigger(time_of(cycle_ - block_start_));
+}
+
+void ClockDomain::evaluate() {
+  const Cycle cycle = cycle_;
+  if (!reset_n_) [[unlikely]] {
+    reset_all();
+    cycle_ = cycle + 1;
+    reset_cycle_ = cycle_;
+  } else {
+    for (Clocked* clocked : before_) clocked->tick(cycle);
+    if (shuffled_) [[unlikely]]
+      reorder();
+    for (const Slot& slot : slots_) ++slot.activity[slot.clocked->tick(cycle).code % kActivities];
+    for (Clocked* clocked : after_) clocked->tick(cycle);
+    cycle_ = cycle + 1;
+  }
+  if (done_ && (*done_)()) done_reached_ = true;
+}
+
+// May the next edge be evaluated in this activation? Only if nobody could tell.
+bool ClockDomain::may_run_on() const {
+  if (!fast_path_ || cycle_by_cycle_ || observed_ || stop_requested_ || done_reached_) return false;
+  const std::uint64_t next = (cycle_ - block_start_) * period_value_;
+  if (cycle_ * period_value_ >= horizon_) return false;
+  const std::uint64_t pending = sc_core::sc_time_to_pending_activity().value();
+  if (pending > next) [[likely]]
+    return sc_core::sc_get_curr_simcontext()->sim_status() == sc_core::SC_SIM_OK;
+  DEBURR_CHECK(
+      pending >= next - period_value_,
+      fmt::format("{}: in cycle {} something was raised in SystemC without adding the domain's "
+                  "offset, so its time is wrong: use ClockDomain::notify() or offset(), or switch "
+                  "off the fast path",
+                  name(), cycle_ - 1));
+  return false;
+}
+
+void ClockDomain::reset_all() {
+  for (const Slot& slot : slots_) slot.clocked->reset();
+  for (Unit* unit : units_) unit->activity_.fill(0);
+  for (LinkBase* link : links_) link->reset();
+  for (Storage* storage : storages_) storage->reset();
+  for (Counter* counter : counters_) counter->reset();
+  for (Histogram* histogram : histograms_) histogram->reset();
+  for (Clocked* clocked : before_) clocked->reset();
+  for (Clocked* clocked : after_) clocked->reset();
+}
+
+void ClockDomain::run(Cycle cycles) {
+  if (cycles == 0) return;
+  start(cycle_ + cycles, (cycle_ + cycles) * period_value_);
+}
+
+bool ClockDomain::run_until(const std::function<bool()>& done, Cycle limit) {
+  if (done()) return true;
+  if (limit == 0) return false;
+  done_ = &done;
+  done_reached_ = false;
+  try {
+    start(cycle_ + limit, (cycle_ + limit) * period_value_);
+  } catch (...) {
+    done_ = nullptr;
+    throw;
+  }
+  done_ = nullptr;
+  return std::exchange(done_reached_, false);
+}
+
+void ClockDomain::run_free() { start(kNever, sc_core::sc_max_time().value()); }
+
+// The promise made here to all domains is what allows them to run on: sc_start() will not return
+// before `horizon`, unless one of them asks for it.
+void ClockDomain::start(Cycle end, std::uint64_t horizon) {
+  DEBURR_CHECK(!in_run_, fmt::format("{}: run() within run()", name()));
+  if (failure_) std::rethrow_exception(failure_);
+  if (domains_.empty()) for_each<ClockDomain>([&](ClockDomain& d) { domains_.push_back(&d); });
+  for (ClockDomain* domain : domains_) {
+    domain->in_run_ = true;
+    domain->horizon_ = horizon;
+  }
+  const auto finish = [&] {
+    for (ClockDomain* domain : domains_) {
+      domain->in_run_ = false;
+      domain->horizon_ = 0;
+    }
+  };
+  try {
+    if (end == kNever)
+      sc_core::sc_start();
+    else
+      sc_core::sc_start(time_of(end) - sc_core::sc_time_stamp());
+  } catch (const sc_core::sc_report& report) {
+    finish();
+    throw spec::SimulationError(report.what());
+  } catch (...) {
+    finish();
+    throw;
+  }
+  finish();
+  for (ClockDomain* domain : domains_)
+    if (domain->failure_) std::rethrow_exception(domain->failure_);
+  check_accounting();
+}
+
+void ClockDomain::check_accounting() const {
+  for (const Unit* unit : units_) unit->check_accounting();
+}
+
+}  // namespace deburr::rtl

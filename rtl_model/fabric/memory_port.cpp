@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/fabric/memory_port.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace deburr::rtl {
+
+struct MemoryPort::Transaction final : tlm::tlm_generic_payload {
+  explicit Transaction(tlm::tlm_mm_interface* owner) : tlm_generic_payload(owner) {}
+  std::vector<std::uint8_t> data, enables;
+  std::uint32_t tag = 0, epoch = 0;
+  std::uint16_t lines = 1;
+  std::uint16_t next_line = 0;  // write: beats gathered; read: beats responded
+  bool write = false, arrived = false;
+  Cycle sent = 0;
+  sc_core::sc_time when;  // arrival of the response
+};
+
+MemoryPort::MemoryPort(const sc_core::sc_module_name& name, ClockDomain& clock,
+                       const MemoryPortParameters& parameters)
+    : Unit(name, clock),
+      parameters_(parameters),
+      stalled_outstanding_(declare_stall("outstanding", "the limit of transactions is reached")),
+      stalled_channel_(
+          declare_stall("request_channel", "the target has not yet accepted the last request")),
+      stalled_memory_(declare_stall("memory", "waits for responses, has nothing else to do")) {
+  DEBURR_CHECK(
+      parameters.outstanding >= 1 && parameters.outstanding <= 1024,
+      fmt::format("{}: {} outstanding, not in 1..1024", this->name(), parameters.outstanding));
+  DEBURR_CHECK(parameters.max_burst_lines >= 1 && parameters.max_burst_lines <= 64,
+               fmt::format("{}: bursts of {} lines, not in 1..64", this->name(),
+                           parameters.max_burst_lines));
+  memory.bind(*this);
+}
+
+MemoryPort::~MemoryPort() = default;
+
+std::uint32_t MemoryPort::in_flight() const {
+  return static_cast<std::uint32_t>(in_flight_.size()) + (gathering_ ? 1U : 0U);
+}
+
+Activity MemoryPort::tick(Cycle cycle) {
+  const bool waiting = !arrived_.empty();
+  bool did = respond(cycle);
+  const bool response_blocked = waiting && !did && !responses_out.can_push(cycle);
+  Activity lost = response_blocked   ? kStalledDownstream
+                  : in_flight() != 0 ? stalled_memory_
+                                     : kIdle;
+  if (requests_in.can_pop(cycle)) {
+    const MemoryRequest& request = requests_in.front(cycle);
+    const bool starts = !gathering_;
+    const std::uint16_t beats =
+        starts ? (request.write ? request.lines : std::uint16_t{1}) : gathering_->lines;
+    const bool completes = (starts ? 1 : gathering_->next_line + 1) == beats;
+    if (starts && in_flight_.size() >= parameters_.outstanding) {
+      lost = stalled_outstanding_;
+    } else if (completes && (requesting_ || channel_free_ > clock().time_of(cycle))) {
+      lost = stalled_channel_;
+    } else {
+      if (starts) {
+        DEBURR_CHECK(request.address % kLineBytes == 0 && request.lines >= 1 &&
+                         request.lines <= parameters_.max_burst_lines,
+                     fmt::format("{}: cycle {}: request for {} lines at {:#x}", name(), cycle,
+                                 request.lines, request.address));
+        gathering_ = &allocate();
+        Transaction& t = *gathering_;
+        t.tag = request.tag;
+        t.epoch = epoch_;
+        t.lines = request.lines;
+        t.next_line = 0;
+        t.write = request.write;
+        t.arrived = false;
+        t.set_address(request.address);
+        t.data.resize(std::size_t{t.lines} * kLineBytes);
+        t.enables.assign(t.data.size(), TLM_BYTE_ENABLED);
+        if (request.write)
+          for (std::uint32_t i = 0; i < kLineBytes; ++i)
+            if (!(request.byte_mask >> i & 1)) t.enables[i] = TLM_BYTE_DISABLED;
+      }
+      Transaction& t = *gathering_;
+      if (t.write)
+        std::memcpy(t.data.data() + std::size_t{t.next_line++} * kLineBytes, request.data.data(),
+                    kLineBytes);
+      requests_in.pop(cycle);
+      if (completes) {
+        gathering_ = nullptr;
+        t.next_line = 0;
+        send(t, cycle);
+      }
+      did = true;
+    }
+  }
+  return did ? kBusy : lost;
+}
+
+void MemoryPort::send(Transaction& t, Cycle cycle) {
+  const auto length = static_cast<unsigned>(t.data.size());
+  const auto enabled = static_cast<std::uint64_t>(
+      std::count(t.enables.begin(), t.enables.end(), std::uint8_t{TLM_BYTE_ENABLED}));
+  t.set_command(t.write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND);
+  t.set_data_ptr(t.data.data());
+  t.set_data_length(length);
+  t.set_streaming_width(length);
+  const bool partial = enabled != length;
+  t.set_byte_enable_ptr(partial ? t.enables.data() : nullptr);
+  t.set_byte_enable_length(partial ? length : 0);
+  t.set_dmi_allowed(false);
+  t.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
+  t.sent = cycle;
+  in_flight_.push_back(&t);
+  most_outstanding.raise_to(in_flight_.size());
+  if (t.write) {
+    ++writes;
+    bytes_written += enabled;
+  } else {
+    ++reads;
+    bytes_read += length;
+  }
+
+  requesting_ = &t;
+  tlm::tlm_phase phase = tlm::BEGIN_REQ;
+  sc_core::sc_time delay = clock().offset();
+  const tlm::tlm_sync_enum status = memory->nb_transport_fw(t, phase, delay);
+  const sc_core::sc_time when = sc_core::sc_time_stamp() + delay;
+  if (status == tlm::TLM_ACCEPTED) return;
+  // The target answers at once: it ended the request, or the request and began the response, or
+  // all.
+  if (requesting_ == &t) {
+    requesting_ = nullptr;
+    channel_free_ = when;
+  }
+  if (status == tlm::TLM_COMPLETED) {
+    arrived(t, when);
+  } else if (phase == tlm::BEGIN_RESP) {
+    t.acquire();
+    arrived(t, when);
+    phase = tlm::END_RESP;
+    memory->nb_transport_fw(t, phase, delay);
+    t.release();
+  }
+}
+
+tlm::tlm_sync_enum MemoryPort::nb_transport_bw(tlm::tlm_generic_payload& payload,
+                                               tlm::tlm_phase& phase, sc_core::sc_time& delay) {
+  auto& t = static_cast<Transaction&>(payload);
+  const sc_core::sc_time when = sc_core::sc_time_stamp() + delay;
+  const bool begins = phase == tlm::BEGIN_RESP;
+  if (!begins && phase != tlm::END_REQ) {
+    if (phase == tlm::BEGIN_REQ || phase == tlm::END_RESP)
+      throw spec::SimulationError(fmt::format(
+          "{}: the memory sent phase {} backwards, for address {:#x}: only END_REQ and BEGIN_RESP "
+          "may come from a target",
+          name(), phase.get_name(), payload.get_address()));
+    return tlm::TLM_ACCEPTED;  // a phase of an extended protocol, which a base-protocol port
+                               // ignores
+  }
+  if (requesting_ == &t) {
+    requesting_ = nullptr;
+    channel_free_ = when;
+  }
+  if (!begins) return tlm::TLM_ACCEPTED;
+  if (t.arrived)
+    throw spec::SimulationError(fmt::format("{}: the memory answered the {} of {:#x} twice", name(),
+                                            t.write ? "write" : "read", t.get_address()));
+  arrived(t, when);
+  return tlm::TLM_COMPLETED;  // there is room for every outstanding response: END_RESP at once
+}
+
+void MemoryPort::arrived(Transaction& t, const sc_core::sc_time& when) {
+  t.arrived = true;
+  t.when = when;
+  if (t.epoch != epoch_) {  // asked for before a reset
+    t.release();
+    return;
+  }
+  const auto later = [](const sc_core::sc_time& time, const Transaction* other) {
+    return time < other->when;
+  };
+  arrived_.insert(std::upper_bound(arrived_.begin(), arrived_.end(), when, later), &t);
+  if (t.get_response_status() != tlm::TLM_OK_RESPONSE) ++errors;
+  const Cycle visible = when.value() / clock().period().value() + 1;
+  latency.record(visible - t.sent);
+}
+
+// Pushes one beat of a response that has arrived before this edge, if there is one.
+bool MemoryPort::respond(Cycle cycle) {
+  if (arrived_.empty() || !responses_out.can_push(cycle)) return false;
+  Transaction* t = parameters_.in_order ? in_flight_.front() : arrived_.front();
+  if (!t->arrived || t->when >= clock().time_of(cycle)) return false;
+
+  MemoryResponse& response = responses_out.emplace(cycle);
+  response.address = t->get_address() + std::uint64_t{t->next_line} * kLineBytes;
+  response.tag = t->tag;
+  response.line = t->next_line;
+  response.write = t->write;
+  response.last = t->write || t->next_line + 1 == t->lines;
+  switch (t->get_response_status()) {
+    case tlm::TLM_OK_RESPONSE:
+      response.status = MemoryStatus::kOk;
+      break;
+    case tlm::TLM_ADDRESS_ERROR_RESPONSE:
+      response.status = MemoryStatus::kAddressError;
+      break;
+    default:
+      response.status = MemoryStatus::kError;
+  }
+  if (response.status == MemoryStatus::kOk && !t->write)
+    std::memcpy(response.data.data(), t->data.data() + std::size_t{t->next_line} * kLineBytes,
+                kLineBytes);
+  else
+    response.data.fill(0);
+  ++t->next_line;
+  if (response.last) {
+    in_flight_.erase(std::find(in_flight_.begin(), in_flight_.end(), t));
+    arrived_.erase(std::find(arrived_.begin(), arrived_.end(), t));
+    t->release();
+  }
+  return true;
+}
+
+void MemoryPort::reset() {
+  // What the target still has comes back to transactions of an old epoch and is dropped then.
+  // The request channel is the target's business and goes on.
+  ++epoch_;
+  for (Transaction* t : arrived_) t->release();
+  if (gathering_) gathering_->release();
+  gathering_ = nullptr;
+  arrived_.clear();
+  in_flight_.clear();
+}
+
+MemoryPort::Transaction& MemoryPort::allocate() {
+  if (free_.empty()) {
+    pool_.push_back(std::make_unique<Transaction>(static_cast<tlm::tlm_mm_interface*>(this)));
+    free_.push_back(pool_.back().get());
+  }
+  Transaction& t = *free_.back();
+  free_.pop_back();
+  t.acquire();
+  return t;
+}
+
+// The last reference is gone; a target may have kept its own for longer than we did.
+void MemoryPort::free(tlm::tlm_generic_payload* payload) {
+  payload->reset();
+  free_.push_back(static_cast<Transaction*>(payload));
+}
+
+unsigned MemoryPort::debug_read(std::uint64_t address, void* data, unsigned bytes) {
+  tlm::tlm_generic_payload payload;
+  payload.set_command(tlm::TLM_READ_COMMAND);
+  payload.set_address(address);
+  payload.set_data_ptr(static_cast<unsigned char*>(data));
+  payload.set_data_length(bytes);
+  payload.set_streaming_width(bytes);
+  return memory->transport_dbg(payload);
+}
+
+unsigned MemoryPort::debug_write(std::uint64_t address, const void* data, unsigned bytes) {
+  std::vector<unsigned char> copy(bytes);
+  std::memcpy(copy.data(), data, bytes);
+  tlm::tlm_generic_payload payload;
+  payload.set_command(tlm::TLM_WRITE_COMMAND);
+  payload.set_address(address);
+  payload.set_data_ptr(copy.data());
+  payload.set_data_length(bytes);
+  payload.set_streaming_width(bytes);
+  return memory->transport_dbg(payload);
+}
+
+}  // namespace deburr::rtl

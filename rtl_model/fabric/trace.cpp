@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/fabric/trace.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "rtl_model/fabric/counters.h"
+#include "rtl_model/fabric/register_block.h"
+#include "rtl_model/fabric/unit.h"
+#include "spec/error.h"
+
+namespace deburr::rtl {
+namespace {
+
+// VCD's short names: base 94 of the printable characters.
+std::string short_name(std::size_t number) {
+  std::string text;
+  do {
+    text += static_cast<char>('!' + number % 94);
+    number /= 94;
+  } while (number);
+  return text;
+}
+
+std::string binary(std::uint64_t value, int bits) {
+  std::string text(static_cast<std::size_t>(bits), '0');
+  for (int i = 0; i < bits; ++i)
+    if (value >> i & 1) text[static_cast<std::size_t>(bits - 1 - i)] = '1';
+  return text;
+}
+
+std::string binary(const std::byte* bytes, std::size_t count) {
+  std::string text;
+  text.reserve(count * 8);
+  for (std::size_t i = count; i-- > 0;) text += binary(std::to_integer<std::uint64_t>(bytes[i]), 8);
+  return text;
+}
+
+std::array<std::uint64_t, kActivities> counts_of(const Unit& unit) {
+  std::array<std::uint64_t, kActivities> counts{};
+  for (int i = 0; i < unit.activities(); ++i)
+    counts[static_cast<std::size_t>(i)] = unit.cycles_of({static_cast<std::uint8_t>(i)});
+  return counts;
+}
+
+// The path of modules of a hierarchical name, and the name itself.
+std::pair<std::vector<std::string>, std::string> split(const std::string& name) {
+  std::vector<std::string> path;
+  std::size_t begin = 0;
+  for (std::size_t dot; (dot = name.find('.', begin)) != std::string::npos; begin = dot + 1)
+    path.push_back(name.substr(begin, dot - begin));
+  return {path, name.substr(begin)};
+}
+
+}  // namespace
+
+bool glob_match(const std::string& pattern, const std::string& text) {
+  // The usual two pointers: on a mismatch, let the last * take one character more.
+  std::size_t p = 0, t = 0, star = std::string::npos, mark = 0;
+  while (t < text.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      mark = t;
+    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t])) {
+      ++p;
+      ++t;
+    } else if (star != std::string::npos) {
+      p = star + 1;
+      t = ++mark;
+    } else {
+      return false;
+    }
+  }
+  while (p < pattern.size() && pattern[p] == '*') ++p;
+  return p == pattern.size();
+}
+
+Trace::Trace(ClockDomain& clock, const TraceOptions& options) : clock_(clock), options_(options) {
+  file_.open(options_.file, std::ios::out | std::ios::trunc);
+  if (!file_) throw spec::FileError(fmt::format("{}: cannot be written", options_.file));
+  clock_.require_cycle_by_cycle();
+  clock_.add_after(*this);
+  for_each<Unit>([&](Unit& unit) { initial_[&unit] = counts_of(unit); });
+}
+
+Trace::~Trace() = default;
+
+bool Trace::wanted(const std::string& name) const {
+  return std::any_of(options_.scopes.begin(), options_.scopes.end(),
+                     [&](const std::string& scope) { return glob_match(scope, name); });
+}
+
+void Trace::add(const std::string& name, int bits, std::function<std::uint64_t()> sample) {
+  if (!wanted(name)) return;
+  signals_.push_back({name,
+                      bits,
+                      [bits, sample = std::move(sample)](Cycle) { return binary(sample(), bits); },
+                      {},
+                      {}});
+}
+
+void Trace::collect(Cycle cycle) {
+  for_each<LinkBase>([&](LinkBase& link) {
+    const std::string name = link.name();
+    if (!wanted(name)) return;
+    const auto number = [&](const char* what, int bits, auto sample) {
+      signals_.push_back({name + "." + what,
+                          bits,
+                          [bits, sample](Cycle c) { return binary(sample(c), bits); },
+                          {},
+                          {}});
+    };
+    number("occupancy", static_cast<int>(std::bit_width(link.depth())),
+           [&link](Cycle) -> std::uint64_t { return link.occupancy(); });
+    number("push", 1, [&link](Cycle c) -> std::uint64_t { return link.last_push() == c; });
+    number("pop", 1, [&link](Cycle c) -> std::uint64_t { return link.last_pop() == c; });
+    if (!options_.payloads) return;
+    signals_.push_back({name + ".head",
+                        static_cast<int>(link.payload_bytes() * 8),
+                        [&link](Cycle) {
+                          return link.empty()
+                                     ? std::string("x")
+                                     : binary(link.beat(link.pops()), link.payload_bytes());
+                        },
+                        {},
+                        {}});
+  });
+  for_each<Unit>([&](Unit& unit) {
+    if (!wanted(unit.name())) return;
+    // The counter that went up since the last sample is what the unit did.
+    const bool early = cycle < options_.from;
+    auto before = early ? counts_of(unit) : initial_[&unit];
+    signals_.push_back({std::string(unit.name()) + ".activity",
+                        0,
+                        [&unit, before](Cycle) mutable {
+                          const auto now = counts_of(unit);
+                          std::string text = "reset";
+                          for (int i = 0; i < unit.activities(); ++i)
+                            if (now[static_cast<std::size_t>(i)] >
+                                before[static_cast<std::size_t>(i)])
+                              text = unit.activity_name({static_cast<std::uint8_t>(i)});
+                          before = now;
+                          return text;
+                        },
+                        {},
+                        {}});
+  });
+  for_each<Counter>(
+      [&](Counter& counter) { add(counter.name(), 64, [&counter] { return counter.value(); }); });
+  for_each<RegisterBlock>([&](RegisterBlock& block) {
+    for (std::size_t i = 0; i < block.table().size(); ++i)
+      add(fmt::format("{}.{}", block.name(), block.table()[i].name), 32,
+          [&block, i]() -> std::uint64_t { return block.get(i); });
+  });
+}
+
+void Trace::write_header() {
+  // Neighbours in the hierarchy must be neighbours in the file.
+  std::stable_sort(signals_.begin(), signals_.end(), [](const Signal& a, const Signal& b) {
+    return split(a.name).first < split(b.name).first;
+  });
+  file_ << "$comment deburr $end\n$timescale " << sc_core::sc_get_time_resolution().to_string()
+        << " $end\n";
+  std::vector<std::string> open;
+  for (std::size_t i = 0; i < signals_.size(); ++i) {
+    Signal& signal = signals_[i];
+    signal.id = short_name(i);
+    const auto [path, leaf] = split(signal.name);
+    std::size_t common = 0;
+    while (common < open.size() && common < path.size() && open[common] == path[common]) ++common;
+    for (; open.size() > common; open.pop_back()) file_ << "$upscope $end\n";
+    for (; open.size() < path.size(); open.push_back(path[open.size()]))
+      file_ << "$scope module " << path[open.size()] << " $end\n";
+    if (signal.bits == 0)
+      file_ << "$var string 1 " << signal.id << ' ' << leaf << " $end\n";
+    else
+      file_ << "$var wire " << signal.bits << ' ' << signal.id << ' ' << leaf
+            << (signal.bits > 1 ? fmt::format(" [{}:0]", signal.bits - 1) : std::string())
+            << " $end\n";
+  }
+  for (; !open.empty(); open.pop_back()) file_ << "$upscope $end\n";
+  file_ << "$enddefinitions $end\n";
+}
+
+Activity Trace::tick(Cycle cycle) {
+  if (!started_) {
+    // One cycle early, so that the units' activities have something to be compared with.
+    if (options_.from != 0 && cycle + 1 < options_.from) return kIdle;
+    started_ = true;
+    collect(cycle);
+    write_header();
+  }
+  if (cycle < options_.from || cycle > options_.to) return kIdle;
+  if (cycle == options_.to) {
+    file_.flush();
+    return kIdle;
+  }
+  bool stamped = false;
+  for (Signal& signal : signals_) {
+    std::string value = signal.sample(cycle);
+    if (value == signal.last) continue;
+    if (!std::exchange(stamped, true)) file_ << '#' << clock_.time_of(cycle).value() << '\n';
+    if (signal.bits == 0)
+      file_ << 's' << value << ' ' << signal.id << '\n';
+    else if (signal.bits == 1)
+      file_ << value << signal.id << '\n';
+    else
+      file_ << 'b' << value << ' ' << signal.id << '\n';
+    signal.last = std::move(value);
+  }
+  if (!file_) throw spec::FileError(fmt::format("{}: cannot be written", options_.file));
+  return kBusy;
+}
+
+}  // namespace deburr::rtl
