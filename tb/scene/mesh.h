@@ -12,16 +12,15 @@
 #include <string>
 #include <vector>
 
+#include "spec/texture.h"
 #include "tb/scene/image.h"
 
 namespace deburr::tb {
 
-enum class Wrap : std::uint8_t { kRepeat, kMirroredRepeat, kClampToEdge };
-
 struct Texture {
   std::string name;
   Image image;  // level 0; mip_chain() makes the rest
-  Wrap wrap_s = Wrap::kRepeat, wrap_t = Wrap::kRepeat;
+  spec::Wrap wrap_s = spec::Wrap::kRepeat, wrap_t = spec::Wrap::kRepeat;
 };
 
 struct Material {
@@ -59,7 +58,7 @@ Bounds bounds(const Mesh& mesh);
 
 // Limits of an import, checked before memory is spent on it.
 inline constexpr std::uint64_t kMaxMeshFileBytes = std::uint64_t{1} << 30;
-inline constexpr std::uint64_t kMaxTriangles = 16'000'000;
+inline constexpr std::uint64_t kMaxTriangles = 4'000'000;
 
 // Reads .obj (with its .mtl and textures), .gltf or .glb (all nodes of the default scene with their
 // transforms; embedded and external textures). Polygons become triangles; lines and points are left
@@ -69,11 +68,14 @@ inline constexpr std::uint64_t kMaxTriangles = 16'000'000;
 // to t = 1 - v. Throws FileError that names the file and what to do: missing, empty, truncated,
 // malformed, a number that is not finite, an index out of range, no triangles, too large, texture
 // missing or unreadable.
-Mesh import_mesh(const std::filesystem::path& path);
+struct ImportOptions {
+  bool textures = true;  // false: leave the file's textures unread (someone else's replaces them)
+};
+Mesh import_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
 
-// Every material that has no texture gets one: its colour becomes a cell of a common palette
-// texture and the triangles' coordinates the centre of that cell, so that an engine that only knows
-// textures draws it exactly. If no material has a texture, all get `fallback` instead.
-void texture_everything(Mesh& mesh, const Texture& fallback);
+// Makes every material textured, for an engine that only knows textures. If none is and there is a
+// `fallback`, all get that. Else the colours of the plain ones become cells of one palette texture,
+// and their triangles' coordinates the centre of the cell, which gives exactly that colour.
+void texture_everything(Mesh& mesh, const Texture* fallback);
 
 }  // namespace deburr::tb

@@ -9,11 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "spec/texture.h"
 #include "tb/scene/image.h"
 
 namespace deburr::tb {
-
-inline constexpr int kMaxTextureSide = 4096;  // of the texture unit
 
 // `cells` x `cells` squares over the whole texture, the first (top left) in `a`.
 Image checkerboard(int width, int height, int cells = 16, const Rgba8& a = {255, 255, 255, 255},
@@ -30,7 +29,8 @@ Image noise(int width, int height, std::uint32_t seed = 1);  // white noise in R
 // The names accepted by make_texture: "checker", "road", "brick", "zone_plate", "gradient",
 // "noise".
 std::span<const std::string_view> texture_names();
-// Throws ConfigError for an unknown name (listing the known) or a side outside 1..kMaxTextureSide.
+// Throws ConfigError for an unknown name (listing the known) or a side
+// outside 1..spec::kMaxTextureSize.
 Image make_texture(std::string_view name, int width, int height, std::uint32_t seed = 1);
 
 // Which values are averaged: those stored, or the linear light that sRGB bytes stand for.

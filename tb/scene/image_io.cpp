@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: MIT
+#include "tb/scene/image_io.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <memory>
+
+#include "spec/error.h"
+#include "tb/scene/textures.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace fs = std::filesystem;
+using InputPointer = std::unique_ptr<OIIO::ImageInput>;
+
+std::string last_error(OIIO::ImageInput* input) {
+  std::string text = input != nullptr && input->has_error() ? input->geterror() : OIIO::geterror();
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
+  return text.empty() ? "no reason given" : text;
+}
+
+[[noreturn]] void fail_read(const std::string& name, const std::string& reason) {
+  throw spec::FileError(fmt::format("cannot read the image '{}': {}", name, reason));
+}
+
+OIIO::ImageSpec read_hints() {
+  OIIO::ImageSpec hints;
+  hints.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not multiplied by alpha
+  return hints;
+}
+
+InputPointer open_file(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) fail_read(path.string(), "no such file; check the path");
+  if (!fs::is_regular_file(status))
+    fail_read(path.string(), "not a regular file; give an image file");
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (error) fail_read(path.string(), error.message());
+  if (size == 0) fail_read(path.string(), "the file is empty (0 bytes); make it again");
+  if (!std::ifstream(path)) fail_read(path.string(), "permission denied");
+  const OIIO::ImageSpec hints = read_hints();
+  InputPointer input = OIIO::ImageInput::open(path.string(), &hints);
+  if (!input) {
+    fail_read(path.string(),
+              fmt::format("not an image that OpenImageIO understands, or a damaged one ({}); "
+                          "give a PNG, JPEG, TIFF, EXR, ...",
+                          last_error(nullptr)));
+  }
+  return input;
+}
+
+void check_header(const std::string& name, const OIIO::ImageSpec& spec) {
+  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
+    fail_read(name,
+              fmt::format("its header says {} x {} pixels of {} channels; the file is damaged",
+                          spec.width, spec.height, spec.nchannels));
+  if (spec.width > kMaxImageSide || spec.height > kMaxImageSide)
+    fail_read(name,
+              fmt::format("its header says {} x {} pixels, the limit is {} x {}; scale it down "
+                          "or cut it",
+                          spec.width, spec.height, kMaxImageSide, kMaxImageSide));
+  if (spec.depth > 1 || spec.deep)
+    fail_read(name, "it is a volume or a deep image; flatten it to two dimensions");
+}
+
+// libjpeg fills the rest of a truncated file with grey and only warns, so look for the end marker.
+void check_complete_jpeg(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<std::streamoff>(file.tellg());
+  const std::streamoff tail = std::min<std::streamoff>(size, 4096);
+  std::string bytes(static_cast<std::size_t>(tail), '\0');
+  file.seekg(size - tail);
+  file.read(bytes.data(), tail);
+  if (bytes.rfind("\xFF\xD9") == std::string::npos)
+    fail_read(path.string(), "the JPEG has no end marker: the file is truncated; copy it again");
+}
+
+template <class Value>
+std::vector<Value> read_pixels(const std::string& name, OIIO::ImageInput& input, int channels) {
+  const OIIO::ImageSpec& spec = input.spec();
+  std::vector<Value> values(static_cast<std::size_t>(spec.width) *
+                            static_cast<std::size_t>(spec.height) *
+                            static_cast<std::size_t>(channels));
+  if (!input.read_image(0, 0, 0, channels, OIIO::BaseTypeFromC<Value>::value, values.data()))
+    fail_read(name, fmt::format("the file is truncated or corrupt ({}); make or copy it again",
+                                last_error(&input)));
+  return values;
+}
+
+// Spreads 1 to 4 stored channels over R, G, B, A.
+template <class Pixel, class Value>
+ImageOf<Pixel> expand(const std::vector<Value>& values, int width, int height, int channels,
+                      Value opaque) {
+  ImageOf<Pixel> image(width, height);
+  const auto step = static_cast<std::size_t>(channels);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const Value* from = &values[i * step];
+    if (channels <= 2)
+      image.pixels[i] = {from[0], from[0], from[0], channels == 2 ? from[1] : opaque};
+    else
+      image.pixels[i] = {from[0], from[1], from[2], channels >= 4 ? from[3] : opaque};
+  }
+  return image;
+}
+
+std::uint8_t quantise(float value) {
+  if (!(value > 0.0f)) return 0;  // also NaN
+  return static_cast<std::uint8_t>(std::min(value, 1.0f) * 255.0f + 0.5f);
+}
+
+bool declares_linear_light(const OIIO::ImageSpec& spec) {
+  std::string space = spec.get_string_attribute("oiio:ColorSpace");
+  std::transform(space.begin(), space.end(), space.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return space.rfind("lin", 0) == 0;
+}
+
+void describe_conversions(const OIIO::ImageSpec& spec, bool linear, ReadReport& report) {
+  report.channels = spec.nchannels;
+  report.format = spec.format.c_str();
+  report.conversions.clear();
+  auto note = [&](std::string text) { report.conversions.push_back(std::move(text)); };
+  if (spec.format != OIIO::TypeUInt8)
+    note(fmt::format("{} values scaled to 8 bits", spec.format.c_str()));
+  if (spec.format.is_floating_point()) note("values clamped to [0, 1], NaN to 0");
+  if (linear) note("linear light encoded with the sRGB curve");
+  if (spec.nchannels <= 2) note("grey copied to R, G and B");
+  if (spec.nchannels > 4) note(fmt::format("channels 5 to {} left out", spec.nchannels));
+  if (spec.get_int_attribute("Orientation", 1) != 1) note("orientation tag ignored");
+}
+
+Image decode(const std::string& name, OIIO::ImageInput& input, ReadReport* report) {
+  const OIIO::ImageSpec spec = input.spec();
+  const int channels = std::min(spec.nchannels, 4);
+  const bool linear = spec.format.is_floating_point() && declares_linear_light(spec);
+  if (report != nullptr) describe_conversions(spec, linear, *report);
+  if (spec.format == OIIO::TypeUInt8)
+    return expand<Rgba8>(read_pixels<std::uint8_t>(name, input, channels), spec.width, spec.height,
+                         channels, std::uint8_t{255});
+  const FloatImage values = expand<Rgbaf>(read_pixels<float>(name, input, channels), spec.width,
+                                          spec.height, channels, 1.0f);
+  Image image(spec.width, spec.height);
+  for (std::size_t i = 0; i < values.pixels.size(); ++i) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      float value = values.pixels[i][c];
+      if (linear && c < 3 && value > 0.0f && value < 1.0f)
+        value = static_cast<float>(linear_to_srgb(value));
+      image.pixels[i][c] = quantise(value);
+    }
+  }
+  return image;
+}
+
+InputPointer open_checked(const fs::path& path) {
+  InputPointer input = open_file(path);
+  check_header(path.string(), input->spec());
+  if (std::string_view(input->format_name()) == "jpeg") check_complete_jpeg(path);
+  return input;
+}
+
+// OpenImageIO chooses a reader by extension; a picture inside a glTF has none, so look at its
+// bytes.
+std::string extension_of(std::string_view bytes) {
+  auto starts = [&](std::string_view magic) { return bytes.substr(0, magic.size()) == magic; };
+  if (starts("\x89PNG")) return ".png";
+  if (starts("\xFF\xD8\xFF")) return ".jpg";
+  if (starts("RIFF")) return ".webp";
+  if (starts("v/1\x01")) return ".exr";
+  if (starts("BM")) return ".bmp";
+  if (starts("GIF8")) return ".gif";
+  if (starts("II*") || starts("MM")) return ".tif";
+  return "";
+}
+
+Image decode_memory(const std::string& name, const std::string& extension, std::string_view bytes,
+                    ReadReport* report) {
+  OIIO::Filesystem::IOMemReader reader(const_cast<char*>(bytes.data()), bytes.size());
+  const OIIO::ImageSpec hints = read_hints();
+  InputPointer input = OIIO::ImageInput::open("memory" + extension, &hints, &reader);
+  if (!input)
+    fail_read(name, fmt::format("not an image that OpenImageIO understands, or a damaged one ({})",
+                                last_error(nullptr)));
+  check_header(name, input->spec());
+  return decode(name, *input, report);
+}
+
+[[noreturn]] void fail_write(const fs::path& path, const std::string& reason) {
+  throw spec::FileError(fmt::format("cannot write the image '{}': {}", path.string(), reason));
+}
+
+// Encodes to memory, so that what reaches the disk is written by write_file_atomically alone.
+std::vector<unsigned char> encode(const fs::path& path, const void* pixels, OIIO::ImageSpec spec,
+                                  OIIO::stride_t pixel_stride) {
+  auto output = OIIO::ImageOutput::create(path.string());
+  if (!output || !output->supports("ioproxy")) {
+    OIIO::geterror();
+    fail_write(path,
+               fmt::format("the extension '{}' is not a writable image format; use .png or .exr",
+                           path.extension().string()));
+  }
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput proxy(bytes);
+  if (!output->set_ioproxy(&proxy) || !output->open(path.string(), spec) ||
+      !output->write_image(spec.format, pixels, pixel_stride) || !output->close())
+    fail_write(path, fmt::format("{}; use .png or .exr", output->geterror()));
+  return bytes;
+}
+
+bool is_lossy(const fs::path& path) {
+  const std::string extension = path.extension().string();
+  return extension == ".jpg" || extension == ".jpeg" || extension == ".webp" || extension == ".gif";
+}
+
+std::string_view view(const std::vector<unsigned char>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void check_not_empty(const fs::path& path, int width, int height) {
+  if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide)
+    fail_write(path, fmt::format("its size is {} x {}, allowed are 1 to {}", width, height,
+                                 kMaxImageSide));
+}
+
+}  // namespace
+
+Image read_image(const fs::path& path, ReadReport* report) {
+  const InputPointer input = open_checked(path);
+  return decode(path.string(), *input, report);
+}
+
+Image read_image_memory(const std::string& name, std::string_view bytes, ReadReport* report) {
+  if (bytes.empty()) fail_read(name, "the image is empty (0 bytes)");
+  return decode_memory(name, extension_of(bytes), bytes, report);
+}
+
+FloatImage read_float_image(const fs::path& path) {
+  const InputPointer input = open_checked(path);
+  const int channels = std::min(input->spec().nchannels, 4);
+  return expand<Rgbaf>(read_pixels<float>(path.string(), *input, channels), input->spec().width,
+                       input->spec().height, channels, 1.0f);
+}
+
+DepthImage read_depth(const fs::path& path) {
+  const InputPointer input = open_checked(path);
+  const OIIO::ImageSpec spec = input->spec();
+  DepthImage depth(spec.width, spec.height);
+  if (spec.nchannels == 1 && spec.format.is_floating_point()) {
+    depth.pixels = read_pixels<float>(path.string(), *input, 1);
+    return depth;
+  }
+  if (spec.nchannels < 3 || spec.format != OIIO::TypeUInt8)
+    fail_read(
+        path.string(),
+        fmt::format("a depth picture has 24 bits in R, G and B or one float channel, this one has "
+                    "{} channels of {}",
+                    spec.nchannels, spec.format.c_str()));
+  const auto bytes = read_pixels<std::uint8_t>(path.string(), *input, 3);
+  for (std::size_t i = 0; i < depth.pixels.size(); ++i) {
+    const std::uint32_t value = static_cast<std::uint32_t>(bytes[3 * i]) << 16 |
+                                static_cast<std::uint32_t>(bytes[3 * i + 1]) << 8 |
+                                bytes[3 * i + 2];
+    depth.pixels[i] = static_cast<float>(value / 16777215.0);
+  }
+  return depth;
+}
+
+void write_image(const fs::path& path, const Image& image) {
+  check_not_empty(path, image.width, image.height);
+  const bool opaque = std::all_of(image.pixels.begin(), image.pixels.end(),
+                                  [](const Rgba8& pixel) { return pixel[3] == 255; });
+  const OIIO::ImageSpec spec(image.width, image.height, opaque ? 3 : 4, OIIO::TypeUInt8);
+  const auto bytes = encode(path, image.pixels.data(), spec, sizeof(Rgba8));
+  const Image back = decode_memory(path.string(), path.extension().string(), view(bytes), nullptr);
+  if (back.width != image.width || back.height != image.height ||
+      (!is_lossy(path) && back.pixels != image.pixels))
+    fail_write(path, "the format does not keep these pixels as they are; use .png");
+  write_file_atomically(path, view(bytes));
+}
+
+void write_image(const fs::path& path, const FloatImage& image) {
+  check_not_empty(path, image.width, image.height);
+  const OIIO::ImageSpec spec(image.width, image.height, 4, OIIO::TypeFloat);
+  const auto bytes = encode(path, image.pixels.data(), spec, sizeof(Rgbaf));
+  OIIO::Filesystem::IOMemReader reader(const_cast<unsigned char*>(bytes.data()), bytes.size());
+  const OIIO::ImageSpec hints = read_hints();
+  const InputPointer input = OIIO::ImageInput::open(path.string(), &hints, &reader);
+  if (!input) fail_write(path, "what was encoded cannot be decoded: " + last_error(nullptr));
+  const OIIO::ImageSpec& got = input->spec();
+  bool same = got.width == image.width && got.height == image.height && got.nchannels == 4 &&
+              got.format == OIIO::TypeFloat;
+  if (same) {
+    const auto values = read_pixels<float>(path.string(), *input, 4);
+    // Bits, not values: a NaN must come back too.
+    for (std::size_t i = 0; same && i < values.size(); ++i)
+      same = std::bit_cast<std::uint32_t>(values[i]) ==
+             std::bit_cast<std::uint32_t>(image.pixels[i / 4][i % 4]);
+  }
+  if (!same) fail_write(path, "the format does not keep floats as they are; use .exr");
+  write_file_atomically(path, view(bytes));
+}
+
+void write_depth24(const fs::path& path, const DepthImage& depth) {
+  Image image(depth.width, depth.height);
+  for (std::size_t i = 0; i < depth.pixels.size(); ++i) {
+    const double inside = depth.pixels[i] > 0.0f ? std::min<double>(depth.pixels[i], 1.0) : 0.0;
+    const auto value = static_cast<std::uint32_t>(inside * 16777215.0 + 0.5);
+    image.pixels[i] = {static_cast<std::uint8_t>(value >> 16),
+                       static_cast<std::uint8_t>(value >> 8), static_cast<std::uint8_t>(value),
+                       255};
+  }
+  write_image(path, image);
+}
+
+void write_mask(const fs::path& path, const Mask& mask) {
+  Image image(mask.width, mask.height);
+  for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
+    const std::uint8_t value = mask.pixels[i] != 0 ? 255 : 0;
+    image.pixels[i] = {value, value, value, 255};
+  }
+  write_image(path, image);
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+#include <tiny_obj_loader.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include "tb/scene/import.h"
+#include "tb/scene/mesh_builder.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace fs = std::filesystem;
+using Imath::V2d;
+using Imath::V3d;
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+std::string_view next_word(std::string_view& line) {
+  std::size_t begin = 0;
+  while (begin < line.size() && is_space(line[begin])) ++begin;
+  std::size_t end = begin;
+  while (end < line.size() && !is_space(line[end])) ++end;
+  const std::string_view word = line.substr(begin, end - begin);
+  line.remove_prefix(end);
+  return word;
+}
+
+// tinyobjloader reads "nan", "1e999" and "12x" as some number without a word, and does not check
+// face indices. This pass over the text finds them first, with the line to look at.
+class ObjChecker {
+ public:
+  ObjChecker(const fs::path& path, std::string_view text) : path_(path) {
+    while (!text.empty()) {
+      ++line_;
+      const std::size_t end = text.find('\n');
+      check_line(text.substr(0, end));
+      if (end == std::string_view::npos) {
+        no_final_newline_ = true;
+        break;
+      }
+      text.remove_prefix(end + 1);
+    }
+    check_highest(highest_[0], count_[0], "vertex");
+    check_highest(highest_[1], count_[1], "texture coordinate");
+    check_highest(highest_[2], count_[2], "normal");
+  }
+  bool no_final_newline() const { return no_final_newline_; }
+  bool has_lines() const { return lines_; }
+
+ private:
+  struct Highest {
+    std::int64_t index = 0;
+    std::uint64_t line = 0;
+  };
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    fail_mesh(path_, fmt::format("line {}: {}; the file is truncated or damaged, export it again",
+                                 line_, reason));
+  }
+
+  void check_line(std::string_view line) {
+    const std::string_view keyword = next_word(line);
+    if (keyword == "v") check_numbers(line, 0, 3, "vertex");
+    if (keyword == "vt") check_numbers(line, 1, 1, "texture coordinate");
+    if (keyword == "vn") check_numbers(line, 2, 3, "normal");
+    if (keyword == "f") check_face(line);
+    if (keyword == "l" || keyword == "p") lines_ = true;
+  }
+
+  void check_numbers(std::string_view line, std::size_t kind, int needed, const char* what) {
+    int found = 0;
+    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line), ++found) {
+      if (word[0] == '#') break;
+      if (word[0] == '+') word.remove_prefix(1);
+      double value = 0.0;
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+      if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value) ||
+          std::abs(value) > 1e30)
+        fail(fmt::format("'{}' in a {} is not a finite number", word, what));
+    }
+    if (found < needed) fail(fmt::format("a {} has {} numbers instead of {}", what, found, needed));
+    ++count_[kind];
+  }
+
+  void check_face(std::string_view line) {
+    int corners = 0;
+    for (std::string_view word = next_word(line); !word.empty();
+         word = next_word(line), ++corners) {
+      if (word[0] == '#') break;
+      check_corner(word);
+    }
+    if (corners < 3) fail(fmt::format("a face has {} corners", corners));
+  }
+
+  // v, v/vt, v//vn or v/vt/vn, each counted from 1 or backwards from -1.
+  void check_corner(std::string_view word) {
+    std::string_view rest = word;
+    for (std::size_t kind = 0; kind < 3; ++kind) {
+      const std::size_t slash = rest.find('/');
+      const std::string_view digits = rest.substr(0, slash);
+      const bool may_be_empty = kind == 1 && slash != std::string_view::npos;
+      if (!digits.empty()) {
+        std::int64_t index = 0;
+        const auto [end, error] =
+            std::from_chars(digits.data(), digits.data() + digits.size(), index);
+        if (error != std::errc() || end != digits.data() + digits.size() || index == 0)
+          fail(fmt::format("'{}' is not a face corner", word));
+        if (index < 0 && -index > count_[kind])
+          fail(fmt::format("index {} in '{}' is out of range", index, word));
+        if (index > highest_[kind].index) highest_[kind] = {index, line_};
+      } else if (!may_be_empty) {
+        fail(fmt::format("'{}' is not a face corner", word));
+      }
+      if (slash == std::string_view::npos) return;
+      rest.remove_prefix(slash + 1);
+    }
+    fail(fmt::format("'{}' is not a face corner", word));
+  }
+
+  void check_highest(const Highest& highest, std::int64_t count, const char* what) {
+    if (highest.index <= count) return;
+    line_ = highest.line;
+    fail(fmt::format("a face uses {} {}, but there are {}", what, highest.index, count));
+  }
+
+  const fs::path& path_;
+  std::uint64_t line_ = 0;
+  std::array<std::int64_t, 3> count_{};
+  std::array<Highest, 3> highest_{};
+  bool no_final_newline_ = false, lines_ = false;
+};
+
+fs::path texture_path(const fs::path& folder, std::string name) {
+  std::replace(name.begin(), name.end(), '\\', '/');
+  const fs::path path(name);
+  return path.is_absolute() ? path : folder / path;
+}
+
+std::string one_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+// tinyobjloader's numbers are flat arrays; -1 is "not given".
+class Attributes {
+ public:
+  explicit Attributes(const tinyobj::attrib_t& attributes) : attributes_(attributes) {}
+
+  MeshBuilder::Corner corner(const tinyobj::index_t& index) const {
+    MeshBuilder::Corner corner;
+    corner.position = three(attributes_.vertices, index.vertex_index);
+    if (index.normal_index >= 0) corner.normal = three(attributes_.normals, index.normal_index);
+    if (index.texcoord_index >= 0) {
+      const auto at = 2 * static_cast<std::size_t>(index.texcoord_index);
+      corner.uv = V2d(attributes_.texcoords[at], 1.0 - double{attributes_.texcoords[at + 1]});
+    }
+    return corner;
+  }
+
+ private:
+  static V3d three(const std::vector<tinyobj::real_t>& values, int index) {
+    const auto at = 3 * static_cast<std::size_t>(index);
+    return {values[at], values[at + 1], values[at + 2]};
+  }
+  const tinyobj::attrib_t& attributes_;
+};
+
+}  // namespace
+
+Mesh import_obj(const fs::path& path, const ImportOptions& options) {
+  const std::string text = read_mesh_file(path);
+  const ObjChecker checked(path, text);
+
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  tinyobj::attrib_t attributes;
+  std::vector<tinyobj::shape_t> shapes;
+  std::vector<tinyobj::material_t> materials;
+  std::string warnings, errors;
+  std::istringstream stream(text);
+  tinyobj::MaterialFileReader material_reader(folder.string() + "/");
+  if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warnings, &errors, &stream,
+                        &material_reader,
+                        /*triangulate=*/true, /*default_vcols_fallback=*/false))
+    fail_mesh(path, one_line(errors) + "; export it again");
+
+  MeshBuilder builder(path);
+  if (!warnings.empty()) builder.note(one_line(warnings));
+  if (checked.no_final_newline())
+    builder.note("the last line has no end; the file may have been truncated there");
+  if (checked.has_lines()) builder.note("points and lines were left out");
+  for (const tinyobj::material_t& material : materials) {
+    Material ours;
+    ours.name = material.name;
+    ours.colour = {material.diffuse[0], material.diffuse[1], material.diffuse[2]};
+    if (options.textures && !material.diffuse_texname.empty())
+      ours.texture = builder.texture_from_file(texture_path(folder, material.diffuse_texname));
+    builder.add_material(ours);
+  }
+  // Faces before the first usemtl, or of a material that no .mtl describes.
+  const auto plain = static_cast<std::uint32_t>(materials.size());
+  builder.add_material({"default", V3d(0.8, 0.8, 0.8), -1});
+
+  const Attributes corners(attributes);
+  for (const tinyobj::shape_t& shape : shapes) {
+    const tinyobj::mesh_t& mesh = shape.mesh;
+    for (std::size_t face = 0; 3 * face + 2 < mesh.indices.size(); ++face) {
+      const int material = face < mesh.material_ids.size() ? mesh.material_ids[face] : -1;
+      builder.add_triangle(
+          {corners.corner(mesh.indices[3 * face]), corners.corner(mesh.indices[3 * face + 1]),
+           corners.corner(mesh.indices[3 * face + 2])},
+          material < 0 ? plain : static_cast<std::uint32_t>(material));
+    }
+  }
+  return builder.finish();
+}
+
+}  // namespace deburr::tb

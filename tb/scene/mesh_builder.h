@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// What OBJ and glTF import have in common: collects triangles, fills in what the file does not say,
+// shares equal vertices, refuses what cannot be drawn. Internal to tb/scene.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "tb/scene/mesh.h"
+
+namespace deburr::tb {
+
+// "cannot read the mesh 'file': reason"
+[[noreturn]] void fail_mesh(const std::filesystem::path& path, const std::string& reason);
+
+// The whole file. Throws FileError: missing, not a regular file, empty, larger than
+// kMaxMeshFileBytes.
+std::string read_mesh_file(const std::filesystem::path& path);
+
+class MeshBuilder {
+ public:
+  explicit MeshBuilder(const std::filesystem::path& path);
+
+  struct Corner {
+    Imath::V3d position{0, 0, 0};
+    std::optional<Imath::V3d> normal;
+    std::optional<Imath::V2d> uv;
+  };
+  void add_triangle(const std::array<Corner, 3>& corners, std::uint32_t material);
+  void note(const std::string& text) { mesh_.notes.push_back(text); }
+
+  // Reads a texture file once, however many materials name it. Throws FileError.
+  int texture_from_file(const std::filesystem::path& file);
+  int add_texture(Texture texture);
+  void add_material(Material material) { mesh_.materials.push_back(std::move(material)); }
+
+  Mesh finish();  // throws FileError: no triangles
+
+ private:
+  struct Hash {
+    std::size_t operator()(const Vertex& vertex) const;
+  };
+  struct Equal {
+    bool operator()(const Vertex& a, const Vertex& b) const;
+  };
+  std::uint32_t vertex_index(const Vertex& vertex);
+  void project_boxes();
+  void drop_unused();
+
+  std::filesystem::path path_;
+  Mesh mesh_;
+  std::unordered_map<Vertex, std::uint32_t, Hash, Equal> indices_;
+  std::unordered_map<std::string, int> texture_files_;
+  std::vector<std::array<Corner, 3>> unmapped_;  // triangles that wait for the mesh's size
+  std::vector<std::uint32_t> unmapped_triangle_;
+  std::uint64_t without_normals_ = 0;
+};
+
+}  // namespace deburr::tb

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+#include "tb/scene/setup.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "spec/error.h"
+#include "tb/scene/exact_math.h"
+#include "tb/scene/image_io.h"
+
+namespace deburr::tb {
+namespace {
+
+using Imath::V3d;
+
+bool finite(const V3d& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+struct ClipVertex {
+  V3d position;  // x, y, w
+  V3d weights;   // of the mesh triangle's corners, sum 1
+};
+using Polygon = std::vector<ClipVertex>;
+
+// Keeps the side where distance >= 0. The crossing is always computed from the inner towards the
+// outer end, so that the two triangles of an edge get the same point and stay watertight.
+template <class Distance>
+void clip(Polygon& polygon, Polygon& scratch, Distance&& distance) {
+  scratch.clear();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const ClipVertex& here = polygon[i];
+    const ClipVertex& next = polygon[(i + 1) % polygon.size()];
+    const double d_here = distance(here.position), d_next = distance(next.position);
+    if (d_here >= 0.0) scratch.push_back(here);
+    if ((d_here >= 0.0) == (d_next >= 0.0)) continue;
+    const ClipVertex& inner = d_here >= 0.0 ? here : next;
+    const ClipVertex& outer = d_here >= 0.0 ? next : here;
+    const double d_inner = std::max(d_here, d_next), d_outer = std::min(d_here, d_next);
+    const double t = d_inner / (d_inner - d_outer);
+    scratch.push_back({inner.position + (outer.position - inner.position) * t,
+                       inner.weights + (outer.weights - inner.weights) * t});
+  }
+  polygon.swap(scratch);
+}
+
+// The guard band's four sides and the near plane, as distances that are linear in (x, y, w).
+struct ClipSpace {
+  double near_plane;
+  double behind(const V3d& p) const { return p.z - near_plane; }
+  double left(const V3d& p) const { return p.x + kGuardBand * p.z; }
+  double right(const V3d& p) const { return kGuardBand * p.z - p.x; }
+  double above(const V3d& p) const { return p.y + kGuardBand * p.z; }
+  double below(const V3d& p) const { return kGuardBand * p.z - p.y; }
+  bool inside(const V3d& p) const {
+    return behind(p) >= 0 && left(p) >= 0 && right(p) >= 0 && above(p) >= 0 && below(p) >= 0;
+  }
+};
+
+// All three corners on the outer side of one plane of the picture: nothing of the triangle can be
+// seen.
+bool outside_picture(const std::array<V3d, 3>& p, const View& view) {
+  auto all = [&](auto&& test) { return test(p[0]) && test(p[1]) && test(p[2]); };
+  return all([&](const V3d& v) { return v.z < view.near_plane(); }) ||
+         all([&](const V3d& v) { return v.x < 0.0; }) ||
+         all([&](const V3d& v) { return v.y < 0.0; }) ||
+         all([&](const V3d& v) { return v.x > view.width() * v.z; }) ||
+         all([&](const V3d& v) { return v.y > view.height() * v.z; });
+}
+
+struct Snapped {
+  std::int64_t x, y;
+};
+
+Snapped snap(const V3d& position) {
+  return {static_cast<std::int64_t>(std::floor(position.x / position.z * kSubpixelOne + 0.5)),
+          static_cast<std::int64_t>(std::floor(position.y / position.z * kSubpixelOne + 0.5))};
+}
+
+// First and last cell of which a sample, up to half a cell from its centre, can lie in [low, high].
+int first_cell(std::int64_t low) {
+  return static_cast<int>(std::max<std::int64_t>(0, (low - 128) >> 8));
+}
+int last_cell(std::int64_t high, int cells) {
+  return static_cast<int>(std::min<std::int64_t>(cells - 1, (high - 128 + 255) >> 8));
+}
+
+// Empty when the corners are on one line after snapping.
+std::optional<Primitive> make_primitive(std::array<const ClipVertex*, 3> corner, const View& view) {
+  std::array<Snapped, 3> p{snap(corner[0]->position), snap(corner[1]->position),
+                           snap(corner[2]->position)};
+  auto twice_area = [&] {
+    return (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
+  };
+  std::int64_t area = twice_area();
+  if (area == 0) return std::nullopt;
+  if (area < 0) {  // both faces are drawn: make every triangle clockwise on the screen
+    std::swap(p[1], p[2]);
+    std::swap(corner[1], corner[2]);
+    area = -area;
+  }
+  Primitive primitive;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Snapped &from = p[(i + 1) % 3], &to = p[(i + 2) % 3];
+    const std::int64_t dx = to.x - from.x, dy = to.y - from.y;
+    primitive.a[i] = -dy;
+    primitive.b[i] = dx;
+    primitive.c[i] = dy * from.x - dx * from.y;
+    primitive.bias[i] =
+        dy < 0 || (dy == 0 && dx > 0) ? 0 : -1;  // left edge goes up, top edge right
+    primitive.inverse_w[i] = 1.0 / (corner[i]->position.z * static_cast<double>(area));
+    primitive.weight[i] = corner[i]->weights * primitive.inverse_w[i];
+  }
+  const auto [low_x, high_x] = std::minmax({p[0].x, p[1].x, p[2].x});
+  const auto [low_y, high_y] = std::minmax({p[0].y, p[1].y, p[2].y});
+  primitive.left = first_cell(low_x);
+  primitive.right = last_cell(high_x, view.width());
+  primitive.top = first_cell(low_y);
+  primitive.bottom = last_cell(high_y, view.height());
+  return primitive;
+}
+
+}  // namespace
+
+View::View(const Camera& camera, int width, int height, int grid)
+    : eye_(camera.eye),
+      near_(camera.near_plane),
+      width_(width * grid),
+      height_(height * grid),
+      grid_(grid) {
+  if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide)
+    throw spec::ConfigError(
+        fmt::format("a picture of {} x {} pixels was asked for; sides are 1 to {}", width, height,
+                    kMaxImageSide));
+  const V3d towards = camera.target - camera.eye, sideways = towards.cross(camera.up);
+  if (!finite(camera.eye) || !finite(towards) || !finite(sideways) || !(sideways.length() > 0.0))
+    throw spec::ConfigError(
+        "the camera has no direction: eye, target and up must be finite, eye and target apart, and "
+        "up "
+        "not along the view");
+  if (!(camera.fov_y > 0.0 && camera.fov_y < kPi))
+    throw spec::ConfigError(fmt::format(
+        "the camera's field of view is {} radian; it must lie between 0 and pi", camera.fov_y));
+  if (!(camera.near_plane > 0.0 && std::isfinite(camera.near_plane)))
+    throw spec::ConfigError(
+        fmt::format("the camera's near plane is at {}; it must be above 0", camera.near_plane));
+  forward_ = towards / towards.length();
+  right_ = sideways / sideways.length();
+  down_ = forward_.cross(right_);
+  focal_ = 0.5 * height_ / tangent(0.5 * camera.fov_y);
+  centre_x_ = 0.5 * width_;
+  centre_y_ = 0.5 * height_;
+}
+
+V3d View::transform(const V3d& point) const {
+  const V3d relative = point - eye_;
+  const double w = relative.dot(forward_);
+  return {focal_ * relative.dot(right_) + centre_x_ * w,
+          focal_ * relative.dot(down_) + centre_y_ * w, w};
+}
+
+std::vector<Primitive> set_up(const Mesh& mesh, const View& view, RasterCounts* counts) {
+  RasterCounts ignored;
+  RasterCounts& count = counts != nullptr ? *counts : ignored;
+  std::vector<V3d> positions;
+  positions.reserve(mesh.vertices.size());
+  for (const Vertex& vertex : mesh.vertices) positions.push_back(view.transform(vertex.position));
+
+  std::vector<Primitive> primitives;
+  primitives.reserve(mesh.triangles.size());
+  const ClipSpace space{view.near_plane()};
+  Polygon polygon, scratch;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    ++count.triangles;
+    const auto& corners = mesh.triangles[t].vertex;
+    const std::array<V3d, 3> p{positions[corners[0]], positions[corners[1]], positions[corners[2]]};
+    if (!finite(p[0]) || !finite(p[1]) || !finite(p[2])) {
+      ++count.degenerate;
+      continue;
+    }
+    if (outside_picture(p, view)) {
+      ++count.outside;
+      continue;
+    }
+    polygon = {{p[0], {1, 0, 0}}, {p[1], {0, 1, 0}}, {p[2], {0, 0, 1}}};
+    if (!space.inside(p[0]) || !space.inside(p[1]) || !space.inside(p[2])) {
+      ++count.clipped;
+      clip(polygon, scratch, [&](const V3d& v) { return space.behind(v); });
+      clip(polygon, scratch, [&](const V3d& v) { return space.left(v); });
+      clip(polygon, scratch, [&](const V3d& v) { return space.right(v); });
+      clip(polygon, scratch, [&](const V3d& v) { return space.above(v); });
+      clip(polygon, scratch, [&](const V3d& v) { return space.below(v); });
+    }
+    bool any = false;
+    for (std::size_t i = 2; i < polygon.size(); ++i) {
+      if (auto primitive = make_primitive({&polygon[0], &polygon[i - 1], &polygon[i]}, view)) {
+        any = true;
+        primitive->triangle = static_cast<std::uint32_t>(t);
+        if (primitive->left <= primitive->right && primitive->top <= primitive->bottom)
+          primitives.push_back(*primitive);
+      }
+    }
+    if (!any) ++count.degenerate;
+  }
+  return primitives;
+}
+
+Occlusion::Occlusion(const std::vector<Primitive>& primitives, int width, int height, int tile)
+    : primitives_(primitives),
+      tile_(tile),
+      columns_((width + tile - 1) / tile),
+      rows_((height + tile - 1) / tile) {
+  const auto bins = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
+  auto for_each_bin = [&](const Primitive& p, auto&& visit) {
+    for (int row = p.top / tile_; row <= p.bottom / tile_; ++row)
+      for (int column = p.left / tile_; column <= p.right / tile_; ++column)
+        visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+              static_cast<std::size_t>(column));
+  };
+  first_.assign(bins + 1, 0);
+  for (const Primitive& p : primitives)
+    for_each_bin(p, [&](std::size_t bin) { ++first_[bin + 1]; });
+  for (std::size_t i = 0; i < bins; ++i) first_[i + 1] += first_[i];
+  members_.resize(first_[bins]);
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  for (std::size_t i = 0; i < primitives.size(); ++i)
+    for_each_bin(primitives[i],
+                 [&](std::size_t bin) { members_[next[bin]++] = static_cast<std::uint32_t>(i); });
+}
+
+void Occlusion::resolve(int column, int row, int offset_x, int offset_y,
+                        std::vector<std::int32_t>& owners, std::vector<double>& depths) const {
+  const auto samples = static_cast<std::size_t>(tile_) * static_cast<std::size_t>(tile_);
+  owners.assign(samples, kNobody);
+  depths.assign(samples, 0.0);
+  const int x0 = column * tile_, y0 = row * tile_;
+  const std::size_t bin = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                          static_cast<std::size_t>(column);
+  for (std::uint32_t m = first_[bin]; m < first_[bin + 1]; ++m) {
+    const Primitive& p = primitives_[members_[m]];
+    const int left = std::max(x0, p.left), right = std::min(x0 + tile_ - 1, p.right);
+    const int top = std::max(y0, p.top), bottom = std::min(y0 + tile_ - 1, p.bottom);
+    for (int y = top; y <= bottom; ++y) {
+      std::array<std::int64_t, 3> e =
+          p.edges(cell_centre(left) + offset_x, cell_centre(y) + offset_y);
+      std::size_t at = static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(tile_) +
+                       static_cast<std::size_t>(left - x0);
+      for (int x = left; x <= right; ++x, ++at) {
+        if (p.covers(e)) {
+          const double depth = p.depth(e);
+          if (depth > depths[at]) {
+            depths[at] = depth;
+            owners[at] = static_cast<std::int32_t>(members_[m]);
+          }
+        }
+        for (std::size_t i = 0; i < 3; ++i) e[i] += p.a[i] * kSubpixelOne;
+      }
+    }
+  }
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include "tb/scene/textures.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "spec/error.h"
+#include "tb/scene/exact_math.h"
+
+namespace deburr::tb {
+namespace {
+
+// A bijective mix of 32 bits in which every input bit changes every output bit about half the time.
+constexpr std::uint32_t mix(std::uint32_t v) {
+  v = (v ^ (v >> 16)) * 0x7FEB352Du;
+  v = (v ^ (v >> 15)) * 0x846CA68Bu;
+  return v ^ (v >> 16);
+}
+
+// White noise: an independent number for every (x, y, seed).
+constexpr std::uint32_t hash(int x, int y, std::uint32_t seed) {
+  return mix(mix(mix(seed + 0x9E3779B9u) ^ static_cast<std::uint32_t>(x)) ^
+             (static_cast<std::uint32_t>(y) * 0x85EBCA6Bu));
+}
+
+constexpr int hash_range(int x, int y, std::uint32_t seed, int low, int high) {
+  return low + static_cast<int>(hash(x, y, seed) % static_cast<std::uint32_t>(high - low + 1));
+}
+
+std::uint8_t to_byte(int value) { return static_cast<std::uint8_t>(std::clamp(value, 0, 255)); }
+
+// Noise that varies over `cell` texels and repeats with the texture, in -amplitude..amplitude.
+int smooth_noise(int x, int y, int width, int height, int cell, int amplitude, std::uint32_t seed) {
+  const int columns = std::max(1, width / cell), rows = std::max(1, height / cell);
+  const int cx = x / cell, cy = y / cell, fx = x % cell, fy = y % cell;
+  auto corner = [&](int i, int j) {
+    return hash_range((cx + i) % columns, (cy + j) % rows, seed, -amplitude, amplitude);
+  };
+  const int top = corner(0, 0) * (cell - fx) + corner(1, 0) * fx;
+  const int bottom = corner(0, 1) * (cell - fx) + corner(1, 1) * fx;
+  return (top * (cell - fy) + bottom * fy) / (cell * cell);
+}
+
+template <class Function>
+Image fill(int width, int height, Function&& colour_at) {
+  Image image(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) image.at(x, y) = colour_at(x, y);
+  return image;
+}
+
+constexpr std::array<std::string_view, 6> kTextureNames = {"checker",    "road",     "brick",
+                                                           "zone_plate", "gradient", "noise"};
+
+// ---- mip levels ---------------------------------------------------------------------------------
+
+// One axis of the box filter. Source texel j covers [j, j+1) * target, target texel i covers
+// [i, i+1) * source, both in units of 1 / (source * target) of the side: the weights are whole
+// numbers and sum to `source` for every target texel.
+struct Taps {
+  int first = 0, count = 0;
+  std::array<int, 3> weight{};
+};
+
+std::vector<Taps> box_taps(int source, int target) {
+  std::vector<Taps> taps(static_cast<std::size_t>(target));
+  for (int i = 0; i < target; ++i) {
+    Taps& tap = taps[static_cast<std::size_t>(i)];
+    const int begin = i * source, end = begin + source;
+    tap.first = begin / target;
+    for (int j = tap.first; j * target < end; ++j)
+      tap.weight[static_cast<std::size_t>(tap.count++)] =
+          std::min(end, (j + 1) * target) - std::max(begin, j * target);
+  }
+  return taps;
+}
+
+constexpr int kLinearOne = 1 << 24;
+
+// Linear light of the byte value + half/2, U1.24.
+std::int64_t linear_of(int value, int half) {
+  return static_cast<std::int64_t>(srgb_to_linear((value + 0.5 * half) / 255.0) * kLinearOne + 0.5);
+}
+
+struct TransferTables {
+  std::array<std::int64_t, 256> stored{}, linear{};  // byte -> value to average
+  std::array<std::int64_t, 255> boundary{};          // least linear light that rounds to i + 1
+  TransferTables() {
+    for (int v = 0; v < 256; ++v) {
+      stored[static_cast<std::size_t>(v)] = v;
+      linear[static_cast<std::size_t>(v)] = linear_of(v, 0);
+      if (v < 255) boundary[static_cast<std::size_t>(v)] = linear_of(v, 1);
+    }
+  }
+};
+
+Image half_size(const Image& source, MipSpace space) {
+  static const TransferTables tables;
+  const int width = std::max(1, source.width / 2), height = std::max(1, source.height / 2);
+  const std::vector<Taps> across = box_taps(source.width, width);
+  const std::vector<Taps> down = box_taps(source.height, height);
+  const std::int64_t total = std::int64_t{source.width} * source.height;
+  auto rounded_mean = [total](std::int64_t sum) { return (2 * sum + total) / (2 * total); };
+
+  return fill(width, height, [&](int x, int y) {
+    const Taps& h = across[static_cast<std::size_t>(x)];
+    const Taps& v = down[static_cast<std::size_t>(y)];
+    std::array<std::int64_t, 4> sum{};
+    for (int j = 0; j < v.count; ++j) {
+      for (int i = 0; i < h.count; ++i) {
+        const Rgba8& texel = source.at(h.first + i, v.first + j);
+        const std::int64_t weight = std::int64_t{h.weight[static_cast<std::size_t>(i)]} *
+                                    v.weight[static_cast<std::size_t>(j)];
+        for (std::size_t c = 0; c < 4; ++c) {
+          const auto& table = space == MipSpace::kSrgb && c < 3 ? tables.linear : tables.stored;
+          sum[c] += weight * table[texel[c]];
+        }
+      }
+    }
+    Rgba8 result;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const std::int64_t mean = rounded_mean(sum[c]);
+      const bool encode = space == MipSpace::kSrgb && c < 3;
+      result[c] = static_cast<std::uint8_t>(
+          encode ? std::upper_bound(tables.boundary.begin(), tables.boundary.end(), mean) -
+                       tables.boundary.begin()
+                 : mean);
+    }
+    return result;
+  });
+}
+
+}  // namespace
+
+Image checkerboard(int width, int height, int cells, const Rgba8& a, const Rgba8& b) {
+  return fill(width, height, [&](int x, int y) {
+    return (x * cells / width + y * cells / height) % 2 == 0 ? a : b;
+  });
+}
+
+Image road(int width, int height, std::uint32_t seed) {
+  const int patch = std::max(2, std::min(width, height) / 16);
+  return fill(width, height, [&](int x, int y) -> Rgba8 {
+    const int across = x * 1000 / width, along = y * 1000 / height;
+    const int grain =
+        hash_range(x, y, seed, -18, 18) + smooth_noise(x, y, width, height, patch, 14, seed + 1);
+    const bool border = (across >= 50 && across < 85) || (across >= 915 && across < 950);
+    const bool dash = across >= 480 && across < 520 && along >= 250 && along < 750;
+    if (border)
+      return {to_byte(225 + grain / 3), to_byte(225 + grain / 3), to_byte(218 + grain / 3), 255};
+    if (dash)
+      return {to_byte(232 + grain / 3), to_byte(190 + grain / 3), to_byte(60 + grain / 3), 255};
+    // Two darker tracks where the wheels run.
+    const bool wheel = (across >= 190 && across < 330) || (across >= 670 && across < 810);
+    const int level = (wheel ? 62 : 76) + grain;
+    return {to_byte(level), to_byte(level), to_byte(level + 4), 255};
+  });
+}
+
+Image brick(int width, int height, std::uint32_t seed) {
+  constexpr int kCourses = 8, kBricks = 4;
+  return fill(width, height, [&](int x, int y) -> Rgba8 {
+    // Positions in 1/1024 of a brick, so that the bond is the same at every size.
+    const int row = y * kCourses * 1024 / height;
+    const int course = row / 1024;
+    const int column = (x * kBricks * 1024 / width + (course % 2) * 512) % (kBricks * 1024);
+    const int grain = hash_range(x, y, seed, -10, 10);
+    if (row % 1024 < 110 || column % 1024 < 55)
+      return {to_byte(188 + grain), to_byte(182 + grain), to_byte(170 + grain), 255};
+    const int tone = hash_range(column / 1024, course, seed + 1, -28, 28) + grain;
+    return {to_byte(158 + tone), to_byte(74 + tone * 2 / 3), to_byte(56 + tone / 2), 255};
+  });
+}
+
+Image zone_plate(int width, int height) {
+  const std::int64_t size = std::max(width, height);
+  return fill(width, height, [&](int x, int y) -> Rgba8 {
+    const std::int64_t dx = 2 * x - (width - 1), dy = 2 * y - (height - 1);
+    // pi r^2 / size with r^2 = (dx^2 + dy^2) / 4, reduced to one turn in whole numbers.
+    const std::int64_t phase = (dx * dx + dy * dy) % (8 * size);
+    const double wave =
+        sin_cos(kPi * static_cast<double>(phase) / static_cast<double>(4 * size)).cos;
+    const std::uint8_t value = to_byte(static_cast<int>(std::floor(127.5 + 127.5 * wave + 0.5)));
+    return {value, value, value, 255};
+  });
+}
+
+Image gradient(int width, int height) {
+  return fill(width, height, [&](int x, int y) -> Rgba8 {
+    const int s = width > 1 ? x * 255 / (width - 1) : 0,
+              t = height > 1 ? y * 255 / (height - 1) : 0;
+    return {to_byte(s), to_byte(t), to_byte(255 - s), 255};
+  });
+}
+
+Image noise(int width, int height, std::uint32_t seed) {
+  return fill(width, height, [&](int x, int y) -> Rgba8 {
+    const std::uint32_t value = hash(x, y, seed);
+    return {static_cast<std::uint8_t>(value), static_cast<std::uint8_t>(value >> 8),
+            static_cast<std::uint8_t>(value >> 16), 255};
+  });
+}
+
+std::span<const std::string_view> texture_names() { return kTextureNames; }
+
+Image make_texture(std::string_view name, int width, int height, std::uint32_t seed) {
+  if (width < 1 || height < 1 || width > spec::kMaxTextureSize || height > spec::kMaxTextureSize)
+    throw spec::ConfigError(
+        fmt::format("a texture of {} x {} texels was asked for; sides are 1 to {}", width, height,
+                    spec::kMaxTextureSize));
+  if (name == "checker") return checkerboard(width, height);
+  if (name == "road") return road(width, height, seed);
+  if (name == "brick") return brick(width, height, seed);
+  if (name == "zone_plate") return zone_plate(width, height);
+  if (name == "gradient") return gradient(width, height);
+  if (name == "noise") return noise(width, height, seed);
+  std::string known;
+  for (std::string_view each : kTextureNames) known += fmt::format(" {}", each);
+  throw spec::ConfigError(fmt::format("there is no texture '{}'; known are:{}", name, known));
+}
+
+std::vector<Image> mip_chain(const Image& base, MipSpace space) {
+  std::vector<Image> levels{base};
+  while (levels.back().width > 1 || levels.back().height > 1)
+    levels.push_back(half_size(levels.back(), space));
+  return levels;
+}
+
+double srgb_to_linear(double stored) {
+  return stored <= 0.04045 ? stored / 12.92 : std::pow((stored + 0.055) / 1.055, 2.4);
+}
+
+double linear_to_srgb(double linear) {
+  return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: MIT
+#include "tb/scene/truth.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "spec/error.h"
+#include "tb/scene/setup.h"
+#include "tb/scene/textures.h"
+
+namespace deburr::tb {
+namespace {
+
+using Imath::V3d;
+
+constexpr int kMaxSamples = 32;
+constexpr double kGamma = 2.2;
+
+// What stored bytes mean while samples are averaged.
+enum class Transfer : std::uint8_t { kStored, kSrgb, kGamma22 };
+
+struct Transport {
+  Transfer transfer;
+  std::array<float, 256> decode{};
+
+  explicit Transport(Transfer t) : transfer(t) {
+    for (int v = 0; v < 256; ++v) {
+      const double x = v / 255.0;
+      const double y = t == Transfer::kStored ? x
+                       : t == Transfer::kSrgb ? srgb_to_linear(x)
+                                              : std::pow(x, kGamma);
+      decode[static_cast<std::size_t>(v)] = static_cast<float>(y);
+    }
+  }
+  std::uint8_t encode(double value) const {
+    value = std::clamp(value, 0.0, 1.0);
+    if (transfer == Transfer::kSrgb) value = linear_to_srgb(value);
+    if (transfer == Transfer::kGamma22) value = std::pow(value, 1.0 / kGamma);
+    return static_cast<std::uint8_t>(value * 255.0 + 0.5);
+  }
+};
+
+using Colour = std::array<float, 4>;
+
+// floor() without a library call, saturating; NaN gives the lower limit.
+int floor_to_int(double value) {
+  constexpr double kLimit = 1 << 30;
+  const double limited = value > -kLimit ? (value < kLimit ? value : kLimit) : -kLimit;
+  const int truncated = static_cast<int>(limited);
+  return truncated - (limited < truncated ? 1 : 0);
+}
+
+int wrap_texel(int i, int size, spec::Wrap wrap) {
+  if (wrap == spec::Wrap::kClampToEdge) return std::clamp(i, 0, size - 1);
+  if (wrap == spec::Wrap::kRepeat) {
+    if (static_cast<unsigned>(i) < static_cast<unsigned>(size)) return i;
+    const int r = i % size;
+    return r < 0 ? r + size : r;
+  }
+  const int period = 2 * size;
+  int r = i % period;
+  if (r < 0) r += period;
+  return r < size ? r : period - 1 - r;
+}
+
+class TextureReader {
+ public:
+  TextureReader(const Texture& texture, const Transport& transport, bool mipmaps)
+      : transport_(transport), wrap_s_(texture.wrap_s), wrap_t_(texture.wrap_t) {
+    if (mipmaps)
+      levels_ = mip_chain(texture.image, MipSpace::kSrgb);
+    else
+      levels_.push_back(texture.image);
+  }
+  int width() const { return levels_[0].width; }
+  int height() const { return levels_[0].height; }
+
+  Colour nearest(double s, double t) const {
+    const Image& image = levels_[0];
+    return decode(image, floor_to_int(s * image.width), floor_to_int(t * image.height));
+  }
+
+  Colour bilinear(double s, double t, std::size_t level = 0) const {
+    const Image& image = levels_[level];
+    const double u = s * image.width - 0.5, v = t * image.height - 0.5;
+    const int i = floor_to_int(u), j = floor_to_int(v);
+    const auto a = static_cast<float>(u - i), b = static_cast<float>(v - j);
+    const Colour c00 = decode(image, i, j), c10 = decode(image, i + 1, j);
+    const Colour c01 = decode(image, i, j + 1), c11 = decode(image, i + 1, j + 1);
+    Colour result;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const float top = c00[c] + (c10[c] - c00[c]) * a, bottom = c01[c] + (c11[c] - c01[c]) * a;
+      result[c] = top + (bottom - top) * b;
+    }
+    return result;
+  }
+
+  Colour trilinear(double s, double t, double lod) const {
+    const double limit = static_cast<double>(levels_.size() - 1);
+    lod = std::clamp(lod, 0.0, limit);
+    const auto level = static_cast<std::size_t>(lod);
+    const auto fraction = static_cast<float>(lod - static_cast<double>(level));
+    Colour result = bilinear(s, t, level);
+    if (fraction == 0.0f) return result;
+    const Colour coarse = bilinear(s, t, level + 1);
+    for (std::size_t c = 0; c < 4; ++c) result[c] += (coarse[c] - result[c]) * fraction;
+    return result;
+  }
+
+ private:
+  Colour decode(const Image& image, int i, int j) const {
+    const Rgba8& texel =
+        image.at(wrap_texel(i, image.width, wrap_s_), wrap_texel(j, image.height, wrap_t_));
+    return {transport_.decode[texel[0]], transport_.decode[texel[1]], transport_.decode[texel[2]],
+            static_cast<float>(texel[3]) * (1.0f / 255.0f)};
+  }
+
+  const Transport& transport_;
+  spec::Wrap wrap_s_, wrap_t_;
+  std::vector<Image> levels_;
+};
+
+// Everything about a mesh triangle that its samples share.
+struct Surface {
+  V3d s, t;    // at the corners
+  V3d light;   // at the corners, relative to white
+  V3d colour;  // of the material
+  int texture = -1;
+};
+
+double light_on(const Lighting& lighting, const V3d& normal) {
+  const double key = std::max(0.0, normal.dot(lighting.key_direction.normalized()));
+  const double fill = std::max(0.0, normal.dot(lighting.fill_direction.normalized()));
+  return lighting.ambient + lighting.key * key + lighting.fill * fill;
+}
+
+Surface make_surface(const Scene& scene, const Triangle& triangle) {
+  const Mesh& mesh = scene.mesh;
+  const std::array<const Vertex*, 3> v{&mesh.vertices[triangle.vertex[0]],
+                                       &mesh.vertices[triangle.vertex[1]],
+                                       &mesh.vertices[triangle.vertex[2]]};
+  Surface surface;
+  surface.s = {v[0]->uv.x, v[1]->uv.x, v[2]->uv.x};
+  surface.t = {v[0]->uv.y, v[1]->uv.y, v[2]->uv.y};
+  surface.colour = mesh.materials[triangle.material].colour;
+  surface.texture = mesh.materials[triangle.material].texture;
+  V3d face = (v[1]->position - v[0]->position).cross(v[2]->position - v[0]->position).normalized();
+  // Both sides are lit: normals turn towards the eye, a whole triangle at a time.
+  const double side = face.dot(scene.camera.eye - v[0]->position) < 0.0 ? -1.0 : 1.0;
+  for (int i = 0; i < 3; ++i) {
+    const V3d& normal = v[static_cast<std::size_t>(i)]->normal;
+    const bool smooth = scene.lighting.smooth && normal.length2() > 0.0;
+    // A vertex normal points to the side of the face that the modeller meant as the outside.
+    const double outside = smooth && normal.dot(face) < 0.0 ? -side : side;
+    surface.light[i] = light_on(scene.lighting, (smooth ? normal * outside : face * side));
+  }
+  return surface;
+}
+
+// Colour of one primitive at one position, in the transport's space.
+class Shader {
+ public:
+  Shader(const Scene& scene, const std::vector<Primitive>& primitives, const RenderOptions& options,
+         const Transport& transport)
+      : primitives_(primitives), options_(options) {
+    for (const Triangle& triangle : scene.mesh.triangles)
+      surfaces_.push_back(make_surface(scene, triangle));
+    const bool lit = options.shading == Shading::kLit;
+    for (const Texture& texture : scene.mesh.textures)
+      readers_.emplace_back(texture, transport, lit);
+  }
+
+  // `x`, `y` in 1/256 cell; `cells` is the number of cells a pixel is wide.
+  Colour shade(std::int32_t owner, std::int64_t x, std::int64_t y, int cells) {
+    const Primitive& primitive = primitives_[static_cast<std::size_t>(owner)];
+    const Surface& surface = surfaces_[primitive.triangle];
+    const V3d weights = primitive.corner_weights(primitive.edges(x, y));
+    const double w = 1.0 / (weights.x + weights.y + weights.z);
+    const double s = weights.dot(surface.s) * w, t = weights.dot(surface.t) * w;
+    const TextureReader* reader =
+        surface.texture < 0 ? nullptr : &readers_[static_cast<std::size_t>(surface.texture)];
+    if (options_.shading == Shading::kTexture) {
+      if (reader == nullptr) return {1, 1, 1, 1};
+      return options_.sampling == Sampling::kNearest ? reader->nearest(s, t)
+                                                     : reader->bilinear(s, t);
+    }
+    Colour colour{1, 1, 1, 1};
+    if (reader != nullptr)
+      colour = reader->trilinear(s, t, level(primitive, surface, *reader, s, t, w, cells));
+    const double light = weights.dot(surface.light) * w;
+    // A multi-sampled pixel's centre may lie outside the triangle, where light extrapolates.
+    for (int c = 0; c < 3; ++c) {
+      float& channel = colour[static_cast<std::size_t>(c)];
+      channel = std::clamp(channel * static_cast<float>(light * surface.colour[c]), 0.0f, 1.0f);
+    }
+    colour[3] = 1.0f;
+    return colour;
+  }
+
+ private:
+  // Base-2 logarithm of the longer side of a whole pixel's footprint, so that frames with one and
+  // with many samples a pixel filter their textures alike and differ at edges only.
+  double level(const Primitive& p, const Surface& surface, const TextureReader& reader, double s,
+               double t, double w, int cells) const {
+    const double step = static_cast<double>(kSubpixelOne) * cells;
+    V3d dx(0, 0, 0), dy(0, 0, 0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      dx += p.weight[i] * (static_cast<double>(p.a[i]) * step);
+      dy += p.weight[i] * (static_cast<double>(p.b[i]) * step);
+    }
+    auto derivative = [&](const V3d& d, const V3d& corners, double value) {
+      return (d.dot(corners) - value * (d.x + d.y + d.z)) * w;
+    };
+    const double sx = derivative(dx, surface.s, s) * reader.width();
+    const double tx = derivative(dx, surface.t, t) * reader.height();
+    const double sy = derivative(dy, surface.s, s) * reader.width();
+    const double ty = derivative(dy, surface.t, t) * reader.height();
+    const double longest = std::max(sx * sx + tx * tx, sy * sy + ty * ty);
+    return longest > 0.0 ? 0.5 * std::log2(longest) : 0.0;
+  }
+
+  const std::vector<Primitive>& primitives_;
+  RenderOptions options_;
+  std::vector<Surface> surfaces_;
+  std::vector<TextureReader> readers_;
+};
+
+Transport transport_of(Shading shading, Averaging averaging) {
+  if (shading == Shading::kLit) return Transport(Transfer::kGamma22);
+  return Transport(averaging == Averaging::kLinear ? Transfer::kSrgb : Transfer::kStored);
+}
+
+// Sum of a pixel's samples.
+struct Sum {
+  std::array<double, 4> value{};
+  void add(const Colour& colour) {
+    for (std::size_t c = 0; c < 4; ++c) value[c] += static_cast<double>(colour[c]);
+  }
+};
+
+Rgba8 finish(const Sum& sum, int samples, const Transport& transport) {
+  Rgba8 pixel;
+  for (std::size_t c = 0; c < 3; ++c) pixel[c] = transport.encode(sum.value[c] / samples);
+  pixel[3] = static_cast<std::uint8_t>(std::clamp(sum.value[3] / samples, 0.0, 1.0) * 255.0 + 0.5);
+  return pixel;
+}
+
+Colour sky_colour(const Scene& scene, int y, int height, const Transport& transport) {
+  const Rgba8 stored = sky(scene, y + 0.5, height);
+  return {transport.decode[stored[0]], transport.decode[stored[1]], transport.decode[stored[2]],
+          1.0f};
+}
+
+}  // namespace
+
+Image render(const Scene& scene, const RenderOptions& options) {
+  const int n = options.samples;
+  if (n < 1 || n > kMaxSamples)
+    throw spec::ConfigError(fmt::format(
+        "{0} x {0} samples a pixel were asked for; 1 to {1} a side are possible", n, kMaxSamples));
+  const View view(scene.camera, options.width, options.height, n);
+  const std::vector<Primitive> primitives = set_up(scene.mesh, view);
+  const Transport transport = transport_of(options.shading, options.averaging);
+  // Lit colours are made in linear light; averaging them as stored means encoding each sample.
+  const bool encode_samples =
+      options.shading == Shading::kLit && options.averaging == Averaging::kStored;
+  const Transport stored(Transfer::kStored);
+  Shader shader(scene, primitives, options, transport);
+
+  const int tile_pixels = std::max(1, 64 / n), tile = tile_pixels * n;
+  const Occlusion occlusion(primitives, view.width(), view.height(), tile);
+  std::vector<std::int32_t> owners;
+  std::vector<double> depths;
+  Image image(options.width, options.height);
+  for (int row = 0; row < occlusion.rows(); ++row) {
+    for (int column = 0; column < occlusion.columns(); ++column) {
+      occlusion.resolve(column, row, 0, 0, owners, depths);
+      const int x_end = std::min(options.width, (column + 1) * tile_pixels);
+      const int y_end = std::min(options.height, (row + 1) * tile_pixels);
+      for (int y = row * tile_pixels; y < y_end; ++y) {
+        const Colour background = sky_colour(scene, y, options.height, transport);
+        for (int x = column * tile_pixels; x < x_end; ++x) {
+          Sum sum;
+          for (int j = y * n; j < (y + 1) * n; ++j) {
+            for (int i = x * n; i < (x + 1) * n; ++i) {
+              const std::int32_t owner =
+                  owners[static_cast<std::size_t>((j - row * tile) * tile + (i - column * tile))];
+              Colour colour = owner == kNobody
+                                  ? background
+                                  : shader.shade(owner, cell_centre(i), cell_centre(j), n);
+              if (encode_samples)
+                for (std::size_t c = 0; c < 3; ++c)
+                  colour[c] = stored.decode[transport.encode(static_cast<double>(colour[c]))];
+              sum.add(colour);
+            }
+          }
+          image.at(x, y) = finish(sum, n * n, encode_samples ? stored : transport);
+        }
+      }
+    }
+  }
+  return image;
+}
+
+Image render_msaa4(const Scene& scene, int width, int height) {
+  struct Offset {
+    int x, y;
+  };
+  constexpr std::array<Offset, 4> kRotatedGrid{{{-32, -96}, {96, -32}, {-96, 32}, {32, 96}}};
+  constexpr int kTileCells = 32;
+  RenderOptions options;
+  options.shading = Shading::kLit;
+  const View view(scene.camera, width, height, 1);
+  const std::vector<Primitive> primitives = set_up(scene.mesh, view);
+  const Transport transport(Transfer::kGamma22);
+  Shader shader(scene, primitives, options, transport);
+  const Occlusion occlusion(primitives, width, height, kTileCells);
+  std::array<std::vector<std::int32_t>, 4> owners;
+  std::vector<double> depths;
+  Image image(width, height);
+  for (int row = 0; row < occlusion.rows(); ++row) {
+    for (int column = 0; column < occlusion.columns(); ++column) {
+      for (std::size_t k = 0; k < 4; ++k)
+        occlusion.resolve(column, row, kRotatedGrid[k].x, kRotatedGrid[k].y, owners[k], depths);
+      for (int y = row * kTileCells; y < std::min(height, (row + 1) * kTileCells); ++y) {
+        const Colour background = sky_colour(scene, y, height, transport);
+        for (int x = column * kTileCells; x < std::min(width, (column + 1) * kTileCells); ++x) {
+          const auto at = static_cast<std::size_t>((y - row * kTileCells) * kTileCells + x -
+                                                   column * kTileCells);
+          Sum sum;
+          std::int32_t shaded = kNobody;
+          Colour colour = background;
+          for (std::size_t k = 0; k < 4; ++k) {
+            const std::int32_t owner = owners[k][at];
+            if (owner != shaded) {
+              colour = owner == kNobody ? background
+                                        : shader.shade(owner, cell_centre(x), cell_centre(y), 1);
+              shaded = owner;
+            }
+            sum.add(colour);
+          }
+          image.at(x, y) = finish(sum, 4, transport);
+        }
+      }
+    }
+  }
+  return image;
+}
+
+DepthImage render_depth(const Scene& scene, int width, int height) {
+  const View view(scene.camera, width, height, 1);
+  DepthImage depth(width, height);
+  for_each_resolved_pixel(
+      set_up(scene.mesh, view), view, [&](int x, int y, std::int32_t, double inverse_w) {
+        depth.at(x, y) = static_cast<float>(scene.camera.near_plane * inverse_w);
+      });
+  return depth;
+}
+
+LitFrames render_lit_frames(const Scene& scene, int width, int height, int samples) {
+  RenderOptions options;
+  options.width = width;
+  options.height = height;
+  options.shading = Shading::kLit;
+  options.averaging = Averaging::kLinear;
+  LitFrames frames;
+  frames.noaa = render(scene, options);
+  options.samples = samples;
+  frames.truth = render(scene, options);
+  frames.depth = render_depth(scene, width, height);
+  return frames;
+}
+
+}  // namespace deburr::tb
