@@ -38,8 +38,41 @@ inline Texel decode_texel(spec::Format format, std::uint32_t word) {
   return {};
 }
 
+// Two channels, 32 bits each.
+using Lanes = std::uint64_t;
+inline constexpr Lanes kOneInBothLanes = 0x1'0000'0001;
+
+// Four channels of one texel or filtered value: R in the low half of rb, B in its high half; G and
+// A.
+struct Channels {
+  Lanes rb = 0, ga = 0;
+  friend bool operator==(const Channels&, const Channels&) = default;
+};
+
+inline Channels to_channels(const Texel& texel) {
+  return {texel[0] | Lanes{texel[2]} << 32, texel[1] | Lanes{texel[3]} << 32};
+}
+inline Texel to_texel(const Channels& channels) {
+  return {static_cast<std::uint32_t>(channels.rb), static_cast<std::uint32_t>(channels.ga),
+          static_cast<std::uint32_t>(channels.rb >> 32),
+          static_cast<std::uint32_t>(channels.ga >> 32)};
+}
+
+// decode_texel() for the inner loop.
+inline Channels decode_channels(spec::Format format, std::uint32_t word) {
+  if (format == spec::Format::kRgba8) {  // each byte to its half, then << 4
+    constexpr Lanes kByteInBothLanes = 255 * kOneInBothLanes;
+    const Lanes spread = word | Lanes{word} << 16;  // bytes R at 0, B at 32; G at 8, A at 40
+    return {(spread & kByteInBothLanes) << 4, (spread >> 8 & kByteInBothLanes) << 4};
+  }
+  return to_channels(decode_texel(format, word));
+}
+
 // a (1 - f) + b f: U8.4 and U0.8 to U8.12, exact.
 inline std::uint32_t horizontal_lerp(std::uint32_t a, std::uint32_t b, std::uint32_t f_u) {
+  return a * (256 - f_u) + b * f_u;
+}
+inline Lanes horizontal_lerp(Lanes a, Lanes b, std::uint32_t f_u) {
   return a * (256 - f_u) + b * f_u;
 }
 
@@ -47,10 +80,17 @@ inline std::uint32_t horizontal_lerp(std::uint32_t a, std::uint32_t b, std::uint
 inline std::uint32_t vertical_lerp(std::uint32_t top, std::uint32_t bottom, std::uint32_t f_v) {
   return (top * (256 - f_v) + bottom * f_v + 128) >> 8;
 }
+inline Lanes vertical_lerp(Lanes top, Lanes bottom, std::uint32_t f_v) {
+  constexpr Lanes kKept = 0xFFFFFF * kOneInBothLanes;  // what the upper half drops falls in between
+  return (top * (256 - f_v) + bottom * f_v + 128 * kOneInBothLanes) >> 8 & kKept;
+}
 
 // The same for two levels: U8.12 and U0.8 to U8.12, rounded. f = 0 gives `level` unchanged.
 inline std::uint32_t level_lerp(std::uint32_t level, std::uint32_t next_level, std::uint32_t f) {
   return (level * (256 - f) + next_level * f + 128) >> 8;
+}
+inline Lanes level_lerp(Lanes level, Lanes next_level, std::uint32_t f) {
+  return vertical_lerp(level, next_level, f);
 }
 
 // Sum of kernel weight x level result, U15.12, divided by 2^lb_sum of the weights and rounded to 8

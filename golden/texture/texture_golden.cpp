@@ -6,6 +6,26 @@
 #include "spec/error.h"
 
 namespace deburr::golden::texture {
+namespace {
+
+std::uint32_t word_of_four(const std::uint8_t* bytes) {
+  return bytes[0] | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
+         std::uint32_t{bytes[3]} << 24;
+}
+
+// The bytes of a texel as one little-endian word.
+std::uint32_t word_of(spec::Format format, const std::uint8_t* bytes) {
+  switch (spec::kFormatBytes[static_cast<std::size_t>(format)]) {
+    case 1:
+      return bytes[0];
+    case 2:
+      return static_cast<std::uint32_t>(bytes[0] | bytes[1] << 8);
+    default:
+      return word_of_four(bytes);
+  }
+}
+
+}  // namespace
 
 TextureGolden::TextureGolden(const spec::TextureParameters& parameters,
                              std::span<const std::uint8_t> memory, Traffic traffic)
@@ -144,67 +164,70 @@ std::array<std::uint8_t, 4> TextureGolden::filter_fragment(const Texture& textur
                                                            std::int32_t s, std::int32_t t) {
   const LevelOfDetail& lod = fragment.lod;
   const std::int64_t major_s = fragment.major_s(), major_t = fragment.major_t();
-  std::array<std::uint32_t, 4> accumulator{};  // U15.12
+  Channels accumulator;  // U15.12
   for (int i = 0; i < lod.samples(); ++i) {
     const std::int64_t sample_s = s + sample_offset(i, lod.lb_n, parameters_.spread, major_s);
     const std::int64_t sample_t = t + sample_offset(i, lod.lb_n, parameters_.spread, major_t);
-    Filtered value = bilinear(texture, lod.level, lod.linear, sample_s, sample_t);
+    Channels value = bilinear(texture, lod.level, lod.linear, sample_s, sample_t);
     if (lod.fraction != 0) {
-      const Filtered next = bilinear(texture, lod.level + 1, lod.linear, sample_s, sample_t);
-      for (std::size_t c = 0; c < 4; ++c) value[c] = level_lerp(value[c], next[c], lod.fraction);
+      const Channels next = bilinear(texture, lod.level + 1, lod.linear, sample_s, sample_t);
+      value.rb = level_lerp(value.rb, next.rb, lod.fraction);
+      value.ga = level_lerp(value.ga, next.ga, lod.fraction);
     }
-    const std::uint32_t weight = sample_weight(parameters_.kernel, i, lod.lb_n);
-    for (std::size_t c = 0; c < 4; ++c) accumulator[c] += weight * value[c];
+    const Lanes weight = sample_weight(parameters_.kernel, i, lod.lb_n);
+    accumulator.rb += weight * value.rb;
+    accumulator.ga += weight * value.ga;
   }
   const int lb_sum = kernel_log2_sum(parameters_.kernel, lod.lb_n);
+  const std::array<std::uint32_t, 4> sums = to_texel(accumulator);
   std::array<std::uint8_t, 4> rgba{};
-  for (std::size_t c = 0; c < 4; ++c) rgba[c] = round_result(accumulator[c], lb_sum);
+  for (std::size_t c = 0; c < 4; ++c) rgba[c] = round_result(sums[c], lb_sum);
   return rgba;
 }
 
-TextureGolden::Filtered TextureGolden::bilinear(const Texture& texture, int level, bool linear,
-                                                std::int64_t s, std::int64_t t) {
+Channels TextureGolden::bilinear(const Texture& texture, int level, bool linear, std::int64_t s,
+                                 std::int64_t t) {
   const spec::TextureDescriptor& descriptor = texture.descriptor;
   const LevelTable& table = texture.levels[static_cast<std::size_t>(level)];
-  const auto position = linear ? linear_position : nearest_position;
+  const auto position = [linear](spec::Wrap wrap, std::int64_t p, std::int32_t size) {
+    return linear ? linear_position(wrap, p, size) : nearest_position(wrap, p, size);
+  };
   const TexelPosition x = position(descriptor.wrap_s, s, table.width);
   const TexelPosition y = position(descriptor.wrap_t, t, table.height);
-  const auto address = [&](std::int32_t column, std::int32_t row) {
-    return table.column[static_cast<std::size_t>(column)] +
-           table.row[static_cast<std::size_t>(row)];
-  };
-  const std::array<std::uint32_t, 4> addresses = {address(x.i0, y.i0), address(x.i1, y.i0),
-                                                  address(x.i0, y.i1), address(x.i1, y.i1)};
+  const std::uint32_t x0 = table.column[static_cast<std::size_t>(x.i0)];
+  const std::uint32_t x1 = table.column[static_cast<std::size_t>(x.i1)];
+  const std::uint32_t y0 = table.row[static_cast<std::size_t>(y.i0)];
+  const std::uint32_t y1 = table.row[static_cast<std::size_t>(y.i1)];
+  const std::array<std::uint32_t, 4> addresses = {x0 + y0, x1 + y0, x0 + y1, x1 + y1};
   ++work_.bilinears;
   ++work_.by_level[static_cast<std::size_t>(level)];
   if (predict_) predict(addresses);
 
-  std::array<Texel, 4> texels;
-  for (std::size_t i = 0; i < 4; ++i) {
-    texels[i] = decode_texel(descriptor.format, read(table, descriptor.format, addresses[i]));
-  }
-  Filtered result;
-  for (std::size_t c = 0; c < 4; ++c) {
-    const std::uint32_t top = horizontal_lerp(texels[0][c], texels[1][c], x.fraction);
-    const std::uint32_t bottom = horizontal_lerp(texels[2][c], texels[3][c], x.fraction);
-    result[c] = vertical_lerp(top, bottom, y.fraction);
-  }
-  return result;
+  const std::array<Channels, 4> texel = read(table, descriptor.format, addresses);
+  const auto filter = [&](Lanes a, Lanes b, Lanes c, Lanes d) {
+    return vertical_lerp(horizontal_lerp(a, b, x.fraction), horizontal_lerp(c, d, x.fraction),
+                         y.fraction);
+  };
+  return {filter(texel[0].rb, texel[1].rb, texel[2].rb, texel[3].rb),
+          filter(texel[0].ga, texel[1].ga, texel[2].ga, texel[3].ga)};
 }
 
-std::uint32_t TextureGolden::read(const LevelTable& table, spec::Format format,
-                                  std::uint32_t address) const {
-  if (!table.plain && fails(cache_.line_of(address))) return 0;
-  const std::uint8_t* bytes = memory_.data() + address;
-  switch (spec::kFormatBytes[static_cast<std::size_t>(format)]) {
-    case 1:
-      return bytes[0];
-    case 2:
-      return static_cast<std::uint32_t>(bytes[0] | bytes[1] << 8);
-    default:
-      return bytes[0] | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
-             std::uint32_t{bytes[3]} << 24;
+std::array<Channels, 4> TextureGolden::read(const LevelTable& table, spec::Format format,
+                                            const std::array<std::uint32_t, 4>& addresses) const {
+  std::array<Channels, 4> texels;
+  const std::uint8_t* bytes = memory_.data();
+  if (table.plain && format == spec::Format::kRgba8) {  // the common case without decisions
+    for (std::size_t i = 0; i < 4; ++i) {
+      texels[i] = decode_channels(spec::Format::kRgba8, word_of_four(bytes + addresses[i]));
+    }
+    return texels;
   }
+  for (std::size_t i = 0; i < 4; ++i) {
+    const bool readable = table.plain || !fails(cache_.line_of(addresses[i]));
+    const std::uint32_t word = readable ? word_of(format, bytes + addresses[i]) : 0;
+    texels[i] = decode_channels(format, word);
+  }
+  return texels;
 }
 
 void TextureGolden::predict(const std::array<std::uint32_t, 4>& addresses) {

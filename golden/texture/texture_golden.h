@@ -121,13 +121,13 @@ class TextureGolden {
     bool valid = false;
     std::vector<LevelTable> levels;
   };
-  using Filtered = std::array<std::uint32_t, 4>;  // R, G, B, A in U8.12
-
   std::array<std::uint8_t, 4> filter_fragment(const Texture& texture,
                                               const FragmentAnalysis& fragment, std::int32_t s,
                                               std::int32_t t);
-  Filtered bilinear(const Texture& texture, int level, bool linear, std::int64_t s, std::int64_t t);
-  std::uint32_t read(const LevelTable& table, spec::Format format, std::uint32_t address) const;
+  // U8.12.
+  Channels bilinear(const Texture& texture, int level, bool linear, std::int64_t s, std::int64_t t);
+  std::array<Channels, 4> read(const LevelTable& table, spec::Format format,
+                               const std::array<std::uint32_t, 4>& addresses) const;
   void predict(const std::array<std::uint32_t, 4>& addresses);
   bool fails(std::uint32_t line) const;
   void find_plain_levels(Texture& texture) const;
