@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "tb/oracle/conformance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "golden/texture/texture_golden.h"
+
+namespace deburr::tb::texture {
+namespace {
+
+using golden::ideal::Verdict;
+
+constexpr int kQuadsOfTable = 256;
+
+golden::ideal::Rgba real(const std::array<std::uint8_t, 4>& colour) {
+  return {static_cast<double>(colour[0]), static_cast<double>(colour[1]),
+          static_cast<double>(colour[2]), static_cast<double>(colour[3])};
+}
+
+void merge(CaseResult& into, const CaseResult& other) {
+  into.verdict = std::max(into.verdict, other.verdict);
+  if (other.deviation > into.deviation) into.worst = other.worst;
+  into.deviation = std::max(into.deviation, other.deviation);
+  into.low_deviation = std::max(into.low_deviation, other.low_deviation);
+  into.fragments += other.fragments;
+  into.refused += other.refused;
+  into.undecided += other.undecided;
+}
+
+// Every size with the filters and patterns given.
+CaseResult judge_all(const FilterFactory& filter, std::initializer_list<spec::MinFilter> filters,
+                     std::initializer_list<Pattern> patterns) {
+  CaseResult sum;
+  sum.verdict = Verdict::kHigh;
+  std::uint32_t seed = 1;
+  for (const Size& size : kFilteringSizes) {
+    for (const spec::MinFilter min_filter : filters) {
+      for (const Pattern pattern : patterns) {
+        FilteringCase c{pattern, size, {}, kQuadsOfTable, seed++};
+        c.descriptor.min_filter = min_filter;
+        merge(sum, judge(c, filter));
+      }
+    }
+  }
+  return sum;
+}
+
+// The golden model's level of detail over the fragments of all sizes.
+void measure_lod(const spec::TextureParameters& parameters, ConformanceRow& row) {
+  constexpr golden::ideal::Precision kExact{"exact", 1000, 1000, 1000, 1000};
+  std::uint32_t seed = 1;
+  for (const Size& size : kFilteringSizes) {
+    const EncodedTexture texture =
+        make_texture(Pattern::kLevels, spec::Format::kRgba8, size.width, size.height, 1);
+    EncodedMemory memory;
+    const spec::TextureDescriptor descriptor = memory.place(texture, spec::Layout::kTiled);
+    golden::texture::TextureGolden unit(parameters, memory.bytes(),
+                                        golden::texture::TextureGolden::Traffic::kIgnore);
+    unit.set_texture(0, descriptor);
+    const golden::ideal::Texture ideal = ideal_texture(texture);
+    const golden::ideal::Sampler sampler = sampler_of(descriptor);
+    for (const spec::Quad& quad : filtering_quads(size, 4 * kQuadsOfTable, seed++)) {
+      for (int lane = 0; lane < 4; ++lane) {
+        const double l = unit.analyse(quad, lane).lod.l / 4096.0;
+        const golden::ideal::Fragment f = fragment_of(quad, lane);
+        const golden::ideal::Interval legal =
+            golden::ideal::legal_lod(ideal, sampler, f, kExact);
+        const double rho = std::max(std::hypot(f.ds_dx * size.width, f.dt_dx * size.height),
+                                    std::hypot(f.ds_dy * size.width, f.dt_dy * size.height));
+        if (l <= 0.0 || rho <= 1.0) continue;  // clamped at 0: no error to be seen
+        row.lod_below = std::max(row.lod_below, legal.low - l);
+        row.lod_above = std::max(row.lod_above, l - legal.high);
+        const double error = l - std::log2(rho);
+        row.lod_error_low = std::min(row.lod_error_low, error);
+        row.lod_error_high = std::max(row.lod_error_high, error);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::string case_name(const FilteringCase& c) {
+  constexpr std::array<std::string_view, 4> kPatternNames = {"noise", "composite", "levels",
+                                                             "pyramid"};
+  const spec::TextureDescriptor& d = c.descriptor;
+  return fmt::format("{} {}x{} {} {} min {} mag {} wrap {} {} bias {} lod {}..{} seed {}",
+                     kPatternNames[static_cast<std::size_t>(c.pattern)], c.size.width,
+                     c.size.height, spec::kFormatNames[static_cast<std::size_t>(d.format)],
+                     spec::kLayoutNames[static_cast<std::size_t>(d.layout)],
+                     spec::kMinFilterNames[static_cast<std::size_t>(d.min_filter)],
+                     spec::kMagFilterNames[static_cast<std::size_t>(d.mag_filter)],
+                     spec::kWrapNames[static_cast<std::size_t>(d.wrap_s)],
+                     spec::kWrapNames[static_cast<std::size_t>(d.wrap_t)], d.lod_bias / 256.0,
+                     d.min_lod / 256.0, d.max_lod / 256.0, c.seed);
+}
+
+FilterFactory golden_filter(const spec::TextureParameters& parameters) {
+  return [parameters](const EncodedTexture& texture, const spec::TextureDescriptor& state) {
+    struct Unit {
+      EncodedMemory memory;
+      std::unique_ptr<golden::texture::TextureGolden> golden;
+    };
+    auto unit = std::make_shared<Unit>();
+    spec::TextureDescriptor descriptor = state;
+    const spec::TextureDescriptor placed = unit->memory.place(texture, state.layout);
+    descriptor.width = placed.width;
+    descriptor.height = placed.height;
+    descriptor.levels = placed.levels;
+    descriptor.format = placed.format;
+    descriptor.base = placed.base;
+    unit->golden = std::make_unique<golden::texture::TextureGolden>(
+        parameters, unit->memory.bytes(), golden::texture::TextureGolden::Traffic::kIgnore);
+    unit->golden->set_texture(0, descriptor);
+    return [unit](const spec::Quad& quad) {
+      std::array<std::array<std::uint8_t, 4>, 4> colours{};
+      for (const spec::Colour& colour : unit->golden->process(quad))
+        colours[colour.lane] = colour.rgba;
+      return colours;
+    };
+  };
+}
+
+CaseResult judge(const FilteringCase& c, const FilterFactory& filter) {
+  const EncodedTexture texture =
+      make_texture(c.pattern, c.descriptor.format, c.size.width, c.size.height, c.seed);
+  const golden::ideal::Texture ideal = ideal_texture(texture);
+  const golden::ideal::Sampler sampler = sampler_of(c.descriptor);
+  golden::ideal::Judge judge(ideal, sampler);
+  const QuadFilter sample = filter(texture, c.descriptor);
+  for (const spec::Quad& quad : filtering_quads(c.size, c.quads, c.seed)) {
+    const auto colours = sample(quad);
+    for (int lane = 0; lane < 4; ++lane)
+      judge.add(fragment_of(quad, lane), real(colours[static_cast<std::size_t>(lane)]));
+  }
+  CaseResult result;
+  result.verdict = judge.verdict();
+  result.deviation = judge.deviation();
+  result.low_deviation = judge.low_deviation();
+  result.fragments = judge.fragments();
+  result.refused = judge.refused();
+  result.undecided = judge.undecided();
+  const golden::ideal::Fragment& f = judge.worst();
+  const golden::ideal::Rgba& colour = judge.worst_colour();
+  const golden::ideal::Rgba exact = golden::ideal::exact_colour(ideal, sampler, f);
+  result.worst = fmt::format(
+      "{}: s {:.9f} t {:.9f} dx ({:.9f}, {:.9f}) dy ({:.9f}, {:.9f}) got ({}, {}, {}, {}), the exact "
+      "filter gives ({:.2f}, {:.2f}, {:.2f}, {:.2f}), off by {:.2f}",
+      case_name(c), f.s, f.t, f.ds_dx, f.dt_dx, f.ds_dy, f.dt_dy, colour[0], colour[1], colour[2],
+      colour[3], exact[0], exact[1], exact[2], exact[3], result.deviation);
+  return result;
+}
+
+std::vector<ConformanceRow> conformance_table() {
+  std::vector<ConformanceRow> rows;
+  for (std::size_t footprint = 0; footprint < spec::kFootprintNames.size(); ++footprint) {
+    for (std::size_t log2 = 0; log2 < spec::kLog2Names.size(); ++log2) {
+      spec::TextureParameters parameters;
+      parameters.footprint = static_cast<spec::FootprintRule>(footprint);
+      parameters.log2 = static_cast<spec::Log2Rule>(log2);
+      ConformanceRow row;
+      row.footprint = parameters.footprint;
+      row.log2 = parameters.log2;
+      measure_lod(parameters, row);
+      const FilterFactory filter = golden_filter(parameters);
+      row.mipmap_nearest = judge_all(
+          filter,
+          {spec::MinFilter::kNearestMipmapNearest, spec::MinFilter::kLinearMipmapNearest},
+          {Pattern::kLevels, Pattern::kComposite});
+      row.mipmap_linear = judge_all(
+          filter, {spec::MinFilter::kNearestMipmapLinear, spec::MinFilter::kLinearMipmapLinear},
+          {Pattern::kLevels, Pattern::kComposite});
+      row.pyramid =
+          judge_all(filter, {spec::MinFilter::kLinearMipmapLinear}, {Pattern::kPyramid});
+      row.verdict = std::max(row.mipmap_nearest.verdict, row.mipmap_linear.verdict);
+      rows.push_back(std::move(row));
+    }
+  }
+  return rows;
+}
+
+std::string conformance_markdown(const std::vector<ConformanceRow>& rows) {
+  std::string text =
+      "| footprint | log2 | verdict | `*_MIPMAP_NEAREST` | `*_MIPMAP_LINEAR` | box pyramid | LOD "
+      "below legal | LOD above legal | LOD against exact |\n"
+      "|---|---|---|---|---|---|---|---|---|\n";
+  const auto cell = [](const CaseResult& r) {
+    return fmt::format("{}, {:.1f}", golden::ideal::verdict_name(r.verdict), r.deviation);
+  };
+  for (const ConformanceRow& row : rows)
+    text += fmt::format("| `{}` | `{}` | **{}** | {} | {} | {} | {:.4f} | {:.4f} | {:+.3f} .. {:+.3f} |\n",
+                        spec::kFootprintNames[static_cast<std::size_t>(row.footprint)],
+                        spec::kLog2Names[static_cast<std::size_t>(row.log2)],
+                        golden::ideal::verdict_name(row.verdict), cell(row.mipmap_nearest),
+                        cell(row.mipmap_linear), cell(row.pyramid), row.lod_below, row.lod_above,
+                        row.lod_error_low, row.lod_error_high);
+  return text;
+}
+
+}  // namespace deburr::tb::texture

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Runs a texture filter through Khronos's filtering criterion, and tabulates what each footprint and
+// logarithm rule of the texture unit gets. Used by the tests here, by `deburr papers`, and by the
+// program that writes docs/filtering_conformance.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "golden/ideal/filtering_criterion.h"
+#include "spec/fragment.h"
+#include "spec/texture.h"
+#include "tb/oracle/encoded_texture.h"
+#include "tb/oracle/filtering_cases.h"
+
+namespace deburr::tb::texture {
+
+// One texture with its sampler state, as a filter is asked to use it.
+struct FilteringCase {
+  Pattern pattern = Pattern::kComposite;
+  Size size{32, 64};
+  spec::TextureDescriptor descriptor{};  // format, layout, wraps, filters, bias, clamps
+  int quads = 64;
+  std::uint32_t seed = 1;
+};
+std::string case_name(const FilteringCase& filtering_case);
+
+// Colours of the four lanes of a quad.
+using QuadFilter = std::function<std::array<std::array<std::uint8_t, 4>, 4>(const spec::Quad&)>;
+// Makes a filter for a texture; the filter may keep references to its arguments.
+using FilterFactory =
+    std::function<QuadFilter(const EncodedTexture&, const spec::TextureDescriptor& state)>;
+
+// The golden model with the given rules.
+FilterFactory golden_filter(const spec::TextureParameters& parameters);
+
+struct CaseResult {
+  golden::ideal::Verdict verdict = golden::ideal::Verdict::kFail;
+  double deviation = 0.0;      // largest, 8-bit steps, at high precision
+  double low_deviation = 0.0;  // the same at low precision, of the fragments high precision refused
+  std::int64_t fragments = 0, refused = 0, undecided = 0;
+  std::string worst;  // fragment and colour with the largest deviation
+};
+CaseResult judge(const FilteringCase& filtering_case, const FilterFactory& filter);
+
+// What one footprint rule with one logarithm rule gets.
+struct ConformanceRow {
+  spec::FootprintRule footprint;
+  spec::Log2Rule log2;
+  // Level of detail against the legal interval, in levels: how far it was below and above it.
+  double lod_below = 0.0, lod_above = 0.0;
+  // Level of detail minus the exact one (lb of the longer side), in levels.
+  double lod_error_low = 0.0, lod_error_high = 0.0;
+  // *_MIPMAP_NEAREST and *_MIPMAP_LINEAR on unrelated levels of full contrast, all sizes.
+  CaseResult mipmap_nearest, mipmap_linear;
+  // LINEAR_MIPMAP_LINEAR on box-filtered noise, whose neighbouring levels resemble each other.
+  CaseResult pyramid;
+  golden::ideal::Verdict verdict = golden::ideal::Verdict::kFail;  // the worst of the first two
+};
+
+// Every footprint rule with every logarithm rule, 20 rows; a few seconds.
+std::vector<ConformanceRow> conformance_table();
+// The table in Markdown.
+std::string conformance_markdown(const std::vector<ConformanceRow>& rows);
+
+}  // namespace deburr::tb::texture

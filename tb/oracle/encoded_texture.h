@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Test textures as the codes that are stored, and the three things that are made of them: bytes in
+// the unit's memory layout, real colours for the criterion, RGBA bytes for other programs.
+//
+// The memory layout is written here a second time, from docs/number_formats.md: a golden that
+// addressed memory differently would read wrong texels.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "golden/ideal/filtering_criterion.h"
+#include "spec/texture.h"
+
+namespace deburr::tb::texture {
+
+// Codes are the texels as one integer: RGBA8 and sRGB8A8 with R in the low byte, 16-bit formats as in
+// docs/number_formats.md, L8 as it is.
+struct EncodedLevel {
+  int width = 0, height = 0;
+  std::vector<std::uint32_t> codes;  // row-major
+};
+
+struct EncodedTexture {
+  spec::Format format = spec::Format::kRgba8;
+  std::vector<EncodedLevel> levels;
+  int width() const { return levels.front().width; }
+  int height() const { return levels.front().height; }
+};
+
+// What the levels show. Every pattern but kPyramid has unrelated levels: a wrong level is as visible
+// as a wrong texel.
+enum class Pattern {
+  kNoise,      // every channel of every texel 0 or full scale at random
+  kComposite,  // R noise, G checkerboard, B full scale on odd levels, A any value
+  kLevels,     // solid levels: R full scale on odd levels, G grows with the level, B = 255 - R
+  kPyramid,    // noise at level 0, box averages below
+};
+
+// Full mip chain of width x height. The same arguments give the same texels on every machine.
+EncodedTexture make_texture(Pattern pattern, spec::Format format, int width, int height,
+                            std::uint32_t seed);
+
+// A channel of a code, as stored, scaled to 0..255 without rounding.
+std::array<double, 4> channels(spec::Format format, std::uint32_t code);
+// The same brought to linear light: what a sampler filters.
+golden::ideal::Texture ideal_texture(const EncodedTexture& texture);
+// Level as R, G, B, A bytes, nearest where a channel has fewer than 8 bits.
+std::vector<std::uint8_t> rgba_bytes(spec::Format format, const EncodedLevel& level);
+
+// Texture memory of a unit.
+class EncodedMemory {
+ public:
+  // Places the texture behind what is there; returns a descriptor with size, levels, format, layout
+  // and bases set, the sampler state at its defaults.
+  spec::TextureDescriptor place(const EncodedTexture& texture, spec::Layout layout);
+  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+
+ private:
+  std::vector<std::uint8_t> bytes_;
+};
+
+}  // namespace deburr::tb::texture
