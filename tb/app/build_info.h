@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// What this program was built from. Only the small generated file behind it is compiled again when
+// the commit changes.
+#pragma once
+
+#include <string>
+
+namespace deburr::tb {
+
+struct BuildInfo {
+  std::string version;   // of the project, "0.1.0"
+  std::string commit;    // "1234abcd...", with "-dirty" when files differed; "unknown" without git
+  std::string compiler;  // "GNU 12.2.0"
+  std::string build;     // "Release"
+  std::string systemc;   // "2.3.4"
+};
+const BuildInfo& build_info();
+
+}  // namespace deburr::tb

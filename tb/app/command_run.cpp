@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// `deburr run ENGINE`: gathers parameters, runs the engine once, leaves the results.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "spec/error.h"
+#include "tb/app/commands.h"
+#include "tb/app/engine.h"
+#include "tb/app/interrupt.h"
+#include "tb/app/report.h"
+
+namespace deburr::tb {
+namespace {
+
+using spec::ConfigError;
+using spec::ExitCode;
+
+// An option or a --set, in the words of the user.
+struct Assignment {
+  std::string name, value, where;
+};
+
+struct RunOptions {
+  std::string config, out;
+  std::vector<std::string> sets;
+  std::vector<Assignment> shorthands;
+  bool resolve_only = false;
+};
+
+const std::vector<Shorthand>& common_shorthands() {
+  static const std::vector<Shorthand> options = {
+      {"--seed", "run.seed", "Seed of everything random"},
+      {"--check", "run.check", "golden (default) or none"},
+      {"--trace", "run.trace", "Write waves of these units and links (glob) to trace.vcd"},
+      {"--trace-from", "run.trace_from", "First cycle traced"},
+      {"--trace-to", "run.trace_to", "Cycle after the last one traced"},
+      {"--max-cycles", "run.max_cycles", "End with an error after so many cycles"},
+      {"--stalls", "run.stalls", "Random stalls: probability in each cycle"},
+      {"--shuffle", "run.shuffle", "Evaluate units in random order"},
+      {"--truth", "run.truth", "Compare with the scene's supersampled truth"},
+      // For checking the checkers; documented in docs/verification.md only.
+      {"--fault", "run.fault", ""}};
+  return options;
+}
+
+std::vector<Assignment> expand(const Shorthand& shorthand, const std::string& value) {
+  if (!shorthand.second_parameter.empty()) {  // WxH
+    const std::size_t cross = value.find('x');
+    if (cross == std::string::npos)
+      throw ConfigError(fmt::format("{}: expected WIDTHxHEIGHT, got '{}'", shorthand.option, value));
+    return {{shorthand.parameter, value.substr(0, cross), shorthand.option},
+            {shorthand.second_parameter, value.substr(cross + 1), shorthand.option}};
+  }
+  return {{shorthand.parameter, value, shorthand.option}};
+}
+
+void apply(const RunOptions& options, ParameterSet& set) {
+  if (!options.config.empty()) set.load(options.config);
+  // The same parameter given twice with different values would silently lose one of them.
+  std::map<std::string, Assignment> given;
+  std::vector<Assignment> all = options.shorthands;
+  for (const std::string& text : options.sets) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos)
+      throw ConfigError(fmt::format("--set: expected name=value, got '{}'", text));
+    all.push_back({text.substr(0, equals), text.substr(equals + 1), "--set"});
+  }
+  for (const Assignment& a : all) {
+    const auto [first, inserted] = given.emplace(a.name, a);
+    if (!inserted && first->second.value != a.value)
+      throw ConfigError(fmt::format("{}: '{}' = '{}' contradicts {} ('{}')", a.where, a.name, a.value,
+                                    first->second.where, first->second.value));
+    set.set(a.name, a.value, a.where);
+  }
+}
+
+std::string summary_of(const Result& r, const std::filesystem::path& directory) {
+  std::string text = r.unit + ": ";
+  if (r.comparisons + r.traffic_comparisons > 0)
+    text += fmt::format("{} outputs and {} memory accesses compared, {} mismatches, ",
+                        grouped(r.comparisons), grouped(r.traffic_comparisons),
+                        grouped(r.mismatches + r.traffic_mismatches));
+  text += fmt::format("{} cycles, {:.3f} {}", grouped(r.cycles), r.throughput, r.throughput_unit);
+  return text + fmt::format(", {}", (directory / "report.html").string());
+}
+
+Outcome run_engine(Engine& engine, const RunOptions& options, const std::string& command) {
+  ParameterSet set;
+  RunParameters run;
+  set.add("run", run);
+  engine.add_parameters(set);
+  apply(options, set);
+  if (options.resolve_only) {
+    fmt::print("{}", set.yaml());
+    return {};
+  }
+  RunContext context(options.out.empty() ? fmt::format("out/{}", engine.name()) : options.out, set,
+                     command, static_cast<std::uint64_t>(run.seed));
+  Result result;
+  result.unit = engine.name();
+  result.clock_mhz = run.clock_mhz;
+  std::string kind;
+  int code = 0;
+  try {
+    engine.run(run, context, result);
+    if (result.mismatches + result.traffic_mismatches > 0) {
+      code = static_cast<int>(ExitCode::kMismatch);
+      kind = "mismatch";
+      result.reason = fmt::format("{} of {} outputs and {} of {} memory accesses differ from the golden model",
+                                  result.mismatches, result.comparisons, result.traffic_mismatches,
+                                  result.traffic_comparisons);
+    }
+  } catch (const spec::Error& error) {
+    // What was wrong before the simulation has no result; what went wrong in it has a partial one.
+    code = static_cast<int>(error.code());
+    if (error.code() == ExitCode::kUsage || error.code() == ExitCode::kFile) throw;
+    kind = error.code() == ExitCode::kDeadlock ? "deadlock"
+           : error.code() == ExitCode::kMismatch ? "mismatch" : "simulation";
+    result.reason = error.what();
+    fmt::print(stderr, "deburr: {}\n", error.what());
+  } catch (const spec::CheckFailed& error) {
+    code = static_cast<int>(ExitCode::kSimulation);
+    kind = "simulation";
+    result.reason = error.what();
+    fmt::print(stderr, "deburr: {}\n", error.what());
+  }
+  if (code != 0) result.verdict = Verdict::kFail;
+  else result.verdict = run.check == CheckMode::kGolden ? Verdict::kPass : Verdict::kUnchecked;
+  if (result.interrupted && code == 0) {
+    result.verdict = Verdict::kUnchecked;
+    result.reason = "interrupted: the results cover what was done until then";
+  }
+  context.finish(result);
+  if (code != 0)
+    return {code, fmt::format("FAIL {}: {} ({})", kind, result.reason.substr(0, result.reason.find('\n')),
+                              summary_of(result, context.directory()))};
+  if (result.interrupted) {
+    fmt::print(stderr, "deburr: interrupted; the partial results are kept. Run the same command again "
+                       "for all of it.\n");
+    return {kInterruptedExit, fmt::format("INTERRUPTED {}", summary_of(result, context.directory()))};
+  }
+  return {0, fmt::format("{} {}", result.verdict == Verdict::kPass ? "PASS" : "UNCHECKED",
+                         summary_of(result, context.directory()))};
+}
+
+void add_shorthand(CLI::App& command, const Shorthand& shorthand, RunOptions& options, bool is_switch) {
+  const std::string group = shorthand.help.empty() ? "" : "Options";  // "": not shown in --help
+  CLI::Option* option =
+      is_switch ? command.add_flag_callback(
+                      shorthand.option,
+                      [&options, shorthand] {
+                        options.shorthands.push_back({shorthand.parameter, "true", shorthand.option});
+                      },
+                      shorthand.help)
+                : command.add_option_function<std::string>(
+                      shorthand.option,
+                      [&options, shorthand](const std::string& value) {
+                        for (Assignment& a : expand(shorthand, value))
+                          options.shorthands.push_back(std::move(a));
+                      },
+                      shorthand.help);
+  option->group(group);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, CommandLine& line) {
+  CLI::App* run = app.add_subcommand("run", "Simulate an engine and check it against its golden model");
+  run->require_subcommand(1);
+  for (std::unique_ptr<Engine>& owned : engines()) {
+    const std::shared_ptr<Engine> engine = std::move(owned);
+    CLI::App* command = run->add_subcommand(std::string(engine->name()), std::string(engine->summary()));
+    const auto options = std::make_shared<RunOptions>();
+    command->add_option("--config", options->config, "YAML file of parameters");
+    command->add_option("--set", options->sets, "name=value: any parameter of `deburr params`")
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->add_option("--out", options->out, fmt::format("Directory of the results (out/{})", engine->name()));
+    command->add_flag("--show-config", options->resolve_only, "Print the resolved configuration and stop");
+    // To know which shorthands are switches, the parameters are asked.
+    ParameterSet probe;
+    RunParameters defaults;
+    probe.add("run", defaults);
+    engine->add_parameters(probe);
+    for (const auto& list : {common_shorthands(), engine->shorthands()})
+      for (const Shorthand& shorthand : list) {
+        const Parameter* parameter = probe.find(shorthand.parameter);
+        DEBURR_CHECK(parameter, shorthand.option + " stands for an unknown parameter");
+        add_shorthand(*command, shorthand, *options, parameter->range == "true | false");
+      }
+    command->callback([engine, options, &line] {
+      line.action = [engine, options, &line] { return run_engine(*engine, *options, line.text); };
+    });
+  }
+}
+
+}  // namespace deburr::tb

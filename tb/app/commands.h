@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The commands of `deburr`. Each adds its options to the command line and leaves an action behind
+// when it is the one that was called.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace deburr::tb {
+
+struct Outcome {
+  int code = 0;
+  std::string text;  // after "RESULT: "; empty: a command that only prints
+};
+
+struct CommandLine {
+  std::string text;  // as typed
+  std::function<Outcome()> action;
+};
+
+void add_run(CLI::App& app, CommandLine& line);
+void add_papers(CLI::App& app, CommandLine& line);
+void add_params(CLI::App& app, CommandLine& line);
+void add_compare(CLI::App& app, CommandLine& line);
+void add_report(CLI::App& app, CommandLine& line);
+
+}  // namespace deburr::tb

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Two results side by side: what changed, and whether it became worse by more than a tolerance.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace deburr::tb {
+
+struct Tolerances {
+  double cycles_percent = 2;      // cycles, latency and memory traffic may grow by this much
+  double throughput_percent = 2;  // throughput may fall by this much
+  double psnr_db = 0.05;          // quality may fall by this much
+};
+
+struct ComparedValue {
+  std::string key;
+  std::string a, b, change;  // change in percent or dB, "" where neither says something
+  bool worse = false;
+};
+
+struct Comparison {
+  std::vector<ComparedValue> values;  // every number that either side has and that differs, and
+                                      // every judged one
+  bool worse = false;
+};
+
+// `b` judged against `a`. A mismatch, a lost verdict, or a judged value that only `a` has is worse.
+Comparison compare(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b,
+                   const Tolerances& tolerances);
+
+}  // namespace deburr::tb

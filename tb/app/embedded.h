@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Files that the build turns into part of the program, so that reports need nothing beside it.
+#pragma once
+
+#include <string_view>
+
+namespace deburr::tb::embedded {
+
+std::string_view chart_js();         // Chart.js (MIT), from Debian's libjs-chart.js
+std::string_view style_css();        // report_style.css
+std::string_view report_template();  // report.mustache
+std::string_view report_js();        // report.js
+std::string_view papers_template();  // papers.mustache
+
+}  // namespace deburr::tb::embedded

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// An engine that `deburr run` can run. To add one: implement this, and name it in engines().
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tb/app/parameter_set.h"
+#include "tb/app/result.h"
+#include "tb/app/run_context.h"
+
+namespace deburr::tb {
+
+// Parameters that every engine's run has, "run.*".
+enum class CheckMode : std::uint8_t { kNone, kGolden };
+inline constexpr std::array<std::string_view, 2> kCheckModeNames = {"none", "golden"};
+
+struct RunParameters {
+  CheckMode check = CheckMode::kGolden;
+  std::int64_t seed = 1;
+  double clock_mhz = 166.67;
+  std::int64_t max_cycles = 0;
+  std::int32_t watchdog_cycles = 20000;
+  double stalls = 0;
+  bool shuffle = false;
+  bool fast_path = true;
+  std::string trace;
+  std::int64_t trace_from = 0, trace_to = 2000;
+  std::string fault;
+  bool truth = false;
+};
+
+template <class Visitor>
+void describe(RunParameters& p, Visitor& v) {
+  v.choice("check", p.check, kCheckModeNames,
+           "golden: compare every output and every memory access with the golden model.");
+  v.integer("seed", p.seed, 0, std::int64_t{1} << 32, "",
+            "Seed of scene textures, random stalls, random latency and shuffling.");
+  v.real("clock_mhz", p.clock_mhz, 1, 10000, "MHz", "Clock that times and rates are quoted for.");
+  v.integer("max_cycles", p.max_cycles, 0, std::int64_t{1} << 40, "clk",
+            "Ends the run with an error after so many cycles; 0: no limit.");
+  v.integer("watchdog_cycles", p.watchdog_cycles, 100, 1 << 30, "clk",
+            "Cycles without any progress that count as a deadlock.");
+  v.real("stalls", p.stalls, 0, 0.9, "probability",
+         "Random stalls: chance that the input is held back, and the output, in a cycle.");
+  v.boolean("shuffle", p.shuffle, "Evaluate the units in a random order; must change nothing.");
+  v.boolean("fast_path", p.fast_path, "Let the clock domain run on; must change nothing.");
+  v.text("trace", p.trace, "glob", "Units and links whose waves go to trace.vcd; empty: none.");
+  v.integer("trace_from", p.trace_from, 0, std::int64_t{1} << 40, "clk", "First cycle traced.");
+  v.integer("trace_to", p.trace_to, 0, std::int64_t{1} << 40, "clk", "Cycle after the last traced.");
+  v.text("fault", p.fault, "name", "Plants a fault that the checks must catch (docs/verification.md).");
+  v.boolean("truth", p.truth, "Compare the picture with the scene's supersampled truth.");
+}
+
+// A command line option that stands for a parameter, or for two that are given as AxB.
+struct Shorthand {
+  std::string option, parameter, help;
+  std::string second_parameter{};
+};
+
+class Engine {
+ public:
+  virtual ~Engine() = default;
+  virtual std::string_view name() const = 0;
+  virtual std::string_view summary() const = 0;
+  virtual void add_parameters(ParameterSet& set) = 0;
+  virtual std::vector<Shorthand> shorthands() const = 0;
+  // Simulates and fills the context's images. Errors of the run are exceptions (spec/error.h);
+  // what was measured until then is in `result`.
+  virtual void run(const RunParameters& run, RunContext& context, Result& result) = 0;
+  // Every counter and stall cause that a run of this engine reports, for docs/statistics.md. It
+  // elaborates the model, so it is called at most once a process, and not in one that runs.
+  virtual void describe_statistics(Result& result) = 0;
+};
+
+std::vector<std::unique_ptr<Engine>> engines();
+
+}  // namespace deburr::tb

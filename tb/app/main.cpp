@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// The `deburr` command: reads the command line, hands over to one of the commands, and turns every
+// outcome into an exit code and a last line "RESULT: ...".
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "spec/error.h"
+#include "tb/app/build_info.h"
+#include "tb/app/commands.h"
+#include "tb/app/interrupt.h"
+
+namespace {
+
+using deburr::spec::ExitCode;
+using deburr::tb::Outcome;
+
+// The command line as a shell takes it back.
+std::string quoted_command(int argc, char** argv) {
+  constexpr const char* kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:+@%";
+  std::string command;
+  for (int i = 0; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (i > 0) command += ' ';
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
+      command += word;
+      continue;
+    }
+    command += '\'';
+    for (const char c : word) command += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    command += '\'';
+  }
+  return command;
+}
+
+int finish(const Outcome& outcome, const std::string& command) {
+  std::fflush(stdout);
+  if (outcome.code != 0) fmt::print("REPRO: {}\n", command);
+  fmt::print("RESULT: {}\n", outcome.text);
+  return outcome.code;
+}
+
+// The first line says what kind of failure; a long text (a dump) goes to the error stream.
+Outcome failure(int code, const char* kind, const std::string& text) {
+  fmt::print(stderr, "deburr: {}\n", text);
+  return {code, fmt::format("FAIL {}: {}", kind, text.substr(0, text.find('\n')))};
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Cycle-accurate models of anti-aliasing hardware, checked against golden models.",
+               "deburr"};
+  app.set_version_flag("--version", [] {
+    const auto& build = deburr::tb::build_info();
+    return fmt::format("deburr {} ({}), {}, SystemC {}", build.version, build.commit, build.compiler,
+                       build.systemc);
+  });
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 pass, 1 mismatch or worse, 2 usage or configuration, 3 simulation error,\n"
+      "4 deadlock, 5 file, 130 interrupted. The last line is RESULT: ..., on failure after REPRO: ...");
+  const std::string command = quoted_command(argc, argv);
+
+  deburr::tb::CommandLine line{command, nullptr};
+  deburr::tb::add_run(app, line);
+  deburr::tb::add_papers(app, line);
+  deburr::tb::add_params(app, line);
+  deburr::tb::add_compare(app, line);
+  deburr::tb::add_report(app, line);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& done) {  // --help, --version
+    return app.exit(done);
+  } catch (const CLI::ParseError& error) {
+    return finish(failure(static_cast<int>(ExitCode::kUsage), "usage",
+                          fmt::format("{} (see {} --help)", error.what(), argv[0])),
+                  command);
+  }
+  try {
+    const Outcome outcome = line.action();
+    return outcome.text.empty() ? outcome.code : finish(outcome, command);
+  } catch (const deburr::spec::Error& error) {
+    constexpr const char* kKinds[] = {"", "mismatch", "configuration", "simulation", "deadlock", "file"};
+    return finish(failure(static_cast<int>(error.code()), kKinds[static_cast<int>(error.code())],
+                          error.what()),
+                  command);
+  } catch (const std::bad_alloc&) {
+    return finish(failure(static_cast<int>(ExitCode::kSimulation), "simulation",
+                          "out of memory: use a smaller picture or fewer textures"),
+                  command);
+  } catch (const std::exception& error) {
+    return finish(failure(static_cast<int>(ExitCode::kSimulation), "simulation", error.what()), command);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  deburr::tb::install_signal_handlers();
+  return run(argc, argv);
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// The reproduction report: for each figure that a paper prints, ours, computed here and now, and a
+// verdict in one word. One file a paper (papers_004.cpp, ...); this one knows how to print them.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tb/scene/image.h"
+
+namespace deburr::tb {
+
+struct PaperTable {
+  std::string title, note;
+  std::vector<std::string> columns;  // a column named "verdict" is shown as one
+  std::vector<std::vector<std::string>> rows;
+};
+
+struct PaperImage {
+  std::string file;  // without extension
+  std::string title, caption;
+  Image image;
+};
+
+struct PaperFigure {
+  std::string title, note;
+  std::vector<PaperImage> images;
+};
+
+struct Paper {
+  std::string id, title, source;
+  std::vector<PaperTable> tables;
+  std::vector<PaperFigure> figures;
+};
+
+struct PaperOptions {
+  bool quick = false;  // leave out what takes more than a few seconds
+  int size = 512;      // side of the pictures and of the scenes that are measured
+};
+
+// Builds one paper's part; shows progress on the error stream.
+using PaperBuilder = Paper (*)(const PaperOptions&);
+struct PaperEntry {
+  const char* id;
+  PaperBuilder build;
+};
+const std::vector<PaperEntry>& papers();
+
+// The tables as text, for the terminal.
+std::string to_text(const Paper& paper);
+// papers.json, the pictures and index.html, each atomically.
+void write_papers(const std::filesystem::path& directory, const std::vector<Paper>& papers);
+
+// "right" when `ours` rounds to what the paper printed with so many decimals, else `otherwise`.
+std::string verdict(double paper, int decimals, double ours, const char* otherwise);
+
+Paper paper_004(const PaperOptions& options);
+
+}  // namespace deburr::tb

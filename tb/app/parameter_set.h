@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Every parameter of a run by its dotted name: the one place where the command line, configuration
+// files, the manifest and the reference pages meet the structs that declare parameters
+// (spec/parameters.h).
+//
+// A struct is added with a prefix, so that `cache.bytes` of the texture unit is
+// `texture.cache.bytes` everywhere. Precedence: defaults, then the configuration file, then the
+// command line in the order given. A value that cannot be applied is a ConfigError that says where
+// it came from (file and line, or the option) and names near matches; nothing is ignored.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "spec/parameters.h"
+
+namespace deburr::tb {
+
+// One parameter, bound to the variable that holds it.
+struct Parameter {
+  std::string name;
+  std::string unit;      // empty for choices, switches and text
+  std::string range;     // "1..16", "half | quarter | ...", "true | false"
+  std::string meaning;
+  std::string default_value;
+  std::function<std::string()> text;                          // the value now
+  std::function<nlohmann::ordered_json()> json;               // the same, typed
+  std::function<std::string(std::string_view)> parse;         // "" or why the text is refused
+};
+
+class ParameterSet {
+ public:
+  // Binds every parameter of `values` under `prefix`. The values at this moment are the defaults.
+  // `values` must outlive the set.
+  template <class P>
+  void add(std::string_view prefix, P& values) {
+    Binder binder(*this, prefix);
+    describe(values, binder);
+  }
+
+  // `where` is put in front of every complaint: "run.yaml:12" or "--set".
+  void set(std::string_view name, std::string_view text, std::string_view where);
+  // "a.b=value", as given to --set.
+  void set_assignment(std::string_view assignment, std::string_view where);
+  // Applies a YAML file: nested maps or dotted keys. Unknown, duplicate, misshapen or out-of-range
+  // entries are errors with file and line.
+  void load(const std::filesystem::path& file);
+
+  const std::vector<Parameter>& all() const { return parameters_; }
+  const Parameter* find(std::string_view name) const;
+  // Up to three names that a typing error could have meant, best first.
+  std::vector<std::string> near_matches(std::string_view name) const;
+  // name -> value for every parameter, in order of declaration.
+  nlohmann::ordered_json resolved() const;
+  // The same as a YAML file that `load` accepts, each line with its meaning as comment.
+  std::string yaml() const;
+
+ private:
+  // The visitor of spec/parameters.h, with two kinds more that only the testbench uses.
+  class Binder {
+   public:
+    Binder(ParameterSet& set, std::string_view prefix) : set_(set), prefix_(prefix) {}
+    void integer(std::string_view name, std::int32_t& value, std::int32_t min, std::int32_t max,
+                 std::string_view unit, std::string_view meaning);
+    void integer(std::string_view name, std::int64_t& value, std::int64_t min, std::int64_t max,
+                 std::string_view unit, std::string_view meaning);
+    void real(std::string_view name, double& value, double min, double max, std::string_view unit,
+              std::string_view meaning);
+    void text(std::string_view name, std::string& value, std::string_view range,
+              std::string_view meaning);
+    void boolean(std::string_view name, bool& value, std::string_view meaning);
+    template <class Enum, std::size_t N>
+    void choice(std::string_view name, Enum& value, const std::array<std::string_view, N>& names,
+                std::string_view meaning) {
+      add_choice(name, {names.begin(), names.end()},
+                 [&value] { return static_cast<std::size_t>(value); },
+                 [&value](std::size_t index) { value = static_cast<Enum>(index); }, meaning);
+    }
+
+   private:
+    void add(std::string_view name, std::string_view unit, std::string range,
+             std::string_view meaning, std::function<std::string()> text,
+             std::function<nlohmann::ordered_json()> json,
+             std::function<std::string(std::string_view)> parse);
+    void add_choice(std::string_view name, std::vector<std::string_view> names,
+                    std::function<std::size_t()> get, std::function<void(std::size_t)> set,
+                    std::string_view meaning);
+
+    ParameterSet& set_;
+    std::string_view prefix_;
+  };
+
+  std::vector<Parameter> parameters_;
+};
+
+// Smallest number of insertions, deletions, substitutions and swaps of neighbours that turn a into b.
+int edit_distance(std::string_view a, std::string_view b);
+// Up to three of `candidates` close to `name`, best first; for "did you mean".
+std::vector<std::string> near_matches(std::string_view name,
+                                      const std::vector<std::string>& candidates);
+// ": did you mean a, b or c?", or "" without candidates.
+std::string did_you_mean(const std::vector<std::string>& candidates);
+
+}  // namespace deburr::tb

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Progress of long work on the error stream: a bar with rate and time left on a terminal, a plain
+// line every few seconds otherwise.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace deburr::tb {
+
+class Progress {
+ public:
+  // `unit` is what is counted: "fragment".
+  Progress(std::string_view label, std::uint64_t total, std::string_view unit);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  // Cheap enough to be called often: the clock is read once in a while.
+  void update(std::uint64_t done);
+
+  // The line shown, for tests: "texture  42 %  1.2 Mfragment/s  3 s left".
+  static std::string line(std::string_view label, std::string_view unit, std::uint64_t done,
+                          std::uint64_t total, double seconds);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void show(std::uint64_t done, Clock::time_point now);
+
+  std::string label_, unit_;
+  std::uint64_t total_;
+  std::uint64_t done_ = 0;
+  bool terminal_;
+  bool shown_ = false;
+  Clock::time_point start_, last_;
+};
+
+}  // namespace deburr::tb

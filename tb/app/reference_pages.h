@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// docs/parameters.md and docs/statistics.md, made from the declarations that the program uses.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tb/app/engine.h"
+
+namespace deburr::tb {
+
+std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines);
+// Elaborates every engine's model: at most once a process, and not in one that simulates.
+std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines);
+
+}  // namespace deburr::tb

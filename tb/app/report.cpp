@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: MIT
+#include "tb/app/report.h"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <kainjow/mustache.hpp>
+#include <nlohmann/json.hpp>
+
+#include "spec/error.h"
+#include "tb/app/embedded.h"
+#include "tb/app/file.h"
+#include "tb/app/result.h"
+#include "tb/scene/image_io.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace fs = std::filesystem;
+namespace mustache = kainjow::mustache;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMaxImageBytes = 256u << 20;
+constexpr std::size_t kMaxManifestBytes = 64u << 20;
+
+// Numbers as a reader wants them: counts grouped, rates with four significant digits.
+std::string shown(const Json& value) {
+  if (value.is_number_unsigned()) return grouped(value.get<std::uint64_t>());
+  if (value.is_number_integer()) return fmt::format("{}", value.get<std::int64_t>());
+  if (value.is_number()) return fmt::format("{:.4g}", value.get<double>());
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
+  if (value.is_null()) return "-";
+  return value.dump();
+}
+
+mustache::data row(std::initializer_list<std::pair<const char*, std::string>> cells) {
+  mustache::data data;
+  for (const auto& [name, value] : cells) data.set(name, value);
+  return data;
+}
+
+double number(const Json& json, const char* key) {
+  const Json value = json.value(key, Json(0.0));
+  return value.is_number() ? value.get<double>() : 0.0;
+}
+
+std::string decibels(const Json& value) {
+  if (value.is_number()) return fmt::format("{:.2f}", value.get<double>());
+  return value == "inf" ? "identical" : "-";
+}
+
+Json read_manifest(const fs::path& directory) {
+  const fs::path file = directory / "manifest.json";
+  Json manifest = Json::parse(read_file(file, kMaxManifestBytes), nullptr, false);
+  if (!manifest.is_object())
+    throw spec::FileError(fmt::format("'{}' is not a valid manifest", file.string()));
+  return manifest;
+}
+
+class ReportBuilder {
+ public:
+  explicit ReportBuilder(const fs::path& directory)
+      : result_(read_result(directory)), manifest_(read_manifest(directory)) {
+    fill_head();
+    fill_images(directory);
+    fill_tables();
+    fill_origin();
+  }
+
+  std::string render() {
+    page_.set("style", std::string(embedded::style_css()));
+    page_.set("chart_js", std::string(embedded::chart_js()));
+    page_.set("report_js", std::string(embedded::report_js()));
+    page_.set("data", json_for_script({{"result", result_}}));
+    mustache::mustache page{std::string(embedded::report_template())};
+    if (!page.is_valid()) throw spec::CheckFailed("report.mustache: " + page.error_message());
+    return page.render(page_);
+  }
+
+ private:
+  void fill_head() {
+    page_.set("unit", shown(result_["unit"]));
+    page_.set("title", manifest_.value("title", "Run"));
+    page_.set("summary", manifest_.value("summary", ""));
+    page_.set("verdict", shown(result_["verdict"]));
+    const std::string reason = result_.value("reason", "");
+    if (!reason.empty()) {
+      mustache::data list{mustache::data::type::list};
+      list << row({{"reason", reason}});
+      page_.set("reason", list);
+    }
+    page_.set("command", manifest_.value("command", ""));
+    page_.set("cycles", shown(result_["cycles"]));
+
+    const Json& checks = result_["checks"];
+    const Json& throughput = result_["throughput"];
+    const Json& latency = result_["latency"];
+    const double value = number(throughput, "value"), bound = number(throughput, "bound");
+    const double mhz = number(result_, "clock_mhz");
+    mustache::data tiles{mustache::data::type::list};
+    const auto tile = [&](std::string name, std::string number_text, std::string unit,
+                          std::string note, const char* state = "") {
+      tiles << row({{"name", std::move(name)}, {"value", std::move(number_text)},
+                    {"unit", std::move(unit)}, {"note", std::move(note)}, {"state", state}});
+    };
+    const std::uint64_t mismatches = checks.value("mismatches", std::uint64_t{0}) +
+                                     checks.value("traffic_mismatches", std::uint64_t{0});
+    if (result_["verdict"] == "unchecked")
+      tile("Mismatches", "-", "", "not checked against the golden model");
+    else
+      tile("Mismatches", grouped(mismatches), "",
+           fmt::format("of {} comparisons",
+                       grouped(checks.value("comparisons", std::uint64_t{0}) +
+                               checks.value("traffic_comparisons", std::uint64_t{0}))),
+           mismatches ? "bad" : "good");
+    const double cycles = number(result_, "cycles");
+    tile("Cycles", shown(result_["cycles"]), "clk",
+         mhz > 0 ? fmt::format("{:.2f} ms at {:.2f} MHz", cycles / mhz / 1e3, mhz) : "");
+    tile("Throughput", fmt::format("{:.3f}", value), shown(throughput.value("unit", Json(""))),
+         bound > 0 ? fmt::format("{:.1f} % of the bound {:g}", 100 * value / bound, bound) : "");
+    tile("Latency p50", shown(latency.value("p50", Json())), "clk",
+         fmt::format("p99 {}, max {}", shown(latency.value("p99", Json())),
+                     shown(latency.value("max", Json()))));
+    tile("Read from memory", fmt::format("{:.2f}", number(result_["memory"], "bytes_read") / 1048576),
+         "MiB", fmt::format("{} lines", shown(result_["memory"].value("lines_filled", Json()))));
+    if (const auto quality = result_.find("quality"); quality != result_.end())
+      tile("PSNR", decibels(quality->value("psnr_db", Json())), "dB",
+           "against " + quality->value("reference", ""));
+    tile("Simulation", fmt::format("{:.2f}", number(result_["host"], "mcycles_per_s")), "Mcycle/s",
+         fmt::format("{:.1f} s on this host", number(result_["host"], "seconds")));
+    page_.set("tiles", tiles);
+
+    mustache::data meters{mustache::data::type::list};
+    const auto meter = [&](std::string name, double part, double whole, const std::string& unit) {
+      const double percent = whole > 0 ? 100 * part / whole : 0;
+      meters << row({{"name", std::move(name)},
+                     {"text", fmt::format("{:.4g} of {:.4g} {} ({:.1f} %)", part, whole, unit, percent)},
+                     {"percent", fmt::format("{:.2f}", std::clamp(percent, 0.0, 100.0))}});
+    };
+    meter("Rate over the whole run", value, bound, shown(throughput.value("unit", Json(""))));
+    for (const auto& [name, unit] : result_["units"].items()) {
+      double stalls = 0;
+      for (const auto& [cause, count] : unit["stalls"].items()) stalls += count.get<double>();
+      const double all = number(unit, "busy") + number(unit, "idle") + stalls;
+      if (name == manifest_.value("bottleneck", "")) meter("Busy: " + name, number(unit, "busy"), all, "clk");
+    }
+    page_.set("meters", meters);
+    page_.set("throughput_note",
+              mhz > 0 && value > 0
+                  ? fmt::format("At {:.2f} MHz this is {:.1f} M{}.", mhz, value * mhz,
+                                per_second(shown(throughput.value("unit", Json("")))))
+                  : "");
+  }
+
+  // "bilinear/clk" -> "bilinear/s".
+  static std::string per_second(const std::string& unit) {
+    return unit.ends_with("/clk") ? unit.substr(0, unit.size() - 3) + "s" : unit + "/s";
+  }
+
+  void fill_images(const fs::path& directory) {
+    mustache::data images{mustache::data::type::list};
+    bool any = false;
+    for (const Json& image : manifest_.value("images", Json::array())) {
+      const fs::path file = image.value("file", "");
+      // Only names inside the directory: a manifest from elsewhere must not pull other files in.
+      if (file.empty() || file.has_parent_path())
+        throw spec::FileError(fmt::format("'{}': image '{}' is not a file name",
+                                          (directory / "manifest.json").string(), file.string()));
+      images << row({{"title", image.value("title", file.string())},
+                     {"caption", image.value("caption", "")},
+                     {"role", image.value("role", "")},
+                     {"source", data_uri(directory / file)}});
+      any = true;
+    }
+    page_.set("has_images", any);
+    page_.set("images", images);
+  }
+
+  // Unit or meaning of a key, from the result itself.
+  std::string described(const std::string& key, const char* what) const {
+    const auto all = result_.find("meaning");
+    if (all == result_.end() || !all->contains(key)) return "";
+    return (*all)[key].value(what, "");
+  }
+
+  void fill_tables() {
+    mustache::data memory{mustache::data::type::list};
+    for (const auto& [name, value] : result_["memory"].items()) {
+      memory << row({{"name", described("memory." + name, "meaning")}, {"value", shown(value)},
+                     {"unit", described("memory." + name, "unit")}});
+    }
+    const double cycles = number(result_, "cycles");
+    if (cycles > 0)
+      memory << row({{"name", "Mean read bandwidth"},
+                     {"value", fmt::format("{:.3f}", number(result_["memory"], "bytes_read") / cycles)},
+                     {"unit", "byte/clk"}});
+    page_.set("memory", memory);
+
+    mustache::data units{mustache::data::type::list};
+    for (const auto& [name, unit] : result_["units"].items()) {
+      std::string stalls;
+      for (const auto& [cause, count] : unit["stalls"].items())
+        if (count != 0) stalls += fmt::format("{}{} {}", stalls.empty() ? "" : ", ", cause, shown(count));
+      units << row({{"name", name}, {"busy", shown(unit["busy"])}, {"idle", shown(unit["idle"])},
+                    {"stalls", stalls.empty() ? "-" : stalls}});
+    }
+    page_.set("units", units);
+    page_.set("units_table", mustache::partial{[] {
+                return std::string(
+                    "<table><tr><th>Unit</th><th class=\"n\">Busy</th><th class=\"n\">Idle</th>"
+                    "<th>Stalled, by cause</th></tr>{{#units}}<tr><td>{{name}}</td>"
+                    "<td class=\"n\">{{busy}}</td><td class=\"n\">{{idle}}</td><td>{{stalls}}</td>"
+                    "</tr>{{/units}}</table>");
+              }});
+
+    const Json& latency = result_["latency"];
+    mustache::data percentiles{mustache::data::type::list};
+    for (const char* key : {"min", "p50", "p95", "p99", "max"})
+      percentiles << row({{"value", shown(latency.value(key, Json()))}});
+    page_.set("latency", percentiles);
+    page_.set("latency_unit", shown(latency.value("unit", Json("clk"))));
+    mustache::data histogram{mustache::data::type::list};
+    for (const Json& bin : latency.value("histogram", Json::array()))
+      histogram << row({{"from", shown(bin["from"])}, {"count", shown(bin["count"])}});
+    page_.set("histogram", histogram);
+
+    mustache::data sram{mustache::data::type::list};
+    std::uint64_t total = 0;
+    for (const auto& [name, bits] : result_["sram_bits"].items()) {
+      sram << row({{"name", name}, {"bits", shown(bits)}});
+      total += bits.get<std::uint64_t>();
+    }
+    sram << row({{"name", "total"}, {"bits", grouped(total)}});
+    page_.set("sram", sram);
+    page_.set("sram_table", mustache::partial{[] {
+                return std::string(
+                    "<table><tr><th>Memory</th><th class=\"n\">Bits</th></tr>{{#sram}}<tr><td>"
+                    "{{name}}</td><td class=\"n\">{{bits}}</td></tr>{{/sram}}</table>");
+              }});
+
+    mustache::data work{mustache::data::type::list};
+    for (const auto& [name, value] : result_["work"].items()) {
+      work << row({{"name", name}, {"value", shown(value)},
+                   {"unit", described("work." + name, "unit")},
+                   {"meaning", described("work." + name, "meaning")}});
+    }
+    page_.set("work", work);
+
+    mustache::data checks{mustache::data::type::list};
+    for (const auto& [name, value] : result_["checks"].items()) {
+      std::string label = name;
+      std::replace(label.begin(), label.end(), '_', ' ');
+      checks << row({{"name", label}, {"value", shown(value)},
+                     {"meaning", described("checks." + name, "meaning")}});
+    }
+    page_.set("checks", checks);
+
+    const auto quality = result_.find("quality");
+    page_.set("has_quality", quality != result_.end());
+    if (quality != result_.end()) {
+      page_.set("quality_reference", quality->value("reference", ""));
+      mustache::data rows{mustache::data::type::list};
+      rows << row({{"name", "PSNR, whole frame"}, {"value", decibels(quality->value("psnr_db", Json()))}})
+           << row({{"name", "PSNR, edge pixels"},
+                   {"value", decibels(quality->value("psnr_edge_db", Json()))}})
+           << row({{"name", "PSNR, silhouette pixels"},
+                   {"value", decibels(quality->value("psnr_silhouette_db", Json()))}});
+      page_.set("quality", rows);
+    }
+
+    mustache::data parameters{mustache::data::type::list};
+    for (const Json& p : manifest_.value("parameters", Json::array())) {
+      mustache::data line = row({{"name", p.value("name", "")}, {"value", shown(p["value"])},
+                                 {"default", p.value("default", "")}, {"range", p.value("range", "")},
+                                 {"unit", p.value("unit", "")}, {"meaning", p.value("meaning", "")}});
+      line.set("changed", shown(p["value"]) != p.value("default", ""));
+      parameters << line;
+    }
+    page_.set("parameters", parameters);
+  }
+
+  void fill_origin() {
+    mustache::data origin{mustache::data::type::list};
+    for (const char* key : {"version", "commit", "compiler", "build", "systemc", "seed", "started"})
+      if (manifest_.contains(key)) origin << row({{"name", key}, {"value", shown_plain(manifest_[key])}});
+    for (const Json& input : manifest_.value("inputs", Json::array()))
+      origin << row({{"name", "input"},
+                     {"value", input.value("file", "") + "  sha256 " + input.value("sha256", "")}});
+    page_.set("origin", origin);
+  }
+
+  static std::string shown_plain(const Json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+  }
+
+  Json result_, manifest_;
+  mustache::data page_;
+};
+
+}  // namespace
+
+std::string json_for_script(const Json& json) {
+  std::string text;
+  for (const char c : json.dump()) {
+    if (c == '<') text += "\\u003c";
+    else text += c;
+  }
+  return text;
+}
+
+std::string grouped(std::uint64_t value) {
+  const std::string digits = std::to_string(value);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
+    text += digits[i];
+  }
+  return text;
+}
+
+std::string data_uri(const fs::path& image_file) {
+  const std::string bytes = read_file(image_file, kMaxImageBytes);
+  std::string encoded(4 * ((bytes.size() + 2) / 3) + 1, '\0');
+  const int size =
+      EVP_EncodeBlock(reinterpret_cast<unsigned char*>(encoded.data()),
+                      reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()));
+  encoded.resize(static_cast<std::size_t>(size));
+  return "data:image/png;base64," + encoded;
+}
+
+std::string build_report(const fs::path& directory) { return ReportBuilder(directory).render(); }
+
+void write_report(const fs::path& directory) {
+  write_file_atomically(directory / "report.html", build_report(directory));
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// report.html of a run directory: one self-contained page from result.json, manifest.json and the
+// images that the manifest names. It opens from disk, without a network, and is readable without
+// JavaScript.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace deburr::tb {
+
+// Reads the directory and returns the page; FileError when something is missing or not valid.
+std::string build_report(const std::filesystem::path& directory);
+// build_report, written atomically to report.html of the same directory.
+void write_report(const std::filesystem::path& directory);
+
+// A picture as it travels inside a page.
+struct PageImage {
+  std::string title, caption, role, source;  // source: a data URI
+};
+std::string data_uri(const std::filesystem::path& image_file);
+
+// JSON that is safe inside a <script> element: no '<' in it.
+std::string json_for_script(const nlohmann::ordered_json& json);
+// 1234567 -> "1,234,567".
+std::string grouped(std::uint64_t value);
+
+}  // namespace deburr::tb

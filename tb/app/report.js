@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+'use strict';
+(() => {
+  const data = JSON.parse(document.getElementById('data').textContent);
+  const byId = (id) => document.getElementById(id);
+  const number = new Intl.NumberFormat('en-US');
+
+  // ---- copy button ----
+  byId('copy').addEventListener('click', async () => {
+    const pre = byId('command');
+    try {
+      await navigator.clipboard.writeText(pre.textContent);
+    } catch (_) {  // a page from file:// may not be allowed to
+      const range = document.createRange();
+      range.selectNodeContents(pre);
+      const selection = getSelection();
+      selection.removeAllRanges();
+      selection.addRange(range);
+      document.execCommand('copy');
+    }
+    byId('copy').textContent = 'Copied';
+    setTimeout(() => { byId('copy').textContent = 'Copy'; }, 1500);
+  });
+
+  // ---- picture viewer: two pictures, one divider, shared zoom ----
+  const stills = [...document.querySelectorAll('.strip img')];
+  if (stills.length > 0) viewer();
+
+  function viewer() {
+    const canvas = byId('view'), stage = canvas.parentElement, split = byId('split');
+    const context = canvas.getContext('2d');
+    const state = {left: 0, right: Math.min(1, stills.length - 1), split: 0.5, scale: 1, x: 0, y: 0};
+    const find = (role) => stills.findIndex((image) => image.dataset.role === role);
+    if (find('before') >= 0) state.left = find('before');
+    if (find('after') >= 0) state.right = find('after');
+    const pixels = stills.map(() => null);
+
+    for (const side of ['left', 'right']) {
+      const select = byId(side);
+      stills.forEach((image, i) => select.add(new Option(image.dataset.title, String(i))));
+      select.value = String(state[side]);
+      select.addEventListener('change', () => { state[side] = Number(select.value); draw(); });
+    }
+    stills.forEach((image, i) => image.addEventListener('click', () => {
+      state.right = i;
+      byId('right').value = String(i);
+      draw();
+    }));
+    split.addEventListener('input', () => { state.split = split.value / 1000; draw(); });
+
+    const size = () => ({w: stills[state.left].naturalWidth, h: stills[state.left].naturalHeight});
+    const fitScale = () => canvas.width / size().w;
+    const ratio = () => canvas.width / canvas.clientWidth;
+
+    function resize() {
+      const {w, h} = size();
+      if (!w) return;
+      const width = Math.round(stage.clientWidth * devicePixelRatio);
+      const height = Math.round(Math.min(width * h / w, 620 * devicePixelRatio));
+      if (canvas.width !== width || canvas.height !== height) {
+        canvas.width = width;
+        canvas.height = height;
+      }
+      fit();
+    }
+    function fit() {
+      const {w, h} = size();
+      state.scale = Math.min(canvas.width / w, canvas.height / h);
+      state.x = (canvas.width - w * state.scale) / 2;
+      state.y = (canvas.height - h * state.scale) / 2;
+      draw();
+    }
+    function zoomAt(factor, cx, cy) {
+      const least = Math.min(fitScale(), canvas.height / size().h) / 2;
+      const scale = Math.min(64, Math.max(least, state.scale * factor));
+      state.x = cx - (cx - state.x) * scale / state.scale;
+      state.y = cy - (cy - state.y) * scale / state.scale;
+      state.scale = scale;
+      draw();
+    }
+    function paint(image, from, to) {
+      if (to <= from) return;
+      context.save();
+      context.beginPath();
+      context.rect(from, 0, to - from, canvas.height);
+      context.clip();
+      context.imageSmoothingEnabled = state.scale < 1;
+      context.imageSmoothingQuality = 'high';
+      context.drawImage(image, state.x, state.y, image.naturalWidth * state.scale,
+                        image.naturalHeight * state.scale);
+      context.restore();
+    }
+    function tag(text, x, align) {
+      context.font = `${13 * ratio()}px system-ui, sans-serif`;
+      const width = context.measureText(text).width + 16 * ratio(), height = 24 * ratio();
+      const left = align === 'right' ? x - width : x;
+      context.fillStyle = 'rgba(0, 0, 0, .62)';
+      context.fillRect(left, 8 * ratio(), width, height);
+      context.fillStyle = '#fff';
+      context.textBaseline = 'middle';
+      context.fillText(text, left + 8 * ratio(), 8 * ratio() + height / 2);
+    }
+    function draw() {
+      const middle = Math.round(canvas.width * state.split);
+      context.clearRect(0, 0, canvas.width, canvas.height);
+      paint(stills[state.left], 0, middle);
+      paint(stills[state.right], middle, canvas.width);
+      context.fillStyle = '#fff';
+      context.fillRect(middle - ratio(), 0, 2 * ratio(), canvas.height);
+      context.fillStyle = 'rgba(0, 0, 0, .5)';
+      context.fillRect(middle + ratio(), 0, ratio(), canvas.height);
+      tag(stills[state.left].dataset.title, 8 * ratio(), 'left');
+      tag(stills[state.right].dataset.title, canvas.width - 8 * ratio(), 'right');
+      byId('zoom').textContent = `${(state.scale / ratio() * 100).toFixed(0)} %`;
+    }
+    function colour(index, x, y) {
+      if (!pixels[index]) {
+        const image = stills[index], copy = document.createElement('canvas');
+        copy.width = image.naturalWidth;
+        copy.height = image.naturalHeight;
+        const c = copy.getContext('2d', {willReadFrequently: true});
+        c.drawImage(image, 0, 0);
+        pixels[index] = c;
+      }
+      return [...pixels[index].getImageData(x, y, 1, 1).data].join(', ');
+    }
+
+    const at = (event) => {
+      const box = canvas.getBoundingClientRect();
+      return {x: (event.clientX - box.left) * ratio(), y: (event.clientY - box.top) * ratio()};
+    };
+    let drag = null;
+    canvas.addEventListener('pointerdown', (event) => {
+      const p = at(event);
+      const near = Math.abs(p.x - canvas.width * state.split) < 10 * ratio();
+      drag = {divider: near, x: p.x, y: p.y};
+      canvas.setPointerCapture(event.pointerId);
+    });
+    canvas.addEventListener('pointermove', (event) => {
+      const p = at(event);
+      if (drag && drag.divider) {
+        state.split = Math.min(1, Math.max(0, p.x / canvas.width));
+        split.value = String(Math.round(state.split * 1000));
+        draw();
+      } else if (drag) {
+        state.x += p.x - drag.x;
+        state.y += p.y - drag.y;
+        drag.x = p.x;
+        drag.y = p.y;
+        draw();
+      }
+      const {w, h} = size();
+      const x = Math.floor((p.x - state.x) / state.scale), y = Math.floor((p.y - state.y) / state.scale);
+      byId('probe').textContent = x >= 0 && y >= 0 && x < w && y < h
+          ? `pixel (${x}, ${y})   left RGBA ${colour(state.left, x, y)}   right RGBA ${colour(state.right, x, y)}`
+          : '';
+    });
+    canvas.addEventListener('pointerup', () => { drag = null; });
+    canvas.addEventListener('wheel', (event) => {
+      event.preventDefault();
+      const p = at(event);
+      zoomAt(event.deltaY < 0 ? 1.25 : 0.8, p.x, p.y);
+    }, {passive: false});
+    byId('zoom-in').addEventListener('click', () => zoomAt(2, canvas.width / 2, canvas.height / 2));
+    byId('zoom-out').addEventListener('click', () => zoomAt(0.5, canvas.width / 2, canvas.height / 2));
+    byId('fit').addEventListener('click', fit);
+    addEventListener('resize', resize);
+    Promise.all(stills.map((image) => image.decode().catch(() => {}))).then(resize);
+  }
+
+  // ---- charts ----
+  const stallColours = ['#d08a2c', '#b9503f', '#7c62a8', '#8b9138', '#b0608c', '#5c7fb5', '#9a7654',
+                        '#4f8f6b', '#c9ab3a', '#72777e'];
+  let charts = [];
+  function drawCharts() {
+    for (const chart of charts) chart.destroy();
+    charts = [];
+    const style = getComputedStyle(document.documentElement);
+    const css = (name) => style.getPropertyValue(name).trim();
+    Chart.defaults.animation = false;
+    Chart.defaults.locale = 'en-US';
+    Chart.defaults.color = css('--muted');
+    Chart.defaults.borderColor = css('--rule');
+    Chart.defaults.font.family = 'system-ui, "DejaVu Sans", sans-serif';
+    Chart.defaults.maintainAspectRatio = false;
+    const horizontal = (labels, box) => {
+      byId(box).style.height = `${Math.max(90, labels.length * 30 + 70)}px`;
+      return labels;
+    };
+
+    // Cycles of each unit, by cause.
+    const units = Object.entries(data.result.units);
+    if (units.length > 0) {
+      const cycles = ([, unit]) => unit.busy + unit.idle +
+          Object.values(unit.stalls).reduce((a, b) => a + b, 0);
+      const causes = [...new Set(units.flatMap(([, unit]) => Object.keys(unit.stalls)))]
+          .filter((cause) => units.some(([, unit]) => unit.stalls[cause] > 0));
+      const share = (count, unit) => cycles(unit) ? 100 * count / cycles(unit) : 0;
+      const series = (label, colour, get) => ({
+        label, backgroundColor: colour, maxBarThickness: 22,
+        data: units.map((unit) => share(get(unit[1]), unit)), counts: units.map((unit) => get(unit[1]))
+      });
+      charts.push(new Chart(byId('units'), {
+        type: 'bar',
+        data: {
+          labels: horizontal(units.map(([name]) => name), 'units-box'),
+          datasets: [
+            series('busy', css('--busy'), (unit) => unit.busy),
+            ...causes.map((cause, i) => series(`stalled: ${cause.replaceAll('_', ' ')}`,
+                stallColours[i % stallColours.length], (unit) => unit.stalls[cause] || 0)),
+            series('idle', css('--idle'), (unit) => unit.idle)
+          ]
+        },
+        options: {
+          indexAxis: 'y',
+          scales: {
+            x: {stacked: true, beginAtZero: true, max: 100, title: {display: true, text: '% of cycles'}},
+            y: {stacked: true, grid: {display: false}, ticks: {autoSkip: false}}
+          },
+          plugins: {
+            legend: {position: 'bottom', labels: {boxWidth: 12}},
+            tooltip: {callbacks: {label: (item) => `${item.dataset.label}: ` +
+                `${number.format(item.dataset.counts[item.dataIndex])} clk (${item.raw.toFixed(1)} %)`}}
+          }
+        }
+      }));
+    }
+
+    // Latency histogram with its percentiles as lines.
+    const latency = data.result.latency, bins = latency.histogram;
+    if (bins.length > 0) {
+      const marks = [['p50', latency.p50], ['p95', latency.p95], ['p99', latency.p99]];
+      const lines = {
+        id: 'percentiles',
+        afterDatasetsDraw(chart) {
+          const {ctx, chartArea, scales} = chart;
+          ctx.save();
+          ctx.font = '11px system-ui, sans-serif';
+          marks.forEach(([name, value], i) => {
+            let bin = bins.findIndex((b, k) => k + 1 === bins.length || bins[k + 1].from > value);
+            if (bin < 0) bin = bins.length - 1;
+            const x = scales.x.getPixelForValue(bin);
+            ctx.strokeStyle = ctx.fillStyle = css('--bad');
+            ctx.setLineDash([4, 3]);
+            ctx.beginPath();
+            ctx.moveTo(x, chartArea.top + 14 * i + 4);
+            ctx.lineTo(x, chartArea.bottom);
+            ctx.stroke();
+            const text = `${name} = ${number.format(value)}`;
+            const right = x + 6 + ctx.measureText(text).width > chartArea.right;
+            ctx.textAlign = right ? 'right' : 'left';
+            ctx.fillText(text, right ? x - 5 : x + 5, chartArea.top + 14 * i + 10);
+          });
+          ctx.restore();
+        }
+      };
+      charts.push(new Chart(byId('latency'), {
+        type: 'bar',
+        data: {
+          labels: bins.map((bin) => number.format(bin.from)),
+          datasets: [{data: bins.map((bin) => bin.count), backgroundColor: css('--busy'),
+                      categoryPercentage: 1, barPercentage: bins.length > 60 ? 1 : 0.92}]
+        },
+        options: {
+          scales: {
+            x: {grid: {display: false}, title: {display: true, text: `latency, ${latency.unit}`},
+                ticks: {maxRotation: 0, autoSkipPadding: 14}},
+            y: {beginAtZero: true, title: {display: true, text: 'transactions'}}
+          },
+          plugins: {
+            legend: {display: false},
+            tooltip: {callbacks: {title: (items) => {
+              const i = items[0].dataIndex;
+              return i + 1 < bins.length && bins[i + 1].from > bins[i].from + 1
+                  ? `${bins[i].from} to ${bins[i + 1].from - 1} clk` : `${bins[i].from} clk`;
+            }}}
+          }
+        },
+        plugins: [lines]
+      }));
+    }
+
+    // SRAM bits.
+    const sram = Object.entries(data.result.sram_bits);
+    if (sram.length > 0) {
+      charts.push(new Chart(byId('sram'), {
+        type: 'bar',
+        data: {
+          labels: horizontal(sram.map(([name]) => name), 'sram-box'),
+          datasets: [{data: sram.map(([, bits]) => bits), backgroundColor: css('--busy'), maxBarThickness: 22}]
+        },
+        options: {
+          indexAxis: 'y',
+          scales: {
+            x: {beginAtZero: true, title: {display: true, text: 'bits'}, ticks: {maxRotation: 0, autoSkipPadding: 12}},
+            y: {grid: {display: false}, ticks: {autoSkip: false}}
+          },
+          plugins: {legend: {display: false}}
+        }
+      }));
+    }
+  }
+  drawCharts();
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', drawCharts);
+})();

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// What a run measured, and its file result.json (schema 1, docs/exploration.md).
+//
+// Written by an engine at the end of a run, read by `deburr report` and `deburr compare`. Unit and
+// meaning of each key travel with the file under "meaning": those of every engine come from
+// statistics(), those of an engine's counters and stall causes from their declaration in the model.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace deburr::tb {
+
+inline constexpr int kResultSchema = 1;
+
+enum class Verdict { kPass, kFail, kUnchecked };
+
+struct StallCycles {
+  std::string cause, meaning;
+  std::uint64_t cycles = 0;
+};
+
+// One pipeline unit's cycles, each classified exactly once.
+struct UnitCycles {
+  std::string name;
+  std::uint64_t busy = 0, idle = 0;
+  std::vector<StallCycles> stalls;
+};
+
+// A counter of one engine: "work.<name>".
+struct WorkItem {
+  std::string name;
+  nlohmann::ordered_json value;
+  std::string unit, meaning;
+};
+
+struct LatencyBin {
+  std::uint64_t from = 0, count = 0;  // clocks >= from, below the next bin's
+};
+
+struct Latency {
+  std::uint64_t min = 0, p50 = 0, p95 = 0, p99 = 0, max = 0;
+  std::vector<LatencyBin> histogram;
+};
+
+// Against a picture taken as truth; a value that does not exist (no edge pixels) is absent.
+struct Quality {
+  std::string reference;
+  std::optional<double> psnr_db, psnr_edge_db, psnr_silhouette_db;
+};
+
+struct Result {
+  std::string unit;
+  Verdict verdict = Verdict::kUnchecked;
+  std::string reason;  // why it failed or is not complete; empty otherwise
+  bool interrupted = false;
+  std::uint64_t comparisons = 0, mismatches = 0;
+  std::uint64_t traffic_comparisons = 0, traffic_mismatches = 0;
+  std::uint64_t cycles = 0;
+  double clock_mhz = 0;
+  double throughput = 0, throughput_bound = 0;
+  std::string throughput_unit;
+  Latency latency;
+  std::uint64_t bytes_read = 0, bytes_written = 0, lines_filled = 0;
+  std::vector<UnitCycles> units;
+  std::vector<std::pair<std::string, std::uint64_t>> sram_bits;
+  std::vector<WorkItem> work;
+  std::optional<Quality> quality;
+  double host_seconds = 0;
+
+  double mcycles_per_s() const {
+    return host_seconds > 0 ? static_cast<double>(cycles) / host_seconds / 1e6 : 0;
+  }
+};
+
+nlohmann::ordered_json to_json(const Result& result);
+
+// Reads DIR/result.json (or the file itself) and checks that it is a complete schema-1 result:
+// FileError otherwise.
+nlohmann::ordered_json read_result(const std::filesystem::path& path);
+
+// Unit and meaning of the keys that every engine writes. "*" stands for one part of a key that a
+// run makes (units, memories).
+struct Statistic {
+  std::string_view name, unit, meaning;
+};
+std::span<const Statistic> statistics();
+// The entry for a key such as "units.address.busy"; nullptr when it is an engine's own.
+const Statistic* find_statistic(std::string_view key);
+
+}  // namespace deburr::tb

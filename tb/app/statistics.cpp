@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+
+#include "tb/app/result.h"
+
+namespace deburr::tb {
+namespace {
+
+constexpr std::array kStatistics = {
+    Statistic{"schema", "", "Version of this file's layout."},
+    Statistic{"unit", "", "The engine that ran."},
+    Statistic{"verdict", "", "pass, fail, or unchecked when no golden model ran beside it."},
+    Statistic{"reason", "", "Why the run failed or is not complete."},
+    Statistic{"interrupted", "", "The run was ended by a signal; counters cover what was done."},
+    Statistic{"checks.comparisons", "value", "Outputs compared with the golden model."},
+    Statistic{"checks.mismatches", "value", "Outputs that differ from the golden model."},
+    Statistic{"checks.traffic_comparisons", "line",
+              "Memory accesses compared with the golden model's prediction, in order."},
+    Statistic{"checks.traffic_mismatches", "line",
+              "Memory accesses that differ from the prediction."},
+    Statistic{"cycles", "clk", "From the end of reset to the last output."},
+    Statistic{"clock_mhz", "MHz", "Clock that rates and times are quoted for."},
+    Statistic{"throughput.value", "see throughput.unit", "Work over cycles of the whole run."},
+    Statistic{"throughput.unit", "", "Unit of the rate."},
+    Statistic{"throughput.bound", "see throughput.unit", "What the hardware could do at best."},
+    Statistic{"latency.unit", "", "Unit of the latencies."},
+    Statistic{"latency.min", "clk", "Shortest latency of a transaction, input taken to output."},
+    Statistic{"latency.p50", "clk", "Half of all transactions are at most this slow."},
+    Statistic{"latency.p95", "clk", "95 % of all transactions are at most this slow."},
+    Statistic{"latency.p99", "clk", "99 % of all transactions are at most this slow."},
+    Statistic{"latency.max", "clk", "Longest latency of a transaction."},
+    Statistic{"latency.histogram", "clk, transactions",
+              "Bins: transactions with a latency of at least `from` and below the next bin's."},
+    Statistic{"memory.bytes_read", "byte", "Bytes read from memory."},
+    Statistic{"memory.bytes_written", "byte", "Bytes written to memory."},
+    Statistic{"memory.lines_filled", "line", "Cache lines fetched from memory."},
+    Statistic{"units.*.busy", "clk", "Cycles in which the unit did work."},
+    Statistic{"units.*.idle", "clk", "Cycles in which the unit had nothing to do."},
+    Statistic{"units.*.stalls.*", "clk", "Cycles in which the unit had work and could not do it."},
+    Statistic{"sram_bits.*", "bit", "Size of a memory of the model."},
+    Statistic{"quality.reference", "", "What the picture is compared with."},
+    Statistic{"quality.psnr_db", "dB", "PSNR over the frame; inf: identical."},
+    Statistic{"quality.psnr_edge_db", "dB",
+              "PSNR over edge pixels: truth and unfiltered input differ by more than 2/255."},
+    Statistic{"quality.psnr_silhouette_db", "dB",
+              "PSNR over edge pixels with a relative depth step of 5 % to a neighbour."},
+    Statistic{"host.seconds", "s", "Time of the simulation on this host, set-up not included."},
+    Statistic{"host.mcycles_per_s", "Mcycle/s", "Simulated cycles a second of host time."},
+};
+
+}  // namespace
+
+std::span<const Statistic> statistics() { return kStatistics; }
+
+}  // namespace deburr::tb
