@@ -81,7 +81,8 @@ sc_core::sc_time ClockDomain::time_of(Cycle cycle) const {
   return sc_core::sc_time::from_value(cycle * period_value_);
 }
 
-sc_core::sc_time ClockDomain::offset() const {
+sc_core::sc_time ClockDomain::offset() {
+  block_end_ = 0;
   return evaluating_ ? time_of(cycle_ - block_start_) : sc_core::SC_ZERO_TIME;
 }
 
@@ -119,8 +120,10 @@ void ClockDomain::activate() {
   block_start_ = cycle_;
   evaluating_ = true;
   try {
+    block_end_ = 0;
     do {
       evaluate();
+      if (cycle_ < block_end_) evaluate_block();
     } while (may_run_on());
   } catch (...) {
     evaluating_ = false;
@@ -152,24 +155,48 @@ void ClockDomain::evaluate() {
     for (Clocked* clocked : after_) clocked->tick(cycle);
     cycle_ = cycle + 1;
   }
-  if (done_ && (*done_)()) done_reached_ = true;
+  if (done_ && (*done_)()) {
+    done_reached_ = true;
+    block_end_ = 0;
+  }
 }
 
-// May the next edge be evaluated in this activation? Only if nobody could tell.
-bool ClockDomain::may_run_on() const {
+// evaluate() up to the end of the block, without what is usually not there. Whatever changes that
+// (reset, stop, a call into SystemC) moves the end of the block to before the next cycle.
+void ClockDomain::evaluate_block() {
+  if (!reset_n_ || shuffled_ || done_ || !before_.empty() || !after_.empty()) {
+    while (cycle_ < block_end_) evaluate();
+    return;
+  }
+  Cycle cycle = cycle_;
+  const Slot* const begin = slots_.data();
+  const Slot* const end = begin + slots_.size();
+  do {
+    for (const Slot* slot = begin; slot != end; ++slot)
+      ++slot->activity[slot->clocked->tick(cycle).code % kActivities];
+    cycle_ = ++cycle;
+  } while (cycle < block_end_);
+}
+
+// May the next edge be evaluated in this activation? Only if nobody could tell. Moves the end of
+// the block as far as can be told now.
+bool ClockDomain::may_run_on() {
   if (!fast_path_ || cycle_by_cycle_ || observed_ || stop_requested_ || done_reached_) return false;
   const std::uint64_t next = (cycle_ - block_start_) * period_value_;
-  if (cycle_ * period_value_ >= horizon_) return false;
   const std::uint64_t pending = sc_core::sc_time_to_pending_activity().value();
-  if (pending > next) [[likely]]
-    return sc_core::sc_get_curr_simcontext()->sim_status() == sc_core::SC_SIM_OK;
   DEBURR_CHECK(
       pending >= next - period_value_,
-      fmt::format("{}: in cycle {} something was raised in SystemC without adding the domain's "
-                  "offset, so its time is wrong: use ClockDomain::notify() or offset(), or switch "
-                  "off the fast path",
-                  name(), cycle_ - 1));
-  return false;
+      fmt::format("{}: in one of the cycles {}..{} something was raised in SystemC without adding "
+                  "the domain's offset, so its time is wrong: use ClockDomain::notify() or "
+                  "offset(), or switch off the fast path",
+                  name(), std::max(block_start_, cycle_ - std::min(cycle_, kBlock)), cycle_ - 1));
+  if (pending <= next || cycle_ * period_value_ >= horizon_ ||
+      sc_core::sc_get_curr_simcontext()->sim_status() != sc_core::SC_SIM_OK)
+    return false;
+  // Edges strictly before what is pending, and strictly before the horizon.
+  block_end_ = std::min({cycle_ + kBlock, block_start_ + (pending - 1) / period_value_ + 1,
+                         (horizon_ - 1) / period_value_ + 1});
+  return true;
 }
 
 void ClockDomain::reset_all() {

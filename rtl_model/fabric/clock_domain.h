@@ -7,7 +7,8 @@
 // including the next edge, the domain runs on through further cycles in the same activation. That
 // is invisible as long as units keep to two rules: they never ask for sc_time_stamp() (use
 // time_of(cycle)), and they raise events and call TLM targets with the offset of the domain added
-// (notify(), offset()). The first rule cannot be checked, the second is checked.
+// (notify(), offset()). The first rule cannot be checked, the second is checked. It also makes the
+// domain cheap: only after such a call, and every kBlock cycles, does it ask the kernel again.
 // Running on needs to know where sc_start() will end, so it happens inside run(), run_until() and
 // run_free() only; a bare sc_start() gives the same results cycle by cycle.
 #pragma once
@@ -45,7 +46,10 @@ class ClockDomain final : public sc_core::sc_module {
   // From now on every edge is an activation of its own (traces).
   void require_cycle_by_cycle() { cycle_by_cycle_ = true; }
   // Active low. While false, every edge resets instead of ticking.
-  void set_reset_n(bool reset_n) { reset_n_ = reset_n; }
+  void set_reset_n(bool reset_n) {
+    reset_n_ = reset_n;
+    block_end_ = 0;
+  }
 
   // --- Running ---
   void run(Cycle cycles);
@@ -54,15 +58,19 @@ class ClockDomain final : public sc_core::sc_module {
   // Runs until request_stop() is called.
   void run_free();
   // Ends run_free(), run() or run_until() after the cycle that is being evaluated.
-  void request_stop() { stop_requested_ = true; }
+  void request_stop() {
+    stop_requested_ = true;
+    block_end_ = 0;
+  }
 
   // --- Time ---
   const sc_core::sc_time& period() const { return period_; }
   Cycle cycle() const { return cycle_; }  // inside tick: the current edge; outside: the next one
   Cycle cycles_since_reset() const { return cycle_ - reset_cycle_; }
   sc_core::sc_time time_of(Cycle cycle) const;
-  // How far the edge that is being evaluated is ahead of sc_time_stamp().
-  sc_core::sc_time offset() const;
+  // How far the edge that is being evaluated is ahead of sc_time_stamp(). For a call into SystemC
+  // that is made right after: the domain will look for what it has caused.
+  sc_core::sc_time offset();
   // Raises an event `delay` after the edge that is being evaluated (in the next delta if zero).
   void notify(sc_core::sc_event& event, const sc_core::sc_time& delay = sc_core::SC_ZERO_TIME);
   // Raised at every edge, after the units have been ticked. Asking for it ends running on.
@@ -85,8 +93,9 @@ class ClockDomain final : public sc_core::sc_module {
   void end_of_elaboration() override;
   void activate();
   void evaluate();
+  void evaluate_block();
   void reset_all();
-  bool may_run_on() const;
+  bool may_run_on();
   void start(Cycle end, std::uint64_t horizon);
   void reorder();
   void claim(LinkBase& link);
@@ -103,7 +112,9 @@ class ClockDomain final : public sc_core::sc_module {
   std::vector<ClockDomain*> domains_;  // all of the simulation, this one included
   std::uint64_t ignored_[kActivities] = {};
 
+  static constexpr Cycle kBlock = 64;
   Cycle cycle_ = 0, block_start_ = 0, reset_cycle_ = 0;
+  Cycle block_end_ = 0;        // edges before this one may be evaluated without asking the kernel
   std::uint64_t horizon_ = 0;  // sc_time value up to which the current run will certainly go
   std::uint64_t activations_ = 0;
   std::uint64_t shuffle_state_ = 0;

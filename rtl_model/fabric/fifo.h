@@ -34,7 +34,8 @@ class Fifo final : public Storage {
   bool empty() const { return link_.empty(); }
   // Largest number of entries since reset.
   std::uint32_t high_water() const { return high_water_; }
-  LinkBase& link() { return link_; }
+  // For a consumer in another unit: bind its port to this.
+  Link<T>& link() { return link_; }
   void reset() override {
     link_.reset();
     high_water_ = 0;

@@ -7,7 +7,7 @@ namespace deburr::rtl {
 
 LinkBase::LinkBase(const char* name, std::uint32_t depth, std::size_t payload_bytes)
     : sc_object(name),
-      mask_(std::bit_ceil(depth ? depth : 1) - 1),
+      mask_(std::bit_ceil(depth ? depth : 1U) - 1U),
       depth_(depth),
       payload_bytes_(payload_bytes) {
   DEBURR_CHECK(depth >= 1 && depth <= (1U << 24),

@@ -94,12 +94,12 @@ class LinkBase : public sc_core::sc_object {
   }
   std::string misuse(const char* what, Cycle cycle) const;
 
-  Cycle push_from_ = 0;
+  // All that a hand-shake touches, in one cache line.
+  alignas(64) Cycle push_from_ = 0;
   Cycle pop_from_ = kNever;
   std::uint64_t pushes_ = 0, pops_ = 0;
-  std::uint64_t mask_;
-  std::uint32_t depth_;
   std::byte* bytes_ = nullptr;
+  std::uint32_t mask_, depth_;
   Cycle last_push_ = kNever, last_pop_ = kNever;
 
  private:
@@ -117,14 +117,14 @@ class Link final : public LinkBase {
 
  public:
   explicit Link(const char* name, std::uint32_t depth = 2) : LinkBase(name, depth, sizeof(T)) {
-    slots_ = std::make_unique<T[]>(mask_ + 1);
-    bytes_ = reinterpret_cast<std::byte*>(slots_.get());
+    storage_ = std::make_unique<T[]>(mask_ + std::size_t{1});
+    bytes_ = reinterpret_cast<std::byte*>(storage_.get());
   }
 
   // The oldest beat. Needs can_pop(cycle).
   const T& front(Cycle cycle) const {
     DEBURR_CHECK(can_pop(cycle), misuse("front without can_pop()", cycle));
-    return slots_[pops_ & mask_];
+    return slot(pops_);
   }
   void pop(Cycle cycle) { advance_pop(cycle); }
   // front and pop in one.
@@ -135,12 +135,13 @@ class Link final : public LinkBase {
   }
 
   // Needs can_push(cycle).
-  void push(Cycle cycle, const T& value) { slots_[advance_push(cycle) & mask_] = value; }
+  void push(Cycle cycle, const T& value) { slot(advance_push(cycle)) = value; }
   // Pushes a beat that the caller fills in place, within the same tick(). It holds old bits.
-  T& emplace(Cycle cycle) { return slots_[advance_push(cycle) & mask_]; }
+  T& emplace(Cycle cycle) { return slot(advance_push(cycle)); }
 
  private:
-  std::unique_ptr<T[]> slots_;
+  T& slot(std::uint64_t number) const { return reinterpret_cast<T*>(bytes_)[number & mask_]; }
+  std::unique_ptr<T[]> storage_;
 };
 
 // A named end of a link on a unit's border. Bind it to a link, or to the port of the same kind of

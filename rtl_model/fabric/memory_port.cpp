@@ -34,6 +34,9 @@ MemoryPort::MemoryPort(const sc_core::sc_module_name& name, ClockDomain& clock,
   DEBURR_CHECK(parameters.max_burst_lines >= 1 && parameters.max_burst_lines <= 64,
                fmt::format("{}: bursts of {} lines, not in 1..64", this->name(),
                            parameters.max_burst_lines));
+  DEBURR_CHECK(parameters.line_bytes >= 4 && parameters.line_bytes <= kLineBytes,
+               fmt::format("{}: lines of {} bytes, not in 4..{}", this->name(),
+                           parameters.line_bytes, kLineBytes));
   memory.bind(*this);
 }
 
@@ -62,7 +65,7 @@ Activity MemoryPort::tick(Cycle cycle) {
       lost = stalled_channel_;
     } else {
       if (starts) {
-        DEBURR_CHECK(request.address % kLineBytes == 0 && request.lines >= 1 &&
+        DEBURR_CHECK(request.address % parameters_.line_bytes == 0 && request.lines >= 1 &&
                          request.lines <= parameters_.max_burst_lines,
                      fmt::format("{}: cycle {}: request for {} lines at {:#x}", name(), cycle,
                                  request.lines, request.address));
@@ -75,16 +78,16 @@ Activity MemoryPort::tick(Cycle cycle) {
         t.write = request.write;
         t.arrived = false;
         t.set_address(request.address);
-        t.data.resize(std::size_t{t.lines} * kLineBytes);
+        t.data.resize(std::size_t{t.lines} * parameters_.line_bytes);
         t.enables.assign(t.data.size(), TLM_BYTE_ENABLED);
         if (request.write)
-          for (std::uint32_t i = 0; i < kLineBytes; ++i)
+          for (std::uint32_t i = 0; i < parameters_.line_bytes; ++i)
             if (!(request.byte_mask >> i & 1)) t.enables[i] = TLM_BYTE_DISABLED;
       }
       Transaction& t = *gathering_;
       if (t.write)
-        std::memcpy(t.data.data() + std::size_t{t.next_line++} * kLineBytes, request.data.data(),
-                    kLineBytes);
+        std::memcpy(t.data.data() + std::size_t{t.next_line++} * parameters_.line_bytes,
+                    request.data.data(), parameters_.line_bytes);
       requests_in.pop(cycle);
       if (completes) {
         gathering_ = nullptr;
@@ -193,7 +196,7 @@ bool MemoryPort::respond(Cycle cycle) {
   if (!t->arrived || t->when >= clock().time_of(cycle)) return false;
 
   MemoryResponse& response = responses_out.emplace(cycle);
-  response.address = t->get_address() + std::uint64_t{t->next_line} * kLineBytes;
+  response.address = t->get_address() + std::uint64_t{t->next_line} * parameters_.line_bytes;
   response.tag = t->tag;
   response.line = t->next_line;
   response.write = t->write;
@@ -209,8 +212,9 @@ bool MemoryPort::respond(Cycle cycle) {
       response.status = MemoryStatus::kError;
   }
   if (response.status == MemoryStatus::kOk && !t->write)
-    std::memcpy(response.data.data(), t->data.data() + std::size_t{t->next_line} * kLineBytes,
-                kLineBytes);
+    std::memcpy(response.data.data(),
+                t->data.data() + std::size_t{t->next_line} * parameters_.line_bytes,
+                parameters_.line_bytes);
   else
     response.data.fill(0);
   ++t->next_line;

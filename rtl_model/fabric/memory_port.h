@@ -31,7 +31,7 @@ using Line = std::array<std::uint8_t, kLineBytes>;
 // One beat. A burst read is one beat with lines > 1. A burst write is `lines` beats in a row: the
 // first carries address, tag and lines, the others only data.
 struct MemoryRequest {
-  std::uint64_t address = 0;  // bytes; a multiple of kLineBytes
+  std::uint64_t address = 0;  // bytes; a multiple of the port's line_bytes
   std::uint32_t tag = 0;      // comes back with the response; the unit's own business
   std::uint16_t lines = 1;    // burst length, 1..MemoryPortParameters::max_burst_lines
   bool write = false;
@@ -53,9 +53,10 @@ struct MemoryResponse {
 };
 
 struct MemoryPortParameters {
-  std::uint32_t outstanding = 16;     // transactions; 1..1024
-  std::uint32_t max_burst_lines = 1;  // lines; 1..64
-  bool in_order = false;              // responses in the order of requests
+  std::uint32_t outstanding = 16;         // transactions; 1..1024
+  std::uint32_t max_burst_lines = 1;      // lines; 1..64
+  bool in_order = false;                  // responses in the order of requests
+  std::uint32_t line_bytes = kLineBytes;  // 4..kLineBytes: of each beat, the first so many
 };
 
 class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tlm_mm_interface {

@@ -39,7 +39,11 @@ std::uint32_t load(const std::uint8_t* from) {
 
 RegisterBlock::RegisterBlock(const sc_core::sc_module_name& name,
                              std::span<const RegisterDescription> table)
-    : sc_module(name), table_(table), actions_(table.size()), shown_(table.size()) {
+    : sc_module(name),
+      table_(table),
+      actions_(table.size()),
+      values_read_(table.size()),
+      shown_(table.size()) {
   for (std::size_t i = 0; i < table.size(); ++i) {
     const std::uint32_t offset = table[i].offset;
     DEBURR_CHECK(offset % 4 == 0, fmt::format("{}.{}: offset {:#x} is no multiple of 4",
@@ -56,6 +60,10 @@ RegisterBlock::RegisterBlock(const sc_core::sc_module_name& name,
 
 void RegisterBlock::on_write(std::size_t index, std::function<void(std::uint32_t)> action) {
   actions_.at(index) = std::move(action);
+}
+
+void RegisterBlock::on_read(std::size_t index, std::function<std::uint32_t()> value) {
+  values_read_.at(index) = std::move(value);
 }
 
 void RegisterBlock::show(std::size_t index, const Counter& counter, int shift) {
@@ -80,6 +88,7 @@ int RegisterBlock::find(std::uint64_t offset) const {
 }
 
 std::uint32_t RegisterBlock::read(std::size_t index) const {
+  if (values_read_[index]) return values_read_[index]();
   const Shown& shown = shown_[index];
   return shown.counter ? static_cast<std::uint32_t>(shown.counter->value() >> shown.shift)
                        : values_[index];

@@ -54,6 +54,9 @@ class RegisterBlock final : public sc_core::sc_module {
   void set(std::size_t index, std::uint32_t value) { values_[index] = value; }
   // Called after a bus write with the value that was written (a command register, for instance).
   void on_write(std::size_t index, std::function<void(std::uint32_t)> action);
+  // Gives the value that a read sees, instead of the stored one (a status that follows the
+  // hardware).
+  void on_read(std::size_t index, std::function<std::uint32_t()> value);
   // A read-only register that shows the low (or, with shift 32, the high) word of a counter.
   void show(std::size_t index, const Counter& counter, int shift = 0);
   void reset();
@@ -75,6 +78,7 @@ class RegisterBlock final : public sc_core::sc_module {
   std::vector<std::uint32_t> values_;
   std::vector<int> index_by_word_;
   std::vector<std::function<void(std::uint32_t)>> actions_;
+  std::vector<std::function<std::uint32_t()>> values_read_;
   std::vector<Shown> shown_;
 };
 

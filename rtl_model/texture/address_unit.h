@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// From quads of texture coordinates to bilinear requests: the address calculation module of the
+// paper (2.2, figure 4).
+//
+//   quads_in -> DerivativeUnit -> FootprintUnit -> Log2Unit -> LevelUnit -> SampleWalker
+//            -> TexelAddresser -> texels_out
+//
+// Latency 7 to the first request (22 with `footprint = exact`); initiation interval N x (1 or 2)
+// clocks a fragment; every block is stalled by `downstream` only.
+#pragma once
+
+#include <systemc>
+
+#include "rtl_model/fabric/link.h"
+#include "rtl_model/texture/derivative_unit.h"
+#include "rtl_model/texture/footprint_unit.h"
+#include "rtl_model/texture/level_unit.h"
+#include "rtl_model/texture/log2_unit.h"
+#include "rtl_model/texture/parameter_store.h"
+#include "rtl_model/texture/sample_walker.h"
+#include "rtl_model/texture/texel_addresser.h"
+
+namespace deburr::rtl::texture {
+
+class AddressUnit final : public sc_core::sc_module {
+ public:
+  In<spec::Quad> quads_in{"quads_in"};
+  Out<TexelToken> texels_out{"texels_out"};
+
+  AddressUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
+              const spec::TextureParameters& parameters, ParameterStore& store,
+              FragmentProbe& probe);
+
+  DerivativeUnit derivative;
+  FootprintUnit footprint;
+  Log2Unit log2;
+  LevelUnit level;
+  SampleWalker walker;
+  TexelAddresser addresser;
+
+ private:
+  Link<DerivativeToken> derivatives_{"derivatives"};
+  Link<FootprintToken> footprints_{"footprints"};
+  Link<Log2Token> logs_{"logs"};
+  Link<LevelToken> levels_{"levels"};
+  Link<SampleToken> samples_{"samples"};
+};
+
+}  // namespace deburr::rtl::texture

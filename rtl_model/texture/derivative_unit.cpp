@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/texture/derivative_unit.h"
+
+#include <bit>
+
+namespace deburr::rtl::texture {
+namespace {
+
+// Size of a difference in texels: S8.24 x U13 = U20.24, to U15.16 with one bit of overflow, which
+// is bit 31 or above.
+std::uint64_t in_texels(std::int64_t difference, std::uint16_t size) {
+  const auto magnitude = static_cast<std::uint64_t>(difference < 0 ? -difference : difference);
+  return (magnitude * size + (1u << 7)) >> 8;
+}
+
+constexpr std::uint64_t kLargest = (std::uint64_t{1} << 31) - 1;  // U15.16
+
+std::uint32_t saturate(std::uint64_t texels) {
+  return static_cast<std::uint32_t>(texels > kLargest ? kLargest : texels);
+}
+
+std::int64_t difference(std::int32_t to, std::int32_t from) {
+  return std::int64_t{to} - from;  // S8.24
+}
+
+}  // namespace
+
+DerivativeUnit::DerivativeUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
+                               ParameterStore& store, FragmentProbe& probe)
+    : Unit(name, clock), store_(store), probe_(probe) {}
+
+Activity DerivativeUnit::tick(Cycle cycle) {
+  if (waiting_ == 0) {
+    if (!store_.enabled() || !quads_in.can_pop(cycle)) return kIdle;
+    const unsigned covered = quads_in.front(cycle).coverage & 0xF;
+    if (covered != 0 && !derivatives_out.can_push(cycle)) return kStalledDownstream;
+    quad_ = quads_in.take(cycle);
+    waiting_ = covered;
+    ++quads;
+    for (unsigned lanes = covered; lanes != 0; lanes &= lanes - 1) probe_.entered(cycle);
+    if (covered == 0) return kBusy;
+  } else if (!derivatives_out.can_push(cycle)) {
+    return kStalledDownstream;
+  }
+  const auto lane = static_cast<unsigned>(std::countr_zero(waiting_));
+  waiting_ &= waiting_ - 1;
+  emit(cycle, lane);
+  return kBusy;
+}
+
+void DerivativeUnit::emit(Cycle cycle, unsigned lane) {
+  const TextureState& texture = store_.texture(quad_.texture);
+  const auto& s = quad_.s;
+  const auto& t = quad_.t;
+  const unsigned row = lane & 2, column = lane & 1;
+
+  DerivativeToken& out = derivatives_out.emplace(cycle);
+  out.ticket = {quad_.tag, static_cast<std::uint8_t>(lane), waiting_ == 0, texture.valid,
+                quad_.texture};
+  out.s = s[lane];
+  out.t = t[lane];
+  out.s_x = difference(s[row + 1], s[row]);
+  out.t_x = difference(t[row + 1], t[row]);
+  out.s_y = difference(s[2 + column], s[column]);
+  out.t_y = difference(t[2 + column], t[column]);
+  const std::uint64_t s_x = in_texels(out.s_x, texture.width),
+                      t_x = in_texels(out.t_x, texture.height),
+                      s_y = in_texels(out.s_y, texture.width),
+                      t_y = in_texels(out.t_y, texture.height);
+  out.size_s_x = saturate(s_x);
+  out.size_t_x = saturate(t_x);
+  out.size_s_y = saturate(s_y);
+  out.size_t_y = saturate(t_y);
+
+  ++fragments;
+  if (quad_.clamped >> lane & 1) ++clamped;
+  if (!texture.valid) {
+    ++invalid;
+    store_.set_sticky(spec::texture_register::kStatusInvalidTexture);
+  } else if (((s_x | t_x | s_y | t_y) >> 31) != 0) {
+    ++saturated;
+  }
+}
+
+void DerivativeUnit::reset() {
+  waiting_ = 0;
+  probe_.reset();
+}
+
+}  // namespace deburr::rtl::texture

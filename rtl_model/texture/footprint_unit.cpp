@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/texture/footprint_unit.h"
+
+#include <algorithm>
+
+namespace deburr::rtl::texture {
+
+FootprintUnit::FootprintUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
+                             spec::FootprintRule rule)
+    : Unit(name, clock), rule_(rule) {}
+
+Activity FootprintUnit::tick(Cycle cycle) {
+  if (rule_ == spec::FootprintRule::kExact) return tick_exact(cycle);
+  if (!derivatives_in.can_pop(cycle)) return kIdle;
+  if (!footprints_out.can_push(cycle)) return kStalledDownstream;
+
+  const DerivativeToken& in = derivatives_in.front(cycle);
+  const std::uint32_t d_x = side(in.size_s_x, in.size_t_x), d_y = side(in.size_s_y, in.size_t_y);
+  const bool x_is_major = d_x >= d_y;
+  footprints_out.emplace(cycle) = {in.ticket,
+                                   in.s,
+                                   in.t,
+                                   x_is_major ? in.s_x : in.s_y,
+                                   x_is_major ? in.t_x : in.t_y,
+                                   x_is_major ? d_x : d_y,
+                                   x_is_major ? d_y : d_x};
+  derivatives_in.pop(cycle);
+  return kBusy;
+}
+
+// U15.16 in, U16.16 out. The shifts are wires.
+std::uint32_t FootprintUnit::side(std::uint32_t s, std::uint32_t t) const {
+  const std::uint32_t a = std::max(s, t), b = std::min(s, t);
+  switch (rule_) {
+    case spec::FootprintRule::kHalf:
+      return a + (b >> 1);
+    case spec::FootprintRule::kQuarter:
+      return a + (b >> 2);
+    case spec::FootprintRule::kTwoSegment:
+      return std::max(a + (b >> 3), a - (a >> 3) + (b >> 1));
+    case spec::FootprintRule::kMax:
+    case spec::FootprintRule::kExact:  // has a pipeline of its own
+      break;
+  }
+  return a;
+}
+
+Activity FootprintUnit::tick_exact(Cycle cycle) {
+  const bool waiting = derivatives_in.can_pop(cycle);
+  if (roots_.empty() && !waiting) return kIdle;
+  if (roots_.leaving() && !footprints_out.can_push(cycle)) return kStalledDownstream;
+  FootprintToken result;
+  if (roots_.step(waiting ? &derivatives_in.front(cycle) : nullptr, &result))
+    footprints_out.push(cycle, result);
+  if (waiting) derivatives_in.pop(cycle);
+  return kBusy;
+}
+
+void FootprintUnit::reset() { roots_.reset(); }
+
+}  // namespace deburr::rtl::texture

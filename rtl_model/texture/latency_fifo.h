@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Keeps requests between tag check and data read while their lines come from memory.
+//
+// Where: between TagStage and DataStage. Latency 1 when empty, initiation interval 1; stalled by
+// `downstream` when full. As deep as the memory's latency in clocks, misses overlap with work and
+// cost no time. Cost: depth x request bits of SRAM, 1R1W. Source: Igehy et al., 1998.
+#pragma once
+
+#include <cstdint>
+#include <systemc>
+
+#include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/unit.h"
+#include "rtl_model/texture/tokens.h"
+#include "spec/texture.h"
+
+namespace deburr::rtl::texture {
+
+class LatencyFifo final : public Unit {
+ public:
+  In<CacheToken> requests_in{"requests_in"};
+
+  LatencyFifo(const sc_core::sc_module_name& name, ClockDomain& clock,
+              const spec::TextureParameters& parameters);
+  Activity tick(Cycle cycle) override;
+  void reset() override { entries.reset(); }
+
+  Fifo<CacheToken> entries;  // read by the DataStage
+
+ private:
+  static std::uint32_t entry_bits(const spec::TextureParameters& parameters);
+};
+
+}  // namespace deburr::rtl::texture

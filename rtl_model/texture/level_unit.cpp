@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/texture/level_unit.h"
+
+#include <algorithm>
+
+namespace deburr::rtl::texture {
+namespace {
+
+constexpr int kFractionBits = 12;
+constexpr std::int32_t kAlmostOne = (1 << kFractionBits) - 1;
+
+bool is_linear(spec::MinFilter filter) {
+  return filter == spec::MinFilter::kLinear || filter == spec::MinFilter::kLinearMipmapNearest ||
+         filter == spec::MinFilter::kLinearMipmapLinear;
+}
+
+}  // namespace
+
+LevelUnit::LevelUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
+                     const ParameterStore& store, spec::CountRule count, spec::CountCap cap)
+    : Unit(name, clock), store_(store), count_(count), cap_(cap) {}
+
+int LevelUnit::count_log2(std::int32_t lb_max, std::int32_t lb_min, int limit) const {
+  if (lb_max <= 0) return 0;                                // the footprint is within a texel
+  const std::int32_t ratio = std::max(lb_max - lb_min, 0);  // U6.12
+  const bool up = count_ == spec::CountRule::kCeil;
+  int count = std::min((ratio + (up ? kAlmostOne : 0)) >> kFractionBits, limit);
+  if (cap_ == spec::CountCap::kTexel)
+    count = std::min(count, (lb_max + kAlmostOne) >> kFractionBits);
+  return count;
+}
+
+Activity LevelUnit::tick(Cycle cycle) {
+  if (!logs_in.can_pop(cycle)) return kIdle;
+  if (!levels_out.can_push(cycle)) return kStalledDownstream;
+  const Log2Token& in = logs_in.front(cycle);
+  LevelToken& out = levels_out.emplace(cycle);
+  out = {in.ticket, in.s, in.t, in.axis_s, in.axis_t, 0, 0, 0, false};
+  logs_in.pop(cycle);
+  if (!out.ticket.valid) return kBusy;
+
+  const TextureState& texture = store_.texture(out.ticket.texture);
+  const int count = count_log2(in.lb_max, in.lb_min, texture.max_count_log2);
+  out.count_log2 = static_cast<std::uint8_t>(count);
+  std::int32_t l = in.lb_max - (count << kFractionBits) + texture.bias;  // S8.12
+  l = std::min(std::max(l, texture.min_lod), texture.max_lod);
+  if (l <= 0) {
+    ++magnified;
+    out.linear = texture.mag_filter == spec::MagFilter::kLinear;
+    return kBusy;
+  }
+  out.linear = is_linear(texture.min_filter);
+  const std::int32_t coarsest = texture.levels - 1;
+  switch (texture.min_filter) {
+    case spec::MinFilter::kNearest:
+    case spec::MinFilter::kLinear:
+      break;
+    case spec::MinFilter::kNearestMipmapNearest:
+    case spec::MinFilter::kLinearMipmapNearest:
+      out.level =
+          static_cast<std::uint8_t>(std::min((l + (kAlmostOne >> 1)) >> kFractionBits, coarsest));
+      break;
+    case spec::MinFilter::kNearestMipmapLinear:
+    case spec::MinFilter::kLinearMipmapLinear: {
+      const std::int32_t rounded = (l + 8) >> 4;  // S8.8
+      const bool beyond = (rounded >> 8) >= coarsest;
+      out.level = static_cast<std::uint8_t>(beyond ? coarsest : rounded >> 8);
+      out.fraction = static_cast<std::uint8_t>(beyond ? 0 : rounded & 255);
+      if (out.fraction != 0) ++two_levels;
+      break;
+    }
+  }
+  return kBusy;
+}
+
+}  // namespace deburr::rtl::texture

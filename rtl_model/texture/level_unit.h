@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Number of samples, mip level and level fraction of a fragment, and which filter is in force.
+//
+// Where: after the Log2Unit. Latency 1, initiation interval 1, stalled by `downstream`.
+// Formats: S5.12 in; l in S8.12, rounded once to S8.8 for the two-level modes. Cost: nine 20-bit
+// adders or comparators and a few multiplexers; no multiplier, since N is a power of two. Source:
+// paper 1.3, equations 2, 3 and 12; level of detail and modes as in GL.
+#pragma once
+
+#include <cstdint>
+#include <systemc>
+
+#include "rtl_model/fabric/unit.h"
+#include "rtl_model/texture/parameter_store.h"
+#include "rtl_model/texture/tokens.h"
+#include "spec/texture.h"
+
+namespace deburr::rtl::texture {
+
+class LevelUnit final : public Unit {
+ public:
+  In<Log2Token> logs_in{"logs_in"};
+  Out<LevelToken> levels_out{"levels_out"};
+
+  LevelUnit(const sc_core::sc_module_name& name, ClockDomain& clock, const ParameterStore& store,
+            spec::CountRule count, spec::CountCap cap);
+  Activity tick(Cycle cycle) override;
+  void reset() override {}
+
+  Counter magnified{"magnified", "fragments", "fragments with a level of detail of at most 0"};
+  Counter two_levels{"two_levels", "fragments", "fragments that blend two levels"};
+
+ private:
+  int count_log2(std::int32_t lb_max, std::int32_t lb_min, int limit) const;
+
+  const ParameterStore& store_;
+  spec::CountRule count_;
+  spec::CountCap cap_;
+};
+
+}  // namespace deburr::rtl::texture

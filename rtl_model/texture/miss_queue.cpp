@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/texture/miss_queue.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+
+namespace deburr::rtl::texture {
+namespace {
+
+std::uint32_t line_number_bits(const spec::TextureParameters& p) {
+  return 32 - static_cast<std::uint32_t>(
+                  std::countr_zero(static_cast<std::uint32_t>(p.cache_line_bytes)));
+}
+
+}  // namespace
+
+MissQueue::MissQueue(const sc_core::sc_module_name& name, ClockDomain& clock,
+                     const spec::TextureParameters& p, ParameterStore& store)
+    : Unit(name, clock),
+      fills("fill_buffer", static_cast<std::uint32_t>(p.cache_outstanding),
+            static_cast<std::uint32_t>(p.cache_line_bytes)),
+      store_(store),
+      line_bytes_(static_cast<std::uint32_t>(p.cache_line_bytes)),
+      lines_("lines", static_cast<std::uint32_t>(p.cache_outstanding), line_number_bits(p)),
+      failed_(static_cast<std::size_t>(p.cache_outstanding)),
+      fill_buffer_full_(
+          declare_stall("fill_buffer_full", "every entry of the fill buffer is held")),
+      wait_memory_(declare_stall("wait_memory", "waits for lines, has nothing else to do")) {}
+
+Activity MissQueue::tick(Cycle cycle) {
+  const bool received = receive(cycle);
+  const Activity issued = issue(cycle);  // before accept: what comes in now is sent no earlier than
+  const bool accepted = accept(cycle);   // in the next clock
+  if (received || accepted) return kBusy;
+  if (issued == kIdle && fills.occupancy() != 0) return wait_memory_;
+  return issued;
+}
+
+// One beat of at most 64 bytes from memory.
+bool MissQueue::receive(Cycle cycle) {
+  if (!responses_in.can_pop(cycle)) return false;
+  const MemoryResponse& response = responses_in.front(cycle);
+  const std::uint32_t entry = response.tag;
+  if (response.status != MemoryStatus::kOk) failed_[entry] = true;
+  if (response.last && failed_[entry]) {
+    failed_[entry] = false;
+    ++memory_errors;
+    store_.set_sticky(spec::texture_register::kStatusMemoryError);
+  }
+  // With an error, the port gives zeros.
+  fills.fill(cycle, entry, response.line * kLineBytes,
+             std::span(response.data).first(std::min(line_bytes_, kLineBytes)), response.last);
+  responses_in.pop(cycle);
+  return true;
+}
+
+Activity MissQueue::issue(Cycle cycle) {
+  if (waiting_ == 0) return kIdle;
+  if (!fills.can_reserve(cycle)) return fill_buffer_full_;
+  if (!requests_out.can_push(cycle)) return kStalledDownstream;
+  MemoryRequest& request = requests_out.emplace(cycle);
+  request.address = std::uint64_t{lines_.line[head_]} * line_bytes_;
+  request.tag = fills.reserve(cycle);
+  request.lines = static_cast<std::uint16_t>(std::max(line_bytes_ / kLineBytes, 1u));
+  request.write = false;
+  head_ = head_ + 1 == lines_.words() ? 0 : head_ + 1;
+  --waiting_;
+  ++line_fills;
+  fill_bytes += line_bytes_;
+  return kBusy;
+}
+
+// All lines that one request misses, or none.
+bool MissQueue::accept(Cycle cycle) {
+  if (!misses_in.can_pop(cycle)) return false;
+  const MissToken& missed = misses_in.front(cycle);
+  const auto places = static_cast<std::uint32_t>(lines_.words());
+  if (waiting_ + missed.count > places) return false;
+  for (std::uint32_t i = 0; i < missed.count; ++i) {
+    const std::uint32_t place = head_ + waiting_++;
+    lines_.line[place < places ? place : place - places] = missed.line[i];
+  }
+  most_waiting.raise_to(waiting_);
+  misses_in.pop(cycle);
+  return true;
+}
+
+void MissQueue::reset() {
+  fills.reset();
+  head_ = waiting_ = 0;
+  std::fill(failed_.begin(), failed_.end(), false);
+}
+
+}  // namespace deburr::rtl::texture

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Sends one missed line a clock to memory, in the order of the misses, and collects the lines in
+// the fill buffer.
+//
+// Where: between TagStage and memory. One line a clock each way. A fill-buffer entry is held from
+// issue until the DataStage has used the line; there are as many entries as queue places. Stalls:
+// `fill_buffer_full` (all entries held), `downstream` (the memory port takes nothing),
+// `wait_memory` (lines are under way or held, nothing else to do). A line that memory answers with
+// an error reads as zero, is counted, and sets a sticky status bit. Cost: outstanding x (line
+// number + line) bits. Source: Igehy et al., 1998.
+#pragma once
+
+#include <cstdint>
+#include <systemc>
+#include <vector>
+
+#include "rtl_model/fabric/memory_port.h"
+#include "rtl_model/fabric/unit.h"
+#include "rtl_model/texture/fill_buffer.h"
+#include "rtl_model/texture/parameter_store.h"
+#include "rtl_model/texture/tokens.h"
+#include "spec/texture.h"
+
+namespace deburr::rtl::texture {
+
+class MissQueue final : public Unit {
+ public:
+  In<MissToken> misses_in{"misses_in"};
+  Out<MemoryRequest> requests_out{"requests_out"};
+  In<MemoryResponse> responses_in{"responses_in"};
+
+  MissQueue(const sc_core::sc_module_name& name, ClockDomain& clock,
+            const spec::TextureParameters& parameters, ParameterStore& store);
+  Activity tick(Cycle cycle) override;
+  void reset() override;
+
+  FillBuffer fills;
+
+  Counter line_fills{"line_fills", "lines", "cache lines requested from memory"};
+  Counter fill_bytes{"fill_bytes", "bytes", "bytes of the lines requested"};
+  Counter memory_errors{"memory_errors", "lines", "line fills answered with an error"};
+  Counter most_waiting{"most_waiting", "lines", "largest number of lines waiting to be sent"};
+
+ private:
+  bool receive(Cycle cycle);
+  Activity issue(Cycle cycle);
+  bool accept(Cycle cycle);
+
+  // Storage only; the ring's pointers are below.
+  class Lines final : public Storage {
+   public:
+    Lines(const char* name, std::uint32_t words, std::uint32_t bits)
+        : Storage(name, words, bits, "1R4W"), line(words) {}
+    void reset() override {}
+    std::vector<std::uint32_t> line;  // U27
+  };
+
+  ParameterStore& store_;
+  std::uint32_t line_bytes_;
+  Lines lines_;
+  std::uint32_t head_ = 0, waiting_ = 0;  // U8, oldest line and number of lines
+  std::vector<bool> failed_;              // a beat of the line in this entry had an error
+  Activity fill_buffer_full_, wait_memory_;
+};
+
+}  // namespace deburr::rtl::texture

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Looks up the up to four lines of a bilinear request, allocates those that miss, and sends them to
+// the MissQueue.
+//
+// Where: head of the TextureCache. Latency 1, initiation interval 1. Stalls: `miss_queue_full` (the
+// request misses and the MissQueue takes nothing), `fifo_full` (the LatencyFifo takes nothing).
+// Tags change when a fill is ordered, data when it is used: see Order of fills in
+// docs/texture_unit.md. Cost: TagStore, six line comparators. Source: Igehy, Eldridge, Proudfoot,
+// "Prefetching in a texture cache architecture", 1998.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <systemc>
+#include <vector>
+
+#include "rtl_model/fabric/unit.h"
+#include "rtl_model/texture/fill_buffer.h"
+#include "rtl_model/texture/tag_store.h"
+#include "rtl_model/texture/tokens.h"
+#include "spec/texture.h"
+
+namespace deburr::rtl::texture {
+
+class TagStage final : public Unit {
+ public:
+  In<TexelToken> texels_in{"texels_in"};
+  Out<CacheToken> requests_out{"requests_out"};
+  Out<MissToken> misses_out{"misses_out"};
+
+  // `fills`: tells how many fills have been used.
+  TagStage(const sc_core::sc_module_name& name, ClockDomain& clock,
+           const spec::TextureParameters& parameters, const FillBuffer& fills);
+  Activity tick(Cycle cycle) override;
+  void reset() override;
+  void invalidate() { tags_.invalidate(); }
+
+  // lookups = hits + merged + misses
+  Counter requests{"requests", "requests", "bilinear requests looked up"};
+  Counter hits{"hits", "lines", "lookups of a line that is in the data banks"};
+  Counter merged{"merged", "lines", "lookups of a line whose fill is under way"};
+  Counter misses{"misses", "lines", "lookups that ordered a fill"};
+  Counter evictions{"evictions", "lines", "valid lines that were replaced"};
+
+ private:
+  bool would_miss(const TexelToken& in) const;
+  void look_up(Cycle cycle, const TexelToken& in, CacheToken& out, MissToken& missed);
+
+  const FillBuffer& fills_;
+  TagStore tags_;
+  std::uint32_t line_log2_;
+  // Number of the last fill ordered for each slot, counted from 1: a line is under way until that
+  // many fills have been used.
+  std::vector<std::uint64_t> fill_number_;
+  std::uint64_t ordered_ = 0;
+  Activity miss_queue_full_, fifo_full_;
+};
+
+}  // namespace deburr::rtl::texture

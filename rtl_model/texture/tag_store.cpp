@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/texture/tag_store.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace deburr::rtl::texture {
+namespace {
+
+std::uint32_t log2_of(std::int32_t power_of_two) {
+  return static_cast<std::uint32_t>(std::countr_zero(static_cast<std::uint32_t>(power_of_two)));
+}
+std::uint32_t sets_log2(const spec::TextureParameters& p) {
+  return log2_of(p.cache_bytes) - log2_of(p.cache_line_bytes) - log2_of(p.cache_ways);
+}
+// Tag, valid bit and age of each way.
+std::uint32_t set_bits(const spec::TextureParameters& p) {
+  const std::uint32_t tag = 32 - log2_of(p.cache_line_bytes) - sets_log2(p);
+  const std::uint32_t age =
+      p.cache_replacement == spec::Replacement::kRandom ? 0 : log2_of(p.cache_ways);
+  return static_cast<std::uint32_t>(p.cache_ways) * (tag + 1 + age);
+}
+
+}  // namespace
+
+TagStore::TagStore(const char* name, const spec::TextureParameters& p)
+    : Storage(name, std::uint64_t{1} << sets_log2(p), set_bits(p), "4R4W"),
+      replacement_(p.cache_replacement),
+      set_mask_((1u << sets_log2(p)) - 1),
+      way_mask_(static_cast<std::uint32_t>(p.cache_ways) - 1),
+      ways_log2_(log2_of(p.cache_ways)),
+      tags_(std::size_t{1} << (sets_log2(p) + ways_log2_)),
+      age_(tags_.size()) {
+  reset();
+}
+
+void TagStore::make_youngest(std::uint32_t slot) {
+  std::uint8_t* const ages = &age_[slot & ~way_mask_];
+  const std::uint8_t limit = age_[slot];
+  for (std::uint32_t way = 0; way <= way_mask_; ++way)
+    if (ages[way] < limit) ++ages[way];
+  age_[slot] = 0;
+}
+
+// Among valid ways only.
+std::uint32_t TagStore::victim(std::uint32_t first) {
+  if (replacement_ == spec::Replacement::kRandom) {
+    const std::uint32_t r = random_;
+    random_ = static_cast<std::uint16_t>(r >> 1 | (r ^ r >> 2 ^ r >> 3 ^ r >> 5) << 15);
+    return first + (random_ & way_mask_);
+  }
+  std::uint32_t slot = first;
+  while (age_[slot] != way_mask_) ++slot;
+  return slot;
+}
+
+TagStore::Place TagStore::allocate(std::uint32_t line) {
+  const std::uint32_t first = (line & set_mask_) << ways_log2_;
+  std::uint32_t slot = first;
+  while (slot <= first + way_mask_ && tags_[slot] != kInvalid) ++slot;
+  const bool evicted = slot > first + way_mask_;
+  if (evicted) slot = victim(first);
+  tags_[slot] = line;
+  make_youngest(slot);  // for `fifo`, the age counts from the fill, since hits do not change it
+  return {slot, evicted};
+}
+
+void TagStore::invalidate() { std::fill(tags_.begin(), tags_.end(), kInvalid); }
+
+void TagStore::reset() {
+  invalidate();
+  random_ = kRandomStart;
+  for (std::uint32_t slot = 0; slot < age_.size(); ++slot)
+    age_[slot] = static_cast<std::uint8_t>(slot & way_mask_);
+}
+
+}  // namespace deburr::rtl::texture

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/texture/texel_addresser.h"
+
+#include <array>
+
+namespace deburr::rtl::texture {
+namespace {
+
+constexpr int kFractionBits = 24;
+constexpr std::int64_t kOne = std::int64_t{1} << kFractionBits;
+
+// The bits of a 5-bit number in the even places of a 10-bit one: wires.
+constexpr auto kSpread = [] {
+  std::array<std::uint16_t, 32> table{};
+  for (unsigned i = 0; i < 32; ++i)
+    for (unsigned bit = 0; bit < 5; ++bit)
+      table[i] = static_cast<std::uint16_t>(table[i] | (i >> bit & 1) << (2 * bit));
+  return table;
+}();
+std::uint32_t spread(std::uint32_t tile) {  // U10
+  return kSpread[tile & 31] | std::uint32_t{kSpread[tile >> 5]} << 10;
+}
+
+// Where tile number `tile` along one axis stands in Morton order, its bits in even places: the low
+// `common` bits interleave with those of the other axis, the others stand above both.
+std::uint32_t morton_part(std::uint32_t tile, int common) {
+  return spread(tile & ((1u << common) - 1)) | tile >> common << (2 * common);
+}
+// The same with the interleaved bits in the odd places.
+std::uint32_t odd_morton_part(std::uint32_t tile, int common) {
+  return spread(tile & ((1u << common) - 1)) << 1 | tile >> common << (2 * common);
+}
+
+}  // namespace
+
+TexelAddresser::TexelAddresser(const sc_core::sc_module_name& name, ClockDomain& clock,
+                               const ParameterStore& store)
+    : Unit(name, clock), store_(store) {}
+
+Activity TexelAddresser::tick(Cycle cycle) {
+  if (occupied_) {
+    if (!texels_out.can_push(cycle)) return kStalledDownstream;
+    address(texels_out.emplace(cycle));
+    occupied_ = false;
+  } else if (!samples_in.can_pop(cycle)) {
+    return kIdle;
+  }
+  if (samples_in.can_pop(cycle)) {
+    wrap_and_scale(samples_in.front(cycle));
+    samples_in.pop(cycle);
+    occupied_ = true;
+  }
+  return kBusy;
+}
+
+// Stage 1, one axis: wrap the coordinate, scale it to texels, split it, bring both texels into
+// range.
+TexelAddresser::Axis TexelAddresser::scale(std::int64_t position, std::int32_t size,
+                                           spec::Wrap wrap, bool linear) {
+  if (wrap == spec::Wrap::kRepeat) {
+    position &= kOne - 1;
+  } else if (wrap == spec::Wrap::kMirroredRepeat) {
+    position &= 2 * kOne - 1;
+    if (position & kOne) position ^= 2 * kOne - 1;  // 2^25 - 1 - q is the complement of q
+  }
+  const std::int64_t scaled = position * size;  // S22.24
+  Axis axis;
+  if (linear) {
+    // Half a texel less, rounded from 24 to 8 fraction bits: both constants are one addition.
+    const std::int64_t u = (scaled - (kOne >> 1) + (1 << 15)) >> 16;
+    axis.first = static_cast<std::int32_t>(u >> 8);
+    axis.second = axis.first + 1;
+    axis.fraction = static_cast<std::uint8_t>(u & 255);
+  } else {
+    axis.first = axis.second = static_cast<std::int32_t>(scaled >> kFractionBits);
+    axis.fraction = 0;
+  }
+  const std::int32_t last = size - 1;
+  const bool repeats = wrap == spec::Wrap::kRepeat;
+  const auto into_range = [&](std::int32_t x) {
+    if (x < 0) return repeats ? last : 0;
+    if (x > last) return repeats ? 0 : last;
+    return x;
+  };
+  axis.first = into_range(axis.first);
+  axis.second = into_range(axis.second);
+  return axis;
+}
+
+void TexelAddresser::wrap_and_scale(const SampleToken& sample) {
+  scaled_.ticket = sample.ticket;
+  scaled_.level = sample.level;
+  FilterControl& control = scaled_.control;
+  control = {0,
+             0,
+             sample.level_weight,
+             sample.kernel_weight,
+             sample.sum_log2,
+             0,
+             sample.last_of_sample,
+             sample.last_of_fragment};
+  if (!sample.ticket.valid) return;
+  ++bilinears;
+  const TextureState& texture = store_.texture(sample.ticket.texture);
+  const LevelGeometry& level = texture.level[sample.level];
+  scaled_.x = scale(sample.s, level.width, texture.wrap_s, sample.linear);
+  scaled_.y = scale(sample.t, level.height, texture.wrap_t, sample.linear);
+  control.fraction_u = scaled_.x.fraction;
+  control.fraction_v = scaled_.y.fraction;
+  control.format = static_cast<std::uint8_t>(texture.format);
+}
+
+// Stage 2.
+void TexelAddresser::address(TexelToken& out) const {
+  out.ticket = scaled_.ticket;
+  out.control = scaled_.control;
+  if (!out.ticket.valid) return;
+  const TextureState& texture = store_.texture(out.ticket.texture);
+  const LevelGeometry& level = texture.level[scaled_.level];
+  const auto x0 = static_cast<std::uint32_t>(scaled_.x.first),
+             x1 = static_cast<std::uint32_t>(scaled_.x.second),
+             y0 = static_cast<std::uint32_t>(scaled_.y.first),
+             y1 = static_cast<std::uint32_t>(scaled_.y.second);
+
+  std::uint32_t column0, column1, row0, row1;
+  if (texture.layout == spec::Layout::kLinear) {
+    column0 = x0 << texture.texel_log2;
+    column1 = x1 << texture.texel_log2;
+    row0 = y0 * level.pitch;
+    row1 = y1 * level.pitch;
+  } else {
+    // A tile of 64 bytes has 2^(6 - texel_log2) texels, its width takes the larger half of the
+    // bits.
+    const int width_log2 = (7 - texture.texel_log2) / 2, row_log2 = width_log2 + texture.texel_log2;
+    const int height_log2 = 6 - row_log2;
+    const int common =
+        level.tiles_x_log2 < level.tiles_y_log2 ? level.tiles_x_log2 : level.tiles_y_log2;
+    const auto column = [&](std::uint32_t x) {
+      return morton_part(x >> width_log2, common) << 6 | (x & ((1u << width_log2) - 1))
+                                                             << texture.texel_log2;
+    };
+    const auto row = [&](std::uint32_t y) {
+      return odd_morton_part(y >> height_log2, common) << 6 | (y & ((1u << height_log2) - 1))
+                                                                  << row_log2;
+    };
+    column0 = column(x0);
+    column1 = column(x1);
+    row0 = row(y0);
+    row1 = row(y1);
+  }
+  out.address = {level.base + column0 + row0, level.base + column1 + row0,
+                 level.base + column0 + row1, level.base + column1 + row1};
+  const auto bank = [](std::uint32_t x, std::uint32_t y) {
+    return static_cast<std::uint8_t>((y & 1) << 1 | (x & 1));
+  };
+  out.bank = {bank(x0, y0), bank(x1, y0), bank(x0, y1), bank(x1, y1)};
+  out.column_conflict = x0 != x1 && ((x0 ^ x1) & 1) == 0;
+  out.row_conflict = y0 != y1 && ((y0 ^ y1) & 1) == 0;
+}
+
+}  // namespace deburr::rtl::texture

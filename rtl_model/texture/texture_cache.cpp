@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/texture/texture_cache.h"
+
+#include <algorithm>
+
+namespace deburr::rtl::texture {
+namespace {
+
+MemoryPortParameters port_parameters(const spec::TextureParameters& p) {
+  MemoryPortParameters port;
+  port.outstanding = static_cast<std::uint32_t>(p.cache_outstanding);
+  port.line_bytes = std::min(static_cast<std::uint32_t>(p.cache_line_bytes), kLineBytes);
+  port.max_burst_lines = static_cast<std::uint32_t>(p.cache_line_bytes) / port.line_bytes;
+  return port;
+}
+
+}  // namespace
+
+TextureCache::TextureCache(const sc_core::sc_module_name& name, ClockDomain& clock,
+                           const spec::TextureParameters& p, ParameterStore& store)
+    : sc_module(name),
+      miss_queue("miss_queue", clock, p, store),
+      tag_stage("tag_stage", clock, p, miss_queue.fills),
+      latency_fifo("latency_fifo", clock, p),
+      data_stage("data_stage", clock, p, miss_queue.fills),
+      memory_port("memory_port", clock, port_parameters(p)) {
+  tag_stage.texels_in(texels_in);
+  tag_stage.requests_out(requests_);
+  latency_fifo.requests_in(requests_);
+  data_stage.requests_in(latency_fifo.entries.link());
+  data_stage.texels_out(texels_out);
+
+  tag_stage.misses_out(misses_);
+  miss_queue.misses_in(misses_);
+  miss_queue.requests_out(memory_requests_);
+  memory_port.requests_in(memory_requests_);
+  memory_port.responses_out(memory_responses_);
+  miss_queue.responses_in(memory_responses_);
+}
+
+}  // namespace deburr::rtl::texture

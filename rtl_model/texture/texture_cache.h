@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Set-associative cache of texture lines that checks tags long before it reads data, so that memory
+// latency overlaps with work.
+//
+//   texels_in -> TagStage -> LatencyFifo -> DataStage -> texels_out
+//                   |                          ^
+//                   +-> MissQueue (fill buffer)+
+//                           |
+//                       MemoryPort (TLM-2.0)
+//
+// Latency 3 for a request that hits; one request a clock while no line is missing and no bank is
+// asked twice. Fill order, merged misses: docs/texture_unit.md.
+#pragma once
+
+#include <systemc>
+
+#include "rtl_model/fabric/link.h"
+#include "rtl_model/fabric/memory_port.h"
+#include "rtl_model/texture/data_stage.h"
+#include "rtl_model/texture/latency_fifo.h"
+#include "rtl_model/texture/miss_queue.h"
+#include "rtl_model/texture/tag_stage.h"
+
+namespace deburr::rtl::texture {
+
+class TextureCache final : public sc_core::sc_module {
+ public:
+  In<TexelToken> texels_in{"texels_in"};
+  Out<TexelQuadToken> texels_out{"texels_out"};
+
+  TextureCache(const sc_core::sc_module_name& name, ClockDomain& clock,
+               const spec::TextureParameters& parameters, ParameterStore& store);
+
+  MissQueue miss_queue;
+  TagStage tag_stage;
+  LatencyFifo latency_fifo;
+  DataStage data_stage;
+  MemoryPort memory_port;
+
+ private:
+  Link<MissToken> misses_{"misses"};
+  Link<CacheToken> requests_{"requests"};
+  Link<MemoryRequest> memory_requests_{"memory_requests"};
+  Link<MemoryResponse> memory_responses_{"memory_responses"};
+};
+
+}  // namespace deburr::rtl::texture
