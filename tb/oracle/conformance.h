@@ -42,7 +42,7 @@ struct CaseResult {
   double deviation = 0.0;      // largest, 8-bit steps, at high precision
   double low_deviation = 0.0;  // the same at low precision, of the fragments high precision refused
   std::int64_t fragments = 0, refused = 0, undecided = 0;
-  std::string worst;  // fragment and colour with the largest deviation
+  std::string worst;  // the fragment and colour with the largest deviation; empty up to 1/2
 };
 CaseResult judge(const FilteringCase& filtering_case, const FilterFactory& filter);
 
@@ -54,11 +54,14 @@ struct ConformanceRow {
   double lod_below = 0.0, lod_above = 0.0;
   // Level of detail minus the exact one (lb of the longer side), in levels.
   double lod_error_low = 0.0, lod_error_high = 0.0;
-  // *_MIPMAP_NEAREST and *_MIPMAP_LINEAR on unrelated levels of full contrast, all sizes.
+  // All sizes, unrelated levels of full contrast, no LOD bias.
   CaseResult mipmap_nearest, mipmap_linear;
+  // *_MIPMAP_NEAREST and *_MIPMAP_LINEAR with 128 LOD biases from -1/2 to 1/2, which move
+  // the thresholds between levels over the whole octave.
+  CaseResult biased;
   // LINEAR_MIPMAP_LINEAR on box-filtered noise, whose neighbouring levels resemble each other.
   CaseResult pyramid;
-  golden::ideal::Verdict verdict = golden::ideal::Verdict::kFail;  // the worst of the first two
+  golden::ideal::Verdict verdict = golden::ideal::Verdict::kFail;  // the worst of all four
 };
 
 // Every footprint rule with every logarithm rule, 20 rows; a few seconds.

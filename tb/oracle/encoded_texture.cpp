@@ -52,11 +52,15 @@ std::array<double, 4> texel(Pattern pattern, int level, int x, int y, Random& ra
     }
     case Pattern::kComposite: {
       const std::uint32_t r = random.next();
-      return {full(r & 1), full(((x ^ y) & 1) != 0), full((level & 1) != 0),
-              static_cast<double>(r >> 24)};
+      return {full(r & 1), static_cast<double>(r >> 24), full((level & 1) != 0),
+              full(((x ^ y) & 1) != 0)};
     }
     case Pattern::kLevels:
       return {full((level & 1) != 0), std::min(20.0 * level, 255.0), full((level & 1) == 0), 255.0};
+    case Pattern::kChecker: {
+      const double c = full(((x ^ y) & 8) != 0);
+      return {c, c, c, 255.0};
+    }
   }
   return {};
 }
@@ -105,6 +109,7 @@ EncodedTexture make_texture(Pattern pattern, spec::Format format, int width, int
                             std::uint32_t seed) {
   DEBURR_CHECK(width > 0 && height > 0, "a test texture has texels");
   Random random(seed);
+  const bool averages = pattern == Pattern::kPyramid || pattern == Pattern::kChecker;
   EncodedTexture texture;
   texture.format = format;
   const int count = std::bit_width(static_cast<unsigned>(std::max(width, height)));
@@ -113,7 +118,7 @@ EncodedTexture make_texture(Pattern pattern, spec::Format format, int width, int
     for (int y = 0; y < level.height; ++y)
       for (int x = 0; x < level.width; ++x)
         level.codes.push_back(encode(
-            format, pattern == Pattern::kPyramid && k > 0
+            format, averages && k > 0
                         ? box_average(format, texture.levels.back(), x, y, level.width, level.height)
                         : texel(pattern, k, x, y, random)));
     texture.levels.push_back(std::move(level));

@@ -29,13 +29,14 @@ struct EncodedTexture {
   int height() const { return levels.front().height; }
 };
 
-// What the levels show. Every pattern but kPyramid has unrelated levels: a wrong level is as visible
-// as a wrong texel.
+// What the levels show. The first three have unrelated levels: a wrong level is as visible as a
+// wrong texel.
 enum class Pattern {
   kNoise,      // every channel of every texel 0 or full scale at random
-  kComposite,  // R noise, G checkerboard, B full scale on odd levels, A any value
+  kComposite,  // R 0 or full scale at random, G any value, B full scale on odd levels, A checkerboard
   kLevels,     // solid levels: R full scale on odd levels, G grows with the level, B = 255 - R
   kPyramid,    // noise at level 0, box averages below
+  kChecker,    // squares of 8 x 8 texels, black and white, box averages below
 };
 
 // Full mip chain of width x height. The same arguments give the same texels on every machine.

@@ -53,7 +53,8 @@ double real(std::int64_t coordinate) {
 
 }  // namespace
 
-std::vector<spec::Quad> filtering_quads(const Size& size, int count, std::uint32_t seed) {
+std::vector<spec::Quad> filtering_quads(const Size& size, int count, std::uint32_t seed,
+                                        double lod_bias) {
   Random random(seed);
   const int last = std::bit_width(static_cast<unsigned>(std::max(size.width, size.height))) - 1;
   std::vector<spec::Quad> quads;
@@ -61,8 +62,9 @@ std::vector<spec::Quad> filtering_quads(const Size& size, int count, std::uint32
     // Every fourth quad lies close to where a filter switches: l = 0, k + 1/2.
     const double sweep = -3.0 + (last + 4.0) * (i + random.uniform(0.0, 1.0)) / count;
     const double threshold = std::max(0.0, std::floor(2.0 * sweep) / 2.0);
-    const double lod = i % 4 == 3 ? threshold + random.uniform(-0.06, 0.06) : sweep;
-    const Jacobian j = jacobian(static_cast<int>(random.next() % 8), lod, random);
+    const double reach = i % 8 == 3 ? 0.08 : 0.025;
+    const double lod = i % 4 == 3 ? threshold + random.uniform(-reach, reach) : sweep;
+    const Jacobian j = jacobian(static_cast<int>(random.next() % 8), lod - lod_bias, random);
     const double s0 = random.uniform(-2.0, 2.0);
     const double t0 = random.uniform(-2.0, 2.0);
     spec::Quad quad;

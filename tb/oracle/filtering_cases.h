@@ -22,8 +22,10 @@ inline constexpr Size kFilteringSizes[] = {{4, 8},  {32, 64}, {128, 128},
 
 // `count` quads for a texture of the given size, their coordinates within -4..4: footprints along u
 // alone, along v alone, square, rotated, sheared, magnified, mirrored and close to the thresholds of
-// the level of detail, in turns; levels of detail sweep -3 .. last level + 1.
-std::vector<spec::Quad> filtering_quads(const Size& size, int count, std::uint32_t seed);
+// the level of detail, in turns. The levels of detail, `lod_bias` included, sweep
+// -3 .. last level + 1.
+std::vector<spec::Quad> filtering_quads(const Size& size, int count, std::uint32_t seed,
+                                        double lod_bias = 0.0);
 
 // A lane with its own row's and column's differences as derivatives, without rounding.
 golden::ideal::Fragment fragment_of(const spec::Quad& quad, int lane);

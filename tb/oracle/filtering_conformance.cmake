@@ -4,5 +4,19 @@ deburr_library(conformance LAYER tb
           "${CMAKE_CURRENT_LIST_DIR}/encoded_texture.cpp"
           "${CMAKE_CURRENT_LIST_DIR}/filtering_cases.cpp"
           "${CMAKE_CURRENT_LIST_DIR}/plain_sampler.cpp"
+          "${CMAKE_CURRENT_LIST_DIR}/plane.cpp"
   LINK deburr::spec deburr::golden_texture deburr::filtering_criterion
   PRIVATE_LINK fmt::fmt)
+
+deburr_test(filtering_criterion_test LABELS oracle
+  SOURCES "${CMAKE_CURRENT_LIST_DIR}/filtering_criterion_test.cpp"
+  LINK deburr::conformance GTest::gtest_main)
+deburr_test(filtering_conformance_test LABELS oracle
+  SOURCES "${CMAKE_CURRENT_LIST_DIR}/filtering_conformance_test.cpp"
+  LINK deburr::conformance GTest::gtest_main)
+deburr_test(filtering_faults_test LABELS negative
+  SOURCES "${CMAKE_CURRENT_LIST_DIR}/filtering_faults_test.cpp"
+  LINK deburr::conformance GTest::gtest_main)
+deburr_test(anisotropy_test LABELS oracle
+  SOURCES "${CMAKE_CURRENT_LIST_DIR}/anisotropy_test.cpp"
+  LINK deburr::conformance GTest::gtest_main)

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// GL gives anisotropic filtering no number to reach, but aliasing must fall strictly as more samples
+// are allowed, from 1 x to 2 x to the maximum, on a plane seen at a shallow angle.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tb/oracle/plane.h"
+
+namespace deburr::tb::texture {
+namespace {
+
+constexpr Size kSize{128, 128};
+
+const EncodedTexture& checker() {
+  static const EncodedTexture texture =
+      make_texture(Pattern::kChecker, spec::Format::kRgba8, kSize.width, kSize.height, 1);
+  return texture;
+}
+
+const std::vector<golden::ideal::Rgba>& truth() {
+  static const std::vector<golden::ideal::Rgba> pixels =
+      plane_truth({}, ideal_texture(checker()), 16);
+  return pixels;
+}
+
+// Error of the plane against the supersampled one for N_max = 1, 2, 4, 8, 16.
+using Errors = std::vector<double>;
+
+Errors errors(const std::function<QuadFilter(int lb_n)>& unit) {
+  const CoordinateImage image = plane({});
+  Errors result;
+  for (int lb_n = 0; lb_n <= 4; ++lb_n)
+    result.push_back(rms(filter_image(image, unit(lb_n)), truth()));
+  std::printf("RMS to the supersampled plane at 1x 2x 4x 8x 16x: %.2f %.2f %.2f %.2f %.2f\n",
+              result[0], result[1], result[2], result[3], result[4]);
+  return result;
+}
+
+bool falls_strictly(const Errors& e) {
+  constexpr double kVisible = 0.98;  // at least 2 % a step: not a matter of rounding
+  return e[1] < kVisible * e[0] && e[4] < kVisible * e[1];
+}
+
+Errors golden_errors(const spec::TextureParameters& parameters, spec::MinFilter min_filter,
+                     bool honour_n_max = true) {
+  return errors([&](int lb_n) {
+    spec::TextureDescriptor state;
+    state.min_filter = min_filter;
+    state.max_anisotropy_log2 = static_cast<std::uint8_t>(honour_n_max ? lb_n : 0);
+    return golden_filter(parameters)(checker(), state);
+  });
+}
+
+TEST(Anisotropy, AliasingFallsWithoutMipLevels) {
+  EXPECT_TRUE(falls_strictly(golden_errors({}, spec::MinFilter::kLinear)));
+  EXPECT_TRUE(falls_strictly(golden_errors({}, spec::MinFilter::kNearest)));
+}
+
+TEST(Anisotropy, ErrorFallsWithMipLevelsForEveryRule) {
+  for (std::size_t footprint = 0; footprint < spec::kFootprintNames.size(); ++footprint) {
+    for (std::size_t log2 = 0; log2 < spec::kLog2Names.size(); ++log2) {
+      spec::TextureParameters parameters;
+      parameters.footprint = static_cast<spec::FootprintRule>(footprint);
+      parameters.log2 = static_cast<spec::Log2Rule>(log2);
+      for (const spec::CountRule count : {spec::CountRule::kFloor, spec::CountRule::kCeil}) {
+        parameters.count = count;
+        const Errors e = golden_errors(parameters, spec::MinFilter::kLinearMipmapLinear);
+        EXPECT_TRUE(falls_strictly(e)) << spec::kFootprintNames[footprint] << " "
+                                       << spec::kLog2Names[log2];
+      }
+    }
+  }
+}
+
+// N_max ignored, or all N samples at the pixel's centre: nothing falls.
+TEST(AnisotropyFault, IgnoredSampleCountAndMissingSpreadAreSeen) {
+  for (const spec::MinFilter filter :
+       {spec::MinFilter::kLinear, spec::MinFilter::kLinearMipmapLinear}) {
+    EXPECT_FALSE(falls_strictly(golden_errors({}, filter, false)));
+    spec::TextureParameters heap;
+    heap.spread = 0;
+    EXPECT_FALSE(falls_strictly(golden_errors(heap, filter)));
+  }
+}
+
+}  // namespace
+}  // namespace deburr::tb::texture

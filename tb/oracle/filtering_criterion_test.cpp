@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+// Is the judge itself right? Against values worked out by hand and against brute force.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "golden/ideal/filtering_criterion.h"
+#include "tb/oracle/random.h"
+
+namespace deburr {
+namespace {
+
+using golden::ideal::Criterion;
+using golden::ideal::Fragment;
+using golden::ideal::Interval;
+using golden::ideal::kPrecisionHigh;
+using golden::ideal::kPrecisionLow;
+using golden::ideal::Rgba;
+using golden::ideal::Sampler;
+using golden::ideal::Texture;
+using tb::texture::Random;
+
+Rgba grey(double value) { return {value, value, value, value}; }
+
+// 4 x 1 texels 0, 100, 200, 40, and one level below of 1 x 1: 250.
+Texture ramp() {
+  Texture texture;
+  texture.levels.push_back({4, 1, {grey(0), grey(100), grey(200), grey(40)}});
+  texture.levels.push_back({2, 1, {grey(250), grey(250)}});
+  texture.levels.push_back({1, 1, {grey(0)}});
+  return texture;
+}
+
+Sampler sampler(spec::MinFilter min, spec::MagFilter mag, spec::Wrap wrap = spec::Wrap::kRepeat) {
+  Sampler s;
+  s.min_filter = min;
+  s.mag_filter = mag;
+  s.wrap_s = s.wrap_t = wrap;
+  return s;
+}
+
+// A fragment of `ramp` whose footprint is `texels` wide along u.
+Fragment along_u(double s, double texels) { return {s, 0.5, texels / 4.0, 0.0, 0.0, 0.0}; }
+
+TEST(LegalLod, HoldsEveryFootprintBetweenTheLongestComponentAndTheirWeightedSum) {
+  Texture texture;
+  texture.levels.push_back({8, 16, std::vector<Rgba>(128, grey(0))});
+  const Sampler s;
+  const Fragment fragment{0.0, 0.0, 2.0 / 8, 1.0 / 16, 0.5 / 8, 4.0 / 16};  // m_u = 2, m_v = 4
+  const Interval high = legal_lod(texture, s, fragment, kPrecisionHigh);
+  EXPECT_NEAR(high.low, 2.0 - 1.0 / 64, 1e-4);
+  EXPECT_NEAR(high.high, std::log2(6.0 * std::sqrt(2.0)) + 1.0 / 64, 1e-4);
+  const Interval low = legal_lod(texture, s, fragment, kPrecisionLow);
+  EXPECT_NEAR(low.low, 2.0 - 1.0 / 16, 1e-4);
+}
+
+TEST(LegalLod, AddsTheBiasAndThenClamps) {
+  const Texture texture = ramp();
+  Sampler s;
+  s.lod_bias = 1.5;
+  s.min_lod = 0.25;
+  s.max_lod = 3.0;
+  EXPECT_NEAR(legal_lod(texture, s, along_u(0, 1.0), kPrecisionHigh).low, 1.5 - 1.0 / 64, 1e-4);
+  EXPECT_EQ(legal_lod(texture, s, along_u(0, 64.0), kPrecisionHigh).high, 3.0);
+  EXPECT_EQ(legal_lod(texture, s, along_u(0, 0.0), kPrecisionHigh).low, 0.25);
+}
+
+TEST(Criterion, AllowsOneColourStepBeyondTheWeightTolerance) {
+  const Texture texture = ramp();
+  const Sampler s = sampler(spec::MinFilter::kLinear, spec::MagFilter::kLinear);
+  const Criterion high(texture, s, kPrecisionHigh);
+  // Half way between texels 0 and 100 the ideal is 50; 1/128 texel is 0.78 of a step.
+  const Fragment f = along_u(1.0 / 4, 0.5);
+  EXPECT_NEAR(high.deviation(f, grey(50)), 0.0, 0.02);
+  EXPECT_NEAR(high.deviation(f, grey(55)), 5.0 - 100.0 / 128, 0.02);
+  EXPECT_TRUE(high.reachable(f, grey(54.7), golden::ideal::kFilteredTolerance));
+  EXPECT_FALSE(high.reachable(f, grey(54.8), golden::ideal::kFilteredTolerance));
+  const Criterion low(texture, s, kPrecisionLow);
+  EXPECT_NEAR(low.deviation(f, grey(60)), 10.0 - 100.0 / 16, 0.02);
+}
+
+TEST(Criterion, NeedsOneExplanationForAllChannels) {
+  Texture texture;
+  texture.levels.push_back({2, 1, {Rgba{0, 255, 0, 0}, Rgba{255, 0, 0, 0}}});
+  const Sampler s = sampler(spec::MinFilter::kLinear, spec::MagFilter::kLinear,
+                            spec::Wrap::kClampToEdge);
+  const Criterion low(texture, s, kPrecisionLow);
+  const Fragment f{0.5, 0.5, 0.1, 0, 0, 0};
+  EXPECT_TRUE(low.reachable(f, {127.5 + 14, 127.5 - 14, 0, 0}, 2.0));
+  // Each channel alone could be 14 higher, both together cannot.
+  EXPECT_FALSE(low.reachable(f, {127.5 + 14, 127.5 + 14, 0, 0}, 2.0));
+}
+
+TEST(Criterion, NearestTakesOnlyTexelsThatTheCoordinateErrorReaches) {
+  const Texture texture = ramp();
+  const Sampler s = sampler(spec::MinFilter::kNearest, spec::MagFilter::kNearest);
+  const Criterion high(texture, s, kPrecisionHigh);
+  EXPECT_TRUE(high.reachable(along_u(0.3, 0.5), grey(100), 1.0));
+  EXPECT_FALSE(high.reachable(along_u(0.3, 0.5), grey(0), 1.0));
+  EXPECT_TRUE(high.reachable(along_u(0.25, 0.5), grey(0), 1.0));
+  EXPECT_TRUE(high.reachable(along_u(0.25, 0.5), grey(100), 1.0));
+  EXPECT_FALSE(high.reachable(along_u(0.25, 0.5), grey(50), 1.0));
+}
+
+TEST(Criterion, WrapsNegativeAndMirroredCoordinates) {
+  const Texture texture = ramp();
+  const auto texel = [&](spec::Wrap wrap, double s) {
+    const Sampler state = sampler(spec::MinFilter::kNearest, spec::MagFilter::kNearest, wrap);
+    return exact_colour(texture, state, along_u(s, 0.5))[0];
+  };
+  EXPECT_EQ(texel(spec::Wrap::kRepeat, -0.1), 40);
+  EXPECT_EQ(texel(spec::Wrap::kRepeat, -1.1), 40);
+  EXPECT_EQ(texel(spec::Wrap::kRepeat, 2.3), 100);
+  EXPECT_EQ(texel(spec::Wrap::kMirroredRepeat, -0.1), 0);
+  EXPECT_EQ(texel(spec::Wrap::kMirroredRepeat, -0.3), 100);
+  EXPECT_EQ(texel(spec::Wrap::kMirroredRepeat, 1.1), 40);
+  EXPECT_EQ(texel(spec::Wrap::kMirroredRepeat, 1.9), 0);
+  EXPECT_EQ(texel(spec::Wrap::kClampToEdge, -7.0), 0);
+  EXPECT_EQ(texel(spec::Wrap::kClampToEdge, 7.0), 40);
+  // Between the last texel and its right neighbour.
+  const auto edge = [&](spec::Wrap wrap) {
+    const Sampler state = sampler(spec::MinFilter::kLinear, spec::MagFilter::kLinear, wrap);
+    return exact_colour(texture, state, along_u(1.0, 0.5))[0];
+  };
+  EXPECT_EQ(edge(spec::Wrap::kRepeat), 20);
+  EXPECT_EQ(edge(spec::Wrap::kMirroredRepeat), 40);
+  EXPECT_EQ(edge(spec::Wrap::kClampToEdge), 40);
+}
+
+TEST(Criterion, AllowsBothFiltersWhereTheSwitchIsWithinTheLegalInterval) {
+  const Texture texture = ramp();
+  const Sampler s = sampler(spec::MinFilter::kNearestMipmapNearest, spec::MagFilter::kLinear);
+  const Criterion high(texture, s, kPrecisionHigh);
+  const Rgba linear = grey(50);  // at 1/4; nearest gives 0 or 100
+  EXPECT_TRUE(high.reachable(along_u(0.25, 0.5), linear, 2.0));
+  EXPECT_TRUE(high.reachable(along_u(0.25, 1.0), linear, 2.0));
+  EXPECT_FALSE(high.reachable(along_u(0.25, 1.1), linear, 2.0));
+  EXPECT_TRUE(high.reachable(along_u(0.2, 1.0), grey(0), 2.0));
+  EXPECT_FALSE(high.reachable(along_u(0.2, 0.5), grey(0), 2.0));  // magnified for certain
+}
+
+TEST(Criterion, RoundsTheLevelAsGlDoesAndStopsAtTheLastOne) {
+  const Texture texture = ramp();
+  const Sampler s = sampler(spec::MinFilter::kNearestMipmapNearest, spec::MagFilter::kNearest);
+  const Criterion high(texture, s, kPrecisionHigh);
+  // l between 0.3 and 0.8 + 1/64: levels 0 and 1, not 2.
+  const Fragment near_base = along_u(0.4, std::exp2(0.3));
+  EXPECT_TRUE(high.reachable(near_base, grey(100), 1.0));
+  EXPECT_TRUE(high.reachable(near_base, grey(250), 1.0));
+  EXPECT_FALSE(high.reachable(near_base, grey(0), 1.0));
+  // l from 0.6 to 1.1: level 1 alone.
+  EXPECT_FALSE(high.reachable(along_u(0.4, std::exp2(0.6)), grey(100), 1.0));
+  EXPECT_TRUE(high.reachable(along_u(0.4, 1000.0), grey(0), 1.0));
+  EXPECT_FALSE(high.reachable(along_u(0.4, 1000.0), grey(250), 1.0));
+}
+
+TEST(Criterion, BoundsTheLevelFraction) {
+  Texture texture;
+  texture.levels.push_back({2, 2, std::vector<Rgba>(4, grey(0))});
+  texture.levels.push_back({1, 1, {grey(200)}});
+  const Sampler s = sampler(spec::MinFilter::kLinearMipmapLinear, spec::MagFilter::kLinear);
+  const Criterion high(texture, s, kPrecisionHigh);
+  const Fragment f{0.3, 0.3, std::exp2(0.4) / 2, 0, 0, 0};  // l from 0.4 to 0.9
+  EXPECT_NEAR(high.deviation(f, grey(80 - 200.0 / 64)), 0.0, 0.02);
+  EXPECT_NEAR(high.deviation(f, grey(70)), 10 - 200.0 / 64, 0.02);
+  EXPECT_NEAR(high.deviation(f, grey(130)), 0.0, 0.02);
+  EXPECT_NEAR(high.deviation(f, grey(190)), 10 - 200.0 / 64, 0.02);
+}
+
+// Random textures, fragments and sampler states; the level's fraction and both levels' weights are
+// free inside their intervals.
+struct RandomCase {
+  Texture texture;
+  Sampler state;
+  Fragment fragment;
+};
+
+RandomCase random_case(Random& random) {
+  RandomCase c;
+  for (int size = 8; size > 0; size /= 2) {
+    golden::ideal::Level level{size, size, {}};
+    for (int i = 0; i < size * size; ++i)
+      level.texels.push_back({random.uniform(0, 255), random.next() % 2 * 255.0,
+                              random.uniform(0, 255), random.next() % 2 * 255.0});
+    c.texture.levels.push_back(std::move(level));
+  }
+  c.state = sampler(static_cast<spec::MinFilter>(random.next() % 6),
+                    static_cast<spec::MagFilter>(random.next() % 2),
+                    static_cast<spec::Wrap>(random.next() % 3));
+  const double d = std::exp2(random.uniform(-1.0, 3.5)) / 8;
+  c.fragment = {random.uniform(-2, 2), random.uniform(-2, 2), d, 0, 0, random.uniform(0, d)};
+  return c;
+}
+
+// A colour that the description allows, computed straight from it: one l, one position error.
+Rgba random_legal_colour(const RandomCase& c, const golden::ideal::Precision& precision,
+                         Random& random) {
+  const Interval lod = legal_lod(c.texture, c.state, c.fragment, precision);
+  Fragment moved = c.fragment;
+  const bool linear_min = c.state.min_filter == spec::MinFilter::kLinear ||
+                          c.state.min_filter == spec::MinFilter::kLinearMipmapNearest ||
+                          c.state.min_filter == spec::MinFilter::kLinearMipmapLinear;
+  const double l = random.uniform(lod.low, lod.high);
+  // exact_colour() at a footprint of exactly 2^l; a position error of up to `bits` of a texel of the
+  // finest level is legal at every level.
+  const bool linear = l > 0 ? linear_min : c.state.mag_filter == spec::MagFilter::kLinear;
+  const double reach = linear ? std::ldexp(1.0, -precision.subtexel_bits) / 8 : 0.0;
+  moved.s += random.uniform(-reach, reach);
+  moved.t += random.uniform(-reach, reach);
+  moved.ds_dx = std::exp2(l) / 8;
+  moved.dt_dx = moved.ds_dy = moved.dt_dy = 0;
+  return exact_colour(c.texture, c.state, moved);
+}
+
+TEST(Criterion, AcceptsEveryLegalColour) {
+  Random random(7);
+  for (int i = 0; i < 20000; ++i) {
+    const RandomCase c = random_case(random);
+    const auto& precision = i % 2 == 0 ? kPrecisionHigh : kPrecisionLow;
+    const Criterion criterion(c.texture, c.state, precision);
+    const Rgba colour = random_legal_colour(c, precision, random);
+    ASSERT_TRUE(criterion.reachable(c.fragment, colour, 0.01)) << "case " << i;
+    ASSERT_EQ(criterion.undecided(), 0);
+  }
+}
+
+// What the criterion calls the distance to the nearest legal colour is no more than the distance to
+// any legal colour that a random search finds, and not much less than the nearest of those.
+TEST(Criterion, MeasuresTheDistanceToTheNearestLegalColour) {
+  Random random(11);
+  double largest_gap = 0.0;
+  int away = 0;
+  for (int i = 0; i < 150; ++i) {
+    RandomCase c = random_case(random);
+    const Criterion criterion(c.texture, c.state, kPrecisionLow);
+    Rgba colour = random_legal_colour(c, kPrecisionLow, random);
+    for (double& channel : colour) channel += random.uniform(-30, 30);
+    const double claimed = criterion.deviation(c.fragment, colour);
+    double nearest = 1e9;
+    for (int j = 0; j < 20000; ++j) {
+      const Rgba legal = random_legal_colour(c, kPrecisionLow, random);
+      double distance = 0.0;
+      for (std::size_t k = 0; k < 4; ++k)
+        distance = std::max(distance, std::abs(legal[k] - colour[k]));
+      nearest = std::min(nearest, distance);
+    }
+    ASSERT_LE(claimed, nearest + 0.02) << "case " << i;
+    largest_gap = std::max(largest_gap, nearest - claimed);
+    if (claimed > golden::ideal::kFilteredTolerance) ++away;
+  }
+  EXPECT_GT(away, 50);
+  // The random search moves both levels together, which the criterion does not require.
+  EXPECT_LT(largest_gap, 12.0);
+}
+
+// A judge counts; one bad colour among many is enough.
+TEST(Judge, OneWrongColourIsEnough) {
+  const Texture texture = ramp();
+  const Sampler s = sampler(spec::MinFilter::kLinear, spec::MagFilter::kLinear);
+  golden::ideal::Judge judge(texture, s);
+  for (int i = 0; i < 100; ++i) judge.add(along_u(1.0 / 4, 0.5), grey(50));
+  EXPECT_EQ(judge.verdict(), golden::ideal::Verdict::kHigh);
+  judge.add(along_u(1.0 / 4, 0.5), grey(60));
+  EXPECT_EQ(judge.verdict(), golden::ideal::Verdict::kLow);
+  EXPECT_NEAR(judge.deviation(), 10 - 100.0 / 128, 0.02);
+  EXPECT_NEAR(judge.low_deviation(), 10 - 100.0 / 16, 0.02);
+  judge.add(along_u(1.0 / 4, 0.5), grey(70));
+  EXPECT_EQ(judge.verdict(), golden::ideal::Verdict::kFail);
+  EXPECT_EQ(judge.refused(), 2);
+  EXPECT_EQ(judge.fragments(), 102);
+}
+
+}  // namespace
+}  // namespace deburr

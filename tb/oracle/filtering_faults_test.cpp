@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// Negative tests of the filtering criterion: a plain sampler must pass, the same with a planted fault
+// must not. Where Khronos's tolerance is wide enough for a fault, that is stated here too.
+#include <gmock/gmock.h>
+
+#include "golden/texture/texture_golden.h"
+#include "tb/oracle/conformance.h"
+#include "tb/oracle/plain_sampler.h"
+
+namespace deburr::tb::texture {
+namespace {
+
+using golden::ideal::Verdict;
+
+FilterFactory plain_filter(Fault fault) {
+  return [fault](const EncodedTexture& texture, const spec::TextureDescriptor& state) {
+    return [sampler = PlainSampler(texture, sampler_of(state), fault)](const spec::Quad& quad) {
+      std::array<std::array<std::uint8_t, 4>, 4> colours;
+      for (int lane = 0; lane < 4; ++lane)
+        colours[static_cast<std::size_t>(lane)] = sampler.sample(quad, lane);
+      return colours;
+    };
+  };
+}
+
+struct Outcome {
+  Verdict verdict = Verdict::kHigh;
+  int cases = 0, not_high = 0;
+  double deviation = 0.0;
+};
+
+// All modes, wraps and formats on two sizes.
+Outcome judge_everywhere(const FilterFactory& filter) {
+  Outcome outcome;
+  std::uint32_t seed = 1;
+  for (const Size& size : {Size{32, 64}, Size{31, 55}})
+    for (std::uint8_t format = 0; format < 5; ++format)
+      for (std::uint8_t mode = 0; mode < 12; ++mode)
+        for (std::uint8_t wrap = 0; wrap < 3; ++wrap) {
+          FilteringCase c{seed % 2 == 0 ? Pattern::kComposite : Pattern::kNoise, size, {}, 64,
+                          seed++};
+          c.descriptor.format = static_cast<spec::Format>(format);
+          c.descriptor.min_filter = static_cast<spec::MinFilter>(mode / 2);
+          c.descriptor.mag_filter = static_cast<spec::MagFilter>(mode % 2);
+          c.descriptor.wrap_s = c.descriptor.wrap_t = static_cast<spec::Wrap>(wrap);
+          const CaseResult r = judge(c, filter);
+          outcome.verdict = std::max(outcome.verdict, r.verdict);
+          outcome.deviation = std::max(outcome.deviation, r.deviation);
+          outcome.not_high += r.verdict != Verdict::kHigh;
+          ++outcome.cases;
+        }
+  return outcome;
+}
+
+struct Expectation {
+  Fault fault;
+  Verdict verdict;
+};
+
+class PlantedFault : public testing::TestWithParam<Expectation> {};
+
+TEST_P(PlantedFault, GetsItsVerdict) {
+  const Outcome outcome = judge_everywhere(plain_filter(GetParam().fault));
+  std::printf("%d of %d cases are not high, largest deviation %.1f, verdict %s\n",
+              outcome.not_high, outcome.cases, outcome.deviation,
+              std::string(verdict_name(outcome.verdict)).c_str());
+  EXPECT_EQ(outcome.verdict, GetParam().verdict);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Criterion, PlantedFault,
+    testing::Values(Expectation{Fault::kNone, Verdict::kHigh},
+                    // Rounded to b bits a weight is wrong by 2^-(b+1), truncated by 2^-b: truncation
+                    // costs a class. 3 bits rounded are exactly what `low` tolerates.
+                    Expectation{Fault::kFiveBitWeights, Verdict::kHigh},
+                    Expectation{Fault::kFiveBitTruncatedWeights, Verdict::kLow},
+                    Expectation{Fault::kThreeBitWeights, Verdict::kLow},
+                    Expectation{Fault::kThreeBitTruncatedWeights, Verdict::kFail},
+                    Expectation{Fault::kHalfTexelShift, Verdict::kFail},
+                    Expectation{Fault::kNearestHalfTexelShift, Verdict::kFail},
+                    Expectation{Fault::kWrongWrap, Verdict::kFail},
+                    Expectation{Fault::kNeighbourPastEdge, Verdict::kFail},
+                    Expectation{Fault::kTruncatedIndex, Verdict::kFail},
+                    Expectation{Fault::kTruncatedLevel, Verdict::kFail},
+                    Expectation{Fault::kTwoBitLevelFraction, Verdict::kFail},
+                    Expectation{Fault::kLevelTooLow, Verdict::kFail},
+                    Expectation{Fault::kLevelTooHigh, Verdict::kFail},
+                    Expectation{Fault::kSwappedLevels, Verdict::kFail},
+                    Expectation{Fault::kSwappedAxes, Verdict::kFail},
+                    Expectation{Fault::kLateMagnification, Verdict::kFail},
+                    Expectation{Fault::kUnreplicatedChannels, Verdict::kFail},
+                    Expectation{Fault::kEncodedSrgb, Verdict::kFail},
+                    // At most one step of 255: the criterion cannot see it, ColourBias below does.
+                    Expectation{Fault::kTruncatedColour, Verdict::kHigh}),
+    [](const auto& suite) {
+      return std::string(kFaultNames[static_cast<std::size_t>(suite.param.fault)]);
+    });
+
+// Mean of result - exact over LINEAR filtering, where nothing but rounding separates the two.
+double colour_bias(const FilterFactory& filter) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+    const EncodedTexture texture =
+        make_texture(Pattern::kComposite, spec::Format::kRgba8, 32, 64, seed);
+    const golden::ideal::Texture ideal = ideal_texture(texture);
+    spec::TextureDescriptor state;
+    state.min_filter = spec::MinFilter::kLinear;
+    const golden::ideal::Sampler sampler = sampler_of(state);
+    const QuadFilter sample = filter(texture, state);
+    for (const spec::Quad& quad : filtering_quads({32, 64}, 2048, seed)) {
+      const auto colours = sample(quad);
+      for (std::size_t lane = 0; lane < 4; ++lane) {
+        const auto exact = exact_colour(ideal, sampler, fragment_of(quad, static_cast<int>(lane)));
+        for (const std::size_t channel : {0u, 1u, 3u}) {  // B is solid in a level
+          sum += colours[lane][channel] - exact[channel];
+          count += 1.0;
+        }
+      }
+    }
+  }
+  return sum / count;
+}
+
+TEST(ColourBias, GoldenRoundsAndTruncationIsSeen) {
+  EXPECT_NEAR(colour_bias(golden_filter({})), 0.0, 0.02);
+  EXPECT_NEAR(colour_bias(plain_filter(Fault::kNone)), 0.0, 0.02);
+  EXPECT_LT(colour_bias(plain_filter(Fault::kTruncatedColour)), -0.4);
+}
+
+// One wrong texel in memory, or one wrong mip base, is found in the golden model itself.
+TEST(GoldenWithFault, OneSwappedMipBaseFails) {
+  const FilterFactory faulty = [](const EncodedTexture& texture,
+                                  const spec::TextureDescriptor& state) {
+    struct Unit {
+      EncodedMemory memory;
+      std::unique_ptr<golden::texture::TextureGolden> golden;
+    };
+    auto unit = std::make_shared<Unit>();
+    spec::TextureDescriptor descriptor = unit->memory.place(texture, state.layout);
+    descriptor.min_filter = state.min_filter;
+    descriptor.mag_filter = state.mag_filter;
+    std::swap(descriptor.base[1], descriptor.base[2]);
+    unit->golden = std::make_unique<golden::texture::TextureGolden>(
+        spec::TextureParameters{}, unit->memory.bytes(),
+        golden::texture::TextureGolden::Traffic::kIgnore);
+    unit->golden->set_texture(0, descriptor);
+    return [unit](const spec::Quad& quad) {
+      std::array<std::array<std::uint8_t, 4>, 4> colours{};
+      for (const spec::Colour& colour : unit->golden->process(quad))
+        colours[colour.lane] = colour.rgba;
+      return colours;
+    };
+  };
+  EXPECT_EQ(judge({}, faulty).verdict, Verdict::kFail);
+}
+
+}  // namespace
+}  // namespace deburr::tb::texture

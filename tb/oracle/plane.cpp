@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "tb/oracle/plane.h"
+
+#include <cmath>
+
+#include "spec/error.h"
+
+namespace deburr::tb::texture {
+namespace {
+
+std::int32_t fixed(double coordinate) {
+  return static_cast<std::int32_t>(std::lround(coordinate * spec::kCoordinateOne));
+}
+
+template <class Map>
+CoordinateImage image_of(int width, int height, const Map& map) {
+  DEBURR_CHECK(width % 2 == 0 && height % 2 == 0, "an image is made of 2 x 2 quads");
+  CoordinateImage image{width, height, {}, {}};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      double s = 0.0;
+      double t = 0.0;
+      map(x + 0.5, y + 0.5, s, t);
+      image.s.push_back(fixed(s));
+      image.t.push_back(fixed(t));
+    }
+  }
+  return image;
+}
+
+}  // namespace
+
+spec::Quad CoordinateImage::quad(int x, int y) const {
+  spec::Quad quad;
+  quad.x = static_cast<std::uint16_t>(x);
+  quad.y = static_cast<std::uint16_t>(y);
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    const std::size_t i =
+        (static_cast<std::size_t>(y) + (lane >> 1)) * static_cast<std::size_t>(width) +
+        static_cast<std::size_t>(x) + (lane & 1);
+    quad.s[lane] = s[i];
+    quad.t[lane] = t[i];
+  }
+  return quad;
+}
+
+void PlaneView::coordinates(double x, double y, double& s_out, double& t_out) const {
+  const double depth = (height + horizon) / (y + horizon);  // 1 at the nearest row
+  const double across = repeats * depth * (x - 0.5 * width) / width;
+  const double away = repeats * depth;
+  s_out = s + std::cos(turn) * across + std::sin(turn) * away;
+  t_out = t - std::sin(turn) * across + std::cos(turn) * away;
+}
+
+CoordinateImage plane(const PlaneView& view) {
+  return image_of(view.width, view.height, [&](double x, double y, double& s, double& t) {
+    view.coordinates(x, y, s, t);
+  });
+}
+
+CoordinateImage affine(int width, int height, const Size& size, double texels_per_pixel,
+                       double turn, double s0, double t0) {
+  return image_of(width, height, [&](double x, double y, double& s, double& t) {
+    s = s0 + texels_per_pixel * (std::cos(turn) * x - std::sin(turn) * y) / size.width;
+    t = t0 + texels_per_pixel * (std::sin(turn) * x + std::cos(turn) * y) / size.height;
+  });
+}
+
+Pixels filter_image(const CoordinateImage& image, const QuadFilter& filter) {
+  Pixels pixels(image.s.size());
+  for (int y = 0; y < image.height; y += 2) {
+    for (int x = 0; x < image.width; x += 2) {
+      const auto colours = filter(image.quad(x, y));
+      for (std::size_t lane = 0; lane < 4; ++lane)
+        pixels[(static_cast<std::size_t>(y) + (lane >> 1)) *
+                   static_cast<std::size_t>(image.width) +
+               static_cast<std::size_t>(x) + (lane & 1)] = colours[lane];
+    }
+  }
+  return pixels;
+}
+
+std::vector<golden::ideal::Rgba> plane_truth(const PlaneView& view,
+                                             const golden::ideal::Texture& texture, int n) {
+  golden::ideal::Sampler sampler;
+  sampler.min_filter = spec::MinFilter::kLinear;
+  std::vector<golden::ideal::Rgba> truth;
+  for (int y = 0; y < view.height; ++y) {
+    for (int x = 0; x < view.width; ++x) {
+      golden::ideal::Rgba sum{};
+      for (int k = 0; k < n * n; ++k) {
+        golden::ideal::Fragment f;
+        view.coordinates(x + (k % n + 0.5) / n, y + (k / n + 0.5) / n, f.s, f.t);
+        const golden::ideal::Rgba colour = exact_colour(texture, sampler, f);
+        for (std::size_t c = 0; c < 4; ++c) sum[c] += colour[c] / (n * n);
+      }
+      truth.push_back(sum);
+    }
+  }
+  return truth;
+}
+
+double rms(const Pixels& pixels, const std::vector<golden::ideal::Rgba>& truth) {
+  DEBURR_CHECK(pixels.size() == truth.size() && !truth.empty(), "images differ in size");
+  double sum = 0.0;
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      sum += (pixels[i][c] - truth[i][c]) * (pixels[i][c] - truth[i][c]);
+  return std::sqrt(sum / (3.0 * static_cast<double>(pixels.size())));
+}
+
+}  // namespace deburr::tb::texture

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// A textured ground plane seen in perspective, as coordinates of pixels: the scene on which
+// anisotropic filtering and other programs' filters are compared.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "golden/ideal/filtering_criterion.h"
+#include "spec/fragment.h"
+#include "tb/oracle/conformance.h"
+
+namespace deburr::tb::texture {
+
+// Texture coordinates S7.24 at the centres of width x height pixels, both even; row 0 is farthest.
+struct CoordinateImage {
+  int width = 0, height = 0;
+  std::vector<std::int32_t> s, t;  // row-major
+
+  spec::Quad quad(int x, int y) const;  // of pixels (x, y) .. (x + 1, y + 1), x and y even
+};
+
+struct PlaneView {
+  int width = 128, height = 96;
+  double repeats = 1.0;   // times the texture repeats across the nearest row
+  double horizon = 6.0;   // rows between row 0 and the horizon
+  double turn = 0.35;     // rotation of the plane about its normal, radians
+  double s = 0.0, t = 0.0;  // shift of the texture
+
+  // Coordinates at a point of the image, in pixels.
+  void coordinates(double x, double y, double& s_out, double& t_out) const;
+};
+CoordinateImage plane(const PlaneView& view);
+
+// One texel of a texture, or a patch of it with rotation: full-screen, affine, `texels_per_pixel` of
+// level 0 a pixel along u.
+CoordinateImage affine(int width, int height, const Size& size, double texels_per_pixel,
+                       double turn, double s0, double t0);
+
+using Pixels = std::vector<std::array<std::uint8_t, 4>>;  // row-major
+Pixels filter_image(const CoordinateImage& image, const QuadFilter& filter);
+
+// What the plane's pixels show when n x n points of each are averaged over bilinear level 0.
+std::vector<golden::ideal::Rgba> plane_truth(const PlaneView& view,
+                                             const golden::ideal::Texture& texture, int n);
+// Root mean square difference over R, G and B, 8-bit steps.
+double rms(const Pixels& pixels, const std::vector<golden::ideal::Rgba>& truth);
+
+}  // namespace deburr::tb::texture
