@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The last block: decides the axis of a pixel and mixes it with the neighbours of that axis.
+//
+// docs/morphological_engine.md, "Blender"; docs/number_formats_morphological.md, "Blend". The axis
+// is decided here and nowhere else (paper 000's comparison of D sums, taken after the extension).
+#pragma once
+
+#include <cstdint>
+
+#include "spec/morphological.h"
+
+namespace deburr::golden::morphological {
+
+// What the four edges around a pixel offer it.
+struct PixelShares {
+  int up = 0, down = 0, left = 0, right = 0;  // U0.8 shares of the neighbours, 0..128
+  int span_horizontal = 0;                    // longest line that gives up or down
+  int span_vertical = 0;                      // longest line that gives left or right
+};
+
+// Which rule decided.
+enum class Decision : std::uint8_t {
+  kNone,               // no shares
+  kOnlyUpDown,         // rule 1
+  kOnlyLeftRight,      //
+  kLongerUpDown,       // rule 2
+  kLongerLeftRight,    //
+  kStrongerUpDown,     // rule 3
+  kStrongerLeftRight,  //
+  kTie                 // rule 3 with equality: up and down
+};
+Decision decide(const PixelShares& shares);
+constexpr bool is_horizontal(Decision d) {
+  return d == Decision::kOnlyLeftRight || d == Decision::kLongerLeftRight ||
+         d == Decision::kStrongerLeftRight;
+}
+
+// The two shares of the chosen axis; `edges` stays 0.
+spec::BlendTap tap_of(const PixelShares& shares, Decision decision);
+
+// One channel code: v = w1 (n1 - c) + w2 (n2 - c), its magnitude rounded.
+int blend_channel(bool linear_light, int c, int n1, int w1, int n2, int w2);
+// Alpha passes.
+spec::Rgba8 blend(bool linear_light, const spec::Rgba8& pixel, const spec::Rgba8& first, int w1,
+                  const spec::Rgba8& second, int w2);
+
+}  // namespace deburr::golden::morphological

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Bit-exact reference of the whole morphological engine: a frame in, the smoothed frame out, with
+// every intermediate result and the predicted memory traffic.
+//
+// No time, no SystemC, integers only (docs/morphological_engine.md,
+// docs/number_formats_morphological.md; papers 000 and 001). The blocks are pure functions: luma.h,
+// edges.h, runs.h, predictor.h, line.h, area.h, blend.h, traffic.h; conversion of other images to
+// codes: convert.h. MorphologicalGolden strings them together over a frame. Edges are found for all
+// pixels, row by row; after that only edges and the pixels beside them cost time.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "golden/morphological/blend.h"
+#include "golden/morphological/configuration.h"
+#include "golden/morphological/planes.h"
+#include "golden/morphological/predictor.h"
+#include "golden/morphological/run_coverage.h"
+#include "spec/morphological.h"
+
+namespace deburr::golden::morphological {
+
+// One record and what the predictor made of it. Positions count from line.run.start, before any
+// extension; the outermost corners lie at far_left <= 0 and far_right >= 1.
+struct PredictedRun {
+  spec::LineRecord line;
+  std::int16_t far_left = 0, far_right = 0;
+  std::uint16_t probes = 0;
+  std::uint8_t iterations = 0;
+  Outcome left = Outcome::kUntried, right = Outcome::kUntried;
+  SideEnd left_end = SideEnd::kUntried, right_end = SideEnd::kUntried;
+};
+
+class MorphologicalGolden {
+ public:
+  // kPixels: pixels, edges and work only; the fastest. kEverything: taps, decisions, runs and
+  // coverage too.
+  enum class Detail { kPixels, kEverything };
+
+  // Throws ConfigError (configuration.h).
+  explicit MorphologicalGolden(const spec::MorphologicalParameters& parameters,
+                               Detail detail = Detail::kEverything);
+
+  // The output frame, row by row without gaps; valid until the next call. Depth has the size of the
+  // image; without one every depth is 0. Throws ConfigError for a frame the engine does not take.
+  const std::vector<spec::Rgba8>& process(const ImageView& image, const DepthView& depth = {});
+
+  // ---- of the last frame; index y * width + x -----------------------------------------------
+  int width() const { return edges_.left.width(); }
+  int height() const { return edges_.left.height(); }
+  const std::vector<spec::Rgba8>& pixels() const { return pixels_; }
+  const EdgePlanes& edges() const { return edges_; }
+  // Counters of this frame alone; hardware adds up until its counters are cleared.
+  const spec::MorphologicalWork& work() const { return work_; }
+  // With kEverything, else empty. Taps are the engine's, edge bits included.
+  const std::vector<spec::BlendTap>& taps() const { return taps_; }
+  const std::vector<Decision>& decisions() const { return decisions_; }
+  // Every record in canonical order: horizontal by (row, start), then vertical by (start row,
+  // column).
+  const std::vector<PredictedRun>& runs() const { return runs_; }
+  // Line accesses of storage = memory: all writes, then all reads. Empty with line buffers.
+  std::vector<spec::FrameAccess> traffic(std::uint32_t pixel_base = 0) const;
+
+  // ---- of all frames ------------------------------------------------------------------------
+  const RunCoverage& coverage() const { return coverage_; }
+  void clear_coverage() { coverage_ = {}; }
+
+  // storage = memory: line addresses whose reads memory answers with an error; their pixels read as
+  // zero wherever the blender uses them. Edges come from the stream and are not touched.
+  using LinePredicate = std::function<bool(std::uint32_t address)>;
+  void set_read_errors(LinePredicate error, std::uint32_t pixel_base = 0);
+  std::uint64_t memory_errors() const { return memory_errors_; }  // of the last frame
+
+  const spec::MorphologicalParameters& parameters() const { return parameters_; }
+
+ private:
+  struct Share {  // of one edge
+    std::uint8_t first = 0, second = 0;
+    std::uint16_t span = 0;
+  };
+  // Shares of the edges of one axis, in the order of the bits of `edges.along`.
+  struct AxisShares {
+    AxisEdges edges;
+    std::vector<Share> shares;
+    std::vector<std::uint32_t> before;  // edges before each word
+    Share at(int position, int line) const;
+  };
+  void process_runs(AxisShares& axis);
+  void process_record(const AxisShares& axis, const spec::RunRecord& run, std::vector<Share>& out);
+  PixelShares gather(int x, int y) const;
+  void blend_row(const ImageView& image, int y);
+  ImageView as_read_back(const ImageView& image);
+
+  spec::MorphologicalParameters parameters_;
+  bool everything_;
+  EdgePlanes edges_;
+  AxisShares horizontal_, vertical_;
+  std::vector<spec::Rgba8> pixels_, read_back_;
+  std::vector<spec::BlendTap> taps_;
+  std::vector<Decision> decisions_;
+  std::vector<PredictedRun> runs_;
+  spec::MorphologicalWork work_;
+  RunCoverage coverage_;
+  LinePredicate error_;
+  std::uint32_t pixel_base_ = 0;
+  std::uint64_t memory_errors_ = 0;
+};
+
+}  // namespace deburr::golden::morphological

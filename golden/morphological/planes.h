@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// What the blocks of the morphological golden hand to each other: views of images, planes of values
+// and of bits, and the two edge planes seen along either axis.
+//
+// Coordinates: x to the right, y downwards, top row first. A bit plane reads 0 outside the frame,
+// as docs/morphological_engine.md says of edges. Rows of bits are words of 64, so that runs are
+// found a word at a time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "spec/morphological.h"
+
+namespace deburr::golden::morphological {
+
+// A frame owned by someone else. Pixel (x, y) is pixels[y * stride + x].
+template <class Pixel>
+struct ViewOf {
+  std::span<const Pixel> pixels;
+  int width = 0, height = 0;
+  std::size_t stride = 0;  // pixels from row to row, at least width
+
+  ViewOf() = default;
+  ViewOf(std::span<const Pixel> p, int w, int h) : ViewOf(p, w, h, static_cast<std::size_t>(w)) {}
+  ViewOf(std::span<const Pixel> p, int w, int h, std::size_t s)
+      : pixels(p), width(w), height(h), stride(s) {}
+  bool empty() const { return pixels.empty(); }
+  const Pixel* row(int y) const { return pixels.data() + static_cast<std::size_t>(y) * stride; }
+  const Pixel& at(int x, int y) const { return row(y)[x]; }
+};
+using ImageView = ViewOf<spec::Rgba8>;
+using DepthView = ViewOf<std::uint32_t>;  // U24, grows towards the eye
+
+// One value a pixel, rows without gaps.
+template <class Value>
+struct PlaneOf {
+  int width = 0, height = 0;
+  std::vector<Value> values;
+
+  PlaneOf() = default;
+  PlaneOf(int w, int h) { resize(w, h); }
+  // The contents are unspecified afterwards.
+  void resize(int w, int h) {
+    width = w;
+    height = h;
+    values.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
+  }
+  Value* row(int y) { return values.data() + static_cast<std::size_t>(y) * stride(); }
+  const Value* row(int y) const { return values.data() + static_cast<std::size_t>(y) * stride(); }
+  const Value& at(int x, int y) const { return row(y)[x]; }
+  std::size_t stride() const { return static_cast<std::size_t>(width); }
+};
+
+class BitPlane {
+ public:
+  BitPlane() = default;
+  BitPlane(int width, int height) { resize(width, height); }
+  void resize(int width, int height);  // all bits 0 afterwards
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  bool at(int x, int y) const {
+    if (static_cast<unsigned>(x) >= static_cast<unsigned>(width_) ||
+        static_cast<unsigned>(y) >= static_cast<unsigned>(height_)) {
+      return false;
+    }
+    return (row(y)[x >> 6] >> (x & 63) & 1) != 0;
+  }
+  void set(int x, int y) { row(y)[x >> 6] |= std::uint64_t{1} << (x & 63); }
+
+  // Bit x % 64 of word x / 64 is pixel x. At least one bit beyond the last pixel exists and is 0.
+  int words() const { return words_; }
+  std::uint64_t* row(int y) { return bits_.data() + static_cast<std::ptrdiff_t>(y) * words_; }
+  const std::uint64_t* row(int y) const {
+    return bits_.data() + static_cast<std::ptrdiff_t>(y) * words_;
+  }
+
+  std::uint64_t count() const;  // bits that are 1
+  BitPlane transposed() const;
+  friend bool operator==(const BitPlane&, const BitPlane&) = default;
+
+ private:
+  int width_ = 0, height_ = 0, words_ = 0;
+  std::vector<std::uint64_t> bits_;
+};
+
+// left(x, y): edge between (x - 1, y) and (x, y). top(x, y): between (x, y - 1) and (x, y).
+struct EdgePlanes {
+  BitPlane left, top;
+  friend bool operator==(const EdgePlanes&, const EdgePlanes&) = default;
+};
+
+// The edges as the horizontal run sees them: `along` makes runs, `across` crosses them. Transposed
+// planes give the vertical runs; then a position is a row and a line a column.
+struct AxisEdges {
+  spec::Axis axis = spec::Axis::kHorizontal;
+  BitPlane along, across;
+
+  static AxisEdges horizontal(const EdgePlanes& edges) {
+    return {spec::Axis::kHorizontal, edges.top, edges.left};
+  }
+  static AxisEdges vertical(const EdgePlanes& edges) {
+    return {spec::Axis::kVertical, edges.left.transposed(), edges.top.transposed()};
+  }
+
+  // The two crossings at a lattice corner: bit 0 first side (N), bit 1 second side (S).
+  int crossings(int position, int line) const {
+    return (across.at(position, line - 1) ? 1 : 0) | (across.at(position, line) ? 2 : 0);
+  }
+  // The whole code of a corner: N, S, W, E in bits 0 to 3.
+  int corner(int position, int line) const {
+    return crossings(position, line) | (along.at(position - 1, line) ? 4 : 0) |
+           (along.at(position, line) ? 8 : 0);
+  }
+};
+
+}  // namespace deburr::golden::morphological

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// How far a run continues as a digital line: tries its step again on the neighbouring rows.
+//
+// Between RunExtractor and LineUnit; docs/morphological_engine.md, "Extension". Paper 000, section
+// 2.2, corrected as the contract says. Positions count from the start of the run; integers only.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "golden/morphological/planes.h"
+#include "spec/morphological.h"
+
+namespace deburr::golden::morphological {
+
+// What a side found: the first step that differs from L names it.
+enum class Outcome : std::uint8_t {
+  kUntried,  // not a clean Z within the reach, or no predictor
+  kNone,     // tried, no step taken
+  kExact,    // every step is L
+  kEarly,    // L' = L - 1
+  kLate      // L' = L + 1
+};
+// Why a side ended.
+enum class SideEnd : std::uint8_t {
+  kUntried,
+  kSteps,         // all N steps taken, or tried
+  kNoHit,         // no candidate hits
+  kInconsistent,  // safe: no line fits all corners with the one hit (or both)
+  kCurve          // safe: both sides hit, with different steps that are not L
+};
+
+struct Extension {
+  int steps = 0;
+  int end = 0;  // position of the outermost corner: L or 0 if no step was taken
+  std::array<std::int16_t, spec::kMaxSteps> corner{};  // positions of the corners taken
+  Outcome outcome = Outcome::kUntried;
+  SideEnd why = SideEnd::kUntried;
+  std::span<const std::int16_t> corners() const {
+    return {corner.data(), static_cast<std::size_t>(steps)};
+  }
+};
+
+struct Prediction {
+  Extension left, right;
+  int probes = 0;      // corners tested
+  int iterations = 0;  // values of k for which a trial was made
+};
+
+// Corners (i, X) that one digital line must have produced.
+class ConsistentSet {
+ public:
+  explicit ConsistentSet(int length);  // {(0, 0), (1, length)}
+  void add(int index, int position);
+  // One line can have produced them all, with the given one too.
+  bool consistent() const;
+  bool consistent_with(int index, int position) const;
+
+ private:
+  struct Ratio {
+    std::int32_t numerator, denominator;
+    bool operator<(const Ratio& o) const {
+      return std::int64_t{numerator} * o.denominator < std::int64_t{o.numerator} * denominator;
+    }
+  };
+  struct Corner {
+    std::int32_t index, position;
+  };
+  std::array<Corner, spec::kMaxCorners> corners_{};
+  std::size_t count_ = 0;
+  Ratio low_{}, high_{};  // strict bounds of the pixels a step
+};
+
+// Extends `run` (of edges.axis). Without extension (see Outcome::kUntried) both ends are the run's
+// own.
+Prediction predict(const spec::MorphologicalParameters& parameters, const AxisEdges& edges,
+                   const spec::RunRecord& run);
+
+}  // namespace deburr::golden::morphological
