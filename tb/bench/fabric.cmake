@@ -1,0 +1,4 @@
+# SPDX-License-Identifier: MIT
+find_package(benchmark REQUIRED)
+add_executable(fabric_bench "${CMAKE_CURRENT_LIST_DIR}/fabric_bench.cpp")
+target_link_libraries(fabric_bench PRIVATE deburr::harness benchmark::benchmark deburr_options)

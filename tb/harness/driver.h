@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// The two ends of a test: a Driver feeds a link, a Sink empties one, both with stalls at random.
+// A reset starts both from the beginning, with the same stalls again.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <systemc>
+#include <utility>
+#include <vector>
+
+#include "rtl_model/fabric/unit.h"
+#include "tb/harness/random.h"
+
+namespace deburr::tb {
+
+// Both ends stall in `stall_permille` of 1000 cycles, by a stream of random numbers of their own.
+struct EndOptions {
+  std::uint32_t stall_permille = 0;
+  std::uint64_t seed = 1;
+};
+
+template <class T>
+class Driver final : public rtl::Unit {
+ public:
+  rtl::Out<T> beats_out{"beats_out"};
+  // Fills in beat number `index`; false if there is none: the end.
+  using Generator = std::function<bool(std::uint64_t index, T& beat)>;
+
+  Driver(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, EndOptions options = {})
+      : Unit(name, clock),
+        options_(options),
+        random_(options.seed, this->name()),
+        stalled_(declare_stall("random", "stalled on purpose")) {}
+
+  // Either a list, which may grow meanwhile, or a generator.
+  void send(const T& beat) { list_.push_back(beat); }
+  void send(const std::vector<T>& beats) { list_.insert(list_.end(), beats.begin(), beats.end()); }
+  void send(Generator generator) { generator_ = std::move(generator); }
+
+  bool done() const { return ended_ || (!generator_ && sent_ == list_.size()); }
+  std::uint64_t sent() const { return sent_; }
+  std::function<void(rtl::Cycle, const T&)> on_send;  // at each push, before the link has it
+
+  rtl::Activity tick(rtl::Cycle cycle) override {
+    if (done()) return rtl::kIdle;
+    if (random_.chance(options_.stall_permille)) return stalled_;
+    if (!beats_out.can_push(cycle)) return rtl::kStalledDownstream;
+    T beat{};
+    if (!generator_) {
+      beat = list_[sent_];
+    } else if (!generator_(sent_, beat)) {
+      ended_ = true;
+      return rtl::kIdle;
+    }
+    ++sent_;
+    if (on_send) on_send(cycle, beat);
+    beats_out.push(cycle, beat);
+    return rtl::kBusy;
+  }
+  void reset() override {
+    sent_ = 0;
+    ended_ = false;
+    random_ = Random(options_.seed, name());
+  }
+
+ private:
+  EndOptions options_;
+  Random random_;
+  rtl::Activity stalled_;
+  std::vector<T> list_;
+  Generator generator_;
+  std::uint64_t sent_ = 0;
+  bool ended_ = false;
+};
+
+template <class T>
+class Sink final : public rtl::Unit {
+ public:
+  rtl::In<T> beats_in{"beats_in"};
+
+  Sink(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, EndOptions options = {})
+      : Unit(name, clock),
+        options_(options),
+        random_(options.seed, this->name()),
+        stalled_(declare_stall("random", "stalled on purpose")) {}
+
+  std::function<void(rtl::Cycle, const T&)> on_beat;
+  // Keeps the beats and their cycles; on by default, off for long runs.
+  void keep(bool on) { keep_ = on; }
+
+  std::uint64_t received() const { return received_; }
+  const std::vector<T>& beats() const { return beats_; }
+  const std::vector<rtl::Cycle>& cycles() const { return cycles_; }
+
+  rtl::Activity tick(rtl::Cycle cycle) override {
+    if (random_.chance(options_.stall_permille)) return stalled_;
+    if (!beats_in.can_pop(cycle)) return rtl::kIdle;
+    const T beat = beats_in.take(cycle);
+    ++received_;
+    if (keep_) {
+      beats_.push_back(beat);
+      cycles_.push_back(cycle);
+    }
+    if (on_beat) on_beat(cycle, beat);
+    return rtl::kBusy;
+  }
+  void reset() override {
+    received_ = 0;
+    beats_.clear();
+    cycles_.clear();
+    random_ = Random(options_.seed, name());
+  }
+
+ private:
+  EndOptions options_;
+  Random random_;
+  rtl::Activity stalled_;
+  bool keep_ = true;
+  std::uint64_t received_ = 0;
+  std::vector<T> beats_;
+  std::vector<rtl::Cycle> cycles_;
+};
+
+}  // namespace deburr::tb

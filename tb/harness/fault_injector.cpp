@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "tb/harness/fault_injector.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "rtl_model/fabric/counters.h"
+#include "spec/error.h"
+
+namespace deburr::tb {
+namespace {
+
+std::uint64_t number(const std::string& text, const std::string& whole) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw spec::ConfigError(fmt::format("fault {}: {} is not a number", whole, text));
+  return value;
+}
+
+}  // namespace
+
+Fault Fault::parse(const std::string& text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == ':')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  Fault fault{};
+  const std::string& kind = parts[0];
+  if (kind == "drop")
+    fault.kind = Kind::kDrop;
+  else if (kind == "duplicate")
+    fault.kind = Kind::kDuplicate;
+  else if (kind == "flip")
+    fault.kind = Kind::kFlip;
+  else if (kind == "stuck_ready")
+    fault.kind = Kind::kStuckReady;
+  else
+    throw spec::ConfigError(fmt::format(
+        "fault {}: unknown kind {}; known are drop, duplicate, flip and stuck_ready", text, kind));
+  if (parts.size() != (fault.kind == Kind::kFlip ? 4U : 3U))
+    throw spec::ConfigError(
+        fmt::format("fault {}: expected drop:LINK:BEAT, duplicate:LINK:BEAT, flip:LINK:BEAT:BIT or "
+                    "stuck_ready:LINK:CYCLE",
+                    text));
+  fault.link = parts[1];
+  fault.at = number(parts[2], text);
+  if (fault.kind == Kind::kFlip) fault.bit = static_cast<std::uint32_t>(number(parts[3], text));
+  return fault;
+}
+
+FaultInjector::FaultInjector(rtl::ClockDomain& clock, const std::vector<Fault>& faults) {
+  for (const Fault& fault : faults) {
+    rtl::LinkBase* found = nullptr;
+    std::string known;
+    rtl::for_each<rtl::LinkBase>([&](rtl::LinkBase& link) {
+      known += std::string("\n  ") + link.name();
+      if (fault.link == link.name()) found = &link;
+    });
+    if (!found)
+      throw spec::ConfigError(
+          fmt::format("fault: no link is named {}; there are:{}", fault.link, known));
+    if (fault.kind == Fault::Kind::kFlip && fault.bit >= found->payload_bytes() * 8)
+      throw spec::ConfigError(fmt::format("fault: bit {} of {}, which has {}", fault.bit,
+                                          fault.link, found->payload_bytes() * 8));
+    planted_.push_back({fault, found, false});
+  }
+  clock.add_before(*this);
+}
+
+bool FaultInjector::act(const Fault& fault, rtl::LinkBase& link, rtl::Cycle cycle) {
+  if (fault.kind == Fault::Kind::kStuckReady) {
+    if (cycle < fault.at) return false;
+    link.hold_push(cycle);
+    return true;
+  }
+  // One push a cycle, so the beat is the newest in the link in the cycle after its push.
+  if (link.pushes() != fault.at + 1 || link.empty()) return false;
+  if (fault.kind == Fault::Kind::kDrop) return link.drop_newest();
+  if (fault.kind == Fault::Kind::kFlip) {
+    link.beat(fault.at)[fault.bit / 8] ^= std::byte(1U << fault.bit % 8);
+    return true;
+  }
+  if (link.duplicate_newest(cycle)) return true;
+  link.hold_push(cycle);  // no room: keep it the newest until there is
+  return false;
+}
+
+rtl::Activity FaultInjector::tick(rtl::Cycle cycle) {
+  for (Planted& planted : planted_)
+    if (!planted.fired || planted.fault.kind == Fault::Kind::kStuckReady)
+      planted.fired = act(planted.fault, *planted.link, cycle);
+  return rtl::kIdle;
+}
+
+std::size_t FaultInjector::fired() const {
+  return static_cast<std::size_t>(
+      std::count_if(planted_.begin(), planted_.end(), [](const Planted& p) { return p.fired; }));
+}
+
+void FaultInjector::check_fired() const {
+  for (const Planted& planted : planted_)
+    if (!planted.fired)
+      throw spec::SimulationError(fmt::format(
+          "the fault planted on {} at {} was never reached: the run was too short to show anything",
+          planted.fault.link, planted.fault.at));
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Planted faults on named links, to show that the checks can fail. A fault acts between two cycles,
+// on a beat that has been pushed and that the consumer has not seen.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/fabric/link.h"
+
+namespace deburr::tb {
+
+struct Fault {
+  enum class Kind { kDrop, kDuplicate, kFlip, kStuckReady };
+  Kind kind;
+  std::string link;  // full name
+  std::uint64_t at =
+      0;  // number of the beat, from 0; kStuckReady: the cycle from which ready is low
+  std::uint32_t bit = 0;  // kFlip: which bit of the payload
+
+  // "drop:<link>:<beat>", "duplicate:<link>:<beat>", "flip:<link>:<beat>:<bit>",
+  // "stuck_ready:<link>:<cycle>". ConfigError if it is none of these.
+  static Fault parse(const std::string& text);
+};
+
+class FaultInjector final : public rtl::Clocked {
+ public:
+  // ConfigError if there is no such link. Construct it after the design.
+  FaultInjector(rtl::ClockDomain& clock, const std::vector<Fault>& faults);
+
+  rtl::Activity tick(rtl::Cycle cycle) override;
+  void reset() override {}
+  std::size_t fired() const;
+  // Throws SimulationError if a fault was never reached: such a run has shown nothing.
+  void check_fired() const;
+
+ private:
+  struct Planted {
+    Fault fault;
+    rtl::LinkBase* link;
+    bool fired = false;
+  };
+  static bool act(const Fault& fault, rtl::LinkBase& link, rtl::Cycle cycle);
+  std::vector<Planted> planted_;
+};
+
+}  // namespace deburr::tb

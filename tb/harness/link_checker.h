@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Protocol checker of links. A link registers what is pushed, so "valid stays until taken" means: a
+// beat that is in the link stays there, unchanged and in its place, until it is popped. Checked at
+// the end of every cycle, for every link:
+//   * at most one push and one pop, each by its side and not behind its back (conservation),
+//   * a pop takes a beat of an earlier cycle, a push a slot that was free before this cycle,
+//   * the payload at the pop is, bit for bit, the payload at the push.
+// At the end: nothing is left in a link. A violation throws SimulationError.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/fabric/link.h"
+
+namespace deburr::tb {
+
+class LinkChecker final : public rtl::Clocked {
+ public:
+  // All links whose full name matches the glob and that exist now: construct it after the design.
+  explicit LinkChecker(rtl::ClockDomain& clock, const std::string& glob = "*");
+
+  rtl::Activity tick(rtl::Cycle cycle) override;
+  void reset() override;
+
+  std::size_t links() const { return watched_.size(); }
+  std::uint64_t beats() const;  // popped and compared so far
+  // Throws if a link still holds beats.
+  void check_empty() const;
+
+ private:
+  struct Watched {
+    const rtl::LinkBase* link;
+    std::uint64_t pushes = 0, pops = 0;  // as of the end of the last cycle
+    std::vector<std::byte> copies;       // of the beats in the link, by number modulo depth
+    std::uint64_t compared = 0;
+  };
+  void follow(Watched& watched, rtl::Cycle cycle);
+  std::vector<Watched> watched_;
+};
+
+}  // namespace deburr::tb

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+#include "tb/harness/memory_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "spec/error.h"
+
+namespace deburr::tb {
+namespace {
+constexpr std::uint64_t kLine = 64;
+}  // namespace
+
+MemoryModel::MemoryModel(const sc_core::sc_module_name& name, const sc_core::sc_time& clock_period,
+                         const MemoryModelParameters& parameters)
+    : sc_module(name),
+      parameters_(parameters),
+      period_(clock_period.value()),
+      random_(parameters.seed),
+      contents_(parameters.bytes) {
+  if (parameters.latency_max < parameters.latency_min || parameters.banks == 0 ||
+      parameters.interleave_bytes == 0 || parameters.outstanding == 0)
+    throw spec::ConfigError(fmt::format(
+        "{}: latency {}..{}, {} banks of {} bytes, {} outstanding: no memory is like that",
+        this->name(), parameters.latency_min, parameters.latency_max, parameters.banks,
+        parameters.interleave_bytes, parameters.outstanding));
+  bank_free_.resize(parameters.banks);
+  ports.register_nb_transport_fw(this, &MemoryModel::nb_transport_fw);
+  ports.register_b_transport(this, &MemoryModel::b_transport);
+  ports.register_transport_dbg(this, &MemoryModel::transport_dbg);
+  SC_METHOD(serve);
+  sensitive << wake_;
+  dont_initialize();
+}
+
+void MemoryModel::preload(std::uint64_t address, std::span<const std::uint8_t> data) {
+  if (address > contents_.size() || data.size() > contents_.size() - address)
+    throw spec::ConfigError(fmt::format("{}: {} bytes at {:#x} do not fit into {} bytes", name(),
+                                        data.size(), address, contents_.size()));
+  std::copy(data.begin(), data.end(), contents_.begin() + static_cast<std::ptrdiff_t>(address));
+}
+
+std::vector<std::uint8_t> MemoryModel::dump(std::uint64_t address, std::uint64_t bytes) const {
+  if (address > contents_.size() || bytes > contents_.size() - address)
+    throw spec::ConfigError(fmt::format("{}: no {} bytes at {:#x} in {} bytes", name(), bytes,
+                                        address, contents_.size()));
+  const auto begin = contents_.begin() + static_cast<std::ptrdiff_t>(address);
+  return {begin, begin + static_cast<std::ptrdiff_t>(bytes)};
+}
+
+void MemoryModel::fail_range(std::uint64_t from, std::uint64_t to,
+                             tlm::tlm_response_status status) {
+  failing_ranges_.push_back({from, to, status});
+}
+void MemoryModel::fail_request(std::uint64_t number, tlm::tlm_response_status status) {
+  failing_requests_[number] = status;
+}
+void MemoryModel::lose_request(std::uint64_t number) { lost_requests_[number] = true; }
+
+void MemoryModel::clear_statistics() {
+  reads_ = writes_ = bytes_read_ = bytes_written_ = errors_ = 0;
+  most_outstanding_ = outstanding_;
+  lines_read_.clear();
+}
+
+MemoryModel::Port& MemoryModel::port_at(int port) {
+  const auto index = static_cast<std::size_t>(port);
+  while (ports_.size() <= index) ports_.emplace_back();
+  return ports_[index];
+}
+
+std::uint64_t MemoryModel::transfer_clocks(std::uint64_t bytes) const {
+  if (parameters_.bytes_per_clock == 0) return 1;
+  return std::max<std::uint64_t>(
+      1, (bytes + parameters_.bytes_per_clock - 1) / parameters_.bytes_per_clock);
+}
+
+std::uint32_t MemoryModel::draw_latency() {
+  const std::uint32_t span = parameters_.latency_max - parameters_.latency_min;
+  return parameters_.latency_min + (span ? random_.below(span + 1) : 0);
+}
+
+void MemoryModel::access(tlm::tlm_generic_payload& payload, std::uint64_t number) {
+  const std::uint64_t address = payload.get_address();
+  const std::uint64_t length = payload.get_data_length();
+  const std::uint64_t width = payload.get_streaming_width();
+  const auto fail = [&](tlm::tlm_response_status status) {
+    payload.set_response_status(status);
+    ++errors_;
+  };
+  if (payload.get_command() == tlm::TLM_IGNORE_COMMAND)
+    return payload.set_response_status(tlm::TLM_OK_RESPONSE);
+  if (payload.is_read()) {
+    ++reads_;
+    bytes_read_ += length;
+    if (parameters_.record_reads)
+      for (std::uint64_t line = address / kLine * kLine; line < address + length; line += kLine)
+        lines_read_.push_back(line);
+  } else {
+    ++writes_;
+  }
+  if (const auto found = failing_requests_.find(number); found != failing_requests_.end())
+    return fail(found->second);
+  for (const Range& range : failing_ranges_)
+    if (address < range.to && address + length > range.from) return fail(range.status);
+  if (length == 0 || width < length) return fail(tlm::TLM_BURST_ERROR_RESPONSE);
+  if (address > contents_.size() || length > contents_.size() - address)
+    return fail(tlm::TLM_ADDRESS_ERROR_RESPONSE);
+
+  const unsigned char* enables = payload.get_byte_enable_ptr();
+  const std::uint64_t enables_length = payload.get_byte_enable_length();
+  if (enables && enables_length == 0) return fail(tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE);
+  std::uint8_t* here = contents_.data() + address;
+  unsigned char* there = payload.get_data_ptr();
+  if (!enables) {
+    payload.is_write() ? std::memcpy(here, there, length) : std::memcpy(there, here, length);
+    if (payload.is_write()) bytes_written_ += length;
+  } else {
+    for (std::uint64_t i = 0; i < length; ++i) {
+      if (enables[i % enables_length] != TLM_BYTE_ENABLED) continue;
+      if (payload.is_write()) {
+        here[i] = there[i];
+        ++bytes_written_;
+      } else {
+        there[i] = here[i];
+      }
+    }
+  }
+  payload.set_dmi_allowed(false);
+  payload.set_response_status(tlm::TLM_OK_RESPONSE);
+}
+
+tlm::tlm_sync_enum MemoryModel::nb_transport_fw(int port, tlm::tlm_generic_payload& payload,
+                                                tlm::tlm_phase& phase, sc_core::sc_time& delay) {
+  Port& here = port_at(port);
+  const std::uint64_t time = (sc_core::sc_time_stamp() + delay).value();
+  if (phase == tlm::END_RESP) {
+    here.responding = false;
+    if (!here.responses.empty()) wake_.notify(delay);
+    return tlm::TLM_COMPLETED;
+  }
+  if (phase != tlm::BEGIN_REQ)
+    throw spec::SimulationError(
+        fmt::format("{}: phase {} from an initiator", name(), phase.get_name()));
+  if (here.held)
+    throw spec::SimulationError(
+        fmt::format("{}: a request before the last one was ended (address {:#x})", name(),
+                    payload.get_address()));
+  payload.acquire();
+  if (outstanding_ >= parameters_.outstanding) {
+    here.held = &payload;
+    held_.push_back(port);
+    return tlm::TLM_ACCEPTED;
+  }
+  accept({&payload, port, 0, false}, time);
+  phase = tlm::END_REQ;
+  return tlm::TLM_UPDATED;
+}
+
+// A request enters at `time`. Contents change in the order of requests.
+void MemoryModel::accept(Request request, std::uint64_t time) {
+  request.number = requests_++;
+  request.lost = lost_requests_.count(request.number) != 0;
+  ++outstanding_;
+  most_outstanding_ = std::max(most_outstanding_, outstanding_);
+  tlm::tlm_generic_payload& payload = *request.payload;
+  access(payload, request.number);
+  std::uint64_t& bank =
+      bank_free_[payload.get_address() / parameters_.interleave_bytes % parameters_.banks];
+  const std::uint64_t start = std::max(time, bank);
+  bank = start + parameters_.bank_busy * period_;
+  schedule(start + draw_latency() * period_, Step::kReady, request);
+}
+
+void MemoryModel::schedule(std::uint64_t time, Step step, const Request& request) {
+  events_.push({time, order_++, step, request});
+  wake_.notify(sc_core::sc_time::from_value(time) - sc_core::sc_time_stamp());
+}
+
+void MemoryModel::serve() {
+  const std::uint64_t now = sc_core::sc_time_stamp().value();
+  while (!events_.empty() && events_.top().time <= now) {
+    const Event event = events_.top();
+    events_.pop();
+    if (event.step == Step::kReady) {
+      // The bus goes to whoever is ready first.
+      const std::uint64_t clocks = transfer_clocks(event.request.payload->get_data_length());
+      std::uint64_t start = event.time;
+      if (parameters_.bytes_per_clock != 0) {
+        start = std::max(start, bus_free_);
+        bus_free_ = start + clocks * period_;
+      }
+      events_.push({start + (clocks - 1) * period_, order_++, Step::kRespond, event.request});
+    } else if (!event.request.lost) {
+      port_at(event.request.port).responses.push_back(event.request);
+    }
+  }
+  for (std::size_t port = 0; port < ports_.size(); ++port) respond(static_cast<int>(port));
+  if (!events_.empty())
+    wake_.notify(sc_core::sc_time::from_value(events_.top().time) - sc_core::sc_time_stamp());
+}
+
+void MemoryModel::respond(int port) {
+  Port& here = port_at(port);
+  while (!here.responding && !here.responses.empty()) {
+    const Request request = here.responses.front();
+    here.responses.pop_front();
+    here.responding = true;
+    tlm::tlm_phase phase = tlm::BEGIN_RESP;
+    sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+    const tlm::tlm_sync_enum status = ports[port]->nb_transport_bw(*request.payload, phase, delay);
+    if (status == tlm::TLM_COMPLETED || (status == tlm::TLM_UPDATED && phase == tlm::END_RESP))
+      here.responding = false;
+    request.payload->release();
+    finished();
+  }
+}
+
+// A transaction is gone: one that was withheld may come in.
+void MemoryModel::finished() {
+  --outstanding_;
+  if (held_.empty()) return;
+  const int port = held_.front();
+  held_.pop_front();
+  tlm::tlm_generic_payload* payload = std::exchange(port_at(port).held, nullptr);
+  accept({payload, port, 0, false}, sc_core::sc_time_stamp().value());
+  tlm::tlm_phase phase = tlm::END_REQ;
+  sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+  ports[port]->nb_transport_bw(*payload, phase, delay);
+}
+
+void MemoryModel::b_transport(int, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
+  access(payload, requests_++);
+  const std::uint64_t clocks = draw_latency() + transfer_clocks(payload.get_data_length()) - 1;
+  delay += sc_core::sc_time::from_value(clocks * period_);
+}
+
+unsigned MemoryModel::transport_dbg(int, tlm::tlm_generic_payload& payload) {
+  const std::uint64_t address = payload.get_address();
+  if (address >= contents_.size()) return 0;
+  const std::uint64_t length =
+      std::min<std::uint64_t>(payload.get_data_length(), contents_.size() - address);
+  std::uint8_t* here = contents_.data() + address;
+  if (payload.is_write())
+    std::memcpy(here, payload.get_data_ptr(), length);
+  else if (payload.is_read())
+    std::memcpy(payload.get_data_ptr(), here, length);
+  else
+    return 0;
+  return static_cast<unsigned>(length);
+}
+
+}  // namespace deburr::tb

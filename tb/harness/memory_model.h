@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// The repository's memory: a TLM-2.0 target (base protocol) with latency, bandwidth, banks and a
+// limit of outstanding transactions, all parameters; any number of initiators. It counts bytes and
+// keeps the order of the lines that were read, which is compared with what the golden model
+// predicts.
+//
+// A transaction that begins at time t and finds its bank free has its last byte at
+//   t + latency + (bytes / bytes_per_clock, rounded up, - 1) clocks,
+// later if its bank or the data bus is busy. With a random latency responses overtake each other.
+#pragma once
+
+#include <tlm_utils/multi_passthrough_target_socket.h>
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <queue>
+#include <span>
+#include <string>
+#include <systemc>
+#include <tlm>
+#include <vector>
+
+#include "tb/harness/random.h"
+
+namespace deburr::tb {
+
+struct MemoryModelParameters {
+  std::uint64_t bytes = 1U << 20;       // addresses 0..bytes-1; beyond: ADDRESS_ERROR
+  std::uint32_t latency_min = 20;       // clk from request to the first byte
+  std::uint32_t latency_max = 20;       // clk; above latency_min: drawn evenly for each transaction
+  std::uint64_t seed = 1;               // of the latencies
+  std::uint32_t bytes_per_clock = 64;   // of the data bus; 0: no limit
+  std::uint32_t banks = 1;              // lines of interleave_bytes go round the banks
+  std::uint32_t interleave_bytes = 64;  // bytes
+  std::uint32_t bank_busy = 0;          // clk from a request until its bank takes another; 0: none
+  std::uint32_t outstanding = 64;       // transactions; more wait with their END_REQ
+  bool record_reads = true;             // keep the addresses of line reads
+};
+
+class MemoryModel final : public sc_core::sc_module {
+ public:
+  tlm_utils::multi_passthrough_target_socket<MemoryModel> ports{"ports"};
+
+  MemoryModel(const sc_core::sc_module_name& name, const sc_core::sc_time& clock_period,
+              const MemoryModelParameters& parameters = {});
+
+  // --- Contents, without time ---
+  void preload(std::uint64_t address,
+               std::span<const std::uint8_t> data);  // ConfigError if outside
+  std::vector<std::uint8_t> dump(std::uint64_t address, std::uint64_t bytes) const;
+
+  // --- Errors on purpose; request numbers count from 0 in the order of arrival ---
+  void fail_range(std::uint64_t from, std::uint64_t to,
+                  tlm::tlm_response_status status = tlm::TLM_ADDRESS_ERROR_RESPONSE);  // [from, to)
+  void fail_request(std::uint64_t number,
+                    tlm::tlm_response_status status = tlm::TLM_GENERIC_ERROR_RESPONSE);
+  void lose_request(std::uint64_t number);  // never answered
+
+  // --- What went by ---
+  std::uint64_t reads() const { return reads_; }
+  std::uint64_t writes() const { return writes_; }
+  std::uint64_t bytes_read() const { return bytes_read_; }
+  std::uint64_t bytes_written() const { return bytes_written_; }
+  std::uint64_t errors() const { return errors_; }
+  std::uint32_t most_outstanding() const { return most_outstanding_; }
+  // Addresses in the order of requests, one for each 64-byte line of a burst.
+  const std::vector<std::uint64_t>& lines_read() const { return lines_read_; }
+  void clear_statistics();
+
+ private:
+  struct Request {
+    tlm::tlm_generic_payload* payload;
+    int port;
+    std::uint64_t number;
+    bool lost;
+  };
+  enum class Step { kReady, kRespond };
+  struct Event {
+    std::uint64_t time;  // sc_time value
+    std::uint64_t order;
+    Step step;
+    Request request;
+    bool operator>(const Event& other) const {
+      return time != other.time ? time > other.time : order > other.order;
+    }
+  };
+  struct Port {
+    bool responding = false;                   // BEGIN_RESP sent, END_RESP not yet seen
+    std::deque<Request> responses;             // whose time has come
+    tlm::tlm_generic_payload* held = nullptr;  // BEGIN_REQ seen, END_REQ withheld
+  };
+  SC_HAS_PROCESS(MemoryModel);
+
+  tlm::tlm_sync_enum nb_transport_fw(int port, tlm::tlm_generic_payload& payload,
+                                     tlm::tlm_phase& phase, sc_core::sc_time& delay);
+  void b_transport(int port, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
+  unsigned transport_dbg(int port, tlm::tlm_generic_payload& payload);
+
+  void serve();
+  void accept(Request request, std::uint64_t time);
+  void schedule(std::uint64_t time, Step step, const Request& request);
+  void respond(int port);
+  void finished();
+  Port& port_at(int port);
+  // Reads or writes the contents and sets the response status.
+  void access(tlm::tlm_generic_payload& payload, std::uint64_t number);
+  std::uint64_t transfer_clocks(std::uint64_t bytes) const;
+  std::uint32_t draw_latency();
+
+  MemoryModelParameters parameters_;
+  std::uint64_t period_;
+  Random random_;
+  std::vector<std::uint8_t> contents_;
+  struct Range {
+    std::uint64_t from, to;
+    tlm::tlm_response_status status;
+  };
+  std::vector<Range> failing_ranges_;
+  std::map<std::uint64_t, tlm::tlm_response_status> failing_requests_;
+  std::map<std::uint64_t, bool> lost_requests_;
+
+  std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
+  std::uint64_t order_ = 0, requests_ = 0;
+  std::vector<std::uint64_t> bank_free_;
+  std::uint64_t bus_free_ = 0;
+  std::deque<Port> ports_;
+  std::deque<int> held_;  // ports in the order in which their requests are withheld
+  std::uint32_t outstanding_ = 0, most_outstanding_ = 0;
+  sc_core::sc_event wake_;
+
+  std::uint64_t reads_ = 0, writes_ = 0, bytes_read_ = 0, bytes_written_ = 0, errors_ = 0;
+  std::vector<std::uint64_t> lines_read_;
+};
+
+}  // namespace deburr::tb

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Reproducible noise: the same seed gives the same numbers on every machine and compiler, which the
+// distributions of <random> do not promise.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace deburr::tb {
+
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  // A stream of its own for each name under one seed, whatever the order of construction.
+  Random(std::uint64_t seed, std::string_view name) : state_(seed) {
+    for (const char c : name)
+      state_ = (state_ ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL + 0x9E3779B97F4A7C15ULL;
+  }
+  // splitmix64: every 64-bit number once in its period.
+  std::uint64_t next() {
+    std::uint64_t z = (state_ += 0x9E3779B97F4A7C15ULL);
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
+    return z ^ (z >> 31);
+  }
+  // 0..bound-1; bound > 0. The bias is below bound / 2^32.
+  std::uint32_t below(std::uint32_t bound) {
+    return static_cast<std::uint32_t>(((next() >> 32) * bound) >> 32);
+  }
+  // True in `permille` of 1000 calls.
+  bool chance(std::uint32_t permille) { return permille != 0 && below(1000) < permille; }
+
+ private:
+  std::uint64_t state_;
+};
+
+}  // namespace deburr::tb

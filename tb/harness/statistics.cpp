@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "tb/harness/statistics.h"
+
+#include <optional>
+
+#include "rtl_model/fabric/counters.h"
+#include "rtl_model/fabric/storage.h"
+#include "rtl_model/fabric/unit.h"
+
+namespace deburr::tb {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const rtl::Histogram& histogram, std::size_t bins) {
+  Json json{{"unit", histogram.unit()},        {"meaning", histogram.meaning()},
+            {"count", histogram.count()},      {"sum", histogram.sum()},
+            {"min", histogram.min()},          {"p50", histogram.percentile(50)},
+            {"p95", histogram.percentile(95)}, {"p99", histogram.percentile(99)},
+            {"max", histogram.max()}};
+  Json& list = json["histogram"] = Json::array();
+  for (const rtl::Histogram::Bin& bin : histogram.bins(bins))
+    list.push_back({bin.low, bin.high, bin.count});
+  return json;
+}
+
+Json statistics(const rtl::ClockDomain& clock, const std::string& prefix) {
+  Json json{{"cycles", clock.cycles_since_reset()}, {"units", Json::object()},
+            {"counters", Json::object()},           {"histograms", Json::object()},
+            {"sram_bits", Json::object()},          {"links", Json::object()}};
+  const auto short_name = [&](const char* full) -> std::optional<std::string> {
+    const std::string name = full;
+    if (prefix.empty()) return name;
+    if (name.rfind(prefix + ".", 0) != 0) return std::nullopt;
+    return name.substr(prefix.size() + 1);
+  };
+  for (const rtl::Unit* unit : clock.units()) {
+    const auto name = short_name(unit->name());
+    if (!name) continue;
+    Json& entry = json["units"][*name];
+    entry = {
+        {"busy", unit->busy_cycles()}, {"idle", unit->idle_cycles()}, {"stalls", Json::object()}};
+    for (const rtl::Unit::StallCause& cause : unit->stalls())
+      entry["stalls"][cause.name] = cause.cycles;
+  }
+  rtl::walk_all([&](sc_core::sc_object& object) {
+    const auto name = short_name(object.name());
+    if (!name) return;
+    if (const auto* counter = dynamic_cast<const rtl::Counter*>(&object)) {
+      json["counters"][*name] = {
+          {"value", counter->value()}, {"unit", counter->unit()}, {"meaning", counter->meaning()}};
+    } else if (const auto* histogram = dynamic_cast<const rtl::Histogram*>(&object)) {
+      json["histograms"][*name] = to_json(*histogram);
+    } else if (const auto* storage = dynamic_cast<const rtl::Storage*>(&object)) {
+      json["sram_bits"][*name] = storage->bits();
+    } else if (const auto* link = dynamic_cast<const rtl::LinkBase*>(&object)) {
+      json["links"][*name] = {{"depth", link->depth()},
+                              {"payload_bits", link->payload_bytes() * 8},
+                              {"beats", link->pops()}};
+    }
+  });
+  return json;
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Everything that a design measures, as JSON, from one walk through its hierarchy: nothing is
+// listed twice.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/fabric/histogram.h"
+
+namespace deburr::tb {
+
+// {"cycles", "units": {name: {busy, idle, stalls: {cause: cycles}}}, "counters": {name: {value,
+// unit, meaning}}, "histograms": {name: see below}, "sram_bits": {name: bits}, "links": {name:
+// {depth, payload_bits, beats}}}. Names are full, without `prefix` and a dot if they begin with it;
+// objects outside of `prefix` are left out.
+nlohmann::ordered_json statistics(const rtl::ClockDomain& clock, const std::string& prefix = "");
+
+// {unit, meaning, count, sum, min, p50, p95, p99, max, histogram: [[low, high, count], ...]}
+nlohmann::ordered_json to_json(const rtl::Histogram& histogram, std::size_t bins = 64);
+
+}  // namespace deburr::tb
