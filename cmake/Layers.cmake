@@ -41,7 +41,8 @@ function(deburr_test name)
     set(ARG_TIMEOUT 120)
   endif()
   add_executable(${name} ${ARG_SOURCES})
-  target_link_libraries(${name} PRIVATE ${ARG_LINK} deburr_options GTest::gmock)
+  # The main() comes first: SystemC's library has one as well.
+  target_link_libraries(${name} PRIVATE GTest::gmock_main ${ARG_LINK} deburr_options)
   gtest_discover_tests(${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
                        PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
 endfunction()
