@@ -80,17 +80,21 @@ class MorphologicalGolden {
     std::uint8_t first = 0, second = 0;
     std::uint16_t span = 0;
   };
-  // Shares of the edges of one axis, in the order of the bits of `edges.along`.
+  // Shares of all edges of one axis, in the order of the bits of `edges.along`: nothing is stored
+  // for pixels without an edge.
   struct AxisShares {
     AxisEdges edges;
     std::vector<Share> shares;
-    std::vector<std::uint32_t> before;  // edges before each word
-    Share at(int position, int line) const;
+    std::vector<std::uint32_t> edges_before;  // each word of edges.along
+    void count_edges();
+    Share at(int position, int line) const;  // zero where there is no edge
   };
-  void process_runs(AxisShares& axis);
-  void process_record(const AxisShares& axis, const spec::RunRecord& run, std::vector<Share>& out);
+  void process_axis(AxisShares& axis);
+  void process_record(AxisShares& axis, const spec::RunRecord& run);
+  void put_runs_in_order(std::size_t first_vertical);
   PixelShares gather(int x, int y) const;
   void blend_row(const ImageView& image, int y);
+  void blend_pixel(const ImageView& image, int x, int y);
   ImageView as_read_back(const ImageView& image);
 
   spec::MorphologicalParameters parameters_;

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Functional coverage of the morphological engine: which situations the frames so far contained.
 //
-// Counted by the golden, which knows every run and every decision. Small named bins; all of them
-// can be reached (tb/unit/morphological_golden_coverage_test.cpp), some only with a suitable
-// window.
+// Counted by the golden, which knows every run and every decision. Small named bins:
+//   shape/<axis>/<shape>/<length>             whole runs
+//   long-end/<axis>/<crossing>                ends of runs beyond the reach
+//   prediction/<axis>/<side>/<outcome>/<length>   none, exact (all steps L), early (L - 1), late (L
+//   + 1) prediction-end/<axis>/<why>               what stopped a side border/<axis>/<border> runs
+//   that touch the frame's border decision/<rule>                           of the blender
+// Every bin can be reached (tb/unit/morphological_golden_coverage_test.cpp); a run of 17 pixels
+// with extensions needs a reach of 34.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,7 +25,7 @@
 namespace deburr::golden::morphological {
 
 struct CoverageBin {
-  std::string name;  // "shape/Z-first-second/horizontal/3-4"
+  std::string name;
   std::uint64_t hits = 0;
 };
 
@@ -27,25 +33,29 @@ class RunCoverage {
  public:
   // `extent`: pixels of the frame along the run; `lines`: across it.
   void count_run(const spec::RunRecord& run, const Prediction& prediction, int extent, int lines);
-  void count_pixel(Decision decision) { ++decisions_[static_cast<std::size_t>(decision)]; }
-  void merge(const RunCoverage& other);
-  // Every bin, hit or not, always in the same order.
+  void count_pixel(Decision decision) { count_pixels(decision, 1); }
+  void count_pixels(Decision decision, std::uint64_t pixels) {
+    decisions_[static_cast<std::size_t>(decision)] += pixels;
+  }
+  // Every bin, hit or not, always in the same order; bins of several runs add up by name.
   std::vector<CoverageBin> bins() const;
 
   static constexpr std::size_t kLengths = 6;  // 1, 2, 3-4, 5-8, 9-16, 17 and more
   static std::size_t length_bin(int length);
 
  private:
-  using Counts = std::uint64_t;
-  template <class T, std::size_t N>
-  using Table = std::array<T, N>;
+  using BinSink = std::function<void(std::string name, std::uint64_t hits)>;
+  void for_each_bin(const BinSink& sink) const;
 
-  Table<Table<Table<Counts, kLengths>, 2>, 16> shapes_{};  // whole runs: shape, axis, length
-  Table<Table<Counts, 2>, 4> long_ends_{};                 // crossing code of an end, axis
-  Table<Table<Table<Table<Counts, kLengths>, 4>, 2>, 2> outcomes_{};  // axis, side, outcome, length
-  Table<Table<Table<Counts, 4>, 2>, 2> ends_{};                       // axis, side, why
-  Table<Table<Counts, 4>, 2> borders_{};  // axis; start, end, first, last
-  Table<Counts, 8> decisions_{};
+  using ByLength = std::array<std::uint64_t, kLengths>;
+  template <class T>
+  using ByAxis = std::array<T, 2>;
+  std::array<ByAxis<ByLength>, 16> shapes_{};
+  std::array<ByAxis<std::uint64_t>, 4> long_ends_{};           // by crossing code
+  ByAxis<std::array<std::array<ByLength, 4>, 2>> outcomes_{};  // axis, side, outcome
+  ByAxis<std::array<std::uint64_t, 4>> ends_{};                // axis, why
+  ByAxis<std::array<std::uint64_t, 4>> borders_{};             // start, end, first, last
+  std::array<std::uint64_t, 8> decisions_{};
 };
 
 }  // namespace deburr::golden::morphological

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "golden/morphological/blend.h"
+
+#include <cstdlib>
+
+#include "spec/morphological_tables.h"
+
+namespace deburr::golden::morphological {
+
+Decision decide(const PixelShares& s) {
+  const bool vertical_pair = (s.up | s.down) != 0;
+  const bool horizontal_pair = (s.left | s.right) != 0;
+  if (!vertical_pair) return horizontal_pair ? Decision::kOnlyLeftRight : Decision::kNone;
+  if (!horizontal_pair) return Decision::kOnlyUpDown;
+  if (s.span_horizontal > s.span_vertical) return Decision::kLongerUpDown;
+  if (s.span_horizontal < s.span_vertical) return Decision::kLongerLeftRight;
+  const int vertical = s.up + s.down, horizontal = s.left + s.right;
+  if (vertical == horizontal) return Decision::kTie;
+  return vertical > horizontal ? Decision::kStrongerUpDown : Decision::kStrongerLeftRight;
+}
+
+spec::BlendTap tap_of(const PixelShares& s, Decision decision) {
+  spec::BlendTap tap;
+  tap.horizontal = is_horizontal(decision);
+  tap.first = static_cast<std::uint8_t>(tap.horizontal ? s.left : s.up);
+  tap.second = static_cast<std::uint8_t>(tap.horizontal ? s.right : s.down);
+  return tap;
+}
+
+int blend_channel(bool linear_light, int c, int n1, int w1, int n2, int w2) {
+  const auto decoded = [&](int code) {
+    return linear_light ? spec::kLinear12FromSrgb[static_cast<std::size_t>(code)] : code;
+  };
+  const int own = decoded(c);
+  const int v = w1 * (decoded(n1) - own) + w2 * (decoded(n2) - own);
+  const int d = (std::abs(v) + 128) >> 8;
+  const int result = v < 0 ? own - d : own + d;
+  return linear_light ? spec::kSrgbFromLinear12[static_cast<std::size_t>(result)] : result;
+}
+
+spec::Rgba8 blend(bool linear_light, const spec::Rgba8& pixel, const spec::Rgba8& first, int w1,
+                  const spec::Rgba8& second, int w2) {
+  spec::Rgba8 result = pixel;
+  for (std::size_t i = 0; i < 3; ++i) {
+    result[i] = static_cast<std::uint8_t>(
+        blend_channel(linear_light, pixel[i], first[i], w1, second[i], w2));
+  }
+  return result;
+}
+
+}  // namespace deburr::golden::morphological

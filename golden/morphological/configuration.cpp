@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "golden/morphological/configuration.h"
+
+#include <string>
+
+#include "spec/error.h"
+
+namespace deburr::golden::morphological {
+namespace {
+
+// Checks each value against its declared range.
+struct RangeCheck {
+  void integer(std::string_view name, std::int32_t value, std::int32_t min, std::int32_t max,
+               std::string_view unit, std::string_view) const {
+    if (value >= min && value <= max) return;
+    throw spec::ConfigError("morphological " + std::string(name) + " = " + std::to_string(value) +
+                            " is outside " + std::to_string(min) + ".." + std::to_string(max) +
+                            " " + std::string(unit));
+  }
+  template <class Enum, std::size_t N>
+  void choice(std::string_view name, Enum value, const std::array<std::string_view, N>&,
+              std::string_view) const {
+    if (static_cast<std::size_t>(value) >= N) {
+      throw spec::ConfigError("morphological " + std::string(name) + " is none of its " +
+                              std::to_string(N) + " choices");
+    }
+  }
+  void boolean(std::string_view, bool, std::string_view) const {}
+};
+
+[[noreturn]] void not_built(const spec::MorphologicalParameters& p, const std::string& what) {
+  throw spec::ConfigError(
+      what + " not built yet (preset " +
+      std::string(spec::kMorphologicalPresetNames[static_cast<std::size_t>(p.preset)]) +
+      "); use area = analytic, diagonals = false, round_corners = false");
+}
+
+}  // namespace
+
+spec::MorphologicalParameters preset_parameters(spec::MorphologicalPreset preset) {
+  spec::MorphologicalParameters p;
+  for (const spec::MorphologicalPresetRow& row : spec::kMorphologicalPresets) {
+    if (row.preset != preset) continue;
+    p.preset = row.preset;
+    p.threshold_mode = row.threshold_mode;
+    p.dynamic_luma = row.dynamic_luma;
+    p.threshold = row.threshold;
+    p.local_contrast = row.local_contrast;
+    p.predictor = row.predictor;
+    p.steps = row.steps;
+    p.contiguous = row.contiguous;
+    p.safe = row.safe;
+    p.area = row.area;
+    p.diagonals = row.diagonals;
+  }
+  return p;
+}
+
+void check_parameters(const spec::MorphologicalParameters& parameters) {
+  spec::MorphologicalParameters p = parameters;
+  const RangeCheck ranges;
+  describe(p, ranges);
+  if (p.area != spec::AreaSource::kAnalytic) not_built(p, "area tables are");
+  if (p.diagonals) not_built(p, "diagonal patterns are");
+  if (p.round_corners) not_built(p, "corner rounding is");
+  if (p.window_rows % 2 != 0) {
+    throw spec::ConfigError("morphological window_rows = " + std::to_string(p.window_rows) +
+                            " is odd; use an even number of rows");
+  }
+  if (p.steps > reach_rows(p) - 1) {
+    throw spec::ConfigError(
+        "morphological steps = " + std::to_string(p.steps) + " reach beyond a window of " +
+        std::to_string(p.window_rows) +
+        " rows; at most window_rows / 2 - 2 = " + std::to_string(reach_rows(p) - 1) + " fit");
+  }
+  if (p.edge_source == spec::EdgeSource::kPredicated &&
+      p.threshold_mode == spec::ThresholdMode::kDynamic) {
+    throw spec::ConfigError(
+        "morphological edges.source = predicated has thresholds of its own; "
+        "use edges.threshold_mode = fixed");
+  }
+}
+
+void check_frame(const spec::MorphologicalParameters& parameters, int width, int height) {
+  const std::string size = std::to_string(width) + " x " + std::to_string(height);
+  if (width < 1 || height < 1 || width > spec::kMaxFrameSize || height > spec::kMaxFrameSize) {
+    throw spec::ConfigError("a frame of " + size + " pixels; 1..8192 each way are possible");
+  }
+  if (width > parameters.line_pixels) {
+    throw spec::ConfigError("a frame of " + size + " pixels does not fit line buffers of " +
+                            std::to_string(parameters.line_pixels) + " pixels; raise line_pixels");
+  }
+}
+
+}  // namespace deburr::golden::morphological

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include "golden/morphological/edges.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdlib>
+#include <cstring>
+
+namespace deburr::golden::morphological {
+namespace {
+
+using Parameters = spec::MorphologicalParameters;
+
+std::int32_t step(const PixelPair& pair) { return std::abs(pair.luma_p - pair.luma_q); }
+
+// The rules of the table "Raw edges", one each, so that the common one becomes a plain loop.
+struct FixedRule {
+  std::int32_t limit;  // 255 T, U8.16
+  explicit FixedRule(const Parameters& p) : limit(255 * p.threshold) {}
+  bool operator()(const PixelPair& pair) const { return step(pair) >= limit; }
+};
+
+struct DynamicRule {
+  std::int64_t alpha;
+  std::int32_t floor;  // U8.16
+  bool larger;
+  explicit DynamicRule(const Parameters& p)
+      : alpha(p.alpha), floor(255 * p.floor), larger(p.dynamic_luma == spec::DynamicLuma::kMax) {}
+  bool operator()(const PixelPair& pair) const {
+    const std::int32_t reference = larger ? std::max(pair.luma_p, pair.luma_q) : pair.luma_p;
+    const std::int64_t c = step(pair);
+    return (c << 16) > alpha * reference && c >= floor;
+  }
+};
+
+struct DepthRule {
+  std::uint64_t threshold;
+  explicit DepthRule(const Parameters& p)
+      : threshold(static_cast<std::uint64_t>(p.depth_threshold)) {}
+  bool operator()(const PixelPair& pair) const {
+    const std::uint64_t nearer = std::max(pair.depth_p, pair.depth_q);
+    const std::uint64_t farther = std::min(pair.depth_p, pair.depth_q);
+    return nearer != farther && (nearer - farther) << 16 >= threshold * nearer;
+  }
+};
+
+struct PredicatedRule {
+  DepthRule depth;
+  std::int32_t on, off;  // U8.16
+  explicit PredicatedRule(const Parameters& p)
+      : depth(p), on(255 * p.threshold_on_depth_edge), off(255 * p.threshold_off_depth_edge) {}
+  bool operator()(const PixelPair& pair) const { return step(pair) >= (depth(pair) ? on : off); }
+};
+
+// Calls use(rule) with the rule that the parameters name.
+template <class Use>
+decltype(auto) with_rule(const Parameters& p, Use&& use) {
+  switch (p.edge_source) {
+    case spec::EdgeSource::kDepth:
+      return use(DepthRule(p));
+    case spec::EdgeSource::kPredicated:
+      return use(PredicatedRule(p));
+    case spec::EdgeSource::kLuma:
+      break;
+  }
+  if (p.threshold_mode == spec::ThresholdMode::kDynamic) return use(DynamicRule(p));
+  return use(FixedRule(p));
+}
+
+// Eight flags of 0 or 1 become eight bits: the product moves flag i to bit 56 + i.
+static_assert(std::endian::native == std::endian::little, "the first flag must be the lowest byte");
+std::uint64_t pack(const std::uint8_t* flags) {
+  std::uint64_t word = 0;
+  for (int i = 0; i < 8; ++i) {
+    std::uint64_t eight;
+    std::memcpy(&eight, flags + 8 * i, sizeof eight);
+    word |= (eight * 0x0102040810204080u >> 56) << (8 * i);
+  }
+  return word;
+}
+
+struct Row {
+  const std::int32_t* luma;
+  const std::uint32_t* depth;
+};
+
+// Bits of the pairs (p[x], q[x]), x in 0..width-1, into `bits`. `flags` holds whole words.
+template <class Rule>
+void raw_row(const Rule& rule, Row p, Row q, int width, std::uint8_t* flags, std::uint64_t* bits) {
+  for (int x = 0; x < width; ++x) {
+    flags[x] = rule(PixelPair{p.luma[x], q.luma[x], p.depth[x], q.depth[x]}) ? 1 : 0;
+  }
+  for (int i = 0; i < width / 64 + 1; ++i) bits[i] = pack(flags + 64 * i);
+}
+
+// Luma steps of rows y - 1, y, y + 1; 0 outside the frame. across(dy, x) = c((x, y+dy), its left
+// neighbour), down(dy, x) = c((x, y+dy), its upper neighbour), x from -1 to width.
+class StepRows {
+ public:
+  explicit StepRows(const LumaPlane& luma) : luma_(luma) {
+    for (auto* rows : {&across_, &down_}) {
+      for (auto& row : *rows) row.assign(static_cast<std::size_t>(luma.width) + 2, 0);
+    }
+    fill(0);
+  }
+  // To row y; called for y = 0, 1, 2, ... in turn.
+  void advance_to(int y) {
+    y_ = y;
+    fill(y + 1);
+  }
+  std::int32_t across(int dy, int x) const { return at(across_, y_ + dy, x); }
+  std::int32_t down(int dy, int x) const { return at(down_, y_ + dy, x); }
+
+ private:
+  using Rows = std::array<std::vector<std::int32_t>, 3>;
+  static std::size_t slot(int y) { return static_cast<std::size_t>(y + 3) % 3; }
+  static std::int32_t at(const Rows& rows, int y, int x) {
+    return rows[slot(y)][static_cast<std::size_t>(x + 1)];
+  }
+  void fill(int y) {
+    auto& across = across_[slot(y)];
+    auto& down = down_[slot(y)];
+    std::fill(down.begin(), down.end(), 0);
+    if (y >= luma_.height) {
+      std::fill(across.begin(), across.end(), 0);
+      return;
+    }
+    const std::int32_t* row = luma_.row(y);
+    for (int x = 1; x < luma_.width; ++x) {
+      across[static_cast<std::size_t>(x + 1)] = std::abs(row[x] - row[x - 1]);
+    }
+    if (y == 0) return;
+    const std::int32_t* above = luma_.row(y - 1);
+    for (int x = 0; x < luma_.width; ++x) {
+      down[static_cast<std::size_t>(x + 1)] = std::abs(row[x] - above[x]);
+    }
+  }
+
+  const LumaPlane& luma_;
+  int y_ = 0;
+  Rows across_, down_;
+};
+
+// Largest step around the left edge of (x, y); the bit stays if twice its own step is larger.
+std::int32_t contrast_left(spec::LocalContrast mode, const StepRows& c, int x) {
+  if (mode == spec::LocalContrast::kPaper) {
+    return std::max({c.down(0, x), c.down(1, x), c.across(0, x), c.across(0, x + 1), c.down(-1, x),
+                     c.across(0, x - 1)});
+  }
+  const std::int32_t beside_p = std::max(c.down(0, x), c.down(1, x));
+  const std::int32_t beside_q = std::max(c.down(0, x - 1), c.down(1, x - 1));
+  return std::max(
+      {c.across(0, x), c.across(0, x + 1), c.across(0, x - 1), std::min(beside_p, beside_q)});
+}
+
+std::int32_t contrast_top(spec::LocalContrast mode, const StepRows& c, int x) {
+  if (mode == spec::LocalContrast::kPaper) return contrast_left(mode, c, x);
+  const std::int32_t beside_p = std::max(c.across(0, x), c.across(0, x + 1));
+  const std::int32_t beside_q = std::max(c.across(-1, x), c.across(-1, x + 1));
+  return std::max({c.down(0, x), c.down(1, x), c.down(-1, x), std::min(beside_p, beside_q)});
+}
+
+// Keeps those of the bits for which keep(x) holds.
+template <class Keep>
+void filter(std::uint64_t* bits, int words, Keep&& keep) {
+  for (int i = 0; i < words; ++i) {
+    for (std::uint64_t rest = bits[i]; rest != 0; rest &= rest - 1) {
+      const int bit = std::countr_zero(rest);
+      if (!keep(64 * i + bit)) bits[i] ^= std::uint64_t{1} << bit;
+    }
+  }
+}
+
+void apply_local_contrast(spec::LocalContrast mode, const LumaPlane& luma, EdgePlanes& edges) {
+  StepRows steps(luma);
+  for (int y = 0; y < luma.height; ++y) {
+    steps.advance_to(y);
+    filter(edges.left.row(y), edges.left.words(),
+           [&](int x) { return 2 * steps.across(0, x) > contrast_left(mode, steps, x); });
+    filter(edges.top.row(y), edges.top.words(),
+           [&](int x) { return 2 * steps.down(0, x) > contrast_top(mode, steps, x); });
+  }
+}
+
+template <class Rule>
+void raw_edges(const Rule& rule, const LumaPlane& luma, const DepthView& depth, EdgePlanes& edges) {
+  const std::vector<std::uint32_t> no_depth(depth.empty() ? static_cast<std::size_t>(luma.width)
+                                                          : 0);
+  std::vector<std::uint8_t> flags(static_cast<std::size_t>(edges.left.words()) * 64);
+  const auto row = [&](int y) {
+    return Row{luma.row(y), depth.empty() ? no_depth.data() : depth.row(y)};
+  };
+  for (int y = 0; y < luma.height; ++y) {
+    const Row own = row(y);
+    // Pairs (x + 1, x) give the left bits of x + 1, moved to their place a bit up.
+    std::fill(flags.begin(), flags.end(), std::uint8_t{0});
+    std::uint64_t* left = edges.left.row(y);
+    raw_row(rule, Row{own.luma + 1, own.depth + 1}, own, luma.width - 1, flags.data(), left);
+    std::uint64_t carry = 0;
+    for (int i = 0; i < edges.left.words(); ++i) {
+      const std::uint64_t word = left[i];
+      left[i] = word << 1 | carry;
+      carry = word >> 63;
+    }
+    if (y > 0) raw_row(rule, own, row(y - 1), luma.width, flags.data(), edges.top.row(y));
+  }
+}
+
+}  // namespace
+
+bool depth_edge(const Parameters& parameters, const PixelPair& pair) {
+  return DepthRule(parameters)(pair);
+}
+
+bool raw_edge(const Parameters& parameters, const PixelPair& pair) {
+  return with_rule(parameters, [&](const auto& rule) { return rule(pair); });
+}
+
+EdgePlanes find_edges(const Parameters& parameters, const ImageView& image,
+                      const DepthView& depth) {
+  const LumaPlane y = luma(image);
+  EdgePlanes edges{BitPlane(image.width, image.height), BitPlane(image.width, image.height)};
+  with_rule(parameters, [&](const auto& rule) { raw_edges(rule, y, depth, edges); });
+  if (parameters.edge_source != spec::EdgeSource::kDepth &&
+      parameters.local_contrast != spec::LocalContrast::kOff) {
+    apply_local_contrast(parameters.local_contrast, y, edges);
+  }
+  return edges;
+}
+
+}  // namespace deburr::golden::morphological

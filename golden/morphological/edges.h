@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Left and top edge bits of a frame: raw edges from luma, depth or both, then local contrast.
+//
+// Second block; docs/number_formats_morphological.md, "Edges". Equations (2) and (3) of paper 003;
+// the symmetric form of local contrast is ours.
+#pragma once
+
+#include <cstdint>
+
+#include "golden/morphological/luma.h"
+#include "golden/morphological/planes.h"
+#include "spec/morphological.h"
+
+namespace deburr::golden::morphological {
+
+// Two pixels beside an edge: the edge is the left or top edge of p.
+struct PixelPair {
+  std::int32_t luma_p = 0, luma_q = 0;     // U8.16
+  std::uint32_t depth_p = 0, depth_q = 0;  // U24
+};
+
+// A pair has a depth edge: the relative step of depth is large enough.
+bool depth_edge(const spec::MorphologicalParameters& parameters, const PixelPair& pair);
+// The raw bit of an edge, local contrast not yet applied.
+bool raw_edge(const spec::MorphologicalParameters& parameters, const PixelPair& pair);
+
+// The edges of a whole frame. A missing depth reads 0 everywhere.
+EdgePlanes find_edges(const spec::MorphologicalParameters& parameters, const ImageView& image,
+                      const DepthView& depth = {});
+
+}  // namespace deburr::golden::morphological

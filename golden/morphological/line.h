@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// The straight line through a run and its extensions, as the two reciprocals that areas need.
+//
+// Between EndpointPredictor and AreaUnit; docs/number_formats_morphological.md, "Line through a
+// run". One rounded division a record. Chord: paper 000; fit: ours.
+#pragma once
+
+#include <cstdint>
+
+#include "golden/morphological/predictor.h"
+#include "spec/morphological.h"
+
+namespace deburr::golden::morphological {
+
+spec::LineRecord line_through(const spec::MorphologicalParameters& parameters,
+                              const spec::RunRecord& run, const Prediction& prediction);
+
+// t(X), S.24: height of the line over the edge at position X, in steps.
+constexpr std::int64_t height(const spec::LineRecord& line, int position) {
+  const std::int64_t numerator = std::int64_t{line.scale} * position - line.offset;
+  return numerator * line.slope + std::int64_t{line.shift} * (1 << (spec::kRecipFractionBits - 1));
+}
+
+}  // namespace deburr::golden::morphological

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Luma of a pixel, exact: U8.16 from codes. First block; docs/number_formats_morphological.md.
+#pragma once
+
+#include <cstdint>
+
+#include "golden/morphological/planes.h"
+#include "spec/morphological.h"
+
+namespace deburr::golden::morphological {
+
+using LumaPlane = PlaneOf<std::int32_t>;  // U8.16, 0..255 x 65536
+
+constexpr std::int32_t luma(const spec::Rgba8& pixel) {
+  return static_cast<std::int32_t>(spec::kLumaWeights[0] * pixel[0] +
+                                   spec::kLumaWeights[1] * pixel[1] +
+                                   spec::kLumaWeights[2] * pixel[2]);
+}
+
+void luma_row(const spec::Rgba8* pixels, int width, std::int32_t* result);
+LumaPlane luma(const ImageView& image);
+
+}  // namespace deburr::golden::morphological

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+#include "golden/morphological/morphological_golden.h"
+
+#include <algorithm>
+#include <bit>
+#include <string>
+#include <utility>
+
+#include "golden/morphological/area.h"
+#include "golden/morphological/edges.h"
+#include "golden/morphological/line.h"
+#include "golden/morphological/runs.h"
+#include "golden/morphological/traffic.h"
+#include "spec/error.h"
+
+namespace deburr::golden::morphological {
+namespace {
+
+std::uint64_t bits_of(std::uint64_t word) {
+  return static_cast<std::uint64_t>(std::popcount(word));
+}
+
+template <class Pixel>
+void check_view(const ViewOf<Pixel>& view, const char* what) {
+  const auto width = static_cast<std::size_t>(view.width);
+  const auto rows = static_cast<std::size_t>(view.height);
+  DEBURR_CHECK(view.stride >= width && view.pixels.size() >= (rows - 1) * view.stride + width,
+               std::string(what) + " of " + std::to_string(view.width) + " x " +
+                   std::to_string(view.height) + " pixels, stride " + std::to_string(view.stride) +
+                   ", in a span of " + std::to_string(view.pixels.size()));
+}
+
+}  // namespace
+
+void MorphologicalGolden::AxisShares::count_edges() {
+  edges_before.clear();
+  std::uint32_t count = 0;
+  for (int line = 0; line < edges.along.height(); ++line) {
+    for (int i = 0; i < edges.along.words(); ++i) {
+      edges_before.push_back(count);
+      count += static_cast<std::uint32_t>(bits_of(edges.along.row(line)[i]));
+    }
+  }
+  shares.clear();
+  shares.reserve(count);
+}
+
+MorphologicalGolden::Share MorphologicalGolden::AxisShares::at(int position, int line) const {
+  if (!edges.along.at(position, line)) return {};
+  const int word = position >> 6, bit = position & 63;
+  const std::uint64_t earlier = edges.along.row(line)[word] & ((std::uint64_t{1} << bit) - 1);
+  const std::size_t base =
+      edges_before[static_cast<std::size_t>(line) * static_cast<std::size_t>(edges.along.words()) +
+                   static_cast<std::size_t>(word)];
+  return shares[base + bits_of(earlier)];
+}
+
+MorphologicalGolden::MorphologicalGolden(const spec::MorphologicalParameters& parameters,
+                                         Detail detail)
+    : parameters_(parameters), everything_(detail == Detail::kEverything) {
+  check_parameters(parameters);
+}
+
+const std::vector<spec::Rgba8>& MorphologicalGolden::process(const ImageView& image,
+                                                             const DepthView& depth) {
+  check_frame(parameters_, image.width, image.height);
+  check_view(image, "a frame");
+  if (!depth.empty()) {
+    DEBURR_CHECK(depth.width == image.width && depth.height == image.height,
+                 "depth and image differ in size");
+    check_view(depth, "depth");
+  }
+  work_ = {};
+  runs_.clear();
+  const std::size_t pixels =
+      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  work_.pixels = pixels;
+  pixels_.resize(pixels);
+  if (everything_) {
+    taps_.assign(pixels, {});
+    decisions_.assign(pixels, Decision::kNone);
+  }
+
+  edges_ = find_edges(parameters_, image, depth);
+  horizontal_.edges = AxisEdges::horizontal(edges_);
+  vertical_.edges = AxisEdges::vertical(edges_);
+  process_axis(horizontal_);
+  const std::size_t first_vertical = runs_.size();
+  process_axis(vertical_);
+  put_runs_in_order(first_vertical);
+
+  memory_errors_ = 0;
+  const ImageView source = as_read_back(image);
+  for (int y = 0; y < image.height; ++y) blend_row(source, y);
+  if (everything_) coverage_.count_pixels(Decision::kNone, pixels - work_.blended_pixels);
+  return pixels_;
+}
+
+void MorphologicalGolden::process_axis(AxisShares& axis) {
+  axis.count_edges();
+  const int longest = reach(parameters_, axis.edges.axis);
+  std::uint64_t& runs =
+      axis.edges.axis == spec::Axis::kHorizontal ? work_.horizontal_runs : work_.vertical_runs;
+  for (int line = 0; line < axis.edges.along.height(); ++line) {
+    for_each_run(axis.edges.along, line, [&](int first, int end) {
+      ++runs;
+      const RunParts parts = records_of(axis.edges, longest, line, first, end);
+      process_record(axis, parts.record[0]);
+      if (parts.count == 1) return;
+      ++work_.long_runs;
+      const spec::RunRecord& tail = parts.record[1];
+      const int between = tail.start - (first + parts.record[0].length);
+      axis.shares.resize(axis.shares.size() + static_cast<std::size_t>(between));
+      process_record(axis, tail);
+    });
+  }
+}
+
+void MorphologicalGolden::process_record(AxisShares& axis, const spec::RunRecord& run) {
+  const Prediction prediction = predict(parameters_, axis.edges, run);
+  const spec::LineRecord line = line_through(parameters_, run, prediction);
+  const int steps = prediction.left.steps + prediction.right.steps;
+  if (run.part == spec::RunPart::kWhole && spec::kRunShapes[run.shape].clean_z) ++work_.z_runs;
+  if (steps > 0) ++work_.extended_runs;
+  work_.steps += static_cast<std::uint64_t>(steps);
+  work_.probes += static_cast<std::uint64_t>(prediction.probes);
+  if (line.before != spec::Side::kNone || line.after != spec::Side::kNone) {
+    ++work_.divides;
+    for (int k = 0; k < run.length; ++k) {
+      const EdgeShares share = shares(line, k);
+      axis.shares.push_back({share.first, share.second, line.span});
+    }
+  } else {
+    axis.shares.resize(axis.shares.size() + run.length);
+  }
+  if (!everything_) return;
+  coverage_.count_run(run, prediction, axis.edges.along.width(), axis.edges.along.height());
+  runs_.push_back({line, static_cast<std::int16_t>(prediction.left.end),
+                   static_cast<std::int16_t>(prediction.right.end),
+                   static_cast<std::uint16_t>(prediction.probes),
+                   static_cast<std::uint8_t>(prediction.iterations), prediction.left.outcome,
+                   prediction.right.outcome, prediction.left.why, prediction.right.why});
+}
+
+// Vertical records were found column by column.
+void MorphologicalGolden::put_runs_in_order(std::size_t first_vertical) {
+  std::stable_sort(runs_.begin() + static_cast<std::ptrdiff_t>(first_vertical), runs_.end(),
+                   [](const PredictedRun& a, const PredictedRun& b) {
+                     return a.line.run.start < b.line.run.start;
+                   });
+}
+
+PixelShares MorphologicalGolden::gather(int x, int y) const {
+  const Share up = horizontal_.at(x, y), down = horizontal_.at(x, y + 1);
+  const Share left = vertical_.at(y, x), right = vertical_.at(y, x + 1);
+  PixelShares s{up.second, down.first, left.second, right.first, 0, 0};
+  s.span_horizontal = std::max(s.up != 0 ? up.span : 0, s.down != 0 ? down.span : 0);
+  s.span_vertical = std::max(s.left != 0 ? left.span : 0, s.right != 0 ? right.span : 0);
+  return s;
+}
+
+// Only pixels beside an edge can change; they are visited a word of bits at a time.
+void MorphologicalGolden::blend_row(const ImageView& image, int y) {
+  const auto row_start = pixels_.begin() + static_cast<std::ptrdiff_t>(y) * image.width;
+  std::copy_n(image.row(y), image.width, row_start);
+  const std::uint64_t* top = edges_.top.row(y);
+  const std::uint64_t* below = y + 1 < image.height ? edges_.top.row(y + 1) : nullptr;
+  const std::uint64_t* left = edges_.left.row(y);
+  const int words = edges_.left.words();
+  for (int i = 0; i < words; ++i) {
+    const std::uint64_t next = i + 1 < words ? left[i + 1] : 0;
+    const std::uint64_t own = top[i] | left[i];
+    work_.edge_pixels += bits_of(own);
+    const std::uint64_t beside =
+        own | (below != nullptr ? below[i] : 0) | left[i] >> 1 | next << 63;
+    for (std::uint64_t rest = beside; rest != 0; rest &= rest - 1) {
+      blend_pixel(image, 64 * i + std::countr_zero(rest), y);
+    }
+  }
+}
+
+void MorphologicalGolden::blend_pixel(const ImageView& image, int x, int y) {
+  const PixelShares shares = gather(x, y);
+  const Decision decision = decide(shares);
+  spec::BlendTap tap = tap_of(shares, decision);
+  const std::size_t index = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                            static_cast<std::size_t>(x);
+  if (everything_) {
+    tap.edges =
+        static_cast<std::uint8_t>((edges_.left.at(x, y) ? 1 : 0) | (edges_.top.at(x, y) ? 2 : 0));
+    taps_[index] = tap;
+    decisions_[index] = decision;
+  }
+  if (decision == Decision::kNone) return;
+  ++work_.blended_pixels;
+  if (everything_) coverage_.count_pixel(decision);
+  // A neighbour without a share may lie outside the frame; the pixel itself stands in for it.
+  const spec::Rgba8& pixel = image.at(x, y);
+  const int dx = tap.horizontal ? 1 : 0, dy = tap.horizontal ? 0 : 1;
+  const spec::Rgba8& first = tap.first != 0 ? image.at(x - dx, y - dy) : pixel;
+  const spec::Rgba8& second = tap.second != 0 ? image.at(x + dx, y + dy) : pixel;
+  pixels_[index] = blend(parameters_.linear_light, pixel, first, tap.first, second, tap.second);
+}
+
+std::vector<spec::FrameAccess> MorphologicalGolden::traffic(std::uint32_t pixel_base) const {
+  if (parameters_.storage != spec::Storage::kMemory) return {};
+  return frame_traffic(pixel_base, width(), height());
+}
+
+void MorphologicalGolden::set_read_errors(LinePredicate error, std::uint32_t pixel_base) {
+  error_ = std::move(error);
+  pixel_base_ = pixel_base;
+}
+
+// The frame as pass two sees it: lines that could not be read are zeros.
+ImageView MorphologicalGolden::as_read_back(const ImageView& image) {
+  if (!error_ || parameters_.storage != spec::Storage::kMemory) return image;
+  constexpr int kPixels = spec::kFrameLineBytes / spec::kFramePixelBytes;
+  read_back_.clear();
+  for (int y = 0; y < image.height; ++y) {
+    const std::uint32_t row =
+        pixel_base_ + static_cast<std::uint32_t>(y) * frame_stride(image.width);
+    for (int x = 0; x < image.width; x += kPixels) {
+      const int count = std::min(kPixels, image.width - x);
+      if (error_(row + static_cast<std::uint32_t>(x * spec::kFramePixelBytes))) {
+        ++memory_errors_;
+        read_back_.resize(read_back_.size() + static_cast<std::size_t>(count));
+      } else {
+        read_back_.insert(read_back_.end(), image.row(y) + x, image.row(y) + x + count);
+      }
+    }
+  }
+  return {read_back_, image.width, image.height};
+}
+
+}  // namespace deburr::golden::morphological

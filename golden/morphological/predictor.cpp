@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "golden/morphological/predictor.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "golden/morphological/configuration.h"
+#include "spec/error.h"
+
+namespace deburr::golden::morphological {
+namespace {
+
+// The candidates of a trial, best first.
+struct Candidates {
+  std::array<int, 3> step{};
+  int count = 0;
+  const int* begin() const { return step.data(); }
+  const int* end() const { return step.data() + count; }
+};
+
+Candidates candidates(int length, int other) {
+  if (other != 0) return {{length, other}, 2};
+  if (length == 1) return {{1, 2}, 2};  // a step of 0 is none
+  return {{length, length - 1, length + 1}, 3};
+}
+
+// The run under extension: where it lies and what a continuation must look like.
+class Trials {
+ public:
+  Trials(const spec::MorphologicalParameters& parameters, const AxisEdges& edges,
+         const spec::RunRecord& run)
+      : edges_(edges),
+        contiguous_(parameters.contiguous),
+        reach_(reach(parameters, edges.axis)),
+        line_(run.line),
+        origin_(run.start),
+        length_(run.length),
+        start_code_(edges.corner(run.start, run.line)),
+        end_code_(edges.corner(run.start + run.length, run.line)),
+        direction_((end_code_ & 1) != 0 ? -1 : 1) {}
+
+  // Step number k from the right corner at x; 0 if no candidate hits.
+  int right(int k, int x, const Candidates& steps) const {
+    const int row = line_ + direction_ * (k + 1);
+    for (const int s : steps) {
+      if (x + s <= reach_ && code(x + s, row) == end_code_ &&
+          (!contiguous_ || (code(x, row) == start_code_ && unbroken(x, x + s, row)))) {
+        return s;
+      }
+    }
+    return 0;
+  }
+  // The mirror image, from the left corner at x.
+  int left(int k, int x, const Candidates& steps) const {
+    const int row = line_ - direction_ * (k + 1);
+    for (const int s : steps) {
+      if (x - s >= length_ - reach_ && code(x - s, row) == start_code_ &&
+          (!contiguous_ || (code(x, row) == end_code_ && unbroken(x - s, x, row)))) {
+        return s;
+      }
+    }
+    return 0;
+  }
+
+ private:
+  int code(int x, int row) const { return edges_.corner(origin_ + x, row); }
+  bool unbroken(int from, int to, int row) const {
+    for (int x = from; x < to; ++x) {
+      if (!edges_.along.at(origin_ + x, row)) return false;
+    }
+    return true;
+  }
+
+  const AxisEdges& edges_;
+  bool contiguous_;
+  int reach_, line_, origin_, length_, start_code_, end_code_, direction_;
+};
+
+// A side of the run while it grows.
+struct Growth {
+  Extension& side;
+  int length;
+  bool open = true;
+
+  void close(SideEnd why) {
+    open = false;
+    side.why = why;
+  }
+  // Moves the outermost corner by `move`, away from the run.
+  void take(int step, int move) {
+    side.end += move;
+    side.corner[static_cast<std::size_t>(side.steps++)] = static_cast<std::int16_t>(side.end);
+    if (step < length) side.outcome = Outcome::kEarly;
+    if (step > length) side.outcome = Outcome::kLate;
+    if (step == length && side.outcome == Outcome::kNone) side.outcome = Outcome::kExact;
+  }
+};
+
+// The paper, corrected: each side by itself.
+void extend_alone(const Trials& trials, int n, int length, Prediction& p) {
+  const auto extend = [&](Extension& side, auto&& trial, int sign) {
+    Growth growth{side, length};
+    int other = 0;
+    for (int k = 0; k < n; ++k) {
+      const Candidates steps = candidates(length, other);
+      p.probes += steps.count;
+      p.iterations = std::max(p.iterations, k + 1);
+      const int s = trial(k, side.end, steps);
+      if (s == 0) return growth.close(SideEnd::kNoHit);
+      growth.take(s, sign * s);
+      if (s != length) other = s;
+    }
+    growth.close(SideEnd::kSteps);
+  };
+  extend(
+      p.right, [&](int k, int x, const Candidates& c) { return trials.right(k, x, c); }, 1);
+  extend(
+      p.left, [&](int k, int x, const Candidates& c) { return trials.left(k, x, c); }, -1);
+}
+
+// Ours: both sides in lockstep with one L', as far as one line explains every corner. The numbers
+// are those of the contract.
+void extend_together(const Trials& trials, int n, int length, Prediction& p) {
+  ConsistentSet corners(length);
+  Growth right{p.right, length}, left{p.left, length};
+  const auto close_both = [&](SideEnd why) {
+    if (right.open) right.close(why);
+    if (left.open) left.close(why);
+  };
+  int other = 0;
+  for (int k = 0; k < n && (right.open || left.open); ++k) {
+    p.iterations = k + 1;
+    const Candidates steps = candidates(length, other);
+    p.probes += steps.count * ((right.open ? 1 : 0) + (left.open ? 1 : 0));
+    int s_r = right.open ? trials.right(k, p.right.end, steps) : 0;  // 1
+    int s_l = left.open ? trials.left(k, p.left.end, steps) : 0;
+    if (s_r != 0 && s_l != 0 && s_r != length && s_l != length && s_r != s_l) {  // 2
+      return close_both(SideEnd::kCurve);
+    }
+    const int x_r = p.right.end + s_r, x_l = p.left.end - s_l;
+    if (s_r != 0 && !corners.consistent_with(k + 2, x_r)) {  // 3
+      s_r = 0;
+      right.close(SideEnd::kInconsistent);
+    }
+    if (s_l != 0 && !corners.consistent_with(-k - 1, x_l)) {
+      s_l = 0;
+      left.close(SideEnd::kInconsistent);
+    }
+    ConsistentSet extended = corners;
+    if (s_r != 0) extended.add(k + 2, x_r);
+    if (s_l != 0) extended.add(-k - 1, x_l);
+    if (!extended.consistent()) return close_both(SideEnd::kInconsistent);  // 4
+    corners = extended;                                                     // 5
+    const auto settle = [&](Growth& growth, int s, int sign) {
+      if (!growth.open) return;
+      if (s == 0) return growth.close(SideEnd::kNoHit);
+      growth.take(s, sign * s);
+      if (s != length) other = s;
+    };
+    settle(right, s_r, 1);
+    settle(left, s_l, -1);
+  }
+  close_both(SideEnd::kSteps);
+}
+
+}  // namespace
+
+ConsistentSet::ConsistentSet(int length) {
+  corners_[0] = {0, 0};
+  corners_[1] = {1, length};
+  count_ = 2;
+  low_ = {length - 1, 1};
+  high_ = {length + 1, 1};
+}
+
+void ConsistentSet::add(int index, int position) {
+  DEBURR_CHECK(count_ < corners_.size(), "more corners than two sides of kMaxSteps steps");
+  for (std::size_t i = 0; i < count_; ++i) {
+    // Of a pair i < j the bounds are (X_j - X_i -+ 1) / (j - i).
+    const bool after = index > corners_[i].index;
+    const std::int32_t sign = after ? 1 : -1;
+    const std::int32_t steps = sign * (index - corners_[i].index);
+    const std::int32_t pixels = sign * (position - corners_[i].position);
+    const Ratio low{pixels - 1, steps}, high{pixels + 1, steps};
+    if (low_ < low) low_ = low;
+    if (high < high_) high_ = high;
+  }
+  corners_[count_++] = {index, position};
+}
+
+bool ConsistentSet::consistent() const { return low_ < high_; }
+
+bool ConsistentSet::consistent_with(int index, int position) const {
+  ConsistentSet extended = *this;
+  extended.add(index, position);
+  return extended.consistent();
+}
+
+Prediction predict(const spec::MorphologicalParameters& parameters, const AxisEdges& edges,
+                   const spec::RunRecord& run) {
+  Prediction p;
+  p.right.end = run.length;
+  if (parameters.predictor == spec::Predictor::kNone || parameters.steps == 0 ||
+      run.part != spec::RunPart::kWhole || !spec::kRunShapes[run.shape].clean_z) {
+    return p;
+  }
+  p.left.outcome = p.right.outcome = Outcome::kNone;
+  const Trials trials(parameters, edges, run);
+  if (parameters.safe) {
+    extend_together(trials, parameters.steps, run.length, p);
+  } else {
+    extend_alone(trials, parameters.steps, run.length, p);
+  }
+  return p;
+}
+
+}  // namespace deburr::golden::morphological

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Maximal runs of edges along an axis, as records with the shape that their ends give them.
+//
+// Third block; docs/morphological_engine.md, "Runs" and "Long runs". Written for horizontal runs:
+// AxisEdges shows vertical ones the same way. Reshetov's L, U and Z patterns (paper 000, section
+// 2).
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "golden/morphological/planes.h"
+#include "spec/morphological.h"
+
+namespace deburr::golden::morphological {
+
+// Calls sink(first, end) for every maximal row of set bits, end exclusive, in order.
+template <class Sink>
+void for_each_run(const BitPlane& along, int line, Sink&& sink) {
+  const std::uint64_t* row = along.row(line);
+  int i = 0;
+  std::uint64_t rest = row[0];  // not yet looked at
+  for (;;) {
+    while (rest == 0) {
+      if (++i == along.words()) return;
+      rest = row[i];
+    }
+    const int first_bit = std::countr_zero(rest);
+    const int first = 64 * i + first_bit;
+    // The last word ends in a 0, so a run that fills a word goes on in an existing one.
+    int end_bit = first_bit + std::countr_one(rest >> first_bit);
+    while (end_bit == 64) {
+      rest = row[++i];
+      end_bit = std::countr_one(rest);
+      if (end_bit != 64) break;
+    }
+    sink(first, 64 * i + end_bit);
+    rest &= ~std::uint64_t{0} << end_bit;
+  }
+}
+
+// Codes of a run's ends and the index of kRunShapes.
+int run_shape(const AxisEdges& edges, int line, int first, int end);
+
+// The records of one run, start first: one, or the head and the tail of a run beyond the reach.
+struct RunParts {
+  spec::RunRecord record[2];
+  int count = 0;
+  const spec::RunRecord* begin() const { return record; }
+  const spec::RunRecord* end() const { return record + count; }
+};
+RunParts records_of(const AxisEdges& edges, int reach, int line, int first, int end);
+
+// Every record of the axis, by line, then by start.
+std::vector<spec::RunRecord> find_runs(const spec::MorphologicalParameters& parameters,
+                                       const AxisEdges& edges);
+
+}  // namespace deburr::golden::morphological

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// The line accesses of storage = memory: the frame written once, then read once.
+//
+// Beside the arithmetic: pixels do not depend on it. docs/morphological_engine.md, "storage =
+// memory".
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "spec/morphological.h"
+
+namespace deburr::golden::morphological {
+
+// Bytes from row to row in memory: whole lines.
+constexpr std::uint32_t frame_stride(int width) {
+  const auto bytes = static_cast<std::uint32_t>(spec::kFramePixelBytes * width);
+  return (bytes + spec::kFrameLineBytes - 1) / spec::kFrameLineBytes * spec::kFrameLineBytes;
+}
+
+// All writes ascending, then all reads ascending. How the two interleave is timing.
+std::vector<spec::FrameAccess> frame_traffic(std::uint32_t pixel_base, int width, int height);
+
+}  // namespace deburr::golden::morphological
