@@ -43,6 +43,13 @@ function(deburr_test name)
   add_executable(${name} ${ARG_SOURCES})
   # The main() comes first: SystemC's library has one as well.
   target_link_libraries(${name} PRIVATE GTest::gmock_main ${ARG_LINK} deburr_options)
-  gtest_discover_tests(${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
-                       PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+  gtest_discover_tests(${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 TEST_LIST ${name}_tests
+                       PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  # gtest_discover_tests() flattens a list in PROPERTIES, so more than one label goes this way.
+  set(labels "${CMAKE_CURRENT_BINARY_DIR}/${name}_labels.cmake")
+  file(WRITE "${labels}" "if(${name}_tests)
+  set_tests_properties(\${${name}_tests} PROPERTIES LABELS \"${ARG_LABELS}\")
+endif()
+")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${labels}")
 endfunction()
