@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// The morphological engine: smooths jagged edges of a finished frame
+// (docs/morphological_engine.md).
+//
+//   pixels_in -> SlotSequencer -> LumaUnit -> EdgeDetector -> RunExtractor -> AreaUnit -> Blender ->
+//                    |                                         |    |           ^  pixels_out  ^
+//                    |                  EdgeWindow, record FIFOs   fetch        |              |
+//                    |                         |                    |           |              |
+//                    |           EndpointPredictor h, v -> LineUnit h, v -------+              |
+//                    +---------------------------> PixelStore ---------------------------------+
+//              ParameterStore                          |
+//                    |                        memory (TLM-2.0 initiator), storage = memory only
+//         registers (TLM-2.0 target)
+//
+// A frame is a sequence of slots, one a clock at most. Unstalled, beat j popped in clock c is
+// pushed out in clock c + (R + 5) x BPR + 6; one beat (1, 2 or 4 pixels) a clock. Stalls:
+// `records` (extractor), `upstream` (sequencer), `memory` (pixel store), `downstream`.
+// Source: Reshetov 2009; paper 000.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <systemc>
+#include <tlm>
+#include <vector>
+
+#include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/fabric/histogram.h"
+#include "rtl_model/fabric/memory_port.h"
+#include "rtl_model/fabric/register_block.h"
+#include "rtl_model/fabric/storage.h"
+#include "rtl_model/morphological/area_unit.h"
+#include "rtl_model/morphological/blender.h"
+#include "rtl_model/morphological/edge_detector.h"
+#include "rtl_model/morphological/edge_window.h"
+#include "rtl_model/morphological/endpoint_predictor.h"
+#include "rtl_model/morphological/latency_probe.h"
+#include "rtl_model/morphological/line_unit.h"
+#include "rtl_model/morphological/luma_unit.h"
+#include "rtl_model/morphological/parameter_store.h"
+#include "rtl_model/morphological/pixel_store.h"
+#include "rtl_model/morphological/run_extractor.h"
+#include "rtl_model/morphological/slot_sequencer.h"
+#include "spec/morphological.h"
+
+namespace deburr::rtl::morphological {
+
+class MorphologicalEngine final : public sc_core::sc_module {
+ public:
+  In<spec::PixelBeat> pixels_in{"pixels_in"};
+  Out<spec::BlendedBeat> pixels_out{"pixels_out"};
+
+  // ConfigError if a parameter is out of range, or names or combines what is not built.
+  MorphologicalEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
+                      const spec::MorphologicalParameters& parameters);
+  const char* kind() const override { return "deburr_morphological_engine"; }
+
+ private:
+  spec::MorphologicalParameters parameters_;
+  LatencyProbe probe_;
+
+ public:
+  // In the order of the pipe.
+  ParameterStore store;
+  EdgeWindow window;
+  SlotSequencer sequencer;
+  LumaUnit luma;
+  EdgeDetector edges;
+  RunExtractor extractor;
+  EndpointPredictor predictor_h, predictor_v;
+  LineUnit divider_h, divider_v;
+  AreaUnit area;
+  PixelStore pixel_store;
+  Blender blender;
+  std::unique_ptr<MemoryPort> memory_port;  // only with storage = memory
+
+  // --- Sockets, to be bound from outside ---
+  tlm_utils::simple_target_socket<RegisterBlock>& registers = store.registers.bus;
+  // nullptr with storage = line_buffers: there is no such socket then.
+  tlm::tlm_initiator_socket<>* memory() { return memory_port ? &memory_port->memory : nullptr; }
+
+  // Size of the frames to come, pixels: a write to SIZE from outside of time. ConfigError for 0,
+  // over 8192 or wider than line_pixels. A reset puts SIZE back to 0.
+  void set_frame_size(int width, int height);
+
+  // No frame is inside and no beat waits in front. Between edges.
+  bool idle() const;
+  // Counts since the last reset or clear command; of one frame if there was one.
+  spec::MorphologicalWork work() const;
+  // Clocks from a beat being popped to the same beat being pushed.
+  const Histogram& beat_latency = blender.beat_latency;
+
+  // For checks: every run as it is found, every line as it is stored (canonical order is the
+  // receiver's business). Costs nothing when not set. A line is made for records with a side only.
+  void observe_runs(std::function<void(const spec::RunRecord&)> observer);
+  void observe_lines(std::function<void(const spec::LineRecord&)> observer);
+
+  // For reports: everything below this module, in the order of declaration. The bits of a memory
+  // whose size goes with `line_pixels` at another width: LineMemory::bits_at().
+  std::vector<const Unit*> units();
+  std::vector<const Counter*> counters();
+  std::vector<const Storage*> memories();
+
+  const spec::MorphologicalParameters& parameters() const { return parameters_; }
+
+ private:
+  Link<SlotToken> slots_{"slots"};
+  Link<BeatToken> beats_{"beats"};
+  Link<LumaToken> lumas_{"lumas"};
+  Link<EdgeToken> edge_bits_{"edge_bits"};
+  Link<AreaSlotToken> area_slots_{"area_slots"};
+  Link<FetchToken> fetches_{"fetches"};
+  Link<ShareToken> shares_{"shares"};
+  Link<PixelToken> pixels_{"pixels"};
+  Link<FinishToken> finished_{"finished"};
+  Link<FrameDoneToken> frames_done_{"frames_done"};
+  LaneLinks<SumsToken> sums_h_, sums_v_;
+  LaneLinks<LineToken> lines_h_, lines_v_;
+  std::unique_ptr<Link<MemoryRequest>> requests_;
+  std::unique_ptr<Link<MemoryResponse>> responses_;
+};
+
+}  // namespace deburr::rtl::morphological
