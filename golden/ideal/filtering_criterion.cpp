@@ -95,9 +95,9 @@ std::vector<Cell> cells_in_reach(const Level& level, const Sampler& sampler,
         const std::int64_t dj = linear ? static_cast<std::int64_t>(k >> 1) : 0;
         const int x = wrap_index(sampler.wrap_s, i + di, level.width);
         const int y = wrap_index(sampler.wrap_t, j + dj, level.height);
-        cell.texel[k] = level.texels[static_cast<std::size_t>(y) *
-                                         static_cast<std::size_t>(level.width) +
-                                     static_cast<std::size_t>(x)];
+        cell.texel[k] =
+            level.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) +
+                         static_cast<std::size_t>(x)];
       }
       cell.a = fractions(u, i);
       cell.b = fractions(v, j);
@@ -141,8 +141,7 @@ class Search {
   }
 
   static Interval channel(const std::array<Rgba, 4>& corner, std::size_t c) {
-    const auto [low, high] =
-        std::minmax({corner[0][c], corner[1][c], corner[2][c], corner[3][c]});
+    const auto [low, high] = std::minmax({corner[0][c], corner[1][c], corner[2][c], corner[3][c]});
     return {low, high};
   }
 
@@ -164,8 +163,8 @@ class Search {
   // Whether some hyperplane certainly separates the hull from the cube. Walks a point of the hull
   // towards the cube (Frank-Wolfe) and tests the direction of each step.
   bool separated(const Hull& hull) const {
-    Rgba point = lerp(lerp(hull.p[0], hull.p[3], 0.5), lerp(hull.q[0], hull.q[3], 0.5),
-                      middle(hull.f));
+    Rgba point =
+        lerp(lerp(hull.p[0], hull.p[3], 0.5), lerp(hull.q[0], hull.q[3], 0.5), middle(hull.f));
     for (int step = 0; step < 12; ++step) {
       Rgba direction;
       double cube = 0.0;  // least value of direction . x over the cube
@@ -183,9 +182,8 @@ class Search {
                direction[3] * x[3];
       };
       const auto farthest = [&](const std::array<Rgba, 4>& corner) {
-        return std::max_element(corner.begin(), corner.end(), [&](const Rgba& x, const Rgba& y) {
-          return dot(x) < dot(y);
-        });
+        return std::max_element(corner.begin(), corner.end(),
+                                [&](const Rgba& x, const Rgba& y) { return dot(x) < dot(y); });
       };
       const Rgba& p = *farthest(hull.p);
       const Rgba& q = *farthest(hull.q);
@@ -248,8 +246,8 @@ class Search {
       double extent = 0.0;
       for (std::size_t c = 0; c < 4; ++c) {
         const Interval range = channel(hull, c);
-        misses = misses || range.low > target_[c] + tolerance_ ||
-                 range.high < target_[c] - tolerance_;
+        misses =
+            misses || range.low > target_[c] + tolerance_ || range.high < target_[c] - tolerance_;
         extent = std::max(extent, range.high - range.low);
       }
       if (misses) continue;
@@ -382,8 +380,8 @@ Rgba exact_colour(const Texture& texture, const Sampler& sampler, const Fragment
   const double height = texture.levels.front().height;
   const double rho = std::max(std::hypot(fragment.ds_dx * width, fragment.dt_dx * height),
                               std::hypot(fragment.ds_dy * width, fragment.dt_dy * height));
-  const double lod = std::min(std::max(std::log2(rho) + sampler.lod_bias, sampler.min_lod),
-                              sampler.max_lod);
+  const double lod =
+      std::min(std::max(std::log2(rho) + sampler.lod_bias, sampler.min_lod), sampler.max_lod);
   const int last = static_cast<int>(texture.levels.size()) - 1;
   const auto at_level = [&](int level, bool linear) {
     const Cell cell = cells_in_reach(texture.levels[static_cast<std::size_t>(level)], sampler,

@@ -3,8 +3,8 @@
 // weights and SOME level of detail inside the tolerated intervals explain all four channels
 // together. Real arithmetic; written from the description in docs/filtering_conformance.md.
 //
-// Where it sits: above the golden model. The golden and the hardware model are compared bit for bit;
-// whether the bits are a legal texture filter at all is decided here.
+// Where it sits: above the golden model. The golden and the hardware model are compared bit for
+// bit; whether the bits are a legal texture filter at all is decided here.
 //
 // The question "does a legal point exist" is answered by interval bounding: a box of weights is
 // dropped only when no colour in it can be the result, accepted only when a colour in it is, and
@@ -87,8 +87,8 @@ class Criterion {
   // Whether a legal colour lies within `tolerance` of `colour` in every channel.
   bool reachable(const Fragment& fragment, const Rgba& colour, double tolerance) const;
 
-  // The distance (largest channel) from `colour` to the nearest legal colour, or `floor` when that is
-  // larger; correct to 1/64 step.
+  // The distance (largest channel) from `colour` to the nearest legal colour, or `floor` when that
+  // is larger; correct to 1/64 step.
   double deviation(const Fragment& fragment, const Rgba& colour, double floor = 0.0) const;
 
   // Questions given up (and answered "not reachable") after kMaxBoxes boxes; expected to stay 0.
@@ -120,10 +120,11 @@ class Judge {
   // kHigh when every colour was within tolerance at high precision, else kLow when every one was at
   // low precision, else kFail.
   Verdict verdict() const;
-  // Largest distance to the nearest legal colour at high precision, in 8-bit steps; at least 1/2 where
-  // any fragment was added, since finer differences are rounding.
+  // Largest distance to the nearest legal colour at high precision, in 8-bit steps; at least 1/2
+  // where any fragment was added, since finer differences are rounding.
   double deviation() const { return high_worst_; }
-  // The same at low precision, over the fragments that high precision refused; 0 when there are none.
+  // The same at low precision, over the fragments that high precision refused; 0 when there are
+  // none.
   double low_deviation() const { return low_worst_; }
   const Fragment& worst() const { return worst_; }
   const Rgba& worst_colour() const { return worst_colour_; }

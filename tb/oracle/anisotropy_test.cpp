@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// GL gives anisotropic filtering no number to reach, but aliasing must fall strictly as more samples
-// are allowed, from 1 x to 2 x to the maximum, on a plane seen at a shallow angle.
+// GL gives anisotropic filtering no number to reach, but aliasing must fall strictly as more
+// samples are allowed, from 1 x to 2 x to the maximum, on a plane seen at a shallow angle.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -66,8 +66,8 @@ TEST(Anisotropy, ErrorFallsWithMipLevelsForEveryRule) {
       for (const spec::CountRule count : {spec::CountRule::kFloor, spec::CountRule::kCeil}) {
         parameters.count = count;
         const Errors e = golden_errors(parameters, spec::MinFilter::kLinearMipmapLinear);
-        EXPECT_TRUE(falls_strictly(e)) << spec::kFootprintNames[footprint] << " "
-                                       << spec::kLog2Names[log2];
+        EXPECT_TRUE(falls_strictly(e))
+            << spec::kFootprintNames[footprint] << " " << spec::kLog2Names[log2];
       }
     }
   }

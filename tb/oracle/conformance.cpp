@@ -74,8 +74,7 @@ void measure_lod(const spec::TextureParameters& parameters, ConformanceRow& row)
       for (int lane = 0; lane < 4; ++lane) {
         const double l = unit.analyse(quad, lane).lod.l / 4096.0;
         const golden::ideal::Fragment f = fragment_of(quad, lane);
-        const golden::ideal::Interval legal =
-            golden::ideal::legal_lod(ideal, sampler, f, kExact);
+        const golden::ideal::Interval legal = golden::ideal::legal_lod(ideal, sampler, f, kExact);
         const double rho = std::max(std::hypot(f.ds_dx * size.width, f.dt_dx * size.height),
                                     std::hypot(f.ds_dy * size.width, f.dt_dy * size.height));
         if (l <= 0.0 || rho <= 1.0) continue;  // clamped at 0: no error to be seen
@@ -156,8 +155,8 @@ CaseResult judge(const FilteringCase& c, const FilterFactory& filter) {
   const golden::ideal::Rgba& colour = judge.worst_colour();
   const golden::ideal::Rgba exact = golden::ideal::exact_colour(ideal, sampler, f);
   result.worst = fmt::format(
-      "{}: s {:.9f} t {:.9f} dx ({:.9f}, {:.9f}) dy ({:.9f}, {:.9f}) got ({}, {}, {}, {}), the exact "
-      "filter gives ({:.2f}, {:.2f}, {:.2f}, {:.2f}), off by {:.2f}",
+      "{}: s {:.9f} t {:.9f} dx ({:.9f}, {:.9f}) dy ({:.9f}, {:.9f}) got ({}, {}, {}, {}), "
+      "the exact filter gives ({:.2f}, {:.2f}, {:.2f}, {:.2f}), off by {:.2f}",
       case_name(c), f.s, f.t, f.ds_dx, f.dt_dx, f.ds_dy, f.dt_dy, colour[0], colour[1], colour[2],
       colour[3], exact[0], exact[1], exact[2], exact[3], result.deviation);
   return result;
@@ -175,19 +174,18 @@ std::vector<ConformanceRow> conformance_table() {
       row.log2 = parameters.log2;
       measure_lod(parameters, row);
       const FilterFactory filter = golden_filter(parameters);
-      row.mipmap_nearest = judge_all(filter, {.filters = {MinFilter::kNearestMipmapNearest,
-                                                          MinFilter::kLinearMipmapNearest}});
-      row.mipmap_linear = judge_all(filter, {.filters = {MinFilter::kNearestMipmapLinear,
-                                                         MinFilter::kLinearMipmapLinear}});
+      row.mipmap_nearest = judge_all(
+          filter, {.filters = {MinFilter::kNearestMipmapNearest, MinFilter::kLinearMipmapNearest}});
+      row.mipmap_linear = judge_all(
+          filter, {.filters = {MinFilter::kNearestMipmapLinear, MinFilter::kLinearMipmapLinear}});
       std::vector<std::int16_t> biases;
-      for (int step = -64; step < 64; ++step)
-        biases.push_back(static_cast<std::int16_t>(2 * step));
-      row.biased = judge_all(filter, {.sizes = {{31, 55}},
-                                      .filters = {MinFilter::kLinearMipmapNearest,
-                                                  MinFilter::kLinearMipmapLinear},
-                                      .patterns = {Pattern::kLevels},
-                                      .biases = biases,
-                                      .quads = 256});
+      for (int step = -64; step < 64; ++step) biases.push_back(static_cast<std::int16_t>(2 * step));
+      row.biased = judge_all(
+          filter, {.sizes = {{31, 55}},
+                   .filters = {MinFilter::kLinearMipmapNearest, MinFilter::kLinearMipmapLinear},
+                   .patterns = {Pattern::kLevels},
+                   .biases = biases,
+                   .quads = 256});
       row.pyramid = judge_all(
           filter, {.filters = {MinFilter::kLinearMipmapLinear}, .patterns = {Pattern::kPyramid}});
       row.verdict = std::max({row.mipmap_nearest.verdict, row.mipmap_linear.verdict,
@@ -211,9 +209,9 @@ std::string conformance_markdown(const std::vector<ConformanceRow>& rows) {
         "| `{}` | `{}` | **{}** | {} | {} | {} | {} | {:.4f} | {:.4f} | {:+.3f} .. {:+.3f} |\n",
         spec::kFootprintNames[static_cast<std::size_t>(row.footprint)],
         spec::kLog2Names[static_cast<std::size_t>(row.log2)],
-        golden::ideal::verdict_name(row.verdict), cell(row.mipmap_nearest),
-        cell(row.mipmap_linear), cell(row.biased), cell(row.pyramid), row.lod_below, row.lod_above,
-        row.lod_error_low, row.lod_error_high);
+        golden::ideal::verdict_name(row.verdict), cell(row.mipmap_nearest), cell(row.mipmap_linear),
+        cell(row.biased), cell(row.pyramid), row.lod_below, row.lod_above, row.lod_error_low,
+        row.lod_error_high);
   return text;
 }
 

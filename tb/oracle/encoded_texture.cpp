@@ -74,8 +74,8 @@ std::array<double, 4> box_average(spec::Format format, const EncodedLevel& above
   const int y1 = std::max(y * above.height / height + 1, (y + 1) * above.height / height);
   for (int j = y * above.height / height; j < y1; ++j) {
     for (int i = x * above.width / width; i < x1; ++i, ++count) {
-      const auto colour = channels(format, above.codes[static_cast<std::size_t>(
-                                               j * above.width + i)]);
+      const auto colour =
+          channels(format, above.codes[static_cast<std::size_t>(j * above.width + i)]);
       for (std::size_t c = 0; c < 4; ++c) sum[c] += colour[c];
     }
   }
@@ -117,10 +117,10 @@ EncodedTexture make_texture(Pattern pattern, spec::Format format, int width, int
     EncodedLevel level{std::max(1, width >> k), std::max(1, height >> k), {}};
     for (int y = 0; y < level.height; ++y)
       for (int x = 0; x < level.width; ++x)
-        level.codes.push_back(encode(
-            format, averages && k > 0
-                        ? box_average(format, texture.levels.back(), x, y, level.width, level.height)
-                        : texel(pattern, k, x, y, random)));
+        level.codes.push_back(encode(format, averages && k > 0
+                                                 ? box_average(format, texture.levels.back(), x, y,
+                                                               level.width, level.height)
+                                                 : texel(pattern, k, x, y, random)));
     texture.levels.push_back(std::move(level));
   }
   return texture;
@@ -178,9 +178,8 @@ spec::TextureDescriptor EncodedMemory::place(const EncodedTexture& texture, spec
     const int tiles_x_log2 = log2_round_up((level.width + tile_width - 1) / tile_width);
     const int tiles_y_log2 = log2_round_up((level.height + tile_height - 1) / tile_height);
     const std::uint32_t pitch = round_up_to_line(width * texel_bytes);
-    const std::uint32_t size = layout == spec::Layout::kLinear
-                                   ? pitch * height
-                                   : 64u << (tiles_x_log2 + tiles_y_log2);
+    const std::uint32_t size =
+        layout == spec::Layout::kLinear ? pitch * height : 64u << (tiles_x_log2 + tiles_y_log2);
     const auto base = static_cast<std::uint32_t>(bytes_.size());
     descriptor.base[k] = base;
     bytes_.resize(base + size);

@@ -15,8 +15,8 @@
 
 namespace deburr::tb::texture {
 
-// Codes are the texels as one integer: RGBA8 and sRGB8A8 with R in the low byte, 16-bit formats as in
-// docs/number_formats.md, L8 as it is.
+// Codes are the texels as one integer: RGBA8 and sRGB8A8 with R in the low byte, 16-bit formats as
+// in docs/number_formats.md, L8 as it is.
 struct EncodedLevel {
   int width = 0, height = 0;
   std::vector<std::uint32_t> codes;  // row-major
@@ -33,7 +33,8 @@ struct EncodedTexture {
 // wrong texel.
 enum class Pattern {
   kNoise,      // every channel of every texel 0 or full scale at random
-  kComposite,  // R 0 or full scale at random, G any value, B full scale on odd levels, A checkerboard
+  kComposite,  // R 0 or full scale at random, G any value, B full scale on odd levels, A
+               // checkerboard
   kLevels,     // solid levels: R full scale on odd levels, G grows with the level, B = 255 - R
   kPyramid,    // noise at level 0, box averages below
   kChecker,    // squares of 8 x 8 texels, black and white, box averages below

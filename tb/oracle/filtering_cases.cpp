@@ -95,12 +95,8 @@ golden::ideal::Fragment fragment_of(const spec::Quad& quad, int lane) {
 }
 
 golden::ideal::Sampler sampler_of(const spec::TextureDescriptor& descriptor) {
-  return {descriptor.wrap_s,
-          descriptor.wrap_t,
-          descriptor.min_filter,
-          descriptor.mag_filter,
-          descriptor.lod_bias / 256.0,
-          descriptor.min_lod / 256.0,
+  return {descriptor.wrap_s,         descriptor.wrap_t,           descriptor.min_filter,
+          descriptor.mag_filter,     descriptor.lod_bias / 256.0, descriptor.min_lod / 256.0,
           descriptor.max_lod / 256.0};
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The fragments that filters are judged on: quads that each have their own affine map from pixels to
-// the texture, with footprints of every size, shape and direction.
+// The fragments that filters are judged on: quads that each have their own affine map from pixels
+// to the texture, with footprints of every size, shape and direction.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@ namespace deburr::tb::texture {
 struct Size {
   int width, height;
 };
-inline constexpr Size kFilteringSizes[] = {{4, 8},  {32, 64}, {128, 128},
-                                           {3, 7},  {31, 55}, {127, 99}};
+inline constexpr Size kFilteringSizes[] = {{4, 8}, {32, 64}, {128, 128},
+                                           {3, 7}, {31, 55}, {127, 99}};
 
 // `count` quads for a texture of the given size, their coordinates within -4..4: footprints along u
-// alone, along v alone, square, rotated, sheared, magnified, mirrored and close to the thresholds of
-// the level of detail, in turns. The levels of detail, `lod_bias` included, sweep
-// -3 .. last level + 1.
+// alone, along v alone, square, rotated, sheared, magnified, mirrored and close to the thresholds
+// of the level of detail, in turns. The levels of detail, `lod_bias` included, sweep -3 .. last
+// level + 1.
 std::vector<spec::Quad> filtering_quads(const Size& size, int count, std::uint32_t seed,
                                         double lod_bias = 0.0);
 

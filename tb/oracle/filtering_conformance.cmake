@@ -10,13 +10,20 @@ deburr_library(conformance LAYER tb
 
 deburr_test(filtering_criterion_test LABELS oracle
   SOURCES "${CMAKE_CURRENT_LIST_DIR}/filtering_criterion_test.cpp"
-  LINK deburr::conformance GTest::gtest_main)
+  LINK deburr::conformance)
 deburr_test(filtering_conformance_test LABELS oracle
   SOURCES "${CMAKE_CURRENT_LIST_DIR}/filtering_conformance_test.cpp"
-  LINK deburr::conformance GTest::gtest_main)
+  LINK deburr::conformance)
 deburr_test(filtering_faults_test LABELS negative
   SOURCES "${CMAKE_CURRENT_LIST_DIR}/filtering_faults_test.cpp"
-  LINK deburr::conformance GTest::gtest_main)
+  LINK deburr::conformance)
 deburr_test(anisotropy_test LABELS oracle
   SOURCES "${CMAKE_CURRENT_LIST_DIR}/anisotropy_test.cpp"
-  LINK deburr::conformance GTest::gtest_main)
+  LINK deburr::conformance)
+
+add_executable(conformance_page "${CMAKE_CURRENT_LIST_DIR}/conformance_page.cpp")
+target_link_libraries(conformance_page PRIVATE deburr::conformance deburr_options)
+add_test(NAME conformance_page.is_current
+         COMMAND conformance_page check "${PROJECT_SOURCE_DIR}/docs/filtering_conformance.md"
+                 "${CMAKE_CURRENT_LIST_DIR}/stale_page.md")
+set_tests_properties(conformance_page.is_current PROPERTIES LABELS oracle TIMEOUT 120)

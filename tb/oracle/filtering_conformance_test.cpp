@@ -70,7 +70,10 @@ TEST(Golden, IsHighWithBiasAndClamps) {
   Random random(3);
   for (std::uint32_t seed = 1; seed <= 400; ++seed) {
     FilteringCase c{seed % 2 == 0 ? Pattern::kLevels : Pattern::kComposite,
-                    kFilteringSizes[seed % 6], {}, 48, seed};
+                    kFilteringSizes[seed % 6],
+                    {},
+                    48,
+                    seed};
     c.descriptor.min_filter = static_cast<spec::MinFilter>(random.next() % 6);
     c.descriptor.mag_filter = static_cast<spec::MagFilter>(random.next() % 2);
     c.descriptor.wrap_s = static_cast<spec::Wrap>(random.next() % 3);
@@ -78,8 +81,7 @@ TEST(Golden, IsHighWithBiasAndClamps) {
     c.descriptor.lod_bias = static_cast<std::int16_t>(random.uniform(-768, 768));
     if (seed % 3 == 0) c.descriptor.min_lod = static_cast<std::uint16_t>(random.next() % 768);
     if (seed % 5 == 0)
-      c.descriptor.max_lod =
-          static_cast<std::uint16_t>(c.descriptor.min_lod + random.next() % 768);
+      c.descriptor.max_lod = static_cast<std::uint16_t>(c.descriptor.min_lod + random.next() % 768);
     const CaseResult r = judge(c, filter);
     ASSERT_EQ(r.verdict, Verdict::kHigh) << r.worst;
     ASSERT_EQ(r.undecided, 0);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Is the judge itself right? Against values worked out by hand and against brute force.
+#include "golden/ideal/filtering_criterion.h"
+
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "golden/ideal/filtering_criterion.h"
 #include "tb/oracle/random.h"
 
 namespace deburr {
@@ -83,8 +84,8 @@ TEST(Criterion, AllowsOneColourStepBeyondTheWeightTolerance) {
 TEST(Criterion, NeedsOneExplanationForAllChannels) {
   Texture texture;
   texture.levels.push_back({2, 1, {Rgba{0, 255, 0, 0}, Rgba{255, 0, 0, 0}}});
-  const Sampler s = sampler(spec::MinFilter::kLinear, spec::MagFilter::kLinear,
-                            spec::Wrap::kClampToEdge);
+  const Sampler s =
+      sampler(spec::MinFilter::kLinear, spec::MagFilter::kLinear, spec::Wrap::kClampToEdge);
   const Criterion low(texture, s, kPrecisionLow);
   const Fragment f{0.5, 0.5, 0.1, 0, 0, 0};
   EXPECT_TRUE(low.reachable(f, {127.5 + 14, 127.5 - 14, 0, 0}, 2.0));
@@ -202,8 +203,8 @@ Rgba random_legal_colour(const RandomCase& c, const golden::ideal::Precision& pr
                           c.state.min_filter == spec::MinFilter::kLinearMipmapNearest ||
                           c.state.min_filter == spec::MinFilter::kLinearMipmapLinear;
   const double l = random.uniform(lod.low, lod.high);
-  // exact_colour() at a footprint of exactly 2^l; a position error of up to `bits` of a texel of the
-  // finest level is legal at every level.
+  // exact_colour() at a footprint of exactly 2^l; a position error of up to `bits` of a texel of
+  // the finest level is legal at every level.
   const bool linear = l > 0 ? linear_min : c.state.mag_filter == spec::MagFilter::kLinear;
   const double reach = linear ? std::ldexp(1.0, -precision.subtexel_bits) / 8 : 0.0;
   moved.s += random.uniform(-reach, reach);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Negative tests of the filtering criterion: a plain sampler must pass, the same with a planted fault
-// must not. Where Khronos's tolerance is wide enough for a fault, that is stated here too.
+// Negative tests of the filtering criterion: a plain sampler must pass, the same with a planted
+// fault must not. Where Khronos's tolerance is wide enough for a fault, that is stated here too.
 #include <gmock/gmock.h>
 
 #include "golden/texture/texture_golden.h"
@@ -37,8 +37,8 @@ Outcome judge_everywhere(const FilterFactory& filter) {
     for (std::uint8_t format = 0; format < 5; ++format)
       for (std::uint8_t mode = 0; mode < 12; ++mode)
         for (std::uint8_t wrap = 0; wrap < 3; ++wrap) {
-          FilteringCase c{seed % 2 == 0 ? Pattern::kComposite : Pattern::kNoise, size, {}, 64,
-                          seed++};
+          FilteringCase c{
+              seed % 2 == 0 ? Pattern::kComposite : Pattern::kNoise, size, {}, 64, seed++};
           c.descriptor.format = static_cast<spec::Format>(format);
           c.descriptor.min_filter = static_cast<spec::MinFilter>(mode / 2);
           c.descriptor.mag_filter = static_cast<spec::MagFilter>(mode % 2);
@@ -55,23 +55,25 @@ Outcome judge_everywhere(const FilterFactory& filter) {
 struct Expectation {
   Fault fault;
   Verdict verdict;
+  friend std::ostream& operator<<(std::ostream& out, const Expectation& e) {
+    return out << kFaultNames[static_cast<std::size_t>(e.fault)];
+  }
 };
 
 class PlantedFault : public testing::TestWithParam<Expectation> {};
 
 TEST_P(PlantedFault, GetsItsVerdict) {
   const Outcome outcome = judge_everywhere(plain_filter(GetParam().fault));
-  std::printf("%d of %d cases are not high, largest deviation %.1f, verdict %s\n",
-              outcome.not_high, outcome.cases, outcome.deviation,
-              std::string(verdict_name(outcome.verdict)).c_str());
+  std::printf("%d of %d cases are not high, largest deviation %.1f, verdict %s\n", outcome.not_high,
+              outcome.cases, outcome.deviation, std::string(verdict_name(outcome.verdict)).c_str());
   EXPECT_EQ(outcome.verdict, GetParam().verdict);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Criterion, PlantedFault,
     testing::Values(Expectation{Fault::kNone, Verdict::kHigh},
-                    // Rounded to b bits a weight is wrong by 2^-(b+1), truncated by 2^-b: truncation
-                    // costs a class. 3 bits rounded are exactly what `low` tolerates.
+                    // Rounded to b bits a weight is wrong by 2^-(b+1), truncated by 2^-b:
+                    // truncation costs a class. 3 bits rounded are exactly what `low` tolerates.
                     Expectation{Fault::kFiveBitWeights, Verdict::kHigh},
                     Expectation{Fault::kFiveBitTruncatedWeights, Verdict::kLow},
                     Expectation{Fault::kThreeBitWeights, Verdict::kLow},

@@ -68,8 +68,8 @@ PlainSampler::Colour PlainSampler::texel(const EncodedLevel& level, std::int64_t
                                          std::int64_t y) const {
   const std::size_t column = wrapped(wrap(sampler_.wrap_s), x, level.width);
   const std::size_t row = wrapped(wrap(sampler_.wrap_t), y, level.height);
-  Colour colour = channels(texture_.format,
-                           level.codes[row * static_cast<std::size_t>(level.width) + column]);
+  Colour colour =
+      channels(texture_.format, level.codes[row * static_cast<std::size_t>(level.width) + column]);
   if (fault_ == Fault::kUnreplicatedChannels) colour = with_zeros(texture_.format, colour);
   if (texture_.format == spec::Format::kSrgb8A8 && fault_ != Fault::kEncodedSrgb) {
     for (std::size_t c = 0; c < 3; ++c) {
@@ -151,8 +151,8 @@ std::array<std::uint8_t, 4> PlainSampler::sample(const spec::Quad& quad, int lan
   }
   std::array<std::uint8_t, 4> result;
   for (std::size_t c = 0; c < 4; ++c)
-    result[c] = static_cast<std::uint8_t>(fault_ == Fault::kTruncatedColour ? std::floor(colour[c])
-                                                                            : std::round(colour[c]));
+    result[c] = static_cast<std::uint8_t>(
+        fault_ == Fault::kTruncatedColour ? std::floor(colour[c]) : std::round(colour[c]));
   return result;
 }
 

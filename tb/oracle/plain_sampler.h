@@ -39,27 +39,26 @@ enum class Fault {
   kEncodedSrgb,            // sRGB is filtered and delivered as stored
   kTruncatedColour,        // the result is truncated to 8 bits: legal for the criterion, biased
 };
-inline constexpr std::array<std::string_view, 20> kFaultNames = {
-    "none",
-    "five_bit_weights",
-    "five_bit_truncated_weights",
-    "three_bit_weights",
-    "three_bit_truncated_weights",
-    "half_texel_shift",
-    "nearest_half_texel_shift",
-    "wrong_wrap",
-    "neighbour_past_edge",
-    "truncated_index",
-    "truncated_level",
-    "two_bit_level_fraction",
-    "level_too_low",
-    "level_too_high",
-    "swapped_levels",
-    "swapped_axes",
-    "late_magnification",
-    "unreplicated_channels",
-    "encoded_srgb",
-    "truncated_colour"};
+inline constexpr std::array<std::string_view, 20> kFaultNames = {"none",
+                                                                 "five_bit_weights",
+                                                                 "five_bit_truncated_weights",
+                                                                 "three_bit_weights",
+                                                                 "three_bit_truncated_weights",
+                                                                 "half_texel_shift",
+                                                                 "nearest_half_texel_shift",
+                                                                 "wrong_wrap",
+                                                                 "neighbour_past_edge",
+                                                                 "truncated_index",
+                                                                 "truncated_level",
+                                                                 "two_bit_level_fraction",
+                                                                 "level_too_low",
+                                                                 "level_too_high",
+                                                                 "swapped_levels",
+                                                                 "swapped_axes",
+                                                                 "late_magnification",
+                                                                 "unreplicated_channels",
+                                                                 "encoded_srgb",
+                                                                 "truncated_colour"};
 
 class PlainSampler {
  public:

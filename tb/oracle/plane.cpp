@@ -12,22 +12,6 @@ std::int32_t fixed(double coordinate) {
   return static_cast<std::int32_t>(std::lround(coordinate * spec::kCoordinateOne));
 }
 
-template <class Map>
-CoordinateImage image_of(int width, int height, const Map& map) {
-  DEBURR_CHECK(width % 2 == 0 && height % 2 == 0, "an image is made of 2 x 2 quads");
-  CoordinateImage image{width, height, {}, {}};
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      double s = 0.0;
-      double t = 0.0;
-      map(x + 0.5, y + 0.5, s, t);
-      image.s.push_back(fixed(s));
-      image.t.push_back(fixed(t));
-    }
-  }
-  return image;
-}
-
 }  // namespace
 
 spec::Quad CoordinateImage::quad(int x, int y) const {
@@ -53,17 +37,35 @@ void PlaneView::coordinates(double x, double y, double& s_out, double& t_out) co
 }
 
 CoordinateImage plane(const PlaneView& view) {
-  return image_of(view.width, view.height, [&](double x, double y, double& s, double& t) {
-    view.coordinates(x, y, s, t);
-  });
+  DEBURR_CHECK(view.width % 2 == 0 && view.height % 2 == 0, "an image is made of 2 x 2 quads");
+  CoordinateImage image{view.width, view.height, {}, {}};
+  for (int y = 0; y < view.height; ++y) {
+    for (int x = 0; x < view.width; ++x) {
+      double s = 0.0;
+      double t = 0.0;
+      view.coordinates(x + 0.5, y + 0.5, s, t);
+      image.s.push_back(fixed(s));
+      image.t.push_back(fixed(t));
+    }
+  }
+  return image;
 }
 
-CoordinateImage affine(int width, int height, const Size& size, double texels_per_pixel,
-                       double turn, double s0, double t0) {
-  return image_of(width, height, [&](double x, double y, double& s, double& t) {
-    s = s0 + texels_per_pixel * (std::cos(turn) * x - std::sin(turn) * y) / size.width;
-    t = t0 + texels_per_pixel * (std::sin(turn) * x + std::cos(turn) * y) / size.height;
-  });
+CoordinateImage quads_image(const std::vector<spec::Quad>& quads) {
+  constexpr std::size_t kQuadsInRow = 32;
+  DEBURR_CHECK(quads.size() % kQuadsInRow == 0, "the last row of quads must be full");
+  CoordinateImage image{
+      2 * static_cast<int>(kQuadsInRow), 2 * static_cast<int>(quads.size() / kQuadsInRow),
+      std::vector<std::int32_t>(4 * quads.size()), std::vector<std::int32_t>(4 * quads.size())};
+  for (std::size_t i = 0; i < quads.size(); ++i) {
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      const std::size_t x = 2 * (i % kQuadsInRow) + (lane & 1);
+      const std::size_t y = 2 * (i / kQuadsInRow) + (lane >> 1);
+      image.s[y * 2 * kQuadsInRow + x] = quads[i].s[lane];
+      image.t[y * 2 * kQuadsInRow + x] = quads[i].t[lane];
+    }
+  }
+  return image;
 }
 
 Pixels filter_image(const CoordinateImage& image, const QuadFilter& filter) {
@@ -72,8 +74,7 @@ Pixels filter_image(const CoordinateImage& image, const QuadFilter& filter) {
     for (int x = 0; x < image.width; x += 2) {
       const auto colours = filter(image.quad(x, y));
       for (std::size_t lane = 0; lane < 4; ++lane)
-        pixels[(static_cast<std::size_t>(y) + (lane >> 1)) *
-                   static_cast<std::size_t>(image.width) +
+        pixels[(static_cast<std::size_t>(y) + (lane >> 1)) * static_cast<std::size_t>(image.width) +
                static_cast<std::size_t>(x) + (lane & 1)] = colours[lane];
     }
   }

@@ -22,9 +22,9 @@ struct CoordinateImage {
 
 struct PlaneView {
   int width = 128, height = 96;
-  double repeats = 1.0;   // times the texture repeats across the nearest row
-  double horizon = 6.0;   // rows between row 0 and the horizon
-  double turn = 0.35;     // rotation of the plane about its normal, radians
+  double repeats = 1.0;     // times the texture repeats across the nearest row
+  double horizon = 6.0;     // rows between row 0 and the horizon
+  double turn = 0.35;       // rotation of the plane about its normal, radians
   double s = 0.0, t = 0.0;  // shift of the texture
 
   // Coordinates at a point of the image, in pixels.
@@ -32,10 +32,8 @@ struct PlaneView {
 };
 CoordinateImage plane(const PlaneView& view);
 
-// One texel of a texture, or a patch of it with rotation: full-screen, affine, `texels_per_pixel` of
-// level 0 a pixel along u.
-CoordinateImage affine(int width, int height, const Size& size, double texels_per_pixel,
-                       double turn, double s0, double t0);
+// Quads that need not belong together, 32 in a row; their number is a multiple of 32.
+CoordinateImage quads_image(const std::vector<spec::Quad>& quads);
 
 using Pixels = std::vector<std::array<std::uint8_t, 4>>;  // row-major
 Pixels filter_image(const CoordinateImage& image, const QuadFilter& filter);

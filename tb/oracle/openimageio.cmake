@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: MIT
+# OpenImageIO's texture system as a second oracle. Debian's CMake package needs OpenCV's headers, its
+# pkg-config file does not.
+pkg_check_modules(PC_OracleOpenImageIO QUIET IMPORTED_TARGET OpenImageIO)
+if(PC_OracleOpenImageIO_FOUND)
+  set(oracle_openimageio PkgConfig::PC_OracleOpenImageIO)
+else()
+  find_package(OpenImageIO REQUIRED)
+  set(oracle_openimageio OpenImageIO::OpenImageIO)
+endif()
+deburr_test(openimageio_test LABELS oracle
+  SOURCES "${CMAKE_CURRENT_LIST_DIR}/openimageio_test.cpp"
+  LINK deburr::conformance ${oracle_openimageio})

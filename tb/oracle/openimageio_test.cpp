@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// The golden model against OpenImageIO's texture system, without mip levels: its closest and
+// bilinear lookups follow the same texel and wrap conventions. Its trilinear blend does not follow
+// GL (the fraction between two levels is no logarithm), so mip modes are left to Mesa and the
+// criterion.
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/texture.h>
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "tb/oracle/conformance.h"
+
+namespace deburr::tb::texture {
+namespace {
+
+using TextureSystem = std::unique_ptr<OIIO::TextureSystem, void (*)(OIIO::TextureSystem*)>;
+
+class OpenImageIo : public testing::Test {
+ protected:
+  ~OpenImageIo() override {
+    for (const std::string& file : files_) std::remove(file.c_str());
+  }
+
+  std::string write(const EncodedTexture& texture) {
+    const std::string name = testing::TempDir() + "deburr_oracle_" + std::to_string(getpid()) +
+                             "_" + std::to_string(files_.size()) + ".tif";
+    const OIIO::ImageSpec spec(texture.width(), texture.height(), 4, OIIO::TypeDesc::UINT8);
+    const auto output = OIIO::ImageOutput::create(name);
+    EXPECT_TRUE(output && output->open(name, spec) &&
+                output->write_image(OIIO::TypeDesc::UINT8,
+                                    rgba_bytes(texture.format, texture.levels.front()).data()) &&
+                output->close());
+    files_.push_back(name);
+    return name;
+  }
+
+  // Share of lanes whose four channels agree to one step.
+  double agreement(spec::MinFilter filter, spec::Wrap oiio_wrap_shift) {
+    constexpr std::array<OIIO::TextureOpt::Wrap, 3> kWraps = {
+        OIIO::TextureOpt::WrapPeriodic, OIIO::TextureOpt::WrapMirror, OIIO::TextureOpt::WrapClamp};
+    const TextureSystem system(OIIO::TextureSystem::create(false),
+                               [](OIIO::TextureSystem* s) { OIIO::TextureSystem::destroy(s); });
+    double within = 0.0;
+    double count = 0.0;
+    std::uint32_t seed = 1;
+    for (const Size& size : kFilteringSizes) {
+      for (std::size_t wrap = 0; wrap < 3; ++wrap, ++seed) {
+        // No alpha of 0: the texture system must not be asked what it does with associated alpha.
+        const EncodedTexture texture =
+            make_texture(Pattern::kNoise, spec::Format::kRgb565, size.width, size.height, seed);
+        const OIIO::ustring file(write(texture));
+        spec::TextureDescriptor state;
+        state.format = texture.format;
+        state.min_filter = filter;
+        state.mag_filter = filter == spec::MinFilter::kNearest ? spec::MagFilter::kNearest
+                                                               : spec::MagFilter::kLinear;
+        state.wrap_s = state.wrap_t = static_cast<spec::Wrap>(wrap);
+        OIIO::TextureOpt options;
+        options.mipmode = OIIO::TextureOpt::MipModeNoMIP;
+        options.interpmode = filter == spec::MinFilter::kNearest ? OIIO::TextureOpt::InterpClosest
+                                                                 : OIIO::TextureOpt::InterpBilinear;
+        options.swrap = options.twrap =
+            kWraps[(wrap + static_cast<std::size_t>(oiio_wrap_shift)) % 3];
+        const QuadFilter unit = golden_filter({})(texture, state);
+        for (const spec::Quad& quad : filtering_quads(size, 256, seed)) {
+          const auto colours = unit(quad);
+          for (std::size_t lane = 0; lane < 4; ++lane) {
+            const golden::ideal::Fragment f = fragment_of(quad, static_cast<int>(lane));
+            std::array<float, 4> theirs{};
+            const bool found = system->texture(
+                file, options, static_cast<float>(f.s), static_cast<float>(f.t),
+                static_cast<float>(f.ds_dx), static_cast<float>(f.dt_dx),
+                static_cast<float>(f.ds_dy), static_cast<float>(f.dt_dy), 4, theirs.data());
+            EXPECT_TRUE(found) << system->geterror();
+            double largest = 0.0;
+            for (std::size_t c = 0; c < 4; ++c)
+              largest = std::max(
+                  largest, std::abs(255.0 * static_cast<double>(theirs[c]) - colours[lane][c]));
+            within += largest <= 1.0;
+            count += 1.0;
+          }
+        }
+      }
+    }
+    return within / count;
+  }
+
+ private:
+  std::vector<std::string> files_;
+};
+
+TEST_F(OpenImageIo, ClosestAndBilinearAgreeToOneStep) {
+  const double nearest = agreement(spec::MinFilter::kNearest, spec::Wrap::kRepeat);
+  const double linear = agreement(spec::MinFilter::kLinear, spec::Wrap::kRepeat);
+  std::printf("OpenImageIO %s: closest %.4f %%, bilinear %.4f %% within 1\n", OIIO_VERSION_STRING,
+              100.0 * nearest, 100.0 * linear);
+  EXPECT_GE(nearest, 0.98);
+  EXPECT_GE(linear, 0.98);
+}
+
+TEST_F(OpenImageIo, WrongWrapIsSeen) {
+  EXPECT_LT(agreement(spec::MinFilter::kLinear, spec::Wrap::kMirroredRepeat), 0.9);
+}
+
+}  // namespace
+}  // namespace deburr::tb::texture
