@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "golden/ideal/box.h"
+
 namespace deburr::golden::ideal {
 namespace {
 
@@ -52,6 +54,7 @@ Colour ewa(const TextureImage& texture, const PixelFootprint& footprint,
   const auto first_row = static_cast<std::int64_t>(std::ceil(f.t - 0.5 - tallest));
   const auto last_row = static_cast<std::int64_t>(std::floor(f.t - 0.5 + tallest));
   const double curvature = std::exp(-2 * options.alpha * q.a);
+  const double floor = options.taper ? std::exp(-options.alpha * limit) : 0;
   double weights = 0;
   Colour sum{};
   for (std::int64_t row = first_row; row <= last_row; ++row) {
@@ -68,15 +71,17 @@ Colour ewa(const TextureImage& texture, const PixelFootprint& footprint,
     for (std::int64_t i = first; i <= last; ++i) {
       const auto column = static_cast<std::size_t>(texture.column(i, k));
       const TextureImage::Texel& texel = level.texels[line + column];
-      weights += weight;
-      sum[0] += weight * texel.r;
-      sum[1] += weight * texel.g;
-      sum[2] += weight * texel.b;
-      sum[3] += weight * texel.a;
+      const double w = weight - floor;
+      weights += w;
+      sum[0] += w * texel.r;
+      sum[1] += w * texel.g;
+      sum[2] += w * texel.b;
+      sum[3] += w * texel.a;
       weight *= ratio;
       ratio *= curvature;
     }
   }
+  if (weights <= 0) return box(texture, footprint, 1);  // no texel's centre is inside
   for (double& channel : sum) channel /= weights;
   return sum;
 }

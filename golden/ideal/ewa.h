@@ -16,8 +16,10 @@
 namespace deburr::golden::ideal {
 
 struct EwaOptions {
-  double alpha = 2;           // weight exp(-alpha r^2), r = 1: the ellipse of the footprint
-  double radius = 1;          // the sum ends at this r; Heckbert: 1
+  double alpha = 2;   // weight exp(-alpha r^2), r = 1: the ellipse of the footprint
+  double radius = 1;  // the sum ends at this r; Heckbert: 1
+  // Subtract the weight at the radius, so that the filter ends without a step (as pbrt does).
+  bool taper = false;
   double reconstruction = 1;  // variance of the reconstruction filter added, texel^2
   // More texels than this in an ellipse: read the first level where there are fewer.
   double most_texels = 1 << 20;
