@@ -2,7 +2,8 @@
 #include "golden/morphological/predictor.h"
 
 #include <algorithm>
-#include <optional>
+#include <string>
+#include <utility>
 
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
@@ -137,20 +138,20 @@ void extend_together(const Trials& trials, int n, int length, Prediction& p) {
     if (s_r != 0 && s_l != 0 && s_r != length && s_l != length && s_r != s_l) {  // 2
       return close_both(SideEnd::kCurve);
     }
-    const int x_r = p.right.end + s_r, x_l = p.left.end - s_l;
-    if (s_r != 0 && !corners.consistent_with(k + 2, x_r)) {  // 3
+    const ConsistentSet::Corner r{k + 2, p.right.end + s_r}, l{-k - 1, p.left.end - s_l};
+    if (s_r != 0 && !corners.consistent_with(r)) {  // 3
       s_r = 0;
       right.close(SideEnd::kInconsistent);
     }
-    if (s_l != 0 && !corners.consistent_with(-k - 1, x_l)) {
+    if (s_l != 0 && !corners.consistent_with(l)) {
       s_l = 0;
       left.close(SideEnd::kInconsistent);
     }
-    ConsistentSet extended = corners;
-    if (s_r != 0) extended.add(k + 2, x_r);
-    if (s_l != 0) extended.add(-k - 1, x_l);
-    if (!extended.consistent()) return close_both(SideEnd::kInconsistent);  // 4
-    corners = extended;                                                     // 5
+    if (s_r != 0 && s_l != 0 && !corners.consistent_with(r, l)) {  // 4
+      return close_both(SideEnd::kInconsistent);
+    }
+    if (s_r != 0) corners.add(r);  // 5
+    if (s_l != 0) corners.add(l);
     const auto settle = [&](Growth& growth, int s, int sign) {
       if (!growth.open) return;
       if (s == 0) return growth.close(SideEnd::kNoHit);
@@ -165,35 +166,40 @@ void extend_together(const Trials& trials, int n, int length, Prediction& p) {
 
 }  // namespace
 
-ConsistentSet::ConsistentSet(int length) {
-  corners_[0] = {0, 0};
-  corners_[1] = {1, length};
-  count_ = 2;
-  low_ = {length - 1, 1};
-  high_ = {length + 1, 1};
+void ConsistentSet::Bounds::tighten(Corner a, Corner b) {
+  if (b.index < a.index) std::swap(a, b);
+  const std::int32_t pixels = b.position - a.position, steps = b.index - a.index;
+  const Ratio over{pixels - 1, steps}, under{pixels + 1, steps};
+  if (low < over) low = over;
+  if (under < high) high = under;
 }
 
-void ConsistentSet::add(int index, int position) {
-  DEBURR_CHECK(count_ < corners_.size(), "more corners than two sides of kMaxSteps steps");
-  for (std::size_t i = 0; i < count_; ++i) {
-    // Of a pair i < j the bounds are (X_j - X_i -+ 1) / (j - i).
-    const bool after = index > corners_[i].index;
-    const std::int32_t sign = after ? 1 : -1;
-    const std::int32_t steps = sign * (index - corners_[i].index);
-    const std::int32_t pixels = sign * (position - corners_[i].position);
-    const Ratio low{pixels - 1, steps}, high{pixels + 1, steps};
-    if (low_ < low) low_ = low;
-    if (high < high_) high_ = high;
-  }
-  corners_[count_++] = {index, position};
+ConsistentSet::ConsistentSet(int length) : bounds_{{length - 1, 1}, {length + 1, 1}} {
+  corners_[count_++] = {0, 0};
+  corners_[count_++] = {1, length};
 }
 
-bool ConsistentSet::consistent() const { return low_ < high_; }
+ConsistentSet::Bounds ConsistentSet::bounds_with(Corner corner) const {
+  Bounds bounds = bounds_;
+  for (std::size_t i = 0; i < count_; ++i) bounds.tighten(corners_[i], corner);
+  return bounds;
+}
 
-bool ConsistentSet::consistent_with(int index, int position) const {
+void ConsistentSet::add(Corner corner) {
+  DEBURR_CHECK(count_ < corners_.size(), "more corners than two sides of kMaxSteps steps have");
+  bounds_ = bounds_with(corner);
+  corners_[count_++] = corner;
+}
+
+bool ConsistentSet::consistent_with(Corner corner) const {
+  const Bounds bounds = bounds_with(corner);
+  return bounds.low < bounds.high;
+}
+
+bool ConsistentSet::consistent_with(Corner a, Corner b) const {
   ConsistentSet extended = *this;
-  extended.add(index, position);
-  return extended.consistent();
+  extended.add(a);
+  return extended.consistent_with(b);
 }
 
 Prediction predict(const spec::MorphologicalParameters& parameters, const AxisEdges& edges,

@@ -48,28 +48,36 @@ struct Prediction {
   int iterations = 0;  // values of k for which a trial was made
 };
 
-// Corners (i, X) that one digital line must have produced.
+// Corners (i, X) that one digital line must have produced: the pixels a step that the pairs i < j
+// allow lie strictly between max (X_j - X_i - 1) / (j - i) and min (X_j - X_i + 1) / (j - i).
 class ConsistentSet {
  public:
-  explicit ConsistentSet(int length);  // {(0, 0), (1, length)}
-  void add(int index, int position);
-  // One line can have produced them all, with the given one too.
-  bool consistent() const;
-  bool consistent_with(int index, int position) const;
-
- private:
-  struct Ratio {
-    std::int32_t numerator, denominator;
-    bool operator<(const Ratio& o) const {
-      return std::int64_t{numerator} * o.denominator < std::int64_t{o.numerator} * denominator;
-    }
-  };
   struct Corner {
     std::int32_t index, position;
   };
-  std::array<Corner, spec::kMaxCorners> corners_{};
+  explicit ConsistentSet(int length);  // {(0, 0), (1, length)}
+  void add(Corner corner);
+  bool consistent() const { return bounds_.low < bounds_.high; }
+  // Whether the set would be, with one corner or two more.
+  bool consistent_with(Corner corner) const;
+  bool consistent_with(Corner a, Corner b) const;
+
+ private:
+  struct Ratio {
+    std::int32_t numerator, denominator;  // at most 2^13 and 33
+    bool operator<(const Ratio& o) const {
+      return numerator * o.denominator < o.numerator * denominator;
+    }
+  };
+  struct Bounds {
+    Ratio low, high;
+    void tighten(Corner a, Corner b);
+  };
+  Bounds bounds_with(Corner corner) const;
+
+  std::array<Corner, spec::kMaxCorners> corners_;
   std::size_t count_ = 0;
-  Ratio low_{}, high_{};  // strict bounds of the pixels a step
+  Bounds bounds_;
 };
 
 // Extends `run` (of edges.axis). Without extension (see Outcome::kUntried) both ends are the run's
