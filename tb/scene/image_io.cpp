@@ -181,11 +181,18 @@ std::string extension_of(std::string_view bytes) {
   return "";
 }
 
+// Null when it is no image. `reader` must outlive what is returned.
+InputPointer open_memory(const std::string& name, OIIO::Filesystem::IOMemReader& reader) {
+  OIIO::ImageSpec hints = read_hints();
+  OIIO::Filesystem::IOProxy* proxy = &reader;
+  hints.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  return OIIO::ImageInput::open(name, &hints, &reader);
+}
+
 Image decode_memory(const std::string& name, const std::string& extension, std::string_view bytes,
                     ReadReport* report) {
   OIIO::Filesystem::IOMemReader reader(const_cast<char*>(bytes.data()), bytes.size());
-  const OIIO::ImageSpec hints = read_hints();
-  InputPointer input = OIIO::ImageInput::open("memory" + extension, &hints, &reader);
+  InputPointer input = open_memory("memory" + extension, reader);
   if (!input)
     fail_read(name, fmt::format("not an image that OpenImageIO understands, or a damaged one ({})",
                                 last_error(nullptr)));
@@ -292,8 +299,7 @@ void write_image(const fs::path& path, const FloatImage& image) {
   const OIIO::ImageSpec spec(image.width, image.height, 4, OIIO::TypeFloat);
   const auto bytes = encode(path, image.pixels.data(), spec, sizeof(Rgbaf));
   OIIO::Filesystem::IOMemReader reader(const_cast<unsigned char*>(bytes.data()), bytes.size());
-  const OIIO::ImageSpec hints = read_hints();
-  const InputPointer input = OIIO::ImageInput::open(path.string(), &hints, &reader);
+  const InputPointer input = open_memory(path.filename().string(), reader);
   if (!input) fail_write(path, "what was encoded cannot be decoded: " + last_error(nullptr));
   const OIIO::ImageSpec& got = input->spec();
   bool same = got.width == image.width && got.height == image.height && got.nchannels == 4 &&

@@ -154,7 +154,11 @@ bool MeshBuilder::Equal::operator()(const Vertex& a, const Vertex& b) const {
 
 MeshBuilder::MeshBuilder(const fs::path& path) : path_(path) { mesh_.name = path.stem().string(); }
 
-std::uint32_t MeshBuilder::vertex_index(const Vertex& vertex) {
+std::uint32_t MeshBuilder::vertex_index(Vertex vertex) {
+  // -0 becomes 0, so that vertices that are equal also look equal.
+  vertex.position += V3d(0, 0, 0);
+  vertex.normal += V3d(0, 0, 0);
+  vertex.uv += V2d(0, 0);
   const auto next = static_cast<std::uint32_t>(mesh_.vertices.size());
   const auto [where, inserted] = indices_.try_emplace(vertex, next);
   if (inserted) mesh_.vertices.push_back(vertex);

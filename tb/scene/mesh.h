@@ -18,13 +18,13 @@
 namespace deburr::tb {
 
 struct Texture {
-  std::string name;
-  Image image;  // level 0; mip_chain() makes the rest
+  std::string name = {};
+  Image image = {};  // level 0; mip_chain() makes the rest
   spec::Wrap wrap_s = spec::Wrap::kRepeat, wrap_t = spec::Wrap::kRepeat;
 };
 
 struct Material {
-  std::string name;
+  std::string name = {};
   Imath::V3d colour{1, 1, 1};  // linear light, multiplies the texture in lit frames
   int texture = -1;            // index into Mesh::textures, -1: plain colour
 };

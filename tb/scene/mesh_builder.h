@@ -47,7 +47,7 @@ class MeshBuilder {
   struct Equal {
     bool operator()(const Vertex& a, const Vertex& b) const;
   };
-  std::uint32_t vertex_index(const Vertex& vertex);
+  std::uint32_t vertex_index(Vertex vertex);
   void project_boxes();
   void drop_unused();
 

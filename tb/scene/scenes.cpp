@@ -115,28 +115,29 @@ void add_texture(Scene& scene, const std::string& wanted, std::string_view other
 
 void make_plane(Scene& scene, const SceneOptions& options) {
   add_texture(scene, options.texture, "checker", options);
-  // One repeat is two units; far enough to fill the picture up to where the camera looks.
-  constexpr double kHalf = 80.0;
-  add_parallelogram(scene.mesh, V3d(-kHalf, 0, 4), V3d(2 * kHalf, 0, 0), V3d(0, 0, -2 * kHalf),
-                    V2d(kHalf, kHalf), 0);
-  scene.camera = {V3d(0, 1.0, 0), V3d(0, 0, -2.0), V3d(0, 1, 0), 0.9, 0.1};
+  // Three repeats in ten units; 160 units are more than the picture shows, since the horizon lies
+  // two degrees above its top edge.
+  constexpr double kSide = 160.0, kRepeats = 0.3 * kSide;
+  add_parallelogram(scene.mesh, V3d(-0.5 * kSide, 0, 4), V3d(kSide, 0, 0), V3d(0, 0, -kSide),
+                    V2d(kRepeats, kRepeats), 0);
+  scene.camera = {V3d(0, 1, 0), V3d(0, 0.704, -1), V3d(0, 1, 0), 0.5, 0.1};
 }
 
 void make_quad(Scene& scene, const SceneOptions& options) {
   add_texture(scene, options.texture, "checker", options);
   add_parallelogram(scene.mesh, V3d(-1, 1, 0), V3d(2, 0, 0), V3d(0, -2, 0), V2d(1, 1), 0);
-  scene.camera = {V3d(1.1, 0.8, 2.2), V3d(0, 0, 0), V3d(0, 1, 0), 0.9, 0.1};
+  scene.camera = {V3d(1.0, 0.4, 2.7), V3d(0, 0, 0), V3d(0, 1, 0), 0.66, 0.1};
 }
 
 void make_tunnel(Scene& scene, const SceneOptions& options) {
   add_texture(scene, options.texture, "brick", options);
   constexpr double kLength = 24.0;
-  add_grid(scene.mesh, 64, 12, 0, [&](double i, double j) {
+  add_grid(scene.mesh, 128, 4, 0, [&](double i, double j) {
     const SinCos turn = sin_cos(2.0 * kPi * i);
     return Vertex{V3d(turn.cos, turn.sin, 1.0 - kLength * j), V3d(-turn.cos, -turn.sin, 0),
-                  V2d(2.0 * i, kLength / 4.0 * j)};
+                  V2d(i, kLength * j)};
   });
-  scene.camera = {V3d(0, -0.1, 0), V3d(0, 0, -3), V3d(0, 1, 0), 1.2, 0.1};
+  scene.camera = {V3d(0, -0.1, 0), V3d(0, 0, -3), V3d(0, 1, 0), 0.75, 0.1};
 }
 
 void make_object(Scene& scene, const SceneOptions& options) {
@@ -154,7 +155,7 @@ void make_object(Scene& scene, const SceneOptions& options) {
     const V3d normal = side * turn.cos + up * turn.sin;
     return Vertex{centre + normal * 0.22, normal, V2d(8.0 * i, j)};
   });
-  scene.camera = {V3d(0.6, -1.5, 3.2), V3d(0, 0, 0), V3d(0, 1, 0), 0.8, 0.1};
+  scene.camera = {V3d(0.7, -1.6, 3.9), V3d(0, 0, 0), V3d(0, 1, 0), 0.8, 0.1};
 }
 
 void make_road(Scene& scene, const SceneOptions& options) {
@@ -178,10 +179,30 @@ void make_cylinders(Scene& scene, const SceneOptions&) {
   for (std::size_t i = 0; i < kDegrees.size(); ++i) {
     scene.mesh.materials.push_back({fmt::format("cylinder {}", i + 1), colours[i], -1});
     const SinCos tilt = sin_cos(kDegrees[i] * kPi / 180.0);
-    const V3d half(tilt.sin, tilt.cos, 0), centre(-2.3 + 1.0 * static_cast<double>(i), 0, 0);
+    const V3d half(tilt.sin, tilt.cos, 0), centre(-1.95 + 0.85 * static_cast<double>(i), 0, 0);
     add_cylinder(scene.mesh, centre - half, centre + half, 0.16, 96, static_cast<std::uint32_t>(i));
   }
-  scene.camera = {V3d(0, 0.25, 5.2), V3d(0, 0, 0), V3d(0, 1, 0), 0.62, 0.1};
+  scene.camera = {V3d(0, 0.3, 7.4), V3d(0, 0, 0), V3d(0, 1, 0), 0.62, 0.1};
+}
+
+// From above front right, as near as lets every vertex into a square picture.
+void frame_whole_mesh(Scene& scene) {
+  const Bounds box = bounds(scene.mesh);
+  const V3d centre = box.centre(), direction = V3d(0.55, 0.45, 0.9).normalized();
+  const V3d right = V3d(0, 1, 0).cross(direction).normalized(), up = direction.cross(right);
+  scene.camera.fov_y = 0.8;
+  const double slope = 0.94 * tangent(0.5 * scene.camera.fov_y);  // a small margin all around
+  const double radius = std::max(box.radius(), 1e-6);
+  double distance = 0.0;
+  for (const Vertex& vertex : scene.mesh.vertices) {
+    const V3d p = vertex.position - centre;
+    const double across = std::max(std::abs(p.dot(right)), std::abs(p.dot(up)));
+    distance = std::max(distance, p.dot(direction) + across / slope);
+  }
+  distance = std::max(distance, 1.01 * radius);
+  scene.camera.target = centre;
+  scene.camera.eye = centre + direction * distance;
+  scene.camera.near_plane = std::max(0.01 * distance, 0.5 * (distance - radius));
 }
 
 void finish(Scene& scene, const SceneOptions& options) {
@@ -231,15 +252,7 @@ Scene import_scene(const std::filesystem::path& path, const SceneOptions& option
         fmt::format("the mesh '{}' has {} textures, the unit has {} descriptors; merge "
                     "some or give one texture for all",
                     path.string(), scene.mesh.textures.size(), spec::kMaxTextures));
-  // From above front right, the bounding sphere just inside the shorter side of the picture.
-  const Bounds box = bounds(scene.mesh);
-  const V3d direction = V3d(0.55, 0.45, 0.9).normalized();
-  const double radius = std::max(box.radius(), 1e-6);
-  scene.camera.fov_y = 0.8;
-  const double distance = 1.02 * radius / sin_cos(0.5 * scene.camera.fov_y).sin;
-  scene.camera.target = box.centre();
-  scene.camera.eye = box.centre() + direction * distance;
-  scene.camera.near_plane = std::max(0.02 * distance, 0.5 * (distance - radius));
+  frame_whole_mesh(scene);
   finish(scene, options);
   return scene;
 }

@@ -40,11 +40,11 @@ struct Scene {
 };
 
 struct SceneOptions {
-  std::string texture;      // a name of texture_names() or an image file; empty: the scene's own
-  int texture_size = 1024;  // side of a texture made by formula
+  std::string texture = {};  // a name of texture_names() or an image file; empty: the scene's own
+  int texture_size = 1024;   // side of a texture made by formula
   std::uint32_t seed = 1;
   spec::Wrap wrap = spec::Wrap::kRepeat;
-  std::optional<Camera> camera;  // instead of the scene's own
+  std::optional<Camera> camera = {};  // instead of the scene's own
 };
 
 struct SceneName {

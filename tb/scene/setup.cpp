@@ -122,6 +122,26 @@ std::optional<Primitive> make_primitive(std::array<const ClipVertex*, 3> corner,
   return primitive;
 }
 
+struct Span {
+  int first, last;  // steps of one cell; empty when first > last
+};
+
+// Which of the steps 0..last from the sample with edge values `e` are covered: a triangle is
+// convex, so it is one run, and each edge cuts it at one end.
+Span covered_span(const Primitive& p, const std::array<std::int64_t, 3>& e, int last) {
+  std::int64_t low = 0, high = last;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::int64_t value = e[i] + p.bias[i], step = p.a[i] * kSubpixelOne;
+    if (value >= 0 && value + step * last >= 0) continue;
+    if (value < 0 && value + step * last < 0) return {1, 0};
+    if (step > 0)
+      low = std::max(low, (-value + step - 1) / step);
+    else
+      high = std::min(high, value / -step);
+  }
+  return {static_cast<int>(low), static_cast<int>(high)};
+}
+
 }  // namespace
 
 View::View(const Camera& camera, int width, int height, int grid)
@@ -245,15 +265,15 @@ void Occlusion::resolve(int column, int row, int offset_x, int offset_y,
     for (int y = top; y <= bottom; ++y) {
       std::array<std::int64_t, 3> e =
           p.edges(cell_centre(left) + offset_x, cell_centre(y) + offset_y);
+      const Span span = covered_span(p, e, right - left);
+      for (std::size_t i = 0; i < 3; ++i) e[i] += p.a[i] * kSubpixelOne * span.first;
       std::size_t at = static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(tile_) +
-                       static_cast<std::size_t>(left - x0);
-      for (int x = left; x <= right; ++x, ++at) {
-        if (p.covers(e)) {
-          const double depth = p.depth(e);
-          if (depth > depths[at]) {
-            depths[at] = depth;
-            owners[at] = static_cast<std::int32_t>(members_[m]);
-          }
+                       static_cast<std::size_t>(left + span.first - x0);
+      for (int k = span.first; k <= span.last; ++k, ++at) {
+        const double depth = p.depth(e);
+        if (depth > depths[at]) {
+          depths[at] = depth;
+          owners[at] = static_cast<std::int32_t>(members_[m]);
         }
         for (std::size_t i = 0; i < 3; ++i) e[i] += p.a[i] * kSubpixelOne;
       }

@@ -15,7 +15,7 @@
 namespace deburr::tb {
 
 // `cells` x `cells` squares over the whole texture, the first (top left) in `a`.
-Image checkerboard(int width, int height, int cells = 16, const Rgba8& a = {255, 255, 255, 255},
+Image checkerboard(int width, int height, int cells = 8, const Rgba8& a = {255, 255, 255, 255},
                    const Rgba8& b = {0, 0, 0, 255});
 // Asphalt grain, solid lane borders, a dashed centre line along t; the counterpart of paper 004,
 // Fig. 5.
