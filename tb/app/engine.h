@@ -28,6 +28,7 @@ struct RunParameters {
   double stalls = 0;
   bool shuffle = false;
   bool fast_path = true;
+  bool check_links = true;
   std::string trace;
   std::int64_t trace_from = 0, trace_to = 2000;
   std::string fault;
@@ -46,9 +47,10 @@ void describe(RunParameters& p, Visitor& v) {
   v.integer("watchdog_cycles", p.watchdog_cycles, 100, 1 << 30, "clk",
             "Cycles without any progress that count as a deadlock.");
   v.real("stalls", p.stalls, 0, 0.9, "probability",
-         "Random stalls: chance that the input is held back, and the output, in a cycle.");
+         "Random stalls: chance that a side of a link is held back in a cycle, on every link.");
   v.boolean("shuffle", p.shuffle, "Evaluate the units in a random order; must change nothing.");
   v.boolean("fast_path", p.fast_path, "Let the clock domain run on; must change nothing.");
+  v.boolean("check_links", p.check_links, "Protocol checkers on every link.");
   v.text("trace", p.trace, "glob", "Units and links whose waves go to trace.vcd; empty: none.");
   v.integer("trace_from", p.trace_from, 0, std::int64_t{1} << 40, "clk", "First cycle traced.");
   v.integer("trace_to", p.trace_to, 0, std::int64_t{1} << 40, "clk", "Cycle after the last traced.");

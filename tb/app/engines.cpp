@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "tb/app/engine.h"
+#include "tb/app/texture_engine.h"
 
 namespace deburr::tb {
 
-std::vector<std::unique_ptr<Engine>> engines() { return {}; }
+std::vector<std::unique_ptr<Engine>> engines() {
+  std::vector<std::unique_ptr<Engine>> all;
+  all.push_back(make_texture_engine());
+  return all;
+}
 
 }  // namespace deburr::tb

@@ -30,8 +30,11 @@ std::string padded(const std::string& text, std::size_t width) {
   return text + std::string(width - std::min(width, characters(text)), ' ');
 }
 
-bool looks_numeric(const std::string& text) {
-  return !text.empty() && text.find_first_not_of("0123456789.,+-% ") == std::string::npos;
+// A column is set right when it holds numbers (and gaps) only.
+bool is_numeric(const PaperTable& table, std::size_t column) {
+  return !table.rows.empty() && std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+    return row[column].find_first_not_of("0123456789.,+-") == std::string::npos;
+  });
 }
 
 mustache::data text_cell(const char* name, const std::string& text) {
@@ -47,7 +50,11 @@ mustache::data table_data(const PaperTable& table) {
   if (!table.note.empty()) note << text_cell("note", table.note);
   data.set("note", note);
   mustache::data columns{mustache::data::type::list};
-  for (const std::string& name : table.columns) columns << text_cell("name", name);
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    mustache::data column = text_cell("name", table.columns[i]);
+    column.set("numeric", is_numeric(table, i));
+    columns << column;
+  }
   data.set("columns", columns);
   mustache::data rows{mustache::data::type::list};
   for (const auto& row : table.rows) {
@@ -55,7 +62,7 @@ mustache::data table_data(const PaperTable& table) {
     for (std::size_t i = 0; i < row.size(); ++i) {
       mustache::data cell;
       cell.set("text", row[i]);
-      cell.set("numeric", looks_numeric(row[i]));
+      cell.set("numeric", is_numeric(table, i));
       cell.set("verdict", table.columns[i] == "verdict");
       cells << cell;
     }
@@ -142,6 +149,7 @@ void write_papers(const std::filesystem::path& directory, const std::vector<Pape
         mustache::data cell;
         cell.set("title", image.title);
         cell.set("caption", image.caption);
+        cell.set("wide", image.wide);
         cell.set("source", data_uri(directory / file));
         images << cell;
       }

@@ -22,6 +22,7 @@ struct PaperImage {
   std::string file;  // without extension
   std::string title, caption;
   Image image;
+  bool wide = false;  // a sheet: shown over the whole width
 };
 
 struct PaperFigure {

@@ -383,14 +383,14 @@ std::vector<PaperFigure> figures(int size) {
     modes.images.push_back({"figure_6_" + name, name, "", std::move(image)});
   }
   modes.images.push_back({"figure_6_sheet", "all six on one sheet", "in the order above",
-                          sheet(cells, 3)});
+                          sheet(cells, 3), true});
   all.push_back(std::move(modes));
 
   PaperFigure checker{"Figures 7 and 8: checkerboard, nearest against trilinear, with zooms",
                       "The frame marks the part that is zoomed 8 times.", {}};
   std::vector<Image> zooms;
   const int part = size / 8;
-  const int left = size / 2 - part / 2, top = size * 9 / 16;
+  const int left = size / 2 - part / 2, top = size / 4;
   for (const auto& [mode, lb_n, title] :
        {std::tuple{spec::MinFilter::kNearest, 0, "nearest"},
         std::tuple{spec::MinFilter::kLinearMipmapLinear, 0, "trilinear"},
@@ -402,7 +402,7 @@ std::vector<PaperFigure> figures(int size) {
         {fmt::format("figure_7_{}", checker.images.size()), title, "", std::move(image)});
   }
   checker.images.push_back({"figure_8", "zoomed", "nearest, trilinear, trilinear with 16 samples",
-                            sheet(zooms, 3)});
+                            sheet(zooms, 3), true});
   all.push_back(std::move(checker));
 
   PaperFigure object{"Figure 9: a textured object, trilinear", "", {}};

@@ -116,7 +116,7 @@ std::vector<std::string> near_matches(std::string_view name,
     // The right leaf under a wrong or missing prefix is a likely meaning too.
     if (last_part(candidate) == last_part(name)) distance = std::min(distance, 2);
     if (candidate.ends_with("." + std::string(name))) distance = 1;
-    if (distance <= std::max<int>(2, static_cast<int>(name.size()) / 3))
+    if (distance <= std::max<int>(1, static_cast<int>(name.size()) / 3))
       ranked.emplace_back(distance, candidate);
   }
   std::stable_sort(ranked.begin(), ranked.end(),

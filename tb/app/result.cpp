@@ -87,6 +87,10 @@ Json to_json(const Result& r) {
   json["host"] = {{"seconds", r.host_seconds}, {"mcycles_per_s", r.mcycles_per_s()}};
   Json meanings = Json::object();
   collect_meanings(json, "", meanings);
+  for (const auto& [name, bits] : r.sram_bits) {
+    const Statistic* s = find_statistic("sram_bits.*");
+    meanings["sram_bits." + name] = {{"unit", s->unit}, {"meaning", s->meaning}};
+  }
   for (const UnitCycles& unit : r.units)
     for (const StallCycles& stall : unit.stalls)
       meanings[fmt::format("units.{}.stalls.{}", unit.name, stall.cause)] = {

@@ -1,0 +1,437 @@
+// SPDX-License-Identifier: MIT
+#include "tb/app/texture_bench.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "spec/error.h"
+
+namespace deburr::tb {
+namespace {
+
+using golden::texture::TextureGolden;
+namespace reg = spec::texture_register;
+
+constexpr std::uint64_t kMemoryGrain = 64;  // the memory model records reads in lines of this size
+constexpr rtl::Cycle kProgressPeriod = 4096;
+
+// name -> fault of the harness; faults of the memory are planted in TextureBench itself.
+struct NamedFault {
+  PlantedFault fault;
+  std::string_view link_fault;
+};
+constexpr std::array kFaults = {
+    NamedFault{{"flip-bit", "Flips a bit of the red channel of colour 100."}, "flip:colours:100:52"},
+    NamedFault{{"drop-colour", "Drops colour 100."}, "drop:colours:100"},
+    NamedFault{{"duplicate-colour", "Delivers colour 100 twice."}, "duplicate:colours:100"},
+    NamedFault{{"drop-quad", "Drops quad 50 on its way into the unit."}, "drop:quads:50"},
+    NamedFault{{"duplicate-fetch", "Sends line fill 20 twice."},
+               "duplicate:texture.cache.memory_requests:20"},
+    NamedFault{{"stuck-ready", "Holds back the texel addresses from cycle 500 on."},
+               "stuck_ready:texture.texels:500"},
+    NamedFault{{"lost-response", "Memory never answers request 20."}, ""},
+    NamedFault{{"memory-error", "Memory answers request 20 with an error."}, ""},
+    NamedFault{{"wrong-texel", "One byte of the texture in memory differs from what golden reads."}, ""},
+};
+constexpr std::uint64_t kFaultyRequest = 20;
+
+std::vector<std::string> link_faults(const std::vector<std::string>& names) {
+  std::vector<std::string> faults;
+  for (const std::string& name : names) {
+    const auto found = std::find_if(kFaults.begin(), kFaults.end(),
+                                    [&](const NamedFault& f) { return f.fault.name == name; });
+    if (found == kFaults.end()) {
+      if (name.find(':') == std::string::npos) {
+        std::string known;
+        for (const NamedFault& f : kFaults) known += fmt::format(" {}", f.fault.name);
+        throw spec::ConfigError(fmt::format("no fault '{}': known are{}, and LINK faults such as "
+                                            "drop:colours:100", name, known));
+      }
+      faults.push_back(name);
+    } else if (!found->link_fault.empty()) {
+      faults.emplace_back(found->link_fault);
+    }
+  }
+  return faults;
+}
+
+MemoryModelParameters memory_parameters(const MemoryParameters& p, std::size_t bytes,
+                                        std::uint64_t seed) {
+  MemoryModelParameters m;
+  m.bytes = std::max<std::uint64_t>(bytes, kMemoryGrain);
+  m.latency_min = static_cast<std::uint32_t>(p.latency);
+  m.latency_max = static_cast<std::uint32_t>(std::max(p.latency, p.latency_max));
+  m.seed = seed;
+  m.bytes_per_clock = static_cast<std::uint32_t>(p.bytes_per_clock);
+  m.banks = static_cast<std::uint32_t>(p.banks);
+  m.interleave_bytes = static_cast<std::uint32_t>(p.interleave_bytes);
+  m.bank_busy = static_cast<std::uint32_t>(p.bank_busy);
+  m.outstanding = static_cast<std::uint32_t>(p.outstanding);
+  return m;
+}
+
+sc_core::sc_time period(double mhz) {
+  return sc_core::sc_time(std::round(1e6 / mhz), sc_core::SC_PS);
+}
+
+std::string_view register_name(std::uint32_t offset) {
+  for (const spec::RegisterInfo& info : spec::kTextureRegisters)
+    if (info.offset == offset) return info.name;
+  return "?";
+}
+
+// "texture.cache.tag_stage" -> "tag_stage"; with more of the path where that is not unique.
+class ShortNames {
+ public:
+  template <class Object>
+  void learn(const std::vector<const Object*>& objects) {
+    for (const Object* object : objects) ++uses_[last(object->name())];
+  }
+  std::string of(const sc_core::sc_object& object) const {
+    const std::string full = object.name();
+    const auto found = uses_.find(last(full));
+    if (found != uses_.end() && found->second == 1) return last(full);
+    const std::size_t before = full.rfind('.', full.rfind('.') - 1);
+    std::string name = full.substr(before == std::string::npos ? 0 : before + 1);
+    std::replace(name.begin(), name.end(), '.', '_');
+    return name;
+  }
+
+ private:
+  static std::string last(const std::string& name) { return name.substr(name.rfind('.') + 1); }
+  std::map<std::string, int> uses_;
+};
+
+}  // namespace
+
+std::span<const PlantedFault> planted_faults() {
+  static const auto faults = [] {
+    std::array<PlantedFault, kFaults.size()> list;
+    for (std::size_t i = 0; i < kFaults.size(); ++i) list[i] = kFaults[i].fault;
+    return list;
+  }();
+  return faults;
+}
+
+TextureBench::TextureBench(const TextureScene& scene, const TextureBenchOptions& options)
+    : scene_(scene),
+      options_(options),
+      clock_("clock", period(options.clock_mhz)),
+      driver_("driver", clock_),
+      unit_("texture", clock_, options.texture),
+      sink_("sink", clock_),
+      memory_("memory", clock_.period(),
+              memory_parameters(options.memory, scene.memory().bytes().size(), options.seed)),
+      host_("host"),
+      golden_(make_golden(scene, options.texture,
+                          options.golden ? TextureGolden::Traffic::kPredict
+                                         : TextureGolden::Traffic::kIgnore)),
+      colour_board_("colours", 0, [this](const spec::Colour& c) { return describe(c); }),
+      fill_board_("line fills", 0,
+                  [](const Fill& f) { return fmt::format("read of address {:#x}", f.address); }),
+      register_board_("status registers", 0,
+                      [](const Status& s) {
+                        return fmt::format("{} = {}", register_name(s.offset), s.value);
+                      }),
+      frame_(scene.stream(), scene.scene()),
+      golden_frame_(scene.stream(), scene.scene()) {
+  const std::vector<std::string> faults = link_faults(options.faults);
+  driver_.beats_out(quads_);
+  unit_.quads_in(quads_);
+  unit_.colours_out(colours_);
+  sink_.beats_in(colours_);
+  unit_.memory.bind(memory_.ports);
+  host_.bus.bind(unit_.registers);
+
+  BenchOptions bench;
+  bench.stall_permille = options.stall_permille;
+  bench.seed = options.seed;
+  if (options.shuffle) bench.shuffle = options.seed;
+  bench.patience = options.patience;
+  bench.check_links = options.check_links;
+  bench.fast_path = options.fast_path;
+  bench.faults = faults;
+  if (!options.trace_scope.empty()) {
+    rtl::TraceOptions trace;
+    trace.file = options.trace_file;
+    trace.scopes = {options.trace_scope};
+    trace.from = options.trace_from;
+    trace.to = options.trace_to;
+    bench.trace = trace;
+  }
+  bench_ = std::make_unique<Bench>(clock_, bench);
+
+  std::vector<std::uint8_t> contents = scene.memory().bytes();
+  for (const std::string& fault : options.faults) {
+    if (fault == "lost-response") memory_.lose_request(kFaultyRequest);
+    if (fault == "memory-error") memory_.fail_request(kFaultyRequest);
+    // The whole first level: whatever part of it the scene shows.
+    if (fault == "wrong-texel")
+      for (std::size_t i = 0; i < contents.size() / 2; i += kMemoryGrain) contents[i] ^= 0x10;
+  }
+  memory_.preload(0, contents);
+  if (options.memory.error_address >= 0) {
+    const auto from = static_cast<std::uint64_t>(options.memory.error_address);
+    memory_.fail_range(from, from + static_cast<std::uint64_t>(options.memory.error_bytes));
+  }
+
+  prepare_golden();
+  sink_.keep(false);
+  const std::vector<spec::Quad>& quads = scene.stream().quads;
+  driver_.send([&quads](std::uint64_t index, spec::Quad& quad) {
+    if (index >= quads.size()) return false;
+    quad = quads[index];
+    return true;
+  });
+  if (options_.golden) driver_.on_send = [this](rtl::Cycle, const spec::Quad& quad) { expect(quad); };
+  sink_.on_beat = [this](rtl::Cycle cycle, const spec::Colour& colour) { judge(cycle, colour); };
+}
+
+TextureBench::~TextureBench() = default;
+
+void TextureBench::prepare_golden() {
+  if (!options_.golden) return;
+  const std::uint64_t line_bytes = golden_.cache().line_bytes();
+  golden_.set_fill_sink([this, line_bytes](std::uint32_t line) {
+    const std::uint64_t begin = line * line_bytes;
+    for (std::uint64_t a = begin / kMemoryGrain * kMemoryGrain; a < begin + line_bytes; a += kMemoryGrain)
+      fill_board_.expect({a});
+  });
+  if (options_.memory.error_address >= 0) {
+    const auto from = static_cast<std::uint64_t>(options_.memory.error_address);
+    const std::uint64_t to = from + static_cast<std::uint64_t>(options_.memory.error_bytes);
+    golden_.set_error_lines([from, to, line_bytes](std::uint32_t line) {
+      const std::uint64_t begin = line * line_bytes;
+      return begin < to && begin + line_bytes > from;
+    });
+  }
+}
+
+void TextureBench::expect(const spec::Quad& quad) {
+  golden_.process(quad, [this](const spec::Colour& colour) {
+    colour_board_.expect(colour);
+    golden_frame_.put(colour);
+  });
+}
+
+void TextureBench::judge(rtl::Cycle cycle, const spec::Colour& colour) {
+  constexpr std::uint64_t kPrime = 0x100000001B3ULL;  // FNV-1a
+  const auto mix = [&](std::uint64_t value) { colour_hash_ = (colour_hash_ ^ value) * kPrime; };
+  mix(colour.tag);
+  mix(static_cast<std::uint64_t>(colour.lane) << 1 | (colour.last ? 1 : 0));
+  for (const std::uint8_t channel : colour.rgba) mix(channel);
+  const std::uint64_t before = colour_board_.mismatches();
+  if (options_.golden) colour_board_.got(colour, fmt::format("cycle {}", cycle));
+  // After a mismatch tags and lanes may be anything; the picture then shows what can be placed.
+  const bool trusted = !options_.golden || colour_board_.mismatches() == before;
+  const auto& quads = scene_.stream().quads;
+  if (trusted) {
+    frame_.put(colour);
+  } else if (colour.tag < quads.size() && colour.lane < 4 &&
+             (quads[colour.tag].coverage >> colour.lane & 1)) {
+    try {
+      frame_.put(colour);
+    } catch (const spec::CheckFailed&) {  // a second colour for the same pixel: counted already
+    }
+  }
+}
+
+void TextureBench::judge_fills() {
+  const std::vector<std::uint64_t>& lines = memory_.lines_read();
+  for (; fills_judged_ < lines.size(); ++fills_judged_)
+    fill_board_.got({lines[fills_judged_]}, fmt::format("fill {}", fills_judged_));
+}
+
+std::string TextureBench::describe(const spec::Colour& c) const {
+  std::string where = "no pixel";
+  if (c.tag < scene_.stream().quads.size() && c.lane < 4) {
+    const FragmentStream::Pixel p = scene_.stream().pixel(c.tag, c.lane);
+    where = fmt::format("pixel ({}, {})", p.x, p.y);
+  }
+  return fmt::format("{} tag {} lane {}{} RGBA ({}, {}, {}, {})", where, c.tag, c.lane,
+                     c.last ? " last" : "", c.rgba[0], c.rgba[1], c.rgba[2], c.rgba[3]);
+}
+
+std::uint32_t TextureBench::access_register(std::uint32_t offset, std::uint32_t value, bool write) {
+  std::array<unsigned char, 4> data{};
+  for (std::size_t i = 0; i < 4; ++i) data[i] = static_cast<unsigned char>(value >> (8 * i));
+  tlm::tlm_generic_payload payload;
+  payload.set_command(write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND);
+  payload.set_address(offset);
+  payload.set_data_ptr(data.data());
+  payload.set_data_length(4);
+  payload.set_streaming_width(4);
+  payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
+  sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+  host_.bus->b_transport(payload, delay);
+  if (payload.is_response_error())
+    throw spec::SimulationError(fmt::format("register access at {:#x} was refused: {}", offset,
+                                            payload.get_response_string()));
+  value = 0;
+  for (std::size_t i = 0; i < 4; ++i) value |= static_cast<std::uint32_t>(data[i]) << (8 * i);
+  return value;
+}
+
+std::uint32_t TextureBench::read_register(std::uint32_t offset) {
+  return access_register(offset, 0, false);
+}
+void TextureBench::write_register(std::uint32_t offset, std::uint32_t value) {
+  access_register(offset, value, true);
+}
+
+void TextureBench::run(const Progress& progress) {
+  constexpr rtl::Cycle kResetCycles = 4;
+  clock_.set_reset_n(false);
+  clock_.run(kResetCycles);
+  clock_.set_reset_n(true);
+  if (const std::uint32_t id = read_register(reg::kId); id != reg::kIdValue)
+    throw spec::SimulationError(fmt::format("the ID register reads {:#x}, expected {:#x}", id, reg::kIdValue));
+  int handle = 0;
+  for (const spec::TextureDescriptor& descriptor : scene_.memory().descriptors())
+    for (const auto& [offset, value] : descriptor_registers(handle++, descriptor))
+      write_register(offset, value);
+
+  const rtl::Cycle limit = options_.max_cycles ? options_.max_cycles : rtl::Cycle{1} << 50;
+  rtl::Cycle next_progress = 0;
+  bool stopped = false;
+  const auto done = [&] {
+    judge_fills();
+    if (progress && clock_.cycle() >= next_progress) {
+      next_progress = clock_.cycle() + kProgressPeriod;
+      if (!progress(sink_.received())) return stopped = true;
+    }
+    return driver_.done() && unit_.idle() && quads_.empty() && colours_.empty();
+  };
+  started_ = clock_.cycle();
+  running_ = true;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto stop_clock = [&] {
+    host_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    cycles_ = clock_.cycle() - started_;
+    running_ = false;
+  };
+  try {
+    bench_->run(done, limit, false);
+  } catch (...) {
+    stop_clock();
+    throw;
+  }
+  stop_clock();
+  if (stopped) return;
+  if (bench_->links()) bench_->links()->check_empty();
+  judge_fills();
+  judge_registers();
+  complete_ = true;
+  check_memory_errors();
+}
+
+// The unit's own counters, read as a driver would, against the golden model's.
+void TextureBench::judge_registers() {
+  if (!options_.golden) return;
+  const golden::texture::TextureWork& work = golden_.work();
+  const std::pair<std::uint32_t, std::uint64_t> expected[] = {
+      {reg::kFragments, work.fragments},   {reg::kBilinears, work.bilinears},
+      {reg::kLineFills, work.line_fills},  {reg::kClamped, work.clamped},
+      {reg::kSaturated, work.saturated},   {reg::kMemoryErrors, work.memory_errors},
+      {reg::kInvalidFragments, work.invalid_fragments}};
+  for (const auto& [offset, value] : expected) {
+    register_board_.expect({offset, static_cast<std::uint32_t>(value)});
+    register_board_.got({offset, read_register(offset)}, std::string(register_name(offset)));
+  }
+}
+
+void TextureBench::check_memory_errors() {
+  const std::uint32_t errors = read_register(reg::kMemoryErrors);
+  if (errors == 0) return;
+  throw spec::SimulationError(
+      fmt::format("memory answered {} line fills with an error, which read as zero: look at "
+                  "memory.error_address, or at the addresses in the texture descriptors", errors));
+}
+
+void TextureBench::check() const {
+  if (!options_.golden) return;
+  colour_board_.check();
+  fill_board_.check();
+  register_board_.check();
+}
+
+void TextureBench::collect(Result& result) const {
+  auto& unit = const_cast<rtl::texture::TextureUnit&>(unit_);
+  result.cycles = running_ ? clock_.cycle() - started_ : cycles_;
+  result.host_seconds = host_seconds_;
+  result.comparisons = colour_board_.comparisons() + register_board_.comparisons();
+  result.mismatches = colour_board_.mismatches() + register_board_.mismatches();
+  result.traffic_comparisons = options_.golden ? fill_board_.comparisons() : 0;
+  result.traffic_mismatches = options_.golden ? fill_board_.mismatches() : 0;
+  if (complete_) {  // what never came differs too
+    result.mismatches += colour_board_.leftovers();
+    result.traffic_mismatches += fill_board_.leftovers();
+  }
+  result.bytes_read = memory_.bytes_read();
+  result.bytes_written = memory_.bytes_written();
+  result.lines_filled = unit.cache.miss_queue.line_fills.value();
+
+  ShortNames names;
+  names.learn(unit.units());
+  for (const rtl::Unit* u : unit.units()) {
+    UnitCycles cycles{names.of(*u), u->busy_cycles(), u->idle_cycles(), {}};
+    for (const rtl::Unit::StallCause& cause : u->stalls())
+      cycles.stalls.push_back({cause.name, cause.meaning, cause.cycles});
+    result.units.push_back(std::move(cycles));
+  }
+  ShortNames memories;
+  memories.learn(unit.memories());
+  for (const rtl::Storage* storage : unit.memories())
+    result.sram_bits.emplace_back(memories.of(*storage), storage->bits());
+
+  const rtl::Histogram& latency = unit.fragment_latency;
+  result.latency = {latency.min(), latency.percentile(50), latency.percentile(95),
+                    latency.percentile(99), latency.max(), {}};
+  constexpr std::size_t kBins = 48;
+  for (const rtl::Histogram::Bin& bin : latency.bins(kBins))
+    result.latency.histogram.push_back({bin.low, bin.count});
+
+  const std::uint64_t bilinears = unit.address.addresser.bilinears.value();
+  const std::uint64_t fragments = unit.filter.fragments.value();
+  const auto ratio = [](double a, double b) { return b > 0 ? a / b : 0.0; };
+  result.throughput = ratio(static_cast<double>(bilinears), static_cast<double>(result.cycles));
+  result.throughput_unit = "bilinear/clk";
+  result.throughput_bound = 1;
+
+  const auto add = [&](std::string name, nlohmann::ordered_json value, std::string units,
+                       std::string meaning) {
+    result.work.push_back({std::move(name), std::move(value), std::move(units), std::move(meaning)});
+  };
+  const double lines = static_cast<double>(result.lines_filled);
+  const double line_bytes = static_cast<double>(options_.texture.cache_line_bytes);
+  double texel_bytes = 4;
+  if (!scene_.memory().descriptors().empty())
+    texel_bytes = spec::kFormatBytes[static_cast<std::size_t>(scene_.memory().descriptors()[0].format)];
+  add("fragments", fragments, "fragment", "Colours delivered.");
+  add("bilinears", bilinears, "request", "Bilinear requests, one a sample and level.");
+  add("bilinears_per_fragment", ratio(static_cast<double>(bilinears), static_cast<double>(fragments)),
+      "request/fragment", "Cost of a fragment in clocks while nothing stalls.");
+  add("misses_per_texel", ratio(lines, 4 * static_cast<double>(bilinears)), "line/texel",
+      "Line fills over texels asked for.");
+  add("texels_fetched_per_fragment",
+      ratio(lines * line_bytes / texel_bytes, static_cast<double>(fragments)), "texel/fragment",
+      "Texels of all lines fetched over fragments.");
+  for (const rtl::Counter* counter : unit.counters()) {
+    std::string name = counter->name();
+    const std::size_t before = name.rfind('.', name.rfind('.') - 1);
+    name = name.substr(before == std::string::npos ? 0 : before + 1);
+    std::replace(name.begin(), name.end(), '.', '_');
+    std::string meaning = counter->meaning();
+    if (!meaning.empty() && meaning.back() != '.') meaning += '.';
+    if (!meaning.empty()) meaning[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(meaning[0])));
+    add(std::move(name), counter->value(), counter->unit(), std::move(meaning));
+  }
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// One simulation of the texture unit on a scene: clock, unit, memory, driver, sink, golden model and
+// scoreboards. `deburr run texture` and the tests in tb/system use the same bench.
+//
+//   TextureScene ─► Driver ─► TextureUnit ─► Sink ─► scoreboard, frame
+//                     │        │      └ registers ◄─ Host
+//                     ▼      MemoryModel ─► scoreboard of line fills
+//                   golden model (expected colours, expected fills)
+//
+// The golden model gets each quad when the driver sends it, so the comparison needs no more memory
+// than what is in flight, and every output is judged as it comes.
+#pragma once
+
+#include <tlm_utils/simple_initiator_socket.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <systemc>
+#include <vector>
+
+#include "golden/texture/texture_golden.h"
+#include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/texture/texture_unit.h"
+#include "spec/fragment.h"
+#include "spec/texture.h"
+#include "tb/app/result.h"
+#include "tb/app/texture_scene.h"
+#include "tb/harness/bench.h"
+#include "tb/harness/driver.h"
+#include "tb/harness/memory_model.h"
+#include "tb/harness/scoreboard.h"
+#include "tb/scene/rasteriser.h"
+
+namespace deburr::tb {
+
+struct MemoryParameters {
+  std::int32_t latency = 100, latency_max = 0;
+  std::int32_t bytes_per_clock = 64;
+  std::int32_t banks = 1, interleave_bytes = 64, bank_busy = 0;
+  std::int32_t outstanding = 256;
+  std::int64_t error_address = -1, error_bytes = 64;
+};
+
+template <class Visitor>
+void describe(MemoryParameters& p, Visitor& v) {
+  v.integer("latency", p.latency, 1, 100000, "clk", "From a request to the first byte.");
+  v.integer("latency_max", p.latency_max, 0, 100000, "clk",
+            "Above latency: each latency is drawn evenly from latency to this; 0: fixed.");
+  v.integer("bytes_per_clock", p.bytes_per_clock, 0, 4096, "byte/clk",
+            "Width of the data bus; 0: no limit.");
+  v.integer("banks", p.banks, 1, 1024, "bank", "Banks that interleaved addresses go round.");
+  v.integer("interleave_bytes", p.interleave_bytes, 64, 1 << 20, "byte",
+            "Bytes in a row in one bank; a power of two.");
+  v.integer("bank_busy", p.bank_busy, 0, 100000, "clk",
+            "From a request until its bank takes another.");
+  v.integer("outstanding", p.outstanding, 1, 4096, "transaction", "Transactions in flight.");
+  v.integer("error_address", p.error_address, -1, std::int64_t{1} << 32, "byte",
+            "First address that answers with an error; -1: none.");
+  v.integer("error_bytes", p.error_bytes, 1, std::int64_t{1} << 32, "byte",
+            "Bytes from error_address that answer with an error.");
+}
+
+struct TextureBenchOptions {
+  spec::TextureParameters texture;
+  MemoryParameters memory;
+  double clock_mhz = 166.67;
+  std::uint64_t seed = 1;
+  std::uint32_t stall_permille = 0;  // on both sides of every link
+  bool golden = true;                // compare with the golden model
+  bool shuffle = false;
+  bool fast_path = true;
+  bool check_links = true;
+  rtl::Cycle max_cycles = 0;  // 0: no limit
+  rtl::Cycle patience = 20000;
+  // Names of planted_faults(), or faults of the harness (fault_injector.h).
+  std::vector<std::string> faults;
+  std::string trace_file, trace_scope;  // empty: none
+  rtl::Cycle trace_from = 0, trace_to = 2000;
+};
+
+// A fault by name, for `--fault`; docs/verification.md says what must catch it.
+struct PlantedFault {
+  std::string_view name, meaning;
+};
+std::span<const PlantedFault> planted_faults();
+
+class TextureBench {
+ public:
+  // `progress` is called every few thousand cycles with the number of colours delivered; false ends
+  // the run early.
+  using Progress = std::function<bool(std::uint64_t colours)>;
+
+  // Elaborates; one a process. The scene must outlive the bench. ConfigError for wrong parameters.
+  TextureBench(const TextureScene& scene, const TextureBenchOptions& options);
+  ~TextureBench();
+
+  // Resets, writes descriptors over the register socket, sends every quad and waits for the last
+  // colour. Does not throw on mismatches: see check(). SimulationError for memory errors and broken
+  // protocols, DeadlockError for no progress.
+  void run(const Progress& progress = {});
+  // Throws Mismatch when a colour, a fill or a status register differs from the golden model.
+  void check() const;
+
+  // Everything measured so far, also after an exception from run().
+  void collect(Result& result) const;
+
+  rtl::Cycle cycles() const { return cycles_; }
+  std::uint64_t activations() const { return clock_.activations(); }
+  bool complete() const { return complete_; }  // false when ended early
+  const Image& frame() const { return frame_.frame(); }
+  // The golden model's picture of the same fragments (empty without golden).
+  const Image& golden_frame() const { return golden_frame_.frame(); }
+  const golden::texture::TextureWork& golden_work() const { return golden_.work(); }
+  std::uint64_t colours() const { return sink_.received(); }
+  // A hash over all colours and tags in order, to compare runs that must not differ.
+  std::uint64_t colour_hash() const { return colour_hash_; }
+
+  rtl::ClockDomain& clock() { return clock_; }
+  rtl::texture::TextureUnit& unit() { return unit_; }
+  MemoryModel& memory() { return memory_; }
+
+  std::uint32_t read_register(std::uint32_t offset);
+  void write_register(std::uint32_t offset, std::uint32_t value);
+
+ private:
+  struct Fill {
+    std::uint64_t address;
+    friend bool operator==(const Fill&, const Fill&) = default;
+  };
+  struct Status {
+    std::uint32_t offset, value;
+    friend bool operator==(const Status&, const Status&) = default;
+  };
+  // The register bus' master.
+  struct Host : sc_core::sc_module {
+    explicit Host(const sc_core::sc_module_name& name) : sc_module(name) {}
+    tlm_utils::simple_initiator_socket<Host> bus{"bus"};
+  };
+
+  void prepare_golden();
+  void expect(const spec::Quad& quad);
+  void judge(rtl::Cycle cycle, const spec::Colour& colour);
+  void judge_fills();
+  void judge_registers();
+  void check_memory_errors();
+  std::uint32_t access_register(std::uint32_t offset, std::uint32_t value, bool write);
+  std::string describe(const spec::Colour& colour) const;
+
+  const TextureScene& scene_;
+  TextureBenchOptions options_;
+  rtl::ClockDomain clock_;
+  rtl::Link<spec::Quad> quads_{"quads"};
+  rtl::Link<spec::Colour> colours_{"colours"};
+  Driver<spec::Quad> driver_;
+  rtl::texture::TextureUnit unit_;
+  Sink<spec::Colour> sink_;
+  MemoryModel memory_;
+  Host host_;
+  std::unique_ptr<Bench> bench_;
+
+  golden::texture::TextureGolden golden_;
+  Scoreboard<spec::Colour> colour_board_;
+  Scoreboard<Fill> fill_board_;
+  Scoreboard<Status> register_board_;
+  FrameAssembler frame_, golden_frame_;
+  std::size_t fills_judged_ = 0;
+  std::uint64_t colour_hash_ = 0xCBF29CE484222325ULL;
+  rtl::Cycle cycles_ = 0, started_ = 0;
+  double host_seconds_ = 0;
+  bool running_ = false, complete_ = false;
+};
+
+}  // namespace deburr::tb

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "tb/app/texture_engine.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "spec/error.h"
+#include "tb/app/interrupt.h"
+#include "tb/app/progress.h"
+#include "tb/app/texture_bench.h"
+#include "tb/app/texture_scene.h"
+#include "tb/scene/compose.h"
+#include "tb/scene/quality.h"
+#include "tb/scene/textures.h"
+#include "tb/scene/truth.h"
+
+namespace deburr::tb {
+namespace {
+
+constexpr int kTruthSamples = 16;  // 16 x 16 a pixel
+
+class TextureEngine final : public Engine {
+ public:
+  std::string_view name() const override { return "texture"; }
+  std::string_view summary() const override {
+    return "A scene through the texture unit, checked colour by colour and line by line";
+  }
+
+  void add_parameters(ParameterSet& set) override {
+    set.add("scene", scene_);
+    set.add("sampler", sampler_);
+    set.add("texture", texture_);
+    set.add("memory", memory_);
+  }
+
+  std::vector<Shorthand> shorthands() const override {
+    return {{"--scene", "scene.source", "plane (default), quad, tunnel, object, road, cylinders"},
+            {"--in", "scene.source", "Mesh file instead of a scene: .obj, .gltf, .glb"},
+            {"--texture", "scene.texture", "checker, road, brick, zone_plate, ..., or an image file"},
+            {"--size", "scene.width", "Size of the picture, WxH", "scene.height"},
+            {"--mode", "sampler.mode", "Minification filter, one of GL's six"},
+            {"--aniso", "sampler.anisotropy", "Largest number of samples: 1, 2, 4, 8, 16"},
+            {"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene"},
+            {"--format", "sampler.format", "rgba8, rgb565, rgba4444, l8, srgb8_a8"},
+            {"--layout", "sampler.layout", "tiled or linear"}};
+  }
+
+  void run(const RunParameters& run, RunContext& context, Result& result) override {
+    const TextureScene scene(scene_, sampler_, static_cast<std::uint32_t>(run.seed));
+    for (const auto& input : scene.inputs()) context.add_input(input);
+    context.set_title(title(), summary_line(scene));
+    context.set_bottleneck("walker");
+    TextureBench bench(scene, options(run, context));
+    try {
+      Progress progress("texture", scene.stream().counts.fragments, "fragment");
+      bench.run([&](std::uint64_t colours) {
+        progress.update(colours);
+        return !interrupted();
+      });
+    } catch (...) {
+      bench.collect(result);
+      add_pictures(run, context, scene, bench, result);
+      throw;
+    }
+    bench.collect(result);
+    result.interrupted = !bench.complete();
+    add_pictures(run, context, scene, bench, result);
+    if (bench.complete()) bench.check();
+  }
+
+  void describe_statistics(Result& result) override {
+    SceneParameters small = scene_;
+    small.width = small.height = 2;
+    small.texture_size = 4;
+    const TextureScene scene(small, sampler_, 1);
+    TextureBench(scene, TextureBenchOptions{}).collect(result);
+  }
+
+ private:
+  TextureBenchOptions options(const RunParameters& run, const RunContext& context) const {
+    TextureBenchOptions o;
+    o.texture = texture_;
+    o.memory = memory_;
+    o.clock_mhz = run.clock_mhz;
+    o.seed = static_cast<std::uint64_t>(run.seed);
+    o.stall_permille = static_cast<std::uint32_t>(std::lround(run.stalls * 1000));
+    o.golden = run.check == CheckMode::kGolden;
+    o.shuffle = run.shuffle;
+    o.fast_path = run.fast_path;
+    o.check_links = run.check_links;
+    o.max_cycles = static_cast<rtl::Cycle>(run.max_cycles);
+    o.patience = static_cast<rtl::Cycle>(run.watchdog_cycles);
+    if (!run.fault.empty()) o.faults = {run.fault};
+    o.trace_scope = run.trace;
+    o.trace_file = (context.directory() / "trace.vcd").string();
+    o.trace_from = static_cast<rtl::Cycle>(run.trace_from);
+    o.trace_to = static_cast<rtl::Cycle>(run.trace_to);
+    return o;
+  }
+
+  std::string title() const {
+    return "Texture unit: " + std::filesystem::path(scene_.source).filename().string();
+  }
+
+  std::string summary_line(const TextureScene& scene) const {
+    const auto name = [](auto value, const auto& names) { return names[static_cast<std::size_t>(value)]; };
+    return fmt::format(
+        "{} x {} pixels, {} fragments, {}, N_max {}, {} {}; footprint {}, log2 {}, count {}, kernel {}; "
+        "cache {} bytes, {} ways; memory latency {} clk",
+        scene.stream().width, scene.stream().height, scene.stream().counts.fragments,
+        name(sampler_.mode, spec::kMinFilterNames), name(sampler_.anisotropy, kAnisotropyNames),
+        name(sampler_.format, spec::kFormatNames), name(sampler_.layout, spec::kLayoutNames),
+        name(texture_.footprint, spec::kFootprintNames), name(texture_.log2, spec::kLog2Names),
+        name(texture_.count, spec::kCountNames), name(texture_.kernel, spec::kKernelNames),
+        texture_.cache_bytes, texture_.cache_ways, memory_.latency);
+  }
+
+  bool linear_light() const { return sampler_.format == spec::Format::kSrgb8A8; }
+
+  // The unit delivers linear light for sRGB textures; pictures are stored as sRGB again.
+  Image stored(const Image& image, const TextureScene& scene) const {
+    if (!linear_light()) return image;
+    Image out = image;
+    for (std::size_t i = 0; i < out.pixels.size(); ++i) {
+      if (scene.stream().depth.pixels[i] == 0) continue;  // the sky is not from the unit
+      for (std::size_t c = 0; c < 3; ++c)
+        out.pixels[i][c] = static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(out.pixels[i][c] / 255.0)));
+    }
+    return out;
+  }
+
+  void add_pictures(const RunParameters& run, RunContext& context, const TextureScene& scene,
+                    const TextureBench& bench, Result& result) const {
+    RenderOptions render_options;
+    render_options.width = scene.stream().width;
+    render_options.height = scene.stream().height;
+    render_options.sampling = Sampling::kNearest;
+    const Image before = render(scene.scene(), render_options);
+    const Image after = stored(bench.frame(), scene);
+    context.add_image("before", before, "Before", "nearest texel of level 0, no filter");
+    context.add_image("after", after, "Hardware model", "the colours that the unit delivered");
+    if (run.check == CheckMode::kGolden) {
+      const Image expected = stored(bench.golden_frame(), scene);
+      context.add_image("golden", expected, "Golden model", "the same fragments by the golden model");
+      context.add_image("difference", difference(after, expected, 255), "Difference",
+                        count_different(after, expected) == 0
+                            ? "hardware against golden: none"
+                            : "hardware against golden: any difference is white");
+    }
+    if (run.truth && !result.interrupted) {
+      render_options.samples = kTruthSamples;
+      render_options.sampling = Sampling::kBilinear;
+      render_options.averaging = linear_light() ? Averaging::kLinear : Averaging::kStored;
+      const Image truth = render(scene.scene(), render_options);
+      const Mask edges = edge_mask(truth, before);
+      Quality quality;
+      quality.reference = fmt::format("supersampled-{}", kTruthSamples * kTruthSamples);
+      quality.psnr_db = psnr(after, truth);
+      quality.psnr_edge_db = psnr(after, truth, edges);
+      quality.psnr_silhouette_db = psnr(after, truth, silhouette_mask(edges, scene.stream().depth));
+      result.quality = quality;
+      context.add_image("truth", truth, "Truth", fmt::format("{} samples a pixel", kTruthSamples * kTruthSamples));
+      context.add_image("error", difference(after, truth, 8), "Error", "hardware against truth, 8 times");
+    }
+  }
+
+  SceneParameters scene_;
+  SamplerParameters sampler_;
+  spec::TextureParameters texture_;
+  MemoryParameters memory_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_texture_engine() { return std::make_unique<TextureEngine>(); }
+
+}  // namespace deburr::tb

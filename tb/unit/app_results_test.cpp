@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+// What a run leaves behind: result.json, comparison, report, progress, files.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "spec/error.h"
+#include "tb/app/compare.h"
+#include "tb/app/file.h"
+#include "tb/app/progress.h"
+#include "tb/app/report.h"
+#include "tb/app/result.h"
+#include "tb/app/run_context.h"
+
+namespace deburr::tb {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using Json = nlohmann::ordered_json;
+
+Result sample_result() {
+  Result r;
+  r.unit = "texture";
+  r.verdict = Verdict::kPass;
+  r.comparisons = 1000;
+  r.cycles = 54321;
+  r.clock_mhz = 166.67;
+  r.throughput = 0.98;
+  r.throughput_bound = 1;
+  r.throughput_unit = "bilinear/clk";
+  r.latency = {17, 20, 90, 130, 180, {{16, 700}, {32, 200}, {64, 60}, {128, 40}}};
+  r.bytes_read = 640000;
+  r.lines_filled = 10000;
+  r.units = {{"address", 40000, 14000, {{"downstream", "The next unit was not ready.", 321}}},
+             {"cache", 53000, 321, {{"downstream", "", 0}, {"wait_fill", "", 1000}}}};
+  r.sram_bits = {{"cache.data", 131072}, {"cache.tags", 5120}};
+  r.work = {{"fragments", 1000, "fragment", "Colours </script><script>alert(1)</script>."}};
+  r.quality = Quality{"supersampled-256", 41.25, std::numeric_limits<double>::infinity(), {}};
+  r.host_seconds = 0.05;
+  return r;
+}
+
+class Directory : public testing::Test {
+ protected:
+  Directory() {
+    path_ = std::filesystem::temp_directory_path() / ("deburr_results_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(path_);
+  }
+  ~Directory() override { std::filesystem::remove_all(path_); }
+  std::filesystem::path path_;
+};
+
+TEST(ResultJson, HasTheKeysOfSchemaOneInOrder) {
+  const Json json = to_json(sample_result());
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : json.items()) keys.push_back(key);
+  EXPECT_THAT(keys, testing::ElementsAre("schema", "unit", "verdict", "checks", "cycles", "clock_mhz",
+                                         "throughput", "latency", "memory", "units", "sram_bits",
+                                         "work", "quality", "host", "meaning"));
+  EXPECT_EQ(json["schema"], 1);
+  EXPECT_EQ(json["checks"]["comparisons"], 1000);
+  EXPECT_EQ(json["units"]["address"]["stalls"]["downstream"], 321);
+  EXPECT_EQ(json["latency"]["histogram"][1]["count"], 200);
+  EXPECT_EQ(json["quality"]["psnr_edge_db"], "inf");
+  EXPECT_TRUE(json["quality"]["psnr_silhouette_db"].is_null());
+}
+
+// Every number in the file has a unit and a meaning beside it.
+void expect_described(const Json& node, const std::string& path, const Json& meanings) {
+  if (node.is_object()) {
+    for (const auto& [key, value] : node.items())
+      if (key != "meaning") expect_described(value, path.empty() ? key : path + "." + key, meanings);
+    return;
+  }
+  EXPECT_TRUE(meanings.contains(path)) << path;
+}
+
+TEST(ResultJson, EveryKeyHasUnitAndMeaning) {
+  const Json json = to_json(sample_result());
+  expect_described(json, "", json["meaning"]);
+}
+
+TEST_F(Directory, AnIncompleteOrForeignResultIsRefused) {
+  EXPECT_THROW(read_result(path_), spec::FileError);
+  const auto refuse = [&](const std::string& text) {
+    std::ofstream(path_ / "result.json") << text;
+    EXPECT_THROW(read_result(path_), spec::FileError) << text;
+  };
+  refuse("");
+  refuse("{");
+  refuse("[1]");
+  refuse(R"({"schema": 2})");
+  refuse(R"({"schema": 1, "unit": "texture"})");
+  std::ofstream(path_ / "result.json") << to_json(sample_result()).dump();
+  EXPECT_EQ(read_result(path_)["cycles"], 54321);
+  EXPECT_EQ(read_result(path_ / "result.json")["cycles"], 54321);
+}
+
+TEST(Compare, TheSameIsNotWorse) {
+  const Json a = to_json(sample_result());
+  EXPECT_FALSE(compare(a, a, {}).worse);
+}
+
+TEST(Compare, EachJudgedValueIsJudgedInItsDirection) {
+  const Json a = to_json(sample_result());
+  const auto worse = [&](auto change) {
+    Result r = sample_result();
+    change(r);
+    return compare(a, to_json(r), {}).worse;
+  };
+  EXPECT_FALSE(worse([](Result& r) { r.cycles = 55000; })) << "within 2 %";
+  EXPECT_TRUE(worse([](Result& r) { r.cycles = 56000; }));
+  EXPECT_FALSE(worse([](Result& r) { r.cycles = 100; })) << "better";
+  EXPECT_TRUE(worse([](Result& r) { r.throughput = 0.9; }));
+  EXPECT_TRUE(worse([](Result& r) { r.latency.p99 = 200; }));
+  EXPECT_TRUE(worse([](Result& r) { r.bytes_read = 700000; }));
+  EXPECT_TRUE(worse([](Result& r) { r.mismatches = 1; }));
+  EXPECT_TRUE(worse([](Result& r) { r.traffic_mismatches = 1; }));
+  EXPECT_TRUE(worse([](Result& r) { r.verdict = Verdict::kFail; }));
+  EXPECT_TRUE(worse([](Result& r) { r.verdict = Verdict::kUnchecked; }));
+  EXPECT_TRUE(worse([](Result& r) { r.quality->psnr_db = 41.1; }));
+  EXPECT_FALSE(worse([](Result& r) { r.quality->psnr_db = 41.22; }));
+  EXPECT_TRUE(worse([](Result& r) { r.quality->psnr_edge_db = 60.0; })) << "identical before";
+  EXPECT_TRUE(worse([](Result& r) { r.quality.reset(); })) << "a quality that is gone";
+  EXPECT_FALSE(worse([](Result& r) { r.host_seconds = 100; })) << "the host is not judged";
+}
+
+TEST_F(Directory, TheReportIsSelfContainedAndEscapes) {
+  ParameterSet parameters;
+  RunContext context(path_, parameters, "deburr run texture --set a='<b>'", 7);
+  context.set_title("A <title> & more", "summary");
+  context.add_image("before", Image(4, 3, {10, 20, 30, 255}), "Before", "");
+  context.add_image("after", Image(4, 3, {11, 20, 30, 255}), "After", "");
+  context.finish(sample_result());
+  const std::string page = read_file(path_ / "report.html", 1 << 24);
+  EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
+  EXPECT_THAT(page, HasSubstr("A &lt;title&gt; &amp; more"));
+  EXPECT_THAT(page, Not(HasSubstr("</script><script>alert(1)")));
+  EXPECT_THAT(page, HasSubstr("\\u003c/script>"));
+  EXPECT_THAT(page, HasSubstr("<noscript>"));
+  EXPECT_THAT(page, HasSubstr("deburr run texture --set a=&apos;&lt;b&gt;&apos;"));
+  EXPECT_THAT(page, HasSubstr("Chart.js v3"));
+  // Nothing may be fetched: the page forbids it to itself, and refers to nothing.
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+  for (const char* reference : {"src=\"http", "href=\"http", "@import", "<link"})
+    EXPECT_THAT(page, Not(HasSubstr(reference)));
+  const Json manifest = Json::parse(read_file(path_ / "manifest.json", 1 << 20));
+  for (const char* key : {"commit", "compiler", "systemc", "command", "seed", "configuration", "inputs", "host"})
+    EXPECT_TRUE(manifest.contains(key)) << key;
+  for (const auto& entry : std::filesystem::directory_iterator(path_))
+    EXPECT_THAT(entry.path().extension().string(), testing::AnyOf(".json", ".html", ".png"));
+}
+
+TEST_F(Directory, AManifestCannotPullInFilesFromElsewhere) {
+  ParameterSet parameters;
+  RunContext context(path_, parameters, "x", 0);
+  context.finish(sample_result());
+  std::ofstream(path_ / "manifest.json") << R"({"images": [{"file": "../../etc/passwd"}]})";
+  EXPECT_THROW(build_report(path_), spec::FileError);
+  std::ofstream(path_ / "manifest.json") << "[]";
+  EXPECT_THROW(build_report(path_), spec::FileError);
+}
+
+TEST_F(Directory, OldResultsDoNotSurviveTheStartOfARun) {
+  std::ofstream(path_ / "result.json") << "old";
+  ParameterSet parameters;
+  RunContext context(path_, parameters, "x", 0);
+  EXPECT_FALSE(std::filesystem::exists(path_ / "result.json"));
+}
+
+TEST_F(Directory, Sha256IsThatOfTheContent) {
+  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  std::ofstream(path_ / "x") << "abc";
+  EXPECT_EQ(sha256_of_file(path_ / "x"), sha256("abc"));
+  EXPECT_THROW(sha256_of_file(path_ / "missing"), spec::FileError);
+  EXPECT_THROW(read_file(path_ / "x", 2), spec::FileError);
+  EXPECT_THROW(read_file(path_, 100), spec::FileError);
+}
+
+TEST(Progress, SaysRateAndTimeLeft) {
+  EXPECT_EQ(Progress::line("texture", "fragment", 500000, 1000000, 0.25),
+            "texture   50 %  2.00 Mfragment/s  0 s left");
+  EXPECT_EQ(Progress::line("x", "y", 100, 4000, 10), "x    2 %  10 y/s  6 min 30 s left");
+  EXPECT_EQ(Progress::line("x", "y", 10, 10, 1), "x  100 %  10 y/s");
+  EXPECT_EQ(Progress::line("x", "y", 0, 10, 0), "x    0 %  0 y/s");
+}
+
+TEST(Numbers, AreGrouped) {
+  EXPECT_EQ(grouped(0), "0");
+  EXPECT_EQ(grouped(999), "999");
+  EXPECT_EQ(grouped(1000), "1,000");
+  EXPECT_EQ(grouped(1234567), "1,234,567");
+}
+
+TEST(Statistics, TheMostSpecificDescriptionWins) {
+  ASSERT_NE(find_statistic("units.address.busy"), nullptr);
+  EXPECT_EQ(find_statistic("units.address.busy")->name, "units.*.busy");
+  EXPECT_EQ(find_statistic("units.address.stalls.downstream")->name, "units.*.stalls.*");
+  EXPECT_EQ(find_statistic("units.address"), nullptr);
+  EXPECT_EQ(find_statistic("nothing"), nullptr);
+}
+
+}  // namespace
+}  // namespace deburr::tb
