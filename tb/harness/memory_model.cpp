@@ -97,7 +97,7 @@ void MemoryModel::access(tlm::tlm_generic_payload& payload, std::uint64_t number
     ++reads_;
     bytes_read_ += length;
     if (parameters_.record_reads)
-      for (std::uint64_t line = address / kLine * kLine; line < address + length; line += kLine)
+      for (std::uint64_t line = address; line < address + length; line += kLine)
         lines_read_.push_back(line);
   } else {
     ++writes_;

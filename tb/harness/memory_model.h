@@ -64,7 +64,7 @@ class MemoryModel final : public sc_core::sc_module {
   std::uint64_t bytes_written() const { return bytes_written_; }
   std::uint64_t errors() const { return errors_; }
   std::uint32_t most_outstanding() const { return most_outstanding_; }
-  // Addresses in the order of requests, one for each 64-byte line of a burst.
+  // Addresses in the order of requests; of a burst, one for each 64 bytes.
   const std::vector<std::uint64_t>& lines_read() const { return lines_read_; }
   void clear_statistics();
 
