@@ -73,7 +73,8 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   void reset() override;
 
   std::uint32_t in_flight() const;
-  // Untimed access through transport_dbg; the number of bytes that the target handled.
+  // Untimed access through transport_dbg, from the end of elaboration on; gives the number of bytes
+  // that the target handled.
   unsigned debug_read(std::uint64_t address, void* data, unsigned bytes);
   unsigned debug_write(std::uint64_t address, const void* data, unsigned bytes);
 

@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: MIT
+# The fabric and the harness, each block alone.
+foreach(part link clock parts memory registers trace)
+  deburr_test(fabric_${part}_test LABELS unit timing SOURCES fabric_${part}_test.cpp
+              LINK deburr::harness)
+endforeach()
+deburr_test(harness_test LABELS unit SOURCES harness_test.cpp LINK deburr::harness)
+deburr_test(harness_negative_test LABELS negative SOURCES harness_negative_test.cpp
+            LINK deburr::harness)

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// The register block: access rules, TLM errors, generated texts.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tlm_utils/simple_initiator_socket.h>
+
+#include <cstring>
+
+#include "rtl_model/fabric/register_block.h"
+#include "spec/error.h"
+
+namespace deburr::tb {
+namespace {
+
+using rtl::Access;
+
+enum Index { kControl, kStatus, kCommand, kFlags, kCount };
+constexpr rtl::RegisterDescription kTable[] = {
+    {0x00, "CONTROL", Access::kReadWrite, 0x00000005, "bit 0: enable; bits 2..1: mode"},
+    {0x04, "STATUS", Access::kReadOnly, 0x00000001, "bit 0: idle"},
+    {0x08, "COMMAND", Access::kWriteOnly, 0, "bit 0: start"},
+    {0x10, "FLAGS", Access::kWriteOneToClear, 0, "bit i: error i was seen"},
+    {0x14, "COUNT", Access::kReadOnly, 0, "lines fetched, low word"},
+};
+
+struct Bus : sc_core::sc_module {
+  tlm_utils::simple_initiator_socket<Bus> socket{"socket"};
+  rtl::RegisterBlock block{"block", kTable};
+  std::uint32_t word = 0;
+  std::uint32_t enables = 0xFFFFFFFF;
+  unsigned length = 4, width = 4;
+  bool with_enables = false;
+
+  explicit Bus(const sc_core::sc_module_name& name) : sc_module(name) { socket.bind(block.bus); }
+
+  tlm::tlm_response_status access(tlm::tlm_command command, std::uint64_t address) {
+    tlm::tlm_generic_payload payload;
+    payload.set_command(command);
+    payload.set_address(address);
+    payload.set_data_ptr(reinterpret_cast<unsigned char*>(&word));
+    payload.set_data_length(length);
+    payload.set_streaming_width(width);
+    if (with_enables) {
+      payload.set_byte_enable_ptr(reinterpret_cast<unsigned char*>(&enables));
+      payload.set_byte_enable_length(4);
+    }
+    sc_core::sc_time delay;
+    socket->b_transport(payload, delay);
+    return payload.get_response_status();
+  }
+  tlm::tlm_response_status read(std::uint64_t address) {
+    return access(tlm::TLM_READ_COMMAND, address);
+  }
+  tlm::tlm_response_status write(std::uint64_t address, std::uint32_t value) {
+    word = value;
+    return access(tlm::TLM_WRITE_COMMAND, address);
+  }
+};
+
+class Registers : public testing::Test {
+ protected:
+  Registers() { sc_core::sc_start(sc_core::SC_ZERO_TIME); }
+  Bus bus{"bus"};
+};
+
+TEST_F(Registers, ReadAndWrite) {
+  EXPECT_EQ(bus.read(0), tlm::TLM_OK_RESPONSE);
+  EXPECT_EQ(bus.word, 5U);
+  EXPECT_EQ(bus.write(0, 0x12345678), tlm::TLM_OK_RESPONSE);
+  EXPECT_EQ(bus.block.get(kControl), 0x12345678U);
+  bus.block.reset();
+  EXPECT_EQ(bus.block.get(kControl), 5U);
+}
+
+TEST_F(Registers, HardwareSideAndCommands) {
+  bus.block.set(kStatus, 0);
+  EXPECT_EQ(bus.read(4), tlm::TLM_OK_RESPONSE);
+  EXPECT_EQ(bus.word, 0U);
+  std::uint32_t started = 0;
+  bus.block.on_write(kCommand, [&](std::uint32_t value) { started += value; });
+  EXPECT_EQ(bus.write(8, 1), tlm::TLM_OK_RESPONSE);
+  EXPECT_EQ(started, 1U);
+  bus.block.set(kFlags, 0b1011);
+  EXPECT_EQ(bus.write(0x10, 0b0010), tlm::TLM_OK_RESPONSE);
+  EXPECT_EQ(bus.block.get(kFlags), 0b1001U);
+}
+
+TEST_F(Registers, ShowCounters) {
+  rtl::Counter counter("counter", "lines", "lines fetched");
+  counter += 0x1'0000'0007;
+  bus.block.show(kCount, counter);
+  EXPECT_EQ(bus.read(0x14), tlm::TLM_OK_RESPONSE);
+  EXPECT_EQ(bus.word, 7U);
+  bus.block.show(kCount, counter, 32);
+  bus.read(0x14);
+  EXPECT_EQ(bus.word, 1U);
+  EXPECT_THROW(bus.block.show(kControl, counter), spec::CheckFailed);
+}
+
+TEST_F(Registers, EachMisuseHasItsError) {
+  EXPECT_EQ(bus.read(0x0C), tlm::TLM_ADDRESS_ERROR_RESPONSE);  // a hole
+  EXPECT_EQ(bus.read(0x18), tlm::TLM_ADDRESS_ERROR_RESPONSE);
+  EXPECT_EQ(bus.read(0x02), tlm::TLM_ADDRESS_ERROR_RESPONSE);
+  EXPECT_EQ(bus.read(~std::uint64_t{3}), tlm::TLM_ADDRESS_ERROR_RESPONSE);
+  EXPECT_EQ(bus.write(0x04, 0), tlm::TLM_COMMAND_ERROR_RESPONSE);
+  EXPECT_EQ(bus.block.get(kStatus), 1U);
+  EXPECT_EQ(bus.read(0x08), tlm::TLM_COMMAND_ERROR_RESPONSE);
+  bus.with_enables = true;
+  EXPECT_EQ(bus.write(0, 9), tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE);
+  bus.with_enables = false;
+  bus.length = 2;
+  EXPECT_EQ(bus.write(0, 9), tlm::TLM_BURST_ERROR_RESPONSE);
+  bus.length = 4;
+  bus.width = 1;
+  EXPECT_EQ(bus.write(0, 9), tlm::TLM_BURST_ERROR_RESPONSE);
+  EXPECT_EQ(bus.block.get(kControl), 5U);  // nothing of all that was written
+  bus.width = 4;
+  EXPECT_EQ(bus.access(tlm::TLM_IGNORE_COMMAND, 0), tlm::TLM_OK_RESPONSE);
+}
+
+TEST_F(Registers, DebugTransportCoversSpansUpToAHole) {
+  std::uint32_t words[4] = {1, 2, 3, 4};
+  tlm::tlm_generic_payload payload;
+  payload.set_command(tlm::TLM_WRITE_COMMAND);
+  payload.set_address(0);
+  payload.set_data_ptr(reinterpret_cast<unsigned char*>(words));
+  payload.set_data_length(16);
+  EXPECT_EQ(bus.socket->transport_dbg(payload), 12U);  // even what the bus may not write
+  EXPECT_EQ(bus.block.get(kStatus), 2U);
+  std::memset(words, 0, sizeof words);
+  payload.set_command(tlm::TLM_READ_COMMAND);
+  EXPECT_EQ(bus.socket->transport_dbg(payload), 12U);
+  EXPECT_EQ(words[2], 3U);
+  payload.set_address(0x100);
+  EXPECT_EQ(bus.socket->transport_dbg(payload), 0U);
+}
+
+TEST_F(Registers, NamesAndTexts) {
+  EXPECT_EQ(bus.block.index_of("FLAGS"), std::size_t{kFlags});
+  EXPECT_THROW(bus.block.index_of("FLAG"), spec::ConfigError);
+  EXPECT_THAT(
+      rtl::register_table_markdown(kTable),
+      testing::HasSubstr("| 0x010 | `FLAGS` | W1C | 0x00000000 | bit i: error i was seen |"));
+  EXPECT_THAT(rtl::register_header(kTable, "deburr::regs"),
+              testing::HasSubstr("inline constexpr std::uint32_t COUNT = 0x014;  // RO: lines"));
+}
+
+TEST(RegisterTable, MistakesAreCaught) {
+  static constexpr rtl::RegisterDescription twice[] = {{0, "A", Access::kReadWrite, 0, "a"},
+                                                       {0, "B", Access::kReadWrite, 0, "b"}};
+  static constexpr rtl::RegisterDescription odd[] = {{2, "A", Access::kReadWrite, 0, "a"}};
+  EXPECT_THROW(rtl::RegisterBlock("twice", twice), spec::CheckFailed);
+  EXPECT_THROW(rtl::RegisterBlock("odd", odd), spec::CheckFailed);
+}
+
+}  // namespace
+}  // namespace deburr::tb
