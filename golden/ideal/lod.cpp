@@ -51,23 +51,22 @@ double level_flip_area() {
 double level_flip_probability() { return level_flip_area() / 0.5; }
 
 LevelError level_error(const std::function<double(double a, double b)>& approximate) {
-  constexpr int kRatios = 512, kLengths = 4096;
+  constexpr int kAngles = 512, kLengths = 4096;
   LevelError result;
   double sum = 0;
   std::int64_t mismatches = 0;
-  for (int i = 0; i < kLengths; ++i) {
-    const double a = std::exp2(4 + 8 * (i + 0.5) / kLengths);
-    for (int j = 0; j < kRatios; ++j) {
-      const double b = a * (j + 0.5) / kRatios;
-      const double exact = std::log2(std::sqrt(a * a + b * b));
-      const double approximation = approximate(a, b);
+  for (int j = 0; j < kAngles; ++j) {
+    const double angle = std::numbers::pi / 4 * (j + 0.5) / kAngles;
+    for (int i = 0; i < kLengths; ++i) {
+      const double exact = 4 + 8 * (i + 0.5) / kLengths, length = std::exp2(exact);
+      const double approximation = approximate(length * std::cos(angle), length * std::sin(angle));
       const double error = approximation - exact;
       sum += error * error;
       result.largest = std::max(result.largest, std::abs(error));
       if (std::floor(approximation) != std::floor(exact)) ++mismatches;
     }
   }
-  constexpr double kCount = double{kRatios} * kLengths;
+  constexpr double kCount = double{kAngles} * kLengths;
   result.root_mean_square = std::sqrt(sum / kCount);
   result.floor_mismatch = static_cast<double>(mismatches) / kCount;
   return result;

@@ -38,8 +38,8 @@ LogarithmError logarithm_error();
 double level_flip_area();
 double level_flip_probability();
 
-// Error of an approximate level of detail lb(side(a, b)) over sides of log-uniform length and
-// directions whose ratio k = b / a is uniform in [0, 1]; a in [2^4, 2^12) texels.
+// Error of an approximate level of detail lb(side(a, b)) over sides of log-uniform length, 2^4 to
+// 2^12 texels, whose angle to the nearer axis is uniform in [0, pi / 4].
 struct LevelError {
   double root_mean_square = 0, largest = 0;
   double floor_mismatch = 0;  // share of sides whose integer level differs from the exact one

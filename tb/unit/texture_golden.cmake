@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: MIT
+# The texture unit's reference against its formulas and against real arithmetic.
+deburr_library(texture_golden_support LAYER tb LINK deburr::golden_texture)
+deburr_test(texture_tables_test LABELS unit
+            SOURCES "${CMAKE_CURRENT_LIST_DIR}/texture_tables_test.cpp"
+            LINK deburr::texture_golden_support)
+foreach(part footprint log2)
+  deburr_test(texture_golden_${part}_test LABELS unit
+              SOURCES "${CMAKE_CURRENT_LIST_DIR}/texture_golden_${part}_test.cpp"
+              LINK deburr::texture_golden_support deburr::ideal)
+endforeach()
