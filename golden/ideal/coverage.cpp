@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "golden/ideal/coverage.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace deburr::golden::ideal {
+namespace {
+
+struct Point {
+  double x, y;
+};
+
+}  // namespace
+
+// Clips the square and takes the area of the polygon that is left; coordinates are relative to the
+// pixel, so nothing cancels far from the origin.
+double coverage(const HalfPlane& h, double x, double y) {
+  const HalfPlane local{h.a, h.b, h.at(x, y)};
+  constexpr std::array<Point, 4> kSquare = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+  std::array<Point, 8> polygon{};
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kSquare.size(); ++i) {
+    const Point p = kSquare[i], q = kSquare[(i + 1) % kSquare.size()];
+    const double at_p = local.at(p.x, p.y), at_q = local.at(q.x, q.y);
+    if (at_p > 0) polygon[count++] = p;
+    if ((at_p > 0) != (at_q > 0)) {
+      const double s = at_p / (at_p - at_q);
+      polygon[count++] = {p.x + s * (q.x - p.x), p.y + s * (q.y - p.y)};
+    }
+  }
+  double twice = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Point p = polygon[i], q = polygon[(i + 1) % count];
+    twice += p.x * q.y - q.x * p.y;
+  }
+  return std::clamp(std::abs(twice) / 2, 0.0, 1.0);
+}
+
+StepLine fitted(std::span<const StepCorner> corners) {
+  const auto n = static_cast<double>(corners.size());
+  double mean_index = 0, mean_position = 0;
+  for (const StepCorner& c : corners) {
+    mean_index += c.index / n;
+    mean_position += c.position / n;
+  }
+  double covariance = 0, variance = 0;
+  for (const StepCorner& c : corners) {
+    covariance += (c.index - mean_index) * (c.position - mean_position);
+    variance += (c.index - mean_index) * (c.index - mean_index);
+  }
+  const double pixels_a_step = covariance / variance;
+  // Corner i lies at height i - 1/2, so height 0 at index 1/2.
+  return {1 / pixels_a_step, mean_position - pixels_a_step * (mean_index - 0.5)};
+}
+
+StepLine chord(std::span<const StepCorner> corners) {
+  const auto [first, last] = std::minmax_element(
+      corners.begin(), corners.end(),
+      [](const StepCorner& a, const StepCorner& b) { return a.index < b.index; });
+  const std::array<StepCorner, 2> ends = {*first, *last};
+  return fitted(ends);
+}
+
+StepLine long_end(int length, bool tail, int tail_length) {
+  return {1.0 / length, tail ? tail_length - length / 2.0 : length / 2.0};
+}
+
+CutAreas cut_areas(const StepLine& line, int k) {
+  const auto magnitude = [](double t) { return std::min(1.0, std::abs(t)); };
+  const double t0 = line.at(k), t1 = line.at(k + 1);
+  const double q0 = magnitude(t0), q1 = magnitude(t1);
+  const auto limited = [](double area) { return std::min(0.5, area); };
+  if (t1 <= 0) return {limited((q0 + q1) / 2), 0};
+  if (t0 >= 0) return {0, limited((q0 + q1) / 2)};
+  return {limited(q0 * q0 / line.slope / 2), limited(q1 * q1 / line.slope / 2)};
+}
+
+}  // namespace deburr::golden::ideal

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// What morphological anti-aliasing tries to recover, in real numbers: how much of a pixel a
+// half-plane covers, and the areas that Reshetov cuts off between a line and a run of edges.
+//
+// Truth for the quality tables and the error bound of the integer areas (paper 000, section 2;
+// docs/number_formats_morphological.md, "Line through a run", "Area", without any rounding).
+#pragma once
+
+#include <span>
+
+namespace deburr::golden::ideal {
+
+// Inside where a X + b Y + c > 0.
+struct HalfPlane {
+  double a = 0, b = 0, c = 0;
+  double at(double x, double y) const { return a * x + b * y + c; }
+};
+
+// Share of the pixel [x, x + 1] x [y, y + 1] that is inside, 0..1; exact but for rounding.
+double coverage(const HalfPlane& half_plane, double x, double y);
+
+// A corner of a digital line: step i of it lies at position X, counted from the run's start.
+struct StepCorner {
+  int index = 0, position = 0;
+};
+
+// t(X) = slope (X - zero): height over the run's edge in steps, -1/2 in the middle of the step at
+// corner 0, +1/2 in that at corner 1.
+struct StepLine {
+  double slope = 0, zero = 0;
+  double at(double position) const { return slope * (position - zero); }
+};
+// Least squares of the positions over the indices of all corners (at least two).
+StepLine fitted(std::span<const StepCorner> corners);
+// Through the first and the last corner by index.
+StepLine chord(std::span<const StepCorner> corners);
+// The end of an L of `length` pixels: -1/2 at its corner, 0 in its middle (mirrored for a tail).
+StepLine long_end(int length, bool tail, int tail_length);
+
+// The areas between line and edge over pixel k, |t| taken as 1 at most; each at most 1/2, the
+// largest share that a neighbour can have.
+struct CutAreas {
+  double before = 0, after = 0;  // where t < 0, where t > 0
+};
+CutAreas cut_areas(const StepLine& line, int k);
+
+}  // namespace deburr::golden::ideal

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// How well a smoothing recovers straight edges: fans of lines against analytic coverage.
+//
+// The quality table of docs/morphological_engine.md. Lines of slope 1 / (n + u), n = 1..20, u
+// uniform in an interval, random phase, both signs; white above black, sampled at pixel centres,
+// smoothed, and compared with the exact coverage of every pixel. Figures are RMS errors x 1000 of
+// full scale:
+//   by_class    over pixels that the line crosses
+//   undulation  e(x), the sum of the error over column x: what the eye sees along the line
+//   jump        e(x + 1) - e(x)
+// Only columns far enough from the frame's sides for every extension are judged.
+//
+// The interval of u matters: lines near 1 / n give equal steps only, whose phase no pixel tells.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "spec/morphological.h"
+#include "tb/unit/morphological_golden_support.h"
+
+namespace deburr::tb::morphological {
+
+// Smooths a frame; the frame itself for no smoothing.
+using Smoothing = std::function<Frame(const Frame&)>;
+
+struct FanOptions {
+  double u_low = 0.05, u_high = 0.95;
+  int lines = 48;  // for each n and seed
+  int seeds = 3;
+  bool transposed = false;  // steep lines: bound by the window of rows
+};
+
+inline constexpr std::array<std::string_view, 6> kSlopeClasses = {"1",    "2",     "3-5",
+                                                                  "6-10", "11-20", "2-20"};
+
+struct FanFigures {
+  std::array<double, kSlopeClasses.size()> by_class{};  // n in the class
+  double undulation = 0, jump = 0;                      // n = 2..20
+};
+FanFigures measure_fans(const Smoothing& smoothing, const FanOptions& options = {});
+
+// A row of the contract's table.
+struct FanRow {
+  std::string name;  // "chord N = 4"
+  bool smoothed = true;
+  spec::MorphologicalParameters parameters;
+};
+// none, mlaa, chord N = 1, 2, 4, 8, fit N = 2, 4, 8 = deburr; linear_light off, reach_columns 256.
+std::vector<FanRow> fan_rows();
+Smoothing smoothing_of(const FanRow& row);
+
+// What the contract asks (docs/morphological_engine.md, last rows of its tables): figures that the
+// row of that name must not exceed; 0 where it asks nothing.
+struct FanLimit {
+  std::string_view name;
+  FanFigures figures;
+};
+const std::vector<FanLimit>& fan_limits();
+// Every figure above its limit, as a sentence each. `slack`: for sampling noise, a share.
+std::vector<std::string> exceeded(const FanLimit& limit, const FanFigures& figures,
+                                  double slack = 0.03);
+
+std::string to_text(std::string_view name, const FanFigures& figures);  // one line of a table
+
+}  // namespace deburr::tb::morphological

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+// How far are the integer areas from real arithmetic on the same corners? Every run length and
+// shape, every reach of long runs, and extended lines with up to 16 steps a side.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "golden/ideal/coverage.h"
+#include "golden/morphological/area.h"
+#include "golden/morphological/line.h"
+#include "golden/morphological/morphological_golden.h"
+#include "tb/oracle/random.h"
+
+namespace deburr {
+namespace {
+
+using golden::ideal::coverage;
+using golden::ideal::CutAreas;
+using golden::ideal::StepCorner;
+using golden::ideal::StepLine;
+using golden::morphological::EdgeShares;
+using golden::morphological::line_through;
+using golden::morphological::Prediction;
+using golden::morphological::shares;
+using tb::texture::Random;
+
+// In units of a share, 1/256. Half of it is the rounding to 8 bits.
+constexpr double kBound = 0.57;
+// The rounded slope is multiplied by up to 34 times the distance to the middle of the extended
+// line.
+constexpr double kBoundOfExtendedLines = 0.8;
+// A U whose middle pixel holds both triangles rounds twice.
+constexpr double kBoundOfTwoTriangles = 1.07;
+
+double share_of(spec::Side side, const spec::LineRecord& line, const CutAreas& areas) {
+  const double sum =
+      (line.before == side ? areas.before : 0) + (line.after == side ? areas.after : 0);
+  return 256 * std::min(0.5, sum);
+}
+
+struct Worst {
+  double single = 0, two_triangles = 0;
+  void look(const spec::LineRecord& line, const StepLine& ideal) {
+    for (int k = 0; k < line.run.length; ++k) {
+      const EdgeShares integer = shares(line, k);
+      const CutAreas areas = cut_areas(ideal, k);
+      const double error =
+          std::max(std::abs(integer.first - share_of(spec::Side::kFirst, line, areas)),
+                   std::abs(integer.second - share_of(spec::Side::kSecond, line, areas)));
+      const bool two = line.before == line.after && areas.before > 0 && areas.after > 0;
+      double& worst = two ? two_triangles : single;
+      worst = std::max(worst, error);
+    }
+  }
+};
+
+spec::RunRecord whole_run(int length, int shape) {
+  spec::RunRecord run;
+  run.length = static_cast<std::uint16_t>(length);
+  run.shape = static_cast<std::uint8_t>(shape);
+  return run;
+}
+
+spec::MorphologicalParameters with(spec::Predictor predictor) {
+  spec::MorphologicalParameters p;
+  p.predictor = predictor;
+  p.reach_columns = 2048;
+  p.steps = 16;
+  return p;
+}
+
+Prediction not_extended(int length) {
+  Prediction p;
+  p.right.end = length;
+  return p;
+}
+
+TEST(MorphologicalArea, OfEveryRunLengthAndShapeIsWithinTheBound) {
+  Worst worst;
+  for (int length = 1; length <= 2048; ++length) {
+    const std::array<StepCorner, 2> corners = {{{0, 0}, {1, length}}};
+    for (int shape = 0; shape < 16; ++shape) {
+      worst.look(line_through(with(spec::Predictor::kNone), whole_run(length, shape),
+                              not_extended(length)),
+                 golden::ideal::fitted(corners));
+    }
+  }
+  std::cout << "worst error " << worst.single << " / 256, two triangles " << worst.two_triangles
+            << " / 256\n";
+  EXPECT_LT(worst.single, kBound);
+  EXPECT_LT(worst.two_triangles, kBoundOfTwoTriangles);
+  EXPECT_GT(worst.single, 0.45);  // all runs were looked at
+}
+
+TEST(MorphologicalArea, OfTheEndsOfLongRunsIsWithinTheBound) {
+  Worst worst;
+  for (int reach = 4; reach <= 2048; ++reach) {
+    spec::MorphologicalParameters p = with(spec::Predictor::kNone);
+    p.reach_columns = reach;
+    for (const spec::RunPart part : {spec::RunPart::kHead, spec::RunPart::kTail}) {
+      const bool tail = part == spec::RunPart::kTail;
+      for (int code = 0; code < 4; ++code) {
+        spec::RunRecord run = whole_run(reach / 2, tail ? 4 * code : code);
+        run.part = part;
+        worst.look(line_through(p, run, {}), golden::ideal::long_end(reach, tail, reach / 2));
+      }
+    }
+  }
+  EXPECT_LT(worst.single, kBound);
+}
+
+// Corners of a random digital line: step i ends at ceil(a + i p).
+struct DigitalRun {
+  int length = 0;
+  Prediction prediction;
+  std::vector<StepCorner> corners;
+
+  explicit DigitalRun(Random& random) {
+    const double pitch = random.uniform(1, 120);
+    const double phase = random.uniform(0, pitch);
+    const auto corner = [&](int i) { return static_cast<int>(std::ceil(phase + i * pitch)); };
+    const int origin = corner(0);
+    length = corner(1) - origin;
+    prediction.left.steps = static_cast<int>(random.uniform(0, 17));
+    prediction.right.steps = static_cast<int>(random.uniform(0, 17));
+    prediction.right.end = length;
+    for (int i = -prediction.left.steps; i <= prediction.right.steps + 1; ++i) {
+      corners.push_back({i, corner(i) - origin});
+    }
+    for (int k = 0; k < prediction.left.steps; ++k) {
+      prediction.left.end = corner(-k - 1) - origin;
+      prediction.left.corner[static_cast<std::size_t>(k)] =
+          static_cast<std::int16_t>(prediction.left.end);
+    }
+    for (int k = 0; k < prediction.right.steps; ++k) {
+      prediction.right.end = corner(k + 2) - origin;
+      prediction.right.corner[static_cast<std::size_t>(k)] =
+          static_cast<std::int16_t>(prediction.right.end);
+    }
+  }
+};
+
+TEST(MorphologicalArea, OfExtendedLinesIsWithinTheBound) {
+  Random random(5);
+  Worst fit, chord;
+  for (int i = 0; i < 100000; ++i) {
+    const DigitalRun run(random);
+    const spec::RunRecord record = whole_run(run.length, 9);  // Z
+    fit.look(line_through(with(spec::Predictor::kFit), record, run.prediction),
+             golden::ideal::fitted(run.corners));
+    chord.look(line_through(with(spec::Predictor::kChord), record, run.prediction),
+               golden::ideal::chord(run.corners));
+  }
+  std::cout << "worst error: fit " << fit.single << " / 256, chord " << chord.single << " / 256\n";
+  EXPECT_LT(fit.single, kBoundOfExtendedLines);
+  EXPECT_LT(chord.single, kBoundOfExtendedLines);
+}
+
+TEST(MorphologicalArea, AnErrorOfOneShareIsCaught) {
+  const std::array<StepCorner, 2> corners = {{{0, 0}, {1, 7}}};
+  spec::LineRecord line =
+      line_through(with(spec::Predictor::kNone), whole_run(7, 9), not_extended(7));
+  line.slope += line.slope / 64;  // the planted fault: 1/128 of a pixel at the ends
+  Worst worst;
+  worst.look(line, golden::ideal::fitted(corners));
+  EXPECT_GT(worst.single, kBound);
+}
+
+// ---- the real side itself -----------------------------------------------------------------------
+
+TEST(IdealCoverage, OfHalfPlanesWorkedOutByHand) {
+  EXPECT_DOUBLE_EQ(coverage({1, 0, -0.25}, 0, 0), 0.75);
+  EXPECT_DOUBLE_EQ(coverage({1, 1, -1}, 0, 0), 0.5);
+  EXPECT_DOUBLE_EQ(coverage({-1, -1, 0.5}, 0, 0), 0.125);
+  EXPECT_DOUBLE_EQ(coverage({1, -2, 0}, 0, 0), 0.25);
+  EXPECT_DOUBLE_EQ(coverage({0, 0, 1}, 3, 4), 1);
+  EXPECT_DOUBLE_EQ(coverage({0, 0, -1}, 3, 4), 0);
+  EXPECT_NEAR(coverage({1, -8192, 0}, 8190, 0), 8190.5 / 8192, 1e-12);  // far out
+}
+
+TEST(IdealCoverage, AgreesWithSamples) {
+  Random random(9);
+  for (int i = 0; i < 200; ++i) {
+    const golden::ideal::HalfPlane h{random.uniform(-1, 1), random.uniform(-1, 1),
+                                     random.uniform(-1, 1)};
+    constexpr int kGrid = 200;
+    int inside = 0;
+    for (int y = 0; y < kGrid; ++y) {
+      for (int x = 0; x < kGrid; ++x) inside += h.at((x + 0.5) / kGrid, (y + 0.5) / kGrid) > 0;
+    }
+    EXPECT_NEAR(coverage(h, 0, 0), inside / double{kGrid * kGrid}, 0.01);
+  }
+}
+
+// Reshetov's areas are coverages of the half-plane between line and edge.
+TEST(IdealCoverage, OfTheLineIsTheAreaThatItCutsOff) {
+  Random random(3);
+  for (int i = 0; i < 20000; ++i) {
+    const int length = 1 + static_cast<int>(random.uniform(0, 40));
+    const StepLine line{1.0 / length, random.uniform(0, 1) * length};
+    for (int k = 0; k < length; ++k) {
+      if (std::abs(line.at(k)) > 1 || std::abs(line.at(k + 1)) > 1) continue;
+      const CutAreas areas = cut_areas(line, k);
+      const double below = coverage({line.slope, -1, -line.slope * line.zero}, k, 0);
+      const double above = coverage({-line.slope, 1, line.slope * line.zero}, k, -1);
+      EXPECT_NEAR(areas.after, std::min(0.5, below), 1e-12);
+      EXPECT_NEAR(areas.before, std::min(0.5, above), 1e-12);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace deburr

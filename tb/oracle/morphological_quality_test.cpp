@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Does the engine smooth straight edges as well as the contract asks? Fans of lines, three seeds,
+// against analytic coverage; both distributions of u are printed, the contract's table is the
+// narrow one (docs/morphological_engine.md, "Quality").
+#include <gmock/gmock.h>
+
+#include <iostream>
+#include <map>
+
+#include "tb/oracle/line_fans.h"
+
+namespace deburr {
+namespace {
+
+using tb::morphological::FanFigures;
+using tb::morphological::FanLimit;
+using tb::morphological::FanOptions;
+using tb::morphological::FanRow;
+using tb::morphological::Frame;
+
+std::map<std::string, FanFigures, std::less<>> table(const char* title, const FanOptions& options) {
+  std::map<std::string, FanFigures, std::less<>> result;
+  std::cout << title << "\nn =           ";
+  for (const std::string_view name : tb::morphological::kSlopeClasses) {
+    std::cout << std::string(8 - name.size(), ' ') << name;
+  }
+  std::cout << "  undulation    jump\n";
+  for (const FanRow& row : tb::morphological::fan_rows()) {
+    const FanFigures figures = measure_fans(smoothing_of(row), options);
+    std::cout << to_text(row.name, figures) << '\n';
+    result[row.name] = figures;
+  }
+  return result;
+}
+
+TEST(MorphologicalQuality, NoRowIsWorseThanTheContracts) {
+  const auto figures = table("u in [0.05, 0.95]", {});
+  for (const FanLimit& limit : tb::morphological::fan_limits()) {
+    EXPECT_THAT(exceeded(limit, figures.find(limit.name)->second), testing::IsEmpty());
+  }
+}
+
+// Lines near 1 / n are included: the fit has nothing to hold on to there. It stays better than
+// chord and plain runs in every class, and than the contract's line fit in every class but n = 2.
+TEST(MorphologicalQuality, SlopesNearOneOverNCostLittle) {
+  const auto figures = table("u in [0, 1]", {.u_low = 0, .u_high = 1});
+  const FanFigures &deburr = figures.at("deburr"), &chord = figures.at("chord N = 4"),
+                   &mlaa = figures.at("mlaa");
+  for (std::size_t c = 0; c < deburr.by_class.size(); ++c) {
+    EXPECT_LT(deburr.by_class[c], chord.by_class[c]);
+    EXPECT_LT(chord.by_class[c], mlaa.by_class[c]);
+  }
+  FanLimit limit = tb::morphological::fan_limits().back();
+  limit.figures.by_class[1] = 25;
+  limit.figures.undulation = 11.5;
+  EXPECT_THAT(exceeded(limit, deburr), testing::IsEmpty());
+}
+
+TEST(MorphologicalQuality, SteepLinesAreBoundByTheWindow) {
+  const auto figures = table("transposed, window_rows = 66", {.seeds = 1, .transposed = true});
+  const FanFigures& deburr = figures.at("deburr");
+  for (std::size_t c = 0; c < deburr.by_class.size(); ++c) {
+    EXPECT_LT(deburr.by_class[c], figures.at("mlaa").by_class[c]);
+  }
+}
+
+TEST(MorphologicalQuality, AWorseFilterIsCaught) {
+  FanRow row = tb::morphological::fan_rows().back();
+  row.parameters.predictor = spec::Predictor::kChord;  // the planted fault
+  const FanFigures figures = measure_fans(smoothing_of(row), {.lines = 8, .seeds = 1});
+  EXPECT_THAT(exceeded(tb::morphological::fan_limits().back(), figures),
+              testing::Not(testing::IsEmpty()));
+}
+
+}  // namespace
+}  // namespace deburr
