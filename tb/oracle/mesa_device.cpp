@@ -174,8 +174,8 @@ std::unique_ptr<MesaDevice> MesaDevice::open(const std::string& driver, std::str
 MesaDevice::~MesaDevice() {
   if (state_->display == EGL_NO_DISPLAY) return;
   eglMakeCurrent(state_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  // The display stays: Mesa unloads its driver with it and loses memory on the way.
   if (state_->context != EGL_NO_CONTEXT) eglDestroyContext(state_->display, state_->context);
-  eglTerminate(state_->display);
 }
 
 std::string MesaDevice::name() const {
