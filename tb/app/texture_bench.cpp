@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <chrono>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "spec/error.h"
@@ -37,9 +37,21 @@ constexpr std::array kFaults = {
                "stuck_ready:texture.texels:500"},
     NamedFault{{"lost-response", "Memory never answers request 20."}, ""},
     NamedFault{{"memory-error", "Memory answers request 20 with an error."}, ""},
-    NamedFault{{"wrong-texel", "One byte of the texture in memory differs from what golden reads."}, ""},
+    NamedFault{{"wrong-texel", "The texture in memory is not what the golden model reads."}, ""},
+    NamedFault{{"wrong-replacement", "The cache replaces by FIFO where LRU was ordered."}, ""},
 };
 constexpr std::uint64_t kFaultyRequest = 20;
+
+bool planted(const TextureBenchOptions& options, std::string_view fault) {
+  return std::find(options.faults.begin(), options.faults.end(), fault) != options.faults.end();
+}
+
+// What the hardware is built with; the golden model always gets what was ordered.
+spec::TextureParameters hardware_parameters(const TextureBenchOptions& options) {
+  spec::TextureParameters p = options.texture;
+  if (planted(options, "wrong-replacement")) p.cache_replacement = spec::Replacement::kFifo;
+  return p;
+}
 
 std::vector<std::string> link_faults(const std::vector<std::string>& names) {
   std::vector<std::string> faults;
@@ -86,27 +98,22 @@ std::string_view register_name(std::uint32_t offset) {
   return "?";
 }
 
-// "texture.cache.tag_stage" -> "tag_stage"; with more of the path where that is not unique.
-class ShortNames {
- public:
-  template <class Object>
-  void learn(const std::vector<const Object*>& objects) {
-    for (const Object* object : objects) ++uses_[last(object->name())];
-  }
-  std::string of(const sc_core::sc_object& object) const {
-    const std::string full = object.name();
-    const auto found = uses_.find(last(full));
-    if (found != uses_.end() && found->second == 1) return last(full);
-    const std::size_t before = full.rfind('.', full.rfind('.') - 1);
-    std::string name = full.substr(before == std::string::npos ? 0 : before + 1);
-    std::replace(name.begin(), name.end(), '.', '_');
-    return name;
-  }
+// "texture.cache.tag_stage" -> "tag_stage" (parts = 1), "texture.cache.tag_stage.hits" ->
+// "tag_stage_hits" (parts = 2): what is unique within the texture unit and still says what it is.
+std::string short_name(const sc_core::sc_object& object, int parts) {
+  std::string name = object.name();
+  std::size_t from = name.size();
+  for (int i = 0; i < parts && from != std::string::npos && from > 0; ++i) from = name.rfind('.', from - 1);
+  if (from != std::string::npos) name = name.substr(from + 1);
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
 
- private:
-  static std::string last(const std::string& name) { return name.substr(name.rfind('.') + 1); }
-  std::map<std::string, int> uses_;
-};
+std::string sentence(std::string text) {
+  if (text.empty()) return text;
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text.back() == '.' ? text : text + ".";
+}
 
 }  // namespace
 
@@ -124,7 +131,7 @@ TextureBench::TextureBench(const TextureScene& scene, const TextureBenchOptions&
       options_(options),
       clock_("clock", period(options.clock_mhz)),
       driver_("driver", clock_),
-      unit_("texture", clock_, options.texture),
+      unit_("texture", clock_, hardware_parameters(options)),
       sink_("sink", clock_),
       memory_("memory", clock_.period(),
               memory_parameters(options.memory, scene.memory().bytes().size(), options.seed)),
@@ -168,13 +175,10 @@ TextureBench::TextureBench(const TextureScene& scene, const TextureBenchOptions&
   bench_ = std::make_unique<Bench>(clock_, bench);
 
   std::vector<std::uint8_t> contents = scene.memory().bytes();
-  for (const std::string& fault : options.faults) {
-    if (fault == "lost-response") memory_.lose_request(kFaultyRequest);
-    if (fault == "memory-error") memory_.fail_request(kFaultyRequest);
-    // The whole first level: whatever part of it the scene shows.
-    if (fault == "wrong-texel")
-      for (std::size_t i = 0; i < contents.size() / 2; i += kMemoryGrain) contents[i] ^= 0x10;
-  }
+  if (planted(options, "lost-response")) memory_.lose_request(kFaultyRequest);
+  if (planted(options, "memory-error")) memory_.fail_request(kFaultyRequest);
+  if (planted(options, "wrong-texel"))
+    for (std::uint8_t& byte : contents) byte ^= 0x10;
   memory_.preload(0, contents);
   if (options.memory.error_address >= 0) {
     const auto from = static_cast<std::uint64_t>(options.memory.error_address);
@@ -377,25 +381,27 @@ void TextureBench::collect(Result& result) const {
   result.bytes_written = memory_.bytes_written();
   result.lines_filled = unit.cache.miss_queue.line_fills.value();
 
-  ShortNames names;
-  names.learn(unit.units());
   for (const rtl::Unit* u : unit.units()) {
-    UnitCycles cycles{names.of(*u), u->busy_cycles(), u->idle_cycles(), {}};
+    UnitCycles cycles{short_name(*u, 1), u->busy_cycles(), u->idle_cycles(), {}};
     for (const rtl::Unit::StallCause& cause : u->stalls())
-      cycles.stalls.push_back({cause.name, cause.meaning, cause.cycles});
+      cycles.stalls.push_back({cause.name, sentence(cause.meaning), cause.cycles});
     result.units.push_back(std::move(cycles));
   }
-  ShortNames memories;
-  memories.learn(unit.memories());
   for (const rtl::Storage* storage : unit.memories())
-    result.sram_bits.emplace_back(memories.of(*storage), storage->bits());
+    result.sram_bits.emplace_back(short_name(*storage, 2), storage->bits());
 
   const rtl::Histogram& latency = unit.fragment_latency;
   result.latency = {latency.min(), latency.percentile(50), latency.percentile(95),
                     latency.percentile(99), latency.max(), {}};
   constexpr std::size_t kBins = 48;
-  for (const rtl::Histogram::Bin& bin : latency.bins(kBins))
+  // Bins are of equal width; the empty ones, which it leaves out, belong on the axis too.
+  std::uint64_t next = 0;
+  for (const rtl::Histogram::Bin& bin : latency.bins(kBins)) {
+    const std::uint64_t width = bin.high - bin.low + 1;
+    for (; next != 0 && next < bin.low; next += width) result.latency.histogram.push_back({next, 0});
     result.latency.histogram.push_back({bin.low, bin.count});
+    next = bin.high + 1;
+  }
 
   const std::uint64_t bilinears = unit.address.addresser.bilinears.value();
   const std::uint64_t fragments = unit.filter.fragments.value();
@@ -422,16 +428,8 @@ void TextureBench::collect(Result& result) const {
   add("texels_fetched_per_fragment",
       ratio(lines * line_bytes / texel_bytes, static_cast<double>(fragments)), "texel/fragment",
       "Texels of all lines fetched over fragments.");
-  for (const rtl::Counter* counter : unit.counters()) {
-    std::string name = counter->name();
-    const std::size_t before = name.rfind('.', name.rfind('.') - 1);
-    name = name.substr(before == std::string::npos ? 0 : before + 1);
-    std::replace(name.begin(), name.end(), '.', '_');
-    std::string meaning = counter->meaning();
-    if (!meaning.empty() && meaning.back() != '.') meaning += '.';
-    if (!meaning.empty()) meaning[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(meaning[0])));
-    add(std::move(name), counter->value(), counter->unit(), std::move(meaning));
-  }
+  for (const rtl::Counter* counter : unit.counters())
+    add(short_name(*counter, 2), counter->value(), counter->unit(), sentence(counter->meaning()));
 }
 
 }  // namespace deburr::tb
