@@ -2,7 +2,8 @@
 // The morphological engine: smooths jagged edges of a finished frame
 // (docs/morphological_engine.md).
 //
-//   pixels_in -> SlotSequencer -> LumaUnit -> EdgeDetector -> RunExtractor -> AreaUnit -> Blender ->
+//   pixels_in -> SlotSequencer -> LumaUnit -> EdgeDetector -> RunExtractor -> AreaUnit -> Blender
+//   ->
 //                    |                                         |    |           ^  pixels_out  ^
 //                    |                  EdgeWindow, record FIFOs   fetch        |              |
 //                    |                         |                    |           |              |

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/morphological/endpoint_predictor.h"
+
+#include <algorithm>
+
+namespace deburr::rtl::morphological {
+namespace {
+
+// Bits of a corner code: edges along the axis before and after the corner, edges across it on the
+// first and on the second side.
+constexpr std::uint8_t kBefore = 1, kAfter = 2;
+constexpr int kCrossing = 2;  // of a crossing code
+
+constexpr std::uint8_t kFirstSide = 1;  // crossing code of a single edge on the first side
+
+}  // namespace
+
+EndpointPredictor::EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
+                                     const spec::MorphologicalParameters& p,
+                                     const ParameterStore& store, const EdgeWindow& window,
+                                     spec::Axis axis)
+    : Unit(name, clock),
+      records_in("records_in", store.lanes()),
+      sums_out("sums_out", store.lanes()),
+      store_(store),
+      window_(window),
+      vertical_(axis == spec::Axis::kVertical),
+      reach_(vertical_ ? store.reach_rows() : p.reach_columns),
+      units_(static_cast<std::size_t>(p.predictor_units)),
+      predictors_(units_ * static_cast<std::size_t>(store.lanes())),
+      turn_(static_cast<std::size_t>(store.lanes())) {}
+
+Activity EndpointPredictor::tick(Cycle cycle) {
+  bool did = false, blocked = false;
+  for (int lane = 0; lane < store_.lanes(); ++lane) {
+    In<RunToken>& in = records_in[lane];
+    const bool arrives = in.can_pop(cycle);
+    if (held_ == 0 && !arrives) continue;
+    Predictor* const group = &predictors_[static_cast<std::size_t>(lane) * units_];
+
+    // The result registers take turns.
+    Out<SumsToken>& out = sums_out[lane];
+    std::size_t& turn = turn_[static_cast<std::size_t>(lane)];
+    for (std::size_t i = 0, k = turn; i < units_; ++i, k = k + 1 == units_ ? 0 : k + 1) {
+      if (!group[k].done) continue;
+      if (out.can_push(cycle)) {
+        out.push(cycle, group[k].result);
+        group[k].done = false;
+        --held_;
+        turn = k + 1 == units_ ? 0 : k + 1;
+        did = true;
+      } else {
+        blocked = true;
+      }
+      break;
+    }
+
+    bool taken = !arrives;
+    for (std::size_t k = 0; k < units_; ++k) {
+      Predictor& p = group[k];
+      if (!p.busy) {
+        if (taken) continue;
+        taken = true;
+        take(p, in.front(cycle));
+        in.pop(cycle);
+        ++held_;
+      } else if (p.step < 0) {
+        // The last trial has been made; the result register was full.
+        ++occupancy;
+        if (p.done) continue;
+        finish(p);
+        did = true;
+        continue;
+      }
+      ++occupancy;
+      did = true;
+      if (iterate(p)) continue;
+      if (p.done) {
+        p.step = -1;
+        blocked = true;
+      } else {
+        finish(p);
+      }
+    }
+  }
+  if (did) return kBusy;
+  return blocked ? kStalledDownstream : kIdle;
+}
+
+void EndpointPredictor::take(Predictor& p, const RunToken& token) {
+  const spec::RunRecord& run = token.run;
+  p.busy = true;
+  p.run = token;
+  p.length = run.length;
+  p.start = run.start;
+  p.line = run.line;
+  p.step = 0;
+  p.other = 0;
+  const FrameRules& rules = store_.rules();
+  const bool extends =
+      run.part == spec::RunPart::kWhole && spec::kRunShapes[run.shape].clean_z && rules.steps > 0;
+  p.left = {extends, 0, 0, 0};
+  p.right = {extends, p.length, 0, 0};
+  p.sum = p.indexed_sum = p.length;  // X_0 = 0, X_1 = L
+  if (!extends) return;
+  p.drift = token.end_code == kFirstSide ? -1 : 1;
+  p.start_corner = static_cast<std::uint8_t>(kAfter | token.start_code << kCrossing);
+  p.end_corner = static_cast<std::uint8_t>(kBefore | token.end_code << kCrossing);
+  p.corner[spec::kMaxSteps] = 0;
+  p.corner[spec::kMaxSteps + 1] = p.length;
+  p.bounds = {{p.length - 1, 1}, {p.length + 1, 1}};
+}
+
+bool EndpointPredictor::iterate(Predictor& p) {
+  if (!p.left.open && !p.right.open) return false;
+  ++iterations;
+  const bool more = store_.rules().safe ? iterate_together(p) : iterate_apart(p);
+  ++p.step;
+  return more && p.step < store_.rules().steps;
+}
+
+// Each end by itself, with an L' of its own.
+bool EndpointPredictor::iterate_apart(Predictor& p) {
+  for (const bool to_the_right : {true, false}) {
+    End& end = to_the_right ? p.right : p.left;
+    if (!end.open) continue;
+    const std::int32_t step = trial(p, end, to_the_right, end.other);
+    if (step == 0) {
+      end.open = false;
+      continue;
+    }
+    if (step != p.length) end.other = step;
+    accept(p, end, to_the_right, step);
+  }
+  return p.left.open || p.right.open;
+}
+
+// Both ends share L' and every corner must lie on one line with all the others.
+bool EndpointPredictor::iterate_together(Predictor& p) {
+  std::int32_t right = p.right.open ? trial(p, p.right, true, p.other) : 0;
+  std::int32_t left = p.left.open ? trial(p, p.left, false, p.other) : 0;
+  if (right != 0 && left != 0 && right != p.length && left != p.length && right != left)
+    return false;
+  const std::int32_t right_index = p.step + 2, left_index = -p.step - 1;
+  Bounds bounds = p.bounds;
+  if (right != 0) {
+    const Bounds extended = with(p, p.bounds, right_index, p.right.position + right);
+    if (extended.consistent())
+      bounds = extended;
+    else
+      right = 0;
+  }
+  if (left != 0) {
+    const std::int32_t x = p.left.position - left;
+    const Bounds extended = with(p, p.bounds, left_index, x);
+    if (!extended.consistent()) {
+      left = 0;
+    } else if (right == 0) {
+      bounds = extended;
+    } else {
+      // Both: the new corners against each other as well.
+      p.corner[static_cast<std::size_t>(right_index + spec::kMaxSteps)] = p.right.position + right;
+      ++p.right.taken;
+      bounds = with(p, bounds, left_index, x);
+      --p.right.taken;
+      if (!bounds.consistent()) return false;
+    }
+  }
+  p.bounds = bounds;
+  const std::int32_t length = p.length;
+  for (const bool to_the_right : {true, false}) {
+    End& end = to_the_right ? p.right : p.left;
+    const std::int32_t step = to_the_right ? right : left;
+    if (step == 0) {
+      end.open = false;
+    } else {
+      if (step != length) p.other = step;
+      accept(p, end, to_the_right, step);
+    }
+  }
+  return p.left.open || p.right.open;
+}
+
+// The first candidate that hits, or 0. All are tested in the same clock.
+std::int32_t EndpointPredictor::trial(const Predictor& p, const End& end, bool to_the_right,
+                                      std::int32_t other) {
+  const std::int32_t lines = (p.step + 1) * p.drift;
+  const std::int32_t line = to_the_right ? p.line + lines : p.line - lines;
+  const std::int32_t last_line = vertical_ ? store_.rules().width : store_.rules().height;
+  const std::int32_t length = p.length;
+  const bool known = other != 0;
+  probes += known || length == 1 ? 2 : 3;
+  if (line < 0 || line > last_line) return 0;
+  if (store_.rules().contiguous) {
+    // The step must begin at a corner like the one at the other end of the run.
+    const std::uint8_t wanted = to_the_right ? p.start_corner : p.end_corner;
+    if (corner(p.start + end.position, line) != wanted) return 0;
+  }
+  if (candidate(p, end, to_the_right, line, length)) return length;
+  if (known) return candidate(p, end, to_the_right, line, other);
+  if (length > 1 && candidate(p, end, to_the_right, line, length - 1)) return length - 1;
+  return candidate(p, end, to_the_right, line, length + 1);
+}
+
+// `step` if it hits, else 0.
+std::int32_t EndpointPredictor::candidate(const Predictor& p, const End& end, bool to_the_right,
+                                          std::int32_t line, std::int32_t step) const {
+  const std::int32_t x = to_the_right ? end.position + step : end.position - step;
+  if (to_the_right ? x > reach_ : x < p.length - reach_) return 0;
+  if (corner(p.start + x, line) != (to_the_right ? p.end_corner : p.start_corner)) return 0;
+  if (store_.rules().contiguous &&
+      !unbroken(p.start + (to_the_right ? end.position : x), line, step))
+    return 0;
+  return step;
+}
+
+// The bounds when corner i at x joins those that the predictor has.
+EndpointPredictor::Bounds EndpointPredictor::with(const Predictor& p, Bounds bounds, std::int32_t i,
+                                                  std::int32_t x) const {
+  for (std::int32_t j = -p.left.taken; j <= p.right.taken + 1; ++j) {
+    const std::int32_t x_j = p.corner[static_cast<std::size_t>(j + spec::kMaxSteps)];
+    const std::int32_t under = i > j ? i - j : j - i;
+    const std::int32_t apart = i > j ? x - x_j : x_j - x;
+    if (std::int64_t{apart - 1} * bounds.low.under > std::int64_t{bounds.low.over} * under)
+      bounds.low = {apart - 1, under};
+    if (std::int64_t{apart + 1} * bounds.high.under < std::int64_t{bounds.high.over} * under)
+      bounds.high = {apart + 1, under};
+  }
+  return bounds;
+}
+
+void EndpointPredictor::accept(Predictor& p, End& end, bool to_the_right, std::int32_t step) {
+  end.position += to_the_right ? step : -step;
+  const std::int32_t index = to_the_right ? end.taken + 2 : -end.taken - 1;
+  p.corner[static_cast<std::size_t>(index + spec::kMaxSteps)] = end.position;
+  ++end.taken;
+  p.sum += end.position;
+  p.indexed_sum += index * end.position;
+}
+
+// The sums go to the result register; the predictor is free in the next clock.
+void EndpointPredictor::finish(Predictor& p) {
+  const std::int32_t taken = p.left.taken + p.right.taken;
+  steps += static_cast<std::uint64_t>(taken);
+  if (taken != 0) ++extended_runs;
+  p.result = {p.run,
+              static_cast<std::uint8_t>(p.left.taken),
+              static_cast<std::uint8_t>(p.right.taken),
+              static_cast<std::int16_t>(p.left.position),
+              static_cast<std::int16_t>(p.right.position),
+              p.sum,
+              p.indexed_sum};
+  p.busy = false;
+  p.done = true;
+}
+
+std::uint8_t EndpointPredictor::corner(std::int32_t along, std::int32_t across) const {
+  const FrameRules& rules = store_.rules();
+  const std::int32_t x = vertical_ ? across : along, y = vertical_ ? along : across;
+  if (x < 0 || y < 0 || x > rules.width || y > rules.height) return 0;
+  const EdgeWindow::Row top = window_.top(y), above = window_.left(y - 1), left = window_.left(y);
+  const auto row = static_cast<unsigned>(top[x - 1]) | static_cast<unsigned>(top[x]) << 1;
+  const auto column = static_cast<unsigned>(above[x]) | static_cast<unsigned>(left[x]) << 1;
+  return static_cast<std::uint8_t>(vertical_ ? column | row << kCrossing
+                                             : row | column << kCrossing);
+}
+
+bool EndpointPredictor::unbroken(std::int32_t along, std::int32_t across,
+                                 std::int32_t count) const {
+  if (along < 0) return false;
+  if (vertical_) {
+    for (std::int32_t y = along; y < along + count; ++y)
+      if (!window_.left(y)[across]) return false;
+    return true;
+  }
+  const EdgeWindow::Row row = window_.top(across);
+  for (std::int32_t x = along; x < along + count; x += 64) {
+    const std::int32_t left = along + count - x;
+    const std::uint64_t mask = left >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << left) - 1;
+    if ((row.from(x) & mask) != mask) return false;
+  }
+  return true;
+}
+
+void EndpointPredictor::reset() {
+  for (Predictor& p : predictors_) p.busy = p.done = false;
+  std::fill(turn_.begin(), turn_.end(), 0);
+  held_ = 0;
+}
+
+}  // namespace deburr::rtl::morphological

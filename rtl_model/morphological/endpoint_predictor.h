@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Extends clean Z runs to both sides, a step of both sides a clock, and sums up the corners.
+//
+// Where: between the record FIFOs and the LineUnit, one of these an axis. For each lane a FIFO
+// feeds predictor_units predictors; one takes a record a clock and holds it for max(1, iterations)
+// clocks, the first of them the clock of the pop. Then the sums go to a result register of the
+// predictor and from there, one a lane and clock, to the LineUnit: latency max(1, iterations) + 1,
+// initiation interval max(1, iterations) a predictor. A trial reads the three candidates L, L - 1,
+// L + 1 of a side at once. Stalls: `downstream` (the result register is still full).
+// Formats: positions S13 from the start of the run, sums S18 and S24. Cost a predictor: 2 x 3
+// comparators of four bits, two masks of up to L + 1 bits (contiguous), 2 x 34 cross products of
+// 13 x 6 bits and their maximum and minimum (safe), four adders.
+// Source: paper 000, sections 3 and 4; `safe` and the sums are ours.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <systemc>
+#include <vector>
+
+#include "rtl_model/fabric/unit.h"
+#include "rtl_model/morphological/edge_window.h"
+#include "rtl_model/morphological/parameter_store.h"
+#include "rtl_model/morphological/tokens.h"
+
+namespace deburr::rtl::morphological {
+
+class EndpointPredictor final : public Unit {
+ public:
+  LanePorts<In<RunToken>> records_in;
+  LanePorts<Out<SumsToken>> sums_out;
+
+  EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
+                    const spec::MorphologicalParameters& parameters, const ParameterStore& store,
+                    const EdgeWindow& window, spec::Axis axis);
+  Activity tick(Cycle cycle) override;
+  void reset() override;
+
+  Counter extended_runs{"extended_runs", "runs", "runs extended by at least one step"};
+  Counter steps{"steps", "steps", "extensions taken"};
+  Counter probes{"probes", "corners", "corners tested"};
+  Counter iterations{"iterations", "clk", "clocks in which a predictor made a trial"};
+  Counter occupancy{"occupancy", "clk", "clocks in which a predictor held a record, summed"};
+
+ private:
+  // Bounds of the slope (pixels a step) of a line that has all corners: low < slope < high.
+  struct Fraction {
+    std::int32_t over;   // S14
+    std::int32_t under;  // U6, > 0
+  };
+  struct Bounds {
+    Fraction low, high;
+    bool consistent() const {
+      return std::int64_t{low.over} * high.under < std::int64_t{high.over} * low.under;
+    }
+  };
+  // One end that grows: corner code to be found, direction along the run, corner reached.
+  struct End {
+    bool open;
+    std::int32_t position;  // X of the last corner taken
+    std::int32_t taken;     // steps
+    std::int32_t other;     // L' if not safe, 0 while unknown
+  };
+  struct Predictor {
+    bool busy = false, done = false;  // holds a record; has a result
+    RunToken run;
+    std::int32_t length, start, line;
+    std::int32_t drift;  // lattice lines a step to the right: -1 or +1
+    std::uint8_t start_corner, end_corner;
+    std::int32_t step;   // k
+    std::int32_t other;  // L' of both ends if safe, 0 while unknown
+    End left, right;
+    Bounds bounds;
+    std::array<std::int32_t, spec::kMaxCorners> corner;  // X_i at [i + kMaxSteps]
+    std::int32_t sum, indexed_sum;
+    SumsToken result;
+  };
+
+  void take(Predictor& p, const RunToken& run);
+  bool iterate(Predictor& p);  // false after the last trial
+  bool iterate_apart(Predictor& p);
+  bool iterate_together(Predictor& p);
+  std::int32_t trial(const Predictor& p, const End& end, bool to_the_right, std::int32_t other);
+  std::int32_t candidate(const Predictor& p, const End& end, bool to_the_right, std::int32_t line,
+                         std::int32_t step) const;
+  Bounds with(const Predictor& p, Bounds bounds, std::int32_t i, std::int32_t x) const;
+  void accept(Predictor& p, End& end, bool to_the_right, std::int32_t step);
+  void finish(Predictor& p);
+
+  // The four edges at a lattice corner; `across` numbers the lattice lines along the axis.
+  std::uint8_t corner(std::int32_t along, std::int32_t across) const;
+  // Edges along the axis at along..along + count - 1 are all set.
+  bool unbroken(std::int32_t along, std::int32_t across, std::int32_t count) const;
+
+  const ParameterStore& store_;
+  const EdgeWindow& window_;
+  const bool vertical_;
+  const std::int32_t reach_;
+  const std::size_t units_;  // predictors a lane
+  std::vector<Predictor> predictors_;
+  std::vector<std::size_t> turn_;  // of each lane: the predictor whose result is sent next
+  std::uint32_t held_ = 0;         // records and results inside
+};
+
+}  // namespace deburr::rtl::morphological

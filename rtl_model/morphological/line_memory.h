@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Memory of a block that is addressed by the column of the slot in hand, so that its accesses in a
+// clock are fixed by construction and `ports` says them. A read sees the words as they were before
+// the clock (read-first), hence a block reads before it writes. Cost: columns x column_bits.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rtl_model/fabric/storage.h"
+
+namespace deburr::rtl::morphological {
+
+class ColumnStorage : public Storage {
+ public:
+  ColumnStorage(const char* name, std::int32_t columns, std::uint32_t column_bits,
+                std::string ports)
+      : Storage(name, static_cast<std::uint64_t>(columns), column_bits, std::move(ports)) {}
+  // Bits that it would have for a frame of this width.
+  std::uint64_t bits_at(std::uint64_t width) const { return width * word_bits(); }
+  // Contents are kept, as in hardware: slot row 0 of the next frame clears what must be.
+  void reset() override {}
+};
+
+// `words` is what the model keeps; the hardware's words are columns of `column_bits`.
+template <class Word>
+class LineMemory final : public ColumnStorage {
+ public:
+  LineMemory(const char* name, std::int32_t columns, std::uint32_t column_bits, std::string ports,
+             std::size_t words)
+      : ColumnStorage(name, columns, column_bits, std::move(ports)), words_(words) {}
+  Word& operator[](std::size_t i) { return words_[i]; }
+  const Word& operator[](std::size_t i) const { return words_[i]; }
+  Word* data() { return words_.data(); }
+
+ private:
+  std::vector<Word> words_;
+};
+
+}  // namespace deburr::rtl::morphological

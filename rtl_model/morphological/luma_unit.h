@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Luma of each pixel: 13933 R + 46871 G + 4732 B, U8.16, exact.
+//
+// Where: between SlotSequencer and EdgeDetector. Latency 1, initiation interval 1; stalled by
+// `downstream` only. Cost a lane: three constant multipliers 8 x 16, two adders.
+#pragma once
+
+#include <systemc>
+
+#include "rtl_model/fabric/unit.h"
+#include "rtl_model/morphological/parameter_store.h"
+#include "rtl_model/morphological/tokens.h"
+
+namespace deburr::rtl::morphological {
+
+class LumaUnit final : public Unit {
+ public:
+  In<SlotToken> slots_in{"slots_in"};
+  Out<LumaToken> lumas_out{"lumas_out"};
+
+  LumaUnit(const sc_core::sc_module_name& name, ClockDomain& clock, const ParameterStore& store)
+      : Unit(name, clock), store_(store) {}
+  Activity tick(Cycle cycle) override;
+  void reset() override {}
+
+ private:
+  const ParameterStore& store_;
+};
+
+}  // namespace deburr::rtl::morphological

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/morphological/morphological_engine.h"
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "spec/error.h"
+
+namespace deburr::rtl::morphological {
+namespace {
+
+// Checks every parameter against its declared range.
+struct RangeCheck {
+  void integer(std::string_view name, std::int32_t value, std::int32_t min, std::int32_t max,
+               std::string_view unit, std::string_view) const {
+    if (value < min || value > max)
+      throw spec::ConfigError("morphological." + std::string(name) + ": expected " +
+                              std::to_string(min) + ".." + std::to_string(max) + " " +
+                              std::string(unit) + ", got " + std::to_string(value));
+  }
+  template <class Enum, std::size_t N>
+  void choice(std::string_view name, Enum value, const std::array<std::string_view, N>&,
+              std::string_view) const {
+    if (static_cast<std::size_t>(value) >= N)
+      throw spec::ConfigError("morphological." + std::string(name) +
+                              ": no such choice: " + std::to_string(static_cast<int>(value)));
+  }
+  void boolean(std::string_view, bool, std::string_view) const {}
+};
+
+[[noreturn]] void refuse(const std::string& text) {
+  throw spec::ConfigError("morphological." + text);
+}
+
+spec::MorphologicalParameters checked(spec::MorphologicalParameters p) {
+  const RangeCheck check;
+  spec::describe(p, check);
+  if (p.window_rows % 2 != 0)
+    refuse("window_rows: expected an even number of rows, got " + std::to_string(p.window_rows));
+  const std::int32_t most_steps = p.window_rows / 2 - 2;
+  if (p.steps > most_steps)
+    refuse("steps: " + std::to_string(p.steps) + " steps need window_rows of at least " +
+           std::to_string(2 * p.steps + 4) + ", got " + std::to_string(p.window_rows));
+  if (p.edge_source == spec::EdgeSource::kPredicated &&
+      p.threshold_mode == spec::ThresholdMode::kDynamic)
+    refuse("edges.threshold_mode: dynamic does not go with edges.source = predicated; use fixed");
+  if (p.area != spec::AreaSource::kAnalytic)
+    refuse("area: " + std::string(spec::kAreaSourceNames[static_cast<std::size_t>(p.area)]) +
+           " is not built; use analytic");
+  if (p.diagonals) refuse("diagonals: not built; use false");
+  if (p.round_corners) refuse("round_corners: not built; use false");
+  return p;
+}
+
+template <class T>
+std::vector<const T*> collect(sc_core::sc_object& root) {
+  std::vector<const T*> found;
+  for_each<T>(root, [&](const T& object) { found.push_back(&object); });
+  return found;
+}
+
+}  // namespace
+
+MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
+                                         const spec::MorphologicalParameters& parameters)
+    : sc_module(name),
+      parameters_(checked(parameters)),
+      store("store", parameters_),
+      window("edge_window", parameters_, store),
+      sequencer("sequencer", clock, store, probe_),
+      luma("luma", clock, store),
+      edges("edges", clock, parameters_, store),
+      extractor("extractor", clock, parameters_, store, window),
+      predictor_h("predictor_h", clock, parameters_, store, window, spec::Axis::kHorizontal),
+      predictor_v("predictor_v", clock, parameters_, store, window, spec::Axis::kVertical),
+      divider_h("divider_h", clock, parameters_, store, spec::Axis::kHorizontal),
+      divider_v("divider_v", clock, parameters_, store, spec::Axis::kVertical),
+      area("area", clock, parameters_, store),
+      pixel_store("pixel_store", clock, parameters_, store),
+      blender("blender", clock, store, probe_),
+      sums_h_("sums_h", store.lanes()),
+      sums_v_("sums_v", store.lanes()),
+      lines_h_("lines_h", store.lanes()),
+      lines_v_("lines_v", store.lanes()) {
+  sequencer.pixels_in(pixels_in);
+  sequencer.slots_out(slots_);
+  sequencer.beats_out(beats_);
+  luma.slots_in(slots_);
+  luma.lumas_out(lumas_);
+  edges.lumas_in(lumas_);
+  edges.edges_out(edge_bits_);
+  extractor.edges_in(edge_bits_);
+  extractor.area_slots_out(area_slots_);
+  extractor.fetches_out(fetches_);
+  for (int lane = 0; lane < store.lanes(); ++lane) {
+    predictor_h.records_in[lane](extractor.records(spec::Axis::kHorizontal, lane));
+    predictor_v.records_in[lane](extractor.records(spec::Axis::kVertical, lane));
+  }
+  predictor_h.sums_out.bind(sums_h_);
+  predictor_v.sums_out.bind(sums_v_);
+  divider_h.sums_in.bind(sums_h_);
+  divider_v.sums_in.bind(sums_v_);
+  divider_h.lines_out.bind(lines_h_);
+  divider_v.lines_out.bind(lines_v_);
+  area.lines_h_in.bind(lines_h_);
+  area.lines_v_in.bind(lines_v_);
+  area.slots_in(area_slots_);
+  area.shares_out(shares_);
+  area.finished_out(finished_);
+  extractor.finished_in(finished_);
+  pixel_store.beats_in(beats_);
+  pixel_store.fetches_in(fetches_);
+  pixel_store.pixels_out(pixels_);
+  blender.shares_in(shares_);
+  blender.pixels_in(pixels_);
+  blender.pixels_out(pixels_out);
+  blender.frames_done_out(frames_done_);
+  sequencer.frames_done_in(frames_done_);
+  if (parameters_.storage == spec::Storage::kMemory) {
+    MemoryPortParameters port;
+    port.outstanding = 2 * static_cast<std::uint32_t>(parameters_.memory_outstanding);
+    memory_port = std::make_unique<MemoryPort>("memory_port", clock, port);
+    requests_ = std::make_unique<Link<MemoryRequest>>("requests");
+    responses_ = std::make_unique<Link<MemoryResponse>>("responses");
+    pixel_store.connect(*requests_, *responses_);
+    memory_port->requests_in(*requests_);
+    memory_port->responses_out(*responses_);
+  }
+
+  namespace reg = spec::morphological_register;
+  const std::pair<std::uint32_t, Counter*> shown[] = {
+      {reg::kPixels, &blender.pixels},
+      {reg::kEdgePixels, &edges.edge_pixels},
+      {reg::kHorizontalRuns, &extractor.horizontal_runs},
+      {reg::kVerticalRuns, &extractor.vertical_runs},
+      {reg::kLongRuns, &extractor.long_runs},
+      {reg::kZRuns, &extractor.z_runs},
+      {reg::kBlendedPixels, &blender.blended_pixels},
+      {reg::kFrameCycles, &sequencer.frame_cycles},
+      {reg::kRecordStalls, &extractor.record_stalls},
+      {reg::kMemoryErrors, &pixel_store.memory_errors}};
+  for (const auto& [offset, counter] : shown) store.show(offset, *counter);
+  // Both axes count for themselves; the register shows the sum.
+  store.show_sum(reg::kExtendedRuns, predictor_h.extended_runs, predictor_v.extended_runs);
+  store.show_sum(reg::kSteps, predictor_h.steps, predictor_v.steps);
+  store.show_sum(reg::kProbes, predictor_h.probes, predictor_v.probes);
+  store.show_sum(reg::kDivides, divider_h.divides, divider_v.divides);
+  store.connect([this] { for_each<Counter>(*this, [](Counter& counter) { counter.reset(); }); });
+}
+
+void MorphologicalEngine::set_frame_size(int width, int height) {
+  const auto check = [&](const char* side, int size, int most) {
+    if (size < 1 || size > most)
+      refuse("frame " + std::string(side) + ": expected 1.." + std::to_string(most) +
+             " pixels, got " + std::to_string(size));
+  };
+  check("width", width, spec::kMaxFrameSize);
+  check("height", height, spec::kMaxFrameSize);
+  if (width > parameters_.line_pixels)
+    refuse("line_pixels: a frame of " + std::to_string(width) + " pixels does not fit into " +
+           std::to_string(parameters_.line_pixels) + "; make it larger");
+  store.write_size(width, height);
+}
+
+bool MorphologicalEngine::idle() const {
+  return !store.frame_inside() && sequencer.pixels_in.link().empty();
+}
+
+spec::MorphologicalWork MorphologicalEngine::work() const {
+  spec::MorphologicalWork work;
+  work.pixels = blender.pixels.value();
+  work.edge_pixels = edges.edge_pixels.value();
+  work.horizontal_runs = extractor.horizontal_runs.value();
+  work.vertical_runs = extractor.vertical_runs.value();
+  work.long_runs = extractor.long_runs.value();
+  work.z_runs = extractor.z_runs.value();
+  work.extended_runs = predictor_h.extended_runs.value() + predictor_v.extended_runs.value();
+  work.steps = predictor_h.steps.value() + predictor_v.steps.value();
+  work.probes = predictor_h.probes.value() + predictor_v.probes.value();
+  work.divides = divider_h.divides.value() + divider_v.divides.value();
+  work.blended_pixels = blender.blended_pixels.value();
+  return work;
+}
+
+void MorphologicalEngine::observe_runs(std::function<void(const spec::RunRecord&)> observer) {
+  extractor.observer = std::move(observer);
+}
+
+void MorphologicalEngine::observe_lines(std::function<void(const spec::LineRecord&)> observer) {
+  area.observer = std::move(observer);
+}
+
+std::vector<const Unit*> MorphologicalEngine::units() { return collect<Unit>(*this); }
+std::vector<const Counter*> MorphologicalEngine::counters() { return collect<Counter>(*this); }
+std::vector<const Storage*> MorphologicalEngine::memories() { return collect<Storage>(*this); }
+
+}  // namespace deburr::rtl::morphological

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// The wires between the blocks of the morphological engine: one struct a link. A comment gives the
+// width in hardware where the type does not. Lanes that a frame does not use hold old bits.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <string>
+
+#include "rtl_model/fabric/link.h"
+#include "spec/morphological.h"
+
+namespace deburr::rtl::morphological {
+
+using Lanes32 = std::array<std::uint32_t, spec::kMaxLanes>;
+using Lanes8 = std::array<std::uint8_t, spec::kMaxLanes>;
+using LanePixels = std::array<spec::Rgba8, spec::kMaxLanes>;
+
+// A place in the frame's raster of slots. Rows 0..height - 1 take input, R + 5 more flush.
+struct Slot {
+  std::uint32_t number;  // U27, from 0 in each frame
+  std::uint16_t row;     // U14
+  std::uint16_t beat;    // U13
+};
+
+// SlotSequencer -> LumaUnit.
+struct SlotToken {
+  Slot slot;
+  LanePixels pixel;
+  Lanes32 depth;  // U24
+};
+
+// SlotSequencer -> PixelStore.
+struct BeatToken {
+  Slot slot;
+  LanePixels pixel;
+};
+
+// LumaUnit -> EdgeDetector.
+struct LumaToken {
+  Slot slot;
+  Lanes32 luma;   // U8.16
+  Lanes32 depth;  // U24
+};
+
+// EdgeDetector -> RunExtractor: edges of row slot.row - 1, bit k: lane k.
+struct EdgeToken {
+  Slot slot;
+  std::uint8_t left, top;
+};
+
+// RunExtractor -> AreaUnit: edges of row slot.row - R - 5, which is being blended.
+struct AreaSlotToken {
+  Slot slot;
+  std::uint8_t left, top;
+};
+
+// RunExtractor -> PixelStore: the slot blends a row of the frame, so it needs pixels.
+struct FetchToken {
+  Slot slot;
+};
+
+// Shares of the neighbours of one pixel, and the spans of the lines that give them.
+struct Shares {
+  std::uint8_t up, down, left, right;                       // U0.8, 0..128
+  std::uint16_t span_up, span_down, span_left, span_right;  // U12
+};
+
+// AreaUnit -> Blender.
+struct ShareToken {
+  Slot slot;
+  bool any;  // one of the shares below is not 0; if not, they hold old bits
+  std::uint8_t left, top;
+  std::array<Shares, spec::kMaxLanes> shares;
+};
+
+// PixelStore -> Blender: the pixels of a beat, the beats above and below, and the two pixels beside
+// it. Beyond the frame: old bits.
+struct PixelToken {
+  LanePixels above, centre, below;
+  spec::Rgba8 before, after;  // left of lane 0, right of the last lane
+};
+
+// RunExtractor -> EndpointPredictor. Codes of the ends as in spec::RunShape.
+struct RunToken {
+  spec::RunRecord run;
+  std::uint32_t slot;                 // U27, number of the slot that the run was found in
+  std::uint8_t start_code, end_code;  // U2
+};
+
+// EndpointPredictor -> LineUnit: corners -left..right + 1 of the line, as sums.
+struct SumsToken {
+  RunToken run;
+  std::uint8_t left, right;       // U5, steps taken
+  std::int16_t first, last;       // S13, positions of the outermost corners
+  std::int32_t sum, indexed_sum;  // S18, S24: sum of X_i, of i X_i
+};
+
+// LineUnit -> AreaUnit.
+struct LineToken {
+  spec::LineRecord line;
+  std::uint32_t slot;  // U27
+};
+
+// AreaUnit -> RunExtractor: records that are finished, by the parity of the row of their slot.
+struct FinishToken {
+  std::array<std::uint8_t, 2> count;  // U4
+};
+
+// Blender -> SlotSequencer: the last beat of the frame has been pushed.
+struct FrameDoneToken {
+  std::uint32_t slot;  // U27, number of its slot
+};
+
+// One link, one port a lane. Only the lanes that are built.
+template <class T>
+struct LaneLinks {
+  std::deque<Link<T>> lane;
+  LaneLinks(const char* name, int lanes) {
+    for (int i = 0; i < lanes; ++i) lane.emplace_back((name + std::to_string(i)).c_str());
+  }
+};
+template <class Port>
+struct LanePorts {
+  std::deque<Port> lane;
+  LanePorts(const char* name, int lanes) {
+    for (int i = 0; i < lanes; ++i) lane.emplace_back((name + std::to_string(i)).c_str());
+  }
+  Port& operator[](int i) { return lane[static_cast<std::size_t>(i)]; }
+  template <class T>
+  void bind(LaneLinks<T>& links) {
+    for (std::size_t i = 0; i < lane.size(); ++i) lane[i].bind(links.lane[i]);
+  }
+};
+
+}  // namespace deburr::rtl::morphological
