@@ -99,7 +99,7 @@ struct TextureParameters {
   std::int32_t cache_line_bytes = 64;
   std::int32_t cache_ways = 2;
   Replacement cache_replacement = Replacement::kLru;
-  std::int32_t cache_outstanding = 32;
+  std::int32_t cache_outstanding = 64;
   std::int32_t cache_fifo_depth = 160;
 };
 

@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: MIT
+deburr_test(texture_system_test LABELS system SOURCES texture_system_test.cpp
+            LINK deburr::texture_bench)
+target_compile_definitions(texture_system_test PRIVATE DEBURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+deburr_test(texture_stress_test LABELS stress SOURCES texture_stress_test.cpp
+            LINK deburr::texture_bench TIMEOUT 300)

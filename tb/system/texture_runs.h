@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Short forms for whole runs of the texture unit against its golden model.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "golden/texture/texture_golden.h"
+#include "tb/app/texture_bench.h"
+#include "tb/app/texture_scene.h"
+
+namespace deburr::tb {
+
+// What a run leaves behind that is worth comparing with another run.
+struct TextureOutcome {
+  std::uint64_t cycles = 0, colour_hash = 0, colours = 0, bilinears = 0, samples = 0, fills = 0;
+  std::uint64_t activations = 0;
+  std::uint64_t comparisons = 0, mismatches = 0, traffic_comparisons = 0, traffic_mismatches = 0;
+};
+
+// A square picture of `side` pixels of a named scene with a 1024 x 1024 texture.
+inline SceneParameters picture(const std::string& source, int side) {
+  SceneParameters scene;
+  scene.source = source;
+  scene.width = scene.height = side;
+  return scene;
+}
+
+// Simulates and judges: throws what TextureBench throws, a Mismatch included.
+inline TextureOutcome simulate(const SceneParameters& scene, const SamplerParameters& sampler,
+                               const TextureBenchOptions& options) {
+  constexpr std::uint32_t kTextureSeed = 1;  // the options' seed is for the weather, not the picture
+  const TextureScene built(scene, sampler, kTextureSeed);
+  TextureBench bench(built, options);
+  bench.run();
+  bench.check();
+  Result result;
+  bench.collect(result);
+  const golden::texture::TextureWork& work = bench.golden_work();
+  return {bench.cycles(),
+          bench.colour_hash(),
+          bench.colours(),
+          work.bilinears,
+          work.samples,
+          work.line_fills,
+          bench.activations(),
+          result.comparisons,
+          result.mismatches,
+          result.traffic_comparisons,
+          result.traffic_mismatches};
+}
+
+}  // namespace deburr::tb

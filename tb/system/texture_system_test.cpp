@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// Whole frames through the hardware model of the texture unit: every colour, every line fill and
+// every status register equal to the golden model, for every mode, sample count, format, wrap and
+// rule.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <tuple>
+
+#include "tb/system/texture_runs.h"
+
+namespace deburr::tb {
+namespace {
+
+// Everything covered was delivered and compared.
+void expect_identical(const TextureOutcome& outcome, int line_bytes = 64) {
+  const std::uint64_t reads_a_fill = static_cast<std::uint64_t>(line_bytes + 63) / 64;
+  EXPECT_EQ(outcome.mismatches, 0u);
+  EXPECT_EQ(outcome.traffic_mismatches, 0u);
+  EXPECT_GE(outcome.comparisons, outcome.colours);
+  EXPECT_EQ(outcome.traffic_comparisons, outcome.fills * reads_a_fill);
+  EXPECT_GT(outcome.colours, 0u);
+  EXPECT_GT(outcome.fills, 0u);
+}
+
+// ---- three scenes x six modes x five sample counts ----------------------------------------------
+
+using Mode = std::tuple<const char*, int, int>;
+class EveryMode : public testing::TestWithParam<Mode> {};
+
+TEST_P(EveryMode, IsIdenticalToGolden) {
+  const auto [source, mode, lb_n] = GetParam();
+  SamplerParameters sampler;
+  sampler.mode = static_cast<spec::MinFilter>(mode);
+  sampler.anisotropy = static_cast<std::uint8_t>(lb_n);
+  expect_identical(simulate(picture(source, 128), sampler, {}));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Texture, EveryMode,
+    testing::Combine(testing::Values("plane", "quad", "tunnel"), testing::Range(0, 6),
+                     testing::Range(0, 5)),
+    [](const auto& p) {
+      return fmt::format("{}_{}_n{}", std::get<0>(p.param),
+                         spec::kMinFilterNames[static_cast<std::size_t>(std::get<1>(p.param))],
+                         1 << std::get<2>(p.param));
+    });
+
+// ---- formats x layouts x wraps, with a texture whose size is no power of two
+// ----------------------
+
+using Storage = std::tuple<int, int, int>;
+class EveryFormat : public testing::TestWithParam<Storage> {};
+
+TEST_P(EveryFormat, IsIdenticalToGolden) {
+  const auto [format, layout, wrap] = GetParam();
+  SamplerParameters sampler;
+  sampler.format = static_cast<spec::Format>(format);
+  sampler.layout = static_cast<spec::Layout>(layout);
+  sampler.wrap = static_cast<WrapChoice>(wrap);
+  SceneParameters scene = picture("plane", 96);
+  scene.texture_size = 331;
+  expect_identical(simulate(scene, sampler, {}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Texture, EveryFormat,
+                         testing::Combine(testing::Range(0, 5), testing::Range(0, 2),
+                                          testing::Range(1, 4)),
+                         [](const auto& p) {
+                           const auto i = [](int v) { return static_cast<std::size_t>(v); };
+                           return fmt::format("{}_{}_{}",
+                                              spec::kFormatNames[i(std::get<0>(p.param))],
+                                              spec::kLayoutNames[i(std::get<1>(p.param))],
+                                              kWrapChoiceNames[i(std::get<2>(p.param))]);
+                         });
+
+// ---- footprint x log x count x kernel
+// ------------------------------------------------------------
+
+using Rules = std::tuple<int, int, int>;
+class EveryRule : public testing::TestWithParam<Rules> {};
+
+TEST_P(EveryRule, IsIdenticalToGolden) {
+  const auto [footprint, log, rest] = GetParam();
+  TextureBenchOptions options;
+  options.texture.footprint = static_cast<spec::FootprintRule>(footprint);
+  options.texture.log2 = static_cast<spec::Log2Rule>(log);
+  options.texture.count = static_cast<spec::CountRule>(rest & 1);
+  options.texture.kernel = static_cast<spec::Kernel>(rest & 1);
+  options.texture.count_cap = static_cast<spec::CountCap>(rest >> 1);
+  options.texture.spread = rest & 1 ? 102 : 64;
+  expect_identical(simulate(picture("tunnel", 64), {}, options));
+}
+
+INSTANTIATE_TEST_SUITE_P(Texture, EveryRule,
+                         testing::Combine(testing::Range(0, 5), testing::Range(0, 4),
+                                          testing::Range(0, 4)),
+                         [](const auto& p) {
+                           const auto i = [](int v) { return static_cast<std::size_t>(v); };
+                           return fmt::format("{}_{}_{}{}",
+                                              spec::kFootprintNames[i(std::get<0>(p.param))],
+                                              spec::kLog2Names[i(std::get<1>(p.param))],
+                                              std::get<2>(p.param) & 1 ? "ceil_tent" : "floor_box",
+                                              std::get<2>(p.param) & 2 ? "_cap" : "");
+                         });
+
+// ---- cache geometries ---------------------------------------------------------------------------
+
+struct Geometry {
+  int bytes, line, ways, outstanding, fifo;
+};
+class EveryCache : public testing::TestWithParam<std::tuple<Geometry, int>> {};
+
+TEST_P(EveryCache, FillsTheLinesThatGoldenPredicts) {
+  const auto [geometry, replacement] = GetParam();
+  TextureBenchOptions options;
+  options.texture.cache_bytes = geometry.bytes;
+  options.texture.cache_line_bytes = geometry.line;
+  options.texture.cache_ways = geometry.ways;
+  options.texture.cache_outstanding = geometry.outstanding;
+  options.texture.cache_fifo_depth = geometry.fifo;
+  options.texture.cache_replacement = static_cast<spec::Replacement>(replacement);
+  expect_identical(simulate(picture("plane", 96), {}, options), geometry.line);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Texture, EveryCache,
+    testing::Combine(testing::Values(Geometry{16384, 64, 2, 32, 160}, Geometry{1024, 64, 1, 4, 2},
+                                     Geometry{4096, 128, 4, 16, 40}, Geometry{512, 64, 8, 8, 16},
+                                     Geometry{65536, 64, 16, 256, 400}),
+                     testing::Range(0, 3)),
+    [](const auto& p) {
+      const Geometry& g = std::get<0>(p.param);
+      return fmt::format("bytes{}_line{}_ways{}_{}", g.bytes, g.line, g.ways,
+                         spec::kReplacementNames[static_cast<std::size_t>(std::get<1>(p.param))]);
+    });
+
+// ---- magnification, bias and clamps
+// ---------------------------------------------------------------
+
+TEST(Texture, MagnificationBiasAndClampsAreIdenticalToGolden) {
+  SceneParameters scene = picture("plane", 128);
+  scene.texture_size = 16;
+  SamplerParameters sampler;
+  sampler.magnification = spec::MagFilter::kNearest;
+  sampler.lod_bias = -300;
+  sampler.min_lod = 100;
+  sampler.max_lod = 700;
+  expect_identical(simulate(scene, sampler, {}));
+}
+
+TEST(Texture, AChainCutShortIsIdenticalToGolden) {
+  SamplerParameters sampler;
+  sampler.levels = 3;
+  expect_identical(simulate(picture("plane", 128), sampler, {}));
+}
+
+TEST(Texture, OverdrawIsIdenticalToGolden) {
+  SceneParameters scene = picture("object", 128);
+  scene.visibility = Visibility::kOverdraw;
+  expect_identical(simulate(scene, {}, {}));
+}
+
+TEST(Texture, FullHdFrameIsIdenticalToGolden) {
+  SceneParameters scene = picture("road", 1);
+  scene.width = 1920;
+  scene.height = 1080;
+  SamplerParameters sampler;
+  sampler.anisotropy = 2;
+  expect_identical(simulate(scene, sampler, {}));
+}
+
+// ---- meshes and textures that others made
+// ----------------------------------------------------------
+
+class RealInput : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
+
+TEST_P(RealInput, IsIdenticalToGolden) {
+  const char* folder = std::getenv("DEBURR_DATA");
+  const std::filesystem::path data =
+      folder ? folder : std::filesystem::path(DEBURR_SOURCE_DIR) / "../shared/data";
+  const auto [mesh, texture] = GetParam();
+  if (!std::filesystem::exists(data / mesh)) {
+    GTEST_SKIP() << "no " << (data / mesh) << ": set DEBURR_DATA to a folder with " << mesh;
+  }
+  SceneParameters scene = picture((data / mesh).string(), 192);
+  if (*texture) scene.texture = (data / texture).string();
+  expect_identical(simulate(scene, {}, {}));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Texture, RealInput,
+    testing::Values(std::tuple{"meshes/scene_track.obj", "textures/road_512.png"},
+                    std::tuple{"meshes/spot.obj", "textures/spot_texture.png"},
+                    std::tuple{"meshes/teapot.obj", "textures/brick.png"},
+                    std::tuple{"kenney/racing/models/vehicle-truck-red.glb", ""}));
+
+}  // namespace
+}  // namespace deburr::tb
