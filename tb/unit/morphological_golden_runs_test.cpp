@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: MIT
+// Are runs found, shaped, cut and extended as the contract says? Runs against a walk over single
+// bits, consistent sets against a search for a line, extensions against the lines that made the
+// pixels, and Theorem 1 of paper 000 over more than 200 000 runs.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+
+#include "golden/morphological/edges.h"
+#include "golden/morphological/predictor.h"
+#include "golden/morphological/runs.h"
+#include "tb/oracle/random.h"
+#include "tb/unit/morphological_golden_support.h"
+
+namespace deburr {
+namespace {
+
+using golden::morphological::AxisEdges;
+using golden::morphological::BitPlane;
+using golden::morphological::ConsistentSet;
+using golden::morphological::EdgePlanes;
+using golden::morphological::MorphologicalGolden;
+using golden::morphological::Outcome;
+using golden::morphological::PredictedRun;
+using golden::morphological::preset_parameters;
+using golden::morphological::SideEnd;
+using spec::MorphologicalPreset;
+using tb::morphological::Frame;
+using tb::morphological::grey;
+using tb::texture::Random;
+
+// ---- planes and runs ----------------------------------------------------------------------------
+
+BitPlane random_plane(int width, int height, int percent, Random& random) {
+  BitPlane plane(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (random.next() % 100 < static_cast<unsigned>(percent)) plane.set(x, y);
+    }
+  }
+  return plane;
+}
+
+TEST(BitPlanes, TransposeAndReadZeroOutside) {
+  Random random(1);
+  for (const int width : {1, 63, 64, 65, 200}) {
+    for (const int height : {1, 64, 70}) {
+      const BitPlane plane = random_plane(width, height, 50, random);
+      const BitPlane turned = plane.transposed();
+      EXPECT_EQ(turned.width(), height);
+      for (int y = -1; y <= height; ++y) {
+        for (int x = -1; x <= width; ++x) ASSERT_EQ(turned.at(y, x), plane.at(x, y));
+      }
+      EXPECT_FALSE(plane.at(-1, 0) || plane.at(0, -1) || plane.at(width, 0) || plane.at(0, height));
+      EXPECT_EQ(turned.transposed(), plane);
+      EXPECT_EQ(turned.count(), plane.count());
+    }
+  }
+}
+
+TEST(Runs, AreThoseOfAWalkOverSingleBits) {
+  Random random(2);
+  for (const int width : {1, 63, 64, 65, 128, 129, 400}) {
+    for (const int percent : {5, 50, 98, 100}) {
+      const BitPlane plane = random_plane(width, 8, percent, random);
+      for (int y = 0; y < 8; ++y) {
+        std::vector<std::pair<int, int>> found, expected;
+        golden::morphological::for_each_run(
+            plane, y, [&](int first, int end) { found.emplace_back(first, end); });
+        for (int x = 0; x < width; ++x) {
+          if (!plane.at(x, y)) continue;
+          if (plane.at(x - 1, y)) {
+            expected.back().second = x + 1;
+          } else {
+            expected.emplace_back(x, x + 1);
+          }
+        }
+        EXPECT_EQ(found, expected);
+      }
+    }
+  }
+}
+
+TEST(Runs, HaveTheShapeOfTheirCrossings) {
+  for (int code = 0; code < 16; ++code) {
+    AxisEdges edges{spec::Axis::kHorizontal, BitPlane(12, 6), BitPlane(12, 6)};
+    for (int x = 4; x < 9; ++x) edges.along.set(x, 3);
+    if ((code & 1) != 0) edges.across.set(4, 2);
+    if ((code & 2) != 0) edges.across.set(4, 3);
+    if ((code & 4) != 0) edges.across.set(9, 2);
+    if ((code & 8) != 0) edges.across.set(9, 3);
+    edges.across.set(6, 2);  // a crossing in the middle does not end a run
+    const auto records = find_runs(preset_parameters(MorphologicalPreset::kMlaa), edges);
+    ASSERT_EQ(records.size(), 1u);
+    EXPECT_EQ(records[0], (spec::RunRecord{spec::Axis::kHorizontal, spec::RunPart::kWhole, 3, 4, 5,
+                                           static_cast<std::uint8_t>(code)}));
+  }
+}
+
+TEST(Runs, BeyondTheReachAreCutToTheirEnds) {
+  spec::MorphologicalParameters p = preset_parameters(MorphologicalPreset::kMlaa);
+  p.reach_columns = 9;
+  for (int length = 1; length <= 40; ++length) {
+    AxisEdges edges{spec::Axis::kHorizontal, BitPlane(50, 4), BitPlane(50, 4)};
+    for (int x = 3; x < 3 + length; ++x) edges.along.set(x, 2);
+    edges.across.set(3, 1);           // start: N
+    edges.across.set(3 + length, 2);  // end: S
+    const auto records = find_runs(p, edges);
+    if (length <= 9) {
+      ASSERT_EQ(records.size(), 1u);
+      EXPECT_EQ(records[0].shape, 1 + 4 * 2);
+      continue;
+    }
+    ASSERT_EQ(records.size(), 2u);
+    EXPECT_EQ(records[0],
+              (spec::RunRecord{spec::Axis::kHorizontal, spec::RunPart::kHead, 2, 3, 4, 1}));
+    EXPECT_EQ(records[1], (spec::RunRecord{spec::Axis::kHorizontal, spec::RunPart::kTail, 2,
+                                           static_cast<std::uint16_t>(3 + length - 4), 4, 8}));
+  }
+}
+
+TEST(Runs, OfTheOtherAxisAreThoseOfTheTransposedFrame) {
+  Random random(3);
+  const EdgePlanes edges{random_plane(90, 70, 60, random), random_plane(90, 70, 60, random)};
+  const EdgePlanes turned{edges.top.transposed(), edges.left.transposed()};
+  spec::MorphologicalParameters p;
+  p.reach_columns = golden::morphological::reach_rows(p);
+  auto vertical = find_runs(p, AxisEdges::vertical(edges));
+  for (spec::RunRecord& run : vertical) run.axis = spec::Axis::kHorizontal;
+  EXPECT_EQ(vertical, find_runs(p, AxisEdges::horizontal(turned)));
+  EXPECT_GT(vertical.size(), 100u);
+}
+
+// ---- consistent sets ----------------------------------------------------------------------------
+
+// Looks for a pitch p and a phase a with X_i = ceil(a + i p) among midpoints of all critical
+// pitches.
+bool line_exists(const std::vector<ConsistentSet::Corner>& corners) {
+  std::vector<double> critical;
+  for (const auto& a : corners) {
+    for (const auto& b : corners) {
+      if (a.index >= b.index) continue;
+      const double steps = b.index - a.index, pixels = b.position - a.position;
+      critical.push_back((pixels - 1) / steps);
+      critical.push_back((pixels + 1) / steps);
+    }
+  }
+  std::sort(critical.begin(), critical.end());
+  for (std::size_t i = 1; i < critical.size(); ++i) {
+    const double pitch = (critical[i - 1] + critical[i]) / 2;
+    if (critical[i] - critical[i - 1] < 1e-9) continue;
+    double low = -1e9, high = 1e9;  // a in (low, high]
+    for (const auto& c : corners) {
+      low = std::max(low, c.position - 1 - c.index * pitch);
+      high = std::min(high, c.position - c.index * pitch);
+    }
+    if (high - low > 1e-9) return true;
+  }
+  return false;
+}
+
+TEST(ConsistentSets, AreThoseForWhichALineExists) {
+  Random random(4);
+  int consistent = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const int length = 1 + static_cast<int>(random.next() % 9);
+    ConsistentSet set(length);
+    std::vector<ConsistentSet::Corner> corners = {{0, 0}, {1, length}};
+    int right = length, left = 0;
+    const int sides = 1 + static_cast<int>(random.next() % 6);
+    for (int k = 0; k < sides; ++k) {
+      const auto step = [&] { return length + static_cast<int>(random.next() % 3) - 1; };
+      corners.push_back({k + 2, right += step()});
+      EXPECT_EQ(set.consistent_with(corners.back()), line_exists(corners));
+      set.add(corners.back());
+      corners.push_back({-k - 1, left -= step()});
+      EXPECT_EQ(set.consistent_with(corners.back()), line_exists(corners));
+      set.add(corners.back());
+      EXPECT_EQ(set.consistent(), line_exists(corners));
+    }
+    consistent += set.consistent();
+  }
+  EXPECT_GT(consistent, 1000);
+  EXPECT_LT(consistent, 19000);
+}
+
+TEST(ConsistentSets, TwoCornersMoreAreThoseOneByOne) {
+  ConsistentSet set(5);
+  EXPECT_TRUE(set.consistent_with({2, 11}));   // 5, 6
+  EXPECT_TRUE(set.consistent_with({-1, -4}));  // 4, 5
+  EXPECT_FALSE(set.consistent_with({2, 11}, {-1, -4}));
+  EXPECT_TRUE(set.consistent_with({2, 11}, {-1, -6}));
+}
+
+// ---- extension on pure lines --------------------------------------------------------------------
+
+struct Line {
+  double slope, start;
+  Frame frame(int width, int height) const {
+    return Frame(width, height,
+                 [&](int x, int y) { return grey(y + 0.5 < start + slope * (x + 0.5) ? 255 : 0); });
+  }
+};
+
+// Rows of the frame that the line runs through, plus a margin.
+Frame line_frame(double slope, double phase, int width) {
+  return Line{slope, 3 + phase}.frame(width, static_cast<int>(slope * width) + 8);
+}
+
+// The complete horizontal runs of a falling line, in order.
+std::vector<PredictedRun> complete_runs(const MorphologicalGolden& golden) {
+  std::vector<PredictedRun> runs;
+  for (const PredictedRun& run : golden.runs()) {
+    if (run.line.run.axis == spec::Axis::kHorizontal &&
+        spec::kRunShapes[run.line.run.shape].clean_z) {
+      runs.push_back(run);
+    }
+  }
+  return runs;
+}
+
+TEST(Extension, FollowsAPureLineForAllStepsOnBothSides) {
+  Random random(5);
+  spec::MorphologicalParameters p = preset_parameters(MorphologicalPreset::kDeburr);
+  p.reach_columns = 2048;
+  std::size_t inner = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double slope = 1 / random.uniform(1.05, 12);
+    MorphologicalGolden golden(p);
+    const Frame frame = line_frame(slope, random.uniform(0, 1), 400);
+    golden.process(frame.view());
+    const std::vector<PredictedRun> runs = complete_runs(golden);
+    for (std::size_t r = 8; r + 8 < runs.size(); ++r) {
+      const PredictedRun& run = runs[r];
+      ASSERT_EQ(run.line.left_steps, 8);
+      ASSERT_EQ(run.line.right_steps, 8);
+      EXPECT_EQ(run.left_end, SideEnd::kSteps);
+      EXPECT_EQ(run.iterations, 8);
+      // The ends are corners of the very runs eight rows away.
+      const int start = run.line.run.start;
+      EXPECT_EQ(start + run.far_left, runs[r - 8].line.run.start);
+      EXPECT_EQ(start + run.far_right, runs[r + 8].line.run.start + runs[r + 8].line.run.length);
+      EXPECT_EQ(run.line.span, run.far_right - run.far_left);
+      ++inner;
+    }
+  }
+  EXPECT_GT(inner, 5000u);
+}
+
+TEST(Extension, OutcomeNamesTheOtherStep) {
+  MorphologicalGolden golden(preset_parameters(MorphologicalPreset::kDeburr));
+  const Frame frame = line_frame(1 / 4.5, 0.3, 300);
+  golden.process(frame.view());
+  std::map<Outcome, int> outcomes;
+  for (const PredictedRun& run : complete_runs(golden)) {
+    const Outcome other = run.line.run.length == 4 ? Outcome::kLate : Outcome::kEarly;
+    if (run.line.right_steps > 1) {
+      EXPECT_EQ(run.right, other);
+    }
+    ++outcomes[run.right];
+  }
+  EXPECT_GT(outcomes[Outcome::kEarly], 10);
+  EXPECT_GT(outcomes[Outcome::kLate], 10);
+}
+
+// The paper's complexity: a trial a step, of 3 candidates until L' is known and 2 from then on,
+// whatever L is; a walk from end to end costs the pixels between.
+TEST(Extension, ProbesDoNotGrowWithTheLengthOfRuns) {
+  spec::MorphologicalParameters p = preset_parameters(MorphologicalPreset::kMlaaSlope);
+  p.steps = 8;
+  p.reach_columns = 2048;
+  for (const int n : {2, 5, 10, 20, 40}) {
+    MorphologicalGolden golden(p);
+    const Frame frame = line_frame(1 / (n + 0.37), 0.2, 40 * n);
+    golden.process(frame.view());
+    std::uint64_t probes = 0, walked = 0, runs = 0;
+    for (const PredictedRun& run : complete_runs(golden)) {
+      EXPECT_LE(run.probes, 2 * 3 * 8);
+      EXPECT_LE(run.iterations, 8);
+      if (run.line.left_steps != 8 || run.line.right_steps != 8) continue;
+      probes += run.probes;
+      walked += static_cast<std::uint64_t>(run.line.span - run.line.run.length);
+      ++runs;
+    }
+    ASSERT_GT(runs, 10u);
+    std::cout << "L = " << n << ": " << probes / runs << " probes a run, a walk of "
+              << walked / runs << " pixels\n";
+    EXPECT_LE(probes, 2 * (2 * 8 + 3) * runs);  // L' turns up within three steps, on average
+    EXPECT_GT(walked, static_cast<std::uint64_t>(2 * 8 * n) * runs - runs);
+  }
+}
+
+TEST(Extension, StopsOnACurve) {
+  // Steps 3, 4, 5 over rising rows: both sides of the middle run hit with different steps.
+  const std::array<int, 7> lengths = {1, 2, 3, 4, 5, 6, 7};
+  Frame frame(40, 12, [](int, int) { return grey(0); });
+  int x = 0;
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    for (int end = x + lengths[i]; x < end; ++x) {
+      for (int y = 0; y < 10 - static_cast<int>(i); ++y) frame.at(x, y) = grey(255);
+    }
+  }
+  MorphologicalGolden golden(preset_parameters(MorphologicalPreset::kDeburr));
+  golden.process(frame.view());
+  int curves = 0;
+  for (const PredictedRun& run : complete_runs(golden)) {
+    if (run.left_end != SideEnd::kCurve) continue;
+    EXPECT_EQ(run.line.left_steps + run.line.right_steps, 0);
+    EXPECT_EQ(run.iterations, 1);
+    ++curves;
+  }
+  EXPECT_GT(curves, 2);
+  // The paper's rules take both.
+  MorphologicalGolden paper(preset_parameters(MorphologicalPreset::kMlaaSlope));
+  paper.process(frame.view());
+  EXPECT_GT(paper.work().steps, golden.work().steps);
+}
+
+TEST(Extension, NeverTriesAStepOfNothing) {
+  MorphologicalGolden golden(preset_parameters(MorphologicalPreset::kMlaaSlope));
+  const Frame frame = tb::morphological::noise_image(200, 200);
+  golden.process(frame.view());
+  int ones = 0;
+  for (const PredictedRun& run : golden.runs()) {
+    if (run.line.run.length != 1 || run.left == Outcome::kUntried) continue;
+    EXPECT_NE(run.left, Outcome::kEarly);
+    EXPECT_NE(run.right, Outcome::kEarly);
+    if (run.iterations == 1) {
+      EXPECT_EQ(run.probes, 4);
+    }
+    ++ones;
+  }
+  EXPECT_GT(ones, 100);
+}
+
+// ---- Theorem 1 ----------------------------------------------------------------------------------
+
+// The lengths of complete runs of one digital line differ by at most 1, and the rarer is isolated.
+struct TheoremCheck {
+  std::size_t runs = 0, violations = 0, not_isolated = 0;
+  void look(const std::vector<int>& lengths) {
+    if (lengths.empty()) return;
+    runs += lengths.size();
+    const auto [low, high] = std::minmax_element(lengths.begin(), lengths.end());
+    if (*high - *low > 1) ++violations;
+    bool pair_of_short = false, pair_of_long = false;
+    for (std::size_t i = 1; i < lengths.size(); ++i) {
+      if (lengths[i] != lengths[i - 1]) continue;
+      (lengths[i] == *low ? pair_of_short : pair_of_long) = true;
+    }
+    if (*low != *high && pair_of_short && pair_of_long) ++not_isolated;
+  }
+};
+
+TEST(Theorem1, HoldsForMoreThanTwoHundredThousandRuns) {
+  Random random(6);
+  TheoremCheck check;
+  spec::MorphologicalParameters p = preset_parameters(MorphologicalPreset::kMlaa);
+  p.reach_columns = 2048;
+  while (check.runs < 220000) {
+    const double slope = 1 / random.uniform(1, 6);
+    MorphologicalGolden golden(p);
+    const Frame frame = line_frame(slope, random.uniform(0, 1), 300);
+    golden.process(frame.view());
+    std::vector<int> lengths;
+    for (const PredictedRun& run : complete_runs(golden)) lengths.push_back(run.line.run.length);
+    check.look(lengths);
+  }
+  std::cout << check.runs << " runs, " << check.violations << " violations\n";
+  EXPECT_EQ(check.violations, 0u);
+  EXPECT_EQ(check.not_isolated, 0u);
+}
+
+TEST(Theorem1, ALineThatBendsIsCaught) {
+  spec::MorphologicalParameters p = preset_parameters(MorphologicalPreset::kMlaa);
+  MorphologicalGolden golden(p);
+  // The planted violation: slope 1/3.3, then 1/5.4.
+  const Frame frame(200, 70, [](int x, int y) {
+    const double t = x + 0.5;
+    return grey(y + 0.5 < 3 + (t < 100 ? t / 3.3 : 100 / 3.3 + (t - 100) / 5.4) ? 255 : 0);
+  });
+  golden.process(frame.view());
+  std::vector<int> lengths;
+  for (const PredictedRun& run : complete_runs(golden)) lengths.push_back(run.line.run.length);
+  TheoremCheck check;
+  check.look(lengths);
+  EXPECT_EQ(check.violations, 1u);
+}
+
+TEST(Theorem1, AnUnevenMixtureIsCaught) {
+  TheoremCheck check;
+  check.look({4, 4, 5, 5, 4});
+  EXPECT_EQ(check.violations, 0u);
+  EXPECT_EQ(check.not_isolated, 1u);
+}
+
+}  // namespace
+}  // namespace deburr
