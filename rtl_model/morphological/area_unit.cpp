@@ -43,6 +43,8 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
       lines_h_in("lines_h_in", store.lanes()),
       lines_v_in("lines_v_in", store.lanes()),
       store_(store),
+      lanes_(store.lanes()),
+      lag_(store.reach_rows() + spec::kRowLag),
       pairs_(static_cast<std::size_t>(p.line_pixels) / 2 + spec::kMaxLanes),
       left_weights_("left_weight_lines", p.line_pixels, 2 * kShareBits + kSpanBits, "1R1W",
                     2 * pairs_),
@@ -57,7 +59,7 @@ Activity AreaUnit::tick(Cycle cycle) {
   bool did = false, blocked = false;
   if (slots_in.can_pop(cycle)) {
     const AreaSlotToken& slot = slots_in.front(cycle);
-    const std::int32_t row = slot.slot.row, blended = row - store_.reach_rows() - spec::kRowLag;
+    const std::int32_t row = slot.slot.row, blended = row - lag_;
     if (blended >= 0 && !shares_out.can_push(cycle)) {
       blocked = true;
     } else {
@@ -87,7 +89,8 @@ Activity AreaUnit::tick(Cycle cycle) {
 
 bool AreaUnit::take_lines(Cycle cycle, LanePorts<In<LineToken>>& lines, FinishToken& finished) {
   bool stored = false;
-  for (In<LineToken>& in : lines.lane) {
+  for (std::size_t lane = 0; lane < static_cast<std::size_t>(lanes_); ++lane) {
+    In<LineToken>& in = lines[lane];
     if (!in.can_pop(cycle)) continue;
     const LineToken& token = in.front(cycle);
     // What the slot has still to read here may be in the same entry.
@@ -121,8 +124,8 @@ void AreaUnit::store_line(const LineToken& token) {
 
 void AreaUnit::pass(const AreaSlotToken& token, ShareToken& out) {
   const FrameRules& rules = store_.rules();
-  const std::int32_t lanes = store_.lanes(), first = token.slot.beat * lanes;
-  const std::int32_t end = std::min(first + lanes, rules.width);
+  const std::int32_t first = token.slot.beat * lanes_;
+  const std::int32_t end = std::min(first + lanes_, rules.width);
   if (token.slot.row == 0) {
     for (std::int32_t x = first; x < end; ++x) {
       const auto at = static_cast<std::size_t>(x);
@@ -133,7 +136,7 @@ void AreaUnit::pass(const AreaSlotToken& token, ShareToken& out) {
     row_walk_.left = 0;
     return;
   }
-  const std::int32_t row = token.slot.row - store_.reach_rows() - spec::kRowLag + 1;
+  const std::int32_t row = token.slot.row - lag_ + 1;
   const bool evaluates = row < rules.height;
   bool any = false;
   for (std::int32_t x = first; x < end; ++x) {

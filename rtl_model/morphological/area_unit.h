@@ -71,7 +71,8 @@ class AreaUnit final : public Unit {
   }
 
   const ParameterStore& store_;
-  std::size_t pairs_;  // pairs of columns
+  const std::int32_t lanes_, lag_;  // rows from a slot to the row that it blends
+  std::size_t pairs_;               // pairs of columns
   // The row buffers have room for whole beats.
   LineMemory<Weights> left_weights_, top_weights_;
   LineMemory<Walk> row_records_, column_records_;

@@ -82,21 +82,19 @@ void Blender::deliver(Cycle cycle) {
   const auto count = static_cast<std::size_t>(end ? rules.last_count : store_.lanes());
   const std::int32_t row = slot.row - store_.reach_rows() - spec::kRowLag;
   spec::BlendedBeat& out = pixels_out.emplace(cycle);
+  out = {};  // what leaves the engine is defined in every lane
   out.count = static_cast<std::uint8_t>(count);
   out.end_of_row = end;
   out.start_of_frame = row == 0 && slot.beat == 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const spec::BlendTap& tap = out.tap[i] = stage_.tap[i];
+    const spec::BlendTap& tap = stage_.tap[i];
+    out.tap[i] = tap;
     if (tap.first == 0 && tap.second == 0) {
       out.pixel[i] = stage_.centre[i];
     } else {
       out.pixel[i] = blend(stage_.operands[i], tap, stage_.centre[i][3]);
       ++blended_pixels;
     }
-  }
-  for (std::size_t i = count; i < spec::kMaxLanes; ++i) {
-    out.pixel[i] = {};
-    out.tap[i] = {};
   }
   pixels += count;
   beat_latency.record(probe_.leaves(cycle));

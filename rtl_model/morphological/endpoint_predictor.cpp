@@ -23,24 +23,25 @@ EndpointPredictor::EndpointPredictor(const sc_core::sc_module_name& name, ClockD
       records_in("records_in", store.lanes()),
       sums_out("sums_out", store.lanes()),
       store_(store),
+      lanes_(static_cast<std::size_t>(store.lanes())),
       window_(window),
       vertical_(axis == spec::Axis::kVertical),
       reach_(vertical_ ? store.reach_rows() : p.reach_columns),
       units_(static_cast<std::size_t>(p.predictor_units)),
-      predictors_(units_ * static_cast<std::size_t>(store.lanes())),
-      turn_(static_cast<std::size_t>(store.lanes())) {}
+      predictors_(units_ * lanes_),
+      turn_(lanes_) {}
 
 Activity EndpointPredictor::tick(Cycle cycle) {
   bool did = false, blocked = false;
-  for (int lane = 0; lane < store_.lanes(); ++lane) {
+  for (std::size_t lane = 0; lane < lanes_; ++lane) {
     In<RunToken>& in = records_in[lane];
     const bool arrives = in.can_pop(cycle);
     if (held_ == 0 && !arrives) continue;
-    Predictor* const group = &predictors_[static_cast<std::size_t>(lane) * units_];
+    Predictor* const group = &predictors_[lane * units_];
 
     // The result registers take turns.
     Out<SumsToken>& out = sums_out[lane];
-    std::size_t& turn = turn_[static_cast<std::size_t>(lane)];
+    std::size_t& turn = turn_[lane];
     for (std::size_t i = 0, k = turn; i < units_; ++i, k = k + 1 == units_ ? 0 : k + 1) {
       if (!group[k].done) continue;
       if (out.can_push(cycle)) {

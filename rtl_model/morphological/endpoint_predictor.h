@@ -93,6 +93,7 @@ class EndpointPredictor final : public Unit {
   bool unbroken(std::int32_t along, std::int32_t across, std::int32_t count) const;
 
   const ParameterStore& store_;
+  const std::size_t lanes_;
   const EdgeWindow& window_;
   const bool vertical_;
   const std::int32_t reach_;

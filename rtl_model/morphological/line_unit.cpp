@@ -30,18 +30,19 @@ LineUnit::LineUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
       sums_in("sums_in", store.lanes()),
       lines_out("lines_out", store.lanes()),
       store_(store),
+      lanes_(static_cast<std::size_t>(store.lanes())),
       reach_(axis == spec::Axis::kVertical ? store.reach_rows() : p.reach_columns),
       latency_(static_cast<Cycle>(p.divider_latency)),
       interval_(static_cast<Cycle>(p.divider_interval)),
       interval_stall_(declare_stall("interval", "the divider cannot start again yet")),
-      dividers_(static_cast<std::size_t>(store.lanes())) {
+      dividers_(lanes_) {
   for (Divider& divider : dividers_) divider.flight.resize(latency_ / interval_ + 2);
 }
 
 Activity LineUnit::tick(Cycle cycle) {
   bool did = false, blocked = false, waits = false;
-  for (int lane = 0; lane < store_.lanes(); ++lane) {
-    Divider& divider = dividers_[static_cast<std::size_t>(lane)];
+  for (std::size_t lane = 0; lane < lanes_; ++lane) {
+    Divider& divider = dividers_[lane];
     In<SumsToken>& in = sums_in[lane];
     if (divider.count != 0) {
       const Division& oldest = divider.flight[divider.oldest];

@@ -51,6 +51,7 @@ class LineUnit final : public Unit {
   LineToken line_of(const SumsToken& sums) const;
 
   const ParameterStore& store_;
+  const std::size_t lanes_;
   const std::int32_t reach_;
   const Cycle latency_, interval_;
   Activity interval_stall_;

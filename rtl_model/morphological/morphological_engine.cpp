@@ -94,7 +94,7 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
   extractor.edges_in(edge_bits_);
   extractor.area_slots_out(area_slots_);
   extractor.fetches_out(fetches_);
-  for (int lane = 0; lane < store.lanes(); ++lane) {
+  for (std::size_t lane = 0; lane < static_cast<std::size_t>(store.lanes()); ++lane) {
     predictor_h.records_in[lane](extractor.records(spec::Axis::kHorizontal, lane));
     predictor_v.records_in[lane](extractor.records(spec::Axis::kVertical, lane));
   }

@@ -25,6 +25,7 @@ RunExtractor::RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clo
     : Unit(name, clock),
       store_(store),
       window_(window),
+      lanes_(store.lanes()),
       reach_rows_(store.reach_rows()),
       reach_columns_(p.reach_columns),
       records_(declare_stall("records",
@@ -64,11 +65,11 @@ Activity RunExtractor::tick(Cycle cycle) {
     return kStalledDownstream;
 
   if (slot.beat == 0) begin_row(slot);
-  const std::int32_t lanes = store_.lanes(), first = slot.beat * lanes;
+  const std::int32_t first = slot.beat * lanes_;
   const FrameRules& rules = store_.rules();
-  const std::int32_t end = std::min(first + lanes, rules.width);
+  const std::int32_t end = std::min(first + lanes_, rules.width);
   if (slot.row >= 1 && slot.row <= rules.height)
-    window_.write(slot.row - 1, first, token.left, token.top, lanes);
+    window_.write(slot.row - 1, first, token.left, token.top, lanes_);
   if (active_) {
     horizontal(slot, first, end);
     vertical(slot, first, end);
@@ -78,7 +79,7 @@ Activity RunExtractor::tick(Cycle cycle) {
 
   AreaSlotToken& out = area_slots_out.emplace(cycle);
   out.slot = slot;
-  const std::uint64_t mask = (std::uint64_t{1} << lanes) - 1;
+  const std::uint64_t mask = (std::uint64_t{1} << lanes_) - 1;
   out.left = static_cast<std::uint8_t>(left_blend_.from(first) & mask);
   out.top = static_cast<std::uint8_t>(top_blend_.from(first) & mask);
   if (blends) fetches_out.emplace(cycle).slot = slot;

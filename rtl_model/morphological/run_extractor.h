@@ -33,8 +33,8 @@ class RunExtractor final : public Unit {
   Out<AreaSlotToken> area_slots_out{"area_slots_out"};
   Out<FetchToken> fetches_out{"fetches_out"};
   // For the predictors, one a lane: bind to records(axis, lane).
-  Link<RunToken>& records(spec::Axis axis, int lane) {
-    return side(axis).fifo[static_cast<std::size_t>(lane)].link();
+  Link<RunToken>& records(spec::Axis axis, std::size_t lane) {
+    return side(axis).fifo[lane].link();
   }
 
   RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clock,
@@ -74,7 +74,7 @@ class RunExtractor final : public Unit {
 
   const ParameterStore& store_;
   EdgeWindow& window_;
-  const std::int32_t reach_rows_, reach_columns_;
+  const std::int32_t lanes_, reach_rows_, reach_columns_;
   Activity records_;
   AxisSide h_, v_;
   std::array<std::uint32_t, 2> unfinished_{};  // records, by parity of the row of their slot

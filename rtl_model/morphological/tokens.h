@@ -122,16 +122,21 @@ struct LaneLinks {
   }
 };
 template <class Port>
-struct LanePorts {
-  std::deque<Port> lane;
+class LanePorts {
+ public:
   LanePorts(const char* name, int lanes) {
-    for (int i = 0; i < lanes; ++i) lane.emplace_back((name + std::to_string(i)).c_str());
+    for (int i = 0; i < lanes; ++i)
+      at_[static_cast<std::size_t>(i)] = &lane_.emplace_back((name + std::to_string(i)).c_str());
   }
-  Port& operator[](int i) { return lane[static_cast<std::size_t>(i)]; }
+  Port& operator[](std::size_t i) { return *at_[i]; }
   template <class T>
   void bind(LaneLinks<T>& links) {
-    for (std::size_t i = 0; i < lane.size(); ++i) lane[i].bind(links.lane[i]);
+    for (std::size_t i = 0; i < lane_.size(); ++i) lane_[i].bind(links.lane[i]);
   }
+
+ private:
+  std::deque<Port> lane_;  // a port stays where it is
+  std::array<Port*, spec::kMaxLanes> at_{};
 };
 
 }  // namespace deburr::rtl::morphological

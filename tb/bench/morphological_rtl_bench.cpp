@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// Speed of the morphological engine's hardware model on frames of 1920 x 1080.
+//
+//   morphological_rtl_bench                                    wall time, cycles a second, one lane
+//   morphological_rtl_bench --frames <image> <preset> <lanes> <n> [memory]   n frames and nothing
+//       else: cycles, stalls, edges, memory bits; for counting instructions with callgrind
+// Images: facets (slanted halves in cells of 32 pixels, some 10 % edge pixels), noise, flat,
+// stripes.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <tlm_utils/simple_initiator_socket.h>
+
+#include <chrono>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rtl_model/morphological/morphological_engine.h"
+#include "tb/harness/driver.h"
+#include "tb/harness/memory_model.h"
+
+namespace deburr::tb {
+namespace {
+
+using rtl::Cycle;
+using spec::MorphologicalParameters;
+
+constexpr int kWidth = 1920, kHeight = 1080;
+
+std::uint32_t mix(std::uint32_t v) {
+  v = (v ^ v >> 16) * 0x85EBCA6Bu;
+  v = (v ^ v >> 13) * 0xC2B2AE35u;
+  return v ^ v >> 16;
+}
+
+spec::Rgba8 colour(const std::string& image, int x, int y) {
+  const auto at = static_cast<std::uint32_t>(y * kWidth + x);
+  std::uint32_t v = 128;
+  if (image == "noise") {
+    v = mix(at) & 1 ? 255 : 0;
+  } else if (image == "stripes") {
+    v = y & 1 ? 255 : 0;
+  } else if (image == "facets") {
+    const std::uint32_t cell = mix(static_cast<std::uint32_t>(y / 32 * 64 + x / 32));
+    const int a = static_cast<int>(cell & 31) - 16, b = static_cast<int>(cell >> 5 & 31) - 16;
+    v = (a * (x % 32 - 16) + b * (y % 32 - 16) > 0 ? cell >> 10 : cell >> 18) & 255;
+  }
+  const auto code = static_cast<std::uint8_t>(v);
+  return {code, code, code, 255};
+}
+
+std::vector<spec::PixelBeat> beats(const std::string& image, int lanes) {
+  std::vector<spec::PixelBeat> all;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; x += lanes) {
+      spec::PixelBeat& beat = all.emplace_back();
+      beat.count = static_cast<std::uint8_t>(lanes);
+      for (int i = 0; i < lanes; ++i)
+        beat.pixel[static_cast<std::size_t>(i)] = colour(image, x + i, y);
+      beat.start_of_frame = x == 0 && y == 0;
+      beat.end_of_row = x + lanes == kWidth;
+    }
+  return all;
+}
+
+MorphologicalParameters parameters(const std::string& preset, int lanes) {
+  MorphologicalParameters p;
+  for (const spec::MorphologicalPresetRow& row : spec::kMorphologicalPresets) {
+    if (spec::kMorphologicalPresetNames[static_cast<std::size_t>(row.preset)] != preset) continue;
+    p.preset = row.preset;
+    p.threshold = row.threshold;
+    p.local_contrast = row.local_contrast;
+    p.predictor = row.predictor;
+    p.steps = row.steps;
+    p.contiguous = row.contiguous;
+    p.safe = row.safe;
+  }
+  p.lanes = lanes == 1 ? spec::Lanes::kOne : lanes == 2 ? spec::Lanes::kTwo : spec::Lanes::kFour;
+  p.line_pixels = kWidth;
+  return p;
+}
+
+// Nobody speaks to the registers here, but their socket must be bound.
+struct Bus final : sc_core::sc_module {
+  tlm_utils::simple_initiator_socket<Bus> socket{"socket"};
+  explicit Bus(const sc_core::sc_module_name& name) : sc_module(name) {}
+};
+
+// The engine with as little as possible around it.
+struct Setup {
+  rtl::ClockDomain clock{"clock", sc_core::sc_time(1, sc_core::SC_NS)};
+  rtl::Link<spec::PixelBeat> in{"in"};
+  rtl::Link<spec::BlendedBeat> out{"out"};
+  Driver<spec::PixelBeat> driver{"driver", clock};
+  rtl::morphological::MorphologicalEngine engine;
+  Sink<spec::BlendedBeat> sink{"sink", clock};
+  Bus bus{"bus"};
+  std::unique_ptr<MemoryModel> memory;
+  std::vector<spec::PixelBeat> frame;
+  std::uint64_t frames = 0;
+
+  explicit Setup(const MorphologicalParameters& p) : engine("engine", clock, p) {
+    driver.beats_out(in);
+    engine.pixels_in(in);
+    engine.pixels_out(out);
+    sink.beats_in(out);
+    sink.keep(false);
+    bus.socket.bind(engine.registers);
+    if (engine.memory()) {
+      MemoryModelParameters m;
+      m.bytes = 1u << 24;
+      memory = std::make_unique<MemoryModel>("memory", clock.period(), m);
+      engine.memory()->bind(memory->ports);
+    }
+    driver.send([this](std::uint64_t index, spec::PixelBeat& beat) {
+      if (index >= frames * frame.size()) return false;
+      beat = frame[index % frame.size()];
+      return true;
+    });
+    engine.set_frame_size(kWidth, kHeight);
+  }
+  Cycle run(std::uint64_t count) {
+    frames = count;
+    const Cycle from = clock.cycle();
+    const std::uint64_t wanted = engine.sequencer.frames.value() + count;
+    clock.run_until([&] { return engine.sequencer.frames.value() == wanted; }, 1'000'000'000);
+    return clock.cycle() - from;
+  }
+};
+
+void bm_engine(benchmark::State& state, const std::string& image) {
+  // SystemC elaborates once in a process, so all benchmarks share the engine.
+  static Setup setup(parameters("deburr", 1));
+  static std::uint64_t frames = 0;
+  setup.frame = beats(image, 1);
+  Cycle cycles = 0;
+  for (auto _ : state) {
+    // The driver stops at the end of a frame; a reset lets it start again.
+    setup.clock.set_reset_n(false);
+    setup.clock.run(1);
+    setup.clock.set_reset_n(true);
+    setup.engine.set_frame_size(kWidth, kHeight);
+    cycles += setup.run(1);
+    ++frames;
+  }
+  state.counters["cycles"] =
+      benchmark::Counter(static_cast<double>(cycles), benchmark::Counter::kIsRate);
+}
+BENCHMARK_CAPTURE(bm_engine, facets, std::string("facets"))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(bm_engine, flat, std::string("flat"))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(bm_engine, noise, std::string("noise"))->Unit(benchmark::kMillisecond);
+
+int count_instructions(const std::string& image, const std::string& preset, int lanes,
+                       std::uint64_t frames, bool memory) {
+  MorphologicalParameters p = parameters(preset, lanes);
+  if (memory) p.storage = spec::Storage::kMemory;
+  Setup setup(p);
+  setup.frame = beats(image, lanes);
+  const auto start = std::chrono::steady_clock::now();
+  const Cycle cycles = setup.run(frames);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  const spec::MorphologicalWork work = setup.engine.work();
+  std::cout << fmt::format(
+      "{} cycles, {:.2f} Mcycle/s; last frame {} clocks; {:.1f} % edge pixels, {} record stalls "
+      "({} interlock), latency {}..{}\n",
+      cycles, static_cast<double>(cycles) / seconds.count() / 1e6,
+      setup.engine.sequencer.frame_cycles.value(),
+      100.0 * static_cast<double>(work.edge_pixels) / static_cast<double>(work.pixels),
+      setup.engine.extractor.record_stalls.value(), setup.engine.extractor.interlock_stalls.value(),
+      setup.engine.beat_latency.min(), setup.engine.beat_latency.max());
+  std::uint64_t bits = 0;
+  for (const rtl::Storage* storage : setup.engine.memories()) {
+    std::cout << fmt::format("  {:40} {:8} bits {}\n", storage->name(), storage->bits(),
+                             storage->ports());
+    bits += storage->bits();
+  }
+  std::cout << fmt::format("  {:40} {:8} bits\n", "sum", bits);
+  for (const rtl::Unit* unit : setup.engine.units())
+    std::cout << fmt::format("  {:40} busy {:9} stalled {:9} idle {:9}\n", unit->name(),
+                             unit->busy_cycles(), unit->stalled_cycles(), unit->idle_cycles());
+  return 0;
+}
+
+}  // namespace
+}  // namespace deburr::tb
+
+int main(int argc, char** argv) {
+  if (argc >= 6 && std::strcmp(argv[1], "--frames") == 0)
+    return deburr::tb::count_instructions(argv[2], argv[3], std::atoi(argv[4]),
+                                          std::strtoull(argv[5], nullptr, 10), argc > 6);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
