@@ -73,21 +73,6 @@ std::vector<std::string> link_faults(const std::vector<std::string>& names) {
   return faults;
 }
 
-MemoryModelParameters memory_parameters(const MemoryParameters& p, std::size_t bytes,
-                                        std::uint64_t seed) {
-  MemoryModelParameters m;
-  m.bytes = std::max<std::uint64_t>(bytes, kMemoryGrain);
-  m.latency_min = static_cast<std::uint32_t>(p.latency);
-  m.latency_max = static_cast<std::uint32_t>(std::max(p.latency, p.latency_max));
-  m.seed = seed;
-  m.bytes_per_clock = static_cast<std::uint32_t>(p.bytes_per_clock);
-  m.banks = static_cast<std::uint32_t>(p.banks);
-  m.interleave_bytes = static_cast<std::uint32_t>(p.interleave_bytes);
-  m.bank_busy = static_cast<std::uint32_t>(p.bank_busy);
-  m.outstanding = static_cast<std::uint32_t>(p.outstanding);
-  return m;
-}
-
 sc_core::sc_time period(double mhz) {
   return sc_core::sc_time(std::round(1e6 / mhz), sc_core::SC_PS);
 }
@@ -134,7 +119,7 @@ TextureBench::TextureBench(const TextureScene& scene, const TextureBenchOptions&
       unit_("texture", clock_, hardware_parameters(options)),
       sink_("sink", clock_),
       memory_("memory", clock_.period(),
-              memory_parameters(options.memory, scene.memory().bytes().size(), options.seed)),
+              memory_model_parameters(options.memory, scene.memory().bytes().size(), options.seed)),
       host_("host"),
       golden_(make_golden(scene, options.texture,
                           options.golden ? TextureGolden::Traffic::kPredict

@@ -64,6 +64,7 @@ void MemoryModel::clear_statistics() {
   reads_ = writes_ = bytes_read_ = bytes_written_ = errors_ = 0;
   most_outstanding_ = outstanding_;
   lines_read_.clear();
+  lines_written_.clear();
 }
 
 MemoryModel::Port& MemoryModel::port_at(int port) {
@@ -101,6 +102,9 @@ void MemoryModel::access(tlm::tlm_generic_payload& payload, std::uint64_t number
         lines_read_.push_back(line);
   } else {
     ++writes_;
+    if (parameters_.record_writes)
+      for (std::uint64_t line = address; line < address + length; line += kLine)
+        lines_written_.push_back(line);
   }
   if (const auto found = failing_requests_.find(number); found != failing_requests_.end())
     return fail(found->second);

@@ -36,6 +36,7 @@ struct MemoryModelParameters {
   std::uint32_t bank_busy = 0;          // clk from a request until its bank takes another; 0: none
   std::uint32_t outstanding = 64;       // transactions; more wait with their END_REQ
   bool record_reads = true;             // keep the addresses of line reads
+  bool record_writes = false;           // keep the addresses of line writes
 };
 
 class MemoryModel final : public sc_core::sc_module {
@@ -66,6 +67,7 @@ class MemoryModel final : public sc_core::sc_module {
   std::uint32_t most_outstanding() const { return most_outstanding_; }
   // Addresses in the order of requests; of a burst, one for each 64 bytes.
   const std::vector<std::uint64_t>& lines_read() const { return lines_read_; }
+  const std::vector<std::uint64_t>& lines_written() const { return lines_written_; }
   void clear_statistics();
 
  private:
@@ -130,7 +132,7 @@ class MemoryModel final : public sc_core::sc_module {
   sc_core::sc_event wake_;
 
   std::uint64_t reads_ = 0, writes_ = 0, bytes_read_ = 0, bytes_written_ = 0, errors_ = 0;
-  std::vector<std::uint64_t> lines_read_;
+  std::vector<std::uint64_t> lines_read_, lines_written_;
 };
 
 }  // namespace deburr::tb

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// The memory behind an engine's TLM-2.0 socket, as parameters by name.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "tb/harness/memory_model.h"
+
+namespace deburr::tb {
+
+struct MemoryParameters {
+  std::int32_t latency = 100, latency_max = 0;
+  std::int32_t bytes_per_clock = 64;
+  std::int32_t banks = 1, interleave_bytes = 64, bank_busy = 0;
+  std::int32_t outstanding = 256;
+  std::int64_t error_address = -1, error_bytes = 64;
+};
+
+template <class Visitor>
+void describe(MemoryParameters& p, Visitor& v) {
+  v.integer("latency", p.latency, 1, 100000, "clk", "From a request to the first byte.");
+  v.integer("latency_max", p.latency_max, 0, 100000, "clk",
+            "Above latency: each latency is drawn evenly from latency to this; 0: fixed.");
+  v.integer("bytes_per_clock", p.bytes_per_clock, 0, 4096, "byte/clk",
+            "Width of the data bus; 0: no limit.");
+  v.integer("banks", p.banks, 1, 1024, "bank", "Banks that interleaved addresses go round.");
+  v.integer("interleave_bytes", p.interleave_bytes, 64, 1 << 20, "byte",
+            "Bytes in a row in one bank; a power of two.");
+  v.integer("bank_busy", p.bank_busy, 0, 100000, "clk",
+            "From a request until its bank takes another.");
+  v.integer("outstanding", p.outstanding, 1, 4096, "transaction", "Transactions in flight.");
+  v.integer("error_address", p.error_address, -1, std::int64_t{1} << 32, "byte",
+            "First address that answers with an error; -1: none.");
+  v.integer("error_bytes", p.error_bytes, 1, std::int64_t{1} << 32, "byte",
+            "Bytes from error_address that answer with an error.");
+}
+
+inline MemoryModelParameters memory_model_parameters(const MemoryParameters& p,
+                                                     std::uint64_t bytes, std::uint64_t seed) {
+  constexpr std::uint64_t kSmallest = 64;
+  MemoryModelParameters m;
+  m.bytes = std::max(bytes, kSmallest);
+  m.latency_min = static_cast<std::uint32_t>(p.latency);
+  m.latency_max = static_cast<std::uint32_t>(std::max(p.latency, p.latency_max));
+  m.seed = seed;
+  m.bytes_per_clock = static_cast<std::uint32_t>(p.bytes_per_clock);
+  m.banks = static_cast<std::uint32_t>(p.banks);
+  m.interleave_bytes = static_cast<std::uint32_t>(p.interleave_bytes);
+  m.bank_busy = static_cast<std::uint32_t>(p.bank_busy);
+  m.outstanding = static_cast<std::uint32_t>(p.outstanding);
+  return m;
+}
+
+}  // namespace deburr::tb
