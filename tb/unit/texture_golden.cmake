@@ -12,3 +12,6 @@ endforeach()
 deburr_test(texture_golden_ideal_test LABELS unit oracle
             SOURCES "${CMAKE_CURRENT_LIST_DIR}/texture_golden_ideal_test.cpp"
             LINK deburr::texture_golden_support deburr::ideal)
+deburr_test(texture_golden_quality_test LABELS oracle TIMEOUT 600
+            SOURCES "${CMAKE_CURRENT_LIST_DIR}/texture_golden_quality_test.cpp"
+            LINK deburr::texture_golden_support deburr::ideal)
