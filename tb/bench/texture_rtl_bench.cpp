@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// Speed of the texture unit's hardware model: the whole unit with cache, memory port and a TLM
+// memory of 100 clocks latency, tracing off.
+//
+//   texture_rtl_bench                            Mcycle/s, bilinears/s, and instructions per cycle
+//   where
+//                                                the processor's counters may be read
+//   texture_rtl_bench --cycles <workload> <n>    n cycles of one workload and nothing else, for
+//       counting instructions with callgrind; workloads: nearest trilinear anisotropic warm
+#include <benchmark/benchmark.h>
+#include <linux/perf_event.h>
+#include <sys/ioctl.h>
+#include <sys/syscall.h>
+#include <tlm_utils/simple_initiator_socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/fabric/link.h"
+#include "rtl_model/fabric/unit.h"
+#include "rtl_model/texture/texture_unit.h"
+#include "spec/fragment.h"
+#include "spec/texture.h"
+#include "tb/harness/memory_model.h"
+
+namespace deburr::tb {
+namespace {
+
+using rtl::Activity;
+using rtl::Cycle;
+
+constexpr int kSize = 1024;  // of the texture, texels
+constexpr std::int32_t kTexel = spec::kCoordinateOne / kSize;
+
+enum class Workload : std::uint8_t { kNearest, kTrilinear, kAnisotropic, kWarm };
+constexpr std::array<const char*, 4> kWorkloads = {"nearest", "trilinear", "anisotropic", "warm"};
+
+// Goes over a picture in blocks of 8 x 8 pixels, for ever.
+class Fragments final : public rtl::Unit {
+ public:
+  rtl::Out<spec::Quad> quads_out{"quads_out"};
+  Fragments(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
+  void choose(Workload workload) { workload_ = workload; }
+
+  Activity tick(Cycle cycle) override {
+    if (!quads_out.can_push(cycle)) return rtl::kStalledDownstream;
+    spec::Quad& q = quads_out.emplace(cycle);
+    q = {};
+    q.tag = count_;
+    q.texture = static_cast<std::uint8_t>(workload_);
+    // Texels a pixel in x and y. Anisotropic: 12 to 1.5.
+    const std::int32_t dx = workload_ == Workload::kAnisotropic ? 12 * kTexel : 3 * kTexel / 2;
+    const std::int32_t dy = 3 * kTexel / 2;
+    const std::uint32_t block = workload_ == Workload::kWarm ? 0 : count_ / 16;
+    const auto x = static_cast<std::int32_t>(block % 64 * 8 + count_ % 4 * 2);
+    const auto y = static_cast<std::int32_t>(block / 64 % 64 * 8 + count_ / 4 % 4 * 2);
+    q.s = {x * dx, (x + 1) * dx, x * dx, (x + 1) * dx};
+    q.t = {y * dy, y * dy, (y + 1) * dy, (y + 1) * dy};
+    ++count_;
+    return rtl::kBusy;
+  }
+  void reset() override { count_ = 0; }
+
+ private:
+  Workload workload_ = Workload::kTrilinear;
+  std::uint32_t count_ = 0;
+};
+
+class Picture final : public rtl::Unit {
+ public:
+  rtl::In<spec::Colour> colours_in{"colours_in"};
+  Picture(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
+  Activity tick(Cycle cycle) override {
+    if (!colours_in.can_pop(cycle)) return rtl::kIdle;
+    sum_ += colours_in.front(cycle).rgba[0];
+    colours_in.pop(cycle);
+    return rtl::kBusy;
+  }
+  void reset() override { sum_ = 0; }
+
+ private:
+  std::uint64_t sum_ = 0;
+};
+
+MemoryModelParameters memory_parameters() {
+  MemoryModelParameters p;
+  p.bytes = 8u << 20;
+  p.latency_min = p.latency_max = 100;
+  p.outstanding = 256;
+  p.record_reads = false;
+  return p;
+}
+
+// Writes registers.
+struct Host : sc_core::sc_module {
+  tlm_utils::simple_initiator_socket<Host> bus{"bus"};
+  explicit Host(const sc_core::sc_module_name& name) : sc_module(name) {}
+  void write(std::uint32_t offset, std::uint32_t value) {
+    std::array<unsigned char, 4> data;
+    for (unsigned i = 0; i < 4; ++i) data[i] = static_cast<unsigned char>(value >> (8 * i));
+    tlm::tlm_generic_payload payload;
+    payload.set_command(tlm::TLM_WRITE_COMMAND);
+    payload.set_address(offset);
+    payload.set_data_ptr(data.data());
+    payload.set_data_length(4);
+    payload.set_streaming_width(4);
+    sc_core::sc_time delay;
+    bus->b_transport(payload, delay);
+  }
+};
+
+// SystemC elaborates once in a process, so all benchmarks share the unit.
+struct System {
+  rtl::ClockDomain clock{"clock", sc_core::sc_time(6, sc_core::SC_NS)};
+  rtl::Link<spec::Quad> quads{"quads"};
+  rtl::Link<spec::Colour> colours{"colours"};
+  Fragments fragments{"fragments", clock};
+  rtl::texture::TextureUnit unit{"texture", clock, {}};
+  Picture picture{"picture", clock};
+  MemoryModel memory{"memory", clock.period(), memory_parameters()};
+  Host host{"host"};
+
+  System() {
+    fragments.quads_out(quads);
+    unit.quads_in(quads);
+    unit.colours_out(colours);
+    picture.colours_in(colours);
+    unit.memory.bind(memory.ports);
+    host.bus.bind(unit.registers);
+    std::vector<std::uint8_t> noise(8u << 20);
+    std::uint32_t state = 1;
+    for (std::uint8_t& byte : noise) {
+      state = state * 1664525u + 1013904223u;
+      byte = static_cast<std::uint8_t>(state >> 24);
+    }
+    memory.preload(0, noise);
+  }
+  static System& only() {
+    static System system;
+    return system;
+  }
+
+  void start(Workload workload) {
+    clock.set_reset_n(false);
+    clock.run(2);
+    clock.set_reset_n(true);
+    fragments.choose(workload);
+    const bool nearest = workload == Workload::kNearest;
+    namespace reg = spec::texture_register;
+    const std::uint32_t at =
+        reg::kTextureBase + static_cast<std::uint32_t>(workload) * reg::kTextureStride;
+    host.write(at + reg::kSize, kSize | kSize << 16);
+    host.write(at + reg::kMode, 1u << 4 | (nearest ? 0u : 5u) << 12 | (nearest ? 0u : 1u) << 16 |
+                                    11u << 20 | 4u << 24);
+    host.write(at + reg::kLodClamp, 12u << 24);
+    std::uint32_t base = 0;
+    for (std::uint32_t k = 0; k < 11; ++k) {
+      host.write(at + reg::kLevelBase + 4 * k, base);
+      base += std::max(64u, (kSize >> k) * (kSize >> k) * 4u);
+    }
+    clock.run(2000);
+  }
+  std::uint64_t bilinears() const { return unit.address.addresser.bilinears.value(); }
+};
+
+// Instructions of this process in user mode; 0 where the kernel does not give them.
+class InstructionCounter {
+ public:
+  InstructionCounter() {
+    perf_event_attr attributes{};
+    attributes.type = PERF_TYPE_HARDWARE;
+    attributes.size = sizeof attributes;
+    attributes.config = PERF_COUNT_HW_INSTRUCTIONS;
+    attributes.exclude_kernel = 1;
+    file_ = static_cast<int>(syscall(SYS_perf_event_open, &attributes, 0, -1, -1, 0));
+  }
+  ~InstructionCounter() {
+    if (file_ >= 0) close(file_);
+  }
+  InstructionCounter(const InstructionCounter&) = delete;
+  InstructionCounter& operator=(const InstructionCounter&) = delete;
+  std::uint64_t value() const {
+    std::uint64_t count = 0;
+    return file_ >= 0 && read(file_, &count, sizeof count) == sizeof count ? count : 0;
+  }
+
+ private:
+  int file_;
+};
+
+void bm_texture_rtl(benchmark::State& state, Workload workload) {
+  constexpr Cycle kCycles = 100'000;
+  System& system = System::only();
+  system.start(workload);
+  const InstructionCounter instructions;
+  const std::uint64_t bilinears = system.bilinears(), counted = instructions.value();
+  for (auto _ : state) system.clock.run(kCycles);
+  const double cycles = static_cast<double>(state.iterations()) * kCycles;
+  using benchmark::Counter;
+  state.counters["cycles"] = Counter(cycles, Counter::kIsRate);
+  state.counters["bilinears"] =
+      Counter(static_cast<double>(system.bilinears() - bilinears), Counter::kIsRate);
+  if (instructions.value() != 0)
+    state.counters["instructions/cycle"] =
+        static_cast<double>(instructions.value() - counted) / cycles;
+}
+
+BENCHMARK_CAPTURE(bm_texture_rtl, nearest, Workload::kNearest);
+BENCHMARK_CAPTURE(bm_texture_rtl, trilinear, Workload::kTrilinear);
+BENCHMARK_CAPTURE(bm_texture_rtl, anisotropic, Workload::kAnisotropic);
+BENCHMARK_CAPTURE(bm_texture_rtl, warm, Workload::kWarm);
+
+}  // namespace
+}  // namespace deburr::tb
+
+int main(int argc, char** argv) {
+  using namespace deburr::tb;
+  if (argc == 4 && std::string(argv[1]) == "--cycles") {
+    System& system = System::only();
+    for (std::size_t i = 0; i < kWorkloads.size(); ++i)
+      if (std::string(argv[2]) == kWorkloads[i]) system.start(static_cast<Workload>(i));
+    const std::uint64_t before = system.bilinears();
+    system.clock.run(std::strtoull(argv[3], nullptr, 10));
+    std::cout << system.bilinears() - before << " bilinears\n";
+    return 0;
+  }
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
