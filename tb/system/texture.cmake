@@ -4,3 +4,5 @@ deburr_test(texture_system_test LABELS system SOURCES texture_system_test.cpp
 target_compile_definitions(texture_system_test PRIVATE DEBURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 deburr_test(texture_stress_test LABELS stress SOURCES texture_stress_test.cpp
             LINK deburr::texture_bench TIMEOUT 300)
+deburr_test(texture_coverage_test LABELS system SOURCES texture_coverage_test.cpp
+            LINK deburr::texture_bench)
