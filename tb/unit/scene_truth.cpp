@@ -3,6 +3,7 @@
 // depth, and the frames that another program rendered from the same scene?
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -77,6 +78,33 @@ TEST(Truth, OneSampleIsTheFragment) {
                    .rgba = texture.at((quad.s[lane] >> 18) & 63, (quad.t[lane] >> 18) & 63)});
   EXPECT_LE(count_different(frame.frame(), image),
             2);  // a coordinate on a texel's border may round over
+}
+
+TEST(Truth, BilinearMeetsTexelsAtTheirCentres) {
+  // A texel to four pixels: its centre lies between pixels 1 and 2, an eighth of a texel from each.
+  FlatScreen screen(32);
+  screen.rectangle(0, 0, 32, 32);
+  screen.scene().mesh.textures[0].image = Image(8, 8, {0, 0, 0, 255});
+  screen.scene().mesh.textures[0].image.at(3, 5) = {255, 255, 255, 255};
+  const Image image = render(screen.scene(), texture_options(32, 1));
+  const double near = 7.0 / 8, far = 3.0 / 8;  // weights of the texel along one axis
+  const std::array<double, 8> weight{1.0 / 8, far, 5.0 / 8, near, near, 5.0 / 8, far, 1.0 / 8};
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 32; ++x) {
+      const int i = x - 10, j = y - 18;  // the texel reaches two pixels further than its own four
+      const bool inside = i >= 0 && i < 8 && j >= 0 && j < 8;
+      const double want =
+          inside ? weight[static_cast<std::size_t>(i)] * weight[static_cast<std::size_t>(j)] : 0;
+      EXPECT_NEAR(coverage(image, x, y), want, 0.5 / 255 + 1e-6) << x << "," << y;
+    }
+  }
+  RenderOptions nearest = texture_options(32, 1);
+  nearest.sampling = Sampling::kNearest;
+  const Image blocks = render(screen.scene(), nearest);
+  EXPECT_EQ(blocks.at(12, 20)[0], 255);
+  EXPECT_EQ(blocks.at(15, 23)[0], 255);
+  EXPECT_EQ(blocks.at(11, 20)[0], 0);
+  EXPECT_EQ(blocks.at(16, 20)[0], 0);
 }
 
 TEST(Truth, ConvergesAndKeepsAFlatTexture) {
