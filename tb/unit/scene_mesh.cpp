@@ -138,8 +138,25 @@ TEST(Obj, BrokenFilesAreNamedWithTheirLine) {
               Contains(HasSubstr("truncated")));
 }
 
-// ---- glTF
-// -----------------------------------------------------------------------------------------
+TEST(Obj, DamagedBytesNeverCrash) {
+  const TemporaryFolder folder;
+  const std::string good =
+      std::string(kSquare) + "vn 0 0 1\nf 1//1 2//1 3//1\nf -4/1/1 -3/2/1 -2/3/1\n";
+  std::mt19937 random(7);
+  int refused = 0;
+  for (int i = 0; i < 600; ++i) {
+    std::string bytes = good;
+    for (int k = 0; k < 2; ++k) bytes[random() % bytes.size()] = static_cast<char>(random());
+    try {
+      import_mesh(folder.write("fuzz.obj", bytes));
+    } catch (const spec::FileError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 200);
+}
+
+// ---- glTF ---------------------------------------------------------------------------------------
 
 // Builds files piece by piece; the defaults are one textured triangle.
 struct GltfFile {
