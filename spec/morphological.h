@@ -88,7 +88,7 @@ struct MorphologicalParameters {
   std::int32_t window_rows = 66;
   std::int32_t reach_columns = 256;
   std::int32_t line_pixels = kMaxFrameSize;
-  std::int32_t record_fifo = 64;
+  std::int32_t record_fifo = 256;
   std::int32_t predictor_units = 2;
   std::int32_t divider_latency = 24;
   std::int32_t divider_interval = 1;
@@ -140,7 +140,7 @@ void describe(MorphologicalParameters& p, Visitor& v) {
   v.integer("line_pixels", p.line_pixels, 1, kMaxFrameSize, "pixel",
             "Widest frame that the line buffers hold.");
   v.integer("record_fifo", p.record_fifo, 2, 4096, "record",
-            "Runs waiting for a predictor, for each axis and lane.");
+            "Runs waiting for a predictor, for each axis and lane; a tenth of a row bears every burst.");
   v.integer("predictor_units", p.predictor_units, 1, 16, "unit",
             "Predictors for each axis and lane; each tries one step of both sides a clock.");
   v.integer("divider.latency", p.divider_latency, 1, 64, "clock", "Latency of the divider.");

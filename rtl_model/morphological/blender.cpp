@@ -14,7 +14,8 @@ Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
 Activity Blender::tick(Cycle cycle) {
   bool did = false;
   if (stage_.full) {
-    if (!pixels_out.can_push(cycle)) return kStalledDownstream;
+    if (!pixels_out.can_push(cycle) || (stage_.last && !frames_done_out.can_push(cycle)))
+      return kStalledDownstream;
     deliver(cycle);
     did = true;
   }
@@ -34,6 +35,7 @@ void Blender::choose(const ShareToken& token, const PixelToken& around) {
   const auto count = static_cast<std::size_t>(end ? rules.last_count : store_.lanes());
   stage_.full = true;
   stage_.slot = token.slot;
+  stage_.last = end && token.slot.row + 1u == rules.rows;
   for (std::size_t i = 0; i < count; ++i) {
     stage_.centre[i] = around.centre[i];
     spec::BlendTap& tap = stage_.tap[i];
@@ -99,7 +101,7 @@ void Blender::deliver(Cycle cycle) {
   pixels += count;
   beat_latency.record(probe_.leaves(cycle));
   stage_.full = false;
-  if (end && slot.row + 1u == rules.rows) frames_done_out.push(cycle, {slot.number});
+  if (stage_.last) frames_done_out.push(cycle, {slot.number});
 }
 
 spec::Rgba8 Blender::blend(const Operands& o, const spec::BlendTap& tap, std::uint8_t alpha) const {

@@ -44,6 +44,7 @@ class Blender final : public Unit {
   };
   struct Stage {
     bool full = false;
+    bool last = false;  // beat of the frame
     Slot slot;
     LanePixels centre;
     std::array<spec::BlendTap, spec::kMaxLanes> tap;

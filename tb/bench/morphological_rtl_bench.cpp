@@ -44,6 +44,8 @@ spec::Rgba8 colour(const std::string& image, int x, int y) {
     v = mix(at) & 1 ? 255 : 0;
   } else if (image == "stripes") {
     v = y & 1 ? 255 : 0;
+  } else if (image == "burst") {
+    v = x < kWidth / 5 && (x + y) / 2 % 2 != 0 ? 255 : 0;
   } else if (image == "facets") {
     const std::uint32_t cell = mix(static_cast<std::uint32_t>(y / 32 * 64 + x / 32));
     const int a = static_cast<int>(cell & 31) - 16, b = static_cast<int>(cell >> 5 & 31) - 16;
