@@ -232,8 +232,7 @@ TEST(ImageIo, FullDiskIsReportedAndTheOldFileStays) {
   EXPECT_EQ(folder.files(), 1u);
 }
 
-// ---- quality
-// --------------------------------------------------------------------------------------
+// ---- quality ------------------------------------------------------------------------------------
 
 TEST(Quality, PsnrKnownAnswers) {
   const Image a(10, 10, {100, 100, 100, 255});
