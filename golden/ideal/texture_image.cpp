@@ -42,6 +42,7 @@ TextureImage::Level smaller(const TextureImage::Level& big) {
   result.texels.resize(static_cast<std::size_t>(result.width) *
                        static_cast<std::size_t>(result.height));
   std::vector<Cover> columns;
+  columns.reserve(static_cast<std::size_t>(result.width));
   for (int x = 0; x < result.width; ++x) columns.push_back(cover(x, big.width, result.width));
   auto target = result.texels.begin();
   for (int y = 0; y < result.height; ++y) {

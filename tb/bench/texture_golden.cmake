@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: MIT
 find_package(benchmark REQUIRED)
 add_executable(texture_golden_bench "${CMAKE_CURRENT_LIST_DIR}/texture_golden_bench.cpp")
-deburr_layer_root(deburr_tb_root tb)
-target_include_directories(texture_golden_bench PRIVATE "${deburr_tb_root}")
-target_link_libraries(texture_golden_bench PRIVATE deburr::golden_texture deburr_options
+target_link_libraries(texture_golden_bench PRIVATE deburr::texture_golden_support deburr_options
                                                    benchmark::benchmark)
