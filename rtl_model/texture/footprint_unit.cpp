@@ -15,7 +15,8 @@ Activity FootprintUnit::tick(Cycle cycle) {
   if (!footprints_out.can_push(cycle)) return kStalledDownstream;
 
   const DerivativeToken& in = derivatives_in.front(cycle);
-  const std::uint32_t d_x = side(in.size_s_x, in.size_t_x), d_y = side(in.size_s_y, in.size_t_y);
+  const std::uint32_t d_x = side(rule_, in.size_s_x, in.size_t_x),
+                      d_y = side(rule_, in.size_s_y, in.size_t_y);
   const bool x_is_major = d_x >= d_y;
   footprints_out.emplace(cycle) = {in.ticket,
                                    in.s,
@@ -28,10 +29,10 @@ Activity FootprintUnit::tick(Cycle cycle) {
   return kBusy;
 }
 
-// U15.16 in, U16.16 out. The shifts are wires.
-std::uint32_t FootprintUnit::side(std::uint32_t s, std::uint32_t t) const {
+// The shifts are wires.
+std::uint32_t FootprintUnit::side(spec::FootprintRule rule, std::uint32_t s, std::uint32_t t) {
   const std::uint32_t a = std::max(s, t), b = std::min(s, t);
-  switch (rule_) {
+  switch (rule) {
     case spec::FootprintRule::kHalf:
       return a + (b >> 1);
     case spec::FootprintRule::kQuarter:

@@ -5,13 +5,13 @@
 // Where: after the DerivativeUnit. Latency 1, with `exact` 16; initiation interval 1; stalled by
 // `downstream`. Formats: U15.16 in, U16.16 out, every shift truncates. Cost: `half` and `quarter`
 // two comparators and two adders (one more pair to order the sides); `two_segment` six adders and
-// two comparators; `exact` four 31-bit squarers and 2 x 16 stages of two root bits each. Error
-// against the square root (TEXTURE_RTL footprint tests): half +11.8 %, quarter -11.6 ..+3.1 %,
-// two_segment -2.8 ..+0.8 %, exact none. Source: paper 1.2, equations 10 and 11.
+// two comparators; `exact` four 31-bit squarers and 2 x 16 stages of two root bits each.
+// Error against the square root: half 0 to +11.9 %, quarter -11.7 to +3.1 %, two_segment -2.8 to
+// +0.8 %, max -29.3 to 0 %, exact none (TextureRtlFootprint.ErrorIsAsDocumented). Source: paper
+// 1.2, equations 10 and 11.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <systemc>
 
 #include "rtl_model/fabric/unit.h"
@@ -30,8 +30,10 @@ class FootprintUnit final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override;
 
+  // The combinational part of every rule but `exact`: U15.16 in, U16.16 out.
+  static std::uint32_t side(spec::FootprintRule rule, std::uint32_t s, std::uint32_t t);
+
  private:
-  std::uint32_t side(std::uint32_t s, std::uint32_t t) const;
   Activity tick_exact(Cycle cycle);
 
   spec::FootprintRule rule_;

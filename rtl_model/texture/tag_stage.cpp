@@ -33,7 +33,7 @@ Activity TagStage::tick(Cycle cycle) {
   if (in.ticket.valid) {
     out.column_conflict = in.column_conflict;
     out.row_conflict = in.row_conflict;
-    MissToken missed;
+    MissToken missed{};
     look_up(cycle, in, out, missed);
     if (out.fills != 0) {
       missed.count = out.fills;

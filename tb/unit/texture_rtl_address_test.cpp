@@ -198,6 +198,30 @@ TEST(TextureRtlFootprint, EveryRuleByHand) {
   }
 }
 
+TEST(TextureRtlFootprint, ErrorIsAsDocumented) {
+  struct Row {
+    spec::FootprintRule rule;
+    double low, high;  // percent
+  };
+  const std::uint32_t a = 1 << 20;
+  for (const Row& row :
+       {Row{spec::FootprintRule::kHalf, 0, 11.9}, Row{spec::FootprintRule::kQuarter, -11.7, 3.1},
+        Row{spec::FootprintRule::kTwoSegment, -2.8, 0.8},
+        Row{spec::FootprintRule::kMax, -29.3, 0}}) {
+    SCOPED_TRACE(spec::kFootprintNames[static_cast<std::size_t>(row.rule)]);
+    double low = 0, high = 0;
+    for (std::uint32_t b = 0; b <= a; b += 16) {
+      const double error = 100 * (FootprintUnit::side(row.rule, b, a) / std::hypot(a, b) - 1);
+      low = std::min(low, error);
+      high = std::max(high, error);
+    }
+    EXPECT_NEAR(low, row.low, 0.1);
+    EXPECT_NEAR(high, row.high, 0.1);
+    EXPECT_GE(low, row.low);
+    EXPECT_LE(high, row.high);
+  }
+}
+
 TEST(TextureRtlFootprint, LatencyOneAndSixteen) {
   ClockDomain clock("clock", period());
   FootprintBench half(clock, "half_", spec::FootprintRule::kHalf);
