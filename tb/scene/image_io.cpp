@@ -114,7 +114,7 @@ ImageOf<Pixel> expand(const std::vector<Value>& values, int width, int height, i
 
 std::uint8_t quantise(float value) {
   if (!(value > 0.0f)) return 0;  // also NaN
-  return static_cast<std::uint8_t>(std::min(value, 1.0f) * 255.0f + 0.5f);
+  return static_cast<std::uint8_t>(std::lround(std::min(value, 1.0f) * 255.0f));
 }
 
 bool declares_linear_light(const OIIO::ImageSpec& spec) {
@@ -319,7 +319,7 @@ void write_depth24(const fs::path& path, const DepthImage& depth) {
   Image image(depth.width, depth.height);
   for (std::size_t i = 0; i < depth.pixels.size(); ++i) {
     const double inside = depth.pixels[i] > 0.0f ? std::min<double>(depth.pixels[i], 1.0) : 0.0;
-    const auto value = static_cast<std::uint32_t>(inside * 16777215.0 + 0.5);
+    const auto value = static_cast<std::uint32_t>(std::lround(inside * 16777215.0));
     image.pixels[i] = {static_cast<std::uint8_t>(value >> 16),
                        static_cast<std::uint8_t>(value >> 8), static_cast<std::uint8_t>(value),
                        255};

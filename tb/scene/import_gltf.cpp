@@ -264,7 +264,8 @@ class GltfImport {
         tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
     if (component_bytes <= 0 || components <= 0 || static_cast<std::size_t>(components) < needed)
       fail(fmt::format("accessor {} has the wrong type; the file is damaged", index));
-    const std::size_t element = static_cast<std::size_t>(component_bytes * components);
+    const std::size_t element =
+        static_cast<std::size_t>(component_bytes) * static_cast<std::size_t>(components);
     const std::size_t stride = view.byteStride != 0 ? view.byteStride : element;
     const std::size_t most = buffer.data.size();
     // Each term is bounded by the buffer before it is added or multiplied, so nothing can wrap.

@@ -92,7 +92,7 @@ void texture_everything(Mesh& mesh, const Texture* fallback) {
     Rgba8 colour{0, 0, 0, 255};
     for (int c = 0; c < 3; ++c)
       colour[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(
-          std::pow(std::clamp(material.colour[c], 0.0, 1.0), 1.0 / 2.2) * 255.0 + 0.5);
+          std::lround(std::pow(std::clamp(material.colour[c], 0.0, 1.0), 1.0 / 2.2) * 255.0));
     for (int y = 0; y < kCell; ++y) std::fill_n(&palette.image.at(left, top + y), kCell, colour);
     centre[static_cast<std::uint32_t>(plain[k])] =
         V2d((left + 0.5 * kCell) / palette.image.width, (top + 0.5 * kCell) / palette.image.height);

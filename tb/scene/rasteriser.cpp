@@ -185,8 +185,8 @@ Rgba8 sky(const Scene& scene, double y, int height) {
   const double blend = std::clamp(y / height, 0.0, 1.0);
   Rgba8 colour;
   for (std::size_t c = 0; c < 4; ++c)
-    colour[c] = static_cast<std::uint8_t>(scene.sky_top[c] +
-                                          (scene.sky_bottom[c] - scene.sky_top[c]) * blend + 0.5);
+    colour[c] = static_cast<std::uint8_t>(
+        std::lround(scene.sky_top[c] + (scene.sky_bottom[c] - scene.sky_top[c]) * blend));
   return colour;
 }
 

@@ -82,7 +82,7 @@ constexpr int kLinearOne = 1 << 24;
 
 // Linear light of the byte value + half/2, U1.24.
 std::int64_t linear_of(int value, int half) {
-  return static_cast<std::int64_t>(srgb_to_linear((value + 0.5 * half) / 255.0) * kLinearOne + 0.5);
+  return std::llround(srgb_to_linear((value + 0.5 * half) / 255.0) * kLinearOne);
 }
 
 struct TransferTables {

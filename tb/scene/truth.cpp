@@ -41,7 +41,7 @@ struct Transport {
     value = std::clamp(value, 0.0, 1.0);
     if (transfer == Transfer::kSrgb) value = linear_to_srgb(value);
     if (transfer == Transfer::kGamma22) value = std::pow(value, 1.0 / kGamma);
-    return static_cast<std::uint8_t>(value * 255.0 + 0.5);
+    return static_cast<std::uint8_t>(std::lround(value * 255.0));
   }
 };
 
@@ -246,7 +246,8 @@ struct Sum {
 Rgba8 finish(const Sum& sum, int samples, const Transport& transport) {
   Rgba8 pixel;
   for (std::size_t c = 0; c < 3; ++c) pixel[c] = transport.encode(sum.value[c] / samples);
-  pixel[3] = static_cast<std::uint8_t>(std::clamp(sum.value[3] / samples, 0.0, 1.0) * 255.0 + 0.5);
+  pixel[3] =
+      static_cast<std::uint8_t>(std::lround(std::clamp(sum.value[3] / samples, 0.0, 1.0) * 255.0));
   return pixel;
 }
 
@@ -288,8 +289,8 @@ Image render(const Scene& scene, const RenderOptions& options) {
           Sum sum;
           for (int j = y * n; j < (y + 1) * n; ++j) {
             for (int i = x * n; i < (x + 1) * n; ++i) {
-              const std::int32_t owner =
-                  owners[static_cast<std::size_t>((j - row * tile) * tile + (i - column * tile))];
+              const int at = (j - row * tile) * tile + (i - column * tile);
+              const std::int32_t owner = owners[static_cast<std::size_t>(at)];
               Colour colour = owner == kNobody
                                   ? background
                                   : shader.shade(owner, cell_centre(i), cell_centre(j), n);
