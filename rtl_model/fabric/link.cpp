@@ -6,35 +6,56 @@
 namespace deburr::rtl {
 
 LinkBase::LinkBase(const char* name, std::uint32_t depth, std::size_t payload_bytes)
-    : sc_object(name),
-      mask_(std::bit_ceil(depth ? depth : 1U) - 1U),
-      depth_(depth),
-      payload_bytes_(payload_bytes) {
+    : sc_object(name), depth_(depth), payload_bytes_(payload_bytes) {
   DEBURR_CHECK(depth >= 1 && depth <= (1U << 24),
                fmt::format("{}: depth {} is not in 1..2^24", this->name(), depth));
 }
 
-std::string LinkBase::misuse(const char* what, Cycle cycle) const {
-  return fmt::format("{}: cycle {}: {} ({} of {} beats in the link; producer {}, consumer {})",
-                     name(), cycle, what, occupancy(), depth_,
-                     producer_.empty() ? "unbound" : producer_,
-                     consumer_.empty() ? "unbound" : consumer_);
+void LinkBase::adopt(Stamps* first, std::byte* payload, std::size_t slot_bytes) {
+  first_ = first;
+  payloads_ = payload;
+  slot_bytes_ = slot_bytes;
+  for (std::uint32_t i = 0; i < depth_; ++i) slot_of(i)->next = slot_of(i + 1);
+  reset();
+}
+
+LinkBase::Stamps* LinkBase::slot_of(std::uint64_t beat) {
+  return reinterpret_cast<Stamps*>(reinterpret_cast<std::byte*>(first_) +
+                                   beat % depth_ * slot_bytes_);
+}
+
+void LinkBase::reset() {
+  pushes_ = pops_ = 0;
+  last_push_ = last_pop_ = kNever;
+  tail_ = head_ = first_;
+  for (std::uint32_t i = 0; i < depth_; ++i) {
+    slot_of(i)->push_from = 0;
+    slot_of(i)->pop_from = kNever;
+  }
+}
+
+void LinkBase::fail(const char* what, Cycle cycle) const {
+  throw spec::CheckFailed(
+      fmt::format("{}: cycle {}: {} ({} of {} beats in the link; producer {}, consumer {})", name(),
+                  cycle, what, occupancy(), depth_, producer_.empty() ? "unbound" : producer_,
+                  consumer_.empty() ? "unbound" : consumer_));
 }
 
 bool LinkBase::drop_newest() {
   if (empty()) return false;
-  --pushes_;
-  if (empty()) pop_from_ = kNever;
-  push_from_ = std::min(push_from_, last_push_ + 1);
+  tail_ = slot_of(--pushes_);
+  tail_->pop_from = kNever;
+  tail_->push_from = last_push_ + 1;
   return true;
 }
 
 bool LinkBase::duplicate_newest(Cycle cycle) {
   if (empty() || occupancy() == depth_) return false;
   std::memcpy(beat(pushes_), beat(pushes_ - 1), payload_bytes_);
+  tail_->push_from = kNever;
+  tail_->pop_from = cycle;
+  tail_ = tail_->next;
   ++pushes_;
-  if (occupancy() == depth_) push_from_ = kNever;
-  pop_from_ = std::min(pop_from_, cycle);
   return true;
 }
 

@@ -7,13 +7,13 @@
 // as the producer sees it, `can_pop` is "valid" as the consumer sees it. Cost: depth x payload bits
 // of registers, two pointers, one counter.
 //
-// The link keeps no "next state" that somebody would have to clock. It keeps, for each side, the
-// first cycle in which that side may act; each action moves these two stamps to the next cycle.
-// So a hand-shake is one comparison, and it does not matter which side is evaluated first.
+// The link keeps no "next state" that somebody would have to clock. Each slot of its ring carries,
+// for each side, the first cycle in which that side may act on it; each action moves these stamps
+// to the next cycle. So a hand-shake is one comparison, and it does not matter which side comes
+// first.
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -34,8 +34,8 @@ class LinkBase : public sc_core::sc_object {
  public:
   const char* kind() const override { return "deburr_link"; }
 
-  bool can_push(Cycle cycle) const { return cycle >= push_from_; }
-  bool can_pop(Cycle cycle) const { return cycle >= pop_from_; }
+  bool can_push(Cycle cycle) const { return cycle >= tail_->push_from; }
+  bool can_pop(Cycle cycle) const { return cycle >= head_->pop_from; }
 
   std::uint32_t depth() const { return depth_; }
   std::uint32_t occupancy() const { return static_cast<std::uint32_t>(pushes_ - pops_); }
@@ -46,23 +46,18 @@ class LinkBase : public sc_core::sc_object {
   Cycle last_pop() const { return last_pop_; }      // kNever if there was none since reset
   std::size_t payload_bytes() const { return payload_bytes_; }
 
-  void reset() {
-    pushes_ = pops_ = 0;
-    last_push_ = last_pop_ = kNever;
-    push_from_ = 0;
-    pop_from_ = kNever;
-  }
+  void reset();
 
   // --- For testbenches: stalls, faults, checkers and traces. They cost nothing when unused. ---
 
   // Makes the link not ready (not valid) in this cycle. Call before the units are ticked.
-  void hold_push(Cycle cycle) { push_from_ = std::max(push_from_, cycle + 1); }
-  void hold_pop(Cycle cycle) { pop_from_ = std::max(pop_from_, cycle + 1); }
+  void hold_push(Cycle cycle) { tail_->push_from = std::max(tail_->push_from, cycle + 1); }
+  void hold_pop(Cycle cycle) { head_->pop_from = std::max(head_->pop_from, cycle + 1); }
   // The bytes of beat number `beat` (counted from reset). They are there from its push until its
   // slot is refilled, at the earliest one cycle after its pop.
-  std::byte* beat(std::uint64_t beat) { return bytes_ + (beat & mask_) * payload_bytes_; }
+  std::byte* beat(std::uint64_t beat) { return payloads_ + beat % depth_ * slot_bytes_; }
   const std::byte* beat(std::uint64_t beat) const {
-    return bytes_ + (beat & mask_) * payload_bytes_;
+    return payloads_ + beat % depth_ * slot_bytes_;
   }
   // Takes back the newest beat, or pushes it a second time, behind the back of both sides; false
   // if there is none, or no room.
@@ -74,38 +69,63 @@ class LinkBase : public sc_core::sc_object {
   const std::string& consumer() const { return consumer_; }
 
  protected:
-  LinkBase(const char* name, std::uint32_t depth, std::size_t payload_bytes);
+  // The head of a slot; the payload follows it. Beat n is in slot n modulo depth.
+  struct Stamps {
+    Cycle push_from = 0;      // kNever while there is a beat in the slot
+    Cycle pop_from = kNever;  // kNever while there is none
+    Stamps* next = nullptr;
+  };
 
-  // Moves the stamps for a push (pop) in `cycle`; gives the number of the beat.
-  std::uint64_t advance_push(Cycle cycle) {
-    DEBURR_CHECK(can_push(cycle), misuse("push without can_push()", cycle));
-    const std::uint64_t number = pushes_++;
+  LinkBase(const char* name, std::uint32_t depth, std::size_t payload_bytes);
+  // The ring, once it exists: its first slot and payload, and the distance of slots.
+  void adopt(Stamps* first, std::byte* payload, std::size_t slot_bytes);
+
+  // Moves the stamps for a push (pop) in `cycle`; gives the slot. The stamp of the slot that comes
+  // next sees to it that there is one push (pop) a cycle.
+  Stamps* advance_push(Cycle cycle) {
+    Stamps* const slot = tail_;
+    if (cycle < slot->push_from) [[unlikely]]
+      fail("push without can_push()", cycle);
+    slot->push_from = kNever;
+    slot->pop_from = cycle + 1;
+    Stamps* const next = slot->next;
+    next->push_from = std::max(next->push_from, cycle + 1);
+    tail_ = next;
+    ++pushes_;
     last_push_ = cycle;
-    push_from_ = pushes_ - pops_ == depth_ ? kNever : cycle + 1;
-    pop_from_ = std::min(pop_from_, cycle + 1);
-    return number;
+    return slot;
   }
-  void advance_pop(Cycle cycle) {
-    DEBURR_CHECK(can_pop(cycle), misuse("pop without can_pop()", cycle));
+  Stamps* advance_pop(Cycle cycle) {
+    Stamps* const slot = head_;
+    if (cycle < slot->pop_from) [[unlikely]]
+      fail("pop without can_pop()", cycle);
+    slot->pop_from = kNever;
+    slot->push_from = cycle + 1;
+    Stamps* const next = slot->next;
+    next->pop_from = std::max(next->pop_from, cycle + 1);
+    head_ = next;
     ++pops_;
     last_pop_ = cycle;
-    pop_from_ = pushes_ == pops_ ? kNever : cycle + 1;
-    push_from_ = std::min(push_from_, cycle + 1);
+    return slot;
   }
-  std::string misuse(const char* what, Cycle cycle) const;
+  // Throws CheckFailed. Out of line, without a text of its own to build: a check costs its caller
+  // one comparison and no stack frame.
+  [[noreturn, gnu::cold, gnu::noinline]] void fail(const char* what, Cycle cycle) const;
 
-  // All that a hand-shake touches, in one cache line.
-  alignas(64) Cycle push_from_ = 0;
-  Cycle pop_from_ = kNever;
+  // All that a hand-shake touches besides the slot, in one cache line.
+  alignas(64) Stamps* tail_ = nullptr;  // where the next beat goes
+  Stamps* head_ = nullptr;              // where the next beat is, or will be
   std::uint64_t pushes_ = 0, pops_ = 0;
-  std::byte* bytes_ = nullptr;
-  std::uint32_t mask_, depth_;
   Cycle last_push_ = kNever, last_pop_ = kNever;
 
  private:
   friend class PortBase;
   friend class ClockDomain;
-  std::size_t payload_bytes_;
+  Stamps* slot_of(std::uint64_t beat);
+  std::uint32_t depth_;
+  std::size_t payload_bytes_, slot_bytes_ = 0;
+  Stamps* first_ = nullptr;
+  std::byte* payloads_ = nullptr;
   const void* clock_ = nullptr;  // the domain that both ends belong to
   std::string producer_, consumer_;
 };
@@ -116,32 +136,32 @@ class Link final : public LinkBase {
   static_assert(std::is_trivially_copyable_v<T>, "a payload is a bundle of wires");
 
  public:
-  explicit Link(const char* name, std::uint32_t depth = 2) : LinkBase(name, depth, sizeof(T)) {
-    storage_ = std::make_unique<T[]>(mask_ + std::size_t{1});
-    bytes_ = reinterpret_cast<std::byte*>(storage_.get());
+  explicit Link(const char* name, std::uint32_t depth = 2)
+      : LinkBase(name, depth, sizeof(T)), slots_(std::make_unique<Slot[]>(depth)) {
+    adopt(slots_.get(), reinterpret_cast<std::byte*>(&slots_[0].payload), sizeof(Slot));
   }
 
   // The oldest beat. Needs can_pop(cycle).
   const T& front(Cycle cycle) const {
-    DEBURR_CHECK(can_pop(cycle), misuse("front without can_pop()", cycle));
-    return slot(pops_);
+    if (!can_pop(cycle)) [[unlikely]]
+      fail("front without can_pop()", cycle);
+    return payload(head_);
   }
   void pop(Cycle cycle) { advance_pop(cycle); }
   // front and pop in one.
-  T take(Cycle cycle) {
-    const T value = front(cycle);
-    advance_pop(cycle);
-    return value;
-  }
+  T take(Cycle cycle) { return payload(advance_pop(cycle)); }
 
   // Needs can_push(cycle).
-  void push(Cycle cycle, const T& value) { slot(advance_push(cycle)) = value; }
+  void push(Cycle cycle, const T& value) { payload(advance_push(cycle)) = value; }
   // Pushes a beat that the caller fills in place, within the same tick(). It holds old bits.
-  T& emplace(Cycle cycle) { return slot(advance_push(cycle)); }
+  T& emplace(Cycle cycle) { return payload(advance_push(cycle)); }
 
  private:
-  T& slot(std::uint64_t number) const { return reinterpret_cast<T*>(bytes_)[number & mask_]; }
-  std::unique_ptr<T[]> storage_;
+  struct Slot : Stamps {
+    T payload{};
+  };
+  static T& payload(Stamps* slot) { return static_cast<Slot*>(slot)->payload; }
+  std::unique_ptr<Slot[]> slots_;
 };
 
 // A named end of a link on a unit's border. Bind it to a link, or to the port of the same kind of
