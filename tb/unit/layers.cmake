@@ -1,3 +1,6 @@
 # SPDX-License-Identifier: MIT
-add_test(NAME layers COMMAND ${PROJECT_SOURCE_DIR}/tb/unit/layers_test.py ${PROJECT_SOURCE_DIR})
-set_tests_properties(layers PROPERTIES LABELS unit)
+foreach(check layers links)
+  add_test(NAME ${check}
+           COMMAND ${PROJECT_SOURCE_DIR}/tb/unit/${check}_test.py ${PROJECT_SOURCE_DIR})
+  set_tests_properties(${check} PROPERTIES LABELS unit)
+endforeach()

@@ -22,6 +22,8 @@ SOURCE = {".h", ".cpp", ".cmake", ".py", ".txt"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 FLOATING = re.compile(r"\b(float|double)\b")
 THREADS = re.compile(r"\bSC_C?THREAD\b")
+ASSERT = re.compile(r"(?<![\w_])assert\s*\(")
+NAMESPACE = re.compile(r"^\s*using\s+namespace\b")
 CONDITIONAL = re.compile(r"^\s*#\s*if(n?def)?\b")
 
 
@@ -44,11 +46,19 @@ def violations(root):
                     name = include.group(1)
                     if ".." in name:
                         yield f"{where}:{number}: relative include {name}"
+                    if name == "systemc.h":
+                        yield f"{where}:{number}: <systemc.h> instead of <systemc>"
+                    if layer in {"spec", "golden"} and name.split("/")[0] in {"systemc", "tlm"}:
+                        yield f"{where}:{number}: SystemC in {layer}"
                     first = name.split("/")[0]
                     if first in ALLOWED and first not in allowed:
                         yield f"{where}:{number}: {layer} includes {first}"
                 if layer in {"golden", "rtl_model"} and not ideal and FLOATING.search(line):
                     yield f"{where}:{number}: floating point in {layer}"
+                if ASSERT.search(line) and "static_assert" not in line:
+                    yield f"{where}:{number}: assert instead of DEBURR_CHECK"
+                if path.suffix == ".h" and NAMESPACE.match(line):
+                    yield f"{where}:{number}: using namespace in a header"
                 if layer == "rtl_model" and THREADS.search(line):
                     yield f"{where}:{number}: a thread process in rtl_model"
                 if layer in {"golden", "rtl_model"} and CONDITIONAL.match(line):
@@ -61,6 +71,11 @@ def planted_faults_are_caught():
         "golden/a.cpp": '#include "rtl_model/fabric/link.h"',
         "rtl_model/a.cpp": '#include "golden/texture/x.h"',
         "rtl_model/b.cpp": "SC_THREAD(run);",
+        "rtl_model/c.cpp": "SC_CTHREAD(run, clk.pos());",
+        "rtl_model/d.h": "using namespace sc_core;",
+        "golden/d.cpp": "#include <systemc>",
+        "tb/b.cpp": "#include <systemc.h>",
+        "tb/c.cpp": "assert(x > 0);",
         "golden/b.cpp": "double x;",
         "golden/ideal/c.cpp": '#include "../../rtl_model/x.h"',
         "spec/a.h": '#include "tb/scene/image.h"',
@@ -74,6 +89,12 @@ def planted_faults_are_caught():
             path.write_text("// SPDX-License-Identifier: MIT\n" + line + "\n", encoding="utf-8")
             if len(list(violations(pathlib.Path(folder)))) != 1:
                 missed.append(f"{name}: {line}")
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "spec/b.h"
+        path.parent.mkdir(parents=True)
+        path.write_text("#pragma once\n", encoding="utf-8")
+        if len(list(violations(pathlib.Path(folder)))) != 1:
+            missed.append("spec/b.h: no licence line")
     return missed
 
 

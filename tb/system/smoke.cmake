@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: MIT
+# Does every engine run with defaults on a small scene?
+foreach(engine texture morphological frame)
+  add_test(NAME smoke_${engine}
+           COMMAND deburr run ${engine} --size 96x96 --out ${CMAKE_CURRENT_BINARY_DIR}/smoke_${engine})
+  set_tests_properties(smoke_${engine} PROPERTIES LABELS smoke TIMEOUT 60
+                       PASS_REGULAR_EXPRESSION "RESULT: PASS" FAIL_REGULAR_EXPRESSION " 0 cycles")
+endforeach()
