@@ -39,7 +39,7 @@ template <class Visitor>
 void describe(RunParameters& p, Visitor& v) {
   v.choice("check", p.check, kCheckModeNames,
            "golden: compare every output and every memory access with the golden model.");
-  v.integer("seed", p.seed, 0, std::int64_t{1} << 32, "",
+  v.integer("seed", p.seed, 0, 0xFFFFFFFF, "",
             "Seed of scene textures, random stalls, random latency and shuffling.");
   v.real("clock_mhz", p.clock_mhz, 1, 10000, "MHz", "Clock that times and rates are quoted for.");
   v.integer("max_cycles", p.max_cycles, 0, std::int64_t{1} << 40, "clk",
@@ -71,6 +71,8 @@ class Engine {
   virtual std::string_view summary() const = 0;
   virtual void add_parameters(ParameterSet& set) = 0;
   virtual std::vector<Shorthand> shorthands() const = 0;
+  // After everything that was given has been set: fills in what follows from it (presets).
+  virtual void resolve(const ParameterSet&) {}
   // Simulates and fills the context's images. Errors of the run are exceptions (spec/error.h);
   // what was measured until then is in `result`.
   virtual void run(const RunParameters& run, RunContext& context, Result& result) = 0;

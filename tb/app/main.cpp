@@ -75,16 +75,14 @@ int run(int argc, char** argv) {
   deburr::tb::add_report(app, line);
   try {
     app.parse(argc, argv);
+    const Outcome outcome = line.action();
+    return outcome.text.empty() ? outcome.code : finish(outcome, command);
   } catch (const CLI::Success& done) {  // --help, --version
     return app.exit(done);
   } catch (const CLI::ParseError& error) {
     return finish(failure(static_cast<int>(ExitCode::kUsage), "usage",
                           fmt::format("{} (see {} --help)", error.what(), argv[0])),
                   command);
-  }
-  try {
-    const Outcome outcome = line.action();
-    return outcome.text.empty() ? outcome.code : finish(outcome, command);
   } catch (const deburr::spec::Error& error) {
     constexpr const char* kKinds[] = {"", "mismatch", "configuration", "simulation", "deadlock", "file"};
     return finish(failure(static_cast<int>(error.code()), kKinds[static_cast<int>(error.code())],

@@ -129,7 +129,8 @@ class ReportBuilder {
       tile("PSNR", decibels(quality->value("psnr_db", Json())), "dB",
            "against " + quality->value("reference", ""));
     tile("Simulation", fmt::format("{:.2f}", number(result_["host"], "mcycles_per_s")), "Mcycle/s",
-         fmt::format("{:.1f} s on this host", number(result_["host"], "seconds")));
+         fmt::format("{:.1f} s, {:.1f} s of them computing", number(result_["host"], "seconds"),
+                     number(result_["host"], "cpu_seconds")));
     page_.set("tiles", tiles);
 
     mustache::data meters{mustache::data::type::list};

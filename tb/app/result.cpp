@@ -84,7 +84,9 @@ Json to_json(const Result& r) {
                        {"psnr_db", decibel(r.quality->psnr_db)},
                        {"psnr_edge_db", decibel(r.quality->psnr_edge_db)},
                        {"psnr_silhouette_db", decibel(r.quality->psnr_silhouette_db)}};
-  json["host"] = {{"seconds", r.host_seconds}, {"mcycles_per_s", r.mcycles_per_s()}};
+  json["host"] = {{"seconds", r.host_seconds},
+                  {"mcycles_per_s", r.mcycles_per_s()},
+                  {"cpu_seconds", r.host_cpu_seconds}};
   Json meanings = Json::object();
   collect_meanings(json, "", meanings);
   for (const auto& [name, bits] : r.sram_bits) {

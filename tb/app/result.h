@@ -74,7 +74,7 @@ struct Result {
   std::vector<std::pair<std::string, std::uint64_t>> sram_bits;
   std::vector<WorkItem> work;
   std::optional<Quality> quality;
-  double host_seconds = 0;
+  double host_seconds = 0, host_cpu_seconds = 0;
 
   double mcycles_per_s() const {
     return host_seconds > 0 ? static_cast<double>(cycles) / host_seconds / 1e6 : 0;

@@ -30,10 +30,23 @@ RunContext::RunContext(fs::path directory, const ParameterSet& parameters, std::
     : directory_(std::move(directory)), parameters_(parameters), command_(std::move(command)),
       started_(now_utc()), seed_(seed) {
   prove_writable(directory_);
-  for (const char* name : {"result.json", "manifest.json", "report.html"}) {
-    std::error_code error;
-    fs::remove(directory_ / name, error);
+  remove_old_results();
+}
+
+void RunContext::remove_old_results() {
+  std::error_code error;
+  constexpr std::size_t kMaxBytes = 64u << 20;
+  if (fs::is_regular_file(directory_ / "manifest.json", error)) {
+    const Json old = Json::parse(read_file(directory_ / "manifest.json", kMaxBytes), nullptr, false);
+    if (old.is_object() && old.contains("images") && old["images"].is_array())
+      for (const Json& image : old["images"]) {
+        const fs::path file = image.is_object() ? image.value("file", "") : "";
+        // Only what an earlier run can have written: a picture in this directory.
+        if (!file.has_parent_path() && file.extension() == ".png") fs::remove(directory_ / file, error);
+      }
   }
+  for (const char* name : {"result.json", "manifest.json", "report.html", "trace.vcd"})
+    fs::remove(directory_ / name, error);
 }
 
 void RunContext::set_title(std::string title, std::string summary) {

@@ -36,6 +36,7 @@ class RunContext {
   const std::string& command() const { return command_; }
 
  private:
+  void remove_old_results();
   nlohmann::ordered_json manifest(const Result& result) const;
 
   std::filesystem::path directory_;

@@ -8,6 +8,9 @@
 #include <cctype>
 #include <chrono>
 #include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "spec/error.h"
@@ -18,7 +21,7 @@ namespace {
 using golden::texture::TextureGolden;
 namespace reg = spec::texture_register;
 
-constexpr std::uint64_t kMemoryGrain = 64;  // the memory model records reads in lines of this size
+constexpr std::uint64_t kMemoryGrain = 64;  // longer reads are recorded in parts of this size
 constexpr rtl::Cycle kProgressPeriod = 4096;
 
 // name -> fault of the harness; faults of the memory are planted in TextureBench itself.
@@ -151,7 +154,7 @@ TextureBench::TextureBench(const TextureScene& scene, const TextureBenchOptions&
   bench.faults = faults;
   if (!options.trace_scope.empty()) {
     rtl::TraceOptions trace;
-    trace.file = options.trace_file;
+    trace.file = options.trace_file + ".partial";
     trace.scopes = {options.trace_scope};
     trace.from = options.trace_from;
     trace.to = options.trace_to;
@@ -182,14 +185,20 @@ TextureBench::TextureBench(const TextureScene& scene, const TextureBenchOptions&
   sink_.on_beat = [this](rtl::Cycle cycle, const spec::Colour& colour) { judge(cycle, colour); };
 }
 
-TextureBench::~TextureBench() = default;
+// The wave gets its name only when it is closed and whole.
+TextureBench::~TextureBench() {
+  bench_.reset();
+  if (options_.trace_scope.empty()) return;
+  std::error_code error;
+  std::filesystem::rename(options_.trace_file + ".partial", options_.trace_file, error);
+}
 
 void TextureBench::prepare_golden() {
   if (!options_.golden) return;
   const std::uint64_t line_bytes = golden_.cache().line_bytes();
   golden_.set_fill_sink([this, line_bytes](std::uint32_t line) {
     const std::uint64_t begin = line * line_bytes;
-    for (std::uint64_t a = begin / kMemoryGrain * kMemoryGrain; a < begin + line_bytes; a += kMemoryGrain)
+    for (std::uint64_t a = begin; a < begin + line_bytes; a += kMemoryGrain)
       fill_board_.expect({a});
   });
   if (options_.memory.error_address >= 0) {
@@ -300,8 +309,10 @@ void TextureBench::run(const Progress& progress) {
   started_ = clock_.cycle();
   running_ = true;
   const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t cpu_begin = std::clock();
   const auto stop_clock = [&] {
     host_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    cpu_seconds_ = static_cast<double>(std::clock() - cpu_begin) / CLOCKS_PER_SEC;
     cycles_ = clock_.cycle() - started_;
     running_ = false;
   };
@@ -354,6 +365,7 @@ void TextureBench::collect(Result& result) const {
   auto& unit = const_cast<rtl::texture::TextureUnit&>(unit_);
   result.cycles = running_ ? clock_.cycle() - started_ : cycles_;
   result.host_seconds = host_seconds_;
+  result.host_cpu_seconds = cpu_seconds_;
   result.comparisons = colour_board_.comparisons() + register_board_.comparisons();
   result.mismatches = colour_board_.mismatches() + register_board_.mismatches();
   result.traffic_comparisons = options_.golden ? fill_board_.comparisons() : 0;

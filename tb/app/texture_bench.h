@@ -141,7 +141,7 @@ class TextureBench {
   std::size_t fills_judged_ = 0;
   std::uint64_t colour_hash_ = 0xCBF29CE484222325ULL;
   rtl::Cycle cycles_ = 0, started_ = 0;
-  double host_seconds_ = 0;
+  double host_seconds_ = 0, cpu_seconds_ = 0;
   bool running_ = false, complete_ = false;
 };
 

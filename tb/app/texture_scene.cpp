@@ -51,7 +51,10 @@ Scene load(const SceneParameters& p, std::uint32_t seed) {
   Scene scene = load_scene(p.source, options);
   if (p.eye.empty() && p.target.empty() && p.fov == 0) return scene;
   Camera camera = scene.camera;
-  if (!p.eye.empty()) camera.eye = parse_vector("scene.eye", p.eye);
+  if (!p.eye.empty()) {
+    camera.eye = parse_vector("scene.eye", p.eye);
+    camera.near_plane = Camera{}.near_plane;  // the scene's own was chosen for its own eye
+  }
   if (!p.target.empty()) camera.target = parse_vector("scene.target", p.target);
   if (p.fov > 0) camera.fov_y = p.fov;
   if (!((camera.target - camera.eye).length() > 0))

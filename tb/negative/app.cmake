@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: MIT
+# One ctest entry a class, so that they run side by side.
+foreach(class TextureFiles MeshFiles Configuration Output Interruption Results)
+  add_test(NAME app_bad_input.${class}
+           COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_bad_input_test.py" -v ${class})
+  list(APPEND APP_NEGATIVE_TESTS app_bad_input.${class})
+endforeach()
+add_test(NAME app_faults COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_faults_test.py" -v)
+set_tests_properties(${APP_NEGATIVE_TESTS} app_faults PROPERTIES
+  LABELS negative TIMEOUT 300 ENVIRONMENT "DEBURR=$<TARGET_FILE:deburr>;PYTHONDONTWRITEBYTECODE=1")

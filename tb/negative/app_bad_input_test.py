@@ -1,0 +1,310 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Bad input to the command: each kind has its exit code and says what is wrong. See --help of unittest."""
+import json
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from app_support import DEBURR, CommandTest, float_tiff, png
+
+
+class TextureFiles(CommandTest):
+    """Image files as textures."""
+
+    def texture(self, code, name, content, says=()):
+        return self.run_texture(code, "--texture", self.write(name, content), says=says)
+
+    def test_missing(self):
+        self.run_texture(5, "--texture", self.path("missing.png"), says="missing.png")
+
+    def test_directory(self):
+        os.mkdir(self.path("folder.png"))
+        self.run_texture(5, "--texture", self.path("folder.png"), says="folder.png")
+
+    def test_empty(self):
+        self.texture(5, "empty.png", b"", says="empty.png")
+
+    def test_truncated(self):
+        whole = png(64, 64)
+        self.texture(5, "truncated.png", whole[:len(whole) // 2], says="truncated.png")
+
+    def test_corrupt(self):
+        broken = bytearray(png(64, 64))
+        for i in range(45, len(broken) - 12):
+            broken[i] ^= 0x5A
+        self.texture(5, "corrupt.png", bytes(broken), says="corrupt.png")
+
+    def test_not_an_image(self):
+        self.texture(5, "text.png", b"this is no image at all\n" * 10, says="text.png")
+
+    def test_huge_header(self):
+        self.texture(5, "huge.png", png(4, 4, declared=(60000, 60000)), says="huge.png")
+
+    def test_larger_than_the_unit_takes(self):
+        self.texture(5, "wide.png", png(4097, 2), says="4097")
+
+    def test_16_bit(self):
+        self.texture(0, "deep.png", png(16, 16, bits=16), says="PASS")
+
+    def test_grey(self):
+        self.texture(0, "grey.png", png(16, 16, channels=1), says="PASS")
+
+    def test_grey_alpha(self):
+        self.texture(0, "grey_alpha.png", png(16, 16, channels=2), says="PASS")
+
+    def test_float(self):
+        self.texture(0, "float.tif", float_tiff(16, 16), says="PASS")
+
+    def test_float_not_a_number(self):
+        self.texture(0, "nan.tif", float_tiff(16, 16, float("nan")), says="PASS")
+
+    def test_not_a_power_of_two(self):
+        self.texture(0, "odd.png", png(13, 7), says="PASS")
+
+    def test_one_texel(self):
+        self.texture(0, "one.png", png(1, 1), says="PASS")
+
+
+class MeshFiles(CommandTest):
+    """Mesh files as scenes."""
+
+    def mesh(self, code, name, content, says=()):
+        return self.run_texture(code, "--in", self.write(name, content), says=says)
+
+    def test_missing(self):
+        self.run_texture(5, "--in", self.path("missing.obj"), says="missing.obj")
+
+    def test_empty(self):
+        self.mesh(5, "empty.obj", b"", says="empty.obj")
+
+    def test_no_triangles(self):
+        self.mesh(5, "points.obj", b"v 0 0 0\nv 1 0 0\n", says="points.obj")
+
+    def test_index_out_of_range(self):
+        self.mesh(5, "range.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", says="range.obj")
+
+    def test_not_finite(self):
+        self.mesh(5, "nan.obj", b"v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", says="nan.obj")
+
+    def test_truncated_glb(self):
+        self.mesh(5, "short.glb", b"glTF\x02\0\0\0\xff\xff\0\0", says="short.glb")
+
+    def test_one_triangle(self):
+        self.mesh(0, "good.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", says="PASS")
+
+    def test_unknown_scene(self):
+        self.run_texture(2, "--scene", "plain", says="plane")
+
+
+class Configuration(CommandTest):
+    """Parameters by option and by file."""
+
+    def config(self, code, text, says=()):
+        return self.run_texture(code, "--config", self.write("run.yaml", text), says=says)
+
+    def test_good(self):
+        self.config(0, "texture:\n  cache: {bytes: 8192}\nsampler.mode: linear\n", says="PASS")
+        with open(self.path("out/manifest.json")) as file:
+            configuration = json.load(file)["configuration"]
+        self.assertEqual(configuration["texture.cache.bytes"], 8192)
+        self.assertEqual(configuration["sampler.mode"], "linear")
+
+    def test_unknown_key(self):
+        self.config(2, "texture:\n  cache.bites: 8192\n", says=["run.yaml:2", "texture.cache.bytes"])
+
+    def test_out_of_range(self):
+        self.config(2, "texture.cache.ways: 64\n", says=["run.yaml:1", "1..16"])
+
+    def test_wrong_type(self):
+        self.config(2, "texture.cache.ways: many\n", says=["run.yaml:1", "integer"])
+
+    def test_duplicate(self):
+        self.config(2, "run.seed: 1\nrun.seed: 2\n", says=["run.yaml:2", "given twice"])
+
+    def test_broken_yaml(self):
+        self.config(2, "[\n", says="not valid YAML")
+
+    def test_binary(self):
+        self.config(2, bytes(range(256)), says="run.yaml")
+
+    def test_missing_file(self):
+        self.run_texture(5, "--config", self.path("none.yaml"), says="none.yaml")
+
+    def test_set_unknown(self):
+        self.run_texture(2, "--set", "texture.fotprint=half", says=["--set", "texture.footprint"])
+
+    def test_set_out_of_range(self):
+        self.run_texture(2, "--set", "memory.latency=0", says="1..100000")
+
+    def test_set_without_value(self):
+        self.run_texture(2, "--set", "memory.latency", says="name=value")
+
+    def test_contradiction(self):
+        self.run_texture(2, "--mode", "linear", "--set", "sampler.mode=nearest", says="contradicts")
+
+    def test_cache_not_a_power_of_two(self):
+        self.run_texture(2, "--set", "texture.cache.bytes=10000", says="power of two")
+
+    def test_cache_smaller_than_a_set(self):
+        self.run_texture(2, "--set", "texture.cache.bytes=256", "--set", "texture.cache.ways=16", says="cache")
+
+    def test_size(self):
+        for size in ("0x4", "4", "4x", "9000x4", "-1x4"):
+            self.expect(2, "run", "texture", "--size", size, "--out", self.path("out"))
+
+    def test_camera(self):
+        self.run_texture(2, "--set", "scene.eye=1,2", says="x,y,z")
+        self.run_texture(2, "--set", "scene.eye=1,2,3", "--set", "scene.target=1,2,3", says="same point")
+
+    def test_unknown_option_and_command(self):
+        self.expect(2, "run", "texture", "--aniso", "3", says="1, 2, 4, 8, 16")
+        self.expect(2, "run", "texture", "--colour", "red")
+        self.expect(2, "run", "nothing")
+        self.expect(2, "frobnicate")
+        self.expect(2)
+
+    def test_nothing_is_written_before_the_configuration_is_right(self):
+        self.run_texture(2, "--set", "texture.fotprint=half")
+        self.assertFalse(os.path.exists(self.path("out")))
+
+
+class Output(CommandTest):
+    """Where results cannot be left."""
+
+    def no_remains(self):
+        names = os.listdir(self.path("out")) if os.path.isdir(self.path("out")) else []
+        known = (".json", ".png", ".html", ".vcd")
+        self.assertEqual([n for n in names if not n.endswith(known)], [], "temporary files are left")
+        for name in names:
+            if name.endswith(".json"):
+                with open(self.path("out/" + name)) as file:
+                    json.load(file)
+
+    def test_a_file_is_in_the_way(self):
+        self.write("out", "in the way")
+        self.run_texture(5, says="out")
+
+    def test_below_a_file(self):
+        self.write("file", "in the way")
+        self.expect(5, "run", "texture", "--size", "8x8", "--out", self.path("file/out"))
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
+    def test_read_only(self):
+        os.mkdir(self.path("out"), 0o555)
+        self.run_texture(5, says="out")
+
+    def limited(self, size):
+        return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+    def test_no_room_at_all_is_found_before_the_simulation(self):
+        done = self.run_texture(5, preexec_fn=self.limited(0))
+        self.assertNotIn("cycles", done.stdout)
+        self.no_remains()
+
+    def test_no_room_for_the_report(self):
+        self.run_texture(5, says="report.html", preexec_fn=self.limited(100_000))
+        self.no_remains()
+
+    def test_full_disk(self):
+        """A real file system with 96 KB, where the kernel lets us make one."""
+        mount = f"mount -t tmpfs -o size=96k none {self.path('disk')}"
+        os.mkdir(self.path("disk"))
+        probe = subprocess.run(["unshare", "-rm", "sh", "-c", mount], capture_output=True)
+        if probe.returncode != 0:
+            self.skipTest("no user namespaces here")
+        script = (f"{mount} && {DEBURR} run texture --size 64x64 --out {self.path('disk')}/out; code=$?; "
+                  f"ls {self.path('disk')}/out; exit $code")
+        done = subprocess.run(["unshare", "-rm", "sh", "-c", script], capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 5, done.stdout + done.stderr)
+        self.assertIn("No space left", done.stderr)
+        names = done.stdout[done.stdout.index("RESULT: "):].splitlines()[1:]
+        self.assertEqual([n for n in names if not n.endswith((".json", ".png"))], [])
+
+
+class Interruption(CommandTest):
+    """Ctrl-C keeps what is finished."""
+
+    def test_ctrl_c(self):
+        process = subprocess.Popen([DEBURR, "run", "texture", "--size", "2048x2048", "--out", self.path("out")],
+                                   text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        deadline = time.monotonic() + 60
+        # The simulation has begun when the first progress line is there.
+        line = process.stderr.readline()
+        self.assertIn("texture", line)
+        self.assertLess(time.monotonic(), deadline)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 130, out + err)
+        self.assertTrue(out.strip().splitlines()[-1].startswith("RESULT: INTERRUPTED"), out)
+        self.assertIn("again", err)
+        with open(self.path("out/result.json")) as file:
+            result = json.load(file)
+        self.assertTrue(result["interrupted"])
+        self.assertEqual(result["verdict"], "unchecked")
+        self.assertEqual(result["checks"]["mismatches"], 0)
+        self.assertGreater(result["checks"]["comparisons"], 0)
+        self.assertTrue(os.path.exists(self.path("out/report.html")))
+
+
+class Results(CommandTest):
+    """compare and report on what is not there or not right."""
+
+    def setUp(self):
+        super().setUp()
+        self.run_texture(0)
+        os.rename(self.path("out"), self.path("a"))
+        shutil.copytree(self.path("a"), self.path("b"))
+
+    def change(self, **values):
+        with open(self.path("b/result.json")) as file:
+            result = json.load(file)
+        result.update(values)
+        self.write("b/result.json", json.dumps(result))
+
+    def test_same(self):
+        self.expect(0, "compare", self.path("a"), self.path("b"), says="PASS")
+
+    def test_slower(self):
+        self.change(cycles=10**9)
+        self.expect(1, "compare", self.path("a"), self.path("b"), says=["cycles", "WORSE"])
+        self.expect(0, "compare", self.path("b"), self.path("a"))
+        self.expect(0, "compare", self.path("a"), self.path("b"), "--cycles-percent", "1e12")
+
+    def test_failed(self):
+        self.change(verdict="fail")
+        self.expect(1, "compare", self.path("a"), self.path("b"), says="verdict")
+
+    def test_missing(self):
+        self.expect(5, "compare", self.path("a"), self.path("none"))
+        self.expect(5, "report", self.path("none"))
+
+    def test_not_a_result(self):
+        self.write("b/result.json", "{}")
+        self.expect(5, "compare", self.path("a"), self.path("b"), says="schema")
+        self.expect(5, "report", self.path("b"))
+
+    def test_rebuilt_report_is_the_same(self):
+        os.remove(self.path("b/report.html"))
+        self.expect(0, "report", self.path("a"), self.path("b"))
+        with open(self.path("a/report.html")) as one, open(self.path("b/report.html")) as two:
+            self.assertEqual(one.read(), two.read())
+
+    def test_the_repro_command_repeats_the_run(self):
+        with open(self.path("a/manifest.json")) as file:
+            command = json.load(file)["command"]
+        done = subprocess.run(command, shell=True, cwd=self.directory, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.path("out/result.json")) as one, open(self.path("a/result.json")) as two:
+            first, second = json.load(one), json.load(two)
+        for result in (first, second):
+            del result["host"]
+        self.assertEqual(first, second)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,98 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Planted faults (deburr run texture --fault NAME): each must be caught, by the right check and with the right
+exit code; the link checkers see what happens on links, and without them the scoreboards must. See --help."""
+import json
+import os
+import re
+import unittest
+
+from app_support import DEBURR, CommandTest
+
+
+class Faults(CommandTest):
+    CHECKED = ("--set", "run.watchdog_cycles=2000")
+    UNCHECKED = CHECKED + ("--set", "run.check_links=false")
+
+    def fault(self, name, code, says, *arguments):
+        done = self.run_texture(code, "--fault", name, *arguments, says=says)
+        with open(self.path("out/result.json")) as file:
+            result = json.load(file)
+        self.assertEqual(result["verdict"], "fail")
+        self.assertTrue(result["reason"])
+        self.assertTrue(os.path.exists(self.path("out/report.html")), "a failed run has a report too")
+        return done, result
+
+    def test_without_a_fault(self):
+        self.run_texture(0, *self.CHECKED)
+        self.run_texture(0, *self.UNCHECKED)
+
+    def test_flipped_bit(self):
+        done, result = self.fault("flip-bit", 1, "mismatch", *self.UNCHECKED)
+        self.assertEqual(result["checks"]["mismatches"], 1)
+        # Pixel, tag, expected, got and cycle.
+        self.assertRegex(done.stderr, r"cycle \d+: item 100: expected pixel \(\d+, \d+\) tag \d+ lane \d .*RGBA .*, got .*RGBA")
+        self.fault("flip-bit", 3, "changed while it waited", *self.CHECKED)
+
+    def test_dropped_colour(self):
+        self.fault("drop-colour", 1, "mismatch", *self.UNCHECKED)
+        self.fault("drop-colour", 3, "vanished", *self.CHECKED)
+
+    def test_duplicated_colour(self):
+        self.fault("duplicate-colour", 1, "mismatch", *self.UNCHECKED)
+        self.fault("duplicate-colour", 3, "appeared", *self.CHECKED)
+
+    def test_dropped_quad(self):
+        self.fault("drop-quad", 1, "mismatch", *self.UNCHECKED)
+        self.fault("drop-quad", 3, "vanished", *self.CHECKED)
+
+    def test_duplicated_fetch(self):
+        self.fault("duplicate-fetch", 3, "fill_buffer", *self.UNCHECKED)
+        self.fault("duplicate-fetch", 3, "memory_requests", *self.CHECKED)
+
+    def test_stuck_ready(self):
+        done, _ = self.fault("stuck-ready", 4, "no link has moved", *self.CHECKED)
+        self.assertIn("texture.texels", done.stderr, "the dump names every link")
+        self.assertIn("texture.cache.tag_stage", done.stderr, "the dump names every unit")
+
+    def test_lost_response(self):
+        done, _ = self.fault("lost-response", 4, "no link has moved", *self.CHECKED)
+        self.assertIn("texture.cache.memory_responses", done.stderr)
+
+    def test_memory_error(self):
+        self.fault("memory-error", 3, "memory answered 1 line fills with an error", *self.CHECKED)
+
+    def test_memory_error_by_address_is_predicted(self):
+        done = self.run_texture(3, "--set", "memory.error_address=0", "--set", "memory.error_bytes=100000000",
+                                says="with an error")
+        with open(self.path("out/result.json")) as file:
+            result = json.load(file)
+        self.assertEqual(result["checks"]["mismatches"], 0, done.stderr)
+        self.assertEqual(result["checks"]["traffic_mismatches"], 0)
+
+    def test_wrong_texel(self):
+        _, result = self.fault("wrong-texel", 1, "mismatch", *self.CHECKED)
+        self.assertEqual(result["checks"]["traffic_mismatches"], 0, "addresses do not depend on texels")
+
+    def test_wrong_replacement(self):
+        _, result = self.fault("wrong-replacement", 1, "line fills", *self.CHECKED, "--set",
+                               "texture.cache.bytes=1024")
+        self.assertGreater(result["checks"]["traffic_mismatches"], 0)
+
+    def test_a_fault_on_any_link(self):
+        # Bit 167: the highest bit of the first texel's red.
+        self.fault("flip:texture.texel_quads:10:167", 1, "mismatch", *self.UNCHECKED)
+
+    def test_too_few_cycles(self):
+        self.run_texture(4, "--max-cycles", "100", says="not done after 100 cycles")
+
+    def test_unknown_fault(self):
+        self.run_texture(2, "--fault", "gremlin", says=["gremlin", "flip-bit"])
+        self.run_texture(2, "--fault", "drop:no.such.link:1", says="no.such.link")
+
+    def test_a_fault_that_is_never_reached_is_no_pass(self):
+        self.run_texture(3, "--fault", "drop:colours:100000000", *self.UNCHECKED, says="never reached")
+
+
+if __name__ == "__main__":
+    unittest.main()

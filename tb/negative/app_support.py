@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: MIT
+"""Running the command in a scratch directory, and image files of every awkward kind."""
+import os
+import struct
+import subprocess
+import tempfile
+import unittest
+import zlib
+
+DEBURR = os.environ.get("DEBURR", "deburr")
+
+
+def png(width, height, bits=8, channels=3, declared=None):
+    """A PNG whose header may declare another size than the data has."""
+    colour_type = {1: 0, 2: 4, 3: 2, 4: 6}[channels]
+    sample = b"\x80" if bits == 8 else b"\x80\x01"
+    rows = b"".join(b"\0" + sample * channels * width for _ in range(height))
+
+    def chunk(kind, data):
+        return (struct.pack(">I", len(data)) + kind + data
+                + struct.pack(">I", zlib.crc32(kind + data)))
+
+    w, h = declared or (width, height)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", w, h, bits, colour_type, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def float_tiff(width, height, value=0.5):
+    """A little-endian TIFF with three 32-bit float channels."""
+    data = struct.pack("<f", value) * 3 * width * height
+    entries = [(256, 4, 1, width), (257, 4, 1, height), (258, 3, 3, None), (259, 3, 1, 1), (262, 3, 1, 2),
+               (273, 4, 1, 8), (277, 3, 1, 3), (278, 4, 1, height), (279, 4, 1, len(data)), (339, 3, 3, None)]
+    tables = 8 + len(data)
+    ifd = tables + 12
+    body = struct.pack("<HHH", 32, 32, 32) + struct.pack("<HHH", 3, 3, 3)
+    directory = struct.pack("<H", len(entries))
+    for tag, kind, count, number in entries:
+        if tag == 258:
+            number = tables
+        elif tag == 339:
+            number = tables + 6
+        directory += struct.pack("<HHII", tag, kind, count, number)
+    return b"II*\0" + struct.pack("<I", ifd) + data + body + directory + struct.pack("<I", 0)
+
+
+class CommandTest(unittest.TestCase):
+    """Every test runs in a directory of its own that disappears afterwards."""
+
+    def setUp(self):
+        self._scratch = tempfile.TemporaryDirectory(prefix="deburr_test_")
+        self.directory = self._scratch.name
+        self.addCleanup(self._scratch.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.directory, name)
+
+    def write(self, name, content):
+        with open(self.path(name), "wb") as file:
+            file.write(content if isinstance(content, bytes) else content.encode())
+        return self.path(name)
+
+    def run_command(self, *arguments, **options):
+        return subprocess.run([DEBURR, *arguments], cwd=self.directory, text=True, capture_output=True,
+                              timeout=300, **options)
+
+    def expect(self, code, *arguments, says=(), **options):
+        """Runs, and checks exit code, last line, REPRO line and words of the output."""
+        done = self.run_command(*arguments, **options)
+        context = f"\n{arguments}\n{done.stdout}\n{done.stderr}"
+        self.assertEqual(done.returncode, code, context)
+        lines = done.stdout.strip().splitlines()
+        self.assertTrue(lines and lines[-1].startswith("RESULT: "), "no RESULT line" + context)
+        if code != 0:
+            self.assertTrue(any(line.startswith("REPRO: ") for line in lines), "no REPRO line" + context)
+        for word in [says] if isinstance(says, str) else says:
+            self.assertIn(word, done.stdout + done.stderr, context)
+        return done
+
+    def run_texture(self, code, *arguments, says=(), **options):
+        """A tiny run of the texture unit into ./out."""
+        return self.expect(code, "run", "texture", "--size", "32x32", "--out", self.path("out"), *arguments,
+                           says=says, **options)
