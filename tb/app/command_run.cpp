@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <memory>
@@ -97,6 +98,7 @@ Outcome run_engine(Engine& engine, const RunOptions& options, const std::string&
   set.add("run", run);
   engine.add_parameters(set);
   apply(options, set);
+  engine.resolve(set);
   if (options.resolve_only) {
     fmt::print("{}", set.yaml());
     return {};
@@ -189,7 +191,14 @@ void add_run(CLI::App& app, CommandLine& line) {
     RunParameters defaults;
     probe.add("run", defaults);
     engine->add_parameters(probe);
-    for (const auto& list : {common_shorthands(), engine->shorthands()})
+    // An engine may give an option of all engines a meaning of its own.
+    const std::vector<Shorthand> own = engine->shorthands();
+    std::vector<Shorthand> all = common_shorthands();
+    std::erase_if(all, [&](const Shorthand& common) {
+      return std::any_of(own.begin(), own.end(),
+                         [&](const Shorthand& o) { return o.option == common.option; });
+    });
+    for (const auto& list : {all, own})
       for (const Shorthand& shorthand : list) {
         const Parameter* parameter = probe.find(shorthand.parameter);
         DEBURR_CHECK(parameter, shorthand.option + " stands for an unknown parameter");

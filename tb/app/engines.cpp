@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tb/app/engine.h"
+#include "tb/app/morphological_engine.h"
 #include "tb/app/texture_engine.h"
 
 namespace deburr::tb {
@@ -7,6 +8,7 @@ namespace deburr::tb {
 std::vector<std::unique_ptr<Engine>> engines() {
   std::vector<std::unique_ptr<Engine>> all;
   all.push_back(make_texture_engine());
+  all.push_back(make_morphological_engine());
   return all;
 }
 

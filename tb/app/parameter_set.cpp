@@ -261,6 +261,7 @@ void ParameterSet::set(std::string_view name, std::string_view text, std::string
   const std::string complaint = parameter->parse(text);
   if (!complaint.empty())
     throw ConfigError(fmt::format("{}: '{}' = '{}' {}", where, name, text, complaint));
+  given_.insert(parameter->name);
 }
 
 void ParameterSet::set_assignment(std::string_view assignment, std::string_view where) {

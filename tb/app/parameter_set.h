@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +56,8 @@ class ParameterSet {
 
   const std::vector<Parameter>& all() const { return parameters_; }
   const Parameter* find(std::string_view name) const;
+  // Whether someone has set it, be it to its default.
+  bool given(std::string_view name) const { return given_.contains(name); }
   // Up to three names that a typing error could have meant, best first.
   std::vector<std::string> near_matches(std::string_view name) const;
   // name -> value for every parameter, in order of declaration.
@@ -98,6 +101,7 @@ class ParameterSet {
   };
 
   std::vector<Parameter> parameters_;
+  std::set<std::string, std::less<>> given_;
 };
 
 // Smallest number of insertions, deletions, substitutions and swaps of neighbours that turn a into b.

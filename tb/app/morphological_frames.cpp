@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "tb/app/morphological_frames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "spec/error.h"
+#include "tb/scene/image_io.h"
+#include "tb/scene/scenes.h"
+#include "tb/scene/truth.h"
+
+namespace deburr::tb {
+namespace {
+
+bool is_scene(const std::string& source) {
+  const auto names = scene_names();
+  if (std::any_of(names.begin(), names.end(), [&](const SceneName& s) { return s.name == source; }))
+    return true;
+  const std::string extension = std::filesystem::path(source).extension().string();
+  return extension == ".obj" || extension == ".gltf" || extension == ".glb";
+}
+
+// floor(full v + 1/2) of v clamped to 0..1, NaN as 0.
+std::uint32_t scaled(float value, double full) {
+  if (!(value > 0.0f)) return 0;
+  return static_cast<std::uint32_t>(std::floor(full * std::min(1.0, static_cast<double>(value)) + 0.5));
+}
+
+void require_size(const char* what, const std::string& file, int width, int height,
+                  const Image& image) {
+  if (width != image.width || height != image.height)
+    throw spec::ConfigError(fmt::format("{} '{}' has {} x {} pixels, the frame has {} x {}", what, file,
+                                        width, height, image.width, image.height));
+}
+
+LoadedFrame rendered(const FrameParameters& p, std::uint32_t seed) {
+  SceneOptions options;
+  options.seed = seed;
+  const Scene scene = load_scene(p.source, options);
+  LoadedFrame frame;
+  const LitFrames lit = render_lit_frames(scene, p.width, p.height, std::max(1, p.truth_samples));
+  frame.input.image = lit.noaa;
+  frame.depth = lit.depth;
+  if (p.truth_samples > 0) {
+    frame.truth = lit.truth;
+    frame.truth_name = fmt::format("supersampled-{}", p.truth_samples * p.truth_samples);
+  }
+  if (std::filesystem::exists(p.source)) frame.inputs.emplace_back(p.source);
+  return frame;
+}
+
+}  // namespace
+
+Image read_codes(const std::filesystem::path& file, std::vector<std::string>* conversions) {
+  ReadReport report;
+  Image image = read_image(file, &report);
+  if (report.format == "half" || report.format == "float" || report.format == "double") {
+    const FloatImage values = read_float_image(file);
+    for (std::size_t i = 0; i < values.pixels.size(); ++i)
+      for (std::size_t c = 0; c < 4; ++c)
+        image.pixels[i][c] = static_cast<std::uint8_t>(scaled(values.pixels[i][c], 255));
+    std::erase_if(report.conversions,
+                  [](const std::string& text) { return text.find("curve") != std::string::npos; });
+    report.conversions.emplace_back("taken as already encoded: no transfer curve");
+  }
+  if (conversions != nullptr) *conversions = report.conversions;
+  return image;
+}
+
+std::vector<std::uint32_t> depth_codes(const DepthImage& depth) {
+  constexpr double kFull = (1 << 24) - 1;
+  std::vector<std::uint32_t> codes(depth.pixels.size());
+  std::transform(depth.pixels.begin(), depth.pixels.end(), codes.begin(),
+                 [](float value) { return scaled(value, kFull); });
+  return codes;
+}
+
+LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed) {
+  LoadedFrame frame;
+  if (is_scene(p.source)) {
+    if (!p.truth.empty() || !p.depth.empty())
+      throw spec::ConfigError("frame.truth and frame.depth go with an image file; a scene has its own");
+    frame = rendered(p, seed);
+  } else {
+    if (std::filesystem::path(p.source).extension().empty() && !std::filesystem::exists(p.source)) {
+      std::string known;
+      for (const SceneName& scene : scene_names()) known += fmt::format(" {}", scene.name);
+      throw spec::ConfigError(fmt::format("no scene and no file '{}': scenes are{}", p.source, known));
+    }
+    frame.input.image = read_codes(p.source, &frame.conversions);
+    frame.inputs.emplace_back(p.source);
+    const Image& image = frame.input.image;
+    if (!p.depth.empty()) {
+      frame.depth = read_depth(p.depth);
+      require_size("depth", p.depth, frame.depth->width, frame.depth->height, image);
+      frame.inputs.emplace_back(p.depth);
+    }
+    if (!p.truth.empty()) {
+      frame.truth = read_codes(p.truth);
+      require_size("truth", p.truth, frame.truth->width, frame.truth->height, image);
+      frame.truth_name = std::filesystem::path(p.truth).filename().string();
+      frame.inputs.emplace_back(p.truth);
+    }
+  }
+  if (frame.depth) frame.input.depth = depth_codes(*frame.depth);
+  return frame;
+}
+
+}  // namespace deburr::tb

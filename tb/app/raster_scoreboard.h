@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Scoreboard of a frame that is known before it comes: compares in raster order with values that
+// stay where they are, so that a frame of millions of pixels costs neither copies nor a queue.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "tb/harness/scoreboard.h"
+
+namespace deburr::tb {
+
+template <class Value>
+class RasterScoreboard final : public ScoreboardBase {
+ public:
+  using Describe = std::function<std::string(const Value&)>;
+  RasterScoreboard(std::string name, Describe describe)
+      : ScoreboardBase(std::move(name), 0), describe_(std::move(describe)) {}
+
+  // The next frame, which must stay until it has come; what is left of the one before never came.
+  void expect(std::span<const Value> frame, int width) {
+    lost_ += leftovers_here();
+    frame_ = frame;
+    width_ = static_cast<std::size_t>(width);
+    at_ = 0;
+  }
+  // The frame begins again (after a reset); comparisons so far count.
+  void restart() { at_ = 0; }
+
+  void got(const Value& value, std::uint64_t cycle) {
+    count();
+    if (at_ == frame_.size()) {
+      fail(fmt::format("cycle {}: got {} after the frame's end", cycle, describe_(value)));
+      return;
+    }
+    const Value& wanted = frame_[at_];
+    if (!(wanted == value))
+      fail(fmt::format("cycle {}: pixel ({}, {}): expected {}, got {}", cycle, at_ % width_,
+                       at_ / width_, describe_(wanted), describe_(value)));
+    ++at_;
+  }
+  void complain(const std::string& text) { fail(text); }
+  std::uint64_t leftovers() const override { return lost_ + leftovers_here(); }
+  std::size_t position() const { return at_; }
+
+ private:
+  std::uint64_t leftovers_here() const { return frame_.size() - at_; }
+  std::string first_leftover() const override {
+    return lost_ > 0 ? "pixels of a frame before"
+                     : fmt::format("pixel ({}, {}): {}", at_ % width_, at_ / width_,
+                                   describe_(frame_[at_]));
+  }
+
+  Describe describe_;
+  std::span<const Value> frame_;
+  std::size_t width_ = 1, at_ = 0;
+  std::uint64_t lost_ = 0;
+};
+
+}  // namespace deburr::tb
