@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -29,8 +30,8 @@ namespace gold = golden::texture;
 using spec::FootprintRule;
 using spec::Log2Rule;
 
-constexpr double kLog2One = 4096;        // S5.12
-constexpr double kSideOne = 65536;       // U16.16
+constexpr double kLog2One = 4096;   // S5.12
+constexpr double kSideOne = 65536;  // U16.16
 constexpr double kAlphas[] = {0.5, 0.25, 0.3284};
 
 std::string decimals(double value, int digits) { return fmt::format("{:.{}f}", value, digits); }
@@ -43,11 +44,12 @@ std::string name_of(Enum value, const std::array<std::string_view, N>& names) {
 // ---- section 1.2: the side of the footprint -----------------------------------------------------
 
 PaperTable coefficients() {
-  PaperTable table{"Equation 7: f(α) = c2 α² − c1 α + c0, the mean square error of a + α b", "",
-                   {"coefficient", "paper", "ours", "verdict"}, {}};
+  PaperTable table{"Equation 7: f(α) = c2 α² − c1 α + c0, the mean square error of a + α b",
+                   "",
+                   {"coefficient", "paper", "ours", "verdict"},
+                   {}};
   const double c2 = ideal::mean(0, 1, [](double k) { return k * k; });
-  const double c1 =
-      ideal::mean(0, 1, [](double k) { return 2 * k * (std::sqrt(1 + k * k) - 1); });
+  const double c1 = ideal::mean(0, 1, [](double k) { return 2 * k * (std::sqrt(1 + k * k) - 1); });
   const double c0 = ideal::mean(0, 1, [](double k) {
     const double e = 1 - std::sqrt(1 + k * k);
     return e * e;
@@ -64,7 +66,8 @@ PaperTable coefficients() {
 PaperTable table_1() {
   PaperTable table{"Table 1: error of the side a + α b",
                    "The paper's figure is the mean square times 100, not a percentage of the side.",
-                   {"α", "paper", "ours, mean square × 100", "ours, RMS %", "verdict"}, {}};
+                   {"α", "paper", "ours, mean square × 100", "ours, RMS %", "verdict"},
+                   {}};
   const double paper[] = {1.16, 0.38, 0.18};
   for (int i = 0; i < 3; ++i) {
     const double square = ideal::mean_square_side_error(kAlphas[i]);
@@ -78,7 +81,8 @@ PaperTable table_1() {
 PaperTable table_2() {
   PaperTable table{"Table 2: error of the level from the side alone",
                    "Again the mean square times 100; RMS and largest error are in levels.",
-                   {"α", "paper", "ours, mean square × 100", "RMS", "largest", "verdict"}, {}};
+                   {"α", "paper", "ours, mean square × 100", "RMS", "largest", "verdict"},
+                   {}};
   const double paper[] = {1.60, 0.38, 0.28};
   for (int i = 0; i < 3; ++i) {
     const double square = ideal::mean_square_level_error(kAlphas[i]);
@@ -110,11 +114,10 @@ std::vector<std::string> monotone_row(double alpha) {
 
 PaperTable logarithm() {
   const ideal::LogarithmError error = ideal::logarithm_error();
-  PaperTable table{"Equation 13: lb x ≈ n + y", "",
-                   {"item", "paper", "ours", "verdict"}, {}};
+  PaperTable table{"Equation 13: lb x ≈ n + y", "", {"item", "paper", "ours", "verdict"}, {}};
   const auto row = [&](const char* item, double value, int digits) {
-    table.rows.push_back({item, "3.12", decimals(value, digits),
-                          verdict(3.12, 2, value, "irreproducible")});
+    table.rows.push_back(
+        {item, "3.12", decimals(value, digits), verdict(3.12, 2, value, "irreproducible")});
   };
   row("mean square × 100", 100 * error.mean_square, 3);
   row("RMS × 100", 100 * error.root_mean_square, 2);
@@ -131,10 +134,12 @@ PaperTable logarithm() {
 }
 
 PaperTable equation_23() {
-  PaperTable table{"Equation 23: the integer level differs from the exact one",
-                   "The integral is right; the domain of k and s1 has area 1/2, so the probability is "
-                   "twice the integral.",
-                   {"item", "paper", "ours", "verdict"}, {}};
+  PaperTable table{
+      "Equation 23: the integer level differs from the exact one",
+      "The integral is right; the domain of k and s1 has area 1/2, so the probability is "
+      "twice the integral.",
+      {"item", "paper", "ours", "verdict"},
+      {}};
   const double area = ideal::level_flip_area();
   const double closed = std::asinh(1.0) - 2 * std::log(1.5);
   const double probability = ideal::level_flip_probability();
@@ -148,8 +153,9 @@ PaperTable equation_23() {
         const double a = 256 * (log_uniform ? std::exp2(u) : 1 + u);
         const auto s = static_cast<std::uint32_t>(a * kSideOne);
         const auto t = static_cast<std::uint32_t>(a * k * kSideOne);
-        const int level =
-            gold::log2_fixed(Log2Rule::kMitchell, gold::footprint_side(FootprintRule::kHalf, s, t)) >> 12;
+        const int level = gold::log2_fixed(Log2Rule::kMitchell,
+                                           gold::footprint_side(FootprintRule::kHalf, s, t)) >>
+                          12;
         flips += level != static_cast<int>(std::floor(std::log2(a * std::sqrt(1 + k * k))));
       }
     }
@@ -176,12 +182,13 @@ PaperTable figure_1() {
   const auto texels = [](int value) { return static_cast<std::uint32_t>(value) << 16; };
   const gold::Footprint f =
       gold::footprint(FootprintRule::kHalf, texels(6), texels(3), texels(1), texels(2));
-  const gold::LevelOfDetail lod = gold::select_level(
-      parameters, descriptor, gold::log2_fixed(Log2Rule::kMitchell, f.d_max),
-      gold::log2_fixed(Log2Rule::kMitchell, f.d_min));
+  const gold::LevelOfDetail lod =
+      gold::select_level(parameters, descriptor, gold::log2_fixed(Log2Rule::kMitchell, f.d_max),
+                         gold::log2_fixed(Log2Rule::kMitchell, f.d_min));
   PaperTable table{"Figure 1: a footprint of 3√5 by √5 texels",
                    "The figure shows the ratio 3; the rule of section 1.3 is N = 2^⌊L⌋.",
-                   {"item", "paper", "ours", "verdict"}, {}};
+                   {"item", "paper", "ours", "verdict"},
+                   {}};
   table.rows = {
       {"N", "3", std::to_string(lod.samples()), lod.samples() == 3 ? "right" : "inconsistent"},
       {"L", "-", decimals(lod.anisotropy / kLog2One, 3), "added"},
@@ -232,7 +239,8 @@ PaperTable design_space(const std::vector<TextureScene>& scenes, Progress& progr
       "Level error of one side over log-uniform lengths and b/a uniform in [0, 1]; N over the "
       "fragments of three scenes. The first row is the paper's. Areas come from the area table.",
       {"footprint", "log2", "RMS level", "largest", "⌊l⌋ differs %", "N differs %, plane", "quad",
-       "tunnel", "mean"}, {}};
+       "tunnel", "mean"},
+      {}};
   std::uint64_t done = 0;
   for (std::size_t f = 0; f < spec::kFootprintNames.size(); ++f) {
     for (std::size_t g = 0; g < spec::kLog2Names.size(); ++g) {
@@ -247,10 +255,10 @@ PaperTable design_space(const std::vector<TextureScene>& scenes, Progress& progr
       spec::TextureParameters parameters;
       parameters.footprint = rule;
       parameters.log2 = log2;
-      std::vector<std::string> row = {name_of(rule, spec::kFootprintNames),
-                                      name_of(log2, spec::kLog2Names),
-                                      decimals(error.root_mean_square, 4), decimals(error.largest, 4),
-                                      decimals(100 * error.floor_mismatch, 2)};
+      std::vector<std::string> row = {
+          name_of(rule, spec::kFootprintNames), name_of(log2, spec::kLog2Names),
+          decimals(error.root_mean_square, 4), decimals(error.largest, 4),
+          decimals(100 * error.floor_mismatch, 2)};
       double sum = 0;
       for (const TextureScene& scene : scenes) {
         const double percent = count_flips(scene, parameters).percent();
@@ -267,6 +275,14 @@ PaperTable design_space(const std::vector<TextureScene>& scenes, Progress& progr
 
 // ---- picture quality ----------------------------------------------------------------------------
 
+struct Gaussian {
+  std::string_view name;
+  ideal::EwaOptions options;
+};
+constexpr std::array<Gaussian, 3> kGaussians = {{{"whole", ideal::kEwaGaussian},
+                                                 {"tapered", ideal::kEwaTapered},
+                                                 {"cut", ideal::kEwaHeckbert}}};
+
 // Every rule against both references on the checkerboard ground plane.
 PaperTable quality(int size) {
   SceneParameters scene_parameters;
@@ -276,37 +292,47 @@ PaperTable quality(int size) {
   TextureScene scene(scene_parameters, SamplerParameters{}, 1);
   const Texture& texture = scene.scene().mesh.textures.at(0);
   std::vector<std::uint8_t> texels;
-  for (const Rgba8& texel : texture.image.pixels) texels.insert(texels.end(), texel.begin(), texel.end());
+  for (const Rgba8& texel : texture.image.pixels)
+    texels.insert(texels.end(), texel.begin(), texel.end());
   const ideal::TextureImage image(texture.image.width, texture.image.height, texels, texture.wrap_s,
                                   texture.wrap_t);
-  const std::vector<ideal::PixelFootprint> footprints = ideal::pixel_footprints(
-      scene.stream().quads, texture.image.width, texture.image.height);
+  const std::vector<ideal::PixelFootprint> footprints =
+      ideal::pixel_footprints(scene.stream().quads, texture.image.width, texture.image.height);
 
   // In blocks, so that progress is seen.
-  std::vector<ideal::Colour> box, ewa;
+  std::vector<ideal::Colour> box;
+  std::array<std::vector<ideal::Colour>, kGaussians.size()> ewa;
   {
     Progress progress("references", footprints.size(), "pixel");
     constexpr std::size_t kBlock = 4096;
     for (std::size_t i = 0; i < footprints.size(); i += kBlock) {
-      const std::span<const ideal::PixelFootprint> block(
-          footprints.data() + i, std::min(kBlock, footprints.size() - i));
+      const std::span<const ideal::PixelFootprint> block(footprints.data() + i,
+                                                         std::min(kBlock, footprints.size() - i));
       for (const ideal::Colour& c : ideal::box_image(image, block)) box.push_back(c);
-      for (const ideal::Colour& c : ideal::ewa_image(image, block)) ewa.push_back(c);
+      for (std::size_t g = 0; g < kGaussians.size(); ++g)
+        for (const ideal::Colour& c : ideal::ewa_image(image, block, kGaussians[g].options))
+          ewa[g].push_back(c);
       progress.update(i + block.size());
     }
   }
 
   PaperTable table{
       "Picture quality: checkerboard ground plane, N_max = 16",
-      fmt::format("PSNR over the {} textured pixels of {} x {}; box: the pixel's parallelogram "
-                  "supersampled 32 x 32; EWA: exact Gaussian. Tents are spread over 1.6 x the axis. "
-                  "LOD error: mean |l - exact l| over the same pixels.",
-                  footprints.size(), size, size),
-      {"footprint", "log2", "count", "kernel", "samples a fragment", "LOD error", "box dB", "EWA dB"},
+      fmt::format(
+          "PSNR over the {} textured pixels of {} x {}; box: the pixel's parallelogram "
+          "supersampled 32 x 32; EWA: exact elliptical Gaussians, whole (standard deviation "
+          "0.35 pixel), tapered (0.37) and cut as Heckbert's (0.41): which one is meant moves the "
+          "figure more than any rule. Tents are spread over 1.6 x the axis, and at the end, for "
+          "the paper's footprint and logarithm, over other lengths. "
+          "LOD error: mean |l - exact l| over the same pixels.",
+          footprints.size(), size, size),
+      {"footprint", "log2", "count", "kernel", "spread", "samples a fragment", "LOD error",
+       "box dB"},
       {}};
-  constexpr std::int32_t kTentSpread = 102;  // 1.6 in 1/64
-  const auto total = static_cast<std::uint64_t>(spec::kFootprintNames.size() * spec::kLog2Names.size() * 4);
-  Progress progress("rules", total, "picture");
+  for (const Gaussian& gaussian : kGaussians)
+    table.columns.push_back(fmt::format("EWA {} dB", gaussian.name));
+  // Of every pair of rules, then of the spreads of the paper's own.
+  std::vector<spec::TextureParameters> variants;
   for (std::size_t f = 0; f < spec::kFootprintNames.size(); ++f)
     for (std::size_t g = 0; g < spec::kLog2Names.size(); ++g)
       for (std::size_t c = 0; c < spec::kCountNames.size(); ++c)
@@ -316,27 +342,45 @@ PaperTable quality(int size) {
           p.log2 = static_cast<Log2Rule>(g);
           p.count = static_cast<spec::CountRule>(c);
           p.kernel = static_cast<spec::Kernel>(k);
-          if (p.kernel == spec::Kernel::kTent) p.spread = kTentSpread;
-          const GoldenFrame frame = golden_frame(scene, p);
-          const gold::TextureGolden golden = make_golden(scene, p);
-          double lod_error = 0;
-          std::size_t i = 0;
-          for (const spec::Quad& quad : scene.stream().quads)
-            for (int lane = 0; lane < 4; ++lane)
-              if (quad.coverage >> lane & 1) {
-                const double exact =
-                    ideal::level_of_detail(p, golden.texture(quad.texture), footprints[i++]).l;
-                lod_error += std::fabs(golden.analyse(quad, lane).lod.l / kLog2One - exact);
-              }
-          table.rows.push_back(
-              {name_of(p.footprint, spec::kFootprintNames), name_of(p.log2, spec::kLog2Names),
-               name_of(p.count, spec::kCountNames), name_of(p.kernel, spec::kKernelNames),
-               decimals(static_cast<double>(frame.work.samples) /
-                            static_cast<double>(frame.work.fragments), 2),
-               decimals(lod_error / static_cast<double>(footprints.size()), 4),
-               decimals(ideal::psnr(box, frame.rgba), 2), decimals(ideal::psnr(ewa, frame.rgba), 2)});
-          progress.update(table.rows.size());
+          if (p.kernel == spec::Kernel::kTent) p.spread = 102;  // 1.6 in 1/64
+          variants.push_back(p);
         }
+  for (const std::int32_t spread : {64, 77, 90, 112, 120, 128}) {
+    spec::TextureParameters p;
+    p.count = spec::CountRule::kCeil;
+    p.kernel = spec::Kernel::kTent;
+    p.spread = spread;
+    variants.push_back(p);
+  }
+
+  Progress progress("rules", variants.size(), "picture");
+  for (const spec::TextureParameters& p : variants) {
+    const GoldenFrame frame = golden_frame(scene, p);
+    const gold::TextureGolden golden = make_golden(scene, p);
+    double lod_error = 0;
+    std::size_t i = 0;
+    for (const spec::Quad& quad : scene.stream().quads)
+      for (int lane = 0; lane < 4; ++lane)
+        if (quad.coverage >> lane & 1) {
+          const double exact =
+              ideal::level_of_detail(p, golden.texture(quad.texture), footprints[i++]).l;
+          lod_error += std::fabs(golden.analyse(quad, lane).lod.l / kLog2One - exact);
+        }
+    std::vector<std::string> row = {
+        name_of(p.footprint, spec::kFootprintNames),
+        name_of(p.log2, spec::kLog2Names),
+        name_of(p.count, spec::kCountNames),
+        name_of(p.kernel, spec::kKernelNames),
+        decimals(p.spread / 64.0, 2),
+        decimals(
+            static_cast<double>(frame.work.samples) / static_cast<double>(frame.work.fragments), 2),
+        decimals(lod_error / static_cast<double>(footprints.size()), 4),
+        decimals(ideal::psnr(box, frame.rgba), 2)};
+    for (const std::vector<ideal::Colour>& reference : ewa)
+      row.push_back(decimals(ideal::psnr(reference, frame.rgba), 2));
+    table.rows.push_back(std::move(row));
+    progress.update(table.rows.size());
+  }
   return table;
 }
 
@@ -365,16 +409,21 @@ std::vector<PaperFigure> figures(int size) {
   scene.texture = "road";
   scene.texture_size = kRoad;
   scene.width = scene.height = 1;
-  road.images.push_back({"figure_5", "road", "256 x 256 texels",
-                         TextureScene(scene, SamplerParameters{}, 1).scene().mesh.textures.at(0).image});
+  road.images.push_back(
+      {"figure_5", "road", "256 x 256 texels",
+       TextureScene(scene, SamplerParameters{}, 1).scene().mesh.textures.at(0).image});
   all.push_back(std::move(road));
 
   PaperFigure modes{"Figure 6: the six modes of GL on the road texture",
-                    "Bit-identical to the hardware model, without anisotropy as in the paper.", {}};
-  constexpr spec::MinFilter kOrder[] = {  // the paper's list
-      spec::MinFilter::kLinear, spec::MinFilter::kLinearMipmapLinear,
-      spec::MinFilter::kLinearMipmapNearest, spec::MinFilter::kNearest,
-      spec::MinFilter::kNearestMipmapLinear, spec::MinFilter::kNearestMipmapNearest};
+                    "Bit-identical to the hardware model, without anisotropy as in the paper.",
+                    {}};
+  constexpr spec::MinFilter kOrder[] = {// the paper's list
+                                        spec::MinFilter::kLinear,
+                                        spec::MinFilter::kLinearMipmapLinear,
+                                        spec::MinFilter::kLinearMipmapNearest,
+                                        spec::MinFilter::kNearest,
+                                        spec::MinFilter::kNearestMipmapLinear,
+                                        spec::MinFilter::kNearestMipmapNearest};
   std::vector<Image> cells;
   for (const spec::MinFilter mode : kOrder) {
     Image image = picture("road", "road", kRoad, size, mode, 0);
@@ -382,12 +431,13 @@ std::vector<PaperFigure> figures(int size) {
     cells.push_back(image);
     modes.images.push_back({"figure_6_" + name, name, "", std::move(image)});
   }
-  modes.images.push_back({"figure_6_sheet", "all six on one sheet", "in the order above",
-                          sheet(cells, 3), true});
+  modes.images.push_back(
+      {"figure_6_sheet", "all six on one sheet", "in the order above", sheet(cells, 3), true});
   all.push_back(std::move(modes));
 
   PaperFigure checker{"Figures 7 and 8: checkerboard, nearest against trilinear, with zooms",
-                      "The frame marks the part that is zoomed 8 times.", {}};
+                      "The frame marks the part that is zoomed 8 times.",
+                      {}};
   std::vector<Image> zooms;
   const int part = size / 8;
   const int left = size / 2 - part / 2, top = size / 4;
@@ -406,10 +456,12 @@ std::vector<PaperFigure> figures(int size) {
   all.push_back(std::move(checker));
 
   PaperFigure object{"Figure 9: a textured object, trilinear", "", {}};
-  object.images.push_back({"figure_9", "trilinear", "as the paper",
-                           picture("object", "", 1024, size, spec::MinFilter::kLinearMipmapLinear, 0)});
-  object.images.push_back({"figure_9_anisotropic", "trilinear, 16 samples", "",
-                           picture("object", "", 1024, size, spec::MinFilter::kLinearMipmapLinear, 4)});
+  object.images.push_back(
+      {"figure_9", "trilinear", "as the paper",
+       picture("object", "", 1024, size, spec::MinFilter::kLinearMipmapLinear, 0)});
+  object.images.push_back(
+      {"figure_9_anisotropic", "trilinear, 16 samples", "",
+       picture("object", "", 1024, size, spec::MinFilter::kLinearMipmapLinear, 4)});
   all.push_back(std::move(object));
   return all;
 }
@@ -417,14 +469,18 @@ std::vector<PaperFigure> figures(int size) {
 }  // namespace
 
 Paper paper_004(const PaperOptions& options) {
-  Paper paper{"004", "Hardware implementation of an anisotropic texture filter",
-              "Xu, Du, Zeng and Wang, Journal of Computer-Aided Design & Computer Graphics, 2019", {}, {}};
+  Paper paper{"004",
+              "Hardware implementation of an anisotropic texture filter",
+              "Xu, Du, Zeng and Wang, Journal of Computer-Aided Design & Computer Graphics, 2019",
+              {},
+              {}};
   paper.tables = {coefficients(), table_1(), table_2(), logarithm(), equation_23(), figure_1()};
   if (!options.quick) {
     const std::vector<TextureScene> scenes = reference_scenes(options.size);
     {
       Progress progress("design space",
-                        spec::kFootprintNames.size() * spec::kLog2Names.size() * scenes.size(), "scene");
+                        spec::kFootprintNames.size() * spec::kLog2Names.size() * scenes.size(),
+                        "scene");
       paper.tables.push_back(design_space(scenes, progress));
     }
     paper.tables.push_back(quality(options.size));
