@@ -300,10 +300,12 @@ TEST(MemoryPort, ResetWithTransactionsInFlight) {
   s.clock.run(25);  // many asked for, none answered
   EXPECT_EQ(s.sink.received(), 0U);
   EXPECT_GT(s.port.in_flight(), 10U);
+  EXPECT_EQ(s.port.reads.value(), s.port.in_flight());
   s.clock.set_reset_n(false);
   s.clock.run(2);
   s.clock.set_reset_n(true);
   EXPECT_EQ(s.port.in_flight(), 0U);
+  EXPECT_EQ(s.port.reads.value(), 0U);
   ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 100; }, 10'000));
   s.clock.run(100);
   EXPECT_EQ(s.sink.received(), 100U);  // the late responses of before are gone
@@ -311,6 +313,10 @@ TEST(MemoryPort, ResetWithTransactionsInFlight) {
     EXPECT_EQ(s.sink.beats()[i].tag, i);
     EXPECT_TRUE(right(s.sink.beats()[i]));
   }
+  EXPECT_EQ(s.port.latency.count(), 100U);
+  s.clock.set_reset_n(false);
+  s.clock.run(1);
+  EXPECT_EQ(s.port.latency.count(), 0U);
 }
 
 TEST(MemoryPort, DebugAccessTakesNoTime) {
@@ -351,6 +357,7 @@ struct AnyTarget : sc_core::sc_module {
   Style style;
   tlm_utils::peq_with_cb_and_phase<AnyTarget> queue{this, &AnyTarget::due};
   std::uint64_t transactions = 0;
+  std::vector<std::uint64_t> begun;  // times of BEGIN_REQ
 
   AnyTarget(const sc_core::sc_module_name& name, Style how) : sc_module(name), style(how) {
     socket.register_nb_transport_fw(this, &AnyTarget::forward);
@@ -359,6 +366,7 @@ struct AnyTarget : sc_core::sc_module {
                              sc_time& delay) {
     if (phase == tlm::END_RESP) return tlm::TLM_COMPLETED;
     ++transactions;
+    begun.push_back((sc_core::sc_time_stamp() + delay).value());
     switch (style) {
       case Style::kCompleteAtOnce:
         answer(payload);
@@ -436,10 +444,41 @@ TEST_P(AnyTargetTest, WorksAndRunningOnIsInvisible) {
   EXPECT_EQ(run(true), slow);
 }
 
+std::string name_of(const testing::TestParamInfo<Style>& info) {
+  switch (info.param) {
+    case Style::kCompleteAtOnce:
+      return "CompleteAtOnce";
+    case Style::kRespondAtOnce:
+      return "RespondAtOnce";
+    case Style::kFourPhases:
+      return "FourPhases";
+    case Style::kNoEndRequest:
+      return "NoEndRequest";
+    case Style::kUpdateThenRespond:
+      return "UpdateThenRespond";
+    case Style::kAnnotated:
+      return "Annotated";
+    default:
+      return "Wrong";
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Styles, AnyTargetTest,
                          testing::Values(Style::kCompleteAtOnce, Style::kRespondAtOnce,
                                          Style::kFourPhases, Style::kNoEndRequest,
-                                         Style::kUpdateThenRespond, Style::kAnnotated));
+                                         Style::kUpdateThenRespond, Style::kAnnotated),
+                         name_of);
+
+// A request that is ended at the time of an edge makes room for the next one at that edge.
+TEST(MemoryPort, NextRequestGoesWhenTheLastIsEnded) {
+  Side side;
+  AnyTarget target("target", Style::kFourPhases);  // ends a request after two clocks
+  side.port.memory.bind(target.socket);
+  for (std::uint32_t i = 0; i < 20; ++i) side.driver.send(read_of(i));
+  ASSERT_TRUE(side.clock.run_until([&] { return side.sink.received() == 20; }, 1000));
+  for (std::size_t i = 1; i < 20; ++i)
+    EXPECT_EQ(target.begun[i] - target.begun[i - 1], 2 * kPeriod.value());
+}
 
 TEST(MemoryPort, SecondAnswerIsAProtocolError) {
   Side side;

@@ -39,6 +39,39 @@ TEST(Fifo, LatencyOneIntervalOneAndHighWater) {
   EXPECT_EQ(fifo.high_water(), 0U);
 }
 
+// A unit that fills a FIFO and never empties it.
+class Hoarder final : public rtl::Unit {
+ public:
+  rtl::Fifo<int> hoard{"hoard", 16, 8};
+  rtl::Counter coins{"coins", "coins", "put by"};
+  Hoarder(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
+  rtl::Activity tick(Cycle cycle) override {
+    if (!hoard.can_push(cycle)) return rtl::kIdle;
+    hoard.push(cycle, 1);
+    ++coins;
+    return rtl::kBusy;
+  }
+  void reset() override {}
+};
+
+TEST(Fifo, InsideAUnitIsResetWithItsCounters) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(1, sc_core::SC_NS));
+  Hoarder hoarder("hoarder", clock);
+  clock.run(10);
+  EXPECT_EQ(hoarder.hoard.occupancy(), 10U);
+  EXPECT_EQ(hoarder.hoard.high_water(), 10U);
+  EXPECT_EQ(hoarder.coins.value(), 10U);
+  clock.set_reset_n(false);
+  clock.run(1);
+  EXPECT_TRUE(hoarder.hoard.empty());
+  EXPECT_EQ(hoarder.hoard.high_water(), 0U);
+  EXPECT_EQ(hoarder.coins.value(), 0U);
+  clock.set_reset_n(true);
+  clock.run(20);
+  EXPECT_EQ(hoarder.coins.value(), 16U);
+  EXPECT_EQ(statistics(clock)["sram_bits"]["hoarder.hoard"], 128);
+}
+
 TEST(Sram, KeepsWhatIsWrittenAndCountsItsBits) {
   rtl::Sram<std::uint32_t> sram("sram", 1920, 24);
   EXPECT_EQ(sram.bits(), 1920U * 24);
