@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+// Texture descriptors and quads at random: everything that the registers and the input link can
+// carry, with the odd cases often and the ordinary ones still there.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "spec/fragment.h"
+#include "spec/texture.h"
+#include "tb/harness/random.h"
+
+namespace deburr::tb {
+
+template <class T, std::size_t N>
+T any_of(Random& random, const std::array<T, N>& choices) {
+  return choices[random.below(static_cast<std::uint32_t>(N))];
+}
+template <class Enum, std::size_t N>
+Enum any_code(Random& random, const std::array<std::string_view, N>&) {
+  return static_cast<Enum>(random.below(static_cast<std::uint32_t>(N)));
+}
+
+// Every rule and kernel; the cache stays as it is.
+inline spec::TextureParameters random_rules(Random& random) {
+  spec::TextureParameters p;
+  p.footprint = any_code<spec::FootprintRule>(random, spec::kFootprintNames);
+  p.log2 = any_code<spec::Log2Rule>(random, spec::kLog2Names);
+  p.count = any_code<spec::CountRule>(random, spec::kCountNames);
+  p.count_cap = any_code<spec::CountCap>(random, spec::kCountCapNames);
+  p.kernel = any_code<spec::Kernel>(random, spec::kKernelNames);
+  p.spread = any_of(random, std::array{0, 1, 64, 77, 102, 128});
+  return p;
+}
+
+inline void random_size(Random& random, spec::TextureDescriptor& d) {
+  const auto up_to = [&](std::uint32_t n) {
+    return static_cast<std::uint16_t>(1 + random.below(n));
+  };
+  switch (random.below(8)) {
+    case 0:
+      d.width = d.height = 1;
+      break;
+    case 1:
+      d.width = 1, d.height = up_to(300);
+      break;
+    case 2:
+      d.width = up_to(300), d.height = 1;
+      break;
+    case 3:
+      d.width = 4096, d.height = 1;
+      break;
+    case 4:
+      d.width = up_to(4), d.height = 4096;
+      break;
+    case 5:
+      d.width = d.height = static_cast<std::uint16_t>(1u << random.below(11));
+      break;
+    case 6:
+      d.width = up_to(600), d.height = up_to(600);
+      break;
+    default:
+      d.width = up_to(4096), d.height = up_to(4096);
+      break;
+  }
+}
+
+// A descriptor that the unit accepts. Levels start anywhere in memory, overlapping each other, and
+// now and then outside of it; min_lod may be above max_lod.
+inline spec::TextureDescriptor random_texture(Random& random, std::uint32_t memory_bytes) {
+  spec::TextureDescriptor d;
+  random_size(random, d);
+  const auto most =
+      static_cast<std::uint32_t>(std::bit_width(unsigned{std::max(d.width, d.height)}));
+  d.levels = static_cast<std::uint8_t>(random.chance(600) ? most : 1 + random.below(most));
+  d.format = any_code<spec::Format>(random, spec::kFormatNames);
+  d.layout = any_code<spec::Layout>(random, spec::kLayoutNames);
+  d.wrap_s = any_code<spec::Wrap>(random, spec::kWrapNames);
+  d.wrap_t = any_code<spec::Wrap>(random, spec::kWrapNames);
+  d.min_filter = any_code<spec::MinFilter>(random, spec::kMinFilterNames);
+  d.mag_filter = any_code<spec::MagFilter>(random, spec::kMagFilterNames);
+  d.max_anisotropy_log2 = static_cast<std::uint8_t>(random.below(5));
+  if (random.chance(500))
+    d.lod_bias = static_cast<std::int16_t>(static_cast<int>(random.below(1025)) - 512);
+  if (random.chance(200)) d.lod_bias = static_cast<std::int16_t>(random.next());
+  if (random.chance(100)) d.lod_bias = std::numeric_limits<std::int16_t>::min();
+  if (random.chance(300)) d.min_lod = static_cast<std::uint16_t>(random.below(6 << 8));
+  if (random.chance(300)) d.max_lod = static_cast<std::uint16_t>(random.below(6 << 8));
+  if (random.chance(50)) d.max_lod = std::numeric_limits<std::uint16_t>::max();
+  for (std::uint32_t& base : d.base) {
+    const bool outside = random.chance(40);
+    base =
+        (outside ? static_cast<std::uint32_t>(random.next()) : random.below(memory_bytes)) & ~63u;
+  }
+  return d;
+}
+
+// Makes a descriptor one that the unit must refuse, by a code that the registers can hold.
+inline void spoil(Random& random, spec::TextureDescriptor& d) {
+  switch (random.below(10)) {
+    case 0:
+      d.width = 0;
+      break;
+    case 1:
+      d.height = 0;
+      break;
+    case 2:
+      d.width = static_cast<std::uint16_t>(4097 + random.below(60000));
+      break;
+    case 3:
+      d.height = 4097;
+      break;
+    case 4:
+      d.levels = 0;
+      break;
+    case 5:
+      d.width = d.height = 64;
+      d.levels = static_cast<std::uint8_t>(8 + random.below(8));
+      break;
+    case 6:
+      d.format = static_cast<spec::Format>(5 + random.below(3));
+      break;
+    case 7:
+      d.wrap_t = static_cast<spec::Wrap>(3);
+      break;
+    case 8:
+      d.min_filter = static_cast<spec::MinFilter>(6 + random.below(2));
+      break;
+    default:
+      d.base[0] |= 1 + random.below(63);
+      break;
+  }
+}
+
+inline constexpr std::array<std::int32_t, 14> kCoordinateCorners = {
+    std::numeric_limits<std::int32_t>::min(),  // -128
+    std::numeric_limits<std::int32_t>::min() + 1,
+    -2 * spec::kCoordinateOne,
+    -spec::kCoordinateOne,
+    -spec::kCoordinateOne - 1,
+    -1,
+    0,
+    1,
+    spec::kCoordinateOne / 2,
+    spec::kCoordinateOne - 1,
+    spec::kCoordinateOne,
+    2 * spec::kCoordinateOne,
+    std::numeric_limits<std::int32_t>::max() - 1,
+    std::numeric_limits<std::int32_t>::max()};
+
+// Four values of one coordinate: a plane with a slope of any order of magnitude along each axis, a
+// little bent; or all alike; or corners; or anything.
+inline std::array<std::int32_t, 4> random_coordinates(Random& random) {
+  std::array<std::int32_t, 4> c{};
+  switch (random.below(12)) {
+    case 0:
+      for (std::int32_t& lane : c) lane = static_cast<std::int32_t>(random.next());
+      return c;
+    case 1:
+      for (std::int32_t& lane : c) lane = any_of(random, kCoordinateCorners);
+      return c;
+    case 2:
+      c.fill(any_of(random, kCoordinateCorners));
+      return c;
+    default:
+      break;
+  }
+  const auto within = [&](std::int64_t limit) {
+    const auto span = static_cast<std::uint32_t>(2 * limit + 1);
+    return static_cast<std::int64_t>(random.below(span)) - limit;
+  };
+  const std::int64_t base = within(4 * spec::kCoordinateOne);
+  const std::int64_t along = within(1 << (4 + random.below(20))),
+                     across = within(1 << (4 + random.below(20)));
+  for (std::int64_t lane = 0; lane < 4; ++lane) {
+    const std::int64_t value = base + (lane & 1) * along + (lane >> 1) * across + within(16);
+    c[static_cast<std::size_t>(lane)] = static_cast<std::int32_t>(value);
+  }
+  return c;
+}
+
+inline spec::Quad random_quad(Random& random, std::uint32_t tag, std::uint8_t texture) {
+  spec::Quad q;
+  q.tag = tag;
+  q.texture = texture;
+  q.coverage = static_cast<std::uint8_t>(random.chance(500) ? 15 : random.below(16));
+  q.clamped = static_cast<std::uint8_t>(random.chance(800) ? 0 : random.below(16));
+  q.s = random_coordinates(random);
+  q.t = random_coordinates(random);
+  return q;
+}
+
+}  // namespace deburr::tb
