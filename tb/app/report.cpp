@@ -5,6 +5,7 @@
 #include <openssl/evp.h>
 
 #include <algorithm>
+#include <cmath>
 #include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
 
@@ -39,6 +40,12 @@ mustache::data row(std::initializer_list<std::pair<const char*, std::string>> ce
   mustache::data data;
   for (const auto& [name, value] : cells) data.set(name, value);
   return data;
+}
+
+// A count as such, anything else with four digits.
+std::string amount(double value) {
+  return value == std::floor(value) && value >= 0 && value < 1e15
+             ? grouped(static_cast<std::uint64_t>(value)) : fmt::format("{:.4g}", value);
 }
 
 double number(const Json& json, const char* key) {
@@ -118,8 +125,9 @@ class ReportBuilder {
     const double cycles = number(result_, "cycles");
     tile("Cycles", shown(result_["cycles"]), "clk",
          mhz > 0 ? fmt::format("{:.2f} ms at {:.2f} MHz", cycles / mhz / 1e3, mhz) : "");
-    tile("Throughput", fmt::format("{:.3f}", value), shown(throughput.value("unit", Json(""))),
-         bound > 0 ? fmt::format("{:.1f} % of the bound {:g}", 100 * value / bound, bound) : "");
+    tile("Throughput", fmt::format("{:.3f}", value), "",
+         shown(throughput.value("unit", Json(""))) +
+             (bound > 0 ? fmt::format(", {:.1f} % of the bound {:g}", 100 * value / bound, bound) : ""));
     tile("Latency p50", shown(latency.value("p50", Json())), "clk",
          fmt::format("p99 {}, max {}", shown(latency.value("p99", Json())),
                      shown(latency.value("max", Json()))));
@@ -137,7 +145,7 @@ class ReportBuilder {
     const auto meter = [&](std::string name, double part, double whole, const std::string& unit) {
       const double percent = whole > 0 ? 100 * part / whole : 0;
       meters << row({{"name", std::move(name)},
-                     {"text", fmt::format("{:.4g} of {:.4g} {} ({:.1f} %)", part, whole, unit, percent)},
+                     {"text", fmt::format("{} of {} {} ({:.1f} %)", amount(part), amount(whole), unit, percent)},
                      {"percent", fmt::format("{:.2f}", std::clamp(percent, 0.0, 100.0))}});
     };
     meter("Rate over the whole run", value, bound, shown(throughput.value("unit", Json(""))));

@@ -81,7 +81,7 @@ class Faults(CommandTest):
 
     def test_a_fault_on_any_link(self):
         # Bit 167: the highest bit of the first texel's red.
-        self.fault("flip:texture.texel_quads:10:167", 1, "mismatch", *self.UNCHECKED)
+        self.fault("flip:texture.texel_quads:12:167", 1, "mismatch", *self.UNCHECKED)
 
     def test_too_few_cycles(self):
         self.run_texture(4, "--max-cycles", "100", says="not done after 100 cycles")

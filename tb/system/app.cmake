@@ -1,0 +1,5 @@
+# SPDX-License-Identifier: MIT
+deburr_test(app_report_test LABELS system SOURCES app_report_test.cpp
+            LINK deburr::results TIMEOUT 300)
+target_compile_definitions(app_report_test PRIVATE "DEBURR_COMMAND=\"$<TARGET_FILE:deburr>\"")
+add_dependencies(app_report_test deburr)

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Opens report.html from disk in headless Chromium, without a network, and looks at the picture: the
+// page obeys the colour scheme, charts and images are there, no script has failed. Skipped with a
+// message where there is no Chromium. DEBURR_KEEP_SCREENSHOTS=DIR leaves the pictures in DIR.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "tb/app/file.h"
+#include "tb/scene/image.h"
+#include "tb/scene/image_io.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxLog = 1 << 24;
+
+// Of report_style.css: --page and --busy.
+struct Scheme {
+  const char *name, *option;
+  Rgba8 page, busy;
+};
+constexpr Scheme kSchemes[] = {
+    {"light", "", {0xF6, 0xF5, 0xF2, 255}, {0x2B, 0x7A, 0x8F, 255}},
+    {"dark", "--force-dark-mode", {0x13, 0x15, 0x18, 255}, {0x4F, 0xA3, 0xB8, 255}}};
+
+std::string browser() {
+  for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
+    if (std::system((std::string("command -v ") + name + " >/dev/null 2>&1").c_str()) == 0) return name;
+  return "";
+}
+
+double share(const Image& image, const Rgba8& colour, int first_row, int last_row) {
+  constexpr int kTolerance = 3;
+  std::int64_t hits = 0;
+  for (int y = first_row; y < last_row; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      bool same = true;
+      for (std::size_t c = 0; c < 3; ++c)
+        same = same && std::abs(image.at(x, y)[c] - colour[c]) <= kTolerance;
+      hits += same;
+    }
+  return static_cast<double>(hits) / (static_cast<double>(image.width) * (last_row - first_row));
+}
+
+class Report : public testing::TestWithParam<Scheme> {
+ protected:
+  Report() {
+    directory_ = fs::temp_directory_path() / ("deburr_report_" + std::to_string(::getpid()));
+    fs::create_directories(directory_);
+  }
+  ~Report() override { fs::remove_all(directory_); }
+
+  // Exit code of a shell command whose output goes to `log`.
+  int shell(const std::string& command, const char* log) const {
+    return std::system((command + " >" + (directory_ / log).string() + " 2>&1").c_str());
+  }
+  std::string log(const char* name) const { return read_file(directory_ / name, kMaxLog); }
+
+  fs::path directory_;
+};
+
+TEST_P(Report, OpensFromDiskAndShowsChartsAndPictures) {
+  const std::string chromium = browser();
+  if (chromium.empty()) GTEST_SKIP() << "no Chromium here (Debian package chromium)";
+  const fs::path run = directory_ / "run", picture = directory_ / "page.png";
+  ASSERT_EQ(shell(std::string(DEBURR_COMMAND) + " run texture --size 128x128 --truth --out " + run.string(), "run.log"), 0)
+      << log("run.log");
+  shell(chromium + " --headless --no-sandbox --disable-gpu --disable-background-networking --no-first-run"
+        " --hide-scrollbars --host-resolver-rules='MAP * ~NOTFOUND' --enable-logging=stderr " + GetParam().option +
+        " --user-data-dir=" + (directory_ / "profile").string() + " --window-size=1280,3200 --screenshot=" +
+        picture.string() + " file://" + (run / "report.html").string(), "browser.log");
+  ASSERT_TRUE(fs::exists(picture)) << log("browser.log");
+  EXPECT_EQ(log("browser.log").find("CONSOLE"), std::string::npos) << log("browser.log");
+  if (const char* keep = std::getenv("DEBURR_KEEP_SCREENSHOTS"))
+    fs::copy_file(picture, fs::path(keep) / (std::string("report_") + GetParam().name + ".png"),
+                  fs::copy_options::overwrite_existing);
+
+  const Image page = read_image(picture);
+  std::set<Rgba8> colours(page.pixels.begin(), page.pixels.end());
+  EXPECT_GT(colours.size(), 200u) << "the page is blank";
+  EXPECT_GT(share(page, GetParam().page, 0, page.height), 0.02) << "not in the " << GetParam().name << " scheme";
+  EXPECT_GT(share(page, GetParam().busy, page.height / 3, page.height), 0.01) << "no chart has been drawn";
+  // The viewer shows a checkerboard in the upper part of the page.
+  EXPECT_GT(share(page, {0, 0, 0, 255}, 0, page.height / 3), 0.02) << "no picture in the viewer";
+  EXPECT_GT(share(page, {255, 255, 255, 255}, 0, page.height / 3), 0.02) << "no picture in the viewer";
+}
+
+// The checks above can fail: a page whose script is broken draws no chart.
+TEST_P(Report, ABrokenPageIsNoticed) {
+  const std::string chromium = browser();
+  if (chromium.empty()) GTEST_SKIP() << "no Chromium here (Debian package chromium)";
+  const fs::path file = directory_ / "broken.html", picture = directory_ / "page.png";
+  write_file_atomically(file, "<!doctype html><script>undefined_function();</script>");
+  shell(chromium + " --headless --no-sandbox --disable-gpu --disable-background-networking --no-first-run"
+        " --enable-logging=stderr --user-data-dir=" + (directory_ / "profile").string() +
+        " --window-size=640,480 --screenshot=" + picture.string() + " file://" + file.string(), "browser.log");
+  ASSERT_TRUE(fs::exists(picture)) << log("browser.log");
+  EXPECT_NE(log("browser.log").find("CONSOLE"), std::string::npos);
+  const Image page = read_image(picture);
+  EXPECT_LT(std::set<Rgba8>(page.pixels.begin(), page.pixels.end()).size(), 200u);
+  EXPECT_LT(share(page, GetParam().busy, 0, page.height), 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scheme, Report, testing::ValuesIn(kSchemes),
+                         [](const auto& scheme) { return std::string(scheme.param.name); });
+
+}  // namespace
+}  // namespace deburr::tb

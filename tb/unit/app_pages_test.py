@@ -1,0 +1,38 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""docs/parameters.md and docs/statistics.md are what the program prints today.
+
+usage: app_pages_test.py DEBURR SOURCE [--write]     --write brings the pages up to date
+"""
+import difflib
+import subprocess
+import sys
+
+
+def main():
+    if "--help" in sys.argv or "-h" in sys.argv or len(sys.argv) < 3:
+        print(__doc__)
+        return 0 if len(sys.argv) >= 2 else 2
+    deburr, source = sys.argv[1:3]
+    stale = 0
+    for page in ("parameters", "statistics"):
+        printed = subprocess.run([deburr, "params", "--markdown", page], check=True, capture_output=True,
+                                 text=True).stdout
+        path = f"{source}/docs/{page}.md"
+        if "--write" in sys.argv:
+            with open(path, "w") as file:
+                file.write(printed)
+            continue
+        with open(path) as file:
+            kept = file.read()
+        if kept != printed:
+            stale += 1
+            sys.stdout.writelines(difflib.unified_diff(kept.splitlines(True), printed.splitlines(True),
+                                                       path, "deburr params --markdown " + page))
+    if stale:
+        print(f"Bring the pages up to date: {sys.argv[0]} {deburr} {source} --write")
+    return 1 if stale else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
