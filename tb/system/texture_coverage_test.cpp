@@ -108,7 +108,7 @@ TEST(TextureCoverage, EveryBinIsHit) {
       }
     }
   }
-  std::ofstream("texture_coverage.json") << coverage.json();
+  std::ofstream(DEBURR_COVERAGE_FILE) << coverage.json();
   EXPECT_TRUE(coverage.holes().empty()) << coverage.json();
 }
 

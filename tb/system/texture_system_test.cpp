@@ -4,6 +4,7 @@
 // rule.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -77,35 +78,40 @@ INSTANTIATE_TEST_SUITE_P(Texture, EveryFormat,
                                               kWrapChoiceNames[i(std::get<2>(p.param))]);
                          });
 
-// ---- footprint x log x count x kernel
-// ------------------------------------------------------------
+// ---- footprint x log x count x kernel x cap x spread, every pair of choices
+// ----------------------
 
-using Rules = std::tuple<int, int, int>;
+using Rules = std::tuple<int, int>;
 class EveryRule : public testing::TestWithParam<Rules> {};
 
+// The four two-way choices in all 16 combinations with each footprint; the logarithm goes round
+// them, so that it meets each footprint and each combination.
+int log_of(const Rules& rules) { return (std::get<0>(rules) + std::get<1>(rules)) % 4; }
+
 TEST_P(EveryRule, IsIdenticalToGolden) {
-  const auto [footprint, log, rest] = GetParam();
+  const auto [footprint, bits] = GetParam();
   TextureBenchOptions options;
   options.texture.footprint = static_cast<spec::FootprintRule>(footprint);
-  options.texture.log2 = static_cast<spec::Log2Rule>(log);
-  options.texture.count = static_cast<spec::CountRule>(rest & 1);
-  options.texture.kernel = static_cast<spec::Kernel>(rest & 1);
-  options.texture.count_cap = static_cast<spec::CountCap>(rest >> 1);
-  options.texture.spread = rest & 1 ? 102 : 64;
+  options.texture.log2 = static_cast<spec::Log2Rule>(log_of(GetParam()));
+  options.texture.count = static_cast<spec::CountRule>(bits & 1);
+  options.texture.kernel = static_cast<spec::Kernel>(bits >> 1 & 1);
+  options.texture.count_cap = static_cast<spec::CountCap>(bits >> 2 & 1);
+  options.texture.spread = bits >> 3 & 1 ? 102 : 64;
   expect_identical(simulate(picture("tunnel", 64), {}, options));
 }
 
-INSTANTIATE_TEST_SUITE_P(Texture, EveryRule,
-                         testing::Combine(testing::Range(0, 5), testing::Range(0, 4),
-                                          testing::Range(0, 4)),
-                         [](const auto& p) {
-                           const auto i = [](int v) { return static_cast<std::size_t>(v); };
-                           return fmt::format("{}_{}_{}{}",
-                                              spec::kFootprintNames[i(std::get<0>(p.param))],
-                                              spec::kLog2Names[i(std::get<1>(p.param))],
-                                              std::get<2>(p.param) & 1 ? "ceil_tent" : "floor_box",
-                                              std::get<2>(p.param) & 2 ? "_cap" : "");
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Texture, EveryRule, testing::Combine(testing::Range(0, 5), testing::Range(0, 16)),
+    [](const auto& p) {
+      const auto bit = [&](int n) {
+        return static_cast<std::size_t>(std::get<1>(p.param) >> n & 1);
+      };
+      return fmt::format("{}_{}_{}_{}_cap_{}_{}",
+                         spec::kFootprintNames[static_cast<std::size_t>(std::get<0>(p.param))],
+                         spec::kLog2Names[static_cast<std::size_t>(log_of(p.param))],
+                         spec::kCountNames[bit(0)], spec::kKernelNames[bit(1)],
+                         spec::kCountCapNames[bit(2)], bit(3) ? "wide" : "axis");
+    });
 
 // ---- cache geometries ---------------------------------------------------------------------------
 
@@ -129,7 +135,8 @@ TEST_P(EveryCache, FillsTheLinesThatGoldenPredicts) {
 INSTANTIATE_TEST_SUITE_P(
     Texture, EveryCache,
     testing::Combine(testing::Values(Geometry{16384, 64, 2, 32, 160}, Geometry{1024, 64, 1, 4, 2},
-                                     Geometry{4096, 128, 4, 16, 40}, Geometry{512, 64, 8, 8, 16},
+                                     Geometry{4096, 128, 4, 16, 40}, Geometry{4096, 32, 2, 16, 40},
+                                     Geometry{512, 64, 8, 8, 16},
                                      Geometry{65536, 64, 16, 256, 400}),
                      testing::Range(0, 3)),
     [](const auto& p) {
@@ -171,7 +178,41 @@ TEST(Texture, FullHdFrameIsIdenticalToGolden) {
   SamplerParameters sampler;
   sampler.anisotropy = 2;
   expect_identical(simulate(scene, sampler, {}));
+  rusage usage{};
+  ASSERT_EQ(getrusage(RUSAGE_SELF, &usage), 0);
+  EXPECT_LT(usage.ru_maxrss, 1L << 20) << "KiB: the frame is to be judged as it comes, not kept";
 }
+
+// ---- what the cache saves, against an independent simulation (docs/texture_unit.md)
+// ----------------
+
+struct Traffic {
+  const char* source;
+  double misses_per_texel, texels_per_fragment, bilinears_per_fragment;
+};
+class CacheTraffic : public testing::TestWithParam<Traffic> {};
+
+TEST_P(CacheTraffic, IsAsAnIndependentSimulationFound) {
+  const Traffic& wanted = GetParam();
+  const TextureOutcome got =
+      simulate(picture(wanted.source, 512), {}, {});  // 16 KB, 2 ways, 64 bytes
+  expect_identical(got);
+  const auto fills = static_cast<double>(got.fills), bilinears = static_cast<double>(got.bilinears),
+             fragments = static_cast<double>(got.colours);
+  const auto expect_near = [](const char* what, double value, double expected) {
+    testing::Test::RecordProperty(what, fmt::format("{:.3f}", value));
+    EXPECT_NEAR(value, expected, 0.2 * expected) << what;
+  };
+  expect_near("misses_per_texel_percent", 100 * fills / (4 * bilinears), wanted.misses_per_texel);
+  expect_near("texels_fetched_per_fragment", 16 * fills / fragments, wanted.texels_per_fragment);
+  expect_near("bilinears_per_fragment", bilinears / fragments, wanted.bilinears_per_fragment);
+}
+
+INSTANTIATE_TEST_SUITE_P(Texture, CacheTraffic,
+                         testing::Values(Traffic{"plane", 1.81, 9.0, 7.8},
+                                         Traffic{"quad", 2.76, 3.7, 2.1},
+                                         Traffic{"tunnel", 3.28, 10.5, 5.0}),
+                         [](const auto& p) { return std::string(p.param.source); });
 
 // ---- meshes and textures that others made
 // ----------------------------------------------------------

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// The texture unit on quads and descriptors that need not come from a picture, against its golden
+// model: colours, line fills and status registers. TextureBench is for pictures; this one takes any
+// input the links and registers can carry, and can be reset in mid-run.
+#pragma once
+
+#include <tlm_utils/simple_initiator_socket.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <systemc>
+#include <utility>
+#include <vector>
+
+#include "golden/texture/texture_golden.h"
+#include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/texture/texture_unit.h"
+#include "spec/fragment.h"
+#include "spec/texture.h"
+#include "tb/app/texture_memory.h"
+#include "tb/harness/bench.h"
+#include "tb/harness/driver.h"
+#include "tb/harness/memory_model.h"
+
+namespace deburr::tb {
+
+struct QuadInput {
+  std::vector<spec::TextureDescriptor> textures;  // by handle, at most 16
+  std::vector<std::uint8_t> memory;               // from address 0, a multiple of 128 bytes
+  std::vector<spec::Quad> quads;
+};
+
+// What one run left behind.
+struct QuadOutcome {
+  std::vector<spec::Colour> colours;
+  std::vector<std::uint64_t> fills;     // addresses, as the memory saw them
+  std::vector<std::uint64_t> counters;  // of every block
+  rtl::Cycle cycles = 0;
+  friend bool operator==(const QuadOutcome&, const QuadOutcome&) = default;
+};
+
+class QuadBench {
+ public:
+  // One a process. `input` is what the hardware gets and must outlive the bench.
+  QuadBench(const QuadInput& input, const spec::TextureParameters& parameters,
+            MemoryModelParameters memory = {}, const BenchOptions& options = {})
+      : input_(input),
+        unit_("texture", clock_, parameters),
+        memory_("memory", clock_.period(), sized(memory, input)),
+        parameters_(parameters) {
+    driver_.beats_out(quads_);
+    unit_.quads_in(quads_);
+    unit_.colours_out(colours_);
+    sink_.beats_in(colours_);
+    unit_.memory.bind(memory_.ports);
+    host_.bus.bind(unit_.registers);
+    bench_ = std::make_unique<Bench>(clock_, options);
+    memory_.preload(0, input.memory);
+    driver_.send(input.quads);
+  }
+
+  // Resets for `cycles` and writes the descriptors. Nothing of an earlier run is left but answers
+  // of the memory that are under way, which the unit must ignore.
+  void reset(rtl::Cycle cycles = 4) {
+    clock_.set_reset_n(false);
+    clock_.run(cycles);
+    clock_.set_reset_n(true);
+    memory_.clear_statistics();
+    for (std::size_t h = 0; h < input_.textures.size(); ++h)
+      for (const auto& [offset, value] :
+           descriptor_registers(static_cast<int>(h), input_.textures[h]))
+        access(offset, value, true);
+  }
+  // The first `cycles` clocks of a run.
+  void run_for(rtl::Cycle cycles) { clock_.run(cycles); }
+  std::uint64_t received() const { return sink_.received(); }
+  // To the end. DeadlockError, or what broke on a link.
+  QuadOutcome run(rtl::Cycle limit = 50'000'000) {
+    QuadOutcome outcome;
+    outcome.cycles = bench_->run(
+        [&] { return driver_.done() && unit_.idle() && quads_.empty() && colours_.empty(); },
+        limit);
+    outcome.colours = sink_.beats();
+    outcome.fills = memory_.lines_read();
+    for (const rtl::Counter* counter : unit_.counters())
+      outcome.counters.push_back(counter->value());
+    return outcome;
+  }
+
+  // Judges the run that has just ended by a golden model that is given `reference`; returns one
+  // line for each kind of difference, empty: all equal. Also tells what work it was.
+  std::string judge(const QuadInput& reference, const QuadOutcome& outcome,
+                    golden::texture::TextureWork* work = nullptr) {
+    golden::texture::TextureGolden golden(parameters_, reference.memory);
+    for (std::size_t h = 0; h < reference.textures.size(); ++h)
+      golden.set_texture(static_cast<int>(h), reference.textures[h]);
+    std::vector<std::uint64_t> fills;
+    const std::uint64_t line_bytes = golden.cache().line_bytes();
+    golden.set_fill_sink([&](std::uint32_t line) {  // memory notes 64 bytes at a time
+      for (std::uint64_t at = 0; at < line_bytes; at += 64) fills.push_back(line * line_bytes + at);
+    });
+    std::string differences;
+    std::size_t next = 0;
+    for (const spec::Quad& quad : reference.quads)
+      for (const spec::Colour& colour : golden.process(quad)) {
+        const bool equal = next < outcome.colours.size() && outcome.colours[next] == colour;
+        if (!equal && differences.empty())
+          differences += "colour " + std::to_string(next) + " of quad " + std::to_string(quad.tag) +
+                         ", texture " + std::to_string(quad.texture) + "\n";
+        ++next;
+      }
+    if (next != outcome.colours.size())
+      differences += std::to_string(outcome.colours.size()) + " colours, expected " +
+                     std::to_string(next) + "\n";
+    if (fills != outcome.fills) differences += "line fills\n";
+    differences += judge_registers(golden.work());
+    if (work) *work = golden.work();
+    return differences;
+  }
+
+ private:
+  struct Host : sc_core::sc_module {
+    explicit Host(const sc_core::sc_module_name& name) : sc_module(name) {}
+    tlm_utils::simple_initiator_socket<Host> bus{"bus"};
+  };
+
+  static MemoryModelParameters sized(MemoryModelParameters memory, const QuadInput& input) {
+    memory.bytes = input.memory.size();
+    return memory;
+  }
+
+  std::string judge_registers(const golden::texture::TextureWork& work) {
+    namespace reg = spec::texture_register;
+    const std::uint64_t status = reg::kStatusIdle |
+                                 (work.memory_errors ? reg::kStatusMemoryError : 0u) |
+                                 (work.invalid_fragments ? reg::kStatusInvalidTexture : 0u);
+    const std::pair<std::uint32_t, std::uint64_t> expected[] = {
+        {reg::kStatus, status},
+        {reg::kFragments, work.fragments},
+        {reg::kBilinears, work.bilinears},
+        {reg::kLineFills, work.line_fills},
+        {reg::kClamped, work.clamped},
+        {reg::kSaturated, work.saturated},
+        {reg::kMemoryErrors, work.memory_errors},
+        {reg::kInvalidFragments, work.invalid_fragments}};
+    std::string differences;
+    for (const auto& [offset, value] : expected)
+      if (const std::uint32_t got = access(offset, 0, false); got != value)
+        differences += "register " + std::to_string(offset) + " is " + std::to_string(got) +
+                       ", expected " + std::to_string(value) + "\n";
+    return differences;
+  }
+
+  std::uint32_t access(std::uint32_t offset, std::uint32_t value, bool write) {
+    std::array<unsigned char, 4> data{};
+    for (std::size_t i = 0; i < 4; ++i) data[i] = static_cast<unsigned char>(value >> (8 * i));
+    tlm::tlm_generic_payload payload;
+    payload.set_command(write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND);
+    payload.set_address(offset);
+    payload.set_data_ptr(data.data());
+    payload.set_data_length(4);
+    payload.set_streaming_width(4);
+    sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+    host_.bus->b_transport(payload, delay);
+    if (payload.is_response_error())
+      throw std::runtime_error("no register at " + std::to_string(offset));
+    value = 0;
+    for (std::size_t i = 0; i < 4; ++i) value |= static_cast<std::uint32_t>(data[i]) << (8 * i);
+    return value;
+  }
+
+  const QuadInput& input_;
+  rtl::ClockDomain clock_{"clock", sc_core::sc_time(6, sc_core::SC_NS)};
+  rtl::Link<spec::Quad> quads_{"quads"};
+  rtl::Link<spec::Colour> colours_{"colours"};
+  Driver<spec::Quad> driver_{"driver", clock_};
+  rtl::texture::TextureUnit unit_;
+  Sink<spec::Colour> sink_{"sink", clock_};
+  MemoryModel memory_;
+  Host host_{"host"};
+  spec::TextureParameters parameters_;
+  std::unique_ptr<Bench> bench_;
+};
+
+}  // namespace deburr::tb

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// The whole texture unit on input that no scene makes: descriptors at random, a few of them
+// invalid, over random bytes; quads of every slope with any coverage; rules, cache, memory and
+// weather at random too. Every colour, every line fill and every status register is compared.
+#include "tb/system/texture_random.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "tb/harness/random.h"
+#include "tb/system/texture_quad_bench.h"
+
+namespace deburr::tb {
+namespace {
+
+constexpr std::uint32_t kMemoryBytes = 2u << 20;
+constexpr std::uint32_t kQuads = 1500;
+
+QuadInput random_input(Random& random) {
+  QuadInput input;
+  input.memory.resize(kMemoryBytes);
+  for (std::uint8_t& byte : input.memory) byte = static_cast<std::uint8_t>(random.next());
+  for (int handle = 0; handle < spec::kMaxTextures; ++handle) {
+    input.textures.push_back(random_texture(random, kMemoryBytes));
+    if (handle % 5 == 3) spoil(random, input.textures.back());
+  }
+  // A texture for a few quads in a row, or another one each time; now and then a handle that does
+  // not exist.
+  std::uint8_t handle = 0;
+  for (std::uint32_t tag = 0; tag < kQuads; ++tag) {
+    if (tag / 100 % 2 || random.chance(200)) handle = static_cast<std::uint8_t>(random.below(16));
+    const bool nowhere = random.chance(10);
+    input.quads.push_back(random_quad(random, tag, nowhere ? std::uint8_t{200} : handle));
+  }
+  return input;
+}
+
+spec::TextureParameters random_parameters(Random& random) {
+  spec::TextureParameters p = random_rules(random);
+  p.cache_line_bytes = any_of(random, std::array{32, 64, 128});
+  p.cache_ways = any_of(random, std::array{1, 2, 4, 8});
+  p.cache_bytes = any_of(random, std::array{1024, 4096, 16384});
+  p.cache_replacement = any_code<spec::Replacement>(random, spec::kReplacementNames);
+  p.cache_outstanding = any_of(random, std::array{4, 17, 64});
+  p.cache_fifo_depth = any_of(random, std::array{2, 33, 160});
+  return p;
+}
+
+MemoryModelParameters random_memory(Random& random) {
+  MemoryModelParameters m;
+  m.latency_min = 1 + random.below(60);
+  m.latency_max = m.latency_min + (random.chance(500) ? 0 : random.below(200));
+  m.seed = random.next();
+  m.bytes_per_clock = any_of(random, std::array{0u, 16u, 64u});
+  m.banks = any_of(random, std::array{1u, 4u});
+  m.bank_busy = random.below(8);
+  m.outstanding = any_of(random, std::array{4u, 64u, 256u});
+  return m;
+}
+
+BenchOptions random_weather(Random& random) {
+  BenchOptions options;
+  options.stall_permille = random.chance(500) ? 0 : random.below(300);
+  options.seed = random.next();
+  if (random.chance(500)) options.shuffle = random.next();
+  options.fast_path = random.chance(700);
+  return options;
+}
+
+class RandomQuads : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(RandomQuads, AreIdenticalToGolden) {
+  Random random(GetParam(), "random quads");
+  const QuadInput input = random_input(random);
+  const spec::TextureParameters parameters = random_parameters(random);
+  const MemoryModelParameters memory = random_memory(random);
+  QuadBench bench(input, parameters, memory, random_weather(random));
+  bench.reset();
+  const QuadOutcome outcome = bench.run();
+  golden::texture::TextureWork work;
+  EXPECT_EQ(bench.judge(input, outcome, &work), "");
+  // The seed met what it is for.
+  EXPECT_GT(work.fragments, kQuads);
+  EXPECT_GT(work.invalid_fragments, 0u);
+  EXPECT_GT(work.clamped, 0u);
+  EXPECT_GT(work.saturated, 0u);
+  EXPECT_GT(work.magnified, 0u);
+  EXPECT_GT(work.samples, work.fragments);
+  EXPECT_GT(work.line_fills, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Texture, RandomQuads, testing::Range<std::uint64_t>(1, 13));
+
+// Planted: what the golden model is told differs from what the hardware gets.
+enum class Wrong { kNothing, kByte, kBias, kWrap, kBase, kInvalid, kCoverage };
+constexpr std::array kWrongNames = {"nothing", "byte",    "bias",    "wrap",
+                                    "base",    "invalid", "coverage"};
+
+class RandomQuadsNotice : public testing::TestWithParam<int> {};
+
+TEST_P(RandomQuadsNotice, WhatIsWrong) {
+  const auto wrong = static_cast<Wrong>(GetParam());
+  Random random(1, "random quads");
+  const QuadInput input = random_input(random);
+  QuadInput reference = input;
+  spec::TextureDescriptor& texture = reference.textures[4];
+  QuadBench bench(input, {});
+  bench.reset();
+  const QuadOutcome outcome = bench.run();
+  switch (wrong) {
+    case Wrong::kNothing:
+      break;
+    case Wrong::kByte: {  // a line of memory
+      const auto inside = [&](std::uint64_t address) { return address < kMemoryBytes; };
+      const auto fill = std::find_if(outcome.fills.begin(), outcome.fills.end(), inside);
+      ASSERT_NE(fill, outcome.fills.end());
+      for (std::uint64_t at = *fill; at < *fill + 64; ++at) reference.memory[at] ^= 64;
+      break;
+    }
+    case Wrong::kBias:
+      for (auto& t : reference.textures) t.lod_bias = static_cast<std::int16_t>(t.lod_bias ^ 256);
+      break;
+    case Wrong::kWrap:
+      for (auto& t : reference.textures)
+        t.wrap_s = t.wrap_s == spec::Wrap::kRepeat ? spec::Wrap::kClampToEdge : spec::Wrap::kRepeat;
+      break;
+    case Wrong::kBase:
+      for (std::uint32_t& base : texture.base) base ^= 64;
+      break;
+    case Wrong::kInvalid:
+      texture.levels = 0;
+      break;
+    case Wrong::kCoverage:
+      reference.quads[700].coverage ^= 1;
+      break;
+  }
+  EXPECT_EQ(bench.judge(reference, outcome).empty(), wrong == Wrong::kNothing);
+}
+
+INSTANTIATE_TEST_SUITE_P(Texture, RandomQuadsNotice, testing::Range(0, 7), [](const auto& p) {
+  return std::string(kWrongNames[static_cast<std::size_t>(p.param)]);
+});
+
+}  // namespace
+}  // namespace deburr::tb
