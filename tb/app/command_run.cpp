@@ -92,6 +92,14 @@ std::string summary_of(const Result& r, const std::filesystem::path& directory) 
   return text + fmt::format(", {}", (directory / "report.html").string());
 }
 
+// A failed check names its file as the compiler saw it; users know it from the root of the repository.
+std::string from_repository(const std::string& text) {
+  for (const char* layer : {"/layers/spec/", "/layers/golden/", "/layers/rtl_model/", "/layers/tb/"})
+    if (const std::size_t at = text.find(layer); at != std::string::npos)
+      return text.substr(at + std::string_view(layer).size());
+  return text;
+}
+
 Outcome run_engine(Engine& engine, const RunOptions& options, const std::string& command) {
   ParameterSet set;
   RunParameters run;
@@ -130,8 +138,14 @@ Outcome run_engine(Engine& engine, const RunOptions& options, const std::string&
   } catch (const spec::CheckFailed& error) {
     code = static_cast<int>(ExitCode::kSimulation);
     kind = "simulation";
-    result.reason = error.what();
-    fmt::print(stderr, "deburr: {}\n", error.what());
+    result.reason = from_repository(error.what());
+    fmt::print(stderr, "deburr: {}\n", result.reason);
+  }
+  if (code == 0 && run.check == CheckMode::kGolden && !result.interrupted &&
+      (result.cycles == 0 || result.comparisons == 0)) {
+    code = static_cast<int>(ExitCode::kSimulation);
+    kind = "simulation";
+    result.reason = "nothing was compared: the input gave the engine no work";
   }
   if (code != 0) result.verdict = Verdict::kFail;
   else result.verdict = run.check == CheckMode::kGolden ? Verdict::kPass : Verdict::kUnchecked;

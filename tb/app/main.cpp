@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "spec/error.h"
@@ -45,6 +46,14 @@ int finish(const Outcome& outcome, const std::string& command) {
   if (outcome.code != 0) fmt::print("REPRO: {}\n", command);
   fmt::print("RESULT: {}\n", outcome.text);
   return outcome.code;
+}
+
+// What was printed must have arrived: a full disk behind standard output is a failure too.
+int flushed(int code) {
+  const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  if (!lost) return code;
+  std::fputs("deburr: standard output could not be written: is the disk full?\n", stderr);
+  return code != 0 ? code : static_cast<int>(ExitCode::kFile);
 }
 
 // The first line says what kind of failure; a long text (a dump) goes to the error stream.
@@ -92,6 +101,8 @@ int run(int argc, char** argv) {
     return finish(failure(static_cast<int>(ExitCode::kSimulation), "simulation",
                           "out of memory: use a smaller picture or fewer textures"),
                   command);
+  } catch (const std::system_error& error) {  // fmt's, when standard output is full
+    return finish(failure(static_cast<int>(ExitCode::kFile), "file", error.what()), command);
   } catch (const std::exception& error) {
     return finish(failure(static_cast<int>(ExitCode::kSimulation), "simulation", error.what()), command);
   }
@@ -101,5 +112,5 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   deburr::tb::install_signal_handlers();
-  return run(argc, argv);
+  return flushed(run(argc, argv));
 }

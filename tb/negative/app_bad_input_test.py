@@ -226,6 +226,17 @@ class Output(CommandTest):
         self.assertEqual([n for n in names if not n.endswith((".json", ".png"))], [])
 
 
+class StandardOutput(CommandTest):
+    """What was printed must have arrived."""
+
+    def test_full(self):
+        for arguments in (["--help"], ["params", "texture"], ["run", "texture", "--help"]):
+            with open("/dev/full", "w") as full:
+                done = subprocess.run([DEBURR, *arguments], stdout=full, stderr=subprocess.PIPE,
+                                      text=True, check=False)
+            self.assertEqual(done.returncode, 5, f"{arguments}: {done.stderr}")
+
+
 class Interruption(CommandTest):
     """Ctrl-C keeps what is finished."""
 
