@@ -53,7 +53,9 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
       row_records_("row_records", p.line_pixels, kWalkBits, record_ports(store.lanes()),
                    2 * pairs_),
       column_records_("column_records", p.line_pixels, kWalkBits + 1, record_ports(store.lanes()),
-                      2 * pairs_) {}
+                      2 * pairs_),
+      row_left_(2 * pairs_),
+      column_left_(2 * pairs_) {}
 
 Activity AreaUnit::tick(Cycle cycle) {
   bool did = false, blocked = false;
@@ -74,8 +76,10 @@ Activity AreaUnit::tick(Cycle cycle) {
       did = true;
     }
   }
-  FinishToken finished{};
-  if (finished_out.can_push(cycle)) {
+  const auto lanes = static_cast<std::size_t>(lanes_);
+  if ((lines_h_in.any_arrives(cycle, lanes) || lines_v_in.any_arrives(cycle, lanes)) &&
+      finished_out.can_push(cycle)) {
+    FinishToken finished{};
     const bool stored_h = take_lines(cycle, lines_h_in, finished);
     const bool stored_v = take_lines(cycle, lines_v_in, finished);
     if (stored_h || stored_v) {
@@ -108,13 +112,13 @@ void AreaUnit::store_line(const LineToken& token) {
   if (observer) observer(line);
   ++records;
   const bool horizontal = line.run.axis == spec::Axis::kHorizontal;
-  Walk& walk = horizontal ? row_records_[row_place(line.run.line, line.run.start)]
-                          : column_records_[line.run.line];
+  const std::size_t place = horizontal ? row_place(line.run.line, line.run.start) : line.run.line;
+  Walk& walk = horizontal ? row_records_[place] : column_records_[place];
+  (horizontal ? row_left_ : column_left_)[place] = line.run.length;
   walk.t = (std::int64_t{line.shift} << (spec::kRecipFractionBits - 1)) -
            std::int64_t{line.offset} * line.slope;
   walk.growth = std::int64_t{line.scale} * line.slope;
   walk.inverse = line.inverse;
-  walk.left = line.run.length;
   walk.span = line.span;
   walk.before = line.before;
   walk.after = line.after;
@@ -130,10 +134,9 @@ void AreaUnit::pass(const AreaSlotToken& token, ShareToken& out) {
     for (std::int32_t x = first; x < end; ++x) {
       const auto at = static_cast<std::size_t>(x);
       left_weights_[at] = top_weights_[at] = {};
-      column_records_[at].left = 0;
-      row_records_[row_place(0, x)].left = row_records_[row_place(1, x)].left = 0;
+      column_left_[at] = row_left_[row_place(0, x)] = row_left_[row_place(1, x)] = 0;
     }
-    row_walk_.left = 0;
+    row_walk_left_ = 0;
     return;
   }
   const std::int32_t row = token.slot.row - lag_ + 1;
@@ -148,21 +151,26 @@ void AreaUnit::pass(const AreaSlotToken& token, ShareToken& out) {
     const Weights right = x + 1 < rules.width ? left_weights_[at + 1] : Weights{};
     Weights below{}, beside{};
     if (evaluates) {
-      Walk& start = row_records_[row_place(row, x)];
-      if (start.left != 0 && start.odd == ((x & 1) != 0)) {
-        row_walk_ = start;
-        start.left = 0;
+      const std::size_t place = row_place(row, x);
+      if (row_left_[place] != 0 && row_records_[place].odd == ((x & 1) != 0)) {
+        row_walk_ = row_records_[place];
+        row_walk_left_ = row_left_[place];
+        row_left_[place] = 0;
       }
-      if (row_walk_.left != 0) {
+      if (row_walk_left_ != 0) {
         below = advance(row_walk_);
+        --row_walk_left_;
         ++horizontal_edges;
       }
-      Walk& column = column_records_[at];
-      // A line may have been stored a row before its first.
-      if (column.left != 0 && (!column.waiting || column.odd == ((row & 1) != 0))) {
-        column.waiting = false;
-        beside = advance(column);
-        ++vertical_edges;
+      if (column_left_[at] != 0) {
+        Walk& column = column_records_[at];
+        // A line may have been stored a row before its first.
+        if (!column.waiting || column.odd == ((row & 1) != 0)) {
+          column.waiting = false;
+          beside = advance(column);
+          --column_left_[at];
+          ++vertical_edges;
+        }
       }
     }
     left_place = beside;
@@ -182,7 +190,6 @@ void AreaUnit::pass(const AreaSlotToken& token, ShareToken& out) {
 AreaUnit::Weights AreaUnit::advance(Walk& walk) {
   const std::int64_t t0 = walk.t, t1 = t0 + walk.growth;
   walk.t = t1;
-  --walk.left;
   const std::uint32_t q0 = quantise(t0), q1 = quantise(t1);
   std::uint32_t before = 0, after = 0;
   if (t1 <= 0) {
@@ -204,7 +211,7 @@ AreaUnit::Weights AreaUnit::advance(Walk& walk) {
 
 void AreaUnit::reset() {
   passed_ = 0;
-  row_walk_ = {};
+  row_walk_left_ = 0;
 }
 
 }  // namespace deburr::rtl::morphological

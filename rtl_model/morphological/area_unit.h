@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <functional>
 #include <systemc>
+#include <vector>
 
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/morphological/line_memory.h"
@@ -51,7 +52,6 @@ class AreaUnit final : public Unit {
   struct Walk {
     std::int64_t t = 0, growth = 0;  // S4.24 at the next edge, a pixel
     std::uint32_t inverse = 0;       // U12.12
-    std::uint16_t left = 0;          // edges left; 0: no record
     std::uint16_t span = 0;
     spec::Side before{}, after{};
     bool odd = false;      // it starts in an odd column (row record), an odd row (column record)
@@ -76,7 +76,11 @@ class AreaUnit final : public Unit {
   // The row buffers have room for whole beats.
   LineMemory<Weights> left_weights_, top_weights_;
   LineMemory<Walk> row_records_, column_records_;
-  Walk row_walk_;             // the horizontal record in hand
+  // Edges left, 0: no record. The model keeps this field of the two memories apart, since it is
+  // read for every column.
+  std::vector<std::uint16_t> row_left_, column_left_;
+  Walk row_walk_;  // the horizontal record in hand
+  std::uint16_t row_walk_left_ = 0;
   std::uint32_t passed_ = 0;  // slots of this frame
 };
 

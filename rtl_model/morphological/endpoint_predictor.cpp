@@ -31,7 +31,7 @@ EndpointPredictor::EndpointPredictor(const sc_core::sc_module_name& name, ClockD
       predictors_(units_ * lanes_),
       turn_(lanes_) {}
 
-Activity EndpointPredictor::tick(Cycle cycle) {
+Activity EndpointPredictor::work(Cycle cycle) {
   bool did = false, blocked = false;
   for (std::size_t lane = 0; lane < lanes_; ++lane) {
     In<RunToken>& in = records_in[lane];

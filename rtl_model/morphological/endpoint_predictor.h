@@ -33,7 +33,9 @@ class EndpointPredictor final : public Unit {
   EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
                     const spec::MorphologicalParameters& parameters, const ParameterStore& store,
                     const EdgeWindow& window, spec::Axis axis);
-  Activity tick(Cycle cycle) override;
+  Activity tick(Cycle cycle) override {
+    return held_ == 0 && !records_in.any_arrives(cycle, lanes_) ? kIdle : work(cycle);
+  }
   void reset() override;
 
   Counter extended_runs{"extended_runs", "runs", "runs extended by at least one step"};
@@ -76,6 +78,7 @@ class EndpointPredictor final : public Unit {
     SumsToken result;
   };
 
+  Activity work(Cycle cycle);
   void take(Predictor& p, const RunToken& run);
   bool iterate(Predictor& p);  // false after the last trial
   bool iterate_apart(Predictor& p);

@@ -39,7 +39,7 @@ LineUnit::LineUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
   for (Divider& divider : dividers_) divider.flight.resize(latency_ / interval_ + 2);
 }
 
-Activity LineUnit::tick(Cycle cycle) {
+Activity LineUnit::work(Cycle cycle) {
   bool did = false, blocked = false, waits = false;
   for (std::size_t lane = 0; lane < lanes_; ++lane) {
     Divider& divider = dividers_[lane];
@@ -51,6 +51,7 @@ Activity LineUnit::tick(Cycle cycle) {
           lines_out[lane].push(cycle, oldest.result);
           divider.oldest = divider.oldest + 1 == divider.flight.size() ? 0 : divider.oldest + 1;
           --divider.count;
+          --in_flight_;
           did = true;
         } else {
           blocked = true;
@@ -71,6 +72,7 @@ Activity LineUnit::tick(Cycle cycle) {
     divider.start_from = cycle + interval_;
     in.pop(cycle);
     ++divides;
+    ++in_flight_;
     occupancy += interval_;
     did = true;
   }
@@ -124,6 +126,7 @@ void LineUnit::reset() {
     divider.oldest = divider.count = 0;
     divider.start_from = 0;
   }
+  in_flight_ = 0;
 }
 
 }  // namespace deburr::rtl::morphological

@@ -28,7 +28,9 @@ class LineUnit final : public Unit {
   LineUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
            const spec::MorphologicalParameters& parameters, const ParameterStore& store,
            spec::Axis axis);
-  Activity tick(Cycle cycle) override;
+  Activity tick(Cycle cycle) override {
+    return in_flight_ == 0 && !sums_in.any_arrives(cycle, lanes_) ? kIdle : work(cycle);
+  }
   void reset() override;
 
   Counter divides{"divides", "divisions", "divisions started"};
@@ -48,6 +50,7 @@ class LineUnit final : public Unit {
     Cycle start_from = 0;
   };
 
+  Activity work(Cycle cycle);
   LineToken line_of(const SumsToken& sums) const;
 
   const ParameterStore& store_;
@@ -56,6 +59,7 @@ class LineUnit final : public Unit {
   const Cycle latency_, interval_;
   Activity interval_stall_;
   std::vector<Divider> dividers_;
+  std::uint32_t in_flight_ = 0;  // divisions, of all lanes
 };
 
 }  // namespace deburr::rtl::morphological

@@ -129,6 +129,12 @@ class LanePorts {
       at_[static_cast<std::size_t>(i)] = &lane_.emplace_back((name + std::to_string(i)).c_str());
   }
   Port& operator[](std::size_t i) { return *at_[i]; }
+  // Can anything be popped from any of the first `lanes` ports?
+  bool any_arrives(Cycle cycle, std::size_t lanes) const {
+    bool arrives = false;
+    for (std::size_t i = 0; i < lanes; ++i) arrives |= at_[i]->can_pop(cycle);
+    return arrives;
+  }
   template <class T>
   void bind(LaneLinks<T>& links) {
     for (std::size_t i = 0; i < lane_.size(); ++i) lane_[i].bind(links.lane[i]);
