@@ -77,7 +77,7 @@ mustache::data table_data(const PaperTable& table) {
 }  // namespace
 
 const std::vector<PaperEntry>& papers() {
-  static const std::vector<PaperEntry> entries = {{"004", &paper_004}};
+  static const std::vector<PaperEntry> entries = {{"000", &paper_000}, {"004", &paper_004}};
   return entries;
 }
 

@@ -57,6 +57,7 @@ void write_papers(const std::filesystem::path& directory, const std::vector<Pape
 // "right" when `ours` rounds to what the paper printed with so many decimals, else `otherwise`.
 std::string verdict(double paper, int decimals, double ours, const char* otherwise);
 
+Paper paper_000(const PaperOptions& options);
 Paper paper_004(const PaperOptions& options);
 
 }  // namespace deburr::tb

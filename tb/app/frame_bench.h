@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// One simulation of a whole frame: a scene through the texture unit into a frame buffer, and out of
+// it through the morphological engine. Both engines on one clock, in one elaboration.
+//
+//   TextureScene ─► Driver ─► TextureUnit ─► FrameBuffer ─► MorphologicalEngine ─► Sink
+//                     │        MemoryModel      │                 (MemoryModel)       │
+//                     ▼                         ▼                                     ▼
+//               texture golden ─► expected colours, fills      morphological golden of the texture
+//                                                              golden's frame ─► pixels and taps
+//
+// The two overlap: the frame buffer hands a row to the morphological engine as soon as every
+// fragment of it and of the rows above has come.
+#pragma once
+
+#include <tlm_utils/simple_initiator_socket.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <systemc>
+#include <vector>
+
+#include "golden/morphological/morphological_golden.h"
+#include "golden/texture/texture_golden.h"
+#include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/morphological/morphological_engine.h"
+#include "rtl_model/texture/texture_unit.h"
+#include "tb/app/frame_source.h"
+#include "tb/app/memory_parameters.h"
+#include "tb/app/raster_scoreboard.h"
+#include "tb/app/result.h"
+#include "tb/app/texture_scene.h"
+#include "tb/harness/bench.h"
+#include "tb/harness/driver.h"
+#include "tb/harness/memory_model.h"
+#include "tb/harness/scoreboard.h"
+
+namespace deburr::tb {
+
+// The frame buffer: takes a colour a clock, gives a beat of a complete row a clock. Its memory is
+// not modelled in time. Stalls: `texture` (the next row still lacks fragments), `downstream`.
+class FrameBuffer final : public rtl::Unit {
+ public:
+  rtl::In<spec::Colour> colours_in{"colours_in"};
+  rtl::Out<spec::PixelBeat> pixels_out{"pixels_out"};
+
+  FrameBuffer(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, const TextureScene& scene,
+              int lanes);
+  rtl::Activity tick(rtl::Cycle cycle) override;
+  void reset() override;
+
+  bool done() const { return y_ == input_.image.height; }
+  const Image& frame() const { return input_.image; }
+  std::function<void(rtl::Cycle, const spec::Colour&)> on_colour;
+  rtl::Cycle last_colour() const { return last_colour_; }
+  rtl::Cycle first_beat() const { return first_beat_; }
+  rtl::Counter bytes_written{"bytes_written", "byte", "bytes of colours written"};
+  rtl::Counter bytes_read{"bytes_read", "byte", "bytes of pixels read"};
+
+ private:
+  void store(rtl::Cycle cycle, const spec::Colour& colour);
+  const TextureScene& scene_;
+  int lanes_;
+  rtl::Activity waiting_;
+  MorphologicalInput input_;
+  Image sky_;
+  std::vector<std::uint32_t> missing_;  // fragments that each row still lacks
+  int x_ = 0, y_ = 0;
+  rtl::Cycle last_colour_ = 0, first_beat_ = 0;
+};
+
+struct FrameBenchOptions {
+  spec::TextureParameters texture;
+  MemoryParameters memory;
+  spec::MorphologicalParameters morphological;
+  MemoryParameters frame_memory;  // of the morphological engine, storage = memory
+  double clock_mhz = 166.67;
+  std::uint64_t seed = 1;
+  std::uint32_t stall_permille = 0;
+  bool golden = true;
+  bool shuffle = false;
+  bool fast_path = true;
+  bool check_links = true;
+  rtl::Cycle max_cycles = 0;
+  rtl::Cycle patience = 20000;
+  std::vector<std::string> faults;  // of the harness (fault_injector.h)
+  std::string trace_file, trace_scope;
+  rtl::Cycle trace_from = 0, trace_to = 2000;
+};
+
+class FrameBench {
+ public:
+  using Progress = std::function<bool(std::uint64_t pixels)>;
+
+  // The scene must outlive the bench. ConfigError for wrong parameters.
+  FrameBench(const TextureScene& scene, const FrameBenchOptions& options);
+  ~FrameBench();
+  void run(const Progress& progress = {});
+  void check() const;
+  void collect(Result& result) const;
+
+  bool complete() const { return complete_; }
+  const Image& textured() const { return buffer_.frame(); }
+  const Image& smoothed() const { return frame_; }
+  const std::vector<spec::BlendTap>& taps() const { return taps_; }
+  const golden::morphological::MorphologicalGolden& golden() const { return smoothing_golden_; }
+
+ private:
+  struct Fill {
+    std::uint64_t address;
+    friend bool operator==(const Fill&, const Fill&) = default;
+  };
+  struct Host : sc_core::sc_module {
+    explicit Host(const sc_core::sc_module_name& name) : sc_module(name) {}
+    tlm_utils::simple_initiator_socket<Host> bus{"bus"};
+    void write(std::uint32_t offset, std::uint32_t value);
+  };
+  void judge(rtl::Cycle cycle, const spec::BlendedBeat& beat);
+
+  const TextureScene& scene_;
+  FrameBenchOptions options_;
+  rtl::ClockDomain clock_;
+  rtl::Link<spec::Quad> quads_{"quads"};
+  rtl::Link<spec::Colour> colours_{"colours"};
+  rtl::Link<spec::PixelBeat> pixels_{"pixels"};
+  rtl::Link<spec::BlendedBeat> blended_{"blended"};
+  Driver<spec::Quad> driver_;
+  rtl::texture::TextureUnit texture_;
+  FrameBuffer buffer_;
+  rtl::morphological::MorphologicalEngine engine_;
+  Sink<spec::BlendedBeat> sink_;
+  MemoryModel memory_;
+  std::unique_ptr<MemoryModel> frame_memory_;
+  Host texture_host_{"texture_host"}, engine_host_{"engine_host"};
+  std::unique_ptr<Bench> bench_;
+
+  golden::texture::TextureGolden texture_golden_;
+  golden::morphological::MorphologicalGolden smoothing_golden_;
+  Scoreboard<spec::Colour> colour_board_;
+  Scoreboard<Fill> fill_board_;
+  RasterScoreboard<spec::Rgba8> pixel_board_;
+  RasterScoreboard<spec::BlendTap> tap_board_;
+  Scoreboard<spec::FrameAccess> traffic_board_;
+  Image golden_textured_, frame_;
+  std::vector<spec::BlendTap> taps_;
+  std::size_t position_ = 0, fills_judged_ = 0;
+  rtl::Cycle cycles_ = 0, started_ = 0;
+  double host_seconds_ = 0, cpu_seconds_ = 0;
+  bool running_ = false, complete_ = false;
+};
+
+}  // namespace deburr::tb

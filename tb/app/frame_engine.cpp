@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "tb/app/frame_engine.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include "golden/morphological/configuration.h"
+#include "spec/error.h"
+#include "tb/app/frame_bench.h"
+#include "tb/app/interrupt.h"
+#include "tb/app/morphological_engine.h"
+#include "tb/app/progress.h"
+#include "tb/scene/compose.h"
+#include "tb/scene/quality.h"
+#include "tb/scene/truth.h"
+
+namespace deburr::tb {
+namespace {
+
+constexpr int kTruthSamples = 16;  // 16 x 16 a pixel
+
+class FrameCommand final : public Engine {
+ public:
+  FrameCommand() { scene_.source = "object"; }
+
+  std::string_view name() const override { return "frame"; }
+  std::string_view summary() const override {
+    return "A scene through the texture unit, a frame buffer and the morphological engine";
+  }
+
+  void add_parameters(ParameterSet& set) override {
+    set.add("scene", scene_);
+    set.add("sampler", sampler_);
+    set.add("texture", texture_);
+    set.add("memory", memory_);
+    set.add("morphological", morphological_);
+    set.add("frame_memory", frame_memory_);
+  }
+  void resolve(const ParameterSet& set) override { apply_preset(set, morphological_); }
+
+  std::vector<Shorthand> shorthands() const override {
+    return {{"--scene", "scene.source", "object (default), plane, quad, tunnel, road, cylinders"},
+            {"--in", "scene.source", "Mesh file instead of a scene: .obj, .gltf, .glb"},
+            {"--texture", "scene.texture", "checker, road, brick, zone_plate, ..., or an image file"},
+            {"--size", "scene.width", "Size of the picture, WxH", "scene.height"},
+            {"--mode", "sampler.mode", "Minification filter, one of GL's six"},
+            {"--aniso", "sampler.anisotropy", "Largest number of samples: 1, 2, 4, 8, 16"},
+            {"--preset", "morphological.preset", "mlaa, mlaa-slope, deburr"},
+            {"--lanes", "morphological.lanes", "Pixels a clock of the morphological engine: 1, 2 or 4"}};
+  }
+
+  void run(const RunParameters& run, RunContext& context, Result& result) override {
+    golden::morphological::check_parameters(morphological_);
+    if (sampler_.format == spec::Format::kSrgb8A8)
+      throw spec::ConfigError("sampler.format: the frame buffer keeps codes; srgb8_a8 delivers linear light");
+    const TextureScene scene(scene_, sampler_, static_cast<std::uint32_t>(run.seed));
+    for (const auto& input : scene.inputs()) context.add_input(input);
+    context.set_title("Frame: " + std::filesystem::path(scene_.source).filename().string(),
+                      fmt::format("{} x {} pixels, {} fragments; texture unit, frame buffer and morphological "
+                                  "engine ({}) on one clock, overlapped row by row",
+                                  scene.stream().width, scene.stream().height, scene.stream().counts.fragments,
+                                  spec::kMorphologicalPresetNames[static_cast<std::size_t>(morphological_.preset)]));
+    context.set_bottleneck("texture_filter");
+    FrameBench bench(scene, options(run, context));
+    try {
+      Progress progress("frame", bench.smoothed().pixels.size(), "pixel");
+      bench.run([&](std::uint64_t pixels) {
+        progress.update(pixels);
+        return !interrupted();
+      });
+    } catch (...) {
+      bench.collect(result);
+      add_pictures(run, context, scene, bench, result);
+      throw;
+    }
+    bench.collect(result);
+    result.interrupted = !bench.complete();
+    add_pictures(run, context, scene, bench, result);
+    if (bench.complete()) bench.check();
+  }
+
+  void describe_statistics(Result& result) override {
+    SceneParameters small = scene_;
+    small.width = small.height = 2;
+    small.texture_size = 4;
+    const TextureScene scene(small, sampler_, 1);
+    FrameBench(scene, FrameBenchOptions{}).collect(result);
+  }
+
+ private:
+  FrameBenchOptions options(const RunParameters& run, const RunContext& context) const {
+    FrameBenchOptions o;
+    o.texture = texture_;
+    o.memory = memory_;
+    o.morphological = morphological_;
+    o.frame_memory = frame_memory_;
+    o.clock_mhz = run.clock_mhz;
+    o.seed = static_cast<std::uint64_t>(run.seed);
+    o.stall_permille = static_cast<std::uint32_t>(std::lround(run.stalls * 1000));
+    o.golden = run.check == CheckMode::kGolden;
+    o.shuffle = run.shuffle;
+    o.fast_path = run.fast_path;
+    o.check_links = run.check_links;
+    o.max_cycles = static_cast<rtl::Cycle>(run.max_cycles);
+    o.patience = static_cast<rtl::Cycle>(run.watchdog_cycles);
+    if (!run.fault.empty()) o.faults = {run.fault};
+    o.trace_scope = run.trace;
+    o.trace_file = (context.directory() / "trace.vcd").string();
+    o.trace_from = static_cast<rtl::Cycle>(run.trace_from);
+    o.trace_to = static_cast<rtl::Cycle>(run.trace_to);
+    return o;
+  }
+
+  void add_pictures(const RunParameters& run, RunContext& context, const TextureScene& scene,
+                    const FrameBench& bench, Result& result) const {
+    const Image& before = bench.textured();
+    const Image& after = bench.smoothed();
+    context.add_image("before", before, "Textured", "what the texture unit left in the frame buffer");
+    context.add_image("after", after, "Smoothed", "the pixels that the morphological engine delivered");
+    context.add_image("difference", difference(after, before, 4), "Difference", "smoothed against textured, 4 times");
+    context.add_image("edges", edge_picture(before, bench.taps()), "Edges", "left edges red, top edges green");
+    context.add_image("weights", weight_picture(after.width, after.height, bench.taps()), "Weights",
+                      "share of the upper or left neighbour red, of the lower or right one green, blue where "
+                      "the two are left and right");
+    if (run.check == CheckMode::kGolden) {
+      Image expected(after.width, after.height);
+      expected.pixels = bench.golden().pixels();
+      context.add_image("golden", expected, "Golden models", "one after the other");
+    }
+    if (!run.truth || result.interrupted) return;
+    RenderOptions render_options;
+    render_options.width = after.width;
+    render_options.height = after.height;
+    render_options.samples = kTruthSamples;
+    const Image truth = render(scene.scene(), render_options);
+    const Mask edges = edge_mask(truth, before);
+    Quality quality;
+    quality.reference = fmt::format("supersampled-{}", kTruthSamples * kTruthSamples);
+    quality.psnr_db = psnr(after, truth);
+    quality.psnr_edge_db = psnr(after, truth, edges);
+    const Mask silhouettes = silhouette_mask(edges, scene.stream().depth);
+    quality.psnr_silhouette_db = psnr(after, truth, silhouettes);
+    result.quality = quality;
+    const auto add = [&](const char* name, double value, const char* meaning) {
+      if (std::isfinite(value)) result.work.push_back({name, value, "dB", meaning});
+    };
+    add("psnr_before_db", psnr(before, truth), "PSNR of the textured frame.");
+    add("psnr_edge_before_db", psnr(before, truth, edges), "The same over edge pixels.");
+    add("psnr_silhouette_before_db", psnr(before, truth, silhouettes), "The same over silhouettes.");
+    context.add_image("truth", truth, "Truth", fmt::format("{} samples a pixel", kTruthSamples * kTruthSamples));
+  }
+
+  SceneParameters scene_;
+  SamplerParameters sampler_;
+  spec::TextureParameters texture_;
+  MemoryParameters memory_, frame_memory_;
+  spec::MorphologicalParameters morphological_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_frame_engine() { return std::make_unique<FrameCommand>(); }
+
+}  // namespace deburr::tb
