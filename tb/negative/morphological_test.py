@@ -1,0 +1,222 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Bad input and planted faults of `deburr run morphological` and `deburr run frame`: each has its exit code and
+says what is wrong; awkward but legal frames pass. See --help of unittest."""
+import json
+import os
+import random
+import struct
+import unittest
+import zlib
+
+from app_support import CommandTest, float_tiff, png
+
+
+def noisy_png(width, height, seed=1):
+    """Black and white at random: edges everywhere."""
+    bits = random.Random(seed)
+    rows = b"".join(b"\0" + b"".join(bytes([bits.choice((0, 255))]) * 3 for _ in range(width)) for _ in range(height))
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+class Base(CommandTest):
+    def run_engine(self, code, *arguments, says=(), engine="morphological", **options):
+        return self.expect(code, "run", engine, "--out", self.path("out"), *arguments, says=says, **options)
+
+    def result(self):
+        with open(self.path("out/result.json")) as file:
+            return json.load(file)
+
+
+class Frames(Base):
+    """Image files as frames."""
+
+    def frame(self, code, name, content, *arguments, says=()):
+        return self.run_engine(code, "--in", self.write(name, content), *arguments, says=says)
+
+    def test_missing(self):
+        self.run_engine(5, "--in", self.path("missing.png"), says="missing.png")
+
+    def test_unknown_scene(self):
+        self.run_engine(2, "--scene", "cylinder", says=["cylinder", "road"])
+
+    def test_directory(self):
+        os.mkdir(self.path("folder.png"))
+        self.run_engine(5, "--in", self.path("folder.png"), says="folder.png")
+
+    def test_empty(self):
+        self.frame(5, "empty.png", b"", says="empty.png")
+
+    def test_truncated(self):
+        whole = noisy_png(64, 64)
+        self.frame(5, "truncated.png", whole[:len(whole) // 2], says="truncated.png")
+
+    def test_corrupt(self):
+        broken = bytearray(noisy_png(64, 64))
+        for i in range(45, len(broken) - 12):
+            broken[i] ^= 0x5A
+        self.frame(5, "corrupt.png", bytes(broken), says="corrupt.png")
+
+    def test_not_an_image(self):
+        self.frame(5, "text.png", b"this is no image at all\n" * 10, says="text.png")
+
+    def test_over_size(self):
+        self.frame(5, "huge.png", png(4, 4, declared=(60000, 60000)), says="huge.png")
+        self.frame(5, "wide.png", png(8193, 1), says=["wide.png", "8192"])
+
+    def test_wider_than_the_line_buffers(self):
+        self.frame(2, "wide.png", png(65, 2), "--set", "morphological.line_pixels=64", says="line_pixels")
+
+    def test_largest_width(self):
+        self.frame(0, "widest.png", png(8192, 1), says="PASS")
+
+    def test_one_pixel_row_and_column(self):
+        self.frame(0, "one.png", png(1, 1), says="PASS")
+        self.frame(0, "row.png", noisy_png(200, 1), says="PASS")
+        self.frame(0, "column.png", noisy_png(1, 200), says="PASS")
+
+    def test_all_edges(self):
+        self.frame(0, "noise.png", noisy_png(90, 60), says="PASS")
+        self.assertGreater(self.result()["work"]["edge_pixels_percent"], 50)
+
+    def test_flat(self):
+        self.frame(0, "flat.png", png(40, 30), says="PASS")
+        self.assertEqual(self.result()["work"]["blended_pixels_percent"], 0)
+
+    def test_16_bit(self):
+        self.frame(0, "deep.png", png(16, 16, bits=16), says="PASS")
+
+    def test_grey_and_alpha(self):
+        self.frame(0, "grey.png", png(16, 16, channels=1), says="PASS")
+        self.frame(0, "grey_alpha.png", png(16, 16, channels=2), says="PASS")
+        self.frame(0, "alpha.png", png(16, 16, channels=4), says="PASS")
+
+    def test_float(self):
+        self.frame(0, "float.tif", float_tiff(16, 16), says="PASS")
+        self.frame(0, "nan.tif", float_tiff(16, 16, float("nan")), says="PASS")
+
+    def test_truth_and_depth_must_fit(self):
+        self.frame(2, "a.png", png(16, 16), "--truth", self.write("b.png", png(15, 16)), says=["b.png", "15 x 16"])
+        self.frame(2, "a.png", png(16, 16), "--depth", self.write("d.png", png(16, 17)), says=["d.png", "16 x 17"])
+        self.frame(5, "a.png", png(16, 16), "--truth", self.path("none.png"), says="none.png")
+        self.frame(5, "a.png", png(16, 16), "--depth", self.write("g.png", png(16, 16, channels=1)), says="g.png")
+        self.frame(0, "a.png", noisy_png(16, 16), "--truth", self.write("t.png", png(16, 16)), says="PASS")
+        self.assertIn("psnr_edge_db", self.result()["quality"])
+
+    def test_a_scene_has_its_own_truth(self):
+        self.run_engine(2, "--scene", "road", "--truth", self.write("t.png", png(4, 4)), says="scene has its own")
+
+
+class Configuration(Base):
+    """Presets, rules beside them, and mixes that are not built."""
+    SMALL = ("--size", "48x40")
+
+    def test_not_built(self):
+        for preset in ("smaa", "smaa-dynamic"):
+            self.run_engine(2, *self.SMALL, "--preset", preset, says="not built")
+            self.assertFalse(os.path.exists(self.path("out/result.json")))
+        self.run_engine(2, *self.SMALL, "--set", "morphological.diagonals=true", says="not built")
+        self.run_engine(2, *self.SMALL, "--preset", "smoothest", says="mlaa")
+
+    def test_impossible_mixes(self):
+        self.run_engine(2, *self.SMALL, "--set", "morphological.window_rows=33", says="window_rows")
+        self.run_engine(2, *self.SMALL, "--set", "morphological.steps=16", "--set", "morphological.window_rows=20",
+                        says="steps")
+        self.run_engine(2, *self.SMALL, "--set", "morphological.edges.source=predicated", "--set",
+                        "morphological.edges.threshold_mode=dynamic", says="predicated")
+        self.run_engine(2, *self.SMALL, "--lanes", "3", says="1, 2, 4")
+
+    def test_a_rule_beside_a_preset_overrides_it(self):
+        done = self.run_engine(0, "--preset", "mlaa-slope", "--set", "morphological.steps=8", "--show-config")
+        self.assertIn("morphological.steps: 8", done.stdout)
+        self.assertIn('morphological.predictor: "chord"', done.stdout)
+
+    def expect(self, code, *arguments, says=(), **options):
+        if "--show-config" in arguments:  # prints a configuration and no RESULT line
+            done = self.run_command(*arguments, **options)
+            self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+            return done
+        return super().expect(code, *arguments, says=says, **options)
+
+    def test_frame_keeps_codes(self):
+        self.run_engine(2, *self.SMALL, "--set", "sampler.format=srgb8_a8", engine="frame", says="srgb8_a8")
+
+    def test_frame(self):
+        self.run_engine(0, *self.SMALL, engine="frame", says="PASS")
+        work = self.result()["work"]
+        self.assertGreater(work["texturing_clocks"], 0)
+        self.assertGreater(work["smoothing_clocks"], 0)
+
+
+class Faults(Base):
+    """What is planted must be found, by the right check; without link checkers by the scoreboards."""
+    CHECKED = ("--size", "64x48", "--set", "run.watchdog_cycles=2000")
+    UNCHECKED = CHECKED + ("--set", "run.check_links=false")
+    MEMORY = ("--storage", "memory")
+
+    def fault(self, name, code, says, *arguments, engine="morphological"):
+        done = self.run_engine(code, "--fault", name, *arguments, says=says, engine=engine)
+        self.assertEqual(self.result()["verdict"], "fail")
+        self.assertTrue(os.path.exists(self.path("out/report.html")), "a failed run has a report too")
+        return done
+
+    def test_without_a_fault(self):
+        self.run_engine(0, *self.CHECKED)
+        self.run_engine(0, *self.UNCHECKED, *self.MEMORY)
+        self.assertGreater(self.result()["checks"]["traffic_comparisons"], 0)
+
+    def test_flipped_bit(self):
+        done = self.fault("flip-bit", 1, "mismatch", *self.UNCHECKED)
+        self.assertEqual(self.result()["checks"]["mismatches"], 1)
+        self.assertRegex(done.stderr, r"cycle \d+: pixel \(36, 1\): expected RGBA .*, got RGBA")
+        self.fault("flip-bit", 3, "changed while it waited", *self.CHECKED)
+
+    def test_dropped_pixel(self):
+        self.fault("drop-pixel", 1, "never came", *self.UNCHECKED)
+        self.fault("drop-pixel", 3, "vanished", *self.CHECKED)
+
+    def test_duplicated_pixel(self):
+        self.fault("duplicate-pixel", 1, "mismatch", *self.UNCHECKED)
+        self.fault("duplicate-pixel", 3, "appeared", *self.CHECKED)
+
+    def test_dropped_input(self):
+        self.fault("drop-input", 4, "deadlock", *self.UNCHECKED)
+
+    def test_wrong_edge(self):
+        self.fault("wrong-edge", 1, "edges", *self.UNCHECKED)
+
+    def test_wrong_rule(self):
+        self.fault("wrong-rule", 1, "mismatch", "--scene", "cylinders", "--size", "200x150")
+
+    def test_stuck_ready(self):
+        self.fault("stuck-ready", 4, "morphological.slots", *self.CHECKED)
+
+    def test_lost_response(self):
+        self.fault("lost-response", 4, "memory", *self.CHECKED, *self.MEMORY)
+
+    def test_memory_error(self):
+        self.fault("memory-error", 3, "1 lines with an error", *self.CHECKED, *self.MEMORY)
+
+    def test_error_range(self):
+        self.run_engine(3, *self.CHECKED, *self.MEMORY, "--set", "memory.error_address=256", says="with an error")
+        self.assertEqual(self.result()["checks"]["mismatches"], 0)
+
+    def test_faults_of_memory_need_memory(self):
+        self.run_engine(2, *self.CHECKED, "--fault", "lost-response", says="storage = memory")
+
+    def test_unknown_fault(self):
+        self.run_engine(2, *self.CHECKED, "--fault", "gremlin", says=["gremlin", "flip-bit"])
+
+    def test_frame(self):
+        self.fault("flip:colours:50:56", 1, "mismatch", *self.UNCHECKED, engine="frame")
+        self.fault("flip:blended:50:4", 1, "mismatch", *self.UNCHECKED, engine="frame")
+        self.fault("stuck_ready:pixels:300", 4, "pixels", *self.CHECKED, engine="frame")
+
+
+if __name__ == "__main__":
+    unittest.main()
