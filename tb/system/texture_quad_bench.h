@@ -74,6 +74,8 @@ class QuadBench {
            descriptor_registers(static_cast<int>(h), input_.textures[h]))
         access(offset, value, true);
   }
+  // Sends the same quads once more, without a reset.
+  void repeat() { driver_.send(input_.quads); }
   // The first `cycles` clocks of a run.
   void run_for(rtl::Cycle cycles) { clock_.run(cycles); }
   std::uint64_t received() const { return sink_.received(); }

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The same data whatever the weather: random stalls on every link, shuffled order of evaluation,
 // random memory latency, fast path on and off. What must not change is compared between processes.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "tb/system/forked.h"
+#include "tb/system/texture_quad_bench.h"
 #include "tb/system/texture_runs.h"
 
 namespace deburr::tb {
@@ -23,14 +27,148 @@ void expect_same_data(const TextureOutcome& a, const TextureOutcome& b) {
   EXPECT_EQ(a.mismatches + b.mismatches + a.traffic_mismatches + b.traffic_mismatches, 0u);
 }
 
-TEST(TextureStress, FastPathIsInvisible) {
-  TextureBenchOptions fast, slow;
+// Under stalls and a shuffled order as well: there the domain may run on just the same.
+class FastPath : public testing::TestWithParam<std::tuple<const char*, bool>> {};
+
+TEST_P(FastPath, IsInvisible) {
+  const auto [source, storm] = GetParam();
+  TextureBenchOptions fast;
+  if (storm) {
+    fast.stall_permille = 150;
+    fast.shuffle = true;
+    fast.memory.latency_max = 300;
+  }
+  TextureBenchOptions slow = fast;
   slow.fast_path = false;
-  const TextureOutcome a = run(fast), b = run(slow);
+  const TextureOutcome a = run(fast, source, 96), b = run(slow, source, 96);
   expect_same_data(a, b);
   EXPECT_EQ(a.cycles, b.cycles);
   EXPECT_LT(a.activations, b.activations) << "the fast path was never taken";
 }
+
+INSTANTIATE_TEST_SUITE_P(TextureStress, FastPath,
+                         testing::Combine(testing::Values("plane", "quad", "tunnel"),
+                                          testing::Bool()),
+                         [](const auto& p) {
+                           return fmt::format("{}_{}", std::get<0>(p.param),
+                                              std::get<1>(p.param) ? "storm" : "calm");
+                         });
+
+// ---- every scene, mode and sample count in the worst weather
+// -------------------------------------
+
+using Mode = std::tuple<const char*, int, int>;
+class EveryModeInAStorm : public testing::TestWithParam<Mode> {};
+
+// The bench compares with the golden model, which knows no weather.
+TEST_P(EveryModeInAStorm, IsIdenticalToGolden) {
+  const auto [source, mode, lb_n] = GetParam();
+  SamplerParameters sampler;
+  sampler.mode = static_cast<spec::MinFilter>(mode);
+  sampler.anisotropy = static_cast<std::uint8_t>(lb_n);
+  TextureBenchOptions options;
+  options.stall_permille = 250;
+  options.shuffle = true;
+  options.seed = 1 + static_cast<std::uint64_t>(6 * lb_n + mode);
+  options.memory.latency = 5;
+  options.memory.latency_max = 250;
+  options.memory.banks = 2;
+  options.memory.bank_busy = 5;
+  options.texture.cache_bytes = 2048;
+  options.texture.cache_outstanding = 8;
+  options.texture.cache_fifo_depth = 24;
+  const TextureOutcome outcome = simulate(picture(source, 56), sampler, options);
+  EXPECT_EQ(outcome.mismatches + outcome.traffic_mismatches, 0u);
+  EXPECT_GE(outcome.comparisons, outcome.colours);
+  EXPECT_EQ(outcome.traffic_comparisons, outcome.fills);
+  EXPECT_GT(outcome.colours, 1000u);
+  EXPECT_GT(outcome.fills, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    TextureStress, EveryModeInAStorm,
+    testing::Combine(testing::Values("plane", "quad", "tunnel"), testing::Range(0, 6),
+                     testing::Range(0, 5)),
+    [](const auto& p) {
+      return fmt::format("{}_{}_n{}", std::get<0>(p.param),
+                         spec::kMinFilterNames[static_cast<std::size_t>(std::get<1>(p.param))],
+                         1 << std::get<2>(p.param));
+    });
+
+// ---- reset in the middle of a frame
+// ----------------------------------------------------------------
+
+class FrameReset : public testing::TestWithParam<std::tuple<const char*, int>> {};
+
+// However far the frame had come, afterwards the same frame is as if nothing had been: colours,
+// fills, status registers; and every counter and the number of clocks too, once what memory still
+// answers to the frame that was broken off is over.
+TEST_P(FrameReset, LeavesNothingBehind) {
+  const auto [source, stall_permille] = GetParam();
+  const TextureScene scene(picture(source, 64), {}, 1);
+  const QuadInput input = {scene.memory().descriptors(), scene.memory().bytes(),
+                           scene.stream().quads};
+  spec::TextureParameters parameters;
+  parameters.cache_bytes = 2048;
+  parameters.cache_replacement = spec::Replacement::kRandom;
+  MemoryModelParameters memory;
+  memory.latency_min = memory.latency_max = 100;
+  BenchOptions options;
+  options.stall_permille = static_cast<std::uint32_t>(stall_permille);
+  QuadBench bench(input, parameters, memory, options);
+  bench.reset();
+  const QuadOutcome fresh = bench.run();
+  EXPECT_EQ(bench.judge(input, fresh), "");
+  ASSERT_GT(fresh.colours.size(), 1000u);
+
+  constexpr rtl::Cycle kShort = 4, kDrained = 400;
+  for (const rtl::Cycle broken_off : {rtl::Cycle{37}, fresh.cycles / 3, fresh.cycles - 60}) {
+    for (const rtl::Cycle reset : {kShort, kDrained}) {
+      bench.reset(kDrained);
+      bench.run_for(broken_off);
+      EXPECT_LT(bench.received(), fresh.colours.size());
+      bench.reset(reset);
+      EXPECT_EQ(bench.received(), 0u);
+      const QuadOutcome again = bench.run();
+      EXPECT_EQ(bench.judge(input, again), "") << "after " << broken_off;
+      EXPECT_EQ(again.colours, fresh.colours) << "after " << broken_off;
+      EXPECT_EQ(again.fills, fresh.fills) << "after " << broken_off;
+      if (reset == kDrained) {
+        EXPECT_EQ(again, fresh) << "after " << broken_off;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(TextureStress, FrameReset,
+                         testing::Combine(testing::Values("plane", "quad", "tunnel"),
+                                          testing::Values(0, 150)),
+                         [](const auto& p) {
+                           return fmt::format("{}_{}", std::get<0>(p.param),
+                                              std::get<1>(p.param) ? "stalled" : "calm");
+                         });
+
+// Planted: no reset between two frames. The cache is warm and the counters go on, and both show.
+TEST(FrameReset, IsMissedWhenThereIsNone) {
+  const TextureScene scene(picture("plane", 64), {}, 1);
+  const QuadInput input = {scene.memory().descriptors(), scene.memory().bytes(),
+                           scene.stream().quads};
+  QuadBench bench(input, {});
+  bench.reset();
+  const QuadOutcome fresh = bench.run();
+  EXPECT_EQ(bench.judge(input, fresh), "");
+  bench.repeat();
+  QuadOutcome again = bench.run();
+  EXPECT_NE(bench.judge(input, again), "");
+  ASSERT_EQ(again.colours.size(), 2 * fresh.colours.size());
+  again.fills.erase(again.fills.begin(),
+                    again.fills.begin() + static_cast<std::ptrdiff_t>(fresh.fills.size()));
+  EXPECT_NE(again.fills, fresh.fills);
+  EXPECT_NE(again.counters, fresh.counters);
+}
+
+// ---- one kind of weather at a time
+// ---------------------------------------------------------------
 
 TEST(TextureStress, LinkCheckersAreInvisible) {
   TextureBenchOptions with, without;
