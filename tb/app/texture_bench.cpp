@@ -34,7 +34,8 @@ constexpr std::array kFaults = {
     NamedFault{{"drop-colour", "Drops colour 100."}, "drop:colours:100"},
     NamedFault{{"duplicate-colour", "Delivers colour 100 twice."}, "duplicate:colours:100"},
     NamedFault{{"drop-quad", "Drops quad 50 on its way into the unit."}, "drop:quads:50"},
-    NamedFault{{"duplicate-fetch", "Sends line fill 20 twice."},
+    NamedFault{{"duplicate-fetch", "Line fill 20 is read from memory twice; the picture stays perfect."}, ""},
+    NamedFault{{"duplicate-request", "The cache's request for line fill 20 is answered twice."},
                "duplicate:texture.cache.memory_requests:20"},
     NamedFault{{"stuck-ready", "Holds back the texel addresses from cycle 500 on."},
                "stuck_ready:texture.texels:500"},
@@ -143,6 +144,8 @@ TextureBench::TextureBench(const TextureScene& scene, const TextureBenchOptions&
   sink_.beats_in(colours_);
   unit_.memory.bind(memory_.ports);
   host_.bus.bind(unit_.registers);
+  host_.memory.bind(memory_.ports);
+  fetch_again_ = planted(options, "duplicate-fetch");
 
   BenchOptions bench;
   bench.stall_permille = options.stall_permille;
@@ -241,9 +244,23 @@ void TextureBench::judge(rtl::Cycle cycle, const spec::Colour& colour) {
 }
 
 void TextureBench::judge_fills() {
+  if (fetch_again_ && memory_.lines_read().size() > kFaultyRequest) fetch_again();
   const std::vector<std::uint64_t>& lines = memory_.lines_read();
   for (; fills_judged_ < lines.size(); ++fills_judged_)
     fill_board_.got({lines[fills_judged_]}, fmt::format("fill {}", fills_judged_));
+}
+
+void TextureBench::fetch_again() {
+  fetch_again_ = false;
+  std::array<unsigned char, kMemoryGrain> data{};
+  tlm::tlm_generic_payload payload;
+  payload.set_command(tlm::TLM_READ_COMMAND);
+  payload.set_address(memory_.lines_read()[kFaultyRequest]);
+  payload.set_data_ptr(data.data());
+  payload.set_data_length(static_cast<unsigned>(data.size()));
+  payload.set_streaming_width(static_cast<unsigned>(data.size()));
+  sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+  host_.memory->b_transport(payload, delay);
 }
 
 std::string TextureBench::describe(const spec::Colour& c) const {

@@ -106,16 +106,18 @@ class TextureBench {
     std::uint32_t offset, value;
     friend bool operator==(const Status&, const Status&) = default;
   };
-  // The register bus' master.
+  // The register bus' master; `memory` is for the fault of a fetch that nobody ordered.
   struct Host : sc_core::sc_module {
     explicit Host(const sc_core::sc_module_name& name) : sc_module(name) {}
     tlm_utils::simple_initiator_socket<Host> bus{"bus"};
+    tlm_utils::simple_initiator_socket<Host> memory{"memory"};
   };
 
   void prepare_golden();
   void expect(const spec::Quad& quad);
   void judge(rtl::Cycle cycle, const spec::Colour& colour);
   void judge_fills();
+  void fetch_again();
   void judge_registers();
   void check_memory_errors();
   std::uint32_t access_register(std::uint32_t offset, std::uint32_t value, bool write);
@@ -142,7 +144,7 @@ class TextureBench {
   std::uint64_t colour_hash_ = 0xCBF29CE484222325ULL;
   rtl::Cycle cycles_ = 0, started_ = 0;
   double host_seconds_ = 0, cpu_seconds_ = 0;
-  bool running_ = false, complete_ = false;
+  bool running_ = false, complete_ = false, fetch_again_ = false;
 };
 
 }  // namespace deburr::tb
