@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Feeds frames to the morphological engine: raster order, `lanes` pixels a beat, rows begin a new
-// beat, a beat a clock. One frame at a time; a reset begins the frame again.
+// beat, a beat a clock. One frame at a time; a reset forgets it.
 #pragma once
 
 #include <algorithm>
@@ -48,8 +48,8 @@ class FrameSource final : public rtl::Unit {
 
   // The next frame; it must outlive its sending.
   void start(const MorphologicalInput& frame) {
-    frame_ = &frame;
     reset();
+    frame_ = &frame;
   }
   bool done() const { return frame_ == nullptr || y_ == frame_->image.height; }
   rtl::Cycle first_cycle() const { return first_; }  // of this frame's first and last beat
@@ -66,6 +66,7 @@ class FrameSource final : public rtl::Unit {
     return rtl::kBusy;
   }
   void reset() override {
+    frame_ = nullptr;
     x_ = y_ = 0;
     first_ = last_ = 0;
   }

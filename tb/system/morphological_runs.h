@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// Short forms for whole runs of the morphological engine against its golden model, and the frames
+// that they are given.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "golden/morphological/configuration.h"
+#include "tb/app/morphological_bench.h"
+#include "tb/app/morphological_frames.h"
+#include "tb/harness/random.h"
+#include "tb/scene/scenes.h"
+#include "tb/scene/truth.h"
+
+namespace deburr::tb::morphological_system {
+
+using spec::MorphologicalParameters;
+using spec::MorphologicalPreset;
+
+inline constexpr MorphologicalPreset kBuilt[] = {
+    MorphologicalPreset::kMlaa, MorphologicalPreset::kMlaaSlope, MorphologicalPreset::kDeburr};
+
+inline Rgba8 grey(int code) {
+  const auto c = static_cast<std::uint8_t>(code);
+  return {c, c, c, 255};
+}
+
+// Rgba8 picture(x, y), called in raster order.
+template <class Picture>
+MorphologicalInput draw(int width, int height, Picture&& picture) {
+  MorphologicalInput frame{Image(width, height), {}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) frame.image.at(x, y) = picture(x, y);
+  return frame;
+}
+
+inline MorphologicalInput noise(int width, int height, std::uint64_t seed = 1) {
+  Random random(seed);
+  return draw(width, height, [&](int, int) { return grey(random.chance(500) ? 255 : 0); });
+}
+inline MorphologicalInput checkerboard(int width, int height) {
+  return draw(width, height, [](int x, int y) { return grey((x + y) & 1 ? 255 : 0); });
+}
+inline MorphologicalInput flat(int width, int height, int code) {
+  return draw(width, height, [&](int, int) { return grey(code); });
+}
+
+// Tiles with a straight edge each: slopes 1 / (n + u), n = 1..20, and their reciprocals, both
+// signs, either side bright: every octant. u is never 0, so that steps of two lengths alternate.
+inline MorphologicalInput fans(int tile, std::uint64_t seed = 1) {
+  constexpr int kColumns = 16, kRows = 10;  // 20 slopes x 8 octants
+  struct Edge {
+    double a, b, c;  // bright where a x + b y + c > 0
+  };
+  Random random(seed);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * random.below(1 << 20) / (1 << 20);
+  };
+  std::vector<Edge> edges;
+  for (int n = 1; n <= 20; ++n) {
+    for (int octant = 0; octant < 8; ++octant) {
+      const double slope = 1 / (n + uniform(0.05, 0.95));
+      Edge e = {octant & 1 ? slope : -slope, octant & 2 ? 1.0 : -1.0, 0};
+      if (octant & 4) std::swap(e.a, e.b);
+      e.c = -(e.a + e.b) * tile / 2 + uniform(-1, 1);
+      edges.push_back(e);
+    }
+  }
+  return draw(kColumns * tile, kRows * tile, [&](int x, int y) {
+    const Edge& e = edges[static_cast<std::size_t>(y / tile * kColumns + x / tile)];
+    return grey(e.a * (x % tile + 0.5) + e.b * (y % tile + 0.5) + e.c > 0 ? 230 : 20);
+  });
+}
+
+// Rectangles, colours and depth at random: all shapes, crossings that go missing, edges of depth.
+inline MorphologicalInput blocks(int width, int height, std::uint64_t seed = 1) {
+  Random random(seed);
+  MorphologicalInput frame{
+      Image(width, height, {128, 128, 128, 7}),
+      std::vector<std::uint32_t>(static_cast<std::size_t>(width * height), 4000)};
+  const auto below = [&](int n) {
+    return static_cast<int>(random.below(static_cast<std::uint32_t>(n)));
+  };
+  for (int i = 0; i < std::max(10, width * height / 150); ++i) {
+    const bool wide = random.chance(500);
+    const int x0 = below(width), y0 = below(height);
+    const int w = 1 + below(wide ? 40 : 4), h = 1 + below(wide ? 4 : 40);
+    const int code = below(8) * 6 + below(2) * 100;
+    const Rgba8 colour = {static_cast<std::uint8_t>(code), static_cast<std::uint8_t>(below(256)),
+                          static_cast<std::uint8_t>(255 - code),
+                          static_cast<std::uint8_t>(below(256))};
+    const std::uint32_t depth = random.below(1 << 24);
+    for (int y = y0; y < std::min(height, y0 + h); ++y) {
+      for (int x = x0; x < std::min(width, x0 + w); ++x) {
+        frame.image.at(x, y) = colour;
+        frame.depth[frame.image.index(x, y)] = depth;
+      }
+    }
+  }
+  return frame;
+}
+
+// At most a fifth of the pixels of every row on edges: a low column of alternating bits in ten.
+inline MorphologicalInput a_fifth(int width, int height) {
+  return draw(width, height, [](int x, int y) {
+    const int column = (x + 3 * (y / 8)) % 10;
+    return grey(column == 0 ? 200 : 40);
+  });
+}
+
+inline MorphologicalInput rendered(const std::string& scene, int width, int height) {
+  FrameParameters p;
+  p.source = scene;
+  p.width = width;
+  p.height = height;
+  p.truth_samples = 0;
+  return load_frame(p, 1).input;
+}
+
+inline MorphologicalParameters preset(MorphologicalPreset which,
+                                      spec::Lanes lanes = spec::Lanes::kOne) {
+  MorphologicalParameters p = golden::morphological::preset_parameters(which);
+  p.lanes = lanes;
+  return p;
+}
+
+// What a run leaves behind that is worth comparing with another run.
+struct MorphologicalOutcome {
+  std::uint64_t cycles = 0, frame_clocks = 0, input_clocks = 0, hash = 0, pixels = 0,
+                activations = 0;
+  std::uint64_t record_stalls = 0, edge_pixels = 0, latency_min = 0, latency_max = 0;
+  std::uint64_t comparisons = 0, mismatches = 0, traffic_comparisons = 0, traffic_mismatches = 0;
+};
+
+// Simulates and judges: throws what MorphologicalBench throws, a Mismatch included.
+inline MorphologicalOutcome simulate(const std::vector<MorphologicalInput>& frames,
+                                     const MorphologicalBenchOptions& options) {
+  MorphologicalBench bench(frames, options);
+  bench.run();
+  bench.check();
+  Result result;
+  bench.collect(result);
+  auto& engine = bench.engine();
+  return {bench.cycles(),
+          engine.sequencer.frame_cycles.value(),
+          bench.input_clocks(),
+          bench.pixel_hash(),
+          bench.pixels(),
+          bench.activations(),
+          engine.extractor.record_stalls.value(),
+          engine.edges.edge_pixels.value(),
+          engine.beat_latency.min(),
+          engine.beat_latency.max(),
+          result.comparisons,
+          result.mismatches,
+          result.traffic_comparisons,
+          result.traffic_mismatches};
+}
+
+}  // namespace deburr::tb::morphological_system

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// The same data whatever the weather: random stalls on every link, shuffled order of evaluation,
+// random memory latency, reset in mid-frame, fast path on and off. What must not change is compared
+// between processes.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <tuple>
+
+#include "tb/system/forked.h"
+#include "tb/system/morphological_runs.h"
+
+namespace deburr::tb::morphological_system {
+namespace {
+
+using spec::Lanes;
+using spec::Storage;
+using Variant = std::tuple<Lanes, Storage>;
+
+MorphologicalBenchOptions options_of(Lanes lanes, Storage storage,
+                                     MorphologicalPreset which = MorphologicalPreset::kDeburr) {
+  MorphologicalBenchOptions options;
+  options.morphological = preset(which, lanes);
+  options.morphological.storage = storage;
+  options.morphological.line_pixels = 512;
+  options.memory.latency = 30;
+  return options;
+}
+
+MorphologicalOutcome run(const MorphologicalBenchOptions& options) {
+  return forked<MorphologicalOutcome>([&] {
+    return simulate({fans(16), blocks(150, 90, 2), noise(61, 40)}, options);
+  });
+}
+
+void expect_same_data(const MorphologicalOutcome& a, const MorphologicalOutcome& b) {
+  EXPECT_EQ(a.hash, b.hash);
+  EXPECT_EQ(a.pixels, b.pixels);
+  EXPECT_EQ(a.edge_pixels, b.edge_pixels);
+  EXPECT_EQ(a.traffic_comparisons, b.traffic_comparisons);
+  EXPECT_EQ(a.mismatches + b.mismatches + a.traffic_mismatches + b.traffic_mismatches, 0u);
+}
+
+class MorphologicalStress : public testing::TestWithParam<Variant> {
+ protected:
+  MorphologicalBenchOptions calm() const {
+    return options_of(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  }
+};
+
+TEST_P(MorphologicalStress, FastPathIsInvisible) {
+  MorphologicalBenchOptions fast = calm(), slow = calm();
+  slow.fast_path = false;
+  const MorphologicalOutcome a = run(fast), b = run(slow);
+  expect_same_data(a, b);
+  EXPECT_EQ(a.cycles, b.cycles);
+  EXPECT_LT(a.activations, b.activations) << "the fast path was never taken";
+}
+
+TEST_P(MorphologicalStress, LinkCheckersAreInvisible) {
+  MorphologicalBenchOptions with = calm(), without = calm();
+  without.check_links = false;
+  const MorphologicalOutcome a = run(with), b = run(without);
+  expect_same_data(a, b);
+  EXPECT_EQ(a.cycles, b.cycles);
+}
+
+TEST_P(MorphologicalStress, OrderOfEvaluationIsInvisible) {
+  MorphologicalBenchOptions fixed = calm(), shuffled = calm();
+  shuffled.shuffle = true;
+  for (const std::uint32_t stalls : {0u, 200u}) {
+    for (const std::uint64_t seed : {1u, 2u}) {
+      fixed.seed = shuffled.seed = seed;
+      fixed.stall_permille = shuffled.stall_permille = stalls;
+      const MorphologicalOutcome a = run(fixed), b = run(shuffled);
+      expect_same_data(a, b);
+      EXPECT_EQ(a.cycles, b.cycles) << "seed " << seed << ", stalls " << stalls;
+    }
+  }
+}
+
+TEST_P(MorphologicalStress, RandomStallsCostTimeAndNothingElse) {
+  const MorphologicalOutcome quiet = run(calm());
+  for (const std::uint32_t permille : {50u, 500u}) {
+    MorphologicalBenchOptions stalled = calm();
+    stalled.stall_permille = permille;
+    stalled.seed = permille;
+    stalled.shuffle = true;
+    const MorphologicalOutcome outcome = run(stalled);
+    expect_same_data(quiet, outcome);
+    EXPECT_GT(outcome.cycles, quiet.cycles);
+  }
+}
+
+TEST_P(MorphologicalStress, ResetInMidFrameBeginsAgain) {
+  const MorphologicalOutcome quiet = run(calm());
+  // While rows fill, in the first flush rows, and at a cycle of no meaning; with stalls as well.
+  for (const rtl::Cycle at : {40u, 3001u, 9000u, 12345u}) {
+    MorphologicalBenchOptions options = calm();
+    options.reset_after = at;
+    options.stall_permille = at == 3001 ? 150 : 0;
+    const MorphologicalOutcome outcome = run(options);
+    EXPECT_EQ(quiet.hash, outcome.hash) << "reset after " << at;
+    EXPECT_EQ(outcome.mismatches + outcome.traffic_mismatches, 0u);
+    EXPECT_EQ(quiet.pixels, outcome.pixels);
+  }
+}
+
+TEST_P(MorphologicalStress, SameSeedGivesTheSameCycles) {
+  MorphologicalBenchOptions options = calm();
+  options.stall_permille = 150;
+  options.memory.latency_max = 200;
+  const MorphologicalOutcome a = run(options), b = run(options);
+  expect_same_data(a, b);
+  EXPECT_EQ(a.cycles, b.cycles);
+}
+
+INSTANTIATE_TEST_SUITE_P(EachVariant, MorphologicalStress,
+                         testing::Values(Variant{Lanes::kOne, Storage::kLineBuffers},
+                                         Variant{Lanes::kTwo, Storage::kMemory},
+                                         Variant{Lanes::kFour, Storage::kLineBuffers},
+                                         Variant{Lanes::kFour, Storage::kMemory}),
+                         [](const auto& p) {
+                           return fmt::format(
+                               "lanes{}_{}",
+                               spec::kLanesNames[static_cast<std::size_t>(std::get<0>(p.param))],
+                               spec::kStorageNames[static_cast<std::size_t>(std::get<1>(p.param))]);
+                         });
+
+TEST(MorphologicalMemory, RandomLatencyBanksAndNarrowBusChangeNoData) {
+  for (const Lanes lanes : {Lanes::kOne, Lanes::kFour}) {
+    const MorphologicalOutcome quiet = run(options_of(lanes, Storage::kMemory));
+    MorphologicalBenchOptions options = options_of(lanes, Storage::kMemory);
+    options.memory.latency_max = 400;
+    options.memory.banks = 4;
+    options.memory.bank_busy = 6;
+    options.memory.outstanding = 8;
+    options.memory.bytes_per_clock = 16;
+    options.stall_permille = 100;
+    options.shuffle = true;
+    for (const std::uint64_t seed : {1u, 2u}) {
+      options.seed = seed;
+      expect_same_data(quiet, run(options));
+    }
+  }
+}
+
+// Both kinds of storage and all lanes deliver the same pixels, preset by preset.
+TEST(MorphologicalMemory, StorageAndLanesChangeNoPixel) {
+  for (const MorphologicalPreset which : kBuilt) {
+    const MorphologicalOutcome one = run(options_of(Lanes::kOne, Storage::kLineBuffers, which));
+    for (const Variant& v :
+         {Variant{Lanes::kTwo, Storage::kLineBuffers}, Variant{Lanes::kFour, Storage::kMemory}})
+      EXPECT_EQ(one.hash, run(options_of(std::get<0>(v), std::get<1>(v), which)).hash);
+  }
+}
+
+TEST(MorphologicalMemory, ErrorResponsesReadAsZeroAndAreReported) {
+  MorphologicalBenchOptions options = options_of(Lanes::kOne, Storage::kMemory);
+  options.memory.error_address = 640;
+  options.memory.error_bytes = 128;
+  const std::vector<MorphologicalInput> frames = {blocks(150, 40)};
+  MorphologicalBench bench(frames, options);
+  EXPECT_THROW(bench.run(), spec::SimulationError);
+  EXPECT_NO_THROW(bench.check());  // the golden model predicts the black pixels
+  EXPECT_NE(bench.read_register(spec::morphological_register::kStatus) &
+                spec::morphological_register::kStatusMemoryError,
+            0u);
+  EXPECT_EQ(bench.golden().memory_errors(), 2u);
+  // Each line is answered with an error when it is written and when it is read.
+  EXPECT_EQ(bench.read_register(spec::morphological_register::kMemoryErrors), 4u);
+}
+
+}  // namespace
+}  // namespace deburr::tb::morphological_system

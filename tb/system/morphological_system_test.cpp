@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+// Whole frames through the hardware model of the morphological engine: every pixel, tap, run, line,
+// counter and memory line equal to the golden model, for every preset, and the clocks that
+// docs/morphological_engine.md promises.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <tuple>
+
+#include "tb/system/morphological_runs.h"
+
+namespace deburr::tb::morphological_system {
+namespace {
+
+using Frames = std::vector<MorphologicalInput>;
+
+std::uint64_t pixels_of(const Frames& frames) {
+  std::uint64_t pixels = 0;
+  for (const MorphologicalInput& frame : frames) pixels += frame.image.pixels.size();
+  return pixels;
+}
+
+// Everything came and was compared: pixel and tap of every pixel.
+MorphologicalOutcome expect_identical(const Frames& frames,
+                                      const MorphologicalBenchOptions& options) {
+  const MorphologicalOutcome outcome = simulate(frames, options);
+  EXPECT_EQ(outcome.mismatches, 0u);
+  EXPECT_EQ(outcome.traffic_mismatches, 0u);
+  EXPECT_EQ(outcome.pixels, pixels_of(frames));
+  EXPECT_GE(outcome.comparisons, 2 * pixels_of(frames));
+  if (options.morphological.storage == spec::Storage::kMemory) {
+    std::uint64_t lines = 0;
+    for (const MorphologicalInput& frame : frames)
+      lines += static_cast<std::uint64_t>((4 * frame.image.width + 63) / 64) *
+               static_cast<std::uint64_t>(frame.image.height);
+    EXPECT_EQ(outcome.traffic_comparisons, 2 * lines);
+  }
+  return outcome;
+}
+
+template <class Tuple>
+std::string name_of(const testing::TestParamInfo<Tuple>& info) {
+  std::string name{
+      spec::kMorphologicalPresetNames[static_cast<std::size_t>(std::get<0>(info.param))]};
+  std::replace(name.begin(), name.end(), '-', '_');
+  return fmt::format("{}_{}", name, info.index);
+}
+
+// ---- frames of full size ------------------------------------------------------------------------
+
+using Size = std::tuple<MorphologicalPreset, std::pair<int, int>>;
+class RenderedFrame : public testing::TestWithParam<Size> {};
+
+TEST_P(RenderedFrame, IsIdenticalToGolden) {
+  const auto [which, size] = GetParam();
+  MorphologicalBenchOptions options;
+  options.morphological = preset(which);
+  options.check_links = false;  // smaller frames have them; here they would double the time
+  const Frames frames = {rendered("road", size.first, size.second)};
+  const MorphologicalOutcome outcome = expect_identical(frames, options);
+  // Not one stall: the frame takes what the formula says, and every pixel the same time.
+  EXPECT_EQ(outcome.frame_clocks,
+            frame_clocks_by_formula(options.morphological, size.first, size.second));
+  EXPECT_EQ(outcome.latency_min, latency_by_formula(options.morphological, size.first));
+  EXPECT_EQ(outcome.latency_max, outcome.latency_min);
+  EXPECT_GT(outcome.edge_pixels, outcome.pixels / 1000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Morphological, RenderedFrame,
+                         testing::Combine(testing::ValuesIn(kBuilt),
+                                          testing::Values(std::pair{1280, 720},
+                                                          std::pair{1920, 1080})),
+                         name_of<Size>);
+
+TEST(Morphological, FullHdAt60FramesFitsIn148MHz) {
+  const MorphologicalParameters p;
+  EXPECT_EQ(frame_clocks_by_formula(p, 1920, 1080), 2144646u);
+  EXPECT_LT(60e-6 * static_cast<double>(frame_clocks_by_formula(p, 1920, 1080)), 148.5);
+  const MorphologicalParameters four = preset(MorphologicalPreset::kDeburr, spec::Lanes::kFour);
+  EXPECT_LT(60e-6 * static_cast<double>(frame_clocks_by_formula(four, 3840, 2160)), 148.5);
+}
+
+// ---- frames that others rendered ----------------------------------------------------------------
+
+using Named = std::tuple<MorphologicalPreset, const char*>;
+class DataFrame : public testing::TestWithParam<Named> {};
+
+TEST_P(DataFrame, IsIdenticalToGolden) {
+  const auto [which, name] = GetParam();
+  const char* folder = std::getenv("DEBURR_DATA");
+  const std::filesystem::path file =
+      (folder ? folder : std::filesystem::path(DEBURR_SOURCE_DIR) / "../shared/data") / "frames" /
+      name;
+  if (!std::filesystem::exists(file))
+    GTEST_SKIP() << "no " << file << ": set DEBURR_DATA to the folder that holds frames/";
+  FrameParameters p;
+  p.source = file.string();
+  MorphologicalBenchOptions options;
+  options.morphological = preset(which);
+  options.check_links = false;
+  expect_identical({load_frame(p, 1).input}, options);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Morphological, DataFrame,
+    testing::Values(std::tuple{MorphologicalPreset::kMlaa, "track_720p_noaa.png"},
+                    std::tuple{MorphologicalPreset::kMlaaSlope, "track_720p_noaa.png"},
+                    std::tuple{MorphologicalPreset::kDeburr, "track_720p_noaa.png"},
+                    std::tuple{MorphologicalPreset::kDeburr, "track_1080p_noaa.png"}),
+    name_of<Named>);
+
+// ---- synthetic frames: presets x lanes x storage ------------------------------------------------
+
+using Variant = std::tuple<MorphologicalPreset, spec::Lanes, spec::Storage>;
+class EveryVariant : public testing::TestWithParam<Variant> {
+ protected:
+  MorphologicalBenchOptions options() const {
+    const auto [which, lanes, storage] = GetParam();
+    MorphologicalBenchOptions o;
+    o.morphological = preset(which, lanes);
+    o.morphological.storage = storage;
+    o.morphological.line_pixels = 1024;
+    o.memory.latency = 40;
+    o.records = true;
+    return o;
+  }
+};
+
+TEST_P(EveryVariant, FansOfLinesAreIdenticalToGolden) {
+  expect_identical({fans(48, 1), fans(37, 2)}, options());
+}
+
+TEST_P(EveryVariant, NoiseAndChecksAreIdenticalToGolden) {
+  expect_identical({noise(131, 77), checkerboard(64, 50), noise(16, 90, 3), blocks(150, 120, 4)},
+                   options());
+}
+
+TEST_P(EveryVariant, OddSizesAreIdenticalToGolden) {
+  expect_identical({noise(1, 1), noise(1, 70), noise(300, 1), flat(1, 1, 9), noise(2, 2),
+                    noise(3, 80, 5), blocks(5, 100, 6), blocks(100, 5, 7), flat(40, 40, 0),
+                    flat(17, 9, 255), noise(1, 2), noise(2, 1), checkerboard(7, 7)},
+                   options());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Morphological, EveryVariant,
+    testing::Combine(testing::ValuesIn(kBuilt),
+                     testing::Values(spec::Lanes::kOne, spec::Lanes::kTwo, spec::Lanes::kFour),
+                     testing::Values(spec::Storage::kLineBuffers, spec::Storage::kMemory)),
+    name_of<Variant>);
+
+// ---- the widest and the highest frame -----------------------------------------------------------
+
+using Stored = std::tuple<MorphologicalPreset, spec::Storage>;
+class Widest : public testing::TestWithParam<Stored> {};
+
+TEST_P(Widest, IsIdenticalToGolden) {
+  const auto [which, storage] = GetParam();
+  MorphologicalBenchOptions options;
+  options.morphological = preset(which, spec::Lanes::kFour);
+  options.morphological.storage = storage;
+  options.records = true;
+  expect_identical({noise(8192, 3), blocks(8192, 9)}, options);
+}
+
+INSTANTIATE_TEST_SUITE_P(Morphological, Widest,
+                         testing::Combine(testing::ValuesIn(kBuilt),
+                                          testing::Values(spec::Storage::kLineBuffers,
+                                                          spec::Storage::kMemory)),
+                         name_of<Stored>);
+
+TEST(Morphological, TheHighestFrameIsIdenticalToGolden) {
+  MorphologicalBenchOptions options;
+  options.morphological.line_pixels = 64;
+  options.records = true;
+  expect_identical({noise(2, 8192), blocks(11, 8192, 2)}, options);
+}
+
+// ---- every rule of edges, predictor and light ---------------------------------------------------
+
+using Rule = std::tuple<int, int>;
+class EveryRule : public testing::TestWithParam<Rule> {};
+
+TEST_P(EveryRule, IsIdenticalToGolden) {
+  const auto [edges, line] = GetParam();
+  MorphologicalBenchOptions options;
+  MorphologicalParameters& p = options.morphological;
+  constexpr spec::EdgeSource kSources[] = {spec::EdgeSource::kLuma, spec::EdgeSource::kDepth,
+                                           spec::EdgeSource::kPredicated, spec::EdgeSource::kLuma,
+                                           spec::EdgeSource::kLuma};
+  p.edge_source = kSources[edges];
+  p.threshold_mode = edges >= 3 ? spec::ThresholdMode::kDynamic : spec::ThresholdMode::kFixed;
+  p.dynamic_luma = edges == 3 ? spec::DynamicLuma::kCurrent : spec::DynamicLuma::kMax;
+  p.local_contrast = static_cast<spec::LocalContrast>((edges + line) % 3);
+  p.predictor = static_cast<spec::Predictor>(line % 3);
+  p.steps = std::array<std::int32_t, 6>{0, 3, 16, 16, 1, 8}[static_cast<std::size_t>(line)];
+  p.contiguous = line % 2 == 1;
+  p.safe = line >= 3;
+  p.linear_light = line != 2;
+  p.window_rows = line == 1 ? 10 : 2 * p.steps + 4 + (line == 5 ? 200 : 30);
+  p.reach_columns = line == 1 ? 4 : 60 + 100 * line;
+  p.line_pixels = 400;
+  options.records = true;
+  if (p.window_rows > 258) p.window_rows = 258;
+  expect_identical(
+      {blocks(170, 140, static_cast<std::uint64_t>(edges + 1)), fans(20), noise(60, 60)}, options);
+}
+
+INSTANTIATE_TEST_SUITE_P(Morphological, EveryRule,
+                         testing::Combine(testing::Range(0, 5), testing::Range(0, 6)));
+
+TEST(Morphological, AddressesBeginAtPixelBase) {
+  MorphologicalBenchOptions options;
+  options.morphological.storage = spec::Storage::kMemory;
+  options.pixel_base = 0x1240;
+  expect_identical({blocks(99, 40)}, options);
+}
+
+// ---- throughput ---------------------------------------------------------------------------------
+
+using Laned = std::tuple<MorphologicalPreset, spec::Lanes>;
+class Throughput : public testing::TestWithParam<Laned> {};
+
+// 1.00 x lanes pixels a clock while a fifth of all pixels lie on edges.
+TEST_P(Throughput, IsSustainedWithAFifthOfThePixelsOnEdges) {
+  const auto [which, lanes] = GetParam();
+  MorphologicalBenchOptions options;
+  options.morphological = preset(which, lanes);
+  options.morphological.local_contrast = spec::LocalContrast::kOff;
+  const Frames frames = {a_fifth(640, 120)};
+  const MorphologicalOutcome outcome = expect_identical(frames, options);
+  EXPECT_NEAR(static_cast<double>(outcome.edge_pixels) / static_cast<double>(outcome.pixels), 0.2,
+              0.09);
+  EXPECT_EQ(outcome.input_clocks,
+            beats_a_row(640, spec::kLaneCount[static_cast<std::size_t>(lanes)]) * 120);
+  EXPECT_EQ(outcome.frame_clocks, frame_clocks_by_formula(options.morphological, 640, 120));
+  EXPECT_EQ(outcome.record_stalls, 0u);
+}
+
+// All pixels on edges: it takes longer, says so, and drops nothing.
+TEST_P(Throughput, PressesBackWithEveryPixelOnEdges) {
+  const auto [which, lanes] = GetParam();
+  MorphologicalBenchOptions options;
+  options.morphological = preset(which, lanes);
+  options.morphological.local_contrast = spec::LocalContrast::kOff;
+  options.morphological.predictor_units = 1;
+  options.morphological.divider_interval = 4;
+  const MorphologicalOutcome outcome = expect_identical({noise(400, 60)}, options);
+  EXPECT_GT(outcome.frame_clocks, frame_clocks_by_formula(options.morphological, 400, 60));
+  EXPECT_GT(outcome.record_stalls, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Morphological, Throughput,
+                         testing::Combine(testing::ValuesIn(kBuilt),
+                                          testing::Values(spec::Lanes::kOne, spec::Lanes::kTwo,
+                                                          spec::Lanes::kFour)),
+                         name_of<Laned>);
+
+// ---- what is refused ----------------------------------------------------------------------------
+
+TEST(Morphological, WhatIsNotBuiltIsNamed) {
+  MorphologicalBenchOptions options;
+  const Frames frames = {flat(4, 4, 0)};
+  for (const auto which : {MorphologicalPreset::kSmaa, MorphologicalPreset::kSmaaDynamic}) {
+    options.morphological = preset(which);
+    try {
+      MorphologicalBench bench(frames, options);
+      FAIL() << "not refused";
+    } catch (const spec::ConfigError& error) {
+      EXPECT_NE(std::string(error.what()).find("not built"), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace deburr::tb::morphological_system
