@@ -142,25 +142,32 @@ FrameBench::FrameBench(const TextureScene& scene, const FrameBenchOptions& optio
       sink_("sink", clock_),
       memory_("memory", clock_.period(),
               memory_model_parameters(options.memory, scene.memory().bytes().size(), options.seed)),
-      texture_golden_(make_golden(scene, options.texture,
-                                  options.golden ? TextureGolden::Traffic::kPredict
-                                                 : TextureGolden::Traffic::kIgnore)),
+      texture_golden_(make_golden(
+          scene, options.texture,
+          options.golden ? TextureGolden::Traffic::kPredict : TextureGolden::Traffic::kIgnore)),
       smoothing_golden_(options.morphological),
-      colour_board_("colours", 0, [](const spec::Colour& c) {
-        return fmt::format("tag {} lane {} RGBA ({}, {}, {}, {})", c.tag, c.lane, c.rgba[0], c.rgba[1],
-                           c.rgba[2], c.rgba[3]);
-      }),
-      fill_board_("line fills", 0, [](const Fill& f) { return fmt::format("read of {:#x}", f.address); }),
-      pixel_board_("pixels", [](const spec::Rgba8& p) {
-        return fmt::format("RGBA ({}, {}, {}, {})", p[0], p[1], p[2], p[3]);
-      }),
-      tap_board_("taps", [](const spec::BlendTap& t) {
-        return fmt::format("{} shares {} {}, edges {}", t.horizontal ? "left/right" : "up/down", t.first,
-                           t.second, t.edges);
-      }),
-      traffic_board_("memory lines", 0, [](const spec::FrameAccess& a) {
-        return fmt::format("{} of address {:#x}", a.write ? "write" : "read", a.address);
-      }),
+      colour_board_("colours", 0,
+                    [](const spec::Colour& c) {
+                      return fmt::format("tag {} lane {} RGBA ({}, {}, {}, {})", c.tag, c.lane,
+                                         c.rgba[0], c.rgba[1], c.rgba[2], c.rgba[3]);
+                    }),
+      fill_board_("line fills", 0,
+                  [](const Fill& f) { return fmt::format("read of {:#x}", f.address); }),
+      pixel_board_("pixels",
+                   [](const spec::Rgba8& p) {
+                     return fmt::format("RGBA ({}, {}, {}, {})", p[0], p[1], p[2], p[3]);
+                   }),
+      tap_board_("taps",
+                 [](const spec::BlendTap& t) {
+                   return fmt::format("{} shares {} {}, edges {}",
+                                      t.horizontal ? "left/right" : "up/down", t.first, t.second,
+                                      t.edges);
+                 }),
+      traffic_board_("memory lines", 0,
+                     [](const spec::FrameAccess& a) {
+                       return fmt::format("{} of address {:#x}", a.write ? "write" : "read",
+                                          a.address);
+                     }),
       frame_(scene.stream().width, scene.stream().height),
       taps_(frame_.pixels.size()) {
   golden::morphological::check_frame(options.morphological, frame_.width, frame_.height);
@@ -176,11 +183,11 @@ FrameBench::FrameBench(const TextureScene& scene, const FrameBenchOptions& optio
   texture_host_.bus.bind(texture_.registers);
   engine_host_.bus.bind(engine_.registers);
   if (engine_.memory() != nullptr) {
-    MemoryModelParameters m = memory_model_parameters(
-        options.frame_memory,
-        std::uint64_t{golden::morphological::frame_stride(frame_.width)} *
-            static_cast<std::uint64_t>(frame_.height),
-        options.seed);
+    MemoryModelParameters m =
+        memory_model_parameters(options.frame_memory,
+                                std::uint64_t{golden::morphological::frame_stride(frame_.width)} *
+                                    static_cast<std::uint64_t>(frame_.height),
+                                options.seed);
     m.record_writes = true;
     frame_memory_ = std::make_unique<MemoryModel>("frame_memory", clock_.period(), m);
     engine_.memory()->bind(frame_memory_->ports);
@@ -217,7 +224,8 @@ FrameBench::FrameBench(const TextureScene& scene, const FrameBenchOptions& optio
   const std::uint64_t line_bytes = texture_golden_.cache().line_bytes();
   texture_golden_.set_fill_sink([this, line_bytes](std::uint32_t line) {
     const std::uint64_t begin = line * line_bytes;
-    for (std::uint64_t a = begin; a < begin + line_bytes; a += kMemoryGrain) fill_board_.expect({a});
+    for (std::uint64_t a = begin; a < begin + line_bytes; a += kMemoryGrain)
+      fill_board_.expect({a});
   });
   driver_.on_send = [this](rtl::Cycle, const spec::Quad& quad) {
     texture_golden_.process(quad, [this](const spec::Colour& c) { colour_board_.expect(c); });
@@ -263,9 +271,9 @@ void FrameBench::run(const Progress& progress) {
   for (const spec::TextureDescriptor& descriptor : scene_.memory().descriptors())
     for (const auto& [offset, value] : descriptor_registers(handle++, descriptor))
       texture_host_.write(offset, value);
-  engine_host_.write(spec::morphological_register::kSize,
-                     static_cast<std::uint32_t>(frame_.width) |
-                         static_cast<std::uint32_t>(frame_.height) << 16);
+  engine_host_.write(
+      spec::morphological_register::kSize,
+      static_cast<std::uint32_t>(frame_.width) | static_cast<std::uint32_t>(frame_.height) << 16);
 
   rtl::Cycle next_progress = 0;
   bool stopped = false;
@@ -280,8 +288,8 @@ void FrameBench::run(const Progress& progress) {
       next_progress = clock_.cycle() + kProgressPeriod;
       if (!progress(position_)) return stopped = true;
     }
-    return buffer_.done() && driver_.done() && texture_.idle() && engine_.idle() && quads_.empty() &&
-           colours_.empty() && pixels_.empty() && blended_.empty();
+    return buffer_.done() && driver_.done() && texture_.idle() && engine_.idle() &&
+           quads_.empty() && colours_.empty() && pixels_.empty() && blended_.empty();
   };
   started_ = clock_.cycle();
   running_ = true;
@@ -304,7 +312,8 @@ void FrameBench::run(const Progress& progress) {
   if (bench_->links()) bench_->links()->check_empty();
   judge_fills();
   if (options_.golden && frame_memory_) {
-    for (const spec::FrameAccess& access : smoothing_golden_.traffic()) traffic_board_.expect(access);
+    for (const spec::FrameAccess& access : smoothing_golden_.traffic())
+      traffic_board_.expect(access);
     for (const std::uint64_t a : frame_memory_->lines_written())
       traffic_board_.got({static_cast<std::uint32_t>(a), true});
     for (const std::uint64_t a : frame_memory_->lines_read())
@@ -329,14 +338,15 @@ void FrameBench::collect(Result& result) const {
   result.host_seconds = host_seconds_;
   result.host_cpu_seconds = cpu_seconds_;
   result.comparisons = result.mismatches = 0;
-  for (const ScoreboardBase* board : std::initializer_list<const ScoreboardBase*>{
-           &colour_board_, &pixel_board_, &tap_board_}) {
+  for (const ScoreboardBase* board :
+       std::initializer_list<const ScoreboardBase*>{&colour_board_, &pixel_board_, &tap_board_}) {
     result.comparisons += board->comparisons();
     result.mismatches += board->mismatches() + (complete_ ? board->leftovers() : 0);
   }
   result.traffic_comparisons = fill_board_.comparisons() + traffic_board_.comparisons();
-  result.traffic_mismatches = fill_board_.mismatches() + traffic_board_.mismatches() +
-                              (complete_ ? fill_board_.leftovers() + traffic_board_.leftovers() : 0);
+  result.traffic_mismatches =
+      fill_board_.mismatches() + traffic_board_.mismatches() +
+      (complete_ ? fill_board_.leftovers() + traffic_board_.leftovers() : 0);
   result.bytes_read = memory_.bytes_read() + (frame_memory_ ? frame_memory_->bytes_read() : 0);
   result.bytes_written = frame_memory_ ? frame_memory_->bytes_written() : 0;
   result.lines_filled = texture.cache.miss_queue.line_fills.value();
@@ -352,33 +362,43 @@ void FrameBench::collect(Result& result) const {
     result.work.push_back({std::move(name), std::move(value), std::move(unit), std::move(meaning)});
   };
   const rtl::Histogram& latency = engine.beat_latency;
-  result.latency = {latency.min(), latency.percentile(50), latency.percentile(95),
-                    latency.percentile(99), latency.max(), {}};
+  result.latency = {latency.min(),          latency.percentile(50), latency.percentile(95),
+                    latency.percentile(99), latency.max(),          {}};
   for (const rtl::Histogram::Bin& bin : latency.bins(48))
     result.latency.histogram.push_back({bin.low, bin.count});
   const std::uint64_t bilinears = texture.address.addresser.bilinears.value();
-  const std::uint64_t raster = frame_clocks_by_formula(options_.morphological, frame_.width, frame_.height);
-  const auto since_start = [&](rtl::Cycle cycle) { return cycle > started_ ? cycle - started_ : 0; };
+  const std::uint64_t raster =
+      frame_clocks_by_formula(options_.morphological, frame_.width, frame_.height);
+  const auto since_start = [&](rtl::Cycle cycle) {
+    return cycle > started_ ? cycle - started_ : 0;
+  };
   const std::uint64_t texturing = since_start(buffer_.last_colour());
-  const std::uint64_t smoothing = result.cycles - std::min(result.cycles, since_start(buffer_.first_beat()));
+  const std::uint64_t smoothing =
+      result.cycles - std::min(result.cycles, since_start(buffer_.first_beat()));
   add("texturing_clocks", texturing, "clk", "From the first quad to the last colour.");
-  add("smoothing_clocks", smoothing, "clk", "From the first row out of the frame buffer to the last pixel.");
-  add("overlapped_clocks", texturing + smoothing - std::min(texturing + smoothing, result.cycles), "clk",
-      "Clocks in which both engines were at this frame.");
-  add("smoothing_clocks_by_formula", raster, "clk", "Of the morphological engine alone, if nothing stalls.");
+  add("smoothing_clocks", smoothing, "clk",
+      "From the first row out of the frame buffer to the last pixel.");
+  add("overlapped_clocks", texturing + smoothing - std::min(texturing + smoothing, result.cycles),
+      "clk", "Clocks in which both engines were at this frame.");
+  add("smoothing_clocks_by_formula", raster, "clk",
+      "Of the morphological engine alone, if nothing stalls.");
   add("bilinears", bilinears, "request", "Bilinear requests; one a clock at most.");
-  add("fragment_latency_p50", texture.fragment_latency.percentile(50), "clk", "Of the texture unit.");
+  add("fragment_latency_p50", texture.fragment_latency.percentile(50), "clk",
+      "Of the texture unit.");
   add("fragment_latency_max", texture.fragment_latency.max(), "clk", "Of the texture unit.");
-  add("frame_buffer_bytes_written", buffer_.bytes_written.value(), "byte", "Colours, 4 bytes each.");
+  add("frame_buffer_bytes_written", buffer_.bytes_written.value(), "byte",
+      "Colours, 4 bytes each.");
   add("frame_buffer_bytes_read", buffer_.bytes_read.value(), "byte", "Pixels, 4 bytes each.");
   for (const rtl::Counter* counter : texture.counters())
-    add("texture_" + name_within(texture, *counter), counter->value(), counter->unit(), counter->meaning() + ".");
+    add("texture_" + name_within(texture, *counter), counter->value(), counter->unit(),
+        counter->meaning() + ".");
   collect_morphological(engine, frame_.width, "morphological_", result);
 
   result.throughput = ratio(number(position_), number(result.cycles));
   result.throughput_unit = "pixel/clk";
   // The slower of the two alone, the other one hidden behind it.
-  result.throughput_bound = ratio(number(frame_.pixels.size()), number(std::max(bilinears, raster)));
+  result.throughput_bound =
+      ratio(number(frame_.pixels.size()), number(std::max(bilinears, raster)));
 }
 
 }  // namespace deburr::tb

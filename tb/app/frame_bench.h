@@ -44,8 +44,8 @@ class FrameBuffer final : public rtl::Unit {
   rtl::In<spec::Colour> colours_in{"colours_in"};
   rtl::Out<spec::PixelBeat> pixels_out{"pixels_out"};
 
-  FrameBuffer(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, const TextureScene& scene,
-              int lanes);
+  FrameBuffer(const sc_core::sc_module_name& name, rtl::ClockDomain& clock,
+              const TextureScene& scene, int lanes);
   rtl::Activity tick(rtl::Cycle cycle) override;
   void reset() override;
 

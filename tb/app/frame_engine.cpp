@@ -43,27 +43,32 @@ class FrameCommand final : public Engine {
   void resolve(const ParameterSet& set) override { apply_preset(set, morphological_); }
 
   std::vector<Shorthand> shorthands() const override {
-    return {{"--scene", "scene.source", "object (default), plane, quad, tunnel, road, cylinders"},
-            {"--in", "scene.source", "Mesh file instead of a scene: .obj, .gltf, .glb"},
-            {"--texture", "scene.texture", "checker, road, brick, zone_plate, ..., or an image file"},
-            {"--size", "scene.width", "Size of the picture, WxH", "scene.height"},
-            {"--mode", "sampler.mode", "Minification filter, one of GL's six"},
-            {"--aniso", "sampler.anisotropy", "Largest number of samples: 1, 2, 4, 8, 16"},
-            {"--preset", "morphological.preset", "mlaa, mlaa-slope, deburr"},
-            {"--lanes", "morphological.lanes", "Pixels a clock of the morphological engine: 1, 2 or 4"}};
+    return {
+        {"--scene", "scene.source", "object (default), plane, quad, tunnel, road, cylinders"},
+        {"--in", "scene.source", "Mesh file instead of a scene: .obj, .gltf, .glb"},
+        {"--texture", "scene.texture", "checker, road, brick, zone_plate, ..., or an image file"},
+        {"--size", "scene.width", "Size of the picture, WxH", "scene.height"},
+        {"--mode", "sampler.mode", "Minification filter, one of GL's six"},
+        {"--aniso", "sampler.anisotropy", "Largest number of samples: 1, 2, 4, 8, 16"},
+        {"--preset", "morphological.preset", "mlaa, mlaa-slope, deburr"},
+        {"--lanes", "morphological.lanes",
+         "Pixels a clock of the morphological engine: 1, 2 or 4"}};
   }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
     golden::morphological::check_parameters(morphological_);
     if (sampler_.format == spec::Format::kSrgb8A8)
-      throw spec::ConfigError("sampler.format: the frame buffer keeps codes; srgb8_a8 delivers linear light");
+      throw spec::ConfigError(
+          "sampler.format: the frame buffer keeps codes; srgb8_a8 delivers linear light");
     const TextureScene scene(scene_, sampler_, static_cast<std::uint32_t>(run.seed));
     for (const auto& input : scene.inputs()) context.add_input(input);
-    context.set_title("Frame: " + std::filesystem::path(scene_.source).filename().string(),
-                      fmt::format("{} x {} pixels, {} fragments; texture unit, frame buffer and morphological "
-                                  "engine ({}) on one clock, overlapped row by row",
-                                  scene.stream().width, scene.stream().height, scene.stream().counts.fragments,
-                                  spec::kMorphologicalPresetNames[static_cast<std::size_t>(morphological_.preset)]));
+    context.set_title(
+        "Frame: " + std::filesystem::path(scene_.source).filename().string(),
+        fmt::format(
+            "{} x {} pixels, {} fragments; texture unit, frame buffer and morphological "
+            "engine ({}) on one clock, overlapped row by row",
+            scene.stream().width, scene.stream().height, scene.stream().counts.fragments,
+            spec::kMorphologicalPresetNames[static_cast<std::size_t>(morphological_.preset)]));
     context.set_bottleneck("texture_filter");
     FrameBench bench(scene, options(run, context));
     try {
@@ -119,13 +124,18 @@ class FrameCommand final : public Engine {
                     const FrameBench& bench, Result& result) const {
     const Image& before = bench.textured();
     const Image& after = bench.smoothed();
-    context.add_image("before", before, "Textured", "what the texture unit left in the frame buffer");
-    context.add_image("after", after, "Smoothed", "the pixels that the morphological engine delivered");
-    context.add_image("difference", difference(after, before, 4), "Difference", "smoothed against textured, 4 times");
-    context.add_image("edges", edge_picture(before, bench.taps()), "Edges", "left edges red, top edges green");
-    context.add_image("weights", weight_picture(after.width, after.height, bench.taps()), "Weights",
-                      "share of the upper or left neighbour red, of the lower or right one green, blue where "
-                      "the two are left and right");
+    context.add_image("before", before, "Textured",
+                      "what the texture unit left in the frame buffer");
+    context.add_image("after", after, "Smoothed",
+                      "the pixels that the morphological engine delivered");
+    context.add_image("difference", difference(after, before, 4), "Difference",
+                      "smoothed against textured, 4 times");
+    context.add_image("edges", edge_picture(before, bench.taps()), "Edges",
+                      "left edges red, top edges green");
+    context.add_image(
+        "weights", weight_picture(after.width, after.height, bench.taps()), "Weights",
+        "share of the upper or left neighbour red, of the lower or right one green, blue where "
+        "the two are left and right");
     if (run.check == CheckMode::kGolden) {
       Image expected(after.width, after.height);
       expected.pixels = bench.golden().pixels();
@@ -150,8 +160,10 @@ class FrameCommand final : public Engine {
     };
     add("psnr_before_db", psnr(before, truth), "PSNR of the textured frame.");
     add("psnr_edge_before_db", psnr(before, truth, edges), "The same over edge pixels.");
-    add("psnr_silhouette_before_db", psnr(before, truth, silhouettes), "The same over silhouettes.");
-    context.add_image("truth", truth, "Truth", fmt::format("{} samples a pixel", kTruthSamples * kTruthSamples));
+    add("psnr_silhouette_before_db", psnr(before, truth, silhouettes),
+        "The same over silhouettes.");
+    context.add_image("truth", truth, "Truth",
+                      fmt::format("{} samples a pixel", kTruthSamples * kTruthSamples));
   }
 
   SceneParameters scene_;

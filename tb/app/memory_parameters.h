@@ -36,8 +36,8 @@ void describe(MemoryParameters& p, Visitor& v) {
             "Bytes from error_address that answer with an error.");
 }
 
-inline MemoryModelParameters memory_model_parameters(const MemoryParameters& p,
-                                                     std::uint64_t bytes, std::uint64_t seed) {
+inline MemoryModelParameters memory_model_parameters(const MemoryParameters& p, std::uint64_t bytes,
+                                                     std::uint64_t seed) {
   constexpr std::uint64_t kSmallest = 64;
   MemoryModelParameters m;
   m.bytes = std::max(bytes, kSmallest);

@@ -37,12 +37,14 @@ constexpr std::array kFaults = {
     MorphologicalFault{"drop-pixel", "Drops output beat 100."},
     MorphologicalFault{"duplicate-pixel", "Delivers output beat 100 twice."},
     MorphologicalFault{"drop-input", "Drops input beat 50 on its way into the engine."},
-    MorphologicalFault{"wrong-edge", "Flips the left edge of a pixel in row 1, behind the edge detector."},
+    MorphologicalFault{"wrong-edge",
+                       "Flips the left edge of a pixel in row 1, behind the edge detector."},
     MorphologicalFault{"wrong-rule", "The engine tries one step less than was ordered."},
     MorphologicalFault{"stuck-ready", "Holds back the slots of the luma unit from cycle 500 on."},
     MorphologicalFault{"duplicate-fetch", "Sends memory request 20 twice (storage = memory)."},
     MorphologicalFault{"lost-response", "Memory never answers request 20 (storage = memory)."},
-    MorphologicalFault{"memory-error", "Memory answers request 20 with an error (storage = memory)."}};
+    MorphologicalFault{"memory-error",
+                       "Memory answers request 20 with an error (storage = memory)."}};
 
 bool planted(const MorphologicalBenchOptions& options, std::string_view fault) {
   return std::find(options.faults.begin(), options.faults.end(), fault) != options.faults.end();
@@ -79,14 +81,14 @@ std::vector<std::string> link_faults(const MorphologicalBenchOptions& options, i
           "no fault '{}': known are{}, and LINK faults such as drop:blended:100", name, known));
     }
     if (!memory && found->meaning.find("storage = memory") != std::string_view::npos)
-      throw spec::ConfigError(
-          fmt::format("fault '{}' needs morphological.storage = memory", name));
+      throw spec::ConfigError(fmt::format("fault '{}' needs morphological.storage = memory", name));
     if (name == "flip-bit") faults.emplace_back("flip:blended:100:4");
     if (name == "drop-pixel") faults.emplace_back("drop:blended:100");
     if (name == "duplicate-pixel") faults.emplace_back("duplicate:blended:100");
     if (name == "drop-input") faults.emplace_back("drop:pixels:50");
     if (name == "wrong-edge")
-      faults.push_back(fmt::format("flip:morphological.edge_bits:{}:{}", 2 * row + row / 2, kLeftEdgeBit));
+      faults.push_back(
+          fmt::format("flip:morphological.edge_bits:{}:{}", 2 * row + row / 2, kLeftEdgeBit));
     if (name == "stuck-ready") faults.emplace_back("stuck_ready:morphological.slots:500");
     if (name == "duplicate-fetch")
       faults.push_back(fmt::format("duplicate:morphological.requests:{}", kFaultyRequest));
@@ -146,9 +148,7 @@ std::string describe_line(const spec::LineRecord& l) {
 }
 
 // Any order that both sides can be brought into.
-auto order_of(const spec::RunRecord& r) {
-  return std::tuple(r.axis, r.line, r.start, r.part);
-}
+auto order_of(const spec::RunRecord& r) { return std::tuple(r.axis, r.line, r.start, r.part); }
 
 double ratio(double a, double b) { return b > 0 ? a / b : 0.0; }
 double number(std::uint64_t value) { return static_cast<double>(value); }
@@ -194,14 +194,16 @@ void collect_morphological(rtl::morphological::MorphologicalEngine& engine, int 
   add("sram_bits_at_frame_width", at_width, "bit",
       "All memories together if line_pixels were the width of this frame.");
   for (const auto* divider : {&engine.divider_h, &engine.divider_v}) {
-    const double clocks = number(divider->busy_cycles() + divider->idle_cycles() + divider->stalled_cycles());
+    const double clocks =
+        number(divider->busy_cycles() + divider->idle_cycles() + divider->stalled_cycles());
     const double lanes = lanes_of(engine.parameters());
     add(name_within(engine, *divider) + "_occupancy_percent",
         100 * ratio(number(divider->occupancy.value()), lanes * clocks), "%",
         "Clocks that the dividers of this axis were taken, of all clocks and lanes.");
   }
   for (const rtl::Counter* counter : engine.counters())
-    add(name_within(engine, *counter), counter->value(), counter->unit(), sentence(counter->meaning()));
+    add(name_within(engine, *counter), counter->value(), counter->unit(),
+        sentence(counter->meaning()));
 }
 
 // ---- building -----------------------------------------------------------------------------------
@@ -222,13 +224,15 @@ MorphologicalBench::MorphologicalBench(std::span<const MorphologicalInput> frame
       line_board_("lines", 0, describe_line),
       traffic_board_("memory lines", 0,
                      [](const spec::FrameAccess& a) {
-                       return fmt::format("{} of address {:#x}", a.write ? "write" : "read", a.address);
+                       return fmt::format("{} of address {:#x}", a.write ? "write" : "read",
+                                          a.address);
                      }),
       register_board_("status registers", 0, [](const Status& s) {
         return fmt::format("{} = {}", register_name(s.offset), s.value);
       }) {
   for (const MorphologicalInput& frame : frames)
-    golden::morphological::check_frame(options.morphological, frame.image.width, frame.image.height);
+    golden::morphological::check_frame(options.morphological, frame.image.width,
+                                       frame.image.height);
   const std::vector<std::string> faults =
       link_faults(options, frames.empty() ? 1 : frames.front().image.width);
   source_.pixels_out(pixels_link_);
@@ -346,7 +350,8 @@ void MorphologicalBench::run(const Progress& progress) {
   if (const std::uint32_t errors = read_register(reg::kMemoryErrors); errors != 0)
     throw spec::SimulationError(
         fmt::format("memory answered {} lines with an error, which read as zero: look at "
-                    "memory.error_address and at PIXEL_BASE", errors));
+                    "memory.error_address and at PIXEL_BASE",
+                    errors));
 }
 
 void MorphologicalBench::expect(const MorphologicalInput& frame) {
@@ -392,13 +397,15 @@ void MorphologicalBench::run_frame(const MorphologicalInput& frame, bool reset_w
   const auto begin = std::chrono::steady_clock::now();
   const std::clock_t cpu_begin = std::clock();
   const auto stop_clock = [&] {
-    host_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    host_seconds_ +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     cpu_seconds_ += static_cast<double>(std::clock() - cpu_begin) / CLOCKS_PER_SEC;
     cycles_ = before + clock_.cycle() - started_;
     running_ = false;
   };
   try {
-    if (limit <= cycles_) throw spec::DeadlockError(fmt::format("not done after {} cycles", cycles_));
+    if (limit <= cycles_)
+      throw spec::DeadlockError(fmt::format("not done after {} cycles", cycles_));
     bench_->run(done, limit - cycles_, false);
     if (reset_due && clock_.cycle() >= reset_at) {
       reset_due = false;
@@ -439,13 +446,13 @@ void MorphologicalBench::judge(rtl::Cycle cycle, const spec::BlendedBeat& beat) 
   const auto width = static_cast<std::size_t>(frame_.width);
   const std::size_t x = position_ % width;
   const std::size_t left = position_ < frame_.pixels.size() ? width - x : 0;
-  const bool framed = beat.count == std::min<std::size_t>(left, static_cast<std::size_t>(lanes())) &&
-                      beat.start_of_frame == (position_ == 0) &&
-                      beat.end_of_row == (beat.count == left);
+  const bool framed =
+      beat.count == std::min<std::size_t>(left, static_cast<std::size_t>(lanes())) &&
+      beat.start_of_frame == (position_ == 0) && beat.end_of_row == (beat.count == left);
   if (options_.golden && !framed)
     pixel_board_.complain(fmt::format(
-        "cycle {}: pixel ({}, {}): the beat has {} pixels, start of frame {}, end of row {}", cycle, x,
-        position_ / width, beat.count, beat.start_of_frame, beat.end_of_row));
+        "cycle {}: pixel ({}, {}): the beat has {} pixels, start of frame {}, end of row {}", cycle,
+        x, position_ / width, beat.count, beat.start_of_frame, beat.end_of_row));
   for (std::size_t i = 0; i < std::min<std::size_t>(beat.count, spec::kMaxLanes); ++i) {
     const spec::Rgba8& p = beat.pixel[i];
     const spec::BlendTap& t = beat.tap[i];
@@ -579,12 +586,13 @@ void MorphologicalBench::collect(Result& result) const {
   }
 
   const rtl::Histogram& latency = engine.beat_latency;
-  result.latency = {latency.min(), latency.percentile(50), latency.percentile(95),
-                    latency.percentile(99), latency.max(), {}};
+  result.latency = {latency.min(),          latency.percentile(50), latency.percentile(95),
+                    latency.percentile(99), latency.max(),          {}};
   std::uint64_t next = 0;
   for (const rtl::Histogram::Bin& bin : latency.bins(kLatencyBins)) {
     const std::uint64_t width = bin.high - bin.low + 1;
-    for (; next != 0 && next < bin.low; next += width) result.latency.histogram.push_back({next, 0});
+    for (; next != 0 && next < bin.low; next += width)
+      result.latency.histogram.push_back({next, 0});
     result.latency.histogram.push_back({bin.low, bin.count});
     next = bin.high + 1;
   }
@@ -607,9 +615,10 @@ void MorphologicalBench::collect(Result& result) const {
   add("latency_by_formula", latency_by_formula(p, width), "clk",
       "From a pixel going in to it coming out if nothing stalls: (R + 5) rows and 6 clocks.");
   add("input_pixels_per_clock",
-      source_.done() ? ratio(number(static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height)),
-                             number(input_clocks()))
-                     : 0.0,
+      source_.done()
+          ? ratio(number(static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height)),
+                  number(input_clocks()))
+          : 0.0,
       "pixel/clk", "Pixels of the last frame over clocks from its first to its last input beat.");
   add("edge_pixels_percent", 100 * ratio(number(work.edge_pixels), number(work.pixels)), "%",
       "Pixels with a left or a top edge.");

@@ -42,28 +42,32 @@ class MorphologicalCommand final : public Engine {
   void resolve(const ParameterSet& set) override { apply_preset(set, parameters_); }
 
   std::vector<Shorthand> shorthands() const override {
-    return {{"--in", "frame.source", "Image file of any format that OpenImageIO reads, or a mesh file"},
-            {"--scene", "frame.source", "Scene instead of a file: cylinders (default), road, ..."},
-            {"--truth", "frame.truth", "Anti-aliased picture to judge by"},
-            {"--depth", "frame.depth", "Depth of the image: silhouettes are judged too"},
-            {"--size", "frame.width", "Size of a rendered scene, WxH", "frame.height"},
-            {"--preset", "morphological.preset", "mlaa, mlaa-slope, deburr"},
-            {"--lanes", "morphological.lanes", "Pixels a clock: 1, 2 or 4"},
-            {"--storage", "morphological.storage", "line_buffers or memory"}};
+    return {
+        {"--in", "frame.source", "Image file of any format that OpenImageIO reads, or a mesh file"},
+        {"--scene", "frame.source", "Scene instead of a file: cylinders (default), road, ..."},
+        {"--truth", "frame.truth", "Anti-aliased picture to judge by"},
+        {"--depth", "frame.depth", "Depth of the image: silhouettes are judged too"},
+        {"--size", "frame.width", "Size of a rendered scene, WxH", "frame.height"},
+        {"--preset", "morphological.preset", "mlaa, mlaa-slope, deburr"},
+        {"--lanes", "morphological.lanes", "Pixels a clock: 1, 2 or 4"},
+        {"--storage", "morphological.storage", "line_buffers or memory"}};
   }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
     golden::morphological::check_parameters(parameters_);
     const LoadedFrame loaded = load_frame(frame_, static_cast<std::uint32_t>(run.seed));
     if (run.truth && !loaded.truth)
-      throw spec::ConfigError("run.truth: this image comes without a truth; name one with --truth FILE");
+      throw spec::ConfigError(
+          "run.truth: this image comes without a truth; name one with --truth FILE");
     const Image& before = loaded.input.image;
     golden::morphological::check_frame(parameters_, before.width, before.height);
     for (const auto& input : loaded.inputs) context.add_input(input);
-    context.set_title("Morphological engine: " + std::filesystem::path(frame_.source).filename().string(),
-                      summary_line(loaded));
+    context.set_title(
+        "Morphological engine: " + std::filesystem::path(frame_.source).filename().string(),
+        summary_line(loaded));
     context.set_bottleneck("luma");
-    const std::vector<MorphologicalInput> frames(static_cast<std::size_t>(frame_.count), loaded.input);
+    const std::vector<MorphologicalInput> frames(static_cast<std::size_t>(frame_.count),
+                                                 loaded.input);
     MorphologicalBench bench(frames, options(run, context));
     try {
       Progress progress("morphological", frames.size() * before.pixels.size(), "pixel");
@@ -120,7 +124,8 @@ class MorphologicalCommand final : public Engine {
         name_of(p.local_contrast, spec::kLocalContrastNames),
         name_of(p.predictor, spec::kPredictorNames), p.steps, p.contiguous ? ", contiguous" : "",
         p.safe ? ", safe" : "", p.linear_light ? "linear" : "stored",
-        name_of(p.lanes, spec::kLanesNames), p.window_rows, name_of(p.storage, spec::kStorageNames));
+        name_of(p.lanes, spec::kLanesNames), p.window_rows,
+        name_of(p.storage, spec::kStorageNames));
     for (const std::string& conversion : loaded.conversions) text += "; " + conversion;
     return text;
   }
@@ -142,7 +147,8 @@ class MorphologicalCommand final : public Engine {
                       "after against before, 4 times");
     context.add_image("edges", edge_picture(before, bench.taps()), "Edges",
                       "left edges red, top edges green");
-    context.add_image("weights", weight_picture(before.width, before.height, bench.taps()), "Weights",
+    context.add_image("weights", weight_picture(before.width, before.height, bench.taps()),
+                      "Weights",
                       "share of the upper or left neighbour red, of the lower or right one green, "
                       "blue where the two are left and right");
     if (run.check == CheckMode::kGolden && bench.golden().pixels().size() == after.pixels.size()) {
@@ -186,7 +192,8 @@ std::unique_ptr<Engine> make_morphological_engine() {
 }
 
 void apply_preset(const ParameterSet& set, spec::MorphologicalParameters& values) {
-  const spec::MorphologicalParameters rules = golden::morphological::preset_parameters(values.preset);
+  const spec::MorphologicalParameters rules =
+      golden::morphological::preset_parameters(values.preset);
   const auto take = [&](std::string_view name, auto member) {
     if (!set.given(fmt::format("morphological.{}", name))) values.*member = rules.*member;
   };

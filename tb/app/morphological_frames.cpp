@@ -25,14 +25,15 @@ bool is_scene(const std::string& source) {
 // floor(full v + 1/2) of v clamped to 0..1, NaN as 0.
 std::uint32_t scaled(float value, double full) {
   if (!(value > 0.0f)) return 0;
-  return static_cast<std::uint32_t>(std::floor(full * std::min(1.0, static_cast<double>(value)) + 0.5));
+  return static_cast<std::uint32_t>(
+      std::floor(full * std::min(1.0, static_cast<double>(value)) + 0.5));
 }
 
 void require_size(const char* what, const std::string& file, int width, int height,
                   const Image& image) {
   if (width != image.width || height != image.height)
-    throw spec::ConfigError(fmt::format("{} '{}' has {} x {} pixels, the frame has {} x {}", what, file,
-                                        width, height, image.width, image.height));
+    throw spec::ConfigError(fmt::format("{} '{}' has {} x {} pixels, the frame has {} x {}", what,
+                                        file, width, height, image.width, image.height));
 }
 
 LoadedFrame rendered(const FrameParameters& p, std::uint32_t seed) {
@@ -81,13 +82,15 @@ LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed) {
   LoadedFrame frame;
   if (is_scene(p.source)) {
     if (!p.truth.empty() || !p.depth.empty())
-      throw spec::ConfigError("frame.truth and frame.depth go with an image file; a scene has its own");
+      throw spec::ConfigError(
+          "frame.truth and frame.depth go with an image file; a scene has its own");
     frame = rendered(p, seed);
   } else {
     if (std::filesystem::path(p.source).extension().empty() && !std::filesystem::exists(p.source)) {
       std::string known;
       for (const SceneName& scene : scene_names()) known += fmt::format(" {}", scene.name);
-      throw spec::ConfigError(fmt::format("no scene and no file '{}': scenes are{}", p.source, known));
+      throw spec::ConfigError(
+          fmt::format("no scene and no file '{}': scenes are{}", p.source, known));
     }
     frame.input.image = read_codes(p.source, &frame.conversions);
     frame.inputs.emplace_back(p.source);

@@ -53,7 +53,8 @@ struct LoadedFrame {
 LoadedFrame load_frame(const FrameParameters& parameters, std::uint32_t seed);
 
 // An image file as codes; float samples as they are stored, without a transfer curve.
-Image read_codes(const std::filesystem::path& file, std::vector<std::string>* conversions = nullptr);
+Image read_codes(const std::filesystem::path& file,
+                 std::vector<std::string>* conversions = nullptr);
 // U24 of every pixel.
 std::vector<std::uint32_t> depth_codes(const DepthImage& depth);
 

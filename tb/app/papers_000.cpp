@@ -105,9 +105,11 @@ PaperTable theorem(const PaperOptions& options) {
     impossible += twice[0] && twice[1];
   }
   PaperTable table{"Theorem 1: the lengths of a line's steps differ by at most 1",
-                   "Complete runs of random digital lines of slopes 1 to 1/40. The printed proof does not hold; from "
+                   "Complete runs of random digital lines of slopes 1 to 1/40. The printed proof "
+                   "does not hold; from "
                    "L2 >= L1 + 2 follows k < 1/(L2 - 1) <= 1/(L1 + 1) < k, a contradiction.",
-                   {"item", "paper", "ours", "verdict"}, {}};
+                   {"item", "paper", "ours", "verdict"},
+                   {}};
   table.rows = {
       {fmt::format("lines with lengths that differ by more, of {} ({} runs)", pairs, runs), "0",
        fmt::format("{}", violations), violations == 0 ? "right" : "wrong"},
@@ -167,10 +169,12 @@ Search search(const DigitalLine& line, std::size_t at, int loops, bool literal) 
 
 PaperTable third_branch(const PaperOptions& options) {
   PaperTable table{"Pseudo-code: the third branch",
-                   "Printed: x = x + 1, L' = L + 1. Right: x = x + L + 1. Runs of random digital lines, N = 4, the right "
+                   "Printed: x = x + 1, L' = L + 1. Right: x = x + L + 1. Runs of random digital "
+                   "lines, N = 4, the right "
                    "side; the slope is that of the chord from the run's start.",
-                   {"third branch", "sides", "take it, %", "end beside a corner, %", "steps taken", "slope error, RMS %",
-                    "verdict"}, {}};
+                   {"third branch", "sides", "take it, %", "end beside a corner, %", "steps taken",
+                    "slope error, RMS %", "verdict"},
+                   {}};
   const int lines = options.quick ? 2000 : 20000;
   std::array<double, 2> errors{};
   for (const bool literal : {false, true}) {
@@ -186,7 +190,8 @@ PaperTable third_branch(const PaperOptions& options) {
         ++sides;
         for (int k = 0; k < right.steps; ++k)
           if (line.steps[at + 2 + static_cast<std::size_t>(k)] -
-                  line.steps[at + 1 + static_cast<std::size_t>(k)] == length + 1) {
+                  line.steps[at + 1 + static_cast<std::size_t>(k)] ==
+              length + 1) {
             ++taken;
             break;
           }
@@ -203,7 +208,9 @@ PaperTable third_branch(const PaperOptions& options) {
                           decimals(100 * static_cast<double>(taken) / n, 1),
                           decimals(100 * static_cast<double>(beside) / n, 1),
                           decimals(static_cast<double>(steps) / n, 2), decimals(error, 2),
-                          !literal ? "built" : errors[1] > errors[0] ? "misprint" : "harmless"});
+                          !literal                ? "built"
+                          : errors[1] > errors[0] ? "misprint"
+                                                  : "harmless"});
   }
   return table;
 }
@@ -211,9 +218,11 @@ PaperTable third_branch(const PaperOptions& options) {
 PaperTable complexity(const PaperOptions& options) {
   PaperTable table{"Complexity: at most N + 2 samples a side, against L N / 2 of a walk",
                    "A sample shows two neighbouring pixels. Sides of runs of random digital lines.",
-                   {"N", "L", "sides", "N + 2", "samples, mean", "samples, most", "tests one by one, most", "walk, mean",
-                    "verdict"}, {}};
-  constexpr std::array<std::pair<int, int>, 5> kClasses = {{{1, 2}, {3, 5}, {6, 10}, {11, 20}, {21, 40}}};
+                   {"N", "L", "sides", "N + 2", "samples, mean", "samples, most",
+                    "tests one by one, most", "walk, mean", "verdict"},
+                   {}};
+  constexpr std::array<std::pair<int, int>, 5> kClasses = {
+      {{1, 2}, {3, 5}, {6, 10}, {11, 20}, {21, 40}}};
   const int lines = options.quick ? 2000 : 20000;
   for (const int loops : {1, 2, 4, 8}) {
     struct Sums {
@@ -244,9 +253,9 @@ PaperTable complexity(const PaperOptions& options) {
       table.rows.push_back({fmt::format("{}", loops),
                             fmt::format("{}-{}", kClasses[c].first, kClasses[c].second),
                             fmt::format("{}", sum.sides), fmt::format("{}", loops + 2),
-                            decimals(static_cast<double>(sum.fetches) / n, 2), fmt::format("{}", sum.most),
-                            fmt::format("{}", sum.tests), decimals(sum.walk / n, 2),
-                            sum.most <= loops + 2 ? "right" : "wrong"});
+                            decimals(static_cast<double>(sum.fetches) / n, 2),
+                            fmt::format("{}", sum.most), fmt::format("{}", sum.tests),
+                            decimals(sum.walk / n, 2), sum.most <= loops + 2 ? "right" : "wrong"});
     }
   }
   return table;
@@ -270,12 +279,15 @@ PaperTable quality(const PaperOptions& options, double low, double high, bool li
   if (options.quick) fan.lines = 8, fan.seeds = 1;
   PaperTable table{
       fmt::format("RMSE × 1000 to analytic coverage, slopes 1/(n + u), u in [{}, {}]", low, high),
-      fmt::format("{} lines for each n and seed, {} seeds. The paper prints no figures: it shows less undulation than MLAA "
-                  "(undulation: RMS of a column's error; jump: RMS of its change from column to column; n = 2..20). Chord is "
-                  "the paper's line, fit is ours. Against MLAA: smoother means less undulation, steadier less jump.{}",
-                  fan.lines, fan.seeds,
-                  limits ? " Contract: no figure above the asked one." : ""),
-      {"line"}, {}};
+      fmt::format("{} lines for each n and seed, {} seeds. The paper prints no figures: it shows "
+                  "less undulation than MLAA "
+                  "(undulation: RMS of a column's error; jump: RMS of its change from column to "
+                  "column; n = 2..20). Chord is "
+                  "the paper's line, fit is ours. Against MLAA: smoother means less undulation, "
+                  "steadier less jump.{}",
+                  fan.lines, fan.seeds, limits ? " Contract: no figure above the asked one." : ""),
+      {"line"},
+      {}};
   for (const std::string_view name : morphological::kSlopeClasses)
     table.columns.push_back(fmt::format("n = {}", name));
   for (const char* name : {"undulation", "jump", "against mlaa", "contract", "verdict"})
@@ -291,15 +303,20 @@ PaperTable quality(const PaperOptions& options, double low, double high, bool li
     cells.push_back(decimals(figures.undulation, 1));
     cells.push_back(decimals(figures.jump, 1));
     const bool compared = r > 2;  // not none, not mlaa, not mlaa again
-    cells.push_back(!compared ? "-"
-                              : fmt::format("{}, {}", figures.undulation < mlaa.undulation ? "smoother" : "rougher",
-                                            figures.jump < mlaa.jump ? "steadier" : "less steady"));
+    cells.push_back(!compared
+                        ? "-"
+                        : fmt::format("{}, {}",
+                                      figures.undulation < mlaa.undulation ? "smoother" : "rougher",
+                                      figures.jump < mlaa.jump ? "steadier" : "less steady"));
     const auto& asked = morphological::fan_limits();
-    const auto limit = std::find_if(asked.begin(), asked.end(),
-                                    [&](const morphological::FanLimit& l) { return l.name == rows[r].name; });
+    const auto limit =
+        std::find_if(asked.begin(), asked.end(),
+                     [&](const morphological::FanLimit& l) { return l.name == rows[r].name; });
     const bool judged = limits && limit != asked.end();
     const auto complaints = judged ? exceeded(*limit, figures) : std::vector<std::string>{};
-    cells.push_back(!judged ? "-" : complaints.empty() ? "kept" : fmt::format("{} figures above", complaints.size()));
+    cells.push_back(!judged              ? "-"
+                    : complaints.empty() ? "kept"
+                                         : fmt::format("{} figures above", complaints.size()));
     cells.emplace_back(judged     ? complaints.empty() ? "right" : "worse"
                        : compared ? figures.undulation < mlaa.undulation ? "right" : "wrong"
                                   : "reference");
@@ -326,10 +343,14 @@ struct Method {
 std::vector<Method> methods(const Scene& scene, const Image& noaa, bool with_msaa) {
   std::vector<Method> all = {{"none", "no anti-aliasing", noaa}};
   if (with_msaa)
-    all.push_back({"MSAA 4x", "four samples on the rotated grid", render_msaa4(scene, noaa.width, noaa.height)});
-  all.push_back({"mlaa", "run ends", smoothed(noaa, preset_parameters(MorphologicalPreset::kMlaa))});
-  all.push_back({"mlaa-slope", "the paper, N = 4", smoothed(noaa, preset_parameters(MorphologicalPreset::kMlaaSlope))});
-  all.push_back({"deburr", "line fit, N = 8", smoothed(noaa, preset_parameters(MorphologicalPreset::kDeburr))});
+    all.push_back({"MSAA 4x", "four samples on the rotated grid",
+                   render_msaa4(scene, noaa.width, noaa.height)});
+  all.push_back(
+      {"mlaa", "run ends", smoothed(noaa, preset_parameters(MorphologicalPreset::kMlaa))});
+  all.push_back({"mlaa-slope", "the paper, N = 4",
+                 smoothed(noaa, preset_parameters(MorphologicalPreset::kMlaaSlope))});
+  all.push_back({"deburr", "line fit, N = 8",
+                 smoothed(noaa, preset_parameters(MorphologicalPreset::kDeburr))});
   return all;
 }
 
@@ -365,7 +386,8 @@ Image zooms(const std::vector<Method>& list, const Mask& edges) {
   const auto [dx, dy] = busiest(crop_mask(inner, x4, y4, wide / 4), wide / 8);
   std::vector<Image> cells;
   for (const Method& m : list) cells.push_back(crop(m.image, x1, y1, wide, wide));
-  for (const Method& m : list) cells.push_back(zoom(crop(m.image, x1 + x4, y1 + y4, wide / 4, wide / 4), 4));
+  for (const Method& m : list)
+    cells.push_back(zoom(crop(m.image, x1 + x4, y1 + y4, wide / 4, wide / 4), 4));
   for (const Method& m : list)
     cells.push_back(zoom(crop(m.image, x1 + x4 + dx, y1 + y4 + dy, wide / 8, wide / 8), 8));
   return sheet(cells, static_cast<int>(list.size()));
@@ -380,16 +402,20 @@ Compared rendered_scenes(const PaperOptions& options) {
   Compared compared;
   PaperTable& table = compared.table;
   table = {"Rendered frames against supersampled truth, PSNR in dB",
-           "Edge pixels: truth and frame differ by more than 2/255; silhouettes: with a depth step of 5 % to a neighbour. The "
-           "verdict of mlaa-slope says whether it is better than mlaa on edges, that of deburr whether it is best of the three.",
-           {"scene", "method", "frame", "edges", "silhouettes", "verdict"}, {}};
+           "Edge pixels: truth and frame differ by more than 2/255; silhouettes: with a depth step "
+           "of 5 % to a neighbour. The "
+           "verdict of mlaa-slope says whether it is better than mlaa on edges, that of deburr "
+           "whether it is best of the three.",
+           {"scene", "method", "frame", "edges", "silhouettes", "verdict"},
+           {}};
   struct Shown {
     const char* scene;
     const char* title;
   };
-  constexpr std::array<Shown, 3> kScenes = {{{"cylinders", "Figures 6 and 7: five cylinders of different slopes"},
-                                             {"object", "Figure 8: an object"},
-                                             {"road", "Figure 9: a wide scene"}}};
+  constexpr std::array<Shown, 3> kScenes = {
+      {{"cylinders", "Figures 6 and 7: five cylinders of different slopes"},
+       {"object", "Figure 8: an object"},
+       {"road", "Figure 9: a wide scene"}}};
   const int samples = options.quick ? 4 : 8;
   for (const Shown& shown : kScenes) {
     const Scene scene = make_scene(shown.scene);
@@ -406,7 +432,8 @@ Compared rendered_scenes(const PaperOptions& options) {
       if (i == n - 2) word = slope > mlaa ? "better" : "worse";
       if (i == n - 1) word = ours > std::max(mlaa, slope) ? "best" : "worse";
       table.rows.push_back({shown.scene, list[i].name, decimals(psnr(list[i].image, lit.truth), 2),
-                            decimals(on_edges[i], 2), decimals(psnr(list[i].image, lit.truth, silhouettes), 2), word});
+                            decimals(on_edges[i], 2),
+                            decimals(psnr(list[i].image, lit.truth, silhouettes), 2), word});
     }
     PaperFigure figure{shown.title, "", {}};
     for (const Method& m : list) {
@@ -414,8 +441,10 @@ Compared rendered_scenes(const PaperOptions& options) {
       std::replace(file.begin(), file.end(), ' ', '_');
       figure.images.push_back({file, m.name, m.caption, m.image, false});
     }
-    figure.images.push_back({fmt::format("{}_zooms", shown.scene), "Zooms",
-                             "columns: none, MSAA 4x, mlaa, mlaa-slope, deburr; rows: 1 x, 4 x, 8 x", zooms(list, edges), true});
+    figure.images.push_back(
+        {fmt::format("{}_zooms", shown.scene), "Zooms",
+         "columns: none, MSAA 4x, mlaa, mlaa-slope, deburr; rows: 1 x, 4 x, 8 x",
+         zooms(list, edges), true});
     compared.figures.push_back(figure);
   }
   return compared;
@@ -423,10 +452,13 @@ Compared rendered_scenes(const PaperOptions& options) {
 
 PaperTable cost_of_a_loop(const PaperOptions& options) {
   PaperTable table{"Cost of one more loop",
-                   "Paper: 0.07 ms on a GTX 560 Ti, size of the frame not given. Ours: clocks of all predictors of both axes "
-                   "for the frame of five cylinders, at 148.5 MHz; they run beside the raster, so that the frame takes no "
+                   "Paper: 0.07 ms on a GTX 560 Ti, size of the frame not given. Ours: clocks of "
+                   "all predictors of both axes "
+                   "for the frame of five cylinders, at 148.5 MHz; they run beside the raster, so "
+                   "that the frame takes no "
                    "clock longer. `most` is a frame of noise.",
-                   {"N", "trials, cylinders", "one more loop, ms", "trials, most", "one more loop, ms, most", "frame, ms", "verdict"},
+                   {"N", "trials, cylinders", "one more loop, ms", "trials, most",
+                    "one more loop, ms, most", "frame, ms", "verdict"},
                    {}};
   const int side = options.size;
   RenderOptions render_options;
@@ -454,8 +486,9 @@ PaperTable cost_of_a_loop(const PaperOptions& options) {
   for (int loops = 1; loops <= 8; ++loops) {
     const double now = trials(frame, loops), most = trials(noisy, loops);
     const double more = (now - before) / kClocksAMs, more_most = (most - before_most) / kClocksAMs;
-    table.rows.push_back({fmt::format("{}", loops), decimals(now, 0), decimals(more, 4), decimals(most, 0),
-                          decimals(more_most, 4), decimals(frame_ms, 3), more < 0.07 ? "less" : "more"});
+    table.rows.push_back({fmt::format("{}", loops), decimals(now, 0), decimals(more, 4),
+                          decimals(most, 0), decimals(more_most, 4), decimals(frame_ms, 3),
+                          more < 0.07 ? "less" : "more"});
     before = now;
     before_most = most;
   }
@@ -468,7 +501,9 @@ Paper paper_000(const PaperOptions& options) {
   Paper paper;
   paper.id = "000";
   paper.title = "Slope-based straight line predicting morphological antialiasing";
-  paper.source = "Zhong Yu-Chen and Wang Rui, Journal of Software 23, Suppl. 2, 2012 (001 is a second scan of it)";
+  paper.source =
+      "Zhong Yu-Chen and Wang Rui, Journal of Software 23, Suppl. 2, 2012 (001 is a second scan of "
+      "it)";
   paper.tables.push_back(theorem(options));
   paper.tables.push_back(third_branch(options));
   paper.tables.push_back(complexity(options));
