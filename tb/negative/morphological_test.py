@@ -196,6 +196,10 @@ class Faults(Base):
     def test_stuck_ready(self):
         self.fault("stuck-ready", 4, "morphological.slots", *self.CHECKED)
 
+    def test_duplicated_request(self):
+        self.fault("duplicate-fetch", 1, "memory lines", *self.UNCHECKED, *self.MEMORY)
+        self.fault("duplicate-fetch", 3, "appeared", *self.CHECKED, *self.MEMORY)
+
     def test_lost_response(self):
         self.fault("lost-response", 4, "memory", *self.CHECKED, *self.MEMORY)
 
