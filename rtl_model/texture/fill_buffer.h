@@ -31,7 +31,7 @@ class FillBuffer final : public Storage {
         arrived_(entries, kNever) {}
 
   // --- Side of the MissQueue ---
-  bool can_reserve(Cycle cycle) const { return reserved_ - released(cycle) < entries_; }
+  bool can_reserve(Cycle cycle) const { return held(cycle) < entries_; }
   std::uint32_t reserve(Cycle cycle) {
     DEBURR_CHECK(can_reserve(cycle), std::string(name()) + ": no entry is free");
     const auto entry = static_cast<std::uint32_t>(reserved_ % entries_);
@@ -58,7 +58,8 @@ class FillBuffer final : public Storage {
 
   // Fills that have been used, as seen in `cycle`.
   std::uint64_t released(Cycle cycle) const { return released_ - (released_at_ == cycle); }
-  std::uint64_t occupancy() const { return reserved_ - released_; }
+  // Entries held by fills that had not been used before `cycle`.
+  std::uint64_t held(Cycle cycle) const { return reserved_ - released(cycle); }
   void reset() override {
     reserved_ = released_ = 0;
     released_at_ = kNever;

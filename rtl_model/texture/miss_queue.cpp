@@ -33,7 +33,7 @@ Activity MissQueue::tick(Cycle cycle) {
   const Activity issued = issue(cycle);  // before accept: what comes in now is sent no earlier than
   const bool accepted = accept(cycle);   // in the next clock
   if (received || accepted) return kBusy;
-  if (issued == kIdle && fills.occupancy() != 0) return wait_memory_;
+  if (issued == kIdle && fills.held(cycle) != 0) return wait_memory_;
   return issued;
 }
 

@@ -617,6 +617,19 @@ TEST(TextureRtlAddresser, WrapsByHand) {
   }
 }
 
+// Five texels: 6710887 x 5 is the first above 2 x 2^24, so the last bit of the complement counts.
+TEST(TextureRtlAddresser, MirrorIsTheExactComplement) {
+  AddresserBench b;
+  const auto d =
+      texture(5, 5, spec::Format::kL8, spec::Layout::kLinear, spec::Wrap::kMirroredRepeat);
+  for (const std::int64_t direct : {6710886, 6710887}) {
+    const std::uint32_t expected = direct == 6710886 ? 0x1001 : 0x1002;
+    EXPECT_EQ(b.address(d, direct, 0, false).address[0], expected);
+    EXPECT_EQ(b.address(d, 2ll * kOne - 1 - direct, 0, false).address[0], expected);
+    EXPECT_EQ(b.address(d, -1 - direct, 0, false).address[0], expected);
+  }
+}
+
 TEST(TextureRtlAddresser, LayoutsByHand) {
   AddresserBench b;
   using F = spec::Format;

@@ -142,6 +142,41 @@ TEST(TextureRtlCache, HitIsNotReadyAClockEarlier) {
   EXPECT_TRUE(b.ends.out.can_pop(pushed + 1 + kHit));
 }
 
+TEST(TextureRtlCache, OneByteAndTwoByteTexelsAnywhereInALine) {
+  CacheBench b;
+  for (const auto& [format, mask] :
+       {std::pair{spec::Format::kL8, 0xFFu}, std::pair{spec::Format::kRgb565, 0xFFFFu}}) {
+    const std::uint32_t step = format == spec::Format::kL8 ? 1 : 2;
+    // Cold and warm: from the fill and from the banks.
+    const std::uint32_t base = format == spec::Format::kL8 ? 0x1000 : 0x2000;
+    for (int twice = 0; twice < 2; ++twice)
+      for (std::uint32_t at = base; at < base + 128; at += 4 * step) {
+        TexelToken t = request({at, at + step, at + 2 * step, at + 3 * step});
+        t.control.format = static_cast<std::uint8_t>(format);
+        b.time_of(t);
+        for (std::size_t k = 0; k < 4; ++k) {
+          const std::uint32_t byte = t.address[k] & 3;
+          EXPECT_EQ(b.ends.sink.taken.back().token.texel[k],
+                    CacheBench::word(t.address[k] - byte) >> (8 * byte) & mask);
+        }
+      }
+  }
+}
+
+// What the miss queue does for one line: queue it, send it, take it; between, it waits.
+TEST(TextureRtlCache, MissQueueAccountsForItsClocks) {
+  CacheBench b;
+  b.time_of(in_line(0));
+  const MissQueue& queue = b.cache.miss_queue;
+  EXPECT_EQ(queue.busy_cycles(), 3u);
+  const auto stalls = queue.stalls();
+  ASSERT_EQ(stalls[2].name, "wait_memory");
+  // Sent by the port a clock later, back after the latency, handed over in two; then the entry is
+  // held until the data stage has used the line.
+  EXPECT_EQ(stalls[2].cycles, kMemoryLatency + 2u + 1);
+  EXPECT_EQ(stalls[1].cycles, 0u);
+}
+
 // Two requests for a line in flight are one fetch, and come out one clock apart.
 TEST(TextureRtlCache, SecondRequestForALineInFlightIsMerged) {
   CacheBench b;

@@ -389,6 +389,10 @@ Outcome run_once(UnitBench& b) {
   }
   o.fills = b.memory.lines_read();
   for (const rtl::Counter* counter : b.unit.counters()) o.counters.push_back(counter->value());
+  for (const rtl::Unit* unit : b.unit.units()) {
+    o.counters.push_back(unit->busy_cycles());
+    for (const auto& stall : unit->stalls()) o.counters.push_back(stall.cycles);
+  }
   return o;
 }
 
@@ -471,12 +475,16 @@ TEST(TextureRtlUnit, AccountsForItsMemories) {
   }
   EXPECT_EQ(data, 16384u * 8);
   EXPECT_EQ(names.size(), 8u);  // four banks, tags, fill buffer, missed lines, latency FIFO
-  // 128 sets x 2 ways x (19 tag + valid + age).
-  for (const rtl::Storage* storage : b.unit.memories())
-    if (std::string(storage->name()) == "unit.cache.tag_stage.tags") {
-      EXPECT_EQ(storage->bits(), 128u * 2 * 21);
-      EXPECT_EQ(storage->ports(), "4R4W");
-    }
+  const auto bits = [&](const std::string& name) -> std::uint64_t {
+    for (const rtl::Storage* storage : b.unit.memories())
+      if (storage->name() == "unit.cache." + name) return storage->bits();
+    return 0;
+  };
+  EXPECT_EQ(bits("tag_stage.tags"), 128u * 2 * (19 + 1 + 1));  // tag, valid, age
+  EXPECT_EQ(bits("miss_queue.lines"), b.unit.parameters().cache_outstanding * 26u);
+  EXPECT_EQ(bits("miss_queue.fill_buffer"), b.unit.parameters().cache_outstanding * 513u);
+  // Ticket 36, control 38, four times (place 14, source 3, slot 8), fills, banks, conflicts.
+  EXPECT_EQ(bits("latency_fifo.entries"), 160u * (36 + 38 + 4 * (14 + 3 + 8) + 3 + 4 + 2));
 }
 
 TEST(TextureRtlUnit, RefusesImpossibleParameters) {
