@@ -35,8 +35,8 @@ Outcome compare_results(const CompareOptions& options) {
   fmt::print("{:{}}  {:>{}}  {:>{}}\n", "", key_width, "A", a_width, "B", b_width);
   std::string worse;
   for (const ComparedValue& v : comparison.values) {
-    fmt::print("{:{}}  {:>{}}  {:>{}}  {}{}\n", v.key, key_width, v.a, a_width, v.b, b_width, v.change,
-               v.worse ? "  WORSE" : "");
+    fmt::print("{:{}}  {:>{}}  {:>{}}  {}{}\n", v.key, key_width, v.a, a_width, v.b, b_width,
+               v.change, v.worse ? "  WORSE" : "");
     if (v.worse) worse += (worse.empty() ? "" : ", ") + v.key;
   }
   if (comparison.worse)
@@ -55,25 +55,31 @@ Outcome rebuild_reports(const std::vector<std::string>& directories) {
 }  // namespace
 
 void add_compare(CLI::App& app, CommandLine& line) {
-  CLI::App* command = app.add_subcommand("compare", "Two results side by side; fails when B is worse than A");
+  CLI::App* command =
+      app.add_subcommand("compare", "Two results side by side; fails when B is worse than A");
   const auto options = std::make_shared<CompareOptions>();
   command->add_option("A", options->a, "Run directory or result.json to compare with")->required();
   command->add_option("B", options->b, "Run directory or result.json that is judged")->required();
-  command->add_option("--cycles-percent", options->tolerances.cycles_percent,
-                      "Cycles, latency and traffic may grow by this much")
-      ->capture_default_str()->check(CLI::NonNegativeNumber);
-  command->add_option("--throughput-percent", options->tolerances.throughput_percent,
-                      "Throughput may fall by this much")
-      ->capture_default_str()->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--cycles-percent", options->tolerances.cycles_percent,
+                   "Cycles, latency and traffic may grow by this much")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--throughput-percent", options->tolerances.throughput_percent,
+                   "Throughput may fall by this much")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--psnr-db", options->tolerances.psnr_db, "PSNR may fall by this much")
-      ->capture_default_str()->check(CLI::NonNegativeNumber);
-  command->callback([options, &line] {
-    line.action = [options] { return compare_results(*options); };
-  });
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command->callback(
+      [options, &line] { line.action = [options] { return compare_results(*options); }; });
 }
 
 void add_report(CLI::App& app, CommandLine& line) {
-  CLI::App* command = app.add_subcommand("report", "Rebuild report.html from result.json and manifest.json");
+  CLI::App* command =
+      app.add_subcommand("report", "Rebuild report.html from result.json and manifest.json");
   const auto directories = std::make_shared<std::vector<std::string>>();
   command->add_option("DIR", *directories, "Run directories")->required();
   command->callback([directories, &line] {

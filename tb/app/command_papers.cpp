@@ -29,7 +29,8 @@ Outcome run_papers(const PapersCommand& command) {
   for (const PaperEntry& entry : papers()) known.emplace_back(entry.id);
   for (const std::string& id : command.only)
     if (std::find(known.begin(), known.end(), id) == known.end())
-      throw spec::ConfigError(fmt::format("--only: no paper '{}' here: known are {}", id, fmt::join(known, ", ")));
+      throw spec::ConfigError(
+          fmt::format("--only: no paper '{}' here: known are {}", id, fmt::join(known, ", ")));
   prove_writable(command.out);
   std::vector<Paper> done;
   for (const PaperEntry& entry : papers()) {
@@ -47,17 +48,18 @@ Outcome run_papers(const PapersCommand& command) {
 }  // namespace
 
 void add_papers(CLI::App& app, CommandLine& line) {
-  CLI::App* command = app.add_subcommand("papers", "Reproduce the tables and figures of the papers");
+  CLI::App* command =
+      app.add_subcommand("papers", "Reproduce the tables and figures of the papers");
   const auto options = std::make_shared<PapersCommand>();
   command->add_option("--out", options->out, "Directory for index.html, papers.json and pictures")
       ->capture_default_str();
   command->add_option("--only", options->only, "Papers to reproduce, such as 004");
   command->add_option("--size", options->options.size, "Side of the pictures, pixel")
-      ->capture_default_str()->check(CLI::Range(64, 4096));
-  command->add_flag("--quick", options->options.quick, "Leave out what takes more than a few seconds");
-  command->callback([options, &line] {
-    line.action = [options] { return run_papers(*options); };
-  });
+      ->capture_default_str()
+      ->check(CLI::Range(64, 4096));
+  command->add_flag("--quick", options->options.quick,
+                    "Leave out what takes more than a few seconds");
+  command->callback([options, &line] { line.action = [options] { return run_papers(*options); }; });
 }
 
 }  // namespace deburr::tb

@@ -58,22 +58,27 @@ Outcome print_params(const ParamsCommand& command) {
     unit = std::max(unit, p.unit.size());
   }
   for (const Parameter& p : shown)
-    fmt::print("{:{}}  {:{}}  {:{}}  {:{}}  {}\n", p.name, name, p.default_value, value, p.range, range,
-               p.unit, unit, p.meaning);
+    fmt::print("{:{}}  {:{}}  {:{}}  {:{}}  {}\n", p.name, name, p.default_value, value, p.range,
+               range, p.unit, unit, p.meaning);
   return {};
 }
 
 }  // namespace
 
 void add_params(CLI::App& app, CommandLine& line) {
-  CLI::App* command = app.add_subcommand("params", "List every parameter: default, range, unit, meaning");
+  CLI::App* command =
+      app.add_subcommand("params", "List every parameter: default, range, unit, meaning");
   const auto options = std::make_shared<ParamsCommand>();
-  command->add_option("UNIT", options->unit, "Only these: run, scene, sampler, texture, memory, ...");
-  command->add_option("--markdown", options->markdown, "Print a page of the docs instead: parameters, statistics")
-      ->expected(0, 1)->default_str("parameters")->check(CLI::IsMember({"parameters", "statistics"}));
-  command->callback([options, &line] {
-    line.action = [options] { return print_params(*options); };
-  });
+  command->add_option("UNIT", options->unit,
+                      "Only these: run, scene, sampler, texture, memory, ...");
+  command
+      ->add_option("--markdown", options->markdown,
+                   "Print a page of the docs instead: parameters, statistics")
+      ->expected(0, 1)
+      ->default_str("parameters")
+      ->check(CLI::IsMember({"parameters", "statistics"}));
+  command->callback(
+      [options, &line] { line.action = [options] { return print_params(*options); }; });
 }
 
 }  // namespace deburr::tb

@@ -55,7 +55,8 @@ std::vector<Assignment> expand(const Shorthand& shorthand, const std::string& va
   if (!shorthand.second_parameter.empty()) {  // WxH
     const std::size_t cross = value.find('x');
     if (cross == std::string::npos)
-      throw ConfigError(fmt::format("{}: expected WIDTHxHEIGHT, got '{}'", shorthand.option, value));
+      throw ConfigError(
+          fmt::format("{}: expected WIDTHxHEIGHT, got '{}'", shorthand.option, value));
     return {{shorthand.parameter, value.substr(0, cross), shorthand.option},
             {shorthand.second_parameter, value.substr(cross + 1), shorthand.option}};
   }
@@ -76,8 +77,8 @@ void apply(const RunOptions& options, ParameterSet& set) {
   for (const Assignment& a : all) {
     const auto [first, inserted] = given.emplace(a.name, a);
     if (!inserted && first->second.value != a.value)
-      throw ConfigError(fmt::format("{}: '{}' = '{}' contradicts {} ('{}')", a.where, a.name, a.value,
-                                    first->second.where, first->second.value));
+      throw ConfigError(fmt::format("{}: '{}' = '{}' contradicts {} ('{}')", a.where, a.name,
+                                    a.value, first->second.where, first->second.value));
     set.set(a.name, a.value, a.where);
   }
 }
@@ -92,9 +93,11 @@ std::string summary_of(const Result& r, const std::filesystem::path& directory) 
   return text + fmt::format(", {}", (directory / "report.html").string());
 }
 
-// A failed check names its file as the compiler saw it; users know it from the root of the repository.
+// A failed check names its file as the compiler saw it; users know it from the root of the
+// repository.
 std::string from_repository(const std::string& text) {
-  for (const char* layer : {"/layers/spec/", "/layers/golden/", "/layers/rtl_model/", "/layers/tb/"})
+  for (const char* layer :
+       {"/layers/spec/", "/layers/golden/", "/layers/rtl_model/", "/layers/tb/"})
     if (const std::size_t at = text.find(layer); at != std::string::npos)
       return text.substr(at + std::string_view(layer).size());
   return text;
@@ -123,16 +126,18 @@ Outcome run_engine(Engine& engine, const RunOptions& options, const std::string&
     if (result.mismatches + result.traffic_mismatches > 0) {
       code = static_cast<int>(ExitCode::kMismatch);
       kind = "mismatch";
-      result.reason = fmt::format("{} of {} outputs and {} of {} memory accesses differ from the golden model",
-                                  result.mismatches, result.comparisons, result.traffic_mismatches,
-                                  result.traffic_comparisons);
+      result.reason =
+          fmt::format("{} of {} outputs and {} of {} memory accesses differ from the golden model",
+                      result.mismatches, result.comparisons, result.traffic_mismatches,
+                      result.traffic_comparisons);
     }
   } catch (const spec::Error& error) {
     // What was wrong before the simulation has no result; what went wrong in it has a partial one.
     code = static_cast<int>(error.code());
     if (error.code() == ExitCode::kUsage || error.code() == ExitCode::kFile) throw;
-    kind = error.code() == ExitCode::kDeadlock ? "deadlock"
-           : error.code() == ExitCode::kMismatch ? "mismatch" : "simulation";
+    kind = error.code() == ExitCode::kDeadlock   ? "deadlock"
+           : error.code() == ExitCode::kMismatch ? "mismatch"
+                                                 : "simulation";
     result.reason = error.what();
     fmt::print(stderr, "deburr: {}\n", error.what());
   } catch (const spec::CheckFailed& error) {
@@ -147,59 +152,70 @@ Outcome run_engine(Engine& engine, const RunOptions& options, const std::string&
     kind = "simulation";
     result.reason = "nothing was compared: the input gave the engine no work";
   }
-  if (code != 0) result.verdict = Verdict::kFail;
-  else result.verdict = run.check == CheckMode::kGolden ? Verdict::kPass : Verdict::kUnchecked;
+  if (code != 0)
+    result.verdict = Verdict::kFail;
+  else
+    result.verdict = run.check == CheckMode::kGolden ? Verdict::kPass : Verdict::kUnchecked;
   if (result.interrupted && code == 0) {
     result.verdict = Verdict::kUnchecked;
     result.reason = "interrupted: the results cover what was done until then";
   }
   context.finish(result);
   if (code != 0)
-    return {code, fmt::format("FAIL {}: {} ({})", kind, result.reason.substr(0, result.reason.find('\n')),
-                              summary_of(result, context.directory()))};
+    return {code,
+            fmt::format("FAIL {}: {} ({})", kind, result.reason.substr(0, result.reason.find('\n')),
+                        summary_of(result, context.directory()))};
   if (result.interrupted) {
-    fmt::print(stderr, "deburr: interrupted; the partial results are kept. Run the same command again "
-                       "for all of it.\n");
-    return {kInterruptedExit, fmt::format("INTERRUPTED {}", summary_of(result, context.directory()))};
+    fmt::print(stderr,
+               "deburr: interrupted; the partial results are kept. Run the same command again "
+               "for all of it.\n");
+    return {kInterruptedExit,
+            fmt::format("INTERRUPTED {}", summary_of(result, context.directory()))};
   }
   return {0, fmt::format("{} {}", result.verdict == Verdict::kPass ? "PASS" : "UNCHECKED",
                          summary_of(result, context.directory()))};
 }
 
-void add_shorthand(CLI::App& command, const Shorthand& shorthand, RunOptions& options, bool is_switch) {
+void add_shorthand(CLI::App& command, const Shorthand& shorthand, RunOptions& options,
+                   bool is_switch) {
   const std::string group = shorthand.help.empty() ? "" : "Options";  // "": not shown in --help
   CLI::Option* option =
-      is_switch ? command.add_flag_callback(
-                      shorthand.option,
-                      [&options, shorthand] {
-                        options.shorthands.push_back({shorthand.parameter, "true", shorthand.option});
-                      },
-                      shorthand.help)
-                : command.add_option_function<std::string>(
-                      shorthand.option,
-                      [&options, shorthand](const std::string& value) {
-                        for (Assignment& a : expand(shorthand, value))
-                          options.shorthands.push_back(std::move(a));
-                      },
-                      shorthand.help);
+      is_switch
+          ? command.add_flag_callback(
+                shorthand.option,
+                [&options, shorthand] {
+                  options.shorthands.push_back({shorthand.parameter, "true", shorthand.option});
+                },
+                shorthand.help)
+          : command.add_option_function<std::string>(
+                shorthand.option,
+                [&options, shorthand](const std::string& value) {
+                  for (Assignment& a : expand(shorthand, value))
+                    options.shorthands.push_back(std::move(a));
+                },
+                shorthand.help);
   option->group(group);
 }
 
 }  // namespace
 
 void add_run(CLI::App& app, CommandLine& line) {
-  CLI::App* run = app.add_subcommand("run", "Simulate an engine and check it against its golden model");
+  CLI::App* run =
+      app.add_subcommand("run", "Simulate an engine and check it against its golden model");
   run->require_subcommand(1);
   for (std::unique_ptr<Engine>& owned : engines()) {
     const std::shared_ptr<Engine> engine = std::move(owned);
-    CLI::App* command = run->add_subcommand(std::string(engine->name()), std::string(engine->summary()));
+    CLI::App* command =
+        run->add_subcommand(std::string(engine->name()), std::string(engine->summary()));
     const auto options = std::make_shared<RunOptions>();
     command->add_option("--config", options->config, "YAML file of parameters");
     command->add_option("--set", options->sets, "name=value: any parameter of `deburr params`")
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command->add_option("--out", options->out, fmt::format("Directory of the results (out/{})", engine->name()));
-    command->add_flag("--show-config", options->resolve_only, "Print the resolved configuration and stop");
+    command->add_option("--out", options->out,
+                        fmt::format("Directory of the results (out/{})", engine->name()));
+    command->add_flag("--show-config", options->resolve_only,
+                      "Print the resolved configuration and stop");
     // To know which shorthands are switches, the parameters are asked.
     ParameterSet probe;
     RunParameters defaults;

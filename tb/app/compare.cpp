@@ -44,7 +44,8 @@ using Values = std::vector<std::pair<std::string, Json>>;
 
 void flatten(const Json& node, const std::string& path, Values& values) {
   // The host's speed says nothing about the hardware, and the histogram has its percentiles.
-  if (path == "host" || path == "meaning" || path == "latency.histogram" || path == "schema") return;
+  if (path == "host" || path == "meaning" || path == "latency.histogram" || path == "schema")
+    return;
   if (node.is_object()) {
     for (const auto& [key, value] : node.items())
       flatten(value, path.empty() ? key : path + "." + key, values);
@@ -81,10 +82,14 @@ bool is_worse(Judge judge, std::optional<double> a, std::optional<double> b, con
   if (!b) return true;
   if (*a == *b) return false;
   switch (judge) {
-    case Judge::kLessIsBetter: return *b > *a * (1 + t.cycles_percent / 100);
-    case Judge::kMoreIsBetter: return *b < *a * (1 - t.throughput_percent / 100);
-    case Judge::kDecibel: return *b < *a - t.psnr_db;
-    default: return false;
+    case Judge::kLessIsBetter:
+      return *b > *a * (1 + t.cycles_percent / 100);
+    case Judge::kMoreIsBetter:
+      return *b < *a * (1 - t.throughput_percent / 100);
+    case Judge::kDecibel:
+      return *b < *a - t.psnr_db;
+    default:
+      return false;
   }
 }
 

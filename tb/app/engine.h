@@ -50,11 +50,14 @@ void describe(RunParameters& p, Visitor& v) {
          "Random stalls: chance that a side of a link is held back in a cycle, on every link.");
   v.boolean("shuffle", p.shuffle, "Evaluate the units in a random order; must change nothing.");
   v.boolean("fast_path", p.fast_path, "Let the clock domain run on; must change nothing.");
-  v.boolean("check_links", p.check_links, "Protocol checkers on every link; off by default where a fault is planted.");
+  v.boolean("check_links", p.check_links,
+            "Protocol checkers on every link; off by default where a fault is planted.");
   v.text("trace", p.trace, "glob", "Units and links whose waves go to trace.vcd; empty: none.");
   v.integer("trace_from", p.trace_from, 0, std::int64_t{1} << 40, "clk", "First cycle traced.");
-  v.integer("trace_to", p.trace_to, 0, std::int64_t{1} << 40, "clk", "Cycle after the last traced.");
-  v.text("fault", p.fault, "name", "Plants a fault that the checks must catch (docs/verification.md).");
+  v.integer("trace_to", p.trace_to, 0, std::int64_t{1} << 40, "clk",
+            "Cycle after the last traced.");
+  v.text("fault", p.fault, "name",
+         "Plants a fault that the checks must catch (docs/verification.md).");
   v.boolean("truth", p.truth, "Compare the picture with the scene's supersampled truth.");
 }
 

@@ -69,7 +69,7 @@ template <class Take>
 void read_chunks(const fs::path& file, Take take) {
   const Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
   if (in.value() < 0) fail(file, "open", errno);
-  struct stat info{};
+  struct stat info {};
   if (::fstat(in.value(), &info) != 0) fail(file, "examine", errno);
   if (!S_ISREG(info.st_mode))
     throw FileError(fmt::format("cannot read '{}': it is not a regular file", file.string()));
@@ -89,8 +89,8 @@ std::string read_file(const fs::path& file, std::size_t max_bytes) {
   std::string text;
   read_chunks(file, [&](const char* bytes, std::size_t size) {
     if (text.size() + size > max_bytes)
-      throw FileError(fmt::format("cannot read '{}': it is larger than {} bytes", file.string(),
-                                  max_bytes));
+      throw FileError(
+          fmt::format("cannot read '{}': it is larger than {} bytes", file.string(), max_bytes));
     text.append(bytes, size);
   });
   return text;

@@ -14,7 +14,7 @@ extern "C" void on_interrupt(int) { interrupt_requested = 1; }
 }  // namespace
 
 void install_signal_handlers() {
-  struct sigaction action{};
+  struct sigaction action {};
   action.sa_handler = on_interrupt;
   sigemptyset(&action.sa_mask);
   action.sa_flags = static_cast<int>(SA_RESETHAND);  // the second signal acts as if never caught

@@ -67,13 +67,14 @@ int run(int argc, char** argv) {
                "deburr"};
   app.set_version_flag("--version", [] {
     const auto& build = deburr::tb::build_info();
-    return fmt::format("deburr {} ({}), {}, SystemC {}", build.version, build.commit, build.compiler,
-                       build.systemc);
+    return fmt::format("deburr {} ({}), {}, SystemC {}", build.version, build.commit,
+                       build.compiler, build.systemc);
   });
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 pass, 1 mismatch or worse, 2 usage or configuration, 3 simulation error,\n"
-      "4 deadlock, 5 file, 130 interrupted. The last line is RESULT: ..., on failure after REPRO: ...");
+      "4 deadlock, 5 file, 130 interrupted. The last line is RESULT: ..., on failure after REPRO: "
+      "...");
   const std::string command = quoted_command(argc, argv);
 
   deburr::tb::CommandLine line{command, nullptr};
@@ -93,7 +94,8 @@ int run(int argc, char** argv) {
                           fmt::format("{} (see {} --help)", error.what(), argv[0])),
                   command);
   } catch (const deburr::spec::Error& error) {
-    constexpr const char* kKinds[] = {"", "mismatch", "configuration", "simulation", "deadlock", "file"};
+    constexpr const char* kKinds[] = {"",           "mismatch", "configuration",
+                                      "simulation", "deadlock", "file"};
     return finish(failure(static_cast<int>(error.code()), kKinds[static_cast<int>(error.code())],
                           error.what()),
                   command);
@@ -104,7 +106,8 @@ int run(int argc, char** argv) {
   } catch (const std::system_error& error) {  // fmt's, when standard output is full
     return finish(failure(static_cast<int>(ExitCode::kFile), "file", error.what()), command);
   } catch (const std::exception& error) {
-    return finish(failure(static_cast<int>(ExitCode::kSimulation), "simulation", error.what()), command);
+    return finish(failure(static_cast<int>(ExitCode::kSimulation), "simulation", error.what()),
+                  command);
   }
 }
 

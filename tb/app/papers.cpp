@@ -22,8 +22,9 @@ using Json = nlohmann::ordered_json;
 
 // Columns line up by characters, not bytes: the tables hold Greek letters and signs.
 std::size_t characters(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  }));
 }
 
 std::string padded(const std::string& text, std::size_t width) {
@@ -32,9 +33,10 @@ std::string padded(const std::string& text, std::size_t width) {
 
 // A column is set right when it holds numbers (and gaps) only.
 bool is_numeric(const PaperTable& table, std::size_t column) {
-  return !table.rows.empty() && std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
-    return row[column].find_first_not_of("0123456789.,+-") == std::string::npos;
-  });
+  return !table.rows.empty() &&
+         std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+           return row[column].find_first_not_of("0123456789.,+-") == std::string::npos;
+         });
 }
 
 mustache::data text_cell(const char* name, const std::string& text) {
@@ -99,7 +101,8 @@ std::string to_text(const Paper& paper) {
     }
     const auto line = [&](const std::vector<std::string>& cells) {
       std::string text = " ";
-      for (std::size_t i = 0; i < cells.size(); ++i) text += fmt::format(" {} ", padded(cells[i], widths[i]));
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        text += fmt::format(" {} ", padded(cells[i], widths[i]));
       text.erase(text.find_last_not_of(' ') + 1);
       out += text + "\n";
     };

@@ -48,10 +48,14 @@ class YamlLoader {
  private:
   static const char* kind(const YAML::Node& node) {
     switch (node.Type()) {
-      case YAML::NodeType::Sequence: return "a list";
-      case YAML::NodeType::Map: return "a map";
-      case YAML::NodeType::Scalar: return "a single value";
-      default: return "nothing";
+      case YAML::NodeType::Sequence:
+        return "a list";
+      case YAML::NodeType::Map:
+        return "a map";
+      case YAML::NodeType::Scalar:
+        return "a single value";
+      default:
+        return "nothing";
     }
   }
 
@@ -73,12 +77,12 @@ class YamlLoader {
       const std::string here = where(entry.first);
       const auto [first, inserted] = seen_.emplace(name, here);
       if (!inserted)
-        throw ConfigError(fmt::format("{}: '{}' is given twice (first at {})", here, name,
-                                      first->second));
+        throw ConfigError(
+            fmt::format("{}: '{}' is given twice (first at {})", here, name, first->second));
       if (!set_.find(name)) set_.set(name, "", here);  // throws with near matches
       if (!entry.second.IsScalar())
-        throw ConfigError(fmt::format("{}: '{}' wants a single value, got {}", here, name,
-                                      kind(entry.second)));
+        throw ConfigError(
+            fmt::format("{}: '{}' wants a single value, got {}", here, name, kind(entry.second)));
       set_.set(name, entry.second.Scalar(), here);
     }
   }
@@ -107,7 +111,8 @@ int edit_distance(std::string_view a, std::string_view b) {
 
 std::vector<std::string> near_matches(std::string_view name,
                                       const std::vector<std::string>& candidates) {
-  constexpr std::size_t kMaxName = 100;  // longer is not a typing error, and the search is quadratic
+  constexpr std::size_t kMaxName =
+      100;  // longer is not a typing error, and the search is quadratic
   std::vector<std::pair<int, std::string>> ranked;
   if (name.empty() || name.size() > kMaxName) return {};
   const auto last_part = [](std::string_view text) { return text.substr(text.rfind('.') + 1); };
@@ -159,7 +164,8 @@ void ParameterSet::Binder::add(std::string_view name, std::string_view unit, std
 void ParameterSet::Binder::integer(std::string_view name, std::int64_t& value, std::int64_t min,
                                    std::int64_t max, std::string_view unit,
                                    std::string_view meaning) {
-  add(name, unit, fmt::format("{}..{}", min, max), meaning,
+  add(
+      name, unit, fmt::format("{}..{}", min, max), meaning,
       [&value] { return std::to_string(value); },
       [&value] { return nlohmann::ordered_json(value); },
       [&value, min, max](std::string_view text) -> std::string {
@@ -174,7 +180,8 @@ void ParameterSet::Binder::integer(std::string_view name, std::int64_t& value, s
 void ParameterSet::Binder::integer(std::string_view name, std::int32_t& value, std::int32_t min,
                                    std::int32_t max, std::string_view unit,
                                    std::string_view meaning) {
-  add(name, unit, fmt::format("{}..{}", min, max), meaning,
+  add(
+      name, unit, fmt::format("{}..{}", min, max), meaning,
       [&value] { return std::to_string(value); },
       [&value] { return nlohmann::ordered_json(value); },
       [&value, min, max](std::string_view text) -> std::string {
@@ -188,7 +195,8 @@ void ParameterSet::Binder::integer(std::string_view name, std::int32_t& value, s
 
 void ParameterSet::Binder::real(std::string_view name, double& value, double min, double max,
                                 std::string_view unit, std::string_view meaning) {
-  add(name, unit, fmt::format("{}..{}", min, max), meaning,
+  add(
+      name, unit, fmt::format("{}..{}", min, max), meaning,
       [&value] { return fmt::format("{}", value); },
       [&value] { return nlohmann::ordered_json(value); },
       [&value, min, max](std::string_view text) -> std::string {
@@ -203,7 +211,8 @@ void ParameterSet::Binder::real(std::string_view name, double& value, double min
 
 void ParameterSet::Binder::text(std::string_view name, std::string& value, std::string_view range,
                                 std::string_view meaning) {
-  add(name, "", std::string(range), meaning, [&value] { return value; },
+  add(
+      name, "", std::string(range), meaning, [&value] { return value; },
       [&value] { return nlohmann::ordered_json(value); },
       [&value](std::string_view text) -> std::string {
         value = text;
@@ -212,12 +221,16 @@ void ParameterSet::Binder::text(std::string_view name, std::string& value, std::
 }
 
 void ParameterSet::Binder::boolean(std::string_view name, bool& value, std::string_view meaning) {
-  add(name, "", "true | false", meaning, [&value] { return value ? "true" : "false"; },
+  add(
+      name, "", "true | false", meaning, [&value] { return value ? "true" : "false"; },
       [&value] { return nlohmann::ordered_json(value); },
       [&value](std::string_view text) -> std::string {
-        if (text == "true" || text == "on" || text == "yes") value = true;
-        else if (text == "false" || text == "off" || text == "no") value = false;
-        else return "wants true or false";
+        if (text == "true" || text == "on" || text == "yes")
+          value = true;
+        else if (text == "false" || text == "off" || text == "no")
+          value = false;
+        else
+          return "wants true or false";
         return "";
       });
 }
@@ -227,7 +240,8 @@ void ParameterSet::Binder::add_choice(std::string_view name, std::vector<std::st
                                       std::function<void(std::size_t)> set,
                                       std::string_view meaning) {
   const auto current = [names, get] { return std::string(names.at(get())); };
-  add(name, "", join(names, " | "), meaning, current,
+  add(
+      name, "", join(names, " | "), meaning, current,
       [current] { return nlohmann::ordered_json(current()); },
       [names, set](std::string_view text) -> std::string {
         const auto found = std::find(names.begin(), names.end(), text);

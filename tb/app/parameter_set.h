@@ -27,13 +27,13 @@ namespace deburr::tb {
 // One parameter, bound to the variable that holds it.
 struct Parameter {
   std::string name;
-  std::string unit;      // empty for choices, switches and text
-  std::string range;     // "1..16", "half | quarter | ...", "true | false"
+  std::string unit;   // empty for choices, switches and text
+  std::string range;  // "1..16", "half | quarter | ...", "true | false"
   std::string meaning;
   std::string default_value;
-  std::function<std::string()> text;                          // the value now
-  std::function<nlohmann::ordered_json()> json;               // the same, typed
-  std::function<std::string(std::string_view)> parse;         // "" or why the text is refused
+  std::function<std::string()> text;                   // the value now
+  std::function<nlohmann::ordered_json()> json;        // the same, typed
+  std::function<std::string(std::string_view)> parse;  // "" or why the text is refused
 };
 
 class ParameterSet {
@@ -82,9 +82,9 @@ class ParameterSet {
     template <class Enum, std::size_t N>
     void choice(std::string_view name, Enum& value, const std::array<std::string_view, N>& names,
                 std::string_view meaning) {
-      add_choice(name, {names.begin(), names.end()},
-                 [&value] { return static_cast<std::size_t>(value); },
-                 [&value](std::size_t index) { value = static_cast<Enum>(index); }, meaning);
+      add_choice(
+          name, {names.begin(), names.end()}, [&value] { return static_cast<std::size_t>(value); },
+          [&value](std::size_t index) { value = static_cast<Enum>(index); }, meaning);
     }
 
    private:
@@ -104,7 +104,8 @@ class ParameterSet {
   std::set<std::string, std::less<>> given_;
 };
 
-// Smallest number of insertions, deletions, substitutions and swaps of neighbours that turn a into b.
+// Smallest number of insertions, deletions, substitutions and swaps of neighbours that turn a into
+// b.
 int edit_distance(std::string_view a, std::string_view b);
 // Up to three of `candidates` close to `name`, best first; for "did you mean".
 std::vector<std::string> near_matches(std::string_view name,

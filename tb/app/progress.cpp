@@ -43,8 +43,12 @@ std::string Progress::line(std::string_view label, std::string_view unit, std::u
 }
 
 Progress::Progress(std::string_view label, std::uint64_t total, std::string_view unit)
-    : label_(label), unit_(unit), total_(total), terminal_(::isatty(STDERR_FILENO) == 1),
-      start_(Clock::now()), last_(start_) {}
+    : label_(label),
+      unit_(unit),
+      total_(total),
+      terminal_(::isatty(STDERR_FILENO) == 1),
+      start_(Clock::now()),
+      last_(start_) {}
 
 Progress::~Progress() {
   if (shown_ && terminal_) {
@@ -69,8 +73,7 @@ void Progress::show(std::uint64_t done, Clock::time_point now) {
     fmt::print(stderr, "{}\n", text);
     return;
   }
-  const auto filled = total_ ? static_cast<std::size_t>(
-                                   std::min(done, total_) * kBarWidth / total_)
+  const auto filled = total_ ? static_cast<std::size_t>(std::min(done, total_) * kBarWidth / total_)
                              : std::size_t{kBarWidth};
   fmt::print(stderr, "\r[{}{}] {}\033[K", std::string(filled, '#'),
              std::string(kBarWidth - filled, '.'), text);

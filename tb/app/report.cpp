@@ -45,7 +45,8 @@ mustache::data row(std::initializer_list<std::pair<const char*, std::string>> ce
 // A count as such, anything else with four digits.
 std::string amount(double value) {
   return value == std::floor(value) && value >= 0 && value < 1e15
-             ? grouped(static_cast<std::uint64_t>(value)) : fmt::format("{:.4g}", value);
+             ? grouped(static_cast<std::uint64_t>(value))
+             : fmt::format("{:.4g}", value);
 }
 
 double number(const Json& json, const char* key) {
@@ -109,8 +110,11 @@ class ReportBuilder {
     mustache::data tiles{mustache::data::type::list};
     const auto tile = [&](std::string name, std::string number_text, std::string unit,
                           std::string note, const char* state = "") {
-      tiles << row({{"name", std::move(name)}, {"value", std::move(number_text)},
-                    {"unit", std::move(unit)}, {"note", std::move(note)}, {"state", state}});
+      tiles << row({{"name", std::move(name)},
+                    {"value", std::move(number_text)},
+                    {"unit", std::move(unit)},
+                    {"note", std::move(note)},
+                    {"state", state}});
     };
     const std::uint64_t mismatches = checks.value("mismatches", std::uint64_t{0}) +
                                      checks.value("traffic_mismatches", std::uint64_t{0});
@@ -127,12 +131,14 @@ class ReportBuilder {
          mhz > 0 ? fmt::format("{:.2f} ms at {:.2f} MHz", cycles / mhz / 1e3, mhz) : "");
     tile("Throughput", fmt::format("{:.3f}", value), "",
          shown(throughput.value("unit", Json(""))) +
-             (bound > 0 ? fmt::format(", {:.1f} % of the bound {:g}", 100 * value / bound, bound) : ""));
+             (bound > 0 ? fmt::format(", {:.1f} % of the bound {:g}", 100 * value / bound, bound)
+                        : ""));
     tile("Latency p50", shown(latency.value("p50", Json())), "clk",
          fmt::format("p99 {}, max {}", shown(latency.value("p99", Json())),
                      shown(latency.value("max", Json()))));
-    tile("Read from memory", fmt::format("{:.2f}", number(result_["memory"], "bytes_read") / 1048576),
-         "MiB", fmt::format("{} lines", shown(result_["memory"].value("lines_filled", Json()))));
+    tile("Read from memory",
+         fmt::format("{:.2f}", number(result_["memory"], "bytes_read") / 1048576), "MiB",
+         fmt::format("{} lines", shown(result_["memory"].value("lines_filled", Json()))));
     if (const auto quality = result_.find("quality"); quality != result_.end())
       tile("PSNR", decibels(quality->value("psnr_db", Json())), "dB",
            "against " + quality->value("reference", ""));
@@ -145,7 +151,8 @@ class ReportBuilder {
     const auto meter = [&](std::string name, double part, double whole, const std::string& unit) {
       const double percent = whole > 0 ? 100 * part / whole : 0;
       meters << row({{"name", std::move(name)},
-                     {"text", fmt::format("{} of {} {} ({:.1f} %)", amount(part), amount(whole), unit, percent)},
+                     {"text", fmt::format("{} of {} {} ({:.1f} %)", amount(part), amount(whole),
+                                          unit, percent)},
                      {"percent", fmt::format("{:.2f}", std::clamp(percent, 0.0, 100.0))}});
     };
     meter("Rate over the whole run", value, bound, shown(throughput.value("unit", Json(""))));
@@ -153,7 +160,8 @@ class ReportBuilder {
       double stalls = 0;
       for (const auto& [cause, count] : unit["stalls"].items()) stalls += count.get<double>();
       const double all = number(unit, "busy") + number(unit, "idle") + stalls;
-      if (name == manifest_.value("bottleneck", "")) meter("Busy: " + name, number(unit, "busy"), all, "clk");
+      if (name == manifest_.value("bottleneck", ""))
+        meter("Busy: " + name, number(unit, "busy"), all, "clk");
     }
     page_.set("meters", meters);
     page_.set("throughput_note",
@@ -197,22 +205,27 @@ class ReportBuilder {
   void fill_tables() {
     mustache::data memory{mustache::data::type::list};
     for (const auto& [name, value] : result_["memory"].items()) {
-      memory << row({{"name", described("memory." + name, "meaning")}, {"value", shown(value)},
+      memory << row({{"name", described("memory." + name, "meaning")},
+                     {"value", shown(value)},
                      {"unit", described("memory." + name, "unit")}});
     }
     const double cycles = number(result_, "cycles");
     if (cycles > 0)
-      memory << row({{"name", "Mean read bandwidth"},
-                     {"value", fmt::format("{:.3f}", number(result_["memory"], "bytes_read") / cycles)},
-                     {"unit", "byte/clk"}});
+      memory << row(
+          {{"name", "Mean read bandwidth"},
+           {"value", fmt::format("{:.3f}", number(result_["memory"], "bytes_read") / cycles)},
+           {"unit", "byte/clk"}});
     page_.set("memory", memory);
 
     mustache::data units{mustache::data::type::list};
     for (const auto& [name, unit] : result_["units"].items()) {
       std::string stalls;
       for (const auto& [cause, count] : unit["stalls"].items())
-        if (count != 0) stalls += fmt::format("{}{} {}", stalls.empty() ? "" : ", ", cause, shown(count));
-      units << row({{"name", name}, {"busy", shown(unit["busy"])}, {"idle", shown(unit["idle"])},
+        if (count != 0)
+          stalls += fmt::format("{}{} {}", stalls.empty() ? "" : ", ", cause, shown(count));
+      units << row({{"name", name},
+                    {"busy", shown(unit["busy"])},
+                    {"idle", shown(unit["idle"])},
                     {"stalls", stalls.empty() ? "-" : stalls}});
     }
     page_.set("units", units);
@@ -251,7 +264,8 @@ class ReportBuilder {
 
     mustache::data work{mustache::data::type::list};
     for (const auto& [name, value] : result_["work"].items()) {
-      work << row({{"name", name}, {"value", shown(value)},
+      work << row({{"name", name},
+                   {"value", shown(value)},
                    {"unit", described("work." + name, "unit")},
                    {"meaning", described("work." + name, "meaning")}});
     }
@@ -261,7 +275,8 @@ class ReportBuilder {
     for (const auto& [name, value] : result_["checks"].items()) {
       std::string label = name;
       std::replace(label.begin(), label.end(), '_', ' ');
-      checks << row({{"name", label}, {"value", shown(value)},
+      checks << row({{"name", label},
+                     {"value", shown(value)},
                      {"meaning", described("checks." + name, "meaning")}});
     }
     page_.set("checks", checks);
@@ -271,7 +286,8 @@ class ReportBuilder {
     if (quality != result_.end()) {
       page_.set("quality_reference", quality->value("reference", ""));
       mustache::data rows{mustache::data::type::list};
-      rows << row({{"name", "PSNR, whole frame"}, {"value", decibels(quality->value("psnr_db", Json()))}})
+      rows << row({{"name", "PSNR, whole frame"},
+                   {"value", decibels(quality->value("psnr_db", Json()))}})
            << row({{"name", "PSNR, edge pixels"},
                    {"value", decibels(quality->value("psnr_edge_db", Json()))}})
            << row({{"name", "PSNR, silhouette pixels"},
@@ -281,9 +297,12 @@ class ReportBuilder {
 
     mustache::data parameters{mustache::data::type::list};
     for (const Json& p : manifest_.value("parameters", Json::array())) {
-      mustache::data line = row({{"name", p.value("name", "")}, {"value", shown(p["value"])},
-                                 {"default", p.value("default", "")}, {"range", p.value("range", "")},
-                                 {"unit", p.value("unit", "")}, {"meaning", p.value("meaning", "")}});
+      mustache::data line = row({{"name", p.value("name", "")},
+                                 {"value", shown(p["value"])},
+                                 {"default", p.value("default", "")},
+                                 {"range", p.value("range", "")},
+                                 {"unit", p.value("unit", "")},
+                                 {"meaning", p.value("meaning", "")}});
       line.set("changed", shown(p["value"]) != p.value("default", ""));
       parameters << line;
     }
@@ -293,7 +312,8 @@ class ReportBuilder {
   void fill_origin() {
     mustache::data origin{mustache::data::type::list};
     for (const char* key : {"version", "commit", "compiler", "build", "systemc", "seed", "started"})
-      if (manifest_.contains(key)) origin << row({{"name", key}, {"value", shown_plain(manifest_[key])}});
+      if (manifest_.contains(key))
+        origin << row({{"name", key}, {"value", shown_plain(manifest_[key])}});
     for (const Json& input : manifest_.value("inputs", Json::array()))
       origin << row({{"name", "input"},
                      {"value", input.value("file", "") + "  sha256 " + input.value("sha256", "")}});
@@ -313,8 +333,10 @@ class ReportBuilder {
 std::string json_for_script(const Json& json) {
   std::string text;
   for (const char c : json.dump()) {
-    if (c == '<') text += "\\u003c";
-    else text += c;
+    if (c == '<')
+      text += "\\u003c";
+    else
+      text += c;
   }
   return text;
 }
@@ -332,9 +354,9 @@ std::string grouped(std::uint64_t value) {
 std::string data_uri(const fs::path& image_file) {
   const std::string bytes = read_file(image_file, kMaxImageBytes);
   std::string encoded(4 * ((bytes.size() + 2) / 3) + 1, '\0');
-  const int size =
-      EVP_EncodeBlock(reinterpret_cast<unsigned char*>(encoded.data()),
-                      reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()));
+  const int size = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(encoded.data()),
+                                   reinterpret_cast<const unsigned char*>(bytes.data()),
+                                   static_cast<int>(bytes.size()));
   encoded.resize(static_cast<std::size_t>(size));
   return "data:image/png;base64," + encoded;
 }

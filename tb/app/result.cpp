@@ -19,9 +19,12 @@ constexpr std::size_t kMaxResultBytes = 64u << 20;
 
 std::string_view name_of(Verdict verdict) {
   switch (verdict) {
-    case Verdict::kPass: return "pass";
-    case Verdict::kFail: return "fail";
-    case Verdict::kUnchecked: return "unchecked";
+    case Verdict::kPass:
+      return "pass";
+    case Verdict::kFail:
+      return "fail";
+    case Verdict::kUnchecked:
+      return "unchecked";
   }
   return "unchecked";
 }
@@ -107,8 +110,7 @@ Json read_result(const std::filesystem::path& path) {
   const std::filesystem::path file =
       std::filesystem::is_directory(path) ? path / "result.json" : path;
   const Json json = Json::parse(read_file(file, kMaxResultBytes), nullptr, false);
-  if (json.is_discarded())
-    throw FileError(fmt::format("'{}' is not valid JSON", file.string()));
+  if (json.is_discarded()) throw FileError(fmt::format("'{}' is not valid JSON", file.string()));
   if (!json.is_object() || json.value("schema", Json()) != kResultSchema)
     throw FileError(fmt::format("'{}' is not a result of schema {}", file.string(), kResultSchema));
   for (const char* key : {"unit", "verdict", "checks", "cycles", "throughput", "latency", "memory",

@@ -45,7 +45,8 @@ constexpr std::array kStatistics = {
     Statistic{"quality.psnr_silhouette_db", "dB",
               "PSNR over edge pixels with a relative depth step of 5 % to a neighbour."},
     Statistic{"host.seconds", "s", "Time of the simulation on this host, set-up not included."},
-    Statistic{"host.cpu_seconds", "s", "The same as time of the processor: not that of other programs."},
+    Statistic{"host.cpu_seconds", "s",
+              "The same as time of the processor: not that of other programs."},
     Statistic{"host.mcycles_per_s", "Mcycle/s", "Simulated cycles a second of host time."},
 };
 

@@ -30,11 +30,14 @@ struct NamedFault {
   std::string_view link_fault;
 };
 constexpr std::array kFaults = {
-    NamedFault{{"flip-bit", "Flips a bit of the red channel of colour 100."}, "flip:colours:100:52"},
+    NamedFault{{"flip-bit", "Flips a bit of the red channel of colour 100."},
+               "flip:colours:100:52"},
     NamedFault{{"drop-colour", "Drops colour 100."}, "drop:colours:100"},
     NamedFault{{"duplicate-colour", "Delivers colour 100 twice."}, "duplicate:colours:100"},
     NamedFault{{"drop-quad", "Drops quad 50 on its way into the unit."}, "drop:quads:50"},
-    NamedFault{{"duplicate-fetch", "Line fill 20 is read from memory twice; the picture stays perfect."}, ""},
+    NamedFault{
+        {"duplicate-fetch", "Line fill 20 is read from memory twice; the picture stays perfect."},
+        ""},
     NamedFault{{"duplicate-request", "The cache's request for line fill 20 is answered twice."},
                "duplicate:texture.cache.memory_requests:20"},
     NamedFault{{"stuck-ready", "Holds back the texel addresses from cycle 500 on."},
@@ -66,8 +69,10 @@ std::vector<std::string> link_faults(const std::vector<std::string>& names) {
       if (name.find(':') == std::string::npos) {
         std::string known;
         for (const NamedFault& f : kFaults) known += fmt::format(" {}", f.fault.name);
-        throw spec::ConfigError(fmt::format("no fault '{}': known are{}, and LINK faults such as "
-                                            "drop:colours:100", name, known));
+        throw spec::ConfigError(
+            fmt::format("no fault '{}': known are{}, and LINK faults such as "
+                        "drop:colours:100",
+                        name, known));
       }
       faults.push_back(name);
     } else if (!found->link_fault.empty()) {
@@ -92,7 +97,8 @@ std::string_view register_name(std::uint32_t offset) {
 std::string short_name(const sc_core::sc_object& object, int parts) {
   std::string name = object.name();
   std::size_t from = name.size();
-  for (int i = 0; i < parts && from != std::string::npos && from > 0; ++i) from = name.rfind('.', from - 1);
+  for (int i = 0; i < parts && from != std::string::npos && from > 0; ++i)
+    from = name.rfind('.', from - 1);
   if (from != std::string::npos) name = name.substr(from + 1);
   std::replace(name.begin(), name.end(), '.', '_');
   return name;
@@ -125,16 +131,15 @@ TextureBench::TextureBench(const TextureScene& scene, const TextureBenchOptions&
       memory_("memory", clock_.period(),
               memory_model_parameters(options.memory, scene.memory().bytes().size(), options.seed)),
       host_("host"),
-      golden_(make_golden(scene, options.texture,
-                          options.golden ? TextureGolden::Traffic::kPredict
-                                         : TextureGolden::Traffic::kIgnore)),
+      golden_(make_golden(
+          scene, options.texture,
+          options.golden ? TextureGolden::Traffic::kPredict : TextureGolden::Traffic::kIgnore)),
       colour_board_("colours", 0, [this](const spec::Colour& c) { return describe(c); }),
       fill_board_("line fills", 0,
                   [](const Fill& f) { return fmt::format("read of address {:#x}", f.address); }),
-      register_board_("status registers", 0,
-                      [](const Status& s) {
-                        return fmt::format("{} = {}", register_name(s.offset), s.value);
-                      }),
+      register_board_(
+          "status registers", 0,
+          [](const Status& s) { return fmt::format("{} = {}", register_name(s.offset), s.value); }),
       frame_(scene.stream(), scene.scene()),
       golden_frame_(scene.stream(), scene.scene()) {
   const std::vector<std::string> faults = link_faults(options.faults);
@@ -184,7 +189,8 @@ TextureBench::TextureBench(const TextureScene& scene, const TextureBenchOptions&
     quad = quads[index];
     return true;
   });
-  if (options_.golden) driver_.on_send = [this](rtl::Cycle, const spec::Quad& quad) { expect(quad); };
+  if (options_.golden)
+    driver_.on_send = [this](rtl::Cycle, const spec::Quad& quad) { expect(quad); };
   sink_.on_beat = [this](rtl::Cycle cycle, const spec::Colour& colour) { judge(cycle, colour); };
 }
 
@@ -306,7 +312,8 @@ void TextureBench::run(const Progress& progress) {
   clock_.run(kResetCycles);
   clock_.set_reset_n(true);
   if (const std::uint32_t id = read_register(reg::kId); id != reg::kIdValue)
-    throw spec::SimulationError(fmt::format("the ID register reads {:#x}, expected {:#x}", id, reg::kIdValue));
+    throw spec::SimulationError(
+        fmt::format("the ID register reads {:#x}, expected {:#x}", id, reg::kIdValue));
   int handle = 0;
   for (const spec::TextureDescriptor& descriptor : scene_.memory().descriptors())
     for (const auto& [offset, value] : descriptor_registers(handle++, descriptor))
@@ -353,9 +360,12 @@ void TextureBench::judge_registers() {
   if (!options_.golden) return;
   const golden::texture::TextureWork& work = golden_.work();
   const std::pair<std::uint32_t, std::uint64_t> expected[] = {
-      {reg::kFragments, work.fragments},   {reg::kBilinears, work.bilinears},
-      {reg::kLineFills, work.line_fills},  {reg::kClamped, work.clamped},
-      {reg::kSaturated, work.saturated},   {reg::kMemoryErrors, work.memory_errors},
+      {reg::kFragments, work.fragments},
+      {reg::kBilinears, work.bilinears},
+      {reg::kLineFills, work.line_fills},
+      {reg::kClamped, work.clamped},
+      {reg::kSaturated, work.saturated},
+      {reg::kMemoryErrors, work.memory_errors},
       {reg::kInvalidFragments, work.invalid_fragments}};
   for (const auto& [offset, value] : expected) {
     register_board_.expect({offset, static_cast<std::uint32_t>(value)});
@@ -368,7 +378,8 @@ void TextureBench::check_memory_errors() {
   if (errors == 0) return;
   throw spec::SimulationError(
       fmt::format("memory answered {} line fills with an error, which read as zero: look at "
-                  "memory.error_address, or at the addresses in the texture descriptors", errors));
+                  "memory.error_address, or at the addresses in the texture descriptors",
+                  errors));
 }
 
 void TextureBench::check() const {
@@ -405,14 +416,15 @@ void TextureBench::collect(Result& result) const {
     result.sram_bits.emplace_back(short_name(*storage, 2), storage->bits());
 
   const rtl::Histogram& latency = unit.fragment_latency;
-  result.latency = {latency.min(), latency.percentile(50), latency.percentile(95),
-                    latency.percentile(99), latency.max(), {}};
+  result.latency = {latency.min(),          latency.percentile(50), latency.percentile(95),
+                    latency.percentile(99), latency.max(),          {}};
   constexpr std::size_t kBins = 48;
   // Bins are of equal width; the empty ones, which it leaves out, belong on the axis too.
   std::uint64_t next = 0;
   for (const rtl::Histogram::Bin& bin : latency.bins(kBins)) {
     const std::uint64_t width = bin.high - bin.low + 1;
-    for (; next != 0 && next < bin.low; next += width) result.latency.histogram.push_back({next, 0});
+    for (; next != 0 && next < bin.low; next += width)
+      result.latency.histogram.push_back({next, 0});
     result.latency.histogram.push_back({bin.low, bin.count});
     next = bin.high + 1;
   }
@@ -426,17 +438,20 @@ void TextureBench::collect(Result& result) const {
 
   const auto add = [&](std::string name, nlohmann::ordered_json value, std::string units,
                        std::string meaning) {
-    result.work.push_back({std::move(name), std::move(value), std::move(units), std::move(meaning)});
+    result.work.push_back(
+        {std::move(name), std::move(value), std::move(units), std::move(meaning)});
   };
   const double lines = static_cast<double>(result.lines_filled);
   const double line_bytes = static_cast<double>(options_.texture.cache_line_bytes);
   double texel_bytes = 4;
   if (!scene_.memory().descriptors().empty())
-    texel_bytes = spec::kFormatBytes[static_cast<std::size_t>(scene_.memory().descriptors()[0].format)];
+    texel_bytes =
+        spec::kFormatBytes[static_cast<std::size_t>(scene_.memory().descriptors()[0].format)];
   add("fragments", fragments, "fragment", "Colours delivered.");
   add("bilinears", bilinears, "request", "Bilinear requests, one a sample and level.");
-  add("bilinears_per_fragment", ratio(static_cast<double>(bilinears), static_cast<double>(fragments)),
-      "request/fragment", "Cost of a fragment in clocks while nothing stalls.");
+  add("bilinears_per_fragment",
+      ratio(static_cast<double>(bilinears), static_cast<double>(fragments)), "request/fragment",
+      "Cost of a fragment in clocks while nothing stalls.");
   add("misses_per_texel", ratio(lines, 4 * static_cast<double>(bilinears)), "line/texel",
       "Line fills over texels asked for.");
   add("texels_fetched_per_fragment",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One simulation of the texture unit on a scene: clock, unit, memory, driver, sink, golden model and
-// scoreboards. `deburr run texture` and the tests in tb/system use the same bench.
+// One simulation of the texture unit on a scene: clock, unit, memory, driver, sink, golden model
+// and scoreboards. `deburr run texture` and the tests in tb/system use the same bench.
 //
 //   TextureScene ─► Driver ─► TextureUnit ─► Sink ─► scoreboard, frame
 //                     │        │      └ registers ◄─ Host

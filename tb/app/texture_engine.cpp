@@ -39,15 +39,16 @@ class TextureEngine final : public Engine {
   }
 
   std::vector<Shorthand> shorthands() const override {
-    return {{"--scene", "scene.source", "plane (default), quad, tunnel, object, road, cylinders"},
-            {"--in", "scene.source", "Mesh file instead of a scene: .obj, .gltf, .glb"},
-            {"--texture", "scene.texture", "checker, road, brick, zone_plate, ..., or an image file"},
-            {"--size", "scene.width", "Size of the picture, WxH", "scene.height"},
-            {"--mode", "sampler.mode", "Minification filter, one of GL's six"},
-            {"--aniso", "sampler.anisotropy", "Largest number of samples: 1, 2, 4, 8, 16"},
-            {"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene"},
-            {"--format", "sampler.format", "rgba8, rgb565, rgba4444, l8, srgb8_a8"},
-            {"--layout", "sampler.layout", "tiled or linear"}};
+    return {
+        {"--scene", "scene.source", "plane (default), quad, tunnel, object, road, cylinders"},
+        {"--in", "scene.source", "Mesh file instead of a scene: .obj, .gltf, .glb"},
+        {"--texture", "scene.texture", "checker, road, brick, zone_plate, ..., or an image file"},
+        {"--size", "scene.width", "Size of the picture, WxH", "scene.height"},
+        {"--mode", "sampler.mode", "Minification filter, one of GL's six"},
+        {"--aniso", "sampler.anisotropy", "Largest number of samples: 1, 2, 4, 8, 16"},
+        {"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene"},
+        {"--format", "sampler.format", "rgba8, rgb565, rgba4444, l8, srgb8_a8"},
+        {"--layout", "sampler.layout", "tiled or linear"}};
   }
 
   void resolve(const ParameterSet& set) override { links_given_ = set.given("run.check_links"); }
@@ -94,8 +95,8 @@ class TextureEngine final : public Engine {
     o.golden = run.check == CheckMode::kGolden;
     o.shuffle = run.shuffle;
     o.fast_path = run.fast_path;
-    // Faults on links are seen by the link checkers first; they look away, so that the checks behind
-    // them show that they can fail too, unless the link checkers are what was asked for.
+    // Faults on links are seen by the link checkers first; they look away, so that the checks
+    // behind them show that they can fail too, unless the link checkers are what was asked for.
     o.check_links = run.check_links && (run.fault.empty() || links_given_);
     o.max_cycles = static_cast<rtl::Cycle>(run.max_cycles);
     o.patience = static_cast<rtl::Cycle>(run.watchdog_cycles);
@@ -112,9 +113,12 @@ class TextureEngine final : public Engine {
   }
 
   std::string summary_line(const TextureScene& scene) const {
-    const auto name = [](auto value, const auto& names) { return names[static_cast<std::size_t>(value)]; };
+    const auto name = [](auto value, const auto& names) {
+      return names[static_cast<std::size_t>(value)];
+    };
     return fmt::format(
-        "{} x {} pixels, {} fragments, {}, N_max {}, {} {}; footprint {}, log2 {}, count {}, kernel {}; "
+        "{} x {} pixels, {} fragments, {}, N_max {}, {} {}; footprint {}, log2 {}, count {}, "
+        "kernel {}; "
         "cache {} bytes, {} ways; memory latency {} clk",
         scene.stream().width, scene.stream().height, scene.stream().counts.fragments,
         name(sampler_.mode, spec::kMinFilterNames), name(sampler_.anisotropy, kAnisotropyNames),
@@ -133,7 +137,8 @@ class TextureEngine final : public Engine {
     for (std::size_t i = 0; i < out.pixels.size(); ++i) {
       if (scene.stream().depth.pixels[i] == 0) continue;  // the sky is not from the unit
       for (std::size_t c = 0; c < 3; ++c)
-        out.pixels[i][c] = static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(out.pixels[i][c] / 255.0)));
+        out.pixels[i][c] =
+            static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(out.pixels[i][c] / 255.0)));
     }
     return out;
   }
@@ -150,7 +155,8 @@ class TextureEngine final : public Engine {
     context.add_image("after", after, "Hardware model", "the colours that the unit delivered");
     if (run.check == CheckMode::kGolden) {
       const Image expected = stored(bench.golden_frame(), scene);
-      context.add_image("golden", expected, "Golden model", "the same fragments by the golden model");
+      context.add_image("golden", expected, "Golden model",
+                        "the same fragments by the golden model");
       context.add_image("difference", difference(after, expected, 255), "Difference",
                         count_different(after, expected) == 0
                             ? "hardware against golden: none"
@@ -168,8 +174,10 @@ class TextureEngine final : public Engine {
       quality.psnr_edge_db = psnr(after, truth, edges);
       quality.psnr_silhouette_db = psnr(after, truth, silhouette_mask(edges, scene.stream().depth));
       result.quality = quality;
-      context.add_image("truth", truth, "Truth", fmt::format("{} samples a pixel", kTruthSamples * kTruthSamples));
-      context.add_image("error", difference(after, truth, 8), "Error", "hardware against truth, 8 times");
+      context.add_image("truth", truth, "Truth",
+                        fmt::format("{} samples a pixel", kTruthSamples * kTruthSamples));
+      context.add_image("error", difference(after, truth, 8), "Error",
+                        "hardware against truth, 8 times");
     }
   }
 

@@ -25,7 +25,8 @@ Imath::V3d parse_vector(std::string_view name, std::string_view text) {
   for (std::size_t i = 0; i < 3; ++i) {
     const auto [next, error] = std::from_chars(at, end, values[i]);
     const bool last = i == 2;
-    if (error != std::errc() || !std::isfinite(values[i]) || (last ? next != end : next == end || *next != ','))
+    if (error != std::errc() || !std::isfinite(values[i]) ||
+        (last ? next != end : next == end || *next != ','))
       throw spec::ConfigError(
           fmt::format("'{}' = '{}' wants three numbers separated by commas: x,y,z", name, text));
     at = next + 1;
@@ -35,7 +36,8 @@ Imath::V3d parse_vector(std::string_view name, std::string_view text) {
 
 bool is_scene_name(const std::string& name) {
   const auto names = scene_names();
-  return std::any_of(names.begin(), names.end(), [&](const SceneName& s) { return s.name == name; });
+  return std::any_of(names.begin(), names.end(),
+                     [&](const SceneName& s) { return s.name == name; });
 }
 
 bool is_texture_name(const std::string& name) {
@@ -65,10 +67,14 @@ Scene load(const SceneParameters& p, std::uint32_t seed) {
 
 spec::Wrap chosen(WrapChoice choice, spec::Wrap own) {
   switch (choice) {
-    case WrapChoice::kScene: return own;
-    case WrapChoice::kRepeat: return spec::Wrap::kRepeat;
-    case WrapChoice::kMirroredRepeat: return spec::Wrap::kMirroredRepeat;
-    case WrapChoice::kClampToEdge: return spec::Wrap::kClampToEdge;
+    case WrapChoice::kScene:
+      return own;
+    case WrapChoice::kRepeat:
+      return spec::Wrap::kRepeat;
+    case WrapChoice::kMirroredRepeat:
+      return spec::Wrap::kMirroredRepeat;
+    case WrapChoice::kClampToEdge:
+      return spec::Wrap::kClampToEdge;
   }
   return own;
 }
@@ -79,7 +85,8 @@ TextureScene::TextureScene(const SceneParameters& scene, const SamplerParameters
                            std::uint32_t seed)
     : scene_(load(scene, seed)) {
   if (!is_scene_name(scene.source)) inputs_.emplace_back(scene.source);
-  if (!scene.texture.empty() && !is_texture_name(scene.texture)) inputs_.emplace_back(scene.texture);
+  if (!scene.texture.empty() && !is_texture_name(scene.texture))
+    inputs_.emplace_back(scene.texture);
   set_sampler(sampler);
   RasterOptions options;
   options.width = scene.width;

@@ -36,9 +36,10 @@ void describe(SceneParameters& p, Visitor& v) {
   v.text("source", p.source, "name | file",
          "A scene made by formula (plane, quad, tunnel, object, road, cylinders) or a mesh file "
          "(.obj, .gltf, .glb).");
-  v.text("texture", p.texture, "name | file",
-         "Texture instead of the scene's own: checker, road, brick, zone_plate, gradient, noise, or "
-         "an image file.");
+  v.text(
+      "texture", p.texture, "name | file",
+      "Texture instead of the scene's own: checker, road, brick, zone_plate, gradient, noise, or "
+      "an image file.");
   v.integer("texture_size", p.texture_size, 1, spec::kMaxTextureSize, "texel",
             "Side of a texture made by formula.");
   v.integer("width", p.width, 1, 8192, "pixel", "Width of the picture.");
@@ -104,10 +105,10 @@ class TextureScene {
 };
 
 // A golden model with the scene's textures. The scene must outlive it.
-golden::texture::TextureGolden make_golden(
-    const TextureScene& scene, const spec::TextureParameters& parameters,
-    golden::texture::TextureGolden::Traffic traffic =
-        golden::texture::TextureGolden::Traffic::kIgnore);
+golden::texture::TextureGolden make_golden(const TextureScene& scene,
+                                           const spec::TextureParameters& parameters,
+                                           golden::texture::TextureGolden::Traffic traffic =
+                                               golden::texture::TextureGolden::Traffic::kIgnore);
 
 // The whole picture by the golden model.
 struct GoldenFrame {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Opens report.html from disk in headless Chromium, without a network, and looks at the picture: the
-// page obeys the colour scheme, charts and images are there, no script has failed. Skipped with a
-// message where there is no Chromium. DEBURR_KEEP_SCREENSHOTS=DIR leaves the pictures in DIR.
+// Opens report.html from disk in headless Chromium, without a network, and looks at the picture:
+// the page obeys the colour scheme, charts and images are there, no script has failed. Skipped with
+// a message where there is no Chromium. DEBURR_KEEP_SCREENSHOTS=DIR leaves the pictures in DIR.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
+#include <ostream>
 #include <set>
 #include <string>
 
@@ -25,6 +26,7 @@ constexpr std::size_t kMaxLog = 1 << 24;
 struct Scheme {
   const char *name, *option;
   Rgba8 page, busy;
+  friend void PrintTo(const Scheme& scheme, std::ostream* stream) { *stream << scheme.name; }
 };
 constexpr Scheme kSchemes[] = {
     {"light", "", {0xF6, 0xF5, 0xF2, 255}, {0x2B, 0x7A, 0x8F, 255}},
@@ -32,7 +34,8 @@ constexpr Scheme kSchemes[] = {
 
 std::string browser() {
   for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
-    if (std::system((std::string("command -v ") + name + " >/dev/null 2>&1").c_str()) == 0) return name;
+    if (std::system((std::string("command -v ") + name + " >/dev/null 2>&1").c_str()) == 0)
+      return name;
   return "";
 }
 
@@ -70,12 +73,18 @@ TEST_P(Report, OpensFromDiskAndShowsChartsAndPictures) {
   const std::string chromium = browser();
   if (chromium.empty()) GTEST_SKIP() << "no Chromium here (Debian package chromium)";
   const fs::path run = directory_ / "run", picture = directory_ / "page.png";
-  ASSERT_EQ(shell(std::string(DEBURR_COMMAND) + " run texture --size 128x128 --truth --out " + run.string(), "run.log"), 0)
+  ASSERT_EQ(shell(std::string(DEBURR_COMMAND) + " run texture --size 128x128 --truth --out " +
+                      run.string(),
+                  "run.log"),
+            0)
       << log("run.log");
-  shell(chromium + " --headless --no-sandbox --disable-gpu --disable-background-networking --no-first-run"
-        " --hide-scrollbars --host-resolver-rules='MAP * ~NOTFOUND' --enable-logging=stderr " + GetParam().option +
-        " --user-data-dir=" + (directory_ / "profile").string() + " --window-size=1280,3200 --screenshot=" +
-        picture.string() + " file://" + (run / "report.html").string(), "browser.log");
+  shell(chromium +
+            " --headless --no-sandbox --disable-gpu --disable-background-networking --no-first-run"
+            " --hide-scrollbars --host-resolver-rules='MAP * ~NOTFOUND' --enable-logging=stderr " +
+            GetParam().option + " --user-data-dir=" + (directory_ / "profile").string() +
+            " --window-size=1280,3200 --screenshot=" + picture.string() + " file://" +
+            (run / "report.html").string(),
+        "browser.log");
   ASSERT_TRUE(fs::exists(picture)) << log("browser.log");
   EXPECT_EQ(log("browser.log").find("CONSOLE"), std::string::npos) << log("browser.log");
   if (const char* keep = std::getenv("DEBURR_KEEP_SCREENSHOTS"))
@@ -85,11 +94,14 @@ TEST_P(Report, OpensFromDiskAndShowsChartsAndPictures) {
   const Image page = read_image(picture);
   std::set<Rgba8> colours(page.pixels.begin(), page.pixels.end());
   EXPECT_GT(colours.size(), 200u) << "the page is blank";
-  EXPECT_GT(share(page, GetParam().page, 0, page.height), 0.02) << "not in the " << GetParam().name << " scheme";
-  EXPECT_GT(share(page, GetParam().busy, page.height / 3, page.height), 0.01) << "no chart has been drawn";
+  EXPECT_GT(share(page, GetParam().page, 0, page.height), 0.02)
+      << "not in the " << GetParam().name << " scheme";
+  EXPECT_GT(share(page, GetParam().busy, page.height / 3, page.height), 0.01)
+      << "no chart has been drawn";
   // The viewer shows a checkerboard in the upper part of the page.
   EXPECT_GT(share(page, {0, 0, 0, 255}, 0, page.height / 3), 0.02) << "no picture in the viewer";
-  EXPECT_GT(share(page, {255, 255, 255, 255}, 0, page.height / 3), 0.02) << "no picture in the viewer";
+  EXPECT_GT(share(page, {255, 255, 255, 255}, 0, page.height / 3), 0.02)
+      << "no picture in the viewer";
 }
 
 // The checks above can fail: a page whose script is broken draws no chart.
@@ -98,9 +110,12 @@ TEST_P(Report, ABrokenPageIsNoticed) {
   if (chromium.empty()) GTEST_SKIP() << "no Chromium here (Debian package chromium)";
   const fs::path file = directory_ / "broken.html", picture = directory_ / "page.png";
   write_file_atomically(file, "<!doctype html><script>undefined_function();</script>");
-  shell(chromium + " --headless --no-sandbox --disable-gpu --disable-background-networking --no-first-run"
-        " --enable-logging=stderr --user-data-dir=" + (directory_ / "profile").string() +
-        " --window-size=640,480 --screenshot=" + picture.string() + " file://" + file.string(), "browser.log");
+  shell(chromium +
+            " --headless --no-sandbox --disable-gpu --disable-background-networking --no-first-run"
+            " --enable-logging=stderr --user-data-dir=" +
+            (directory_ / "profile").string() +
+            " --window-size=640,480 --screenshot=" + picture.string() + " file://" + file.string(),
+        "browser.log");
   ASSERT_TRUE(fs::exists(picture)) << log("browser.log");
   EXPECT_NE(log("browser.log").find("CONSOLE"), std::string::npos);
   const Image page = read_image(picture);

@@ -50,7 +50,8 @@ Result sample_result() {
 class Directory : public testing::Test {
  protected:
   Directory() {
-    path_ = std::filesystem::temp_directory_path() / ("deburr_results_" + std::to_string(::getpid()));
+    path_ =
+        std::filesystem::temp_directory_path() / ("deburr_results_" + std::to_string(::getpid()));
     std::filesystem::create_directories(path_);
   }
   ~Directory() override { std::filesystem::remove_all(path_); }
@@ -61,9 +62,9 @@ TEST(ResultJson, HasTheKeysOfSchemaOneInOrder) {
   const Json json = to_json(sample_result());
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_THAT(keys, testing::ElementsAre("schema", "unit", "verdict", "checks", "cycles", "clock_mhz",
-                                         "throughput", "latency", "memory", "units", "sram_bits",
-                                         "work", "quality", "host", "meaning"));
+  EXPECT_THAT(keys, testing::ElementsAre("schema", "unit", "verdict", "checks", "cycles",
+                                         "clock_mhz", "throughput", "latency", "memory", "units",
+                                         "sram_bits", "work", "quality", "host", "meaning"));
   EXPECT_EQ(json["schema"], 1);
   EXPECT_EQ(json["checks"]["comparisons"], 1000);
   EXPECT_EQ(json["units"]["address"]["stalls"]["downstream"], 321);
@@ -76,7 +77,8 @@ TEST(ResultJson, HasTheKeysOfSchemaOneInOrder) {
 void expect_described(const Json& node, const std::string& path, const Json& meanings) {
   if (node.is_object()) {
     for (const auto& [key, value] : node.items())
-      if (key != "meaning") expect_described(value, path.empty() ? key : path + "." + key, meanings);
+      if (key != "meaning")
+        expect_described(value, path.empty() ? key : path + "." + key, meanings);
     return;
   }
   EXPECT_TRUE(meanings.contains(path)) << path;
@@ -152,7 +154,8 @@ TEST_F(Directory, TheReportIsSelfContainedAndEscapes) {
   for (const char* reference : {"src=\"http", "href=\"http", "@import", "<link"})
     EXPECT_THAT(page, Not(HasSubstr(reference)));
   const Json manifest = Json::parse(read_file(path_ / "manifest.json", 1 << 20));
-  for (const char* key : {"commit", "compiler", "systemc", "command", "seed", "configuration", "inputs", "host"})
+  for (const char* key :
+       {"commit", "compiler", "systemc", "command", "seed", "configuration", "inputs", "host"})
     EXPECT_TRUE(manifest.contains(key)) << key;
   for (const auto& entry : std::filesystem::directory_iterator(path_))
     EXPECT_THAT(entry.path().extension().string(), testing::AnyOf(".json", ".html", ".png"));
