@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Bad input to the command: each kind has its exit code and says what is wrong. See --help of unittest."""
+"""Bad input to the command: each kind has its exit code and says what is wrong. See --help."""
 import json
 import os
 import resource
@@ -115,7 +115,8 @@ class Configuration(CommandTest):
         self.assertEqual(configuration["sampler.mode"], "linear")
 
     def test_unknown_key(self):
-        self.config(2, "texture:\n  cache.bites: 8192\n", says=["run.yaml:2", "texture.cache.bytes"])
+        self.config(2, "texture:\n  cache.bites: 8192\n",
+                    says=["run.yaml:2", "texture.cache.bytes"])
 
     def test_out_of_range(self):
         self.config(2, "texture.cache.ways: 64\n", says=["run.yaml:1", "1..16"])
@@ -151,7 +152,8 @@ class Configuration(CommandTest):
         self.run_texture(2, "--set", "texture.cache.bytes=10000", says="power of two")
 
     def test_cache_smaller_than_a_set(self):
-        self.run_texture(2, "--set", "texture.cache.bytes=256", "--set", "texture.cache.ways=16", says="cache")
+        self.run_texture(2, "--set", "texture.cache.bytes=256",
+                         "--set", "texture.cache.ways=16", says="cache")
 
     def test_size(self):
         for size in ("0x4", "4", "4x", "9000x4", "-1x4"):
@@ -159,7 +161,8 @@ class Configuration(CommandTest):
 
     def test_camera(self):
         self.run_texture(2, "--set", "scene.eye=1,2", says="x,y,z")
-        self.run_texture(2, "--set", "scene.eye=1,2,3", "--set", "scene.target=1,2,3", says="same point")
+        self.run_texture(2, "--set", "scene.eye=1,2,3", "--set", "scene.target=1,2,3",
+                         says="same point")
 
     def test_unknown_option_and_command(self):
         self.expect(2, "run", "texture", "--aniso", "3", says="1, 2, 4, 8, 16")
@@ -179,7 +182,8 @@ class Output(CommandTest):
     def no_remains(self):
         names = os.listdir(self.path("out")) if os.path.isdir(self.path("out")) else []
         known = (".json", ".png", ".html", ".vcd")
-        self.assertEqual([n for n in names if not n.endswith(known)], [], "temporary files are left")
+        self.assertEqual([n for n in names if not n.endswith(known)], [],
+                         "temporary files are left")
         for name in names:
             if name.endswith(".json"):
                 with open(self.path("out/" + name)) as file:
@@ -217,9 +221,11 @@ class Output(CommandTest):
         probe = subprocess.run(["unshare", "-rm", "sh", "-c", mount], capture_output=True)
         if probe.returncode != 0:
             self.skipTest("no user namespaces here")
-        script = (f"{mount} && {DEBURR} run texture --size 64x64 --out {self.path('disk')}/out; code=$?; "
+        script = (f"{mount} && "
+                  f"{DEBURR} run texture --size 64x64 --out {self.path('disk')}/out; code=$?; "
                   f"ls {self.path('disk')}/out; exit $code")
-        done = subprocess.run(["unshare", "-rm", "sh", "-c", script], capture_output=True, text=True, timeout=300)
+        done = subprocess.run(["unshare", "-rm", "sh", "-c", script], capture_output=True,
+                              text=True, timeout=300)
         self.assertEqual(done.returncode, 5, done.stdout + done.stderr)
         self.assertIn("No space left", done.stderr)
         names = done.stdout[done.stdout.index("RESULT: "):].splitlines()[1:]
@@ -241,8 +247,9 @@ class Interruption(CommandTest):
     """Ctrl-C keeps what is finished."""
 
     def test_ctrl_c(self):
-        process = subprocess.Popen([DEBURR, "run", "texture", "--size", "2048x2048", "--out", self.path("out")],
-                                   text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        process = subprocess.Popen([DEBURR, "run", "texture", "--size", "2048x2048", "--out",
+                                    self.path("out")], text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         deadline = time.monotonic() + 60
         # The simulation has begun when the first progress line is there.
         line = process.stderr.readline()
@@ -308,7 +315,8 @@ class Results(CommandTest):
     def test_the_repro_command_repeats_the_run(self):
         with open(self.path("a/manifest.json")) as file:
             command = json.load(file)["command"]
-        done = subprocess.run(command, shell=True, cwd=self.directory, capture_output=True, text=True)
+        done = subprocess.run(command, shell=True, cwd=self.directory, capture_output=True,
+                              text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         with open(self.path("out/result.json")) as one, open(self.path("a/result.json")) as two:
             first, second = json.load(one), json.load(two)

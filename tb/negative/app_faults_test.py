@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Planted faults (deburr run texture --fault NAME): each must be caught, by the right check and with the right
-exit code. By default the link checkers look away, so that the scoreboards must see it; both ways are tried."""
+"""Planted faults (deburr run texture --fault NAME): each must be caught, by the right check and
+with the right exit code. By default the link checkers look away, so that the scoreboards must see
+it; both ways are tried."""
 import json
 import os
 import re
@@ -20,7 +21,7 @@ class Faults(CommandTest):
             result = json.load(file)
         self.assertEqual(result["verdict"], "fail")
         self.assertTrue(result["reason"])
-        self.assertTrue(os.path.exists(self.path("out/report.html")), "a failed run has a report too")
+        self.assertTrue(os.path.exists(self.path("out/report.html")), "failed runs have a report")
         return done, result
 
     def test_without_a_fault(self):
@@ -31,7 +32,8 @@ class Faults(CommandTest):
         done, result = self.fault("flip-bit", 1, "mismatch", *self.UNCHECKED)
         self.assertEqual(result["checks"]["mismatches"], 1)
         # Pixel, tag, expected, got and cycle.
-        self.assertRegex(done.stderr, r"cycle \d+: item 100: expected pixel \(\d+, \d+\) tag \d+ lane \d .*RGBA .*, got .*RGBA")
+        self.assertRegex(done.stderr, r"cycle \d+: item 100: expected pixel \(\d+, \d+\) "
+                                      r"tag \d+ lane \d .*RGBA .*, got .*RGBA")
         self.fault("flip-bit", 3, "changed while it waited", *self.CHECKED)
 
     def test_dropped_colour(self):
@@ -68,8 +70,8 @@ class Faults(CommandTest):
         self.fault("memory-error", 3, "memory answered 1 line fills with an error", *self.CHECKED)
 
     def test_memory_error_by_address_is_predicted(self):
-        done = self.run_texture(3, "--set", "memory.error_address=0", "--set", "memory.error_bytes=100000000",
-                                says="with an error")
+        done = self.run_texture(3, "--set", "memory.error_address=0",
+                                "--set", "memory.error_bytes=100000000", says="with an error")
         with open(self.path("out/result.json")) as file:
             result = json.load(file)
         self.assertEqual(result["checks"]["mismatches"], 0, done.stderr)
@@ -77,7 +79,8 @@ class Faults(CommandTest):
 
     def test_wrong_texel(self):
         _, result = self.fault("wrong-texel", 1, "mismatch", *self.CHECKED)
-        self.assertEqual(result["checks"]["traffic_mismatches"], 0, "addresses do not depend on texels")
+        self.assertEqual(result["checks"]["traffic_mismatches"], 0,
+                         "addresses do not depend on texels")
 
     def test_wrong_replacement(self):
         _, result = self.fault("wrong-replacement", 1, "line fills", *self.CHECKED, "--set",
@@ -96,7 +99,8 @@ class Faults(CommandTest):
         self.run_texture(2, "--fault", "drop:no.such.link:1", says="no.such.link")
 
     def test_a_fault_that_is_never_reached_is_no_pass(self):
-        self.run_texture(3, "--fault", "drop:colours:100000000", *self.UNCHECKED, says="never reached")
+        self.run_texture(3, "--fault", "drop:colours:100000000", *self.UNCHECKED,
+                         says="never reached")
 
 
 if __name__ == "__main__":

@@ -21,15 +21,17 @@ def png(width, height, bits=8, channels=3, declared=None):
                 + struct.pack(">I", zlib.crc32(kind + data)))
 
     w, h = declared or (width, height)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", w, h, bits, colour_type, 0, 0, 0))
+    header = struct.pack(">IIBBBBB", w, h, bits, colour_type, 0, 0, 0)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header)
             + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
 def float_tiff(width, height, value=0.5):
     """A little-endian TIFF with three 32-bit float channels."""
     data = struct.pack("<f", value) * 3 * width * height
-    entries = [(256, 4, 1, width), (257, 4, 1, height), (258, 3, 3, None), (259, 3, 1, 1), (262, 3, 1, 2),
-               (273, 4, 1, 8), (277, 3, 1, 3), (278, 4, 1, height), (279, 4, 1, len(data)), (339, 3, 3, None)]
+    entries = [(256, 4, 1, width), (257, 4, 1, height), (258, 3, 3, None), (259, 3, 1, 1),
+               (262, 3, 1, 2), (273, 4, 1, 8), (277, 3, 1, 3), (278, 4, 1, height),
+               (279, 4, 1, len(data)), (339, 3, 3, None)]
     tables = 8 + len(data)
     ifd = tables + 12
     body = struct.pack("<HHH", 32, 32, 32) + struct.pack("<HHH", 3, 3, 3)
@@ -60,8 +62,8 @@ class CommandTest(unittest.TestCase):
         return self.path(name)
 
     def run_command(self, *arguments, **options):
-        return subprocess.run([DEBURR, *arguments], cwd=self.directory, text=True, capture_output=True,
-                              timeout=300, **options)
+        return subprocess.run([DEBURR, *arguments], cwd=self.directory, text=True,
+                              capture_output=True, timeout=300, **options)
 
     def expect(self, code, *arguments, says=(), **options):
         """Runs, and checks exit code, last line, REPRO line and words of the output."""
@@ -71,12 +73,13 @@ class CommandTest(unittest.TestCase):
         lines = done.stdout.strip().splitlines()
         self.assertTrue(lines and lines[-1].startswith("RESULT: "), "no RESULT line" + context)
         if code != 0:
-            self.assertTrue(any(line.startswith("REPRO: ") for line in lines), "no REPRO line" + context)
+            self.assertTrue(any(line.startswith("REPRO: ") for line in lines),
+                            "no REPRO line" + context)
         for word in [says] if isinstance(says, str) else says:
             self.assertIn(word, done.stdout + done.stderr, context)
         return done
 
     def run_texture(self, code, *arguments, says=(), **options):
         """A tiny run of the texture unit into ./out."""
-        return self.expect(code, "run", "texture", "--size", "32x32", "--out", self.path("out"), *arguments,
-                           says=says, **options)
+        return self.expect(code, "run", "texture", "--size", "32x32", "--out", self.path("out"),
+                           *arguments, says=says, **options)

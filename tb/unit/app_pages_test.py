@@ -16,8 +16,8 @@ def main():
     deburr, source = sys.argv[1:3]
     stale = 0
     for page in ("parameters", "statistics"):
-        printed = subprocess.run([deburr, "params", "--markdown", page], check=True, capture_output=True,
-                                 text=True).stdout
+        printed = subprocess.run([deburr, "params", "--markdown", page], check=True,
+                                 capture_output=True, text=True).stdout
         path = f"{source}/docs/{page}.md"
         if "--write" in sys.argv:
             with open(path, "w") as file:
@@ -27,8 +27,9 @@ def main():
             kept = file.read()
         if kept != printed:
             stale += 1
-            sys.stdout.writelines(difflib.unified_diff(kept.splitlines(True), printed.splitlines(True),
-                                                       path, "deburr params --markdown " + page))
+            sys.stdout.writelines(difflib.unified_diff(
+                kept.splitlines(True), printed.splitlines(True), path,
+                "deburr params --markdown " + page))
     if stale:
         print(f"Bring the pages up to date: {sys.argv[0]} {deburr} {source} --write")
     return 1 if stale else 0
