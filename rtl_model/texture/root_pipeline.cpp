@@ -23,7 +23,7 @@ void RootPipeline::two_digits(Root& r) {
 bool RootPipeline::step(const DerivativeToken* next, FootprintToken* result) {
   const bool leaves = leaving();
   head_ = (head_ - 1) & 15;  // what was stage k's is now stage k + 1's
-  occupied_ = (occupied_ << 1) & ((1u << (kRegisters + 1)) - 1);
+  occupied_ <<= 1;
   for (int stage = 1; stage <= kRegisters; ++stage)
     if (occupied_ >> stage & 1) {
       two_digits(entry(stage).x);

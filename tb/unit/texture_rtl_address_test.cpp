@@ -617,11 +617,13 @@ TEST(TextureRtlAddresser, WrapsByHand) {
   }
 }
 
-// Five texels: 6710887 x 5 is the first above 2 x 2^24, so the last bit of the complement counts.
-TEST(TextureRtlAddresser, MirrorIsTheExactComplement) {
+// Five texels: 6710887 x 5 is the first above 2 x 2^24, so the last bit counts.
+TEST(TextureRtlAddresser, WrappingKeepsEveryBit) {
   AddresserBench b;
-  const auto d =
-      texture(5, 5, spec::Format::kL8, spec::Layout::kLinear, spec::Wrap::kMirroredRepeat);
+  auto d = texture(5, 5, spec::Format::kL8, spec::Layout::kLinear, spec::Wrap::kRepeat);
+  EXPECT_EQ(b.address(d, 6710886 - 3ll * kOne, 0, false).address[0], 0x1001u);
+  EXPECT_EQ(b.address(d, 6710887 + 3ll * kOne, 0, false).address[0], 0x1002u);
+  d.wrap_s = spec::Wrap::kMirroredRepeat;
   for (const std::int64_t direct : {6710886, 6710887}) {
     const std::uint32_t expected = direct == 6710886 ? 0x1001 : 0x1002;
     EXPECT_EQ(b.address(d, direct, 0, false).address[0], expected);

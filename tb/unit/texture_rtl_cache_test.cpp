@@ -296,6 +296,9 @@ TEST(TextureRtlCache, FullQueueStallsTheTagStageAndLosesNothing) {
   EXPECT_GT(stalls[1].cycles, 500u);
   ASSERT_EQ(stalls[2].name, "fifo_full");
   EXPECT_EQ(stalls[2].cycles, 0u);
+  const auto queue_stalls = b.cache.miss_queue.stalls();
+  ASSERT_EQ(queue_stalls[1].name, "fill_buffer_full");
+  EXPECT_GT(queue_stalls[1].cycles, 500u);
   // Never more lines outstanding than entries: each group of four waits for the group before it.
   EXPECT_EQ(b.cache.memory_port.most_outstanding.value(), 4u);
   EXPECT_EQ(b.cache.miss_queue.most_waiting.value(), 4u);

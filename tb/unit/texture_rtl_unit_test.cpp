@@ -509,6 +509,12 @@ TEST(TextureRtlUnit, RefusesImpossibleParameters) {
                       p.cache_ways = 8;
                     }),
               HasSubstr("do not hold one set"));
+  EXPECT_EQ(error("f",
+                  [](auto& p) {
+                    p.cache_bytes = 256;
+                    p.cache_ways = 4;
+                  }),
+            "none");
 }
 
 }  // namespace
