@@ -2,9 +2,9 @@
 // Speed of the texture unit's hardware model: the whole unit with cache, memory port and a TLM
 // memory of 100 clocks latency, tracing off.
 //
-//   texture_rtl_bench                            Mcycle/s, bilinears/s, and instructions per cycle
-//   where
-//                                                the processor's counters may be read
+//   texture_rtl_bench    Mcycle/s, bilinears/s, instructions per cycle where the processor's
+//   counters
+//       may be read, and how many times as fast the golden model filters the same fragments
 //   texture_rtl_bench --cycles <workload> <n>    n cycles of one workload and nothing else, for
 //       counting instructions with callgrind; workloads: nearest trilinear anisotropic warm
 #include <benchmark/benchmark.h>
@@ -14,19 +14,23 @@
 #include <tlm_utils/simple_initiator_socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <ctime>
 #include <iostream>
 #include <string>
 #include <vector>
 
+#include "golden/texture/texture_golden.h"
 #include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/texture_unit.h"
 #include "spec/fragment.h"
 #include "spec/texture.h"
+#include "tb/app/texture_memory.h"
 #include "tb/harness/memory_model.h"
 
 namespace deburr::tb {
@@ -41,7 +45,49 @@ constexpr std::int32_t kTexel = spec::kCoordinateOne / kSize;
 enum class Workload : std::uint8_t { kNearest, kTrilinear, kAnisotropic, kWarm };
 constexpr std::array<const char*, 4> kWorkloads = {"nearest", "trilinear", "anisotropic", "warm"};
 
-// Goes over a picture in blocks of 8 x 8 pixels, for ever.
+// Quad number `count` of a picture that is gone over in blocks of 8 x 8 pixels, for ever.
+spec::Quad quad_of(Workload workload, std::uint32_t count) {
+  spec::Quad q;
+  q.tag = count;
+  q.texture = static_cast<std::uint8_t>(workload);
+  // Texels a pixel in x and y. Anisotropic: 12 to 1.5.
+  const std::int32_t dx = workload == Workload::kAnisotropic ? 12 * kTexel : 3 * kTexel / 2;
+  const std::int32_t dy = 3 * kTexel / 2;
+  const std::uint32_t block = workload == Workload::kWarm ? 0 : count / 16;
+  const auto x = static_cast<std::int32_t>(block % 64 * 8 + count % 4 * 2);
+  const auto y = static_cast<std::int32_t>(block / 64 % 64 * 8 + count / 4 % 4 * 2);
+  q.s = {x * dx, (x + 1) * dx, x * dx, (x + 1) * dx};
+  q.t = {y * dy, y * dy, (y + 1) * dy, (y + 1) * dy};
+  return q;
+}
+
+// 11 levels of 1024 x 1024 RGBA8, tiled, trilinear or nearest, N_max 16.
+spec::TextureDescriptor texture_of(Workload workload) {
+  spec::TextureDescriptor d;
+  d.width = d.height = kSize;
+  d.levels = 11;
+  const bool nearest = workload == Workload::kNearest;
+  d.min_filter = nearest ? spec::MinFilter::kNearest : spec::MinFilter::kLinearMipmapLinear;
+  d.mag_filter = nearest ? spec::MagFilter::kNearest : spec::MagFilter::kLinear;
+  d.max_anisotropy_log2 = 4;
+  std::uint32_t base = 0;
+  for (std::uint32_t k = 0; k < d.levels; ++k) {
+    d.base[k] = base;
+    base += std::max(64u, (kSize >> k) * (kSize >> k) * 4u);
+  }
+  return d;
+}
+
+std::vector<std::uint8_t> noise() {
+  std::vector<std::uint8_t> bytes(8u << 20);
+  std::uint32_t state = 1;
+  for (std::uint8_t& byte : bytes) {
+    state = state * 1664525u + 1013904223u;
+    byte = static_cast<std::uint8_t>(state >> 24);
+  }
+  return bytes;
+}
+
 class Fragments final : public rtl::Unit {
  public:
   rtl::Out<spec::Quad> quads_out{"quads_out"};
@@ -50,19 +96,7 @@ class Fragments final : public rtl::Unit {
 
   Activity tick(Cycle cycle) override {
     if (!quads_out.can_push(cycle)) return rtl::kStalledDownstream;
-    spec::Quad& q = quads_out.emplace(cycle);
-    q = {};
-    q.tag = count_;
-    q.texture = static_cast<std::uint8_t>(workload_);
-    // Texels a pixel in x and y. Anisotropic: 12 to 1.5.
-    const std::int32_t dx = workload_ == Workload::kAnisotropic ? 12 * kTexel : 3 * kTexel / 2;
-    const std::int32_t dy = 3 * kTexel / 2;
-    const std::uint32_t block = workload_ == Workload::kWarm ? 0 : count_ / 16;
-    const auto x = static_cast<std::int32_t>(block % 64 * 8 + count_ % 4 * 2);
-    const auto y = static_cast<std::int32_t>(block / 64 % 64 * 8 + count_ / 4 % 4 * 2);
-    q.s = {x * dx, (x + 1) * dx, x * dx, (x + 1) * dx};
-    q.t = {y * dy, y * dy, (y + 1) * dy, (y + 1) * dy};
-    ++count_;
+    quads_out.push(cycle, quad_of(workload_, count_++));
     return rtl::kBusy;
   }
   void reset() override { count_ = 0; }
@@ -133,13 +167,7 @@ struct System {
     picture.colours_in(colours);
     unit.memory.bind(memory.ports);
     host.bus.bind(unit.registers);
-    std::vector<std::uint8_t> noise(8u << 20);
-    std::uint32_t state = 1;
-    for (std::uint8_t& byte : noise) {
-      state = state * 1664525u + 1013904223u;
-      byte = static_cast<std::uint8_t>(state >> 24);
-    }
-    memory.preload(0, noise);
+    memory.preload(0, noise());
   }
   static System& only() {
     static System system;
@@ -151,19 +179,9 @@ struct System {
     clock.run(2);
     clock.set_reset_n(true);
     fragments.choose(workload);
-    const bool nearest = workload == Workload::kNearest;
-    namespace reg = spec::texture_register;
-    const std::uint32_t at =
-        reg::kTextureBase + static_cast<std::uint32_t>(workload) * reg::kTextureStride;
-    host.write(at + reg::kSize, kSize | kSize << 16);
-    host.write(at + reg::kMode, 1u << 4 | (nearest ? 0u : 5u) << 12 | (nearest ? 0u : 1u) << 16 |
-                                    11u << 20 | 4u << 24);
-    host.write(at + reg::kLodClamp, 12u << 24);
-    std::uint32_t base = 0;
-    for (std::uint32_t k = 0; k < 11; ++k) {
-      host.write(at + reg::kLevelBase + 4 * k, base);
-      base += std::max(64u, (kSize >> k) * (kSize >> k) * 4u);
-    }
+    for (const auto& [offset, value] :
+         descriptor_registers(static_cast<int>(workload), texture_of(workload)))
+      host.write(offset, value);
     clock.run(2000);
   }
   std::uint64_t bilinears() const { return unit.address.addresser.bilinears.value(); }
@@ -211,6 +229,36 @@ void bm_texture_rtl(benchmark::State& state, Workload workload) {
         static_cast<double>(instructions.value() - counted) / cycles;
 }
 
+// The golden model on the same fragments, turn and turn about with the hardware model, so that the
+// ratio means something on a machine with other work to do.
+void bm_golden_over_rtl(benchmark::State& state, Workload workload,
+                        golden::texture::TextureGolden::Traffic traffic) {
+  constexpr Cycle kCycles = 50'000;
+  System& system = System::only();
+  system.start(workload);
+  const std::vector<std::uint8_t> memory = noise();
+  golden::texture::TextureGolden golden({}, memory, traffic);
+  golden.set_texture(static_cast<int>(workload), texture_of(workload));
+  std::clock_t rtl_time = 0, golden_time = 0;
+  std::uint32_t count = 0;
+  for (auto _ : state) {
+    const std::uint64_t before = system.bilinears();
+    const std::clock_t begin = std::clock();
+    system.clock.run(kCycles);
+    const std::clock_t middle = std::clock();
+    const std::uint64_t end = golden.work().bilinears + system.bilinears() - before;
+    while (golden.work().bilinears < end)
+      benchmark::DoNotOptimize(golden.process(quad_of(workload, count++)).colours);
+    rtl_time += middle - begin;
+    golden_time += std::clock() - middle;
+  }
+  state.counters["golden/rtl"] = static_cast<double>(rtl_time) / static_cast<double>(golden_time);
+}
+
+using Traffic = golden::texture::TextureGolden::Traffic;
+BENCHMARK_CAPTURE(bm_golden_over_rtl, trilinear, Workload::kTrilinear, Traffic::kIgnore);
+BENCHMARK_CAPTURE(bm_golden_over_rtl, trilinear_traffic, Workload::kTrilinear, Traffic::kPredict);
+BENCHMARK_CAPTURE(bm_golden_over_rtl, anisotropic, Workload::kAnisotropic, Traffic::kIgnore);
 BENCHMARK_CAPTURE(bm_texture_rtl, nearest, Workload::kNearest);
 BENCHMARK_CAPTURE(bm_texture_rtl, trilinear, Workload::kTrilinear);
 BENCHMARK_CAPTURE(bm_texture_rtl, anisotropic, Workload::kAnisotropic);
