@@ -60,16 +60,16 @@ class CheckFailed : public std::logic_error {
 
 [[noreturn]] inline void fail_check(const char* condition, const char* file, int line,
                                     const std::string& text) {
-  throw CheckFailed(std::string(file) + ":" + std::to_string(line) + ": check failed: " +
-                    condition + ": " + text);
+  throw CheckFailed(std::string(file) + ":" + std::to_string(line) +
+                    ": check failed: " + condition + ": " + text);
 }
 
 }  // namespace deburr::spec
 
-// DEBURR_CHECK(condition, text): an invariant that stays on in every build. `text` is evaluated only
-// on failure and says which instance, cycle or pixel broke it.
-#define DEBURR_CHECK(condition, text)                                            \
-  do {                                                                           \
-    if (!(condition)) [[unlikely]]                                               \
-      ::deburr::spec::fail_check(#condition, __FILE__, __LINE__, (text));        \
+// DEBURR_CHECK(condition, text): an invariant that stays on in every build. `text` is evaluated
+// only on failure and says which instance, cycle or pixel broke it.
+#define DEBURR_CHECK(condition, text)                                     \
+  do {                                                                    \
+    if (!(condition)) [[unlikely]]                                        \
+      ::deburr::spec::fail_check(#condition, __FILE__, __LINE__, (text)); \
   } while (false)

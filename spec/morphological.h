@@ -139,8 +139,9 @@ void describe(MorphologicalParameters& p, Visitor& v) {
             "Longest horizontal run, and how far it may be extended.");
   v.integer("line_pixels", p.line_pixels, 1, kMaxFrameSize, "pixel",
             "Widest frame that the line buffers hold.");
-  v.integer("record_fifo", p.record_fifo, 2, 4096, "record",
-            "Runs waiting for a predictor, for each axis and lane; a tenth of a row bears every burst.");
+  v.integer(
+      "record_fifo", p.record_fifo, 2, 4096, "record",
+      "Runs waiting for a predictor, for each axis and lane; a tenth of a row bears every burst.");
   v.integer("predictor_units", p.predictor_units, 1, 16, "unit",
             "Predictors for each axis and lane; each tries one step of both sides a clock.");
   v.integer("divider.latency", p.divider_latency, 1, 64, "clock", "Latency of the divider.");

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How a unit's parameters are declared once: name, storage, range, unit and one line of meaning.
 //
-// A parameter struct P is a plain struct whose member initialisers are the defaults, with a function
+// A parameter struct P is a plain struct whose member initialisers are the defaults, with a
+// function
 //
 //   template <class Visitor> void describe(P& p, Visitor& v) {
 //     v.integer("cache.ways", p.cache_ways, 1, 16, "way", "Associativity of the texture cache.");
@@ -9,7 +10,8 @@
 //     v.boolean("mesh.two_sided", p.two_sided, "...");
 //   }
 //
-// Every consumer (command line, YAML, documentation, manifest) is a visitor with those three members:
+// Every consumer (command line, YAML, documentation, manifest) is a visitor with those three
+// members:
 //   void integer(std::string_view name, std::int32_t& value, std::int32_t min, std::int32_t max,
 //                std::string_view unit, std::string_view meaning);
 //   template <class Enum, std::size_t N>

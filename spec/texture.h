@@ -23,13 +23,12 @@ enum class MinFilter : std::uint8_t {
   kNearestMipmapLinear,
   kLinearMipmapLinear
 };
-inline constexpr std::array<std::string_view, 6> kMinFilterNames = {
-    "nearest",
-    "linear",
-    "nearest_mipmap_nearest",
-    "linear_mipmap_nearest",
-    "nearest_mipmap_linear",
-    "linear_mipmap_linear"};
+inline constexpr std::array<std::string_view, 6> kMinFilterNames = {"nearest",
+                                                                    "linear",
+                                                                    "nearest_mipmap_nearest",
+                                                                    "linear_mipmap_nearest",
+                                                                    "nearest_mipmap_linear",
+                                                                    "linear_mipmap_linear"};
 
 enum class MagFilter : std::uint8_t { kNearest, kLinear };
 inline constexpr std::array<std::string_view, 2> kMagFilterNames = {"nearest", "linear"};
@@ -42,8 +41,8 @@ enum class Layout : std::uint8_t { kLinear, kTiled };
 inline constexpr std::array<std::string_view, 2> kLayoutNames = {"linear", "tiled"};
 
 enum class Format : std::uint8_t { kRgba8, kRgb565, kRgba4444, kL8, kSrgb8A8 };
-inline constexpr std::array<std::string_view, 5> kFormatNames = {"rgba8", "rgb565", "rgba4444", "l8",
-                                                                 "srgb8_a8"};
+inline constexpr std::array<std::string_view, 5> kFormatNames = {"rgba8", "rgb565", "rgba4444",
+                                                                 "l8", "srgb8_a8"};
 inline constexpr std::array<std::uint8_t, 5> kFormatBytes = {4, 2, 2, 1, 4};
 
 inline constexpr int kMaxTextures = 16;
@@ -63,10 +62,10 @@ struct TextureDescriptor {
   Wrap wrap_s = Wrap::kRepeat, wrap_t = Wrap::kRepeat;
   MinFilter min_filter = MinFilter::kLinearMipmapLinear;
   MagFilter mag_filter = MagFilter::kLinear;
-  std::uint8_t max_anisotropy_log2 = 0;  // N_max = 1, 2, 4, 8, 16
-  std::int16_t lod_bias = 0;             // S7.8
-  std::uint16_t min_lod = 0;             // U8.8
-  std::uint16_t max_lod = 12 << 8;       // U8.8
+  std::uint8_t max_anisotropy_log2 = 0;          // N_max = 1, 2, 4, 8, 16
+  std::int16_t lod_bias = 0;                     // S7.8
+  std::uint16_t min_lod = 0;                     // U8.8
+  std::uint16_t max_lod = 12 << 8;               // U8.8
   std::array<std::uint32_t, kMaxLevels> base{};  // byte address of each level, multiple of 64
   friend bool operator==(const TextureDescriptor&, const TextureDescriptor&) = default;
 };
@@ -74,8 +73,8 @@ struct TextureDescriptor {
 // ---- parameters ---------------------------------------------------------------------------------
 
 enum class FootprintRule : std::uint8_t { kHalf, kQuarter, kTwoSegment, kExact, kMax };
-inline constexpr std::array<std::string_view, 5> kFootprintNames = {"half", "quarter", "two_segment",
-                                                                    "exact", "max"};
+inline constexpr std::array<std::string_view, 5> kFootprintNames = {"half", "quarter",
+                                                                    "two_segment", "exact", "max"};
 enum class Log2Rule : std::uint8_t { kMitchell, kCorrected, kSegments, kExact };
 inline constexpr std::array<std::string_view, 4> kLog2Names = {"mitchell", "corrected", "segments",
                                                                "exact"};
@@ -143,13 +142,14 @@ inline constexpr std::uint32_t kClamped = 0x4C;
 inline constexpr std::uint32_t kSaturated = 0x50;
 inline constexpr std::uint32_t kMemoryErrors = 0x54;
 inline constexpr std::uint32_t kInvalidFragments = 0x58;
-inline constexpr std::uint32_t kTextureBase = 0x100;    // descriptor h starts at kTextureBase + h * stride
+inline constexpr std::uint32_t kTextureBase =
+    0x100;  // descriptor h starts at kTextureBase + h * stride
 inline constexpr std::uint32_t kTextureStride = 0x80;
-inline constexpr std::uint32_t kSize = 0x00;            // offsets inside a descriptor
+inline constexpr std::uint32_t kSize = 0x00;  // offsets inside a descriptor
 inline constexpr std::uint32_t kMode = 0x04;
 inline constexpr std::uint32_t kLodBias = 0x08;
 inline constexpr std::uint32_t kLodClamp = 0x0C;
-inline constexpr std::uint32_t kLevelBase = 0x10;       // + 4 k for level k
+inline constexpr std::uint32_t kLevelBase = 0x10;  // + 4 k for level k
 inline constexpr std::uint32_t kIdValue = 0xDEB00001;
 inline constexpr std::uint32_t kStatusIdle = 1u << 0;
 inline constexpr std::uint32_t kStatusMemoryError = 1u << 1;
@@ -164,13 +164,15 @@ inline constexpr std::array<RegisterInfo, 11> kTextureRegisters = {{
     {texture_register::kId, "ID", Access::kReadOnly, texture_register::kIdValue,
      "Identifies the unit and the version of its register map."},
     {texture_register::kControl, "CONTROL", Access::kReadWrite, 1,
-     "Bit 0 enable: quads are taken. Bit 1 invalidate the cache (command, reads 0; when idle only). "
+     "Bit 0 enable: quads are taken. Bit 1 invalidate the cache (command, reads 0; when idle "
+     "only). "
      "Bit 2 clear the counters (command, reads 0)."},
     {texture_register::kStatus, "STATUS", Access::kWriteOneToClear, 1,
      "Bit 0 idle (read only). Sticky: bit 1 memory error response, bit 2 quad with an invalid "
      "descriptor, bit 3 descriptor written while busy."},
     {texture_register::kRules, "RULES", Access::kReadOnly, 0,
-     "The variant built: footprint [2:0], log2 [5:4], count [8], count_cap [9], kernel [10], spread "
+     "The variant built: footprint [2:0], log2 [5:4], count [8], count_cap [9], kernel [10], "
+     "spread "
      "[23:16]."},
     {texture_register::kFragments, "FRAGMENTS", Access::kReadOnly, 0, "Colours delivered."},
     {texture_register::kBilinears, "BILINEARS", Access::kReadOnly, 0,

@@ -43,9 +43,7 @@ void run(benchmark::State& state, int max_anisotropy_log2, TextureGolden::Traffi
       static_cast<double>(work.bilinears) / static_cast<double>(work.samples);
 }
 
-void trilinear_colours(benchmark::State& state) {
-  run(state, 0, TextureGolden::Traffic::kIgnore);
-}
+void trilinear_colours(benchmark::State& state) { run(state, 0, TextureGolden::Traffic::kIgnore); }
 void trilinear_colours_and_traffic(benchmark::State& state) {
   run(state, 0, TextureGolden::Traffic::kPredict);
 }

@@ -39,14 +39,16 @@ struct Figures {
 
 class Judge {
  public:
-  Judge(std::string name, const Image& frame, const Image& truth, const std::optional<DepthImage>& depth)
+  Judge(std::string name, const Image& frame, const Image& truth,
+        const std::optional<DepthImage>& depth)
       : name_(std::move(name)), frame_(frame), truth_(truth), edges_(edge_mask(truth, frame)) {
     if (depth) silhouettes_ = silhouette_mask(edges_, *depth);
   }
   Figures judge(const std::string& method, const Image& image) const {
-    const Figures f{psnr(image, truth_, edges_), silhouettes_ ? psnr(image, truth_, *silhouettes_) : 0};
-    std::cout << fmt::format("{:<12} {:<11} edges {:.2f} dB, silhouettes {:.2f} dB\n", name_, method, f.edges,
-                             f.silhouettes);
+    const Figures f{psnr(image, truth_, edges_),
+                    silhouettes_ ? psnr(image, truth_, *silhouettes_) : 0};
+    std::cout << fmt::format("{:<12} {:<11} edges {:.2f} dB, silhouettes {:.2f} dB\n", name_,
+                             method, f.edges, f.silhouettes);
     return f;
   }
   Figures judge(MorphologicalPreset preset) const {
@@ -76,20 +78,26 @@ void expect_deburr_best(const Judge& judge, const Image& frame) {
 
 std::filesystem::path data(const char* name) {
   const char* folder = std::getenv("DEBURR_DATA");
-  return (folder ? folder : std::filesystem::path(DEBURR_SOURCE_DIR) / "../shared/data") / "frames" / name;
+  return (folder ? folder : std::filesystem::path(DEBURR_SOURCE_DIR) / "../shared/data") /
+         "frames" / name;
 }
 
 TEST(MorphologicalFrames, DeburrIsBestOnTrackAt720p) {
   if (!std::filesystem::exists(data("track_720p_noaa.png")))
-    GTEST_SKIP() << "no " << data("track_720p_noaa.png") << ": set DEBURR_DATA to the folder that holds frames/";
-  const Image frame = read_image(data("track_720p_noaa.png")), truth = read_image(data("track_720p_ssaa256.png"));
-  expect_deburr_best({"track 720p", frame, truth, read_depth(data("track_720p_depth24.png"))}, frame);
+    GTEST_SKIP() << "no " << data("track_720p_noaa.png")
+                 << ": set DEBURR_DATA to the folder that holds frames/";
+  const Image frame = read_image(data("track_720p_noaa.png")),
+              truth = read_image(data("track_720p_ssaa256.png"));
+  expect_deburr_best({"track 720p", frame, truth, read_depth(data("track_720p_depth24.png"))},
+                     frame);
 }
 
 TEST(MorphologicalFrames, DeburrIsBestOnTrackAt1080p) {
   if (!std::filesystem::exists(data("track_1080p_noaa.png")))
-    GTEST_SKIP() << "no " << data("track_1080p_noaa.png") << ": set DEBURR_DATA to the folder that holds frames/";
-  const Image frame = read_image(data("track_1080p_noaa.png")), truth = read_image(data("track_1080p_ssaa64.png"));
+    GTEST_SKIP() << "no " << data("track_1080p_noaa.png")
+                 << ": set DEBURR_DATA to the folder that holds frames/";
+  const Image frame = read_image(data("track_1080p_noaa.png")),
+              truth = read_image(data("track_1080p_ssaa64.png"));
   expect_deburr_best({"track 1080p", frame, truth, std::nullopt}, frame);
 }
 

@@ -29,7 +29,8 @@ inline SceneParameters picture(const std::string& source, int side) {
 // Simulates and judges: throws what TextureBench throws, a Mismatch included.
 inline TextureOutcome simulate(const SceneParameters& scene, const SamplerParameters& sampler,
                                const TextureBenchOptions& options) {
-  constexpr std::uint32_t kTextureSeed = 1;  // the options' seed is for the weather, not the picture
+  constexpr std::uint32_t kTextureSeed =
+      1;  // the options' seed is for the weather, not the picture
   const TextureScene built(scene, sampler, kTextureSeed);
   TextureBench bench(built, options);
   bench.run();
