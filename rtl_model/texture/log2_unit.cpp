@@ -1,27 +1,41 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/texture/log2_unit.h"
 
+#include <array>
 #include <bit>
+#include <cstdint>
 
 #include "spec/texture_tables.h"
 
 namespace deburr::rtl::texture {
 namespace {
 
-// The line that is added to n + y in each quarter of an octave, U0.12: constants and shifted copies
-// of r, the position inside the quarter.
+// The line that is added to n + y in each quarter of an octave: a constant (U0.12) and two shifted
+// copies of the position inside the quarter, each added or subtracted. The top bits of y select the
+// row; the shifts are wires, the signs drive the adders' invert and carry inputs.
+struct ShiftAddLine {
+  std::uint32_t constant;
+  int coarse_shift;
+  bool subtract_coarse;
+  int fine_shift;
+  bool subtract_fine;
+};
+constexpr std::array<ShiftAddLine, 4> kLines = {{{20, 2, false, 5, false},
+                                                 {305, 4, false, 7, true},
+                                                 {356, 3, true, 6, false},
+                                                 {243, 2, true, 6, false}}};
+
+// Two's complement on a 32-bit adder: inverted operand and carry in.
+std::uint32_t add_or_subtract(std::uint32_t sum, std::uint32_t operand, bool subtract) {
+  return subtract ? sum + ~operand + 1 : sum + operand;
+}
+
 std::uint32_t segment_correction(std::uint32_t y) {
-  const std::uint32_t r = y & 1023;
-  switch (y >> 10) {
-    case 0:
-      return 20 + (r >> 2) + (r >> 5);
-    case 1:
-      return 305 + (r >> 4) - (r >> 7);
-    case 2:
-      return 356 - (r >> 3) + (r >> 6);
-    default:
-      return 243 - (r >> 2) + (r >> 6);
-  }
+  const ShiftAddLine& line = kLines[y >> 10];
+  const std::uint32_t position = y & 0x3FF;
+  const std::uint32_t sum =
+      add_or_subtract(line.constant, position >> line.coarse_shift, line.subtract_coarse);
+  return add_or_subtract(sum, position >> line.fine_shift, line.subtract_fine);
 }
 
 // Fraction of the logarithm by table and linear interpolation, U1.12.
