@@ -110,6 +110,21 @@ TEST(TextureRtlDerivative, OneClockACoveredLane) {
   EXPECT_EQ(b.unit.busy_cycles(), 13u);
 }
 
+TEST(TextureRtlDerivative, WaitsForItsOutputUnlessNothingIsCovered) {
+  DerivativeBench b;
+  b.ends.sink.hold_to = 20;
+  for (const std::uint8_t coverage : std::to_array<std::uint8_t>({1, 1, 0, 0, 1, 8, 0, 2})) {
+    spec::Quad q;
+    q.coverage = coverage;
+    b.ends.source.add(q);
+  }
+  b.clock.run(20);
+  EXPECT_EQ(b.unit.quads.value(), 4u);  // two in the link, two without a fragment
+  b.clock.run(20);
+  EXPECT_EQ(b.unit.quads.value(), 8u);
+  EXPECT_EQ(b.ends.sink.taken.size(), 5u);
+}
+
 TEST(TextureRtlDerivative, TakesNothingWhileDisabled) {
   DerivativeBench b;
   b.store.bus.write(spec::texture_register::kControl, 0);

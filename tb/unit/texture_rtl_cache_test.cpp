@@ -272,8 +272,10 @@ TEST(TextureRtlCache, RandomReplacementStepsOnlyForValidLines) {
   p.cache_ways = 4;  // one set
   TagStore tags("tags", p);
   for (std::uint32_t line = 0; line < 4; ++line) EXPECT_EQ(tags.allocate(line).slot, line);
-  // 0xACE1 -> 0x5670, 0xAB38, 0x559C, 0x2ACE, 0x1567: their low two bits.
-  for (const std::uint32_t way : {0u, 0u, 0u, 2u, 3u}) {
+  // 0xACE1 -> 0x5670, 0xAB38, 0x559C, 0x2ACE, 0x1567, ...: their low two bits; the last ones come
+  // from bits that were shifted in, from every tap.
+  for (const std::uint32_t way : {0u, 0u, 0u, 2u, 3u, 3u, 1u, 0u, 2u, 3u, 1u, 2u,
+                                  1u, 2u, 1u, 2u, 1u, 0u, 0u, 2u, 1u, 0u, 2u, 3u}) {
     const TagStore::Place place = tags.allocate(100 + way);
     EXPECT_EQ(place.slot, way);
     EXPECT_TRUE(place.evicted);

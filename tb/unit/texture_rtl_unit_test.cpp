@@ -274,6 +274,11 @@ TEST(TextureRtlUnit, ControlCommands) {
   b.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
   EXPECT_EQ(b.bus.read(reg::kFragments), 0u);
   EXPECT_EQ(b.bus.read(reg::kLineFills), 0u);
+  // That is all it does: the cache is still warm.
+  b.source.add(quad_of(3, 5));
+  b.finish();
+  EXPECT_EQ(fills(), 0u);
+  b.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
   // Disabled: a quad waits.
   b.bus.write(reg::kControl, 0);
   b.source.add(quad_of(3, 5));
