@@ -93,6 +93,19 @@ bool Trace::wanted(const std::string& name) const {
                      [&](const std::string& scope) { return glob_match(scope, name); });
 }
 
+std::vector<std::string> Trace::names() {
+  std::vector<std::string> names;
+  const auto add = [&](const sc_core::sc_object& object) { names.emplace_back(object.name()); };
+  for_each<LinkBase>(add);
+  for_each<Unit>(add);
+  for_each<Counter>(add);
+  for_each<RegisterBlock>([&](const RegisterBlock& block) {
+    for (const RegisterDescription& r : block.table())
+      names.push_back(fmt::format("{}.{}", block.name(), r.name));
+  });
+  return names;
+}
+
 void Trace::add(const std::string& name, int bits, std::function<std::uint64_t()> sample) {
   if (!wanted(name)) return;
   signals_.push_back({name,

@@ -40,6 +40,8 @@ class Trace final : public Clocked {
   Activity tick(Cycle cycle) override;
   void reset() override {}
   std::size_t signals() const { return signals_.size(); }
+  // Everything in the simulation that a scope can choose.
+  static std::vector<std::string> names();
 
  private:
   struct Signal {

@@ -14,6 +14,7 @@
 #include "spec/error.h"
 #include "tb/app/commands.h"
 #include "tb/app/engine.h"
+#include "tb/app/headline.h"
 #include "tb/app/interrupt.h"
 #include "tb/app/report.h"
 
@@ -110,6 +111,11 @@ Outcome run_engine(Engine& engine, const RunOptions& options, const std::string&
   engine.add_parameters(set);
   apply(options, set);
   engine.resolve(set);
+  if (!run.trace.empty() && run.trace_from >= run.trace_to)
+    throw ConfigError(fmt::format(
+        "run.trace_from = {} and run.trace_to = {} leave no cycle to trace: --trace-to is the "
+        "cycle after the last one, give one above {}",
+        run.trace_from, run.trace_to, run.trace_from));
   if (options.resolve_only) {
     fmt::print("{}", set.yaml());
     return {};
@@ -162,9 +168,8 @@ Outcome run_engine(Engine& engine, const RunOptions& options, const std::string&
   }
   context.finish(result);
   if (code != 0)
-    return {code,
-            fmt::format("FAIL {}: {} ({})", kind, result.reason.substr(0, result.reason.find('\n')),
-                        summary_of(result, context.directory()))};
+    return {code, fmt::format("FAIL {}: {} ({})", kind, headline(result.reason),
+                              summary_of(result, context.directory()))};
   if (result.interrupted) {
     fmt::print(stderr,
                "deburr: interrupted; the partial results are kept. Run the same command again "

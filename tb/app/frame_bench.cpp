@@ -16,6 +16,7 @@
 #include "spec/error.h"
 #include "tb/app/morphological_bench.h"
 #include "tb/app/morphological_frames.h"
+#include "tb/app/progress.h"
 
 namespace deburr::tb {
 namespace {
@@ -210,6 +211,9 @@ FrameBench::FrameBench(const TextureScene& scene, const FrameBenchOptions& optio
     trace.to = options.trace_to;
     bench.trace = trace;
   }
+  bench.at_limit = [this] {
+    return out_of_cycles(options_.max_cycles, position_, frame_.pixels.size(), "pixel");
+  };
   bench_ = std::make_unique<Bench>(clock_, bench);
 
   sink_.keep(false);

@@ -15,6 +15,7 @@
 #include "spec/error.h"
 #include "tb/app/build_info.h"
 #include "tb/app/commands.h"
+#include "tb/app/headline.h"
 #include "tb/app/interrupt.h"
 
 namespace {
@@ -56,10 +57,10 @@ int flushed(int code) {
   return code != 0 ? code : static_cast<int>(ExitCode::kFile);
 }
 
-// The first line says what kind of failure; a long text (a dump) goes to the error stream.
+// The message becomes the last line; with its details (a dump) it goes to the error stream.
 Outcome failure(int code, const char* kind, const std::string& text) {
   fmt::print(stderr, "deburr: {}\n", text);
-  return {code, fmt::format("FAIL {}: {}", kind, text.substr(0, text.find('\n')))};
+  return {code, fmt::format("FAIL {}: {}", kind, deburr::tb::headline(text))};
 }
 
 int run(int argc, char** argv) {
@@ -72,9 +73,10 @@ int run(int argc, char** argv) {
   });
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 pass, 1 mismatch or worse, 2 usage or configuration, 3 simulation error,\n"
-      "4 deadlock, 5 file, 130 interrupted. The last line is RESULT: ..., on failure after REPRO: "
-      "...");
+      "Exit codes: 0 pass, 1 mismatch or worse, 2 usage or configuration, 3 simulation error or\n"
+      "--max-cycles reached, 4 deadlock, 5 file, 130 interrupted. The last line is RESULT: ..., "
+      "on\n"
+      "failure after REPRO: ...");
   const std::string command = quoted_command(argc, argv);
 
   deburr::tb::CommandLine line{command, nullptr};

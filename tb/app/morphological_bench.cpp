@@ -18,6 +18,7 @@
 #include "golden/morphological/traffic.h"
 #include "rtl_model/morphological/line_memory.h"
 #include "spec/error.h"
+#include "tb/app/progress.h"
 
 namespace deburr::tb {
 namespace {
@@ -265,6 +266,11 @@ MorphologicalBench::MorphologicalBench(std::span<const MorphologicalInput> frame
     trace.to = options.trace_to;
     bench.trace = trace;
   }
+  bench.at_limit = [this] {
+    std::uint64_t pixels = 0;
+    for (const MorphologicalInput& frame : frames_) pixels += frame.image.pixels.size();
+    return out_of_cycles(options_.max_cycles, pixels_, pixels, "pixel");
+  };
   bench_ = std::make_unique<Bench>(clock_, bench);
 
   sink_.keep(false);
@@ -404,9 +410,7 @@ void MorphologicalBench::run_frame(const MorphologicalInput& frame, bool reset_w
     running_ = false;
   };
   try {
-    if (limit <= cycles_)
-      throw spec::DeadlockError(fmt::format("not done after {} cycles", cycles_));
-    bench_->run(done, limit - cycles_, false);
+    bench_->run(done, std::max(limit, cycles_) - cycles_, false);
     if (reset_due && clock_.cycle() >= reset_at) {
       reset_due = false;
       // What was asked of memory before is still on its way; it goes by before the frame begins.

@@ -88,7 +88,7 @@ class MorphologicalBench {
   ~MorphologicalBench();
 
   // Does not throw on mismatches: see check(). SimulationError for memory errors and broken
-  // protocols, DeadlockError for no progress.
+  // protocols, DeadlockError for no progress, OutOfCycles for max_cycles.
   void run(const Progress& progress = {});
   // Throws Mismatch when a pixel, a tap, a record, a memory access or a counter differs.
   void check() const;

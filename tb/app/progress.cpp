@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tb/app/report.h"
+
 namespace deburr::tb {
 namespace {
 
@@ -29,6 +31,14 @@ std::string time_text(double seconds) {
 }
 
 }  // namespace
+
+std::string out_of_cycles(std::uint64_t cycles, std::uint64_t done, std::uint64_t total,
+                          std::string_view unit) {
+  return fmt::format(
+      "not done after {} cycles, which is all that --max-cycles (run.max_cycles) allows: {} of {} "
+      "{}s are done; raise it, or set it to 0 for no limit",
+      grouped(cycles), grouped(done), grouped(total), unit);
+}
 
 std::string Progress::line(std::string_view label, std::string_view unit, std::uint64_t done,
                            std::uint64_t total, double seconds) {

@@ -37,4 +37,8 @@ class Progress {
   Clock::time_point start_, last_;
 };
 
+// What the error says when --max-cycles is reached: how far the run came and what to raise.
+std::string out_of_cycles(std::uint64_t cycles, std::uint64_t done, std::uint64_t total,
+                          std::string_view unit);
+
 }  // namespace deburr::tb

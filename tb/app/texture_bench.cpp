@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "spec/error.h"
+#include "tb/app/progress.h"
 
 namespace deburr::tb {
 namespace {
@@ -168,6 +169,10 @@ TextureBench::TextureBench(const TextureScene& scene, const TextureBenchOptions&
     trace.to = options.trace_to;
     bench.trace = trace;
   }
+  bench.at_limit = [this] {
+    return out_of_cycles(options_.max_cycles, sink_.received(), scene_.stream().counts.fragments,
+                         "fragment");
+  };
   bench_ = std::make_unique<Bench>(clock_, bench);
 
   std::vector<std::uint8_t> contents = scene.memory().bytes();

@@ -71,7 +71,7 @@ class TextureBench {
 
   // Resets, writes descriptors over the register socket, sends every quad and waits for the last
   // colour. Does not throw on mismatches: see check(). SimulationError for memory errors and broken
-  // protocols, DeadlockError for no progress.
+  // protocols, DeadlockError for no progress, OutOfCycles for max_cycles.
   void run(const Progress& progress = {});
   // Throws Mismatch when a colour, a fill or a status register differs from the golden model.
   void check() const;

@@ -3,11 +3,42 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "rtl_model/fabric/counters.h"
+#include "rtl_model/fabric/link.h"
+#include "rtl_model/fabric/unit.h"
 #include "spec/error.h"
+#include "tb/harness/verdict.h"
 
 namespace deburr::tb {
+namespace {
 
-Bench::Bench(rtl::ClockDomain& clock, const BenchOptions& options) : clock_(clock) {
+// A scope that chooses nothing is a misspelt one: the wave would come out empty.
+void check_scopes(const rtl::TraceOptions& trace) {
+  const std::vector<std::string> names = rtl::Trace::names();
+  for (const std::string& scope : trace.scopes) {
+    if (std::any_of(names.begin(), names.end(),
+                    [&](const std::string& name) { return rtl::glob_match(scope, name); }))
+      continue;
+    std::string known;
+    const auto add = [&](const sc_core::sc_object& object) {
+      known += std::string("\n  ") + object.name();
+    };
+    rtl::for_each<rtl::LinkBase>(add);
+    rtl::for_each<rtl::Unit>(add);
+    throw spec::ConfigError(
+        fmt::format("trace: no link, unit, counter or register matches {} (* stands for any text, "
+                    "? for a letter); links and units are:{}",
+                    scope, known));
+  }
+}
+
+}  // namespace
+
+Bench::Bench(rtl::ClockDomain& clock, const BenchOptions& options)
+    : clock_(clock), at_limit_(options.at_limit) {
+  if (options.trace) check_scopes(*options.trace);
   clock.set_fast_path(options.fast_path);
   if (options.shuffle) clock.shuffle(options.shuffle);
   if (options.stall_permille)
@@ -27,8 +58,10 @@ Bench::Bench(rtl::ClockDomain& clock, const BenchOptions& options) : clock_(cloc
 rtl::Cycle Bench::run(const std::function<bool()>& done, rtl::Cycle limit, bool drained) {
   const rtl::Cycle begin = clock_.cycle();
   if (!clock_.run_until(done, limit))
-    throw spec::DeadlockError(
-        fmt::format("{}: not done after {} cycles\n{}", clock_.name(), limit, dump_state(clock_)));
+    throw OutOfCycles(
+        fmt::format("{}: {}\n\n{}", clock_.name(),
+                    at_limit_ ? at_limit_() : fmt::format("not done after {} cycles", limit),
+                    dump_state(clock_)));
   if (faults_) faults_->check_fired();
   if (checker_ && drained) checker_->check_empty();
   clock_.check_accounting();

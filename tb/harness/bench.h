@@ -32,13 +32,16 @@ struct BenchOptions {
   bool fast_path = true;
   std::vector<std::string> faults;  // see Fault::parse
   std::optional<rtl::TraceOptions> trace;
+  // How far the run came and what to raise, for the error when the limit of cycles is reached.
+  std::function<std::string()> at_limit;
 };
 
 class Bench {
  public:
+  // ConfigError for faults on links and scopes of waves that do not exist.
   Bench(rtl::ClockDomain& clock, const BenchOptions& options = {});
 
-  // Until `done`, at most `limit` cycles; DeadlockError if it is not done by then. Then the links
+  // Until `done`, at most `limit` cycles; OutOfCycles if it is not done by then. Then the links
   // must be empty (unless `drained` is false), the accounts right, and every planted fault reached.
   // Returns the cycles it took.
   rtl::Cycle run(const std::function<bool()>& done, rtl::Cycle limit, bool drained = true);
@@ -47,6 +50,7 @@ class Bench {
 
  private:
   rtl::ClockDomain& clock_;
+  std::function<std::string()> at_limit_;
   std::unique_ptr<StallInjector> stalls_;
   std::unique_ptr<FaultInjector> faults_;
   std::unique_ptr<LinkChecker> checker_;

@@ -46,7 +46,7 @@ rtl::Activity Watchdog::tick(rtl::Cycle cycle) {
     sample(cycle);
   } else if (cycle - moved_at_ >= patience_) {
     throw spec::DeadlockError(
-        fmt::format("{}: no link has moved a beat for {} cycles, now cycle {}\n{}", clock_.name(),
+        fmt::format("{}: no link has moved a beat for {} cycles, now cycle {}\n\n{}", clock_.name(),
                     cycle - moved_at_, cycle, dump_state(clock_, activity_)));
   }
   return rtl::kIdle;

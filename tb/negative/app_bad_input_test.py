@@ -171,6 +171,22 @@ class Configuration(CommandTest):
         self.expect(2, "frobnicate")
         self.expect(2)
 
+    def test_trace_of_nothing(self):
+        self.run_texture(2, "--trace", "texture.nothing*",
+                         says=["texture.nothing*", "texture.texels", "texture.cache.tag_stage"])
+        self.assertNotIn("trace.vcd.partial", os.listdir(self.path("out")))
+
+    def test_empty_window_of_a_trace(self):
+        self.run_texture(2, "--trace", "*", "--trace-from", "100", "--trace-to", "100",
+                         says=["run.trace_from = 100", "--trace-to"])
+        self.run_texture(2, "--trace", "*", "--trace-from", "5000", says="above 5000")
+        self.assertFalse(os.path.exists(self.path("out")))
+
+    def test_trace(self):
+        self.run_texture(0, "--trace", "texture.texels", "--trace-to", "50", says="PASS")
+        with open(self.path("out/trace.vcd")) as file:
+            self.assertIn("occupancy", file.read())
+
     def test_nothing_is_written_before_the_configuration_is_right(self):
         self.run_texture(2, "--set", "texture.fotprint=half")
         self.assertFalse(os.path.exists(self.path("out")))

@@ -92,11 +92,21 @@ class Faults(CommandTest):
         self.fault("flip:texture.texel_quads:12:167", 1, "mismatch", *self.UNCHECKED)
 
     def test_too_few_cycles(self):
-        self.run_texture(4, "--max-cycles", "100", says="not done after 100 cycles")
+        done = self.run_texture(3, "--max-cycles", "300",
+                                says=["not done after 300 cycles", "--max-cycles"])
+        last = done.stdout.strip().splitlines()[-1]
+        self.assertRegex(last, r"FAIL simulation: .* [\d,]+ of 1,024 fragments are done; raise it")
+        self.assertIn("texture.texels", done.stderr, "the dump names every link")
+        with open(self.path("out/result.json")) as file:
+            result = json.load(file)
+        self.assertEqual((result["verdict"], result["cycles"]), ("fail", 300))
 
     def test_unknown_fault(self):
         self.run_texture(2, "--fault", "gremlin", says=["gremlin", "flip-bit"])
-        self.run_texture(2, "--fault", "drop:no.such.link:1", says="no.such.link")
+        done = self.run_texture(2, "--fault", "drop:no.such.link:1", says="no.such.link")
+        last = done.stdout.strip().splitlines()[-1]
+        self.assertIn("there are: ", last)
+        self.assertIn(", texture.texels", last, "the last line holds the whole message")
 
     def test_a_fault_that_is_never_reached_is_no_pass(self):
         self.run_texture(3, "--fault", "drop:colours:100000000", *self.UNCHECKED,

@@ -213,6 +213,15 @@ class Faults(Base):
     def test_faults_of_memory_need_memory(self):
         self.run_engine(2, *self.CHECKED, "--fault", "lost-response", says="storage = memory")
 
+    def test_too_few_cycles(self):
+        self.run_engine(3, *self.CHECKED, "--max-cycles", "1000", says=["not done after 1,000", "of 3,072 pixels"])
+        self.assertEqual(self.result()["cycles"], 1000)
+        self.run_engine(3, *self.CHECKED, "--max-cycles", "1000", engine="frame", says="of 3,072 pixels")
+        # The second of two frames finds nothing left of the budget.
+        self.run_engine(0, *self.CHECKED)
+        cycles = str(self.result()["cycles"])
+        self.run_engine(3, *self.CHECKED, "--max-cycles", cycles, "--set", "frame.count=2", says="3,072 of 6,144")
+
     def test_unknown_fault(self):
         self.run_engine(2, *self.CHECKED, "--fault", "gremlin", says=["gremlin", "flip-bit"])
 

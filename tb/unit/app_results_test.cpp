@@ -13,6 +13,7 @@
 #include "spec/error.h"
 #include "tb/app/compare.h"
 #include "tb/app/file.h"
+#include "tb/app/headline.h"
 #include "tb/app/progress.h"
 #include "tb/app/report.h"
 #include "tb/app/result.h"
@@ -45,6 +46,15 @@ Result sample_result() {
   r.quality = Quality{"supersampled-256", 41.25, std::numeric_limits<double>::infinity(), {}};
   r.host_seconds = 0.05;
   return r;
+}
+
+TEST(Headline, IsTheWholeMessageWithoutItsDetails) {
+  EXPECT_EQ(headline("one line"), "one line");
+  EXPECT_EQ(headline("no such link; there are:\n  a\n  b\n"), "no such link; there are: a, b");
+  EXPECT_EQ(headline("nothing moves\n\nlinks:\n  a 0 of 2\n"), "nothing moves");
+  EXPECT_EQ(headline("first,\r\n\tsecond"), "first, second");
+  EXPECT_EQ(headline(""), "");
+  EXPECT_EQ(headline("\n\ndetails"), "");
 }
 
 class Directory : public testing::Test {

@@ -154,8 +154,28 @@ TEST(Negative, RunThatDoesNotEnd) {
   Pipeline p(300);
   Bench bench(p.clock);
   EXPECT_THAT(text_of([&] { bench.run([&] { return p.sink.received() == 301; }, 5000); },
-                      ExitCode::kDeadlock),
+                      ExitCode::kSimulation),
               HasSubstr("not done after 5000 cycles"));
+}
+
+TEST(Negative, ABudgetThatIsSpentSaysHowFarItCame) {
+  Pipeline p(300);
+  BenchOptions options;
+  options.at_limit = [&] { return "only " + std::to_string(p.sink.received()) + " came"; };
+  Bench bench(p.clock, options);
+  EXPECT_THAT(text_of([&] { bench.run([&] { return p.sink.received() == 300; }, 50); },
+                      ExitCode::kSimulation),
+              testing::ContainsRegex("^clock: only [1-9][0-9]* came\n\nlinks "));
+}
+
+TEST(Negative, ScopeOfATraceThatMatchesNothing) {
+  Pipeline p(10);
+  BenchOptions options;
+  options.trace = rtl::TraceOptions{testing::TempDir() + "none.vcd", {"link_*", "adder"}};
+  const std::string text = text_of([&] { Bench(p.clock, options); }, ExitCode::kUsage);
+  EXPECT_THAT(text, HasSubstr("matches adder "));
+  EXPECT_THAT(text, HasSubstr("\n  link_2"));
+  EXPECT_THAT(text, HasSubstr("\n  adder_2"));
 }
 
 TEST(Negative, ImpossibleStallsAndMemories) {
