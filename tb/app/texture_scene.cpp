@@ -45,26 +45,6 @@ bool is_texture_name(const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-Scene load(const SceneParameters& p, std::uint32_t seed) {
-  SceneOptions options;
-  options.texture = p.texture;
-  options.texture_size = p.texture_size;
-  options.seed = seed;
-  Scene scene = load_scene(p.source, options);
-  if (p.eye.empty() && p.target.empty() && p.fov == 0) return scene;
-  Camera camera = scene.camera;
-  if (!p.eye.empty()) {
-    camera.eye = parse_vector("scene.eye", p.eye);
-    camera.near_plane = Camera{}.near_plane;  // the scene's own was chosen for its own eye
-  }
-  if (!p.target.empty()) camera.target = parse_vector("scene.target", p.target);
-  if (p.fov > 0) camera.fov_y = p.fov;
-  if (!((camera.target - camera.eye).length() > 0))
-    throw spec::ConfigError("'scene.eye' and 'scene.target' are the same point");
-  scene.camera = camera;
-  return scene;
-}
-
 spec::Wrap chosen(WrapChoice choice, spec::Wrap own) {
   switch (choice) {
     case WrapChoice::kScene:
@@ -79,15 +59,41 @@ spec::Wrap chosen(WrapChoice choice, spec::Wrap own) {
   return own;
 }
 
+Scene load(const SceneParameters& p, WrapChoice wrap, std::uint32_t seed) {
+  SceneOptions options;
+  options.texture = p.texture;
+  options.texture_size = p.texture_size;
+  options.seed = seed;
+  Scene scene = load_scene(p.source, options);
+  // Before anything is made of it: the rasteriser (which shifts coordinates by whole repeats) and
+  // the truth go by it as well.
+  for (Texture& texture : scene.mesh.textures) {
+    texture.wrap_s = chosen(wrap, texture.wrap_s);
+    texture.wrap_t = chosen(wrap, texture.wrap_t);
+  }
+  if (p.eye.empty() && p.target.empty() && p.fov == 0) return scene;
+  Camera camera = scene.camera;
+  if (!p.eye.empty()) {
+    camera.eye = parse_vector("scene.eye", p.eye);
+    camera.near_plane = Camera{}.near_plane;  // the scene's own was chosen for its own eye
+  }
+  if (!p.target.empty()) camera.target = parse_vector("scene.target", p.target);
+  if (p.fov > 0) camera.fov_y = p.fov;
+  if (!((camera.target - camera.eye).length() > 0))
+    throw spec::ConfigError("'scene.eye' and 'scene.target' are the same point");
+  scene.camera = camera;
+  return scene;
+}
+
 }  // namespace
 
 TextureScene::TextureScene(const SceneParameters& scene, const SamplerParameters& sampler,
                            std::uint32_t seed)
-    : scene_(load(scene, seed)) {
+    : scene_(load(scene, sampler.wrap, seed)) {
   if (!is_scene_name(scene.source)) inputs_.emplace_back(scene.source);
   if (!scene.texture.empty() && !is_texture_name(scene.texture))
     inputs_.emplace_back(scene.texture);
-  set_sampler(sampler);
+  lay_out(sampler);
   RasterOptions options;
   options.width = scene.width;
   options.height = scene.height;
@@ -96,8 +102,7 @@ TextureScene::TextureScene(const SceneParameters& scene, const SamplerParameters
   stream_ = rasterise(scene_, options);
 }
 
-void TextureScene::set_sampler(const SamplerParameters& sampler) {
-  memory_ = TextureMemory();
+void TextureScene::lay_out(const SamplerParameters& sampler) {
   const MipSpace space =
       sampler.format == spec::Format::kSrgb8A8 ? MipSpace::kSrgb : MipSpace::kStored;
   for (const Texture& texture : scene_.mesh.textures) {
@@ -110,8 +115,8 @@ void TextureScene::set_sampler(const SamplerParameters& sampler) {
     spec::TextureDescriptor d;
     d.format = sampler.format;
     d.layout = sampler.layout;
-    d.wrap_s = chosen(sampler.wrap, texture.wrap_s);
-    d.wrap_t = chosen(sampler.wrap, texture.wrap_t);
+    d.wrap_s = texture.wrap_s;
+    d.wrap_t = texture.wrap_t;
     d.min_filter = sampler.mode;
     d.mag_filter = sampler.magnification;
     d.max_anisotropy_log2 = sampler.anisotropy;

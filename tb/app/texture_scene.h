@@ -89,15 +89,16 @@ class TextureScene {
   // Loads, rasterises and lays out. ConfigError and FileError as of tb/scene.
   TextureScene(const SceneParameters& scene, const SamplerParameters& sampler, std::uint32_t seed);
 
+  // With the wrap modes of the sampler, so that its truth is what the unit is asked for.
   const Scene& scene() const { return scene_; }
   const FragmentStream& stream() const { return stream_; }
   const TextureMemory& memory() const { return memory_; }
   // Files that the result depends on.
   const std::vector<std::filesystem::path>& inputs() const { return inputs_; }
-  // The same fragments with other sampler state.
-  void set_sampler(const SamplerParameters& sampler);
 
  private:
+  void lay_out(const SamplerParameters& sampler);
+
   Scene scene_;
   FragmentStream stream_;
   TextureMemory memory_;

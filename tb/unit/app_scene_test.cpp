@@ -13,7 +13,9 @@
 #include "spec/texture.h"
 #include "tb/app/texture_memory.h"
 #include "tb/app/texture_scene.h"
+#include "tb/scene/quality.h"
 #include "tb/scene/textures.h"
+#include "tb/scene/truth.h"
 
 namespace deburr::tb {
 namespace {
@@ -133,6 +135,33 @@ TEST(TextureScene, GivesTheSamplerItsState) {
     EXPECT_EQ(d.max_anisotropy_log2, 2);
   }
   EXPECT_TRUE(scene.inputs().empty()) << "made by formula";
+}
+
+// Fragments, hardware and truth must go by the same wrap mode, or a picture is judged by the truth
+// of another one.
+TEST(TextureScene, AChosenWrapModeIsThatOfFragmentsAndTruth) {
+  SceneParameters p = small("plane");
+  p.texture = "gradient";
+  const auto picture = [&](WrapChoice wrap, bool truth) {
+    SamplerParameters sampler;
+    sampler.wrap = wrap;
+    const TextureScene scene(p, sampler, 1);
+    RenderOptions options;
+    options.width = options.height = 32;
+    options.samples = 8;
+    return truth ? render(scene.scene(), options)
+                 : golden_frame(scene, spec::TextureParameters{}).image;
+  };
+  const std::vector<WrapChoice> choices = {WrapChoice::kRepeat, WrapChoice::kMirroredRepeat,
+                                           WrapChoice::kClampToEdge};
+  for (const WrapChoice wrap : choices)
+    for (const WrapChoice other : choices) {
+      const double db = psnr(picture(wrap, false), picture(other, true));
+      if (wrap == other)
+        EXPECT_GT(db, 25) << static_cast<int>(wrap);
+      else
+        EXPECT_LT(db, 20) << static_cast<int>(wrap) << ' ' << static_cast<int>(other);
+    }
 }
 
 TEST(TextureScene, SameSeedSameTextures) {
