@@ -120,6 +120,7 @@ Outcome run_engine(Engine& engine, const RunOptions& options, const std::string&
     fmt::print("{}", set.yaml());
     return {};
   }
+  catch_interrupts();
   RunContext context(options.out.empty() ? fmt::format("out/{}", engine.name()) : options.out, set,
                      command, static_cast<std::uint64_t>(run.seed));
   Result result;

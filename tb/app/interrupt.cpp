@@ -13,14 +13,15 @@ extern "C" void on_interrupt(int) { interrupt_requested = 1; }
 
 }  // namespace
 
-void install_signal_handlers() {
+void let_full_files_fail() { std::signal(SIGXFSZ, SIG_IGN); }
+
+void catch_interrupts() {
   struct sigaction action {};
   action.sa_handler = on_interrupt;
   sigemptyset(&action.sa_mask);
   action.sa_flags = static_cast<int>(SA_RESETHAND);  // the second signal acts as if never caught
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool interrupted() { return interrupt_requested != 0; }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C: the first one asks for a clean end, the second one kills.
+// Ctrl-C in a run: the first one asks for a clean end, the second one kills.
 #pragma once
 
 namespace deburr::tb {
 
-// Takes over SIGINT and SIGTERM, and lets a write beyond a file size limit fail instead of killing.
-void install_signal_handlers();
+// Lets a write beyond a file size limit fail instead of killing.
+void let_full_files_fail();
+// Takes over SIGINT and SIGTERM, for commands that ask interrupted() while they work.
+void catch_interrupts();
 bool interrupted();
 
 // Exit code of a run that was interrupted but left its partial result (as a shell reports SIGINT).

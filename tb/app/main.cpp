@@ -116,6 +116,6 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  deburr::tb::install_signal_handlers();
+  deburr::tb::let_full_files_fail();
   return flushed(run(argc, argv));
 }
