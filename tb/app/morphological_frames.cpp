@@ -22,13 +22,6 @@ bool is_scene(const std::string& source) {
   return extension == ".obj" || extension == ".gltf" || extension == ".glb";
 }
 
-// floor(full v + 1/2) of v clamped to 0..1, NaN as 0.
-std::uint32_t scaled(float value, double full) {
-  if (!(value > 0.0f)) return 0;
-  return static_cast<std::uint32_t>(
-      std::floor(full * std::min(1.0, static_cast<double>(value)) + 0.5));
-}
-
 void require_size(const char* what, const std::string& file, int width, int height,
                   const Image& image) {
   if (width != image.width || height != image.height)
@@ -41,6 +34,7 @@ LoadedFrame rendered(const FrameParameters& p, std::uint32_t seed) {
   options.seed = seed;
   const Scene scene = load_scene(p.source, options);
   LoadedFrame frame;
+  frame.conversions = scene.mesh.notes;
   const LitFrames lit = render_lit_frames(scene, p.width, p.height, std::max(1, p.truth_samples));
   frame.input.image = lit.noaa;
   frame.depth = lit.depth;
@@ -54,27 +48,13 @@ LoadedFrame rendered(const FrameParameters& p, std::uint32_t seed) {
 
 }  // namespace
 
-Image read_codes(const std::filesystem::path& file, std::vector<std::string>* conversions) {
-  ReadReport report;
-  Image image = read_image(file, &report);
-  if (report.format == "half" || report.format == "float" || report.format == "double") {
-    const FloatImage values = read_float_image(file);
-    for (std::size_t i = 0; i < values.pixels.size(); ++i)
-      for (std::size_t c = 0; c < 4; ++c)
-        image.pixels[i][c] = static_cast<std::uint8_t>(scaled(values.pixels[i][c], 255));
-    std::erase_if(report.conversions,
-                  [](const std::string& text) { return text.find("curve") != std::string::npos; });
-    report.conversions.emplace_back("taken as already encoded: no transfer curve");
-  }
-  if (conversions != nullptr) *conversions = report.conversions;
-  return image;
-}
-
 std::vector<std::uint32_t> depth_codes(const DepthImage& depth) {
   constexpr double kFull = (1 << 24) - 1;
   std::vector<std::uint32_t> codes(depth.pixels.size());
-  std::transform(depth.pixels.begin(), depth.pixels.end(), codes.begin(),
-                 [](float value) { return scaled(value, kFull); });
+  std::transform(depth.pixels.begin(), depth.pixels.end(), codes.begin(), [](float value) {
+    if (!(value > 0.0f)) return std::uint32_t{0};  // also NaN
+    return static_cast<std::uint32_t>(std::floor(kFull * std::min<double>(value, 1.0) + 0.5));
+  });
   return codes;
 }
 
@@ -92,7 +72,9 @@ LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed) {
       throw spec::ConfigError(
           fmt::format("no scene and no file '{}': scenes are{}", p.source, known));
     }
-    frame.input.image = read_codes(p.source, &frame.conversions);
+    ReadReport report;
+    frame.input.image = read_image(p.source, &report);
+    frame.conversions = report.conversions;
     frame.inputs.emplace_back(p.source);
     const Image& image = frame.input.image;
     if (!p.depth.empty()) {
@@ -101,7 +83,7 @@ LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed) {
       frame.inputs.emplace_back(p.depth);
     }
     if (!p.truth.empty()) {
-      frame.truth = read_codes(p.truth);
+      frame.truth = read_image(p.truth);
       require_size("truth", p.truth, frame.truth->width, frame.truth->height, image);
       frame.truth_name = std::filesystem::path(p.truth).filename().string();
       frame.inputs.emplace_back(p.truth);

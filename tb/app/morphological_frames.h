@@ -45,16 +45,13 @@ struct LoadedFrame {
   std::optional<Image> truth;
   std::optional<DepthImage> depth;
   std::string truth_name;                     // "supersampled-64", or the file's name
-  std::vector<std::string> conversions;       // what the reader changed
+  std::vector<std::string> conversions;       // what the reader of images or meshes changed
   std::vector<std::filesystem::path> inputs;  // files that the result depends on
 };
 
 // FileError for files that cannot be read; ConfigError for sizes that do not agree.
 LoadedFrame load_frame(const FrameParameters& parameters, std::uint32_t seed);
 
-// An image file as codes; float samples as they are stored, without a transfer curve.
-Image read_codes(const std::filesystem::path& file,
-                 std::vector<std::string>* conversions = nullptr);
 // U24 of every pixel.
 std::vector<std::uint32_t> depth_codes(const DepthImage& depth);
 

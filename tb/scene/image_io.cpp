@@ -112,16 +112,22 @@ ImageOf<Pixel> expand(const std::vector<Value>& values, int width, int height, i
   return image;
 }
 
-std::uint8_t quantise(float value) {
-  if (!(value > 0.0f)) return 0;  // also NaN
-  return static_cast<std::uint8_t>(std::lround(std::min(value, 1.0f) * 255.0f));
+// Clamped to [0, 1], NaN to 0; rounded half up.
+std::uint8_t code_of(float value, bool linear) {
+  if (!(value > 0.0f)) return 0;
+  const double clamped = std::min<double>(value, 1.0);
+  return static_cast<std::uint8_t>(
+      std::floor(255 * (linear ? linear_to_srgb(clamped) : clamped) + 0.5));
 }
 
+// By the name that OpenImageIO gives the file's colour space: "Linear" (every EXR), "linear" (HDR),
+// "lin_srgb", "scene_linear". Integers are codes, whatever the file says.
 bool declares_linear_light(const OIIO::ImageSpec& spec) {
+  if (!spec.format.is_floating_point()) return false;
   std::string space = spec.get_string_attribute("oiio:ColorSpace");
   std::transform(space.begin(), space.end(), space.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return space.rfind("lin", 0) == 0;
+  return space.rfind("lin", 0) == 0 || space.rfind("scene_linear", 0) == 0;
 }
 
 void describe_conversions(const OIIO::ImageSpec& spec, bool linear, ReadReport& report) {
@@ -133,6 +139,8 @@ void describe_conversions(const OIIO::ImageSpec& spec, bool linear, ReadReport& 
     note(fmt::format("{} values scaled to 8 bits", spec.format.c_str()));
   if (spec.format.is_floating_point()) note("values clamped to [0, 1], NaN to 0");
   if (linear) note("linear light encoded with the sRGB curve");
+  if (!linear && spec.format.is_floating_point())
+    note("the file does not say that it is linear light: taken as encoded");
   if (spec.nchannels <= 2) note("grey copied to R, G and B");
   if (spec.nchannels > 4) note(fmt::format("channels 5 to {} left out", spec.nchannels));
   if (spec.get_int_attribute("Orientation", 1) != 1) note("orientation tag ignored");
@@ -141,7 +149,7 @@ void describe_conversions(const OIIO::ImageSpec& spec, bool linear, ReadReport& 
 Image decode(const std::string& name, OIIO::ImageInput& input, ReadReport* report) {
   const OIIO::ImageSpec spec = input.spec();
   const int channels = std::min(spec.nchannels, 4);
-  const bool linear = spec.format.is_floating_point() && declares_linear_light(spec);
+  const bool linear = declares_linear_light(spec);
   if (report != nullptr) describe_conversions(spec, linear, *report);
   if (spec.format == OIIO::TypeUInt8)
     return expand<Rgba8>(read_pixels<std::uint8_t>(name, input, channels), spec.width, spec.height,
@@ -149,14 +157,9 @@ Image decode(const std::string& name, OIIO::ImageInput& input, ReadReport* repor
   const FloatImage values = expand<Rgbaf>(read_pixels<float>(name, input, channels), spec.width,
                                           spec.height, channels, 1.0f);
   Image image(spec.width, spec.height);
-  for (std::size_t i = 0; i < values.pixels.size(); ++i) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      float value = values.pixels[i][c];
-      if (linear && c < 3 && value > 0.0f && value < 1.0f)
-        value = static_cast<float>(linear_to_srgb(value));
-      image.pixels[i][c] = quantise(value);
-    }
-  }
+  for (std::size_t i = 0; i < values.pixels.size(); ++i)
+    for (std::size_t c = 0; c < 4; ++c)
+      image.pixels[i][c] = code_of(values.pixels[i][c], linear && c < 3);
   return image;
 }
 

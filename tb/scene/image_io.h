@@ -24,9 +24,9 @@ struct ReadReport {
 
 // Reads any format that OpenImageIO knows, as RGBA8 with alpha not premultiplied.
 //   16-bit and other integers  v * 255 / max, rounded half up
-//   half, float                NaN -> 0, clamped to [0, 1]; where the file declares linear light
-//   (EXR,
-//                              HDR) the sRGB curve is applied; times 255, rounded half up
+//   half, float                NaN -> 0, clamped to [0, 1]; where the file says that it is linear
+//                              light (EXR, HDR), R, G and B go through the sRGB curve, else it is
+//                              taken as encoded; times 255, rounded half up
 //   palette                    expanded
 //   one channel                copied to R, G and B; alpha 255
 //   two channels               grey and alpha

@@ -34,11 +34,12 @@ using ::testing::HasSubstr;
 // Writes values of any type and channel count, as other programs would.
 template <class Value>
 void write_with_oiio(const std::filesystem::path& path, int width, int height, int channels,
-                     const std::vector<Value>& values) {
+                     const std::vector<Value>& values, const char* colour_space = nullptr) {
   auto output = OIIO::ImageOutput::create(path.string());
   ASSERT_TRUE(output) << OIIO::geterror();
   OIIO::ImageSpec spec(width, height, channels, OIIO::BaseTypeFromC<Value>::value);
   spec.attribute("oiio:UnassociatedAlpha", 1);
+  if (colour_space != nullptr) spec.attribute("oiio:ColorSpace", colour_space);
   ASSERT_TRUE(output->open(path.string(), spec)) << output->geterror();
   ASSERT_TRUE(output->write_image(spec.format, values.data())) << output->geterror();
   ASSERT_TRUE(output->close()) << output->geterror();
@@ -106,6 +107,20 @@ TEST(ImageIo, StatedConversions) {
   EXPECT_EQ(linear.pixels[2], (Rgba8{255, 0, 255, 255}));
   EXPECT_EQ(linear.pixels[3], (Rgba8{0, 255, 255, 255}));
   EXPECT_THAT(report.conversions, ::testing::Contains(HasSubstr("sRGB curve")));
+
+  // HDR says that it is linear as well; a float TIFF says nothing, so it holds codes. Alpha is a
+  // share in both.
+  write_with_oiio<float>(folder / "linear.hdr", 1, 1, 3, {0.5f, 0.25f, 1.0f});
+  EXPECT_EQ(read_image(folder / "linear.hdr").pixels[0], (Rgba8{188, 137, 255, 255}));
+  write_with_oiio<float>(folder / "alpha.exr", 1, 1, 4, {0.5f, 0.5f, 0.5f, 0.5f});
+  EXPECT_EQ(read_image(folder / "alpha.exr").pixels[0][3], 128);
+  write_with_oiio<float>(folder / "codes.tif", 2, 1, 4, {0.5f, 0.25f, nan, 0.5f, 7, -1, 1, 1});
+  EXPECT_EQ(read_image(folder / "codes.tif", &report).pixels,
+            (std::vector<Rgba8>{{128, 64, 0, 128}, {255, 0, 255, 255}}));
+  EXPECT_THAT(report.conversions, ::testing::Contains(HasSubstr("taken as encoded")));
+  // Integers are codes even where the file says otherwise.
+  write_with_oiio<std::uint16_t>(folder / "linear.png", 1, 1, 1, {32768}, "Linear");
+  EXPECT_EQ(read_image(folder / "linear.png").pixels[0][0], 128);
 
   write_with_oiio<std::uint8_t>(folder / "palette.gif", 2, 1, 3, {255, 0, 0, 0, 0, 255});
   EXPECT_EQ(read_image(folder / "palette.gif").pixels,
