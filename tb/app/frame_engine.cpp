@@ -70,6 +70,7 @@ class FrameCommand final : public Engine {
             scene.stream().width, scene.stream().height, scene.stream().counts.fragments,
             spec::kMorphologicalPresetNames[static_cast<std::size_t>(morphological_.preset)]));
     context.set_bottleneck("texture_filter");
+    for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
     FrameBench bench(scene, options(run, context));
     try {
       Progress progress("frame", bench.smoothed().pixels.size(), "pixel");

@@ -65,6 +65,7 @@ class MorphologicalCommand final : public Engine {
     context.set_title(
         "Morphological engine: " + std::filesystem::path(frame_.source).filename().string(),
         summary_line(loaded));
+    for (const std::string& conversion : loaded.conversions) context.add_note(conversion);
     context.set_bottleneck("luma");
     const std::vector<MorphologicalInput> frames(static_cast<std::size_t>(frame_.count),
                                                  loaded.input);
@@ -126,7 +127,6 @@ class MorphologicalCommand final : public Engine {
         p.safe ? ", safe" : "", p.linear_light ? "linear" : "stored",
         name_of(p.lanes, spec::kLanesNames), p.window_rows,
         name_of(p.storage, spec::kStorageNames));
-    for (const std::string& conversion : loaded.conversions) text += "; " + conversion;
     return text;
   }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstdio>
 #include <utility>
 
 #include "tb/app/build_info.h"
@@ -58,6 +59,11 @@ void RunContext::remove_old_results() {
 void RunContext::set_title(std::string title, std::string summary) {
   title_ = std::move(title);
   summary_ = std::move(summary);
+}
+
+void RunContext::add_note(const std::string& note) {
+  fmt::print(stderr, "deburr: note: {}\n", note);
+  summary_ += "; " + note;
 }
 
 void RunContext::add_input(const fs::path& file) {

@@ -22,6 +22,9 @@ class RunContext {
              std::uint64_t seed);
 
   void set_title(std::string title, std::string summary);
+  // What had to be decided about an input (a mesh without normals): on the error stream and, with
+  // the summary, in manifest and report.
+  void add_note(const std::string& note);
   // The unit that bounds the rate; the report shows how busy it was.
   void set_bottleneck(std::string unit) { bottleneck_ = std::move(unit); }
   // Fingerprints a file that the result depends on.

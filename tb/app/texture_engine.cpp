@@ -57,6 +57,7 @@ class TextureEngine final : public Engine {
     const TextureScene scene(scene_, sampler_, static_cast<std::uint32_t>(run.seed));
     for (const auto& input : scene.inputs()) context.add_input(input);
     context.set_title(title(), summary_line(scene));
+    for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
     context.set_bottleneck("walker");
     TextureBench bench(scene, options(run, context));
     try {

@@ -94,6 +94,12 @@ class MeshFiles(CommandTest):
     def test_truncated_glb(self):
         self.mesh(5, "short.glb", b"glTF\x02\0\0\0\xff\xff\0\0", says="short.glb")
 
+    def test_notes_are_shown(self):
+        self.mesh(0, "cut.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3",
+                  says="may have been truncated")
+        with open(self.path("out/manifest.json")) as file:
+            self.assertIn("may have been truncated", json.load(file)["summary"])
+
     def test_one_triangle(self):
         self.mesh(0, "good.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", says="PASS")
 
@@ -283,6 +289,16 @@ class Interruption(CommandTest):
         self.assertEqual(result["checks"]["mismatches"], 0)
         self.assertGreater(result["checks"]["comparisons"], 0)
         self.assertTrue(os.path.exists(self.path("out/report.html")))
+
+
+    def test_ctrl_c_ends_papers(self):
+        process = subprocess.Popen([DEBURR, "papers", "--out", self.path("out")], text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=120)
+        self.assertEqual(process.returncode, -signal.SIGINT)
+        self.assertEqual(os.listdir(self.path("out")), [])
 
 
 class Results(CommandTest):

@@ -138,6 +138,27 @@ TEST(Obj, BrokenFilesAreNamedWithTheirLine) {
               Contains(HasSubstr("truncated")));
 }
 
+// Every prefix of a file is an error, is noted, or is a whole number of lines, of which nobody can
+// tell that there were more.
+TEST(Obj, TruncationIsFoundWhereItCanBe) {
+  const TemporaryFolder folder;
+  const std::string whole = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n";
+  int errors = 0, noted = 0;
+  for (std::size_t size = 1; size < whole.size(); ++size) {
+    const fs::path file = folder.write("cut.obj", whole.substr(0, size));
+    try {
+      const Mesh mesh = import_mesh(file);
+      if (whole[size - 1] == '\n') continue;
+      EXPECT_THAT(mesh.notes, Contains(HasSubstr("truncated"))) << size;
+      ++noted;
+    } catch (const spec::FileError&) {
+      ++errors;
+    }
+  }
+  EXPECT_EQ(noted, 2) << "the last digits of the two faces";
+  EXPECT_GT(errors, 32 + 4);
+}
+
 TEST(Obj, DamagedBytesNeverCrash) {
   const TemporaryFolder folder;
   const std::string good =
