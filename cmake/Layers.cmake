@@ -33,10 +33,12 @@ function(deburr_library name)
   add_library(deburr::${name} ALIAS deburr_${name})
 endfunction()
 
-# deburr_test(<name> LABELS ... SOURCES ... LINK ... [TIMEOUT s]): a GoogleTest program. Every TEST
-# becomes a ctest entry of its own and so a process of its own: SystemC elaborates once a process.
+# deburr_test(<name> LABELS ... SOURCES ... LINK ... [TIMING regex ...] [TIMEOUT s]): a GoogleTest
+# program. Every TEST becomes a ctest entry of its own and so a process of its own: SystemC
+# elaborates once a process. Tests whose name matches a regex of TIMING have the label `timing` too;
+# a regex that matches none is an error of ctest.
 function(deburr_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;SOURCES;LINK;TIMING" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
@@ -49,6 +51,15 @@ function(deburr_test name)
   set(labels "${CMAKE_CURRENT_BINARY_DIR}/${name}_labels.cmake")
   file(WRITE "${labels}" "if(${name}_tests)
   set_tests_properties(\${${name}_tests} PROPERTIES LABELS \"${ARG_LABELS}\")
+  foreach(timing IN ITEMS ${ARG_TIMING})
+    set(matching \${${name}_tests})
+    list(FILTER matching INCLUDE REGEX \"^${name}[.](.*/)?\${timing}\")
+    if(NOT matching)
+      message(SEND_ERROR \"${name} has no test '\${timing}' for the label timing\")
+    else()
+      set_tests_properties(\${matching} PROPERTIES LABELS \"${ARG_LABELS};timing\")
+    endif()
+  endforeach()
 endif()
 ")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${labels}")

@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: MIT
 # The fabric and the harness, each block alone.
+set(TIMING_link Link.BeatIsNotThere Link.FreedSlotIsNotFree Link.OnePushAndOnePop Link.Depth)
+set(TIMING_parts Fifo.LatencyOne)
+set(TIMING_memory MemoryPort.LatencyIsExact MemoryPort.OneRequestAClock
+    MemoryPort.RateIsLimited MemoryPort.BandwidthOfTheMemory MemoryPort.BusyBanks)
 foreach(part link clock parts memory registers trace)
-  deburr_test(fabric_${part}_test LABELS unit timing SOURCES fabric_${part}_test.cpp
-              LINK deburr::harness)
+  deburr_test(fabric_${part}_test LABELS unit TIMING ${TIMING_${part}}
+              SOURCES fabric_${part}_test.cpp LINK deburr::harness)
 endforeach()
 deburr_test(harness_test LABELS unit SOURCES harness_test.cpp LINK deburr::harness)
 deburr_test(harness_negative_test LABELS negative SOURCES harness_negative_test.cpp
