@@ -70,7 +70,7 @@ struct MorphologicalParameters {
   EdgeSource edge_source = EdgeSource::kLuma;
   ThresholdMode threshold_mode = ThresholdMode::kFixed;
   DynamicLuma dynamic_luma = DynamicLuma::kMax;
-  std::int32_t threshold = 1311;                 // U0.16: 0.02
+  std::int32_t threshold = 1966;                 // U0.16: 0.03
   std::int32_t threshold_on_depth_edge = 655;    // U0.16: 0.01
   std::int32_t threshold_off_depth_edge = 3277;  // U0.16: 0.05
   std::int32_t alpha = 6554;                     // U0.16: 0.1
@@ -81,6 +81,7 @@ struct MorphologicalParameters {
   std::int32_t steps = 8;
   bool contiguous = true;
   bool safe = true;
+  bool trim = true;
   AreaSource area = AreaSource::kAnalytic;
   bool diagonals = false;
   bool round_corners = false;
@@ -129,6 +130,9 @@ void describe(MorphologicalParameters& p, Visitor& v) {
             "A step must be an unbroken run with the codes of the first at both corners.");
   v.boolean("safe", p.safe,
             "Both sides grow in lockstep, share L', and stop where no line fits all corners.");
+  v.boolean("trim", p.trim,
+            "A side that ended before N and within the reach gives back its last step, or half of "
+            "them where no line fits.");
   v.choice("area", p.area, kAreaSourceNames, "Where areas come from; only analytic is built.");
   v.boolean("diagonals", p.diagonals, "Diagonal patterns of SMAA; not built.");
   v.boolean("round_corners", p.round_corners, "Corner rounding of SMAA; not built.");
@@ -165,20 +169,22 @@ struct MorphologicalPresetRow {
   std::int32_t steps;
   bool contiguous;
   bool safe;
+  bool trim;
   AreaSource area;
   bool diagonals;
 };
 inline constexpr std::array<MorphologicalPresetRow, 5> kMorphologicalPresets = {{
     {MorphologicalPreset::kMlaa, ThresholdMode::kFixed, DynamicLuma::kMax, 6554,
-     LocalContrast::kOff, Predictor::kNone, 0, false, false, AreaSource::kAnalytic, false},
+     LocalContrast::kOff, Predictor::kNone, 0, false, false, false, AreaSource::kAnalytic, false},
     {MorphologicalPreset::kMlaaSlope, ThresholdMode::kFixed, DynamicLuma::kMax, 6554,
-     LocalContrast::kOff, Predictor::kChord, 4, false, false, AreaSource::kAnalytic, false},
+     LocalContrast::kOff, Predictor::kChord, 4, false, false, false, AreaSource::kAnalytic, false},
     {MorphologicalPreset::kSmaa, ThresholdMode::kFixed, DynamicLuma::kMax, 6554,
-     LocalContrast::kPaper, Predictor::kNone, 0, false, false, AreaSource::kTableFull, true},
+     LocalContrast::kPaper, Predictor::kNone, 0, false, false, false, AreaSource::kTableFull, true},
     {MorphologicalPreset::kSmaaDynamic, ThresholdMode::kDynamic, DynamicLuma::kCurrent, 6554,
-     LocalContrast::kPaper, Predictor::kNone, 0, false, false, AreaSource::kTableMerged, true},
-    {MorphologicalPreset::kDeburr, ThresholdMode::kFixed, DynamicLuma::kMax, 1311,
-     LocalContrast::kSymmetric, Predictor::kFit, 8, true, true, AreaSource::kAnalytic, false},
+     LocalContrast::kPaper, Predictor::kNone, 0, false, false, false, AreaSource::kTableMerged,
+     true},
+    {MorphologicalPreset::kDeburr, ThresholdMode::kFixed, DynamicLuma::kMax, 1966,
+     LocalContrast::kSymmetric, Predictor::kFit, 8, true, true, true, AreaSource::kAnalytic, false},
 }};
 
 // ---- packets ------------------------------------------------------------------------------------
@@ -242,7 +248,7 @@ enum class Side : std::uint8_t {
 struct LineRecord {
   RunRecord run{};
   Side before = Side::kNone, after = Side::kNone;
-  std::uint8_t left_steps = 0, right_steps = 0;  // extensions taken: up or left, down or right
+  std::uint8_t left_steps = 0, right_steps = 0;  // extensions kept: up or left, down or right
   std::int32_t scale = 2;
   std::int32_t offset = 0;
   std::int32_t shift = 0;     // right_steps - left_steps
@@ -296,7 +302,7 @@ struct MorphologicalWork {
   std::uint64_t long_runs = 0;  // of both axes, longer than the reach
   std::uint64_t z_runs = 0;     // clean Z, not long
   std::uint64_t extended_runs = 0;
-  std::uint64_t steps = 0;           // extensions taken
+  std::uint64_t steps = 0;           // extensions kept
   std::uint64_t probes = 0;          // corners tested
   std::uint64_t divides = 0;         // records that have a side
   std::uint64_t blended_pixels = 0;  // pixels with a share of a neighbour
@@ -358,7 +364,7 @@ inline constexpr std::array<RegisterInfo, 26> kMorphologicalRegisters = {{
      "Width [13:0] and height [29:16] of the frame in pixels, 1..8192 each."},
     {morphological_register::kRules, "RULES", Access::kReadWrite, 0,
      "edges.source [1:0], threshold_mode [2], dynamic_luma [3], local_contrast [5:4], predictor "
-     "[7:6], steps [12:8], contiguous [13], safe [14], linear_light [15]."},
+     "[7:6], steps [12:8], contiguous [13], safe [14], linear_light [15], trim [16]."},
     {morphological_register::kThreshold, "THRESHOLD", Access::kReadWrite, 0, "T, U0.16 [15:0]."},
     {morphological_register::kThresholdOn, "THRESHOLD_ON", Access::kReadWrite, 0,
      "T of predicated edges where depth has an edge, U0.16 [15:0]."},
@@ -385,7 +391,7 @@ inline constexpr std::array<RegisterInfo, 26> kMorphologicalRegisters = {{
      "Clean Z runs within the reach."},
     {morphological_register::kExtendedRuns, "EXTENDED_RUNS", Access::kReadOnly, 0,
      "Runs extended by at least one step."},
-    {morphological_register::kSteps, "STEPS", Access::kReadOnly, 0, "Extensions taken."},
+    {morphological_register::kSteps, "STEPS", Access::kReadOnly, 0, "Extensions kept."},
     {morphological_register::kProbes, "PROBES", Access::kReadOnly, 0, "Corners tested."},
     {morphological_register::kDivides, "DIVIDES", Access::kReadOnly, 0, "Divisions."},
     {morphological_register::kBlendedPixels, "BLENDED_PIXELS", Access::kReadOnly, 0,
