@@ -50,6 +50,7 @@ spec::MorphologicalParameters preset_parameters(spec::MorphologicalPreset preset
     p.steps = row.steps;
     p.contiguous = row.contiguous;
     p.safe = row.safe;
+    p.trim = row.trim;
     p.area = row.area;
     p.diagonals = row.diagonals;
   }

@@ -17,6 +17,7 @@ struct Candidates {
   int count = 0;
   const int* begin() const { return step.data(); }
   const int* end() const { return step.data() + count; }
+  int largest() const { return *std::max_element(begin(), end()); }
 };
 
 Candidates candidates(int length, int other) {
@@ -63,6 +64,11 @@ class Trials {
     return 0;
   }
 
+  // The largest candidate of the next step lies beyond the reach: had the trial none, the window
+  // ended and not the line.
+  bool out_of_reach_right(int x, int largest) const { return x + largest > reach_; }
+  bool out_of_reach_left(int x, int largest) const { return x - largest < length_ - reach_; }
+
  private:
   int code(int x, int row) const { return edges_.corner(origin_ + x, row); }
   bool unbroken(int from, int to, int row) const {
@@ -99,7 +105,7 @@ struct Growth {
 
 // The paper, corrected: each side by itself.
 void extend_alone(const Trials& trials, int n, int length, Prediction& p) {
-  const auto extend = [&](Extension& side, auto&& trial, int sign) {
+  const auto extend = [&](Extension& side, auto&& trial, auto&& out_of_reach, int sign) {
     Growth growth{side, length};
     int other = 0;
     for (int k = 0; k < n; ++k) {
@@ -107,16 +113,21 @@ void extend_alone(const Trials& trials, int n, int length, Prediction& p) {
       p.probes += steps.count;
       p.iterations = std::max(p.iterations, k + 1);
       const int s = trial(k, side.end, steps);
-      if (s == 0) return growth.close(SideEnd::kNoHit);
+      if (s == 0) {
+        return growth.close(out_of_reach(side.end, steps.largest()) ? SideEnd::kReach
+                                                                    : SideEnd::kNoHit);
+      }
       growth.take(s, sign * s);
       if (s != length) other = s;
     }
     growth.close(SideEnd::kSteps);
   };
   extend(
-      p.right, [&](int k, int x, const Candidates& c) { return trials.right(k, x, c); }, 1);
+      p.right, [&](int k, int x, const Candidates& c) { return trials.right(k, x, c); },
+      [&](int x, int largest) { return trials.out_of_reach_right(x, largest); }, 1);
   extend(
-      p.left, [&](int k, int x, const Candidates& c) { return trials.left(k, x, c); }, -1);
+      p.left, [&](int k, int x, const Candidates& c) { return trials.left(k, x, c); },
+      [&](int x, int largest) { return trials.out_of_reach_left(x, largest); }, -1);
 }
 
 // Ours: both sides in lockstep with one L', as far as one line explains every corner. The numbers
@@ -152,16 +163,34 @@ void extend_together(const Trials& trials, int n, int length, Prediction& p) {
     }
     if (s_r != 0) corners.add(r);  // 5
     if (s_l != 0) corners.add(l);
-    const auto settle = [&](Growth& growth, int s, int sign) {
+    const auto settle = [&](Growth& growth, int s, int sign, bool out_of_reach) {
       if (!growth.open) return;
-      if (s == 0) return growth.close(SideEnd::kNoHit);
+      if (s == 0) return growth.close(out_of_reach ? SideEnd::kReach : SideEnd::kNoHit);
       growth.take(s, sign * s);
       if (s != length) other = s;
     };
-    settle(right, s_r, 1);
-    settle(left, s_l, -1);
+    settle(right, s_r, 1, trials.out_of_reach_right(p.right.end, steps.largest()));
+    settle(left, s_l, -1, trials.out_of_reach_left(p.left.end, steps.largest()));
   }
   close_both(SideEnd::kSteps);
+}
+
+// Gives back the steps of a side that its end makes doubtful; `inner` is its corner of the run.
+void trim(Extension& side, int inner) {
+  switch (side.why) {
+    case SideEnd::kNoHit:
+      side.steps = std::max(0, side.steps - 1);
+      break;
+    case SideEnd::kInconsistent:
+    case SideEnd::kCurve:
+      side.steps /= 2;
+      break;
+    case SideEnd::kUntried:
+    case SideEnd::kSteps:
+    case SideEnd::kReach:
+      return;
+  }
+  side.end = side.steps > 0 ? side.corners().back() : inner;
 }
 
 }  // namespace
@@ -216,6 +245,10 @@ Prediction predict(const spec::MorphologicalParameters& parameters, const AxisEd
     extend_together(trials, parameters.steps, run.length, p);
   } else {
     extend_alone(trials, parameters.steps, run.length, p);
+  }
+  if (parameters.trim) {
+    trim(p.left, 0);
+    trim(p.right, run.length);
   }
   return p;
 }

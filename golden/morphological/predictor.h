@@ -2,7 +2,8 @@
 // How far a run continues as a digital line: tries its step again on the neighbouring rows.
 //
 // Between RunExtractor and LineUnit; docs/morphological_engine.md, "Extension". Paper 000, section
-// 2.2, corrected as the contract says. Positions count from the start of the run; integers only.
+// 2.2, corrected as the contract says; the lockstep and the trim are ours. Positions count from the
+// start of the run; integers only.
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@
 
 namespace deburr::golden::morphological {
 
-// What a side found: the first step that differs from L names it.
+// What a side found, before it was trimmed: the first step that differs from L names it.
 enum class Outcome : std::uint8_t {
   kUntried,  // not a clean Z within the reach, or no predictor
   kNone,     // tried, no step taken
@@ -26,14 +27,15 @@ enum class Outcome : std::uint8_t {
 enum class SideEnd : std::uint8_t {
   kUntried,
   kSteps,         // all N steps taken, or tried
-  kNoHit,         // no candidate hits
+  kNoHit,         // no candidate hits: the line is lost
+  kReach,         // no candidate hits, and the largest lies beyond the reach
   kInconsistent,  // safe: no line fits all corners with the one hit (or both)
   kCurve          // safe: both sides hit, with different steps that are not L
 };
 
 struct Extension {
-  int steps = 0;
-  int end = 0;  // position of the outermost corner: L or 0 if no step was taken
+  int steps = 0;  // kept
+  int end = 0;    // position of the outermost corner: L or 0 if no step was taken
   std::array<std::int16_t, spec::kMaxSteps> corner{};  // positions of the corners taken
   Outcome outcome = Outcome::kUntried;
   SideEnd why = SideEnd::kUntried;

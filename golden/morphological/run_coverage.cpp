@@ -13,7 +13,8 @@ constexpr std::array<std::string_view, RunCoverage::kLengths> kLengthNames = {"1
                                                                               "5-8", "9-16", "17+"};
 constexpr std::array<std::string_view, 2> kSides = {"left", "right"};
 constexpr std::array<std::string_view, 4> kOutcomes = {"none", "exact", "early", "late"};
-constexpr std::array<std::string_view, 4> kEnds = {"all-steps", "no-hit", "inconsistent", "curve"};
+constexpr std::array<std::string_view, RunCoverage::kEnds> kEndNames = {
+    "all-steps", "no-hit", "out-of-reach", "inconsistent", "curve"};
 constexpr std::array<std::string_view, 4> kCrossings = {"none", "first", "second", "T"};
 constexpr std::array<std::string_view, 4> kBorders = {"start-on-border", "end-on-border",
                                                       "first-line", "last-line"};
@@ -99,8 +100,8 @@ void RunCoverage::for_each_bin(const BinSink& sink) const {
         }
       }
     }
-    for (std::size_t end = 0; end < 4; ++end) {
-      sink(slash({"prediction-end", kAxes[axis], kEnds[end]}), ends_[axis][end]);
+    for (std::size_t end = 0; end < kEnds; ++end) {
+      sink(slash({"prediction-end", kAxes[axis], kEndNames[end]}), ends_[axis][end]);
     }
     for (std::size_t border = 0; border < 4; ++border) {
       sink(slash({"border", kAxes[axis], kBorders[border]}), borders_[axis][border]);

@@ -4,9 +4,12 @@
 // Counted by the golden, which knows every run and every decision. Small named bins:
 //   shape/<axis>/<shape>/<length>             whole runs
 //   long-end/<axis>/<crossing>                ends of runs beyond the reach
-//   prediction/<axis>/<side>/<outcome>/<length>   none, exact (all steps L), early (L - 1), late (L
-//   + 1) prediction-end/<axis>/<why>               what stopped a side border/<axis>/<border> runs
-//   that touch the frame's border decision/<rule>                           of the blender
+//   prediction/<axis>/<side>/<outcome>/<length>
+//                                             none, exact (all steps L), early (L - 1), late (L +
+//                                             1)
+//   prediction-end/<axis>/<why>               what stopped a side
+//   border/<axis>/<border>                    runs that touch the frame's border
+//   decision/<rule>                           of the blender
 // Every bin can be reached (tb/unit/morphological_golden_coverage_test.cpp); a run of 17 pixels
 // with extensions needs a reach of 34.
 #pragma once
@@ -42,6 +45,7 @@ class RunCoverage {
 
   static constexpr std::size_t kLengths = 6;  // 1, 2, 3-4, 5-8, 9-16, 17 and more
   static std::size_t length_bin(int length);
+  static constexpr std::size_t kEnds = 5;  // SideEnd without kUntried
 
  private:
   using BinSink = std::function<void(std::string name, std::uint64_t hits)>;
@@ -53,7 +57,7 @@ class RunCoverage {
   std::array<ByAxis<ByLength>, 16> shapes_{};
   std::array<ByAxis<std::uint64_t>, 4> long_ends_{};           // by crossing code
   ByAxis<std::array<std::array<ByLength, 4>, 2>> outcomes_{};  // axis, side, outcome
-  ByAxis<std::array<std::uint64_t, 4>> ends_{};                // axis, why
+  ByAxis<std::array<std::uint64_t, kEnds>> ends_{};            // axis, why
   ByAxis<std::array<std::uint64_t, 4>> borders_{};             // start, end, first, last
   std::array<std::uint64_t, 8> decisions_{};
 };

@@ -118,13 +118,13 @@ class MorphologicalCommand final : public Engine {
     const spec::MorphologicalParameters& p = parameters_;
     std::string text = fmt::format(
         "{} x {} pixels, preset {}: edges from {} at T = {}/65536, local contrast {}, predictor {} "
-        "with N = {}{}{}, {} light; {} pixels a clock, {} window rows, {}",
+        "with N = {}{}{}{}, {} light; {} pixels a clock, {} window rows, {}",
         loaded.input.image.width, loaded.input.image.height,
         name_of(p.preset, spec::kMorphologicalPresetNames),
         name_of(p.edge_source, spec::kEdgeSourceNames), p.threshold,
         name_of(p.local_contrast, spec::kLocalContrastNames),
         name_of(p.predictor, spec::kPredictorNames), p.steps, p.contiguous ? ", contiguous" : "",
-        p.safe ? ", safe" : "", p.linear_light ? "linear" : "stored",
+        p.safe ? ", safe" : "", p.trim ? ", trim" : "", p.linear_light ? "linear" : "stored",
         name_of(p.lanes, spec::kLanesNames), p.window_rows,
         name_of(p.storage, spec::kStorageNames));
     return text;
@@ -206,6 +206,7 @@ void apply_preset(const ParameterSet& set, spec::MorphologicalParameters& values
   take("steps", &P::steps);
   take("contiguous", &P::contiguous);
   take("safe", &P::safe);
+  take("trim", &P::trim);
   take("area", &P::area);
   take("diagonals", &P::diagonals);
 }

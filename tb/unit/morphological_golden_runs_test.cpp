@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <iostream>
 #include <map>
+#include <numeric>
+#include <tuple>
 
 #include "golden/morphological/edges.h"
 #include "golden/morphological/predictor.h"
@@ -292,16 +294,23 @@ TEST(Extension, ProbesDoNotGrowWithTheLengthOfRuns) {
   }
 }
 
-TEST(Extension, StopsOnACurve) {
-  // Steps 3, 4, 5 over rising rows: both sides of the middle run hit with different steps.
-  const std::array<int, 7> lengths = {1, 2, 3, 4, 5, 6, 7};
-  Frame frame(40, 12, [](int, int) { return grey(0); });
+// Bright above a staircase that rises from the left, one step of each length.
+Frame staircase(const std::vector<int>& lengths) {
+  const int steps = static_cast<int>(lengths.size());
+  Frame frame(std::accumulate(lengths.begin(), lengths.end(), 0) + 2, steps + 5,
+              [](int, int) { return grey(0); });
   int x = 0;
-  for (std::size_t i = 0; i < lengths.size(); ++i) {
-    for (int end = x + lengths[i]; x < end; ++x) {
-      for (int y = 0; y < 10 - static_cast<int>(i); ++y) frame.at(x, y) = grey(255);
+  for (int i = 0; i < steps; ++i) {
+    for (int end = x + lengths[static_cast<std::size_t>(i)]; x < end; ++x) {
+      for (int y = 0; y < steps + 3 - i; ++y) frame.at(x, y) = grey(255);
     }
   }
+  return frame;
+}
+
+TEST(Extension, StopsOnACurve) {
+  // Steps 3, 4, 5 over rising rows: both sides of the middle run hit with different steps.
+  const Frame frame = staircase({1, 2, 3, 4, 5, 6, 7});
   MorphologicalGolden golden(preset_parameters(MorphologicalPreset::kDeburr));
   golden.process(frame.view());
   int curves = 0;
@@ -316,6 +325,143 @@ TEST(Extension, StopsOnACurve) {
   MorphologicalGolden paper(preset_parameters(MorphologicalPreset::kMlaaSlope));
   paper.process(frame.view());
   EXPECT_GT(paper.work().steps, golden.work().steps);
+}
+
+// ---- trim ---------------------------------------------------------------------------------------
+
+spec::MorphologicalParameters trimmed(MorphologicalPreset preset, bool trim) {
+  spec::MorphologicalParameters p = preset_parameters(preset);
+  p.trim = trim;
+  return p;
+}
+
+std::vector<PredictedRun> runs_of(const Frame& frame, const spec::MorphologicalParameters& p) {
+  MorphologicalGolden golden(p);
+  golden.process(frame.view());
+  return golden.runs();
+}
+
+// The horizontal run that begins at column x.
+PredictedRun run_at(const Frame& frame, const spec::MorphologicalParameters& p, int x) {
+  for (const PredictedRun& run : runs_of(frame, p)) {
+    if (run.line.run.axis == spec::Axis::kHorizontal && run.line.run.start == x) return run;
+  }
+  ADD_FAILURE() << "no run begins at column " << x;
+  return {};
+}
+
+struct Kept {
+  int left, right;
+  bool operator==(const Kept&) const = default;
+};
+Kept kept(const PredictedRun& run) { return {run.line.left_steps, run.line.right_steps}; }
+void PrintTo(const Kept& k, std::ostream* out) { *out << k.left << " and " << k.right; }
+
+TEST(Trim, GivesBackTheLastStepOfALostSide) {
+  // Three steps of 3 before the run and two after it, then steps of 9.
+  const Frame frame = staircase({9, 3, 3, 3, 3, 3, 3, 9, 2});
+  for (const auto preset : {MorphologicalPreset::kDeburr, MorphologicalPreset::kMlaaSlope}) {
+    const PredictedRun whole = run_at(frame, trimmed(preset, false), 18);
+    EXPECT_EQ(kept(whole), (Kept{3, 2}));
+    EXPECT_EQ(whole.left_end, SideEnd::kNoHit);
+    const PredictedRun cut = run_at(frame, trimmed(preset, true), 18);
+    EXPECT_EQ(kept(cut), (Kept{2, 1}));
+    EXPECT_EQ(cut.far_left, -6);
+    EXPECT_EQ(cut.far_right, 6);
+    EXPECT_EQ(cut.line.span, 12);
+    EXPECT_EQ(cut.line.shift, -1);
+    EXPECT_EQ(cut.probes, whole.probes);
+    EXPECT_EQ(cut.iterations, whole.iterations);
+  }
+}
+
+TEST(Trim, KeepsAllWhereTheStepsOrTheReachEnd) {
+  const Frame frame = staircase(std::vector<int>(25, 3));
+  spec::MorphologicalParameters p = trimmed(MorphologicalPreset::kDeburr, true);
+  const PredictedRun all = run_at(frame, p, 36);
+  EXPECT_EQ(kept(all), (Kept{8, 8}));
+  EXPECT_EQ(all.left_end, SideEnd::kSteps);
+  // From X = 9 on the steps of 3, 2 and 4 end at 12, 11 and 13.
+  for (const auto& [reach, steps, end] : {std::tuple{10, 2, SideEnd::kReach},
+                                          {11, 2, SideEnd::kReach},
+                                          {12, 3, SideEnd::kReach},
+                                          {15, 4, SideEnd::kReach}}) {
+    p.reach_columns = reach;
+    const PredictedRun run = run_at(frame, p, 36);
+    EXPECT_EQ(kept(run), (Kept{steps, steps})) << "reach " << reach;
+    EXPECT_EQ(run.right_end, end);
+  }
+  // A step of 9 that could have been one of 4 within the reach is evidence.
+  p.reach_columns = 13;
+  const Frame bent = staircase({3, 3, 3, 3, 3, 3, 3, 9, 2});
+  EXPECT_EQ(kept(run_at(bent, p, 12)).right, 1);
+  p.reach_columns = 12;
+  EXPECT_EQ(kept(run_at(bent, p, 12)).right, 2);
+}
+
+TEST(Trim, HalvesASideThatNoLineExplains) {
+  // 5, 5, 5 and 6, 6 are no line: the second 6 is refused, one step is left, half of it is none.
+  const Frame frame = staircase({9, 5, 5, 5, 6, 6, 6, 2});
+  const PredictedRun whole = run_at(frame, trimmed(MorphologicalPreset::kDeburr, false), 19);
+  EXPECT_EQ(whole.right_end, SideEnd::kInconsistent);
+  EXPECT_EQ(kept(whole), (Kept{2, 1}));
+  EXPECT_EQ(kept(run_at(frame, trimmed(MorphologicalPreset::kDeburr, true), 19)), (Kept{1, 0}));
+}
+
+// A naive reading of the contract over many bends, against the runs without the trim.
+TEST(Trim, LeavesWhatTheContractSays) {
+  Random random(9);
+  std::map<std::pair<SideEnd, int>, int> seen;
+  const auto expected = [&](SideEnd end, int steps) {
+    ++seen[{end, std::min(steps, 3)}];
+    if (end == SideEnd::kNoHit) return steps == 0 ? 0 : steps - 1;
+    if (end == SideEnd::kInconsistent || end == SideEnd::kCurve) return steps / 2;
+    return steps;
+  };
+  for (int i = 0; i < 400; ++i) {
+    // A parabola of random bend, and a line now and then.
+    const double bend = i % 4 == 0 ? 0 : random.uniform(0.002, 0.05),
+                 first = random.uniform(1, i % 3 == 0 ? 28 : 6);
+    std::vector<int> lengths, corner = {0};
+    for (int k = 0; k < 24; ++k) {
+      const double at = first * (k + 1) + bend * (k + 1) * (k + 1);
+      lengths.push_back(std::max(1, static_cast<int>(at) - corner.back()));
+      corner.push_back(corner.back() + lengths.back());
+    }
+    const Frame frame = staircase(lengths);
+    for (const auto preset : {MorphologicalPreset::kDeburr, MorphologicalPreset::kMlaaSlope}) {
+      spec::MorphologicalParameters p = trimmed(preset, false);
+      p.window_rows = 20;
+      p.reach_columns = 30;
+      const std::vector<PredictedRun> whole = runs_of(frame, p);
+      p.trim = true;
+      const std::vector<PredictedRun> cut = runs_of(frame, p);
+      ASSERT_EQ(whole.size(), cut.size());
+      for (std::size_t r = 0; r < cut.size(); ++r) {
+        const PredictedRun &a = whole[r], &b = cut[r];
+        ASSERT_EQ(a.line.run, b.line.run);
+        EXPECT_EQ(b.line.left_steps, expected(a.left_end, a.line.left_steps));
+        EXPECT_EQ(b.line.right_steps, expected(a.right_end, a.line.right_steps));
+        EXPECT_EQ(b.line.span, b.far_right - b.far_left);
+        if (b.line.run.axis != spec::Axis::kHorizontal || b.left == Outcome::kUntried) continue;
+        // The outermost corners are those of the staircase.
+        const auto own = std::find(corner.begin(), corner.end(), b.line.run.start);
+        ASSERT_NE(own, corner.end());
+        if (preset == MorphologicalPreset::kMlaaSlope) continue;  // it may hit what is no step
+        EXPECT_EQ(b.far_left, *(own - b.line.left_steps) - *own);
+        EXPECT_EQ(b.far_right, *(own + 1 + b.line.right_steps) - *own);
+      }
+    }
+  }
+  // Two sides never contradict each other before either has taken a step.
+  for (const auto& [end, fewest] : {std::pair{SideEnd::kNoHit, 0},
+                                    {SideEnd::kReach, 0},
+                                    {SideEnd::kInconsistent, 1},
+                                    {SideEnd::kCurve, 0}}) {
+    for (int steps = fewest; steps <= 3; ++steps) {
+      EXPECT_GT((seen[{end, steps}]), 10) << "end " << static_cast<int>(end) << ", " << steps;
+    }
+  }
 }
 
 TEST(Extension, NeverTriesAStepOfNothing) {

@@ -59,6 +59,11 @@ void paper_contrast_16(spec::MorphologicalParameters& p) {
   p.steps = 16;
   p.local_contrast = spec::LocalContrast::kPaper;
 }
+void not_trimmed(spec::MorphologicalParameters& p) { p.trim = false; }
+void trimmed(spec::MorphologicalParameters& p) {
+  p.steps = 8;
+  p.trim = true;
+}
 void with_fit(spec::MorphologicalParameters& p) { p.predictor = spec::Predictor::kFit; }
 void safe_chord(spec::MorphologicalParameters& p) {
   p.safe = true;
@@ -70,22 +75,24 @@ void safe_chord(spec::MorphologicalParameters& p) {
 const Vector kVectors[] = {
     {"noise", kMlaa, as_it_is, 66, 256, 0x00b097db028f25fd, 2958, 0, 1390, 0, 0, 0, 3175},
     {"noise", kSlope, as_it_is, 66, 256, 0x6c40266cf03f3513, 2958, 0, 1390, 671, 1062, 9200, 3282},
-    {"noise", kDeburr, as_it_is, 66, 256, 0x15cfb7658192b9b8, 2958, 0, 1390, 201, 216, 7378, 3196},
-    {"noise", kDeburr, gamma_space, 66, 256, 0xe0a7a0b20267a2f4, 2958, 0, 1390, 201, 216, 7378,
-     3196},
+    {"noise", kDeburr, as_it_is, 66, 256, 0x2820122eb9f04a52, 2958, 0, 1390, 10, 10, 7378, 3178},
+    {"noise", kDeburr, gamma_space, 66, 256, 0x8a5e9cf3676d7e0d, 2958, 0, 1390, 10, 10, 7378, 3178},
     {"line", kMlaa, as_it_is, 66, 256, 0x5d62265609239471, 241, 0, 232, 0, 0, 0, 418},
     {"line", kSlope, as_it_is, 66, 256, 0x75ccf871d174feaf, 241, 0, 232, 162, 871, 2560, 457},
-    {"line", kDeburr, as_it_is, 66, 256, 0x7166ee06facaaaa8, 241, 0, 232, 154, 906, 2832, 447},
-    {"line", kDeburr, paper_contrast_16, 66, 256, 0x555bbb74c7960523, 241, 0, 232, 154, 1090, 3244,
-     447},
+    {"line", kDeburr, as_it_is, 66, 256, 0x736d3ffd8a940ba4, 241, 0, 232, 128, 584, 2832, 425},
+    {"line", kDeburr, paper_contrast_16, 66, 256, 0x460d3c72f9dd7681, 241, 0, 232, 128, 728, 3244,
+     425},
     {"line", kSlope, with_fit, 66, 256, 0x60fe73fcc1c70e9f, 241, 0, 232, 162, 871, 2560, 455},
     {"blocks", kMlaa, as_it_is, 20, 9, 0xfd1df0fe5908eab2, 1036, 19, 470, 0, 0, 0, 1186},
     {"blocks", kSlope, steps<4>, 20, 9, 0x5f03ca34a84ea782, 1036, 19, 470, 238, 626, 4119, 1193},
-    {"blocks", kDeburr, steps<4>, 20, 9, 0x68846e30bba79f70, 1198, 24, 536, 222, 550, 4235, 1386},
+    {"blocks", kDeburr, steps<4>, 20, 9, 0xbc2f9325b6057e5e, 1198, 24, 536, 204, 528, 4235, 1386},
     {"blocks", kSlope, safe_chord, 20, 9, 0xdda27397e1d7e1a8, 1213, 15, 531, 262, 655, 4442, 1354},
-    {"blocks", kDeburr, steps<3>, 10, 7, 0x386e8ed5844f8407, 1198, 28, 536, 220, 330, 3587, 1364},
+    {"blocks", kDeburr, steps<3>, 10, 7, 0xa765ccb0279eaaf0, 1198, 28, 536, 204, 314, 3587, 1364},
     {"blocks", kSlope, steps<8>, 20, 30, 0xdc30d70a15925762, 1036, 14, 470, 239, 1315, 5984, 1268},
-    {"blocks", kDeburr, as_it_is, 66, 256, 0x464376bac387fe0d, 1198, 0, 538, 222, 970, 5382, 1552},
+    {"blocks", kSlope, trimmed, 20, 30, 0x4a46970faa1de0ac, 1036, 14, 470, 180, 992, 5984, 1276},
+    {"blocks", kDeburr, as_it_is, 66, 256, 0xe86c7f9318eacf5e, 1198, 0, 538, 168, 660, 5382, 1552},
+    {"blocks", kDeburr, not_trimmed, 66, 256, 0x464376bac387fe0d, 1198, 0, 538, 222, 970, 5382,
+     1552},
 };
 
 class TestVector : public testing::TestWithParam<Vector> {};
