@@ -39,6 +39,39 @@ double coverage(const HalfPlane& h, double x, double y) {
   return std::clamp(std::abs(twice) / 2, 0.0, 1.0);
 }
 
+// Integrates the length of the pixel's columns inside the circle, piecewise: between the places
+// where the circle crosses the pixel's upper and lower side the length is a constant, or runs along
+// the circle.
+double disc_coverage(const Disc& disc, double x, double y) {
+  const double r = disc.radius, left = std::max(x - disc.x, -r),
+               right = std::min(x + 1 - disc.x, r), low = y - disc.y, high = low + 1;
+  if (left >= right) return 0;
+  std::array<double, 6> cuts{left, right, left, right, left, right};
+  std::size_t count = 2;
+  for (const double side : {low, high}) {
+    if (std::abs(side) >= r) continue;
+    const double at = std::sqrt(r * r - side * side);
+    cuts[count++] = std::clamp(-at, left, right);
+    cuts[count++] = std::clamp(at, left, right);
+  }
+  std::sort(cuts.begin(), cuts.begin() + static_cast<std::ptrdiff_t>(count));
+  // The integral of the circle's height from the middle to t.
+  const auto area = [r](double t) {
+    return (t * std::sqrt(std::max(0.0, r * r - t * t)) + r * r * std::asin(t / r)) / 2;
+  };
+  double sum = 0;
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    const double a = cuts[i], b = cuts[i + 1];
+    if (b <= a) continue;
+    const double middle = (a + b) / 2, height = std::sqrt(std::max(0.0, r * r - middle * middle));
+    const double under_arc = area(b) - area(a);
+    const double top = height < high ? under_arc : high * (b - a);
+    const double bottom = -height > low ? -under_arc : low * (b - a);
+    if (height > low && -height < high) sum += top - bottom;
+  }
+  return std::clamp(sum, 0.0, 1.0);
+}
+
 StepLine fitted(std::span<const StepCorner> corners) {
   const auto n = static_cast<double>(corners.size());
   double mean_index = 0, mean_position = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What morphological anti-aliasing tries to recover, in real numbers: how much of a pixel a
-// half-plane covers, and the areas that Reshetov cuts off between a line and a run of edges.
+// half-plane or a disc covers, and the areas that Reshetov cuts off between a line and a run of
+// edges.
 //
 // Truth for the quality tables and the error bound of the integer areas (paper 000, section 2;
 // docs/number_formats_morphological.md, "Line through a run", "Area", without any rounding).
@@ -18,6 +19,17 @@ struct HalfPlane {
 
 // Share of the pixel [x, x + 1] x [y, y + 1] that is inside, 0..1; exact but for rounding.
 double coverage(const HalfPlane& half_plane, double x, double y);
+
+// Inside the circle.
+struct Disc {
+  double x = 0, y = 0, radius = 1;
+  bool contains(double px, double py) const {
+    return (px - x) * (px - x) + (py - y) * (py - y) < radius * radius;
+  }
+};
+
+// Share of the pixel [x, x + 1] x [y, y + 1] that is inside, 0..1; exact but for rounding.
+double disc_coverage(const Disc& disc, double x, double y);
 
 // A corner of a digital line: step i of it lies at position X, counted from the run's start.
 struct StepCorner {

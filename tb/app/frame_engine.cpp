@@ -147,6 +147,9 @@ class FrameCommand final : public Engine {
     render_options.width = after.width;
     render_options.height = after.height;
     render_options.samples = kTruthSamples;
+    // Coverage is averaged in the light in which the engine blends.
+    render_options.averaging =
+        morphological_.linear_light ? Averaging::kLinear : Averaging::kStored;
     const Image truth = render(scene.scene(), render_options);
     const Mask edges = edge_mask(truth, before);
     Quality quality;

@@ -126,6 +126,45 @@ std::vector<FanRow> fan_rows() {
   return rows;
 }
 
+std::vector<FanRow> rule_rows() {
+  using golden::morphological::preset_parameters;
+  using P = spec::MorphologicalParameters;
+  const P deburr = preset_parameters(spec::MorphologicalPreset::kDeburr);
+  std::vector<FanRow> rows;
+  const auto add = [&](const char* name, const P& p) { rows.push_back({name, true, p}); };
+  P p = preset_parameters(spec::MorphologicalPreset::kMlaa);
+  add("mlaa", p);
+  p = preset_parameters(spec::MorphologicalPreset::kMlaaSlope);
+  add("mlaa-slope", p);
+  p.predictor = spec::Predictor::kFit;
+  add("fit instead of the chord", p);
+  p.contiguous = true;
+  add("+ contiguous", p);
+  p.safe = true;
+  add("+ safe", p);
+  p.steps = deburr.steps;
+  add("+ N = 8", p);
+  p.trim = true;
+  add("+ trim", p);
+  p.threshold = deburr.threshold;
+  add("+ T = 0.03", p);
+  p.local_contrast = deburr.local_contrast;
+  add("+ symmetric contrast = deburr", p);
+  for (const auto preset :
+       {spec::MorphologicalPreset::kMlaa, spec::MorphologicalPreset::kMlaaSlope}) {
+    p = preset_parameters(preset);
+    p.threshold = deburr.threshold;
+    p.local_contrast = deburr.local_contrast;
+    add(preset == spec::MorphologicalPreset::kMlaa ? "mlaa, deburr's edges"
+                                                   : "mlaa-slope, deburr's edges",
+        p);
+  }
+  p = deburr;
+  p.steps = spec::kMaxSteps;
+  add("deburr, N = 16", p);
+  return rows;
+}
+
 Smoothing smoothing_of(const FanRow& row) {
   if (!row.smoothed) return [](const Frame& frame) { return frame; };
   return [parameters = row.parameters](const Frame& frame) { return smooth(parameters, frame); };

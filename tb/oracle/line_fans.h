@@ -55,6 +55,11 @@ struct FanRow {
 std::vector<FanRow> fan_rows();
 Smoothing smoothing_of(const FanRow& row);
 
+// What each rule of `deburr` adds: from the paper's rules with a fitted line to the preset itself,
+// one rule a row, then the other two presets with deburr's edges, and deburr with N = 16.
+// linear_light as the presets have it.
+std::vector<FanRow> rule_rows();
+
 // What the contract asks (docs/morphological_engine.md, last rows of its tables): figures that the
 // row of that name must not exceed; 0 where it asks nothing.
 struct FanLimit {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 deburr_library(line_fans LAYER tb
-  SOURCES "${CMAKE_CURRENT_LIST_DIR}/line_fans.cpp"
+  SOURCES "${CMAKE_CURRENT_LIST_DIR}/line_fans.cpp" "${CMAKE_CURRENT_LIST_DIR}/discs.cpp"
   LINK deburr::spec deburr::golden_morphological deburr::ideal
   PRIVATE_LINK fmt::fmt)
 

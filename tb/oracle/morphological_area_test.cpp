@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <numbers>
 
 #include "golden/ideal/coverage.h"
 #include "golden/morphological/area.h"
@@ -18,6 +19,7 @@ namespace {
 
 using golden::ideal::coverage;
 using golden::ideal::CutAreas;
+using golden::ideal::disc_coverage;
 using golden::ideal::StepCorner;
 using golden::ideal::StepLine;
 using golden::morphological::EdgeShares;
@@ -191,6 +193,39 @@ TEST(IdealCoverage, AgreesWithSamples) {
       for (int x = 0; x < kGrid; ++x) inside += h.at((x + 0.5) / kGrid, (y + 0.5) / kGrid) > 0;
     }
     EXPECT_NEAR(coverage(h, 0, 0), inside / double{kGrid * kGrid}, 0.01);
+  }
+}
+
+TEST(IdealCoverage, OfDiscsWorkedOutByHand) {
+  using std::numbers::pi;
+  EXPECT_NEAR(disc_coverage({0, 0, 1}, 0, 0), pi / 4, 1e-14);
+  EXPECT_NEAR(disc_coverage({0.5, 0.5, 0.25}, 0, 0), pi / 16, 1e-14);  // all of it
+  EXPECT_NEAR(disc_coverage({0.5, 0, 0.5}, 0, 0), pi / 8, 1e-14);
+  EXPECT_NEAR(disc_coverage({0.5, 0, 0.5}, 0, -1), pi / 8, 1e-14);
+  EXPECT_DOUBLE_EQ(disc_coverage({0, 0, 9}, 3, 4), 1);
+  EXPECT_DOUBLE_EQ(disc_coverage({0, 0, 4}, 3, 4), 0);
+  // Where the radius is large it is a half-plane.
+  EXPECT_NEAR(disc_coverage({-1e3, 0.5, 1e3 + 0.25}, 0, 0), 0.25, 1e-4);
+}
+
+TEST(IdealCoverage, OfDiscsAddsUpToTheirArea) {
+  Random random(10);
+  for (int i = 0; i < 50; ++i) {
+    const golden::ideal::Disc disc{random.uniform(30, 31), random.uniform(30, 31),
+                                   random.uniform(0.3, 25)};
+    double sum = 0;
+    for (int y = 0; y < 60; ++y) {
+      for (int x = 0; x < 60; ++x) {
+        const double share = disc_coverage(disc, x, y);
+        sum += share;
+        // A corner inside and one outside: the circle crosses.
+        const bool a = disc.contains(x, y), b = disc.contains(x + 1, y + 1);
+        if (a != b) {
+          EXPECT_TRUE(share > 0 && share < 1) << x << ", " << y;
+        }
+      }
+    }
+    EXPECT_NEAR(sum, std::numbers::pi * disc.radius * disc.radius, 1e-9);
   }
 }
 
