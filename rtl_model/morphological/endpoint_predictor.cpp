@@ -100,10 +100,15 @@ void EndpointPredictor::take(Predictor& p, const RunToken& token) {
   const FrameRules& rules = store_.rules();
   const bool extends =
       run.part == spec::RunPart::kWhole && spec::kRunShapes[run.shape].clean_z && rules.steps > 0;
-  p.left = {extends, 0, 0, 0};
-  p.right = {extends, p.length, 0, 0};
-  p.sum = p.indexed_sum = p.length;  // X_0 = 0, X_1 = L
+  p.left.open = p.right.open = extends;
+  p.left.keep = p.right.keep = kAll;
+  p.left.other = p.right.other = 0;
+  p.left.reached[kAll] = {0, 0, 0, 0};
+  p.right.reached[kAll] = {0, p.length, 0, 0};
   if (!extends) return;
+  // No step yet: nothing to give back, and the half of none is none.
+  for (End* const end : {&p.left, &p.right})
+    end->reached[kBeforeLast] = end->reached[kFirstHalf] = end->reached[kAll];
   p.drift = token.end_code == kFirstSide ? -1 : 1;
   p.start_corner = static_cast<std::uint8_t>(kAfter | token.start_code << kCrossing);
   p.end_corner = static_cast<std::uint8_t>(kBefore | token.end_code << kCrossing);
@@ -127,7 +132,7 @@ bool EndpointPredictor::iterate_apart(Predictor& p) {
     if (!end.open) continue;
     const std::int32_t step = trial(p, end, to_the_right, end.other);
     if (step == 0) {
-      end.open = false;
+      lose(p, end, to_the_right, end.other);
       continue;
     }
     if (step != p.length) end.other = step;
@@ -140,44 +145,50 @@ bool EndpointPredictor::iterate_apart(Predictor& p) {
 bool EndpointPredictor::iterate_together(Predictor& p) {
   std::int32_t right = p.right.open ? trial(p, p.right, true, p.other) : 0;
   std::int32_t left = p.left.open ? trial(p, p.left, false, p.other) : 0;
-  if (right != 0 && left != 0 && right != p.length && left != p.length && right != left)
+  if (p.right.open && right == 0) lose(p, p.right, true, p.other);
+  if (p.left.open && left == 0) lose(p, p.left, false, p.other);
+  const auto stop = [&] {
+    close(p.right, kFirstHalf);
+    close(p.left, kFirstHalf);
     return false;
+  };
+  if (right != 0 && left != 0 && right != p.length && left != p.length && right != left)
+    return stop();
   const std::int32_t right_index = p.step + 2, left_index = -p.step - 1;
+  const std::int32_t right_x = p.right.reached[kAll].position + right;
+  const std::int32_t left_x = p.left.reached[kAll].position - left;
   Bounds bounds = p.bounds;
   if (right != 0) {
-    const Bounds extended = with(p, p.bounds, right_index, p.right.position + right);
-    if (extended.consistent())
+    const Bounds extended = with(p, p.bounds, right_index, right_x);
+    if (extended.consistent()) {
       bounds = extended;
-    else
+    } else {
+      close(p.right, kFirstHalf);
       right = 0;
+    }
   }
   if (left != 0) {
-    const std::int32_t x = p.left.position - left;
-    const Bounds extended = with(p, p.bounds, left_index, x);
+    const Bounds extended = with(p, p.bounds, left_index, left_x);
     if (!extended.consistent()) {
+      close(p.left, kFirstHalf);
       left = 0;
     } else if (right == 0) {
       bounds = extended;
     } else {
       // Both: the new corners against each other as well.
-      p.corner[static_cast<std::size_t>(right_index + spec::kMaxSteps)] = p.right.position + right;
-      ++p.right.taken;
-      bounds = with(p, bounds, left_index, x);
-      --p.right.taken;
-      if (!bounds.consistent()) return false;
+      p.corner[static_cast<std::size_t>(right_index + spec::kMaxSteps)] = right_x;
+      ++p.right.reached[kAll].steps;
+      bounds = with(p, bounds, left_index, left_x);
+      --p.right.reached[kAll].steps;
+      if (!bounds.consistent()) return stop();
     }
   }
   p.bounds = bounds;
-  const std::int32_t length = p.length;
   for (const bool to_the_right : {true, false}) {
-    End& end = to_the_right ? p.right : p.left;
     const std::int32_t step = to_the_right ? right : left;
-    if (step == 0) {
-      end.open = false;
-    } else {
-      if (step != length) p.other = step;
-      accept(p, end, to_the_right, step);
-    }
+    if (step == 0) continue;
+    if (step != p.length) p.other = step;
+    accept(p, to_the_right ? p.right : p.left, to_the_right, step);
   }
   return p.left.open || p.right.open;
 }
@@ -195,7 +206,7 @@ std::int32_t EndpointPredictor::trial(const Predictor& p, const End& end, bool t
   if (store_.rules().contiguous) {
     // The step must begin at a corner like the one at the other end of the run.
     const std::uint8_t wanted = to_the_right ? p.start_corner : p.end_corner;
-    if (corner(p.start + end.position, line) != wanted) return 0;
+    if (corner(p.start + end.reached[kAll].position, line) != wanted) return 0;
   }
   if (candidate(p, end, to_the_right, line, length)) return length;
   if (known) return candidate(p, end, to_the_right, line, other);
@@ -206,11 +217,11 @@ std::int32_t EndpointPredictor::trial(const Predictor& p, const End& end, bool t
 // `step` if it hits, else 0.
 std::int32_t EndpointPredictor::candidate(const Predictor& p, const End& end, bool to_the_right,
                                           std::int32_t line, std::int32_t step) const {
-  const std::int32_t x = to_the_right ? end.position + step : end.position - step;
+  const std::int32_t from = end.reached[kAll].position;
+  const std::int32_t x = to_the_right ? from + step : from - step;
   if (to_the_right ? x > reach_ : x < p.length - reach_) return 0;
   if (corner(p.start + x, line) != (to_the_right ? p.end_corner : p.start_corner)) return 0;
-  if (store_.rules().contiguous &&
-      !unbroken(p.start + (to_the_right ? end.position : x), line, step))
+  if (store_.rules().contiguous && !unbroken(p.start + (to_the_right ? from : x), line, step))
     return 0;
   return step;
 }
@@ -218,7 +229,8 @@ std::int32_t EndpointPredictor::candidate(const Predictor& p, const End& end, bo
 // The bounds when corner i at x joins those that the predictor has.
 EndpointPredictor::Bounds EndpointPredictor::with(const Predictor& p, Bounds bounds, std::int32_t i,
                                                   std::int32_t x) const {
-  for (std::int32_t j = -p.left.taken; j <= p.right.taken + 1; ++j) {
+  const std::int32_t last = p.right.reached[kAll].steps + 1;
+  for (std::int32_t j = -p.left.reached[kAll].steps; j <= last; ++j) {
     const std::int32_t x_j = p.corner[static_cast<std::size_t>(j + spec::kMaxSteps)];
     const std::int32_t under = i > j ? i - j : j - i;
     const std::int32_t apart = i > j ? x - x_j : x_j - x;
@@ -231,26 +243,52 @@ EndpointPredictor::Bounds EndpointPredictor::with(const Predictor& p, Bounds bou
 }
 
 void EndpointPredictor::accept(Predictor& p, End& end, bool to_the_right, std::int32_t step) {
-  end.position += to_the_right ? step : -step;
-  const std::int32_t index = to_the_right ? end.taken + 2 : -end.taken - 1;
-  p.corner[static_cast<std::size_t>(index + spec::kMaxSteps)] = end.position;
-  ++end.taken;
-  p.sum += end.position;
-  p.indexed_sum += index * end.position;
+  const auto add = [&](Stretch& stretch, std::int32_t index, std::int32_t x) {
+    ++stretch.steps;
+    stretch.position = x;
+    stretch.sum += x;
+    stretch.indexed_sum += index * x;
+  };
+  const auto index_of = [&](std::int32_t steps) { return to_the_right ? steps + 1 : -steps; };
+  Stretch& all = end.reached[kAll];
+  end.reached[kBeforeLast] = all;
+  const std::int32_t index = index_of(all.steps + 1);
+  const std::int32_t x = to_the_right ? all.position + step : all.position - step;
+  p.corner[static_cast<std::size_t>(index + spec::kMaxSteps)] = x;
+  add(all, index, x);
+  if (all.steps % 2 != 0) return;
+  Stretch& half = end.reached[kFirstHalf];
+  const std::int32_t next = index_of(half.steps + 1);
+  add(half, next, p.corner[static_cast<std::size_t>(next + spec::kMaxSteps)]);
+}
+
+// The line is lost, unless a candidate that lies beyond the reach might have gone on with it.
+void EndpointPredictor::lose(const Predictor& p, End& end, bool to_the_right, std::int32_t other) {
+  const std::int32_t x = end.reached[kAll].position;
+  const std::int32_t used = to_the_right ? x : p.length - x;  // of the reach
+  const std::int32_t largest = other == 0 ? p.length + 1 : std::max(p.length, other);
+  close(end, used + largest > reach_ ? kAll : kBeforeLast);
+}
+
+void EndpointPredictor::close(End& end, Keep keep) {
+  end.open = false;
+  end.keep = store_.rules().trim ? keep : kAll;
 }
 
 // The sums go to the result register; the predictor is free in the next clock.
 void EndpointPredictor::finish(Predictor& p) {
-  const std::int32_t taken = p.left.taken + p.right.taken;
-  steps += static_cast<std::uint64_t>(taken);
-  if (taken != 0) ++extended_runs;
+  const Stretch& left = p.left.reached[p.left.keep];
+  const Stretch& right = p.right.reached[p.right.keep];
+  const std::int32_t kept = left.steps + right.steps;
+  steps += static_cast<std::uint64_t>(kept);
+  if (kept != 0) ++extended_runs;
   p.result = {p.run,
-              static_cast<std::uint8_t>(p.left.taken),
-              static_cast<std::uint8_t>(p.right.taken),
-              static_cast<std::int16_t>(p.left.position),
-              static_cast<std::int16_t>(p.right.position),
-              p.sum,
-              p.indexed_sum};
+              static_cast<std::uint8_t>(left.steps),
+              static_cast<std::uint8_t>(right.steps),
+              static_cast<std::int16_t>(left.position),
+              static_cast<std::int16_t>(right.position),
+              left.sum + p.length + right.sum,  // X_0 = 0, X_1 = L
+              left.indexed_sum + p.length + right.indexed_sum};
   p.busy = false;
   p.done = true;
 }

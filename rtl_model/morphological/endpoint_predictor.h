@@ -7,10 +7,20 @@
 // predictor and from there, one a lane and clock, to the LineUnit: latency max(1, iterations) + 1,
 // initiation interval max(1, iterations) a predictor. A trial reads the three candidates L, L - 1,
 // L + 1 of a side at once. Stalls: `downstream` (the result register is still full).
-// Formats: positions S13 from the start of the run, sums S18 and S24. Cost a predictor: 2 x 3
-// comparators of four bits, two masks of up to L + 1 bits (contiguous), 2 x 34 cross products of
-// 13 x 6 bits and their maximum and minimum (safe), four adders.
-// Source: paper 000, sections 3 and 4; `safe` and the sums are ours.
+//
+// Trim takes no clock of its own: beside the sums of all its steps a side keeps those without its
+// last step and those of the first half of its steps. The former are what the sums were before;
+// the latter take in one corner at every second step, which the corner file has held for as many
+// steps as the half is long. The trial that ends a side sets two bits, and the join of the sums in
+// the last clock selects by them.
+//
+// Formats: positions S13 from the start of the run, sums of a side S18 and S24. Cost a predictor:
+// 2 x 3 comparators of four bits, two masks of up to L + 1 bits (contiguous), 2 x 34 cross products
+// of 13 x 6 bits and their maximum and minimum (safe); a side three adders and a multiplier of
+// 13 x 5 bits for its sums, four adders to join them. Trim: a side 2 x 60 flip-flops, two adders
+// and a multiplier of 13 x 4 bits (the half), an adder and a comparator of 13 bits (the reach), a
+// selector 3 : 1 of 60 bits and a second read port of the corner file.
+// Source: paper 000, sections 3 and 4; `safe`, `trim` and the sums are ours.
 #pragma once
 
 #include <array>
@@ -39,7 +49,7 @@ class EndpointPredictor final : public Unit {
   void reset() override;
 
   Counter extended_runs{"extended_runs", "runs", "runs extended by at least one step"};
-  Counter steps{"steps", "steps", "extensions taken"};
+  Counter steps{"steps", "steps", "extensions kept"};
   Counter probes{"probes", "corners", "corners tested"};
   Counter iterations{"iterations", "clk", "clocks in which a predictor made a trial"};
   Counter occupancy{"occupancy", "clk", "clocks in which a predictor held a record, summed"};
@@ -56,12 +66,20 @@ class EndpointPredictor final : public Unit {
       return std::int64_t{low.over} * high.under < std::int64_t{high.over} * low.under;
     }
   };
-  // One end that grows: corner code to be found, direction along the run, corner reached.
+  // The first steps of a side: their number, the X that they reach, the sums of their corners.
+  struct Stretch {
+    std::int32_t steps;             // U5
+    std::int32_t position;          // S13
+    std::int32_t sum, indexed_sum;  // S18, S24: sum of X_i, of i X_i
+  };
+  // Which of its steps a side passes on.
+  enum Keep : std::uint8_t { kAll, kBeforeLast, kFirstHalf, kKeeps };
+  // One end that grows.
   struct End {
     bool open;
-    std::int32_t position;  // X of the last corner taken
-    std::int32_t taken;     // steps
-    std::int32_t other;     // L' if not safe, 0 while unknown
+    Keep keep;
+    std::int32_t other;  // L' if not safe, 0 while unknown
+    std::array<Stretch, kKeeps> reached;
   };
   struct Predictor {
     bool busy = false, done = false;  // holds a record; has a result
@@ -74,7 +92,6 @@ class EndpointPredictor final : public Unit {
     End left, right;
     Bounds bounds;
     std::array<std::int32_t, spec::kMaxCorners> corner;  // X_i at [i + kMaxSteps]
-    std::int32_t sum, indexed_sum;
     SumsToken result;
   };
 
@@ -88,6 +105,9 @@ class EndpointPredictor final : public Unit {
                          std::int32_t step) const;
   Bounds with(const Predictor& p, Bounds bounds, std::int32_t i, std::int32_t x) const;
   void accept(Predictor& p, End& end, bool to_the_right, std::int32_t step);
+  // A side ends for good: as a trial without a hit says, or with the given share of its steps.
+  void lose(const Predictor& p, End& end, bool to_the_right, std::int32_t other);
+  void close(End& end, Keep keep);
   void finish(Predictor& p);
 
   // The four edges at a lattice corner; `across` numbers the lattice lines along the axis.

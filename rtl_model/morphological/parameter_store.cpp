@@ -57,7 +57,7 @@ constexpr std::uint32_t writable(std::uint32_t offset) {
     case reg::kSize:
       return 0x3FFF3FFF;
     case reg::kRules:
-      return 0xFFFF;
+      return 0x1FFFF;
     case reg::kPixelBase:
       return ~(static_cast<std::uint32_t>(spec::kFrameLineBytes) - 1);
     default:
@@ -72,7 +72,8 @@ std::uint32_t encode_rules(const spec::MorphologicalParameters& p) {
          static_cast<std::uint32_t>(p.local_contrast) << 4 |
          static_cast<std::uint32_t>(p.predictor) << 6 | static_cast<std::uint32_t>(p.steps) << 8 |
          static_cast<std::uint32_t>(p.contiguous) << 13 | static_cast<std::uint32_t>(p.safe) << 14 |
-         static_cast<std::uint32_t>(p.linear_light) << 15;
+         static_cast<std::uint32_t>(p.linear_light) << 15 |
+         static_cast<std::uint32_t>(p.trim) << 16;
 }
 
 template <class Choice>
@@ -173,6 +174,7 @@ void ParameterStore::decode() {
   f.contiguous = bits(rules, 13, 13) != 0;
   f.safe = bits(rules, 14, 14) != 0;
   f.linear_light = bits(rules, 15, 15) != 0;
+  f.trim = bits(rules, 16, 16) != 0;
 
   f.threshold = 255 * value_at(reg::kThreshold);
   f.threshold_on = 255 * value_at(reg::kThresholdOn);

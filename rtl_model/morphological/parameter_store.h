@@ -35,7 +35,7 @@ struct FrameRules {
   std::uint32_t alpha = 0, depth_threshold = 0;  // U0.16
   spec::Predictor predictor{};
   std::int32_t steps = 0;  // U5
-  bool contiguous = false, safe = false, linear_light = false;
+  bool contiguous = false, safe = false, trim = false, linear_light = false;
   std::uint32_t pixel_base = 0;  // bytes
 };
 

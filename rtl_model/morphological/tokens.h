@@ -92,7 +92,7 @@ struct RunToken {
 // EndpointPredictor -> LineUnit: corners -left..right + 1 of the line, as sums.
 struct SumsToken {
   RunToken run;
-  std::uint8_t left, right;       // U5, steps taken
+  std::uint8_t left, right;       // U5, steps kept
   std::int16_t first, last;       // S13, positions of the outermost corners
   std::int32_t sum, indexed_sum;  // S18, S24: sum of X_i, of i X_i
 };

@@ -80,6 +80,7 @@ MorphologicalParameters parameters(const std::string& preset, int lanes) {
     p.steps = row.steps;
     p.contiguous = row.contiguous;
     p.safe = row.safe;
+    p.trim = row.trim;
   }
   p.lanes = lanes == 1 ? spec::Lanes::kOne : lanes == 2 ? spec::Lanes::kTwo : spec::Lanes::kFour;
   p.line_pixels = kWidth;

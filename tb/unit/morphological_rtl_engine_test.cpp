@@ -225,10 +225,10 @@ TEST(Registers, ResetValuesAreTheParameters) {
   EngineBench bench(p);
   EXPECT_EQ(bench.bus.read(reg::kId), reg::kIdValue);
   EXPECT_EQ(bench.bus.read(reg::kControl), reg::kControlEnable);
-  // luma, fixed, max, symmetric, fit, 8 steps, contiguous, safe, linear light
+  // luma, fixed, max, symmetric, fit, 8 steps, contiguous, safe, linear light, trim
   EXPECT_EQ(bench.bus.read(reg::kRules),
-            1u << 3 | 2u << 4 | 2u << 6 | 8u << 8 | 1u << 13 | 1u << 14 | 1u << 15);
-  EXPECT_EQ(bench.bus.read(reg::kThreshold), 1311u);
+            1u << 3 | 2u << 4 | 2u << 6 | 8u << 8 | 1u << 13 | 1u << 14 | 1u << 15 | 1u << 16);
+  EXPECT_EQ(bench.bus.read(reg::kThreshold), 1966u);
   EXPECT_EQ(bench.bus.read(reg::kAlpha), 1234u);
   EXPECT_EQ(bench.bus.read(reg::kFloor), 514u);
   EXPECT_EQ(bench.bus.read(reg::kDepthThreshold), 3277u);
@@ -242,7 +242,13 @@ TEST(Registers, ResetValuesAreTheParameters) {
 
 TEST(Registers, RulesCountFromTheNextFrame) {
   EngineBench bench(deburr());
+  EXPECT_EQ(hash(bench.run(blocks())), 0xe86c7f9318eacf5eu);
+  // Without trim the same trials, but every step is kept.
+  EXPECT_EQ(bench.bus.read(reg::kSteps), 660u);
+  bench.bus.write(reg::kRules, bench.bus.read(reg::kRules) & ~(1u << 16));
   EXPECT_EQ(hash(bench.run(blocks())), 0x464376bac387fe0du);
+  EXPECT_EQ(bench.bus.read(reg::kSteps), 660u + 970u);
+  EXPECT_EQ(bench.bus.read(reg::kProbes), 2u * 5382u);
   // mlaa: T = 0.1, no local contrast, no predictor.
   bench.bus.write(reg::kRules, 1u << 15);
   bench.bus.write(reg::kThreshold, 6554);
@@ -263,11 +269,11 @@ TEST(Registers, WritesWhileAFrameIsInsideAreIgnoredAndSaidSo) {
   EXPECT_EQ(bench.bus.read(reg::kStatus), 0u) << "not idle";
   bench.bus.write(reg::kThreshold, 60000);
   bench.bus.write(reg::kSize, 5);
-  EXPECT_EQ(bench.bus.read(reg::kThreshold), 1311u);
+  EXPECT_EQ(bench.bus.read(reg::kThreshold), 1966u);
   EXPECT_EQ(bench.bus.read(reg::kSize), 200u | 150u << 16);
   EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusWrittenWhileBusy);
   bench.bench->run([&] { return bench.sink.received() == 30000 && bench.engine.idle(); }, 100'000);
-  EXPECT_EQ(hash(bench.last(200, 150)), 0x7166ee06facaaaa8u);
+  EXPECT_EQ(hash(bench.last(200, 150)), 0x736d3ffd8a940ba4u);
   EXPECT_EQ(bench.bus.read(reg::kStatus),
             reg::kStatusIdle | reg::kStatusFrameDone | reg::kStatusWrittenWhileBusy);
   bench.bus.write(reg::kStatus, reg::kStatusFrameDone);
@@ -446,7 +452,7 @@ TEST(Waves, ShowTheLinksOfTheEngine) {
     options.bench.trace->file = file;
     options.bench.trace->scopes = {"engine*"};
     EngineBench bench(deburr(), options);
-    EXPECT_EQ(hash(bench.run(blocks())), 0x464376bac387fe0du);
+    EXPECT_EQ(hash(bench.run(blocks())), 0xe86c7f9318eacf5eu);
   }
   std::stringstream text;
   text << std::ifstream(file).rdbuf();

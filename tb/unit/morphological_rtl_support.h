@@ -120,6 +120,7 @@ inline MorphologicalParameters preset(spec::MorphologicalPreset which, int reach
   p.steps = row.steps;
   p.contiguous = row.contiguous;
   p.safe = row.safe;
+  p.trim = row.trim;
   p.window_rows = 2 * reach_rows + 2;
   p.reach_columns = reach_columns;
   p.line_pixels = 256;

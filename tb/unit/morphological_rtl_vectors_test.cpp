@@ -31,22 +31,21 @@ const std::vector<Vector>& vectors() {
       {"noise_slope", noise_image, MorphologicalPreset::kMlaaSlope, 32, 256, nothing,
        0x6c40266cf03f3513, 2958, 0, 1390, 671, 1062, 9200, 3282},
       {"noise_deburr", noise_image, MorphologicalPreset::kDeburr, 32, 256, nothing,
-       0x15cfb7658192b9b8, 2958, 0, 1390, 201, 216, 7378, 3196},
+       0x2820122eb9f04a52, 2958, 0, 1390, 10, 10, 7378, 3178},
       {"noise_deburr_codes", noise_image, MorphologicalPreset::kDeburr, 32, 256,
-       [](auto& p) { p.linear_light = false; }, 0xe0a7a0b20267a2f4, 2958, 0, 1390, 201, 216, 7378,
-       3196},
+       [](auto& p) { p.linear_light = false; }, 0x8a5e9cf3676d7e0d, 2958, 0, 1390, 10, 10, 7378, 3178},
       {"line_mlaa", line_image, MorphologicalPreset::kMlaa, 32, 256, nothing, 0x5d62265609239471,
        241, 0, 232, 0, 0, 0, 418},
       {"line_slope", line_image, MorphologicalPreset::kMlaaSlope, 32, 256, nothing,
        0x75ccf871d174feaf, 241, 0, 232, 162, 871, 2560, 457},
       {"line_deburr", line_image, MorphologicalPreset::kDeburr, 32, 256, nothing,
-       0x7166ee06facaaaa8, 241, 0, 232, 154, 906, 2832, 447},
+       0x736d3ffd8a940ba4, 241, 0, 232, 128, 584, 2832, 425},
       {"line_deburr_16", line_image, MorphologicalPreset::kDeburr, 32, 256,
        [](auto& p) {
          p.steps = 16;
          p.local_contrast = spec::LocalContrast::kPaper;
        },
-       0x555bbb74c7960523, 241, 0, 232, 154, 1090, 3244, 447},
+       0x460d3c72f9dd7681, 241, 0, 232, 128, 728, 3244, 425},
       {"line_slope_fit", line_image, MorphologicalPreset::kMlaaSlope, 32, 256,
        [](auto& p) { p.predictor = spec::Predictor::kFit; }, 0x60fe73fcc1c70e9f, 241, 0, 232, 162,
        871, 2560, 455},
@@ -55,22 +54,30 @@ const std::vector<Vector>& vectors() {
       {"blocks_slope", blocks_image, MorphologicalPreset::kMlaaSlope, 9, 9, nothing,
        0x5f03ca34a84ea782, 1036, 19, 470, 238, 626, 4119, 1193},
       {"blocks_deburr", blocks_image, MorphologicalPreset::kDeburr, 9, 9,
-       [](auto& p) { p.steps = 4; }, 0x68846e30bba79f70, 1198, 24, 536, 222, 550, 4235, 1386},
+       [](auto& p) { p.steps = 4; }, 0xbc2f9325b6057e5e, 1198, 24, 536, 204, 528, 4235, 1386},
       {"blocks_chord_safe", blocks_image, MorphologicalPreset::kDeburr, 9, 9,
        [](auto& p) {
          p.predictor = spec::Predictor::kChord;
          p.contiguous = false;
+         p.trim = false;
+         p.threshold = 1311;
          p.steps = 4;
          p.local_contrast = spec::LocalContrast::kPaper;
          p.linear_light = false;
        },
        0xdda27397e1d7e1a8, 1213, 15, 531, 262, 655, 4442, 1354},
       {"blocks_deburr_small", blocks_image, MorphologicalPreset::kDeburr, 4, 7,
-       [](auto& p) { p.steps = 3; }, 0x386e8ed5844f8407, 1198, 28, 536, 220, 330, 3587, 1364},
+       [](auto& p) { p.steps = 3; }, 0xa765ccb0279eaaf0, 1198, 28, 536, 204, 314, 3587, 1364},
       {"blocks_slope_wide", blocks_image, MorphologicalPreset::kMlaaSlope, 9, 30,
        [](auto& p) { p.steps = 8; }, 0xdc30d70a15925762, 1036, 14, 470, 239, 1315, 5984, 1268},
       {"blocks_deburr_default", blocks_image, MorphologicalPreset::kDeburr, 32, 256, nothing,
-       0x464376bac387fe0d, 1198, 0, 538, 222, 970, 5382, 1552}};
+       0xe86c7f9318eacf5e, 1198, 0, 538, 168, 660, 5382, 1552},
+      {"blocks_slope_trim", blocks_image, MorphologicalPreset::kMlaaSlope, 9, 30,
+       [](auto& p) {
+         p.steps = 8;
+         p.trim = true;
+       },
+       0x4a46970faa1de0ac, 1036, 14, 470, 180, 992, 5984, 1276}};
   return all;
 }
 
@@ -124,7 +131,7 @@ TEST_P(Vectors, TwoLanesFromMemory) {
   check(vector(), p, options);
 }
 
-INSTANTIATE_TEST_SUITE_P(Contract, Vectors, ::testing::Range(std::size_t{0}, std::size_t{16}),
+INSTANTIATE_TEST_SUITE_P(Contract, Vectors, ::testing::Range(std::size_t{0}, vectors().size()),
                          [](const auto& param) { return vectors()[param.param].name; });
 
 }  // namespace
