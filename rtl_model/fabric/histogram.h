@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Distribution of a number of cycles (latency) with exact count, sum, minimum and maximum.
-// Values below kExact have a bin each, so their percentiles are exact; above, 64 bins for each
-// power of two, so a percentile is at most 1/64 too large. A measuring instrument: no hardware
-// cost.
+// Distribution of a number of cycles (latency): exact count, sum, minimum, maximum and percentiles.
+// Every value has a bin of its own, those below kDirect in one table, the others in pages that
+// exist where values are. A measuring instrument: no hardware cost.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <systemc>
 #include <vector>
@@ -14,7 +15,7 @@ namespace deburr::rtl {
 
 class Histogram : public sc_core::sc_object {
  public:
-  static constexpr std::uint64_t kExact = 4096;
+  static constexpr std::uint64_t kDirect = 4096;
   struct Bin {
     std::uint64_t low, high;  // inclusive
     std::uint64_t count;
@@ -40,9 +41,17 @@ class Histogram : public sc_core::sc_object {
   const std::string& meaning() const { return meaning_; }
 
  private:
-  static std::size_t index_of(std::uint64_t value);
-  static Bin range_of(std::size_t index);
-  std::vector<std::uint64_t> bins_;
+  static constexpr std::uint64_t kPage = 64;  // values
+  using Page = std::array<std::uint64_t, kPage>;
+
+  // Calls visit(value, count) for every value recorded, ascending, until it returns false.
+  template <class Visit>
+  void each(Visit visit) const;
+
+  std::vector<std::uint64_t> direct_;
+  std::map<std::uint64_t, Page> pages_;  // by value / kPage
+  Page* page_ = nullptr;                 // of the last large value, and its number
+  std::uint64_t page_number_ = 0;
   std::uint64_t count_ = 0, sum_ = 0, min_ = ~std::uint64_t{0}, max_ = 0;
   std::string unit_, meaning_;
 };
