@@ -84,16 +84,19 @@ std::uint32_t MemoryModel::draw_latency() {
   return parameters_.latency_min + (span ? random_.below(span + 1) : 0);
 }
 
-void MemoryModel::access(tlm::tlm_generic_payload& payload, std::uint64_t number) {
+bool MemoryModel::admit(tlm::tlm_generic_payload& payload, std::uint64_t number) {
   const std::uint64_t address = payload.get_address();
   const std::uint64_t length = payload.get_data_length();
   const std::uint64_t width = payload.get_streaming_width();
   const auto fail = [&](tlm::tlm_response_status status) {
     payload.set_response_status(status);
     ++errors_;
+    return false;
   };
-  if (payload.get_command() == tlm::TLM_IGNORE_COMMAND)
-    return payload.set_response_status(tlm::TLM_OK_RESPONSE);
+  if (payload.get_command() == tlm::TLM_IGNORE_COMMAND) {
+    payload.set_response_status(tlm::TLM_OK_RESPONSE);
+    return false;
+  }
   if (payload.is_read()) {
     ++reads_;
     bytes_read_ += length;
@@ -114,10 +117,18 @@ void MemoryModel::access(tlm::tlm_generic_payload& payload, std::uint64_t number
   if (address > contents_.size() || length > contents_.size() - address)
     return fail(tlm::TLM_ADDRESS_ERROR_RESPONSE);
 
+  if (payload.get_byte_enable_ptr() && payload.get_byte_enable_length() == 0)
+    return fail(tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE);
+  payload.set_dmi_allowed(false);
+  payload.set_response_status(tlm::TLM_OK_RESPONSE);
+  return true;
+}
+
+void MemoryModel::transfer(tlm::tlm_generic_payload& payload) {
+  const std::uint64_t length = payload.get_data_length();
   const unsigned char* enables = payload.get_byte_enable_ptr();
   const std::uint64_t enables_length = payload.get_byte_enable_length();
-  if (enables && enables_length == 0) return fail(tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE);
-  std::uint8_t* here = contents_.data() + address;
+  std::uint8_t* here = contents_.data() + payload.get_address();
   unsigned char* there = payload.get_data_ptr();
   if (!enables) {
     payload.is_write() ? std::memcpy(here, there, length) : std::memcpy(there, here, length);
@@ -133,8 +144,6 @@ void MemoryModel::access(tlm::tlm_generic_payload& payload, std::uint64_t number
       }
     }
   }
-  payload.set_dmi_allowed(false);
-  payload.set_response_status(tlm::TLM_OK_RESPONSE);
 }
 
 tlm::tlm_sync_enum MemoryModel::nb_transport_fw(int port, tlm::tlm_generic_payload& payload,
@@ -159,19 +168,22 @@ tlm::tlm_sync_enum MemoryModel::nb_transport_fw(int port, tlm::tlm_generic_paylo
     held_.push_back(port);
     return tlm::TLM_ACCEPTED;
   }
-  accept({&payload, port, 0, false}, time);
+  accept({&payload, port, 0, false, false}, time);
   phase = tlm::END_REQ;
   return tlm::TLM_UPDATED;
 }
 
-// A request enters at `time`. Contents change in the order of requests.
+// A request enters at `time`.
 void MemoryModel::accept(Request request, std::uint64_t time) {
   request.number = requests_++;
   request.lost = lost_requests_.count(request.number) != 0;
   ++outstanding_;
   most_outstanding_ = std::max(most_outstanding_, outstanding_);
   tlm::tlm_generic_payload& payload = *request.payload;
-  access(payload, request.number);
+  if (admit(payload, request.number)) {
+    request.writes_late = payload.is_write() && parameters_.write_at_response;
+    if (!request.writes_late) transfer(payload);
+  }
   std::uint64_t& bank =
       bank_free_[payload.get_address() / parameters_.interleave_bytes % parameters_.banks];
   const std::uint64_t start = std::max(time, bank);
@@ -198,8 +210,9 @@ void MemoryModel::serve() {
         bus_free_ = start + clocks * period_;
       }
       events_.push({start + (clocks - 1) * period_, order_++, Step::kRespond, event.request});
-    } else if (!event.request.lost) {
-      port_at(event.request.port).responses.push_back(event.request);
+    } else {
+      if (event.request.writes_late) transfer(*event.request.payload);
+      if (!event.request.lost) port_at(event.request.port).responses.push_back(event.request);
     }
   }
   for (std::size_t port = 0; port < ports_.size(); ++port) respond(static_cast<int>(port));
@@ -230,14 +243,14 @@ void MemoryModel::finished() {
   const int port = held_.front();
   held_.pop_front();
   tlm::tlm_generic_payload* payload = std::exchange(port_at(port).held, nullptr);
-  accept({payload, port, 0, false}, sc_core::sc_time_stamp().value());
+  accept({payload, port, 0, false, false}, sc_core::sc_time_stamp().value());
   tlm::tlm_phase phase = tlm::END_REQ;
   sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
   ports[port]->nb_transport_bw(*payload, phase, delay);
 }
 
 void MemoryModel::b_transport(int, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
-  access(payload, requests_++);
+  if (admit(payload, requests_++)) transfer(payload);
   const std::uint64_t clocks = draw_latency() + transfer_clocks(payload.get_data_length()) - 1;
   delay += sc_core::sc_time::from_value(clocks * period_);
 }

@@ -7,6 +7,8 @@
 // A transaction that begins at time t and finds its bank free has its last byte at
 //   t + latency + (bytes / bytes_per_clock, rounded up, - 1) clocks,
 // later if its bank or the data bus is busy. With a random latency responses overtake each other.
+// A read takes its data when it begins, a write gives them up when its last byte is there: who
+// reads a line before its write was answered gets the old one. b_transport() does both at once.
 #pragma once
 
 #include <tlm_utils/multi_passthrough_target_socket.h>
@@ -37,6 +39,8 @@ struct MemoryModelParameters {
   std::uint32_t outstanding = 64;       // transactions; more wait with their END_REQ
   bool record_reads = true;             // keep the addresses of line reads
   bool record_writes = false;           // keep the addresses of line writes
+  // Off: contents change in the order of requests, so that a read never comes too early.
+  bool write_at_response = true;
 };
 
 class MemoryModel final : public sc_core::sc_module {
@@ -76,6 +80,7 @@ class MemoryModel final : public sc_core::sc_module {
     int port;
     std::uint64_t number;
     bool lost;
+    bool writes_late;  // the data go to the contents when its last byte is there
   };
   enum class Step { kReady, kRespond };
   struct Event {
@@ -105,8 +110,10 @@ class MemoryModel final : public sc_core::sc_module {
   void respond(int port);
   void finished();
   Port& port_at(int port);
-  // Reads or writes the contents and sets the response status.
-  void access(tlm::tlm_generic_payload& payload, std::uint64_t number);
+  // Counts it and sets the response status; false if no data may go.
+  bool admit(tlm::tlm_generic_payload& payload, std::uint64_t number);
+  // Reads or writes the contents.
+  void transfer(tlm::tlm_generic_payload& payload);
   std::uint64_t transfer_clocks(std::uint64_t bytes) const;
   std::uint32_t draw_latency();
 

@@ -223,6 +223,33 @@ TEST(MemoryPort, BurstsOfReadsAndWrites) {
   EXPECT_EQ(s.memory.lines_read().size(), 8U);
 }
 
+// Who does not wait for the answer to a write reads what was there before; who waits reads what was
+// written. A memory that takes requests one by one hides that.
+TEST(MemoryModel, AReadBehindAWriteIsARace) {
+  for (const bool late : {true, false}) {
+    const std::string text = in_child([&] {
+      MemoryModelParameters parameters = with_latency(10);
+      parameters.write_at_response = late;
+      System s({}, parameters);
+      MemoryRequest write = read_of(3);
+      write.write = true;
+      write.data.fill(0xEE);
+      s.driver.send({write, read_of(3)});
+      s.clock.run(40);
+      s.driver.send(read_of(3));
+      s.clock.run(40);
+      std::string said;
+      for (const MemoryResponse& response : s.sink.beats())
+        said += response.write             ? "written "
+                : right(response)          ? "old "
+                : response.data[0] == 0xEE ? "new "
+                                           : "? ";
+      return said;
+    });
+    EXPECT_EQ(text, late ? "written old new " : "written new new ");
+  }
+}
+
 TEST(MemoryPort, MisalignedRequestIsABug) {
   System s({}, with_latency(1));
   MemoryRequest request = read_of(1);
