@@ -249,7 +249,9 @@ void EndpointPredictor::accept(Predictor& p, End& end, bool to_the_right, std::i
     stretch.sum += x;
     stretch.indexed_sum += index * x;
   };
-  const auto index_of = [&](std::int32_t steps) { return to_the_right ? steps + 1 : -steps; };
+  const auto index_of = [&](std::int32_t step_number) {
+    return to_the_right ? step_number + 1 : -step_number;
+  };
   Stretch& all = end.reached[kAll];
   end.reached[kBeforeLast] = all;
   const std::int32_t index = index_of(all.steps + 1);

@@ -799,9 +799,15 @@ const std::vector<Stair>& stairs_to_trim() {
       {"window 8", true, 16, 3, {{}, 0, kLost}, {{3, 3, 4, 3, 3, 3, 4, 3}, 8, kAtTheWindow}},
       {"window 9", true, 16, 3, {times(9, 3), 9, kAtTheWindow}, {times(3, 3), 3, kLost}},
       {"apart: window 2", false, 8, 8, {{8}, 1, kLost}, {{8, 8}, 2, kAtTheWindow}},
-      // 28 pixels of 32 used: five more are too many, four are not.
+      // 28 pixels of 32 used (29 in the third): five (four) more are too many, one fewer is not.
       {"L + 1 beyond", true, 16, 4, {times(6, 4), 6, kAtTheWindow}, {{}, 0, kLost}},
       {"L within", true, 16, 4, {{}, 0, kLost}, {{3, 4, 3, 4, 3, 4, 3}, 7, kLost}},
+      {"L beyond, L' within",
+       true,
+       16,
+       4,
+       {{}, 0, kLost},
+       {{4, 3, 4, 3, 4, 3, 4}, 7, kAtTheWindow}},
       {"L' beyond", true, 16, 4, {{}, 0, kLost}, {{5, 5, 4, 5, 5}, 5, kAtTheWindow}},
       {"the other side's L'", true, 16, 4, {times(6, 4), 6, kLost}, {{3}, 1, kLost}},
       {"apart: its own L'", false, 16, 4, {times(6, 4), 6, kAtTheWindow}, {{3}, 1, kLost}},
