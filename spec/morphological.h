@@ -94,7 +94,7 @@ struct MorphologicalParameters {
   std::int32_t divider_latency = 24;
   std::int32_t divider_interval = 1;
   Storage storage = Storage::kLineBuffers;
-  std::int32_t memory_outstanding = 16;
+  std::int32_t memory_outstanding = 32;
 };
 
 template <class Visitor>

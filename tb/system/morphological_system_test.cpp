@@ -261,6 +261,42 @@ INSTANTIATE_TEST_SUITE_P(Morphological, Throughput,
 
 // ---- what is refused ----------------------------------------------------------------------------
 
+// The sizing rule of docs/morphological_engine.md: so many lines in flight each way keep up with a
+// memory of 100 clocks, one less does not.
+struct Sizing {
+  spec::Lanes lanes;
+  int lines;
+};
+class FrameMemory : public testing::TestWithParam<Sizing> {
+ protected:
+  // Clocks above the formula.
+  static std::uint64_t lost(spec::Lanes lanes, int lines) {
+    const Frames frames = {flat(1280, 48, 90)};
+    MorphologicalBenchOptions options;
+    options.morphological = preset(MorphologicalPreset::kMlaa, lanes);
+    options.morphological.storage = spec::Storage::kMemory;
+    if (lines > 0) options.morphological.memory_outstanding = lines;
+    const MorphologicalOutcome outcome = expect_identical(frames, options);
+    return outcome.frame_clocks - frame_clocks_by_formula(options.morphological, 1280, 48);
+  }
+};
+
+TEST_P(FrameMemory, KeepsUpWithTheLinesOfTheSizingRule) {
+  EXPECT_EQ(lost(GetParam().lanes, GetParam().lines), 0u);
+}
+TEST_P(FrameMemory, FallsBackWithALineLess) {
+  EXPECT_GT(lost(GetParam().lanes, GetParam().lines - 1), 100u);
+}
+TEST_P(FrameMemory, KeepsUpByDefault) { EXPECT_EQ(lost(GetParam().lanes, 0), 0u); }
+
+INSTANTIATE_TEST_SUITE_P(
+    Morphological, FrameMemory,
+    testing::Values(Sizing{spec::Lanes::kOne, 7}, Sizing{spec::Lanes::kTwo, 13},
+                    Sizing{spec::Lanes::kFour, 26}),
+    [](const auto& info) {
+      return fmt::format("{}_lanes", spec::kLanesNames[static_cast<std::size_t>(info.param.lanes)]);
+    });
+
 TEST(Morphological, WhatIsNotBuiltIsNamed) {
   MorphologicalBenchOptions options;
   const Frames frames = {flat(4, 4, 0)};
