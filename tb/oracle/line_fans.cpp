@@ -16,7 +16,7 @@ using golden::ideal::coverage;
 using golden::ideal::HalfPlane;
 
 constexpr int kSlopes = 20;
-constexpr int kMarginSteps = 9;  // N = 8 and the run itself
+constexpr int kMarginSteps = 17;  // N = 16 and the run itself
 constexpr int kJudgedColumns = 120;
 constexpr int kMarginRows = 3;
 
@@ -123,6 +123,7 @@ std::vector<FanRow> fan_rows() {
     add(fmt::format("fit N = {}", n), spec::MorphologicalPreset::kDeburr, n);
   }
   add("deburr", spec::MorphologicalPreset::kDeburr, 8);
+  add("fit N = 16", spec::MorphologicalPreset::kDeburr, 16);
   return rows;
 }
 
@@ -146,10 +147,10 @@ std::vector<FanRow> rule_rows() {
   add("+ N = 8", p);
   p.trim = true;
   add("+ trim", p);
-  p.threshold = deburr.threshold;
-  add("+ T = 0.03", p);
   p.local_contrast = deburr.local_contrast;
-  add("+ symmetric contrast = deburr", p);
+  add("+ symmetric contrast", p);
+  p.threshold = deburr.threshold;
+  add("+ T = 0.03 = deburr", p);
   for (const auto preset :
        {spec::MorphologicalPreset::kMlaa, spec::MorphologicalPreset::kMlaaSlope}) {
     p = preset_parameters(preset);
@@ -170,33 +171,30 @@ Smoothing smoothing_of(const FanRow& row) {
   return [parameters = row.parameters](const Frame& frame) { return smooth(parameters, frame); };
 }
 
-const std::vector<FanLimit>& fan_limits() {
-  // Classes 1, 2, 3-5, 6-10, 11-20, 2-20; undulation; jump. The contract's "line fit N = 4" holds
-  // for fit N = 4 and for deburr, its jump of 3.7 for deburr alone: fit N = 4 reaches 4.0.
-  static const std::vector<FanLimit> limits = {
-      {"none", {{229, 245, 261, 273, 280, 273}, 0, 0}},
-      {"mlaa", {{105, 75, 48, 26, 15, 31.7}, 34.8, 16.5}},
-      {"chord N = 4", {{100, 59, 43, 23, 13, 27}, 30.2, 23}},
-      {"fit N = 4", {{55, 21, 20, 9, 6, 11.5}, 10.8, 4.0}},
-      {"deburr", {{55, 21, 20, 9, 6, 11.5}, 10.8, 3.7}},
+const std::vector<FanLimit>& contract_figures() {
+  // Classes 1, 2, 3-5, 6-10, 11-20, 2-20; undulation; jump.
+  static const std::vector<FanLimit> rows = {
+      {"none", {{227, 245, 261, 273, 280, 273}, 0, 0}},
+      {"mlaa", {{105, 75, 48, 26, 15, 31}, 31.9, 16.5}},
+      {"chord N = 4", {{100, 59, 43, 23, 13, 26}, 24, 23}},
+      {"fit N = 4", {{55, 21, 20, 9, 6, 11.5}, 10.8, 3.7}},
   };
-  return limits;
+  return rows;
 }
 
+const FanLimit& asked_of_ours() { return contract_figures().back(); }
+
 std::vector<std::string> exceeded(const FanLimit& limit, const FanFigures& figures, double slack) {
-  std::vector<std::string> complaints;
-  const auto check = [&](std::string_view what, double asked, double got) {
-    if (asked > 0 && got > asked * (1 + slack)) {
-      complaints.push_back(fmt::format("{}: {} is {:.1f}, the contract asks for at most {:.1f}",
-                                       limit.name, what, got, asked));
-    }
+  std::vector<std::string> names;
+  const auto check = [&](std::string name, double asked, double got) {
+    if (asked > 0 && got > asked * (1 + slack)) names.push_back(std::move(name));
   };
   for (std::size_t c = 0; c < kSlopeClasses.size(); ++c) {
     check(fmt::format("n = {}", kSlopeClasses[c]), limit.figures.by_class[c], figures.by_class[c]);
   }
   check("undulation", limit.figures.undulation, figures.undulation);
   check("jump", limit.figures.jump, figures.jump);
-  return complaints;
+  return names;
 }
 
 std::string to_text(std::string_view name, const FanFigures& figures) {
