@@ -7,7 +7,8 @@ set(TIMING_blocks LumaUnitBlock.*AClockLater EdgeDetectorBlock.TakesThreeClocks
     Divider.HasItsLatencyAndInterval)
 set(TIMING_timing LatencyFormula Interlock Throughput BackPressure FramesBackToBack Stalls
     MemoryTime)
-foreach(part vectors blocks timing engine reset)
+set(TIMING_store PixelStoreLanes PixelStoreBlock PixelStoreMemory)
+foreach(part vectors blocks timing engine reset store)
   deburr_test(morphological_rtl_${part}_test LABELS unit TIMING ${TIMING_${part}}
               SOURCES morphological_rtl_${part}_test.cpp
               LINK deburr::rtl_morphological deburr::harness)
