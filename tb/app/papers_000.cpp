@@ -378,13 +378,18 @@ Mask crop_mask(const Mask& mask, int x0, int y0, int size) {
   return out;
 }
 
-// The window of this size, left edge in [from, to), with the most pixels of the mask.
-std::pair<int, int> busiest(const Mask& mask, int size, int from, int to) {
-  std::pair<int, int> best{from, 0};
+// Where the corner of a window may lie.
+struct Region {
+  int left, right, top, bottom;  // pixels; right and bottom excluded
+};
+
+// The corner of the window of this size with the most pixels of the mask.
+std::pair<int, int> busiest(const Mask& mask, int size, const Region& region) {
+  std::pair<int, int> best{region.left, region.top};
   std::int64_t most = -1;
   const int step = std::max(1, size / 8);
-  for (int y = 0; y + size <= mask.height; y += step)
-    for (int x = from; x + size <= mask.width && x < to; x += step) {
+  for (int y = region.top; y < region.bottom && y + size <= mask.height; y += step)
+    for (int x = region.left; x < region.right && x + size <= mask.width; x += step) {
       std::int64_t sum = 0;
       for (int j = 0; j < size; ++j)
         for (int i = 0; i < size; ++i) sum += mask.at(x + i, y + j);
@@ -394,21 +399,27 @@ std::pair<int, int> busiest(const Mask& mask, int size, int from, int to) {
 }
 
 // One sheet. Columns: the methods. Rows: as it is, then in each of `strips` upright parts of the
-// picture the place with the most silhouettes, 4 x and, inside it, 8 x.
-Image zooms(const std::vector<Method>& list, const Mask& silhouettes, int strips) {
+// picture, within `rows` of its height, the place with the most silhouettes, 4 x and, inside it,
+// 8 x.
+Image zooms(const std::vector<Method>& list, const Mask& silhouettes, int strips,
+            std::pair<double, double> rows) {
   constexpr int kSide = 192;
-  const int wide = std::min({kSide, silhouettes.width, silhouettes.height});
+  const int width = silhouettes.width, height = silhouettes.height;
+  const int wide = std::min({kSide, width, height});
   std::vector<Image> cells;
   const auto add_row = [&](std::pair<int, int> corner, int size) {
     for (const Method& m : list)
       cells.push_back(zoom(crop(m.image, corner.first, corner.second, size, size), wide / size));
   };
-  add_row(busiest(silhouettes, wide, 0, silhouettes.width), wide);
+  add_row(busiest(silhouettes, wide, {0, width, 0, height}), wide);
   for (int strip = 0; strip < strips; ++strip) {
-    const auto [x, y] = busiest(silhouettes, wide / 4, strip * silhouettes.width / strips,
-                                (strip + 1) * silhouettes.width / strips);
+    const auto [x, y] =
+        busiest(silhouettes, wide / 4,
+                {strip * width / strips, (strip + 1) * width / strips,
+                 static_cast<int>(rows.first * height), static_cast<int>(rows.second * height)});
     add_row({x, y}, wide / 4);
-    const auto [dx, dy] = busiest(crop_mask(silhouettes, x, y, wide / 4), wide / 8, 0, wide / 4);
+    const auto [dx, dy] =
+        busiest(crop_mask(silhouettes, x, y, wide / 4), wide / 8, {0, wide, 0, wide});
     add_row({x + dx, y + dy}, wide / 8);
   }
   return sheet(cells, static_cast<int>(list.size()));
@@ -487,15 +498,16 @@ Compared rendered_scenes(const PaperOptions& options) {
   struct Shown {
     const char* scene;
     const char* title;  // none: no pictures
-    int strips;         // of the sheet of zooms
+    int strips = 0;     // of the sheet of zooms
+    std::pair<double, double> rows = {0, 1};
   };
   constexpr std::array<Shown, 6> kScenes = {
-      {{"cylinders", "Figures 6 and 7: five cylinders of different slopes", 5},
+      {{"cylinders", "Figures 6 and 7: five cylinders of different slopes", 5, {0.4, 0.5}},
        {"object", "Figure 8: an object", 2},
        {"road", "Figure 9: a wide scene", 2},
-       {"quad", nullptr, 0},
-       {"tunnel", nullptr, 0},
-       {"plane", nullptr, 0}}};
+       {"quad", nullptr},
+       {"tunnel", nullptr},
+       {"plane", nullptr}}};
   const int samples = options.quick ? 4 : 8;
   for (const Shown& shown : kScenes) {
     const Scene scene = make_scene(shown.scene);
@@ -537,7 +549,7 @@ Compared rendered_scenes(const PaperOptions& options) {
              "columns: none, MSAA 4x, mlaa, mlaa-slope, deburr, truth ({} samples a pixel); "
              "rows: as it is, then 4 x and 8 x at {} silhouettes from left to right",
              samples * samples, shown.strips),
-         zooms(columns, silhouettes, shown.strips), true});
+         zooms(columns, silhouettes, shown.strips, shown.rows), true});
     compared.figures.push_back(figure);
   }
   return compared;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Speed of the morphological engine's hardware model on frames of 1920 x 1080.
 //
-//   morphological_rtl_bench                                    wall time, cycles a second, one lane
+//   morphological_rtl_bench                                    wall time, cycles a second, one
+//   lane;
+//       and how many times as fast the golden model smooths the same frame
 //   morphological_rtl_bench --frames <image> <preset> <lanes> <n> [memory]   n frames and nothing
 //       else: cycles, stalls, edges, memory bits; for counting instructions with callgrind
 // Images: facets (slanted halves in cells of 32 pixels, some 10 % edge pixels), noise, flat,
@@ -14,11 +16,13 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "golden/morphological/morphological_golden.h"
 #include "rtl_model/morphological/morphological_engine.h"
 #include "tb/harness/driver.h"
 #include "tb/harness/memory_model.h"
@@ -135,27 +139,56 @@ struct Setup {
   }
 };
 
-void bm_engine(benchmark::State& state, const std::string& image) {
-  // SystemC elaborates once in a process, so all benchmarks share the engine.
+// SystemC elaborates once in a process, so all benchmarks share the engine.
+Setup& setup_of(const std::string& image) {
   static Setup setup(parameters("deburr", 1));
-  static std::uint64_t frames = 0;
   setup.frame = beats(image, 1);
+  return setup;
+}
+
+Cycle run_frame(Setup& setup) {
+  // The driver stops at the end of a frame; a reset lets it start again.
+  setup.clock.set_reset_n(false);
+  setup.clock.run(1);
+  setup.clock.set_reset_n(true);
+  setup.engine.set_frame_size(kWidth, kHeight);
+  return setup.run(1);
+}
+
+void bm_engine(benchmark::State& state, const std::string& image) {
+  Setup& setup = setup_of(image);
   Cycle cycles = 0;
-  for (auto _ : state) {
-    // The driver stops at the end of a frame; a reset lets it start again.
-    setup.clock.set_reset_n(false);
-    setup.clock.run(1);
-    setup.clock.set_reset_n(true);
-    setup.engine.set_frame_size(kWidth, kHeight);
-    cycles += setup.run(1);
-    ++frames;
-  }
+  for (auto _ : state) cycles += run_frame(setup);
   state.counters["cycles"] =
       benchmark::Counter(static_cast<double>(cycles), benchmark::Counter::kIsRate);
 }
 BENCHMARK_CAPTURE(bm_engine, facets, std::string("facets"))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(bm_engine, flat, std::string("flat"))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(bm_engine, noise, std::string("noise"))->Unit(benchmark::kMillisecond);
+
+// The golden model on the same frame, turn and turn about with the hardware model, so that the
+// ratio means something on a machine with other work to do.
+using golden::morphological::MorphologicalGolden;
+void bm_golden_over_rtl(benchmark::State& state, MorphologicalGolden::Detail detail) {
+  Setup& setup = setup_of("facets");
+  std::vector<spec::Rgba8> pixels;
+  for (const spec::PixelBeat& beat : setup.frame) pixels.push_back(beat.pixel[0]);
+  MorphologicalGolden golden(parameters("deburr", 1), detail);
+  std::clock_t rtl_time = 0, golden_time = 0;
+  for (auto _ : state) {
+    const std::clock_t begin = std::clock();
+    run_frame(setup);
+    const std::clock_t middle = std::clock();
+    benchmark::DoNotOptimize(golden.process({pixels, kWidth, kHeight}).data());
+    rtl_time += middle - begin;
+    golden_time += std::clock() - middle;
+  }
+  state.counters["golden/rtl"] = static_cast<double>(rtl_time) / static_cast<double>(golden_time);
+}
+BENCHMARK_CAPTURE(bm_golden_over_rtl, pixels, MorphologicalGolden::Detail::kPixels)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(bm_golden_over_rtl, everything, MorphologicalGolden::Detail::kEverything)
+    ->Unit(benchmark::kMillisecond);
 
 int count_instructions(const std::string& image, const std::string& preset, int lanes,
                        std::uint64_t frames, bool memory) {
