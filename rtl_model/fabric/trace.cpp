@@ -5,6 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "rtl_model/fabric/counters.h"
@@ -80,13 +84,32 @@ bool glob_match(const std::string& pattern, const std::string& text) {
 
 Trace::Trace(ClockDomain& clock, const TraceOptions& options) : clock_(clock), options_(options) {
   file_.open(options_.file, std::ios::out | std::ios::trunc);
-  if (!file_) throw spec::FileError(fmt::format("{}: cannot be written", options_.file));
+  check_file();
   clock_.require_cycle_by_cycle();
   clock_.add_after(*this);
   for_each<Unit>([&](Unit& unit) { initial_[&unit] = counts_of(unit); });
 }
 
-Trace::~Trace() = default;
+Trace::~Trace() {
+  file_.close();
+  std::error_code ignored;  // a device stays
+  if (!file_ && std::filesystem::is_regular_file(options_.file, ignored))
+    std::filesystem::remove(options_.file, ignored);
+}
+
+void Trace::check_file() const {
+  if (file_) return;
+  const int reason = errno;
+  throw spec::FileError(fmt::format(
+      "cannot write the waves to '{}': {}; no part of them stays: trace fewer units or cycles, or "
+      "choose another folder",
+      options_.file, std::strerror(reason)));
+}
+
+void Trace::flush() {
+  file_.flush();
+  check_file();
+}
 
 bool Trace::wanted(const std::string& name) const {
   return std::any_of(options_.scopes.begin(), options_.scopes.end(),
@@ -208,7 +231,7 @@ Activity Trace::tick(Cycle cycle) {
   }
   if (cycle < options_.from || cycle > options_.to) return kIdle;
   if (cycle == options_.to) {
-    file_.flush();
+    flush();
     return kIdle;
   }
   bool stamped = false;
@@ -224,7 +247,7 @@ Activity Trace::tick(Cycle cycle) {
       file_ << 'b' << value << ' ' << signal.id << '\n';
     signal.last = std::move(value);
   }
-  if (!file_) throw spec::FileError(fmt::format("{}: cannot be written", options_.file));
+  check_file();
   return kBusy;
 }
 

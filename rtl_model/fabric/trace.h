@@ -32,12 +32,16 @@ class Trace final : public Clocked {
  public:
   // Attaches to the domain; write nothing before the first cycle in the window.
   Trace(ClockDomain& clock, const TraceOptions& options);
+  // A file that could not be written whole is removed.
   ~Trace() override;
 
   // Something else, sampled each cycle in the window; name is hierarchical. Before the first cycle.
   void add(const std::string& name, int bits, std::function<std::uint64_t()> sample);
 
+  // FileError with the reason once something could not be written.
   Activity tick(Cycle cycle) override;
+  // What was sampled so far is in the file, or this is a FileError.
+  void flush();
   void reset() override {}
   std::size_t signals() const { return signals_.size(); }
   // Everything in the simulation that a scope can choose.
@@ -53,6 +57,7 @@ class Trace final : public Clocked {
   bool wanted(const std::string& name) const;
   void collect(Cycle cycle);
   void write_header();
+  void check_file() const;
 
   ClockDomain& clock_;
   TraceOptions options_;

@@ -123,6 +123,7 @@ Outcome run_engine(Engine& engine, const RunOptions& options, const std::string&
   catch_interrupts();
   RunContext context(options.out.empty() ? fmt::format("out/{}", engine.name()) : options.out, set,
                      command, static_cast<std::uint64_t>(run.seed));
+  if (!options.config.empty()) context.protect(options.config);
   Result result;
   result.unit = engine.name();
   result.clock_mhz = run.clock_mhz;

@@ -7,8 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "golden/morphological/configuration.h"
@@ -205,7 +203,7 @@ FrameBench::FrameBench(const TextureScene& scene, const FrameBenchOptions& optio
   bench.faults = options.faults;
   if (!options.trace_scope.empty()) {
     rtl::TraceOptions trace;
-    trace.file = options.trace_file + ".partial";
+    trace.file = options.trace_file;
     trace.scopes = {options.trace_scope};
     trace.from = options.trace_from;
     trace.to = options.trace_to;
@@ -245,12 +243,8 @@ FrameBench::FrameBench(const TextureScene& scene, const FrameBenchOptions& optio
   tap_board_.expect(smoothing_golden_.taps(), frame_.width);
 }
 
-FrameBench::~FrameBench() {
-  bench_.reset();
-  if (options_.trace_scope.empty()) return;
-  std::error_code error;
-  std::filesystem::rename(options_.trace_file + ".partial", options_.trace_file, error);
-}
+// The wave is closed before anything that it shows is gone.
+FrameBench::~FrameBench() { bench_.reset(); }
 
 void FrameBench::judge(rtl::Cycle cycle, const spec::BlendedBeat& beat) {
   for (std::size_t i = 0; i < std::min<std::size_t>(beat.count, spec::kMaxLanes); ++i) {

@@ -71,13 +71,17 @@ class FrameCommand final : public Engine {
             spec::kMorphologicalPresetNames[static_cast<std::size_t>(morphological_.preset)]));
     context.set_bottleneck("texture_filter");
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
+    context.claim();
     FrameBench bench(scene, options(run, context));
+    context.begin();
     try {
       Progress progress("frame", bench.smoothed().pixels.size(), "pixel");
       bench.run([&](std::uint64_t pixels) {
         progress.update(pixels);
         return !interrupted();
       });
+    } catch (const spec::FileError&) {  // a wave that could not be written: nothing stays
+      throw;
     } catch (...) {
       bench.collect(result);
       add_pictures(run, context, scene, bench, result);
@@ -115,7 +119,7 @@ class FrameCommand final : public Engine {
     o.patience = static_cast<rtl::Cycle>(run.watchdog_cycles);
     if (!run.fault.empty()) o.faults = {run.fault};
     o.trace_scope = run.trace;
-    o.trace_file = (context.directory() / "trace.vcd").string();
+    o.trace_file = context.trace_file().string();
     o.trace_from = static_cast<rtl::Cycle>(run.trace_from);
     o.trace_to = static_cast<rtl::Cycle>(run.trace_to);
     return o;

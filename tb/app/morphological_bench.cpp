@@ -9,8 +9,6 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <filesystem>
-#include <system_error>
 #include <tuple>
 #include <utility>
 
@@ -260,7 +258,7 @@ MorphologicalBench::MorphologicalBench(std::span<const MorphologicalInput> frame
   bench.faults = faults;
   if (!options.trace_scope.empty()) {
     rtl::TraceOptions trace;
-    trace.file = options.trace_file + ".partial";
+    trace.file = options.trace_file;
     trace.scopes = {options.trace_scope};
     trace.from = options.trace_from;
     trace.to = options.trace_to;
@@ -281,13 +279,8 @@ MorphologicalBench::MorphologicalBench(std::span<const MorphologicalInput> frame
   }
 }
 
-// The wave gets its name only when it is closed and whole.
-MorphologicalBench::~MorphologicalBench() {
-  bench_.reset();
-  if (options_.trace_scope.empty()) return;
-  std::error_code error;
-  std::filesystem::rename(options_.trace_file + ".partial", options_.trace_file, error);
-}
+// The wave is closed before anything that it shows is gone.
+MorphologicalBench::~MorphologicalBench() { bench_.reset(); }
 
 int MorphologicalBench::lanes() const { return lanes_of(options_.morphological); }
 

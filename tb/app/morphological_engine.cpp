@@ -69,13 +69,17 @@ class MorphologicalCommand final : public Engine {
     context.set_bottleneck("luma");
     const std::vector<MorphologicalInput> frames(static_cast<std::size_t>(frame_.count),
                                                  loaded.input);
+    context.claim();
     MorphologicalBench bench(frames, options(run, context));
+    context.begin();
     try {
       Progress progress("morphological", frames.size() * before.pixels.size(), "pixel");
       bench.run([&](std::uint64_t pixels) {
         progress.update(pixels);
         return !interrupted();
       });
+    } catch (const spec::FileError&) {  // a wave that could not be written: nothing stays
+      throw;
     } catch (...) {
       bench.collect(result);
       add_pictures(run, context, loaded, bench, result);
@@ -108,7 +112,7 @@ class MorphologicalCommand final : public Engine {
     o.patience = static_cast<rtl::Cycle>(run.watchdog_cycles);
     if (!run.fault.empty()) o.faults = {run.fault};
     o.trace_scope = run.trace;
-    o.trace_file = (context.directory() / "trace.vcd").string();
+    o.trace_file = context.trace_file().string();
     o.trace_from = static_cast<rtl::Cycle>(run.trace_from);
     o.trace_to = static_cast<rtl::Cycle>(run.trace_to);
     return o;

@@ -4,10 +4,12 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <utility>
 
+#include "spec/error.h"
 #include "tb/app/build_info.h"
 #include "tb/app/file.h"
 #include "tb/app/report.h"
@@ -18,6 +20,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
+
+constexpr const char* kManifest = "manifest.json";
+constexpr const char* kTrace = "trace.vcd";
 
 std::string now_utc() {
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
@@ -33,27 +38,65 @@ RunContext::RunContext(fs::path directory, const ParameterSet& parameters, std::
       parameters_(parameters),
       command_(std::move(command)),
       started_(now_utc()),
-      seed_(seed) {
-  prove_writable(directory_);
-  remove_old_results();
+      seed_(seed) {}
+
+RunContext::~RunContext() {
+  std::error_code ignored;
+  fs::remove(trace_file(), ignored);
+  if (finished_) return;
+  for (const std::string& name : written_) fs::remove(directory_ / name, ignored);
 }
 
-void RunContext::remove_old_results() {
-  std::error_code error;
+// What an earlier run left, by its manifest; nothing without one.
+std::vector<std::string> RunContext::old_results() const {
   constexpr std::size_t kMaxBytes = 64u << 20;
-  if (fs::is_regular_file(directory_ / "manifest.json", error)) {
-    const Json old =
-        Json::parse(read_file(directory_ / "manifest.json", kMaxBytes), nullptr, false);
-    if (old.is_object() && old.contains("images") && old["images"].is_array())
-      for (const Json& image : old["images"]) {
-        const fs::path file = image.is_object() ? image.value("file", "") : "";
-        // Only what an earlier run can have written: a picture in this directory.
-        if (!file.has_parent_path() && file.extension() == ".png")
-          fs::remove(directory_ / file, error);
-      }
+  std::error_code error;
+  if (!fs::is_regular_file(directory_ / kManifest, error)) return {};
+  const Json old = Json::parse(read_file(directory_ / kManifest, kMaxBytes), nullptr, false);
+  if (!old.is_object() || !old.contains("schema") || !old.contains("configuration")) return {};
+  std::vector<std::string> names = {"result.json", "report.html", kManifest};
+  if (old["configuration"].is_object() && old["configuration"].value("run.trace", "") != "")
+    names.emplace_back(kTrace);
+  if (old.contains("images") && old["images"].is_array())
+    for (const Json& image : old["images"]) {
+      const fs::path file = image.is_object() ? image.value("file", "") : "";
+      // Only what an earlier run can have written: a picture in this directory.
+      if (!file.has_parent_path() && file.extension() == ".png") names.push_back(file.string());
+    }
+  return names;
+}
+
+void RunContext::claim() {
+  const std::vector<std::string> old = old_results();
+  std::vector<std::string> concerned = old;
+  for (const char* name : {"result.json", "report.html", kManifest}) concerned.emplace_back(name);
+  if (parameters_.find("run.trace") && !parameters_.find("run.trace")->text().empty())
+    concerned.emplace_back(kTrace);
+  for (const std::string_view name : kPictureNames)
+    concerned.push_back(fmt::format("{}.png", name));
+  std::error_code error;
+  for (const std::string& name : concerned) {
+    const fs::path file = directory_ / name;
+    if (!fs::exists(file, error)) continue;
+    for (const fs::path& input : protected_)
+      if (fs::equivalent(file, input, error))
+        throw spec::ConfigError(fmt::format(
+            "the run reads '{}', and its results would replace it: choose another directory with "
+            "--out",
+            input.string()));
+    if (std::find(old.begin(), old.end(), name) == old.end())
+      throw spec::ConfigError(
+          fmt::format("'{}' exists, and no manifest.json beside it names it as an earlier run's: "
+                      "move it away, or choose another directory with --out",
+                      file.string()));
   }
-  for (const char* name : {"result.json", "manifest.json", "report.html", "trace.vcd"})
-    fs::remove(directory_ / name, error);
+  prove_writable(directory_);
+}
+
+void RunContext::begin() {
+  std::error_code ignored;
+  for (const std::string& name : old_results()) fs::remove(directory_ / name, ignored);
+  begun_ = true;
 }
 
 void RunContext::set_title(std::string title, std::string summary) {
@@ -67,12 +110,17 @@ void RunContext::add_note(const std::string& note) {
 }
 
 void RunContext::add_input(const fs::path& file) {
+  protect(file);
   inputs_.push_back(
       {{"file", file.string()}, {"bytes", fs::file_size(file)}, {"sha256", sha256_of_file(file)}});
 }
 
 void RunContext::add_image(const std::string& name, const Image& image, std::string title,
                            std::string caption) {
+  DEBURR_CHECK(begun_, "a picture before begin()");
+  DEBURR_CHECK(std::find(kPictureNames.begin(), kPictureNames.end(), name) != kPictureNames.end(),
+               "kPictureNames lacks " + name);
+  written_.push_back(name + ".png");
   write_image(directory_ / (name + ".png"), image);
   images_.push_back({{"file", name + ".png"},
                      {"role", name},
@@ -112,9 +160,22 @@ Json RunContext::manifest(const Result& result) const {
 }
 
 void RunContext::finish(const Result& result) {
-  write_file_atomically(directory_ / "manifest.json", manifest(result).dump(2) + "\n");
+  DEBURR_CHECK(begun_, "results before begin()");
+  std::error_code none;
+  if (fs::exists(trace_file(), none)) {
+    written_.emplace_back(kTrace);
+    fs::rename(trace_file(), directory_ / kTrace);
+  }
+  written_.emplace_back(kManifest);
+  write_file_atomically(directory_ / kManifest, manifest(result).dump(2) + "\n");
   write_file_atomically(directory_ / "result.json", to_json(result).dump(2) + "\n");
-  write_report(directory_);
+  finished_ = true;
+  try {
+    write_report(directory_);
+  } catch (const spec::FileError& error) {
+    throw spec::FileError(fmt::format("{}; the results are there, and `deburr report {}` makes it",
+                                      error.what(), directory_.string()));
+  }
 }
 
 }  // namespace deburr::tb

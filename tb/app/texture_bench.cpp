@@ -9,8 +9,6 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "spec/error.h"
@@ -163,7 +161,7 @@ TextureBench::TextureBench(const TextureScene& scene, const TextureBenchOptions&
   bench.faults = faults;
   if (!options.trace_scope.empty()) {
     rtl::TraceOptions trace;
-    trace.file = options.trace_file + ".partial";
+    trace.file = options.trace_file;
     trace.scopes = {options.trace_scope};
     trace.from = options.trace_from;
     trace.to = options.trace_to;
@@ -199,13 +197,8 @@ TextureBench::TextureBench(const TextureScene& scene, const TextureBenchOptions&
   sink_.on_beat = [this](rtl::Cycle cycle, const spec::Colour& colour) { judge(cycle, colour); };
 }
 
-// The wave gets its name only when it is closed and whole.
-TextureBench::~TextureBench() {
-  bench_.reset();
-  if (options_.trace_scope.empty()) return;
-  std::error_code error;
-  std::filesystem::rename(options_.trace_file + ".partial", options_.trace_file, error);
-}
+// The wave is closed before anything that it shows is gone.
+TextureBench::~TextureBench() { bench_.reset(); }
 
 void TextureBench::prepare_golden() {
   if (!options_.golden) return;

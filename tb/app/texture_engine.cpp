@@ -59,13 +59,17 @@ class TextureEngine final : public Engine {
     context.set_title(title(), summary_line(scene));
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
     context.set_bottleneck("walker");
+    context.claim();
     TextureBench bench(scene, options(run, context));
+    context.begin();
     try {
       Progress progress("texture", scene.stream().counts.fragments, "fragment");
       bench.run([&](std::uint64_t colours) {
         progress.update(colours);
         return !interrupted();
       });
+    } catch (const spec::FileError&) {  // a wave that could not be written: nothing stays
+      throw;
     } catch (...) {
       bench.collect(result);
       add_pictures(run, context, scene, bench, result);
@@ -103,7 +107,7 @@ class TextureEngine final : public Engine {
     o.patience = static_cast<rtl::Cycle>(run.watchdog_cycles);
     if (!run.fault.empty()) o.faults = {run.fault};
     o.trace_scope = run.trace;
-    o.trace_file = (context.directory() / "trace.vcd").string();
+    o.trace_file = context.trace_file().string();
     o.trace_from = static_cast<rtl::Cycle>(run.trace_from);
     o.trace_to = static_cast<rtl::Cycle>(run.trace_to);
     return o;

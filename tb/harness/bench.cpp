@@ -62,6 +62,7 @@ rtl::Cycle Bench::run(const std::function<bool()>& done, rtl::Cycle limit, bool 
         fmt::format("{}: {}\n\n{}", clock_.name(),
                     at_limit_ ? at_limit_() : fmt::format("not done after {} cycles", limit),
                     dump_state(clock_)));
+  if (trace_) trace_->flush();
   if (faults_) faults_->check_fired();
   if (checker_ && drained) checker_->check_empty();
   clock_.check_accounting();

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # One ctest entry a class, so that they run side by side.
-foreach(class TextureFiles MeshFiles Configuration Output StandardOutput Interruption Results)
+foreach(class TextureFiles MeshFiles Configuration Output EarlierResults StandardOutput Interruption
+              Results)
   add_test(NAME app_bad_input.${class}
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_bad_input_test.py" -v ${class})
   list(APPEND APP_NEGATIVE_TESTS app_bad_input.${class})

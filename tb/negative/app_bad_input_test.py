@@ -203,6 +203,8 @@ class Output(CommandTest):
 
     def no_remains(self):
         names = os.listdir(self.path("out")) if os.path.isdir(self.path("out")) else []
+        if "result.json" not in names:
+            self.assertEqual(names, [])
         known = (".json", ".png", ".html", ".vcd")
         self.assertEqual([n for n in names if not n.endswith(known)], [],
                          "temporary files are left")
@@ -251,7 +253,71 @@ class Output(CommandTest):
         self.assertEqual(done.returncode, 5, done.stdout + done.stderr)
         self.assertIn("No space left", done.stderr)
         names = done.stdout[done.stdout.index("RESULT: "):].splitlines()[1:]
-        self.assertEqual([n for n in names if not n.endswith((".json", ".png"))], [])
+        self.assertIn(names, ([], ["after.png", "before.png", "difference.png", "golden.png",
+                                   "manifest.json", "result.json"]), "all that matters, or nothing")
+
+    def test_no_room_for_the_wave(self):
+        """Where the limit strikes: in the wave, at its end, in the pictures behind it."""
+        for size in (1_000, 100_000, 300_000):
+            done = self.run_texture(5, "--trace", "*", preexec_fn=self.limited(size),
+                                    says="File too large")
+            self.assertNotIn("free some space", done.stderr)
+            self.assertEqual(os.listdir(self.path("out")), [], size)
+
+
+class EarlierResults(CommandTest):
+    """A run replaces an earlier run's results and nothing else, and not before it can begin."""
+
+    def setUp(self):
+        super().setUp()
+        self.run_texture(0, "--trace", "texture.texels")
+        self.before = self.contents()
+        self.assertIn("trace.vcd", self.before)
+
+    def contents(self):
+        return {name: os.stat(self.path("out/" + name)).st_mtime_ns
+                for name in os.listdir(self.path("out"))}
+
+    def test_stay_when_the_run_cannot_begin(self):
+        self.run_texture(5, "--texture", self.path("none.png"))
+        self.run_texture(5, "--in", self.path("none.obj"))
+        self.run_texture(2, "--fault", "gremlin")
+        self.run_texture(2, "--trace", "nothing*")
+        self.expect(5, "run", "morphological", "--in", self.path("none.png"), "--out",
+                    self.path("out"))
+        self.expect(2, "run", "morphological", "--preset", "smaa", "--out", self.path("out"))
+        self.expect(2, "run", "frame", "--size", "8x8", "--set", "sampler.format=srgb8_a8", "--out",
+                    self.path("out"))
+        self.assertEqual(self.contents(), self.before)
+
+    def test_are_not_read_and_replaced(self):
+        picture = self.path("out/before.png")
+        self.run_texture(2, "--texture", picture, says=["before.png", "--out"])
+        self.expect(2, "run", "morphological", "--in", "before.png", "--out", ".",
+                    says="before.png", cwd=self.path("out"))
+        self.expect(2, "run", "morphological", "--in", "out/../out/after.png", "--truth", picture,
+                    "--out", "out", says="after.png")
+        os.symlink(picture, self.path("link.png"))
+        self.run_texture(2, "--texture", self.path("link.png"), says="link.png")
+        self.assertEqual(self.contents(), self.before)
+        self.expect(0, "run", "morphological", "--in", picture, "--out", self.path("other"))
+
+    def test_files_of_others_stay(self):
+        os.mkdir(self.path("mine"))
+        self.write("mine/before.png", b"mine")
+        self.write("mine/trace.vcd", b"mine")
+        command = ("run", "texture", "--size", "8x8", "--out", self.path("mine"))
+        self.expect(2, *command, says=["before.png", "--out"])
+        os.remove(self.path("mine/before.png"))
+        self.expect(2, *command, "--trace", "*", says="trace.vcd")
+        self.expect(0, *command)
+        with open(self.path("mine/trace.vcd")) as file:
+            self.assertEqual(file.read(), "mine")
+
+    def test_go_when_the_run_begins(self):
+        self.run_texture(0, "--check", "none")
+        self.assertNotIn("trace.vcd", self.contents())
+        self.assertNotIn("golden.png", self.contents())
 
 
 class StandardOutput(CommandTest):

@@ -62,8 +62,9 @@ class CommandTest(unittest.TestCase):
         return self.path(name)
 
     def run_command(self, *arguments, **options):
-        return subprocess.run([DEBURR, *arguments], cwd=self.directory, text=True,
-                              capture_output=True, timeout=300, **options)
+        options.setdefault("cwd", self.directory)
+        return subprocess.run([DEBURR, *arguments], text=True, capture_output=True, timeout=300,
+                              **options)
 
     def expect(self, code, *arguments, says=(), **options):
         """Runs, and checks exit code, last line, REPRO line and words of the output."""

@@ -16,6 +16,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const char* remedy(int reason) {
+  switch (reason) {
+    case ENOSPC:
+    case EDQUOT:
+      return "free some space or choose another folder";
+    case EFBIG:
+      return "raise the limit of file sizes (ulimit -f)";
+    default:
+      return "choose another folder";
+  }
+}
+
 // A file that removes itself unless it was renamed to its final place.
 class TemporaryFile {
  public:
@@ -68,9 +80,9 @@ class TemporaryFile {
     if (descriptor_ >= 0) ::close(descriptor_);
     descriptor_ = -1;
     if (created()) ::unlink(path_.c_str());
-    throw spec::FileError(fmt::format(
-        "cannot {} '{}': {}; nothing was left behind: free some space or choose another folder",
-        action, target_.string(), std::strerror(reason)));
+    throw spec::FileError(fmt::format("cannot {} '{}': {}; no part of it was left behind: {}",
+                                      action, target_.string(), std::strerror(reason),
+                                      remedy(reason)));
   }
 
   fs::path target_, path_;
