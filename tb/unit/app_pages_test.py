@@ -16,8 +16,13 @@ def main():
     deburr, source = sys.argv[1:3]
     stale = 0
     for page in ("parameters", "statistics"):
-        printed = subprocess.run([deburr, "params", "--markdown", page], check=True,
-                                 capture_output=True, text=True).stdout
+        done = subprocess.run([deburr, "params", "--markdown", page], check=True,
+                              capture_output=True, text=True)
+        printed = done.stdout
+        # Noise of a library beside the page would become part of it.
+        if not printed.startswith(f"# {page.capitalize()}\n\n") or done.stderr:
+            print(f"{page}: something else than the page was printed:\n{printed[:400]}{done.stderr}")
+            return 1
         path = f"{source}/docs/{page}.md"
         if "--write" in sys.argv:
             with open(path, "w") as file:
