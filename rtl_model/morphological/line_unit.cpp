@@ -36,7 +36,8 @@ LineUnit::LineUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
       interval_(static_cast<Cycle>(p.divider_interval)),
       interval_stall_(declare_stall("interval", "the divider cannot start again yet")),
       dividers_(lanes_) {
-  for (Divider& divider : dividers_) divider.flight.resize(latency_ / interval_ + 2);
+  // As many as are under way when nothing waits: the next one starts when the oldest has gone.
+  for (Divider& divider : dividers_) divider.flight.resize((latency_ + interval_ - 1) / interval_);
 }
 
 Activity LineUnit::work(Cycle cycle) {

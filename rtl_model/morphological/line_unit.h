@@ -4,7 +4,8 @@
 //
 // Where: between an EndpointPredictor and the AreaUnit, one of these an axis, with one divider a
 // lane. Latency divider.latency, initiation interval divider.interval a lane; latency 1 more to
-// the AreaUnit by the link. Stalls: `interval` (the divider cannot start again yet), `downstream`.
+// the AreaUnit by the link. Stalls: `interval` (the divider cannot start again yet), `downstream`
+// (its pipe of latency / interval places, rounded up, is full).
 // Formats: slope U0.24 = rdiv(a 2^24, b), inverse U12.12 from U1.26. Cost a lane: a pipelined
 // divider 36 / 27 bits, two multipliers 18 x 6 and 24 x 27, a ROM of 2 x 34 x 27 bits.
 // Source: least-squares line with equidistant heights; paper 000 for the chord.

@@ -8,7 +8,9 @@ set(TIMING_blocks LumaUnitBlock.*AClockLater EdgeDetectorBlock.TakesThreeClocks
 set(TIMING_timing LatencyFormula Interlock Throughput BackPressure FramesBackToBack Stalls
     MemoryTime)
 set(TIMING_store PixelStoreLanes PixelStoreBlock PixelStoreMemory)
-foreach(part vectors blocks timing engine reset store)
+set(TIMING_units AreaLanes.LatencyAndInterval AreaLanes.ARecordIsFinished WayOfARecord LineUnitBlock
+    DividerPlaces PredictorUnits)
+foreach(part vectors blocks timing engine reset store units)
   deburr_test(morphological_rtl_${part}_test LABELS unit TIMING ${TIMING_${part}}
               SOURCES morphological_rtl_${part}_test.cpp
               LINK deburr::rtl_morphological deburr::harness)
