@@ -132,8 +132,8 @@ TEST_P(AreaLanes, SharesLieWhereTheRecordLies) {
   const int lanes = bench.lanes;
   // Found in slot row line + R + 2.
   bench.drivers_h[0]->send(
-      0, three(Axis::kHorizontal, 3, 2,
-               bench.slots_before(3 + kReach + 2) + static_cast<std::uint32_t>(5 / lanes)));
+      0, three(Axis::kHorizontal, 3, 3,
+               bench.slots_before(3 + kReach + 2) + static_cast<std::uint32_t>(6 / lanes)));
   bench.drivers_v[0]->send(
       0, three(Axis::kVertical, 8, 5,
                bench.slots_before(5 + kReach + 2) + static_cast<std::uint32_t>(8 / lanes)));
@@ -158,7 +158,7 @@ TEST_P(AreaLanes, SharesLieWhereTheRecordLies) {
   }
   // The first pixel of an edge lies above it or left of it, and takes from below or from the right.
   const std::map<std::string, int> expected = {
-      {"2,2 down", 85},  {"3,2 down", 11},  {"3,3 up", 11},   {"4,3 up", 85},
+      {"2,2 down", 85},  {"4,2 down", 11},  {"4,3 up", 11},   {"5,3 up", 85},
       {"7,5 right", 85}, {"7,6 right", 11}, {"8,6 left", 11}, {"8,7 left", 85}};
   EXPECT_EQ(found, expected);
   EXPECT_EQ(bench.unit.horizontal_edges.value(), 3u);
