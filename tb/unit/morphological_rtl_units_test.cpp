@@ -158,7 +158,7 @@ TEST_P(AreaLanes, SharesLieWhereTheRecordLies) {
   }
   // The first pixel of an edge lies above it or left of it, and takes from below or from the right.
   const std::map<std::string, int> expected = {
-      {"2,2 down", 85},  {"4,2 down", 11},  {"4,3 up", 11},   {"5,3 up", 85},
+      {"3,2 down", 85},  {"4,2 down", 11},  {"4,3 up", 11},   {"5,3 up", 85},
       {"7,5 right", 85}, {"7,6 right", 11}, {"8,6 left", 11}, {"8,7 left", 85}};
   EXPECT_EQ(found, expected);
   EXPECT_EQ(bench.unit.horizontal_edges.value(), 3u);
