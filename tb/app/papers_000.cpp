@@ -33,7 +33,8 @@ using morphological::FanRow;
 using spec::MorphologicalParameters;
 using spec::MorphologicalPreset;
 
-constexpr int kPaperLoops = 4;  // "all results use 4"
+constexpr int kPaperLoops = 4;    // "all results use 4"
+constexpr int kTruthSamples = 8;  // each way, of a pixel
 
 std::string decimals(double value, int digits) { return fmt::format("{:.{}f}", value, digits); }
 
@@ -259,6 +260,52 @@ PaperTable complexity(const PaperOptions& options) {
                             decimals(sum.walk / n, 2), sum.most <= loops + 2 ? "right" : "wrong"});
     }
   }
+  return table;
+}
+
+PaperTable probes(const PaperOptions& options) {
+  PaperTable table{
+      "Complexity: corners that the engine tests, for each pixel of the line",
+      "Lines of slope 1/(L + u) through the whole engine, preset mlaa-slope; all runs "
+      "that are extended by N steps on both sides. A walk from a pixel to both ends of "
+      "its extended line visits the corners between them one by one; the engine finds "
+      "runs once, and tests at most three corners a step.",
+      {"N", "L", "line pixels", "engine, a pixel", "walk, a pixel", "walk / engine", "verdict"},
+      {}};
+  Random random(4);
+  const int lines = options.quick ? 2 : 12;
+  for (const int loops : {1, 2, 4, 8})
+    for (const int length : {1, 2, 4, 8, 16}) {
+      MorphologicalParameters p = preset_parameters(MorphologicalPreset::kMlaaSlope);
+      p.steps = loops;
+      p.reach_columns = 2048;
+      double pixels = 0, tested = 0, walked = 0;
+      for (int i = 0; i < lines; ++i) {
+        const double slope = 1 / (length + uniform(random, 0, 1)), phase = uniform(random, 0, 1);
+        const int width = (3 * loops + 20) * (length + 1);
+        Image frame(width, static_cast<int>(width * slope) + 8);
+        for (int y = 0; y < frame.height; ++y)
+          for (int x = 0; x < width; ++x) {
+            const std::uint8_t v = y + 0.5 < 3 + phase + slope * (x + 0.5) ? 255 : 0;
+            frame.at(x, y) = {v, v, v, 255};
+          }
+        MorphologicalGolden golden(p);
+        golden.process({frame.pixels, frame.width, frame.height});
+        for (const auto& run : golden.runs()) {
+          const spec::LineRecord& line = run.line;
+          if (line.run.axis != spec::Axis::kHorizontal || line.left_steps != loops ||
+              line.right_steps != loops)
+            continue;
+          pixels += line.run.length;
+          tested += run.probes;
+          walked += static_cast<double>(line.run.length * line.span);
+        }
+      }
+      table.rows.push_back({fmt::format("{}", loops), fmt::format("{}", length),
+                            decimals(pixels, 0), decimals(ratio(tested, pixels), 2),
+                            decimals(ratio(walked, pixels), 1), decimals(ratio(walked, tested), 1),
+                            walked > tested ? "fewer" : "more"});
+    }
   return table;
 }
 
@@ -508,10 +555,9 @@ Compared rendered_scenes(const PaperOptions& options) {
        {"quad", nullptr},
        {"tunnel", nullptr},
        {"plane", nullptr}}};
-  const int samples = options.quick ? 4 : 8;
   for (const Shown& shown : kScenes) {
     const Scene scene = make_scene(shown.scene);
-    const LitFrames lit = render_lit_frames(scene, options.size, options.size, samples);
+    const LitFrames lit = render_lit_frames(scene, options.size, options.size, kTruthSamples);
     const Mask edges = edge_mask(lit.truth, lit.noaa);
     const Mask silhouettes = silhouette_mask(edges, lit.depth);
     const std::vector<Method> list = methods(scene, lit.noaa, true);
@@ -548,7 +594,7 @@ Compared rendered_scenes(const PaperOptions& options) {
          fmt::format(
              "columns: none, MSAA 4x, mlaa, mlaa-slope, deburr, truth ({} samples a pixel); "
              "rows: as it is, then 4 x and 8 x at {} silhouettes from left to right",
-             samples * samples, shown.strips),
+             kTruthSamples * kTruthSamples, shown.strips),
          zooms(columns, silhouettes, shown.strips, shown.rows), true});
     compared.figures.push_back(figure);
   }
@@ -612,6 +658,7 @@ Paper paper_000(const PaperOptions& options) {
   paper.tables.push_back(theorem(options));
   paper.tables.push_back(third_branch(options));
   paper.tables.push_back(complexity(options));
+  paper.tables.push_back(probes(options));
   paper.tables.push_back(quality(options, 0.05, 0.95));
   paper.tables.push_back(quality(options, 0, 1));
   paper.tables.push_back(rules(options));
