@@ -35,7 +35,7 @@ Outcome print_params(const ParamsCommand& command) {
   std::vector<Parameter> shown;
   for (const auto& engine : all) {
     ParameterSet set;
-    RunParameters run;
+    RunParameters run = engine->run_parameters();
     set.add("run", run);
     engine->add_parameters(set);
     for (const Parameter& p : set.all()) {

@@ -106,7 +106,7 @@ std::string from_repository(const std::string& text) {
 
 Outcome run_engine(Engine& engine, const RunOptions& options, const std::string& command) {
   ParameterSet set;
-  RunParameters run;
+  RunParameters run = engine.run_parameters();
   set.add("run", run);
   engine.add_parameters(set);
   apply(options, set);
@@ -225,7 +225,7 @@ void add_run(CLI::App& app, CommandLine& line) {
                       "Print the resolved configuration and stop");
     // To know which shorthands are switches, the parameters are asked.
     ParameterSet probe;
-    RunParameters defaults;
+    RunParameters defaults = engine->run_parameters();
     probe.add("run", defaults);
     engine->add_parameters(probe);
     // An engine may give an option of all engines a meaning of its own.

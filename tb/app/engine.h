@@ -72,6 +72,13 @@ class Engine {
   virtual ~Engine() = default;
   virtual std::string_view name() const = 0;
   virtual std::string_view summary() const = 0;
+  // What its rates and times are quoted for, unless run.clock_mhz is given: the texture paper's.
+  virtual double clock_mhz() const { return 166.67; }
+  RunParameters run_parameters() const {
+    RunParameters run;
+    run.clock_mhz = clock_mhz();
+    return run;
+  }
   virtual void add_parameters(ParameterSet& set) = 0;
   virtual std::vector<Shorthand> shorthands() const = 0;
   // After everything that was given has been set: fills in what follows from it (presets).

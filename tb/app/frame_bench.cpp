@@ -12,9 +12,11 @@
 #include "golden/morphological/configuration.h"
 #include "golden/morphological/traffic.h"
 #include "spec/error.h"
+#include "tb/app/collect.h"
 #include "tb/app/morphological_bench.h"
 #include "tb/app/morphological_frames.h"
 #include "tb/app/progress.h"
+#include "tb/app/report.h"
 
 namespace deburr::tb {
 namespace {
@@ -35,13 +37,6 @@ std::string name_within(const sc_core::sc_object& unit, const sc_core::sc_object
   std::string name = std::string(object.name()).substr(std::string(unit.name()).size() + 1);
   std::replace(name.begin(), name.end(), '.', '_');
   return name;
-}
-
-UnitCycles cycles_of(std::string name, const rtl::Unit& unit) {
-  UnitCycles cycles{std::move(name), unit.busy_cycles(), unit.idle_cycles(), {}};
-  for (const rtl::Unit::StallCause& cause : unit.stalls())
-    cycles.stalls.push_back({cause.name, cause.meaning + ".", cause.cycles});
-  return cycles;
 }
 
 }  // namespace
@@ -284,7 +279,8 @@ void FrameBench::run(const Progress& progress) {
     judge_fills();
     if (progress && clock_.cycle() >= next_progress) {
       next_progress = clock_.cycle() + kProgressPeriod;
-      if (!progress(position_)) return stopped = true;
+      const std::uint64_t taken = buffer_.bytes_read.value() / spec::kFramePixelBytes;
+      if (!progress(position_, taken)) return stopped = true;
     }
     return buffer_.done() && driver_.done() && texture_.idle() && engine_.idle() &&
            quads_.empty() && colours_.empty() && pixels_.empty() && blended_.empty();
@@ -350,20 +346,17 @@ void FrameBench::collect(Result& result) const {
   result.lines_filled = texture.cache.miss_queue.line_fills.value();
 
   for (const rtl::Unit* unit : texture.units())
-    result.units.push_back(cycles_of("texture_" + name_within(texture, *unit), *unit));
-  result.units.push_back(cycles_of("frame_buffer", buffer_));
+    result.units.push_back(unit_cycles("texture_" + name_within(texture, *unit), *unit));
+  result.units.push_back(unit_cycles("frame_buffer", buffer_));
   for (const rtl::Storage* storage : texture.memories())
-    result.sram_bits.emplace_back("texture_" + name_within(texture, *storage), storage->bits());
+    result.sram.push_back({"texture_" + name_within(texture, *storage), storage->ports(),
+                           storage->bits(), storage->bits()});
 
   const auto add = [&](std::string name, nlohmann::ordered_json value, std::string unit,
                        std::string meaning) {
     result.work.push_back({std::move(name), std::move(value), std::move(unit), std::move(meaning)});
   };
-  const rtl::Histogram& latency = engine.beat_latency;
-  result.latency = {latency.min(),          latency.percentile(50), latency.percentile(95),
-                    latency.percentile(99), latency.max(),          {}};
-  for (const rtl::Histogram::Bin& bin : latency.bins(48))
-    result.latency.histogram.push_back({bin.low, bin.count});
+  result.latency = latency_of(engine.beat_latency);
   const std::uint64_t bilinears = texture.address.addresser.bilinears.value();
   const std::uint64_t raster =
       frame_clocks_by_formula(options_.morphological, frame_.width, frame_.height);
@@ -389,14 +382,32 @@ void FrameBench::collect(Result& result) const {
   add("frame_buffer_bytes_read", buffer_.bytes_read.value(), "byte", "Pixels, 4 bytes each.");
   for (const rtl::Counter* counter : texture.counters())
     add("texture_" + name_within(texture, *counter), counter->value(), counter->unit(),
-        counter->meaning() + ".");
+        sentence(counter->meaning()));
+  const std::uint64_t slower = std::max(bilinears, raster);
+  add("slower_engine_clocks", slower, "clk",
+      "Of the slower engine alone if nothing stalls: the texture unit's bilinears, one a clock, or "
+      "smoothing_clocks_by_formula.");
+  add("frame_buffer_bytes", std::uint64_t{spec::kFramePixelBytes} * frame_.pixels.size(), "byte",
+      "Size of the frame buffer, which is not among the SRAM: its memory is not modelled in time.");
+  result.figures = {
+      {"Frame", "cycles", "slower engine alone", "work.slower_engine_clocks", true},
+      {"Texturing", "work.texturing_clocks", "bilinears", "work.bilinears"},
+      {"Smoothing", "work.smoothing_clocks", "formula", "work.smoothing_clocks_by_formula"},
+      {"Both at once", "work.overlapped_clocks"},
+      {"Latency of a texture fragment, median", "work.fragment_latency_p50"},
+      {"Frame buffer, outside the SRAM", "work.frame_buffer_bytes"},
+      {"Written to the frame buffer", "work.frame_buffer_bytes_written"},
+      {"Read from the frame buffer", "work.frame_buffer_bytes_read"}};
   collect_morphological(engine, frame_.width, "morphological_", result);
 
   result.throughput = ratio(number(position_), number(result.cycles));
   result.throughput_unit = "pixel/clk";
-  // The slower of the two alone, the other one hidden behind it.
-  result.throughput_bound =
-      ratio(number(frame_.pixels.size()), number(std::max(bilinears, raster)));
+  result.throughput_bound = ratio(number(frame_.pixels.size()), number(slower));
+  result.throughput_bound_meaning = fmt::format(
+      "Pixels of the frame over the clocks of the slower engine alone ({}), the other one hidden "
+      "behind it: texturing takes {} clocks at least, smoothing {}.",
+      raster >= bilinears ? "smoothing" : "texturing", grouped(bilinears), grouped(raster));
+  result.bottleneck = find_bottleneck(result.units, "morphological_blender");
 }
 
 }  // namespace deburr::tb

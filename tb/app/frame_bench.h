@@ -90,7 +90,9 @@ struct FrameBenchOptions {
 
 class FrameBench {
  public:
-  using Progress = std::function<bool(std::uint64_t pixels)>;
+  // Called every few thousand cycles with the numbers of pixels delivered and of pixels that the
+  // morphological engine has taken; false ends the run early.
+  using Progress = std::function<bool(std::uint64_t pixels, std::uint64_t taken)>;
 
   // The scene must outlive the bench. ConfigError for wrong parameters.
   FrameBench(const TextureScene& scene, const FrameBenchOptions& options);
@@ -102,6 +104,7 @@ class FrameBench {
   bool complete() const { return complete_; }
   const Image& textured() const { return buffer_.frame(); }
   const Image& smoothed() const { return frame_; }
+  std::size_t delivered() const { return position_; }
   const std::vector<spec::BlendTap>& taps() const { return taps_; }
   const golden::morphological::MorphologicalGolden& golden() const { return smoothing_golden_; }
 

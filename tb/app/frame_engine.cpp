@@ -13,9 +13,8 @@
 #include "tb/app/frame_bench.h"
 #include "tb/app/interrupt.h"
 #include "tb/app/morphological_engine.h"
+#include "tb/app/pictures.h"
 #include "tb/app/progress.h"
-#include "tb/scene/compose.h"
-#include "tb/scene/quality.h"
 #include "tb/scene/truth.h"
 
 namespace deburr::tb {
@@ -47,12 +46,14 @@ class FrameCommand final : public Engine {
         {"--scene", "scene.source", "object (default), plane, quad, tunnel, road, cylinders"},
         {"--in", "scene.source", "Mesh file instead of a scene: .obj, .gltf, .glb"},
         {"--texture", "scene.texture", "checker, road, brick, zone_plate, ..., or an image file"},
-        {"--size", "scene.width", "Size of the picture, WxH", "scene.height"},
-        {"--mode", "sampler.mode", "Minification filter, one of GL's six"},
-        {"--aniso", "sampler.anisotropy", "Largest number of samples: 1, 2, 4, 8, 16"},
-        {"--preset", "morphological.preset", "mlaa, mlaa-slope, deburr"},
+        {"--size", "scene.width", "Size of the picture, WxH (512x512)", "scene.height"},
+        {"--mode", "sampler.mode", "Minification filter, one of GL's six (linear_mipmap_linear)"},
+        {"--aniso", "sampler.anisotropy", "Largest number of samples: 1, 2, 4, 8 or 16 (default)"},
+        {"--preset", "morphological.preset", "mlaa, mlaa-slope or deburr (default)"},
         {"--lanes", "morphological.lanes",
-         "Pixels a clock of the morphological engine: 1, 2 or 4"}};
+         "Pixels a clock of the morphological engine: 1 (default), 2 or 4"},
+        {"--storage", "morphological.storage",
+         "Of the pixels that the morphological engine delays: line_buffers (default) or memory"}};
   }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
@@ -69,15 +70,14 @@ class FrameCommand final : public Engine {
             "engine ({}) on one clock, overlapped row by row",
             scene.stream().width, scene.stream().height, scene.stream().counts.fragments,
             spec::kMorphologicalPresetNames[static_cast<std::size_t>(morphological_.preset)]));
-    context.set_bottleneck("texture_filter");
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
     context.claim();
     FrameBench bench(scene, options(run, context));
     context.begin();
     try {
       Progress progress("frame", bench.smoothed().pixels.size(), "pixel");
-      bench.run([&](std::uint64_t pixels) {
-        progress.update(pixels);
+      bench.run([&](std::uint64_t pixels, std::uint64_t taken) {
+        progress.update(pixels, taken);
         return !interrupted();
       });
     } catch (const spec::FileError&) {  // a wave that could not be written: nothing stays
@@ -129,49 +129,27 @@ class FrameCommand final : public Engine {
                     const FrameBench& bench, Result& result) const {
     const Image& before = bench.textured();
     const Image& after = bench.smoothed();
-    context.add_image("before", before, "Textured",
-                      "what the texture unit left in the frame buffer");
-    context.add_image("after", after, "Smoothed",
-                      "the pixels that the morphological engine delivered");
-    context.add_image("difference", difference(after, before, 4), "Difference",
-                      "smoothed against textured, 4 times");
-    context.add_image("edges", edge_picture(before, bench.taps()), "Edges",
-                      "left edges red, top edges green");
-    context.add_image(
-        "weights", weight_picture(after.width, after.height, bench.taps()), "Weights",
-        "share of the upper or left neighbour red, of the lower or right one green, blue where "
-        "the two are left and right");
-    if (run.check == CheckMode::kGolden) {
-      Image expected(after.width, after.height);
-      expected.pixels = bench.golden().pixels();
-      context.add_image("golden", expected, "Golden models", "one after the other");
+    const bool whole = bench.delivered() == after.pixels.size();
+    Image expected(after.width, after.height), truth;
+    const bool golden = run.check == CheckMode::kGolden;
+    if (golden) expected.pixels = bench.golden().pixels();
+    if (run.truth && whole) {
+      RenderOptions render_options;
+      render_options.width = after.width;
+      render_options.height = after.height;
+      render_options.samples = kTruthSamples;
+      // Coverage is averaged in the light in which the engine blends.
+      render_options.averaging =
+          morphological_.linear_light ? Averaging::kLinear : Averaging::kStored;
+      truth = render(scene.scene(), render_options);
+      result.quality = judge_quality(fmt::format("supersampled-{}", kTruthSamples * kTruthSamples),
+                                     before, after, truth, &scene.stream().depth);
     }
-    if (!run.truth || result.interrupted) return;
-    RenderOptions render_options;
-    render_options.width = after.width;
-    render_options.height = after.height;
-    render_options.samples = kTruthSamples;
-    // Coverage is averaged in the light in which the engine blends.
-    render_options.averaging =
-        morphological_.linear_light ? Averaging::kLinear : Averaging::kStored;
-    const Image truth = render(scene.scene(), render_options);
-    const Mask edges = edge_mask(truth, before);
-    Quality quality;
-    quality.reference = fmt::format("supersampled-{}", kTruthSamples * kTruthSamples);
-    quality.psnr_db = psnr(after, truth);
-    quality.psnr_edge_db = psnr(after, truth, edges);
-    const Mask silhouettes = silhouette_mask(edges, scene.stream().depth);
-    quality.psnr_silhouette_db = psnr(after, truth, silhouettes);
-    result.quality = quality;
-    const auto add = [&](const char* name, double value, const char* meaning) {
-      if (std::isfinite(value)) result.work.push_back({name, value, "dB", meaning});
-    };
-    add("psnr_before_db", psnr(before, truth), "PSNR of the textured frame.");
-    add("psnr_edge_before_db", psnr(before, truth, edges), "The same over edge pixels.");
-    add("psnr_silhouette_before_db", psnr(before, truth, silhouettes),
-        "The same over silhouettes.");
-    context.add_image("truth", truth, "Truth",
-                      fmt::format("{} samples a pixel", kTruthSamples * kTruthSamples));
+    add_smoothing_pictures(
+        context, {before, after, bench.taps(), bench.delivered(), golden ? &expected : nullptr,
+                  truth.empty() ? nullptr : &truth,
+                  "textured: what the texture unit left in the frame buffer",
+                  fmt::format("{} samples a pixel", kTruthSamples * kTruthSamples)});
   }
 
   SceneParameters scene_;

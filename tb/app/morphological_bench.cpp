@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -16,6 +15,7 @@
 #include "golden/morphological/traffic.h"
 #include "rtl_model/morphological/line_memory.h"
 #include "spec/error.h"
+#include "tb/app/collect.h"
 #include "tb/app/progress.h"
 
 namespace deburr::tb {
@@ -29,7 +29,7 @@ namespace reg = spec::morphological_register;
 
 constexpr rtl::Cycle kProgressPeriod = 4096;
 constexpr std::uint64_t kFaultyRequest = 20;
-constexpr std::size_t kLatencyBins = 48;
+constexpr double kPixelClock1080p60 = 148.5;  // MHz
 
 constexpr std::array kFaults = {
     MorphologicalFault{"flip-bit", "Flips a bit of the red channel of output beat 100."},
@@ -120,12 +120,6 @@ std::string name_within(const sc_core::sc_object& engine, const sc_core::sc_obje
   return name;
 }
 
-std::string sentence(std::string text) {
-  if (text.empty()) return text;
-  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text.back() == '.' ? text : text + ".";
-}
-
 std::string describe_pixel(const spec::Rgba8& p) {
   return fmt::format("RGBA ({}, {}, {}, {})", p[0], p[1], p[2], p[3]);
 }
@@ -176,30 +170,36 @@ void collect_morphological(rtl::morphological::MorphologicalEngine& engine, int 
                        std::string meaning) {
     result.work.push_back({prefix + name, std::move(value), std::move(unit), std::move(meaning)});
   };
-  for (const rtl::Unit* u : engine.units()) {
-    UnitCycles cycles{prefix + name_within(engine, *u), u->busy_cycles(), u->idle_cycles(), {}};
-    for (const rtl::Unit::StallCause& cause : u->stalls())
-      cycles.stalls.push_back({cause.name, sentence(cause.meaning), cause.cycles});
-    result.units.push_back(std::move(cycles));
-  }
-  std::uint64_t at_width = 0;
+  for (const rtl::Unit* unit : engine.units())
+    result.units.push_back(unit_cycles(prefix + name_within(engine, *unit), *unit));
   for (const rtl::Storage* storage : engine.memories()) {
-    const std::string name = name_within(engine, *storage);
-    result.sram_bits.emplace_back(prefix + name, storage->bits());
     const auto* columns = dynamic_cast<const rtl::morphological::ColumnStorage*>(storage);
-    at_width += columns ? columns->bits_at(static_cast<std::uint64_t>(width)) : storage->bits();
-    add("ports_" + name, storage->ports(), "port", fmt::format("Ports of the memory {}.", name));
+    result.sram.push_back(
+        {prefix + name_within(engine, *storage), storage->ports(), storage->bits(),
+         columns ? columns->bits_at(static_cast<std::uint64_t>(width)) : storage->bits()});
   }
-  add("sram_bits_at_frame_width", at_width, "bit",
-      "All memories together if line_pixels were the width of this frame.");
+  const spec::MorphologicalWork work = engine.work();
+  add("edge_pixels_percent", 100 * ratio(number(work.edge_pixels), number(work.pixels)), "%",
+      "Pixels with a left or a top edge.");
+  add("blended_pixels_percent", 100 * ratio(number(work.blended_pixels), number(work.pixels)), "%",
+      "Pixels that took a share of a neighbour.");
   for (const auto* divider : {&engine.divider_h, &engine.divider_v}) {
     const double clocks =
         number(divider->busy_cycles() + divider->idle_cycles() + divider->stalled_cycles());
     const double lanes = lanes_of(engine.parameters());
     add(name_within(engine, *divider) + "_occupancy_percent",
         100 * ratio(number(divider->occupancy.value()), lanes * clocks), "%",
-        "Clocks that the dividers of this axis were taken, of all clocks and lanes.");
+        "Occupancy: divisions x divider.interval over clocks x lanes, the clocks in which a "
+        "divider could not start another; at 100 % it is the limit. The unit is busy for longer, "
+        "while a division is under way.");
   }
+  const auto figure = [&](const char* label, const char* name) {
+    result.figures.push_back({label, "work." + prefix + name});
+  };
+  figure("Divider occupancy, horizontal runs", "divider_h_occupancy_percent");
+  figure("Divider occupancy, vertical runs", "divider_v_occupancy_percent");
+  figure("Pixels on edges", "edge_pixels_percent");
+  figure("Pixels blended", "blended_pixels_percent");
   for (const rtl::Counter* counter : engine.counters())
     add(name_within(engine, *counter), counter->value(), counter->unit(),
         sentence(counter->meaning()));
@@ -383,7 +383,8 @@ void MorphologicalBench::run_frame(const MorphologicalInput& frame, bool reset_w
   const auto done = [&] {
     if (progress && clock_.cycle() >= next_progress_) {
       next_progress_ = clock_.cycle() + kProgressPeriod;
-      if (!progress(pixels_)) return stopped_ = true;
+      if (!progress(pixels_, engine_.sequencer.beats.value() * static_cast<std::uint64_t>(lanes())))
+        return stopped_ = true;
     }
     if (reset_due && clock_.cycle() >= reset_at) return true;
     return source_.done() && engine_.idle() && pixels_link_.empty() && blended_.empty();
@@ -582,28 +583,19 @@ void MorphologicalBench::collect(Result& result) const {
     result.lines_filled = memory_->reads();
   }
 
-  const rtl::Histogram& latency = engine.beat_latency;
-  result.latency = {latency.min(),          latency.percentile(50), latency.percentile(95),
-                    latency.percentile(99), latency.max(),          {}};
-  std::uint64_t next = 0;
-  for (const rtl::Histogram::Bin& bin : latency.bins(kLatencyBins)) {
-    const std::uint64_t width = bin.high - bin.low + 1;
-    for (; next != 0 && next < bin.low; next += width)
-      result.latency.histogram.push_back({next, 0});
-    result.latency.histogram.push_back({bin.low, bin.count});
-    next = bin.high + 1;
-  }
+  result.latency = latency_of(engine.beat_latency);
 
   result.throughput = ratio(number(pixels_), number(result.cycles));
   result.throughput_unit = "pixel/clk";
   result.throughput_bound = lanes();
+  result.throughput_bound_meaning =
+      "A beat a clock, a pixel a lane; filling and flushing the window not counted.";
 
   const auto add = [&](std::string name, nlohmann::ordered_json value, std::string unit,
                        std::string meaning) {
     result.work.push_back({std::move(name), std::move(value), std::move(unit), std::move(meaning)});
   };
   const int width = std::max(1, frame_.width), height = std::max(1, frame_.height);
-  const spec::MorphologicalWork work = engine.work();
   const std::uint64_t frame_clocks = engine.sequencer.frame_cycles.value();
   const std::uint64_t by_formula = frame_clocks_by_formula(p, width, height);
   add("frame_clocks", frame_clocks, "clk",
@@ -617,10 +609,6 @@ void MorphologicalBench::collect(Result& result) const {
                   number(input_clocks()))
           : 0.0,
       "pixel/clk", "Pixels of the last frame over clocks from its first to its last input beat.");
-  add("edge_pixels_percent", 100 * ratio(number(work.edge_pixels), number(work.pixels)), "%",
-      "Pixels with a left or a top edge.");
-  add("blended_pixels_percent", 100 * ratio(number(work.blended_pixels), number(work.pixels)), "%",
-      "Pixels that took a share of a neighbour.");
   add("memory_bytes_per_pixel",
       ratio(number(result.bytes_read + result.bytes_written), number(pixels_)), "byte/pixel",
       "Written and read again; 0 with line buffers.");
@@ -631,10 +619,22 @@ void MorphologicalBench::collect(Result& result) const {
   const double hd = slowness * clock_for_60(frame_clocks_by_formula(p, 1920, 1080));
   add("clock_for_1080p60", hd, "MHz",
       "Clock that 60 frames of 1920 x 1080 need, stalls of this run in proportion.");
-  add("fits_1080p60", hd <= options_.clock_mhz, "",
-      fmt::format("Whether 1080p60 fits at {:.2f} MHz; the pixel clock of 1080p60 is 148.5 MHz.",
-                  options_.clock_mhz));
+  add("pixel_clock_of_1080p60", kPixelClock1080p60, "MHz", "Of the standard, blanking included.");
+  add("fits_1080p60", hd <= kPixelClock1080p60, "",
+      "Whether clock_for_1080p60 is at most the pixel clock of 1080p60, 148.5 MHz.");
+
+  result.figures = {
+      {"Frame", "work.frame_clocks", "formula", "work.frame_clocks_by_formula", true},
+      {"Latency of a pixel", "latency.max", "formula", "work.latency_by_formula", true},
+      {"Input rate", "work.input_pixels_per_clock", "lanes", "throughput.bound"},
+      {"Frames of this size", "work.frame_rate"},
+      {"Clock for 1080p60", "work.clock_for_1080p60", "pixel clock", "work.pixel_clock_of_1080p60",
+       true},
+      {"Fits 1080p60", "work.fits_1080p60"}};
+  if (memory_)
+    result.figures.push_back({"Memory traffic", "work.memory_bytes_per_pixel", "", "", true});
   collect_morphological(engine, width, "", result);
+  result.bottleneck = find_bottleneck(result.units, "blender");
 }
 
 }  // namespace deburr::tb

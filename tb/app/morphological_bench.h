@@ -78,8 +78,9 @@ void collect_morphological(rtl::morphological::MorphologicalEngine& engine, int 
 
 class MorphologicalBench {
  public:
-  // Called every few thousand cycles with the number of pixels delivered; false ends the run early.
-  using Progress = std::function<bool(std::uint64_t pixels)>;
+  // Called every few thousand cycles with the numbers of pixels delivered and taken; false ends the
+  // run early.
+  using Progress = std::function<bool(std::uint64_t pixels, std::uint64_t taken)>;
 
   // Elaborates; one a process. The frames must outlive the bench. ConfigError for wrong parameters
   // or a frame that the engine does not take.
@@ -101,6 +102,7 @@ class MorphologicalBench {
   std::uint64_t activations() const { return clock_.activations(); }
   // Of the last frame: what the engine delivered, and clocks from its first to its last input beat.
   const Image& frame() const { return frame_; }
+  std::size_t delivered() const { return position_; }
   const std::vector<spec::BlendTap>& taps() const { return taps_; }
   rtl::Cycle input_clocks() const { return source_.last_cycle() - source_.first_cycle() + 1; }
   // The golden model, which has seen every frame (none without golden).

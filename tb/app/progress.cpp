@@ -67,11 +67,11 @@ Progress::~Progress() {
   }
 }
 
-void Progress::update(std::uint64_t done) {
-  done_ = done;
+void Progress::update(std::uint64_t delivered, std::uint64_t taken) {
+  done_ = done(delivered, taken);
   const Clock::time_point now = Clock::now();
   if (now - last_ < (terminal_ ? Clock::duration(kTerminalPeriod) : kPlainPeriod)) return;
-  show(done, now);
+  show(done_, now);
 }
 
 void Progress::show(std::uint64_t done, Clock::time_point now) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Progress of long work on the error stream: a bar with rate and time left on a terminal, a plain
-// line every few seconds otherwise.
+// line every few seconds otherwise. What was taken counts half: a pipeline that holds a whole
+// window of its input delivers nothing for long.
 #pragma once
 
 #include <chrono>
@@ -19,8 +20,13 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   // Cheap enough to be called often: the clock is read once in a while.
-  void update(std::uint64_t done);
+  void update(std::uint64_t done) { update(done, done); }
+  void update(std::uint64_t delivered, std::uint64_t taken);
 
+  // What counts as done: the mean of what was delivered and what was taken.
+  static std::uint64_t done(std::uint64_t delivered, std::uint64_t taken) {
+    return delivered + (taken > delivered ? (taken - delivered) / 2 : 0);
+  }
   // The line shown, for tests: "texture  42 %  1.2 Mfragment/s  3 s left".
   static std::string line(std::string_view label, std::string_view unit, std::uint64_t done,
                           std::uint64_t total, double seconds);

@@ -55,7 +55,7 @@ std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines)
   for (const auto& engine : engines) {
     page += fmt::format("\n## `deburr run {}`\n", engine->name());
     ParameterSet set;
-    RunParameters run;
+    RunParameters run = engine->run_parameters();
     set.add("run", run);
     engine->add_parameters(set);
     std::string group;
@@ -95,8 +95,9 @@ std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines)
       for (const StallCycles& stall : unit.stalls)
         page += fmt::format("| `units.{}.stalls.{}` | clk | {} |\n", unit.name, stall.cause,
                             cell(stall.meaning));
-    for (const auto& [name, bits] : result.sram_bits)
-      page += fmt::format("| `sram_bits.{}` | bit | {} with default parameters |\n", name, bits);
+    for (const SramMemory& memory : result.sram)
+      page += fmt::format("| `sram_bits.{}` | bit | {} with default parameters, ports {} |\n",
+                          memory.name, memory.bits, memory.ports);
   }
   return page;
 }

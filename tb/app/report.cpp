@@ -8,6 +8,7 @@
 #include <cmath>
 #include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "spec/error.h"
 #include "tb/app/embedded.h"
@@ -57,6 +58,11 @@ double number(const Json& json, const char* key) {
 std::string decibels(const Json& value) {
   if (value.is_number()) return fmt::format("{:.2f}", value.get<double>());
   return value == "inf" ? "identical" : "-";
+}
+
+std::string gain_of(const Json& before, const Json& after) {
+  if (!before.is_number() || !after.is_number()) return "-";
+  return fmt::format("{:+.2f}", after.get<double>() - before.get<double>());
 }
 
 Json read_manifest(const fs::path& directory) {
@@ -116,59 +122,138 @@ class ReportBuilder {
                     {"note", std::move(note)},
                     {"state", state}});
     };
+    const bool interrupted = result_.value("interrupted", false);
     const std::uint64_t mismatches = checks.value("mismatches", std::uint64_t{0}) +
                                      checks.value("traffic_mismatches", std::uint64_t{0});
-    if (result_["verdict"] == "unchecked")
+    const std::uint64_t compared = checks.value("comparisons", std::uint64_t{0}) +
+                                   checks.value("traffic_comparisons", std::uint64_t{0});
+    page_.set("incomplete", interrupted);
+    if (compared == 0)
       tile("Mismatches", "-", "", "not checked against the golden model");
     else
       tile("Mismatches", grouped(mismatches), "",
-           fmt::format("of {} comparisons",
-                       grouped(checks.value("comparisons", std::uint64_t{0}) +
-                               checks.value("traffic_comparisons", std::uint64_t{0}))),
-           mismatches ? "bad" : "good");
+           fmt::format("of {} comparisons{}", grouped(compared), interrupted ? ", incomplete" : ""),
+           mismatches    ? "bad"
+           : interrupted ? ""
+                         : "good");
     const double cycles = number(result_, "cycles");
-    tile("Cycles", shown(result_["cycles"]), "clk",
-         mhz > 0 ? fmt::format("{:.2f} ms at {:.2f} MHz", cycles / mhz / 1e3, mhz) : "");
+    const auto time = [&](double clocks) {
+      return mhz > 0 ? fmt::format("{:.2f} ms at {:g} MHz", clocks / mhz / 1e3, mhz) : "";
+    };
+    // What an engine shows among the tiles takes the place of what all of them have.
+    bool own_cycles = false, own_latency = false, own_memory = false;
+    for (const Json& figure : result_.value("figures", Json::array())) {
+      if (!figure.value("tile", false)) continue;
+      const std::string key = figure.value("key", ""), unit = described(key, "unit");
+      const bool time_shown = unit == "clk" && !key.starts_with("latency.");
+      own_cycles = own_cycles || time_shown;
+      own_latency = own_latency || key.starts_with("latency.");
+      own_memory = own_memory || key.find("memory") != std::string::npos;
+      std::string note = against(figure);
+      if (time_shown) note += (note.empty() ? "" : "; ") + time(value_at(key).get<double>());
+      tile(figure.value("label", ""), figure_text(value_at(key)), unit, note);
+    }
+    if (!own_cycles) tile("Cycles", shown(result_["cycles"]), "clk", time(cycles));
     tile("Throughput", fmt::format("{:.3f}", value), "",
          shown(throughput.value("unit", Json(""))) +
-             (bound > 0 ? fmt::format(", {:.1f} % of the bound {:g}", 100 * value / bound, bound)
+             (bound > 0 ? fmt::format(", {:.1f} % of the bound {:.4g}", 100 * value / bound, bound)
                         : ""));
-    tile("Latency p50", shown(latency.value("p50", Json())), "clk",
-         fmt::format("p99 {}, max {}", shown(latency.value("p99", Json())),
-                     shown(latency.value("max", Json()))));
-    tile("Read from memory",
-         fmt::format("{:.2f}", number(result_["memory"], "bytes_read") / 1048576), "MiB",
-         fmt::format("{} lines", shown(result_["memory"].value("lines_filled", Json()))));
-    if (const auto quality = result_.find("quality"); quality != result_.end())
-      tile("PSNR", decibels(quality->value("psnr_db", Json())), "dB",
-           "against " + quality->value("reference", ""));
+    if (!own_latency)
+      tile("Latency p50", shown(latency.value("p50", Json())), "clk",
+           fmt::format("p99 {}, max {}", shown(latency.value("p99", Json())),
+                       shown(latency.value("max", Json()))));
+    if (const double read = number(result_["memory"], "bytes_read"); read > 0 && !own_memory)
+      tile("Read from memory", fmt::format("{:.2f}", read / 1048576), "MiB",
+           fmt::format("{} reads", shown(result_["memory"].value("lines_filled", Json()))));
+    if (const auto quality = result_.find("quality"); quality != result_.end()) {
+      const bool edges = !quality->value("psnr_edge_db", Json()).is_null();
+      const Json after = quality->value(edges ? "psnr_edge_db" : "psnr_db", Json());
+      const Json before = quality->value(edges ? "psnr_edge_before_db" : "psnr_before_db", Json());
+      const std::string gain = gain_of(before, after);
+      tile(edges ? "PSNR, edge pixels" : "PSNR", decibels(after), "dB",
+           (gain == "-" ? "" : gain + " dB, ") + "against " + quality->value("reference", ""));
+    }
     tile("Simulation", fmt::format("{:.2f}", number(result_["host"], "mcycles_per_s")), "Mcycle/s",
          fmt::format("{:.1f} s, {:.1f} s of them computing", number(result_["host"], "seconds"),
                      number(result_["host"], "cpu_seconds")));
     page_.set("tiles", tiles);
 
     mustache::data meters{mustache::data::type::list};
-    const auto meter = [&](std::string name, double part, double whole, const std::string& unit) {
+    const auto meter = [&](std::string name, double part, double whole, const std::string& unit,
+                           std::string note) {
       const double percent = whole > 0 ? 100 * part / whole : 0;
       meters << row({{"name", std::move(name)},
                      {"text", fmt::format("{} of {} {} ({:.1f} %)", amount(part), amount(whole),
                                           unit, percent)},
-                     {"percent", fmt::format("{:.2f}", std::clamp(percent, 0.0, 100.0))}});
+                     {"percent", fmt::format("{:.2f}", std::clamp(percent, 0.0, 100.0))},
+                     {"note", std::move(note)}});
     };
-    meter("Rate over the whole run", value, bound, shown(throughput.value("unit", Json(""))));
-    for (const auto& [name, unit] : result_["units"].items()) {
-      double stalls = 0;
-      for (const auto& [cause, count] : unit["stalls"].items()) stalls += count.get<double>();
-      const double all = number(unit, "busy") + number(unit, "idle") + stalls;
-      if (name == manifest_.value("bottleneck", ""))
-        meter("Busy: " + name, number(unit, "busy"), all, "clk");
-    }
+    meter("Rate over the whole run", value, bound, shown(throughput.value("unit", Json(""))),
+          bound_note(throughput));
+    fill_bottleneck(meter);
     page_.set("meters", meters);
     page_.set("throughput_note",
               mhz > 0 && value > 0
                   ? fmt::format("At {:.2f} MHz this is {:.1f} M{}.", mhz, value * mhz,
                                 per_second(shown(throughput.value("unit", Json("")))))
                   : "");
+  }
+
+  static std::string bound_note(const Json& throughput) {
+    const std::string meaning = throughput.value("bound_meaning", "");
+    return meaning.empty() ? "" : "Bound: " + meaning;
+  }
+
+  // What held the run back, as a share of that unit's cycles.
+  template <class Meter>
+  void fill_bottleneck(const Meter& meter) const {
+    const auto found = result_.find("bottleneck");
+    if (found == result_.end() || !found->is_object()) return;
+    const std::string name = found->value("unit", ""), cause = found->value("cause", "");
+    if (!result_["units"].contains(name)) return;
+    const Json& unit = result_["units"][name];
+    double all = number(unit, "busy") + number(unit, "idle");
+    for (const auto& [key, count] : unit["stalls"].items()) all += count.template get<double>();
+    meter(
+        fmt::format("Limited by {}: {}{}", name, cause == "busy" ? "" : "stalled, ", spaced(cause)),
+        number(*found, "cycles"), all, "clk", found->value("meaning", ""));
+  }
+
+  static std::string spaced(std::string text) {
+    std::replace(text.begin(), text.end(), '_', ' ');
+    return text;
+  }
+
+  // The value under a dotted key; null where there is none.
+  Json value_at(const std::string& key) const {
+    const Json* node = &result_;
+    for (std::size_t from = 0; from <= key.size();) {
+      const std::size_t dot = std::min(key.find('.', from), key.size());
+      const std::string part = key.substr(from, dot - from);
+      if (!node->is_object() || !node->contains(part)) return Json();
+      node = &(*node)[part];
+      from = dot + 1;
+    }
+    return *node;
+  }
+
+  static std::string figure_text(const Json& value) {
+    if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+    return value.is_number_float() ? amount(value.get<double>()) : shown(value);
+  }
+
+  // "= formula", or "formula 281,094, +64.3 %".
+  std::string against(const Json& figure) const {
+    const auto other = figure.find("against");
+    if (other == figure.end()) return "";
+    const std::string label = other->value("label", "");
+    const Json value = value_at(figure.value("key", ""));
+    const Json reference = value_at(other->value("key", ""));
+    if (!value.is_number() || !reference.is_number()) return "";
+    const double a = value.get<double>(), b = reference.get<double>();
+    if (a == b) return "= " + label;
+    return fmt::format("{} {}{}", label, figure_text(reference),
+                       b > 0 ? fmt::format(", {:+.1f} %", 100 * (a - b) / b) : "");
   }
 
   // "bilinear/clk" -> "bilinear/s".
@@ -203,19 +288,37 @@ class ReportBuilder {
   }
 
   void fill_tables() {
+    mustache::data figures{mustache::data::type::list};
+    for (const Json& figure : result_.value("figures", Json::array())) {
+      const std::string key = figure.value("key", "");
+      figures << row({{"label", figure.value("label", "")},
+                      {"value", figure_text(value_at(key))},
+                      {"unit", described(key, "unit")},
+                      {"against", against(figure)},
+                      {"meaning", described(key, "meaning")}});
+    }
+    page_.set("has_figures", figures.is_non_empty_list());
+    page_.set("figures", figures);
+
     mustache::data memory{mustache::data::type::list};
+    const double cycles = number(result_, "cycles");
+    bool traffic = false;
     for (const auto& [name, value] : result_["memory"].items()) {
-      memory << row({{"name", described("memory." + name, "meaning")},
+      std::string meaning = described("memory." + name, "meaning");
+      if (meaning.ends_with('.')) meaning.pop_back();
+      memory << row({{"name", meaning},
                      {"value", shown(value)},
                      {"unit", described("memory." + name, "unit")}});
+      traffic = traffic || (value.is_number() && value.get<double>() > 0);
     }
-    const double cycles = number(result_, "cycles");
-    if (cycles > 0)
-      memory << row(
-          {{"name", "Mean read bandwidth"},
-           {"value", fmt::format("{:.3f}", number(result_["memory"], "bytes_read") / cycles)},
-           {"unit", "byte/clk"}});
+    for (const auto& [label, key] : {std::pair("Mean read bandwidth", "bytes_read"),
+                                     std::pair("Mean write bandwidth", "bytes_written")})
+      if (const double bytes = number(result_["memory"], key); cycles > 0 && bytes > 0)
+        memory << row({{"name", label},
+                       {"value", fmt::format("{:.3f}", bytes / cycles)},
+                       {"unit", "byte/clk"}});
     page_.set("memory", memory);
+    page_.set("has_traffic", traffic);
 
     mustache::data units{mustache::data::type::list};
     for (const auto& [name, unit] : result_["units"].items()) {
@@ -243,24 +346,39 @@ class ReportBuilder {
       percentiles << row({{"value", shown(latency.value(key, Json()))}});
     page_.set("latency", percentiles);
     page_.set("latency_unit", shown(latency.value("unit", Json("clk"))));
+    // One value needs no histogram.
+    const bool spread = latency.value("min", Json()) != latency.value("max", Json());
+    page_.set("latency_spread", spread);
+    page_.set("latency_single", shown(latency.value("max", Json())));
     mustache::data histogram{mustache::data::type::list};
     for (const Json& bin : latency.value("histogram", Json::array()))
       histogram << row({{"from", shown(bin["from"])}, {"count", shown(bin["count"])}});
     page_.set("histogram", histogram);
 
     mustache::data sram{mustache::data::type::list};
-    std::uint64_t total = 0;
+    std::uint64_t total = 0, total_at_width = 0;
+    const auto part = [&](const char* table, const std::string& name) {
+      const auto found = result_.find(table);
+      return found != result_.end() && found->contains(name) ? (*found)[name] : Json();
+    };
     for (const auto& [name, bits] : result_["sram_bits"].items()) {
-      sram << row({{"name", name}, {"bits", shown(bits)}});
+      const Json at_width = part("sram_bits_at_frame_width", name);
       total += bits.get<std::uint64_t>();
+      total_at_width += at_width.is_number() ? at_width.get<std::uint64_t>() : 0;
+      sram << row({{"name", name},
+                   {"bits", shown(bits)},
+                   {"at_width", shown(at_width)},
+                   {"ports", shown(part("sram_ports", name))}});
     }
-    sram << row({{"name", "total"}, {"bits", grouped(total)}});
+    sram << row({{"name", "total"},
+                 {"bits", grouped(total)},
+                 {"at_width", grouped(total_at_width)},
+                 {"ports", ""}});
     page_.set("sram", sram);
-    page_.set("sram_table", mustache::partial{[] {
-                return std::string(
-                    "<table><tr><th>Memory</th><th class=\"n\">Bits</th></tr>{{#sram}}<tr><td>"
-                    "{{name}}</td><td class=\"n\">{{bits}}</td></tr>{{/sram}}</table>");
-              }});
+    page_.set("sram_widths", total_at_width != 0 && total_at_width != total);
+    page_.set("sram_note", fmt::format("{:.2f} Mbit", static_cast<double>(total) / 1e6));
+    page_.set("sram_width_note",
+              fmt::format("{:.2f} Mbit", static_cast<double>(total_at_width) / 1e6));
 
     mustache::data work{mustache::data::type::list};
     for (const auto& [name, value] : result_["work"].items()) {
@@ -286,12 +404,17 @@ class ReportBuilder {
     if (quality != result_.end()) {
       page_.set("quality_reference", quality->value("reference", ""));
       mustache::data rows{mustache::data::type::list};
-      rows << row({{"name", "PSNR, whole frame"},
-                   {"value", decibels(quality->value("psnr_db", Json()))}})
-           << row({{"name", "PSNR, edge pixels"},
-                   {"value", decibels(quality->value("psnr_edge_db", Json()))}})
-           << row({{"name", "PSNR, silhouette pixels"},
-                   {"value", decibels(quality->value("psnr_silhouette_db", Json()))}});
+      for (const auto& [label, key] :
+           {std::pair("Whole frame", "psnr_"), std::pair("Edge pixels", "psnr_edge_"),
+            std::pair("Silhouette pixels", "psnr_silhouette_")}) {
+        const Json after = quality->value(std::string(key) + "db", Json());
+        const Json before = quality->value(std::string(key) + "before_db", Json());
+        if (after.is_null() && before.is_null()) continue;
+        rows << row({{"name", label},
+                     {"before", decibels(before)},
+                     {"after", decibels(after)},
+                     {"gain", gain_of(before, after)}});
+      }
       page_.set("quality", rows);
     }
 

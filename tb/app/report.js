@@ -56,7 +56,8 @@
       const {w, h} = size();
       if (!w) return;
       const width = Math.round(stage.clientWidth * devicePixelRatio);
-      const height = Math.round(Math.min(width * h / w, 620 * devicePixelRatio));
+      const height = Math.round(Math.min(
+          Math.max(width * h / w, 160 * devicePixelRatio), 620 * devicePixelRatio));
       if (canvas.width !== width || canvas.height !== height) {
         canvas.width = width;
         canvas.height = height;
@@ -65,7 +66,9 @@
     }
     function fit() {
       const {w, h} = size();
-      state.scale = Math.min(canvas.width / w, canvas.height / h);
+      // A picture of a few rows or columns would vanish; then only its middle is shown.
+      const least = Math.min(24 * ratio() / Math.min(w, h), 8);
+      state.scale = Math.max(Math.min(canvas.width / w, canvas.height / h), least);
       state.x = (canvas.width - w * state.scale) / 2;
       state.y = (canvas.height - h * state.scale) / 2;
       draw();
@@ -111,7 +114,8 @@
       context.fillRect(middle + ratio(), 0, ratio(), canvas.height);
       tag(stills[state.left].dataset.title, 8 * ratio(), 'left');
       tag(stills[state.right].dataset.title, canvas.width - 8 * ratio(), 'right');
-      byId('zoom').textContent = `${(state.scale / ratio() * 100).toFixed(0)} %`;
+      const percent = state.scale / ratio() * 100;
+      byId('zoom').textContent = percent < 1 ? '<1 %' : `${percent.toFixed(0)} %`;
     }
     function colour(index, x, y) {
       if (!pixels[index]) {
@@ -228,8 +232,14 @@
 
     // Latency histogram with its percentiles as lines.
     const latency = data.result.latency, bins = latency.histogram;
-    if (bins.length > 0) {
-      const marks = [['p50', latency.p50], ['p95', latency.p95], ['p99', latency.p99]];
+    if (bins.length > 0 && byId('latency')) {
+      // Percentiles of the same value share a line.
+      const marks = [];
+      for (const name of ['p50', 'p95', 'p99']) {
+        const same = marks.find((mark) => mark[1] === latency[name]);
+        if (same) same[0] += ` = ${name}`;
+        else marks.push([name, latency[name]]);
+      }
       const lines = {
         id: 'percentiles',
         afterDatasetsDraw(chart) {
@@ -280,22 +290,30 @@
       }));
     }
 
-    // SRAM bits.
+    // SRAM bits: for the width of this frame, and beyond it what was built for wider ones.
     const sram = Object.entries(data.result.sram_bits);
     if (sram.length > 0) {
+      const widths = data.result.sram_bits_at_frame_width || {};
+      const here = sram.map(([name, bits]) => widths[name] ?? bits);
+      const beyond = sram.map(([, bits], i) => bits - here[i]);
+      const wider = beyond.some((bits) => bits > 0);
+      const series = (label, colour, values) =>
+          ({label, data: values, backgroundColor: colour, maxBarThickness: 22});
       charts.push(new Chart(byId('sram'), {
         type: 'bar',
         data: {
           labels: horizontal(sram.map(([name]) => name), 'sram-box'),
-          datasets: [{data: sram.map(([, bits]) => bits), backgroundColor: css('--busy'), maxBarThickness: 22}]
+          datasets: [series('at this width', css('--busy'), here),
+                     ...(wider ? [series('more, as built', css('--idle'), beyond)] : [])]
         },
         options: {
           indexAxis: 'y',
           scales: {
-            x: {beginAtZero: true, title: {display: true, text: 'bits'}, ticks: {maxRotation: 0, autoSkipPadding: 12}},
-            y: {grid: {display: false}, ticks: {autoSkip: false}}
+            x: {stacked: true, beginAtZero: true, title: {display: true, text: 'bits'},
+                ticks: {maxRotation: 0, autoSkipPadding: 12}},
+            y: {stacked: true, grid: {display: false}, ticks: {autoSkip: false}}
           },
-          plugins: {legend: {display: false}}
+          plugins: {legend: {display: wider, position: 'bottom', labels: {boxWidth: 12}}}
         }
       }));
     }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "spec/error.h"
@@ -61,8 +62,10 @@ Json to_json(const Result& r) {
                     {"traffic_mismatches", r.traffic_mismatches}};
   json["cycles"] = r.cycles;
   json["clock_mhz"] = r.clock_mhz;
-  json["throughput"] = {
-      {"value", r.throughput}, {"unit", r.throughput_unit}, {"bound", r.throughput_bound}};
+  json["throughput"] = {{"value", r.throughput},
+                        {"unit", r.throughput_unit},
+                        {"bound", r.throughput_bound},
+                        {"bound_meaning", r.throughput_bound_meaning}};
   Json histogram = Json::array();
   for (const LatencyBin& bin : r.latency.histogram)
     histogram.push_back({{"from", bin.from}, {"count", bin.count}});
@@ -78,24 +81,48 @@ Json to_json(const Result& r) {
     for (const StallCycles& stall : unit.stalls) stalls[stall.cause] = stall.cycles;
     json["units"][unit.name] = {{"busy", unit.busy}, {"idle", unit.idle}, {"stalls", stalls}};
   }
-  json["sram_bits"] = Json::object();
-  for (const auto& [name, bits] : r.sram_bits) json["sram_bits"][name] = bits;
+  if (r.bottleneck)
+    json["bottleneck"] = {{"unit", r.bottleneck->unit},
+                          {"cause", r.bottleneck->cause},
+                          {"cycles", r.bottleneck->cycles},
+                          {"meaning", r.bottleneck->meaning}};
+  for (const char* key : {"sram_bits", "sram_bits_at_frame_width", "sram_ports"})
+    json[key] = Json::object();
+  for (const SramMemory& memory : r.sram) {
+    json["sram_bits"][memory.name] = memory.bits;
+    json["sram_bits_at_frame_width"][memory.name] = memory.bits_at_frame_width;
+    json["sram_ports"][memory.name] = memory.ports;
+  }
   json["work"] = Json::object();
   for (const WorkItem& item : r.work) json["work"][item.name] = item.value;
+  json["figures"] = Json::array();
+  for (const Figure& figure : r.figures) {
+    Json entry = {{"label", figure.label}, {"key", figure.key}};
+    if (!figure.against.empty())
+      entry["against"] = {{"label", figure.against_label}, {"key", figure.against}};
+    if (figure.tile) entry["tile"] = true;
+    json["figures"].push_back(entry);
+  }
   if (r.quality)
-    json["quality"] = {{"reference", r.quality->reference},
-                       {"psnr_db", decibel(r.quality->psnr_db)},
-                       {"psnr_edge_db", decibel(r.quality->psnr_edge_db)},
-                       {"psnr_silhouette_db", decibel(r.quality->psnr_silhouette_db)}};
+    json["quality"] = {
+        {"reference", r.quality->reference},
+        {"psnr_db", decibel(r.quality->psnr_db)},
+        {"psnr_edge_db", decibel(r.quality->psnr_edge_db)},
+        {"psnr_silhouette_db", decibel(r.quality->psnr_silhouette_db)},
+        {"psnr_before_db", decibel(r.quality->psnr_before_db)},
+        {"psnr_edge_before_db", decibel(r.quality->psnr_edge_before_db)},
+        {"psnr_silhouette_before_db", decibel(r.quality->psnr_silhouette_before_db)}};
   json["host"] = {{"seconds", r.host_seconds},
                   {"mcycles_per_s", r.mcycles_per_s()},
                   {"cpu_seconds", r.host_cpu_seconds}};
   Json meanings = Json::object();
   collect_meanings(json, "", meanings);
-  for (const auto& [name, bits] : r.sram_bits) {
-    const Statistic* s = find_statistic("sram_bits.*");
-    meanings["sram_bits." + name] = {{"unit", s->unit}, {"meaning", s->meaning}};
-  }
+  for (const char* key : {"sram_bits", "sram_bits_at_frame_width", "sram_ports"})
+    for (const SramMemory& memory : r.sram) {  // whose names may have parts
+      const Statistic* s = find_statistic(fmt::format("{}.*", key));
+      meanings[fmt::format("{}.{}", key, memory.name)] = {{"unit", s->unit},
+                                                          {"meaning", s->meaning}};
+    }
   for (const UnitCycles& unit : r.units)
     for (const StallCycles& stall : unit.stalls)
       meanings[fmt::format("units.{}.stalls.{}", unit.name, stall.cause)] = {
@@ -104,6 +131,84 @@ Json to_json(const Result& r) {
     meanings["work." + item.name] = {{"unit", item.unit}, {"meaning", item.meaning}};
   json["meaning"] = meanings;
   return json;
+}
+
+// ---- the bottleneck -----------------------------------------------------------------------------
+
+namespace {
+
+constexpr std::string_view kDownstream = "downstream";
+// A unit that waits for records waits for one of those that finish them.
+constexpr std::string_view kRecords = "records";
+constexpr std::array<std::string_view, 5> kFinishRecords = {"predictor_h", "predictor_v",
+                                                            "divider_h", "divider_v", "area"};
+// Shares of a unit's cycles: below the first, a stall is no bottleneck; within the second, two
+// units are equally busy.
+constexpr double kNegligible = 0.01, kTie = 0.001;
+
+double cycles_of(const UnitCycles& unit) {
+  std::uint64_t cycles = unit.busy + unit.idle;
+  for (const StallCycles& stall : unit.stalls) cycles += stall.cycles;
+  return static_cast<double>(cycles);
+}
+double share(std::uint64_t cycles, const UnitCycles& unit) {
+  const double all = cycles_of(unit);
+  return all > 0 ? static_cast<double>(cycles) / all : 0.0;
+}
+
+// The first of the busiest units.
+template <class Wanted>
+const UnitCycles* busiest(std::span<const UnitCycles> units, Wanted wanted) {
+  const UnitCycles* found = nullptr;
+  for (const UnitCycles& unit : units)
+    if (wanted(unit) && (!found || share(unit.busy, unit) > share(found->busy, *found) + kTie))
+      found = &unit;
+  return found;
+}
+
+Bottleneck busy(const UnitCycles& unit) {
+  return {unit.name, "busy", std::string(find_statistic("units.*.busy")->meaning), unit.busy};
+}
+
+}  // namespace
+
+std::optional<Bottleneck> find_bottleneck(std::span<const UnitCycles> units,
+                                          std::string_view output) {
+  struct Loss {
+    const UnitCycles* unit;
+    const StallCycles* stall;
+    double share;
+  };
+  std::vector<Loss> losses;
+  double largest = 0;
+  for (const UnitCycles& unit : units)
+    for (const StallCycles& stall : unit.stalls) {
+      if (stall.cause == kDownstream && unit.name != output) continue;
+      losses.push_back({&unit, &stall, share(stall.cycles, unit)});
+      largest = std::max(largest, losses.back().share);
+    }
+  if (largest < kNegligible) {
+    const UnitCycles* unit = busiest(units, [](const UnitCycles&) { return true; });
+    if (!unit || unit->busy == 0) return std::nullopt;
+    return busy(*unit);
+  }
+  const Loss* deepest = nullptr;
+  for (const Loss& loss : losses) {
+    if (loss.share < largest / 2) continue;
+    // The two axes lie side by side, not one behind the other.
+    const bool beside = deepest && deepest->stall->cause == loss.stall->cause &&
+                        deepest->unit->name.ends_with("_h") && loss.unit->name.ends_with("_v");
+    if (!beside || loss.share > deepest->share) deepest = &loss;
+  }
+  if (deepest->stall->cause == kRecords) {
+    const UnitCycles* unit = busiest(units, [](const UnitCycles& u) {
+      return std::any_of(kFinishRecords.begin(), kFinishRecords.end(),
+                         [&](std::string_view name) { return u.name.ends_with(name); });
+    });
+    if (unit) return busy(*unit);
+  }
+  return Bottleneck{deepest->unit->name, deepest->stall->cause, deepest->stall->meaning,
+                    deepest->stall->cycles};
 }
 
 Json read_result(const std::filesystem::path& path) {

@@ -14,7 +14,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace deburr::tb {
@@ -42,6 +41,19 @@ struct WorkItem {
   std::string unit, meaning;
 };
 
+// What held the run back: the unit, and the stall cause that took these cycles, or "busy" where
+// nothing stalled it and it did a clock's work in each of them.
+struct Bottleneck {
+  std::string unit, cause, meaning;
+  std::uint64_t cycles = 0;
+};
+
+// The bottleneck among a pipeline's units, given from its input to its output; nothing for no
+// cycles. Waiting for the next unit is that unit's matter, except at `output`. Of the causes that
+// took at least half as much as the largest one the deepest counts: those before it are its echo.
+std::optional<Bottleneck> find_bottleneck(std::span<const UnitCycles> units,
+                                          std::string_view output);
+
 struct LatencyBin {
   std::uint64_t from = 0, count = 0;  // clocks >= from, below the next bin's
 };
@@ -51,10 +63,27 @@ struct Latency {
   std::vector<LatencyBin> histogram;
 };
 
-// Against a picture taken as truth; a value that does not exist (no edge pixels) is absent.
+// Against a picture taken as truth, with the picture that went in beside it; a value that does not
+// exist (no edge pixels) is absent.
 struct Quality {
   std::string reference;
   std::optional<double> psnr_db, psnr_edge_db, psnr_silhouette_db;
+  std::optional<double> psnr_before_db, psnr_edge_before_db, psnr_silhouette_before_db;
+};
+
+// A memory as the model was built, and at the width of the frame that it had (equal where the size
+// does not go with the width).
+struct SramMemory {
+  std::string name, ports;
+  std::uint64_t bits = 0, bits_at_frame_width = 0;
+};
+
+// What a reader looks for first: a value of the result by its key ("work.frame_clocks"), beside
+// one that it should be compared with ("" for none).
+struct Figure {
+  std::string label, key;
+  std::string against_label{}, against{};
+  bool tile = false;  // among the large numbers at the top
 };
 
 struct Result {
@@ -67,12 +96,14 @@ struct Result {
   std::uint64_t cycles = 0;
   double clock_mhz = 0;
   double throughput = 0, throughput_bound = 0;
-  std::string throughput_unit;
+  std::string throughput_unit, throughput_bound_meaning;
   Latency latency;
   std::uint64_t bytes_read = 0, bytes_written = 0, lines_filled = 0;
   std::vector<UnitCycles> units;
-  std::vector<std::pair<std::string, std::uint64_t>> sram_bits;
+  std::optional<Bottleneck> bottleneck;
+  std::vector<SramMemory> sram;
   std::vector<WorkItem> work;
+  std::vector<Figure> figures;
   std::optional<Quality> quality;
   double host_seconds = 0, host_cpu_seconds = 0;
 

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <ctime>
 #include <utility>
 
 #include "spec/error.h"
+#include "tb/app/collect.h"
 #include "tb/app/progress.h"
 
 namespace deburr::tb {
@@ -101,12 +101,6 @@ std::string short_name(const sc_core::sc_object& object, int parts) {
   if (from != std::string::npos) name = name.substr(from + 1);
   std::replace(name.begin(), name.end(), '.', '_');
   return name;
-}
-
-std::string sentence(std::string text) {
-  if (text.empty()) return text;
-  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text.back() == '.' ? text : text + ".";
 }
 
 }  // namespace
@@ -324,7 +318,8 @@ void TextureBench::run(const Progress& progress) {
     judge_fills();
     if (progress && clock_.cycle() >= next_progress) {
       next_progress = clock_.cycle() + kProgressPeriod;
-      if (!progress(sink_.received())) return stopped = true;
+      if (!progress(sink_.received(), unit_.address.derivative.fragments.value()))
+        return stopped = true;
     }
     return driver_.done() && unit_.idle() && quads_.empty() && colours_.empty();
   };
@@ -404,28 +399,12 @@ void TextureBench::collect(Result& result) const {
   result.bytes_written = memory_.bytes_written();
   result.lines_filled = unit.cache.miss_queue.line_fills.value();
 
-  for (const rtl::Unit* u : unit.units()) {
-    UnitCycles cycles{short_name(*u, 1), u->busy_cycles(), u->idle_cycles(), {}};
-    for (const rtl::Unit::StallCause& cause : u->stalls())
-      cycles.stalls.push_back({cause.name, sentence(cause.meaning), cause.cycles});
-    result.units.push_back(std::move(cycles));
-  }
+  for (const rtl::Unit* u : unit.units())
+    result.units.push_back(unit_cycles(short_name(*u, 1), *u));
   for (const rtl::Storage* storage : unit.memories())
-    result.sram_bits.emplace_back(short_name(*storage, 2), storage->bits());
-
-  const rtl::Histogram& latency = unit.fragment_latency;
-  result.latency = {latency.min(),          latency.percentile(50), latency.percentile(95),
-                    latency.percentile(99), latency.max(),          {}};
-  constexpr std::size_t kBins = 48;
-  // Bins are of equal width; the empty ones, which it leaves out, belong on the axis too.
-  std::uint64_t next = 0;
-  for (const rtl::Histogram::Bin& bin : latency.bins(kBins)) {
-    const std::uint64_t width = bin.high - bin.low + 1;
-    for (; next != 0 && next < bin.low; next += width)
-      result.latency.histogram.push_back({next, 0});
-    result.latency.histogram.push_back({bin.low, bin.count});
-    next = bin.high + 1;
-  }
+    result.sram.push_back(
+        {short_name(*storage, 2), storage->ports(), storage->bits(), storage->bits()});
+  result.latency = latency_of(unit.fragment_latency);
 
   const std::uint64_t bilinears = unit.address.addresser.bilinears.value();
   const std::uint64_t fragments = unit.filter.fragments.value();
@@ -433,6 +412,7 @@ void TextureBench::collect(Result& result) const {
   result.throughput = ratio(static_cast<double>(bilinears), static_cast<double>(result.cycles));
   result.throughput_unit = "bilinear/clk";
   result.throughput_bound = 1;
+  result.throughput_bound_meaning = "One bilinear request a clock.";
 
   const auto add = [&](std::string name, nlohmann::ordered_json value, std::string units,
                        std::string meaning) {
@@ -457,6 +437,11 @@ void TextureBench::collect(Result& result) const {
       "Texels of all lines fetched over fragments.");
   for (const rtl::Counter* counter : unit.counters())
     add(short_name(*counter, 2), counter->value(), counter->unit(), sentence(counter->meaning()));
+  result.figures = {{"Fragments", "work.fragments"},
+                    {"Bilinear requests of a fragment", "work.bilinears_per_fragment"},
+                    {"Line fills of a texel", "work.misses_per_texel"},
+                    {"Texels fetched for a fragment", "work.texels_fetched_per_fragment"}};
+  result.bottleneck = find_bottleneck(result.units, "filter");
 }
 
 }  // namespace deburr::tb

@@ -61,9 +61,9 @@ std::span<const PlantedFault> planted_faults();
 
 class TextureBench {
  public:
-  // `progress` is called every few thousand cycles with the number of colours delivered; false ends
-  // the run early.
-  using Progress = std::function<bool(std::uint64_t colours)>;
+  // Called every few thousand cycles with the numbers of colours delivered and of fragments taken;
+  // false ends the run early.
+  using Progress = std::function<bool(std::uint64_t colours, std::uint64_t taken)>;
 
   // Elaborates; one a process. The scene must outlive the bench. ConfigError for wrong parameters.
   TextureBench(const TextureScene& scene, const TextureBenchOptions& options);

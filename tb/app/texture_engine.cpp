@@ -11,6 +11,7 @@
 
 #include "spec/error.h"
 #include "tb/app/interrupt.h"
+#include "tb/app/pictures.h"
 #include "tb/app/progress.h"
 #include "tb/app/texture_bench.h"
 #include "tb/app/texture_scene.h"
@@ -43,12 +44,12 @@ class TextureEngine final : public Engine {
         {"--scene", "scene.source", "plane (default), quad, tunnel, object, road, cylinders"},
         {"--in", "scene.source", "Mesh file instead of a scene: .obj, .gltf, .glb"},
         {"--texture", "scene.texture", "checker, road, brick, zone_plate, ..., or an image file"},
-        {"--size", "scene.width", "Size of the picture, WxH", "scene.height"},
-        {"--mode", "sampler.mode", "Minification filter, one of GL's six"},
-        {"--aniso", "sampler.anisotropy", "Largest number of samples: 1, 2, 4, 8, 16"},
-        {"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene"},
-        {"--format", "sampler.format", "rgba8, rgb565, rgba4444, l8, srgb8_a8"},
-        {"--layout", "sampler.layout", "tiled or linear"}};
+        {"--size", "scene.width", "Size of the picture, WxH (512x512)", "scene.height"},
+        {"--mode", "sampler.mode", "Minification filter, one of GL's six (linear_mipmap_linear)"},
+        {"--aniso", "sampler.anisotropy", "Largest number of samples: 1, 2, 4, 8 or 16 (default)"},
+        {"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene (default)"},
+        {"--format", "sampler.format", "rgba8 (default), rgb565, rgba4444, l8, srgb8_a8"},
+        {"--layout", "sampler.layout", "tiled (default) or linear"}};
   }
 
   void resolve(const ParameterSet& set) override { links_given_ = set.given("run.check_links"); }
@@ -58,14 +59,13 @@ class TextureEngine final : public Engine {
     for (const auto& input : scene.inputs()) context.add_input(input);
     context.set_title(title(), summary_line(scene));
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
-    context.set_bottleneck("walker");
     context.claim();
     TextureBench bench(scene, options(run, context));
     context.begin();
     try {
       Progress progress("texture", scene.stream().counts.fragments, "fragment");
-      bench.run([&](std::uint64_t colours) {
-        progress.update(colours);
+      bench.run([&](std::uint64_t colours, std::uint64_t taken) {
+        progress.update(colours, taken);
         return !interrupted();
       });
     } catch (const spec::FileError&) {  // a wave that could not be written: nothing stays
@@ -162,27 +162,24 @@ class TextureEngine final : public Engine {
       const Image expected = stored(bench.golden_frame(), scene);
       context.add_image("golden", expected, "Golden model",
                         "the same fragments by the golden model");
-      context.add_image("difference", difference(after, expected, 255), "Difference",
-                        count_different(after, expected) == 0
-                            ? "hardware against golden: none"
-                            : "hardware against golden: any difference is white");
+      // What was under way when the run was ended is on one side only.
+      if (!result.interrupted)
+        context.add_image("difference", difference(after, expected, 255), "Difference",
+                          count_different(after, expected) == 0
+                              ? "hardware against golden: none"
+                              : "hardware against golden: any difference is bright");
     }
     if (run.truth && !result.interrupted) {
       render_options.samples = kTruthSamples;
       render_options.sampling = Sampling::kBilinear;
       render_options.averaging = linear_light() ? Averaging::kLinear : Averaging::kStored;
       const Image truth = render(scene.scene(), render_options);
-      const Mask edges = edge_mask(truth, before);
-      Quality quality;
-      quality.reference = fmt::format("supersampled-{}", kTruthSamples * kTruthSamples);
-      quality.psnr_db = psnr(after, truth);
-      quality.psnr_edge_db = psnr(after, truth, edges);
-      quality.psnr_silhouette_db = psnr(after, truth, silhouette_mask(edges, scene.stream().depth));
-      result.quality = quality;
+      result.quality = judge_quality(fmt::format("supersampled-{}", kTruthSamples * kTruthSamples),
+                                     before, after, truth, &scene.stream().depth);
       context.add_image("truth", truth, "Truth",
                         fmt::format("{} samples a pixel", kTruthSamples * kTruthSamples));
-      context.add_image("error", difference(after, truth, 8), "Error",
-                        "hardware against truth, 8 times");
+      context.add_image("error", difference(after, truth, kDifferenceGain), "Error",
+                        fmt::format("hardware against truth, {} times", kDifferenceGain));
     }
   }
 

@@ -289,13 +289,15 @@ TEST_P(FrameMemory, FallsBackWithALineLess) {
 }
 TEST_P(FrameMemory, KeepsUpByDefault) { EXPECT_EQ(lost(GetParam().lanes, 0), 0u); }
 
-INSTANTIATE_TEST_SUITE_P(
-    Morphological, FrameMemory,
-    testing::Values(Sizing{spec::Lanes::kOne, 7}, Sizing{spec::Lanes::kTwo, 13},
-                    Sizing{spec::Lanes::kFour, 26}),
-    [](const auto& info) {
-      return fmt::format("{}_lanes", spec::kLanesNames[static_cast<std::size_t>(info.param.lanes)]);
-    });
+INSTANTIATE_TEST_SUITE_P(Morphological, FrameMemory,
+                         testing::Values(Sizing{spec::Lanes::kOne, 7},
+                                         Sizing{spec::Lanes::kTwo, 13},
+                                         Sizing{spec::Lanes::kFour, 26}),
+                         [](const auto& sizing) {
+                           return fmt::format(
+                               "{}_lanes",
+                               spec::kLanesNames[static_cast<std::size_t>(sizing.param.lanes)]);
+                         });
 
 TEST(Morphological, WhatIsNotBuiltIsNamed) {
   MorphologicalBenchOptions options;

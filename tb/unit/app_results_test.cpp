@@ -41,9 +41,14 @@ Result sample_result() {
   r.lines_filled = 10000;
   r.units = {{"address", 40000, 14000, {{"downstream", "The next unit was not ready.", 321}}},
              {"cache", 53000, 321, {{"downstream", "", 0}, {"wait_fill", "", 1000}}}};
-  r.sram_bits = {{"cache.data", 131072}, {"cache.tags", 5120}};
+  r.bottleneck = find_bottleneck(r.units, "cache");
+  r.sram = {{"cache.data", "1R1W", 131072, 131072}, {"cache.lines", "2RW", 5120, 1280}};
   r.work = {{"fragments", 1000, "fragment", "Colours </script><script>alert(1)</script>."}};
-  r.quality = Quality{"supersampled-256", 41.25, std::numeric_limits<double>::infinity(), {}};
+  r.figures = {{"Fragments", "work.fragments"},
+               {"Whole run", "cycles", "bound", "work.bound", true}};
+  r.work.push_back({"bound", 50000, "clk", "The least."});
+  r.quality = Quality{
+      "supersampled-256", 41.25, std::numeric_limits<double>::infinity(), {}, 35.5, 30.25, {}};
   r.host_seconds = 0.05;
   return r;
 }
@@ -72,9 +77,11 @@ TEST(ResultJson, HasTheKeysOfSchemaOneInOrder) {
   const Json json = to_json(sample_result());
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_THAT(keys, testing::ElementsAre("schema", "unit", "verdict", "checks", "cycles",
-                                         "clock_mhz", "throughput", "latency", "memory", "units",
-                                         "sram_bits", "work", "quality", "host", "meaning"));
+  EXPECT_THAT(keys,
+              testing::ElementsAre("schema", "unit", "verdict", "checks", "cycles", "clock_mhz",
+                                   "throughput", "latency", "memory", "units", "bottleneck",
+                                   "sram_bits", "sram_bits_at_frame_width", "sram_ports", "work",
+                                   "figures", "quality", "host", "meaning"));
   EXPECT_EQ(json["schema"], 1);
   EXPECT_EQ(json["checks"]["comparisons"], 1000);
   EXPECT_EQ(json["units"]["address"]["stalls"]["downstream"], 321);
@@ -171,6 +178,74 @@ TEST_F(Directory, TheReportIsSelfContainedAndEscapes) {
     EXPECT_TRUE(manifest.contains(key)) << key;
   for (const auto& entry : std::filesystem::directory_iterator(path_))
     EXPECT_THAT(entry.path().extension().string(), testing::AnyOf(".json", ".html", ".png"));
+}
+
+// The page of a result.
+class Page : public Directory {
+ protected:
+  std::string page_of(const Result& result) {
+    ParameterSet parameters;
+    RunContext context(path_, parameters, "x", 0);
+    context.claim();
+    context.begin();
+    context.finish(result);
+    return read_file(path_ / "report.html", 1 << 24);
+  }
+};
+
+TEST_F(Page, ShowsWhatTheIssueAsksForFirst) {
+  const std::string page = page_of(sample_result());
+  EXPECT_THAT(page, HasSubstr("bound 50,000, +8.6 %")) << "the tile, against its formula";
+  EXPECT_THAT(page, HasSubstr("<td>Whole frame</td><td class=\"n\">35.50</td><td class=\"n\">"
+                              "41.25</td><td class=\"n\">+5.75</td>"));
+  EXPECT_THAT(page, HasSubstr("<td class=\"n\">identical</td>"));
+  EXPECT_THAT(page, Not(HasSubstr("Silhouette pixels"))) << "there was no depth";
+  EXPECT_THAT(page, HasSubstr("<td>cache.lines</td><td class=\"n\">1,280</td><td class=\"n\">"
+                              "5,120</td><td>2RW</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>total</td><td class=\"n\">132,352</td><td class=\"n\">136,192"));
+  EXPECT_THAT(page, HasSubstr("Limited by cache: stalled, wait fill"));
+  EXPECT_THAT(page, HasSubstr("id=\"latency\""));
+}
+
+TEST_F(Page, SaysEqualOnlyOfWhatIsEqual) {
+  Result r = sample_result();
+  r.cycles = 50000;
+  EXPECT_THAT(page_of(r), HasSubstr("= bound"));
+  ++r.cycles;
+  EXPECT_THAT(page_of(r), Not(HasSubstr("= bound")));
+}
+
+TEST_F(Page, DrawsNoHistogramOfOneValue) {
+  Result r = sample_result();
+  r.latency = {47366, 47366, 47366, 47366, 47366, {{47366, 1000}}};
+  const std::string page = page_of(r);
+  EXPECT_THAT(page, Not(HasSubstr("id=\"latency\"")));
+  EXPECT_THAT(page, HasSubstr("47,366 clk, every one"));
+}
+
+TEST_F(Page, OfAnInterruptedRunSaysWhatWasCompared) {
+  Result r = sample_result();
+  r.verdict = Verdict::kUnchecked;
+  r.interrupted = true;
+  const std::string page = page_of(r);
+  EXPECT_THAT(page, HasSubstr("of 1,000 comparisons, incomplete"));
+  EXPECT_THAT(page, HasSubstr("Incomplete: the run was interrupted"));
+  r.comparisons = 0;
+  EXPECT_THAT(page_of(r), HasSubstr("not checked against the golden model"));
+}
+
+// A result.json of an earlier version has none of the newer keys.
+TEST_F(Page, CanBeMadeFromAnOlderResult) {
+  page_of(sample_result());
+  Json json = Json::parse(read_file(path_ / "result.json", 1 << 20));
+  for (const char* key : {"bottleneck", "sram_bits_at_frame_width", "sram_ports", "figures"})
+    json.erase(key);
+  json["throughput"].erase("bound_meaning");
+  for (const char* key : {"psnr_before_db", "psnr_edge_before_db"}) json["quality"].erase(key);
+  std::ofstream(path_ / "result.json") << json.dump();
+  const std::string page = build_report(path_);
+  EXPECT_THAT(page, HasSubstr("<td>cache.lines</td><td class=\"n\">5,120</td>"));
+  EXPECT_THAT(page, Not(HasSubstr("Key figures")));
 }
 
 TEST_F(Directory, AManifestCannotPullInFilesFromElsewhere) {
@@ -271,6 +346,78 @@ TEST(Progress, SaysRateAndTimeLeft) {
   EXPECT_EQ(Progress::line("x", "y", 100, 4000, 10), "x    2 %  10 y/s  6 min 30 s left");
   EXPECT_EQ(Progress::line("x", "y", 10, 10, 1), "x  100 %  10 y/s");
   EXPECT_EQ(Progress::line("x", "y", 0, 10, 0), "x    0 %  0 y/s");
+}
+
+// A morphological engine takes 37 rows before it delivers a pixel.
+TEST(Progress, CountsWhatWasTaken) {
+  EXPECT_EQ(Progress::done(0, 0), 0u);
+  EXPECT_EQ(Progress::done(0, 47360), 23680u);
+  EXPECT_EQ(Progress::done(900, 1000), 950u);
+  EXPECT_EQ(Progress::done(1000, 1000), 1000u);
+  EXPECT_EQ(Progress::done(1000, 0), 1000u);
+}
+
+// ---- the bottleneck -----------------------------------------------------------------------------
+
+UnitCycles unit(const std::string& name, std::uint64_t busy,
+                std::vector<std::pair<std::string, std::uint64_t>> stalls = {}) {
+  UnitCycles cycles{name, busy, 1000 - busy, {}};
+  for (auto& [cause, count] : stalls) {
+    cycles.stalls.push_back({cause, "", count});
+    cycles.idle -= count;
+  }
+  return cycles;
+}
+
+struct Limited {
+  const char* name;
+  std::vector<UnitCycles> units;
+  std::string unit, cause;
+};
+
+TEST(Bottleneck, IsTheDeepestCauseOfTheLoss) {
+  const Limited rows[] = {
+      {"nothing stalls: the first of the busiest",
+       {unit("sequencer", 999), unit("luma", 1000), unit("blender", 950)},
+       "sequencer",
+       "busy"},
+      {"the divider starts too seldom",
+       {unit("sequencer", 460, {{"downstream", 540}}), unit("extractor", 460, {{"records", 540}}),
+        unit("divider_h", 276, {{"interval", 385}}), unit("divider_v", 200, {{"interval", 300}}),
+        unit("blender", 460)},
+       "divider_h",
+       "interval"},
+      {"the same, the other axis",
+       {unit("extractor", 460, {{"records", 540}}), unit("divider_h", 276, {{"interval", 305}}),
+        unit("divider_v", 200, {{"interval", 390}}), unit("blender", 460)},
+       "divider_v",
+       "interval"},
+      {"records that predictors finish too late",
+       {unit("sequencer", 600, {{"downstream", 400}}), unit("extractor", 600, {{"records", 400}}),
+        unit("predictor_h", 700), unit("predictor_v", 990), unit("divider_h", 300)},
+       "predictor_v",
+       "busy"},
+      {"memory",
+       {unit("luma", 600, {{"downstream", 390}}), unit("pixel_store", 610, {{"memory", 390}})},
+       "pixel_store",
+       "memory"},
+      {"no input",
+       {unit("sequencer", 610, {{"upstream", 390}}), unit("blender", 610)},
+       "sequencer",
+       "upstream"},
+      {"nobody takes the output",
+       {unit("sequencer", 610, {{"downstream", 390}}), unit("blender", 610, {{"downstream", 390}})},
+       "blender",
+       "downstream"}};
+  for (const Limited& row : rows) {
+    const auto found = find_bottleneck(row.units, "blender");
+    ASSERT_TRUE(found) << row.name;
+    EXPECT_EQ(found->unit, row.unit) << row.name;
+    EXPECT_EQ(found->cause, row.cause) << row.name;
+  }
+  EXPECT_FALSE(find_bottleneck({}, "blender"));
+  const std::vector<UnitCycles> still = {unit("sequencer", 0)};
+  EXPECT_FALSE(find_bottleneck(still, "blender"));
 }
 
 TEST(Numbers, AreGrouped) {

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Pictures and quality that runs of different engines have in common.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "spec/morphological.h"
+#include "tb/app/result.h"
+#include "tb/app/run_context.h"
+#include "tb/scene/image.h"
+
+namespace deburr::tb {
+
+inline constexpr int kDifferenceGain = 4;
+
+// `after` and what went in, `before`, against the truth: over the frame, over edge pixels and, with
+// a depth, over silhouettes.
+Quality judge_quality(std::string reference, const Image& before, const Image& after,
+                      const Image& truth, const DepthImage* depth);
+
+// A frame that the morphological engine smoothed, or as much of it as it delivered.
+struct SmoothedFrame {
+  const Image& before;
+  const Image& after;
+  const std::vector<spec::BlendTap>& taps;
+  std::size_t delivered;  // pixels of `after` and `taps`, in raster order
+  const Image* golden;    // nullptr: not checked
+  const Image* truth;     // nullptr: none
+  std::string before_caption, truth_caption;
+};
+
+// before, after, golden, difference, truth, error, change, edges, weights. Pixels that were not
+// delivered are grey in `after` and black where pictures are compared.
+void add_smoothing_pictures(RunContext& context, const SmoothedFrame& frame);
+
+// The first `delivered` pixels; `rest` in place of the others.
+Image delivered_part(const Image& image, std::size_t delivered, const Rgba8& rest);
+
+// Left edges red, top edges green, over the frame in grey.
+Image edge_picture(const Image& frame, const std::vector<spec::BlendTap>& taps);
+// Shares of neighbours, twice as bright: up or left red, down or right green; blue where the pair
+// is left and right.
+Image weight_picture(int width, int height, const std::vector<spec::BlendTap>& taps);
+
+}  // namespace deburr::tb
