@@ -455,11 +455,13 @@ TEST(EndpointPredictorBlock, AResetTakesBackTheTurn) {
   MorphologicalParameters p = preset(spec::MorphologicalPreset::kMlaaSlope);
   p.line_pixels = 64;
   Predicting bench(p);
-  // A stair of steps of three: row 12 from 20 to 23, row 13 from 23 to 26.
+  // Two steps of three: row 12 from 20 to 23, row 13 from 23 to 26.
   const auto edges = [&] {
     for (int y = 0; y < 30; ++y)
       for (int x = 0; x < 40; ++x) {
-        const auto dark = [](int u, int v) { return v >= (u < 20 ? 11 : u < 23 ? 12 : 13); };
+        const auto dark = [](int u, int v) {
+          return v >= (u < 20 ? 11 : u < 23 ? 12 : u < 26 ? 13 : 14);
+        };
         bench.window.write(y, x, x > 0 && dark(x, y) != dark(x - 1, y),
                            y > 0 && dark(x, y) != dark(x, y - 1), 1);
       }
@@ -486,6 +488,7 @@ TEST(EndpointPredictorBlock, AResetTakesBackTheTurn) {
     bench.driver.send(0, run_of(2, 2));
     bench.clock.run(20);
     ASSERT_EQ(bench.gate.beats.size(), 2u);
+    ASSERT_EQ(bench.unit.iterations.value(), 3u);
     EXPECT_EQ(bench.gate.beats[0].run.run.length, 3);
     EXPECT_EQ(bench.gate.beats[1].run.run.length, 2);
     EXPECT_EQ(bench.gate.cycles[1], bench.gate.cycles[0] + 1);
