@@ -116,6 +116,9 @@ Outcome run_engine(Engine& engine, const RunOptions& options, const std::string&
         "run.trace_from = {} and run.trace_to = {} leave no cycle to trace: --trace-to is the "
         "cycle after the last one, give one above {}",
         run.trace_from, run.trace_to, run.trace_from));
+  if (run.trace.empty())
+    for (const char* name : {"run.trace_from", "run.trace_to"})
+      set.refuse(name, "nothing is traced without run.trace (--trace)");
   if (options.resolve_only) {
     fmt::print("{}", set.yaml());
     return {};

@@ -81,8 +81,9 @@ class Engine {
   }
   virtual void add_parameters(ParameterSet& set) = 0;
   virtual std::vector<Shorthand> shorthands() const = 0;
-  // After everything that was given has been set: fills in what follows from it (presets).
-  virtual void resolve(const ParameterSet&) {}
+  // After everything that was given has been set: fills in what follows from it (presets), and
+  // refuses what was given and has no effect.
+  virtual void resolve(ParameterSet&) {}
   // Simulates and fills the context's images. Errors of the run are exceptions (spec/error.h);
   // what was measured until then is in `result`.
   virtual void run(const RunParameters& run, RunContext& context, Result& result) = 0;

@@ -13,7 +13,11 @@
 #include "tb/app/frame_bench.h"
 #include "tb/app/interrupt.h"
 #include "tb/app/morphological_engine.h"
+<<<<<<< Updated upstream
 #include "tb/app/pictures.h"
+=======
+#include "tb/app/morphological_rules.h"
+>>>>>>> Stashed changes
 #include "tb/app/progress.h"
 #include "tb/scene/truth.h"
 
@@ -39,7 +43,13 @@ class FrameCommand final : public Engine {
     set.add("morphological", morphological_);
     set.add("frame_memory", frame_memory_);
   }
-  void resolve(const ParameterSet& set) override { apply_preset(set, morphological_); }
+  void resolve(ParameterSet& set) override {
+    apply_preset(set, morphological_);
+    refuse_unused_rules(set, morphological_, "frame_memory");
+    refuse_unused_memory(set, "memory", memory_);
+    refuse_unused_memory(set, "frame_memory", frame_memory_);
+    preset_label_ = preset_label(set, morphological_);
+  }
 
   std::vector<Shorthand> shorthands() const override {
     return {
@@ -65,11 +75,19 @@ class FrameCommand final : public Engine {
     for (const auto& input : scene.inputs()) context.add_input(input);
     context.set_title(
         "Frame: " + std::filesystem::path(scene_.source).filename().string(),
+<<<<<<< Updated upstream
         fmt::format(
             "{} x {} pixels, {} fragments; texture unit, frame buffer and morphological "
             "engine ({}) on one clock, overlapped row by row",
             scene.stream().width, scene.stream().height, scene.stream().counts.fragments,
             spec::kMorphologicalPresetNames[static_cast<std::size_t>(morphological_.preset)]));
+=======
+        fmt::format("{} x {} pixels, {} fragments; texture unit, frame buffer and morphological "
+                    "engine ({}) on one clock, overlapped row by row",
+                    scene.stream().width, scene.stream().height, scene.stream().counts.fragments,
+                    preset_label_));
+    context.set_bottleneck("texture_filter");
+>>>>>>> Stashed changes
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
     context.claim();
     FrameBench bench(scene, options(run, context));
@@ -157,6 +175,7 @@ class FrameCommand final : public Engine {
   spec::TextureParameters texture_;
   MemoryParameters memory_, frame_memory_;
   spec::MorphologicalParameters morphological_;
+  std::string preset_label_;
 };
 
 }  // namespace

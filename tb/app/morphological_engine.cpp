@@ -14,7 +14,11 @@
 #include "tb/app/interrupt.h"
 #include "tb/app/morphological_bench.h"
 #include "tb/app/morphological_frames.h"
+<<<<<<< Updated upstream
 #include "tb/app/pictures.h"
+=======
+#include "tb/app/morphological_rules.h"
+>>>>>>> Stashed changes
 #include "tb/app/progress.h"
 
 namespace deburr::tb {
@@ -40,7 +44,13 @@ class MorphologicalCommand final : public Engine {
     set.add("memory", memory_);
   }
 
-  void resolve(const ParameterSet& set) override { apply_preset(set, parameters_); }
+  void resolve(ParameterSet& set) override {
+    apply_preset(set, parameters_);
+    refuse_unused_rules(set, parameters_, "memory");
+    refuse_unused_memory(set, "memory", memory_);
+    refuse_unused_frame(set);
+    preset_label_ = preset_label(set, parameters_);
+  }
 
   std::vector<Shorthand> shorthands() const override {
     return {
@@ -119,8 +129,25 @@ class MorphologicalCommand final : public Engine {
     return o;
   }
 
+  void refuse_unused_frame(const ParameterSet& set) const {
+    const bool depth_used = parameters_.edge_source != spec::EdgeSource::kLuma;
+    // load_frame() has its own words for a truth beside a scene, and for a file that is not there.
+    if (is_rendered(frame_) || !std::filesystem::exists(frame_.source)) return;
+    for (const char* name : {"frame.width", "frame.height"})
+      set.refuse(name, "frame.source is an image file, which has a size of its own");
+    set.refuse("frame.truth_samples", "an image file is judged by the file frame.truth (--truth)");
+    if (depth_used && frame_.depth.empty())
+      throw spec::ConfigError(fmt::format(
+          "morphological.edges.source = {} needs the depth of the image: name it with --depth FILE",
+          name_of(parameters_.edge_source, spec::kEdgeSourceNames)));
+    if (!depth_used && frame_.truth.empty())
+      set.refuse("frame.depth",
+                 "edges come from luma, and silhouettes are judged only against a --truth FILE");
+  }
+
   std::string summary_line(const LoadedFrame& loaded) const {
     const spec::MorphologicalParameters& p = parameters_;
+<<<<<<< Updated upstream
     const int lanes = spec::kLaneCount[static_cast<std::size_t>(p.lanes)];
     return fmt::format(
         "{} x {} pixels, preset {}: edges from {} at T = {:.4f}, local contrast {}, predictor {} "
@@ -128,6 +155,13 @@ class MorphologicalCommand final : public Engine {
         loaded.input.image.width, loaded.input.image.height,
         name_of(p.preset, spec::kMorphologicalPresetNames),
         name_of(p.edge_source, spec::kEdgeSourceNames), p.threshold / 65536.0,
+=======
+    std::string text = fmt::format(
+        "{} x {} pixels, {}: edges from {} at T = {}/65536, local contrast {}, predictor {} "
+        "with N = {}{}{}{}, {} light; {} pixels a clock, {} window rows, {}",
+        loaded.input.image.width, loaded.input.image.height, preset_label_,
+        name_of(p.edge_source, spec::kEdgeSourceNames), p.threshold,
+>>>>>>> Stashed changes
         name_of(p.local_contrast, spec::kLocalContrastNames),
         name_of(p.predictor, spec::kPredictorNames), p.steps, p.contiguous ? ", contiguous" : "",
         p.safe ? ", safe" : "", p.trim ? ", trim" : "", p.linear_light ? "linear" : "stored", lanes,
@@ -155,6 +189,7 @@ class MorphologicalCommand final : public Engine {
   FrameParameters frame_;
   spec::MorphologicalParameters parameters_;
   MemoryParameters memory_;
+  std::string preset_label_;
 };
 
 }  // namespace
@@ -163,6 +198,7 @@ std::unique_ptr<Engine> make_morphological_engine() {
   return std::make_unique<MorphologicalCommand>();
 }
 
+<<<<<<< Updated upstream
 void apply_preset(const ParameterSet& set, spec::MorphologicalParameters& values) {
   const spec::MorphologicalParameters rules =
       golden::morphological::preset_parameters(values.preset);
@@ -181,6 +217,27 @@ void apply_preset(const ParameterSet& set, spec::MorphologicalParameters& values
   take("trim", &P::trim);
   take("area", &P::area);
   take("diagonals", &P::diagonals);
+=======
+Image edge_picture(const Image& frame, const std::vector<spec::BlendTap>& taps) {
+  constexpr int kDim = 3;
+  Image picture(frame.width, frame.height);
+  for (std::size_t i = 0; i < taps.size(); ++i) {
+    const Rgba8& p = frame.pixels[i];
+    const auto grey = static_cast<std::uint8_t>((p[0] + 2 * p[1] + p[2]) / 4 / kDim);
+    picture.pixels[i] = {taps[i].edges & 1 ? std::uint8_t{255} : grey,
+                         taps[i].edges & 2 ? std::uint8_t{255} : grey, grey, 255};
+  }
+  return picture;
+}
+
+Image weight_picture(int width, int height, const std::vector<spec::BlendTap>& taps) {
+  const auto bright = [](int share) { return static_cast<std::uint8_t>(std::min(255, 2 * share)); };
+  Image picture(width, height);
+  for (std::size_t i = 0; i < taps.size(); ++i)
+    picture.pixels[i] = {bright(taps[i].first), bright(taps[i].second),
+                         static_cast<std::uint8_t>(taps[i].horizontal ? 160 : 0), 255};
+  return picture;
+>>>>>>> Stashed changes
 }
 
 }  // namespace deburr::tb

@@ -48,6 +48,8 @@ LoadedFrame rendered(const FrameParameters& p, std::uint32_t seed) {
 
 }  // namespace
 
+bool is_rendered(const FrameParameters& parameters) { return is_scene(parameters.source); }
+
 std::vector<std::uint32_t> depth_codes(const DepthImage& depth) {
   constexpr double kFull = (1 << 24) - 1;
   std::vector<std::uint32_t> codes(depth.pixels.size());

@@ -40,6 +40,9 @@ void describe(FrameParameters& p, Visitor& v) {
   v.integer("count", p.count, 1, 1000, "frame", "How often the frame is sent.");
 }
 
+// Whether the source is a scene or a mesh, and not an image file.
+bool is_rendered(const FrameParameters& parameters);
+
 struct LoadedFrame {
   MorphologicalInput input;
   std::optional<Image> truth;

@@ -83,7 +83,7 @@ class YamlLoader {
       if (!entry.second.IsScalar())
         throw ConfigError(
             fmt::format("{}: '{}' wants a single value, got {}", here, name, kind(entry.second)));
-      set_.set(name, entry.second.Scalar(), here);
+      set_.set(name, entry.second.Scalar(), here, ParameterSet::Origin::kFile);
     }
   }
 
@@ -267,7 +267,8 @@ std::vector<std::string> ParameterSet::near_matches(std::string_view name) const
   return tb::near_matches(name, names);
 }
 
-void ParameterSet::set(std::string_view name, std::string_view text, std::string_view where) {
+void ParameterSet::set(std::string_view name, std::string_view text, std::string_view where,
+                       Origin origin) {
   const Parameter* parameter = find(name);
   if (!parameter)
     throw ConfigError(fmt::format("{}: unknown parameter '{}'{} (`deburr params` lists them all)",
@@ -275,7 +276,40 @@ void ParameterSet::set(std::string_view name, std::string_view text, std::string
   const std::string complaint = parameter->parse(text);
   if (!complaint.empty())
     throw ConfigError(fmt::format("{}: '{}' = '{}' {}", where, name, text, complaint));
-  given_.insert(parameter->name);
+  given_.insert_or_assign(parameter->name, Given{std::string(where), origin});
+}
+
+void ParameterSet::imply(std::string_view name, std::string_view text, std::string_view by) {
+  const auto found = std::find_if(parameters_.begin(), parameters_.end(),
+                                  [&](const Parameter& p) { return p.name == name; });
+  DEBURR_CHECK(found != parameters_.end(), fmt::format("{} implies unknown '{}'", by, name));
+  found->implied = text;
+  found->implied_by = by;
+  if (given(name)) return;
+  const std::string complaint = found->parse(text);
+  DEBURR_CHECK(complaint.empty(), fmt::format("{}: '{}' {}", by, name, complaint));
+}
+
+std::vector<const Parameter*> ParameterSet::changed() const {
+  std::vector<const Parameter*> changed;
+  for (const Parameter& p : parameters_)
+    if (!p.implied_by.empty() && p.text() != p.implied) changed.push_back(&p);
+  return changed;
+}
+
+void ParameterSet::refuse(std::string_view name, std::string_view why) const {
+  const auto given = given_.find(name);
+  if (given == given_.end()) return;
+  const Parameter& p = *find(name);
+  const std::string& usual = p.implied_by.empty() ? p.default_value : p.implied;
+  if (given->second.origin == Origin::kFile && p.text() == usual) return;
+  throw ConfigError(
+      fmt::format("{}: '{}' = '{}' has no effect: {}", given->second.where, name, p.text(), why));
+}
+
+void ParameterSet::refuse_all(std::string_view prefix, std::string_view why) const {
+  for (const Parameter& p : parameters_)
+    if (p.name.starts_with(prefix)) refuse(p.name, why);
 }
 
 void ParameterSet::set_assignment(std::string_view assignment, std::string_view where) {
@@ -313,7 +347,9 @@ std::string ParameterSet::yaml() const {
     // Text may hold anything; numbers, choices and switches are plain by construction.
     if (p.json().is_string()) value << YAML::DoubleQuoted;
     value << p.text();
-    out += fmt::format("{}: {}  # {}\n", p.name, value.c_str(), p.meaning);
+    const bool by_preset = !p.implied_by.empty() && p.text() == p.implied;
+    out += fmt::format("{}{}: {}  # {}{}\n", by_preset ? "# " : "", p.name, value.c_str(),
+                       by_preset ? fmt::format("By {}. ", p.implied_by) : "", p.meaning);
   }
   return out;
 }

@@ -14,8 +14,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +31,8 @@ struct Parameter {
   std::string range;  // "1..16", "half | quarter | ...", "true | false"
   std::string meaning;
   std::string default_value;
+  // What a preset makes of it where it is not given, and the preset's name; else both are empty.
+  std::string implied, implied_by;
   std::function<std::string()> text;                   // the value now
   std::function<nlohmann::ordered_json()> json;        // the same, typed
   std::function<std::string(std::string_view)> parse;  // "" or why the text is refused
@@ -46,8 +48,12 @@ class ParameterSet {
     describe(values, binder);
   }
 
+  enum class Origin { kCommandLine, kFile };
   // `where` is put in front of every complaint: "run.yaml:12" or "--set".
-  void set(std::string_view name, std::string_view text, std::string_view where);
+  void set(std::string_view name, std::string_view text, std::string_view where,
+           Origin origin = Origin::kCommandLine);
+  // What a preset makes of a parameter that was not given; one that was given stays as it is.
+  void imply(std::string_view name, std::string_view text, std::string_view by);
   // "a.b=value", as given to --set.
   void set_assignment(std::string_view assignment, std::string_view where);
   // Applies a YAML file: nested maps or dotted keys. Unknown, duplicate, misshapen or out-of-range
@@ -58,11 +64,19 @@ class ParameterSet {
   const Parameter* find(std::string_view name) const;
   // Whether someone has set it, be it to its default.
   bool given(std::string_view name) const { return given_.contains(name); }
+  // Parameters that were given something else than their preset makes of them.
+  std::vector<const Parameter*> changed() const;
+  // ConfigError if it was given although it has no effect. A file, which may be a whole resolved
+  // configuration, may hold its default.
+  void refuse(std::string_view name, std::string_view why) const;
+  // The same for every parameter whose name begins so.
+  void refuse_all(std::string_view prefix, std::string_view why) const;
   // Up to three names that a typing error could have meant, best first.
   std::vector<std::string> near_matches(std::string_view name) const;
   // name -> value for every parameter, in order of declaration.
   nlohmann::ordered_json resolved() const;
-  // The same as a YAML file that `load` accepts, each line with its meaning as comment.
+  // The same as a YAML file that `load` accepts, each line with its meaning as comment. What a
+  // preset made is a comment too, so that another preset can be chosen beside the file.
   std::string yaml() const;
 
  private:
@@ -100,8 +114,13 @@ class ParameterSet {
     std::string_view prefix_;
   };
 
+  struct Given {
+    std::string where;
+    Origin origin;
+  };
+
   std::vector<Parameter> parameters_;
-  std::set<std::string, std::less<>> given_;
+  std::map<std::string, Given, std::less<>> given_;
 };
 
 // Smallest number of insertions, deletions, substitutions and swaps of neighbours that turn a into

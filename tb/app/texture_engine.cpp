@@ -11,7 +11,11 @@
 
 #include "spec/error.h"
 #include "tb/app/interrupt.h"
+<<<<<<< Updated upstream
 #include "tb/app/pictures.h"
+=======
+#include "tb/app/morphological_rules.h"
+>>>>>>> Stashed changes
 #include "tb/app/progress.h"
 #include "tb/app/texture_bench.h"
 #include "tb/app/texture_scene.h"
@@ -52,7 +56,10 @@ class TextureEngine final : public Engine {
         {"--layout", "sampler.layout", "tiled (default) or linear"}};
   }
 
-  void resolve(const ParameterSet& set) override { links_given_ = set.given("run.check_links"); }
+  void resolve(ParameterSet& set) override {
+    links_given_ = set.given("run.check_links");
+    refuse_unused_memory(set, "memory", memory_);
+  }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
     const TextureScene scene(scene_, sampler_, static_cast<std::uint32_t>(run.seed));

@@ -33,6 +33,9 @@ class Base(CommandTest):
             return json.load(file)
 
 
+DEPTH_EDGES = ("--set", "morphological.edges.source=depth")
+
+
 class Frames(Base):
     """Image files as frames."""
 
@@ -102,11 +105,21 @@ class Frames(Base):
 
     def test_truth_and_depth_must_fit(self):
         self.frame(2, "a.png", png(16, 16), "--truth", self.write("b.png", png(15, 16)), says=["b.png", "15 x 16"])
-        self.frame(2, "a.png", png(16, 16), "--depth", self.write("d.png", png(16, 17)), says=["d.png", "16 x 17"])
+        self.frame(2, "a.png", png(16, 16), *DEPTH_EDGES, "--depth", self.write("d.png", png(16, 17)),
+                   says=["d.png", "16 x 17"])
         self.frame(5, "a.png", png(16, 16), "--truth", self.path("none.png"), says="none.png")
-        self.frame(5, "a.png", png(16, 16), "--depth", self.write("g.png", png(16, 16, channels=1)), says="g.png")
+        self.frame(5, "a.png", png(16, 16), *DEPTH_EDGES, "--depth", self.write("g.png", png(16, 16, channels=1)),
+                   says="g.png")
         self.frame(0, "a.png", noisy_png(16, 16), "--truth", self.write("t.png", png(16, 16)), says="PASS")
         self.assertIn("psnr_edge_db", self.result()["quality"])
+
+    def test_edges_of_depth_need_depth(self):
+        for source in ("depth", "predicated"):
+            edges = ("--set", "morphological.edges.source=" + source)
+            self.frame(2, "a.png", png(16, 16), *edges, says=[source, "--depth FILE"])
+            self.frame(0, "a.png", noisy_png(16, 16), *edges, "--depth", self.write("d.png", noisy_png(16, 16)))
+            self.run_engine(0, "--size", "16x16", *edges)
+            self.run_engine(0, "--size", "16x16", *edges, engine="frame")
 
     def test_a_scene_has_its_own_truth(self):
         self.run_engine(2, "--scene", "road", "--truth", self.write("t.png", png(4, 4)), says="scene has its own")
@@ -135,6 +148,64 @@ class Configuration(Base):
         done = self.run_engine(0, "--preset", "mlaa-slope", "--set", "morphological.steps=8", "--show-config")
         self.assertIn("morphological.steps: 8", done.stdout)
         self.assertIn('morphological.predictor: "chord"', done.stdout)
+
+    def test_what_has_no_effect_is_refused(self):
+        image = ("--in", self.write("a.png", noisy_png(16, 16)))
+        morphological = [
+            (image, "--size", "10x10", "size of its own"),
+            (image, "--set", "frame.truth_samples=8", "--truth"),
+            (image, "--depth", self.write("d.png", noisy_png(16, 16)), "--truth FILE"),
+            ((), "--set", "memory.latency=100", "line_buffers"),
+            ((), "--set", "morphological.memory.outstanding=8", "line_buffers"),
+            ((), "--set", "morphological.edges.alpha=9", "threshold_mode = dynamic"),
+            ((), "--set", "morphological.edges.floor=9", "threshold_mode = dynamic"),
+            ((), "--set", "morphological.edges.dynamic_luma=current", "threshold_mode = dynamic"),
+            ((), "--set", "morphological.edges.depth_threshold=9", "depth or predicated"),
+            ((), "--set", "morphological.edges.threshold_on_depth_edge=9", "predicated"),
+            ((), "--set", "morphological.edges.threshold_off_depth_edge=9", "predicated"),
+            (DEPTH_EDGES, "--set", "morphological.edges.threshold=9", "thresholds of its own"),
+            (DEPTH_EDGES, "--set", "morphological.edges.local_contrast=off", "compares depths"),
+            (("--set", "morphological.edges.threshold_mode=dynamic"), "--set", "morphological.edges.threshold=9",
+             "computes the threshold"),
+            (("--preset", "mlaa"), "--set", "morphological.steps=3", "extends no run"),
+            ((), "--trace-to", "100", "run.trace")]
+        for others, option, value, why in morphological:
+            self.run_engine(2, *others, option, value, says=["has no effect", why])
+        memory = ("--set", "morphological.storage=memory")
+        for name, value in (("interleave_bytes", 128), ("error_bytes", 128), ("latency_max", 50)):
+            self.run_engine(2, *memory, "--set", f"memory.{name}={value}", says="has no effect")
+        self.run_engine(2, "--set", "frame_memory.latency=9", engine="frame", says="line_buffers")
+        self.run_engine(2, "--set", "memory.error_bytes=9", engine="texture", says="error_address")
+        self.assertFalse(os.path.exists(self.path("out")))
+
+    def configuration(self, *arguments):
+        return self.write("rules.yaml", self.run_engine(0, *arguments, "--show-config").stdout)
+
+    def test_a_resolved_configuration_says_all_again(self):
+        for rules in ((), ("--preset", "mlaa"), ("--preset", "mlaa-slope", "--set", "morphological.steps=8"),
+                      ("--in", self.write("a.png", noisy_png(16, 16)))):
+            text = self.run_engine(0, *rules, "--show-config").stdout
+            again = self.run_engine(0, "--config", self.write("rules.yaml", text), "--show-config").stdout
+            self.assertEqual(text, again, rules)
+
+    def title(self):
+        with open(self.path("out/manifest.json")) as file:
+            return json.load(file)["summary"]
+
+    def test_a_preset_beside_a_resolved_configuration(self):
+        """It is that preset, and what had been changed is still changed, and said to be."""
+        config = ("--config", self.configuration("--preset", "mlaa-slope", *self.SMALL))
+        self.run_engine(0, *config, "--preset", "mlaa")
+        self.assertIn("preset mlaa: ", self.title())
+        self.assertIn("predictor none with N = 0", self.title())
+        config = ("--config", self.configuration("--preset", "mlaa-slope", "--set", "morphological.steps=8", *self.SMALL))
+        self.run_engine(0, *config)
+        self.assertIn("preset mlaa-slope, changed: steps: ", self.title())
+        self.run_engine(0, *config, "--preset", "deburr", "--set", "morphological.predictor=chord", "--set",
+                        "morphological.steps=4")
+        self.assertIn("preset deburr, changed: predictor, steps: ", self.title())
+        self.run_engine(0, *self.SMALL, "--preset", "mlaa", "--set", "morphological.predictor=fit", engine="frame")
+        self.assertIn("preset mlaa, changed: predictor", self.title())
 
     def expect(self, code, *arguments, says=(), **options):
         if "--show-config" in arguments:  # prints a configuration and no RESULT line

@@ -171,6 +171,41 @@ TEST_F(Parameters, TheResolvedConfigurationLoadsAgain) {
   EXPECT_EQ(again.resolved(), set_.resolved());
 }
 
+TEST_F(Parameters, APresetFillsInWhatIsNotGiven) {
+  set_.set("unit.cache.ways", "8", "--set");
+  set_.imply("unit.cache.ways", "4", "preset small");
+  set_.imply("unit.colour", "red", "preset small");
+  EXPECT_EQ(values_.ways, 8);
+  EXPECT_EQ(values_.colour, Colour::kRed);
+  ASSERT_EQ(set_.changed().size(), 1u);
+  EXPECT_EQ(set_.changed()[0]->name, "unit.cache.ways");
+  // What the preset made gives way to another preset beside the file; what was given does not.
+  EXPECT_THAT(set_.yaml(), HasSubstr("\nunit.cache.ways: 8  # Assoc"));
+  EXPECT_THAT(set_.yaml(), HasSubstr("\n# unit.colour: \"red\"  # By preset small. Colour."));
+}
+
+TEST_F(Parameters, WhatHasNoEffectIsRefusedWhereItWasGiven) {
+  const auto complaint = [&] {
+    try {
+      set_.refuse_all("unit.cache", "there is no cache");
+    } catch (const spec::ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(complaint(), "") << "not given";
+  set_.load(file("unit.cache.ways: 2\n"));
+  EXPECT_EQ(complaint(), "") << "a file may hold a default";
+  set_.load(file("\nunit.cache.ways: 4\n"));
+  EXPECT_THAT(complaint(), HasSubstr(".yaml:2: 'unit.cache.ways' = '4' has no effect: there is no"));
+  set_.imply("unit.cache.ways", "4", "preset small");
+  EXPECT_EQ(complaint(), "") << "a file may hold what the preset makes";
+  set_.set("unit.cache.ways", "2", "--ways");
+  EXPECT_THAT(complaint(), StartsWith("--ways: "));
+  set_.set("unit.cache.ways", "4", "--ways");
+  EXPECT_THAT(complaint(), StartsWith("--ways: ")) << "on the command line nothing is in vain";
+}
+
 TEST_F(Parameters, EveryDefaultOfTheTextureUnitIsWithinItsRange) {
   spec::TextureParameters texture;
   ParameterSet set;

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "tb/app/morphological_rules.h"
+
+#include <fmt/format.h>
+
+#include <initializer_list>
+
+#include "golden/morphological/configuration.h"
+
+namespace deburr::tb {
+namespace {
+
+constexpr std::string_view kPrefix = "morphological.";
+
+std::string_view preset_name(const spec::MorphologicalParameters& values) {
+  return spec::kMorphologicalPresetNames[static_cast<std::size_t>(values.preset)];
+}
+
+}  // namespace
+
+void apply_preset(ParameterSet& set, const spec::MorphologicalParameters& values) {
+  spec::MorphologicalParameters rules = golden::morphological::preset_parameters(values.preset);
+  const std::string by = fmt::format("preset {}", preset_name(values));
+  ParameterSet preset;
+  preset.add("morphological", rules);
+  for (const char* name :
+       {"edges.threshold_mode", "edges.dynamic_luma", "edges.threshold", "edges.local_contrast",
+        "predictor", "steps", "contiguous", "safe", "trim", "area", "diagonals"}) {
+    const std::string full = fmt::format("{}{}", kPrefix, name);
+    set.imply(full, preset.find(full)->text(), by);
+  }
+}
+
+std::string preset_label(const ParameterSet& set, const spec::MorphologicalParameters& values) {
+  std::string label = fmt::format("preset {}", preset_name(values));
+  bool first = true;
+  for (const Parameter* p : set.changed()) {
+    label += first ? ", changed: " : ", ";
+    label += p->name.substr(kPrefix.size());
+    first = false;
+  }
+  return label;
+}
+
+void refuse_unused_rules(const ParameterSet& set, const spec::MorphologicalParameters& p,
+                         std::string_view memory) {
+  const auto refuse = [&](std::string_view why, std::initializer_list<std::string_view> names) {
+    for (const std::string_view name : names) set.refuse(fmt::format("{}{}", kPrefix, name), why);
+  };
+  const bool depth = p.edge_source == spec::EdgeSource::kDepth;
+  const bool predicated = p.edge_source == spec::EdgeSource::kPredicated;
+  if (depth)
+    refuse("morphological.edges.source = depth compares depths, by edges.depth_threshold",
+           {"edges.threshold_mode", "edges.local_contrast"});
+  if (depth || predicated)
+    refuse("morphological.edges.source is not luma and has thresholds of its own",
+           {"edges.threshold"});
+  if (depth || p.threshold_mode == spec::ThresholdMode::kFixed)
+    refuse("it belongs to morphological.edges.threshold_mode = dynamic",
+           {"edges.alpha", "edges.floor", "edges.dynamic_luma"});
+  else
+    refuse("morphological.edges.threshold_mode = dynamic computes the threshold",
+           {"edges.threshold"});
+  if (p.edge_source == spec::EdgeSource::kLuma)
+    refuse("it belongs to morphological.edges.source = depth or predicated",
+           {"edges.depth_threshold"});
+  if (!predicated)
+    refuse("it belongs to morphological.edges.source = predicated",
+           {"edges.threshold_on_depth_edge", "edges.threshold_off_depth_edge"});
+  if (p.predictor == spec::Predictor::kNone)
+    refuse("morphological.predictor = none extends no run",
+           {"steps", "contiguous", "safe", "trim"});
+  if (p.storage == spec::Storage::kLineBuffers) {
+    constexpr std::string_view kWhy = "morphological.storage = line_buffers uses no memory";
+    refuse(kWhy, {"memory.outstanding"});
+    set.refuse_all(fmt::format("{}.", memory), kWhy);
+  }
+}
+
+void refuse_unused_memory(const ParameterSet& set, std::string_view prefix,
+                          const MemoryParameters& memory) {
+  const auto refuse = [&](std::string_view name, std::string_view why) {
+    set.refuse(fmt::format("{}.{}", prefix, name), why);
+  };
+  if (memory.latency_max > 0 && memory.latency_max <= memory.latency)
+    refuse("latency_max", fmt::format("it is not above {}.latency = {}", prefix, memory.latency));
+  if (memory.banks == 1) refuse("interleave_bytes", fmt::format("{}.banks = 1", prefix));
+  if (memory.error_address < 0)
+    refuse("error_bytes", fmt::format("{}.error_address names no address", prefix));
+}
+
+}  // namespace deburr::tb
