@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -25,6 +26,45 @@ using golden::texture::TextureGolden;
 
 constexpr rtl::Cycle kProgressPeriod = 4096;
 constexpr std::uint64_t kMemoryGrain = 64;
+constexpr std::uint64_t kFaultyRequest = 20;
+
+constexpr std::array kFaults = {
+    FrameFault{"flip-bit", "Flips a bit of the red channel of output beat 100.",
+               "flip:blended:100:4"},
+    FrameFault{"drop-pixel", "Drops output beat 100.", "drop:blended:100"},
+    FrameFault{"duplicate-pixel", "Delivers output beat 100 twice.", "duplicate:blended:100"},
+    FrameFault{"flip-colour", "Flips a bit of texture colour 100, in front of the frame buffer.",
+               "flip:colours:100:52"},
+    FrameFault{"drop-colour", "Drops texture colour 100: its row is never complete.",
+               "drop:colours:100"},
+    FrameFault{"stuck-ready", "Holds back the slots of the luma unit from cycle 500 on.",
+               "stuck_ready:morphological.slots:500"},
+    FrameFault{"lost-response", "Texture memory never answers request 20.", ""},
+    FrameFault{"memory-error", "Texture memory answers request 20 with an error.", ""}};
+
+std::vector<std::string> link_faults(const std::vector<std::string>& names) {
+  std::vector<std::string> faults;
+  for (const std::string& name : names) {
+    if (name.find(':') != std::string::npos) {
+      faults.push_back(name);
+      continue;
+    }
+    const auto found = std::find_if(kFaults.begin(), kFaults.end(),
+                                    [&](const FrameFault& f) { return f.name == name; });
+    if (found == kFaults.end()) {
+      std::string known;
+      for (const FrameFault& f : kFaults) known += fmt::format(" {}", f.name);
+      throw spec::ConfigError(fmt::format(
+          "no fault '{}': known are{}, and LINK faults such as drop:blended:100", name, known));
+    }
+    if (!found->link_fault.empty()) faults.emplace_back(found->link_fault);
+  }
+  return faults;
+}
+
+bool planted(const FrameBenchOptions& options, std::string_view fault) {
+  return std::find(options.faults.begin(), options.faults.end(), fault) != options.faults.end();
+}
 
 int lanes_of(const spec::MorphologicalParameters& p) {
   return spec::kLaneCount[static_cast<std::size_t>(p.lanes)];
@@ -40,6 +80,8 @@ std::string name_within(const sc_core::sc_object& unit, const sc_core::sc_object
 }
 
 }  // namespace
+
+std::span<const FrameFault> frame_faults() { return kFaults; }
 
 // ---- the frame buffer ---------------------------------------------------------------------------
 
@@ -187,6 +229,8 @@ FrameBench::FrameBench(const TextureScene& scene, const FrameBenchOptions& optio
     engine_.memory()->bind(frame_memory_->ports);
   }
   memory_.preload(0, scene.memory().bytes());
+  if (planted(options, "lost-response")) memory_.lose_request(kFaultyRequest);
+  if (planted(options, "memory-error")) memory_.fail_request(kFaultyRequest);
 
   BenchOptions bench;
   bench.stall_permille = options.stall_permille;
@@ -195,7 +239,7 @@ FrameBench::FrameBench(const TextureScene& scene, const FrameBenchOptions& optio
   bench.patience = options.patience;
   bench.check_links = options.check_links;
   bench.fast_path = options.fast_path;
-  bench.faults = options.faults;
+  bench.faults = link_faults(options.faults);
   if (!options.trace_scope.empty()) {
     rtl::TraceOptions trace;
     trace.file = options.trace_file;
@@ -314,6 +358,11 @@ void FrameBench::run(const Progress& progress) {
       traffic_board_.got({static_cast<std::uint32_t>(a), false});
   }
   complete_ = true;
+  if (const std::uint64_t errors = texture_.cache.miss_queue.memory_errors.value(); errors != 0)
+    throw spec::SimulationError(
+        fmt::format("memory answered {} line fills with an error, which read as zero: look at the "
+                    "addresses in the texture descriptors",
+                    errors));
 }
 
 void FrameBench::check() const {

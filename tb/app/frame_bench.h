@@ -17,6 +17,9 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
+#include <string>
+#include <string_view>
 #include <systemc>
 #include <vector>
 
@@ -83,10 +86,18 @@ struct FrameBenchOptions {
   bool check_links = true;
   rtl::Cycle max_cycles = 0;
   rtl::Cycle patience = 20000;
-  std::vector<std::string> faults;  // of the harness (fault_injector.h)
+  // Names of frame_faults(), or faults of the harness (fault_injector.h).
+  std::vector<std::string> faults;
   std::string trace_file, trace_scope;
   rtl::Cycle trace_from = 0, trace_to = 2000;
 };
+
+// A fault by name, for `--fault`; docs/verification.md says what must catch it.
+struct FrameFault {
+  std::string_view name, meaning;
+  std::string_view link_fault;  // empty: planted in the memory
+};
+std::span<const FrameFault> frame_faults();
 
 class FrameBench {
  public:

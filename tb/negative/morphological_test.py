@@ -299,6 +299,15 @@ class Faults(Base):
     def test_frame(self):
         self.fault("flip:colours:50:56", 1, "mismatch", *self.UNCHECKED, engine="frame")
         self.fault("flip:blended:50:4", 1, "mismatch", *self.UNCHECKED, engine="frame")
+
+    def test_named_faults_of_a_frame(self):
+        for name, checked, unchecked in (("flip-bit", 3, 1), ("drop-pixel", 3, 1), ("duplicate-pixel", 3, 1),
+                                         ("flip-colour", 3, 1), ("drop-colour", 3, 4), ("stuck-ready", 4, 4),
+                                         ("lost-response", 4, 4), ("memory-error", 3, 3)):
+            with self.subTest(name):
+                self.fault(name, checked, "", *self.CHECKED, engine="frame")
+                self.fault(name, unchecked, "", *self.UNCHECKED, engine="frame")
+        self.run_engine(2, *self.CHECKED, "--fault", "gremlin", engine="frame", says=["gremlin", "flip-colour"])
         self.fault("stuck_ready:pixels:300", 4, "pixels", *self.CHECKED, engine="frame")
 
 
