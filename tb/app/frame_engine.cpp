@@ -13,11 +13,8 @@
 #include "tb/app/frame_bench.h"
 #include "tb/app/interrupt.h"
 #include "tb/app/morphological_engine.h"
-<<<<<<< Updated upstream
-#include "tb/app/pictures.h"
-=======
 #include "tb/app/morphological_rules.h"
->>>>>>> Stashed changes
+#include "tb/app/pictures.h"
 #include "tb/app/progress.h"
 #include "tb/scene/truth.h"
 
@@ -75,19 +72,10 @@ class FrameCommand final : public Engine {
     for (const auto& input : scene.inputs()) context.add_input(input);
     context.set_title(
         "Frame: " + std::filesystem::path(scene_.source).filename().string(),
-<<<<<<< Updated upstream
-        fmt::format(
-            "{} x {} pixels, {} fragments; texture unit, frame buffer and morphological "
-            "engine ({}) on one clock, overlapped row by row",
-            scene.stream().width, scene.stream().height, scene.stream().counts.fragments,
-            spec::kMorphologicalPresetNames[static_cast<std::size_t>(morphological_.preset)]));
-=======
         fmt::format("{} x {} pixels, {} fragments; texture unit, frame buffer and morphological "
                     "engine ({}) on one clock, overlapped row by row",
                     scene.stream().width, scene.stream().height, scene.stream().counts.fragments,
                     preset_label_));
-    context.set_bottleneck("texture_filter");
->>>>>>> Stashed changes
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
     context.claim();
     FrameBench bench(scene, options(run, context));

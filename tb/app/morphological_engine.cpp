@@ -14,11 +14,8 @@
 #include "tb/app/interrupt.h"
 #include "tb/app/morphological_bench.h"
 #include "tb/app/morphological_frames.h"
-<<<<<<< Updated upstream
-#include "tb/app/pictures.h"
-=======
 #include "tb/app/morphological_rules.h"
->>>>>>> Stashed changes
+#include "tb/app/pictures.h"
 #include "tb/app/progress.h"
 
 namespace deburr::tb {
@@ -147,21 +144,12 @@ class MorphologicalCommand final : public Engine {
 
   std::string summary_line(const LoadedFrame& loaded) const {
     const spec::MorphologicalParameters& p = parameters_;
-<<<<<<< Updated upstream
     const int lanes = spec::kLaneCount[static_cast<std::size_t>(p.lanes)];
     return fmt::format(
-        "{} x {} pixels, preset {}: edges from {} at T = {:.4f}, local contrast {}, predictor {} "
+        "{} x {} pixels, {}: edges from {} at T = {:.4f}, local contrast {}, predictor {} "
         "with N = {}{}{}{}, {} light; {} pixel{} a clock, {} window rows, {}",
-        loaded.input.image.width, loaded.input.image.height,
-        name_of(p.preset, spec::kMorphologicalPresetNames),
-        name_of(p.edge_source, spec::kEdgeSourceNames), p.threshold / 65536.0,
-=======
-    std::string text = fmt::format(
-        "{} x {} pixels, {}: edges from {} at T = {}/65536, local contrast {}, predictor {} "
-        "with N = {}{}{}{}, {} light; {} pixels a clock, {} window rows, {}",
         loaded.input.image.width, loaded.input.image.height, preset_label_,
-        name_of(p.edge_source, spec::kEdgeSourceNames), p.threshold,
->>>>>>> Stashed changes
+        name_of(p.edge_source, spec::kEdgeSourceNames), p.threshold / 65536.0,
         name_of(p.local_contrast, spec::kLocalContrastNames),
         name_of(p.predictor, spec::kPredictorNames), p.steps, p.contiguous ? ", contiguous" : "",
         p.safe ? ", safe" : "", p.trim ? ", trim" : "", p.linear_light ? "linear" : "stored", lanes,
@@ -196,48 +184,6 @@ class MorphologicalCommand final : public Engine {
 
 std::unique_ptr<Engine> make_morphological_engine() {
   return std::make_unique<MorphologicalCommand>();
-}
-
-<<<<<<< Updated upstream
-void apply_preset(const ParameterSet& set, spec::MorphologicalParameters& values) {
-  const spec::MorphologicalParameters rules =
-      golden::morphological::preset_parameters(values.preset);
-  const auto take = [&](std::string_view name, auto member) {
-    if (!set.given(fmt::format("morphological.{}", name))) values.*member = rules.*member;
-  };
-  using P = spec::MorphologicalParameters;
-  take("edges.threshold_mode", &P::threshold_mode);
-  take("edges.dynamic_luma", &P::dynamic_luma);
-  take("edges.threshold", &P::threshold);
-  take("edges.local_contrast", &P::local_contrast);
-  take("predictor", &P::predictor);
-  take("steps", &P::steps);
-  take("contiguous", &P::contiguous);
-  take("safe", &P::safe);
-  take("trim", &P::trim);
-  take("area", &P::area);
-  take("diagonals", &P::diagonals);
-=======
-Image edge_picture(const Image& frame, const std::vector<spec::BlendTap>& taps) {
-  constexpr int kDim = 3;
-  Image picture(frame.width, frame.height);
-  for (std::size_t i = 0; i < taps.size(); ++i) {
-    const Rgba8& p = frame.pixels[i];
-    const auto grey = static_cast<std::uint8_t>((p[0] + 2 * p[1] + p[2]) / 4 / kDim);
-    picture.pixels[i] = {taps[i].edges & 1 ? std::uint8_t{255} : grey,
-                         taps[i].edges & 2 ? std::uint8_t{255} : grey, grey, 255};
-  }
-  return picture;
-}
-
-Image weight_picture(int width, int height, const std::vector<spec::BlendTap>& taps) {
-  const auto bright = [](int share) { return static_cast<std::uint8_t>(std::min(255, 2 * share)); };
-  Image picture(width, height);
-  for (std::size_t i = 0; i < taps.size(); ++i)
-    picture.pixels[i] = {bright(taps[i].first), bright(taps[i].second),
-                         static_cast<std::uint8_t>(taps[i].horizontal ? 160 : 0), 255};
-  return picture;
->>>>>>> Stashed changes
 }
 
 }  // namespace deburr::tb

@@ -11,11 +11,8 @@
 
 #include "spec/error.h"
 #include "tb/app/interrupt.h"
-<<<<<<< Updated upstream
-#include "tb/app/pictures.h"
-=======
 #include "tb/app/morphological_rules.h"
->>>>>>> Stashed changes
+#include "tb/app/pictures.h"
 #include "tb/app/progress.h"
 #include "tb/app/texture_bench.h"
 #include "tb/app/texture_scene.h"

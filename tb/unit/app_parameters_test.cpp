@@ -180,7 +180,7 @@ TEST_F(Parameters, APresetFillsInWhatIsNotGiven) {
   ASSERT_EQ(set_.changed().size(), 1u);
   EXPECT_EQ(set_.changed()[0]->name, "unit.cache.ways");
   // What the preset made gives way to another preset beside the file; what was given does not.
-  EXPECT_THAT(set_.yaml(), HasSubstr("\nunit.cache.ways: 8  # Assoc"));
+  EXPECT_THAT(set_.yaml(), StartsWith("unit.cache.ways: 8  # Assoc"));
   EXPECT_THAT(set_.yaml(), HasSubstr("\n# unit.colour: \"red\"  # By preset small. Colour."));
 }
 
@@ -197,7 +197,8 @@ TEST_F(Parameters, WhatHasNoEffectIsRefusedWhereItWasGiven) {
   set_.load(file("unit.cache.ways: 2\n"));
   EXPECT_EQ(complaint(), "") << "a file may hold a default";
   set_.load(file("\nunit.cache.ways: 4\n"));
-  EXPECT_THAT(complaint(), HasSubstr(".yaml:2: 'unit.cache.ways' = '4' has no effect: there is no"));
+  EXPECT_THAT(complaint(),
+              HasSubstr(".yaml:2: 'unit.cache.ways' = '4' has no effect: there is no"));
   set_.imply("unit.cache.ways", "4", "preset small");
   EXPECT_EQ(complaint(), "") << "a file may hold what the preset makes";
   set_.set("unit.cache.ways", "2", "--ways");
