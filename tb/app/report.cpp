@@ -253,7 +253,7 @@ class ReportBuilder {
     const double a = value.get<double>(), b = reference.get<double>();
     if (a == b) return "= " + label;
     return fmt::format("{} {}{}", label, figure_text(reference),
-                       b > 0 ? fmt::format(", {:+.1f} %", 100 * (a - b) / b) : "");
+                       b > 0 ? fmt::format(", {:+.1f}\u00a0%", 100 * (a - b) / b) : "");
   }
 
   // "bilinear/clk" -> "bilinear/s".

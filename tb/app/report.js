@@ -257,7 +257,10 @@
             ctx.lineTo(x, chartArea.bottom);
             ctx.stroke();
             const text = `${name} = ${number.format(value)}`;
-            const right = x + 6 + ctx.measureText(text).width > chartArea.right;
+            const width = ctx.measureText(text).width, right = x + 6 + width > chartArea.right;
+            ctx.fillStyle = css('--card');  // so that lines and bars do not cross the text
+            ctx.fillRect(right ? x - 6 - width : x + 4, chartArea.top + 14 * i, width + 2, 14);
+            ctx.fillStyle = css('--bad');
             ctx.textAlign = right ? 'right' : 'left';
             ctx.fillText(text, right ? x - 5 : x + 5, chartArea.top + 14 * i + 10);
           });

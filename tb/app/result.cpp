@@ -187,7 +187,12 @@ std::optional<Bottleneck> find_bottleneck(std::span<const UnitCycles> units,
       losses.push_back({&unit, &stall, share(stall.cycles, unit)});
       largest = std::max(largest, losses.back().share);
     }
-  if (largest < kNegligible) {
+  // A stall that the head of the pipe never feels costs nothing: a FIFO hides it.
+  const auto head = std::find_if(units.begin(), units.end(),
+                                 [](const UnitCycles& unit) { return unit.busy > 0; });
+  const bool felt =
+      head != units.end() && 1 - share(head->busy, *head) - share(head->idle, *head) >= kNegligible;
+  if (!felt || largest < kNegligible) {
     const UnitCycles* unit = busiest(units, [](const UnitCycles&) { return true; });
     if (!unit || unit->busy == 0) return std::nullopt;
     return busy(*unit);

@@ -51,6 +51,7 @@ struct Bottleneck {
 // The bottleneck among a pipeline's units, given from its input to its output; nothing for no
 // cycles. Waiting for the next unit is that unit's matter, except at `output`. Of the causes that
 // took at least half as much as the largest one the deepest counts: those before it are its echo.
+// Where the first working unit is not held back, no stall matters and the busiest unit counts.
 std::optional<Bottleneck> find_bottleneck(std::span<const UnitCycles> units,
                                           std::string_view output);
 

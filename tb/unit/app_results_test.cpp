@@ -195,7 +195,7 @@ class Page : public Directory {
 
 TEST_F(Page, ShowsWhatTheIssueAsksForFirst) {
   const std::string page = page_of(sample_result());
-  EXPECT_THAT(page, HasSubstr("bound 50,000, +8.6 %")) << "the tile, against its formula";
+  EXPECT_THAT(page, HasSubstr("bound 50,000, +8.6\u00a0%")) << "the tile, against its formula";
   EXPECT_THAT(page, HasSubstr("<td>Whole frame</td><td class=\"n\">35.50</td><td class=\"n\">"
                               "41.25</td><td class=\"n\">+5.75</td>"));
   EXPECT_THAT(page, HasSubstr("<td class=\"n\">identical</td>"));
@@ -392,6 +392,10 @@ TEST(Bottleneck, IsTheDeepestCauseOfTheLoss) {
         unit("divider_v", 200, {{"interval", 390}}), unit("blender", 460)},
        "divider_v",
        "interval"},
+      {"a divider that makes records wait, but no slot",
+       {unit("sequencer", 999), unit("divider_h", 57, {{"interval", 33}}), unit("blender", 950)},
+       "sequencer",
+       "busy"},
       {"records that predictors finish too late",
        {unit("sequencer", 600, {{"downstream", 400}}), unit("extractor", 600, {{"records", 400}}),
         unit("predictor_h", 700), unit("predictor_v", 990), unit("divider_h", 300)},
