@@ -104,11 +104,17 @@ inline MorphologicalInput blocks(int width, int height, std::uint64_t seed = 1) 
   return frame;
 }
 
-// At most a fifth of the pixels of every row on edges: a low column of alternating bits in ten.
+// A fifth of the pixels of every row on edges, but for the borders: a column of one pixel in ten,
+// which moves by one pixel every three rows.
 inline MorphologicalInput a_fifth(int width, int height) {
-  return draw(width, height, [](int x, int y) {
-    const int column = (x + 3 * (y / 8)) % 10;
-    return grey(column == 0 ? 200 : 40);
+  return draw(width, height, [](int x, int y) { return grey((x + y / 3) % 10 == 0 ? 200 : 40); });
+}
+
+// A fifth as well, side by side: diagonals of one pixel, a run of each axis in every other pixel,
+// from column `first` on over two fifths of the row.
+inline MorphologicalInput clustered(int width, int height, int first) {
+  return draw(width, height, [&](int x, int y) {
+    return grey(x >= first && x < first + 2 * width / 5 - 4 && (x + y) / 2 % 2 != 0 ? 255 : 0);
   });
 }
 

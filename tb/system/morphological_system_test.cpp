@@ -10,6 +10,7 @@
 #include <string>
 #include <tuple>
 
+#include "tb/system/forked.h"
 #include "tb/system/morphological_runs.h"
 
 namespace deburr::tb::morphological_system {
@@ -219,6 +220,48 @@ TEST(Morphological, AddressesBeginAtPixelBase) {
   expect_identical({blocks(99, 40)}, options);
 }
 
+// ---- the window ---------------------------------------------------------------------------------
+
+struct Late {
+  const char* name;
+  MorphologicalPreset preset;
+  bool contiguous;
+  spec::Lanes lanes;
+};
+void PrintTo(const Late& late, std::ostream* out) { *out << late.name; }
+class LateRecords : public testing::TestWithParam<Late> {};
+
+// Records of a slot row are still extended while the next one writes the window: a row of its own
+// is kept for that. N = R - 1, one slow predictor, room for all records, steps of one pixel with a
+// flaw here and there, and more rows than the window has.
+TEST_P(LateRecords, SeeTheRowsThatTheyWereFoundIn) {
+  MorphologicalBenchOptions options;
+  MorphologicalParameters& p = options.morphological;
+  p = preset(GetParam().preset, GetParam().lanes);
+  p.contiguous = GetParam().contiguous;
+  p.window_rows = 10;
+  p.reach_columns = 64;
+  p.steps = 3;
+  p.predictor_units = 1;
+  p.record_fifo = 4096;
+  p.line_pixels = 128;
+  options.records = true;
+  const MorphologicalInput frame = draw(97, 61, [](int x, int y) {
+    const std::uint32_t h =
+        static_cast<std::uint32_t>(x) * 73856093u ^ static_cast<std::uint32_t>(y) * 19349663u;
+    return grey(((x + y) / 2 % 2 != 0) != ((h >> 7) % 17 == 0) ? 255 : 0);
+  });
+  const MorphologicalOutcome outcome = expect_identical({frame, noise(97, 61), frame}, options);
+  EXPECT_GT(outcome.record_stalls, 0u) << "no record is late";
+}
+INSTANTIATE_TEST_SUITE_P(
+    Morphological, LateRecords,
+    testing::Values(Late{"mlaa_slope", MorphologicalPreset::kMlaaSlope, false, spec::Lanes::kOne},
+                    Late{"contiguous", MorphologicalPreset::kMlaaSlope, true, spec::Lanes::kOne},
+                    Late{"deburr", MorphologicalPreset::kDeburr, true, spec::Lanes::kOne},
+                    Late{"two_lanes", MorphologicalPreset::kMlaaSlope, true, spec::Lanes::kTwo}),
+    [](const auto& late) { return late.param.name; });
+
 // ---- throughput ---------------------------------------------------------------------------------
 
 using Laned = std::tuple<MorphologicalPreset, spec::Lanes>;
@@ -232,8 +275,8 @@ TEST_P(Throughput, IsSustainedWithAFifthOfThePixelsOnEdges) {
   options.morphological.local_contrast = spec::LocalContrast::kOff;
   const Frames frames = {a_fifth(640, 120)};
   const MorphologicalOutcome outcome = expect_identical(frames, options);
-  EXPECT_NEAR(static_cast<double>(outcome.edge_pixels) / static_cast<double>(outcome.pixels), 0.2,
-              0.09);
+  EXPECT_LE(outcome.edge_pixels * 5, outcome.pixels);
+  EXPECT_GE(outcome.edge_pixels * 1000, outcome.pixels * 198);
   EXPECT_EQ(outcome.input_clocks,
             beats_a_row(640, spec::kLaneCount[static_cast<std::size_t>(lanes)]) * 120);
   EXPECT_EQ(outcome.frame_clocks, frame_clocks_by_formula(options.morphological, 640, 120));
@@ -258,6 +301,31 @@ INSTANTIATE_TEST_SUITE_P(Morphological, Throughput,
                                           testing::Values(spec::Lanes::kOne, spec::Lanes::kTwo,
                                                           spec::Lanes::kFour)),
                          name_of<Laned>);
+
+class Clustered : public testing::TestWithParam<spec::Lanes> {};
+
+// The same fifth packed side by side, at either border and in the middle: no queue is too short.
+TEST_P(Clustered, AFifthOfEveryRowInOnePlaceIsSustainedToo) {
+  MorphologicalBenchOptions options;
+  options.morphological = preset(MorphologicalPreset::kDeburr, GetParam());
+  options.check_links = false;
+  for (const int first : {0, 601, 1920 * 3 / 5}) {
+    const MorphologicalOutcome outcome = forked<MorphologicalOutcome>(
+        [&] { return simulate({clustered(1920, 16, first)}, options); });
+    EXPECT_EQ(outcome.mismatches, 0u);
+    EXPECT_LE(outcome.edge_pixels * 5, outcome.pixels);
+    EXPECT_GE(outcome.edge_pixels * 1000, outcome.pixels * 195);
+    EXPECT_EQ(outcome.frame_clocks, frame_clocks_by_formula(options.morphological, 1920, 16));
+    EXPECT_EQ(outcome.record_stalls, 0u);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Morphological, Clustered,
+                         testing::Values(spec::Lanes::kOne, spec::Lanes::kTwo, spec::Lanes::kFour),
+                         [](const auto& lanes) {
+                           return fmt::format(
+                               "{}_lanes",
+                               spec::kLanesNames[static_cast<std::size_t>(lanes.param)]);
+                         });
 
 // ---- what is refused ----------------------------------------------------------------------------
 
