@@ -614,23 +614,31 @@ void MorphologicalBench::collect(Result& result) const {
       "Written and read again; 0 with line buffers.");
   add("frame_rate", frame_clocks ? options_.clock_mhz * 1e6 / number(frame_clocks) : 0.0, "frame/s",
       "Frames of this size a second at the stated clock.");
-  // As slow for its clocks as this frame was, if that was slower than the formula.
+  // As slow for its clocks as this frame was, if that was slower than the formula; unknown before
+  // the first frame is through.
   const double slowness = std::max(1.0, ratio(number(frame_clocks), number(by_formula)));
   const double hd = slowness * clock_for_60(frame_clocks_by_formula(p, 1920, 1080));
-  add("clock_for_1080p60", hd, "MHz",
+  using Json = nlohmann::ordered_json;
+  add("clock_for_1080p60", frame_clocks ? Json(hd) : Json(), "MHz",
       "Clock that 60 frames of 1920 x 1080 need, stalls of this run in proportion.");
   add("pixel_clock_of_1080p60", kPixelClock1080p60, "MHz", "Of the standard, blanking included.");
-  add("fits_1080p60", hd <= kPixelClock1080p60, "",
+  add("fits_1080p60", frame_clocks ? Json(hd <= kPixelClock1080p60) : Json(), "",
       "Whether clock_for_1080p60 is at most the pixel clock of 1080p60, 148.5 MHz.");
 
-  result.figures = {
-      {"Frame", "work.frame_clocks", "formula", "work.frame_clocks_by_formula", true},
-      {"Latency of a pixel", "latency.max", "formula", "work.latency_by_formula", true},
-      {"Input rate", "work.input_pixels_per_clock", "lanes", "throughput.bound"},
-      {"Frames of this size", "work.frame_rate"},
-      {"Clock for 1080p60", "work.clock_for_1080p60", "pixel clock", "work.pixel_clock_of_1080p60",
-       true},
-      {"Fits 1080p60", "work.fits_1080p60"}};
+  result.figures.clear();
+  if (frame_clocks)
+    result.figures = {
+        {"Frame", "work.frame_clocks", "formula", "work.frame_clocks_by_formula", true},
+        {"Clock for 1080p60", "work.clock_for_1080p60", "pixel clock",
+         "work.pixel_clock_of_1080p60", true},
+        {"Fits 1080p60", "work.fits_1080p60"},
+        {"Frames of this size", "work.frame_rate"}};
+  if (engine.beat_latency.count() > 0)
+    result.figures.push_back(
+        {"Latency of a pixel", "latency.max", "formula", "work.latency_by_formula", true});
+  if (source_.done() && frame_clocks)
+    result.figures.push_back(
+        {"Input rate", "work.input_pixels_per_clock", "lanes", "throughput.bound"});
   if (memory_)
     result.figures.push_back({"Memory traffic", "work.memory_bytes_per_pixel", "", "", true});
   collect_morphological(engine, width, "", result);

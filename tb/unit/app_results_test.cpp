@@ -39,7 +39,7 @@ Result sample_result() {
   r.latency = {17, 20, 90, 130, 180, {{16, 700}, {32, 200}, {64, 60}, {128, 40}}};
   r.bytes_read = 640000;
   r.lines_filled = 10000;
-  r.units = {{"address", 40000, 14000, {{"downstream", "The next unit was not ready.", 321}}},
+  r.units = {{"address", 40000, 13000, {{"downstream", "The next unit was not ready.", 1321}}},
              {"cache", 53000, 321, {{"downstream", "", 0}, {"wait_fill", "", 1000}}}};
   r.bottleneck = find_bottleneck(r.units, "cache");
   r.sram = {{"cache.data", "1R1W", 131072, 131072}, {"cache.lines", "2RW", 5120, 1280}};
@@ -84,7 +84,7 @@ TEST(ResultJson, HasTheKeysOfSchemaOneInOrder) {
                                    "figures", "quality", "host", "meaning"));
   EXPECT_EQ(json["schema"], 1);
   EXPECT_EQ(json["checks"]["comparisons"], 1000);
-  EXPECT_EQ(json["units"]["address"]["stalls"]["downstream"], 321);
+  EXPECT_EQ(json["units"]["address"]["stalls"]["downstream"], 1321);
   EXPECT_EQ(json["latency"]["histogram"][1]["count"], 200);
   EXPECT_EQ(json["quality"]["psnr_edge_db"], "inf");
   EXPECT_TRUE(json["quality"]["psnr_silhouette_db"].is_null());
