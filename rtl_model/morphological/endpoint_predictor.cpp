@@ -17,7 +17,7 @@ constexpr std::uint8_t kFirstSide = 1;  // crossing code of a single edge on the
 
 EndpointPredictor::EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
                                      const spec::MorphologicalParameters& p,
-                                     const ParameterStore& store, const EdgeWindow& window,
+                                     const ParameterStore& store, EdgeWindow& window,
                                      spec::Axis axis)
     : Unit(name, clock),
       records_in("records_in", store.lanes()),
@@ -75,7 +75,7 @@ Activity EndpointPredictor::work(Cycle cycle) {
       }
       ++occupancy;
       did = true;
-      if (iterate(p)) continue;
+      if (iterate(p, cycle)) continue;
       if (p.done) {
         p.step = -1;
         blocked = true;
@@ -117,20 +117,20 @@ void EndpointPredictor::take(Predictor& p, const RunToken& token) {
   p.bounds = {{p.length - 1, 1}, {p.length + 1, 1}};
 }
 
-bool EndpointPredictor::iterate(Predictor& p) {
+bool EndpointPredictor::iterate(Predictor& p, Cycle cycle) {
   if (!p.left.open && !p.right.open) return false;
   ++iterations;
-  const bool more = store_.rules().safe ? iterate_together(p) : iterate_apart(p);
+  const bool more = store_.rules().safe ? iterate_together(p, cycle) : iterate_apart(p, cycle);
   ++p.step;
   return more && p.step < store_.rules().steps;
 }
 
 // Each end by itself, with an L' of its own.
-bool EndpointPredictor::iterate_apart(Predictor& p) {
+bool EndpointPredictor::iterate_apart(Predictor& p, Cycle cycle) {
   for (const bool to_the_right : {true, false}) {
     End& end = to_the_right ? p.right : p.left;
     if (!end.open) continue;
-    const std::int32_t step = trial(p, end, to_the_right, end.other);
+    const std::int32_t step = trial(cycle, p, end, to_the_right, end.other);
     if (step == 0) {
       lose(p, end, to_the_right, end.other);
       continue;
@@ -142,9 +142,9 @@ bool EndpointPredictor::iterate_apart(Predictor& p) {
 }
 
 // Both ends share L' and every corner must lie on one line with all the others.
-bool EndpointPredictor::iterate_together(Predictor& p) {
-  std::int32_t right = p.right.open ? trial(p, p.right, true, p.other) : 0;
-  std::int32_t left = p.left.open ? trial(p, p.left, false, p.other) : 0;
+bool EndpointPredictor::iterate_together(Predictor& p, Cycle cycle) {
+  std::int32_t right = p.right.open ? trial(cycle, p, p.right, true, p.other) : 0;
+  std::int32_t left = p.left.open ? trial(cycle, p, p.left, false, p.other) : 0;
   if (p.right.open && right == 0) lose(p, p.right, true, p.other);
   if (p.left.open && left == 0) lose(p, p.left, false, p.other);
   const auto stop = [&] {
@@ -194,8 +194,8 @@ bool EndpointPredictor::iterate_together(Predictor& p) {
 }
 
 // The first candidate that hits, or 0. All are tested in the same clock.
-std::int32_t EndpointPredictor::trial(const Predictor& p, const End& end, bool to_the_right,
-                                      std::int32_t other) {
+std::int32_t EndpointPredictor::trial(Cycle cycle, const Predictor& p, const End& end,
+                                      bool to_the_right, std::int32_t other) {
   const std::int32_t lines = (p.step + 1) * p.drift;
   const std::int32_t line = to_the_right ? p.line + lines : p.line - lines;
   const std::int32_t last_line = vertical_ ? store_.rules().width : store_.rules().height;
@@ -203,27 +203,42 @@ std::int32_t EndpointPredictor::trial(const Predictor& p, const End& end, bool t
   const bool known = other != 0;
   probes += known || length == 1 ? 2 : 3;
   if (line < 0 || line > last_line) return 0;
+  const std::int32_t from = p.start + end.reached[kAll].position;
+  // The corners of L - 1, L and L + 1, each between two columns; vertical: all on one line.
+  const EdgeWindow::Columns corners =
+      vertical_ ? window_.read(cycle, line - 1, 2)
+                : window_.read(cycle, (to_the_right ? from + length : from - length) - 2, 4);
   if (store_.rules().contiguous) {
     // The step must begin at a corner like the one at the other end of the run.
+    const EdgeWindow::Columns origin = vertical_ ? corners : window_.read(cycle, from - 1, 2);
+    if (!vertical_) window_.read_row(cycle);
     const std::uint8_t wanted = to_the_right ? p.start_corner : p.end_corner;
-    if (corner(p.start + end.reached[kAll].position, line) != wanted) return 0;
+    if (corner(origin, from, line) != wanted) return 0;
   }
-  if (candidate(p, end, to_the_right, line, length)) return length;
-  if (known) return candidate(p, end, to_the_right, line, other);
-  if (length > 1 && candidate(p, end, to_the_right, line, length - 1)) return length - 1;
-  return candidate(p, end, to_the_right, line, length + 1);
+  const auto hits = [&](std::int32_t step) {
+    return candidate(p, end, to_the_right, corners, line, step);
+  };
+  if (hits(length)) return length;
+  if (known) return hits(other) ? other : 0;
+  if (length > 1 && hits(length - 1)) return length - 1;
+  return hits(length + 1) ? length + 1 : 0;
 }
 
-// `step` if it hits, else 0.
-std::int32_t EndpointPredictor::candidate(const Predictor& p, const End& end, bool to_the_right,
-                                          std::int32_t line, std::int32_t step) const {
+bool EndpointPredictor::candidate(const Predictor& p, const End& end, bool to_the_right,
+                                  const EdgeWindow::Columns& corners, std::int32_t line,
+                                  std::int32_t step) const {
   const std::int32_t from = end.reached[kAll].position;
   const std::int32_t x = to_the_right ? from + step : from - step;
-  if (to_the_right ? x > reach_ : x < p.length - reach_) return 0;
-  if (corner(p.start + x, line) != (to_the_right ? p.end_corner : p.start_corner)) return 0;
-  if (store_.rules().contiguous && !unbroken(p.start + (to_the_right ? from : x), line, step))
-    return 0;
-  return step;
+  if (to_the_right ? x > reach_ : x < p.length - reach_) return false;
+  if (corner(corners, p.start + x, line) != (to_the_right ? p.end_corner : p.start_corner))
+    return false;
+  if (!store_.rules().contiguous) return true;
+  const std::int32_t along = p.start + (to_the_right ? from : x);
+  if (!vertical_) return window_.unbroken(along, line, step);
+  // The column has been read; above the frame there is no edge.
+  for (std::int32_t y = along; y < along + step; ++y)
+    if (!corners.left(line, y)) return false;
+  return true;
 }
 
 // The bounds when corner i at x joins those that the predictor has.
@@ -295,32 +310,15 @@ void EndpointPredictor::finish(Predictor& p) {
   p.done = true;
 }
 
-std::uint8_t EndpointPredictor::corner(std::int32_t along, std::int32_t across) const {
+std::uint8_t EndpointPredictor::corner(const EdgeWindow::Columns& read, std::int32_t along,
+                                       std::int32_t across) const {
   const FrameRules& rules = store_.rules();
   const std::int32_t x = vertical_ ? across : along, y = vertical_ ? along : across;
   if (x < 0 || y < 0 || x > rules.width || y > rules.height) return 0;
-  const EdgeWindow::Row top = window_.top(y), above = window_.left(y - 1), left = window_.left(y);
-  const auto row = static_cast<unsigned>(top[x - 1]) | static_cast<unsigned>(top[x]) << 1;
-  const auto column = static_cast<unsigned>(above[x]) | static_cast<unsigned>(left[x]) << 1;
+  const unsigned row = read.top_pair(x, y);
+  const unsigned column = unsigned{read.left(x, y - 1)} | unsigned{read.left(x, y)} << 1;
   return static_cast<std::uint8_t>(vertical_ ? column | row << kCrossing
                                              : row | column << kCrossing);
-}
-
-bool EndpointPredictor::unbroken(std::int32_t along, std::int32_t across,
-                                 std::int32_t count) const {
-  if (along < 0) return false;
-  if (vertical_) {
-    for (std::int32_t y = along; y < along + count; ++y)
-      if (!window_.left(y)[across]) return false;
-    return true;
-  }
-  const EdgeWindow::Row row = window_.top(across);
-  for (std::int32_t x = along; x < along + count; x += 64) {
-    const std::int32_t left = along + count - x;
-    const std::uint64_t mask = left >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << left) - 1;
-    if ((row.from(x) & mask) != mask) return false;
-  }
-  return true;
 }
 
 void EndpointPredictor::reset() {

@@ -15,7 +15,8 @@
 // the last clock selects by them.
 //
 // Formats: positions S13 from the start of the run, sums of a side S18 and S24. Cost a predictor:
-// 2 x 3 comparators of four bits, two masks of up to L + 1 bits (contiguous), 2 x 34 cross products
+// 2 x 3 comparators of four bits, two masks and comparators of (reach + 1) / 2 bits (contiguous;
+// the edges along a horizontal step come from EdgeRows), 2 x 34 cross products
 // of 13 x 6 bits and their maximum and minimum (safe); a side three adders and a multiplier of
 // 13 x 5 bits for its sums, four adders to join them. Trim: a side 2 x 60 flip-flops, two adders
 // and a multiplier of 13 x 4 bits (the half), an adder and a comparator of 13 bits (the reach), a
@@ -42,7 +43,7 @@ class EndpointPredictor final : public Unit {
 
   EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
                     const spec::MorphologicalParameters& parameters, const ParameterStore& store,
-                    const EdgeWindow& window, spec::Axis axis);
+                    EdgeWindow& window, spec::Axis axis);
   Activity tick(Cycle cycle) override {
     return held_ == 0 && !records_in.any_arrives(cycle, lanes_) ? kIdle : work(cycle);
   }
@@ -97,12 +98,13 @@ class EndpointPredictor final : public Unit {
 
   Activity work(Cycle cycle);
   void take(Predictor& p, const RunToken& run);
-  bool iterate(Predictor& p);  // false after the last trial
-  bool iterate_apart(Predictor& p);
-  bool iterate_together(Predictor& p);
-  std::int32_t trial(const Predictor& p, const End& end, bool to_the_right, std::int32_t other);
-  std::int32_t candidate(const Predictor& p, const End& end, bool to_the_right, std::int32_t line,
-                         std::int32_t step) const;
+  bool iterate(Predictor& p, Cycle cycle);  // false after the last trial
+  bool iterate_apart(Predictor& p, Cycle cycle);
+  bool iterate_together(Predictor& p, Cycle cycle);
+  std::int32_t trial(Cycle cycle, const Predictor& p, const End& end, bool to_the_right,
+                     std::int32_t other);
+  bool candidate(const Predictor& p, const End& end, bool to_the_right,
+                 const EdgeWindow::Columns& corners, std::int32_t line, std::int32_t step) const;
   Bounds with(const Predictor& p, Bounds bounds, std::int32_t i, std::int32_t x) const;
   void accept(Predictor& p, End& end, bool to_the_right, std::int32_t step);
   // A side ends for good: as a trial without a hit says, or with the given share of its steps.
@@ -111,13 +113,12 @@ class EndpointPredictor final : public Unit {
   void finish(Predictor& p);
 
   // The four edges at a lattice corner; `across` numbers the lattice lines along the axis.
-  std::uint8_t corner(std::int32_t along, std::int32_t across) const;
-  // Edges along the axis at along..along + count - 1 are all set.
-  bool unbroken(std::int32_t along, std::int32_t across, std::int32_t count) const;
+  std::uint8_t corner(const EdgeWindow::Columns& read, std::int32_t along,
+                      std::int32_t across) const;
 
   const ParameterStore& store_;
   const std::size_t lanes_;
-  const EdgeWindow& window_;
+  EdgeWindow& window_;
   const bool vertical_;
   const std::int32_t reach_;
   const std::size_t units_;  // predictors a lane

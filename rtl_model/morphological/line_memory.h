@@ -2,6 +2,7 @@
 // Memory of a block that is addressed by the column of the slot in hand, so that its accesses in a
 // clock are fixed by construction and `ports` says them. A read sees the words as they were before
 // the clock (read-first), hence a block reads before it writes. Cost: columns x column_bits.
+// What is read elsewhere counts its accesses in every clock: ReadPorts.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "rtl_model/fabric/clocked.h"
 #include "rtl_model/fabric/storage.h"
+#include "spec/error.h"
 
 namespace deburr::rtl::morphological {
 
@@ -22,6 +25,34 @@ class ColumnStorage : public Storage {
   std::uint64_t bits_at(std::uint64_t width) const { return width * word_bits(); }
   // Contents are kept, as in hardware: slot row 0 of the next frame clears what must be.
   void reset() override {}
+};
+
+// The read ports of a memory, counted in every clock: one access too many stops the simulation.
+class ReadPorts {
+ public:
+  ReadPorts(const Storage& memory, int ports) : memory_(memory), ports_(ports) {}
+  void use(Cycle cycle) {
+    if (cycle != cycle_) {
+      cycle_ = cycle;
+      used_ = 0;
+    }
+    if (++used_ > ports_) [[unlikely]]
+      fail();
+  }
+  int used() const { return used_; }  // in the last clock that used any
+  int count() const { return ports_; }
+
+ private:
+  // Out of line: a check costs its caller one comparison.
+  [[noreturn, gnu::cold, gnu::noinline]] void fail() const {
+    throw spec::CheckFailed(std::string(memory_.name()) + ": cycle " + std::to_string(cycle_) +
+                            ": one read too many for its " + std::to_string(ports_) +
+                            " read ports");
+  }
+  const Storage& memory_;
+  const int ports_;
+  int used_ = 0;
+  Cycle cycle_ = kNever;
 };
 
 // `words` is what the model keeps; the hardware's words are columns of `column_bits`.

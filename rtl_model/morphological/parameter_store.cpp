@@ -171,7 +171,7 @@ void ParameterStore::decode() {
   f.steps =
       std::min({static_cast<std::int32_t>(bits(rules, 12, 8)), spec::kMaxSteps, reach_rows_ - 1});
   if (f.predictor == spec::Predictor::kNone) f.steps = 0;
-  f.contiguous = bits(rules, 13, 13) != 0;
+  f.contiguous = bits(rules, 13, 13) != 0 && parameters_.contiguous;
   f.safe = bits(rules, 14, 14) != 0;
   f.linear_light = bits(rules, 15, 15) != 0;
   f.trim = bits(rules, 16, 16) != 0;

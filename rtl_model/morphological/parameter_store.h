@@ -6,7 +6,8 @@
 // inside. Timing: a write counts from the next clock edge on; rules are latched with the first
 // beat of a frame. A write while a frame is inside is ignored (CONTROL and STATUS excepted) and
 // sets a sticky bit. Codes of RULES that no choice has count as code 0; steps are limited to
-// window_rows / 2 - 2; what was not built (depth lines with source = luma) reads as 0.
+// window_rows / 2 - 2; what was not built (depth lines with source = luma) reads as 0, and the rule
+// `contiguous` counts as off in an engine that was built without it.
 // A reset gives every register its reset value; SIZE is 0 then and must be written again.
 // Cost: 12 x 32 flip-flops, thrice (register, frame, decoded products).
 #pragma once

@@ -65,6 +65,7 @@ Activity RunExtractor::tick(Cycle cycle) {
     return kStalledDownstream;
 
   if (slot.beat == 0) begin_row(slot);
+  window_.read_beat(cycle);
   const std::int32_t first = slot.beat * lanes_;
   const FrameRules& rules = store_.rules();
   const std::int32_t end = std::min(first + lanes_, rules.width);

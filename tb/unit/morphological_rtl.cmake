@@ -10,7 +10,7 @@ set(TIMING_timing LatencyFormula Interlock Throughput BackPressure FramesBackToB
 set(TIMING_store PixelStoreLanes PixelStoreBlock PixelStoreMemory)
 set(TIMING_units AreaLanes.LatencyAndInterval AreaLanes.ARecordIsFinished WayOfARecord LineUnitBlock
     DividerPlaces PredictorUnits)
-foreach(part vectors blocks timing engine reset store units registers)
+foreach(part vectors blocks timing engine reset store units registers ports)
   deburr_test(morphological_rtl_${part}_test LABELS unit TIMING ${TIMING_${part}}
               SOURCES morphological_rtl_${part}_test.cpp
               LINK deburr::rtl_morphological deburr::harness)
