@@ -175,8 +175,11 @@ TEST(BackPressure, StallsAreCountedAndNothingIsLost) {
   const std::uint64_t stalls = bench.engine.extractor.record_stalls.value();
   EXPECT_GT(stalls, 200u);
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (61u + 37u) * 97u + 6u + stalls);
-  EXPECT_EQ(bench.engine.beat_latency.min() / (37u * 97u), 1u);
-  EXPECT_GT(bench.engine.beat_latency.max(), 37u * 97u + 6u);
+  // A beat is inside for 37 rows of slots, and for the stalls that come while it is.
+  constexpr Cycle kUnstalled = 37 * 97 + 6;
+  EXPECT_GT(bench.engine.beat_latency.min(), kUnstalled);
+  EXPECT_GT(bench.engine.beat_latency.max(), bench.engine.beat_latency.min());
+  EXPECT_LT(bench.engine.beat_latency.max(), kUnstalled + stalls);
 }
 
 struct Stress {
