@@ -17,6 +17,7 @@
 #include "tb/app/headline.h"
 #include "tb/app/interrupt.h"
 #include "tb/app/report.h"
+#include "tb/scene/truth.h"
 
 namespace deburr::tb {
 namespace {
@@ -142,6 +143,12 @@ Outcome run_engine(Engine& engine, const RunOptions& options, const std::string&
                       result.mismatches, result.comparisons, result.traffic_mismatches,
                       result.traffic_comparisons);
     }
+  } catch (const Interrupted&) {
+    fmt::print(stderr,
+               "deburr: interrupted before the simulation began; no results were written\n");
+    return {kInterruptedExit,
+            fmt::format("INTERRUPTED {}: before the simulation began, no results were written",
+                        result.unit)};
   } catch (const spec::Error& error) {
     // What was wrong before the simulation has no result; what went wrong in it has a partial one.
     code = static_cast<int>(error.code());

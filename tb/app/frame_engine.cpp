@@ -147,9 +147,11 @@ class FrameCommand final : public Engine {
       // Coverage is averaged in the light in which the engine blends.
       render_options.averaging =
           morphological_.linear_light ? Averaging::kLinear : Averaging::kStored;
-      truth = render(scene.scene(), render_options);
-      result.quality = judge_quality(fmt::format("supersampled-{}", kTruthSamples * kTruthSamples),
-                                     before, after, truth, &scene.stream().depth);
+      truth = render_truth(scene.scene(), render_options, result);
+      if (!truth.empty())
+        result.quality =
+            judge_quality(fmt::format("supersampled-{}", kTruthSamples * kTruthSamples), before,
+                          after, truth, &scene.stream().depth);
     }
     add_smoothing_pictures(
         context, {before, after, bench.taps(), bench.delivered(), golden ? &expected : nullptr,

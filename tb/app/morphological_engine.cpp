@@ -17,6 +17,7 @@
 #include "tb/app/morphological_rules.h"
 #include "tb/app/pictures.h"
 #include "tb/app/progress.h"
+#include "tb/scene/truth.h"
 
 namespace deburr::tb {
 namespace {
@@ -64,7 +65,8 @@ class MorphologicalCommand final : public Engine {
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
     golden::morphological::check_parameters(parameters_);
-    const LoadedFrame loaded = load_frame(frame_, static_cast<std::uint32_t>(run.seed));
+    const LoadedFrame loaded =
+        load_frame(frame_, static_cast<std::uint32_t>(run.seed), interrupted);
     if (run.truth && !loaded.truth)
       throw spec::ConfigError(
           "run.truth: this image comes without a truth; name one with --truth FILE");
@@ -95,6 +97,7 @@ class MorphologicalCommand final : public Engine {
     }
     bench.collect(result);
     result.interrupted = !bench.complete();
+    if (result.interrupted && result.cycles == 0) throw Interrupted();  // while golden worked
     add_pictures(run, context, loaded, bench, result);
     if (bench.complete()) bench.check();
   }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,8 +53,10 @@ struct LoadedFrame {
   std::vector<std::filesystem::path> inputs;  // files that the result depends on
 };
 
-// FileError for files that cannot be read; ConfigError for sizes that do not agree.
-LoadedFrame load_frame(const FrameParameters& parameters, std::uint32_t seed);
+// FileError for files that cannot be read; ConfigError for sizes that do not agree; Interrupted
+// once `interrupted` says so.
+LoadedFrame load_frame(const FrameParameters& parameters, std::uint32_t seed,
+                       const std::function<bool()>& interrupted = nullptr);
 
 // U24 of every pixel.
 std::vector<std::uint32_t> depth_codes(const DepthImage& depth);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "tb/app/interrupt.h"
 #include "tb/app/report.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
@@ -24,6 +25,16 @@ std::optional<double> value_of(double psnr) {
 }
 
 }  // namespace
+
+Image render_truth(const Scene& scene, RenderOptions options, Result& result) {
+  options.interrupted = interrupted;
+  try {
+    return render(scene, options);
+  } catch (const Interrupted&) {
+    result.interrupted = true;
+    return {};
+  }
+}
 
 Quality judge_quality(std::string reference, const Image& before, const Image& after,
                       const Image& truth, const DepthImage* depth) {

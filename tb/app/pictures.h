@@ -10,10 +10,16 @@
 #include "tb/app/result.h"
 #include "tb/app/run_context.h"
 #include "tb/scene/image.h"
+#include "tb/scene/scenes.h"
+#include "tb/scene/truth.h"
 
 namespace deburr::tb {
 
 inline constexpr int kDifferenceGain = 4;
+
+// The scene's truth. Ctrl-C on the way ends it: the result is marked, the picture empty, and what
+// was measured before stays.
+Image render_truth(const Scene& scene, RenderOptions options, Result& result);
 
 // `after` and what went in, `before`, against the truth: over the frame, over edge pixels and, with
 // a depth, over silhouettes.

@@ -12,8 +12,10 @@
 #include "spec/error.h"
 #include "tb/app/build_info.h"
 #include "tb/app/file.h"
+#include "tb/app/interrupt.h"
 #include "tb/app/report.h"
 #include "tb/scene/image_io.h"
+#include "tb/scene/truth.h"
 
 namespace deburr::tb {
 namespace {
@@ -67,6 +69,7 @@ std::vector<std::string> RunContext::old_results() const {
 }
 
 void RunContext::claim() {
+  if (interrupted()) throw Interrupted();
   const std::vector<std::string> old = old_results();
   std::vector<std::string> concerned = old;
   for (const char* name : {"result.json", "report.html", kManifest}) concerned.emplace_back(name);

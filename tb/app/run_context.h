@@ -48,6 +48,7 @@ class RunContext {
   void protect(const std::filesystem::path& file) { protected_.push_back(file); }
   // Makes the directory and proves it writable; removes nothing. ConfigError where this run would
   // replace a file that it reads, or one that is not an earlier run's: no manifest names it.
+  // Interrupted if Ctrl-C came while the input was made: there is nothing to keep.
   void claim();
   // Removes the results of an earlier run, so that what is found there afterwards belongs to this
   // one.

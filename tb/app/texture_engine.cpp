@@ -177,7 +177,8 @@ class TextureEngine final : public Engine {
       render_options.samples = kTruthSamples;
       render_options.sampling = Sampling::kBilinear;
       render_options.averaging = linear_light() ? Averaging::kLinear : Averaging::kStored;
-      const Image truth = render(scene.scene(), render_options);
+      const Image truth = render_truth(scene.scene(), render_options, result);
+      if (truth.empty()) return;
       result.quality = judge_quality(fmt::format("supersampled-{}", kTruthSamples * kTruthSamples),
                                      before, after, truth, &scene.stream().depth);
       context.add_image("truth", truth, "Truth",

@@ -356,6 +356,40 @@ class Interruption(CommandTest):
         self.assertGreater(result["checks"]["comparisons"], 0)
         self.assertTrue(os.path.exists(self.path("out/report.html")))
 
+    def interrupt(self, when, *arguments):
+        """The command, interrupted once when(); how long it took from then, and its output."""
+        process = subprocess.Popen([DEBURR, "run", *arguments, "--out", self.path("out")],
+                                   text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        while not when() and process.poll() is None:
+            time.sleep(0.05)
+        sent = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 130, out + err)
+        return time.monotonic() - sent, out
+
+    def test_ctrl_c_before_the_simulation(self):
+        """The truth of a scene takes minutes here; the run ends without it and leaves nothing."""
+        begin = time.monotonic()
+        seconds, out = self.interrupt(lambda: time.monotonic() > begin + 1, "morphological",
+                                      "--scene", "object", "--size", "4096x4096",
+                                      "--set", "frame.truth_samples=16")
+        self.assertIn("before the simulation began", out)
+        self.assertLess(seconds, 20)
+        self.assertFalse(os.path.exists(self.path("out")))
+
+    def test_ctrl_c_in_the_truth(self):
+        """Few fragments in a large picture: the truth begins when the other pictures are there."""
+        seconds, _ = self.interrupt(lambda: os.path.exists(self.path("out/difference.png")),
+                                    "texture", "--scene", "quad", "--size", "4096x4096",
+                                    "--set", "scene.fov=3.1", "--truth")
+        self.assertLess(seconds, 20)
+        with open(self.path("out/result.json")) as file:
+            result = json.load(file)
+        self.assertTrue(result["interrupted"])
+        self.assertEqual(result["checks"]["mismatches"], 0)
+        self.assertGreater(result["checks"]["comparisons"], 0)
+        self.assertNotIn("truth.png", os.listdir(self.path("out")))
 
     def test_ctrl_c_ends_papers(self):
         process = subprocess.Popen([DEBURR, "papers", "--out", self.path("out")], text=True,

@@ -279,6 +279,7 @@ Image render(const Scene& scene, const RenderOptions& options) {
   std::vector<double> depths;
   Image image(options.width, options.height);
   for (int row = 0; row < occlusion.rows(); ++row) {
+    if (options.interrupted && options.interrupted()) throw Interrupted();
     for (int column = 0; column < occlusion.columns(); ++column) {
       occlusion.resolve(column, row, 0, 0, owners, depths);
       const int x_end = std::min(options.width, (column + 1) * tile_pixels);
@@ -363,8 +364,10 @@ DepthImage render_depth(const Scene& scene, int width, int height) {
   return depth;
 }
 
-LitFrames render_lit_frames(const Scene& scene, int width, int height, int samples) {
+LitFrames render_lit_frames(const Scene& scene, int width, int height, int samples,
+                            const std::function<bool()>& interrupted) {
   RenderOptions options;
+  options.interrupted = interrupted;
   options.width = width;
   options.height = height;
   options.shading = Shading::kLit;

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
+#include <functional>
 
 #include "tb/scene/image.h"
 #include "tb/scene/scenes.h"
@@ -20,16 +22,22 @@ enum class Averaging : std::uint8_t {
   kLinear   // linear light: sRGB curve for kTexture, gamma 2.2 for kLit
 };
 
+// Thrown where work was given up because someone asked for it, and nothing of it is of use.
+struct Interrupted : std::exception {
+  const char* what() const noexcept override { return "interrupted"; }
+};
+
 struct RenderOptions {
   int width = 512, height = 512;  // pixels, 1..8192
   int samples = 1;                // N: N x N sub-samples at ((i + 1/2) / N, (j + 1/2) / N), 1..32
   Shading shading = Shading::kTexture;
   Sampling sampling = Sampling::kBilinear;
   Averaging averaging = Averaging::kStored;
+  std::function<bool()> interrupted = nullptr;  // asked every few rows; true: render() throws
 };
 
 // The box-filtered picture: mean of N x N samples, rounded half up. samples = 1 is the frame
-// without anti-aliasing. Throws ConfigError.
+// without anti-aliasing. Throws ConfigError and Interrupted.
 Image render(const Scene& scene, const RenderOptions& options);
 
 // 4 x MSAA on the rotated grid (-2,-6) (6,-2) (-6,2) (2,6) sixteenths of a pixel: coverage and
@@ -45,6 +53,7 @@ struct LitFrames {
   Image truth;  // N x N samples, averaged in linear light
   DepthImage depth;
 };
-LitFrames render_lit_frames(const Scene& scene, int width, int height, int samples);
+LitFrames render_lit_frames(const Scene& scene, int width, int height, int samples,
+                            const std::function<bool()>& interrupted = nullptr);
 
 }  // namespace deburr::tb
