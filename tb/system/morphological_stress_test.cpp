@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <tuple>
 
@@ -156,21 +157,40 @@ TEST(MorphologicalMemory, StorageAndLanesChangeNoPixel) {
   }
 }
 
-TEST(MorphologicalMemory, ErrorResponsesReadAsZeroAndAreReported) {
-  MorphologicalBenchOptions options = options_of(Lanes::kOne, Storage::kMemory);
-  options.memory.error_address = 640;
-  options.memory.error_bytes = 128;
-  const std::vector<MorphologicalInput> frames = {blocks(150, 40)};
+struct Broken {
+  const char* name;
+  std::int64_t address, bytes;
+  Lanes lanes;
+};
+void PrintTo(const Broken& broken, std::ostream* out) { *out << broken.name; }
+class BrokenMemory : public testing::TestWithParam<Broken> {};
+
+// The golden model predicts the black pixels and counts the lines that were read with an error; the
+// register counts each of them once more, for its write.
+TEST_P(BrokenMemory, ErrorResponsesReadAsZeroAndAreReported) {
+  namespace reg = spec::morphological_register;
+  MorphologicalBenchOptions options = options_of(GetParam().lanes, Storage::kMemory);
+  options.memory.latency_max = 90;
+  options.memory.error_address = GetParam().address;
+  options.memory.error_bytes = GetParam().bytes;
+  const std::vector<MorphologicalInput> frames = {blocks(150, 40)};  // 10 lines a row
   MorphologicalBench bench(frames, options);
   EXPECT_THROW(bench.run(), spec::SimulationError);
-  EXPECT_NO_THROW(bench.check());  // the golden model predicts the black pixels
-  EXPECT_NE(bench.read_register(spec::morphological_register::kStatus) &
-                spec::morphological_register::kStatusMemoryError,
-            0u);
-  EXPECT_EQ(bench.golden().memory_errors(), 2u);
-  // Each line is answered with an error when it is written and when it is read.
-  EXPECT_EQ(bench.read_register(spec::morphological_register::kMemoryErrors), 4u);
+  EXPECT_NO_THROW(bench.check());
+  EXPECT_EQ(bench.pixels(), 150u * 40u);
+  EXPECT_NE(bench.read_register(reg::kStatus) & reg::kStatusMemoryError, 0u);
+  const std::int64_t first = GetParam().address / 64,
+                     end = (GetParam().address + GetParam().bytes + 63) / 64;
+  const auto lines = static_cast<std::uint64_t>(std::min<std::int64_t>(end, 400) - first);
+  EXPECT_EQ(bench.golden().memory_errors(), lines);
+  EXPECT_EQ(bench.read_register(reg::kMemoryErrors), 2 * lines);
 }
+INSTANTIATE_TEST_SUITE_P(MorphologicalMemory, BrokenMemory,
+                         testing::Values(Broken{"two_lines", 640, 128, Lanes::kOne},
+                                         Broken{"a_byte", 12345, 1, Lanes::kTwo},
+                                         Broken{"last_rows", 20000, 1 << 20, Lanes::kFour},
+                                         Broken{"all", 0, 25600, Lanes::kFour}),
+                         [](const auto& broken) { return broken.param.name; });
 
 }  // namespace
 }  // namespace deburr::tb::morphological_system
