@@ -49,7 +49,7 @@ DiscFigures measure_discs(const Smoothing& smoothing, const DiscOptions& options
     for (int seed = 1; seed <= options.seeds; ++seed) {
       texture::Random random(static_cast<std::uint64_t>(1000 * seed + radius));
       for (double around = 0; around < options.pixels; around += 2 * std::numbers::pi * radius) {
-        const double middle = side / 2 - 0.5;
+        const double middle = side / 2.0 - 0.5;
         measure_disc(smoothing,
                      {middle + random.uniform(0, 1), middle + random.uniform(0, 1),
                       radius * random.uniform(0.9, 1)},
