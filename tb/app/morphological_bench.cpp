@@ -193,11 +193,12 @@ void collect_morphological(rtl::morphological::MorphologicalEngine& engine, int 
         "divider could not start another; at 100 % it is the limit. The unit is busy for longer, "
         "while a division is under way.");
   }
-  const auto figure = [&](const char* label, const char* name) {
-    result.figures.push_back({label, "work." + prefix + name});
+  const auto figure = [&](const char* label, const char* name, const char* remark = "") {
+    result.figures.push_back({label, "work." + prefix + name, remark});
   };
-  figure("Divider occupancy, horizontal runs", "divider_h_occupancy_percent");
-  figure("Divider occupancy, vertical runs", "divider_v_occupancy_percent");
+  constexpr const char* kOccupancy = "divisions x interval, of clocks x lanes";
+  figure("Divider occupancy, horizontal runs", "divider_h_occupancy_percent", kOccupancy);
+  figure("Divider occupancy, vertical runs", "divider_v_occupancy_percent", kOccupancy);
   figure("Pixels on edges", "edge_pixels_percent");
   figure("Pixels blended", "blended_pixels_percent");
   for (const rtl::Counter* counter : engine.counters())

@@ -171,12 +171,16 @@ class ReportBuilder {
       const Json before = quality->value(edges ? "psnr_edge_before_db" : "psnr_before_db", Json());
       const std::string gain = gain_of(before, after);
       tile(edges ? "PSNR, edge pixels" : "PSNR", decibels(after), "dB",
-           (gain == "-" ? "" : gain + " dB, ") + "against " + quality->value("reference", ""));
+           gain == "-" ? "of what came out" : gain + " dB, before " + decibels(before));
     }
     tile("Simulation", fmt::format("{:.2f}", number(result_["host"], "mcycles_per_s")), "Mcycle/s",
          fmt::format("{:.1f} s, {:.1f} s of them computing", number(result_["host"], "seconds"),
                      number(result_["host"], "cpu_seconds")));
     page_.set("tiles", tiles);
+    // One row of tiles, or two that are equally long.
+    constexpr std::size_t kRow = 7;
+    const std::size_t count = tiles.list_value().size();
+    page_.set("columns", std::to_string(count <= kRow ? count : (count + 1) / 2));
 
     mustache::data meters{mustache::data::type::list};
     const auto meter = [&](std::string name, double part, double whole, const std::string& unit,
@@ -247,6 +251,7 @@ class ReportBuilder {
     const auto other = figure.find("against");
     if (other == figure.end()) return "";
     const std::string label = other->value("label", "");
+    if (!other->contains("key")) return label;
     const Json value = value_at(figure.value("key", ""));
     const Json reference = value_at(other->value("key", ""));
     if (!value.is_number() || !reference.is_number()) return "";

@@ -98,8 +98,8 @@ Json to_json(const Result& r) {
   json["figures"] = Json::array();
   for (const Figure& figure : r.figures) {
     Json entry = {{"label", figure.label}, {"key", figure.key}};
-    if (!figure.against.empty())
-      entry["against"] = {{"label", figure.against_label}, {"key", figure.against}};
+    if (!figure.against_label.empty()) entry["against"] = {{"label", figure.against_label}};
+    if (!figure.against.empty()) entry["against"]["key"] = figure.against;
     if (figure.tile) entry["tile"] = true;
     json["figures"].push_back(entry);
   }

@@ -80,7 +80,7 @@ struct SramMemory {
 };
 
 // What a reader looks for first: a value of the result by its key ("work.frame_clocks"), beside
-// one that it should be compared with ("" for none).
+// one that it should be compared with; without such a key, against_label is a remark.
 struct Figure {
   std::string label, key;
   std::string against_label{}, against{};

@@ -44,7 +44,7 @@ Result sample_result() {
   r.bottleneck = find_bottleneck(r.units, "cache");
   r.sram = {{"cache.data", "1R1W", 131072, 131072}, {"cache.lines", "2RW", 5120, 1280}};
   r.work = {{"fragments", 1000, "fragment", "Colours </script><script>alert(1)</script>."}};
-  r.figures = {{"Fragments", "work.fragments"},
+  r.figures = {{"Fragments", "work.fragments", "a remark"},
                {"Whole run", "cycles", "bound", "work.bound", true}};
   r.work.push_back({"bound", 50000, "clk", "The least."});
   r.quality = Quality{
@@ -204,6 +204,7 @@ TEST_F(Page, ShowsWhatTheIssueAsksForFirst) {
                               "5,120</td><td>2RW</td>"));
   EXPECT_THAT(page, HasSubstr("<td>total</td><td class=\"n\">132,352</td><td class=\"n\">136,192"));
   EXPECT_THAT(page, HasSubstr("Limited by cache: stalled, wait fill"));
+  EXPECT_THAT(page, HasSubstr("<td>a remark</td>"));
   EXPECT_THAT(page, HasSubstr("id=\"latency\""));
 }
 
