@@ -193,8 +193,26 @@ Outcome run_engine(Engine& engine, const RunOptions& options, const std::string&
                          summary_of(result, context.directory()))};
 }
 
+// What --help calls a value of it.
+std::string value_name(const Shorthand& shorthand, const Parameter& parameter) {
+  if (!shorthand.second_parameter.empty()) return "WxH";
+  if (parameter.range.find_first_not_of("0123456789.| ") == std::string::npos) return "NUMBER";
+  if (parameter.range == "file") return "FILE";
+  if (parameter.range == "glob") return "GLOB";
+  return shorthand.option == "--in" ? "FILE" : "NAME";
+}
+
+// Its help, with the default where that is a number.
+std::string help_of(const Shorthand& shorthand, const Parameter& parameter) {
+  if (shorthand.help.empty() || parameter.range.find("..") == std::string::npos ||
+      !shorthand.second_parameter.empty())
+    return shorthand.help;
+  return fmt::format("{} ({})", shorthand.help, parameter.default_value);
+}
+
 void add_shorthand(CLI::App& command, const Shorthand& shorthand, RunOptions& options,
-                   bool is_switch) {
+                   const Parameter& parameter) {
+  const bool is_switch = parameter.range == "true | false";
   const std::string group = shorthand.help.empty() ? "" : "Options";  // "": not shown in --help
   CLI::Option* option =
       is_switch
@@ -210,8 +228,9 @@ void add_shorthand(CLI::App& command, const Shorthand& shorthand, RunOptions& op
                   for (Assignment& a : expand(shorthand, value))
                     options.shorthands.push_back(std::move(a));
                 },
-                shorthand.help);
+                help_of(shorthand, parameter));
   option->group(group);
+  if (!is_switch) option->type_name(value_name(shorthand, parameter));
 }
 
 }  // namespace
@@ -225,12 +244,15 @@ void add_run(CLI::App& app, CommandLine& line) {
     CLI::App* command =
         run->add_subcommand(std::string(engine->name()), std::string(engine->summary()));
     const auto options = std::make_shared<RunOptions>();
-    command->add_option("--config", options->config, "YAML file of parameters");
-    command->add_option("--set", options->sets, "name=value: any parameter of `deburr params`")
+    command->add_option("--config", options->config, "YAML file of parameters")->type_name("FILE");
+    command->add_option("--set", options->sets, "Any parameter of `deburr params`; may be repeated")
         ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command->add_option("--out", options->out,
-                        fmt::format("Directory of the results (out/{})", engine->name()));
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->type_name("NAME=VALUE");
+    command
+        ->add_option("--out", options->out,
+                     fmt::format("Directory of the results (out/{})", engine->name()))
+        ->type_name("DIR");
     command->add_flag("--show-config", options->resolve_only,
                       "Print the resolved configuration and stop");
     // To know which shorthands are switches, the parameters are asked.
@@ -249,7 +271,7 @@ void add_run(CLI::App& app, CommandLine& line) {
       for (const Shorthand& shorthand : list) {
         const Parameter* parameter = probe.find(shorthand.parameter);
         DEBURR_CHECK(parameter, shorthand.option + " stands for an unknown parameter");
-        add_shorthand(*command, shorthand, *options, parameter->range == "true | false");
+        add_shorthand(*command, shorthand, *options, *parameter);
       }
     command->callback([engine, options, &line] {
       line.action = [engine, options, &line] { return run_engine(*engine, *options, line.text); };

@@ -5,6 +5,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -109,6 +110,14 @@ int edit_distance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
+namespace {
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower;
+}
+}  // namespace
+
 std::vector<std::string> near_matches(std::string_view name,
                                       const std::vector<std::string>& candidates) {
   constexpr std::size_t kMaxName =
@@ -118,6 +127,9 @@ std::vector<std::string> near_matches(std::string_view name,
   const auto last_part = [](std::string_view text) { return text.substr(text.rfind('.') + 1); };
   for (const std::string& candidate : candidates) {
     int distance = edit_distance(name, candidate);
+    // Capitals alone are no difference.
+    distance =
+        std::min(distance, std::max(1, edit_distance(lower_case(name), lower_case(candidate))));
     // The right leaf under a wrong or missing prefix is a likely meaning too.
     if (last_part(candidate) == last_part(name)) distance = std::min(distance, 2);
     if (candidate.ends_with("." + std::string(name))) distance = 1;

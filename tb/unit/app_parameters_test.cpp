@@ -224,6 +224,10 @@ TEST(EditDistance, CountsEditsAndSwaps) {
   EXPECT_EQ(edit_distance("", "abc"), 3);
   EXPECT_EQ(edit_distance("ways", "wasy"), 1);
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
+  const std::vector<std::string> presets = {"mlaa", "mlaa-slope", "deburr"};
+  EXPECT_THAT(near_matches("MLAA", presets), testing::ElementsAre("mlaa"));
+  EXPECT_THAT(near_matches("Debur", presets), testing::ElementsAre("deburr"));
+  EXPECT_THAT(near_matches("ram", presets), testing::IsEmpty());
 }
 
 TEST(EditDistance, DidYouMeanReadsWell) {
