@@ -30,7 +30,7 @@ Outcome run_papers(const PapersCommand& command) {
   for (const std::string& id : command.only)
     if (std::find(known.begin(), known.end(), id) == known.end())
       throw spec::ConfigError(
-          fmt::format("--only: no paper '{}' here: known are {}", id, fmt::join(known, ", ")));
+          fmt::format("no paper '{}' here: known are {}", id, fmt::join(known, ", ")));
   prove_writable(command.out);
   std::vector<Paper> done;
   for (const PaperEntry& entry : papers()) {
@@ -53,7 +53,7 @@ void add_papers(CLI::App& app, CommandLine& line) {
   const auto options = std::make_shared<PapersCommand>();
   command->add_option("--out", options->out, "Directory for index.html, papers.json and pictures")
       ->capture_default_str();
-  command->add_option("--only", options->only, "Papers to reproduce, such as 004");
+  command->add_option("ID,--only", options->only, "Papers to reproduce, such as 004 (all)");
   command->add_option("--size", options->options.size, "Side of the pictures, pixel")
       ->capture_default_str()
       ->check(CLI::Range(64, 4096));

@@ -48,8 +48,7 @@ const std::vector<Shorthand>& common_shorthands() {
       {"--stalls", "run.stalls", "Random stalls: probability in each cycle"},
       {"--shuffle", "run.shuffle", "Evaluate units in random order"},
       {"--truth", "run.truth", "Compare with the scene's supersampled truth"},
-      // For checking the checkers; documented in docs/verification.md only.
-      {"--fault", "run.fault", ""}};
+      {"--fault", "run.fault", "Plant a fault that the checks must catch (docs/verification.md)"}};
   return options;
 }
 
@@ -212,25 +211,24 @@ std::string help_of(const Shorthand& shorthand, const Parameter& parameter) {
 
 void add_shorthand(CLI::App& command, const Shorthand& shorthand, RunOptions& options,
                    const Parameter& parameter) {
-  const bool is_switch = parameter.range == "true | false";
-  const std::string group = shorthand.help.empty() ? "" : "Options";  // "": not shown in --help
-  CLI::Option* option =
-      is_switch
-          ? command.add_flag_callback(
-                shorthand.option,
-                [&options, shorthand] {
-                  options.shorthands.push_back({shorthand.parameter, "true", shorthand.option});
-                },
-                shorthand.help)
-          : command.add_option_function<std::string>(
-                shorthand.option,
-                [&options, shorthand](const std::string& value) {
-                  for (Assignment& a : expand(shorthand, value))
-                    options.shorthands.push_back(std::move(a));
-                },
-                help_of(shorthand, parameter));
-  option->group(group);
-  if (!is_switch) option->type_name(value_name(shorthand, parameter));
+  if (parameter.range == "true | false") {
+    command.add_flag_callback(
+        shorthand.option,
+        [&options, shorthand] {
+          options.shorthands.push_back({shorthand.parameter, "true", shorthand.option});
+        },
+        shorthand.help);
+    return;
+  }
+  command
+      .add_option_function<std::string>(
+          shorthand.option,
+          [&options, shorthand](const std::string& value) {
+            for (Assignment& a : expand(shorthand, value))
+              options.shorthands.push_back(std::move(a));
+          },
+          help_of(shorthand, parameter))
+      ->type_name(value_name(shorthand, parameter));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -17,6 +18,7 @@
 #include "tb/app/commands.h"
 #include "tb/app/headline.h"
 #include "tb/app/interrupt.h"
+#include "tb/app/parameter_set.h"
 
 namespace {
 
@@ -63,6 +65,55 @@ Outcome failure(int code, const char* kind, const std::string& text) {
   return {code, fmt::format("FAIL {}: {}", kind, deburr::tb::headline(text))};
 }
 
+std::string quoted_names(const std::vector<const CLI::App*>& commands) {
+  std::string names;
+  for (const CLI::App* command : commands)
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  return names;
+}
+
+// What is wrong with the command line, in the order in which it was written: CLI11 names the last
+// of what it could not place first, knows no near matches and not which page of help to look at.
+std::string explain(const CLI::App& app, int argc, char** argv, const std::string& complaint) {
+  const CLI::App* command = &app;
+  std::string path = "deburr";
+  const auto see = [&](const std::string& text) {
+    return fmt::format("{} (see {} --help)", text, path);
+  };
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const auto commands = command->get_subcommands(nullptr);
+    if (word.starts_with("--") && word.size() > 2) {
+      const std::string name = word.substr(0, word.find('='));
+      const CLI::Option* option = command->get_option_no_throw(name);
+      if (!option) {
+        std::vector<std::string> known;
+        for (const CLI::Option* other : command->get_options())
+          for (const std::string& long_name : other->get_lnames())
+            known.push_back("--" + long_name);
+        return see(fmt::format("unknown option '{}'{}", name,
+                               deburr::tb::did_you_mean(deburr::tb::near_matches(name, known))));
+      }
+      if (name == word && option->get_items_expected_min() > 0) ++i;  // its value
+    } else if (!word.starts_with("-") && !commands.empty()) {
+      const auto next = std::find_if(commands.begin(), commands.end(),
+                                     [&](const CLI::App* c) { return c->get_name() == word; });
+      if (next == commands.end()) {
+        std::vector<std::string> known;
+        for (const CLI::App* other : commands) known.push_back(other->get_name());
+        return see(fmt::format("no '{} {}'{}, known are {}", path, word,
+                               deburr::tb::did_you_mean(deburr::tb::near_matches(word, known)),
+                               quoted_names(commands)));
+      }
+      command = *next;
+      path += " " + word;
+    }
+  }
+  if (const auto commands = command->get_subcommands(nullptr); !commands.empty())
+    return see(fmt::format("{} what? Known are {}", path, quoted_names(commands)));
+  return see(complaint);
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"Cycle-accurate models of anti-aliasing hardware, checked against golden models.",
                "deburr"};
@@ -93,7 +144,7 @@ int run(int argc, char** argv) {
     return app.exit(done);
   } catch (const CLI::ParseError& error) {
     return finish(failure(static_cast<int>(ExitCode::kUsage), "usage",
-                          fmt::format("{} (see {} --help)", error.what(), argv[0])),
+                          explain(app, argc, argv, error.what())),
                   command);
   } catch (const deburr::spec::Error& error) {
     constexpr const char* kKinds[] = {"",           "mismatch", "configuration",

@@ -133,6 +133,8 @@ std::vector<std::string> near_matches(std::string_view name,
     // The right leaf under a wrong or missing prefix is a likely meaning too.
     if (last_part(candidate) == last_part(name)) distance = std::min(distance, 2);
     if (candidate.ends_with("." + std::string(name))) distance = 1;
+    // So is a name that was not finished.
+    if (candidate.starts_with(name)) distance = std::min(distance, 2);
     if (distance <= std::max<int>(1, static_cast<int>(name.size()) / 3))
       ranked.emplace_back(distance, candidate);
   }

@@ -172,10 +172,29 @@ class Configuration(CommandTest):
 
     def test_unknown_option_and_command(self):
         self.expect(2, "run", "texture", "--aniso", "3", says="1, 2, 4, 8, 16")
-        self.expect(2, "run", "texture", "--colour", "red")
-        self.expect(2, "run", "nothing")
-        self.expect(2, "frobnicate")
-        self.expect(2)
+        self.expect(2, "run", "texture", "--colour", "red",
+                    says=["'--colour'", "deburr run texture --help"])
+        self.expect(2, "run", "nothing", says=["deburr run nothing", "texture, morphological"])
+        self.expect(2, "frobnicate", says=["deburr frobnicate", "compare"])
+        self.expect(2, says=["deburr what?", "compare"])
+        self.expect(2, "run", says=["deburr run what?", "morphological"])
+
+    def test_typing_errors_of_options_and_commands(self):
+        self.expect(2, "run", "morphlogical", "--size", "8x8", says="did you mean 'morphological'?")
+        self.expect(2, "rum", "texture", says="did you mean 'run'?")
+        self.expect(2, "run", "morphological", "--presett", "mlaa",
+                    says=["'--presett': did you mean '--preset'?", "deburr run morphological --help"])
+        self.expect(2, "run", "morphological", "--out", "--size", "--presett=mlaa",
+                    says="did you mean '--preset'?")
+        self.expect(2, "compare", "a", "b", "--psnr", "1", says="'--psnr-db'")
+
+    def test_faults_are_in_the_help(self):
+        for engine in ("texture", "morphological", "frame"):
+            self.assertIn("--fault", self.run_command("run", engine, "--help").stdout)
+
+    def test_papers_by_name(self):
+        for option in ((), ("--only",)):
+            self.expect(2, "papers", *option, "999", says="no paper '999' here: known are 000")
 
     def test_trace_of_nothing(self):
         self.run_texture(2, "--trace", "texture.nothing*",
