@@ -61,6 +61,13 @@ struct Storing {
     response.data = data;
     response_driver.send(at, response);
   }
+  // Line `number` of the frame as memory has it, in rows of whole lines.
+  rtl::Line line(std::uint32_t number) const {
+    rtl::Line data{};
+    for (std::size_t i = 0; i < 64; ++i)
+      data[i] = frame.pixel[16 * std::size_t{number} + i / 4][i % 4];
+    return data;
+  }
   // Pixel for pixel what the frame has there, as far as it has.
   void expect_around(const PixelToken& token, int y, int b) const {
     SCOPED_TRACE("row " + std::to_string(y) + ", beat " + std::to_string(b));
@@ -263,44 +270,57 @@ TEST(PixelStoreMemory, AWriteAClockLeavesNoRoomForReads) {
   }
 }
 
-// Three rows on the chip: row 3 takes the place of row 0, which is asked for last with row 1.
+// Three rows on the chip: row 3 takes the place of row 0, which is asked for last with row 1. Of a
+// row of two lines, each as soon as its own place is free.
 TEST(PixelStoreMemory, ALineIsReadInTheClockInWhichItsPlaceIsFree) {
-  const Frame frame = colours(16, 5);
-  Storing bench(built(spec::Storage::kMemory, 0), frame);
-  constexpr Cycle kAsked = 120;
+  Storing bench(built(spec::Storage::kMemory, 0), colours(32, 5));
+  constexpr Cycle kAsked = 220;
   for (int y = 0; y < 5; ++y)
-    for (int b = 0; b < 16; ++b) bench.store_beat(0, y, b);
-  for (std::uint32_t line = 0; line < 5; ++line) bench.answer(90 + line, line, true);
-  for (std::uint32_t line = 0; line < 3; ++line) {
-    rtl::Line data{};
-    for (std::size_t i = 0; i < 64; ++i) data[i] = frame.pixel[16 * line + i / 4][i % 4];
-    bench.answer(100 + line, line, false, data);
-  }
+    for (int b = 0; b < 32; ++b) bench.store_beat(0, y, b);
+  for (std::uint32_t line = 0; line < 10; ++line) bench.answer(170 + line, line, true);
+  for (std::uint32_t line = 0; line < 6; ++line) bench.answer(190, line, false, bench.line(line));
   for (int y = 0; y < 2; ++y)
-    for (int b = 0; b < 16; ++b) bench.fetch_beat(kAsked, y, b);
-  bench.clock.run(200);
-  ASSERT_EQ(bench.request_gate.beats.size(), 5u + 4u);
-  EXPECT_EQ(bench.request_gate.beats[8].tag, 3u);
-  // The last beat of row 1 is sent in kAsked + 31 and popped a clock later, and so is the read.
-  EXPECT_EQ(bench.request_gate.cycles[8], kAsked + 33);
-  for (std::size_t i = 0; i < 32; ++i)
-    bench.expect_around(bench.pixel_gate.beats.at(i), static_cast<int>(i) / 16,
-                        static_cast<int>(i) % 16);
+    for (int b = 0; b < 32; ++b) bench.fetch_beat(kAsked, y, b);
+  bench.clock.run(320);
+  ASSERT_EQ(bench.request_gate.beats.size(), 10u + 8u);
+  EXPECT_EQ(bench.request_gate.beats[16].tag, 6u);
+  EXPECT_EQ(bench.request_gate.beats[17].tag, 7u);
+  // Beat 15 of row 1 is sent in kAsked + 47 and popped a clock later, and so is the read.
+  EXPECT_EQ(bench.request_gate.cycles[16], kAsked + 49);
+  EXPECT_EQ(bench.request_gate.cycles[17], kAsked + 65);
+  for (std::size_t i = 0; i < 64; ++i)
+    bench.expect_around(bench.pixel_gate.beats.at(i), static_cast<int>(i) / 32,
+                        static_cast<int>(i) % 32);
+}
+
+// Each beat waits for the line that its own lower neighbour is in, and for no other.
+TEST(PixelStoreMemory, ABeatWaitsForTheLineBelow) {
+  Storing bench(built(spec::Storage::kMemory, 0), colours(32, 3));
+  for (int y = 0; y < 3; ++y)
+    for (int b = 0; b < 32; ++b) bench.store_beat(0, y, b);
+  for (std::uint32_t line = 0; line < 6; ++line) bench.answer(110, line, true);
+  for (std::uint32_t line = 0; line < 3; ++line) bench.answer(130, line, false, bench.line(line));
+  bench.answer(200, 3, false, bench.line(3));
+  for (int b = 0; b < 32; ++b) bench.fetch_beat(150, 0, b);
+  bench.clock.run(240);
+  ASSERT_EQ(bench.pixel_gate.beats.size(), 32u);
+  for (std::size_t b = 0; b < 32; ++b) {
+    // Sent in 150 + b, popped a clock later, taken in the next; the answer is popped in 201.
+    EXPECT_EQ(bench.pixel_gate.cycles[b], b < 16 ? 152 + b : 203 + b - 16);
+    bench.expect_around(bench.pixel_gate.beats[b], 0, static_cast<int>(b));
+  }
 }
 
 // Lines that were loaded are there a clock after their response was popped; until then the slot
 // waits for memory and says so.
 TEST(PixelStoreMemory, ASlotWaitsForItsLine) {
-  const Frame frame = colours(16, 1);
-  Storing bench(built(spec::Storage::kMemory, 2), frame);
+  Storing bench(built(spec::Storage::kMemory, 2), colours(16, 1));
   for (int b = 0; b < 4; ++b) {
     bench.store_beat(0, 0, b);
     bench.fetch_beat(10, 0, b);
   }
   bench.answer(20, 0, true);
-  rtl::Line data{};
-  for (std::size_t i = 0; i < 64; ++i) data[i] = frame.pixel[i / 4][i % 4];
-  bench.answer(40, 0, false, data);
+  bench.answer(40, 0, false, bench.line(0));
   bench.clock.run(60);
   ASSERT_EQ(bench.pixel_gate.beats.size(), 4u);
   for (std::size_t b = 0; b < 4; ++b) {

@@ -125,7 +125,8 @@ TEST_P(AreaLanes, LatencyAndIntervalAreOne) {
   EXPECT_EQ(bench.unit.stalled_cycles(), 0u);
 }
 
-// A record of each axis: 85, 11 | 11, 85, at its pixels and nowhere else.
+// A record of each axis, and one in the corner of the frame: 85, 11 | 11, 85, at its pixels and
+// nowhere else.
 TEST_P(AreaLanes, SharesLieWhereTheRecordLies) {
   Area bench(small(GetParam()), 11, 9);
   bench.send_slots(0);
@@ -134,6 +135,9 @@ TEST_P(AreaLanes, SharesLieWhereTheRecordLies) {
   bench.drivers_h[0]->send(
       0, three(Axis::kHorizontal, 3, 3,
                bench.slots_before(3 + kReach + 2) + static_cast<std::uint32_t>(6 / lanes)));
+  bench.drivers_v[0]->send(
+      0, three(Axis::kVertical, 10, 0,
+               bench.slots_before(kReach + 2) + static_cast<std::uint32_t>(10 / lanes)));
   bench.drivers_v[0]->send(
       0, three(Axis::kVertical, 8, 5,
                bench.slots_before(5 + kReach + 2) + static_cast<std::uint32_t>(8 / lanes)));
@@ -158,11 +162,12 @@ TEST_P(AreaLanes, SharesLieWhereTheRecordLies) {
   }
   // The first pixel of an edge lies above it or left of it, and takes from below or from the right.
   const std::map<std::string, int> expected = {
-      {"3,2 down", 85},  {"4,2 down", 11},  {"4,3 up", 11},   {"5,3 up", 85},
-      {"7,5 right", 85}, {"7,6 right", 11}, {"8,6 left", 11}, {"8,7 left", 85}};
+      {"3,2 down", 85},  {"4,2 down", 11},  {"4,3 up", 11},    {"5,3 up", 85},
+      {"7,5 right", 85}, {"7,6 right", 11}, {"8,6 left", 11},  {"8,7 left", 85},
+      {"9,0 right", 85}, {"9,1 right", 11}, {"10,1 left", 11}, {"10,2 left", 85}};
   EXPECT_EQ(found, expected);
   EXPECT_EQ(bench.unit.horizontal_edges.value(), 3u);
-  EXPECT_EQ(bench.unit.vertical_edges.value(), 3u);
+  EXPECT_EQ(bench.unit.vertical_edges.value(), 6u);
 }
 
 // A line is stored, and its record finished, in the clock of its pop, yet not before its slot has
@@ -173,10 +178,10 @@ TEST_P(AreaLanes, ARecordIsFinishedInTheClockOfItsPopBehindItsSlot) {
   const std::uint32_t even = bench.slots_before(6) + 1, odd = bench.slots_before(7);
   for (int lane = 0; lane < bench.lanes; ++lane) {
     const auto at = static_cast<std::size_t>(lane);
-    // Long before the slot, and long after it.
+    // Long before the slot; and after it, yet not later than the row behind it: the interlock.
     bench.drivers_h[at]->send(2, three(Axis::kHorizontal, 0, 2 * lane, even));
     bench.drivers_v[at]->send(2, three(Axis::kVertical, lane + 1, 0, even));
-    bench.drivers_h[at]->send(odd + 20, three(Axis::kHorizontal, 1, 2 * lane, odd));
+    bench.drivers_h[at]->send(odd + 3, three(Axis::kHorizontal, 1, 2 * lane, odd));
   }
   bench.clock.run(odd + 40);
   const auto& done = bench.finished_gate;
@@ -185,8 +190,8 @@ TEST_P(AreaLanes, ARecordIsFinishedInTheClockOfItsPopBehindItsSlot) {
   EXPECT_EQ(done.cycles[0], even + 2);
   EXPECT_EQ(done.beats[0].count[0], 2 * bench.lanes);
   EXPECT_EQ(done.beats[0].count[1], 0);
-  // Sent in odd + 20, popped in odd + 21, taken in odd + 22.
-  EXPECT_EQ(done.cycles[1], odd + 22);
+  // Sent in odd + 3, popped in odd + 4, taken in odd + 5.
+  EXPECT_EQ(done.cycles[1], odd + 5);
   EXPECT_EQ(done.beats[1].count[0], 0);
   EXPECT_EQ(done.beats[1].count[1], bench.lanes);
   EXPECT_EQ(bench.unit.records.value(), static_cast<std::uint64_t>(3 * bench.lanes));
