@@ -149,7 +149,6 @@ Json RunContext::manifest(const Result& result) const {
   json["configuration"] = parameters_.resolved();
   json["inputs"] = inputs_;
   json["host"] = {{"seconds", result.host_seconds}, {"mcycles_per_s", result.mcycles_per_s()}};
-  json["bottleneck"] = bottleneck_;
   json["images"] = images_;
   json["parameters"] = Json::array();
   for (const Parameter& p : parameters_.all())

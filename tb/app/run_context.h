@@ -40,8 +40,6 @@ class RunContext {
   // What had to be decided about an input (a mesh without normals): on the error stream and, with
   // the summary, in manifest and report.
   void add_note(const std::string& note);
-  // The unit that bounds the rate; the report shows how busy it was.
-  void set_bottleneck(std::string unit) { bottleneck_ = std::move(unit); }
   // Fingerprints a file that the result depends on. Before claim().
   void add_input(const std::filesystem::path& file);
   // A file that was read and must not be overwritten, without being listed. Before claim().
@@ -74,7 +72,7 @@ class RunContext {
   std::vector<std::string> written_;  // removed again by a run that does not finish
   bool begun_ = false, finished_ = false;
   const ParameterSet& parameters_;
-  std::string command_, title_, summary_, bottleneck_, started_;
+  std::string command_, title_, summary_, started_;
   std::uint64_t seed_;
   nlohmann::ordered_json inputs_ = nlohmann::ordered_json::array();
   nlohmann::ordered_json images_ = nlohmann::ordered_json::array();
