@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -12,6 +13,7 @@
 #include "spec/error.h"
 #include "tb/app/commands.h"
 #include "tb/app/compare.h"
+#include "tb/app/file.h"
 #include "tb/app/report.h"
 #include "tb/app/result.h"
 
@@ -23,16 +25,32 @@ struct CompareOptions {
   Tolerances tolerances;
 };
 
+// Of the run that left a result; null without one.
+nlohmann::ordered_json read_manifest(const std::filesystem::path& result) {
+  constexpr std::size_t kMaxBytes = 64u << 20;
+  std::error_code error;
+  const auto folder = std::filesystem::is_directory(result, error) ? result : result.parent_path();
+  if (!std::filesystem::is_regular_file(folder / "manifest.json", error)) return nullptr;
+  return nlohmann::ordered_json::parse(read_file(folder / "manifest.json", kMaxBytes), nullptr,
+                                       false);
+}
+
 Outcome compare_results(const CompareOptions& options) {
   const Comparison comparison =
       compare(read_result(options.a), read_result(options.b), options.tolerances);
+  const nlohmann::ordered_json a = read_manifest(options.a), b = read_manifest(options.b);
+  if (a.is_object() && b.is_object())
+    for (const std::string& line : different_work(a, b))
+      fmt::print(stderr, "deburr: warning: {}\n", line);
+  if (comparison.values.empty()) fmt::print("no value differs\n");
   std::size_t key_width = 4, a_width = 1, b_width = 1;
   for (const ComparedValue& v : comparison.values) {
     key_width = std::max(key_width, v.key.size());
     a_width = std::max(a_width, v.a.size());
     b_width = std::max(b_width, v.b.size());
   }
-  fmt::print("{:{}}  {:>{}}  {:>{}}\n", "", key_width, "A", a_width, "B", b_width);
+  if (!comparison.values.empty())
+    fmt::print("{:{}}  {:>{}}  {:>{}}\n", "", key_width, "A", a_width, "B", b_width);
   std::string worse;
   for (const ComparedValue& v : comparison.values) {
     fmt::print("{:{}}  {:>{}}  {:>{}}  {}{}\n", v.key, key_width, v.a, a_width, v.b, b_width,

@@ -3,10 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
+
+#include "spec/error.h"
 
 namespace deburr::tb {
 namespace {
@@ -102,6 +106,10 @@ std::string change_of(Judge judge, std::optional<double> a, std::optional<double
 }  // namespace
 
 Comparison compare(const Json& a, const Json& b, const Tolerances& tolerances) {
+  if (a.at("unit") != b.at("unit"))
+    throw spec::ConfigError(fmt::format(
+        "A is a run of '{}', B of '{}': results of different engines cannot be compared",
+        shown(&a.at("unit")), shown(&b.at("unit"))));
   Values values_a, values_b;
   flatten(a, "", values_a);
   flatten(b, "", values_b);
@@ -114,16 +122,56 @@ Comparison compare(const Json& a, const Json& b, const Tolerances& tolerances) {
     const Json* left = find(values_a, key);
     const Json* right = find(values_b, key);
     const Judge judge = judge_of(key);
-    if (judge == Judge::kNone && left && right && *left == *right) continue;
     const auto x = as_number(left), y = as_number(right);
     ComparedValue value{key, shown(left), shown(right), change_of(judge, x, y),
                         is_worse(judge, x, y, tolerances)};
     if (key == "verdict") value.worse = left && *left == "pass" && (!right || *right != "pass");
     if (key == "verdict" && right && *right == "fail") value.worse = true;
+    if (left && right && *left == *right && !value.worse) continue;
     comparison.worse = comparison.worse || value.worse;
     comparison.values.push_back(std::move(value));
   }
   return comparison;
+}
+
+std::vector<std::string> different_work(const Json& a, const Json& b) {
+  constexpr std::array kScene = {"frame.source", "scene.source", "scene.texture"};
+  constexpr std::array kSize = {"frame.width",         "frame.height", "scene.width",
+                                "scene.height",        "frame.count",  "scene.texture_size",
+                                "frame.truth_samples", "run.clock_mhz"};
+  const auto hashes = [](const Json& manifest) {
+    std::vector<std::string> all;
+    if (manifest.contains("inputs") && manifest["inputs"].is_array())
+      for (const Json& input : manifest["inputs"])
+        if (input.is_object()) all.push_back(input.value("sha256", ""));
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  const auto names = [](const Json& manifest) {
+    std::string all;
+    if (manifest.contains("inputs") && manifest["inputs"].is_array())
+      for (const Json& input : manifest["inputs"])
+        if (input.is_object()) all += (all.empty() ? "" : ", ") + input.value("file", "");
+    return all.empty() ? std::string("no file") : all;
+  };
+  std::vector<std::string> lines;
+  if (hashes(a) != hashes(b))
+    lines.push_back(fmt::format("the inputs differ: A reads {}, B reads {}", names(a), names(b)));
+  const auto look = [&](const char* key) {
+    const auto value = [&](const Json& manifest) {
+      const auto found = manifest.find("configuration");
+      return found != manifest.end() && found->is_object() && found->contains(key)
+                 ? shown(&found->at(key))
+                 : std::string("-");
+    };
+    if (value(a) != value(b))
+      lines.push_back(fmt::format("{} differs: A {}, B {}", key, value(a), value(b)));
+  };
+  // A file is known by its content: it may have been moved.
+  if (hashes(a).empty() && hashes(b).empty())
+    for (const char* key : kScene) look(key);
+  for (const char* key : kSize) look(key);
+  return lines;
 }
 
 }  // namespace deburr::tb

@@ -21,13 +21,18 @@ struct ComparedValue {
 };
 
 struct Comparison {
-  std::vector<ComparedValue> values;  // every number that either side has and that differs, and
-                                      // every judged one
+  std::vector<ComparedValue> values;  // every one that differs, or that is worse
   bool worse = false;
 };
 
 // `b` judged against `a`. A mismatch, a lost verdict, or a judged value that only `a` has is worse.
+// ConfigError for results of different engines.
 Comparison compare(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b,
                    const Tolerances& tolerances);
+
+// Two manifests: what makes their runs different work, so that a difference of the results says
+// little about the hardware: inputs (by content), scene, size, clock. A line each.
+std::vector<std::string> different_work(const nlohmann::ordered_json& a,
+                                        const nlohmann::ordered_json& b);
 
 }  // namespace deburr::tb

@@ -436,7 +436,20 @@ class Results(CommandTest):
         self.write("b/result.json", json.dumps(result))
 
     def test_same(self):
-        self.expect(0, "compare", self.path("a"), self.path("b"), says="PASS")
+        self.expect(0, "compare", self.path("a"), self.path("b"), says=["PASS", "no value differs"])
+
+    def test_different_engines(self):
+        self.expect(0, "run", "frame", "--size", "16x16", "--out", self.path("frame"))
+        self.expect(2, "compare", self.path("a"), self.path("frame"), says=["texture", "frame"])
+
+    def test_different_work(self):
+        done = self.expect(0, "compare", self.path("a"), self.path("b/result.json"))
+        self.assertNotIn("warning", done.stderr)
+        self.run_texture(0, "--texture", self.write("t.png", png(8, 8)), "--set",
+                         "run.clock_mhz=100")
+        done = self.run_command("compare", self.path("a"), self.path("out"))
+        for word in ("inputs differ", "t.png", "run.clock_mhz differs"):
+            self.assertIn(word, done.stderr)
 
     def test_slower(self):
         self.change(cycles=10**9)

@@ -151,6 +151,39 @@ TEST(Compare, EachJudgedValueIsJudgedInItsDirection) {
   EXPECT_FALSE(worse([](Result& r) { r.host_seconds = 100; })) << "the host is not judged";
 }
 
+TEST(Compare, OnlyWhatDiffersOrIsWorseIsListed) {
+  const Json a = to_json(sample_result());
+  EXPECT_TRUE(compare(a, a, {}).values.empty());
+  Result r = sample_result();
+  r.cycles += 1;
+  ASSERT_EQ(compare(a, to_json(r), {}).values.size(), 1u);
+  EXPECT_EQ(compare(a, to_json(r), {}).values[0].key, "cycles");
+  r.cycles -= 1;
+  r.mismatches = 3;
+  const Comparison same = compare(to_json(r), to_json(r), {});
+  ASSERT_EQ(same.values.size(), 1u) << "equal, and wrong on both sides";
+  EXPECT_TRUE(same.values[0].worse);
+  r.unit = "frame";
+  EXPECT_THROW(compare(a, to_json(r), {}), spec::ConfigError);
+}
+
+TEST(Compare, DifferentWorkIsNamed) {
+  const auto manifest = [](const char* hash, int width, double clock, const char* source) {
+    return Json{
+        {"inputs", *hash ? Json::array({{{"file", "x.png"}, {"sha256", hash}}}) : Json::array()},
+        {"configuration",
+         {{"frame.width", width}, {"run.clock_mhz", clock}, {"frame.source", source}}}};
+  };
+  const Json a = manifest("11", 640, 148.5, "x.png"), scene = manifest("", 640, 148.5, "road");
+  EXPECT_TRUE(different_work(a, a).empty());
+  EXPECT_TRUE(different_work(a, manifest("11", 640, 148.5, "moved/x.png")).empty());
+  EXPECT_EQ(different_work(a, manifest("22", 640, 148.5, "x.png")).size(), 1u);
+  EXPECT_EQ(different_work(a, manifest("11", 641, 148.5, "x.png")).size(), 1u);
+  EXPECT_EQ(different_work(a, manifest("11", 640, 166.67, "x.png")).size(), 1u);
+  EXPECT_EQ(different_work(a, scene).size(), 1u);
+  EXPECT_EQ(different_work(scene, manifest("", 640, 148.5, "object")).size(), 1u);
+}
+
 TEST_F(Directory, TheReportIsSelfContainedAndEscapes) {
   ParameterSet parameters;
   RunContext context(path_, parameters, "deburr run texture --set a='<b>'", 7);
