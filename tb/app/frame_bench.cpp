@@ -392,7 +392,8 @@ void FrameBench::collect(Result& result) const {
       (complete_ ? fill_board_.leftovers() + traffic_board_.leftovers() : 0);
   result.bytes_read = memory_.bytes_read() + (frame_memory_ ? frame_memory_->bytes_read() : 0);
   result.bytes_written = frame_memory_ ? frame_memory_->bytes_written() : 0;
-  result.lines_filled = texture.cache.miss_queue.line_fills.value();
+  result.lines_filled =
+      texture.cache.miss_queue.line_fills.value() + (frame_memory_ ? frame_memory_->reads() : 0);
 
   for (const rtl::Unit* unit : texture.units())
     result.units.push_back(unit_cycles("texture_" + name_within(texture, *unit), *unit));
@@ -438,15 +439,19 @@ void FrameBench::collect(Result& result) const {
       "smoothing_clocks_by_formula.");
   add("frame_buffer_bytes", std::uint64_t{spec::kFramePixelBytes} * frame_.pixels.size(), "byte",
       "Size of the frame buffer, which is not among the SRAM: its memory is not modelled in time.");
-  result.figures = {
-      {"Frame", "cycles", "slower engine alone", "work.slower_engine_clocks", true},
-      {"Texturing", "work.texturing_clocks", "bilinears", "work.bilinears"},
-      {"Smoothing", "work.smoothing_clocks", "formula", "work.smoothing_clocks_by_formula"},
-      {"Both at once", "work.overlapped_clocks"},
-      {"Latency of a texture fragment, median", "work.fragment_latency_p50"},
-      {"Frame buffer, outside the SRAM", "work.frame_buffer_bytes"},
-      {"Written to the frame buffer", "work.frame_buffer_bytes_written"},
-      {"Read from the frame buffer", "work.frame_buffer_bytes_read"}};
+  result.figures.clear();
+  if (complete_)
+    result.figures = {
+        {"Frame", "cycles", "slower engine alone", "work.slower_engine_clocks", true},
+        {"Texturing", "work.texturing_clocks", "bilinears", "work.bilinears"},
+        {"Smoothing", "work.smoothing_clocks", "formula", "work.smoothing_clocks_by_formula"},
+        {"Both at once", "work.overlapped_clocks"}};
+  for (const Figure& figure : std::initializer_list<Figure>{
+           {"Latency of a texture fragment, median", "work.fragment_latency_p50"},
+           {"Frame buffer, outside the SRAM", "work.frame_buffer_bytes"},
+           {"Written to the frame buffer", "work.frame_buffer_bytes_written"},
+           {"Read from the frame buffer", "work.frame_buffer_bytes_read"}})
+    result.figures.push_back(figure);
   collect_morphological(engine, frame_.width, "morphological_", result);
 
   result.throughput = ratio(number(position_), number(result.cycles));
