@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 
 #include "spec/error.h"
 #include "tb/scene/image_io.h"
@@ -52,6 +54,33 @@ LoadedFrame rendered(const FrameParameters& p, std::uint32_t seed,
 
 bool is_rendered(const FrameParameters& parameters) { return is_scene(parameters.source); }
 
+bool looks_like_a_picture(const DepthImage& depth) {
+  constexpr std::size_t kEnough = 64;  // values; fewer, as of a few flat walls, say nothing
+  constexpr double kAlike = 0.5;       // correlation of the steps of two channels
+  const std::vector<std::uint32_t> codes = depth_codes(depth);
+  std::array<double, 3> squares{}, products{};  // of the steps of R, G, B; of RG, GB, BR
+  std::set<std::uint32_t> values;
+  for (std::size_t i = 1; i < codes.size(); ++i) {
+    if (codes[i] == codes[i - 1] || codes[i] == 0 || codes[i - 1] == 0) continue;  // silhouettes
+    std::array<double, 3> step{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto channel = [&](std::uint32_t code) {
+        return static_cast<double>(code >> (16 - 8 * c) & 255);
+      };
+      step[c] = channel(codes[i]) - channel(codes[i - 1]);
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      squares[c] += step[c] * step[c];
+      products[c] += step[c] * step[(c + 1) % 3];
+    }
+    if (values.size() < kEnough) values.insert(codes[i]);
+  }
+  if (values.size() < kEnough) return false;
+  for (std::size_t c = 0; c < 3; ++c)
+    if (products[c] > kAlike * std::sqrt(squares[c] * squares[(c + 1) % 3])) return true;
+  return false;
+}
+
 std::vector<std::uint32_t> depth_codes(const DepthImage& depth) {
   constexpr double kFull = (1 << 24) - 1;
   std::vector<std::uint32_t> codes(depth.pixels.size());
@@ -86,6 +115,11 @@ LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed,
       frame.depth = read_depth(p.depth);
       require_size("depth", p.depth, frame.depth->width, frame.depth->height, image);
       frame.inputs.emplace_back(p.depth);
+      if (looks_like_a_picture(*frame.depth))
+        frame.conversions.push_back(fmt::format(
+            "'{}' looks like a picture, not like depth of 24 bits in R, G, B: its channels change "
+            "alike",
+            p.depth));
     }
     if (!p.truth.empty()) {
       frame.truth = read_image(p.truth);

@@ -58,6 +58,10 @@ struct LoadedFrame {
 LoadedFrame load_frame(const FrameParameters& parameters, std::uint32_t seed,
                        const std::function<bool()>& interrupted = nullptr);
 
+// Whether 24-bit depths, taken apart into R, G and B, change from pixel to pixel as a picture does:
+// two of them alike. Of depth, G and B are the lower digits of R: they fall as it rises.
+bool looks_like_a_picture(const DepthImage& depth);
+
 // U24 of every pixel.
 std::vector<std::uint32_t> depth_codes(const DepthImage& depth);
 

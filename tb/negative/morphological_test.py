@@ -24,6 +24,18 @@ def noisy_png(width, height, seed=1):
             + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
+def rgb_png(width, pixels):
+    """A PNG of these pixels, three bytes each."""
+    rows = b"".join(b"\0" + b"".join(pixels[i:i + width]) for i in range(0, len(pixels), width))
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    return (b"\x89PNG\r\n\x1a\n"
+            + chunk(b"IHDR", struct.pack(">IIBBBBB", width, len(pixels) // width, 8, 2, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
 class Base(CommandTest):
     def run_engine(self, code, *arguments, says=(), engine="morphological", **options):
         return self.expect(code, "run", engine, "--out", self.path("out"), *arguments, says=says, **options)
@@ -57,7 +69,8 @@ class Frames(Base):
 
     def test_truncated(self):
         whole = noisy_png(64, 64)
-        self.frame(5, "truncated.png", whole[:len(whole) // 2], says="truncated.png")
+        done = self.frame(5, "truncated.png", whole[:len(whole) // 2], says="truncated.png")
+        self.assertEqual(len(done.stderr.splitlines()), 1, "a library's own message, or one of several lines")
 
     def test_corrupt(self):
         broken = bytearray(noisy_png(64, 64))
@@ -120,6 +133,14 @@ class Frames(Base):
             self.frame(0, "a.png", noisy_png(16, 16), *edges, "--depth", self.write("d.png", noisy_png(16, 16)))
             self.run_engine(0, "--size", "16x16", *edges)
             self.run_engine(0, "--size", "16x16", *edges, engine="frame")
+
+    def test_depth_that_is_a_picture_is_noted(self):
+        picture = [bytes((x * 5 % 256, x * 5 % 256 // 2 + y, x * 5 % 256)) for y in range(32) for x in range(48)]
+        depth = [(9_000_000 + 70_001 * x + 30_011 * y).to_bytes(3, "big") for y in range(32) for x in range(48)]
+        frame = self.write("a.png", noisy_png(48, 32))
+        for pixels, noted in ((picture, True), (depth, False)):
+            done = self.run_engine(0, "--in", frame, *DEPTH_EDGES, "--depth", self.write("d.png", rgb_png(48, pixels)))
+            self.assertEqual("looks like a picture" in done.stderr, noted)
 
     def test_a_scene_has_its_own_truth(self):
         self.run_engine(2, "--scene", "road", "--truth", self.write("t.png", png(4, 4)), says="scene has its own")

@@ -3,12 +3,15 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <memory>
 
@@ -21,11 +24,36 @@ namespace {
 namespace fs = std::filesystem;
 using InputPointer = std::unique_ptr<OIIO::ImageInput>;
 
+// On one line.
 std::string last_error(OIIO::ImageInput* input) {
   std::string text = input != nullptr && input->has_error() ? input->geterror() : OIIO::geterror();
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
+  for (std::size_t at; (at = text.find('\n')) != std::string::npos;) text.replace(at, 1, "; ");
   return text.empty() ? "no reason given" : text;
 }
+
+// libpng and others print on the error stream what they report as well; ours says it once. While it
+// lives, nothing else in this process prints.
+class SilentLibraries {
+ public:
+  SilentLibraries() : kept_(::dup(STDERR_FILENO)) {
+    std::fflush(stderr);
+    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (kept_ >= 0 && nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
+    if (nowhere >= 0) ::close(nowhere);
+  }
+  ~SilentLibraries() {
+    if (kept_ < 0) return;
+    std::fflush(stderr);
+    ::dup2(kept_, STDERR_FILENO);
+    ::close(kept_);
+  }
+  SilentLibraries(const SilentLibraries&) = delete;
+  SilentLibraries& operator=(const SilentLibraries&) = delete;
+
+ private:
+  int kept_;
+};
 
 [[noreturn]] void fail_read(const std::string& name, const std::string& reason) {
   throw spec::FileError(fmt::format("cannot read the image '{}': {}", name, reason));
@@ -244,16 +272,19 @@ void check_not_empty(const fs::path& path, int width, int height) {
 }  // namespace
 
 Image read_image(const fs::path& path, ReadReport* report) {
+  const SilentLibraries silent;
   const InputPointer input = open_checked(path);
   return decode(path.string(), *input, report);
 }
 
 Image read_image_memory(const std::string& name, std::string_view bytes, ReadReport* report) {
+  const SilentLibraries silent;
   if (bytes.empty()) fail_read(name, "the image is empty (0 bytes)");
   return decode_memory(name, extension_of(bytes), bytes, report);
 }
 
 FloatImage read_float_image(const fs::path& path) {
+  const SilentLibraries silent;
   const InputPointer input = open_checked(path);
   const int channels = std::min(input->spec().nchannels, 4);
   return expand<Rgbaf>(read_pixels<float>(path.string(), *input, channels), input->spec().width,
@@ -261,6 +292,7 @@ FloatImage read_float_image(const fs::path& path) {
 }
 
 DepthImage read_depth(const fs::path& path) {
+  const SilentLibraries silent;
   const InputPointer input = open_checked(path);
   const OIIO::ImageSpec spec = input->spec();
   DepthImage depth(spec.width, spec.height);
