@@ -12,6 +12,9 @@ constexpr std::uint32_t kSpanBits = 12;
 constexpr std::uint32_t kWalkBits = 29 + 26 + 24 + 12 + kSpanBits + 4 + 1;
 constexpr std::uint32_t kShareBits = 8;
 
+// Is slot a before slot b? Low bits of both, at most 2^14 apart.
+bool before(std::uint32_t a, std::uint32_t b) { return (a - b) & ((kSlotMask + 1) / 2); }
+
 // A beat's read and write for the slot, and a write a lane for arriving lines.
 std::string record_ports(int lanes) { return "1R" + std::to_string(1 + lanes) + "W"; }
 
@@ -65,13 +68,16 @@ Activity AreaUnit::tick(Cycle cycle) {
     if (blended >= 0 && !shares_out.can_push(cycle)) {
       blocked = true;
     } else {
-      if (slot.slot.number == 0) passed_ = 0;
       if (row == 0 || blended >= -1) {
         ShareToken unused;
         ShareToken& out = blended >= 0 ? shares_out.emplace(cycle) : unused;
         pass(slot, out);
       }
-      ++passed_;
+      if (slot.slot.beat == 0) {
+        row_begin_ = slot.slot.number & kSlotMask;
+        odd_row_ = row & 1;
+      }
+      passed_ = (slot.slot.number + 1) & kSlotMask;
       slots_in.pop(cycle);
       did = true;
     }
@@ -98,9 +104,10 @@ bool AreaUnit::take_lines(Cycle cycle, LanePorts<In<LineToken>>& lines, FinishTo
     if (!in.can_pop(cycle)) continue;
     const LineToken& token = in.front(cycle);
     // What the slot has still to read here may be in the same entry.
-    if (token.slot >= passed_) continue;
+    if (!before(token.slot, passed_)) continue;
     store_line(token);
-    ++finished.count[token.slot / store_.rules().beats & 1];
+    // Its slot row is the one that passes here, or the one before that.
+    ++finished.count[odd_row_ != before(token.slot, row_begin_)];
     in.pop(cycle);
     stored = true;
   }
@@ -210,7 +217,8 @@ AreaUnit::Weights AreaUnit::advance(Walk& walk) {
 }
 
 void AreaUnit::reset() {
-  passed_ = 0;
+  passed_ = row_begin_ = 0;
+  odd_row_ = false;
   row_walk_left_ = 0;
 }
 

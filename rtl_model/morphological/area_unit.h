@@ -81,7 +81,9 @@ class AreaUnit final : public Unit {
   std::vector<std::uint16_t> row_left_, column_left_;
   Walk row_walk_;  // the horizontal record in hand
   std::uint16_t row_walk_left_ = 0;
-  std::uint32_t passed_ = 0;  // slots of this frame
+  // U15, low bits: the slot that comes next; the first one of the row of the last one.
+  std::uint32_t passed_ = 0, row_begin_ = 0;
+  bool odd_row_ = false;  // that row
 };
 
 }  // namespace deburr::rtl::morphological

@@ -27,6 +27,14 @@ class ColumnStorage : public Storage {
   void reset() override {}
 };
 
+// A buffer that the model keeps in another form: reported as the hardware has it.
+class Buffer final : public Storage {
+ public:
+  Buffer(const char* name, std::uint64_t words, std::uint32_t word_bits)
+      : Storage(name, words, word_bits, "1R1W") {}
+  void reset() override {}
+};
+
 // The read ports of a memory, counted in every clock: one access too many stops the simulation.
 class ReadPorts {
  public:

@@ -82,10 +82,14 @@ struct PixelToken {
   spec::Rgba8 before, after;  // left of lane 0, right of the last lane
 };
 
-// RunExtractor -> EndpointPredictor. Codes of the ends as in spec::RunShape.
+// The low bits of a slot's number, which go with a record. When the AreaUnit sees them, the slot is
+// the next one there or the one after, or at most two rows of 8192 beats behind.
+inline constexpr std::uint32_t kSlotMask = (1u << 15) - 1;
+
+// RunExtractor -> EndpointPredictor. Codes of the ends as in spec::RunShape; so is run.shape.
 struct RunToken {
   spec::RunRecord run;
-  std::uint32_t slot;                 // U27, number of the slot that the run was found in
+  std::uint32_t slot;                 // U15, low bits of the slot that the run was found in
   std::uint8_t start_code, end_code;  // U2
 };
 
@@ -100,7 +104,7 @@ struct SumsToken {
 // LineUnit -> AreaUnit.
 struct LineToken {
   spec::LineRecord line;
-  std::uint32_t slot;  // U27
+  std::uint32_t slot;  // U15
 };
 
 // AreaUnit -> RunExtractor: records that are finished, by the parity of the row of their slot.

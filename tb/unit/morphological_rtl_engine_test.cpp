@@ -451,7 +451,7 @@ TEST(Accounts, MemoriesAreThoseOfTheContract) {
   EXPECT_EQ(bits["left_weight_lines"] + bits["top_weight_lines"], 92'160u);
   EXPECT_EQ(bits["row_records"], 207'360u);
   EXPECT_EQ(bits["column_records"], 209'280u);
-  EXPECT_EQ(bits["record_fifo_h0"], 256u * 63u);
+  EXPECT_EQ(bits["record_fifo_h0"], 256u * 59u);
   EXPECT_EQ(bench.engine.window.bits_at(960), 257'280u / 2);
 }
 
