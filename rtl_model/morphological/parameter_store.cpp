@@ -186,8 +186,13 @@ void ParameterStore::decode() {
 }
 
 bool ParameterStore::latch() {
-  // Debug writes go past written().
-  for (std::size_t i = 0; i < kCount; ++i) kept_[i] = registers.get(i);
+  // Debug writes go past written(), so their bits are masked here.
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const std::uint32_t offset = kTable[i].offset;
+    if (kTable[i].access != Access::kReadWrite || offset == reg::kControl) continue;
+    kept_[i] = registers.get(i) & writable(offset);
+    registers.set(i, kept_[i]);
+  }
   decode();
   if (!size_valid_) {
     sticky_ |= reg::kStatusFraming;

@@ -9,6 +9,9 @@ namespace {
 
 constexpr std::int32_t kLinePixels = spec::kFrameLineBytes / spec::kFramePixelBytes;
 constexpr std::int32_t kMemoryRows = 3;
+// Number of a line in the largest frame; with it go its direction and whether it has come.
+constexpr std::uint32_t kTagBits = 22;
+static_assert(spec::kMaxFrameSize * (spec::kMaxFrameSize / kLinePixels) == 1 << kTagBits);
 static_assert(spec::kFrameLineBytes == kLineBytes);
 
 }  // namespace
@@ -28,7 +31,13 @@ PixelStore::PixelStore(const sc_core::sc_module_name& name, ClockDomain& clock,
       pixels_("pixel_lines", p.line_pixels, static_cast<std::uint32_t>(rows_) * 32, "3R1W",
               static_cast<std::size_t>(rows_) * stride_),
       write_answered_(outstanding_),
-      line_loaded_(outstanding_) {}
+      line_loaded_(outstanding_) {
+  if (!in_memory_) return;
+  constexpr std::uint32_t kLineBits = 8 * spec::kFrameLineBytes;
+  buffers_.emplace_back("gather_line", 1, kLineBits);
+  buffers_.emplace_back("response_lines", outstanding_, kLineBits);
+  buffers_.emplace_back("lines_in_flight", 2 * outstanding_, kTagBits + 2);
+}
 
 void PixelStore::connect(Link<MemoryRequest>& requests, Link<MemoryResponse>& responses) {
   requests_ = &requests;
@@ -129,7 +138,7 @@ bool PixelStore::gather(Cycle cycle, const BeatToken& beat, std::int32_t x, std:
               static_cast<std::size_t>(count * spec::kFramePixelBytes));
   if (!completes) return true;
   MemoryRequest& request = requests_->emplace(cycle);
-  request.address = rules.pixel_base + std::uint64_t{sent_} * kLineBytes;
+  request.address = address_of(sent_);
   request.tag = sent_;
   request.lines = 1;
   request.write = true;
@@ -180,7 +189,7 @@ bool PixelStore::request(Cycle cycle) {
     if (fetched_ <= slot_row * rules.beats + last_beat) return false;
   }
   MemoryRequest& request = requests_->emplace(cycle);
-  request.address = rules.pixel_base + std::uint64_t{asked_} * kLineBytes;
+  request.address = address_of(asked_);
   request.tag = asked_;
   request.lines = 1;
   request.write = false;

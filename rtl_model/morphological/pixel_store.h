@@ -10,12 +10,14 @@
 // soon as their place is free and their write has been answered; writes go before reads.
 // Stalls: `memory` (a line is not there yet, or cannot be sent), `rows` (the place of a beat that
 // comes in still holds a pixel that will be asked for: only if a row is shorter than the pipe),
-// `downstream`. Cost: pixel_lines, R + 7 rows x 32 bits (storage = memory: 3 rows and two lines of
-// 512 bits), one write and three reads of a column a clock, each in a row (bank) of its own.
+// `downstream`. Cost: pixel_lines, R + 7 rows x 32 bits (storage = memory: 3 rows), one write
+// and three reads of a column a clock, each in a row (bank) of its own; storage = memory also the
+// line that is gathered, memory.outstanding lines that have come and tags of twice as many.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <systemc>
 #include <vector>
 
@@ -55,6 +57,10 @@ class PixelStore final : public Unit {
   bool receive(Cycle cycle);
   bool request(Cycle cycle);
   void begin_frame();
+  // 32 bits: a frame that begins below 4 GiB and ends above goes on at 0.
+  std::uint32_t address_of(std::uint32_t line) const {
+    return store_.rules().pixel_base + line * kLineBytes;
+  }
   spec::Rgba8* row(std::int32_t y) {
     return pixels_.data() + static_cast<std::size_t>(y % rows_) * stride_;
   }
@@ -66,6 +72,7 @@ class PixelStore final : public Unit {
   const std::uint32_t outstanding_;  // lines, each direction
   Activity memory_, rows_stall_;
   LineMemory<spec::Rgba8> pixels_;
+  std::deque<Buffer> buffers_;  // storage = memory
 
   std::uint32_t fetched_ = 0;  // number of the next slot that will ask for pixels
   spec::Rgba8 *in_row_ = nullptr, *above_ = nullptr, *centre_ = nullptr, *below_ = nullptr;

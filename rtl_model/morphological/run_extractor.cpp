@@ -10,8 +10,8 @@ namespace {
 using spec::Axis;
 using spec::RunPart;
 
-// Axis, part, line, start, length, shape, codes, parity of the slot row and column of the slot.
-constexpr std::uint32_t kEntryBits = 1 + 2 + 13 + 13 + 12 + 4 + 4 + 1 + 13;
+// Part, line, start, length, shape (the codes of both ends), slot.
+constexpr std::uint32_t kEntryBits = 2 + 13 + 13 + 12 + 4 + 15;
 
 constexpr std::uint8_t code(bool first, bool second) {
   return static_cast<std::uint8_t>(int{first} | int{second} << 1);
@@ -48,10 +48,7 @@ Activity RunExtractor::tick(Cycle cycle) {
   if (h_.count) drain(h_, cycle);
   if (v_.count) drain(v_, cycle);
   const bool blocked = h_.count + v_.count != 0;
-  if (!edges_in.can_pop(cycle)) {
-    if (blocked) ++record_stalls;
-    return blocked ? records_ : kIdle;
-  }
+  if (!edges_in.can_pop(cycle)) return blocked ? records_ : kIdle;
   const EdgeToken& token = edges_in.front(cycle);
   const Slot slot = token.slot;
   const bool interlocked = slot.beat == 0 && unfinished_[slot.row & 1] != 0;
@@ -201,7 +198,7 @@ void RunExtractor::found(AxisSide& to, const Slot& slot, spec::RunRecord run,
   if (observer) observer(run);
   if (run.part == RunPart::kWhole && shape.clean_z) ++z_runs;
   if (shape.before == spec::Side::kNone && shape.after == spec::Side::kNone) return;
-  to.waiting[to.count++] = {run, slot.number, start_code, end_code};
+  to.waiting[to.count++] = {run, slot.number & kSlotMask, start_code, end_code};
   ++unfinished_[slot.row & 1];
   ++records_sent;
 }

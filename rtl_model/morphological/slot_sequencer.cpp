@@ -21,7 +21,10 @@ Activity SlotSequencer::tick(Cycle cycle) {
       frame_cycles += cycle - first_cycle_;
     }
     if (store_.frame_inside()) return kIdle;  // what is left is on its way out
-    if (!pixels_in.can_pop(cycle) || !store_.enabled() || !store_.latch()) return kIdle;
+    if (!pixels_in.can_pop(cycle) || !store_.enabled()) return kIdle;
+    // The frame is inside from the clock on that takes its first beat.
+    if (!slots_out.can_push(cycle) || !beats_out.can_push(cycle)) return kStalledDownstream;
+    if (!store_.latch()) return kIdle;
     issuing_ = true;
     next_ = {};
     first_cycle_ = cycle;

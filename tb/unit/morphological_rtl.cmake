@@ -11,7 +11,7 @@ set(TIMING_store PixelStoreLanes PixelStoreBlock PixelStoreMemory)
 set(TIMING_units AreaLanes.LatencyAndInterval AreaLanes.ARecordIsFinished WayOfARecord LineUnitBlock
     DividerPlaces PredictorUnits)
 set(TIMING_bounds .*)
-foreach(part vectors blocks timing engine reset store units registers ports bounds)
+foreach(part vectors blocks timing engine reset store units registers ports bounds details)
   deburr_test(morphological_rtl_${part}_test LABELS unit TIMING ${TIMING_${part}}
               SOURCES morphological_rtl_${part}_test.cpp
               LINK deburr::rtl_morphological deburr::harness)
