@@ -4,9 +4,9 @@
 // Where: last block. Stage 1 chooses the axis and linearises, stage 2 multiplies, rounds and
 // encodes: latency 2 to the output link, initiation interval 1. Stalls: `downstream`. Rule: the
 // axis that has shares at all; else the longer line; else the larger sum, ties to up and down.
-// Formats: shares U0.8, linear light U0.12, result rounded by magnitude. Cost a lane: five 256 x 12
-// bit ROMs a channel, two multipliers 8 x 13 and one 4096 x 8 bit ROM a channel, six comparators.
-// Source: paper 000, section 2 (D sums); the tie rule is ours.
+// Formats: shares U0.8, linear light U0.12, result rounded by magnitude. Cost a lane: three 256 x
+// 12 bit ROMs a channel (behind the choice of the axis), two multipliers 8 x 13 and one 4096 x 8
+// bit ROM a channel, six comparators. Source: paper 000, section 2 (D sums); the tie rule is ours.
 #pragma once
 
 #include <array>

@@ -3,19 +3,19 @@
 // (docs/morphological_engine.md).
 //
 //   pixels_in -> SlotSequencer -> LumaUnit -> EdgeDetector -> RunExtractor -> AreaUnit -> Blender
-//   ->
-//                    |                                         |    |           ^  pixels_out  ^
-//                    |                  EdgeWindow, record FIFOs   fetch        |              |
-//                    |                         |                    |           |              |
-//                    |           EndpointPredictor h, v -> LineUnit h, v -------+              |
-//                    +---------------------------> PixelStore ---------------------------------+
-//              ParameterStore                          |
-//                    |                        memory (TLM-2.0 initiator), storage = memory only
-//         registers (TLM-2.0 target)
+//                     |                      EdgeWindow --+---+    |    |        ^ lines    |  ^
+//                     |                                   v        |    |        |          |  |
+//                     |        LineUnit h, v <- EndpointPredictor <-+   | fetch  |          v  |
+//                     |              |               h, v      records  |        |  pixels_out |
+//                     |              +----------------------------------|--------+             |
+//                     |                                                 v                      |
+//                     +------------------------------------------> PixelStore -----------------+
+//   ParameterStore: registers (TLM-2.0 target)                          |
+//                                     memory (TLM-2.0 initiator), storage = memory only
 //
 // A frame is a sequence of slots, one a clock at most. Unstalled, beat j popped in clock c is
 // pushed out in clock c + (R + 5) x BPR + 6; one beat (1, 2 or 4 pixels) a clock. Stalls:
-// `records` (extractor), `upstream` (sequencer), `memory` (pixel store), `downstream`.
+// `records` (extractor), `upstream` (sequencer), `memory` and `rows` (pixel store), `downstream`.
 // Source: Reshetov 2009; paper 000.
 #pragma once
 
