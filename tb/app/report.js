@@ -305,7 +305,9 @@
       charts.push(new Chart(byId('sram'), {
         type: 'bar',
         data: {
-          labels: horizontal(sram.map(([name]) => name), 'sram-box'),
+          // Whole names are in the table beside it.
+          labels: horizontal(sram.map(([name]) => name.replace(/^(texture|morphological)_/, '')),
+                             'sram-box'),
           datasets: [series('at this width', css('--busy'), here),
                      ...(wider ? [series('more, as built', css('--idle'), beyond)] : [])]
         },
