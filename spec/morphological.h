@@ -145,7 +145,7 @@ void describe(MorphologicalParameters& p, Visitor& v) {
             "Widest frame that the line buffers hold.");
   v.integer(
       "record_fifo", p.record_fifo, 2, 4096, "record",
-      "Runs waiting for a predictor, for each axis and lane; a tenth of a row bears every burst.");
+      "Runs waiting for a predictor, for each axis and lane; a tenth of a row bears a burst.");
   v.integer("predictor_units", p.predictor_units, 1, 16, "unit",
             "Predictors for each axis and lane; each tries one step of both sides a clock.");
   v.integer("divider.latency", p.divider_latency, 1, 64, "clock", "Latency of the divider.");
@@ -356,10 +356,8 @@ inline constexpr std::array<RegisterInfo, 26> kMorphologicalRegisters = {{
      "Bit 0 enable: frames are taken. Bit 1 clear the counters (command, reads 0)."},
     {morphological_register::kStatus, "STATUS", Access::kWriteOneToClear, 1,
      "Bit 0 idle: no frame inside (read only). Sticky: bit 1 frame done, bit 2 start of frame, end "
-     "of "
-     "row or lane count not as SIZE says, bit 3 memory error response, bit 4 register written "
-     "while "
-     "a frame was inside (the write is ignored)."},
+     "of row or lane count not as SIZE says, bit 3 memory error response, bit 4 register written "
+     "while a frame was inside (the write is ignored)."},
     {morphological_register::kSize, "SIZE", Access::kReadWrite, 0,
      "Width [13:0] and height [29:16] of the frame in pixels, 1..8192 each."},
     {morphological_register::kRules, "RULES", Access::kReadWrite, 0,

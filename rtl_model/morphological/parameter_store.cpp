@@ -83,6 +83,8 @@ Choice choice(std::uint32_t code, std::size_t choices) {
 
 }  // namespace
 
+std::span<const RegisterDescription> register_table() { return kTable; }
+
 ParameterStore::ParameterStore(const sc_core::sc_module_name& name,
                                const spec::MorphologicalParameters& parameters)
     : sc_module(name),

@@ -15,6 +15,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <systemc>
 
 #include "rtl_model/fabric/register_block.h"
@@ -39,6 +40,9 @@ struct FrameRules {
   bool contiguous = false, safe = false, trim = false, linear_light = false;
   std::uint32_t pixel_base = 0;  // bytes
 };
+
+// As the bus shows them, and the docs.
+std::span<const RegisterDescription> register_table();
 
 class ParameterStore final : public sc_core::sc_module {
  public:

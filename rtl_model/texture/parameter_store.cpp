@@ -29,7 +29,8 @@ Access fabric_access(spec::Access access) {
   return Access::kWriteOnly;
 }
 
-// The registers of spec::kTextureRegisters, then those of each descriptor.
+}  // namespace
+
 std::span<const RegisterDescription> register_table() {
   static std::deque<std::string> names;
   static const std::vector<RegisterDescription> table = [] {
@@ -56,6 +57,8 @@ std::span<const RegisterDescription> register_table() {
   }();
   return table;
 }
+
+namespace {
 
 std::size_t index_at(std::uint32_t offset) {
   const auto table = register_table();

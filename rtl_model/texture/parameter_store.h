@@ -46,6 +46,9 @@ struct TextureState {
   std::array<LevelGeometry, spec::kMaxLevels> level{};
 };
 
+// As the bus shows them, and the docs: those of spec::kTextureRegisters, then each descriptor's.
+std::span<const RegisterDescription> register_table();
+
 class ParameterStore final : public Unit {
  public:
   RegisterBlock registers;

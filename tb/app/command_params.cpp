@@ -31,6 +31,10 @@ Outcome print_params(const ParamsCommand& command) {
     fmt::print("{}", statistics_page(all));
     return {};
   }
+  if (command.markdown == "registers") {
+    fmt::print("{}", registers_page());
+    return {};
+  }
   std::vector<std::string> groups;
   std::vector<Parameter> shown;
   for (const auto& engine : all) {
@@ -73,10 +77,10 @@ void add_params(CLI::App& app, CommandLine& line) {
                       "Only these: run, scene, sampler, texture, memory, ...");
   command
       ->add_option("--markdown", options->markdown,
-                   "Print a page of the docs instead: parameters, statistics")
+                   "Print a page of the docs instead: parameters, statistics, registers")
       ->expected(0, 1)
       ->default_str("parameters")
-      ->check(CLI::IsMember({"parameters", "statistics"}));
+      ->check(CLI::IsMember({"parameters", "statistics", "registers"}));
   command->callback(
       [options, &line] { line.action = [options] { return print_params(*options); }; });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// docs/parameters.md and docs/statistics.md, made from the declarations that the program uses.
+// docs/parameters.md, docs/statistics.md and docs/registers.md, made from the declarations that the
+// program uses.
 #pragma once
 
 #include <memory>
@@ -13,5 +14,6 @@ namespace deburr::tb {
 std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines);
 // Elaborates every engine's model: at most once a process, and not in one that simulates.
 std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines);
+std::string registers_page();
 
 }  // namespace deburr::tb
