@@ -46,21 +46,21 @@ double disc_coverage(const Disc& disc, double x, double y) {
   const double r = disc.radius, left = std::max(x - disc.x, -r),
                right = std::min(x + 1 - disc.x, r), low = y - disc.y, high = low + 1;
   if (left >= right) return 0;
-  std::array<double, 6> cuts{left, right, left, right, left, right};
-  std::size_t count = 2;
+  std::array<double, 6> cuts{left, right, left, left, left, left};
+  std::size_t next = 2;
   for (const double side : {low, high}) {
     if (std::abs(side) >= r) continue;
     const double at = std::sqrt(r * r - side * side);
-    cuts[count++] = std::clamp(-at, left, right);
-    cuts[count++] = std::clamp(at, left, right);
+    cuts[next++] = std::clamp(-at, left, right);
+    cuts[next++] = std::clamp(at, left, right);
   }
-  std::sort(cuts.begin(), cuts.begin() + static_cast<std::ptrdiff_t>(count));
+  std::sort(cuts.begin(), cuts.end());
   // The integral of the circle's height from the middle to t.
   const auto area = [r](double t) {
     return (t * std::sqrt(std::max(0.0, r * r - t * t)) + r * r * std::asin(t / r)) / 2;
   };
   double sum = 0;
-  for (std::size_t i = 0; i + 1 < count; ++i) {
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
     const double a = cuts[i], b = cuts[i + 1];
     if (b <= a) continue;
     const double middle = (a + b) / 2, height = std::sqrt(std::max(0.0, r * r - middle * middle));
