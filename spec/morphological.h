@@ -131,8 +131,8 @@ void describe(MorphologicalParameters& p, Visitor& v) {
   v.boolean("safe", p.safe,
             "Both sides grow in lockstep, share L', and stop where no line fits all corners.");
   v.boolean("trim", p.trim,
-            "A side that ended before N and within the reach gives back its last step, or half of "
-            "them where no line fits.");
+            "A side that lost its line before N steps and the end of the reach gives back its last "
+            "step; one that no line fits, half of its steps.");
   v.choice("area", p.area, kAreaSourceNames, "Where areas come from; only analytic is built.");
   v.boolean("diagonals", p.diagonals, "Diagonal patterns of SMAA; not built.");
   v.boolean("round_corners", p.round_corners, "Corner rounding of SMAA; not built.");
@@ -388,7 +388,7 @@ inline constexpr std::array<RegisterInfo, 26> kMorphologicalRegisters = {{
     {morphological_register::kZRuns, "Z_RUNS", Access::kReadOnly, 0,
      "Clean Z runs within the reach."},
     {morphological_register::kExtendedRuns, "EXTENDED_RUNS", Access::kReadOnly, 0,
-     "Runs extended by at least one step."},
+     "Runs that keep at least one step."},
     {morphological_register::kSteps, "STEPS", Access::kReadOnly, 0, "Extensions kept."},
     {morphological_register::kProbes, "PROBES", Access::kReadOnly, 0, "Corners tested."},
     {morphological_register::kDivides, "DIVIDES", Access::kReadOnly, 0, "Divisions."},

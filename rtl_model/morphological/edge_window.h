@@ -42,6 +42,7 @@ class EdgeRows final : public ColumnStorage {
  public:
   EdgeRows(const char* name, const spec::MorphologicalParameters& parameters);
   std::int32_t stretch() const { return stretch_; }  // bits that a port gives
+  const ReadPorts& read_ports() const { return reads_; }
 
  private:
   friend class EdgeWindow;

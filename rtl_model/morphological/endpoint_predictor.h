@@ -16,11 +16,11 @@
 //
 // Formats: positions S13 from the start of the run, sums of a side S18 and S24. Cost a predictor:
 // 2 x 3 comparators of four bits, two masks and comparators of (reach + 1) / 2 bits (contiguous;
-// the edges along a horizontal step come from EdgeRows), 2 x 34 cross products
-// of 13 x 6 bits and their maximum and minimum (safe); a side three adders and a multiplier of
-// 13 x 5 bits for its sums, four adders to join them. Trim: a side 2 x 60 flip-flops, two adders
-// and a multiplier of 13 x 4 bits (the half), an adder and a comparator of 13 bits (the reach), a
-// selector 3 : 1 of 60 bits and a second read port of the corner file.
+// the edges along a horizontal step come from EdgeRows), 34 corners in registers, 2 x 34 cross
+// products of 13 x 6 bits and their maximum and minimum (safe); a side three adders and a
+// multiplier of 13 x 5 bits for its sums, four adders to join them. Trim: a side 2 x 60 flip-flops,
+// two adders and a multiplier of 13 x 4 bits (the half), an adder and a comparator of 13 bits (the
+// reach), and a selector 3 : 1 of 60 bits.
 // Source: paper 000, sections 3 and 4; `safe`, `trim` and the sums are ours.
 #pragma once
 
@@ -49,7 +49,7 @@ class EndpointPredictor final : public Unit {
   }
   void reset() override;
 
-  Counter extended_runs{"extended_runs", "runs", "runs extended by at least one step"};
+  Counter extended_runs{"extended_runs", "runs", "runs that keep at least one step"};
   Counter steps{"steps", "steps", "extensions kept"};
   Counter probes{"probes", "corners", "corners tested"};
   Counter iterations{"iterations", "clk", "clocks in which a predictor made a trial"};

@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kManifest = "manifest.json";
 constexpr const char* kTrace = "trace.vcd";
+constexpr const char* kUnfinishedTrace = "trace.vcd.partial";
 
 std::string now_utc() {
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
@@ -42,7 +43,10 @@ RunContext::RunContext(fs::path directory, const ParameterSet& parameters, std::
       started_(now_utc()),
       seed_(seed) {}
 
+fs::path RunContext::trace_file() const { return directory_ / kUnfinishedTrace; }
+
 RunContext::~RunContext() {
+  if (!claimed_) return;  // nothing here is this run's
   std::error_code ignored;
   fs::remove(trace_file(), ignored);
   if (finished_) return;
@@ -73,8 +77,9 @@ void RunContext::claim() {
   const std::vector<std::string> old = old_results();
   std::vector<std::string> concerned = old;
   for (const char* name : {"result.json", "report.html", kManifest}) concerned.emplace_back(name);
-  if (parameters_.find("run.trace") && !parameters_.find("run.trace")->text().empty())
-    concerned.emplace_back(kTrace);
+  const Parameter* trace = parameters_.find("run.trace");
+  const bool traces = trace != nullptr && !trace->text().empty();
+  if (traces) concerned.insert(concerned.end(), {kTrace, kUnfinishedTrace});
   for (const std::string_view name : kPictureNames)
     concerned.push_back(fmt::format("{}.png", name));
   std::error_code error;
@@ -94,6 +99,7 @@ void RunContext::claim() {
                       file.string()));
   }
   prove_writable(directory_);
+  claimed_ = true;
 }
 
 void RunContext::begin() {
@@ -166,7 +172,11 @@ void RunContext::finish(const Result& result) {
   std::error_code none;
   if (fs::exists(trace_file(), none)) {
     written_.emplace_back(kTrace);
-    fs::rename(trace_file(), directory_ / kTrace);
+    std::error_code error;
+    fs::rename(trace_file(), directory_ / kTrace, error);
+    if (error)
+      throw spec::FileError(fmt::format("'{}' cannot be renamed to {}: {}", trace_file().string(),
+                                        kTrace, error.message()));
   }
   written_.emplace_back(kManifest);
   write_file_atomically(directory_ / kManifest, manifest(result).dump(2) + "\n");

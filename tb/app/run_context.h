@@ -52,7 +52,7 @@ class RunContext {
   // one.
   void begin();
   // Where waves go until the run is over; finish() gives the file its name.
-  std::filesystem::path trace_file() const { return directory_ / "trace.vcd.partial"; }
+  std::filesystem::path trace_file() const;
   // Writes NAME.png and lists it for the report. NAME, which is the role too, is one of
   // kPictureNames.
   void add_image(const std::string& name, const Image& image, std::string title,
@@ -70,7 +70,7 @@ class RunContext {
   std::filesystem::path directory_;
   std::vector<std::filesystem::path> protected_;
   std::vector<std::string> written_;  // removed again by a run that does not finish
-  bool begun_ = false, finished_ = false;
+  bool claimed_ = false, begun_ = false, finished_ = false;
   const ParameterSet& parameters_;
   std::string command_, title_, summary_, started_;
   std::uint64_t seed_;

@@ -321,6 +321,18 @@ class EarlierResults(CommandTest):
         self.assertEqual(self.contents(), self.before)
         self.expect(0, "run", "morphological", "--in", picture, "--out", self.path("other"))
 
+    def test_the_wave_of_another_run_stays(self):
+        os.mkdir(self.path("mine"))
+        self.write("mine/trace.vcd.partial", b"mine")
+        command = ["run", "morphological", "--scene", "cylinders", "--size", "32x32", "--out",
+                   self.path("mine")]
+        self.expect(2, *command, "--trace", "*", says="trace.vcd.partial")
+        self.expect(2, *command, "--preset", "smaa")
+        self.write("mine/report.html", b"mine")
+        self.expect(2, *command, says="report.html")
+        with open(self.path("mine/trace.vcd.partial"), "rb") as file:
+            self.assertEqual(file.read(), b"mine")
+
     def test_files_of_others_stay(self):
         os.mkdir(self.path("mine"))
         self.write("mine/before.png", b"mine")

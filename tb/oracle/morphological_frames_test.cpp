@@ -101,6 +101,30 @@ TEST(MorphologicalFrames, DeburrIsBestOnTrackAt1080p) {
   expect_deburr_best({"track 1080p", frame, truth, std::nullopt}, 0.75);
 }
 
+// The same scene from four other cameras.
+TEST(MorphologicalFrames, DeburrIsBestOnTrackFromOtherSides) {
+  const std::filesystem::path mesh = data("meshes/scene_track.obj");
+  if (!std::filesystem::exists(mesh))
+    GTEST_SKIP() << "no " << mesh << ": set DEBURR_DATA to the folder that holds meshes/";
+  struct View {
+    Imath::V3d eye, target;
+    double fov;
+  };
+  for (const View& view :
+       {View{{-4, 1.5, 10}, {2, 0.5, -4}, 1.0}, View{{0.5, 4, 9}, {0, 0, -6}, 1.0},
+        View{{8, 1.2, 2}, {-4, 0.8, -2}, 1.0}, View{{0, 8, 14}, {0, 0, -4}, 0.7}}) {
+    SceneOptions options;
+    options.camera.emplace();
+    options.camera->eye = view.eye;
+    options.camera->target = view.target;
+    options.camera->fov_y = view.fov;
+    const LitFrames lit = render_lit_frames(import_scene(mesh, options), 960, 540, 8);
+    const Judge judge("track", lit.noaa, lit.truth, lit.depth);
+    judge.judge("none", lit.noaa);
+    expect_deburr_best(judge, 0.2);
+  }
+}
+
 struct Rendered {
   const char* source;  // a scene's name, or a mesh of the data folder
   int width, height;

@@ -122,14 +122,17 @@ TEST_P(BusiestClock, UsesEveryPort) {
   bench.driver.send(beats_of(in, lanes_of(p)));
   const auto beats = static_cast<std::uint64_t>(beats_a_row(in, p) * in.height);
   const rtl::morphological::ReadPorts& ports = bench.engine.window.read_ports();
-  int most = 0;
+  int most = 0, most_rows = 0;
   bench.bench->run(
       [&] {
         most = std::max(most, ports.used());
+        if (p.contiguous)
+          most_rows = std::max(most_rows, bench.engine.window.rows()->read_ports().used());
         return bench.sink.received() == beats && bench.engine.idle();
       },
       1'000'000);
   EXPECT_EQ(most, ports.count());
+  EXPECT_EQ(most_rows, p.contiguous ? bench.engine.window.rows()->read_ports().count() : 0);
 }
 INSTANTIATE_TEST_SUITE_P(Builds, BusiestClock,
                          ::testing::Values(Build{0, 2, true}, Build{1, 2, true}, Build{2, 2, true},
