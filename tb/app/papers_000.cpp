@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -320,9 +321,13 @@ std::vector<FanRow> quality_rows() {
   return rows;
 }
 
-std::vector<std::string> cells_of(std::string name, const FanFigures& figures, int digits) {
+// Without `digits`: as they were given.
+std::vector<std::string> cells_of(std::string name, const FanFigures& figures,
+                                  std::optional<int> digits = {}) {
   std::vector<std::string> cells = {std::move(name)};
-  const auto add = [&](double f) { cells.push_back(f > 0 ? decimals(f, digits) : "-"); };
+  const auto add = [&](double f) {
+    cells.push_back(f <= 0 ? "-" : digits ? decimals(f, *digits) : fmt::format("{:g}", f));
+  };
   for (const double f : figures.by_class) add(f);
   add(figures.undulation);
   add(figures.jump);
@@ -381,7 +386,7 @@ PaperTable quality(const PaperOptions& options, double low, double high) {
     table.rows.push_back(cells);
     for (const morphological::FanLimit& limit : morphological::contract_figures()) {
       if (limit.name != rows[r].name) continue;
-      cells = cells_of(fmt::format("({})", limit.name), limit.figures, 0);
+      cells = cells_of(fmt::format("({})", limit.name), limit.figures);
       cells.insert(cells.end(), {"-", "-", "reference"});
       table.rows.push_back(cells);
     }
@@ -462,7 +467,7 @@ Image zooms(const std::vector<Method>& list, const Mask& silhouettes, int strips
   for (int strip = 0; strip < strips; ++strip) {
     const auto [x, y] =
         busiest(silhouettes, wide / 4,
-                {strip * width / strips, (strip + 1) * width / strips,
+                {strip * width / strips, (strip + 1) * width / strips - wide / 4 + 1,
                  static_cast<int>(rows.first * height), static_cast<int>(rows.second * height)});
     add_row({x, y}, wide / 4);
     const auto [dx, dy] =
