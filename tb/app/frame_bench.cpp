@@ -150,23 +150,6 @@ rtl::Activity FrameBuffer::tick(rtl::Cycle cycle) {
 
 // ---- the bench ----------------------------------------------------------------------------------
 
-void FrameBench::Host::write(std::uint32_t offset, std::uint32_t value) {
-  std::array<unsigned char, 4> data{};
-  for (std::size_t i = 0; i < 4; ++i) data[i] = static_cast<unsigned char>(value >> (8 * i));
-  tlm::tlm_generic_payload payload;
-  payload.set_command(tlm::TLM_WRITE_COMMAND);
-  payload.set_address(offset);
-  payload.set_data_ptr(data.data());
-  payload.set_data_length(4);
-  payload.set_streaming_width(4);
-  payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
-  sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
-  bus->b_transport(payload, delay);
-  if (payload.is_response_error())
-    throw spec::SimulationError(fmt::format("{}: write of register {:#x} was refused: {}", name(),
-                                            offset, payload.get_response_string()));
-}
-
 FrameBench::FrameBench(const TextureScene& scene, const FrameBenchOptions& options)
     : scene_(scene),
       options_(options),

@@ -12,8 +12,6 @@
 // fragment of it and of the rows above has come.
 #pragma once
 
-#include <tlm_utils/simple_initiator_socket.h>
-
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -36,6 +34,7 @@
 #include "tb/harness/bench.h"
 #include "tb/harness/driver.h"
 #include "tb/harness/memory_model.h"
+#include "tb/harness/register_host.h"
 #include "tb/harness/scoreboard.h"
 
 namespace deburr::tb {
@@ -124,11 +123,6 @@ class FrameBench {
     std::uint64_t address;
     friend bool operator==(const Fill&, const Fill&) = default;
   };
-  struct Host : sc_core::sc_module {
-    explicit Host(const sc_core::sc_module_name& name) : sc_module(name) {}
-    tlm_utils::simple_initiator_socket<Host> bus{"bus"};
-    void write(std::uint32_t offset, std::uint32_t value);
-  };
   void judge(rtl::Cycle cycle, const spec::BlendedBeat& beat);
 
   const TextureScene& scene_;
@@ -145,7 +139,7 @@ class FrameBench {
   Sink<spec::BlendedBeat> sink_;
   MemoryModel memory_;
   std::unique_ptr<MemoryModel> frame_memory_;
-  Host texture_host_{"texture_host"}, engine_host_{"engine_host"};
+  RegisterHost texture_host_{"texture_host"}, engine_host_{"engine_host"};
   std::unique_ptr<Bench> bench_;
 
   golden::texture::TextureGolden texture_golden_;

@@ -301,34 +301,6 @@ void MorphologicalBench::plant_memory_faults() {
 
 // ---- running ------------------------------------------------------------------------------------
 
-std::uint32_t MorphologicalBench::access_register(std::uint32_t offset, std::uint32_t value,
-                                                  bool write) {
-  std::array<unsigned char, 4> data{};
-  for (std::size_t i = 0; i < 4; ++i) data[i] = static_cast<unsigned char>(value >> (8 * i));
-  tlm::tlm_generic_payload payload;
-  payload.set_command(write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND);
-  payload.set_address(offset);
-  payload.set_data_ptr(data.data());
-  payload.set_data_length(4);
-  payload.set_streaming_width(4);
-  payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
-  sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
-  host_.bus->b_transport(payload, delay);
-  if (payload.is_response_error())
-    throw spec::SimulationError(fmt::format("register access at {:#x} was refused: {}", offset,
-                                            payload.get_response_string()));
-  value = 0;
-  for (std::size_t i = 0; i < 4; ++i) value |= static_cast<std::uint32_t>(data[i]) << (8 * i);
-  return value;
-}
-
-std::uint32_t MorphologicalBench::read_register(std::uint32_t offset) {
-  return access_register(offset, 0, false);
-}
-void MorphologicalBench::write_register(std::uint32_t offset, std::uint32_t value) {
-  access_register(offset, value, true);
-}
-
 void MorphologicalBench::reset() {
   constexpr rtl::Cycle kResetCycles = 4;
   clock_.set_reset_n(false);
@@ -339,7 +311,7 @@ void MorphologicalBench::reset() {
 
 void MorphologicalBench::run(const Progress& progress) {
   reset();
-  if (const std::uint32_t id = read_register(reg::kId); id != reg::kIdValue)
+  if (const std::uint32_t id = host_.read(reg::kId); id != reg::kIdValue)
     throw spec::SimulationError(
         fmt::format("the ID register reads {:#x}, expected {:#x}", id, reg::kIdValue));
   for (std::size_t i = 0; i < frames_.size() && !stopped_; ++i)
@@ -347,7 +319,7 @@ void MorphologicalBench::run(const Progress& progress) {
   if (stopped_) return;
   judge_registers();
   complete_ = true;
-  if (const std::uint32_t errors = read_register(reg::kMemoryErrors); errors != 0)
+  if (const std::uint32_t errors = host_.read(reg::kMemoryErrors); errors != 0)
     throw spec::SimulationError(
         fmt::format("memory answered {} lines with an error, which read as zero: look at "
                     "memory.error_address and at PIXEL_BASE",
@@ -373,9 +345,9 @@ void MorphologicalBench::run_frame(const MorphologicalInput& frame, bool reset_w
                                    const Progress& progress) {
   expect(frame);
   const auto begin_frame = [&] {
-    write_register(reg::kSize, static_cast<std::uint32_t>(frame.image.width) |
-                                   static_cast<std::uint32_t>(frame.image.height) << 16);
-    if (in_memory()) write_register(reg::kPixelBase, options_.pixel_base);
+    host_.write(reg::kSize, static_cast<std::uint32_t>(frame.image.width) |
+                                static_cast<std::uint32_t>(frame.image.height) << 16);
+    if (in_memory()) host_.write(reg::kPixelBase, options_.pixel_base);
     source_.start(frame);
   };
   const rtl::Cycle limit = options_.max_cycles ? options_.max_cycles : rtl::Cycle{1} << 50;
@@ -546,7 +518,7 @@ void MorphologicalBench::judge_registers() {
       {reg::kBlendedPixels, w.blended_pixels}};
   for (const auto& [offset, value] : expected) {
     register_board_.expect({offset, static_cast<std::uint32_t>(value)});
-    register_board_.got({offset, read_register(offset)}, std::string(register_name(offset)));
+    register_board_.got({offset, host_.read(offset)}, std::string(register_name(offset)));
   }
 }
 

@@ -4,14 +4,13 @@
 // use the same bench.
 //
 //   frames ─► FrameSource ─► MorphologicalEngine ─► Sink ─► pixels, taps: against the golden frame
-//                                │       └ registers ◄─ Host: SIZE, and the counters at the end
+//                                │       └ registers ◄─ RegisterHost: SIZE, and the counters at the
+//                                end
 //                            MemoryModel (storage = memory) ─► lines written, lines read
 //
 // The golden model works on a frame before it is sent. Every pixel that leaves the engine is judged
 // as it comes, with its tap (axis, shares, edge bits); runs and lines inside too, if asked for.
 #pragma once
-
-#include <tlm_utils/simple_initiator_socket.h>
 
 #include <cstdint>
 #include <functional>
@@ -33,6 +32,7 @@
 #include "tb/harness/bench.h"
 #include "tb/harness/driver.h"
 #include "tb/harness/memory_model.h"
+#include "tb/harness/register_host.h"
 #include "tb/harness/scoreboard.h"
 
 namespace deburr::tb {
@@ -113,17 +113,12 @@ class MorphologicalBench {
   rtl::ClockDomain& clock() { return clock_; }
   rtl::morphological::MorphologicalEngine& engine() { return engine_; }
 
-  std::uint32_t read_register(std::uint32_t offset);
-  void write_register(std::uint32_t offset, std::uint32_t value);
+  RegisterHost& host() { return host_; }
 
  private:
   struct Status {
     std::uint32_t offset, value;
     friend bool operator==(const Status&, const Status&) = default;
-  };
-  struct Host : sc_core::sc_module {
-    explicit Host(const sc_core::sc_module_name& name) : sc_module(name) {}
-    tlm_utils::simple_initiator_socket<Host> bus{"bus"};
   };
 
   int lanes() const;
@@ -136,7 +131,6 @@ class MorphologicalBench {
   void judge_records();
   void judge_traffic();
   void judge_registers();
-  std::uint32_t access_register(std::uint32_t offset, std::uint32_t value, bool write);
 
   std::span<const MorphologicalInput> frames_;
   MorphologicalBenchOptions options_;
@@ -147,7 +141,7 @@ class MorphologicalBench {
   rtl::morphological::MorphologicalEngine engine_;
   Sink<spec::BlendedBeat> sink_;
   std::unique_ptr<MemoryModel> memory_;
-  Host host_;
+  RegisterHost host_;
   std::unique_ptr<Bench> bench_;
 
   golden::morphological::MorphologicalGolden golden_;

@@ -124,6 +124,7 @@ TextureBench::TextureBench(const TextureScene& scene, const TextureBenchOptions&
       memory_("memory", clock_.period(),
               memory_model_parameters(options.memory, scene.memory().bytes().size(), options.seed)),
       host_("host"),
+      stranger_("stranger"),
       golden_(make_golden(
           scene, options.texture,
           options.golden ? TextureGolden::Traffic::kPredict : TextureGolden::Traffic::kIgnore)),
@@ -142,7 +143,7 @@ TextureBench::TextureBench(const TextureScene& scene, const TextureBenchOptions&
   sink_.beats_in(colours_);
   unit_.memory.bind(memory_.ports);
   host_.bus.bind(unit_.registers);
-  host_.memory.bind(memory_.ports);
+  stranger_.memory.bind(memory_.ports);
   fetch_again_ = planted(options, "duplicate-fetch");
 
   BenchOptions bench;
@@ -258,7 +259,7 @@ void TextureBench::fetch_again() {
   payload.set_data_length(static_cast<unsigned>(data.size()));
   payload.set_streaming_width(static_cast<unsigned>(data.size()));
   sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
-  host_.memory->b_transport(payload, delay);
+  stranger_.memory->b_transport(payload, delay);
 }
 
 std::string TextureBench::describe(const spec::Colour& c) const {
@@ -271,45 +272,18 @@ std::string TextureBench::describe(const spec::Colour& c) const {
                      c.last ? " last" : "", c.rgba[0], c.rgba[1], c.rgba[2], c.rgba[3]);
 }
 
-std::uint32_t TextureBench::access_register(std::uint32_t offset, std::uint32_t value, bool write) {
-  std::array<unsigned char, 4> data{};
-  for (std::size_t i = 0; i < 4; ++i) data[i] = static_cast<unsigned char>(value >> (8 * i));
-  tlm::tlm_generic_payload payload;
-  payload.set_command(write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND);
-  payload.set_address(offset);
-  payload.set_data_ptr(data.data());
-  payload.set_data_length(4);
-  payload.set_streaming_width(4);
-  payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
-  sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
-  host_.bus->b_transport(payload, delay);
-  if (payload.is_response_error())
-    throw spec::SimulationError(fmt::format("register access at {:#x} was refused: {}", offset,
-                                            payload.get_response_string()));
-  value = 0;
-  for (std::size_t i = 0; i < 4; ++i) value |= static_cast<std::uint32_t>(data[i]) << (8 * i);
-  return value;
-}
-
-std::uint32_t TextureBench::read_register(std::uint32_t offset) {
-  return access_register(offset, 0, false);
-}
-void TextureBench::write_register(std::uint32_t offset, std::uint32_t value) {
-  access_register(offset, value, true);
-}
-
 void TextureBench::run(const Progress& progress) {
   constexpr rtl::Cycle kResetCycles = 4;
   clock_.set_reset_n(false);
   clock_.run(kResetCycles);
   clock_.set_reset_n(true);
-  if (const std::uint32_t id = read_register(reg::kId); id != reg::kIdValue)
+  if (const std::uint32_t id = host_.read(reg::kId); id != reg::kIdValue)
     throw spec::SimulationError(
         fmt::format("the ID register reads {:#x}, expected {:#x}", id, reg::kIdValue));
   int handle = 0;
   for (const spec::TextureDescriptor& descriptor : scene_.memory().descriptors())
     for (const auto& [offset, value] : descriptor_registers(handle++, descriptor))
-      write_register(offset, value);
+      host_.write(offset, value);
 
   const rtl::Cycle limit = options_.max_cycles ? options_.max_cycles : rtl::Cycle{1} << 50;
   rtl::Cycle next_progress = 0;
@@ -362,12 +336,12 @@ void TextureBench::judge_registers() {
       {reg::kInvalidFragments, work.invalid_fragments}};
   for (const auto& [offset, value] : expected) {
     register_board_.expect({offset, static_cast<std::uint32_t>(value)});
-    register_board_.got({offset, read_register(offset)}, std::string(register_name(offset)));
+    register_board_.got({offset, host_.read(offset)}, std::string(register_name(offset)));
   }
 }
 
 void TextureBench::check_memory_errors() {
-  const std::uint32_t errors = read_register(reg::kMemoryErrors);
+  const std::uint32_t errors = host_.read(reg::kMemoryErrors);
   if (errors == 0) return;
   throw spec::SimulationError(
       fmt::format("memory answered {} line fills with an error, which read as zero: look at "

@@ -3,7 +3,7 @@
 // and scoreboards. `deburr run texture` and the tests in tb/system use the same bench.
 //
 //   TextureScene ─► Driver ─► TextureUnit ─► Sink ─► scoreboard, frame
-//                     │        │      └ registers ◄─ Host
+//                     │        │      └ registers ◄─ RegisterHost
 //                     ▼      MemoryModel ─► scoreboard of line fills
 //                   golden model (expected colours, expected fills)
 //
@@ -30,6 +30,7 @@
 #include "tb/app/texture_scene.h"
 #include "tb/harness/bench.h"
 #include "tb/harness/driver.h"
+#include "tb/harness/register_host.h"
 #include "tb/harness/scoreboard.h"
 #include "tb/scene/rasteriser.h"
 
@@ -94,8 +95,7 @@ class TextureBench {
   rtl::texture::TextureUnit& unit() { return unit_; }
   MemoryModel& memory() { return memory_; }
 
-  std::uint32_t read_register(std::uint32_t offset);
-  void write_register(std::uint32_t offset, std::uint32_t value);
+  RegisterHost& host() { return host_; }
 
  private:
   struct Fill {
@@ -106,11 +106,10 @@ class TextureBench {
     std::uint32_t offset, value;
     friend bool operator==(const Status&, const Status&) = default;
   };
-  // The register bus' master; `memory` is for the fault of a fetch that nobody ordered.
-  struct Host : sc_core::sc_module {
-    explicit Host(const sc_core::sc_module_name& name) : sc_module(name) {}
-    tlm_utils::simple_initiator_socket<Host> bus{"bus"};
-    tlm_utils::simple_initiator_socket<Host> memory{"memory"};
+  // For the fault of a fetch that nobody ordered.
+  struct Stranger : sc_core::sc_module {
+    explicit Stranger(const sc_core::sc_module_name& name) : sc_module(name) {}
+    tlm_utils::simple_initiator_socket<Stranger> memory{"memory"};
   };
 
   void prepare_golden();
@@ -120,7 +119,6 @@ class TextureBench {
   void fetch_again();
   void judge_registers();
   void check_memory_errors();
-  std::uint32_t access_register(std::uint32_t offset, std::uint32_t value, bool write);
   std::string describe(const spec::Colour& colour) const;
 
   const TextureScene& scene_;
@@ -132,7 +130,8 @@ class TextureBench {
   rtl::texture::TextureUnit unit_;
   Sink<spec::Colour> sink_;
   MemoryModel memory_;
-  Host host_;
+  RegisterHost host_;
+  Stranger stranger_;
   std::unique_ptr<Bench> bench_;
 
   golden::texture::TextureGolden golden_;

@@ -178,12 +178,12 @@ TEST_P(BrokenMemory, ErrorResponsesReadAsZeroAndAreReported) {
   EXPECT_THROW(bench.run(), spec::SimulationError);
   EXPECT_NO_THROW(bench.check());
   EXPECT_EQ(bench.pixels(), 150u * 40u);
-  EXPECT_NE(bench.read_register(reg::kStatus) & reg::kStatusMemoryError, 0u);
+  EXPECT_NE(bench.host().read(reg::kStatus) & reg::kStatusMemoryError, 0u);
   const std::int64_t first = GetParam().address / 64,
                      end = (GetParam().address + GetParam().bytes + 63) / 64;
   const auto lines = static_cast<std::uint64_t>(std::min<std::int64_t>(end, 400) - first);
   EXPECT_EQ(bench.golden().memory_errors(), lines);
-  EXPECT_EQ(bench.read_register(reg::kMemoryErrors), 2 * lines);
+  EXPECT_EQ(bench.host().read(reg::kMemoryErrors), 2 * lines);
 }
 INSTANTIATE_TEST_SUITE_P(MorphologicalMemory, BrokenMemory,
                          testing::Values(Broken{"two_lines", 640, 128, Lanes::kOne},

@@ -4,8 +4,6 @@
 // input the links and registers can carry, and can be reset in mid-run.
 #pragma once
 
-#include <tlm_utils/simple_initiator_socket.h>
-
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -24,6 +22,7 @@
 #include "tb/harness/bench.h"
 #include "tb/harness/driver.h"
 #include "tb/harness/memory_model.h"
+#include "tb/harness/register_host.h"
 
 namespace deburr::tb {
 
@@ -72,7 +71,7 @@ class QuadBench {
     for (std::size_t h = 0; h < input_.textures.size(); ++h)
       for (const auto& [offset, value] :
            descriptor_registers(static_cast<int>(h), input_.textures[h]))
-        access(offset, value, true);
+        host_.write(offset, value);
   }
   // Sends the same quads once more, without a reset.
   void repeat() { driver_.send(input_.quads); }
@@ -124,11 +123,6 @@ class QuadBench {
   }
 
  private:
-  struct Host : sc_core::sc_module {
-    explicit Host(const sc_core::sc_module_name& name) : sc_module(name) {}
-    tlm_utils::simple_initiator_socket<Host> bus{"bus"};
-  };
-
   static MemoryModelParameters sized(MemoryModelParameters memory, const QuadInput& input) {
     memory.bytes = input.memory.size();
     return memory;
@@ -150,28 +144,10 @@ class QuadBench {
         {reg::kInvalidFragments, work.invalid_fragments}};
     std::string differences;
     for (const auto& [offset, value] : expected)
-      if (const std::uint32_t got = access(offset, 0, false); got != value)
+      if (const std::uint32_t got = host_.read(offset); got != value)
         differences += "register " + std::to_string(offset) + " is " + std::to_string(got) +
                        ", expected " + std::to_string(value) + "\n";
     return differences;
-  }
-
-  std::uint32_t access(std::uint32_t offset, std::uint32_t value, bool write) {
-    std::array<unsigned char, 4> data{};
-    for (std::size_t i = 0; i < 4; ++i) data[i] = static_cast<unsigned char>(value >> (8 * i));
-    tlm::tlm_generic_payload payload;
-    payload.set_command(write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND);
-    payload.set_address(offset);
-    payload.set_data_ptr(data.data());
-    payload.set_data_length(4);
-    payload.set_streaming_width(4);
-    sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
-    host_.bus->b_transport(payload, delay);
-    if (payload.is_response_error())
-      throw std::runtime_error("no register at " + std::to_string(offset));
-    value = 0;
-    for (std::size_t i = 0; i < 4; ++i) value |= static_cast<std::uint32_t>(data[i]) << (8 * i);
-    return value;
   }
 
   const QuadInput& input_;
@@ -182,7 +158,7 @@ class QuadBench {
   rtl::texture::TextureUnit unit_;
   Sink<spec::Colour> sink_{"sink", clock_};
   MemoryModel memory_;
-  Host host_{"host"};
+  RegisterHost host_{"host"};
   spec::TextureParameters parameters_;
   std::unique_ptr<Bench> bench_;
 };
