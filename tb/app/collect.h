@@ -2,9 +2,11 @@
 // What every bench takes from a model for its Result: cycles of a unit, a memory, latencies.
 #pragma once
 
+#include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <string>
+#include <systemc>
 #include <utility>
 
 #include "rtl_model/fabric/histogram.h"
@@ -26,6 +28,13 @@ inline std::string sentence(std::string text) {
 inline bool only_waits(const rtl::Unit& unit, const rtl::Unit::StallCause& cause) {
   return cause.name == "wait_memory" ||
          (cause.name == "memory" && dynamic_cast<const rtl::MemoryPort*>(&unit) != nullptr);
+}
+
+// "morphological.predictor_h.probes" within "morphological" -> "predictor_h_probes".
+inline std::string name_within(const sc_core::sc_object& engine, const sc_core::sc_object& object) {
+  std::string name = std::string(object.name()).substr(std::string(engine.name()).size() + 1);
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
 }
 
 inline UnitCycles unit_cycles(std::string name, const rtl::Unit& unit) {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <ctime>
 #include <utility>
 
@@ -72,12 +71,6 @@ int lanes_of(const spec::MorphologicalParameters& p) {
 
 double number(std::uint64_t value) { return static_cast<double>(value); }
 double ratio(double a, double b) { return b > 0 ? a / b : 0.0; }
-
-std::string name_within(const sc_core::sc_object& unit, const sc_core::sc_object& object) {
-  std::string name = std::string(object.name()).substr(std::string(unit.name()).size() + 1);
-  std::replace(name.begin(), name.end(), '.', '_');
-  return name;
-}
 
 }  // namespace
 
@@ -153,7 +146,7 @@ rtl::Activity FrameBuffer::tick(rtl::Cycle cycle) {
 FrameBench::FrameBench(const TextureScene& scene, const FrameBenchOptions& options)
     : scene_(scene),
       options_(options),
-      clock_("clock", sc_core::sc_time(std::round(1e6 / options.clock_mhz), sc_core::SC_PS)),
+      clock_("clock", clock_period(options.clock_mhz)),
       driver_("driver", clock_),
       texture_("texture", clock_, options.texture),
       buffer_("frame_buffer", clock_, scene, lanes_of(options.morphological)),
@@ -215,22 +208,7 @@ FrameBench::FrameBench(const TextureScene& scene, const FrameBenchOptions& optio
   if (planted(options, "lost-response")) memory_.lose_request(kFaultyRequest);
   if (planted(options, "memory-error")) memory_.fail_request(kFaultyRequest);
 
-  BenchOptions bench;
-  bench.stall_permille = options.stall_permille;
-  bench.seed = options.seed;
-  if (options.shuffle) bench.shuffle = options.seed;
-  bench.patience = options.patience;
-  bench.check_links = options.check_links;
-  bench.fast_path = options.fast_path;
-  bench.faults = link_faults(options.faults);
-  if (!options.trace_scope.empty()) {
-    rtl::TraceOptions trace;
-    trace.file = options.trace_file;
-    trace.scopes = {options.trace_scope};
-    trace.from = options.trace_from;
-    trace.to = options.trace_to;
-    bench.trace = trace;
-  }
+  BenchOptions bench = bench_options(options, link_faults(options.faults));
   bench.at_limit = [this] {
     return out_of_cycles(options_.max_cycles, position_, frame_.pixels.size(), "pixel");
   };
@@ -323,7 +301,7 @@ void FrameBench::run(const Progress& progress) {
     running_ = false;
   };
   try {
-    bench_->run(done, options_.max_cycles ? options_.max_cycles : rtl::Cycle{1} << 50, false);
+    bench_->run(done, options_.cycle_limit(), false);
   } catch (...) {
     stop_clock();
     throw;

@@ -30,6 +30,7 @@
 #include "tb/app/memory_parameters.h"
 #include "tb/app/raster_scoreboard.h"
 #include "tb/app/result.h"
+#include "tb/app/simulation.h"
 #include "tb/app/texture_scene.h"
 #include "tb/harness/bench.h"
 #include "tb/harness/driver.h"
@@ -71,24 +72,11 @@ class FrameBuffer final : public rtl::Unit {
   rtl::Cycle last_colour_ = 0, first_beat_ = 0;
 };
 
-struct FrameBenchOptions {
+struct FrameBenchOptions : SimulationOptions {
   spec::TextureParameters texture;
   MemoryParameters memory;
   spec::MorphologicalParameters morphological;
   MemoryParameters frame_memory;  // of the morphological engine, storage = memory
-  double clock_mhz = 166.67;
-  std::uint64_t seed = 1;
-  std::uint32_t stall_permille = 0;
-  bool golden = true;
-  bool shuffle = false;
-  bool fast_path = true;
-  bool check_links = true;
-  rtl::Cycle max_cycles = 0;
-  rtl::Cycle patience = 20000;
-  // Names of frame_faults(), or faults of the harness (fault_injector.h).
-  std::vector<std::string> faults;
-  std::string trace_file, trace_scope;
-  rtl::Cycle trace_from = 0, trace_to = 2000;
 };
 
 // A fault by name, for `--fault`; docs/verification.md says what must catch it.

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <ctime>
 #include <tuple>
 #include <utility>
@@ -103,21 +102,10 @@ std::uint64_t memory_bytes(std::span<const MorphologicalInput> frames, std::uint
   return base + bytes;
 }
 
-sc_core::sc_time period(double mhz) {
-  return sc_core::sc_time(std::round(1e6 / mhz), sc_core::SC_PS);
-}
-
 std::string_view register_name(std::uint32_t offset) {
   for (const spec::RegisterInfo& info : spec::kMorphologicalRegisters)
     if (info.offset == offset) return info.name;
   return "?";
-}
-
-// "morphological.predictor_h.probes" -> "predictor_h_probes".
-std::string name_within(const sc_core::sc_object& engine, const sc_core::sc_object& object) {
-  std::string name = std::string(object.name()).substr(std::string(engine.name()).size() + 1);
-  std::replace(name.begin(), name.end(), '.', '_');
-  return name;
 }
 
 std::string describe_pixel(const spec::Rgba8& p) {
@@ -212,7 +200,7 @@ MorphologicalBench::MorphologicalBench(std::span<const MorphologicalInput> frame
                                        const MorphologicalBenchOptions& options)
     : frames_(frames),
       options_(options),
-      clock_("clock", period(options.clock_mhz)),
+      clock_("clock", clock_period(options.clock_mhz)),
       source_("source", clock_, lanes_of(options.morphological)),
       engine_("morphological", clock_, hardware_parameters(options)),
       sink_("sink", clock_),
@@ -249,22 +237,7 @@ MorphologicalBench::MorphologicalBench(std::span<const MorphologicalInput> frame
     plant_memory_faults();
   }
 
-  BenchOptions bench;
-  bench.stall_permille = options.stall_permille;
-  bench.seed = options.seed;
-  if (options.shuffle) bench.shuffle = options.seed;
-  bench.patience = options.patience;
-  bench.check_links = options.check_links;
-  bench.fast_path = options.fast_path;
-  bench.faults = faults;
-  if (!options.trace_scope.empty()) {
-    rtl::TraceOptions trace;
-    trace.file = options.trace_file;
-    trace.scopes = {options.trace_scope};
-    trace.from = options.trace_from;
-    trace.to = options.trace_to;
-    bench.trace = trace;
-  }
+  BenchOptions bench = bench_options(options, faults);
   bench.at_limit = [this] {
     std::uint64_t pixels = 0;
     for (const MorphologicalInput& frame : frames_) pixels += frame.image.pixels.size();
@@ -350,7 +323,7 @@ void MorphologicalBench::run_frame(const MorphologicalInput& frame, bool reset_w
     if (in_memory()) host_.write(reg::kPixelBase, options_.pixel_base);
     source_.start(frame);
   };
-  const rtl::Cycle limit = options_.max_cycles ? options_.max_cycles : rtl::Cycle{1} << 50;
+  const rtl::Cycle limit = options_.cycle_limit();
   const rtl::Cycle reset_at = clock_.cycle() + options_.reset_after;
   bool reset_due = reset_within;
   const auto done = [&] {

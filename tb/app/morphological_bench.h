@@ -29,6 +29,7 @@
 #include "tb/app/memory_parameters.h"
 #include "tb/app/raster_scoreboard.h"
 #include "tb/app/result.h"
+#include "tb/app/simulation.h"
 #include "tb/harness/bench.h"
 #include "tb/harness/driver.h"
 #include "tb/harness/memory_model.h"
@@ -37,25 +38,13 @@
 
 namespace deburr::tb {
 
-struct MorphologicalBenchOptions {
+struct MorphologicalBenchOptions : SimulationOptions {
+  MorphologicalBenchOptions() { clock_mhz = 148.5; }
   spec::MorphologicalParameters morphological;
   MemoryParameters memory;  // storage = memory only
-  double clock_mhz = 148.5;
-  std::uint64_t seed = 1;
-  std::uint32_t stall_permille = 0;  // on both sides of every link
-  bool golden = true;
-  bool records = false;  // runs and lines inside the engine are compared too
-  bool shuffle = false;
-  bool fast_path = true;
-  bool check_links = true;
+  bool records = false;     // runs and lines inside the engine are compared too
   std::uint32_t pixel_base = 0;
   rtl::Cycle reset_after = 0;  // resets once, so many cycles into the first frame; 0: never
-  rtl::Cycle max_cycles = 0;   // 0: no limit
-  rtl::Cycle patience = 20000;
-  // Names of morphological_faults(), or faults of the harness (fault_injector.h).
-  std::vector<std::string> faults;
-  std::string trace_file, trace_scope;  // empty: none
-  rtl::Cycle trace_from = 0, trace_to = 2000;
 };
 
 // A fault by name, for `--fault`; docs/verification.md says what must catch it.

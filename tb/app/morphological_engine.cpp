@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -112,20 +111,7 @@ class MorphologicalCommand final : public Engine {
     MorphologicalBenchOptions o;
     o.morphological = parameters_;
     o.memory = memory_;
-    o.clock_mhz = run.clock_mhz;
-    o.seed = static_cast<std::uint64_t>(run.seed);
-    o.stall_permille = static_cast<std::uint32_t>(std::lround(run.stalls * 1000));
-    o.golden = run.check == CheckMode::kGolden;
-    o.shuffle = run.shuffle;
-    o.fast_path = run.fast_path;
-    o.check_links = run.check_links;
-    o.max_cycles = static_cast<rtl::Cycle>(run.max_cycles);
-    o.patience = static_cast<rtl::Cycle>(run.watchdog_cycles);
-    if (!run.fault.empty()) o.faults = {run.fault};
-    o.trace_scope = run.trace;
-    o.trace_file = context.trace_file().string();
-    o.trace_from = static_cast<rtl::Cycle>(run.trace_from);
-    o.trace_to = static_cast<rtl::Cycle>(run.trace_to);
+    static_cast<SimulationOptions&>(o) = simulation_options(run, context);
     return o;
   }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <ctime>
 #include <utility>
 
@@ -81,10 +80,6 @@ std::vector<std::string> link_faults(const std::vector<std::string>& names) {
   return faults;
 }
 
-sc_core::sc_time period(double mhz) {
-  return sc_core::sc_time(std::round(1e6 / mhz), sc_core::SC_PS);
-}
-
 std::string_view register_name(std::uint32_t offset) {
   for (const spec::RegisterInfo& info : spec::kTextureRegisters)
     if (info.offset == offset) return info.name;
@@ -117,7 +112,7 @@ std::span<const PlantedFault> planted_faults() {
 TextureBench::TextureBench(const TextureScene& scene, const TextureBenchOptions& options)
     : scene_(scene),
       options_(options),
-      clock_("clock", period(options.clock_mhz)),
+      clock_("clock", clock_period(options.clock_mhz)),
       driver_("driver", clock_),
       unit_("texture", clock_, hardware_parameters(options)),
       sink_("sink", clock_),
@@ -146,22 +141,7 @@ TextureBench::TextureBench(const TextureScene& scene, const TextureBenchOptions&
   stranger_.memory.bind(memory_.ports);
   fetch_again_ = planted(options, "duplicate-fetch");
 
-  BenchOptions bench;
-  bench.stall_permille = options.stall_permille;
-  bench.seed = options.seed;
-  if (options.shuffle) bench.shuffle = options.seed;
-  bench.patience = options.patience;
-  bench.check_links = options.check_links;
-  bench.fast_path = options.fast_path;
-  bench.faults = faults;
-  if (!options.trace_scope.empty()) {
-    rtl::TraceOptions trace;
-    trace.file = options.trace_file;
-    trace.scopes = {options.trace_scope};
-    trace.from = options.trace_from;
-    trace.to = options.trace_to;
-    bench.trace = trace;
-  }
+  BenchOptions bench = bench_options(options, faults);
   bench.at_limit = [this] {
     return out_of_cycles(options_.max_cycles, sink_.received(), scene_.stream().counts.fragments,
                          "fragment");
@@ -285,7 +265,7 @@ void TextureBench::run(const Progress& progress) {
     for (const auto& [offset, value] : descriptor_registers(handle++, descriptor))
       host_.write(offset, value);
 
-  const rtl::Cycle limit = options_.max_cycles ? options_.max_cycles : rtl::Cycle{1} << 50;
+  const rtl::Cycle limit = options_.cycle_limit();
   rtl::Cycle next_progress = 0;
   bool stopped = false;
   const auto done = [&] {

@@ -27,6 +27,7 @@
 #include "spec/texture.h"
 #include "tb/app/memory_parameters.h"
 #include "tb/app/result.h"
+#include "tb/app/simulation.h"
 #include "tb/app/texture_scene.h"
 #include "tb/harness/bench.h"
 #include "tb/harness/driver.h"
@@ -36,22 +37,9 @@
 
 namespace deburr::tb {
 
-struct TextureBenchOptions {
+struct TextureBenchOptions : SimulationOptions {
   spec::TextureParameters texture;
   MemoryParameters memory;
-  double clock_mhz = 166.67;
-  std::uint64_t seed = 1;
-  std::uint32_t stall_permille = 0;  // on both sides of every link
-  bool golden = true;                // compare with the golden model
-  bool shuffle = false;
-  bool fast_path = true;
-  bool check_links = true;
-  rtl::Cycle max_cycles = 0;  // 0: no limit
-  rtl::Cycle patience = 20000;
-  // Names of planted_faults(), or faults of the harness (fault_injector.h).
-  std::vector<std::string> faults;
-  std::string trace_file, trace_scope;  // empty: none
-  rtl::Cycle trace_from = 0, trace_to = 2000;
 };
 
 // A fault by name, for `--fault`; docs/verification.md says what must catch it.

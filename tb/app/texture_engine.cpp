@@ -98,22 +98,10 @@ class TextureEngine final : public Engine {
     TextureBenchOptions o;
     o.texture = texture_;
     o.memory = memory_;
-    o.clock_mhz = run.clock_mhz;
-    o.seed = static_cast<std::uint64_t>(run.seed);
-    o.stall_permille = static_cast<std::uint32_t>(std::lround(run.stalls * 1000));
-    o.golden = run.check == CheckMode::kGolden;
-    o.shuffle = run.shuffle;
-    o.fast_path = run.fast_path;
+    static_cast<SimulationOptions&>(o) = simulation_options(run, context);
     // Faults on links are seen by the link checkers first; they look away, so that the checks
     // behind them show that they can fail too, unless the link checkers are what was asked for.
-    o.check_links = run.check_links && (run.fault.empty() || links_given_);
-    o.max_cycles = static_cast<rtl::Cycle>(run.max_cycles);
-    o.patience = static_cast<rtl::Cycle>(run.watchdog_cycles);
-    if (!run.fault.empty()) o.faults = {run.fault};
-    o.trace_scope = run.trace;
-    o.trace_file = context.trace_file().string();
-    o.trace_from = static_cast<rtl::Cycle>(run.trace_from);
-    o.trace_to = static_cast<rtl::Cycle>(run.trace_to);
+    if (!run.fault.empty() && !links_given_) o.check_links = false;
     return o;
   }
 
