@@ -7,34 +7,36 @@
 namespace deburr::golden::ideal {
 namespace {
 
-bool interpolates_texels(spec::MinFilter filter) {
-  return filter == spec::MinFilter::kLinear || filter == spec::MinFilter::kLinearMipmapNearest ||
-         filter == spec::MinFilter::kLinearMipmapLinear;
+bool interpolates_texels(spec::texture::MinFilter filter) {
+  return filter == spec::texture::MinFilter::kLinear ||
+         filter == spec::texture::MinFilter::kLinearMipmapNearest ||
+         filter == spec::texture::MinFilter::kLinearMipmapLinear;
 }
 
-bool interpolates_levels(spec::MinFilter filter) {
-  return filter == spec::MinFilter::kNearestMipmapLinear ||
-         filter == spec::MinFilter::kLinearMipmapLinear;
+bool interpolates_levels(spec::texture::MinFilter filter) {
+  return filter == spec::texture::MinFilter::kNearestMipmapLinear ||
+         filter == spec::texture::MinFilter::kLinearMipmapLinear;
 }
 
-bool uses_base_level(spec::MinFilter filter) {
-  return filter == spec::MinFilter::kNearest || filter == spec::MinFilter::kLinear;
+bool uses_base_level(spec::texture::MinFilter filter) {
+  return filter == spec::texture::MinFilter::kNearest ||
+         filter == spec::texture::MinFilter::kLinear;
 }
 
 // GL's texture image address of texel index i in a row of `size`.
-int wrap_index(spec::Wrap wrap, std::int64_t i, int size) {
+int wrap_index(spec::texture::Wrap wrap, std::int64_t i, int size) {
   const auto modulo = [](std::int64_t value, std::int64_t period) {
     const std::int64_t r = value % period;
     return r < 0 ? r + period : r;
   };
   switch (wrap) {
-    case spec::Wrap::kRepeat:
+    case spec::texture::Wrap::kRepeat:
       return static_cast<int>(modulo(i, size));
-    case spec::Wrap::kMirroredRepeat: {
+    case spec::texture::Wrap::kMirroredRepeat: {
       const std::int64_t r = modulo(i, 2 * std::int64_t{size});
       return static_cast<int>(r < size ? r : 2 * std::int64_t{size} - 1 - r);
     }
-    case spec::Wrap::kClampToEdge:
+    case spec::texture::Wrap::kClampToEdge:
       return static_cast<int>(std::clamp<std::int64_t>(i, 0, size - 1));
   }
   return 0;
@@ -294,7 +296,7 @@ class Search {
 }  // namespace
 
 double colour_tolerance(const Sampler& sampler) {
-  const bool nearest_only = sampler.mag_filter == spec::MagFilter::kNearest &&
+  const bool nearest_only = sampler.mag_filter == spec::texture::MagFilter::kNearest &&
                             !interpolates_texels(sampler.min_filter) &&
                             !interpolates_levels(sampler.min_filter);
   return nearest_only ? kNearestTolerance : kFilteredTolerance;
@@ -330,7 +332,8 @@ bool Criterion::reachable(const Fragment& fragment, const Rgba& colour, double t
     return false;
   };
   const auto found = [&] {
-    if (lod.low <= 0.0 && at_level(0, sampler_.mag_filter == spec::MagFilter::kLinear)) return true;
+    if (lod.low <= 0.0 && at_level(0, sampler_.mag_filter == spec::texture::MagFilter::kLinear))
+      return true;
     if (lod.high <= 0.0) return false;
     const bool linear = interpolates_texels(sampler_.min_filter);
     if (uses_base_level(sampler_.min_filter)) return at_level(0, linear);
@@ -389,7 +392,7 @@ Rgba exact_colour(const Texture& texture, const Sampler& sampler, const Fragment
                           .front();
     return cell.at(cell.a.low, cell.b.low);
   };
-  if (lod <= 0.0) return at_level(0, sampler.mag_filter == spec::MagFilter::kLinear);
+  if (lod <= 0.0) return at_level(0, sampler.mag_filter == spec::texture::MagFilter::kLinear);
   const bool linear = interpolates_texels(sampler.min_filter);
   if (uses_base_level(sampler.min_filter)) return at_level(0, linear);
   if (!interpolates_levels(sampler.min_filter)) return at_level(nearest_level(lod, last), linear);

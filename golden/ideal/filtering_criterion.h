@@ -21,7 +21,7 @@
 #include <string_view>
 #include <vector>
 
-#include "spec/texture.h"
+#include "spec/texture/descriptor.h"
 
 namespace deburr::golden::ideal {
 
@@ -37,9 +37,9 @@ struct Texture {
 };
 
 struct Sampler {
-  spec::Wrap wrap_s = spec::Wrap::kRepeat, wrap_t = spec::Wrap::kRepeat;
-  spec::MinFilter min_filter = spec::MinFilter::kLinearMipmapLinear;
-  spec::MagFilter mag_filter = spec::MagFilter::kLinear;
+  spec::texture::Wrap wrap_s = spec::texture::Wrap::kRepeat, wrap_t = spec::texture::Wrap::kRepeat;
+  spec::texture::MinFilter min_filter = spec::texture::MinFilter::kLinearMipmapLinear;
+  spec::texture::MagFilter mag_filter = spec::texture::MagFilter::kLinear;
   double lod_bias = 0.0, min_lod = 0.0, max_lod = 12.0;
 };
 

@@ -9,11 +9,11 @@
 
 namespace deburr::golden::ideal {
 
-PixelFootprint pixel_footprint(const spec::Quad& quad, int lane, int width, int height) {
+PixelFootprint pixel_footprint(const spec::texture::Quad& quad, int lane, int width, int height) {
   const auto i = static_cast<std::size_t>(lane);
   const std::size_t row = i & 2, column = i & 1;
-  const double to_s = width / static_cast<double>(spec::kCoordinateOne);
-  const double to_t = height / static_cast<double>(spec::kCoordinateOne);
+  const double to_s = width / static_cast<double>(spec::texture::kCoordinateOne);
+  const double to_t = height / static_cast<double>(spec::texture::kCoordinateOne);
   const auto difference = [](const std::array<std::int32_t, 4>& c, std::size_t to,
                              std::size_t from) {
     return static_cast<double>(c[to]) - static_cast<double>(c[from]);
@@ -26,10 +26,10 @@ PixelFootprint pixel_footprint(const spec::Quad& quad, int lane, int width, int 
           difference(quad.t, column + 2, column) * to_t};
 }
 
-std::vector<PixelFootprint> pixel_footprints(std::span<const spec::Quad> quads, int width,
+std::vector<PixelFootprint> pixel_footprints(std::span<const spec::texture::Quad> quads, int width,
                                              int height) {
   std::vector<PixelFootprint> result;
-  for (const spec::Quad& quad : quads) {
+  for (const spec::texture::Quad& quad : quads) {
     for (int lane = 0; lane < 4; ++lane) {
       if ((quad.coverage >> lane & 1) != 0) {
         result.push_back(pixel_footprint(quad, lane, width, height));

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "spec/fragment.h"
+#include "spec/texture/packets.h"
 
 namespace deburr::golden::ideal {
 
@@ -21,11 +21,11 @@ struct PixelFootprint {
 };
 
 // Of one lane, with the differences of its own row and column, as the unit takes them.
-PixelFootprint pixel_footprint(const spec::Quad& quad, int lane, int width, int height);
+PixelFootprint pixel_footprint(const spec::texture::Quad& quad, int lane, int width, int height);
 
 // Of all covered lanes, in the order in which the unit delivers colours. All quads must use a
 // texture of width x height texels.
-std::vector<PixelFootprint> pixel_footprints(std::span<const spec::Quad> quads, int width,
+std::vector<PixelFootprint> pixel_footprints(std::span<const spec::texture::Quad> quads, int width,
                                              int height);
 
 // Lengths of the sides in texels. Equation 1.

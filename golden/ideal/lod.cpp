@@ -9,8 +9,8 @@
 
 namespace deburr::golden::ideal {
 
-LevelOfDetail level_of_detail(const spec::TextureParameters& parameters,
-                              const spec::TextureDescriptor& descriptor,
+LevelOfDetail level_of_detail(const spec::texture::Parameters& parameters,
+                              const spec::texture::Descriptor& descriptor,
                               const PixelFootprint& footprint) {
   constexpr double kSmallest = 1.0 / 65536;
   const Sides d = sides(footprint);
@@ -19,11 +19,11 @@ LevelOfDetail level_of_detail(const spec::TextureParameters& parameters,
   result.lb_d_min = std::log2(std::max(d.d_min, kSmallest));
   result.anisotropy = result.lb_d_max - result.lb_d_min;
   if (result.lb_d_max > 0) {
-    const double rounded = parameters.count == spec::CountRule::kCeil
+    const double rounded = parameters.count == spec::texture::CountRule::kCeil
                                ? std::ceil(result.anisotropy)
                                : std::floor(result.anisotropy);
     result.lb_n = std::min(static_cast<int>(rounded), int{descriptor.max_anisotropy_log2});
-    if (parameters.count_cap == spec::CountCap::kTexel) {
+    if (parameters.count_cap == spec::texture::CountCap::kTexel) {
       result.lb_n = std::min(result.lb_n, static_cast<int>(std::ceil(result.lb_d_max)));
     }
   }

@@ -8,7 +8,8 @@
 #include <functional>
 
 #include "golden/ideal/footprint.h"
-#include "spec/texture.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::golden::ideal {
 
@@ -22,8 +23,8 @@ struct LevelOfDetail {
 // The unit's rules (docs/number_formats.md, "Level and count") with exact sides and logarithms.
 // Uses count and count_cap of the parameters, and N_max, bias and limits of the descriptor. A side
 // of zero counts as 2^-16 texel.
-LevelOfDetail level_of_detail(const spec::TextureParameters& parameters,
-                              const spec::TextureDescriptor& descriptor,
+LevelOfDetail level_of_detail(const spec::texture::Parameters& parameters,
+                              const spec::texture::Descriptor& descriptor,
                               const PixelFootprint& footprint);
 
 // n + y against lb(2^n (1 + y)), y uniform in [0, 1): section 1.4, where the paper prints 3.12 %.

@@ -71,7 +71,7 @@ TextureImage::Level smaller(const TextureImage::Level& big) {
 }  // namespace
 
 TextureImage::TextureImage(int width, int height, std::span<const std::uint8_t> rgba,
-                           spec::Wrap wrap_s, spec::Wrap wrap_t, bool srgb)
+                           spec::texture::Wrap wrap_s, spec::texture::Wrap wrap_t, bool srgb)
     : wrap_s_(wrap_s), wrap_t_(wrap_t) {
   if (width <= 0 || height <= 0 ||
       rgba.size() != 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {

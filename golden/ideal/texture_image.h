@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "spec/texture.h"
+#include "spec/texture/descriptor.h"
 
 namespace deburr::golden::ideal {
 
@@ -18,8 +18,8 @@ class TextureImage {
   // rgba: width x height x 4 bytes, row by row from t = 0. With `srgb` R, G and B are decoded to
   // linear light (0..255) first. Throws ConfigError when the byte count does not fit.
   TextureImage(int width, int height, std::span<const std::uint8_t> rgba,
-               spec::Wrap wrap_s = spec::Wrap::kRepeat, spec::Wrap wrap_t = spec::Wrap::kRepeat,
-               bool srgb = false);
+               spec::texture::Wrap wrap_s = spec::texture::Wrap::kRepeat,
+               spec::texture::Wrap wrap_t = spec::texture::Wrap::kRepeat, bool srgb = false);
 
   int width() const { return levels_.front().width; }
   int height() const { return levels_.front().height; }
@@ -36,18 +36,18 @@ class TextureImage {
   const Level& level(int k) const { return levels_[static_cast<std::size_t>(k)]; }
 
   // Index of the texel that stands for position i (any integer) on an axis of `size` texels.
-  static int wrapped(spec::Wrap wrap, std::int64_t i, int size) {
+  static int wrapped(spec::texture::Wrap wrap, std::int64_t i, int size) {
     switch (wrap) {
-      case spec::Wrap::kRepeat: {
+      case spec::texture::Wrap::kRepeat: {
         if ((size & (size - 1)) == 0) return static_cast<int>(i & (size - 1));
         const auto rest = static_cast<int>(i % size);
         return rest < 0 ? rest + size : rest;
       }
-      case spec::Wrap::kMirroredRepeat: {
-        const int rest = wrapped(spec::Wrap::kRepeat, i, 2 * size);
+      case spec::texture::Wrap::kMirroredRepeat: {
+        const int rest = wrapped(spec::texture::Wrap::kRepeat, i, 2 * size);
         return rest < size ? rest : 2 * size - 1 - rest;
       }
-      case spec::Wrap::kClampToEdge:
+      case spec::texture::Wrap::kClampToEdge:
         break;
     }
     return static_cast<int>(i < 0 ? 0 : i >= size ? size - 1 : i);
@@ -56,7 +56,7 @@ class TextureImage {
   int row(std::int64_t i, int k = 0) const { return wrapped(wrap_t_, i, level(k).height); }
 
  private:
-  spec::Wrap wrap_s_, wrap_t_;
+  spec::texture::Wrap wrap_s_, wrap_t_;
   std::vector<Level> levels_;
 };
 

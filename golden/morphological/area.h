@@ -11,7 +11,9 @@
 #include <cstdint>
 
 #include "golden/morphological/line.h"
-#include "spec/morphological.h"
+#include "spec/morphological/packets.h"
+#include "spec/morphological/parameters.h"
+#include "spec/morphological/shapes.h"
 
 namespace deburr::golden::morphological {
 
@@ -34,7 +36,7 @@ constexpr int height_magnitude(std::int64_t t) {  // U1.12
 constexpr Areas areas(std::int64_t t0, std::int64_t t1, std::uint32_t inverse) {
   const int q0 = height_magnitude(t0), q1 = height_magnitude(t1);
   const auto limited = [](std::int64_t area) {
-    return static_cast<int>(std::min<std::int64_t>(spec::kMaxWeight, area));
+    return static_cast<int>(std::min<std::int64_t>(spec::morphological::kMaxWeight, area));
   };
   const auto triangle = [&](std::int64_t q) {
     return limited((q * q * inverse + (std::int64_t{1} << 28)) >> 29);
@@ -46,13 +48,13 @@ constexpr Areas areas(std::int64_t t0, std::int64_t t1, std::uint32_t inverse) {
 }
 
 // Shares of the edge of pixel k of the record, 0 <= k < length.
-constexpr EdgeShares shares(const spec::LineRecord& line, int k) {
+constexpr EdgeShares shares(const spec::morphological::LineRecord& line, int k) {
   const Areas a = areas(height(line, k), height(line, k + 1), line.inverse);
-  const auto of = [&](spec::Side side) {
+  const auto of = [&](spec::morphological::Side side) {
     const int sum = (line.before == side ? a.before : 0) + (line.after == side ? a.after : 0);
-    return static_cast<std::uint8_t>(std::min(spec::kMaxWeight, sum));
+    return static_cast<std::uint8_t>(std::min(spec::morphological::kMaxWeight, sum));
   };
-  return {of(spec::Side::kFirst), of(spec::Side::kSecond)};
+  return {of(spec::morphological::Side::kFirst), of(spec::morphological::Side::kSecond)};
 }
 
 }  // namespace deburr::golden::morphological

@@ -3,7 +3,8 @@
 
 #include <cstdlib>
 
-#include "spec/morphological_tables.h"
+#include "spec/morphological/packets.h"
+#include "spec/morphological/tables.h"
 
 namespace deburr::golden::morphological {
 
@@ -19,8 +20,8 @@ Decision decide(const PixelShares& s) {
   return vertical > horizontal ? Decision::kStrongerUpDown : Decision::kStrongerLeftRight;
 }
 
-spec::BlendTap tap_of(const PixelShares& s, Decision decision) {
-  spec::BlendTap tap;
+spec::morphological::BlendTap tap_of(const PixelShares& s, Decision decision) {
+  spec::morphological::BlendTap tap;
   tap.horizontal = is_horizontal(decision);
   tap.first = static_cast<std::uint8_t>(tap.horizontal ? s.left : s.up);
   tap.second = static_cast<std::uint8_t>(tap.horizontal ? s.right : s.down);
@@ -29,18 +30,21 @@ spec::BlendTap tap_of(const PixelShares& s, Decision decision) {
 
 int blend_channel(bool linear_light, int c, int n1, int w1, int n2, int w2) {
   const auto decoded = [&](int code) {
-    return linear_light ? spec::kLinear12FromSrgb[static_cast<std::size_t>(code)] : code;
+    return linear_light ? spec::morphological::kLinear12FromSrgb[static_cast<std::size_t>(code)]
+                        : code;
   };
   const int own = decoded(c);
   const int v = w1 * (decoded(n1) - own) + w2 * (decoded(n2) - own);
   const int d = (std::abs(v) + 128) >> 8;
   const int result = v < 0 ? own - d : own + d;
-  return linear_light ? spec::kSrgbFromLinear12[static_cast<std::size_t>(result)] : result;
+  return linear_light ? spec::morphological::kSrgbFromLinear12[static_cast<std::size_t>(result)]
+                      : result;
 }
 
-spec::Rgba8 blend(bool linear_light, const spec::Rgba8& pixel, const spec::Rgba8& first, int w1,
-                  const spec::Rgba8& second, int w2) {
-  spec::Rgba8 result = pixel;
+spec::morphological::Rgba8 blend(bool linear_light, const spec::morphological::Rgba8& pixel,
+                                 const spec::morphological::Rgba8& first, int w1,
+                                 const spec::morphological::Rgba8& second, int w2) {
+  spec::morphological::Rgba8 result = pixel;
   for (std::size_t i = 0; i < 3; ++i) {
     result[i] = static_cast<std::uint8_t>(
         blend_channel(linear_light, pixel[i], first[i], w1, second[i], w2));

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "spec/morphological.h"
+#include "spec/morphological/packets.h"
 
 namespace deburr::golden::morphological {
 
@@ -36,12 +36,13 @@ constexpr bool is_horizontal(Decision d) {
 }
 
 // The two shares of the chosen axis; `edges` stays 0.
-spec::BlendTap tap_of(const PixelShares& shares, Decision decision);
+spec::morphological::BlendTap tap_of(const PixelShares& shares, Decision decision);
 
 // One channel code: v = w1 (n1 - c) + w2 (n2 - c), its magnitude rounded.
 int blend_channel(bool linear_light, int c, int n1, int w1, int n2, int w2);
 // Alpha passes.
-spec::Rgba8 blend(bool linear_light, const spec::Rgba8& pixel, const spec::Rgba8& first, int w1,
-                  const spec::Rgba8& second, int w2);
+spec::morphological::Rgba8 blend(bool linear_light, const spec::morphological::Rgba8& pixel,
+                                 const spec::morphological::Rgba8& first, int w1,
+                                 const spec::morphological::Rgba8& second, int w2);
 
 }  // namespace deburr::golden::morphological

@@ -28,18 +28,18 @@ struct RangeCheck {
   void boolean(std::string_view, bool, std::string_view) const {}
 };
 
-[[noreturn]] void not_built(const spec::MorphologicalParameters& p, const std::string& what) {
+[[noreturn]] void not_built(const spec::morphological::Parameters& p, const std::string& what) {
   throw spec::ConfigError(
       what + " not built yet (preset " +
-      std::string(spec::kMorphologicalPresetNames[static_cast<std::size_t>(p.preset)]) +
+      std::string(spec::morphological::kPresetNames[static_cast<std::size_t>(p.preset)]) +
       "); use area = analytic, diagonals = false, round_corners = false");
 }
 
 }  // namespace
 
-spec::MorphologicalParameters preset_parameters(spec::MorphologicalPreset preset) {
-  spec::MorphologicalParameters p;
-  for (const spec::MorphologicalPresetRow& row : spec::kMorphologicalPresets) {
+spec::morphological::Parameters preset_parameters(spec::morphological::Preset preset) {
+  spec::morphological::Parameters p;
+  for (const spec::morphological::PresetRow& row : spec::morphological::kPresets) {
     if (row.preset != preset) continue;
     p.preset = row.preset;
     p.threshold_mode = row.threshold_mode;
@@ -57,11 +57,11 @@ spec::MorphologicalParameters preset_parameters(spec::MorphologicalPreset preset
   return p;
 }
 
-void check_parameters(const spec::MorphologicalParameters& parameters) {
-  spec::MorphologicalParameters p = parameters;
+void check_parameters(const spec::morphological::Parameters& parameters) {
+  spec::morphological::Parameters p = parameters;
   const RangeCheck ranges;
   describe(p, ranges);
-  if (p.area != spec::AreaSource::kAnalytic) not_built(p, "area tables are");
+  if (p.area != spec::morphological::AreaSource::kAnalytic) not_built(p, "area tables are");
   if (p.diagonals) not_built(p, "diagonal patterns are");
   if (p.round_corners) not_built(p, "corner rounding is");
   if (p.window_rows % 2 != 0) {
@@ -74,17 +74,18 @@ void check_parameters(const spec::MorphologicalParameters& parameters) {
         std::to_string(p.window_rows) +
         " rows; at most window_rows / 2 - 2 = " + std::to_string(reach_rows(p) - 1) + " fit");
   }
-  if (p.edge_source == spec::EdgeSource::kPredicated &&
-      p.threshold_mode == spec::ThresholdMode::kDynamic) {
+  if (p.edge_source == spec::morphological::EdgeSource::kPredicated &&
+      p.threshold_mode == spec::morphological::ThresholdMode::kDynamic) {
     throw spec::ConfigError(
         "morphological edges.source = predicated has thresholds of its own; "
         "use edges.threshold_mode = fixed");
   }
 }
 
-void check_frame(const spec::MorphologicalParameters& parameters, int width, int height) {
+void check_frame(const spec::morphological::Parameters& parameters, int width, int height) {
   const std::string size = std::to_string(width) + " x " + std::to_string(height);
-  if (width < 1 || height < 1 || width > spec::kMaxFrameSize || height > spec::kMaxFrameSize) {
+  if (width < 1 || height < 1 || width > spec::morphological::kMaxFrameSize ||
+      height > spec::morphological::kMaxFrameSize) {
     throw spec::ConfigError("a frame of " + size + " pixels; 1..8192 each way are possible");
   }
   if (width > parameters.line_pixels) {

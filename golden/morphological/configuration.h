@@ -6,24 +6,25 @@
 // that says so.
 #pragma once
 
-#include "spec/morphological.h"
+#include "spec/morphological/packets.h"
+#include "spec/morphological/parameters.h"
 
 namespace deburr::golden::morphological {
 
 // The defaults with the rules of a preset applied. Never throws: what is not built is refused by
 // check_parameters().
-spec::MorphologicalParameters preset_parameters(spec::MorphologicalPreset preset);
+spec::morphological::Parameters preset_parameters(spec::morphological::Preset preset);
 
 // Throws ConfigError: a value out of its range, or a mix that the engine does not have.
-void check_parameters(const spec::MorphologicalParameters& parameters);
+void check_parameters(const spec::morphological::Parameters& parameters);
 // Throws ConfigError: no pixels, over 8192 pixels a side, wider than the line buffers.
-void check_frame(const spec::MorphologicalParameters& parameters, int width, int height);
+void check_frame(const spec::morphological::Parameters& parameters, int width, int height);
 
 // R, the reach in rows.
-inline int reach_rows(const spec::MorphologicalParameters& p) { return p.window_rows / 2 - 1; }
+inline int reach_rows(const spec::morphological::Parameters& p) { return p.window_rows / 2 - 1; }
 // Longest run of an axis, and how far a run may be extended.
-inline int reach(const spec::MorphologicalParameters& p, spec::Axis axis) {
-  return axis == spec::Axis::kHorizontal ? p.reach_columns : reach_rows(p);
+inline int reach(const spec::morphological::Parameters& p, spec::morphological::Axis axis) {
+  return axis == spec::morphological::Axis::kHorizontal ? p.reach_columns : reach_rows(p);
 }
 
 }  // namespace deburr::golden::morphological

@@ -26,8 +26,8 @@ std::uint32_t scaled_from_binary32(std::uint32_t pattern, std::uint32_t full_sca
   return static_cast<std::uint32_t>((mantissa * full_scale + half) >> shift);
 }
 
-PlaneOf<spec::Rgba8> codes_from(const Samples& samples) {
-  PlaneOf<spec::Rgba8> result(samples.width, samples.height);
+PlaneOf<spec::morphological::Rgba8> codes_from(const Samples& samples) {
+  PlaneOf<spec::morphological::Rgba8> result(samples.width, samples.height);
   const auto channels = static_cast<std::size_t>(samples.channels);
   DEBURR_CHECK(samples.channels >= 1 && samples.values.size() == result.values.size() * channels,
                std::to_string(samples.values.size()) + " samples for " +

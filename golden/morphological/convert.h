@@ -11,7 +11,7 @@
 #include <span>
 
 #include "golden/morphological/planes.h"
-#include "spec/morphological.h"
+#include "spec/morphological/packets.h"
 
 namespace deburr::golden::morphological {
 
@@ -25,7 +25,7 @@ inline std::uint8_t code_from_binary32(std::uint32_t pattern) {
 inline std::uint32_t depth_from_binary32(std::uint32_t pattern) {
   return scaled_from_binary32(pattern, (1u << 24) - 1);
 }
-inline std::uint32_t depth_from_codes(const spec::Rgba8& pixel) {
+inline std::uint32_t depth_from_codes(const spec::morphological::Rgba8& pixel) {
   return std::uint32_t{pixel[0]} << 16 | std::uint32_t{pixel[1]} << 8 | pixel[2];
 }
 
@@ -37,6 +37,6 @@ struct Samples {
   int bits = 8;           // of an unsigned sample
   bool binary32 = false;  // values are bit patterns; `bits` is not used
 };
-PlaneOf<spec::Rgba8> codes_from(const Samples& samples);
+PlaneOf<spec::morphological::Rgba8> codes_from(const Samples& samples);
 
 }  // namespace deburr::golden::morphological

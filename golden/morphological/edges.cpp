@@ -10,7 +10,7 @@
 namespace deburr::golden::morphological {
 namespace {
 
-using Parameters = spec::MorphologicalParameters;
+using Parameters = spec::morphological::Parameters;
 
 std::int32_t step(const PixelPair& pair) { return std::abs(pair.luma_p - pair.luma_q); }
 
@@ -26,7 +26,9 @@ struct DynamicRule {
   std::int32_t floor;  // U8.16
   bool larger;
   explicit DynamicRule(const Parameters& p)
-      : alpha(p.alpha), floor(255 * p.floor), larger(p.dynamic_luma == spec::DynamicLuma::kMax) {}
+      : alpha(p.alpha),
+        floor(255 * p.floor),
+        larger(p.dynamic_luma == spec::morphological::DynamicLuma::kMax) {}
   bool operator()(const PixelPair& pair) const {
     const std::int32_t reference = larger ? std::max(pair.luma_p, pair.luma_q) : pair.luma_p;
     const std::int64_t c = step(pair);
@@ -57,14 +59,14 @@ struct PredicatedRule {
 template <class Use>
 decltype(auto) with_rule(const Parameters& p, Use&& use) {
   switch (p.edge_source) {
-    case spec::EdgeSource::kDepth:
+    case spec::morphological::EdgeSource::kDepth:
       return use(DepthRule(p));
-    case spec::EdgeSource::kPredicated:
+    case spec::morphological::EdgeSource::kPredicated:
       return use(PredicatedRule(p));
-    case spec::EdgeSource::kLuma:
+    case spec::morphological::EdgeSource::kLuma:
       break;
   }
-  if (p.threshold_mode == spec::ThresholdMode::kDynamic) return use(DynamicRule(p));
+  if (p.threshold_mode == spec::morphological::ThresholdMode::kDynamic) return use(DynamicRule(p));
   return use(FixedRule(p));
 }
 
@@ -143,8 +145,8 @@ class StepRows {
 };
 
 // Largest step around the left edge of (x, y); the bit stays if twice its own step is larger.
-std::int32_t contrast_left(spec::LocalContrast mode, const StepRows& c, int x) {
-  if (mode == spec::LocalContrast::kPaper) {
+std::int32_t contrast_left(spec::morphological::LocalContrast mode, const StepRows& c, int x) {
+  if (mode == spec::morphological::LocalContrast::kPaper) {
     return std::max({c.down(0, x), c.down(1, x), c.across(0, x), c.across(0, x + 1), c.down(-1, x),
                      c.across(0, x - 1)});
   }
@@ -154,8 +156,8 @@ std::int32_t contrast_left(spec::LocalContrast mode, const StepRows& c, int x) {
       {c.across(0, x), c.across(0, x + 1), c.across(0, x - 1), std::min(beside_p, beside_q)});
 }
 
-std::int32_t contrast_top(spec::LocalContrast mode, const StepRows& c, int x) {
-  if (mode == spec::LocalContrast::kPaper) return contrast_left(mode, c, x);
+std::int32_t contrast_top(spec::morphological::LocalContrast mode, const StepRows& c, int x) {
+  if (mode == spec::morphological::LocalContrast::kPaper) return contrast_left(mode, c, x);
   const std::int32_t beside_p = std::max(c.across(0, x), c.across(0, x + 1));
   const std::int32_t beside_q = std::max(c.across(-1, x), c.across(-1, x + 1));
   return std::max({c.down(0, x), c.down(1, x), c.down(-1, x), std::min(beside_p, beside_q)});
@@ -172,7 +174,8 @@ void filter(std::uint64_t* bits, int words, Keep&& keep) {
   }
 }
 
-void apply_local_contrast(spec::LocalContrast mode, const LumaPlane& luma, EdgePlanes& edges) {
+void apply_local_contrast(spec::morphological::LocalContrast mode, const LumaPlane& luma,
+                          EdgePlanes& edges) {
   StepRows steps(luma);
   for (int y = 0; y < luma.height; ++y) {
     steps.advance_to(y);
@@ -222,8 +225,8 @@ EdgePlanes find_edges(const Parameters& parameters, const ImageView& image,
   const LumaPlane y = luma(image);
   EdgePlanes edges{BitPlane(image.width, image.height), BitPlane(image.width, image.height)};
   with_rule(parameters, [&](const auto& rule) { raw_edges(rule, y, depth, edges); });
-  if (parameters.edge_source != spec::EdgeSource::kDepth &&
-      parameters.local_contrast != spec::LocalContrast::kOff) {
+  if (parameters.edge_source != spec::morphological::EdgeSource::kDepth &&
+      parameters.local_contrast != spec::morphological::LocalContrast::kOff) {
     apply_local_contrast(parameters.local_contrast, y, edges);
   }
   return edges;

@@ -9,7 +9,7 @@
 
 #include "golden/morphological/luma.h"
 #include "golden/morphological/planes.h"
-#include "spec/morphological.h"
+#include "spec/morphological/parameters.h"
 
 namespace deburr::golden::morphological {
 
@@ -20,12 +20,12 @@ struct PixelPair {
 };
 
 // A pair has a depth edge: the relative step of depth is large enough.
-bool depth_edge(const spec::MorphologicalParameters& parameters, const PixelPair& pair);
+bool depth_edge(const spec::morphological::Parameters& parameters, const PixelPair& pair);
 // The raw bit of an edge, local contrast not yet applied.
-bool raw_edge(const spec::MorphologicalParameters& parameters, const PixelPair& pair);
+bool raw_edge(const spec::morphological::Parameters& parameters, const PixelPair& pair);
 
 // The edges of a whole frame. A missing depth reads 0 everywhere.
-EdgePlanes find_edges(const spec::MorphologicalParameters& parameters, const ImageView& image,
+EdgePlanes find_edges(const spec::morphological::Parameters& parameters, const ImageView& image,
                       const DepthView& depth = {});
 
 }  // namespace deburr::golden::morphological

@@ -3,12 +3,15 @@
 
 #include "golden/morphological/arithmetic.h"
 #include "golden/morphological/configuration.h"
-#include "spec/morphological_tables.h"
+#include "spec/morphological/packets.h"
+#include "spec/morphological/parameters.h"
+#include "spec/morphological/shapes.h"
+#include "spec/morphological/tables.h"
 
 namespace deburr::golden::morphological {
 namespace {
 
-constexpr std::uint64_t kOne = std::uint64_t{1} << spec::kRecipFractionBits;
+constexpr std::uint64_t kOne = std::uint64_t{1} << spec::morphological::kRecipFractionBits;
 
 // From U.26 to U12.12.
 std::uint32_t inverse_slope(std::int64_t pixels, std::uint32_t factor) {
@@ -16,7 +19,7 @@ std::uint32_t inverse_slope(std::int64_t pixels, std::uint32_t factor) {
 }
 
 // The least-squares line through all corners: sums of X_i and of J_i X_i, J_i = 2 i - (r + 1 - l).
-void fit(const Prediction& p, int length, spec::LineRecord& line) {
+void fit(const Prediction& p, int length, spec::morphological::LineRecord& line) {
   const int l = p.left.steps, r = p.right.steps, m = l + r + 2;
   std::int32_t sum = length;
   std::int64_t weighted = std::int64_t{length} * (2 - (r + 1 - l));  // corners 0 and 1
@@ -34,36 +37,39 @@ void fit(const Prediction& p, int length, spec::LineRecord& line) {
   line.offset = sum;
   line.slope = static_cast<std::uint32_t>(
       rdiv(static_cast<std::uint64_t>(m * m - 1) * kOne, 6 * static_cast<std::uint64_t>(weighted)));
-  line.inverse = inverse_slope(weighted, spec::kFitInverseSlope[static_cast<std::size_t>(m)]);
+  line.inverse =
+      inverse_slope(weighted, spec::morphological::kFitInverseSlope[static_cast<std::size_t>(m)]);
 }
 
 // The line through the two outermost corners.
-void chord(const Prediction& p, spec::LineRecord& line) {
+void chord(const Prediction& p, spec::morphological::LineRecord& line) {
   const auto n = static_cast<std::size_t>(p.left.steps + p.right.steps + 1);
   const std::int32_t distance = p.right.end - p.left.end;
   line.scale = 2;
   line.offset = p.left.end + p.right.end;
   line.slope = static_cast<std::uint32_t>(rdiv(n * kOne, 2 * static_cast<std::uint64_t>(distance)));
-  line.inverse = inverse_slope(distance, spec::kChordInverseSlope[n]);
+  line.inverse = inverse_slope(distance, spec::morphological::kChordInverseSlope[n]);
 }
 
 // One end of an L as long as the reach, of which the record holds only the outer half.
-void end_of_long_run(const spec::RunRecord& run, int reach, spec::LineRecord& line) {
+void end_of_long_run(const spec::morphological::RunRecord& run, int reach,
+                     spec::morphological::LineRecord& line) {
   line.scale = 2;
-  line.offset = run.part == spec::RunPart::kHead ? reach : 2 * run.length - reach;
+  line.offset = run.part == spec::morphological::RunPart::kHead ? reach : 2 * run.length - reach;
   line.slope = static_cast<std::uint32_t>(rdiv(kOne, 2 * static_cast<std::uint64_t>(reach)));
-  line.inverse = static_cast<std::uint32_t>(reach) << spec::kInverseFractionBits;
+  line.inverse = static_cast<std::uint32_t>(reach) << spec::morphological::kInverseFractionBits;
 }
 
 }  // namespace
 
-spec::LineRecord line_through(const spec::MorphologicalParameters& parameters,
-                              const spec::RunRecord& run, const Prediction& prediction) {
-  spec::LineRecord line;
+spec::morphological::LineRecord line_through(const spec::morphological::Parameters& parameters,
+                                             const spec::morphological::RunRecord& run,
+                                             const Prediction& prediction) {
+  spec::morphological::LineRecord line;
   line.run = run;
-  line.before = spec::kRunShapes[run.shape].before;
-  line.after = spec::kRunShapes[run.shape].after;
-  if (run.part != spec::RunPart::kWhole) {
+  line.before = spec::morphological::kRunShapes[run.shape].before;
+  line.after = spec::morphological::kRunShapes[run.shape].after;
+  if (run.part != spec::morphological::RunPart::kWhole) {
     const int longest = reach(parameters, run.axis);
     end_of_long_run(run, longest, line);
     line.span = static_cast<std::uint16_t>(longest + 1);
@@ -73,7 +79,7 @@ spec::LineRecord line_through(const spec::MorphologicalParameters& parameters,
   line.right_steps = static_cast<std::uint8_t>(prediction.right.steps);
   line.shift = prediction.right.steps - prediction.left.steps;
   line.span = static_cast<std::uint16_t>(prediction.right.end - prediction.left.end);
-  if (parameters.predictor == spec::Predictor::kChord) {
+  if (parameters.predictor == spec::morphological::Predictor::kChord) {
     chord(prediction, line);
   } else {
     fit(prediction, run.length, line);

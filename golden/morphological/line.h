@@ -8,17 +8,20 @@
 #include <cstdint>
 
 #include "golden/morphological/predictor.h"
-#include "spec/morphological.h"
+#include "spec/morphological/packets.h"
+#include "spec/morphological/parameters.h"
 
 namespace deburr::golden::morphological {
 
-spec::LineRecord line_through(const spec::MorphologicalParameters& parameters,
-                              const spec::RunRecord& run, const Prediction& prediction);
+spec::morphological::LineRecord line_through(const spec::morphological::Parameters& parameters,
+                                             const spec::morphological::RunRecord& run,
+                                             const Prediction& prediction);
 
 // t(X), S.24: height of the line over the edge at position X, in steps.
-constexpr std::int64_t height(const spec::LineRecord& line, int position) {
+constexpr std::int64_t height(const spec::morphological::LineRecord& line, int position) {
   const std::int64_t numerator = std::int64_t{line.scale} * position - line.offset;
-  return numerator * line.slope + std::int64_t{line.shift} * (1 << (spec::kRecipFractionBits - 1));
+  return numerator * line.slope +
+         std::int64_t{line.shift} * (1 << (spec::morphological::kRecipFractionBits - 1));
 }
 
 }  // namespace deburr::golden::morphological

@@ -3,7 +3,7 @@
 
 namespace deburr::golden::morphological {
 
-void luma_row(const spec::Rgba8* pixels, int width, std::int32_t* result) {
+void luma_row(const spec::morphological::Rgba8* pixels, int width, std::int32_t* result) {
   for (int x = 0; x < width; ++x) result[x] = luma(pixels[x]);
 }
 

@@ -5,19 +5,20 @@
 #include <cstdint>
 
 #include "golden/morphological/planes.h"
-#include "spec/morphological.h"
+#include "spec/morphological/packets.h"
+#include "spec/morphological/parameters.h"
 
 namespace deburr::golden::morphological {
 
 using LumaPlane = PlaneOf<std::int32_t>;  // U8.16, 0..255 x 65536
 
-constexpr std::int32_t luma(const spec::Rgba8& pixel) {
-  return static_cast<std::int32_t>(spec::kLumaWeights[0] * pixel[0] +
-                                   spec::kLumaWeights[1] * pixel[1] +
-                                   spec::kLumaWeights[2] * pixel[2]);
+constexpr std::int32_t luma(const spec::morphological::Rgba8& pixel) {
+  return static_cast<std::int32_t>(spec::morphological::kLumaWeights[0] * pixel[0] +
+                                   spec::morphological::kLumaWeights[1] * pixel[1] +
+                                   spec::morphological::kLumaWeights[2] * pixel[2]);
 }
 
-void luma_row(const spec::Rgba8* pixels, int width, std::int32_t* result);
+void luma_row(const spec::morphological::Rgba8* pixels, int width, std::int32_t* result);
 LumaPlane luma(const ImageView& image);
 
 }  // namespace deburr::golden::morphological

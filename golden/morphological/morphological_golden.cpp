@@ -55,14 +55,14 @@ MorphologicalGolden::Share MorphologicalGolden::AxisShares::at(int position, int
   return shares[base + bits_of(earlier)];
 }
 
-MorphologicalGolden::MorphologicalGolden(const spec::MorphologicalParameters& parameters,
+MorphologicalGolden::MorphologicalGolden(const spec::morphological::Parameters& parameters,
                                          Detail detail)
     : parameters_(parameters), everything_(detail == Detail::kEverything) {
   check_parameters(parameters);
 }
 
-const std::vector<spec::Rgba8>& MorphologicalGolden::process(const ImageView& image,
-                                                             const DepthView& depth) {
+const std::vector<spec::morphological::Rgba8>& MorphologicalGolden::process(
+    const ImageView& image, const DepthView& depth) {
   check_frame(parameters_, image.width, image.height);
   check_view(image, "a frame");
   if (!depth.empty()) {
@@ -99,8 +99,9 @@ const std::vector<spec::Rgba8>& MorphologicalGolden::process(const ImageView& im
 void MorphologicalGolden::process_axis(AxisShares& axis) {
   axis.count_edges();
   const int longest = reach(parameters_, axis.edges.axis);
-  std::uint64_t& runs =
-      axis.edges.axis == spec::Axis::kHorizontal ? work_.horizontal_runs : work_.vertical_runs;
+  std::uint64_t& runs = axis.edges.axis == spec::morphological::Axis::kHorizontal
+                            ? work_.horizontal_runs
+                            : work_.vertical_runs;
   for (int line = 0; line < axis.edges.along.height(); ++line) {
     for_each_run(axis.edges.along, line, [&](int first, int end) {
       ++runs;
@@ -108,7 +109,7 @@ void MorphologicalGolden::process_axis(AxisShares& axis) {
       process_record(axis, parts.record[0]);
       if (parts.count == 1) return;
       ++work_.long_runs;
-      const spec::RunRecord& tail = parts.record[1];
+      const spec::morphological::RunRecord& tail = parts.record[1];
       const int between = tail.start - (first + parts.record[0].length);
       axis.shares.resize(axis.shares.size() + static_cast<std::size_t>(between));
       process_record(axis, tail);
@@ -116,15 +117,19 @@ void MorphologicalGolden::process_axis(AxisShares& axis) {
   }
 }
 
-void MorphologicalGolden::process_record(AxisShares& axis, const spec::RunRecord& run) {
+void MorphologicalGolden::process_record(AxisShares& axis,
+                                         const spec::morphological::RunRecord& run) {
   const Prediction prediction = predict(parameters_, axis.edges, run);
-  const spec::LineRecord line = line_through(parameters_, run, prediction);
+  const spec::morphological::LineRecord line = line_through(parameters_, run, prediction);
   const int steps = prediction.left.steps + prediction.right.steps;
-  if (run.part == spec::RunPart::kWhole && spec::kRunShapes[run.shape].clean_z) ++work_.z_runs;
+  if (run.part == spec::morphological::RunPart::kWhole &&
+      spec::morphological::kRunShapes[run.shape].clean_z)
+    ++work_.z_runs;
   if (steps > 0) ++work_.extended_runs;
   work_.steps += static_cast<std::uint64_t>(steps);
   work_.probes += static_cast<std::uint64_t>(prediction.probes);
-  if (line.before != spec::Side::kNone || line.after != spec::Side::kNone) {
+  if (line.before != spec::morphological::Side::kNone ||
+      line.after != spec::morphological::Side::kNone) {
     ++work_.divides;
     for (int k = 0; k < run.length; ++k) {
       const EdgeShares share = shares(line, k);
@@ -182,7 +187,7 @@ void MorphologicalGolden::blend_row(const ImageView& image, int y) {
 void MorphologicalGolden::blend_pixel(const ImageView& image, int x, int y) {
   const PixelShares shares = gather(x, y);
   const Decision decision = decide(shares);
-  spec::BlendTap tap = tap_of(shares, decision);
+  spec::morphological::BlendTap tap = tap_of(shares, decision);
   const std::size_t index = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                             static_cast<std::size_t>(x);
   if (everything_) {
@@ -195,15 +200,16 @@ void MorphologicalGolden::blend_pixel(const ImageView& image, int x, int y) {
   ++work_.blended_pixels;
   if (everything_) coverage_.count_pixel(decision);
   // A neighbour without a share may lie outside the frame; the pixel itself stands in for it.
-  const spec::Rgba8& pixel = image.at(x, y);
+  const spec::morphological::Rgba8& pixel = image.at(x, y);
   const int dx = tap.horizontal ? 1 : 0, dy = tap.horizontal ? 0 : 1;
-  const spec::Rgba8& first = tap.first != 0 ? image.at(x - dx, y - dy) : pixel;
-  const spec::Rgba8& second = tap.second != 0 ? image.at(x + dx, y + dy) : pixel;
+  const spec::morphological::Rgba8& first = tap.first != 0 ? image.at(x - dx, y - dy) : pixel;
+  const spec::morphological::Rgba8& second = tap.second != 0 ? image.at(x + dx, y + dy) : pixel;
   pixels_[index] = blend(parameters_.linear_light, pixel, first, tap.first, second, tap.second);
 }
 
-std::vector<spec::FrameAccess> MorphologicalGolden::traffic(std::uint32_t pixel_base) const {
-  if (parameters_.storage != spec::Storage::kMemory) return {};
+std::vector<spec::morphological::FrameAccess> MorphologicalGolden::traffic(
+    std::uint32_t pixel_base) const {
+  if (parameters_.storage != spec::morphological::Storage::kMemory) return {};
   return frame_traffic(pixel_base, width(), height());
 }
 
@@ -214,15 +220,16 @@ void MorphologicalGolden::set_read_errors(LinePredicate error, std::uint32_t pix
 
 // The frame as pass two sees it: lines that could not be read are zeros.
 ImageView MorphologicalGolden::as_read_back(const ImageView& image) {
-  if (!error_ || parameters_.storage != spec::Storage::kMemory) return image;
-  constexpr int kPixels = spec::kFrameLineBytes / spec::kFramePixelBytes;
+  if (!error_ || parameters_.storage != spec::morphological::Storage::kMemory) return image;
+  constexpr int kPixels =
+      spec::morphological::kFrameLineBytes / spec::morphological::kFramePixelBytes;
   read_back_.clear();
   for (int y = 0; y < image.height; ++y) {
     const std::uint32_t row =
         pixel_base_ + static_cast<std::uint32_t>(y) * frame_stride(image.width);
     for (int x = 0; x < image.width; x += kPixels) {
       const int count = std::min(kPixels, image.width - x);
-      if (error_(row + static_cast<std::uint32_t>(x * spec::kFramePixelBytes))) {
+      if (error_(row + static_cast<std::uint32_t>(x * spec::morphological::kFramePixelBytes))) {
         ++memory_errors_;
         read_back_.resize(read_back_.size() + static_cast<std::size_t>(count));
       } else {

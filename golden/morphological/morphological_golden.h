@@ -18,14 +18,15 @@
 #include "golden/morphological/planes.h"
 #include "golden/morphological/predictor.h"
 #include "golden/morphological/run_coverage.h"
-#include "spec/morphological.h"
+#include "spec/morphological/packets.h"
+#include "spec/morphological/parameters.h"
 
 namespace deburr::golden::morphological {
 
 // One record and what the predictor made of it. Positions count from line.run.start, before any
 // extension; the outermost corners lie at far_left <= 0 and far_right >= 1.
 struct PredictedRun {
-  spec::LineRecord line;
+  spec::morphological::LineRecord line;
   std::int16_t far_left = 0, far_right = 0;
   std::uint16_t probes = 0;
   std::uint8_t iterations = 0;
@@ -40,28 +41,29 @@ class MorphologicalGolden {
   enum class Detail { kPixels, kEverything };
 
   // Throws ConfigError (configuration.h).
-  explicit MorphologicalGolden(const spec::MorphologicalParameters& parameters,
+  explicit MorphologicalGolden(const spec::morphological::Parameters& parameters,
                                Detail detail = Detail::kEverything);
 
   // The output frame, row by row without gaps; valid until the next call. Depth has the size of the
   // image; without one every depth is 0. Throws ConfigError for a frame the engine does not take.
-  const std::vector<spec::Rgba8>& process(const ImageView& image, const DepthView& depth = {});
+  const std::vector<spec::morphological::Rgba8>& process(const ImageView& image,
+                                                         const DepthView& depth = {});
 
   // ---- of the last frame; index y * width + x -----------------------------------------------
   int width() const { return edges_.left.width(); }
   int height() const { return edges_.left.height(); }
-  const std::vector<spec::Rgba8>& pixels() const { return pixels_; }
+  const std::vector<spec::morphological::Rgba8>& pixels() const { return pixels_; }
   const EdgePlanes& edges() const { return edges_; }
   // Counters of this frame alone; hardware adds up until its counters are cleared.
-  const spec::MorphologicalWork& work() const { return work_; }
+  const spec::morphological::Work& work() const { return work_; }
   // With kEverything, else empty. Taps are the engine's, edge bits included.
-  const std::vector<spec::BlendTap>& taps() const { return taps_; }
+  const std::vector<spec::morphological::BlendTap>& taps() const { return taps_; }
   const std::vector<Decision>& decisions() const { return decisions_; }
   // Every record in canonical order: horizontal by (row, start), then vertical by (start row,
   // column).
   const std::vector<PredictedRun>& runs() const { return runs_; }
   // Line accesses of storage = memory: all writes, then all reads. Empty with line buffers.
-  std::vector<spec::FrameAccess> traffic(std::uint32_t pixel_base = 0) const;
+  std::vector<spec::morphological::FrameAccess> traffic(std::uint32_t pixel_base = 0) const;
 
   // ---- of all frames ------------------------------------------------------------------------
   const RunCoverage& coverage() const { return coverage_; }
@@ -73,7 +75,7 @@ class MorphologicalGolden {
   void set_read_errors(LinePredicate error, std::uint32_t pixel_base = 0);
   std::uint64_t memory_errors() const { return memory_errors_; }  // of the last frame
 
-  const spec::MorphologicalParameters& parameters() const { return parameters_; }
+  const spec::morphological::Parameters& parameters() const { return parameters_; }
 
  private:
   struct Share {  // of one edge
@@ -90,22 +92,22 @@ class MorphologicalGolden {
     Share at(int position, int line) const;  // zero where there is no edge
   };
   void process_axis(AxisShares& axis);
-  void process_record(AxisShares& axis, const spec::RunRecord& run);
+  void process_record(AxisShares& axis, const spec::morphological::RunRecord& run);
   void put_runs_in_order(std::size_t first_vertical);
   PixelShares gather(int x, int y) const;
   void blend_row(const ImageView& image, int y);
   void blend_pixel(const ImageView& image, int x, int y);
   ImageView as_read_back(const ImageView& image);
 
-  spec::MorphologicalParameters parameters_;
+  spec::morphological::Parameters parameters_;
   bool everything_;
   EdgePlanes edges_;
   AxisShares horizontal_, vertical_;
-  std::vector<spec::Rgba8> pixels_, read_back_;
-  std::vector<spec::BlendTap> taps_;
+  std::vector<spec::morphological::Rgba8> pixels_, read_back_;
+  std::vector<spec::morphological::BlendTap> taps_;
   std::vector<Decision> decisions_;
   std::vector<PredictedRun> runs_;
-  spec::MorphologicalWork work_;
+  spec::morphological::Work work_;
   RunCoverage coverage_;
   LinePredicate error_;
   std::uint32_t pixel_base_ = 0;

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "spec/morphological.h"
+#include "spec/morphological/packets.h"
 
 namespace deburr::golden::morphological {
 
@@ -31,7 +31,7 @@ struct ViewOf {
   const Pixel* row(int y) const { return pixels.data() + static_cast<std::size_t>(y) * stride; }
   const Pixel& at(int x, int y) const { return row(y)[x]; }
 };
-using ImageView = ViewOf<spec::Rgba8>;
+using ImageView = ViewOf<spec::morphological::Rgba8>;
 using DepthView = ViewOf<std::uint32_t>;  // U24, grows towards the eye
 
 // One value a pixel, rows without gaps.
@@ -96,14 +96,14 @@ struct EdgePlanes {
 // The edges as the horizontal run sees them: `along` makes runs, `across` crosses them. Transposed
 // planes give the vertical runs; then a position is a row and a line a column.
 struct AxisEdges {
-  spec::Axis axis = spec::Axis::kHorizontal;
+  spec::morphological::Axis axis = spec::morphological::Axis::kHorizontal;
   BitPlane along, across;
 
   static AxisEdges horizontal(const EdgePlanes& edges) {
-    return {spec::Axis::kHorizontal, edges.top, edges.left};
+    return {spec::morphological::Axis::kHorizontal, edges.top, edges.left};
   }
   static AxisEdges vertical(const EdgePlanes& edges) {
-    return {spec::Axis::kVertical, edges.left.transposed(), edges.top.transposed()};
+    return {spec::morphological::Axis::kVertical, edges.left.transposed(), edges.top.transposed()};
   }
 
   // The two crossings at a lattice corner: bit 0 first side (N), bit 1 second side (S).

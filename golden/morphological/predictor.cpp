@@ -29,8 +29,8 @@ Candidates candidates(int length, int other) {
 // The run under extension: where it lies and what a continuation must look like.
 class Trials {
  public:
-  Trials(const spec::MorphologicalParameters& parameters, const AxisEdges& edges,
-         const spec::RunRecord& run)
+  Trials(const spec::morphological::Parameters& parameters, const AxisEdges& edges,
+         const spec::morphological::RunRecord& run)
       : edges_(edges),
         contiguous_(parameters.contiguous),
         reach_(reach(parameters, edges.axis)),
@@ -231,12 +231,13 @@ bool ConsistentSet::consistent_with(Corner a, Corner b) const {
   return extended.consistent_with(b);
 }
 
-Prediction predict(const spec::MorphologicalParameters& parameters, const AxisEdges& edges,
-                   const spec::RunRecord& run) {
+Prediction predict(const spec::morphological::Parameters& parameters, const AxisEdges& edges,
+                   const spec::morphological::RunRecord& run) {
   Prediction p;
   p.right.end = run.length;
-  if (parameters.predictor == spec::Predictor::kNone || parameters.steps == 0 ||
-      run.part != spec::RunPart::kWhole || !spec::kRunShapes[run.shape].clean_z) {
+  if (parameters.predictor == spec::morphological::Predictor::kNone || parameters.steps == 0 ||
+      run.part != spec::morphological::RunPart::kWhole ||
+      !spec::morphological::kRunShapes[run.shape].clean_z) {
     return p;
   }
   p.left.outcome = p.right.outcome = Outcome::kNone;

@@ -11,7 +11,8 @@
 #include <span>
 
 #include "golden/morphological/planes.h"
-#include "spec/morphological.h"
+#include "spec/morphological/packets.h"
+#include "spec/morphological/parameters.h"
 
 namespace deburr::golden::morphological {
 
@@ -36,7 +37,8 @@ enum class SideEnd : std::uint8_t {
 struct Extension {
   int steps = 0;  // kept
   int end = 0;    // position of the outermost corner: L or 0 if no step was taken
-  std::array<std::int16_t, spec::kMaxSteps> corner{};  // positions of the corners taken
+  std::array<std::int16_t, spec::morphological::kMaxSteps>
+      corner{};  // positions of the corners taken
   Outcome outcome = Outcome::kUntried;
   SideEnd why = SideEnd::kUntried;
   std::span<const std::int16_t> corners() const {
@@ -77,14 +79,14 @@ class ConsistentSet {
   };
   Bounds bounds_with(Corner corner) const;
 
-  std::array<Corner, spec::kMaxCorners> corners_;
+  std::array<Corner, spec::morphological::kMaxCorners> corners_;
   std::size_t count_ = 0;
   Bounds bounds_;
 };
 
 // Extends `run` (of edges.axis). Without extension (see Outcome::kUntried) both ends are the run's
 // own.
-Prediction predict(const spec::MorphologicalParameters& parameters, const AxisEdges& edges,
-                   const spec::RunRecord& run);
+Prediction predict(const spec::morphological::Parameters& parameters, const AxisEdges& edges,
+                   const spec::morphological::RunRecord& run);
 
 }  // namespace deburr::golden::morphological

@@ -62,15 +62,16 @@ std::size_t RunCoverage::length_bin(int length) {
                                   kUpTo.begin());
 }
 
-void RunCoverage::count_run(const spec::RunRecord& run, const Prediction& prediction, int extent,
-                            int lines) {
+void RunCoverage::count_run(const spec::morphological::RunRecord& run, const Prediction& prediction,
+                            int extent, int lines) {
   const std::size_t axis = index(run.axis), length = length_bin(run.length);
-  if (run.part == spec::RunPart::kWhole) {
+  if (run.part == spec::morphological::RunPart::kWhole) {
     ++shapes_[run.shape][axis][length];
     count_side(prediction.left, length, outcomes_[axis][0], ends_[axis]);
     count_side(prediction.right, length, outcomes_[axis][1], ends_[axis]);
   } else {
-    ++long_ends_[run.part == spec::RunPart::kHead ? run.shape & 3 : run.shape >> 2][axis];
+    ++long_ends_[run.part == spec::morphological::RunPart::kHead ? run.shape & 3 : run.shape >> 2]
+                [axis];
   }
   auto& borders = borders_[axis];
   if (run.start == 0) ++borders[0];
@@ -83,7 +84,8 @@ void RunCoverage::for_each_bin(const BinSink& sink) const {
   for (std::size_t axis = 0; axis < 2; ++axis) {
     for (std::size_t shape = 0; shape < 16; ++shape) {
       for (std::size_t length = 0; length < kLengths; ++length) {
-        sink(slash({"shape", kAxes[axis], spec::kRunShapes[shape].name, kLengthNames[length]}),
+        sink(slash({"shape", kAxes[axis], spec::morphological::kRunShapes[shape].name,
+                    kLengthNames[length]}),
              shapes_[shape][axis][length]);
       }
     }

@@ -10,7 +10,7 @@
 //   prediction-end/<axis>/<why>               what stopped a side
 //   border/<axis>/<border>                    runs that touch the frame's border
 //   decision/<rule>                           of the blender
-// Every bin can be reached (tb/unit/morphological_golden_coverage_test.cpp); a run of 17 pixels
+// Every bin can be reached (tb/unit/golden/morphological/coverage_test.cpp); a run of 17 pixels
 // with extensions needs a reach of 34.
 #pragma once
 
@@ -23,7 +23,7 @@
 
 #include "golden/morphological/blend.h"
 #include "golden/morphological/predictor.h"
-#include "spec/morphological.h"
+#include "spec/morphological/packets.h"
 
 namespace deburr::golden::morphological {
 
@@ -35,7 +35,8 @@ struct CoverageBin {
 class RunCoverage {
  public:
   // `extent`: pixels of the frame along the run; `lines`: across it.
-  void count_run(const spec::RunRecord& run, const Prediction& prediction, int extent, int lines);
+  void count_run(const spec::morphological::RunRecord& run, const Prediction& prediction,
+                 int extent, int lines);
   void count_pixel(Decision decision) { count_pixels(decision, 1); }
   void count_pixels(Decision decision, std::uint64_t pixels) {
     decisions_[static_cast<std::size_t>(decision)] += pixels;

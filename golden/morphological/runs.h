@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "golden/morphological/planes.h"
-#include "spec/morphological.h"
+#include "spec/morphological/packets.h"
+#include "spec/morphological/parameters.h"
 
 namespace deburr::golden::morphological {
 
@@ -45,15 +46,15 @@ int run_shape(const AxisEdges& edges, int line, int first, int end);
 
 // The records of one run, start first: one, or the head and the tail of a run beyond the reach.
 struct RunParts {
-  spec::RunRecord record[2];
+  spec::morphological::RunRecord record[2];
   int count = 0;
-  const spec::RunRecord* begin() const { return record; }
-  const spec::RunRecord* end() const { return record + count; }
+  const spec::morphological::RunRecord* begin() const { return record; }
+  const spec::morphological::RunRecord* end() const { return record + count; }
 };
 RunParts records_of(const AxisEdges& edges, int reach, int line, int first, int end);
 
 // Every record of the axis, by line, then by start.
-std::vector<spec::RunRecord> find_runs(const spec::MorphologicalParameters& parameters,
-                                       const AxisEdges& edges);
+std::vector<spec::morphological::RunRecord> find_runs(
+    const spec::morphological::Parameters& parameters, const AxisEdges& edges);
 
 }  // namespace deburr::golden::morphological

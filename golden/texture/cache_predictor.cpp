@@ -22,7 +22,7 @@ std::uint32_t power_of_two(const char* name, std::int32_t value) {
 
 }  // namespace
 
-CachePredictor::CachePredictor(const spec::TextureParameters& parameters)
+CachePredictor::CachePredictor(const spec::texture::Parameters& parameters)
     : replacement_(parameters.cache_replacement) {
   const std::uint32_t bytes = power_of_two("cache.bytes", parameters.cache_bytes);
   const std::uint32_t line = power_of_two("cache.line_bytes", parameters.cache_line_bytes);
@@ -60,7 +60,7 @@ bool CachePredictor::lookup_in_set(std::uint32_t line) {
   ++time_;
   for (Way& way : set) {
     if (way.valid && way.line == line) {
-      if (replacement_ == spec::Replacement::kLru) way.time = time_;
+      if (replacement_ == spec::texture::Replacement::kLru) way.time = time_;
       return true;
     }
   }
@@ -72,7 +72,7 @@ std::uint32_t CachePredictor::victim(std::span<const Way> set) {
   for (std::uint32_t way = 0; way < ways_; ++way) {
     if (!set[way].valid) return way;
   }
-  if (replacement_ == spec::Replacement::kRandom) {
+  if (replacement_ == spec::texture::Replacement::kRandom) {
     const std::uint32_t r = shift_register_;
     const std::uint32_t in = (r ^ (r >> 2) ^ (r >> 3) ^ (r >> 5)) & 1;
     shift_register_ = r >> 1 | in << 15;

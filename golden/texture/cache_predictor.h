@@ -10,14 +10,14 @@
 #include <span>
 #include <vector>
 
-#include "spec/texture.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::golden::texture {
 
 class CachePredictor {
  public:
   // Throws ConfigError: capacity, line size or ways no powers of two, or less than one set.
-  explicit CachePredictor(const spec::TextureParameters& parameters);
+  explicit CachePredictor(const spec::texture::Parameters& parameters);
 
   // Looks a line up and makes it present. True: it was present; false: one fill of the whole line.
   bool lookup(std::uint32_t line) {
@@ -56,7 +56,7 @@ class CachePredictor {
   bool lookup_in_set(std::uint32_t line);
   std::uint32_t victim(std::span<const Way> set);
 
-  spec::Replacement replacement_;
+  spec::texture::Replacement replacement_;
   int line_shift_ = 0;
   std::uint32_t ways_ = 0, set_mask_ = 0;
   std::vector<Way> tags_;  // set by set

@@ -9,31 +9,32 @@
 #include <array>
 #include <cstdint>
 
-#include "spec/texture.h"
-#include "spec/texture_tables.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/tables.h"
 
 namespace deburr::golden::texture {
 
 using Texel = std::array<std::uint32_t, 4>;  // R, G, B, A in U8.4
 
 // A texel from its bytes, read little-endian into one word (low 8, 16 or 32 bits used).
-inline Texel decode_texel(spec::Format format, std::uint32_t word) {
+inline Texel decode_texel(spec::texture::Format format, std::uint32_t word) {
   const auto five = [](std::uint32_t v) { return (v << 3 | v >> 2) << 4; };
   const auto six = [](std::uint32_t v) { return (v << 2 | v >> 4) << 4; };
   const auto four = [](std::uint32_t v) { return (v << 4 | v) << 4; };
   switch (format) {
-    case spec::Format::kRgba8:
+    case spec::texture::Format::kRgba8:
       return {(word & 255) << 4, (word >> 8 & 255) << 4, (word >> 16 & 255) << 4,
               (word >> 24) << 4};
-    case spec::Format::kRgb565:
+    case spec::texture::Format::kRgb565:
       return {five(word >> 11 & 31), six(word >> 5 & 63), five(word & 31), 255 << 4};
-    case spec::Format::kRgba4444:
+    case spec::texture::Format::kRgba4444:
       return {four(word >> 12 & 15), four(word >> 8 & 15), four(word >> 4 & 15), four(word & 15)};
-    case spec::Format::kL8:
+    case spec::texture::Format::kL8:
       return {(word & 255) << 4, (word & 255) << 4, (word & 255) << 4, 255 << 4};
-    case spec::Format::kSrgb8A8:
-      return {spec::kSrgbToLinear[word & 255], spec::kSrgbToLinear[word >> 8 & 255],
-              spec::kSrgbToLinear[word >> 16 & 255], (word >> 24) << 4};
+    case spec::texture::Format::kSrgb8A8:
+      return {spec::texture::kSrgbToLinear[word & 255],
+              spec::texture::kSrgbToLinear[word >> 8 & 255],
+              spec::texture::kSrgbToLinear[word >> 16 & 255], (word >> 24) << 4};
   }
   return {};
 }
@@ -59,8 +60,8 @@ inline Texel to_texel(const Channels& channels) {
 }
 
 // decode_texel() for the inner loop.
-inline Channels decode_channels(spec::Format format, std::uint32_t word) {
-  if (format == spec::Format::kRgba8) {  // each byte to its half, then << 4
+inline Channels decode_channels(spec::texture::Format format, std::uint32_t word) {
+  if (format == spec::texture::Format::kRgba8) {  // each byte to its half, then << 4
     constexpr Lanes kByteInBothLanes = 255 * kOneInBothLanes;
     const Lanes spread = word | Lanes{word} << 16;  // bytes R at 0, B at 32; G at 8, A at 40
     return {(spread & kByteInBothLanes) << 4, (spread >> 8 & kByteInBothLanes) << 4};

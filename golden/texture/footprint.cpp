@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <bit>
 
-#include "spec/texture_tables.h"
+#include "spec/texture/parameters.h"
+#include "spec/texture/tables.h"
 
 namespace deburr::golden::texture {
 
@@ -24,24 +25,24 @@ std::uint32_t integer_square_root(std::uint64_t x) {
   return static_cast<std::uint32_t>(root);
 }
 
-std::uint32_t footprint_side(spec::FootprintRule rule, std::uint32_t s, std::uint32_t t) {
+std::uint32_t footprint_side(spec::texture::FootprintRule rule, std::uint32_t s, std::uint32_t t) {
   const std::uint32_t a = std::max(s, t), b = std::min(s, t);
   switch (rule) {
-    case spec::FootprintRule::kHalf:
+    case spec::texture::FootprintRule::kHalf:
       return a + (b >> 1);
-    case spec::FootprintRule::kQuarter:
+    case spec::texture::FootprintRule::kQuarter:
       return a + (b >> 2);
-    case spec::FootprintRule::kTwoSegment:
+    case spec::texture::FootprintRule::kTwoSegment:
       return std::max(a + (b >> 3), a - (a >> 3) + (b >> 1));
-    case spec::FootprintRule::kExact:
+    case spec::texture::FootprintRule::kExact:
       return integer_square_root(std::uint64_t{a} * a + std::uint64_t{b} * b);
-    case spec::FootprintRule::kMax:
+    case spec::texture::FootprintRule::kMax:
       break;
   }
   return a;
 }
 
-Footprint footprint(spec::FootprintRule rule, std::uint32_t s_x, std::uint32_t t_x,
+Footprint footprint(spec::texture::FootprintRule rule, std::uint32_t s_x, std::uint32_t t_x,
                     std::uint32_t s_y, std::uint32_t t_y) {
   Footprint result;
   result.d_x = footprint_side(rule, s_x, t_x);
@@ -72,27 +73,27 @@ std::uint32_t segment_correction(std::uint32_t y) {
 // lb(1 + y), U1.12, between the entries of the table.
 std::uint32_t interpolated_log2(std::uint32_t y) {
   const std::uint32_t i = y >> 6;
-  const std::uint32_t low = spec::kLog2Table[i], high = spec::kLog2Table[i + 1];
+  const std::uint32_t low = spec::texture::kLog2Table[i], high = spec::texture::kLog2Table[i + 1];
   return low + (((high - low) * (y & 63) + 32) >> 6);
 }
 
 }  // namespace
 
-std::int32_t log2_fixed(spec::Log2Rule rule, std::uint32_t d) {
+std::int32_t log2_fixed(spec::texture::Log2Rule rule, std::uint32_t d) {
   if (d == 0) d = 1;
   const int p = static_cast<int>(std::bit_width(d)) - 1;
   const auto y = static_cast<std::uint32_t>((std::uint64_t{d} << 12) >> p) - 4096;
   std::uint32_t mantissa = y;
   switch (rule) {
-    case spec::Log2Rule::kMitchell:
+    case spec::texture::Log2Rule::kMitchell:
       break;
-    case spec::Log2Rule::kCorrected:
-      mantissa = y + spec::kLog2Correction[y >> 9];
+    case spec::texture::Log2Rule::kCorrected:
+      mantissa = y + spec::texture::kLog2Correction[y >> 9];
       break;
-    case spec::Log2Rule::kSegments:
+    case spec::texture::Log2Rule::kSegments:
       mantissa = y + segment_correction(y);
       break;
-    case spec::Log2Rule::kExact:
+    case spec::texture::Log2Rule::kExact:
       mantissa = interpolated_log2(y);
       break;
   }

@@ -3,13 +3,13 @@
 //
 // First three blocks of the texture golden (paper 004, sections 1.2 and 1.4). Pure functions of
 // integers; formats and rounding: docs/number_formats.md, "Footprint" and "Logarithm". Error
-// against exact arithmetic: tb/unit/texture_golden_footprint_test.cpp and
+// against exact arithmetic: tb/unit/golden/texture/footprint_test.cpp and
 // texture_golden_log2_test.cpp.
 #pragma once
 
 #include <cstdint>
 
-#include "spec/texture.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::golden::texture {
 
@@ -26,7 +26,7 @@ Derivative derivative_in_texels(std::int64_t difference, std::uint32_t size);
 
 // Length of the vector (s, t), both U15.16 and >= 0, by one of the rules; U16.16. Equations 5,
 // 10, 11.
-std::uint32_t footprint_side(spec::FootprintRule rule, std::uint32_t s, std::uint32_t t);
+std::uint32_t footprint_side(spec::texture::FootprintRule rule, std::uint32_t s, std::uint32_t t);
 
 // The two sides of the pixel's parallelogram in texels of level 0, U16.16.
 struct Footprint {
@@ -37,11 +37,11 @@ struct Footprint {
 };
 
 // Equation 1 with the sides of `rule`; the arguments are |s_x|, |t_x|, |s_y|, |t_y| in U15.16.
-Footprint footprint(spec::FootprintRule rule, std::uint32_t s_x, std::uint32_t t_x,
+Footprint footprint(spec::texture::FootprintRule rule, std::uint32_t s_x, std::uint32_t t_x,
                     std::uint32_t s_y, std::uint32_t t_y);
 
 // lb d for d in U16.16; S5.12. d = 0 counts as 2^-16. Equation 13.
-std::int32_t log2_fixed(spec::Log2Rule rule, std::uint32_t d);
+std::int32_t log2_fixed(spec::texture::Log2Rule rule, std::uint32_t d);
 
 // floor(sqrt(x)), exact for every x.
 std::uint32_t integer_square_root(std::uint64_t x);

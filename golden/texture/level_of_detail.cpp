@@ -8,28 +8,29 @@ namespace {
 
 constexpr std::int32_t kOne = 1 << 12;  // one level, in the 12 fraction bits of l
 
-int log2_of_count(const spec::TextureParameters& parameters,
-                  const spec::TextureDescriptor& descriptor, std::int32_t lb_d_max,
+int log2_of_count(const spec::texture::Parameters& parameters,
+                  const spec::texture::Descriptor& descriptor, std::int32_t lb_d_max,
                   std::int32_t anisotropy) {
   if (lb_d_max <= 0) return 0;
-  const std::int32_t up = parameters.count == spec::CountRule::kCeil ? kOne - 1 : 0;
+  const std::int32_t up = parameters.count == spec::texture::CountRule::kCeil ? kOne - 1 : 0;
   std::int32_t lb_n = (anisotropy + up) >> 12;
   lb_n = std::min<std::int32_t>(lb_n, descriptor.max_anisotropy_log2);
-  if (parameters.count_cap == spec::CountCap::kTexel) {
+  if (parameters.count_cap == spec::texture::CountCap::kTexel) {
     lb_n = std::min(lb_n, (lb_d_max + kOne - 1) >> 12);
   }
   return lb_n;
 }
 
-bool filters_linearly(spec::MinFilter filter) {
-  return filter == spec::MinFilter::kLinear || filter == spec::MinFilter::kLinearMipmapNearest ||
-         filter == spec::MinFilter::kLinearMipmapLinear;
+bool filters_linearly(spec::texture::MinFilter filter) {
+  return filter == spec::texture::MinFilter::kLinear ||
+         filter == spec::texture::MinFilter::kLinearMipmapNearest ||
+         filter == spec::texture::MinFilter::kLinearMipmapLinear;
 }
 
 }  // namespace
 
-LevelOfDetail select_level(const spec::TextureParameters& parameters,
-                           const spec::TextureDescriptor& descriptor, std::int32_t lb_d_max,
+LevelOfDetail select_level(const spec::texture::Parameters& parameters,
+                           const spec::texture::Descriptor& descriptor, std::int32_t lb_d_max,
                            std::int32_t lb_d_min) {
   LevelOfDetail result;
   result.lb_d_max = lb_d_max;
@@ -43,21 +44,21 @@ LevelOfDetail select_level(const spec::TextureParameters& parameters,
 
   result.magnified = result.l <= 0;
   if (result.magnified) {
-    result.linear = descriptor.mag_filter == spec::MagFilter::kLinear;
+    result.linear = descriptor.mag_filter == spec::texture::MagFilter::kLinear;
     return result;
   }
   result.linear = filters_linearly(descriptor.min_filter);
   const int last = descriptor.levels - 1;
   switch (descriptor.min_filter) {
-    case spec::MinFilter::kNearest:
-    case spec::MinFilter::kLinear:
+    case spec::texture::MinFilter::kNearest:
+    case spec::texture::MinFilter::kLinear:
       break;
-    case spec::MinFilter::kNearestMipmapNearest:
-    case spec::MinFilter::kLinearMipmapNearest:
+    case spec::texture::MinFilter::kNearestMipmapNearest:
+    case spec::texture::MinFilter::kLinearMipmapNearest:
       result.level = std::min((result.l + kOne / 2 - 1) >> 12, last);
       break;
-    case spec::MinFilter::kNearestMipmapLinear:
-    case spec::MinFilter::kLinearMipmapLinear: {
+    case spec::texture::MinFilter::kNearestMipmapLinear:
+    case spec::texture::MinFilter::kLinearMipmapLinear: {
       const std::int32_t l8 = (result.l + 8) >> 4;
       result.level = l8 >> 8;
       result.fraction = static_cast<std::uint32_t>(l8 & 255);

@@ -7,7 +7,8 @@
 
 #include <cstdint>
 
-#include "spec/texture.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::golden::texture {
 
@@ -27,8 +28,8 @@ struct LevelOfDetail {
 };
 
 // lb_d_max and lb_d_min as log2_fixed() gives them. The descriptor must be valid.
-LevelOfDetail select_level(const spec::TextureParameters& parameters,
-                           const spec::TextureDescriptor& descriptor, std::int32_t lb_d_max,
+LevelOfDetail select_level(const spec::texture::Parameters& parameters,
+                           const spec::texture::Descriptor& descriptor, std::int32_t lb_d_max,
                            std::int32_t lb_d_min);
 
 }  // namespace deburr::golden::texture

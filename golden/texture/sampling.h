@@ -9,8 +9,9 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "spec/fragment.h"
-#include "spec/texture.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/packets.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::golden::texture {
 
@@ -27,15 +28,16 @@ inline std::int64_t sample_offset(int i, int lb_n, std::int32_t spread, std::int
 }
 
 // Weight of sample i of N.
-inline std::uint32_t sample_weight(spec::Kernel kernel, int i, int lb_n) {
+inline std::uint32_t sample_weight(spec::texture::Kernel kernel, int i, int lb_n) {
   const int n = 1 << lb_n;
-  const int weight = kernel == spec::Kernel::kBox ? 1 : std::min(2 * i + 1, 2 * (n - i) - 1);
+  const int weight =
+      kernel == spec::texture::Kernel::kBox ? 1 : std::min(2 * i + 1, 2 * (n - i) - 1);
   return static_cast<std::uint32_t>(weight);
 }
 
 // lb of the sum of the N weights: N for the box, N^2 / 2 for the tent (1 for N = 1).
-inline int kernel_log2_sum(spec::Kernel kernel, int lb_n) {
-  if (kernel == spec::Kernel::kBox || lb_n == 0) return lb_n;
+inline int kernel_log2_sum(spec::texture::Kernel kernel, int lb_n) {
+  if (kernel == spec::texture::Kernel::kBox || lb_n == 0) return lb_n;
   return 2 * lb_n - 1;
 }
 
@@ -45,16 +47,16 @@ inline std::int32_t level_size(std::uint32_t size, int level) {
 }
 
 // The wrap mode applied to a sample coordinate S9.24: U0.24, or S9.24 unchanged for clamp_to_edge.
-inline std::int64_t wrap_coordinate(spec::Wrap wrap, std::int64_t p) {
-  constexpr std::int64_t kOne = spec::kCoordinateOne;
+inline std::int64_t wrap_coordinate(spec::texture::Wrap wrap, std::int64_t p) {
+  constexpr std::int64_t kOne = spec::texture::kCoordinateOne;
   switch (wrap) {
-    case spec::Wrap::kRepeat:
+    case spec::texture::Wrap::kRepeat:
       return p & (kOne - 1);
-    case spec::Wrap::kMirroredRepeat: {
+    case spec::texture::Wrap::kMirroredRepeat: {
       const std::int64_t q = p & (2 * kOne - 1);
       return q < kOne ? q : 2 * kOne - 1 - q;
     }
-    case spec::Wrap::kClampToEdge:
+    case spec::texture::Wrap::kClampToEdge:
       break;
   }
   return p;
@@ -68,8 +70,8 @@ struct TexelPosition {
 };
 
 // A texel index one step or far outside 0..size - 1 brought into range.
-inline std::int32_t texel_in_range(spec::Wrap wrap, std::int64_t i, std::int32_t size) {
-  if (wrap == spec::Wrap::kRepeat) {
+inline std::int32_t texel_in_range(spec::texture::Wrap wrap, std::int64_t i, std::int32_t size) {
+  if (wrap == spec::texture::Wrap::kRepeat) {
     if (i < 0) return size - 1;
     return i >= size ? 0 : static_cast<std::int32_t>(i);
   }
@@ -77,32 +79,33 @@ inline std::int32_t texel_in_range(spec::Wrap wrap, std::int64_t i, std::int32_t
 }
 
 // The two texels around a sample coordinate S9.24 on a side of `size` texels.
-inline TexelPosition linear_position(spec::Wrap wrap, std::int64_t p, std::int32_t size) {
-  const std::int64_t half_texel = spec::kCoordinateOne / 2;
+inline TexelPosition linear_position(spec::texture::Wrap wrap, std::int64_t p, std::int32_t size) {
+  const std::int64_t half_texel = spec::texture::kCoordinateOne / 2;
   const std::int64_t u = round_shift(wrap_coordinate(wrap, p) * size - half_texel,
-                                     spec::kCoordinateFractionBits - 8);  // S.8
+                                     spec::texture::kCoordinateFractionBits - 8);  // S.8
   const std::int64_t i0 = u >> 8;
   return {texel_in_range(wrap, i0, size), texel_in_range(wrap, i0 + 1, size),
           static_cast<std::uint32_t>(u & 255)};
 }
 
 // The texel that holds a sample coordinate S9.24.
-inline TexelPosition nearest_position(spec::Wrap wrap, std::int64_t p, std::int32_t size) {
-  const std::int64_t i = (wrap_coordinate(wrap, p) * size) >> spec::kCoordinateFractionBits;
+inline TexelPosition nearest_position(spec::texture::Wrap wrap, std::int64_t p, std::int32_t size) {
+  const std::int64_t i =
+      (wrap_coordinate(wrap, p) * size) >> spec::texture::kCoordinateFractionBits;
   const std::int32_t in_range = texel_in_range(wrap, i, size);
   return {in_range, in_range, 0};
 }
 
 // Byte address of texel (x, y) of a level, modulo 2^32. 0 <= x < level_size(width, level), y alike.
-std::uint32_t texel_address(const spec::TextureDescriptor& descriptor, int level, std::int32_t x,
+std::uint32_t texel_address(const spec::texture::Descriptor& descriptor, int level, std::int32_t x,
                             std::int32_t y);
 
 // Bytes from base[level] to the end of the level, padding of rows and of tile grids included.
-std::uint64_t level_bytes(const spec::TextureDescriptor& descriptor, int level);
+std::uint64_t level_bytes(const spec::texture::Descriptor& descriptor, int level);
 
 // Why the unit refuses the descriptor, or nullptr when it is valid.
-const char* descriptor_fault(const spec::TextureDescriptor& descriptor);
-inline bool valid(const spec::TextureDescriptor& descriptor) {
+const char* descriptor_fault(const spec::texture::Descriptor& descriptor);
+inline bool valid(const spec::texture::Descriptor& descriptor) {
   return descriptor_fault(descriptor) == nullptr;
 }
 

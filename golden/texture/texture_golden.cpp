@@ -14,8 +14,8 @@ std::uint32_t word_of_four(const std::uint8_t* bytes) {
 }
 
 // The bytes of a texel as one little-endian word.
-std::uint32_t word_of(spec::Format format, const std::uint8_t* bytes) {
-  switch (spec::kFormatBytes[static_cast<std::size_t>(format)]) {
+std::uint32_t word_of(spec::texture::Format format, const std::uint8_t* bytes) {
+  switch (spec::texture::kFormatBytes[static_cast<std::size_t>(format)]) {
     case 1:
       return bytes[0];
     case 2:
@@ -27,15 +27,15 @@ std::uint32_t word_of(spec::Format format, const std::uint8_t* bytes) {
 
 }  // namespace
 
-TextureGolden::TextureGolden(const spec::TextureParameters& parameters,
+TextureGolden::TextureGolden(const spec::texture::Parameters& parameters,
                              std::span<const std::uint8_t> memory, Traffic traffic)
     : parameters_(parameters),
       memory_(memory),
       predict_(traffic == Traffic::kPredict),
       cache_(parameters) {}
 
-void TextureGolden::set_texture(int handle, const spec::TextureDescriptor& descriptor) {
-  if (handle < 0 || handle >= spec::kMaxTextures) {
+void TextureGolden::set_texture(int handle, const spec::texture::Descriptor& descriptor) {
+  if (handle < 0 || handle >= spec::texture::kMaxTextures) {
     throw spec::ConfigError("texture handle " + std::to_string(handle) + " is outside 0..15");
   }
   Texture& texture = textures_[static_cast<std::size_t>(handle)];
@@ -59,7 +59,7 @@ void TextureGolden::set_texture(int handle, const spec::TextureDescriptor& descr
   find_plain_levels(texture);
 }
 
-const spec::TextureDescriptor& TextureGolden::texture(int handle) const {
+const spec::texture::Descriptor& TextureGolden::texture(int handle) const {
   return textures_.at(static_cast<std::size_t>(handle)).descriptor;
 }
 
@@ -99,9 +99,9 @@ void TextureGolden::reset() {
   clear_fills();
 }
 
-FragmentAnalysis TextureGolden::analyse(const spec::Quad& quad, int lane) const {
+FragmentAnalysis TextureGolden::analyse(const spec::texture::Quad& quad, int lane) const {
   FragmentAnalysis result;
-  if (quad.texture >= spec::kMaxTextures) return result;
+  if (quad.texture >= spec::texture::kMaxTextures) return result;
   const Texture& texture = textures_[quad.texture];
   result.valid = texture.valid;
   if (!texture.valid) return result;
@@ -133,11 +133,11 @@ FragmentAnalysis TextureGolden::analyse(const spec::Quad& quad, int lane) const 
   return result;
 }
 
-QuadColours TextureGolden::process(const spec::Quad& quad) {
+QuadColours TextureGolden::process(const spec::texture::Quad& quad) {
   QuadColours result;
   for (int lane = 0; lane < 4; ++lane) {
     if ((quad.coverage >> lane & 1) == 0) continue;
-    spec::Colour& colour = result.colours[static_cast<std::size_t>(result.count++)];
+    spec::texture::Colour& colour = result.colours[static_cast<std::size_t>(result.count++)];
     colour.tag = quad.tag;
     colour.lane = static_cast<std::uint8_t>(lane);
     colour.last = (quad.coverage & 0xF) >> (lane + 1) == 0;
@@ -187,9 +187,9 @@ std::array<std::uint8_t, 4> TextureGolden::filter_fragment(const Texture& textur
 
 Channels TextureGolden::bilinear(const Texture& texture, int level, bool linear, std::int64_t s,
                                  std::int64_t t) {
-  const spec::TextureDescriptor& descriptor = texture.descriptor;
+  const spec::texture::Descriptor& descriptor = texture.descriptor;
   const LevelTable& table = texture.levels[static_cast<std::size_t>(level)];
-  const auto position = [linear](spec::Wrap wrap, std::int64_t p, std::int32_t size) {
+  const auto position = [linear](spec::texture::Wrap wrap, std::int64_t p, std::int32_t size) {
     return linear ? linear_position(wrap, p, size) : nearest_position(wrap, p, size);
   };
   const TexelPosition x = position(descriptor.wrap_s, s, table.width);
@@ -212,13 +212,15 @@ Channels TextureGolden::bilinear(const Texture& texture, int level, bool linear,
           filter(texel[0].ga, texel[1].ga, texel[2].ga, texel[3].ga)};
 }
 
-std::array<Channels, 4> TextureGolden::read(const LevelTable& table, spec::Format format,
+std::array<Channels, 4> TextureGolden::read(const LevelTable& table, spec::texture::Format format,
                                             const std::array<std::uint32_t, 4>& addresses) const {
   std::array<Channels, 4> texels;
   const std::uint8_t* bytes = memory_.data();
-  if (table.plain && format == spec::Format::kRgba8) {  // the common case without decisions
+  if (table.plain &&
+      format == spec::texture::Format::kRgba8) {  // the common case without decisions
     for (std::size_t i = 0; i < 4; ++i) {
-      texels[i] = decode_channels(spec::Format::kRgba8, word_of_four(bytes + addresses[i]));
+      texels[i] =
+          decode_channels(spec::texture::Format::kRgba8, word_of_four(bytes + addresses[i]));
     }
     return texels;
   }

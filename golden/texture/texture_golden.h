@@ -19,8 +19,9 @@
 #include "golden/texture/footprint.h"
 #include "golden/texture/level_of_detail.h"
 #include "golden/texture/sampling.h"
-#include "spec/fragment.h"
-#include "spec/texture.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/packets.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::golden::texture {
 
@@ -48,18 +49,18 @@ struct TextureWork {
   std::uint64_t samples = 0;            // sum of N
   std::uint64_t bilinears = 0;          // requests to the cache: samples x (1 or 2)
   std::uint64_t line_fills = 0;
-  std::uint64_t memory_errors = 0;                         // line fills answered with an error
-  std::array<std::uint64_t, 5> by_lb_n{};                  // valid fragments with N = 2^i
-  std::array<std::uint64_t, spec::kMaxLevels> by_level{};  // bilinear requests to level i
+  std::uint64_t memory_errors = 0;         // line fills answered with an error
+  std::array<std::uint64_t, 5> by_lb_n{};  // valid fragments with N = 2^i
+  std::array<std::uint64_t, spec::texture::kMaxLevels> by_level{};  // bilinear requests to level i
   friend bool operator==(const TextureWork&, const TextureWork&) = default;
 };
 
 // The colours of one quad, covered lanes ascending.
 struct QuadColours {
-  std::array<spec::Colour, 4> colours{};
+  std::array<spec::texture::Colour, 4> colours{};
   int count = 0;
-  const spec::Colour* begin() const { return colours.data(); }
-  const spec::Colour* end() const { return colours.data() + count; }
+  const spec::texture::Colour* begin() const { return colours.data(); }
+  const spec::texture::Colour* end() const { return colours.data() + count; }
 };
 
 class TextureGolden {
@@ -68,23 +69,23 @@ class TextureGolden {
 
   // `memory` is not copied: it must outlive this object, and may change between quads only where no
   // predicted line is present. Throws ConfigError (cache geometry).
-  TextureGolden(const spec::TextureParameters& parameters, std::span<const std::uint8_t> memory,
+  TextureGolden(const spec::texture::Parameters& parameters, std::span<const std::uint8_t> memory,
                 Traffic traffic = Traffic::kPredict);
 
   // handle 0..15 (ConfigError otherwise). An invalid descriptor is taken: its fragments become
   // zero.
-  void set_texture(int handle, const spec::TextureDescriptor& descriptor);
-  const spec::TextureDescriptor& texture(int handle) const;
+  void set_texture(int handle, const spec::texture::Descriptor& descriptor);
+  const spec::texture::Descriptor& texture(int handle) const;
 
   // Filters the covered lanes of a quad.
-  QuadColours process(const spec::Quad& quad);
+  QuadColours process(const spec::texture::Quad& quad);
   template <class Sink>
-  void process(const spec::Quad& quad, Sink&& sink) {
-    for (const spec::Colour& colour : process(quad)) sink(colour);
+  void process(const spec::texture::Quad& quad, Sink&& sink) {
+    for (const spec::texture::Colour& colour : process(quad)) sink(colour);
   }
 
   // What process() decides for one lane, covered or not; changes nothing.
-  FragmentAnalysis analyse(const spec::Quad& quad, int lane) const;
+  FragmentAnalysis analyse(const spec::texture::Quad& quad, int lane) const;
 
   const TextureWork& work() const { return work_; }
   void clear_work() { work_ = {}; }  // the counters, as CONTROL's clear bit does
@@ -107,7 +108,7 @@ class TextureGolden {
   void invalidate_cache() { cache_.invalidate(); }  // CONTROL's invalidate bit
   void reset();                                     // cache, counters, fills; textures stay
   const CachePredictor& cache() const { return cache_; }
-  const spec::TextureParameters& parameters() const { return parameters_; }
+  const spec::texture::Parameters& parameters() const { return parameters_; }
 
  private:
   // texel_address() split into the sum of a column's and a row's share; both layouts allow that.
@@ -117,7 +118,7 @@ class TextureGolden {
     bool plain = false;                      // wholly in memory, no line of it can fail
   };
   struct Texture {
-    spec::TextureDescriptor descriptor;
+    spec::texture::Descriptor descriptor;
     bool valid = false;
     std::vector<LevelTable> levels;
   };
@@ -126,17 +127,17 @@ class TextureGolden {
                                               std::int32_t t);
   // U8.12.
   Channels bilinear(const Texture& texture, int level, bool linear, std::int64_t s, std::int64_t t);
-  std::array<Channels, 4> read(const LevelTable& table, spec::Format format,
+  std::array<Channels, 4> read(const LevelTable& table, spec::texture::Format format,
                                const std::array<std::uint32_t, 4>& addresses) const;
   void predict(const std::array<std::uint32_t, 4>& addresses);
   bool fails(std::uint32_t line) const;
   void find_plain_levels(Texture& texture) const;
 
-  spec::TextureParameters parameters_;
+  spec::texture::Parameters parameters_;
   std::span<const std::uint8_t> memory_;
   bool predict_;
   CachePredictor cache_;
-  std::array<Texture, spec::kMaxTextures> textures_;
+  std::array<Texture, spec::texture::kMaxTextures> textures_;
   TextureWork work_;
   FillSink fill_sink_;
   bool record_fills_ = false;

@@ -34,20 +34,21 @@ struct RangeCheck {
   throw spec::ConfigError("morphological." + text);
 }
 
-spec::MorphologicalParameters checked(spec::MorphologicalParameters p) {
+spec::morphological::Parameters checked(spec::morphological::Parameters p) {
   const RangeCheck check;
-  spec::describe(p, check);
+  describe(p, check);
   if (p.window_rows % 2 != 0)
     refuse("window_rows: expected an even number of rows, got " + std::to_string(p.window_rows));
   const std::int32_t most_steps = p.window_rows / 2 - 2;
   if (p.steps > most_steps)
     refuse("steps: " + std::to_string(p.steps) + " steps need window_rows of at least " +
            std::to_string(2 * p.steps + 4) + ", got " + std::to_string(p.window_rows));
-  if (p.edge_source == spec::EdgeSource::kPredicated &&
-      p.threshold_mode == spec::ThresholdMode::kDynamic)
+  if (p.edge_source == spec::morphological::EdgeSource::kPredicated &&
+      p.threshold_mode == spec::morphological::ThresholdMode::kDynamic)
     refuse("edges.threshold_mode: dynamic does not go with edges.source = predicated; use fixed");
-  if (p.area != spec::AreaSource::kAnalytic)
-    refuse("area: " + std::string(spec::kAreaSourceNames[static_cast<std::size_t>(p.area)]) +
+  if (p.area != spec::morphological::AreaSource::kAnalytic)
+    refuse("area: " +
+           std::string(spec::morphological::kAreaSourceNames[static_cast<std::size_t>(p.area)]) +
            " is not built; use analytic");
   if (p.diagonals) refuse("diagonals: not built; use false");
   if (p.round_corners) refuse("round_corners: not built; use false");
@@ -64,7 +65,7 @@ std::vector<const T*> collect(sc_core::sc_object& root) {
 }  // namespace
 
 MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
-                                         const spec::MorphologicalParameters& parameters)
+                                         const spec::morphological::Parameters& parameters)
     : sc_module(name),
       parameters_(checked(parameters)),
       store("store", parameters_),
@@ -73,10 +74,12 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
       luma("luma", clock, store),
       edges("edges", clock, parameters_, store),
       extractor("extractor", clock, parameters_, store, window),
-      predictor_h("predictor_h", clock, parameters_, store, window, spec::Axis::kHorizontal),
-      predictor_v("predictor_v", clock, parameters_, store, window, spec::Axis::kVertical),
-      divider_h("divider_h", clock, parameters_, store, spec::Axis::kHorizontal),
-      divider_v("divider_v", clock, parameters_, store, spec::Axis::kVertical),
+      predictor_h("predictor_h", clock, parameters_, store, window,
+                  spec::morphological::Axis::kHorizontal),
+      predictor_v("predictor_v", clock, parameters_, store, window,
+                  spec::morphological::Axis::kVertical),
+      divider_h("divider_h", clock, parameters_, store, spec::morphological::Axis::kHorizontal),
+      divider_v("divider_v", clock, parameters_, store, spec::morphological::Axis::kVertical),
       area("area", clock, parameters_, store),
       pixel_store("pixel_store", clock, parameters_, store),
       blender("blender", clock, store, probe_),
@@ -95,8 +98,8 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
   extractor.area_slots_out(area_slots_);
   extractor.fetches_out(fetches_);
   for (std::size_t lane = 0; lane < static_cast<std::size_t>(store.lanes()); ++lane) {
-    predictor_h.records_in[lane](extractor.records(spec::Axis::kHorizontal, lane));
-    predictor_v.records_in[lane](extractor.records(spec::Axis::kVertical, lane));
+    predictor_h.records_in[lane](extractor.records(spec::morphological::Axis::kHorizontal, lane));
+    predictor_v.records_in[lane](extractor.records(spec::morphological::Axis::kVertical, lane));
   }
   predictor_h.sums_out.bind(sums_h_);
   predictor_v.sums_out.bind(sums_v_);
@@ -118,7 +121,7 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
   blender.pixels_out(pixels_out);
   blender.frames_done_out(frames_done_);
   sequencer.frames_done_in(frames_done_);
-  if (parameters_.storage == spec::Storage::kMemory) {
+  if (parameters_.storage == spec::morphological::Storage::kMemory) {
     MemoryPortParameters port;
     port.outstanding = 2 * static_cast<std::uint32_t>(parameters_.memory_outstanding);
     memory_port = std::make_unique<MemoryPort>("memory_port", clock, port);
@@ -129,7 +132,7 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
     memory_port->responses_out(*responses_);
   }
 
-  namespace reg = spec::morphological_register;
+  namespace reg = spec::morphological::reg;
   const std::pair<std::uint32_t, Counter*> shown[] = {
       {reg::kPixels, &blender.pixels},
       {reg::kEdgePixels, &edges.edge_pixels},
@@ -156,8 +159,8 @@ void MorphologicalEngine::set_frame_size(int width, int height) {
       refuse("frame " + std::string(side) + ": expected 1.." + std::to_string(most) +
              " pixels, got " + std::to_string(size));
   };
-  check("width", width, spec::kMaxFrameSize);
-  check("height", height, spec::kMaxFrameSize);
+  check("width", width, spec::morphological::kMaxFrameSize);
+  check("height", height, spec::morphological::kMaxFrameSize);
   if (width > parameters_.line_pixels)
     refuse("line_pixels: a frame of " + std::to_string(width) + " pixels does not fit into " +
            std::to_string(parameters_.line_pixels) + "; make it larger");
@@ -168,8 +171,8 @@ bool MorphologicalEngine::idle() const {
   return !store.frame_inside() && sequencer.pixels_in.link().empty();
 }
 
-spec::MorphologicalWork MorphologicalEngine::work() const {
-  spec::MorphologicalWork work;
+spec::morphological::Work MorphologicalEngine::work() const {
+  spec::morphological::Work work;
   work.pixels = blender.pixels.value();
   work.edge_pixels = edges.edge_pixels.value();
   work.horizontal_runs = extractor.horizontal_runs.value();
@@ -184,11 +187,13 @@ spec::MorphologicalWork MorphologicalEngine::work() const {
   return work;
 }
 
-void MorphologicalEngine::observe_runs(std::function<void(const spec::RunRecord&)> observer) {
+void MorphologicalEngine::observe_runs(
+    std::function<void(const spec::morphological::RunRecord&)> observer) {
   extractor.observer = std::move(observer);
 }
 
-void MorphologicalEngine::observe_lines(std::function<void(const spec::LineRecord&)> observer) {
+void MorphologicalEngine::observe_lines(
+    std::function<void(const spec::morphological::LineRecord&)> observer) {
   area.observer = std::move(observer);
 }
 

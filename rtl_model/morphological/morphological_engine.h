@@ -30,34 +30,35 @@
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/register_block.h"
 #include "rtl_model/fabric/storage.h"
-#include "rtl_model/morphological/area_unit.h"
-#include "rtl_model/morphological/blender.h"
-#include "rtl_model/morphological/edge_detector.h"
-#include "rtl_model/morphological/edge_window.h"
-#include "rtl_model/morphological/endpoint_predictor.h"
+#include "rtl_model/morphological/blend/area_unit.h"
+#include "rtl_model/morphological/blend/blender.h"
+#include "rtl_model/morphological/blend/pixel_store.h"
+#include "rtl_model/morphological/front/edge_detector.h"
+#include "rtl_model/morphological/front/luma_unit.h"
+#include "rtl_model/morphological/front/slot_sequencer.h"
 #include "rtl_model/morphological/latency_probe.h"
-#include "rtl_model/morphological/line_unit.h"
-#include "rtl_model/morphological/luma_unit.h"
 #include "rtl_model/morphological/parameter_store.h"
-#include "rtl_model/morphological/pixel_store.h"
-#include "rtl_model/morphological/run_extractor.h"
-#include "rtl_model/morphological/slot_sequencer.h"
-#include "spec/morphological.h"
+#include "rtl_model/morphological/runs/edge_window.h"
+#include "rtl_model/morphological/runs/endpoint_predictor.h"
+#include "rtl_model/morphological/runs/line_unit.h"
+#include "rtl_model/morphological/runs/run_extractor.h"
+#include "spec/morphological/packets.h"
+#include "spec/morphological/parameters.h"
 
 namespace deburr::rtl::morphological {
 
 class MorphologicalEngine final : public sc_core::sc_module {
  public:
-  In<spec::PixelBeat> pixels_in{"pixels_in"};
-  Out<spec::BlendedBeat> pixels_out{"pixels_out"};
+  In<spec::morphological::PixelBeat> pixels_in{"pixels_in"};
+  Out<spec::morphological::BlendedBeat> pixels_out{"pixels_out"};
 
   // ConfigError if a parameter is out of range, or names or combines what is not built.
   MorphologicalEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
-                      const spec::MorphologicalParameters& parameters);
+                      const spec::morphological::Parameters& parameters);
   const char* kind() const override { return "deburr_morphological_engine"; }
 
  private:
-  spec::MorphologicalParameters parameters_;
+  spec::morphological::Parameters parameters_;
   LatencyProbe probe_;
 
  public:
@@ -87,14 +88,14 @@ class MorphologicalEngine final : public sc_core::sc_module {
   // No frame is inside and no beat waits in front. Between edges.
   bool idle() const;
   // Counts since the last reset or clear command; of one frame if there was one.
-  spec::MorphologicalWork work() const;
+  spec::morphological::Work work() const;
   // Clocks from a beat being popped to the same beat being pushed.
   const Histogram& beat_latency = blender.beat_latency;
 
   // For checks: every run as it is found, every line as it is stored (canonical order is the
   // receiver's business). Costs nothing when not set. A line is made for records with a side only.
-  void observe_runs(std::function<void(const spec::RunRecord&)> observer);
-  void observe_lines(std::function<void(const spec::LineRecord&)> observer);
+  void observe_runs(std::function<void(const spec::morphological::RunRecord&)> observer);
+  void observe_lines(std::function<void(const spec::morphological::LineRecord&)> observer);
 
   // For reports: everything below this module, in the order of declaration. The bits of a memory
   // whose size goes with `line_pixels` at another width: LineMemory::bits_at().
@@ -102,7 +103,7 @@ class MorphologicalEngine final : public sc_core::sc_module {
   std::vector<const Counter*> counters();
   std::vector<const Storage*> memories();
 
-  const spec::MorphologicalParameters& parameters() const { return parameters_; }
+  const spec::morphological::Parameters& parameters() const { return parameters_; }
 
  private:
   Link<SlotToken> slots_{"slots"};

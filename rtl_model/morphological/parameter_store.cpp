@@ -11,9 +11,9 @@
 namespace deburr::rtl::morphological {
 namespace {
 
-namespace reg = spec::morphological_register;
+namespace reg = spec::morphological::reg;
 
-constexpr std::size_t kCount = spec::kMorphologicalRegisters.size();
+constexpr std::size_t kCount = spec::morphological::kRegisters.size();
 constexpr std::uint32_t kCoordinateMask = 0x3FFF;
 
 constexpr Access fabric_access(spec::Access access) {
@@ -33,7 +33,7 @@ constexpr Access fabric_access(spec::Access access) {
 constexpr std::array<RegisterDescription, kCount> kTable = [] {
   std::array<RegisterDescription, kCount> table{};
   for (std::size_t i = 0; i < kCount; ++i) {
-    const spec::RegisterInfo& info = spec::kMorphologicalRegisters[i];
+    const spec::RegisterInfo& info = spec::morphological::kRegisters[i];
     table[i] = {info.offset, info.name.data(), fabric_access(info.access), info.reset,
                 info.meaning.data()};
   }
@@ -42,7 +42,7 @@ constexpr std::array<RegisterDescription, kCount> kTable = [] {
 
 constexpr std::size_t index_at(std::uint32_t offset) {
   std::size_t i = 0;
-  while (spec::kMorphologicalRegisters[i].offset != offset) ++i;
+  while (spec::morphological::kRegisters[i].offset != offset) ++i;
   return i;
 }
 
@@ -59,13 +59,13 @@ constexpr std::uint32_t writable(std::uint32_t offset) {
     case reg::kRules:
       return 0x1FFFF;
     case reg::kPixelBase:
-      return ~(static_cast<std::uint32_t>(spec::kFrameLineBytes) - 1);
+      return ~(static_cast<std::uint32_t>(spec::morphological::kFrameLineBytes) - 1);
     default:
       return 0xFFFF;  // thresholds
   }
 }
 
-std::uint32_t encode_rules(const spec::MorphologicalParameters& p) {
+std::uint32_t encode_rules(const spec::morphological::Parameters& p) {
   return static_cast<std::uint32_t>(p.edge_source) |
          static_cast<std::uint32_t>(p.threshold_mode) << 2 |
          static_cast<std::uint32_t>(p.dynamic_luma) << 3 |
@@ -86,11 +86,11 @@ Choice choice(std::uint32_t code, std::size_t choices) {
 std::span<const RegisterDescription> register_table() { return kTable; }
 
 ParameterStore::ParameterStore(const sc_core::sc_module_name& name,
-                               const spec::MorphologicalParameters& parameters)
+                               const spec::morphological::Parameters& parameters)
     : sc_module(name),
       registers("registers", kTable),
       parameters_(parameters),
-      lanes_(spec::kLaneCount[static_cast<std::size_t>(parameters.lanes)]),
+      lanes_(spec::morphological::kLaneCount[static_cast<std::size_t>(parameters.lanes)]),
       reach_rows_(parameters.window_rows / 2 - 1) {
   for (std::size_t i = 0; i < kCount; ++i)
     if (kTable[i].access == Access::kReadWrite)
@@ -103,7 +103,7 @@ ParameterStore::ParameterStore(const sc_core::sc_module_name& name,
 
 // Reset values that the parameters give.
 void ParameterStore::load() {
-  const spec::MorphologicalParameters& p = parameters_;
+  const spec::morphological::Parameters& p = parameters_;
   const std::pair<std::uint32_t, std::uint32_t> values[] = {
       {reg::kRules, encode_rules(p)},
       {reg::kThreshold, static_cast<std::uint32_t>(p.threshold)},
@@ -157,22 +157,26 @@ void ParameterStore::decode() {
   FrameRules& f = next_;
   f.width = static_cast<std::int32_t>(size & kCoordinateMask);
   f.height = static_cast<std::int32_t>(size >> 16 & kCoordinateMask);
-  size_valid_ = f.width >= 1 && f.height >= 1 && f.width <= spec::kMaxFrameSize &&
-                f.height <= spec::kMaxFrameSize && f.width <= parameters_.line_pixels;
+  size_valid_ = f.width >= 1 && f.height >= 1 && f.width <= spec::morphological::kMaxFrameSize &&
+                f.height <= spec::morphological::kMaxFrameSize &&
+                f.width <= parameters_.line_pixels;
   f.beats = static_cast<std::uint32_t>((f.width + lanes_ - 1) / lanes_);
-  f.rows = static_cast<std::uint32_t>(f.height + reach_rows_ + spec::kRowLag);
+  f.rows = static_cast<std::uint32_t>(f.height + reach_rows_ + spec::morphological::kRowLag);
   f.last_count = f.width - (static_cast<std::int32_t>(f.beats) - 1) * lanes_;
 
-  f.source = choice<spec::EdgeSource>(bits(rules, 1, 0), spec::kEdgeSourceNames.size());
-  f.dynamic = bits(rules, 2, 2) != 0 && f.source == spec::EdgeSource::kLuma;
+  f.source = choice<spec::morphological::EdgeSource>(bits(rules, 1, 0),
+                                                     spec::morphological::kEdgeSourceNames.size());
+  f.dynamic = bits(rules, 2, 2) != 0 && f.source == spec::morphological::EdgeSource::kLuma;
   f.dynamic_max = bits(rules, 3, 3) != 0;
-  f.local_contrast =
-      choice<spec::LocalContrast>(bits(rules, 5, 4), spec::kLocalContrastNames.size());
-  if (f.source == spec::EdgeSource::kDepth) f.local_contrast = spec::LocalContrast::kOff;
-  f.predictor = choice<spec::Predictor>(bits(rules, 7, 6), spec::kPredictorNames.size());
-  f.steps =
-      std::min({static_cast<std::int32_t>(bits(rules, 12, 8)), spec::kMaxSteps, reach_rows_ - 1});
-  if (f.predictor == spec::Predictor::kNone) f.steps = 0;
+  f.local_contrast = choice<spec::morphological::LocalContrast>(
+      bits(rules, 5, 4), spec::morphological::kLocalContrastNames.size());
+  if (f.source == spec::morphological::EdgeSource::kDepth)
+    f.local_contrast = spec::morphological::LocalContrast::kOff;
+  f.predictor = choice<spec::morphological::Predictor>(bits(rules, 7, 6),
+                                                       spec::morphological::kPredictorNames.size());
+  f.steps = std::min({static_cast<std::int32_t>(bits(rules, 12, 8)), spec::morphological::kMaxSteps,
+                      reach_rows_ - 1});
+  if (f.predictor == spec::morphological::Predictor::kNone) f.steps = 0;
   f.contiguous = bits(rules, 13, 13) != 0 && parameters_.contiguous;
   f.safe = bits(rules, 14, 14) != 0;
   f.linear_light = bits(rules, 15, 15) != 0;

@@ -19,7 +19,8 @@
 #include <systemc>
 
 #include "rtl_model/fabric/register_block.h"
-#include "spec/morphological.h"
+#include "spec/morphological/parameters.h"
+#include "spec/morphological/registers.h"
 
 namespace deburr::rtl::morphological {
 
@@ -29,13 +30,13 @@ struct FrameRules {
   std::uint32_t beats = 0;             // U14, beats a row
   std::uint32_t rows = 0;              // U14, rows of slots: height + R + 5
   std::int32_t last_count = 0;         // U3, lanes of the last beat of a row
-  spec::EdgeSource source{};
+  spec::morphological::EdgeSource source{};
   bool dynamic = false, dynamic_max = false;
-  spec::LocalContrast local_contrast{};
+  spec::morphological::LocalContrast local_contrast{};
   // Thresholds of luma steps, U8.16: 255 x register.
   std::uint32_t threshold = 0, threshold_on = 0, threshold_off = 0, floor = 0;
   std::uint32_t alpha = 0, depth_threshold = 0;  // U0.16
-  spec::Predictor predictor{};
+  spec::morphological::Predictor predictor{};
   std::int32_t steps = 0;  // U5
   bool contiguous = false, safe = false, trim = false, linear_light = false;
   std::uint32_t pixel_base = 0;  // bytes
@@ -49,7 +50,7 @@ class ParameterStore final : public sc_core::sc_module {
   RegisterBlock registers;
 
   ParameterStore(const sc_core::sc_module_name& name,
-                 const spec::MorphologicalParameters& parameters);
+                 const spec::morphological::Parameters& parameters);
   const char* kind() const override { return "deburr_parameter_store"; }
 
   // --- Wires to the blocks ---
@@ -80,10 +81,10 @@ class ParameterStore final : public sc_core::sc_module {
   std::uint32_t value_at(std::uint32_t offset) const;
   void decode();
 
-  const spec::MorphologicalParameters parameters_;
+  const spec::morphological::Parameters parameters_;
   int lanes_, reach_rows_;
   FrameRules rules_, next_;  // of the frame inside; as the registers say
-  std::array<std::uint32_t, spec::kMorphologicalRegisters.size()> kept_{};  // before a write
+  std::array<std::uint32_t, spec::morphological::kRegisters.size()> kept_{};  // before a write
   bool enabled_ = true, size_valid_ = false, inside_ = false;
   std::uint32_t sticky_ = 0;
   std::function<void()> clear_counters_ = [] {};

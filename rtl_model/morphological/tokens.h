@@ -9,13 +9,15 @@
 #include <string>
 
 #include "rtl_model/fabric/link.h"
-#include "spec/morphological.h"
+#include "spec/morphological/packets.h"
+#include "spec/morphological/parameters.h"
+#include "spec/morphological/shapes.h"
 
 namespace deburr::rtl::morphological {
 
-using Lanes32 = std::array<std::uint32_t, spec::kMaxLanes>;
-using Lanes8 = std::array<std::uint8_t, spec::kMaxLanes>;
-using LanePixels = std::array<spec::Rgba8, spec::kMaxLanes>;
+using Lanes32 = std::array<std::uint32_t, spec::morphological::kMaxLanes>;
+using Lanes8 = std::array<std::uint8_t, spec::morphological::kMaxLanes>;
+using LanePixels = std::array<spec::morphological::Rgba8, spec::morphological::kMaxLanes>;
 
 // A place in the frame's raster of slots. Rows 0..height - 1 take input, R + 5 more flush.
 struct Slot {
@@ -72,23 +74,24 @@ struct ShareToken {
   Slot slot;
   bool any;  // one of the shares below is not 0; if not, they hold old bits
   std::uint8_t left, top;
-  std::array<Shares, spec::kMaxLanes> shares;
+  std::array<Shares, spec::morphological::kMaxLanes> shares;
 };
 
 // PixelStore -> Blender: the pixels of a beat, the beats above and below, and the two pixels beside
 // it. Beyond the frame: old bits.
 struct PixelToken {
   LanePixels above, centre, below;
-  spec::Rgba8 before, after;  // left of lane 0, right of the last lane
+  spec::morphological::Rgba8 before, after;  // left of lane 0, right of the last lane
 };
 
 // The low bits of a slot's number, which go with a record. When the AreaUnit sees them, the slot is
 // the next one there or the one after, or at most two rows of 8192 beats behind.
 inline constexpr std::uint32_t kSlotMask = (1u << 15) - 1;
 
-// RunExtractor -> EndpointPredictor. Codes of the ends as in spec::RunShape; so is run.shape.
+// RunExtractor -> EndpointPredictor. Codes of the ends as in spec::morphological::RunShape; so is
+// run.shape.
 struct RunToken {
-  spec::RunRecord run;
+  spec::morphological::RunRecord run;
   std::uint32_t slot;                 // U15, low bits of the slot that the run was found in
   std::uint8_t start_code, end_code;  // U2
 };
@@ -103,7 +106,7 @@ struct SumsToken {
 
 // LineUnit -> AreaUnit.
 struct LineToken {
-  spec::LineRecord line;
+  spec::morphological::LineRecord line;
   std::uint32_t slot;  // U15
 };
 
@@ -146,7 +149,7 @@ class LanePorts {
 
  private:
   std::deque<Port> lane_;  // a port stays where it is
-  std::array<Port*, spec::kMaxLanes> at_{};
+  std::array<Port*, spec::morphological::kMaxLanes> at_{};
 };
 
 }  // namespace deburr::rtl::morphological

@@ -4,7 +4,7 @@
 namespace deburr::rtl::texture {
 
 AddressUnit::AddressUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                         const spec::TextureParameters& p, ParameterStore& store,
+                         const spec::texture::Parameters& p, ParameterStore& store,
                          FragmentProbe& probe)
     : sc_module(name),
       derivative("derivative", clock, store, probe),

@@ -24,11 +24,11 @@ namespace deburr::rtl::texture {
 
 class AddressUnit final : public sc_core::sc_module {
  public:
-  In<spec::Quad> quads_in{"quads_in"};
+  In<spec::texture::Quad> quads_in{"quads_in"};
   Out<TexelToken> texels_out{"texels_out"};
 
   AddressUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-              const spec::TextureParameters& parameters, ParameterStore& store,
+              const spec::texture::Parameters& parameters, ParameterStore& store,
               FragmentProbe& probe);
 
   DerivativeUnit derivative;

@@ -3,20 +3,22 @@
 
 #include <algorithm>
 
+#include "spec/texture/descriptor.h"
+
 namespace deburr::rtl::texture {
 namespace {
 
 // A texel is the low bits of the word that is read.
 std::uint32_t texel_mask(const FilterControl& control) {
   constexpr std::array<std::uint32_t, 5> kMask = {~0u, 0xFFFF, 0xFFFF, 0xFF, ~0u};
-  static_assert(kMask.size() == spec::kFormatNames.size());
+  static_assert(kMask.size() == spec::texture::kFormatNames.size());
   return kMask[control.format];
 }
 
 }  // namespace
 
 DataStage::DataStage(const sc_core::sc_module_name& name, ClockDomain& clock,
-                     const spec::TextureParameters& p, FillBuffer& fills)
+                     const spec::texture::Parameters& p, FillBuffer& fills)
     : Unit(name, clock),
       fills_(fills),
       banks_(static_cast<std::uint32_t>(p.cache_bytes / p.cache_line_bytes),

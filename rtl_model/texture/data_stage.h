@@ -19,7 +19,7 @@
 #include "rtl_model/texture/data_banks.h"
 #include "rtl_model/texture/fill_buffer.h"
 #include "rtl_model/texture/tokens.h"
-#include "spec/texture.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
@@ -29,7 +29,7 @@ class DataStage final : public Unit {
   Out<TexelQuadToken> texels_out{"texels_out"};
 
   DataStage(const sc_core::sc_module_name& name, ClockDomain& clock,
-            const spec::TextureParameters& parameters, FillBuffer& fills);
+            const spec::texture::Parameters& parameters, FillBuffer& fills);
   Activity tick(Cycle cycle) override;
   void reset() override;
 

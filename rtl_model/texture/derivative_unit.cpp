@@ -76,7 +76,7 @@ void DerivativeUnit::emit(Cycle cycle, unsigned lane) {
   if (quad_.clamped >> lane & 1) ++clamped;
   if (!texture.valid) {
     ++invalid;
-    store_.set_sticky(spec::texture_register::kStatusInvalidTexture);
+    store_.set_sticky(spec::texture::reg::kStatusInvalidTexture);
   } else if (((s_x | t_x | s_y | t_y) >> 31) != 0) {
     ++saturated;
   }

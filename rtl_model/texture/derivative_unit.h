@@ -16,13 +16,13 @@
 #include "rtl_model/texture/fragment_probe.h"
 #include "rtl_model/texture/parameter_store.h"
 #include "rtl_model/texture/tokens.h"
-#include "spec/fragment.h"
+#include "spec/texture/packets.h"
 
 namespace deburr::rtl::texture {
 
 class DerivativeUnit final : public Unit {
  public:
-  In<spec::Quad> quads_in{"quads_in"};
+  In<spec::texture::Quad> quads_in{"quads_in"};
   Out<DerivativeToken> derivatives_out{"derivatives_out"};
 
   DerivativeUnit(const sc_core::sc_module_name& name, ClockDomain& clock, ParameterStore& store,
@@ -43,7 +43,7 @@ class DerivativeUnit final : public Unit {
   ParameterStore& store_;
   FragmentProbe& probe_;
   // Registers.
-  spec::Quad quad_{};
+  spec::texture::Quad quad_{};
   unsigned waiting_ = 0;  // U4, covered lanes of quad_ that have not left yet
 };
 

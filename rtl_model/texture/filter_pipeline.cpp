@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/texture/filter_pipeline.h"
 
-#include "spec/texture.h"
-#include "spec/texture_tables.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/packets.h"
+#include "spec/texture/tables.h"
 
 namespace deburr::rtl::texture {
 namespace {
@@ -20,19 +21,19 @@ constexpr std::uint16_t unorm5(std::uint32_t v) { return unorm8((v & 31) << 3 | 
 constexpr std::uint16_t unorm4(std::uint32_t v) { return unorm8((v & 15) << 4 | (v & 15)); }
 constexpr std::uint16_t kOpaque = unorm8(255);
 
-Texel unpack_texel(spec::Format format, std::uint32_t raw) {
+Texel unpack_texel(spec::texture::Format format, std::uint32_t raw) {
   switch (format) {
-    case spec::Format::kRgba8:
+    case spec::texture::Format::kRgba8:
       return {unorm8(raw), unorm8(raw >> 8), unorm8(raw >> 16), unorm8(raw >> 24)};
-    case spec::Format::kRgb565:
+    case spec::texture::Format::kRgb565:
       return {unorm5(raw >> 11), unorm6(raw >> 5), unorm5(raw), kOpaque};
-    case spec::Format::kRgba4444:
+    case spec::texture::Format::kRgba4444:
       return {unorm4(raw >> 12), unorm4(raw >> 8), unorm4(raw >> 4), unorm4(raw)};
-    case spec::Format::kL8:
+    case spec::texture::Format::kL8:
       return {unorm8(raw), unorm8(raw), unorm8(raw), kOpaque};
-    case spec::Format::kSrgb8A8:
-      return {spec::kSrgbToLinear[raw & 255], spec::kSrgbToLinear[raw >> 8 & 255],
-              spec::kSrgbToLinear[raw >> 16 & 255], unorm8(raw >> 24)};
+    case spec::texture::Format::kSrgb8A8:
+      return {spec::texture::kSrgbToLinear[raw & 255], spec::texture::kSrgbToLinear[raw >> 8 & 255],
+              spec::texture::kSrgbToLinear[raw >> 16 & 255], unorm8(raw >> 24)};
   }
   return {};
 }
@@ -84,7 +85,7 @@ void FilterPipeline::unpack(const TexelQuadToken& token) {
   ++occupancy[0];
   unpacked_.control = token.control;
   unpacked_.ticket = token.ticket;
-  const auto format = static_cast<spec::Format>(token.control.format);
+  const auto format = static_cast<spec::texture::Format>(token.control.format);
   for (std::size_t i = 0; i < 4; ++i) unpacked_.texel[i] = unpack_texel(format, token.texel[i]);
 }
 
@@ -149,7 +150,7 @@ void FilterPipeline::deliver(Cycle cycle) {
   ++occupancy[6];
   const unsigned drop = 12u + total_.sum_log2;
   const std::uint32_t half = 1u << (drop - 1);
-  spec::Colour& colour = colours_out.emplace(cycle);
+  spec::texture::Colour& colour = colours_out.emplace(cycle);
   colour.tag = total_.ticket.tag;
   colour.lane = total_.ticket.lane;
   colour.last = total_.ticket.last;

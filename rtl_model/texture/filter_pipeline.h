@@ -19,7 +19,7 @@
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/fragment_probe.h"
 #include "rtl_model/texture/tokens.h"
-#include "spec/fragment.h"
+#include "spec/texture/packets.h"
 
 namespace deburr::rtl::texture {
 
@@ -28,7 +28,7 @@ class FilterPipeline final : public Unit {
   static constexpr int kStages = 7;
 
   In<TexelQuadToken> texels_in{"texels_in"};
-  Out<spec::Colour> colours_out{"colours_out"};
+  Out<spec::texture::Colour> colours_out{"colours_out"};
 
   FilterPipeline(const sc_core::sc_module_name& name, ClockDomain& clock, FragmentProbe& probe);
   Activity tick(Cycle cycle) override;

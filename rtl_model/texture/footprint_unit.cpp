@@ -6,11 +6,11 @@
 namespace deburr::rtl::texture {
 
 FootprintUnit::FootprintUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                             spec::FootprintRule rule)
+                             spec::texture::FootprintRule rule)
     : Unit(name, clock), rule_(rule) {}
 
 Activity FootprintUnit::tick(Cycle cycle) {
-  if (rule_ == spec::FootprintRule::kExact) return tick_exact(cycle);
+  if (rule_ == spec::texture::FootprintRule::kExact) return tick_exact(cycle);
   if (!derivatives_in.can_pop(cycle)) return kIdle;
   if (!footprints_out.can_push(cycle)) return kStalledDownstream;
 
@@ -30,17 +30,18 @@ Activity FootprintUnit::tick(Cycle cycle) {
 }
 
 // The shifts are wires.
-std::uint32_t FootprintUnit::side(spec::FootprintRule rule, std::uint32_t s, std::uint32_t t) {
+std::uint32_t FootprintUnit::side(spec::texture::FootprintRule rule, std::uint32_t s,
+                                  std::uint32_t t) {
   const std::uint32_t a = std::max(s, t), b = std::min(s, t);
   switch (rule) {
-    case spec::FootprintRule::kHalf:
+    case spec::texture::FootprintRule::kHalf:
       return a + (b >> 1);
-    case spec::FootprintRule::kQuarter:
+    case spec::texture::FootprintRule::kQuarter:
       return a + (b >> 2);
-    case spec::FootprintRule::kTwoSegment:
+    case spec::texture::FootprintRule::kTwoSegment:
       return std::max(a + (b >> 3), a - (a >> 3) + (b >> 1));
-    case spec::FootprintRule::kMax:
-    case spec::FootprintRule::kExact:  // has a pipeline of its own
+    case spec::texture::FootprintRule::kMax:
+    case spec::texture::FootprintRule::kExact:  // has a pipeline of its own
       break;
   }
   return a;

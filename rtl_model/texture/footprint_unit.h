@@ -17,7 +17,7 @@
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/root_pipeline.h"
 #include "rtl_model/texture/tokens.h"
-#include "spec/texture.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
@@ -26,17 +26,18 @@ class FootprintUnit final : public Unit {
   In<DerivativeToken> derivatives_in{"derivatives_in"};
   Out<FootprintToken> footprints_out{"footprints_out"};
 
-  FootprintUnit(const sc_core::sc_module_name& name, ClockDomain& clock, spec::FootprintRule rule);
+  FootprintUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
+                spec::texture::FootprintRule rule);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
   // The combinational part of every rule but `exact`: U15.16 in, U16.16 out.
-  static std::uint32_t side(spec::FootprintRule rule, std::uint32_t s, std::uint32_t t);
+  static std::uint32_t side(spec::texture::FootprintRule rule, std::uint32_t s, std::uint32_t t);
 
  private:
   Activity tick_exact(Cycle cycle);
 
-  spec::FootprintRule rule_;
+  spec::texture::FootprintRule rule_;
   RootPipeline roots_;
 };
 

@@ -6,12 +6,12 @@
 namespace deburr::rtl::texture {
 
 LatencyFifo::LatencyFifo(const sc_core::sc_module_name& name, ClockDomain& clock,
-                         const spec::TextureParameters& p)
+                         const spec::texture::Parameters& p)
     : Unit(name, clock),
       entries("entries", static_cast<std::uint32_t>(p.cache_fifo_depth), entry_bits(p)) {}
 
 // Widths as declared in tokens.h, those of places and slots for this cache.
-std::uint32_t LatencyFifo::entry_bits(const spec::TextureParameters& p) {
+std::uint32_t LatencyFifo::entry_bits(const spec::texture::Parameters& p) {
   const auto lb = [](std::int32_t power_of_two) {
     return static_cast<std::uint32_t>(std::countr_zero(static_cast<std::uint32_t>(power_of_two)));
   };

@@ -12,7 +12,7 @@
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/tokens.h"
-#include "spec/texture.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
@@ -21,14 +21,14 @@ class LatencyFifo final : public Unit {
   In<CacheToken> requests_in{"requests_in"};
 
   LatencyFifo(const sc_core::sc_module_name& name, ClockDomain& clock,
-              const spec::TextureParameters& parameters);
+              const spec::texture::Parameters& parameters);
   Activity tick(Cycle cycle) override;
   void reset() override { entries.reset(); }
 
   Fifo<CacheToken> entries;  // read by the DataStage
 
  private:
-  static std::uint32_t entry_bits(const spec::TextureParameters& parameters);
+  static std::uint32_t entry_bits(const spec::texture::Parameters& parameters);
 };
 
 }  // namespace deburr::rtl::texture

@@ -9,23 +9,25 @@ namespace {
 constexpr int kFractionBits = 12;
 constexpr std::int32_t kAlmostOne = (1 << kFractionBits) - 1;
 
-bool is_linear(spec::MinFilter filter) {
-  return filter == spec::MinFilter::kLinear || filter == spec::MinFilter::kLinearMipmapNearest ||
-         filter == spec::MinFilter::kLinearMipmapLinear;
+bool is_linear(spec::texture::MinFilter filter) {
+  return filter == spec::texture::MinFilter::kLinear ||
+         filter == spec::texture::MinFilter::kLinearMipmapNearest ||
+         filter == spec::texture::MinFilter::kLinearMipmapLinear;
 }
 
 }  // namespace
 
 LevelUnit::LevelUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                     const ParameterStore& store, spec::CountRule count, spec::CountCap cap)
+                     const ParameterStore& store, spec::texture::CountRule count,
+                     spec::texture::CountCap cap)
     : Unit(name, clock), store_(store), count_(count), cap_(cap) {}
 
 int LevelUnit::count_log2(std::int32_t lb_max, std::int32_t lb_min, int limit) const {
   if (lb_max <= 0) return 0;                                // the footprint is within a texel
   const std::int32_t ratio = std::max(lb_max - lb_min, 0);  // U6.12
-  const bool up = count_ == spec::CountRule::kCeil;
+  const bool up = count_ == spec::texture::CountRule::kCeil;
   int count = std::min((ratio + (up ? kAlmostOne : 0)) >> kFractionBits, limit);
-  if (cap_ == spec::CountCap::kTexel)
+  if (cap_ == spec::texture::CountCap::kTexel)
     count = std::min(count, (lb_max + kAlmostOne) >> kFractionBits);
   return count;
 }
@@ -46,22 +48,22 @@ Activity LevelUnit::tick(Cycle cycle) {
   l = std::min(std::max(l, texture.min_lod), texture.max_lod);
   if (l <= 0) {
     ++magnified;
-    out.linear = texture.mag_filter == spec::MagFilter::kLinear;
+    out.linear = texture.mag_filter == spec::texture::MagFilter::kLinear;
     return kBusy;
   }
   out.linear = is_linear(texture.min_filter);
   const std::int32_t coarsest = texture.levels - 1;
   switch (texture.min_filter) {
-    case spec::MinFilter::kNearest:
-    case spec::MinFilter::kLinear:
+    case spec::texture::MinFilter::kNearest:
+    case spec::texture::MinFilter::kLinear:
       break;
-    case spec::MinFilter::kNearestMipmapNearest:
-    case spec::MinFilter::kLinearMipmapNearest:
+    case spec::texture::MinFilter::kNearestMipmapNearest:
+    case spec::texture::MinFilter::kLinearMipmapNearest:
       out.level =
           static_cast<std::uint8_t>(std::min((l + (kAlmostOne >> 1)) >> kFractionBits, coarsest));
       break;
-    case spec::MinFilter::kNearestMipmapLinear:
-    case spec::MinFilter::kLinearMipmapLinear: {
+    case spec::texture::MinFilter::kNearestMipmapLinear:
+    case spec::texture::MinFilter::kLinearMipmapLinear: {
       const std::int32_t rounded = (l + 8) >> 4;  // S8.8
       const bool beyond = (rounded >> 8) >= coarsest;
       out.level = static_cast<std::uint8_t>(beyond ? coarsest : rounded >> 8);

@@ -13,7 +13,7 @@
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/parameter_store.h"
 #include "rtl_model/texture/tokens.h"
-#include "spec/texture.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
@@ -23,7 +23,7 @@ class LevelUnit final : public Unit {
   Out<LevelToken> levels_out{"levels_out"};
 
   LevelUnit(const sc_core::sc_module_name& name, ClockDomain& clock, const ParameterStore& store,
-            spec::CountRule count, spec::CountCap cap);
+            spec::texture::CountRule count, spec::texture::CountCap cap);
   Activity tick(Cycle cycle) override;
   void reset() override {}
 
@@ -34,8 +34,8 @@ class LevelUnit final : public Unit {
   int count_log2(std::int32_t lb_max, std::int32_t lb_min, int limit) const;
 
   const ParameterStore& store_;
-  spec::CountRule count_;
-  spec::CountCap cap_;
+  spec::texture::CountRule count_;
+  spec::texture::CountCap cap_;
 };
 
 }  // namespace deburr::rtl::texture

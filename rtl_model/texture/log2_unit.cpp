@@ -5,7 +5,8 @@
 #include <bit>
 #include <cstdint>
 
-#include "spec/texture_tables.h"
+#include "spec/texture/parameters.h"
+#include "spec/texture/tables.h"
 
 namespace deburr::rtl::texture {
 namespace {
@@ -40,30 +41,32 @@ std::uint32_t segment_correction(std::uint32_t y) {
 
 // Fraction of the logarithm by table and linear interpolation, U1.12.
 std::uint32_t interpolated(std::uint32_t y) {
-  const std::uint32_t low = spec::kLog2Table[y >> 6], high = spec::kLog2Table[(y >> 6) + 1];
+  const std::uint32_t low = spec::texture::kLog2Table[y >> 6],
+                      high = spec::texture::kLog2Table[(y >> 6) + 1];
   return low + (((high - low) * (y & 63) + 32) >> 6);
 }
 
 }  // namespace
 
-Log2Unit::Log2Unit(const sc_core::sc_module_name& name, ClockDomain& clock, spec::Log2Rule rule)
+Log2Unit::Log2Unit(const sc_core::sc_module_name& name, ClockDomain& clock,
+                   spec::texture::Log2Rule rule)
     : Unit(name, clock), rule_(rule) {}
 
-std::int32_t Log2Unit::log2(spec::Log2Rule rule, std::uint32_t d) {
+std::int32_t Log2Unit::log2(spec::texture::Log2Rule rule, std::uint32_t d) {
   const int zeros = std::countl_zero(d | (d == 0 ? 1u : 0u));      // leading-one detector
   const std::uint32_t normal = (d | (d == 0 ? 1u : 0u)) << zeros;  // the leading one in bit 31
   const std::uint32_t y = (normal >> 19) & 0xFFF;                  // U0.12
   std::uint32_t fraction = y;                                      // U1.12
   switch (rule) {
-    case spec::Log2Rule::kMitchell:
+    case spec::texture::Log2Rule::kMitchell:
       break;
-    case spec::Log2Rule::kCorrected:
-      fraction = y + spec::kLog2Correction[y >> 9];
+    case spec::texture::Log2Rule::kCorrected:
+      fraction = y + spec::texture::kLog2Correction[y >> 9];
       break;
-    case spec::Log2Rule::kSegments:
+    case spec::texture::Log2Rule::kSegments:
       fraction = y + segment_correction(y);
       break;
-    case spec::Log2Rule::kExact:
+    case spec::texture::Log2Rule::kExact:
       fraction = interpolated(y);
       break;
   }

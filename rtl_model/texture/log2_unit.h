@@ -15,7 +15,7 @@
 
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/tokens.h"
-#include "spec/texture.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
@@ -24,15 +24,15 @@ class Log2Unit final : public Unit {
   In<FootprintToken> footprints_in{"footprints_in"};
   Out<Log2Token> logs_out{"logs_out"};
 
-  Log2Unit(const sc_core::sc_module_name& name, ClockDomain& clock, spec::Log2Rule rule);
+  Log2Unit(const sc_core::sc_module_name& name, ClockDomain& clock, spec::texture::Log2Rule rule);
   Activity tick(Cycle cycle) override;
   void reset() override {}
 
   // The combinational part: lb d in S5.12 of d in U16.16.
-  static std::int32_t log2(spec::Log2Rule rule, std::uint32_t d);
+  static std::int32_t log2(spec::texture::Log2Rule rule, std::uint32_t d);
 
  private:
-  spec::Log2Rule rule_;
+  spec::texture::Log2Rule rule_;
 };
 
 }  // namespace deburr::rtl::texture

@@ -8,7 +8,7 @@
 namespace deburr::rtl::texture {
 namespace {
 
-std::uint32_t line_number_bits(const spec::TextureParameters& p) {
+std::uint32_t line_number_bits(const spec::texture::Parameters& p) {
   return 32 - static_cast<std::uint32_t>(
                   std::countr_zero(static_cast<std::uint32_t>(p.cache_line_bytes)));
 }
@@ -16,7 +16,7 @@ std::uint32_t line_number_bits(const spec::TextureParameters& p) {
 }  // namespace
 
 MissQueue::MissQueue(const sc_core::sc_module_name& name, ClockDomain& clock,
-                     const spec::TextureParameters& p, ParameterStore& store)
+                     const spec::texture::Parameters& p, ParameterStore& store)
     : Unit(name, clock),
       fills("fill_buffer", static_cast<std::uint32_t>(p.cache_outstanding),
             static_cast<std::uint32_t>(p.cache_line_bytes)),
@@ -46,7 +46,7 @@ bool MissQueue::receive(Cycle cycle) {
   if (response.last && failed_[entry]) {
     failed_[entry] = false;
     ++memory_errors;
-    store_.set_sticky(spec::texture_register::kStatusMemoryError);
+    store_.set_sticky(spec::texture::reg::kStatusMemoryError);
   }
   // With an error, the port gives zeros.
   fills.fill(cycle, entry, response.line * kLineBytes,

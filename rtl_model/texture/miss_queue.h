@@ -19,7 +19,7 @@
 #include "rtl_model/texture/fill_buffer.h"
 #include "rtl_model/texture/parameter_store.h"
 #include "rtl_model/texture/tokens.h"
-#include "spec/texture.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
@@ -30,7 +30,7 @@ class MissQueue final : public Unit {
   In<MemoryResponse> responses_in{"responses_in"};
 
   MissQueue(const sc_core::sc_module_name& name, ClockDomain& clock,
-            const spec::TextureParameters& parameters, ParameterStore& store);
+            const spec::texture::Parameters& parameters, ParameterStore& store);
   Activity tick(Cycle cycle) override;
   void reset() override;
 

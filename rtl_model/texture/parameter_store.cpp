@@ -11,9 +11,9 @@
 namespace deburr::rtl::texture {
 namespace {
 
-namespace reg = spec::texture_register;
+namespace reg = spec::texture::reg;
 
-constexpr std::size_t kDescriptorRegisters = reg::kLevelBase / 4 + spec::kMaxLevels;
+constexpr std::size_t kDescriptorRegisters = reg::kLevelBase / 4 + spec::texture::kMaxLevels;
 
 Access fabric_access(spec::Access access) {
   switch (access) {
@@ -35,10 +35,10 @@ std::span<const RegisterDescription> register_table() {
   static std::deque<std::string> names;
   static const std::vector<RegisterDescription> table = [] {
     std::vector<RegisterDescription> all;
-    for (const spec::RegisterInfo& info : spec::kTextureRegisters)
+    for (const spec::RegisterInfo& info : spec::texture::kRegisters)
       all.push_back({info.offset, info.name.data(), fabric_access(info.access), info.reset,
                      info.meaning.data()});
-    for (std::uint32_t h = 0; h < spec::kMaxTextures; ++h) {
+    for (std::uint32_t h = 0; h < spec::texture::kMaxTextures; ++h) {
       const auto add = [&](std::uint32_t offset, const std::string& name, const char* meaning) {
         names.push_back("TEXTURE" + std::to_string(h) + "_" + name);
         all.push_back({reg::kTextureBase + h * reg::kTextureStride + offset, names.back().c_str(),
@@ -50,7 +50,7 @@ std::span<const RegisterDescription> register_table() {
           "[16], levels [23:20], lb N_max [26:24].");
       add(reg::kLodBias, "LOD_BIAS", "S7.8 [15:0].");
       add(reg::kLodClamp, "LOD_CLAMP", "min_lod U8.8 [15:0], max_lod U8.8 [31:16].");
-      for (std::uint32_t k = 0; k < spec::kMaxLevels; ++k)
+      for (std::uint32_t k = 0; k < spec::texture::kMaxLevels; ++k)
         add(reg::kLevelBase + 4 * k, "BASE_" + std::to_string(k), "Byte address of the level.");
     }
     return all;
@@ -73,7 +73,7 @@ constexpr std::uint32_t bits(std::uint32_t value, int high, int low) {
   return (value >> low) & ((1u << (high - low + 1)) - 1);
 }
 
-std::uint32_t encode_rules(const spec::TextureParameters& p) {
+std::uint32_t encode_rules(const spec::texture::Parameters& p) {
   return static_cast<std::uint32_t>(p.footprint) | static_cast<std::uint32_t>(p.log2) << 4 |
          static_cast<std::uint32_t>(p.count) << 8 | static_cast<std::uint32_t>(p.count_cap) << 9 |
          static_cast<std::uint32_t>(p.kernel) << 10 | static_cast<std::uint32_t>(p.spread) << 16;
@@ -85,7 +85,7 @@ std::uint8_t ceil_log2(std::uint32_t n) { return static_cast<std::uint8_t>(std::
 }  // namespace
 
 ParameterStore::ParameterStore(const sc_core::sc_module_name& name, ClockDomain& clock,
-                               const spec::TextureParameters& parameters)
+                               const spec::texture::Parameters& parameters)
     : Unit(name, clock),
       registers("registers", register_table()),
       rules_(encode_rules(parameters)),
@@ -96,9 +96,9 @@ ParameterStore::ParameterStore(const sc_core::sc_module_name& name, ClockDomain&
   registers.on_write(index_at(reg::kStatus), [this](std::uint32_t v) { sticky_ &= ~v; });
   registers.on_read(index_at(reg::kStatus),
                     [this] { return sticky_ | (idle_() ? reg::kStatusIdle : 0); });
-  for (std::uint8_t h = 0; h < spec::kMaxTextures; ++h)
+  for (std::uint8_t h = 0; h < spec::texture::kMaxTextures; ++h)
     for (std::size_t i = 0; i < kDescriptorRegisters; ++i)
-      registers.on_write(spec::kTextureRegisters.size() + h * kDescriptorRegisters + i,
+      registers.on_write(spec::texture::kRegisters.size() + h * kDescriptorRegisters + i,
                          [this, h](std::uint32_t) { write_descriptor(h); });
   registers.set(index_at(reg::kRules), rules_);
 }
@@ -143,7 +143,8 @@ void ParameterStore::write_descriptor(std::uint8_t handle) {
 }
 
 std::uint32_t ParameterStore::field(std::uint8_t handle, std::uint32_t offset) const {
-  return registers.get(spec::kTextureRegisters.size() + handle * kDescriptorRegisters + offset / 4);
+  return registers.get(spec::texture::kRegisters.size() + handle * kDescriptorRegisters +
+                       offset / 4);
 }
 
 void ParameterStore::decode(std::uint8_t handle) {
@@ -157,27 +158,29 @@ void ParameterStore::decode(std::uint8_t handle) {
   t.width = static_cast<std::uint16_t>(bits(size, 15, 0));
   t.height = static_cast<std::uint16_t>(bits(size, 31, 16));
   const std::uint32_t longest = std::max(t.width, t.height);
-  bool valid = t.width >= 1 && t.height >= 1 && longest <= spec::kMaxTextureSize && levels >= 1 &&
-               levels <= static_cast<std::uint32_t>(std::bit_width(longest)) &&
-               format < spec::kFormatNames.size() && wrap_s < spec::kWrapNames.size() &&
-               wrap_t < spec::kWrapNames.size() && min_filter < spec::kMinFilterNames.size() &&
-               max_count_log2 <= 4;
+  bool valid = t.width >= 1 && t.height >= 1 && longest <= spec::texture::kMaxTextureSize &&
+               levels >= 1 && levels <= static_cast<std::uint32_t>(std::bit_width(longest)) &&
+               format < spec::texture::kFormatNames.size() &&
+               wrap_s < spec::texture::kWrapNames.size() &&
+               wrap_t < spec::texture::kWrapNames.size() &&
+               min_filter < spec::texture::kMinFilterNames.size() && max_count_log2 <= 4;
   if (!valid) return;
 
   t.levels = static_cast<std::uint8_t>(levels);
-  t.format = static_cast<spec::Format>(format);
-  t.layout = static_cast<spec::Layout>(bits(mode, 4, 4));
-  t.wrap_s = static_cast<spec::Wrap>(wrap_s);
-  t.wrap_t = static_cast<spec::Wrap>(wrap_t);
-  t.min_filter = static_cast<spec::MinFilter>(min_filter);
-  t.mag_filter = static_cast<spec::MagFilter>(bits(mode, 16, 16));
+  t.format = static_cast<spec::texture::Format>(format);
+  t.layout = static_cast<spec::texture::Layout>(bits(mode, 4, 4));
+  t.wrap_s = static_cast<spec::texture::Wrap>(wrap_s);
+  t.wrap_t = static_cast<spec::texture::Wrap>(wrap_t);
+  t.min_filter = static_cast<spec::texture::MinFilter>(min_filter);
+  t.mag_filter = static_cast<spec::texture::MagFilter>(bits(mode, 16, 16));
   t.max_count_log2 = static_cast<std::uint8_t>(max_count_log2);
   t.bias = static_cast<std::int16_t>(bits(field(handle, reg::kLodBias), 15, 0)) * 16;
   t.min_lod = static_cast<std::int32_t>(bits(clamp, 15, 0) << 4);
   t.max_lod = static_cast<std::int32_t>(bits(clamp, 31, 16) << 4);
-  const std::uint32_t bytes = spec::kFormatBytes[format];
+  const std::uint32_t bytes = spec::texture::kFormatBytes[format];
   t.texel_log2 = ceil_log2(bytes);
-  const std::uint32_t tile_width = spec::kTileWidth[bytes], tile_height = spec::kTileHeight[bytes];
+  const std::uint32_t tile_width = spec::texture::kTileWidth[bytes],
+                      tile_height = spec::texture::kTileHeight[bytes];
   for (std::uint32_t k = 0; k < levels; ++k) {
     LevelGeometry& g = t.level[k];
     g.base = field(handle, reg::kLevelBase + 4 * k);
@@ -186,7 +189,7 @@ void ParameterStore::decode(std::uint8_t handle) {
     g.pitch = (g.width * bytes + 63) & ~63u;
     g.tiles_x_log2 = ceil_log2((g.width + tile_width - 1) / tile_width);
     g.tiles_y_log2 = ceil_log2((g.height + tile_height - 1) / tile_height);
-    valid = valid && g.base % spec::kTileBytes == 0;
+    valid = valid && g.base % spec::texture::kTileBytes == 0;
   }
   t.valid = valid;
 }

@@ -17,7 +17,9 @@
 
 #include "rtl_model/fabric/register_block.h"
 #include "rtl_model/fabric/unit.h"
-#include "spec/texture.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/parameters.h"
+#include "spec/texture/registers.h"
 
 namespace deburr::rtl::texture {
 
@@ -36,17 +38,17 @@ struct TextureState {
   std::uint8_t levels = 0;              // U4
   std::uint8_t texel_log2 = 0;          // U2, lb of the bytes a texel
   std::uint8_t max_count_log2 = 0;      // U3, lb N_max
-  spec::Format format{};
-  spec::Layout layout{};
-  spec::Wrap wrap_s{}, wrap_t{};
-  spec::MinFilter min_filter{};
-  spec::MagFilter mag_filter{};
+  spec::texture::Format format{};
+  spec::texture::Layout layout{};
+  spec::texture::Wrap wrap_s{}, wrap_t{};
+  spec::texture::MinFilter min_filter{};
+  spec::texture::MagFilter mag_filter{};
   std::int32_t bias = 0;                  // S7.12
   std::int32_t min_lod = 0, max_lod = 0;  // U8.12
-  std::array<LevelGeometry, spec::kMaxLevels> level{};
+  std::array<LevelGeometry, spec::texture::kMaxLevels> level{};
 };
 
-// As the bus shows them, and the docs: those of spec::kTextureRegisters, then each descriptor's.
+// As the bus shows them, and the docs: those of spec::texture::kRegisters, then each descriptor's.
 std::span<const RegisterDescription> register_table();
 
 class ParameterStore final : public Unit {
@@ -54,7 +56,7 @@ class ParameterStore final : public Unit {
   RegisterBlock registers;
 
   ParameterStore(const sc_core::sc_module_name& name, ClockDomain& clock,
-                 const spec::TextureParameters& parameters);
+                 const spec::texture::Parameters& parameters);
 
   Activity tick(Cycle cycle) override;
   void reset() override;
@@ -62,7 +64,7 @@ class ParameterStore final : public Unit {
   // --- Wires to the blocks ---
   // A handle beyond the last gives a descriptor that is not valid.
   const TextureState& texture(std::uint8_t handle) const {
-    return textures_[handle < spec::kMaxTextures ? handle : spec::kMaxTextures];
+    return textures_[handle < spec::texture::kMaxTextures ? handle : spec::texture::kMaxTextures];
   }
   bool enabled() const { return enabled_; }
   void set_sticky(std::uint32_t status_bits) { sticky_ |= status_bits; }
@@ -79,7 +81,8 @@ class ParameterStore final : public Unit {
   void decode(std::uint8_t handle);
   std::uint32_t field(std::uint8_t handle, std::uint32_t offset) const;
 
-  std::array<TextureState, spec::kMaxTextures + 1> textures_{};  // the last one is never valid
+  std::array<TextureState, spec::texture::kMaxTextures + 1>
+      textures_{};  // the last one is never valid
   bool enabled_ = true;
   std::uint32_t sticky_ = 0;
   std::uint32_t rules_ = 0;

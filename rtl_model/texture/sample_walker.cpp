@@ -6,7 +6,7 @@
 namespace deburr::rtl::texture {
 
 SampleWalker::SampleWalker(const sc_core::sc_module_name& name, ClockDomain& clock,
-                           spec::Kernel kernel, std::int32_t spread)
+                           spec::texture::Kernel kernel, std::int32_t spread)
     : Unit(name, clock), kernel_(kernel), spread_(spread) {}
 
 Activity SampleWalker::tick(Cycle cycle) {
@@ -31,7 +31,7 @@ void SampleWalker::start(const LevelToken& fragment) {
 // Weights of the tent: 1, 3, 5, ... and back.
 unsigned SampleWalker::kernel_weight() const {
   if (!fragment_.ticket.valid) return 0;
-  if (kernel_ == spec::Kernel::kBox) return 1;
+  if (kernel_ == spec::texture::Kernel::kBox) return 1;
   const unsigned mirrored = (1u << fragment_.count_log2) - 1 - index_;
   return 2 * std::min(index_, mirrored) + 1;
 }
@@ -51,7 +51,8 @@ void SampleWalker::emit(Cycle cycle) {
   out.level_weight =
       static_cast<std::uint16_t>(second_level_ ? fragment_.fraction : 256 - fragment_.fraction);
   out.kernel_weight = static_cast<std::uint8_t>(kernel_weight());
-  out.sum_log2 = static_cast<std::uint8_t>(kernel_ == spec::Kernel::kBox || n == 0 ? n : 2 * n - 1);
+  out.sum_log2 =
+      static_cast<std::uint8_t>(kernel_ == spec::texture::Kernel::kBox || n == 0 ? n : 2 * n - 1);
   out.level = static_cast<std::uint8_t>(fragment_.level + (second_level_ ? 1 : 0));
   out.linear = fragment_.linear;
   out.last_of_sample = last_of_sample;

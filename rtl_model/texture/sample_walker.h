@@ -14,7 +14,7 @@
 
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/tokens.h"
-#include "spec/texture.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
@@ -23,8 +23,8 @@ class SampleWalker final : public Unit {
   In<LevelToken> levels_in{"levels_in"};
   Out<SampleToken> samples_out{"samples_out"};
 
-  SampleWalker(const sc_core::sc_module_name& name, ClockDomain& clock, spec::Kernel kernel,
-               std::int32_t spread);
+  SampleWalker(const sc_core::sc_module_name& name, ClockDomain& clock,
+               spec::texture::Kernel kernel, std::int32_t spread);
   Activity tick(Cycle cycle) override;
   void reset() override { walking_ = false; }
 
@@ -35,7 +35,7 @@ class SampleWalker final : public Unit {
   void emit(Cycle cycle);
   unsigned kernel_weight() const;
 
-  spec::Kernel kernel_;
+  spec::texture::Kernel kernel_;
   std::int32_t spread_;  // U1.6
   // Registers.
   LevelToken fragment_{};

@@ -7,7 +7,7 @@
 namespace deburr::rtl::texture {
 
 TagStage::TagStage(const sc_core::sc_module_name& name, ClockDomain& clock,
-                   const spec::TextureParameters& p, const FillBuffer& fills)
+                   const spec::texture::Parameters& p, const FillBuffer& fills)
     : Unit(name, clock),
       fills_(fills),
       tags_("tags", p),

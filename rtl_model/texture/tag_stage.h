@@ -18,7 +18,7 @@
 #include "rtl_model/texture/fill_buffer.h"
 #include "rtl_model/texture/tag_store.h"
 #include "rtl_model/texture/tokens.h"
-#include "spec/texture.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
@@ -30,7 +30,7 @@ class TagStage final : public Unit {
 
   // `fills`: tells how many fills have been used.
   TagStage(const sc_core::sc_module_name& name, ClockDomain& clock,
-           const spec::TextureParameters& parameters, const FillBuffer& fills);
+           const spec::texture::Parameters& parameters, const FillBuffer& fills);
   Activity tick(Cycle cycle) override;
   void reset() override;
   void invalidate() { tags_.invalidate(); }

@@ -10,20 +10,20 @@ namespace {
 std::uint32_t log2_of(std::int32_t power_of_two) {
   return static_cast<std::uint32_t>(std::countr_zero(static_cast<std::uint32_t>(power_of_two)));
 }
-std::uint32_t sets_log2(const spec::TextureParameters& p) {
+std::uint32_t sets_log2(const spec::texture::Parameters& p) {
   return log2_of(p.cache_bytes) - log2_of(p.cache_line_bytes) - log2_of(p.cache_ways);
 }
 // Tag, valid bit and age of each way.
-std::uint32_t set_bits(const spec::TextureParameters& p) {
+std::uint32_t set_bits(const spec::texture::Parameters& p) {
   const std::uint32_t tag = 32 - log2_of(p.cache_line_bytes) - sets_log2(p);
   const std::uint32_t age =
-      p.cache_replacement == spec::Replacement::kRandom ? 0 : log2_of(p.cache_ways);
+      p.cache_replacement == spec::texture::Replacement::kRandom ? 0 : log2_of(p.cache_ways);
   return static_cast<std::uint32_t>(p.cache_ways) * (tag + 1 + age);
 }
 
 }  // namespace
 
-TagStore::TagStore(const char* name, const spec::TextureParameters& p)
+TagStore::TagStore(const char* name, const spec::texture::Parameters& p)
     : Storage(name, std::uint64_t{1} << sets_log2(p), set_bits(p), "4R4W"),
       replacement_(p.cache_replacement),
       set_mask_((1u << sets_log2(p)) - 1),
@@ -44,7 +44,7 @@ void TagStore::make_youngest(std::uint32_t slot) {
 
 // Among valid ways only.
 std::uint32_t TagStore::victim(std::uint32_t first) {
-  if (replacement_ == spec::Replacement::kRandom) {
+  if (replacement_ == spec::texture::Replacement::kRandom) {
     const std::uint32_t r = random_;
     random_ = static_cast<std::uint16_t>(r >> 1 | (r ^ r >> 2 ^ r >> 3 ^ r >> 5) << 15);
     return first + (random_ & way_mask_);

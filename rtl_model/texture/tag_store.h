@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "rtl_model/fabric/storage.h"
-#include "spec/texture.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
@@ -24,7 +24,7 @@ class TagStore final : public Storage {
   };
   static constexpr std::uint32_t kAbsent = ~std::uint32_t{0};
 
-  TagStore(const char* name, const spec::TextureParameters& parameters);
+  TagStore(const char* name, const spec::texture::Parameters& parameters);
 
   // The slot of the line, or kAbsent.
   std::uint32_t find(std::uint32_t line) const {
@@ -35,7 +35,7 @@ class TagStore final : public Storage {
   }
   // A hit: the line becomes the most recently used.
   void use(std::uint32_t slot) {
-    if (replacement_ == spec::Replacement::kLru && age_[slot] != 0) make_youngest(slot);
+    if (replacement_ == spec::texture::Replacement::kLru && age_[slot] != 0) make_youngest(slot);
   }
   // A miss: chooses a way and puts the line's tag into it.
   Place allocate(std::uint32_t line);
@@ -53,7 +53,7 @@ class TagStore final : public Storage {
   void make_youngest(std::uint32_t slot);
   std::uint32_t victim(std::uint32_t first);
 
-  spec::Replacement replacement_;
+  spec::texture::Replacement replacement_;
   std::uint32_t set_mask_, way_mask_, ways_log2_;
   std::vector<std::uint32_t> tags_;  // U27 and valid
   std::vector<std::uint8_t> age_;    // U4, 0: most recent; a permutation within each set

@@ -56,10 +56,10 @@ Activity TexelAddresser::tick(Cycle cycle) {
 // Stage 1, one axis: wrap the coordinate, scale it to texels, split it, bring both texels into
 // range.
 TexelAddresser::Axis TexelAddresser::scale(std::int64_t position, std::int32_t size,
-                                           spec::Wrap wrap, bool linear) {
-  if (wrap == spec::Wrap::kRepeat) {
+                                           spec::texture::Wrap wrap, bool linear) {
+  if (wrap == spec::texture::Wrap::kRepeat) {
     position &= kOne - 1;
-  } else if (wrap == spec::Wrap::kMirroredRepeat) {
+  } else if (wrap == spec::texture::Wrap::kMirroredRepeat) {
     position &= 2 * kOne - 1;
     if (position & kOne) position ^= 2 * kOne - 1;  // 2^25 - 1 - q is the complement of q
   }
@@ -76,7 +76,7 @@ TexelAddresser::Axis TexelAddresser::scale(std::int64_t position, std::int32_t s
     axis.fraction = 0;
   }
   const std::int32_t last = size - 1;
-  const bool repeats = wrap == spec::Wrap::kRepeat;
+  const bool repeats = wrap == spec::texture::Wrap::kRepeat;
   const auto into_range = [&](std::int32_t x) {
     if (x < 0) return repeats ? last : 0;
     if (x > last) return repeats ? 0 : last;
@@ -123,7 +123,7 @@ void TexelAddresser::address(TexelToken& out) const {
              y1 = static_cast<std::uint32_t>(scaled_.y.second);
 
   std::uint32_t column0, column1, row0, row1;
-  if (texture.layout == spec::Layout::kLinear) {
+  if (texture.layout == spec::texture::Layout::kLinear) {
     column0 = x0 << texture.texel_log2;
     column1 = x1 << texture.texel_log2;
     row0 = y0 * level.pitch;

@@ -15,7 +15,7 @@
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/parameter_store.h"
 #include "rtl_model/texture/tokens.h"
-#include "spec/texture.h"
+#include "spec/texture/descriptor.h"
 
 namespace deburr::rtl::texture {
 
@@ -44,7 +44,8 @@ class TexelAddresser final : public Unit {
     Axis x, y;
     std::uint8_t level;
   };
-  static Axis scale(std::int64_t position, std::int32_t size, spec::Wrap wrap, bool linear);
+  static Axis scale(std::int64_t position, std::int32_t size, spec::texture::Wrap wrap,
+                    bool linear);
   void wrap_and_scale(const SampleToken& sample);
   void address(TexelToken& texels) const;
 

@@ -6,7 +6,7 @@
 namespace deburr::rtl::texture {
 namespace {
 
-MemoryPortParameters port_parameters(const spec::TextureParameters& p) {
+MemoryPortParameters port_parameters(const spec::texture::Parameters& p) {
   MemoryPortParameters port;
   port.outstanding = static_cast<std::uint32_t>(p.cache_outstanding);
   port.line_bytes = std::min(static_cast<std::uint32_t>(p.cache_line_bytes), kLineBytes);
@@ -17,7 +17,7 @@ MemoryPortParameters port_parameters(const spec::TextureParameters& p) {
 }  // namespace
 
 TextureCache::TextureCache(const sc_core::sc_module_name& name, ClockDomain& clock,
-                           const spec::TextureParameters& p, ParameterStore& store)
+                           const spec::texture::Parameters& p, ParameterStore& store)
     : sc_module(name),
       miss_queue("miss_queue", clock, p, store),
       tag_stage("tag_stage", clock, p, miss_queue.fills),

@@ -29,7 +29,7 @@ class TextureCache final : public sc_core::sc_module {
   Out<TexelQuadToken> texels_out{"texels_out"};
 
   TextureCache(const sc_core::sc_module_name& name, ClockDomain& clock,
-               const spec::TextureParameters& parameters, ParameterStore& store);
+               const spec::texture::Parameters& parameters, ParameterStore& store);
 
   MissQueue miss_queue;
   TagStage tag_stage;

@@ -35,9 +35,9 @@ void check_power_of_two(const char* name, std::int32_t value) {
                             std::to_string(value));
 }
 
-spec::TextureParameters checked(spec::TextureParameters p) {
+spec::texture::Parameters checked(spec::texture::Parameters p) {
   const RangeCheck check;
-  spec::describe(p, check);
+  describe(p, check);
   check_power_of_two("cache.bytes", p.cache_bytes);
   check_power_of_two("cache.line_bytes", p.cache_line_bytes);
   check_power_of_two("cache.ways", p.cache_ways);
@@ -55,7 +55,7 @@ constexpr std::uint32_t kFragmentsElsewhere = 96;
 }  // namespace
 
 TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                         const spec::TextureParameters& parameters)
+                         const spec::texture::Parameters& parameters)
     : sc_module(name),
       parameters_(checked(parameters)),
       probe_(static_cast<std::uint32_t>(parameters_.cache_fifo_depth) + kFragmentsElsewhere),
@@ -70,7 +70,7 @@ TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock
   filter.texels_in(texel_quads_);
   filter.colours_out(colours_out);
 
-  namespace reg = spec::texture_register;
+  namespace reg = spec::texture::reg;
   Counter* const shown[] = {
       &filter.fragments,           &address.addresser.bilinears,  &cache.miss_queue.line_fills,
       &address.derivative.clamped, &address.derivative.saturated, &cache.miss_queue.memory_errors,

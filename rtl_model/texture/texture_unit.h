@@ -25,23 +25,23 @@
 #include "rtl_model/texture/fragment_probe.h"
 #include "rtl_model/texture/parameter_store.h"
 #include "rtl_model/texture/texture_cache.h"
-#include "spec/fragment.h"
-#include "spec/texture.h"
+#include "spec/texture/packets.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
 class TextureUnit final : public sc_core::sc_module {
  public:
-  In<spec::Quad> quads_in{"quads_in"};
-  Out<spec::Colour> colours_out{"colours_out"};
+  In<spec::texture::Quad> quads_in{"quads_in"};
+  Out<spec::texture::Colour> colours_out{"colours_out"};
 
   // ConfigError if a parameter is out of range, or a cache size that must be a power of two is not.
   TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-              const spec::TextureParameters& parameters);
+              const spec::texture::Parameters& parameters);
   const char* kind() const override { return "deburr_texture_unit"; }
 
  private:
-  spec::TextureParameters parameters_;
+  spec::texture::Parameters parameters_;
   FragmentProbe probe_;
 
  public:
@@ -65,7 +65,7 @@ class TextureUnit final : public sc_core::sc_module {
   std::vector<const Counter*> counters();
   std::vector<const Storage*> memories();
 
-  const spec::TextureParameters& parameters() const { return parameters_; }
+  const spec::texture::Parameters& parameters() const { return parameters_; }
 
  private:
   Link<TexelToken> texels_{"texels"};

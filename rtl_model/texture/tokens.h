@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdint>
 
+#include "spec/texture/descriptor.h"
+
 namespace deburr::rtl::texture {
 
 // Goes with a fragment from the first block to the last: 32 + 2 + 1 + 1 + 4 bits.
@@ -58,7 +60,7 @@ struct FilterControl {
   std::uint16_t level_weight;           // U1.8, 1..256
   std::uint8_t kernel_weight;           // U5, 0 for a fragment with an invalid descriptor
   std::uint8_t sum_log2;                // U3, lb of the sum of kernel weights
-  std::uint8_t format;                  // U3, spec::Format
+  std::uint8_t format;                  // U3, spec::texture::Format
   bool last_of_sample;                  // completes a sample (second level, or the only one)
   bool last_of_fragment;                // completes a fragment
 };

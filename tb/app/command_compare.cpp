@@ -12,10 +12,10 @@
 
 #include "spec/error.h"
 #include "tb/app/commands.h"
-#include "tb/app/compare.h"
-#include "tb/app/file.h"
-#include "tb/app/report.h"
-#include "tb/app/result.h"
+#include "tb/results/compare.h"
+#include "tb/results/file.h"
+#include "tb/results/report.h"
+#include "tb/results/result.h"
 
 namespace deburr::tb {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "spec/error.h"
 #include "tb/app/commands.h"
-#include "tb/app/papers.h"
-#include "tb/app/parameter_set.h"
+#include "tb/papers/papers.h"
+#include "tb/results/parameter_set.h"
 #include "tb/scene/image_io.h"
 
 namespace deburr::tb {

@@ -11,8 +11,8 @@
 #include "spec/error.h"
 #include "tb/app/commands.h"
 #include "tb/app/engine.h"
-#include "tb/app/parameter_set.h"
 #include "tb/app/reference_pages.h"
+#include "tb/results/parameter_set.h"
 
 namespace deburr::tb {
 namespace {

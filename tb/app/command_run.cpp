@@ -14,9 +14,9 @@
 #include "spec/error.h"
 #include "tb/app/commands.h"
 #include "tb/app/engine.h"
-#include "tb/app/headline.h"
-#include "tb/app/interrupt.h"
-#include "tb/app/report.h"
+#include "tb/results/headline.h"
+#include "tb/results/interrupt.h"
+#include "tb/results/report.h"
 #include "tb/scene/truth.h"
 
 namespace deburr::tb {

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "tb/app/parameter_set.h"
-#include "tb/app/result.h"
-#include "tb/app/run_context.h"
+#include "tb/results/parameter_set.h"
+#include "tb/results/result.h"
+#include "tb/results/run_context.h"
 
 namespace deburr::tb {
 

@@ -9,12 +9,12 @@
 
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
-#include "tb/app/frame_bench.h"
-#include "tb/app/interrupt.h"
 #include "tb/app/morphological_engine.h"
 #include "tb/app/morphological_rules.h"
 #include "tb/app/pictures.h"
-#include "tb/app/progress.h"
+#include "tb/env/frame_bench.h"
+#include "tb/results/interrupt.h"
+#include "tb/results/progress.h"
 #include "tb/scene/truth.h"
 
 namespace deburr::tb {
@@ -64,7 +64,7 @@ class FrameCommand final : public Engine {
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
     golden::morphological::check_parameters(morphological_);
-    if (sampler_.format == spec::Format::kSrgb8A8)
+    if (sampler_.format == spec::texture::Format::kSrgb8A8)
       throw spec::ConfigError(
           "sampler.format: the frame buffer keeps codes; srgb8_a8 delivers linear light");
     const TextureScene scene(scene_, sampler_, static_cast<std::uint32_t>(run.seed));
@@ -148,9 +148,9 @@ class FrameCommand final : public Engine {
 
   SceneParameters scene_;
   SamplerParameters sampler_;
-  spec::TextureParameters texture_;
+  spec::texture::Parameters texture_;
   MemoryParameters memory_, frame_memory_;
-  spec::MorphologicalParameters morphological_;
+  spec::morphological::Parameters morphological_;
   std::string preset_label_;
 };
 

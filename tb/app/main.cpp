@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/app/build_info.h"
 #include "tb/app/commands.h"
-#include "tb/app/headline.h"
-#include "tb/app/interrupt.h"
-#include "tb/app/parameter_set.h"
+#include "tb/results/build_info.h"
+#include "tb/results/headline.h"
+#include "tb/results/interrupt.h"
+#include "tb/results/parameter_set.h"
 
 namespace {
 

@@ -10,12 +10,12 @@
 
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
-#include "tb/app/interrupt.h"
-#include "tb/app/morphological_bench.h"
-#include "tb/app/morphological_frames.h"
 #include "tb/app/morphological_rules.h"
 #include "tb/app/pictures.h"
-#include "tb/app/progress.h"
+#include "tb/env/morphological_bench.h"
+#include "tb/env/morphological_frames.h"
+#include "tb/results/interrupt.h"
+#include "tb/results/progress.h"
 #include "tb/scene/truth.h"
 
 namespace deburr::tb {
@@ -116,7 +116,7 @@ class MorphologicalCommand final : public Engine {
   }
 
   void refuse_unused_frame(const ParameterSet& set) const {
-    const bool depth_used = parameters_.edge_source != spec::EdgeSource::kLuma;
+    const bool depth_used = parameters_.edge_source != spec::morphological::EdgeSource::kLuma;
     // load_frame() has its own words for a truth beside a scene, and for a file that is not there.
     if (is_rendered(frame_) || !std::filesystem::exists(frame_.source)) return;
     for (const char* name : {"frame.width", "frame.height"})
@@ -125,24 +125,25 @@ class MorphologicalCommand final : public Engine {
     if (depth_used && frame_.depth.empty())
       throw spec::ConfigError(fmt::format(
           "morphological.edges.source = {} needs the depth of the image: name it with --depth FILE",
-          name_of(parameters_.edge_source, spec::kEdgeSourceNames)));
+          name_of(parameters_.edge_source, spec::morphological::kEdgeSourceNames)));
     if (!depth_used && frame_.truth.empty())
       set.refuse("frame.depth",
                  "edges come from luma, and silhouettes are judged only against a --truth FILE");
   }
 
   std::string summary_line(const LoadedFrame& loaded) const {
-    const spec::MorphologicalParameters& p = parameters_;
-    const int lanes = spec::kLaneCount[static_cast<std::size_t>(p.lanes)];
+    const spec::morphological::Parameters& p = parameters_;
+    const int lanes = spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
     return fmt::format(
         "{} x {} pixels, {}: edges from {} at T = {:.4f}, local contrast {}, predictor {} "
         "with N = {}{}{}{}, {} light; {} pixel{} a clock, {} window rows, {}",
         loaded.input.image.width, loaded.input.image.height, preset_label_,
-        name_of(p.edge_source, spec::kEdgeSourceNames), p.threshold / 65536.0,
-        name_of(p.local_contrast, spec::kLocalContrastNames),
-        name_of(p.predictor, spec::kPredictorNames), p.steps, p.contiguous ? ", contiguous" : "",
-        p.safe ? ", safe" : "", p.trim ? ", trim" : "", p.linear_light ? "linear" : "stored", lanes,
-        lanes == 1 ? "" : "s", p.window_rows, name_of(p.storage, spec::kStorageNames));
+        name_of(p.edge_source, spec::morphological::kEdgeSourceNames), p.threshold / 65536.0,
+        name_of(p.local_contrast, spec::morphological::kLocalContrastNames),
+        name_of(p.predictor, spec::morphological::kPredictorNames), p.steps,
+        p.contiguous ? ", contiguous" : "", p.safe ? ", safe" : "", p.trim ? ", trim" : "",
+        p.linear_light ? "linear" : "stored", lanes, lanes == 1 ? "" : "s", p.window_rows,
+        name_of(p.storage, spec::morphological::kStorageNames));
   }
 
   static void add_pictures(const RunParameters& run, RunContext& context, const LoadedFrame& loaded,
@@ -164,7 +165,7 @@ class MorphologicalCommand final : public Engine {
   }
 
   FrameParameters frame_;
-  spec::MorphologicalParameters parameters_;
+  spec::morphological::Parameters parameters_;
   MemoryParameters memory_;
   std::string preset_label_;
 };

@@ -12,14 +12,14 @@ namespace {
 
 constexpr std::string_view kPrefix = "morphological.";
 
-std::string_view preset_name(const spec::MorphologicalParameters& values) {
-  return spec::kMorphologicalPresetNames[static_cast<std::size_t>(values.preset)];
+std::string_view preset_name(const spec::morphological::Parameters& values) {
+  return spec::morphological::kPresetNames[static_cast<std::size_t>(values.preset)];
 }
 
 }  // namespace
 
-void apply_preset(ParameterSet& set, const spec::MorphologicalParameters& values) {
-  spec::MorphologicalParameters rules = golden::morphological::preset_parameters(values.preset);
+void apply_preset(ParameterSet& set, const spec::morphological::Parameters& values) {
+  spec::morphological::Parameters rules = golden::morphological::preset_parameters(values.preset);
   const std::string by = fmt::format("preset {}", preset_name(values));
   ParameterSet preset;
   preset.add("morphological", rules);
@@ -31,7 +31,7 @@ void apply_preset(ParameterSet& set, const spec::MorphologicalParameters& values
   }
 }
 
-std::string preset_label(const ParameterSet& set, const spec::MorphologicalParameters& values) {
+std::string preset_label(const ParameterSet& set, const spec::morphological::Parameters& values) {
   std::string label = fmt::format("preset {}", preset_name(values));
   bool first = true;
   for (const Parameter* p : set.changed()) {
@@ -42,35 +42,35 @@ std::string preset_label(const ParameterSet& set, const spec::MorphologicalParam
   return label;
 }
 
-void refuse_unused_rules(const ParameterSet& set, const spec::MorphologicalParameters& p,
+void refuse_unused_rules(const ParameterSet& set, const spec::morphological::Parameters& p,
                          std::string_view memory) {
   const auto refuse = [&](std::string_view why, std::initializer_list<std::string_view> names) {
     for (const std::string_view name : names) set.refuse(fmt::format("{}{}", kPrefix, name), why);
   };
-  const bool depth = p.edge_source == spec::EdgeSource::kDepth;
-  const bool predicated = p.edge_source == spec::EdgeSource::kPredicated;
+  const bool depth = p.edge_source == spec::morphological::EdgeSource::kDepth;
+  const bool predicated = p.edge_source == spec::morphological::EdgeSource::kPredicated;
   if (depth)
     refuse("morphological.edges.source = depth compares depths, by edges.depth_threshold",
            {"edges.threshold_mode", "edges.local_contrast"});
   if (depth || predicated)
     refuse("morphological.edges.source is not luma and has thresholds of its own",
            {"edges.threshold"});
-  if (depth || p.threshold_mode == spec::ThresholdMode::kFixed)
+  if (depth || p.threshold_mode == spec::morphological::ThresholdMode::kFixed)
     refuse("it belongs to morphological.edges.threshold_mode = dynamic",
            {"edges.alpha", "edges.floor", "edges.dynamic_luma"});
   else
     refuse("morphological.edges.threshold_mode = dynamic computes the threshold",
            {"edges.threshold"});
-  if (p.edge_source == spec::EdgeSource::kLuma)
+  if (p.edge_source == spec::morphological::EdgeSource::kLuma)
     refuse("it belongs to morphological.edges.source = depth or predicated",
            {"edges.depth_threshold"});
   if (!predicated)
     refuse("it belongs to morphological.edges.source = predicated",
            {"edges.threshold_on_depth_edge", "edges.threshold_off_depth_edge"});
-  if (p.predictor == spec::Predictor::kNone)
+  if (p.predictor == spec::morphological::Predictor::kNone)
     refuse("morphological.predictor = none extends no run",
            {"steps", "contiguous", "safe", "trim"});
-  if (p.storage == spec::Storage::kLineBuffers) {
+  if (p.storage == spec::morphological::Storage::kLineBuffers) {
     constexpr std::string_view kWhy = "morphological.storage = line_buffers uses no memory";
     refuse(kWhy, {"memory.outstanding"});
     set.refuse_all(fmt::format("{}.", memory), kWhy);

@@ -6,21 +6,21 @@
 #include <string>
 #include <string_view>
 
-#include "spec/morphological.h"
-#include "tb/app/memory_parameters.h"
-#include "tb/app/parameter_set.h"
+#include "spec/morphological/parameters.h"
+#include "tb/env/memory_parameters.h"
+#include "tb/results/parameter_set.h"
 
 namespace deburr::tb {
 
 // The rules of `values.preset` for every rule "morphological.*" that was not given beside it.
-void apply_preset(ParameterSet& set, const spec::MorphologicalParameters& values);
+void apply_preset(ParameterSet& set, const spec::morphological::Parameters& values);
 
 // "preset mlaa", or "preset mlaa, changed: predictor, steps".
-std::string preset_label(const ParameterSet& set, const spec::MorphologicalParameters& values);
+std::string preset_label(const ParameterSet& set, const spec::morphological::Parameters& values);
 
 // ConfigError for a rule or a parameter of the memory ("<memory>.*") that was given and has no
 // effect. After apply_preset().
-void refuse_unused_rules(const ParameterSet& set, const spec::MorphologicalParameters& values,
+void refuse_unused_rules(const ParameterSet& set, const spec::morphological::Parameters& values,
                          std::string_view memory);
 // The same for a memory that is used.
 void refuse_unused_memory(const ParameterSet& set, std::string_view prefix,

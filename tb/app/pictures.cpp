@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "tb/app/interrupt.h"
-#include "tb/app/report.h"
+#include "tb/results/interrupt.h"
+#include "tb/results/report.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
 
@@ -98,7 +98,7 @@ void add_smoothing_pictures(RunContext& context, const SmoothedFrame& frame) {
                     "blue where the two are left and right");
 }
 
-Image edge_picture(const Image& frame, const std::vector<spec::BlendTap>& taps) {
+Image edge_picture(const Image& frame, const std::vector<spec::morphological::BlendTap>& taps) {
   constexpr int kDim = 3;
   Image picture(frame.width, frame.height);
   for (std::size_t i = 0; i < taps.size(); ++i) {
@@ -110,7 +110,8 @@ Image edge_picture(const Image& frame, const std::vector<spec::BlendTap>& taps) 
   return picture;
 }
 
-Image weight_picture(int width, int height, const std::vector<spec::BlendTap>& taps) {
+Image weight_picture(int width, int height,
+                     const std::vector<spec::morphological::BlendTap>& taps) {
   const auto bright = [](int share) { return static_cast<std::uint8_t>(std::min(255, 2 * share)); };
   Image picture(width, height);
   for (std::size_t i = 0; i < taps.size(); ++i)

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "spec/morphological.h"
-#include "tb/app/result.h"
-#include "tb/app/run_context.h"
+#include "spec/morphological/packets.h"
+#include "tb/results/result.h"
+#include "tb/results/run_context.h"
 #include "tb/scene/image.h"
 #include "tb/scene/scenes.h"
 #include "tb/scene/truth.h"
@@ -30,7 +30,7 @@ Quality judge_quality(std::string reference, const Image& before, const Image& a
 struct SmoothedFrame {
   const Image& before;
   const Image& after;
-  const std::vector<spec::BlendTap>& taps;
+  const std::vector<spec::morphological::BlendTap>& taps;
   std::size_t delivered;  // pixels of `after` and `taps`, in raster order
   const Image* golden;    // nullptr: not checked
   const Image* truth;     // nullptr: none
@@ -45,9 +45,9 @@ void add_smoothing_pictures(RunContext& context, const SmoothedFrame& frame);
 Image delivered_part(const Image& image, std::size_t delivered, const Rgba8& rest);
 
 // Left edges red, top edges green, over the frame in grey.
-Image edge_picture(const Image& frame, const std::vector<spec::BlendTap>& taps);
+Image edge_picture(const Image& frame, const std::vector<spec::morphological::BlendTap>& taps);
 // Shares of neighbours, twice as bright: up or left red, down or right green; blue where the pair
 // is left and right.
-Image weight_picture(int width, int height, const std::vector<spec::BlendTap>& taps);
+Image weight_picture(int width, int height, const std::vector<spec::morphological::BlendTap>& taps);
 
 }  // namespace deburr::tb

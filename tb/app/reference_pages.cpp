@@ -10,7 +10,8 @@
 #include "rtl_model/fabric/register_block.h"
 #include "rtl_model/morphological/parameter_store.h"
 #include "rtl_model/texture/parameter_store.h"
-#include "spec/texture.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/registers.h"
 
 namespace deburr::tb {
 namespace {
@@ -109,7 +110,7 @@ std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines)
 }
 
 std::string registers_page() {
-  namespace texture = spec::texture_register;
+  namespace texture = spec::texture::reg;
   // One descriptor stands for all.
   constexpr std::uint32_t kSecond = texture::kTextureBase + texture::kTextureStride;
   std::vector<rtl::RegisterDescription> unit;
@@ -127,7 +128,7 @@ std::string registers_page() {
       "\nTextures 1..{} follow with the same registers, each 0x{:X} bytes after the one "
       "before.\n",
       rtl::register_table_markdown(rtl::morphological::register_table()),
-      rtl::register_table_markdown(unit), spec::kMaxTextures - 1, texture::kTextureStride);
+      rtl::register_table_markdown(unit), spec::texture::kMaxTextures - 1, texture::kTextureStride);
 }
 
 }  // namespace deburr::tb

@@ -10,12 +10,12 @@
 #include <utility>
 
 #include "spec/error.h"
-#include "tb/app/interrupt.h"
 #include "tb/app/morphological_rules.h"
 #include "tb/app/pictures.h"
-#include "tb/app/progress.h"
-#include "tb/app/texture_bench.h"
-#include "tb/app/texture_scene.h"
+#include "tb/env/texture_bench.h"
+#include "tb/env/texture_scene.h"
+#include "tb/results/interrupt.h"
+#include "tb/results/progress.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/textures.h"
@@ -118,14 +118,18 @@ class TextureEngine final : public Engine {
         "kernel {}; "
         "cache {} bytes, {} ways; memory latency {} clk",
         scene.stream().width, scene.stream().height, scene.stream().counts.fragments,
-        name(sampler_.mode, spec::kMinFilterNames), name(sampler_.anisotropy, kAnisotropyNames),
-        name(sampler_.format, spec::kFormatNames), name(sampler_.layout, spec::kLayoutNames),
-        name(texture_.footprint, spec::kFootprintNames), name(texture_.log2, spec::kLog2Names),
-        name(texture_.count, spec::kCountNames), name(texture_.kernel, spec::kKernelNames),
-        texture_.cache_bytes, texture_.cache_ways, memory_.latency);
+        name(sampler_.mode, spec::texture::kMinFilterNames),
+        name(sampler_.anisotropy, kAnisotropyNames),
+        name(sampler_.format, spec::texture::kFormatNames),
+        name(sampler_.layout, spec::texture::kLayoutNames),
+        name(texture_.footprint, spec::texture::kFootprintNames),
+        name(texture_.log2, spec::texture::kLog2Names),
+        name(texture_.count, spec::texture::kCountNames),
+        name(texture_.kernel, spec::texture::kKernelNames), texture_.cache_bytes,
+        texture_.cache_ways, memory_.latency);
   }
 
-  bool linear_light() const { return sampler_.format == spec::Format::kSrgb8A8; }
+  bool linear_light() const { return sampler_.format == spec::texture::Format::kSrgb8A8; }
 
   // The unit delivers linear light for sRGB textures; pictures are stored as sRGB again.
   Image stored(const Image& image, const TextureScene& scene) const {
@@ -178,7 +182,7 @@ class TextureEngine final : public Engine {
 
   SceneParameters scene_;
   SamplerParameters sampler_;
-  spec::TextureParameters texture_;
+  spec::texture::Parameters texture_;
   MemoryParameters memory_;
   bool links_given_ = false;
 };

@@ -6,14 +6,14 @@
 #include "golden/morphological/edges.h"
 #include "golden/morphological/luma.h"
 #include "golden/morphological/morphological_golden.h"
-#include "tb/unit/morphological_golden_support.h"
+#include "tb/unit/golden/morphological/support.h"
 
 namespace deburr {
 namespace {
 
 using golden::morphological::MorphologicalGolden;
 using golden::morphological::preset_parameters;
-using spec::MorphologicalPreset;
+using spec::morphological::Preset;
 using tb::morphological::Frame;
 
 const Frame& frame_1080p() {
@@ -21,7 +21,7 @@ const Frame& frame_1080p() {
   return frame;
 }
 
-void run(benchmark::State& state, const Frame& frame, MorphologicalPreset preset,
+void run(benchmark::State& state, const Frame& frame, Preset preset,
          MorphologicalGolden::Detail detail) {
   MorphologicalGolden golden(preset_parameters(preset), detail);
   for (auto _ : state) benchmark::DoNotOptimize(golden.process(frame.view()).data());
@@ -31,23 +31,22 @@ void run(benchmark::State& state, const Frame& frame, MorphologicalPreset preset
   state.counters["blended_%"] = 100 * static_cast<double>(golden.work().blended_pixels) / pixels;
 }
 
-void preset(benchmark::State& state, MorphologicalPreset which) {
+void preset(benchmark::State& state, Preset which) {
   run(state, frame_1080p(), which, MorphologicalGolden::Detail::kPixels);
 }
-void everything(benchmark::State& state, MorphologicalPreset which) {
+void everything(benchmark::State& state, Preset which) {
   run(state, frame_1080p(), which, MorphologicalGolden::Detail::kEverything);
 }
-void noise(benchmark::State& state, MorphologicalPreset which) {
+void noise(benchmark::State& state, Preset which) {
   run(state, tb::morphological::noise_image(1920, 1080), which,
       MorphologicalGolden::Detail::kPixels);
 }
-BENCHMARK_CAPTURE(preset, mlaa, MorphologicalPreset::kMlaa)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(preset, mlaa_slope, MorphologicalPreset::kMlaaSlope)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(preset, deburr, MorphologicalPreset::kDeburr)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(everything, mlaa, MorphologicalPreset::kMlaa)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(everything, deburr, MorphologicalPreset::kDeburr)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(noise, mlaa, MorphologicalPreset::kMlaa)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(preset, mlaa, Preset::kMlaa)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(preset, mlaa_slope, Preset::kMlaaSlope)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(preset, deburr, Preset::kDeburr)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(everything, mlaa, Preset::kMlaa)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(everything, deburr, Preset::kDeburr)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(noise, mlaa, Preset::kMlaa)->Unit(benchmark::kMillisecond);
 
 void luma(benchmark::State& state) {
   const Frame& frame = frame_1080p();
@@ -56,14 +55,14 @@ void luma(benchmark::State& state) {
 }
 BENCHMARK(luma)->Unit(benchmark::kMillisecond);
 
-void edges(benchmark::State& state, MorphologicalPreset which) {
+void edges(benchmark::State& state, Preset which) {
   const Frame& frame = frame_1080p();
-  const spec::MorphologicalParameters p = preset_parameters(which);
+  const spec::morphological::Parameters p = preset_parameters(which);
   for (auto _ : state) benchmark::DoNotOptimize(golden::morphological::find_edges(p, frame.view()));
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(frame.pixels.size()));
 }
-BENCHMARK_CAPTURE(edges, mlaa, MorphologicalPreset::kMlaa)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(edges, deburr, MorphologicalPreset::kDeburr)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(edges, mlaa, Preset::kMlaa)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(edges, deburr, Preset::kDeburr)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace deburr

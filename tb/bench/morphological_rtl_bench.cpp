@@ -31,7 +31,7 @@ namespace deburr::tb {
 namespace {
 
 using rtl::Cycle;
-using spec::MorphologicalParameters;
+using spec::morphological::Parameters;
 
 constexpr int kWidth = 1920, kHeight = 1080;
 
@@ -41,7 +41,7 @@ std::uint32_t mix(std::uint32_t v) {
   return v ^ v >> 16;
 }
 
-spec::Rgba8 colour(const std::string& image, int x, int y) {
+spec::morphological::Rgba8 colour(const std::string& image, int x, int y) {
   const auto at = static_cast<std::uint32_t>(y * kWidth + x);
   std::uint32_t v = 128;
   if (image == "noise") {
@@ -59,11 +59,11 @@ spec::Rgba8 colour(const std::string& image, int x, int y) {
   return {code, code, code, 255};
 }
 
-std::vector<spec::PixelBeat> beats(const std::string& image, int lanes) {
-  std::vector<spec::PixelBeat> all;
+std::vector<spec::morphological::PixelBeat> beats(const std::string& image, int lanes) {
+  std::vector<spec::morphological::PixelBeat> all;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; x += lanes) {
-      spec::PixelBeat& beat = all.emplace_back();
+      spec::morphological::PixelBeat& beat = all.emplace_back();
       beat.count = static_cast<std::uint8_t>(lanes);
       for (int i = 0; i < lanes; ++i)
         beat.pixel[static_cast<std::size_t>(i)] = colour(image, x + i, y);
@@ -73,10 +73,10 @@ std::vector<spec::PixelBeat> beats(const std::string& image, int lanes) {
   return all;
 }
 
-MorphologicalParameters parameters(const std::string& preset, int lanes) {
-  MorphologicalParameters p;
-  for (const spec::MorphologicalPresetRow& row : spec::kMorphologicalPresets) {
-    if (spec::kMorphologicalPresetNames[static_cast<std::size_t>(row.preset)] != preset) continue;
+Parameters parameters(const std::string& preset, int lanes) {
+  Parameters p;
+  for (const spec::morphological::PresetRow& row : spec::morphological::kPresets) {
+    if (spec::morphological::kPresetNames[static_cast<std::size_t>(row.preset)] != preset) continue;
     p.preset = row.preset;
     p.threshold = row.threshold;
     p.local_contrast = row.local_contrast;
@@ -86,7 +86,9 @@ MorphologicalParameters parameters(const std::string& preset, int lanes) {
     p.safe = row.safe;
     p.trim = row.trim;
   }
-  p.lanes = lanes == 1 ? spec::Lanes::kOne : lanes == 2 ? spec::Lanes::kTwo : spec::Lanes::kFour;
+  p.lanes = lanes == 1   ? spec::morphological::Lanes::kOne
+            : lanes == 2 ? spec::morphological::Lanes::kTwo
+                         : spec::morphological::Lanes::kFour;
   p.line_pixels = kWidth;
   return p;
 }
@@ -100,17 +102,17 @@ struct Bus final : sc_core::sc_module {
 // The engine with as little as possible around it.
 struct Setup {
   rtl::ClockDomain clock{"clock", sc_core::sc_time(1, sc_core::SC_NS)};
-  rtl::Link<spec::PixelBeat> in{"in"};
-  rtl::Link<spec::BlendedBeat> out{"out"};
-  Driver<spec::PixelBeat> driver{"driver", clock};
+  rtl::Link<spec::morphological::PixelBeat> in{"in"};
+  rtl::Link<spec::morphological::BlendedBeat> out{"out"};
+  Driver<spec::morphological::PixelBeat> driver{"driver", clock};
   rtl::morphological::MorphologicalEngine engine;
-  Sink<spec::BlendedBeat> sink{"sink", clock};
+  Sink<spec::morphological::BlendedBeat> sink{"sink", clock};
   Bus bus{"bus"};
   std::unique_ptr<MemoryModel> memory;
-  std::vector<spec::PixelBeat> frame;
+  std::vector<spec::morphological::PixelBeat> frame;
   std::uint64_t frames = 0;
 
-  explicit Setup(const MorphologicalParameters& p) : engine("engine", clock, p) {
+  explicit Setup(const Parameters& p) : engine("engine", clock, p) {
     driver.beats_out(in);
     engine.pixels_in(in);
     engine.pixels_out(out);
@@ -123,7 +125,7 @@ struct Setup {
       memory = std::make_unique<MemoryModel>("memory", clock.period(), m);
       engine.memory()->bind(memory->ports);
     }
-    driver.send([this](std::uint64_t index, spec::PixelBeat& beat) {
+    driver.send([this](std::uint64_t index, spec::morphological::PixelBeat& beat) {
       if (index >= frames * frame.size()) return false;
       beat = frame[index % frame.size()];
       return true;
@@ -171,8 +173,8 @@ BENCHMARK_CAPTURE(bm_engine, noise, std::string("noise"))->Unit(benchmark::kMill
 using golden::morphological::MorphologicalGolden;
 void bm_golden_over_rtl(benchmark::State& state, MorphologicalGolden::Detail detail) {
   Setup& setup = setup_of("facets");
-  std::vector<spec::Rgba8> pixels;
-  for (const spec::PixelBeat& beat : setup.frame) pixels.push_back(beat.pixel[0]);
+  std::vector<spec::morphological::Rgba8> pixels;
+  for (const spec::morphological::PixelBeat& beat : setup.frame) pixels.push_back(beat.pixel[0]);
   MorphologicalGolden golden(parameters("deburr", 1), detail);
   std::clock_t rtl_time = 0, golden_time = 0;
   for (auto _ : state) {
@@ -192,14 +194,14 @@ BENCHMARK_CAPTURE(bm_golden_over_rtl, everything, MorphologicalGolden::Detail::k
 
 int count_instructions(const std::string& image, const std::string& preset, int lanes,
                        std::uint64_t frames, bool memory) {
-  MorphologicalParameters p = parameters(preset, lanes);
-  if (memory) p.storage = spec::Storage::kMemory;
+  Parameters p = parameters(preset, lanes);
+  if (memory) p.storage = spec::morphological::Storage::kMemory;
   Setup setup(p);
   setup.frame = beats(image, lanes);
   const auto start = std::chrono::steady_clock::now();
   const Cycle cycles = setup.run(frames);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  const spec::MorphologicalWork work = setup.engine.work();
+  const spec::morphological::Work work = setup.engine.work();
   std::cout << fmt::format(
       "{} cycles, {:.2f} Mcycle/s; last frame {} clocks; {:.1f} % edge pixels, {} record stalls "
       "({} interlock), latency {}..{}\n",

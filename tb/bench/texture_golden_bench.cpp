@@ -4,7 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include "golden/texture/texture_golden.h"
-#include "tb/unit/texture_golden_support.h"
+#include "tb/unit/golden/texture/support.h"
 
 namespace deburr {
 namespace {
@@ -12,10 +12,10 @@ namespace {
 using golden::texture::TextureGolden;
 using tb::texture::GroundPlane;
 
-spec::TextureDescriptor trilinear(int max_anisotropy_log2) {
-  spec::TextureDescriptor d;
-  d.format = spec::Format::kRgba8;
-  d.layout = spec::Layout::kTiled;
+spec::texture::Descriptor trilinear(int max_anisotropy_log2) {
+  spec::texture::Descriptor d;
+  d.format = spec::texture::Format::kRgba8;
+  d.layout = spec::texture::Layout::kTiled;
   d.max_anisotropy_log2 = static_cast<std::uint8_t>(max_anisotropy_log2);
   return d;
 }
@@ -27,11 +27,11 @@ const tb::texture::Pyramid& picture() {
 
 void run(benchmark::State& state, int max_anisotropy_log2, TextureGolden::Traffic traffic) {
   const tb::texture::EncodedTexture texture(picture(), trilinear(max_anisotropy_log2));
-  const std::vector<spec::Quad> quads = GroundPlane{.size = 256, .height = 0.3}.quads();
-  TextureGolden golden(spec::TextureParameters{}, texture.memory, traffic);
+  const std::vector<spec::texture::Quad> quads = GroundPlane{.size = 256, .height = 0.3}.quads();
+  TextureGolden golden(spec::texture::Parameters{}, texture.memory, traffic);
   golden.set_texture(0, texture.descriptor);
   for (auto _ : state) {
-    for (const spec::Quad& quad : quads) benchmark::DoNotOptimize(golden.process(quad));
+    for (const spec::texture::Quad& quad : quads) benchmark::DoNotOptimize(golden.process(quad));
   }
   const golden::texture::TextureWork& work = golden.work();
   state.SetItemsProcessed(static_cast<std::int64_t>(work.samples));

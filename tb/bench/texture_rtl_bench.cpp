@@ -28,9 +28,9 @@
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/texture_unit.h"
-#include "spec/fragment.h"
-#include "spec/texture.h"
-#include "tb/app/texture_memory.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/packets.h"
+#include "tb/env/texture_memory.h"
 #include "tb/harness/memory_model.h"
 
 namespace deburr::tb {
@@ -40,14 +40,14 @@ using rtl::Activity;
 using rtl::Cycle;
 
 constexpr int kSize = 1024;  // of the texture, texels
-constexpr std::int32_t kTexel = spec::kCoordinateOne / kSize;
+constexpr std::int32_t kTexel = spec::texture::kCoordinateOne / kSize;
 
 enum class Workload : std::uint8_t { kNearest, kTrilinear, kAnisotropic, kWarm };
 constexpr std::array<const char*, 4> kWorkloads = {"nearest", "trilinear", "anisotropic", "warm"};
 
 // Quad number `count` of a picture that is gone over in blocks of 8 x 8 pixels, for ever.
-spec::Quad quad_of(Workload workload, std::uint32_t count) {
-  spec::Quad q;
+spec::texture::Quad quad_of(Workload workload, std::uint32_t count) {
+  spec::texture::Quad q;
   q.tag = count;
   q.texture = static_cast<std::uint8_t>(workload);
   // Texels a pixel in x and y. Anisotropic: 12 to 1.5.
@@ -62,13 +62,14 @@ spec::Quad quad_of(Workload workload, std::uint32_t count) {
 }
 
 // 11 levels of 1024 x 1024 RGBA8, tiled, trilinear or nearest, N_max 16.
-spec::TextureDescriptor texture_of(Workload workload) {
-  spec::TextureDescriptor d;
+spec::texture::Descriptor texture_of(Workload workload) {
+  spec::texture::Descriptor d;
   d.width = d.height = kSize;
   d.levels = 11;
   const bool nearest = workload == Workload::kNearest;
-  d.min_filter = nearest ? spec::MinFilter::kNearest : spec::MinFilter::kLinearMipmapLinear;
-  d.mag_filter = nearest ? spec::MagFilter::kNearest : spec::MagFilter::kLinear;
+  d.min_filter =
+      nearest ? spec::texture::MinFilter::kNearest : spec::texture::MinFilter::kLinearMipmapLinear;
+  d.mag_filter = nearest ? spec::texture::MagFilter::kNearest : spec::texture::MagFilter::kLinear;
   d.max_anisotropy_log2 = 4;
   std::uint32_t base = 0;
   for (std::uint32_t k = 0; k < d.levels; ++k) {
@@ -90,7 +91,7 @@ std::vector<std::uint8_t> noise() {
 
 class Fragments final : public rtl::Unit {
  public:
-  rtl::Out<spec::Quad> quads_out{"quads_out"};
+  rtl::Out<spec::texture::Quad> quads_out{"quads_out"};
   Fragments(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
   void choose(Workload workload) { workload_ = workload; }
 
@@ -108,7 +109,7 @@ class Fragments final : public rtl::Unit {
 
 class Picture final : public rtl::Unit {
  public:
-  rtl::In<spec::Colour> colours_in{"colours_in"};
+  rtl::In<spec::texture::Colour> colours_in{"colours_in"};
   Picture(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
   Activity tick(Cycle cycle) override {
     if (!colours_in.can_pop(cycle)) return rtl::kIdle;
@@ -152,8 +153,8 @@ struct Host : sc_core::sc_module {
 // SystemC elaborates once in a process, so all benchmarks share the unit.
 struct System {
   rtl::ClockDomain clock{"clock", sc_core::sc_time(6, sc_core::SC_NS)};
-  rtl::Link<spec::Quad> quads{"quads"};
-  rtl::Link<spec::Colour> colours{"colours"};
+  rtl::Link<spec::texture::Quad> quads{"quads"};
+  rtl::Link<spec::texture::Colour> colours{"colours"};
   Fragments fragments{"fragments", clock};
   rtl::texture::TextureUnit unit{"texture", clock, {}};
   Picture picture{"picture", clock};

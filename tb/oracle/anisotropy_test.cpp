@@ -14,7 +14,7 @@ constexpr Size kSize{128, 128};
 
 const EncodedTexture& checker() {
   static const EncodedTexture texture =
-      make_texture(Pattern::kChecker, spec::Format::kRgba8, kSize.width, kSize.height, 1);
+      make_texture(Pattern::kChecker, spec::texture::Format::kRgba8, kSize.width, kSize.height, 1);
   return texture;
 }
 
@@ -42,10 +42,10 @@ bool falls_strictly(const Errors& e) {
   return e[1] < kVisible * e[0] && e[4] < kVisible * e[1];
 }
 
-Errors golden_errors(const spec::TextureParameters& parameters, spec::MinFilter min_filter,
-                     bool honour_n_max = true) {
+Errors golden_errors(const spec::texture::Parameters& parameters,
+                     spec::texture::MinFilter min_filter, bool honour_n_max = true) {
   return errors([&](int lb_n) {
-    spec::TextureDescriptor state;
+    spec::texture::Descriptor state;
     state.min_filter = min_filter;
     state.max_anisotropy_log2 = static_cast<std::uint8_t>(honour_n_max ? lb_n : 0);
     return golden_filter(parameters)(checker(), state);
@@ -53,21 +53,22 @@ Errors golden_errors(const spec::TextureParameters& parameters, spec::MinFilter 
 }
 
 TEST(Anisotropy, AliasingFallsWithoutMipLevels) {
-  EXPECT_TRUE(falls_strictly(golden_errors({}, spec::MinFilter::kLinear)));
-  EXPECT_TRUE(falls_strictly(golden_errors({}, spec::MinFilter::kNearest)));
+  EXPECT_TRUE(falls_strictly(golden_errors({}, spec::texture::MinFilter::kLinear)));
+  EXPECT_TRUE(falls_strictly(golden_errors({}, spec::texture::MinFilter::kNearest)));
 }
 
 TEST(Anisotropy, ErrorFallsWithMipLevelsForEveryRule) {
-  for (std::size_t footprint = 0; footprint < spec::kFootprintNames.size(); ++footprint) {
-    for (std::size_t log2 = 0; log2 < spec::kLog2Names.size(); ++log2) {
-      spec::TextureParameters parameters;
-      parameters.footprint = static_cast<spec::FootprintRule>(footprint);
-      parameters.log2 = static_cast<spec::Log2Rule>(log2);
-      for (const spec::CountRule count : {spec::CountRule::kFloor, spec::CountRule::kCeil}) {
+  for (std::size_t footprint = 0; footprint < spec::texture::kFootprintNames.size(); ++footprint) {
+    for (std::size_t log2 = 0; log2 < spec::texture::kLog2Names.size(); ++log2) {
+      spec::texture::Parameters parameters;
+      parameters.footprint = static_cast<spec::texture::FootprintRule>(footprint);
+      parameters.log2 = static_cast<spec::texture::Log2Rule>(log2);
+      for (const spec::texture::CountRule count :
+           {spec::texture::CountRule::kFloor, spec::texture::CountRule::kCeil}) {
         parameters.count = count;
-        const Errors e = golden_errors(parameters, spec::MinFilter::kLinearMipmapLinear);
+        const Errors e = golden_errors(parameters, spec::texture::MinFilter::kLinearMipmapLinear);
         EXPECT_TRUE(falls_strictly(e))
-            << spec::kFootprintNames[footprint] << " " << spec::kLog2Names[log2];
+            << spec::texture::kFootprintNames[footprint] << " " << spec::texture::kLog2Names[log2];
       }
     }
   }
@@ -75,10 +76,10 @@ TEST(Anisotropy, ErrorFallsWithMipLevelsForEveryRule) {
 
 // N_max ignored, or all N samples at the pixel's centre: nothing falls.
 TEST(AnisotropyFault, IgnoredSampleCountAndMissingSpreadAreSeen) {
-  for (const spec::MinFilter filter :
-       {spec::MinFilter::kLinear, spec::MinFilter::kLinearMipmapLinear}) {
+  for (const spec::texture::MinFilter filter :
+       {spec::texture::MinFilter::kLinear, spec::texture::MinFilter::kLinearMipmapLinear}) {
     EXPECT_FALSE(falls_strictly(golden_errors({}, filter, false)));
-    spec::TextureParameters heap;
+    spec::texture::Parameters heap;
     heap.spread = 0;
     EXPECT_FALSE(falls_strictly(golden_errors(heap, filter)));
   }

@@ -13,7 +13,7 @@ namespace deburr::tb::texture {
 namespace {
 
 using golden::ideal::Verdict;
-using spec::MinFilter;
+using spec::texture::MinFilter;
 
 constexpr int kQuadsOfLod = 1024;
 
@@ -57,20 +57,21 @@ CaseResult judge_all(const FilterFactory& filter, const Sweep& sweep) {
 }
 
 // The golden model's level of detail over the fragments of all sizes.
-void measure_lod(const spec::TextureParameters& parameters, ConformanceRow& row) {
+void measure_lod(const spec::texture::Parameters& parameters, ConformanceRow& row) {
   constexpr golden::ideal::Precision kExact{"exact", 1000, 1000, 1000, 1000};
   std::uint32_t seed = 1;
   for (const Size& size : kFilteringSizes) {
     const EncodedTexture texture =
-        make_texture(Pattern::kLevels, spec::Format::kRgba8, size.width, size.height, 1);
+        make_texture(Pattern::kLevels, spec::texture::Format::kRgba8, size.width, size.height, 1);
     EncodedMemory memory;
-    const spec::TextureDescriptor descriptor = memory.place(texture, spec::Layout::kTiled);
+    const spec::texture::Descriptor descriptor =
+        memory.place(texture, spec::texture::Layout::kTiled);
     golden::texture::TextureGolden unit(parameters, memory.bytes(),
                                         golden::texture::TextureGolden::Traffic::kIgnore);
     unit.set_texture(0, descriptor);
     const golden::ideal::Texture ideal = ideal_texture(texture);
     const golden::ideal::Sampler sampler = sampler_of(descriptor);
-    for (const spec::Quad& quad : filtering_quads(size, kQuadsOfLod, seed++)) {
+    for (const spec::texture::Quad& quad : filtering_quads(size, kQuadsOfLod, seed++)) {
       for (int lane = 0; lane < 4; ++lane) {
         const double l = unit.analyse(quad, lane).lod.l / 4096.0;
         const golden::ideal::Fragment f = fragment_of(quad, lane);
@@ -93,27 +94,27 @@ void measure_lod(const spec::TextureParameters& parameters, ConformanceRow& row)
 std::string case_name(const FilteringCase& c) {
   constexpr std::array<std::string_view, 5> kPatternNames = {"noise", "composite", "levels",
                                                              "pyramid", "checker"};
-  const spec::TextureDescriptor& d = c.descriptor;
+  const spec::texture::Descriptor& d = c.descriptor;
   return fmt::format("{} {}x{} {} {} min {} mag {} wrap {} {} bias {} lod {}..{} seed {}",
                      kPatternNames[static_cast<std::size_t>(c.pattern)], c.size.width,
-                     c.size.height, spec::kFormatNames[static_cast<std::size_t>(d.format)],
-                     spec::kLayoutNames[static_cast<std::size_t>(d.layout)],
-                     spec::kMinFilterNames[static_cast<std::size_t>(d.min_filter)],
-                     spec::kMagFilterNames[static_cast<std::size_t>(d.mag_filter)],
-                     spec::kWrapNames[static_cast<std::size_t>(d.wrap_s)],
-                     spec::kWrapNames[static_cast<std::size_t>(d.wrap_t)], d.lod_bias / 256.0,
-                     d.min_lod / 256.0, d.max_lod / 256.0, c.seed);
+                     c.size.height, spec::texture::kFormatNames[static_cast<std::size_t>(d.format)],
+                     spec::texture::kLayoutNames[static_cast<std::size_t>(d.layout)],
+                     spec::texture::kMinFilterNames[static_cast<std::size_t>(d.min_filter)],
+                     spec::texture::kMagFilterNames[static_cast<std::size_t>(d.mag_filter)],
+                     spec::texture::kWrapNames[static_cast<std::size_t>(d.wrap_s)],
+                     spec::texture::kWrapNames[static_cast<std::size_t>(d.wrap_t)],
+                     d.lod_bias / 256.0, d.min_lod / 256.0, d.max_lod / 256.0, c.seed);
 }
 
-FilterFactory golden_filter(const spec::TextureParameters& parameters) {
-  return [parameters](const EncodedTexture& texture, const spec::TextureDescriptor& state) {
+FilterFactory golden_filter(const spec::texture::Parameters& parameters) {
+  return [parameters](const EncodedTexture& texture, const spec::texture::Descriptor& state) {
     struct Unit {
       EncodedMemory memory;
       std::unique_ptr<golden::texture::TextureGolden> golden;
     };
     auto unit = std::make_shared<Unit>();
-    spec::TextureDescriptor descriptor = state;
-    const spec::TextureDescriptor placed = unit->memory.place(texture, state.layout);
+    spec::texture::Descriptor descriptor = state;
+    const spec::texture::Descriptor placed = unit->memory.place(texture, state.layout);
     descriptor.width = placed.width;
     descriptor.height = placed.height;
     descriptor.levels = placed.levels;
@@ -122,9 +123,9 @@ FilterFactory golden_filter(const spec::TextureParameters& parameters) {
     unit->golden = std::make_unique<golden::texture::TextureGolden>(
         parameters, unit->memory.bytes(), golden::texture::TextureGolden::Traffic::kIgnore);
     unit->golden->set_texture(0, descriptor);
-    return [unit](const spec::Quad& quad) {
+    return [unit](const spec::texture::Quad& quad) {
       std::array<std::array<std::uint8_t, 4>, 4> colours{};
-      for (const spec::Colour& colour : unit->golden->process(quad))
+      for (const spec::texture::Colour& colour : unit->golden->process(quad))
         colours[colour.lane] = colour.rgba;
       return colours;
     };
@@ -138,7 +139,8 @@ CaseResult judge(const FilteringCase& c, const FilterFactory& filter) {
   const golden::ideal::Sampler sampler = sampler_of(c.descriptor);
   golden::ideal::Judge judge(ideal, sampler);
   const QuadFilter sample = filter(texture, c.descriptor);
-  for (const spec::Quad& quad : filtering_quads(c.size, c.quads, c.seed, sampler.lod_bias)) {
+  for (const spec::texture::Quad& quad :
+       filtering_quads(c.size, c.quads, c.seed, sampler.lod_bias)) {
     const auto colours = sample(quad);
     for (int lane = 0; lane < 4; ++lane)
       judge.add(fragment_of(quad, lane), real(colours[static_cast<std::size_t>(lane)]));
@@ -164,11 +166,11 @@ CaseResult judge(const FilteringCase& c, const FilterFactory& filter) {
 
 std::vector<ConformanceRow> conformance_table() {
   std::vector<ConformanceRow> rows;
-  for (std::size_t footprint = 0; footprint < spec::kFootprintNames.size(); ++footprint) {
-    for (std::size_t log2 = 0; log2 < spec::kLog2Names.size(); ++log2) {
-      spec::TextureParameters parameters;
-      parameters.footprint = static_cast<spec::FootprintRule>(footprint);
-      parameters.log2 = static_cast<spec::Log2Rule>(log2);
+  for (std::size_t footprint = 0; footprint < spec::texture::kFootprintNames.size(); ++footprint) {
+    for (std::size_t log2 = 0; log2 < spec::texture::kLog2Names.size(); ++log2) {
+      spec::texture::Parameters parameters;
+      parameters.footprint = static_cast<spec::texture::FootprintRule>(footprint);
+      parameters.log2 = static_cast<spec::texture::Log2Rule>(log2);
       ConformanceRow row;
       row.footprint = parameters.footprint;
       row.log2 = parameters.log2;
@@ -207,8 +209,8 @@ std::string conformance_markdown(const std::vector<ConformanceRow>& rows) {
   for (const ConformanceRow& row : rows)
     text += fmt::format(
         "| `{}` | `{}` | **{}** | {} | {} | {} | {} | {:.4f} | {:.4f} | {:+.3f} .. {:+.3f} |\n",
-        spec::kFootprintNames[static_cast<std::size_t>(row.footprint)],
-        spec::kLog2Names[static_cast<std::size_t>(row.log2)],
+        spec::texture::kFootprintNames[static_cast<std::size_t>(row.footprint)],
+        spec::texture::kLog2Names[static_cast<std::size_t>(row.log2)],
         golden::ideal::verdict_name(row.verdict), cell(row.mipmap_nearest), cell(row.mipmap_linear),
         cell(row.biased), cell(row.pyramid), row.lod_below, row.lod_above, row.lod_error_low,
         row.lod_error_high);

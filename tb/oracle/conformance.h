@@ -11,8 +11,9 @@
 #include <vector>
 
 #include "golden/ideal/filtering_criterion.h"
-#include "spec/fragment.h"
-#include "spec/texture.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/packets.h"
+#include "spec/texture/parameters.h"
 #include "tb/oracle/encoded_texture.h"
 #include "tb/oracle/filtering_cases.h"
 
@@ -22,20 +23,21 @@ namespace deburr::tb::texture {
 struct FilteringCase {
   Pattern pattern = Pattern::kComposite;
   Size size{32, 64};
-  spec::TextureDescriptor descriptor{};  // format, layout, wraps, filters, bias, clamps
+  spec::texture::Descriptor descriptor{};  // format, layout, wraps, filters, bias, clamps
   int quads = 64;
   std::uint32_t seed = 1;
 };
 std::string case_name(const FilteringCase& filtering_case);
 
 // Colours of the four lanes of a quad.
-using QuadFilter = std::function<std::array<std::array<std::uint8_t, 4>, 4>(const spec::Quad&)>;
+using QuadFilter =
+    std::function<std::array<std::array<std::uint8_t, 4>, 4>(const spec::texture::Quad&)>;
 // Makes a filter for a texture; the filter may keep references to its arguments.
 using FilterFactory =
-    std::function<QuadFilter(const EncodedTexture&, const spec::TextureDescriptor& state)>;
+    std::function<QuadFilter(const EncodedTexture&, const spec::texture::Descriptor& state)>;
 
 // The golden model with the given rules.
-FilterFactory golden_filter(const spec::TextureParameters& parameters);
+FilterFactory golden_filter(const spec::texture::Parameters& parameters);
 
 struct CaseResult {
   golden::ideal::Verdict verdict = golden::ideal::Verdict::kFail;
@@ -48,8 +50,8 @@ CaseResult judge(const FilteringCase& filtering_case, const FilterFactory& filte
 
 // What one footprint rule with one logarithm rule gets.
 struct ConformanceRow {
-  spec::FootprintRule footprint;
-  spec::Log2Rule log2;
+  spec::texture::FootprintRule footprint;
+  spec::texture::Log2Rule log2;
   // Level of detail against the legal interval, in levels: how far it was below and above it.
   double lod_below = 0.0, lod_above = 0.0;
   // Level of detail minus the exact one (lb of the longer side), in levels.

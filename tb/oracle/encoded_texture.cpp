@@ -15,26 +15,26 @@ struct ChannelBits {
   std::array<int, 4> shift, bits;  // R, G, B, A; 0 bits: alpha is full scale
 };
 
-ChannelBits channel_bits(spec::Format format) {
+ChannelBits channel_bits(spec::texture::Format format) {
   switch (format) {
-    case spec::Format::kRgba8:
-    case spec::Format::kSrgb8A8:
+    case spec::texture::Format::kRgba8:
+    case spec::texture::Format::kSrgb8A8:
       return {{0, 8, 16, 24}, {8, 8, 8, 8}};
-    case spec::Format::kRgb565:
+    case spec::texture::Format::kRgb565:
       return {{11, 5, 0, 0}, {5, 6, 5, 0}};
-    case spec::Format::kRgba4444:
+    case spec::texture::Format::kRgba4444:
       return {{12, 8, 4, 0}, {4, 4, 4, 4}};
-    case spec::Format::kL8:
+    case spec::texture::Format::kL8:
       return {{0, 0, 0, 0}, {8, 8, 8, 0}};
   }
   return {};
 }
 
 // The code whose channels are nearest to `colour`, 0..255 each. L8 takes R.
-std::uint32_t encode(spec::Format format, const std::array<double, 4>& colour) {
+std::uint32_t encode(spec::texture::Format format, const std::array<double, 4>& colour) {
   const ChannelBits layout = channel_bits(format);
   std::uint32_t code = 0;
-  const std::size_t stored = format == spec::Format::kL8 ? 1 : 4;
+  const std::size_t stored = format == spec::texture::Format::kL8 ? 1 : 4;
   for (std::size_t c = 0; c < stored; ++c) {
     const double top = static_cast<double>((1 << layout.bits[c]) - 1);
     code |= static_cast<std::uint32_t>(std::lround(colour[c] / 255.0 * top)) << layout.shift[c];
@@ -66,8 +66,8 @@ std::array<double, 4> texel(Pattern pattern, int level, int x, int y, Random& ra
 }
 
 // Box average of the texels of `above` that a texel of the next level covers.
-std::array<double, 4> box_average(spec::Format format, const EncodedLevel& above, int x, int y,
-                                  int width, int height) {
+std::array<double, 4> box_average(spec::texture::Format format, const EncodedLevel& above, int x,
+                                  int y, int width, int height) {
   std::array<double, 4> sum{};
   int count = 0;
   const int x1 = std::max(x * above.width / width + 1, (x + 1) * above.width / width);
@@ -105,7 +105,7 @@ int log2_round_up(int n) { return std::bit_width(static_cast<unsigned>(n - 1)); 
 
 }  // namespace
 
-EncodedTexture make_texture(Pattern pattern, spec::Format format, int width, int height,
+EncodedTexture make_texture(Pattern pattern, spec::texture::Format format, int width, int height,
                             std::uint32_t seed) {
   DEBURR_CHECK(width > 0 && height > 0, "a test texture has texels");
   Random random(seed);
@@ -126,7 +126,7 @@ EncodedTexture make_texture(Pattern pattern, spec::Format format, int width, int
   return texture;
 }
 
-std::array<double, 4> channels(spec::Format format, std::uint32_t code) {
+std::array<double, 4> channels(spec::texture::Format format, std::uint32_t code) {
   const ChannelBits layout = channel_bits(format);
   std::array<double, 4> colour{255.0, 255.0, 255.0, 255.0};
   for (std::size_t c = 0; c < 4; ++c) {
@@ -143,7 +143,7 @@ golden::ideal::Texture ideal_texture(const EncodedTexture& texture) {
     golden::ideal::Level converted{level.width, level.height, {}};
     for (const std::uint32_t code : level.codes) {
       auto colour = channels(texture.format, code);
-      if (texture.format == spec::Format::kSrgb8A8)
+      if (texture.format == spec::texture::Format::kSrgb8A8)
         for (std::size_t c = 0; c < 3; ++c) colour[c] = linear_light(colour[c]);
       converted.texels.push_back(colour);
     }
@@ -152,7 +152,7 @@ golden::ideal::Texture ideal_texture(const EncodedTexture& texture) {
   return ideal;
 }
 
-std::vector<std::uint8_t> rgba_bytes(spec::Format format, const EncodedLevel& level) {
+std::vector<std::uint8_t> rgba_bytes(spec::texture::Format format, const EncodedLevel& level) {
   std::vector<std::uint8_t> bytes;
   for (const std::uint32_t code : level.codes)
     for (const double c : channels(format, code))
@@ -160,12 +160,13 @@ std::vector<std::uint8_t> rgba_bytes(spec::Format format, const EncodedLevel& le
   return bytes;
 }
 
-spec::TextureDescriptor EncodedMemory::place(const EncodedTexture& texture, spec::Layout layout) {
+spec::texture::Descriptor EncodedMemory::place(const EncodedTexture& texture,
+                                               spec::texture::Layout layout) {
   const auto format = static_cast<std::size_t>(texture.format);
-  const auto texel_bytes = static_cast<std::uint32_t>(spec::kFormatBytes[format]);
-  const int tile_width = spec::kTileWidth[texel_bytes];
-  const int tile_height = spec::kTileHeight[texel_bytes];
-  spec::TextureDescriptor descriptor;
+  const auto texel_bytes = static_cast<std::uint32_t>(spec::texture::kFormatBytes[format]);
+  const int tile_width = spec::texture::kTileWidth[texel_bytes];
+  const int tile_height = spec::texture::kTileHeight[texel_bytes];
+  spec::texture::Descriptor descriptor;
   descriptor.width = static_cast<std::uint16_t>(texture.width());
   descriptor.height = static_cast<std::uint16_t>(texture.height());
   descriptor.levels = static_cast<std::uint8_t>(texture.levels.size());
@@ -178,8 +179,9 @@ spec::TextureDescriptor EncodedMemory::place(const EncodedTexture& texture, spec
     const int tiles_x_log2 = log2_round_up((level.width + tile_width - 1) / tile_width);
     const int tiles_y_log2 = log2_round_up((level.height + tile_height - 1) / tile_height);
     const std::uint32_t pitch = round_up_to_line(width * texel_bytes);
-    const std::uint32_t size =
-        layout == spec::Layout::kLinear ? pitch * height : 64u << (tiles_x_log2 + tiles_y_log2);
+    const std::uint32_t size = layout == spec::texture::Layout::kLinear
+                                   ? pitch * height
+                                   : 64u << (tiles_x_log2 + tiles_y_log2);
     const auto base = static_cast<std::uint32_t>(bytes_.size());
     descriptor.base[k] = base;
     bytes_.resize(base + size);
@@ -188,7 +190,7 @@ spec::TextureDescriptor EncodedMemory::place(const EncodedTexture& texture, spec
         const auto tw = static_cast<std::uint32_t>(tile_width);
         const auto th = static_cast<std::uint32_t>(tile_height);
         const std::uint32_t address =
-            layout == spec::Layout::kLinear
+            layout == spec::texture::Layout::kLinear
                 ? base + y * pitch + x * texel_bytes
                 : base + 64u * morton(x / tw, y / th, tiles_x_log2, tiles_y_log2) +
                       (y % th * tw + x % tw) * texel_bytes;

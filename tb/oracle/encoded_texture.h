@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "golden/ideal/filtering_criterion.h"
-#include "spec/texture.h"
+#include "spec/texture/descriptor.h"
 
 namespace deburr::tb::texture {
 
@@ -23,7 +23,7 @@ struct EncodedLevel {
 };
 
 struct EncodedTexture {
-  spec::Format format = spec::Format::kRgba8;
+  spec::texture::Format format = spec::texture::Format::kRgba8;
   std::vector<EncodedLevel> levels;
   int width() const { return levels.front().width; }
   int height() const { return levels.front().height; }
@@ -41,22 +41,22 @@ enum class Pattern {
 };
 
 // Full mip chain of width x height. The same arguments give the same texels on every machine.
-EncodedTexture make_texture(Pattern pattern, spec::Format format, int width, int height,
+EncodedTexture make_texture(Pattern pattern, spec::texture::Format format, int width, int height,
                             std::uint32_t seed);
 
 // A channel of a code, as stored, scaled to 0..255 without rounding.
-std::array<double, 4> channels(spec::Format format, std::uint32_t code);
+std::array<double, 4> channels(spec::texture::Format format, std::uint32_t code);
 // The same brought to linear light: what a sampler filters.
 golden::ideal::Texture ideal_texture(const EncodedTexture& texture);
 // Level as R, G, B, A bytes, nearest where a channel has fewer than 8 bits.
-std::vector<std::uint8_t> rgba_bytes(spec::Format format, const EncodedLevel& level);
+std::vector<std::uint8_t> rgba_bytes(spec::texture::Format format, const EncodedLevel& level);
 
 // Texture memory of a unit.
 class EncodedMemory {
  public:
   // Places the texture behind what is there; returns a descriptor with size, levels, format, layout
   // and bases set, the sampler state at its defaults.
-  spec::TextureDescriptor place(const EncodedTexture& texture, spec::Layout layout);
+  spec::texture::Descriptor place(const EncodedTexture& texture, spec::texture::Layout layout);
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }
 
  private:

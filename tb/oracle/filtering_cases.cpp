@@ -44,20 +44,20 @@ Jacobian jacobian(int kind, double lod, Random& random) {
 }
 
 std::int32_t fixed(double coordinate) {
-  return static_cast<std::int32_t>(std::lround(coordinate * spec::kCoordinateOne));
+  return static_cast<std::int32_t>(std::lround(coordinate * spec::texture::kCoordinateOne));
 }
 
 double real(std::int64_t coordinate) {
-  return static_cast<double>(coordinate) / spec::kCoordinateOne;
+  return static_cast<double>(coordinate) / spec::texture::kCoordinateOne;
 }
 
 }  // namespace
 
-std::vector<spec::Quad> filtering_quads(const Size& size, int count, std::uint32_t seed,
-                                        double lod_bias) {
+std::vector<spec::texture::Quad> filtering_quads(const Size& size, int count, std::uint32_t seed,
+                                                 double lod_bias) {
   Random random(seed);
   const int last = std::bit_width(static_cast<unsigned>(std::max(size.width, size.height))) - 1;
-  std::vector<spec::Quad> quads;
+  std::vector<spec::texture::Quad> quads;
   for (int i = 0; i < count; ++i) {
     // Every fourth quad lies close to where a filter switches: l = 0, k + 1/2.
     const double sweep = -3.0 + (last + 4.0) * (i + random.uniform(0.0, 1.0)) / count;
@@ -67,7 +67,7 @@ std::vector<spec::Quad> filtering_quads(const Size& size, int count, std::uint32
     const Jacobian j = jacobian(static_cast<int>(random.next() % 8), lod - lod_bias, random);
     const double s0 = random.uniform(-2.0, 2.0);
     const double t0 = random.uniform(-2.0, 2.0);
-    spec::Quad quad;
+    spec::texture::Quad quad;
     quad.tag = static_cast<std::uint32_t>(i);
     for (std::size_t lane = 0; lane < 4; ++lane) {
       const double x = static_cast<double>(lane & 1);
@@ -80,7 +80,7 @@ std::vector<spec::Quad> filtering_quads(const Size& size, int count, std::uint32
   return quads;
 }
 
-golden::ideal::Fragment fragment_of(const spec::Quad& quad, int lane) {
+golden::ideal::Fragment fragment_of(const spec::texture::Quad& quad, int lane) {
   const auto row = static_cast<std::size_t>(lane & 2);
   const auto column = static_cast<std::size_t>(lane & 1);
   const auto difference = [](const std::array<std::int32_t, 4>& c, std::size_t to,
@@ -94,7 +94,7 @@ golden::ideal::Fragment fragment_of(const spec::Quad& quad, int lane) {
           difference(quad.t, column + 2, column)};
 }
 
-golden::ideal::Sampler sampler_of(const spec::TextureDescriptor& descriptor) {
+golden::ideal::Sampler sampler_of(const spec::texture::Descriptor& descriptor) {
   return {descriptor.wrap_s,         descriptor.wrap_t,           descriptor.min_filter,
           descriptor.mag_filter,     descriptor.lod_bias / 256.0, descriptor.min_lod / 256.0,
           descriptor.max_lod / 256.0};

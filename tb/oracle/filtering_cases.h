@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "golden/ideal/filtering_criterion.h"
-#include "spec/fragment.h"
-#include "spec/texture.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/packets.h"
 
 namespace deburr::tb::texture {
 
@@ -24,13 +24,13 @@ inline constexpr Size kFilteringSizes[] = {{4, 8}, {32, 64}, {128, 128},
 // alone, along v alone, square, rotated, sheared, magnified, mirrored and close to the thresholds
 // of the level of detail, in turns. The levels of detail, `lod_bias` included, sweep -3 .. last
 // level + 1.
-std::vector<spec::Quad> filtering_quads(const Size& size, int count, std::uint32_t seed,
-                                        double lod_bias = 0.0);
+std::vector<spec::texture::Quad> filtering_quads(const Size& size, int count, std::uint32_t seed,
+                                                 double lod_bias = 0.0);
 
 // A lane with its own row's and column's differences as derivatives, without rounding.
-golden::ideal::Fragment fragment_of(const spec::Quad& quad, int lane);
+golden::ideal::Fragment fragment_of(const spec::texture::Quad& quad, int lane);
 
 // The sampler state of a descriptor, in real numbers.
-golden::ideal::Sampler sampler_of(const spec::TextureDescriptor& descriptor);
+golden::ideal::Sampler sampler_of(const spec::texture::Descriptor& descriptor);
 
 }  // namespace deburr::tb::texture

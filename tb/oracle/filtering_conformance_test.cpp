@@ -12,13 +12,13 @@ namespace {
 
 using golden::ideal::Verdict;
 
-spec::TextureParameters segments() {
-  spec::TextureParameters parameters;
-  parameters.log2 = spec::Log2Rule::kSegments;
+spec::texture::Parameters segments() {
+  spec::texture::Parameters parameters;
+  parameters.log2 = spec::texture::Log2Rule::kSegments;
   return parameters;
 }
 
-class EveryFormat : public testing::TestWithParam<spec::Format> {};
+class EveryFormat : public testing::TestWithParam<spec::texture::Format> {};
 
 TEST_P(EveryFormat, IsHighInEveryModeWrapLayoutAndSize) {
   const FilterFactory filter = golden_filter(segments());
@@ -31,16 +31,17 @@ TEST_P(EveryFormat, IsHighInEveryModeWrapLayoutAndSize) {
          {Pattern::kNoise, Pattern::kComposite, Pattern::kLevels, Pattern::kPyramid})
       for (std::uint8_t mode = 0; mode < 12; ++mode)
         for (std::uint8_t wrap = 0; wrap < 3; ++wrap)
-          for (const spec::Layout layout : {spec::Layout::kLinear, spec::Layout::kTiled}) {
+          for (const spec::texture::Layout layout :
+               {spec::texture::Layout::kLinear, spec::texture::Layout::kTiled}) {
             FilteringCase c{pattern, size, {}, 48, ++seed};
             c.descriptor.format = GetParam();
-            c.descriptor.min_filter = static_cast<spec::MinFilter>(mode / 2);
-            c.descriptor.mag_filter = static_cast<spec::MagFilter>(mode % 2);
+            c.descriptor.min_filter = static_cast<spec::texture::MinFilter>(mode / 2);
+            c.descriptor.mag_filter = static_cast<spec::texture::MagFilter>(mode % 2);
             c.descriptor.layout = layout;
-            c.descriptor.wrap_s = static_cast<spec::Wrap>(wrap);
+            c.descriptor.wrap_s = static_cast<spec::texture::Wrap>(wrap);
             // The layouts share the work of the nine pairs of wraps.
-            c.descriptor.wrap_t =
-                static_cast<spec::Wrap>((wrap + (layout == spec::Layout::kLinear ? 0 : seed)) % 3);
+            c.descriptor.wrap_t = static_cast<spec::texture::Wrap>(
+                (wrap + (layout == spec::texture::Layout::kLinear ? 0 : seed)) % 3);
             const CaseResult r = judge(c, filter);
             ASSERT_EQ(r.verdict, Verdict::kHigh) << r.worst;
             ASSERT_EQ(r.undecided, 0) << case_name(c);
@@ -56,14 +57,14 @@ TEST_P(EveryFormat, IsHighInEveryModeWrapLayoutAndSize) {
               static_cast<long long>(fragments), worst, where.c_str());
 }
 
-INSTANTIATE_TEST_SUITE_P(Golden, EveryFormat,
-                         testing::Values(spec::Format::kRgba8, spec::Format::kRgb565,
-                                         spec::Format::kRgba4444, spec::Format::kL8,
-                                         spec::Format::kSrgb8A8),
-                         [](const auto& suite) {
-                           return std::string(
-                               spec::kFormatNames[static_cast<std::size_t>(suite.param)]);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Golden, EveryFormat,
+    testing::Values(spec::texture::Format::kRgba8, spec::texture::Format::kRgb565,
+                    spec::texture::Format::kRgba4444, spec::texture::Format::kL8,
+                    spec::texture::Format::kSrgb8A8),
+    [](const auto& suite) {
+      return std::string(spec::texture::kFormatNames[static_cast<std::size_t>(suite.param)]);
+    });
 
 TEST(Golden, IsHighWithBiasAndClamps) {
   const FilterFactory filter = golden_filter(segments());
@@ -74,10 +75,10 @@ TEST(Golden, IsHighWithBiasAndClamps) {
                     {},
                     48,
                     seed};
-    c.descriptor.min_filter = static_cast<spec::MinFilter>(random.next() % 6);
-    c.descriptor.mag_filter = static_cast<spec::MagFilter>(random.next() % 2);
-    c.descriptor.wrap_s = static_cast<spec::Wrap>(random.next() % 3);
-    c.descriptor.wrap_t = static_cast<spec::Wrap>(random.next() % 3);
+    c.descriptor.min_filter = static_cast<spec::texture::MinFilter>(random.next() % 6);
+    c.descriptor.mag_filter = static_cast<spec::texture::MagFilter>(random.next() % 2);
+    c.descriptor.wrap_s = static_cast<spec::texture::Wrap>(random.next() % 3);
+    c.descriptor.wrap_t = static_cast<spec::texture::Wrap>(random.next() % 3);
     c.descriptor.lod_bias = static_cast<std::int16_t>(random.uniform(-768, 768));
     if (seed % 3 == 0) c.descriptor.min_lod = static_cast<std::uint16_t>(random.next() % 768);
     if (seed % 5 == 0)
@@ -96,18 +97,18 @@ TEST(Rules, TheLogarithmDecidesTheVerdict) {
   std::printf("%s", conformance_markdown(rows).c_str());
   for (const ConformanceRow& row : rows) {
     const std::string name =
-        std::string(spec::kFootprintNames[static_cast<std::size_t>(row.footprint)]) + " " +
-        std::string(spec::kLog2Names[static_cast<std::size_t>(row.log2)]);
+        std::string(spec::texture::kFootprintNames[static_cast<std::size_t>(row.footprint)]) + " " +
+        std::string(spec::texture::kLog2Names[static_cast<std::size_t>(row.log2)]);
     EXPECT_LE(row.lod_above, 0.0) << name;
     for (const CaseResult& r : {row.mipmap_nearest, row.mipmap_linear, row.biased, row.pyramid})
       EXPECT_EQ(r.undecided, 0) << name;
     switch (row.log2) {
-      case spec::Log2Rule::kMitchell:
+      case spec::texture::Log2Rule::kMitchell:
         EXPECT_EQ(row.verdict, Verdict::kFail) << name;
         EXPECT_EQ(row.mipmap_linear.verdict, Verdict::kFail) << name;
         EXPECT_NEAR(row.lod_below, 0.0861, 0.0003) << name;
         break;
-      case spec::Log2Rule::kCorrected:
+      case spec::texture::Log2Rule::kCorrected:
         // Beyond the 1/64 of `high`, but the colour tolerance hides it from all filters but
         // *_MIPMAP_NEAREST with a bias.
         EXPECT_EQ(row.mipmap_nearest.verdict, Verdict::kHigh) << name;
@@ -115,11 +116,11 @@ TEST(Rules, TheLogarithmDecidesTheVerdict) {
         EXPECT_EQ(row.biased.verdict, Verdict::kLow) << name;
         EXPECT_NEAR(row.lod_below, 0.0228, 0.0005) << name;
         break;
-      case spec::Log2Rule::kSegments:
+      case spec::texture::Log2Rule::kSegments:
         EXPECT_EQ(row.verdict, Verdict::kHigh) << name;
         EXPECT_LE(row.lod_below, 0.0063) << name;
         break;
-      case spec::Log2Rule::kExact:
+      case spec::texture::Log2Rule::kExact:
         EXPECT_EQ(row.verdict, Verdict::kHigh) << name;
         EXPECT_LE(row.lod_below, 0.0007) << name;
         break;

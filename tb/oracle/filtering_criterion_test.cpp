@@ -33,7 +33,8 @@ Texture ramp() {
   return texture;
 }
 
-Sampler sampler(spec::MinFilter min, spec::MagFilter mag, spec::Wrap wrap = spec::Wrap::kRepeat) {
+Sampler sampler(spec::texture::MinFilter min, spec::texture::MagFilter mag,
+                spec::texture::Wrap wrap = spec::texture::Wrap::kRepeat) {
   Sampler s;
   s.min_filter = min;
   s.mag_filter = mag;
@@ -69,7 +70,7 @@ TEST(LegalLod, AddsTheBiasAndThenClamps) {
 
 TEST(Criterion, AllowsOneColourStepBeyondTheWeightTolerance) {
   const Texture texture = ramp();
-  const Sampler s = sampler(spec::MinFilter::kLinear, spec::MagFilter::kLinear);
+  const Sampler s = sampler(spec::texture::MinFilter::kLinear, spec::texture::MagFilter::kLinear);
   const Criterion high(texture, s, kPrecisionHigh);
   // Half way between texels 0 and 100 the ideal is 50; 1/128 texel is 0.78 of a step.
   const Fragment f = along_u(1.0 / 4, 0.5);
@@ -84,8 +85,8 @@ TEST(Criterion, AllowsOneColourStepBeyondTheWeightTolerance) {
 TEST(Criterion, NeedsOneExplanationForAllChannels) {
   Texture texture;
   texture.levels.push_back({2, 1, {Rgba{0, 255, 0, 0}, Rgba{255, 0, 0, 0}}});
-  const Sampler s =
-      sampler(spec::MinFilter::kLinear, spec::MagFilter::kLinear, spec::Wrap::kClampToEdge);
+  const Sampler s = sampler(spec::texture::MinFilter::kLinear, spec::texture::MagFilter::kLinear,
+                            spec::texture::Wrap::kClampToEdge);
   const Criterion low(texture, s, kPrecisionLow);
   const Fragment f{0.5, 0.5, 0.1, 0, 0, 0};
   EXPECT_TRUE(low.reachable(f, {127.5 + 14, 127.5 - 14, 0, 0}, 2.0));
@@ -95,7 +96,7 @@ TEST(Criterion, NeedsOneExplanationForAllChannels) {
 
 TEST(Criterion, NearestTakesOnlyTexelsThatTheCoordinateErrorReaches) {
   const Texture texture = ramp();
-  const Sampler s = sampler(spec::MinFilter::kNearest, spec::MagFilter::kNearest);
+  const Sampler s = sampler(spec::texture::MinFilter::kNearest, spec::texture::MagFilter::kNearest);
   const Criterion high(texture, s, kPrecisionHigh);
   EXPECT_TRUE(high.reachable(along_u(0.3, 0.5), grey(100), 1.0));
   EXPECT_FALSE(high.reachable(along_u(0.3, 0.5), grey(0), 1.0));
@@ -106,32 +107,35 @@ TEST(Criterion, NearestTakesOnlyTexelsThatTheCoordinateErrorReaches) {
 
 TEST(Criterion, WrapsNegativeAndMirroredCoordinates) {
   const Texture texture = ramp();
-  const auto texel = [&](spec::Wrap wrap, double s) {
-    const Sampler state = sampler(spec::MinFilter::kNearest, spec::MagFilter::kNearest, wrap);
+  const auto texel = [&](spec::texture::Wrap wrap, double s) {
+    const Sampler state =
+        sampler(spec::texture::MinFilter::kNearest, spec::texture::MagFilter::kNearest, wrap);
     return exact_colour(texture, state, along_u(s, 0.5))[0];
   };
-  EXPECT_EQ(texel(spec::Wrap::kRepeat, -0.1), 40);
-  EXPECT_EQ(texel(spec::Wrap::kRepeat, -1.1), 40);
-  EXPECT_EQ(texel(spec::Wrap::kRepeat, 2.3), 100);
-  EXPECT_EQ(texel(spec::Wrap::kMirroredRepeat, -0.1), 0);
-  EXPECT_EQ(texel(spec::Wrap::kMirroredRepeat, -0.3), 100);
-  EXPECT_EQ(texel(spec::Wrap::kMirroredRepeat, 1.1), 40);
-  EXPECT_EQ(texel(spec::Wrap::kMirroredRepeat, 1.9), 0);
-  EXPECT_EQ(texel(spec::Wrap::kClampToEdge, -7.0), 0);
-  EXPECT_EQ(texel(spec::Wrap::kClampToEdge, 7.0), 40);
+  EXPECT_EQ(texel(spec::texture::Wrap::kRepeat, -0.1), 40);
+  EXPECT_EQ(texel(spec::texture::Wrap::kRepeat, -1.1), 40);
+  EXPECT_EQ(texel(spec::texture::Wrap::kRepeat, 2.3), 100);
+  EXPECT_EQ(texel(spec::texture::Wrap::kMirroredRepeat, -0.1), 0);
+  EXPECT_EQ(texel(spec::texture::Wrap::kMirroredRepeat, -0.3), 100);
+  EXPECT_EQ(texel(spec::texture::Wrap::kMirroredRepeat, 1.1), 40);
+  EXPECT_EQ(texel(spec::texture::Wrap::kMirroredRepeat, 1.9), 0);
+  EXPECT_EQ(texel(spec::texture::Wrap::kClampToEdge, -7.0), 0);
+  EXPECT_EQ(texel(spec::texture::Wrap::kClampToEdge, 7.0), 40);
   // Between the last texel and its right neighbour.
-  const auto edge = [&](spec::Wrap wrap) {
-    const Sampler state = sampler(spec::MinFilter::kLinear, spec::MagFilter::kLinear, wrap);
+  const auto edge = [&](spec::texture::Wrap wrap) {
+    const Sampler state =
+        sampler(spec::texture::MinFilter::kLinear, spec::texture::MagFilter::kLinear, wrap);
     return exact_colour(texture, state, along_u(1.0, 0.5))[0];
   };
-  EXPECT_EQ(edge(spec::Wrap::kRepeat), 20);
-  EXPECT_EQ(edge(spec::Wrap::kMirroredRepeat), 40);
-  EXPECT_EQ(edge(spec::Wrap::kClampToEdge), 40);
+  EXPECT_EQ(edge(spec::texture::Wrap::kRepeat), 20);
+  EXPECT_EQ(edge(spec::texture::Wrap::kMirroredRepeat), 40);
+  EXPECT_EQ(edge(spec::texture::Wrap::kClampToEdge), 40);
 }
 
 TEST(Criterion, AllowsBothFiltersWhereTheSwitchIsWithinTheLegalInterval) {
   const Texture texture = ramp();
-  const Sampler s = sampler(spec::MinFilter::kNearestMipmapNearest, spec::MagFilter::kLinear);
+  const Sampler s =
+      sampler(spec::texture::MinFilter::kNearestMipmapNearest, spec::texture::MagFilter::kLinear);
   const Criterion high(texture, s, kPrecisionHigh);
   const Rgba linear = grey(50);  // at 1/4; nearest gives 0 or 100
   EXPECT_TRUE(high.reachable(along_u(0.25, 0.5), linear, 2.0));
@@ -143,7 +147,8 @@ TEST(Criterion, AllowsBothFiltersWhereTheSwitchIsWithinTheLegalInterval) {
 
 TEST(Criterion, RoundsTheLevelAsGlDoesAndStopsAtTheLastOne) {
   const Texture texture = ramp();
-  const Sampler s = sampler(spec::MinFilter::kNearestMipmapNearest, spec::MagFilter::kNearest);
+  const Sampler s =
+      sampler(spec::texture::MinFilter::kNearestMipmapNearest, spec::texture::MagFilter::kNearest);
   const Criterion high(texture, s, kPrecisionHigh);
   // l between 0.3 and 0.8 + 1/64: levels 0 and 1, not 2.
   const Fragment near_base = along_u(0.4, std::exp2(0.3));
@@ -160,7 +165,8 @@ TEST(Criterion, BoundsTheLevelFraction) {
   Texture texture;
   texture.levels.push_back({2, 2, std::vector<Rgba>(4, grey(0))});
   texture.levels.push_back({1, 1, {grey(200)}});
-  const Sampler s = sampler(spec::MinFilter::kLinearMipmapLinear, spec::MagFilter::kLinear);
+  const Sampler s =
+      sampler(spec::texture::MinFilter::kLinearMipmapLinear, spec::texture::MagFilter::kLinear);
   const Criterion high(texture, s, kPrecisionHigh);
   const Fragment f{0.3, 0.3, std::exp2(0.4) / 2, 0, 0, 0};  // l from 0.4 to 0.9
   EXPECT_NEAR(high.deviation(f, grey(80 - 200.0 / 64)), 0.0, 0.02);
@@ -186,9 +192,9 @@ RandomCase random_case(Random& random) {
                               random.uniform(0, 255), random.next() % 2 * 255.0});
     c.texture.levels.push_back(std::move(level));
   }
-  c.state = sampler(static_cast<spec::MinFilter>(random.next() % 6),
-                    static_cast<spec::MagFilter>(random.next() % 2),
-                    static_cast<spec::Wrap>(random.next() % 3));
+  c.state = sampler(static_cast<spec::texture::MinFilter>(random.next() % 6),
+                    static_cast<spec::texture::MagFilter>(random.next() % 2),
+                    static_cast<spec::texture::Wrap>(random.next() % 3));
   const double d = std::exp2(random.uniform(-1.0, 3.5)) / 8;
   c.fragment = {random.uniform(-2, 2), random.uniform(-2, 2), d, 0, 0, random.uniform(0, d)};
   return c;
@@ -199,13 +205,13 @@ Rgba random_legal_colour(const RandomCase& c, const golden::ideal::Precision& pr
                          Random& random) {
   const Interval lod = legal_lod(c.texture, c.state, c.fragment, precision);
   Fragment moved = c.fragment;
-  const bool linear_min = c.state.min_filter == spec::MinFilter::kLinear ||
-                          c.state.min_filter == spec::MinFilter::kLinearMipmapNearest ||
-                          c.state.min_filter == spec::MinFilter::kLinearMipmapLinear;
+  const bool linear_min = c.state.min_filter == spec::texture::MinFilter::kLinear ||
+                          c.state.min_filter == spec::texture::MinFilter::kLinearMipmapNearest ||
+                          c.state.min_filter == spec::texture::MinFilter::kLinearMipmapLinear;
   const double l = random.uniform(lod.low, lod.high);
   // exact_colour() at a footprint of exactly 2^l; a position error of up to `bits` of a texel of
   // the finest level is legal at every level.
-  const bool linear = l > 0 ? linear_min : c.state.mag_filter == spec::MagFilter::kLinear;
+  const bool linear = l > 0 ? linear_min : c.state.mag_filter == spec::texture::MagFilter::kLinear;
   const double reach = linear ? std::ldexp(1.0, -precision.subtexel_bits) / 8 : 0.0;
   moved.s += random.uniform(-reach, reach);
   moved.t += random.uniform(-reach, reach);
@@ -258,7 +264,7 @@ TEST(Criterion, MeasuresTheDistanceToTheNearestLegalColour) {
 // A judge counts; one bad colour among many is enough.
 TEST(Judge, OneWrongColourIsEnough) {
   const Texture texture = ramp();
-  const Sampler s = sampler(spec::MinFilter::kLinear, spec::MagFilter::kLinear);
+  const Sampler s = sampler(spec::texture::MinFilter::kLinear, spec::texture::MagFilter::kLinear);
   golden::ideal::Judge judge(texture, s);
   for (int i = 0; i < 100; ++i) judge.add(along_u(1.0 / 4, 0.5), grey(50));
   EXPECT_EQ(judge.verdict(), golden::ideal::Verdict::kHigh);

@@ -13,8 +13,9 @@ namespace {
 using golden::ideal::Verdict;
 
 FilterFactory plain_filter(Fault fault) {
-  return [fault](const EncodedTexture& texture, const spec::TextureDescriptor& state) {
-    return [sampler = PlainSampler(texture, sampler_of(state), fault)](const spec::Quad& quad) {
+  return [fault](const EncodedTexture& texture, const spec::texture::Descriptor& state) {
+    return [sampler =
+                PlainSampler(texture, sampler_of(state), fault)](const spec::texture::Quad& quad) {
       std::array<std::array<std::uint8_t, 4>, 4> colours;
       for (int lane = 0; lane < 4; ++lane)
         colours[static_cast<std::size_t>(lane)] = sampler.sample(quad, lane);
@@ -39,10 +40,10 @@ Outcome judge_everywhere(const FilterFactory& filter) {
         for (std::uint8_t wrap = 0; wrap < 3; ++wrap) {
           FilteringCase c{
               seed % 2 == 0 ? Pattern::kComposite : Pattern::kNoise, size, {}, 64, seed++};
-          c.descriptor.format = static_cast<spec::Format>(format);
-          c.descriptor.min_filter = static_cast<spec::MinFilter>(mode / 2);
-          c.descriptor.mag_filter = static_cast<spec::MagFilter>(mode % 2);
-          c.descriptor.wrap_s = c.descriptor.wrap_t = static_cast<spec::Wrap>(wrap);
+          c.descriptor.format = static_cast<spec::texture::Format>(format);
+          c.descriptor.min_filter = static_cast<spec::texture::MinFilter>(mode / 2);
+          c.descriptor.mag_filter = static_cast<spec::texture::MagFilter>(mode % 2);
+          c.descriptor.wrap_s = c.descriptor.wrap_t = static_cast<spec::texture::Wrap>(wrap);
           const CaseResult r = judge(c, filter);
           outcome.verdict = std::max(outcome.verdict, r.verdict);
           outcome.deviation = std::max(outcome.deviation, r.deviation);
@@ -104,13 +105,13 @@ double colour_bias(const FilterFactory& filter) {
   double count = 0.0;
   for (std::uint32_t seed = 1; seed <= 4; ++seed) {
     const EncodedTexture texture =
-        make_texture(Pattern::kComposite, spec::Format::kRgba8, 32, 64, seed);
+        make_texture(Pattern::kComposite, spec::texture::Format::kRgba8, 32, 64, seed);
     const golden::ideal::Texture ideal = ideal_texture(texture);
-    spec::TextureDescriptor state;
-    state.min_filter = spec::MinFilter::kLinear;
+    spec::texture::Descriptor state;
+    state.min_filter = spec::texture::MinFilter::kLinear;
     const golden::ideal::Sampler sampler = sampler_of(state);
     const QuadFilter sample = filter(texture, state);
-    for (const spec::Quad& quad : filtering_quads({32, 64}, 2048, seed)) {
+    for (const spec::texture::Quad& quad : filtering_quads({32, 64}, 2048, seed)) {
       const auto colours = sample(quad);
       for (std::size_t lane = 0; lane < 4; ++lane) {
         const auto exact = exact_colour(ideal, sampler, fragment_of(quad, static_cast<int>(lane)));
@@ -133,23 +134,23 @@ TEST(ColourBias, GoldenRoundsAndTruncationIsSeen) {
 // One wrong texel in memory, or one wrong mip base, is found in the golden model itself.
 TEST(GoldenWithFault, OneSwappedMipBaseFails) {
   const FilterFactory faulty = [](const EncodedTexture& texture,
-                                  const spec::TextureDescriptor& state) {
+                                  const spec::texture::Descriptor& state) {
     struct Unit {
       EncodedMemory memory;
       std::unique_ptr<golden::texture::TextureGolden> golden;
     };
     auto unit = std::make_shared<Unit>();
-    spec::TextureDescriptor descriptor = unit->memory.place(texture, state.layout);
+    spec::texture::Descriptor descriptor = unit->memory.place(texture, state.layout);
     descriptor.min_filter = state.min_filter;
     descriptor.mag_filter = state.mag_filter;
     std::swap(descriptor.base[1], descriptor.base[2]);
     unit->golden = std::make_unique<golden::texture::TextureGolden>(
-        spec::TextureParameters{}, unit->memory.bytes(),
+        spec::texture::Parameters{}, unit->memory.bytes(),
         golden::texture::TextureGolden::Traffic::kIgnore);
     unit->golden->set_texture(0, descriptor);
-    return [unit](const spec::Quad& quad) {
+    return [unit](const spec::texture::Quad& quad) {
       std::array<std::array<std::uint8_t, 4>, 4> colours{};
-      for (const spec::Colour& colour : unit->golden->process(quad))
+      for (const spec::texture::Colour& colour : unit->golden->process(quad))
         colours[colour.lane] = colour.rgba;
       return colours;
     };

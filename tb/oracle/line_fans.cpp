@@ -107,37 +107,37 @@ FanFigures measure_fans(const Smoothing& smoothing, const FanOptions& options) {
 std::vector<FanRow> fan_rows() {
   using golden::morphological::preset_parameters;
   std::vector<FanRow> rows;
-  const auto add = [&](std::string name, spec::MorphologicalPreset preset, int steps) {
+  const auto add = [&](std::string name, spec::morphological::Preset preset, int steps) {
     FanRow row{std::move(name), true, preset_parameters(preset)};
     row.parameters.steps = steps;
     row.parameters.linear_light = false;
     rows.push_back(row);
   };
-  add("none", spec::MorphologicalPreset::kMlaa, 0);
+  add("none", spec::morphological::Preset::kMlaa, 0);
   rows.back().smoothed = false;
-  add("mlaa", spec::MorphologicalPreset::kMlaa, 0);
+  add("mlaa", spec::morphological::Preset::kMlaa, 0);
   for (const int n : {1, 2, 4, 8}) {
-    add(fmt::format("chord N = {}", n), spec::MorphologicalPreset::kMlaaSlope, n);
+    add(fmt::format("chord N = {}", n), spec::morphological::Preset::kMlaaSlope, n);
   }
   for (const int n : {2, 4}) {
-    add(fmt::format("fit N = {}", n), spec::MorphologicalPreset::kDeburr, n);
+    add(fmt::format("fit N = {}", n), spec::morphological::Preset::kDeburr, n);
   }
-  add("deburr", spec::MorphologicalPreset::kDeburr, 8);
-  add("fit N = 16", spec::MorphologicalPreset::kDeburr, 16);
+  add("deburr", spec::morphological::Preset::kDeburr, 8);
+  add("fit N = 16", spec::morphological::Preset::kDeburr, 16);
   return rows;
 }
 
 std::vector<FanRow> rule_rows() {
   using golden::morphological::preset_parameters;
-  using P = spec::MorphologicalParameters;
-  const P deburr = preset_parameters(spec::MorphologicalPreset::kDeburr);
+  using P = spec::morphological::Parameters;
+  const P deburr = preset_parameters(spec::morphological::Preset::kDeburr);
   std::vector<FanRow> rows;
   const auto add = [&](const char* name, const P& p) { rows.push_back({name, true, p}); };
-  P p = preset_parameters(spec::MorphologicalPreset::kMlaa);
+  P p = preset_parameters(spec::morphological::Preset::kMlaa);
   add("mlaa", p);
-  p = preset_parameters(spec::MorphologicalPreset::kMlaaSlope);
+  p = preset_parameters(spec::morphological::Preset::kMlaaSlope);
   add("mlaa-slope", p);
-  p.predictor = spec::Predictor::kFit;
+  p.predictor = spec::morphological::Predictor::kFit;
   add("fit instead of the chord", p);
   p.contiguous = true;
   add("+ contiguous", p);
@@ -152,16 +152,16 @@ std::vector<FanRow> rule_rows() {
   p.threshold = deburr.threshold;
   add("+ T = 0.03 = deburr", p);
   for (const auto preset :
-       {spec::MorphologicalPreset::kMlaa, spec::MorphologicalPreset::kMlaaSlope}) {
+       {spec::morphological::Preset::kMlaa, spec::morphological::Preset::kMlaaSlope}) {
     p = preset_parameters(preset);
     p.threshold = deburr.threshold;
     p.local_contrast = deburr.local_contrast;
-    add(preset == spec::MorphologicalPreset::kMlaa ? "mlaa, deburr's edges"
-                                                   : "mlaa-slope, deburr's edges",
+    add(preset == spec::morphological::Preset::kMlaa ? "mlaa, deburr's edges"
+                                                     : "mlaa-slope, deburr's edges",
         p);
   }
   p = deburr;
-  p.steps = spec::kMaxSteps;
+  p.steps = spec::morphological::kMaxSteps;
   add("deburr, N = 16", p);
   return rows;
 }

@@ -21,8 +21,8 @@
 #include <string_view>
 #include <vector>
 
-#include "spec/morphological.h"
-#include "tb/unit/morphological_golden_support.h"
+#include "spec/morphological/parameters.h"
+#include "tb/unit/golden/morphological/support.h"
 
 namespace deburr::tb::morphological {
 
@@ -49,7 +49,7 @@ FanFigures measure_fans(const Smoothing& smoothing, const FanOptions& options = 
 struct FanRow {
   std::string name;  // "chord N = 4"
   bool smoothed = true;
-  spec::MorphologicalParameters parameters;
+  spec::morphological::Parameters parameters;
 };
 // none, mlaa, chord N = 1, 2, 4, 8, fit N = 2, 4, deburr (N = 8), fit N = 16; linear_light off,
 // reach_columns 256.

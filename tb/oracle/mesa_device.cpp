@@ -70,23 +70,23 @@ struct GlFormat {
   GLenum internal, format, type;
 };
 
-GlFormat gl_format(spec::Format format) {
+GlFormat gl_format(spec::texture::Format format) {
   switch (format) {
-    case spec::Format::kRgba8:
+    case spec::texture::Format::kRgba8:
       return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
-    case spec::Format::kSrgb8A8:
+    case spec::texture::Format::kSrgb8A8:
       return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE};
-    case spec::Format::kRgb565:
+    case spec::texture::Format::kRgb565:
       return {GL_RGB565, GL_RGB, GL_UNSIGNED_SHORT_5_6_5};
-    case spec::Format::kRgba4444:
+    case spec::texture::Format::kRgba4444:
       return {GL_RGBA4, GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4};
-    case spec::Format::kL8:
+    case spec::texture::Format::kL8:
       return {GL_R8, GL_RED, GL_UNSIGNED_BYTE};
   }
   return {};
 }
 
-GLint gl_filter(spec::MinFilter filter) {
+GLint gl_filter(spec::texture::MinFilter filter) {
   constexpr std::array<GLint, 6> kFilters = {GL_NEAREST,
                                              GL_LINEAR,
                                              GL_NEAREST_MIPMAP_NEAREST,
@@ -96,7 +96,7 @@ GLint gl_filter(spec::MinFilter filter) {
   return kFilters[static_cast<std::size_t>(filter)];
 }
 
-GLint gl_wrap(spec::Wrap wrap) {
+GLint gl_wrap(spec::texture::Wrap wrap) {
   constexpr std::array<GLint, 3> kWraps = {GL_REPEAT, GL_MIRRORED_REPEAT, GL_CLAMP_TO_EDGE};
   return kWraps[static_cast<std::size_t>(wrap)];
 }
@@ -107,14 +107,14 @@ void upload(const EncodedTexture& texture) {
   for (std::size_t k = 0; k < texture.levels.size(); ++k) {
     const EncodedLevel& level = texture.levels[k];
     std::vector<std::uint8_t> bytes;
-    const int texel_bytes = spec::kFormatBytes[static_cast<std::size_t>(texture.format)];
+    const int texel_bytes = spec::texture::kFormatBytes[static_cast<std::size_t>(texture.format)];
     for (const std::uint32_t code : level.codes)
       for (int b = 0; b < texel_bytes; ++b)
         bytes.push_back(static_cast<std::uint8_t>(code >> (8 * b) & 0xFFu));
     glTexImage2D(GL_TEXTURE_2D, static_cast<GLint>(k), static_cast<GLint>(gl.internal), level.width,
                  level.height, 0, gl.format, gl.type, bytes.data());
   }
-  if (texture.format == spec::Format::kL8) {
+  if (texture.format == spec::texture::Format::kL8) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_G, GL_RED);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_B, GL_RED);
   }
@@ -186,7 +186,7 @@ std::string MesaDevice::name() const {
 }
 
 Pixels MesaDevice::draw(const CoordinateImage& image, const EncodedTexture& texture,
-                        const spec::TextureDescriptor& state) {
+                        const spec::texture::Descriptor& state) {
   std::array<GLuint, 3> textures{};
   glGenTextures(3, textures.data());
 
@@ -209,7 +209,7 @@ Pixels MesaDevice::draw(const CoordinateImage& image, const EncodedTexture& text
   upload(texture);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, gl_filter(state.min_filter));
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER,
-                  state.mag_filter == spec::MagFilter::kLinear ? GL_LINEAR : GL_NEAREST);
+                  state.mag_filter == spec::texture::MagFilter::kLinear ? GL_LINEAR : GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, gl_wrap(state.wrap_s));
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, gl_wrap(state.wrap_t));
   glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MIN_LOD, static_cast<float>(state.min_lod) / 256.0f);

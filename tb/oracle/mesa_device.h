@@ -26,7 +26,7 @@ class MesaDevice {
   // Filters every pixel of `image`. The sampler state is the descriptor's; N_max is passed on as
   // GL_TEXTURE_MAX_ANISOTROPY.
   Pixels draw(const CoordinateImage& image, const EncodedTexture& texture,
-              const spec::TextureDescriptor& state);
+              const spec::texture::Descriptor& state);
 
   std::string name() const;  // GL_RENDERER and GL_VERSION
 

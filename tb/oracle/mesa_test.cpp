@@ -16,20 +16,20 @@ namespace deburr::tb::texture {
 namespace {
 
 using golden::ideal::Verdict;
-using spec::Format;
-using spec::MinFilter;
+using spec::texture::Format;
+using spec::texture::MinFilter;
 
 // The rules nearest to what Mesa does; the paper's are printed beside them.
-spec::TextureParameters exact_rules() {
-  spec::TextureParameters parameters;
-  parameters.footprint = spec::FootprintRule::kExact;
-  parameters.log2 = spec::Log2Rule::kExact;
+spec::texture::Parameters exact_rules() {
+  spec::texture::Parameters parameters;
+  parameters.footprint = spec::texture::FootprintRule::kExact;
+  parameters.log2 = spec::texture::Log2Rule::kExact;
   return parameters;
 }
 
-spec::TextureParameters segments_rules() {
-  spec::TextureParameters parameters;
-  parameters.log2 = spec::Log2Rule::kSegments;
+spec::texture::Parameters segments_rules() {
+  spec::texture::Parameters parameters;
+  parameters.log2 = spec::texture::Log2Rule::kSegments;
   return parameters;
 }
 
@@ -81,7 +81,7 @@ class Mesa : public testing::Test {
   // Every size and format, with wraps in turns (all of them without mip levels), on the quads of
   // the criterion and on a plane.
   using Visit = std::function<void(const CoordinateImage&, const EncodedTexture&, const Size&,
-                                   const spec::TextureDescriptor&, const Pixels& mesa)>;
+                                   const spec::texture::Descriptor&, const Pixels& mesa)>;
   void draw_all(MinFilter min_filter, Pattern pattern, bool with_quads, const Visit& visit) {
     std::uint32_t seed = 1;
     const bool every_wrap = min_filter <= MinFilter::kLinear;
@@ -92,15 +92,15 @@ class Mesa : public testing::Test {
           if (!every_wrap && seed % 3 != 0) continue;
           const EncodedTexture texture =
               make_texture(pattern, static_cast<Format>(format), size.width, size.height, seed);
-          spec::TextureDescriptor state;
+          spec::texture::Descriptor state;
           state.format = texture.format;
           state.min_filter = min_filter;
           state.mag_filter =
               min_filter == MinFilter::kNearest || min_filter == MinFilter::kNearestMipmapNearest
-                  ? spec::MagFilter::kNearest
-                  : spec::MagFilter::kLinear;
-          state.wrap_s = static_cast<spec::Wrap>(wrap);
-          state.wrap_t = static_cast<spec::Wrap>((wrap + size.height) % 3);
+                  ? spec::texture::MagFilter::kNearest
+                  : spec::texture::MagFilter::kLinear;
+          state.wrap_s = static_cast<spec::texture::Wrap>(wrap);
+          state.wrap_t = static_cast<spec::texture::Wrap>((wrap + size.height) % 3);
           PlaneView view;
           view.width = view.height = 64;
           view.repeats = 64.0 / size.width;
@@ -127,14 +127,15 @@ TEST_P(MesaDriver, NearestAndLinearAgreeToOneStep) {
       Agreement agreement;
       draw_all(filter, Pattern::kComposite, with_quads,
                [&](const CoordinateImage& image, const EncodedTexture& texture, const Size&,
-                   const spec::TextureDescriptor& state, const Pixels& mesa) {
+                   const spec::texture::Descriptor& state, const Pixels& mesa) {
                  const Pixels ours = filter_image(image, golden_filter({})(texture, state));
                  for (std::size_t i = 0; i < ours.size(); ++i) agreement.add(ours[i], mesa[i]);
                });
-      std::printf("%s, %s: %.4f %% of %.0f pixels within 1, %.1f dB\n",
-                  std::string(spec::kMinFilterNames[static_cast<std::size_t>(filter)]).c_str(),
-                  with_quads ? "quads" : "plane", 100.0 * agreement.share(), agreement.pixels,
-                  agreement.psnr());
+      std::printf(
+          "%s, %s: %.4f %% of %.0f pixels within 1, %.1f dB\n",
+          std::string(spec::texture::kMinFilterNames[static_cast<std::size_t>(filter)]).c_str(),
+          with_quads ? "quads" : "plane", 100.0 * agreement.share(), agreement.pixels,
+          agreement.psnr());
       EXPECT_GE(agreement.share(), 0.98);
     }
   }
@@ -148,7 +149,7 @@ TEST_F(Mesa, MipModesAgree) {
   if (device_ == nullptr) return;
   struct Rules {
     const char* name;
-    spec::TextureParameters parameters;
+    spec::texture::Parameters parameters;
     double margin;  // error of the level of detail, and what llvmpipe's own adds
     double goal_db;
   };
@@ -163,7 +164,7 @@ TEST_F(Mesa, MipModesAgree) {
       std::array<Agreement, 3> all, kept;
       draw_all(filter, Pattern::kPyramid, with_quads,
                [&](const CoordinateImage& image, const EncodedTexture& texture, const Size& size,
-                   const spec::TextureDescriptor& state, const Pixels& mesa) {
+                   const spec::texture::Descriptor& state, const Pixels& mesa) {
                  for (std::size_t r = 0; r < rules.size(); ++r) {
                    const Pixels ours =
                        filter_image(image, golden_filter(rules[r].parameters)(texture, state));
@@ -175,10 +176,11 @@ TEST_F(Mesa, MipModesAgree) {
                  }
                });
       for (std::size_t r = 0; r < rules.size(); ++r) {
-        std::printf("%s, %s, %s: %.1f dB over %.0f pixels away from thresholds, %.1f dB over all\n",
-                    std::string(spec::kMinFilterNames[static_cast<std::size_t>(filter)]).c_str(),
-                    with_quads ? "quads" : "plane", rules[r].name, kept[r].psnr(), kept[r].pixels,
-                    all[r].psnr());
+        std::printf(
+            "%s, %s, %s: %.1f dB over %.0f pixels away from thresholds, %.1f dB over all\n",
+            std::string(spec::texture::kMinFilterNames[static_cast<std::size_t>(filter)]).c_str(),
+            with_quads ? "quads" : "plane", rules[r].name, kept[r].psnr(), kept[r].pixels,
+            all[r].psnr());
         EXPECT_GE(kept[r].psnr(), rules[r].goal_db);
         EXPECT_GT(kept[r].pixels, 0.5 * all[r].pixels);
       }
@@ -199,7 +201,7 @@ TEST_P(MesaDriver, PassesTheFilteringCriterion) {
     std::int64_t fragments = 0;
     draw_all(filter, Pattern::kComposite, true,
              [&](const CoordinateImage& image, const EncodedTexture& texture, const Size&,
-                 const spec::TextureDescriptor& state, const Pixels& mesa) {
+                 const spec::texture::Descriptor& state, const Pixels& mesa) {
                const golden::ideal::Texture ideal = ideal_texture(texture);
                const golden::ideal::Sampler sampler = sampler_of(state);
                golden::ideal::Judge judge(ideal, sampler);
@@ -215,7 +217,7 @@ TEST_P(MesaDriver, PassesTheFilteringCriterion) {
                fragments += judge.fragments();
              });
     std::printf("%s: %s, largest deviation %.2f, %lld of %lld fragments are not high\n",
-                std::string(spec::kMinFilterNames[mode]).c_str(),
+                std::string(spec::texture::kMinFilterNames[mode]).c_str(),
                 std::string(verdict_name(verdict)).c_str(), deviation,
                 static_cast<long long>(refused), static_cast<long long>(fragments));
     EXPECT_NE(verdict, Verdict::kFail);
@@ -233,11 +235,11 @@ TEST_F(Mesa, AnisotropyFallsAsSoftpipesDoes) {
     const CoordinateImage image = plane(view);
     const EncodedTexture texture = make_texture(pattern, Format::kRgba8, 128, 128, 1);
     const auto truth = plane_truth(view, ideal_texture(texture), 16);
-    spec::TextureParameters ceil = exact_rules();
-    ceil.count = spec::CountRule::kCeil;
+    spec::texture::Parameters ceil = exact_rules();
+    ceil.count = spec::texture::CountRule::kCeil;
     std::array<double, 5> paper{}, ceiling{}, theirs{};
     for (std::uint8_t lb_n = 0; lb_n <= 4; ++lb_n) {
-      spec::TextureDescriptor state;
+      spec::texture::Descriptor state;
       state.max_anisotropy_log2 = lb_n;
       const Pixels mesa = device_->draw(image, texture, state);
       const Pixels ours = filter_image(image, golden_filter(ceil)(texture, state));
@@ -269,8 +271,9 @@ TEST_F(Mesa, PlantedFaultsAreSeen) {
   Agreement wrap;
   draw_all(MinFilter::kLinear, Pattern::kComposite, true,
            [&](const CoordinateImage& image, const EncodedTexture& texture, const Size&,
-               spec::TextureDescriptor state, const Pixels& mesa) {
-             state.wrap_s = static_cast<spec::Wrap>((static_cast<int>(state.wrap_s) + 1) % 3);
+               spec::texture::Descriptor state, const Pixels& mesa) {
+             state.wrap_s =
+                 static_cast<spec::texture::Wrap>((static_cast<int>(state.wrap_s) + 1) % 3);
              const Pixels ours = filter_image(image, golden_filter({})(texture, state));
              for (std::size_t i = 0; i < ours.size(); ++i) wrap.add(ours[i], mesa[i]);
            });
@@ -278,7 +281,7 @@ TEST_F(Mesa, PlantedFaultsAreSeen) {
   Agreement level;
   draw_all(MinFilter::kLinearMipmapLinear, Pattern::kPyramid, false,
            [&](const CoordinateImage& image, const EncodedTexture& texture, const Size& size,
-               spec::TextureDescriptor state, const Pixels& mesa) {
+               spec::texture::Descriptor state, const Pixels& mesa) {
              state.lod_bias = 128;  // half a level
              const Pixels ours = filter_image(image, golden_filter(exact_rules())(texture, state));
              for (std::size_t i = 0; i < ours.size(); ++i)

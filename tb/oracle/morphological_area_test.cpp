@@ -36,7 +36,8 @@ constexpr double kBoundOfExtendedLines = 0.8;
 // A U whose middle pixel holds both triangles rounds twice.
 constexpr double kBoundOfTwoTriangles = 1.07;
 
-double share_of(spec::Side side, const spec::LineRecord& line, const CutAreas& areas) {
+double share_of(spec::morphological::Side side, const spec::morphological::LineRecord& line,
+                const CutAreas& areas) {
   const double sum =
       (line.before == side ? areas.before : 0) + (line.after == side ? areas.after : 0);
   return 256 * std::min(0.5, sum);
@@ -44,13 +45,13 @@ double share_of(spec::Side side, const spec::LineRecord& line, const CutAreas& a
 
 struct Worst {
   double single = 0, two_triangles = 0;
-  void look(const spec::LineRecord& line, const StepLine& ideal) {
+  void look(const spec::morphological::LineRecord& line, const StepLine& ideal) {
     for (int k = 0; k < line.run.length; ++k) {
       const EdgeShares integer = shares(line, k);
       const CutAreas areas = cut_areas(ideal, k);
-      const double error =
-          std::max(std::abs(integer.first - share_of(spec::Side::kFirst, line, areas)),
-                   std::abs(integer.second - share_of(spec::Side::kSecond, line, areas)));
+      const double error = std::max(
+          std::abs(integer.first - share_of(spec::morphological::Side::kFirst, line, areas)),
+          std::abs(integer.second - share_of(spec::morphological::Side::kSecond, line, areas)));
       const bool two = line.before == line.after && areas.before > 0 && areas.after > 0;
       double& worst = two ? two_triangles : single;
       worst = std::max(worst, error);
@@ -58,15 +59,15 @@ struct Worst {
   }
 };
 
-spec::RunRecord whole_run(int length, int shape) {
-  spec::RunRecord run;
+spec::morphological::RunRecord whole_run(int length, int shape) {
+  spec::morphological::RunRecord run;
   run.length = static_cast<std::uint16_t>(length);
   run.shape = static_cast<std::uint8_t>(shape);
   return run;
 }
 
-spec::MorphologicalParameters with(spec::Predictor predictor) {
-  spec::MorphologicalParameters p;
+spec::morphological::Parameters with(spec::morphological::Predictor predictor) {
+  spec::morphological::Parameters p;
   p.predictor = predictor;
   p.reach_columns = 2048;
   p.steps = 16;
@@ -84,7 +85,7 @@ TEST(MorphologicalArea, OfEveryRunLengthAndShapeIsWithinTheBound) {
   for (int length = 1; length <= 2048; ++length) {
     const std::array<StepCorner, 2> corners = {{{0, 0}, {1, length}}};
     for (int shape = 0; shape < 16; ++shape) {
-      worst.look(line_through(with(spec::Predictor::kNone), whole_run(length, shape),
+      worst.look(line_through(with(spec::morphological::Predictor::kNone), whole_run(length, shape),
                               not_extended(length)),
                  golden::ideal::fitted(corners));
     }
@@ -99,12 +100,13 @@ TEST(MorphologicalArea, OfEveryRunLengthAndShapeIsWithinTheBound) {
 TEST(MorphologicalArea, OfTheEndsOfLongRunsIsWithinTheBound) {
   Worst worst;
   for (int reach = 4; reach <= 2048; ++reach) {
-    spec::MorphologicalParameters p = with(spec::Predictor::kNone);
+    spec::morphological::Parameters p = with(spec::morphological::Predictor::kNone);
     p.reach_columns = reach;
-    for (const spec::RunPart part : {spec::RunPart::kHead, spec::RunPart::kTail}) {
-      const bool tail = part == spec::RunPart::kTail;
+    for (const spec::morphological::RunPart part :
+         {spec::morphological::RunPart::kHead, spec::morphological::RunPart::kTail}) {
+      const bool tail = part == spec::morphological::RunPart::kTail;
       for (int code = 0; code < 4; ++code) {
-        spec::RunRecord run = whole_run(reach / 2, tail ? 4 * code : code);
+        spec::morphological::RunRecord run = whole_run(reach / 2, tail ? 4 * code : code);
         run.part = part;
         worst.look(line_through(p, run, {}), golden::ideal::long_end(reach, tail, reach / 2));
       }
@@ -149,10 +151,10 @@ TEST(MorphologicalArea, OfExtendedLinesIsWithinTheBound) {
   Worst fit, chord;
   for (int i = 0; i < 100000; ++i) {
     const DigitalRun run(random);
-    const spec::RunRecord record = whole_run(run.length, 9);  // Z
-    fit.look(line_through(with(spec::Predictor::kFit), record, run.prediction),
+    const spec::morphological::RunRecord record = whole_run(run.length, 9);  // Z
+    fit.look(line_through(with(spec::morphological::Predictor::kFit), record, run.prediction),
              golden::ideal::fitted(run.corners));
-    chord.look(line_through(with(spec::Predictor::kChord), record, run.prediction),
+    chord.look(line_through(with(spec::morphological::Predictor::kChord), record, run.prediction),
                golden::ideal::chord(run.corners));
   }
   std::cout << "worst error: fit " << fit.single << " / 256, chord " << chord.single << " / 256\n";
@@ -162,8 +164,8 @@ TEST(MorphologicalArea, OfExtendedLinesIsWithinTheBound) {
 
 TEST(MorphologicalArea, AnErrorOfOneShareIsCaught) {
   const std::array<StepCorner, 2> corners = {{{0, 0}, {1, 7}}};
-  spec::LineRecord line =
-      line_through(with(spec::Predictor::kNone), whole_run(7, 9), not_extended(7));
+  spec::morphological::LineRecord line =
+      line_through(with(spec::morphological::Predictor::kNone), whole_run(7, 9), not_extended(7));
   line.slope += line.slope / 64;  // the planted fault: 1/128 of a pixel at the ends
   Worst worst;
   worst.look(line, golden::ideal::fitted(corners));

@@ -25,9 +25,9 @@ namespace {
 
 using golden::morphological::MorphologicalGolden;
 using golden::morphological::preset_parameters;
-using spec::MorphologicalPreset;
+using spec::morphological::Preset;
 
-Image smoothed(const Image& frame, const spec::MorphologicalParameters& parameters) {
+Image smoothed(const Image& frame, const spec::morphological::Parameters& parameters) {
   MorphologicalGolden golden(parameters, MorphologicalGolden::Detail::kPixels);
   Image out(frame.width, frame.height);
   out.pixels = golden.process({frame.pixels, frame.width, frame.height});
@@ -52,8 +52,8 @@ class Judge {
                              method, f.edges, f.silhouettes);
     return f;
   }
-  Figures judge(MorphologicalPreset preset) const {
-    return judge(std::string(spec::kMorphologicalPresetNames[static_cast<std::size_t>(preset)]),
+  Figures judge(Preset preset) const {
+    return judge(std::string(spec::morphological::kPresetNames[static_cast<std::size_t>(preset)]),
                  smoothed(frame_, preset_parameters(preset)));
   }
   bool has_silhouettes() const { return silhouettes_.has_value(); }
@@ -67,9 +67,8 @@ class Judge {
 
 // Above both other presets by more than `margin` dB, on edges and on silhouettes.
 void expect_deburr_best(const Judge& judge, double margin) {
-  const Figures mlaa = judge.judge(MorphologicalPreset::kMlaa),
-                slope = judge.judge(MorphologicalPreset::kMlaaSlope),
-                deburr = judge.judge(MorphologicalPreset::kDeburr);
+  const Figures mlaa = judge.judge(Preset::kMlaa), slope = judge.judge(Preset::kMlaaSlope),
+                deburr = judge.judge(Preset::kDeburr);
   EXPECT_GT(deburr.edges, mlaa.edges + margin);
   EXPECT_GT(deburr.edges, slope.edges + margin);
   if (!judge.has_silhouettes()) return;
@@ -216,8 +215,7 @@ INSTANTIATE_TEST_SUITE_P(
 // them, is behind mlaa: by how much at most, docs/results.md says.
 class TextureOnly : public RenderedFrames {};
 TEST_P(TextureOnly, CostsNoMoreThanIsSaid) {
-  const Figures mlaa = judge_->judge(MorphologicalPreset::kMlaa),
-                deburr = judge_->judge(MorphologicalPreset::kDeburr);
+  const Figures mlaa = judge_->judge(Preset::kMlaa), deburr = judge_->judge(Preset::kDeburr);
   EXPECT_GT(deburr.edges, mlaa.edges - GetParam().margin);
   EXPECT_LT(deburr.edges, mlaa.edges + 0.1) << "better than said: say so";
   if (std::isfinite(mlaa.silhouettes)) {
@@ -234,11 +232,11 @@ INSTANTIATE_TEST_SUITE_P(Scenes, TextureOnly,
 TEST(MorphologicalFrames, AWorseFilterIsCaught) {
   const LitFrames lit = render_lit_frames(make_scene("cylinders"), 320, 240, 8);
   const Judge judge("cylinders", lit.noaa, lit.truth, lit.depth);
-  spec::MorphologicalParameters worse = preset_parameters(MorphologicalPreset::kDeburr);
-  worse.predictor = spec::Predictor::kNone;  // the planted fault
-  worse.threshold = preset_parameters(MorphologicalPreset::kMlaa).threshold;
+  spec::morphological::Parameters worse = preset_parameters(Preset::kDeburr);
+  worse.predictor = spec::morphological::Predictor::kNone;  // the planted fault
+  worse.threshold = preset_parameters(Preset::kMlaa).threshold;
   EXPECT_LT(judge.judge("worse", smoothed(lit.noaa, worse)).edges,
-            judge.judge(MorphologicalPreset::kMlaa).edges + 0.5);
+            judge.judge(Preset::kMlaa).edges + 0.5);
 }
 
 }  // namespace

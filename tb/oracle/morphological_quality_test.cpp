@@ -114,7 +114,7 @@ TEST(MorphologicalQuality, CurvesLoseNothingByTheFit) {
 
 TEST(MorphologicalQuality, AWorseFilterIsCaught) {
   FanRow row = tb::morphological::fan_rows().back();
-  row.parameters.predictor = spec::Predictor::kChord;  // the planted fault
+  row.parameters.predictor = spec::morphological::Predictor::kChord;  // the planted fault
   const FanFigures figures = measure_fans(smoothing_of(row), {.lines = 8, .seeds = 1});
   EXPECT_THAT(exceeded(tb::morphological::asked_of_ours(), figures),
               testing::Not(testing::IsEmpty()));

@@ -37,7 +37,7 @@ class OpenImageIo : public testing::Test {
   }
 
   // Share of lanes whose four channels agree to one step.
-  double agreement(spec::MinFilter filter, spec::Wrap oiio_wrap_shift) {
+  double agreement(spec::texture::MinFilter filter, spec::texture::Wrap oiio_wrap_shift) {
     constexpr std::array<OIIO::TextureOpt::Wrap, 3> kWraps = {
         OIIO::TextureOpt::WrapPeriodic, OIIO::TextureOpt::WrapMirror, OIIO::TextureOpt::WrapClamp};
     // The shared one: destroying another deletes it by the wrong type (version 2.4).
@@ -48,23 +48,25 @@ class OpenImageIo : public testing::Test {
     for (const Size& size : kFilteringSizes) {
       for (std::size_t wrap = 0; wrap < 3; ++wrap, ++seed) {
         // No alpha of 0: the texture system must not be asked what it does with associated alpha.
-        const EncodedTexture texture =
-            make_texture(Pattern::kNoise, spec::Format::kRgb565, size.width, size.height, seed);
+        const EncodedTexture texture = make_texture(Pattern::kNoise, spec::texture::Format::kRgb565,
+                                                    size.width, size.height, seed);
         const OIIO::ustring file(write(texture));
-        spec::TextureDescriptor state;
+        spec::texture::Descriptor state;
         state.format = texture.format;
         state.min_filter = filter;
-        state.mag_filter = filter == spec::MinFilter::kNearest ? spec::MagFilter::kNearest
-                                                               : spec::MagFilter::kLinear;
-        state.wrap_s = state.wrap_t = static_cast<spec::Wrap>(wrap);
+        state.mag_filter = filter == spec::texture::MinFilter::kNearest
+                               ? spec::texture::MagFilter::kNearest
+                               : spec::texture::MagFilter::kLinear;
+        state.wrap_s = state.wrap_t = static_cast<spec::texture::Wrap>(wrap);
         OIIO::TextureOpt options;
         options.mipmode = OIIO::TextureOpt::MipModeNoMIP;
-        options.interpmode = filter == spec::MinFilter::kNearest ? OIIO::TextureOpt::InterpClosest
-                                                                 : OIIO::TextureOpt::InterpBilinear;
+        options.interpmode = filter == spec::texture::MinFilter::kNearest
+                                 ? OIIO::TextureOpt::InterpClosest
+                                 : OIIO::TextureOpt::InterpBilinear;
         options.swrap = options.twrap =
             kWraps[(wrap + static_cast<std::size_t>(oiio_wrap_shift)) % 3];
         const QuadFilter unit = golden_filter({})(texture, state);
-        for (const spec::Quad& quad : filtering_quads(size, 256, seed)) {
+        for (const spec::texture::Quad& quad : filtering_quads(size, 256, seed)) {
           const auto colours = unit(quad);
           for (std::size_t lane = 0; lane < 4; ++lane) {
             const golden::ideal::Fragment f = fragment_of(quad, static_cast<int>(lane));
@@ -92,8 +94,9 @@ class OpenImageIo : public testing::Test {
 };
 
 TEST_F(OpenImageIo, ClosestAndBilinearAgreeToOneStep) {
-  const double nearest = agreement(spec::MinFilter::kNearest, spec::Wrap::kRepeat);
-  const double linear = agreement(spec::MinFilter::kLinear, spec::Wrap::kRepeat);
+  const double nearest =
+      agreement(spec::texture::MinFilter::kNearest, spec::texture::Wrap::kRepeat);
+  const double linear = agreement(spec::texture::MinFilter::kLinear, spec::texture::Wrap::kRepeat);
   std::printf("OpenImageIO %s: closest %.4f %%, bilinear %.4f %% within 1\n", OIIO_VERSION_STRING,
               100.0 * nearest, 100.0 * linear);
   EXPECT_GE(nearest, 0.98);
@@ -101,7 +104,8 @@ TEST_F(OpenImageIo, ClosestAndBilinearAgreeToOneStep) {
 }
 
 TEST_F(OpenImageIo, WrongWrapIsSeen) {
-  EXPECT_LT(agreement(spec::MinFilter::kLinear, spec::Wrap::kMirroredRepeat), 0.9);
+  EXPECT_LT(agreement(spec::texture::MinFilter::kLinear, spec::texture::Wrap::kMirroredRepeat),
+            0.9);
 }
 
 }  // namespace

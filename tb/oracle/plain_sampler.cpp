@@ -9,10 +9,10 @@ namespace {
 
 using Colour = std::array<double, 4>;
 
-std::size_t wrapped(spec::Wrap wrap, std::int64_t i, std::int64_t size) {
-  if (wrap == spec::Wrap::kClampToEdge)
+std::size_t wrapped(spec::texture::Wrap wrap, std::int64_t i, std::int64_t size) {
+  if (wrap == spec::texture::Wrap::kClampToEdge)
     return static_cast<std::size_t>(std::min(std::max<std::int64_t>(i, 0), size - 1));
-  const std::int64_t period = wrap == spec::Wrap::kRepeat ? size : 2 * size;
+  const std::int64_t period = wrap == spec::texture::Wrap::kRepeat ? size : 2 * size;
   while (i < 0) i += period;
   i %= period;
   return static_cast<std::size_t>(i < size ? i : period - 1 - i);
@@ -25,23 +25,24 @@ Colour blend(const Colour& a, const Colour& b, double f) {
 }
 
 // Position of the highest kept bit of narrow channels when they are widened with zeros.
-Colour with_zeros(spec::Format format, Colour colour) {
+Colour with_zeros(spec::texture::Format format, Colour colour) {
   const auto widen = [](double value, int bits) {
     const double code = std::round(value / 255.0 * ((1 << bits) - 1));
     return code * (1 << (8 - bits));
   };
-  if (format == spec::Format::kRgb565)
+  if (format == spec::texture::Format::kRgb565)
     return {widen(colour[0], 5), widen(colour[1], 6), widen(colour[2], 5), colour[3]};
-  if (format == spec::Format::kRgba4444)
+  if (format == spec::texture::Format::kRgba4444)
     for (double& c : colour) c = widen(c, 4);
   return colour;
 }
 
 }  // namespace
 
-spec::Wrap PlainSampler::wrap(spec::Wrap asked) const {
+spec::texture::Wrap PlainSampler::wrap(spec::texture::Wrap asked) const {
   if (fault_ != Fault::kWrongWrap) return asked;
-  return asked == spec::Wrap::kRepeat ? spec::Wrap::kMirroredRepeat : spec::Wrap::kRepeat;
+  return asked == spec::texture::Wrap::kRepeat ? spec::texture::Wrap::kMirroredRepeat
+                                               : spec::texture::Wrap::kRepeat;
 }
 
 std::int64_t PlainSampler::to_index(double position) const {
@@ -71,7 +72,7 @@ PlainSampler::Colour PlainSampler::texel(const EncodedLevel& level, std::int64_t
   Colour colour =
       channels(texture_.format, level.codes[row * static_cast<std::size_t>(level.width) + column]);
   if (fault_ == Fault::kUnreplicatedChannels) colour = with_zeros(texture_.format, colour);
-  if (texture_.format == spec::Format::kSrgb8A8 && fault_ != Fault::kEncodedSrgb) {
+  if (texture_.format == spec::texture::Format::kSrgb8A8 && fault_ != Fault::kEncodedSrgb) {
     for (std::size_t c = 0; c < 3; ++c) {
       const double v = colour[c] / 255.0;
       colour[c] = 255.0 * (v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
@@ -94,7 +95,8 @@ PlainSampler::Colour PlainSampler::bilinear(const EncodedLevel& level, double s,
   std::int64_t right = x + 1;
   if (fault_ == Fault::kNeighbourPastEdge) {
     const std::int64_t last = level.width - 1;
-    if (static_cast<std::int64_t>(wrapped(spec::Wrap::kRepeat, x, level.width)) == last) right = x;
+    if (static_cast<std::int64_t>(wrapped(spec::texture::Wrap::kRepeat, x, level.width)) == last)
+      right = x;
   }
   double a = weight(u - static_cast<double>(x));
   double b = weight(v - static_cast<double>(y));
@@ -108,8 +110,8 @@ PlainSampler::Colour PlainSampler::spatial(std::size_t level, double s, double t
   return linear ? bilinear(texture_.levels[level], s, t) : nearest(texture_.levels[level], s, t);
 }
 
-std::array<std::uint8_t, 4> PlainSampler::sample(const spec::Quad& quad, int lane) const {
-  using spec::MinFilter;
+std::array<std::uint8_t, 4> PlainSampler::sample(const spec::texture::Quad& quad, int lane) const {
+  using spec::texture::MinFilter;
   const auto i = static_cast<std::size_t>(lane);
   const std::size_t row = i & 2;
   const std::size_t column = i & 1;
@@ -132,7 +134,7 @@ std::array<std::uint8_t, 4> PlainSampler::sample(const spec::Quad& quad, int lan
                       filter == MinFilter::kLinearMipmapLinear;
   Colour colour;
   if (lod <= (fault_ == Fault::kLateMagnification ? 0.5 : 0.0)) {
-    colour = spatial(0, s, t, sampler_.mag_filter == spec::MagFilter::kLinear);
+    colour = spatial(0, s, t, sampler_.mag_filter == spec::texture::MagFilter::kLinear);
   } else if (filter == MinFilter::kNearest || filter == MinFilter::kLinear) {
     colour = spatial(0, s, t, linear);
   } else if (filter == MinFilter::kNearestMipmapNearest ||

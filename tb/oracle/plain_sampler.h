@@ -12,7 +12,8 @@
 #include <string_view>
 
 #include "golden/ideal/filtering_criterion.h"
-#include "spec/fragment.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/packets.h"
 #include "tb/oracle/encoded_texture.h"
 
 namespace deburr::tb::texture {
@@ -66,7 +67,7 @@ class PlainSampler {
   PlainSampler(const EncodedTexture& texture, const golden::ideal::Sampler& sampler, Fault fault)
       : texture_(texture), sampler_(sampler), fault_(fault) {}
 
-  std::array<std::uint8_t, 4> sample(const spec::Quad& quad, int lane) const;
+  std::array<std::uint8_t, 4> sample(const spec::texture::Quad& quad, int lane) const;
 
  private:
   using Colour = std::array<double, 4>;
@@ -76,7 +77,7 @@ class PlainSampler {
   Colour spatial(std::size_t level, double s, double t, bool linear) const;
   std::int64_t to_index(double position) const;
   double weight(double fraction) const;
-  spec::Wrap wrap(spec::Wrap asked) const;
+  spec::texture::Wrap wrap(spec::texture::Wrap asked) const;
 
   const EncodedTexture& texture_;
   golden::ideal::Sampler sampler_;

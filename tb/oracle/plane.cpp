@@ -9,13 +9,13 @@ namespace deburr::tb::texture {
 namespace {
 
 std::int32_t fixed(double coordinate) {
-  return static_cast<std::int32_t>(std::lround(coordinate * spec::kCoordinateOne));
+  return static_cast<std::int32_t>(std::lround(coordinate * spec::texture::kCoordinateOne));
 }
 
 }  // namespace
 
-spec::Quad CoordinateImage::quad(int x, int y) const {
-  spec::Quad quad;
+spec::texture::Quad CoordinateImage::quad(int x, int y) const {
+  spec::texture::Quad quad;
   quad.x = static_cast<std::uint16_t>(x);
   quad.y = static_cast<std::uint16_t>(y);
   for (std::size_t lane = 0; lane < 4; ++lane) {
@@ -51,7 +51,7 @@ CoordinateImage plane(const PlaneView& view) {
   return image;
 }
 
-CoordinateImage quads_image(const std::vector<spec::Quad>& quads) {
+CoordinateImage quads_image(const std::vector<spec::texture::Quad>& quads) {
   constexpr std::size_t kQuadsInRow = 32;
   DEBURR_CHECK(quads.size() % kQuadsInRow == 0, "the last row of quads must be full");
   CoordinateImage image{
@@ -84,7 +84,7 @@ Pixels filter_image(const CoordinateImage& image, const QuadFilter& filter) {
 std::vector<golden::ideal::Rgba> plane_truth(const PlaneView& view,
                                              const golden::ideal::Texture& texture, int n) {
   golden::ideal::Sampler sampler;
-  sampler.min_filter = spec::MinFilter::kLinear;
+  sampler.min_filter = spec::texture::MinFilter::kLinear;
   std::vector<golden::ideal::Rgba> truth;
   for (int y = 0; y < view.height; ++y) {
     for (int x = 0; x < view.width; ++x) {

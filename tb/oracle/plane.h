@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "golden/ideal/filtering_criterion.h"
-#include "spec/fragment.h"
+#include "spec/texture/packets.h"
 #include "tb/oracle/conformance.h"
 
 namespace deburr::tb::texture {
@@ -17,7 +17,7 @@ struct CoordinateImage {
   int width = 0, height = 0;
   std::vector<std::int32_t> s, t;  // row-major
 
-  spec::Quad quad(int x, int y) const;  // of pixels (x, y) .. (x + 1, y + 1), x and y even
+  spec::texture::Quad quad(int x, int y) const;  // of pixels (x, y) .. (x + 1, y + 1), x and y even
 };
 
 struct PlaneView {
@@ -33,7 +33,7 @@ struct PlaneView {
 CoordinateImage plane(const PlaneView& view);
 
 // Quads that need not belong together, 32 in a row; their number is a multiple of 32.
-CoordinateImage quads_image(const std::vector<spec::Quad>& quads);
+CoordinateImage quads_image(const std::vector<spec::texture::Quad>& quads);
 
 using Pixels = std::vector<std::array<std::uint8_t, 4>>;  // row-major
 Pixels filter_image(const CoordinateImage& image, const QuadFilter& filter);

@@ -32,10 +32,10 @@ bool is_supported(const std::string& extension) {
          extension.rfind("KHR_materials_", 0) == 0;
 }
 
-spec::Wrap wrap_of(int gl) {
-  if (gl == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return spec::Wrap::kClampToEdge;
-  if (gl == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return spec::Wrap::kMirroredRepeat;
-  return spec::Wrap::kRepeat;
+spec::texture::Wrap wrap_of(int gl) {
+  if (gl == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return spec::texture::Wrap::kClampToEdge;
+  if (gl == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return spec::texture::Wrap::kMirroredRepeat;
+  return spec::texture::Wrap::kRepeat;
 }
 
 // KHR_texture_transform: scale, then rotation, then offset.
@@ -387,7 +387,7 @@ class GltfImport {
   tinygltf::Model model_;
   std::map<int, std::string> encoded_;
   std::vector<MaterialUse> uses_;  // by material, the default material last
-  std::map<std::tuple<int, spec::Wrap, spec::Wrap>, int> textures_;
+  std::map<std::tuple<int, spec::texture::Wrap, spec::texture::Wrap>, int> textures_;
   int visits_ = 0;
   bool skipped_primitives_ = false, vertex_colours_ = false;
 };

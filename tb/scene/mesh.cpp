@@ -233,11 +233,12 @@ void MeshBuilder::project_boxes() {
 }
 
 int MeshBuilder::add_texture(Texture texture) {
-  if (texture.image.width > spec::kMaxTextureSize || texture.image.height > spec::kMaxTextureSize)
+  if (texture.image.width > spec::texture::kMaxTextureSize ||
+      texture.image.height > spec::texture::kMaxTextureSize)
     fail_mesh(path_,
               fmt::format("its texture '{}' is {} x {} texels, the limit is {}; scale it down",
                           texture.name, texture.image.width, texture.image.height,
-                          spec::kMaxTextureSize));
+                          spec::texture::kMaxTextureSize));
   mesh_.textures.push_back(std::move(texture));
   return static_cast<int>(mesh_.textures.size()) - 1;
 }

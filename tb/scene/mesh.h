@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "spec/texture.h"
+#include "spec/texture/descriptor.h"
 #include "tb/scene/image.h"
 
 namespace deburr::tb {
@@ -20,7 +20,7 @@ namespace deburr::tb {
 struct Texture {
   std::string name = {};
   Image image = {};  // level 0; mip_chain() makes the rest
-  spec::Wrap wrap_s = spec::Wrap::kRepeat, wrap_t = spec::Wrap::kRepeat;
+  spec::texture::Wrap wrap_s = spec::texture::Wrap::kRepeat, wrap_t = spec::texture::Wrap::kRepeat;
 };
 
 struct Material {

@@ -26,12 +26,13 @@ struct Mapping {
 };
 
 // An even number of repeats, where the texture is mirrored every other one.
-double whole_repeats(double coordinate, spec::Wrap wrap) {
-  if (wrap == spec::Wrap::kClampToEdge || !std::isfinite(coordinate)) return 0.0;
-  return wrap == spec::Wrap::kRepeat ? std::floor(coordinate) : 2.0 * std::floor(0.5 * coordinate);
+double whole_repeats(double coordinate, spec::texture::Wrap wrap) {
+  if (wrap == spec::texture::Wrap::kClampToEdge || !std::isfinite(coordinate)) return 0.0;
+  return wrap == spec::texture::Wrap::kRepeat ? std::floor(coordinate)
+                                              : 2.0 * std::floor(0.5 * coordinate);
 }
 
-Imath::V3d towards_zero(const Imath::V3d& corners, spec::Wrap wrap) {
+Imath::V3d towards_zero(const Imath::V3d& corners, spec::texture::Wrap wrap) {
   const auto [low, high] = std::minmax({corners.x, corners.y, corners.z});
   const double shift = whole_repeats(0.5 * (low + high), wrap);
   return corners - Imath::V3d(shift, shift, shift);
@@ -39,7 +40,7 @@ Imath::V3d towards_zero(const Imath::V3d& corners, spec::Wrap wrap) {
 
 Mapping map_triangle(const Mesh& mesh, const Triangle& triangle) {
   const int texture = mesh.materials[triangle.material].texture;
-  DEBURR_CHECK(texture >= 0 && texture < spec::kMaxTextures,
+  DEBURR_CHECK(texture >= 0 && texture < spec::texture::kMaxTextures,
                fmt::format("material {} has texture {}: call texture_everything first",
                            triangle.material, texture));
   const Texture& state = mesh.textures[static_cast<std::size_t>(texture)];
@@ -49,8 +50,8 @@ Mapping map_triangle(const Mesh& mesh, const Triangle& triangle) {
   mapping.s = towards_zero({uv[0].x, uv[1].x, uv[2].x}, state.wrap_s);
   mapping.t = towards_zero({uv[0].y, uv[1].y, uv[2].y}, state.wrap_t);
   mapping.texture = static_cast<std::uint8_t>(texture);
-  mapping.repeats_s = state.wrap_s != spec::Wrap::kClampToEdge;
-  mapping.repeats_t = state.wrap_t != spec::Wrap::kClampToEdge;
+  mapping.repeats_s = state.wrap_s != spec::texture::Wrap::kClampToEdge;
+  mapping.repeats_t = state.wrap_t != spec::texture::Wrap::kClampToEdge;
   return mapping;
 }
 
@@ -75,8 +76,8 @@ class QuadMaker {
   QuadMaker(const Primitive& primitive, const Mapping& mapping)
       : primitive_(primitive), mapping_(mapping) {}
 
-  spec::Quad make(int x, int y, std::uint8_t coverage) const {
-    spec::Quad quad;
+  spec::texture::Quad make(int x, int y, std::uint8_t coverage) const {
+    spec::texture::Quad quad;
     quad.x = static_cast<std::uint16_t>(x);
     quad.y = static_cast<std::uint16_t>(y);
     quad.texture = mapping_.texture;
@@ -125,7 +126,7 @@ void for_each_quad(const Primitive& p, Traversal traversal, Visit&& visit) {
 
 std::int32_t snap_coordinate(double coordinate, bool& clamped) {
   constexpr double kLimit = 2147483648.0;  // 128 in S7.24
-  const double scaled = std::floor(coordinate * spec::kCoordinateOne + 0.5);
+  const double scaled = std::floor(coordinate * spec::texture::kCoordinateOne + 0.5);
   if (scaled >= -kLimit && scaled < kLimit) return static_cast<std::int32_t>(scaled);
   clamped = true;
   if (std::isnan(coordinate)) return 0;
@@ -169,7 +170,7 @@ FragmentStream rasterise(const Scene& scene, const RasterOptions& options) {
       }
       if (!overdraw) covered = seen;
       if (covered == 0) return;
-      spec::Quad quad = maker.make(x, y, static_cast<std::uint8_t>(covered));
+      spec::texture::Quad quad = maker.make(x, y, static_cast<std::uint8_t>(covered));
       quad.tag = static_cast<std::uint32_t>(stream.quads.size());
       stream.counts.fragments += static_cast<std::uint64_t>(std::popcount(covered));
       stream.counts.clamped_lanes += static_cast<std::uint64_t>(std::popcount(quad.clamped));
@@ -195,13 +196,13 @@ FrameAssembler::FrameAssembler(const FragmentStream& stream, const Scene& scene)
   for (int y = 0; y < frame_.height; ++y)
     std::fill_n(&frame_.at(0, y), frame_.width, sky(scene, y + 0.5, frame_.height));
   pending_.reserve(stream.quads.size());
-  for (const spec::Quad& quad : stream.quads) {
+  for (const spec::texture::Quad& quad : stream.quads) {
     pending_.push_back(quad.coverage);
     missing_ += static_cast<std::uint64_t>(std::popcount(quad.coverage));
   }
 }
 
-void FrameAssembler::put(const spec::Colour& colour) {
+void FrameAssembler::put(const spec::texture::Colour& colour) {
   DEBURR_CHECK(colour.tag < pending_.size() && colour.lane < 4,
                fmt::format("colour with tag {} lane {}, the stream has {} quads", colour.tag,
                            colour.lane, pending_.size()));

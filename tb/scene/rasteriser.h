@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "spec/fragment.h"
+#include "spec/texture/packets.h"
 #include "tb/scene/image.h"
 #include "tb/scene/scenes.h"
 
@@ -47,7 +47,7 @@ struct RasterCounts {
 // A frame as a list of quads. quads[i].tag == i, so a colour's tag and lane give its pixel.
 struct FragmentStream {
   int width = 0, height = 0;
-  std::vector<spec::Quad> quads;
+  std::vector<spec::texture::Quad> quads;
   // Lanes whose colour is the one to be seen: equal to coverage in kVisible, less in kOverdraw.
   std::vector<std::uint8_t> visible;
   DepthImage depth;  // near/w of the nearest surface at pixel centres, 0 where there is none
@@ -73,7 +73,7 @@ class FrameAssembler {
  public:
   FrameAssembler(const FragmentStream& stream, const Scene& scene);
   // Throws CheckFailed for an unknown tag, a lane that is not covered or a second colour for it.
-  void put(const spec::Colour& colour);
+  void put(const spec::texture::Colour& colour);
   std::uint64_t missing() const { return missing_; }  // covered lanes without a colour so far
   const Image& frame() const { return frame_; }
 

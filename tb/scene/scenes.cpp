@@ -98,10 +98,11 @@ Texture choose_texture(const std::string& wanted, std::string_view otherwise,
     return texture;
   }
   texture.image = read_image(texture.name);
-  if (texture.image.width > spec::kMaxTextureSize || texture.image.height > spec::kMaxTextureSize)
+  if (texture.image.width > spec::texture::kMaxTextureSize ||
+      texture.image.height > spec::texture::kMaxTextureSize)
     throw spec::FileError(fmt::format(
         "the texture '{}' is {} x {} texels, the limit is {}; scale it down", texture.name,
-        texture.image.width, texture.image.height, spec::kMaxTextureSize));
+        texture.image.width, texture.image.height, spec::texture::kMaxTextureSize));
   return texture;
 }
 
@@ -247,11 +248,11 @@ Scene import_scene(const std::filesystem::path& path, const SceneOptions& option
   scene.name = scene.mesh.name;
   const Texture fallback = choose_texture(options.texture, "checker", options);
   texture_everything(scene.mesh, &fallback);
-  if (scene.mesh.textures.size() > spec::kMaxTextures)
+  if (scene.mesh.textures.size() > spec::texture::kMaxTextures)
     throw spec::FileError(
         fmt::format("the mesh '{}' has {} textures, the unit has {} descriptors; merge "
                     "some or give one texture for all",
-                    path.string(), scene.mesh.textures.size(), spec::kMaxTextures));
+                    path.string(), scene.mesh.textures.size(), spec::texture::kMaxTextures));
   frame_whole_mesh(scene);
   finish(scene, options);
   return scene;

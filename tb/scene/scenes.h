@@ -43,7 +43,7 @@ struct SceneOptions {
   std::string texture = {};  // a name of texture_names() or an image file; empty: the scene's own
   int texture_size = 1024;   // side of a texture made by formula
   std::uint32_t seed = 1;
-  spec::Wrap wrap = spec::Wrap::kRepeat;
+  spec::texture::Wrap wrap = spec::texture::Wrap::kRepeat;
   std::optional<Camera> camera = {};  // instead of the scene's own
 };
 

@@ -207,10 +207,11 @@ Image noise(int width, int height, std::uint32_t seed) {
 std::span<const std::string_view> texture_names() { return kTextureNames; }
 
 Image make_texture(std::string_view name, int width, int height, std::uint32_t seed) {
-  if (width < 1 || height < 1 || width > spec::kMaxTextureSize || height > spec::kMaxTextureSize)
+  if (width < 1 || height < 1 || width > spec::texture::kMaxTextureSize ||
+      height > spec::texture::kMaxTextureSize)
     throw spec::ConfigError(
         fmt::format("a texture of {} x {} texels was asked for; sides are 1 to {}", width, height,
-                    spec::kMaxTextureSize));
+                    spec::texture::kMaxTextureSize));
   if (name == "checker") return checkerboard(width, height);
   if (name == "road") return road(width, height, seed);
   if (name == "brick") return brick(width, height, seed);

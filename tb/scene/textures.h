@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "spec/texture.h"
+#include "spec/texture/descriptor.h"
 #include "tb/scene/image.h"
 
 namespace deburr::tb {
@@ -30,7 +30,7 @@ Image noise(int width, int height, std::uint32_t seed = 1);  // white noise in R
 // "noise".
 std::span<const std::string_view> texture_names();
 // Throws ConfigError for an unknown name (listing the known) or a side
-// outside 1..spec::kMaxTextureSize.
+// outside 1..spec::texture::kMaxTextureSize.
 Image make_texture(std::string_view name, int width, int height, std::uint32_t seed = 1);
 
 // Which values are averaged: those stored, or the linear light that sRGB bytes stand for.

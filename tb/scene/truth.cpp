@@ -55,9 +55,9 @@ int floor_to_int(double value) {
   return truncated - (limited < truncated ? 1 : 0);
 }
 
-int wrap_texel(int i, int size, spec::Wrap wrap) {
-  if (wrap == spec::Wrap::kClampToEdge) return std::clamp(i, 0, size - 1);
-  if (wrap == spec::Wrap::kRepeat) {
+int wrap_texel(int i, int size, spec::texture::Wrap wrap) {
+  if (wrap == spec::texture::Wrap::kClampToEdge) return std::clamp(i, 0, size - 1);
+  if (wrap == spec::texture::Wrap::kRepeat) {
     if (static_cast<unsigned>(i) < static_cast<unsigned>(size)) return i;
     const int r = i % size;
     return r < 0 ? r + size : r;
@@ -121,7 +121,7 @@ class TextureReader {
   }
 
   const Transport& transport_;
-  spec::Wrap wrap_s_, wrap_t_;
+  spec::texture::Wrap wrap_s_, wrap_t_;
   std::vector<Image> levels_;
 };
 

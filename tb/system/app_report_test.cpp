@@ -11,7 +11,7 @@
 #include <set>
 #include <string>
 
-#include "tb/app/file.h"
+#include "tb/results/file.h"
 #include "tb/scene/image.h"
 #include "tb/scene/image_io.h"
 

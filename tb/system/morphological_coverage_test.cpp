@@ -65,14 +65,14 @@ MorphologicalInput disc(Random& random) {
               [&](int x, int y) { return grey(std::hypot(x - x0, y - y0) < radius ? 220 : 10); });
 }
 
-spec::MorphologicalParameters wide() {
-  spec::MorphologicalParameters p = preset(MorphologicalPreset::kDeburr);
+spec::morphological::Parameters wide() {
+  spec::morphological::Parameters p = preset(Preset::kDeburr);
   p.window_rows = 258;
   p.line_pixels = 512;
   return p;
 }
-spec::MorphologicalParameters narrow() {
-  spec::MorphologicalParameters p = preset(MorphologicalPreset::kMlaaSlope);
+spec::morphological::Parameters narrow() {
+  spec::morphological::Parameters p = preset(Preset::kMlaaSlope);
   p.window_rows = 50;
   p.reach_columns = 24;
   p.line_pixels = 512;
@@ -94,7 +94,7 @@ void add(Coverage& coverage, const Hits& hits) {
 }
 
 // Frames are added, golden alone, until no bin is empty; those that hit something new are kept.
-std::vector<MorphologicalInput> telling_frames(const spec::MorphologicalParameters& parameters) {
+std::vector<MorphologicalInput> telling_frames(const spec::morphological::Parameters& parameters) {
   Random random(7);
   MorphologicalGolden golden(parameters);
   std::set<std::string> met;
@@ -116,7 +116,7 @@ std::vector<MorphologicalInput> telling_frames(const spec::MorphologicalParamete
 }
 
 // What frames met, each of them identical to golden in the hardware model.
-Hits met(const spec::MorphologicalParameters& parameters,
+Hits met(const spec::morphological::Parameters& parameters,
          const std::vector<MorphologicalInput>& frames) {
   return forked<Hits>([&] {
     MorphologicalBenchOptions options;

@@ -10,19 +10,18 @@
 #include <vector>
 
 #include "golden/morphological/configuration.h"
-#include "tb/app/morphological_bench.h"
-#include "tb/app/morphological_frames.h"
+#include "tb/env/morphological_bench.h"
+#include "tb/env/morphological_frames.h"
 #include "tb/harness/random.h"
 #include "tb/scene/scenes.h"
 #include "tb/scene/truth.h"
 
 namespace deburr::tb::morphological_system {
 
-using spec::MorphologicalParameters;
-using spec::MorphologicalPreset;
+using spec::morphological::Parameters;
+using spec::morphological::Preset;
 
-inline constexpr MorphologicalPreset kBuilt[] = {
-    MorphologicalPreset::kMlaa, MorphologicalPreset::kMlaaSlope, MorphologicalPreset::kDeburr};
+inline constexpr Preset kBuilt[] = {Preset::kMlaa, Preset::kMlaaSlope, Preset::kDeburr};
 
 inline Rgba8 grey(int code) {
   const auto c = static_cast<std::uint8_t>(code);
@@ -127,9 +126,9 @@ inline MorphologicalInput rendered(const std::string& scene, int width, int heig
   return load_frame(p, 1).input;
 }
 
-inline MorphologicalParameters preset(MorphologicalPreset which,
-                                      spec::Lanes lanes = spec::Lanes::kOne) {
-  MorphologicalParameters p = golden::morphological::preset_parameters(which);
+inline Parameters preset(Preset which,
+                         spec::morphological::Lanes lanes = spec::morphological::Lanes::kOne) {
+  Parameters p = golden::morphological::preset_parameters(which);
   p.lanes = lanes;
   return p;
 }

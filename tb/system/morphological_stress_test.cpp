@@ -15,12 +15,11 @@
 namespace deburr::tb::morphological_system {
 namespace {
 
-using spec::Lanes;
-using spec::Storage;
+using spec::morphological::Lanes;
+using spec::morphological::Storage;
 using Variant = std::tuple<Lanes, Storage>;
 
-MorphologicalBenchOptions options_of(Lanes lanes, Storage storage,
-                                     MorphologicalPreset which = MorphologicalPreset::kDeburr) {
+MorphologicalBenchOptions options_of(Lanes lanes, Storage storage, Preset which = Preset::kDeburr) {
   MorphologicalBenchOptions options;
   options.morphological = preset(which, lanes);
   options.morphological.storage = storage;
@@ -117,17 +116,18 @@ TEST_P(MorphologicalStress, SameSeedGivesTheSameCycles) {
   EXPECT_EQ(a.cycles, b.cycles);
 }
 
-INSTANTIATE_TEST_SUITE_P(EachVariant, MorphologicalStress,
-                         testing::Values(Variant{Lanes::kOne, Storage::kLineBuffers},
-                                         Variant{Lanes::kTwo, Storage::kMemory},
-                                         Variant{Lanes::kFour, Storage::kLineBuffers},
-                                         Variant{Lanes::kFour, Storage::kMemory}),
-                         [](const auto& p) {
-                           return fmt::format(
-                               "lanes{}_{}",
-                               spec::kLanesNames[static_cast<std::size_t>(std::get<0>(p.param))],
-                               spec::kStorageNames[static_cast<std::size_t>(std::get<1>(p.param))]);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    EachVariant, MorphologicalStress,
+    testing::Values(Variant{Lanes::kOne, Storage::kLineBuffers},
+                    Variant{Lanes::kTwo, Storage::kMemory},
+                    Variant{Lanes::kFour, Storage::kLineBuffers},
+                    Variant{Lanes::kFour, Storage::kMemory}),
+    [](const auto& p) {
+      return fmt::format(
+          "lanes{}_{}",
+          spec::morphological::kLanesNames[static_cast<std::size_t>(std::get<0>(p.param))],
+          spec::morphological::kStorageNames[static_cast<std::size_t>(std::get<1>(p.param))]);
+    });
 
 TEST(MorphologicalMemory, RandomLatencyBanksAndNarrowBusChangeNoData) {
   for (const Lanes lanes : {Lanes::kOne, Lanes::kFour}) {
@@ -149,7 +149,7 @@ TEST(MorphologicalMemory, RandomLatencyBanksAndNarrowBusChangeNoData) {
 
 // Both kinds of storage and all lanes deliver the same pixels, preset by preset.
 TEST(MorphologicalMemory, StorageAndLanesChangeNoPixel) {
-  for (const MorphologicalPreset which : kBuilt) {
+  for (const Preset which : kBuilt) {
     const MorphologicalOutcome one = run(options_of(Lanes::kOne, Storage::kLineBuffers, which));
     for (const Variant& v :
          {Variant{Lanes::kTwo, Storage::kLineBuffers}, Variant{Lanes::kFour, Storage::kMemory}})
@@ -168,7 +168,7 @@ class BrokenMemory : public testing::TestWithParam<Broken> {};
 // The golden model predicts the black pixels and counts the lines that were read with an error; the
 // register counts each of them once more, for its write.
 TEST_P(BrokenMemory, ErrorResponsesReadAsZeroAndAreReported) {
-  namespace reg = spec::morphological_register;
+  namespace reg = spec::morphological::reg;
   MorphologicalBenchOptions options = options_of(GetParam().lanes, Storage::kMemory);
   options.memory.latency_max = 90;
   options.memory.error_address = GetParam().address;

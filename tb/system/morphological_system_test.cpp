@@ -32,7 +32,7 @@ MorphologicalOutcome expect_identical(const Frames& frames,
   EXPECT_EQ(outcome.traffic_mismatches, 0u);
   EXPECT_EQ(outcome.pixels, pixels_of(frames));
   EXPECT_GE(outcome.comparisons, 2 * pixels_of(frames));
-  if (options.morphological.storage == spec::Storage::kMemory) {
+  if (options.morphological.storage == spec::morphological::Storage::kMemory) {
     std::uint64_t lines = 0;
     for (const MorphologicalInput& frame : frames)
       lines += static_cast<std::uint64_t>((4 * frame.image.width + 63) / 64) *
@@ -45,14 +45,14 @@ MorphologicalOutcome expect_identical(const Frames& frames,
 template <class Tuple>
 std::string name_of(const testing::TestParamInfo<Tuple>& info) {
   std::string name{
-      spec::kMorphologicalPresetNames[static_cast<std::size_t>(std::get<0>(info.param))]};
+      spec::morphological::kPresetNames[static_cast<std::size_t>(std::get<0>(info.param))]};
   std::replace(name.begin(), name.end(), '-', '_');
   return fmt::format("{}_{}", name, info.index);
 }
 
 // ---- frames of full size ------------------------------------------------------------------------
 
-using Size = std::tuple<MorphologicalPreset, std::pair<int, int>>;
+using Size = std::tuple<Preset, std::pair<int, int>>;
 class RenderedFrame : public testing::TestWithParam<Size> {};
 
 TEST_P(RenderedFrame, IsIdenticalToGolden) {
@@ -77,16 +77,16 @@ INSTANTIATE_TEST_SUITE_P(Morphological, RenderedFrame,
                          name_of<Size>);
 
 TEST(Morphological, FullHdAt60FramesFitsIn148MHz) {
-  const MorphologicalParameters p;
+  const Parameters p;
   EXPECT_EQ(frame_clocks_by_formula(p, 1920, 1080), 2144646u);
   EXPECT_LT(60e-6 * static_cast<double>(frame_clocks_by_formula(p, 1920, 1080)), 148.5);
-  const MorphologicalParameters four = preset(MorphologicalPreset::kDeburr, spec::Lanes::kFour);
+  const Parameters four = preset(Preset::kDeburr, spec::morphological::Lanes::kFour);
   EXPECT_LT(60e-6 * static_cast<double>(frame_clocks_by_formula(four, 3840, 2160)), 148.5);
 }
 
 // ---- frames that others rendered ----------------------------------------------------------------
 
-using Named = std::tuple<MorphologicalPreset, const char*>;
+using Named = std::tuple<Preset, const char*>;
 class DataFrame : public testing::TestWithParam<Named> {};
 
 TEST_P(DataFrame, IsIdenticalToGolden) {
@@ -105,17 +105,16 @@ TEST_P(DataFrame, IsIdenticalToGolden) {
   expect_identical({load_frame(p, 1).input}, options);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Morphological, DataFrame,
-    testing::Values(std::tuple{MorphologicalPreset::kMlaa, "track_720p_noaa.png"},
-                    std::tuple{MorphologicalPreset::kMlaaSlope, "track_720p_noaa.png"},
-                    std::tuple{MorphologicalPreset::kDeburr, "track_720p_noaa.png"},
-                    std::tuple{MorphologicalPreset::kDeburr, "track_1080p_noaa.png"}),
-    name_of<Named>);
+INSTANTIATE_TEST_SUITE_P(Morphological, DataFrame,
+                         testing::Values(std::tuple{Preset::kMlaa, "track_720p_noaa.png"},
+                                         std::tuple{Preset::kMlaaSlope, "track_720p_noaa.png"},
+                                         std::tuple{Preset::kDeburr, "track_720p_noaa.png"},
+                                         std::tuple{Preset::kDeburr, "track_1080p_noaa.png"}),
+                         name_of<Named>);
 
 // ---- synthetic frames: presets x lanes x storage ------------------------------------------------
 
-using Variant = std::tuple<MorphologicalPreset, spec::Lanes, spec::Storage>;
+using Variant = std::tuple<Preset, spec::morphological::Lanes, spec::morphological::Storage>;
 class EveryVariant : public testing::TestWithParam<Variant> {
  protected:
   MorphologicalBenchOptions options() const {
@@ -149,29 +148,33 @@ TEST_P(EveryVariant, OddSizesAreIdenticalToGolden) {
 INSTANTIATE_TEST_SUITE_P(
     Morphological, EveryVariant,
     testing::Combine(testing::ValuesIn(kBuilt),
-                     testing::Values(spec::Lanes::kOne, spec::Lanes::kTwo, spec::Lanes::kFour),
-                     testing::Values(spec::Storage::kLineBuffers, spec::Storage::kMemory)),
+                     testing::Values(spec::morphological::Lanes::kOne,
+                                     spec::morphological::Lanes::kTwo,
+                                     spec::morphological::Lanes::kFour),
+                     testing::Values(spec::morphological::Storage::kLineBuffers,
+                                     spec::morphological::Storage::kMemory)),
     name_of<Variant>);
 
 // ---- the widest and the highest frame -----------------------------------------------------------
 
-using Stored = std::tuple<MorphologicalPreset, spec::Storage>;
+using Stored = std::tuple<Preset, spec::morphological::Storage>;
 class Widest : public testing::TestWithParam<Stored> {};
 
 TEST_P(Widest, IsIdenticalToGolden) {
   const auto [which, storage] = GetParam();
   MorphologicalBenchOptions options;
-  options.morphological = preset(which, spec::Lanes::kFour);
+  options.morphological = preset(which, spec::morphological::Lanes::kFour);
   options.morphological.storage = storage;
   options.records = true;
   expect_identical({noise(8192, 3), blocks(8192, 9)}, options);
 }
 
-INSTANTIATE_TEST_SUITE_P(Morphological, Widest,
-                         testing::Combine(testing::ValuesIn(kBuilt),
-                                          testing::Values(spec::Storage::kLineBuffers,
-                                                          spec::Storage::kMemory)),
-                         name_of<Stored>);
+INSTANTIATE_TEST_SUITE_P(
+    Morphological, Widest,
+    testing::Combine(testing::ValuesIn(kBuilt),
+                     testing::Values(spec::morphological::Storage::kLineBuffers,
+                                     spec::morphological::Storage::kMemory)),
+    name_of<Stored>);
 
 TEST(Morphological, TheHighestFrameIsIdenticalToGolden) {
   MorphologicalBenchOptions options;
@@ -188,15 +191,18 @@ class EveryRule : public testing::TestWithParam<Rule> {};
 TEST_P(EveryRule, IsIdenticalToGolden) {
   const auto [edges, line] = GetParam();
   MorphologicalBenchOptions options;
-  MorphologicalParameters& p = options.morphological;
-  constexpr spec::EdgeSource kSources[] = {spec::EdgeSource::kLuma, spec::EdgeSource::kDepth,
-                                           spec::EdgeSource::kPredicated, spec::EdgeSource::kLuma,
-                                           spec::EdgeSource::kLuma};
+  Parameters& p = options.morphological;
+  constexpr spec::morphological::EdgeSource kSources[] = {
+      spec::morphological::EdgeSource::kLuma, spec::morphological::EdgeSource::kDepth,
+      spec::morphological::EdgeSource::kPredicated, spec::morphological::EdgeSource::kLuma,
+      spec::morphological::EdgeSource::kLuma};
   p.edge_source = kSources[edges];
-  p.threshold_mode = edges >= 3 ? spec::ThresholdMode::kDynamic : spec::ThresholdMode::kFixed;
-  p.dynamic_luma = edges == 3 ? spec::DynamicLuma::kCurrent : spec::DynamicLuma::kMax;
-  p.local_contrast = static_cast<spec::LocalContrast>((edges + line) % 3);
-  p.predictor = static_cast<spec::Predictor>(line % 3);
+  p.threshold_mode = edges >= 3 ? spec::morphological::ThresholdMode::kDynamic
+                                : spec::morphological::ThresholdMode::kFixed;
+  p.dynamic_luma = edges == 3 ? spec::morphological::DynamicLuma::kCurrent
+                              : spec::morphological::DynamicLuma::kMax;
+  p.local_contrast = static_cast<spec::morphological::LocalContrast>((edges + line) % 3);
+  p.predictor = static_cast<spec::morphological::Predictor>(line % 3);
   p.steps = std::array<std::int32_t, 6>{0, 3, 16, 16, 1, 8}[static_cast<std::size_t>(line)];
   p.contiguous = line % 2 == 1;
   p.safe = line >= 3;
@@ -215,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(Morphological, EveryRule,
 
 TEST(Morphological, AddressesBeginAtPixelBase) {
   MorphologicalBenchOptions options;
-  options.morphological.storage = spec::Storage::kMemory;
+  options.morphological.storage = spec::morphological::Storage::kMemory;
   options.pixel_base = 0x1240;
   expect_identical({blocks(99, 40)}, options);
 }
@@ -224,9 +230,9 @@ TEST(Morphological, AddressesBeginAtPixelBase) {
 
 struct Late {
   const char* name;
-  MorphologicalPreset preset;
+  Preset preset;
   bool contiguous;
-  spec::Lanes lanes;
+  spec::morphological::Lanes lanes;
 };
 void PrintTo(const Late& late, std::ostream* out) { *out << late.name; }
 class LateRecords : public testing::TestWithParam<Late> {};
@@ -236,7 +242,7 @@ class LateRecords : public testing::TestWithParam<Late> {};
 // flaw here and there, and more rows than the window has.
 TEST_P(LateRecords, SeeTheRowsThatTheyWereFoundIn) {
   MorphologicalBenchOptions options;
-  MorphologicalParameters& p = options.morphological;
+  Parameters& p = options.morphological;
   p = preset(GetParam().preset, GetParam().lanes);
   p.contiguous = GetParam().contiguous;
   p.window_rows = 10;
@@ -256,15 +262,15 @@ TEST_P(LateRecords, SeeTheRowsThatTheyWereFoundIn) {
 }
 INSTANTIATE_TEST_SUITE_P(
     Morphological, LateRecords,
-    testing::Values(Late{"mlaa_slope", MorphologicalPreset::kMlaaSlope, false, spec::Lanes::kOne},
-                    Late{"contiguous", MorphologicalPreset::kMlaaSlope, true, spec::Lanes::kOne},
-                    Late{"deburr", MorphologicalPreset::kDeburr, true, spec::Lanes::kOne},
-                    Late{"two_lanes", MorphologicalPreset::kMlaaSlope, true, spec::Lanes::kTwo}),
+    testing::Values(Late{"mlaa_slope", Preset::kMlaaSlope, false, spec::morphological::Lanes::kOne},
+                    Late{"contiguous", Preset::kMlaaSlope, true, spec::morphological::Lanes::kOne},
+                    Late{"deburr", Preset::kDeburr, true, spec::morphological::Lanes::kOne},
+                    Late{"two_lanes", Preset::kMlaaSlope, true, spec::morphological::Lanes::kTwo}),
     [](const auto& late) { return late.param.name; });
 
 // ---- throughput ---------------------------------------------------------------------------------
 
-using Laned = std::tuple<MorphologicalPreset, spec::Lanes>;
+using Laned = std::tuple<Preset, spec::morphological::Lanes>;
 class Throughput : public testing::TestWithParam<Laned> {};
 
 // 1.00 x lanes pixels a clock while a fifth of all pixels lie on edges.
@@ -272,13 +278,14 @@ TEST_P(Throughput, IsSustainedWithAFifthOfThePixelsOnEdges) {
   const auto [which, lanes] = GetParam();
   MorphologicalBenchOptions options;
   options.morphological = preset(which, lanes);
-  options.morphological.local_contrast = spec::LocalContrast::kOff;
+  options.morphological.local_contrast = spec::morphological::LocalContrast::kOff;
   const Frames frames = {a_fifth(640, 120)};
   const MorphologicalOutcome outcome = expect_identical(frames, options);
   EXPECT_LE(outcome.edge_pixels * 5, outcome.pixels);
   EXPECT_GE(outcome.edge_pixels * 1000, outcome.pixels * 198);
-  EXPECT_EQ(outcome.input_clocks,
-            beats_a_row(640, spec::kLaneCount[static_cast<std::size_t>(lanes)]) * 120);
+  EXPECT_EQ(
+      outcome.input_clocks,
+      beats_a_row(640, spec::morphological::kLaneCount[static_cast<std::size_t>(lanes)]) * 120);
   EXPECT_EQ(outcome.frame_clocks, frame_clocks_by_formula(options.morphological, 640, 120));
   EXPECT_EQ(outcome.record_stalls, 0u);
 }
@@ -288,7 +295,7 @@ TEST_P(Throughput, PressesBackWithEveryPixelOnEdges) {
   const auto [which, lanes] = GetParam();
   MorphologicalBenchOptions options;
   options.morphological = preset(which, lanes);
-  options.morphological.local_contrast = spec::LocalContrast::kOff;
+  options.morphological.local_contrast = spec::morphological::LocalContrast::kOff;
   options.morphological.predictor_units = 1;
   options.morphological.divider_interval = 4;
   const MorphologicalOutcome outcome = expect_identical({noise(400, 60)}, options);
@@ -298,16 +305,17 @@ TEST_P(Throughput, PressesBackWithEveryPixelOnEdges) {
 
 INSTANTIATE_TEST_SUITE_P(Morphological, Throughput,
                          testing::Combine(testing::ValuesIn(kBuilt),
-                                          testing::Values(spec::Lanes::kOne, spec::Lanes::kTwo,
-                                                          spec::Lanes::kFour)),
+                                          testing::Values(spec::morphological::Lanes::kOne,
+                                                          spec::morphological::Lanes::kTwo,
+                                                          spec::morphological::Lanes::kFour)),
                          name_of<Laned>);
 
-class Clustered : public testing::TestWithParam<spec::Lanes> {};
+class Clustered : public testing::TestWithParam<spec::morphological::Lanes> {};
 
 // The same fifth packed side by side, at either border and in the middle: no queue is too short.
 TEST_P(Clustered, AFifthOfEveryRowInOnePlaceIsSustainedToo) {
   MorphologicalBenchOptions options;
-  options.morphological = preset(MorphologicalPreset::kDeburr, GetParam());
+  options.morphological = preset(Preset::kDeburr, GetParam());
   options.check_links = false;
   for (const int first : {0, 601, 1920 * 3 / 5}) {
     const MorphologicalOutcome outcome = forked<MorphologicalOutcome>(
@@ -319,30 +327,31 @@ TEST_P(Clustered, AFifthOfEveryRowInOnePlaceIsSustainedToo) {
     EXPECT_EQ(outcome.record_stalls, 0u);
   }
 }
-INSTANTIATE_TEST_SUITE_P(Morphological, Clustered,
-                         testing::Values(spec::Lanes::kOne, spec::Lanes::kTwo, spec::Lanes::kFour),
-                         [](const auto& lanes) {
-                           return fmt::format(
-                               "{}_lanes",
-                               spec::kLanesNames[static_cast<std::size_t>(lanes.param)]);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Morphological, Clustered,
+    testing::Values(spec::morphological::Lanes::kOne, spec::morphological::Lanes::kTwo,
+                    spec::morphological::Lanes::kFour),
+    [](const auto& lanes) {
+      return fmt::format("{}_lanes",
+                         spec::morphological::kLanesNames[static_cast<std::size_t>(lanes.param)]);
+    });
 
 // ---- what is refused ----------------------------------------------------------------------------
 
 // The sizing rule of docs/morphological_engine.md: so many lines in flight each way keep up with a
 // memory of 100 clocks, one less does not.
 struct Sizing {
-  spec::Lanes lanes;
+  spec::morphological::Lanes lanes;
   int lines;
 };
 class FrameMemory : public testing::TestWithParam<Sizing> {
  protected:
   // Clocks above the formula.
-  static std::uint64_t lost(spec::Lanes lanes, int lines) {
+  static std::uint64_t lost(spec::morphological::Lanes lanes, int lines) {
     const Frames frames = {flat(1280, 48, 90)};
     MorphologicalBenchOptions options;
-    options.morphological = preset(MorphologicalPreset::kMlaa, lanes);
-    options.morphological.storage = spec::Storage::kMemory;
+    options.morphological = preset(Preset::kMlaa, lanes);
+    options.morphological.storage = spec::morphological::Storage::kMemory;
     if (lines > 0) options.morphological.memory_outstanding = lines;
     const MorphologicalOutcome outcome = expect_identical(frames, options);
     return outcome.frame_clocks - frame_clocks_by_formula(options.morphological, 1280, 48);
@@ -357,20 +366,21 @@ TEST_P(FrameMemory, FallsBackWithALineLess) {
 }
 TEST_P(FrameMemory, KeepsUpByDefault) { EXPECT_EQ(lost(GetParam().lanes, 0), 0u); }
 
-INSTANTIATE_TEST_SUITE_P(Morphological, FrameMemory,
-                         testing::Values(Sizing{spec::Lanes::kOne, 7},
-                                         Sizing{spec::Lanes::kTwo, 13},
-                                         Sizing{spec::Lanes::kFour, 26}),
-                         [](const auto& sizing) {
-                           return fmt::format(
-                               "{}_lanes",
-                               spec::kLanesNames[static_cast<std::size_t>(sizing.param.lanes)]);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Morphological, FrameMemory,
+    testing::Values(Sizing{spec::morphological::Lanes::kOne, 7},
+                    Sizing{spec::morphological::Lanes::kTwo, 13},
+                    Sizing{spec::morphological::Lanes::kFour, 26}),
+    [](const auto& sizing) {
+      return fmt::format(
+          "{}_lanes",
+          spec::morphological::kLanesNames[static_cast<std::size_t>(sizing.param.lanes)]);
+    });
 
 TEST(Morphological, WhatIsNotBuiltIsNamed) {
   MorphologicalBenchOptions options;
   const Frames frames = {flat(4, 4, 0)};
-  for (const auto which : {MorphologicalPreset::kSmaa, MorphologicalPreset::kSmaaDynamic}) {
+  for (const auto which : {Preset::kSmaa, Preset::kSmaaDynamic}) {
     options.morphological = preset(which);
     try {
       MorphologicalBench bench(frames, options);

@@ -21,15 +21,16 @@ constexpr std::array<std::string_view, 4> kCacheBins = {"hit", "miss", "merged",
 
 Coverage declared() {
   Coverage coverage;
-  for (const auto mode : spec::kMinFilterNames)
-    for (const auto wrap : spec::kWrapNames)
-      for (const auto layout : spec::kLayoutNames)
+  for (const auto mode : spec::texture::kMinFilterNames)
+    for (const auto wrap : spec::texture::kWrapNames)
+      for (const auto layout : spec::texture::kLayoutNames)
         coverage.declare(fmt::format("mode.{}.{}.{}", mode, wrap, layout));
   for (int n = 1; n <= 16; n *= 2)
     for (const auto axis : kAxes) coverage.declare(fmt::format("samples.{}.major_{}", n, axis));
-  for (const auto filter : spec::kMagFilterNames)
+  for (const auto filter : spec::texture::kMagFilterNames)
     coverage.declare(fmt::format("magnified.{}", filter));
-  for (const auto format : spec::kFormatNames) coverage.declare(fmt::format("format.{}", format));
+  for (const auto format : spec::texture::kFormatNames)
+    coverage.declare(fmt::format("format.{}", format));
   for (const auto bin : kCacheBins) coverage.declare(fmt::format("cache.{}", bin));
   return coverage;
 }
@@ -50,7 +51,7 @@ Met run(const SceneParameters& scene, const SamplerParameters& sampler,
     bench.check();
     Met met;
     const golden::texture::TextureGolden golden = make_golden(built, options.texture);
-    for (const spec::Quad& quad : built.stream().quads) {
+    for (const spec::texture::Quad& quad : built.stream().quads) {
       for (int lane = 0; lane < 4; ++lane) {
         if (!(quad.coverage >> lane & 1)) continue;
         const golden::texture::FragmentAnalysis a = golden.analyse(quad, lane);
@@ -69,13 +70,15 @@ Met run(const SceneParameters& scene, const SamplerParameters& sampler,
 
 void record(Coverage& coverage, const Met& met, const SamplerParameters& sampler) {
   const auto index = [](auto e) { return static_cast<std::size_t>(e); };
+  coverage.hit(fmt::format("mode.{}.{}.{}", spec::texture::kMinFilterNames[index(sampler.mode)],
+                           kWrapChoiceNames[index(sampler.wrap)],
+                           spec::texture::kLayoutNames[index(sampler.layout)]),
+               met.fragments - met.magnified);
+  coverage.hit(fmt::format("format.{}", spec::texture::kFormatNames[index(sampler.format)]),
+               met.fragments);
   coverage.hit(
-      fmt::format("mode.{}.{}.{}", spec::kMinFilterNames[index(sampler.mode)],
-                  kWrapChoiceNames[index(sampler.wrap)], spec::kLayoutNames[index(sampler.layout)]),
-      met.fragments - met.magnified);
-  coverage.hit(fmt::format("format.{}", spec::kFormatNames[index(sampler.format)]), met.fragments);
-  coverage.hit(fmt::format("magnified.{}", spec::kMagFilterNames[index(sampler.magnification)]),
-               met.magnified);
+      fmt::format("magnified.{}", spec::texture::kMagFilterNames[index(sampler.magnification)]),
+      met.magnified);
   for (std::size_t n = 0; n < met.samples.size(); ++n)
     for (std::size_t axis = 0; axis < 2; ++axis)
       coverage.hit(fmt::format("samples.{}.major_{}", 1 << n, kAxes[axis]), met.samples[n][axis]);
@@ -90,11 +93,11 @@ TEST(TextureCoverage, EveryBinIsHit) {
     for (int wrap = 1; wrap < 4; ++wrap) {
       for (int layout = 0; layout < 2; ++layout, ++number) {
         SamplerParameters sampler;
-        sampler.mode = static_cast<spec::MinFilter>(mode);
+        sampler.mode = static_cast<spec::texture::MinFilter>(mode);
         sampler.wrap = static_cast<WrapChoice>(wrap);
-        sampler.layout = static_cast<spec::Layout>(layout);
-        sampler.format = static_cast<spec::Format>(number % 5);
-        sampler.magnification = static_cast<spec::MagFilter>(number & 1);
+        sampler.layout = static_cast<spec::texture::Layout>(layout);
+        sampler.format = static_cast<spec::texture::Format>(number % 5);
+        sampler.magnification = static_cast<spec::texture::MagFilter>(number & 1);
         TextureBenchOptions options;
         options.texture.cache_bytes = 2048;
         options.texture.cache_outstanding = 4;  // so that the miss queue runs full

@@ -16,9 +16,11 @@
 #include "golden/texture/texture_golden.h"
 #include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/texture/texture_unit.h"
-#include "spec/fragment.h"
-#include "spec/texture.h"
-#include "tb/app/texture_memory.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/packets.h"
+#include "spec/texture/parameters.h"
+#include "spec/texture/registers.h"
+#include "tb/env/texture_memory.h"
 #include "tb/harness/bench.h"
 #include "tb/harness/driver.h"
 #include "tb/harness/memory_model.h"
@@ -27,14 +29,14 @@
 namespace deburr::tb {
 
 struct QuadInput {
-  std::vector<spec::TextureDescriptor> textures;  // by handle, at most 16
-  std::vector<std::uint8_t> memory;               // from address 0, a multiple of 128 bytes
-  std::vector<spec::Quad> quads;
+  std::vector<spec::texture::Descriptor> textures;  // by handle, at most 16
+  std::vector<std::uint8_t> memory;                 // from address 0, a multiple of 128 bytes
+  std::vector<spec::texture::Quad> quads;
 };
 
 // What one run left behind.
 struct QuadOutcome {
-  std::vector<spec::Colour> colours;
+  std::vector<spec::texture::Colour> colours;
   std::vector<std::uint64_t> fills;     // addresses, as the memory saw them
   std::vector<std::uint64_t> counters;  // of every block
   rtl::Cycle cycles = 0;
@@ -44,7 +46,7 @@ struct QuadOutcome {
 class QuadBench {
  public:
   // One a process. `input` is what the hardware gets and must outlive the bench.
-  QuadBench(const QuadInput& input, const spec::TextureParameters& parameters,
+  QuadBench(const QuadInput& input, const spec::texture::Parameters& parameters,
             MemoryModelParameters memory = {}, const BenchOptions& options = {})
       : input_(input),
         unit_("texture", clock_, parameters),
@@ -105,8 +107,8 @@ class QuadBench {
     });
     std::string differences;
     std::size_t next = 0;
-    for (const spec::Quad& quad : reference.quads)
-      for (const spec::Colour& colour : golden.process(quad)) {
+    for (const spec::texture::Quad& quad : reference.quads)
+      for (const spec::texture::Colour& colour : golden.process(quad)) {
         const bool equal = next < outcome.colours.size() && outcome.colours[next] == colour;
         if (!equal && differences.empty())
           differences += "colour " + std::to_string(next) + " of quad " + std::to_string(quad.tag) +
@@ -129,7 +131,7 @@ class QuadBench {
   }
 
   std::string judge_registers(const golden::texture::TextureWork& work) {
-    namespace reg = spec::texture_register;
+    namespace reg = spec::texture::reg;
     const std::uint64_t status = reg::kStatusIdle |
                                  (work.memory_errors ? reg::kStatusMemoryError : 0u) |
                                  (work.invalid_fragments ? reg::kStatusInvalidTexture : 0u);
@@ -152,14 +154,14 @@ class QuadBench {
 
   const QuadInput& input_;
   rtl::ClockDomain clock_{"clock", sc_core::sc_time(6, sc_core::SC_NS)};
-  rtl::Link<spec::Quad> quads_{"quads"};
-  rtl::Link<spec::Colour> colours_{"colours"};
-  Driver<spec::Quad> driver_{"driver", clock_};
+  rtl::Link<spec::texture::Quad> quads_{"quads"};
+  rtl::Link<spec::texture::Colour> colours_{"colours"};
+  Driver<spec::texture::Quad> driver_{"driver", clock_};
   rtl::texture::TextureUnit unit_;
-  Sink<spec::Colour> sink_{"sink", clock_};
+  Sink<spec::texture::Colour> sink_{"sink", clock_};
   MemoryModel memory_;
   RegisterHost host_{"host"};
-  spec::TextureParameters parameters_;
+  spec::texture::Parameters parameters_;
   std::unique_ptr<Bench> bench_;
 };
 

@@ -10,8 +10,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "spec/fragment.h"
-#include "spec/texture.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/packets.h"
+#include "spec/texture/parameters.h"
 #include "tb/harness/random.h"
 
 namespace deburr::tb {
@@ -26,18 +27,18 @@ Enum any_code(Random& random, const std::array<std::string_view, N>&) {
 }
 
 // Every rule and kernel; the cache stays as it is.
-inline spec::TextureParameters random_rules(Random& random) {
-  spec::TextureParameters p;
-  p.footprint = any_code<spec::FootprintRule>(random, spec::kFootprintNames);
-  p.log2 = any_code<spec::Log2Rule>(random, spec::kLog2Names);
-  p.count = any_code<spec::CountRule>(random, spec::kCountNames);
-  p.count_cap = any_code<spec::CountCap>(random, spec::kCountCapNames);
-  p.kernel = any_code<spec::Kernel>(random, spec::kKernelNames);
+inline spec::texture::Parameters random_rules(Random& random) {
+  spec::texture::Parameters p;
+  p.footprint = any_code<spec::texture::FootprintRule>(random, spec::texture::kFootprintNames);
+  p.log2 = any_code<spec::texture::Log2Rule>(random, spec::texture::kLog2Names);
+  p.count = any_code<spec::texture::CountRule>(random, spec::texture::kCountNames);
+  p.count_cap = any_code<spec::texture::CountCap>(random, spec::texture::kCountCapNames);
+  p.kernel = any_code<spec::texture::Kernel>(random, spec::texture::kKernelNames);
   p.spread = any_of(random, std::array{0, 1, 64, 77, 102, 128});
   return p;
 }
 
-inline void random_size(Random& random, spec::TextureDescriptor& d) {
+inline void random_size(Random& random, spec::texture::Descriptor& d) {
   const auto up_to = [&](std::uint32_t n) {
     return static_cast<std::uint16_t>(1 + random.below(n));
   };
@@ -71,18 +72,18 @@ inline void random_size(Random& random, spec::TextureDescriptor& d) {
 
 // A descriptor that the unit accepts. Levels start anywhere in memory, overlapping each other, and
 // now and then outside of it; min_lod may be above max_lod.
-inline spec::TextureDescriptor random_texture(Random& random, std::uint32_t memory_bytes) {
-  spec::TextureDescriptor d;
+inline spec::texture::Descriptor random_texture(Random& random, std::uint32_t memory_bytes) {
+  spec::texture::Descriptor d;
   random_size(random, d);
   const auto most =
       static_cast<std::uint32_t>(std::bit_width(unsigned{std::max(d.width, d.height)}));
   d.levels = static_cast<std::uint8_t>(random.chance(600) ? most : 1 + random.below(most));
-  d.format = any_code<spec::Format>(random, spec::kFormatNames);
-  d.layout = any_code<spec::Layout>(random, spec::kLayoutNames);
-  d.wrap_s = any_code<spec::Wrap>(random, spec::kWrapNames);
-  d.wrap_t = any_code<spec::Wrap>(random, spec::kWrapNames);
-  d.min_filter = any_code<spec::MinFilter>(random, spec::kMinFilterNames);
-  d.mag_filter = any_code<spec::MagFilter>(random, spec::kMagFilterNames);
+  d.format = any_code<spec::texture::Format>(random, spec::texture::kFormatNames);
+  d.layout = any_code<spec::texture::Layout>(random, spec::texture::kLayoutNames);
+  d.wrap_s = any_code<spec::texture::Wrap>(random, spec::texture::kWrapNames);
+  d.wrap_t = any_code<spec::texture::Wrap>(random, spec::texture::kWrapNames);
+  d.min_filter = any_code<spec::texture::MinFilter>(random, spec::texture::kMinFilterNames);
+  d.mag_filter = any_code<spec::texture::MagFilter>(random, spec::texture::kMagFilterNames);
   d.max_anisotropy_log2 = static_cast<std::uint8_t>(random.below(5));
   if (random.chance(500))
     d.lod_bias = static_cast<std::int16_t>(static_cast<int>(random.below(1025)) - 512);
@@ -100,7 +101,7 @@ inline spec::TextureDescriptor random_texture(Random& random, std::uint32_t memo
 }
 
 // Makes a descriptor one that the unit must refuse, by a code that the registers can hold.
-inline void spoil(Random& random, spec::TextureDescriptor& d) {
+inline void spoil(Random& random, spec::texture::Descriptor& d) {
   switch (random.below(10)) {
     case 0:
       d.width = 0;
@@ -122,13 +123,13 @@ inline void spoil(Random& random, spec::TextureDescriptor& d) {
       d.levels = static_cast<std::uint8_t>(8 + random.below(8));
       break;
     case 6:
-      d.format = static_cast<spec::Format>(5 + random.below(3));
+      d.format = static_cast<spec::texture::Format>(5 + random.below(3));
       break;
     case 7:
-      d.wrap_t = static_cast<spec::Wrap>(3);
+      d.wrap_t = static_cast<spec::texture::Wrap>(3);
       break;
     case 8:
-      d.min_filter = static_cast<spec::MinFilter>(6 + random.below(2));
+      d.min_filter = static_cast<spec::texture::MinFilter>(6 + random.below(2));
       break;
     default:
       d.base[0] |= 1 + random.below(63);
@@ -139,16 +140,16 @@ inline void spoil(Random& random, spec::TextureDescriptor& d) {
 inline constexpr std::array<std::int32_t, 14> kCoordinateCorners = {
     std::numeric_limits<std::int32_t>::min(),  // -128
     std::numeric_limits<std::int32_t>::min() + 1,
-    -2 * spec::kCoordinateOne,
-    -spec::kCoordinateOne,
-    -spec::kCoordinateOne - 1,
+    -2 * spec::texture::kCoordinateOne,
+    -spec::texture::kCoordinateOne,
+    -spec::texture::kCoordinateOne - 1,
     -1,
     0,
     1,
-    spec::kCoordinateOne / 2,
-    spec::kCoordinateOne - 1,
-    spec::kCoordinateOne,
-    2 * spec::kCoordinateOne,
+    spec::texture::kCoordinateOne / 2,
+    spec::texture::kCoordinateOne - 1,
+    spec::texture::kCoordinateOne,
+    2 * spec::texture::kCoordinateOne,
     std::numeric_limits<std::int32_t>::max() - 1,
     std::numeric_limits<std::int32_t>::max()};
 
@@ -173,7 +174,7 @@ inline std::array<std::int32_t, 4> random_coordinates(Random& random) {
     const auto span = static_cast<std::uint32_t>(2 * limit + 1);
     return static_cast<std::int64_t>(random.below(span)) - limit;
   };
-  const std::int64_t base = within(4 * spec::kCoordinateOne);
+  const std::int64_t base = within(4 * spec::texture::kCoordinateOne);
   const std::int64_t along = within(1 << (4 + random.below(20))),
                      across = within(1 << (4 + random.below(20)));
   for (std::int64_t lane = 0; lane < 4; ++lane) {
@@ -183,8 +184,8 @@ inline std::array<std::int32_t, 4> random_coordinates(Random& random) {
   return c;
 }
 
-inline spec::Quad random_quad(Random& random, std::uint32_t tag, std::uint8_t texture) {
-  spec::Quad q;
+inline spec::texture::Quad random_quad(Random& random, std::uint32_t tag, std::uint8_t texture) {
+  spec::texture::Quad q;
   q.tag = tag;
   q.texture = texture;
   q.coverage = static_cast<std::uint8_t>(random.chance(500) ? 15 : random.below(16));

@@ -24,7 +24,7 @@ QuadInput random_input(Random& random) {
   QuadInput input;
   input.memory.resize(kMemoryBytes);
   for (std::uint8_t& byte : input.memory) byte = static_cast<std::uint8_t>(random.next());
-  for (int handle = 0; handle < spec::kMaxTextures; ++handle) {
+  for (int handle = 0; handle < spec::texture::kMaxTextures; ++handle) {
     input.textures.push_back(random_texture(random, kMemoryBytes));
     if (handle % 5 == 3) spoil(random, input.textures.back());
   }
@@ -39,12 +39,13 @@ QuadInput random_input(Random& random) {
   return input;
 }
 
-spec::TextureParameters random_parameters(Random& random) {
-  spec::TextureParameters p = random_rules(random);
+spec::texture::Parameters random_parameters(Random& random) {
+  spec::texture::Parameters p = random_rules(random);
   p.cache_line_bytes = any_of(random, std::array{32, 64, 128});
   p.cache_ways = any_of(random, std::array{1, 2, 4, 8});
   p.cache_bytes = any_of(random, std::array{1024, 4096, 16384});
-  p.cache_replacement = any_code<spec::Replacement>(random, spec::kReplacementNames);
+  p.cache_replacement =
+      any_code<spec::texture::Replacement>(random, spec::texture::kReplacementNames);
   p.cache_outstanding = any_of(random, std::array{4, 17, 64});
   p.cache_fifo_depth = any_of(random, std::array{2, 33, 160});
   return p;
@@ -76,7 +77,7 @@ class RandomQuads : public testing::TestWithParam<std::uint64_t> {};
 TEST_P(RandomQuads, AreIdenticalToGolden) {
   Random random(GetParam(), "random quads");
   const QuadInput input = random_input(random);
-  const spec::TextureParameters parameters = random_parameters(random);
+  const spec::texture::Parameters parameters = random_parameters(random);
   const MemoryModelParameters memory = random_memory(random);
   QuadBench bench(input, parameters, memory, random_weather(random));
   bench.reset();
@@ -107,7 +108,7 @@ TEST_P(RandomQuadsNotice, WhatIsWrong) {
   Random random(1, "random quads");
   const QuadInput input = random_input(random);
   QuadInput reference = input;
-  spec::TextureDescriptor& texture = reference.textures[4];
+  spec::texture::Descriptor& texture = reference.textures[4];
   QuadBench bench(input, {});
   bench.reset();
   const QuadOutcome outcome = bench.run();
@@ -126,7 +127,8 @@ TEST_P(RandomQuadsNotice, WhatIsWrong) {
       break;
     case Wrong::kWrap:
       for (auto& t : reference.textures)
-        t.wrap_s = t.wrap_s == spec::Wrap::kRepeat ? spec::Wrap::kClampToEdge : spec::Wrap::kRepeat;
+        t.wrap_s = t.wrap_s == spec::texture::Wrap::kRepeat ? spec::texture::Wrap::kClampToEdge
+                                                            : spec::texture::Wrap::kRepeat;
       break;
     case Wrong::kBase:
       for (std::uint32_t& base : texture.base) base ^= 64;

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "golden/texture/texture_golden.h"
-#include "tb/app/texture_bench.h"
-#include "tb/app/texture_scene.h"
+#include "tb/env/texture_bench.h"
+#include "tb/env/texture_scene.h"
 
 namespace deburr::tb {
 

@@ -64,7 +64,7 @@ class EveryModeInAStorm : public testing::TestWithParam<Mode> {};
 TEST_P(EveryModeInAStorm, IsIdenticalToGolden) {
   const auto [source, mode, lb_n] = GetParam();
   SamplerParameters sampler;
-  sampler.mode = static_cast<spec::MinFilter>(mode);
+  sampler.mode = static_cast<spec::texture::MinFilter>(mode);
   sampler.anisotropy = static_cast<std::uint8_t>(lb_n);
   TextureBenchOptions options;
   options.stall_permille = 250;
@@ -90,9 +90,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Combine(testing::Values("plane", "quad", "tunnel"), testing::Range(0, 6),
                      testing::Range(0, 5)),
     [](const auto& p) {
-      return fmt::format("{}_{}_n{}", std::get<0>(p.param),
-                         spec::kMinFilterNames[static_cast<std::size_t>(std::get<1>(p.param))],
-                         1 << std::get<2>(p.param));
+      return fmt::format(
+          "{}_{}_n{}", std::get<0>(p.param),
+          spec::texture::kMinFilterNames[static_cast<std::size_t>(std::get<1>(p.param))],
+          1 << std::get<2>(p.param));
     });
 
 // ---- reset in the middle of a frame
@@ -108,9 +109,9 @@ TEST_P(FrameReset, LeavesNothingBehind) {
   const TextureScene scene(picture(source, 64), {}, 1);
   const QuadInput input = {scene.memory().descriptors(), scene.memory().bytes(),
                            scene.stream().quads};
-  spec::TextureParameters parameters;
+  spec::texture::Parameters parameters;
   parameters.cache_bytes = 2048;
-  parameters.cache_replacement = spec::Replacement::kRandom;
+  parameters.cache_replacement = spec::texture::Replacement::kRandom;
   MemoryModelParameters memory;
   memory.latency_min = memory.latency_max = 100;
   BenchOptions options;

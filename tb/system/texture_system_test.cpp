@@ -35,7 +35,7 @@ class EveryMode : public testing::TestWithParam<Mode> {};
 TEST_P(EveryMode, IsIdenticalToGolden) {
   const auto [source, mode, lb_n] = GetParam();
   SamplerParameters sampler;
-  sampler.mode = static_cast<spec::MinFilter>(mode);
+  sampler.mode = static_cast<spec::texture::MinFilter>(mode);
   sampler.anisotropy = static_cast<std::uint8_t>(lb_n);
   expect_identical(simulate(picture(source, 128), sampler, {}));
 }
@@ -45,9 +45,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Combine(testing::Values("plane", "quad", "tunnel"), testing::Range(0, 6),
                      testing::Range(0, 5)),
     [](const auto& p) {
-      return fmt::format("{}_{}_n{}", std::get<0>(p.param),
-                         spec::kMinFilterNames[static_cast<std::size_t>(std::get<1>(p.param))],
-                         1 << std::get<2>(p.param));
+      return fmt::format(
+          "{}_{}_n{}", std::get<0>(p.param),
+          spec::texture::kMinFilterNames[static_cast<std::size_t>(std::get<1>(p.param))],
+          1 << std::get<2>(p.param));
     });
 
 // ---- formats x layouts x wraps, with a texture whose size is no power of two
@@ -59,8 +60,8 @@ class EveryFormat : public testing::TestWithParam<Storage> {};
 TEST_P(EveryFormat, IsIdenticalToGolden) {
   const auto [format, layout, wrap] = GetParam();
   SamplerParameters sampler;
-  sampler.format = static_cast<spec::Format>(format);
-  sampler.layout = static_cast<spec::Layout>(layout);
+  sampler.format = static_cast<spec::texture::Format>(format);
+  sampler.layout = static_cast<spec::texture::Layout>(layout);
   sampler.wrap = static_cast<WrapChoice>(wrap);
   SceneParameters scene = picture("plane", 96);
   scene.texture_size = 331;
@@ -73,8 +74,8 @@ INSTANTIATE_TEST_SUITE_P(Texture, EveryFormat,
                          [](const auto& p) {
                            const auto i = [](int v) { return static_cast<std::size_t>(v); };
                            return fmt::format("{}_{}_{}",
-                                              spec::kFormatNames[i(std::get<0>(p.param))],
-                                              spec::kLayoutNames[i(std::get<1>(p.param))],
+                                              spec::texture::kFormatNames[i(std::get<0>(p.param))],
+                                              spec::texture::kLayoutNames[i(std::get<1>(p.param))],
                                               kWrapChoiceNames[i(std::get<2>(p.param))]);
                          });
 
@@ -91,11 +92,11 @@ int log_of(const Rules& rules) { return (std::get<0>(rules) + std::get<1>(rules)
 TEST_P(EveryRule, IsIdenticalToGolden) {
   const auto [footprint, bits] = GetParam();
   TextureBenchOptions options;
-  options.texture.footprint = static_cast<spec::FootprintRule>(footprint);
-  options.texture.log2 = static_cast<spec::Log2Rule>(log_of(GetParam()));
-  options.texture.count = static_cast<spec::CountRule>(bits & 1);
-  options.texture.kernel = static_cast<spec::Kernel>(bits >> 1 & 1);
-  options.texture.count_cap = static_cast<spec::CountCap>(bits >> 2 & 1);
+  options.texture.footprint = static_cast<spec::texture::FootprintRule>(footprint);
+  options.texture.log2 = static_cast<spec::texture::Log2Rule>(log_of(GetParam()));
+  options.texture.count = static_cast<spec::texture::CountRule>(bits & 1);
+  options.texture.kernel = static_cast<spec::texture::Kernel>(bits >> 1 & 1);
+  options.texture.count_cap = static_cast<spec::texture::CountCap>(bits >> 2 & 1);
   options.texture.spread = bits >> 3 & 1 ? 102 : 64;
   expect_identical(simulate(picture("tunnel", 64), {}, options));
 }
@@ -106,11 +107,12 @@ INSTANTIATE_TEST_SUITE_P(
       const auto bit = [&](int n) {
         return static_cast<std::size_t>(std::get<1>(p.param) >> n & 1);
       };
-      return fmt::format("{}_{}_{}_{}_cap_{}_{}",
-                         spec::kFootprintNames[static_cast<std::size_t>(std::get<0>(p.param))],
-                         spec::kLog2Names[static_cast<std::size_t>(log_of(p.param))],
-                         spec::kCountNames[bit(0)], spec::kKernelNames[bit(1)],
-                         spec::kCountCapNames[bit(2)], bit(3) ? "wide" : "axis");
+      return fmt::format(
+          "{}_{}_{}_{}_cap_{}_{}",
+          spec::texture::kFootprintNames[static_cast<std::size_t>(std::get<0>(p.param))],
+          spec::texture::kLog2Names[static_cast<std::size_t>(log_of(p.param))],
+          spec::texture::kCountNames[bit(0)], spec::texture::kKernelNames[bit(1)],
+          spec::texture::kCountCapNames[bit(2)], bit(3) ? "wide" : "axis");
     });
 
 // ---- cache geometries ---------------------------------------------------------------------------
@@ -128,7 +130,7 @@ TEST_P(EveryCache, FillsTheLinesThatGoldenPredicts) {
   options.texture.cache_ways = geometry.ways;
   options.texture.cache_outstanding = geometry.outstanding;
   options.texture.cache_fifo_depth = geometry.fifo;
-  options.texture.cache_replacement = static_cast<spec::Replacement>(replacement);
+  options.texture.cache_replacement = static_cast<spec::texture::Replacement>(replacement);
   expect_identical(simulate(picture("plane", 96), {}, options), geometry.line);
 }
 
@@ -141,8 +143,9 @@ INSTANTIATE_TEST_SUITE_P(
                      testing::Range(0, 3)),
     [](const auto& p) {
       const Geometry& g = std::get<0>(p.param);
-      return fmt::format("bytes{}_line{}_ways{}_{}", g.bytes, g.line, g.ways,
-                         spec::kReplacementNames[static_cast<std::size_t>(std::get<1>(p.param))]);
+      return fmt::format(
+          "bytes{}_line{}_ways{}_{}", g.bytes, g.line, g.ways,
+          spec::texture::kReplacementNames[static_cast<std::size_t>(std::get<1>(p.param))]);
     });
 
 // ---- magnification, bias and clamps
@@ -152,7 +155,7 @@ TEST(Texture, MagnificationBiasAndClampsAreIdenticalToGolden) {
   SceneParameters scene = picture("plane", 128);
   scene.texture_size = 16;
   SamplerParameters sampler;
-  sampler.magnification = spec::MagFilter::kNearest;
+  sampler.magnification = spec::texture::MagFilter::kNearest;
   sampler.lod_bias = -300;
   sampler.min_lod = 100;
   sampler.max_lod = 700;

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/morphological/front/slot_sequencer.h"
+
+namespace deburr::rtl::morphological {
+
+SlotSequencer::SlotSequencer(const sc_core::sc_module_name& name, ClockDomain& clock,
+                             ParameterStore& store, LatencyProbe& probe)
+    : Unit(name, clock),
+      store_(store),
+      probe_(probe),
+      upstream_(declare_stall("upstream", "inside a frame, and no beat has come")) {}
+
+Activity SlotSequencer::tick(Cycle cycle) {
+  if (!issuing_) [[unlikely]] {
+    if (frames_done_in.can_pop(cycle)) {
+      frames_done_in.pop(cycle);
+      store_.leave();
+      ++frames;
+      // The token was pushed with the last beat, in the clock before.
+      frame_cycles.reset();
+      frame_cycles += cycle - first_cycle_;
+    }
+    if (store_.frame_inside()) return kIdle;  // what is left is on its way out
+    if (!pixels_in.can_pop(cycle) || !store_.enabled()) return kIdle;
+    // The frame is inside from the clock on that takes its first beat.
+    if (!slots_out.can_push(cycle) || !beats_out.can_push(cycle)) return kStalledDownstream;
+    if (!store_.latch()) return kIdle;
+    issuing_ = true;
+    next_ = {};
+    first_cycle_ = cycle;
+  }
+  const FrameRules& rules = store_.rules();
+  const bool input = next_.row < rules.height;
+  if (input && !pixels_in.can_pop(cycle)) return upstream_;
+  if (!slots_out.can_push(cycle) || (input && !beats_out.can_push(cycle)))
+    return kStalledDownstream;
+  if (input) {
+    take_beat(cycle);
+  } else {
+    slots_out.emplace(cycle).slot = next_;
+  }
+  ++next_.number;
+  if (++next_.beat == rules.beats) {
+    next_.beat = 0;
+    if (++next_.row == rules.rows) issuing_ = false;
+  }
+  return kBusy;
+}
+
+void SlotSequencer::take_beat(Cycle cycle) {
+  const FrameRules& rules = store_.rules();
+  const spec::morphological::PixelBeat& beat = pixels_in.front(cycle);
+  const bool end = next_.beat + 1u == rules.beats;
+  const int count = end ? rules.last_count : store_.lanes();
+  if (beat.count != count || beat.end_of_row != end || beat.start_of_frame != (next_.number == 0))
+      [[unlikely]] {
+    ++framing_errors;
+    store_.set_sticky(spec::morphological::reg::kStatusFraming);
+  }
+  SlotToken& slot = slots_out.emplace(cycle);
+  BeatToken& stored = beats_out.emplace(cycle);
+  slot.slot = stored.slot = next_;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    slot.pixel[i] = stored.pixel[i] = beat.pixel[i];
+    slot.depth[i] = beat.depth[i] & 0xFFFFFF;
+  }
+  ++beats;
+  probe_.enters(cycle);
+  pixels_in.pop(cycle);
+}
+
+void SlotSequencer::reset() {
+  store_.reset();
+  probe_.reset();
+  issuing_ = false;
+  next_ = {};
+}
+
+}  // namespace deburr::rtl::morphological

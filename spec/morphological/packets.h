@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Packets of the morphological engine: pixels in and out, and what golden and hardware compare on the
+// way. Formats: docs/number_formats_morphological.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "spec/morphological/parameters.h"
+#include "spec/morphological/shapes.h"
+
+namespace deburr::spec::morphological {
+
+using Rgba8 = std::array<std::uint8_t, 4>;  // R, G, B, A codes, U0.8 unorm
+
+// A clock's worth of pixels of one row, raster order, lane 0 leftmost. Rows begin a new beat.
+struct PixelBeat {
+  std::array<Rgba8, kMaxLanes> pixel{};
+  std::array<std::uint32_t, kMaxLanes> depth{};  // U24, grows towards the eye; 0 if there is none
+  std::uint8_t count = 0;                        // valid lanes, 1..lanes; fewer only at a row's end
+  bool start_of_frame = false;                   // first beat of the frame
+  bool end_of_row = false;                       // last beat of a row
+  friend bool operator==(const PixelBeat&, const PixelBeat&) = default;
+};
+
+// How a pixel was blended, for checks and pictures: first = share of the upper (left) neighbour,
+// second = of the lower (right) one, U0.8; both 0 where the pixel passed unchanged.
+struct BlendTap {
+  bool horizontal = false;  // the neighbours are left and right
+  std::uint8_t first = 0, second = 0;
+  std::uint8_t edges = 0;  // bit 0 left, bit 1 top
+  friend bool operator==(const BlendTap&, const BlendTap&) = default;
+};
+
+struct BlendedBeat {
+  std::array<Rgba8, kMaxLanes> pixel{};
+  std::array<BlendTap, kMaxLanes> tap{};
+  std::uint8_t count = 0;
+  bool start_of_frame = false;
+  bool end_of_row = false;
+  friend bool operator==(const BlendedBeat&, const BlendedBeat&) = default;
+};
+
+enum class Axis : std::uint8_t { kHorizontal, kVertical };  // direction of the run
+// A run longer than the reach gives two records, one for each end.
+enum class RunPart : std::uint8_t { kWhole, kHead, kTail };
+
+// A closed run. Horizontal: `line` is the row of the top edges, positions are columns. Vertical:
+// `line` is the column of the left edges, positions are rows. Corners are `start` and
+// `start + length`; of a head (tail) only the first (second) is a corner of the run.
+struct RunRecord {
+  Axis axis = Axis::kHorizontal;
+  RunPart part = RunPart::kWhole;
+  std::uint16_t line = 0;
+  std::uint16_t start = 0;
+  std::uint16_t length = 0;  // pixels covered by this record
+  std::uint8_t shape = 0;    // index of kRunShapes
+  friend bool operator==(const RunRecord&, const RunRecord&) = default;
+};
+
+// The line through a run. t(X) = (scale * X - offset) * slope + shift * 2^23, U/S x.24, X counted
+// from the record's start; t < 0 belongs to `before`, t > 0 to `after`.
+struct LineRecord {
+  RunRecord run{};
+  Side before = Side::kNone, after = Side::kNone;
+  std::uint8_t left_steps = 0, right_steps = 0;  // extensions kept: up or left, down or right
+  std::int32_t scale = 2;
+  std::int32_t offset = 0;
+  std::int32_t shift = 0;     // right_steps - left_steps
+  std::uint32_t slope = 0;    // U0.24
+  std::uint32_t inverse = 0;  // U12.12, pixels a step
+  std::uint16_t span = 0;     // pixels between the two outermost corners: decides between axes
+  friend bool operator==(const LineRecord&, const LineRecord&) = default;
+};
+
+// One line access of storage = memory.
+struct FrameAccess {
+  std::uint32_t address = 0;  // bytes, multiple of kFrameLineBytes
+  bool write = false;
+  friend bool operator==(const FrameAccess&, const FrameAccess&) = default;
+};
+
+// Work of one frame: golden and hardware count the same.
+struct Work {
+  std::uint64_t pixels = 0;
+  std::uint64_t edge_pixels = 0;      // pixels with a left or a top edge
+  std::uint64_t horizontal_runs = 0;  // maximal runs, each counted once
+  std::uint64_t vertical_runs = 0;
+  std::uint64_t long_runs = 0;  // of both axes, longer than the reach
+  std::uint64_t z_runs = 0;     // clean Z, not long
+  std::uint64_t extended_runs = 0;
+  std::uint64_t steps = 0;           // extensions kept
+  std::uint64_t probes = 0;          // corners tested
+  std::uint64_t divides = 0;         // records that have a side
+  std::uint64_t blended_pixels = 0;  // pixels with a share of a neighbour
+  friend bool operator==(const Work&, const Work&) = default;
+};
+
+}  // namespace deburr::spec::morphological

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// Parameters and presets of the morphological engine: rules, which change pixels, and build
+// choices, which change clocks and cost. Meaning: docs/morphological_engine.md; formats and
+// rounding, to the bit: docs/number_formats_morphological.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "spec/parameters.h"
+
+namespace deburr::spec::morphological {
+
+enum class Preset : std::uint8_t { kMlaa, kMlaaSlope, kSmaa, kSmaaDynamic, kDeburr };
+inline constexpr std::array<std::string_view, 5> kPresetNames = {"mlaa", "mlaa-slope", "smaa",
+                                                                 "smaa-dynamic", "deburr"};
+
+enum class Lanes : std::uint8_t { kOne, kTwo, kFour };
+inline constexpr std::array<std::string_view, 3> kLanesNames = {"1", "2", "4"};
+inline constexpr std::array<std::uint8_t, 3> kLaneCount = {1, 2, 4};
+inline constexpr int kMaxLanes = 4;
+
+enum class EdgeSource : std::uint8_t { kLuma, kDepth, kPredicated };
+inline constexpr std::array<std::string_view, 3> kEdgeSourceNames = {"luma", "depth", "predicated"};
+
+enum class ThresholdMode : std::uint8_t { kFixed, kDynamic };
+inline constexpr std::array<std::string_view, 2> kThresholdModeNames = {"fixed", "dynamic"};
+
+enum class DynamicLuma : std::uint8_t { kCurrent, kMax };
+inline constexpr std::array<std::string_view, 2> kDynamicLumaNames = {"current", "max"};
+
+enum class LocalContrast : std::uint8_t { kOff, kPaper, kSymmetric };
+inline constexpr std::array<std::string_view, 3> kLocalContrastNames = {"off", "paper",
+                                                                        "symmetric"};
+
+enum class Predictor : std::uint8_t { kNone, kChord, kFit };
+inline constexpr std::array<std::string_view, 3> kPredictorNames = {"none", "chord", "fit"};
+
+enum class AreaSource : std::uint8_t { kAnalytic, kTableFull, kTableMerged };
+inline constexpr std::array<std::string_view, 3> kAreaSourceNames = {"analytic", "table_full",
+                                                                     "table_merged"};
+
+enum class Storage : std::uint8_t { kLineBuffers, kMemory };
+inline constexpr std::array<std::string_view, 2> kStorageNames = {"line_buffers", "memory"};
+
+inline constexpr int kMaxFrameSize = 8192;  // pixels, each way
+inline constexpr int kMaxSteps = 16;        // N
+inline constexpr int kMaxCorners = 2 * kMaxSteps + 2;
+inline constexpr int kFrameLineBytes = 64;     // memory line of storage = memory
+inline constexpr int kFramePixelBytes = 4;     // R, G, B, A
+inline constexpr int kRecipFractionBits = 24;  // of LineRecord::slope
+inline constexpr int kInverseFractionBits = 12;
+inline constexpr int kMaxWeight = 128;      // U0.8: a half, the largest share of a neighbour
+inline constexpr int kRowLag = 5;           // rows of delay beyond the reach
+inline constexpr int kPipelineLatency = 6;  // clocks from a slot to its output beat
+
+// Weights of luma, U0.16; they sum to exactly 65536.
+inline constexpr std::array<std::uint32_t, 3> kLumaWeights = {13933, 46871, 4732};
+
+// The defaults are the preset `deburr`.
+struct Parameters {
+  Preset preset = Preset::kDeburr;
+  Lanes lanes = Lanes::kOne;
+  EdgeSource edge_source = EdgeSource::kLuma;
+  ThresholdMode threshold_mode = ThresholdMode::kFixed;
+  DynamicLuma dynamic_luma = DynamicLuma::kMax;
+  std::int32_t threshold = 1966;                 // U0.16: 0.03
+  std::int32_t threshold_on_depth_edge = 655;    // U0.16: 0.01
+  std::int32_t threshold_off_depth_edge = 3277;  // U0.16: 0.05
+  std::int32_t alpha = 6554;                     // U0.16: 0.1
+  std::int32_t floor = 514;                      // U0.16: 2/255
+  std::int32_t depth_threshold = 3277;           // U0.16: 0.05
+  LocalContrast local_contrast = LocalContrast::kSymmetric;
+  Predictor predictor = Predictor::kFit;
+  std::int32_t steps = 8;
+  bool contiguous = true;
+  bool safe = true;
+  bool trim = true;
+  AreaSource area = AreaSource::kAnalytic;
+  bool diagonals = false;
+  bool round_corners = false;
+  bool linear_light = true;
+  std::int32_t window_rows = 66;
+  std::int32_t reach_columns = 256;
+  std::int32_t line_pixels = kMaxFrameSize;
+  std::int32_t record_fifo = 256;
+  std::int32_t predictor_units = 2;
+  std::int32_t divider_latency = 24;
+  std::int32_t divider_interval = 1;
+  Storage storage = Storage::kLineBuffers;
+  std::int32_t memory_outstanding = 32;
+};
+
+template <class Visitor>
+void describe(Parameters& p, Visitor& v) {
+  v.choice("preset", p.preset, kPresetNames,
+           "Named set of the rules below; rules given beside it override it.");
+  v.choice("lanes", p.lanes, kLanesNames, "Pixels a clock.");
+  v.choice("edges.source", p.edge_source, kEdgeSourceNames,
+           "What makes an edge: luma, depth, or luma with a threshold that depth moves.");
+  v.choice("edges.threshold_mode", p.threshold_mode, kThresholdModeNames,
+           "fixed: T. dynamic: alpha times luma (paper 003), above a floor.");
+  v.choice(
+      "edges.dynamic_luma", p.dynamic_luma, kDynamicLumaNames,
+      "Luma that alpha multiplies: of the current pixel (the paper) or the larger of the pair.");
+  v.integer("edges.threshold", p.threshold, 1, 65535, "1/65536", "T, a share of full scale.");
+  v.integer("edges.threshold_on_depth_edge", p.threshold_on_depth_edge, 1, 65535, "1/65536",
+            "T of source = predicated where depth has an edge.");
+  v.integer("edges.threshold_off_depth_edge", p.threshold_off_depth_edge, 1, 65535, "1/65536",
+            "T of source = predicated where depth has no edge.");
+  v.integer("edges.alpha", p.alpha, 0, 65535, "1/65536", "Factor of the dynamic threshold.");
+  v.integer("edges.floor", p.floor, 1, 65535, "1/65536",
+            "Smallest step that a dynamic threshold lets through.");
+  v.integer("edges.depth_threshold", p.depth_threshold, 1, 65535, "1/65536",
+            "Relative step of depth that is an edge.");
+  v.choice("edges.local_contrast", p.local_contrast, kLocalContrastNames,
+           "Drop edges beside one of twice the contrast: eq (2), (3) of paper 003, or a symmetric "
+           "form of them.");
+  v.choice("predictor", p.predictor, kPredictorNames,
+           "Line through a run: its own ends, the chord of the extended ends (paper 000), or the "
+           "least-squares line through all visited corners.");
+  v.integer("steps", p.steps, 0, kMaxSteps, "step", "N: extensions tried on each side of a run.");
+  v.boolean("contiguous", p.contiguous,
+            "A step must be an unbroken run with the codes of the first at both corners.");
+  v.boolean("safe", p.safe,
+            "Both sides grow in lockstep, share L', and stop where no line fits all corners.");
+  v.boolean("trim", p.trim,
+            "A side that lost its line before N steps and the end of the reach gives back its last "
+            "step; one that no line fits, half of its steps.");
+  v.choice("area", p.area, kAreaSourceNames, "Where areas come from; only analytic is built.");
+  v.boolean("diagonals", p.diagonals, "Diagonal patterns of SMAA; not built.");
+  v.boolean("round_corners", p.round_corners, "Corner rounding of SMAA; not built.");
+  v.boolean("linear_light", p.linear_light, "Blend in linear light (sRGB) instead of codes.");
+  v.integer("window_rows", p.window_rows, 10, 258, "row",
+            "Rows of edges held; even. A pixel depends on window_rows / 2 - 1 rows each way.");
+  v.integer("reach_columns", p.reach_columns, 4, 2048, "pixel",
+            "Longest horizontal run, and how far it may be extended.");
+  v.integer("line_pixels", p.line_pixels, 1, kMaxFrameSize, "pixel",
+            "Widest frame that the line buffers hold.");
+  v.integer(
+      "record_fifo", p.record_fifo, 2, 4096, "record",
+      "Runs waiting for a predictor, for each axis and lane; a tenth of a row bears a burst.");
+  v.integer("predictor_units", p.predictor_units, 1, 16, "unit",
+            "Predictors for each axis and lane; each tries one step of both sides a clock.");
+  v.integer("divider.latency", p.divider_latency, 1, 64, "clock", "Latency of the divider.");
+  v.integer("divider.interval", p.divider_interval, 1, 64, "clock",
+            "Initiation interval of the divider.");
+  v.choice("storage", p.storage, kStorageNames,
+           "Where delayed pixels wait: on-chip line buffers, or memory (written, then read once).");
+  v.integer("memory.outstanding", p.memory_outstanding, 1, 256, "line",
+            "Lines in flight with storage = memory, each direction.");
+}
+
+// What a preset sets; every other parameter keeps its default. `area`, `diagonals` and
+// `round_corners` of the two SMAA presets name blocks that are not built yet.
+struct PresetRow {
+  Preset preset;
+  ThresholdMode threshold_mode;
+  DynamicLuma dynamic_luma;
+  std::int32_t threshold;
+  LocalContrast local_contrast;
+  Predictor predictor;
+  std::int32_t steps;
+  bool contiguous;
+  bool safe;
+  bool trim;
+  AreaSource area;
+  bool diagonals;
+};
+inline constexpr std::array<PresetRow, 5> kPresets = {{
+    {Preset::kMlaa, ThresholdMode::kFixed, DynamicLuma::kMax, 6554, LocalContrast::kOff,
+     Predictor::kNone, 0, false, false, false, AreaSource::kAnalytic, false},
+    {Preset::kMlaaSlope, ThresholdMode::kFixed, DynamicLuma::kMax, 6554, LocalContrast::kOff,
+     Predictor::kChord, 4, false, false, false, AreaSource::kAnalytic, false},
+    {Preset::kSmaa, ThresholdMode::kFixed, DynamicLuma::kMax, 6554, LocalContrast::kPaper,
+     Predictor::kNone, 0, false, false, false, AreaSource::kTableFull, true},
+    {Preset::kSmaaDynamic, ThresholdMode::kDynamic, DynamicLuma::kCurrent, 6554,
+     LocalContrast::kPaper, Predictor::kNone, 0, false, false, false, AreaSource::kTableMerged,
+     true},
+    {Preset::kDeburr, ThresholdMode::kFixed, DynamicLuma::kMax, 1966, LocalContrast::kSymmetric,
+     Predictor::kFit, 8, true, true, true, AreaSource::kAnalytic, false},
+}};
+
+}  // namespace deburr::spec::morphological

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Texture and sampler state of the texture unit, as its registers hold it. Meaning:
+// docs/texture_unit.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace deburr::spec::texture {
+
+// GL_TEXTURE_MIN_FILTER, in the order of the register field.
+enum class MinFilter : std::uint8_t {
+  kNearest,
+  kLinear,
+  kNearestMipmapNearest,
+  kLinearMipmapNearest,
+  kNearestMipmapLinear,
+  kLinearMipmapLinear
+};
+inline constexpr std::array<std::string_view, 6> kMinFilterNames = {"nearest",
+                                                                    "linear",
+                                                                    "nearest_mipmap_nearest",
+                                                                    "linear_mipmap_nearest",
+                                                                    "nearest_mipmap_linear",
+                                                                    "linear_mipmap_linear"};
+
+enum class MagFilter : std::uint8_t { kNearest, kLinear };
+inline constexpr std::array<std::string_view, 2> kMagFilterNames = {"nearest", "linear"};
+
+enum class Wrap : std::uint8_t { kRepeat, kMirroredRepeat, kClampToEdge };
+inline constexpr std::array<std::string_view, 3> kWrapNames = {"repeat", "mirrored_repeat",
+                                                               "clamp_to_edge"};
+
+enum class Layout : std::uint8_t { kLinear, kTiled };
+inline constexpr std::array<std::string_view, 2> kLayoutNames = {"linear", "tiled"};
+
+enum class Format : std::uint8_t { kRgba8, kRgb565, kRgba4444, kL8, kSrgb8A8 };
+inline constexpr std::array<std::string_view, 5> kFormatNames = {"rgba8", "rgb565", "rgba4444",
+                                                                 "l8", "srgb8_a8"};
+inline constexpr std::array<std::uint8_t, 5> kFormatBytes = {4, 2, 2, 1, 4};
+
+inline constexpr int kMaxTextures = 16;
+inline constexpr int kMaxTextureSize = 4096;
+inline constexpr int kMaxLevels = 13;
+inline constexpr int kTileBytes = 64;
+// Tile size in texels by bytes a texel (index 1, 2, 4): 8 x 8, 8 x 4, 4 x 4.
+inline constexpr std::array<std::uint8_t, 5> kTileWidth = {0, 8, 8, 0, 4};
+inline constexpr std::array<std::uint8_t, 5> kTileHeight = {0, 8, 4, 0, 4};
+
+// One texture with its sampler state, as the ParameterStore holds it.
+struct Descriptor {
+  std::uint16_t width = 0, height = 0;  // texels of level 0, 1..4096
+  std::uint8_t levels = 0;              // levels present, 1..1 + floor(lb max(width, height))
+  Format format = Format::kRgba8;
+  Layout layout = Layout::kTiled;
+  Wrap wrap_s = Wrap::kRepeat, wrap_t = Wrap::kRepeat;
+  MinFilter min_filter = MinFilter::kLinearMipmapLinear;
+  MagFilter mag_filter = MagFilter::kLinear;
+  std::uint8_t max_anisotropy_log2 = 0;          // N_max = 1, 2, 4, 8, 16
+  std::int16_t lod_bias = 0;                     // S7.8
+  std::uint16_t min_lod = 0;                     // U8.8
+  std::uint16_t max_lod = 12 << 8;               // U8.8
+  std::array<std::uint32_t, kMaxLevels> base{};  // byte address of each level, multiple of 64
+  friend bool operator==(const Descriptor&, const Descriptor&) = default;
+};
+
+}  // namespace deburr::spec::texture

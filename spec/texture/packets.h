@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Packets at the two ends of the texture unit: quads of fragments in, colours out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace deburr::spec::texture {
+
+// Texture coordinates are S7.24: 24 fraction bits, saturated to [-128, 128).
+inline constexpr int kCoordinateFractionBits = 24;
+inline constexpr std::int32_t kCoordinateOne = 1 << kCoordinateFractionBits;
+
+// Four neighbouring pixels: lane 0 = (x, y), 1 = (x+1, y), 2 = (x, y+1), 3 = (x+1, y+1), x and y
+// even. All four lanes carry coordinates (of the primitive's plane, extrapolated where the pixel is
+// not covered), since the derivatives are differences between lanes; only lanes in `coverage` give
+// a colour.
+struct Quad {
+  std::uint32_t tag = 0;            // returned with each colour; the testbench's own business
+  std::uint16_t x = 0, y = 0;       // pixel of lane 0, for traces and error texts only
+  std::uint8_t texture = 0;         // descriptor handle, 0..15
+  std::uint8_t coverage = 0xF;      // bit i: lane i wants a colour
+  std::uint8_t clamped = 0;         // bit i: lane i had a NaN, infinite or out-of-range coordinate
+  std::array<std::int32_t, 4> s{};  // S7.24
+  std::array<std::int32_t, 4> t{};  // S7.24
+  friend bool operator==(const Quad&, const Quad&) = default;
+};
+
+// A filtered colour. `last` marks the last covered lane of its quad.
+struct Colour {
+  std::uint32_t tag = 0;
+  std::uint8_t lane = 0;
+  bool last = false;
+  std::array<std::uint8_t, 4> rgba{};  // U0.8 unorm each
+  friend bool operator==(const Colour&, const Colour&) = default;
+};
+
+}  // namespace deburr::spec::texture

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "tb/env/texture_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <string_view>
+
+#include "spec/error.h"
+#include "tb/scene/textures.h"
+
+namespace deburr::tb {
+namespace {
+
+using golden::texture::TextureGolden;
+
+Imath::V3d parse_vector(std::string_view name, std::string_view text) {
+  std::array<double, 3> values{};
+  const char* at = text.data();
+  const char* end = at + text.size();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto [next, error] = std::from_chars(at, end, values[i]);
+    const bool last = i == 2;
+    if (error != std::errc() || !std::isfinite(values[i]) ||
+        (last ? next != end : next == end || *next != ','))
+      throw spec::ConfigError(
+          fmt::format("'{}' = '{}' wants three numbers separated by commas: x,y,z", name, text));
+    at = next + 1;
+  }
+  return {values[0], values[1], values[2]};
+}
+
+bool is_scene_name(const std::string& name) {
+  const auto names = scene_names();
+  return std::any_of(names.begin(), names.end(),
+                     [&](const SceneName& s) { return s.name == name; });
+}
+
+bool is_texture_name(const std::string& name) {
+  const auto names = texture_names();
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+spec::texture::Wrap chosen(WrapChoice choice, spec::texture::Wrap own) {
+  switch (choice) {
+    case WrapChoice::kScene:
+      return own;
+    case WrapChoice::kRepeat:
+      return spec::texture::Wrap::kRepeat;
+    case WrapChoice::kMirroredRepeat:
+      return spec::texture::Wrap::kMirroredRepeat;
+    case WrapChoice::kClampToEdge:
+      return spec::texture::Wrap::kClampToEdge;
+  }
+  return own;
+}
+
+Scene load(const SceneParameters& p, WrapChoice wrap, std::uint32_t seed) {
+  SceneOptions options;
+  options.texture = p.texture;
+  options.texture_size = p.texture_size;
+  options.seed = seed;
+  Scene scene = load_scene(p.source, options);
+  // Before anything is made of it: the rasteriser (which shifts coordinates by whole repeats) and
+  // the truth go by it as well.
+  for (Texture& texture : scene.mesh.textures) {
+    texture.wrap_s = chosen(wrap, texture.wrap_s);
+    texture.wrap_t = chosen(wrap, texture.wrap_t);
+  }
+  if (p.eye.empty() && p.target.empty() && p.fov == 0) return scene;
+  Camera camera = scene.camera;
+  if (!p.eye.empty()) {
+    camera.eye = parse_vector("scene.eye", p.eye);
+    camera.near_plane = Camera{}.near_plane;  // the scene's own was chosen for its own eye
+  }
+  if (!p.target.empty()) camera.target = parse_vector("scene.target", p.target);
+  if (p.fov > 0) camera.fov_y = p.fov;
+  if (!((camera.target - camera.eye).length() > 0))
+    throw spec::ConfigError("'scene.eye' and 'scene.target' are the same point");
+  scene.camera = camera;
+  return scene;
+}
+
+}  // namespace
+
+TextureScene::TextureScene(const SceneParameters& scene, const SamplerParameters& sampler,
+                           std::uint32_t seed)
+    : scene_(load(scene, sampler.wrap, seed)) {
+  if (!is_scene_name(scene.source)) inputs_.emplace_back(scene.source);
+  if (!scene.texture.empty() && !is_texture_name(scene.texture))
+    inputs_.emplace_back(scene.texture);
+  lay_out(sampler);
+  RasterOptions options;
+  options.width = scene.width;
+  options.height = scene.height;
+  options.traversal = scene.traversal;
+  options.visibility = scene.visibility;
+  stream_ = rasterise(scene_, options);
+}
+
+void TextureScene::lay_out(const SamplerParameters& sampler) {
+  const MipSpace space =
+      sampler.format == spec::texture::Format::kSrgb8A8 ? MipSpace::kSrgb : MipSpace::kStored;
+  for (const Texture& texture : scene_.mesh.textures) {
+    if (std::max(texture.image.width, texture.image.height) > spec::texture::kMaxTextureSize)
+      throw spec::ConfigError(fmt::format(
+          "texture '{}' has {} x {} texels, the unit takes at most {} each way: scale it down",
+          texture.name, texture.image.width, texture.image.height, spec::texture::kMaxTextureSize));
+    std::vector<Image> levels = mip_chain(texture.image, space);
+    levels.resize(std::min(levels.size(), static_cast<std::size_t>(sampler.levels)));
+    spec::texture::Descriptor d;
+    d.format = sampler.format;
+    d.layout = sampler.layout;
+    d.wrap_s = texture.wrap_s;
+    d.wrap_t = texture.wrap_t;
+    d.min_filter = sampler.mode;
+    d.mag_filter = sampler.magnification;
+    d.max_anisotropy_log2 = sampler.anisotropy;
+    d.lod_bias = static_cast<std::int16_t>(sampler.lod_bias);
+    d.min_lod = static_cast<std::uint16_t>(sampler.min_lod);
+    d.max_lod = static_cast<std::uint16_t>(sampler.max_lod);
+    memory_.add(levels, d);
+  }
+}
+
+TextureGolden make_golden(const TextureScene& scene, const spec::texture::Parameters& parameters,
+                          TextureGolden::Traffic traffic) {
+  TextureGolden golden(parameters, scene.memory().bytes(), traffic);
+  int handle = 0;
+  for (const spec::texture::Descriptor& descriptor : scene.memory().descriptors())
+    golden.set_texture(handle++, descriptor);
+  return golden;
+}
+
+GoldenFrame golden_frame(const TextureScene& scene, const spec::texture::Parameters& parameters) {
+  TextureGolden golden = make_golden(scene, parameters);
+  FrameAssembler frame(scene.stream(), scene.scene());
+  GoldenFrame result;
+  result.rgba.reserve(4 * scene.stream().counts.fragments);
+  for (const spec::texture::Quad& quad : scene.stream().quads)
+    golden.process(quad, [&](const spec::texture::Colour& colour) {
+      frame.put(colour);
+      result.rgba.insert(result.rgba.end(), colour.rgba.begin(), colour.rgba.end());
+    });
+  result.image = frame.frame();
+  result.work = golden.work();
+  return result;
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "tb/results/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+
+#include "spec/error.h"
+
+namespace deburr::tb {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+enum class Judge { kNone, kLessIsBetter, kMoreIsBetter, kDecibel, kMustBeZero };
+
+struct Rule {
+  std::string_view key;
+  Judge judge;
+};
+constexpr Rule kRules[] = {
+    {"checks.mismatches", Judge::kMustBeZero},
+    {"checks.traffic_mismatches", Judge::kMustBeZero},
+    {"cycles", Judge::kLessIsBetter},
+    {"throughput.value", Judge::kMoreIsBetter},
+    {"latency.p50", Judge::kLessIsBetter},
+    {"latency.p95", Judge::kLessIsBetter},
+    {"latency.p99", Judge::kLessIsBetter},
+    {"memory.bytes_read", Judge::kLessIsBetter},
+    {"memory.bytes_written", Judge::kLessIsBetter},
+    {"quality.psnr_db", Judge::kDecibel},
+    {"quality.psnr_edge_db", Judge::kDecibel},
+    {"quality.psnr_silhouette_db", Judge::kDecibel},
+};
+
+Judge judge_of(const std::string& key) {
+  for (const Rule& rule : kRules)
+    if (rule.key == key) return rule.judge;
+  return Judge::kNone;
+}
+
+using Values = std::vector<std::pair<std::string, Json>>;
+
+void flatten(const Json& node, const std::string& path, Values& values) {
+  // The host's speed says nothing about the hardware, and the histogram has its percentiles.
+  if (path == "host" || path == "meaning" || path == "latency.histogram" || path == "schema")
+    return;
+  if (node.is_object()) {
+    for (const auto& [key, value] : node.items())
+      flatten(value, path.empty() ? key : path + "." + key, values);
+  } else if (!node.is_array()) {
+    values.emplace_back(path, node);
+  }
+}
+
+const Json* find(const Values& values, const std::string& key) {
+  for (const auto& [name, value] : values)
+    if (name == key) return &value;
+  return nullptr;
+}
+
+// "inf" stands for identical pictures.
+std::optional<double> as_number(const Json* value) {
+  if (!value) return std::nullopt;
+  if (value->is_number()) return value->get<double>();
+  if (value->is_string() && *value == "inf") return INFINITY;
+  return std::nullopt;
+}
+
+std::string shown(const Json* value) {
+  if (!value || value->is_null()) return "-";
+  if (value->is_string()) return value->get<std::string>();
+  if (value->is_number_float()) return fmt::format("{:.6g}", value->get<double>());
+  return value->dump();
+}
+
+bool is_worse(Judge judge, std::optional<double> a, std::optional<double> b, const Tolerances& t) {
+  if (judge == Judge::kNone) return false;
+  if (judge == Judge::kMustBeZero) return b.value_or(1) != 0;
+  if (!a) return false;  // nothing to compare with
+  if (!b) return true;
+  if (*a == *b) return false;
+  switch (judge) {
+    case Judge::kLessIsBetter:
+      return *b > *a * (1 + t.cycles_percent / 100);
+    case Judge::kMoreIsBetter:
+      return *b < *a * (1 - t.throughput_percent / 100);
+    case Judge::kDecibel:
+      return *b < *a - t.psnr_db;
+    default:
+      return false;
+  }
+}
+
+std::string change_of(Judge judge, std::optional<double> a, std::optional<double> b) {
+  if (!a || !b || *a == *b || std::isinf(*a) || std::isinf(*b)) return "";
+  if (judge == Judge::kDecibel) return fmt::format("{:+.2f} dB", *b - *a);
+  return *a == 0 ? "" : fmt::format("{:+.2f} %", 100 * (*b - *a) / std::fabs(*a));
+}
+
+}  // namespace
+
+Comparison compare(const Json& a, const Json& b, const Tolerances& tolerances) {
+  if (a.at("unit") != b.at("unit"))
+    throw spec::ConfigError(fmt::format(
+        "A is a run of '{}', B of '{}': results of different engines cannot be compared",
+        shown(&a.at("unit")), shown(&b.at("unit"))));
+  Values values_a, values_b;
+  flatten(a, "", values_a);
+  flatten(b, "", values_b);
+  Values keys = values_a;
+  for (const auto& entry : values_b)
+    if (!find(values_a, entry.first)) keys.push_back(entry);
+
+  Comparison comparison;
+  for (const auto& [key, unused] : keys) {
+    const Json* left = find(values_a, key);
+    const Json* right = find(values_b, key);
+    const Judge judge = judge_of(key);
+    const auto x = as_number(left), y = as_number(right);
+    ComparedValue value{key, shown(left), shown(right), change_of(judge, x, y),
+                        is_worse(judge, x, y, tolerances)};
+    if (key == "verdict") value.worse = left && *left == "pass" && (!right || *right != "pass");
+    if (key == "verdict" && right && *right == "fail") value.worse = true;
+    if (left && right && *left == *right && !value.worse) continue;
+    comparison.worse = comparison.worse || value.worse;
+    comparison.values.push_back(std::move(value));
+  }
+  return comparison;
+}
+
+std::vector<std::string> different_work(const Json& a, const Json& b) {
+  constexpr std::array kScene = {"frame.source", "scene.source", "scene.texture"};
+  constexpr std::array kSize = {"frame.width",         "frame.height", "scene.width",
+                                "scene.height",        "frame.count",  "scene.texture_size",
+                                "frame.truth_samples", "run.clock_mhz"};
+  const auto hashes = [](const Json& manifest) {
+    std::vector<std::string> all;
+    if (manifest.contains("inputs") && manifest["inputs"].is_array())
+      for (const Json& input : manifest["inputs"])
+        if (input.is_object()) all.push_back(input.value("sha256", ""));
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  const auto names = [](const Json& manifest) {
+    std::string all;
+    if (manifest.contains("inputs") && manifest["inputs"].is_array())
+      for (const Json& input : manifest["inputs"])
+        if (input.is_object()) all += (all.empty() ? "" : ", ") + input.value("file", "");
+    return all.empty() ? std::string("no file") : all;
+  };
+  std::vector<std::string> lines;
+  if (hashes(a) != hashes(b))
+    lines.push_back(fmt::format("the inputs differ: A reads {}, B reads {}", names(a), names(b)));
+  const auto look = [&](const char* key) {
+    const auto value = [&](const Json& manifest) {
+      const auto found = manifest.find("configuration");
+      return found != manifest.end() && found->is_object() && found->contains(key)
+                 ? shown(&found->at(key))
+                 : std::string("-");
+    };
+    if (value(a) != value(b))
+      lines.push_back(fmt::format("{} differs: A {}, B {}", key, value(a), value(b)));
+  };
+  // A file is known by its content: it may have been moved.
+  if (hashes(a).empty() && hashes(b).empty())
+    for (const char* key : kScene) look(key);
+  for (const char* key : kSize) look(key);
+  return lines;
+}
+
+}  // namespace deburr::tb

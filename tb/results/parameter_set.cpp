@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: MIT
+#include "tb/results/parameter_set.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <utility>
+
+#include "spec/error.h"
+#include "tb/results/file.h"
+
+namespace deburr::tb {
+namespace {
+
+using spec::ConfigError;
+
+template <class Number>
+bool parse_number(std::string_view text, Number& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+std::string join(const std::vector<std::string_view>& names, std::string_view separator) {
+  return fmt::format("{}", fmt::join(names, separator));
+}
+
+// A configuration has a few dozen keys; anything far beyond is not a configuration.
+constexpr std::size_t kMaxConfigurationBytes = 1 << 20;
+constexpr int kMaxNesting = 16;
+
+class YamlLoader {
+ public:
+  YamlLoader(ParameterSet& set, std::string file) : set_(set), file_(std::move(file)) {}
+
+  void load(const YAML::Node& root) {
+    if (root.IsNull()) return;
+    if (!root.IsMap())
+      throw ConfigError(where(root) + ": expected a map of parameters, got " + kind(root));
+    walk(root, "", 0);
+  }
+
+ private:
+  static const char* kind(const YAML::Node& node) {
+    switch (node.Type()) {
+      case YAML::NodeType::Sequence:
+        return "a list";
+      case YAML::NodeType::Map:
+        return "a map";
+      case YAML::NodeType::Scalar:
+        return "a single value";
+      default:
+        return "nothing";
+    }
+  }
+
+  std::string where(const YAML::Node& node) const {
+    const YAML::Mark mark = node.Mark();
+    return mark.is_null() ? file_ : fmt::format("{}:{}", file_, mark.line + 1);
+  }
+
+  void walk(const YAML::Node& map, const std::string& prefix, int depth) {
+    if (depth > kMaxNesting) throw ConfigError(where(map) + ": maps are nested too deeply");
+    for (const auto& entry : map) {
+      if (!entry.first.IsScalar())
+        throw ConfigError(where(entry.first) + ": a key must be a name, got " + kind(entry.first));
+      const std::string name = prefix + entry.first.Scalar();
+      if (entry.second.IsMap()) {
+        walk(entry.second, name + ".", depth + 1);
+        continue;
+      }
+      const std::string here = where(entry.first);
+      const auto [first, inserted] = seen_.emplace(name, here);
+      if (!inserted)
+        throw ConfigError(
+            fmt::format("{}: '{}' is given twice (first at {})", here, name, first->second));
+      if (!set_.find(name)) set_.set(name, "", here);  // throws with near matches
+      if (!entry.second.IsScalar())
+        throw ConfigError(
+            fmt::format("{}: '{}' wants a single value, got {}", here, name, kind(entry.second)));
+      set_.set(name, entry.second.Scalar(), here, ParameterSet::Origin::kFile);
+    }
+  }
+
+  ParameterSet& set_;
+  std::string file_;
+  std::map<std::string, std::string> seen_;
+};
+
+}  // namespace
+
+int edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<int>> d(a.size() + 1, std::vector<int>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = static_cast<int>(i);
+  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = static_cast<int>(j);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const int substitution = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, substitution});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  }
+  return d[a.size()][b.size()];
+}
+
+namespace {
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower;
+}
+}  // namespace
+
+std::vector<std::string> near_matches(std::string_view name,
+                                      const std::vector<std::string>& candidates) {
+  constexpr std::size_t kMaxName =
+      100;  // longer is not a typing error, and the search is quadratic
+  std::vector<std::pair<int, std::string>> ranked;
+  if (name.empty() || name.size() > kMaxName) return {};
+  const auto last_part = [](std::string_view text) { return text.substr(text.rfind('.') + 1); };
+  for (const std::string& candidate : candidates) {
+    int distance = edit_distance(name, candidate);
+    // Capitals alone are no difference.
+    distance =
+        std::min(distance, std::max(1, edit_distance(lower_case(name), lower_case(candidate))));
+    // The right leaf under a wrong or missing prefix is a likely meaning too.
+    if (last_part(candidate) == last_part(name)) distance = std::min(distance, 2);
+    if (candidate.ends_with("." + std::string(name))) distance = 1;
+    // So is a name that was not finished.
+    if (candidate.starts_with(name)) distance = std::min(distance, 2);
+    if (distance <= std::max<int>(1, static_cast<int>(name.size()) / 3))
+      ranked.emplace_back(distance, candidate);
+  }
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, ranked.size()); ++i)
+    names.push_back(ranked[i].second);
+  return names;
+}
+
+std::string did_you_mean(const std::vector<std::string>& candidates) {
+  if (candidates.empty()) return "";
+  std::string text = ": did you mean ";
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (i > 0) text += i + 1 == candidates.size() ? " or " : ", ";
+    text += "'" + candidates[i] + "'";
+  }
+  return text + "?";
+}
+
+// ---- Binder -------------------------------------------------------------------------------------
+
+void ParameterSet::Binder::add(std::string_view name, std::string_view unit, std::string range,
+                               std::string_view meaning, std::function<std::string()> text,
+                               std::function<nlohmann::ordered_json()> json,
+                               std::function<std::string(std::string_view)> parse) {
+  Parameter p;
+  p.name = prefix_.empty() ? std::string(name) : fmt::format("{}.{}", prefix_, name);
+  DEBURR_CHECK(!set_.find(p.name), "parameter '" + p.name + "' is declared twice");
+  p.unit = unit;
+  p.range = std::move(range);
+  p.meaning = meaning;
+  p.default_value = text();
+  p.text = std::move(text);
+  p.json = std::move(json);
+  p.parse = std::move(parse);
+  set_.parameters_.push_back(std::move(p));
+}
+
+void ParameterSet::Binder::integer(std::string_view name, std::int64_t& value, std::int64_t min,
+                                   std::int64_t max, std::string_view unit,
+                                   std::string_view meaning) {
+  add(
+      name, unit, fmt::format("{}..{}", min, max), meaning,
+      [&value] { return std::to_string(value); },
+      [&value] { return nlohmann::ordered_json(value); },
+      [&value, min, max](std::string_view text) -> std::string {
+        std::int64_t parsed = 0;
+        if (!parse_number(text, parsed)) return fmt::format("wants an integer {}..{}", min, max);
+        if (parsed < min || parsed > max) return fmt::format("is outside {}..{}", min, max);
+        value = parsed;
+        return "";
+      });
+}
+
+void ParameterSet::Binder::integer(std::string_view name, std::int32_t& value, std::int32_t min,
+                                   std::int32_t max, std::string_view unit,
+                                   std::string_view meaning) {
+  add(
+      name, unit, fmt::format("{}..{}", min, max), meaning,
+      [&value] { return std::to_string(value); },
+      [&value] { return nlohmann::ordered_json(value); },
+      [&value, min, max](std::string_view text) -> std::string {
+        std::int64_t parsed = 0;
+        if (!parse_number(text, parsed)) return fmt::format("wants an integer {}..{}", min, max);
+        if (parsed < min || parsed > max) return fmt::format("is outside {}..{}", min, max);
+        value = static_cast<std::int32_t>(parsed);
+        return "";
+      });
+}
+
+void ParameterSet::Binder::real(std::string_view name, double& value, double min, double max,
+                                std::string_view unit, std::string_view meaning) {
+  add(
+      name, unit, fmt::format("{}..{}", min, max), meaning,
+      [&value] { return fmt::format("{}", value); },
+      [&value] { return nlohmann::ordered_json(value); },
+      [&value, min, max](std::string_view text) -> std::string {
+        double parsed = 0;
+        if (!parse_number(text, parsed) || !std::isfinite(parsed))
+          return fmt::format("wants a number {}..{}", min, max);
+        if (parsed < min || parsed > max) return fmt::format("is outside {}..{}", min, max);
+        value = parsed;
+        return "";
+      });
+}
+
+void ParameterSet::Binder::text(std::string_view name, std::string& value, std::string_view range,
+                                std::string_view meaning) {
+  add(
+      name, "", std::string(range), meaning, [&value] { return value; },
+      [&value] { return nlohmann::ordered_json(value); },
+      [&value](std::string_view text) -> std::string {
+        value = text;
+        return "";
+      });
+}
+
+void ParameterSet::Binder::boolean(std::string_view name, bool& value, std::string_view meaning) {
+  add(
+      name, "", "true | false", meaning, [&value] { return value ? "true" : "false"; },
+      [&value] { return nlohmann::ordered_json(value); },
+      [&value](std::string_view text) -> std::string {
+        if (text == "true" || text == "on" || text == "yes")
+          value = true;
+        else if (text == "false" || text == "off" || text == "no")
+          value = false;
+        else
+          return "wants true or false";
+        return "";
+      });
+}
+
+void ParameterSet::Binder::add_choice(std::string_view name, std::vector<std::string_view> names,
+                                      std::function<std::size_t()> get,
+                                      std::function<void(std::size_t)> set,
+                                      std::string_view meaning) {
+  const auto current = [names, get] { return std::string(names.at(get())); };
+  add(
+      name, "", join(names, " | "), meaning, current,
+      [current] { return nlohmann::ordered_json(current()); },
+      [names, set](std::string_view text) -> std::string {
+        const auto found = std::find(names.begin(), names.end(), text);
+        if (found == names.end())
+          return fmt::format("wants one of {}{}", join(names, ", "),
+                             did_you_mean(tb::near_matches(text, {names.begin(), names.end()})));
+        set(static_cast<std::size_t>(found - names.begin()));
+        return "";
+      });
+}
+
+// ---- ParameterSet -------------------------------------------------------------------------------
+
+const Parameter* ParameterSet::find(std::string_view name) const {
+  const auto found = std::find_if(parameters_.begin(), parameters_.end(),
+                                  [&](const Parameter& p) { return p.name == name; });
+  return found == parameters_.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> ParameterSet::near_matches(std::string_view name) const {
+  std::vector<std::string> names;
+  for (const Parameter& p : parameters_) names.push_back(p.name);
+  return tb::near_matches(name, names);
+}
+
+void ParameterSet::set(std::string_view name, std::string_view text, std::string_view where,
+                       Origin origin) {
+  const Parameter* parameter = find(name);
+  if (!parameter)
+    throw ConfigError(fmt::format("{}: unknown parameter '{}'{} (`deburr params` lists them all)",
+                                  where, name, did_you_mean(near_matches(name))));
+  const std::string complaint = parameter->parse(text);
+  if (!complaint.empty())
+    throw ConfigError(fmt::format("{}: '{}' = '{}' {}", where, name, text, complaint));
+  given_.insert_or_assign(parameter->name, Given{std::string(where), origin});
+}
+
+void ParameterSet::imply(std::string_view name, std::string_view text, std::string_view by) {
+  const auto found = std::find_if(parameters_.begin(), parameters_.end(),
+                                  [&](const Parameter& p) { return p.name == name; });
+  DEBURR_CHECK(found != parameters_.end(), fmt::format("{} implies unknown '{}'", by, name));
+  found->implied = text;
+  found->implied_by = by;
+  if (given(name)) return;
+  const std::string complaint = found->parse(text);
+  DEBURR_CHECK(complaint.empty(), fmt::format("{}: '{}' {}", by, name, complaint));
+}
+
+std::vector<const Parameter*> ParameterSet::changed() const {
+  std::vector<const Parameter*> changed;
+  for (const Parameter& p : parameters_)
+    if (!p.implied_by.empty() && p.text() != p.implied) changed.push_back(&p);
+  return changed;
+}
+
+void ParameterSet::refuse(std::string_view name, std::string_view why) const {
+  const auto given = given_.find(name);
+  if (given == given_.end()) return;
+  const Parameter& p = *find(name);
+  const std::string& usual = p.implied_by.empty() ? p.default_value : p.implied;
+  if (given->second.origin == Origin::kFile && p.text() == usual) return;
+  throw ConfigError(
+      fmt::format("{}: '{}' = '{}' has no effect: {}", given->second.where, name, p.text(), why));
+}
+
+void ParameterSet::refuse_all(std::string_view prefix, std::string_view why) const {
+  for (const Parameter& p : parameters_)
+    if (p.name.starts_with(prefix)) refuse(p.name, why);
+}
+
+void ParameterSet::set_assignment(std::string_view assignment, std::string_view where) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos)
+    throw ConfigError(fmt::format("{}: expected name=value, got '{}'", where, assignment));
+  set(assignment.substr(0, equals), assignment.substr(equals + 1), where);
+}
+
+void ParameterSet::load(const std::filesystem::path& file) {
+  const std::string text = read_file(file, kMaxConfigurationBytes);
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1)
+      throw ConfigError(fmt::format("{}: holds {} YAML documents, expected one", file.string(),
+                                    documents.size()));
+    if (!documents.empty()) YamlLoader(*this, file.string()).load(documents.front());
+  } catch (const YAML::Exception& e) {
+    const std::string line =
+        e.mark.is_null() ? "" : fmt::format(":{}:{}", e.mark.line + 1, e.mark.column + 1);
+    throw ConfigError(fmt::format("{}{}: not valid YAML: {}", file.string(), line, e.msg));
+  }
+}
+
+nlohmann::ordered_json ParameterSet::resolved() const {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const Parameter& p : parameters_) json[p.name] = p.json();
+  return json;
+}
+
+std::string ParameterSet::yaml() const {
+  std::string out;
+  for (const Parameter& p : parameters_) {
+    YAML::Emitter value;
+    // Text may hold anything; numbers, choices and switches are plain by construction.
+    if (p.json().is_string()) value << YAML::DoubleQuoted;
+    value << p.text();
+    const bool by_preset = !p.implied_by.empty() && p.text() == p.implied;
+    out += fmt::format("{}{}: {}  # {}{}\n", by_preset ? "# " : "", p.name, value.c_str(),
+                       by_preset ? fmt::format("By {}. ", p.implied_by) : "", p.meaning);
+  }
+  return out;
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,498 @@
+// SPDX-License-Identifier: MIT
+#include "tb/results/report.h"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <kainjow/mustache.hpp>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "spec/error.h"
+#include "tb/results/embedded.h"
+#include "tb/results/file.h"
+#include "tb/results/result.h"
+#include "tb/scene/image_io.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace fs = std::filesystem;
+namespace mustache = kainjow::mustache;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMaxImageBytes = 256u << 20;
+constexpr std::size_t kMaxManifestBytes = 64u << 20;
+
+// Numbers as a reader wants them: counts grouped, rates with four significant digits.
+std::string shown(const Json& value) {
+  if (value.is_number_unsigned()) return grouped(value.get<std::uint64_t>());
+  if (value.is_number_integer()) return fmt::format("{}", value.get<std::int64_t>());
+  if (value.is_number()) return fmt::format("{:.4g}", value.get<double>());
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
+  if (value.is_null()) return "-";
+  return value.dump();
+}
+
+mustache::data row(std::initializer_list<std::pair<const char*, std::string>> cells) {
+  mustache::data data;
+  for (const auto& [name, value] : cells) data.set(name, value);
+  return data;
+}
+
+// A count as such, anything else with four digits.
+std::string amount(double value) {
+  return value == std::floor(value) && value >= 0 && value < 1e15
+             ? grouped(static_cast<std::uint64_t>(value))
+             : fmt::format("{:.4g}", value);
+}
+
+double number(const Json& json, const char* key) {
+  const Json value = json.value(key, Json(0.0));
+  return value.is_number() ? value.get<double>() : 0.0;
+}
+
+std::string decibels(const Json& value) {
+  if (value.is_number()) return fmt::format("{:.2f}", value.get<double>());
+  return value == "inf" ? "identical" : "-";
+}
+
+std::string gain_of(const Json& before, const Json& after) {
+  if (!before.is_number() || !after.is_number()) return "-";
+  return fmt::format("{:+.2f}", after.get<double>() - before.get<double>());
+}
+
+Json read_manifest(const fs::path& directory) {
+  const fs::path file = directory / "manifest.json";
+  Json manifest = Json::parse(read_file(file, kMaxManifestBytes), nullptr, false);
+  if (!manifest.is_object())
+    throw spec::FileError(fmt::format("'{}' is not a valid manifest", file.string()));
+  return manifest;
+}
+
+class ReportBuilder {
+ public:
+  explicit ReportBuilder(const fs::path& directory)
+      : result_(read_result(directory)), manifest_(read_manifest(directory)) {
+    fill_head();
+    fill_images(directory);
+    fill_tables();
+    fill_origin();
+  }
+
+  std::string render() {
+    page_.set("style", std::string(embedded::style_css()));
+    page_.set("chart_js", std::string(embedded::chart_js()));
+    page_.set("report_js", std::string(embedded::report_js()));
+    page_.set("data", json_for_script({{"result", result_}}));
+    mustache::mustache page{std::string(embedded::report_template())};
+    if (!page.is_valid()) throw spec::CheckFailed("report.mustache: " + page.error_message());
+    return page.render(page_);
+  }
+
+ private:
+  void fill_head() {
+    page_.set("unit", shown(result_["unit"]));
+    page_.set("title", manifest_.value("title", "Run"));
+    page_.set("summary", manifest_.value("summary", ""));
+    page_.set("verdict", shown(result_["verdict"]));
+    const std::string reason = result_.value("reason", "");
+    if (!reason.empty()) {
+      mustache::data list{mustache::data::type::list};
+      list << row({{"reason", reason}});
+      page_.set("reason", list);
+    }
+    page_.set("command", manifest_.value("command", ""));
+    page_.set("cycles", shown(result_["cycles"]));
+
+    const Json& checks = result_["checks"];
+    const Json& throughput = result_["throughput"];
+    const Json& latency = result_["latency"];
+    const double value = number(throughput, "value"), bound = number(throughput, "bound");
+    const double mhz = number(result_, "clock_mhz");
+    mustache::data tiles{mustache::data::type::list};
+    const auto tile = [&](std::string name, std::string number_text, std::string unit,
+                          std::string note, const char* state = "") {
+      tiles << row({{"name", std::move(name)},
+                    {"value", std::move(number_text)},
+                    {"unit", std::move(unit)},
+                    {"note", std::move(note)},
+                    {"state", state}});
+    };
+    const bool interrupted = result_.value("interrupted", false);
+    const std::uint64_t mismatches = checks.value("mismatches", std::uint64_t{0}) +
+                                     checks.value("traffic_mismatches", std::uint64_t{0});
+    const std::uint64_t compared = checks.value("comparisons", std::uint64_t{0}) +
+                                   checks.value("traffic_comparisons", std::uint64_t{0});
+    page_.set("incomplete", interrupted);
+    if (compared == 0)
+      tile("Mismatches", "-", "", "not checked against the golden model");
+    else
+      tile("Mismatches", grouped(mismatches), "",
+           fmt::format("of {} comparisons{}", grouped(compared), interrupted ? ", incomplete" : ""),
+           mismatches    ? "bad"
+           : interrupted ? ""
+                         : "good");
+    const double cycles = number(result_, "cycles");
+    const auto time = [&](double clocks) {
+      return mhz > 0 ? fmt::format("{:.2f} ms at {:g} MHz", clocks / mhz / 1e3, mhz) : "";
+    };
+    // What an engine shows among the tiles takes the place of what all of them have.
+    bool own_cycles = false, own_latency = false, own_memory = false;
+    for (const Json& figure : result_.value("figures", Json::array())) {
+      if (!figure.value("tile", false)) continue;
+      const std::string key = figure.value("key", ""), unit = described(key, "unit");
+      const bool time_shown = unit == "clk" && !key.starts_with("latency.");
+      own_cycles = own_cycles || time_shown;
+      own_latency = own_latency || key.starts_with("latency.");
+      own_memory = own_memory || key.find("memory") != std::string::npos;
+      std::string note = against(figure);
+      if (time_shown) note += (note.empty() ? "" : "; ") + time(value_at(key).get<double>());
+      tile(figure.value("label", ""), figure_text(value_at(key)), unit, note);
+    }
+    if (!own_cycles) tile("Cycles", shown(result_["cycles"]), "clk", time(cycles));
+    tile("Throughput", fmt::format("{:.3f}", value), "",
+         shown(throughput.value("unit", Json(""))) +
+             (bound > 0 ? fmt::format(", {:.1f} % of the bound {:.4g}", 100 * value / bound, bound)
+                        : ""));
+    if (!own_latency)
+      tile("Latency p50", shown(latency.value("p50", Json())), "clk",
+           fmt::format("p99 {}, max {}", shown(latency.value("p99", Json())),
+                       shown(latency.value("max", Json()))));
+    if (const double read = number(result_["memory"], "bytes_read"); read > 0 && !own_memory)
+      tile("Read from memory", fmt::format("{:.2f}", read / 1048576), "MiB",
+           fmt::format("{} reads", shown(result_["memory"].value("lines_filled", Json()))));
+    if (const auto quality = result_.find("quality"); quality != result_.end()) {
+      const bool edges = !quality->value("psnr_edge_db", Json()).is_null();
+      const Json after = quality->value(edges ? "psnr_edge_db" : "psnr_db", Json());
+      const Json before = quality->value(edges ? "psnr_edge_before_db" : "psnr_before_db", Json());
+      const std::string gain = gain_of(before, after);
+      tile(edges ? "PSNR, edge pixels" : "PSNR", decibels(after), "dB",
+           gain == "-" ? "of what came out" : gain + " dB, before " + decibels(before));
+    }
+    tile("Simulation", fmt::format("{:.2f}", number(result_["host"], "mcycles_per_s")), "Mcycle/s",
+         fmt::format("{:.1f} s, {:.1f} s of them computing", number(result_["host"], "seconds"),
+                     number(result_["host"], "cpu_seconds")));
+    page_.set("tiles", tiles);
+    // One row of tiles, or two that are equally long.
+    constexpr std::size_t kRow = 7;
+    const std::size_t count = tiles.list_value().size();
+    page_.set("columns", std::to_string(count <= kRow ? count : (count + 1) / 2));
+
+    mustache::data meters{mustache::data::type::list};
+    const auto meter = [&](std::string name, double part, double whole, const std::string& unit,
+                           std::string note) {
+      const double percent = whole > 0 ? 100 * part / whole : 0;
+      meters << row({{"name", std::move(name)},
+                     {"text", fmt::format("{} of {} {} ({:.1f} %)", amount(part), amount(whole),
+                                          unit, percent)},
+                     {"percent", fmt::format("{:.2f}", std::clamp(percent, 0.0, 100.0))},
+                     {"note", std::move(note)}});
+    };
+    meter("Rate over the whole run", value, bound, shown(throughput.value("unit", Json(""))),
+          bound_note(throughput));
+    fill_bottleneck(meter);
+    page_.set("meters", meters);
+    page_.set("throughput_note",
+              mhz > 0 && value > 0
+                  ? fmt::format("At {:.2f} MHz this is {:.1f} M{}.", mhz, value * mhz,
+                                per_second(shown(throughput.value("unit", Json("")))))
+                  : "");
+  }
+
+  static std::string bound_note(const Json& throughput) {
+    const std::string meaning = throughput.value("bound_meaning", "");
+    return meaning.empty() ? "" : "Bound: " + meaning;
+  }
+
+  // What held the run back, as a share of that unit's cycles.
+  template <class Meter>
+  void fill_bottleneck(const Meter& meter) const {
+    const auto found = result_.find("bottleneck");
+    if (found == result_.end() || !found->is_object()) return;
+    const std::string name = found->value("unit", ""), cause = found->value("cause", "");
+    if (!result_["units"].contains(name)) return;
+    const Json& unit = result_["units"][name];
+    double all = number(unit, "busy") + number(unit, "idle");
+    for (const auto& [key, count] : unit["stalls"].items()) all += count.template get<double>();
+    meter(
+        fmt::format("Limited by {}: {}{}", name, cause == "busy" ? "" : "stalled, ", spaced(cause)),
+        number(*found, "cycles"), all, "clk", found->value("meaning", ""));
+  }
+
+  static std::string spaced(std::string text) {
+    std::replace(text.begin(), text.end(), '_', ' ');
+    return text;
+  }
+
+  // The value under a dotted key; null where there is none.
+  Json value_at(const std::string& key) const {
+    const Json* node = &result_;
+    for (std::size_t from = 0; from <= key.size();) {
+      const std::size_t dot = std::min(key.find('.', from), key.size());
+      const std::string part = key.substr(from, dot - from);
+      if (!node->is_object() || !node->contains(part)) return Json();
+      node = &(*node)[part];
+      from = dot + 1;
+    }
+    return *node;
+  }
+
+  static std::string figure_text(const Json& value) {
+    if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+    return value.is_number_float() ? amount(value.get<double>()) : shown(value);
+  }
+
+  // "= formula", or "formula 281,094, +64.3 %".
+  std::string against(const Json& figure) const {
+    const auto other = figure.find("against");
+    if (other == figure.end()) return "";
+    const std::string label = other->value("label", "");
+    if (!other->contains("key")) return label;
+    const Json value = value_at(figure.value("key", ""));
+    const Json reference = value_at(other->value("key", ""));
+    if (!value.is_number() || !reference.is_number()) return "";
+    const double a = value.get<double>(), b = reference.get<double>();
+    if (a == b) return "= " + label;
+    return fmt::format("{} {}{}", label, figure_text(reference),
+                       b > 0 ? fmt::format(", {:+.1f}\u00a0%", 100 * (a - b) / b) : "");
+  }
+
+  // "bilinear/clk" -> "bilinear/s".
+  static std::string per_second(const std::string& unit) {
+    return unit.ends_with("/clk") ? unit.substr(0, unit.size() - 3) + "s" : unit + "/s";
+  }
+
+  void fill_images(const fs::path& directory) {
+    mustache::data images{mustache::data::type::list};
+    bool any = false;
+    for (const Json& image : manifest_.value("images", Json::array())) {
+      const fs::path file = image.value("file", "");
+      // Only names inside the directory: a manifest from elsewhere must not pull other files in.
+      if (file.empty() || file.has_parent_path())
+        throw spec::FileError(fmt::format("'{}': image '{}' is not a file name",
+                                          (directory / "manifest.json").string(), file.string()));
+      images << row({{"title", image.value("title", file.string())},
+                     {"caption", image.value("caption", "")},
+                     {"role", image.value("role", "")},
+                     {"source", data_uri(directory / file)}});
+      any = true;
+    }
+    page_.set("has_images", any);
+    page_.set("images", images);
+  }
+
+  // Unit or meaning of a key, from the result itself.
+  std::string described(const std::string& key, const char* what) const {
+    const auto all = result_.find("meaning");
+    if (all == result_.end() || !all->contains(key)) return "";
+    return (*all)[key].value(what, "");
+  }
+
+  void fill_tables() {
+    mustache::data figures{mustache::data::type::list};
+    for (const Json& figure : result_.value("figures", Json::array())) {
+      const std::string key = figure.value("key", "");
+      figures << row({{"label", figure.value("label", "")},
+                      {"value", figure_text(value_at(key))},
+                      {"unit", described(key, "unit")},
+                      {"against", against(figure)},
+                      {"meaning", described(key, "meaning")}});
+    }
+    page_.set("has_figures", figures.is_non_empty_list());
+    page_.set("figures", figures);
+
+    mustache::data memory{mustache::data::type::list};
+    const double cycles = number(result_, "cycles");
+    bool traffic = false;
+    for (const auto& [name, value] : result_["memory"].items()) {
+      std::string meaning = described("memory." + name, "meaning");
+      if (meaning.ends_with('.')) meaning.pop_back();
+      memory << row({{"name", meaning},
+                     {"value", shown(value)},
+                     {"unit", described("memory." + name, "unit")}});
+      traffic = traffic || (value.is_number() && value.get<double>() > 0);
+    }
+    for (const auto& [label, key] : {std::pair("Mean read bandwidth", "bytes_read"),
+                                     std::pair("Mean write bandwidth", "bytes_written")})
+      if (const double bytes = number(result_["memory"], key); cycles > 0 && bytes > 0)
+        memory << row({{"name", label},
+                       {"value", fmt::format("{:.3f}", bytes / cycles)},
+                       {"unit", "byte/clk"}});
+    page_.set("memory", memory);
+    page_.set("has_traffic", traffic);
+
+    mustache::data units{mustache::data::type::list};
+    for (const auto& [name, unit] : result_["units"].items()) {
+      std::string stalls;
+      for (const auto& [cause, count] : unit["stalls"].items())
+        if (count != 0)
+          stalls += fmt::format("{}{} {}", stalls.empty() ? "" : ", ", cause, shown(count));
+      units << row({{"name", name},
+                    {"busy", shown(unit["busy"])},
+                    {"idle", shown(unit["idle"])},
+                    {"stalls", stalls.empty() ? "-" : stalls}});
+    }
+    page_.set("units", units);
+    page_.set("units_table", mustache::partial{[] {
+                return std::string(
+                    "<table><tr><th>Unit</th><th class=\"n\">Busy</th><th class=\"n\">Idle</th>"
+                    "<th>Stalled, by cause</th></tr>{{#units}}<tr><td>{{name}}</td>"
+                    "<td class=\"n\">{{busy}}</td><td class=\"n\">{{idle}}</td><td>{{stalls}}</td>"
+                    "</tr>{{/units}}</table>");
+              }});
+
+    const Json& latency = result_["latency"];
+    mustache::data percentiles{mustache::data::type::list};
+    for (const char* key : {"min", "p50", "p95", "p99", "max"})
+      percentiles << row({{"value", shown(latency.value(key, Json()))}});
+    page_.set("latency", percentiles);
+    page_.set("latency_unit", shown(latency.value("unit", Json("clk"))));
+    // One value needs no histogram.
+    const bool spread = latency.value("min", Json()) != latency.value("max", Json());
+    page_.set("latency_spread", spread);
+    page_.set("latency_single", shown(latency.value("max", Json())));
+    mustache::data histogram{mustache::data::type::list};
+    for (const Json& bin : latency.value("histogram", Json::array()))
+      histogram << row({{"from", shown(bin["from"])}, {"count", shown(bin["count"])}});
+    page_.set("histogram", histogram);
+
+    mustache::data sram{mustache::data::type::list};
+    std::uint64_t total = 0, total_at_width = 0;
+    const auto part = [&](const char* table, const std::string& name) {
+      const auto found = result_.find(table);
+      return found != result_.end() && found->contains(name) ? (*found)[name] : Json();
+    };
+    for (const auto& [name, bits] : result_["sram_bits"].items()) {
+      const Json at_width = part("sram_bits_at_frame_width", name);
+      total += bits.get<std::uint64_t>();
+      total_at_width += at_width.is_number() ? at_width.get<std::uint64_t>() : 0;
+      sram << row({{"name", name},
+                   {"bits", shown(bits)},
+                   {"at_width", shown(at_width)},
+                   {"ports", shown(part("sram_ports", name))}});
+    }
+    sram << row({{"name", "total"},
+                 {"bits", grouped(total)},
+                 {"at_width", grouped(total_at_width)},
+                 {"ports", ""}});
+    page_.set("sram", sram);
+    page_.set("sram_widths", total_at_width != 0 && total_at_width != total);
+    page_.set("sram_note", fmt::format("{:.2f} Mbit", static_cast<double>(total) / 1e6));
+    page_.set("sram_width_note",
+              fmt::format("{:.2f} Mbit", static_cast<double>(total_at_width) / 1e6));
+
+    mustache::data work{mustache::data::type::list};
+    for (const auto& [name, value] : result_["work"].items()) {
+      work << row({{"name", name},
+                   {"value", shown(value)},
+                   {"unit", described("work." + name, "unit")},
+                   {"meaning", described("work." + name, "meaning")}});
+    }
+    page_.set("work", work);
+
+    mustache::data checks{mustache::data::type::list};
+    for (const auto& [name, value] : result_["checks"].items()) {
+      std::string label = name;
+      std::replace(label.begin(), label.end(), '_', ' ');
+      checks << row({{"name", label},
+                     {"value", shown(value)},
+                     {"meaning", described("checks." + name, "meaning")}});
+    }
+    page_.set("checks", checks);
+
+    const auto quality = result_.find("quality");
+    page_.set("has_quality", quality != result_.end());
+    if (quality != result_.end()) {
+      page_.set("quality_reference", quality->value("reference", ""));
+      mustache::data rows{mustache::data::type::list};
+      for (const auto& [label, key] :
+           {std::pair("Whole frame", "psnr_"), std::pair("Edge pixels", "psnr_edge_"),
+            std::pair("Silhouette pixels", "psnr_silhouette_")}) {
+        const Json after = quality->value(std::string(key) + "db", Json());
+        const Json before = quality->value(std::string(key) + "before_db", Json());
+        if (after.is_null() && before.is_null()) continue;
+        rows << row({{"name", label},
+                     {"before", decibels(before)},
+                     {"after", decibels(after)},
+                     {"gain", gain_of(before, after)}});
+      }
+      page_.set("quality", rows);
+    }
+
+    mustache::data parameters{mustache::data::type::list};
+    for (const Json& p : manifest_.value("parameters", Json::array())) {
+      mustache::data line = row({{"name", p.value("name", "")},
+                                 {"value", shown(p["value"])},
+                                 {"default", p.value("default", "")},
+                                 {"range", p.value("range", "")},
+                                 {"unit", p.value("unit", "")},
+                                 {"meaning", p.value("meaning", "")}});
+      line.set("changed", shown(p["value"]) != p.value("default", ""));
+      parameters << line;
+    }
+    page_.set("parameters", parameters);
+  }
+
+  void fill_origin() {
+    mustache::data origin{mustache::data::type::list};
+    for (const char* key : {"version", "commit", "compiler", "build", "systemc", "seed", "started"})
+      if (manifest_.contains(key))
+        origin << row({{"name", key}, {"value", shown_plain(manifest_[key])}});
+    for (const Json& input : manifest_.value("inputs", Json::array()))
+      origin << row({{"name", "input"},
+                     {"value", input.value("file", "") + "  sha256 " + input.value("sha256", "")}});
+    page_.set("origin", origin);
+  }
+
+  static std::string shown_plain(const Json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+  }
+
+  Json result_, manifest_;
+  mustache::data page_;
+};
+
+}  // namespace
+
+std::string json_for_script(const Json& json) {
+  std::string text;
+  for (const char c : json.dump()) {
+    if (c == '<')
+      text += "\\u003c";
+    else
+      text += c;
+  }
+  return text;
+}
+
+std::string grouped(std::uint64_t value) {
+  const std::string digits = std::to_string(value);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
+    text += digits[i];
+  }
+  return text;
+}
+
+std::string data_uri(const fs::path& image_file) {
+  const std::string bytes = read_file(image_file, kMaxImageBytes);
+  std::string encoded(4 * ((bytes.size() + 2) / 3) + 1, '\0');
+  const int size = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(encoded.data()),
+                                   reinterpret_cast<const unsigned char*>(bytes.data()),
+                                   static_cast<int>(bytes.size()));
+  encoded.resize(static_cast<std::size_t>(size));
+  return "data:image/png;base64," + encoded;
+}
+
+std::string build_report(const fs::path& directory) { return ReportBuilder(directory).render(); }
+
+void write_report(const fs::path& directory) {
+  write_file_atomically(directory / "report.html", build_report(directory));
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// Pictures and quality of a run, whole or interrupted.
+#include "tb/app/pictures.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tb/results/file.h"
+#include "tb/results/report.h"
+#include "tb/scene/image_io.h"
+
+namespace deburr::tb {
+namespace {
+
+constexpr Rgba8 kGrey = {128, 128, 128, 255}, kBlack = {0, 0, 0, 255},
+                kWhite = {255, 255, 255, 255};
+
+TEST(Quality, IsOfBothPicturesWhereThereIsSomethingToJudge) {
+  Image truth(8, 8, {100, 100, 100, 255}), before = truth, after = truth;
+  before.at(3, 3) = {110, 100, 100, 255};
+  after.at(3, 3) = {101, 100, 100, 255};
+  const Quality q = judge_quality("x", before, after, truth, nullptr);
+  // One channel of one edge pixel: mse 100 / 3 and 1 / 3.
+  EXPECT_NEAR(*q.psnr_edge_before_db, 32.90, 0.01);
+  EXPECT_NEAR(*q.psnr_edge_db, 52.90, 0.01);
+  EXPECT_NEAR(*q.psnr_db - *q.psnr_before_db, 20.0, 0.01);
+  EXPECT_FALSE(q.psnr_silhouette_db || q.psnr_silhouette_before_db) << "no depth";
+  const DepthImage flat(8, 8, 1.0f);
+  EXPECT_FALSE(judge_quality("x", before, after, truth, &flat).psnr_silhouette_db);
+  const Quality same = judge_quality("x", truth, truth, truth, nullptr);
+  EXPECT_EQ(*same.psnr_db, std::numeric_limits<double>::infinity());
+  EXPECT_FALSE(same.psnr_edge_db) << "no edge pixels";
+}
+
+class Pictures : public testing::Test {
+ protected:
+  Pictures()
+      : path_(std::filesystem::temp_directory_path() /
+              ("deburr_pictures_" + std::to_string(::getpid()))) {}
+  ~Pictures() override { std::filesystem::remove_all(path_); }
+
+  // Leaves the pictures of a 4 x 3 frame of which so much was delivered.
+  void leave(std::size_t delivered) {
+    const Image before(4, 3, {10, 10, 10, 255}), truth(4, 3, {14, 10, 10, 255});
+    Image after(4, 3);  // what was not delivered is not initialised to anything sensible
+    for (std::size_t i = 0; i < delivered; ++i) after.pixels[i] = {12, 10, 10, 255};
+    Image golden(4, 3, {12, 10, 10, 255});
+    golden.at(1, 0) = {13, 10, 10, 255};
+    ParameterSet parameters;
+    RunContext context(path_, parameters, "x", 0);
+    context.claim();
+    context.begin();
+    add_smoothing_pictures(context, {before, after, std::vector<spec::morphological::BlendTap>(12),
+                                     delivered, &golden, &truth, "", ""});
+    Result result;
+    result.unit = "morphological";
+    context.finish(result);
+  }
+  Image picture(const char* name) const { return read_image(path_ / (std::string(name) + ".png")); }
+
+  std::filesystem::path path_;
+};
+
+TEST_F(Pictures, OfAWholeFrameCompareEveryPixel) {
+  leave(12);
+  EXPECT_EQ(picture("after"), Image(4, 3, {12, 10, 10, 255}));
+  EXPECT_EQ(picture("error"), Image(4, 3, {8, 0, 0, 255}));
+  EXPECT_EQ(picture("change"), Image(4, 3, {8, 0, 0, 255}));
+  const Image difference = picture("difference");
+  EXPECT_EQ(difference.at(1, 0), (Rgba8{255, 0, 0, 255})) << "golden says 13";
+  EXPECT_EQ(difference.at(2, 0), kBlack);
+}
+
+TEST_F(Pictures, OfAnInterruptedRunHideWhatDidNotCome) {
+  leave(5);
+  const Image after = picture("after");
+  EXPECT_EQ(after.at(0, 1), (Rgba8{12, 10, 10, 255}));
+  EXPECT_EQ(after.at(1, 1), kGrey);
+  EXPECT_EQ(after.at(3, 2), kGrey);
+  for (const char* name : {"error", "change", "difference"}) {
+    const Image compared = picture(name);
+    EXPECT_EQ(compared.at(1, 1), kBlack) << name;
+    EXPECT_EQ(compared.at(3, 2), kBlack) << name;
+  }
+  EXPECT_EQ(picture("error").at(0, 1), (Rgba8{8, 0, 0, 255}));
+  const std::string manifest = read_file(path_ / "manifest.json", 1 << 20);
+  EXPECT_NE(manifest.find("5 of 12 pixels"), std::string::npos);
+}
+
+TEST(DeliveredPart, ReplacesTheRest) {
+  const Image white(2, 2, kWhite);
+  EXPECT_EQ(delivered_part(white, 4, kBlack), white);
+  EXPECT_EQ(delivered_part(white, 9, kBlack), white);
+  EXPECT_EQ(delivered_part(white, 0, kBlack), Image(2, 2, kBlack));
+  EXPECT_EQ(delivered_part(white, 3, kBlack).pixels,
+            (std::vector<Rgba8>{kWhite, kWhite, kWhite, kBlack}));
+}
+
+}  // namespace
+}  // namespace deburr::tb

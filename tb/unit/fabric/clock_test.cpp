@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: MIT
+// The clock domain: running on while nothing is pending must be invisible. Each test runs the same
+// simulation with and without it and compares every beat, cycle and counter.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/fabric/trace.h"
+#include "tb/unit/fabric/support.h"
+
+namespace deburr::tb {
+namespace {
+
+using rtl::Cycle;
+using sc_core::sc_time;
+
+sc_time ns(std::uint64_t n) { return sc_time(static_cast<double>(n), sc_core::SC_NS); }
+
+// The same in both modes, long enough to mean something, and without an exception.
+void expect_same(const std::function<std::string(bool fast)>& simulation) {
+  const std::string slow = in_child([&] { return simulation(false); });
+  const std::string fast = in_child([&] { return simulation(true); });
+  EXPECT_EQ(slow, fast);
+  EXPECT_GT(slow.size(), 1000U) << slow;
+  EXPECT_EQ(slow.rfind("exception", 0), std::string::npos) << slow;
+}
+
+TEST(ClockDomain, RunsOnWhileNothingIsPending) {
+  expect_same([](bool fast) {
+    Pipeline p(500);
+    p.clock.set_fast_path(fast);
+    p.clock.run(2000);
+    if (p.sink.received() != 500) return std::string("too few");
+    if (fast ? p.clock.activations() > 1 : p.clock.activations() != 2000)
+      return fmt::format("{} activations", p.clock.activations());
+    return p.fingerprint();
+  });
+}
+
+TEST(ClockDomain, OrderOfEvaluationDoesNotMatter) {
+  const auto run = [](std::optional<std::uint64_t> seed) {
+    return in_child([&] {
+      Pipeline p(500);
+      p.clock.shuffle(seed);
+      p.clock.run(2000);
+      return p.fingerprint();
+    });
+  };
+  const std::string reference = run(std::nullopt);
+  EXPECT_GT(reference.size(), 1000U);
+  for (std::uint64_t seed = 0; seed < 8; ++seed) EXPECT_EQ(run(seed), reference) << seed;
+}
+
+// What an observer sees at its time: everything up to the last edge, in both modes.
+struct Observer : sc_core::sc_module {
+  Pipeline& pipeline;
+  std::string seen;
+  sc_time period;
+  SC_HAS_PROCESS(Observer);
+  Observer(const sc_core::sc_module_name& name, Pipeline& p, const sc_time& every)
+      : sc_module(name), pipeline(p), period(every) {
+    SC_METHOD(look);
+    if (every == sc_core::SC_ZERO_TIME) {
+      sensitive << p.clock.edge();
+      dont_initialize();
+    }
+  }
+  void look() {
+    seen += fmt::format("{}:{}:{}:{} ", sc_core::sc_time_stamp().value(), pipeline.clock.cycle(),
+                        pipeline.sink.received(), pipeline.links[2]->occupancy());
+    if (period != sc_core::SC_ZERO_TIME) next_trigger(period);
+  }
+};
+
+TEST(ClockDomain, ObserverOnItsEdgeSeesEveryCycle) {
+  expect_same([](bool fast) {
+    Pipeline p(300);
+    Observer observer("observer", p, sc_core::SC_ZERO_TIME);
+    p.clock.set_fast_path(fast);
+    p.clock.run(1000);
+    if (p.clock.activations() != 1000) return std::string("did not go cycle by cycle");
+    return observer.seen + p.fingerprint();
+  });
+}
+
+TEST(ClockDomain, ObserverWithTheSamePeriod) {
+  expect_same([](bool fast) {
+    Pipeline p(300);
+    Observer observer("observer", p, ns(10));
+    p.clock.set_fast_path(fast);
+    p.clock.run(1000);
+    return observer.seen + p.fingerprint();
+  });
+}
+
+TEST(ClockDomain, ObserversWithOtherPeriods) {
+  for (const std::uint64_t period : {3ULL, 30ULL, 35ULL, 70ULL, 1000ULL})
+    expect_same([period](bool fast) {
+      Pipeline p(300);
+      Observer observer("observer", p, ns(period));
+      p.clock.set_fast_path(fast);
+      p.clock.run(1000);
+      return observer.seen + p.fingerprint();
+    });
+}
+
+// Constructed before the pipeline, so the kernel calls it first; the result is the same.
+TEST(ClockDomain, ObserverDoesNotDependOnWhoIsCalledFirst) {
+  struct Early : sc_core::sc_module {
+    Pipeline* pipeline = nullptr;
+    std::string seen;
+    SC_HAS_PROCESS(Early);
+    explicit Early(const sc_core::sc_module_name& name) : sc_module(name) { SC_METHOD(look); }
+    void look() {
+      seen += fmt::format("{}:{} ", sc_core::sc_time_stamp().value(), pipeline->clock.cycle());
+      next_trigger(ns(30));
+    }
+  };
+  Early early("early");
+  Pipeline p(300);
+  struct Late : Early {
+    using Early::Early;
+  } late("late");
+  early.pipeline = late.pipeline = &p;
+  p.clock.run(1000);
+  EXPECT_EQ(early.seen, late.seen);
+  EXPECT_THAT(early.seen, testing::StartsWith("0:0 30000:3 60000:6 "));
+}
+
+// A process outside that changes a unit while it works.
+struct Writer : sc_core::sc_module {
+  Pipeline& pipeline;
+  SC_HAS_PROCESS(Writer);
+  Writer(const sc_core::sc_module_name& name, Pipeline& p) : sc_module(name), pipeline(p) {
+    SC_THREAD(write);
+  }
+  void write() {
+    Random random(11);
+    for (std::uint32_t i = 0;; ++i) {
+      wait(ns(1 + random.below(90)));  // also at the very time of an edge
+      pipeline.adders[random.below(4)]->set_key(i);
+    }
+  }
+};
+
+TEST(ClockDomain, ProcessThatWritesIntoTheSubsystem) {
+  expect_same([](bool fast) {
+    Pipeline p(600);
+    Writer writer("writer", p);
+    p.clock.set_fast_path(fast);
+    p.clock.run(2000);
+    return p.fingerprint();
+  });
+}
+
+// A process that wakes by an event of a unit, looks at the time and acts on the pipeline.
+struct Listener : sc_core::sc_module {
+  Pipeline& pipeline;
+  sc_core::sc_event event;
+  std::string seen;
+  SC_HAS_PROCESS(Listener);
+  Listener(const sc_core::sc_module_name& name, Pipeline& p) : sc_module(name), pipeline(p) {
+    SC_METHOD(hear);
+    sensitive << event;
+    dont_initialize();
+  }
+  void hear() {
+    seen += fmt::format("{}:{} ", sc_core::sc_time_stamp().value(), pipeline.sink.received());
+    pipeline.adders[3]->set_key(static_cast<std::uint32_t>(seen.size()));
+  }
+};
+
+TEST(ClockDomain, EventRaisedInsideABlockHasTheTimeOfItsCycle) {
+  for (const std::uint64_t delay : {0ULL, 4ULL, 10ULL, 123ULL})
+    expect_same([delay](bool fast) {
+      Pipeline p(600);
+      Listener listener("listener", p);
+      std::string raised;
+      p.adders[1]->raise = [&](Cycle cycle, const Token& token) {
+        if (token.number % 37 != 5) return;
+        raised += fmt::format("{} ", (p.clock.time_of(cycle) + ns(delay)).value());
+        p.clock.notify(listener.event, ns(delay));
+      };
+      p.clock.set_fast_path(fast);
+      p.clock.run(2000);
+      std::string heard;
+      for (std::size_t at = 0; at < listener.seen.size();) {
+        heard += listener.seen.substr(at, listener.seen.find(':', at) - at) + " ";
+        at = listener.seen.find(' ', at) + 1;
+      }
+      if (heard != raised) return "heard " + heard + " raised " + raised;
+      if (fast && p.clock.activations() > 200) return std::string("did not run on");
+      return listener.seen + p.fingerprint();
+    });
+}
+
+TEST(ClockDomain, EventRaisedWithoutTheOffsetIsCaught) {
+  Pipeline p(600);
+  Listener listener("listener", p);
+  p.adders[1]->raise = [&](Cycle, const Token& token) {
+    if (token.number == 100) listener.event.notify(sc_core::SC_ZERO_TIME);
+  };
+  try {
+    p.clock.run(2000);
+    FAIL();
+  } catch (const spec::CheckFailed& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("without adding the domain's offset"));
+  }
+}
+
+TEST(ClockDomain, BareStartThatEndsInsideABlock) {
+  expect_same([](bool fast) {
+    Pipeline p(300);
+    p.clock.set_fast_path(fast);
+    std::string seen;
+    Random random(5);
+    for (int i = 0; i < 60; ++i) {
+      if (i % 3 == 2)
+        p.clock.run(1 + random.below(50));
+      else
+        sc_core::sc_start(ns(1 + random.below(300)));
+      seen += fmt::format("{}:{}:{} ", sc_core::sc_time_stamp().value(), p.clock.cycle(),
+                          p.sink.received());
+      // Edges strictly before now are done, whoever ran them.
+      const std::uint64_t now = sc_core::sc_time_stamp().value(), period = ns(10).value();
+      if (p.clock.cycle() != (now + period - 1) / period) return "wrong cycle: " + seen;
+    }
+    return seen + p.fingerprint();
+  });
+}
+
+TEST(ClockDomain, PiecesAreTheWhole) {
+  const std::string whole = in_child([] {
+    Pipeline p(300);
+    p.clock.run(1000);
+    return p.fingerprint();
+  });
+  const std::string pieces = in_child([] {
+    Pipeline p(300);
+    for (Cycle n = 1; p.clock.cycle() < 1000; ++n)
+      p.clock.run(std::min<Cycle>(n, 1000 - p.clock.cycle()));
+    return p.fingerprint();
+  });
+  EXPECT_EQ(whole, pieces);
+}
+
+TEST(ClockDomain, RunUntilStopsAfterTheEdgeAndTheTimeIsRight) {
+  expect_same([](bool fast) {
+    Pipeline p(300);
+    p.clock.set_fast_path(fast);
+    std::string seen;
+    for (std::uint64_t n = 10; n <= 300; n += 10) {
+      if (!p.clock.run_until([&] { return p.sink.received() == n; }, 1000)) return seen + "limit";
+      if (p.clock.cycle() != p.sink.cycles().back() + 1) return seen + "late";
+      if (sc_core::sc_time_stamp() != p.clock.time_of(p.clock.cycle())) return seen + "wrong time";
+      seen += fmt::format("{} ", p.clock.cycle());
+    }
+    if (p.clock.run_until([] { return false; }, 17)) return std::string("never true");
+    return seen + p.fingerprint();
+  });
+}
+
+TEST(ClockDomain, StopOnRequest) {
+  Pipeline p(300);
+  p.adders[0]->raise = [&](Cycle, const Token& token) {
+    if (token.number == 123) p.clock.request_stop();
+  };
+  p.clock.run_free();
+  const Cycle stopped = p.clock.cycle();
+  EXPECT_EQ(p.links[1]->pushes(), 124U);
+  EXPECT_EQ(p.links[1]->last_push() + 1, stopped);
+  EXPECT_EQ(sc_core::sc_time_stamp(), p.clock.time_of(stopped));
+  p.clock.run(1000);
+  EXPECT_EQ(p.clock.cycle(), stopped + 1000);
+  EXPECT_EQ(p.sink.received(), 300U);
+}
+
+TEST(ClockDomain, TracingGoesCycleByCycleAndTheWaveIsTheSame) {
+  const std::string directory = testing::TempDir();
+  const auto run = [&](bool fast) {
+    return in_child([&] {
+      const std::string file = directory + (fast ? "clock_fast.vcd" : "clock_slow.vcd");
+      Pipeline p(100);
+      rtl::Trace trace(p.clock, {file, {"*"}, 50, 250, true});
+      p.clock.set_fast_path(fast);
+      p.clock.run(400);
+      if (p.clock.activations() != 400) return std::string("did not go cycle by cycle");
+      std::ifstream stream(file);
+      return std::string(std::istreambuf_iterator<char>(stream), {}) + p.fingerprint();
+    });
+  };
+  const std::string slow = run(false);
+  EXPECT_EQ(slow, run(true));
+  EXPECT_GT(slow.size(), 5000U);
+}
+
+TEST(ClockDomain, ResetInMidRunStartsAfresh) {
+  const std::string fresh = in_child([] {
+    Pipeline p(300);
+    p.clock.run(1000);
+    return p.fingerprint();
+  });
+  EXPECT_GT(fresh.size(), 1000U);
+  for (const bool fast : {false, true})
+    for (const Cycle before : {1ULL, 77ULL, 500ULL}) {
+      const std::string again = in_child([&] {
+        Pipeline p(300);
+        p.clock.set_fast_path(fast);
+        p.clock.run(before);
+        p.clock.set_reset_n(false);
+        p.clock.run(3);
+        for (const auto& link : p.links)
+          if (!link->empty()) return std::string("link not empty");
+        p.clock.set_reset_n(true);
+        p.clock.run(1000);
+        return p.fingerprint();
+      });
+      EXPECT_EQ(again, fresh) << before;
+    }
+}
+
+TEST(ClockDomain, ResetFromInsideABlockActsOnTheNextEdge) {
+  expect_same([](bool fast) {
+    Pipeline p(300);
+    p.clock.set_fast_path(fast);
+    bool pulled = false;
+    p.adders[2]->raise = [&](Cycle, const Token& token) {
+      if (token.number == 50 && !pulled) {
+        pulled = true;
+        p.clock.set_reset_n(false);
+      }
+    };
+    p.clock.run_until([&] { return pulled; }, 1000);
+    p.clock.run(5);
+    p.clock.set_reset_n(true);
+    p.clock.run(1000);
+    return p.fingerprint();
+  });
+}
+
+TEST(ClockDomain, TwoClocksKeepTheirOrderInTime) {
+  expect_same([](bool fast) {
+    Pipeline a(300, 200, ns(10), "a_");
+    Pipeline b(300, 100, ns(15), "b_");
+    a.clock.set_fast_path(fast);
+    b.clock.set_fast_path(fast);
+    std::string order;
+    a.adders[0]->raise = [&](Cycle, const Token& t) {
+      order += fmt::format("a{} ", t.number);
+      b.adders[3]->set_key(t.number);
+    };
+    b.adders[0]->raise = [&](Cycle, const Token& t) { order += fmt::format("b{} ", t.number); };
+    a.clock.run(1500);
+    if (b.clock.cycle() != 1000) return fmt::format("{} cycles", b.clock.cycle());
+    return order + a.fingerprint() + b.fingerprint();
+  });
+}
+
+TEST(ClockDomain, ErrorsKeepTheirType) {
+  Pipeline p(300);
+  p.adders[0]->raise = [&](Cycle, const Token& token) {
+    if (token.number == 20) throw spec::DeadlockError("found by a unit");
+  };
+  EXPECT_THROW(p.clock.run(1000), spec::DeadlockError);
+  EXPECT_THROW(p.clock.run(1), spec::DeadlockError);  // it stays failed
+}
+
+TEST(ClockDomain, EveryCycleIsClassifiedOnce) {
+  Pipeline p(300);
+  p.clock.run(1000);
+  for (const rtl::Unit* unit : p.clock.units())
+    EXPECT_EQ(unit->busy_cycles() + unit->stalled_cycles() + unit->idle_cycles(), 1000U)
+        << unit->name();
+  EXPECT_EQ(p.adders[0]->busy_cycles(), 300U);
+  EXPECT_GT(p.adders[0]->stalls()[1].cycles, 100U);
+  EXPECT_EQ(p.adders[0]->stalls()[1].name, "random");
+}
+
+// A unit that answers with a code that it has not declared, and one that is ticked twice.
+TEST(ClockDomain, WrongAccountsAreCaught) {
+  struct Liar final : rtl::Unit {
+    Liar(const sc_core::sc_module_name& name, rtl::ClockDomain& domain) : Unit(name, domain) {}
+    rtl::Activity tick(Cycle) override { return {9}; }
+    void reset() override {}
+  };
+  rtl::ClockDomain clock("clock", ns(1));
+  Liar liar("liar", clock);
+  EXPECT_THROW(clock.run(3), spec::CheckFailed);
+}
+
+TEST(ClockDomain, UnitTickedTwiceIsCaught) {
+  Pipeline p(300);
+  p.clock.add(*p.adders[1]);
+  EXPECT_THROW(p.clock.run(3), spec::CheckFailed);
+}
+
+}  // namespace
+}  // namespace deburr::tb

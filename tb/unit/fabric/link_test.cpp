@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// The link protocol: latency 1, refill after 1, initiation interval, independence of order, misuse.
+#include "rtl_model/fabric/link.h"
+
+#include <gtest/gtest.h>
+
+#include "tb/unit/fabric/support.h"
+
+namespace deburr::tb {
+namespace {
+
+using rtl::Cycle;
+using rtl::In;
+using rtl::Link;
+using rtl::Out;
+
+TEST(Link, BeatIsNotThereInItsCycleAndIsThereInTheNext) {
+  Link<int> link("link");
+  EXPECT_FALSE(link.can_pop(5));
+  ASSERT_TRUE(link.can_push(5));
+  link.push(5, 42);
+  EXPECT_FALSE(link.can_pop(5));
+  ASSERT_TRUE(link.can_pop(6));
+  EXPECT_EQ(link.front(6), 42);
+  EXPECT_EQ(link.take(6), 42);
+  EXPECT_FALSE(link.can_pop(7));
+}
+
+TEST(Link, FreedSlotIsNotFreeInItsCycleAndIsFreeInTheNext) {
+  Link<int> link("link", 1);
+  link.push(0, 1);
+  EXPECT_FALSE(link.can_push(1));
+  link.pop(1);
+  EXPECT_FALSE(link.can_push(1));
+  EXPECT_TRUE(link.can_push(2));
+}
+
+TEST(Link, OnePushAndOnePopACycle) {
+  Link<int> link("link", 4);
+  link.push(0, 1);
+  EXPECT_FALSE(link.can_push(0));
+  EXPECT_THROW(link.push(0, 2), spec::CheckFailed);
+  link.push(1, 2);
+  link.pop(2);
+  EXPECT_FALSE(link.can_pop(2));
+  EXPECT_THROW(link.pop(2), spec::CheckFailed);
+}
+
+// A producer and a consumer that always want to act: cycles in which a beat arrives, for each depth
+// and each order of evaluation.
+std::vector<Cycle> arrivals(std::uint32_t depth, bool producer_first, Cycle cycles) {
+  Link<int> link("link", depth);
+  std::vector<Cycle> arrived;
+  for (Cycle c = 0; c < cycles; ++c) {
+    const auto produce = [&] {
+      if (link.can_push(c)) link.push(c, 0);
+    };
+    const auto consume = [&] {
+      if (link.can_pop(c)) {
+        link.pop(c);
+        arrived.push_back(c);
+      }
+    };
+    producer_first ? (produce(), consume()) : (consume(), produce());
+  }
+  return arrived;
+}
+
+TEST(Link, DepthTwoSustainsOneABeatAClock) {
+  const std::vector<Cycle> expected{1, 2, 3, 4, 5, 6, 7, 8, 9};
+  for (const std::uint32_t depth : {2U, 3U, 8U}) {
+    EXPECT_EQ(arrivals(depth, true, 10), expected);
+    EXPECT_EQ(arrivals(depth, false, 10), expected);
+  }
+}
+
+TEST(Link, DepthOneTakesEveryOtherClock) {
+  const std::vector<Cycle> expected{1, 3, 5, 7, 9};
+  EXPECT_EQ(arrivals(1, true, 10), expected);
+  EXPECT_EQ(arrivals(1, false, 10), expected);
+}
+
+// Any stalls, any depth, any order of the two sides in each cycle: the same beats in the same
+// cycles.
+TEST(Link, OrderOfEvaluationDoesNotMatter) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const std::uint32_t depth = 1 + static_cast<std::uint32_t>(seed % 5);
+    std::string reference;
+    for (int order = 0; order < 3; ++order) {
+      Link<std::uint64_t> link("link", depth);
+      Random stalls(seed), coin(seed + static_cast<std::uint64_t>(order) * 1000);
+      std::string seen;
+      std::uint64_t next = 0;
+      for (Cycle c = 0; c < 200; ++c) {
+        const bool wants_push = stalls.chance(700), wants_pop = stalls.chance(600);
+        const bool producer_first = order == 0 || (order == 2 && coin.chance(500));
+        for (int side = 0; side < 2; ++side) {
+          if ((side == 0) == producer_first) {
+            if (wants_push && link.can_push(c)) link.push(c, next++);
+          } else if (wants_pop && link.can_pop(c)) {
+            seen += fmt::format("{}@{} ", link.take(c), c);
+          }
+        }
+      }
+      seen += fmt::format("{} {} {}", link.occupancy(), link.pushes(), link.pops());
+      if (order == 0) reference = seen;
+      EXPECT_EQ(seen, reference) << "seed " << seed;
+      EXPECT_GT(link.pops(), 50U);
+    }
+  }
+}
+
+TEST(Link, FullLinkKeepsItsOrderAcrossTheEndOfTheBuffer) {
+  Link<int> link("link", 3);  // the buffer has four slots
+  Cycle c = 0;
+  int in = 0, out = 0;
+  for (; in < 3; ++in) link.push(c++, in);
+  EXPECT_FALSE(link.can_push(c));
+  for (; in < 20; ++in) {
+    EXPECT_EQ(link.take(c++), out++);
+    link.push(c++, in);
+    EXPECT_EQ(link.occupancy(), 3U);
+  }
+}
+
+TEST(Link, MisuseSaysWhereAndWho) {
+  Link<int> link("quads", 1);
+  try {
+    link.pop(17);
+    FAIL();
+  } catch (const spec::CheckFailed& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("quads"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("cycle 17"));
+  }
+  EXPECT_THROW(link.front(17), spec::CheckFailed);
+  link.push(17, 1);
+  EXPECT_THROW(link.push(18, 2), spec::CheckFailed);
+  EXPECT_THROW(Link<int>("none", 0), spec::CheckFailed);
+}
+
+TEST(Link, ResetEmptiesIt) {
+  Link<int> link("link");
+  link.push(0, 1);
+  link.push(1, 2);
+  link.reset();
+  EXPECT_TRUE(link.empty());
+  EXPECT_FALSE(link.can_pop(2));
+  EXPECT_TRUE(link.can_push(2));
+  EXPECT_EQ(link.last_push(), rtl::kNever);
+}
+
+TEST(Link, EmplaceIsPushInPlace) {
+  Link<Token> link("link");
+  Token& token = link.emplace(3);
+  token.number = 9;
+  EXPECT_FALSE(link.can_pop(3));
+  EXPECT_EQ(link.front(4).number, 9U);
+}
+
+TEST(Ports, BindInAnyOrderThroughTheHierarchy) {
+  Link<int> link("link");
+  Out<int> outer("outer"), inner("inner"), innermost("innermost");
+  innermost(inner);
+  EXPECT_FALSE(innermost.bound());
+  outer(link);
+  inner(outer);
+  ASSERT_TRUE(innermost.bound());
+  innermost.push(0, 5);
+  EXPECT_EQ(link.front(1), 5);
+  EXPECT_EQ(link.producer(), "innermost");
+}
+
+TEST(Ports, TwoProducersOrTwoBindingsAreRefused) {
+  Link<int> link("link"), other("other");
+  Out<int> a("a"), b("b");
+  a(link);
+  EXPECT_THROW(b(link), spec::CheckFailed);
+  EXPECT_THROW(a(other), spec::CheckFailed);
+  In<int> c("c"), d("d");
+  c(link);
+  EXPECT_THROW(d(link), spec::CheckFailed);
+}
+
+TEST(Ports, UnboundPortIsFoundAtElaboration) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(1, sc_core::SC_NS));
+  Driver<int> driver("driver", clock);
+  try {
+    clock.run(1);
+    FAIL();
+  } catch (const std::exception& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("driver.beats_out is not bound"));
+  }
+}
+
+TEST(Ports, LinkBetweenTwoClocksIsRefused) {
+  rtl::ClockDomain fast("fast", sc_core::sc_time(1, sc_core::SC_NS));
+  rtl::ClockDomain slow("slow", sc_core::sc_time(2, sc_core::SC_NS));
+  Driver<int> driver("driver", fast);
+  Sink<int> sink("sink", slow);
+  Link<int> link("link");
+  driver.beats_out(link);
+  sink.beats_in(link);
+  try {
+    fast.run(1);
+    FAIL();
+  } catch (const std::exception& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("joins two clock domains"));
+  }
+}
+
+}  // namespace
+}  // namespace deburr::tb

@@ -1,0 +1,558 @@
+// SPDX-License-Identifier: MIT
+// The memory port against the repository's memory and against targets that behave in every way that
+// the base protocol allows.
+#include <gtest/gtest.h>
+#include <tlm_utils/peq_with_cb_and_phase.h>
+#include <tlm_utils/simple_target_socket.h>
+
+#include <set>
+
+#include "rtl_model/fabric/memory_port.h"
+#include "tb/harness/memory_model.h"
+#include "tb/unit/fabric/support.h"
+
+namespace deburr::tb {
+namespace {
+
+using rtl::Cycle;
+using rtl::kLineBytes;
+using rtl::MemoryPortParameters;
+using rtl::MemoryRequest;
+using rtl::MemoryResponse;
+using rtl::MemoryStatus;
+using sc_core::sc_time;
+using sc_core::SC_ZERO_TIME;
+
+const sc_time kPeriod(10, sc_core::SC_NS);
+
+std::uint8_t pattern(std::uint64_t address) {
+  return static_cast<std::uint8_t>(address * 7 + (address >> 8) * 13 + 1);
+}
+
+MemoryRequest read_of(std::uint32_t line) {
+  MemoryRequest request;
+  request.address = std::uint64_t{line} * kLineBytes;
+  request.tag = line;
+  return request;
+}
+
+bool right(const MemoryResponse& response) {
+  if (response.status != MemoryStatus::kOk) return false;
+  for (std::uint32_t i = 0; i < kLineBytes; ++i)
+    if (response.data[i] != pattern(response.address + i)) return false;
+  return true;
+}
+
+// driver -> port -> sink
+struct Side {
+  rtl::ClockDomain clock{"clock", kPeriod};
+  Driver<MemoryRequest> driver{"driver", clock};
+  rtl::MemoryPort port;
+  Sink<MemoryResponse> sink;
+  rtl::Link<MemoryRequest> requests{"requests"};
+  rtl::Link<MemoryResponse> responses{"responses"};
+  explicit Side(const MemoryPortParameters& parameters = {}, std::uint32_t sink_stalls = 0)
+      : port("port", clock, parameters), sink("sink", clock, {sink_stalls, 1}) {
+    driver.beats_out(requests);
+    port.requests_in(requests);
+    port.responses_out(responses);
+    sink.beats_in(responses);
+  }
+  std::string fingerprint() const {
+    std::string text;
+    for (std::size_t i = 0; i < sink.beats().size(); ++i)
+      text += fmt::format("{}:{}.{}{} ", sink.cycles()[i], sink.beats()[i].tag,
+                          sink.beats()[i].line, right(sink.beats()[i]) ? "" : "!");
+    return text + statistics(clock).dump();
+  }
+};
+
+struct System : Side {
+  MemoryModel memory;
+  System(const MemoryPortParameters& port_parameters, const MemoryModelParameters& parameters,
+         std::uint32_t sink_stalls = 0)
+      : Side(port_parameters, sink_stalls), memory("memory", kPeriod, parameters) {
+    port.memory.bind(memory.ports);
+    std::vector<std::uint8_t> contents(parameters.bytes);
+    for (std::size_t i = 0; i < contents.size(); ++i) contents[i] = pattern(i);
+    memory.preload(0, contents);
+  }
+};
+
+MemoryModelParameters with_latency(std::uint32_t min, std::uint32_t max = 0) {
+  MemoryModelParameters parameters;
+  parameters.latency_min = min;
+  parameters.latency_max = max ? max : min;
+  return parameters;
+}
+
+// Pushed in 0, sent in 1, arrives at 1+L, pushed in 2+L, in the sink in 3+L: not before, not after.
+TEST(MemoryPort, LatencyIsExact) {
+  for (const std::uint32_t latency : {0U, 1U, 2U, 20U, 100U}) {
+    const std::string text = in_child([&] {
+      System s({}, with_latency(latency));
+      s.driver.send(read_of(5));
+      s.clock.run(latency + 3);
+      if (s.sink.received() != 0) return std::string("too early");
+      s.clock.run(1);
+      if (s.sink.received() != 1 || !right(s.sink.beats()[0])) return std::string("too late");
+      return fmt::format("{} {}", s.sink.cycles()[0], s.port.latency.max());
+    });
+    EXPECT_EQ(text, fmt::format("{} {}", latency + 3, latency + 1));
+  }
+}
+
+TEST(MemoryPort, OneRequestAClockWhenEnoughMayBeOutstanding) {
+  MemoryPortParameters parameters;
+  parameters.outstanding = 32;
+  System s(parameters, with_latency(20));
+  for (std::uint32_t i = 0; i < 500; ++i) s.driver.send(read_of(i));
+  s.clock.run(500 + 23);
+  ASSERT_EQ(s.sink.received(), 500U);
+  for (std::uint32_t i = 0; i < 500; ++i) {
+    EXPECT_EQ(s.sink.cycles()[i], 23U + i);
+    EXPECT_TRUE(right(s.sink.beats()[i]));
+  }
+  EXPECT_EQ(s.port.most_outstanding.value(), 21U);
+  EXPECT_EQ(s.port.bytes_read.value(), 500U * 64);
+  EXPECT_EQ(s.memory.bytes_read(), 500U * 64);
+}
+
+// With n outstanding, n requests go every latency + 2 clocks (there and back through the port).
+TEST(MemoryPort, RateIsLimitedByOutstanding) {
+  MemoryPortParameters parameters;
+  parameters.outstanding = 4;
+  System s(parameters, with_latency(19));
+  for (std::uint32_t i = 0; i < 400; ++i) s.driver.send(read_of(i));
+  ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 400; }, 10'000));
+  EXPECT_EQ(s.port.most_outstanding.value(), 4U);
+  EXPECT_NEAR(static_cast<double>(s.sink.cycles()[399] - s.sink.cycles()[199]), 200.0 * 20 / 4, 3);
+  EXPECT_GT(s.port.stalls()[1].cycles, 1000U);
+  EXPECT_EQ(s.port.stalls()[1].name, "outstanding");
+}
+
+TEST(MemoryPort, BandwidthOfTheMemoryLimits) {
+  MemoryModelParameters parameters = with_latency(10);
+  parameters.bytes_per_clock = 16;
+  System s({}, parameters);
+  for (std::uint32_t i = 0; i < 100; ++i) s.driver.send(read_of(i));
+  ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 100; }, 10'000));
+  EXPECT_EQ(s.sink.cycles()[0], 13U + 3);
+  EXPECT_EQ(s.sink.cycles()[99], 13U + 3 + 99 * 4);
+}
+
+TEST(MemoryPort, BusyBanksLimit) {
+  for (const std::uint32_t banks : {1U, 4U, 8U}) {
+    const std::string text = in_child([&] {
+      MemoryModelParameters parameters = with_latency(10);
+      parameters.banks = banks;
+      parameters.bank_busy = 8;
+      MemoryPortParameters port;
+      port.outstanding = 128;
+      System s(port, parameters);
+      for (std::uint32_t i = 0; i < 128; ++i) s.driver.send(read_of(i));
+      s.clock.run_until([&] { return s.sink.received() == 128; }, 10'000);
+      return fmt::format("{}", s.sink.cycles()[127] - s.sink.cycles()[127 - banks]);
+    });
+    EXPECT_EQ(text, "8");
+  }
+}
+
+TEST(MemoryPort, RandomLatencyOvertakesUnlessInOrder) {
+  for (const bool in_order : {false, true}) {
+    const std::string text = in_child([&] {
+      MemoryPortParameters parameters;
+      parameters.in_order = in_order;
+      System s(parameters, with_latency(5, 60), 300);
+      for (std::uint32_t i = 0; i < 1000; ++i) s.driver.send(read_of(i));
+      if (!s.clock.run_until([&] { return s.sink.received() == 1000; }, 100'000))
+        return std::string("not done");
+      std::set<std::uint32_t> tags;
+      bool sorted = true;
+      std::uint32_t last = 0;
+      for (const MemoryResponse& response : s.sink.beats()) {
+        if (!right(response) || response.address != response.tag * 64ULL)
+          return fmt::format("wrong data for {}", response.tag);
+        tags.insert(response.tag);
+        sorted = sorted && response.tag >= last;
+        last = response.tag;
+      }
+      return fmt::format("{} {}", tags.size(), sorted ? "sorted" : "overtaken");
+    });
+    EXPECT_EQ(text, in_order ? "1000 sorted" : "1000 overtaken");
+  }
+}
+
+TEST(MemoryPort, BurstsOfReadsAndWrites) {
+  MemoryPortParameters parameters;
+  parameters.max_burst_lines = 8;
+  System s(parameters, with_latency(12));
+  MemoryRequest burst = read_of(16);
+  burst.lines = 8;
+  s.driver.send(burst);
+  for (std::uint32_t beat = 0; beat < 4; ++beat) {
+    MemoryRequest write = read_of(100);
+    write.write = true;
+    write.lines = 4;
+    write.data.fill(static_cast<std::uint8_t>(0xA0 + beat));
+    s.driver.send(write);
+  }
+  MemoryRequest masked = read_of(200);
+  masked.write = true;
+  masked.byte_mask = 0x5;
+  masked.data.fill(0xEE);
+  s.driver.send(masked);
+  ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 10; }, 1000));
+  for (std::uint16_t i = 0; i < 8; ++i) {
+    const MemoryResponse& response = s.sink.beats()[i];
+    EXPECT_TRUE(right(response));
+    EXPECT_EQ(response.address, (16U + i) * 64);
+    EXPECT_EQ(response.line, i);
+    EXPECT_EQ(response.last, i == 7);
+  }
+  EXPECT_TRUE(s.sink.beats()[8].write && s.sink.beats()[8].last);
+  EXPECT_EQ(s.sink.beats()[8].tag, 100U);
+  const auto written = s.memory.dump(100 * 64, 256);
+  for (std::size_t i = 0; i < 256; ++i) EXPECT_EQ(written[i], 0xA0 + i / 64);
+  const auto partly = s.memory.dump(200 * 64, 4);
+  EXPECT_EQ(partly[0], 0xEE);
+  EXPECT_EQ(partly[1], pattern(200 * 64 + 1));
+  EXPECT_EQ(partly[2], 0xEE);
+  EXPECT_EQ(s.port.bytes_written.value(), 258U);
+  EXPECT_EQ(s.memory.bytes_written(), 258U);
+  EXPECT_EQ(s.memory.lines_read().size(), 8U);
+}
+
+// Who does not wait for the answer to a write reads what was there before; who waits reads what was
+// written. A memory that takes requests one by one hides that.
+TEST(MemoryModel, AReadBehindAWriteIsARace) {
+  for (const bool late : {true, false}) {
+    const std::string text = in_child([&] {
+      MemoryModelParameters parameters = with_latency(10);
+      parameters.write_at_response = late;
+      System s({}, parameters);
+      MemoryRequest write = read_of(3);
+      write.write = true;
+      write.data.fill(0xEE);
+      s.driver.send({write, read_of(3)});
+      s.clock.run(40);
+      s.driver.send(read_of(3));
+      s.clock.run(40);
+      std::string said;
+      for (const MemoryResponse& response : s.sink.beats())
+        said += response.write             ? "written "
+                : right(response)          ? "old "
+                : response.data[0] == 0xEE ? "new "
+                                           : "? ";
+      return said;
+    });
+    EXPECT_EQ(text, late ? "written old new " : "written new new ");
+  }
+}
+
+TEST(MemoryPort, MisalignedRequestIsABug) {
+  System s({}, with_latency(1));
+  MemoryRequest request = read_of(1);
+  request.address += 4;
+  s.driver.send(request);
+  EXPECT_THROW(s.clock.run(10), spec::CheckFailed);
+}
+
+TEST(MemoryPort, TooLongBurstIsABug) {
+  System s({}, with_latency(1));
+  MemoryRequest request = read_of(1);
+  request.lines = 2;
+  s.driver.send(request);
+  EXPECT_THROW(s.clock.run(10), spec::CheckFailed);
+}
+
+TEST(MemoryPort, ErrorResponsesComeBackWithTheirTag) {
+  System s({}, with_latency(7));
+  s.memory.fail_range(64 * 10, 64 * 12);
+  s.memory.fail_request(3);
+  for (const std::uint32_t line : {1U, 10U, 11U, 4U, 12U, 1U << 20}) s.driver.send(read_of(line));
+  ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 6; }, 1000));
+  std::vector<MemoryStatus> status;
+  for (const MemoryResponse& response : s.sink.beats()) {
+    status.push_back(response.status);
+    EXPECT_TRUE(response.status == MemoryStatus::kOk || response.data == rtl::Line{});
+  }
+  EXPECT_EQ(status, (std::vector<MemoryStatus>{MemoryStatus::kOk, MemoryStatus::kAddressError,
+                                               MemoryStatus::kAddressError, MemoryStatus::kError,
+                                               MemoryStatus::kOk, MemoryStatus::kAddressError}));
+  EXPECT_EQ(s.port.errors.value(), 4U);
+  EXPECT_EQ(s.memory.errors(), 4U);
+}
+
+TEST(MemoryPort, RequestsBeyondTheMemorysLimitAreHeldBack) {
+  MemoryModelParameters parameters = with_latency(20);
+  parameters.outstanding = 3;
+  System s({}, parameters);
+  for (std::uint32_t i = 0; i < 60; ++i) s.driver.send(read_of(i));
+  ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 60; }, 10'000));
+  EXPECT_EQ(s.memory.most_outstanding(), 3U);
+  for (const MemoryResponse& response : s.sink.beats()) EXPECT_TRUE(right(response));
+  EXPECT_EQ(s.port.stalls()[2].name, "request_channel");
+  EXPECT_GT(s.port.stalls()[2].cycles, 100U);
+}
+
+TEST(MemoryPort, NobodyCanTellWhetherTheDomainRunsOn) {
+  for (const std::uint32_t limit : {3U, 64U})
+    for (const std::uint32_t latency_max : {20U, 90U}) {
+      const auto run = [&](bool fast, std::optional<std::uint64_t> shuffle) {
+        return in_child([&] {
+          MemoryModelParameters parameters = with_latency(20, latency_max);
+          parameters.outstanding = limit;
+          parameters.bytes_per_clock = 48;
+          System s({}, parameters, 200);
+          s.clock.set_fast_path(fast);
+          s.clock.shuffle(shuffle);
+          for (std::uint32_t i = 0; i < 500; ++i) s.driver.send(read_of(i * 37 % 1000));
+          s.clock.run(20'000);
+          if (s.sink.received() != 500) return std::string("not done");
+          return s.fingerprint();
+        });
+      };
+      const std::string slow = run(false, std::nullopt);
+      EXPECT_GT(slow.size(), 1000U);
+      EXPECT_EQ(slow.find('!'), std::string::npos) << "wrong data";
+      EXPECT_EQ(run(true, std::nullopt), slow);
+      EXPECT_EQ(run(true, 5), slow);
+    }
+}
+
+TEST(MemoryPort, ResetWithTransactionsInFlight) {
+  System s({}, with_latency(30));
+  for (std::uint32_t i = 0; i < 100; ++i) s.driver.send(read_of(i));
+  s.clock.run(25);  // many asked for, none answered
+  EXPECT_EQ(s.sink.received(), 0U);
+  EXPECT_GT(s.port.in_flight(), 10U);
+  EXPECT_EQ(s.port.reads.value(), s.port.in_flight());
+  s.clock.set_reset_n(false);
+  s.clock.run(2);
+  s.clock.set_reset_n(true);
+  EXPECT_EQ(s.port.in_flight(), 0U);
+  EXPECT_EQ(s.port.reads.value(), 0U);
+  ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 100; }, 10'000));
+  s.clock.run(100);
+  EXPECT_EQ(s.sink.received(), 100U);  // the late responses of before are gone
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    EXPECT_EQ(s.sink.beats()[i].tag, i);
+    EXPECT_TRUE(right(s.sink.beats()[i]));
+  }
+  EXPECT_EQ(s.port.latency.count(), 100U);
+  s.clock.set_reset_n(false);
+  s.clock.run(1);
+  EXPECT_EQ(s.port.latency.count(), 0U);
+}
+
+TEST(MemoryPort, DebugAccessTakesNoTime) {
+  System s({}, with_latency(30));
+  s.clock.run(1);  // sockets are connected at elaboration
+  std::uint8_t bytes[100];
+  EXPECT_EQ(s.port.debug_read(1000, bytes, 100), 100U);
+  for (std::uint64_t i = 0; i < 100; ++i) EXPECT_EQ(bytes[i], pattern(1000 + i));
+  std::fill(std::begin(bytes), std::end(bytes), std::uint8_t{9});
+  EXPECT_EQ(s.port.debug_write(2000, bytes, 100), 100U);
+  EXPECT_EQ(s.memory.dump(2099, 1)[0], 9);
+  EXPECT_EQ(s.port.debug_read(s.memory.dump(0, 1 << 20).size() - 10, bytes, 100), 10U);
+  EXPECT_EQ(s.memory.reads(), 0U);
+}
+
+// --- Targets of other people ---
+
+void answer(tlm::tlm_generic_payload& payload) {
+  if (payload.is_read())
+    for (unsigned i = 0; i < payload.get_data_length(); ++i)
+      payload.get_data_ptr()[i] = pattern(payload.get_address() + i);
+  payload.set_response_status(tlm::TLM_OK_RESPONSE);
+}
+
+// Every legal way to answer a request, and two that are not.
+struct AnyTarget : sc_core::sc_module {
+  enum class Style {
+    kCompleteAtOnce,     // TLM_COMPLETED from BEGIN_REQ
+    kRespondAtOnce,      // TLM_UPDATED with BEGIN_RESP
+    kFourPhases,         // END_REQ and BEGIN_RESP by calls, each after a while
+    kNoEndRequest,       // BEGIN_RESP stands for END_REQ
+    kUpdateThenRespond,  // TLM_UPDATED with END_REQ, then BEGIN_RESP
+    kAnnotated,          // BEGIN_RESP called at once, with its delay annotated
+    kTwice,              // answers twice: a protocol error
+    kBackwardRequest     // BEGIN_REQ backwards: a protocol error
+  };
+  tlm_utils::simple_target_socket<AnyTarget> socket{"socket"};
+  Style style;
+  tlm_utils::peq_with_cb_and_phase<AnyTarget> queue{this, &AnyTarget::due};
+  std::uint64_t transactions = 0;
+  std::vector<std::uint64_t> begun;  // times of BEGIN_REQ
+
+  AnyTarget(const sc_core::sc_module_name& name, Style how) : sc_module(name), style(how) {
+    socket.register_nb_transport_fw(this, &AnyTarget::forward);
+  }
+  tlm::tlm_sync_enum forward(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
+                             sc_time& delay) {
+    if (phase == tlm::END_RESP) return tlm::TLM_COMPLETED;
+    ++transactions;
+    begun.push_back((sc_core::sc_time_stamp() + delay).value());
+    switch (style) {
+      case Style::kCompleteAtOnce:
+        answer(payload);
+        delay += 3 * kPeriod;
+        return tlm::TLM_COMPLETED;
+      case Style::kRespondAtOnce:
+        answer(payload);
+        phase = tlm::BEGIN_RESP;
+        delay += 5 * kPeriod;
+        return tlm::TLM_UPDATED;
+      case Style::kUpdateThenRespond:
+        phase = tlm::END_REQ;
+        payload.acquire();
+        queue.notify(payload, tlm::BEGIN_RESP, delay + 7 * kPeriod);
+        return tlm::TLM_UPDATED;
+      case Style::kAnnotated:
+        payload.acquire();
+        queue.notify(payload, tlm::BEGIN_REQ, delay);
+        return tlm::TLM_ACCEPTED;
+      case Style::kFourPhases:
+        payload.acquire();
+        queue.notify(payload, tlm::END_REQ, delay + 2 * kPeriod);
+        queue.notify(payload, tlm::BEGIN_RESP, delay + sc_time(65, sc_core::SC_NS));
+        return tlm::TLM_ACCEPTED;
+      case Style::kBackwardRequest:
+        payload.acquire();
+        queue.notify(payload, tlm::BEGIN_REQ, delay + kPeriod);
+        return tlm::TLM_ACCEPTED;
+      case Style::kNoEndRequest:
+      case Style::kTwice:
+        payload.acquire();
+        queue.notify(payload, tlm::BEGIN_RESP, delay + 4 * kPeriod);
+        return tlm::TLM_ACCEPTED;
+    }
+    return tlm::TLM_ACCEPTED;
+  }
+  void due(tlm::tlm_generic_payload& payload, const tlm::tlm_phase& when) {
+    tlm::tlm_phase phase = when;
+    sc_time delay = SC_ZERO_TIME;
+    if (style == Style::kAnnotated) {
+      phase = tlm::BEGIN_RESP;
+      delay = 6 * kPeriod;
+    }
+    if (phase == tlm::BEGIN_RESP) answer(payload);
+    socket->nb_transport_bw(payload, phase, delay);
+    if (style == Style::kTwice) {
+      phase = tlm::BEGIN_RESP;
+      socket->nb_transport_bw(payload, phase, delay);
+    }
+    if (when != tlm::END_REQ) payload.release();
+  }
+};
+
+using Style = AnyTarget::Style;
+
+class AnyTargetTest : public testing::TestWithParam<Style> {};
+
+TEST_P(AnyTargetTest, WorksAndRunningOnIsInvisible) {
+  const auto run = [](bool fast) {
+    return in_child([&] {
+      Side side({}, 150);
+      AnyTarget target("target", GetParam());
+      side.port.memory.bind(target.socket);
+      side.clock.set_fast_path(fast);
+      for (std::uint32_t i = 0; i < 200; ++i) side.driver.send(read_of(i));
+      if (!side.clock.run_until([&] { return side.sink.received() == 200; }, 10'000))
+        return std::string("not done");
+      if (side.port.in_flight() != 0 || target.transactions != 200) return std::string("leftovers");
+      return side.fingerprint();
+    });
+  };
+  const std::string slow = run(false);
+  EXPECT_GT(slow.size(), 1000U) << slow;
+  EXPECT_EQ(slow.find('!'), std::string::npos) << "wrong data";
+  EXPECT_EQ(run(true), slow);
+}
+
+std::string name_of(const testing::TestParamInfo<Style>& info) {
+  switch (info.param) {
+    case Style::kCompleteAtOnce:
+      return "CompleteAtOnce";
+    case Style::kRespondAtOnce:
+      return "RespondAtOnce";
+    case Style::kFourPhases:
+      return "FourPhases";
+    case Style::kNoEndRequest:
+      return "NoEndRequest";
+    case Style::kUpdateThenRespond:
+      return "UpdateThenRespond";
+    case Style::kAnnotated:
+      return "Annotated";
+    default:
+      return "Wrong";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Styles, AnyTargetTest,
+                         testing::Values(Style::kCompleteAtOnce, Style::kRespondAtOnce,
+                                         Style::kFourPhases, Style::kNoEndRequest,
+                                         Style::kUpdateThenRespond, Style::kAnnotated),
+                         name_of);
+
+// A request that is ended at the time of an edge makes room for the next one at that edge.
+TEST(MemoryPort, NextRequestGoesWhenTheLastIsEnded) {
+  Side side;
+  AnyTarget target("target", Style::kFourPhases);  // ends a request after two clocks
+  side.port.memory.bind(target.socket);
+  for (std::uint32_t i = 0; i < 20; ++i) side.driver.send(read_of(i));
+  ASSERT_TRUE(side.clock.run_until([&] { return side.sink.received() == 20; }, 1000));
+  for (std::size_t i = 1; i < 20; ++i)
+    EXPECT_EQ(target.begun[i] - target.begun[i - 1], 2 * kPeriod.value());
+}
+
+TEST(MemoryPort, SecondAnswerIsAProtocolError) {
+  Side side;
+  AnyTarget target("target", Style::kTwice);
+  side.port.memory.bind(target.socket);
+  side.driver.send(read_of(1));
+  EXPECT_THROW(side.clock.run(100), spec::SimulationError);
+}
+
+TEST(MemoryPort, RequestFromTheTargetIsAProtocolError) {
+  Side side;
+  AnyTarget target("target", Style::kBackwardRequest);
+  side.port.memory.bind(target.socket);
+  side.driver.send(read_of(1));
+  EXPECT_THROW(side.clock.run(100), spec::SimulationError);
+}
+
+// A target that knows only b_transport, behind the adapter of simple_target_socket.
+struct BlockingTarget : sc_core::sc_module {
+  tlm_utils::simple_target_socket<BlockingTarget> socket{"socket"};
+  explicit BlockingTarget(const sc_core::sc_module_name& name) : sc_module(name) {
+    socket.register_b_transport(this, &BlockingTarget::transport);
+  }
+  void transport(tlm::tlm_generic_payload& payload, sc_time&) {
+    wait(7 * kPeriod);
+    answer(payload);
+  }
+};
+
+TEST(MemoryPort, WorksWithABlockingTarget) {
+  const auto run = [](bool fast) {
+    return in_child([&] {
+      Side side;
+      BlockingTarget target("target");
+      side.port.memory.bind(target.socket);
+      side.clock.set_fast_path(fast);
+      for (std::uint32_t i = 0; i < 200; ++i) side.driver.send(read_of(i));
+      if (!side.clock.run_until([&] { return side.sink.received() == 200; }, 10'000))
+        return std::string("not done");
+      return side.fingerprint();
+    });
+  };
+  const std::string slow = run(false);
+  EXPECT_GT(slow.size(), 1000U) << slow;
+  EXPECT_EQ(slow.find('!'), std::string::npos) << "wrong data";
+  EXPECT_EQ(run(true), slow);
+}
+
+}  // namespace
+}  // namespace deburr::tb

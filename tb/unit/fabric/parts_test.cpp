@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+// FIFO, SRAM, arbiter, counters and histogram: timing, limits, and misuse that is caught.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "rtl_model/fabric/arbiter.h"
+#include "rtl_model/fabric/counters.h"
+#include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/histogram.h"
+#include "rtl_model/fabric/sram.h"
+#include "tb/unit/fabric/support.h"
+
+namespace deburr::tb {
+namespace {
+
+using rtl::Cycle;
+
+TEST(Fifo, LatencyOneIntervalOneAndHighWater) {
+  rtl::Fifo<int> fifo("fifo", 5, 12);
+  EXPECT_EQ(fifo.bits(), 60U);
+  fifo.push(0, 7);
+  EXPECT_FALSE(fifo.can_pop(0));
+  ASSERT_TRUE(fifo.can_pop(1));
+  for (Cycle c = 1; c < 5; ++c) fifo.push(c, static_cast<int>(c));
+  EXPECT_EQ(fifo.occupancy(), 5U);
+  EXPECT_FALSE(fifo.can_push(5));
+  EXPECT_THROW(fifo.push(5, 0), spec::CheckFailed);
+  EXPECT_EQ(fifo.take(5), 7);
+  EXPECT_FALSE(fifo.can_push(5));
+  EXPECT_TRUE(fifo.can_push(6));
+  for (Cycle c = 6; c < 50; ++c) {  // one in, one out, every clock
+    fifo.push(c, 100);
+    fifo.pop(c);
+  }
+  EXPECT_EQ(fifo.high_water(), 5U);
+  fifo.reset();
+  EXPECT_TRUE(fifo.empty());
+  EXPECT_EQ(fifo.high_water(), 0U);
+}
+
+// A unit that fills a FIFO and never empties it.
+class Hoarder final : public rtl::Unit {
+ public:
+  rtl::Fifo<int> hoard{"hoard", 16, 8};
+  rtl::Counter coins{"coins", "coins", "put by"};
+  Hoarder(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
+  rtl::Activity tick(Cycle cycle) override {
+    if (!hoard.can_push(cycle)) return rtl::kIdle;
+    hoard.push(cycle, 1);
+    ++coins;
+    return rtl::kBusy;
+  }
+  void reset() override {}
+};
+
+TEST(Fifo, InsideAUnitIsResetWithItsCounters) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(1, sc_core::SC_NS));
+  Hoarder hoarder("hoarder", clock);
+  clock.run(10);
+  EXPECT_EQ(hoarder.hoard.occupancy(), 10U);
+  EXPECT_EQ(hoarder.hoard.high_water(), 10U);
+  EXPECT_EQ(hoarder.coins.value(), 10U);
+  clock.set_reset_n(false);
+  clock.run(1);
+  EXPECT_TRUE(hoarder.hoard.empty());
+  EXPECT_EQ(hoarder.hoard.high_water(), 0U);
+  EXPECT_EQ(hoarder.coins.value(), 0U);
+  clock.set_reset_n(true);
+  clock.run(20);
+  EXPECT_EQ(hoarder.coins.value(), 16U);
+  EXPECT_EQ(statistics(clock)["sram_bits"]["hoarder.hoard"], 128);
+}
+
+TEST(Sram, KeepsWhatIsWrittenAndCountsItsBits) {
+  rtl::Sram<std::uint32_t> sram("sram", 1920, 24);
+  EXPECT_EQ(sram.bits(), 1920U * 24);
+  EXPECT_EQ(sram.ports(), "1R1W");
+  for (std::uint32_t a = 0; a < 1920; ++a) sram.write(a, a, a * 3);
+  for (std::uint32_t a = 0; a < 1920; ++a) EXPECT_EQ(sram.read(2000 + a, a), a * 3);
+}
+
+TEST(Sram, PortOveruseIsCaught) {
+  rtl::Sram<int> sram("sram", 16, 8);
+  sram.read(4, 1);
+  EXPECT_THROW(sram.read(4, 2), spec::CheckFailed);
+  sram.read(5, 2);  // a new cycle
+  sram.write(5, 3, 1);
+  EXPECT_THROW(sram.write(5, 4, 1), spec::CheckFailed);
+  EXPECT_THROW(sram.read(6, 16), spec::CheckFailed);
+
+  rtl::Sram<int> shared("shared", 16, 8, {0, 0, 1, false});
+  EXPECT_EQ(shared.ports(), "1RW");
+  shared.read(0, 1);
+  EXPECT_THROW(shared.write(0, 2, 1), spec::CheckFailed);
+  shared.write(1, 2, 1);
+  EXPECT_THROW(shared.read(1, 3), spec::CheckFailed);
+}
+
+TEST(Sram, CollisionIsCaughtUnlessReadFirst) {
+  rtl::Sram<int> sram("sram", 16, 8);
+  sram.write(0, 5, 50);
+  EXPECT_THROW(sram.read(0, 5), spec::CheckFailed);
+  sram.read(1, 5);
+  EXPECT_THROW(sram.write(1, 5, 51), spec::CheckFailed);
+
+  rtl::Sram<int> read_first("read_first", 16, 8, {1, 1, 0, true});
+  read_first.write(0, 5, 50);
+  read_first.write(1, 5, 51);
+  EXPECT_EQ(read_first.read(1, 5), 50);  // whichever comes first in the code
+  EXPECT_EQ(read_first.read(2, 5), 51);
+  read_first.write(2, 5, 52);
+  EXPECT_EQ(read_first.read(3, 5), 52);
+}
+
+TEST(RoundRobin, WhoWasGrantedWaitsForAllOthers) {
+  rtl::RoundRobin arbiter(4);
+  std::vector<int> order;
+  for (int i = 0; i < 8; ++i) {
+    order.push_back(arbiter.choose(0b1111));
+    arbiter.grant(order.back());
+  }
+  EXPECT_EQ(order, (std::vector<int>{0, 1, 2, 3, 0, 1, 2, 3}));
+  EXPECT_EQ(arbiter.choose(0), -1);
+  arbiter.grant(2);
+  EXPECT_EQ(arbiter.choose(0b0101), 0);  // 3 does not ask, so the turn wraps
+  EXPECT_EQ(arbiter.choose(0b0100), 2);
+  EXPECT_THROW(rtl::RoundRobin(0), spec::CheckFailed);
+  EXPECT_THROW(rtl::RoundRobin(65), spec::CheckFailed);
+}
+
+TEST(RoundRobin, NobodyWaitsLongerThanTheOthersTakeTurns) {
+  constexpr int kRequesters = 64;
+  rtl::RoundRobin arbiter(kRequesters);
+  Random random(3);
+  std::array<int, kRequesters> waited{};
+  for (int i = 0; i < 20'000; ++i) {
+    const std::uint64_t requests = random.next() | std::uint64_t{1} << 63;
+    const int chosen = arbiter.choose(requests);
+    ASSERT_TRUE(requests >> chosen & 1);
+    arbiter.grant(chosen);
+    ASSERT_LT(++waited[63], kRequesters);
+    if (chosen == 63) waited[63] = 0;
+  }
+}
+
+TEST(Merge, IsFairAndFull) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(1, sc_core::SC_NS));
+  Driver<Token> a("a", clock), b("b", clock), c("c", clock);
+  rtl::Merge<Token> merge("merge", clock, 3);
+  Sink<Token> sink("sink", clock);
+  rtl::Link<Token> in_a("in_a"), in_b("in_b"), in_c("in_c"), out("out");
+  a.beats_out(in_a);
+  b.beats_out(in_b);
+  c.beats_out(in_c);
+  (*merge.beats_in[0])(in_a);
+  (*merge.beats_in[1])(in_b);
+  (*merge.beats_in[2])(in_c);
+  merge.beats_out(out);
+  sink.beats_in(out);
+  std::uint32_t source = 0;
+  for (auto* driver : {&a, &b, &c}) {
+    for (std::uint32_t i = 0; i < 100; ++i) driver->send(Token{i, source});
+    ++source;
+  }
+  // Pushed in 0, merged from 1 on, in the sink from 2 on: one a clock.
+  clock.run(302);
+  ASSERT_EQ(sink.received(), 300U);
+  EXPECT_EQ(sink.cycles().front(), 2U);
+  EXPECT_EQ(sink.cycles().back(), 301U);
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    EXPECT_EQ(sink.beats()[i].value, i % 3);
+    EXPECT_EQ(sink.beats()[i].number, i / 3);
+  }
+}
+
+TEST(Counter, NeedsUnitAndMeaning) {
+  rtl::Counter counter("lines", "lines", "cache lines requested");
+  ++counter;
+  counter += 4;
+  counter.raise_to(3);
+  EXPECT_EQ(counter.value(), 5U);
+  counter.raise_to(30);
+  EXPECT_EQ(counter.value(), 30U);
+  EXPECT_THROW(rtl::Counter("bare", "", "no unit"), spec::CheckFailed);
+  EXPECT_THROW(rtl::Counter("mute", "lines", ""), spec::CheckFailed);
+}
+
+TEST(Histogram, PercentilesAreExact) {
+  rtl::Histogram histogram("latency", "clk", "test");
+  EXPECT_EQ(histogram.percentile(50), 0U);
+  for (std::uint64_t i = 1; i <= 1000; ++i) histogram.record(i);
+  EXPECT_EQ(histogram.min(), 1U);
+  EXPECT_EQ(histogram.max(), 1000U);
+  EXPECT_EQ(histogram.percentile(0), 1U);
+  EXPECT_EQ(histogram.percentile(50), 500U);
+  EXPECT_EQ(histogram.percentile(95), 950U);
+  EXPECT_EQ(histogram.percentile(99), 990U);
+  EXPECT_EQ(histogram.percentile(100), 1000U);
+  EXPECT_EQ(histogram.sum(), 500'500U);
+}
+
+TEST(Histogram, LargeValuesAreExactToo) {
+  Random random(1);
+  for (int i = 0; i < 2000; ++i) {
+    rtl::Histogram histogram("latency", "clk", "test");
+    const std::uint64_t value = random.next() >> random.below(60);
+    histogram.record(value);
+    histogram.record(~std::uint64_t{0});
+    EXPECT_EQ(histogram.percentile(50), value);
+    EXPECT_EQ(histogram.percentile(51), ~std::uint64_t{0});
+    EXPECT_EQ(histogram.bins().size(), value == ~std::uint64_t{0} ? 1U : 2U);
+  }
+}
+
+// Every percentile against a sorted list, across the seam of table and pages.
+TEST(Histogram, PercentilesAreThoseOfASortedList) {
+  Random random(3);
+  rtl::Histogram histogram("latency", "clk", "test");
+  std::vector<std::uint64_t> values;
+  for (int i = 0; i < 3000; ++i)
+    values.push_back(rtl::Histogram::kDirect - 500 + random.below(i % 3 ? 1000 : 200'000));
+  for (const std::uint64_t value : values) histogram.record(value);
+  std::sort(values.begin(), values.end());
+  for (unsigned percent = 1; percent <= 100; ++percent)
+    EXPECT_EQ(histogram.percentile(percent), values[values.size() * percent / 100 - 1]) << percent;
+  histogram.reset();
+  EXPECT_EQ(histogram.percentile(50), 0U);
+  histogram.record(100'000);
+  EXPECT_EQ(histogram.percentile(50), 100'000U);
+  EXPECT_EQ(histogram.bins().size(), 1U);
+}
+
+TEST(Histogram, BinsAddUpAndCanBeMerged) {
+  rtl::Histogram histogram("latency", "clk", "test");
+  Random random(2);
+  for (int i = 0; i < 5000; ++i) histogram.record(20 + random.below(3000));
+  for (const std::size_t limit :
+       {std::size_t{0}, std::size_t{1}, std::size_t{7}, std::size_t{64}}) {
+    std::uint64_t count = 0, next = 0;
+    const auto bins = histogram.bins(limit);
+    EXPECT_LE(bins.size(), limit ? limit : 5000);
+    for (const auto& bin : bins) {
+      EXPECT_GE(bin.low, next);
+      EXPECT_GE(bin.high, bin.low);
+      next = bin.high + 1;
+      count += bin.count;
+    }
+    EXPECT_EQ(count, 5000U);
+  }
+}
+
+TEST(Statistics, HaveEveryCounterWithUnitAndMeaning) {
+  Pipeline p(50);
+  p.clock.run(500);
+  const auto json = statistics(p.clock);
+  EXPECT_EQ(json["cycles"], 500);
+  EXPECT_EQ(json["units"]["adder_1"]["busy"], 50);
+  EXPECT_TRUE(json["units"]["adder_1"]["stalls"].contains("random"));
+  EXPECT_EQ(json["links"]["link_3"]["beats"], 50);
+  EXPECT_EQ(json["links"]["link_3"]["payload_bits"], 64);
+  EXPECT_TRUE(statistics(p.clock, "nothing")["units"].empty());
+}
+
+}  // namespace
+}  // namespace deburr::tb

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// Waves: what is in the file is what happened, in the window and scope that were asked for.
+#include "rtl_model/fabric/trace.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+
+#include "tb/harness/memory_model.h"
+#include "tb/unit/fabric/support.h"
+
+namespace deburr::tb {
+namespace {
+
+using rtl::Cycle;
+
+// A reader that knows as much of VCD as the writer uses.
+struct Vcd {
+  std::map<std::string, std::string> ids;  // full name -> id
+  std::map<std::string, std::vector<std::pair<std::uint64_t, std::string>>> changes;  // by id
+  std::string timescale;
+
+  explicit Vcd(const std::string& file) {
+    std::ifstream stream(file);
+    std::string word, scope;
+    std::uint64_t time = 0;
+    std::vector<std::string> scopes;
+    while (stream >> word) {
+      if (word == "$scope") {
+        stream >> word >> scope >> word;
+        scopes.push_back(scope);
+      } else if (word == "$upscope") {
+        stream >> word;
+        scopes.pop_back();
+      } else if (word == "$timescale") {
+        std::string number, unit;
+        stream >> number >> unit >> word;
+        timescale = number + unit;
+      } else if (word == "$var") {
+        std::string type, bits, id, name;
+        stream >> type >> bits >> id >> name;
+        std::string full;
+        for (const std::string& s : scopes) full += s + ".";
+        ids[full + name] = id;
+        while (stream >> word && word != "$end") {
+        }
+      } else if (word[0] == '#') {
+        const std::uint64_t next = std::stoull(word.substr(1));
+        EXPECT_GE(next, time);
+        time = next;
+      } else if (word[0] == 'b' || word[0] == 's') {
+        std::string id;
+        stream >> id;
+        changes[id].emplace_back(time, word.substr(1));
+      } else if (word[0] == '0' || word[0] == '1') {
+        changes[word.substr(1)].emplace_back(time, word.substr(0, 1));
+      }
+    }
+  }
+  std::string value(const std::string& name, std::uint64_t time) const {
+    std::string last;
+    for (const auto& [when, what] : changes.at(ids.at(name)))
+      if (when <= time) last = what;
+    return last;
+  }
+};
+
+std::uint64_t number(const std::string& binary) { return std::stoull(binary, nullptr, 2); }
+
+TEST(Trace, ShowsWhatHappened) {
+  const std::string file = testing::TempDir() + "trace.vcd";
+  Pipeline p(100);
+  std::vector<std::uint32_t> occupancy;
+  std::vector<std::string> activity;
+  struct Recorder final : rtl::Clocked {
+    std::function<void()> action;
+    rtl::Activity tick(Cycle) override {
+      action();
+      return rtl::kIdle;
+    }
+    void reset() override {}
+  } recorder;
+  std::vector<std::uint64_t> busy;
+  recorder.action = [&] {
+    occupancy.push_back(p.links[1]->occupancy());
+    busy.push_back(p.adders[1]->busy_cycles());
+  };
+  p.clock.add_after(recorder);
+  {
+    rtl::Trace trace(p.clock, {file, {"*"}, 0, rtl::kNever, true});
+    trace.add("top.answer", 8, [] { return 42; });
+    p.clock.run(300);
+    EXPECT_GT(trace.signals(), 20U);
+  }
+  const Vcd vcd(file);
+  EXPECT_EQ(vcd.timescale, "1ps");
+  ASSERT_TRUE(vcd.ids.count("link_1.occupancy"));
+  for (Cycle c = 0; c < 300; ++c) {
+    const std::uint64_t time = c * 10'000;
+    EXPECT_EQ(number(vcd.value("link_1.occupancy", time)), occupancy[c]);
+    EXPECT_EQ(vcd.value("adder_1.activity", time) == "busy", busy[c] > (c ? busy[c - 1] : 0)) << c;
+  }
+  EXPECT_EQ(number(vcd.value("top.answer", 0)), 42U);
+  // The head of the last link is the token that the sink takes next: number in the low word.
+  for (std::size_t i = 0; i < 100; ++i) {
+    const std::uint64_t before = (p.sink.cycles()[i] - 1) * 10'000;
+    EXPECT_EQ(number(vcd.value("link_4.head", before)) & 0xFFFFFFFF, i);
+    EXPECT_EQ(vcd.value("link_4.pop", before + 10'000), "1");
+  }
+}
+
+TEST(Trace, ScopeAndWindow) {
+  const std::string file = testing::TempDir() + "window.vcd";
+  Pipeline p(100);
+  {
+    rtl::Trace trace(p.clock, {file, {"link_2", "adder_?"}, 40, 60, false});
+    p.clock.run(300);
+    EXPECT_EQ(trace.signals(), 3U + 4U);
+  }
+  const Vcd vcd(file);
+  EXPECT_FALSE(vcd.ids.count("link_1.push"));
+  EXPECT_FALSE(vcd.ids.count("link_2.head"));
+  ASSERT_TRUE(vcd.ids.count("adder_3.activity"));
+  for (const auto& [id, list] : vcd.changes) {
+    EXPECT_EQ(list.front().first, 400'000U);  // everything has its value at the beginning
+    EXPECT_LT(list.back().first, 600'000U);
+    for (const auto& [time, value] : list) EXPECT_NE(value, "reset");
+  }
+}
+
+TEST(Trace, UnwritableFileIsAnError) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(1, sc_core::SC_NS));
+  EXPECT_THROW(rtl::Trace(clock, {"/nowhere/at/all.vcd", {"*"}, 0, rtl::kNever, true}),
+               spec::FileError);
+}
+
+TEST(Glob, Matches) {
+  EXPECT_TRUE(rtl::glob_match("*", ""));
+  EXPECT_TRUE(rtl::glob_match("a*c", "abbbc"));
+  EXPECT_TRUE(rtl::glob_match("a*b*c", "axbxbxc"));
+  EXPECT_TRUE(rtl::glob_match("texture.*.levels?", "texture.address.levels0"));
+  EXPECT_FALSE(rtl::glob_match("a*c", "abbb"));
+  EXPECT_FALSE(rtl::glob_match("", "a"));
+  EXPECT_FALSE(rtl::glob_match("?", ""));
+}
+
+}  // namespace
+}  // namespace deburr::tb

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// Do the blender's rules, its arithmetic, the conversion of images and the predicted traffic hold?
+#include "golden/morphological/blend.h"
+
+#include <gmock/gmock.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "golden/morphological/convert.h"
+#include "golden/morphological/traffic.h"
+#include "spec/error.h"
+#include "tb/oracle/random.h"
+
+namespace deburr {
+namespace {
+
+using golden::morphological::blend;
+using golden::morphological::blend_channel;
+using golden::morphological::decide;
+using golden::morphological::Decision;
+using golden::morphological::PixelShares;
+using golden::morphological::tap_of;
+using tb::texture::Random;
+
+TEST(Blender, DecidesTheAxisByThreeRules) {
+  EXPECT_EQ(decide({0, 0, 0, 0, 9, 9}), Decision::kNone);
+  EXPECT_EQ(decide({1, 0, 0, 0, 2, 90}), Decision::kOnlyUpDown);
+  EXPECT_EQ(decide({0, 0, 0, 1, 90, 2}), Decision::kOnlyLeftRight);
+  EXPECT_EQ(decide({1, 0, 128, 128, 5, 4}), Decision::kLongerUpDown);
+  EXPECT_EQ(decide({128, 128, 1, 0, 4, 5}), Decision::kLongerLeftRight);
+  EXPECT_EQ(decide({3, 4, 5, 1, 7, 7}), Decision::kStrongerUpDown);
+  EXPECT_EQ(decide({3, 4, 5, 3, 7, 7}), Decision::kStrongerLeftRight);
+  EXPECT_EQ(decide({3, 4, 5, 2, 7, 7}), Decision::kTie);
+}
+
+TEST(Blender, TakesTheSharesOfTheChosenAxisOnly) {
+  const PixelShares s{3, 4, 5, 6, 1, 2};
+  EXPECT_EQ(tap_of(s, Decision::kLongerLeftRight), (spec::morphological::BlendTap{true, 5, 6, 0}));
+  EXPECT_EQ(tap_of(s, Decision::kTie), (spec::morphological::BlendTap{false, 3, 4, 0}));
+  EXPECT_EQ(tap_of({}, Decision::kNone), spec::morphological::BlendTap{});
+}
+
+// Against the formula in real numbers: within half a code, halves away from the pixel.
+TEST(Blender, RoundsTheMagnitude) {
+  for (int c = 0; c < 256; c += 3) {
+    for (int n = 0; n < 256; n += 5) {
+      for (int w = 0; w <= 128; ++w) {
+        const double change = w / 256.0 * (n - c);
+        const double rounded = std::floor(std::abs(change) + 0.5);
+        EXPECT_EQ(blend_channel(false, c, n, w, 77, 0), c + (change < 0 ? -rounded : rounded));
+      }
+    }
+  }
+}
+
+TEST(Blender, InvertsWithItsInputsInGammaSpaceOnly) {
+  Random random(1);
+  bool broken_in_linear_light = false;
+  for (int i = 0; i < 200000; ++i) {
+    const int c = static_cast<int>(random.next() & 255), a = static_cast<int>(random.next() & 255),
+              b = static_cast<int>(random.next() & 255), wa = static_cast<int>(random.next() % 129),
+              wb = static_cast<int>(random.next() % 129);
+    const int result = blend_channel(false, c, a, wa, b, wb);
+    EXPECT_TRUE(result >= 0 && result <= 255);
+    EXPECT_EQ(blend_channel(false, 255 - c, 255 - a, wa, 255 - b, wb), 255 - result);
+    const int linear = blend_channel(true, c, a, wa, b, wb);
+    EXPECT_TRUE(linear >= 0 && linear <= 255);
+    broken_in_linear_light |=
+        blend_channel(true, 255 - c, 255 - a, wa, 255 - b, wb) != 255 - linear;
+  }
+  EXPECT_TRUE(broken_in_linear_light);
+}
+
+TEST(Blender, HalfOfBlackAndWhiteIsHalfTheLight) {
+  EXPECT_EQ(blend_channel(true, 0, 255, 128, 0, 0), 188);
+  EXPECT_EQ(blend_channel(false, 0, 255, 128, 0, 0), 128);
+  EXPECT_EQ(blend_channel(true, 0, 255, 128, 255, 128), 255);
+}
+
+TEST(Blender, PassesAlphaAndPixelsWithoutShares) {
+  const spec::morphological::Rgba8 pixel = {1, 2, 3, 77}, other = {255, 255, 255, 255};
+  EXPECT_EQ(blend(true, pixel, other, 128, other, 128)[3], 77);
+  for (int code = 0; code < 256; ++code) {
+    EXPECT_EQ(blend_channel(true, code, 255 - code, 0, 0, 0), code);
+    EXPECT_EQ(blend_channel(true, code, code, 128, code, 128), code);
+  }
+}
+
+// ---- conversion of images -----------------------------------------------------------------------
+
+using golden::morphological::code_from_binary32;
+using golden::morphological::code_from_unsigned;
+using golden::morphological::codes_from;
+using golden::morphological::depth_from_binary32;
+using golden::morphological::Samples;
+
+TEST(Conversion, OfUnsignedSamplesIsNearest) {
+  for (std::uint32_t v = 0; v < 65536; ++v) {
+    EXPECT_EQ(code_from_unsigned(v, 16), (255 * v + 32767) / 65535);
+  }
+  for (std::uint32_t v = 0; v < 256; ++v) EXPECT_EQ(code_from_unsigned(v, 8), v);
+  EXPECT_EQ(code_from_unsigned(0, 1), 0);
+  EXPECT_EQ(code_from_unsigned(1, 1), 255);
+  EXPECT_EQ(code_from_unsigned(512, 10), 128);
+  EXPECT_EQ(code_from_unsigned(0xFFFFFFFF, 32), 255);
+}
+
+TEST(Conversion, OfBinary32IsTheRuleInRealNumbers) {
+  Random random(2);
+  const auto check = [](std::uint32_t pattern) {
+    const float v = std::bit_cast<float>(pattern);
+    const double clamped = std::isnan(v) ? 0 : std::min(1.0, std::max(0.0, double{v}));
+    EXPECT_EQ(code_from_binary32(pattern), std::floor(255 * clamped + 0.5)) << v;
+    EXPECT_EQ(depth_from_binary32(pattern), std::floor(16777215 * clamped + 0.5)) << v;
+  };
+  for (const float v :
+       {0.0f, -0.0f, 1.0f, 0.5f, 0.49999997f, 1.0000001f, -1.0f, 1e-40f, 1e-8f, 2e38f,
+        std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
+        std::numeric_limits<float>::quiet_NaN()}) {
+    check(std::bit_cast<std::uint32_t>(v));
+  }
+  for (int i = 0; i < 200000; ++i) check(random.next());
+  for (int i = 0; i < 200000; ++i) {
+    check(std::bit_cast<std::uint32_t>(static_cast<float>(random.uniform(0, 1))));
+  }
+  for (int k = 0; k < 256; ++k) {  // around the halves
+    const std::uint32_t half = std::bit_cast<std::uint32_t>((static_cast<float>(k) + 0.5f) / 255);
+    for (std::uint32_t d = 0; d < 5; ++d) check(half + d - 2);
+  }
+}
+
+TEST(Conversion, OfChannelsAddsAndDropsWhatIsNeeded) {
+  const std::vector<std::uint32_t> values = {10, 20, 30, 40, 50, 60};
+  const auto first = [&](int channels) {
+    Samples samples{values, 6 / channels, 1, channels};
+    return codes_from(samples).at(0, 0);
+  };
+  EXPECT_EQ(first(1), (spec::morphological::Rgba8{10, 10, 10, 255}));
+  EXPECT_EQ(first(2), (spec::morphological::Rgba8{10, 10, 10, 20}));
+  EXPECT_EQ(first(3), (spec::morphological::Rgba8{10, 20, 30, 255}));
+  EXPECT_EQ(first(6), (spec::morphological::Rgba8{10, 20, 30, 40}));
+  EXPECT_THROW(codes_from(Samples{values, 7, 1, 1}), spec::CheckFailed);
+  EXPECT_EQ(golden::morphological::depth_from_codes({1, 2, 3, 4}), 0x010203u);
+}
+
+// ---- traffic ------------------------------------------------------------------------------------
+
+TEST(FrameTraffic, WritesEveryLineOnceThenReadsItOnce) {
+  using golden::morphological::frame_stride;
+  using golden::morphological::frame_traffic;
+  EXPECT_EQ(frame_stride(1), 64u);
+  EXPECT_EQ(frame_stride(16), 64u);
+  EXPECT_EQ(frame_stride(17), 128u);
+  EXPECT_EQ(frame_stride(8192), 32768u);
+  const auto traffic = frame_traffic(0x1000, 17, 3);
+  ASSERT_EQ(traffic.size(), 2u * 3 * 2);
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(traffic[i], (spec::morphological::FrameAccess{0x1000 + 64 * i, true}));
+    EXPECT_EQ(traffic[6 + i], (spec::morphological::FrameAccess{0x1000 + 64 * i, false}));
+  }
+  EXPECT_EQ(frame_traffic(0, 1920, 1080).size() * 64, 1920u * 1080 * 8);  // 8 bytes a pixel
+}
+
+}  // namespace
+}  // namespace deburr

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Can every functional coverage bin of the morphological engine be reached? Random rectangles,
+// lines, discs and noise hit them all.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "tb/oracle/random.h"
+#include "tb/unit/golden/morphological/support.h"
+
+namespace deburr {
+namespace {
+
+using golden::morphological::CoverageBin;
+using golden::morphological::MorphologicalGolden;
+using golden::morphological::preset_parameters;
+using golden::morphological::RunCoverage;
+using spec::morphological::Preset;
+using tb::morphological::Frame;
+using tb::morphological::grey;
+using tb::texture::Random;
+
+int below(Random& random, int n) {
+  return static_cast<int>(random.next() % static_cast<unsigned>(n));
+}
+
+// Greys that are sometimes too near for an edge, so that crossings go missing.
+Frame rectangles(Random& random) {
+  const int width = 1 + below(random, 70), height = 1 + below(random, 70);
+  Frame frame(width, height, [](int, int) { return grey(128); });
+  for (int i = 0; i < 25; ++i) {
+    const int x0 = below(random, width), y0 = below(random, height);
+    const bool flat = random.next() % 2 == 0;
+    const int w = 1 + below(random, flat ? 40 : 3), h = 1 + below(random, flat ? 3 : 40);
+    const int code = below(random, 8) * 6 + below(random, 2) * 100;
+    for (int y = y0; y < std::min(height, y0 + h); ++y) {
+      for (int x = x0; x < std::min(width, x0 + w); ++x) frame.at(x, y) = grey(code);
+    }
+  }
+  return frame;
+}
+
+Frame line(Random& random, bool steep) {
+  const double slope = 1 / random.uniform(1, 26), start = random.uniform(0, 20);
+  const bool falling = random.next() % 2 == 0;
+  const Frame frame(120 + below(random, 100), 24 + below(random, 20), [&](int x, int y) {
+    const double at = falling ? start + slope * x : start + 20 - slope * x;
+    return grey(y < at ? 255 : 0);
+  });
+  return steep ? tb::morphological::transposed(frame) : frame;
+}
+
+Frame disc(Random& random) {
+  const double radius = random.uniform(5, 200), x0 = random.uniform(0, 90),
+               y0 = random.uniform(0, 90) + radius;
+  return Frame(90, 90,
+               [&](int x, int y) { return grey(std::hypot(x - x0, y - y0) < radius ? 220 : 10); });
+}
+
+std::set<std::string> holes(const std::map<std::string, std::uint64_t>& hits) {
+  std::set<std::string> result;
+  for (const auto& [name, count] : hits) {
+    if (count == 0) result.insert(name);
+  }
+  return result;
+}
+
+TEST(RunCoverage, EveryBinCanBeReached) {
+  Random random(7);
+  spec::morphological::Parameters wide = preset_parameters(Preset::kDeburr);
+  wide.window_rows = 258;
+  spec::morphological::Parameters narrow = preset_parameters(Preset::kMlaaSlope);
+  narrow.window_rows = 50;
+  narrow.reach_columns = 24;
+  MorphologicalGolden a(wide), b(narrow);
+  std::map<std::string, std::uint64_t> hits;
+  const auto collect = [&] {
+    hits.clear();
+    for (const MorphologicalGolden* golden : {&a, &b}) {
+      for (const CoverageBin& bin : golden->coverage().bins()) hits[bin.name] += bin.hits;
+    }
+  };
+  for (int round = 0; round < 60; ++round) {
+    for (int i = 0; i < 20; ++i) {
+      for (const Frame& frame : {rectangles(random), rectangles(random), rectangles(random),
+                                 line(random, false), line(random, true), disc(random)}) {
+        a.process(frame.view());
+        b.process(frame.view());
+      }
+    }
+    const Frame noise = tb::morphological::noise_image(100, 100);
+    a.process(noise.view());
+    collect();
+    if (holes(hits).empty()) break;
+  }
+  EXPECT_THAT(holes(hits), testing::IsEmpty());
+  EXPECT_EQ(hits.size(), a.coverage().bins().size());  // names are unique
+}
+
+TEST(RunCoverage, AnEmptyFrameLeavesHoles) {
+  MorphologicalGolden golden(spec::morphological::Parameters{});
+  const Frame frame(8, 8, [](int, int) { return grey(3); });
+  golden.process(frame.view());
+  std::size_t hit = 0;
+  for (const CoverageBin& bin : golden.coverage().bins()) hit += bin.hits != 0;
+  EXPECT_EQ(hit, 1u);  // decision/none
+}
+
+TEST(RunCoverage, LengthBinsAreThoseOfTheirNames) {
+  const std::map<int, std::size_t> expected = {{1, 0}, {2, 1}, {3, 2},  {4, 2},  {5, 3},
+                                               {8, 3}, {9, 4}, {16, 4}, {17, 5}, {2048, 5}};
+  for (const auto& [length, bin] : expected) EXPECT_EQ(RunCoverage::length_bin(length), bin);
+}
+
+}  // namespace
+}  // namespace deburr

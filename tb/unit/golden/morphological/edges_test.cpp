@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+// Are the edges those of the contract's formulas? Against a plain reading of them, pixel by pixel,
+// for every source, mode and local contrast, at widths around the 64-bit words.
+#include "golden/morphological/edges.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "golden/morphological/luma.h"
+#include "tb/oracle/random.h"
+#include "tb/unit/golden/morphological/support.h"
+
+namespace deburr {
+namespace {
+
+using golden::morphological::BitPlane;
+using golden::morphological::DepthView;
+using golden::morphological::EdgePlanes;
+using golden::morphological::find_edges;
+using tb::morphological::Frame;
+using tb::texture::Random;
+
+// "Edges" of docs/number_formats_morphological.md, word for word.
+class PlainEdges {
+ public:
+  PlainEdges(const spec::morphological::Parameters& p, const Frame& frame,
+             const std::vector<std::uint32_t>& depth)
+      : p_(p), frame_(frame), depth_(depth) {}
+
+  bool left(int x, int y) const {
+    if (x == 0 || !raw({x, y}, {x - 1, y})) return false;
+    return stays(c({x, y}, {x - 1, y}), contrast({x, y}, {-1, 0}, {0, -1}));
+  }
+  bool top(int x, int y) const {
+    if (y == 0 || !raw({x, y}, {x, y - 1})) return false;
+    return stays(c({x, y}, {x, y - 1}), contrast({x, y}, {0, -1}, {-1, 0}));
+  }
+
+ private:
+  struct Pixel {
+    int x, y;
+    Pixel operator+(Pixel o) const { return {x + o.x, y + o.y}; }
+    Pixel operator-(Pixel o) const { return {x - o.x, y - o.y}; }
+  };
+  bool outside(Pixel p) const {
+    return p.x < 0 || p.y < 0 || p.x >= frame_.width || p.y >= frame_.height;
+  }
+  std::int64_t luma(Pixel p) const {
+    const spec::morphological::Rgba8& rgba = frame_.at(p.x, p.y);
+    return 13933 * rgba[0] + 46871 * rgba[1] + 4732 * rgba[2];
+  }
+  std::int64_t depth(Pixel p) const {
+    if (depth_.empty()) return 0;
+    return depth_[static_cast<std::size_t>(p.y * frame_.width + p.x)];
+  }
+  std::int64_t c(Pixel p, Pixel q) const {
+    return outside(p) || outside(q) ? 0 : std::abs(luma(p) - luma(q));
+  }
+  bool z(Pixel p, Pixel q) const {
+    return depth(p) != depth(q) && 65536 * std::abs(depth(p) - depth(q)) >=
+                                       p_.depth_threshold * std::max(depth(p), depth(q));
+  }
+  bool raw(Pixel p, Pixel q) const {
+    switch (p_.edge_source) {
+      case spec::morphological::EdgeSource::kDepth:
+        return z(p, q);
+      case spec::morphological::EdgeSource::kPredicated:
+        return c(p, q) >=
+               255 * (z(p, q) ? p_.threshold_on_depth_edge : p_.threshold_off_depth_edge);
+      case spec::morphological::EdgeSource::kLuma:
+        break;
+    }
+    if (p_.threshold_mode == spec::morphological::ThresholdMode::kFixed)
+      return c(p, q) >= 255 * p_.threshold;
+    const std::int64_t reference = p_.dynamic_luma == spec::morphological::DynamicLuma::kCurrent
+                                       ? luma(p)
+                                       : std::max(luma(p), luma(q));
+    return 65536 * c(p, q) > p_.alpha * reference && c(p, q) >= 255 * p_.floor;
+  }
+  // `across`: towards the pixel on the other side of the edge; `along`: beside the edge.
+  std::int64_t contrast(Pixel p, Pixel across, Pixel along) const {
+    if (p_.edge_source == spec::morphological::EdgeSource::kDepth) return 0;
+    const Pixel q = p + across;
+    if (p_.local_contrast == spec::morphological::LocalContrast::kPaper) {
+      const Pixel t = p + Pixel{0, -1}, l = p + Pixel{-1, 0};
+      return std::max({c(p, t), c(p, p + Pixel{0, 1}), c(p, l), c(p, p + Pixel{1, 0}),
+                       c(t, t + Pixel{0, -1}), c(l, l + Pixel{-1, 0})});
+    }
+    if (p_.local_contrast == spec::morphological::LocalContrast::kSymmetric) {
+      return std::max({c(p, q), c(p, p - across), c(q, q + across),
+                       std::min(std::max(c(p, p + along), c(p, p - along)),
+                                std::max(c(q, q + along), c(q, q - along)))});
+    }
+    return 0;
+  }
+  bool stays(std::int64_t step, std::int64_t m) const {
+    return p_.local_contrast == spec::morphological::LocalContrast::kOff ||
+           p_.edge_source == spec::morphological::EdgeSource::kDepth || 2 * step > m;
+  }
+
+  const spec::morphological::Parameters& p_;
+  const Frame& frame_;
+  const std::vector<std::uint32_t>& depth_;
+};
+
+// Codes near each other and far apart, so that every comparison goes both ways.
+Frame random_frame(int width, int height, Random& random) {
+  return Frame(width, height, [&](int x, int y) {
+    const std::uint32_t r = random.next();
+    const int base = (x / 5 + y / 3) % 3 * 90;
+    spec::morphological::Rgba8 pixel;
+    for (std::size_t i = 0; i < 4; ++i) {
+      pixel[i] = static_cast<std::uint8_t>(base + static_cast<int>(r >> (6 * i) & 31));
+    }
+    return pixel;
+  });
+}
+
+std::vector<std::uint32_t> random_depth(const Frame& frame, Random& random) {
+  std::vector<std::uint32_t> depth;
+  for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
+    const std::uint32_t r = random.next();
+    depth.push_back(r % 5 == 0 ? 0 : r % 7 == 0 ? 0xFFFFFF : 0x400000 + r % 0x80000);
+  }
+  return depth;
+}
+
+std::uint64_t differences(const EdgePlanes& edges, const PlainEdges& plain, int width, int height) {
+  std::uint64_t count = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      count += edges.left.at(x, y) != plain.left(x, y);
+      count += edges.top.at(x, y) != plain.top(x, y);
+    }
+  }
+  return count;
+}
+
+struct Mode {
+  spec::morphological::EdgeSource source;
+  spec::morphological::ThresholdMode threshold;
+  spec::morphological::DynamicLuma luma;
+};
+constexpr Mode kModes[] = {
+    {spec::morphological::EdgeSource::kLuma, spec::morphological::ThresholdMode::kFixed,
+     spec::morphological::DynamicLuma::kMax},
+    {spec::morphological::EdgeSource::kLuma, spec::morphological::ThresholdMode::kDynamic,
+     spec::morphological::DynamicLuma::kMax},
+    {spec::morphological::EdgeSource::kLuma, spec::morphological::ThresholdMode::kDynamic,
+     spec::morphological::DynamicLuma::kCurrent},
+    {spec::morphological::EdgeSource::kDepth, spec::morphological::ThresholdMode::kFixed,
+     spec::morphological::DynamicLuma::kMax},
+    {spec::morphological::EdgeSource::kPredicated, spec::morphological::ThresholdMode::kFixed,
+     spec::morphological::DynamicLuma::kMax},
+};
+
+TEST(MorphologicalEdges, AreThoseOfTheFormulas) {
+  Random random(1);
+  constexpr int kSizes[][2] = {{1, 1},  {1, 9},  {9, 1},  {2, 2},
+                               {63, 5}, {64, 5}, {65, 5}, {130, 21}};
+  for (const Mode& mode : kModes) {
+    for (const auto contrast :
+         {spec::morphological::LocalContrast::kOff, spec::morphological::LocalContrast::kPaper,
+          spec::morphological::LocalContrast::kSymmetric}) {
+      std::uint64_t ones = 0, pixels = 0;
+      for (const auto& size : kSizes) {
+        spec::morphological::Parameters p;
+        p.edge_source = mode.source;
+        p.threshold_mode = mode.threshold;
+        p.dynamic_luma = mode.luma;
+        p.local_contrast = contrast;
+        p.threshold = 3000;
+        const Frame frame = random_frame(size[0], size[1], random);
+        const std::vector<std::uint32_t> depth = random_depth(frame, random);
+        const EdgePlanes edges = find_edges(p, frame.view(), DepthView(depth, size[0], size[1]));
+        EXPECT_EQ(differences(edges, PlainEdges(p, frame, depth), size[0], size[1]), 0u)
+            << size[0] << " x " << size[1];
+        ones += edges.left.count() + edges.top.count();
+        pixels += frame.pixels.size();
+      }
+      EXPECT_GT(ones, pixels / 50);
+      EXPECT_LT(ones, 2 * pixels - pixels / 50);
+    }
+  }
+}
+
+TEST(MorphologicalEdges, AWrongBitIsCaught) {
+  Random random(2);
+  spec::morphological::Parameters p;
+  const Frame frame = random_frame(40, 30, random);
+  EdgePlanes edges = find_edges(p, frame.view());
+  edges.top.row(7)[0] ^= 1u << 11;  // the planted fault
+  EXPECT_EQ(differences(edges, PlainEdges(p, frame, {}), 40, 30), 1u);
+}
+
+TEST(MorphologicalEdges, ThresholdsHoldToTheUnit) {
+  // Blue steps of luma are 4732 units; 255 T is crossed between two codes.
+  spec::morphological::Parameters p;
+  p.local_contrast = spec::morphological::LocalContrast::kOff;
+  for (const int step : {1, 2, 77, 255}) {
+    const Frame frame(2, 1, [&](int x, int) {
+      return spec::morphological::Rgba8{0, 0, static_cast<std::uint8_t>(x * step), 255};
+    });
+    p.threshold = 4732 * step / 255;
+    EXPECT_TRUE(find_edges(p, frame.view()).left.at(1, 0));
+    p.threshold += 1;
+    EXPECT_FALSE(find_edges(p, frame.view()).left.at(1, 0));
+  }
+}
+
+TEST(MorphologicalEdges, ContrastOfExactlyTwiceTheStepDropsTheBit) {
+  spec::morphological::Parameters p;  // symmetric
+  const auto codes = [&](int a, int b, int c) {
+    const std::array<int, 3> v = {a, b, c};
+    return Frame(
+        3, 1, [&](int x, int) { return tb::morphological::grey(v[static_cast<std::size_t>(x)]); });
+  };
+  EXPECT_FALSE(find_edges(p, codes(0, 20, 60).view()).left.at(1, 0));
+  EXPECT_TRUE(find_edges(p, codes(0, 20, 59).view()).left.at(1, 0));
+}
+
+TEST(MorphologicalEdges, WithoutDepthThereAreNoDepthEdges) {
+  spec::morphological::Parameters p;
+  p.edge_source = spec::morphological::EdgeSource::kDepth;
+  EXPECT_EQ(find_edges(p, tb::morphological::noise_image().view()),
+            (EdgePlanes{BitPlane(97, 61), BitPlane(97, 61)}));
+}
+
+TEST(Luma, IsExactAndSumsToOne) {
+  EXPECT_EQ(spec::morphological::kLumaWeights[0] + spec::morphological::kLumaWeights[1] +
+                spec::morphological::kLumaWeights[2],
+            65536u);
+  EXPECT_EQ(golden::morphological::luma({255, 255, 255, 0}), 255 * 65536);
+  EXPECT_EQ(golden::morphological::luma({1, 2, 3, 200}), 13933 + 2 * 46871 + 3 * 4732);
+  for (int code = 0; code < 256; ++code) {
+    EXPECT_EQ(golden::morphological::luma(tb::morphological::grey(code)), code * 65536);
+  }
+}
+
+}  // namespace
+}  // namespace deburr

@@ -1,0 +1,459 @@
+// SPDX-License-Identifier: MIT
+// Does the whole golden behave on frames? Symmetries and where they end, extreme frames, alpha,
+// depth, how far a pixel looks, intermediate results that agree with each other, and named errors.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "golden/morphological/area.h"
+#include "golden/morphological/runs.h"
+#include "spec/error.h"
+#include "tb/oracle/random.h"
+#include "tb/unit/golden/morphological/support.h"
+
+namespace deburr {
+namespace {
+
+using golden::morphological::Decision;
+using golden::morphological::DepthView;
+using golden::morphological::ImageView;
+using golden::morphological::MorphologicalGolden;
+using golden::morphological::PredictedRun;
+using golden::morphological::preset_parameters;
+using spec::morphological::Preset;
+using tb::morphological::Frame;
+using tb::morphological::grey;
+using tb::morphological::inverted;
+using tb::morphological::mirrored_x;
+using tb::morphological::mirrored_y;
+using tb::morphological::smooth;
+using tb::morphological::transposed;
+using tb::texture::Random;
+
+std::vector<Frame> frames() {
+  return {tb::morphological::noise_image(), tb::morphological::line_image(),
+          tb::morphological::blocks_image(), tb::morphological::rendered_like(180, 120, 60)};
+}
+
+std::vector<spec::morphological::Parameters> rules() {
+  std::vector<spec::morphological::Parameters> result;
+  for (const auto preset : {Preset::kMlaa, Preset::kMlaaSlope, Preset::kDeburr}) {
+    result.push_back(preset_parameters(preset));
+    result.push_back(preset_parameters(preset));
+    result.back().window_rows = 22;
+    result.back().reach_columns = 12;
+  }
+  return result;
+}
+
+// ---- symmetries ---------------------------------------------------------------------------------
+
+TEST(Symmetry, MirroringTheInputMirrorsTheOutput) {
+  for (const Frame& frame : frames()) {
+    for (const auto& p : rules()) {
+      const Frame output = smooth(p, frame);
+      EXPECT_EQ(smooth(p, mirrored_x(frame)), mirrored_x(output));
+      EXPECT_EQ(smooth(p, mirrored_y(frame)), mirrored_y(output));
+    }
+  }
+}
+
+TEST(Symmetry, MirroringDoesNotHoldForRulesThatLookToOneSide) {
+  const Frame frame = tb::morphological::rendered_like(180, 120, 60);
+  spec::morphological::Parameters paper = preset_parameters(Preset::kDeburr);
+  paper.local_contrast = spec::morphological::LocalContrast::kPaper;
+  EXPECT_NE(smooth(paper, mirrored_x(frame)), mirrored_x(smooth(paper, frame)));
+  spec::morphological::Parameters current = preset_parameters(Preset::kMlaa);
+  current.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
+  current.alpha = 30000;
+  current.dynamic_luma = spec::morphological::DynamicLuma::kMax;
+  EXPECT_EQ(smooth(current, mirrored_x(frame)), mirrored_x(smooth(current, frame)));
+  current.dynamic_luma = spec::morphological::DynamicLuma::kCurrent;
+  EXPECT_NE(smooth(current, mirrored_x(frame)), mirrored_x(smooth(current, frame)));
+}
+
+// Pixels whose two axes tie take up and down in either frame; all others are transposed.
+struct TransposedComparison {
+  int ties = 0, differing_ties = 0, differing = 0;
+  TransposedComparison(const spec::morphological::Parameters& p, const Frame& frame) {
+    MorphologicalGolden a(p), b(p);
+    const Frame turned = transposed(frame);
+    a.process(frame.view());
+    b.process(turned.view());
+    for (int y = 0; y < frame.height; ++y) {
+      for (int x = 0; x < frame.width; ++x) {
+        const auto i = static_cast<std::size_t>(y * frame.width + x);
+        const auto j = static_cast<std::size_t>(x * frame.height + y);
+        const bool tie = a.decisions()[i] == Decision::kTie;
+        EXPECT_EQ(b.decisions()[j] == Decision::kTie, tie);
+        const bool same = a.pixels()[i] == b.pixels()[j];
+        ties += tie;
+        differing_ties += tie && !same;
+        differing += !tie && !same;
+      }
+    }
+  }
+};
+
+TEST(Symmetry, TransposingTransposesAllButTies) {
+  int ties = 0, differing_ties = 0;
+  for (const Frame& frame : frames()) {
+    for (auto p : rules()) {
+      p.reach_columns = golden::morphological::reach_rows(p);
+      for (const auto contrast :
+           {p.local_contrast,
+            spec::morphological::LocalContrast::kPaper}) {  // the paper's form transposes too
+        p.local_contrast = contrast;
+        const TransposedComparison comparison(p, frame);
+        EXPECT_EQ(comparison.differing, 0);
+        ties += comparison.ties;
+        differing_ties += comparison.differing_ties;
+      }
+    }
+  }
+  EXPECT_GT(ties, 100);
+  EXPECT_GT(differing_ties, 0);  // so ties are really excepted
+}
+
+TEST(Symmetry, TransposingNeedsEqualReaches) {
+  spec::morphological::Parameters p = preset_parameters(Preset::kMlaa);
+  p.reach_columns = 64;  // R = 32
+  const Frame frame(100, 20, [](int x, int y) { return grey(20 * y > 3 * x + 100 ? 255 : 0); });
+  const Frame flat(100, 6, [](int x, int y) { return grey(y > (x < 50 ? 2 : 3) ? 255 : 0); });
+  EXPECT_EQ(TransposedComparison(p, frame).differing, 0);
+  EXPECT_GT(TransposedComparison(p, flat).differing, 0);
+}
+
+TEST(Symmetry, InvertingCodesInvertsInGammaSpace) {
+  for (const Frame& frame : frames()) {
+    for (auto p : rules()) {
+      p.linear_light = false;
+      EXPECT_EQ(smooth(p, inverted(frame)), inverted(smooth(p, frame)));
+      p.linear_light = true;
+      EXPECT_NE(smooth(p, inverted(frame)), inverted(smooth(p, frame)));
+    }
+  }
+  spec::morphological::Parameters p = preset_parameters(Preset::kMlaa);
+  p.linear_light = false;
+  p.threshold_mode =
+      spec::morphological::ThresholdMode::kDynamic;  // relative to luma: not symmetric
+  p.alpha = 30000;
+  const Frame frame = tb::morphological::rendered_like(180, 120, 60);
+  EXPECT_NE(smooth(p, inverted(frame)), inverted(smooth(p, frame)));
+}
+
+// ---- extreme frames -----------------------------------------------------------------------------
+
+TEST(ExtremeFrames, WithoutEdgesPassUntouched) {
+  for (const auto& p : rules()) {
+    for (const auto& [w, h] : {std::pair(1, 1), {1, 40}, {40, 1}, {64, 64}, {130, 7}}) {
+      for (const int code : {0, 17, 255}) {
+        const Frame frame(w, h, [&](int, int) { return grey(code); });
+        MorphologicalGolden golden(p);
+        EXPECT_EQ(golden.process(frame.view()), frame.pixels);
+        spec::morphological::Work idle;
+        idle.pixels = frame.pixels.size();
+        EXPECT_EQ(golden.work(), idle);
+      }
+    }
+  }
+}
+
+TEST(ExtremeFrames, OfOneRowOrColumnHaveRunsOfOne) {
+  Random random(1);
+  for (const auto& p : rules()) {
+    const Frame row(200, 1, [&](int, int) { return grey(static_cast<int>(random.next() & 255)); });
+    MorphologicalGolden golden(p);
+    // No crossings can exist, so nothing is blended.
+    EXPECT_EQ(golden.process(row.view()), row.pixels);
+    EXPECT_GT(golden.work().vertical_runs, 50u);
+    EXPECT_EQ(golden.work().horizontal_runs, 0u);
+    const Frame column = transposed(row);
+    EXPECT_EQ(golden.process(column.view()), column.pixels);
+    EXPECT_EQ(golden.work().vertical_runs, 0u);
+  }
+}
+
+TEST(ExtremeFrames, CheckerboardIsAllEdgesAndNothingElse) {
+  const Frame frame(70, 66, [](int x, int y) { return grey((x + y) % 2 == 0 ? 0 : 255); });
+  for (const auto& p : rules()) {
+    MorphologicalGolden golden(p);
+    golden.process(frame.view());
+    EXPECT_EQ(golden.work().edge_pixels, 70u * 66 - 1);
+    EXPECT_EQ(golden.work().horizontal_runs, 65u);
+    EXPECT_EQ(golden.work().vertical_runs, 69u);
+    // Every run spans the frame, and a border has no crossings.
+    EXPECT_EQ(golden.work().blended_pixels, 0u);
+  }
+}
+
+TEST(ExtremeFrames, WidestAndTallestAreTaken) {
+  for (const auto& [w, h] : {std::pair(8192, 3), {3, 8192}}) {
+    const Frame frame(w, h, [&](int x, int y) { return grey((x * 7 + y * 11) / 97 % 2 * 200); });
+    MorphologicalGolden golden(preset_parameters(Preset::kDeburr));
+    golden.process(frame.view());
+    EXPECT_EQ(golden.pixels().size(), frame.pixels.size());
+    EXPECT_GT(golden.work().edge_pixels, 100u);
+  }
+}
+
+TEST(ExtremeFrames, AFrameIsTheSameWhateverCameBefore) {
+  const spec::morphological::Parameters p = preset_parameters(Preset::kDeburr);
+  MorphologicalGolden golden(p);
+  const Frame big = tb::morphological::rendered_like(300, 200, 90);
+  const Frame small = tb::morphological::blocks_image();
+  golden.process(big.view());
+  EXPECT_EQ(golden.process(small.view()), smooth(p, small).pixels);
+  EXPECT_EQ(golden.process(big.view()), smooth(p, big).pixels);
+}
+
+TEST(ExtremeFrames, RowsMayHaveGaps) {
+  const Frame frame = tb::morphological::line_image();
+  std::vector<spec::morphological::Rgba8> spaced(static_cast<std::size_t>(frame.width + 9) *
+                                                 static_cast<std::size_t>(frame.height));
+  for (int y = 0; y < frame.height; ++y) {
+    std::copy_n(&frame.at(0, y), frame.width, spaced.begin() + y * (frame.width + 9));
+  }
+  MorphologicalGolden golden(preset_parameters(Preset::kDeburr));
+  const ImageView view(spaced, frame.width, frame.height,
+                       static_cast<std::size_t>(frame.width) + 9);
+  EXPECT_EQ(golden.process(view), smooth(golden.parameters(), frame).pixels);
+}
+
+// ---- alpha, depth -------------------------------------------------------------------------------
+
+TEST(Alpha, PassesAndChangesNothing) {
+  const Frame opaque = tb::morphological::rendered_like(120, 90, 40);
+  Random random(2);
+  Frame frame = opaque;
+  for (spec::morphological::Rgba8& pixel : frame.pixels)
+    pixel[3] = static_cast<std::uint8_t>(random.next());
+  const auto p = preset_parameters(Preset::kDeburr);
+  const Frame output = smooth(p, frame), expected = smooth(p, opaque);
+  for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
+    EXPECT_EQ(output.pixels[i][3], frame.pixels[i][3]);
+    spec::morphological::Rgba8 colour = output.pixels[i];
+    colour[3] = 255;
+    EXPECT_EQ(colour, expected.pixels[i]);
+  }
+}
+
+TEST(Depth, MakesEdgesWhereColoursAreAlike) {
+  const Frame flat(60, 40, [](int x, int y) { return grey(100 + (x + y) % 2); });
+  std::vector<std::uint32_t> depth;
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 60; ++x) depth.push_back(3 * y > x + 30 ? 9000000 : 4000000);
+  }
+  spec::morphological::Parameters p = preset_parameters(Preset::kMlaa);
+  p.edge_source = spec::morphological::EdgeSource::kDepth;
+  MorphologicalGolden golden(p);
+  golden.process(flat.view(), DepthView(depth, 60, 40));
+  EXPECT_GT(golden.work().z_runs, 10u);
+  golden.process(flat.view());  // none given: all 0, no edges
+  EXPECT_EQ(golden.work().edge_pixels, 0u);
+  EXPECT_THROW(golden.process(flat.view(), DepthView(depth, 40, 60)), spec::CheckFailed);
+}
+
+// ---- how far a pixel looks ----------------------------------------------------------------------
+
+// Replaces everything farther from (30, 30) than the given distances; how often does its result
+// change?
+int changes(int columns, int rows) {
+  Random random(3);
+  spec::morphological::Parameters p = preset_parameters(Preset::kDeburr);
+  p.window_rows = 12;  // R = 5
+  p.reach_columns = 6;
+  p.steps = 4;
+  constexpr int kSize = 60, kX = 30, kY = 30;
+  int result = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Frame frame(kSize, kSize, [&](int x, int y) {
+      return grey((3 * x + 5 * y + i) / 17 % 2 * 180 + (random.next() % 16 == 0 ? 70 : 0));
+    });
+    const Frame changed(kSize, kSize, [&](int x, int y) {
+      const bool near = std::abs(x - kX) <= columns && std::abs(y - kY) <= rows;
+      return near ? frame.at(x, y) : grey(static_cast<int>(random.next() & 255));
+    });
+    result += smooth(p, frame).at(kX, kY) != smooth(p, changed).at(kX, kY);
+  }
+  return result;
+}
+
+// Beyond the reach lie the pixels that make its last edges: up to four.
+TEST(Locality, NothingBeyondTheReachMatters) {
+  EXPECT_EQ(changes(6 + 4, 5 + 4), 0);
+  EXPECT_GT(changes(3, 5 + 4), 0);
+  EXPECT_GT(changes(6 + 4, 2), 0);
+}
+
+// ---- intermediate results -----------------------------------------------------------------------
+
+TEST(Intermediates, AgreeWithEachOther) {
+  for (const Frame& frame : frames()) {
+    for (const auto& p : rules()) {
+      MorphologicalGolden golden(p);
+      golden.process(frame.view());
+      const spec::morphological::Work& work = golden.work();
+      spec::morphological::Work counted;
+      counted.pixels = frame.pixels.size();
+      for (int y = 0; y < frame.height; ++y) {
+        for (int x = 0; x < frame.width; ++x) {
+          const auto i = static_cast<std::size_t>(y * frame.width + x);
+          const spec::morphological::BlendTap& tap = golden.taps()[i];
+          EXPECT_EQ(tap.edges,
+                    (golden.edges().left.at(x, y) ? 1 : 0) | (golden.edges().top.at(x, y) ? 2 : 0));
+          counted.edge_pixels += tap.edges != 0;
+          counted.blended_pixels += (tap.first | tap.second) != 0;
+          EXPECT_EQ(golden.decisions()[i] != Decision::kNone, (tap.first | tap.second) != 0);
+          if ((tap.first | tap.second) == 0) {
+            EXPECT_EQ(golden.pixels()[i], frame.pixels[i]);
+          }
+        }
+      }
+      for (const PredictedRun& run : golden.runs()) {
+        const spec::morphological::RunRecord& r = run.line.run;
+        const bool whole = r.part == spec::morphological::RunPart::kWhole;
+        if (r.part != spec::morphological::RunPart::kTail) {
+          ++(r.axis == spec::morphological::Axis::kHorizontal ? counted.horizontal_runs
+                                                              : counted.vertical_runs);
+        }
+        counted.long_runs += r.part == spec::morphological::RunPart::kHead;
+        counted.z_runs += whole && spec::morphological::kRunShapes[r.shape].clean_z;
+        const std::uint64_t steps = std::uint64_t{run.line.left_steps} + run.line.right_steps;
+        counted.extended_runs += steps != 0;
+        counted.steps += steps;
+        counted.probes += run.probes;
+        counted.divides += run.line.before != spec::morphological::Side::kNone ||
+                           run.line.after != spec::morphological::Side::kNone;
+        EXPECT_LE(run.line.span, golden::morphological::reach(p, r.axis) * 2 + 1);
+        EXPECT_LE(run.iterations, p.steps);
+      }
+      EXPECT_EQ(counted, work);
+    }
+  }
+}
+
+TEST(Intermediates, RunsComeInCanonicalOrder) {
+  MorphologicalGolden golden(preset_parameters(Preset::kMlaa));
+  const Frame frame = tb::morphological::blocks_image();
+  golden.process(frame.view());
+  const auto key = [](const PredictedRun& run) {
+    const spec::morphological::RunRecord& r = run.line.run;
+    return r.axis == spec::morphological::Axis::kHorizontal ? std::tuple(0, r.line, r.start)
+                                                            : std::tuple(1, r.start, r.line);
+  };
+  EXPECT_TRUE(std::is_sorted(
+      golden.runs().begin(), golden.runs().end(),
+      [&](const PredictedRun& a, const PredictedRun& b) { return key(a) < key(b); }));
+}
+
+TEST(Intermediates, FewerWhenOnlyPixelsAreAsked) {
+  const Frame frame = tb::morphological::blocks_image();
+  const auto p = preset_parameters(Preset::kDeburr);
+  MorphologicalGolden everything(p), pixels(p, MorphologicalGolden::Detail::kPixels);
+  EXPECT_EQ(everything.process(frame.view()), pixels.process(frame.view()));
+  EXPECT_EQ(everything.work(), pixels.work());
+  EXPECT_TRUE(pixels.taps().empty() && pixels.runs().empty() && pixels.decisions().empty());
+}
+
+// ---- memory -------------------------------------------------------------------------------------
+
+TEST(FrameMemory, TrafficBelongsToStorageInMemoryOnly) {
+  const Frame frame = tb::morphological::blocks_image();
+  spec::morphological::Parameters p;
+  MorphologicalGolden lines(p);
+  lines.process(frame.view());
+  EXPECT_TRUE(lines.traffic().empty());
+  p.storage = spec::morphological::Storage::kMemory;
+  MorphologicalGolden memory(p);
+  EXPECT_EQ(memory.process(frame.view()), lines.pixels());
+  EXPECT_EQ(memory.traffic(256).size(), 2u * 6 * 80);  // 90 pixels: 6 lines a row
+  EXPECT_EQ(memory.traffic(256).front().address, 256u);
+}
+
+TEST(FrameMemory, LinesThatCannotBeReadAreZeros) {
+  const Frame frame(40, 8, [](int x, int y) { return grey(10 * x / 4 + 20 * y); });
+  spec::morphological::Parameters p;
+  p.storage = spec::morphological::Storage::kMemory;
+  MorphologicalGolden golden(p);
+  const std::vector<spec::morphological::Rgba8> good = golden.process(frame.view());
+  golden.set_read_errors([](std::uint32_t address) { return address == 1024 + 3 * 192 + 64; },
+                         1024);
+  const std::vector<spec::morphological::Rgba8> bad = golden.process(frame.view());
+  EXPECT_EQ(golden.memory_errors(), 1u);
+  for (int x = 0; x < 40; ++x) {
+    const auto i = static_cast<std::size_t>(3 * 40 + x);
+    if (x >= 16 && x < 32) {
+      if ((golden.taps()[i].first | golden.taps()[i].second) == 0) {
+        EXPECT_EQ(bad[i], spec::morphological::Rgba8{});
+      }
+      EXPECT_EQ(bad[i][3], 0);
+    } else if (x < 15 || x > 32) {
+      EXPECT_EQ(bad[i], good[i]);
+    }
+  }
+}
+
+// ---- named errors -------------------------------------------------------------------------------
+
+std::string error_of(void (*change)(spec::morphological::Parameters&)) {
+  spec::morphological::Parameters p;
+  change(p);
+  try {
+    MorphologicalGolden golden(p);
+    return "";
+  } catch (const spec::ConfigError& error) {
+    return error.what();
+  }
+}
+
+TEST(NamedErrors, OfParameters) {
+  using P = spec::morphological::Parameters;
+  using testing::HasSubstr;
+  EXPECT_EQ(error_of([](P&) {}), "");
+  EXPECT_THAT(error_of([](P& p) { p.window_rows = 65; }), HasSubstr("odd"));
+  EXPECT_THAT(error_of([](P& p) { p.window_rows = 18; }), HasSubstr("at most"));  // R - 1 = 7
+  EXPECT_EQ(error_of([](P& p) { p.window_rows = 20; }), "");
+  EXPECT_THAT(error_of([](P& p) { p.reach_columns = 3; }), HasSubstr("outside 4..2048"));
+  EXPECT_THAT(error_of([](P& p) { p.threshold = 0; }), HasSubstr("edges.threshold"));
+  EXPECT_THAT(error_of([](P& p) {
+                p.edge_source = spec::morphological::EdgeSource::kPredicated;
+                p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
+              }),
+              HasSubstr("predicated"));
+  EXPECT_THAT(error_of([](P& p) { p.area = spec::morphological::AreaSource::kTableFull; }),
+              HasSubstr("not built yet"));
+  EXPECT_THAT(error_of([](P& p) { p.diagonals = true; }), HasSubstr("not built yet"));
+  EXPECT_THAT(error_of([](P& p) { p.round_corners = true; }), HasSubstr("not built yet"));
+}
+
+TEST(NamedErrors, OfPresetsThatAreNotBuiltYet) {
+  for (const auto preset : {Preset::kSmaa, Preset::kSmaaDynamic}) {
+    EXPECT_THROW(MorphologicalGolden{preset_parameters(preset)}, spec::ConfigError);
+    // Their thresholds are there: with the blocks that exist they run.
+    spec::morphological::Parameters p = preset_parameters(preset);
+    p.area = spec::morphological::AreaSource::kAnalytic;
+    p.diagonals = false;
+    MorphologicalGolden golden(p);
+    const Frame frame = tb::morphological::blocks_image();
+    golden.process(frame.view());
+    EXPECT_GT(golden.work().blended_pixels, 100u);
+  }
+}
+
+TEST(NamedErrors, OfFrames) {
+  spec::morphological::Parameters p;
+  p.line_pixels = 100;
+  MorphologicalGolden golden(p);
+  const std::vector<spec::morphological::Rgba8> pixels(8193);
+  EXPECT_THROW(golden.process(ImageView(pixels, 0, 5)), spec::ConfigError);
+  EXPECT_THROW(golden.process(ImageView(pixels, 5, 0)), spec::ConfigError);
+  EXPECT_THROW(golden.process(ImageView(pixels, 1, 8193)), spec::ConfigError);
+  EXPECT_THROW(golden.process(ImageView(pixels, 101, 1)), spec::ConfigError);
+  EXPECT_THROW(golden.process(ImageView(pixels, 100, 82)), spec::CheckFailed);
+  EXPECT_NO_THROW(golden.process(ImageView(pixels, 100, 81)));
+}
+
+}  // namespace
+}  // namespace deburr

@@ -1,0 +1,555 @@
+// SPDX-License-Identifier: MIT
+// Are runs found, shaped, cut and extended as the contract says? Runs against a walk over single
+// bits, consistent sets against a search for a line, extensions against the lines that made the
+// pixels, and Theorem 1 of paper 000 over more than 200 000 runs.
+#include "golden/morphological/runs.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+#include "golden/morphological/edges.h"
+#include "golden/morphological/predictor.h"
+#include "tb/oracle/random.h"
+#include "tb/unit/golden/morphological/support.h"
+
+namespace deburr {
+namespace {
+
+using golden::morphological::AxisEdges;
+using golden::morphological::BitPlane;
+using golden::morphological::ConsistentSet;
+using golden::morphological::EdgePlanes;
+using golden::morphological::MorphologicalGolden;
+using golden::morphological::Outcome;
+using golden::morphological::PredictedRun;
+using golden::morphological::preset_parameters;
+using golden::morphological::SideEnd;
+using spec::morphological::Preset;
+using tb::morphological::Frame;
+using tb::morphological::grey;
+using tb::texture::Random;
+
+// ---- planes and runs ----------------------------------------------------------------------------
+
+BitPlane random_plane(int width, int height, int percent, Random& random) {
+  BitPlane plane(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (random.next() % 100 < static_cast<unsigned>(percent)) plane.set(x, y);
+    }
+  }
+  return plane;
+}
+
+TEST(BitPlanes, TransposeAndReadZeroOutside) {
+  Random random(1);
+  for (const int width : {1, 63, 64, 65, 200}) {
+    for (const int height : {1, 64, 70}) {
+      const BitPlane plane = random_plane(width, height, 50, random);
+      const BitPlane turned = plane.transposed();
+      EXPECT_EQ(turned.width(), height);
+      for (int y = -1; y <= height; ++y) {
+        for (int x = -1; x <= width; ++x) ASSERT_EQ(turned.at(y, x), plane.at(x, y));
+      }
+      EXPECT_FALSE(plane.at(-1, 0) || plane.at(0, -1) || plane.at(width, 0) || plane.at(0, height));
+      EXPECT_EQ(turned.transposed(), plane);
+      EXPECT_EQ(turned.count(), plane.count());
+    }
+  }
+}
+
+TEST(Runs, AreThoseOfAWalkOverSingleBits) {
+  Random random(2);
+  for (const int width : {1, 63, 64, 65, 128, 129, 400}) {
+    for (const int percent : {5, 50, 98, 100}) {
+      const BitPlane plane = random_plane(width, 8, percent, random);
+      for (int y = 0; y < 8; ++y) {
+        std::vector<std::pair<int, int>> found, expected;
+        golden::morphological::for_each_run(
+            plane, y, [&](int first, int end) { found.emplace_back(first, end); });
+        for (int x = 0; x < width; ++x) {
+          if (!plane.at(x, y)) continue;
+          if (plane.at(x - 1, y)) {
+            expected.back().second = x + 1;
+          } else {
+            expected.emplace_back(x, x + 1);
+          }
+        }
+        EXPECT_EQ(found, expected);
+      }
+    }
+  }
+}
+
+TEST(Runs, HaveTheShapeOfTheirCrossings) {
+  for (int code = 0; code < 16; ++code) {
+    AxisEdges edges{spec::morphological::Axis::kHorizontal, BitPlane(12, 6), BitPlane(12, 6)};
+    for (int x = 4; x < 9; ++x) edges.along.set(x, 3);
+    if ((code & 1) != 0) edges.across.set(4, 2);
+    if ((code & 2) != 0) edges.across.set(4, 3);
+    if ((code & 4) != 0) edges.across.set(9, 2);
+    if ((code & 8) != 0) edges.across.set(9, 3);
+    edges.across.set(6, 2);  // a crossing in the middle does not end a run
+    const auto records = find_runs(preset_parameters(Preset::kMlaa), edges);
+    ASSERT_EQ(records.size(), 1u);
+    EXPECT_EQ(records[0], (spec::morphological::RunRecord{spec::morphological::Axis::kHorizontal,
+                                                          spec::morphological::RunPart::kWhole, 3,
+                                                          4, 5, static_cast<std::uint8_t>(code)}));
+  }
+}
+
+TEST(Runs, BeyondTheReachAreCutToTheirEnds) {
+  spec::morphological::Parameters p = preset_parameters(Preset::kMlaa);
+  p.reach_columns = 9;
+  for (int length = 1; length <= 40; ++length) {
+    AxisEdges edges{spec::morphological::Axis::kHorizontal, BitPlane(50, 4), BitPlane(50, 4)};
+    for (int x = 3; x < 3 + length; ++x) edges.along.set(x, 2);
+    edges.across.set(3, 1);           // start: N
+    edges.across.set(3 + length, 2);  // end: S
+    const auto records = find_runs(p, edges);
+    if (length <= 9) {
+      ASSERT_EQ(records.size(), 1u);
+      EXPECT_EQ(records[0].shape, 1 + 4 * 2);
+      continue;
+    }
+    ASSERT_EQ(records.size(), 2u);
+    EXPECT_EQ(records[0],
+              (spec::morphological::RunRecord{spec::morphological::Axis::kHorizontal,
+                                              spec::morphological::RunPart::kHead, 2, 3, 4, 1}));
+    EXPECT_EQ(records[1],
+              (spec::morphological::RunRecord{spec::morphological::Axis::kHorizontal,
+                                              spec::morphological::RunPart::kTail, 2,
+                                              static_cast<std::uint16_t>(3 + length - 4), 4, 8}));
+  }
+}
+
+TEST(Runs, OfTheOtherAxisAreThoseOfTheTransposedFrame) {
+  Random random(3);
+  const EdgePlanes edges{random_plane(90, 70, 60, random), random_plane(90, 70, 60, random)};
+  const EdgePlanes turned{edges.top.transposed(), edges.left.transposed()};
+  spec::morphological::Parameters p;
+  p.reach_columns = golden::morphological::reach_rows(p);
+  auto vertical = find_runs(p, AxisEdges::vertical(edges));
+  for (spec::morphological::RunRecord& run : vertical)
+    run.axis = spec::morphological::Axis::kHorizontal;
+  EXPECT_EQ(vertical, find_runs(p, AxisEdges::horizontal(turned)));
+  EXPECT_GT(vertical.size(), 100u);
+}
+
+// ---- consistent sets ----------------------------------------------------------------------------
+
+// Looks for a pitch p and a phase a with X_i = ceil(a + i p) among midpoints of all critical
+// pitches.
+bool line_exists(const std::vector<ConsistentSet::Corner>& corners) {
+  std::vector<double> critical;
+  for (const auto& a : corners) {
+    for (const auto& b : corners) {
+      if (a.index >= b.index) continue;
+      const double steps = b.index - a.index, pixels = b.position - a.position;
+      critical.push_back((pixels - 1) / steps);
+      critical.push_back((pixels + 1) / steps);
+    }
+  }
+  std::sort(critical.begin(), critical.end());
+  for (std::size_t i = 1; i < critical.size(); ++i) {
+    const double pitch = (critical[i - 1] + critical[i]) / 2;
+    if (critical[i] - critical[i - 1] < 1e-9) continue;
+    double low = -1e9, high = 1e9;  // a in (low, high]
+    for (const auto& c : corners) {
+      low = std::max(low, c.position - 1 - c.index * pitch);
+      high = std::min(high, c.position - c.index * pitch);
+    }
+    if (high - low > 1e-9) return true;
+  }
+  return false;
+}
+
+TEST(ConsistentSets, AreThoseForWhichALineExists) {
+  Random random(4);
+  int consistent = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const int length = 1 + static_cast<int>(random.next() % 9);
+    ConsistentSet set(length);
+    std::vector<ConsistentSet::Corner> corners = {{0, 0}, {1, length}};
+    int right = length, left = 0;
+    const int sides = 1 + static_cast<int>(random.next() % 6);
+    for (int k = 0; k < sides; ++k) {
+      const auto step = [&] { return length + static_cast<int>(random.next() % 3) - 1; };
+      corners.push_back({k + 2, right += step()});
+      EXPECT_EQ(set.consistent_with(corners.back()), line_exists(corners));
+      set.add(corners.back());
+      corners.push_back({-k - 1, left -= step()});
+      EXPECT_EQ(set.consistent_with(corners.back()), line_exists(corners));
+      set.add(corners.back());
+      EXPECT_EQ(set.consistent(), line_exists(corners));
+    }
+    consistent += set.consistent();
+  }
+  EXPECT_GT(consistent, 1000);
+  EXPECT_LT(consistent, 19000);
+}
+
+TEST(ConsistentSets, TwoCornersMoreAreThoseOneByOne) {
+  ConsistentSet set(5);
+  EXPECT_TRUE(set.consistent_with({2, 11}));   // 5, 6
+  EXPECT_TRUE(set.consistent_with({-1, -4}));  // 4, 5
+  EXPECT_FALSE(set.consistent_with({2, 11}, {-1, -4}));
+  EXPECT_TRUE(set.consistent_with({2, 11}, {-1, -6}));
+}
+
+// ---- extension on pure lines --------------------------------------------------------------------
+
+struct Line {
+  double slope, start;
+  Frame frame(int width, int height) const {
+    return Frame(width, height,
+                 [&](int x, int y) { return grey(y + 0.5 < start + slope * (x + 0.5) ? 255 : 0); });
+  }
+};
+
+// Rows of the frame that the line runs through, plus a margin.
+Frame line_frame(double slope, double phase, int width) {
+  return Line{slope, 3 + phase}.frame(width, static_cast<int>(slope * width) + 8);
+}
+
+// The complete horizontal runs of a falling line, in order.
+std::vector<PredictedRun> complete_runs(const MorphologicalGolden& golden) {
+  std::vector<PredictedRun> runs;
+  for (const PredictedRun& run : golden.runs()) {
+    if (run.line.run.axis == spec::morphological::Axis::kHorizontal &&
+        spec::morphological::kRunShapes[run.line.run.shape].clean_z) {
+      runs.push_back(run);
+    }
+  }
+  return runs;
+}
+
+TEST(Extension, FollowsAPureLineForAllStepsOnBothSides) {
+  Random random(5);
+  spec::morphological::Parameters p = preset_parameters(Preset::kDeburr);
+  p.reach_columns = 2048;
+  std::size_t inner = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double slope = 1 / random.uniform(1.05, 12);
+    MorphologicalGolden golden(p);
+    const Frame frame = line_frame(slope, random.uniform(0, 1), 400);
+    golden.process(frame.view());
+    const std::vector<PredictedRun> runs = complete_runs(golden);
+    for (std::size_t r = 8; r + 8 < runs.size(); ++r) {
+      const PredictedRun& run = runs[r];
+      ASSERT_EQ(run.line.left_steps, 8);
+      ASSERT_EQ(run.line.right_steps, 8);
+      EXPECT_EQ(run.left_end, SideEnd::kSteps);
+      EXPECT_EQ(run.iterations, 8);
+      // The ends are corners of the very runs eight rows away.
+      const int start = run.line.run.start;
+      EXPECT_EQ(start + run.far_left, runs[r - 8].line.run.start);
+      EXPECT_EQ(start + run.far_right, runs[r + 8].line.run.start + runs[r + 8].line.run.length);
+      EXPECT_EQ(run.line.span, run.far_right - run.far_left);
+      ++inner;
+    }
+  }
+  EXPECT_GT(inner, 5000u);
+}
+
+TEST(Extension, OutcomeNamesTheOtherStep) {
+  MorphologicalGolden golden(preset_parameters(Preset::kDeburr));
+  const Frame frame = line_frame(1 / 4.5, 0.3, 300);
+  golden.process(frame.view());
+  std::map<Outcome, int> outcomes;
+  for (const PredictedRun& run : complete_runs(golden)) {
+    const Outcome other = run.line.run.length == 4 ? Outcome::kLate : Outcome::kEarly;
+    if (run.line.right_steps > 1) {
+      EXPECT_EQ(run.right, other);
+    }
+    ++outcomes[run.right];
+  }
+  EXPECT_GT(outcomes[Outcome::kEarly], 10);
+  EXPECT_GT(outcomes[Outcome::kLate], 10);
+}
+
+// The paper's complexity: a trial a step, of 3 candidates until L' is known and 2 from then on,
+// whatever L is; a walk from end to end costs the pixels between.
+TEST(Extension, ProbesDoNotGrowWithTheLengthOfRuns) {
+  spec::morphological::Parameters p = preset_parameters(Preset::kMlaaSlope);
+  p.steps = 8;
+  p.reach_columns = 2048;
+  for (const int n : {2, 5, 10, 20, 40}) {
+    MorphologicalGolden golden(p);
+    const Frame frame = line_frame(1 / (n + 0.37), 0.2, 40 * n);
+    golden.process(frame.view());
+    std::uint64_t probes = 0, walked = 0, runs = 0;
+    for (const PredictedRun& run : complete_runs(golden)) {
+      EXPECT_LE(run.probes, 2 * 3 * 8);
+      EXPECT_LE(run.iterations, 8);
+      if (run.line.left_steps != 8 || run.line.right_steps != 8) continue;
+      probes += run.probes;
+      walked += static_cast<std::uint64_t>(run.line.span - run.line.run.length);
+      ++runs;
+    }
+    ASSERT_GT(runs, 10u);
+    std::cout << "L = " << n << ": " << probes / runs << " probes a run, a walk of "
+              << walked / runs << " pixels\n";
+    EXPECT_LE(probes, 2 * (2 * 8 + 3) * runs);  // L' turns up within three steps, on average
+    EXPECT_GT(walked, static_cast<std::uint64_t>(2 * 8 * n) * runs - runs);
+  }
+}
+
+// Bright above a staircase that rises from the left, one step of each length.
+Frame staircase(const std::vector<int>& lengths) {
+  const int steps = static_cast<int>(lengths.size());
+  Frame frame(std::accumulate(lengths.begin(), lengths.end(), 0) + 2, steps + 5,
+              [](int, int) { return grey(0); });
+  int x = 0;
+  for (int i = 0; i < steps; ++i) {
+    for (int end = x + lengths[static_cast<std::size_t>(i)]; x < end; ++x) {
+      for (int y = 0; y < steps + 3 - i; ++y) frame.at(x, y) = grey(255);
+    }
+  }
+  return frame;
+}
+
+TEST(Extension, StopsOnACurve) {
+  // Steps 3, 4, 5 over rising rows: both sides of the middle run hit with different steps.
+  const Frame frame = staircase({1, 2, 3, 4, 5, 6, 7});
+  MorphologicalGolden golden(preset_parameters(Preset::kDeburr));
+  golden.process(frame.view());
+  int curves = 0;
+  for (const PredictedRun& run : complete_runs(golden)) {
+    if (run.left_end != SideEnd::kCurve) continue;
+    EXPECT_EQ(run.line.left_steps + run.line.right_steps, 0);
+    EXPECT_EQ(run.iterations, 1);
+    ++curves;
+  }
+  EXPECT_GT(curves, 2);
+  // The paper's rules take both.
+  MorphologicalGolden paper(preset_parameters(Preset::kMlaaSlope));
+  paper.process(frame.view());
+  EXPECT_GT(paper.work().steps, golden.work().steps);
+}
+
+// ---- trim ---------------------------------------------------------------------------------------
+
+spec::morphological::Parameters trimmed(Preset preset, bool trim) {
+  spec::morphological::Parameters p = preset_parameters(preset);
+  p.trim = trim;
+  return p;
+}
+
+std::vector<PredictedRun> runs_of(const Frame& frame, const spec::morphological::Parameters& p) {
+  MorphologicalGolden golden(p);
+  golden.process(frame.view());
+  return golden.runs();
+}
+
+// The horizontal run that begins at column x.
+PredictedRun run_at(const Frame& frame, const spec::morphological::Parameters& p, int x) {
+  for (const PredictedRun& run : runs_of(frame, p)) {
+    if (run.line.run.axis == spec::morphological::Axis::kHorizontal && run.line.run.start == x)
+      return run;
+  }
+  ADD_FAILURE() << "no run begins at column " << x;
+  return {};
+}
+
+struct Kept {
+  int left, right;
+  bool operator==(const Kept&) const = default;
+};
+Kept kept(const PredictedRun& run) { return {run.line.left_steps, run.line.right_steps}; }
+void PrintTo(const Kept& k, std::ostream* out) { *out << k.left << " and " << k.right; }
+
+TEST(Trim, GivesBackTheLastStepOfALostSide) {
+  // Three steps of 3 before the run and two after it, then steps of 9.
+  const Frame frame = staircase({9, 3, 3, 3, 3, 3, 3, 9, 2});
+  for (const auto preset : {Preset::kDeburr, Preset::kMlaaSlope}) {
+    const PredictedRun whole = run_at(frame, trimmed(preset, false), 18);
+    EXPECT_EQ(kept(whole), (Kept{3, 2}));
+    EXPECT_EQ(whole.left_end, SideEnd::kNoHit);
+    const PredictedRun cut = run_at(frame, trimmed(preset, true), 18);
+    EXPECT_EQ(kept(cut), (Kept{2, 1}));
+    EXPECT_EQ(cut.far_left, -6);
+    EXPECT_EQ(cut.far_right, 6);
+    EXPECT_EQ(cut.line.span, 12);
+    EXPECT_EQ(cut.line.shift, -1);
+    EXPECT_EQ(cut.probes, whole.probes);
+    EXPECT_EQ(cut.iterations, whole.iterations);
+  }
+}
+
+TEST(Trim, KeepsAllWhereTheStepsOrTheReachEnd) {
+  const Frame frame = staircase(std::vector<int>(25, 3));
+  spec::morphological::Parameters p = trimmed(Preset::kDeburr, true);
+  const PredictedRun all = run_at(frame, p, 36);
+  EXPECT_EQ(kept(all), (Kept{8, 8}));
+  EXPECT_EQ(all.left_end, SideEnd::kSteps);
+  // From X = 9 on the steps of 3, 2 and 4 end at 12, 11 and 13.
+  for (const auto& [reach, steps, end] : {std::tuple{10, 2, SideEnd::kReach},
+                                          {11, 2, SideEnd::kReach},
+                                          {12, 3, SideEnd::kReach},
+                                          {15, 4, SideEnd::kReach}}) {
+    p.reach_columns = reach;
+    const PredictedRun run = run_at(frame, p, 36);
+    EXPECT_EQ(kept(run), (Kept{steps, steps})) << "reach " << reach;
+    EXPECT_EQ(run.right_end, end);
+  }
+  // A step of 9 that could have been one of 4 within the reach is evidence.
+  p.reach_columns = 13;
+  const Frame bent = staircase({3, 3, 3, 3, 3, 3, 3, 9, 2});
+  EXPECT_EQ(kept(run_at(bent, p, 12)).right, 1);
+  p.reach_columns = 12;
+  EXPECT_EQ(kept(run_at(bent, p, 12)).right, 2);
+}
+
+TEST(Trim, HalvesASideThatNoLineExplains) {
+  // 5, 5, 5 and 6, 6 are no line: the second 6 is refused, one step is left, half of it is none.
+  const Frame frame = staircase({9, 5, 5, 5, 6, 6, 6, 2});
+  const PredictedRun whole = run_at(frame, trimmed(Preset::kDeburr, false), 19);
+  EXPECT_EQ(whole.right_end, SideEnd::kInconsistent);
+  EXPECT_EQ(kept(whole), (Kept{2, 1}));
+  EXPECT_EQ(kept(run_at(frame, trimmed(Preset::kDeburr, true), 19)), (Kept{1, 0}));
+}
+
+// A naive reading of the contract over many bends, against the runs without the trim.
+TEST(Trim, LeavesWhatTheContractSays) {
+  Random random(9);
+  std::map<std::pair<SideEnd, int>, int> seen;
+  const auto expected = [&](SideEnd end, int steps) {
+    ++seen[{end, std::min(steps, 3)}];
+    if (end == SideEnd::kNoHit) return steps == 0 ? 0 : steps - 1;
+    if (end == SideEnd::kInconsistent || end == SideEnd::kCurve) return steps / 2;
+    return steps;
+  };
+  for (int i = 0; i < 400; ++i) {
+    // A parabola of random bend, and a line now and then.
+    const double bend = i % 4 == 0 ? 0 : random.uniform(0.002, 0.05),
+                 first = random.uniform(1, i % 3 == 0 ? 28 : 6);
+    std::vector<int> lengths, corner = {0};
+    for (int k = 0; k < 24; ++k) {
+      const double at = first * (k + 1) + bend * (k + 1) * (k + 1);
+      lengths.push_back(std::max(1, static_cast<int>(at) - corner.back()));
+      corner.push_back(corner.back() + lengths.back());
+    }
+    const Frame frame = staircase(lengths);
+    for (const auto preset : {Preset::kDeburr, Preset::kMlaaSlope}) {
+      spec::morphological::Parameters p = trimmed(preset, false);
+      p.window_rows = 20;
+      p.reach_columns = 30;
+      const std::vector<PredictedRun> whole = runs_of(frame, p);
+      p.trim = true;
+      const std::vector<PredictedRun> cut = runs_of(frame, p);
+      ASSERT_EQ(whole.size(), cut.size());
+      for (std::size_t r = 0; r < cut.size(); ++r) {
+        const PredictedRun &a = whole[r], &b = cut[r];
+        ASSERT_EQ(a.line.run, b.line.run);
+        EXPECT_EQ(b.line.left_steps, expected(a.left_end, a.line.left_steps));
+        EXPECT_EQ(b.line.right_steps, expected(a.right_end, a.line.right_steps));
+        EXPECT_EQ(b.line.span, b.far_right - b.far_left);
+        if (b.line.run.axis != spec::morphological::Axis::kHorizontal ||
+            b.left == Outcome::kUntried)
+          continue;
+        // The outermost corners are those of the staircase.
+        const auto own = std::find(corner.begin(), corner.end(), b.line.run.start);
+        ASSERT_NE(own, corner.end());
+        if (preset == Preset::kMlaaSlope) continue;  // it may hit what is no step
+        EXPECT_EQ(b.far_left, *(own - b.line.left_steps) - *own);
+        EXPECT_EQ(b.far_right, *(own + 1 + b.line.right_steps) - *own);
+      }
+    }
+  }
+  // Two sides never contradict each other before either has taken a step.
+  for (const auto& [end, fewest] : {std::pair{SideEnd::kNoHit, 0},
+                                    {SideEnd::kReach, 0},
+                                    {SideEnd::kInconsistent, 1},
+                                    {SideEnd::kCurve, 0}}) {
+    for (int steps = fewest; steps <= 3; ++steps) {
+      EXPECT_GT((seen[{end, steps}]), 10) << "end " << static_cast<int>(end) << ", " << steps;
+    }
+  }
+}
+
+TEST(Extension, NeverTriesAStepOfNothing) {
+  MorphologicalGolden golden(preset_parameters(Preset::kMlaaSlope));
+  const Frame frame = tb::morphological::noise_image(200, 200);
+  golden.process(frame.view());
+  int ones = 0;
+  for (const PredictedRun& run : golden.runs()) {
+    if (run.line.run.length != 1 || run.left == Outcome::kUntried) continue;
+    EXPECT_NE(run.left, Outcome::kEarly);
+    EXPECT_NE(run.right, Outcome::kEarly);
+    if (run.iterations == 1) {
+      EXPECT_EQ(run.probes, 4);
+    }
+    ++ones;
+  }
+  EXPECT_GT(ones, 100);
+}
+
+// ---- Theorem 1 ----------------------------------------------------------------------------------
+
+// The lengths of complete runs of one digital line differ by at most 1, and the rarer is isolated.
+struct TheoremCheck {
+  std::size_t runs = 0, violations = 0, not_isolated = 0;
+  void look(const std::vector<int>& lengths) {
+    if (lengths.empty()) return;
+    runs += lengths.size();
+    const auto [low, high] = std::minmax_element(lengths.begin(), lengths.end());
+    if (*high - *low > 1) ++violations;
+    bool pair_of_short = false, pair_of_long = false;
+    for (std::size_t i = 1; i < lengths.size(); ++i) {
+      if (lengths[i] != lengths[i - 1]) continue;
+      (lengths[i] == *low ? pair_of_short : pair_of_long) = true;
+    }
+    if (*low != *high && pair_of_short && pair_of_long) ++not_isolated;
+  }
+};
+
+TEST(Theorem1, HoldsForMoreThanTwoHundredThousandRuns) {
+  Random random(6);
+  TheoremCheck check;
+  spec::morphological::Parameters p = preset_parameters(Preset::kMlaa);
+  p.reach_columns = 2048;
+  while (check.runs < 220000) {
+    const double slope = 1 / random.uniform(1, 6);
+    MorphologicalGolden golden(p);
+    const Frame frame = line_frame(slope, random.uniform(0, 1), 300);
+    golden.process(frame.view());
+    std::vector<int> lengths;
+    for (const PredictedRun& run : complete_runs(golden)) lengths.push_back(run.line.run.length);
+    check.look(lengths);
+  }
+  std::cout << check.runs << " runs, " << check.violations << " violations\n";
+  EXPECT_EQ(check.violations, 0u);
+  EXPECT_EQ(check.not_isolated, 0u);
+}
+
+TEST(Theorem1, ALineThatBendsIsCaught) {
+  spec::morphological::Parameters p = preset_parameters(Preset::kMlaa);
+  MorphologicalGolden golden(p);
+  // The planted violation: slope 1/3.3, then 1/5.4.
+  const Frame frame(200, 70, [](int x, int y) {
+    const double t = x + 0.5;
+    return grey(y + 0.5 < 3 + (t < 100 ? t / 3.3 : 100 / 3.3 + (t - 100) / 5.4) ? 255 : 0);
+  });
+  golden.process(frame.view());
+  std::vector<int> lengths;
+  for (const PredictedRun& run : complete_runs(golden)) lengths.push_back(run.line.run.length);
+  TheoremCheck check;
+  check.look(lengths);
+  EXPECT_EQ(check.violations, 1u);
+}
+
+TEST(Theorem1, AnUnevenMixtureIsCaught) {
+  TheoremCheck check;
+  check.look({4, 4, 5, 5, 4});
+  EXPECT_EQ(check.violations, 0u);
+  EXPECT_EQ(check.not_isolated, 1u);
+}
+
+}  // namespace
+}  // namespace deburr

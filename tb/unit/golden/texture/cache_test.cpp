@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// The predicted cache, driven by tables: which lines of a sequence are fetched, for each policy.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "golden/texture/cache_predictor.h"
+#include "spec/error.h"
+
+namespace deburr {
+namespace {
+
+using golden::texture::CachePredictor;
+using spec::texture::Replacement;
+
+spec::texture::Parameters geometry(int bytes, int line, int ways,
+                                   Replacement replacement = Replacement::kLru) {
+  spec::texture::Parameters p;
+  p.cache_bytes = bytes;
+  p.cache_line_bytes = line;
+  p.cache_ways = ways;
+  p.cache_replacement = replacement;
+  return p;
+}
+
+struct Step {
+  std::uint32_t line;
+  bool hit;
+  const char* why;
+};
+
+void play(CachePredictor& cache, const std::vector<Step>& steps) {
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    EXPECT_EQ(cache.lookup(steps[i].line), steps[i].hit)
+        << "step " << i << ", line " << steps[i].line << ": " << steps[i].why;
+  }
+}
+
+// 4 sets of 2 ways: lines 0, 4, 8, 12 share set 0.
+TEST(Cache, LeastRecentlyUsed) {
+  CachePredictor cache(geometry(512, 64, 2));
+  EXPECT_EQ(cache.sets(), 4u);
+  play(cache, {{0, false, "first use"},
+               {0, true, "present from the moment its fill is ordered"},
+               {4, false, "second way"},
+               {1, false, "other set"},
+               {0, true, "still there"},
+               {8, false, "replaces 4, the least recently used"},
+               {0, true, "was used after 4"},
+               {4, false, "was replaced; replaces 8"},
+               {8, false, "was replaced; replaces 0"},
+               {4, true, "kept"},
+               {0, false, "was replaced"},
+               {1, true, "set 1 was never full"}});
+}
+
+TEST(Cache, FirstInFirstOut) {
+  CachePredictor cache(geometry(512, 64, 2, Replacement::kFifo));
+  play(cache, {{0, false, "first use"},
+               {4, false, "second way"},
+               {0, true, "a hit does not count"},
+               {8, false, "replaces 0, filled first"},
+               {4, true, "kept"},
+               {0, false, "was replaced; replaces 4"},
+               {8, true, "kept"},
+               {4, false, "was replaced; replaces 8"}});
+}
+
+// The shift register: 0xACE1 -> 0x5670 -> 0xAB38 -> 0x559C: bits by the rule of the contract.
+std::vector<std::uint32_t> shift_register(int steps) {
+  std::vector<std::uint32_t> values;
+  std::uint32_t r = 0xACE1;
+  for (int i = 0; i < steps; ++i) {
+    const auto bit = [r](int n) { return r >> n & 1; };
+    r = r >> 1 | (bit(0) ^ bit(2) ^ bit(3) ^ bit(5)) << 15;
+    values.push_back(r);
+  }
+  return values;
+}
+
+TEST(Cache, RandomTakesTheWaysOfTheShiftRegister) {
+  EXPECT_EQ(shift_register(3), (std::vector<std::uint32_t>{0x5670, 0xAB38, 0x559C}));
+  const auto values = shift_register(200);
+  CachePredictor cache(geometry(256, 64, 4, Replacement::kRandom));  // one set of 4 ways
+  std::vector<std::uint32_t> ways;
+  for (std::uint32_t line = 0; line < 4; ++line) {
+    EXPECT_FALSE(cache.lookup(line));  // invalid ways first: the register does not move
+    ways.push_back(line);
+  }
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    ASSERT_FALSE(cache.lookup(100 + i));
+    ways[values[i] % 4] = 100 + i;
+    for (const std::uint32_t line : ways) ASSERT_TRUE(cache.present(line)) << i;
+    if (i % 3 == 0) {
+      ASSERT_TRUE(cache.lookup(ways[i % 4]));  // hits do not move it either
+    }
+  }
+}
+
+TEST(Cache, InvalidationKeepsTheRandomSequenceAndResetRestartsIt) {
+  const auto victims = [](CachePredictor& cache) {
+    std::vector<std::uint32_t> ways = {0, 1, 2, 3};
+    std::string result;
+    for (std::uint32_t line = 0; line < 4; ++line) cache.lookup(line);
+    for (std::uint32_t line = 10; line < 26; ++line) {
+      cache.lookup(line);
+      for (std::size_t way = 0; way < 4; ++way) {
+        if (!cache.present(ways[way])) {
+          result += static_cast<char>('0' + way);
+          ways[way] = line;
+        }
+      }
+    }
+    return result;
+  };
+  CachePredictor cache(geometry(256, 64, 4, Replacement::kRandom));
+  const std::string first = victims(cache);
+  cache.invalidate();
+  EXPECT_FALSE(cache.present(0));
+  const std::string second = victims(cache);
+  cache.reset();
+  EXPECT_EQ(victims(cache), first);
+  EXPECT_NE(first, second);
+}
+
+std::vector<std::uint32_t> request(CachePredictor& cache, std::array<std::uint32_t, 4> lines) {
+  std::vector<std::uint32_t> fills;
+  cache.request(lines, [&](std::uint32_t line) { fills.push_back(line); });
+  return fills;
+}
+
+TEST(Cache, ARequestLooksUpEachDistinctLineOnceInOrderOfFirstUse) {
+  using Lines = std::vector<std::uint32_t>;
+  CachePredictor cache(geometry(512, 64, 2));
+  EXPECT_EQ(request(cache, {5, 5, 5, 5}), (Lines{5}));
+  EXPECT_EQ(request(cache, {7, 6, 7, 6}), (Lines{7, 6}));
+  EXPECT_EQ(request(cache, {3, 2, 1, 0}), (Lines{3, 2, 1, 0}));
+  EXPECT_EQ(request(cache, {3, 5, 1, 7}), (Lines{}));
+  EXPECT_EQ(request(cache, {3, 9, 3, 9}), (Lines{9}));
+}
+
+// Four lines of one set in two ways: the third evicts the first within the request, which the next
+// request has to fetch again.
+TEST(Cache, ARequestMayEvictItsOwnLines) {
+  using Lines = std::vector<std::uint32_t>;
+  CachePredictor cache(geometry(512, 64, 2));
+  EXPECT_EQ(request(cache, {0, 4, 8, 12}), (Lines{0, 4, 8, 12}));
+  EXPECT_EQ(request(cache, {0, 4, 8, 12}), (Lines{0, 4, 8, 12}));
+  EXPECT_EQ(request(cache, {8, 12, 8, 12}), (Lines{}));
+  // The order of use inside a request decides: 12, the later hit, is the most recent.
+  EXPECT_EQ(request(cache, {16, 16, 16, 16}), (Lines{16}));
+  EXPECT_TRUE(cache.present(12));
+  EXPECT_FALSE(cache.present(8));
+}
+
+TEST(Cache, DirectMappedAndFullyAssociative) {
+  CachePredictor direct(geometry(256, 32, 1));
+  EXPECT_EQ(direct.sets(), 8u);
+  play(direct, {{0, false, ""}, {8, false, "conflict"}, {0, false, "conflict"}, {1, false, ""}});
+  CachePredictor full(geometry(1024, 64, 16));
+  EXPECT_EQ(full.sets(), 1u);
+  for (std::uint32_t line = 0; line < 16; ++line) EXPECT_FALSE(full.lookup(line * 1000));
+  for (std::uint32_t line = 0; line < 16; ++line) EXPECT_TRUE(full.lookup(line * 1000));
+  EXPECT_EQ(full.line_of(64 * 5 + 63), 5u);
+}
+
+TEST(Cache, GeometryThatCannotBeIsAConfigError) {
+  EXPECT_THROW(CachePredictor(geometry(1000, 64, 2)), spec::ConfigError);
+  EXPECT_THROW(CachePredictor(geometry(1024, 48, 2)), spec::ConfigError);
+  EXPECT_THROW(CachePredictor(geometry(1024, 64, 3)), spec::ConfigError);
+  EXPECT_THROW(CachePredictor(geometry(1024, 64, 0)), spec::ConfigError);
+  EXPECT_THROW(CachePredictor(geometry(256, 64, 8)), spec::ConfigError);  // less than one set
+  EXPECT_NO_THROW(CachePredictor(geometry(512, 64, 8)));
+}
+
+}  // namespace
+}  // namespace deburr

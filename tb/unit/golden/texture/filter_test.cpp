@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Unpacking and filter arithmetic: every 16-bit texel, corner values, and the two-channel form
+// against the one-channel form.
+#include "golden/texture/filter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "golden/texture/sampling.h"
+
+namespace deburr {
+namespace {
+
+using namespace golden::texture;
+using spec::texture::Format;
+
+// U8.4 of an n-bit channel whose high bits repeat.
+std::uint32_t widened(std::uint32_t v, int bits) {
+  std::uint32_t eight = 0;
+  for (int shift = 8 - bits; shift > -bits; shift -= bits) {
+    eight |= shift >= 0 ? v << shift : v >> -shift;
+  }
+  return (eight & 255) << 4;
+}
+
+TEST(Decode, EverySixteenBitTexel) {
+  for (std::uint32_t word = 0; word < 65536; ++word) {
+    ASSERT_EQ(
+        decode_texel(Format::kRgb565, word),
+        (Texel{widened(word >> 11, 5), widened(word >> 5 & 63, 6), widened(word & 31, 5), 4080}));
+    ASSERT_EQ(decode_texel(Format::kRgba4444, word),
+              (Texel{widened(word >> 12, 4), widened(word >> 8 & 15, 4), widened(word >> 4 & 15, 4),
+                     widened(word & 15, 4)}));
+  }
+}
+
+TEST(Decode, WideningKeepsEndsAndIsWithinOneOfTheRatio) {
+  for (std::uint32_t v = 0; v < 32; ++v)
+    EXPECT_LE(std::abs(widened(v, 5) / 16.0 - v * 255 / 31.0), 1);
+  EXPECT_EQ(decode_texel(Format::kRgb565, 0xFFFF), (Texel{4080, 4080, 4080, 4080}));
+  EXPECT_EQ(decode_texel(Format::kRgb565, 0), (Texel{0, 0, 0, 4080}));
+  EXPECT_EQ(decode_texel(Format::kRgba4444, 0xF00F), (Texel{4080, 0, 0, 4080}));
+}
+
+TEST(Decode, EightBitFormatsAndTheOrderOfBytes) {
+  EXPECT_EQ(decode_texel(Format::kRgba8, 0x04030201), (Texel{16, 32, 48, 64}));
+  for (std::uint32_t c = 0; c < 256; ++c) {
+    EXPECT_EQ(decode_texel(Format::kL8, c), (Texel{c << 4, c << 4, c << 4, 4080}));
+    const Texel srgb = decode_texel(Format::kSrgb8A8, c * 0x01010101);
+    EXPECT_EQ(srgb, (Texel{spec::texture::kSrgbToLinear[c], spec::texture::kSrgbToLinear[c],
+                           spec::texture::kSrgbToLinear[c], c << 4}));
+  }
+}
+
+TEST(Decode, TwoChannelFormIsTheSame) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 200000; ++i) {
+    const auto word = static_cast<std::uint32_t>(random());
+    for (const Format format :
+         {Format::kRgba8, Format::kRgb565, Format::kRgba4444, Format::kL8, Format::kSrgb8A8}) {
+      ASSERT_EQ(to_texel(decode_channels(format, word)), decode_texel(format, word));
+    }
+  }
+}
+
+// Exhaustive over the two fractions: four equal texels give exactly that texel.
+TEST(Filter, EqualTexelsComeThroughUnchanged) {
+  for (const std::uint32_t v : {0u, 1u, 15u, 16u, 2048u, 4079u, 4080u}) {
+    for (std::uint32_t f_u = 0; f_u < 256; ++f_u) {
+      const std::uint32_t row = horizontal_lerp(v, v, f_u);
+      ASSERT_EQ(row, v << 8);
+      for (std::uint32_t f_v = 0; f_v < 256; ++f_v) ASSERT_EQ(vertical_lerp(row, row, f_v), row);
+      ASSERT_EQ(level_lerp(row, row, f_u), row);
+    }
+  }
+}
+
+TEST(Filter, EqualSamplesComeThroughUnchangedForEveryKernelAndCount) {
+  for (std::uint32_t c = 0; c < 256; ++c) {
+    for (const auto kernel : {spec::texture::Kernel::kBox, spec::texture::Kernel::kTent}) {
+      for (int lb_n = 0; lb_n <= 4; ++lb_n) {
+        std::uint32_t accumulator = 0;
+        for (int i = 0; i < 1 << lb_n; ++i) {
+          accumulator += sample_weight(kernel, i, lb_n) * (c << 12);
+        }
+        ASSERT_EQ(round_result(accumulator, kernel_log2_sum(kernel, lb_n)), c);
+      }
+    }
+  }
+}
+
+TEST(Filter, LerpsAreTheRoundedRealOnes) {
+  std::mt19937 random(2);
+  const auto below = [&](std::uint32_t n) {
+    return std::uniform_int_distribution<std::uint32_t>(0, n - 1)(random);
+  };
+  for (int i = 0; i < 300000; ++i) {
+    const std::uint32_t a = below(4081), b = below(4081), f = below(256);
+    ASSERT_EQ(horizontal_lerp(a, b, f), 256 * (a * (1 - f / 256.0) + b * (f / 256.0)));
+    const std::uint32_t c = below(4080 * 256 + 1), d = below(4080 * 256 + 1);
+    ASSERT_EQ(vertical_lerp(c, d, f), std::floor(c * (1 - f / 256.0) + d * (f / 256.0) + 0.5));
+    ASSERT_EQ(level_lerp(c, d, f), vertical_lerp(c, d, f));
+  }
+  EXPECT_EQ(level_lerp(std::uint32_t{12345}, std::uint32_t{99999}, 0), 12345u);
+}
+
+TEST(Filter, ResultRoundsTheTieUpwards) {
+  EXPECT_EQ(round_result((7u << 12) + 2047, 0), 7);
+  EXPECT_EQ(round_result((7u << 12) + 2048, 0), 8);
+  EXPECT_EQ(round_result(((7u << 12) + 2048) * 128 - 1, 7), 7);
+  EXPECT_EQ(round_result(((7u << 12) + 2048) * 128, 7), 8);
+  EXPECT_EQ(round_result((255u << 12) * 128, 7), 255);
+}
+
+// Two channels in one word never disturb each other, extreme values included.
+TEST(Filter, TwoChannelFormIsTheSame) {
+  std::mt19937 random(3);
+  const auto value = [&](std::uint32_t top) -> std::uint32_t {
+    switch (random() % 4) {
+      case 0:
+        return 0;
+      case 1:
+        return top;
+      default:
+        return std::uniform_int_distribution<std::uint32_t>(0, top)(random);
+    }
+  };
+  const auto pair = [](std::uint32_t low, std::uint32_t high) { return low | Lanes{high} << 32; };
+  for (int i = 0; i < 300000; ++i) {
+    const std::uint32_t f = static_cast<std::uint32_t>(random() & 255);
+    const std::uint32_t a = value(4080), b = value(4080), c = value(4080), d = value(4080);
+    ASSERT_EQ(horizontal_lerp(pair(a, b), pair(c, d), f),
+              pair(horizontal_lerp(a, c, f), horizontal_lerp(b, d, f)));
+    const std::uint32_t top = 4080 << 8;
+    const std::uint32_t p = value(top), q = value(top), r = value(top), s = value(top);
+    ASSERT_EQ(vertical_lerp(pair(p, q), pair(r, s), f),
+              pair(vertical_lerp(p, r, f), vertical_lerp(q, s, f)));
+    ASSERT_EQ(level_lerp(pair(p, q), pair(r, s), f),
+              pair(level_lerp(p, r, f), level_lerp(q, s, f)));
+  }
+}
+
+TEST(Filter, TwoChannelCheckFindsALostCarry) {
+  // Without the mask the upper half's dropped bits would fall into the lower half.
+  const Lanes a = 255 | Lanes{255} << 32;
+  const Lanes unmasked = (a * 1 + 128 * kOneInBothLanes) >> 8;
+  EXPECT_NE(unmasked, vertical_lerp(a, Lanes{0}, 255));
+}
+
+}  // namespace
+}  // namespace deburr

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// The real-arithmetic references themselves: EWA against a brute-force sum, the box against areas
+// known in closed form, and the drivers over quads.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "golden/ideal/box.h"
+#include "golden/ideal/ewa.h"
+#include "golden/ideal/footprint.h"
+#include "golden/ideal/lod.h"
+#include "golden/ideal/texture_image.h"
+#include "spec/error.h"
+#include "tb/unit/golden/texture/support.h"
+
+namespace deburr {
+namespace {
+
+using namespace golden::ideal;
+
+TextureImage image(const tb::texture::Pyramid& picture,
+                   spec::texture::Wrap wrap = spec::texture::Wrap::kRepeat) {
+  const auto& base = picture.levels.front();
+  return TextureImage(base.width, base.height, picture.base_bytes(), wrap, wrap);
+}
+
+tb::texture::Pyramid ramp(int size) {
+  return tb::texture::Pyramid(size, size, [](int x, int y) {
+    return tb::texture::Rgba{static_cast<std::uint8_t>(2 * x), static_cast<std::uint8_t>(3 * y), 10,
+                             255};
+  });
+}
+
+// ---- footprints ---------------------------------------------------------------------------------
+
+TEST(IdealFootprint, OfALaneIsItsOwnRowAndColumn) {
+  spec::texture::Quad quad;
+  const double one = spec::texture::kCoordinateOne;
+  quad.s = {0, static_cast<int>(one / 4), static_cast<int>(one / 8), static_cast<int>(one / 2)};
+  quad.t = {0, 0, static_cast<int>(one / 16), static_cast<int>(one / 16)};
+  const PixelFootprint f = pixel_footprint(quad, 3, 64, 32);
+  EXPECT_DOUBLE_EQ(f.s, 32);
+  EXPECT_DOUBLE_EQ(f.t, 2);
+  EXPECT_DOUBLE_EQ(f.s_x, 64 * 0.375);
+  EXPECT_DOUBLE_EQ(f.t_x, 0);
+  EXPECT_DOUBLE_EQ(f.s_y, 64 * 0.25);
+  EXPECT_DOUBLE_EQ(f.t_y, 2);
+  quad.coverage = 0b1010;
+  const spec::texture::Quad quads[] = {quad, quad};
+  EXPECT_EQ(pixel_footprints(quads, 64, 32).size(), 4u);
+}
+
+TEST(IdealFootprint, FigureOneOfThePaper) {
+  const PixelFootprint f{.s_x = 6, .t_x = 3, .s_y = -1, .t_y = 2};
+  const Sides d = sides(f);
+  EXPECT_DOUBLE_EQ(d.d_max, 3 * std::sqrt(5.0));
+  EXPECT_DOUBLE_EQ(d.d_min, std::sqrt(5.0));
+  spec::texture::Descriptor descriptor;
+  descriptor.max_anisotropy_log2 = 4;
+  EXPECT_EQ(level_of_detail({}, descriptor, f).lb_n, 1);  // N = 2 by the rule of section 1.3
+}
+
+// ---- box ----------------------------------------------------------------------------------------
+
+TEST(Box, OfALinearRampIsItsCentre) {
+  const TextureImage texture = image(ramp(64));
+  const PixelFootprint f{32.3, 30.1, 5, 2, -1, 7};
+  for (const int n : {1, 4, 32}) {
+    const Colour c = box(texture, f, n);
+    EXPECT_NEAR(c[0], 2 * (32.3 - 0.5), 1e-3);
+    EXPECT_NEAR(c[1], 3 * (30.1 - 0.5), 1e-3);
+    EXPECT_NEAR(c[2], 10, 1e-4);
+  }
+}
+
+TEST(Box, OfACheckerboardIsTheWhiteArea) {
+  const TextureImage texture = image(tb::texture::checkerboard(64, 8));
+  // 8 x 8 texels shifted by (3, 2) over one corner of four cells: white (5 x 6 + 3 x 2) / 64.
+  const PixelFootprint f{7, 6, 8, 0, 0, 8};
+  EXPECT_NEAR(box(texture, f, 32, Tap::kPoint)[0], 255 * 36.0 / 64, 1e-3);
+  EXPECT_NEAR(box(texture, f, 64, Tap::kPoint)[0], 255 * 36.0 / 64, 1e-3);
+  // Far away: half of everything.
+  EXPECT_NEAR(box(texture, {7, 6, 160, 3, -5, 160}, 64, Tap::kPoint)[0], 127.5, 3);
+}
+
+TEST(Box, HonoursWrapModes) {
+  const tb::texture::Pyramid picture = ramp(16);
+  const PixelFootprint outside{-3.5, 40.5, 0, 0, 0, 0};
+  EXPECT_NEAR(box(image(picture), outside, 1)[0], 2 * 12, 1e-4);
+  EXPECT_NEAR(box(image(picture, spec::texture::Wrap::kClampToEdge), outside, 1)[0], 0, 1e-4);
+  EXPECT_NEAR(box(image(picture, spec::texture::Wrap::kClampToEdge), outside, 1)[1], 3 * 15, 1e-4);
+  EXPECT_NEAR(box(image(picture, spec::texture::Wrap::kMirroredRepeat), outside, 1)[0], 2 * 3,
+              1e-4);
+  EXPECT_NEAR(box(image(picture, spec::texture::Wrap::kMirroredRepeat), outside, 1)[1], 3 * 8,
+              1e-4);
+}
+
+// ---- EWA ----------------------------------------------------------------------------------------
+
+// The definition without any trick: every texel of a large window, the conic from the inverse of
+// J J^T + V.
+Colour brute_force_ewa(const tb::texture::Pyramid& picture, const PixelFootprint& f,
+                       const EwaOptions& options) {
+  const auto& base = picture.levels.front();
+  const double a = f.s_x * f.s_x + f.s_y * f.s_y + options.reconstruction;
+  const double b = f.s_x * f.t_x + f.s_y * f.t_y;
+  const double c = f.t_x * f.t_x + f.t_y * f.t_y + options.reconstruction;
+  const double determinant = a * c - b * b;
+  Colour sum{};
+  double weights = 0;
+  for (int y = -100; y < 200; ++y) {
+    for (int x = -100; x < 200; ++x) {
+      const double u = x + 0.5 - f.s, v = y + 0.5 - f.t;
+      const double r2 = (c * u * u - 2 * b * u * v + a * v * v) / determinant;
+      if (r2 > options.radius * options.radius) continue;
+      double weight = std::exp(-options.alpha * r2);
+      if (options.taper) weight -= std::exp(-options.alpha * options.radius * options.radius);
+      const auto wrapped = [](int i, int size) { return ((i % size) + size) % size; };
+      const auto& texel = base.at(wrapped(x, base.width), wrapped(y, base.height));
+      weights += weight;
+      for (std::size_t k = 0; k < 4; ++k) sum[k] += weight * texel[k];
+    }
+  }
+  for (double& channel : sum) channel /= weights;
+  return sum;
+}
+
+double largest_difference(const Colour& a, const Colour& b) {
+  double largest = 0;
+  for (std::size_t c = 0; c < 4; ++c) largest = std::max(largest, std::abs(a[c] - b[c]));
+  return largest;
+}
+
+TEST(Ewa, IsTheSumOfItsDefinition) {
+  const tb::texture::Pyramid picture = tb::texture::noise(48, 40, 9);
+  const TextureImage texture = image(picture);
+  for (const EwaOptions& options :
+       {EwaOptions{}, EwaOptions{.taper = true}, EwaOptions{.radius = 2.5},
+        EwaOptions{.alpha = 4, .radius = 1.5, .reconstruction = 0.25}}) {
+    for (const PixelFootprint& f :
+         {PixelFootprint{20.2, 17.9, 9, 4, -2, 3}, PixelFootprint{0.5, 0.5, 0.3, 0, 0, 0.3},
+          PixelFootprint{30, 3, 25, -20, 1, 1}, PixelFootprint{10.73, 11.1, 0, 12, 12, 0}}) {
+      EXPECT_LT(largest_difference(ewa(texture, f, options), brute_force_ewa(picture, f, options)),
+                1e-6)
+          << options.alpha << " " << options.radius << " at " << f.s;
+    }
+  }
+}
+
+TEST(Ewa, ComparisonFindsAnotherShape) {
+  const tb::texture::Pyramid picture = tb::texture::noise(48, 40, 9);
+  const PixelFootprint f{20.2, 17.9, 9, 4, -2, 3}, transposed{20.2, 17.9, 4, 9, 3, -2};
+  EXPECT_GT(largest_difference(ewa(image(picture), f), brute_force_ewa(picture, transposed, {})),
+            1);
+}
+
+TEST(Ewa, HugeEllipsesReadASmallerLevelWithAboutTheSameResult) {
+  const TextureImage texture = image(ramp(64));
+  const PixelFootprint f{32, 32, 14, 3, -4, 11};
+  const Colour all = ewa(texture, f), fewer = ewa(texture, f, {.most_texels = 60});
+  EXPECT_LT(largest_difference(all, fewer), 0.5);
+  // A pixel at the horizon: thousands of texels long, answered at once.
+  EXPECT_NEAR(ewa(image(tb::texture::checkerboard(64, 8)), {0, 0, 9000, 20, 5, 16000})[0], 127.5,
+              1);
+}
+
+TEST(Ewa, AnEllipseWithoutTexelsReadsThePoint) {
+  const Colour c = ewa(image(ramp(64)), {20, 20, 0.01, 0, 0, 0.01}, {.reconstruction = 0});
+  EXPECT_NEAR(c[0], 2 * 19.5, 1e-3);
+}
+
+// ---- texture image ------------------------------------------------------------------------------
+
+TEST(IdealTexture, LevelsAreExactAreaMeans) {
+  const tb::texture::Pyramid picture = tb::texture::noise(7, 5, 3);
+  const TextureImage texture = image(picture);
+  ASSERT_EQ(texture.levels(), 3);  // 7x5, 3x2, 1x1
+  double mean = 0;
+  for (const auto& texel : picture.levels.front().texels) mean += texel[1];
+  EXPECT_NEAR(texture.level(2).texels[0].g, mean / 35, 1e-3);
+}
+
+TEST(IdealTexture, SrgbIsDecodedToLinearLight) {
+  const std::uint8_t bytes[] = {0, 128, 255, 77};
+  const TextureImage texture(1, 1, bytes, spec::texture::Wrap::kRepeat,
+                             spec::texture::Wrap::kRepeat, true);
+  EXPECT_NEAR(texture.level(0).texels[0].r, 0, 1e-6);
+  EXPECT_NEAR(texture.level(0).texels[0].g, 255 * 0.21586, 1e-2);
+  EXPECT_NEAR(texture.level(0).texels[0].b, 255, 1e-4);
+  EXPECT_NEAR(texture.level(0).texels[0].a, 77, 1e-6);
+}
+
+TEST(IdealTexture, WrongSizesAreConfigErrors) {
+  const std::uint8_t bytes[16] = {};
+  EXPECT_THROW(TextureImage(2, 3, bytes), spec::ConfigError);
+  EXPECT_THROW(TextureImage(0, 0, {}), spec::ConfigError);
+  EXPECT_THROW(psnr(std::vector<Colour>(3), bytes), spec::ConfigError);
+}
+
+TEST(Psnr, OfOneLevelOffEverywhere) {
+  const std::vector<Colour> reference(2, Colour{10, 20, 30, 40});
+  const std::uint8_t equal[] = {10, 20, 30, 0, 10, 20, 30, 9},
+                     off[] = {11, 19, 31, 0, 9, 21, 29, 0};
+  EXPECT_EQ(psnr(reference, equal), std::numeric_limits<double>::infinity());  // alpha is left out
+  EXPECT_NEAR(psnr(reference, off), 48.13, 0.01);
+}
+
+}  // namespace
+}  // namespace deburr

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+// Sample count, level, fraction and filter against GL's formulas in real arithmetic, over every
+// level of detail, mode, count rule, N_max and clamp.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "golden/ideal/lod.h"
+#include "golden/texture/footprint.h"
+#include "golden/texture/level_of_detail.h"
+
+namespace deburr {
+namespace {
+
+using golden::texture::LevelOfDetail;
+using golden::texture::select_level;
+using spec::texture::MinFilter;
+
+constexpr MinFilter kMinFilters[] = {MinFilter::kNearest,
+                                     MinFilter::kLinear,
+                                     MinFilter::kNearestMipmapNearest,
+                                     MinFilter::kLinearMipmapNearest,
+                                     MinFilter::kNearestMipmapLinear,
+                                     MinFilter::kLinearMipmapLinear};
+
+spec::texture::Descriptor descriptor(MinFilter filter, int levels = 11) {
+  spec::texture::Descriptor d;
+  d.width = d.height = static_cast<std::uint16_t>(1 << (levels - 1));
+  d.levels = static_cast<std::uint8_t>(levels);
+  d.min_filter = filter;
+  d.mag_filter = spec::texture::MagFilter::kNearest;
+  return d;
+}
+
+// The contract in the words of GL, in real numbers (all of which are exact here).
+LevelOfDetail by_formula(const spec::texture::Parameters& p, const spec::texture::Descriptor& d,
+                         std::int32_t lb_max, std::int32_t lb_min) {
+  LevelOfDetail r;
+  r.lb_d_max = lb_max;
+  r.lb_d_min = lb_min;
+  r.anisotropy = std::max(0, lb_max - lb_min);
+  const double big_l = r.anisotropy / 4096.0, lb_d_max = lb_max / 4096.0;
+  double lb_n = p.count == spec::texture::CountRule::kCeil ? std::ceil(big_l) : std::floor(big_l);
+  lb_n = std::min(lb_n, static_cast<double>(d.max_anisotropy_log2));
+  if (p.count_cap == spec::texture::CountCap::kTexel) {
+    lb_n = std::min(lb_n, std::max(0.0, std::ceil(lb_d_max)));
+  }
+  if (lb_d_max <= 0) lb_n = 0;
+  r.lb_n = static_cast<int>(lb_n);
+  const double l = std::min(std::max(lb_d_max - lb_n + d.lod_bias / 256.0, d.min_lod / 256.0),
+                            d.max_lod / 256.0);
+  r.l = static_cast<std::int32_t>(4096 * l);
+  if (l <= 0) {
+    r.magnified = true;
+    r.linear = d.mag_filter == spec::texture::MagFilter::kLinear;
+    return r;
+  }
+  const double q = d.levels - 1;
+  switch (d.min_filter) {
+    case MinFilter::kLinear:
+    case MinFilter::kLinearMipmapNearest:
+    case MinFilter::kLinearMipmapLinear:
+      r.linear = true;
+      break;
+    default:
+      break;
+  }
+  if (d.min_filter == MinFilter::kNearestMipmapNearest ||
+      d.min_filter == MinFilter::kLinearMipmapNearest) {
+    r.level = l <= 0.5 ? 0 : static_cast<int>(std::min(std::ceil(l + 0.5) - 1, q));
+  } else if (d.min_filter == MinFilter::kNearestMipmapLinear ||
+             d.min_filter == MinFilter::kLinearMipmapLinear) {
+    const double rounded = std::floor(256 * l + 0.5) / 256;
+    r.level = static_cast<int>(std::min(std::floor(rounded), q));
+    r.fraction = rounded >= q ? 0 : static_cast<std::uint32_t>(256 * (rounded - r.level));
+  }
+  return r;
+}
+
+using Select =
+    std::function<LevelOfDetail(const spec::texture::Parameters&, const spec::texture::Descriptor&,
+                                std::int32_t, std::int32_t)>;
+
+// Number of differences to the formula over every l from -3 to 14 and a fan of parameters.
+int differences(const Select& select) {
+  int count = 0;
+  spec::texture::Parameters p;
+  for (const MinFilter filter : kMinFilters) {
+    for (const int levels : {1, 2, 11}) {
+      for (std::int32_t lb_max = -3 * 4096; lb_max <= 14 * 4096; ++lb_max) {
+        const auto d = descriptor(filter, levels);
+        if (!(select(p, d, lb_max, lb_max) == by_formula(p, d, lb_max, lb_max))) ++count;
+      }
+    }
+  }
+  for (const auto rule : {spec::texture::CountRule::kFloor, spec::texture::CountRule::kCeil}) {
+    for (const auto cap : {spec::texture::CountCap::kNone, spec::texture::CountCap::kTexel}) {
+      for (int n = 0; n <= 4; ++n) {
+        for (std::int32_t lb_max = -2 * 4096; lb_max <= 6 * 4096; lb_max += 1024) {
+          for (std::int32_t anisotropy = -130; anisotropy <= 6 * 4096; anisotropy += 1) {
+            if (anisotropy % 4096 > 3 && anisotropy % 4096 < 4093 && anisotropy % 97 != 0) continue;
+            p.count = rule;
+            p.count_cap = cap;
+            auto d = descriptor(MinFilter::kLinearMipmapLinear);
+            d.max_anisotropy_log2 = static_cast<std::uint8_t>(n);
+            const std::int32_t lb_min = lb_max - anisotropy;
+            if (!(select(p, d, lb_max, lb_min) == by_formula(p, d, lb_max, lb_min))) ++count;
+          }
+        }
+      }
+    }
+  }
+  return count;
+}
+
+TEST(Level, IsGlsFormulaForEveryLevelModeAndCount) { EXPECT_EQ(differences(select_level), 0); }
+
+TEST(Level, CheckFindsPlantedFaults) {
+  // Rounding of l at 8 bits truncated, GL's rounding to the nearest level off by one step, N_max
+  // ignored.
+  EXPECT_GT(differences([](const auto& p, const auto& d, std::int32_t a, std::int32_t b) {
+              return select_level(p, d, a - 8, b - 8);
+            }),
+            0);
+  EXPECT_GT(differences([](const auto& p, const auto& d, std::int32_t a, std::int32_t b) {
+              LevelOfDetail r = select_level(p, d, a, b);
+              if (d.min_filter == MinFilter::kLinearMipmapNearest && r.l % 4096 == 2048) ++r.level;
+              return r;
+            }),
+            0);
+  EXPECT_GT(differences([](const auto& p, auto d, std::int32_t a, std::int32_t b) {
+              d.max_anisotropy_log2 = 4;
+              return select_level(p, d, a, b);
+            }),
+            0);
+}
+
+TEST(Level, BiasAndClampsAsInTheContract) {
+  std::mt19937 random(3);
+  const auto pick = [&](int low, int high) {
+    return std::uniform_int_distribution<int>(low, high)(random);
+  };
+  spec::texture::Parameters p;
+  for (int i = 0; i < 300000; ++i) {
+    auto d = descriptor(kMinFilters[pick(0, 5)], pick(1, 13));
+    d.max_anisotropy_log2 = static_cast<std::uint8_t>(pick(0, 4));
+    d.mag_filter =
+        pick(0, 1) == 0 ? spec::texture::MagFilter::kNearest : spec::texture::MagFilter::kLinear;
+    // All of S7.8 and U8.8, and often limits that bite.
+    d.lod_bias = static_cast<std::int16_t>(pick(0, 1) == 0 ? pick(-32768, 32767) : pick(-900, 900));
+    d.min_lod = static_cast<std::uint16_t>(pick(0, 2) == 0 ? pick(0, 65535) : 0);
+    d.max_lod = static_cast<std::uint16_t>(pick(0, 2) == 0 ? pick(0, 65535) : 12 << 8);
+    p.count = pick(0, 1) == 0 ? spec::texture::CountRule::kFloor : spec::texture::CountRule::kCeil;
+    const std::int32_t lb_max = pick(-16 * 4096, 16 * 4096), lb_min = lb_max - pick(-118, 70000);
+    ASSERT_EQ(select_level(p, d, lb_max, lb_min), by_formula(p, d, lb_max, lb_min)) << i;
+  }
+}
+
+TEST(Level, ALowerLimitAboveTheUpperOneGivesTheUpperOne) {
+  auto d = descriptor(MinFilter::kLinearMipmapNearest);
+  d.min_lod = 5 << 8;
+  d.max_lod = 2 << 8;
+  EXPECT_EQ(select_level({}, d, 0, 0).l, 2 << 12);
+  EXPECT_EQ(select_level({}, d, 9 << 12, 9 << 12).level, 2);
+  d.max_lod = 0;  // then everything is magnified
+  EXPECT_TRUE(select_level({}, d, 9 << 12, 9 << 12).magnified);
+}
+
+TEST(Level, SwitchesOverAtZero) {
+  for (const MinFilter filter : kMinFilters) {
+    const auto d = descriptor(filter);
+    EXPECT_TRUE(select_level({}, d, 0, 0).magnified);
+    EXPECT_FALSE(select_level({}, d, 1, 1).magnified);
+  }
+}
+
+// Paper 004, Fig. 1: s_x = 6, t_x = 3, sides 3 sqrt 5 and sqrt 5.
+TEST(Level, FigureOneOfThePaperTakesTwoSamples) {
+  const auto f = golden::texture::footprint(spec::texture::FootprintRule::kHalf, 6 << 16, 3 << 16,
+                                            1 << 16, 2 << 16);
+  auto d = descriptor(MinFilter::kLinearMipmapLinear);
+  d.max_anisotropy_log2 = 4;
+  const auto log2 = [](std::uint32_t x) {
+    return golden::texture::log2_fixed(spec::texture::Log2Rule::kMitchell, x);
+  };
+  const LevelOfDetail r = select_level({}, d, log2(f.d_max), log2(f.d_min));
+  EXPECT_EQ(r.anisotropy, 1.625 * 4096);
+  EXPECT_EQ(r.samples(), 2);
+  EXPECT_EQ(r.l, 1.875 * 4096);
+}
+
+// With exact rules the fixed level is the real one but for its last bits, wherever N agrees.
+TEST(Level, ExactRulesComeCloseToRealArithmetic) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> octave(-2, 9), angle(0, 6.28318);
+  spec::texture::Parameters p;
+  p.footprint = spec::texture::FootprintRule::kExact;
+  p.log2 = spec::texture::Log2Rule::kExact;
+  auto d = descriptor(MinFilter::kLinearMipmapLinear);
+  d.max_anisotropy_log2 = 4;
+  int flips = 0;
+  double largest = 0;
+  for (int i = 0; i < 100000; ++i) {
+    golden::ideal::PixelFootprint f;
+    const double dx = std::exp2(octave(random)), dy = std::exp2(octave(random));
+    const double ax = angle(random), ay = angle(random);
+    f.s_x = dx * std::cos(ax);
+    f.t_x = dx * std::sin(ax);
+    f.s_y = dy * std::cos(ay);
+    f.t_y = dy * std::sin(ay);
+    const auto fixed = [](double x) {
+      return static_cast<std::uint32_t>(std::lround(std::abs(x) * 65536));
+    };
+    const auto footprint = golden::texture::footprint(p.footprint, fixed(f.s_x), fixed(f.t_x),
+                                                      fixed(f.s_y), fixed(f.t_y));
+    const auto r = select_level(p, d, golden::texture::log2_fixed(p.log2, footprint.d_max),
+                                golden::texture::log2_fixed(p.log2, footprint.d_min));
+    const auto ideal = golden::ideal::level_of_detail(p, d, f);
+    if (r.lb_n != ideal.lb_n) {
+      ++flips;
+      continue;
+    }
+    largest = std::max(largest, std::abs(r.l / 4096.0 - ideal.l));
+  }
+  EXPECT_LE(largest, 0.0007);
+  EXPECT_LE(flips, 100);  // of 100 000: only where L is within the logarithm's error of an integer
+}
+
+}  // namespace
+}  // namespace deburr

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+// Where samples lie, what they weigh, and which texels a coordinate touches: against exact rational
+// arithmetic and GL's integer formulas for wrapping.
+#include "golden/texture/sampling.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <random>
+
+namespace deburr {
+namespace {
+
+using namespace golden::texture;
+using spec::texture::Wrap;
+
+constexpr std::int64_t kOne = spec::texture::kCoordinateOne;
+constexpr Wrap kWraps[] = {Wrap::kRepeat, Wrap::kMirroredRepeat, Wrap::kClampToEdge};
+
+// ---- walker -------------------------------------------------------------------------------------
+
+TEST(Walker, OffsetsAreTheRoundedFractionsOfTheAxis) {
+  std::mt19937_64 random(1);
+  for (int lb_n = 0; lb_n <= 4; ++lb_n) {
+    const int n = 1 << lb_n;
+    for (int trial = 0; trial < 20000; ++trial) {
+      const auto difference =
+          static_cast<std::int64_t>(random() >> (31 + trial % 24)) * (trial % 2 == 0 ? 1 : -1);
+      const auto spread = static_cast<std::int32_t>(trial % 129);
+      for (int i = 0; i < n; ++i) {
+        // ((2 i + 1) / 2 N - 1/2) x spread / 64 x difference: every product is below 2^53.
+        const double exact =
+            (2.0 * i + 1 - n) * spread * static_cast<double>(difference) / (128.0 * n);
+        ASSERT_EQ(sample_offset(i, lb_n, spread, difference), std::floor(exact + 0.5))
+            << n << ' ' << i << ' ' << spread << ' ' << difference;
+      }
+    }
+  }
+}
+
+TEST(Walker, SamplesAreSymmetricAndOneSampleIsTheCentre) {
+  EXPECT_EQ(sample_offset(0, 0, 128, 0xFFFFFFFF), 0);
+  for (const std::int64_t difference : {std::int64_t{1}, std::int64_t{-12345}, kOne * 200}) {
+    for (int lb_n = 1; lb_n <= 4; ++lb_n) {
+      const int n = 1 << lb_n;
+      for (int i = 0; i < n; ++i) {
+        const std::int64_t sum =
+            sample_offset(i, lb_n, 64, difference) + sample_offset(n - 1 - i, lb_n, 64, difference);
+        EXPECT_GE(sum, 0);  // a tie rounds up on both sides
+        EXPECT_LE(sum, 1);
+      }
+    }
+  }
+}
+
+TEST(Walker, WeightsSumToTheirPowerOfTwo) {
+  for (const auto kernel : {spec::texture::Kernel::kBox, spec::texture::Kernel::kTent}) {
+    for (int lb_n = 0; lb_n <= 4; ++lb_n) {
+      std::uint32_t sum = 0;
+      for (int i = 0; i < 1 << lb_n; ++i) {
+        sum += sample_weight(kernel, i, lb_n);
+        EXPECT_EQ(sample_weight(kernel, i, lb_n), sample_weight(kernel, (1 << lb_n) - 1 - i, lb_n));
+      }
+      EXPECT_EQ(sum, 1u << kernel_log2_sum(kernel, lb_n));
+    }
+  }
+  EXPECT_EQ(sample_weight(spec::texture::Kernel::kTent, 3, 3), 7u);  // 1 3 5 7 7 5 3 1
+}
+
+// ---- wrapping -----------------------------------------------------------------------------------
+
+// GL 4.6, table 8.20, on integer texel coordinates.
+int gl_wrap(Wrap wrap, std::int64_t i, int size) {
+  const auto modulo = [](std::int64_t a, std::int64_t b) { return ((a % b) + b) % b; };
+  const auto mirror = [](std::int64_t a) { return a >= 0 ? a : -(1 + a); };
+  switch (wrap) {
+    case Wrap::kRepeat:
+      return static_cast<int>(modulo(i, size));
+    case Wrap::kMirroredRepeat:
+      return static_cast<int>((size - 1) - mirror(modulo(i, 2 * size) - size));
+    case Wrap::kClampToEdge:
+      break;
+  }
+  return static_cast<int>(std::clamp<std::int64_t>(i, 0, size - 1));
+}
+
+using Position = std::function<TexelPosition(Wrap, std::int64_t, std::int32_t)>;
+
+std::int64_t floor_divide(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
+
+// Coordinates from -4 to 4 around every texel edge and middle, and one step to either side.
+void for_each_coordinate(int size, const std::function<void(std::int64_t)>& visit) {
+  for (std::int64_t i = -8 * size; i <= 8 * size; ++i) {
+    const std::int64_t at = floor_divide(i * kOne, 2 * size);
+    for (std::int64_t step = -2; step <= 2; ++step) visit(at + step);
+    visit(at + kOne / (8 * size));
+  }
+}
+
+int nearest_differences(const Position& position, Wrap wrap, int size) {
+  int count = 0;
+  for_each_coordinate(size, [&](std::int64_t p) {
+    const TexelPosition ours = position(wrap, p, size);
+    const int gl = gl_wrap(wrap, floor_divide(p * size, kOne), size);
+    if (ours.i0 == gl && ours.i1 == gl && ours.fraction == 0) return;
+    // Reflection at 2^25 - 1 - q may fall a texel aside within a step of the edge of a texel, where
+    // the size is no power of two.
+    const bool power_of_two = (size & (size - 1)) == 0;
+    const std::int64_t to_edge = p * size - floor_divide(p * size, kOne) * kOne;
+    const bool at_edge = to_edge <= size || to_edge >= kOne - size;
+    if (wrap == Wrap::kMirroredRepeat && !power_of_two && at_edge && std::abs(ours.i0 - gl) <= 1 &&
+        ours.i0 == ours.i1) {
+      return;
+    }
+    ++count;
+  });
+  return count;
+}
+
+TEST(Wrapping, NearestIsGlsForAllSmallSizes) {
+  for (const Wrap wrap : kWraps) {
+    for (int size = 1; size <= 33; ++size) {
+      EXPECT_EQ(nearest_differences(nearest_position, wrap, size), 0)
+          << static_cast<int>(wrap) << ' ' << size;
+    }
+    EXPECT_EQ(nearest_differences(nearest_position, wrap, 4096), 0);
+    EXPECT_EQ(nearest_differences(nearest_position, wrap, 4095), 0);
+  }
+}
+
+// Weight of each texel of a linear lookup, by GL's formulas with an exact fraction.
+std::map<int, double> gl_weights(Wrap wrap, std::int64_t p, int size) {
+  const std::int64_t u = p * size - kOne / 2;
+  const std::int64_t i = floor_divide(u, kOne);
+  const double f = static_cast<double>(u - i * kOne) / static_cast<double>(kOne);
+  std::map<int, double> weights;
+  weights[gl_wrap(wrap, i, size)] += 1 - f;
+  weights[gl_wrap(wrap, i + 1, size)] += f;
+  return weights;
+}
+
+int linear_differences(const Position& position, Wrap wrap, int size) {
+  int count = 0;
+  for_each_coordinate(size, [&](std::int64_t p) {
+    const TexelPosition ours = position(wrap, p, size);
+    std::map<int, double> difference = gl_weights(wrap, p, size);
+    difference[ours.i0] -= (256 - ours.fraction) / 256.0;
+    difference[ours.i1] -= ours.fraction / 256.0;
+    // The fraction is rounded to 1/256; a reflected coordinate is a step off.
+    const double tolerance = 0.5 / 256 + 2.0 * size / static_cast<double>(kOne);
+    for (const auto& [texel, weight] : difference) {
+      if (std::abs(weight) > tolerance) {
+        ++count;
+        break;
+      }
+    }
+  });
+  return count;
+}
+
+TEST(Wrapping, LinearWeightsAreGlsForAllSmallSizes) {
+  for (const Wrap wrap : kWraps) {
+    for (int size = 1; size <= 33; ++size) {
+      EXPECT_EQ(linear_differences(linear_position, wrap, size), 0)
+          << static_cast<int>(wrap) << ' ' << size;
+    }
+    EXPECT_EQ(linear_differences(linear_position, wrap, 4096), 0);
+    EXPECT_EQ(linear_differences(linear_position, wrap, 4095), 0);
+  }
+}
+
+TEST(Wrapping, ChecksFindPlantedFaults) {
+  const Position half_texel = [](Wrap wrap, std::int64_t p, std::int32_t size) {
+    return linear_position(wrap, p + kOne / 2 / size, size);
+  };
+  const Position clamped = [](Wrap, std::int64_t p, std::int32_t size) {
+    return linear_position(Wrap::kClampToEdge, p, size);
+  };
+  const Position mirror_off_by_one = [](Wrap wrap, std::int64_t p, std::int32_t size) {
+    const std::int64_t q = p & (2 * kOne - 1);
+    const std::int64_t wrong = q >= kOne ? (2 * kOne - q) : q;
+    return nearest_position(wrap == Wrap::kMirroredRepeat ? Wrap::kClampToEdge : wrap,
+                            wrap == Wrap::kMirroredRepeat ? wrong : p, size);
+  };
+  EXPECT_GT(linear_differences(half_texel, Wrap::kRepeat, 8), 0);
+  EXPECT_GT(linear_differences(clamped, Wrap::kRepeat, 8), 0);
+  EXPECT_GT(linear_differences(clamped, Wrap::kMirroredRepeat, 8), 0);
+  EXPECT_GT(nearest_differences(mirror_off_by_one, Wrap::kMirroredRepeat, 8), 0);
+}
+
+TEST(Wrapping, EndsOfTheSampleRangeStayInside) {
+  for (const Wrap wrap : kWraps) {
+    for (const int size : {1, 2, 3, 4095, 4096}) {
+      for (const std::int64_t p : {-(std::int64_t{1} << 33), (std::int64_t{1} << 33) - 1}) {
+        for (const Position& position : {Position(linear_position), Position(nearest_position)}) {
+          const TexelPosition x = position(wrap, p, size);
+          EXPECT_GE(std::min(x.i0, x.i1), 0);
+          EXPECT_LT(std::max(x.i0, x.i1), size);
+          EXPECT_LE(x.fraction, 255u);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace deburr

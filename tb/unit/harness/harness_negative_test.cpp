@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// Planted faults: each check of the harness must be able to fail, with the right exit code and a
+// text that says where.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "rtl_model/fabric/memory_port.h"
+#include "tb/harness/bench.h"
+#include "tb/harness/memory_model.h"
+#include "tb/harness/scoreboard.h"
+#include "tb/unit/fabric/support.h"
+
+namespace deburr::tb {
+namespace {
+
+using rtl::Cycle;
+using spec::ExitCode;
+using testing::AllOf;
+using testing::HasSubstr;
+
+template <class F>
+std::string text_of(F&& action, ExitCode code) {
+  try {
+    action();
+  } catch (const spec::Error& error) {
+    EXPECT_EQ(error.code(), code) << error.what();
+    return error.what();
+  }
+  ADD_FAILURE() << "no error";
+  return {};
+}
+
+// A run of 300 tokens with a scoreboard, an optional fault, and the link checkers on or off.
+void run(const std::vector<std::string>& faults, bool check_links, Cycle patience = 1000,
+         std::uint32_t stall_permille = 200) {
+  Pipeline p(300, stall_permille);
+  Scoreboard<Token> board("pipeline", 300, [](const Token& t) {
+    return fmt::format("token {} = {}", t.number, t.value);
+  });
+  for (std::uint32_t i = 0; i < 300; ++i) board.expect({i, i * 1000 + 10});
+  p.sink.on_beat = [&](Cycle, const Token& t) { board.got(t); };
+  BenchOptions options;
+  options.faults = faults;
+  options.check_links = check_links;
+  options.patience = patience;
+  Bench bench(p.clock, options);
+  std::uint64_t idle = 0, seen = 0;
+  bench.run(
+      [&] {  // until nothing has come for a while after the driver has ended
+        idle = p.sink.received() == seen ? idle + 1 : 0;
+        seen = p.sink.received();
+        return p.driver.done() && idle > 200;
+      },
+      20'000);
+  board.check();
+}
+
+TEST(Negative, TheSameRunWithoutAFaultPasses) { EXPECT_NO_THROW(run({}, true)); }
+
+TEST(Negative, DroppedBeatIsSeenByTheScoreboard) {
+  const std::string text = text_of([] { run({"drop:link_2:100"}, false); }, ExitCode::kMismatch);
+  EXPECT_THAT(text, AllOf(HasSubstr("item 100: expected token 100 = 100010, got token 101"),
+                          HasSubstr("1 expected but never came")));
+}
+TEST(Negative, DroppedBeatIsSeenByTheLinkChecker) {
+  const std::string text = text_of([] { run({"drop:link_2:100"}, true); }, ExitCode::kSimulation);
+  EXPECT_THAT(text, AllOf(HasSubstr("link_2"), HasSubstr("vanished"), HasSubstr("adder_1")));
+}
+TEST(Negative, DuplicatedBeatIsSeenByTheScoreboard) {
+  const std::string text = text_of([] { run({"duplicate:link_0:7"}, false); }, ExitCode::kMismatch);
+  EXPECT_THAT(text, HasSubstr("item 8: expected token 8 = 8010, got token 7"));
+}
+TEST(Negative, DuplicatedBeatIsSeenByTheLinkChecker) {
+  const std::string text =
+      text_of([] { run({"duplicate:link_4:299"}, true); }, ExitCode::kSimulation);
+  EXPECT_THAT(text, AllOf(HasSubstr("link_4"), HasSubstr("appeared")));
+}
+TEST(Negative, FlippedBitIsSeenByTheScoreboard) {
+  const std::string text = text_of([] { run({"flip:link_3:50:35"}, false); }, ExitCode::kMismatch);
+  EXPECT_THAT(text, AllOf(HasSubstr("1 mismatches in 300"), HasSubstr("item 50")));
+}
+TEST(Negative, FlippedBitIsSeenByTheLinkChecker) {
+  const std::string text = text_of([] { run({"flip:link_3:50:35"}, true); }, ExitCode::kSimulation);
+  EXPECT_THAT(text, AllOf(HasSubstr("beat 50 changed while it waited"), HasSubstr("byte 4")));
+}
+
+TEST(Negative, StuckReadyIsADeadlockWithAPicture) {
+  const std::string text =
+      text_of([] { run({"stuck_ready:link_3:150"}, true); }, ExitCode::kDeadlock);
+  EXPECT_THAT(text, HasSubstr("no link has moved a beat for 1"));
+  EXPECT_THAT(text, testing::ContainsRegex("link_2 +2 of 2 FULL"));
+  EXPECT_THAT(text, testing::ContainsRegex("link_3 +0 of 2;"));
+  EXPECT_THAT(text, HasSubstr("adder_2.tokens_out -> adder_3.tokens_in"));
+  EXPECT_THAT(text, testing::ContainsRegex("adder_2 +stalled: downstream"));
+  EXPECT_THAT(text, testing::ContainsRegex("adder_3 +idle"));
+}
+
+TEST(Negative, WatchdogIsNeitherEarlyNorMuchTooLate) {
+  Pipeline p(1'000'000, 0);
+  FaultInjector faults(p.clock, {Fault::parse("stuck_ready:link_0:5000")});
+  Watchdog watchdog(p.clock, 400);
+  p.clock.run(5000 + 400);
+  EXPECT_THROW(p.clock.run(200), spec::DeadlockError);
+}
+
+TEST(Negative, FaultThatIsNeverReachedIsNoResult) {
+  EXPECT_THAT(text_of([] { run({"drop:link_2:300"}, true); }, ExitCode::kSimulation),
+              HasSubstr("never reached"));
+}
+
+TEST(Negative, FaultsThatDoNotExist) {
+  Pipeline p(10);
+  for (const char* text : {"melt:link_0:1", "drop:link_0", "drop:link_0:x", "flip:link_0:1",
+                           "flip:link_0:1:64", "drop:link_9:1", "", ":::"})
+    EXPECT_THROW(FaultInjector(p.clock, {Fault::parse(text)}), spec::ConfigError) << text;
+}
+
+TEST(Negative, ScoreboardWithTooFewComparisons) {
+  Scoreboard<int> board("board", 2);
+  board.expect(1);
+  board.got(1);
+  EXPECT_THAT(text_of([&] { board.check(); }, ExitCode::kMismatch),
+              HasSubstr("only 1 comparisons, at least 2 are needed"));
+}
+TEST(Negative, ScoreboardWithLeftovers) {
+  Scoreboard<int> board("board", 1);
+  board.expect(1);
+  board.expect(2);
+  board.got(1);
+  EXPECT_THAT(text_of([&] { board.check(); }, ExitCode::kMismatch),
+              HasSubstr("1 expected but never came, the first: item 1: 2"));
+}
+TEST(Negative, ScoreboardWithWhatNobodyExpects) {
+  Scoreboard<int> board("board", 1, {}, [](int v) { return static_cast<std::uint64_t>(v) / 10; });
+  board.expect(15);
+  board.got(15);
+  board.got(25, "cycle 7");
+  EXPECT_THAT(text_of([&] { board.check(); }, ExitCode::kMismatch),
+              HasSubstr("cycle 7: got 25, expected nothing"));
+}
+TEST(Negative, ScoreboardThatSawNothing) {
+  EXPECT_THROW(Scoreboard<int>("board", 1).check(), Mismatch);
+}
+
+TEST(Negative, BeatsLeftInALink) {
+  Pipeline p(300);
+  Bench bench(p.clock);
+  EXPECT_THAT(text_of([&] { bench.run([&] { return p.sink.received() == 200; }, 10'000); },
+                      ExitCode::kSimulation),
+              HasSubstr("links are not empty"));
+}
+
+TEST(Negative, RunThatDoesNotEnd) {
+  Pipeline p(300);
+  Bench bench(p.clock);
+  EXPECT_THAT(text_of([&] { bench.run([&] { return p.sink.received() == 301; }, 5000); },
+                      ExitCode::kSimulation),
+              HasSubstr("not done after 5000 cycles"));
+}
+
+TEST(Negative, ABudgetThatIsSpentSaysHowFarItCame) {
+  Pipeline p(300);
+  BenchOptions options;
+  options.at_limit = [&] { return "only " + std::to_string(p.sink.received()) + " came"; };
+  Bench bench(p.clock, options);
+  EXPECT_THAT(text_of([&] { bench.run([&] { return p.sink.received() == 300; }, 50); },
+                      ExitCode::kSimulation),
+              testing::ContainsRegex("^clock: only [1-9][0-9]* came\n\nlinks "));
+}
+
+TEST(Negative, ScopeOfATraceThatMatchesNothing) {
+  Pipeline p(10);
+  BenchOptions options;
+  options.trace = rtl::TraceOptions{testing::TempDir() + "none.vcd", {"link_*", "adder"}};
+  const std::string text = text_of([&] { Bench(p.clock, options); }, ExitCode::kUsage);
+  EXPECT_THAT(text, HasSubstr("matches adder "));
+  EXPECT_THAT(text, HasSubstr("\n  link_2"));
+  EXPECT_THAT(text, HasSubstr("\n  adder_2"));
+}
+
+TEST(Negative, ImpossibleStallsAndMemories) {
+  Pipeline p(300);
+  EXPECT_THROW(StallInjector(p.clock, {1000, 0, 1, "*"}), spec::ConfigError);
+  EXPECT_THROW(StallInjector(p.clock, {10, 0, 1, "nothing"}), spec::ConfigError);
+  MemoryModelParameters parameters;
+  parameters.latency_max = 1;
+  EXPECT_THROW(MemoryModel("memory", p.clock.period(), parameters), spec::ConfigError);
+}
+
+// A response that never comes.
+TEST(Negative, LostResponseIsADeadlock) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  Driver<rtl::MemoryRequest> driver("driver", clock);
+  rtl::MemoryPort port("port", clock);
+  Sink<rtl::MemoryResponse> sink("sink", clock);
+  rtl::Link<rtl::MemoryRequest> requests("requests");
+  rtl::Link<rtl::MemoryResponse> responses("responses");
+  MemoryModel memory("memory", clock.period());
+  driver.beats_out(requests);
+  port.requests_in(requests);
+  port.responses_out(responses);
+  sink.beats_in(responses);
+  port.memory.bind(memory.ports);
+  memory.lose_request(17);
+  for (std::uint32_t i = 0; i < 50; ++i) {
+    rtl::MemoryRequest request;
+    request.address = i * 64;
+    request.tag = i;
+    driver.send(request);
+  }
+  BenchOptions options;
+  options.patience = 500;
+  Bench bench(clock, options);
+  const std::string text = text_of(
+      [&] { bench.run([&] { return sink.received() == 50; }, 10'000); }, ExitCode::kDeadlock);
+  EXPECT_THAT(text, HasSubstr("1 transactions wait for the memory"));
+  EXPECT_THAT(text, testing::ContainsRegex("port +stalled: memory"));
+  EXPECT_EQ(sink.received(), 49U);
+}
+
+}  // namespace
+}  // namespace deburr::tb

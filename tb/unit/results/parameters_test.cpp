@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+// Parameters by name: every way to set one, and every way in which it must be refused.
+#include "spec/texture/parameters.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "spec/error.h"
+#include "tb/results/parameter_set.h"
+
+namespace deburr::tb {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+enum class Colour : std::uint8_t { kRed, kGreen };
+constexpr std::array<std::string_view, 2> kColourNames = {"red", "green"};
+
+struct Sample {
+  std::int32_t ways = 2;
+  std::int64_t cycles = 0;
+  Colour colour = Colour::kGreen;
+  bool shuffle = false;
+  double stalls = 0;
+  std::string source = "plane";
+};
+
+template <class Visitor>
+void describe(Sample& p, Visitor& v) {
+  v.integer("cache.ways", p.ways, 1, 16, "way", "Associativity.");
+  v.integer("cycles", p.cycles, 0, std::int64_t{1} << 40, "clk", "Limit.");
+  v.choice("colour", p.colour, kColourNames, "Colour.");
+  v.boolean("shuffle", p.shuffle, "Order.");
+  v.real("stalls", p.stalls, 0, 0.9, "probability", "Stalls.");
+  v.text("source", p.source, "name", "Scene.");
+}
+
+class Parameters : public testing::Test {
+ protected:
+  Parameters() { set_.add("unit", values_); }
+  ~Parameters() override {
+    for (const auto& file : files_) std::filesystem::remove(file);
+  }
+
+  std::string file(const std::string& content) {
+    const auto path = std::filesystem::temp_directory_path() /
+                      ("deburr_parameters_" + std::to_string(::getpid()) + "_" +
+                       std::to_string(files_.size()) + ".yaml");
+    std::ofstream(path) << content;
+    files_.push_back(path);
+    return path.string();
+  }
+  // The text of the ConfigError that `action` must throw.
+  template <class Action>
+  static std::string complaint(Action action) {
+    try {
+      action();
+    } catch (const spec::ConfigError& error) {
+      return error.what();
+    }
+    ADD_FAILURE() << "no ConfigError";
+    return "";
+  }
+  std::string refused(const std::string& yaml) {
+    const std::string path = file(yaml);
+    const std::string text = complaint([&] { set_.load(path); });
+    EXPECT_THAT(text, StartsWith(path + ":"));
+    return text.substr(std::min(text.size(), path.size()));
+  }
+
+  Sample values_;
+  ParameterSet set_;
+  std::vector<std::filesystem::path> files_;
+};
+
+TEST_F(Parameters, EveryKindIsSetByItsDottedName) {
+  set_.set("unit.cache.ways", "4", "test");
+  set_.set("unit.cycles", "10000000000", "test");
+  set_.set("unit.colour", "red", "test");
+  set_.set("unit.shuffle", "true", "test");
+  set_.set("unit.stalls", "0.25", "test");
+  set_.set_assignment("unit.source=a=b", "test");
+  EXPECT_EQ(values_.ways, 4);
+  EXPECT_EQ(values_.cycles, 10000000000);
+  EXPECT_EQ(values_.colour, Colour::kRed);
+  EXPECT_TRUE(values_.shuffle);
+  EXPECT_EQ(values_.stalls, 0.25);
+  EXPECT_EQ(values_.source, "a=b");
+}
+
+TEST_F(Parameters, WrongValuesNameTheOriginTheValueAndTheRange) {
+  struct Case {
+    const char *name, *value, *expected;
+  };
+  for (const Case& c : {Case{"unit.cache.ways", "17", "is outside 1..16"},
+                        Case{"unit.cache.ways", "0", "is outside 1..16"},
+                        Case{"unit.cache.ways", "4.5", "wants an integer"},
+                        Case{"unit.cache.ways", "", "wants an integer"},
+                        Case{"unit.cache.ways", "99999999999999999999", "wants an integer"},
+                        Case{"unit.colour", "gren", "did you mean 'green'?"},
+                        Case{"unit.shuffle", "maybe", "wants true or false"},
+                        Case{"unit.stalls", "1", "is outside 0..0.9"},
+                        Case{"unit.stalls", "nan", "wants a number"}}) {
+    const std::string text = complaint([&] { set_.set(c.name, c.value, "--set"); });
+    EXPECT_THAT(text, StartsWith("--set: "));
+    EXPECT_THAT(text, HasSubstr(c.name));
+    EXPECT_THAT(text, HasSubstr(c.expected));
+  }
+  EXPECT_EQ(values_.ways, 2) << "a refused value must not be kept";
+}
+
+TEST_F(Parameters, UnknownNamesShowNearMatches) {
+  EXPECT_THAT(complaint([&] { set_.set("unit.cache.wasy", "1", "--set"); }),
+              HasSubstr("did you mean 'unit.cache.ways'?"));
+  EXPECT_THAT(complaint([&] { set_.set("shuffle", "true", "--set"); }),
+              HasSubstr("did you mean 'unit.shuffle'?"));
+  EXPECT_THAT(complaint([&] { set_.set("completely.different.thing", "1", "--set"); }),
+              testing::Not(HasSubstr("did you mean")));
+  EXPECT_THAT(complaint([&] { set_.set_assignment("unit.shuffle", "--set"); }),
+              HasSubstr("name=value"));
+}
+
+TEST_F(Parameters, YamlTakesNestedMapsAndDottedNames) {
+  set_.load(file("# a comment\nunit:\n  cache: {ways: 8}\n  colour: red\nunit.stalls: 0.5\n"));
+  EXPECT_EQ(values_.ways, 8);
+  EXPECT_EQ(values_.colour, Colour::kRed);
+  EXPECT_EQ(values_.stalls, 0.5);
+  set_.load(file(""));
+  set_.load(file("# nothing but a comment\n"));
+}
+
+TEST_F(Parameters, YamlErrorsNameFileAndLine) {
+  EXPECT_THAT(refused("unit:\n  colour: red\n  cache:\n    wais: 1\n"),
+              testing::AllOf(StartsWith(":4"), HasSubstr("unit.cache.ways")));
+  EXPECT_THAT(refused("unit.shuffle: true\nunit:\n  shuffle: false\n"),
+              testing::AllOf(StartsWith(":3"), HasSubstr("given twice"), HasSubstr(":1")));
+  EXPECT_THAT(refused("unit:\n  stalls: 0.1\n  stalls: 0.2\n"), HasSubstr("given twice"));
+  EXPECT_THAT(refused("unit:\n  cache.ways: 99\n"),
+              testing::AllOf(StartsWith(":2"), HasSubstr("outside")));
+  EXPECT_THAT(refused("unit:\n  cache.ways: [1, 2]\n"), HasSubstr("a list"));
+  EXPECT_THAT(refused("unit:\n  cache.ways:\n"), HasSubstr("nothing"));
+  EXPECT_THAT(refused("- a\n- b\n"), HasSubstr("expected a map"));
+  EXPECT_THAT(refused("[\n"), HasSubstr("not valid YAML"));
+  EXPECT_THAT(refused("unit: {shuffle: true\n"), HasSubstr("not valid YAML"));
+  EXPECT_THAT(refused("[1, 2]: 3\n"), HasSubstr("a key must be a name"));
+}
+
+TEST_F(Parameters, AMissingConfigurationIsAFileError) {
+  EXPECT_THROW(set_.load("/nonexistent/run.yaml"), spec::FileError);
+  EXPECT_THROW(set_.load("/"), spec::FileError);
+}
+
+TEST_F(Parameters, TheResolvedConfigurationLoadsAgain) {
+  set_.set("unit.source", "a \"quoted\" # name: x", "test");
+  set_.set("unit.cache.ways", "16", "test");
+  const std::string yaml = set_.yaml();
+  Sample other;
+  ParameterSet again;
+  again.add("unit", other);
+  again.load(file(yaml));
+  EXPECT_EQ(other.source, values_.source);
+  EXPECT_EQ(other.ways, 16);
+  EXPECT_EQ(again.resolved(), set_.resolved());
+}
+
+TEST_F(Parameters, APresetFillsInWhatIsNotGiven) {
+  set_.set("unit.cache.ways", "8", "--set");
+  set_.imply("unit.cache.ways", "4", "preset small");
+  set_.imply("unit.colour", "red", "preset small");
+  EXPECT_EQ(values_.ways, 8);
+  EXPECT_EQ(values_.colour, Colour::kRed);
+  ASSERT_EQ(set_.changed().size(), 1u);
+  EXPECT_EQ(set_.changed()[0]->name, "unit.cache.ways");
+  // What the preset made gives way to another preset beside the file; what was given does not.
+  EXPECT_THAT(set_.yaml(), StartsWith("unit.cache.ways: 8  # Assoc"));
+  EXPECT_THAT(set_.yaml(), HasSubstr("\n# unit.colour: \"red\"  # By preset small. Colour."));
+}
+
+TEST_F(Parameters, WhatHasNoEffectIsRefusedWhereItWasGiven) {
+  const auto complaint = [&] {
+    try {
+      set_.refuse_all("unit.cache", "there is no cache");
+    } catch (const spec::ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(complaint(), "") << "not given";
+  set_.load(file("unit.cache.ways: 2\n"));
+  EXPECT_EQ(complaint(), "") << "a file may hold a default";
+  set_.load(file("\nunit.cache.ways: 4\n"));
+  EXPECT_THAT(complaint(),
+              HasSubstr(".yaml:2: 'unit.cache.ways' = '4' has no effect: there is no"));
+  set_.imply("unit.cache.ways", "4", "preset small");
+  EXPECT_EQ(complaint(), "") << "a file may hold what the preset makes";
+  set_.set("unit.cache.ways", "2", "--ways");
+  EXPECT_THAT(complaint(), StartsWith("--ways: "));
+  set_.set("unit.cache.ways", "4", "--ways");
+  EXPECT_THAT(complaint(), StartsWith("--ways: ")) << "on the command line nothing is in vain";
+}
+
+TEST_F(Parameters, EveryDefaultOfTheTextureUnitIsWithinItsRange) {
+  spec::texture::Parameters texture;
+  ParameterSet set;
+  set.add("texture", texture);
+  EXPECT_FALSE(set.all().empty());
+  for (const Parameter& p : set.all()) {
+    EXPECT_EQ(p.parse(p.default_value), "") << p.name;
+    EXPECT_FALSE(p.meaning.empty()) << p.name;
+    EXPECT_EQ(p.meaning.back(), '.') << p.name;
+  }
+}
+
+TEST(EditDistance, CountsEditsAndSwaps) {
+  EXPECT_EQ(edit_distance("", ""), 0);
+  EXPECT_EQ(edit_distance("", "abc"), 3);
+  EXPECT_EQ(edit_distance("ways", "wasy"), 1);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
+  const std::vector<std::string> presets = {"mlaa", "mlaa-slope", "deburr"};
+  EXPECT_THAT(near_matches("MLAA", presets), testing::ElementsAre("mlaa"));
+  EXPECT_THAT(near_matches("Debur", presets), testing::ElementsAre("deburr"));
+  EXPECT_THAT(near_matches("ram", presets), testing::IsEmpty());
+}
+
+TEST(EditDistance, DidYouMeanReadsWell) {
+  EXPECT_EQ(did_you_mean({}), "");
+  EXPECT_EQ(did_you_mean({"a"}), ": did you mean 'a'?");
+  EXPECT_EQ(did_you_mean({"a", "b", "c"}), ": did you mean 'a', 'b' or 'c'?");
+}
+
+}  // namespace
+}  // namespace deburr::tb

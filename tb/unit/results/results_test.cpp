@@ -1,0 +1,477 @@
+// SPDX-License-Identifier: MIT
+// What a run leaves behind: result.json, comparison, report, progress, files.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "spec/error.h"
+#include "tb/results/compare.h"
+#include "tb/results/file.h"
+#include "tb/results/headline.h"
+#include "tb/results/progress.h"
+#include "tb/results/report.h"
+#include "tb/results/result.h"
+#include "tb/results/run_context.h"
+
+namespace deburr::tb {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using Json = nlohmann::ordered_json;
+
+Result sample_result() {
+  Result r;
+  r.unit = "texture";
+  r.verdict = Verdict::kPass;
+  r.comparisons = 1000;
+  r.cycles = 54321;
+  r.clock_mhz = 166.67;
+  r.throughput = 0.98;
+  r.throughput_bound = 1;
+  r.throughput_unit = "bilinear/clk";
+  r.latency = {17, 20, 90, 130, 180, {{16, 700}, {32, 200}, {64, 60}, {128, 40}}};
+  r.bytes_read = 640000;
+  r.lines_filled = 10000;
+  r.units = {{"address", 40000, 13000, {{"downstream", "The next unit was not ready.", 1321}}},
+             {"cache", 53000, 321, {{"downstream", "", 0}, {"wait_fill", "", 1000}}}};
+  r.bottleneck = find_bottleneck(r.units, "cache");
+  r.sram = {{"cache.data", "1R1W", 131072, 131072}, {"cache.lines", "2RW", 5120, 1280}};
+  r.work = {{"fragments", 1000, "fragment", "Colours </script><script>alert(1)</script>."}};
+  r.figures = {{"Fragments", "work.fragments", "a remark"},
+               {"Whole run", "cycles", "bound", "work.bound", true}};
+  r.work.push_back({"bound", 50000, "clk", "The least."});
+  r.quality = Quality{
+      "supersampled-256", 41.25, std::numeric_limits<double>::infinity(), {}, 35.5, 30.25, {}};
+  r.host_seconds = 0.05;
+  return r;
+}
+
+TEST(Headline, IsTheWholeMessageWithoutItsDetails) {
+  EXPECT_EQ(headline("one line"), "one line");
+  EXPECT_EQ(headline("no such link; there are:\n  a\n  b\n"), "no such link; there are: a, b");
+  EXPECT_EQ(headline("nothing moves\n\nlinks:\n  a 0 of 2\n"), "nothing moves");
+  EXPECT_EQ(headline("first,\r\n\tsecond"), "first, second");
+  EXPECT_EQ(headline(""), "");
+  EXPECT_EQ(headline("\n\ndetails"), "");
+}
+
+class Directory : public testing::Test {
+ protected:
+  Directory() {
+    path_ =
+        std::filesystem::temp_directory_path() / ("deburr_results_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(path_);
+  }
+  ~Directory() override { std::filesystem::remove_all(path_); }
+  std::filesystem::path path_;
+};
+
+TEST(ResultJson, HasTheKeysOfSchemaOneInOrder) {
+  const Json json = to_json(sample_result());
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : json.items()) keys.push_back(key);
+  EXPECT_THAT(keys,
+              testing::ElementsAre("schema", "unit", "verdict", "checks", "cycles", "clock_mhz",
+                                   "throughput", "latency", "memory", "units", "bottleneck",
+                                   "sram_bits", "sram_bits_at_frame_width", "sram_ports", "work",
+                                   "figures", "quality", "host", "meaning"));
+  EXPECT_EQ(json["schema"], 1);
+  EXPECT_EQ(json["checks"]["comparisons"], 1000);
+  EXPECT_EQ(json["units"]["address"]["stalls"]["downstream"], 1321);
+  EXPECT_EQ(json["latency"]["histogram"][1]["count"], 200);
+  EXPECT_EQ(json["quality"]["psnr_edge_db"], "inf");
+  EXPECT_TRUE(json["quality"]["psnr_silhouette_db"].is_null());
+}
+
+// Every number in the file has a unit and a meaning beside it.
+void expect_described(const Json& node, const std::string& path, const Json& meanings) {
+  if (node.is_object()) {
+    for (const auto& [key, value] : node.items())
+      if (key != "meaning")
+        expect_described(value, path.empty() ? key : path + "." + key, meanings);
+    return;
+  }
+  EXPECT_TRUE(meanings.contains(path)) << path;
+}
+
+TEST(ResultJson, EveryKeyHasUnitAndMeaning) {
+  const Json json = to_json(sample_result());
+  expect_described(json, "", json["meaning"]);
+}
+
+TEST_F(Directory, AnIncompleteOrForeignResultIsRefused) {
+  EXPECT_THROW(read_result(path_), spec::FileError);
+  const auto refuse = [&](const std::string& text) {
+    std::ofstream(path_ / "result.json") << text;
+    EXPECT_THROW(read_result(path_), spec::FileError) << text;
+  };
+  refuse("");
+  refuse("{");
+  refuse("[1]");
+  refuse(R"({"schema": 2})");
+  refuse(R"({"schema": 1, "unit": "texture"})");
+  std::ofstream(path_ / "result.json") << to_json(sample_result()).dump();
+  EXPECT_EQ(read_result(path_)["cycles"], 54321);
+  EXPECT_EQ(read_result(path_ / "result.json")["cycles"], 54321);
+}
+
+TEST(Compare, TheSameIsNotWorse) {
+  const Json a = to_json(sample_result());
+  EXPECT_FALSE(compare(a, a, {}).worse);
+}
+
+TEST(Compare, EachJudgedValueIsJudgedInItsDirection) {
+  const Json a = to_json(sample_result());
+  const auto worse = [&](auto change) {
+    Result r = sample_result();
+    change(r);
+    return compare(a, to_json(r), {}).worse;
+  };
+  EXPECT_FALSE(worse([](Result& r) { r.cycles = 55000; })) << "within 2 %";
+  EXPECT_TRUE(worse([](Result& r) { r.cycles = 56000; }));
+  EXPECT_FALSE(worse([](Result& r) { r.cycles = 100; })) << "better";
+  EXPECT_TRUE(worse([](Result& r) { r.throughput = 0.9; }));
+  EXPECT_TRUE(worse([](Result& r) { r.latency.p99 = 200; }));
+  EXPECT_TRUE(worse([](Result& r) { r.bytes_read = 700000; }));
+  EXPECT_TRUE(worse([](Result& r) { r.mismatches = 1; }));
+  EXPECT_TRUE(worse([](Result& r) { r.traffic_mismatches = 1; }));
+  EXPECT_TRUE(worse([](Result& r) { r.verdict = Verdict::kFail; }));
+  EXPECT_TRUE(worse([](Result& r) { r.verdict = Verdict::kUnchecked; }));
+  EXPECT_TRUE(worse([](Result& r) { r.quality->psnr_db = 41.1; }));
+  EXPECT_FALSE(worse([](Result& r) { r.quality->psnr_db = 41.22; }));
+  EXPECT_TRUE(worse([](Result& r) { r.quality->psnr_edge_db = 60.0; })) << "identical before";
+  EXPECT_TRUE(worse([](Result& r) { r.quality.reset(); })) << "a quality that is gone";
+  EXPECT_FALSE(worse([](Result& r) { r.host_seconds = 100; })) << "the host is not judged";
+}
+
+TEST(Compare, OnlyWhatDiffersOrIsWorseIsListed) {
+  const Json a = to_json(sample_result());
+  EXPECT_TRUE(compare(a, a, {}).values.empty());
+  Result r = sample_result();
+  r.cycles += 1;
+  ASSERT_EQ(compare(a, to_json(r), {}).values.size(), 1u);
+  EXPECT_EQ(compare(a, to_json(r), {}).values[0].key, "cycles");
+  r.cycles -= 1;
+  r.mismatches = 3;
+  const Comparison same = compare(to_json(r), to_json(r), {});
+  ASSERT_EQ(same.values.size(), 1u) << "equal, and wrong on both sides";
+  EXPECT_TRUE(same.values[0].worse);
+  r.unit = "frame";
+  EXPECT_THROW(compare(a, to_json(r), {}), spec::ConfigError);
+}
+
+TEST(Compare, DifferentWorkIsNamed) {
+  const auto manifest = [](const char* hash, int width, double clock, const char* source) {
+    return Json{
+        {"inputs", *hash ? Json::array({{{"file", "x.png"}, {"sha256", hash}}}) : Json::array()},
+        {"configuration",
+         {{"frame.width", width}, {"run.clock_mhz", clock}, {"frame.source", source}}}};
+  };
+  const Json a = manifest("11", 640, 148.5, "x.png"), scene = manifest("", 640, 148.5, "road");
+  EXPECT_TRUE(different_work(a, a).empty());
+  EXPECT_TRUE(different_work(a, manifest("11", 640, 148.5, "moved/x.png")).empty());
+  EXPECT_EQ(different_work(a, manifest("22", 640, 148.5, "x.png")).size(), 1u);
+  EXPECT_EQ(different_work(a, manifest("11", 641, 148.5, "x.png")).size(), 1u);
+  EXPECT_EQ(different_work(a, manifest("11", 640, 166.67, "x.png")).size(), 1u);
+  EXPECT_EQ(different_work(a, scene).size(), 1u);
+  EXPECT_EQ(different_work(scene, manifest("", 640, 148.5, "object")).size(), 1u);
+}
+
+TEST_F(Directory, TheReportIsSelfContainedAndEscapes) {
+  ParameterSet parameters;
+  RunContext context(path_, parameters, "deburr run texture --set a='<b>'", 7);
+  context.set_title("A <title> & more", "summary");
+  context.claim();
+  context.begin();
+  context.add_image("before", Image(4, 3, {10, 20, 30, 255}), "Before", "");
+  context.add_image("after", Image(4, 3, {11, 20, 30, 255}), "After", "");
+  context.finish(sample_result());
+  const std::string page = read_file(path_ / "report.html", 1 << 24);
+  EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
+  EXPECT_THAT(page, HasSubstr("A &lt;title&gt; &amp; more"));
+  EXPECT_THAT(page, Not(HasSubstr("</script><script>alert(1)")));
+  EXPECT_THAT(page, HasSubstr("\\u003c/script>"));
+  EXPECT_THAT(page, HasSubstr("<noscript>"));
+  EXPECT_THAT(page, HasSubstr("deburr run texture --set a=&apos;&lt;b&gt;&apos;"));
+  EXPECT_THAT(page, HasSubstr("Chart.js v3"));
+  // Nothing may be fetched: the page forbids it to itself, and refers to nothing.
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+  for (const char* reference : {"src=\"http", "href=\"http", "@import", "<link"})
+    EXPECT_THAT(page, Not(HasSubstr(reference)));
+  const Json manifest = Json::parse(read_file(path_ / "manifest.json", 1 << 20));
+  for (const char* key :
+       {"commit", "compiler", "systemc", "command", "seed", "configuration", "inputs", "host"})
+    EXPECT_TRUE(manifest.contains(key)) << key;
+  for (const auto& entry : std::filesystem::directory_iterator(path_))
+    EXPECT_THAT(entry.path().extension().string(), testing::AnyOf(".json", ".html", ".png"));
+}
+
+// The page of a result.
+class Page : public Directory {
+ protected:
+  std::string page_of(const Result& result) {
+    ParameterSet parameters;
+    RunContext context(path_, parameters, "x", 0);
+    context.claim();
+    context.begin();
+    context.finish(result);
+    return read_file(path_ / "report.html", 1 << 24);
+  }
+};
+
+TEST_F(Page, ShowsWhatTheIssueAsksForFirst) {
+  const std::string page = page_of(sample_result());
+  EXPECT_THAT(page, HasSubstr("bound 50,000, +8.6\u00a0%")) << "the tile, against its formula";
+  EXPECT_THAT(page, HasSubstr("<td>Whole frame</td><td class=\"n\">35.50</td><td class=\"n\">"
+                              "41.25</td><td class=\"n\">+5.75</td>"));
+  EXPECT_THAT(page, HasSubstr("<td class=\"n\">identical</td>"));
+  EXPECT_THAT(page, Not(HasSubstr("Silhouette pixels"))) << "there was no depth";
+  EXPECT_THAT(page, HasSubstr("<td>cache.lines</td><td class=\"n\">1,280</td><td class=\"n\">"
+                              "5,120</td><td>2RW</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>total</td><td class=\"n\">132,352</td><td class=\"n\">136,192"));
+  EXPECT_THAT(page, HasSubstr("Limited by cache: stalled, wait fill"));
+  EXPECT_THAT(page, HasSubstr("<td>a remark</td>"));
+  EXPECT_THAT(page, HasSubstr("id=\"latency\""));
+}
+
+TEST_F(Page, SaysEqualOnlyOfWhatIsEqual) {
+  Result r = sample_result();
+  r.cycles = 50000;
+  EXPECT_THAT(page_of(r), HasSubstr("= bound"));
+  ++r.cycles;
+  EXPECT_THAT(page_of(r), Not(HasSubstr("= bound")));
+}
+
+TEST_F(Page, DrawsNoHistogramOfOneValue) {
+  Result r = sample_result();
+  r.latency = {47366, 47366, 47366, 47366, 47366, {{47366, 1000}}};
+  const std::string page = page_of(r);
+  EXPECT_THAT(page, Not(HasSubstr("id=\"latency\"")));
+  EXPECT_THAT(page, HasSubstr("47,366 clk, every one"));
+}
+
+TEST_F(Page, OfAnInterruptedRunSaysWhatWasCompared) {
+  Result r = sample_result();
+  r.verdict = Verdict::kUnchecked;
+  r.interrupted = true;
+  const std::string page = page_of(r);
+  EXPECT_THAT(page, HasSubstr("of 1,000 comparisons, incomplete"));
+  EXPECT_THAT(page, HasSubstr("Incomplete: the run was interrupted"));
+  r.comparisons = 0;
+  EXPECT_THAT(page_of(r), HasSubstr("not checked against the golden model"));
+}
+
+// A result.json of an earlier version has none of the newer keys.
+TEST_F(Page, CanBeMadeFromAnOlderResult) {
+  page_of(sample_result());
+  Json json = Json::parse(read_file(path_ / "result.json", 1 << 20));
+  for (const char* key : {"bottleneck", "sram_bits_at_frame_width", "sram_ports", "figures"})
+    json.erase(key);
+  json["throughput"].erase("bound_meaning");
+  for (const char* key : {"psnr_before_db", "psnr_edge_before_db"}) json["quality"].erase(key);
+  std::ofstream(path_ / "result.json") << json.dump();
+  const std::string page = build_report(path_);
+  EXPECT_THAT(page, HasSubstr("<td>cache.lines</td><td class=\"n\">5,120</td>"));
+  EXPECT_THAT(page, Not(HasSubstr("Key figures")));
+}
+
+TEST_F(Directory, AManifestCannotPullInFilesFromElsewhere) {
+  ParameterSet parameters;
+  RunContext context(path_, parameters, "x", 0);
+  context.begin();
+  context.finish(sample_result());
+  std::ofstream(path_ / "manifest.json") << R"({"images": [{"file": "../../etc/passwd"}]})";
+  EXPECT_THROW(build_report(path_), spec::FileError);
+  std::ofstream(path_ / "manifest.json") << "[]";
+  EXPECT_THROW(build_report(path_), spec::FileError);
+}
+
+// A run's results under path_, with one picture.
+void leave_results(const std::filesystem::path& path) {
+  ParameterSet parameters;
+  RunContext context(path, parameters, "x", 0);
+  context.claim();
+  context.begin();
+  context.add_image("before", Image(1, 1), "", "");
+  context.finish(sample_result());
+}
+
+TEST_F(Directory, OldResultsDoNotSurviveTheStartOfARun) {
+  leave_results(path_);
+  std::ofstream(path_ / "notes.txt") << "mine";
+  std::ofstream(path_ / "photo.png") << "mine";
+  ParameterSet parameters;
+  RunContext context(path_, parameters, "x", 0);
+  context.claim();
+  EXPECT_TRUE(std::filesystem::exists(path_ / "result.json")) << "nothing goes before begin()";
+  context.begin();
+  for (const char* name : {"result.json", "manifest.json", "report.html", "before.png"})
+    EXPECT_FALSE(std::filesystem::exists(path_ / name)) << name;
+  for (const char* name : {"notes.txt", "photo.png"})
+    EXPECT_TRUE(std::filesystem::exists(path_ / name)) << name;
+}
+
+TEST_F(Directory, WhatNoManifestNamesIsNotReplaced) {
+  ParameterSet parameters;
+  for (const char* name : {"before.png", "result.json", "report.html", "manifest.json"}) {
+    std::ofstream(path_ / name) << "{}";
+    RunContext context(path_, parameters, "x", 0);
+    EXPECT_THROW(context.claim(), spec::ConfigError) << name;
+    EXPECT_EQ(read_file(path_ / name, 10), "{}");
+    std::filesystem::remove(path_ / name);
+  }
+}
+
+TEST_F(Directory, ARunDoesNotReplaceWhatItReads) {
+  leave_results(path_);
+  std::filesystem::create_symlink(path_ / "before.png", path_ / "link.png");
+  ParameterSet parameters;
+  for (const char* name : {"before.png", "link.png", "manifest.json"}) {
+    RunContext context(path_, parameters, "x", 0);
+    context.add_input(path_ / name);
+    EXPECT_THROW(context.claim(), spec::ConfigError) << name;
+  }
+  EXPECT_TRUE(std::filesystem::exists(path_ / "before.png"));
+}
+
+TEST_F(Directory, ARunThatDoesNotFinishLeavesNothing) {
+  {
+    ParameterSet parameters;
+    RunContext context(path_, parameters, "x", 0);
+    context.claim();
+    context.begin();
+    context.add_image("before", Image(1, 1), "", "");
+    std::ofstream(context.trace_file()) << "wave";
+    EXPECT_TRUE(std::filesystem::exists(path_ / "before.png"));
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(path_));
+}
+
+TEST_F(Directory, AWaveGetsItsNameWhenTheRunIsOver) {
+  ParameterSet parameters;
+  RunContext context(path_, parameters, "x", 0);
+  context.claim();
+  context.begin();
+  std::ofstream(context.trace_file()) << "wave";
+  context.finish(sample_result());
+  EXPECT_EQ(read_file(path_ / "trace.vcd", 10), "wave");
+  EXPECT_FALSE(std::filesystem::exists(context.trace_file()));
+}
+
+TEST_F(Directory, Sha256IsThatOfTheContent) {
+  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  std::ofstream(path_ / "x") << "abc";
+  EXPECT_EQ(sha256_of_file(path_ / "x"), sha256("abc"));
+  EXPECT_THROW(sha256_of_file(path_ / "missing"), spec::FileError);
+  EXPECT_THROW(read_file(path_ / "x", 2), spec::FileError);
+  EXPECT_THROW(read_file(path_, 100), spec::FileError);
+}
+
+TEST(Progress, SaysRateAndTimeLeft) {
+  EXPECT_EQ(Progress::line("texture", "fragment", 500000, 1000000, 0.25),
+            "texture   50 %  2.00 Mfragment/s  0 s left");
+  EXPECT_EQ(Progress::line("x", "y", 100, 4000, 10), "x    2 %  10 y/s  6 min 30 s left");
+  EXPECT_EQ(Progress::line("x", "y", 10, 10, 1), "x  100 %  10 y/s");
+  EXPECT_EQ(Progress::line("x", "y", 0, 10, 0), "x    0 %  0 y/s");
+}
+
+// A morphological engine takes 37 rows before it delivers a pixel.
+TEST(Progress, CountsWhatWasTaken) {
+  EXPECT_EQ(Progress::done(0, 0), 0u);
+  EXPECT_EQ(Progress::done(0, 47360), 23680u);
+  EXPECT_EQ(Progress::done(900, 1000), 950u);
+  EXPECT_EQ(Progress::done(1000, 1000), 1000u);
+  EXPECT_EQ(Progress::done(1000, 0), 1000u);
+}
+
+// ---- the bottleneck -----------------------------------------------------------------------------
+
+UnitCycles unit(const std::string& name, std::uint64_t busy,
+                std::vector<std::pair<std::string, std::uint64_t>> stalls = {}) {
+  UnitCycles cycles{name, busy, 1000 - busy, {}};
+  for (auto& [cause, count] : stalls) {
+    cycles.stalls.push_back({cause, "", count});
+    cycles.idle -= count;
+  }
+  return cycles;
+}
+
+struct Limited {
+  const char* name;
+  std::vector<UnitCycles> units;
+  std::string unit, cause;
+};
+
+TEST(Bottleneck, IsTheDeepestCauseOfTheLoss) {
+  const Limited rows[] = {
+      {"nothing stalls: the first of the busiest",
+       {unit("sequencer", 999), unit("luma", 1000), unit("blender", 950)},
+       "sequencer",
+       "busy"},
+      {"the divider starts too seldom",
+       {unit("sequencer", 460, {{"downstream", 540}}), unit("extractor", 460, {{"records", 540}}),
+        unit("divider_h", 276, {{"interval", 385}}), unit("divider_v", 200, {{"interval", 300}}),
+        unit("blender", 460)},
+       "divider_h",
+       "interval"},
+      {"the same, the other axis",
+       {unit("extractor", 460, {{"records", 540}}), unit("divider_h", 276, {{"interval", 305}}),
+        unit("divider_v", 200, {{"interval", 390}}), unit("blender", 460)},
+       "divider_v",
+       "interval"},
+      {"a divider that makes records wait, but no slot",
+       {unit("sequencer", 999), unit("divider_h", 57, {{"interval", 33}}), unit("blender", 950)},
+       "sequencer",
+       "busy"},
+      {"records that predictors finish too late",
+       {unit("sequencer", 600, {{"downstream", 400}}), unit("extractor", 600, {{"records", 400}}),
+        unit("predictor_h", 700), unit("predictor_v", 990), unit("divider_h", 300)},
+       "predictor_v",
+       "busy"},
+      {"memory",
+       {unit("luma", 600, {{"downstream", 390}}), unit("pixel_store", 610, {{"memory", 390}})},
+       "pixel_store",
+       "memory"},
+      {"no input",
+       {unit("sequencer", 610, {{"upstream", 390}}), unit("blender", 610)},
+       "sequencer",
+       "upstream"},
+      {"nobody takes the output",
+       {unit("sequencer", 610, {{"downstream", 390}}), unit("blender", 610, {{"downstream", 390}})},
+       "blender",
+       "downstream"}};
+  for (const Limited& row : rows) {
+    const auto found = find_bottleneck(row.units, "blender");
+    ASSERT_TRUE(found) << row.name;
+    EXPECT_EQ(found->unit, row.unit) << row.name;
+    EXPECT_EQ(found->cause, row.cause) << row.name;
+  }
+  EXPECT_FALSE(find_bottleneck({}, "blender"));
+  const std::vector<UnitCycles> still = {unit("sequencer", 0)};
+  EXPECT_FALSE(find_bottleneck(still, "blender"));
+}
+
+TEST(Numbers, AreGrouped) {
+  EXPECT_EQ(grouped(0), "0");
+  EXPECT_EQ(grouped(999), "999");
+  EXPECT_EQ(grouped(1000), "1,000");
+  EXPECT_EQ(grouped(1234567), "1,234,567");
+}
+
+TEST(Statistics, TheMostSpecificDescriptionWins) {
+  ASSERT_NE(find_statistic("units.address.busy"), nullptr);
+  EXPECT_EQ(find_statistic("units.address.busy")->name, "units.*.busy");
+  EXPECT_EQ(find_statistic("units.address.stalls.downstream")->name, "units.*.stalls.*");
+  EXPECT_EQ(find_statistic("units.address"), nullptr);
+  EXPECT_EQ(find_statistic("nothing"), nullptr);
+}
+
+}  // namespace
+}  // namespace deburr::tb

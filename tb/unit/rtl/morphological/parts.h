@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// For tests of single blocks of the morphological engine: the registers that they read, ends that
+// send and take at given clocks, and what a block says of its clocks.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "tb/unit/rtl/morphological/support.h"
+
+namespace deburr::tb::morphological_rtl {
+
+// A ParameterStore with its bus, and a frame inside.
+struct Registers {
+  explicit Registers(const Parameters& p) : store("store", p), bus("bus") {
+    bus.socket.bind(store.registers.bus);
+  }
+  Registers(const Parameters& p, int width, int height) : Registers(p) { frame(width, height); }
+  void frame(int width, int height) {
+    store.write_size(width, height);
+    EXPECT_TRUE(store.latch());
+  }
+  rtl::morphological::ParameterStore store;
+  Bus bus;
+};
+
+// Sends each beat in its clock or, if there is no room, as soon as there is.
+template <class T>
+class TimedDriver final : public rtl::Unit {
+ public:
+  rtl::Out<T> beats_out{"beats_out"};
+  TimedDriver(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
+  void send(Cycle from, const T& beat) { list_.push_back({from, beat}); }
+  rtl::Activity tick(Cycle cycle) override {
+    if (sent_ == list_.size() || list_[sent_].first > cycle) return rtl::kIdle;
+    if (!beats_out.can_push(cycle)) return rtl::kStalledDownstream;
+    beats_out.push(cycle, list_[sent_++].second);
+    return rtl::kBusy;
+  }
+  void reset() override {
+    sent_ = 0;
+    list_.clear();
+  }
+  std::size_t sent() const { return sent_; }
+
+ private:
+  std::vector<std::pair<Cycle, T>> list_;
+  std::size_t sent_ = 0;
+};
+
+// Takes nothing before clock `opens`, and from then on a beat a clock.
+template <class T>
+class Gate final : public rtl::Unit {
+ public:
+  rtl::In<T> beats_in{"beats_in"};
+  Gate(const sc_core::sc_module_name& name, ClockDomain& clock, Cycle opens = 0)
+      : Unit(name, clock), opens_(opens) {}
+  rtl::Activity tick(Cycle cycle) override {
+    if (cycle < opens_ || !beats_in.can_pop(cycle)) return rtl::kIdle;
+    cycles.push_back(cycle);
+    beats.push_back(beats_in.take(cycle));
+    return rtl::kBusy;
+  }
+  void reset() override {
+    beats.clear();
+    cycles.clear();
+  }
+  std::vector<T> beats;
+  std::vector<Cycle> cycles;
+
+ private:
+  Cycle opens_;
+};
+
+// Clocks that a unit lost to a cause.
+inline std::uint64_t stalls(const rtl::Unit& unit, std::string_view cause) {
+  for (const rtl::Unit::StallCause& stall : unit.stalls())
+    if (stall.name == cause) return stall.cycles;
+  ADD_FAILURE() << unit.name() << " knows no cause " << cause;
+  return 0;
+}
+
+}  // namespace deburr::tb::morphological_rtl

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+// What each field of the morphological engine's registers does: as much as the parameter of the
+// same name, to the pixel. An engine that is told by its registers is compared with one that was
+// built like that; and each counter register shows its counter.
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tb/unit/rtl/morphological/support.h"
+
+namespace deburr::tb::morphological_rtl {
+namespace {
+
+namespace reg = spec::morphological::reg;
+using P = Parameters;
+
+// One engine of several on a clock.
+struct Engine {
+  Engine(const std::string& prefix, ClockDomain& clock, const P& p)
+      : driver((prefix + "_driver").c_str(), clock),
+        engine((prefix + "_engine").c_str(), clock, p),
+        sink((prefix + "_sink").c_str(), clock),
+        bus((prefix + "_bus").c_str()),
+        in((prefix + "_in").c_str()),
+        out((prefix + "_out").c_str()) {
+    driver.beats_out(in);
+    engine.pixels_in(in);
+    engine.pixels_out(out);
+    sink.beats_in(out);
+    bus.socket.bind(engine.registers);
+  }
+  // Pixels and taps of the frame.
+  std::vector<spec::morphological::BlendedBeat> run(ClockDomain& clock, const Frame& frame) {
+    engine.set_frame_size(frame.width, frame.height);
+    bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
+    const auto beats = beats_of(frame, lanes_of(engine.parameters()));
+    const std::size_t before = sink.beats().size(), wanted = before + beats.size();
+    driver.send(beats);
+    EXPECT_TRUE(
+        clock.run_until([&] { return sink.beats().size() == wanted && engine.idle(); }, 500'000));
+    return {sink.beats().begin() + static_cast<std::ptrdiff_t>(before), sink.beats().end()};
+  }
+  Driver<spec::morphological::PixelBeat> driver;
+  rtl::morphological::MorphologicalEngine engine;
+  Sink<spec::morphological::BlendedBeat> sink;
+  Bus bus;
+  Link<spec::morphological::PixelBeat> in;
+  Link<spec::morphological::BlendedBeat> out;
+};
+
+// Something for every rule: long stairs, steps of many heights side by side, bends, depth.
+Frame motley() {
+  Lcg s;
+  const auto below = [&](int n) { return static_cast<int>(s.next() >> 8) % n; };
+  Frame frame = draw(64, 44, [](int x, int y) { return grey(2 * x + 3 * y < 150 ? 90 : 160); });
+  for (std::size_t i = 0; i < frame.depth.size(); ++i) frame.depth[i] = 4'000'000;
+  for (int i = 0; i < 60; ++i) {
+    const bool wide = below(2) != 0;
+    const int x0 = below(64), y0 = below(44), slope = below(5);
+    const int w = 1 + below(wide ? 20 : 4), h = 1 + below(wide ? 4 : 20), code = below(230);
+    const auto depth = static_cast<std::uint32_t>(3'000'000 + below(20) * 100'000);
+    for (int y = y0; y < std::min(44, y0 + h); ++y)
+      for (int x = x0 + (wide ? 0 : (y - y0) / (slope + 1)); x < std::min(64, x0 + w); ++x) {
+        frame.at(x, y) = {static_cast<std::uint8_t>(code), static_cast<std::uint8_t>(code / 2 + 20),
+                          static_cast<std::uint8_t>(255 - code), 9};
+        frame.depth[static_cast<std::size_t>(y * 64 + x)] = depth;
+      }
+  }
+  // Two long stairs of short steps, which every limit of steps can be seen on.
+  for (int y = 0; y < 44; ++y)
+    for (int x = 0; x < 64; ++x)
+      if (const int above = 26 * y - 10 * x - 60; above >= 0 && above < 26 * 8)
+        frame.at(x, y) = grey(250);
+  return frame;
+}
+
+P plain() {
+  P p;  // luma, fixed, no local contrast, chord of 4 steps, no further rule, linear light
+  p.threshold_mode = spec::morphological::ThresholdMode::kFixed;
+  p.dynamic_luma = spec::morphological::DynamicLuma::kCurrent;
+  p.threshold = 3000;
+  p.local_contrast = spec::morphological::LocalContrast::kOff;
+  p.predictor = spec::morphological::Predictor::kChord;
+  p.steps = 4;
+  p.contiguous = p.safe = p.trim = false;
+  p.window_rows = 2 * 20 + 2;
+  p.reach_columns = 60;
+  p.line_pixels = 64;
+  return p;
+}
+
+struct Field {
+  const char* name;
+  void (*from)(P&);  // what both engines are built with ..
+  std::uint32_t offset;
+  int low, high;  // .. the bits that one of them is told ..
+  std::uint32_t value;
+  void (*to)(P&);       // .. and what the other one is built with in addition
+  bool changes = true;  // the pixels
+};
+void PrintTo(const Field& f, std::ostream* out) { *out << f.name; }
+
+class RegisterField : public ::testing::TestWithParam<Field> {};
+
+TEST_P(RegisterField, DoesWhatTheParameterDoes) {
+  const Field field = GetParam();
+  ClockDomain clock("clock", period());
+  P from = plain();
+  field.from(from);
+  P to = from;
+  field.to(to);
+  Engine told("told", clock, from), built("built", clock, to);
+  const Frame frame = motley();
+  const auto before = told.run(clock, frame);
+  const std::uint32_t mask = static_cast<std::uint32_t>(
+      ((std::uint64_t{1} << (field.high - field.low + 1)) - 1) << field.low);
+  const std::uint32_t old = told.bus.read(field.offset);
+  EXPECT_EQ(told.bus.write(field.offset, (old & ~mask) | field.value << field.low),
+            tlm::TLM_OK_RESPONSE);
+  EXPECT_EQ(told.bus.read(field.offset), (old & ~mask) | field.value << field.low);
+  const auto after = told.run(clock, frame);
+  EXPECT_EQ(after, built.run(clock, frame));
+  EXPECT_EQ(told.engine.work(), built.engine.work());
+  EXPECT_EQ(after != before, field.changes) << "the frame shows nothing";
+}
+
+void as_it_is(P&) {}
+void depth(P& p) { p.edge_source = spec::morphological::EdgeSource::kDepth; }
+void predicated(P& p) { p.edge_source = spec::morphological::EdgeSource::kPredicated; }
+void luma(P& p) { p.edge_source = spec::morphological::EdgeSource::kLuma; }
+void dynamic(P& p) {
+  p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
+  p.alpha = 9000;
+  p.floor = 900;
+}
+void fit(P& p) { p.predictor = spec::morphological::Predictor::kFit; }
+template <int kSteps>
+void steps(P& p) {
+  p.steps = kSteps;
+}
+void narrow(P& p) {  // R = 6
+  p.window_rows = 14;
+  p.steps = 1;
+}
+void highest(P& p) {  // R = 17: R - 1 is the largest N
+  p.window_rows = 36;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rules, RegisterField,
+    ::testing::Values(
+        Field{"source_luma", depth, reg::kRules, 0, 1, 0, luma},
+        Field{"source_depth", predicated, reg::kRules, 0, 1, 1, depth},
+        Field{"source_predicated", depth, reg::kRules, 0, 1, 2, predicated},
+        Field{"source_3_is_luma", depth, reg::kRules, 0, 1, 3, luma},
+        Field{"mode_dynamic", as_it_is, reg::kRules, 2, 2, 1,
+              [](P& p) { p.threshold_mode = spec::morphological::ThresholdMode::kDynamic; }},
+        Field{"mode_fixed", dynamic, reg::kRules, 2, 2, 0,
+              [](P& p) { p.threshold_mode = spec::morphological::ThresholdMode::kFixed; }},
+        Field{"dynamic_does_not_go_with_predicated", predicated, reg::kRules, 2, 2, 1, as_it_is,
+              false},
+        Field{"dynamic_does_not_go_with_depth", depth, reg::kRules, 2, 2, 1, as_it_is, false},
+        Field{"dynamic_luma_max", dynamic, reg::kRules, 3, 3, 1,
+              [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kMax; }},
+        Field{"local_contrast_paper", as_it_is, reg::kRules, 4, 5, 1,
+              [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kPaper; }},
+        Field{"local_contrast_symmetric", as_it_is, reg::kRules, 4, 5, 2,
+              [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kSymmetric; }},
+        Field{"local_contrast_3_is_off",
+              [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kSymmetric; },
+              reg::kRules, 4, 5, 3,
+              [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kOff; }},
+        Field{"local_contrast_does_not_go_with_depth", depth, reg::kRules, 4, 5, 2, as_it_is,
+              false},
+        Field{"predictor_none", as_it_is, reg::kRules, 6, 7, 0,
+              [](P& p) { p.predictor = spec::morphological::Predictor::kNone; }},
+        Field{"predictor_chord", fit, reg::kRules, 6, 7, 1,
+              [](P& p) { p.predictor = spec::morphological::Predictor::kChord; }},
+        Field{"predictor_fit", as_it_is, reg::kRules, 6, 7, 2, fit},
+        Field{"predictor_3_is_none", as_it_is, reg::kRules, 6, 7, 3,
+              [](P& p) { p.predictor = spec::morphological::Predictor::kNone; }},
+        Field{"steps_0", as_it_is, reg::kRules, 8, 12, 0, steps<0>},
+        Field{"steps_1", fit, reg::kRules, 8, 12, 1, steps<1>},
+        Field{"steps_16", as_it_is, reg::kRules, 8, 12, 16, steps<16>},
+        Field{"steps_31_are_16", as_it_is, reg::kRules, 8, 12, 31, steps<16>},
+        Field{"steps_17_are_16", as_it_is, reg::kRules, 8, 12, 17, steps<16>},
+        Field{"steps_16_at_the_limit", highest, reg::kRules, 8, 12, 31, steps<16>},
+        Field{"steps_6_are_R_less_1", narrow, reg::kRules, 8, 12, 6, steps<5>},
+        Field{"steps_31_are_R_less_1", narrow, reg::kRules, 8, 12, 31, steps<5>},
+        Field{"contiguous_off", [](P& p) { p.contiguous = true; }, reg::kRules, 13, 13, 0,
+              [](P& p) { p.contiguous = false; }},
+        Field{"safe", fit, reg::kRules, 14, 14, 1, [](P& p) { p.safe = true; }},
+        Field{"linear_light", as_it_is, reg::kRules, 15, 15, 0,
+              [](P& p) { p.linear_light = false; }},
+        Field{"trim", fit, reg::kRules, 16, 16, 1, [](P& p) { p.trim = true; }}),
+    [](const auto& field) { return field.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Thresholds, RegisterField,
+    ::testing::Values(
+        Field{"threshold", as_it_is, reg::kThreshold, 0, 15, 20000,
+              [](P& p) { p.threshold = 20000; }},
+        Field{"threshold_on", predicated, reg::kThresholdOn, 0, 15, 20000,
+              [](P& p) { p.threshold_on_depth_edge = 20000; }},
+        Field{"threshold_off", predicated, reg::kThresholdOff, 0, 15, 20000,
+              [](P& p) { p.threshold_off_depth_edge = 20000; }},
+        Field{"threshold_on_counts_for_predicated_alone", as_it_is, reg::kThresholdOn, 0, 15, 60000,
+              as_it_is, false},
+        Field{"threshold_off_counts_for_predicated_alone", as_it_is, reg::kThresholdOff, 0, 15,
+              60000, as_it_is, false},
+        Field{"threshold_does_not_count_for_predicated", predicated, reg::kThreshold, 0, 15, 60000,
+              as_it_is, false},
+        Field{"alpha", dynamic, reg::kAlpha, 0, 15, 30000, [](P& p) { p.alpha = 30000; }},
+        Field{"floor", dynamic, reg::kFloor, 0, 15, 9000, [](P& p) { p.floor = 9000; }},
+        Field{"depth_threshold", depth, reg::kDepthThreshold, 0, 15, 12000,
+              [](P& p) { p.depth_threshold = 12000; }}),
+    [](const auto& field) { return field.param.name; });
+
+TEST(RegisterBits, ThatDoNotExistReadAsZero) {
+  EngineBench bench(plain());
+  const std::map<std::uint32_t, std::uint32_t> bits = {
+      {reg::kSize, 0x3FFF3FFF},    {reg::kRules, 0x1FFFF},         {reg::kThreshold, 0xFFFF},
+      {reg::kThresholdOn, 0xFFFF}, {reg::kThresholdOff, 0xFFFF},   {reg::kAlpha, 0xFFFF},
+      {reg::kFloor, 0xFFFF},       {reg::kDepthThreshold, 0xFFFF}, {reg::kPixelBase, 0xFFFFFFC0}};
+  for (const auto& [offset, mask] : bits) {
+    bench.bus.write(offset, 0xFFFFFFFF);
+    EXPECT_EQ(bench.bus.read(offset), mask) << offset;
+    bench.bus.write(offset, 0);
+    EXPECT_EQ(bench.bus.read(offset), 0u) << offset;
+  }
+}
+
+// A beat's depth has 24 bits; what lies above them is not looked at.
+TEST(Depth, Has24Bits) {
+  P p = plain();
+  p.edge_source = spec::morphological::EdgeSource::kDepth;
+  EngineBench bench(p);
+  Frame frame = motley();
+  const Frame expected = bench.run(frame);
+  const spec::morphological::Work work = bench.engine.work();
+  ASSERT_GT(work.blended_pixels, 100u);
+  Lcg s;
+  for (std::uint32_t& d : frame.depth) d |= s.next() & 0xFF000000;
+  EXPECT_EQ(bench.run(frame).pixel, expected.pixel);
+  EXPECT_EQ(bench.engine.work().edge_pixels, 2 * work.edge_pixels);
+  EXPECT_EQ(bench.engine.work().blended_pixels, 2 * work.blended_pixels);
+}
+
+// Each counter register shows a count of its own: all differ, so that none can stand for another.
+TEST(CounterRegisters, ShowTheirCounters) {
+  P p = plain();
+  p.storage = spec::morphological::Storage::kMemory;
+  p.predictor_units = 1;
+  p.divider_interval = 16;
+  p.record_fifo = 2;
+  p.window_rows = 14;
+  p.reach_columns = 5;
+  EngineBench bench(p);
+  bench.memory->fail_range(64 * 5, 64 * 8);
+  bench.run(noise(64, 44));
+  const auto& e = bench.engine;
+  const std::map<std::uint32_t, std::uint64_t> shown = {
+      {reg::kPixels, e.blender.pixels.value()},
+      {reg::kEdgePixels, e.edges.edge_pixels.value()},
+      {reg::kHorizontalRuns, e.extractor.horizontal_runs.value()},
+      {reg::kVerticalRuns, e.extractor.vertical_runs.value()},
+      {reg::kLongRuns, e.extractor.long_runs.value()},
+      {reg::kZRuns, e.extractor.z_runs.value()},
+      {reg::kExtendedRuns,
+       e.predictor_h.extended_runs.value() + e.predictor_v.extended_runs.value()},
+      {reg::kSteps, e.predictor_h.steps.value() + e.predictor_v.steps.value()},
+      {reg::kProbes, e.predictor_h.probes.value() + e.predictor_v.probes.value()},
+      {reg::kDivides, e.divider_h.divides.value() + e.divider_v.divides.value()},
+      {reg::kBlendedPixels, e.blender.blended_pixels.value()},
+      {reg::kFrameCycles, e.sequencer.frame_cycles.value()},
+      {reg::kRecordStalls, e.extractor.record_stalls.value()},
+      {reg::kMemoryErrors, e.pixel_store.memory_errors.value()}};
+  std::map<std::uint64_t, std::uint32_t> met = {{0, 0}};
+  for (const auto& [offset, value] : shown) {
+    EXPECT_EQ(bench.bus.read(offset), value) << offset;
+    const auto [first, fresh] = met.emplace(value, offset);
+    EXPECT_TRUE(fresh) << offset << " shows the same as " << first->second << ": " << value;
+  }
+  // Two causes in one number.
+  EXPECT_GT(e.extractor.interlock_stalls.value(), 0u);
+  EXPECT_GT(e.extractor.record_stalls.value(), e.extractor.interlock_stalls.value());
+  EXPECT_EQ(e.pixel_store.memory_errors.value(), 2u * 3u);
+}
+
+}  // namespace
+}  // namespace deburr::tb::morphological_rtl

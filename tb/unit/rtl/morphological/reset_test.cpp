@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// Reset of the morphological engine at every clock of a frame: what comes after it is, to the bit
+// and to the clock, what comes after a reset of an engine that never had a frame.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tb/unit/rtl/morphological/support.h"
+
+namespace deburr::tb::morphological_rtl {
+namespace {
+
+struct Variant {
+  int lanes_code;
+  spec::morphological::Storage storage;
+  int divider_interval;
+  int width;  // of the frame after the reset
+  std::uint32_t memory_latency;
+};
+void PrintTo(const Variant& v, std::ostream* out) {
+  *out << int{spec::morphological::kLaneCount[static_cast<std::size_t>(v.lanes_code)]} << " lanes, "
+       << spec::morphological::kStorageNames[static_cast<std::size_t>(v.storage)] << ", interval "
+       << v.divider_interval << ", width " << v.width;
+}
+
+// All that a frame leaves behind.
+struct Trail {
+  std::vector<spec::morphological::BlendedBeat> beats;
+  std::vector<Cycle> cycles;  // of the beats, from the end of the reset on
+  std::vector<spec::morphological::RunRecord> runs;
+  std::vector<spec::morphological::LineRecord> lines;  // in the order in which they are stored
+  std::vector<std::uint8_t> memory;
+  spec::morphological::Work work;
+  std::uint64_t frame_cycles = 0, record_stalls = 0, memory_lines = 0;
+};
+
+class EveryClock : public ::testing::TestWithParam<Variant> {
+ protected:
+  static Parameters parameters() {
+    const Variant v = GetParam();
+    Parameters p = preset(spec::morphological::Preset::kMlaaSlope, 4, 6);
+    p.steps = 3;
+    p.lanes = static_cast<spec::morphological::Lanes>(v.lanes_code);
+    p.storage = v.storage;
+    p.divider_interval = v.divider_interval;
+    p.divider_latency = 7;
+    p.predictor_units = 1;
+    p.record_fifo = 2;
+    p.line_pixels = 32;
+    return p;
+  }
+};
+
+TEST_P(EveryClock, OfAFrameMayBeTheLast) {
+  const Parameters p = parameters();
+  const bool in_memory = p.storage == spec::morphological::Storage::kMemory;
+  EngineBench::Options options;
+  options.memory_latency = GetParam().memory_latency;
+  EngineBench bench(p, options);
+  const int width = GetParam().width;
+  // Neither ends with a line of memory, so that lines are padded. The second: small steps, and
+  // beside them an edge that is longer than the reach.
+  const Frame broken = noise(29, 12),
+              whole = draw(width, 11, [&](int x, int y) {
+                return grey(x < width - 2 ? (y + x) / 3 % 2 * 255 : (x - width + 2) * 255);
+              });
+  const Frame* frame = nullptr;
+  std::vector<spec::morphological::PixelBeat> beats;
+  bench.driver.send([&](std::uint64_t i, spec::morphological::PixelBeat& beat) {
+    if (i >= beats.size()) return false;
+    beat = beats[i];
+    return true;
+  });
+  Trail trail;
+  bench.engine.observe_runs(
+      [&](const spec::morphological::RunRecord& run) { trail.runs.push_back(run); });
+  bench.engine.observe_lines(
+      [&](const spec::morphological::LineRecord& line) { trail.lines.push_back(line); });
+  const auto reset_to = [&](const Frame& next, Cycle clocks) {
+    bench.clock.set_reset_n(false);
+    bench.clock.run(clocks);
+    bench.clock.set_reset_n(true);
+    frame = &next;
+    beats = beats_of(next, lanes_of(p));
+    bench.engine.set_frame_size(next.width, next.height);
+    trail = {};
+  };
+  const auto finish = [&] {
+    const Cycle begin = bench.clock.cycle();
+    EXPECT_TRUE(bench.clock.run_until(
+        [&] { return bench.sink.received() == beats.size() && bench.engine.idle(); }, 20'000));
+    trail.beats = bench.sink.beats();
+    for (const Cycle cycle : bench.sink.cycles()) trail.cycles.push_back(cycle - begin);
+    trail.work = bench.engine.work();
+    trail.frame_cycles = bench.engine.sequencer.frame_cycles.value();
+    trail.record_stalls = bench.engine.extractor.record_stalls.value();
+    if (in_memory) {
+      trail.memory_lines = bench.engine.pixel_store.lines_written.value() * 1000 +
+                           bench.engine.pixel_store.lines_read.value();
+      trail.memory = bench.memory->dump(0, static_cast<std::uint64_t>(64 * frame->height));
+    }
+    return trail;
+  };
+
+  reset_to(whole, 1);
+  const Trail fresh = finish();
+  ASSERT_GT(fresh.work.divides, 0u);
+  ASSERT_GT(fresh.work.long_runs, 0u);
+  reset_to(broken, 1);
+  const Cycle clocks = bench.clock.cycle();
+  finish();
+  const Cycle last = bench.clock.cycle() - clocks;
+  ASSERT_GT(trail.record_stalls, 0u);
+  for (Cycle at = 1; at < last; ++at) {
+    SCOPED_TRACE("reset " + std::to_string(at) + " clocks into a frame");
+    reset_to(broken, 1);
+    bench.clock.run(at);
+    // What memory still owes takes its data bus for a while, unless it has come by then.
+    const bool long_reset = in_memory && at % 2 != 0;
+    reset_to(whole, long_reset ? 40 : 1);
+    const Trail& after = finish();
+    ASSERT_EQ(after.beats, fresh.beats);
+    ASSERT_EQ(after.runs, fresh.runs);
+    ASSERT_EQ(after.work, fresh.work);
+    ASSERT_EQ(after.memory_lines, fresh.memory_lines);
+    ASSERT_EQ(after.memory, fresh.memory);
+    if (in_memory && !long_reset) continue;
+    ASSERT_EQ(after.cycles, fresh.cycles);
+    ASSERT_EQ(after.lines, fresh.lines);
+    ASSERT_EQ(after.frame_cycles, fresh.frame_cycles);
+    ASSERT_EQ(after.record_stalls, fresh.record_stalls);
+  }
+}
+
+// The frame of one beat a row has its first record a few clocks after the reset. Where a line is
+// answered in the clock in which another is written, its read waits.
+INSTANTIATE_TEST_SUITE_P(
+    Engines, EveryClock,
+    ::testing::Values(Variant{0, spec::morphological::Storage::kLineBuffers, 16, 9, 20},
+                      Variant{1, spec::morphological::Storage::kLineBuffers, 8, 9, 20},
+                      Variant{2, spec::morphological::Storage::kLineBuffers, 5, 9, 20},
+                      Variant{2, spec::morphological::Storage::kLineBuffers, 16, 4, 20},
+                      Variant{0, spec::morphological::Storage::kMemory, 4, 9, 20},
+                      Variant{1, spec::morphological::Storage::kMemory, 9, 9, 20},
+                      Variant{2, spec::morphological::Storage::kMemory, 5, 9, 20},
+                      Variant{2, spec::morphological::Storage::kMemory, 5, 9, 21},
+                      Variant{2, spec::morphological::Storage::kMemory, 5, 9, 22},
+                      Variant{2, spec::morphological::Storage::kMemory, 5, 9, 23}));
+
+}  // namespace
+}  // namespace deburr::tb::morphological_rtl

@@ -1,0 +1,398 @@
+// SPDX-License-Identifier: MIT
+// Where the morphological engine keeps its pixels: the PixelStore to the clock, on the chip and in
+// memory, the order of its lines, and what an error of memory does.
+#include <cstdint>
+#include <vector>
+
+#include "tb/unit/rtl/morphological/parts.h"
+
+namespace deburr::tb::morphological_rtl {
+namespace {
+
+using namespace rtl::morphological;  // NOLINT: a test of these
+using rtl::MemoryRequest;
+using rtl::MemoryResponse;
+
+constexpr int kReach = 4, kLag = kReach + spec::morphological::kRowLag;
+
+Frame colours(int width, int height) {
+  return draw(width, height, [](int x, int y) -> Rgba8 {
+    return {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y),
+            static_cast<std::uint8_t>(x * 7 + y * 13), static_cast<std::uint8_t>(x ^ y)};
+  });
+}
+
+// beats, fetches -> PixelStore -> pixels; with storage = memory also -> requests and responses ->.
+struct Storing {
+  Storing(const Parameters& p, const Frame& f, Cycle pixels_open = 0)
+      : frame(f),
+        lanes(lanes_of(p)),
+        beats_a_row(morphological_rtl::beats_a_row(f, p)),
+        registers(p, f.width, f.height),
+        store("pixel_store", clock, p, registers.store),
+        pixel_gate("pixel_gate", clock, pixels_open) {
+    beat_driver.beats_out(beats);
+    store.beats_in(beats);
+    fetch_driver.beats_out(fetches);
+    store.fetches_in(fetches);
+    store.pixels_out(pixels);
+    pixel_gate.beats_in(pixels);
+    store.connect(requests, responses);
+    request_gate.beats_in(requests);
+    response_driver.beats_out(responses);
+  }
+  Slot slot(int row, int beat) const {
+    return {static_cast<std::uint32_t>(row * beats_a_row + beat), static_cast<std::uint16_t>(row),
+            static_cast<std::uint16_t>(beat)};
+  }
+  // Sends beat `b` of row y at clock `at`; asks for that of row y, which slot row y + kLag does.
+  void store_beat(Cycle at, int y, int b) {
+    BeatToken token{};
+    token.slot = slot(y, b);
+    for (int i = 0; i < lanes && b * lanes + i < frame.width; ++i)
+      token.pixel[static_cast<std::size_t>(i)] = frame.at(b * lanes + i, y);
+    beat_driver.send(at, token);
+  }
+  void fetch_beat(Cycle at, int y, int b) { fetch_driver.send(at, {slot(y + kLag, b)}); }
+  void answer(Cycle at, std::uint32_t line, bool write, rtl::Line data = {}) {
+    MemoryResponse response;
+    response.tag = line;
+    response.write = write;
+    response.data = data;
+    response_driver.send(at, response);
+  }
+  // Line `number` of the frame as memory has it, in rows of whole lines.
+  rtl::Line line(std::uint32_t number) const {
+    rtl::Line data{};
+    for (std::size_t i = 0; i < 64; ++i)
+      data[i] = frame.pixel[16 * std::size_t{number} + i / 4][i % 4];
+    return data;
+  }
+  // Pixel for pixel what the frame has there, as far as it has.
+  void expect_around(const PixelToken& token, int y, int b) const {
+    SCOPED_TRACE("row " + std::to_string(y) + ", beat " + std::to_string(b));
+    const int first = b * lanes, end = std::min(first + lanes, frame.width);
+    for (int x = first; x < end; ++x) {
+      const auto i = static_cast<std::size_t>(x - first);
+      EXPECT_EQ(token.centre[i], frame.at(x, y));
+      EXPECT_EQ(token.above[i], y > 0 ? frame.at(x, y - 1) : token.above[i]);
+      EXPECT_EQ(token.below[i], y + 1 < frame.height ? frame.at(x, y + 1) : token.below[i]);
+    }
+    EXPECT_EQ(token.before, first > 0 ? frame.at(first - 1, y) : token.before);
+    EXPECT_EQ(token.after, end < frame.width ? frame.at(end, y) : token.after);
+  }
+
+  const Frame frame;
+  const int lanes, beats_a_row;
+  ClockDomain clock{"clock", period()};
+  Registers registers;
+  PixelStore store;
+  Link<BeatToken> beats{"beats"};
+  Link<FetchToken> fetches{"fetches"};
+  Link<PixelToken> pixels{"pixels"};
+  Link<MemoryRequest> requests{"requests"};
+  Link<MemoryResponse> responses{"responses"};
+  TimedDriver<BeatToken> beat_driver{"beat_driver", clock};
+  TimedDriver<FetchToken> fetch_driver{"fetch_driver", clock};
+  TimedDriver<MemoryResponse> response_driver{"response_driver", clock};
+  Gate<PixelToken> pixel_gate;
+  Gate<MemoryRequest> request_gate{"request_gate", clock};
+};
+
+Parameters built(spec::morphological::Storage storage, int lanes_code) {
+  Parameters p = preset(spec::morphological::Preset::kMlaa, kReach, 8);
+  p.storage = storage;
+  p.lanes = static_cast<spec::morphological::Lanes>(lanes_code);
+  p.line_pixels = 64;
+  return p;
+}
+
+// ---- on the chip --------------------------------------------------------------------------------
+
+class PixelStoreLanes : public ::testing::TestWithParam<int> {};
+
+// While a beat a clock comes in, a beat a clock goes out, a clock after it was asked for.
+TEST_P(PixelStoreLanes, LatencyAndIntervalAreOne) {
+  Storing bench(built(spec::morphological::Storage::kLineBuffers, GetParam()), colours(9, 24));
+  Cycle at = 0;
+  for (int y = 0; y < 24 + kLag; ++y)
+    for (int b = 0; b < bench.beats_a_row; ++b, ++at) {
+      if (y < 24) bench.store_beat(at, y, b);
+      // Two clocks behind the beat of the same slot, as the extractor is.
+      if (y >= kLag) bench.fetch_beat(at + 2, y - kLag, b);
+    }
+  bench.clock.run(at + 5);
+  const std::size_t before = static_cast<std::size_t>(kLag * bench.beats_a_row);
+  ASSERT_EQ(bench.pixel_gate.beats.size(), static_cast<std::size_t>(24 * bench.beats_a_row));
+  for (std::size_t i = 0; i < bench.pixel_gate.beats.size(); ++i) {
+    // Pushed in i + before + 2, popped a clock later, sent in that clock, taken in the next.
+    ASSERT_EQ(bench.pixel_gate.cycles[i], before + i + 4);
+    const int row = static_cast<int>(i) / bench.beats_a_row;
+    bench.expect_around(bench.pixel_gate.beats[i], row,
+                        static_cast<int>(i) - row * bench.beats_a_row);
+  }
+  EXPECT_EQ(bench.store.stalled_cycles(), 0u);
+  EXPECT_EQ(bench.store.busy_cycles() + bench.store.idle_cycles(), bench.clock.cycle());
+}
+INSTANTIATE_TEST_SUITE_P(Each, PixelStoreLanes, ::testing::Values(0, 1, 2));
+
+// R + 7 rows: the first beat of row R + 7 needs the place of row 0, which the first beat of row 1
+// asks for last, in slot row R + 6.
+TEST(PixelStoreBlock, ABeatWaitsForItsPlaceAndSaysSo) {
+  constexpr int kRows = kReach + 7, kWidth = 5;
+  constexpr Cycle kAsked = 100;
+  Storing bench(built(spec::morphological::Storage::kLineBuffers, 0), colours(kWidth, kRows + 2));
+  for (int y = 0; y < kRows + 2; ++y)
+    for (int b = 0; b < kWidth; ++b) bench.store_beat(0, y, b);
+  Cycle at = kAsked;
+  for (int y = 0; y < kRows + 2; ++y)
+    for (int b = 0; b < kWidth; ++b) bench.fetch_beat(at++, y, b);
+  bench.clock.run(kAsked);
+  // Beat k is popped in clock k + 1; the first of row R + 7 waits from then on.
+  EXPECT_EQ(bench.beats.pops(), static_cast<std::uint64_t>(kRows * kWidth));
+  EXPECT_EQ(bench.store.busy_cycles(), static_cast<std::uint64_t>(kRows * kWidth));
+  EXPECT_EQ(stalls(bench.store, "rows"), kAsked - kRows * kWidth - 1);
+  // Row 0 is asked for in kWidth clocks from kAsked + 1 on, the first beat of row 1 after that.
+  bench.clock.run(kWidth + 1);
+  EXPECT_EQ(bench.beats.pops(), static_cast<std::uint64_t>(kRows * kWidth));
+  bench.clock.run(1);
+  EXPECT_EQ(bench.beats.pops(), static_cast<std::uint64_t>(kRows * kWidth + 1));
+  bench.clock.run(100);
+  for (std::size_t i = 0; i < static_cast<std::size_t>((kRows + 2) * kWidth); ++i)
+    bench.expect_around(bench.pixel_gate.beats.at(i), static_cast<int>(i) / kWidth,
+                        static_cast<int>(i) % kWidth);
+  EXPECT_EQ(stalls(bench.store, "rows"), kAsked - kRows * kWidth);  // then the other side works
+}
+
+TEST(PixelStoreBlock, WaitsDownstream) {
+  Storing bench(built(spec::morphological::Storage::kLineBuffers, 0), colours(6, 2), 50);
+  for (int y = 0; y < 2; ++y)
+    for (int b = 0; b < 6; ++b) {
+      bench.store_beat(0, y, b);
+      bench.fetch_beat(14, y, b);
+    }
+  bench.clock.run(80);
+  // The link takes two, sent in 15 and 16; taken from 50 on, so that the third is sent in 51.
+  EXPECT_EQ(stalls(bench.store, "downstream"), 51u - 17u);
+  ASSERT_EQ(bench.pixel_gate.beats.size(), 12u);
+  for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_EQ(bench.pixel_gate.cycles[i], 50 + i);
+    bench.expect_around(bench.pixel_gate.beats[i], static_cast<int>(i) / 6,
+                        static_cast<int>(i) % 6);
+  }
+}
+
+// ---- in memory ----------------------------------------------------------------------------------
+
+// 20 pixels a row: a line of 16 and one of 4 with padding.
+TEST(PixelStoreMemory, ALineIsSentInTheClockOfItsLastPixel) {
+  const Frame frame = colours(20, 3);
+  Storing bench(built(spec::morphological::Storage::kMemory, 0), frame);
+  for (int y = 0; y < 3; ++y)
+    for (int b = 0; b < 20; ++b) bench.store_beat(0, y, b);
+  bench.clock.run(80);
+  ASSERT_EQ(bench.request_gate.beats.size(), 6u);
+  for (std::size_t line = 0; line < 6; ++line) {
+    const MemoryRequest& request = bench.request_gate.beats[line];
+    const int y = static_cast<int>(line) / 2, x0 = line % 2 ? 16 : 0;
+    EXPECT_TRUE(request.write);
+    EXPECT_EQ(request.address, 64 * line);
+    EXPECT_EQ(request.byte_mask, ~std::uint64_t{0});
+    for (int i = 0; i < 64; ++i) {
+      const int x = x0 + i / 4;
+      EXPECT_EQ(request.data[static_cast<std::size_t>(i)],
+                x < 20 ? frame.at(x, y)[static_cast<std::size_t>(i % 4)] : 0);
+    }
+    // Pixel k is sent in k, popped in k + 1, and so is its line; taken in k + 2.
+    const int last = y * 20 + (line % 2 ? 19 : 15);
+    EXPECT_EQ(bench.request_gate.cycles[line], static_cast<Cycle>(last + 2));
+  }
+}
+
+// Line 1 is answered before line 0: neither is read before line 0 is, then one a clock.
+TEST(PixelStoreMemory, ALineIsReadAfterItsWriteAndAllBeforeItWereAnswered) {
+  Storing bench(built(spec::morphological::Storage::kMemory, 0), colours(48, 1));
+  for (int b = 0; b < 48; ++b) bench.store_beat(0, 0, b);
+  bench.answer(60, 1, true);
+  bench.answer(70, 0, true);
+  bench.answer(80, 2, true);
+  bench.clock.run(120);
+  ASSERT_EQ(bench.request_gate.beats.size(), 6u);
+  // An answer is sent in c, popped in c + 1, and so is the read; taken in c + 2.
+  const Cycle taken[] = {72, 73, 82};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_FALSE(bench.request_gate.beats[3 + i].write);
+    EXPECT_EQ(bench.request_gate.beats[3 + i].tag, i);
+    EXPECT_EQ(bench.request_gate.cycles[3 + i], taken[i]);
+  }
+}
+
+// Four lanes, 16 pixels: a line every four clocks. Whenever an answer comes, the write of that
+// clock goes first and the read follows.
+TEST(PixelStoreMemory, WritesGoBeforeReads) {
+  Storing bench(built(spec::morphological::Storage::kMemory, 2), colours(16, 6));
+  for (int y = 0; y < 6; ++y)
+    for (int b = 0; b < 4; ++b) bench.store_beat(0, y, b);
+  // Line y is sent in clock 4 y + 4. The answer to line 0 is popped in 12, when line 2 is sent;
+  // that to line 1 in 17, a clock after line 3.
+  bench.answer(11, 0, true);
+  bench.answer(16, 1, true);
+  bench.clock.run(60);
+  struct Order {
+    bool write;
+    std::uint32_t line;
+    Cycle taken;
+  };
+  const Order order[] = {{true, 0, 5},  {true, 1, 9},   {true, 2, 13}, {false, 0, 14},
+                         {true, 3, 17}, {false, 1, 18}, {true, 4, 21}, {true, 5, 25}};
+  ASSERT_EQ(bench.request_gate.beats.size(), std::size(order));
+  for (std::size_t i = 0; i < std::size(order); ++i) {
+    EXPECT_EQ(bench.request_gate.beats[i].write, order[i].write) << i;
+    EXPECT_EQ(bench.request_gate.beats[i].tag, order[i].line) << i;
+    EXPECT_EQ(bench.request_gate.cycles[i], order[i].taken) << i;
+  }
+  EXPECT_EQ(bench.store.lines_written.value(), 6u);
+  EXPECT_EQ(bench.store.lines_read.value(), 2u);
+}
+
+// Rows of one beat are a line a clock: reads have to wait for the end of the writes.
+TEST(PixelStoreMemory, AWriteAClockLeavesNoRoomForReads) {
+  Storing bench(built(spec::morphological::Storage::kMemory, 2), colours(4, 9));
+  for (int y = 0; y < 9; ++y) bench.store_beat(0, y, 0);
+  bench.answer(3, 0, true);
+  bench.answer(4, 1, true);
+  bench.clock.run(60);
+  ASSERT_EQ(bench.request_gate.beats.size(), 11u);
+  for (std::size_t i = 0; i < 11; ++i) {
+    EXPECT_EQ(bench.request_gate.beats[i].write, i < 9) << i;
+    EXPECT_EQ(bench.request_gate.beats[i].tag, i < 9 ? i : i - 9);
+    EXPECT_EQ(bench.request_gate.cycles[i], i + 2);
+  }
+}
+
+// Three rows on the chip: row 3 takes the place of row 0, which is asked for last with row 1. Of a
+// row of two lines, each as soon as its own place is free.
+TEST(PixelStoreMemory, ALineIsReadInTheClockInWhichItsPlaceIsFree) {
+  Storing bench(built(spec::morphological::Storage::kMemory, 0), colours(32, 5));
+  constexpr Cycle kAsked = 220;
+  for (int y = 0; y < 5; ++y)
+    for (int b = 0; b < 32; ++b) bench.store_beat(0, y, b);
+  for (std::uint32_t line = 0; line < 10; ++line) bench.answer(170 + line, line, true);
+  for (std::uint32_t line = 0; line < 6; ++line) bench.answer(190, line, false, bench.line(line));
+  for (int y = 0; y < 2; ++y)
+    for (int b = 0; b < 32; ++b) bench.fetch_beat(kAsked, y, b);
+  bench.clock.run(320);
+  ASSERT_EQ(bench.request_gate.beats.size(), 10u + 8u);
+  EXPECT_EQ(bench.request_gate.beats[16].tag, 6u);
+  EXPECT_EQ(bench.request_gate.beats[17].tag, 7u);
+  // Beat 15 of row 1 is sent in kAsked + 47 and popped a clock later, and so is the read.
+  EXPECT_EQ(bench.request_gate.cycles[16], kAsked + 49);
+  EXPECT_EQ(bench.request_gate.cycles[17], kAsked + 65);
+  for (std::size_t i = 0; i < 64; ++i)
+    bench.expect_around(bench.pixel_gate.beats.at(i), static_cast<int>(i) / 32,
+                        static_cast<int>(i) % 32);
+}
+
+// Each beat waits for the line that its own lower neighbour is in, and for no other.
+TEST(PixelStoreMemory, ABeatWaitsForTheLineBelow) {
+  Storing bench(built(spec::morphological::Storage::kMemory, 0), colours(32, 3));
+  for (int y = 0; y < 3; ++y)
+    for (int b = 0; b < 32; ++b) bench.store_beat(0, y, b);
+  for (std::uint32_t line = 0; line < 6; ++line) bench.answer(110, line, true);
+  for (std::uint32_t line = 0; line < 3; ++line) bench.answer(130, line, false, bench.line(line));
+  bench.answer(200, 3, false, bench.line(3));
+  for (int b = 0; b < 32; ++b) bench.fetch_beat(150, 0, b);
+  bench.clock.run(240);
+  ASSERT_EQ(bench.pixel_gate.beats.size(), 32u);
+  for (std::size_t b = 0; b < 32; ++b) {
+    // Sent in 150 + b, popped a clock later, taken in the next; the answer is popped in 201.
+    EXPECT_EQ(bench.pixel_gate.cycles[b], b < 16 ? 152 + b : 203 + b - 16);
+    bench.expect_around(bench.pixel_gate.beats[b], 0, static_cast<int>(b));
+  }
+}
+
+// Lines that were loaded are there a clock after their response was popped; until then the slot
+// waits for memory and says so.
+TEST(PixelStoreMemory, ASlotWaitsForItsLine) {
+  Storing bench(built(spec::morphological::Storage::kMemory, 2), colours(16, 1));
+  for (int b = 0; b < 4; ++b) {
+    bench.store_beat(0, 0, b);
+    bench.fetch_beat(10, 0, b);
+  }
+  bench.answer(20, 0, true);
+  bench.answer(40, 0, false, bench.line(0));
+  bench.clock.run(60);
+  ASSERT_EQ(bench.pixel_gate.beats.size(), 4u);
+  for (std::size_t b = 0; b < 4; ++b) {
+    // Popped in 41, sent in 42, taken in 43.
+    EXPECT_EQ(bench.pixel_gate.cycles[b], 43 + b);
+    bench.expect_around(bench.pixel_gate.beats[b], 0, static_cast<int>(b));
+  }
+  // From 11 to 41, but for the clocks of the two answers.
+  EXPECT_EQ(stalls(bench.store, "memory"), 31u - 2u);
+}
+
+// As many lines as `outstanding` says are written without an answer; then a beat waits.
+TEST(PixelStoreMemory, AWriteWaitsForRoom) {
+  Parameters p = built(spec::morphological::Storage::kMemory, 2);
+  p.memory_outstanding = 3;
+  Storing bench(p, colours(16, 6));
+  for (int y = 0; y < 6; ++y)
+    for (int b = 0; b < 4; ++b) bench.store_beat(0, y, b);
+  bench.answer(50, 0, true);
+  bench.clock.run(80);
+  // Lines 0, 1, 2 in 4, 8, 12; three beats of line 3 until 15, the fourth waits. The answer is
+  // popped in 51, behind the side that stores: line 0 is read in that clock, line 3 goes in 52; the
+  // last beat of line 4 waits from 56 on.
+  ASSERT_EQ(bench.request_gate.beats.size(), 5u);
+  EXPECT_EQ(bench.request_gate.cycles[2], 13u);
+  EXPECT_EQ(bench.request_gate.beats[3].write, false);
+  EXPECT_EQ(bench.request_gate.cycles[3], 52u);
+  EXPECT_EQ(bench.request_gate.beats[4].tag, 3u);
+  EXPECT_EQ(bench.request_gate.cycles[4], 53u);
+  EXPECT_EQ(stalls(bench.store, "memory"), (50u - 15u) + (79u - 55u));
+}
+
+// ---- errors of memory ---------------------------------------------------------------------------
+
+struct Failure {
+  const char* name;
+  bool write;
+  spec::morphological::Lanes lanes;
+};
+void PrintTo(const Failure& f, std::ostream* out) { *out << f.name; }
+class MemoryError : public ::testing::TestWithParam<Failure> {};
+
+// A write that fails leaves memory as it was, and that is what is read: 0x5A here. A read that
+// fails gives zeros. Either is one error, and no other line knows of it.
+TEST_P(MemoryError, OfAWriteGivesWhatMemoryHoldsAndOfAReadGivesZeros) {
+  const Failure failure = GetParam();
+  Parameters p = built(spec::morphological::Storage::kMemory, static_cast<int>(failure.lanes));
+  EngineBench::Options options;
+  options.memory_latency = 900;  // all eight lines are written before the first is read
+  EngineBench bench(p, options);
+  bench.memory->preload(0, std::vector<std::uint8_t>(1024, 0x5A));
+  bench.memory->fail_request(failure.write ? 3 : 8 + 3);
+  const Frame out = bench.run(draw(64, 2, [](int, int) { return grey(200); }));
+  ASSERT_EQ(bench.memory->writes(), 8u);
+  ASSERT_EQ(bench.memory->reads(), 8u);
+  const Rgba8 other = failure.write ? Rgba8{0x5A, 0x5A, 0x5A, 0x5A} : Rgba8{0, 0, 0, 0};
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 64; ++x)
+      ASSERT_EQ(out.at(x, y), y == 0 && x >= 48 ? other : grey(200)) << x << ' ' << y;
+  namespace reg = spec::morphological::reg;
+  EXPECT_EQ(bench.bus.read(reg::kMemoryErrors), 1u);
+  EXPECT_EQ(bench.memory->errors(), 1u);
+  EXPECT_EQ(bench.bus.read(reg::kStatus),
+            reg::kStatusIdle | reg::kStatusFrameDone | reg::kStatusMemoryError);
+}
+INSTANTIATE_TEST_SUITE_P(
+    Each, MemoryError,
+    ::testing::Values(Failure{"write", true, spec::morphological::Lanes::kOne},
+                      Failure{"read", false, spec::morphological::Lanes::kOne},
+                      Failure{"write4", true, spec::morphological::Lanes::kFour},
+                      Failure{"read4", false, spec::morphological::Lanes::kFour}),
+    [](const auto& failure) { return failure.param.name; });
+
+}  // namespace
+}  // namespace deburr::tb::morphological_rtl

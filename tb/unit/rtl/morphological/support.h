@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+// What the tests of the morphological engine's hardware model share: the images of the contract's
+// test vectors, the whole engine between a driver and a sink, and single blocks between tokens.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tlm_utils/simple_initiator_socket.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <systemc>
+#include <utility>
+#include <vector>
+
+#include "rtl_model/morphological/morphological_engine.h"
+#include "spec/morphological/packets.h"
+#include "spec/morphological/parameters.h"
+#include "tb/harness/bench.h"
+#include "tb/harness/driver.h"
+#include "tb/harness/memory_model.h"
+
+namespace deburr::tb::morphological_rtl {
+
+using rtl::ClockDomain;
+using rtl::Cycle;
+using rtl::Link;
+using spec::morphological::Parameters;
+using spec::morphological::Rgba8;
+
+inline sc_core::sc_time period() { return {10, sc_core::SC_NS}; }
+
+struct Frame {
+  int width = 0, height = 0;
+  std::vector<Rgba8> pixel;
+  std::vector<std::uint32_t> depth;
+  Frame() = default;
+  Frame(int w, int h)
+      : width(w),
+        height(h),
+        pixel(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)),
+        depth(pixel.size()) {}
+  Rgba8& at(int x, int y) { return pixel[static_cast<std::size_t>(y * width + x)]; }
+  const Rgba8& at(int x, int y) const { return pixel[static_cast<std::size_t>(y * width + x)]; }
+};
+
+inline Rgba8 grey(int v) {
+  const auto code = static_cast<std::uint8_t>(v);
+  return {code, code, code, 255};
+}
+
+// The generator of the test vectors, advanced before it is read.
+class Lcg {
+ public:
+  std::uint32_t next() { return state_ = 1664525u * state_ + 1013904223u; }
+
+ private:
+  std::uint32_t state_ = 1;
+};
+
+template <class Colour>
+Frame draw(int width, int height, Colour&& colour) {
+  Frame frame(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) frame.at(x, y) = colour(x, y);
+  return frame;
+}
+
+inline Frame noise(int width = 97, int height = 61) {
+  Lcg s;
+  return draw(width, height, [&](int, int) { return grey(s.next() >> 31 ? 255 : 0); });
+}
+inline Frame line(int width = 200, int height = 150) {
+  return draw(width, height, [](int x, int y) {
+    const int u = 2 * x - 300, v = 2 * y - 120;
+    if (u * u + v * v < 6400) return grey(90);
+    return grey(7 * (2 * x + 1) > 31 * (2 * y - 99) ? 255 : 0);
+  });
+}
+inline Frame blocks(int width = 90, int height = 80) {
+  Lcg s;
+  return draw(width, height, [&](int x, int y) -> Rgba8 {
+    const std::uint32_t r = s.next();
+    const int e = x / 23 + 2 * (y / 17) + ((x + 3 * y) % 41 < 9 ? 1 : 0) +
+                  ((r >> 20 & 31) == 0 ? static_cast<int>(r >> 30) : 0);
+    constexpr int kLevels[4] = {0, 60, 130, 255};
+    const int v = kLevels[e % 4];
+    return {static_cast<std::uint8_t>(v), static_cast<std::uint8_t>(255 - v),
+            static_cast<std::uint8_t>(3 * v % 256), 255};
+  });
+}
+inline Frame checkerboard(int width, int height) {
+  return draw(width, height, [](int x, int y) { return grey((x + y) & 1 ? 255 : 0); });
+}
+
+// FNV-1a over R, G, B in raster order, from the start value of the contract.
+inline std::uint64_t hash(const Frame& frame) {
+  std::uint64_t h = 1469598103934665603u;
+  for (const Rgba8& p : frame.pixel)
+    for (std::size_t c = 0; c < 3; ++c) h = (h ^ p[c]) * 1099511628211u;
+  return h;
+}
+
+// A preset's rules with R and C; line_pixels small, so that tests are quick.
+inline Parameters preset(spec::morphological::Preset which, int reach_rows = 32,
+                         int reach_columns = 256) {
+  Parameters p;
+  const spec::morphological::PresetRow& row =
+      spec::morphological::kPresets[static_cast<std::size_t>(which)];
+  p.preset = which;
+  p.threshold_mode = row.threshold_mode;
+  p.dynamic_luma = row.dynamic_luma;
+  p.threshold = row.threshold;
+  p.local_contrast = row.local_contrast;
+  p.predictor = row.predictor;
+  p.steps = row.steps;
+  p.contiguous = row.contiguous;
+  p.safe = row.safe;
+  p.trim = row.trim;
+  p.window_rows = 2 * reach_rows + 2;
+  p.reach_columns = reach_columns;
+  p.line_pixels = 256;
+  return p;
+}
+
+inline int lanes_of(const Parameters& p) {
+  return spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
+}
+inline int reach_of(const Parameters& p) { return p.window_rows / 2 - 1; }
+inline int beats_a_row(const Frame& frame, const Parameters& p) {
+  return (frame.width + lanes_of(p) - 1) / lanes_of(p);
+}
+
+inline std::vector<spec::morphological::PixelBeat> beats_of(const Frame& frame, int lanes) {
+  std::vector<spec::morphological::PixelBeat> beats;
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; x += lanes) {
+      spec::morphological::PixelBeat beat;
+      beat.count = static_cast<std::uint8_t>(std::min(lanes, frame.width - x));
+      for (int i = 0; i < beat.count; ++i) {
+        const auto at = static_cast<std::size_t>(y * frame.width + x + i);
+        beat.pixel[static_cast<std::size_t>(i)] = frame.pixel[at];
+        beat.depth[static_cast<std::size_t>(i)] = frame.depth[at];
+      }
+      beat.start_of_frame = x == 0 && y == 0;
+      beat.end_of_row = x + beat.count == frame.width;
+      beats.push_back(beat);
+    }
+  return beats;
+}
+
+// Register accesses over TLM, as software would make them.
+class Bus final : public sc_core::sc_module {
+ public:
+  tlm_utils::simple_initiator_socket<Bus> socket{"socket"};
+  explicit Bus(const sc_core::sc_module_name& name) : sc_module(name) {}
+  tlm::tlm_response_status write(std::uint32_t offset, std::uint32_t value) {
+    return access(tlm::TLM_WRITE_COMMAND, offset, value);
+  }
+  std::uint32_t read(std::uint32_t offset) {
+    std::uint32_t value = 0;
+    EXPECT_EQ(access(tlm::TLM_READ_COMMAND, offset, value), tlm::TLM_OK_RESPONSE) << offset;
+    return value;
+  }
+
+ private:
+  tlm::tlm_response_status access(tlm::tlm_command command, std::uint32_t offset,
+                                  std::uint32_t& value) {
+    std::array<unsigned char, 4> data{};
+    for (unsigned i = 0; i < 4; ++i) data[i] = static_cast<unsigned char>(value >> (8 * i));
+    tlm::tlm_generic_payload payload;
+    payload.set_command(command);
+    payload.set_address(offset);
+    payload.set_data_ptr(data.data());
+    payload.set_data_length(4);
+    payload.set_streaming_width(4);
+    sc_core::sc_time delay;
+    socket->b_transport(payload, delay);
+    value = 0;
+    for (unsigned i = 0; i < 4; ++i) value |= std::uint32_t{data[i]} << (8 * i);
+    return payload.get_response_status();
+  }
+};
+
+// driver -> engine -> sink, a memory if the engine wants one, and the harness around them.
+struct EngineBench {
+  struct Options {
+    BenchOptions bench;
+    EndOptions driver, sink;
+    std::uint32_t memory_latency = 20, memory_scatter = 0;
+    MemoryModelParameters memory;
+  };
+  explicit EngineBench(const Parameters& p) : EngineBench(p, Options{}) {}
+  EngineBench(const Parameters& p, Options options)
+      : driver("driver", clock, options.driver),
+        engine("engine", clock, p),
+        sink("sink", clock, options.sink) {
+    driver.beats_out(in);
+    engine.pixels_in(in);
+    engine.pixels_out(out);
+    sink.beats_in(out);
+    bus.socket.bind(engine.registers);
+    if (engine.memory() != nullptr) {
+      options.memory.bytes = 1u << 20;
+      options.memory.latency_min = options.memory_latency;
+      options.memory.latency_max = options.memory_latency + options.memory_scatter;
+      memory = std::make_unique<MemoryModel>("memory", period(), options.memory);
+      engine.memory()->bind(memory->ports);
+    }
+    bench = std::make_unique<Bench>(clock, options.bench);
+    driver.on_send = [this](Cycle cycle, const spec::morphological::PixelBeat&) {
+      sent.push_back(cycle);
+    };
+  }
+
+  // Runs one frame after another that was added; the frames come back in order.
+  Frame run(const Frame& frame, Cycle limit = 5'000'000) {
+    engine.set_frame_size(frame.width, frame.height);
+    driver.send(beats_of(frame, lanes_of(engine.parameters())));
+    wanted += static_cast<std::uint64_t>(beats_a_row(frame, engine.parameters()) * frame.height);
+    bench->run([&] { return sink.received() == wanted && engine.idle(); }, limit);
+    return last(frame.width, frame.height);
+  }
+  // The newest frame in the sink.
+  Frame last(int width, int height) const {
+    Frame frame(width, height);
+    const auto beats = static_cast<std::size_t>(beats_a_row(frame, engine.parameters()) * height);
+    std::size_t at = 0, index = sink.beats().size() - beats;
+    for (std::size_t k = 0; k < beats; ++k)
+      for (std::size_t i = 0; i < sink.beats()[index + k].count; ++i)
+        frame.pixel[at++] = sink.beats()[index + k].pixel[i];
+    return frame;
+  }
+
+  ClockDomain clock{"clock", period()};
+  Link<spec::morphological::PixelBeat> in{"in"};
+  Link<spec::morphological::BlendedBeat> out{"out"};
+  Driver<spec::morphological::PixelBeat> driver;
+  rtl::morphological::MorphologicalEngine engine;
+  Sink<spec::morphological::BlendedBeat> sink;
+  Bus bus{"bus"};
+  std::unique_ptr<MemoryModel> memory;
+  std::unique_ptr<Bench> bench;
+  std::vector<Cycle> sent;  // when each beat was pushed into the engine's link
+  std::uint64_t wanted = 0;
+};
+
+}  // namespace deburr::tb::morphological_rtl

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+// What the tests of the texture unit's hardware model share: a queue of tokens at each end of a
+// block, a memory that records who asked for what, and the whole unit with both.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tlm_utils/simple_initiator_socket.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <systemc>
+#include <tlm>
+#include <utility>
+#include <vector>
+
+#include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/fabric/link.h"
+#include "rtl_model/fabric/unit.h"
+#include "rtl_model/texture/texture_unit.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/packets.h"
+#include "spec/texture/parameters.h"
+#include "spec/texture/registers.h"
+#include "tb/harness/memory_model.h"
+
+namespace deburr::tb::texture_rtl {
+
+using rtl::Activity;
+using rtl::ClockDomain;
+using rtl::Cycle;
+using rtl::In;
+using rtl::kBusy;
+using rtl::kIdle;
+using rtl::Link;
+using rtl::Out;
+using rtl::Unit;
+
+inline sc_core::sc_time period() { return {10, sc_core::SC_NS}; }
+
+// Pushes its tokens as fast as they are taken.
+template <class T>
+class Source final : public Unit {
+ public:
+  Out<T> out{"out"};
+  Source(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
+  Activity tick(Cycle cycle) override {
+    if (next_ == tokens_.size()) return kIdle;
+    if (!out.can_push(cycle)) return rtl::kStalledDownstream;
+    out.push(cycle, tokens_[next_++]);
+    return kBusy;
+  }
+  void reset() override {
+    tokens_.clear();
+    next_ = 0;
+  }
+  void add(const T& token) { tokens_.push_back(token); }
+  bool done() const { return next_ == tokens_.size(); }
+
+ private:
+  std::vector<T> tokens_;
+  std::size_t next_ = 0;
+};
+
+// Takes every token at once, unless told to wait, and notes when it could be taken.
+template <class T>
+class Sink final : public Unit {
+ public:
+  struct Taken {
+    Cycle cycle;
+    T token;
+  };
+  In<T> in{"in"};
+  Sink(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
+  Activity tick(Cycle cycle) override {
+    if (!in.can_pop(cycle) || (cycle >= hold_from && cycle < hold_to)) return kIdle;
+    taken.push_back({cycle, in.take(cycle)});
+    return kBusy;
+  }
+  void reset() override { taken.clear(); }
+  std::vector<Taken> taken;
+  Cycle hold_from = 0, hold_to = 0;  // takes nothing in [hold_from, hold_to)
+};
+
+// A unit of the test's own between two links: source -> link -> block -> link -> sink. The block's
+// ports are bound by the test.
+template <class From, class To>
+struct Ends {
+  explicit Ends(ClockDomain& clock, const std::string& name = "")
+      : in((name + "in").c_str()),
+        out((name + "out").c_str()),
+        source((name + "source").c_str(), clock),
+        sink((name + "sink").c_str(), clock) {
+    source.out(in);
+    sink.in(out);
+  }
+  Link<From> in;
+  Link<To> out;
+  Source<From> source;
+  Sink<To> sink;
+};
+
+// The clock in which the consumer of `link` can take its oldest token for the first time; kNever if
+// that does not happen within `limit` clocks. Proves "not ready at n - 1, ready at n".
+template <class T>
+Cycle ready_at(ClockDomain& clock, const Link<T>& link, Cycle limit = 1000) {
+  const Cycle end = clock.cycle() + limit;
+  while (!link.can_pop(clock.cycle())) {
+    if (clock.cycle() == end) return rtl::kNever;
+    clock.run(1);
+  }
+  return clock.cycle();
+}
+
+// Register accesses over TLM, as software would make them.
+class Bus final : public sc_core::sc_module {
+ public:
+  tlm_utils::simple_initiator_socket<Bus> socket{"socket"};
+  explicit Bus(const sc_core::sc_module_name& name) : sc_module(name) {}
+  tlm::tlm_response_status write(std::uint32_t offset, std::uint32_t value) {
+    return access(tlm::TLM_WRITE_COMMAND, offset, value);
+  }
+  std::uint32_t read(std::uint32_t offset) {
+    std::uint32_t value = 0;
+    EXPECT_EQ(access(tlm::TLM_READ_COMMAND, offset, value), tlm::TLM_OK_RESPONSE) << offset;
+    return value;
+  }
+
+ private:
+  tlm::tlm_response_status access(tlm::tlm_command command, std::uint32_t offset,
+                                  std::uint32_t& value) {
+    std::array<unsigned char, 4> data;
+    for (unsigned i = 0; i < 4; ++i) data[i] = static_cast<unsigned char>(value >> (8 * i));
+    tlm::tlm_generic_payload payload;
+    payload.set_command(command);
+    payload.set_address(offset);
+    payload.set_data_ptr(data.data());
+    payload.set_data_length(4);
+    payload.set_streaming_width(4);
+    sc_core::sc_time delay;
+    socket->b_transport(payload, delay);
+    value = 0;
+    for (unsigned i = 0; i < 4; ++i) value |= std::uint32_t{data[i]} << (8 * i);
+    return payload.get_response_status();
+  }
+};
+
+// Writes a descriptor, field by field as docs/texture_unit.md has them.
+inline void write_descriptor(Bus& bus, std::uint32_t handle, const spec::texture::Descriptor& d) {
+  namespace reg = spec::texture::reg;
+  const std::uint32_t at = reg::kTextureBase + handle * reg::kTextureStride;
+  const auto code = [](auto e) { return static_cast<std::uint32_t>(e); };
+  bus.write(at + reg::kSize, d.width | std::uint32_t{d.height} << 16);
+  bus.write(at + reg::kMode, code(d.format) | code(d.layout) << 4 | code(d.wrap_s) << 8 |
+                                 code(d.wrap_t) << 10 | code(d.min_filter) << 12 |
+                                 code(d.mag_filter) << 16 | std::uint32_t{d.levels} << 20 |
+                                 std::uint32_t{d.max_anisotropy_log2} << 24);
+  bus.write(at + reg::kLodBias, static_cast<std::uint16_t>(d.lod_bias));
+  bus.write(at + reg::kLodClamp, d.min_lod | std::uint32_t{d.max_lod} << 16);
+  for (std::uint32_t k = 0; k < spec::texture::kMaxLevels; ++k)
+    bus.write(at + reg::kLevelBase + 4 * k, d.base[k]);
+}
+
+inline constexpr std::uint32_t kMemoryLatency = 10;
+
+// With `scatter`, answers come up to that many clocks later, at random, and overtake each other.
+inline MemoryModelParameters memory_parameters(std::uint32_t latency, std::uint32_t scatter) {
+  MemoryModelParameters p;
+  p.latency_min = latency;
+  p.latency_max = latency + scatter;
+  p.outstanding = 1024;
+  return p;
+}
+
+// A ParameterStore alone, with its bus, for the blocks that read descriptors.
+struct Store {
+  explicit Store(ClockDomain& clock, const spec::texture::Parameters& parameters = {})
+      : store("store", clock, parameters), bus("bus") {
+    bus.socket.bind(store.registers.bus);
+  }
+  rtl::texture::ParameterStore store;
+  Bus bus;
+};
+
+// The whole unit between source and sink.
+struct UnitBench {
+  explicit UnitBench(const spec::texture::Parameters& parameters = {},
+                     std::uint32_t latency = kMemoryLatency, std::uint32_t scatter = 0)
+      : unit("unit", clock, parameters),
+        memory("memory", period(), memory_parameters(latency, scatter)) {
+    unit.quads_in(quads);
+    unit.colours_out(colours);
+    unit.memory.bind(memory.ports);
+    bus.socket.bind(unit.registers);
+    source.out(quads);
+    sink.in(colours);
+  }
+  // Until everything that was added has come out.
+  bool finish(Cycle limit = 1'000'000) {
+    return clock.run_until([&] { return source.done() && unit.idle() && colours.empty(); }, limit);
+  }
+  void reset(Cycle cycles = 3) {
+    clock.set_reset_n(false);
+    clock.run(cycles);
+    clock.set_reset_n(true);
+  }
+
+  ClockDomain clock{"clock", period()};
+  Link<spec::texture::Quad> quads{"quads"};
+  Link<spec::texture::Colour> colours{"colours"};
+  Source<spec::texture::Quad> source{"source", clock};
+  rtl::texture::TextureUnit unit;
+  Sink<spec::texture::Colour> sink{"sink", clock};
+  MemoryModel memory;
+  Bus bus{"bus"};
+};
+
+// A power-of-two RGBA8 texture in row-major order at address 0, levels one after the other. Texel
+// (x, y) of level k is (x, y, k, 255).
+inline spec::texture::Descriptor linear_texture(MemoryModel& memory, int size) {
+  spec::texture::Descriptor d;
+  std::vector<std::uint8_t> image;
+  d.width = d.height = static_cast<std::uint16_t>(size);
+  d.layout = spec::texture::Layout::kLinear;
+  std::uint32_t base = 0;
+  for (int level = 0; size >> level > 0; ++level) {
+    const int side = size >> level, pitch = (4 * side + 63) & ~63;
+    d.base[static_cast<std::size_t>(level)] = base;
+    image.resize(base + static_cast<std::uint32_t>(side * pitch));
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
+        std::uint8_t* const texel = &image[base + static_cast<std::uint32_t>(y * pitch + 4 * x)];
+        texel[0] = static_cast<std::uint8_t>(x);
+        texel[1] = static_cast<std::uint8_t>(y);
+        texel[2] = static_cast<std::uint8_t>(level);
+        texel[3] = 255;
+      }
+    base += static_cast<std::uint32_t>(side * pitch);
+    ++d.levels;
+  }
+  memory.preload(0, image);
+  return d;
+}
+
+// A quad whose lanes are dx and dy apart: along s in the row, along t in the column.
+inline spec::texture::Quad quad_at(std::int32_t s, std::int32_t t, std::int32_t dx, std::int32_t dy,
+                                   std::uint32_t tag = 0) {
+  spec::texture::Quad q;
+  q.tag = tag;
+  q.s = {s, s + dx, s, s + dx};
+  q.t = {t, t, t + dy, t + dy};
+  return q;
+}
+
+}  // namespace deburr::tb::texture_rtl

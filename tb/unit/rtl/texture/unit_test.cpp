@@ -1,0 +1,529 @@
+// SPDX-License-Identifier: MIT
+// The whole texture unit: total latency, throughput with a warm cache, recovery from stalls,
+// registers, errors, reset in mid-run. The texture's texels are their own coordinates, so that a
+// colour says where it was taken.
+#include <optional>
+#include <set>
+#include <string>
+
+#include "rtl_model/texture/texture_unit.h"
+#include "spec/error.h"
+#include "tb/unit/rtl/texture/support.h"
+
+namespace deburr::tb::texture_rtl {
+namespace {
+
+namespace reg = spec::texture::reg;
+using testing::ElementsAre;
+using testing::HasSubstr;
+constexpr std::int32_t kOne = spec::texture::kCoordinateOne;
+constexpr std::int32_t kTexel = kOne / 64;  // of a 64 x 64 texture
+
+// Nearest, no mip levels, 64 x 64.
+spec::texture::Descriptor nearest_texture(MemoryModel& memory) {
+  spec::texture::Descriptor d = linear_texture(memory, 64);
+  d.min_filter = spec::texture::MinFilter::kNearest;
+  d.mag_filter = spec::texture::MagFilter::kNearest;
+  return d;
+}
+
+// Lane 0 in the middle of texel (x, y), lanes a texel apart.
+spec::texture::Quad quad_of(int x, int y, std::uint32_t tag = 0) {
+  return quad_at(x * kTexel + kTexel / 2, y * kTexel + kTexel / 2, kTexel, kTexel, tag);
+}
+
+TEST(TextureRtlUnit, NearestGivesTheTexelsInOrder) {
+  UnitBench b;
+  write_descriptor(b.bus, 5, nearest_texture(b.memory));
+  for (int i = 0; i < 30; ++i) {
+    spec::texture::Quad q = quad_of(2 * i, i, static_cast<std::uint32_t>(1000 + i));
+    q.texture = 5;
+    q.coverage = static_cast<std::uint8_t>(i & 15);
+    b.source.add(q);
+  }
+  ASSERT_TRUE(b.finish());
+  std::size_t at = 0;
+  for (int i = 0; i < 30; ++i)
+    for (int lane = 0; lane < 4; ++lane) {
+      if (!(i >> lane & 1)) continue;
+      ASSERT_LT(at, b.sink.taken.size());
+      const spec::texture::Colour& c = b.sink.taken[at++].token;
+      EXPECT_EQ(c.tag, static_cast<std::uint32_t>(1000 + i));
+      EXPECT_EQ(c.lane, lane);
+      EXPECT_EQ(c.last, (i & 15) >> (lane + 1) == 0);
+      EXPECT_THAT(c.rgba, ElementsAre((2 * i + (lane & 1)) & 63, i + (lane >> 1), 0, 255));
+    }
+  EXPECT_EQ(at, b.sink.taken.size());
+  EXPECT_EQ(b.bus.read(reg::kFragments), at);
+  EXPECT_EQ(b.bus.read(reg::kBilinears), at);
+}
+
+void check_latency(spec::texture::FootprintRule rule, Cycle expected) {
+  spec::texture::Parameters p;
+  p.footprint = rule;
+  UnitBench b(p);
+  write_descriptor(b.bus, 0, nearest_texture(b.memory));
+  b.source.add(quad_of(3, 5));
+  ASSERT_TRUE(b.finish());  // the cache is warm
+  b.clock.run(5);
+  const std::size_t cold = b.sink.taken.size();
+  b.sink.hold_to = rtl::kNever;
+  const Cycle pushed = b.clock.cycle();
+  b.quads.push(pushed, quad_of(3, 5));
+  const Cycle taken = pushed + 1;
+  b.clock.run(expected);
+  EXPECT_FALSE(b.colours.can_pop(taken + expected - 1));
+  b.clock.run(1);
+  EXPECT_TRUE(b.colours.can_pop(taken + expected));
+  b.sink.hold_to = 0;
+  b.clock.run(20);
+  EXPECT_EQ(b.sink.taken.size(), cold + 4);
+  // Lane 0 takes `expected`, each further lane leaves the first block a clock later.
+  EXPECT_EQ(b.unit.fragment_latency.count(), 8u);
+  EXPECT_EQ(b.unit.fragment_latency.min(), expected);
+}
+TEST(TextureRtlUnit, LatencyOfANearestFragmentIsSeventeen) {
+  check_latency(spec::texture::FootprintRule::kHalf, 17);
+}
+TEST(TextureRtlUnit, LatencyWithExactFootprintIsThirtyTwo) {
+  check_latency(spec::texture::FootprintRule::kExact, 32);
+}
+
+TEST(TextureRtlUnit, LatencyHistogramCountsEveryFragment) {
+  UnitBench b;
+  write_descriptor(b.bus, 0, nearest_texture(b.memory));
+  b.source.add(quad_of(3, 5));
+  b.finish();
+  b.clock.run(5);
+  b.source.add(quad_of(3, 5));
+  b.finish();
+  const auto bins = b.unit.fragment_latency.bins();
+  ASSERT_EQ(bins.size(), 8u);  // four cold ones, later by the fills, and these
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    EXPECT_EQ(bins[lane].low, 17 + lane);
+    EXPECT_EQ(bins[lane].count, 1u);
+  }
+}
+
+// d_max = 12 texels, d_min = 3 with n + y: L = 2, N = 4, l = 1.5: two levels.
+spec::texture::Quad anisotropic_quad(std::uint32_t tag) {
+  return quad_at(kOne / 2, kOne / 2, 12 * kTexel, 3 * kTexel, tag);
+}
+
+TEST(TextureRtlUnit, WarmCacheGivesOneBilinearAClock) {
+  UnitBench b;
+  spec::texture::Descriptor d = linear_texture(b.memory, 64);
+  d.max_anisotropy_log2 = 4;
+  write_descriptor(b.bus, 0, d);
+  b.source.add(anisotropic_quad(0));
+  b.finish();
+  const std::size_t warm = b.sink.taken.size();
+  const std::uint64_t fills = b.unit.cache.miss_queue.line_fills.value();
+  for (std::uint32_t i = 0; i < 50; ++i) b.source.add(anisotropic_quad(i));
+  ASSERT_TRUE(b.finish());
+  EXPECT_EQ(b.unit.cache.miss_queue.line_fills.value(), fills);
+  ASSERT_EQ(b.sink.taken.size(), warm + 200);
+  EXPECT_EQ(b.bus.read(reg::kBilinears), 51u * 4 * 8);
+  // N x 2 = 8 clocks a fragment, each of them, exactly: a bilinear a clock.
+  for (std::size_t i = warm + 1; i < b.sink.taken.size(); ++i)
+    EXPECT_EQ(b.sink.taken[i].cycle - b.sink.taken[i - 1].cycle, 8u);
+}
+
+// Fragments of every cost in one stream: the distance of two colours is the cost of the second.
+TEST(TextureRtlUnit, FragmentCostsNTimesLevels) {
+  UnitBench b;
+  spec::texture::Descriptor d = linear_texture(b.memory, 64);
+  std::vector<Cycle> cost;
+  std::vector<spec::texture::Quad> quads;
+  std::uint8_t handle = 0;
+  for (const bool two_levels : {false, true})
+    for (std::uint8_t n = 0; n <= 4; ++n) {
+      d.max_anisotropy_log2 = n;
+      // Level 1.5 or 1, whatever N is.
+      d.min_lod = d.max_lod = two_levels ? 0x180 : 0x100;
+      write_descriptor(b.bus, handle, d);
+      spec::texture::Quad q = quad_at(kOne / 2, kOne / 2, 32 * kTexel, kTexel, handle);
+      q.texture = handle++;
+      quads.push_back(q);
+      cost.push_back((1u << n) * (two_levels ? 2 : 1));
+    }
+  for (const spec::texture::Quad& q : quads) b.source.add(q);
+  b.finish();
+  const std::size_t warm = b.sink.taken.size();
+  for (const spec::texture::Quad& q : quads) b.source.add(q);
+  ASSERT_TRUE(b.finish());
+  ASSERT_EQ(b.sink.taken.size(), warm + 4 * quads.size());
+  for (std::size_t i = warm + 1; i < b.sink.taken.size(); ++i)
+    EXPECT_EQ(b.sink.taken[i].cycle - b.sink.taken[i - 1].cycle, cost[b.sink.taken[i].token.tag]);
+  // Every clock between the first and the last request, the cache had one.
+  EXPECT_EQ(b.unit.cache.tag_stage.requests.value(), b.bus.read(reg::kBilinears));
+}
+
+// A planted fault for the two tests above: when the consumer stops, the distances are not the
+// costs.
+TEST(TextureRtlUnit, StallDelaysByItsLengthAndLosesNothing) {
+  UnitBench b;
+  spec::texture::Descriptor d = nearest_texture(b.memory);
+  write_descriptor(b.bus, 0, d);
+  b.source.add(quad_of(3, 5));
+  b.finish();
+  const std::size_t warm = b.sink.taken.size();
+  const Cycle start = b.clock.cycle();
+  for (std::uint32_t i = 0; i < 50; ++i) b.source.add(quad_of(3, 5, i));
+  b.sink.hold_from = start + 100;
+  b.sink.hold_to = start + 163;
+  ASSERT_TRUE(b.finish());
+  ASSERT_EQ(b.sink.taken.size(), warm + 200);
+  // Pushed in start, taken in start + 1.
+  for (std::size_t i = 0; i < 200; ++i) {
+    const Cycle alone = start + 1 + 17 + i;
+    EXPECT_EQ(b.sink.taken[warm + i].cycle, alone < start + 100 ? alone : alone + 63);
+    EXPECT_EQ(b.sink.taken[warm + i].token.tag, i / 4);
+  }
+  EXPECT_GT(b.unit.filter.cycles_of(rtl::kStalledDownstream), 50u);
+}
+
+TEST(TextureRtlUnit, BilinearTrilinearByHand) {
+  UnitBench b;
+  spec::texture::Descriptor d = linear_texture(b.memory, 64);
+  d.min_filter = spec::texture::MinFilter::kLinearMipmapLinear;
+  write_descriptor(b.bus, 0, d);
+  // Lane 0 a quarter right of the middle of texel 10 and half below that of texel 20; the
+  // derivative is 1.5 texels, lb = 0.5 with n + y: half level 0 and half level 1, where the middle
+  // of texel x is at 2x + 1.
+  spec::texture::Quad q =
+      quad_at(10 * kTexel + 3 * kTexel / 4, 21 * kTexel, 3 * kTexel / 2, 3 * kTexel / 2);
+  q.coverage = 1;
+  b.source.add(q);
+  ASSERT_TRUE(b.finish());
+  ASSERT_EQ(b.sink.taken.size(), 1u);
+  // Level 0: u = 10.25, v = 20.5. Level 1: u = 10.75 / 2 - 0.5 = 4.875, v = 10. The mean: 7.5625 ->
+  // 8, 15.25 -> 15; levels 0 and 1: 0.5 -> 1.
+  EXPECT_THAT(b.sink.taken[0].token.rgba, ElementsAre(8, 15, 1, 255));
+}
+
+TEST(TextureRtlUnit, Registers) {
+  spec::texture::Parameters p;
+  p.footprint = spec::texture::FootprintRule::kMax;
+  p.log2 = spec::texture::Log2Rule::kSegments;
+  p.count = spec::texture::CountRule::kCeil;
+  p.count_cap = spec::texture::CountCap::kTexel;
+  p.kernel = spec::texture::Kernel::kTent;
+  p.spread = 102;
+  UnitBench b(p);
+  EXPECT_EQ(b.bus.read(reg::kId), 0xDEB00001u);
+  EXPECT_EQ(b.bus.read(reg::kRules), 4u | 2u << 4 | 1u << 8 | 1u << 9 | 1u << 10 | 102u << 16);
+  EXPECT_EQ(b.bus.read(reg::kControl), 1u);
+  EXPECT_EQ(b.bus.read(reg::kStatus), 1u);
+  EXPECT_EQ(b.bus.write(reg::kId, 0), tlm::TLM_COMMAND_ERROR_RESPONSE);
+  EXPECT_EQ(b.bus.write(0x10, 0), tlm::TLM_ADDRESS_ERROR_RESPONSE);
+  EXPECT_EQ(b.bus.write(reg::kTextureBase + 16 * reg::kTextureStride, 0),
+            tlm::TLM_ADDRESS_ERROR_RESPONSE);
+  // A descriptor reads back.
+  const spec::texture::Descriptor d = nearest_texture(b.memory);
+  write_descriptor(b.bus, 15, d);
+  const std::uint32_t at = reg::kTextureBase + 15 * reg::kTextureStride;
+  EXPECT_EQ(b.bus.read(at + reg::kSize), 64u | 64u << 16);
+  EXPECT_EQ(b.bus.read(at + reg::kLodClamp), 0x0C000000u);
+  EXPECT_EQ(b.bus.read(at + reg::kLevelBase + 4), d.base[1]);
+  EXPECT_EQ(b.bus.read(reg::kStatus), 1u);
+}
+
+TEST(TextureRtlUnit, StatusWhileBusyAndStickyBits) {
+  UnitBench b;
+  const spec::texture::Descriptor d = nearest_texture(b.memory);
+  write_descriptor(b.bus, 0, d);
+  for (int i = 0; i < 20; ++i) b.source.add(quad_of(i, i));
+  b.clock.run(10);
+  EXPECT_EQ(b.bus.read(reg::kStatus), 0u);
+  b.bus.write(reg::kTextureBase + reg::kTextureStride + reg::kSize, 7);
+  EXPECT_EQ(b.bus.read(reg::kStatus), reg::kStatusWrittenWhileBusy);
+  b.finish();
+  EXPECT_EQ(b.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusWrittenWhileBusy);
+  b.bus.write(reg::kStatus, reg::kStatusMemoryError);  // another bit
+  EXPECT_EQ(b.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusWrittenWhileBusy);
+  b.bus.write(reg::kStatus, reg::kStatusWrittenWhileBusy);
+  EXPECT_EQ(b.bus.read(reg::kStatus), reg::kStatusIdle);
+}
+
+TEST(TextureRtlUnit, ControlCommands) {
+  UnitBench b;
+  write_descriptor(b.bus, 0, nearest_texture(b.memory));
+  b.source.add(quad_of(3, 5));
+  b.finish();
+  const auto fills = [&] { return b.unit.cache.miss_queue.line_fills.value(); };
+  const std::uint64_t cold = fills();
+  b.source.add(quad_of(3, 5));
+  b.finish();
+  EXPECT_EQ(fills(), cold);
+  // Invalidate: the lines are fetched again.
+  b.bus.write(reg::kControl, reg::kControlEnable | reg::kControlInvalidate);
+  EXPECT_EQ(b.bus.read(reg::kControl), reg::kControlEnable);
+  b.source.add(quad_of(3, 5));
+  b.finish();
+  EXPECT_EQ(fills(), 2 * cold);
+  // While busy it does nothing but set the sticky bit.
+  b.source.add(quad_of(3, 5));
+  b.clock.run(4);
+  b.bus.write(reg::kControl, reg::kControlEnable | reg::kControlInvalidate);
+  b.finish();
+  EXPECT_EQ(fills(), 2 * cold);
+  EXPECT_TRUE(b.bus.read(reg::kStatus) & reg::kStatusWrittenWhileBusy);
+  // Counters.
+  EXPECT_EQ(b.bus.read(reg::kFragments), 16u);
+  EXPECT_EQ(b.bus.read(reg::kLineFills), 2 * cold);
+  b.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
+  EXPECT_EQ(b.bus.read(reg::kFragments), 0u);
+  EXPECT_EQ(b.bus.read(reg::kLineFills), 0u);
+  // That is all it does: the cache is still warm.
+  b.source.add(quad_of(3, 5));
+  b.finish();
+  EXPECT_EQ(fills(), 0u);
+  b.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
+  // Disabled: a quad waits.
+  b.bus.write(reg::kControl, 0);
+  b.source.add(quad_of(3, 5));
+  b.clock.run(100);
+  EXPECT_EQ(b.bus.read(reg::kFragments), 0u);
+  EXPECT_FALSE(b.bus.read(reg::kStatus) & reg::kStatusIdle);
+  b.bus.write(reg::kControl, reg::kControlEnable);
+  ASSERT_TRUE(b.finish());
+  EXPECT_EQ(b.bus.read(reg::kFragments), 4u);
+}
+
+TEST(TextureRtlUnit, EachInvalidDescriptorGivesZeroAndIsCounted) {
+  UnitBench b;
+  const spec::texture::Descriptor good = nearest_texture(b.memory);
+  std::vector<spec::texture::Descriptor> bad(13, good);
+  bad[0].width = 0;
+  bad[1].height = 0;
+  bad[2].width = 4097;
+  bad[3].height = 65535;
+  bad[4].levels = 0;
+  bad[5].levels = 8;  // 64 x 64 has seven
+  bad[6].format = static_cast<spec::texture::Format>(5);
+  bad[7].wrap_s = static_cast<spec::texture::Wrap>(3);
+  bad[8].wrap_t = static_cast<spec::texture::Wrap>(3);
+  bad[9].min_filter = static_cast<spec::texture::MinFilter>(6);
+  bad[10].max_anisotropy_log2 = 5;
+  bad[11].base[6] = 32;
+  bad[12].base[0] = 1;
+  for (std::uint8_t h = 0; h < 13; ++h) write_descriptor(b.bus, h, bad[h]);
+  spec::texture::Descriptor unused_base = good;
+  unused_base.base[7] = 33;  // a level that is not there
+  write_descriptor(b.bus, 13, unused_base);
+  write_descriptor(b.bus, 14, good);
+  for (std::uint8_t h = 0; h < 17; ++h) {  // 15 was never written, 16 does not exist
+    spec::texture::Quad q = quad_of(8, 8, h);
+    q.texture = h;
+    q.clamped = 1;
+    b.source.add(q);
+  }
+  ASSERT_TRUE(b.finish());
+  ASSERT_EQ(b.sink.taken.size(), 17u * 4);
+  for (const auto& t : b.sink.taken) {
+    const bool valid = t.token.tag == 13 || t.token.tag == 14;
+    EXPECT_EQ(t.token.rgba[3], valid ? 255 : 0) << t.token.tag;
+    EXPECT_EQ(t.token.rgba[0], valid ? 8 + (t.token.lane & 1) : 0) << t.token.tag;
+  }
+  EXPECT_EQ(b.bus.read(reg::kInvalidFragments), 15u * 4);
+  EXPECT_EQ(b.bus.read(reg::kFragments), 17u * 4);
+  EXPECT_EQ(b.bus.read(reg::kBilinears), 2u * 4);
+  EXPECT_EQ(b.bus.read(reg::kClamped), 17u);
+  EXPECT_EQ(b.bus.read(reg::kSaturated), 0u);
+  EXPECT_EQ(b.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusInvalidTexture);
+  // One clock a fragment.
+  for (std::size_t i = 1; i < 13 * 4; ++i)
+    EXPECT_EQ(b.sink.taken[i].cycle, b.sink.taken[0].cycle + i);
+}
+
+TEST(TextureRtlUnit, MemoryErrors) {
+  UnitBench b;
+  const spec::texture::Descriptor d = nearest_texture(b.memory);
+  write_descriptor(b.bus, 0, d);
+  spec::texture::Descriptor outside = d;
+  outside.base[0] = 1 << 20;  // past the end of memory
+  write_descriptor(b.bus, 1, outside);
+  b.memory.fail_range(5 * 256, 5 * 256 + 64);  // texels 0..15 of row 5
+  b.source.add(quad_of(2, 4, 7));
+  spec::texture::Quad q = quad_of(2, 4, 8);
+  q.texture = 1;
+  b.source.add(q);
+  ASSERT_TRUE(b.finish());
+  ASSERT_EQ(b.sink.taken.size(), 8u);
+  EXPECT_THAT(b.sink.taken[1].token.rgba, ElementsAre(3, 4, 0, 255));
+  EXPECT_THAT(b.sink.taken[2].token.rgba, ElementsAre(0, 0, 0, 0));
+  EXPECT_THAT(b.sink.taken[4].token.rgba, ElementsAre(0, 0, 0, 0));
+  EXPECT_EQ(b.bus.read(reg::kMemoryErrors), 3u);
+  EXPECT_EQ(b.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusMemoryError);
+}
+
+std::vector<spec::texture::Quad> mixed_quads() {
+  std::vector<spec::texture::Quad> quads;
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    const auto step = static_cast<std::int32_t>(i);
+    spec::texture::Quad q = quad_at(step * 3 * kTexel + step * 1000, step * 5 * kTexel,
+                                    (1 + step % 13) * kTexel, (1 + step % 3) * kTexel, i);
+    q.coverage = static_cast<std::uint8_t>(15 - i % 7);
+    quads.push_back(q);
+  }
+  return quads;
+}
+
+spec::texture::Descriptor trilinear_texture(MemoryModel& memory) {
+  spec::texture::Descriptor d = linear_texture(memory, 64);
+  d.max_anisotropy_log2 = 3;
+  return d;
+}
+
+struct Outcome {
+  std::vector<Cycle> when;  // since the first push
+  std::vector<spec::texture::Colour> colours;
+  std::vector<std::uint64_t> fills, counters;
+};
+
+Outcome run_once(UnitBench& b) {
+  write_descriptor(b.bus, 0, trilinear_texture(b.memory));
+  b.memory.clear_statistics();
+  const Cycle start = b.clock.cycle();
+  for (const spec::texture::Quad& q : mixed_quads()) b.source.add(q);
+  EXPECT_TRUE(b.finish());
+  Outcome o;
+  for (const auto& t : b.sink.taken) {
+    o.when.push_back(t.cycle - start);
+    o.colours.push_back(t.token);
+  }
+  o.fills = b.memory.lines_read();
+  for (const rtl::Counter* counter : b.unit.counters()) o.counters.push_back(counter->value());
+  for (const rtl::Unit* unit : b.unit.units()) {
+    o.counters.push_back(unit->busy_cycles());
+    for (const auto& stall : unit->stalls()) o.counters.push_back(stall.cycles);
+  }
+  return o;
+}
+
+void expect_equal(const Outcome& a, const Outcome& b) {
+  EXPECT_GT(a.colours.size(), 100u);
+  EXPECT_EQ(a.when, b.when);
+  EXPECT_EQ(a.colours, b.colours);
+  EXPECT_EQ(a.fills, b.fills);
+  EXPECT_EQ(a.counters, b.counters);
+}
+
+// In mid-run, with fills in flight: afterwards the unit is as new, tags, shift register and all.
+void check_reset(spec::texture::Replacement replacement) {
+  spec::texture::Parameters p;
+  p.cache_bytes = 512;
+  p.cache_replacement = replacement;
+  UnitBench b(p, 60);
+  const Outcome fresh = run_once(b);
+  for (const Cycle interrupted_after : {1u, 17u, 40u, 75u, 200u}) {
+    b.reset();
+    EXPECT_TRUE(b.unit.idle());
+    write_descriptor(b.bus, 0, trilinear_texture(b.memory));
+    for (const spec::texture::Quad& q : mixed_quads()) b.source.add(q);
+    b.clock.run(interrupted_after);
+    EXPECT_FALSE(b.unit.idle());
+    b.reset();
+    EXPECT_EQ(b.bus.read(reg::kTextureBase), 0u);  // descriptors are gone as well
+    expect_equal(fresh, run_once(b));
+  }
+}
+TEST(TextureRtlUnit, ResetInMidRun) { check_reset(spec::texture::Replacement::kLru); }
+TEST(TextureRtlUnit, ResetInMidRunRandomReplacement) {
+  check_reset(spec::texture::Replacement::kRandom);
+}
+
+// The order in which units are evaluated changes nothing, in no counter and no clock.
+TEST(TextureRtlUnit, ShuffledEvaluationChangesNothing) {
+  spec::texture::Parameters p;
+  p.cache_bytes = 512;
+  p.cache_outstanding = 6;
+  p.cache_fifo_depth = 8;
+  UnitBench b(p, 20);
+  const Outcome in_order = run_once(b);
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    b.clock.shuffle(std::nullopt);
+    b.reset();
+    b.clock.shuffle(seed);
+    expect_equal(in_order, run_once(b));
+  }
+}
+
+TEST(TextureRtlUnit, FastPathChangesNothing) {
+  UnitBench b({}, 20);
+  const Outcome fast = run_once(b);
+  b.reset();
+  b.clock.set_fast_path(false);
+  expect_equal(fast, run_once(b));
+}
+
+// Colours and the order of fills do not depend on memory's latency.
+TEST(TextureRtlUnit, ScatteredLatencyChangesNoColour) {
+  spec::texture::Parameters p;
+  p.cache_bytes = 512;
+  UnitBench b(p, 5, 90);
+  const Outcome first = run_once(b);
+  b.reset();
+  const Outcome second = run_once(b);  // the random numbers go on
+  EXPECT_NE(first.when, second.when);
+  EXPECT_EQ(first.colours, second.colours);
+  EXPECT_EQ(first.fills, second.fills);
+}
+
+TEST(TextureRtlUnit, AccountsForItsMemories) {
+  UnitBench b;
+  std::uint64_t data = 0;
+  std::set<std::string> names;
+  for (const rtl::Storage* storage : b.unit.memories()) {
+    names.insert(storage->name());
+    if (std::string(storage->name()).find("bank_") != std::string::npos) data += storage->bits();
+    EXPECT_FALSE(storage->ports().empty());
+    EXPECT_GT(storage->bits(), 0u);
+  }
+  EXPECT_EQ(data, 16384u * 8);
+  EXPECT_EQ(names.size(), 8u);  // four banks, tags, fill buffer, missed lines, latency FIFO
+  const auto bits = [&](const std::string& name) -> std::uint64_t {
+    for (const rtl::Storage* storage : b.unit.memories())
+      if (storage->name() == "unit.cache." + name) return storage->bits();
+    return 0;
+  };
+  EXPECT_EQ(bits("tag_stage.tags"), 128u * 2 * (19 + 1 + 1));  // tag, valid, age
+  EXPECT_EQ(bits("miss_queue.lines"), b.unit.parameters().cache_outstanding * 26u);
+  EXPECT_EQ(bits("miss_queue.fill_buffer"), b.unit.parameters().cache_outstanding * 513u);
+  // Ticket 36, control 38, four times (place 14, source 3, slot 8), fills, banks, conflicts.
+  EXPECT_EQ(bits("latency_fifo.entries"), 160u * (36 + 38 + 4 * (14 + 3 + 8) + 3 + 4 + 2));
+}
+
+TEST(TextureRtlUnit, RefusesImpossibleParameters) {
+  ClockDomain clock("clock", period());
+  const auto error = [&](const char* name, auto change) -> std::string {
+    spec::texture::Parameters p;
+    change(p);
+    try {
+      rtl::texture::TextureUnit unit(name, clock, p);
+    } catch (const spec::ConfigError& e) {
+      return e.what();
+    }
+    return "none";
+  };
+  EXPECT_THAT(error("a", [](auto& p) { p.cache_bytes = 3000; }), HasSubstr("power of two"));
+  EXPECT_THAT(error("b", [](auto& p) { p.cache_ways = 3; }), HasSubstr("cache.ways"));
+  EXPECT_THAT(error("c", [](auto& p) { p.cache_line_bytes = 16; }), HasSubstr("32..128"));
+  EXPECT_THAT(error("d", [](auto& p) { p.spread = 129; }), HasSubstr("0..128"));
+  EXPECT_THAT(error("e",
+                    [](auto& p) {
+                      p.cache_bytes = 256;
+                      p.cache_ways = 8;
+                    }),
+              HasSubstr("do not hold one set"));
+  EXPECT_EQ(error("f",
+                  [](auto& p) {
+                    p.cache_bytes = 256;
+                    p.cache_ways = 4;
+                  }),
+            "none");
+}
+
+}  // namespace
+}  // namespace deburr::tb::texture_rtl

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: MIT
+// Question: do pictures survive the way to a file and back, is every bad file named, and do the
+// measures of quality give the known answers?
+#include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <cmath>
+#include <csignal>
+#include <limits>
+
+#include "tb/scene/compose.h"
+#include "tb/scene/image_io.h"
+#include "tb/scene/quality.h"
+#include "tb/scene/textures.h"
+#include "tb/unit/scene/fixtures.h"
+
+// OpenImageIO's PNG reader makes its error text inside a libpng callback that leaves by longjmp.
+extern "C" const char* __lsan_default_suppressions() {  // NOLINT: the sanitizer's name
+  return "leak:ImageInput::geterror";
+}
+
+namespace deburr::tb {
+namespace {
+
+namespace fs = std::filesystem;
+
+using test::file_error;
+using test::TemporaryFolder;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+// Writes values of any type and channel count, as other programs would.
+template <class Value>
+void write_with_oiio(const std::filesystem::path& path, int width, int height, int channels,
+                     const std::vector<Value>& values, const char* colour_space = nullptr) {
+  auto output = OIIO::ImageOutput::create(path.string());
+  ASSERT_TRUE(output) << OIIO::geterror();
+  OIIO::ImageSpec spec(width, height, channels, OIIO::BaseTypeFromC<Value>::value);
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  if (colour_space != nullptr) spec.attribute("oiio:ColorSpace", colour_space);
+  ASSERT_TRUE(output->open(path.string(), spec)) << output->geterror();
+  ASSERT_TRUE(output->write_image(spec.format, values.data())) << output->geterror();
+  ASSERT_TRUE(output->close()) << output->geterror();
+}
+
+std::uint32_t crc32(std::string_view bytes) {
+  std::uint32_t crc = 0xFFFFFFFFu;
+  for (const char c : bytes) {
+    crc ^= static_cast<std::uint8_t>(c);
+    for (int k = 0; k < 8; ++k) crc = (crc >> 1) ^ ((crc & 1u) != 0 ? 0xEDB88320u : 0u);
+  }
+  return ~crc;
+}
+
+void put_big_endian(std::string& bytes, std::size_t at, std::uint32_t value) {
+  for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(value >> (24 - 8 * i));
+}
+
+// A PNG whose header promises another size, with a valid checksum.
+std::string png_of_size(std::string png, std::uint32_t width, std::uint32_t height) {
+  put_big_endian(png, 16, width);
+  put_big_endian(png, 20, height);
+  put_big_endian(png, 29, crc32(std::string_view(png).substr(12, 17)));
+  return png;
+}
+
+TEST(ImageIo, PngKeepsEveryBitWithAndWithoutAlpha) {
+  const TemporaryFolder folder;
+  Image image = noise(37, 21, 5);
+  write_image(folder / "opaque.png", image);
+  EXPECT_EQ(read_image(folder / "opaque.png"), image);
+  // Transparent pixels keep their colour: nothing is multiplied by alpha.
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i][3] = static_cast<std::uint8_t>(i % 256);
+  write_image(folder / "alpha.png", image);
+  EXPECT_EQ(read_image(folder / "alpha.png"), image);
+  EXPECT_EQ(folder.files(), 2u);
+}
+
+TEST(ImageIo, StatedConversions) {
+  const TemporaryFolder folder;
+  ReadReport report;
+  write_with_oiio<std::uint16_t>(folder / "deep.png", 3, 1, 1, {0, 128, 65535});
+  const Image deep = read_image(folder / "deep.png", &report);
+  EXPECT_EQ(deep.pixels,
+            (std::vector<Rgba8>{{0, 0, 0, 255}, {0, 0, 0, 255}, {255, 255, 255, 255}}));
+  EXPECT_EQ(report.format, "uint16");
+  EXPECT_EQ(report.channels, 1);
+  EXPECT_THAT(report.conversions, ::testing::Contains(HasSubstr("grey copied")));
+
+  write_with_oiio<std::uint16_t>(folder / "tie.png", 2, 1, 1,
+                                 {128, 129});  // 0.498 and 0.502 of 255
+  EXPECT_EQ(read_image(folder / "tie.png").pixels[0][0], 0);
+  EXPECT_EQ(read_image(folder / "tie.png").pixels[1][0], 1);
+
+  write_with_oiio<std::uint8_t>(folder / "grey_alpha.png", 1, 1, 2, {77, 33});
+  EXPECT_EQ(read_image(folder / "grey_alpha.png").pixels[0], (Rgba8{77, 77, 77, 33}));
+
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  write_with_oiio<float>(folder / "linear.exr", 4, 1, 3,
+                         {0, 0, 0, 0.5f, 0.5f, 0.5f, 7, -1, 1, nan, 1, 1});
+  const Image linear = read_image(folder / "linear.exr", &report);
+  EXPECT_EQ(linear.pixels[0], (Rgba8{0, 0, 0, 255}));
+  EXPECT_EQ(linear.pixels[1], (Rgba8{188, 188, 188, 255}));  // the sRGB curve at one half
+  EXPECT_EQ(linear.pixels[2], (Rgba8{255, 0, 255, 255}));
+  EXPECT_EQ(linear.pixels[3], (Rgba8{0, 255, 255, 255}));
+  EXPECT_THAT(report.conversions, ::testing::Contains(HasSubstr("sRGB curve")));
+
+  // HDR says that it is linear as well; a float TIFF says nothing, so it holds codes. Alpha is a
+  // share in both.
+  write_with_oiio<float>(folder / "linear.hdr", 1, 1, 3, {0.5f, 0.25f, 1.0f});
+  EXPECT_EQ(read_image(folder / "linear.hdr").pixels[0], (Rgba8{188, 137, 255, 255}));
+  write_with_oiio<float>(folder / "alpha.exr", 1, 1, 4, {0.5f, 0.5f, 0.5f, 0.5f});
+  EXPECT_EQ(read_image(folder / "alpha.exr").pixels[0][3], 128);
+  write_with_oiio<float>(folder / "codes.tif", 2, 1, 4, {0.5f, 0.25f, nan, 0.5f, 7, -1, 1, 1});
+  EXPECT_EQ(read_image(folder / "codes.tif", &report).pixels,
+            (std::vector<Rgba8>{{128, 64, 0, 128}, {255, 0, 255, 255}}));
+  EXPECT_THAT(report.conversions, ::testing::Contains(HasSubstr("taken as encoded")));
+  // Integers are codes even where the file says otherwise.
+  write_with_oiio<std::uint16_t>(folder / "linear.png", 1, 1, 1, {32768}, "Linear");
+  EXPECT_EQ(read_image(folder / "linear.png").pixels[0][0], 128);
+
+  write_with_oiio<std::uint8_t>(folder / "palette.gif", 2, 1, 3, {255, 0, 0, 0, 0, 255});
+  EXPECT_EQ(read_image(folder / "palette.gif").pixels,
+            (std::vector<Rgba8>{{255, 0, 0, 255}, {0, 0, 255, 255}}));
+
+  write_with_oiio<std::uint8_t>(folder / "many.tif", 1, 1, 6, {1, 2, 3, 4, 5, 6});
+  EXPECT_EQ(read_image(folder / "many.tif", &report).pixels[0], (Rgba8{1, 2, 3, 4}));
+  EXPECT_THAT(report.conversions, ::testing::Contains(HasSubstr("channels 5 to 6")));
+}
+
+TEST(ImageIo, FloatImagesKeepEveryBit) {
+  const TemporaryFolder folder;
+  FloatImage image(3, 2);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] = {0.1f * static_cast<float>(i), -3.0f, 1e-30f, 1e30f};
+  write_image(folder / "f.exr", image);
+  EXPECT_EQ(read_float_image(folder / "f.exr"), image);
+  EXPECT_THAT(file_error([&] { write_image(folder / "f.png", image); }), HasSubstr("use .exr"));
+  EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(ImageIo, DepthIn24BitsOrOneFloat) {
+  const TemporaryFolder folder;
+  DepthImage depth(4, 1);
+  depth.pixels = {0.0f, 1.0f, 1.0f / 16777215.0f, 0.25f};
+  write_depth24(folder / "d.png", depth);
+  EXPECT_EQ(read_image(folder / "d.png").pixels[2], (Rgba8{0, 0, 1, 255}));
+  EXPECT_EQ(read_depth(folder / "d.png").pixels[1], 1.0f);
+  EXPECT_NEAR(read_depth(folder / "d.png").pixels[3], 0.25f, 1e-7);
+  write_with_oiio<float>(folder / "d.exr", 2, 1, 1, {3.5f, 90.0f});
+  EXPECT_EQ(read_depth(folder / "d.exr").pixels, (std::vector<float>{3.5f, 90.0f}));
+  write_with_oiio<std::uint8_t>(folder / "grey.png", 1, 1, 1, {9});
+  EXPECT_THAT(file_error([&] { read_depth(folder / "grey.png"); }), HasSubstr("24 bits"));
+}
+
+TEST(ImageIo, BadFilesAreNamed) {
+  const TemporaryFolder folder;
+  write_image(folder / "good.png", noise(64, 64));
+  const std::string good = test::read_bytes(folder / "good.png");
+  auto error_of = [&](const fs::path& path) { return file_error([&] { read_image(path); }); };
+
+  EXPECT_THAT(error_of(folder / "none.png"),
+              AllOf(HasSubstr("none.png"), HasSubstr("no such file")));
+  EXPECT_THAT(error_of(folder.path()), HasSubstr("not a regular file"));
+  EXPECT_THAT(error_of(folder.write("empty.png", "")), HasSubstr("empty (0 bytes)"));
+  EXPECT_THAT(error_of(folder.write("text.png", "hello, I am no picture")),
+              HasSubstr("not an image that OpenImageIO understands"));
+  for (const std::size_t size : {std::size_t{20}, good.size() / 2, good.size() - 30})
+    EXPECT_NE(error_of(folder.write("cut.png", good.substr(0, size))), "") << size;
+  std::string corrupt = good;
+  for (std::size_t i = corrupt.size() / 2; i < corrupt.size() / 2 + 40; ++i)
+    corrupt[i] = static_cast<char>(corrupt[i] ^ 0x5A);
+  EXPECT_THAT(error_of(folder.write("corrupt.png", corrupt)), HasSubstr("truncated or corrupt"));
+  // Refused by the header: nothing of the size it promises is allocated.
+  EXPECT_THAT(error_of(folder.write("huge.png", png_of_size(good, 100000, 100000))),
+              HasSubstr("the limit is 8192"));
+  EXPECT_THAT(error_of(folder.write("wide.png", png_of_size(good, 8193, 1))),
+              HasSubstr("the limit is 8192"));
+
+  write_image(folder / "good.jpg", gradient(64, 64));
+  EXPECT_EQ(read_image(folder / "good.jpg").width, 64);
+  const std::string jpeg = test::read_bytes(folder / "good.jpg");
+  EXPECT_THAT(error_of(folder.write("cut.jpg", jpeg.substr(0, jpeg.size() / 2))),
+              HasSubstr("truncated"));
+  EXPECT_THAT(file_error([&] { read_image_memory("inside", good.substr(0, good.size() / 2)); }),
+              HasSubstr("inside"));
+}
+
+TEST(ImageIo, BadTargetsAreNamedAndNothingIsLeft) {
+  const TemporaryFolder folder;
+  const Image image = noise(8, 8);
+  EXPECT_THAT(file_error([&] { write_image(folder / "x.nonsense", image); }),
+              HasSubstr("not a writable image format"));
+  EXPECT_THAT(file_error([&] { write_image(folder / "no/such/folder/x.png", image); }),
+              HasSubstr("No such file or directory"));
+  EXPECT_THAT(file_error([&] { write_image("/dev/full", image); }),
+              HasSubstr("not a writable image"));
+  EXPECT_THAT(file_error([&] { write_file_atomically("/dev/full", "x"); }),
+              HasSubstr("not a regular file"));
+  EXPECT_THAT(file_error([&] { write_image(folder / "empty.png", Image()); }), HasSubstr("0 x 0"));
+  EXPECT_EQ(folder.files(), 0u);
+  prove_writable(folder / "new/folder");
+  EXPECT_TRUE(fs::is_empty(folder / "new/folder"));
+  folder.write("file", "x");
+  EXPECT_THAT(file_error([&] { prove_writable(folder / "file"); }), HasSubstr("cannot"));
+}
+
+// A limit on the size of files fails in write(), as a full disk does.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST(ImageIo, FullDiskIsReportedAndTheOldFileStays) {
+  const TemporaryFolder folder;
+  const Image old = gradient(16, 16);
+  write_image(folder / "out.png", old);
+  {
+    const FullDisk full(4096);
+    EXPECT_THAT(file_error([&] { write_image(folder / "out.png", noise(128, 128)); }),
+                AllOf(HasSubstr("out.png"), HasSubstr("cannot write")));
+    EXPECT_NE(
+        file_error([&] { write_file_atomically(folder / "big.json", std::string(10000, ' ')); }),
+        "");
+  }
+  {
+    const FullDisk full(0);
+    EXPECT_NE(file_error([&] { prove_writable(folder.path()); }), "");
+  }
+  EXPECT_EQ(read_image(folder / "out.png"), old);
+  EXPECT_EQ(folder.files(), 1u);
+}
+
+// ---- quality ------------------------------------------------------------------------------------
+
+TEST(Quality, PsnrKnownAnswers) {
+  const Image a(10, 10, {100, 100, 100, 255});
+  EXPECT_TRUE(std::isinf(psnr(a, a)));
+  EXPECT_NEAR(psnr(a, Image(10, 10, {101, 101, 101, 0})), 48.1308, 1e-4);    // alpha does not count
+  EXPECT_NEAR(psnr(a, Image(10, 10, {110, 100, 100, 255})), 32.9021, 1e-4);  // 100 / 3
+  EXPECT_NEAR(psnr(Image(2, 2, {0, 0, 0, 255}), Image(2, 2, {255, 255, 255, 255})), 0.0, 1e-12);
+  EXPECT_THROW(psnr(a, Image(10, 9)), spec::ConfigError);
+
+  Image b = a;
+  b.at(3, 4) = {130, 100, 100, 255};
+  Mask mask(10, 10);
+  EXPECT_TRUE(std::isnan(psnr(a, b, mask)));
+  mask.at(3, 4) = 1;
+  EXPECT_NEAR(mean_squared_error(a, b, mask), 300.0, 1e-9);
+  EXPECT_NEAR(mean_squared_error(a, b), 3.0, 1e-9);
+  EXPECT_EQ(count_different(a, b), 1);
+  EXPECT_EQ(count_different(a, b, 30), 0);
+  EXPECT_EQ(max_difference(a, b), 30);
+}
+
+TEST(Quality, EdgesAndSilhouettes) {
+  Image truth(5, 1, {50, 50, 50, 255}), input = truth;
+  input.at(1, 0)[2] = 52;  // 2: not an edge
+  input.at(2, 0)[0] = 47;  // 3: an edge
+  input.at(4, 0)[1] = 60;
+  const Mask edges = edge_mask(truth, input);
+  EXPECT_EQ(edges.pixels, (std::vector<std::uint8_t>{0, 0, 1, 0, 1}));
+  EXPECT_EQ(count(edges), 2);
+
+  DepthImage depth(5, 1);
+  depth.pixels = {1.0f, 1.0f, 1.04f, 1.06f, 1.0f};  // around pixel 2: 4 % and 1.9 %; around 4: 6 %
+  EXPECT_EQ(silhouette_mask(edges, depth).pixels, (std::vector<std::uint8_t>{0, 0, 0, 0, 1}));
+  for (float& value : depth.pixels) value = 1.0f / value;  // distances instead of inverse depth
+  EXPECT_EQ(silhouette_mask(edges, depth).pixels, (std::vector<std::uint8_t>{0, 0, 0, 0, 1}));
+  // Background against background is no step; against a surface it is.
+  const float infinity = std::numeric_limits<float>::infinity();
+  depth.pixels = {1.0f, 0.0f, infinity, 0.0f, 0.5f};
+  EXPECT_EQ(silhouette_mask(edges, depth).pixels, (std::vector<std::uint8_t>{0, 0, 0, 0, 1}));
+}
+
+TEST(Compose, DifferenceCropZoomAndSheet) {
+  Image a(4, 2, {10, 20, 30, 255}), b = a;
+  b.at(1, 1) = {15, 20, 0, 0};
+  EXPECT_EQ(difference(a, b, 8).at(1, 1), (Rgba8{40, 0, 240, 255}));
+  EXPECT_EQ(difference(a, b, 8).at(0, 0), (Rgba8{0, 0, 0, 255}));
+  EXPECT_EQ(difference(a, b, 100).at(1, 1), (Rgba8{255, 0, 255, 255}));
+
+  const Image cut = crop(b, 3, 1, 2, 5);  // moved inside: columns 2..3, rows 0..1
+  EXPECT_EQ(cut.width, 2);
+  EXPECT_EQ(cut.height, 2);
+  EXPECT_EQ(crop(b, 1, 1, 1, 1).at(0, 0), (Rgba8{15, 20, 0, 0}));
+  const Image large = zoom(b, 3);
+  EXPECT_EQ(large.width, 12);
+  EXPECT_EQ(large.at(5, 5), b.at(1, 1));
+  EXPECT_EQ(large.at(6, 5), b.at(2, 1));
+
+  const Rgba8 red{255, 0, 0, 255};
+  const Image page = sheet({a, b, cut}, 2, 3, red);
+  EXPECT_EQ(page.width, 4 + 3 + 4);
+  EXPECT_EQ(page.height, 2 + 3 + 2);
+  EXPECT_EQ(page.at(8, 1), b.at(1, 1));
+  EXPECT_EQ(page.at(4, 0), red);
+  EXPECT_EQ(page.at(3, 6), red);  // the smaller cell does not fill its place
+  Image framed = a;
+  draw_frame(framed, 1, 0, 2, 2, red);
+  EXPECT_EQ(framed.at(1, 0), red);
+  EXPECT_EQ(framed.at(3, 0), a.at(3, 0));
+}
+
+}  // namespace
+}  // namespace deburr::tb

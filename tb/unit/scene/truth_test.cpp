@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// Question: is the supersampled picture the truth it claims to be: analytic coverage, analytic
+// depth, and the frames that another program rendered from the same scene?
+#include "tb/scene/truth.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "tb/scene/image_io.h"
+#include "tb/scene/quality.h"
+#include "tb/scene/rasteriser.h"
+#include "tb/scene/textures.h"
+#include "tb/unit/scene/fixtures.h"
+
+namespace deburr::tb {
+namespace {
+
+using test::FlatScreen;
+
+RenderOptions texture_options(int size, int samples) {
+  RenderOptions options;
+  options.width = options.height = size;
+  options.samples = samples;
+  return options;
+}
+
+// White in front of black: a pixel's value is its coverage.
+double coverage(const Image& image, int x, int y) { return image.at(x, y)[0] / 255.0; }
+
+TEST(Truth, CoverageOfStraightEdges) {
+  FlatScreen screen(32);
+  screen.rectangle(4.25, 3, 20, 18.5);
+  const Image image = render(screen.scene(), texture_options(32, 8));
+  EXPECT_NEAR(coverage(image, 4, 10), 0.75, 0.002);
+  EXPECT_NEAR(coverage(image, 12, 18), 0.5, 0.003);
+  EXPECT_NEAR(coverage(image, 4, 18), 0.375, 0.003);
+  EXPECT_EQ(coverage(image, 19, 10), 1.0);
+  EXPECT_EQ(coverage(image, 20, 10), 0.0);
+
+  // A half-plane of slope 1/7: the covered part of a column of pixels is exact.
+  FlatScreen slope(32);
+  const auto a = slope.vertex(-7, 9), b = slope.vertex(42, 16), c = slope.vertex(42, 60),
+             d = slope.vertex(-7, 60);
+  slope.triangle(a, b, c);
+  slope.triangle(a, c, d);
+  const Image tilted = render(slope.scene(), texture_options(32, 16));
+  for (int x = 0; x < 32; ++x) {
+    double sum = 0.0;
+    for (int y = 0; y < 32; ++y) sum += coverage(tilted, x, y);
+    EXPECT_NEAR(sum, 32 - (10 + (x + 0.5) / 7.0), 0.01) << x;
+  }
+}
+
+TEST(Truth, LinearAveragingIsBrighter) {
+  FlatScreen screen(16);
+  screen.rectangle(4.5, -1, 40, 40);
+  RenderOptions options = texture_options(16, 4);
+  EXPECT_EQ(render(screen.scene(), options).at(4, 8)[0], 128);
+  options.averaging = Averaging::kLinear;
+  EXPECT_EQ(render(screen.scene(), options).at(4, 8)[0], 188);  // sRGB of one half
+}
+
+TEST(Truth, OneSampleIsTheFragment) {
+  const Scene scene = make_scene("quad", {.texture = "noise", .texture_size = 64});
+  RenderOptions options = texture_options(128, 1);
+  options.sampling = Sampling::kNearest;
+  const Image image = render(scene, options);
+  const FragmentStream stream = rasterise(scene, {128, 128});
+  FrameAssembler frame(stream, scene);
+  const Image& texture = scene.mesh.textures[0].image;
+  for (const spec::texture::Quad& quad : stream.quads)
+    for (std::uint8_t lane = 0; lane < 4; ++lane)
+      if ((quad.coverage >> lane & 1) != 0)
+        frame.put({.tag = quad.tag,
+                   .lane = lane,
+                   .rgba = texture.at((quad.s[lane] >> 18) & 63, (quad.t[lane] >> 18) & 63)});
+  EXPECT_LE(count_different(frame.frame(), image),
+            2);  // a coordinate on a texel's border may round over
+}
+
+TEST(Truth, BilinearMeetsTexelsAtTheirCentres) {
+  // A texel to four pixels: its centre lies between pixels 1 and 2, an eighth of a texel from each.
+  FlatScreen screen(32);
+  screen.rectangle(0, 0, 32, 32);
+  screen.scene().mesh.textures[0].image = Image(8, 8, {0, 0, 0, 255});
+  screen.scene().mesh.textures[0].image.at(3, 5) = {255, 255, 255, 255};
+  const Image image = render(screen.scene(), texture_options(32, 1));
+  const double near = 7.0 / 8, far = 3.0 / 8;  // weights of the texel along one axis
+  const std::array<double, 8> weight{1.0 / 8, far, 5.0 / 8, near, near, 5.0 / 8, far, 1.0 / 8};
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 32; ++x) {
+      const int i = x - 10, j = y - 18;  // the texel reaches two pixels further than its own four
+      const bool inside = i >= 0 && i < 8 && j >= 0 && j < 8;
+      const double want =
+          inside ? weight[static_cast<std::size_t>(i)] * weight[static_cast<std::size_t>(j)] : 0;
+      EXPECT_NEAR(coverage(image, x, y), want, 0.5 / 255 + 1e-6) << x << "," << y;
+    }
+  }
+  RenderOptions nearest = texture_options(32, 1);
+  nearest.sampling = Sampling::kNearest;
+  const Image blocks = render(screen.scene(), nearest);
+  EXPECT_EQ(blocks.at(12, 20)[0], 255);
+  EXPECT_EQ(blocks.at(15, 23)[0], 255);
+  EXPECT_EQ(blocks.at(11, 20)[0], 0);
+  EXPECT_EQ(blocks.at(16, 20)[0], 0);
+}
+
+TEST(Truth, ConvergesAndKeepsAFlatTexture) {
+  Scene scene = make_scene("plane", {.texture_size = 256});
+  const Image fine = render(scene, texture_options(64, 16));
+  const double coarse = psnr(render(scene, texture_options(64, 2)), fine);
+  const double better = psnr(render(scene, texture_options(64, 8)), fine);
+  EXPECT_GT(better, coarse + 6.0);
+  EXPECT_GT(better, 28.0);
+  scene.mesh.textures[0].image = Image(8, 8, {200, 100, 50, 255});
+  for (const Averaging averaging : {Averaging::kStored, Averaging::kLinear}) {
+    RenderOptions options = texture_options(32, 5);
+    options.averaging = averaging;
+    EXPECT_EQ(render(scene, options), Image(32, 32, {200, 100, 50, 255}));
+  }
+}
+
+TEST(Truth, RotatedGridHasFourLevelsBothWays) {
+  // A vertical and a horizontal edge moved in eighths of a pixel: each crosses the samples one by
+  // one.
+  for (const bool vertical : {true, false}) {
+    std::set<int> levels;
+    for (int eighth = 0; eighth <= 8; ++eighth) {
+      FlatScreen screen(16);
+      const double at = 5 + eighth / 8.0;
+      screen.rectangle(vertical ? at : -1, vertical ? -1 : at, 40, 40);
+      screen.scene().lighting = {.key = 0, .fill = 0, .ambient = 1};
+      const Image image = render_msaa4(screen.scene(), 16, 16);
+      levels.insert(vertical ? image.at(5, 8)[0] : image.at(8, 5)[0]);
+      EXPECT_EQ(vertical ? image.at(7, 8)[0] : image.at(8, 7)[0], 255);
+    }
+    EXPECT_EQ(levels.size(), 5u);
+    EXPECT_EQ(*levels.begin(), 0);
+    EXPECT_TRUE(levels.count(255));
+    EXPECT_TRUE(levels.count(186));  // gamma 2.2 of one half
+  }
+}
+
+TEST(Truth, MultisamplingLiesBetweenOneSampleAndTheTruth) {
+  const Scene scene = make_scene("cylinders");
+  const LitFrames frames = render_lit_frames(scene, 256, 192, 8);
+  const Image msaa = render_msaa4(scene, 256, 192);
+  EXPECT_GT(psnr(msaa, frames.truth), psnr(frames.noaa, frames.truth) + 4.0);
+  const Mask edges = edge_mask(frames.truth, frames.noaa);
+  const Mask silhouettes = silhouette_mask(edges, frames.depth);
+  EXPECT_GT(count(silhouettes), 500);
+  EXPECT_LE(count(silhouettes), count(edges));
+  EXPECT_LT(count(edges), 256 * 192 / 10);  // inside, frames with one and many samples agree
+}
+
+TEST(Truth, DepthOfAPlaneIsAnalytic) {
+  const Scene scene = make_scene("plane", {.texture_size = 16});
+  const DepthImage depth = render_depth(scene, 64, 64);
+  const double pitch = std::atan2(1.0 - 0.704, 1.0), slope = std::tan(0.25);
+  for (int y = 0; y < 64; ++y) {
+    const double v = (32 - (y + 0.5)) / 32 * slope;  // tangent above the view direction
+    // The ray falls by sin(pitch) - v cos(pitch) for each unit of w, and the eye is one unit high.
+    const double inverse_w = std::sin(pitch) - v * std::cos(pitch);
+    for (int x = 0; x < 64; x += 9) EXPECT_NEAR(depth.at(x, y), 0.1 * inverse_w, 2e-6);
+  }
+}
+
+TEST(Truth, RefusesImpossibleRequests) {
+  const Scene scene = make_scene("quad", {.texture_size = 16});
+  EXPECT_THROW(render(scene, texture_options(16, 0)), spec::ConfigError);
+  EXPECT_THROW(render(scene, texture_options(16, 33)), spec::ConfigError);
+  EXPECT_THROW(render(scene, texture_options(9000, 1)), spec::ConfigError);
+}
+
+// ---- against another program --------------------------------------------------------------------
+
+Scene track(const std::filesystem::path& data) {
+  SceneOptions options;
+  options.camera = Camera{{4.6, 2.6, 12.5}, {-0.6, 0.4, -4}, {0, 1, 0}, 1.0, 0.1};
+  return import_scene(data / "meshes" / "scene_track.obj", options);
+}
+
+TEST(Data, DepthOfTheTrackAgreesWithTheOtherRenderer) {
+  DEBURR_REQUIRE_DATA(data);
+  const DepthImage theirs = read_depth(data / "frames" / "track_720p_depth24.png");
+  Scene scene = track(data);
+  const DepthImage ours = render_depth(scene, theirs.width, theirs.height);
+  std::int64_t close = 0, far = 0;
+  for (std::size_t i = 0; i < ours.pixels.size(); ++i) {
+    const double difference = std::abs(ours.pixels[i] - theirs.pixels[i]);
+    close += difference < 2e-7 ? 1 : 0;  // three steps of 2^-24
+    far += difference > 1e-3 ? 1 : 0;
+  }
+  const auto pixels = static_cast<double>(ours.pixels.size());
+  RecordProperty("close_percent", std::to_string(100.0 * static_cast<double>(close) / pixels));
+  EXPECT_GT(static_cast<double>(close), 0.999 * pixels);
+  EXPECT_LT(static_cast<double>(far), 0.001 * pixels);
+  // The planted fault: a camera moved by a centimetre is seen.
+  scene.camera.eye.x += 0.01;
+  const DepthImage moved = render_depth(scene, theirs.width, theirs.height);
+  close = 0;
+  for (std::size_t i = 0; i < moved.pixels.size(); ++i)
+    close += std::abs(moved.pixels[i] - theirs.pixels[i]) < 2e-7 ? 1 : 0;
+  EXPECT_LT(static_cast<double>(close), 0.9 * pixels);
+}
+
+TEST(Data, FramesOfTheTrackLookAlike) {
+  DEBURR_REQUIRE_DATA(data);
+  const Image theirs = read_image(data / "frames" / "track_720p_noaa.png");
+  RenderOptions options;
+  options.width = theirs.width;
+  options.height = theirs.height;
+  options.shading = Shading::kLit;
+  options.averaging = Averaging::kLinear;
+  EXPECT_GT(psnr(render(track(data), options), theirs), 26.0);  // the lights are not the same
+}
+
+}  // namespace
+}  // namespace deburr::tb
