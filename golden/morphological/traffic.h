@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The line accesses of storage = memory: the frame written once, then read once.
 //
-// Beside the arithmetic: pixels do not depend on it. docs/morphological_engine.md, "storage =
-// memory".
+// Beside the arithmetic: pixels do not depend on it. docs/morphological_hardware.md,
+// "Storage = memory".
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The morphological engine: smooths jagged edges of a finished frame
-// (docs/morphological_engine.md).
+// (docs/morphological_engine.md; slots, latency, memories: docs/morphological_hardware.md).
 //
 //   pixels_in -> SlotSequencer -> LumaUnit -> EdgeDetector -> RunExtractor -> AreaUnit -> Blender
 //                     |                      EdgeWindow --+---+    |    |        ^ lines    |  ^

@@ -58,10 +58,10 @@ inline constexpr int kPipelineLatency = 6;  // clocks from a slot to its output 
 // Weights of luma, U0.16; they sum to exactly 65536.
 inline constexpr std::array<std::uint32_t, 3> kLumaWeights = {13933, 46871, 4732};
 
+// Rules: what changes pixels. Golden and hardware obey them.
 // The defaults are the preset `deburr`.
-struct Parameters {
+struct Rules {
   Preset preset = Preset::kDeburr;
-  Lanes lanes = Lanes::kOne;
   EdgeSource edge_source = EdgeSource::kLuma;
   ThresholdMode threshold_mode = ThresholdMode::kFixed;
   DynamicLuma dynamic_luma = DynamicLuma::kMax;
@@ -83,6 +83,12 @@ struct Parameters {
   bool linear_light = true;
   std::int32_t window_rows = 66;
   std::int32_t reach_columns = 256;
+};
+
+// Build choices: what changes clocks and cost, and no pixel. Runs that differ in these alone share
+// one golden picture.
+struct Build {
+  Lanes lanes = Lanes::kOne;
   std::int32_t line_pixels = kMaxFrameSize;
   std::int32_t record_fifo = 256;
   std::int32_t predictor_units = 2;
@@ -92,11 +98,12 @@ struct Parameters {
   std::int32_t memory_outstanding = 32;
 };
 
+struct Parameters : Rules, Build {};
+
 template <class Visitor>
-void describe(Parameters& p, Visitor& v) {
+void describe(Rules& p, Visitor& v) {
   v.choice("preset", p.preset, kPresetNames,
            "Named set of the rules below; rules given beside it override it.");
-  v.choice("lanes", p.lanes, kLanesNames, "Pixels a clock.");
   v.choice("edges.source", p.edge_source, kEdgeSourceNames,
            "What makes an edge: luma, depth, or luma with a threshold that depth moves.");
   v.choice("edges.threshold_mode", p.threshold_mode, kThresholdModeNames,
@@ -136,6 +143,11 @@ void describe(Parameters& p, Visitor& v) {
             "Rows of edges held; even. A pixel depends on window_rows / 2 - 1 rows each way.");
   v.integer("reach_columns", p.reach_columns, 4, 2048, "pixel",
             "Longest horizontal run, and how far it may be extended.");
+}
+
+template <class Visitor>
+void describe(Build& p, Visitor& v) {
+  v.choice("lanes", p.lanes, kLanesNames, "Pixels a clock.");
   v.integer("line_pixels", p.line_pixels, 1, kMaxFrameSize, "pixel",
             "Widest frame that the line buffers hold.");
   v.integer(
@@ -150,6 +162,12 @@ void describe(Parameters& p, Visitor& v) {
            "Where delayed pixels wait: on-chip line buffers, or memory (written, then read once).");
   v.integer("memory.outstanding", p.memory_outstanding, 1, 256, "line",
             "Lines in flight with storage = memory, each direction.");
+}
+
+template <class Visitor>
+void describe(Parameters& p, Visitor& v) {
+  describe(static_cast<Rules&>(p), v);
+  describe(static_cast<Build&>(p), v);
 }
 
 // What a preset sets; every other parameter keeps its default. `area`, `diagonals` and

@@ -26,13 +26,19 @@ inline constexpr std::array<std::string_view, 2> kKernelNames = {"box", "tent"};
 enum class Replacement : std::uint8_t { kLru, kFifo, kRandom };
 inline constexpr std::array<std::string_view, 3> kReplacementNames = {"lru", "fifo", "random"};
 
-struct Parameters {
+// Rules: what changes pixels. Golden and hardware obey them.
+struct Rules {
   FootprintRule footprint = FootprintRule::kHalf;
   Log2Rule log2 = Log2Rule::kMitchell;
   CountRule count = CountRule::kFloor;
   CountCap count_cap = CountCap::kNone;
   Kernel kernel = Kernel::kBox;
   std::int32_t spread = 64;
+};
+
+// Build choices: what changes clocks and cost, and no pixel. Runs that differ in these alone share
+// one golden picture.
+struct Build {
   std::int32_t cache_bytes = 16384;
   std::int32_t cache_line_bytes = 64;
   std::int32_t cache_ways = 2;
@@ -41,8 +47,10 @@ struct Parameters {
   std::int32_t cache_fifo_depth = 160;
 };
 
+struct Parameters : Rules, Build {};
+
 template <class Visitor>
-void describe(Parameters& p, Visitor& v) {
+void describe(Rules& p, Visitor& v) {
   v.choice("footprint", p.footprint, kFootprintNames,
            "Rule for the length of a footprint side from its two components.");
   v.choice("log2", p.log2, kLog2Names, "Rule for the binary logarithm of a footprint side.");
@@ -54,6 +62,10 @@ void describe(Parameters& p, Visitor& v) {
            "Weights of the N samples: equal (the paper) or an integer tent.");
   v.integer("spread", p.spread, 0, 128, "1/64 axis",
             "Length over which the samples are spread, U1.6 of the major axis.");
+}
+
+template <class Visitor>
+void describe(Build& p, Visitor& v) {
   v.integer("cache.bytes", p.cache_bytes, 256, 1 << 20, "byte",
             "Capacity of the texture cache; a power of two.");
   v.integer("cache.line_bytes", p.cache_line_bytes, 32, 128, "byte",
@@ -65,6 +77,12 @@ void describe(Parameters& p, Visitor& v) {
             "Line fills in flight: entries of the miss queue and of the fill buffer.");
   v.integer("cache.fifo_depth", p.cache_fifo_depth, 2, 4096, "request",
             "Depth of the latency FIFO between tag check and data read.");
+}
+
+template <class Visitor>
+void describe(Parameters& p, Visitor& v) {
+  describe(static_cast<Rules&>(p), v);
+  describe(static_cast<Build&>(p), v);
 }
 
 }  // namespace deburr::spec::texture

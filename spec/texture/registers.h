@@ -55,8 +55,7 @@ inline constexpr std::array<RegisterInfo, 11> kRegisters = {{
      "spread "
      "[23:16]."},
     {reg::kFragments, "FRAGMENTS", Access::kReadOnly, 0, "Colours delivered."},
-    {reg::kBilinears, "BILINEARS", Access::kReadOnly, 0,
-     "Bilinear requests sent to the cache."},
+    {reg::kBilinears, "BILINEARS", Access::kReadOnly, 0, "Bilinear requests sent to the cache."},
     {reg::kLineFills, "LINE_FILLS", Access::kReadOnly, 0, "Cache lines requested."},
     {reg::kClamped, "CLAMPED", Access::kReadOnly, 0,
      "Covered fragments whose coordinates were clamped before the unit."},

@@ -54,7 +54,7 @@ struct MorphologicalFault {
 };
 std::span<const MorphologicalFault> morphological_faults();
 
-// ---- figures of the engine by formula (docs/morphological_engine.md) ----------------------------
+// ---- figures of the engine by formula (docs/morphological_hardware.md) --------------------------
 
 // Unstalled clocks from a beat being popped to the same beat being pushed.
 std::uint64_t latency_by_formula(const spec::morphological::Parameters& parameters, int width);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Whole frames through the hardware model of the morphological engine: every pixel, tap, run, line,
 // counter and memory line equal to the golden model, for every preset, and the clocks that
-// docs/morphological_engine.md promises.
+// docs/morphological_hardware.md promises.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -338,8 +338,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 // ---- what is refused ----------------------------------------------------------------------------
 
-// The sizing rule of docs/morphological_engine.md: so many lines in flight each way keep up with a
-// memory of 100 clocks, one less does not.
+// The sizing rule of docs/morphological_hardware.md: so many lines in flight each way keep up with
+// a memory of 100 clocks, one less does not.
 struct Sizing {
   spec::morphological::Lanes lanes;
   int lines;
