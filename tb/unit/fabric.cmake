@@ -4,7 +4,10 @@ set(TIMING_link Link.BeatIsNotThere Link.FreedSlotIsNotFree Link.OnePushAndOnePo
 set(TIMING_parts Fifo.LatencyOne)
 set(TIMING_memory MemoryPort.LatencyIsExact MemoryPort.OneRequestAClock
     MemoryPort.RateIsLimited MemoryPort.BandwidthOfTheMemory MemoryPort.BusyBanks)
-foreach(part link clock parts memory registers trace)
+set(TIMING_memory_shape Clocks/MemoryLatency.WordIsThereInTheClock
+    Clocks/MemoryLatency.AStaleWord Clocks/MemoryLatency.OneAccessAClock Memory.AReadIssuedTooLate
+    Memory.FlipFlopsAnswer)
+foreach(part link clock parts memory memory_shape payload registers trace)
   deburr_test(fabric_${part}_test LABELS unit TIMING ${TIMING_${part}}
               SOURCES fabric_${part}_test.cpp LINK deburr::harness)
 endforeach()
