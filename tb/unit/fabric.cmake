@@ -7,7 +7,7 @@ set(TIMING_memory MemoryPort.LatencyIsExact MemoryPort.OneRequestAClock
 set(TIMING_memory_shape Clocks/MemoryLatency.WordIsThereInTheClock
     Clocks/MemoryLatency.AStaleWord Clocks/MemoryLatency.OneAccessAClock Memory.AReadIssuedTooLate
     Memory.FlipFlopsAnswer)
-foreach(part link clock parts memory memory_shape payload registers trace)
+foreach(part link clock parts memory memory_shape payload engine registers trace)
   deburr_test(fabric_${part}_test LABELS unit TIMING ${TIMING_${part}}
               SOURCES fabric_${part}_test.cpp LINK deburr::harness)
 endforeach()
