@@ -3,10 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
+#include "rtl_model/fabric/counters.h"
+
 namespace deburr::rtl {
 
-LinkBase::LinkBase(const char* name, std::uint32_t depth, std::size_t payload_bytes)
-    : sc_object(name), depth_(depth), payload_bytes_(payload_bytes) {
+LinkBase::LinkBase(const char* name, std::uint32_t depth, std::size_t payload_bytes,
+                   Payload payload)
+    : sc_object(name), depth_(depth), payload_bytes_(payload_bytes), payload_(std::move(payload)) {
   DEBURR_CHECK(depth >= 1 && depth <= (1U << 24),
                fmt::format("{}: depth {} is not in 1..2^24", this->name(), depth));
 }
@@ -57,6 +62,12 @@ bool LinkBase::duplicate_newest(Cycle cycle) {
   tail_ = tail_->next;
   ++pushes_;
   return true;
+}
+
+std::string link_package(const std::string& name, sc_core::sc_object& root) {
+  std::vector<const Payload*> payloads;
+  for_each<LinkBase>(root, [&](const LinkBase& link) { payloads.push_back(&link.payload()); });
+  return payload_package(name, payloads);
 }
 
 void PortBase::bind_link(LinkBase& link) {
