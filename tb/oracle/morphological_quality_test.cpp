@@ -7,8 +7,8 @@
 #include <iostream>
 #include <map>
 
-#include "tb/oracle/discs.h"
-#include "tb/oracle/line_fans.h"
+#include "tb/stimuli/discs.h"
+#include "tb/stimuli/line_fans.h"
 
 namespace deburr {
 namespace {

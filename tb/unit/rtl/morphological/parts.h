@@ -15,7 +15,7 @@ namespace deburr::tb::morphological_rtl {
 // A ParameterStore with its bus, and a frame inside.
 struct Registers {
   explicit Registers(const Parameters& p) : store("store", p), bus("bus") {
-    bus.socket.bind(store.registers.bus);
+    bus.bus.bind(store.registers.bus);
   }
   Registers(const Parameters& p, int width, int height) : Registers(p) { frame(width, height); }
   void frame(int width, int height) {
@@ -23,7 +23,7 @@ struct Registers {
     EXPECT_TRUE(store.latch());
   }
   rtl::morphological::ParameterStore store;
-  Bus bus;
+  RegisterHost bus;
 };
 
 // Sends each beat in its clock or, if there is no room, as soon as there is.
