@@ -50,7 +50,7 @@ Frame line(Random& random, bool steep) {
     const double at = falling ? start + slope * x : start + 20 - slope * x;
     return grey(y < at ? 255 : 0);
   });
-  return steep ? tb::morphological::transposed(frame) : frame;
+  return steep ? Frame(tb::morphological::transposed(frame)) : frame;
 }
 
 Frame disc(Random& random) {

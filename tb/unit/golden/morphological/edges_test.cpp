@@ -224,7 +224,7 @@ TEST(MorphologicalEdges, ContrastOfExactlyTwiceTheStepDropsTheBit) {
 TEST(MorphologicalEdges, WithoutDepthThereAreNoDepthEdges) {
   spec::morphological::Parameters p;
   p.edge_source = spec::morphological::EdgeSource::kDepth;
-  EXPECT_EQ(find_edges(p, tb::morphological::noise_image().view()),
+  EXPECT_EQ(find_edges(p, Frame(tb::morphological::noise_image()).view()),
             (EdgePlanes{BitPlane(97, 61), BitPlane(97, 61)}));
 }
 
