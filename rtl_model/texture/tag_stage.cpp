@@ -2,7 +2,6 @@
 #include "rtl_model/texture/tag_stage.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace deburr::rtl::texture {
 
@@ -11,82 +10,103 @@ TagStage::TagStage(const sc_core::sc_module_name& name, ClockDomain& clock,
     : Unit(name, clock),
       fills_(fills),
       tags_("tags", p),
-      line_log2_(static_cast<std::uint32_t>(
-          std::countr_zero(static_cast<std::uint32_t>(p.cache_line_bytes)))),
+      line_log2_(log2_of(p.cache_line_bytes)),
+      bank_mask_(static_cast<std::uint32_t>(p.cache_line_bytes) / 4 - 1),
+      turn_(std::min((bank_mask_ + 1) / 2, 8U)),
       fill_number_(tags_.slots()),
       miss_queue_full_(declare_stall("miss_queue_full", "a line is missing and cannot be queued")),
       fifo_full_(declare_stall("fifo_full", "the latency FIFO takes nothing")) {}
 
 Activity TagStage::tick(Cycle cycle) {
-  if (!texels_in.can_pop(cycle)) return kIdle;
-  if (!requests_out.can_push(cycle)) return fifo_full_;
-  const TexelToken& in = texels_in.front(cycle);
-  const bool queue_ready = misses_out.can_push(cycle);
-  if (!queue_ready && in.ticket.valid && would_miss(in)) return miss_queue_full_;
-
-  CacheToken& out = requests_out.emplace(cycle);
-  out.ticket = in.ticket;
-  out.control = in.control;
-  out.fills = 0;
-  out.bank = in.bank;
-  out.column_conflict = out.row_conflict = false;
-  if (in.ticket.valid) {
-    out.column_conflict = in.column_conflict;
-    out.row_conflict = in.row_conflict;
-    MissToken missed{};
-    look_up(cycle, in, out, missed);
-    if (out.fills != 0) {
-      missed.count = out.fills;
-      misses_out.push(cycle, missed);
-    }
+  const bool arrives = texels_in.can_pop(cycle);
+  if (occupied_) {
+    if (!requests_out.can_push(cycle)) return fifo_full_;
+    const bool valid = request_.token.ticket.valid;
+    if (valid && !misses_out.can_push(cycle) && would_miss()) return miss_queue_full_;
+    CacheToken& out = requests_out.emplace(cycle);
+    out.ticket = request_.token.ticket;
+    out.control = request_.token.control;
+    out.fills = 0;
+    if (valid) look_up(cycle, out);
+    occupied_ = false;
+  } else if (!arrives) {
+    return kIdle;
   }
-  texels_in.pop(cycle);
+  if (arrives) read_sets(cycle);
   return kBusy;
 }
 
-// Up to four distinct lines, each looked up once, in the order of their first use.
-void TagStage::look_up(Cycle cycle, const TexelToken& in, CacheToken& out, MissToken& missed) {
-  ++requests;
-  const std::uint32_t offset_mask = (1u << line_log2_) - 1;
-  std::array<std::uint32_t, 4> line, base;
+// Stage 1: a port for each distinct line.
+void TagStage::read_sets(Cycle cycle) {
+  Request& r = request_;
+  r.token = texels_in.front(cycle);
+  texels_in.pop(cycle);
+  occupied_ = true;
+  if (!r.token.ticket.valid) return;
   for (std::size_t i = 0; i < 4; ++i) {
-    line[i] = in.address[i] >> line_log2_;
+    r.line[i] = r.token.address[i] >> line_log2_;
     std::size_t same = 0;
-    while (line[same] != line[i]) ++same;
-    if (same != i) {
-      base[i] = base[same];
-      out.source[i] = out.source[same];
-    } else if (const std::uint32_t slot = tags_.find(line[i]); slot != TagStore::kAbsent) {
-      tags_.use(slot);
-      fill_number_[slot] > fills_.released(cycle) ? ++merged : ++hits;
-      base[i] = slot << line_log2_;
-      out.source[i] = 0;
-    } else {
-      const TagStore::Place place = tags_.allocate(line[i]);
-      ++misses;
-      if (place.evicted) ++evictions;
-      fill_number_[place.slot] = ++ordered_;
-      missed.line[out.fills] = line[i];
-      out.victim[out.fills] = static_cast<std::uint16_t>(place.slot);
-      base[i] = 0;
-      out.source[i] = ++out.fills;
-    }
-    out.place[i] = base[i] | (in.address[i] & offset_mask);
+    while (r.line[same] != r.line[i]) ++same;
+    r.first[i] = static_cast<std::uint8_t>(same);
+    if (same == i) tags_.read(cycle, i, r.line[i]);
   }
+}
+
+// Stage 2: up to four distinct lines, each looked up once, in the order of their first use.
+void TagStage::look_up(Cycle cycle, CacheToken& out) {
+  ++requests;
+  const Request& r = request_;
+  const std::uint32_t offset_mask = (1u << line_log2_) - 1;
+  MissToken missed{};
+  std::array<std::uint32_t, 4> base;
+  std::array<bool, 4> turned;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t first = r.first[i];
+    if (first != i) {
+      base[i] = base[first];
+      turned[i] = turned[first];
+      out.source[i] = out.source[first];
+    } else {
+      tags_.check(cycle, i, r.line[i]);
+      if (const std::uint32_t slot = tags_.find(r.line[i]); slot != TagStore::kAbsent) {
+        tags_.use(slot);
+        fill_number_[slot] > fills_.released(cycle) ? ++merged : ++hits;
+        base[i] = slot << line_log2_;
+        turned[i] = tags_.turned(slot);
+        out.source[i] = 0;
+      } else {
+        const TagStore::Place place = tags_.allocate(r.line[i], r.token.turned[i >> 1]);
+        ++misses;
+        if (place.evicted) ++evictions;
+        fill_number_[place.slot] = ++ordered_;
+        missed.line[out.fills] = r.line[i];
+        out.victim[out.fills] = static_cast<std::uint16_t>(place.slot);
+        base[i] = 0;
+        turned[i] = false;  // the fill is not read from a bank
+        out.source[i] = ++out.fills;
+      }
+    }
+    out.place[i] = base[i] | (r.token.address[i] & offset_mask);
+    out.bank[i] = bank(r.token.address[i], turned[i]);
+  }
+  tags_.commit(cycle);
+  if (out.fills == 0) return;
+  missed.count = out.fills;
+  misses_out.push(cycle, missed);
 }
 
 // Without changing anything. A request that misses nothing allocates nothing, so each line can be
 // looked at by itself.
-bool TagStage::would_miss(const TexelToken& in) const {
-  return std::any_of(in.address.begin(), in.address.end(), [&](std::uint32_t address) {
-    return tags_.find(address >> line_log2_) == TagStore::kAbsent;
-  });
+bool TagStage::would_miss() const {
+  return std::any_of(request_.line.begin(), request_.line.end(),
+                     [&](std::uint32_t line) { return tags_.find(line) == TagStore::kAbsent; });
 }
 
 void TagStage::reset() {
   tags_.reset();
   std::fill(fill_number_.begin(), fill_number_.end(), 0);
   ordered_ = 0;
+  occupied_ = false;
 }
 
 }  // namespace deburr::rtl::texture

@@ -31,39 +31,82 @@ std::uint32_t odd_morton_part(std::uint32_t tile, int common) {
   return spread(tile & ((1u << common) - 1)) << 1 | tile >> common << (2 * common);
 }
 
-}  // namespace
-
-TexelAddresser::TexelAddresser(const sc_core::sc_module_name& name, ClockDomain& clock,
-                               const ParameterStore& store)
-    : Unit(name, clock), store_(store) {}
-
-Activity TexelAddresser::tick(Cycle cycle) {
-  if (occupied_) {
-    if (!texels_out.can_push(cycle)) return kStalledDownstream;
-    address(texels_out.emplace(cycle));
-    occupied_ = false;
-  } else if (!samples_in.can_pop(cycle)) {
-    return kIdle;
-  }
-  if (samples_in.can_pop(cycle)) {
-    wrap_and_scale(samples_in.front(cycle));
-    samples_in.pop(cycle);
-    occupied_ = true;
-  }
-  return kBusy;
-}
-
-// Stage 1, one axis: wrap the coordinate, scale it to texels, split it, bring both texels into
-// range.
-TexelAddresser::Axis TexelAddresser::scale(std::int64_t position, std::int32_t size,
-                                           spec::texture::Wrap wrap, bool linear) {
+std::int64_t wrapped(std::int64_t position, spec::texture::Wrap wrap) {
   if (wrap == spec::texture::Wrap::kRepeat) {
     position &= kOne - 1;
   } else if (wrap == spec::texture::Wrap::kMirroredRepeat) {
     position &= 2 * kOne - 1;
     if (position & kOne) position ^= 2 * kOne - 1;  // 2^25 - 1 - q is the complement of q
   }
-  const std::int64_t scaled = position * size;  // S22.24
+  return position;
+}
+
+}  // namespace
+
+TexelAddresser::TexelAddresser(const sc_core::sc_module_name& name, ClockDomain& clock,
+                               const Descriptors::Reader& descriptors)
+    : Unit(name, clock), descriptors_(descriptors) {}
+
+Activity TexelAddresser::tick(Cycle cycle) {
+  const bool arrives = samples_in.can_pop(cycle);
+  if (stages_.empty() && !arrives) return kIdle;
+  if (stages_.leaving() && !texels_out.can_push(cycle)) return kStalledDownstream;
+  stages_.step();
+  if (stages_.works(5)) address(stages_.leave(), texels_out.emplace(cycle));
+  if (stages_.works(4)) split(stages_.at(4));
+  if (stages_.works(3)) scale(stages_.at(3));
+  if (stages_.works(2)) wrap(stages_.at(2));
+  if (arrives) {
+    choose(cycle, samples_in.front(cycle), stages_.enter());
+    samples_in.pop(cycle);
+  }
+  return kBusy;
+}
+
+// Stage 1.
+void TexelAddresser::choose(Cycle cycle, const SampleToken& sample, Entry& entry) {
+  const TextureState& texture = descriptors_.read(cycle, sample.ticket.texture);
+  entry.ticket = sample.ticket;
+  entry.control = {0,
+                   0,
+                   sample.level_weight,
+                   sample.kernel_weight,
+                   sample.sum_log2,
+                   static_cast<std::uint8_t>(texture.format),
+                   sample.last_of_sample,
+                   sample.last_of_fragment};
+  entry.linear = sample.linear;
+  entry.level = sample.level;
+  entry.texture = &texture;
+  entry.s = sample.s;
+  entry.t = sample.t;
+  if (sample.ticket.valid) ++bilinears;
+}
+
+// Stage 2.
+void TexelAddresser::wrap(Entry& entry) {
+  entry.geometry = &entry.texture->level[entry.level];
+  entry.s = wrapped(entry.s, entry.texture->wrap_s);
+  entry.t = wrapped(entry.t, entry.texture->wrap_t);
+}
+
+// Stage 3: S9.24 x U13.
+void TexelAddresser::scale(Entry& entry) {
+  entry.s *= entry.geometry->width;
+  entry.t *= entry.geometry->height;
+}
+
+// Stage 4.
+void TexelAddresser::split(Entry& entry) {
+  if (!entry.ticket.valid) return;
+  entry.x = neighbours(entry.s, entry.geometry->width, entry.texture->wrap_s, entry.linear);
+  entry.y = neighbours(entry.t, entry.geometry->height, entry.texture->wrap_t, entry.linear);
+  entry.control.fraction_u = entry.x.fraction;
+  entry.control.fraction_v = entry.y.fraction;
+}
+
+TexelAddresser::Axis TexelAddresser::neighbours(std::int64_t scaled, std::int32_t size,
+                                                spec::texture::Wrap wrap, bool linear) {
   Axis axis;
   if (linear) {
     // Half a texel less, rounded from 24 to 8 fraction bits: both constants are one addition.
@@ -87,43 +130,21 @@ TexelAddresser::Axis TexelAddresser::scale(std::int64_t position, std::int32_t s
   return axis;
 }
 
-void TexelAddresser::wrap_and_scale(const SampleToken& sample) {
-  scaled_.ticket = sample.ticket;
-  scaled_.level = sample.level;
-  FilterControl& control = scaled_.control;
-  control = {0,
-             0,
-             sample.level_weight,
-             sample.kernel_weight,
-             sample.sum_log2,
-             0,
-             sample.last_of_sample,
-             sample.last_of_fragment};
-  if (!sample.ticket.valid) return;
-  ++bilinears;
-  const TextureState& texture = store_.texture(sample.ticket.texture);
-  const LevelGeometry& level = texture.level[sample.level];
-  scaled_.x = scale(sample.s, level.width, texture.wrap_s, sample.linear);
-  scaled_.y = scale(sample.t, level.height, texture.wrap_t, sample.linear);
-  control.fraction_u = scaled_.x.fraction;
-  control.fraction_v = scaled_.y.fraction;
-  control.format = static_cast<std::uint8_t>(texture.format);
-}
-
-// Stage 2.
-void TexelAddresser::address(TexelToken& out) const {
-  out.ticket = scaled_.ticket;
-  out.control = scaled_.control;
+// Stage 5.
+void TexelAddresser::address(const Entry& entry, TexelToken& out) {
+  out.ticket = entry.ticket;
+  out.control = entry.control;
   if (!out.ticket.valid) return;
-  const TextureState& texture = store_.texture(out.ticket.texture);
-  const LevelGeometry& level = texture.level[scaled_.level];
-  const auto x0 = static_cast<std::uint32_t>(scaled_.x.first),
-             x1 = static_cast<std::uint32_t>(scaled_.x.second),
-             y0 = static_cast<std::uint32_t>(scaled_.y.first),
-             y1 = static_cast<std::uint32_t>(scaled_.y.second);
+  const TextureState& texture = *entry.texture;
+  const LevelGeometry& level = *entry.geometry;
+  const auto x0 = static_cast<std::uint32_t>(entry.x.first),
+             x1 = static_cast<std::uint32_t>(entry.x.second),
+             y0 = static_cast<std::uint32_t>(entry.y.first),
+             y1 = static_cast<std::uint32_t>(entry.y.second);
 
   std::uint32_t column0, column1, row0, row1;
-  if (texture.layout == spec::texture::Layout::kLinear) {
+  const bool linear_layout = texture.layout == spec::texture::Layout::kLinear;
+  if (linear_layout) {
     column0 = x0 << texture.texel_log2;
     column1 = x1 << texture.texel_log2;
     row0 = y0 * level.pitch;
@@ -150,12 +171,7 @@ void TexelAddresser::address(TexelToken& out) const {
   }
   out.address = {level.base + column0 + row0, level.base + column1 + row0,
                  level.base + column0 + row1, level.base + column1 + row1};
-  const auto bank = [](std::uint32_t x, std::uint32_t y) {
-    return static_cast<std::uint8_t>((y & 1) << 1 | (x & 1));
-  };
-  out.bank = {bank(x0, y0), bank(x1, y0), bank(x0, y1), bank(x1, y1)};
-  out.column_conflict = x0 != x1 && ((x0 ^ x1) & 1) == 0;
-  out.row_conflict = y0 != y1 && ((y0 ^ y1) & 1) == 0;
+  out.turned = {linear_layout && (y0 & 1), linear_layout && (y1 & 1)};
 }
 
 }  // namespace deburr::rtl::texture

@@ -17,13 +17,15 @@ MemoryPortParameters port_parameters(const spec::texture::Parameters& p) {
 }  // namespace
 
 TextureCache::TextureCache(const sc_core::sc_module_name& name, ClockDomain& clock,
-                           const spec::texture::Parameters& p, ParameterStore& store)
+                           const spec::texture::Parameters& p, ControlRegisters& registers)
     : sc_module(name),
-      miss_queue("miss_queue", clock, p, store),
+      miss_queue("miss_queue", clock, p, registers),
       tag_stage("tag_stage", clock, p, miss_queue.fills),
       latency_fifo("latency_fifo", clock, p),
       data_stage("data_stage", clock, p, miss_queue.fills),
-      memory_port("memory_port", clock, port_parameters(p)) {
+      memory_port("memory_port", clock, port_parameters(p)),
+      misses_("misses", 2, miss_shape(p)),
+      requests_("requests", 2, cache_shape(p)) {
   tag_stage.texels_in(texels_in);
   tag_stage.requests_out(requests_);
   latency_fifo.requests_in(requests_);
