@@ -47,6 +47,7 @@ DataStage::DataStage(const sc_core::sc_module_name& name, ClockDomain& clock,
       fills_(fills),
       line_log2_(log2_of(p.cache_line_bytes)),
       words_a_line_(static_cast<std::uint32_t>(p.cache_line_bytes / 4)),
+      turn_(turn_bytes(static_cast<std::uint32_t>(p.cache_line_bytes))),
       banks_("banks", bank_shape(p)),
       bytes_(static_cast<std::size_t>(p.cache_bytes) + kPadding),
       wait_fill_(declare_stall("wait_fill", "a line of the request has not arrived")),
@@ -55,11 +56,12 @@ DataStage::DataStage(const sc_core::sc_module_name& name, ClockDomain& clock,
   for (int i = 0; i < 4; ++i) reads_.emplace_back(banks_, "texel_" + std::to_string(i));
 }
 
+// From the last stage to the first.
 Activity DataStage::work(Cycle cycle) {
   const bool waits = waits_;
   if (waits && !texels_out.can_push(cycle)) return kStalledDownstream;
-  for (std::size_t i = 0; i < issues_; ++i) reads_[issued_[i].port].check(cycle, issued_[i].word);
-  issues_ = 0;
+  if (issued_) reads_[issued_port_].check(cycle, issued_word_);
+  issued_ = false;
   if (waits) {
     texels_out.push(cycle, waiting_);
     waits_ = false;
@@ -72,7 +74,12 @@ Activity DataStage::work(Cycle cycle) {
 Activity DataStage::advance(Cycle cycle) {
   const CacheToken& request = requests_in.front(cycle);
   if (!request.ticket.valid) {
-    texel_ = {};
+    waiting_.texel = {};
+    finish(cycle, request);
+    return kBusy;
+  }
+  if (hits_one_line(request)) {
+    read_one_line(cycle, request);
     finish(cycle, request);
     return kBusy;
   }
@@ -82,8 +89,7 @@ Activity DataStage::advance(Cycle cycle) {
     passes_done_ = fills_done_ = 0;
     if (schedule_.passes > 1) ++conflicts;
   }
-  const bool reads = passes_done_ < schedule_.passes;
-  if (reads) read(cycle, request, passes_done_++);
+  if (passes_done_ < schedule_.passes) read(cycle, request, passes_done_++);
   // A line may replace one of which a texel is read: not before its last pass, which sees the old
   // word.
   const bool may_write = fills_done_ < request.fills && passes_done_ == schedule_.passes;
@@ -104,37 +110,56 @@ DataStage::Schedule DataStage::schedule(const CacheToken& request) const {
     if (request.source[i] != 0) continue;
     s.pass[i] = 0;
     for (std::size_t j = 0; j < i; ++j) {
-      if (s.pass[j] < 0 || request.bank[j] != request.bank[i]) continue;
-      const bool same = request.place[j] >> line_log2_ == request.place[i] >> line_log2_;
-      s.again[i] = same;
-      s.pass[i] = same ? s.pass[j] : std::max(s.pass[i], s.pass[j] + 1);
-      if (same) break;
+      const std::uint32_t apart = (request.place[i] ^ request.place[j]) >> 2;
+      if (s.pass[j] < 0 || (apart & (words_a_line_ - 1)) != 0) continue;  // another bank
+      s.again[i] = apart == 0;
+      s.pass[i] = s.again[i] ? s.pass[j] : std::max(s.pass[i], s.pass[j] + 1);
+      if (s.again[i]) break;
     }
     s.passes = std::max(s.passes, s.pass[i] + 1);
   }
   return s;
 }
 
+// Texels of one line never meet in a bank, but may share a word.
+void DataStage::read_one_line(Cycle cycle, const CacheToken& request) {
+  std::array<std::uint32_t, 4> word;
+  for (std::size_t i = 0; i < 4; ++i) {
+    word[i] = request.place[i] >> 2;
+    waiting_.texel[i] = load(&bytes_[request.place[i]]);
+  }
+  issue(cycle, 0, word[0]);
+  if (word[1] != word[0]) issue(cycle, 1, word[1]);
+  if (word[2] != word[1] && word[2] != word[0]) issue(cycle, 2, word[2]);
+  if (word[3] != word[2] && word[3] != word[1] && word[3] != word[0]) issue(cycle, 3, word[3]);
+}
+
 void DataStage::read(Cycle cycle, const CacheToken& request, int pass) {
   for (std::size_t i = 0; i < 4; ++i) {
     if (schedule_.pass[i] != pass) continue;
-    texel_[i] = load(&bytes_[request.place[i]]);
-    if (schedule_.again[i]) continue;
-    const std::uint64_t word = word_of(request, i);
-    reads_[i].read(cycle, word);
-    issued_[issues_++] = {i, word};
+    waiting_.texel[i] = load(&bytes_[request.place[i]]);
+    if (!schedule_.again[i]) issue(cycle, i, request.place[i] >> 2);
   }
+}
+
+// The words of a clock come together, so one of them stands for all.
+void DataStage::issue(Cycle cycle, std::size_t port, std::uint64_t word) {
+  reads_[port].read(cycle, word);
+  issued_port_ = port;
+  issued_word_ = word;
+  issued_ = true;
 }
 
 void DataStage::write_fill(Cycle cycle, const CacheToken& request) {
   const std::uint8_t* const line = fills_.line(cycle);
   const auto fill = static_cast<std::size_t>(fills_done_);
   for (std::size_t i = 0; i < 4; ++i)
-    if (request.source[i] == fill + 1) texel_[i] = load(line + request.place[i]);
-  const std::size_t slot = request.victim[fill];
+    if (request.source[i] == fill + 1) waiting_.texel[i] = load(line + request.place[i]);
+  const std::size_t slot = request.victim[fill], line_bytes = std::size_t{1} << line_log2_;
   write_.write(cycle, slot * words_a_line_, words_a_line_);
-  std::copy(line, line + (1u << line_log2_),
-            bytes_.begin() + static_cast<std::ptrdiff_t>(slot << line_log2_));
+  const std::size_t turn = request.turned[fill] ? turn_ : 0;
+  for (std::size_t at = 0; at < line_bytes; at += turn_)
+    std::copy_n(line + at, turn_, &bytes_[slot * line_bytes + (at ^ turn)]);
   fills_.release(cycle);
   ++lines_written;
   ++fills_done_;
@@ -145,15 +170,12 @@ void DataStage::finish(Cycle cycle, const CacheToken& request) {
   const std::uint32_t mask = request.ticket.valid ? texel_mask(request.control) : 0;
   waiting_.ticket = request.ticket;
   waiting_.control = request.control;
-  for (std::size_t i = 0; i < 4; ++i) waiting_.texel[i] = texel_[i] & mask;
+  for (std::uint32_t& texel : waiting_.texel) texel &= mask;
   waits_ = true;
   requests_in.pop(cycle);
   started_ = false;
 }
 
-void DataStage::reset() {
-  started_ = waits_ = false;
-  issues_ = 0;
-}
+void DataStage::reset() { started_ = waits_ = issued_ = false; }
 
 }  // namespace deburr::rtl::texture

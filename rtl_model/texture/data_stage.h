@@ -53,36 +53,37 @@ class DataStage final : public Unit {
     std::array<int, 4> pass;    // of texel i; -1: it missed
     std::array<bool, 4> again;  // its word is that of an earlier texel
   };
-  // A word that the last clock has asked for.
-  struct Issued {
-    std::size_t port;
-    std::uint64_t word;
-  };
-  std::uint64_t word_of(const CacheToken& request, std::size_t texel) const {
-    return std::uint64_t{request.place[texel] >> line_log2_} * words_a_line_ + request.bank[texel];
+  bool hits_one_line(const CacheToken& request) const {
+    const auto& place = request.place;
+    return request.fills == 0 &&
+           ((place[0] ^ place[1]) | (place[0] ^ place[2]) | (place[0] ^ place[3])) >> line_log2_ ==
+               0;
   }
   Schedule schedule(const CacheToken& request) const;
   Activity work(Cycle cycle);
   Activity advance(Cycle cycle);
+  void read_one_line(Cycle cycle, const CacheToken& request);
   void read(Cycle cycle, const CacheToken& request, int pass);
+  void issue(Cycle cycle, std::size_t port, std::uint64_t word);
   void write_fill(Cycle cycle, const CacheToken& request);
   void finish(Cycle cycle, const CacheToken& request);
 
   FillBuffer& fills_;
-  std::uint32_t line_log2_, words_a_line_;
+  std::uint32_t line_log2_, words_a_line_, turn_;
   Memory<void> banks_;
   std::vector<ReadPort<void>> reads_;
   WritePort<void> write_{banks_, "fill"};
-  std::vector<std::uint8_t> bytes_;  // of the lines, in the order of memory
+  std::vector<std::uint8_t> bytes_;  // of the banks, word by word
   Activity wait_fill_, write_fill_, bank_conflict_;
   // Registers of the request in stage 1.
   bool started_ = false;
   Schedule schedule_{};
   int passes_done_ = 0, fills_done_ = 0;
-  // Words on their way, and the request that waits for the last of them.
-  std::array<Issued, 4> issued_{};
-  std::size_t issues_ = 0;
-  std::array<std::uint32_t, 4> texel_{};
+  // One of the words that the last clock has asked for.
+  std::size_t issued_port_ = 0;
+  std::uint64_t issued_word_ = 0;
+  bool issued_ = false;
+  // The request in stage 2.
   bool waits_ = false;
   TexelQuadToken waiting_{};
 };

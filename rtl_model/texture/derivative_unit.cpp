@@ -8,10 +8,11 @@ namespace {
 
 constexpr std::uint64_t kLargest = (std::uint64_t{1} << 31) - 1;  // U15.16
 
-// U20.24, to U15.16 with one bit of overflow, which is bit 31 or above.
-std::uint64_t size(std::int64_t scaled) {
-  const auto magnitude = static_cast<std::uint64_t>(scaled < 0 ? -scaled : scaled);
-  return (magnitude + (1u << 7)) >> 8;
+// Size of a difference in texels: S8.24 x U13 = U20.24, to U15.16 with one bit of overflow, which
+// is bit 31 or above.
+std::uint64_t in_texels(std::int64_t difference, std::uint16_t size) {
+  const auto magnitude = static_cast<std::uint64_t>(difference < 0 ? -difference : difference);
+  return (magnitude * size + (1u << 7)) >> 8;
 }
 
 std::uint32_t saturate(std::uint64_t texels) {
@@ -34,11 +35,10 @@ Activity DerivativeUnit::tick(Cycle cycle) {
   if (stages_.empty() && !works) return kIdle;
   if (stages_.leaving() && !derivatives_out.can_push(cycle)) return kStalledDownstream;
   stages_.step();
-  if (stages_.works(3)) deliver(stages_.leave(), derivatives_out.emplace(cycle));
-  if (stages_.works(2)) multiply(stages_.at(2));
+  if (stages_.works(kStages)) derivatives_out.push(cycle, stages_.leave());
   if (!works) return kBusy;
   if (waiting_ == 0) take(cycle);
-  if (waiting_ != 0) subtract(cycle, stages_.enter());
+  if (waiting_ != 0) split(cycle, stages_.enter());
   return kBusy;
 }
 
@@ -49,52 +49,40 @@ void DerivativeUnit::take(Cycle cycle) {
   for (unsigned lanes = waiting_; lanes != 0; lanes &= lanes - 1) probe_.enters(cycle);
 }
 
-// Stage 1.
-void DerivativeUnit::subtract(Cycle cycle, Entry& entry) {
+// All stages, one lane: what is between them cannot be seen from outside, since a descriptor stands
+// still while the unit is busy.
+void DerivativeUnit::split(Cycle cycle, DerivativeToken& out) {
   const auto lane = static_cast<unsigned>(std::countr_zero(waiting_));
   waiting_ &= waiting_ - 1;
   const TextureState& texture = descriptors_.read(cycle, quad_.texture);
-  entry.width = texture.width;
-  entry.height = texture.height;
-
   const auto& s = quad_.s;
   const auto& t = quad_.t;
   const unsigned row = lane & 2, column = lane & 1;
-  DerivativeToken& token = entry.token;
-  token.ticket = {quad_.tag, static_cast<std::uint8_t>(lane), waiting_ == 0, texture.valid,
-                  static_cast<std::uint8_t>(quad_.texture & 15)};
-  token.s = s[lane];
-  token.t = t[lane];
-  token.s_x = difference(s[row + 1], s[row]);
-  token.t_x = difference(t[row + 1], t[row]);
-  token.s_y = difference(s[2 + column], s[column]);
-  token.t_y = difference(t[2 + column], t[column]);
+  out.ticket = {quad_.tag, static_cast<std::uint8_t>(lane), waiting_ == 0, texture.valid,
+                static_cast<std::uint8_t>(quad_.texture & 15)};
+  out.s = s[lane];
+  out.t = t[lane];
+  out.s_x = difference(s[row + 1], s[row]);
+  out.t_x = difference(t[row + 1], t[row]);
+  out.s_y = difference(s[2 + column], s[column]);
+  out.t_y = difference(t[2 + column], t[column]);
+  const std::uint64_t s_x = in_texels(out.s_x, texture.width),
+                      t_x = in_texels(out.t_x, texture.height),
+                      s_y = in_texels(out.s_y, texture.width),
+                      t_y = in_texels(out.t_y, texture.height);
+  out.size_s_x = saturate(s_x);
+  out.size_t_x = saturate(t_x);
+  out.size_s_y = saturate(s_y);
+  out.size_t_y = saturate(t_y);
 
   ++fragments;
   if (quad_.clamped >> lane & 1) ++clamped;
   if (!texture.valid) {
     ++invalid;
     registers_.set_sticky(spec::texture::reg::kStatusInvalidTexture);
+  } else if (((s_x | t_x | s_y | t_y) >> 31) != 0) {
+    ++saturated;
   }
-}
-
-// Stage 2: S8.24 x U13.
-void DerivativeUnit::multiply(Entry& entry) {
-  const DerivativeToken& token = entry.token;
-  entry.scaled = {token.s_x * entry.width, token.t_x * entry.height, token.s_y * entry.width,
-                  token.t_y * entry.height};
-}
-
-// Stage 3.
-void DerivativeUnit::deliver(const Entry& entry, DerivativeToken& out) {
-  out = entry.token;
-  const std::uint64_t s_x = size(entry.scaled[0]), t_x = size(entry.scaled[1]),
-                      s_y = size(entry.scaled[2]), t_y = size(entry.scaled[3]);
-  out.size_s_x = saturate(s_x);
-  out.size_t_x = saturate(t_x);
-  out.size_s_y = saturate(s_y);
-  out.size_t_y = saturate(t_y);
-  if (out.ticket.valid && ((s_x | t_x | s_y | t_y) >> 31) != 0) ++saturated;
 }
 
 void DerivativeUnit::reset() {

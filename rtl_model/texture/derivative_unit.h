@@ -11,7 +11,6 @@
 // four 46-bit adders, registers of a quad and of two fragments. Source: paper 2.2 (1).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <systemc>
 
@@ -44,15 +43,8 @@ class DerivativeUnit final : public Unit {
 
  private:
   static constexpr int kStages = 3;
-  struct Entry {
-    DerivativeToken token;               // its sizes come last
-    std::uint16_t width, height;         // U13
-    std::array<std::int64_t, 4> scaled;  // S21.24: s_x, t_x, s_y, t_y in texels
-  };
   void take(Cycle cycle);
-  void subtract(Cycle cycle, Entry& entry);
-  static void multiply(Entry& entry);
-  void deliver(const Entry& entry, DerivativeToken& out);
+  void split(Cycle cycle, DerivativeToken& out);
 
   ControlRegisters& registers_;
   Descriptors::Reader descriptors_;
@@ -60,7 +52,7 @@ class DerivativeUnit final : public Unit {
   // Registers.
   spec::texture::Quad quad_{};
   unsigned waiting_ = 0;  // U4, covered lanes of quad_ that have not left yet
-  Stages<Entry, kStages> stages_;
+  Stages<DerivativeToken, kStages> stages_;
 };
 
 }  // namespace deburr::rtl::texture

@@ -29,21 +29,16 @@ constexpr std::uint16_t unorm5(std::uint32_t v) { return unorm8((v & 31) << 3 | 
 constexpr std::uint16_t unorm4(std::uint32_t v) { return unorm8((v & 15) << 4 | (v & 15)); }
 constexpr std::uint16_t kOpaque = unorm8(255);
 
-Texel unpack_texel(spec::texture::Format format, std::uint32_t raw) {
-  switch (format) {
-    case spec::texture::Format::kRgba8:
-      return {unorm8(raw), unorm8(raw >> 8), unorm8(raw >> 16), unorm8(raw >> 24)};
-    case spec::texture::Format::kRgb565:
-      return {unorm5(raw >> 11), unorm6(raw >> 5), unorm5(raw), kOpaque};
-    case spec::texture::Format::kRgba4444:
-      return {unorm4(raw >> 12), unorm4(raw >> 8), unorm4(raw >> 4), unorm4(raw)};
-    case spec::texture::Format::kL8:
-      return {unorm8(raw), unorm8(raw), unorm8(raw), kOpaque};
-    case spec::texture::Format::kSrgb8A8:  // through the ROM
-      break;
-  }
-  return {};
+Texel unpack_rgba8(std::uint32_t raw) {
+  return {unorm8(raw), unorm8(raw >> 8), unorm8(raw >> 16), unorm8(raw >> 24)};
 }
+Texel unpack_rgb565(std::uint32_t raw) {
+  return {unorm5(raw >> 11), unorm6(raw >> 5), unorm5(raw), kOpaque};
+}
+Texel unpack_rgba4444(std::uint32_t raw) {
+  return {unorm4(raw >> 12), unorm4(raw >> 8), unorm4(raw >> 4), unorm4(raw)};
+}
+Texel unpack_l8(std::uint32_t raw) { return {unorm8(raw), unorm8(raw), unorm8(raw), kOpaque}; }
 
 }  // namespace
 
@@ -116,10 +111,22 @@ void FilterPipeline::unpack(Cycle cycle) {
   ++occupancy[1];
   unpacked_.control = raw_.control;
   unpacked_.ticket = raw_.ticket;
-  const spec::texture::Format format = format_of(raw_);
-  const bool coded = raw_.ticket.valid && format == spec::texture::Format::kSrgb8A8;
-  for (std::size_t i = 0; i < 4; ++i)
-    unpacked_.texel[i] = coded ? unpack_srgb(cycle, i) : unpack_texel(format, raw_.texel[i]);
+  const auto each = [this](auto unpack_one) {
+    for (std::size_t i = 0; i < 4; ++i) unpacked_.texel[i] = unpack_one(raw_.texel[i]);
+  };
+  switch (format_of(raw_)) {
+    case spec::texture::Format::kRgba8:
+      return each(unpack_rgba8);
+    case spec::texture::Format::kRgb565:
+      return each(unpack_rgb565);
+    case spec::texture::Format::kRgba4444:
+      return each(unpack_rgba4444);
+    case spec::texture::Format::kL8:
+      return each(unpack_l8);
+    case spec::texture::Format::kSrgb8A8:
+      if (!raw_.ticket.valid) return;  // its weight is 0
+      for (std::size_t i = 0; i < 4; ++i) unpacked_.texel[i] = unpack_srgb(cycle, i);
+  }
 }
 
 std::array<std::uint16_t, 4> FilterPipeline::unpack_srgb(Cycle cycle, std::size_t texel) const {

@@ -15,21 +15,19 @@ Activity FootprintUnit::tick(Cycle cycle) {
   if (stages_.empty() && !arrives) return kIdle;
   if (stages_.leaving() && !footprints_out.can_push(cycle)) return kStalledDownstream;
   stages_.step();
-  if (stages_.works(2)) {
-    const auto& [token, d_x, d_y] = stages_.leave();
-    const bool x_is_major = d_x >= d_y;
-    footprints_out.emplace(cycle) = {token.ticket,
-                                     token.s,
-                                     token.t,
-                                     x_is_major ? token.s_x : token.s_y,
-                                     x_is_major ? token.t_x : token.t_y,
-                                     x_is_major ? d_x : d_y,
-                                     x_is_major ? d_y : d_x};
-  }
+  if (stages_.works(kStages)) footprints_out.push(cycle, stages_.leave());
   if (arrives) {
     const DerivativeToken& in = derivatives_in.front(cycle);
-    stages_.enter() = {in, side(rule_, in.size_s_x, in.size_t_x),
-                       side(rule_, in.size_s_y, in.size_t_y)};
+    const std::uint32_t d_x = side(rule_, in.size_s_x, in.size_t_x),
+                        d_y = side(rule_, in.size_s_y, in.size_t_y);
+    const bool x_is_major = d_x >= d_y;
+    stages_.enter() = {in.ticket,
+                       in.s,
+                       in.t,
+                       x_is_major ? in.s_x : in.s_y,
+                       x_is_major ? in.t_x : in.t_y,
+                       x_is_major ? d_x : d_y,
+                       x_is_major ? d_y : d_x};
     derivatives_in.pop(cycle);
   }
   return kBusy;

@@ -40,14 +40,10 @@ class FootprintUnit final : public Unit {
 
  private:
   static constexpr int kStages = 2;
-  struct Entry {
-    DerivativeToken token;
-    std::uint32_t d_x, d_y;
-  };
   Activity tick_exact(Cycle cycle);
 
   spec::texture::FootprintRule rule_;
-  Stages<Entry, kStages> stages_;
+  Stages<FootprintToken, kStages> stages_;
   RootPipeline roots_;
 };
 

@@ -37,40 +37,27 @@ Activity LevelUnit::tick(Cycle cycle) {
   if (stages_.empty() && !arrives) return kIdle;
   if (stages_.leaving() && !levels_out.can_push(cycle)) return kStalledDownstream;
   stages_.step();
-  if (stages_.works(3)) choose(stages_.leave(), levels_out.emplace(cycle));
-  if (stages_.works(2)) level_of_detail(stages_.at(2));
+  if (stages_.works(kStages)) levels_out.push(cycle, stages_.leave());
   if (arrives) {
-    count(cycle, logs_in.front(cycle), stages_.enter());
+    choose(cycle, logs_in.front(cycle), stages_.enter());
     logs_in.pop(cycle);
   }
   return kBusy;
 }
 
-// Stage 1.
-void LevelUnit::count(Cycle cycle, const Log2Token& in, Entry& entry) {
+// All stages: what is between them cannot be seen from outside, since a descriptor stands still
+// while the unit is busy.
+void LevelUnit::choose(Cycle cycle, const Log2Token& in, LevelToken& out) {
+  // Stage 1.
   const TextureState& texture = descriptors_.read(cycle, in.ticket.texture);
-  entry.texture = &texture;
-  entry.lb_max = in.lb_max;
-  entry.token = {in.ticket, in.s, in.t, in.axis_s, in.axis_t, 0, 0, 0, false};
-  if (in.ticket.valid)
-    entry.token.count_log2 =
-        static_cast<std::uint8_t>(count_log2(in.lb_max, in.lb_min, texture.max_count_log2));
-}
-
-// Stage 2.
-void LevelUnit::level_of_detail(Entry& entry) {
-  const TextureState& texture = *entry.texture;
-  const std::int32_t l =
-      entry.lb_max - (std::int32_t{entry.token.count_log2} << kFractionBits) + texture.bias;
-  entry.l = std::min(std::max(l, texture.min_lod), texture.max_lod);
-}
-
-// Stage 3.
-void LevelUnit::choose(const Entry& entry, LevelToken& out) {
-  out = entry.token;
+  out = {in.ticket, in.s, in.t, in.axis_s, in.axis_t, 0, 0, 0, false};
   if (!out.ticket.valid) return;
-  const TextureState& texture = *entry.texture;
-  const std::int32_t l = entry.l;
+  const int count = count_log2(in.lb_max, in.lb_min, texture.max_count_log2);
+  out.count_log2 = static_cast<std::uint8_t>(count);
+  // Stage 2.
+  std::int32_t l = in.lb_max - (count << kFractionBits) + texture.bias;  // S8.12
+  l = std::min(std::max(l, texture.min_lod), texture.max_lod);
+  // Stage 3.
   if (l <= 0) {
     ++magnified;
     out.linear = texture.mag_filter == spec::texture::MagFilter::kLinear;

@@ -37,21 +37,13 @@ class LevelUnit final : public Unit {
 
  private:
   static constexpr int kStages = 3;
-  struct Entry {
-    LevelToken token;
-    const TextureState* texture;  // the fields that stage 1 has chosen
-    std::int32_t lb_max;          // S5.12
-    std::int32_t l;               // S8.12
-  };
-  void count(Cycle cycle, const Log2Token& in, Entry& entry);
-  static void level_of_detail(Entry& entry);
-  void choose(const Entry& entry, LevelToken& out);
+  void choose(Cycle cycle, const Log2Token& in, LevelToken& out);
   int count_log2(std::int32_t lb_max, std::int32_t lb_min, int limit) const;
 
   Descriptors::Reader descriptors_;
   spec::texture::CountRule count_;
   spec::texture::CountCap cap_;
-  Stages<Entry, kStages> stages_;
+  Stages<LevelToken, kStages> stages_;
 };
 
 }  // namespace deburr::rtl::texture

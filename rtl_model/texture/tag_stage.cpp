@@ -2,6 +2,7 @@
 #include "rtl_model/texture/tag_stage.h"
 
 #include <algorithm>
+#include <span>
 
 namespace deburr::rtl::texture {
 
@@ -11,8 +12,7 @@ TagStage::TagStage(const sc_core::sc_module_name& name, ClockDomain& clock,
       fills_(fills),
       tags_("tags", p),
       line_log2_(log2_of(p.cache_line_bytes)),
-      bank_mask_(static_cast<std::uint32_t>(p.cache_line_bytes) / 4 - 1),
-      turn_(std::min((bank_mask_ + 1) / 2, 8U)),
+      turn_(turn_bytes(static_cast<std::uint32_t>(p.cache_line_bytes))),
       fill_number_(tags_.slots()),
       miss_queue_full_(declare_stall("miss_queue_full", "a line is missing and cannot be queued")),
       fifo_full_(declare_stall("fifo_full", "the latency FIFO takes nothing")) {}
@@ -43,8 +43,17 @@ void TagStage::read_sets(Cycle cycle) {
   texels_in.pop(cycle);
   occupied_ = true;
   if (!r.token.ticket.valid) return;
-  for (std::size_t i = 0; i < 4; ++i) {
-    r.line[i] = r.token.address[i] >> line_log2_;
+  const auto& address = r.token.address;
+  r.line[0] = address[0] >> line_log2_;
+  tags_.read(cycle, 0, r.line[0]);
+  r.one_line =
+      ((address[0] ^ address[1]) | (address[0] ^ address[2]) | (address[0] ^ address[3])) >>
+          line_log2_ ==
+      0;
+  if (r.one_line) return;
+  r.first[0] = 0;
+  for (std::size_t i = 1; i < 4; ++i) {
+    r.line[i] = address[i] >> line_log2_;
     std::size_t same = 0;
     while (r.line[same] != r.line[i]) ++same;
     r.first[i] = static_cast<std::uint8_t>(same);
@@ -58,41 +67,45 @@ void TagStage::look_up(Cycle cycle, CacheToken& out) {
   const Request& r = request_;
   const std::uint32_t offset_mask = (1u << line_log2_) - 1;
   MissToken missed{};
-  std::array<std::uint32_t, 4> base;
-  std::array<bool, 4> turned;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::size_t first = r.first[i];
-    if (first != i) {
-      base[i] = base[first];
-      turned[i] = turned[first];
-      out.source[i] = out.source[first];
-    } else {
-      tags_.check(cycle, i, r.line[i]);
-      if (const std::uint32_t slot = tags_.find(r.line[i]); slot != TagStore::kAbsent) {
-        tags_.use(slot);
-        fill_number_[slot] > fills_.released(cycle) ? ++merged : ++hits;
-        base[i] = slot << line_log2_;
-        turned[i] = tags_.turned(slot);
-        out.source[i] = 0;
-      } else {
-        const TagStore::Place place = tags_.allocate(r.line[i], r.token.turned[i >> 1]);
-        ++misses;
-        if (place.evicted) ++evictions;
-        fill_number_[place.slot] = ++ordered_;
-        missed.line[out.fills] = r.line[i];
-        out.victim[out.fills] = static_cast<std::uint16_t>(place.slot);
-        base[i] = 0;
-        turned[i] = false;  // the fill is not read from a bank
-        out.source[i] = ++out.fills;
-      }
+  const auto place = [&](std::size_t i, const Line& line) {
+    out.place[i] = line.base | ((r.token.address[i] & offset_mask) ^ line.turn);
+    out.source[i] = line.source;
+  };
+  if (r.one_line) {
+    const Line line = look_up_line(cycle, 0, out, missed);
+    for (std::size_t i = 0; i < 4; ++i) place(i, line);
+  } else {
+    std::array<Line, 4> line{};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t first = r.first[i];
+      line[i] = first == i ? look_up_line(cycle, i, out, missed) : line[first];
+      place(i, line[i]);
     }
-    out.place[i] = base[i] | (r.token.address[i] & offset_mask);
-    out.bank[i] = bank(r.token.address[i], turned[i]);
   }
   tags_.commit(cycle);
   if (out.fills == 0) return;
   missed.count = out.fills;
   misses_out.push(cycle, missed);
+}
+
+TagStage::Line TagStage::look_up_line(Cycle cycle, std::size_t texel, CacheToken& out,
+                                      MissToken& missed) {
+  const std::uint32_t line = request_.line[texel];
+  tags_.check(cycle, texel, line);
+  if (const std::uint32_t slot = tags_.find(line); slot != TagStore::kAbsent) {
+    tags_.use(slot);
+    fill_number_[slot] > fills_.released(cycle) ? ++merged : ++hits;
+    return {slot << line_log2_, tags_.turned(slot) ? turn_ : 0, 0};
+  }
+  const bool turned = request_.token.turned[texel >> 1];
+  const TagStore::Place place = tags_.allocate(line, turned);
+  ++misses;
+  if (place.evicted) ++evictions;
+  fill_number_[place.slot] = ++ordered_;
+  missed.line[out.fills] = line;
+  out.victim[out.fills] = static_cast<std::uint16_t>(place.slot);
+  out.turned[out.fills] = turned;
+  return {0, 0, ++out.fills};
 }
 
 // Without changing anything. A request that misses nothing allocates nothing, so each line can be

@@ -51,19 +51,22 @@ class TagStage final : public Unit {
     TexelToken token;
     std::array<std::uint32_t, 4> line;  // U27
     std::array<std::uint8_t, 4> first;  // U2, the first texel in the same line
+    bool one_line;
   };
   void read_sets(Cycle cycle);
   bool would_miss() const;
   void look_up(Cycle cycle, CacheToken& out);
-  std::uint8_t bank(std::uint32_t address, bool turned) const {
-    return static_cast<std::uint8_t>(((address >> 2) & bank_mask_) ^ (turned ? turn_ : 0));
-  }
+  struct Line {
+    std::uint32_t base;   // of its slot; 0: it missed
+    std::uint32_t turn;   // what its bytes change places by
+    std::uint8_t source;  // as in CacheToken
+  };
+  Line look_up_line(Cycle cycle, std::size_t texel, CacheToken& out, MissToken& missed);
 
   const FillBuffer& fills_;
   TagStore tags_;
   std::uint32_t line_log2_;
-  std::uint32_t bank_mask_;  // one bank a word of a line
-  std::uint32_t turn_;       // what is turned: a row's banks change places by half a tile
+  std::uint32_t turn_;  // bytes
   // Number of the last fill ordered for each slot, counted from 1: a line is under way until that
   // many fills have been used. For the counters: an instrument, no hardware.
   std::vector<std::uint64_t> fill_number_;

@@ -80,7 +80,7 @@ TagStore::Place TagStore::allocate(std::uint32_t line, bool turned) {
   const bool evicted = slot > first + way_mask_;
   if (evicted) slot = victim(first);
   tags_[slot] = line;
-  turned_[slot] = turned;
+  turned_[slot] = turned ? 1 : 0;
   make_youngest(slot);  // for `fifo`, the age counts from the fill, since hits do not change it
   return {slot, evicted};
 }

@@ -59,7 +59,7 @@ class TagStore {
   // A miss: chooses a way and puts the line's tag into it.
   Place allocate(std::uint32_t line, bool turned);
   // The banks of the line in this slot are turned.
-  bool turned(std::uint32_t slot) const { return turned_[slot]; }
+  bool turned(std::uint32_t slot) const { return turned_[slot] != 0; }
   // Writes what the look-ups of this clock have changed.
   void commit(Cycle cycle) {
     for (std::size_t i = 0; i < changes_; ++i) writes_[i].write(cycle, changed_[i]);
@@ -86,8 +86,8 @@ class TagStore {
   Memory<void> memory_;
   std::vector<ReadPort<void>> reads_;
   std::vector<WritePort<void>> writes_;
-  std::vector<std::uint32_t> tags_;  // U27 and valid
-  std::vector<bool> turned_;
+  std::vector<std::uint32_t> tags_;   // U27 and valid
+  std::vector<std::uint8_t> turned_;  // U1
   std::vector<std::uint8_t> age_;  // the order of uses; 0: most recent; a permutation in each set
   std::uint16_t random_ = kRandomStart;
   // Sets that this clock writes.

@@ -31,16 +31,6 @@ std::uint32_t odd_morton_part(std::uint32_t tile, int common) {
   return spread(tile & ((1u << common) - 1)) << 1 | tile >> common << (2 * common);
 }
 
-std::int64_t wrapped(std::int64_t position, spec::texture::Wrap wrap) {
-  if (wrap == spec::texture::Wrap::kRepeat) {
-    position &= kOne - 1;
-  } else if (wrap == spec::texture::Wrap::kMirroredRepeat) {
-    position &= 2 * kOne - 1;
-    if (position & kOne) position ^= 2 * kOne - 1;  // 2^25 - 1 - q is the complement of q
-  }
-  return position;
-}
-
 }  // namespace
 
 TexelAddresser::TexelAddresser(const sc_core::sc_module_name& name, ClockDomain& clock,
@@ -52,61 +42,51 @@ Activity TexelAddresser::tick(Cycle cycle) {
   if (stages_.empty() && !arrives) return kIdle;
   if (stages_.leaving() && !texels_out.can_push(cycle)) return kStalledDownstream;
   stages_.step();
-  if (stages_.works(5)) address(stages_.leave(), texels_out.emplace(cycle));
-  if (stages_.works(4)) split(stages_.at(4));
-  if (stages_.works(3)) scale(stages_.at(3));
-  if (stages_.works(2)) wrap(stages_.at(2));
+  if (stages_.works(kStages)) texels_out.push(cycle, stages_.leave());
   if (arrives) {
-    choose(cycle, samples_in.front(cycle), stages_.enter());
+    request(cycle, samples_in.front(cycle), stages_.enter());
     samples_in.pop(cycle);
   }
   return kBusy;
 }
 
-// Stage 1.
-void TexelAddresser::choose(Cycle cycle, const SampleToken& sample, Entry& entry) {
+// All stages: what is between them cannot be seen from outside, since a descriptor stands still
+// while the unit is busy.
+void TexelAddresser::request(Cycle cycle, const SampleToken& sample, TexelToken& out) {
+  // Stage 1.
   const TextureState& texture = descriptors_.read(cycle, sample.ticket.texture);
-  entry.ticket = sample.ticket;
-  entry.control = {0,
-                   0,
-                   sample.level_weight,
-                   sample.kernel_weight,
-                   sample.sum_log2,
-                   static_cast<std::uint8_t>(texture.format),
-                   sample.last_of_sample,
-                   sample.last_of_fragment};
-  entry.linear = sample.linear;
-  entry.level = sample.level;
-  entry.texture = &texture;
-  entry.s = sample.s;
-  entry.t = sample.t;
-  if (sample.ticket.valid) ++bilinears;
+  out.ticket = sample.ticket;
+  FilterControl& control = out.control;
+  control = {0,
+             0,
+             sample.level_weight,
+             sample.kernel_weight,
+             sample.sum_log2,
+             static_cast<std::uint8_t>(texture.format),
+             sample.last_of_sample,
+             sample.last_of_fragment};
+  if (!sample.ticket.valid) return;
+  ++bilinears;
+  // Stage 2.
+  const LevelGeometry& level = texture.level[sample.level];
+  const Axis x = scale(sample.s, level.width, texture.wrap_s, sample.linear),
+             y = scale(sample.t, level.height, texture.wrap_t, sample.linear);
+  control.fraction_u = x.fraction;
+  control.fraction_v = y.fraction;
+  address(texture, level, x, y, out);
 }
 
-// Stage 2.
-void TexelAddresser::wrap(Entry& entry) {
-  entry.geometry = &entry.texture->level[entry.level];
-  entry.s = wrapped(entry.s, entry.texture->wrap_s);
-  entry.t = wrapped(entry.t, entry.texture->wrap_t);
-}
-
-// Stage 3: S9.24 x U13.
-void TexelAddresser::scale(Entry& entry) {
-  entry.s *= entry.geometry->width;
-  entry.t *= entry.geometry->height;
-}
-
-// Stage 4.
-void TexelAddresser::split(Entry& entry) {
-  if (!entry.ticket.valid) return;
-  entry.x = neighbours(entry.s, entry.geometry->width, entry.texture->wrap_s, entry.linear);
-  entry.y = neighbours(entry.t, entry.geometry->height, entry.texture->wrap_t, entry.linear);
-  entry.control.fraction_u = entry.x.fraction;
-  entry.control.fraction_v = entry.y.fraction;
-}
-
-TexelAddresser::Axis TexelAddresser::neighbours(std::int64_t scaled, std::int32_t size,
-                                                spec::texture::Wrap wrap, bool linear) {
+// Stages 2 to 4, one axis: wrap the coordinate; scale it to texels; split it, bring both texels
+// into range.
+TexelAddresser::Axis TexelAddresser::scale(std::int64_t position, std::int32_t size,
+                                           spec::texture::Wrap wrap, bool linear) {
+  if (wrap == spec::texture::Wrap::kRepeat) {
+    position &= kOne - 1;
+  } else if (wrap == spec::texture::Wrap::kMirroredRepeat) {
+    position &= 2 * kOne - 1;
+    if (position & kOne) position ^= 2 * kOne - 1;  // 2^25 - 1 - q is the complement of q
+  }
+  const std::int64_t scaled = position * size;  // S22.24
   Axis axis;
   if (linear) {
     // Half a texel less, rounded from 24 to 8 fraction bits: both constants are one addition.
@@ -131,16 +111,10 @@ TexelAddresser::Axis TexelAddresser::neighbours(std::int64_t scaled, std::int32_
 }
 
 // Stage 5.
-void TexelAddresser::address(const Entry& entry, TexelToken& out) {
-  out.ticket = entry.ticket;
-  out.control = entry.control;
-  if (!out.ticket.valid) return;
-  const TextureState& texture = *entry.texture;
-  const LevelGeometry& level = *entry.geometry;
-  const auto x0 = static_cast<std::uint32_t>(entry.x.first),
-             x1 = static_cast<std::uint32_t>(entry.x.second),
-             y0 = static_cast<std::uint32_t>(entry.y.first),
-             y1 = static_cast<std::uint32_t>(entry.y.second);
+void TexelAddresser::address(const TextureState& texture, const LevelGeometry& level, const Axis& x,
+                             const Axis& y, TexelToken& out) {
+  const auto x0 = static_cast<std::uint32_t>(x.first), x1 = static_cast<std::uint32_t>(x.second),
+             y0 = static_cast<std::uint32_t>(y.first), y1 = static_cast<std::uint32_t>(y.second);
 
   std::uint32_t column0, column1, row0, row1;
   const bool linear_layout = texture.layout == spec::texture::Layout::kLinear;
@@ -156,13 +130,13 @@ void TexelAddresser::address(const Entry& entry, TexelToken& out) {
     const int height_log2 = 6 - row_log2;
     const int common =
         level.tiles_x_log2 < level.tiles_y_log2 ? level.tiles_x_log2 : level.tiles_y_log2;
-    const auto column = [&](std::uint32_t x) {
-      return morton_part(x >> width_log2, common) << 6 | (x & ((1u << width_log2) - 1))
-                                                             << texture.texel_log2;
+    const auto column = [&](std::uint32_t at) {
+      return morton_part(at >> width_log2, common) << 6 | (at & ((1u << width_log2) - 1))
+                                                              << texture.texel_log2;
     };
-    const auto row = [&](std::uint32_t y) {
-      return odd_morton_part(y >> height_log2, common) << 6 | (y & ((1u << height_log2) - 1))
-                                                                  << row_log2;
+    const auto row = [&](std::uint32_t at) {
+      return odd_morton_part(at >> height_log2, common) << 6 | (at & ((1u << height_log2) - 1))
+                                                                   << row_log2;
     };
     column0 = column(x0);
     column1 = column(x1);

@@ -42,26 +42,14 @@ class TexelAddresser final : public Unit {
     std::int32_t first, second;  // U12, in range
     std::uint8_t fraction;       // U0.8
   };
-  struct Entry {
-    Ticket ticket;
-    FilterControl control;
-    bool linear;
-    std::uint8_t level;           // U4
-    const TextureState* texture;  // what stage 1 has chosen, and stage 2 of it
-    const LevelGeometry* geometry;
-    std::int64_t s, t;  // S9.24; wrapped after stage 2; texels, S22.24, after stage 3
-    Axis x, y;
-  };
-  void choose(Cycle cycle, const SampleToken& sample, Entry& entry);
-  static void wrap(Entry& entry);
-  static void scale(Entry& entry);
-  static void split(Entry& entry);
-  static void address(const Entry& entry, TexelToken& texels);
-  static Axis neighbours(std::int64_t scaled, std::int32_t size, spec::texture::Wrap wrap,
-                         bool linear);
+  void request(Cycle cycle, const SampleToken& sample, TexelToken& texels);
+  static Axis scale(std::int64_t position, std::int32_t size, spec::texture::Wrap wrap,
+                    bool linear);
+  static void address(const TextureState& texture, const LevelGeometry& level, const Axis& x,
+                      const Axis& y, TexelToken& texels);
 
   Descriptors::Reader descriptors_;
-  Stages<Entry, kStages> stages_;
+  Stages<TexelToken, kStages> stages_;
 };
 
 }  // namespace deburr::rtl::texture

@@ -190,10 +190,10 @@ struct MissToken {
 struct CacheToken {
   Ticket ticket;
   FilterControl control;
-  std::array<std::uint32_t, 4> place;   // byte in the data store (hit) or in the line (miss)
-  std::array<std::uint8_t, 4> source;   // 0: data store; 1 + k: fill number k of this request
-  std::array<std::uint8_t, 4> bank;     // that holds the texel's word (hit)
+  std::array<std::uint32_t, 4> place;   // byte in the data banks (hit) or in the line (miss)
+  std::array<std::uint8_t, 4> source;   // 0: data banks; 1 + k: fill number k of this request
   std::array<std::uint16_t, 4> victim;  // line slot that fill number k is written to
+  std::array<bool, 4> turned;           // fill number k is written with its banks turned
   std::uint8_t fills;                   // number of fills, 0..4
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -201,8 +201,8 @@ struct CacheToken {
     visit("control", self.control);
     visit("place", self.place, 16);
     visit("source", self.source, 3);
-    visit("bank", self.bank, 5);
     visit("victim", self.victim, 9);
+    visit("turned", self.turned, 1);
     visit("fills", self.fills, 3);
   }
 };
@@ -220,6 +220,11 @@ struct TexelQuadToken {
   }
 };
 
+// Half a tile: by so much the words of a turned line change places.
+inline std::uint32_t turn_bytes(std::uint32_t line_bytes) {
+  return std::min(line_bytes / 2, std::uint32_t{spec::texture::kTileBytes} / 2);
+}
+
 // What of the cache's tokens is built for a cache of this size.
 inline std::uint32_t log2_of(std::int32_t power_of_two) {
   return static_cast<std::uint32_t>(std::countr_zero(static_cast<std::uint32_t>(power_of_two)));
@@ -229,7 +234,7 @@ inline PayloadShape miss_shape(const spec::texture::Build& p) {
 }
 inline PayloadShape cache_shape(const spec::texture::Build& p) {
   const std::uint32_t place = log2_of(p.cache_bytes), line = log2_of(p.cache_line_bytes);
-  return {.widths = {{"place", place}, {"bank", line - 2}, {"victim", std::max(place - line, 1U)}}};
+  return {.widths = {{"place", place}, {"victim", std::max(place - line, 1U)}}};
 }
 
 }  // namespace deburr::rtl::texture

@@ -28,7 +28,7 @@ TEST(TextureRtlTagStore, ReplacementRules) {
         tags.use(slot);
       } else {
         fills.push_back(line);
-        tags.allocate(line);
+        tags.allocate(line, false);
       }
     }
     EXPECT_EQ(fills, row.fills)
@@ -41,18 +41,18 @@ TEST(TextureRtlTagStore, RandomReplacementStepsOnlyForValidLines) {
   p.cache_replacement = spec::texture::Replacement::kRandom;
   p.cache_ways = 4;  // one set
   TagStore tags("tags", p);
-  for (std::uint32_t line = 0; line < 4; ++line) EXPECT_EQ(tags.allocate(line).slot, line);
+  for (std::uint32_t line = 0; line < 4; ++line) EXPECT_EQ(tags.allocate(line, false).slot, line);
   // 0xACE1 -> 0x5670, 0xAB38, 0x559C, 0x2ACE, 0x1567, ...: their low two bits; the last ones come
   // from bits that were shifted in, from every tap.
   for (const std::uint32_t way : {0u, 0u, 0u, 2u, 3u, 3u, 1u, 0u, 2u, 3u, 1u, 2u,
                                   1u, 2u, 1u, 2u, 1u, 0u, 0u, 2u, 1u, 0u, 2u, 3u}) {
-    const TagStore::Place place = tags.allocate(100 + way);
+    const TagStore::Place place = tags.allocate(100 + way, false);
     EXPECT_EQ(place.slot, way);
     EXPECT_TRUE(place.evicted);
   }
   tags.invalidate();
   EXPECT_EQ(tags.find(102), TagStore::kAbsent);
-  EXPECT_EQ(tags.allocate(7).slot, 0u);
+  EXPECT_EQ(tags.allocate(7, false).slot, 0u);
 }
 
 }  // namespace

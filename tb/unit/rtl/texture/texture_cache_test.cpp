@@ -132,7 +132,6 @@ TEST(TextureRtlCache, InvalidFragmentsPassThrough) {
   b.time_of(in_line(0));
   TexelToken invalid = request({0x1000, 0x2000, 0x3000, 0x4000}, 99);
   invalid.ticket.valid = false;
-  invalid.column_conflict = invalid.row_conflict = true;
   EXPECT_EQ(b.time_of(invalid), kHit);
   EXPECT_EQ(b.memory.lines_read().size(), 1u);
   EXPECT_EQ(b.ends.sink.taken.back().token.ticket.tag, 99u);
