@@ -66,23 +66,18 @@ Activity DataStage::work(Cycle cycle) {
     texels_out.push(cycle, waiting_);
     waits_ = false;
   }
-  if (requests_in.can_pop(cycle)) return advance(cycle);
-  return waits ? kBusy : kIdle;
+  if (!requests_in.can_pop(cycle)) return waits ? kBusy : kIdle;
+  const CacheToken& request = requests_in.front(cycle);
+  if (!request.ticket.valid)
+    waiting_.texel = {};
+  else if (request.fills != 0 || started_ || !read_at_once(cycle, request))
+    return advance(cycle, request);
+  finish(cycle, request);
+  return kBusy;
 }
 
-// Stage 1.
-Activity DataStage::advance(Cycle cycle) {
-  const CacheToken& request = requests_in.front(cycle);
-  if (!request.ticket.valid) {
-    waiting_.texel = {};
-    finish(cycle, request);
-    return kBusy;
-  }
-  if (hits_one_line(request)) {
-    read_one_line(cycle, request);
-    finish(cycle, request);
-    return kBusy;
-  }
+// Stage 1 of a request that takes several clocks, or may.
+Activity DataStage::advance(Cycle cycle, const CacheToken& request) {
   if (!started_) {
     started_ = true;
     schedule_ = schedule(request);
@@ -121,17 +116,27 @@ DataStage::Schedule DataStage::schedule(const CacheToken& request) const {
   return s;
 }
 
-// Texels of one line never meet in a bank, but may share a word.
-void DataStage::read_one_line(Cycle cycle, const CacheToken& request) {
+// Four hits in one pass: all that most requests are. False, and nothing done, if words meet in a
+// bank.
+bool DataStage::read_at_once(Cycle cycle, const CacheToken& request) {
   std::array<std::uint32_t, 4> word;
-  for (std::size_t i = 0; i < 4; ++i) {
-    word[i] = request.place[i] >> 2;
-    waiting_.texel[i] = load(&bytes_[request.place[i]]);
-  }
+  for (std::size_t i = 0; i < 4; ++i) word[i] = request.place[i] >> 2;
+  const auto apart = [&](std::size_t i, std::size_t j) { return word[i] ^ word[j]; };
+  const auto meet = [&](std::uint32_t difference) {
+    return difference != 0 && (difference & (words_a_line_ - 1)) == 0;
+  };
+  const std::uint32_t a = apart(0, 1), b = apart(0, 2), c = apart(0, 3), d = apart(1, 2),
+                      e = apart(1, 3), f = apart(2, 3);
+  if ((a | b | c) >= words_a_line_ &&
+      (meet(a) || meet(b) || meet(c) || meet(d) || meet(e) || meet(f)))
+    return false;
+  for (std::size_t i = 0; i < 4; ++i) waiting_.texel[i] = load(&bytes_[request.place[i]]);
+  // A word that two texels share is one read.
   issue(cycle, 0, word[0]);
-  if (word[1] != word[0]) issue(cycle, 1, word[1]);
-  if (word[2] != word[1] && word[2] != word[0]) issue(cycle, 2, word[2]);
-  if (word[3] != word[2] && word[3] != word[1] && word[3] != word[0]) issue(cycle, 3, word[3]);
+  if (a != 0) reads_[1].read(cycle, word[1]);
+  if (b != 0 && d != 0) reads_[2].read(cycle, word[2]);
+  if (c != 0 && e != 0 && f != 0) reads_[3].read(cycle, word[3]);
+  return true;
 }
 
 void DataStage::read(Cycle cycle, const CacheToken& request, int pass) {

@@ -53,16 +53,10 @@ class DataStage final : public Unit {
     std::array<int, 4> pass;    // of texel i; -1: it missed
     std::array<bool, 4> again;  // its word is that of an earlier texel
   };
-  bool hits_one_line(const CacheToken& request) const {
-    const auto& place = request.place;
-    return request.fills == 0 &&
-           ((place[0] ^ place[1]) | (place[0] ^ place[2]) | (place[0] ^ place[3])) >> line_log2_ ==
-               0;
-  }
   Schedule schedule(const CacheToken& request) const;
   Activity work(Cycle cycle);
-  Activity advance(Cycle cycle);
-  void read_one_line(Cycle cycle, const CacheToken& request);
+  Activity advance(Cycle cycle, const CacheToken& request);
+  bool read_at_once(Cycle cycle, const CacheToken& request);
   void read(Cycle cycle, const CacheToken& request, int pass);
   void issue(Cycle cycle, std::size_t port, std::uint64_t word);
   void write_fill(Cycle cycle, const CacheToken& request);

@@ -40,8 +40,8 @@ class TextureCache final : public sc_core::sc_module {
  private:
   Link<MissToken> misses_;
   Link<CacheToken> requests_;
-  Link<MemoryRequest> memory_requests_{"memory_requests"};
-  Link<MemoryResponse> memory_responses_{"memory_responses"};
+  Link<MemoryRequest> memory_requests_;
+  Link<MemoryResponse> memory_responses_;
 };
 
 }  // namespace deburr::rtl::texture

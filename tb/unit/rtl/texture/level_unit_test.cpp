@@ -51,7 +51,7 @@ void check_levels(const std::vector<LevelCase>& cases, spec::texture::CountRule 
     EXPECT_EQ(r.axis_t, 4);
   }
   EXPECT_EQ(ends.sink.taken.size(), cases.size());
-  EXPECT_EQ(ends.sink.taken.front().cycle, 2u);
+  EXPECT_EQ(ends.sink.taken.front().cycle, 4u);
 }
 
 constexpr auto kTri = spec::texture::MinFilter::kLinearMipmapLinear;

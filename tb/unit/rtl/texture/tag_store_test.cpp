@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The TagStore alone: the rules of replacement by hand.
+#include "spec/error.h"
 #include "tb/unit/rtl/texture/cache_bench.h"
 
 namespace deburr::tb::texture_rtl {
@@ -53,6 +54,34 @@ TEST(TextureRtlTagStore, RandomReplacementStepsOnlyForValidLines) {
   tags.invalidate();
   EXPECT_EQ(tags.find(102), TagStore::kAbsent);
   EXPECT_EQ(tags.allocate(7, false).slot, 0u);
+}
+
+// The sets are read a clock before they are looked up, each through a port of its own.
+TEST(TextureRtlTagStore, SetsComeInTheNextClock) {
+  TagStore tags("tags", small_cache());
+  tags.read(5, 0, 2);
+  tags.read(5, 1, 3);
+  EXPECT_THROW(tags.check(5, 0, 2), spec::CheckFailed);  // a clock early
+  EXPECT_THROW(tags.check(6, 2, 2), spec::CheckFailed);  // nobody asked this port
+  EXPECT_THROW(tags.check(6, 0, 3), spec::CheckFailed);  // the set of another line
+  tags.check(6, 0, 2);
+  tags.check(6, 1, 3);
+  tags.read(6, 0, 3);
+  EXPECT_THROW(tags.read(6, 0, 3), spec::CheckFailed);   // one access too many
+  tags.check(6, 0, 2);                                   // the word of before is still there
+  EXPECT_THROW(tags.check(7, 0, 2), spec::CheckFailed);  // and now it is not
+}
+
+// However many lines of a set a request changes, the set is written once; two requests in a clock
+// would write twice.
+TEST(TextureRtlTagStore, ASetIsWrittenOnceAClock) {
+  TagStore tags("tags", small_cache());
+  tags.allocate(0, false);
+  tags.allocate(2, false);
+  tags.allocate(1, false);
+  tags.commit(3);
+  tags.allocate(4, false);
+  EXPECT_THROW(tags.commit(3), spec::CheckFailed);
 }
 
 }  // namespace
