@@ -214,6 +214,7 @@ void ClockDomain::reset_all() {
   for (Storage* storage : storages_) storage->reset();
   for (Counter* counter : counters_) counter->reset();
   for (Histogram* histogram : histograms_) histogram->reset();
+  for (const std::function<void()>& action : on_reset_) action();
   for (Clocked* clocked : before_) clocked->reset();
   for (Clocked* clocked : after_) clocked->reset();
 }
