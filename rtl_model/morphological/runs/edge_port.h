@@ -15,7 +15,7 @@ class EdgePort {
   EdgePort(EdgeWindow& window, int port) : window_(&window), port_(static_cast<std::size_t>(port)) {}
   EdgePort(EdgeRows& rows, int port) : rows_(&rows), port_(static_cast<std::size_t>(port)) {}
 
-  void read(Cycle cycle, Trial& trial) {
+  void read(Cycle cycle, const Trial& trial) {
     if (window_ != nullptr)
       window_->read(cycle, port_, trial);
     else

@@ -11,7 +11,7 @@
 namespace deburr::rtl::morphological {
 namespace {
 
-constexpr std::int32_t kWordColumns = 64;
+constexpr std::int32_t kWordShift = 6, kWordColumns = 1 << kWordShift;
 
 std::int32_t most_steps(const spec::morphological::Parameters& p) {
   return std::min(spec::morphological::kMaxSteps, p.window_rows / 2 - 2);
@@ -42,29 +42,31 @@ struct StepEdges {
   std::int32_t first, last;  // columns that have been read
   std::int32_t width;
 
-  const EdgeWord& word(const EdgeWord* words, std::int32_t x) const {
-    return words[x / kWordColumns - first / kWordColumns];
+  static unsigned bit(std::uint64_t word, std::int32_t x) {
+    return word >> static_cast<std::uint32_t>(x) % kWordColumns & 1;
   }
-  unsigned bit(const EdgeWord* words, std::uint64_t EdgeWord::*plane, std::int32_t x) const {
-    if (x < 0 || x >= width || words == nullptr) return 0;
-    DEBURR_CHECK(x >= first && x <= last, "edge_rows: column " + std::to_string(x) +
-                                              " is not among those that the port reads");
-    return word(words, x).*plane >> x % kWordColumns & 1;
+  std::size_t word(std::int32_t x) const {
+    return static_cast<std::size_t>((x >> kWordShift) - (first >> kWordShift));
   }
   std::uint8_t code(std::int32_t x) const {
-    return static_cast<std::uint8_t>(
-        bit(row, &EdgeWord::top, x - 1) | bit(row, &EdgeWord::top, x) << 1 |
-        bit(above, &EdgeWord::left, x) << 2 | bit(row, &EdgeWord::left, x) << 3);
+    if (x < 0 || x > width) return 0;
+    if (x > last + (last == width - 1) || (x != 0 && x <= first)) [[unlikely]]
+      throw spec::CheckFailed("edge_rows: the corner before column " + std::to_string(x) +
+                              " is not among those that have been read");
+    unsigned code = 0;
+    if (row != nullptr && x > 0) code |= bit(row[word(x - 1)].top, x - 1);
+    if (x == width) return static_cast<std::uint8_t>(code);
+    if (row != nullptr) code |= bit(row[word(x)].top, x) << 1 | bit(row[word(x)].left, x) << 3;
+    if (above != nullptr) code |= bit(above[word(x)].left, x) << 2;
+    return static_cast<std::uint8_t>(code);
   }
-  // Between two corners with an edge on this side each, so inside the frame.
+  // Between two corners with an edge in this row each.
   bool unbroken(std::int32_t from, std::int32_t end) const {
-    DEBURR_CHECK(from >= first && end - 1 <= last, "edge_rows: a step that has not been read");
-    while (from < end) {
-      const std::int32_t next = std::min(end, (from / kWordColumns + 1) * kWordColumns);
+    for (std::int32_t next; from < end; from = next) {
+      next = std::min(end, ((from >> kWordShift) + 1) << kWordShift);
       const std::uint64_t mask = ~std::uint64_t{0} >> (kWordColumns - (next - from))
                                                    << from % kWordColumns;
-      if (~word(row, from).top & mask) return false;
-      from = next;
+      if (~row[word(from)].top & mask) return false;
     }
     return true;
   }
@@ -83,17 +85,6 @@ EdgeRows::EdgeRows(const spec::morphological::Parameters& p, const ParameterStor
   for (std::size_t parity = 0; parity < 2; ++parity)
     for (int i = 0; i < PortSchedule(p).ports(); ++i)
       steps_of_[parity].emplace_back(memory[parity], "predictors " + std::to_string(i));
-}
-
-void EdgeRows::write(Cycle cycle, std::int32_t y, std::int32_t column, std::uint8_t left,
-                     std::uint8_t top) {
-  const std::int32_t place = column % kWordColumns;
-  if (place == 0) gathered_ = {};
-  gathered_.left |= std::uint64_t{left} << place;
-  gathered_.top |= std::uint64_t{top} << place;
-  const std::int32_t end = column + lanes_;
-  if (end % kWordColumns == 0 || end >= store_.rules().width)
-    update_[parity(y)].write(cycle, address(y, column), gathered_);
 }
 
 // From the corner before the step to the one behind its longest candidate.

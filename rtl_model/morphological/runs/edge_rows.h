@@ -39,7 +39,15 @@ class EdgeRows {
   // While the runs of row y are found, row y + ahead() is written.
   std::int32_t ahead() const { return steps_ + 1; }
   // A beat of row y, from left to right; bit k: lane k.
-  void write(Cycle cycle, std::int32_t y, std::int32_t column, std::uint8_t left, std::uint8_t top);
+  void write(Cycle cycle, std::int32_t y, std::int32_t column, std::uint32_t left,
+             std::uint32_t top) {
+    const auto place = static_cast<std::uint32_t>(column) % kWordColumns;
+    if (place == 0) gathered_ = {};
+    gathered_.left |= std::uint64_t{left} << place;
+    gathered_.top |= std::uint64_t{top} << place;
+    if (place + lanes_ == kWordColumns || column + lanes_ >= store_.rules().width)
+      update_[parity(y)].write(cycle, address(y, column), gathered_);
+  }
 
   // --- A predictor of horizontal runs: the columns of a step, of its row and of the one above ---
   void read(Cycle cycle, std::size_t port, const Trial& trial);
@@ -49,6 +57,7 @@ class EdgeRows {
   std::array<Memory<EdgeWord>, 2> memory;  // even and odd rows
 
  private:
+  static constexpr std::int32_t kWordColumns = 64;
   struct Columns {
     std::int32_t first, last;
   };
@@ -57,7 +66,7 @@ class EdgeRows {
   static std::size_t parity(std::int32_t y) { return static_cast<std::size_t>(y & 1); }
   // In the memory of the row's parity.
   std::uint64_t address(std::int32_t y, std::int32_t column) const {
-    return static_cast<std::uint64_t>(y % rows_ / 2 * words_ + column / 64);
+    return static_cast<std::uint64_t>(y % rows_ / 2 * words_ + column / kWordColumns);
   }
 
   const ParameterStore& store_;

@@ -10,30 +10,26 @@
 namespace deburr::rtl::morphological {
 namespace {
 
-constexpr EdgeColumn kNoEdges;
-
-// What a read of the two columns beside vertical lattice line `line` shows.
+// The two columns beside vertical lattice line `line`, and their newest rows.
 struct BesideLine {
   const EdgeColumn &before, &after;
-  const std::array<std::int32_t, 2>& newest;
-  std::int32_t rows;
+  std::int32_t newest_before, newest_after, rows;
 
-  std::int32_t age(std::size_t side, std::int32_t y) const {
-    const std::int32_t age = newest[side] - y;
-    DEBURR_CHECK(age >= 0 && age < rows, "edge_window: row " + std::to_string(y) +
-                                             " is not among the " + std::to_string(rows) +
-                                             " up to row " + std::to_string(newest[side]));
+  std::int32_t age(std::int32_t newest, std::int32_t y) const {
+    const std::int32_t age = newest - y;
+    if (age < 0 || age >= rows) [[unlikely]]
+      throw spec::CheckFailed("edge_window: row " + std::to_string(y) + " is not among the " +
+                              std::to_string(rows) + " up to row " + std::to_string(newest));
     return age;
   }
   std::uint8_t code(std::int32_t y) const {
-    const std::int32_t age_before = age(0, y), age_after = age(1, y);
-    return static_cast<std::uint8_t>(int{after.left[age_after + 1]} |
-                                     int{after.left[age_after]} << 1 |
-                                     int{before.top[age_before]} << 2 |
-                                     int{after.top[age_after]} << 3);
+    const std::int32_t here = age(newest_after, y), above = age(newest_after, y - 1);
+    return static_cast<std::uint8_t>(int{after.left[above]} | int{after.left[here]} << 1 |
+                                     int{before.top[age(newest_before, y)]} << 2 |
+                                     int{after.top[here]} << 3);
   }
   bool unbroken(std::int32_t from, std::int32_t end) const {
-    return after.left.all(age(1, end - 1), age(1, from));
+    return after.left.all(age(newest_after, end - 1), age(newest_after, from));
   }
 };
 
@@ -59,32 +55,26 @@ EdgeWindow::EdgeWindow(const char* name, const spec::morphological::Parameters& 
       lanes_(store.lanes()),
       rows_(p.window_rows + 1),
       beat_(memory, "extractor"),
-      update_(memory, "extractor") {
+      update_(memory, "extractor"),
+      columns_(static_cast<std::size_t>(p.line_pixels) + 1) {
   for (int i = 0; i < PortSchedule(p).ports(); ++i)
     lines_.emplace_back(memory, "predictors " + std::to_string(i));
 }
 
-void EdgeWindow::write_beat(Cycle cycle, std::int32_t column, std::int32_t row,
-                            std::span<const EdgeColumn> words) {
-  update_.write(cycle, at(column), words);
-  before_ = now_;
-  now_ = {row, column + static_cast<std::int32_t>(words.size())};
-  moved_ = cycle;
-}
-
-void EdgeWindow::read(Cycle cycle, std::size_t port, Trial& trial) {
-  const std::int32_t width = store_.rules().width, line = trial.line;
-  trial.newest = {newest_row(cycle, line - 1), newest_row(cycle, line)};
-  const std::int32_t first = std::max(line - 1, 0), last = std::min(line, width - 1);
+void EdgeWindow::read(Cycle cycle, std::size_t port, const Trial& trial) {
+  const std::int32_t first = std::max(trial.line - 1, 0);
+  const std::int32_t last = std::min(trial.line, store_.rules().width - 1);
   lines_[port].read(cycle, at(first), static_cast<std::uint32_t>(last - first + 1));
 }
 
 std::uint8_t EdgeWindow::hits(Cycle cycle, std::size_t port, const Trial& trial) const {
-  const std::int32_t width = store_.rules().width, line = trial.line;
-  const EdgeColumn* const first = &lines_[port].at(cycle, at(std::max(line - 1, 0)));
-  const EdgeColumn& before = line == 0 ? kNoEdges : *first;
-  const EdgeColumn& after = line == width ? kNoEdges : line == 0 ? *first : first[1];
-  return hits_of(trial, BesideLine{before, after, trial.newest, rows_}, store_.rules().contiguous);
+  static constexpr EdgeColumn kNoEdges;
+  const std::int32_t line = trial.line;
+  lines_[port].check(cycle, at(std::max(line - 1, 0)));
+  const EdgeColumn* const column = &columns_[at(line)];
+  const BesideLine edges{column[0], line == store_.rules().width ? kNoEdges : column[1],
+                         newest_row(line - 1), newest_row(line), rows_};
+  return hits_of(trial, edges, store_.rules().contiguous);
 }
 
 }  // namespace deburr::rtl::morphological

@@ -12,15 +12,16 @@
 //
 // Synchronous SRAM, latency 1, never stalls. Ports: 1 write and 1 read of a beat (extractor), and
 // reads of the two columns beside a lattice line, as many as the schedule of the predictors has
-// (PortSchedule). Read-first: a word that is read in the clock in which it moves on is the old one,
-// and the trial notes that. Cost: (window_rows + 1) x 2 bits a column, a copy a read port, banks by
+// (PortSchedule). Read-first: a word that is read in the clock in which it moves on is the old one;
+// where the beats are in the frame tells which it was. Cost: (window_rows + 1) x 2 bits a column, a copy a read port, banks by
 // column. Longest path, at the address: a comparator of 13 bits and a choice of two.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <deque>
-#include <span>
+#include <vector>
 
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/morphological/parameter_store.h"
@@ -37,11 +38,22 @@ class ColumnBits {
     const auto bit = static_cast<std::uint32_t>(age);
     return words_[bit / 64] >> bit % 64 & 1;
   }
+  // Bits first..first + 31.
+  std::uint32_t from(std::int32_t first) const {
+    const auto bit = static_cast<std::uint32_t>(first);
+    std::uint64_t bits = words_[bit / 64] >> bit % 64;
+    if (bit % 64 > 32) bits |= words_[bit / 64 + 1] << (64 - bit % 64);
+    return static_cast<std::uint32_t>(bits);
+  }
   // A row on, in columns of so many rows.
   void move_on(bool newest, std::int32_t rows) {
-    const std::uint32_t last = static_cast<std::uint32_t>(rows - 1);
-    for (std::uint32_t i = last / 64; i > 0; --i) words_[i] = words_[i] << 1 | words_[i - 1] >> 63;
-    words_[0] = words_[0] << 1 | (newest ? 1u : 0u);
+    const auto last = static_cast<std::uint32_t>(rows - 1);
+    std::uint64_t in = newest ? 1 : 0;
+    for (std::uint32_t i = 0; i <= last / 64; ++i) {
+      const std::uint64_t out = words_[i] >> 63;
+      words_[i] = words_[i] << 1 | in;
+      in = out;
+    }
     words_[last / 64] &= ~std::uint64_t{0} >> (63 - last % 64);
   }
   // Are the bits first..last all set?
@@ -57,7 +69,7 @@ class ColumnBits {
     const std::uint64_t from = ~std::uint64_t{0} << (first & 63);
     return last > (first | 63) ? from : from & ~std::uint64_t{0} >> (63 - (last & 63));
   }
-  std::array<std::uint64_t, (kMostRows + 63) / 64> words_{};
+  std::array<std::uint64_t, kMostRows / 64 + 2> words_{};
 };
 
 struct EdgeColumn {
@@ -70,32 +82,30 @@ class EdgeWindow {
              const ParameterStore& store);
 
   // --- The extractor: the columns of a beat, which begins at `column` ---
-  void read_beat(Cycle cycle, std::int32_t column) { beat_.read(cycle, at(column), columns(column)); }
-  // In the clock after: the words of that beat.
-  std::span<const EdgeColumn> beat(Cycle cycle, std::int32_t column) const {
-    return {&beat_.at(cycle, at(column)), columns(column)};
+  void read_beat(Cycle cycle, std::int32_t column) {
+    beat_.read(cycle, at(column), columns(column));
   }
-  // In slot row `row`, whose newest row of edges is row - 1.
-  void write_beat(Cycle cycle, std::int32_t column, std::int32_t row,
-                  std::span<const EdgeColumn> words);
+  // In a clock after: the words of that beat, which go back in slot row `row`, changed. The column
+  // before them stands in front of them, and is nothing at the frame's border.
+  EdgeColumn* write_beat(Cycle cycle, std::int32_t column, std::int32_t row) {
+    beat_.check(cycle, at(column));
+    update_.write(cycle, at(column), columns(column));
+    progress_ = {row, column + lanes_};
+    return &columns_[at(column) + 1];
+  }
 
   // --- A predictor of vertical runs: both columns beside the trial's lattice line ---
-  void read(Cycle cycle, std::size_t port, Trial& trial);
+  void read(Cycle cycle, std::size_t port, const Trial& trial);
   // In the clock after.
   std::uint8_t hits(Cycle cycle, std::size_t port, const Trial& trial) const;
 
   std::int32_t rows() const { return rows_; }
-  Memory<EdgeColumn> memory;
+  Memory<void> memory;
 
  private:
-  // Where the beats are in the frame: the newest row of the columns before `end` is row - 1, of the
-  // others row - 2.
-  struct Progress {
-    std::int32_t row = 0, end = 0;
-  };
-  std::int32_t newest_row(Cycle cycle, std::int32_t column) const {
-    const Progress& now = cycle == moved_ ? before_ : now_;
-    return now.row - (column < now.end ? 1 : 2);
+  // The newest row of a column, by where the beats are in the frame.
+  std::int32_t newest_row(std::int32_t column) const {
+    return progress_.row - (column < progress_.end ? 1 : 2);
   }
   static std::uint64_t at(std::int32_t column) { return static_cast<std::uint64_t>(column); }
   std::uint32_t columns(std::int32_t first) const {
@@ -104,11 +114,15 @@ class EdgeWindow {
 
   const ParameterStore& store_;
   const std::int32_t lanes_, rows_;
-  ReadPort<EdgeColumn> beat_;
-  WritePort<EdgeColumn> update_;
-  std::deque<ReadPort<EdgeColumn>> lines_;
-  Progress now_, before_;  // before_: in front of the write of clock moved_
-  Cycle moved_ = kNever;
+  ReadPort<void> beat_;
+  WritePort<void> update_;
+  std::deque<ReadPort<void>> lines_;
+  // The model reads words where they are: one that has moved on since its read was issued shows
+  // the same rows, a bit further on.
+  std::vector<EdgeColumn> columns_;  // and nothing left and right of the widest frame
+  struct {
+    std::int32_t row = 0, end = 0;
+  } progress_;  // slot row of the last write, and the column behind it
 };
 
 }  // namespace deburr::rtl::morphological

@@ -2,7 +2,6 @@
 #include "rtl_model/morphological/runs/run_extractor.h"
 
 #include <algorithm>
-#include <span>
 #include <string>
 
 namespace deburr::rtl::morphological {
@@ -102,46 +101,43 @@ void RunExtractor::pass(Cycle cycle) {
   const FrameRules& rules = store_.rules();
   const Slot& slot = token_.slot;
   const std::int32_t first = slot.beat * lanes_, end = std::min(first + lanes_, rules.width);
-  const auto count = static_cast<std::size_t>(end - first);
-  const std::span<EdgeColumn> columns(columns_.data() + 1, count);
-  if (rules.beats == 1)
-    columns_[0] = {};
-  else {
-    columns_[0] = slot.beat == 0 ? EdgeColumn{} : columns_[static_cast<std::size_t>(lanes_)];
-    std::ranges::copy(window_.beat(cycle, first), columns.begin());
-  }
+  EdgeColumn* const columns = window_.write_beat(cycle, first, slot.row);
   const bool comes = slot.row >= 1 && slot.row <= rules.height;
-  AreaSlotToken& out = area_slots_out.emplace(cycle);
-  out.slot = slot;
-  out.left = out.top = 0;
-  std::uint8_t left = 0, top = 0;
+  // Bits of the row that is blended, of row y, and of the row that goes to EdgeRows.
   constexpr std::int32_t kBlended = spec::morphological::kRowLag - 2;  // rows above row y
-  for (std::size_t i = 0; i < count; ++i) {
+  std::uint32_t left_blended = 0, top_blended = 0, left_ahead = 0, top_ahead = 0;
+  bool any_top = open_, any_left = false;
+  for (std::int32_t i = 0; i < end - first; ++i) {
     EdgeColumn& column = columns[i];
     if (slot.row == 0) {
       column = {};
-    } else {
-      column.left.move_on(comes && (token_.left >> i & 1), window_.rows());
-      column.top.move_on(comes && (token_.top >> i & 1), window_.rows());
+      continue;
     }
-    const auto put = [&](std::uint8_t& bits, const ColumnBits& plane, std::int32_t age) {
-      bits = static_cast<std::uint8_t>(bits | int{plane[age]} << i);
-    };
-    put(out.left, column.left, age_ + kBlended);
-    put(out.top, column.top, age_ + kBlended);
-    put(left, column.left, rows_age_);
-    put(top, column.top, rows_age_);
+    column.left.move_on(comes && (token_.left >> i & 1), window_.rows());
+    column.top.move_on(comes && (token_.top >> i & 1), window_.rows());
+    const std::uint32_t left = column.left.from(rows_age_), top = column.top.from(rows_age_);
+    const auto ahead = static_cast<std::uint32_t>(rows_.ahead());
+    left_ahead |= (left & 1) << i;
+    top_ahead |= (top & 1) << i;
+    any_left |= (left >> ahead & 1) != 0;
+    any_top |= (top >> ahead & 1) != 0;
+    left_blended |= (left >> (ahead + kBlended) & 1) << i;
+    top_blended |= (top >> (ahead + kBlended) & 1) << i;
   }
-  window_.write_beat(cycle, first, slot.row, columns);
+  AreaSlotToken& out = area_slots_out.emplace(cycle);
+  out.slot = slot;
+  out.left = static_cast<std::uint8_t>(left_blended);
+  out.top = static_cast<std::uint8_t>(top_blended);
+  columns_ = columns;
   row_ = slot.row - reach_rows_ - 2;
   const std::int32_t ahead = row_ + rows_.ahead();
-  if (ahead >= 0 && ahead < rules.height) rows_.write(cycle, ahead, first, left, top);
-  if (row_ < 0 || row_ >= rules.height) return;
+  if (ahead >= 0 && ahead < rules.height) rows_.write(cycle, ahead, first, left_ahead, top_ahead);
+  if (row_ < 0 || row_ >= rules.height || !(any_top || any_left)) return;
 
   Find& find = finds_[(oldest_ + found_) % finds_.size()];
   find.count = 0;
-  horizontal(find, first, end);
-  vertical(find, first, end);
+  if (any_top) horizontal(find, first, end);
+  if (any_left) vertical(find, first, end);
   if (find.count == 0) return;
   find.begun = step_;
   find.parity = slot.row & 1;
@@ -152,7 +148,7 @@ void RunExtractor::pass(Cycle cycle) {
 // Columns first..end - 1 of row y, and the end of the row.
 void RunExtractor::horizontal(Find& find, std::int32_t first, std::int32_t end) {
   for (std::int32_t x = first; x < end; ++x) {
-    const EdgeColumn& column = columns_[static_cast<std::size_t>(x - first + 1)];
+    const EdgeColumn& column = columns_[x - first];
     const auto code_here = [&] { return code(column.left[age_ + 1], column.left[age_]); };
     if (column.top[age_]) {
       if (!open_) {
@@ -189,8 +185,8 @@ void RunExtractor::close(Find& find, std::int32_t end, std::uint8_t end_code) {
 void RunExtractor::vertical(Find& find, std::int32_t first, std::int32_t end) {
   const std::int32_t half = reach_rows_ / 2;
   for (std::int32_t x = first; x < end; ++x) {
-    const EdgeColumn& before = columns_[static_cast<std::size_t>(x - first)];
-    const EdgeColumn& column = columns_[static_cast<std::size_t>(x - first + 1)];
+    const EdgeColumn& before = columns_[x - first - 1];
+    const EdgeColumn& column = columns_[x - first];
     const auto row = [&](std::int32_t below) { return age_ - below; };
     if (!column.left[row(0)]) continue;
     const bool starts = !column.left[row(-1)];

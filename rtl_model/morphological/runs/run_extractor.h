@@ -111,8 +111,8 @@ class RunExtractor final : public Unit {
 
   bool reads_ = false;  // a slot is in clock 1
   EdgeToken token_{};
-  // The column left of the beat, then the beat, moved on; of a row of one beat, the row before's.
-  std::array<EdgeColumn, 1 + spec::morphological::kMaxLanes> columns_{};
+  // The beat's columns, moved on; columns_[-1]: the one left of them, a register in hardware.
+  const EdgeColumn* columns_ = nullptr;
 
   std::array<Find, kFindClocks + 1> finds_{};
   std::size_t oldest_ = 0, found_ = 0;

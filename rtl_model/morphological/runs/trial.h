@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 
 namespace deburr::rtl::morphological {
@@ -15,8 +14,7 @@ struct Trial {
   std::int32_t length;  // L
   std::int32_t room;    // the longest step that stays within the reach
   bool to_the_right;
-  std::uint8_t origin, corner;         // codes of the corners at its beginning and its end
-  std::array<std::int32_t, 2> newest;  // vertical: newest rows of both columns when they are read
+  std::uint8_t origin, corner;  // codes of the corners at its beginning and its end
 
   std::int32_t at(std::int32_t step) const { return to_the_right ? from + step : from - step; }
 };

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "tb/harness/random.h"
+#include "tb/unit/rtl/morphological/edge_memories.h"
 #include "tb/unit/rtl/morphological/support.h"
 
 namespace deburr::tb::morphological_rtl {
@@ -386,8 +387,8 @@ auto key(const RunRecord& r) {
 struct Extraction {
   explicit Extraction(const Parameters& p)
       : store(p),
-        window("window", p, store.store),
-        extractor("extractor", clock, p, store.store, window),
+        memories(p, store.store),
+        extractor("extractor", clock, p, store.store, memories.window, memories.rows),
         finisher("finisher", clock, store.store) {
     driver.beats_out(edges);
     extractor.edges_in(edges);
@@ -427,7 +428,7 @@ struct Extraction {
 
   ClockDomain clock{"clock", period()};
   Store store;
-  EdgeWindow window;
+  EdgeMemories memories;
   RunExtractor extractor;
   Finisher finisher;
   Link<EdgeToken> edges{"edges"};
@@ -552,26 +553,28 @@ struct Prediction {
              const std::function<int(int)>& boundary)
       : axis(axis_),
         store(p),
-        window("window", p, store.store),
-        predictor("predictor", clock, p, store.store, window, axis_),
+        edges(p, store.store),
+        predictor(axis_ == Axis::kHorizontal
+                      ? EndpointPredictor("predictor", clock, p, store.store, edges.rows)
+                      : EndpointPredictor("predictor", clock, p, store.store, edges.window)),
         ends(clock) {
     predictor.records_in[0](ends.in);
     predictor.sums_out[0](ends.out);
     frame(width, height, boundary);
   }
-  // Begins a frame: the registers count, the window shows it.
+  // Begins a frame: the registers count.
   void frame(int width, int height, const std::function<int(int)>& boundary) {
     const bool vertical = axis == Axis::kVertical;
     store.store.write_size(vertical ? height : width, vertical ? width : height);
     EXPECT_TRUE(store.store.latch());
-    const auto dark = [&](int x, int y) { return vertical ? x >= boundary(y) : y >= boundary(x); };
-    const int w = vertical ? height : width, h = vertical ? width : height;
-    for (int y = 0; y < h; ++y)
-      for (int x = 0; x < w; ++x)
-        window.write(y, x, x > 0 && dark(x, y) != dark(x - 1, y),
-                     y > 0 && dark(x, y) != dark(x, y - 1), 1);
+    dark = [=](int x, int y) { return vertical ? x >= boundary(y) : y >= boundary(x); };
   }
-  RunToken z(int line, int start, int length, bool down) const {
+  // A run; the memories show what is around it.
+  RunToken z(int line, int start, int length, bool down) {
+    edges.show(
+        axis == Axis::kVertical ? start : line,
+        [&](int x, int y) { return x > 0 && dark(x, y) != dark(x - 1, y); },
+        [&](int x, int y) { return y > 0 && dark(x, y) != dark(x, y - 1); });
     RunToken token{};
     const int start_code = down ? 1 : 2, end_code = down ? 2 : 1;
     token.run = {axis,
@@ -587,7 +590,8 @@ struct Prediction {
   ClockDomain clock{"clock", period()};
   Axis axis;
   Store store;
-  EdgeWindow window;
+  EdgeMemories edges;
+  std::function<bool(int, int)> dark;
   EndpointPredictor predictor;
   Ends<RunToken, SumsToken> ends;
 };

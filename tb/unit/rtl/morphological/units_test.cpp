@@ -246,8 +246,8 @@ RunToken run_of(int length, int start, std::uint32_t slot = 0) {
 struct Path {
   explicit Path(const Parameters& p)
       : registers(p, 40, 30),
-        window("window", p, registers.store),
-        predictor("predictor", clock, p, registers.store, window, Axis::kHorizontal),
+        edges(p, registers.store),
+        predictor("predictor", clock, p, registers.store, edges.rows),
         divider("divider", clock, p, registers.store, Axis::kHorizontal),
         area("area", clock, p, registers.store) {
     driver.beats_out(records);
@@ -267,7 +267,7 @@ struct Path {
   }
   ClockDomain clock{"clock", period()};
   Registers registers;
-  EdgeWindow window;
+  EdgeMemories edges;
   EndpointPredictor predictor;
   LineUnit divider;
   AreaUnit area;
@@ -405,8 +405,8 @@ struct Predicting {
   explicit Predicting(const Parameters& parameters, Cycle opens = 0)
       : p(parameters),
         registers(p, 40, 30),
-        window("window", p, registers.store),
-        unit("predictor", clock, p, registers.store, window, Axis::kHorizontal),
+        edges(p, registers.store),
+        unit("predictor", clock, p, registers.store, edges.rows),
         gate("gate", clock, opens) {
     driver.beats_out(records);
     unit.records_in[0](records);
@@ -416,7 +416,7 @@ struct Predicting {
   ClockDomain clock{"clock", period()};
   Parameters p;
   Registers registers;
-  EdgeWindow window;
+  EdgeMemories edges;
   EndpointPredictor unit;
   Link<RunToken> records{"records"};
   Link<SumsToken> sums{"sums"};
