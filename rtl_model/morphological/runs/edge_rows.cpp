@@ -25,11 +25,12 @@ MemoryShape shape(const spec::morphological::Parameters& p) {
   const std::int32_t columns = p.contiguous ? (p.reach_columns + 1) / 2 + 2 : 4;
   const auto words = static_cast<std::uint32_t>((columns + kWordColumns - 2) / kWordColumns + 1);
   MemoryShape shape;
-  shape.words = static_cast<std::uint64_t>((most_steps(p) + 2) * words_of_a_row(p));
+  shape.banks = std::bit_ceil(words);
+  shape.words = std::max(static_cast<std::uint32_t>((most_steps(p) + 2) * words_of_a_row(p)),
+                         shape.banks);
   shape.word_bits = 2 * kWordColumns;
   shape.read_ports = static_cast<std::uint32_t>(PortSchedule(p).ports());
   shape.read_during_write = ReadDuringWrite::kForbidden;
-  shape.banks = std::bit_ceil(words);
   shape.span = words;
   shape.columns = static_cast<std::uint64_t>(p.line_pixels);
   shape.content = "left and top edges of every second row, 64 columns a word";
@@ -98,6 +99,7 @@ EdgeRows::Columns EdgeRows::columns_of(const Trial& trial) const {
 
 void EdgeRows::read(Cycle cycle, std::size_t port, const Trial& trial) {
   const Columns columns = columns_of(trial);
+  if (columns.first > columns.last) return;  // beyond the frame's border
   const auto words = static_cast<std::uint32_t>(columns.last / kWordColumns -
                                                 columns.first / kWordColumns + 1);
   for (const std::int32_t y : {trial.line, trial.line - 1})
@@ -106,6 +108,7 @@ void EdgeRows::read(Cycle cycle, std::size_t port, const Trial& trial) {
 
 std::uint8_t EdgeRows::hits(Cycle cycle, std::size_t port, const Trial& trial) const {
   const Columns columns = columns_of(trial);
+  if (columns.first > columns.last) return 0;
   const auto words_of = [&](std::int32_t y) {
     return in_frame(y) ? &steps_of_[parity(y)][port].at(cycle, address(y, columns.first)) : nullptr;
   };

@@ -36,7 +36,7 @@ struct BesideLine {
 MemoryShape shape(const spec::morphological::Parameters& p, std::int32_t lanes) {
   MemoryShape shape;
   const auto columns = static_cast<std::uint32_t>(std::max(2, lanes));
-  shape.words = static_cast<std::uint64_t>(std::max(p.line_pixels, 2));
+  shape.words = std::max(static_cast<std::uint32_t>(p.line_pixels), columns);
   shape.columns = static_cast<std::uint64_t>(p.line_pixels);
   shape.word_bits = static_cast<std::uint32_t>(2 * (p.window_rows + 1));
   shape.read_ports = static_cast<std::uint32_t>(1 + PortSchedule(p).ports());

@@ -82,7 +82,7 @@ Activity EndpointPredictor::work(Cycle cycle) {
       const bool takes = predictor.free() && !taken;
       if (takes) {
         taken = did = true;
-        predictor.take(cycle, in.front(cycle));
+        predictor.take(cycle, reset_, in.front(cycle));
         in.pop(cycle);
         ++held_;
         join();
@@ -101,6 +101,7 @@ void EndpointPredictor::reset() {
   }
   std::fill(turn_.begin(), turn_.end(), 0);
   held_ = 0;
+  reset_ = kNever;
 }
 
 }  // namespace deburr::rtl::morphological

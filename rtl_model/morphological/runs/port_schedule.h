@@ -28,10 +28,10 @@ class PortSchedule {
   // Of a predictor and side (0: right, 1: left).
   int phase(int predictor, int side) const { return (kSides * predictor + side) / ports_; }
   int port(int predictor, int side) const { return (kSides * predictor + side) % ports_; }
-  // The first clock from `cycle` on that has this phase.
-  Cycle next(Cycle cycle, int phase) const {
+  // Clocks from the clock `since` the reset on to the first one that has this phase.
+  Cycle wait(Cycle since, int phase) const {
     const auto clocks = static_cast<Cycle>(clocks_);
-    return cycle + (static_cast<Cycle>(phase) + clocks - cycle % clocks) % clocks;
+    return (static_cast<Cycle>(phase) + clocks - since % clocks) % clocks;
   }
 
  private:

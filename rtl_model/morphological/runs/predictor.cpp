@@ -32,7 +32,7 @@ Predictor::Predictor(const ParameterStore& store, const PortSchedule& schedule, 
       right_{right, true},
       left_{left, false} {}
 
-void Predictor::take(Cycle cycle, const RunToken& token) {
+void Predictor::take(Cycle cycle, Cycle reset, const RunToken& token) {
   const spec::morphological::RunRecord& run = token.run;
   run_ = token;
   length_ = run.length;
@@ -46,7 +46,7 @@ void Predictor::take(Cycle cycle, const RunToken& token) {
   join_at_ = cycle;
   if (!extends) return;
   state_ = State::kTrials;
-  trial_at_ = schedule_.next(cycle + 1, phase_);
+  trial_at_ = cycle + 1 + schedule_.wait(cycle + 1 - reset, phase_);
   step_ = 0;
   drift_ = token.end_code == kFirstSide ? -1 : 1;
   const auto start = static_cast<std::uint8_t>(kAfter | token.start_code << kCrossing);

@@ -111,6 +111,9 @@ TEST_P(EdgeMemoriesShow, WhatHasBeenWritten) {
     const Planes planes{shown, vertical, trial.line};
     trial.origin = planes.code(trial.from);
     if (random.chance(800)) trial.corner = planes.code(trial.at(length));
+    // The run's own: an edge on this side of them, none on the other.
+    trial.origin |= trial.to_the_right ? 2 : 1;
+    trial.corner |= trial.to_the_right ? 1 : 2;
     std::uint8_t hits = 0;
     ++cycle;
     if (vertical) {
@@ -162,9 +165,9 @@ TEST_P(Schedule, GivesEachReadAPlaceOfItsOwn) {
       const int after = phase - schedule.phase(i, 0);
       EXPECT_TRUE(after == 0 || (after == 1 && side == 1));
       for (const Cycle from : {Cycle{0}, Cycle{7}, Cycle{1'000'003}}) {
-        const Cycle next = schedule.next(from, phase);
-        EXPECT_EQ(next % static_cast<Cycle>(s.trial_clocks), static_cast<Cycle>(phase));
-        EXPECT_LT(next - from, static_cast<Cycle>(s.trial_clocks));
+        const Cycle wait = schedule.wait(from, phase);
+        EXPECT_EQ((from + wait) % static_cast<Cycle>(s.trial_clocks), static_cast<Cycle>(phase));
+        EXPECT_LT(wait, static_cast<Cycle>(s.trial_clocks));
       }
     }
 }

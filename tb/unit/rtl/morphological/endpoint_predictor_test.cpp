@@ -572,6 +572,44 @@ TEST_P(PredictorUnits, WaitDownstream) {
 }
 INSTANTIATE_TEST_SUITE_P(Each, PredictorUnits, ::testing::Values(1, 2, 4));
 
+class TrialClocks : public ::testing::TestWithParam<int> {};
+
+// A record that comes in any clock of the schedule: early for its phase, or late.
+TEST_P(TrialClocks, ARecordWaitsForItsPhaseAndTakesThatLong) {
+  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  p.line_pixels = 64;
+  p.trial_clocks = GetParam();
+  Predicting bench(p);
+  const auto trial = static_cast<Cycle>(GetParam());
+  std::vector<Cycle> expected;
+  for (Cycle i = 0; i < 2 * trial; ++i) {
+    const Cycle sent = 20 + i * (3 * trial + 13);
+    bench.driver.send(sent, run_of(3, 20));
+    // Popped a clock later; the first predictor has phase 0. Nothing is there to be hit: a trial.
+    const Cycle first = (sent + 2 + trial - 1) / trial * trial;
+    const Cycle joined = first + trial + 2;
+    expected.push_back(joined + 2);
+  }
+  bench.clock.run(expected.back() + 10);
+  EXPECT_EQ(bench.gate.cycles, expected);
+  EXPECT_EQ(bench.unit.iterations.value(), 2 * trial);
+  EXPECT_EQ(bench.unit.probes.value(), 2 * trial * 6);
+}
+
+// A record that is not extended takes a clock, whatever a trial takes.
+TEST_P(TrialClocks, ARecordWithoutTrialsTakesNone) {
+  Parameters p = small();
+  p.trial_clocks = GetParam();
+  p.predictor_units = 1;
+  Predicting bench(p);
+  for (int i = 1; i <= 10; ++i) bench.driver.send(20, run_of(i, 2));
+  bench.clock.run(60);
+  ASSERT_EQ(bench.gate.cycles.size(), 10u);
+  for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(bench.gate.cycles[i], 23 + i);
+  EXPECT_EQ(bench.unit.occupancy.value(), 10u);
+}
+INSTANTIATE_TEST_SUITE_P(Each, TrialClocks, ::testing::Range(1, 9));
+
 // Two results of the same clock go in the order of the predictors, the first one first after a
 // reset, whoever was last before it.
 TEST(EndpointPredictorBlock, AResetTakesBackTheTurn) {

@@ -74,8 +74,8 @@ TEST_P(LatencyFormula, HoldsForEveryBeat) {
 INSTANTIATE_TEST_SUITE_P(
     Sizes, LatencyFormula,
     ::testing::Values(Case{48, 1, 0, 32}, Case{48, 40, 0, 32}, Case{49, 3, 0, 4},
-                      Case{64, 64, 0, 9}, Case{200, 150, 0, 32}, Case{200, 20, 1, 32},
-                      Case{97, 33, 1, 8}, Case{192, 30, 2, 32}, Case{199, 77, 2, 16},
+                      Case{100, 64, 0, 9}, Case{200, 150, 0, 32}, Case{200, 20, 1, 32},
+                      Case{97, 33, 1, 8}, Case{320, 30, 2, 32}, Case{331, 77, 2, 16},
                       Case{193, 9, 2, 4}, Case{1920, 6, 0, 32}, Case{8192, 2, 2, 128}),
     [](const auto& param) {
       const Case& c = param.param;
@@ -125,11 +125,11 @@ struct Load {
 };
 void PrintTo(const Load& load, std::ostream* out) { *out << load.name; }
 
-Frame stairs_5() { return stairs(240, 200, 5, 5); }
-Frame stairs_7() { return stairs(240, 200, 7, 5); }
-Frame stairs_1() { return stairs(240, 200, 1, 40); }
+Frame stairs_5() { return stairs(640, 160, 5, 5); }
+Frame stairs_7() { return stairs(640, 160, 7, 5); }
+Frame stairs_1() { return stairs(640, 160, 1, 40); }
 Frame verticals() {
-  return draw(240, 200, [](int x, int y) { return grey((x + y / 7) / 5 % 2 != 0 ? 255 : 0); });
+  return draw(640, 160, [](int x, int y) { return grey((x + y / 9) / 5 % 2 != 0 ? 255 : 0); });
 }
 // So many pixels of a thousand are white.
 Frame random_pixels(std::uint32_t permille) {
@@ -149,7 +149,7 @@ TEST_P(Throughput, IsOneBeatAClock) {
   const Load load = GetParam();
   Parameters p = preset(Preset::kDeburr);
   p.line_pixels = 640;
-  p.lanes = static_cast<Lanes>(load.lanes_code);
+  p.lanes = static_cast<spec::morphological::Lanes>(load.lanes_code);
   EngineBench bench(p);
   const Frame in = load.image();
   bench.run(in);
