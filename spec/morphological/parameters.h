@@ -51,8 +51,8 @@ inline constexpr int kFrameLineBytes = 64;     // memory line of storage = memor
 inline constexpr int kFramePixelBytes = 4;     // R, G, B, A
 inline constexpr int kRecipFractionBits = 24;  // of LineRecord::slope
 inline constexpr int kInverseFractionBits = 12;
-inline constexpr int kMaxWeight = 128;      // U0.8: a half, the largest share of a neighbour
-inline constexpr int kRowLag = 5;           // rows of delay beyond the reach
+inline constexpr int kMaxWeight = 128;  // U0.8: a half, the largest share of a neighbour
+inline constexpr int kRowLag = 5;       // rows of delay beyond the reach
 
 // Clocks from a slot being taken by a block to it being taken by the next one; of the Blender, to
 // its output beat being pushed.

@@ -12,7 +12,8 @@ namespace deburr::rtl::morphological {
 
 class EdgePort {
  public:
-  EdgePort(EdgeWindow& window, int port) : window_(&window), port_(static_cast<std::size_t>(port)) {}
+  EdgePort(EdgeWindow& window, int port)
+      : window_(&window), port_(static_cast<std::size_t>(port)) {}
   EdgePort(EdgeRows& rows, int port) : rows_(&rows), port_(static_cast<std::size_t>(port)) {}
 
   void read(Cycle cycle, const Trial& trial) {

@@ -26,8 +26,8 @@ MemoryShape shape(const spec::morphological::Parameters& p) {
   const auto words = static_cast<std::uint32_t>((columns + kWordColumns - 2) / kWordColumns + 1);
   MemoryShape shape;
   shape.banks = std::bit_ceil(words);
-  shape.words = std::max(static_cast<std::uint32_t>((most_steps(p) + 2) * words_of_a_row(p)),
-                         shape.banks);
+  shape.words =
+      std::max(static_cast<std::uint32_t>((most_steps(p) + 2) * words_of_a_row(p)), shape.banks);
   shape.word_bits = 2 * kWordColumns;
   shape.read_ports = static_cast<std::uint32_t>(PortSchedule(p).ports());
   shape.read_during_write = ReadDuringWrite::kForbidden;
@@ -66,7 +66,7 @@ struct StepEdges {
     for (std::int32_t next; from < end; from = next) {
       next = std::min(end, ((from >> kWordShift) + 1) << kWordShift);
       const std::uint64_t mask = ~std::uint64_t{0} >> (kWordColumns - (next - from))
-                                                   << from % kWordColumns;
+                                                          << from % kWordColumns;
       if (~row[word(from)].top & mask) return false;
     }
     return true;
@@ -100,8 +100,8 @@ EdgeRows::Columns EdgeRows::columns_of(const Trial& trial) const {
 void EdgeRows::read(Cycle cycle, std::size_t port, const Trial& trial) {
   const Columns columns = columns_of(trial);
   if (columns.first > columns.last) return;  // beyond the frame's border
-  const auto words = static_cast<std::uint32_t>(columns.last / kWordColumns -
-                                                columns.first / kWordColumns + 1);
+  const auto words =
+      static_cast<std::uint32_t>(columns.last / kWordColumns - columns.first / kWordColumns + 1);
   for (const std::int32_t y : {trial.line, trial.line - 1})
     if (in_frame(y)) steps_of_[parity(y)][port].read(cycle, address(y, columns.first), words);
 }
@@ -112,8 +112,8 @@ std::uint8_t EdgeRows::hits(Cycle cycle, std::size_t port, const Trial& trial) c
   const auto words_of = [&](std::int32_t y) {
     return in_frame(y) ? &steps_of_[parity(y)][port].at(cycle, address(y, columns.first)) : nullptr;
   };
-  const StepEdges edges{words_of(trial.line), words_of(trial.line - 1), columns.first,
-                        columns.last, store_.rules().width};
+  const StepEdges edges{words_of(trial.line), words_of(trial.line - 1), columns.first, columns.last,
+                        store_.rules().width};
   return hits_of(trial, edges, store_.rules().contiguous);
 }
 

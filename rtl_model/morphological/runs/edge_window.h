@@ -13,8 +13,9 @@
 // Synchronous SRAM, latency 1, never stalls. Ports: 1 write and 1 read of a beat (extractor), and
 // reads of the two columns beside a lattice line, as many as the schedule of the predictors has
 // (PortSchedule). Read-first: a word that is read in the clock in which it moves on is the old one;
-// where the beats are in the frame tells which it was. Cost: (window_rows + 1) x 2 bits a column, a copy a read port, banks by
-// column. Longest path, at the address: a comparator of 13 bits and a choice of two.
+// where the beats are in the frame tells which it was. Cost: (window_rows + 1) x 2 bits a column, a
+// copy a read port, banks by column. Longest path, at the address: a comparator of 13 bits and a
+// choice of two.
 #pragma once
 
 #include <algorithm>

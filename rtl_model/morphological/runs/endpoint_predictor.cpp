@@ -19,8 +19,9 @@ EndpointPredictor::EndpointPredictor(const sc_core::sc_module_name& name, ClockD
       turn_(lanes_) {
   const Predictor::Counters counters{extended_runs, steps, probes, iterations};
   for (int i = 0; i < p.predictor_units * store.lanes(); ++i)
-    places_.push_back({Predictor(store, schedule_, i, EdgePort(edges, schedule_.port(i, 0)),
-                                 EdgePort(edges, schedule_.port(i, 1)), reach, vertical, counters)});
+    places_.push_back(
+        {Predictor(store, schedule_, i, EdgePort(edges, schedule_.port(i, 0)),
+                   EdgePort(edges, schedule_.port(i, 1)), reach, vertical, counters)});
 }
 
 EndpointPredictor::EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Who reads the edges when: the read ports of a memory, shared in time by the predictors of an axis.
+// Who reads the edges when: the read ports of a memory, shared in time by the predictors of an
+// axis.
 //
 // A predictor makes a trial every trial_clocks clocks, and a trial reads once for each side. These
 // reads have fixed places in a table of trial_clocks x ports that goes round with the clock: the

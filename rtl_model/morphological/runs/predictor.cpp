@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint8_t kBefore = 1, kAfter = 2;
 constexpr int kCrossing = 2;  // of a crossing code
 
-constexpr std::uint8_t kFirstSide = 1;  // crossing code of a single edge on the first side
+constexpr int kFirstSide = 1;  // crossing code of a single edge on the first side
 
 // From the last trial's bounds to the sums and their join.
 constexpr Cycle kJoinAfter = 2;
@@ -48,9 +48,10 @@ void Predictor::take(Cycle cycle, Cycle reset, const RunToken& token) {
   state_ = State::kTrials;
   trial_at_ = cycle + 1 + schedule_.wait(cycle + 1 - reset, phase_);
   step_ = 0;
-  drift_ = token.end_code == kFirstSide ? -1 : 1;
-  const auto start = static_cast<std::uint8_t>(kAfter | token.start_code << kCrossing);
-  const auto end = static_cast<std::uint8_t>(kBefore | token.end_code << kCrossing);
+  const int start_code = run.shape & 3, end_code = run.shape >> 2;
+  drift_ = end_code == kFirstSide ? -1 : 1;
+  const auto start = static_cast<std::uint8_t>(kAfter | start_code << kCrossing);
+  const auto end = static_cast<std::uint8_t>(kBefore | end_code << kCrossing);
   for (End* const side : {&right_, &left_}) {
     side->open = true;
     side->other = 0;

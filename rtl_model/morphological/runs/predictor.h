@@ -59,7 +59,8 @@ class Predictor {
 
   // Holds no record.
   bool free() const { return state_ == State::kFree; }
-  // Takes a record in this clock; `reset`: the first one after the reset, where the schedule begins.
+  // Takes a record in this clock; `reset`: the first one after the reset, where the schedule
+  // begins.
   void take(Cycle cycle, Cycle reset, const RunToken& run);
   // The clocks of the record's trials.
   void tick(Cycle cycle) {

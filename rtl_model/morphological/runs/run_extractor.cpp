@@ -11,9 +11,6 @@ using spec::morphological::Axis;
 using spec::morphological::RunPart;
 using spec::morphological::RunRecord;
 
-// Part, line, start, length, shape (the codes of both ends), slot.
-constexpr std::uint32_t kEntryBits = 2 + 13 + 13 + 12 + 4 + 15;
-
 constexpr std::uint8_t code(bool first, bool second) {
   return static_cast<std::uint8_t>(int{first} | int{second} << 1);
 }
@@ -39,8 +36,8 @@ RunExtractor::RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clo
                              "finished")) {
   const auto depth = static_cast<std::uint32_t>(p.record_fifo);
   for (int lane = 0; lane < store.lanes(); ++lane) {
-    h_.fifo.emplace_back(("record_fifo_h" + std::to_string(lane)).c_str(), depth, kEntryBits);
-    v_.fifo.emplace_back(("record_fifo_v" + std::to_string(lane)).c_str(), depth, kEntryBits);
+    h_.fifo.emplace_back(("record_fifo_h" + std::to_string(lane)).c_str(), depth);
+    v_.fifo.emplace_back(("record_fifo_v" + std::to_string(lane)).c_str(), depth);
   }
 }
 
@@ -157,10 +154,10 @@ void RunExtractor::horizontal(Find& find, std::int32_t first, std::int32_t end) 
         start_code_ = code_here();
       } else if (x - start_ == reach_columns_) {
         // One edge longer than the reach: the head is known.
-        found(find,
-              {Axis::kHorizontal, RunPart::kHead, u16(row_), u16(start_), u16(reach_columns_ / 2),
-               0},
-              start_code_, 0);
+        found(
+            find,
+            {Axis::kHorizontal, RunPart::kHead, u16(row_), u16(start_), u16(reach_columns_ / 2), 0},
+            start_code_, 0);
       }
     } else if (open_) {
       close(find, x, code_here());
@@ -219,7 +216,7 @@ void RunExtractor::vertical(Find& find, std::int32_t first, std::int32_t end) {
 void RunExtractor::found(Find& find, RunRecord run, std::uint8_t start_code,
                          std::uint8_t end_code) const {
   run.shape = static_cast<std::uint8_t>(start_code + 4 * end_code);
-  find.run[find.count++] = {run, token_.slot.number & kSlotMask, start_code, end_code};
+  find.run[find.count++] = {run, token_.slot.number & kSlotMask};
 }
 
 void RunExtractor::deliver(const Find& find) {

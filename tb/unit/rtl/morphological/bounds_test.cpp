@@ -16,18 +16,20 @@ using spec::morphological::Preset;
 // second clock at most (one a clock: `one_a_clock`).
 int least_beats(const Parameters& p, int records, bool one_a_clock) {
   const int apart = one_a_clock ? 1 : 2, trials = p.trial_clocks * p.steps;
-  const int held = p.steps == 0 ? 1 : trials + std::max(p.trial_clocks, p.trial_clocks == 2 ? 4 : 3);
+  const int held =
+      p.steps == 0 ? 1 : trials + std::max(p.trial_clocks, p.trial_clocks == 2 ? 4 : 3);
   // Clocks that a record costs, times the predictors; those of the last one's way.
   const int q = std::max({apart * p.predictor_units, held, p.divider_interval * p.predictor_units});
-  const int way = (p.steps == 0 ? 9 : held + 11) + p.divider_latency +
-                  p.predictor_units * p.divider_interval;
+  const int way =
+      (p.steps == 0 ? 9 : held + 11) + p.divider_latency + p.predictor_units * p.divider_interval;
   const int units = p.predictor_units;
   return std::max((records * q + units - 1) / units,
                   (records * (q - apart * units) + units - 1) / units + way);
 }
 
 std::uint64_t unstalled(const Frame& frame, const Parameters& p) {
-  return static_cast<std::uint64_t>((frame.height + reach_of(p) + 5) * beats_a_row(frame, p)) + kPipe;
+  return static_cast<std::uint64_t>((frame.height + reach_of(p) + 5) * beats_a_row(frame, p)) +
+         kPipe;
 }
 
 std::uint64_t stalls_of(const rtl::Unit& unit, const std::string& cause) {
@@ -165,8 +167,9 @@ TEST_P(NarrowRows, WaitForThePlaceOfTheirPixels) {
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), unstalled(in, p) + GetParam().rows);
 }
 INSTANTIATE_TEST_SUITE_P(Widths, NarrowRows,
-                         ::testing::Values(Narrow{0, 1, 60}, Narrow{0, 2, 60}, Narrow{0, 3, 37}, Narrow{0, 4, 0},
-                                           Narrow{2, 4, 60}, Narrow{2, 8, 60}, Narrow{2, 12, 37}, Narrow{2, 16, 0}));
+                         ::testing::Values(Narrow{0, 1, 60}, Narrow{0, 2, 60}, Narrow{0, 3, 37},
+                                           Narrow{0, 4, 0}, Narrow{2, 4, 60}, Narrow{2, 8, 60},
+                                           Narrow{2, 12, 37}, Narrow{2, 16, 0}));
 
 // storage = memory loads a row ahead: a row lasts as long as a line takes to come, and a line's
 // beats.

@@ -102,8 +102,9 @@ TEST_P(EdgeMemoriesShow, WhatHasBeenWritten) {
     const int across = vertical ? static_cast<int>(random.below(kWidth + 1)) : 30;
     trial.line = across + (vertical ? 0 : random.chance(500) ? k : -k);
     trial.length = length;
-    const int used = length + static_cast<int>(random.below(
-                                  static_cast<std::uint32_t>(std::max(1, reach - length))));
+    const int used =
+        length +
+        static_cast<int>(random.below(static_cast<std::uint32_t>(std::max(1, reach - length))));
     trial.room = reach - used;
     trial.from = start + (trial.to_the_right ? used : length - used);
     if (trial.room < std::max(1, length - 1)) continue;

@@ -57,8 +57,6 @@ struct Prediction {
                  static_cast<std::uint16_t>(start),
                  static_cast<std::uint16_t>(length),
                  static_cast<std::uint8_t>(start_code + 4 * end_code)};
-    token.start_code = static_cast<std::uint8_t>(start_code);
-    token.end_code = static_cast<std::uint8_t>(end_code);
     return token;
   }
   ClockDomain clock{"clock", period()};

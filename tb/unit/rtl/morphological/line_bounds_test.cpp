@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // LineBounds against the definition of the contract: a corner more is consistent with the others if
 // the largest lower bound of the slope between any two is below the least upper one.
+#include "rtl_model/morphological/runs/line_bounds.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <deque>
 #include <utility>
 
-#include "rtl_model/morphological/runs/line_bounds.h"
 #include "tb/harness/random.h"
 
 namespace deburr::tb::morphological_rtl {
@@ -124,7 +125,9 @@ TEST(LineBounds, AreThoseOfTheDefinitionInLongGrowths) {
     // y of corner i: floor(slope i + phase), of which the step from 0 to 1 is none.
     const std::int64_t slope = random.below(random.chance(250) ? 1u << 17 : 1u << 20);
     const std::int64_t phase = random.below(static_cast<std::uint32_t>((1 << 20) - slope));
-    const auto other = [&](int i) { return (slope * (i + 1) + phase) >> 20 != (slope * i + phase) >> 20; };
+    const auto other = [&](int i) {
+      return (slope * (i + 1) + phase) >> 20 != (slope * i + phase) >> 20;
+    };
     bool right = true, left = true;
     int first = 0, last = 1;
     for (int step = 0; step < 16 && (right || left); ++step) {

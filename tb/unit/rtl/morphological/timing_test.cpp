@@ -88,8 +88,9 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 // The way of a record, from the clock that takes the slot in which its run is found.
-constexpr int kFound = 6;     // until a predictor takes it
-constexpr int kFinished = 4;  // and divider.latency: from there, if not extended, until it is finished
+constexpr int kFound = 6;  // until a predictor takes it
+constexpr int kFinished =
+    4;  // and divider.latency: from there, if not extended, until it is finished
 
 // A row shorter than that waits for its records: the bound is not far from the truth.
 TEST(Interlock, StallsWhereARowIsShorterThanThePathOfARecord) {
