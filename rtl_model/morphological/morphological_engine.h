@@ -14,7 +14,7 @@
 //                                     memory (TLM-2.0 initiator), storage = memory only
 //
 // A frame is a sequence of slots, one a clock at most. Unstalled, beat j popped in clock c is
-// pushed out in clock c + (R + 5) x BPR + 6; one beat (1, 2 or 4 pixels) a clock. Stalls:
+// pushed out in clock c + (R + 5) x BPR + kPipelineLatency; one beat (1, 2 or 4 pixels) a clock. Stalls:
 // `records` (extractor), `upstream` (sequencer), `memory` and `rows` (pixel store), `downstream`.
 // Source: Reshetov 2009; paper 000.
 #pragma once
@@ -38,6 +38,7 @@
 #include "rtl_model/morphological/front/slot_sequencer.h"
 #include "rtl_model/morphological/latency_probe.h"
 #include "rtl_model/morphological/parameter_store.h"
+#include "rtl_model/morphological/runs/edge_rows.h"
 #include "rtl_model/morphological/runs/edge_window.h"
 #include "rtl_model/morphological/runs/endpoint_predictor.h"
 #include "rtl_model/morphological/runs/line_unit.h"
@@ -65,6 +66,7 @@ class MorphologicalEngine final : public sc_core::sc_module {
   // In the order of the pipe.
   ParameterStore store;
   EdgeWindow window;
+  EdgeRows rows;
   SlotSequencer sequencer;
   LumaUnit luma;
   EdgeDetector edges;

@@ -51,9 +51,20 @@ inline constexpr int kFrameLineBytes = 64;     // memory line of storage = memor
 inline constexpr int kFramePixelBytes = 4;     // R, G, B, A
 inline constexpr int kRecipFractionBits = 24;  // of LineRecord::slope
 inline constexpr int kInverseFractionBits = 12;
-inline constexpr int kMaxWeight = 128;      // U0.8: a half, the largest share of a neighbour
-inline constexpr int kRowLag = 5;           // rows of delay beyond the reach
-inline constexpr int kPipelineLatency = 6;  // clocks from a slot to its output beat
+inline constexpr int kMaxWeight = 128;  // U0.8: a half, the largest share of a neighbour
+inline constexpr int kRowLag = 5;       // rows of delay beyond the reach
+
+// Clocks from a slot being taken by a block to it being taken by the next one; of the Blender, to
+// its output beat being pushed.
+inline constexpr int kSequencerLatency = 1;
+inline constexpr int kLumaLatency = 1;
+inline constexpr int kEdgeLatency = 1;
+inline constexpr int kExtractorLatency = 2;
+inline constexpr int kAreaLatency = 1;
+inline constexpr int kBlenderLatency = 1;
+// From a slot to its output beat.
+inline constexpr int kPipelineLatency = kSequencerLatency + kLumaLatency + kEdgeLatency +
+                                        kExtractorLatency + kAreaLatency + kBlenderLatency;
 
 // Weights of luma, U0.16; they sum to exactly 65536.
 inline constexpr std::array<std::uint32_t, 3> kLumaWeights = {13933, 46871, 4732};
@@ -92,6 +103,7 @@ struct Build {
   std::int32_t line_pixels = kMaxFrameSize;
   std::int32_t record_fifo = 256;
   std::int32_t predictor_units = 2;
+  std::int32_t trial_clocks = 4;
   std::int32_t divider_latency = 24;
   std::int32_t divider_interval = 1;
   Storage storage = Storage::kLineBuffers;
@@ -154,7 +166,9 @@ void describe(Build& p, Visitor& v) {
       "record_fifo", p.record_fifo, 2, 4096, "record",
       "Runs waiting for a predictor, for each axis and lane; a tenth of a row bears a burst.");
   v.integer("predictor_units", p.predictor_units, 1, 16, "unit",
-            "Predictors for each axis and lane; each tries one step of both sides a clock.");
+            "Predictors for each axis and lane; each tries one step of both sides at a time.");
+  v.integer("trial_clocks", p.trial_clocks, 1, 8, "clock",
+            "Clocks from one trial of a predictor to its next; below 4 stages share a clock.");
   v.integer("divider.latency", p.divider_latency, 1, 64, "clock", "Latency of the divider.");
   v.integer("divider.interval", p.divider_interval, 1, 64, "clock",
             "Initiation interval of the divider.");
