@@ -21,6 +21,14 @@ struct PixelBeat {
   bool start_of_frame = false;                   // first beat of the frame
   bool end_of_row = false;                       // last beat of a row
   friend bool operator==(const PixelBeat&, const PixelBeat&) = default;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit.lanes("pixel", self.pixel, 8, "U0.8", "rgba");
+    visit.lanes("depth", self.depth, 24, "U24");
+    visit("count", self.count, 3, "U3");
+    visit("start_of_frame", self.start_of_frame);
+    visit("end_of_row", self.end_of_row);
+  }
 };
 
 // How a pixel was blended, for checks and pictures: first = share of the upper (left) neighbour,
@@ -30,6 +38,13 @@ struct BlendTap {
   std::uint8_t first = 0, second = 0;
   std::uint8_t edges = 0;  // bit 0 left, bit 1 top
   friend bool operator==(const BlendTap&, const BlendTap&) = default;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("horizontal", self.horizontal);
+    visit("first", self.first, 8, "U0.8");
+    visit("second", self.second, 8, "U0.8");
+    visit("edges", self.edges, 2, "bit 0 left, bit 1 top");
+  }
 };
 
 struct BlendedBeat {
@@ -39,6 +54,14 @@ struct BlendedBeat {
   bool start_of_frame = false;
   bool end_of_row = false;
   friend bool operator==(const BlendedBeat&, const BlendedBeat&) = default;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit.lanes("pixel", self.pixel, 8, "U0.8", "rgba");
+    visit.lanes("tap", self.tap);
+    visit("count", self.count, 3, "U3");
+    visit("start_of_frame", self.start_of_frame);
+    visit("end_of_row", self.end_of_row);
+  }
 };
 
 enum class Axis : std::uint8_t { kHorizontal, kVertical };  // direction of the run
@@ -56,6 +79,15 @@ struct RunRecord {
   std::uint16_t length = 0;  // pixels covered by this record
   std::uint8_t shape = 0;    // index of kRunShapes
   friend bool operator==(const RunRecord&, const RunRecord&) = default;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("axis", self.axis, 1, "0 horizontal, 1 vertical");
+    visit("part", self.part, 2, "0 whole, 1 head, 2 tail");
+    visit("line", self.line, 13, "U13");
+    visit("start", self.start, 13, "U13");
+    visit("length", self.length, 12, "U12");
+    visit("shape", self.shape, 4, "index of kRunShapes");
+  }
 };
 
 // The line through a run. t(X) = (scale * X - offset) * slope + shift * 2^23, U/S x.24, X counted
@@ -71,6 +103,20 @@ struct LineRecord {
   std::uint32_t inverse = 0;  // U12.12, pixels a step
   std::uint16_t span = 0;     // pixels between the two outermost corners: decides between axes
   friend bool operator==(const LineRecord&, const LineRecord&) = default;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("run", self.run);
+    visit("before", self.before, 2, "0 none, 1 first, 2 second");
+    visit("after", self.after, 2, "0 none, 1 first, 2 second");
+    visit("left_steps", self.left_steps, 5, "U5");
+    visit("right_steps", self.right_steps, 5, "U5");
+    visit("scale", self.scale, 7, "S7");
+    visit("offset", self.offset, 24, "S24");
+    visit("shift", self.shift, 6, "S6");
+    visit("slope", self.slope, 24, "U0.24");
+    visit("inverse", self.inverse, 24, "U12.12");
+    visit("span", self.span, 12, "U12");
+  }
 };
 
 // One line access of storage = memory.

@@ -53,7 +53,20 @@ inline constexpr int kRecipFractionBits = 24;  // of LineRecord::slope
 inline constexpr int kInverseFractionBits = 12;
 inline constexpr int kMaxWeight = 128;      // U0.8: a half, the largest share of a neighbour
 inline constexpr int kRowLag = 5;           // rows of delay beyond the reach
-inline constexpr int kPipelineLatency = 6;  // clocks from a slot to its output beat
+inline constexpr int kLeastDividerLatency = 14;
+
+// Clocks from a slot being taken by a block to it being taken by the next one; of the Blender, to
+// its output beat being pushed.
+inline constexpr int kSequencerLatency = 1;
+inline constexpr int kLumaLatency = 2;
+inline constexpr int kEdgeLatency = 4;
+inline constexpr int kExtractorLatency = 1;
+inline constexpr int kAreaLatency = 9;
+inline constexpr int kPixelStoreLatency = 2;  // beside the AreaUnit
+inline constexpr int kBlenderLatency = 5;
+// From a slot to its output beat.
+inline constexpr int kPipelineLatency = kSequencerLatency + kLumaLatency + kEdgeLatency +
+                                        kExtractorLatency + kAreaLatency + kBlenderLatency;
 
 // Weights of luma, U0.16; they sum to exactly 65536.
 inline constexpr std::array<std::uint32_t, 3> kLumaWeights = {13933, 46871, 4732};
@@ -155,7 +168,9 @@ void describe(Build& p, Visitor& v) {
       "Runs waiting for a predictor, for each axis and lane; a tenth of a row bears a burst.");
   v.integer("predictor_units", p.predictor_units, 1, 16, "unit",
             "Predictors for each axis and lane; each tries one step of both sides a clock.");
-  v.integer("divider.latency", p.divider_latency, 1, 64, "clock", "Latency of the divider.");
+  v.integer("divider.latency", p.divider_latency, kLeastDividerLatency, 64, "clock",
+            "Latency of the divider: two clocks of products, then at most two of 24 quotient bits a "
+            "clock.");
   v.integer("divider.interval", p.divider_interval, 1, 64, "clock",
             "Initiation interval of the divider.");
   v.choice("storage", p.storage, kStorageNames,

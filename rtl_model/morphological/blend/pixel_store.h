@@ -4,26 +4,31 @@
 //
 // Where: beside the pipe, from the SlotSequencer to the Blender. Two sides. In: a beat a clock is
 // stored. Out: for each slot that blends, the beat of row y = s - R - 5 with the beats above and
-// below and the pixels beside it, latency 1, initiation interval 1. With storage = memory the
-// in side gathers lines of 64 bytes and sends each when its last pixel has come (latency 1 to the
-// memory port), the out side loads rows y + 1, a line a request, into three rows on the chip as
-// soon as their place is free and their write has been answered; writes go before reads.
+// below and the pixels beside it. Latency 2, initiation interval 1. Stages: 1 address, 2 words.
+// With storage = memory the in side gathers lines of 64 bytes and sends each when its last pixel
+// has come (latency 1 to the memory port), the out side loads rows y + 1, a line a request, into
+// the rows on the chip as soon as their place is free and their write has been answered; writes go
+// before reads. A line that comes is stored eight words a clock (two clocks with one lane). Answers
+// may come in any order; that all before a line have come is seen a line a clock.
 // Stalls: `memory` (a line is not there yet, or cannot be sent), `rows` (the place of a beat that
 // comes in still holds a pixel that will be asked for: only if a row is shorter than the pipe),
-// `downstream`. Cost: pixel_lines, R + 7 rows x 32 bits (storage = memory: 3 rows), one write
-// and three reads of a column a clock, each in a row (bank) of its own; storage = memory also the
-// line that is gathered, memory.outstanding lines that have come and tags of twice as many.
+// `downstream`. Cost: pixel_lines, R + 7 rows (storage = memory: 4), rounded up to a multiple of 4,
+// a word a beat, in 8 banks 1R1W: a row takes 2 words more than a multiple of 8, so that the beats
+// of three rows and the next one of the middle row lie in banks of their own. storage = memory also
+// the line that is gathered and, for each line under way, a bit that says whether it has come.
+// Made for 300 MHz; longest path: SRAM read + 8:1 choice.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <deque>
+#include <optional>
+#include <string>
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/morphological/line_memory.h"
 #include "rtl_model/morphological/parameter_store.h"
 #include "rtl_model/morphological/tokens.h"
 
@@ -42,6 +47,8 @@ class PixelStore final : public Unit {
 
   // storage = memory: between this and the memory port.
   void connect(Link<MemoryRequest>& requests, Link<MemoryResponse>& responses);
+  // Bits of a request's tag.
+  static constexpr std::uint32_t kTagBits = 19;
 
   Counter lines_written{"lines_written", "lines", "lines of 64 bytes sent to memory"};
   Counter lines_read{"lines_read", "lines", "lines of 64 bytes asked of memory"};
@@ -51,43 +58,112 @@ class PixelStore final : public Unit {
   // What a side did in a clock.
   enum class Did { kNothing, kWork, kWaitsForMemory, kWaitsForRows, kWaitsDownstream };
 
+  // Lines under way in one direction, in their order.
+  struct Flight {
+    Flight(const char* name, std::uint32_t lines)
+        : places(lines),
+          bits(name, {.words = lines,
+                      .word_bits = 1,
+                      .kind = MemoryKind::kFlops,
+                      .latency = 0,
+                      .content = "lines under way: has it come?"}),
+          come(lines) {}
+    bool full() const { return count == places; }
+    std::uint32_t send() {
+      const std::uint32_t place = next;
+      next = next + 1 == places ? 0 : next + 1;
+      ++count;
+      return place;
+    }
+    // Has the oldest come? Then it is no longer under way.
+    bool settle() {
+      if (count == 0 || !come[oldest]) return false;
+      come[oldest] = false;
+      oldest = oldest + 1 == places ? 0 : oldest + 1;
+      --count;
+      return true;
+    }
+    void reset() {
+      next = oldest = count = 0;
+      come.assign(places, false);
+    }
+    const std::uint32_t places;
+    MemoryBase bits;
+    std::vector<bool> come;
+    std::uint32_t next = 0, oldest = 0, count = 0;
+  };
+  // A line of the frame, by row and place in it; counted, not divided.
+  struct LinePlace {
+    std::int32_t row = 0;
+    std::uint32_t line = 0;
+    std::uint32_t address = 0;  // bytes from the frame's base
+    void step(std::uint32_t row_lines) {
+      address += kLineBytes;
+      if (++line != row_lines) return;
+      line = 0;
+      ++row;
+    }
+    bool before(const LinePlace& other) const {
+      return row != other.row ? row < other.row : line < other.line;
+    }
+  };
+  // storage = memory.
+  struct InMemory {
+    explicit InMemory(std::uint32_t outstanding)
+        : writes("writes_in_flight", outstanding), reads("reads_in_flight", outstanding) {}
+    MemoryBase gather_line{"gather_line",
+                           {.words = 1,
+                            .word_bits = 8 * kLineBytes,
+                            .kind = MemoryKind::kFlops,
+                            .latency = 0,
+                            .mask_bits = 32,
+                            .content = "the line that is being gathered"}};
+    Link<MemoryRequest>* requests = nullptr;
+    Link<MemoryResponse>* responses = nullptr;
+    Line gathered{};
+    Flight writes, reads;
+    LinePlace sent, answered;  // writes; answered: all before this one
+    LinePlace asked, loaded;   // reads; loaded: all before this one
+    std::uint32_t row_lines = 0;
+    bool half = false;  // of the line at the responses is stored
+  };
+
+  using Word = LanePixels;
+
   Did fetch(Cycle cycle);
+  void send(Cycle cycle);
   Did store(Cycle cycle);
   bool gather(Cycle cycle, const BeatToken& beat, std::int32_t x, std::int32_t count);
   bool receive(Cycle cycle);
+  bool load(Cycle cycle, const MemoryResponse& response);
   bool request(Cycle cycle);
   void begin_frame();
-  // 32 bits: a frame that begins below 4 GiB and ends above goes on at 0.
-  std::uint32_t address_of(std::uint32_t line) const {
-    return store_.rules().pixel_base + line * kLineBytes;
+  // Has the row whose place row y takes been asked for up to this beat for the last time?
+  bool is_free(std::int32_t y, std::uint32_t beat) const {
+    const std::int32_t last = y - rows_ + 1 + lag_;
+    return y < rows_ || asked_row_ > last || (asked_row_ == last && asked_beat_ > beat);
   }
-  spec::morphological::Rgba8* row(std::int32_t y) {
-    return pixels_.data() + static_cast<std::size_t>(y % rows_) * stride_;
+  std::size_t place(std::int32_t y, std::size_t beat) const {
+    return static_cast<std::size_t>(y % rows_) * stride_ + beat;
   }
 
   ParameterStore& store_;
-  const bool in_memory_;
-  const std::int32_t rows_;  // kept on the chip
-  const std::size_t stride_;
-  const std::uint32_t outstanding_;  // lines, each direction
-  Activity memory_, rows_stall_;
-  LineMemory<spec::morphological::Rgba8> pixels_;
-  std::deque<Buffer> buffers_;  // storage = memory
+  const std::int32_t lanes_, lag_;  // lag: rows from a slot to the row that it blends
+  const std::int32_t rows_;         // kept on the chip
+  const std::size_t stride_;        // words a row
+  Activity memory_stall_, rows_stall_;
+  Memory<Word> pixels_;
+  ReadPort<Word> above_{pixels_, "above"}, centre_{pixels_, "centre"}, below_{pixels_, "below"};
+  WritePort<Word> write_{pixels_, "in"};
+  std::optional<InMemory> memory_;
 
-  std::uint32_t fetched_ = 0;  // number of the next slot that will ask for pixels
-  spec::morphological::Rgba8 *in_row_ = nullptr, *above_ = nullptr, *centre_ = nullptr,
-                             *below_ = nullptr;
-
-  // storage = memory. Lines are numbered from 0 in each frame.
-  Link<MemoryRequest>* requests_ = nullptr;
-  Link<MemoryResponse>* responses_ = nullptr;
-  Line gathered_{};
-  std::uint32_t row_lines_ = 0, frame_lines_ = 0;
-  std::uint32_t sent_ = 0, answered_ = 0;  // writes; answered: all before this one
-  std::uint32_t asked_ = 0, loaded_ = 0;   // reads; loaded: all before this one
+  // The slot that comes next into stage 1.
   std::int32_t asked_row_ = 0;
-  std::uint32_t asked_line_ = 0;                    // of line `asked_`
-  std::vector<bool> write_answered_, line_loaded_;  // of the lines in flight, by number
+  std::uint32_t asked_beat_ = 0;
+  // Stage 2.
+  bool fetched_ = false;
+  Slot slot_{};
+  spec::morphological::Rgba8 last_{};  // pixel of the beat before
 };
 
 }  // namespace deburr::rtl::morphological
