@@ -482,7 +482,8 @@ TEST(TextureRtlUnit, AccountsForItsMemories) {
     EXPECT_GT(storage->bits(), 0u);
   }
   EXPECT_EQ(data, 16384u * 8);
-  EXPECT_EQ(names.size(), 8u);  // four banks, tags, fill buffer, missed lines, latency FIFO
+  // Four banks, tags, fill buffer, missed lines, latency FIFO, responses of the memory port.
+  EXPECT_EQ(names.size(), 9u);
   const auto bits = [&](const std::string& name) -> std::uint64_t {
     for (const rtl::Storage* storage : b.unit.memories())
       if (storage->name() == "unit.cache." + name) return storage->bits();
