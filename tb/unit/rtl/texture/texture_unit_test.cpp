@@ -2,11 +2,12 @@
 // The whole texture unit: total latency, throughput with a warm cache, recovery from stalls,
 // registers, errors, reset in mid-run. The texture's texels are their own coordinates, so that a
 // colour says where it was taken.
+#include "rtl_model/texture/texture_unit.h"
+
 #include <optional>
 #include <set>
 #include <string>
 
-#include "rtl_model/texture/texture_unit.h"
 #include "spec/error.h"
 #include "tb/unit/rtl/texture/support.h"
 
