@@ -104,8 +104,7 @@ class MorphologicalEngine final : public Engine {
   Link<ShareToken> shares_{"shares", 2, built_lanes_};
   // The pixels of a slot wait here for its shares.
   Link<PixelToken> pixels_{
-      "pixels",
-      spec::morphological::kAreaLatency - spec::morphological::kPixelStoreLatency + 2,
+      "pixels", spec::morphological::kAreaLatency - spec::morphological::kPixelStoreLatency + 2,
       built_lanes_};
   Link<FinishToken> finished_{"finished"};
   Link<FrameDoneToken> frames_done_{"frames_done"};

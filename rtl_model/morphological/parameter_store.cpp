@@ -70,8 +70,7 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
   f.width = static_cast<std::int32_t>(size & kCoordinateMask);
   f.height = static_cast<std::int32_t>(size >> 16 & kCoordinateMask);
   decoded.valid = f.width >= 1 && f.height >= 1 && f.width <= spec::morphological::kMaxFrameSize &&
-                f.height <= spec::morphological::kMaxFrameSize &&
-                f.width <= p.line_pixels;
+                  f.height <= spec::morphological::kMaxFrameSize && f.width <= p.line_pixels;
   f.beats = static_cast<std::uint32_t>((f.width + lanes - 1) / lanes);
   f.rows = static_cast<std::uint32_t>(f.height + reach_rows + spec::morphological::kRowLag);
   f.last_count = f.width - (static_cast<std::int32_t>(f.beats) - 1) * lanes;

@@ -51,8 +51,8 @@ inline constexpr int kFrameLineBytes = 64;     // memory line of storage = memor
 inline constexpr int kFramePixelBytes = 4;     // R, G, B, A
 inline constexpr int kRecipFractionBits = 24;  // of LineRecord::slope
 inline constexpr int kInverseFractionBits = 12;
-inline constexpr int kMaxWeight = 128;      // U0.8: a half, the largest share of a neighbour
-inline constexpr int kRowLag = 5;           // rows of delay beyond the reach
+inline constexpr int kMaxWeight = 128;  // U0.8: a half, the largest share of a neighbour
+inline constexpr int kRowLag = 5;       // rows of delay beyond the reach
 inline constexpr int kLeastDividerLatency = 14;
 
 // Clocks from a slot being taken by a block to it being taken by the next one; of the Blender, to
@@ -168,9 +168,10 @@ void describe(Build& p, Visitor& v) {
       "Runs waiting for a predictor, for each axis and lane; a tenth of a row bears a burst.");
   v.integer("predictor_units", p.predictor_units, 1, 16, "unit",
             "Predictors for each axis and lane; each tries one step of both sides a clock.");
-  v.integer("divider.latency", p.divider_latency, kLeastDividerLatency, 64, "clock",
-            "Latency of the divider: two clocks of products, then at most two of 24 quotient bits a "
-            "clock.");
+  v.integer(
+      "divider.latency", p.divider_latency, kLeastDividerLatency, 64, "clock",
+      "Latency of the divider: two clocks of products, then at most two of 24 quotient bits a "
+      "clock.");
   v.integer("divider.interval", p.divider_interval, 1, 64, "clock",
             "Initiation interval of the divider.");
   v.choice("storage", p.storage, kStorageNames,

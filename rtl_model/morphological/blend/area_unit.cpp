@@ -55,8 +55,8 @@ MemoryShape records_shape(MemoryShape shape) {
 
 }  // namespace
 
-AreaUnit::AxisRecords::AxisRecords(const std::string& axis, const MemoryShape& shape, std::uint32_t mark_bits,
-                     std::uint32_t bank_count)
+AreaUnit::AxisRecords::AxisRecords(const std::string& axis, const MemoryShape& shape,
+                                   std::uint32_t mark_bits, std::uint32_t bank_count)
     : banks(bank_count),
       marks((axis + "_marks").c_str(),
             [&] {
@@ -137,7 +137,8 @@ Activity AreaUnit::tick(Cycle cycle) {
 
 // ---- Lines --------------------------------------------------------------------------------------
 
-std::size_t AreaUnit::place(const AxisRecords& side, const spec::morphological::RunRecord& run) const {
+std::size_t AreaUnit::place(const AxisRecords& side,
+                            const spec::morphological::RunRecord& run) const {
   return &side == &row_ ? pair_of(run.line, run.start) : run.line;
 }
 

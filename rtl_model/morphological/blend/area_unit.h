@@ -86,7 +86,7 @@ class AreaUnit final : public Unit {
   // The records of an axis, in banks.
   struct AxisRecords {
     AxisRecords(const std::string& axis, const MemoryShape& marks, std::uint32_t mark_bits,
-         std::uint32_t banks);
+                std::uint32_t banks);
     const std::size_t banks;
     Memory<Mark> marks;
     ReadPort<Mark> read_marks{marks, "raster"};

@@ -53,8 +53,8 @@ Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
 Activity Blender::tick(Cycle cycle) {
   const bool arrives = shares_in.can_pop(cycle) && pixels_in.can_pop(cycle);
   if (!arrives && pipe_.empty()) return kIdle;
-  if (pipe_.leaves() && (!pixels_out.can_push(cycle) ||
-                         (pipe_.at(5)->last && !frames_done_out.can_push(cycle))))
+  if (pipe_.leaves() &&
+      (!pixels_out.can_push(cycle) || (pipe_.at(5)->last && !frames_done_out.can_push(cycle))))
     return kStalledDownstream;
   pipe_.move();
   if (const Beat* beat = pipe_.at(6)) deliver(cycle, *beat);
@@ -140,7 +140,8 @@ void Blender::multiply(Beat& beat) {
   for_each_lane(beat.blend, [&](std::size_t lane) {
     Operands& o = beat.operands[lane];
     const spec::morphological::BlendTap& tap = beat.tap[lane];
-    for (std::size_t c = 0; c < 3; ++c) o.sum[c] = tap.first * o.first[c] + tap.second * o.second[c];
+    for (std::size_t c = 0; c < 3; ++c)
+      o.sum[c] = tap.first * o.first[c] + tap.second * o.second[c];
   });
 }
 
@@ -166,8 +167,8 @@ void Blender::deliver(Cycle cycle, const Beat& beat) {
   out = {};  // what leaves the engine is defined in every lane
   out.count = static_cast<std::uint8_t>(count);
   out.end_of_row = beat.end;
-  out.start_of_frame = slot.row == store_.reach_rows() + spec::morphological::kRowLag &&
-                       slot.beat == 0;
+  out.start_of_frame =
+      slot.row == store_.reach_rows() + spec::morphological::kRowLag && slot.beat == 0;
   for (std::size_t i = 0; i < count; ++i) {
     out.tap[i] = beat.tap[i];
     out.pixel[i] = beat.centre[i];
@@ -175,8 +176,8 @@ void Blender::deliver(Cycle cycle, const Beat& beat) {
   for_each_lane(beat.blend, [&](std::size_t lane) {
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint16_t value = beat.operands[lane].value[c];
-      out.pixel[lane][c] = linear ? codes_[lane * 3 + c].at(cycle, value)
-                                  : static_cast<std::uint8_t>(value);
+      out.pixel[lane][c] =
+          linear ? codes_[lane * 3 + c].at(cycle, value) : static_cast<std::uint8_t>(value);
     }
     ++blended_pixels;
   });

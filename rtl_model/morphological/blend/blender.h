@@ -47,10 +47,10 @@ class Blender final : public Unit {
   static constexpr std::size_t kLanes = spec::morphological::kMaxLanes;
   // A pixel that takes a share.
   struct Operands {
-    std::array<spec::morphological::Rgba8, 3> code;         // centre, first, second
-    std::array<std::int32_t, 3> centre, first, second;      // differences to centre; S13
-    std::array<std::int32_t, 3> sum;                        // S22
-    std::array<std::uint16_t, 3> value;                     // U0.12
+    std::array<spec::morphological::Rgba8, 3> code;     // centre, first, second
+    std::array<std::int32_t, 3> centre, first, second;  // differences to centre; S13
+    std::array<std::int32_t, 3> sum;                    // S22
+    std::array<std::uint16_t, 3> value;                 // U0.12
   };
   struct Beat {
     Slot slot;
@@ -68,9 +68,8 @@ class Blender final : public Unit {
   void round(Cycle cycle, Beat& beat);
   void deliver(Cycle cycle, const Beat& beat);
   std::size_t count_of(const Slot& slot) const {
-    return static_cast<std::size_t>(slot.beat + 1u == store_.rules().beats
-                                        ? store_.rules().last_count
-                                        : store_.lanes());
+    return static_cast<std::size_t>(
+        slot.beat + 1u == store_.rules().beats ? store_.rules().last_count : store_.lanes());
   }
   static std::size_t light_port(std::size_t lane, std::size_t channel, std::size_t operand) {
     return (lane * 3 + channel) * 3 + operand;

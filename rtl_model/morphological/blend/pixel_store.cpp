@@ -12,25 +12,19 @@ constexpr std::int32_t kLinePixels =
     spec::morphological::kFrameLineBytes / spec::morphological::kFramePixelBytes;
 static_assert(spec::morphological::kFrameLineBytes == kLineBytes);
 
-constexpr std::int32_t kRowStep = 4;  // rows on the chip come in fours, see stride_of
-constexpr std::uint32_t kBanks = 8;
 constexpr std::size_t kStoreWords = 8;  // of a line that comes, in a clock
 
-std::int32_t rows_of(std::int32_t rows) { return (rows + kRowStep - 1) / kRowStep * kRowStep; }
-
-// Words of a row of whole lines of memory, 2 more than a multiple of the banks. So the beats above
-// and below lie two banks before and behind a beat, the one beside it in the next bank, and four
-// rows on it is the same again.
+// Words of a row, of whole lines of memory.
 std::size_t stride_of(std::int32_t line_pixels, std::int32_t lanes) {
-  const auto words = static_cast<std::size_t>((line_pixels + kLinePixels - 1) / kLinePixels *
-                                              (kLinePixels / lanes));
-  return (words + kBanks - 3) / kBanks * kBanks + 2;
+  return static_cast<std::size_t>((line_pixels + kLinePixels - 1) / kLinePixels *
+                                  (kLinePixels / lanes));
 }
 
 // A request's tag: place among the lines under way, line in its row, row on the chip.
 constexpr std::uint32_t kFlightBits = 8, kLineBits = 9;
 std::uint32_t tag_of(std::uint32_t flight, std::uint32_t line, std::int32_t row) {
-  return flight | line << kFlightBits | static_cast<std::uint32_t>(row) << (kFlightBits + kLineBits);
+  return flight | line << kFlightBits |
+         static_cast<std::uint32_t>(row) << (kFlightBits + kLineBits);
 }
 static_assert(kFlightBits + kLineBits + 2 == PixelStore::kTagBits);
 
@@ -42,21 +36,23 @@ PixelStore::PixelStore(const sc_core::sc_module_name& name, ClockDomain& clock,
       store_(store),
       lanes_(store.lanes()),
       lag_(store.reach_rows() + spec::morphological::kRowLag),
-      rows_(p.storage == spec::morphological::Storage::kMemory ? kRowStep
-                                                               : rows_of(store.reach_rows() + 7)),
+      rows_(p.storage == spec::morphological::Storage::kMemory
+                ? kLines
+                : (store.reach_rows() + 7 + kLines - 1) / kLines * kLines),
       stride_(stride_of(p.line_pixels, lanes_)),
       memory_stall_(declare_stall("memory", "a line of memory has not come, or cannot be sent")),
-      rows_stall_(declare_stall("rows", "the place of a beat still holds a pixel to be blended")),
-      pixels_("pixel_lines", {.words = static_cast<std::size_t>(rows_) * stride_,
-                              .word_bits = static_cast<std::uint32_t>(32 * lanes_),
-                              .read_ports = 3,
-                              .banks = kBanks,
-                              .span = p.storage == spec::morphological::Storage::kMemory ? 8U : 2U,
-                              .separate_banks = true,
-                              .content = "rows of pixels that wait to be blended",
-                              .columns = static_cast<std::uint64_t>(p.line_pixels)}) {
-  if (p.storage == spec::morphological::Storage::kMemory)
-    memory_.emplace(static_cast<std::uint32_t>(p.memory_outstanding));
+      rows_stall_(declare_stall("rows", "the place of a beat still holds a pixel to be blended")) {
+  const bool in_memory = p.storage == spec::morphological::Storage::kMemory;
+  const std::uint32_t banks = in_memory ? kStoreWords : 2;
+  for (std::int32_t i = 0; i < kLines; ++i)
+    lines_.emplace_back("pixel_lines" + std::to_string(i),
+                        MemoryShape{.words = static_cast<std::size_t>(rows_ / kLines) * stride_,
+                                    .word_bits = static_cast<std::uint32_t>(32 * lanes_),
+                                    .banks = banks,
+                                    .span = banks,
+                                    .content = "every fourth row of the pixels to be blended",
+                                    .columns = static_cast<std::uint64_t>(p.line_pixels)});
+  if (in_memory) memory_.emplace(static_cast<std::uint32_t>(p.memory_outstanding));
 }
 
 void PixelStore::connect(Link<MemoryRequest>& requests, Link<MemoryResponse>& responses) {
@@ -110,9 +106,9 @@ PixelStore::Did PixelStore::fetch(Cycle cycle) {
     if (last_row ? memory_->loaded.row < rules.height : !needed.before(memory_->loaded))
       return did == Did::kWork ? did : Did::kWaitsForMemory;
   }
-  if (y > 0) above_.read(cycle, place(y - 1, slot.beat));
-  centre_.read(cycle, place(y, slot.beat), slot.beat + 1u < rules.beats ? 2 : 1);
-  if (!last_row) below_.read(cycle, place(y + 1, slot.beat));
+  if (y > 0) lines(y - 1).read.read(cycle, place(y - 1, slot.beat));
+  lines(y).read.read(cycle, place(y, slot.beat), slot.beat + 1u < rules.beats ? 2 : 1);
+  if (!last_row) lines(y + 1).read.read(cycle, place(y + 1, slot.beat));
   fetched_ = true;
   slot_ = slot;
   asked_row_ = slot.row;
@@ -127,11 +123,11 @@ void PixelStore::send(Cycle cycle) {
   const std::int32_t y = slot_.row - lag_;
   const std::size_t at = place(y, slot_.beat);
   PixelToken& out = pixels_out.emplace(cycle);
-  out.centre = centre_.at(cycle, at);
-  if (y > 0) out.above = above_.at(cycle, place(y - 1, slot_.beat));
-  if (y + 1 < rules.height) out.below = below_.at(cycle, place(y + 1, slot_.beat));
+  out.centre = lines(y).read.at(cycle, at);
+  if (y > 0) out.above = lines(y - 1).read.at(cycle, place(y - 1, slot_.beat));
+  if (y + 1 < rules.height) out.below = lines(y + 1).read.at(cycle, place(y + 1, slot_.beat));
   out.before = last_;
-  if (slot_.beat + 1u < rules.beats) out.after = centre_.at(cycle, at + 1)[0];
+  if (slot_.beat + 1u < rules.beats) out.after = lines(y).read.at(cycle, at + 1)[0];
   last_ = out.centre[static_cast<std::size_t>(lanes_) - 1];
   fetched_ = false;
 }
@@ -149,7 +145,7 @@ PixelStore::Did PixelStore::store(Cycle cycle) {
       return Did::kWaitsForMemory;
   } else {
     if (!is_free(slot.row, slot.beat)) return Did::kWaitsForRows;
-    write_.write(cycle, place(slot.row, slot.beat), beat.pixel);
+    lines(slot.row).write.write(cycle, place(slot.row, slot.beat), beat.pixel);
   }
   beats_in.pop(cycle);
   return Did::kWork;
@@ -218,10 +214,9 @@ bool PixelStore::load(Cycle cycle, const MemoryResponse& response) {
                 response.data.data() +
                     (from + i) * lanes * std::size_t{spec::morphological::kFramePixelBytes},
                 lanes * std::size_t{spec::morphological::kFramePixelBytes});
-  write_.write(cycle,
-               place(static_cast<std::int32_t>(response.tag >> (kFlightBits + kLineBits)),
-                     line * words + from),
-               std::span<const Word>(beats.data(), part));
+  const auto row = static_cast<std::int32_t>(response.tag >> (kFlightBits + kLineBits));
+  lines(row).write.write(cycle, place(row, line * words + from),
+                         std::span<const Word>(beats.data(), part));
   m.half = !m.half && part < words;
   return !m.half;
 }
@@ -231,9 +226,9 @@ bool PixelStore::request(Cycle cycle) {
   InMemory& m = *memory_;
   if (!m.asked.before(m.answered) || m.reads.full() || !m.requests->can_push(cycle)) return false;
   const FrameRules& rules = store_.rules();
-  const std::uint32_t last_beat = std::min(
-      rules.beats - 1, ((m.asked.line + 1) * static_cast<std::uint32_t>(kLinePixels) - 1) /
-                           static_cast<std::uint32_t>(lanes_));
+  const std::uint32_t last_beat =
+      std::min(rules.beats - 1, ((m.asked.line + 1) * static_cast<std::uint32_t>(kLinePixels) - 1) /
+                                    static_cast<std::uint32_t>(lanes_));
   if (!is_free(m.asked.row, last_beat)) return false;
   MemoryRequest& request = m.requests->emplace(cycle);
   request.address = rules.pixel_base + m.asked.address;

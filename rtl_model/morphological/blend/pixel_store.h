@@ -12,15 +12,16 @@
 // may come in any order; that all before a line have come is seen a line a clock.
 // Stalls: `memory` (a line is not there yet, or cannot be sent), `rows` (the place of a beat that
 // comes in still holds a pixel that will be asked for: only if a row is shorter than the pipe),
-// `downstream`. Cost: pixel_lines, R + 7 rows (storage = memory: 4), rounded up to a multiple of 4,
-// a word a beat, in 8 banks 1R1W: a row takes 2 words more than a multiple of 8, so that the beats
-// of three rows and the next one of the middle row lie in banks of their own. storage = memory also
-// the line that is gathered and, for each line under way, a bit that says whether it has come.
-// Made for 300 MHz; longest path: SRAM read + 8:1 choice.
+// `downstream`. Cost: pixel_lines0 to 3, together R + 7 rows (storage = memory: 4), rounded up to a
+// multiple of 4, a word a beat. Neighbouring rows lie in different ones, so that each is read and
+// written once a clock; two beats of the middle row come from two banks. storage = memory (8 banks)
+// also the line that is gathered and, for each line under way, a bit: has it come?
+// Made for 300 MHz; longest path: SRAM read + 4:1 choice.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <systemc>
@@ -129,6 +130,14 @@ class PixelStore final : public Unit {
   };
 
   using Word = LanePixels;
+  // Every fourth row.
+  struct Lines {
+    Lines(const std::string& name, const MemoryShape& shape) : memory(name.c_str(), shape) {}
+    Memory<Word> memory;
+    ReadPort<Word> read{memory, "blended row and its neighbours"};
+    WritePort<Word> write{memory, "in"};
+  };
+  static constexpr std::int32_t kLines = 4;
 
   Did fetch(Cycle cycle);
   void send(Cycle cycle);
@@ -143,8 +152,9 @@ class PixelStore final : public Unit {
     const std::int32_t last = y - rows_ + 1 + lag_;
     return y < rows_ || asked_row_ > last || (asked_row_ == last && asked_beat_ > beat);
   }
+  Lines& lines(std::int32_t y) { return lines_[static_cast<std::size_t>(y % kLines)]; }
   std::size_t place(std::int32_t y, std::size_t beat) const {
-    return static_cast<std::size_t>(y % rows_) * stride_ + beat;
+    return static_cast<std::size_t>(y % rows_ / kLines) * stride_ + beat;
   }
 
   ParameterStore& store_;
@@ -152,9 +162,7 @@ class PixelStore final : public Unit {
   const std::int32_t rows_;         // kept on the chip
   const std::size_t stride_;        // words a row
   Activity memory_stall_, rows_stall_;
-  Memory<Word> pixels_;
-  ReadPort<Word> above_{pixels_, "above"}, centre_{pixels_, "centre"}, below_{pixels_, "below"};
-  WritePort<Word> write_{pixels_, "in"};
+  std::deque<Lines> lines_;
   std::optional<InMemory> memory_;
 
   // The slot that comes next into stage 1.

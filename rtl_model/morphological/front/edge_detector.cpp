@@ -30,9 +30,8 @@ EdgeDetector::EdgeDetector(const sc_core::sc_module_name& name, ClockDomain& clo
       lanes_(static_cast<std::size_t>(store.lanes())),
       // The columns of a beat and the one beside it lie in banks of their own.
       luma_lines_("luma_lines",
-                  {.words = std::max<std::uint64_t>(words_for(p.line_pixels,
-                                                               static_cast<std::uint32_t>(lanes_)),
-                                                     2 * lanes_),
+                  {.words = std::max<std::uint64_t>(
+                       words_for(p.line_pixels, static_cast<std::uint32_t>(lanes_)), 2 * lanes_),
                    .word_bits = 3 * 24,
                    .read_during_write = ReadDuringWrite::kNewWord,
                    .banks = static_cast<std::uint32_t>(2 * lanes_),

@@ -76,8 +76,7 @@ Activity LineUnit::work(Cycle cycle) {
     Divider& divider = dividers_[lane];
     In<SumsToken>& in = sums_in[lane];
     if (Division* fresh = std::exchange(divider.fresh, nullptr); fresh && fresh->pixels != 0)
-      fresh->result.line.inverse =
-          inverse(fresh->pixels, inverse_[lane].at(cycle, fresh->word));
+      fresh->result.line.inverse = inverse(fresh->pixels, inverse_[lane].at(cycle, fresh->word));
     if (divider.count != 0) {
       const Division& oldest = divider.flight[divider.oldest];
       if (oldest.ready <= cycle) {

@@ -4,13 +4,12 @@
 //
 // Where: between an EndpointPredictor and the AreaUnit, one of these an axis, with one divider a
 // lane. Latency divider.latency, initiation interval divider.interval a lane; latency 1 more to
-// the AreaUnit by the link. Stages: 1 products (of the corners, of their sum), inverse_rom: address;
-// 2 P, numerator and denominator; from 3 on the division, at most two of 24 quotient bits a clock
-// (radix 4), beside it P x table in two stages and its rounding. So divider.latency is at least
-// kLeastLatency; a longer one takes fewer bits a clock.
-// Stalls: `interval` (the divider cannot start again yet), `downstream`
-// (its pipe of latency / interval places, rounded up, is full).
-// Formats: slope U0.24 = rdiv(a 2^24, b), inverse U12.12 from U1.26. Cost a lane: a divider
+// the AreaUnit by the link. Stages: 1 products (of the corners, of their sum), inverse_rom:
+// address; 2 P, numerator and denominator; from 3 on the division, at most two of 24 quotient bits
+// a clock (radix 4), beside it P x table in two stages and its rounding. So divider.latency is at
+// least kLeastLatency; a longer one takes fewer bits a clock. Stalls: `interval` (the divider
+// cannot start again yet), `downstream` (its pipe of latency / interval places, rounded up, is
+// full). Formats: slope U0.24 = rdiv(a 2^24, b), inverse U12.12 from U1.26. Cost a lane: a divider
 // 36 / 27 bits, pipelined with interval 1, two multipliers 18 x 6 and 24 x 27, a read of
 // inverse_rom (2 x 34 x 27 bits).
 // Made for 250 MHz; longest path: choice of 4 multiples + 29-bit add (a quotient digit), and half
@@ -53,7 +52,7 @@ class LineUnit final : public Unit {
  private:
   struct Division {
     LineToken result;
-    Cycle ready;         // the quotient is in its register
+    Cycle ready;          // the quotient is in its register
     std::int32_t pixels;  // the inverse is so many times a word of the table
     std::uint32_t word;   // its address
   };

@@ -42,7 +42,7 @@ struct Blending {
   }
   ClockDomain clock{"clock", period()};
   Registers store;
-  LatencyProbe probe;
+  rtl::LatencyProbe probe;
   Link<ShareToken> shares{"shares"};
   Link<PixelToken> pixels{"pixels"};
   Link<spec::morphological::BlendedBeat> out{"out"};

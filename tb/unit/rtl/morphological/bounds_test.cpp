@@ -27,7 +27,8 @@ int least_beats(const Parameters& p, bool one_a_clock) {
 }
 
 std::uint64_t unstalled(const Frame& frame, const Parameters& p) {
-  return static_cast<std::uint64_t>((frame.height + reach_of(p) + 5) * beats_a_row(frame, p) + 6);
+  return static_cast<std::uint64_t>((frame.height + reach_of(p) + 5) * beats_a_row(frame, p)) +
+         kPipe;
 }
 
 std::uint64_t stalls_of(const rtl::Unit& unit, const std::string& cause) {

@@ -48,13 +48,13 @@ TEST(EdgeDetectorBlock, FixedThresholdIsMetNotExceeded) {
   EXPECT_EQ(left_bits(front.detect(row({0, 1}), {{reg::kThreshold, 258}})), "00");
 }
 
-TEST(EdgeDetectorBlock, TakesThreeClocksFromBeatToBits) {
+TEST(EdgeDetectorBlock, TakesSevenClocksFromBeatToBits) {
   Front front(preset(spec::morphological::Preset::kMlaa));
   front.detect(row({0, 255, 0}));
-  // Taken by the sequencer a clock after the driver's push; one clock a block. The first slot
-  // carries no bits, its token still shows the time.
+  // Taken by the sequencer a clock after the driver's push; two clocks to the luma, four to the
+  // bits. The first slot carries no bits, its token still shows the time.
   const Cycle first = front.sink.cycles()[0];
-  EXPECT_EQ(front.beat_sink.cycles()[0], first - 2);  // sequencer -> pixel store
+  EXPECT_EQ(front.beat_sink.cycles()[0], first - 6);  // sequencer -> pixel store
   for (std::size_t i = 1; i < front.sink.cycles().size(); ++i)
     ASSERT_EQ(front.sink.cycles()[i], first + i) << "one slot a clock";
   EXPECT_EQ(front.sink.cycles().size(), (1u + 37u) * 3u);

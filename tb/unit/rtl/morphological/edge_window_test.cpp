@@ -16,14 +16,16 @@ using spec::morphological::Preset;
 
 // A window with the top edges of row 5 set at columns 10 and up.
 struct Window {
-  explicit Window(const Parameters& p) : store("store", p), edges("edges", p, store) {
-    bus.socket.bind(store.registers.bus);
+  explicit Window(const Parameters& p) : store(control, p), edges("edges", p, store) {
+    bus.socket.bind(control.registers.bus);
     store.write_size(100, 20);
     EXPECT_TRUE(store.latch());
     for (int y = 0; y < 20; ++y)
       for (int x = 0; x < 100; ++x) edges.write(y, x, 0, y == 5 && x >= 10, 1);
   }
   Bus bus{"bus"};
+  rtl::ControlRegisters control{"registers", spec::morphological::kRegisters,
+                                rtl::morphological::control_layout()};
   ParameterStore store;
   EdgeWindow edges;
 };

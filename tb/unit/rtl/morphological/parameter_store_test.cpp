@@ -37,7 +37,7 @@ TEST(ParameterStoreBlock, TrimIsABitOfRulesLatchedWithTheFrame) {
   on.store.leave();
   on.bus.write(reg::kRules, ~0u);
   EXPECT_EQ(on.bus.read(reg::kRules), 0x1FFFFu) << "no bits beyond";
-  on.store.reset();
+  on.reset();
   EXPECT_EQ(on.bus.read(reg::kRules), reset_value);
 }
 
@@ -174,7 +174,7 @@ TEST(Registers, CountersShowTheWorkAddUpAndAreCleared) {
     EXPECT_EQ(bench.bus.read(reg::kDivides), frames * 2958u);  // every run has a side
   };
   check(1);
-  EXPECT_EQ(bench.bus.read(reg::kFrameCycles), (61u + 37u) * 97u + 6u);
+  EXPECT_EQ(bench.bus.read(reg::kFrameCycles), (61u + 37u) * 97u + kPipe);
   bench.run(noise());
   check(2);
   bench.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);

@@ -14,14 +14,21 @@ namespace deburr::tb::morphological_rtl {
 
 // A ParameterStore with its bus, and a frame inside.
 struct Registers {
-  explicit Registers(const Parameters& p) : store("store", p), bus("bus") {
-    bus.socket.bind(store.registers.bus);
+  explicit Registers(const Parameters& p) : store(control, p), bus("bus") {
+    bus.socket.bind(control.registers.bus);
   }
   Registers(const Parameters& p, int width, int height) : Registers(p) { frame(width, height); }
   void frame(int width, int height) {
     store.write_size(width, height);
     EXPECT_TRUE(store.latch());
   }
+  // As the reset of the engine does.
+  void reset() {
+    control.reset();
+    store.reset();
+  }
+  rtl::ControlRegisters control{"registers", spec::morphological::kRegisters,
+                                rtl::morphological::control_layout()};
   rtl::morphological::ParameterStore store;
   Bus bus;
 };

@@ -54,7 +54,7 @@ TEST(FirstBeat, TakesTheFrameInTheClockThatTakesIt) {
                    1'000'000);
   EXPECT_EQ(hash(bench.last(97, 61)), 0x6c40266cf03f3513u);
   EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusFrameDone);
-  EXPECT_EQ(bench.bus.read(reg::kFrameCycles), (61u + 37u) * 97u + 6u);
+  EXPECT_EQ(bench.bus.read(reg::kFrameCycles), (61u + 37u) * 97u + kPipe);
 }
 
 struct BadSize {

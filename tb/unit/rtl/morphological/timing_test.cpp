@@ -60,7 +60,7 @@ TEST_P(LatencyFormula, HoldsForEveryBeat) {
   const Frame in = line(c.width, c.height);
   bench.run(in);
   const auto beats = static_cast<Cycle>(beats_a_row(in, p));
-  const Cycle latency = static_cast<Cycle>(c.reach_rows + 5) * beats + 6;
+  const Cycle latency = static_cast<Cycle>(c.reach_rows + 5) * beats + kPipe;
   ASSERT_EQ(times.popped.size(), beats * static_cast<Cycle>(c.height));
   ASSERT_EQ(times.pushed.size(), times.popped.size());
   for (std::size_t j = 0; j < times.popped.size(); ++j) {
@@ -71,7 +71,7 @@ TEST_P(LatencyFormula, HoldsForEveryBeat) {
   EXPECT_EQ(bench.engine.beat_latency.max(), latency);
   EXPECT_EQ(bench.engine.beat_latency.count(), times.popped.size());
   EXPECT_EQ(bench.engine.extractor.record_stalls.value(), 0u);
-  const Cycle frame = static_cast<Cycle>(c.height + c.reach_rows + 5) * beats + 6;
+  const Cycle frame = static_cast<Cycle>(c.height + c.reach_rows + 5) * beats + kPipe;
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), frame);
   EXPECT_EQ(times.pushed.back() - times.popped.front() + 1, frame);
 }
@@ -103,7 +103,7 @@ TEST(Interlock, StallsWhereARowIsShorterThanThePathOfARecord) {
   // e, divided from e + 3 to e + 27, stored in e + 28, seen in e + 29; the slot would have come in
   // e + 21.
   EXPECT_EQ(bench.engine.extractor.interlock_stalls.value(), 8u);
-  EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (40u + 37u) * 20u + 6u + 8u);
+  EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (40u + 37u) * 20u + kPipe + 8u);
 }
 
 // The same with one more clock of room a row for each clock of stall, down to none at the bound.
@@ -151,7 +151,7 @@ TEST_P(Throughput, IsOneBeatAClockUpToAFifthOfEdges) {
   EXPECT_EQ(bench.engine.extractor.record_stalls.value(), 0u);
   const auto beats = static_cast<std::uint64_t>(beats_a_row(in, p));
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(),
-            (static_cast<std::uint64_t>(in.height) + 37) * beats + 6);
+            (static_cast<std::uint64_t>(in.height) + 37) * beats + kPipe);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -178,9 +178,9 @@ TEST(BackPressure, StallsAreCountedAndNothingIsLost) {
   EXPECT_EQ(hash(out), 0x2820122eb9f04a52u);
   const std::uint64_t stalls = bench.engine.extractor.record_stalls.value();
   EXPECT_GT(stalls, 200u);
-  EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (61u + 37u) * 97u + 6u + stalls);
+  EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (61u + 37u) * 97u + kPipe + stalls);
   // A beat is inside for 37 rows of slots, and for the stalls that come while it is.
-  constexpr Cycle kUnstalled = 37 * 97 + 6;
+  constexpr Cycle kUnstalled = 37 * 97 + kPipe;
   EXPECT_GT(bench.engine.beat_latency.min(), kUnstalled);
   EXPECT_GT(bench.engine.beat_latency.max(), bench.engine.beat_latency.min());
   EXPECT_LT(bench.engine.beat_latency.max(), kUnstalled + stalls);
@@ -299,7 +299,7 @@ TEST(Stalls, UpstreamAndDownstreamAreSeenAndCostWhatTheyLast) {
   for (const auto& cause : units.stalls())
     if (cause.name == "upstream") upstream = cause.cycles;
   EXPECT_GT(upstream, 5000u);
-  EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (150u + 37u) * 200u + 6u + upstream);
+  EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (150u + 37u) * 200u + kPipe + upstream);
 }
 
 TEST(Stalls, ASlowSinkStallsTheBlenderAndNothingIsLost) {
@@ -318,7 +318,7 @@ TEST(MemoryTime, FastMemoryCostsNothing) {
   options.memory_latency = 40;
   EngineBench bench(p, options);
   EXPECT_EQ(hash(bench.run(line())), 0x736d3ffd8a940ba4u);
-  EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (150u + 37u) * 200u + 6u);
+  EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (150u + 37u) * 200u + kPipe);
 }
 
 TEST(MemoryTime, SlowMemoryStallsAndNothingIsLost) {
@@ -329,7 +329,7 @@ TEST(MemoryTime, SlowMemoryStallsAndNothingIsLost) {
   options.memory_latency = 40;
   EngineBench bench(p, options);
   EXPECT_EQ(hash(bench.run(line())), 0x736d3ffd8a940ba4u);
-  EXPECT_GT(bench.engine.sequencer.frame_cycles.value(), (150u + 37u) * 200u + 6u + 1000u);
+  EXPECT_GT(bench.engine.sequencer.frame_cycles.value(), (150u + 37u) * 200u + kPipe + 1000u);
   std::uint64_t memory = 0;
   for (const auto& cause : bench.engine.pixel_store.stalls())
     if (cause.name == "memory") memory = cause.cycles;
