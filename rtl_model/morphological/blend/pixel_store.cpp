@@ -62,22 +62,12 @@ void PixelStore::connect(Link<MemoryRequest>& requests, Link<MemoryResponse>& re
 }
 
 Activity PixelStore::tick(Cycle cycle) {
-  bool did = false;
-  if (memory_) {
-    if (memory_->writes.settle()) {
-      memory_->answered.step(memory_->row_lines);
-      did = true;
-    }
-    if (memory_->reads.settle()) {
-      memory_->loaded.step(memory_->row_lines);
-      did = true;
-    }
-  }
   const Did fetched = fetch(cycle);
   const Did stored = store(cycle);
-  did |= fetched == Did::kWork || stored == Did::kWork;
+  bool did = fetched == Did::kWork || stored == Did::kWork;
   if (memory_) {
     did |= receive(cycle);
+    did |= settle();
     did |= request(cycle);
   }
   if (did) return kBusy;
@@ -219,6 +209,15 @@ bool PixelStore::load(Cycle cycle, const MemoryResponse& response) {
                          std::span<const Word>(beats.data(), part));
   m.half = !m.half && part < words;
   return !m.half;
+}
+
+// That all lines before one have come is known a line a clock.
+bool PixelStore::settle() {
+  InMemory& m = *memory_;
+  const bool answered = m.writes.settle(), loaded = m.reads.settle();
+  if (answered) m.answered.step(m.row_lines);
+  if (loaded) m.loaded.step(m.row_lines);
+  return answered || loaded;
 }
 
 // Asks for the next line, if it has been written and there is a place for it.

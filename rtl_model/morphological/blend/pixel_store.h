@@ -145,6 +145,7 @@ class PixelStore final : public Unit {
   bool gather(Cycle cycle, const BeatToken& beat, std::int32_t x, std::int32_t count);
   bool receive(Cycle cycle);
   bool load(Cycle cycle, const MemoryResponse& response);
+  bool settle();
   bool request(Cycle cycle);
   void begin_frame();
   // Has the row whose place row y takes been asked for up to this beat for the last time?

@@ -89,8 +89,8 @@ TEST(BlenderBlock, ChoosesTheAxisAndRoundsTheMagnitude) {
     EXPECT_EQ(beat.pixel[0][0], rows[i].result) << i;
     EXPECT_EQ(beat.pixel[0][2], rows[i].result) << i;
     EXPECT_EQ(beat.pixel[0][3], 77) << "alpha passes";
-    // Pushed in i, popped in i + 1, sent in i + 2, taken in i + 3.
-    EXPECT_EQ(bench.sink.cycles()[i], i + 3);
+    // Pushed in i, popped in i + 1, sent in i + 6, taken in i + 7.
+    EXPECT_EQ(bench.sink.cycles()[i], i + 7);
   }
   EXPECT_EQ(bench.blender.blended_pixels.value(), rows.size() - 1);
 }
