@@ -223,5 +223,41 @@ TEST(AreaUnitBlock, LinesWaitForRoomForTheirFinish) {
   EXPECT_EQ(bench.unit.records.value(), 4u);
 }
 
+// ---- what a memory does not do ------------------------------------------------------------------
+
+TEST(AreaUnitMemory, AMarkIsNotThereInTheClockOfItsAddress) {
+  Area bench(small(), 5, 3);
+  bench.send_slots(0);
+  // The first slot that evaluates is popped a clock after it was sent.
+  bench.clock.run(bench.slots_before(kLag - 1) + 2);
+  EXPECT_THAT(of_a_stage_less(bench.unit, bench.clock),
+              ::testing::AllOf(::testing::HasSubstr("row_marks"), ::testing::HasSubstr("is used")));
+}
+
+TEST(AreaUnitMemory, HasNoColumnBeyondTheLongestRow) {
+  Area bench(small(), 5, 3);
+  bench.send_slots(0);
+  bench.drivers_v[0]->send(20, three(Axis::kVertical, 4000, 0, 1));
+  EXPECT_THAT([&] { bench.clock.run(40); },
+              ::testing::ThrowsMessage<spec::CheckFailed>(::testing::HasSubstr("column_marks")));
+}
+
+// Two lines for a bank need two clocks: with one port too few the memory would say so.
+TEST(AreaUnitMemory, ABankTakesALineAClock) {
+  Area bench(small(2), 32, 7);
+  bench.send_slots(0);
+  const std::uint32_t slot = bench.slots_before(3);
+  for (int lane = 0; lane < 4; ++lane)
+    bench.drivers_v[static_cast<std::size_t>(lane)]->send(
+        slot + 8, three(Axis::kVertical, 4 * lane + 3, 0, slot));
+  bench.clock.run(slot + 30);
+  ASSERT_EQ(bench.finished_gate.beats.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(bench.finished_gate.cycles[i], slot + 11 + i);
+    EXPECT_EQ(bench.finished_gate.beats[i].count[1], 1);
+  }
+  EXPECT_EQ(bench.unit.bank_conflicts.value(), 3u + 2u + 1u);
+}
+
 }  // namespace
 }  // namespace deburr::tb::morphological_rtl

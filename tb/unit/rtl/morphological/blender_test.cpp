@@ -105,5 +105,23 @@ TEST(BlenderBlock, BlendsInLinearLight) {
   EXPECT_EQ(bench.sink.beats()[1].pixel[0][0], 1);
 }
 
+// ---- what a memory does not do ------------------------------------------------------------------
+
+TEST(BlenderMemory, AWordIsNotThereInTheClockOfItsAddress) {
+  Blending bench(preset(spec::morphological::Preset::kDeburr));
+  bench.send({128, 0, 0, 0, 3, 0, 0, 0}, 0, 255, 0, 0, 0);
+  bench.clock.run(3);  // popped in 1, asked for in 2
+  EXPECT_THAT(
+      of_a_stage_less(bench.blender, bench.clock),
+      ::testing::AllOf(::testing::HasSubstr("linear_rom"), ::testing::HasSubstr("is used")));
+}
+
+TEST(BlenderMemory, HasNoCodeForMoreThanWhite) {
+  Blending bench(preset(spec::morphological::Preset::kDeburr));
+  bench.send({255, 255, 0, 0, 3, 3, 0, 0}, 0, 255, 255, 0, 0);
+  EXPECT_THAT([&] { bench.clock.run(10); },
+              ::testing::ThrowsMessage<spec::CheckFailed>(::testing::HasSubstr("encode_rom")));
+}
+
 }  // namespace
 }  // namespace deburr::tb::morphological_rtl

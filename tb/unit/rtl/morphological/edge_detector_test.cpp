@@ -128,5 +128,45 @@ TEST(EdgeDetectorBlock, LocalContrastIsStrictTwiceTheStep) {
   EXPECT_EQ(bits(symmetric), "00100010");  // min(115, 0) = 0
 }
 
+// ---- what a memory does not do ------------------------------------------------------------------
+
+struct Detecting {
+  Detecting()
+      : p([] {
+          Parameters built = preset(spec::morphological::Preset::kMlaa);
+          built.line_pixels = 64;
+          return built;
+        }()),
+        registers(p, 64, 8),
+        ends(clock),
+        edges("edges", clock, p, registers.store) {
+    edges.lumas_in(ends.in);
+    edges.edges_out(ends.out);
+  }
+  ClockDomain clock{"clock", period()};
+  Parameters p;
+  Registers registers;
+  Ends<LumaToken, EdgeToken> ends;
+  EdgeDetector edges;
+};
+
+TEST(EdgeDetectorMemory, AWordIsNotThereInTheClockOfItsAddress) {
+  Detecting bench;
+  bench.ends.source.send(LumaToken{});
+  bench.clock.run(2);
+  EXPECT_THAT(
+      of_a_stage_less(bench.edges, bench.clock),
+      ::testing::AllOf(::testing::HasSubstr("luma_lines"), ::testing::HasSubstr("is used")));
+}
+
+TEST(EdgeDetectorMemory, HasNoColumnBeyondTheLongestRow) {
+  Detecting bench;
+  LumaToken token{};
+  token.slot.beat = 64;
+  bench.ends.source.send(token);
+  EXPECT_THAT([&] { bench.clock.run(10); },
+              ::testing::ThrowsMessage<spec::CheckFailed>(::testing::HasSubstr("luma_lines")));
+}
+
 }  // namespace
 }  // namespace deburr::tb::morphological_rtl

@@ -222,5 +222,26 @@ TEST(LineUnitBlock, AResetLetsTheDividerStartAtOnce) {
   EXPECT_EQ(bench.gate.beats[0].line.span, 5);
 }
 
+// ---- what a memory does not do ------------------------------------------------------------------
+
+TEST(LineUnitMemory, AWordIsNotThereInTheClockOfItsAddress) {
+  Lines bench(preset(spec::morphological::Preset::kDeburr));
+  bench.ends.source.send(sums_of({0, 3}, 0, 3));
+  bench.clock.run(2);
+  EXPECT_THAT(
+      of_a_stage_less(bench.unit, bench.clock),
+      ::testing::AllOf(::testing::HasSubstr("inverse_rom"), ::testing::HasSubstr("is used")));
+}
+
+TEST(LineUnitMemory, HasNoWordForMoreCornersThanThereAre) {
+  Lines bench(preset(spec::morphological::Preset::kDeburr));
+  SumsToken sums = sums_of({0, 3}, 0, 3);
+  sums.left = sums.right = 17;
+  sums.indexed_sum = 10'000;
+  bench.ends.source.send(sums);
+  EXPECT_THAT([&] { bench.clock.run(10); },
+              ::testing::ThrowsMessage<spec::CheckFailed>(::testing::HasSubstr("inverse_rom")));
+}
+
 }  // namespace
 }  // namespace deburr::tb::morphological_rtl

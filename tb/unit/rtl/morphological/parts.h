@@ -98,6 +98,17 @@ struct Ends {
   Sink<To> sink;
 };
 
+// What a second tick in the clock that has just passed says: a stage less, so that a word is used
+// before it is there.
+inline std::string of_a_stage_less(rtl::Unit& unit, const ClockDomain& clock) {
+  try {
+    unit.tick(clock.cycle() - 1);
+  } catch (const spec::CheckFailed& failure) {
+    return failure.what();
+  }
+  return "nothing";
+}
+
 // Clocks that a unit lost to a cause.
 inline std::uint64_t stalls(const rtl::Unit& unit, std::string_view cause) {
   for (const rtl::Unit::StallCause& stall : unit.stalls())

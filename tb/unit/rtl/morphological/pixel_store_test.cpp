@@ -473,5 +473,24 @@ TEST(Memory, OutstandingIsKept) {
   EXPECT_EQ(bench.memory->most_outstanding(), 6u);
 }
 
+// ---- what a memory does not do ------------------------------------------------------------------
+
+TEST(PixelStoreLines, AWordIsNotThereInTheClockOfItsAddress) {
+  Storing bench(built(spec::morphological::Storage::kLineBuffers, 0), colours(6, 2));
+  bench.store_beat(0, 0, 0);
+  bench.fetch_beat(10, 0, 0);
+  bench.clock.run(12);
+  EXPECT_THAT(
+      of_a_stage_less(bench.store, bench.clock),
+      ::testing::AllOf(::testing::HasSubstr("pixel_lines0"), ::testing::HasSubstr("is used")));
+}
+
+TEST(PixelStoreLines, HaveNoBeatBeyondTheLongestRow) {
+  Storing bench(built(spec::morphological::Storage::kLineBuffers, 0), colours(6, 2));
+  bench.fetch_beat(10, 0, 4000);
+  EXPECT_THAT([&] { bench.clock.run(20); },
+              ::testing::ThrowsMessage<spec::CheckFailed>(::testing::HasSubstr("pixel_lines")));
+}
+
 }  // namespace
 }  // namespace deburr::tb::morphological_rtl
