@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "rtl_model/fabric/register_block.h"
-#include "rtl_model/fabric/register_block.h"
-#include "spec/morphological/registers.h"
 #include "rtl_model/texture/parameter_store.h"
+#include "spec/morphological/registers.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/registers.h"
 

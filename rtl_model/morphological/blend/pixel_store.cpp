@@ -45,13 +45,14 @@ PixelStore::PixelStore(const sc_core::sc_module_name& name, ClockDomain& clock,
   const bool in_memory = p.storage == spec::morphological::Storage::kMemory;
   const std::uint32_t banks = in_memory ? kStoreWords : 2;
   for (std::int32_t i = 0; i < kLines; ++i)
-    lines_.emplace_back("pixel_lines" + std::to_string(i),
-                        MemoryShape{.words = static_cast<std::size_t>(rows_ / kLines) * stride_,
-                                    .word_bits = static_cast<std::uint32_t>(32 * lanes_),
-                                    .banks = banks,
-                                    .span = banks,
-                                    .content = "every fourth row of the pixels to be blended",
-                                    .columns = static_cast<std::uint64_t>(p.line_pixels)});
+    lines_.push_back(std::make_unique<Lines>(
+        "pixel_lines" + std::to_string(i),
+        MemoryShape{.words = static_cast<std::size_t>(rows_ / kLines) * stride_,
+                    .word_bits = static_cast<std::uint32_t>(32 * lanes_),
+                    .banks = banks,
+                    .span = banks,
+                    .content = "every fourth row of the pixels to be blended",
+                    .columns = static_cast<std::uint64_t>(p.line_pixels)}));
   if (in_memory) memory_.emplace(static_cast<std::uint32_t>(p.memory_outstanding));
 }
 
@@ -96,9 +97,15 @@ PixelStore::Did PixelStore::fetch(Cycle cycle) {
     if (last_row ? memory_->loaded.row < rules.height : !needed.before(memory_->loaded))
       return did == Did::kWork ? did : Did::kWaitsForMemory;
   }
-  if (y > 0) lines(y - 1).read.read(cycle, place(y - 1, slot.beat));
-  lines(y).read.read(cycle, place(y, slot.beat), slot.beat + 1u < rules.beats ? 2 : 1);
-  if (!last_row) lines(y + 1).read.read(cycle, place(y + 1, slot.beat));
+  if (slot.row != around_row_) {
+    around_ = {y > 0 ? row(y - 1) : Row{}, row(y), last_row ? Row{} : row(y + 1)};
+    around_row_ = slot.row;
+  }
+  sent_ = around_;
+  const auto& [above, centre, below] = sent_;
+  if (above.lines) above.lines->read.read(cycle, above.from + slot.beat);
+  centre.lines->read.read(cycle, centre.from + slot.beat, slot.beat + 1u < rules.beats ? 2 : 1);
+  if (below.lines) below.lines->read.read(cycle, below.from + slot.beat);
   fetched_ = true;
   slot_ = slot;
   asked_row_ = slot.row;
@@ -109,15 +116,14 @@ PixelStore::Did PixelStore::fetch(Cycle cycle) {
 
 // Stage 2.
 void PixelStore::send(Cycle cycle) {
-  const FrameRules& rules = store_.rules();
-  const std::int32_t y = slot_.row - lag_;
-  const std::size_t at = place(y, slot_.beat);
+  const auto& [above, centre, below] = sent_;
+  const std::size_t at = centre.from + slot_.beat;
   PixelToken& out = pixels_out.emplace(cycle);
-  out.centre = lines(y).read.at(cycle, at);
-  if (y > 0) out.above = lines(y - 1).read.at(cycle, place(y - 1, slot_.beat));
-  if (y + 1 < rules.height) out.below = lines(y + 1).read.at(cycle, place(y + 1, slot_.beat));
+  out.centre = centre.lines->read.at(cycle, at);
+  if (above.lines) out.above = above.lines->read.at(cycle, above.from + slot_.beat);
+  if (below.lines) out.below = below.lines->read.at(cycle, below.from + slot_.beat);
   out.before = last_;
-  if (slot_.beat + 1u < rules.beats) out.after = lines(y).read.at(cycle, at + 1)[0];
+  if (slot_.beat + 1u < store_.rules().beats) out.after = centre.lines->read.at(cycle, at + 1)[0];
   last_ = out.centre[static_cast<std::size_t>(lanes_) - 1];
   fetched_ = false;
 }
@@ -135,13 +141,15 @@ PixelStore::Did PixelStore::store(Cycle cycle) {
       return Did::kWaitsForMemory;
   } else {
     if (!is_free(slot.row, slot.beat)) return Did::kWaitsForRows;
-    lines(slot.row).write.write(cycle, place(slot.row, slot.beat), beat.pixel);
+    if (slot.beat == 0) in_ = row(slot.row);
+    in_.lines->write.write(cycle, in_.from + slot.beat, beat.pixel);
   }
   beats_in.pop(cycle);
   return Did::kWork;
 }
 
 void PixelStore::begin_frame() {
+  around_row_ = -1;
   asked_row_ = 0;
   asked_beat_ = 0;
   if (!memory_) return;
@@ -204,9 +212,9 @@ bool PixelStore::load(Cycle cycle, const MemoryResponse& response) {
                 response.data.data() +
                     (from + i) * lanes * std::size_t{spec::morphological::kFramePixelBytes},
                 lanes * std::size_t{spec::morphological::kFramePixelBytes});
-  const auto row = static_cast<std::int32_t>(response.tag >> (kFlightBits + kLineBits));
-  lines(row).write.write(cycle, place(row, line * words + from),
-                         std::span<const Word>(beats.data(), part));
+  const Row to = row(static_cast<std::int32_t>(response.tag >> (kFlightBits + kLineBits)));
+  to.lines->write.write(cycle, to.from + line * words + from,
+                        std::span<const Word>(beats.data(), part));
   m.half = !m.half && part < words;
   return !m.half;
 }
@@ -242,6 +250,7 @@ bool PixelStore::request(Cycle cycle) {
 
 void PixelStore::reset() {
   fetched_ = false;
+  around_row_ = -1;
   asked_row_ = 0;
   asked_beat_ = 0;
   if (!memory_) return;

@@ -21,7 +21,7 @@
 
 #include <array>
 #include <cstdint>
-#include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <systemc>
@@ -153,9 +153,14 @@ class PixelStore final : public Unit {
     const std::int32_t last = y - rows_ + 1 + lag_;
     return y < rows_ || asked_row_ > last || (asked_row_ == last && asked_beat_ > beat);
   }
-  Lines& lines(std::int32_t y) { return lines_[static_cast<std::size_t>(y % kLines)]; }
-  std::size_t place(std::int32_t y, std::size_t beat) const {
-    return static_cast<std::size_t>(y % rows_ / kLines) * stride_ + beat;
+  // A row on the chip.
+  struct Row {
+    Lines* lines = nullptr;  // nullptr: outside the frame
+    std::size_t from = 0;    // its first word
+  };
+  Row row(std::int32_t y) {
+    return {lines_[static_cast<std::size_t>(y % kLines)].get(),
+            static_cast<std::size_t>(y % rows_ / kLines) * stride_};
   }
 
   ParameterStore& store_;
@@ -163,7 +168,14 @@ class PixelStore final : public Unit {
   const std::int32_t rows_;         // kept on the chip
   const std::size_t stride_;        // words a row
   Activity memory_stall_, rows_stall_;
-  std::deque<Lines> lines_;
+  std::vector<std::unique_ptr<Lines>> lines_;
+  Row in_;  // of the beat that comes in
+  struct Around {
+    Row above, centre, below;
+  };
+  // Of the slot in stage 1 and of that in stage 2.
+  Around around_, sent_;
+  std::int32_t around_row_ = -1;  // slot row of around_
   std::optional<InMemory> memory_;
 
   // The slot that comes next into stage 1.
