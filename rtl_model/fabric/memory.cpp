@@ -140,6 +140,10 @@ PortedMemory::PortedMemory(const char* name, MemoryShape shape)
       ring_(std::bit_ceil(latency_ + 1) - 1),
       checks_reads_(this->shape().separate_banks || forbids(this->shape())),
       checks_writes_(checks_reads_ || this->shape().write_ports + this->shape().shared_ports > 1),
+      one_bank_(this->shape().separate_banks && !forbids(this->shape()) &&
+                this->shape().order == BankOrder::kInterleaved &&
+                std::has_single_bit(this->shape().banks)),
+      bank_mask_(this->shape().banks - 1),
       read_banks_(read_banks_used_),
       write_banks_(this->shape().shared_ports ? read_banks_used_ : write_banks_used_) {
   const MemoryShape& s = this->shape();

@@ -182,7 +182,9 @@ class PortedMemory : public MemoryBase {
     port.newest = (port.newest + 1) & ring_;
     port.read[port.newest] = {cycle + latency_, address, count};
     ++reads_;
-    if (checks_reads_) [[unlikely]]
+    if (one_bank_ && count == 1 && read_banks_[address & bank_mask_] != cycle) [[likely]]
+      read_banks_[address & bank_mask_] = cycle;
+    else if (checks_reads_) [[unlikely]]
       check_read(port, cycle, address, count);
   }
   void issue_write(Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count) {
@@ -221,7 +223,10 @@ class PortedMemory : public MemoryBase {
   const std::uint32_t span_, latency_;
   const std::uint32_t ring_;  // reads that a port remembers, a power of two, less one
   const bool checks_reads_, checks_writes_;  // beyond those of issue()
-  Cycle written_ = kNever;                   // the last write through any port
+  // A word's bank is in its low bits, and all that check_read() would look at.
+  const bool one_bank_;
+  const std::uint64_t bank_mask_;
+  Cycle written_ = kNever;  // the last write through any port
   std::vector<Port> ports_;
   std::vector<Port*> readers_, writers_;  // shared ports are among both
 

@@ -37,6 +37,7 @@
 #include "rtl_model/morphological/front/luma_unit.h"
 #include "rtl_model/morphological/front/slot_sequencer.h"
 #include "rtl_model/morphological/parameter_store.h"
+#include "rtl_model/morphological/runs/edge_rows.h"
 #include "rtl_model/morphological/runs/edge_window.h"
 #include "rtl_model/morphological/runs/endpoint_predictor.h"
 #include "rtl_model/morphological/runs/line_unit.h"
@@ -64,6 +65,7 @@ class MorphologicalEngine final : public Engine {
   // In the order of the pipe.
   ParameterStore store;
   EdgeWindow window;
+  EdgeRows rows;
   SlotSequencer sequencer;
   LumaUnit luma;
   EdgeDetector edges;

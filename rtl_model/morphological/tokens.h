@@ -154,20 +154,33 @@ struct PixelToken {
 // the next one there or the one after, or at most two rows of 8192 beats behind.
 inline constexpr std::uint32_t kSlotMask = (1u << 15) - 1;
 
-// RunExtractor -> EndpointPredictor. Codes of the ends as in spec::morphological::RunShape; so is
-// run.shape.
+// RunExtractor -> EndpointPredictor.
 struct RunToken {
   spec::morphological::RunRecord run;
-  std::uint32_t slot;                 // U15, low bits of the slot that the run was found in
-  std::uint8_t start_code, end_code;  // U2
+  std::uint32_t slot;  // low bits of the slot that the run was found in
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("run", self.run);
+    visit("slot", self.slot, 15, "U15");
+  }
 };
 
 // EndpointPredictor -> LineUnit: corners -left..right + 1 of the line, as sums.
 struct SumsToken {
   RunToken run;
-  std::uint8_t left, right;       // U5, steps kept
-  std::int16_t first, last;       // S13, positions of the outermost corners
-  std::int32_t sum, indexed_sum;  // S18, S24: sum of X_i, of i X_i
+  std::uint8_t left, right;       // steps kept
+  std::int16_t first, last;       // positions of the outermost corners
+  std::int32_t sum, indexed_sum;  // of X_i, of i X_i
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("run", self.run);
+    visit("left", self.left, 5, "U5");
+    visit("right", self.right, 5, "U5");
+    visit("first", self.first, 13, "S13");
+    visit("last", self.last, 13, "S13");
+    visit("sum", self.sum, 18, "S18");
+    visit("indexed_sum", self.indexed_sum, 24, "S24");
+  }
 };
 
 // LineUnit -> AreaUnit.

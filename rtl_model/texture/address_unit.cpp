@@ -4,15 +4,15 @@
 namespace deburr::rtl::texture {
 
 AddressUnit::AddressUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                         const spec::texture::Parameters& p, ParameterStore& store,
-                         FragmentProbe& probe)
+                         const spec::texture::Parameters& p, ControlRegisters& registers,
+                         const Descriptors& descriptors, LatencyProbe& probe)
     : sc_module(name),
-      derivative("derivative", clock, store, probe),
+      derivative("derivative", clock, registers, descriptors.for_derivatives, probe),
       footprint("footprint", clock, p.footprint),
       log2("log2", clock, p.log2),
-      level("level", clock, store, p.count, p.count_cap),
+      level("level", clock, descriptors.for_levels, p.count, p.count_cap),
       walker("walker", clock, p.kernel, p.spread),
-      addresser("addresser", clock, store) {
+      addresser("addresser", clock, descriptors.for_texels) {
   derivative.quads_in(quads_in);
   derivative.derivatives_out(derivatives_);
   footprint.derivatives_in(derivatives_);

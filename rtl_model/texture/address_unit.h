@@ -5,18 +5,19 @@
 //   quads_in -> DerivativeUnit -> FootprintUnit -> Log2Unit -> LevelUnit -> SampleWalker
 //            -> TexelAddresser -> texels_out
 //
-// Latency 7 to the first request (22 with `footprint = exact`); initiation interval N x (1 or 2)
-// clocks a fragment; every block is stalled by `downstream` only.
+// Latency 17 to the first request (17 more with `footprint = exact`, 2 more with a `log2` other
+// than `mitchell`); initiation interval N x (1 or 2) clocks a fragment; every block is stalled by
+// `downstream` only.
 #pragma once
 
 #include <systemc>
 
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/texture/derivative_unit.h"
+#include "rtl_model/texture/descriptors.h"
 #include "rtl_model/texture/footprint_unit.h"
 #include "rtl_model/texture/level_unit.h"
 #include "rtl_model/texture/log2_unit.h"
-#include "rtl_model/texture/parameter_store.h"
 #include "rtl_model/texture/sample_walker.h"
 #include "rtl_model/texture/texel_addresser.h"
 
@@ -28,8 +29,8 @@ class AddressUnit final : public sc_core::sc_module {
   Out<TexelToken> texels_out{"texels_out"};
 
   AddressUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-              const spec::texture::Parameters& parameters, ParameterStore& store,
-              FragmentProbe& probe);
+              const spec::texture::Parameters& parameters, ControlRegisters& registers,
+              const Descriptors& descriptors, LatencyProbe& probe);
 
   DerivativeUnit derivative;
   FootprintUnit footprint;

@@ -2,17 +2,41 @@
 #include "rtl_model/texture/data_stage.h"
 
 #include <algorithm>
+#include <string>
 
 #include "spec/texture/descriptor.h"
 
 namespace deburr::rtl::texture {
 namespace {
 
-// A texel is the low bits of the word that is read.
+// A word may be read at the last byte of the last line.
+constexpr std::size_t kPadding = 3;
+
+// Little-endian, whatever the host is.
+std::uint32_t load(const std::uint8_t* bytes) {
+  return std::uint32_t{bytes[0]} | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
+         std::uint32_t{bytes[3]} << 24;
+}
+
+// A texel is the low bits of what is read.
 std::uint32_t texel_mask(const FilterControl& control) {
   constexpr std::array<std::uint32_t, 5> kMask = {~0u, 0xFFFF, 0xFFFF, 0xFF, ~0u};
   static_assert(kMask.size() == spec::texture::kFormatNames.size());
   return kMask[control.format];
+}
+
+MemoryShape bank_shape(const spec::texture::Parameters& p) {
+  const auto banks = static_cast<std::uint32_t>(p.cache_line_bytes / 4);
+  return {.words = static_cast<std::uint64_t>(p.cache_bytes / 4),
+          .word_bits = 32,
+          .kind = MemoryKind::kSram,
+          .read_ports = 4,
+          .write_ports = 1,
+          .latency = 1,
+          .banks = banks,
+          .span = banks,
+          .separate_banks = true,
+          .content = "lines, a word of each in every bank"};
 }
 
 }  // namespace
@@ -21,102 +45,142 @@ DataStage::DataStage(const sc_core::sc_module_name& name, ClockDomain& clock,
                      const spec::texture::Parameters& p, FillBuffer& fills)
     : Unit(name, clock),
       fills_(fills),
-      banks_(static_cast<std::uint32_t>(p.cache_bytes / p.cache_line_bytes),
-             static_cast<std::uint32_t>(p.cache_line_bytes)),
+      line_log2_(log2_of(p.cache_line_bytes)),
+      words_a_line_(static_cast<std::uint32_t>(p.cache_line_bytes / 4)),
+      turn_(turn_bytes(static_cast<std::uint32_t>(p.cache_line_bytes))),
+      banks_("banks", bank_shape(p)),
+      bytes_(static_cast<std::size_t>(p.cache_bytes) + kPadding),
       wait_fill_(declare_stall("wait_fill", "a line of the request has not arrived")),
       write_fill_(declare_stall("write_fill", "the request has more lines to write")),
-      bank_conflict_(declare_stall("bank_conflict", "the request has more texels in one bank")) {}
+      bank_conflict_(declare_stall("bank_conflict", "the request has more words in one bank")) {
+  for (int i = 0; i < 4; ++i) reads_.emplace_back(banks_, "texel_" + std::to_string(i));
+}
 
-Activity DataStage::tick(Cycle cycle) {
-  if (!requests_in.can_pop(cycle)) return kIdle;
-  const CacheToken& request = requests_in.front(cycle);
-  if (request.fills != 0 || request.column_conflict || request.row_conflict)
-    return tick_slow(cycle, request);
-  if (!texels_out.can_push(cycle)) return kStalledDownstream;
-  TexelQuadToken& out = texels_out.emplace(cycle);
-  out.ticket = request.ticket;
-  out.control = request.control;
-  if (request.ticket.valid) {
-    const std::uint32_t mask = texel_mask(request.control);
-    for (std::size_t i = 0; i < 4; ++i)
-      out.texel[i] = banks_.read(cycle, request.bank[i], request.place[i]) & mask;
-  } else {
-    out.texel = {};
+// From the last stage to the first.
+Activity DataStage::work(Cycle cycle) {
+  const bool waits = waits_;
+  if (waits && !texels_out.can_push(cycle)) return kStalledDownstream;
+  if (issued_) reads_[issued_port_].check(cycle, issued_word_);
+  issued_ = false;
+  if (waits) {
+    texels_out.push(cycle, waiting_);
+    waits_ = false;
   }
-  requests_in.pop(cycle);
+  if (!requests_in.can_pop(cycle)) return waits ? kBusy : kIdle;
+  const CacheToken& request = requests_in.front(cycle);
+  if (!request.ticket.valid)
+    waiting_.texel = {};
+  else if (request.fills != 0 || started_ || !read_at_once(cycle, request))
+    return advance(cycle, request);
+  finish(cycle, request);
   return kBusy;
 }
 
-// In each bank, one distinct texel a pass, in texel order.
-DataStage::Schedule DataStage::schedule(const CacheToken& request) {
-  Schedule s{(request.column_conflict ? 2 : 1) * (request.row_conflict ? 2 : 1), 0, {}};
-  for (std::size_t i = 0; i < 4; ++i) {
-    s.pass[i] = -1;
-    if (request.source[i] != 0) continue;
-    s.pass[i] = 0;
-    for (std::size_t j = 0; j < i; ++j) {
-      if (s.pass[j] < 0 || request.bank[j] != request.bank[i]) continue;
-      const bool same = request.place[j] == request.place[i];
-      s.pass[i] = same ? s.pass[j] : std::max(s.pass[i], s.pass[j] + 1);
-      if (same) break;
-    }
-    s.hit_passes = std::max(s.hit_passes, s.pass[i] + 1);
-  }
-  return s;
-}
-
-Activity DataStage::tick_slow(Cycle cycle, const CacheToken& request) {
+// Stage 1 of a request that takes several clocks, or may.
+Activity DataStage::advance(Cycle cycle, const CacheToken& request) {
   if (!started_) {
     started_ = true;
     schedule_ = schedule(request);
     passes_done_ = fills_done_ = 0;
     if (schedule_.passes > 1) ++conflicts;
   }
-  const bool reads = passes_done_ < schedule_.passes;
-  const int passes_after = passes_done_ + (reads ? 1 : 0);
+  if (passes_done_ < schedule_.passes) read(cycle, request, passes_done_++);
   // A line may replace one of which a texel is read: not before its last pass, which sees the old
   // word.
-  const bool may_write = fills_done_ < request.fills && passes_after >= schedule_.hit_passes;
+  const bool may_write = fills_done_ < request.fills && passes_done_ == schedule_.passes;
   const bool writes = may_write && fills_.ready(cycle);
-  const bool completes =
-      passes_after == schedule_.passes && fills_done_ + (writes ? 1 : 0) == request.fills;
-  if (completes && !texels_out.can_push(cycle)) return kStalledDownstream;
-
-  if (reads) {
-    for (std::size_t i = 0; i < 4; ++i)
-      if (schedule_.pass[i] == passes_done_)
-        texel_[i] = banks_.read(cycle, request.bank[i], request.place[i]);
-    passes_done_ = passes_after;
-  }
   if (writes) write_fill(cycle, request);
-  if (!completes) {
-    if (may_write && !writes) return wait_fill_;
-    return writes ? write_fill_ : bank_conflict_;
+  if (passes_done_ == schedule_.passes && fills_done_ == request.fills) {
+    finish(cycle, request);
+    return kBusy;
   }
-  const std::uint32_t mask = texel_mask(request.control);
-  TexelQuadToken& out = texels_out.emplace(cycle);
-  out.ticket = request.ticket;
-  out.control = request.control;
-  for (std::size_t i = 0; i < 4; ++i) out.texel[i] = texel_[i] & mask;
-  requests_in.pop(cycle);
-  started_ = false;
-  return kBusy;
+  if (may_write && !writes) return wait_fill_;
+  return writes ? write_fill_ : bank_conflict_;
+}
+
+// In each bank, one word a pass, in texel order.
+DataStage::Schedule DataStage::schedule(const CacheToken& request) const {
+  Schedule s{0, {-1, -1, -1, -1}, {}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (request.source[i] != 0) continue;
+    s.pass[i] = 0;
+    for (std::size_t j = 0; j < i; ++j) {
+      const std::uint32_t apart = (request.place[i] ^ request.place[j]) >> 2;
+      if (s.pass[j] < 0 || (apart & (words_a_line_ - 1)) != 0) continue;  // another bank
+      s.again[i] = apart == 0;
+      s.pass[i] = s.again[i] ? s.pass[j] : std::max(s.pass[i], s.pass[j] + 1);
+      if (s.again[i]) break;
+    }
+    s.passes = std::max(s.passes, s.pass[i] + 1);
+  }
+  return s;
+}
+
+// Four hits in one pass: all that most requests are. False, and nothing done, if words meet in a
+// bank.
+bool DataStage::read_at_once(Cycle cycle, const CacheToken& request) {
+  std::array<std::uint32_t, 4> word;
+  for (std::size_t i = 0; i < 4; ++i) word[i] = request.place[i] >> 2;
+  const auto apart = [&](std::size_t i, std::size_t j) { return word[i] ^ word[j]; };
+  const auto meet = [&](std::uint32_t difference) {
+    return difference != 0 && (difference & (words_a_line_ - 1)) == 0;
+  };
+  const std::uint32_t a = apart(0, 1), b = apart(0, 2), c = apart(0, 3), d = apart(1, 2),
+                      e = apart(1, 3), f = apart(2, 3);
+  if ((a | b | c) >= words_a_line_ &&
+      (meet(a) || meet(b) || meet(c) || meet(d) || meet(e) || meet(f)))
+    return false;
+  for (std::size_t i = 0; i < 4; ++i) waiting_.texel[i] = load(&bytes_[request.place[i]]);
+  // A word that two texels share is one read.
+  issue(cycle, 0, word[0]);
+  if (a != 0) reads_[1].read(cycle, word[1]);
+  if (b != 0 && d != 0) reads_[2].read(cycle, word[2]);
+  if (c != 0 && e != 0 && f != 0) reads_[3].read(cycle, word[3]);
+  return true;
+}
+
+void DataStage::read(Cycle cycle, const CacheToken& request, int pass) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (schedule_.pass[i] != pass) continue;
+    waiting_.texel[i] = load(&bytes_[request.place[i]]);
+    if (!schedule_.again[i]) issue(cycle, i, request.place[i] >> 2);
+  }
+}
+
+// The words of a clock come together, so one of them stands for all.
+void DataStage::issue(Cycle cycle, std::size_t port, std::uint64_t word) {
+  reads_[port].read(cycle, word);
+  issued_port_ = port;
+  issued_word_ = word;
+  issued_ = true;
 }
 
 void DataStage::write_fill(Cycle cycle, const CacheToken& request) {
-  const std::uint8_t* const line = fills_.line();
+  const std::uint8_t* const line = fills_.line(cycle);
   const auto fill = static_cast<std::size_t>(fills_done_);
   for (std::size_t i = 0; i < 4; ++i)
-    if (request.source[i] == fill + 1) texel_[i] = DataBanks::word(line + request.place[i]);
-  banks_.write(cycle, request.victim[fill], line);
+    if (request.source[i] == fill + 1) waiting_.texel[i] = load(line + request.place[i]);
+  const std::size_t slot = request.victim[fill], line_bytes = std::size_t{1} << line_log2_;
+  write_.write(cycle, slot * words_a_line_, words_a_line_);
+  const std::size_t turn = request.turned[fill] ? turn_ : 0;
+  for (std::size_t at = 0; at < line_bytes; at += turn_)
+    std::copy_n(line + at, turn_, &bytes_[slot * line_bytes + (at ^ turn)]);
   fills_.release(cycle);
   ++lines_written;
   ++fills_done_;
 }
 
-void DataStage::reset() {
-  banks_.reset();
+// The request goes on to stage 2.
+void DataStage::finish(Cycle cycle, const CacheToken& request) {
+  const std::uint32_t mask = request.ticket.valid ? texel_mask(request.control) : 0;
+  waiting_.ticket = request.ticket;
+  waiting_.control = request.control;
+  for (std::uint32_t& texel : waiting_.texel) texel &= mask;
+  waits_ = true;
+  requests_in.pop(cycle);
   started_ = false;
 }
+
+void DataStage::reset() { started_ = waits_ = issued_ = false; }
 
 }  // namespace deburr::rtl::texture

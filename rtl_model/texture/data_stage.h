@@ -2,21 +2,27 @@
 // Reads the four texels of a request from the data banks, and writes the fills that the request
 // ordered when it reaches the head of the LatencyFifo.
 //
-// Where: tail of the TextureCache. Latency 1 in the last of max(1, lines to write, bank passes)
-// clocks, which is the initiation interval. Texels that hit are read before a fill of the same
-// request can overwrite them (the banks are read-first; fills begin in the clock of the last pass
-// that reads a hit); texels that missed are taken from the fill as it passes. Stalls: `wait_fill`
-// (a line has not arrived), `write_fill` (more lines to write), `bank_conflict` (more passes to
-// read), `downstream`. Cost: DataBanks, four texel registers, four 5-to-1 texel multiplexers.
+// Where: tail of the TextureCache. A bank holds one 32-bit word of each line (16 banks for lines of
+// 64 bytes), so a fill is written whole in one clock as it came, and texels of one line never meet
+// in a bank. A row of a `linear` texture follows the one above it at the same place in its lines:
+// the banks of odd rows are turned by half a tile. Two stages: 1 addresses of the banks, fills; 2
+// word, texel. Latency 2 in the last of max(1, lines to write, bank passes) clocks, which is the
+// initiation interval. Texels that hit are read before a fill of the same request can overwrite
+// them (the banks are read-first; fills begin in the clock of the last pass that reads a hit);
+// texels that missed are taken from the fill as it passes. Stalls: `wait_fill` (a line has not
+// arrived), `write_fill` (more lines to write), `bank_conflict` (more passes to read),
+// `downstream`. Made for 250 MHz; longest path: SRAM read, then a choice of 1 in 32 words and of a
+// byte in it; before: a comparison of 14 bits and a choice of 1 in 4 addresses. Cost: banks of
+// lines x 32 bits, SRAM 1R1W, four texel registers, four word multiplexers, six comparators.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <systemc>
+#include <vector>
 
-#include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/texture/data_banks.h"
 #include "rtl_model/texture/fill_buffer.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/parameters.h"
@@ -30,31 +36,50 @@ class DataStage final : public Unit {
 
   DataStage(const sc_core::sc_module_name& name, ClockDomain& clock,
             const spec::texture::Parameters& parameters, FillBuffer& fills);
-  Activity tick(Cycle cycle) override;
+  Activity tick(Cycle cycle) override {
+    const Activity activity = work(cycle);
+    fills_.read_ahead(cycle);
+    return activity;
+  }
   void reset() override;
 
   Counter lines_written{"lines_written", "lines", "fills written into the data banks"};
-  Counter conflicts{"conflicts", "requests", "requests with two texels in one bank"};
+  Counter conflicts{"conflicts", "requests", "requests with two words in one bank"};
 
  private:
-  // How a request that is not a plain hit is spread over clocks.
+  // In which clock of its request a texel that hits is read, and through which port.
   struct Schedule {
-    int passes;               // 1, 2, 4: bank passes
-    int hit_passes;           // 0..4: those that read a texel that hits
-    std::array<int, 4> pass;  // in which texel i is read; -1: it missed
+    int passes;                 // 0..4: those that read a texel that hits
+    std::array<int, 4> pass;    // of texel i; -1: it missed
+    std::array<bool, 4> again;  // its word is that of an earlier texel
   };
-  static Schedule schedule(const CacheToken& request);
-  Activity tick_slow(Cycle cycle, const CacheToken& request);
+  Schedule schedule(const CacheToken& request) const;
+  Activity work(Cycle cycle);
+  Activity advance(Cycle cycle, const CacheToken& request);
+  bool read_at_once(Cycle cycle, const CacheToken& request);
+  void read(Cycle cycle, const CacheToken& request, int pass);
+  void issue(Cycle cycle, std::size_t port, std::uint64_t word);
   void write_fill(Cycle cycle, const CacheToken& request);
+  void finish(Cycle cycle, const CacheToken& request);
 
   FillBuffer& fills_;
-  DataBanks banks_;
+  std::uint32_t line_log2_, words_a_line_, turn_;
+  Memory<void> banks_;
+  std::vector<ReadPort<void>> reads_;
+  WritePort<void> write_{banks_, "fill"};
+  std::vector<std::uint8_t> bytes_;  // of the banks, word by word
   Activity wait_fill_, write_fill_, bank_conflict_;
-  // Registers of the request at the head.
+  // Registers of the request in stage 1.
   bool started_ = false;
   Schedule schedule_{};
   int passes_done_ = 0, fills_done_ = 0;
-  std::array<std::uint32_t, 4> texel_{};
+  // One of the words that the last clock has asked for.
+  std::size_t issued_port_ = 0;
+  std::uint64_t issued_word_ = 0;
+  bool issued_ = false;
+  // The request in stage 2.
+  bool waits_ = false;
+  TexelQuadToken waiting_{};
 };
 
 }  // namespace deburr::rtl::texture

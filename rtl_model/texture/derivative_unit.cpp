@@ -6,14 +6,14 @@
 namespace deburr::rtl::texture {
 namespace {
 
+constexpr std::uint64_t kLargest = (std::uint64_t{1} << 31) - 1;  // U15.16
+
 // Size of a difference in texels: S8.24 x U13 = U20.24, to U15.16 with one bit of overflow, which
 // is bit 31 or above.
 std::uint64_t in_texels(std::int64_t difference, std::uint16_t size) {
   const auto magnitude = static_cast<std::uint64_t>(difference < 0 ? -difference : difference);
   return (magnitude * size + (1u << 7)) >> 8;
 }
-
-constexpr std::uint64_t kLargest = (std::uint64_t{1} << 31) - 1;  // U15.16
 
 std::uint32_t saturate(std::uint64_t texels) {
   return static_cast<std::uint32_t>(texels > kLargest ? kLargest : texels);
@@ -26,37 +26,40 @@ std::int64_t difference(std::int32_t to, std::int32_t from) {
 }  // namespace
 
 DerivativeUnit::DerivativeUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                               ParameterStore& store, FragmentProbe& probe)
-    : Unit(name, clock), store_(store), probe_(probe) {}
+                               ControlRegisters& registers, const Descriptors::Reader& descriptors,
+                               LatencyProbe& probe)
+    : Unit(name, clock), registers_(registers), descriptors_(descriptors), probe_(probe) {}
 
 Activity DerivativeUnit::tick(Cycle cycle) {
-  if (waiting_ == 0) {
-    if (!store_.enabled() || !quads_in.can_pop(cycle)) return kIdle;
-    const unsigned covered = quads_in.front(cycle).coverage & 0xF;
-    if (covered != 0 && !derivatives_out.can_push(cycle)) return kStalledDownstream;
-    quad_ = quads_in.take(cycle);
-    waiting_ = covered;
-    ++quads;
-    for (unsigned lanes = covered; lanes != 0; lanes &= lanes - 1) probe_.entered(cycle);
-    if (covered == 0) return kBusy;
-  } else if (!derivatives_out.can_push(cycle)) {
-    return kStalledDownstream;
-  }
-  const auto lane = static_cast<unsigned>(std::countr_zero(waiting_));
-  waiting_ &= waiting_ - 1;
-  emit(cycle, lane);
+  const bool works = waiting_ != 0 || (registers_.enabled() && quads_in.can_pop(cycle));
+  if (stages_.empty() && !works) return kIdle;
+  if (stages_.leaving() && !derivatives_out.can_push(cycle)) return kStalledDownstream;
+  stages_.step();
+  if (stages_.works(kStages)) derivatives_out.push(cycle, stages_.leave());
+  if (!works) return kBusy;
+  if (waiting_ == 0) take(cycle);
+  if (waiting_ != 0) split(cycle, stages_.enter());
   return kBusy;
 }
 
-void DerivativeUnit::emit(Cycle cycle, unsigned lane) {
-  const TextureState& texture = store_.texture(quad_.texture);
+void DerivativeUnit::take(Cycle cycle) {
+  quad_ = quads_in.take(cycle);
+  waiting_ = quad_.coverage & 0xF;
+  ++quads;
+  for (unsigned lanes = waiting_; lanes != 0; lanes &= lanes - 1) probe_.enters(cycle);
+}
+
+// All stages, one lane: what is between them cannot be seen from outside, since a descriptor stands
+// still while the unit is busy.
+void DerivativeUnit::split(Cycle cycle, DerivativeToken& out) {
+  const auto lane = static_cast<unsigned>(std::countr_zero(waiting_));
+  waiting_ &= waiting_ - 1;
+  const TextureState& texture = descriptors_.read(cycle, quad_.texture);
   const auto& s = quad_.s;
   const auto& t = quad_.t;
   const unsigned row = lane & 2, column = lane & 1;
-
-  DerivativeToken& out = derivatives_out.emplace(cycle);
   out.ticket = {quad_.tag, static_cast<std::uint8_t>(lane), waiting_ == 0, texture.valid,
-                quad_.texture};
+                static_cast<std::uint8_t>(quad_.texture & 15)};
   out.s = s[lane];
   out.t = t[lane];
   out.s_x = difference(s[row + 1], s[row]);
@@ -76,7 +79,7 @@ void DerivativeUnit::emit(Cycle cycle, unsigned lane) {
   if (quad_.clamped >> lane & 1) ++clamped;
   if (!texture.valid) {
     ++invalid;
-    store_.set_sticky(spec::texture::reg::kStatusInvalidTexture);
+    registers_.set_sticky(spec::texture::reg::kStatusInvalidTexture);
   } else if (((s_x | t_x | s_y | t_y) >> 31) != 0) {
     ++saturated;
   }
@@ -84,6 +87,7 @@ void DerivativeUnit::emit(Cycle cycle, unsigned lane) {
 
 void DerivativeUnit::reset() {
   waiting_ = 0;
+  stages_.reset();
   probe_.reset();
 }
 

@@ -2,19 +2,22 @@
 // Splits a quad into its covered fragments and gives each the differences of its own row and
 // column, in texture coordinates and in texels of level 0.
 //
-// Where: head of the AddressUnit. Latency 1, initiation interval one clock a covered lane (a quad
-// without covered lanes: 1); stalled by `downstream`; takes no quad while CONTROL.enable is 0.
-// Formats: S7.24 in; S8.24 and U15.16 out, rounded to nearest, saturated at 2^31 - 1 (counted).
-// Cost: four 33-bit subtractors, four 33 x 13 bit multipliers, one quad of registers. Source: paper
-// 2.2 (1).
+// Where: head of the AddressUnit. Three stages: 1 differences, and the choice of the descriptor;
+// 2 products with the texture's size; 3 magnitude, rounding, saturation. Latency 3, initiation
+// interval one clock a covered lane (a quad without covered lanes: 1); stalled by `downstream`, and
+// then holds still as a whole; takes no quad while CONTROL.enable is 0. Made for 250 MHz; longest
+// path: 33 x 13 bit multiply. Formats: S7.24 in; S8.24 and U15.16 out, rounded to nearest,
+// saturated at 2^31 - 1 (counted). Cost: four 33-bit subtractors, four 33 x 13 bit multipliers,
+// four 46-bit adders, registers of a quad and of two fragments. Source: paper 2.2 (1).
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/latency_probe.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/texture/fragment_probe.h"
-#include "rtl_model/texture/parameter_store.h"
+#include "rtl_model/texture/descriptors.h"
+#include "rtl_model/texture/stages.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/packets.h"
 
@@ -25,8 +28,9 @@ class DerivativeUnit final : public Unit {
   In<spec::texture::Quad> quads_in{"quads_in"};
   Out<DerivativeToken> derivatives_out{"derivatives_out"};
 
-  DerivativeUnit(const sc_core::sc_module_name& name, ClockDomain& clock, ParameterStore& store,
-                 FragmentProbe& probe);
+  DerivativeUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
+                 ControlRegisters& registers, const Descriptors::Reader& descriptors,
+                 LatencyProbe& probe);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -38,13 +42,17 @@ class DerivativeUnit final : public Unit {
   Counter invalid{"invalid", "fragments", "covered fragments of quads with an invalid descriptor"};
 
  private:
-  void emit(Cycle cycle, unsigned lane);
+  static constexpr int kStages = 3;
+  void take(Cycle cycle);
+  void split(Cycle cycle, DerivativeToken& out);
 
-  ParameterStore& store_;
-  FragmentProbe& probe_;
+  ControlRegisters& registers_;
+  Descriptors::Reader descriptors_;
+  LatencyProbe& probe_;
   // Registers.
   spec::texture::Quad quad_{};
   unsigned waiting_ = 0;  // U4, covered lanes of quad_ that have not left yet
+  Stages<DerivativeToken, kStages> stages_;
 };
 
 }  // namespace deburr::rtl::texture

@@ -2,10 +2,13 @@
 // Lines on their way from memory: entries are reserved and released in the order of fills, and
 // filled in any order.
 //
-// Where: inside the MissQueue, read by the DataStage. Timing as of a link: what arrives in clock t
-// can be read from t+1 on, an entry released in t can be reserved from t+1 on; one reservation, one
-// arriving beat and one release a clock. Cost: outstanding x line bits, one write and one read
-// port.
+// Where: inside the MissQueue, read by the DataStage. A memory with a line a word, 1R1W, read a
+// clock before its word is there. The oldest line is read ahead as soon as it has arrived, so that
+// it waits on the output register: what arrives in clock t is read in t+1 and there from t+2 on,
+// then a line a clock. An entry that is released in t can be reserved from t+1 on; one reservation,
+// one arriving beat and one release a clock. Made for 250 MHz; longest path: a 9-bit pointer, then
+// the memory's address. Cost: outstanding x line bits, flip-flops up to 16 kbit and SRAM above, an
+// arrived bit each.
 #pragma once
 
 #include <algorithm>
@@ -15,25 +18,30 @@
 #include <systemc>
 #include <vector>
 
-#include "rtl_model/fabric/clocked.h"
-#include "rtl_model/fabric/storage.h"
+#include "rtl_model/fabric/memory.h"
+#include "rtl_model/fabric/memory_port.h"
 #include "spec/error.h"
 
 namespace deburr::rtl::texture {
 
-class FillBuffer final : public Storage {
+class FillBuffer {
  public:
   FillBuffer(const char* name, std::uint32_t entries, std::uint32_t line_bytes)
-      : Storage(name, entries, line_bytes * 8 + 1, "1R1W"),
-        entries_(entries),
+      : entries_(entries),
         line_bytes_(line_bytes),
+        memory_(name, {.words = entries,
+                       .word_bits = line_bytes * 8,
+                       .kind = MemoryBase::kind_for(std::uint64_t{entries} * line_bytes * 8),
+                       .latency = 1,
+                       .mask_bits = line_bytes > kLineBytes ? kLineBytes * 8 : 0,
+                       .content = "lines on their way from memory"}),
         bytes_(std::size_t{entries} * line_bytes + kPadding),
         arrived_(entries, kNever) {}
 
   // --- Side of the MissQueue ---
   bool can_reserve(Cycle cycle) const { return held(cycle) < entries_; }
   std::uint32_t reserve(Cycle cycle) {
-    DEBURR_CHECK(can_reserve(cycle), std::string(name()) + ": no entry is free");
+    DEBURR_CHECK(can_reserve(cycle), std::string(memory_.name()) + ": no entry is free");
     const auto entry = static_cast<std::uint32_t>(reserved_ % entries_);
     ++reserved_;
     return entry;
@@ -41,15 +49,28 @@ class FillBuffer final : public Storage {
   // A beat of the line; `complete` with its last one.
   void fill(Cycle cycle, std::uint32_t entry, std::uint32_t offset,
             std::span<const std::uint8_t> beat, bool complete) {
-    DEBURR_CHECK(entry < entries_ && arrived_[entry] == kNever,
-                 std::string(name()) + ": entry " + std::to_string(entry) + " filled twice");
+    DEBURR_CHECK(
+        entry < entries_ && arrived_[entry] == kNever,
+        std::string(memory_.name()) + ": entry " + std::to_string(entry) + " filled twice");
+    write_.write(cycle, entry);
     std::copy(beat.begin(), beat.end(), bytes_.begin() + entry * line_bytes_ + offset);
     if (complete) arrived_[entry] = cycle;
   }
 
   // --- Side of the DataStage: the oldest fill only ---
-  bool ready(Cycle cycle) const { return arrived_[oldest()] < cycle; }
-  const std::uint8_t* line() const { return &bytes_[std::size_t{oldest()} * line_bytes_]; }
+  // In every clock, after anything else: reads the next line, if it is there and the output
+  // register is free.
+  void read_ahead(Cycle cycle) {
+    if (read_ != released_ || arrived_[oldest()] >= cycle) return;
+    read_port_.read(cycle, oldest());
+    ++read_;
+    read_at_ = cycle;
+  }
+  bool ready(Cycle cycle) const { return read_ != released_ && read_at_ < cycle; }
+  const std::uint8_t* line(Cycle cycle) const {
+    read_port_.check(cycle, oldest());
+    return &bytes_[std::size_t{oldest()} * line_bytes_];
+  }
   void release(Cycle cycle) {
     arrived_[oldest()] = kNever;
     ++released_;
@@ -60,9 +81,9 @@ class FillBuffer final : public Storage {
   std::uint64_t released(Cycle cycle) const { return released_ - (released_at_ == cycle); }
   // Entries held by fills that had not been used before `cycle`.
   std::uint64_t held(Cycle cycle) const { return reserved_ - released(cycle); }
-  void reset() override {
-    reserved_ = released_ = 0;
-    released_at_ = kNever;
+  void reset() {
+    reserved_ = released_ = read_ = 0;
+    released_at_ = read_at_ = kNever;
     std::fill(arrived_.begin(), arrived_.end(), kNever);
   }
 
@@ -73,10 +94,13 @@ class FillBuffer final : public Storage {
   static constexpr std::size_t kPadding = 3;
 
   std::uint32_t entries_, line_bytes_;
+  Memory<void> memory_;
+  ReadPort<void> read_port_{memory_, "data_stage"};
+  WritePort<void> write_{memory_, "miss_queue"};
   std::vector<std::uint8_t> bytes_;
   std::vector<Cycle> arrived_;  // kNever: not yet
-  std::uint64_t reserved_ = 0, released_ = 0;
-  Cycle released_at_ = kNever;
+  std::uint64_t reserved_ = 0, released_ = 0, read_ = 0;
+  Cycle released_at_ = kNever, read_at_ = kNever;
 };
 
 }  // namespace deburr::rtl::texture

@@ -2,13 +2,15 @@
 // Length of the two sides of a fragment's footprint, the longer and the shorter of them, and the
 // difference of texture coordinates along the longer.
 //
-// Where: after the DerivativeUnit. Latency 1, with `exact` 16; initiation interval 1; stalled by
-// `downstream`. Formats: U15.16 in, U16.16 out, every shift truncates. Cost: `half` and `quarter`
-// two comparators and two adders (one more pair to order the sides); `two_segment` six adders and
-// two comparators; `exact` four 31-bit squarers and 2 x 16 stages of two root bits each.
-// Error against the square root: half 0 to +11.9 %, quarter -11.7 to +3.1 %, two_segment -2.8 to
-// +0.8 %, max -29.3 to 0 %, exact none (TextureRtlFootprint.ErrorIsAsDocumented). Source: paper
-// 1.2, equations 10 and 11.
+// Where: after the DerivativeUnit. Two stages: 1 length of each side, 2 which is longer; with
+// `exact` the 19 of the RootPipeline. Latency 2 or 19, initiation interval 1; stalled by
+// `downstream`, and then holds still as a whole. Made for 250 MHz; longest path: two 32-bit
+// comparisons or additions with a choice, one behind the other (`exact`: RootPipeline). Formats:
+// U15.16 in, U16.16 out, every shift truncates. Cost: `half` and `quarter` two comparators and two
+// adders; `two_segment` four comparators and six adders; one comparator more to order the sides;
+// registers of a fragment. Error against the square root: half 0 to +11.9 %, quarter -11.7 to +3.1
+// %, two_segment -2.8 to +0.8 %, max -29.3 to 0 %, exact none
+// (TextureRtlFootprint.ErrorIsAsDocumented). Source: paper 1.2, equations 10 and 11.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +18,7 @@
 
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/root_pipeline.h"
+#include "rtl_model/texture/stages.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/parameters.h"
 
@@ -31,13 +34,16 @@ class FootprintUnit final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  // The combinational part of every rule but `exact`: U15.16 in, U16.16 out.
+  // One side by every rule but `exact`: U15.16 in, U16.16 out. Of `two_segment` the longer of the
+  // two lines is found in stage 2.
   static std::uint32_t side(spec::texture::FootprintRule rule, std::uint32_t s, std::uint32_t t);
 
  private:
+  static constexpr int kStages = 2;
   Activity tick_exact(Cycle cycle);
 
   spec::texture::FootprintRule rule_;
+  Stages<FootprintToken, kStages> stages_;
   RootPipeline roots_;
 };
 

@@ -3,7 +3,9 @@
 //
 // Where: between TagStage and DataStage. Latency 1 when empty, initiation interval 1; stalled by
 // `downstream` when full. As deep as the memory's latency in clocks, misses overlap with work and
-// cost no time. Cost: depth x request bits of SRAM, 1R1W. Source: Igehy et al., 1998.
+// cost no time. Made for 250 MHz; longest path: that of the FIFO, SRAM read into an output
+// register. Cost: depth x request bits, flip-flops up to 16 kbit and SRAM 1R1W above. Source: Igehy
+// et al., 1998.
 #pragma once
 
 #include <cstdint>
@@ -26,9 +28,6 @@ class LatencyFifo final : public Unit {
   void reset() override { entries.reset(); }
 
   Fifo<CacheToken> entries;  // read by the DataStage
-
- private:
-  static std::uint32_t entry_bits(const spec::texture::Parameters& parameters);
 };
 
 }  // namespace deburr::rtl::texture

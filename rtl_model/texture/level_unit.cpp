@@ -18,9 +18,9 @@ bool is_linear(spec::texture::MinFilter filter) {
 }  // namespace
 
 LevelUnit::LevelUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                     const ParameterStore& store, spec::texture::CountRule count,
+                     const Descriptors::Reader& descriptors, spec::texture::CountRule count,
                      spec::texture::CountCap cap)
-    : Unit(name, clock), store_(store), count_(count), cap_(cap) {}
+    : Unit(name, clock), descriptors_(descriptors), count_(count), cap_(cap) {}
 
 int LevelUnit::count_log2(std::int32_t lb_max, std::int32_t lb_min, int limit) const {
   if (lb_max <= 0) return 0;                                // the footprint is within a texel
@@ -33,23 +33,35 @@ int LevelUnit::count_log2(std::int32_t lb_max, std::int32_t lb_min, int limit) c
 }
 
 Activity LevelUnit::tick(Cycle cycle) {
-  if (!logs_in.can_pop(cycle)) return kIdle;
-  if (!levels_out.can_push(cycle)) return kStalledDownstream;
-  const Log2Token& in = logs_in.front(cycle);
-  LevelToken& out = levels_out.emplace(cycle);
-  out = {in.ticket, in.s, in.t, in.axis_s, in.axis_t, 0, 0, 0, false};
-  logs_in.pop(cycle);
-  if (!out.ticket.valid) return kBusy;
+  const bool arrives = logs_in.can_pop(cycle);
+  if (stages_.empty() && !arrives) return kIdle;
+  if (stages_.leaving() && !levels_out.can_push(cycle)) return kStalledDownstream;
+  stages_.step();
+  if (stages_.works(kStages)) levels_out.push(cycle, stages_.leave());
+  if (arrives) {
+    choose(cycle, logs_in.front(cycle), stages_.enter());
+    logs_in.pop(cycle);
+  }
+  return kBusy;
+}
 
-  const TextureState& texture = store_.texture(out.ticket.texture);
+// All stages: what is between them cannot be seen from outside, since a descriptor stands still
+// while the unit is busy.
+void LevelUnit::choose(Cycle cycle, const Log2Token& in, LevelToken& out) {
+  // Stage 1.
+  const TextureState& texture = descriptors_.read(cycle, in.ticket.texture);
+  out = {in.ticket, in.s, in.t, in.axis_s, in.axis_t, 0, 0, 0, false};
+  if (!out.ticket.valid) return;
   const int count = count_log2(in.lb_max, in.lb_min, texture.max_count_log2);
   out.count_log2 = static_cast<std::uint8_t>(count);
+  // Stage 2.
   std::int32_t l = in.lb_max - (count << kFractionBits) + texture.bias;  // S8.12
   l = std::min(std::max(l, texture.min_lod), texture.max_lod);
+  // Stage 3.
   if (l <= 0) {
     ++magnified;
     out.linear = texture.mag_filter == spec::texture::MagFilter::kLinear;
-    return kBusy;
+    return;
   }
   out.linear = is_linear(texture.min_filter);
   const std::int32_t coarsest = texture.levels - 1;
@@ -72,7 +84,6 @@ Activity LevelUnit::tick(Cycle cycle) {
       break;
     }
   }
-  return kBusy;
 }
 
 }  // namespace deburr::rtl::texture

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: MIT
 // Number of samples, mip level and level fraction of a fragment, and which filter is in force.
 //
-// Where: after the Log2Unit. Latency 1, initiation interval 1, stalled by `downstream`.
-// Formats: S5.12 in; l in S8.12, rounded once to S8.8 for the two-level modes. Cost: nine 20-bit
-// adders or comparators and a few multiplexers; no multiplier, since N is a power of two. Source:
-// paper 1.3, equations 2, 3 and 12; level of detail and modes as in GL.
+// Where: after the Log2Unit. Three stages: 1 number of samples, and the choice of the descriptor;
+// 2 level of detail, clamped; 3 level and fraction. Latency 3, initiation interval 1; stalled by
+// `downstream`, and then holds still as a whole. Made for 250 MHz; longest path: 20-bit addition,
+// then two 20-bit comparisons with a choice. Formats: S5.12 in; l in S8.12, rounded once to S8.8
+// for the two-level modes. Cost: nine 20-bit adders or comparators and a few multiplexers; no
+// multiplier, since N is a power of two; registers of two fragments. Source: paper 1.3, equations
+// 2, 3 and 12; level of detail and modes as in GL.
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/texture/parameter_store.h"
+#include "rtl_model/texture/descriptors.h"
+#include "rtl_model/texture/stages.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/parameters.h"
 
@@ -22,20 +26,24 @@ class LevelUnit final : public Unit {
   In<Log2Token> logs_in{"logs_in"};
   Out<LevelToken> levels_out{"levels_out"};
 
-  LevelUnit(const sc_core::sc_module_name& name, ClockDomain& clock, const ParameterStore& store,
-            spec::texture::CountRule count, spec::texture::CountCap cap);
+  LevelUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
+            const Descriptors::Reader& descriptors, spec::texture::CountRule count,
+            spec::texture::CountCap cap);
   Activity tick(Cycle cycle) override;
-  void reset() override {}
+  void reset() override { stages_.reset(); }
 
   Counter magnified{"magnified", "fragments", "fragments with a level of detail of at most 0"};
   Counter two_levels{"two_levels", "fragments", "fragments that blend two levels"};
 
  private:
+  static constexpr int kStages = 3;
+  void choose(Cycle cycle, const Log2Token& in, LevelToken& out);
   int count_log2(std::int32_t lb_max, std::int32_t lb_min, int limit) const;
 
-  const ParameterStore& store_;
+  Descriptors::Reader descriptors_;
   spec::texture::CountRule count_;
   spec::texture::CountCap cap_;
+  Stages<LevelToken, kStages> stages_;
 };
 
 }  // namespace deburr::rtl::texture

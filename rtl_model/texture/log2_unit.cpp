@@ -39,41 +39,78 @@ std::uint32_t segment_correction(std::uint32_t y) {
   return add_or_subtract(sum, position >> line.fine_shift, line.subtract_fine);
 }
 
-// Fraction of the logarithm by table and linear interpolation, U1.12.
-std::uint32_t interpolated(std::uint32_t y) {
-  const std::uint32_t low = spec::texture::kLog2Table[y >> 6],
-                      high = spec::texture::kLog2Table[(y >> 6) + 1];
-  return low + (((high - low) * (y & 63) + 32) >> 6);
-}
-
 }  // namespace
 
 Log2Unit::Log2Unit(const sc_core::sc_module_name& name, ClockDomain& clock,
                    spec::texture::Log2Rule rule)
-    : Unit(name, clock), rule_(rule) {}
+    : Unit(name, clock), rule_(rule) {
+  if (rule_ != spec::texture::Log2Rule::kExact) return;
+  table_ =
+      std::make_unique<Memory<std::uint16_t>>("table",
+                                              MemoryShape{.words = spec::texture::kLog2Table.size(),
+                                                          .word_bits = 13,
+                                                          .kind = MemoryKind::kRom,
+                                                          .read_ports = 4,
+                                                          .write_ports = 0,
+                                                          .latency = 1,
+                                                          .content = "lb of 1 to 2 in 64ths"},
+                                              spec::texture::kLog2Table);
+  for (const char* user : {"longer_low", "longer_high", "shorter_low", "shorter_high"})
+    reads_.emplace_back(*table_, user);
+}
 
-std::int32_t Log2Unit::log2(spec::texture::Log2Rule rule, std::uint32_t d) {
-  const int zeros = std::countl_zero(d | (d == 0 ? 1u : 0u));      // leading-one detector
-  const std::uint32_t normal = (d | (d == 0 ? 1u : 0u)) << zeros;  // the leading one in bit 31
-  const std::uint32_t y = (normal >> 19) & 0xFFF;                  // U0.12
-  std::uint32_t fraction = y;                                      // U1.12
+// Stage 1.
+Log2Unit::Normal Log2Unit::normalise(std::uint32_t d) {
+  const std::uint32_t at_least_one = d | (d == 0 ? 1u : 0u);
+  const int zeros = std::countl_zero(at_least_one);  // leading-one detector
+  const std::uint32_t normal = at_least_one << zeros;
+  return {15 - zeros, (normal >> 19) & 0xFFF};
+}
+
+// Stage 3.
+std::int32_t Log2Unit::correct(spec::texture::Log2Rule rule, Normal d, Chord chord) {
+  std::uint32_t fraction = d.y;  // U1.12
   switch (rule) {
     case spec::texture::Log2Rule::kMitchell:
       break;
     case spec::texture::Log2Rule::kCorrected:
-      fraction = y + spec::texture::kLog2Correction[y >> 9];
+      fraction = d.y + spec::texture::kLog2Correction[d.y >> 9];
       break;
     case spec::texture::Log2Rule::kSegments:
-      fraction = y + segment_correction(y);
+      fraction = d.y + segment_correction(d.y);
       break;
     case spec::texture::Log2Rule::kExact:
-      fraction = interpolated(y);
+      fraction = chord.low + (((chord.high - chord.low) * (d.y & 63) + 32) >> 6);
       break;
   }
-  return (15 - zeros) * 4096 + static_cast<std::int32_t>(fraction);
+  return d.n * 4096 + static_cast<std::int32_t>(fraction);
+}
+
+std::int32_t Log2Unit::log2(spec::texture::Log2Rule rule, std::uint32_t d) {
+  const Normal normal = normalise(d);
+  const std::size_t i = normal.y >> 6;
+  return correct(rule, normal, {spec::texture::kLog2Table[i], spec::texture::kLog2Table[i + 1]});
 }
 
 Activity Log2Unit::tick(Cycle cycle) {
+  if (rule_ == spec::texture::Log2Rule::kMitchell) return tick_mitchell(cycle);
+  const bool arrives = footprints_in.can_pop(cycle);
+  if (stages_.empty() && !arrives) return kIdle;
+  if (stages_.leaving() && !logs_out.can_push(cycle)) return kStalledDownstream;
+  stages_.step();
+  if (stages_.works(3)) logs_out.push(cycle, correct_both(stages_.leave()));
+  if (stages_.works(2)) fetch(cycle, stages_.at(2));
+  if (arrives) {
+    Entry& entry = stages_.enter();
+    entry.token = footprints_in.take(cycle);
+    entry.longer = normalise(entry.token.d_max);
+    entry.shorter = normalise(entry.token.d_min);
+    if (table_) look_up(cycle, entry);
+  }
+  return kBusy;
+}
+
+Activity Log2Unit::tick_mitchell(Cycle cycle) {
   if (!footprints_in.can_pop(cycle)) return kIdle;
   if (!logs_out.can_push(cycle)) return kStalledDownstream;
   const FootprintToken& in = footprints_in.front(cycle);
@@ -81,6 +118,36 @@ Activity Log2Unit::tick(Cycle cycle) {
       in.ticket, in.s, in.t, in.axis_s, in.axis_t, log2(rule_, in.d_max), log2(rule_, in.d_min)};
   footprints_in.pop(cycle);
   return kBusy;
+}
+
+// The address goes into the ROM at the end of stage 1.
+void Log2Unit::look_up(Cycle cycle, const Entry& entry) {
+  std::size_t port = 0;
+  for (const Normal& d : {entry.longer, entry.shorter})
+    for (const std::uint32_t successor : {0U, 1U})
+      reads_[port++].read(cycle, (d.y >> 6) + successor);
+}
+
+// Stage 2.
+void Log2Unit::fetch(Cycle cycle, Entry& entry) {
+  if (!table_) return;
+  const auto chord = [&](const Normal& d, std::size_t port) -> Chord {
+    const std::uint32_t i = d.y >> 6;
+    return {reads_[port].at(cycle, i), reads_[port + 1].at(cycle, i + 1)};
+  };
+  entry.longer_chord = chord(entry.longer, 0);
+  entry.shorter_chord = chord(entry.shorter, 2);
+}
+
+Log2Token Log2Unit::correct_both(const Entry& entry) const {
+  const FootprintToken& token = entry.token;
+  return {token.ticket,
+          token.s,
+          token.t,
+          token.axis_s,
+          token.axis_t,
+          correct(rule_, entry.longer, entry.longer_chord),
+          correct(rule_, entry.shorter, entry.shorter_chord)};
 }
 
 }  // namespace deburr::rtl::texture

@@ -2,18 +2,27 @@
 // Binary logarithms of the two sides of the footprint: leading one plus the bits below it, and a
 // correction by rule.
 //
-// Where: after the FootprintUnit. Latency 1, initiation interval 1, stalled by `downstream`.
-// Formats: U16.16 in, S5.12 out; the fraction is truncated. Cost, each of two: a 32-bit leading-one
-// detector and a shifter (`mitchell`: nothing else, n and y only stand side by side); `corrected`
-// an 8-entry table and a 13-bit adder; `segments` three adders; `exact` a 65-entry table read
-// twice, a 7 x 6 bit multiplier and two adders. Largest error: 0.0864, 0.0228, 0.0057, 0.0006
-// (TextureRtlLog2.ErrorIsAsDocumented). Source: paper 1.4, equation 13.
+// Where: after the FootprintUnit. `mitchell` is one stage; the other rules have three: 1 leading
+// one and shift, 2 table, 3 correction. Latency 1 or 3, initiation interval 1; stalled by
+// `downstream`, and then holds still as a whole. Made for 250 MHz; longest path: 32-bit leading-one
+// detector, then a shifter of five levels; `exact`: 7 x 6 bit multiply, then two 13-bit additions.
+// Formats: U16.16 in, S5.12 out; the fraction is truncated. Cost, each of two sides: a 32-bit
+// leading-one detector and a shifter (`mitchell`: nothing else, n and y only stand side by side);
+// `corrected` a choice of eight constants and a 13-bit adder; `segments` three adders; `exact` a 7
+// x 6 bit multiplier and two adders, and for both sides the ROM `table`, 65 x 13 bits, 4R. Largest
+// error: 0.0864, 0.0228, 0.0057, 0.0006 (TextureRtlLog2.ErrorIsAsDocumented). Source: paper 1.4,
+// equation 13.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <systemc>
+#include <vector>
 
+#include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/texture/stages.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/parameters.h"
 
@@ -26,13 +35,38 @@ class Log2Unit final : public Unit {
 
   Log2Unit(const sc_core::sc_module_name& name, ClockDomain& clock, spec::texture::Log2Rule rule);
   Activity tick(Cycle cycle) override;
-  void reset() override {}
+  void reset() override { stages_.reset(); }
 
-  // The combinational part: lb d in S5.12 of d in U16.16.
+  // All stages at once: lb d in S5.12 of d in U16.16.
   static std::int32_t log2(spec::texture::Log2Rule rule, std::uint32_t d);
 
  private:
+  static constexpr int kStages = 3;
+  // d as a power of two and what is left of it.
+  struct Normal {
+    std::int32_t n;   // S5
+    std::uint32_t y;  // U0.12
+  };
+  // Neighbouring entries of the table, U1.12.
+  struct Chord {
+    std::uint32_t low, high;
+  };
+  struct Entry {
+    FootprintToken token;
+    Normal longer, shorter;
+    Chord longer_chord, shorter_chord;  // `exact` alone
+  };
+  static Normal normalise(std::uint32_t d);
+  static std::int32_t correct(spec::texture::Log2Rule rule, Normal d, Chord chord);
+  Activity tick_mitchell(Cycle cycle);
+  void look_up(Cycle cycle, const Entry& entry);
+  void fetch(Cycle cycle, Entry& entry);
+  Log2Token correct_both(const Entry& entry) const;
+
   spec::texture::Log2Rule rule_;
+  Stages<Entry, kStages> stages_;
+  std::unique_ptr<Memory<std::uint16_t>> table_;  // `exact` alone
+  std::vector<ReadPort<std::uint16_t>> reads_;    // low and high of the longer, of the shorter side
 };
 
 }  // namespace deburr::rtl::texture

@@ -2,31 +2,32 @@
 #include "rtl_model/texture/miss_queue.h"
 
 #include <algorithm>
-#include <bit>
 #include <span>
+#include <string>
+
+#include "spec/texture/registers.h"
 
 namespace deburr::rtl::texture {
-namespace {
-
-std::uint32_t line_number_bits(const spec::texture::Parameters& p) {
-  return 32 - static_cast<std::uint32_t>(
-                  std::countr_zero(static_cast<std::uint32_t>(p.cache_line_bytes)));
-}
-
-}  // namespace
-
 MissQueue::MissQueue(const sc_core::sc_module_name& name, ClockDomain& clock,
-                     const spec::texture::Parameters& p, ParameterStore& store)
+                     const spec::texture::Parameters& p, ControlRegisters& registers)
     : Unit(name, clock),
       fills("fill_buffer", static_cast<std::uint32_t>(p.cache_outstanding),
             static_cast<std::uint32_t>(p.cache_line_bytes)),
-      store_(store),
+      registers_(registers),
       line_bytes_(static_cast<std::uint32_t>(p.cache_line_bytes)),
-      lines_("lines", static_cast<std::uint32_t>(p.cache_outstanding), line_number_bits(p)),
+      lines_("lines", {.words = static_cast<std::uint64_t>(p.cache_outstanding),
+                       .word_bits = 32 - log2_of(p.cache_line_bytes),
+                       .kind = MemoryKind::kFlops,
+                       .read_ports = 1,
+                       .write_ports = 4,
+                       .latency = 0,
+                       .content = "lines that wait to be sent"}),
       failed_(static_cast<std::size_t>(p.cache_outstanding)),
       fill_buffer_full_(
           declare_stall("fill_buffer_full", "every entry of the fill buffer is held")),
-      wait_memory_(declare_stall("wait_memory", "waits for lines, has nothing else to do")) {}
+      wait_memory_(declare_stall("wait_memory", "waits for lines, has nothing else to do")) {
+  for (int i = 0; i < 4; ++i) new_lines_.emplace_back(lines_, "line_" + std::to_string(i));
+}
 
 Activity MissQueue::tick(Cycle cycle) {
   const bool received = receive(cycle);
@@ -46,7 +47,7 @@ bool MissQueue::receive(Cycle cycle) {
   if (response.last && failed_[entry]) {
     failed_[entry] = false;
     ++memory_errors;
-    store_.set_sticky(spec::texture::reg::kStatusMemoryError);
+    registers_.set_sticky(spec::texture::reg::kStatusMemoryError);
   }
   // With an error, the port gives zeros.
   fills.fill(cycle, entry, response.line * kLineBytes,
@@ -60,7 +61,7 @@ Activity MissQueue::issue(Cycle cycle) {
   if (!fills.can_reserve(cycle)) return fill_buffer_full_;
   if (!requests_out.can_push(cycle)) return kStalledDownstream;
   MemoryRequest& request = requests_out.emplace(cycle);
-  request.address = std::uint64_t{lines_.line[head_]} * line_bytes_;
+  request.address = std::uint64_t{next_line_.now(cycle, head_)} * line_bytes_;
   request.tag = fills.reserve(cycle);
   request.lines = static_cast<std::uint16_t>(std::max(line_bytes_ / kLineBytes, 1u));
   request.write = false;
@@ -79,7 +80,7 @@ bool MissQueue::accept(Cycle cycle) {
   if (waiting_ + missed.count > places) return false;
   for (std::uint32_t i = 0; i < missed.count; ++i) {
     const std::uint32_t place = head_ + waiting_++;
-    lines_.line[place < places ? place : place - places] = missed.line[i];
+    new_lines_[i].write(cycle, place < places ? place : place - places, missed.line[i]);
   }
   most_waiting.raise_to(waiting_);
   misses_in.pop(cycle);

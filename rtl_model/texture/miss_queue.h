@@ -6,18 +6,20 @@
 // issue until the DataStage has used the line; there are as many entries as queue places. Stalls:
 // `fill_buffer_full` (all entries held), `downstream` (the memory port takes nothing),
 // `wait_memory` (lines are under way or held, nothing else to do). A line that memory answers with
-// an error reads as zero, is counted, and sets a sticky status bit. Cost: outstanding x (line
-// number + line) bits. Source: Igehy et al., 1998.
+// an error reads as zero, is counted, and sets a sticky status bit. Made for 250 MHz; longest path:
+// a choice of 1 in 256 lines (64 by default), nothing behind it. Cost: the queue, flip-flops of
+// outstanding x line number, 1R4W; the FillBuffer. Source: Igehy et al., 1998.
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/control_registers.h"
+#include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/fill_buffer.h"
-#include "rtl_model/texture/parameter_store.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/parameters.h"
 
@@ -30,7 +32,7 @@ class MissQueue final : public Unit {
   In<MemoryResponse> responses_in{"responses_in"};
 
   MissQueue(const sc_core::sc_module_name& name, ClockDomain& clock,
-            const spec::texture::Parameters& parameters, ParameterStore& store);
+            const spec::texture::Parameters& parameters, ControlRegisters& registers);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -46,18 +48,11 @@ class MissQueue final : public Unit {
   Activity issue(Cycle cycle);
   bool accept(Cycle cycle);
 
-  // Storage only; the ring's pointers are below.
-  class Lines final : public Storage {
-   public:
-    Lines(const char* name, std::uint32_t words, std::uint32_t bits)
-        : Storage(name, words, bits, "1R4W"), line(words) {}
-    void reset() override {}
-    std::vector<std::uint32_t> line;  // U27
-  };
-
-  ParameterStore& store_;
+  ControlRegisters& registers_;
   std::uint32_t line_bytes_;
-  Lines lines_;
+  Memory<std::uint32_t> lines_;  // line numbers; the ring's pointers are below
+  ReadPort<std::uint32_t> next_line_{lines_, "issue"};
+  std::vector<WritePort<std::uint32_t>> new_lines_;
   std::uint32_t head_ = 0, waiting_ = 0;  // U8, oldest line and number of lines
   std::vector<bool> failed_;              // a beat of the line in this entry had an error
   Activity fill_buffer_full_, wait_memory_;

@@ -5,8 +5,13 @@
 
 namespace deburr::rtl::texture {
 
-RootPipeline::Root RootPipeline::start(std::uint32_t s, std::uint32_t t) {
-  return {std::uint64_t{s} * s + std::uint64_t{t} * t, 0, 0};
+RootPipeline::Root RootPipeline::squares(std::uint32_t s, std::uint32_t t) {
+  return {std::uint64_t{s} * s, std::uint64_t{t} * t, 0};
+}
+
+void RootPipeline::sum(Root& r) {
+  r.radicand += r.remainder;
+  r.remainder = 0;
 }
 
 void RootPipeline::two_digits(Root& r) {
@@ -22,15 +27,9 @@ void RootPipeline::two_digits(Root& r) {
 
 bool RootPipeline::step(const DerivativeToken* next, FootprintToken* result) {
   const bool leaves = leaving();
-  head_ = (head_ - 1) & 15;  // what was stage k's is now stage k + 1's
-  occupied_ <<= 1;
-  for (int stage = 1; stage <= kRegisters; ++stage)
-    if (occupied_ >> stage & 1) {
-      two_digits(entry(stage).x);
-      two_digits(entry(stage).y);
-    }
+  stages_.step();
   if (leaves) {
-    const Entry& done = entry(kRegisters);
+    const Entry& done = stages_.leave();
     const bool x_is_major = done.x.root >= done.y.root;
     const DerivativeToken& token = done.token;
     *result = {token.ticket,
@@ -40,15 +39,19 @@ bool RootPipeline::step(const DerivativeToken* next, FootprintToken* result) {
                x_is_major ? token.t_x : token.t_y,
                std::max(done.x.root, done.y.root),
                std::min(done.x.root, done.y.root)};
-    occupied_ &= ~(1u << kRegisters);
   }
-  if (next) {
-    Entry& first = entry(0);
-    first = {*next, start(next->size_s_x, next->size_t_x), start(next->size_s_y, next->size_t_y)};
-    two_digits(first.x);
-    two_digits(first.y);
-    occupied_ |= 1;
+  for (int stage = 3; stage < 3 + kDigitStages; ++stage)
+    if (stages_.works(stage)) {
+      two_digits(stages_.at(stage).x);
+      two_digits(stages_.at(stage).y);
+    }
+  if (stages_.works(2)) {
+    sum(stages_.at(2).x);
+    sum(stages_.at(2).y);
   }
+  if (next)
+    stages_.enter() = {*next, squares(next->size_s_x, next->size_t_x),
+                       squares(next->size_s_y, next->size_t_y)};
   return leaves;
 }
 

@@ -9,23 +9,33 @@ SampleWalker::SampleWalker(const sc_core::sc_module_name& name, ClockDomain& clo
                            spec::texture::Kernel kernel, std::int32_t spread)
     : Unit(name, clock), kernel_(kernel), spread_(spread) {}
 
+// From the last stage to the first: each takes what its predecessor left in the clock before.
 Activity SampleWalker::tick(Cycle cycle) {
-  if (!walking_ && !levels_in.can_pop(cycle)) return kIdle;
-  if (!samples_out.can_push(cycle)) return kStalledDownstream;
-  if (!walking_) start(levels_in.take(cycle));
-  emit(cycle);
-  return kBusy;
+  const bool arrives = levels_in.can_pop(cycle);
+  if (!walking_ && !scaled_.occupied && !arrives) return kIdle;
+  const bool stalled = walking_ && !samples_out.can_push(cycle);
+  if (walking_ && !stalled) emit(cycle);
+  if (scaled_.occupied && !walking_) start();
+  if (arrives && !scaled_.occupied) scale(levels_in.take(cycle));
+  return stalled ? kStalledDownstream : kBusy;
 }
 
-void SampleWalker::start(const LevelToken& fragment) {
-  fragment_ = fragment;
+// Stage 1.
+void SampleWalker::scale(const LevelToken& fragment) {
+  scaled_ = {true, fragment, fragment.axis_s * spread_, fragment.axis_t * spread_};
+}
+
+// Stage 2.
+void SampleWalker::start() {
+  scaled_.occupied = false;
+  fragment_ = scaled_.fragment;
   walking_ = true;
   second_level_ = false;
   index_ = 0;
-  step_s_ = fragment.axis_s * spread_;
-  step_t_ = fragment.axis_t * spread_;
-  walk_s_ = step_s_ - (step_s_ << fragment.count_log2);  // (1 - N) x spread x axis
-  walk_t_ = step_t_ - (step_t_ << fragment.count_log2);
+  step_s_ = scaled_.step_s;
+  step_t_ = scaled_.step_t;
+  walk_s_ = step_s_ - (step_s_ << fragment_.count_log2);  // (1 - N) x spread x axis
+  walk_t_ = step_t_ - (step_t_ << fragment_.count_log2);
 }
 
 // Weights of the tent: 1, 3, 5, ... and back.
@@ -36,6 +46,7 @@ unsigned SampleWalker::kernel_weight() const {
   return 2 * std::min(index_, mirrored) + 1;
 }
 
+// Stage 3.
 void SampleWalker::emit(Cycle cycle) {
   const unsigned n = fragment_.count_log2;
   const unsigned drop = 7 + n;

@@ -2,11 +2,15 @@
 // Walks N samples along the major axis of the footprint and emits a bilinear request a clock, one
 // or two a sample.
 //
-// Where: after the LevelUnit. Latency 1, initiation interval N x (1 or 2) clocks a fragment (1 for
-// an invalid descriptor), no clock between two fragments; stalled by `downstream`. Formats: axis
+// Where: after the LevelUnit. Three stages: 1 spread times axis, 2 offset of the first sample, 3 a
+// request a clock. Latency 3 to the first request, initiation interval N x (1 or 2) clocks a
+// fragment (1 for an invalid descriptor), no clock between two fragments: the next ones are
+// prepared meanwhile. Stalled by `downstream`. Made for 250 MHz; longest path: 33 x 8 bit multiply,
+// or a 46-bit rounding addition, a choice of 1 in 5 shifts and a 34-bit addition. Formats: axis
 // S8.24, spread U1.6, offset rounded to S9.24, position exact in S9.24. Cost: two 33 x 8 bit
-// multipliers, two 46-bit accumulators that step by twice the product, two shifters, two adders.
-// Source: paper 2.2 (4); kernels and spread are ours.
+// multipliers, two 46-bit subtractors, two 46-bit accumulators that step by twice the product, four
+// shifters, two adders, registers of three fragments. Source: paper 2.2 (4); kernels and spread are
+// ours.
 #pragma once
 
 #include <cstdint>
@@ -26,18 +30,26 @@ class SampleWalker final : public Unit {
   SampleWalker(const sc_core::sc_module_name& name, ClockDomain& clock,
                spec::texture::Kernel kernel, std::int32_t spread);
   Activity tick(Cycle cycle) override;
-  void reset() override { walking_ = false; }
+  void reset() override { scaled_.occupied = walking_ = false; }
 
   Counter samples{"samples", "samples", "samples along major axes, one or two requests each"};
 
  private:
-  void start(const LevelToken& fragment);
+  // After stage 1.
+  struct Scaled {
+    bool occupied = false;
+    LevelToken fragment;
+    std::int64_t step_s, step_t;  // S9.30, spread x axis
+  };
+  void scale(const LevelToken& fragment);
+  void start();
   void emit(Cycle cycle);
   unsigned kernel_weight() const;
 
   spec::texture::Kernel kernel_;
   std::int32_t spread_;  // U1.6
   // Registers.
+  Scaled scaled_{};
   LevelToken fragment_{};
   bool walking_ = false;                  // fragment_ has requests left
   bool second_level_ = false;             // the next request is the coarser level of its sample

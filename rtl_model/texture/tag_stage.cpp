@@ -2,7 +2,7 @@
 #include "rtl_model/texture/tag_stage.h"
 
 #include <algorithm>
-#include <bit>
+#include <span>
 
 namespace deburr::rtl::texture {
 
@@ -11,82 +11,115 @@ TagStage::TagStage(const sc_core::sc_module_name& name, ClockDomain& clock,
     : Unit(name, clock),
       fills_(fills),
       tags_("tags", p),
-      line_log2_(static_cast<std::uint32_t>(
-          std::countr_zero(static_cast<std::uint32_t>(p.cache_line_bytes)))),
+      line_log2_(log2_of(p.cache_line_bytes)),
+      turn_(turn_bytes(static_cast<std::uint32_t>(p.cache_line_bytes))),
       fill_number_(tags_.slots()),
       miss_queue_full_(declare_stall("miss_queue_full", "a line is missing and cannot be queued")),
       fifo_full_(declare_stall("fifo_full", "the latency FIFO takes nothing")) {}
 
 Activity TagStage::tick(Cycle cycle) {
-  if (!texels_in.can_pop(cycle)) return kIdle;
-  if (!requests_out.can_push(cycle)) return fifo_full_;
-  const TexelToken& in = texels_in.front(cycle);
-  const bool queue_ready = misses_out.can_push(cycle);
-  if (!queue_ready && in.ticket.valid && would_miss(in)) return miss_queue_full_;
-
-  CacheToken& out = requests_out.emplace(cycle);
-  out.ticket = in.ticket;
-  out.control = in.control;
-  out.fills = 0;
-  out.bank = in.bank;
-  out.column_conflict = out.row_conflict = false;
-  if (in.ticket.valid) {
-    out.column_conflict = in.column_conflict;
-    out.row_conflict = in.row_conflict;
-    MissToken missed{};
-    look_up(cycle, in, out, missed);
-    if (out.fills != 0) {
-      missed.count = out.fills;
-      misses_out.push(cycle, missed);
-    }
+  const bool arrives = texels_in.can_pop(cycle);
+  if (occupied_) {
+    if (!requests_out.can_push(cycle)) return fifo_full_;
+    const bool valid = request_.token.ticket.valid;
+    if (valid && !misses_out.can_push(cycle) && would_miss()) return miss_queue_full_;
+    CacheToken& out = requests_out.emplace(cycle);
+    out.ticket = request_.token.ticket;
+    out.control = request_.token.control;
+    out.fills = 0;
+    if (valid) look_up(cycle, out);
+    occupied_ = false;
+  } else if (!arrives) {
+    return kIdle;
   }
-  texels_in.pop(cycle);
+  if (arrives) read_sets(cycle);
   return kBusy;
 }
 
-// Up to four distinct lines, each looked up once, in the order of their first use.
-void TagStage::look_up(Cycle cycle, const TexelToken& in, CacheToken& out, MissToken& missed) {
-  ++requests;
-  const std::uint32_t offset_mask = (1u << line_log2_) - 1;
-  std::array<std::uint32_t, 4> line, base;
-  for (std::size_t i = 0; i < 4; ++i) {
-    line[i] = in.address[i] >> line_log2_;
+// Stage 1: a port for each distinct line.
+void TagStage::read_sets(Cycle cycle) {
+  Request& r = request_;
+  r.token = texels_in.front(cycle);
+  texels_in.pop(cycle);
+  occupied_ = true;
+  if (!r.token.ticket.valid) return;
+  const auto& address = r.token.address;
+  r.line[0] = address[0] >> line_log2_;
+  tags_.read(cycle, 0, r.line[0]);
+  r.one_line =
+      ((address[0] ^ address[1]) | (address[0] ^ address[2]) | (address[0] ^ address[3])) >>
+          line_log2_ ==
+      0;
+  if (r.one_line) return;
+  r.first[0] = 0;
+  for (std::size_t i = 1; i < 4; ++i) {
+    r.line[i] = address[i] >> line_log2_;
     std::size_t same = 0;
-    while (line[same] != line[i]) ++same;
-    if (same != i) {
-      base[i] = base[same];
-      out.source[i] = out.source[same];
-    } else if (const std::uint32_t slot = tags_.find(line[i]); slot != TagStore::kAbsent) {
-      tags_.use(slot);
-      fill_number_[slot] > fills_.released(cycle) ? ++merged : ++hits;
-      base[i] = slot << line_log2_;
-      out.source[i] = 0;
-    } else {
-      const TagStore::Place place = tags_.allocate(line[i]);
-      ++misses;
-      if (place.evicted) ++evictions;
-      fill_number_[place.slot] = ++ordered_;
-      missed.line[out.fills] = line[i];
-      out.victim[out.fills] = static_cast<std::uint16_t>(place.slot);
-      base[i] = 0;
-      out.source[i] = ++out.fills;
-    }
-    out.place[i] = base[i] | (in.address[i] & offset_mask);
+    while (r.line[same] != r.line[i]) ++same;
+    r.first[i] = static_cast<std::uint8_t>(same);
+    if (same == i) tags_.read(cycle, i, r.line[i]);
   }
+}
+
+// Stage 2: up to four distinct lines, each looked up once, in the order of their first use.
+void TagStage::look_up(Cycle cycle, CacheToken& out) {
+  ++requests;
+  const Request& r = request_;
+  const std::uint32_t offset_mask = (1u << line_log2_) - 1;
+  MissToken missed{};
+  const auto place = [&](std::size_t i, const Line& line) {
+    out.place[i] = line.base | ((r.token.address[i] & offset_mask) ^ line.turn);
+    out.source[i] = line.source;
+  };
+  if (r.one_line) {
+    const Line line = look_up_line(cycle, 0, out, missed);
+    for (std::size_t i = 0; i < 4; ++i) place(i, line);
+  } else {
+    std::array<Line, 4> line{};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t first = r.first[i];
+      line[i] = first == i ? look_up_line(cycle, i, out, missed) : line[first];
+      place(i, line[i]);
+    }
+  }
+  tags_.commit(cycle);
+  if (out.fills == 0) return;
+  missed.count = out.fills;
+  misses_out.push(cycle, missed);
+}
+
+TagStage::Line TagStage::look_up_line(Cycle cycle, std::size_t texel, CacheToken& out,
+                                      MissToken& missed) {
+  const std::uint32_t line = request_.line[texel];
+  tags_.check(cycle, texel, line);
+  if (const std::uint32_t slot = tags_.find(line); slot != TagStore::kAbsent) {
+    tags_.use(slot);
+    fill_number_[slot] > fills_.released(cycle) ? ++merged : ++hits;
+    return {slot << line_log2_, tags_.turned(slot) ? turn_ : 0, 0};
+  }
+  const bool turned = request_.token.turned[texel >> 1];
+  const TagStore::Place place = tags_.allocate(line, turned);
+  ++misses;
+  if (place.evicted) ++evictions;
+  fill_number_[place.slot] = ++ordered_;
+  missed.line[out.fills] = line;
+  out.victim[out.fills] = static_cast<std::uint16_t>(place.slot);
+  out.turned[out.fills] = turned;
+  return {0, 0, ++out.fills};
 }
 
 // Without changing anything. A request that misses nothing allocates nothing, so each line can be
 // looked at by itself.
-bool TagStage::would_miss(const TexelToken& in) const {
-  return std::any_of(in.address.begin(), in.address.end(), [&](std::uint32_t address) {
-    return tags_.find(address >> line_log2_) == TagStore::kAbsent;
-  });
+bool TagStage::would_miss() const {
+  return std::any_of(request_.line.begin(), request_.line.end(),
+                     [&](std::uint32_t line) { return tags_.find(line) == TagStore::kAbsent; });
 }
 
 void TagStage::reset() {
   tags_.reset();
   std::fill(fill_number_.begin(), fill_number_.end(), 0);
   ordered_ = 0;
+  occupied_ = false;
 }
 
 }  // namespace deburr::rtl::texture

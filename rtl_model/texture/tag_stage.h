@@ -2,11 +2,14 @@
 // Looks up the up to four lines of a bilinear request, allocates those that miss, and sends them to
 // the MissQueue.
 //
-// Where: head of the TextureCache. Latency 1, initiation interval 1. Stalls: `miss_queue_full` (the
+// Where: head of the TextureCache. Two stages: 1 distinct lines, read of their sets; 2 look-up and
+// allocation, one line after the other. Latency 2, initiation interval 1: what a request changes
+// reaches the sets that the next one reads in the same clock. Stalls: `miss_queue_full` (the
 // request misses and the MissQueue takes nothing), `fifo_full` (the LatencyFifo takes nothing).
-// Tags change when a fill is ordered, data when it is used: see Order of fills in
-// docs/texture_unit.md. Cost: TagStore, six line comparators. Source: Igehy, Eldridge, Proudfoot,
-// "Prefetching in a texture cache architecture", 1998.
+// Made for 250 MHz; longest path: TagStore. Tags change when a fill is ordered, data when it is
+// used: see Order of fills in docs/texture_unit.md. Cost: TagStore, six line comparators, registers
+// of a request. Source: Igehy, Eldridge, Proudfoot, "Prefetching in a texture cache architecture",
+// 1998.
 #pragma once
 
 #include <array>
@@ -43,17 +46,35 @@ class TagStage final : public Unit {
   Counter evictions{"evictions", "lines", "valid lines that were replaced"};
 
  private:
-  bool would_miss(const TexelToken& in) const;
-  void look_up(Cycle cycle, const TexelToken& in, CacheToken& out, MissToken& missed);
+  // After stage 1.
+  struct Request {
+    TexelToken token;
+    std::array<std::uint32_t, 4> line;  // U27
+    std::array<std::uint8_t, 4> first;  // U2, the first texel in the same line
+    bool one_line;
+  };
+  void read_sets(Cycle cycle);
+  bool would_miss() const;
+  void look_up(Cycle cycle, CacheToken& out);
+  struct Line {
+    std::uint32_t base;   // of its slot; 0: it missed
+    std::uint32_t turn;   // what its bytes change places by
+    std::uint8_t source;  // as in CacheToken
+  };
+  Line look_up_line(Cycle cycle, std::size_t texel, CacheToken& out, MissToken& missed);
 
   const FillBuffer& fills_;
   TagStore tags_;
   std::uint32_t line_log2_;
+  std::uint32_t turn_;  // bytes
   // Number of the last fill ordered for each slot, counted from 1: a line is under way until that
-  // many fills have been used.
+  // many fills have been used. For the counters: an instrument, no hardware.
   std::vector<std::uint64_t> fill_number_;
   std::uint64_t ordered_ = 0;
   Activity miss_queue_full_, fifo_full_;
+  // Registers.
+  Request request_{};
+  bool occupied_ = false;
 };
 
 }  // namespace deburr::rtl::texture

@@ -2,36 +2,54 @@
 #include "rtl_model/texture/tag_store.h"
 
 #include <algorithm>
-#include <bit>
+#include <string>
+
+#include "rtl_model/texture/tokens.h"
 
 namespace deburr::rtl::texture {
 namespace {
 
-std::uint32_t log2_of(std::int32_t power_of_two) {
-  return static_cast<std::uint32_t>(std::countr_zero(static_cast<std::uint32_t>(power_of_two)));
-}
 std::uint32_t sets_log2(const spec::texture::Parameters& p) {
   return log2_of(p.cache_bytes) - log2_of(p.cache_line_bytes) - log2_of(p.cache_ways);
 }
-// Tag, valid bit and age of each way.
+// Tag, valid bit and turned bit of each way; a bit for each pair of ways.
 std::uint32_t set_bits(const spec::texture::Parameters& p) {
+  const auto ways = static_cast<std::uint32_t>(p.cache_ways);
   const std::uint32_t tag = 32 - log2_of(p.cache_line_bytes) - sets_log2(p);
-  const std::uint32_t age =
-      p.cache_replacement == spec::texture::Replacement::kRandom ? 0 : log2_of(p.cache_ways);
-  return static_cast<std::uint32_t>(p.cache_ways) * (tag + 1 + age);
+  const bool ordered = p.cache_replacement != spec::texture::Replacement::kRandom;
+  return ways * (tag + 2) + (ordered ? ways * (ways - 1) / 2 : 0);
 }
 
 }  // namespace
 
 TagStore::TagStore(const char* name, const spec::texture::Parameters& p)
-    : Storage(name, std::uint64_t{1} << sets_log2(p), set_bits(p), "4R4W"),
-      replacement_(p.cache_replacement),
+    : replacement_(p.cache_replacement),
       set_mask_((1u << sets_log2(p)) - 1),
       way_mask_(static_cast<std::uint32_t>(p.cache_ways) - 1),
       ways_log2_(log2_of(p.cache_ways)),
+      memory_(name, {.words = std::uint64_t{1} << sets_log2(p),
+                     .word_bits = set_bits(p),
+                     .kind = MemoryKind::kFlops,
+                     .read_ports = kPorts,
+                     .write_ports = kPorts,
+                     .latency = 1,
+                     .read_during_write = ReadDuringWrite::kNewWord,
+                     .content = "tags, and the order in which the ways of a set were used"}),
       tags_(std::size_t{1} << (sets_log2(p) + ways_log2_)),
+      turned_(tags_.size()),
       age_(tags_.size()) {
+  for (std::size_t i = 0; i < kPorts; ++i) {
+    reads_.emplace_back(memory_, "line_" + std::to_string(i));
+    writes_.emplace_back(memory_, "line_" + std::to_string(i));
+  }
   reset();
+}
+
+// A set is written once, whatever its look-ups did.
+void TagStore::change(std::uint32_t set) {
+  for (std::size_t i = 0; i < changes_; ++i)
+    if (changed_[i] == set) return;
+  changed_[changes_++] = set;
 }
 
 void TagStore::make_youngest(std::uint32_t slot) {
@@ -40,6 +58,7 @@ void TagStore::make_youngest(std::uint32_t slot) {
   for (std::uint32_t way = 0; way <= way_mask_; ++way)
     if (ages[way] < limit) ++ages[way];
   age_[slot] = 0;
+  change(slot >> ways_log2_);
 }
 
 // Among valid ways only.
@@ -54,13 +73,14 @@ std::uint32_t TagStore::victim(std::uint32_t first) {
   return slot;
 }
 
-TagStore::Place TagStore::allocate(std::uint32_t line) {
+TagStore::Place TagStore::allocate(std::uint32_t line, bool turned) {
   const std::uint32_t first = (line & set_mask_) << ways_log2_;
   std::uint32_t slot = first;
   while (slot <= first + way_mask_ && tags_[slot] != kInvalid) ++slot;
   const bool evicted = slot > first + way_mask_;
   if (evicted) slot = victim(first);
   tags_[slot] = line;
+  turned_[slot] = turned ? 1 : 0;
   make_youngest(slot);  // for `fifo`, the age counts from the fill, since hits do not change it
   return {slot, evicted};
 }
@@ -69,6 +89,7 @@ void TagStore::invalidate() { std::fill(tags_.begin(), tags_.end(), kInvalid); }
 
 void TagStore::reset() {
   invalidate();
+  changes_ = 0;
   random_ = kRandomStart;
   for (std::uint32_t slot = 0; slot < age_.size(); ++slot)
     age_[slot] = static_cast<std::uint8_t>(slot & way_mask_);

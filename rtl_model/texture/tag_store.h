@@ -1,23 +1,32 @@
 // SPDX-License-Identifier: MIT
-// Tags, valid bits and replacement state of the texture cache.
+// Tags and replacement state of the texture cache.
 //
-// Where: inside the TagStage. The lines of a request are looked up one after the other in the same
-// clock: the tags stand in registers with four read and four write ports, and a later lookup sees
-// what an earlier one has allocated. Cost: sets x ways x (tag + valid + age) bits, 4 x ways
-// comparators. Source: docs/number_formats.md, cache and traffic.
+// Where: inside the TagStage. A word is a set: tag, valid bit and turned bit of each way, and the
+// order of their last uses, a bit for each pair of ways. Flip-flops with four read and four write
+// ports: the sets of a request's lines are read in one clock, and come in the next one with what
+// the request before them has changed (a write is seen by a read of the same clock). Then the lines
+// are looked up one after the other: a later look-up sees what an earlier one has allocated, so
+// four choices among the ways stand behind each other. Flip-flops end at 16 kbit, which is
+// kMostLines lines; the chain ends at kMostWays ways. Made for 250 MHz; longest path: a choice of 1
+// in 512 sets, or the comparison of tags and four choices of a way. Cost: sets x ways x (tag + 2)
+// bits and ways x (ways - 1) / 2 a set, 4 x ways comparators. Source: docs/number_formats.md, cache
+// and traffic.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <systemc>
 #include <vector>
 
-#include "rtl_model/fabric/storage.h"
+#include "rtl_model/fabric/memory.h"
 #include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
-class TagStore final : public Storage {
+class TagStore {
  public:
+  static constexpr std::int32_t kMostLines = 512, kMostWays = 8;
+
   struct Place {
     std::uint32_t slot;  // set x ways + way
     bool evicted;        // a valid line was replaced
@@ -26,6 +35,16 @@ class TagStore final : public Storage {
 
   TagStore(const char* name, const spec::texture::Parameters& parameters);
 
+  // --- Clock 1: the set of a line, through port 0..3 ---
+  void read(Cycle cycle, std::size_t port, std::uint32_t line) {
+    reads_[port].read(cycle, line & set_mask_);
+  }
+
+  // --- Clock 2 ---
+  // The word that this port has read is there.
+  void check(Cycle cycle, std::size_t port, std::uint32_t line) const {
+    reads_[port].check(cycle, line & set_mask_);
+  }
   // The slot of the line, or kAbsent.
   std::uint32_t find(std::uint32_t line) const {
     const std::uint32_t first = (line & set_mask_) << ways_log2_;
@@ -38,26 +57,42 @@ class TagStore final : public Storage {
     if (replacement_ == spec::texture::Replacement::kLru && age_[slot] != 0) make_youngest(slot);
   }
   // A miss: chooses a way and puts the line's tag into it.
-  Place allocate(std::uint32_t line);
+  Place allocate(std::uint32_t line, bool turned);
+  // The banks of the line in this slot are turned.
+  bool turned(std::uint32_t slot) const { return turned_[slot] != 0; }
+  // Writes what the look-ups of this clock have changed.
+  void commit(Cycle cycle) {
+    for (std::size_t i = 0; i < changes_; ++i) writes_[i].write(cycle, changed_[i]);
+    changes_ = 0;
+  }
 
   std::uint32_t slots() const { return static_cast<std::uint32_t>(tags_.size()); }
   // All in one clock; the shift register of `random` goes on.
   void invalidate();
-  void reset() override;
+  void reset();
 
  private:
   // A line number has at most 27 bits, so this one never matches: the valid bit of the hardware.
   static constexpr std::uint32_t kInvalid = ~std::uint32_t{0};
   static constexpr std::uint16_t kRandomStart = 0xACE1;
+  static constexpr std::size_t kPorts = 4;
 
   void make_youngest(std::uint32_t slot);
   std::uint32_t victim(std::uint32_t first);
+  void change(std::uint32_t set);
 
   spec::texture::Replacement replacement_;
   std::uint32_t set_mask_, way_mask_, ways_log2_;
-  std::vector<std::uint32_t> tags_;  // U27 and valid
-  std::vector<std::uint8_t> age_;    // U4, 0: most recent; a permutation within each set
+  Memory<void> memory_;
+  std::vector<ReadPort<void>> reads_;
+  std::vector<WritePort<void>> writes_;
+  std::vector<std::uint32_t> tags_;   // U27 and valid
+  std::vector<std::uint8_t> turned_;  // U1
+  std::vector<std::uint8_t> age_;  // the order of uses; 0: most recent; a permutation in each set
   std::uint16_t random_ = kRandomStart;
+  // Sets that this clock writes.
+  std::array<std::uint32_t, kPorts> changed_{};
+  std::size_t changes_ = 0;
 };
 
 }  // namespace deburr::rtl::texture

@@ -34,27 +34,50 @@ std::uint32_t odd_morton_part(std::uint32_t tile, int common) {
 }  // namespace
 
 TexelAddresser::TexelAddresser(const sc_core::sc_module_name& name, ClockDomain& clock,
-                               const ParameterStore& store)
-    : Unit(name, clock), store_(store) {}
+                               const Descriptors::Reader& descriptors)
+    : Unit(name, clock), descriptors_(descriptors) {}
 
 Activity TexelAddresser::tick(Cycle cycle) {
-  if (occupied_) {
-    if (!texels_out.can_push(cycle)) return kStalledDownstream;
-    address(texels_out.emplace(cycle));
-    occupied_ = false;
-  } else if (!samples_in.can_pop(cycle)) {
-    return kIdle;
-  }
-  if (samples_in.can_pop(cycle)) {
-    wrap_and_scale(samples_in.front(cycle));
+  const bool arrives = samples_in.can_pop(cycle);
+  if (stages_.empty() && !arrives) return kIdle;
+  if (stages_.leaving() && !texels_out.can_push(cycle)) return kStalledDownstream;
+  stages_.step();
+  if (stages_.works(kStages)) texels_out.push(cycle, stages_.leave());
+  if (arrives) {
+    request(cycle, samples_in.front(cycle), stages_.enter());
     samples_in.pop(cycle);
-    occupied_ = true;
   }
   return kBusy;
 }
 
-// Stage 1, one axis: wrap the coordinate, scale it to texels, split it, bring both texels into
-// range.
+// All stages: what is between them cannot be seen from outside, since a descriptor stands still
+// while the unit is busy.
+void TexelAddresser::request(Cycle cycle, const SampleToken& sample, TexelToken& out) {
+  // Stage 1.
+  const TextureState& texture = descriptors_.read(cycle, sample.ticket.texture);
+  out.ticket = sample.ticket;
+  FilterControl& control = out.control;
+  control = {0,
+             0,
+             sample.level_weight,
+             sample.kernel_weight,
+             sample.sum_log2,
+             static_cast<std::uint8_t>(texture.format),
+             sample.last_of_sample,
+             sample.last_of_fragment};
+  if (!sample.ticket.valid) return;
+  ++bilinears;
+  // Stage 2.
+  const LevelGeometry& level = texture.level[sample.level];
+  const Axis x = scale(sample.s, level.width, texture.wrap_s, sample.linear),
+             y = scale(sample.t, level.height, texture.wrap_t, sample.linear);
+  control.fraction_u = x.fraction;
+  control.fraction_v = y.fraction;
+  address(texture, level, x, y, out);
+}
+
+// Stages 2 to 4, one axis: wrap the coordinate; scale it to texels; split it, bring both texels
+// into range.
 TexelAddresser::Axis TexelAddresser::scale(std::int64_t position, std::int32_t size,
                                            spec::texture::Wrap wrap, bool linear) {
   if (wrap == spec::texture::Wrap::kRepeat) {
@@ -87,43 +110,15 @@ TexelAddresser::Axis TexelAddresser::scale(std::int64_t position, std::int32_t s
   return axis;
 }
 
-void TexelAddresser::wrap_and_scale(const SampleToken& sample) {
-  scaled_.ticket = sample.ticket;
-  scaled_.level = sample.level;
-  FilterControl& control = scaled_.control;
-  control = {0,
-             0,
-             sample.level_weight,
-             sample.kernel_weight,
-             sample.sum_log2,
-             0,
-             sample.last_of_sample,
-             sample.last_of_fragment};
-  if (!sample.ticket.valid) return;
-  ++bilinears;
-  const TextureState& texture = store_.texture(sample.ticket.texture);
-  const LevelGeometry& level = texture.level[sample.level];
-  scaled_.x = scale(sample.s, level.width, texture.wrap_s, sample.linear);
-  scaled_.y = scale(sample.t, level.height, texture.wrap_t, sample.linear);
-  control.fraction_u = scaled_.x.fraction;
-  control.fraction_v = scaled_.y.fraction;
-  control.format = static_cast<std::uint8_t>(texture.format);
-}
-
-// Stage 2.
-void TexelAddresser::address(TexelToken& out) const {
-  out.ticket = scaled_.ticket;
-  out.control = scaled_.control;
-  if (!out.ticket.valid) return;
-  const TextureState& texture = store_.texture(out.ticket.texture);
-  const LevelGeometry& level = texture.level[scaled_.level];
-  const auto x0 = static_cast<std::uint32_t>(scaled_.x.first),
-             x1 = static_cast<std::uint32_t>(scaled_.x.second),
-             y0 = static_cast<std::uint32_t>(scaled_.y.first),
-             y1 = static_cast<std::uint32_t>(scaled_.y.second);
+// Stage 5.
+void TexelAddresser::address(const TextureState& texture, const LevelGeometry& level, const Axis& x,
+                             const Axis& y, TexelToken& out) {
+  const auto x0 = static_cast<std::uint32_t>(x.first), x1 = static_cast<std::uint32_t>(x.second),
+             y0 = static_cast<std::uint32_t>(y.first), y1 = static_cast<std::uint32_t>(y.second);
 
   std::uint32_t column0, column1, row0, row1;
-  if (texture.layout == spec::texture::Layout::kLinear) {
+  const bool linear_layout = texture.layout == spec::texture::Layout::kLinear;
+  if (linear_layout) {
     column0 = x0 << texture.texel_log2;
     column1 = x1 << texture.texel_log2;
     row0 = y0 * level.pitch;
@@ -135,13 +130,13 @@ void TexelAddresser::address(TexelToken& out) const {
     const int height_log2 = 6 - row_log2;
     const int common =
         level.tiles_x_log2 < level.tiles_y_log2 ? level.tiles_x_log2 : level.tiles_y_log2;
-    const auto column = [&](std::uint32_t x) {
-      return morton_part(x >> width_log2, common) << 6 | (x & ((1u << width_log2) - 1))
-                                                             << texture.texel_log2;
+    const auto column = [&](std::uint32_t at) {
+      return morton_part(at >> width_log2, common) << 6 | (at & ((1u << width_log2) - 1))
+                                                              << texture.texel_log2;
     };
-    const auto row = [&](std::uint32_t y) {
-      return odd_morton_part(y >> height_log2, common) << 6 | (y & ((1u << height_log2) - 1))
-                                                                  << row_log2;
+    const auto row = [&](std::uint32_t at) {
+      return odd_morton_part(at >> height_log2, common) << 6 | (at & ((1u << height_log2) - 1))
+                                                                   << row_log2;
     };
     column0 = column(x0);
     column1 = column(x1);
@@ -150,12 +145,7 @@ void TexelAddresser::address(TexelToken& out) const {
   }
   out.address = {level.base + column0 + row0, level.base + column1 + row0,
                  level.base + column0 + row1, level.base + column1 + row1};
-  const auto bank = [](std::uint32_t x, std::uint32_t y) {
-    return static_cast<std::uint8_t>((y & 1) << 1 | (x & 1));
-  };
-  out.bank = {bank(x0, y0), bank(x1, y0), bank(x0, y1), bank(x1, y1)};
-  out.column_conflict = x0 != x1 && ((x0 ^ x1) & 1) == 0;
-  out.row_conflict = y0 != y1 && ((y0 ^ y1) & 1) == 0;
+  out.turned = {linear_layout && (y0 & 1), linear_layout && (y1 & 1)};
 }
 
 }  // namespace deburr::rtl::texture

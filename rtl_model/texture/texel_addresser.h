@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: MIT
 // From a sample position to the byte addresses of its four texels and its bilinear fractions.
 //
-// Where: tail of the AddressUnit. Two stages: 1 wrap and scale, 2 addresses. Latency 2, initiation
-// interval 1, stalled by `downstream`. Formats: position S9.24, texel position rounded to 8
-// fraction bits, address U32 (sums wrap). An address is base + column part + row part, so that four
-// texels need two column parts, two row parts and four three-input adders. Cost: two 34 x 13 bit
-// multipliers, two 12 x 15 bit ones for `linear` pitch; `tiled` is wires and multiplexers. Source:
-// paper 2.2 (3) and (4); layouts are ours.
+// Where: tail of the AddressUnit. Five stages: 1 descriptor, 2 level and wrapping, 3 scale to
+// texels, 4 split and bring into range, 5 addresses. Latency 5, initiation interval 1; stalled by
+// `downstream`, and then holds still as a whole. Made for 250 MHz; longest path: 34 x 13 bit
+// multiply. Formats: position S9.24, texel position rounded to 8 fraction bits, address U32 (sums
+// wrap). An address is base + column part + row part, so that four texels need two column parts,
+// two row parts and four three-input adders. Cost: a choice of 1 in 16 descriptors and 1 in 13
+// levels, two 34 x 13 bit multipliers, two 12 x 9 ones for `linear` pitch; `tiled` is wires and
+// multiplexers; registers of four requests, the first with 13 level bases. Source: paper 2.2 (3)
+// and (4); layouts are ours.
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/texture/parameter_store.h"
+#include "rtl_model/texture/descriptors.h"
+#include "rtl_model/texture/stages.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/descriptor.h"
 
@@ -25,33 +29,27 @@ class TexelAddresser final : public Unit {
   Out<TexelToken> texels_out{"texels_out"};
 
   TexelAddresser(const sc_core::sc_module_name& name, ClockDomain& clock,
-                 const ParameterStore& store);
+                 const Descriptors::Reader& descriptors);
   Activity tick(Cycle cycle) override;
-  void reset() override { occupied_ = false; }
+  void reset() override { stages_.reset(); }
 
   Counter bilinears{"bilinears", "requests", "bilinear requests sent to the cache"};
 
  private:
+  static constexpr int kStages = 5;
   // Two neighbouring texels along one axis.
   struct Axis {
     std::int32_t first, second;  // U12, in range
     std::uint8_t fraction;       // U0.8
   };
-  // The registers between the two stages.
-  struct Scaled {
-    Ticket ticket;
-    FilterControl control;
-    Axis x, y;
-    std::uint8_t level;
-  };
+  void request(Cycle cycle, const SampleToken& sample, TexelToken& texels);
   static Axis scale(std::int64_t position, std::int32_t size, spec::texture::Wrap wrap,
                     bool linear);
-  void wrap_and_scale(const SampleToken& sample);
-  void address(TexelToken& texels) const;
+  static void address(const TextureState& texture, const LevelGeometry& level, const Axis& x,
+                      const Axis& y, TexelToken& texels);
 
-  const ParameterStore& store_;
-  Scaled scaled_{};
-  bool occupied_ = false;
+  Descriptors::Reader descriptors_;
+  Stages<TexelToken, kStages> stages_;
 };
 
 }  // namespace deburr::rtl::texture

@@ -2,9 +2,19 @@
 #include "rtl_model/texture/texture_cache.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
 namespace deburr::rtl::texture {
 namespace {
+
+constexpr std::uint32_t kAddressBits = 32;
+
+// A tag is an entry of the fill buffer.
+std::uint32_t tag_bits(const spec::texture::Parameters& p) {
+  return static_cast<std::uint32_t>(
+      std::bit_width(static_cast<std::uint32_t>(p.cache_outstanding - 1)));
+}
 
 MemoryPortParameters port_parameters(const spec::texture::Parameters& p) {
   MemoryPortParameters port;
@@ -17,13 +27,19 @@ MemoryPortParameters port_parameters(const spec::texture::Parameters& p) {
 }  // namespace
 
 TextureCache::TextureCache(const sc_core::sc_module_name& name, ClockDomain& clock,
-                           const spec::texture::Parameters& p, ParameterStore& store)
+                           const spec::texture::Parameters& p, ControlRegisters& registers)
     : sc_module(name),
-      miss_queue("miss_queue", clock, p, store),
+      miss_queue("miss_queue", clock, p, registers),
       tag_stage("tag_stage", clock, p, miss_queue.fills),
       latency_fifo("latency_fifo", clock, p),
       data_stage("data_stage", clock, p, miss_queue.fills),
-      memory_port("memory_port", clock, port_parameters(p)) {
+      memory_port("memory_port", clock, port_parameters(p)),
+      misses_("misses", 2, miss_shape(p)),
+      requests_("requests", 2, cache_shape(p)),
+      memory_requests_("memory_requests", 2,
+                       request_shape(port_parameters(p), kAddressBits, tag_bits(p))),
+      memory_responses_("memory_responses", 2,
+                        response_shape(port_parameters(p), kAddressBits, tag_bits(p))) {
   tag_stage.texels_in(texels_in);
   tag_stage.requests_out(requests_);
   latency_fifo.requests_in(requests_);

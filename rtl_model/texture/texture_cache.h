@@ -8,8 +8,8 @@
 //                           |
 //                       MemoryPort (TLM-2.0)
 //
-// Latency 3 for a request that hits; one request a clock while no line is missing and no bank is
-// asked twice. Fill order, merged misses: docs/texture_unit.md.
+// Latency 5 for a request that hits; one request a clock while no line is missing and no bank is
+// asked for two words. Fill order, merged misses: docs/texture_unit.md.
 #pragma once
 
 #include <systemc>
@@ -29,7 +29,7 @@ class TextureCache final : public sc_core::sc_module {
   Out<TexelQuadToken> texels_out{"texels_out"};
 
   TextureCache(const sc_core::sc_module_name& name, ClockDomain& clock,
-               const spec::texture::Parameters& parameters, ParameterStore& store);
+               const spec::texture::Parameters& parameters, ControlRegisters& registers);
 
   MissQueue miss_queue;
   TagStage tag_stage;
@@ -38,10 +38,10 @@ class TextureCache final : public sc_core::sc_module {
   MemoryPort memory_port;
 
  private:
-  Link<MissToken> misses_{"misses"};
-  Link<CacheToken> requests_{"requests"};
-  Link<MemoryRequest> memory_requests_{"memory_requests"};
-  Link<MemoryResponse> memory_responses_{"memory_responses"};
+  Link<MissToken> misses_;
+  Link<CacheToken> requests_;
+  Link<MemoryRequest> memory_requests_;
+  Link<MemoryResponse> memory_responses_;
 };
 
 }  // namespace deburr::rtl::texture

@@ -3,31 +3,11 @@
 
 #include <bit>
 #include <string>
-#include <string_view>
 
 #include "spec/error.h"
 
 namespace deburr::rtl::texture {
 namespace {
-
-// Checks every parameter against its declared range.
-struct RangeCheck {
-  void integer(std::string_view name, std::int32_t value, std::int32_t min, std::int32_t max,
-               std::string_view unit, std::string_view) const {
-    if (value < min || value > max)
-      throw spec::ConfigError("texture." + std::string(name) + ": expected " + std::to_string(min) +
-                              ".." + std::to_string(max) + " " + std::string(unit) + ", got " +
-                              std::to_string(value));
-  }
-  template <class Enum, std::size_t N>
-  void choice(std::string_view name, Enum value, const std::array<std::string_view, N>&,
-              std::string_view) const {
-    if (static_cast<std::size_t>(value) >= N)
-      throw spec::ConfigError("texture." + std::string(name) +
-                              ": no such choice: " + std::to_string(static_cast<int>(value)));
-  }
-  void boolean(std::string_view, bool, std::string_view) const {}
-};
 
 void check_power_of_two(const char* name, std::int32_t value) {
   if (!std::has_single_bit(static_cast<std::uint32_t>(value)))
@@ -36,8 +16,7 @@ void check_power_of_two(const char* name, std::int32_t value) {
 }
 
 spec::texture::Parameters checked(spec::texture::Parameters p) {
-  const RangeCheck check;
-  describe(p, check);
+  p = checked_ranges("texture", p);
   check_power_of_two("cache.bytes", p.cache_bytes);
   check_power_of_two("cache.line_bytes", p.cache_line_bytes);
   check_power_of_two("cache.ways", p.cache_ways);
@@ -46,23 +25,38 @@ spec::texture::Parameters checked(spec::texture::Parameters p) {
                             " bytes do not hold one set of " + std::to_string(p.cache_ways) +
                             " ways x " + std::to_string(p.cache_line_bytes) +
                             " bytes: make it larger, or lines or ways fewer");
+  if (p.cache_ways > TagStore::kMostWays)
+    throw spec::ConfigError("texture.cache.ways: " + std::to_string(p.cache_ways) +
+                            " ways cannot be built: four lines are looked up one behind the other "
+                            "in a clock, which leaves time to choose among at most " +
+                            std::to_string(TagStore::kMostWays) + " ways: make it smaller");
+  if (const std::int32_t lines = p.cache_bytes / p.cache_line_bytes; lines > TagStore::kMostLines)
+    throw spec::ConfigError(
+        "texture.cache.bytes: the tags of " + std::to_string(lines) + " lines of " +
+        std::to_string(p.cache_line_bytes) +
+        " bytes cannot be built: they stand in flip-flops, four sets being read and written in a "
+        "clock, and more than 16 kbit of flip-flops is no memory: at most " +
+        std::to_string(TagStore::kMostLines) + " lines, so make it at most " +
+        std::to_string(TagStore::kMostLines * p.cache_line_bytes) + ", or lines longer");
   return p;
 }
 
-// Fragments that fit into everything but the latency FIFO.
-constexpr std::uint32_t kFragmentsElsewhere = 96;
+std::uint32_t rules(const spec::texture::Rules& p) {
+  return static_cast<std::uint32_t>(p.footprint) | static_cast<std::uint32_t>(p.log2) << 4 |
+         static_cast<std::uint32_t>(p.count) << 8 | static_cast<std::uint32_t>(p.count_cap) << 9 |
+         static_cast<std::uint32_t>(p.kernel) << 10 | static_cast<std::uint32_t>(p.spread) << 16;
+}
 
 }  // namespace
 
 TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
                          const spec::texture::Parameters& parameters)
-    : sc_module(name),
+    : Engine(name, clock, register_table(), control_layout()),
       parameters_(checked(parameters)),
-      probe_(static_cast<std::uint32_t>(parameters_.cache_fifo_depth) + kFragmentsElsewhere),
-      store("store", clock, parameters_),
-      address("address", clock, parameters_, store, probe_),
-      cache("cache", clock, parameters_, store),
+      address("address", clock, parameters_, control, descriptors_, probe_),
+      cache("cache", clock, parameters_, control),
       filter("filter", clock, probe_) {
+  uses(cache.memory_port);
   address.quads_in(quads_in);
   address.texels_out(texels_);
   cache.texels_in(texels_);
@@ -71,37 +65,19 @@ TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock
   filter.colours_out(colours_out);
 
   namespace reg = spec::texture::reg;
-  Counter* const shown[] = {
-      &filter.fragments,           &address.addresser.bilinears,  &cache.miss_queue.line_fills,
-      &address.derivative.clamped, &address.derivative.saturated, &cache.miss_queue.memory_errors,
-      &address.derivative.invalid};
-  const std::uint32_t offsets[] = {reg::kFragments,       reg::kBilinears, reg::kLineFills,
-                                   reg::kClamped,         reg::kSaturated, reg::kMemoryErrors,
-                                   reg::kInvalidFragments};
-  for (std::size_t i = 0; i < std::size(shown); ++i) store.show(offsets[i], *shown[i]);
-  store.connect([this] { return idle(); }, [this] { cache.tag_stage.invalidate(); },
-                [shown = std::to_array(shown)] {
-                  for (Counter* counter : shown) counter->reset();
-                });
+  control.set_reset(reg::kRules, rules(parameters_));
+  control.on_command(reg::kControlInvalidate, [this] { cache.tag_stage.invalidate(); });
+  control.show(reg::kFragments, filter.fragments);
+  control.show(reg::kBilinears, address.addresser.bilinears);
+  control.show(reg::kLineFills, cache.miss_queue.line_fills);
+  control.show(reg::kClamped, address.derivative.clamped);
+  control.show(reg::kSaturated, address.derivative.saturated);
+  control.show(reg::kMemoryErrors, cache.miss_queue.memory_errors);
+  control.show(reg::kInvalidFragments, address.derivative.invalid);
 }
 
 bool TextureUnit::idle() const {
-  return probe_.in_flight() == 0 && address.derivative.quads_in.link().empty();
+  return probe_.inside() == 0 && address.derivative.quads_in.link().empty();
 }
-
-namespace {
-
-template <class T>
-std::vector<const T*> collect(sc_core::sc_object& root) {
-  std::vector<const T*> found;
-  for_each<T>(root, [&](const T& object) { found.push_back(&object); });
-  return found;
-}
-
-}  // namespace
-
-std::vector<const Unit*> TextureUnit::units() { return collect<Unit>(*this); }
-std::vector<const Counter*> TextureUnit::counters() { return collect<Counter>(*this); }
-std::vector<const Storage*> TextureUnit::memories() { return collect<Storage>(*this); }
 
 }  // namespace deburr::rtl::texture

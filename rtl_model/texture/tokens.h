@@ -1,114 +1,240 @@
 // SPDX-License-Identifier: MIT
-// The wires between the blocks of the texture unit: one struct a link. A comment gives the width in
-// hardware; formats as in docs/number_formats.md. Texels stand in the order 00, 10, 01, 11.
+// The wires between the blocks of the texture unit: one struct a link, each with the list of its
+// fields, widths and formats (rtl_model/fabric/payload.h; formats as in docs/number_formats.md).
+// Texels stand in the order 00, 10, 01, 11.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 
+#include "rtl_model/fabric/payload.h"
 #include "spec/texture/descriptor.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
-// Goes with a fragment from the first block to the last: 32 + 2 + 1 + 1 + 4 bits.
+// Goes with a fragment from the first block to the last.
 struct Ticket {
   std::uint32_t tag;     // of the quad
-  std::uint8_t lane;     // U2
+  std::uint8_t lane;     // in the quad
   bool last;             // last covered lane of its quad
   bool valid;            // the descriptor is valid; otherwise the colour is zero
-  std::uint8_t texture;  // U4, descriptor handle
+  std::uint8_t texture;  // descriptor handle
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("tag", self.tag, 32);
+    visit("lane", self.lane, 2);
+    visit("last", self.last);
+    visit("valid", self.valid);
+    visit("texture", self.texture, 4);
+  }
 };
 
 // DerivativeUnit -> FootprintUnit.
 struct DerivativeToken {
   Ticket ticket;
-  std::int32_t s, t;                                     // S7.24
-  std::int64_t s_x, t_x, s_y, t_y;                       // S8.24, differences along row and column
-  std::uint32_t size_s_x, size_t_x, size_s_y, size_t_y;  // U15.16, their sizes in texels of level 0
+  std::int32_t s, t;
+  std::int64_t s_x, t_x, s_y, t_y;                       // differences along row and column
+  std::uint32_t size_s_x, size_t_x, size_s_y, size_t_y;  // their sizes in texels of level 0
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("ticket", self.ticket);
+    visit("s", self.s, 32, "S7.24");
+    visit("t", self.t, 32, "S7.24");
+    visit("s_x", self.s_x, 33, "S8.24");
+    visit("t_x", self.t_x, 33, "S8.24");
+    visit("s_y", self.s_y, 33, "S8.24");
+    visit("t_y", self.t_y, 33, "S8.24");
+    visit("size_s_x", self.size_s_x, 31, "U15.16");
+    visit("size_t_x", self.size_t_x, 31, "U15.16");
+    visit("size_s_y", self.size_s_y, 31, "U15.16");
+    visit("size_t_y", self.size_t_y, 31, "U15.16");
+  }
 };
 
 // FootprintUnit -> Log2Unit. From here on only the difference along the major axis is of interest.
 struct FootprintToken {
   Ticket ticket;
-  std::int32_t s, t;            // S7.24
-  std::int64_t axis_s, axis_t;  // S8.24
-  std::uint32_t d_max, d_min;   // U16.16
+  std::int32_t s, t;
+  std::int64_t axis_s, axis_t;
+  std::uint32_t d_max, d_min;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("ticket", self.ticket);
+    visit("s", self.s, 32, "S7.24");
+    visit("t", self.t, 32, "S7.24");
+    visit("axis_s", self.axis_s, 33, "S8.24");
+    visit("axis_t", self.axis_t, 33, "S8.24");
+    visit("d_max", self.d_max, 32, "U16.16");
+    visit("d_min", self.d_min, 32, "U16.16");
+  }
 };
 
 // Log2Unit -> LevelUnit.
 struct Log2Token {
   Ticket ticket;
-  std::int32_t s, t;            // S7.24
-  std::int64_t axis_s, axis_t;  // S8.24
-  std::int32_t lb_max, lb_min;  // S5.12
+  std::int32_t s, t;
+  std::int64_t axis_s, axis_t;
+  std::int32_t lb_max, lb_min;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("ticket", self.ticket);
+    visit("s", self.s, 32, "S7.24");
+    visit("t", self.t, 32, "S7.24");
+    visit("axis_s", self.axis_s, 33, "S8.24");
+    visit("axis_t", self.axis_t, 33, "S8.24");
+    visit("lb_max", self.lb_max, 18, "S5.12");
+    visit("lb_min", self.lb_min, 18, "S5.12");
+  }
 };
 
 // LevelUnit -> SampleWalker.
 struct LevelToken {
   Ticket ticket;
-  std::int32_t s, t;            // S7.24
-  std::int64_t axis_s, axis_t;  // S8.24
-  std::uint8_t count_log2;      // U3, lb N
-  std::uint8_t level;           // U4, the finer of the levels used
-  std::uint8_t fraction;        // U0.8; not 0: level + 1 is used as well
-  bool linear;                  // filter within a level: nearest or linear
+  std::int32_t s, t;
+  std::int64_t axis_s, axis_t;
+  std::uint8_t count_log2;  // lb N
+  std::uint8_t level;       // the finer of the levels used
+  std::uint8_t fraction;    // not 0: level + 1 is used as well
+  bool linear;              // filter within a level: nearest or linear
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("ticket", self.ticket);
+    visit("s", self.s, 32, "S7.24");
+    visit("t", self.t, 32, "S7.24");
+    visit("axis_s", self.axis_s, 33, "S8.24");
+    visit("axis_t", self.axis_t, 33, "S8.24");
+    visit("count_log2", self.count_log2, 3);
+    visit("level", self.level, 4);
+    visit("fraction", self.fraction, 8, "U0.8");
+    visit("linear", self.linear);
+  }
 };
 
-// What the FilterPipeline does with a bilinear request: 8 + 8 + 9 + 5 + 3 + 3 + 2 bits.
+// What the FilterPipeline does with a bilinear request.
 struct FilterControl {
-  std::uint8_t fraction_u, fraction_v;  // U0.8
-  std::uint16_t level_weight;           // U1.8, 1..256
-  std::uint8_t kernel_weight;           // U5, 0 for a fragment with an invalid descriptor
-  std::uint8_t sum_log2;                // U3, lb of the sum of kernel weights
-  std::uint8_t format;                  // U3, spec::texture::Format
-  bool last_of_sample;                  // completes a sample (second level, or the only one)
-  bool last_of_fragment;                // completes a fragment
+  std::uint8_t fraction_u, fraction_v;
+  std::uint16_t level_weight;  // 1..256
+  std::uint8_t kernel_weight;  // 0 for a fragment with an invalid descriptor
+  std::uint8_t sum_log2;       // lb of the sum of kernel weights
+  std::uint8_t format;         // spec::texture::Format
+  bool last_of_sample;         // completes a sample (second level, or the only one)
+  bool last_of_fragment;       // completes a fragment
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("fraction_u", self.fraction_u, 8, "U0.8");
+    visit("fraction_v", self.fraction_v, 8, "U0.8");
+    visit("level_weight", self.level_weight, 9, "U1.8");
+    visit("kernel_weight", self.kernel_weight, 5);
+    visit("sum_log2", self.sum_log2, 3);
+    visit("format", self.format, 3);
+    visit("last_of_sample", self.last_of_sample);
+    visit("last_of_fragment", self.last_of_fragment);
+  }
 };
 
 // SampleWalker -> TexelAddresser: one bilinear request.
 struct SampleToken {
   Ticket ticket;
-  std::int64_t s, t;  // S9.24
+  std::int64_t s, t;
   std::uint16_t level_weight;
   std::uint8_t kernel_weight, sum_log2;
-  std::uint8_t level;  // U4
+  std::uint8_t level;
   bool linear;
   bool last_of_sample, last_of_fragment;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("ticket", self.ticket);
+    visit("s", self.s, 34, "S9.24");
+    visit("t", self.t, 34, "S9.24");
+    visit("level_weight", self.level_weight, 9, "U1.8");
+    visit("kernel_weight", self.kernel_weight, 5);
+    visit("sum_log2", self.sum_log2, 3);
+    visit("level", self.level, 4);
+    visit("linear", self.linear);
+    visit("last_of_sample", self.last_of_sample);
+    visit("last_of_fragment", self.last_of_fragment);
+  }
 };
 
 // TexelAddresser -> TagStage.
 struct TexelToken {
   Ticket ticket;
   FilterControl control;
-  std::array<std::uint32_t, 4> address;  // U32, bytes
-  std::array<std::uint8_t, 4> bank;      // U2, {y & 1, x & 1}
-  bool column_conflict;                  // x0 and x1 are distinct columns of equal parity
-  bool row_conflict;                     // y0 and y1 are distinct rows of equal parity
+  std::array<std::uint32_t, 4> address;  // bytes
+  std::array<bool, 2> turned;            // of the upper and the lower row: its lines are stored
+                                         // with their banks turned (layout linear, odd rows)
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("ticket", self.ticket);
+    visit("control", self.control);
+    visit("address", self.address, 32);
+    visit("turned", self.turned, 1);
+  }
 };
 
 // TagStage -> MissQueue: the lines that one request misses, in the order of their fills.
 struct MissToken {
-  std::array<std::uint32_t, 4> line;  // U27, line number
+  std::array<std::uint32_t, 4> line;  // line numbers
   std::uint8_t count;                 // 1..4
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("line", self.line, 27);
+    visit("count", self.count, 3);
+  }
 };
 
 // TagStage -> LatencyFifo -> DataStage.
 struct CacheToken {
   Ticket ticket;
   FilterControl control;
-  std::array<std::uint32_t, 4> place;   // U20, byte in the data store (hit) or in the line (miss)
-  std::array<std::uint8_t, 4> source;   // U3, 0: data store; 1 + k: fill number k of this request
-  std::array<std::uint8_t, 4> bank;     // U2
-  std::array<std::uint16_t, 4> victim;  // U15, line slot that fill number k is written to
-  std::uint8_t fills;                   // U3, number of fills, 0..4
-  bool column_conflict, row_conflict;
+  std::array<std::uint32_t, 4> place;   // byte in the data banks (hit) or in the line (miss)
+  std::array<std::uint8_t, 4> source;   // 0: data banks; 1 + k: fill number k of this request
+  std::array<std::uint16_t, 4> victim;  // line slot that fill number k is written to
+  std::array<bool, 4> turned;           // fill number k is written with its banks turned
+  std::uint8_t fills;                   // number of fills, 0..4
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("ticket", self.ticket);
+    visit("control", self.control);
+    visit("place", self.place, 16);
+    visit("source", self.source, 3);
+    visit("victim", self.victim, 9);
+    visit("turned", self.turned, 1);
+    visit("fills", self.fills, 3);
+  }
 };
 
 // DataStage -> FilterPipeline.
 struct TexelQuadToken {
   Ticket ticket;
   FilterControl control;
-  std::array<std::uint32_t, 4> texel;  // U32, as stored, in the low bits
+  std::array<std::uint32_t, 4> texel;  // as stored, in the low bits
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("ticket", self.ticket);
+    visit("control", self.control);
+    visit("texel", self.texel, 32);
+  }
 };
+
+// Half a tile: by so much the words of a turned line change places.
+inline std::uint32_t turn_bytes(std::uint32_t line_bytes) {
+  return std::min(line_bytes / 2, std::uint32_t{spec::texture::kTileBytes} / 2);
+}
+
+// What of the cache's tokens is built for a cache of this size.
+inline std::uint32_t log2_of(std::int32_t power_of_two) {
+  return static_cast<std::uint32_t>(std::countr_zero(static_cast<std::uint32_t>(power_of_two)));
+}
+inline PayloadShape miss_shape(const spec::texture::Build& p) {
+  return {.widths = {{"line", 32 - log2_of(p.cache_line_bytes)}}};
+}
+inline PayloadShape cache_shape(const spec::texture::Build& p) {
+  const std::uint32_t place = log2_of(p.cache_bytes), line = log2_of(p.cache_line_bytes);
+  return {.widths = {{"place", place}, {"victim", std::max(place - line, 1U)}}};
+}
 
 }  // namespace deburr::rtl::texture

@@ -60,7 +60,7 @@ inline constexpr int kLeastDividerLatency = 14;
 inline constexpr int kSequencerLatency = 1;
 inline constexpr int kLumaLatency = 2;
 inline constexpr int kEdgeLatency = 4;
-inline constexpr int kExtractorLatency = 1;
+inline constexpr int kExtractorLatency = 2;
 inline constexpr int kAreaLatency = 9;
 inline constexpr int kPixelStoreLatency = 2;  // beside the AreaUnit
 inline constexpr int kBlenderLatency = 5;
@@ -105,6 +105,7 @@ struct Build {
   std::int32_t line_pixels = kMaxFrameSize;
   std::int32_t record_fifo = 256;
   std::int32_t predictor_units = 2;
+  std::int32_t trial_clocks = 4;
   std::int32_t divider_latency = 24;
   std::int32_t divider_interval = 1;
   Storage storage = Storage::kLineBuffers;
@@ -167,7 +168,9 @@ void describe(Build& p, Visitor& v) {
       "record_fifo", p.record_fifo, 2, 4096, "record",
       "Runs waiting for a predictor, for each axis and lane; a tenth of a row bears a burst.");
   v.integer("predictor_units", p.predictor_units, 1, 16, "unit",
-            "Predictors for each axis and lane; each tries one step of both sides a clock.");
+            "Predictors for each axis and lane; each tries one step of both sides at a time.");
+  v.integer("trial_clocks", p.trial_clocks, 1, 8, "clock",
+            "Clocks from one trial of a predictor to its next; below 4 stages share a clock.");
   v.integer(
       "divider.latency", p.divider_latency, kLeastDividerLatency, 64, "clock",
       "Latency of the divider: two clocks of products, then at most two of 24 quotient bits a "

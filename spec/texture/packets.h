@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Packets at the two ends of the texture unit: quads of fragments in, colours out.
+// Packets at the two ends of the texture unit: quads of fragments in, colours out. Each lists its
+// fields with their widths.
 #pragma once
 
 #include <array>
@@ -24,6 +25,18 @@ struct Quad {
   std::array<std::int32_t, 4> s{};  // S7.24
   std::array<std::int32_t, 4> t{};  // S7.24
   friend bool operator==(const Quad&, const Quad&) = default;
+
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("tag", self.tag, 32);
+    visit("x", self.x, 16);
+    visit("y", self.y, 16);
+    visit("texture", self.texture, 8);
+    visit("coverage", self.coverage, 4);
+    visit("clamped", self.clamped, 4);
+    visit("s", self.s, 32, "S7.24");
+    visit("t", self.t, 32, "S7.24");
+  }
 };
 
 // A filtered colour. `last` marks the last covered lane of its quad.
@@ -33,6 +46,14 @@ struct Colour {
   bool last = false;
   std::array<std::uint8_t, 4> rgba{};  // U0.8 unorm each
   friend bool operator==(const Colour&, const Colour&) = default;
+
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("tag", self.tag, 32);
+    visit("lane", self.lane, 2);
+    visit("last", self.last);
+    visit("rgba", self.rgba, 8, "U0.8", "rgba");
+  }
 };
 
 }  // namespace deburr::spec::texture

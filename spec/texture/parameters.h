@@ -67,10 +67,11 @@ void describe(Rules& p, Visitor& v) {
 template <class Visitor>
 void describe(Build& p, Visitor& v) {
   v.integer("cache.bytes", p.cache_bytes, 256, 1 << 20, "byte",
-            "Capacity of the texture cache; a power of two.");
+            "Capacity of the texture cache; a power of two; more than 512 lines cannot be built.");
   v.integer("cache.line_bytes", p.cache_line_bytes, 32, 128, "byte",
             "Size of a cache line; a power of two.");
-  v.integer("cache.ways", p.cache_ways, 1, 16, "way", "Associativity; a power of two.");
+  v.integer("cache.ways", p.cache_ways, 1, 16, "way",
+            "Associativity; a power of two; 16 cannot be built.");
   v.choice("cache.replacement", p.cache_replacement, kReplacementNames,
            "Which way of a full set is replaced.");
   v.integer("cache.outstanding", p.cache_outstanding, 4, 256, "line",

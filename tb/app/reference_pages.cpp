@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "rtl_model/fabric/register_block.h"
-#include "rtl_model/texture/parameter_store.h"
+#include "rtl_model/texture/descriptors.h"
 #include "spec/morphological/registers.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/registers.h"
@@ -114,7 +114,8 @@ std::string registers_page() {
   // One descriptor stands for all.
   constexpr std::uint32_t kSecond = texture::kTextureBase + texture::kTextureStride;
   std::vector<rtl::RegisterDescription> unit;
-  for (const rtl::RegisterDescription& r : rtl::texture::register_table())
+  for (const rtl::RegisterDescription& r :
+       rtl::register_descriptions(rtl::texture::register_table()))
     if (r.offset < kSecond) unit.push_back(r);
   return fmt::format(
       "# Registers\n\n"

@@ -166,7 +166,7 @@ struct System {
     unit.quads_in(quads);
     unit.colours_out(colours);
     picture.colours_in(colours);
-    unit.memory.bind(memory.ports);
+    unit.memory()->bind(memory.ports);
     host.bus.bind(unit.registers);
     memory.preload(0, noise());
   }

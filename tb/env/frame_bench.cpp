@@ -191,7 +191,7 @@ FrameBench::FrameBench(const TextureScene& scene, const FrameBenchOptions& optio
   engine_.pixels_in(pixels_);
   engine_.pixels_out(blended_);
   sink_.beats_in(blended_);
-  texture_.memory.bind(memory_.ports);
+  texture_.memory()->bind(memory_.ports);
   texture_host_.bus.bind(texture_.registers);
   engine_host_.bus.bind(engine_.registers);
   if (engine_.memory() != nullptr) {
@@ -364,7 +364,7 @@ void FrameBench::collect(Result& result) const {
   for (const rtl::Unit* unit : texture.units())
     result.units.push_back(unit_cycles("texture_" + name_within(texture, *unit), *unit));
   result.units.push_back(unit_cycles("frame_buffer", buffer_));
-  for (const rtl::Storage* storage : texture.memories())
+  for (const rtl::MemoryBase* storage : texture.memories())
     result.sram.push_back({"texture_" + name_within(texture, *storage), storage->ports(),
                            storage->bits(), storage->bits()});
 

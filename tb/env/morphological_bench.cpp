@@ -556,7 +556,8 @@ void MorphologicalBench::collect(Result& result) const {
       "Of the last frame, from its first input beat to its last output beat.");
   add("frame_clocks_by_formula", by_formula, "clk", "The same if nothing stalls.");
   add("latency_by_formula", latency_by_formula(p, width), "clk",
-      "From a pixel going in to it coming out if nothing stalls: (R + 5) rows and the clocks of the pipe.");
+      "From a pixel going in to it coming out if nothing stalls: (R + 5) rows and the clocks of "
+      "the pipe.");
   add("input_pixels_per_clock",
       source_.done()
           ? ratio(number(static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height)),

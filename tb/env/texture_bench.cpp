@@ -137,7 +137,7 @@ TextureBench::TextureBench(const TextureScene& scene, const TextureBenchOptions&
   unit_.quads_in(quads_);
   unit_.colours_out(colours_);
   sink_.beats_in(colours_);
-  unit_.memory.bind(memory_.ports);
+  unit_.memory()->bind(memory_.ports);
   host_.bus.bind(unit_.registers);
   stranger_.memory.bind(memory_.ports);
   fetch_again_ = planted(options, "duplicate-fetch");
@@ -358,7 +358,7 @@ void TextureBench::collect(Result& result) const {
 
   for (const rtl::Unit* u : unit.units())
     result.units.push_back(unit_cycles(short_name(*u, 1), *u));
-  for (const rtl::Storage* storage : unit.memories())
+  for (const rtl::MemoryBase* storage : unit.memories())
     result.sram.push_back(
         {short_name(*storage, 2), storage->ports(), storage->bits(), storage->bits()});
   result.latency = latency_of(unit.fragment_latency);

@@ -56,7 +56,7 @@ class QuadBench {
     unit_.quads_in(quads_);
     unit_.colours_out(colours_);
     sink_.beats_in(colours_);
-    unit_.memory.bind(memory_.ports);
+    unit_.memory()->bind(memory_.ports);
     host_.bus.bind(unit_.registers);
     bench_ = std::make_unique<Bench>(clock_, options);
     memory_.preload(0, input.memory);

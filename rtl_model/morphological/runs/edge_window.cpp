@@ -1,84 +1,80 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/morphological/runs/edge_window.h"
 
+#include <algorithm>
 #include <string>
+
+#include "rtl_model/morphological/runs/port_schedule.h"
+#include "spec/error.h"
 
 namespace deburr::rtl::morphological {
 namespace {
 
-constexpr int kSides = 2;  // of a predictor: the two ends of its run
+// The two columns beside vertical lattice line `line`, and their newest rows.
+struct BesideLine {
+  const EdgeColumn &before, &after;
+  std::int32_t newest_before, newest_after, rows;
 
-int predictors(const spec::morphological::Parameters& p) {  // an axis
-  return p.predictor_units * spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
+  std::int32_t age(std::int32_t newest, std::int32_t y) const {
+    const std::int32_t age = newest - y;
+    if (age < 0 || age >= rows) [[unlikely]]
+      throw spec::CheckFailed("edge_window: row " + std::to_string(y) + " is not among the " +
+                              std::to_string(rows) + " up to row " + std::to_string(newest));
+    return age;
+  }
+  std::uint8_t code(std::int32_t y) const {
+    const std::int32_t here = age(newest_after, y), above = age(newest_after, y - 1);
+    return static_cast<std::uint8_t>(int{after.left[above]} | int{after.left[here]} << 1 |
+                                     int{before.top[age(newest_before, y)]} << 2 |
+                                     int{after.top[here]} << 3);
+  }
+  bool unbroken(std::int32_t from, std::int32_t end) const {
+    return after.left.all(age(newest_after, end - 1), age(newest_after, from));
+  }
+};
+
+MemoryShape shape(const spec::morphological::Parameters& p, std::int32_t lanes) {
+  MemoryShape shape;
+  const auto columns = static_cast<std::uint32_t>(std::max(2, lanes));
+  shape.words = std::max(static_cast<std::uint32_t>(p.line_pixels), columns);
+  shape.columns = static_cast<std::uint64_t>(p.line_pixels);
+  shape.word_bits = static_cast<std::uint32_t>(2 * (p.window_rows + 1));
+  shape.read_ports = static_cast<std::uint32_t>(1 + PortSchedule(p).ports());
+  shape.read_during_write = ReadDuringWrite::kOldWord;
+  shape.banks = shape.span = columns;
+  shape.content = "left and top edges of window_rows + 1 rows, a word a column";
+  return shape;
 }
-
-int column_reads(const spec::morphological::Parameters& p) {
-  const int horizontal = p.contiguous ? 2 : 1, vertical = 1;
-  return 1 + kSides * predictors(p) * (horizontal + vertical);
-}
-
-int row_reads(const spec::morphological::Parameters& p) { return kSides * predictors(p); }
-
-std::string port_list(int reads) { return std::to_string(reads) + "R1W"; }
 
 }  // namespace
 
-EdgeRows::EdgeRows(const char* name, const spec::morphological::Parameters& p)
-    : ColumnStorage(name, p.line_pixels, static_cast<std::uint32_t>(p.window_rows + 1),
-                    port_list(row_reads(p))),
-      stretch_((p.reach_columns + 1) / 2),
-      reads_(*this, row_reads(p)) {}
-
 EdgeWindow::EdgeWindow(const char* name, const spec::morphological::Parameters& p,
                        const ParameterStore& store)
-    : ColumnStorage(name, p.line_pixels, static_cast<std::uint32_t>(2 * (p.window_rows + 1)),
-                    port_list(column_reads(p))),
+    : memory(name, shape(p, store.lanes())),
       store_(store),
-      reads_(*this, column_reads(p)),
-      rows_(p.contiguous ? std::make_unique<EdgeRows>("edge_rows", p) : nullptr),
-      // One bit before and one after the frame, and a word that Row::from() may touch.
-      plane_((static_cast<std::size_t>(p.line_pixels) + 2 + 63) / 64 + 1),
-      row_at_(spec::morphological::kMaxFrameSize),
-      bits_(2 * plane_ * static_cast<std::size_t>(p.window_rows + 1)),
-      none_(plane_) {
-  const auto rows = static_cast<std::size_t>(p.window_rows + 1);
-  for (std::size_t y = 0; y < row_at_.size(); ++y)
-    row_at_[y] = static_cast<std::uint32_t>(y % rows * 2 * plane_);
+      lanes_(store.lanes()),
+      rows_(p.window_rows + 1),
+      beat_(memory, "extractor"),
+      update_(memory, "extractor"),
+      columns_(static_cast<std::size_t>(p.line_pixels) + 1) {
+  for (int i = 0; i < PortSchedule(p).ports(); ++i)
+    lines_.emplace_back(memory, "predictors " + std::to_string(i));
 }
 
-void EdgeWindow::write(std::int32_t y, std::int32_t x, std::uint8_t left, std::uint8_t top,
-                       int lanes) {
-  std::uint64_t* const row = bits_.data() + row_at_[static_cast<std::size_t>(y)];
-  const auto put = [&](std::uint64_t* words, std::uint8_t value) {
-    const auto bit = static_cast<std::uint32_t>(x + 1);
-    std::uint64_t& word = words[bit / 64];
-    // Columns not yet written hold an old row: cleared to the end of the word.
-    const std::uint64_t before = (std::uint64_t{1} << bit % 64) - 1;
-    word = (x == 0 ? 0 : word & before) | std::uint64_t{value} << bit % 64;
-    const bool crosses = bit % 64 + static_cast<std::uint32_t>(lanes) >= 64;
-    if (crosses) words[bit / 64 + 1] = bit % 64 ? std::uint64_t{value} >> (64 - bit % 64) : 0;
-  };
-  put(row, left);
-  put(row + plane_, top);
+void EdgeWindow::read(Cycle cycle, std::size_t port, const Trial& trial) {
+  const std::int32_t first = std::max(trial.line - 1, 0);
+  const std::int32_t last = std::min(trial.line, store_.rules().width - 1);
+  lines_[port].read(cycle, at(first), static_cast<std::uint32_t>(last - first + 1));
 }
 
-bool EdgeWindow::unbroken(std::int32_t x, std::int32_t y, std::int32_t count) const {
-  DEBURR_CHECK(count <= rows_->stretch(),
-               std::string(rows_->name()) + ": a port gives " + std::to_string(rows_->stretch()) +
-                   " edges of a row, " + std::to_string(count) + " were asked for");
-  if (x < 0) return false;
-  const Row row = top(y);
-  for (const std::int32_t end = x + count; x < end; x += 64) {
-    const std::int32_t left = end - x;
-    const std::uint64_t mask = left >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << left) - 1;
-    if ((row.from(x) & mask) != mask) return false;
-  }
-  return true;
-}
-
-void EdgeWindow::fail(std::int32_t x) const {
-  throw spec::CheckFailed(std::string(name()) + ": column " + std::to_string(x) +
-                          " is not among those that the port reads");
+std::uint8_t EdgeWindow::hits(Cycle cycle, std::size_t port, const Trial& trial) const {
+  static constexpr EdgeColumn kNoEdges;
+  const std::int32_t line = trial.line;
+  lines_[port].check(cycle, at(std::max(line - 1, 0)));
+  const EdgeColumn* const column = &columns_[at(line)];
+  const BesideLine edges{column[0], line == store_.rules().width ? kNoEdges : column[1],
+                         newest_row(line - 1), newest_row(line), rows_};
+  return hits_of(trial, edges, store_.rules().contiguous);
 }
 
 }  // namespace deburr::rtl::morphological

@@ -1,145 +1,129 @@
 // SPDX-License-Identifier: MIT
-// The edges of the last rows, both planes, as bit masks that runs and corners are read from; and a
-// copy of the top edges that is stored by rows.
+// The edges of the last rows by columns, both planes: what runs are found in, and the corners of
+// vertical runs.
 //
-// Where: written by the RunExtractor, a beat of one row a clock; read by it and by the
-// EndpointPredictors. Holds window_rows + 1 rows: R rows on either side of the row whose runs are
-// being predicted, one row for the records that are still under way when the next slot row has
-// begun, and the row that is being written. Edges outside the frame read as 0. Latency 0: a read
-// is answered in its clock, as by a register file. Never stalls.
+// Where: written by the RunExtractor, a beat of columns a clock; read by it, and by the predictors
+// of vertical runs. A word is a column: bit k of a plane is the edge of the k-th newest row. The
+// extractor reads the words of its beat, moves them on by a row and writes them back. So the row in
+// hand is always at the same bits, and rows that are not there read as 0: those below the frame
+// come in as zeros, those above it are what slot row 0 clears. Holds window_rows + 1 rows: R on
+// either side of the row whose runs are being predicted, one for the records that are still under
+// way when the next slot row has begun, and the row being written.
 //
-// EdgeWindow: a word a column, (window_rows + 1) x 2 bits, so that a read shows a column's runs in
-// both directions; banks by column, so that one port gives neighbouring columns. Ports: 1 write;
-// 1 read of the extractor (its beat: the row in hand, the run below, the row being blended); for
-// each predictor and side one of the corners of all candidates (horizontal: four columns, vertical:
-// two, where the origin and the edges between are as well) and, horizontal and `contiguous`, one of
-// the corner where the step begins (two columns).
-//
-// EdgeRows: only if the engine is built with `contiguous`. The edges between the corners of a
-// horizontal step lie in as many columns as the step is long, up to (reach_columns + 1) / 2: a side
-// has reach - L columns, and its step is L + 1 at most. Hence the rows in words of that width, even
-// and odd ones in banks of their own; the two words of a port hold any such stretch. Cost:
-// window_rows + 1 bits a column. Ports: 1 write, a read for each horizontal predictor and side.
-//
-// Reads are counted in every clock, and columns or stretches beyond what a port gives are refused:
-// CheckFailed. The model keeps a row of a plane as 64-bit words, and EdgeRows reads the same words;
-// bit 0 of a row stands for the column left of the frame, so that a corner's two edges along a row
-// are neighbouring bits.
+// Synchronous SRAM, latency 1, never stalls. Ports: 1 write and 1 read of a beat (extractor), and
+// reads of the two columns beside a lattice line, as many as the schedule of the predictors has
+// (PortSchedule). Read-first: a word that is read in the clock in which it moves on is the old one;
+// where the beats are in the frame tells which it was. Cost: (window_rows + 1) x 2 bits a column, a
+// copy a read port, banks by column. Longest path, at the address: a comparator of 13 bits and a
+// choice of two.
 #pragma once
 
-#include <bit>
+#include <algorithm>
+#include <array>
 #include <cstdint>
-#include <memory>
+#include <deque>
 #include <vector>
 
-#include "rtl_model/morphological/line_memory.h"
+#include "rtl_model/fabric/memory.h"
 #include "rtl_model/morphological/parameter_store.h"
+#include "rtl_model/morphological/runs/trial.h"
 
 namespace deburr::rtl::morphological {
 
-// The top edges once more, by rows.
-class EdgeRows final : public ColumnStorage {
+// A column of one plane; bit k: the k-th newest row.
+class ColumnBits {
  public:
-  EdgeRows(const char* name, const spec::morphological::Parameters& parameters);
-  std::int32_t stretch() const { return stretch_; }  // bits that a port gives
-  const ReadPorts& read_ports() const { return reads_; }
+  static constexpr std::int32_t kMostRows = 259;
+
+  bool operator[](std::int32_t age) const {
+    const auto bit = static_cast<std::uint32_t>(age);
+    return words_[bit / 64] >> bit % 64 & 1;
+  }
+  // Bits first..first + 31.
+  std::uint32_t from(std::int32_t first) const {
+    const auto bit = static_cast<std::uint32_t>(first);
+    std::uint64_t bits = words_[bit / 64] >> bit % 64;
+    if (bit % 64 > 32) bits |= words_[bit / 64 + 1] << (64 - bit % 64);
+    return static_cast<std::uint32_t>(bits);
+  }
+  // A row on, in columns of so many rows.
+  void move_on(bool newest, std::int32_t rows) {
+    const auto last = static_cast<std::uint32_t>(rows - 1);
+    std::uint64_t in = newest ? 1 : 0;
+    for (std::uint32_t i = 0; i <= last / 64; ++i) {
+      const std::uint64_t out = words_[i] >> 63;
+      words_[i] = words_[i] << 1 | in;
+      in = out;
+    }
+    words_[last / 64] &= ~std::uint64_t{0} >> (63 - last % 64);
+  }
+  // Are the bits first..last all set?
+  bool all(std::int32_t first, std::int32_t last) const {
+    for (; first <= last; first = (first | 63) + 1)
+      if (~words_[static_cast<std::uint32_t>(first) / 64] & mask(first, last)) return false;
+    return true;
+  }
 
  private:
-  friend class EdgeWindow;
-  std::int32_t stretch_;
-  ReadPorts reads_;
+  // Of the word that `first` lies in.
+  static std::uint64_t mask(std::int32_t first, std::int32_t last) {
+    const std::uint64_t from = ~std::uint64_t{0} << (first & 63);
+    return last > (first | 63) ? from : from & ~std::uint64_t{0} >> (63 - (last & 63));
+  }
+  std::array<std::uint64_t, kMostRows / 64 + 2> words_{};
 };
 
-class EdgeWindow final : public ColumnStorage {
+struct EdgeColumn {
+  ColumnBits left, top;
+};
+
+class EdgeWindow {
  public:
-  // A row of one plane.
-  class Row {
-   public:
-    Row() = default;
-    explicit Row(const std::uint64_t* words) : words_(words) {}
-    // x = -1..width
-    bool operator[](std::int32_t x) const {
-      const auto bit = static_cast<std::uint32_t>(x + 1);
-      return words_[bit / 64] >> (bit % 64) & 1;
-    }
-    // The 64 bits from x on.
-    std::uint64_t from(std::int32_t x) const {
-      const auto bit = static_cast<std::uint32_t>(x + 1);
-      const std::uint64_t low = words_[bit / 64] >> (bit % 64);
-      return bit % 64 ? low | words_[bit / 64 + 1] << (64 - bit % 64) : low;
-    }
-
-   private:
-    const std::uint64_t* words_ = nullptr;
-  };
-
-  // What a port gives in a clock: all rows of the columns first..first + count - 1.
-  class Columns {
-   public:
-    Columns() = default;
-    // Edges above pixels (x - 1, y) and (x, y), bits 0 and 1.
-    unsigned top_pair(std::int32_t x, std::int32_t y) const {
-      check(x - 1);
-      check(x);
-      return static_cast<unsigned>(window_->top(y).from(x - 1) & 3);
-    }
-    bool left(std::int32_t x, std::int32_t y) const {
-      check(x);
-      return window_->left(y)[x];
-    }
-
-   private:
-    friend class EdgeWindow;
-    Columns(const EdgeWindow& window, std::int32_t first, std::uint32_t count)
-        : window_(&window), first_(first), count_(count) {}
-    void check(std::int32_t x) const {
-      if (static_cast<std::uint32_t>(x - first_) >= count_) [[unlikely]]
-        window_->fail(x);
-    }
-    const EdgeWindow* window_ = nullptr;
-    std::int32_t first_ = 0;
-    std::uint32_t count_ = 0;
-  };
-
   EdgeWindow(const char* name, const spec::morphological::Parameters& parameters,
              const ParameterStore& store);
 
-  // The columns of a beat; a row is written from left to right.
-  void write(std::int32_t y, std::int32_t x, std::uint8_t left, std::uint8_t top, int lanes);
-
-  // Through a port.
-  Columns read(Cycle cycle, std::int32_t first, std::uint32_t count) {
-    reads_.use(cycle);
-    return Columns(*this, first, count);
+  // --- The extractor: the columns of a beat, which begins at `column` ---
+  void read_beat(Cycle cycle, std::int32_t column) {
+    beat_.read(cycle, at(column), columns(column));
   }
-  // The extractor's port: its beat of any row.
-  void read_beat(Cycle cycle) { reads_.use(cycle); }
-  // A port of the rows, in this clock.
-  void read_row(Cycle cycle) { rows_->reads_.use(cycle); }
-  // What that port says: edges top(x..x + count - 1, y) are all set.
-  bool unbroken(std::int32_t x, std::int32_t y, std::int32_t count) const;
+  // In a clock after: the words of that beat, which go back in slot row `row`, changed. The column
+  // before them stands in front of them, and is nothing at the frame's border.
+  EdgeColumn* write_beat(Cycle cycle, std::int32_t column, std::int32_t row) {
+    beat_.check(cycle, at(column));
+    update_.write(cycle, at(column), columns(column));
+    progress_ = {row, column + lanes_};
+    return &columns_[at(column) + 1];
+  }
 
-  Row left(std::int32_t y) const { return Row(in_frame(y) ? words(y) : none_.data()); }
-  Row top(std::int32_t y) const { return Row(in_frame(y) ? words(y) + plane_ : none_.data()); }
+  // --- A predictor of vertical runs: both columns beside the trial's lattice line ---
+  void read(Cycle cycle, std::size_t port, const Trial& trial);
+  // In the clock after.
+  std::uint8_t hits(Cycle cycle, std::size_t port, const Trial& trial) const;
 
-  const ReadPorts& read_ports() const { return reads_; }
-  const EdgeRows* rows() const { return rows_.get(); }  // nullptr: not built
+  std::int32_t rows() const { return rows_; }
+  Memory<void> memory;
 
  private:
-  bool in_frame(std::int32_t y) const {
-    return static_cast<std::uint32_t>(y) < static_cast<std::uint32_t>(store_.rules().height);
+  // The newest row of a column, by where the beats are in the frame.
+  std::int32_t newest_row(std::int32_t column) const {
+    return progress_.row - (column < progress_.end ? 1 : 2);
   }
-  const std::uint64_t* words(std::int32_t y) const {
-    return bits_.data() + row_at_[static_cast<std::size_t>(y)];
+  static std::uint64_t at(std::int32_t column) { return static_cast<std::uint64_t>(column); }
+  std::uint32_t columns(std::int32_t first) const {
+    return static_cast<std::uint32_t>(std::min(lanes_, store_.rules().width - first));
   }
-  [[noreturn, gnu::cold, gnu::noinline]] void fail(std::int32_t x) const;
 
   const ParameterStore& store_;
-  ReadPorts reads_;
-  std::unique_ptr<EdgeRows> rows_;
-  std::size_t plane_;                  // words of a row of one plane
-  std::vector<std::uint32_t> row_at_;  // of each row of the frame: row mod rows, in words
-  std::vector<std::uint64_t> bits_, none_;
+  const std::int32_t lanes_, rows_;
+  ReadPort<void> beat_;
+  WritePort<void> update_;
+  std::deque<ReadPort<void>> lines_;
+  // The model reads words where they are: one that has moved on since its read was issued shows
+  // the same rows, a bit further on.
+  std::vector<EdgeColumn> columns_;  // and nothing left and right of the widest frame
+  struct {
+    std::int32_t row = 0, end = 0;
+  } progress_;  // slot row of the last write, and the column behind it
 };
 
 }  // namespace deburr::rtl::morphological

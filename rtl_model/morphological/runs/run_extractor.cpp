@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/morphological/runs/run_extractor.h"
 
-#include <bit>
+#include <algorithm>
 #include <string>
 
 namespace deburr::rtl::morphological {
@@ -9,32 +9,35 @@ namespace {
 
 using spec::morphological::Axis;
 using spec::morphological::RunPart;
-
-// Part, line, start, length, shape (the codes of both ends), slot.
-constexpr std::uint32_t kEntryBits = 2 + 13 + 13 + 12 + 4 + 15;
+using spec::morphological::RunRecord;
 
 constexpr std::uint8_t code(bool first, bool second) {
   return static_cast<std::uint8_t>(int{first} | int{second} << 1);
 }
 
+constexpr std::uint16_t u16(std::int32_t value) { return static_cast<std::uint16_t>(value); }
+
 }  // namespace
 
 RunExtractor::RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clock,
                            const spec::morphological::Parameters& p, const ParameterStore& store,
-                           EdgeWindow& window)
+                           EdgeWindow& window, EdgeRows& rows)
     : Unit(name, clock),
       store_(store),
       window_(window),
+      rows_(rows),
       lanes_(store.lanes()),
       reach_rows_(store.reach_rows()),
       reach_columns_(p.reach_columns),
+      age_(reach_rows_ + 1),
+      rows_age_(age_ - rows.ahead()),
       records_(declare_stall("records",
                              "a record FIFO is full, or records of two slot rows before are not "
                              "finished")) {
   const auto depth = static_cast<std::uint32_t>(p.record_fifo);
   for (int lane = 0; lane < store.lanes(); ++lane) {
-    h_.fifo.emplace_back(("record_fifo_h" + std::to_string(lane)).c_str(), depth, kEntryBits);
-    v_.fifo.emplace_back(("record_fifo_v" + std::to_string(lane)).c_str(), depth, kEntryBits);
+    h_.fifo.emplace_back(("record_fifo_h" + std::to_string(lane)).c_str(), depth);
+    v_.fifo.emplace_back(("record_fifo_v" + std::to_string(lane)).c_str(), depth);
   }
 }
 
@@ -47,163 +50,196 @@ Activity RunExtractor::tick(Cycle cycle) {
   }
   if (h_.count) drain(h_, cycle);
   if (v_.count) drain(v_, cycle);
-  const bool blocked = h_.count + v_.count != 0;
-  if (!edges_in.can_pop(cycle)) return blocked ? records_ : kIdle;
-  const EdgeToken& token = edges_in.front(cycle);
-  const Slot slot = token.slot;
-  const bool interlocked = slot.beat == 0 && unfinished_[slot.row & 1] != 0;
-  if (blocked || interlocked) {
-    ++record_stalls;
-    if (!blocked) ++interlock_stalls;
+  const bool arrives = edges_in.can_pop(cycle);
+  // Records without room in their FIFOs hold all that is behind them.
+  if (h_.count + v_.count != 0) {
+    if (arrives) ++record_stalls;
     return records_;
   }
-  const bool blends = slot.row >= reach_rows_ + spec::morphological::kRowLag;
-  if (!area_slots_out.can_push(cycle) || (blends && !fetches_out.can_push(cycle)))
-    return kStalledDownstream;
-
-  if (slot.beat == 0) begin_row(slot);
-  window_.read_beat(cycle);
-  const std::int32_t first = slot.beat * lanes_;
-  const FrameRules& rules = store_.rules();
-  const std::int32_t end = std::min(first + lanes_, rules.width);
-  if (slot.row >= 1 && slot.row <= rules.height)
-    window_.write(slot.row - 1, first, token.left, token.top, lanes_);
-  if (active_) {
-    horizontal(slot, first, end);
-    vertical(slot, first, end);
-    if (h_.count) drain(h_, cycle);
-    if (v_.count) drain(v_, cycle);
+  ++step_;
+  bool did = false;
+  if (found_ != 0 && finds_[oldest_].begun + kFindClocks == step_) {
+    deliver(finds_[oldest_]);
+    oldest_ = (oldest_ + 1) % finds_.size();
+    --found_;
+    did = true;
   }
-
-  AreaSlotToken& out = area_slots_out.emplace(cycle);
-  out.slot = slot;
-  const std::uint64_t mask = (std::uint64_t{1} << lanes_) - 1;
-  out.left = static_cast<std::uint8_t>(left_blend_.from(first) & mask);
-  out.top = static_cast<std::uint8_t>(top_blend_.from(first) & mask);
-  if (blends) fetches_out.emplace(cycle).slot = slot;
-  edges_in.pop(cycle);
+  if (reads_) {
+    const bool blends = token_.slot.row >= reach_rows_ + spec::morphological::kRowLag;
+    if (!area_slots_out.can_push(cycle) || (blends && !fetches_out.can_push(cycle)))
+      return did ? kBusy : kStalledDownstream;
+    pass(cycle);
+    if (blends) fetches_out.emplace(cycle).slot = token_.slot;
+    reads_ = false;
+    did = true;
+  }
+  if (!arrives) return did || found_ != 0 ? kBusy : kIdle;
+  if (!take_slot(cycle)) return records_;
   return kBusy;
 }
 
-void RunExtractor::begin_row(const Slot& slot) {
+bool RunExtractor::take_slot(Cycle cycle) {
+  const EdgeToken& token = edges_in.front(cycle);
+  const std::size_t parity = token.slot.row & 1;
+  if (token.slot.beat == 0 && unfinished_[parity] + finding_[parity] != 0) {
+    ++record_stalls;
+    ++interlock_stalls;
+    return false;
+  }
+  token_ = token;
+  window_.read_beat(cycle, token.slot.beat * lanes_);
+  reads_ = true;
+  edges_in.pop(cycle);
+  return true;
+}
+
+// The words of the slot's columns are here.
+void RunExtractor::pass(Cycle cycle) {
+  const FrameRules& rules = store_.rules();
+  const Slot& slot = token_.slot;
+  const std::int32_t first = slot.beat * lanes_, end = std::min(first + lanes_, rules.width);
+  EdgeColumn* const columns = window_.write_beat(cycle, first, slot.row);
+  const bool comes = slot.row >= 1 && slot.row <= rules.height;
+  // Bits of the row that is blended, of row y, and of the row that goes to EdgeRows.
+  constexpr std::int32_t kBlended = spec::morphological::kRowLag - 2;  // rows above row y
+  std::uint32_t left_blended = 0, top_blended = 0, left_ahead = 0, top_ahead = 0;
+  bool any_top = open_, any_left = false;
+  for (std::int32_t i = 0; i < end - first; ++i) {
+    EdgeColumn& column = columns[i];
+    if (slot.row == 0) {
+      column = {};
+      continue;
+    }
+    column.left.move_on(comes && (token_.left >> i & 1), window_.rows());
+    column.top.move_on(comes && (token_.top >> i & 1), window_.rows());
+    const std::uint32_t left = column.left.from(rows_age_), top = column.top.from(rows_age_);
+    const auto ahead = static_cast<std::uint32_t>(rows_.ahead());
+    left_ahead |= (left & 1) << i;
+    top_ahead |= (top & 1) << i;
+    any_left |= (left >> ahead & 1) != 0;
+    any_top |= (top >> ahead & 1) != 0;
+    left_blended |= (left >> (ahead + kBlended) & 1) << i;
+    top_blended |= (top >> (ahead + kBlended) & 1) << i;
+  }
+  AreaSlotToken& out = area_slots_out.emplace(cycle);
+  out.slot = slot;
+  out.left = static_cast<std::uint8_t>(left_blended);
+  out.top = static_cast<std::uint8_t>(top_blended);
+  columns_ = columns;
   row_ = slot.row - reach_rows_ - 2;
-  active_ = row_ >= 0 && row_ < store_.rules().height;
-  const std::int32_t half = reach_rows_ / 2,
-                     blended = slot.row - reach_rows_ - spec::morphological::kRowLag;
-  left_ = window_.left(row_);
-  left_before_ = window_.left(row_ - 1);
-  left_last_ = window_.left(row_ + half - 1);
-  left_half_ = window_.left(row_ + half);
-  top_ = window_.top(row_);
-  left_blend_ = window_.left(blended);
-  top_blend_ = window_.top(blended);
+  const std::int32_t ahead = row_ + rows_.ahead();
+  if (ahead >= 0 && ahead < rules.height) rows_.write(cycle, ahead, first, left_ahead, top_ahead);
+  if (row_ < 0 || row_ >= rules.height || !(any_top || any_left)) return;
+
+  Find& find = finds_[(oldest_ + found_) % finds_.size()];
+  find.count = 0;
+  if (any_top) horizontal(find, first, end);
+  if (any_left) vertical(find, first, end);
+  if (find.count == 0) return;
+  find.begun = step_;
+  find.parity = slot.row & 1;
+  ++finding_[find.parity];
+  ++found_;
 }
 
 // Columns first..end - 1 of row y, and the end of the row.
-void RunExtractor::horizontal(const Slot& slot, std::int32_t first, std::int32_t end) {
-  const std::int32_t width = store_.rules().width;
-  const std::uint64_t bits = top_.from(first) & ((std::uint64_t{1} << (end - first)) - 1);
-  if (bits == 0 && !open_) return;
+void RunExtractor::horizontal(Find& find, std::int32_t first, std::int32_t end) {
   for (std::int32_t x = first; x < end; ++x) {
-    if (bits >> (x - first) & 1) {
+    const EdgeColumn& column = columns_[x - first];
+    const auto code_here = [&] { return code(column.left[age_ + 1], column.left[age_]); };
+    if (column.top[age_]) {
       if (!open_) {
         open_ = true;
         start_ = x;
-        start_code_ = code(left_before_[x], left_[x]);
+        start_code_ = code_here();
       } else if (x - start_ == reach_columns_) {
         // One edge longer than the reach: the head is known.
         found(
-            h_, slot,
-            {Axis::kHorizontal, RunPart::kHead, static_cast<std::uint16_t>(row_),
-             static_cast<std::uint16_t>(start_), static_cast<std::uint16_t>(reach_columns_ / 2), 0},
+            find,
+            {Axis::kHorizontal, RunPart::kHead, u16(row_), u16(start_), u16(reach_columns_ / 2), 0},
             start_code_, 0);
       }
     } else if (open_) {
-      close(slot, x);
+      close(find, x, code_here());
     }
   }
-  if (end == width && open_) close(slot, width);
+  if (open_ && end == store_.rules().width) close(find, end, 0);
 }
 
 // The run ends in front of column `end`.
-void RunExtractor::close(const Slot& slot, std::int32_t end) {
+void RunExtractor::close(Find& find, std::int32_t end, std::uint8_t end_code) {
   open_ = false;
-  const std::int32_t length = end - start_;
-  const std::uint8_t end_code = code(left_before_[end], left_[end]);
-  ++horizontal_runs;
-  if (length > reach_columns_) {
-    ++long_runs;
-    const std::int32_t half = reach_columns_ / 2;
-    found(h_, slot,
-          {Axis::kHorizontal, RunPart::kTail, static_cast<std::uint16_t>(row_),
-           static_cast<std::uint16_t>(end - half), static_cast<std::uint16_t>(half), 0},
-          0, end_code);
-  } else {
-    found(h_, slot,
-          {Axis::kHorizontal, RunPart::kWhole, static_cast<std::uint16_t>(row_),
-           static_cast<std::uint16_t>(start_), static_cast<std::uint16_t>(length), 0},
+  const std::int32_t length = end - start_, half = reach_columns_ / 2;
+  if (length > reach_columns_)
+    found(find, {Axis::kHorizontal, RunPart::kTail, u16(row_), u16(end - half), u16(half), 0}, 0,
+          end_code);
+  else
+    found(find, {Axis::kHorizontal, RunPart::kWhole, u16(row_), u16(start_), u16(length), 0},
           start_code_, end_code);
-  }
 }
 
 // Runs that start in row y, and tails of long runs.
-void RunExtractor::vertical(const Slot& slot, std::int32_t first, std::int32_t end) {
-  const std::uint64_t mask = (std::uint64_t{1} << (end - first)) - 1;
-  const std::uint64_t set = left_.from(first) & mask;
-  if (set == 0) return;
-  const std::uint64_t before = left_before_.from(first);
-  // A tail ends where its half of the reach ends, and the run began at least R rows before that.
-  const std::uint64_t ends = left_last_.from(first) & ~left_half_.from(first);
-  std::uint64_t events = set & (~before | ends);
+void RunExtractor::vertical(Find& find, std::int32_t first, std::int32_t end) {
   const std::int32_t half = reach_rows_ / 2;
-  for (; events != 0; events &= events - 1) {
-    const std::int32_t x = first + std::countr_zero(events);
-    const bool starts = !(before >> (x - first) & 1);
-    spec::morphological::RunRecord run{Axis::kVertical,
-                                       RunPart::kWhole,
-                                       static_cast<std::uint16_t>(x),
-                                       static_cast<std::uint16_t>(row_),
-                                       0,
-                                       0};
+  for (std::int32_t x = first; x < end; ++x) {
+    const EdgeColumn& before = columns_[x - first - 1];
+    const EdgeColumn& column = columns_[x - first];
+    const auto row = [&](std::int32_t below) { return age_ - below; };
+    if (!column.left[row(0)]) continue;
+    const bool starts = !column.left[row(-1)];
+    // A tail ends where its half of the reach ends, and the run began at least R rows before that.
+    const bool ends = column.left[row(half - 1)] && !column.left[row(half)];
+    if (!starts && !ends) continue;
+    const auto code_at = [&](std::int32_t below) {
+      return code(before.top[row(below)], column.top[row(below)]);
+    };
+    RunRecord run{Axis::kVertical, RunPart::kWhole, u16(x), u16(row_), u16(half), 0};
     std::int32_t length = 1;
     if (starts) {
-      while (length <= reach_rows_ && window_.left(row_ + length)[x]) ++length;
-      ++vertical_runs;
+      while (length <= reach_rows_ && column.left[row(length)]) ++length;
+      if (length > reach_rows_) {
+        run.part = RunPart::kHead;
+        found(find, run, code_at(0), 0);
+      } else {
+        run.length = u16(length);
+        found(find, run, code_at(0), code_at(length));
+      }
     } else {
-      while (length <= reach_rows_ && window_.left(row_ + half - 1 - length)[x]) ++length;
+      while (length <= reach_rows_ && column.left[row(half - 1 - length)]) ++length;
       if (length <= reach_rows_) continue;  // the end of a run that is not long
       run.part = RunPart::kTail;
+      found(find, run, 0, code_at(half));
     }
-    std::uint8_t start_code = 0, end_code = 0;
-    if (run.part == RunPart::kTail || length > reach_rows_) {
-      if (starts) {
-        ++long_runs;
-        run.part = RunPart::kHead;
-      }
-      length = half;
-    }
-    if (run.part != RunPart::kTail) start_code = code(top_[x - 1], top_[x]);
-    if (run.part != RunPart::kHead) {
-      const EdgeWindow::Row below = window_.top(row_ + length);
-      end_code = code(below[x - 1], below[x]);
-    }
-    run.length = static_cast<std::uint16_t>(length);
-    found(v_, slot, run, start_code, end_code);
   }
 }
 
-void RunExtractor::found(AxisSide& to, const Slot& slot, spec::morphological::RunRecord run,
-                         std::uint8_t start_code, std::uint8_t end_code) {
+void RunExtractor::found(Find& find, RunRecord run, std::uint8_t start_code,
+                         std::uint8_t end_code) const {
   run.shape = static_cast<std::uint8_t>(start_code + 4 * end_code);
-  const spec::morphological::RunShape& shape = spec::morphological::kRunShapes[run.shape];
-  if (observer) observer(run);
-  if (run.part == RunPart::kWhole && shape.clean_z) ++z_runs;
-  if (shape.before == spec::morphological::Side::kNone &&
-      shape.after == spec::morphological::Side::kNone)
-    return;
-  to.waiting[to.count++] = {run, slot.number & kSlotMask, start_code, end_code};
-  ++unfinished_[slot.row & 1];
-  ++records_sent;
+  find.run[find.count++] = {run, token_.slot.number & kSlotMask};
+}
+
+void RunExtractor::deliver(const Find& find) {
+  --finding_[find.parity];
+  for (std::size_t i = 0; i < find.count; ++i) {
+    const RunRecord& run = find.run[i].run;
+    const bool horizontal = run.axis == Axis::kHorizontal;
+    const spec::morphological::RunShape& shape = spec::morphological::kRunShapes[run.shape];
+    if (observer) observer(run);
+    // A long run counts once: by its tail, which ends it, or by its head, which begins it.
+    if (run.part != (horizontal ? RunPart::kHead : RunPart::kTail)) {
+      ++(horizontal ? horizontal_runs : vertical_runs);
+      if (run.part != RunPart::kWhole) ++long_runs;
+    }
+    if (run.part == RunPart::kWhole && shape.clean_z) ++z_runs;
+    if (shape.before == spec::morphological::Side::kNone &&
+        shape.after == spec::morphological::Side::kNone)
+      continue;
+    AxisSide& to = horizontal ? h_ : v_;
+    to.waiting[to.count++] = find.run[i];
+    ++unfinished_[find.parity];
+    ++records_sent;
+  }
 }
 
 // The oldest first, each to the next FIFO in turn, one a FIFO and clock.
@@ -220,8 +256,10 @@ void RunExtractor::drain(AxisSide& from, Cycle cycle) {
 void RunExtractor::reset() {
   h_.count = v_.count = 0;
   h_.turn = v_.turn = 0;
-  unfinished_ = {};
-  open_ = active_ = false;
+  unfinished_ = finding_ = {};
+  reads_ = false;
+  found_ = 0;
+  open_ = false;
 }
 
 }  // namespace deburr::rtl::morphological

@@ -2,14 +2,25 @@
 // Finds the runs of edges of both axes while the raster passes: each maximal run once, as a record
 // of start, length and the crossing edges at both ends.
 //
-// Where: between EdgeDetector and AreaUnit. In slot row s it writes edge row s - 1 into the window
-// and works on row y = s - R - 2. Horizontal: a counter of the open run. Vertical: the column's
-// word of the window, a priority encoder from row y downwards. Latency 1, initiation interval 1; a
-// record can be taken from its FIFO a clock later. Records of a slot go to the FIFOs of the lanes
-// in rotation, one a FIFO a clock. Records without a side are counted and go nowhere.
+// Where: between EdgeDetector and AreaUnit. In slot row s it works on row y = s - R - 2:
+//
+//   0      a slot is taken, the columns of its beat are read from the EdgeWindow
+//   1      they come, move on by row s - 1 and go back; at fixed bits of them: the edges of the row
+//          that is blended (the slot goes on to AreaUnit and PixelStore), a row for EdgeRows, the
+//          end of a horizontal run (a counter), the beginning of a vertical run or of its tail
+//   2, 3   length of a vertical run: first gap below row y, in groups of 16 rows; choice of a group
+//   4      code of its end: choice of a row; shape; side or none
+//   5      into the FIFOs of the lanes in rotation, one a FIFO and clock
+//
+// Latency 2 of a slot, initiation interval 1; a record can be taken from its FIFO 6 clocks after
+// its slot was. Records without a side are counted and go nowhere. Rows of a single beat read a
+// word that is being written: it is taken from the register that it was written from.
 // Stalls: `records` (a FIFO is full, or the interlock: slot row s waits until all records found in
-// slot row s - 2 are finished), `downstream`. Cost a lane: a priority encoder of R + 1 bits; two
-// counters. Memory: record_fifo entries an axis and lane. Source: paper 000, section 2.
+// slot row s - 2 are finished, and those that are being looked for found), `downstream`.
+// Cost a lane: a first-gap circuit of R + 1 bits, two choices of R + 1 : 1, two counters, 3 columns
+// of flip-flops (window_rows + 1 pairs of bits). Memory: record_fifo entries an axis and lane.
+// Made for 250 MHz; longest path: 32 : 1 choice, 16 : 1 table of shapes.
+// Source: paper 000, section 2.
 #pragma once
 
 #include <array>
@@ -21,6 +32,7 @@
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/morphological/parameter_store.h"
+#include "rtl_model/morphological/runs/edge_rows.h"
 #include "rtl_model/morphological/runs/edge_window.h"
 #include "rtl_model/morphological/tokens.h"
 
@@ -39,7 +51,7 @@ class RunExtractor final : public Unit {
 
   RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clock,
                const spec::morphological::Parameters& parameters, const ParameterStore& store,
-               EdgeWindow& window);
+               EdgeWindow& window, EdgeRows& rows);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -55,6 +67,9 @@ class RunExtractor final : public Unit {
   std::function<void(const spec::morphological::RunRecord&)> observer;
 
  private:
+  // From the clock in which a slot's words come to the one in which its records are known.
+  static constexpr std::uint64_t kFindClocks = 3;
+
   // Records of an axis on their way into the FIFOs.
   struct AxisSide {
     std::deque<Fifo<RunToken>> fifo;
@@ -65,27 +80,46 @@ class RunExtractor final : public Unit {
   AxisSide& side(spec::morphological::Axis axis) {
     return axis == spec::morphological::Axis::kHorizontal ? h_ : v_;
   }
+  // A slot with runs that begin or end in it, in clocks 1 to 4.
+  struct Find {
+    std::uint64_t begun;  // step of the pipe
+    std::size_t parity;   // of the slot's row
+    std::size_t count;
+    std::array<RunToken, 3 * spec::morphological::kMaxLanes> run;
+  };
 
-  void begin_row(const Slot& slot);
-  void horizontal(const Slot& slot, std::int32_t first, std::int32_t end);
-  void vertical(const Slot& slot, std::int32_t first, std::int32_t end);
-  void close(const Slot& slot, std::int32_t end);
-  void found(AxisSide& to, const Slot& slot, spec::morphological::RunRecord run,
-             std::uint8_t start_code, std::uint8_t end_code);
+  bool take_slot(Cycle cycle);  // false: it waits for records
+  void pass(Cycle cycle);
+  void horizontal(Find& find, std::int32_t first, std::int32_t end);
+  void close(Find& find, std::int32_t end, std::uint8_t end_code);
+  void vertical(Find& find, std::int32_t first, std::int32_t end);
+  void found(Find& find, spec::morphological::RunRecord run, std::uint8_t start_code,
+             std::uint8_t end_code) const;
+  void deliver(const Find& find);
   void drain(AxisSide& from, Cycle cycle);
 
   const ParameterStore& store_;
   EdgeWindow& window_;
+  EdgeRows& rows_;
   const std::int32_t lanes_, reach_rows_, reach_columns_;
+  const std::int32_t age_;       // of row y in a column: row s - 1 has 0
+  const std::int32_t rows_age_;  // of the row that goes to EdgeRows
   Activity records_;
   AxisSide h_, v_;
   std::array<std::uint32_t, 2> unfinished_{};  // records, by parity of the row of their slot
+  std::array<std::uint32_t, 2> finding_{};     // slots in clocks 2 to 4, alike
 
-  // Registers of the row in hand.
+  bool reads_ = false;  // a slot is in clock 1
+  EdgeToken token_{};
+  // The beat's columns, moved on; columns_[-1]: the one left of them, a register in hardware.
+  const EdgeColumn* columns_ = nullptr;
+
+  std::array<Find, kFindClocks + 1> finds_{};
+  std::size_t oldest_ = 0, found_ = 0;
+  std::uint64_t step_ = 0;  // clocks in which clocks 2 to 4 went on
+
   std::int32_t row_ = 0;  // y
-  bool active_ = false;   // it lies in the frame
-  EdgeWindow::Row left_, left_before_, left_half_, left_last_, top_, left_blend_, top_blend_;
-  bool open_ = false;  // a horizontal run
+  bool open_ = false;     // a horizontal run
   std::int32_t start_ = 0;
   std::uint8_t start_code_ = 0;
 };

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "tb/unit/rtl/morphological/edge_memories.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
 namespace deburr::tb::morphological_rtl {
@@ -26,26 +27,28 @@ struct Prediction {
              const std::function<int(int)>& boundary)
       : axis(axis_),
         store(p),
-        window("window", p, store.store),
-        predictor("predictor", clock, p, store.store, window, axis_),
+        edges(p, store.store),
+        predictor(axis_ == Axis::kHorizontal
+                      ? EndpointPredictor("predictor", clock, p, store.store, edges.rows)
+                      : EndpointPredictor("predictor", clock, p, store.store, edges.window)),
         ends(clock) {
     predictor.records_in[0](ends.in);
     predictor.sums_out[0](ends.out);
     frame(width, height, boundary);
   }
-  // Begins a frame: the registers count, the window shows it.
+  // Begins a frame: the registers count.
   void frame(int width, int height, const std::function<int(int)>& boundary) {
     const bool vertical = axis == Axis::kVertical;
     store.store.write_size(vertical ? height : width, vertical ? width : height);
     EXPECT_TRUE(store.store.latch());
-    const auto dark = [&](int x, int y) { return vertical ? x >= boundary(y) : y >= boundary(x); };
-    const int w = vertical ? height : width, h = vertical ? width : height;
-    for (int y = 0; y < h; ++y)
-      for (int x = 0; x < w; ++x)
-        window.write(y, x, x > 0 && dark(x, y) != dark(x - 1, y),
-                     y > 0 && dark(x, y) != dark(x, y - 1), 1);
+    dark = [=](int x, int y) { return vertical ? x >= boundary(y) : y >= boundary(x); };
   }
-  RunToken z(int line, int start, int length, bool down) const {
+  // A run; the memories show what is around it.
+  RunToken z(int line, int start, int length, bool down) {
+    edges.show(
+        axis == Axis::kVertical ? start : line,
+        [&](int x, int y) { return x > 0 && dark(x, y) != dark(x - 1, y); },
+        [&](int x, int y) { return y > 0 && dark(x, y) != dark(x, y - 1); });
     RunToken token{};
     const int start_code = down ? 1 : 2, end_code = down ? 2 : 1;
     token.run = {axis,
@@ -54,14 +57,13 @@ struct Prediction {
                  static_cast<std::uint16_t>(start),
                  static_cast<std::uint16_t>(length),
                  static_cast<std::uint8_t>(start_code + 4 * end_code)};
-    token.start_code = static_cast<std::uint8_t>(start_code);
-    token.end_code = static_cast<std::uint8_t>(end_code);
     return token;
   }
   ClockDomain clock{"clock", period()};
   Axis axis;
   Registers store;
-  EdgeWindow window;
+  EdgeMemories edges;
+  std::function<bool(int, int)> dark;
   EndpointPredictor predictor;
   Ends<RunToken, SumsToken> ends;
 };
@@ -88,7 +90,7 @@ TEST_P(PredictorAxes, FollowsTheExampleOfTheContract) {
   const auto steps = stair(20, {3, 3, 2, 3}, 10);
   Prediction bench(deburr_without_trim(), GetParam(), 60, 30, steps);
   bench.ends.source.send(bench.z(12, 23, 3, true));
-  bench.clock.run(20);
+  bench.clock.run(80);
   ASSERT_EQ(bench.ends.sink.beats().size(), 1u);
   const SumsToken& sums = bench.ends.sink.beats()[0];
   EXPECT_EQ(sums.left, 1);
@@ -102,8 +104,9 @@ TEST_P(PredictorAxes, FollowsTheExampleOfTheContract) {
   EXPECT_EQ(bench.predictor.iterations.value(), 3u);
   EXPECT_EQ(bench.predictor.steps.value(), 3u);
   EXPECT_EQ(bench.predictor.extended_runs.value(), 1u);
-  // Pushed in 0, popped in 1, trials in 1..3, result sent in 4, taken in 5.
-  EXPECT_THAT(bench.ends.sink.cycles(), ::testing::ElementsAre(5));
+  // Pushed in 0, popped in 1; trials begin in 4, 8 and 12, the last one is decided in 16; joined in
+  // 18, sent in 19, taken in 20.
+  EXPECT_THAT(bench.ends.sink.cycles(), ::testing::ElementsAre(20));
 }
 
 TEST_P(PredictorAxes, GoesUpAsItGoesDown) {
@@ -111,7 +114,7 @@ TEST_P(PredictorAxes, GoesUpAsItGoesDown) {
   const auto down = stair(20, {3, 2, 3, 3}, 10);
   Prediction bench(deburr_without_trim(), GetParam(), 60, 30, [&](int x) { return 24 - down(x); });
   bench.ends.source.send(bench.z(24 - 13, 25, 3, false));
-  bench.clock.run(20);
+  bench.clock.run(80);
   ASSERT_EQ(bench.ends.sink.beats().size(), 1u);
   EXPECT_EQ(bench.ends.sink.beats()[0].left, 2);
   EXPECT_EQ(bench.ends.sink.beats()[0].right, 1);
@@ -127,7 +130,7 @@ TEST_P(PredictorAxes, StopsWhereBothSidesDifferOneUpOneDown) {
   p.safe = safe;
   Prediction bench(p, GetParam(), 60, 30, steps);
   bench.ends.source.send(bench.z(12, 22, 3, true));
-  bench.clock.run(20);
+  bench.clock.run(80);
   ASSERT_EQ(bench.ends.sink.beats().size(), 1u);
   EXPECT_EQ(bench.ends.sink.beats()[0].left, safe ? 0 : 1);
   EXPECT_EQ(bench.ends.sink.beats()[0].right, safe ? 0 : 1);
@@ -139,7 +142,7 @@ TEST_P(PredictorAxes, RunsOfOnePixelHaveTwoCandidatesAndTheFrameEnds) {
   const auto diagonal = [](int x) { return x; };
   Prediction bench(deburr_without_trim(), GetParam(), 7, 7, diagonal);
   bench.ends.source.send(bench.z(3, 3, 1, true));
-  bench.clock.run(20);
+  bench.clock.run(80);
   ASSERT_EQ(bench.ends.sink.beats().size(), 1u);
   EXPECT_EQ(bench.ends.sink.beats()[0].right, 2);  // the last corner, (7, 7), has no crossing
   EXPECT_EQ(bench.ends.sink.beats()[0].left, 2);   // (0, 0) and (1, 1): top(0, 0) is outside
@@ -149,7 +152,7 @@ TEST_P(PredictorAxes, RunsOfOnePixelHaveTwoCandidatesAndTheFrameEnds) {
   bench.store.bus.write(reg::kRules, bench.store.bus.read(reg::kRules) | kTrimBit);
   bench.frame(7, 7, diagonal);
   bench.ends.source.send(bench.z(3, 3, 1, true));
-  bench.clock.run(20);
+  bench.clock.run(80);
   ASSERT_EQ(bench.ends.sink.beats().size(), 2u);
   EXPECT_EQ(bench.ends.sink.beats()[1].right, 1);
   EXPECT_EQ(bench.ends.sink.beats()[1].left, 1);
@@ -168,7 +171,7 @@ SumsToken bend(bool safe) {
   p.safe = safe;
   Prediction bench(p, Axis::kHorizontal, 70, 30, stair(20, {4, 4, 4, 3, 3, 3, 3}, 5));
   bench.ends.source.send(bench.z(7, 24, 4, true));
-  bench.clock.run(30);
+  bench.clock.run(80);
   return bench.ends.sink.beats().at(0);
 }
 TEST(EndpointPredictorBlock, SafeRefusesACornerThatFitsNoLine) {
@@ -195,19 +198,21 @@ TEST(EndpointPredictorBlock, ARecordHoldsAPredictorForItsIterations) {
   for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(bench.ends.sink.cycles()[i], 3 + i);
 }
 
-TEST(EndpointPredictorBlock, EightIterationsWithTwoPredictorsAreARecordEveryFourClocks) {
+TEST(EndpointPredictorBlock, TrialsOfOneRecordBehindTheOther) {
   // A long stair of steps of two pixels: N = 8 to both sides.
   Prediction bench(preset(spec::morphological::Preset::kDeburr), Axis::kHorizontal, 90, 60,
                    stair(10, std::vector<int>(30, 2), 10));
   for (int i = 0; i < 12; ++i) bench.ends.source.send(bench.z(26, 40, 2, true));
-  bench.clock.run(100);
+  bench.clock.run(300);
   ASSERT_EQ(bench.ends.sink.cycles().size(), 12u);
   EXPECT_EQ(bench.ends.sink.beats()[0].left, 8);
   EXPECT_EQ(bench.ends.sink.beats()[0].right, 8);
-  // Popped in 1 and 2, eight trials each, sent a clock after the last: taken in 10, 11, 18, 19...
+  // Popped in 1 and 2; first reads in 4 and 6, decided eight trials later, joined two clocks after
+  // that, which is when the next record is popped; taken two clocks later: T (N + 1) clocks each.
   for (std::size_t i = 0; i < 12; ++i)
-    EXPECT_EQ(bench.ends.sink.cycles()[i], 10 + i / 2 * 8 + i % 2) << i;
-  EXPECT_EQ(bench.predictor.occupancy.value(), 12u * 8u);
+    EXPECT_EQ(bench.ends.sink.cycles()[i], 4 + 4 * 8 + 4 + i % 2 * 2 + i / 2 * 4 * 9) << i;
+  // From the first pop to the last join.
+  EXPECT_EQ(bench.predictor.occupancy.value(), 2u * (5 * 36 + 38) + 1);
 }
 
 // ---- trim ---------------------------------------------------------------------------------------
@@ -360,7 +365,7 @@ struct Trimming : Prediction {
     ends.source.send(z(flipped ? kHeight - kLine : kLine,
                        mirrored ? kWidth - kStart - s.length : kStart, s.length,
                        mirrored == flipped));
-    clock.run(40);
+    clock.run(120);
     Grown to = counts();
     to.sums = ends.sink.beats().back();
     to.probes -= from.probes;
@@ -517,8 +522,8 @@ struct Predicting {
   explicit Predicting(const Parameters& parameters, Cycle opens = 0)
       : p(parameters),
         registers(p, 40, 30),
-        window("window", p, registers.store),
-        unit("predictor", clock, p, registers.store, window, Axis::kHorizontal),
+        edges(p, registers.store),
+        unit("predictor", clock, p, registers.store, edges.rows),
         gate("gate", clock, opens) {
     driver.beats_out(records);
     unit.records_in[0](records);
@@ -528,7 +533,7 @@ struct Predicting {
   ClockDomain clock{"clock", period()};
   Parameters p;
   Registers registers;
-  EdgeWindow window;
+  EdgeMemories edges;
   EndpointPredictor unit;
   Link<RunToken> records{"records"};
   Link<SumsToken> sums{"sums"};
@@ -565,22 +570,59 @@ TEST_P(PredictorUnits, WaitDownstream) {
 }
 INSTANTIATE_TEST_SUITE_P(Each, PredictorUnits, ::testing::Values(1, 2, 4));
 
+class TrialClocks : public ::testing::TestWithParam<int> {};
+
+// A record that comes in any clock of the schedule: early for its phase, or late.
+TEST_P(TrialClocks, ARecordWaitsForItsPhaseAndTakesThatLong) {
+  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  p.line_pixels = 64;
+  p.trial_clocks = GetParam();
+  Predicting bench(p);
+  const auto trial = static_cast<Cycle>(GetParam());
+  std::vector<Cycle> expected;
+  for (Cycle i = 0; i < 2 * trial; ++i) {
+    const Cycle sent = 20 + i * (3 * trial + 13);
+    bench.driver.send(sent, run_of(3, 20));
+    // Popped a clock later; the first predictor has phase 0. Nothing is there to be hit: a trial.
+    const Cycle first = (sent + 2 + trial - 1) / trial * trial;
+    const Cycle joined = first + trial + 2;
+    expected.push_back(joined + 2);
+  }
+  bench.clock.run(expected.back() + 10);
+  EXPECT_EQ(bench.gate.cycles, expected);
+  EXPECT_EQ(bench.unit.iterations.value(), 2 * trial);
+  EXPECT_EQ(bench.unit.probes.value(), 2 * trial * 6);
+}
+
+// A record that is not extended takes a clock, whatever a trial takes.
+TEST_P(TrialClocks, ARecordWithoutTrialsTakesNone) {
+  Parameters p = small();
+  p.trial_clocks = GetParam();
+  p.predictor_units = 1;
+  Predicting bench(p);
+  for (int i = 1; i <= 10; ++i) bench.driver.send(20, run_of(i, 2));
+  bench.clock.run(60);
+  ASSERT_EQ(bench.gate.cycles.size(), 10u);
+  for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(bench.gate.cycles[i], 23 + i);
+  EXPECT_EQ(bench.unit.occupancy.value(), 10u);
+}
+INSTANTIATE_TEST_SUITE_P(Each, TrialClocks, ::testing::Range(1, 9));
+
 // Two results of the same clock go in the order of the predictors, the first one first after a
 // reset, whoever was last before it.
 TEST(EndpointPredictorBlock, AResetTakesBackTheTurn) {
   Parameters p = preset(spec::morphological::Preset::kMlaaSlope);
   p.line_pixels = 64;
+  p.trial_clocks = 1;  // no phases, so that results may come in one clock
   Predicting bench(p);
   // Two steps of three: row 12 from 20 to 23, row 13 from 23 to 26.
   const auto edges = [&] {
-    for (int y = 0; y < 30; ++y)
-      for (int x = 0; x < 40; ++x) {
-        const auto dark = [](int u, int v) {
-          return v >= (u < 20 ? 11 : u < 23 ? 12 : u < 26 ? 13 : 14);
-        };
-        bench.window.write(y, x, x > 0 && dark(x, y) != dark(x - 1, y),
-                           y > 0 && dark(x, y) != dark(x, y - 1), 1);
-      }
+    const auto dark = [](int u, int v) {
+      return v >= (u < 20 ? 11 : u < 23 ? 12 : u < 26 ? 13 : 14);
+    };
+    bench.edges.show(
+        12, [&](int x, int y) { return x > 0 && dark(x, y) != dark(x - 1, y); },
+        [&](int x, int y) { return y > 0 && dark(x, y) != dark(x, y - 1); });
   };
   const auto reset = [&] {
     bench.clock.set_reset_n(false);

@@ -140,8 +140,6 @@ inline rtl::morphological::RunToken run_of(int length, int start, std::uint32_t 
       spec::morphological::Axis::kHorizontal, spec::morphological::RunPart::kWhole, 12,
       static_cast<std::uint16_t>(start),      static_cast<std::uint16_t>(length),   1 + 4 * 2};
   token.slot = slot;
-  token.start_code = 1;
-  token.end_code = 2;
   return token;
 }
 

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "tb/harness/random.h"
+#include "tb/unit/rtl/morphological/edge_memories.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
 namespace deburr::tb::morphological_rtl {
@@ -116,8 +117,8 @@ auto key(const RunRecord& r) {
 struct Extraction {
   explicit Extraction(const Parameters& p)
       : store(p),
-        window("window", p, store.store),
-        extractor("extractor", clock, p, store.store, window),
+        memories(p, store.store),
+        extractor("extractor", clock, p, store.store, memories.window, memories.rows),
         finisher("finisher", clock, store.store) {
     driver.beats_out(edges);
     extractor.edges_in(edges);
@@ -157,7 +158,7 @@ struct Extraction {
 
   ClockDomain clock{"clock", period()};
   Registers store;
-  EdgeWindow window;
+  EdgeMemories memories;
   RunExtractor extractor;
   Finisher finisher;
   Link<EdgeToken> edges{"edges"};
@@ -232,7 +233,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Extract{50, 1, 2, 4, 4, 900, 0}, Extract{3, 70, 2, 32, 256, 970, 0},
                       Extract{64, 64, 0, 6, 2048, 1000, 0}));
 
-TEST(RunExtractorBlock, RecordIsThereAClockAfterTheRunEnds) {
+TEST(RunExtractorBlock, RecordIsThereSixClocksAfterItsSlotWasTaken) {
   Extraction bench(preset(spec::morphological::Preset::kMlaa, 4, 8));
   Planes planes(30, 12);
   for (int x = 5; x < 9; ++x) planes.top[static_cast<std::size_t>(3 * 30 + x)] = true;
@@ -247,12 +248,10 @@ TEST(RunExtractorBlock, RecordIsThereAClockAfterTheRunEnds) {
     if (token.run != expected) continue;
     // Row 3 in slot row 3 + 4 + 2, closed by column 9.
     EXPECT_EQ(token.slot, 9u * 30u + 9u);
-    // Slot k is popped in clock k + 1; the record can be taken in the clock after.
-    EXPECT_EQ(cycle, token.slot + 2);
-    // The slot itself goes on in the same clock.
-    EXPECT_EQ(bench.area_sink.cycles()[token.slot], token.slot + 2);
-    EXPECT_EQ(token.start_code, 1);
-    EXPECT_EQ(token.end_code, 2);
+    // Slot k is taken in clock k + 1.
+    EXPECT_EQ(cycle, token.slot + 1 + 6);
+    // The slot itself can be taken two clocks later.
+    EXPECT_EQ(bench.area_sink.cycles()[token.slot], token.slot + 1 + 2);
   }
 }
 

@@ -142,6 +142,8 @@ inline int lanes_of(const Parameters& p) {
   return spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
 }
 inline int reach_of(const Parameters& p) { return p.window_rows / 2 - 1; }
+// Clocks from a slot to its output beat.
+inline constexpr unsigned kPipe = spec::morphological::kPipelineLatency;
 inline int beats_a_row(const Frame& frame, const Parameters& p) {
   return (frame.width + lanes_of(p) - 1) / lanes_of(p);
 }

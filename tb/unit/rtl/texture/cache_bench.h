@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "rtl_model/texture/texture_cache.h"
@@ -13,11 +14,11 @@
 
 namespace deburr::tb::texture_rtl {
 
-// A hit comes out this long after it has been taken: tag check, FIFO, data read.
-inline constexpr Cycle kHit = 3;
-// A miss of one line, besides the latency of memory: tag check, miss queue, port, response, fill
-// buffer, data stage.
-inline constexpr Cycle kMiss = 7;
+// A hit comes out this long after it has been taken: tag check (2), FIFO, data read (2).
+inline constexpr Cycle kHit = 5;
+// A miss of one line, besides the latency of memory: tag check (2), miss queue, port, memory,
+// response, fill buffer (2), data stage (2).
+inline constexpr Cycle kMiss = 10;
 
 inline spec::texture::Parameters small_cache() {
   spec::texture::Parameters p;
@@ -35,7 +36,6 @@ inline rtl::texture::TexelToken request(std::array<std::uint32_t, 4> address,
   t.control = {0,    0,   256, 1, 0, static_cast<std::uint8_t>(spec::texture::Format::kRgba8),
                true, true};
   t.address = address;
-  t.bank = {0, 1, 2, 3};
   return t;
 }
 // Four neighbours in one line.
@@ -46,9 +46,13 @@ inline rtl::texture::TexelToken in_line(std::uint32_t line, std::uint32_t tag = 
 
 struct CacheBench {
   explicit CacheBench(const spec::texture::Parameters& p = small_cache(),
-                      std::uint32_t latency = kMemoryLatency, std::uint32_t scatter = 0)
-      : cache("cache", clock, p, store.store),
-        memory("memory", period(), memory_parameters(latency, scatter)) {
+                      std::uint32_t latency = kMemoryLatency, std::uint32_t scatter = 0,
+                      const std::string& prefix = "")
+      : clock((prefix + "clock").c_str(), period()),
+        store(clock, prefix),
+        ends(clock, prefix),
+        cache((prefix + "cache").c_str(), clock, p, store.control),
+        memory((prefix + "memory").c_str(), period(), memory_parameters(latency, scatter)) {
     cache.texels_in(ends.in);
     cache.texels_out(ends.out);
     cache.memory_port.memory.bind(memory.ports);
@@ -78,9 +82,9 @@ struct CacheBench {
       for (std::size_t k = 0; k < 4; ++k)
         EXPECT_EQ(ends.sink.taken[i].token.texel[k], word(asked[i].address[k])) << i << " " << k;
   }
-  ClockDomain clock{"clock", period()};
-  Store store{clock};
-  Ends<rtl::texture::TexelToken, rtl::texture::TexelQuadToken> ends{clock};
+  ClockDomain clock;
+  Store store;
+  Ends<rtl::texture::TexelToken, rtl::texture::TexelQuadToken> ends;
   rtl::texture::TextureCache cache;
   MemoryModel memory;
 };

@@ -43,38 +43,63 @@ TEST(TextureRtlDataStage, HitIsReadBeforeItsLineIsOverwritten) {
   EXPECT_THAT(b.memory.lines_read(), ElementsAre(0, 256));
 }
 
+// Word w of a line is in bank w: 0 and 64 meet, 0 and 4 or 0 and 68 do not.
 TEST(TextureRtlDataStage, BankPasses) {
-  CacheBench b;
-  const auto conflicting = [](bool column, bool row, std::array<std::uint8_t, 4> bank) {
-    TexelToken t = request({0, 20, 40, 60});
-    t.column_conflict = column;
-    t.row_conflict = row;
-    t.bank = bank;
-    return t;
-  };
-  const TexelToken plain = in_line(0), columns = conflicting(true, false, {0, 0, 2, 2}),
-                   rows = conflicting(false, true, {0, 1, 0, 1}),
-                   both = conflicting(true, true, {3, 3, 3, 3});
-  b.time_of(plain);
+  spec::texture::Parameters p = small_cache();
+  p.cache_bytes = 1024;
+  CacheBench b(p);
+  const TexelToken plain = request({0, 68, 136, 204}), columns = request({0, 64, 20, 84}),
+                   rows = request({4, 8, 68, 72}), three = request({0, 64, 128, 12}),
+                   four = request({0, 64, 128, 192}), words = request({0, 1, 66, 130});
+  for (const auto& t : {plain, columns, rows, three, four}) b.time_of(t);  // all lines are there
+  EXPECT_EQ(b.cache.data_stage.conflicts.value(), 4u);
+  EXPECT_EQ(b.time_of(plain), kHit);
   EXPECT_EQ(b.time_of(columns), kHit + 1);
   EXPECT_EQ(b.time_of(rows), kHit + 1);
-  EXPECT_EQ(b.time_of(both), kHit + 3);
-  // One after the other: 1, 2, 2, 4 clocks each.
+  EXPECT_EQ(b.time_of(three), kHit + 2);
+  EXPECT_EQ(b.time_of(four), kHit + 3);
+  EXPECT_EQ(b.time_of(words), kHit + 2);  // two bytes of one word are one read
+  // One after the other: 1, 2, 1, 2, 4 and 1 clocks.
   const std::size_t first = b.ends.sink.taken.size();
   const Cycle start = b.clock.cycle() + 1;
-  for (const auto& t : {plain, columns, plain, rows, both, plain}) b.ends.source.add(t);
+  for (const auto& t : {plain, columns, plain, rows, four, plain}) b.ends.source.add(t);
+  const auto conflicts = [&] { return b.cache.data_stage.stalls()[3].cycles; };
+  ASSERT_EQ(b.cache.data_stage.stalls()[3].name, "bank_conflict");
+  const std::uint64_t before = conflicts();
   b.clock.run(40);
   std::vector<Cycle> when;
   for (std::size_t i = first; i < b.ends.sink.taken.size(); ++i)
     when.push_back(b.ends.sink.taken[i].cycle - start - kHit);
   EXPECT_THAT(when, ElementsAre(0, 2, 3, 5, 9, 10));
-  EXPECT_EQ(b.cache.data_stage.conflicts.value(), 6u);
-  const auto stalls = b.cache.data_stage.stalls();
-  ASSERT_EQ(stalls[3].name, "bank_conflict");
-  EXPECT_EQ(stalls[3].cycles, 2u * (1 + 1 + 3));
-  for (const auto& t : b.ends.sink.taken)
-    for (const std::uint32_t texel : t.token.texel) EXPECT_NE(texel, 0u);
+  EXPECT_EQ(conflicts() - before, 1u + 1 + 3);
 }
+
+// A row of a linear texture stands at the same place in its lines as the row above it: turned, they
+// do not meet.
+void check_turned_rows(std::int32_t line_bytes) {
+  spec::texture::Parameters p = small_cache();
+  p.cache_bytes = 4096;
+  p.cache_line_bytes = line_bytes;
+  CacheBench b(p);
+  std::vector<TexelToken> asked;
+  for (std::uint32_t x = 0; x < 256; x += 4) {
+    TexelToken t = request({x, x + 4, x + 1024, x + 1028});
+    t.turned = {false, true};
+    asked.push_back(t);
+  }
+  for (const auto& t : asked) b.time_of(t);
+  for (const auto& t : asked) EXPECT_EQ(b.time_of(t), kHit);
+  EXPECT_EQ(b.cache.data_stage.conflicts.value(), 0u);
+  // The same lines as a descriptor sees them that does not turn them: right all the same.
+  asked.insert(asked.end(), asked.begin(), asked.end());
+  asked.push_back(request({0, 4, 1024, 1028}));
+  asked.push_back(request({32, 4, 1024, 1056}));
+  for (std::size_t i = asked.size() - 2; i < asked.size(); ++i) b.time_of(asked[i]);
+  b.check_data(asked);
+}
+TEST(TextureRtlDataStage, TurnedRowsDoNotMeetInLinesOf32) { check_turned_rows(32); }
+TEST(TextureRtlDataStage, TurnedRowsDoNotMeetInLinesOf64) { check_turned_rows(64); }
+TEST(TextureRtlDataStage, TurnedRowsDoNotMeetInLinesOf128) { check_turned_rows(128); }
 
 // Two texels of one bank that hit, in lines which the two misses of the same request replace: the
 // second line has to wait for the second pass.
@@ -82,12 +107,8 @@ TEST(TextureRtlDataStage, PassesBeforeFills) {
   spec::texture::Parameters p = small_cache();
   p.cache_ways = 1;
   CacheBench b(p);
-  TexelToken clash = request({0, 64, 64 * 4, 64 * 5});
-  clash.column_conflict = true;
-  clash.bank = {0, 0, 2, 2};
-  TexelToken one_hit = request({64 * 4, 64 * 4 + 4, 0, 4});
-  one_hit.column_conflict = true;
-  one_hit.bank = {0, 0, 2, 2};
+  const TexelToken clash = request({0, 64, 64 * 4, 64 * 5});
+  const TexelToken one_hit = request({64 * 4, 64 * 4 + 4, 0, 4});
   const std::vector<TexelToken> asked = {in_line(0), in_line(1), clash, one_hit, in_line(5)};
   for (const auto& t : asked) b.ends.source.add(t);
   b.clock.run(100);

@@ -21,8 +21,8 @@ struct DerivativeBench {
   }
   ClockDomain clock{"clock", period()};
   Store store{clock};
-  FragmentProbe probe{64};
-  DerivativeUnit unit{"unit", clock, store.store, probe};
+  rtl::LatencyProbe probe;
+  DerivativeUnit unit{"unit", clock, store.control, store.descriptors.for_derivatives, probe};
   Ends<spec::texture::Quad, DerivativeToken> ends{clock};
 };
 
@@ -33,7 +33,7 @@ TEST(TextureRtlDerivative, EachLaneTakesItsOwnRowAndColumn) {
   q.s = {0, 1 << 18, 3 << 18, 7 << 18};
   q.t = {-5, 1 << 17, 3, 1 << 20};
   b.ends.source.add(q);
-  b.clock.run(10);
+  b.clock.run(12);
   ASSERT_EQ(b.ends.sink.taken.size(), 4u);
   const std::int64_t row_s[] = {1 << 18, 1 << 18, 4 << 18, 4 << 18};
   const std::int64_t column_s[] = {3 << 18, 6 << 18, 3 << 18, 6 << 18};
@@ -71,7 +71,7 @@ TEST(TextureRtlDerivative, RoundsToNearestAndSaturates) {
   q.s = {0, INT32_MAX, 0, 0};  // (2^31 - 1) x 256 -> 2^31 - 1: just fits
   q.t = {0, 0, 0, 0};
   b.ends.source.add(q);
-  b.clock.run(10);
+  b.clock.run(12);
   ASSERT_EQ(b.ends.sink.taken.size(), 3u);
   EXPECT_EQ(b.ends.sink.taken[0].token.size_s_x, 1u);
   EXPECT_EQ(b.ends.sink.taken[0].token.size_t_y, 1u);
@@ -90,17 +90,17 @@ TEST(TextureRtlDerivative, OneClockACoveredLane) {
     b.ends.source.add(q);
   }
   b.clock.run(20);
-  // Quads take 4, 2, 1, 1, 1 and 4 clocks; the first is pushed in 0, taken in 1, seen in 2.
+  // Quads take 4, 2, 1, 1, 1 and 4 clocks; the first is pushed in 0, taken in 1, seen in 4.
   std::vector<Cycle> when;
   for (const auto& t : b.ends.sink.taken) when.push_back(t.cycle);
-  EXPECT_THAT(when, testing::ElementsAre(2, 3, 4, 5, 6, 7, 10, 11, 12, 13, 14));
+  EXPECT_THAT(when, testing::ElementsAre(4, 5, 6, 7, 8, 9, 12, 13, 14, 15, 16));
   EXPECT_EQ(b.unit.quads.value(), 6u);
   EXPECT_EQ(b.unit.fragments.value(), 11u);
   EXPECT_EQ(b.unit.clamped.value(), 2u + 1 + 0 + 2);
-  EXPECT_EQ(b.unit.busy_cycles(), 13u);
+  EXPECT_EQ(b.unit.busy_cycles(), 13u + 2);  // until the last one has left
 }
 
-TEST(TextureRtlDerivative, WaitsForItsOutputUnlessNothingIsCovered) {
+TEST(TextureRtlDerivative, HoldsStillWhileItsOutputWaits) {
   DerivativeBench b;
   b.ends.sink.hold_to = 20;
   for (const std::uint8_t coverage : std::to_array<std::uint8_t>({1, 1, 0, 0, 1, 8, 0, 2})) {
@@ -109,7 +109,7 @@ TEST(TextureRtlDerivative, WaitsForItsOutputUnlessNothingIsCovered) {
     b.ends.source.add(q);
   }
   b.clock.run(20);
-  EXPECT_EQ(b.unit.quads.value(), 4u);  // two in the link, two without a fragment
+  EXPECT_EQ(b.unit.quads.value(), 6u);  // two in the link, two in stages, two without a fragment
   b.clock.run(20);
   EXPECT_EQ(b.unit.quads.value(), 8u);
   EXPECT_EQ(b.ends.sink.taken.size(), 5u);
@@ -119,10 +119,10 @@ TEST(TextureRtlDerivative, TakesNothingWhileDisabled) {
   DerivativeBench b;
   b.store.bus.write(spec::texture::reg::kControl, 0);
   b.ends.source.add({});
-  b.clock.run(10);
+  b.clock.run(12);
   EXPECT_TRUE(b.ends.sink.taken.empty());
   b.store.bus.write(spec::texture::reg::kControl, 1);
-  b.clock.run(10);
+  b.clock.run(12);
   EXPECT_EQ(b.ends.sink.taken.size(), 4u);
 }
 
@@ -135,7 +135,7 @@ TEST(TextureRtlDerivative, InvalidDescriptorIsCountedAndNotSaturated) {
   b.ends.source.add(q);
   q.texture = 200;  // no such handle
   b.ends.source.add(q);
-  b.clock.run(10);
+  b.clock.run(12);
   ASSERT_EQ(b.ends.sink.taken.size(), 4u);
   for (const auto& t : b.ends.sink.taken) EXPECT_FALSE(t.token.ticket.valid);
   EXPECT_EQ(b.unit.invalid.value(), 4u);

@@ -16,8 +16,9 @@ namespace gold = golden::texture;
 Verdict compare_derivative(bool fault) {
   Pair<spec::texture::Quad, hw::DerivativeToken> bench;
   Store store(bench.clock);
-  hw::FragmentProbe probe(64);
-  hw::DerivativeUnit unit("unit", bench.clock, store.store, probe);
+  rtl::LatencyProbe probe;
+  hw::DerivativeUnit unit("unit", bench.clock, store.control, store.descriptors.for_derivatives,
+                          probe);
   unit.quads_in(bench.in);
   unit.derivatives_out(bench.out);
   Random random(4);
@@ -53,7 +54,7 @@ Verdict compare_derivative(bool fault) {
         },
         lanes.size(),
         [&](std::uint64_t i, const hw::DerivativeToken& got) {
-          probe.left(bench.clock.cycle());
+          probe.leaves(bench.clock.cycle());
           const Lane& at = lanes[i];
           const spec::texture::Quad& q = quads[at.quad];
           const spec::texture::Descriptor& t = d[q.texture];

@@ -120,7 +120,7 @@ FilterWork filter_work() {
 Verdict compare_filter(bool fault) {
   const FilterWork work = filter_work();
   Pair<hw::TexelQuadToken, spec::texture::Colour> bench;
-  hw::FragmentProbe probe(64);
+  rtl::LatencyProbe probe;
   hw::FilterPipeline unit("unit", bench.clock, probe);
   unit.texels_in(bench.in);
   unit.colours_out(bench.out);
@@ -128,7 +128,7 @@ Verdict compare_filter(bool fault) {
       work.tokens.size(),
       [&](std::uint64_t i) {
         hw::TexelQuadToken token = work.tokens[i];
-        if (token.control.last_of_fragment) probe.entered(bench.clock.cycle());
+        if (token.control.last_of_fragment) probe.enters(bench.clock.cycle());
         if (fault && i == kFaultyToken) token.texel[0] ^= 0x8000;
         return token;
       },

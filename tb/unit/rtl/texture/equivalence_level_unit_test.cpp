@@ -49,7 +49,7 @@ spec::texture::Descriptor level_texture(Random& random, int number) {
 Verdict compare_level(spec::texture::CountRule count, spec::texture::CountCap cap, bool fault) {
   Pair<hw::Log2Token, hw::LevelToken> bench;
   Store store(bench.clock);
-  hw::LevelUnit unit("unit", bench.clock, store.store, count, cap);
+  hw::LevelUnit unit("unit", bench.clock, store.descriptors.for_levels, count, cap);
   unit.logs_in(bench.in);
   unit.levels_out(bench.out);
   spec::texture::Parameters rules;

@@ -16,7 +16,7 @@ namespace gold = golden::texture;
 Verdict compare_addresser(bool fault) {
   Pair<hw::SampleToken, hw::TexelToken> bench;
   Store store(bench.clock);
-  hw::TexelAddresser unit("unit", bench.clock, store.store);
+  hw::TexelAddresser unit("unit", bench.clock, store.descriptors.for_texels);
   unit.samples_in(bench.in);
   unit.texels_out(bench.out);
   Random random(7);

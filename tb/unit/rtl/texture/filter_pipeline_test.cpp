@@ -17,11 +17,11 @@ struct FilterBench {
     unit.colours_out(ends.out);
   }
   void add(const TexelQuadToken& token) {
-    if (token.control.last_of_fragment) probe.entered(0);
+    if (token.control.last_of_fragment) probe.enters(0);
     ends.source.add(token);
   }
   ClockDomain clock{"clock", period()};
-  FragmentProbe probe{1024};
+  rtl::LatencyProbe probe;
   FilterPipeline unit{"unit", clock, probe};
   Ends<TexelQuadToken, spec::texture::Colour> ends{clock};
 };
@@ -162,17 +162,17 @@ TEST(TextureRtlFilter, LevelsAndSamples) {
   EXPECT_THAT(b.ends.sink.taken[4].token.rgba, ElementsAre(0, 0, 0, 0));
 }
 
-TEST(TextureRtlFilter, LatencyIsSeven) {
+TEST(TextureRtlFilter, LatencyIsEight) {
   FilterBench b;
   b.ends.sink.hold_to = 1000;
-  b.probe.entered(0);
+  b.probe.enters(0);
   b.ends.in.push(0, request(Format::kRgba8, grey(1, 0, 0, 0)));
   b.clock.run(1);
   const Cycle taken = 1;
-  b.clock.run(6);
-  EXPECT_FALSE(b.ends.out.can_pop(taken + 6));
+  b.clock.run(7);
+  EXPECT_FALSE(b.ends.out.can_pop(taken + 7));
   b.clock.run(1);
-  EXPECT_TRUE(b.ends.out.can_pop(taken + 7));
+  EXPECT_TRUE(b.ends.out.can_pop(taken + 8));
 }
 
 TEST(TextureRtlFilter, OneRequestAClockAndNothingLostInStalls) {
@@ -187,7 +187,7 @@ TEST(TextureRtlFilter, OneRequestAClockAndNothingLostInStalls) {
   b.clock.run(150);
   ASSERT_EQ(b.ends.sink.taken.size(), 100u);
   for (std::size_t i = 0; i < 100; ++i) {
-    const Cycle alone = i + 1 + 7;
+    const Cycle alone = i + 1 + 8;
     EXPECT_EQ(b.ends.sink.taken[i].cycle, alone < 40 ? alone : alone + 17);
     EXPECT_EQ(b.ends.sink.taken[i].token.tag, i);
     EXPECT_EQ(b.ends.sink.taken[i].token.rgba[0], i);

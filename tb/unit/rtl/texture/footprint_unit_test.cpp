@@ -92,14 +92,14 @@ TEST(TextureRtlFootprint, ErrorIsAsDocumented) {
   }
 }
 
-TEST(TextureRtlFootprint, LatencyOneAndSixteen) {
+TEST(TextureRtlFootprint, LatencyTwoAndNineteen) {
   ClockDomain clock("clock", period());
   FootprintBench half(clock, "half_", spec::texture::FootprintRule::kHalf);
   FootprintBench exact(clock, "exact_", spec::texture::FootprintRule::kExact);
   for (FootprintBench* b : {&half, &exact})
     for (int i = 0; i < 40; ++i) b->ends.source.add({});
   clock.run(100);
-  for (const auto& [bench, latency] : {std::pair{&half, 1u}, std::pair{&exact, 16u}}) {
+  for (const auto& [bench, latency] : {std::pair{&half, 2u}, std::pair{&exact, 19u}}) {
     ASSERT_EQ(bench->ends.sink.taken.size(), 40u);
     for (std::size_t i = 0; i < 40; ++i)  // pushed in i, taken in i + 1
       EXPECT_EQ(bench->ends.sink.taken[i].cycle, i + 1 + latency);

@@ -24,7 +24,7 @@ void check_levels(const std::vector<LevelCase>& cases, spec::texture::CountRule 
                   spec::texture::CountCap cap) {
   ClockDomain clock("clock", period());
   Store store(clock);
-  LevelUnit unit("unit", clock, store.store, count, cap);
+  LevelUnit unit("unit", clock, store.descriptors.for_levels, count, cap);
   Ends<Log2Token, LevelToken> ends(clock);
   unit.logs_in(ends.in);
   unit.levels_out(ends.out);
@@ -41,7 +41,7 @@ void check_levels(const std::vector<LevelCase>& cases, spec::texture::CountRule 
     d.max_lod = c.max_lod;
     write_descriptor(store.bus, 0, d);
     ends.source.add({ticket(), 1, 2, 3, 4, c.lb_max, c.lb_min});
-    clock.run(5);
+    clock.run(7);
     const LevelToken& r = ends.sink.taken.back().token;
     EXPECT_EQ(r.count_log2, c.count_log2);
     EXPECT_EQ(r.level, c.level);
@@ -51,7 +51,7 @@ void check_levels(const std::vector<LevelCase>& cases, spec::texture::CountRule 
     EXPECT_EQ(r.axis_t, 4);
   }
   EXPECT_EQ(ends.sink.taken.size(), cases.size());
-  EXPECT_EQ(ends.sink.taken.front().cycle, 2u);
+  EXPECT_EQ(ends.sink.taken.front().cycle, 4u);
 }
 
 constexpr auto kTri = spec::texture::MinFilter::kLinearMipmapLinear;

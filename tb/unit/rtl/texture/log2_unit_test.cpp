@@ -48,24 +48,47 @@ TEST(TextureRtlLog2, ErrorIsAsDocumented) {
   }
 }
 
-TEST(TextureRtlLog2, LatencyOne) {
+TEST(TextureRtlLog2, LatencyOneAndThree) {
+  using spec::texture::Log2Rule;
   ClockDomain clock("clock", period());
-  Log2Unit unit("unit", clock, spec::texture::Log2Rule::kMitchell);
-  Ends<FootprintToken, Log2Token> ends(clock);
-  unit.footprints_in(ends.in);
-  unit.logs_out(ends.out);
-  ends.source.add({ticket(9), 1, 2, 3, 4, 6u << 16, 1u << 16});
-  ends.source.add({ticket(10), 1, 2, 3, 4, 1, 0});
-  clock.run(10);
-  ASSERT_EQ(ends.sink.taken.size(), 2u);
-  EXPECT_EQ(ends.sink.taken[0].cycle, 2u);
-  EXPECT_EQ(ends.sink.taken[1].cycle, 3u);
-  const Log2Token& r = ends.sink.taken[0].token;
-  EXPECT_EQ(r.lb_max, (2 << 12) + 2048);
-  EXPECT_EQ(r.lb_min, 0);
-  EXPECT_EQ(r.axis_s, 3);
-  EXPECT_EQ(r.axis_t, 4);
-  EXPECT_EQ(r.ticket.tag, 9u);
+  struct Bench {
+    Bench(ClockDomain& domain, const std::string& name, Log2Rule rule)
+        : unit(name.c_str(), domain, rule), ends(domain, name + "_") {
+      unit.footprints_in(ends.in);
+      unit.logs_out(ends.out);
+      ends.source.add({ticket(9), 1, 2, 3, 4, 6u << 16, 1u << 16});
+      ends.source.add({ticket(10), 1, 2, 3, 4, 1, 0});
+      ends.source.add({ticket(11), 1, 2, 3, 4, 7u << 16, 5});
+    }
+    Log2Unit unit;
+    Ends<FootprintToken, Log2Token> ends;
+  };
+  std::vector<std::unique_ptr<Bench>> benches;
+  for (std::size_t rule = 0; rule < spec::texture::kLog2Names.size(); ++rule)
+    benches.push_back(std::make_unique<Bench>(clock, std::string(spec::texture::kLog2Names[rule]),
+                                              static_cast<Log2Rule>(rule)));
+  // The consumer stops: what is on its way to a correction stays what it is, the ROM's words too.
+  benches.back()->ends.sink.hold_from = 5;
+  benches.back()->ends.sink.hold_to = 9;
+  clock.run(20);
+  for (std::size_t rule = 0; rule < benches.size(); ++rule) {
+    SCOPED_TRACE(spec::texture::kLog2Names[rule]);
+    const auto& taken = benches[rule]->ends.sink.taken;
+    ASSERT_EQ(taken.size(), 3u);
+    const Cycle latency = rule == 0 ? 1 : 3;
+    EXPECT_EQ(taken[0].cycle, 1 + latency);
+    EXPECT_EQ(taken[1].cycle, rule == 3 ? 9 : 2 + latency);
+    const auto log2 = [&](std::uint32_t d) {
+      return Log2Unit::log2(static_cast<Log2Rule>(rule), d);
+    };
+    EXPECT_EQ(taken[0].token.lb_max, log2(6u << 16));
+    EXPECT_EQ(taken[0].token.lb_min, log2(1u << 16));
+    EXPECT_EQ(taken[2].token.lb_max, log2(7u << 16));
+    EXPECT_EQ(taken[2].token.lb_min, log2(5));
+    EXPECT_EQ(taken[0].token.axis_s, 3);
+    EXPECT_EQ(taken[0].token.axis_t, 4);
+    EXPECT_EQ(taken[0].token.ticket.tag, 9u);
+  }
 }
 
 }  // namespace

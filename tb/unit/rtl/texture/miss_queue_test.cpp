@@ -16,8 +16,8 @@ TEST(TextureRtlMissQueue, MissQueueAccountsForItsClocks) {
   const auto stalls = queue.stalls();
   ASSERT_EQ(stalls[2].name, "wait_memory");
   // Sent by the port a clock later, back after the latency, handed over in two; then the entry is
-  // held until the data stage has used the line.
-  EXPECT_EQ(stalls[2].cycles, kMemoryLatency + 2u + 1);
+  // held until the data stage has used the line, which is read a clock after it has come.
+  EXPECT_EQ(stalls[2].cycles, kMemoryLatency + 2u + 2);
   EXPECT_EQ(stalls[1].cycles, 0u);
 }
 

@@ -181,13 +181,18 @@ inline rtl::texture::Ticket ticket(std::uint32_t tag = 0, std::uint8_t texture =
   return {tag, 0, true, true, texture};
 }
 
-// A ParameterStore alone, with its bus, for the blocks that read descriptors.
+// Registers and descriptors with their bus, for the blocks that read them.
 struct Store {
-  explicit Store(ClockDomain& clock, const spec::texture::Parameters& parameters = {})
-      : store("store", clock, parameters), bus("bus") {
-    bus.socket.bind(store.registers.bus);
+  explicit Store(ClockDomain& clock, const std::string& name = "")
+      : control((name + "registers").c_str(), rtl::texture::register_table(),
+                rtl::texture::control_layout()),
+        descriptors((name + "descriptors").c_str(), control),
+        bus((name + "bus").c_str()) {
+    bus.socket.bind(control.registers.bus);
+    clock.on_reset([this] { control.reset(); });
   }
-  rtl::texture::ParameterStore store;
+  rtl::ControlRegisters control;
+  rtl::texture::Descriptors descriptors;
   Bus bus;
 };
 
@@ -199,7 +204,7 @@ struct UnitBench {
         memory("memory", period(), memory_parameters(latency, scatter)) {
     unit.quads_in(quads);
     unit.colours_out(colours);
-    unit.memory.bind(memory.ports);
+    unit.memory()->bind(memory.ports);
     bus.socket.bind(unit.registers);
     source.out(quads);
     sink.in(colours);

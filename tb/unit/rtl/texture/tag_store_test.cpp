@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The TagStore alone: the rules of replacement by hand.
+#include "spec/error.h"
 #include "tb/unit/rtl/texture/cache_bench.h"
 
 namespace deburr::tb::texture_rtl {
@@ -28,7 +29,7 @@ TEST(TextureRtlTagStore, ReplacementRules) {
         tags.use(slot);
       } else {
         fills.push_back(line);
-        tags.allocate(line);
+        tags.allocate(line, false);
       }
     }
     EXPECT_EQ(fills, row.fills)
@@ -41,18 +42,46 @@ TEST(TextureRtlTagStore, RandomReplacementStepsOnlyForValidLines) {
   p.cache_replacement = spec::texture::Replacement::kRandom;
   p.cache_ways = 4;  // one set
   TagStore tags("tags", p);
-  for (std::uint32_t line = 0; line < 4; ++line) EXPECT_EQ(tags.allocate(line).slot, line);
+  for (std::uint32_t line = 0; line < 4; ++line) EXPECT_EQ(tags.allocate(line, false).slot, line);
   // 0xACE1 -> 0x5670, 0xAB38, 0x559C, 0x2ACE, 0x1567, ...: their low two bits; the last ones come
   // from bits that were shifted in, from every tap.
   for (const std::uint32_t way : {0u, 0u, 0u, 2u, 3u, 3u, 1u, 0u, 2u, 3u, 1u, 2u,
                                   1u, 2u, 1u, 2u, 1u, 0u, 0u, 2u, 1u, 0u, 2u, 3u}) {
-    const TagStore::Place place = tags.allocate(100 + way);
+    const TagStore::Place place = tags.allocate(100 + way, false);
     EXPECT_EQ(place.slot, way);
     EXPECT_TRUE(place.evicted);
   }
   tags.invalidate();
   EXPECT_EQ(tags.find(102), TagStore::kAbsent);
-  EXPECT_EQ(tags.allocate(7).slot, 0u);
+  EXPECT_EQ(tags.allocate(7, false).slot, 0u);
+}
+
+// The sets are read a clock before they are looked up, each through a port of its own.
+TEST(TextureRtlTagStore, SetsComeInTheNextClock) {
+  TagStore tags("tags", small_cache());
+  tags.read(5, 0, 2);
+  tags.read(5, 1, 3);
+  EXPECT_THROW(tags.check(5, 0, 2), spec::CheckFailed);  // a clock early
+  EXPECT_THROW(tags.check(6, 2, 2), spec::CheckFailed);  // nobody asked this port
+  EXPECT_THROW(tags.check(6, 0, 3), spec::CheckFailed);  // the set of another line
+  tags.check(6, 0, 2);
+  tags.check(6, 1, 3);
+  tags.read(6, 0, 3);
+  EXPECT_THROW(tags.read(6, 0, 3), spec::CheckFailed);   // one access too many
+  tags.check(6, 0, 2);                                   // the word of before is still there
+  EXPECT_THROW(tags.check(7, 0, 2), spec::CheckFailed);  // and now it is not
+}
+
+// However many lines of a set a request changes, the set is written once; two requests in a clock
+// would write twice.
+TEST(TextureRtlTagStore, ASetIsWrittenOnceAClock) {
+  TagStore tags("tags", small_cache());
+  tags.allocate(0, false);
+  tags.allocate(2, false);
+  tags.allocate(1, false);
+  tags.commit(3);
+  tags.allocate(4, false);
+  EXPECT_THROW(tags.commit(3), spec::CheckFailed);
 }
 
 }  // namespace

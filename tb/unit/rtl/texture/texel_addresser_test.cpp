@@ -21,12 +21,12 @@ struct AddresserBench {
                      bool linear, std::uint8_t level = 0) {
     write_descriptor(store.bus, 0, d);
     ends.source.add({ticket(), s, t, 256, 1, 0, level, linear, true, true});
-    clock.run(6);
+    clock.run(9);
     return ends.sink.taken.back().token;
   }
   ClockDomain clock{"clock", period()};
   Store store{clock};
-  TexelAddresser unit{"unit", clock, store.store};
+  TexelAddresser unit{"unit", clock, store.descriptors.for_texels};
   Ends<SampleToken, TexelToken> ends{clock};
 };
 
@@ -147,39 +147,31 @@ TEST(TextureRtlAddresser, LevelsHaveTheirOwnSizeAndBase) {
   EXPECT_EQ(wrapped.address[0], 0xFFFFFFC0u + 36 * 4);
 }
 
-TEST(TextureRtlAddresser, BanksAndConflicts) {
+// Odd rows of the linear layout alone.
+TEST(TextureRtlAddresser, TurnsOddRowsOfLinearTextures) {
   AddresserBench b;
-  const auto d = [](int w, int h, spec::texture::Wrap wrap) {
-    return texture(w, h, spec::texture::Format::kL8, spec::texture::Layout::kTiled, wrap);
+  using L = spec::texture::Layout;
+  const auto turned = [&](L layout, int y) {
+    const auto d = texture(8, 8, spec::texture::Format::kL8, layout, spec::texture::Wrap::kRepeat);
+    return b.address(d, 0, y * kOne / 8, true).turned;  // rows y - 1 and y
   };
-  const std::int64_t seam = 0;  // between the last and the first texel
-  using W = spec::texture::Wrap;
-  const TexelToken even = b.address(d(8, 8, W::kRepeat), seam, seam, true);
-  EXPECT_FALSE(even.column_conflict || even.row_conflict);
-  EXPECT_THAT(even.bank, ElementsAre(3, 2, 1, 0));  // (7,7) (0,7) (7,0) (0,0)
-  const TexelToken odd = b.address(d(7, 8, W::kRepeat), seam, seam, true);
-  EXPECT_TRUE(odd.column_conflict);
-  EXPECT_FALSE(odd.row_conflict);
-  EXPECT_THAT(odd.bank, ElementsAre(2, 2, 0, 0));
-  const TexelToken both = b.address(d(7, 5, W::kRepeat), seam, seam, true);
-  EXPECT_TRUE(both.column_conflict && both.row_conflict);
-  // One texel twice is no conflict, nor is an odd size that is clamped.
-  for (const auto& other : {d(1, 1, W::kRepeat), d(7, 5, W::kClampToEdge)}) {
-    const TexelToken none = b.address(other, seam, seam, true);
-    EXPECT_FALSE(none.column_conflict || none.row_conflict);
-  }
+  EXPECT_THAT(turned(L::kLinear, 1), ElementsAre(false, true));
+  EXPECT_THAT(turned(L::kLinear, 2), ElementsAre(true, false));
+  EXPECT_THAT(turned(L::kLinear, 0), ElementsAre(true, false));  // 7 and 0
+  EXPECT_THAT(turned(L::kTiled, 1), ElementsAre(false, false));
+  EXPECT_THAT(turned(L::kTiled, 2), ElementsAre(false, false));
 }
 
-TEST(TextureRtlAddresser, LatencyTwoAndOneAClock) {
+TEST(TextureRtlAddresser, LatencyFiveAndOneAClock) {
   AddresserBench b;
   for (int i = 0; i < 5; ++i) b.ends.source.add({});
-  b.ends.sink.hold_from = 6;
-  b.ends.sink.hold_to = 9;
+  b.ends.sink.hold_from = 9;
+  b.ends.sink.hold_to = 12;
   b.clock.run(20);
   std::vector<Cycle> when;
   for (const auto& t : b.ends.sink.taken) when.push_back(t.cycle);
-  EXPECT_THAT(when, ElementsAre(3, 4, 5, 9, 10));  // pushed in 0, taken in 1
-  EXPECT_EQ(b.unit.bilinears.value(), 0u);         // their tickets are not valid
+  EXPECT_THAT(when, ElementsAre(6, 7, 8, 12, 13));  // pushed in 0, taken in 1
+  EXPECT_EQ(b.unit.bilinears.value(), 0u);          // their tickets are not valid
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ TEST(TextureRtlCache, TimesByTable) {
       {"a is still there", in_line(a), kHit, 1, 0, 0},
       {"c is not, and evicts e", in_line(c), kMiss + latency, 0, 1, 1},
       {"other set", in_line(odd), kMiss + latency, 0, 1, 0},
-      {"two lines that hit", request({64 * a, 64 * odd, 64 * a + 16, 64 * odd + 16}), kHit, 2, 0,
-       0},
+      {"two lines that hit", request({64 * a, 64 * odd + 4, 64 * a + 16, 64 * odd + 20}), kHit, 2,
+       0, 0},
       // A second line is sent and comes a clock after the first, and is written in the next clock.
       {"two lines, both miss", request({64 * 6, 64 * 7, 64 * 6 + 16, 64 * 7 + 16}),
        kMiss + latency + 1, 0, 2, 1},
@@ -132,7 +132,6 @@ TEST(TextureRtlCache, InvalidFragmentsPassThrough) {
   b.time_of(in_line(0));
   TexelToken invalid = request({0x1000, 0x2000, 0x3000, 0x4000}, 99);
   invalid.ticket.valid = false;
-  invalid.column_conflict = invalid.row_conflict = true;
   EXPECT_EQ(b.time_of(invalid), kHit);
   EXPECT_EQ(b.memory.lines_read().size(), 1u);
   EXPECT_EQ(b.ends.sink.taken.back().token.ticket.tag, 99u);

@@ -83,11 +83,11 @@ void check_latency(spec::texture::FootprintRule rule, Cycle expected) {
   EXPECT_EQ(b.unit.fragment_latency.count(), 8u);
   EXPECT_EQ(b.unit.fragment_latency.min(), expected);
 }
-TEST(TextureRtlUnit, LatencyOfANearestFragmentIsSeventeen) {
-  check_latency(spec::texture::FootprintRule::kHalf, 17);
+TEST(TextureRtlUnit, LatencyOfANearestFragment) {
+  check_latency(spec::texture::FootprintRule::kHalf, 30);
 }
-TEST(TextureRtlUnit, LatencyWithExactFootprintIsThirtyTwo) {
-  check_latency(spec::texture::FootprintRule::kExact, 32);
+TEST(TextureRtlUnit, LatencyWithExactFootprint) {
+  check_latency(spec::texture::FootprintRule::kExact, 47);
 }
 
 TEST(TextureRtlUnit, LatencyHistogramCountsEveryFragment) {
@@ -101,7 +101,7 @@ TEST(TextureRtlUnit, LatencyHistogramCountsEveryFragment) {
   const auto bins = b.unit.fragment_latency.bins();
   ASSERT_EQ(bins.size(), 8u);  // four cold ones, later by the fills, and these
   for (std::size_t lane = 0; lane < 4; ++lane) {
-    EXPECT_EQ(bins[lane].low, 17 + lane);
+    EXPECT_EQ(bins[lane].low, 30 + lane);
     EXPECT_EQ(bins[lane].count, 1u);
   }
 }
@@ -177,7 +177,7 @@ TEST(TextureRtlUnit, StallDelaysByItsLengthAndLosesNothing) {
   ASSERT_EQ(b.sink.taken.size(), warm + 200);
   // Pushed in start, taken in start + 1.
   for (std::size_t i = 0; i < 200; ++i) {
-    const Cycle alone = start + 1 + 17 + i;
+    const Cycle alone = start + 1 + 30 + i;
     EXPECT_EQ(b.sink.taken[warm + i].cycle, alone < start + 100 ? alone : alone + 63);
     EXPECT_EQ(b.sink.taken[warm + i].token.tag, i / 4);
   }
@@ -474,27 +474,33 @@ TEST(TextureRtlUnit, ScatteredLatencyChangesNoColour) {
 
 TEST(TextureRtlUnit, AccountsForItsMemories) {
   UnitBench b;
-  std::uint64_t data = 0;
   std::set<std::string> names;
-  for (const rtl::Storage* storage : b.unit.memories()) {
-    names.insert(storage->name());
-    if (std::string(storage->name()).find("bank_") != std::string::npos) data += storage->bits();
-    EXPECT_FALSE(storage->ports().empty());
-    EXPECT_GT(storage->bits(), 0u);
+  for (const rtl::MemoryBase* memory : b.unit.memories()) {
+    names.insert(memory->name());
+    EXPECT_FALSE(memory->ports().empty());
+    EXPECT_FALSE(memory->content().empty());
+    EXPECT_EQ(memory->idealised(), "") << memory->name();
+    if (memory->memory_kind() != rtl::MemoryKind::kFlops) continue;
+    EXPECT_LE(memory->bits(), rtl::MemoryBase::kMostFlopBits) << memory->name();
   }
-  EXPECT_EQ(data, 16384u * 8);
-  // Four banks, tags, fill buffer, missed lines, latency FIFO, responses of the memory port.
-  EXPECT_EQ(names.size(), 9u);
-  const auto bits = [&](const std::string& name) -> std::uint64_t {
-    for (const rtl::Storage* storage : b.unit.memories())
-      if (storage->name() == "unit.cache." + name) return storage->bits();
-    return 0;
+  // Descriptors, tags, data banks, fill buffer, missed lines, latency FIFO, responses of the memory
+  // port, sRGB.
+  EXPECT_EQ(names.size(), 8u);
+  const auto find = [&](const std::string& name) -> const rtl::MemoryBase& {
+    for (const rtl::MemoryBase* memory : b.unit.memories())
+      if (memory->name() == "unit." + name) return *memory;
+    throw spec::CheckFailed("no memory " + name);
   };
-  EXPECT_EQ(bits("tag_stage.tags"), 128u * 2 * (19 + 1 + 1));  // tag, valid, age
-  EXPECT_EQ(bits("miss_queue.lines"), b.unit.parameters().cache_outstanding * 26u);
-  EXPECT_EQ(bits("miss_queue.fill_buffer"), b.unit.parameters().cache_outstanding * 513u);
-  // Ticket 36, control 38, four times (place 14, source 3, slot 8), fills, banks, conflicts.
-  EXPECT_EQ(bits("latency_fifo.entries"), 160u * (36 + 38 + 4 * (14 + 3 + 8) + 3 + 4 + 2));
+  EXPECT_EQ(find("descriptors").bits(), 16u * 432);
+  EXPECT_EQ(find("cache.tag_stage.tags").bits(), 128u * (2 * (19 + 1 + 1) + 1));  // tag, valid,
+                                                                                  // turned; order
+  EXPECT_EQ(find("cache.data_stage.banks").physical_bits(), 16384u * 8);
+  EXPECT_EQ(find("cache.data_stage.banks").built_as(), "1R1W, 16 banks");
+  EXPECT_EQ(find("cache.miss_queue.lines").bits(), 64u * 26);
+  EXPECT_EQ(find("cache.miss_queue.fill_buffer").physical_bits(), 64u * 512);
+  // Ticket, control, four times (place, source, slot, turned), number of fills.
+  EXPECT_EQ(find("cache.latency_fifo.entries").bits(), 160u * (40 + 38 + 4 * (14 + 3 + 8 + 1) + 3));
+  EXPECT_EQ(find("filter.srgb").physical_bits(), 6u * 256 * 12);  // copies of 2R
 }
 
 TEST(TextureRtlUnit, RefusesImpossibleParameters) {
@@ -519,6 +525,8 @@ TEST(TextureRtlUnit, RefusesImpossibleParameters) {
                       p.cache_ways = 8;
                     }),
               HasSubstr("do not hold one set"));
+  EXPECT_THAT(error("g", [](auto& p) { p.cache_ways = 16; }), HasSubstr("choose among at most 8"));
+  EXPECT_THAT(error("h", [](auto& p) { p.cache_bytes = 65536; }), HasSubstr("at most 32768"));
   EXPECT_EQ(error("f",
                   [](auto& p) {
                     p.cache_bytes = 256;

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/morphological/runs/edge_rows.h"
+
+#include <algorithm>
+#include <bit>
+#include <string>
+
+#include "rtl_model/morphological/runs/port_schedule.h"
+#include "spec/error.h"
+
+namespace deburr::rtl::morphological {
+namespace {
+
+constexpr std::int32_t kWordShift = 6, kWordColumns = 1 << kWordShift;
+
+std::int32_t most_steps(const spec::morphological::Parameters& p) {
+  return std::min(spec::morphological::kMaxSteps, p.window_rows / 2 - 2);
+}
+
+std::int32_t words_of_a_row(const spec::morphological::Parameters& p) {
+  return (p.line_pixels + kWordColumns - 1) / kWordColumns;
+}
+
+MemoryShape shape(const spec::morphological::Parameters& p) {
+  const std::int32_t columns = p.contiguous ? (p.reach_columns + 1) / 2 + 2 : 4;
+  const auto words = static_cast<std::uint32_t>((columns + kWordColumns - 2) / kWordColumns + 1);
+  MemoryShape shape;
+  shape.banks = std::bit_ceil(words);
+  shape.words =
+      std::max(static_cast<std::uint32_t>((most_steps(p) + 2) * words_of_a_row(p)), shape.banks);
+  shape.word_bits = 2 * kWordColumns;
+  shape.read_ports = static_cast<std::uint32_t>(PortSchedule(p).ports());
+  shape.read_during_write = ReadDuringWrite::kForbidden;
+  shape.span = words;
+  shape.columns = static_cast<std::uint64_t>(p.line_pixels);
+  shape.content = "left and top edges of every second row, 64 columns a word";
+  return shape;
+}
+
+// What a read shows: words of a row and of the one above; nullptr: not in the frame.
+struct StepEdges {
+  const EdgeWord *row, *above;
+  std::int32_t first, last;  // columns that have been read
+  std::int32_t width;
+
+  static unsigned bit(std::uint64_t word, std::int32_t x) {
+    return word >> static_cast<std::uint32_t>(x) % kWordColumns & 1;
+  }
+  std::size_t word(std::int32_t x) const {
+    return static_cast<std::size_t>((x >> kWordShift) - (first >> kWordShift));
+  }
+  std::uint8_t code(std::int32_t x) const {
+    if (x < 0 || x > width) return 0;
+    if (x > last + (last == width - 1) || (x != 0 && x <= first)) [[unlikely]]
+      throw spec::CheckFailed("edge_rows: the corner before column " + std::to_string(x) +
+                              " is not among those that have been read");
+    unsigned code = 0;
+    if (row != nullptr && x > 0) code |= bit(row[word(x - 1)].top, x - 1);
+    if (x == width) return static_cast<std::uint8_t>(code);
+    if (row != nullptr) code |= bit(row[word(x)].top, x) << 1 | bit(row[word(x)].left, x) << 3;
+    if (above != nullptr) code |= bit(above[word(x)].left, x) << 2;
+    return static_cast<std::uint8_t>(code);
+  }
+  // Between two corners with an edge in this row each.
+  bool unbroken(std::int32_t from, std::int32_t end) const {
+    for (std::int32_t next; from < end; from = next) {
+      next = std::min(end, ((from >> kWordShift) + 1) << kWordShift);
+      const std::uint64_t mask = ~std::uint64_t{0} >> (kWordColumns - (next - from))
+                                                          << from % kWordColumns;
+      if (~row[word(from)].top & mask) return false;
+    }
+    return true;
+  }
+};
+
+}  // namespace
+
+EdgeRows::EdgeRows(const spec::morphological::Parameters& p, const ParameterStore& store)
+    : memory{{{"edge_rows_even", shape(p)}, {"edge_rows_odd", shape(p)}}},
+      store_(store),
+      lanes_(store.lanes()),
+      steps_(most_steps(p)),
+      rows_(2 * most_steps(p) + 4),
+      words_(words_of_a_row(p)),
+      update_{{{memory[0], "extractor"}, {memory[1], "extractor"}}} {
+  for (std::size_t parity = 0; parity < 2; ++parity)
+    for (int i = 0; i < PortSchedule(p).ports(); ++i)
+      steps_of_[parity].emplace_back(memory[parity], "predictors " + std::to_string(i));
+}
+
+// From the corner before the step to the one behind its longest candidate.
+EdgeRows::Columns EdgeRows::columns_of(const Trial& trial) const {
+  const std::int32_t most = std::min(trial.length + 1, trial.room);
+  const std::int32_t least = store_.rules().contiguous ? 0 : trial.length - 1;
+  const std::int32_t first = trial.to_the_right ? trial.at(least) - 1 : trial.at(most) - 1;
+  const std::int32_t last = trial.to_the_right ? trial.at(most) : trial.at(least);
+  return {std::max(first, 0), std::min(last, store_.rules().width - 1)};
+}
+
+void EdgeRows::read(Cycle cycle, std::size_t port, const Trial& trial) {
+  const Columns columns = columns_of(trial);
+  if (columns.first > columns.last) return;  // beyond the frame's border
+  const auto words =
+      static_cast<std::uint32_t>(columns.last / kWordColumns - columns.first / kWordColumns + 1);
+  for (const std::int32_t y : {trial.line, trial.line - 1})
+    if (in_frame(y)) steps_of_[parity(y)][port].read(cycle, address(y, columns.first), words);
+}
+
+std::uint8_t EdgeRows::hits(Cycle cycle, std::size_t port, const Trial& trial) const {
+  const Columns columns = columns_of(trial);
+  if (columns.first > columns.last) return 0;
+  const auto words_of = [&](std::int32_t y) {
+    return in_frame(y) ? &steps_of_[parity(y)][port].at(cycle, address(y, columns.first)) : nullptr;
+  };
+  const StepEdges edges{words_of(trial.line), words_of(trial.line - 1), columns.first, columns.last,
+                        store_.rules().width};
+  return hits_of(trial, edges, store_.rules().contiguous);
+}
+
+}  // namespace deburr::rtl::morphological

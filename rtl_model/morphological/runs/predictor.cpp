@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/morphological/runs/predictor.h"
+
+#include <algorithm>
+
+namespace deburr::rtl::morphological {
+namespace {
+
+// Bits of a corner's code: edges along the axis before and after the corner, edges across it on the
+// first and on the second side.
+constexpr std::uint8_t kBefore = 1, kAfter = 2;
+constexpr int kCrossing = 2;  // of a crossing code
+
+constexpr int kFirstSide = 1;  // crossing code of a single edge on the first side
+
+// From the last trial's bounds to the sums and their join.
+constexpr Cycle kJoinAfter = 2;
+
+}  // namespace
+
+Predictor::Predictor(const ParameterStore& store, const PortSchedule& schedule, int number,
+                     EdgePort right, EdgePort left, std::int32_t reach, bool vertical,
+                     Counters counters)
+    : store_(store),
+      schedule_(schedule),
+      phase_(schedule.phase(number, 0)),
+      clocks_(static_cast<Cycle>(schedule.clocks())),
+      left_after_(static_cast<Cycle>(schedule.phase(number, 1) - schedule.phase(number, 0))),
+      reach_(reach),
+      vertical_(vertical),
+      counters_(counters),
+      right_{right, true},
+      left_{left, false} {}
+
+void Predictor::take(Cycle cycle, Cycle reset, const RunToken& token) {
+  const spec::morphological::RunRecord& run = token.run;
+  run_ = token;
+  length_ = run.length;
+  const bool extends = run.part == spec::morphological::RunPart::kWhole &&
+                       spec::morphological::kRunShapes[run.shape].clean_z &&
+                       store_.rules().steps > 0;
+  right_.keep = left_.keep = kAll;
+  right_.reached[kAll] = {0, length_, 0, 0};
+  left_.reached[kAll] = {0, 0, 0, 0};
+  state_ = State::kJoins;
+  join_at_ = cycle;
+  if (!extends) return;
+  state_ = State::kTrials;
+  trial_at_ = cycle + 1 + schedule_.wait(cycle + 1 - reset, phase_);
+  step_ = 0;
+  const int start_code = run.shape & 3, end_code = run.shape >> 2;
+  drift_ = end_code == kFirstSide ? -1 : 1;
+  const auto start = static_cast<std::uint8_t>(kAfter | start_code << kCrossing);
+  const auto end = static_cast<std::uint8_t>(kBefore | end_code << kCrossing);
+  for (End* const side : {&right_, &left_}) {
+    side->open = true;
+    side->other = 0;
+    side->letters = 0;
+    // No step yet: nothing to give back, and the half of none is none.
+    side->reached[kBeforeLast] = side->reached[kFirstHalf] = side->reached[kAll];
+    side->trial.length = length_;
+    side->trial.to_the_right = side->to_the_right;
+    side->trial.origin = side->to_the_right ? start : end;
+    side->trial.corner = side->to_the_right ? end : start;
+  }
+  bounds_.begin();
+}
+
+// What was read comes in before what is decided by it, and that before the next read.
+void Predictor::run_trial(Cycle cycle) {
+  Cycle clock = cycle - trial_at_;
+  if (clock == 1) see(cycle, right_);
+  if (clock == left_after_ + 1) see(cycle, left_);
+  if (clock == clocks_) {
+    if (!decide()) {
+      state_ = State::kJoins;
+      join_at_ = cycle + kJoinAfter;
+      return;
+    }
+    trial_at_ = cycle;
+    clock = 0;
+  }
+  if (clock == 0) read(cycle, right_);
+  if (clock == left_after_) read(cycle, left_);
+}
+
+// The longest step that stays within the reach.
+std::int32_t Predictor::room(const End& end) const {
+  const std::int32_t x = end.reached[kAll].position;
+  return reach_ - (end.to_the_right ? x : length_ - x);
+}
+
+void Predictor::read(Cycle cycle, End& end) {
+  const FrameRules& rules = store_.rules();
+  const std::int32_t lines = (step_ + 1) * drift_;
+  Trial& trial = end.trial;
+  trial.line = run_.run.line + (end.to_the_right ? lines : -lines);
+  trial.from = run_.run.start + end.reached[kAll].position;
+  trial.room = room(end);
+  end.reads = end.open && trial.line >= 0 &&
+              trial.line <= (vertical_ ? rules.width : rules.height) &&
+              trial.room >= std::max(1, length_ - 1);
+  if (end.reads) end.port.read(cycle, trial);
+}
+
+bool Predictor::decide() {
+  ++counters_.trials;
+  for (const End* const end : {&right_, &left_})
+    if (end->open) counters_.probes += end->other != 0 || length_ == 1 ? 2 : 3;
+  if (store_.rules().safe)
+    decide_together();
+  else
+    decide_apart();
+  ++step_;
+  return (right_.open || left_.open) && step_ < store_.rules().steps;
+}
+
+// The first candidate that hits, or 0.
+std::int32_t Predictor::chosen(const End& end) const {
+  if (!end.open) return 0;
+  if (end.hits & kEqual) return length_;
+  if (end.hits & kShorter && end.other <= length_) return length_ - 1;
+  return end.hits & kLonger && (end.other == 0 || end.other > length_) ? length_ + 1 : 0;
+}
+
+// Each end by itself, with an L' of its own.
+void Predictor::decide_apart() {
+  for (End* const end : {&right_, &left_}) {
+    if (!end->open) continue;
+    const std::int32_t step = chosen(*end);
+    if (step == 0) {
+      lose(*end);
+      continue;
+    }
+    if (step != length_) end->other = step;
+    accept(*end, step);
+  }
+}
+
+// Both ends share L', and every corner must lie on one line with all the others.
+void Predictor::decide_together() {
+  using Fit = LineBounds::Fit;
+  std::int32_t right = chosen(right_), left = chosen(left_);
+  if (right_.open && right == 0) lose(right_);
+  if (left_.open && left == 0) lose(left_);
+  const bool right_other = right != length_, left_other = left != length_;
+  const auto stop = [&] {
+    close(right_, kFirstHalf);
+    close(left_, kFirstHalf);
+  };
+  if (right != 0 && left != 0 && right_other && left_other && right != left) return stop();
+  const Fit right_fit = bounds_.right(right_other), left_fit = bounds_.left(left_other);
+  if (right != 0 && right_fit == Fit::kNone) {
+    close(right_, kFirstHalf);
+    right = 0;
+  }
+  if (left != 0 && left_fit == Fit::kNone) {
+    close(left_, kFirstHalf);
+    left = 0;
+  }
+  if (right != 0 && left != 0 && !LineBounds::together(right_fit, left_fit)) return stop();
+  if (right != 0) bounds_.add_right(right_other);
+  if (left != 0) bounds_.add_left(left_other);
+  for (const std::int32_t step : {right, left})
+    if (step != 0 && step != length_) right_.other = left_.other = step;
+  if (right != 0) accept(right_, right);
+  if (left != 0) accept(left_, left);
+}
+
+void Predictor::accept(End& end, std::int32_t step) {
+  const auto add = [&](Stretch& stretch, std::int32_t size) {
+    ++stretch.steps;
+    stretch.position += end.to_the_right ? size : -size;
+    const std::int32_t index = end.to_the_right ? stretch.steps + 1 : -stretch.steps;
+    stretch.sum += stretch.position;
+    stretch.indexed_sum += index * stretch.position;
+  };
+  Stretch& all = end.reached[kAll];
+  end.reached[kBeforeLast] = all;
+  if (step != length_) end.letters |= 1u << all.steps;
+  add(all, step);
+  if (all.steps % 2 != 0) return;
+  Stretch& half = end.reached[kFirstHalf];
+  add(half, end.letters >> half.steps & 1 ? end.other : length_);
+}
+
+// The line is lost, unless a candidate that lies beyond the reach might have gone on with it.
+void Predictor::lose(End& end) {
+  const std::int32_t largest = end.other == 0 ? length_ + 1 : std::max(length_, end.other);
+  close(end, largest > room(end) ? kAll : kBeforeLast);
+}
+
+void Predictor::close(End& end, Keep keep) {
+  end.open = false;
+  end.keep = store_.rules().trim ? keep : kAll;
+}
+
+SumsToken Predictor::join() {
+  const Stretch& left = left_.reached[left_.keep];
+  const Stretch& right = right_.reached[right_.keep];
+  const std::int32_t kept = left.steps + right.steps;
+  counters_.steps += static_cast<std::uint64_t>(kept);
+  if (kept != 0) ++counters_.extended_runs;
+  state_ = State::kFree;
+  return {run_,
+          static_cast<std::uint8_t>(left.steps),
+          static_cast<std::uint8_t>(right.steps),
+          static_cast<std::int16_t>(left.position),
+          static_cast<std::int16_t>(right.position),
+          left.sum + length_ + right.sum,  // X_0 = 0, X_1 = L
+          left.indexed_sum + length_ + right.indexed_sum};
+}
+
+}  // namespace deburr::rtl::morphological

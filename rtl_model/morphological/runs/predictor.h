@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// Extends one clean Z run to both sides, a step of both sides a trial, and sums up its corners.
+//
+// Where: predictor_units of these a lane in an EndpointPredictor. Holds a record at a time. A trial
+// every trial_clocks clocks T, from the clock on that the schedule of the ports gives it:
+//
+//   0        address of the right side's read (the left one's: here or in clock 1)
+//   1        the words come, choice of eight groups of bits
+//   2        choice of a bit of the group, the corners' codes compared: hits of the right side
+//   3        the same of the left side, if it reads a clock later
+//   T = 0'   bounds: the steps of both sides taken or refused; beside it the next address, which
+//            knows the hits but not the refusal (a read too many is dropped)
+//   T + 1    sums of the new corners, of the old trial
+//   T + 2    after the last trial: the sums of both sides are joined
+//
+// With T = 4 (the default) each stage has its clock. 5 and more leave clocks to slower memories or
+// longer paths. 3: the left side's words are chosen and compared in the clock in which they come,
+// if it reads a clock later (an odd number of ports). 2: so are both sides'. 1: besides, bounds and
+// the next address follow in the same clock. So 3 and below are for slow clocks.
+// A record that is not extended leaves in the clock that takes it. One that is extended, takes from
+// its pop to the clock that may take the next one 1 clock, the wait for its phase, T clocks a
+// trial, and 1 clock; one behind the other T x trials + T clocks, if T >= 3 (else T x trials + 4 or
+// 3).
+//
+// Trim takes no clock of its own: beside the sums of all its steps a side keeps those without its
+// last step and those of the first half of its steps. The former are what the sums were before;
+// the latter take in one corner at every second step, which is a step L or L' on, as the side's
+// letters say. The trial that ends a side sets two bits, and the join selects by them.
+//
+// Formats: positions S13 from the start of the run, sums of a side S18 and S24. Cost: LineBounds
+// (safe); a side 16 flip-flops of letters, 3 x 60 of sums (trim; else 60), five comparators of 4
+// bits, three adders and a multiplier of 13 x 5 bits for its sums, trim another one of 13 x 4 and
+// two adders, a selector 3 : 1 of 60 bits. Made for 250 MHz; longest path: 13 x 5 multiply, 24-bit
+// add. Source: paper 000, sections 3 and 4; `safe`, `trim` and the sums are ours.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "rtl_model/fabric/counters.h"
+#include "rtl_model/morphological/parameter_store.h"
+#include "rtl_model/morphological/runs/edge_port.h"
+#include "rtl_model/morphological/runs/line_bounds.h"
+#include "rtl_model/morphological/runs/port_schedule.h"
+#include "rtl_model/morphological/tokens.h"
+
+namespace deburr::rtl::morphological {
+
+class Predictor {
+ public:
+  // What all predictors of an axis count together.
+  struct Counters {
+    Counter &extended_runs, &steps, &probes, &trials;
+  };
+
+  // `number`: of the axis, for the schedule. `last_line`: of the frame, across the axis.
+  Predictor(const ParameterStore& store, const PortSchedule& schedule, int number, EdgePort right,
+            EdgePort left, std::int32_t reach, bool vertical, Counters counters);
+
+  // Holds no record.
+  bool free() const { return state_ == State::kFree; }
+  // Takes a record in this clock; `reset`: the first one after the reset, where the schedule
+  // begins.
+  void take(Cycle cycle, Cycle reset, const RunToken& run);
+  // The clocks of the record's trials.
+  void tick(Cycle cycle) {
+    if (state_ == State::kTrials && cycle >= trial_at_) run_trial(cycle);
+  }
+  // Its sums may be passed on in this clock, and the next record taken.
+  bool joins(Cycle cycle) const { return state_ == State::kJoins && cycle >= join_at_; }
+  SumsToken join();
+  void reset() { state_ = State::kFree; }
+
+ private:
+  enum class State : std::uint8_t { kFree, kTrials, kJoins };
+  // The first steps of a side: their number, the X that they reach, the sums of their corners.
+  struct Stretch {
+    std::int32_t steps;             // U5
+    std::int32_t position;          // S13
+    std::int32_t sum, indexed_sum;  // S18, S24: sum of X_i, of i X_i
+  };
+  // Which of its steps a side passes on.
+  enum Keep : std::uint8_t { kAll, kBeforeLast, kFirstHalf, kKeeps };
+  // One end that grows.
+  struct End {
+    EdgePort port;
+    bool to_the_right;
+    bool open = false;
+    bool reads = false;  // in this trial
+    std::uint8_t hits = 0;
+    Keep keep = kAll;
+    std::int32_t other = 0;     // L', 0 while unknown; the same at both ends if safe
+    std::uint32_t letters = 0;  // bit k: step k is L'
+    std::array<Stretch, kKeeps> reached{};
+    Trial trial{};
+  };
+
+  void run_trial(Cycle cycle);
+  void read(Cycle cycle, End& end);
+  void see(Cycle cycle, End& end) { end.hits = end.reads ? end.port.hits(cycle, end.trial) : 0; }
+  bool decide();  // false after the last trial
+  void decide_apart();
+  void decide_together();
+  std::int32_t chosen(const End& end) const;
+  void accept(End& end, std::int32_t step);
+  // A side ends for good: as a trial without a hit says, or with the given share of its steps.
+  void lose(End& end);
+  void close(End& end, Keep keep);
+  std::int32_t room(const End& end) const;
+
+  const ParameterStore& store_;
+  const PortSchedule& schedule_;
+  const int phase_;
+  const Cycle clocks_, left_after_;  // T; clocks from the right side's read to the left one's
+  const std::int32_t reach_;
+  const bool vertical_;
+  Counters counters_;
+
+  State state_ = State::kFree;
+  Cycle trial_at_ = 0, join_at_ = 0;  // clock of the trial's first read; of the join
+  RunToken run_{};
+  std::int32_t length_ = 0;
+  std::int32_t drift_ = 0;  // lattice lines a step to the right: -1 or +1
+  std::int32_t step_ = 0;   // k
+  End right_, left_;
+  LineBounds bounds_;
+};
+
+}  // namespace deburr::rtl::morphological

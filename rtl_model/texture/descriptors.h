@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// The texture descriptors as the pipeline sees them, and how registers become one.
+//
+// Where: beside the AddressUnit, three blocks of which read the descriptor of the fragment in hand.
+// Kept as the registers hold them: 16 words of flip-flops, read by handle, written by the register
+// bus one register at a time. What a level is (its size, pitch and tiles) is wires, shifts and
+// small adders behind the choice. Timing: flip-flops without output register, so the word is there
+// in the clock of the read; a write counts from the next clock edge on. Descriptors are static
+// while the unit is busy: a write then sets a sticky status bit. Made for 250 MHz; longest path: a
+// choice of 1 in 16. Formats: docs/texture_unit.md, registers of a descriptor. Cost: 16 x 432
+// flip-flops, a 16-to-1 multiplexer a reader. Source: paper 2.1, the parameter store.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "rtl_model/fabric/control_registers.h"
+#include "rtl_model/fabric/memory.h"
+#include "spec/registers.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/registers.h"
+
+namespace deburr::rtl::texture {
+
+// One mip level.
+struct LevelGeometry {
+  std::uint32_t base;                       // U32, byte address
+  std::uint32_t pitch;                      // U15, bytes a row, layout linear
+  std::uint16_t width, height;              // U13, texels
+  std::uint8_t tiles_x_log2, tiles_y_log2;  // U4, rounded-up tiles each way, layout tiled
+};
+
+// A descriptor, decoded.
+struct TextureState {
+  bool valid = false;
+  std::uint16_t width = 0, height = 0;  // U13
+  std::uint8_t levels = 0;              // U4
+  std::uint8_t texel_log2 = 0;          // U2, lb of the bytes a texel
+  std::uint8_t max_count_log2 = 0;      // U3, lb N_max
+  spec::texture::Format format{};
+  spec::texture::Layout layout{};
+  spec::texture::Wrap wrap_s{}, wrap_t{};
+  spec::texture::MinFilter min_filter{};
+  spec::texture::MagFilter mag_filter{};
+  std::int32_t bias = 0;                  // S7.12
+  std::int32_t min_lod = 0, max_lod = 0;  // U8.12
+  std::array<LevelGeometry, spec::texture::kMaxLevels> level{};
+};
+
+// The registers of the unit: those of spec::texture::kRegisters, then each descriptor's.
+std::span<const spec::RegisterInfo> register_table();
+// What CONTROL and STATUS mean.
+ControlLayout control_layout();
+// Descriptor `handle` as it stands in the registers.
+TextureState decode(const ControlRegisters& registers, std::uint32_t handle);
+
+class Descriptors {
+ public:
+  // A port of its own for each block that reads.
+  class Reader {
+   public:
+    // A handle beyond the last gives a descriptor that is not valid.
+    const TextureState& read(Cycle cycle, std::uint8_t handle) {
+      if (handle >= spec::texture::kMaxTextures) [[unlikely]]
+        return invalid_;
+      port_.read(cycle, handle);
+      return (*words_)[handle];
+    }
+
+   private:
+    friend class Descriptors;
+    using Words = std::array<TextureState, spec::texture::kMaxTextures>;
+    Reader(Memory<void>& memory, const char* user, const Words& words)
+        : port_(memory, user), words_(&words) {}
+    static inline const TextureState invalid_{};
+    ReadPort<void> port_;
+    const Words* words_;
+  };
+
+  // Follows what is written into the registers.
+  Descriptors(const char* name, ControlRegisters& registers);
+
+ private:
+  void written(const ControlRegisters& registers, std::uint32_t offset);
+
+  Memory<void> memory_;
+  WritePort<void> bus_{memory_, "register bus"};  // not clocked, as the bus is not: never issued
+  Reader::Words words_{};
+
+ public:
+  Reader for_derivatives{memory_, "derivative", words_}, for_levels{memory_, "level", words_},
+      for_texels{memory_, "addresser", words_};
+};
+
+}  // namespace deburr::rtl::texture

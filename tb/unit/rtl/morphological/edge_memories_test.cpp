@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: MIT
+// The memories of edges: what they show, their ports shared in time, and that nobody reads too
+// much, too early or too late.
+#include "tb/unit/rtl/morphological/edge_memories.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rtl_model/morphological/runs/port_schedule.h"
+#include "tb/harness/random.h"
+#include "tb/unit/rtl/morphological/support.h"
+
+namespace deburr::tb::morphological_rtl {
+namespace {
+
+using namespace rtl::morphological;  // NOLINT: a test of these
+using spec::morphological::Lanes;
+using spec::morphological::Preset;
+
+Parameters built(bool contiguous, int reach_rows = 32, int reach_columns = 256) {
+  Parameters p = preset(Preset::kDeburr, reach_rows, reach_columns);
+  p.contiguous = contiguous;
+  return p;
+}
+
+// Memories that show a frame of random edges when row `row` has been found.
+struct Shown {
+  Shown(const Parameters& p, int width_, int height_, int row_, std::uint32_t permille)
+      : width(width_), height(height_), row(row_), store(control, p), memories(p, store) {
+    bus.socket.bind(control.registers.bus);
+    store.write_size(width, height);
+    EXPECT_TRUE(store.latch());
+    Random random(permille);
+    for (int i = 0; i < 2 * width * height; ++i) bits.push_back(random.chance(permille));
+    memories.show(
+        row, [&](int x, int y) { return edge(false, x, y); },
+        [&](int x, int y) { return edge(true, x, y); });
+  }
+  bool edge(bool top, int x, int y) const {
+    if (x < 0 || y < 0 || x >= width || y >= height) return false;
+    return bits[static_cast<std::size_t>((top ? height : 0) + y) * static_cast<std::size_t>(width) +
+                static_cast<std::size_t>(x)];
+  }
+  int width, height, row;
+  std::vector<bool> bits;
+  Bus bus{"bus"};
+  rtl::ControlRegisters control{"registers", spec::morphological::kRegisters,
+                                rtl::morphological::control_layout()};
+  ParameterStore store;
+  EdgeMemories memories;
+};
+
+// The same for either axis.
+struct Planes {
+  const Shown& shown;
+  bool vertical;
+  std::int32_t line;
+  bool along(std::int32_t p) const {
+    return vertical ? shown.edge(false, line, p) : shown.edge(true, p, line);
+  }
+  std::uint8_t code(std::int32_t p) const {
+    const bool first = vertical ? shown.edge(true, line - 1, p) : shown.edge(false, p, line - 1);
+    const bool second = vertical ? shown.edge(true, line, p) : shown.edge(false, p, line);
+    return static_cast<std::uint8_t>(int{along(p - 1)} | int{along(p)} << 1 | int{first} << 2 |
+                                     int{second} << 3);
+  }
+  bool unbroken(std::int32_t from, std::int32_t end) const {
+    for (; from < end; ++from)
+      if (!along(from)) return false;
+    return true;
+  }
+};
+
+struct Look {
+  int lanes_code, reach_rows, reach_columns;
+  bool contiguous;
+};
+void PrintTo(const Look& l, std::ostream* out) { *out << l.reach_rows << ' ' << l.reach_columns; }
+class EdgeMemoriesShow : public ::testing::TestWithParam<Look> {};
+
+// Any trial, also beyond the frame's border, shows what the planes hold.
+TEST_P(EdgeMemoriesShow, WhatHasBeenWritten) {
+  const Look look = GetParam();
+  Parameters p = built(look.contiguous, look.reach_rows, look.reach_columns);
+  p.lanes = static_cast<Lanes>(look.lanes_code);
+  constexpr int kWidth = 150, kHeight = 70;
+  Random random(look.contiguous ? 3 : 4);
+  std::uint64_t found = 0;
+  Shown shown(p, kWidth, kHeight, 30, 800);
+  rtl::Cycle cycle = 0;
+  const int steps = std::min(16, look.reach_rows - 1);
+  for (int i = 0; i < 40'000; ++i) {
+    const bool vertical = random.chance(500);
+    const int reach = vertical ? look.reach_rows : look.reach_columns;
+    const int length = 1 + static_cast<int>(random.below(static_cast<std::uint32_t>(
+                               std::min(reach, random.chance(700) ? 4 : 60))));
+    const int start = vertical ? 30 : static_cast<int>(random.below(kWidth));
+    const int k = 1 + static_cast<int>(random.below(static_cast<std::uint32_t>(steps)));
+    Trial trial{};
+    trial.to_the_right = random.chance(500);
+    const int across = vertical ? static_cast<int>(random.below(kWidth + 1)) : 30;
+    trial.line = across + (vertical ? 0 : random.chance(500) ? k : -k);
+    trial.length = length;
+    const int used =
+        length +
+        static_cast<int>(random.below(static_cast<std::uint32_t>(std::max(1, reach - length))));
+    trial.room = reach - used;
+    trial.from = start + (trial.to_the_right ? used : length - used);
+    if (trial.room < std::max(1, length - 1)) continue;
+    trial.corner = static_cast<std::uint8_t>(random.below(16));
+    const Planes planes{shown, vertical, trial.line};
+    trial.origin = planes.code(trial.from);
+    if (random.chance(800)) trial.corner = planes.code(trial.at(length));
+    // The run's own: an edge on this side of them, none on the other.
+    trial.origin |= trial.to_the_right ? 2 : 1;
+    trial.corner |= trial.to_the_right ? 1 : 2;
+    std::uint8_t hits = 0;
+    ++cycle;
+    if (vertical) {
+      shown.memories.window.read(cycle, 0, trial);
+      hits = shown.memories.window.hits(cycle + 1, 0, trial);
+    } else {
+      shown.memories.rows.read(cycle, 0, trial);
+      hits = shown.memories.rows.hits(cycle + 1, 0, trial);
+    }
+    found += hits != 0;
+    ASSERT_EQ(hits, hits_of(trial, planes, look.contiguous))
+        << i << (vertical ? " vertical " : " horizontal ") << trial.line << ' ' << trial.from << ' '
+        << length << ' ' << trial.room;
+  }
+  EXPECT_GT(found, 3'000u);
+}
+INSTANTIATE_TEST_SUITE_P(Builds, EdgeMemoriesShow,
+                         ::testing::Values(Look{0, 32, 256, true}, Look{1, 32, 60, true},
+                                           Look{2, 8, 17, true}, Look{0, 4, 4, true},
+                                           Look{0, 32, 256, false}, Look{2, 60, 128, false}));
+
+struct Sharing {
+  int trial_clocks, units, lanes_code, ports;
+};
+void PrintTo(const Sharing& s, std::ostream* out) {
+  *out << s.trial_clocks << ' ' << s.units << ' ' << s.lanes_code;
+}
+class Schedule : public ::testing::TestWithParam<Sharing> {};
+
+// Two reads a trial of each predictor, no two in one place, no port that stands idle for want of a
+// port; the left side in the clock of the right one or in the next.
+TEST_P(Schedule, GivesEachReadAPlaceOfItsOwn) {
+  const Sharing s = GetParam();
+  Parameters p = built(true);
+  p.trial_clocks = s.trial_clocks;
+  p.predictor_units = s.units;
+  p.lanes = static_cast<Lanes>(s.lanes_code);
+  const PortSchedule schedule(p);
+  const int predictors = s.units * lanes_of(p);
+  EXPECT_EQ(schedule.ports(), s.ports);
+  EXPECT_LT((schedule.ports() - 1) * s.trial_clocks, 2 * predictors);
+  std::set<std::pair<int, int>> places;
+  for (int i = 0; i < predictors; ++i)
+    for (const int side : {0, 1}) {
+      const int phase = schedule.phase(i, side), port = schedule.port(i, side);
+      EXPECT_LT(phase, s.trial_clocks);
+      EXPECT_LT(port, s.ports);
+      EXPECT_TRUE(places.emplace(phase, port).second) << i;
+      const int after = phase - schedule.phase(i, 0);
+      EXPECT_TRUE(after == 0 || (after == 1 && side == 1));
+      for (const Cycle from : {Cycle{0}, Cycle{7}, Cycle{1'000'003}}) {
+        const Cycle wait = schedule.wait(from, phase);
+        EXPECT_EQ((from + wait) % static_cast<Cycle>(s.trial_clocks), static_cast<Cycle>(phase));
+        EXPECT_LT(wait, static_cast<Cycle>(s.trial_clocks));
+      }
+    }
+}
+INSTANTIATE_TEST_SUITE_P(Builds, Schedule,
+                         ::testing::Values(Sharing{4, 2, 0, 1}, Sharing{4, 1, 0, 1},
+                                           Sharing{4, 4, 0, 2}, Sharing{4, 2, 1, 2},
+                                           Sharing{4, 2, 2, 4}, Sharing{1, 2, 0, 4},
+                                           Sharing{2, 1, 0, 1}, Sharing{3, 4, 0, 3},
+                                           Sharing{8, 4, 0, 1}, Sharing{5, 3, 2, 5}));
+
+TEST(EdgeMemory, IsBuiltFromOneCopyAReadPort) {
+  Parameters p = built(true);
+  p.line_pixels = 1920;
+  EngineBench bench(p);
+  const auto& window = bench.engine.window.memory;
+  EXPECT_EQ(window.memory_kind(), rtl::MemoryKind::kSram);
+  EXPECT_EQ(window.ports(), "2R1W");
+  EXPECT_EQ(window.logical_bits(), 257'280u);
+  EXPECT_EQ(window.physical_bits(), 2u * 257'280u);
+  EXPECT_EQ(window.bits_at(960), 257'280u / 2);
+  for (const auto& rows : bench.engine.rows.memory) {
+    EXPECT_EQ(rows.memory_kind(), rtl::MemoryKind::kSram);
+    EXPECT_EQ(rows.ports(), "1R1W");
+    EXPECT_EQ(rows.logical_bits(), 18u * 30u * 128u);
+    EXPECT_EQ(rows.physical_bits(), rows.logical_bits());
+    EXPECT_EQ(rows.banks(), 4u);  // 130 columns may lie in four words
+  }
+}
+
+// With text: which memory, which clock.
+template <class Access>
+void expect_stop(Access&& access, const std::string& text) {
+  try {
+    access();
+    ADD_FAILURE() << "no error";
+  } catch (const spec::CheckFailed& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr(text));
+  }
+}
+
+TEST(EdgeMemory, OneAccessTooManyInAClockStops) {
+  Shown shown(built(true), 150, 70, 30, 500);
+  EdgeWindow& window = shown.memories.window;
+  EdgeRows& rows = shown.memories.rows;
+  const Trial across{40, 30, 3, 20, true, 2, 1}, along{31, 40, 3, 20, true, 2, 1};
+  for (const Cycle cycle : {Cycle{7}, Cycle{8}, Cycle{100}}) {
+    window.read(cycle, 0, across);
+    expect_stop([&] { window.read(cycle, 0, across); }, "edge_window");
+    rows.read(cycle, 0, along);
+    expect_stop([&] { rows.read(cycle, 0, along); }, "edge_rows");
+    window.read_beat(cycle, 5);
+    expect_stop([&] { window.read_beat(cycle, 6); }, "edge_window");
+  }
+}
+
+TEST(EdgeMemory, AWordIsThereAClockAfterItsReadAndNotBefore) {
+  Shown shown(built(true), 150, 70, 30, 500);
+  EdgeWindow& window = shown.memories.window;
+  EdgeRows& rows = shown.memories.rows;
+  const Trial across{40, 30, 3, 20, true, 2, 1}, along{31, 40, 3, 20, true, 2, 1};
+  // None has been read yet.
+  expect_stop([&] { window.hits(7, 0, across); }, "edge_window");
+  expect_stop([&] { rows.hits(7, 0, along); }, "edge_rows");
+  window.read(7, 0, across);
+  rows.read(7, 0, along);
+  expect_stop([&] { window.hits(7, 0, across); }, "edge_window");
+  expect_stop([&] { rows.hits(7, 0, along); }, "edge_rows");
+  EXPECT_NO_THROW(window.hits(8, 0, across));
+  EXPECT_NO_THROW(rows.hits(8, 0, along));
+  // A read that is issued too late leaves the word of the one before.
+  const Trial next_across{60, 30, 3, 20, true, 2, 1}, next_along{33, 140, 3, 20, true, 2, 1};
+  window.read(9, 0, next_across);
+  rows.read(9, 0, next_along);
+  expect_stop([&] { window.hits(9, 0, next_across); }, "edge_window");
+  expect_stop([&] { rows.hits(9, 0, next_along); }, "edge_rows");
+  // The next one's word has taken the place of the old one.
+  expect_stop([&] { window.hits(10, 0, across); }, "edge_window");
+  expect_stop([&] { rows.hits(10, 0, along); }, "edge_rows");
+  EXPECT_NO_THROW(window.hits(10, 0, next_across));
+  EXPECT_NO_THROW(rows.hits(10, 0, next_along));
+}
+
+TEST(EdgeMemory, ABeatIsWrittenAClockAfterItWasReadAndNotBefore) {
+  Shown shown(built(true), 150, 70, 30, 500);
+  EdgeWindow& window = shown.memories.window;
+  window.read_beat(7, 5);
+  expect_stop([&] { window.write_beat(7, 5, 64); }, "edge_window");
+  EXPECT_NO_THROW(window.write_beat(8, 5, 64));
+  expect_stop([&] { window.write_beat(9, 6, 64); }, "edge_window");
+}
+
+// No step is longer than a port shows: half the reach, then one more, as odd reaches allow.
+class LongestStep : public ::testing::TestWithParam<int> {};
+TEST_P(LongestStep, FitsIntoAPort) {
+  const int reach = GetParam(), length = reach / 2, step = reach - length;
+  EngineBench bench(preset(Preset::kDeburr, 32, reach));
+  // Steps of `length` and `step` between long flat parts; the line goes down to the right.
+  const int from = 90;
+  bench.run(draw(250, 30, [&](int x, int y) {
+    const int stair = x < from ? 0 : x < from + length ? 1 : x < from + length + step ? 2 : 3;
+    return grey(y >= 10 + stair ? 255 : 0);
+  }));
+  // The run in row 11 ends where the step of row 12 begins: taken, and all of the reach is used.
+  EXPECT_GE(bench.engine.predictor_h.extended_runs.value(), 1u);
+}
+INSTANTIATE_TEST_SUITE_P(Reaches, LongestStep, ::testing::Values(4, 5, 8, 9, 16, 33, 64, 65, 129));
+
+// No more ports than are used: the busiest clock uses every one.
+struct Built {
+  int lanes_code, units, trial_clocks;
+  bool contiguous;
+};
+void PrintTo(const Built& b, std::ostream* out) { *out << b.lanes_code << ' ' << b.units; }
+class BusiestClock : public ::testing::TestWithParam<Built> {};
+TEST_P(BusiestClock, UsesEveryPort) {
+  Parameters p = built(GetParam().contiguous);
+  p.lanes = static_cast<Lanes>(GetParam().lanes_code);
+  p.predictor_units = GetParam().units;
+  p.trial_clocks = GetParam().trial_clocks;
+  EngineBench bench(p);
+  const Frame in = draw(96, 80, [](int x, int y) { return grey((x + y) / 2 % 2 != 0 ? 255 : 0); });
+  bench.engine.set_frame_size(in.width, in.height);
+  bench.driver.send(beats_of(in, lanes_of(p)));
+  const auto beats = static_cast<std::uint64_t>(beats_a_row(in, p) * in.height);
+  const auto& window = bench.engine.window.memory;
+  const auto& rows = bench.engine.rows.memory;
+  std::uint64_t window_before = 0, rows_before[2] = {}, most_window = 0, most_rows = 0;
+  bench.bench->run(
+      [&] {
+        most_window = std::max(most_window, window.reads() - window_before);
+        window_before = window.reads();
+        for (std::size_t i = 0; i < 2; ++i) {
+          most_rows = std::max(most_rows, rows[i].reads() - rows_before[i]);
+          rows_before[i] = rows[i].reads();
+        }
+        return bench.sink.received() == beats && bench.engine.idle();
+      },
+      1'000'000);
+  EXPECT_EQ(most_window, window.shape().read_ports);
+  EXPECT_EQ(most_rows, rows[0].shape().read_ports);
+}
+INSTANTIATE_TEST_SUITE_P(Builds, BusiestClock,
+                         ::testing::Values(Built{0, 2, 4, true}, Built{1, 2, 4, true},
+                                           Built{2, 2, 4, true}, Built{0, 1, 4, false},
+                                           Built{0, 4, 4, true}, Built{2, 1, 4, false},
+                                           Built{0, 2, 1, true}, Built{0, 3, 3, true}));
+
+// A rule that the engine was not built for counts as off.
+TEST(Contiguous, IsOffInAnEngineBuiltWithoutIt) {
+  namespace reg = spec::morphological::reg;
+  constexpr std::uint32_t kContiguous = 1u << 13;
+  EngineBench bench(built(false));
+  const Frame without = bench.run(blocks());
+  const std::uint64_t steps = bench.engine.work().steps;
+  bench.bus.write(reg::kRules, bench.bus.read(reg::kRules) | kContiguous);
+  EXPECT_EQ(hash(bench.run(blocks())), hash(without));
+  EXPECT_EQ(bench.engine.work().steps, 2 * steps);
+  EXPECT_NE(hash(without), 0xe86c7f9318eacf5eu) << "the rule would have changed the frame";
+}
+
+}  // namespace
+}  // namespace deburr::tb::morphological_rtl

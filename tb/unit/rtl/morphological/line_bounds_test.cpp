@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// LineBounds against the definition of the contract: a corner more is consistent with the others if
+// the largest lower bound of the slope between any two is below the least upper one.
+#include "rtl_model/morphological/runs/line_bounds.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <deque>
+#include <utility>
+
+#include "tb/harness/random.h"
+
+namespace deburr::tb::morphological_rtl {
+namespace {
+
+using rtl::morphological::LineBounds;
+using Fit = LineBounds::Fit;
+using Corners = std::deque<int>;  // X of consecutive corners
+
+// Word for word: compared by cross multiplication.
+bool consistent(const Corners& corners) {
+  std::int64_t low_over = -1'000'000, low_under = 1, high_over = 1'000'000, high_under = 1;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    for (std::size_t j = i + 1; j < corners.size(); ++j) {
+      const auto under = static_cast<std::int64_t>(j - i);
+      const std::int64_t apart = corners[j] - corners[i];
+      if ((apart - 1) * low_under > low_over * under) low_over = apart - 1, low_under = under;
+      if ((apart + 1) * high_under < high_over * under) high_over = apart + 1, high_under = under;
+    }
+  return low_over * high_under < high_over * low_under;
+}
+
+struct Growth {
+  Growth(int length_, int other_) : length(length_), other(other_), corners{0, length_} {}
+  int step(bool is_other) const { return is_other ? other : length; }
+  void right(bool is_other) {
+    bounds.add_right(is_other);
+    corners.push_back(corners.back() + step(is_other));
+  }
+  void left(bool is_other) {
+    bounds.add_left(is_other);
+    corners.push_front(corners.front() - step(is_other));
+  }
+  Corners with_right(bool is_other) const {
+    Corners all = corners;
+    all.push_back(corners.back() + step(is_other));
+    return all;
+  }
+  Corners with_left(bool is_other) const {
+    Corners all = corners;
+    all.push_front(corners.front() - step(is_other));
+    return all;
+  }
+  Corners with_both(bool right_other, bool left_other) const {
+    Corners all = with_right(right_other);
+    all.push_front(corners.front() - step(left_other));
+    return all;
+  }
+  int length, other;
+  LineBounds bounds;
+  Corners corners;
+};
+
+struct Checked {
+  std::uint64_t alone = 0, both = 0, refused = 0, bends = 0;
+};
+
+// Steps 3 and 4 of the contract for every pair of steps that could come now.
+void check(const Growth& now, Checked& checked) {
+  for (const bool other : {false, true}) {
+    const bool right = now.bounds.right(other) != Fit::kNone;
+    const bool left = now.bounds.left(other) != Fit::kNone;
+    ASSERT_EQ(right, consistent(now.with_right(other)));
+    ASSERT_EQ(left, consistent(now.with_left(other)));
+    checked.alone += 2;
+    checked.refused += !right + !left;
+  }
+  for (const bool right : {false, true})
+    for (const bool left : {false, true}) {
+      const Fit right_fit = now.bounds.right(right), left_fit = now.bounds.left(left);
+      if (right_fit == Fit::kNone || left_fit == Fit::kNone) continue;
+      const bool fits = LineBounds::together(right_fit, left_fit);
+      ASSERT_EQ(fits, consistent(now.with_both(right, left)));
+      ++checked.both;
+      checked.bends += !fits;
+    }
+}
+
+// Every order in which so many corners can be added, from either end.
+void grow(const Growth& now, int more, Checked& checked) {
+  check(now, checked);
+  if (more == 0 || ::testing::Test::HasFatalFailure()) return;
+  for (const bool other : {false, true}) {
+    if (now.bounds.right(other) != Fit::kNone) {
+      Growth next = now;
+      next.right(other);
+      grow(next, more - 1, checked);
+    }
+    if (now.bounds.left(other) != Fit::kNone) {
+      Growth next = now;
+      next.left(other);
+      grow(next, more - 1, checked);
+    }
+  }
+}
+
+TEST(LineBounds, AreThoseOfTheDefinitionInEveryShortGrowth) {
+  Checked checked;
+  for (const auto& [length, other] :
+       {std::pair{1, 2}, {2, 1}, {2, 3}, {7, 6}, {7, 8}, {2047, 2048}, {2048, 2047}})
+    grow({length, other}, 6, checked);
+  EXPECT_GT(checked.refused, 10'000u);
+  EXPECT_GT(checked.bends, 1'000u);
+}
+
+// Long ones, near to a line of any slope: that is where they do not end at once.
+TEST(LineBounds, AreThoseOfTheDefinitionInLongGrowths) {
+  Random random(1);
+  Checked checked;
+  std::uint64_t corners = 0, full = 0;
+  for (int trial = 0; trial < 6'000; ++trial) {
+    const int length = 1 + static_cast<int>(random.below(2048));
+    Growth now(length, length > 1 && random.chance(500) ? length - 1 : length + 1);
+    // y of corner i: floor(slope i + phase), of which the step from 0 to 1 is none.
+    const std::int64_t slope = random.below(random.chance(250) ? 1u << 17 : 1u << 20);
+    const std::int64_t phase = random.below(static_cast<std::uint32_t>((1 << 20) - slope));
+    const auto other = [&](int i) {
+      return (slope * (i + 1) + phase) >> 20 != (slope * i + phase) >> 20;
+    };
+    bool right = true, left = true;
+    int first = 0, last = 1;
+    for (int step = 0; step < 16 && (right || left); ++step) {
+      check(now, checked);
+      ASSERT_FALSE(HasFatalFailure()) << trial;
+      const bool right_other = random.chance(30) ? random.chance(500) : other(last);
+      const bool left_other = random.chance(30) ? random.chance(500) : other(first - 1);
+      const Fit right_fit = now.bounds.right(right_other), left_fit = now.bounds.left(left_other);
+      right = right && right_fit != Fit::kNone && !random.chance(20);
+      left = left && left_fit != Fit::kNone && !random.chance(20);
+      if (right && left && !LineBounds::together(right_fit, left_fit)) break;
+      if (right) now.right(right_other), ++last;
+      if (left) now.left(left_other), --first;
+    }
+    corners += now.corners.size();
+    full += now.corners.size() == 34;
+  }
+  EXPECT_GT(corners, 80'000u);
+  EXPECT_GT(full, 500u);
+  EXPECT_GT(checked.refused, 50'000u);
+  EXPECT_GT(checked.bends, 1'000u);
+}
+
+// After steps L both ends may turn the line, by different letters: one to either side. By the same
+// letter both turn it to the same slope.
+TEST(LineBounds, ABendIsTwoTurnsToTheSameSide) {
+  Growth now(5, 6);
+  now.right(true);  // 5 6
+  EXPECT_EQ(now.bounds.right(true), Fit::kTurnsUp);
+  EXPECT_EQ(now.bounds.left(false), Fit::kTurnsUp);
+  EXPECT_FALSE(LineBounds::together(now.bounds.right(true), now.bounds.left(false)));
+  EXPECT_FALSE(consistent(now.with_both(true, false)));
+  EXPECT_EQ(now.bounds.right(false), Fit::kStays);
+  EXPECT_EQ(now.bounds.left(true), Fit::kStays);
+  EXPECT_TRUE(consistent(now.with_both(false, true)));
+}
+
+}  // namespace
+}  // namespace deburr::tb::morphological_rtl
