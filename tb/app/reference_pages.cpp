@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "rtl_model/fabric/register_block.h"
-#include "rtl_model/morphological/parameter_store.h"
 #include "rtl_model/texture/descriptors.h"
+#include "spec/morphological/registers.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/registers.h"
 
@@ -128,7 +128,7 @@ std::string registers_page() {
       "\n## TextureUnit\n\n{}"
       "\nTextures 1..{} follow with the same registers, each 0x{:X} bytes after the one "
       "before.\n",
-      rtl::register_table_markdown(rtl::morphological::register_table()),
+      rtl::register_table_markdown(rtl::register_descriptions(spec::morphological::kRegisters)),
       rtl::register_table_markdown(unit), spec::texture::kMaxTextures - 1, texture::kTextureStride);
 }
 

@@ -12,7 +12,6 @@
 
 #include "golden/morphological/configuration.h"
 #include "golden/morphological/traffic.h"
-#include "rtl_model/morphological/line_memory.h"
 #include "spec/error.h"
 #include "tb/env/collect.h"
 #include "tb/results/progress.h"
@@ -163,12 +162,9 @@ void collect_morphological(rtl::morphological::MorphologicalEngine& engine, int 
   };
   for (const rtl::Unit* unit : engine.units())
     result.units.push_back(unit_cycles(prefix + name_within(engine, *unit), *unit));
-  for (const rtl::Storage* storage : engine.memories()) {
-    const auto* columns = dynamic_cast<const rtl::morphological::ColumnStorage*>(storage);
-    result.sram.push_back(
-        {prefix + name_within(engine, *storage), storage->ports(), storage->bits(),
-         columns ? columns->bits_at(static_cast<std::uint64_t>(width)) : storage->bits()});
-  }
+  for (const rtl::MemoryBase* memory : engine.memories())
+    result.sram.push_back({prefix + name_within(engine, *memory), memory->ports(), memory->bits(),
+                           memory->bits_at(static_cast<std::uint64_t>(width))});
   const spec::morphological::Work work = engine.work();
   add("edge_pixels_percent", 100 * ratio(number(work.edge_pixels), number(work.pixels)), "%",
       "Pixels with a left or a top edge.");
@@ -560,7 +556,8 @@ void MorphologicalBench::collect(Result& result) const {
       "Of the last frame, from its first input beat to its last output beat.");
   add("frame_clocks_by_formula", by_formula, "clk", "The same if nothing stalls.");
   add("latency_by_formula", latency_by_formula(p, width), "clk",
-      "From a pixel going in to it coming out if nothing stalls: (R + 5) rows and 6 clocks.");
+      "From a pixel going in to it coming out if nothing stalls: (R + 5) rows and the clocks of "
+      "the pipe.");
   add("input_pixels_per_clock",
       source_.done()
           ? ratio(number(static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height)),
