@@ -9,6 +9,7 @@
 
 #include "rtl_model/fabric/counters.h"
 #include "rtl_model/fabric/histogram.h"
+#include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/storage.h"
 #include "rtl_model/fabric/unit.h"
 
@@ -40,6 +41,13 @@ void ClockDomain::claim(LinkBase& link) {
 
 void ClockDomain::end_of_elaboration() {
   std::set<sc_core::sc_object*> seen;  // units may nest
+  // A memory that several units access may stand beside them.
+  for_each<MemoryBase>([&](MemoryBase& memory) {
+    memory.check_ports();
+    const sc_core::sc_object* around = memory.get_parent_object();
+    while (around && !dynamic_cast<const Unit*>(around)) around = around->get_parent_object();
+    if (!around) storages_.push_back(&memory);
+  });
   for (Unit* unit : units_) {
     unit->check_ports();
     walk(*unit, [&](sc_core::sc_object& object) {
@@ -206,6 +214,7 @@ void ClockDomain::reset_all() {
   for (Storage* storage : storages_) storage->reset();
   for (Counter* counter : counters_) counter->reset();
   for (Histogram* histogram : histograms_) histogram->reset();
+  for (const std::function<void()>& action : on_reset_) action();
   for (Clocked* clocked : before_) clocked->reset();
   for (Clocked* clocked : after_) clocked->reset();
 }

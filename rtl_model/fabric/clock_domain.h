@@ -18,6 +18,7 @@
 #include <functional>
 #include <optional>
 #include <systemc>
+#include <utility>
 #include <vector>
 
 #include "rtl_model/fabric/clocked.h"
@@ -38,6 +39,9 @@ class ClockDomain final : public sc_core::sc_module {
   void add_before(Clocked& clocked);  // ticked before all units (stalls, faults)
   void add_after(Clocked& clocked);   // ticked after all units (checkers, traces)
   void add(LinkBase& link);  // only for a link that no Unit's port is bound to: reset with the rest
+
+  // What else an edge in reset does (registers, which are no units).
+  void on_reset(std::function<void()> action) { on_reset_.push_back(std::move(action)); }
 
   // --- Options, before or between runs ---
   void set_fast_path(bool on) { fast_path_ = on; }
@@ -109,6 +113,7 @@ class ClockDomain final : public sc_core::sc_module {
   std::vector<class Storage*> storages_;
   std::vector<class Counter*> counters_;
   std::vector<class Histogram*> histograms_;
+  std::vector<std::function<void()>> on_reset_;
   std::vector<ClockDomain*> domains_;  // all of the simulation, this one included
   std::uint64_t ignored_[kActivities] = {};
 

@@ -1,24 +1,28 @@
 // SPDX-License-Identifier: MIT
 // A FIFO inside a unit: the link's protocol (latency 1, initiation interval 1, one push and one pop
 // a cycle), with its storage counted and its fill level recorded.
-// Cost: depth x entry_bits of storage (registers or SRAM, one read and one write port).
+//
+// Built of flip-flops up to MemoryBase::kMostFlopBits. Above, of SRAM 1R1W that is read ahead into
+// two output registers, and that a beat goes past while these have room: so the latency is 1 all
+// the same. Cost: depth x payload bits of memory.
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
-#include "rtl_model/fabric/counters.h"
 #include "rtl_model/fabric/link.h"
-#include "rtl_model/fabric/storage.h"
+#include "rtl_model/fabric/memory.h"
 
 namespace deburr::rtl {
 
 template <class T>
-class Fifo final : public Storage {
+class Fifo final : public MemoryBase {
  public:
-  // `entry_bits`: bits of one entry in hardware (a C++ struct has padding).
+  explicit Fifo(const char* name, std::uint32_t depth, const PayloadShape& shape = {})
+      : Fifo(name, depth, Payload::of<T>(shape).bits(), shape) {}
+  // `entry_bits`: of a payload that does not list its fields.
   Fifo(const char* name, std::uint32_t depth, std::uint32_t entry_bits)
-      : Storage(name, depth, entry_bits, "1R1W"), link_(inner_name("entries").c_str(), depth) {}
+      : Fifo(name, depth, entry_bits, PayloadShape{}) {}
 
   bool can_push(Cycle cycle) const { return link_.can_push(cycle); }
   bool can_pop(Cycle cycle) const { return link_.can_pop(cycle); }
@@ -42,6 +46,18 @@ class Fifo final : public Storage {
   }
 
  private:
+  Fifo(const char* name, std::uint32_t depth, std::uint32_t bits, const PayloadShape& shape)
+      : MemoryBase(name, memory_shape(depth, bits)),
+        link_(inner_name("entries").c_str(), depth, shape) {}
+  static MemoryShape memory_shape(std::uint32_t depth, std::uint32_t bits) {
+    const MemoryKind kind = kind_for(std::uint64_t{depth} * bits);
+    return {.words = depth,
+            .word_bits = bits,
+            .kind = kind,
+            .latency = kind == MemoryKind::kFlops ? 0U : 1U,
+            .content = "entries of a FIFO"};
+  }
+
   Link<T> link_;
   std::uint32_t high_water_ = 0;
 };

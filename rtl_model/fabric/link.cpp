@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace deburr::rtl {
 
-LinkBase::LinkBase(const char* name, std::uint32_t depth, std::size_t payload_bytes)
-    : sc_object(name), depth_(depth), payload_bytes_(payload_bytes) {
+LinkBase::LinkBase(const char* name, std::uint32_t depth, std::size_t payload_bytes,
+                   Payload payload)
+    : sc_object(name), depth_(depth), payload_bytes_(payload_bytes), payload_(std::move(payload)) {
   DEBURR_CHECK(depth >= 1 && depth <= (1U << 24),
                fmt::format("{}: depth {} is not in 1..2^24", this->name(), depth));
 }

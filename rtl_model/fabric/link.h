@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "rtl_model/fabric/clocked.h"
+#include "rtl_model/fabric/payload.h"
 #include "spec/error.h"
 
 namespace deburr::rtl {
@@ -44,7 +45,9 @@ class LinkBase : public sc_core::sc_object {
   std::uint64_t pops() const { return pops_; }      // since reset
   Cycle last_push() const { return last_push_; }    // kNever if there was none since reset
   Cycle last_pop() const { return last_pop_; }      // kNever if there was none since reset
-  std::size_t payload_bytes() const { return payload_bytes_; }
+  const Payload& payload() const { return payload_; }
+  std::uint32_t payload_bits() const { return payload_.bits(); }
+  std::size_t payload_bytes() const { return payload_bytes_; }  // of the C++ type
 
   void reset();
 
@@ -59,6 +62,8 @@ class LinkBase : public sc_core::sc_object {
   const std::byte* beat(std::uint64_t beat) const {
     return payloads_ + beat % depth_ * slot_bytes_;
   }
+  // The oldest beat inside; needs !empty().
+  const std::byte* head() const { return beat(pops_); }
   // Takes back the newest beat, or pushes it a second time, behind the back of both sides; false
   // if there is none, or no room.
   bool drop_newest();
@@ -76,7 +81,7 @@ class LinkBase : public sc_core::sc_object {
     Stamps* next = nullptr;
   };
 
-  LinkBase(const char* name, std::uint32_t depth, std::size_t payload_bytes);
+  LinkBase(const char* name, std::uint32_t depth, std::size_t payload_bytes, Payload payload);
   // The ring, once it exists: its first slot and payload, and the distance of slots.
   void adopt(Stamps* first, std::byte* payload, std::size_t slot_bytes);
 
@@ -124,20 +129,23 @@ class LinkBase : public sc_core::sc_object {
   Stamps* slot_of(std::uint64_t beat);
   std::uint32_t depth_;
   std::size_t payload_bytes_, slot_bytes_ = 0;
+  Payload payload_;
   Stamps* first_ = nullptr;
   std::byte* payloads_ = nullptr;
   const void* clock_ = nullptr;  // the domain that both ends belong to
   std::string producer_, consumer_;
 };
 
-// Payloads are wires: trivially copyable, without pointers to anything that changes.
+// Payloads are wires: trivially copyable, without pointers to anything that changes. What of them
+// is built (lanes, narrower fields) is said with the link.
 template <class T>
 class Link final : public LinkBase {
   static_assert(std::is_trivially_copyable_v<T>, "a payload is a bundle of wires");
 
  public:
-  explicit Link(const char* name, std::uint32_t depth = 2)
-      : LinkBase(name, depth, sizeof(T)), slots_(std::make_unique<Slot[]>(depth)) {
+  explicit Link(const char* name, std::uint32_t depth = 2, const PayloadShape& shape = {})
+      : LinkBase(name, depth, sizeof(T), Payload::of<T>(shape)),
+        slots_(std::make_unique<Slot[]>(depth)) {
     adopt(slots_.get(), reinterpret_cast<std::byte*>(&slots_[0].payload), sizeof(Slot));
   }
 

@@ -25,6 +25,20 @@ const char* access_name(Access access) {
   return "?";
 }
 
+Access access_of(spec::Access access) {
+  switch (access) {
+    case spec::Access::kReadOnly:
+      return Access::kReadOnly;
+    case spec::Access::kReadWrite:
+      return Access::kReadWrite;
+    case spec::Access::kWriteOneToClear:
+      return Access::kWriteOneToClear;
+    case spec::Access::kCommand:
+      break;
+  }
+  return Access::kWriteOnly;
+}
+
 // Registers travel little-endian, whatever the host is.
 void store(std::uint8_t* to, std::uint32_t value) {
   for (int i = 0; i < 4; ++i) to[i] = static_cast<std::uint8_t>(value >> (8 * i));
@@ -36,6 +50,14 @@ std::uint32_t load(const std::uint8_t* from) {
 }
 
 }  // namespace
+
+std::vector<RegisterDescription> register_descriptions(std::span<const spec::RegisterInfo> table) {
+  std::vector<RegisterDescription> descriptions;
+  for (const spec::RegisterInfo& info : table)
+    descriptions.push_back(
+        {info.offset, info.name.data(), access_of(info.access), info.reset, info.meaning.data()});
+  return descriptions;
+}
 
 RegisterBlock::RegisterBlock(const sc_core::sc_module_name& name,
                              std::span<const RegisterDescription> table)

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "rtl_model/fabric/counters.h"
+#include "spec/registers.h"
 
 namespace deburr::rtl {
 
@@ -39,6 +40,9 @@ struct RegisterDescription {
   std::uint32_t reset;
   const char* meaning;  // one line: fields, unit, format
 };
+
+// A table of spec/ as the block takes it. The texts stay those of the table.
+std::vector<RegisterDescription> register_descriptions(std::span<const spec::RegisterInfo> table);
 
 class RegisterBlock final : public sc_core::sc_module {
  public:

@@ -54,7 +54,7 @@ Json statistics(const rtl::ClockDomain& clock, const std::string& prefix) {
       json["sram_bits"][*name] = storage->bits();
     } else if (const auto* link = dynamic_cast<const rtl::LinkBase*>(&object)) {
       json["links"][*name] = {{"depth", link->depth()},
-                              {"payload_bits", link->payload_bytes() * 8},
+                              {"payload_bits", link->payload_bits()},
                               {"beats", link->pops()}};
     }
   });

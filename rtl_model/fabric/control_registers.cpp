@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/fabric/control_registers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "spec/error.h"
+
+namespace deburr::rtl {
+
+ControlRegisters::ControlRegisters(const char* name, std::span<const spec::RegisterInfo> table,
+                                   const ControlLayout& layout)
+    : table_(register_descriptions(table)),
+      registers(name, table_),
+      layout_(layout),
+      masks_(table.size(), ~std::uint32_t{0}),
+      kept_(table.size()) {
+  for (std::size_t i = 0; i < table_.size(); ++i) {
+    resets_.push_back(table_[i].reset);
+    kept_[i] = resets_[i];
+    if (table_[i].access == Access::kReadWrite)
+      registers.on_write(i, [this, i](std::uint32_t value) { written(i, value); });
+  }
+  registers.on_write(index(layout.status), [this](std::uint32_t value) { sticky_ &= ~value; });
+  registers.on_read(index(layout.status),
+                    [this] { return sticky_ | (busy_() ? 0 : layout_.idle); });
+  enabled_ = value(layout.control) & layout.enable;
+}
+
+std::size_t ControlRegisters::index(std::uint32_t offset) const {
+  const auto found = std::find_if(table_.begin(), table_.end(),
+                                  [&](const RegisterDescription& r) { return r.offset == offset; });
+  DEBURR_CHECK(found != table_.end(),
+               fmt::format("{} has no register at {:#x}", registers.name(), offset));
+  return static_cast<std::size_t>(found - table_.begin());
+}
+
+void ControlRegisters::on_command(std::uint32_t control_bit, std::function<void()> action) {
+  commands_.push_back({control_bit, std::move(action)});
+}
+
+void ControlRegisters::set_reset(std::uint32_t offset, std::uint32_t value) {
+  const std::size_t i = index(offset);
+  resets_[i] = kept_[i] = value;
+  registers.set(i, value);
+}
+
+void ControlRegisters::show_sum(std::uint32_t offset,
+                                std::initializer_list<const Counter*> counters) {
+  registers.on_read(index(offset), [all = std::vector<const Counter*>(counters)] {
+    std::uint64_t sum = 0;
+    for (const Counter* counter : all) sum += counter->value();
+    return static_cast<std::uint32_t>(sum);
+  });
+}
+
+void ControlRegisters::written(std::size_t i, std::uint32_t value) {
+  const std::uint32_t offset = table_[i].offset;
+  if (offset == layout_.control) return write_control(value);
+  if (busy_()) {
+    sticky_ |= layout_.written_while_busy;
+    if (layout_.busy_ignores_writes) return registers.set(i, kept_[i]);
+  }
+  kept_[i] = value & masks_[i];
+  registers.set(i, kept_[i]);
+  changed_(offset);
+}
+
+void ControlRegisters::write_control(std::uint32_t value) {
+  enabled_ = value & layout_.enable;
+  for (const Command& command : commands_) {
+    if (!(value & command.bit)) continue;
+    if (busy_())
+      sticky_ |= layout_.written_while_busy;
+    else
+      command.action();
+  }
+  if (value & layout_.clear_counters) clear_counters_();
+  registers.set(index(layout_.control), value & layout_.enable);
+}
+
+void ControlRegisters::mask_values() {
+  for (std::size_t i = 0; i < table_.size(); ++i) {
+    if (table_[i].access != Access::kReadWrite || table_[i].offset == layout_.control) continue;
+    kept_[i] = registers.get(i) & masks_[i];
+    registers.set(i, kept_[i]);
+  }
+}
+
+void ControlRegisters::reset() {
+  for (std::size_t i = 0; i < table_.size(); ++i) {
+    kept_[i] = resets_[i];
+    registers.set(i, resets_[i]);
+  }
+  enabled_ = value(layout_.control) & layout_.enable;
+  sticky_ = 0;
+  for (const RegisterDescription& r : table_)
+    if (r.access == Access::kReadWrite && r.offset != layout_.control) changed_(r.offset);
+}
+
+}  // namespace deburr::rtl

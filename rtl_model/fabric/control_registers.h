@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// The registers of an engine: a block built from its table in spec/, with the CONTROL and STATUS
+// that every engine has.
+//
+// Where: beside the pipe, owned by the engine. Timing: a write counts from the next clock edge on.
+// CONTROL: enable; clear the counters (command); further commands, which wait for nobody: while the
+// engine is busy they are refused. STATUS: idle, and sticky bits that a one clears; one of them
+// says that a register was written while the engine was busy. Such a write is taken or ignored, as
+// the layout says. What the values mean is the engine's business: it decodes them in on_change().
+// Cost: 32 flip-flops a writable register.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include "rtl_model/fabric/counters.h"
+#include "rtl_model/fabric/register_block.h"
+#include "spec/registers.h"
+
+namespace deburr::rtl {
+
+struct ControlLayout {
+  std::uint32_t control, status;           // offsets
+  std::uint32_t enable, clear_counters;    // bits of CONTROL
+  std::uint32_t idle, written_while_busy;  // bits of STATUS
+  bool busy_ignores_writes;                // or takes them, and only says so
+};
+
+class ControlRegisters {
+ private:
+  std::vector<RegisterDescription> table_;
+
+ public:
+  RegisterBlock registers;
+
+  // The table, and the texts in it, must outlive this.
+  ControlRegisters(const char* name, std::span<const spec::RegisterInfo> table,
+                   const ControlLayout& layout);
+
+  // --- Wires to the blocks ---
+  bool enabled() const { return enabled_; }
+  void set_sticky(std::uint32_t status_bits) { sticky_ |= status_bits; }
+  std::uint32_t value(std::uint32_t offset) const { return registers.get(index(offset)); }
+  // Debug writes go past the masks: the values as the hardware would hold them.
+  void mask_values();
+
+  // --- Wiring, while the engine is built ---
+  void on_busy(std::function<bool()> busy) { busy_ = std::move(busy); }
+  void on_clear_counters(std::function<void()> clear) { clear_counters_ = std::move(clear); }
+  // A further command of CONTROL.
+  void on_command(std::uint32_t control_bit, std::function<void()> action);
+  // After every write that was taken, and after a reset: the values have changed.
+  void on_change(std::function<void(std::uint32_t offset)> changed) {
+    changed_ = std::move(changed);
+  }
+  // The bits of a register that exist; the others read as 0.
+  void set_mask(std::uint32_t offset, std::uint32_t mask) { masks_[index(offset)] = mask; }
+  // A reset value that a parameter gives.
+  void set_reset(std::uint32_t offset, std::uint32_t value);
+  void show(std::uint32_t offset, const Counter& counter) {
+    registers.show(index(offset), counter);
+  }
+  // What several blocks count for themselves.
+  void show_sum(std::uint32_t offset, std::initializer_list<const Counter*> counters);
+
+  // As a bus write, from outside of time.
+  void write(std::uint32_t offset, std::uint32_t value) { written(index(offset), value); }
+  void reset();
+
+ private:
+  struct Command {
+    std::uint32_t bit;
+    std::function<void()> action;
+  };
+  std::size_t index(std::uint32_t offset) const;
+  void written(std::size_t index, std::uint32_t value);
+  void write_control(std::uint32_t value);
+
+  ControlLayout layout_;
+  std::vector<std::uint32_t> masks_, resets_, kept_;  // kept: before a write
+  std::vector<Command> commands_;
+  std::function<bool()> busy_ = [] { return false; };
+  std::function<void()> clear_counters_ = [] {};
+  std::function<void(std::uint32_t)> changed_ = [](std::uint32_t) {};
+  bool enabled_ = true;
+  std::uint32_t sticky_ = 0;
+};
+
+}  // namespace deburr::rtl

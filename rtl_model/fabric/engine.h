@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Base of every engine: its registers, its memory socket if it has one, the check of its
+// parameters, and what reports find in it.
+//
+//   class Smoother final : public Engine {
+//    public:
+//     Smoother(const sc_core::sc_module_name& name, ClockDomain& clock, const Parameters& p)
+//         : Engine(name, clock, kSmootherRegisters, kLayout),
+//           parameters_(checked_ranges("smoother", p)), ... {
+//       control.show(kPixels, blender_.pixels);
+//     }
+//     bool idle() const override { return ...; }
+//
+// A clear command (CONTROL) resets every Counter below the engine, whether a register shows it or
+// not, and nothing else: the account of clocks and the histograms are instruments of the model and
+// go on. A reset gives every register its reset value.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <systemc>
+#include <tlm>
+#include <vector>
+
+#include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/fabric/control_registers.h"
+#include "rtl_model/fabric/memory.h"
+#include "rtl_model/fabric/memory_port.h"
+#include "rtl_model/fabric/unit.h"
+#include "spec/error.h"
+#include "spec/registers.h"
+
+namespace deburr::rtl {
+
+// A visitor of parameters (spec/parameters.h) that refuses what is out of its declared range.
+class RangeCheck {
+ public:
+  explicit RangeCheck(std::string_view unit) : unit_(unit) {}
+  void integer(std::string_view name, std::int32_t value, std::int32_t min, std::int32_t max,
+               std::string_view unit, std::string_view) const {
+    if (value < min || value > max) refuse_range(name, value, min, max, unit);
+  }
+  template <class Enum, std::size_t N>
+  void choice(std::string_view name, Enum value, const std::array<std::string_view, N>& names,
+              std::string_view) const {
+    if (static_cast<std::size_t>(value) >= N) refuse_choice(name, static_cast<int>(value), names);
+  }
+  void boolean(std::string_view, bool, std::string_view) const {}
+
+ private:
+  [[noreturn]] void refuse_range(std::string_view name, std::int32_t value, std::int32_t min,
+                                 std::int32_t max, std::string_view unit) const;
+  [[noreturn]] void refuse_choice(std::string_view name, int value,
+                                  std::span<const std::string_view> names) const;
+  std::string_view unit_;
+};
+
+// The parameters, if all of them are in range; ConfigError if not.
+template <class Parameters>
+Parameters checked_ranges(std::string_view unit, Parameters parameters) {
+  const RangeCheck check(unit);
+  describe(parameters, check);  // of the namespace that declares them
+  return parameters;
+}
+
+class Engine : public sc_core::sc_module {
+ public:
+  const char* kind() const override { return "deburr_engine"; }
+
+  ControlRegisters control;
+
+  // --- Sockets, to be bound from outside ---
+  tlm_utils::simple_target_socket<RegisterBlock>& registers = control.registers.bus;
+  // nullptr: built without memory, and there is no such socket.
+  tlm::tlm_initiator_socket<>* memory() const { return memory_; }
+
+  // Nothing is inside and nothing waits in front. Between edges.
+  virtual bool idle() const = 0;
+  void clear_counters();
+
+  // For reports: everything below this module, in the order of declaration.
+  std::vector<const Unit*> units() const;
+  std::vector<const Counter*> counters() const;
+  std::vector<const MemoryBase*> memories() const;
+
+ protected:
+  Engine(const sc_core::sc_module_name& name, ClockDomain& clock,
+         std::span<const spec::RegisterInfo> table, const ControlLayout& layout);
+  // The one port through which the engine reaches memory.
+  void uses(MemoryPort& port) { memory_ = &port.memory; }
+
+ private:
+  tlm::tlm_initiator_socket<>* memory_ = nullptr;
+};
+
+}  // namespace deburr::rtl

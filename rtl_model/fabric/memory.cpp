@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/fabric/memory.h"
+
+#include <fmt/format.h>
+
+namespace deburr::rtl {
+namespace {
+
+std::string port_text(std::uint32_t reads, std::uint32_t writes, std::uint32_t shared) {
+  std::string text;
+  if (reads) text += fmt::format("{}R", reads);
+  if (writes) text += fmt::format("{}W", writes);
+  if (shared) text += fmt::format("{}RW", shared);
+  return text;
+}
+
+}  // namespace
+
+const char* name_of(MemoryKind kind) {
+  switch (kind) {
+    case MemoryKind::kFlops:
+      return "flops";
+    case MemoryKind::kSram:
+      return "sram";
+    case MemoryKind::kRom:
+      return "rom";
+  }
+  return "?";
+}
+
+MemoryBase::MemoryBase(const char* name, MemoryShape shape)
+    : Storage(name, shape.words, shape.word_bits,
+              port_text(shape.read_ports, shape.write_ports, shape.shared_ports)),
+      shape_(std::move(shape)) {
+  const MemoryShape& s = shape_;
+  DEBURR_CHECK(s.banks >= 1 && s.banks <= s.words && s.span >= 1 && s.latency <= kMostLatency &&
+                   s.content.find('\n') == std::string::npos,
+               fmt::format("{}: {} words in {} banks, span {}, latency {}, content '{}'",
+                           this->name(), s.words, s.banks, s.span, s.latency, s.content));
+  DEBURR_CHECK(s.latency > 0 || s.read_during_write != ReadDuringWrite::kNewWord,
+               fmt::format("{}: what is written in a clock cannot be read in it without latency",
+                           this->name()));
+  const std::string wrong = find_build();
+  if (wrong.empty()) return;
+  if (s.idealised.empty())
+    throw spec::ConfigError(fmt::format("{}: {} bits as {} {}: {}", this->name(), bits(),
+                                        name_of(s.kind), ports(), wrong));
+  idealised_ = s.idealised;
+  macro_ = "idealised " + ports();
+  copies_ = 1;
+}
+
+std::string MemoryBase::find_build() {
+  const MemoryShape& s = shape_;
+  const auto of_bank = [&](std::uint32_t ports) {
+    return s.separate_banks ? std::min(ports, 1U) : ports;
+  };
+  const std::uint32_t reads = of_bank(s.read_ports), writes = of_bank(s.write_ports),
+                      shared = of_bank(s.shared_ports);
+  if (reads + shared == 0) return "nobody reads it: give it a read port";
+  if (s.kind == MemoryKind::kFlops) {
+    if (bits() > kMostFlopBits)
+      return fmt::format(
+          "flip-flops hold at most {} bits: use sram, whose words come a clock later, or make it "
+          "smaller",
+          kMostFlopBits);
+    if (s.latency > 1)
+      return "flip-flops answer in their clock or with one register: latency 0 or 1";
+    macro_ = "flip-flops";
+    return {};
+  }
+  if (s.latency == 0)
+    return "its words come a clock after the address at the earliest: latency 1 or more";
+  if (s.span > 1 && (s.order != BankOrder::kInterleaved || s.span > s.banks))
+    return fmt::format("one access gives {} neighbours only if they lie in {} interleaved banks",
+                       s.span, s.span);
+  if (s.kind == MemoryKind::kRom) {
+    if (writes + shared != 0) return "a rom is not written: use sram or flops";
+    copies_ = (reads + 1) / 2;
+    macro_ = reads == 1 ? "1R" : "2R";
+    return {};
+  }
+  if (writes + shared == 0) return "nobody writes it: use rom";
+  if (writes + shared > 2 || writes > 1 || (shared == 2 && reads > 0))
+    return fmt::format(
+        "there is sram with 1RW, 1R1W and 2RW, and copies give more reads but no more writes: "
+        "share the writes in time, or put what is written at once into separate banks");
+  if (shared == 0) {
+    copies_ = reads;
+    macro_ = "1R1W";
+  } else if (shared == 2) {
+    macro_ = "2RW";
+  } else if (writes == 1) {  // one port writes, one does either
+    if (reads > 0)
+      return "with a port that writes and one that does either, a 2RW has no port left to read";
+    macro_ = "2RW";
+  } else if (reads == 0) {
+    macro_ = "1RW";
+  } else {  // one port does either; its writes go to every copy
+    copies_ = reads;
+    macro_ = "2RW";
+  }
+  return {};
+}
+
+std::uint64_t MemoryBase::physical_bits() const {
+  if (shape_.kind == MemoryKind::kFlops) return bits();
+  const std::uint64_t bank_words = (words() + shape_.banks - 1) / shape_.banks;
+  return bank_words * shape_.banks * copies_ * word_bits();
+}
+
+std::string MemoryBase::built_as() const {
+  std::string text = copies_ == 1 ? macro_ : fmt::format("{} copies of {}", copies_, macro_);
+  if (shape_.kind != MemoryKind::kFlops && shape_.banks > 1)
+    text += fmt::format(", {} banks", shape_.banks);
+  if (shape_.mask_bits != 0) text += fmt::format(", write mask of {} bits", shape_.mask_bits);
+  return text;
+}
+
+std::uint64_t MemoryBase::bits_at(std::uint64_t width) const {
+  if (shape_.columns == 0) return bits();
+  return (words() * width + shape_.columns - 1) / shape_.columns * word_bits();
+}
+
+PortedMemory::PortedMemory(const char* name, MemoryShape shape)
+    : MemoryBase(name, std::move(shape)),
+      words_(words()),
+      span_(this->shape().span),
+      latency_(this->shape().latency),
+      separate_(this->shape().separate_banks),
+      forbidden_(this->shape().read_during_write == ReadDuringWrite::kForbidden),
+      read_banks_(read_banks_used_),
+      write_banks_(this->shape().shared_ports ? read_banks_used_ : write_banks_used_) {
+  const MemoryShape& s = this->shape();
+  const auto add = [&](Side side, std::uint32_t count) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      Port port;
+      port.side = side;
+      port.read.resize(latency_ + 1);
+      ports_.push_back(std::move(port));
+    }
+  };
+  add(Side::kRead, s.read_ports);
+  add(Side::kWrite, s.write_ports);
+  add(Side::kShared, s.shared_ports);
+  for (Port& port : ports_) {
+    port.reader = static_cast<std::uint32_t>(readers_.size());
+    port.writer = static_cast<std::uint32_t>(writers_.size());
+    if (port.side != Side::kWrite) readers_.push_back(&port);
+    if (port.side != Side::kRead) writers_.push_back(&port);
+  }
+  if (separate_) {
+    read_banks_used_.assign(s.banks, kNever);
+    write_banks_used_.assign(s.banks, kNever);
+  }
+}
+
+PortedMemory::Port& PortedMemory::claim(Side side, const std::string& user) {
+  for (Port& port : ports_)
+    if (port.side == side && port.user.empty()) {
+      port.user = user.empty() ? "a unit" : user;
+      return port;
+    }
+  throw spec::CheckFailed(fmt::format(
+      "{}: {} asks for one port more than {}: declare it, or copy the port of another user to "
+      "share it in time",
+      name(), user, ports()));
+}
+
+void PortedMemory::check_ports() const {
+  for (const Port& port : ports_)
+    DEBURR_CHECK(!port.user.empty(),
+                 fmt::format("{}: one of its ports {} is used by nobody", name(), ports()));
+}
+
+void PortedMemory::reset() {
+  for (Port& port : ports_) {
+    port.used = port.written = kNever;
+    port.read.assign(latency_ + 1, Read{});
+  }
+  std::fill(read_banks_used_.begin(), read_banks_used_.end(), kNever);
+  std::fill(write_banks_used_.begin(), write_banks_used_.end(), kNever);
+  reads_ = writes_ = 0;
+}
+
+void PortedMemory::use_banks(std::vector<Cycle>& used, const Port& port, Cycle cycle,
+                             std::uint64_t address, std::uint32_t count) {
+  const MemoryShape& s = shape();
+  const std::uint64_t block = (words_ + s.banks - 1) / s.banks;
+  for (std::uint64_t a = address; a < address + count; ++a) {
+    const std::uint64_t bank = s.order == BankOrder::kInterleaved ? a % s.banks : a / block;
+    if (used[bank] == cycle) [[unlikely]]
+      fail(port, cycle,
+           fmt::format("bank {} (address {}) is used twice in a clock, expected separate banks",
+                       bank, a));
+    used[bank] = cycle;
+  }
+}
+
+void PortedMemory::check_collision(const Port& port, Cycle cycle, std::uint64_t address,
+                                   std::uint32_t count, bool write) const {
+  const auto overlap = [&](std::uint64_t other, std::uint32_t others) {
+    return other < address + count && address < other + others;
+  };
+  for (const Port* writer : writers_)
+    if (writer != &port && writer->written == cycle && (write || forbidden_) &&
+        overlap(writer->write_address, writer->write_count))
+      fail(port, cycle,
+           fmt::format("{} of address {}, which {} writes in this clock: such a collision is "
+                       "forbidden",
+                       write ? "write" : "read", address, writer->user));
+  if (!write || !forbidden_) return;
+  for (const Port* reader : readers_) {
+    const Read& read = reader->read[reader->newest];
+    if (reader != &port && reader->used == cycle && read.due == cycle + latency_ &&
+        overlap(read.address, read.count))
+      fail(port, cycle,
+           fmt::format("write of address {}, which {} reads in this clock: such a collision is "
+                       "forbidden",
+                       address, reader->user));
+  }
+}
+
+void PortedMemory::fail_twice(const Port& port, Cycle cycle, std::uint64_t address) const {
+  fail(port, cycle,
+       fmt::format("a second access (address {}) in one clock: one access too many, expected one a "
+                   "clock and port ({})",
+                   address, ports()));
+}
+
+void PortedMemory::fail_address(const Port& port, Cycle cycle, std::uint64_t address,
+                                std::uint32_t count) const {
+  fail(port, cycle,
+       fmt::format("access to {} words from address {} on, expected at most {} of {} words", count,
+                   address, span_, words_));
+}
+
+void PortedMemory::fail_early(const Port& port, Cycle cycle) const {
+  const Read& newest = port.read[port.newest];
+  fail(port, cycle,
+       newest.due == kNever
+           ? std::string("a word is used, but none has been asked for")
+           : fmt::format("the word of address {} is used, expected from cycle {} on",
+                         newest.address, newest.due));
+}
+
+void PortedMemory::fail_stale(const Port& port, Cycle cycle, std::uint64_t wanted,
+                              const Read& there) const {
+  std::string when = "has not been asked for lately";
+  for (const Read& read : port.read)
+    if (read.due != kNever && wanted - read.address < read.count)
+      when = read.due > cycle ? fmt::format("comes in cycle {}", read.due)
+                              : fmt::format("was there from cycle {} on", read.due);
+  fail(port, cycle,
+       fmt::format("the word of address {} is used, which {}; on the output register is that of "
+                   "address {}, from cycle {} on",
+                   wanted, when, there.address, there.due));
+}
+
+void PortedMemory::fail(const Port& port, Cycle cycle, const std::string& what) const {
+  const char* const kind = port.side == Side::kRead    ? "read"
+                           : port.side == Side::kWrite ? "write"
+                                                       : "shared";
+  throw spec::CheckFailed(
+      fmt::format("{}: cycle {}: {} port {}: {}", name(), cycle, kind, port.user, what));
+}
+
+}  // namespace deburr::rtl

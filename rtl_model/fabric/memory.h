@@ -1,0 +1,459 @@
+// SPDX-License-Identifier: MIT
+// The one memory of the house: words, ports and latency as a technology offers them, and what it
+// costs to build.
+//
+// Where: a member of the unit that owns it; every unit that accesses it holds a port of its own.
+// Timing: an access is issued in clock t, its word is on the port's output register in t + latency
+// and stays there until the word of that port's next access comes. One access a clock and port,
+// pipelined; never stalls. SRAM and ROM have a latency of at least 1, flip-flops of 0 or 1. A read
+// sees the words as they were before its clock, or (`kNewWord`) with what is written in it;
+// whether the reading or the writing unit is ticked first does not matter. One access too many, an
+// address that is not there, a word that has not come, or a collision that the memory forbids stops
+// the simulation with the name of memory and port, the clock and what was expected.
+// Cost: physical_bits(), from what can be bought: SRAM with 1RW, 1R1W or 2RW, ROM with 1R or 2R,
+// flip-flops up to kMostFlopBits with any ports. More read ports are copies, `banks` divide the
+// words. What cannot be had so is refused, unless the shape says that it is idealised and why.
+//
+//   Memory<Entry> table_{"table", {.words = 512, .word_bits = 37, .content = "edges of two rows"}};
+//   ReadPort<Entry> lookup_{table_, "lookup"};
+//   WritePort<Entry> update_{table_, "update"};
+//
+//   lookup_.read(cycle, column);                     // in clock t
+//   const Entry& entry = lookup_.at(cycle, column);  // in t + 1
+//
+// A copy of a port is one more handle of the same port: users that share it in time.
+//
+// Words that the model keeps in a faster form: Memory<void>. Kind, ports, latency and checks stay
+// the memory's, the owner keeps the content. Without ports that can be checked (a FIFO, whose link
+// does that): MemoryBase.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <systemc>
+#include <utility>
+#include <vector>
+
+#include "rtl_model/fabric/clocked.h"
+#include "rtl_model/fabric/storage.h"
+#include "spec/error.h"
+
+namespace deburr::rtl {
+
+enum class MemoryKind : std::uint8_t { kFlops, kSram, kRom };
+// What a read gives of a word that is written in the same clock.
+enum class ReadDuringWrite : std::uint8_t { kOldWord, kNewWord, kForbidden };
+// Which bank holds a word: neighbours in different banks, or blocks of words (a row of pixels
+// each).
+enum class BankOrder : std::uint8_t { kInterleaved, kBlocks };
+
+const char* name_of(MemoryKind kind);  // "flops", "sram", "rom"
+
+struct MemoryShape {
+  std::uint64_t words = 0;
+  std::uint32_t word_bits = 0;
+  MemoryKind kind = MemoryKind::kSram;
+  std::uint32_t read_ports = 1, write_ports = 1, shared_ports = 0;  // shared: reads or writes
+  std::uint32_t latency = 1;                                        // clocks, 0..kMostLatency
+  ReadDuringWrite read_during_write = ReadDuringWrite::kOldWord;
+  std::uint32_t banks = 1;
+  BankOrder order = BankOrder::kInterleaved;
+  // Words from the address on that one access may take: they lie in as many banks.
+  std::uint32_t span = 1;
+  // Bits that a bit of the write mask stands for; 0: words are written whole.
+  std::uint32_t mask_bits = 0;
+  // The accesses of a clock lie in different banks, reads among themselves and writes among
+  // themselves: a bank needs one port of each kind, however many the memory has. Checked.
+  bool separate_banks = false;
+  std::string content = {};  // one line
+  // Columns of a frame that the words are for: bits_at(). 0: they do not go with the frame's width.
+  std::uint64_t columns = 0;
+  // Why the memory may be one that nobody sells; of no account if it can be built.
+  std::string idealised = {};
+};
+
+// What reports see. Find them all with for_each<MemoryBase>.
+class MemoryBase : public Storage {
+ public:
+  static constexpr std::uint64_t kMostFlopBits = 16'384;
+  static constexpr std::uint32_t kMostLatency = 7;
+
+  // ConfigError if the shape cannot be built: with what to do about it.
+  MemoryBase(const char* name, MemoryShape shape);
+  const char* kind() const override { return "deburr_memory"; }
+
+  const MemoryShape& shape() const { return shape_; }
+  MemoryKind memory_kind() const { return shape_.kind; }
+  const std::string& content() const { return shape_.content; }
+  std::uint64_t logical_bits() const { return bits(); }
+  // With copies, and with the words that fill up the last bank.
+  std::uint64_t physical_bits() const;
+  std::uint32_t copies() const { return copies_; }
+  std::uint32_t banks() const { return shape_.banks; }
+  // "3 copies of 1R1W, 4 banks"
+  std::string built_as() const;
+  // Empty if it can be built; if not, why it stands here all the same.
+  const std::string& idealised() const { return idealised_; }
+  bool follows_width() const { return shape_.columns != 0; }
+  // Logical bits that frames of this width need; all, if the words do not go with the width.
+  std::uint64_t bits_at(std::uint64_t width) const;
+
+  // Bookkeeping of the clock only. Contents stay, as in hardware.
+  void reset() override {}
+  // Every port that the shape declares is used by somebody; the domain asks at the end of
+  // elaboration, since a port that nobody uses is a cost that nobody pays.
+  virtual void check_ports() const {}
+
+  // The kind for a small memory that may be either: flip-flops as long as they are allowed.
+  static MemoryKind kind_for(std::uint64_t bits) {
+    return bits <= kMostFlopBits ? MemoryKind::kFlops : MemoryKind::kSram;
+  }
+
+ private:
+  // Finds copies_ and macro_. Empty, or what is wrong and what to do.
+  std::string find_build();
+
+  MemoryShape shape_;
+  std::uint32_t copies_ = 1;
+  std::string idealised_;
+  std::string macro_;  // what a copy of a bank is: "1R1W"
+};
+
+// A memory whose ports are checked. What is under way in a port is kept here: a unit's port is only
+// a handle.
+class PortedMemory : public MemoryBase {
+ public:
+  PortedMemory(const char* name, MemoryShape shape);
+  void reset() override;
+  void check_ports() const override;
+  // Accesses since reset, of all ports.
+  std::uint64_t reads() const { return reads_; }
+  std::uint64_t writes() const { return writes_; }
+
+ protected:
+  template <class>
+  friend class ReadAccess;
+  template <class>
+  friend class WriteAccess;
+  template <class>
+  friend class ReadPort;
+  template <class>
+  friend class WritePort;
+  template <class>
+  friend class SharedPort;
+
+  enum class Side : std::uint8_t { kRead, kWrite, kShared };
+
+  struct Read {
+    Cycle due = kNever;  // its word is there from this clock on
+    std::uint64_t address = 0;
+    std::uint32_t count = 0;
+  };
+  struct Port {
+    Side side = Side::kRead;
+    std::uint32_t reader = 0, writer = 0;  // its number among those that read, and that write
+    std::string user;                      // of the first handle; empty: nobody yet
+    Cycle used = kNever;                   // the last access
+    std::uint32_t newest = 0;              // of the last latency + 1 reads
+    std::vector<Read> read;
+    // The last write, for reads of the same clock.
+    Cycle written = kNever;
+    std::uint64_t write_address = 0;
+    std::uint32_t write_count = 0;
+  };
+
+  // The next port of that kind that nobody uses yet.
+  Port& claim(Side side, const std::string& user);
+
+  // Everything about an access that does not depend on the words.
+  void issue(Port& port, Cycle cycle, std::uint64_t address, std::uint32_t count) {
+    if (cycle == port.used) [[unlikely]]
+      fail_twice(port, cycle, address);
+    if (address >= words_ || count - 1 >= span_ || address + count > words_) [[unlikely]]
+      fail_address(port, cycle, address, count);
+    port.used = cycle;
+  }
+  void issue_read(Port& port, Cycle cycle, std::uint64_t address, std::uint32_t count) {
+    issue(port, cycle, address, count);
+    if (separate_) use_banks(read_banks_, port, cycle, address, count);
+    port.newest = port.newest == latency_ ? 0 : port.newest + 1;
+    port.read[port.newest] = {cycle + latency_, address, count};
+    ++reads_;
+    if (forbidden_) check_collision(port, cycle, address, count, false);
+  }
+  void issue_write(Port& port, Cycle cycle, std::uint64_t address, std::uint32_t count) {
+    issue(port, cycle, address, count);
+    if (separate_) use_banks(write_banks_, port, cycle, address, count);
+    port.written = cycle;
+    port.write_address = address;
+    port.write_count = count;
+    ++writes_;
+    if (forbidden_ || writers_.size() > 1) check_collision(port, cycle, address, count, true);
+  }
+  static bool arrives(const Port& port, Cycle cycle) {
+    return std::any_of(port.read.begin(), port.read.end(),
+                       [cycle](const Read& read) { return read.due == cycle; });
+  }
+  void check_mask(const Port& port, Cycle cycle) const {
+    if (shape().mask_bits == 0) [[unlikely]]
+      fail(port, cycle, "a part of a word is written, but the shape has no mask_bits");
+  }
+  // The read whose word is on the output register in `cycle`.
+  std::uint32_t arrived(const Port& port, Cycle cycle) const {
+    std::uint32_t at = port.newest;
+    for (std::uint32_t i = 0; i <= latency_; ++i) {
+      if (port.read[at].due <= cycle) [[likely]]
+        return at;
+      at = at == 0 ? latency_ : at - 1;
+    }
+    fail_early(port, cycle);
+  }
+  // The same, which must have given the word at this address.
+  std::uint32_t arrived(const Port& port, Cycle cycle, std::uint64_t address) const {
+    const std::uint32_t at = arrived(port, cycle);
+    if (address - port.read[at].address >= port.read[at].count) [[unlikely]]
+      fail_stale(port, cycle, address, port.read[at]);
+    return at;
+  }
+
+  const std::uint64_t words_;
+  const std::uint32_t span_, latency_;
+  const bool separate_, forbidden_;
+  std::vector<Port> ports_;
+  std::vector<Port*> readers_, writers_;  // shared ports are among both
+
+ private:
+  void use_banks(std::vector<Cycle>& used, const Port& port, Cycle cycle, std::uint64_t address,
+                 std::uint32_t count);
+  void check_collision(const Port& port, Cycle cycle, std::uint64_t address, std::uint32_t count,
+                       bool write) const;
+  // Out of line: a check costs its caller a comparison.
+  [[noreturn, gnu::cold, gnu::noinline]] void fail_twice(const Port& port, Cycle cycle,
+                                                         std::uint64_t address) const;
+  [[noreturn, gnu::cold, gnu::noinline]] void fail_address(const Port& port, Cycle cycle,
+                                                           std::uint64_t address,
+                                                           std::uint32_t count) const;
+  [[noreturn, gnu::cold, gnu::noinline]] void fail_early(const Port& port, Cycle cycle) const;
+  [[noreturn, gnu::cold, gnu::noinline]] void fail_stale(const Port& port, Cycle cycle,
+                                                         std::uint64_t wanted,
+                                                         const Read& there) const;
+  [[noreturn, gnu::cold, gnu::noinline]] void fail(const Port& port, Cycle cycle,
+                                                   const std::string& what) const;
+
+  // By bank, when it was last used. Shared ports use one list for both.
+  std::vector<Cycle> read_banks_used_, write_banks_used_;
+  std::vector<Cycle>&read_banks_, &write_banks_;
+  std::uint64_t reads_ = 0, writes_ = 0;
+};
+
+template <class Word>
+class Memory final : public PortedMemory {
+ public:
+  Memory(const char* name, MemoryShape shape)
+      : PortedMemory(name, std::move(shape)),
+        kept_(words_),
+        before_(writers_.size() * span_),
+        captured_(readers_.size() * (latency_ + 1) * span_) {}
+  // With content: a ROM, or what flip-flops hold when they are switched on.
+  Memory(const char* name, MemoryShape shape, std::span<const Word> content)
+      : Memory(name, std::move(shape)) {
+    DEBURR_CHECK(content.size() <= kept_.size(),
+                 std::string(this->name()) + ": " + std::to_string(content.size()) +
+                     " words of content for " + std::to_string(kept_.size()));
+    std::copy(content.begin(), content.end(), kept_.begin());
+  }
+
+  // Without a port and without time: for tests, preloads and dumps only.
+  Word& backdoor(std::uint64_t address) { return kept_.at(address); }
+  const Word& backdoor(std::uint64_t address) const { return kept_.at(address); }
+  // Every word at once, as the reset line of flip-flops does.
+  void clear(const Word& value = {}) {
+    DEBURR_CHECK(memory_kind() == MemoryKind::kFlops,
+                 std::string(name()) + ": only flip-flops are cleared at once");
+    std::fill(kept_.begin(), kept_.end(), value);
+  }
+
+ private:
+  template <class>
+  friend class ReadAccess;
+  template <class>
+  friend class WriteAccess;
+
+  Word* captured(const Port& port, std::uint32_t at) {
+    return &captured_[(std::size_t{port.reader} * (latency_ + 1) + at) * span_];
+  }
+  const Word& word(const Port& port, std::uint32_t at, std::uint64_t address) {
+    return captured(port, at)[address - port.read[at].address];
+  }
+  void read(Port& port, Cycle cycle, std::uint64_t address, std::uint32_t count) {
+    issue_read(port, cycle, address, count);
+    Word* const to = captured(port, port.newest);
+    for (std::uint32_t i = 0; i < count; ++i) to[i] = kept_[address + i];
+    if (new_word_) return;
+    // What has been written in this clock already, as it was before.
+    for (const Port* writer : writers_) {
+      if (writer->written != cycle) continue;
+      for (std::uint32_t i = 0; i < writer->write_count; ++i)
+        if (writer->write_address + i - address < count)
+          to[writer->write_address + i - address] = before_[writer->writer * span_ + i];
+    }
+  }
+  // `put(i, word)` changes word i of the access.
+  template <class Put>
+  void write(Port& port, Cycle cycle, std::uint64_t address, std::uint32_t count, Put&& put) {
+    issue_write(port, cycle, address, count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      before_[port.writer * span_ + i] = kept_[address + i];
+      put(i, kept_[address + i]);
+    }
+    if (!new_word_) [[likely]]
+      return;
+    // Reads that were issued in this clock already see it.
+    for (const Port* reader : readers_) {
+      const Read& read = reader->read[reader->newest];
+      if (read.due != cycle + latency_) continue;
+      for (std::uint32_t i = 0; i < read.count; ++i)
+        if (read.address + i - address < count)
+          captured(*reader, reader->newest)[i] = kept_[read.address + i];
+    }
+  }
+
+  const bool new_word_ = shape().read_during_write == ReadDuringWrite::kNewWord;
+  std::vector<Word> kept_;
+  std::vector<Word> before_;    // by port and place in the span: words before their last write
+  std::vector<Word> captured_;  // by port, read and place in the span
+};
+
+// The owner keeps the content: in a read it gives the words as they were before the clock.
+template <>
+class Memory<void> final : public PortedMemory {
+ public:
+  using PortedMemory::PortedMemory;
+};
+
+// What ports that read offer to their unit, and ports that write. Not used by themselves.
+template <class Word>
+class ReadAccess {
+ public:
+  // Issues the access of this clock, of `count` words from `address` on.
+  void read(Cycle cycle, std::uint64_t address, std::uint32_t count = 1) {
+    memory_->read(*port_, cycle, address, count);
+  }
+  // Does the word of an access come in this clock?
+  bool arrives(Cycle cycle) const { return PortedMemory::arrives(*port_, cycle); }
+  // The (first) word on the output register.
+  const Word& word(Cycle cycle) const {
+    const std::uint32_t at = memory_->arrived(*port_, cycle);
+    return *memory_->captured(*port_, at);
+  }
+  // The same, if it is the word of this address: a word that is used a clock early, when an older
+  // one is still there, or too late, when a newer one is, is caught.
+  const Word& at(Cycle cycle, std::uint64_t address) const {
+    return memory_->word(*port_, memory_->arrived(*port_, cycle, address), address);
+  }
+  // Both in one clock: of flip-flops without an output register.
+  const Word& now(Cycle cycle, std::uint64_t address) {
+    read(cycle, address);
+    return at(cycle, address);
+  }
+
+ protected:
+  ReadAccess(Memory<Word>& memory, PortedMemory::Port& port) : memory_(&memory), port_(&port) {}
+
+ private:
+  Memory<Word>* memory_;
+  PortedMemory::Port* port_;
+};
+
+template <class Word>
+class WriteAccess {
+ public:
+  void write(Cycle cycle, std::uint64_t address, const Word& word) {
+    memory_->write(*port_, cycle, address, 1, [&](std::uint32_t, Word& kept) { kept = word; });
+  }
+  // Neighbouring words, at most `span`.
+  void write(Cycle cycle, std::uint64_t address, std::span<const Word> words) {
+    memory_->write(*port_, cycle, address, static_cast<std::uint32_t>(words.size()),
+                   [&](std::uint32_t i, Word& kept) { kept = words[i]; });
+  }
+  // Through the write mask: `change(word)` changes some bits, the others stay.
+  template <class Change>
+  void change(Cycle cycle, std::uint64_t address, Change&& change) {
+    memory_->check_mask(*port_, cycle);
+    memory_->write(*port_, cycle, address, 1, [&](std::uint32_t, Word& kept) { change(kept); });
+  }
+
+ protected:
+  WriteAccess(Memory<Word>& memory, PortedMemory::Port& port) : memory_(&memory), port_(&port) {}
+
+ private:
+  Memory<Word>* memory_;
+  PortedMemory::Port* port_;
+};
+
+// Of a memory whose owner keeps the content: the checks are left.
+template <>
+class ReadAccess<void> {
+ public:
+  void read(Cycle cycle, std::uint64_t address, std::uint32_t count = 1) {
+    memory_->issue_read(*port_, cycle, address, count);
+  }
+  bool arrives(Cycle cycle) const { return PortedMemory::arrives(*port_, cycle); }
+  // CheckFailed unless a word, or the word of this address, is on the output register.
+  void check(Cycle cycle) const { memory_->arrived(*port_, cycle); }
+  void check(Cycle cycle, std::uint64_t address) const { memory_->arrived(*port_, cycle, address); }
+
+ protected:
+  ReadAccess(Memory<void>& memory, PortedMemory::Port& port) : memory_(&memory), port_(&port) {}
+
+ private:
+  Memory<void>* memory_;
+  PortedMemory::Port* port_;
+};
+
+template <>
+class WriteAccess<void> {
+ public:
+  void write(Cycle cycle, std::uint64_t address, std::uint32_t count = 1) {
+    memory_->issue_write(*port_, cycle, address, count);
+  }
+
+ protected:
+  WriteAccess(Memory<void>& memory, PortedMemory::Port& port) : memory_(&memory), port_(&port) {}
+
+ private:
+  Memory<void>* memory_;
+  PortedMemory::Port* port_;
+};
+
+// What a unit holds; `user` is the name of the port in error texts.
+template <class Word>
+class ReadPort : public ReadAccess<Word> {
+ public:
+  ReadPort(Memory<Word>& memory, const std::string& user)
+      : ReadAccess<Word>(memory, memory.claim(PortedMemory::Side::kRead, user)) {}
+};
+
+template <class Word>
+class WritePort : public WriteAccess<Word> {
+ public:
+  WritePort(Memory<Word>& memory, const std::string& user)
+      : WriteAccess<Word>(memory, memory.claim(PortedMemory::Side::kWrite, user)) {}
+};
+
+// Reads or writes, one access a clock.
+template <class Word>
+class SharedPort : public ReadAccess<Word>, public WriteAccess<Word> {
+ public:
+  SharedPort(Memory<Word>& memory, const std::string& user)
+      : SharedPort(memory, memory.claim(PortedMemory::Side::kShared, user)) {}
+
+ private:
+  SharedPort(Memory<Word>& memory, PortedMemory::Port& port)
+      : ReadAccess<Word>(memory, port), WriteAccess<Word>(memory, port) {}
+};
+
+}  // namespace deburr::rtl

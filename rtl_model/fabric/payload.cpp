@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/fabric/payload.h"
+
+#include <cxxabi.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <memory>
+
+#include "spec/error.h"
+
+namespace deburr::rtl {
+namespace {
+
+template <class T>
+std::uint64_t load_as(const std::byte* from) {
+  T value;
+  std::memcpy(&value, from, sizeof value);
+  return value;
+}
+template <class T>
+void store_as(std::byte* to, std::uint64_t value) {
+  const T narrow = static_cast<T>(value);
+  std::memcpy(to, &narrow, sizeof narrow);
+}
+
+// The whole C++ integer, whatever the host's byte order is.
+std::uint64_t load(const std::byte* from, std::uint32_t bytes) {
+  switch (bytes) {
+    case 1:
+      return load_as<std::uint8_t>(from);
+    case 2:
+      return load_as<std::uint16_t>(from);
+    case 4:
+      return load_as<std::uint32_t>(from);
+    default:
+      return load_as<std::uint64_t>(from);
+  }
+}
+void store(std::byte* to, std::uint32_t bytes, std::uint64_t value) {
+  switch (bytes) {
+    case 1:
+      return store_as<std::uint8_t>(to, value);
+    case 2:
+      return store_as<std::uint16_t>(to, value);
+    case 4:
+      return store_as<std::uint32_t>(to, value);
+    default:
+      return store_as<std::uint64_t>(to, value);
+  }
+}
+
+bool parse(std::string_view text, std::uint32_t& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+}  // namespace
+
+std::uint64_t Field::get(const std::byte* payload) const {
+  return load(payload + offset, bytes) & mask();
+}
+
+void Field::set(std::byte* payload, std::uint64_t value) const {
+  value &= mask();
+  if (is_signed && value >> (bits - 1)) value |= ~mask();
+  store(payload + offset, bytes, value);
+}
+
+bool Field::fits(const std::byte* payload) const {
+  if (bits == bytes * 8) return true;
+  const std::uint64_t value = load(payload + offset, bytes);
+  const std::uint64_t above = value >> bits;
+  if (above == 0) return !is_signed || value >> (bits - 1) == 0;
+  const std::uint64_t ones = (~std::uint64_t{0} >> (64 - bytes * 8)) >> bits;
+  return is_signed && above == ones && value >> (bits - 1) & 1;
+}
+
+std::string Field::text(const std::byte* payload) const {
+  const std::uint64_t value = get(payload);
+  if (is_signed && value >> (bits - 1))
+    return fmt::format("{}", static_cast<std::int64_t>(value | ~mask()));
+  return fmt::format("{}", value);
+}
+
+namespace detail {
+
+PayloadNode PayloadBuilder::field(std::string name, std::ptrdiff_t offset, std::size_t size,
+                                  std::uint32_t bits, std::string_view format,
+                                  bool is_signed) const {
+  const std::string full = path_ + name;
+  const std::uint32_t listed = bits;
+  for (const auto& [what, narrower] : shape_.widths)
+    if (full == what || full.starts_with(what + ".")) bits = narrower;
+  DEBURR_CHECK(bits >= 1 && bits <= listed,
+               fmt::format("{}: {} bits, its list allows 1..{}", full, bits, listed));
+  PayloadNode node;
+  node.name = std::move(name);
+  node.field = {full,
+                bits,
+                std::string(format),
+                is_signed,
+                static_cast<std::uint32_t>(offset),
+                static_cast<std::uint32_t>(size),
+                0};
+  return node;
+}
+
+PayloadNode PayloadBuilder::array(const std::string& name) {
+  PayloadNode node;
+  node.kind = PayloadNode::Kind::kArray;
+  node.name = name;
+  return node;
+}
+
+PayloadNode PayloadBuilder::bytes(std::size_t size) const {
+  PayloadNode node = array("byte");
+  for (std::size_t i = 0; i < size; ++i) {
+    PayloadNode one = field(std::to_string(i), static_cast<std::ptrdiff_t>(i), 1, 8, {}, false);
+    one.field.name = "byte." + one.name;
+    node.children.push_back(std::move(one));
+  }
+  return node;
+}
+
+// deburr::rtl::texture::LevelToken -> level_token_t
+std::string PayloadBuilder::type_name(const std::type_info& type) {
+  const std::unique_ptr<char, decltype(&std::free)> full(
+      abi::__cxa_demangle(type.name(), nullptr, nullptr, nullptr), &std::free);
+  const std::string name = full ? full.get() : type.name();
+  std::string text;
+  for (const char c : name.substr(name.rfind(':') + 1)) {
+    const bool upper = c >= 'A' && c <= 'Z',
+               other = !upper && !(c >= 'a' && c <= 'z') && !(c >= '0' && c <= '9');
+    if (upper && !text.empty() && text.back() != '_') text += '_';
+    text += other ? '_' : static_cast<char>(upper ? c - 'A' + 'a' : c);
+  }
+  return text + "_t";
+}
+
+}  // namespace detail
+
+Payload::Payload(PayloadNode node, const PayloadShape& shape) : node_(std::move(node)) {
+  collect(node_);
+  for (const auto& [what, bits] : shape.widths)
+    DEBURR_CHECK(std::any_of(fields_.begin(), fields_.end(),
+                             [&](const Field& f) {
+                               return f.name == what || f.name.starts_with(what + ".");
+                             }),
+                 fmt::format("a payload without {} cannot have {} bits of it", what, bits));
+}
+
+void Payload::collect(PayloadNode& node) {
+  if (node.kind == PayloadNode::Kind::kField) {
+    node.field.first_bit = bits_;
+    bits_ += node.field.bits;
+    fields_.push_back(node.field);
+    return;
+  }
+  for (PayloadNode& child : node.children) collect(child);
+}
+
+const Field* Payload::find(std::string_view field) const {
+  const auto found =
+      std::find_if(fields_.begin(), fields_.end(), [&](const Field& f) { return f.name == field; });
+  return found == fields_.end() ? nullptr : &*found;
+}
+
+Payload::Bit Payload::bit(const std::string& text) const {
+  if (const Field* field = find(text)) return {field, 0};
+  std::uint32_t number = 0;
+  if (parse(text, number)) {
+    if (number >= bits_)
+      throw spec::ConfigError(fmt::format("no bit {}: there are {}", number, bits_));
+    const auto above = std::upper_bound(
+        fields_.begin(), fields_.end(), number,
+        [](std::uint32_t bit, const Field& field) { return bit < field.first_bit; });
+    const Field& field = *std::prev(above);
+    return {&field, number - field.first_bit};
+  }
+  const std::size_t dot = text.rfind('.');
+  const Field* const field = dot == std::string::npos ? nullptr : find(text.substr(0, dot));
+  if (field && parse(std::string_view(text).substr(dot + 1), number)) {
+    if (number >= field->bits)
+      throw spec::ConfigError(
+          fmt::format("no bit {} of {}: it has {}", number, field->name, field->bits));
+    return {field, number};
+  }
+  std::string known;
+  for (const Field& one : fields_) known += fmt::format("\n  {} ({} bits)", one.name, one.bits);
+  throw spec::ConfigError(fmt::format("no field is named {}; there are:{}", text, known));
+}
+
+void Payload::flip(std::byte* payload, Bit bit) const {
+  bit.field->set(payload, bit.field->get(payload) ^ std::uint64_t{1} << bit.bit);
+}
+
+void Payload::copy(std::byte* to, const std::byte* from) const {
+  for (const Field& field : fields_) field.set(to, field.get(from));
+}
+
+void Payload::fill(std::byte* payload, std::uint64_t pattern) const {
+  for (const Field& field : fields_) field.set(payload, pattern);
+}
+
+const Field* Payload::misfit(const std::byte* payload) const {
+  for (const Field& field : fields_)
+    if (!field.fits(payload)) return &field;
+  return nullptr;
+}
+
+std::string Payload::text(const std::byte* payload) const {
+  std::string text;
+  for (const Field& field : fields_)
+    text += fmt::format("{}{}={}", text.empty() ? "" : " ", field.name, field.text(payload));
+  return text;
+}
+
+std::string Payload::difference(const std::byte* expected, const std::byte* got) const {
+  std::string text;
+  for (const Field& field : fields_)
+    if (load(expected + field.offset, field.bytes) != load(got + field.offset, field.bytes))
+      text += fmt::format("{}{}={}/{}", text.empty() ? "" : " ", field.name, field.text(expected),
+                          field.text(got));
+  return text;
+}
+
+namespace {
+
+// Typedefs by name; of two that share a name but not their fields, the later gets a number.
+class PackageWriter {
+ public:
+  std::string declare(const PayloadNode& node) {
+    std::string body;
+    for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
+      body += member(*child);
+    const auto& [name, inserted] = unique(node.type, body);
+    if (inserted)
+      text += fmt::format("  // {} bits\n  typedef struct packed {{\n{}  }} {};\n\n", width(node),
+                          body, name);
+    return name;
+  }
+  std::string text;
+
+ private:
+  static std::uint32_t width(const PayloadNode& node) {
+    if (node.kind == PayloadNode::Kind::kField) return node.field.bits;
+    std::uint32_t sum = 0;
+    for (const PayloadNode& child : node.children) sum += width(child);
+    return sum;
+  }
+  std::pair<std::string, bool> unique(const std::string& wanted, const std::string& body) {
+    for (int number = 1;; ++number) {
+      const std::string name =
+          number == 1 ? wanted
+                      : fmt::format("{}_{}_t", wanted.substr(0, wanted.size() - 2), number);
+      const auto [at, inserted] = bodies_.try_emplace(name, body);
+      if (inserted || at->second == body) return {name, inserted};
+    }
+  }
+  static const Field& first_field(const PayloadNode& node) {
+    return node.kind == PayloadNode::Kind::kField ? node.field : first_field(node.children.front());
+  }
+  // Without the name of what is declared.
+  std::string type_of(const PayloadNode& node) {
+    std::string dimensions;
+    const PayloadNode* at = &node;
+    for (; at->kind == PayloadNode::Kind::kArray; at = &at->children.front())
+      dimensions += fmt::format("[{}:0]", at->children.size() - 1);
+    if (at->kind == PayloadNode::Kind::kStruct) {
+      const std::string type = declare(*at);
+      return dimensions.empty() ? type : type + " " + dimensions;
+    }
+    std::string type = at->field.is_signed && dimensions.empty() ? "logic signed" : "logic";
+    if (at->field.bits > 1) dimensions += fmt::format("[{}:0]", at->field.bits - 1);
+    return dimensions.empty() ? type : type + " " + dimensions;
+  }
+  std::string member(const PayloadNode& node) {
+    const std::string type = type_of(node);
+    std::string note;
+    const PayloadNode* at = &node;
+    while (at->kind == PayloadNode::Kind::kArray) at = &at->children.front();
+    if (at->kind == PayloadNode::Kind::kField && !at->field.format.empty())
+      note = "  // " + at->field.format;
+    return fmt::format("    {} {};{}\n", type, node.name, note);
+  }
+
+  std::map<std::string, std::string> bodies_;
+};
+
+}  // namespace
+
+std::string payload_package(const std::string& name, std::span<const Payload* const> payloads) {
+  PackageWriter writer;
+  for (const Payload* payload : payloads)
+    if (payload->node().kind == PayloadNode::Kind::kStruct) writer.declare(payload->node());
+  return fmt::format("// SPDX-License-Identifier: MIT\npackage {};\n\n{}endpackage\n", name,
+                     writer.text);
+}
+
+}  // namespace deburr::rtl

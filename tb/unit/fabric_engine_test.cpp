@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+// What every engine has: ranges, registers, the clear command, lists for reports, a latency probe.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <deque>
+#include <string>
+
+#include "rtl_model/fabric/engine.h"
+#include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/latency_probe.h"
+#include "tb/harness/register_host.h"
+#include "tb/unit/fabric_support.h"
+
+namespace deburr::tb::toy {
+
+using rtl::Cycle;
+using spec::Access;
+using testing::HasSubstr;
+
+enum class Rule : std::uint8_t { kPlain, kFancy };
+constexpr std::array<std::string_view, 2> kRuleNames = {"plain", "fancy"};
+struct Parameters {
+  std::int32_t steps = 4;
+  Rule rule = Rule::kPlain;
+  bool safe = false;
+};
+template <class P, class Visitor>
+void describe(P& p, Visitor& v) {
+  v.integer("steps", p.steps, 1, 8, "step", "How far.");
+  v.choice("rule", p.rule, kRuleNames, "How.");
+  v.boolean("safe", p.safe, "Whether.");
+}
+
+constexpr std::uint32_t kControl = 0x04, kStatus = 0x08, kSize = 0x10, kTokens = 0x20, kBoth = 0x24;
+constexpr std::array<spec::RegisterInfo, 6> kTable = {{
+    {0x00, "ID", Access::kReadOnly, 0xDEB000FF, "Which."},
+    {kControl, "CONTROL", Access::kReadWrite, 1, "Bit 0 enable, 1 clear, 2 flush."},
+    {kStatus, "STATUS", Access::kWriteOneToClear, 1, "Bit 0 idle, 1 framing, 2 written."},
+    {kSize, "SIZE", Access::kReadWrite, 0, "Width [13:0]."},
+    {kTokens, "TOKENS", Access::kReadOnly, 0, "Tokens."},
+    {kBoth, "BOTH", Access::kReadOnly, 0, "Tokens of both."},
+}};
+
+class Counting final : public rtl::Unit {
+ public:
+  rtl::Counter tokens{"tokens", "tokens", "counted"};
+  rtl::Histogram waits{"waits", "clk", "measured"};
+  rtl::Fifo<std::uint16_t> queue{"queue", 8};
+  Counting(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
+  rtl::Activity tick(Cycle) override {
+    ++tokens;
+    waits.record(3);
+    return rtl::kBusy;
+  }
+  void reset() override {}
+};
+
+class Engine final : public rtl::Engine {
+ public:
+  Counting a, b;
+  int flushed = 0, changed = 0;
+  bool busy = false;
+
+  Engine(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, bool ignores,
+         bool with_memory = false)
+      : rtl::Engine(name, clock, kTable,
+                    {.control = kControl,
+                     .status = kStatus,
+                     .enable = 1,
+                     .clear_counters = 2,
+                     .idle = 1,
+                     .written_while_busy = 4,
+                     .busy_ignores_writes = ignores}),
+        a("a", clock),
+        b("b", clock) {
+    control.set_mask(kSize, 0x3FFF);
+    control.set_reset(kSize, 640);
+    control.show(kTokens, a.tokens);
+    control.show_sum(kBoth, {&a.tokens, &b.tokens});
+    control.on_command(4, [this] { ++flushed; });
+    control.on_change([this](std::uint32_t) { ++changed; });
+    if (!with_memory) return;
+    port_ = std::make_unique<rtl::MemoryPort>("port", clock);
+    port_->requests_in(requests_);
+    port_->responses_out(responses_);
+    uses(*port_);
+  }
+  bool idle() const override { return !busy; }
+  rtl::MemoryPort* port() { return port_.get(); }
+
+ private:
+  rtl::Link<rtl::MemoryRequest> requests_{"requests"};
+  rtl::Link<rtl::MemoryResponse> responses_{"responses"};
+  std::unique_ptr<rtl::MemoryPort> port_;
+};
+
+struct Bed {
+  rtl::ClockDomain clock{"clock", sc_core::sc_time(10, sc_core::SC_NS)};
+  Engine engine;
+  RegisterHost host;
+  explicit Bed(bool ignores) : engine("engine", clock, ignores), host("host") {
+    host.bus.bind(engine.registers);
+    clock.run(1);
+  }
+};
+
+std::string refusal(const Parameters& p) {
+  try {
+    rtl::checked_ranges("toy", p);
+  } catch (const spec::ConfigError& error) {
+    return error.what();
+  }
+  return "taken";
+}
+
+TEST(Engine, RangesAreCheckedFromTheirDeclaration) {
+  EXPECT_EQ(refusal({}), "taken");
+  EXPECT_EQ(refusal({.steps = 8}), "taken");
+  EXPECT_EQ(refusal({.steps = 9}), "toy.steps: expected 1..8 step, got 9");
+  EXPECT_EQ(refusal({.steps = 0}), "toy.steps: expected 1..8 step, got 0");
+  EXPECT_EQ(refusal({.rule = static_cast<Rule>(2)}),
+            "toy.rule: no such choice: 2; expected one of plain, fancy");
+}
+
+TEST(Engine, ListsWhatIsBelowIt) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  const Engine engine("engine", clock, true);
+  const Counting other("other", clock);
+  const auto names = [](const auto& objects) {
+    std::string text;
+    for (const auto* object : objects) text += std::string(object->name()) + " ";
+    return text;
+  };
+  EXPECT_EQ(names(engine.units()), "engine.a engine.b ");
+  EXPECT_EQ(names(engine.counters()), "engine.a.tokens engine.b.tokens ");
+  EXPECT_EQ(names(engine.memories()), "engine.a.queue engine.b.queue ");
+  EXPECT_EQ(engine.memory(), nullptr);
+}
+
+TEST(Engine, HasItsMemorySocketIfItIsBuiltWithOne) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  Engine engine("engine", clock, true, true);
+  EXPECT_EQ(engine.memory(), &engine.port()->memory);
+}
+
+TEST(Engine, ClearResetsEveryCounterAndNothingElse) {
+  Bed bed(true);
+  bed.clock.run(9);
+  EXPECT_EQ(bed.host.read(kTokens), 10U);
+  EXPECT_EQ(bed.host.read(kBoth), 20U);
+  bed.host.write(kControl, 1 | 2);
+  EXPECT_EQ(bed.host.read(kTokens), 0U);
+  EXPECT_EQ(bed.host.read(kBoth), 0U);
+  EXPECT_EQ(bed.host.read(kControl), 1U);  // the command reads 0
+  EXPECT_EQ(bed.engine.a.busy_cycles(), 10U);
+  EXPECT_EQ(bed.engine.a.waits.count(), 10U);
+}
+
+TEST(Engine, WritesAreMaskedAndDecoded) {
+  Bed bed(true);
+  EXPECT_EQ(bed.host.read(kSize), 640U);
+  const int before = bed.engine.changed;
+  bed.host.write(kSize, 0xFFFFFFFF);
+  EXPECT_EQ(bed.host.read(kSize), 0x3FFFU);
+  EXPECT_EQ(bed.engine.changed, before + 1);
+  bed.engine.control.registers.set(3, 0xFFFF0001);  // as a debug write does
+  bed.engine.control.mask_values();
+  EXPECT_EQ(bed.engine.control.value(kSize), 1U);
+}
+
+TEST(Engine, ABusyEngineIgnoresWritesOrTakesThem) {
+  for (const bool ignores : {true, false}) {
+    const std::string result = in_child([&] {
+      Bed bed(ignores);
+      bed.engine.busy = true;
+      bed.host.write(kSize, 100);
+      bed.host.write(kControl, 1 | 4);
+      std::string text = fmt::format("{} {} {} ", bed.host.read(kStatus), bed.host.read(kSize),
+                                     bed.engine.flushed);
+      bed.engine.busy = false;
+      bed.host.write(kStatus, 4);
+      bed.host.write(kControl, 4);
+      return text + fmt::format("{} {} {}", bed.host.read(kStatus), bed.engine.flushed,
+                                bed.engine.control.enabled());
+    });
+    EXPECT_EQ(result, ignores ? "4 640 0 1 1 false" : "4 100 0 1 1 false");
+  }
+}
+
+TEST(Engine, ResetGivesEveryRegisterItsResetValue) {
+  Bed bed(true);
+  bed.host.write(kSize, 5);
+  bed.host.write(kControl, 0);
+  bed.engine.control.set_sticky(2);
+  EXPECT_FALSE(bed.engine.control.enabled());
+  bed.clock.set_reset_n(false);
+  bed.clock.run(1);
+  bed.clock.set_reset_n(true);
+  EXPECT_TRUE(bed.engine.control.enabled());
+  EXPECT_EQ(bed.host.read(kSize), 640U);
+  EXPECT_EQ(bed.host.read(kStatus), 1U);
+  EXPECT_EQ(bed.host.read(kControl), 1U);
+}
+
+TEST(LatencyProbe, AgreesWithAQueueOfTimes) {
+  rtl::LatencyProbe probe;
+  std::deque<Cycle> queue;
+  Random random(5);
+  for (Cycle c = 0; c < 5000; ++c) {
+    for (std::uint64_t n = random.next() % 3; n > 0; --n) {
+      probe.enters(c);
+      queue.push_back(c);
+    }
+    while (!queue.empty() && random.chance(400)) {
+      ASSERT_EQ(probe.leaves(c), c - queue.front());
+      queue.pop_front();
+    }
+    ASSERT_EQ(probe.inside(), queue.size());
+  }
+  probe.reset();
+  EXPECT_THROW(probe.leaves(5000), spec::CheckFailed);
+  probe.enters(5001);
+  EXPECT_EQ(probe.leaves(5010), 9U);
+}
+
+}  // namespace deburr::tb::toy

@@ -1,0 +1,464 @@
+// SPDX-License-Identifier: MIT
+// Memories: when a word is there, what ports allow, and what it costs to build them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+
+#include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/memory.h"
+#include "rtl_model/fabric/memory_port.h"
+#include "tb/unit/fabric_support.h"
+
+namespace deburr::tb {
+namespace {
+
+using rtl::BankOrder;
+using rtl::Cycle;
+using rtl::Memory;
+using rtl::MemoryBase;
+using rtl::MemoryKind;
+using rtl::MemoryShape;
+using rtl::ReadDuringWrite;
+using rtl::ReadPort;
+using rtl::SharedPort;
+using rtl::WritePort;
+using testing::AllOf;
+using testing::HasSubstr;
+
+template <class Error, class F>
+std::string text_of(F&& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "no error";
+  return {};
+}
+template <class F>
+std::string refusal(F&& action) {
+  return text_of<spec::CheckFailed>(action);
+}
+
+struct Ported {
+  Memory<int> memory;
+  WritePort<int> write{memory, "writer"};
+  ReadPort<int> read{memory, "reader"};
+  explicit Ported(std::uint32_t latency, ReadDuringWrite rule = ReadDuringWrite::kOldWord,
+                  MemoryKind kind = MemoryKind::kSram)
+      : memory("memory", {.words = 16,
+                          .word_bits = 8,
+                          .kind = kind,
+                          .latency = latency,
+                          .read_during_write = rule}) {
+    for (int a = 0; a < 16; ++a) memory.backdoor(static_cast<std::uint64_t>(a)) = 100 + a;
+  }
+};
+
+class MemoryLatency : public testing::TestWithParam<std::uint32_t> {};
+
+TEST_P(MemoryLatency, WordIsThereInTheClockThatItIsDueAndNotBefore) {
+  const std::uint32_t latency = GetParam();
+  Ported p(latency);
+  EXPECT_THAT(refusal([&] { p.read.word(9); }), HasSubstr("none has been asked for"));
+  p.read.read(10, 3);
+  for (Cycle c = 10; c < 10 + latency; ++c) {
+    EXPECT_FALSE(p.read.arrives(c));
+    EXPECT_THAT(
+        refusal([&] { p.read.word(c); }),
+        AllOf(HasSubstr("memory: cycle " + std::to_string(c)), HasSubstr("read port reader"),
+              HasSubstr("address 3 is used, expected from cycle " + std::to_string(10 + latency))));
+  }
+  EXPECT_TRUE(p.read.arrives(10 + latency));
+  EXPECT_EQ(p.read.word(10 + latency), 103);
+  EXPECT_FALSE(p.read.arrives(11 + latency));
+}
+
+TEST_P(MemoryLatency, WordStaysUntilTheNextOneComes) {
+  const std::uint32_t latency = GetParam();
+  Ported p(latency);
+  p.read.read(10, 3);
+  p.read.read(20, 4);
+  p.write.write(15, 3, -1);  // the output register has the word as it was read
+  EXPECT_EQ(p.read.word(19 + latency), 103);
+  EXPECT_EQ(p.read.at(19 + latency, 3), 103);
+  EXPECT_EQ(p.read.word(20 + latency), 104);
+  EXPECT_THAT(refusal([&] { p.read.at(20 + latency, 3); }),
+              HasSubstr("output register is that of address 4"));
+}
+
+// The word of the access before is still there: only the address tells.
+TEST_P(MemoryLatency, AStaleWordUsedAClockEarlyIsCaught) {
+  const std::uint32_t latency = GetParam();
+  Ported p(latency);
+  p.read.read(10, 3);
+  p.read.read(20, 4);
+  const Cycle early = 20 + latency - 1;
+  EXPECT_THAT(refusal([&] { p.read.at(early, 4); }),
+              AllOf(HasSubstr("cycle " + std::to_string(early)),
+                    HasSubstr("comes in cycle " + std::to_string(20 + latency)),
+                    HasSubstr("that of address 3")));
+  EXPECT_EQ(p.read.at(20 + latency, 4), 104);
+}
+
+TEST_P(MemoryLatency, OneAccessAClockIsPipelined) {
+  const std::uint32_t latency = GetParam();
+  Ported p(latency);
+  for (Cycle c = 0; c < 200; ++c) {
+    p.read.read(c, c % 16);
+    if (c < latency) continue;
+    EXPECT_TRUE(p.read.arrives(c));
+    EXPECT_EQ(p.read.at(c, (c - latency) % 16), 100 + static_cast<int>((c - latency) % 16));
+  }
+  EXPECT_EQ(p.memory.reads(), 200U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Clocks, MemoryLatency, testing::Values(1, 2, 3, 7));
+
+// A unit asks for a word in the clock in which it needs it, a clock too late for the memory.
+TEST(Memory, AReadIssuedTooLateIsCaught) {
+  Ported p(2);
+  p.read.read(9, 7);  // needed in 10
+  EXPECT_THAT(refusal([&] { p.read.at(10, 7); }), HasSubstr("expected from cycle 11 on"));
+}
+
+TEST(Memory, FlipFlopsAnswerInTheirClockWithWhatWasThereBefore) {
+  Ported p(0, ReadDuringWrite::kOldWord, MemoryKind::kFlops);
+  p.write.write(4, 5, 55);
+  EXPECT_EQ(p.read.now(4, 5), 105);  // whichever unit is ticked first
+  EXPECT_EQ(p.read.now(5, 5), 55);
+  p.write.write(5, 5, 56);
+  EXPECT_EQ(p.read.word(5), 55);
+  EXPECT_EQ(p.read.now(6, 5), 56);
+  p.memory.clear(9);
+  EXPECT_EQ(p.read.now(7, 0), 9);
+}
+
+TEST(Memory, RuleOfReadDuringWriteHoldsInAnyOrder) {
+  for (const bool read_first : {true, false}) {
+    const auto both = [&](Ported& p, Cycle c, int word) {
+      if (read_first) p.read.read(c, 5);
+      p.write.write(c, 5, word);
+      if (!read_first) p.read.read(c, 5);
+      return p.read.at(c + 2, 5);
+    };
+    Ported old_word(2);
+    EXPECT_EQ(both(old_word, 10, 1), 105);
+    EXPECT_EQ(both(old_word, 11, 2), 1);
+    Ported new_word(2, ReadDuringWrite::kNewWord);
+    EXPECT_EQ(both(new_word, 10, 1), 1);
+    EXPECT_EQ(both(new_word, 11, 2), 2);
+    Ported forbidden(2, ReadDuringWrite::kForbidden);
+    EXPECT_THAT(refusal([&] { both(forbidden, 10, 1); }),
+                AllOf(HasSubstr("memory"), HasSubstr("cycle 10"), HasSubstr("address 5"),
+                      HasSubstr("forbidden")));
+    forbidden.read.read(12, 5);
+    EXPECT_NO_THROW(forbidden.write.write(12, 6, 1));
+  }
+}
+
+TEST(Memory, AWriteAfterTheReadDoesNotReachIt) {
+  Ported p(3, ReadDuringWrite::kNewWord);
+  p.read.read(10, 5);
+  p.write.write(11, 5, 1);
+  EXPECT_EQ(p.read.at(13, 5), 105);
+}
+
+TEST(Memory, OneAccessTooManyIsCaught) {
+  Ported p(1);
+  p.read.read(4, 1);
+  EXPECT_THAT(refusal([&] { p.read.read(4, 2); }),
+              AllOf(HasSubstr("memory: cycle 4: read port reader"), HasSubstr("address 2"),
+                    HasSubstr("one access too many"), HasSubstr("1R1W")));
+  p.write.write(4, 1, 0);
+  EXPECT_THAT(refusal([&] { p.write.write(4, 2, 0); }), HasSubstr("write port writer"));
+  EXPECT_NO_THROW(p.read.read(5, 2));
+}
+
+TEST(Memory, AddressesThatAreNotThere) {
+  Ported p(1);
+  EXPECT_THAT(refusal([&] { p.read.read(0, 16); }), HasSubstr("16 words"));
+  EXPECT_THAT(refusal([&] { p.write.write(0, ~std::uint64_t{0}, 1); }), HasSubstr("16 words"));
+  EXPECT_THAT(refusal([&] { p.read.read(1, 3, 2); }), HasSubstr("at most 1"));
+}
+
+TEST(Memory, PortsAreWhatTheShapeSays) {
+  Memory<int> memory("memory", {.words = 16, .word_bits = 8, .read_ports = 2});
+  ReadPort<int> first(memory, "first");
+  EXPECT_THAT(refusal([&] { memory.check_ports(); }), HasSubstr("2R1W is used by nobody"));
+  ReadPort<int> second(memory, "second");
+  EXPECT_THAT(refusal([&] { ReadPort<int> third(memory, "third"); }),
+              AllOf(HasSubstr("third"), HasSubstr("2R1W")));
+  WritePort<int> write(memory, "write");
+  EXPECT_NO_THROW(memory.check_ports());
+  first.read(3, 1);
+  EXPECT_NO_THROW(second.read(3, 2));
+  ReadPort<int> shares = second;  // a second user of the same port
+  EXPECT_THAT(refusal([&] { shares.read(3, 3); }), HasSubstr("one access too many"));
+  shares.read(4, 3);
+  EXPECT_NO_THROW(second.at(5, 3));
+}
+
+TEST(Memory, SharedPortReadsOrWrites) {
+  Memory<int> memory(
+      "memory", {.words = 8, .word_bits = 8, .read_ports = 0, .write_ports = 0, .shared_ports = 1});
+  SharedPort<int> port(memory, "port");
+  port.write(0, 3, 33);
+  EXPECT_THAT(refusal([&] { port.read(0, 3); }), HasSubstr("shared port port"));
+  port.read(1, 3);
+  EXPECT_THROW(port.write(1, 3, 34), spec::CheckFailed);
+  port.write(2, 3, 34);
+  EXPECT_EQ(port.at(2, 3), 33);
+  EXPECT_EQ(memory.built_as(), "1RW");
+}
+
+TEST(Memory, OneAccessGivesNeighboursInDifferentBanks) {
+  Memory<int> memory("memory", {.words = 10, .word_bits = 4, .banks = 4, .span = 3});
+  ReadPort<int> read(memory, "read");
+  WritePort<int> write(memory, "write");
+  write.write(0, 5, std::array{50, 60, 70});
+  read.read(0, 6, 2);
+  EXPECT_EQ(read.at(1, 6), 0);  // old words
+  read.read(1, 5, 3);
+  EXPECT_EQ(read.at(2, 5), 50);
+  EXPECT_EQ(read.at(2, 7), 70);
+  EXPECT_THAT(refusal([&] { read.at(2, 8); }), HasSubstr("address 8"));
+  EXPECT_THROW(read.read(3, 8, 3), spec::CheckFailed);
+  EXPECT_THROW(read.read(4, 0, 4), spec::CheckFailed);
+}
+
+TEST(Memory, SeparateBanksAreChecked) {
+  Memory<int> rows("rows", {.words = 40,
+                            .word_bits = 4,
+                            .read_ports = 3,
+                            .banks = 4,
+                            .order = BankOrder::kBlocks,
+                            .separate_banks = true});
+  EXPECT_EQ(rows.built_as(), "1R1W, 4 banks");
+  EXPECT_EQ(rows.physical_bits(), 160U);
+  ReadPort<int> above(rows, "above"), centre(rows, "centre"), below(rows, "below");
+  WritePort<int> write(rows, "write");
+  above.read(0, 3);
+  centre.read(0, 13);
+  below.read(0, 23);
+  write.write(0, 5, 1);
+  above.read(1, 10);
+  EXPECT_THAT(refusal([&] { centre.read(1, 19); }),
+              AllOf(HasSubstr("read port centre"), HasSubstr("bank 1")));
+  EXPECT_NO_THROW(below.read(1, 20));
+}
+
+TEST(Memory, SeparateBanksOfSharedPortsHaveOnePort) {
+  Memory<int> memory("memory", {.words = 8,
+                                .word_bits = 4,
+                                .read_ports = 0,
+                                .write_ports = 0,
+                                .shared_ports = 2,
+                                .banks = 2,
+                                .separate_banks = true});
+  EXPECT_EQ(memory.built_as(), "1RW, 2 banks");
+  SharedPort<int> a(memory, "a"), b(memory, "b");
+  a.write(0, 2, 1);
+  EXPECT_THROW(b.read(0, 4), spec::CheckFailed);
+  EXPECT_NO_THROW(b.read(1, 4));
+  EXPECT_NO_THROW(a.write(1, 3, 1));
+}
+
+TEST(Memory, SeveralWritersDoNotMeet) {
+  Memory<int> memory(
+      "memory",
+      {.words = 8, .word_bits = 4, .kind = MemoryKind::kFlops, .write_ports = 2, .latency = 0});
+  ReadPort<int> read(memory, "read");
+  WritePort<int> a(memory, "a"), b(memory, "b");
+  a.write(0, 1, 11);
+  b.write(0, 2, 22);
+  EXPECT_EQ(read.now(0, 2), 0);
+  EXPECT_EQ(read.now(1, 2), 22);
+  a.write(2, 1, 12);
+  EXPECT_THAT(refusal([&] { b.write(2, 1, 13); }), HasSubstr("write port b"));
+}
+
+TEST(Memory, PartOfAWordNeedsAWriteMask) {
+  Memory<std::array<int, 2>> memory("memory", {.words = 8, .word_bits = 16, .mask_bits = 8});
+  ReadPort<std::array<int, 2>> read(memory, "read");
+  WritePort<std::array<int, 2>> write(memory, "write");
+  write.write(0, 1, {10, 20});
+  write.change(1, 1, [](std::array<int, 2>& word) { word[1] = 21; });
+  read.read(1, 1);
+  EXPECT_EQ(read.at(2, 1), (std::array{10, 20}));
+  read.read(2, 1);
+  EXPECT_EQ(read.at(3, 1), (std::array{10, 21}));
+  EXPECT_THAT(memory.built_as(), HasSubstr("write mask of 8 bits"));
+  Ported p(1);
+  EXPECT_THAT(refusal([&] { p.write.change(0, 1, [](int& word) { word = 1; }); }),
+              HasSubstr("mask_bits"));
+}
+
+TEST(Memory, WithoutWordsTheChecksStay) {
+  Memory<void> memory("memory", {.words = 8, .word_bits = 4, .latency = 2});
+  ReadPort<void> read(memory, "read");
+  WritePort<void> write(memory, "write");
+  read.read(0, 5);
+  EXPECT_THROW(read.check(1), spec::CheckFailed);
+  read.read(1, 6);
+  EXPECT_NO_THROW(read.check(2, 5));
+  EXPECT_THROW(read.check(2, 6), spec::CheckFailed);
+  EXPECT_NO_THROW(read.check(3, 6));
+  EXPECT_THROW(read.read(1, 6), spec::CheckFailed);
+  EXPECT_THROW(write.write(3, 8), spec::CheckFailed);
+}
+
+TEST(Memory, RomHasItsContent) {
+  constexpr std::array<std::uint16_t, 5> kTable = {1, 4, 9, 16, 25};
+  Memory<std::uint16_t> rom(
+      "rom", {.words = 5, .word_bits = 5, .kind = MemoryKind::kRom, .write_ports = 0}, kTable);
+  ReadPort<std::uint16_t> read(rom, "read");
+  read.read(0, 3);
+  EXPECT_EQ(read.at(1, 3), 16);
+  EXPECT_EQ(rom.ports(), "1R");
+  EXPECT_THROW((Memory<std::uint16_t>("short", {.words = 4, .word_bits = 5}, kTable)),
+               spec::CheckFailed);
+}
+
+TEST(Memory, ResetClearsTheBookkeepingAndNotTheWords) {
+  Ported p(1);
+  p.read.read(5, 3);
+  p.memory.reset();
+  EXPECT_THROW(p.read.word(6), spec::CheckFailed);
+  EXPECT_NO_THROW(p.read.read(5, 3));
+  EXPECT_EQ(p.read.at(6, 3), 103);
+  EXPECT_EQ(p.memory.reads(), 1U);
+}
+
+// ---- what it costs ------------------------------------------------------------------------------
+
+struct Cost {
+  MemoryShape shape;
+  std::uint64_t logical, physical;
+  std::uint32_t copies;
+  std::string built_as;
+};
+
+TEST(MemoryCost, IsThatOfRealMemories) {
+  const std::vector<Cost> costs = {
+      {{.words = 1920, .word_bits = 24}, 46'080, 46'080, 1, "1R1W"},
+      {{.words = 1920, .word_bits = 24, .read_ports = 3}, 46'080, 138'240, 3, "3 copies of 1R1W"},
+      // 1 000 words in 16 banks of 63
+      {{.words = 1000, .word_bits = 10, .read_ports = 2, .banks = 16},
+       10'000,
+       20'160,
+       2,
+       "2 copies of 1R1W, 16 banks"},
+      {{.words = 512, .word_bits = 32, .read_ports = 0, .write_ports = 0, .shared_ports = 2},
+       16'384,
+       16'384,
+       1,
+       "2RW"},
+      {{.words = 512, .word_bits = 32, .read_ports = 3, .write_ports = 0, .shared_ports = 1},
+       16'384,
+       49'152,
+       3,
+       "3 copies of 2RW"},
+      {{.words = 512, .word_bits = 32, .read_ports = 0, .write_ports = 1, .shared_ports = 1},
+       16'384,
+       16'384,
+       1,
+       "2RW"},
+      {{.words = 256, .word_bits = 12, .kind = MemoryKind::kRom, .read_ports = 5, .write_ports = 0},
+       3072,
+       9216,
+       3,
+       "3 copies of 2R"},
+      {{.words = 256, .word_bits = 12, .kind = MemoryKind::kRom, .read_ports = 2, .write_ports = 0},
+       3072,
+       3072,
+       1,
+       "2R"},
+      {{.words = 512,
+        .word_bits = 32,
+        .kind = MemoryKind::kFlops,
+        .read_ports = 4,
+        .write_ports = 4,
+        .latency = 0},
+       16'384,
+       16'384,
+       1,
+       "flip-flops"},
+      {{.words = 16, .word_bits = 27, .write_ports = 4, .banks = 4, .separate_banks = true},
+       432,
+       432,
+       1,
+       "1R1W, 4 banks"}};
+  for (const Cost& cost : costs) {
+    const MemoryBase memory("memory", cost.shape);
+    EXPECT_EQ(memory.logical_bits(), cost.logical) << cost.built_as;
+    EXPECT_EQ(memory.physical_bits(), cost.physical) << cost.built_as;
+    EXPECT_EQ(memory.copies(), cost.copies) << cost.built_as;
+    EXPECT_EQ(memory.built_as(), cost.built_as);
+    EXPECT_TRUE(memory.idealised().empty());
+  }
+}
+
+TEST(MemoryCost, WhatNobodySellsIsRefusedWithAWayOut) {
+  const auto refused = [](const MemoryShape& shape) {
+    return text_of<spec::ConfigError>([&] { MemoryBase("memory", shape); });
+  };
+  EXPECT_THAT(refused({.words = 513, .word_bits = 32, .kind = MemoryKind::kFlops, .latency = 0}),
+              AllOf(HasSubstr("memory: 16416 bits as flops 1R1W"), HasSubstr("16384"),
+                    HasSubstr("use sram")));
+  EXPECT_THAT(refused({.words = 8, .word_bits = 8, .kind = MemoryKind::kFlops, .latency = 2}),
+              HasSubstr("latency 0 or 1"));
+  EXPECT_THAT(refused({.words = 8, .word_bits = 8, .latency = 0}), HasSubstr("latency 1 or more"));
+  EXPECT_THAT(refused({.words = 8, .word_bits = 8, .write_ports = 2}),
+              AllOf(HasSubstr("sram 1R2W"), HasSubstr("separate banks")));
+  EXPECT_THAT(
+      refused({.words = 8, .word_bits = 8, .read_ports = 1, .write_ports = 0, .shared_ports = 2}),
+      HasSubstr("no more writes"));
+  EXPECT_THAT(
+      refused({.words = 8, .word_bits = 8, .read_ports = 1, .write_ports = 1, .shared_ports = 1}),
+      HasSubstr("no port left to read"));
+  EXPECT_THAT(refused({.words = 8, .word_bits = 8, .write_ports = 0}), HasSubstr("use rom"));
+  EXPECT_THAT(refused({.words = 8, .word_bits = 8, .read_ports = 0}), HasSubstr("nobody reads"));
+  EXPECT_THAT(refused({.words = 8, .word_bits = 8, .kind = MemoryKind::kRom}),
+              HasSubstr("not written"));
+  EXPECT_THAT(refused({.words = 8, .word_bits = 8, .span = 2}), HasSubstr("interleaved banks"));
+  EXPECT_THAT(
+      refused({.words = 8, .word_bits = 8, .banks = 2, .order = BankOrder::kBlocks, .span = 2}),
+      HasSubstr("interleaved banks"));
+}
+
+TEST(MemoryCost, IdealisedSaysSoAndWhy) {
+  const MemoryBase wide("wide", {.words = 1920,
+                                 .word_bits = 288,
+                                 .read_ports = 13,
+                                 .write_ports = 2,
+                                 .idealised = "shows what unlimited ports would give"});
+  EXPECT_EQ(wide.idealised(), "shows what unlimited ports would give");
+  EXPECT_EQ(wide.built_as(), "idealised 13R2W");
+  const MemoryBase small("small", {.words = 16, .word_bits = 8, .idealised = "not needed"});
+  EXPECT_TRUE(small.idealised().empty());
+}
+
+TEST(MemoryCost, GoesWithTheWidthOfTheFrame) {
+  // Two rows of an entry a pair of columns.
+  const MemoryBase pairs("pairs", {.words = 2048, .word_bits = 100, .columns = 2048});
+  EXPECT_TRUE(pairs.follows_width());
+  EXPECT_EQ(pairs.bits_at(1920), 192'000U);
+  EXPECT_EQ(pairs.bits_at(1), 100U);
+  const MemoryBase fixed("fixed", {.words = 2048, .word_bits = 100});
+  EXPECT_EQ(fixed.bits_at(640), 204'800U);
+}
+
+TEST(MemoryCost, ADeepFifoIsSram) {
+  const rtl::Fifo<std::uint32_t> shallow("shallow", 512), deep("deep", 513);
+  EXPECT_EQ(shallow.memory_kind(), MemoryKind::kFlops);
+  EXPECT_EQ(shallow.bits(), 16'384U);
+  EXPECT_EQ(deep.memory_kind(), MemoryKind::kSram);
+  EXPECT_EQ(deep.built_as(), "1R1W");
+  EXPECT_EQ(deep.physical_bits(), 513U * 32);
+}
+
+}  // namespace
+}  // namespace deburr::tb

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// Payloads by field: widths, values, faults, texts, poison and types.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstring>
+#include <string>
+
+#include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/payload.h"
+#include "tb/unit/fabric_support.h"
+
+namespace deburr::tb {
+namespace {
+
+using rtl::Payload;
+using rtl::PayloadShape;
+using testing::AllOf;
+using testing::HasSubstr;
+
+enum class Colour : std::uint8_t { kRed, kGreen, kBlue };
+
+struct Place {
+  std::uint16_t row, column;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("row", self.row, 14, "U14");
+    visit("column", self.column, 13, "U13");
+  }
+  friend bool operator==(const Place&, const Place&) = default;
+};
+
+struct Beat {
+  Place place{};
+  std::array<std::array<std::uint8_t, 4>, 4> pixel{};
+  std::array<Place, 2> corner{};
+  std::int32_t slope = 0;
+  std::int64_t wide = 0;
+  std::uint8_t edges = 0;
+  Colour colour = Colour::kRed;
+  bool last = false;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("place", self.place);
+    visit.lanes("pixel", self.pixel, 8, "U0.8", "rgba");
+    visit("corner", self.corner);
+    visit("slope", self.slope, 13, "S1.12");
+    visit("wide", self.wide, 33, "S8.24");
+    visit.lane_bits("edges", self.edges, 4);
+    visit("colour", self.colour, 2);
+    visit("last", self.last);
+  }
+  friend bool operator==(const Beat&, const Beat&) = default;
+};
+
+// By hand: 14 + 13, 4 x 4 x 8, 2 x 27, 13, 33, 4, 2, 1.
+static_assert(rtl::kPayloadBits<Beat> == 27 + 128 + 54 + 13 + 33 + 4 + 2 + 1);
+static_assert(rtl::kPayloadBits<Place> == 27);
+static_assert(rtl::kPayloadBits<bool> == 1 && rtl::kPayloadBits<std::int16_t> == 16);
+static_assert(rtl::HasFields<Beat> && !rtl::HasFields<int> && !rtl::HasFields<Token>);
+
+template <class T>
+std::byte* bytes(T& value) {
+  return reinterpret_cast<std::byte*>(&value);
+}
+
+template <class Error, class F>
+std::string text_of(F&& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "no error";
+  return {};
+}
+
+TEST(Payload, WidthIsTheSumOfWhatIsBuilt) {
+  EXPECT_EQ(Payload::of<Beat>().bits(), 262U);
+  EXPECT_EQ(Payload::of<Beat>({.lanes = 2}).bits(), 262U - 64 - 2);
+  EXPECT_EQ(Payload::of<Beat>({.lanes = 1, .widths = {{"place.column", 5}, {"corner", 10}}}).bits(),
+            262U - 96 - 3 - 8 - (3 + 4) * 2);
+  EXPECT_EQ(Payload::of<std::uint16_t>().bits(), 16U);
+  EXPECT_EQ(rtl::Link<Beat>("link", 2, {.lanes = 2}).payload_bits(), 196U);
+  EXPECT_EQ(rtl::Fifo<Beat>("fifo", 4).word_bits(), 262U);
+  EXPECT_THROW(Payload::of<Beat>({.widths = {{"slope", 14}}}), spec::CheckFailed);
+  EXPECT_THROW(Payload::of<Beat>({.widths = {{"slop", 4}}}), spec::CheckFailed);
+}
+
+TEST(Payload, FieldsHaveTheirPlaces) {
+  const Payload payload = Payload::of<Beat>();
+  ASSERT_NE(payload.find("pixel.3.b"), nullptr);
+  EXPECT_EQ(payload.find("pixel.3.b")->first_bit, 27U + 3 * 32 + 2 * 8);
+  EXPECT_EQ(payload.find("pixel.3.b")->format, "U0.8");
+  EXPECT_EQ(payload.find("corner.1.row")->bits, 14U);
+  EXPECT_EQ(payload.find("pixel"), nullptr);
+  Beat beat;
+  beat.pixel[3][2] = 77;
+  beat.slope = -5;
+  beat.wide = -(std::int64_t{1} << 32);
+  EXPECT_EQ(payload.find("pixel.3.b")->get(bytes(beat)), 77U);
+  EXPECT_EQ(payload.find("slope")->get(bytes(beat)), 0x1FFBU);
+  EXPECT_EQ(payload.find("slope")->text(bytes(beat)), "-5");
+  EXPECT_EQ(payload.find("wide")->text(bytes(beat)), "-4294967296");
+  payload.find("slope")->set(bytes(beat), 0x1000);
+  EXPECT_EQ(beat.slope, -4096);
+  EXPECT_EQ(payload.misfit(bytes(beat)), nullptr);
+  for (const std::int32_t slope : {4096, -4097}) {
+    beat.slope = slope;
+    ASSERT_NE(payload.misfit(bytes(beat)), nullptr);
+    EXPECT_EQ(payload.misfit(bytes(beat))->name, "slope");
+  }
+  beat.slope = 4095;
+  EXPECT_EQ(payload.misfit(bytes(beat)), nullptr);
+  beat.place.column = 1 << 13;
+  EXPECT_EQ(payload.misfit(bytes(beat))->name, "place.column");
+}
+
+TEST(Payload, EveryBitIsFlippedByNumberAndByName) {
+  const Payload payload = Payload::of<Beat>();
+  const Beat zero;
+  for (std::uint32_t n = 0; n < payload.bits(); ++n) {
+    Beat beat;
+    payload.flip(bytes(beat), payload.bit(std::to_string(n)));
+    EXPECT_FALSE(beat == zero) << n;
+    EXPECT_EQ(payload.misfit(bytes(beat)), nullptr);
+    payload.flip(bytes(beat), payload.bit(std::to_string(n)));
+    EXPECT_EQ(beat, zero) << n;
+  }
+  const auto bit = [&](const char* text) {
+    const Payload::Bit found = payload.bit(text);
+    return found.field->name + "[" + std::to_string(found.bit) + "]";
+  };
+  EXPECT_EQ(bit("pixel.0.r"), "pixel.0.r[0]");
+  EXPECT_EQ(bit("pixel.0.r.7"), "pixel.0.r[7]");
+  EXPECT_EQ(bit("0"), "place.row[0]");
+  EXPECT_EQ(bit("26"), "place.column[12]");
+  EXPECT_EQ(bit("27"), "pixel.0.r[0]");
+  EXPECT_EQ(bit("261"), "last[0]");
+  EXPECT_THAT(text_of<spec::ConfigError>([&] { bit("262"); }), HasSubstr("there are 262"));
+  EXPECT_THAT(text_of<spec::ConfigError>([&] { bit("pixel.0.r.8"); }),
+              HasSubstr("no bit 8 of pixel.0.r: it has 8"));
+  EXPECT_THAT(text_of<spec::ConfigError>([&] { bit("pixel.9.r"); }),
+              AllOf(HasSubstr("no field is named pixel.9.r"), HasSubstr("\n  slope (13 bits)")));
+}
+
+TEST(Payload, ADifferenceNamesTheFields) {
+  Beat expected, got;
+  expected.pixel[1][0] = 17;
+  got.pixel[1][0] = 18;
+  got.slope = -3;
+  EXPECT_EQ(rtl::payload_difference(expected, got), "pixel.1.r=17/18 slope=0/-3");
+  EXPECT_EQ(rtl::payload_difference(expected, expected), "");
+  EXPECT_THAT(rtl::payload_text(expected), AllOf(HasSubstr("pixel.1.r=17 "), HasSubstr("last=0")));
+}
+
+TEST(Payload, PackageDeclaresWhatIsInIt) {
+  const Payload beat = Payload::of<Beat>({.lanes = 2}), place = Payload::of<Place>(),
+                narrow = Payload::of<Place>({.widths = {{"row", 4}}});
+  const std::array<const Payload*, 3> all = {&beat, &place, &narrow};
+  EXPECT_EQ(rtl::payload_package("tokens_pkg", all),
+            "// SPDX-License-Identifier: MIT\n"
+            "package tokens_pkg;\n"
+            "\n"
+            "  // 27 bits\n"
+            "  typedef struct packed {\n"
+            "    logic [12:0] column;  // U13\n"
+            "    logic [13:0] row;  // U14\n"
+            "  } place_t;\n"
+            "\n"
+            "  // 196 bits\n"
+            "  typedef struct packed {\n"
+            "    logic last;\n"
+            "    logic [1:0] colour;\n"
+            "    logic [1:0] edges;  // a bit a lane\n"
+            "    logic signed [32:0] wide;  // S8.24\n"
+            "    logic signed [12:0] slope;  // S1.12\n"
+            "    place_t [1:0] corner;\n"
+            "    logic [1:0][3:0][7:0] pixel;  // U0.8\n"
+            "    place_t place;\n"
+            "  } beat_t;\n"
+            "\n"
+            "  // 17 bits\n"
+            "  typedef struct packed {\n"
+            "    logic [12:0] column;  // U13\n"
+            "    logic [3:0] row;  // U14\n"
+            "  } place_2_t;\n"
+            "\n"
+            "endpackage\n");
+}
+
+}  // namespace
+}  // namespace deburr::tb
