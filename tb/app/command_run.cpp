@@ -91,6 +91,11 @@ std::string summary_of(const Result& r, const std::filesystem::path& directory) 
                         grouped(r.comparisons), grouped(r.traffic_comparisons),
                         grouped(r.mismatches + r.traffic_mismatches));
   text += fmt::format("{} cycles, {:.3f} {}", grouped(r.cycles), r.throughput, r.throughput_unit);
+  std::string idealised;
+  for (const MemoryFigures& memory : r.memories)
+    if (!memory.idealised.empty())
+      idealised += fmt::format("{} {}", idealised.empty() ? ", IDEALISED" : ",", memory.name);
+  text += idealised;
   return text + fmt::format(", {}", (directory / "report.html").string());
 }
 
@@ -163,6 +168,10 @@ Outcome run_engine(Engine& engine, const RunOptions& options, const std::string&
     result.reason = from_repository(error.what());
     fmt::print(stderr, "deburr: {}\n", result.reason);
   }
+  for (const MemoryFigures& memory : result.memories)
+    if (!memory.idealised.empty())
+      fmt::print(stderr, "deburr: warning: this hardware cannot be built: memory {}: {}\n",
+                 memory.name, memory.idealised);
   if (code == 0 && run.check == CheckMode::kGolden && !result.interrupted &&
       (result.cycles == 0 || result.comparisons == 0)) {
     code = static_cast<int>(ExitCode::kSimulation);

@@ -12,9 +12,8 @@
 #include "tb/app/morphological_engine.h"
 #include "tb/app/morphological_rules.h"
 #include "tb/app/pictures.h"
-#include "tb/env/frame_bench.h"
-#include "tb/results/interrupt.h"
-#include "tb/results/progress.h"
+#include "tb/app/simulate.h"
+#include "tb/env/frame_composition.h"
 #include "tb/scene/truth.h"
 
 namespace deburr::tb {
@@ -77,54 +76,31 @@ class FrameCommand final : public Engine {
                     preset_label_));
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
     context.claim();
-    FrameBench bench(scene, options(run, context));
-    context.begin();
-    try {
-      Progress progress("frame", bench.smoothed().pixels.size(), "pixel");
-      bench.run([&](std::uint64_t pixels, std::uint64_t taken) {
-        progress.update(pixels, taken);
-        return !interrupted();
-      });
-    } catch (const spec::FileError&) {  // a wave that could not be written: nothing stays
-      throw;
-    } catch (...) {
-      bench.collect(result);
-      add_pictures(run, context, scene, bench, result);
-      throw;
-    }
-    bench.collect(result);
-    result.interrupted = !bench.complete();
-    add_pictures(run, context, scene, bench, result);
-    if (bench.complete()) bench.check();
+    Simulation simulation(simulation_options(run, context));
+    FrameComposition frame(simulation, scene, setup());
+    simulate(simulation, frame, context, result,
+             [&] { add_pictures(run, context, scene, frame, result); });
   }
 
   void describe_statistics(Result& result) override {
-    SceneParameters small = scene_;
-    small.width = small.height = 2;
-    small.texture_size = 4;
-    const TextureScene scene(small, sampler_, 1);
-    FrameBench(scene, FrameBenchOptions{}).collect(result);
+    const TextureScene scene = smallest(scene_, sampler_);
+    Simulation simulation({});
+    FrameComposition frame(simulation, scene, {});
+    describe(simulation, frame, result);
   }
 
  private:
-  FrameBenchOptions options(const RunParameters& run, const RunContext& context) const {
-    FrameBenchOptions o;
-    o.texture = texture_;
-    o.memory = memory_;
-    o.morphological = morphological_;
-    o.frame_memory = frame_memory_;
-    static_cast<SimulationOptions&>(o) = simulation_options(run, context);
-    return o;
-  }
+  FrameSetup setup() const { return {{texture_, memory_}, {morphological_, frame_memory_}}; }
 
   void add_pictures(const RunParameters& run, RunContext& context, const TextureScene& scene,
-                    const FrameBench& bench, Result& result) const {
-    const Image& before = bench.textured();
-    const Image& after = bench.smoothed();
-    const bool whole = bench.delivered() == after.pixels.size();
+                    const FrameComposition& frame, Result& result) const {
+    const Image& before = frame.buffer.frame();
+    const Image& after = frame.smoothing.frame();
+    const bool whole = frame.smoothing.delivered() == after.pixels.size();
     Image expected(after.width, after.height), truth;
+    if (after.pixels.size() != before.pixels.size()) return;  // nothing was begun
     const bool golden = run.check == CheckMode::kGolden;
-    if (golden) expected.pixels = bench.golden().pixels();
+    if (golden) expected.pixels = frame.smoothing.golden_model().pixels();
     if (run.truth && whole) {
       RenderOptions render_options;
       render_options.width = after.width;
@@ -139,11 +115,11 @@ class FrameCommand final : public Engine {
             judge_quality(fmt::format("supersampled-{}", kTruthSamples * kTruthSamples), before,
                           after, truth, &scene.stream().depth);
     }
-    add_smoothing_pictures(
-        context, {before, after, bench.taps(), bench.delivered(), golden ? &expected : nullptr,
-                  truth.empty() ? nullptr : &truth,
-                  "textured: what the texture unit left in the frame buffer",
-                  fmt::format("{} samples a pixel", kTruthSamples * kTruthSamples)});
+    add_smoothing_pictures(context,
+                           {before, after, frame.smoothing.taps(), frame.smoothing.delivered(),
+                            golden ? &expected : nullptr, truth.empty() ? nullptr : &truth,
+                            "textured: what the texture unit left in the frame buffer",
+                            fmt::format("{} samples a pixel", kTruthSamples * kTruthSamples)});
   }
 
   SceneParameters scene_;

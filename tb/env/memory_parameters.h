@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 #include "tb/harness/memory_model.h"
 
@@ -50,6 +51,24 @@ inline MemoryModelParameters memory_model_parameters(const MemoryParameters& p, 
   m.bank_busy = static_cast<std::uint32_t>(p.bank_busy);
   m.outstanding = static_cast<std::uint32_t>(p.outstanding);
   return m;
+}
+
+// Bytes that answer with an error: [from, to).
+struct ErrorRange {
+  std::uint64_t from, to;
+  bool touches(std::uint64_t address, std::uint64_t bytes) const {
+    return address < to && address + bytes > from;
+  }
+};
+inline std::optional<ErrorRange> error_range(const MemoryParameters& p) {
+  if (p.error_address < 0) return std::nullopt;
+  const auto from = static_cast<std::uint64_t>(p.error_address);
+  return ErrorRange{from, from + static_cast<std::uint64_t>(p.error_bytes)};
+}
+// For what memory has done so far and may still do after a reset: clocks until all of it is over.
+inline std::uint64_t clocks_to_drain(const MemoryParameters& p) {
+  constexpr std::uint64_t kMargin = 100;
+  return 2 * static_cast<std::uint64_t>(std::max(p.latency, p.latency_max)) + kMargin;
 }
 
 }  // namespace deburr::tb

@@ -78,6 +78,11 @@ class Scoreboard final : public ScoreboardBase {
                        text(wanted.value), text(value)));
   }
   std::uint64_t leftovers() const override { return waiting_; }
+  // After a reset: what was expected will not come; comparisons so far count.
+  void restart() {
+    expected_.clear();
+    waiting_ = 0;
+  }
 
  private:
   struct Expected {

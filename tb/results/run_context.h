@@ -61,6 +61,7 @@ class RunContext {
   void finish(const Result& result);
 
   const std::filesystem::path& directory() const { return directory_; }
+  const ParameterSet& parameters() const { return parameters_; }
   const std::string& command() const { return command_; }
 
  private:

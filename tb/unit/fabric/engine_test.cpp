@@ -11,7 +11,7 @@
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/latency_probe.h"
 #include "tb/harness/register_host.h"
-#include "tb/unit/fabric_support.h"
+#include "tb/unit/fabric/support.h"
 
 namespace deburr::tb::toy {
 

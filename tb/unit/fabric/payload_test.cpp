@@ -9,7 +9,7 @@
 
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/payload.h"
-#include "tb/unit/fabric_support.h"
+#include "tb/unit/fabric/support.h"
 
 namespace deburr::tb {
 namespace {
