@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "rtl_model/fabric/counters.h"
+
 namespace deburr::rtl {
 
 LinkBase::LinkBase(const char* name, std::uint32_t depth, std::size_t payload_bytes,
@@ -60,6 +62,12 @@ bool LinkBase::duplicate_newest(Cycle cycle) {
   tail_ = tail_->next;
   ++pushes_;
   return true;
+}
+
+std::string link_package(const std::string& name, sc_core::sc_object& root) {
+  std::vector<const Payload*> payloads;
+  for_each<LinkBase>(root, [&](const LinkBase& link) { payloads.push_back(&link.payload()); });
+  return payload_package(name, payloads);
 }
 
 void PortBase::bind_link(LinkBase& link) {

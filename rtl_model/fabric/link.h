@@ -172,6 +172,9 @@ class Link final : public LinkBase {
   std::unique_ptr<Slot[]> slots_;
 };
 
+// A SystemVerilog package with a packed struct for the payload of every link below `root`.
+std::string link_package(const std::string& name, sc_core::sc_object& root);
+
 // A named end of a link on a unit's border. Bind it to a link, or to the port of the same kind of
 // the unit around it (in any order).
 class PortBase : public sc_core::sc_object {

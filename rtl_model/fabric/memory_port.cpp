@@ -8,6 +8,33 @@
 #include <cstring>
 
 namespace deburr::rtl {
+namespace {
+
+constexpr std::uint32_t kStatusBits = 2;
+
+MemoryShape buffer_shape(const MemoryPortParameters& p) {
+  const std::uint64_t words = std::uint64_t{p.outstanding} * p.max_burst_lines;
+  const std::uint32_t bits = 8 * p.line_bytes + kStatusBits;
+  return {.words = words,
+          .word_bits = bits,
+          .kind = MemoryBase::kind_for(words * bits),
+          .latency = 1,
+          .content = "lines that have come from memory, with their status"};
+}
+
+}  // namespace
+
+PayloadShape request_shape(const MemoryPortParameters& port, std::uint32_t address_bits,
+                           std::uint32_t tag_bits) {
+  return {.widths = {{"address", address_bits}, {"tag", tag_bits}, {"byte_mask", port.line_bytes}},
+          .counts = {{"data", port.line_bytes}}};
+}
+
+PayloadShape response_shape(const MemoryPortParameters& port, std::uint32_t address_bits,
+                            std::uint32_t tag_bits) {
+  return {.widths = {{"address", address_bits}, {"tag", tag_bits}},
+          .counts = {{"data", port.line_bytes}}};
+}
 
 struct MemoryPort::Transaction final : tlm::tlm_generic_payload {
   explicit Transaction(tlm::tlm_mm_interface* owner) : tlm_generic_payload(owner) {}
@@ -23,6 +50,7 @@ struct MemoryPort::Transaction final : tlm::tlm_generic_payload {
 MemoryPort::MemoryPort(const sc_core::sc_module_name& name, ClockDomain& clock,
                        const MemoryPortParameters& parameters)
     : Unit(name, clock),
+      response_buffer("response_buffer", buffer_shape(parameters)),
       parameters_(parameters),
       stalled_outstanding_(declare_stall("outstanding", "the limit of transactions is reached")),
       stalled_channel_(

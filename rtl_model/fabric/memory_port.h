@@ -9,8 +9,8 @@
 // Latency: request popped in cycle c leaves in c; a response that arrives at a time before edge d
 // is pushed in d, so d is at the earliest c+1. It can be popped in d+1. Stalls: `outstanding`
 // (limit reached), `request_channel` (the target has not ended the last request), `downstream`
-// (nobody takes the responses). Cost: outstanding x (line + tag) bits of buffer, a tag table, one
-// multiplexer.
+// (nobody takes the responses). Cost: response_buffer, a place for every line that may come back,
+// written as it comes and read into the link's slot; a tag table, one multiplexer.
 #pragma once
 
 #include <array>
@@ -21,6 +21,7 @@
 #include <tlm>
 #include <vector>
 
+#include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
 
 namespace deburr::rtl {
@@ -37,6 +38,16 @@ struct MemoryRequest {
   bool write = false;
   std::uint64_t byte_mask = ~std::uint64_t{0};  // bit i: byte i is written; of the first beat
   Line data{};
+
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("address", self.address, 64, "U64");
+    visit("tag", self.tag, 32, "U32");
+    visit("lines", self.lines, 7, "U7");
+    visit("write", self.write);
+    visit("byte_mask", self.byte_mask, kLineBytes, "a bit a byte");
+    visit("data", self.data, 8, "U8");
+  }
 };
 
 enum class MemoryStatus : std::uint8_t { kOk, kAddressError, kError };
@@ -50,6 +61,17 @@ struct MemoryResponse {
   bool write = false;
   MemoryStatus status = MemoryStatus::kOk;  // if not kOk, data is zero
   Line data{};
+
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("address", self.address, 64, "U64");
+    visit("tag", self.tag, 32, "U32");
+    visit("line", self.line, 6, "U6");
+    visit("last", self.last);
+    visit("write", self.write);
+    visit("status", self.status, 2, "0 ok, 1 address, 2 error");
+    visit("data", self.data, 8, "U8");
+  }
 };
 
 struct MemoryPortParameters {
@@ -58,6 +80,12 @@ struct MemoryPortParameters {
   bool in_order = false;                  // responses in the order of requests
   std::uint32_t line_bytes = kLineBytes;  // 4..kLineBytes: of each beat, the first so many
 };
+
+// What of a beat is built for a port with these parameters, addresses and tags of so many bits.
+PayloadShape request_shape(const MemoryPortParameters& port, std::uint32_t address_bits,
+                           std::uint32_t tag_bits);
+PayloadShape response_shape(const MemoryPortParameters& port, std::uint32_t address_bits,
+                            std::uint32_t tag_bits);
 
 class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tlm_mm_interface {
  public:
@@ -71,6 +99,9 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
 
   Activity tick(Cycle cycle) override;
   void reset() override;
+
+  // Lines that have come and wait for the link, with their status.
+  const MemoryBase response_buffer;
 
   std::uint32_t in_flight() const;
   // Untimed access through transport_dbg, from the end of elaboration on; gives the number of bytes

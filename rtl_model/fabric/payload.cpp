@@ -117,6 +117,14 @@ PayloadNode PayloadBuilder::array(const std::string& name) {
   return node;
 }
 
+std::size_t PayloadBuilder::count(const std::string& name, std::size_t limit,
+                                  std::size_t listed) const {
+  for (const auto& [what, fewer] : shape_.counts)
+    if (what == name) limit = fewer;
+  DEBURR_CHECK(limit >= 1, fmt::format("{}: no element is built", name));
+  return std::min(limit, listed);
+}
+
 PayloadNode PayloadBuilder::bytes(std::size_t size) const {
   PayloadNode node = array("byte");
   for (std::size_t i = 0; i < size; ++i) {
@@ -146,12 +154,15 @@ std::string PayloadBuilder::type_name(const std::type_info& type) {
 
 Payload::Payload(PayloadNode node, const PayloadShape& shape) : node_(std::move(node)) {
   collect(node_);
-  for (const auto& [what, bits] : shape.widths)
+  std::vector<std::string> named;
+  for (const auto& [what, bits] : shape.widths) named.push_back(what);
+  for (const auto& [what, elements] : shape.counts) named.push_back(what);
+  for (const std::string& what : named)
     DEBURR_CHECK(std::any_of(fields_.begin(), fields_.end(),
                              [&](const Field& f) {
                                return f.name == what || f.name.starts_with(what + ".");
                              }),
-                 fmt::format("a payload without {} cannot have {} bits of it", what, bits));
+                 fmt::format("a payload without {} cannot be built with less of it", what));
 }
 
 void Payload::collect(PayloadNode& node) {
@@ -199,11 +210,8 @@ void Payload::flip(std::byte* payload, Bit bit) const {
   bit.field->set(payload, bit.field->get(payload) ^ std::uint64_t{1} << bit.bit);
 }
 
-void Payload::copy(std::byte* to, const std::byte* from) const {
-  for (const Field& field : fields_) field.set(to, field.get(from));
-}
-
 void Payload::fill(std::byte* payload, std::uint64_t pattern) const {
+  if (!listed()) return;
   for (const Field& field : fields_) field.set(payload, pattern);
 }
 

@@ -48,6 +48,8 @@ struct PayloadShape {
   std::uint32_t lanes = ~std::uint32_t{0};  // fewer than the arrays by lane have
   // Fields with fewer bits than listed, by the name of a field or of what it is in.
   std::vector<std::pair<std::string, std::uint32_t>> widths = {};
+  // Arrays of which only the first elements are built, by name.
+  std::vector<std::pair<std::string, std::uint32_t>> counts = {};
 };
 
 // The bits of one field, and where the model keeps them.
@@ -255,12 +257,13 @@ class PayloadBuilder {
   void add(PayloadNode node) { into_->children.push_back(std::move(node)); }
   template <class M>
   PayloadNode leaf(std::string name, const M& member, std::uint32_t bits, std::string_view format,
-                   std::string_view letters, std::uint32_t limit) {
+                   std::string_view letters, std::size_t limit) {
     if constexpr (IsArray<M>::value) {
       constexpr bool kInnermost = !IsArray<typename M::value_type>::value;
       PayloadNode node = array(name);
+      limit = count(path_ + name, limit, member.size());
       const std::string outer = std::exchange(path_, path_ + name + ".");
-      for (std::size_t i = 0; i < member.size() && i < limit; ++i)
+      for (std::size_t i = 0; i < limit; ++i)
         node.children.push_back(
             leaf(kInnermost && !letters.empty() ? std::string(1, letters[i]) : std::to_string(i),
                  member[i], bits, format, letters, kAll));
@@ -271,11 +274,12 @@ class PayloadBuilder {
     }
   }
   template <class M>
-  PayloadNode part(std::string name, const M& member, std::uint32_t limit) {
+  PayloadNode part(std::string name, const M& member, std::size_t limit) {
     if constexpr (IsArray<M>::value) {
       PayloadNode node = array(name);
+      limit = count(path_ + name, limit, member.size());
       const std::string outer = std::exchange(path_, path_ + name + ".");
-      for (std::size_t i = 0; i < member.size() && i < limit; ++i)
+      for (std::size_t i = 0; i < limit; ++i)
         node.children.push_back(part(std::to_string(i), member[i], kAll));
       path_ = outer;
       return node;
@@ -315,6 +319,8 @@ class PayloadBuilder {
   PayloadNode field(std::string name, std::ptrdiff_t offset, std::size_t size, std::uint32_t bits,
                     std::string_view format, bool is_signed) const;
   static PayloadNode array(const std::string& name);
+  // Elements of an array that are built.
+  std::size_t count(const std::string& name, std::size_t limit, std::size_t listed) const;
   // A type that does not list its fields yet.
   PayloadNode bytes(std::size_t size) const;
   static std::string type_name(const std::type_info& type);
@@ -347,6 +353,8 @@ class Payload {
   }
 
   std::uint32_t bits() const { return bits_; }
+  // Not so: a type without list, whose bytes stand for its fields.
+  bool listed() const { return node_.kind != PayloadNode::Kind::kArray; }
   const std::vector<Field>& fields() const { return fields_; }
   const PayloadNode& node() const { return node_; }
   const Field* find(std::string_view field) const;  // nullptr: none of that name
@@ -355,9 +363,7 @@ class Payload {
   Bit bit(const std::string& text) const;
 
   void flip(std::byte* payload, Bit bit) const;
-  // Every field, and nothing between them.
-  void copy(std::byte* to, const std::byte* from) const;
-  // A pattern in every field.
+  // A pattern in every field; nothing happens to a type without list, whose bytes may be anything.
   void fill(std::byte* payload, std::uint64_t pattern) const;
   // The first field whose C++ value has more bits than it is listed with; nullptr: none.
   const Field* misfit(const std::byte* payload) const;

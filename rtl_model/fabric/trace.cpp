@@ -36,13 +36,6 @@ std::string binary(std::uint64_t value, int bits) {
   return text;
 }
 
-std::string binary(const std::byte* bytes, std::size_t count) {
-  std::string text;
-  text.reserve(count * 8);
-  for (std::size_t i = count; i-- > 0;) text += binary(std::to_integer<std::uint64_t>(bytes[i]), 8);
-  return text;
-}
-
 std::array<std::uint64_t, kActivities> counts_of(const Unit& unit) {
   std::array<std::uint64_t, kActivities> counts{};
   for (int i = 0; i < unit.activities(); ++i)
@@ -154,15 +147,19 @@ void Trace::collect(Cycle cycle) {
     number("push", 1, [&link](Cycle c) -> std::uint64_t { return link.last_push() == c; });
     number("pop", 1, [&link](Cycle c) -> std::uint64_t { return link.last_pop() == c; });
     if (!options_.payloads) return;
-    signals_.push_back({name + ".head",
-                        static_cast<int>(link.payload_bytes() * 8),
-                        [&link](Cycle) {
-                          return link.empty()
-                                     ? std::string("x")
-                                     : binary(link.beat(link.pops()), link.payload_bytes());
-                        },
-                        {},
-                        {}});
+    for (const Field& field : link.payload().fields()) {
+      std::string flat = field.name;
+      std::replace(flat.begin(), flat.end(), '.', '_');
+      signals_.push_back({name + "." + flat,
+                          static_cast<int>(field.bits),
+                          [&link, &field](Cycle) {
+                            return link.empty() ? std::string("x")
+                                                : binary(field.get(link.head()),
+                                                         static_cast<int>(field.bits));
+                          },
+                          {},
+                          {}});
+    }
   });
   for_each<Unit>([&](Unit& unit) {
     if (!wanted(unit.name())) return;
@@ -200,6 +197,10 @@ void Trace::write_header() {
   });
   file_ << "$comment deburr $end\n$timescale " << sc_core::sc_get_time_resolution().to_string()
         << " $end\n";
+  clock_id_ = short_name(signals_.size());
+  cycle_id_ = short_name(signals_.size() + 1);
+  file_ << "$scope module " << options_.top << " $end\n$var wire 1 " << clock_id_
+        << " clk $end\n$var wire 64 " << cycle_id_ << " cycle [63:0] $end\n";
   std::vector<std::string> open;
   for (std::size_t i = 0; i < signals_.size(); ++i) {
     Signal& signal = signals_[i];
@@ -218,7 +219,14 @@ void Trace::write_header() {
             << " $end\n";
   }
   for (; !open.empty(); open.pop_back()) file_ << "$upscope $end\n";
-  file_ << "$enddefinitions $end\n";
+  file_ << "$upscope $end\n$enddefinitions $end\n";
+}
+
+void Trace::write(const std::string& value, int bits, const std::string& id) {
+  if (bits == 1)
+    file_ << value << id << '\n';
+  else
+    file_ << (bits == 0 ? 's' : 'b') << value << ' ' << id << '\n';
 }
 
 Activity Trace::tick(Cycle cycle) {
@@ -234,18 +242,20 @@ Activity Trace::tick(Cycle cycle) {
     flush();
     return kIdle;
   }
-  bool stamped = false;
+  const std::uint64_t edge = clock_.time_of(cycle).value();
+  file_ << '#' << edge << '\n';
+  write("1", 1, clock_id_);
+  write(binary(cycle, 64), 64, cycle_id_);
   for (Signal& signal : signals_) {
     std::string value = signal.sample(cycle);
     if (value == signal.last) continue;
-    if (!std::exchange(stamped, true)) file_ << '#' << clock_.time_of(cycle).value() << '\n';
-    if (signal.bits == 0)
-      file_ << 's' << value << ' ' << signal.id << '\n';
-    else if (signal.bits == 1)
-      file_ << value << signal.id << '\n';
-    else
-      file_ << 'b' << value << ' ' << signal.id << '\n';
+    write(value, signal.bits, signal.id);
     signal.last = std::move(value);
+  }
+  // A period of one unit of time has no half.
+  if (const std::uint64_t half = clock_.period().value() / 2; half != 0) {
+    file_ << '#' << edge + half << '\n';
+    write("0", 1, clock_id_);
   }
   check_file();
   return kBusy;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // VCD waves of links, units and counters, chosen by scope and cycle window.
 //
-// Of each link: occupancy, push, pop, head payload. Of each unit: its activity (as a string). Of
-// each counter and register: its value. Sampled at the end of every cycle of the clock domain and
-// written with the time of the edge. While a trace is attached, the domain goes cycle by cycle, so
+// One scope holds all: the clock, the number of its cycle, and the hierarchy. Of each link, in a
+// scope of its own: occupancy, push, pop, and every field of the beat at its head (pixel.0.r is
+// pixel_0_r; x while the link is empty). Of each unit: its activity (as a string). Of each counter
+// and register: its value. Sampled at the end of every cycle of the clock domain and written with
+// the time of the edge. While a trace is attached, the domain goes cycle by cycle, so
 // that signals that other SystemC code traces by itself are right as well. Off by default; costs
 // nothing when off.
 #pragma once
@@ -25,7 +27,8 @@ struct TraceOptions {
   std::string file;                      // *.vcd
   std::vector<std::string> scopes{"*"};  // globs (* and ?) on full hierarchical names
   Cycle from = 0, to = kNever;           // cycles [from, to)
-  bool payloads = true;                  // the bits at the head of links, not only the hand-shake
+  bool payloads = true;                  // the fields at the head of links, not only the hand-shake
+  std::string top = "deburr";            // the scope around all
 };
 
 class Trace final : public Clocked {
@@ -57,12 +60,14 @@ class Trace final : public Clocked {
   bool wanted(const std::string& name) const;
   void collect(Cycle cycle);
   void write_header();
+  void write(const std::string& value, int bits, const std::string& id);
   void check_file() const;
 
   ClockDomain& clock_;
   TraceOptions options_;
   std::ofstream file_;
   std::vector<Signal> signals_;
+  std::string clock_id_, cycle_id_;
   std::map<const Unit*, std::array<std::uint64_t, kActivities>> initial_;  // when it was attached
   bool started_ = false;
 };

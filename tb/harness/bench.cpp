@@ -41,6 +41,7 @@ Bench::Bench(rtl::ClockDomain& clock, const BenchOptions& options)
   if (options.trace) check_scopes(*options.trace);
   clock.set_fast_path(options.fast_path);
   if (options.shuffle) clock.shuffle(options.shuffle);
+  if (options.poison) poison_ = std::make_unique<Poison>(clock, options.seed);
   if (options.stall_permille)
     stalls_ = std::make_unique<StallInjector>(
         clock,
@@ -50,7 +51,8 @@ Bench::Bench(rtl::ClockDomain& clock, const BenchOptions& options)
     for (const std::string& text : options.faults) faults.push_back(Fault::parse(text));
     faults_ = std::make_unique<FaultInjector>(clock, faults);
   }
-  if (options.check_links) checker_ = std::make_unique<LinkChecker>(clock);
+  if (options.check_links)
+    checker_ = std::make_unique<LinkChecker>(clock, "*", options.check_widths);
   watchdog_ = std::make_unique<Watchdog>(clock, options.patience);
   if (options.trace) trace_ = std::make_unique<rtl::Trace>(clock, *options.trace);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What every simulation of this repository has around its design: link checkers and a watchdog
-// always; random stalls, planted faults, shuffled evaluation and waves if asked for.
+// always; random stalls, planted faults, poison, shuffled evaluation and waves if asked for.
 //
 //   MyDesign design("design"); Driver..., Sink..., bindings
 //   Bench bench(clock, options);               // after the design
@@ -18,6 +18,7 @@
 #include "rtl_model/fabric/trace.h"
 #include "tb/harness/fault_injector.h"
 #include "tb/harness/link_checker.h"
+#include "tb/harness/poison.h"
 #include "tb/harness/stall_injector.h"
 #include "tb/harness/watchdog.h"
 
@@ -29,6 +30,8 @@ struct BenchOptions {
   std::optional<std::uint64_t> shuffle;  // evaluate units in random order, by this seed
   rtl::Cycle patience = 100'000;         // cycles without a beat until the watchdog ends the run
   bool check_links = true;               // protocol checkers on every link
+  bool check_widths = false;             // and every field fits its width, beat by beat
+  bool poison = false;                   // fields that nobody wrote hold noise, by the seed
   bool fast_path = true;
   std::vector<std::string> faults;  // see Fault::parse
   std::optional<rtl::TraceOptions> trace;
@@ -51,6 +54,7 @@ class Bench {
  private:
   rtl::ClockDomain& clock_;
   std::function<std::string()> at_limit_;
+  std::unique_ptr<Poison> poison_;
   std::unique_ptr<StallInjector> stalls_;
   std::unique_ptr<FaultInjector> faults_;
   std::unique_ptr<LinkChecker> checker_;

@@ -44,13 +44,13 @@ Fault Fault::parse(const std::string& text) {
     throw spec::ConfigError(fmt::format(
         "fault {}: unknown kind {}; known are drop, duplicate, flip and stuck_ready", text, kind));
   if (parts.size() != (fault.kind == Kind::kFlip ? 4U : 3U))
-    throw spec::ConfigError(
-        fmt::format("fault {}: expected drop:LINK:BEAT, duplicate:LINK:BEAT, flip:LINK:BEAT:BIT or "
-                    "stuck_ready:LINK:CYCLE",
-                    text));
+    throw spec::ConfigError(fmt::format(
+        "fault {}: expected drop:LINK:BEAT, duplicate:LINK:BEAT, flip:LINK:BEAT:FIELD[.BIT], "
+        "flip:LINK:BEAT:BIT or stuck_ready:LINK:CYCLE",
+        text));
   fault.link = parts[1];
   fault.at = number(parts[2], text);
-  if (fault.kind == Kind::kFlip) fault.bit = static_cast<std::uint32_t>(number(parts[3], text));
+  if (fault.kind == Kind::kFlip) fault.bit = parts[3];
   return fault;
 }
 
@@ -65,15 +65,22 @@ FaultInjector::FaultInjector(rtl::ClockDomain& clock, const std::vector<Fault>& 
     if (!found)
       throw spec::ConfigError(
           fmt::format("fault: no link is named {}; there are:{}", fault.link, known));
-    if (fault.kind == Fault::Kind::kFlip && fault.bit >= found->payload_bytes() * 8)
-      throw spec::ConfigError(fmt::format("fault: bit {} of {}, which has {}", fault.bit,
-                                          fault.link, found->payload_bytes() * 8));
-    planted_.push_back({fault, found, false});
+    rtl::Payload::Bit bit{};
+    if (fault.kind == Fault::Kind::kFlip) {
+      try {
+        bit = found->payload().bit(fault.bit);
+      } catch (const spec::ConfigError& error) {
+        throw spec::ConfigError(fmt::format("fault on {}: {}", fault.link, error.what()));
+      }
+    }
+    planted_.push_back({fault, found, bit});
   }
   clock.add_before(*this);
 }
 
-bool FaultInjector::act(const Fault& fault, rtl::LinkBase& link, rtl::Cycle cycle) {
+bool FaultInjector::act(const Planted& planted, rtl::Cycle cycle) {
+  const Fault& fault = planted.fault;
+  rtl::LinkBase& link = *planted.link;
   if (fault.kind == Fault::Kind::kStuckReady) {
     if (cycle < fault.at) return false;
     link.hold_push(cycle);
@@ -83,7 +90,7 @@ bool FaultInjector::act(const Fault& fault, rtl::LinkBase& link, rtl::Cycle cycl
   if (link.pushes() != fault.at + 1 || link.empty()) return false;
   if (fault.kind == Fault::Kind::kDrop) return link.drop_newest();
   if (fault.kind == Fault::Kind::kFlip) {
-    link.beat(fault.at)[fault.bit / 8] ^= std::byte(1U << fault.bit % 8);
+    link.payload().flip(link.beat(fault.at), planted.bit);
     return true;
   }
   if (link.duplicate_newest(cycle)) return true;
@@ -94,7 +101,7 @@ bool FaultInjector::act(const Fault& fault, rtl::LinkBase& link, rtl::Cycle cycl
 rtl::Activity FaultInjector::tick(rtl::Cycle cycle) {
   for (Planted& planted : planted_)
     if (!planted.fired || planted.fault.kind == Fault::Kind::kStuckReady)
-      planted.fired = act(planted.fault, *planted.link, cycle);
+      planted.fired = act(planted, cycle);
   return rtl::kIdle;
 }
 

@@ -18,16 +18,17 @@ struct Fault {
   std::string link;  // full name
   std::uint64_t at =
       0;  // number of the beat, from 0; kStuckReady: the cycle from which ready is low
-  std::uint32_t bit = 0;  // kFlip: which bit of the payload
+  std::string bit = {};  // kFlip: a field, one of its bits or the number of a bit: Payload::bit()
 
-  // "drop:<link>:<beat>", "duplicate:<link>:<beat>", "flip:<link>:<beat>:<bit>",
-  // "stuck_ready:<link>:<cycle>". ConfigError if it is none of these.
+  // "drop:<link>:<beat>", "duplicate:<link>:<beat>", "flip:<link>:<beat>:<field>[.<bit>]" or
+  // "flip:<link>:<beat>:<bit>", "stuck_ready:<link>:<cycle>". ConfigError if it is none of these.
   static Fault parse(const std::string& text);
 };
 
 class FaultInjector final : public rtl::Clocked {
  public:
-  // ConfigError if there is no such link. Construct it after the design.
+  // ConfigError if there is no such link, or no such field or bit in it. Construct it after the
+  // design.
   FaultInjector(rtl::ClockDomain& clock, const std::vector<Fault>& faults);
 
   rtl::Activity tick(rtl::Cycle cycle) override;
@@ -40,9 +41,10 @@ class FaultInjector final : public rtl::Clocked {
   struct Planted {
     Fault fault;
     rtl::LinkBase* link;
+    rtl::Payload::Bit bit;
     bool fired = false;
   };
-  static bool act(const Fault& fault, rtl::LinkBase& link, rtl::Cycle cycle);
+  static bool act(const Planted& planted, rtl::Cycle cycle);
   std::vector<Planted> planted_;
 };
 

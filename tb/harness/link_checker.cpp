@@ -11,7 +11,8 @@
 
 namespace deburr::tb {
 
-LinkChecker::LinkChecker(rtl::ClockDomain& clock, const std::string& glob) {
+LinkChecker::LinkChecker(rtl::ClockDomain& clock, const std::string& glob, bool widths)
+    : widths_(widths) {
   rtl::for_each<rtl::LinkBase>([&](rtl::LinkBase& link) {
     if (!rtl::glob_match(glob, link.name())) return;
     watched_.push_back({&link, link.pushes(), link.pops(),
@@ -48,15 +49,20 @@ void LinkChecker::follow(Watched& w, rtl::Cycle cycle) {
     return w.copies.data() + number % link.depth() * bytes;
   };
   if (popped) {
+    // All bytes first: the list of fields is needed for the text only.
     const std::byte* beat = link.beat(w.pops);
-    for (std::size_t i = 0; i < bytes; ++i)
-      if (beat[i] != copy(w.pops)[i])
-        violation(fmt::format("beat {} changed while it waited: byte {} was {:#04x} and is {:#04x}",
-                              w.pops, i, std::to_integer<unsigned>(copy(w.pops)[i]),
-                              std::to_integer<unsigned>(beat[i])));
+    if (std::memcmp(beat, copy(w.pops), bytes) != 0)
+      if (const std::string fields = link.payload().difference(copy(w.pops), beat); !fields.empty())
+        violation(fmt::format("beat {} changed while it waited (was/is): {}", w.pops, fields));
     ++w.compared;
   }
-  if (pushed) std::memcpy(copy(w.pushes), link.beat(w.pushes), bytes);
+  if (pushed) {
+    std::memcpy(copy(w.pushes), link.beat(w.pushes), bytes);
+    const rtl::Field* wide = widths_ ? link.payload().misfit(link.beat(w.pushes)) : nullptr;
+    if (wide)
+      violation(fmt::format("beat {}: the value of {} needs more than its {} bits", w.pushes,
+                            wide->name, wide->bits));
+  }
   w.pushes = link.pushes();
   w.pops = link.pops();
 }

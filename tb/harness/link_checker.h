@@ -4,7 +4,8 @@
 // the end of every cycle, for every link:
 //   * at most one push and one pop, each by its side and not behind its back (conservation),
 //   * a pop takes a beat of an earlier cycle, a push a slot that was free before this cycle,
-//   * the payload at the pop is, bit for bit, the payload at the push.
+//   * the payload at the pop is, bit for bit, the payload at the push,
+//   * and, if `widths` are asked for, no field of a pushed beat needs more bits than it has.
 // At the end: nothing is left in a link. A violation throws SimulationError.
 #pragma once
 
@@ -21,7 +22,7 @@ namespace deburr::tb {
 class LinkChecker final : public rtl::Clocked {
  public:
   // All links whose full name matches the glob and that exist now: construct it after the design.
-  explicit LinkChecker(rtl::ClockDomain& clock, const std::string& glob = "*");
+  explicit LinkChecker(rtl::ClockDomain& clock, const std::string& glob = "*", bool widths = false);
 
   rtl::Activity tick(rtl::Cycle cycle) override;
   void reset() override;
@@ -40,6 +41,7 @@ class LinkChecker final : public rtl::Clocked {
   };
   void follow(Watched& watched, rtl::Cycle cycle);
   std::vector<Watched> watched_;
+  bool widths_;
 };
 
 }  // namespace deburr::tb

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "rtl_model/fabric/payload.h"
 #include "tb/harness/verdict.h"
 
 namespace deburr::tb {
@@ -73,9 +74,12 @@ class Scoreboard final : public ScoreboardBase {
     found->second.pop_front();
     if (found->second.empty()) expected_.erase(found);
     --waiting_;
-    if (!(wanted.value == value))
-      fail(fmt::format("{}item {}: expected {}, got {}", prefix(where), wanted.number,
-                       text(wanted.value), text(value)));
+    if (wanted.value == value) return;
+    std::string mismatch = fmt::format("{}item {}: expected {}, got {}", prefix(where),
+                                       wanted.number, text(wanted.value), text(value));
+    if constexpr (rtl::HasFields<T>)
+      mismatch += fmt::format(" (expected/got: {})", rtl::payload_difference(wanted.value, value));
+    fail(mismatch);
   }
   std::uint64_t leftovers() const override { return waiting_; }
   // After a reset: what was expected will not come; comparisons so far count.
@@ -94,7 +98,9 @@ class Scoreboard final : public ScoreboardBase {
   }
   std::string text(const T& value) const {
     if (describe_) return describe_(value);
-    if constexpr (requires(std::ostream & stream) { stream << value; }) {
+    if constexpr (rtl::HasFields<T>) {
+      return rtl::payload_text(value);
+    } else if constexpr (requires(std::ostream & stream) { stream << value; }) {
       std::ostringstream stream;
       stream << value;
       return stream.str();

@@ -451,6 +451,16 @@ TEST(MemoryCost, GoesWithTheWidthOfTheFrame) {
   EXPECT_EQ(fixed.bits_at(640), 204'800U);
 }
 
+TEST(MemoryCost, AMemoryPortBuffersWhatMayComeBack) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  const rtl::MemoryPort few("few", clock, {.outstanding = 16}),
+      many("many", clock, {.outstanding = 64, .max_burst_lines = 2, .line_bytes = 32});
+  EXPECT_EQ(few.response_buffer.bits(), 16U * 514);
+  EXPECT_EQ(few.response_buffer.memory_kind(), MemoryKind::kFlops);
+  EXPECT_EQ(many.response_buffer.bits(), 128U * 258);
+  EXPECT_EQ(many.response_buffer.memory_kind(), MemoryKind::kSram);
+}
+
 TEST(MemoryCost, ADeepFifoIsSram) {
   const rtl::Fifo<std::uint32_t> shallow("shallow", 512), deep("deep", 513);
   EXPECT_EQ(shallow.memory_kind(), MemoryKind::kFlops);

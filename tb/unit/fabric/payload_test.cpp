@@ -8,6 +8,7 @@
 #include <string>
 
 #include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/payload.h"
 #include "tb/unit/fabric/support.h"
 
@@ -54,11 +55,15 @@ struct Beat {
   friend bool operator==(const Beat&, const Beat&) = default;
 };
 
+struct Plain {  // does not list its fields
+  std::uint32_t a, b;
+};
+
 // By hand: 14 + 13, 4 x 4 x 8, 2 x 27, 13, 33, 4, 2, 1.
 static_assert(rtl::kPayloadBits<Beat> == 27 + 128 + 54 + 13 + 33 + 4 + 2 + 1);
 static_assert(rtl::kPayloadBits<Place> == 27);
 static_assert(rtl::kPayloadBits<bool> == 1 && rtl::kPayloadBits<std::int16_t> == 16);
-static_assert(rtl::HasFields<Beat> && !rtl::HasFields<int> && !rtl::HasFields<Token>);
+static_assert(rtl::HasFields<Beat> && !rtl::HasFields<int> && !rtl::HasFields<Plain>);
 
 template <class T>
 std::byte* bytes(T& value) {
@@ -86,6 +91,28 @@ TEST(Payload, WidthIsTheSumOfWhatIsBuilt) {
   EXPECT_EQ(rtl::Fifo<Beat>("fifo", 4).word_bits(), 262U);
   EXPECT_THROW(Payload::of<Beat>({.widths = {{"slope", 14}}}), spec::CheckFailed);
   EXPECT_THROW(Payload::of<Beat>({.widths = {{"slop", 4}}}), spec::CheckFailed);
+  EXPECT_EQ(Payload::of<Beat>({.counts = {{"corner", 1}}}).bits(), 262U - 27);
+  EXPECT_THROW(Payload::of<Beat>({.counts = {{"corners", 1}}}), spec::CheckFailed);
+}
+
+// By hand: 32 + 5 + 7 + 1 + 32 + 32 x 8, and 32 + 5 + 6 + 1 + 1 + 2 + 32 x 8.
+TEST(Payload, MemoryBeatsHaveTheWidthOfTheirPort) {
+  rtl::MemoryPortParameters port;
+  port.line_bytes = 32;
+  EXPECT_EQ(Payload::of<rtl::MemoryRequest>(rtl::request_shape(port, 32, 5)).bits(), 333U);
+  EXPECT_EQ(Payload::of<rtl::MemoryResponse>(rtl::response_shape(port, 32, 5)).bits(), 303U);
+  EXPECT_EQ(rtl::kPayloadBits<rtl::MemoryRequest>, 64U + 32 + 7 + 1 + 64 + 512);
+}
+
+TEST(Payload, ATypeWithoutListHasItsBytes) {
+  const Payload payload = Payload::of<Plain>();
+  EXPECT_FALSE(payload.listed());
+  EXPECT_EQ(payload.bits(), 64U);
+  Plain plain{1, 2};
+  payload.fill(bytes(plain), ~std::uint64_t{0});
+  EXPECT_EQ(plain.a, 1U);
+  payload.flip(bytes(plain), payload.bit("byte.4.1"));
+  EXPECT_EQ(plain.b, 0U);
 }
 
 TEST(Payload, FieldsHaveTheirPlaces) {

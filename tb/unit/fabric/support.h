@@ -63,6 +63,11 @@ inline std::string in_child(const std::function<std::string()>& simulation) {
 struct Token {
   std::uint32_t number = 0;
   std::uint32_t value = 0;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("number", self.number, 32, "U32");
+    visit("value", self.value, 32, "U32");
+  }
   friend bool operator==(const Token&, const Token&) = default;
 };
 

@@ -55,7 +55,7 @@ struct Vcd {
         std::string id;
         stream >> id;
         changes[id].emplace_back(time, word.substr(1));
-      } else if (word[0] == '0' || word[0] == '1') {
+      } else if (word[0] == '0' || word[0] == '1' || word[0] == 'x') {
         changes[word.substr(1)].emplace_back(time, word.substr(0, 1));
       }
     }
@@ -97,19 +97,78 @@ TEST(Trace, ShowsWhatHappened) {
   }
   const Vcd vcd(file);
   EXPECT_EQ(vcd.timescale, "1ps");
-  ASSERT_TRUE(vcd.ids.count("link_1.occupancy"));
+  ASSERT_TRUE(vcd.ids.count("deburr.link_1.occupancy"));
   for (Cycle c = 0; c < 300; ++c) {
     const std::uint64_t time = c * 10'000;
-    EXPECT_EQ(number(vcd.value("link_1.occupancy", time)), occupancy[c]);
-    EXPECT_EQ(vcd.value("adder_1.activity", time) == "busy", busy[c] > (c ? busy[c - 1] : 0)) << c;
+    EXPECT_EQ(number(vcd.value("deburr.link_1.occupancy", time)), occupancy[c]);
+    EXPECT_EQ(vcd.value("deburr.adder_1.activity", time) == "busy", busy[c] > (c ? busy[c - 1] : 0))
+        << c;
   }
-  EXPECT_EQ(number(vcd.value("top.answer", 0)), 42U);
-  // The head of the last link is the token that the sink takes next: number in the low word.
+  EXPECT_EQ(number(vcd.value("deburr.top.answer", 0)), 42U);
+  // The head of the last link is the token that the sink takes next.
   for (std::size_t i = 0; i < 100; ++i) {
     const std::uint64_t before = (p.sink.cycles()[i] - 1) * 10'000;
-    EXPECT_EQ(number(vcd.value("link_4.head", before)) & 0xFFFFFFFF, i);
-    EXPECT_EQ(vcd.value("link_4.pop", before + 10'000), "1");
+    EXPECT_EQ(number(vcd.value("deburr.link_4.number", before)), i);
+    EXPECT_EQ(number(vcd.value("deburr.link_4.value", before)), i * 1000 + 10);
+    EXPECT_EQ(vcd.value("deburr.link_4.pop", before + 10'000), "1");
   }
+}
+
+TEST(Trace, HasAClockAndTheNumberOfItsCycle) {
+  const std::string file = testing::TempDir() + "clock.vcd";
+  Pipeline p(100);
+  {
+    rtl::Trace trace(p.clock,
+                     {.file = file, .scopes = {"link_0"}, .from = 5, .to = 50, .top = "bed"});
+    p.clock.run(60);
+  }
+  const Vcd vcd(file);
+  ASSERT_TRUE(vcd.ids.count("bed.clk"));
+  for (Cycle c = 5; c < 50; ++c) {
+    EXPECT_EQ(number(vcd.value("bed.cycle", c * 10'000)), c);
+    EXPECT_EQ(vcd.value("bed.clk", c * 10'000), "1");
+    EXPECT_EQ(vcd.value("bed.clk", c * 10'000 + 4'999), "1");
+    EXPECT_EQ(vcd.value("bed.clk", c * 10'000 + 5'000), "0");
+  }
+  for (const auto& [name, id] : vcd.ids) EXPECT_TRUE(name.starts_with("bed.")) << name;
+}
+
+// Passes triples on.
+struct Triple {
+  std::array<std::array<std::uint8_t, 3>, 2> pixel{};
+  std::int16_t slope = 0;
+  bool last = false;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit.lanes("pixel", self.pixel, 5, "U5", "rgb");
+    visit("slope", self.slope, 11, "S0.10");
+    visit("last", self.last);
+  }
+};
+
+TEST(Trace, ShowsEveryFieldAsItIsBuilt) {
+  const std::string file = testing::TempDir() + "fields.vcd";
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  rtl::Link<Triple> link("link", 2, {.lanes = 1});
+  clock.add(link);
+  {
+    rtl::Trace trace(clock, {file, {"*"}});
+    clock.run(2);
+    Triple triple;
+    triple.pixel[0] = {1, 30, 17};
+    triple.slope = -2;
+    link.push(clock.cycle(), triple);
+    clock.run(2);
+    EXPECT_EQ(trace.signals(), 3U + 5U);
+  }
+  const Vcd vcd(file);
+  EXPECT_FALSE(vcd.ids.count("deburr.link.pixel_1_r"));
+  EXPECT_EQ(vcd.value("deburr.link.pixel_0_g", 10'000), "x");
+  EXPECT_EQ(vcd.value("deburr.link.pixel_0_r", 20'000), "00001");
+  EXPECT_EQ(vcd.value("deburr.link.pixel_0_g", 20'000), "11110");
+  EXPECT_EQ(vcd.value("deburr.link.pixel_0_b", 20'000), "10001");
+  EXPECT_EQ(vcd.value("deburr.link.slope", 20'000), "11111111110");
+  EXPECT_EQ(vcd.value("deburr.link.last", 20'000), "0");
 }
 
 TEST(Trace, ScopeAndWindow) {
@@ -121,9 +180,9 @@ TEST(Trace, ScopeAndWindow) {
     EXPECT_EQ(trace.signals(), 3U + 4U);
   }
   const Vcd vcd(file);
-  EXPECT_FALSE(vcd.ids.count("link_1.push"));
-  EXPECT_FALSE(vcd.ids.count("link_2.head"));
-  ASSERT_TRUE(vcd.ids.count("adder_3.activity"));
+  EXPECT_FALSE(vcd.ids.count("deburr.link_1.push"));
+  EXPECT_FALSE(vcd.ids.count("deburr.link_2.number"));
+  ASSERT_TRUE(vcd.ids.count("deburr.adder_3.activity"));
   for (const auto& [id, list] : vcd.changes) {
     EXPECT_EQ(list.front().first, 400'000U);  // everything has its value at the beginning
     EXPECT_LT(list.back().first, 600'000U);

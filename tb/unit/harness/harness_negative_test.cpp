@@ -79,9 +79,18 @@ TEST(Negative, FlippedBitIsSeenByTheScoreboard) {
   const std::string text = text_of([] { run({"flip:link_3:50:35"}, false); }, ExitCode::kMismatch);
   EXPECT_THAT(text, AllOf(HasSubstr("1 mismatches in 300"), HasSubstr("item 50")));
 }
+// Bit 35 is bit 3 of the second field.
+TEST(Negative, AFaultIsPlantedByFieldOrByNumber) {
+  for (const char* bit : {"35", "value.3"}) {
+    const std::string text =
+        text_of([&] { run({std::string("flip:link_3:50:") + bit}, false); }, ExitCode::kMismatch);
+    EXPECT_THAT(text, HasSubstr("(expected/got: value=50010/50018)")) << bit;
+  }
+}
 TEST(Negative, FlippedBitIsSeenByTheLinkChecker) {
   const std::string text = text_of([] { run({"flip:link_3:50:35"}, true); }, ExitCode::kSimulation);
-  EXPECT_THAT(text, AllOf(HasSubstr("beat 50 changed while it waited"), HasSubstr("byte 4")));
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("beat 50 changed while it waited"), HasSubstr("value=50006/50014")));
 }
 
 TEST(Negative, StuckReadyIsADeadlockWithAPicture) {
@@ -111,8 +120,81 @@ TEST(Negative, FaultThatIsNeverReachedIsNoResult) {
 TEST(Negative, FaultsThatDoNotExist) {
   Pipeline p(10);
   for (const char* text : {"melt:link_0:1", "drop:link_0", "drop:link_0:x", "flip:link_0:1",
-                           "flip:link_0:1:64", "drop:link_9:1", "", ":::"})
+                           "flip:link_0:1:64", "flip:link_0:1:value.32", "flip:link_0:1:valu",
+                           "flip:link_0:1:-1", "drop:link_9:1", "", ":::"})
     EXPECT_THROW(FaultInjector(p.clock, {Fault::parse(text)}), spec::ConfigError) << text;
+}
+
+// Leaves a field out of every third token.
+class Forgetful final : public rtl::Unit {
+ public:
+  rtl::In<Token> tokens_in{"tokens_in"};
+  rtl::Out<Token> tokens_out{"tokens_out"};
+  Forgetful(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
+  rtl::Activity tick(Cycle cycle) override {
+    if (!tokens_in.can_pop(cycle)) return rtl::kIdle;
+    if (!tokens_out.can_push(cycle)) return rtl::kStalledDownstream;
+    const Token token = tokens_in.take(cycle);
+    Token& out = tokens_out.emplace(cycle);
+    out.number = token.number;
+    if (token.number % 3 != 0) out.value = token.value;
+    return rtl::kBusy;
+  }
+  void reset() override {}
+};
+
+// All tokens have the same value, so what is forgotten is hidden by what was there before.
+std::uint64_t forgotten(bool poison) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  Driver<Token> driver("driver", clock);
+  Forgetful unit("unit", clock);
+  Sink<Token> sink("sink", clock);
+  rtl::Link<Token> in("in"), out("out");
+  driver.beats_out(in);
+  unit.tokens_in(in);
+  unit.tokens_out(out);
+  sink.beats_in(out);
+  for (std::uint32_t i = 1; i <= 90; ++i) driver.send(Token{i, 7});
+  BenchOptions options;
+  options.poison = poison;
+  Bench bench(clock, options);
+  bench.run([&] { return sink.received() == 90; }, 1000);
+  std::uint64_t wrong = 0;
+  for (const Token& token : sink.beats()) wrong += token.value != 7;
+  return wrong;
+}
+
+TEST(Negative, AFieldThatIsNotWrittenIsHiddenByTheBeatBefore) { EXPECT_EQ(forgotten(false), 0U); }
+TEST(Negative, AFieldThatIsNotWrittenIsNoticedUnderPoison) { EXPECT_EQ(forgotten(true), 30U); }
+
+TEST(Negative, PoisonNeedsALink) {
+  Pipeline p(10);
+  EXPECT_THROW(Poison(p.clock, 1, "nothing"), spec::ConfigError);
+}
+
+// Four bits are listed, the sums have more.
+struct Nibble {
+  std::uint8_t value = 0;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("value", self.value, 4, "U4");
+  }
+};
+
+TEST(Negative, AValueWiderThanItsFieldIsSeenByTheLinkChecker) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  Driver<Nibble> driver("driver", clock);
+  Sink<Nibble> sink("sink", clock);
+  rtl::Link<Nibble> link("link");
+  driver.beats_out(link);
+  sink.beats_in(link);
+  for (const int value : {3, 15, 16, 4}) driver.send(Nibble{static_cast<std::uint8_t>(value)});
+  BenchOptions options;
+  options.check_widths = true;
+  Bench bench(clock, options);
+  EXPECT_THAT(
+      text_of([&] { bench.run([&] { return sink.received() == 4; }, 100); }, ExitCode::kSimulation),
+      HasSubstr("link: cycle 2: beat 2: the value of value needs more than its 4 bits"));
 }
 
 TEST(Negative, ScoreboardWithTooFewComparisons) {
