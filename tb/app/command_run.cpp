@@ -112,7 +112,7 @@ std::string from_repository(const std::string& text) {
 Outcome run_engine(Engine& engine, const RunOptions& options, const std::string& command) {
   ParameterSet set;
   RunParameters run = engine.run_parameters();
-  set.add("run", run);
+  set.add("run", ParameterKind::kRun, run);
   engine.add_parameters(set);
   apply(options, set);
   engine.resolve(set);
@@ -265,7 +265,7 @@ void add_run(CLI::App& app, CommandLine& line) {
     // To know which shorthands are switches, the parameters are asked.
     ParameterSet probe;
     RunParameters defaults = engine->run_parameters();
-    probe.add("run", defaults);
+    probe.add("run", ParameterKind::kRun, defaults);
     engine->add_parameters(probe);
     // An engine may give an option of all engines a meaning of its own.
     const std::vector<Shorthand> own = engine->shorthands();

@@ -31,12 +31,12 @@ class FrameCommand final : public Engine {
   }
 
   void add_parameters(ParameterSet& set) override {
-    set.add("scene", scene_);
-    set.add("sampler", sampler_);
-    set.add("texture", texture_);
-    set.add("memory", memory_);
-    set.add("morphological", morphological_);
-    set.add("frame_memory", frame_memory_);
+    set.add("scene", ParameterKind::kInput, scene_);
+    set.add("sampler", ParameterKind::kInput, sampler_);
+    set.add_engine("texture", texture_);
+    add_memory(set, "memory", memory_);
+    set.add_engine("morphological", morphological_);
+    add_memory(set, "frame_memory", frame_memory_);
   }
   void resolve(ParameterSet& set) override {
     apply_preset(set, morphological_);

@@ -36,9 +36,9 @@ class MorphologicalCommand final : public Engine {
   double clock_mhz() const override { return 148.5; }  // the pixel clock of 1080p60
 
   void add_parameters(ParameterSet& set) override {
-    set.add("frame", frame_);
-    set.add("morphological", parameters_);
-    set.add("memory", memory_);
+    set.add("frame", ParameterKind::kInput, frame_);
+    set.add_engine("morphological", parameters_);
+    add_memory(set, "memory", memory_);
   }
 
   void resolve(ParameterSet& set) override {

@@ -58,22 +58,29 @@ std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines)
       "`--config`, as nested maps or dotted names. A name that does not exist, a value out of "
       "range and a key given twice are\n"
       "errors. `deburr run ENGINE --show-config` prints the resolved configuration as such a "
-      "file.\n";
+      "file.\n\n"
+      "Kinds: a `rule` changes pixels; a `build` choice changes clocks and cost, and no pixel; an "
+      "`input` is what the engine is\n"
+      "given; `surroundings` change clocks; `run` is how it is simulated and checked. Runs that "
+      "agree in rules, inputs and seed\n"
+      "share one golden result: `golden` in their `manifest.json` is the same, which lists `rules` "
+      "and `build` apart.\n";
   for (const auto& engine : engines) {
     page += fmt::format("\n## `deburr run {}`\n", engine->name());
     ParameterSet set;
     RunParameters run = engine->run_parameters();
-    set.add("run", run);
+    set.add("run", ParameterKind::kRun, run);
     engine->add_parameters(set);
     std::string group;
     for (const Parameter& p : set.all()) {
       if (group_of(p.name) != group) {
         group = group_of(p.name);
         page += fmt::format(
-            "\n### {}\n\n| name | default | range | unit | meaning |\n|---|---|---|---|---|\n",
+            "\n### {}\n\n| name | kind | default | range | unit | meaning "
+            "|\n|---|---|---|---|---|---|\n",
             group);
       }
-      page += fmt::format("| `{}` | {} | {} | {} | {} |\n", p.name,
+      page += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", p.name, kind_name(p),
                           p.default_value.empty() ? "" : "`" + p.default_value + "`", cell(p.range),
                           cell(p.unit), cell(p.meaning));
     }

@@ -6,6 +6,7 @@
 #include "spec/error.h"
 #include "tb/results/interrupt.h"
 #include "tb/results/progress.h"
+#include "tb/scene/truth.h"
 
 namespace deburr::tb {
 
@@ -18,6 +19,7 @@ SimulationOptions simulation_options(const RunParameters& run, const RunContext&
   o.shuffle = run.shuffle;
   o.fast_path = run.fast_path;
   o.check_links = run.check_links;
+  o.poison = run.poison;
   o.max_cycles = static_cast<rtl::Cycle>(run.max_cycles);
   o.patience = static_cast<rtl::Cycle>(run.watchdog_cycles);
   if (!run.fault.empty()) o.faults = {run.fault};

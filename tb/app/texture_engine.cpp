@@ -32,10 +32,10 @@ class TextureEngine final : public Engine {
   }
 
   void add_parameters(ParameterSet& set) override {
-    set.add("scene", scene_);
-    set.add("sampler", sampler_);
-    set.add("texture", texture_);
-    set.add("memory", memory_);
+    set.add("scene", ParameterKind::kInput, scene_);
+    set.add("sampler", ParameterKind::kInput, sampler_);
+    set.add_engine("texture", texture_);
+    add_memory(set, "memory", memory_);
   }
 
   std::vector<Shorthand> shorthands() const override {

@@ -34,6 +34,7 @@ struct SimulationOptions {
   bool shuffle = false;
   bool fast_path = true;
   bool check_links = true;
+  bool poison = false;        // fields that nobody wrote hold noise
   rtl::Cycle max_cycles = 0;  // 0: no limit
   rtl::Cycle patience = 20000;
   // Names that an environment knows, or faults of the harness (fault_injector.h).

@@ -403,6 +403,7 @@ class ReportBuilder {
     mustache::data parameters{mustache::data::type::list};
     for (const Json& p : manifest_.value("parameters", Json::array())) {
       mustache::data line = row({{"name", p.value("name", "")},
+                                 {"kind", p.value("kind", "")},
                                  {"value", shown(p["value"])},
                                  {"default", p.value("default", "")},
                                  {"range", p.value("range", "")},

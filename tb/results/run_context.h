@@ -66,6 +66,7 @@ class RunContext {
 
  private:
   std::vector<std::string> old_results() const;
+  std::string golden_key() const;
   nlohmann::ordered_json manifest(const Result& result) const;
 
   std::filesystem::path directory_;

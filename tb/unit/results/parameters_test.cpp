@@ -46,7 +46,7 @@ void describe(Sample& p, Visitor& v) {
 
 class Parameters : public testing::Test {
  protected:
-  Parameters() { set_.add("unit", values_); }
+  Parameters() { set_.add("unit", ParameterKind::kInput, values_); }
   ~Parameters() override {
     for (const auto& file : files_) std::filesystem::remove(file);
   }
@@ -211,7 +211,7 @@ TEST_F(Parameters, WhatHasNoEffectIsRefusedWhereItWasGiven) {
 TEST_F(Parameters, EveryDefaultOfTheTextureUnitIsWithinItsRange) {
   spec::texture::Parameters texture;
   ParameterSet set;
-  set.add("texture", texture);
+  set.add_engine("texture", texture);
   EXPECT_FALSE(set.all().empty());
   for (const Parameter& p : set.all()) {
     EXPECT_EQ(p.parse(p.default_value), "") << p.name;
