@@ -4,7 +4,7 @@
 // First three blocks of the texture golden (paper 004, sections 1.2 and 1.4). Pure functions of
 // integers; formats and rounding: docs/number_formats.md, "Footprint" and "Logarithm". Error
 // against exact arithmetic: tb/unit/golden/texture/footprint_test.cpp and
-// texture_golden_log2_test.cpp.
+// log2_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <bit>
+
 namespace deburr::rtl {
 namespace {
 
@@ -12,6 +14,14 @@ std::string port_text(std::uint32_t reads, std::uint32_t writes, std::uint32_t s
   if (writes) text += fmt::format("{}W", writes);
   if (shared) text += fmt::format("{}RW", shared);
   return text;
+}
+
+bool forbids(const MemoryShape& shape) {
+  return shape.read_during_write == ReadDuringWrite::kForbidden;
+}
+
+bool overlap(std::uint64_t a, std::uint64_t a_count, std::uint64_t b, std::uint64_t b_count) {
+  return b < a + a_count && a < b + b_count;
 }
 
 }  // namespace
@@ -127,8 +137,9 @@ PortedMemory::PortedMemory(const char* name, MemoryShape shape)
       words_(words()),
       span_(this->shape().span),
       latency_(this->shape().latency),
-      separate_(this->shape().separate_banks),
-      forbidden_(this->shape().read_during_write == ReadDuringWrite::kForbidden),
+      ring_(std::bit_ceil(latency_ + 1) - 1),
+      checks_reads_(this->shape().separate_banks || forbids(this->shape())),
+      checks_writes_(checks_reads_ || this->shape().write_ports + this->shape().shared_ports > 1),
       read_banks_(read_banks_used_),
       write_banks_(this->shape().shared_ports ? read_banks_used_ : write_banks_used_) {
   const MemoryShape& s = this->shape();
@@ -136,7 +147,6 @@ PortedMemory::PortedMemory(const char* name, MemoryShape shape)
     for (std::uint32_t i = 0; i < count; ++i) {
       Port port;
       port.side = side;
-      port.read.resize(latency_ + 1);
       ports_.push_back(std::move(port));
     }
   };
@@ -149,7 +159,7 @@ PortedMemory::PortedMemory(const char* name, MemoryShape shape)
     if (port.side != Side::kWrite) readers_.push_back(&port);
     if (port.side != Side::kRead) writers_.push_back(&port);
   }
-  if (separate_) {
+  if (s.separate_banks) {
     read_banks_used_.assign(s.banks, kNever);
     write_banks_used_.assign(s.banks, kNever);
   }
@@ -176,15 +186,24 @@ void PortedMemory::check_ports() const {
 void PortedMemory::reset() {
   for (Port& port : ports_) {
     port.used = port.written = kNever;
-    port.read.assign(latency_ + 1, Read{});
+    port.read.fill(Read{});
   }
   std::fill(read_banks_used_.begin(), read_banks_used_.end(), kNever);
   std::fill(write_banks_used_.begin(), write_banks_used_.end(), kNever);
+  written_ = kNever;
   reads_ = writes_ = 0;
 }
 
+std::uint32_t PortedMemory::arrived_before(const Port& port, Cycle cycle) const {
+  for (std::uint32_t i = 1; i <= ring_; ++i) {
+    const std::uint32_t at = (port.newest - i) & ring_;
+    if (port.read[at].due <= cycle) return at;
+  }
+  fail_early(port, cycle);
+}
+
 void PortedMemory::use_banks(std::vector<Cycle>& used, const Port& port, Cycle cycle,
-                             std::uint64_t address, std::uint32_t count) {
+                             std::uint64_t address, std::uint64_t count) const {
   const MemoryShape& s = shape();
   const std::uint64_t block = (words_ + s.banks - 1) / s.banks;
   for (std::uint64_t a = address; a < address + count; ++a) {
@@ -197,27 +216,34 @@ void PortedMemory::use_banks(std::vector<Cycle>& used, const Port& port, Cycle c
   }
 }
 
-void PortedMemory::check_collision(const Port& port, Cycle cycle, std::uint64_t address,
-                                   std::uint32_t count, bool write) const {
-  const auto overlap = [&](std::uint64_t other, std::uint32_t others) {
-    return other < address + count && address < other + others;
-  };
+void PortedMemory::check_read(const Port& port, Cycle cycle, std::uint64_t address,
+                              std::uint64_t count) {
+  if (shape().separate_banks) use_banks(read_banks_, port, cycle, address, count);
+  if (!forbids(shape())) return;
   for (const Port* writer : writers_)
-    if (writer != &port && writer->written == cycle && (write || forbidden_) &&
-        overlap(writer->write_address, writer->write_count))
+    if (writer->written == cycle &&
+        overlap(address, count, writer->write_address, writer->write_count))
       fail(port, cycle,
-           fmt::format("{} of address {}, which {} writes in this clock: such a collision is "
-                       "forbidden",
-                       write ? "write" : "read", address, writer->user));
-  if (!write || !forbidden_) return;
+           fmt::format("read of address {}, which {} writes in this clock: forbidden", address,
+                       writer->user));
+}
+
+void PortedMemory::check_write(const Port& port, Cycle cycle, std::uint64_t address,
+                               std::uint64_t count) {
+  if (shape().separate_banks) use_banks(write_banks_, port, cycle, address, count);
+  for (const Port* writer : writers_)
+    if (writer != &port && writer->written == cycle &&
+        overlap(address, count, writer->write_address, writer->write_count))
+      fail(port, cycle,
+           fmt::format("write of address {}, which {} writes in this clock too", address,
+                       writer->user));
+  if (!forbids(shape())) return;
   for (const Port* reader : readers_) {
     const Read& read = reader->read[reader->newest];
-    if (reader != &port && reader->used == cycle && read.due == cycle + latency_ &&
-        overlap(read.address, read.count))
+    if (read.due == cycle + latency_ && overlap(address, count, read.address, read.count))
       fail(port, cycle,
-           fmt::format("write of address {}, which {} reads in this clock: such a collision is "
-                       "forbidden",
-                       address, reader->user));
+           fmt::format("write of address {}, which {} reads in this clock: forbidden", address,
+                       reader->user));
   }
 }
 
@@ -229,7 +255,7 @@ void PortedMemory::fail_twice(const Port& port, Cycle cycle, std::uint64_t addre
 }
 
 void PortedMemory::fail_address(const Port& port, Cycle cycle, std::uint64_t address,
-                                std::uint32_t count) const {
+                                std::uint64_t count) const {
   fail(port, cycle,
        fmt::format("access to {} words from address {} on, expected at most {} of {} words", count,
                    address, span_, words_));

@@ -29,6 +29,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -150,48 +151,48 @@ class PortedMemory : public MemoryBase {
   struct Read {
     Cycle due = kNever;  // its word is there from this clock on
     std::uint64_t address = 0;
-    std::uint32_t count = 0;
+    std::uint64_t count = 0;
   };
   struct Port {
+    Cycle used = kNever;       // the last access
+    std::uint32_t newest = 0;  // of the last reads
     Side side = Side::kRead;
     std::uint32_t reader = 0, writer = 0;  // its number among those that read, and that write
-    std::string user;                      // of the first handle; empty: nobody yet
-    Cycle used = kNever;                   // the last access
-    std::uint32_t newest = 0;              // of the last latency + 1 reads
-    std::vector<Read> read;
+    std::array<Read, kMostLatency + 1> read;
     // The last write, for reads of the same clock.
     Cycle written = kNever;
-    std::uint64_t write_address = 0;
-    std::uint32_t write_count = 0;
+    std::uint64_t write_address = 0, write_count = 0;
+    std::string user;  // of the first handle; empty: nobody yet
   };
 
   // The next port of that kind that nobody uses yet.
   Port& claim(Side side, const std::string& user);
 
   // Everything about an access that does not depend on the words.
-  void issue(Port& port, Cycle cycle, std::uint64_t address, std::uint32_t count) {
+  void issue(Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count) {
     if (cycle == port.used) [[unlikely]]
       fail_twice(port, cycle, address);
-    if (address >= words_ || count - 1 >= span_ || address + count > words_) [[unlikely]]
+    if (address >= words_ || (count != 1 && (count - 1 >= span_ || address + count > words_)))
+        [[unlikely]]
       fail_address(port, cycle, address, count);
     port.used = cycle;
   }
-  void issue_read(Port& port, Cycle cycle, std::uint64_t address, std::uint32_t count) {
+  void issue_read(Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count) {
     issue(port, cycle, address, count);
-    if (separate_) use_banks(read_banks_, port, cycle, address, count);
-    port.newest = port.newest == latency_ ? 0 : port.newest + 1;
+    port.newest = (port.newest + 1) & ring_;
     port.read[port.newest] = {cycle + latency_, address, count};
     ++reads_;
-    if (forbidden_) check_collision(port, cycle, address, count, false);
+    if (checks_reads_) [[unlikely]]
+      check_read(port, cycle, address, count);
   }
-  void issue_write(Port& port, Cycle cycle, std::uint64_t address, std::uint32_t count) {
+  void issue_write(Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count) {
     issue(port, cycle, address, count);
-    if (separate_) use_banks(write_banks_, port, cycle, address, count);
-    port.written = cycle;
+    port.written = written_ = cycle;
     port.write_address = address;
     port.write_count = count;
     ++writes_;
-    if (forbidden_ || writers_.size() > 1) check_collision(port, cycle, address, count, true);
+    if (checks_writes_) [[unlikely]]
+      check_write(port, cycle, address, count);
   }
   static bool arrives(const Port& port, Cycle cycle) {
     return std::any_of(port.read.begin(), port.read.end(),
@@ -204,12 +205,9 @@ class PortedMemory : public MemoryBase {
   // The read whose word is on the output register in `cycle`.
   std::uint32_t arrived(const Port& port, Cycle cycle) const {
     std::uint32_t at = port.newest;
-    for (std::uint32_t i = 0; i <= latency_; ++i) {
-      if (port.read[at].due <= cycle) [[likely]]
-        return at;
-      at = at == 0 ? latency_ : at - 1;
-    }
-    fail_early(port, cycle);
+    if (port.read[at].due <= cycle) [[likely]]
+      return at;
+    return arrived_before(port, cycle);
   }
   // The same, which must have given the word at this address.
   std::uint32_t arrived(const Port& port, Cycle cycle, std::uint64_t address) const {
@@ -221,21 +219,24 @@ class PortedMemory : public MemoryBase {
 
   const std::uint64_t words_;
   const std::uint32_t span_, latency_;
-  const bool separate_, forbidden_;
+  const std::uint32_t ring_;  // reads that a port remembers, a power of two, less one
+  const bool checks_reads_, checks_writes_;  // beyond those of issue()
+  Cycle written_ = kNever;                   // the last write through any port
   std::vector<Port> ports_;
   std::vector<Port*> readers_, writers_;  // shared ports are among both
 
  private:
+  std::uint32_t arrived_before(const Port& port, Cycle cycle) const;
+  void check_read(const Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count);
+  void check_write(const Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count);
   void use_banks(std::vector<Cycle>& used, const Port& port, Cycle cycle, std::uint64_t address,
-                 std::uint32_t count);
-  void check_collision(const Port& port, Cycle cycle, std::uint64_t address, std::uint32_t count,
-                       bool write) const;
+                 std::uint64_t count) const;
   // Out of line: a check costs its caller a comparison.
   [[noreturn, gnu::cold, gnu::noinline]] void fail_twice(const Port& port, Cycle cycle,
                                                          std::uint64_t address) const;
   [[noreturn, gnu::cold, gnu::noinline]] void fail_address(const Port& port, Cycle cycle,
                                                            std::uint64_t address,
-                                                           std::uint32_t count) const;
+                                                           std::uint64_t count) const;
   [[noreturn, gnu::cold, gnu::noinline]] void fail_early(const Port& port, Cycle cycle) const;
   [[noreturn, gnu::cold, gnu::noinline]] void fail_stale(const Port& port, Cycle cycle,
                                                          std::uint64_t wanted,
@@ -256,7 +257,7 @@ class Memory final : public PortedMemory {
       : PortedMemory(name, std::move(shape)),
         kept_(words_),
         before_(writers_.size() * span_),
-        captured_(readers_.size() * (latency_ + 1) * span_) {}
+        captured_(readers_.size() * (ring_ + 1) * span_) {}
   // With content: a ROM, or what flip-flops hold when they are switched on.
   Memory(const char* name, MemoryShape shape, std::span<const Word> content)
       : Memory(name, std::move(shape)) {
@@ -283,39 +284,44 @@ class Memory final : public PortedMemory {
   friend class WriteAccess;
 
   Word* captured(const Port& port, std::uint32_t at) {
-    return &captured_[(std::size_t{port.reader} * (latency_ + 1) + at) * span_];
+    return &captured_[(port.reader * (ring_ + 1) + at) * span_];
   }
   const Word& word(const Port& port, std::uint32_t at, std::uint64_t address) {
     return captured(port, at)[address - port.read[at].address];
   }
-  void read(Port& port, Cycle cycle, std::uint64_t address, std::uint32_t count) {
+  void read(Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count) {
     issue_read(port, cycle, address, count);
     Word* const to = captured(port, port.newest);
-    for (std::uint32_t i = 0; i < count; ++i) to[i] = kept_[address + i];
-    if (new_word_) return;
-    // What has been written in this clock already, as it was before.
+    to[0] = kept_[address];
+    for (std::uint64_t i = 1; i < count; ++i) to[i] = kept_[address + i];
+    if (written_ == cycle && !new_word_) give_old_words(to, cycle, address, count);
+  }
+  // What has been written in this clock already, as it was before.
+  [[gnu::noinline]] void give_old_words(Word* to, Cycle cycle, std::uint64_t address,
+                                        std::uint64_t count) {
     for (const Port* writer : writers_) {
       if (writer->written != cycle) continue;
-      for (std::uint32_t i = 0; i < writer->write_count; ++i)
+      for (std::uint64_t i = 0; i < writer->write_count; ++i)
         if (writer->write_address + i - address < count)
           to[writer->write_address + i - address] = before_[writer->writer * span_ + i];
     }
   }
   // `put(i, word)` changes word i of the access.
   template <class Put>
-  void write(Port& port, Cycle cycle, std::uint64_t address, std::uint32_t count, Put&& put) {
+  void write(Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count, Put&& put) {
     issue_write(port, cycle, address, count);
-    for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint64_t i = 0; i < count; ++i) {
       before_[port.writer * span_ + i] = kept_[address + i];
       put(i, kept_[address + i]);
     }
-    if (!new_word_) [[likely]]
-      return;
-    // Reads that were issued in this clock already see it.
+    if (new_word_) give_new_words(cycle, address, count);
+  }
+  // To reads that were issued in this clock already.
+  [[gnu::noinline]] void give_new_words(Cycle cycle, std::uint64_t address, std::uint64_t count) {
     for (const Port* reader : readers_) {
       const Read& read = reader->read[reader->newest];
       if (read.due != cycle + latency_) continue;
-      for (std::uint32_t i = 0; i < read.count; ++i)
+      for (std::uint64_t i = 0; i < read.count; ++i)
         if (read.address + i - address < count)
           captured(*reader, reader->newest)[i] = kept_[read.address + i];
     }
@@ -339,7 +345,7 @@ template <class Word>
 class ReadAccess {
  public:
   // Issues the access of this clock, of `count` words from `address` on.
-  void read(Cycle cycle, std::uint64_t address, std::uint32_t count = 1) {
+  void read(Cycle cycle, std::uint64_t address, std::uint64_t count = 1) {
     memory_->read(*port_, cycle, address, count);
   }
   // Does the word of an access come in this clock?
@@ -372,18 +378,18 @@ template <class Word>
 class WriteAccess {
  public:
   void write(Cycle cycle, std::uint64_t address, const Word& word) {
-    memory_->write(*port_, cycle, address, 1, [&](std::uint32_t, Word& kept) { kept = word; });
+    memory_->write(*port_, cycle, address, 1, [&](std::uint64_t, Word& kept) { kept = word; });
   }
   // Neighbouring words, at most `span`.
   void write(Cycle cycle, std::uint64_t address, std::span<const Word> words) {
-    memory_->write(*port_, cycle, address, static_cast<std::uint32_t>(words.size()),
-                   [&](std::uint32_t i, Word& kept) { kept = words[i]; });
+    memory_->write(*port_, cycle, address, words.size(),
+                   [&](std::uint64_t i, Word& kept) { kept = words[i]; });
   }
   // Through the write mask: `change(word)` changes some bits, the others stay.
   template <class Change>
   void change(Cycle cycle, std::uint64_t address, Change&& change) {
     memory_->check_mask(*port_, cycle);
-    memory_->write(*port_, cycle, address, 1, [&](std::uint32_t, Word& kept) { change(kept); });
+    memory_->write(*port_, cycle, address, 1, [&](std::uint64_t, Word& kept) { change(kept); });
   }
 
  protected:
@@ -398,7 +404,7 @@ class WriteAccess {
 template <>
 class ReadAccess<void> {
  public:
-  void read(Cycle cycle, std::uint64_t address, std::uint32_t count = 1) {
+  void read(Cycle cycle, std::uint64_t address, std::uint64_t count = 1) {
     memory_->issue_read(*port_, cycle, address, count);
   }
   bool arrives(Cycle cycle) const { return PortedMemory::arrives(*port_, cycle); }
@@ -417,7 +423,7 @@ class ReadAccess<void> {
 template <>
 class WriteAccess<void> {
  public:
-  void write(Cycle cycle, std::uint64_t address, std::uint32_t count = 1) {
+  void write(Cycle cycle, std::uint64_t address, std::uint64_t count = 1) {
     memory_->issue_write(*port_, cycle, address, count);
   }
 

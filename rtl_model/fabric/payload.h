@@ -284,7 +284,7 @@ class PayloadBuilder {
       path_ = outer;
       return node;
     } else if constexpr (HasFields<M>) {
-      return structure(std::move(name), member);
+      return structure(name, member);
     } else {
       static_assert(std::is_integral_v<M> || std::is_enum_v<M>,
                     "a field is an integer, an enumeration, an array or has fields of its own");
@@ -292,7 +292,7 @@ class PayloadBuilder {
     }
   }
   template <class T>
-  PayloadNode structure(std::string name, const T& payload) {
+  PayloadNode structure(const std::string& name, const T& payload) {
     constexpr Measure kListed = measure<T>();
     if constexpr (std::is_aggregate_v<T>)
       static_assert(members<T>() == kListed.members, "the list leaves out a member");

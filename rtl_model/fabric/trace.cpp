@@ -150,7 +150,7 @@ void Trace::collect(Cycle cycle) {
     for (const Field& field : link.payload().fields()) {
       std::string flat = field.name;
       std::replace(flat.begin(), flat.end(), '.', '_');
-      signals_.push_back({name + "." + flat,
+      signals_.push_back({fmt::format("{}.{}", name, flat),
                           static_cast<int>(field.bits),
                           [&link, &field](Cycle) {
                             return link.empty() ? std::string("x")

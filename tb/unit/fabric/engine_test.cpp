@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What every engine has: ranges, registers, the clear command, lists for reports, a latency probe.
+#include "rtl_model/fabric/engine.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,7 +9,6 @@
 #include <deque>
 #include <string>
 
-#include "rtl_model/fabric/engine.h"
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/latency_probe.h"
 #include "tb/harness/register_host.h"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Payloads by field: widths, values, faults, texts, poison and types.
+#include "rtl_model/fabric/payload.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +11,6 @@
 
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/memory_port.h"
-#include "rtl_model/fabric/payload.h"
 #include "tb/unit/fabric/support.h"
 
 namespace deburr::tb {

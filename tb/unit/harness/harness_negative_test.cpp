@@ -80,13 +80,14 @@ TEST(Negative, FlippedBitIsSeenByTheScoreboard) {
   EXPECT_THAT(text, AllOf(HasSubstr("1 mismatches in 300"), HasSubstr("item 50")));
 }
 // Bit 35 is bit 3 of the second field.
-TEST(Negative, AFaultIsPlantedByFieldOrByNumber) {
-  for (const char* bit : {"35", "value.3"}) {
-    const std::string text =
-        text_of([&] { run({std::string("flip:link_3:50:") + bit}, false); }, ExitCode::kMismatch);
-    EXPECT_THAT(text, HasSubstr("(expected/got: value=50010/50018)")) << bit;
-  }
+class FlippedBit : public testing::TestWithParam<const char*> {};
+TEST_P(FlippedBit, IsNamedByFieldOrByNumber) {
+  const std::string text = text_of(
+      [&] { run({std::string("flip:link_3:50:") + GetParam()}, false); }, ExitCode::kMismatch);
+  EXPECT_THAT(text, HasSubstr("(expected/got: value=50010/50018)"));
 }
+INSTANTIATE_TEST_SUITE_P(Negative, FlippedBit, testing::Values("35", "value.3"));
+
 TEST(Negative, FlippedBitIsSeenByTheLinkChecker) {
   const std::string text = text_of([] { run({"flip:link_3:50:35"}, true); }, ExitCode::kSimulation);
   EXPECT_THAT(text,

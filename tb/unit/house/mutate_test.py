@@ -3,6 +3,7 @@
 """scripts/mutate on a tree of one file: what the test looks at is killed, what it does not look at
 survives, and the tree itself stays as it was. usage: mutate_test.py SOURCE [unittest options]"""
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -68,13 +69,38 @@ class Mutate(unittest.TestCase):
                           ["rtl_model/tiny/tiny.h", "--work", self.root / "copy"]):
             self.assertEqual(self.mutate(*arguments).returncode, 2, arguments)
 
-    def test_the_operators(self):
+    @staticmethod
+    def module():
         import importlib.machinery
         import importlib.util
         loader = importlib.machinery.SourceFileLoader("mutate", str(SOURCE / "scripts/mutate"))
         module = importlib.util.module_from_spec(importlib.util.spec_from_loader("mutate", loader))
         sys.dont_write_bytecode = True
         loader.exec_module(module)
+        return module
+
+    def test_each_block_has_its_tests(self):
+        module = self.module()
+        programs = {"_".join(path.relative_to(SOURCE / "tb/unit").with_suffix("").parts)
+                    for path in (SOURCE / "tb/unit").rglob("*_test.cpp")}
+
+        def found(file):
+            return {name for name in programs
+                    if re.fullmatch(module.tests_of(pathlib.PurePath(file)), name)}
+
+        self.assertIn("fabric_link_test", found("rtl_model/fabric/link.h"))
+        for file, start in (("rtl_model/texture/log2_unit.cpp", ("rtl_texture_",)),
+                            ("rtl_model/morphological/runs/line_unit.h", ("rtl_morphological_",)),
+                            ("golden/texture/filter.h",
+                             ("golden_texture_", "rtl_texture_equivalence_")),
+                            ("golden/morphological/line.cpp", ("golden_morphological_",)),
+                            ("golden/ideal/ewa.cpp", ("golden_texture_ideal_",))):
+            self.assertEqual(found(file), {name for name in programs if name.startswith(start)},
+                             file)
+            self.assertTrue(found(file))
+
+    def test_the_operators(self):
+        module = self.module()
 
         def texts(source):
             return [source[:m.begin] + m.text + source[m.end:] for m in module.mutants_of(source)]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The whole morphological engine: sizes, symmetry, reset, registers, memory, accounts, bad
-// parameters, and faults that the checks must catch.
+// The whole morphological engine: sizes, symmetry, accounts, waves, bad parameters, and faults that
+// the checks must catch.
 #include <fstream>
 #include <sstream>
 
@@ -11,8 +11,6 @@ namespace {
 
 namespace reg = spec::morphological::reg;
 using spec::morphological::Preset;
-
-Parameters deburr() { return preset(Preset::kDeburr); }
 
 // ---- sizes --------------------------------------------------------------------------------------
 
@@ -179,242 +177,32 @@ TEST(Symmetry, InvertedCodesGiveInvertedOutput) {
     ASSERT_EQ(inverted.pixel[i], inverse(out.pixel[i])) << i;
 }
 
-// ---- reset --------------------------------------------------------------------------------------
-
-class ResetAt : public ::testing::TestWithParam<int> {};
-
-TEST_P(ResetAt, AnyClockLeavesNothingBehind) {
-  Parameters p = preset(Preset::kMlaaSlope);
-  p.storage = GetParam() % 2 ? spec::morphological::Storage::kMemory
-                             : spec::morphological::Storage::kLineBuffers;
-  EngineBench::Options options;
-  options.memory_latency = 90;
-  EngineBench bench(p, options);
-  bench.engine.set_frame_size(97, 61);
-  bool first = true;
-  const auto dense = beats_of(noise(), 1), wanted = beats_of(line(), 1);
-  bench.driver.send([&](std::uint64_t i, spec::morphological::PixelBeat& beat) {
-    const auto& beats = first ? dense : wanted;
-    if (i >= beats.size()) return false;
-    beat = beats[i];
-    return true;
+// Records carry fifteen bits of their slot's number: two rows of 8192 beats, exactly.
+TEST(SlotNumbers, WrapInTheWidestRows) {
+  constexpr int kWidth = spec::morphological::kMaxFrameSize, kPart = 90, kHeight = 12;
+  Parameters p = preset(Preset::kDeburr, 9);
+  p.steps = 7;
+  p.line_pixels = kWidth;
+  EngineBench bench(p);
+  const Frame pattern = noise(kPart, kHeight);
+  // The same pixels at both ends of a row, so that records are found in its first and last slots.
+  const Frame in = draw(kWidth, kHeight, [&](int x, int y) {
+    return x < kPart             ? pattern.at(x, y)
+           : x >= kWidth - kPart ? pattern.at(x - (kWidth - kPart), y)
+                                 : grey(0);
   });
-  bench.clock.run(static_cast<Cycle>(GetParam()));
-  EXPECT_FALSE(bench.engine.idle());
-  bench.clock.set_reset_n(false);
-  first = false;
-  bench.clock.run(2);
-  bench.clock.set_reset_n(true);
-  EXPECT_EQ(bench.bus.read(reg::kSize), 0u);
-  EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle);
-  EXPECT_EQ(bench.engine.work(), spec::morphological::Work{});
-  bench.engine.set_frame_size(200, 150);
-  bench.bench->run([&] { return bench.sink.received() == 200 * 150 && bench.engine.idle(); },
-                   1'000'000);
-  EXPECT_EQ(hash(bench.last(200, 150)), 0x75ccf871d174feafu);
-  EXPECT_EQ(bench.engine.work().probes, 2560u);
-}
-INSTANTIATE_TEST_SUITE_P(Clocks, ResetAt,
-                         ::testing::Values(5, 100, 3301, 3402, 3777, 4500, 5002, 6001, 7500, 9300));
-
-// ---- registers ----------------------------------------------------------------------------------
-
-TEST(Registers, ResetValuesAreTheParameters) {
-  Parameters p = deburr();
-  p.alpha = 1234;
-  EngineBench bench(p);
-  EXPECT_EQ(bench.bus.read(reg::kId), reg::kIdValue);
-  EXPECT_EQ(bench.bus.read(reg::kControl), reg::kControlEnable);
-  // luma, fixed, max, symmetric, fit, 8 steps, contiguous, safe, linear light, trim
-  EXPECT_EQ(bench.bus.read(reg::kRules),
-            1u << 3 | 2u << 4 | 2u << 6 | 8u << 8 | 1u << 13 | 1u << 14 | 1u << 15 | 1u << 16);
-  EXPECT_EQ(bench.bus.read(reg::kThreshold), 1966u);
-  EXPECT_EQ(bench.bus.read(reg::kAlpha), 1234u);
-  EXPECT_EQ(bench.bus.read(reg::kFloor), 514u);
-  EXPECT_EQ(bench.bus.read(reg::kDepthThreshold), 3277u);
-  EXPECT_EQ(bench.bus.read(reg::kSize), 0u);
-  bench.bus.write(reg::kPixelBase, 0x12345);
-  EXPECT_EQ(bench.bus.read(reg::kPixelBase), 0x12340u);
-  bench.bus.write(reg::kSize, 0xFFFFFFFF);
-  EXPECT_EQ(bench.bus.read(reg::kSize), 0x3FFF3FFFu);
-  EXPECT_EQ(bench.bus.write(reg::kPixels, 1), tlm::TLM_COMMAND_ERROR_RESPONSE);
-}
-
-TEST(Registers, RulesCountFromTheNextFrame) {
-  EngineBench bench(deburr());
-  EXPECT_EQ(hash(bench.run(blocks())), 0xe86c7f9318eacf5eu);
-  // Without trim the same trials, but every step is kept.
-  EXPECT_EQ(bench.bus.read(reg::kSteps), 660u);
-  bench.bus.write(reg::kRules, bench.bus.read(reg::kRules) & ~(1u << 16));
-  EXPECT_EQ(hash(bench.run(blocks())), 0x464376bac387fe0du);
-  EXPECT_EQ(bench.bus.read(reg::kSteps), 660u + 970u);
-  EXPECT_EQ(bench.bus.read(reg::kProbes), 2u * 5382u);
-  // mlaa: T = 0.1, no local contrast, no predictor.
-  bench.bus.write(reg::kRules, 1u << 15);
-  bench.bus.write(reg::kThreshold, 6554);
-  EXPECT_EQ(hash(bench.run(line())), 0x5d62265609239471u);
-  // mlaa-slope.
-  bench.bus.write(reg::kRules, 1u << 15 | 1u << 6 | 4u << 8);
-  EXPECT_EQ(hash(bench.run(noise())), 0x6c40266cf03f3513u);
-  // Codes that no choice has: luma, off, none.
-  bench.bus.write(reg::kRules, 1u << 15 | 3u | 3u << 4 | 3u << 6 | 31u << 8);
-  EXPECT_EQ(hash(bench.run(line())), 0x5d62265609239471u);
-}
-
-TEST(Registers, WritesWhileAFrameIsInsideAreIgnoredAndSaidSo) {
-  EngineBench bench(deburr());
-  bench.engine.set_frame_size(200, 150);
-  bench.driver.send(beats_of(line(), 1));
-  bench.clock.run(500);
-  EXPECT_EQ(bench.bus.read(reg::kStatus), 0u) << "not idle";
-  bench.bus.write(reg::kThreshold, 60000);
-  bench.bus.write(reg::kSize, 5);
-  EXPECT_EQ(bench.bus.read(reg::kThreshold), 1966u);
-  EXPECT_EQ(bench.bus.read(reg::kSize), 200u | 150u << 16);
-  EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusWrittenWhileBusy);
-  bench.bench->run([&] { return bench.sink.received() == 30000 && bench.engine.idle(); }, 100'000);
-  EXPECT_EQ(hash(bench.last(200, 150)), 0x736d3ffd8a940ba4u);
-  EXPECT_EQ(bench.bus.read(reg::kStatus),
-            reg::kStatusIdle | reg::kStatusFrameDone | reg::kStatusWrittenWhileBusy);
-  bench.bus.write(reg::kStatus, reg::kStatusFrameDone);
-  EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusWrittenWhileBusy);
-}
-
-TEST(Registers, CountersShowTheWorkAddUpAndAreCleared) {
-  EngineBench bench(preset(Preset::kMlaaSlope));
-  bench.run(noise());
-  const auto check = [&](std::uint32_t frames) {
-    EXPECT_EQ(bench.bus.read(reg::kPixels), frames * 97u * 61u);
-    EXPECT_EQ(bench.bus.read(reg::kHorizontalRuns) + bench.bus.read(reg::kVerticalRuns),
-              frames * 2958u);
-    EXPECT_EQ(bench.bus.read(reg::kLongRuns), 0u);
-    EXPECT_EQ(bench.bus.read(reg::kZRuns), frames * 1390u);
-    EXPECT_EQ(bench.bus.read(reg::kExtendedRuns), frames * 671u);
-    EXPECT_EQ(bench.bus.read(reg::kSteps), frames * 1062u);
-    EXPECT_EQ(bench.bus.read(reg::kProbes), frames * 9200u);
-    EXPECT_EQ(bench.bus.read(reg::kBlendedPixels), frames * 3175u + frames * 107u);
-    EXPECT_EQ(bench.bus.read(reg::kDivides), frames * 2958u);  // every run has a side
-  };
-  check(1);
-  EXPECT_EQ(bench.bus.read(reg::kFrameCycles), (61u + 37u) * 97u + 6u);
-  bench.run(noise());
-  check(2);
-  bench.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
-  EXPECT_EQ(bench.bus.read(reg::kControl), reg::kControlEnable);
-  check(0);
-  EXPECT_EQ(bench.engine.work(), spec::morphological::Work{});
-}
-
-TEST(Registers, ClearingEnableLetsTheFrameInsideFinish) {
-  EngineBench bench(deburr());
-  bench.engine.set_frame_size(97, 61);
-  bench.driver.send(beats_of(noise(), 1));
-  bench.driver.send(beats_of(noise(), 1));
-  bench.clock.run(300);
-  bench.bus.write(reg::kControl, 0);
-  bench.clock.run(40'000);
-  EXPECT_EQ(bench.sink.received(), 97u * 61u);
-  bench.bus.write(reg::kControl, reg::kControlEnable);
-  bench.clock.run(40'000);
-  EXPECT_EQ(bench.sink.received(), 2u * 97u * 61u);
-}
-
-struct BadSize {
-  std::uint32_t width, height;
-};
-void PrintTo(const BadSize& s, std::ostream* out) { *out << s.width << 'x' << s.height; }
-class BadSizes : public ::testing::TestWithParam<BadSize> {};
-TEST_P(BadSizes, TakeNoFrameAndSetTheFramingBit) {
-  EngineBench bench(deburr());
-  bench.bus.write(reg::kSize, GetParam().width | GetParam().height << 16);
-  bench.driver.send(beats_of(noise(10, 10), 1));
-  bench.clock.run(200);
-  EXPECT_EQ(bench.sink.received(), 0u);
-  EXPECT_EQ(bench.in.pops(), 0u);
-  EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusFraming);
-  // The right size heals it.
-  bench.engine.set_frame_size(10, 10);
-  bench.clock.run(3000);
-  EXPECT_EQ(bench.sink.received(), 100u);
-}
-INSTANTIATE_TEST_SUITE_P(Bad, BadSizes,
-                         ::testing::Values(BadSize{0, 0}, BadSize{0, 10}, BadSize{10, 0},
-                                           BadSize{257, 10}, BadSize{8193, 10}, BadSize{10, 8193}));
-
-TEST(Framing, SizeWinsAndDataGoOn) {
-  EngineBench bench(deburr());
-  bench.engine.set_frame_size(20, 10);
-  // Beats of a frame of 25 x 8: the same number. They are pixels of 20 x 10 now.
-  const Frame sent = noise(25, 8);
-  bench.driver.send(beats_of(sent, 1));
-  bench.bench->run([&] { return bench.sink.received() == 200 && bench.engine.idle(); }, 10'000);
-  EXPECT_TRUE(bench.sink.beats()[19].end_of_row);
-  EXPECT_EQ(bench.bus.read(reg::kStatus) & reg::kStatusFraming, reg::kStatusFraming);
-  EXPECT_EQ(bench.engine.sequencer.framing_errors.value(), 8u + 10u - 2u * 2u);
-  const Frame out = bench.last(20, 10);
-  const spec::morphological::Work work = bench.engine.work();
-  EXPECT_GT(work.blended_pixels, 50u);
-  bench.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
-  bench.bus.write(reg::kStatus, reg::kStatusFraming);
-  Frame framed(20, 10);
-  framed.pixel = sent.pixel;
-  bench.driver.send(beats_of(framed, 1));
-  bench.bench->run([&] { return bench.sink.received() == 400 && bench.engine.idle(); }, 10'000);
-  EXPECT_EQ(bench.last(20, 10).pixel, out.pixel);
-  EXPECT_EQ(bench.engine.work(), work);
-  EXPECT_EQ(bench.bus.read(reg::kStatus) & reg::kStatusFraming, 0u);
-}
-
-// ---- memory -------------------------------------------------------------------------------------
-
-TEST(Memory, EachLineIsWrittenOnceAndReadOnceInOrder) {
-  Parameters p = preset(Preset::kMlaa);
-  p.storage = spec::morphological::Storage::kMemory;
-  EngineBench bench(p);
-  bench.bus.write(reg::kPixelBase, 0x4000);
-  const Frame frame = noise(97, 61);
-  bench.run(frame);
-  const std::uint64_t lines = 61 * 7;  // 97 pixels are 388 bytes, 7 lines
-  EXPECT_EQ(bench.memory->writes(), lines);
-  EXPECT_EQ(bench.memory->reads(), lines);
-  EXPECT_EQ(bench.engine.pixel_store.lines_written.value(), lines);
-  EXPECT_EQ(bench.engine.pixel_store.lines_read.value(), lines);
-  EXPECT_EQ(bench.engine.memory_port->bytes_written.value(), lines * 64);
-  ASSERT_EQ(bench.memory->lines_read().size(), lines);
-  for (std::uint64_t i = 0; i < lines; ++i)
-    ASSERT_EQ(bench.memory->lines_read()[i], 0x4000 + 64 * i);
-  const auto bytes = bench.memory->dump(0x4000, lines * 64);
-  for (int y = 0; y < 61; ++y)
-    for (int x = 0; x < 112; ++x)
-      for (std::size_t c = 0; c < 4; ++c)
-        ASSERT_EQ(bytes[static_cast<std::size_t>(y * 448 + 4 * x) + c],
-                  x < 97 ? frame.at(x, y)[c] : 0)
-            << x << ' ' << y;
-}
-
-TEST(Memory, AnErrorIsCountedAndTheLineReadsAsZeros) {
-  Parameters p = preset(Preset::kMlaa);
-  p.storage = spec::morphological::Storage::kMemory;
-  EngineBench bench(p);
-  bench.memory->fail_range(64 * 3, 64 * 4);  // written and read: two errors
-  const Frame out = bench.run(draw(64, 2, [](int, int) { return grey(200); }));
-  for (int x = 0; x < 64; ++x) EXPECT_EQ(out.at(x, 0)[0], x < 48 ? 200 : 0) << x;
-  EXPECT_EQ(out.at(50, 0)[3], 0);
-  EXPECT_EQ(bench.bus.read(reg::kMemoryErrors), 2u);
-  EXPECT_EQ(bench.bus.read(reg::kStatus),
-            reg::kStatusIdle | reg::kStatusFrameDone | reg::kStatusMemoryError);
-}
-
-TEST(Memory, OutstandingIsKept) {
-  Parameters p = preset(Preset::kMlaa);
-  p.storage = spec::morphological::Storage::kMemory;
-  p.lanes = spec::morphological::Lanes::kFour;
-  p.memory_outstanding = 3;
-  EngineBench::Options options;
-  options.memory_latency = 200;
-  EngineBench bench(p, options);
-  bench.run(noise());
-  EXPECT_EQ(bench.memory->most_outstanding(), 6u);
+  const Frame out = bench.run(in);
+  EXPECT_EQ(bench.engine.area.records.value(), bench.engine.extractor.records_sent.value());
+  EXPECT_GT(bench.engine.area.records.value(), 400u);
+  EXPECT_EQ(bench.engine.extractor.record_stalls.value(), 0u);
+  int blended = 0;
+  // Extensions reach seven steps of at most a few pixels; the middle of the part sees no border.
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 40; x < 50; ++x) {
+      ASSERT_EQ(out.at(x, y), out.at(x + kWidth - kPart, y)) << x << ' ' << y;
+      blended += out.at(x, y) != in.at(x, y);
+    }
+  EXPECT_GT(blended, 20);
 }
 
 // ---- accounts, waves, memories ------------------------------------------------------------------
@@ -454,6 +242,24 @@ TEST(Accounts, MemoriesAreThoseOfTheContract) {
   EXPECT_EQ(bits["column_records"], 209'280u);
   EXPECT_EQ(bits["record_fifo_h0"], 256u * 59u);
   EXPECT_EQ(bench.engine.window.bits_at(960), 257'280u / 2);
+}
+
+// Every memory that there is, also where the model keeps something else.
+TEST(Memories, OfStorageInMemoryAreAllReported) {
+  Parameters p = in_memory();
+  p.line_pixels = 1920;
+  p.memory_outstanding = 32;
+  p.record_fifo = 256;
+  EngineBench bench(p);
+  std::map<std::string, std::uint64_t> bits;
+  for (const rtl::Storage* storage : bench.engine.memories())
+    bits[storage->basename()] = storage->bits();
+  EXPECT_EQ(bits["pixel_lines"], 184'320u);
+  EXPECT_EQ(bits["gather_line"], 512u);
+  EXPECT_EQ(bits["response_lines"], 32u * 512u);
+  EXPECT_EQ(bits["lines_in_flight"], 64u * 24u);
+  EXPECT_EQ(bits["record_fifo_h0"], 256u * 59u);
+  EXPECT_EQ(bits.count("edge_rows"), 0u);
 }
 
 TEST(Waves, ShowTheLinksOfTheEngine) {

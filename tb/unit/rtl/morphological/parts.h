@@ -74,12 +74,57 @@ class Gate final : public rtl::Unit {
   Cycle opens_;
 };
 
+// source -> block -> sink, with the clock of each beat.
+template <class From, class To>
+struct Ends {
+  explicit Ends(ClockDomain& clock, const std::string& name = "")
+      : in((name + "in").c_str()),
+        out((name + "out").c_str()),
+        source((name + "source").c_str(), clock),
+        sink((name + "sink").c_str(), clock) {
+    source.beats_out(in);
+    sink.beats_in(out);
+  }
+  Link<From> in;
+  Link<To> out;
+  Driver<From> source;
+  Sink<To> sink;
+};
+
 // Clocks that a unit lost to a cause.
 inline std::uint64_t stalls(const rtl::Unit& unit, std::string_view cause) {
   for (const rtl::Unit::StallCause& stall : unit.stalls())
     if (stall.name == cause) return stall.cycles;
   ADD_FAILURE() << unit.name() << " knows no cause " << cause;
   return 0;
+}
+
+// An engine small enough for single blocks: four rows of reach, no predictor.
+inline constexpr int kReach = 4, kLag = kReach + spec::morphological::kRowLag;
+
+inline Parameters small(int lanes_code = 0) {
+  Parameters p = preset(spec::morphological::Preset::kMlaa, kReach, 8);
+  p.lanes = static_cast<spec::morphological::Lanes>(lanes_code);
+  p.line_pixels = 64;
+  return p;
+}
+
+inline Parameters deburr_without_trim() {
+  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  p.trim = false;
+  return p;
+}
+inline constexpr std::uint32_t kTrimBit = 1u << 16;  // of RULES
+
+inline rtl::morphological::RunToken run_of(int length, int start, std::uint32_t slot = 0) {
+  rtl::morphological::RunToken token{};
+  token.run = {
+      spec::morphological::Axis::kHorizontal, spec::morphological::RunPart::kWhole, 12,
+      static_cast<std::uint16_t>(start),      static_cast<std::uint16_t>(length),   1 + 4 * 2};
+  token.slot = slot;
+  token.start_code = 1;
+  token.end_code = 2;
+  return token;
 }
 
 }  // namespace deburr::tb::morphological_rtl

@@ -10,6 +10,9 @@
 namespace deburr::tb::morphological_rtl {
 namespace {
 
+namespace reg = spec::morphological::reg;
+using spec::morphological::Preset;
+
 struct Variant {
   int lanes_code;
   spec::morphological::Storage storage;
@@ -146,6 +149,43 @@ INSTANTIATE_TEST_SUITE_P(
                       Variant{2, spec::morphological::Storage::kMemory, 5, 9, 21},
                       Variant{2, spec::morphological::Storage::kMemory, 5, 9, 22},
                       Variant{2, spec::morphological::Storage::kMemory, 5, 9, 23}));
+
+// Frames of ordinary size, with a reset in mid-run.
+class ResetAt : public ::testing::TestWithParam<int> {};
+
+TEST_P(ResetAt, AnyClockLeavesNothingBehind) {
+  Parameters p = preset(Preset::kMlaaSlope);
+  p.storage = GetParam() % 2 ? spec::morphological::Storage::kMemory
+                             : spec::morphological::Storage::kLineBuffers;
+  EngineBench::Options options;
+  options.memory_latency = 90;
+  EngineBench bench(p, options);
+  bench.engine.set_frame_size(97, 61);
+  bool first = true;
+  const auto dense = beats_of(noise(), 1), wanted = beats_of(line(), 1);
+  bench.driver.send([&](std::uint64_t i, spec::morphological::PixelBeat& beat) {
+    const auto& beats = first ? dense : wanted;
+    if (i >= beats.size()) return false;
+    beat = beats[i];
+    return true;
+  });
+  bench.clock.run(static_cast<Cycle>(GetParam()));
+  EXPECT_FALSE(bench.engine.idle());
+  bench.clock.set_reset_n(false);
+  first = false;
+  bench.clock.run(2);
+  bench.clock.set_reset_n(true);
+  EXPECT_EQ(bench.bus.read(reg::kSize), 0u);
+  EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle);
+  EXPECT_EQ(bench.engine.work(), spec::morphological::Work{});
+  bench.engine.set_frame_size(200, 150);
+  bench.bench->run([&] { return bench.sink.received() == 200 * 150 && bench.engine.idle(); },
+                   1'000'000);
+  EXPECT_EQ(hash(bench.last(200, 150)), 0x75ccf871d174feafu);
+  EXPECT_EQ(bench.engine.work().probes, 2560u);
+}
+INSTANTIATE_TEST_SUITE_P(Clocks, ResetAt,
+                         ::testing::Values(5, 100, 3301, 3402, 3777, 4500, 5002, 6001, 7500, 9300));
 
 }  // namespace
 }  // namespace deburr::tb::morphological_rtl

@@ -128,6 +128,13 @@ inline Parameters preset(spec::morphological::Preset which, int reach_rows = 32,
   return p;
 }
 
+inline Parameters deburr() { return preset(spec::morphological::Preset::kDeburr); }
+inline Parameters in_memory() {
+  Parameters p = preset(spec::morphological::Preset::kMlaa);
+  p.storage = spec::morphological::Storage::kMemory;
+  return p;
+}
+
 inline int lanes_of(const Parameters& p) {
   return spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
 }

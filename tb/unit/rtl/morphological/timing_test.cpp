@@ -5,11 +5,13 @@
 #include <unistd.h>
 
 #include "tb/harness/monitor.h"
-#include "tb/unit/rtl/morphological/support.h"
+#include "tb/unit/rtl/morphological/parts.h"
 
 namespace deburr::tb::morphological_rtl {
 namespace {
 
+using namespace rtl::morphological;  // NOLINT: a test of these
+using spec::morphological::Axis;
 using spec::morphological::Preset;
 
 // When beats were popped (the driver's push, a clock later if the pipe was ready) and pushed out.
@@ -333,6 +335,68 @@ TEST(MemoryTime, SlowMemoryStallsAndNothingIsLost) {
     if (cause.name == "memory") memory = cause.cycles;
   EXPECT_GT(memory, 1000u);
 }
+
+// ---- the way of a record ------------------------------------------------------------------------
+
+// record -> EndpointPredictor -> LineUnit -> AreaUnit -> finished.
+struct Path {
+  explicit Path(const Parameters& p)
+      : registers(p, 40, 30),
+        window("window", p, registers.store),
+        predictor("predictor", clock, p, registers.store, window, Axis::kHorizontal),
+        divider("divider", clock, p, registers.store, Axis::kHorizontal),
+        area("area", clock, p, registers.store) {
+    driver.beats_out(records);
+    predictor.records_in[0](records);
+    predictor.sums_out[0](sums);
+    divider.sums_in[0](sums);
+    divider.lines_out[0](lines);
+    area.lines_h_in[0](lines);
+    area.lines_v_in[0](no_lines);
+    slot_driver.beats_out(slots);
+    area.slots_in(slots);
+    area.shares_out(shares);
+    shares_gate.beats_in(shares);
+    area.finished_out(finished);
+    finished_gate.beats_in(finished);
+    clock.add(no_lines);
+  }
+  ClockDomain clock{"clock", period()};
+  Registers registers;
+  EdgeWindow window;
+  EndpointPredictor predictor;
+  LineUnit divider;
+  AreaUnit area;
+  Link<RunToken> records{"records"};
+  Link<SumsToken> sums{"sums"};
+  Link<LineToken> lines{"lines"}, no_lines{"no_lines"};
+  Link<AreaSlotToken> slots{"slots"};
+  Link<ShareToken> shares{"shares"};
+  Link<FinishToken> finished{"finished"};
+  TimedDriver<RunToken> driver{"driver", clock};
+  TimedDriver<AreaSlotToken> slot_driver{"slot_driver", clock};
+  Gate<ShareToken> shares_gate{"shares_gate", clock};
+  Gate<FinishToken> finished_gate{"finished_gate", clock};
+};
+
+class WayOfARecord : public ::testing::TestWithParam<int> {};
+
+// The extractor takes its finish divider.latency + 4 clocks after the predictor let it go; the
+// contract allows divider.latency + 8.
+TEST_P(WayOfARecord, TakesTheLatencyOfTheDividerAndFour) {
+  Parameters p = small();
+  p.divider_latency = GetParam();
+  Path bench(p);
+  bench.slot_driver.send(0, {});
+  // No trials: a record is let go in the clock of its pop, one behind the other.
+  constexpr Cycle kSent = 40, kLetGo = kSent + 1;
+  for (int i = 0; i < 3; ++i) bench.driver.send(kSent, run_of(3, 2));
+  bench.clock.run(kLetGo + 100);
+  ASSERT_EQ(bench.finished_gate.cycles.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(bench.finished_gate.cycles[i], kLetGo + i + static_cast<Cycle>(GetParam()) + 4);
+}
+INSTANTIATE_TEST_SUITE_P(Latencies, WayOfARecord, ::testing::Values(1, 24, 64));
 
 }  // namespace
 }  // namespace deburr::tb::morphological_rtl

@@ -176,6 +176,11 @@ inline MemoryModelParameters memory_parameters(std::uint32_t latency, std::uint3
   return p;
 }
 
+// The ticket of a fragment with a valid descriptor.
+inline rtl::texture::Ticket ticket(std::uint32_t tag = 0, std::uint8_t texture = 0) {
+  return {tag, 0, true, true, texture};
+}
+
 // A ParameterStore alone, with its bus, for the blocks that read descriptors.
 struct Store {
   explicit Store(ClockDomain& clock, const spec::texture::Parameters& parameters = {})

@@ -1,19 +1,203 @@
 // SPDX-License-Identifier: MIT
-// What each field of the morphological engine's registers does: as much as the parameter of the
-// same name, to the pixel. An engine that is told by its registers is compared with one that was
-// built like that; and each counter register shows its counter.
+// Registers of the morphological engine: reset values, when a write counts, and what each field
+// does: as much as the parameter of the same name, to the pixel. An engine that is told by its
+// registers is compared with one that was built like that; and each counter register shows its
+// counter.
+#include <array>
 #include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "tb/unit/rtl/morphological/support.h"
+#include "tb/unit/rtl/morphological/parts.h"
 
 namespace deburr::tb::morphological_rtl {
 namespace {
 
+using spec::morphological::Preset;
 namespace reg = spec::morphological::reg;
 using P = Parameters;
+
+TEST(ParameterStoreBlock, TrimIsABitOfRulesLatchedWithTheFrame) {
+  Registers on(preset(spec::morphological::Preset::kDeburr));
+  const std::uint32_t reset_value = on.bus.read(reg::kRules);
+  EXPECT_EQ(reset_value,
+            1u << 3 | 2u << 4 | 2u << 6 | 8u << 8 | 1u << 13 | 1u << 14 | 1u << 15 | kTrimBit);
+  on.frame(8, 8);
+  EXPECT_TRUE(on.store.rules().trim);
+  on.bus.write(reg::kRules, reset_value & ~kTrimBit);  // ignored: a frame is inside
+  EXPECT_EQ(on.bus.read(reg::kRules), reset_value);
+  on.store.leave();
+  on.bus.write(reg::kRules, reset_value & ~kTrimBit);
+  EXPECT_EQ(on.bus.read(reg::kRules), reset_value & ~kTrimBit);
+  EXPECT_TRUE(on.store.rules().trim) << "until the next frame begins";
+  ASSERT_TRUE(on.store.latch());
+  EXPECT_FALSE(on.store.rules().trim);
+  EXPECT_TRUE(on.store.rules().safe);
+  on.store.leave();
+  on.bus.write(reg::kRules, ~0u);
+  EXPECT_EQ(on.bus.read(reg::kRules), 0x1FFFFu) << "no bits beyond";
+  on.store.reset();
+  EXPECT_EQ(on.bus.read(reg::kRules), reset_value);
+}
+
+TEST(ParameterStoreBlock, ResetValueOfTrimIsTheParameter) {
+  Registers off(deburr_without_trim());
+  EXPECT_EQ(off.bus.read(reg::kRules) & kTrimBit, 0u);
+  off.frame(8, 8);
+  EXPECT_FALSE(off.store.rules().trim);
+}
+
+void debug_write(EngineBench& bench, std::uint32_t offset, std::uint32_t value) {
+  std::array<unsigned char, 4> data{};
+  for (unsigned i = 0; i < 4; ++i) data[i] = static_cast<unsigned char>(value >> (8 * i));
+  tlm::tlm_generic_payload payload;
+  payload.set_command(tlm::TLM_WRITE_COMMAND);
+  payload.set_address(offset);
+  payload.set_data_ptr(data.data());
+  payload.set_data_length(4);
+  payload.set_streaming_width(4);
+  ASSERT_EQ(bench.bus.socket->transport_dbg(payload), 4u);
+}
+
+// Bits that a register does not have stay 0 on this way as well.
+TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
+  EngineBench bench(in_memory());
+  debug_write(bench, reg::kPixelBase, 0x12345);
+  debug_write(bench, reg::kSize, 97u | 61u << 16 | 0xC000C000u);
+  debug_write(bench, reg::kThreshold, 0xABCD0000u | 6554u);
+  debug_write(bench, reg::kRules, 0xFFFE0000u | 1u << 15);
+  const Frame in = noise();
+  bench.driver.send(beats_of(in, 1));
+  bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },
+                   1'000'000);
+  EXPECT_EQ(bench.bus.read(reg::kPixelBase), 0x12340u);
+  EXPECT_EQ(bench.bus.read(reg::kSize), 97u | 61u << 16);
+  EXPECT_EQ(bench.bus.read(reg::kThreshold), 6554u);
+  EXPECT_EQ(bench.bus.read(reg::kRules), 1u << 15);
+  ASSERT_FALSE(bench.memory->lines_read().empty());
+  EXPECT_EQ(bench.memory->lines_read()[0], 0x12340u);
+  EXPECT_EQ(bench.bus.read(reg::kMemoryErrors), 0u);
+}
+
+// A rule that the engine was not built for counts as off.
+TEST(Contiguous, IsOffInAnEngineBuiltWithoutIt) {
+  namespace reg = spec::morphological::reg;
+  constexpr std::uint32_t kContiguous = 1u << 13;
+  Parameters built = deburr();
+  built.contiguous = false;
+  EngineBench bench(built);
+  const Frame without = bench.run(blocks());
+  const std::uint64_t steps = bench.engine.work().steps;
+  bench.bus.write(reg::kRules, bench.bus.read(reg::kRules) | kContiguous);
+  EXPECT_EQ(hash(bench.run(blocks())), hash(without));
+  EXPECT_EQ(bench.engine.work().steps, 2 * steps);
+  EXPECT_NE(hash(without), 0xe86c7f9318eacf5eu) << "the rule would have changed the frame";
+}
+
+// ---- the register map ---------------------------------------------------------------------------
+
+TEST(Registers, ResetValuesAreTheParameters) {
+  Parameters p = deburr();
+  p.alpha = 1234;
+  EngineBench bench(p);
+  EXPECT_EQ(bench.bus.read(reg::kId), reg::kIdValue);
+  EXPECT_EQ(bench.bus.read(reg::kControl), reg::kControlEnable);
+  // luma, fixed, max, symmetric, fit, 8 steps, contiguous, safe, linear light, trim
+  EXPECT_EQ(bench.bus.read(reg::kRules),
+            1u << 3 | 2u << 4 | 2u << 6 | 8u << 8 | 1u << 13 | 1u << 14 | 1u << 15 | 1u << 16);
+  EXPECT_EQ(bench.bus.read(reg::kThreshold), 1966u);
+  EXPECT_EQ(bench.bus.read(reg::kAlpha), 1234u);
+  EXPECT_EQ(bench.bus.read(reg::kFloor), 514u);
+  EXPECT_EQ(bench.bus.read(reg::kDepthThreshold), 3277u);
+  EXPECT_EQ(bench.bus.read(reg::kSize), 0u);
+  bench.bus.write(reg::kPixelBase, 0x12345);
+  EXPECT_EQ(bench.bus.read(reg::kPixelBase), 0x12340u);
+  bench.bus.write(reg::kSize, 0xFFFFFFFF);
+  EXPECT_EQ(bench.bus.read(reg::kSize), 0x3FFF3FFFu);
+  EXPECT_EQ(bench.bus.write(reg::kPixels, 1), tlm::TLM_COMMAND_ERROR_RESPONSE);
+}
+
+TEST(Registers, RulesCountFromTheNextFrame) {
+  EngineBench bench(deburr());
+  EXPECT_EQ(hash(bench.run(blocks())), 0xe86c7f9318eacf5eu);
+  // Without trim the same trials, but every step is kept.
+  EXPECT_EQ(bench.bus.read(reg::kSteps), 660u);
+  bench.bus.write(reg::kRules, bench.bus.read(reg::kRules) & ~(1u << 16));
+  EXPECT_EQ(hash(bench.run(blocks())), 0x464376bac387fe0du);
+  EXPECT_EQ(bench.bus.read(reg::kSteps), 660u + 970u);
+  EXPECT_EQ(bench.bus.read(reg::kProbes), 2u * 5382u);
+  // mlaa: T = 0.1, no local contrast, no predictor.
+  bench.bus.write(reg::kRules, 1u << 15);
+  bench.bus.write(reg::kThreshold, 6554);
+  EXPECT_EQ(hash(bench.run(line())), 0x5d62265609239471u);
+  // mlaa-slope.
+  bench.bus.write(reg::kRules, 1u << 15 | 1u << 6 | 4u << 8);
+  EXPECT_EQ(hash(bench.run(noise())), 0x6c40266cf03f3513u);
+  // Codes that no choice has: luma, off, none.
+  bench.bus.write(reg::kRules, 1u << 15 | 3u | 3u << 4 | 3u << 6 | 31u << 8);
+  EXPECT_EQ(hash(bench.run(line())), 0x5d62265609239471u);
+}
+
+TEST(Registers, WritesWhileAFrameIsInsideAreIgnoredAndSaidSo) {
+  EngineBench bench(deburr());
+  bench.engine.set_frame_size(200, 150);
+  bench.driver.send(beats_of(line(), 1));
+  bench.clock.run(500);
+  EXPECT_EQ(bench.bus.read(reg::kStatus), 0u) << "not idle";
+  bench.bus.write(reg::kThreshold, 60000);
+  bench.bus.write(reg::kSize, 5);
+  EXPECT_EQ(bench.bus.read(reg::kThreshold), 1966u);
+  EXPECT_EQ(bench.bus.read(reg::kSize), 200u | 150u << 16);
+  EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusWrittenWhileBusy);
+  bench.bench->run([&] { return bench.sink.received() == 30000 && bench.engine.idle(); }, 100'000);
+  EXPECT_EQ(hash(bench.last(200, 150)), 0x736d3ffd8a940ba4u);
+  EXPECT_EQ(bench.bus.read(reg::kStatus),
+            reg::kStatusIdle | reg::kStatusFrameDone | reg::kStatusWrittenWhileBusy);
+  bench.bus.write(reg::kStatus, reg::kStatusFrameDone);
+  EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusWrittenWhileBusy);
+}
+
+TEST(Registers, CountersShowTheWorkAddUpAndAreCleared) {
+  EngineBench bench(preset(Preset::kMlaaSlope));
+  bench.run(noise());
+  const auto check = [&](std::uint32_t frames) {
+    EXPECT_EQ(bench.bus.read(reg::kPixels), frames * 97u * 61u);
+    EXPECT_EQ(bench.bus.read(reg::kHorizontalRuns) + bench.bus.read(reg::kVerticalRuns),
+              frames * 2958u);
+    EXPECT_EQ(bench.bus.read(reg::kLongRuns), 0u);
+    EXPECT_EQ(bench.bus.read(reg::kZRuns), frames * 1390u);
+    EXPECT_EQ(bench.bus.read(reg::kExtendedRuns), frames * 671u);
+    EXPECT_EQ(bench.bus.read(reg::kSteps), frames * 1062u);
+    EXPECT_EQ(bench.bus.read(reg::kProbes), frames * 9200u);
+    EXPECT_EQ(bench.bus.read(reg::kBlendedPixels), frames * 3175u + frames * 107u);
+    EXPECT_EQ(bench.bus.read(reg::kDivides), frames * 2958u);  // every run has a side
+  };
+  check(1);
+  EXPECT_EQ(bench.bus.read(reg::kFrameCycles), (61u + 37u) * 97u + 6u);
+  bench.run(noise());
+  check(2);
+  bench.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
+  EXPECT_EQ(bench.bus.read(reg::kControl), reg::kControlEnable);
+  check(0);
+  EXPECT_EQ(bench.engine.work(), spec::morphological::Work{});
+}
+
+TEST(Registers, ClearingEnableLetsTheFrameInsideFinish) {
+  EngineBench bench(deburr());
+  bench.engine.set_frame_size(97, 61);
+  bench.driver.send(beats_of(noise(), 1));
+  bench.driver.send(beats_of(noise(), 1));
+  bench.clock.run(300);
+  bench.bus.write(reg::kControl, 0);
+  bench.clock.run(40'000);
+  EXPECT_EQ(bench.sink.received(), 97u * 61u);
+  bench.bus.write(reg::kControl, reg::kControlEnable);
+  bench.clock.run(40'000);
+  EXPECT_EQ(bench.sink.received(), 2u * 97u * 61u);
+}
+
+// ---- fields -------------------------------------------------------------------------------------
 
 // One engine of several on a clock.
 struct Engine {

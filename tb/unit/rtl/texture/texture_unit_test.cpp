@@ -2,11 +2,12 @@
 // The whole texture unit: total latency, throughput with a warm cache, recovery from stalls,
 // registers, errors, reset in mid-run. The texture's texels are their own coordinates, so that a
 // colour says where it was taken.
+#include "rtl_model/texture/texture_unit.h"
+
 #include <optional>
 #include <set>
 #include <string>
 
-#include "rtl_model/texture/texture_unit.h"
 #include "spec/error.h"
 #include "tb/unit/rtl/texture/support.h"
 
@@ -482,7 +483,8 @@ TEST(TextureRtlUnit, AccountsForItsMemories) {
     EXPECT_GT(storage->bits(), 0u);
   }
   EXPECT_EQ(data, 16384u * 8);
-  EXPECT_EQ(names.size(), 8u);  // four banks, tags, fill buffer, missed lines, latency FIFO
+  // Four banks, tags, fill buffer, missed lines, latency FIFO, responses of the memory port.
+  EXPECT_EQ(names.size(), 9u);
   const auto bits = [&](const std::string& name) -> std::uint64_t {
     for (const rtl::Storage* storage : b.unit.memories())
       if (storage->name() == "unit.cache." + name) return storage->bits();

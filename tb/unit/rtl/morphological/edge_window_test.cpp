@@ -139,18 +139,5 @@ INSTANTIATE_TEST_SUITE_P(Builds, BusiestClock,
                                            Build{0, 1, false}, Build{0, 4, true},
                                            Build{2, 1, false}));
 
-// A rule that the engine was not built for counts as off.
-TEST(Contiguous, IsOffInAnEngineBuiltWithoutIt) {
-  namespace reg = spec::morphological::reg;
-  constexpr std::uint32_t kContiguous = 1u << 13;
-  EngineBench bench(built(false));
-  const Frame without = bench.run(blocks());
-  const std::uint64_t steps = bench.engine.work().steps;
-  bench.bus.write(reg::kRules, bench.bus.read(reg::kRules) | kContiguous);
-  EXPECT_EQ(hash(bench.run(blocks())), hash(without));
-  EXPECT_EQ(bench.engine.work().steps, 2 * steps);
-  EXPECT_NE(hash(without), 0xe86c7f9318eacf5eu) << "the rule would have changed the frame";
-}
-
 }  // namespace
 }  // namespace deburr::tb::morphological_rtl

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The FilterPipeline alone. Expected colours are worked out by hand from docs/number_formats.md.
 #include "rtl_model/texture/filter_pipeline.h"
+
 #include "tb/unit/rtl/texture/support.h"
 
 namespace deburr::tb::texture_rtl {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where the morphological engine keeps its pixels: the PixelStore to the clock, on the chip and in
-// memory, the order of its lines, and what an error of memory does.
+// memory, the order and the addresses of its lines, and what an error of memory does.
 #include <cstdint>
 #include <vector>
 
@@ -12,8 +12,9 @@ namespace {
 using namespace rtl::morphological;  // NOLINT: a test of these
 using rtl::MemoryRequest;
 using rtl::MemoryResponse;
+using spec::morphological::Preset;
 
-constexpr int kReach = 4, kLag = kReach + spec::morphological::kRowLag;
+namespace reg = spec::morphological::reg;
 
 Frame colours(int width, int height) {
   return draw(width, height, [](int x, int y) -> Rgba8 {
@@ -393,6 +394,75 @@ INSTANTIATE_TEST_SUITE_P(
                       Failure{"write4", true, spec::morphological::Lanes::kFour},
                       Failure{"read4", false, spec::morphological::Lanes::kFour}),
     [](const auto& failure) { return failure.param.name; });
+
+// ---- the whole engine ---------------------------------------------------------------------------
+
+TEST(Addresses, WrapAt4GiB) {
+  EngineBench bench(in_memory());
+  bench.bus.write(reg::kPixelBase, 0xFFFFFFC0);
+  const Frame in = draw(16, 3, [](int x, int y) { return grey(10 * x + y); });
+  const Frame out = bench.run(in);
+  // The memory ends long before the first line, and holds the others at 0 and 0x40.
+  EXPECT_EQ(bench.bus.read(reg::kMemoryErrors), 2u);
+  const auto bytes = bench.memory->dump(0, 128);
+  for (int x = 0; x < 16; ++x) {
+    EXPECT_EQ(out.at(x, 0), Rgba8{});
+    for (int y = 1; y < 3; ++y) {
+      EXPECT_EQ(out.at(x, y), in.at(x, y));
+      EXPECT_EQ(bytes[static_cast<std::size_t>(64 * (y - 1) + 4 * x)], 10 * x + y);
+    }
+  }
+}
+
+TEST(Memory, EachLineIsWrittenOnceAndReadOnceInOrder) {
+  Parameters p = preset(Preset::kMlaa);
+  p.storage = spec::morphological::Storage::kMemory;
+  EngineBench bench(p);
+  bench.bus.write(reg::kPixelBase, 0x4000);
+  const Frame frame = noise(97, 61);
+  bench.run(frame);
+  const std::uint64_t lines = 61 * 7;  // 97 pixels are 388 bytes, 7 lines
+  EXPECT_EQ(bench.memory->writes(), lines);
+  EXPECT_EQ(bench.memory->reads(), lines);
+  EXPECT_EQ(bench.engine.pixel_store.lines_written.value(), lines);
+  EXPECT_EQ(bench.engine.pixel_store.lines_read.value(), lines);
+  EXPECT_EQ(bench.engine.memory_port->bytes_written.value(), lines * 64);
+  ASSERT_EQ(bench.memory->lines_read().size(), lines);
+  for (std::uint64_t i = 0; i < lines; ++i)
+    ASSERT_EQ(bench.memory->lines_read()[i], 0x4000 + 64 * i);
+  const auto bytes = bench.memory->dump(0x4000, lines * 64);
+  for (int y = 0; y < 61; ++y)
+    for (int x = 0; x < 112; ++x)
+      for (std::size_t c = 0; c < 4; ++c)
+        ASSERT_EQ(bytes[static_cast<std::size_t>(y * 448 + 4 * x) + c],
+                  x < 97 ? frame.at(x, y)[c] : 0)
+            << x << ' ' << y;
+}
+
+TEST(Memory, AnErrorIsCountedAndTheLineReadsAsZeros) {
+  Parameters p = preset(Preset::kMlaa);
+  p.storage = spec::morphological::Storage::kMemory;
+  EngineBench bench(p);
+  bench.memory->fail_range(64 * 3, 64 * 4);  // written and read: two errors
+  const Frame out = bench.run(draw(64, 2, [](int, int) { return grey(200); }));
+  for (int x = 0; x < 64; ++x) EXPECT_EQ(out.at(x, 0)[0], x < 48 ? 200 : 0) << x;
+  EXPECT_EQ(out.at(50, 0)[3], 0);
+  EXPECT_EQ(bench.bus.read(reg::kMemoryErrors), 2u);
+  EXPECT_EQ(bench.bus.read(reg::kStatus),
+            reg::kStatusIdle | reg::kStatusFrameDone | reg::kStatusMemoryError);
+}
+
+TEST(Memory, OutstandingIsKept) {
+  Parameters p = preset(Preset::kMlaa);
+  p.storage = spec::morphological::Storage::kMemory;
+  p.lanes = spec::morphological::Lanes::kFour;
+  p.memory_outstanding = 3;
+  EngineBench::Options options;
+  options.memory_latency = 200;
+  EngineBench bench(p, options);
+  bench.run(noise());
+  EXPECT_EQ(bench.memory->most_outstanding(), 6u);
+}
 
 }  // namespace
 }  // namespace deburr::tb::morphological_rtl

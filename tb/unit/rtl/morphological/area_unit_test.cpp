@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// AreaUnit: latency and interval, where the shares of a record lie, when it is finished, and what
+// it waits for.
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tb/unit/rtl/morphological/parts.h"
+
+namespace deburr::tb::morphological_rtl {
+namespace {
+
+using namespace rtl::morphological;  // NOLINT: a test of these
+using spec::morphological::Axis;
+using spec::morphological::RunPart;
+using spec::morphological::Side;
+
+// slots, lines -> AreaUnit -> shares, finished records.
+struct Area {
+  Area(const Parameters& p, int width_, int height_, Cycle shares_open = 0, Cycle finished_open = 0)
+      : width(width_),
+        height(height_),
+        lanes(lanes_of(p)),
+        beats((width_ + lanes - 1) / lanes),
+        registers(p, width_, height_),
+        unit("area", clock, p, registers.store),
+        lines_h("lines_h", lanes),
+        lines_v("lines_v", lanes),
+        shares_gate("shares_gate", clock, shares_open),
+        finished_gate("finished_gate", clock, finished_open) {
+    slot_driver.beats_out(slots);
+    unit.slots_in(slots);
+    unit.lines_h_in.bind(lines_h);
+    unit.lines_v_in.bind(lines_v);
+    const auto add = [&](const char* name, LaneLinks<LineToken>& lines, auto& drivers) {
+      for (Link<LineToken>& link : lines.lane) {
+        drivers.push_back(
+            std::make_unique<TimedDriver<LineToken>>(sc_core::sc_gen_unique_name(name), clock));
+        drivers.back()->beats_out(link);
+      }
+    };
+    add("driver_h", lines_h, drivers_h);
+    add("driver_v", lines_v, drivers_v);
+    unit.shares_out(shares);
+    shares_gate.beats_in(shares);
+    unit.finished_out(finished);
+    finished_gate.beats_in(finished);
+  }
+  // Slot k at clock `at` + k.
+  void send_slots(Cycle at) {
+    std::uint32_t number = 0;
+    for (int row = 0; row < height + kLag; ++row)
+      for (int beat = 0; beat < beats; ++beat) {
+        AreaSlotToken token{};
+        token.slot = {number, static_cast<std::uint16_t>(row), static_cast<std::uint16_t>(beat)};
+        token.left = static_cast<std::uint8_t>(number & 1);
+        slot_driver.send(at + number++, token);
+      }
+  }
+  std::uint32_t slots_before(int row) const { return static_cast<std::uint32_t>(row * beats); }
+
+  const int width, height, lanes, beats;
+  ClockDomain clock{"clock", period()};
+  Registers registers;
+  AreaUnit unit;
+  Link<AreaSlotToken> slots{"slots"};
+  LaneLinks<LineToken> lines_h, lines_v;
+  Link<ShareToken> shares{"shares"};
+  Link<FinishToken> finished{"finished"};
+  TimedDriver<AreaSlotToken> slot_driver{"slot_driver", clock};
+  std::vector<std::unique_ptr<TimedDriver<LineToken>>> drivers_h, drivers_v;
+  Gate<ShareToken> shares_gate;
+  Gate<FinishToken> finished_gate;
+};
+
+// The run of three of the contract's table, its first part on the first side.
+LineToken three(Axis axis, int line, int start, std::uint32_t slot) {
+  LineToken token{};
+  token.line.run = {
+      axis, RunPart::kWhole, static_cast<std::uint16_t>(line), static_cast<std::uint16_t>(start), 3,
+      9};
+  token.line.before = Side::kFirst;
+  token.line.after = Side::kSecond;
+  token.line.scale = 2;
+  token.line.offset = 3;
+  token.line.slope = 2796203;
+  token.line.inverse = 12288;
+  token.line.span = 3;
+  token.slot = slot;
+  return token;
+}
+
+class AreaLanes : public ::testing::TestWithParam<int> {};
+
+// A slot a clock goes in; of each that blends, shares come out a clock later.
+TEST_P(AreaLanes, LatencyAndIntervalAreOne) {
+  Area bench(small(GetParam()), 11, 7);
+  bench.send_slots(0);
+  const std::uint32_t first = bench.slots_before(kLag), last = bench.slots_before(kLag + 7);
+  bench.clock.run(last + 10);
+  ASSERT_EQ(bench.shares_gate.beats.size(), last - first);
+  for (std::uint32_t i = 0; i < last - first; ++i) {
+    // Sent in k, popped in k + 1, taken in k + 2.
+    ASSERT_EQ(bench.shares_gate.cycles[i], first + i + 2);
+    ASSERT_EQ(bench.shares_gate.beats[i].slot.number, first + i);
+    ASSERT_EQ(bench.shares_gate.beats[i].left, (first + i) & 1);
+    ASSERT_FALSE(bench.shares_gate.beats[i].any);
+  }
+  EXPECT_EQ(bench.unit.busy_cycles(), last);
+  EXPECT_EQ(bench.unit.stalled_cycles(), 0u);
+}
+
+// A record of each axis, and one in the corner of the frame: 85, 11 | 11, 85, at its pixels and
+// nowhere else.
+TEST_P(AreaLanes, SharesLieWhereTheRecordLies) {
+  Area bench(small(GetParam()), 11, 9);
+  bench.send_slots(0);
+  const int lanes = bench.lanes;
+  // Found in slot row line + R + 2.
+  bench.drivers_h[0]->send(
+      0, three(Axis::kHorizontal, 3, 3,
+               bench.slots_before(3 + kReach + 2) + static_cast<std::uint32_t>(6 / lanes)));
+  bench.drivers_v[0]->send(
+      0, three(Axis::kVertical, 10, 0,
+               bench.slots_before(kReach + 2) + static_cast<std::uint32_t>(10 / lanes)));
+  bench.drivers_v[0]->send(
+      0, three(Axis::kVertical, 8, 5,
+               bench.slots_before(5 + kReach + 2) + static_cast<std::uint32_t>(8 / lanes)));
+  bench.clock.run(bench.slots_before(9 + kLag) + 10);
+  std::map<std::string, int> found;
+  for (const ShareToken& token : bench.shares_gate.beats) {
+    if (!token.any) continue;
+    for (int i = 0; i < lanes; ++i) {
+      const int x = token.slot.beat * lanes + i, y = token.slot.row - kLag;
+      if (x >= 11) continue;
+      const Shares& s = token.shares[static_cast<std::size_t>(i)];
+      const auto note = [&](const char* from, int share, int span) {
+        if (share == 0) return;
+        found[std::to_string(x) + ',' + std::to_string(y) + ' ' + from] = share;
+        EXPECT_EQ(span, 3);
+      };
+      note("up", s.up, s.span_up);
+      note("down", s.down, s.span_down);
+      note("left", s.left, s.span_left);
+      note("right", s.right, s.span_right);
+    }
+  }
+  // The first pixel of an edge lies above it or left of it, and takes from below or from the right.
+  const std::map<std::string, int> expected = {
+      {"3,2 down", 85},  {"4,2 down", 11},  {"4,3 up", 11},    {"5,3 up", 85},
+      {"7,5 right", 85}, {"7,6 right", 11}, {"8,6 left", 11},  {"8,7 left", 85},
+      {"9,0 right", 85}, {"9,1 right", 11}, {"10,1 left", 11}, {"10,2 left", 85}};
+  EXPECT_EQ(found, expected);
+  EXPECT_EQ(bench.unit.horizontal_edges.value(), 3u);
+  EXPECT_EQ(bench.unit.vertical_edges.value(), 6u);
+}
+
+// A line is stored, and its record finished, in the clock of its pop, yet not before its slot has
+// passed; one a lane, of both axes at once; counted by the parity of the slot row.
+TEST_P(AreaLanes, ARecordIsFinishedInTheClockOfItsPopBehindItsSlot) {
+  Area bench(small(GetParam()), 11, 7);
+  bench.send_slots(0);
+  const std::uint32_t even = bench.slots_before(6) + 1, odd = bench.slots_before(7);
+  for (int lane = 0; lane < bench.lanes; ++lane) {
+    const auto at = static_cast<std::size_t>(lane);
+    // Long before the slot; and after it, yet not later than the row behind it: the interlock.
+    bench.drivers_h[at]->send(2, three(Axis::kHorizontal, 0, 2 * lane, even));
+    bench.drivers_v[at]->send(2, three(Axis::kVertical, lane + 1, 0, even));
+    bench.drivers_h[at]->send(odd + 3, three(Axis::kHorizontal, 1, 2 * lane, odd));
+  }
+  bench.clock.run(odd + 40);
+  const auto& done = bench.finished_gate;
+  ASSERT_EQ(done.beats.size(), 2u);
+  // Slot k is popped in k + 1; the token taken a clock later.
+  EXPECT_EQ(done.cycles[0], even + 2);
+  EXPECT_EQ(done.beats[0].count[0], 2 * bench.lanes);
+  EXPECT_EQ(done.beats[0].count[1], 0);
+  // Sent in odd + 3, popped in odd + 4, taken in odd + 5.
+  EXPECT_EQ(done.cycles[1], odd + 5);
+  EXPECT_EQ(done.beats[1].count[0], 0);
+  EXPECT_EQ(done.beats[1].count[1], bench.lanes);
+  EXPECT_EQ(bench.unit.records.value(), static_cast<std::uint64_t>(3 * bench.lanes));
+}
+INSTANTIATE_TEST_SUITE_P(Each, AreaLanes, ::testing::Values(0, 1, 2));
+
+TEST(AreaUnitBlock, WaitsDownstreamWithItsSlotsAlone) {
+  Area bench(small(), 5, 3, 200);
+  bench.send_slots(0);
+  const std::uint32_t first = bench.slots_before(kLag);
+  // Shares that nobody takes do not hold up a record.
+  bench.drivers_h[0]->send(150, three(Axis::kHorizontal, 0, 0, 1));
+  bench.clock.run(260);
+  // Two fit into the link, sent in first + 1 and first + 2; the third goes in 201. In between, a
+  // clock is busy with the record.
+  EXPECT_EQ(stalls(bench.unit, "downstream"), 201u - (first + 3) - 1);
+  ASSERT_EQ(bench.finished_gate.cycles.size(), 1u);
+  EXPECT_EQ(bench.finished_gate.cycles[0], 152u);
+  ASSERT_EQ(bench.shares_gate.beats.size(), 15u);
+  for (std::uint32_t i = 0; i < 15; ++i) {
+    EXPECT_EQ(bench.shares_gate.beats[i].slot.number, first + i);
+    EXPECT_EQ(bench.shares_gate.cycles[i], 200 + i);
+  }
+}
+
+TEST(AreaUnitBlock, LinesWaitForRoomForTheirFinish) {
+  Area bench(small(), 5, 3, 0, 100);
+  bench.send_slots(0);
+  for (int i = 0; i < 4; ++i) bench.drivers_v[0]->send(40, three(Axis::kVertical, i + 1, 0, 3));
+  bench.clock.run(130);
+  ASSERT_EQ(bench.finished_gate.cycles.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(bench.finished_gate.cycles[i], 100 + i);
+  EXPECT_EQ(bench.unit.records.value(), 4u);
+}
+
+}  // namespace
+}  // namespace deburr::tb::morphological_rtl

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Blender: the choice of the axis, rounding, and linear light, by hand from the contract.
+#include <vector>
+
+#include "tb/unit/rtl/morphological/parts.h"
+
+namespace deburr::tb::morphological_rtl {
+namespace {
+
+using namespace rtl::morphological;  // NOLINT: a test of these
+
+struct Blending {
+  explicit Blending(const Parameters& p) : store(p), blender("blender", clock, store.store, probe) {
+    store.frame(8, 8);
+    shares_source.beats_out(shares);
+    pixel_source.beats_out(pixels);
+    blender.shares_in(shares);
+    blender.pixels_in(pixels);
+    blender.pixels_out(out);
+    blender.frames_done_out(done);
+    sink.beats_in(out);
+    done_sink.beats_in(done);
+  }
+  // A pixel of row 2, column 3, between four neighbours.
+  void send(const Shares& s, int centre, int up, int down, int left, int right) {
+    ShareToken token{};
+    token.slot.row = static_cast<std::uint16_t>(2 + 32 + 5);
+    token.slot.beat = 3;
+    token.any = true;
+    token.shares[0] = s;
+    token.left = 1;
+    PixelToken around{};
+    around.centre[0] = grey(centre);
+    around.centre[0][3] = 77;
+    around.above[0] = grey(up);
+    around.below[0] = grey(down);
+    around.before = grey(left);
+    around.after = grey(right);
+    probe.enters(clock.cycle());
+    shares_source.send(token);
+    pixel_source.send(around);
+  }
+  ClockDomain clock{"clock", period()};
+  Registers store;
+  LatencyProbe probe;
+  Link<ShareToken> shares{"shares"};
+  Link<PixelToken> pixels{"pixels"};
+  Link<spec::morphological::BlendedBeat> out{"out"};
+  Link<FrameDoneToken> done{"done"};
+  Driver<ShareToken> shares_source{"shares_source", clock};
+  Driver<PixelToken> pixel_source{"pixel_source", clock};
+  Blender blender;
+  Sink<spec::morphological::BlendedBeat> sink{"sink", clock};
+  Sink<FrameDoneToken> done_sink{"done_sink", clock};
+};
+
+TEST(BlenderBlock, ChoosesTheAxisAndRoundsTheMagnitude) {
+  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  p.linear_light = false;
+  Blending bench(p);
+  struct Row {
+    Shares s;
+    bool horizontal;
+    int first, second, result;
+  };
+  // centre 100, up 0, down 200, left 50, right 255
+  const std::vector<Row> rows = {
+      {{0, 0, 0, 0, 9, 9, 9, 9}, false, 0, 0, 100},
+      {{32, 0, 0, 0, 3, 0, 0, 0}, false, 32, 0, 87},    // -3200 / 256 = -12.5: magnitude 13
+      {{0, 32, 0, 0, 0, 3, 0, 0}, false, 0, 32, 113},   // +12.5: 13
+      {{0, 0, 64, 0, 0, 0, 3, 0}, true, 64, 0, 87},     // -12.5
+      {{0, 0, 0, 64, 0, 0, 0, 3}, true, 0, 64, 139},    // 64 x 155 / 256 = 38.75: 39
+      {{10, 0, 0, 90, 8, 0, 0, 7}, false, 10, 0, 96},   // the longer line, -3.9
+      {{90, 0, 0, 10, 7, 0, 0, 8}, true, 0, 10, 106},   // 6.05
+      {{90, 0, 0, 10, 7, 99, 0, 8}, true, 0, 10, 106},  // a span without a share does not count
+      {{5, 6, 10, 0, 8, 8, 8, 0}, false, 5, 6, 100},    // equal spans: 11 >= 10; (-500 + 600) / 256
+      {{5, 6, 12, 0, 8, 8, 8, 0}, true, 12, 0, 98},     // 11 < 12; -600 / 256 = -2.3
+      {{5, 5, 10, 0, 8, 8, 8, 0}, false, 5, 5, 100},    // a tie goes to up and down
+      {{128, 128, 0, 0, 3, 3, 0, 0}, false, 128, 128, 100}};
+  for (const Row& row : rows) bench.send(row.s, 100, 0, 200, 50, 255);
+  bench.clock.run(40);
+  ASSERT_EQ(bench.sink.beats().size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const spec::morphological::BlendedBeat& beat = bench.sink.beats()[i];
+    EXPECT_EQ(beat.tap[0].horizontal, rows[i].horizontal) << i;
+    EXPECT_EQ(beat.tap[0].first, rows[i].first) << i;
+    EXPECT_EQ(beat.tap[0].second, rows[i].second) << i;
+    EXPECT_EQ(beat.tap[0].edges, 1) << i;
+    EXPECT_EQ(beat.pixel[0][0], rows[i].result) << i;
+    EXPECT_EQ(beat.pixel[0][2], rows[i].result) << i;
+    EXPECT_EQ(beat.pixel[0][3], 77) << "alpha passes";
+    // Pushed in i, popped in i + 1, sent in i + 2, taken in i + 3.
+    EXPECT_EQ(bench.sink.cycles()[i], i + 3);
+  }
+  EXPECT_EQ(bench.blender.blended_pixels.value(), rows.size() - 1);
+}
+
+TEST(BlenderBlock, BlendsInLinearLight) {
+  Blending bench(preset(spec::morphological::Preset::kDeburr));
+  bench.send({128, 0, 0, 0, 3, 0, 0, 0}, 0, 255, 0, 0, 0);  // half of white: 2048 of 4095
+  bench.send({0, 0, 0, 0, 0, 0, 0, 0}, 1, 0, 0, 0, 0);
+  bench.clock.run(10);
+  ASSERT_EQ(bench.sink.beats().size(), 2u);
+  EXPECT_EQ(bench.sink.beats()[0].pixel[0][0], 188);  // encode(0.5)
+  EXPECT_EQ(bench.sink.beats()[1].pixel[0][0], 1);
+}
+
+}  // namespace
+}  // namespace deburr::tb::morphological_rtl

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// EdgeDetector behind SlotSequencer and LumaUnit: thresholds by hand, the sources of an edge, local
+// contrast, and its clocks.
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tb/unit/rtl/morphological/front.h"
+
+namespace deburr::tb::morphological_rtl {
+namespace {
+
+using namespace rtl::morphological;  // NOLINT: a test of these
+
+namespace reg = spec::morphological::reg;
+
+std::string left_bits(const std::vector<Bits>& bits) {
+  std::string text;
+  for (const Bits b : bits) text += b.left ? '1' : '0';
+  return text;
+}
+std::string top_bits(const std::vector<Bits>& bits) {
+  std::string text;
+  for (const Bits b : bits) text += b.top ? '1' : '0';
+  return text;
+}
+Frame transposed(const Frame& frame) {
+  Frame other = draw(frame.height, frame.width, [&](int x, int y) { return frame.at(y, x); });
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x)
+      other.depth[static_cast<std::size_t>(x * frame.height + y)] =
+          frame.depth[static_cast<std::size_t>(y * frame.width + x)];
+  return other;
+}
+
+constexpr std::uint32_t kPlainRules = 0;  // luma, fixed, no local contrast
+
+TEST(EdgeDetectorBlock, FixedThresholdIsMetNotExceeded) {
+  Front front(preset(spec::morphological::Preset::kMlaa));
+  // T = 0.1: 255 x 6554 = 1671270 lies between 25 and 26 codes; T = 0.02: between 5 and 6.
+  const Frame steps = row({0, 25, 51, 26, 0, 255});
+  EXPECT_EQ(left_bits(front.detect(steps)), "001011");
+  EXPECT_EQ(left_bits(front.detect(transposed(steps))), "000000");
+  EXPECT_EQ(top_bits(front.detect(transposed(steps))), "001011");
+  EXPECT_EQ(left_bits(front.detect(row({0, 5, 11, 11}), {{reg::kThreshold, 1311}})), "0010");
+  // Exactly on the threshold: 255 x 65536 / 255 = 65536 a code; T = 257 is 65535, T = 258 65790.
+  EXPECT_EQ(left_bits(front.detect(row({0, 1}), {{reg::kThreshold, 257}})), "01");
+  EXPECT_EQ(left_bits(front.detect(row({0, 1}), {{reg::kThreshold, 258}})), "00");
+}
+
+TEST(EdgeDetectorBlock, TakesThreeClocksFromBeatToBits) {
+  Front front(preset(spec::morphological::Preset::kMlaa));
+  front.detect(row({0, 255, 0}));
+  // Taken by the sequencer a clock after the driver's push; one clock a block. The first slot
+  // carries no bits, its token still shows the time.
+  const Cycle first = front.sink.cycles()[0];
+  EXPECT_EQ(front.beat_sink.cycles()[0], first - 2);  // sequencer -> pixel store
+  for (std::size_t i = 1; i < front.sink.cycles().size(); ++i)
+    ASSERT_EQ(front.sink.cycles()[i], first + i) << "one slot a clock";
+  EXPECT_EQ(front.sink.cycles().size(), (1u + 37u) * 3u);
+}
+
+TEST(EdgeDetectorBlock, DynamicThresholdIsStrictAndHasAFloor) {
+  Front front(preset(spec::morphological::Preset::kMlaa));
+  const std::uint32_t current = 1u << 2, larger = 1u << 2 | 1u << 3;
+  const std::map<std::uint32_t, std::uint32_t> alpha = {{reg::kAlpha, 6554}, {reg::kFloor, 514}};
+  const auto with = [&](std::uint32_t rules) {
+    auto writes = alpha;
+    writes[reg::kRules] = rules;
+    return writes;
+  };
+  // 10 codes of 100 are 655360 against 6554 x 100 = 655400: no. 11 codes: yes.
+  EXPECT_EQ(left_bits(front.detect(row({90, 100}), with(current))), "00");
+  EXPECT_EQ(left_bits(front.detect(row({89, 100}), with(current))), "01");
+  // The other way round the current pixel is the darker one.
+  EXPECT_EQ(left_bits(front.detect(row({100, 90}), with(current))), "01");
+  EXPECT_EQ(left_bits(front.detect(row({100, 90}), with(larger))), "00");
+  // Beside black alpha times luma is small; the floor (514 x 255 = 131070, two codes) rules.
+  EXPECT_EQ(left_bits(front.detect(row({0, 1, 0, 2, 0}), with(current))), "00011");
+}
+
+TEST(EdgeDetectorBlock, DepthAndPredicatedSources) {
+  Parameters p = preset(spec::morphological::Preset::kMlaa);
+  p.edge_source = spec::morphological::EdgeSource::kDepth;
+  Front front(p);
+  Frame frame = row({0, 0, 0, 0, 0});
+  // 3277 / 65536 of the larger: 50 of 1000 is not enough, 51 is; equal depths never.
+  frame.depth = {1000, 950, 949, 1000, 0};
+  EXPECT_EQ(left_bits(front.detect(frame)), "00011");
+  frame.depth = {0, 0, 1, 0xFFFFFF, 0xFFFFFF};
+  EXPECT_EQ(left_bits(front.detect(frame)), "00110");
+  EXPECT_EQ(top_bits(front.detect(transposed(frame))), "00110");
+  // Predicated: three codes on a depth edge (655), thirteen elsewhere (3277).
+  Frame steps = row({0, 2, 5, 17, 30});
+  steps.depth = {1000, 500, 1000, 1000, 1000};
+  EXPECT_EQ(left_bits(front.detect(steps, {{reg::kRules, 2}})), "00101");
+}
+
+TEST(EdgeDetectorBlock, WithoutDepthLinesDepthReadsZero) {
+  Front front(preset(spec::morphological::Preset::kMlaa));
+  Frame frame = row({0, 255, 0});
+  frame.depth = {1, 1000, 1};
+  EXPECT_EQ(left_bits(front.detect(frame, {{reg::kRules, 1}})), "000");
+  EXPECT_EQ(left_bits(front.detect(frame, {{reg::kRules, 2}})), "011");
+}
+
+TEST(EdgeDetectorBlock, LocalContrastIsStrictTwiceTheStep) {
+  Front front(preset(spec::morphological::Preset::kMlaa));
+  const std::uint32_t paper = 1u << 4, symmetric = 2u << 4;
+  for (const std::uint32_t rules : {paper, symmetric}) {
+    const std::map<std::uint32_t, std::uint32_t> writes = {{reg::kRules, rules}};
+    // Steps 100 and 200: 2 x 100 > 200 is false. Steps 101 and 200: both stay.
+    EXPECT_EQ(left_bits(front.detect(row({0, 100, 255 - 0}), {{reg::kRules, rules}})), "011");
+    EXPECT_EQ(left_bits(front.detect(row({0, 85, 255}), writes)), "001");  // 85, 170
+    EXPECT_EQ(left_bits(front.detect(row({0, 86, 255}), writes)), "011");  // 86, 169
+    EXPECT_EQ(left_bits(front.detect(row({0, 170, 255}), writes)), "010");
+    EXPECT_EQ(top_bits(front.detect(transposed(row({0, 85, 255})), writes)), "001");
+  }
+  // A strong step across, on one side only: the paper drops the bit of the pixel that sees it, the
+  // symmetric form keeps it, since the other pixel of the pair sees none.
+  const Frame corner = draw(
+      4, 2, [](int x, int y) { return grey(y == 0 ? (x < 2 ? 100 : 140) : (x < 2 ? 100 : 255)); });
+  const auto bits = [&](std::uint32_t rules) {
+    return left_bits(front.detect(corner, {{reg::kRules, rules}}));
+  };
+  EXPECT_EQ(bits(kPlainRules), "00100010");
+  EXPECT_EQ(bits(paper), "00000010");      // 2 x 40 > 115 is false
+  EXPECT_EQ(bits(symmetric), "00100010");  // min(115, 0) = 0
+}
+
+}  // namespace
+}  // namespace deburr::tb::morphological_rtl

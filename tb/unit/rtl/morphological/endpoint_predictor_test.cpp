@@ -1,0 +1,615 @@
+// SPDX-License-Identifier: MIT
+// EndpointPredictor: trials, `safe` and `trim` by hand from the contract, its clocks, its order,
+// and where it waits.
+#include <functional>
+#include <map>
+#include <numeric>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "tb/unit/rtl/morphological/parts.h"
+
+namespace deburr::tb::morphological_rtl {
+namespace {
+
+using namespace rtl::morphological;  // NOLINT: a test of these
+using spec::morphological::Axis;
+using spec::morphological::RunPart;
+
+namespace reg = spec::morphological::reg;
+
+// Two colours on either side of a stair: column x of it begins at row boundary(x).
+struct Prediction {
+  Prediction(const Parameters& p, Axis axis_, int width, int height,
+             const std::function<int(int)>& boundary)
+      : axis(axis_),
+        store(p),
+        window("window", p, store.store),
+        predictor("predictor", clock, p, store.store, window, axis_),
+        ends(clock) {
+    predictor.records_in[0](ends.in);
+    predictor.sums_out[0](ends.out);
+    frame(width, height, boundary);
+  }
+  // Begins a frame: the registers count, the window shows it.
+  void frame(int width, int height, const std::function<int(int)>& boundary) {
+    const bool vertical = axis == Axis::kVertical;
+    store.store.write_size(vertical ? height : width, vertical ? width : height);
+    EXPECT_TRUE(store.store.latch());
+    const auto dark = [&](int x, int y) { return vertical ? x >= boundary(y) : y >= boundary(x); };
+    const int w = vertical ? height : width, h = vertical ? width : height;
+    for (int y = 0; y < h; ++y)
+      for (int x = 0; x < w; ++x)
+        window.write(y, x, x > 0 && dark(x, y) != dark(x - 1, y),
+                     y > 0 && dark(x, y) != dark(x, y - 1), 1);
+  }
+  RunToken z(int line, int start, int length, bool down) const {
+    RunToken token{};
+    const int start_code = down ? 1 : 2, end_code = down ? 2 : 1;
+    token.run = {axis,
+                 RunPart::kWhole,
+                 static_cast<std::uint16_t>(line),
+                 static_cast<std::uint16_t>(start),
+                 static_cast<std::uint16_t>(length),
+                 static_cast<std::uint8_t>(start_code + 4 * end_code)};
+    token.start_code = static_cast<std::uint8_t>(start_code);
+    token.end_code = static_cast<std::uint8_t>(end_code);
+    return token;
+  }
+  ClockDomain clock{"clock", period()};
+  Axis axis;
+  Registers store;
+  EdgeWindow window;
+  EndpointPredictor predictor;
+  Ends<RunToken, SumsToken> ends;
+};
+
+// Steps of the given lengths from column `from` on, on rows row + 1, row + 2, ..; flat before and
+// after.
+std::function<int(int)> stair(int from, std::vector<int> lengths, int row) {
+  return [=](int x) {
+    int y = row, at = from;
+    for (const int length : lengths) {
+      if (x < at) return y;
+      at += length;
+      ++y;
+    }
+    return x < at ? y : y + 1;
+  };
+}
+
+class PredictorAxes : public ::testing::TestWithParam<Axis> {};
+
+TEST_P(PredictorAxes, FollowsTheExampleOfTheContract) {
+  // -3, [0, 3], 5, 8: one step of 3 to the left, steps of 2 and 3 to the right. The flat parts are
+  // long, so that nothing follows. The run begins at column 23, on row 12.
+  const auto steps = stair(20, {3, 3, 2, 3}, 10);
+  Prediction bench(deburr_without_trim(), GetParam(), 60, 30, steps);
+  bench.ends.source.send(bench.z(12, 23, 3, true));
+  bench.clock.run(20);
+  ASSERT_EQ(bench.ends.sink.beats().size(), 1u);
+  const SumsToken& sums = bench.ends.sink.beats()[0];
+  EXPECT_EQ(sums.left, 1);
+  EXPECT_EQ(sums.right, 2);
+  EXPECT_EQ(sums.first, -3);
+  EXPECT_EQ(sums.last, 8);
+  EXPECT_EQ(sums.sum, -3 + 0 + 3 + 5 + 8);
+  EXPECT_EQ(sums.indexed_sum, 3 + 0 + 3 + 2 * 5 + 3 * 8);
+  // k = 0: three candidates a side; k = 1: two a side; k = 2: two on the right.
+  EXPECT_EQ(bench.predictor.probes.value(), 12u);
+  EXPECT_EQ(bench.predictor.iterations.value(), 3u);
+  EXPECT_EQ(bench.predictor.steps.value(), 3u);
+  EXPECT_EQ(bench.predictor.extended_runs.value(), 1u);
+  // Pushed in 0, popped in 1, trials in 1..3, result sent in 4, taken in 5.
+  EXPECT_THAT(bench.ends.sink.cycles(), ::testing::ElementsAre(5));
+}
+
+TEST_P(PredictorAxes, GoesUpAsItGoesDown) {
+  // Mirrored: rows fall with the columns; 3, 2, 3, 3 and the run is the third.
+  const auto down = stair(20, {3, 2, 3, 3}, 10);
+  Prediction bench(deburr_without_trim(), GetParam(), 60, 30, [&](int x) { return 24 - down(x); });
+  bench.ends.source.send(bench.z(24 - 13, 25, 3, false));
+  bench.clock.run(20);
+  ASSERT_EQ(bench.ends.sink.beats().size(), 1u);
+  EXPECT_EQ(bench.ends.sink.beats()[0].left, 2);
+  EXPECT_EQ(bench.ends.sink.beats()[0].right, 1);
+  EXPECT_EQ(bench.ends.sink.beats()[0].first, -5);
+  EXPECT_EQ(bench.ends.sink.beats()[0].last, 6);
+}
+
+TEST_P(PredictorAxes, StopsWhereBothSidesDifferOneUpOneDown) {
+  // 2, [3], 4: a curve. Safe: nothing is taken. Not safe: each side has its own L'.
+  const auto steps = stair(20, {2, 3, 4}, 10);
+  const bool safe = GetParam() == Axis::kHorizontal;
+  Parameters p = deburr_without_trim();
+  p.safe = safe;
+  Prediction bench(p, GetParam(), 60, 30, steps);
+  bench.ends.source.send(bench.z(12, 22, 3, true));
+  bench.clock.run(20);
+  ASSERT_EQ(bench.ends.sink.beats().size(), 1u);
+  EXPECT_EQ(bench.ends.sink.beats()[0].left, safe ? 0 : 1);
+  EXPECT_EQ(bench.ends.sink.beats()[0].right, safe ? 0 : 1);
+  EXPECT_EQ(bench.predictor.probes.value(), safe ? 6u : 6u + 4u);
+}
+
+TEST_P(PredictorAxes, RunsOfOnePixelHaveTwoCandidatesAndTheFrameEnds) {
+  // A diagonal from corner to corner of a small frame: N = 8 steps, but the frame is 6 long.
+  const auto diagonal = [](int x) { return x; };
+  Prediction bench(deburr_without_trim(), GetParam(), 7, 7, diagonal);
+  bench.ends.source.send(bench.z(3, 3, 1, true));
+  bench.clock.run(20);
+  ASSERT_EQ(bench.ends.sink.beats().size(), 1u);
+  EXPECT_EQ(bench.ends.sink.beats()[0].right, 2);  // the last corner, (7, 7), has no crossing
+  EXPECT_EQ(bench.ends.sink.beats()[0].left, 2);   // (0, 0) and (1, 1): top(0, 0) is outside
+  EXPECT_EQ(bench.predictor.probes.value(), 2u * 2u * 3u);
+  // The frame's end is not the window's: with trim both sides are lost there.
+  bench.store.store.leave();
+  bench.store.bus.write(reg::kRules, bench.store.bus.read(reg::kRules) | kTrimBit);
+  bench.frame(7, 7, diagonal);
+  bench.ends.source.send(bench.z(3, 3, 1, true));
+  bench.clock.run(20);
+  ASSERT_EQ(bench.ends.sink.beats().size(), 2u);
+  EXPECT_EQ(bench.ends.sink.beats()[1].right, 1);
+  EXPECT_EQ(bench.ends.sink.beats()[1].left, 1);
+  EXPECT_EQ(bench.predictor.probes.value(), 2u * 2u * 2u * 3u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, PredictorAxes, ::testing::Values(Axis::kHorizontal, Axis::kVertical),
+                         [](const auto& param) {
+                           return param.param == Axis::kHorizontal ? "horizontal" : "vertical";
+                         });
+
+// Steps 4, [4], 4, 3, 3, 3, 3: corners -4, 0, 4, 8, 11. A sixth at 14 would need a slope above
+// (12 - 1) / 3 and below (14 - 8 + 1) / 2 pixels a step: there is none.
+SumsToken bend(bool safe) {
+  Parameters p = deburr_without_trim();
+  p.safe = safe;
+  Prediction bench(p, Axis::kHorizontal, 70, 30, stair(20, {4, 4, 4, 3, 3, 3, 3}, 5));
+  bench.ends.source.send(bench.z(7, 24, 4, true));
+  bench.clock.run(30);
+  return bench.ends.sink.beats().at(0);
+}
+TEST(EndpointPredictorBlock, SafeRefusesACornerThatFitsNoLine) {
+  const SumsToken sums = bend(true);
+  EXPECT_EQ(sums.left, 1);
+  EXPECT_EQ(sums.right, 2);
+  EXPECT_EQ(sums.last, 11);
+}
+TEST(EndpointPredictorBlock, NotSafeTakesIt) {
+  const SumsToken sums = bend(false);
+  EXPECT_EQ(sums.left, 1);
+  EXPECT_EQ(sums.right, 5);
+  EXPECT_EQ(sums.last, 20);
+}
+
+TEST(EndpointPredictorBlock, ARecordHoldsAPredictorForItsIterations) {
+  // No extension (predictor none): one clock each. Two predictors share the work, one result
+  // register a clock goes out: a record a clock.
+  Parameters p = preset(spec::morphological::Preset::kMlaa);
+  Prediction bench(p, Axis::kHorizontal, 60, 30, stair(20, {3}, 10));
+  for (int i = 0; i < 20; ++i) bench.ends.source.send(bench.z(11, 20, 3, true));
+  bench.clock.run(40);
+  ASSERT_EQ(bench.ends.sink.cycles().size(), 20u);
+  for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(bench.ends.sink.cycles()[i], 3 + i);
+}
+
+TEST(EndpointPredictorBlock, EightIterationsWithTwoPredictorsAreARecordEveryFourClocks) {
+  // A long stair of steps of two pixels: N = 8 to both sides.
+  Prediction bench(preset(spec::morphological::Preset::kDeburr), Axis::kHorizontal, 90, 60,
+                   stair(10, std::vector<int>(30, 2), 10));
+  for (int i = 0; i < 12; ++i) bench.ends.source.send(bench.z(26, 40, 2, true));
+  bench.clock.run(100);
+  ASSERT_EQ(bench.ends.sink.cycles().size(), 12u);
+  EXPECT_EQ(bench.ends.sink.beats()[0].left, 8);
+  EXPECT_EQ(bench.ends.sink.beats()[0].right, 8);
+  // Popped in 1 and 2, eight trials each, sent a clock after the last: taken in 10, 11, 18, 19...
+  for (std::size_t i = 0; i < 12; ++i)
+    EXPECT_EQ(bench.ends.sink.cycles()[i], 10 + i / 2 * 8 + i % 2) << i;
+  EXPECT_EQ(bench.predictor.occupancy.value(), 12u * 8u);
+}
+
+// ---- trim ---------------------------------------------------------------------------------------
+
+// How a side ends.
+enum class Ended { kAfterN, kAtTheWindow, kContradicted, kLost };
+
+// A side of a stair: its steps from the run outwards, then a flat part; what growth makes of it.
+struct SideOfStair {
+  std::vector<int> steps;
+  int taken;
+  Ended ended;
+};
+struct Stair {
+  const char* name;
+  bool safe;
+  int n;       // N
+  int length;  // L
+  SideOfStair left, right;
+};
+
+// The engine of these tests reaches 32 pixels along either axis.
+constexpr int kTrimReach = 32;
+
+const std::vector<Stair>& stairs_to_trim() {
+  using enum Ended;
+  const auto times = [](int count, int length) {
+    return std::vector<int>(static_cast<std::size_t>(count), length);
+  };
+  const auto then = [](std::vector<int> steps, std::initializer_list<int> more) {
+    steps.insert(steps.end(), more);
+    return steps;
+  };
+  static const std::vector<Stair> all = {
+      // Lost: the next run is too long.
+      {"no step", true, 8, 3, {{}, 0, kLost}, {{}, 0, kLost}},
+      {"lost 0 1", true, 8, 3, {{}, 0, kLost}, {{3}, 1, kLost}},
+      {"lost 1 1", true, 8, 3, {{3}, 1, kLost}, {{3}, 1, kLost}},
+      {"lost 3 2", true, 8, 3, {{3, 3, 3}, 3, kLost}, {{3, 3}, 2, kLost}},
+      {"lost 8 8", true, 16, 3, {times(8, 3), 8, kLost}, {times(8, 3), 8, kLost}},
+      {"lost of one pixel", true, 8, 1, {{1, 1}, 2, kLost}, {{1, 1, 1}, 3, kLost}},
+      {"lost of two lengths", true, 8, 3, {{3}, 1, kLost}, {{2, 3, 2}, 3, kLost}},
+      {"apart: lost 3 2", false, 8, 3, {{3, 3, 3}, 3, kLost}, {{3, 3}, 2, kLost}},
+      {"apart: lost 0 1", false, 8, 3, {{}, 0, kLost}, {{4}, 1, kLost}},
+      {"apart: lost 8 1", false, 16, 3, {times(8, 3), 8, kLost}, {{2}, 1, kLost}},
+      {"apart: lost of one pixel", false, 8, 1, {{2, 1, 2}, 3, kLost}, {{1}, 1, kLost}},
+      // What safe refuses, each side by itself takes, until it is lost.
+      {"apart: a bend", false, 8, 4, {{4}, 1, kLost}, {{4, 3, 3, 3, 3}, 5, kLost}},
+      {"apart: a curve", false, 8, 3, {{2, 2, 3}, 3, kLost}, {{4, 4}, 2, kLost}},
+      // Still open after N steps, whatever comes then.
+      {"N = 1", true, 1, 3, {{3, 3}, 1, kAfterN}, {{3}, 1, kAfterN}},
+      {"N = 2", true, 2, 3, {{3, 3}, 2, kAfterN}, {{2, 3, 2}, 2, kAfterN}},
+      {"N = 3", true, 3, 3, {{3, 3, 3}, 3, kAfterN}, {{3}, 1, kLost}},
+      {"N = 8", true, 8, 3, {times(9, 3), 8, kAfterN}, {times(8, 3), 8, kAfterN}},
+      {"N = 8 and lost", true, 8, 3, {times(9, 3), 8, kAfterN}, {{3, 3}, 2, kLost}},
+      {"apart: N = 3", false, 3, 3, {{2, 2, 2}, 3, kAfterN}, {{4, 4, 4}, 3, kAfterN}},
+      {"apart: N = 8", false, 8, 3, {times(8, 3), 8, kAfterN}, {{3, 4}, 2, kLost}},
+      // The window's end: 11 + 11 + 12, 8 + 3 x 8 + 9 and 8 + 2 x 8 + 9 are more than 32.
+      {"window 1", true, 8, 11, {{11}, 1, kAtTheWindow}, {{}, 0, kLost}},
+      {"window 2 3", true, 8, 8, {{8, 8}, 2, kAtTheWindow}, {{8, 8, 8}, 3, kAtTheWindow}},
+      {"window 8", true, 16, 3, {{}, 0, kLost}, {{3, 3, 4, 3, 3, 3, 4, 3}, 8, kAtTheWindow}},
+      {"window 9", true, 16, 3, {times(9, 3), 9, kAtTheWindow}, {times(3, 3), 3, kLost}},
+      {"apart: window 2", false, 8, 8, {{8}, 1, kLost}, {{8, 8}, 2, kAtTheWindow}},
+      // 28 pixels of 32 used (29 in the third): five (four) more are too many, one fewer is not.
+      {"L + 1 beyond", true, 16, 4, {times(6, 4), 6, kAtTheWindow}, {{}, 0, kLost}},
+      {"L within", true, 16, 4, {{}, 0, kLost}, {{3, 4, 3, 4, 3, 4, 3}, 7, kLost}},
+      {"L beyond, L' within",
+       true,
+       16,
+       4,
+       {{}, 0, kLost},
+       {{4, 3, 4, 3, 4, 3, 4}, 7, kAtTheWindow}},
+      {"L' beyond", true, 16, 4, {{}, 0, kLost}, {{5, 5, 4, 5, 5}, 5, kAtTheWindow}},
+      {"the other side's L'", true, 16, 4, {times(6, 4), 6, kLost}, {{3}, 1, kLost}},
+      {"apart: its own L'", false, 16, 4, {times(6, 4), 6, kAtTheWindow}, {{3}, 1, kLost}},
+      {"apart: L within", false, 16, 4, {{5}, 1, kLost}, {{3, 4, 3, 4, 3, 4, 3}, 7, kLost}},
+      // L' is what it was before the step: the left side ends in the step that finds it.
+      {"L' of this step", true, 8, 8, {{8, 8}, 2, kAtTheWindow}, {{8, 8, 7}, 3, kAtTheWindow}},
+      // A hit that fits no line with the others (3).
+      {"refused 1", true, 8, 4, {{4}, 1, kLost}, {{3, 3}, 1, kContradicted}},
+      {"refused 2", true, 8, 4, {{}, 0, kLost}, {{4, 3, 3}, 2, kContradicted}},
+      {"refused 3, the other goes on",
+       true,
+       8,
+       4,
+       {times(5, 4), 5, kLost},
+       {{4, 4, 3, 3}, 3, kContradicted}},
+      {"refused 8", true, 16, 3, {{3}, 1, kLost}, {then(times(7, 3), {2, 2}), 8, kContradicted}},
+      // One step longer, the other shorter (2).
+      {"a curve 0", true, 8, 3, {{2}, 0, kContradicted}, {{4}, 0, kContradicted}},
+      {"a curve 1", true, 8, 3, {{3, 2}, 1, kContradicted}, {{3, 4}, 1, kContradicted}},
+      {"a curve 2", true, 8, 3, {{3, 3, 4}, 2, kContradicted}, {{3, 3, 2}, 2, kContradicted}},
+      {"a curve 3", true, 8, 3, {{3, 3, 3, 2}, 3, kContradicted}, {{3, 3, 3, 4}, 3, kContradicted}},
+      {"a curve 8",
+       true,
+       16,
+       3,
+       {then(times(8, 3), {2}), 8, kContradicted},
+       {then(times(8, 3), {4}), 8, kContradicted}},
+      // Either hit fits a line with the corners so far, but no line fits both (4).
+      {"not both 3",
+       true,
+       8,
+       3,
+       {{3, 2, 3, 2}, 3, kContradicted},
+       {{2, 3, 3, 3}, 3, kContradicted}},
+  };
+  return all;
+}
+
+using KeepRule = int (*)(int taken, Ended);
+int kept_by_contract(int taken, Ended ended) {
+  if (ended == Ended::kContradicted) return taken / 2;
+  if (ended == Ended::kLost) return std::max(0, taken - 1);
+  return taken;
+}
+
+// Lets the predictor grow every stair, seen in all four ways.
+struct Trimming : Prediction {
+  static constexpr int kWidth = 2 * kTrimReach + 2, kHeight = 40, kLine = 20, kStart = 31;
+  static Parameters parameters(spec::morphological::Predictor line) {
+    Parameters p = preset(spec::morphological::Preset::kDeburr, kTrimReach, kTrimReach);
+    p.predictor = line;
+    return p;
+  }
+  Trimming(Axis axis_, spec::morphological::Predictor line)
+      : Prediction(parameters(line), axis_, kWidth, kHeight, [](int) { return kLine; }) {}
+
+  struct Grown {
+    SumsToken sums;
+    std::uint64_t probes, iterations, steps, extended;
+  };
+  Grown grow(const Stair& s, bool mirrored, bool flipped, bool trim) {
+    std::vector<int> lengths(s.left.steps.rbegin(), s.left.steps.rend());
+    const int before = std::accumulate(lengths.begin(), lengths.end(), 0);
+    const int row = kLine - 1 - static_cast<int>(lengths.size());
+    lengths.push_back(s.length);
+    lengths.insert(lengths.end(), s.right.steps.begin(), s.right.steps.end());
+    const auto steps = stair(kStart - before, lengths, row);
+    store.store.leave();
+    std::uint32_t rules = store.bus.read(reg::kRules);
+    rules &= ~(0x1Fu << 8 | 1u << 14 | kTrimBit);
+    rules |= static_cast<std::uint32_t>(s.n) << 8 | (s.safe ? 1u << 14 : 0) | (trim ? kTrimBit : 0);
+    store.bus.write(reg::kRules, rules);
+    frame(kWidth, kHeight, [&](int x) {
+      const int y = steps(mirrored ? kWidth - 1 - x : x);
+      return flipped ? kHeight - y : y;
+    });
+    const Grown from = counts();
+    ends.source.send(z(flipped ? kHeight - kLine : kLine,
+                       mirrored ? kWidth - kStart - s.length : kStart, s.length,
+                       mirrored == flipped));
+    clock.run(40);
+    Grown to = counts();
+    to.sums = ends.sink.beats().back();
+    to.probes -= from.probes;
+    to.iterations -= from.iterations;
+    to.steps -= from.steps;
+    to.extended -= from.extended;
+    return to;
+  }
+
+ private:
+  Grown counts() const {
+    return {{},
+            predictor.probes.value(),
+            predictor.iterations.value(),
+            predictor.steps.value(),
+            predictor.extended_runs.value()};
+  }
+};
+
+// The sums of a stair of which so many steps are kept on either side.
+SumsToken sums_of(const Stair& s, int left, int right, bool mirrored) {
+  std::vector<std::pair<int, int>> corners = {{0, 0}, {1, s.length}};
+  int x = s.length;
+  for (int i = 0; i < right; ++i)
+    corners.emplace_back(i + 2, x += s.right.steps.at(static_cast<std::size_t>(i)));
+  x = 0;
+  for (int i = 0; i < left; ++i)
+    corners.emplace_back(-i - 1, x -= s.left.steps.at(static_cast<std::size_t>(i)));
+  SumsToken sums{};
+  sums.left = static_cast<std::uint8_t>(mirrored ? right : left);
+  sums.right = static_cast<std::uint8_t>(mirrored ? left : right);
+  for (auto [i, x_i] : corners) {
+    if (mirrored) {
+      i = 1 - i;
+      x_i = s.length - x_i;
+    }
+    sums.first = static_cast<std::int16_t>(std::min<int>(sums.first, x_i));
+    sums.last = static_cast<std::int16_t>(std::max<int>(sums.last, x_i));
+    sums.sum += x_i;
+    sums.indexed_sum += i * x_i;
+  }
+  return sums;
+}
+bool same_line(const SumsToken& a, const SumsToken& b) {
+  return a.left == b.left && a.right == b.right && a.first == b.first && a.last == b.last &&
+         a.sum == b.sum && a.indexed_sum == b.indexed_sum;
+}
+
+class Trim : public ::testing::TestWithParam<std::tuple<Axis, spec::morphological::Predictor>> {
+ protected:
+  template <class Each>
+  void each(Each&& visit) {
+    Trimming bench(std::get<0>(GetParam()), std::get<1>(GetParam()));
+    for (const Stair& s : stairs_to_trim())
+      for (const bool mirrored : {false, true})
+        for (const bool flipped : {false, true}) {
+          SCOPED_TRACE(std::string(s.name) + (mirrored ? ", mirrored" : "") +
+                       (flipped ? ", upwards" : ""));
+          visit(bench, s, mirrored, flipped);
+        }
+  }
+};
+
+TEST_P(Trim, KeepsWhatTheEndOfASideLeavesCertain) {
+  each([](Trimming& bench, const Stair& s, bool mirrored, bool flipped) {
+    const auto grown = bench.grow(s, mirrored, flipped, true);
+    const int left = kept_by_contract(s.left.taken, s.left.ended);
+    const int right = kept_by_contract(s.right.taken, s.right.ended);
+    const SumsToken expected = sums_of(s, left, right, mirrored);
+    EXPECT_EQ(grown.sums.left, expected.left);
+    EXPECT_EQ(grown.sums.right, expected.right);
+    EXPECT_EQ(grown.sums.first, expected.first);
+    EXPECT_EQ(grown.sums.last, expected.last);
+    EXPECT_EQ(grown.sums.sum, expected.sum);
+    EXPECT_EQ(grown.sums.indexed_sum, expected.indexed_sum);
+    // Counted is what is kept, but every trial.
+    EXPECT_EQ(grown.steps, static_cast<std::uint64_t>(left + right));
+    EXPECT_EQ(grown.extended, left + right > 0 ? 1u : 0u);
+    const auto trials = [](const SideOfStair& side) {
+      return side.taken + (side.ended == Ended::kAfterN ? 0 : 1);
+    };
+    EXPECT_EQ(grown.iterations,
+              static_cast<std::uint64_t>(std::max(trials(s.left), trials(s.right))));
+  });
+}
+
+TEST_P(Trim, OffKeepsEveryStepAndTheTrialsAreTheSame) {
+  each([](Trimming& bench, const Stair& s, bool mirrored, bool flipped) {
+    const auto off = bench.grow(s, mirrored, flipped, false);
+    EXPECT_TRUE(same_line(off.sums, sums_of(s, s.left.taken, s.right.taken, mirrored)));
+    EXPECT_EQ(off.steps, static_cast<std::uint64_t>(s.left.taken + s.right.taken));
+    const auto on = bench.grow(s, mirrored, flipped, true);
+    EXPECT_EQ(on.probes, off.probes);
+    EXPECT_EQ(on.iterations, off.iterations);
+  });
+}
+
+// The stairs tell the rule from others: each of these is contradicted by one of them.
+TEST_P(Trim, TheStairsCatchAWrongRule) {
+  const std::vector<std::pair<const char*, KeepRule>> wrong = {
+      {"nothing is given back", [](int n, Ended) { return n; }},
+      {"lost gives back two",
+       [](int n, Ended e) {
+         return e == Ended::kLost ? std::max(0, n - 2) : kept_by_contract(n, e);
+       }},
+      {"lost gives back the half",
+       [](int n, Ended e) { return e == Ended::kLost ? n / 2 : kept_by_contract(n, e); }},
+      {"the half is rounded up",
+       [](int n, Ended e) {
+         return e == Ended::kContradicted ? (n + 1) / 2 : kept_by_contract(n, e);
+       }},
+      {"contradicted gives back one",
+       [](int n, Ended e) {
+         return e == Ended::kContradicted ? std::max(0, n - 1) : kept_by_contract(n, e);
+       }},
+      {"the window's end is taken for the line's",
+       [](int n, Ended e) {
+         return kept_by_contract(n, e == Ended::kAtTheWindow ? Ended::kLost : e);
+       }},
+      {"N is taken for the line's end",
+       [](int n, Ended e) { return kept_by_contract(n, e == Ended::kAfterN ? Ended::kLost : e); }}};
+  std::vector<int> caught(wrong.size());
+  int right = 0;
+  each([&](Trimming& bench, const Stair& s, bool mirrored, bool flipped) {
+    const auto grown = bench.grow(s, mirrored, flipped, true);
+    const auto agrees = [&](KeepRule kept) {
+      return same_line(grown.sums, sums_of(s, kept(s.left.taken, s.left.ended),
+                                           kept(s.right.taken, s.right.ended), mirrored));
+    };
+    right += !agrees(kept_by_contract);
+    for (std::size_t i = 0; i < wrong.size(); ++i) caught[i] += !agrees(wrong[i].second);
+  });
+  EXPECT_EQ(right, 0);
+  for (std::size_t i = 0; i < wrong.size(); ++i) EXPECT_GT(caught[i], 0) << wrong[i].first;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Predictors, Trim,
+    ::testing::Combine(::testing::Values(Axis::kHorizontal, Axis::kVertical),
+                       ::testing::Values(spec::morphological::Predictor::kChord,
+                                         spec::morphological::Predictor::kFit)),
+    [](const auto& param) {
+      return std::string(std::get<0>(param.param) == Axis::kHorizontal ? "horizontal"
+                                                                       : "vertical") +
+             (std::get<1>(param.param) == spec::morphological::Predictor::kChord ? "_chord"
+                                                                                 : "_fit");
+    });
+
+// ---- waiting and order --------------------------------------------------------------------------
+
+// One record after another through the predictors of a lane; the window has no edges, so that a
+// record that may be extended takes one clock of trials, others none.
+struct Predicting {
+  explicit Predicting(const Parameters& parameters, Cycle opens = 0)
+      : p(parameters),
+        registers(p, 40, 30),
+        window("window", p, registers.store),
+        unit("predictor", clock, p, registers.store, window, Axis::kHorizontal),
+        gate("gate", clock, opens) {
+    driver.beats_out(records);
+    unit.records_in[0](records);
+    unit.sums_out[0](sums);
+    gate.beats_in(sums);
+  }
+  ClockDomain clock{"clock", period()};
+  Parameters p;
+  Registers registers;
+  EdgeWindow window;
+  EndpointPredictor unit;
+  Link<RunToken> records{"records"};
+  Link<SumsToken> sums{"sums"};
+  TimedDriver<RunToken> driver{"driver", clock};
+  Gate<SumsToken> gate;
+};
+
+class PredictorUnits : public ::testing::TestWithParam<int> {};
+
+// The link takes two results, each predictor holds one in its result register and a record behind
+// it. Then it waits downstream and takes no more.
+TEST_P(PredictorUnits, WaitDownstream) {
+  constexpr Cycle kOpens = 100;
+  Parameters p = small();
+  p.predictor_units = GetParam();
+  Predicting bench(p, kOpens);
+  for (int i = 1; i <= 20; ++i) bench.driver.send(0, run_of(i, 2));
+  bench.clock.run(kOpens);
+  const auto held = static_cast<std::uint64_t>(2 + 2 * GetParam());
+  EXPECT_EQ(bench.records.pops(), held);
+  // A record is popped in each of the clocks 1 to `held`.
+  EXPECT_EQ(stalls(bench.unit, "downstream"), kOpens - held - 1);
+  EXPECT_EQ(bench.unit.busy_cycles(), held);
+  // A place is free from kOpens + 1 on.
+  bench.clock.run(1);
+  EXPECT_EQ(stalls(bench.unit, "downstream"), kOpens - held);
+  bench.clock.run(50);
+  EXPECT_EQ(stalls(bench.unit, "downstream"), kOpens - held);
+  ASSERT_EQ(bench.gate.beats.size(), 20u);
+  std::vector<int> lengths;
+  for (const SumsToken& sums : bench.gate.beats) lengths.push_back(sums.run.run.length);
+  std::sort(lengths.begin(), lengths.end());
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(lengths[static_cast<std::size_t>(i)], i + 1);
+}
+INSTANTIATE_TEST_SUITE_P(Each, PredictorUnits, ::testing::Values(1, 2, 4));
+
+// Two results of the same clock go in the order of the predictors, the first one first after a
+// reset, whoever was last before it.
+TEST(EndpointPredictorBlock, AResetTakesBackTheTurn) {
+  Parameters p = preset(spec::morphological::Preset::kMlaaSlope);
+  p.line_pixels = 64;
+  Predicting bench(p);
+  // Two steps of three: row 12 from 20 to 23, row 13 from 23 to 26.
+  const auto edges = [&] {
+    for (int y = 0; y < 30; ++y)
+      for (int x = 0; x < 40; ++x) {
+        const auto dark = [](int u, int v) {
+          return v >= (u < 20 ? 11 : u < 23 ? 12 : u < 26 ? 13 : 14);
+        };
+        bench.window.write(y, x, x > 0 && dark(x, y) != dark(x - 1, y),
+                           y > 0 && dark(x, y) != dark(x, y - 1), 1);
+      }
+  };
+  const auto reset = [&] {
+    bench.clock.set_reset_n(false);
+    bench.clock.run(1);
+    bench.clock.set_reset_n(true);
+    bench.registers.store.reset();
+    bench.registers.frame(40, 30);
+    edges();
+  };
+  for (const bool odd : {false, true}) {
+    reset();
+    if (odd) {
+      bench.driver.send(0, run_of(1, 2));
+      bench.clock.run(10);
+      ASSERT_EQ(bench.gate.beats.size(), 1u);
+      reset();
+    }
+    // The first has one step to the right and then a trial without a hit: two clocks. The second
+    // is popped a clock later and has no hit at once.
+    bench.driver.send(0, run_of(3, 20));
+    bench.driver.send(0, run_of(2, 2));
+    bench.clock.run(20);
+    ASSERT_EQ(bench.gate.beats.size(), 2u);
+    ASSERT_EQ(bench.unit.iterations.value(), 3u);
+    EXPECT_EQ(bench.gate.beats[0].run.run.length, 3);
+    EXPECT_EQ(bench.gate.beats[1].run.run.length, 2);
+    EXPECT_EQ(bench.gate.cycles[1], bench.gate.cycles[0] + 1);
+  }
+}
+
+}  // namespace
+}  // namespace deburr::tb::morphological_rtl

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+// LineUnit: lines by hand from the contract, latency and interval of its divider, and how much it
+// holds.
+#include <cstdint>
+#include <vector>
+
+#include "tb/unit/rtl/morphological/parts.h"
+
+namespace deburr::tb::morphological_rtl {
+namespace {
+
+using namespace rtl::morphological;  // NOLINT: a test of these
+using spec::morphological::Axis;
+using spec::morphological::RunPart;
+
+SumsToken sums_of(std::vector<int> corners, int left, int length) {
+  SumsToken token{};
+  token.run.run.part = RunPart::kWhole;
+  token.run.run.length = static_cast<std::uint16_t>(length);
+  token.run.run.shape = 9;
+  token.left = static_cast<std::uint8_t>(left);
+  token.right = static_cast<std::uint8_t>(static_cast<int>(corners.size()) - 2 - left);
+  token.first = static_cast<std::int16_t>(corners.front());
+  token.last = static_cast<std::int16_t>(corners.back());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    token.sum += corners[i];
+    token.indexed_sum += (static_cast<int>(i) - left) * corners[i];
+  }
+  return token;
+}
+
+struct Lines {
+  explicit Lines(const Parameters& p, Axis axis = Axis::kHorizontal)
+      : store(p), unit("divider", clock, p, store.store, axis), ends(clock) {
+    store.frame(64, 64);
+    unit.sums_in[0](ends.in);
+    unit.lines_out[0](ends.out);
+  }
+  ClockDomain clock{"clock", period()};
+  Registers store;
+  LineUnit unit;
+  Ends<SumsToken, LineToken> ends;
+};
+
+TEST(LineUnitBlock, FitOfTheContractsTable) {
+  Lines bench(preset(spec::morphological::Preset::kDeburr));
+  struct Row {
+    SumsToken in;
+    int scale, offset, shift;
+    std::uint32_t slope, inverse;
+    int span;
+  };
+  const std::vector<Row> rows = {{sums_of({0, 1}, 0, 1), 2, 1, 0, 8388608, 4096, 1},
+                                 {sums_of({0, 3}, 0, 3), 2, 3, 0, 2796203, 12288, 3},
+                                 {sums_of({0, 4}, 0, 4), 2, 4, 0, 2097152, 16384, 4},
+                                 {sums_of({0, 7}, 0, 7), 2, 7, 0, 1198373, 28672, 7},
+                                 {sums_of({-3, 0, 3, 5, 8}, 1, 3), 5, 13, 1, 1242757, 11059, 11},
+                                 {sums_of({0, 5, 11, 16}, 0, 5), 4, 32, 2, 776723, 22118, 16}};
+  for (const Row& row : rows) bench.ends.source.send(row.in);
+  bench.clock.run(60);
+  ASSERT_EQ(bench.ends.sink.beats().size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const spec::morphological::LineRecord& line = bench.ends.sink.beats()[i].line;
+    EXPECT_EQ(line.scale, rows[i].scale) << i;
+    EXPECT_EQ(line.offset, rows[i].offset) << i;
+    EXPECT_EQ(line.shift, rows[i].shift) << i;
+    EXPECT_EQ(line.slope, rows[i].slope) << i;
+    EXPECT_EQ(line.inverse, rows[i].inverse) << i;
+    EXPECT_EQ(line.span, rows[i].span) << i;
+    EXPECT_EQ(line.before, spec::morphological::Side::kFirst);
+    EXPECT_EQ(line.after, spec::morphological::Side::kSecond);
+  }
+  EXPECT_EQ(bench.unit.divides.value(), rows.size());
+}
+
+TEST(LineUnitBlock, ChordAndTheEndsOfALongRun) {
+  Lines bench(preset(spec::morphological::Preset::kMlaaSlope, 32, 21));
+  bench.ends.source.send(sums_of({-3, 0, 3, 5, 8}, 1, 3));
+  SumsToken head = sums_of({0, 10}, 0, 10);
+  head.run.run.part = RunPart::kHead;
+  SumsToken tail = head;
+  tail.run.run.part = RunPart::kTail;
+  bench.ends.source.send({head, tail});
+  bench.clock.run(60);
+  ASSERT_EQ(bench.ends.sink.beats().size(), 3u);
+  const spec::morphological::LineRecord& chord = bench.ends.sink.beats()[0].line;
+  EXPECT_EQ(chord.scale, 2);
+  EXPECT_EQ(chord.offset, 5);
+  EXPECT_EQ(chord.slope, 3050403u);  // rdiv(4 x 2^24, 22) = 67108864 / 22 = 3050402.9
+  EXPECT_EQ(chord.inverse, 11264u);  // 11 / 4 in U12.12
+  for (const int i : {1, 2}) {
+    const spec::morphological::LineRecord& line =
+        bench.ends.sink.beats()[static_cast<std::size_t>(i)].line;
+    EXPECT_EQ(line.scale, 2);
+    EXPECT_EQ(line.offset, i == 1 ? 21 : 2 * 10 - 21);
+    EXPECT_EQ(line.slope, 399458u);  // rdiv(2^24, 42) = 399457.5
+    EXPECT_EQ(line.inverse, 21u << 12);
+    EXPECT_EQ(line.shift, 0);
+    EXPECT_EQ(line.span, 22);
+  }
+}
+
+struct DividerTime {
+  int latency, interval;
+};
+void PrintTo(const DividerTime& t, std::ostream* out) {
+  *out << "latency " << t.latency << " interval " << t.interval;
+}
+class Divider : public ::testing::TestWithParam<DividerTime> {};
+
+TEST_P(Divider, HasItsLatencyAndInterval) {
+  const DividerTime time = GetParam();
+  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  p.divider_latency = time.latency;
+  p.divider_interval = time.interval;
+  Lines bench(p);
+  for (int i = 0; i < 10; ++i) bench.ends.source.send(sums_of({0, i + 1}, 0, i + 1));
+  // Pushed in 0, popped in 1, the quotient is sent in 1 + latency.
+  const auto ready = static_cast<Cycle>(2 + time.latency);
+  bench.clock.run(ready);
+  EXPECT_FALSE(bench.ends.out.can_pop(ready - 1));
+  EXPECT_TRUE(bench.ends.out.can_pop(ready));
+  bench.clock.run(200);
+  ASSERT_EQ(bench.ends.sink.cycles().size(), 10u);
+  for (std::size_t i = 0; i < 10; ++i) {
+    EXPECT_EQ(bench.ends.sink.cycles()[i], ready + i * static_cast<Cycle>(time.interval)) << i;
+    EXPECT_EQ(bench.ends.sink.beats()[i].line.span, i + 1);
+  }
+  EXPECT_EQ(bench.unit.occupancy.value(), 10u * static_cast<unsigned>(time.interval));
+}
+INSTANTIATE_TEST_SUITE_P(Times, Divider,
+                         ::testing::Values(DividerTime{1, 1}, DividerTime{24, 1},
+                                           DividerTime{24, 5}, DividerTime{7, 16},
+                                           DividerTime{64, 3}));
+
+SumsToken sums_of(int length) {
+  SumsToken token{};
+  token.run = run_of(length, 2);
+  token.last = static_cast<std::int16_t>(length);
+  token.sum = token.indexed_sum = length;
+  return token;
+}
+
+struct Dividing {
+  Dividing(int latency, int interval, Cycle opens = 0)
+      : p(with(latency, interval)),
+        registers(p, 40, 30),
+        unit("divider", clock, p, registers.store, Axis::kHorizontal),
+        gate("gate", clock, opens) {
+    driver.beats_out(sums);
+    unit.sums_in[0](sums);
+    unit.lines_out[0](lines);
+    gate.beats_in(lines);
+  }
+  static Parameters with(int latency, int interval) {
+    Parameters p = small();
+    p.divider_latency = latency;
+    p.divider_interval = interval;
+    return p;
+  }
+  ClockDomain clock{"clock", period()};
+  Parameters p;
+  Registers registers;
+  LineUnit unit;
+  Link<SumsToken> sums{"sums"};
+  Link<LineToken> lines{"lines"};
+  TimedDriver<SumsToken> driver{"driver", clock};
+  Gate<LineToken> gate;
+};
+
+TEST(LineUnitBlock, WaitsForTheIntervalOfTheDivider) {
+  Dividing bench(1, 5);
+  for (int i = 1; i <= 6; ++i) bench.driver.send(0, sums_of(i));
+  bench.clock.run(60);
+  // One starts in 1, 6, .., 26; its quotient goes in the clock after; then three clocks of waiting,
+  // but for the last.
+  ASSERT_EQ(bench.gate.cycles.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(bench.gate.cycles[i], 3 + 5 * i);
+  EXPECT_EQ(stalls(bench.unit, "interval"), 5u * 3u);
+  EXPECT_EQ(stalls(bench.unit, "downstream"), 0u);
+  EXPECT_EQ(bench.unit.busy_cycles(), 6u * 2u);
+}
+
+class DividerPlaces : public ::testing::TestWithParam<DividerTime> {};
+
+// With nobody to take the lines, the divider holds as many as it has under way when it runs freely,
+// and the link two; then it says that it waits downstream. None is lost, and the order is kept.
+TEST_P(DividerPlaces, AreThoseOfItsPipe) {
+  const auto [latency, interval] = GetParam();
+  constexpr Cycle kOpens = 400;
+  Dividing bench(latency, interval, kOpens);
+  for (int i = 1; i <= 100; ++i) bench.driver.send(0, sums_of(i));
+  bench.clock.run(kOpens);
+  const int under_way = (latency + interval - 1) / interval;
+  EXPECT_EQ(bench.unit.divides.value(), static_cast<std::uint64_t>(under_way + 2));
+  EXPECT_EQ(bench.sums.pops(), static_cast<std::uint64_t>(under_way + 2));
+  // The last one starts `interval` after the one before, and is busy until its quotient is there.
+  const std::uint64_t stalled = stalls(bench.unit, "downstream");
+  EXPECT_GT(stalled, kOpens - static_cast<Cycle>((under_way + 2) * interval + latency + 3));
+  bench.clock.run(1700);
+  ASSERT_EQ(bench.gate.beats.size(), 100u);
+  for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(bench.gate.beats[i].line.span, i + 1);
+}
+INSTANTIATE_TEST_SUITE_P(Times, DividerPlaces,
+                         ::testing::Values(DividerTime{1, 1}, DividerTime{24, 1},
+                                           DividerTime{24, 5}, DividerTime{7, 16},
+                                           DividerTime{16, 4}));
+
+TEST(LineUnitBlock, AResetLetsTheDividerStartAtOnce) {
+  Dividing bench(3, 16);
+  bench.driver.send(0, sums_of(3));
+  bench.clock.run(3);
+  bench.clock.set_reset_n(false);
+  bench.clock.run(1);
+  bench.clock.set_reset_n(true);
+  bench.registers.frame(40, 30);
+  const Cycle begin = bench.clock.cycle();
+  bench.driver.send(begin, sums_of(5));
+  bench.clock.run(20);
+  ASSERT_EQ(bench.gate.cycles.size(), 1u);
+  EXPECT_EQ(bench.gate.cycles[0], begin + 2 + 3);
+  EXPECT_EQ(bench.gate.beats[0].line.span, 5);
+}
+
+}  // namespace
+}  // namespace deburr::tb::morphological_rtl

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// LumaUnit: the weights by hand, and its clock.
+#include "tb/unit/rtl/morphological/parts.h"
+
+namespace deburr::tb::morphological_rtl {
+namespace {
+
+using namespace rtl::morphological;  // NOLINT: a test of these
+
+TEST(LumaUnitBlock, AddsTheWeightsExactlyAClockLater) {
+  ClockDomain clock("clock", period());
+  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  p.lanes = spec::morphological::Lanes::kTwo;
+  Registers store(p);
+  store.frame(4, 4);
+  Ends<SlotToken, LumaToken> ends(clock);
+  LumaUnit luma("luma", clock, store.store);
+  luma.slots_in(ends.in);
+  luma.lumas_out(ends.out);
+  SlotToken token{};
+  token.pixel[0] = {255, 255, 255, 9};
+  token.pixel[1] = {1, 2, 3, 9};
+  token.depth = {7, 8, 0, 0};
+  ends.source.send({token, token, token});
+  clock.run(1);  // pushed in 0
+  EXPECT_FALSE(ends.out.can_pop(clock.cycle()));
+  clock.run(1);  // popped in 1
+  EXPECT_TRUE(ends.out.can_pop(clock.cycle()));
+  clock.run(4);
+  ASSERT_EQ(ends.sink.beats().size(), 3u);
+  EXPECT_THAT(ends.sink.cycles(), ::testing::ElementsAre(2, 3, 4));
+  EXPECT_EQ(ends.sink.beats()[0].luma[0], 255u * 65536u);
+  EXPECT_EQ(ends.sink.beats()[0].luma[1], 13933u + 2u * 46871u + 3u * 4732u);
+  EXPECT_EQ(ends.sink.beats()[0].depth[1], 8u);
+}
+
+}  // namespace
+}  // namespace deburr::tb::morphological_rtl

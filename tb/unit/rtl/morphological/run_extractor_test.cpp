@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT
+// RunExtractor: every run once, its record to the clock, and what counts as waiting.
+#include <map>
+#include <numeric>
+#include <set>
+#include <tuple>
+
+#include "tb/harness/random.h"
+#include "tb/unit/rtl/morphological/parts.h"
+
+namespace deburr::tb::morphological_rtl {
+namespace {
+
+using namespace rtl::morphological;  // NOLINT: a test of these
+using rtl::Activity;
+using spec::morphological::Axis;
+using spec::morphological::Preset;
+using spec::morphological::RunPart;
+using spec::morphological::RunRecord;
+
+namespace reg = spec::morphological::reg;
+
+// Takes every record and finishes it some clocks later, at random.
+class Finisher final : public rtl::Unit {
+ public:
+  LanePorts<rtl::In<RunToken>> h, v;
+  rtl::Out<FinishToken> finished_out{"finished_out"};
+  Finisher(const sc_core::sc_module_name& name, ClockDomain& clock, const ParameterStore& store)
+      : Unit(name, clock), h("h", store.lanes()), v("v", store.lanes()), store_(store) {}
+  Activity tick(Cycle cycle) override {
+    for (LanePorts<rtl::In<RunToken>>* ports : {&h, &v})
+      for (std::size_t lane = 0; lane < static_cast<std::size_t>(store_.lanes()); ++lane) {
+        rtl::In<RunToken>& in = (*ports)[lane];
+        if (!in.can_pop(cycle) || random.chance(wait_permille)) continue;
+        ++pending_[in.front(cycle).slot / store_.rules().beats & 1];
+        tokens.push_back({cycle, in.take(cycle)});
+      }
+    if ((pending_[0] | pending_[1]) && !random.chance(wait_permille)) {
+      finished_out.push(cycle, {pending_});
+      pending_ = {};
+    }
+    return rtl::kBusy;
+  }
+  void reset() override {}
+  struct Taken {
+    Cycle cycle;
+    RunToken token;
+  };
+  std::vector<Taken> tokens;
+  std::uint32_t wait_permille = 0;
+  Random random{1};
+
+ private:
+  const ParameterStore& store_;
+  std::array<std::uint8_t, 2> pending_{};
+};
+
+struct Planes {
+  int width, height;
+  std::vector<bool> left, top;
+  Planes(int w, int h)
+      : width(w),
+        height(h),
+        left(static_cast<std::size_t>(w * h)),
+        top(static_cast<std::size_t>(w * h)) {}
+  bool left_at(int x, int y) const {
+    return x >= 0 && y >= 0 && x < width && y < height &&
+           left[static_cast<std::size_t>(y * width + x)];
+  }
+  bool top_at(int x, int y) const {
+    return x >= 0 && y >= 0 && x < width && y < height &&
+           top[static_cast<std::size_t>(y * width + x)];
+  }
+};
+
+// Word for word from the contract, on whole planes.
+std::vector<RunRecord> runs_by_definition(const Planes& planes, int reach_rows, int reach_columns) {
+  std::vector<RunRecord> found;
+  for (const bool vertical : {false, true}) {
+    const int lines = vertical ? planes.width : planes.height;
+    const int length = vertical ? planes.height : planes.width;
+    const int reach = vertical ? reach_rows : reach_columns;
+    const auto along = [&](int p, int q) {
+      return vertical ? planes.left_at(q, p) : planes.top_at(p, q);
+    };
+    const auto code = [&](int p, int q) {
+      const bool first = vertical ? planes.top_at(q - 1, p) : planes.left_at(p, q - 1);
+      const bool second = vertical ? planes.top_at(q, p) : planes.left_at(p, q);
+      return (first ? 1 : 0) + (second ? 2 : 0);
+    };
+    for (int q = 0; q < lines; ++q)
+      for (int p = 0; p < length; ++p) {
+        if (!along(p, q) || along(p - 1, q)) continue;
+        int end = p;
+        while (along(end, q)) ++end;
+        const auto add = [&](RunPart part, int start, int size, int shape) {
+          found.push_back({vertical ? Axis::kVertical : Axis::kHorizontal, part,
+                           static_cast<std::uint16_t>(q), static_cast<std::uint16_t>(start),
+                           static_cast<std::uint16_t>(size), static_cast<std::uint8_t>(shape)});
+        };
+        if (end - p > reach) {
+          add(RunPart::kHead, p, reach / 2, code(p, q));
+          add(RunPart::kTail, end - reach / 2, reach / 2, 4 * code(end, q));
+        } else {
+          add(RunPart::kWhole, p, end - p, code(p, q) + 4 * code(end, q));
+        }
+      }
+  }
+  return found;
+}
+
+auto key(const RunRecord& r) {
+  return std::tuple(r.axis, r.line, r.start, r.part, r.length, r.shape);
+}
+
+struct Extraction {
+  explicit Extraction(const Parameters& p)
+      : store(p),
+        window("window", p, store.store),
+        extractor("extractor", clock, p, store.store, window),
+        finisher("finisher", clock, store.store) {
+    driver.beats_out(edges);
+    extractor.edges_in(edges);
+    extractor.finished_in(finished);
+    extractor.area_slots_out(area_slots);
+    extractor.fetches_out(fetches);
+    area_sink.beats_in(area_slots);
+    fetch_sink.beats_in(fetches);
+    finisher.finished_out(finished);
+    for (std::size_t lane = 0; lane < static_cast<std::size_t>(store.store.lanes()); ++lane) {
+      finisher.h[lane](extractor.records(Axis::kHorizontal, lane));
+      finisher.v[lane](extractor.records(Axis::kVertical, lane));
+    }
+    extractor.observer = [this](const RunRecord& run) { runs.push_back(run); };
+  }
+  void run(const Planes& planes) {
+    store.store.write_size(planes.width, planes.height);
+    ASSERT_TRUE(store.store.latch());
+    const FrameRules rules = store.store.rules();
+    const int lanes = store.store.lanes();
+    std::uint32_t number = 0;
+    for (std::uint32_t row = 0; row < rules.rows; ++row)
+      for (std::uint32_t beat = 0; beat < rules.beats; ++beat) {
+        EdgeToken token{};
+        token.slot = {number++, static_cast<std::uint16_t>(row), static_cast<std::uint16_t>(beat)};
+        for (int i = 0; i < lanes; ++i) {
+          const int x = static_cast<int>(beat) * lanes + i, y = static_cast<int>(row) - 1;
+          token.left = static_cast<std::uint8_t>(token.left | int{planes.left_at(x, y)} << i);
+          token.top = static_cast<std::uint8_t>(token.top | int{planes.top_at(x, y)} << i);
+        }
+        driver.send(token);
+        ++slots;
+      }
+    ASSERT_TRUE(clock.run_until([&] { return area_sink.received() == slots; }, 2'000'000));
+    clock.run(100);
+  }
+
+  ClockDomain clock{"clock", period()};
+  Registers store;
+  EdgeWindow window;
+  RunExtractor extractor;
+  Finisher finisher;
+  Link<EdgeToken> edges{"edges"};
+  Link<FinishToken> finished{"finished"};
+  Link<AreaSlotToken> area_slots{"area_slots"};
+  Link<FetchToken> fetches{"fetches"};
+  Driver<EdgeToken> driver{"driver", clock};
+  Sink<AreaSlotToken> area_sink{"area_sink", clock};
+  Sink<FetchToken> fetch_sink{"fetch_sink", clock};
+  std::vector<RunRecord> runs;
+  std::uint64_t slots = 0;
+};
+
+struct Extract {
+  int width, height, lanes_code, reach_rows, reach_columns;
+  std::uint32_t permille, wait_permille;
+};
+void PrintTo(const Extract& e, std::ostream* out) {
+  *out << e.width << 'x' << e.height << " lanes code " << e.lanes_code;
+}
+class RunExtraction : public ::testing::TestWithParam<Extract> {};
+
+// Planes that no image gives: every code at both ends, runs of all lengths, long runs.
+TEST_P(RunExtraction, FindsEveryRunOnce) {
+  const Extract e = GetParam();
+  Parameters p = preset(spec::morphological::Preset::kMlaa, e.reach_rows, e.reach_columns);
+  p.lanes = static_cast<spec::morphological::Lanes>(e.lanes_code);
+  p.record_fifo = 3;
+  Extraction bench(p);
+  bench.finisher.wait_permille = e.wait_permille;
+  Random random(e.permille * 7u + static_cast<std::uint32_t>(e.width));
+  Planes planes(e.width, e.height);
+  for (int y = 0; y < e.height; ++y)
+    for (int x = 0; x < e.width; ++x) {
+      const auto at = static_cast<std::size_t>(y * e.width + x);
+      planes.left[at] = x > 0 && random.chance(e.permille);
+      planes.top[at] = y > 0 && random.chance(e.permille);
+    }
+  bench.run(planes);
+  std::vector<RunRecord> expected = runs_by_definition(planes, e.reach_rows, e.reach_columns);
+  const auto order = [](const RunRecord& a, const RunRecord& b) { return key(a) < key(b); };
+  std::sort(expected.begin(), expected.end(), order);
+  std::sort(bench.runs.begin(), bench.runs.end(), order);
+  ASSERT_EQ(bench.runs.size(), expected.size());
+  std::uint64_t horizontal = 0, heads = 0, records = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    ASSERT_EQ(bench.runs[i], expected[i]) << i;
+    horizontal += expected[i].axis == Axis::kHorizontal && expected[i].part != RunPart::kTail;
+    heads += expected[i].part == RunPart::kHead;
+    const spec::morphological::RunShape& shape = spec::morphological::kRunShapes[expected[i].shape];
+    records += shape.before != spec::morphological::Side::kNone ||
+               shape.after != spec::morphological::Side::kNone;
+  }
+  EXPECT_EQ(bench.extractor.horizontal_runs.value(), horizontal);
+  EXPECT_EQ(bench.extractor.long_runs.value(), heads);
+  EXPECT_EQ(bench.finisher.tokens.size(), records);  // those with a side, each once
+  // The row being blended comes out with its edges.
+  for (const AreaSlotToken& token : bench.area_sink.beats()) {
+    const int y = token.slot.row - e.reach_rows - spec::morphological::kRowLag;
+    for (int i = 0; i < lanes_of(p); ++i) {
+      const int x = token.slot.beat * lanes_of(p) + i;
+      ASSERT_EQ((token.left >> i & 1) != 0, planes.left_at(x, y));
+      ASSERT_EQ((token.top >> i & 1) != 0, planes.top_at(x, y));
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(
+    Planes, RunExtraction,
+    ::testing::Values(Extract{70, 40, 0, 4, 4, 500, 0}, Extract{70, 40, 0, 4, 4, 900, 500},
+                      Extract{67, 60, 1, 5, 7, 800, 300}, Extract{131, 50, 2, 9, 30, 930, 0},
+                      Extract{129, 90, 2, 8, 5, 950, 700}, Extract{1, 50, 0, 4, 4, 900, 0},
+                      Extract{50, 1, 2, 4, 4, 900, 0}, Extract{3, 70, 2, 32, 256, 970, 0},
+                      Extract{64, 64, 0, 6, 2048, 1000, 0}));
+
+TEST(RunExtractorBlock, RecordIsThereAClockAfterTheRunEnds) {
+  Extraction bench(preset(spec::morphological::Preset::kMlaa, 4, 8));
+  Planes planes(30, 12);
+  for (int x = 5; x < 9; ++x) planes.top[static_cast<std::size_t>(3 * 30 + x)] = true;
+  planes.left[static_cast<std::size_t>(2 * 30 + 5)] = true;  // N of the start
+  planes.left[static_cast<std::size_t>(3 * 30 + 9)] = true;  // S of the end
+  bench.run(planes);
+  ASSERT_EQ(bench.runs.size(), 3u);
+  const RunRecord expected{Axis::kHorizontal, RunPart::kWhole, 3, 5, 4, 1 + 4 * 2};
+  ASSERT_THAT(bench.runs, ::testing::Contains(expected));
+  ASSERT_FALSE(bench.finisher.tokens.empty());
+  for (const auto& [cycle, token] : bench.finisher.tokens) {
+    if (token.run != expected) continue;
+    // Row 3 in slot row 3 + 4 + 2, closed by column 9.
+    EXPECT_EQ(token.slot, 9u * 30u + 9u);
+    // Slot k is popped in clock k + 1; the record can be taken in the clock after.
+    EXPECT_EQ(cycle, token.slot + 2);
+    // The slot itself goes on in the same clock.
+    EXPECT_EQ(bench.area_sink.cycles()[token.slot], token.slot + 2);
+    EXPECT_EQ(token.start_code, 1);
+    EXPECT_EQ(token.end_code, 2);
+  }
+}
+
+TEST(RunExtractorBlock, AHorizontalRunOfOneMoreThanTheReachGivesHeadAndTailWithoutAStall) {
+  Extraction bench(preset(spec::morphological::Preset::kMlaa, 4, 8));
+  Planes planes(20, 12);
+  for (int x = 11; x < 20; ++x) planes.top[static_cast<std::size_t>(3 * 20 + x)] = true;
+  planes.left[static_cast<std::size_t>(2 * 20 + 11)] = true;
+  bench.run(planes);
+  EXPECT_THAT(bench.runs,
+              ::testing::IsSupersetOf({RunRecord{Axis::kHorizontal, RunPart::kHead, 3, 11, 4, 1},
+                                       RunRecord{Axis::kHorizontal, RunPart::kTail, 3, 16, 4, 0}}));
+  EXPECT_EQ(bench.extractor.record_stalls.value(), 0u);
+}
+
+// RECORD_STALLS: clocks in which a slot waits, not those in which none has come.
+TEST(RecordStalls, CountOnlyWhereASlotWaits) {
+  Parameters p = preset(Preset::kDeburr);
+  p.lanes = spec::morphological::Lanes::kFour;
+  p.record_fifo = 2;
+  p.predictor_units = 1;
+  p.divider_interval = 16;
+  EngineBench::Options options;
+  options.driver = {600, 40};
+  EngineBench bench(p, options);
+  const Frame in = noise();
+  bench.engine.set_frame_size(in.width, in.height);
+  bench.driver.send(beats_of(in, lanes_of(p)));
+  const auto beats = static_cast<std::uint64_t>(beats_a_row(in, p) * in.height);
+  const auto& extractor = bench.engine.extractor;
+  std::uint64_t before = 0, waiting = 0, wrong = 0, full = 0;
+  bool arrives = false;
+  rtl::Activity records{};
+  for (int code = 0; code < extractor.activities(); ++code)
+    if (extractor.activity_name({static_cast<std::uint8_t>(code)}) == "records")
+      records = {static_cast<std::uint8_t>(code)};
+  std::uint64_t lost = 0;
+  bench.bench->run(
+      [&] {
+        const std::uint64_t now = extractor.record_stalls.value();
+        const std::uint64_t lost_now = extractor.cycles_of(records);
+        if (now != before) ++(arrives ? waiting : wrong);
+        if (lost_now != lost && !arrives) ++full;
+        before = now;
+        lost = lost_now;
+        arrives = extractor.edges_in.can_pop(bench.clock.cycle());
+        return bench.sink.received() == beats && bench.engine.idle();
+      },
+      1'000'000);
+  EXPECT_EQ(wrong, 0u);
+  EXPECT_GT(waiting, 100u);
+  EXPECT_EQ(waiting, extractor.record_stalls.value());
+  EXPECT_GT(full, 10u) << "records waited for their FIFO while no slot did";
+  EXPECT_EQ(bench.bus.read(reg::kRecordStalls), extractor.record_stalls.value());
+}
+
+}  // namespace
+}  // namespace deburr::tb::morphological_rtl

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// SlotSequencer: what disagrees with SIZE, and the clock in which a frame is inside.
+#include "tb/unit/rtl/morphological/front.h"
+
+namespace deburr::tb::morphological_rtl {
+namespace {
+
+using namespace rtl::morphological;  // NOLINT: a test of these
+using spec::morphological::Preset;
+namespace reg = spec::morphological::reg;
+
+TEST(SlotSequencerBlock, SaysWhatDisagreesWithSize) {
+  Front front(preset(spec::morphological::Preset::kMlaa));
+  const Frame frame = row({0, 1, 2});
+  front.detect(frame);
+  EXPECT_EQ(front.sequencer.framing_errors.value(), 0u);
+  auto all = beats_of(frame, 1);
+  all[0].start_of_frame = false;
+  all[1].end_of_row = true;
+  all[2].count = 3;
+  front.clock.set_reset_n(false);
+  front.clock.run(1);
+  front.clock.set_reset_n(true);
+  front.store.store.write_size(3, 1);
+  front.driver.send([all](std::uint64_t i, spec::morphological::PixelBeat& beat) {
+    if (i >= all.size()) return false;
+    beat = all[i];
+    return true;
+  });
+  front.clock.run(10);
+  EXPECT_EQ(front.sequencer.framing_errors.value(), 3u);
+  EXPECT_EQ(front.store.bus.read(reg::kStatus), reg::kStatusFraming);
+}
+
+// A frame is inside when its first beat has been taken, and not before.
+TEST(FirstBeat, TakesTheFrameInTheClockThatTakesIt) {
+  EngineBench bench(preset(Preset::kDeburr));
+  bench.engine.set_frame_size(97, 61);
+  bench.driver.send(beats_of(noise(), 1));
+  for (int i = 0; i < 28; ++i) {
+    auto& link = i % 2 != 0 ? static_cast<rtl::LinkBase&>(bench.engine.sequencer.slots_out.link())
+                            : bench.engine.sequencer.beats_out.link();
+    link.hold_push(bench.clock.cycle());
+    bench.clock.run(1);
+  }
+  EXPECT_EQ(bench.in.pops(), 0u);
+  EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle);
+  // A rule that is written now counts for this frame.
+  const std::uint32_t rules = bench.bus.read(reg::kRules);
+  bench.bus.write(reg::kRules, 1u << 15 | 1u << 6 | 4u << 8);
+  EXPECT_NE(bench.bus.read(reg::kRules), rules);
+  bench.bus.write(reg::kThreshold, 6554);
+  bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },
+                   1'000'000);
+  EXPECT_EQ(hash(bench.last(97, 61)), 0x6c40266cf03f3513u);
+  EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusFrameDone);
+  EXPECT_EQ(bench.bus.read(reg::kFrameCycles), (61u + 37u) * 97u + 6u);
+}
+
+struct BadSize {
+  std::uint32_t width, height;
+};
+void PrintTo(const BadSize& s, std::ostream* out) { *out << s.width << 'x' << s.height; }
+class BadSizes : public ::testing::TestWithParam<BadSize> {};
+TEST_P(BadSizes, TakeNoFrameAndSetTheFramingBit) {
+  EngineBench bench(deburr());
+  bench.bus.write(reg::kSize, GetParam().width | GetParam().height << 16);
+  bench.driver.send(beats_of(noise(10, 10), 1));
+  bench.clock.run(200);
+  EXPECT_EQ(bench.sink.received(), 0u);
+  EXPECT_EQ(bench.in.pops(), 0u);
+  EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusFraming);
+  // The right size heals it.
+  bench.engine.set_frame_size(10, 10);
+  bench.clock.run(3000);
+  EXPECT_EQ(bench.sink.received(), 100u);
+}
+INSTANTIATE_TEST_SUITE_P(Bad, BadSizes,
+                         ::testing::Values(BadSize{0, 0}, BadSize{0, 10}, BadSize{10, 0},
+                                           BadSize{257, 10}, BadSize{8193, 10}, BadSize{10, 8193}));
+
+TEST(Framing, SizeWinsAndDataGoOn) {
+  EngineBench bench(deburr());
+  bench.engine.set_frame_size(20, 10);
+  // Beats of a frame of 25 x 8: the same number. They are pixels of 20 x 10 now.
+  const Frame sent = noise(25, 8);
+  bench.driver.send(beats_of(sent, 1));
+  bench.bench->run([&] { return bench.sink.received() == 200 && bench.engine.idle(); }, 10'000);
+  EXPECT_TRUE(bench.sink.beats()[19].end_of_row);
+  EXPECT_EQ(bench.bus.read(reg::kStatus) & reg::kStatusFraming, reg::kStatusFraming);
+  EXPECT_EQ(bench.engine.sequencer.framing_errors.value(), 8u + 10u - 2u * 2u);
+  const Frame out = bench.last(20, 10);
+  const spec::morphological::Work work = bench.engine.work();
+  EXPECT_GT(work.blended_pixels, 50u);
+  bench.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
+  bench.bus.write(reg::kStatus, reg::kStatusFraming);
+  Frame framed(20, 10);
+  framed.pixel = sent.pixel;
+  bench.driver.send(beats_of(framed, 1));
+  bench.bench->run([&] { return bench.sink.received() == 400 && bench.engine.idle(); }, 10'000);
+  EXPECT_EQ(bench.last(20, 10).pixel, out.pixel);
+  EXPECT_EQ(bench.engine.work(), work);
+  EXPECT_EQ(bench.bus.read(reg::kStatus) & reg::kStatusFraming, 0u);
+}
+
+}  // namespace
+}  // namespace deburr::tb::morphological_rtl

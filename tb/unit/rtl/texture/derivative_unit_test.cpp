@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// The DerivativeUnit alone. Expected values are worked out by hand from docs/number_formats.md.
+#include "rtl_model/texture/derivative_unit.h"
+
+#include "tb/unit/rtl/texture/support.h"
+
+namespace deburr::tb::texture_rtl {
+namespace {
+
+using namespace rtl::texture;
+
+struct DerivativeBench {
+  DerivativeBench() {
+    unit.quads_in(ends.in);
+    unit.derivatives_out(ends.out);
+    spec::texture::Descriptor d;
+    d.width = 256;
+    d.height = 128;
+    d.levels = 1;
+    write_descriptor(store.bus, 0, d);
+  }
+  ClockDomain clock{"clock", period()};
+  Store store{clock};
+  FragmentProbe probe{64};
+  DerivativeUnit unit{"unit", clock, store.store, probe};
+  Ends<spec::texture::Quad, DerivativeToken> ends{clock};
+};
+
+TEST(TextureRtlDerivative, EachLaneTakesItsOwnRowAndColumn) {
+  DerivativeBench b;
+  spec::texture::Quad q;
+  q.tag = 77;
+  q.s = {0, 1 << 18, 3 << 18, 7 << 18};
+  q.t = {-5, 1 << 17, 3, 1 << 20};
+  b.ends.source.add(q);
+  b.clock.run(10);
+  ASSERT_EQ(b.ends.sink.taken.size(), 4u);
+  const std::int64_t row_s[] = {1 << 18, 1 << 18, 4 << 18, 4 << 18};
+  const std::int64_t column_s[] = {3 << 18, 6 << 18, 3 << 18, 6 << 18};
+  const std::int64_t row_t[] = {(1 << 17) + 5, (1 << 17) + 5, (1 << 20) - 3, (1 << 20) - 3};
+  const std::int64_t column_t[] = {8, (1 << 20) - (1 << 17), 8, (1 << 20) - (1 << 17)};
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    const DerivativeToken& d = b.ends.sink.taken[lane].token;
+    EXPECT_EQ(d.ticket.tag, 77u);
+    EXPECT_EQ(d.ticket.lane, lane);
+    EXPECT_EQ(d.ticket.last, lane == 3);
+    EXPECT_EQ(d.s, q.s[lane]);
+    EXPECT_EQ(d.t, q.t[lane]);
+    EXPECT_EQ(d.s_x, row_s[lane]);
+    EXPECT_EQ(d.s_y, column_s[lane]);
+    EXPECT_EQ(d.t_x, row_t[lane]);
+    EXPECT_EQ(d.t_y, column_t[lane]);
+  }
+  // 2^18 of 2^24 is 1/64, of 256 texels 4.
+  EXPECT_EQ(b.ends.sink.taken[0].token.size_s_x, 4u << 16);
+  EXPECT_EQ(b.ends.sink.taken[0].token.size_s_y, 12u << 16);
+  // (2^17 + 5) x 128 = 2^24 + 640, at 16 fraction bits 65536 + 2.5, rounded up.
+  EXPECT_EQ(b.ends.sink.taken[0].token.size_t_x, 65539u);
+}
+
+TEST(TextureRtlDerivative, RoundsToNearestAndSaturates) {
+  DerivativeBench b;
+  spec::texture::Quad q;
+  q.coverage = 1;
+  q.s = {1, 0, 1, 0};  // -1 x 256 = 256 / 256 = 1
+  q.t = {0, 0, 1, 0};  // 1 x 128 = 0.5 ulp: up
+  b.ends.source.add(q);
+  q.s = {INT32_MIN, INT32_MAX, INT32_MIN, 0};  // (2^32 - 1) x 256 -> 2^32 - 1 in U15.16: too much
+  q.t = {0, 0, 1 << 30, 0};                    // 64 x 128 = 8192 texels
+  b.ends.source.add(q);
+  q.s = {0, INT32_MAX, 0, 0};  // (2^31 - 1) x 256 -> 2^31 - 1: just fits
+  q.t = {0, 0, 0, 0};
+  b.ends.source.add(q);
+  b.clock.run(10);
+  ASSERT_EQ(b.ends.sink.taken.size(), 3u);
+  EXPECT_EQ(b.ends.sink.taken[0].token.size_s_x, 1u);
+  EXPECT_EQ(b.ends.sink.taken[0].token.size_t_y, 1u);
+  EXPECT_EQ(b.ends.sink.taken[1].token.size_s_x, 0x7FFFFFFFu);
+  EXPECT_EQ(b.ends.sink.taken[1].token.size_t_y, 8192u << 16);
+  EXPECT_EQ(b.ends.sink.taken[2].token.size_s_x, 0x7FFFFFFFu);
+  EXPECT_EQ(b.unit.saturated.value(), 1u);
+}
+
+TEST(TextureRtlDerivative, OneClockACoveredLane) {
+  DerivativeBench b;
+  for (const std::uint8_t coverage : std::to_array<std::uint8_t>({0xF, 0x9, 0, 0, 4, 0xF})) {
+    spec::texture::Quad q;
+    q.coverage = coverage;
+    q.clamped = 0x3;
+    b.ends.source.add(q);
+  }
+  b.clock.run(20);
+  // Quads take 4, 2, 1, 1, 1 and 4 clocks; the first is pushed in 0, taken in 1, seen in 2.
+  std::vector<Cycle> when;
+  for (const auto& t : b.ends.sink.taken) when.push_back(t.cycle);
+  EXPECT_THAT(when, testing::ElementsAre(2, 3, 4, 5, 6, 7, 10, 11, 12, 13, 14));
+  EXPECT_EQ(b.unit.quads.value(), 6u);
+  EXPECT_EQ(b.unit.fragments.value(), 11u);
+  EXPECT_EQ(b.unit.clamped.value(), 2u + 1 + 0 + 2);
+  EXPECT_EQ(b.unit.busy_cycles(), 13u);
+}
+
+TEST(TextureRtlDerivative, WaitsForItsOutputUnlessNothingIsCovered) {
+  DerivativeBench b;
+  b.ends.sink.hold_to = 20;
+  for (const std::uint8_t coverage : std::to_array<std::uint8_t>({1, 1, 0, 0, 1, 8, 0, 2})) {
+    spec::texture::Quad q;
+    q.coverage = coverage;
+    b.ends.source.add(q);
+  }
+  b.clock.run(20);
+  EXPECT_EQ(b.unit.quads.value(), 4u);  // two in the link, two without a fragment
+  b.clock.run(20);
+  EXPECT_EQ(b.unit.quads.value(), 8u);
+  EXPECT_EQ(b.ends.sink.taken.size(), 5u);
+}
+
+TEST(TextureRtlDerivative, TakesNothingWhileDisabled) {
+  DerivativeBench b;
+  b.store.bus.write(spec::texture::reg::kControl, 0);
+  b.ends.source.add({});
+  b.clock.run(10);
+  EXPECT_TRUE(b.ends.sink.taken.empty());
+  b.store.bus.write(spec::texture::reg::kControl, 1);
+  b.clock.run(10);
+  EXPECT_EQ(b.ends.sink.taken.size(), 4u);
+}
+
+TEST(TextureRtlDerivative, InvalidDescriptorIsCountedAndNotSaturated) {
+  DerivativeBench b;
+  spec::texture::Quad q;
+  q.texture = 3;
+  q.coverage = 0x5;
+  q.s = {INT32_MIN, INT32_MAX, 0, 0};
+  b.ends.source.add(q);
+  q.texture = 200;  // no such handle
+  b.ends.source.add(q);
+  b.clock.run(10);
+  ASSERT_EQ(b.ends.sink.taken.size(), 4u);
+  for (const auto& t : b.ends.sink.taken) EXPECT_FALSE(t.token.ticket.valid);
+  EXPECT_EQ(b.unit.invalid.value(), 4u);
+  EXPECT_EQ(b.unit.saturated.value(), 0u);
+  EXPECT_EQ(
+      b.store.bus.read(spec::texture::reg::kStatus) & spec::texture::reg::kStatusInvalidTexture,
+      spec::texture::reg::kStatusInvalidTexture);
+}
+
+}  // namespace
+}  // namespace deburr::tb::texture_rtl

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// The LatencyFifo in the cache: full, and deep enough to hide the latency of memory.
+#include "tb/unit/rtl/texture/cache_bench.h"
+
+namespace deburr::tb::texture_rtl {
+namespace {
+
+using namespace rtl::texture;
+
+TEST(TextureRtlLatencyFifo, FullFifoStallsTheTagStage) {
+  spec::texture::Parameters p = small_cache();
+  p.cache_fifo_depth = 2;
+  CacheBench b(p, 50);
+  std::vector<TexelToken> asked = {in_line(0)};
+  for (int i = 0; i < 20; ++i) asked.push_back(in_line(0));
+  for (const auto& t : asked) b.ends.source.add(t);
+  b.clock.run(120);
+  b.check_data(asked);
+  EXPECT_GT(b.cache.tag_stage.stalls()[2].cycles, 40u);
+}
+
+// Misses overlap: as long as the FIFO covers the latency, each request costs one clock.
+TEST(TextureRtlLatencyFifo, LatencyIsHiddenByADeepEnoughFifo) {
+  spec::texture::Parameters p;
+  p.cache_outstanding = 128;
+  p.cache_fifo_depth = 160;
+  CacheBench b(p, 100);
+  std::vector<TexelToken> asked;
+  for (std::uint32_t i = 0; i < 300; ++i) asked.push_back(in_line(i));
+  for (const auto& t : asked) b.ends.source.add(t);
+  b.clock.run(600);
+  b.check_data(asked);
+  EXPECT_EQ(b.ends.sink.taken.back().cycle - b.ends.sink.taken.front().cycle, 299u);
+}
+
+}  // namespace
+}  // namespace deburr::tb::texture_rtl

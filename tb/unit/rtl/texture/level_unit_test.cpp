@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// The LevelUnit alone. Expected values are worked out by hand from docs/number_formats.md.
+#include "rtl_model/texture/level_unit.h"
+
+#include "tb/unit/rtl/texture/support.h"
+
+namespace deburr::tb::texture_rtl {
+namespace {
+
+using namespace rtl::texture;
+
+struct LevelCase {
+  const char* name;
+  std::int32_t lb_max, lb_min;  // 1/4096
+  spec::texture::MinFilter filter;
+  std::uint8_t max_log2;
+  std::int16_t bias;  // 1/256
+  std::uint16_t min_lod, max_lod;
+  int count_log2, level, fraction;
+  bool linear;
+};
+
+void check_levels(const std::vector<LevelCase>& cases, spec::texture::CountRule count,
+                  spec::texture::CountCap cap) {
+  ClockDomain clock("clock", period());
+  Store store(clock);
+  LevelUnit unit("unit", clock, store.store, count, cap);
+  Ends<Log2Token, LevelToken> ends(clock);
+  unit.logs_in(ends.in);
+  unit.levels_out(ends.out);
+  for (const LevelCase& c : cases) {
+    SCOPED_TRACE(c.name);
+    spec::texture::Descriptor d;
+    d.width = d.height = 256;
+    d.levels = 6;
+    d.min_filter = c.filter;
+    d.mag_filter = spec::texture::MagFilter::kNearest;
+    d.max_anisotropy_log2 = c.max_log2;
+    d.lod_bias = c.bias;
+    d.min_lod = c.min_lod;
+    d.max_lod = c.max_lod;
+    write_descriptor(store.bus, 0, d);
+    ends.source.add({ticket(), 1, 2, 3, 4, c.lb_max, c.lb_min});
+    clock.run(5);
+    const LevelToken& r = ends.sink.taken.back().token;
+    EXPECT_EQ(r.count_log2, c.count_log2);
+    EXPECT_EQ(r.level, c.level);
+    EXPECT_EQ(r.fraction, c.fraction);
+    EXPECT_EQ(r.linear, c.linear);
+    EXPECT_EQ(r.s, 1);
+    EXPECT_EQ(r.axis_t, 4);
+  }
+  EXPECT_EQ(ends.sink.taken.size(), cases.size());
+  EXPECT_EQ(ends.sink.taken.front().cycle, 2u);
+}
+
+constexpr auto kTri = spec::texture::MinFilter::kLinearMipmapLinear;
+constexpr std::uint16_t kTop = 12 << 8;
+
+TEST(TextureRtlLevel, PaperRule) {
+  using F = spec::texture::MinFilter;
+  check_levels(
+      {
+          {"isotropic, l = 1.5", 6144, 6144, kTri, 4, 0, 0, kTop, 0, 1, 128, true},
+          {"ratio 2^1.99 gives N = 2", 3 * 4096, 4096 + 41, kTri, 4, 0, 0, kTop, 1, 2, 0, true},
+          {"ratio 4", 3 * 4096, 4096, kTri, 4, 0, 0, kTop, 2, 1, 0, true},
+          {"N at most 2", 4 * 4096, 0, kTri, 1, 0, 0, kTop, 1, 3, 0, true},
+          {"N at most 16", 8 * 4096, -8 * 4096, kTri, 4, 0, 0, kTop, 4, 4, 0, true},
+          {"footprint of one texel: N = 1, magnified", 0, -16 * 4096, kTri, 4, 0, 0, kTop, 0, 0, 0,
+           false},
+          {"just above a texel: N = 16", 1, -16 * 4096, kTri, 4, 0, 0, kTop, 4, 0, 0, false},
+          {"l = 1/4096 minifies, rounds to level 0, f = 0", 1, 1, kTri, 4, 0, 0, kTop, 0, 0, 0,
+           true},
+          {"l = 8/4096 rounds up to 1/256", 8, 8, kTri, 4, 0, 0, kTop, 0, 0, 1, true},
+          {"f rounds up to the next level", 8191, 8191, kTri, 4, 0, 0, kTop, 0, 2, 0, true},
+          {"just below the coarsest", 5 * 4096 - 16, 5 * 4096, kTri, 4, 0, 0, kTop, 0, 4, 255,
+           true},
+          {"beyond the coarsest", 7 * 4096 + 9, 7 * 4096, kTri, 4, 0, 0, kTop, 0, 5, 0, true},
+          {"L not below 0", 4096, 8192, kTri, 4, 0, 0, kTop, 0, 1, 0, true},
+          {"bias +1.5", 4096, 4096, kTri, 4, 384, 0, kTop, 0, 2, 128, true},
+          {"bias -1", 4096, 4096, kTri, 4, -256, 0, kTop, 0, 0, 0, false},
+          {"min_lod 2.25", 4096, 4096, kTri, 4, 0, 576, kTop, 0, 2, 64, true},
+          {"max_lod 0.5", 4096, 4096, kTri, 4, 0, 0, 128, 0, 0, 128, true},
+          {"limits crossed: the upper one", 4096, 4096, kTri, 4, 0, 768, 512, 0, 2, 0, true},
+          {"nearest: level 0", 9 * 4096, 9 * 4096, F::kNearest, 4, 0, 0, kTop, 0, 0, 0, false},
+          {"linear: level 0", 9 * 4096, 9 * 4096, F::kLinear, 4, 0, 0, kTop, 0, 0, 0, true},
+          {"mipmap nearest, 1.5: down", 6144, 6144, F::kLinearMipmapNearest, 4, 0, 0, kTop, 0, 1, 0,
+           true},
+          {"mipmap nearest, above 1.5: up", 6145, 6145, F::kNearestMipmapNearest, 4, 0, 0, kTop, 0,
+           2, 0, false},
+          {"mipmap nearest, beyond", 9 * 4096, 9 * 4096, F::kNearestMipmapNearest, 4, 0, 0, kTop, 0,
+           5, 0, false},
+          {"nearest mipmap linear", 6144, 6144, F::kNearestMipmapLinear, 4, 0, 0, kTop, 0, 1, 128,
+           false},
+      },
+      spec::texture::CountRule::kFloor, spec::texture::CountCap::kNone);
+}
+
+TEST(TextureRtlLevel, CeilAndTexelCap) {
+  check_levels(
+      {
+          {"ratio 2^1.01 gives N = 4, the cap allows 8", 3 * 4096 - 1, 2 * 4096 - 42, kTri, 4, 0, 0,
+           kTop, 2, 1, 0, true},
+          {"cap: lb d = 0.5 allows N = 2", 2048, -8 * 4096, kTri, 4, 0, 0, kTop, 1, 0, 0, false},
+          {"cap: lb d = 1 allows N = 2", 4096, -8 * 4096, kTri, 4, 0, 0, kTop, 1, 0, 0, false},
+          {"cap: lb d = 1.1 allows N = 4", 4506, -8 * 4096, kTri, 4, 0, 0, kTop, 2, 0, 0, false},
+      },
+      spec::texture::CountRule::kCeil, spec::texture::CountCap::kTexel);
+}
+
+}  // namespace
+}  // namespace deburr::tb::texture_rtl

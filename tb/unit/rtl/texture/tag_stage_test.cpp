@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// The TagStage in the cache: merged misses, the order of fills, hits behind misses.
+#include "tb/unit/rtl/texture/cache_bench.h"
+
+namespace deburr::tb::texture_rtl {
+namespace {
+
+using namespace rtl::texture;
+using testing::ElementsAre;
+
+// Two requests for a line in flight are one fetch, and come out one clock apart.
+TEST(TextureRtlTagStage, SecondRequestForALineInFlightIsMerged) {
+  CacheBench b;
+  const std::vector<TexelToken> asked = {in_line(0), in_line(0), in_line(3), in_line(0)};
+  for (const auto& t : asked) b.ends.source.add(t);
+  b.clock.run(60);
+  b.check_data(asked);
+  EXPECT_EQ(b.cache.tag_stage.misses.value(), 2u);
+  EXPECT_EQ(b.cache.tag_stage.merged.value(), 2u);
+  EXPECT_EQ(b.cache.tag_stage.hits.value(), 0u);
+  EXPECT_THAT(b.memory.lines_read(), ElementsAre(0, 3 * 64));
+  const Cycle first = 1 + kMiss + kMemoryLatency;
+  EXPECT_EQ(b.ends.sink.taken[0].cycle, first);
+  EXPECT_EQ(b.ends.sink.taken[1].cycle, first + 1);
+  EXPECT_EQ(b.ends.sink.taken[2].cycle, first + 2);
+  EXPECT_EQ(b.ends.sink.taken[3].cycle, first + 3);
+}
+
+// The order of fills is the order of misses, whatever order memory answers in.
+TEST(TextureRtlTagStage, OrderOfFills) {
+  CacheBench b(small_cache(), kMemoryLatency, 30);
+  std::vector<TexelToken> asked = {request({64 * 9, 64 * 3, 64 * 9 + 4, 64 * 20}),
+                                   request({64 * 5, 64 * 4, 64 * 5, 64 * 4}), in_line(3),
+                                   request({64 * 31, 64 * 30, 64 * 29, 64 * 28}), in_line(7)};
+  for (const auto& t : asked) b.ends.source.add(t);
+  b.clock.run(400);
+  b.check_data(asked);
+  EXPECT_THAT(b.memory.lines_read(),
+              ElementsAre(576, 192, 1280, 320, 256, 1984, 1920, 1856, 1792, 448));
+}
+
+// A hit passes the tag stage while the miss queue is full.
+TEST(TextureRtlTagStage, HitsGoOnWhileTheMissQueueIsFull) {
+  CacheBench b(small_cache(), 200);
+  b.time_of(in_line(1));
+  const Cycle start = b.clock.cycle();
+  for (std::uint32_t i = 0; i < 4; ++i)
+    b.ends.source.add(request({0x1000 + 512 * i, 0x1080 + 512 * i, 0x1100 + 512 * i,
+                               0x1180 + 512 * i}));  // 4 x 4 lines of set 0
+  for (int i = 0; i < 5; ++i) b.ends.source.add(in_line(1));
+  b.clock.run(30);
+  EXPECT_LT(b.clock.cycle() - start, 200u);
+  EXPECT_EQ(b.cache.tag_stage.requests.value(), 1u + 4 + 5);
+}
+
+}  // namespace
+}  // namespace deburr::tb::texture_rtl
