@@ -12,14 +12,13 @@
 #include "tb/app/morphological_engine.h"
 #include "tb/app/morphological_rules.h"
 #include "tb/app/pictures.h"
+#include "tb/app/shorthands.h"
 #include "tb/app/simulate.h"
 #include "tb/env/frame_composition.h"
 #include "tb/scene/truth.h"
 
 namespace deburr::tb {
 namespace {
-
-constexpr int kTruthSamples = 16;  // 16 x 16 a pixel
 
 class FrameCommand final : public Engine {
  public:
@@ -47,18 +46,7 @@ class FrameCommand final : public Engine {
   }
 
   std::vector<Shorthand> shorthands() const override {
-    return {
-        {"--scene", "scene.source", "object (default), plane, quad, tunnel, road, cylinders"},
-        {"--in", "scene.source", "Mesh file instead of a scene: .obj, .gltf, .glb"},
-        {"--texture", "scene.texture", "checker, road, brick, zone_plate, ..., or an image file"},
-        {"--size", "scene.width", "Size of the picture, WxH (512x512)", "scene.height"},
-        {"--mode", "sampler.mode", "Minification filter, one of GL's six (linear_mipmap_linear)"},
-        {"--aniso", "sampler.anisotropy", "Largest number of samples: 1, 2, 4, 8 or 16 (default)"},
-        {"--preset", "morphological.preset", "mlaa, mlaa-slope or deburr (default)"},
-        {"--lanes", "morphological.lanes",
-         "Pixels a clock of the morphological engine: 1 (default), 2 or 4"},
-        {"--storage", "morphological.storage",
-         "Of the pixels that the morphological engine delays: line_buffers (default) or memory"}};
+    return joined(scene_shorthands("object"), smoothing_shorthands());
   }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
@@ -102,24 +90,16 @@ class FrameCommand final : public Engine {
     const bool golden = run.check == CheckMode::kGolden;
     if (golden) expected.pixels = frame.smoothing.golden_model().pixels();
     if (run.truth && whole) {
-      RenderOptions render_options;
-      render_options.width = after.width;
-      render_options.height = after.height;
-      render_options.samples = kTruthSamples;
+      RenderOptions truth_options;
       // Coverage is averaged in the light in which the engine blends.
-      render_options.averaging =
+      truth_options.averaging =
           morphological_.linear_light ? Averaging::kLinear : Averaging::kStored;
-      truth = render_truth(scene.scene(), render_options, result);
-      if (!truth.empty())
-        result.quality =
-            judge_quality(fmt::format("supersampled-{}", kTruthSamples * kTruthSamples), before,
-                          after, truth, &scene.stream().depth);
+      truth = judge_by_scene(scene, truth_options, before, after, result);
     }
-    add_smoothing_pictures(context,
-                           {before, after, frame.smoothing.taps(), frame.smoothing.delivered(),
-                            golden ? &expected : nullptr, truth.empty() ? nullptr : &truth,
-                            "textured: what the texture unit left in the frame buffer",
-                            fmt::format("{} samples a pixel", kTruthSamples * kTruthSamples)});
+    add_smoothing_pictures(
+        context, {before, after, frame.smoothing.taps(), frame.smoothing.delivered(),
+                  golden ? &expected : nullptr, truth.empty() ? nullptr : &truth,
+                  "textured: what the texture unit left in the frame buffer", truth_caption()});
   }
 
   SceneParameters scene_;

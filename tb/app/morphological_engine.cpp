@@ -12,6 +12,7 @@
 #include "spec/error.h"
 #include "tb/app/morphological_rules.h"
 #include "tb/app/pictures.h"
+#include "tb/app/shorthands.h"
 #include "tb/app/simulate.h"
 #include "tb/env/morphological_environment.h"
 #include "tb/env/morphological_frames.h"
@@ -50,16 +51,14 @@ class MorphologicalCommand final : public Engine {
   }
 
   std::vector<Shorthand> shorthands() const override {
-    return {
-        {"--in", "frame.source", "Image file of any format that OpenImageIO reads, or a mesh file"},
-        {"--scene", "frame.source", "Scene instead of a file: cylinders (default), road, ..."},
-        {"--truth", "frame.truth", "Anti-aliased picture to judge by"},
-        {"--depth", "frame.depth", "Depth of the image: silhouettes are judged too"},
-        {"--size", "frame.width", "Size of a rendered scene, WxH (640x480)", "frame.height"},
-        {"--preset", "morphological.preset", "mlaa, mlaa-slope or deburr (default)"},
-        {"--lanes", "morphological.lanes", "Pixels a clock: 1 (default), 2 or 4"},
-        {"--storage", "morphological.storage",
-         "Of delayed pixels: line_buffers (default) or memory"}};
+    return joined(
+        {{"--in", "frame.source",
+          "Image file of any format that OpenImageIO reads, or a mesh file"},
+         {"--scene", "frame.source", "Scene instead of a file: cylinders (default), road, ..."},
+         {"--truth", "frame.truth", "Anti-aliased picture to judge by"},
+         {"--depth", "frame.depth", "Depth of the image: silhouettes are judged too"},
+         {"--size", "frame.width", "Size of a rendered scene, WxH (640x480)", "frame.height"}},
+        smoothing_shorthands());
   }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {

@@ -12,6 +12,7 @@
 #include "spec/error.h"
 #include "tb/app/morphological_rules.h"
 #include "tb/app/pictures.h"
+#include "tb/app/shorthands.h"
 #include "tb/app/simulate.h"
 #include "tb/env/texture_environment.h"
 #include "tb/scene/compose.h"
@@ -21,8 +22,6 @@
 
 namespace deburr::tb {
 namespace {
-
-constexpr int kTruthSamples = 16;  // 16 x 16 a pixel
 
 class TextureEngine final : public Engine {
  public:
@@ -39,16 +38,11 @@ class TextureEngine final : public Engine {
   }
 
   std::vector<Shorthand> shorthands() const override {
-    return {
-        {"--scene", "scene.source", "plane (default), quad, tunnel, object, road, cylinders"},
-        {"--in", "scene.source", "Mesh file instead of a scene: .obj, .gltf, .glb"},
-        {"--texture", "scene.texture", "checker, road, brick, zone_plate, ..., or an image file"},
-        {"--size", "scene.width", "Size of the picture, WxH (512x512)", "scene.height"},
-        {"--mode", "sampler.mode", "Minification filter, one of GL's six (linear_mipmap_linear)"},
-        {"--aniso", "sampler.anisotropy", "Largest number of samples: 1, 2, 4, 8 or 16 (default)"},
-        {"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene (default)"},
-        {"--format", "sampler.format", "rgba8 (default), rgb565, rgba4444, l8, srgb8_a8"},
-        {"--layout", "sampler.layout", "tiled (default) or linear"}};
+    return joined(
+        scene_shorthands("plane"),
+        {{"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene (default)"},
+         {"--format", "sampler.format", "rgba8 (default), rgb565, rgba4444, l8, srgb8_a8"},
+         {"--layout", "sampler.layout", "tiled (default) or linear"}});
   }
 
   void resolve(ParameterSet& set) override { refuse_unused_memory(set, "memory", memory_); }
@@ -134,15 +128,12 @@ class TextureEngine final : public Engine {
                               : "hardware against golden: any difference is bright");
     }
     if (run.truth && !result.interrupted) {
-      render_options.samples = kTruthSamples;
-      render_options.sampling = Sampling::kBilinear;
-      render_options.averaging = linear_light() ? Averaging::kLinear : Averaging::kStored;
-      const Image truth = render_truth(scene.scene(), render_options, result);
+      RenderOptions truth_options;
+      truth_options.sampling = Sampling::kBilinear;
+      truth_options.averaging = linear_light() ? Averaging::kLinear : Averaging::kStored;
+      const Image truth = judge_by_scene(scene, truth_options, before, after, result);
       if (truth.empty()) return;
-      result.quality = judge_quality(fmt::format("supersampled-{}", kTruthSamples * kTruthSamples),
-                                     before, after, truth, &scene.stream().depth);
-      context.add_image("truth", truth, "Truth",
-                        fmt::format("{} samples a pixel", kTruthSamples * kTruthSamples));
+      context.add_image("truth", truth, "Truth", truth_caption());
       context.add_image("error", difference(after, truth, kDifferenceGain), "Error",
                         fmt::format("hardware against truth, {} times", kDifferenceGain));
     }

@@ -28,7 +28,7 @@ BenchOptions bench_options(const SimulationOptions& options) {
   if (options.shuffle) bench.shuffle = options.seed;
   bench.patience = options.patience;
   bench.check_links = options.check_links;
-  bench.poison = options.poison;
+  bench.poison = bench.check_widths = options.poison;
   bench.fast_path = options.fast_path;
   if (!options.trace_scope.empty()) {
     rtl::TraceOptions trace;

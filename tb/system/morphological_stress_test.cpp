@@ -73,6 +73,7 @@ TEST_P(MorphologicalStress, OrderOfEvaluationIsInvisible) {
     for (const std::uint64_t seed : {1u, 2u}) {
       fixed.seed = shuffled.seed = seed;
       fixed.stall_permille = shuffled.stall_permille = stalls;
+      fixed.poison = true;
       const MorphologicalOutcome a = run(fixed), b = run(shuffled);
       expect_same_data(a, b);
       EXPECT_EQ(a.cycles, b.cycles) << "seed " << seed << ", stalls " << stalls;
@@ -85,6 +86,7 @@ TEST_P(MorphologicalStress, RandomStallsCostTimeAndNothingElse) {
   for (const std::uint32_t permille : {50u, 500u}) {
     MorphologicalRunOptions stalled = calm();
     stalled.stall_permille = permille;
+    stalled.poison = true;
     stalled.seed = permille;
     stalled.shuffle = true;
     const MorphologicalOutcome outcome = run(stalled);
@@ -100,6 +102,7 @@ TEST_P(MorphologicalStress, ResetInMidFrameBeginsAgain) {
     MorphologicalRunOptions options = calm();
     options.reset_after = at;
     options.stall_permille = at == 3001 ? 150 : 0;
+    options.poison = true;
     const MorphologicalOutcome outcome = run(options);
     EXPECT_EQ(quiet.hash, outcome.hash) << "reset after " << at;
     EXPECT_EQ(outcome.mismatches + outcome.traffic_mismatches, 0u);
@@ -110,6 +113,7 @@ TEST_P(MorphologicalStress, ResetInMidFrameBeginsAgain) {
 TEST_P(MorphologicalStress, SameSeedGivesTheSameCycles) {
   MorphologicalRunOptions options = calm();
   options.stall_permille = 150;
+  options.poison = true;
   options.memory.latency_max = 200;
   const MorphologicalOutcome a = run(options), b = run(options);
   expect_same_data(a, b);
@@ -139,6 +143,7 @@ TEST(MorphologicalMemory, RandomLatencyBanksAndNarrowBusChangeNoData) {
     options.memory.outstanding = 8;
     options.memory.bytes_per_clock = 16;
     options.stall_permille = 100;
+    options.poison = true;
     options.shuffle = true;
     for (const std::uint64_t seed : {1u, 2u}) {
       options.seed = seed;

@@ -34,6 +34,7 @@ TEST_P(FastPath, IsInvisible) {
   TextureRunOptions fast;
   if (storm) {
     fast.stall_permille = 150;
+    fast.poison = true;
     fast.shuffle = true;
     fast.memory.latency_max = 300;
   }
@@ -67,6 +68,7 @@ TEST_P(EveryModeInAStorm, IsIdenticalToGolden) {
   sampler.anisotropy = static_cast<std::uint8_t>(lb_n);
   TextureRunOptions options;
   options.stall_permille = 250;
+  options.poison = true;
   options.shuffle = true;
   options.seed = 1 + static_cast<std::uint64_t>(6 * lb_n + mode);
   options.memory.latency = 5;
@@ -115,6 +117,7 @@ TEST_P(FrameReset, LeavesNothingBehind) {
   memory.latency_min = memory.latency_max = 100;
   BenchOptions options;
   options.stall_permille = static_cast<std::uint32_t>(stall_permille);
+  options.poison = true;
   QuadBench bench(input, parameters, memory, options);
   bench.reset();
   const QuadOutcome fresh = bench.run();
@@ -193,6 +196,7 @@ TEST(TextureStress, OrderOfEvaluationIsInvisible) {
 TEST(TextureStress, OrderOfEvaluationIsInvisibleUnderStalls) {
   TextureRunOptions fixed, shuffled;
   fixed.stall_permille = shuffled.stall_permille = 200;
+  fixed.poison = true;
   shuffled.shuffle = true;
   const TextureOutcome a = run(fixed, "tunnel", 96), b = run(shuffled, "tunnel", 96);
   expect_same_data(a, b);
@@ -207,6 +211,7 @@ TEST_P(RandomStalls, CostTimeAndNothingElse) {
   for (const std::uint64_t seed : {1u, 7u}) {
     TextureRunOptions stalled;
     stalled.stall_permille = static_cast<std::uint32_t>(permille);
+    stalled.poison = true;
     stalled.seed = seed;
     const TextureOutcome outcome = run(stalled, source, 96);
     expect_same_data(calm, outcome);
@@ -230,6 +235,7 @@ TEST(TextureStress, RandomMemoryLatencyChangesNoData) {
     options.memory.outstanding = 16;
     options.memory.bytes_per_clock = 16;
     options.stall_permille = 100;
+    options.poison = true;
     options.shuffle = true;
     expect_same_data(calm, run(options));
   }
@@ -238,6 +244,7 @@ TEST(TextureStress, RandomMemoryLatencyChangesNoData) {
 TEST(TextureStress, SameSeedGivesTheSameCycles) {
   TextureRunOptions options;
   options.stall_permille = 150;
+  options.poison = true;
   options.memory.latency_max = 300;
   const TextureOutcome a = run(options), b = run(options);
   expect_same_data(a, b);

@@ -220,6 +220,23 @@ TEST_F(Parameters, EveryDefaultOfTheTextureUnitIsWithinItsRange) {
   }
 }
 
+// So that a sweep knows which points share a golden result.
+TEST_F(Parameters, OfAnEngineAreRulesOrBuildChoices) {
+  spec::texture::Parameters texture;
+  ParameterSet set;
+  set.add_engine("texture", texture);
+  set.add("unit", ParameterKind::kRun, values_);
+  EXPECT_EQ(set.find("texture.footprint")->kind, ParameterKind::kRule);
+  EXPECT_EQ(set.find("texture.cache.bytes")->kind, ParameterKind::kBuild);
+  EXPECT_EQ(set.find("unit.cache.ways")->kind, ParameterKind::kRun);
+  EXPECT_TRUE(set.resolved(ParameterKind::kRule).contains("texture.footprint"));
+  EXPECT_FALSE(set.resolved(ParameterKind::kRule).contains("texture.cache.bytes"));
+  EXPECT_EQ(set.resolved(ParameterKind::kBuild)["texture.cache.bytes"], 16384);
+  EXPECT_EQ(set.resolved(ParameterKind::kRule).size() + set.resolved(ParameterKind::kBuild).size() +
+                set.resolved(ParameterKind::kRun).size(),
+            set.all().size());
+}
+
 TEST(EditDistance, CountsEditsAndSwaps) {
   EXPECT_EQ(edit_distance("", ""), 0);
   EXPECT_EQ(edit_distance("", "abc"), 3);
