@@ -12,7 +12,7 @@ namespace deburr::tb {
 
 void Environment::check() const {
   if (!golden()) return;
-  for (const Boards& boards : {outputs(), traffic()})
+  for (const Boards& boards : {outputs(), traffic(), counters()})
     for (const ScoreboardBase* board : boards) board->check();
 }
 

@@ -66,8 +66,9 @@ class Environment {
 
   // ---- judging
   using Boards = std::vector<const ScoreboardBase*>;
-  virtual Boards outputs() const = 0;  // pixels, colours, counters
-  virtual Boards traffic() const = 0;  // accesses of memory
+  virtual Boards outputs() const = 0;   // pixels, colours
+  virtual Boards traffic() const = 0;   // accesses of memory
+  virtual Boards counters() const = 0;  // the engine's own, which echo what went wrong before
   // Throws Mismatch where the golden model ran and something differs.
   void check() const;
 

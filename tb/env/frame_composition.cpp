@@ -91,6 +91,10 @@ Environment::Boards FrameComposition::traffic() const {
   return joined(texture.traffic(), smoothing.traffic());
 }
 
+Environment::Boards FrameComposition::counters() const {
+  return joined(texture.counters(), smoothing.counters());
+}
+
 void FrameComposition::collect(Result& result) const {
   texture.collect(result);
   add(result, "frame_buffer", buffer);

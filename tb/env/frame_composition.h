@@ -41,6 +41,7 @@ class FrameComposition final : public Environment {
   rtl::Cycle clocks_to_drain() const override;
   Boards outputs() const override;
   Boards traffic() const override;
+  Boards counters() const override;
   void collect(Result& result) const override;
   void collect_headline(Result& result) const override;
 

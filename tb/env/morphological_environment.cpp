@@ -24,6 +24,13 @@ namespace reg = spec::morphological::reg;
 
 constexpr double kPixelClock1080p60 = 148.5;  // MHz
 
+constexpr std::uint32_t kLinkDepth = 2;
+
+// Lanes that are not built have no wires.
+rtl::PayloadShape shape_of(const spec::morphological::Parameters& p) {
+  return {static_cast<std::uint32_t>(lanes_of(p)), {}};
+}
+
 std::uint64_t memory_bytes(std::span<const MorphologicalInput> frames, std::uint32_t base) {
   std::uint64_t bytes = 0;
   for (const MorphologicalInput& frame : frames)
@@ -113,8 +120,10 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
                                                    const MorphologicalSetup& setup,
                                                    std::string name)
     : Environment(simulation, std::move(name)),
+      pixels("pixels", kLinkDepth, shape_of(setup.morphological)),
       frames_(frames),
       setup_(setup),
+      blended_("blended", kLinkDepth, shape_of(setup.morphological)),
       source_(this->name().empty()
                   ? std::make_unique<FrameSource>("source", simulation.clock(), lanes())
                   : nullptr),
@@ -267,7 +276,7 @@ Amount MorphologicalEnvironment::amount() const {
 // ---- judging ------------------------------------------------------------------------------------
 
 Environment::Boards MorphologicalEnvironment::outputs() const {
-  return {&pixel_board_, &tap_board_, &run_board_, &line_board_, &register_board_.board()};
+  return {&pixel_board_, &tap_board_, &run_board_, &line_board_};
 }
 
 void MorphologicalEnvironment::judge(rtl::Cycle cycle,

@@ -66,10 +66,11 @@ class MorphologicalEnvironment final : public Environment {
   }
   Boards outputs() const override;
   Boards traffic() const override { return {&traffic_board_}; }
+  Boards counters() const override { return {&register_board_.board()}; }
   void collect(Result& result) const override;
   void collect_headline(Result& result) const override;
 
-  rtl::Link<spec::morphological::PixelBeat> pixels{"pixels"};
+  rtl::Link<spec::morphological::PixelBeat> pixels;
 
   // Of its work, for the report of a composition too.
   std::vector<Figure> work_figures() const;
@@ -106,7 +107,7 @@ class MorphologicalEnvironment final : public Environment {
 
   std::span<const MorphologicalInput> frames_;
   MorphologicalSetup setup_;
-  rtl::Link<spec::morphological::BlendedBeat> blended_{"blended"};
+  rtl::Link<spec::morphological::BlendedBeat> blended_;
   std::unique_ptr<FrameSource> source_;  // alone
   rtl::morphological::MorphologicalEngine engine_;
   Sink<spec::morphological::BlendedBeat> sink_;

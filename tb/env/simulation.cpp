@@ -144,9 +144,10 @@ void Simulation::collect(Result& result) const {
   result.cycles = cycles();
   result.host_seconds = host_seconds_;
   result.host_cpu_seconds = cpu_seconds_;
+  result.comparisons = result.mismatches = 0;
+  result.traffic_comparisons = result.traffic_mismatches = 0;
   const auto sum = [&](const Environment::Boards& boards, std::uint64_t& comparisons,
                        std::uint64_t& mismatches) {
-    comparisons = mismatches = 0;
     for (const ScoreboardBase* board : boards) {
       comparisons += board->comparisons();
       // What never came differs too, once all of it could have come.
@@ -154,6 +155,7 @@ void Simulation::collect(Result& result) const {
     }
   };
   sum(environment_->outputs(), result.comparisons, result.mismatches);
+  sum(environment_->counters(), result.comparisons, result.mismatches);
   sum(environment_->traffic(), result.traffic_comparisons, result.traffic_mismatches);
   environment_->collect(result);
   environment_->collect_headline(result);

@@ -52,8 +52,9 @@ class TextureEnvironment final : public Environment {
   void refuse_memory_errors() override;
   Amount amount() const override;
   rtl::Cycle clocks_to_drain() const override { return tb::clocks_to_drain(setup_.memory); }
-  Boards outputs() const override { return {&colour_board_, &register_board_.board()}; }
+  Boards outputs() const override { return {&colour_board_}; }
   Boards traffic() const override { return {&fill_board_}; }
+  Boards counters() const override { return {&register_board_.board()}; }
   void collect(Result& result) const override;
   void collect_headline(Result& result) const override;
 

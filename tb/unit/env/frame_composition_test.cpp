@@ -9,7 +9,7 @@
 #include <string>
 
 #include "spec/error.h"
-#include "tb/harness/forked.h"
+#include "tb/system/forked.h"
 
 namespace deburr::tb {
 namespace {
@@ -110,9 +110,10 @@ TEST(FrameComposition, EveryFigureHasANameOfItsOwn) {
     EXPECT_TRUE(names.insert("unit " + unit.name).second) << unit.name;
   for (const MemoryFigures& memory : result.memories)
     EXPECT_TRUE(names.insert("memory " + memory.name).second) << memory.name;
-  for (const Figure& figure : result.figures)
-    if (figure.key.starts_with("work."))
-      EXPECT_TRUE(names.contains(figure.key.substr(5))) << figure.key;
+  for (const Figure& figure : result.figures) {
+    if (!figure.key.starts_with("work.")) continue;
+    EXPECT_TRUE(names.contains(figure.key.substr(5))) << figure.key;
+  }
 }
 
 }  // namespace

@@ -165,7 +165,7 @@ TEST_F(Parameters, TheResolvedConfigurationLoadsAgain) {
   const std::string yaml = set_.yaml();
   Sample other;
   ParameterSet again;
-  again.add("unit", other);
+  again.add("unit", ParameterKind::kInput, other);
   again.load(file(yaml));
   EXPECT_EQ(other.source, values_.source);
   EXPECT_EQ(other.ways, 16);
