@@ -274,8 +274,9 @@ TEST_F(Page, ShowsWhatTheIssueAsksForFirst) {
                               "41.25</td><td class=\"n\">+5.75</td>"));
   EXPECT_THAT(page, HasSubstr("<td class=\"n\">identical</td>"));
   EXPECT_THAT(page, Not(HasSubstr("Silhouette pixels"))) << "there was no depth";
-  EXPECT_THAT(page, HasSubstr("<td>cache.lines</td><td class=\"n\">1,280</td><td class=\"n\">"
-                              "5,120</td><td>2RW</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>cache_lines</td><td>flops</td><td class=\"n\">80 x 64</td>"
+                              "<td>2R1W</td><td class=\"n\">1</td><td>2 copies of 1R1W</td>"
+                              "<td class=\"n\">1,280</td><td class=\"n\">5,120</td>"));
   EXPECT_THAT(page, HasSubstr("<td>total</td><td class=\"n\">132,352</td><td class=\"n\">136,192"));
   EXPECT_THAT(page, HasSubstr("Limited by cache: stalled, wait fill"));
   EXPECT_THAT(page, HasSubstr("<td>a remark</td>"));
