@@ -277,7 +277,8 @@ TEST_F(Page, ShowsWhatTheIssueAsksForFirst) {
   EXPECT_THAT(page, HasSubstr("<td>cache_lines</td><td>flops</td><td class=\"n\">80 x 64</td>"
                               "<td>2R1W</td><td class=\"n\">1</td><td>2 copies of 1R1W</td>"
                               "<td class=\"n\">1,280</td><td class=\"n\">5,120</td>"));
-  EXPECT_THAT(page, HasSubstr("<td>total</td><td class=\"n\">132,352</td><td class=\"n\">136,192"));
+  EXPECT_THAT(page, HasSubstr("<td>total</td><td class=\"n\">2</td><td class=\"n\">132,352</td>"
+                              "<td class=\"n\">136,192</td><td class=\"n\">267,264"));
   EXPECT_THAT(page, HasSubstr("Limited by cache: stalled, wait fill"));
   EXPECT_THAT(page, HasSubstr("<td>a remark</td>"));
   EXPECT_THAT(page, HasSubstr("id=\"latency\""));
