@@ -45,8 +45,9 @@ function(deburr_test name)
   add_executable(${name} ${ARG_SOURCES})
   # The main() comes first: SystemC's library has one as well.
   target_link_libraries(${name} PRIVATE GTest::gmock_main ${ARG_LINK} deburr_options)
+  # Values of parameters stay out of the names: some are addresses, or bytes of the compiler's choice.
   gtest_discover_tests(${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 TEST_LIST ${name}_tests
-                       PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+                       NO_PRETTY_VALUES PROPERTIES TIMEOUT ${ARG_TIMEOUT})
   # gtest_discover_tests() flattens a list in PROPERTIES, so more than one label goes this way.
   set(labels "${CMAKE_CURRENT_BINARY_DIR}/${name}_labels.cmake")
   file(WRITE "${labels}" "if(${name}_tests)

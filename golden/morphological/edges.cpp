@@ -74,7 +74,7 @@ decltype(auto) with_rule(const Parameters& p, Use&& use) {
 static_assert(std::endian::native == std::endian::little, "the first flag must be the lowest byte");
 std::uint64_t pack(const std::uint8_t* flags) {
   std::uint64_t word = 0;
-  for (int i = 0; i < 8; ++i) {
+  for (std::ptrdiff_t i = 0; i < 8; ++i) {
     std::uint64_t eight;
     std::memcpy(&eight, flags + 8 * i, sizeof eight);
     word |= (eight * 0x0102040810204080u >> 56) << (8 * i);
@@ -93,7 +93,7 @@ void raw_row(const Rule& rule, Row p, Row q, int width, std::uint8_t* flags, std
   for (int x = 0; x < width; ++x) {
     flags[x] = rule(PixelPair{p.luma[x], q.luma[x], p.depth[x], q.depth[x]}) ? 1 : 0;
   }
-  for (int i = 0; i < width / 64 + 1; ++i) bits[i] = pack(flags + 64 * i);
+  for (std::ptrdiff_t i = 0; i < width / 64 + 1; ++i) bits[i] = pack(flags + 64 * i);
 }
 
 // Luma steps of rows y - 1, y, y + 1; 0 outside the frame. across(dy, x) = c((x, y+dy), its left
@@ -117,9 +117,7 @@ class StepRows {
  private:
   using Rows = std::array<std::vector<std::int32_t>, 3>;
   static std::size_t slot(int y) { return static_cast<std::size_t>(y + 3) % 3; }
-  static std::int32_t at(const Rows& rows, int y, int x) {
-    return rows[slot(y)][static_cast<std::size_t>(x + 1)];
-  }
+  static std::int32_t at(const Rows& rows, int y, int x) { return rows[slot(y)].begin()[x + 1]; }
   void fill(int y) {
     auto& across = across_[slot(y)];
     auto& down = down_[slot(y)];
@@ -130,12 +128,12 @@ class StepRows {
     }
     const std::int32_t* row = luma_.row(y);
     for (int x = 1; x < luma_.width; ++x) {
-      across[static_cast<std::size_t>(x + 1)] = std::abs(row[x] - row[x - 1]);
+      across[static_cast<std::size_t>(x) + 1] = std::abs(row[x] - row[x - 1]);
     }
     if (y == 0) return;
     const std::int32_t* above = luma_.row(y - 1);
     for (int x = 0; x < luma_.width; ++x) {
-      down[static_cast<std::size_t>(x + 1)] = std::abs(row[x] - above[x]);
+      down[static_cast<std::size_t>(x) + 1] = std::abs(row[x] - above[x]);
     }
   }
 

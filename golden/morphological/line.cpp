@@ -43,7 +43,7 @@ void fit(const Prediction& p, int length, spec::morphological::LineRecord& line)
 
 // The line through the two outermost corners.
 void chord(const Prediction& p, spec::morphological::LineRecord& line) {
-  const auto n = static_cast<std::size_t>(p.left.steps + p.right.steps + 1);
+  const auto n = static_cast<std::uint64_t>(p.left.steps + p.right.steps) + 1;
   const std::int32_t distance = p.right.end - p.left.end;
   line.scale = 2;
   line.offset = p.left.end + p.right.end;

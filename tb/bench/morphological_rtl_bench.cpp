@@ -10,7 +10,6 @@
 // stripes.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
-#include <tlm_utils/simple_initiator_socket.h>
 
 #include <chrono>
 #include <cstdint>
@@ -26,6 +25,7 @@
 #include "rtl_model/morphological/morphological_engine.h"
 #include "tb/harness/driver.h"
 #include "tb/harness/memory_model.h"
+#include "tb/harness/register_host.h"
 
 namespace deburr::tb {
 namespace {
@@ -93,12 +93,6 @@ Parameters parameters(const std::string& preset, int lanes) {
   return p;
 }
 
-// Nobody speaks to the registers here, but their socket must be bound.
-struct Bus final : sc_core::sc_module {
-  tlm_utils::simple_initiator_socket<Bus> socket{"socket"};
-  explicit Bus(const sc_core::sc_module_name& name) : sc_module(name) {}
-};
-
 // The engine with as little as possible around it.
 struct Setup {
   rtl::ClockDomain clock{"clock", sc_core::sc_time(1, sc_core::SC_NS)};
@@ -107,7 +101,7 @@ struct Setup {
   Driver<spec::morphological::PixelBeat> driver{"driver", clock};
   rtl::morphological::MorphologicalEngine engine;
   Sink<spec::morphological::BlendedBeat> sink{"sink", clock};
-  Bus bus{"bus"};
+  RegisterHost bus{"bus"};
   std::unique_ptr<MemoryModel> memory;
   std::vector<spec::morphological::PixelBeat> frame;
   std::uint64_t frames = 0;
@@ -118,7 +112,7 @@ struct Setup {
     engine.pixels_out(out);
     sink.beats_in(out);
     sink.keep(false);
-    bus.socket.bind(engine.registers);
+    bus.bus.bind(engine.registers);
     if (engine.memory()) {
       MemoryModelParameters m;
       m.bytes = 1u << 24;

@@ -11,7 +11,6 @@
 #include <linux/perf_event.h>
 #include <sys/ioctl.h>
 #include <sys/syscall.h>
-#include <tlm_utils/simple_initiator_socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -32,6 +31,7 @@
 #include "spec/texture/packets.h"
 #include "tb/env/texture_memory.h"
 #include "tb/harness/memory_model.h"
+#include "tb/harness/register_host.h"
 
 namespace deburr::tb {
 namespace {
@@ -132,24 +132,6 @@ MemoryModelParameters memory_parameters() {
   return p;
 }
 
-// Writes registers.
-struct Host : sc_core::sc_module {
-  tlm_utils::simple_initiator_socket<Host> bus{"bus"};
-  explicit Host(const sc_core::sc_module_name& name) : sc_module(name) {}
-  void write(std::uint32_t offset, std::uint32_t value) {
-    std::array<unsigned char, 4> data;
-    for (unsigned i = 0; i < 4; ++i) data[i] = static_cast<unsigned char>(value >> (8 * i));
-    tlm::tlm_generic_payload payload;
-    payload.set_command(tlm::TLM_WRITE_COMMAND);
-    payload.set_address(offset);
-    payload.set_data_ptr(data.data());
-    payload.set_data_length(4);
-    payload.set_streaming_width(4);
-    sc_core::sc_time delay;
-    bus->b_transport(payload, delay);
-  }
-};
-
 // SystemC elaborates once in a process, so all benchmarks share the unit.
 struct System {
   rtl::ClockDomain clock{"clock", sc_core::sc_time(6, sc_core::SC_NS)};
@@ -159,7 +141,7 @@ struct System {
   rtl::texture::TextureUnit unit{"texture", clock, {}};
   Picture picture{"picture", clock};
   MemoryModel memory{"memory", clock.period(), memory_parameters()};
-  Host host{"host"};
+  RegisterHost host{"host"};
 
   System() {
     fragments.quads_out(quads);

@@ -43,7 +43,7 @@ UnitCycles unit_cycles(std::string name, const rtl::Unit& unit) {
   return cycles;
 }
 
-MemoryFigures memory_figures(std::string name, const rtl::Storage& storage, int width) {
+MemoryFigures memory_figures(std::string name, const rtl::MemoryBase& storage, int width) {
   MemoryFigures f;
   f.name = std::move(name);
   f.words = storage.words();

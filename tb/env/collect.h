@@ -21,7 +21,7 @@ std::string name_within(const sc_core::sc_object& engine, const sc_core::sc_obje
 UnitCycles unit_cycles(std::string name, const rtl::Unit& unit);
 
 // For frames of this width; 0: nothing goes with a width.
-MemoryFigures memory_figures(std::string name, const rtl::Storage& memory, int width);
+MemoryFigures memory_figures(std::string name, const rtl::MemoryBase& memory, int width);
 
 // In bins of equal width, a power of two; the empty ones between belong on the axis too.
 Latency latency_of(const rtl::Histogram& histogram);

@@ -75,7 +75,7 @@ void Environment::add(Result& result, std::string_view name, const rtl::Unit& un
   result.units.push_back(unit_cycles(figure(name), unit));
 }
 
-void Environment::add(Result& result, std::string_view name, const rtl::Storage& memory,
+void Environment::add(Result& result, std::string_view name, const rtl::MemoryBase& memory,
                       int width) const {
   result.memories.push_back(memory_figures(figure(name), memory, width));
 }

@@ -108,7 +108,7 @@ class Environment {
            std::string meaning) const;
   void add(Result& result, std::string_view name, const rtl::Counter& counter) const;
   void add(Result& result, std::string_view name, const rtl::Unit& unit) const;
-  void add(Result& result, std::string_view name, const rtl::Storage& memory, int width) const;
+  void add(Result& result, std::string_view name, const rtl::MemoryBase& memory, int width) const;
   static void add(Result& result, const MemoryModel& memory);
 
  private:

@@ -376,7 +376,7 @@ void MorphologicalEnvironment::judge_traffic() {
 void MorphologicalEnvironment::collect(Result& result) const {
   auto& engine = const_cast<rtl::morphological::MorphologicalEngine&>(engine_);
   for (const rtl::Unit* unit : engine.units()) add(result, name_within(engine, *unit), *unit);
-  for (const rtl::Storage* memory : engine.memories())
+  for (const rtl::MemoryBase* memory : engine.memories())
     add(result, name_within(engine, *memory), *memory, width());
   if (memory_) {
     add(result, *memory_);
@@ -425,7 +425,8 @@ void MorphologicalEnvironment::collect_headline(Result& result) const {
       "Of the last frame, from its first input beat to its last output beat.");
   add(result, "frame_clocks_by_formula", by_formula, "clk", "The same if nothing stalls.");
   add(result, "latency_by_formula", latency_by_formula(p, width), "clk",
-      "From a pixel going in to it coming out if nothing stalls: (R + 5) rows and 6 clocks.");
+      "From a pixel going in to it coming out if nothing stalls: (R + 5) rows and the clocks of "
+      "the pipe.");
   add(result, "input_pixels_per_clock",
       source_->done()
           ? ratio(number(static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height)),

@@ -247,7 +247,7 @@ std::string TextureEnvironment::describe(const spec::texture::Colour& c) const {
 void TextureEnvironment::collect(Result& result) const {
   auto& unit = const_cast<rtl::texture::TextureUnit&>(unit_);
   for (const rtl::Unit* u : unit.units()) add(result, short_name(*u, 1), *u);
-  for (const rtl::Storage* memory : unit.memories())
+  for (const rtl::MemoryBase* memory : unit.memories())
     add(result, short_name(*memory, 2), *memory, 0);
   add(result, memory_);
   const std::uint64_t lines = unit_.cache.miss_queue.line_fills.value();

@@ -23,7 +23,7 @@
 #include <tlm>
 #include <vector>
 
-#include "tb/harness/random.h"
+#include "tb/stimuli/random.h"
 
 namespace deburr::tb {
 

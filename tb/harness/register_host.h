@@ -16,11 +16,12 @@ class RegisterHost final : public sc_core::sc_module {
   explicit RegisterHost(const sc_core::sc_module_name& name) : sc_module(name) {}
 
   // SimulationError, with the offset and the response, where the access is refused.
-  std::uint32_t read(std::uint32_t offset) { return access(offset, 0, false); }
-  void write(std::uint32_t offset, std::uint32_t value) { access(offset, value, true); }
-
- private:
-  std::uint32_t access(std::uint32_t offset, std::uint32_t value, bool write);
+  std::uint32_t read(std::uint32_t offset);
+  void write(std::uint32_t offset, std::uint32_t value);
+  // The response, whatever it is.
+  tlm::tlm_response_status try_write(std::uint32_t offset, std::uint32_t value);
+  // As a debugger writes: whether it was taken.
+  bool debug_write(std::uint32_t offset, std::uint32_t value);
 };
 
 }  // namespace deburr::tb

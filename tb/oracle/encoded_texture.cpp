@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "spec/error.h"
-#include "tb/oracle/random.h"
+#include "tb/stimuli/random.h"
 
 namespace deburr::tb::texture {
 namespace {
@@ -47,11 +47,11 @@ std::array<double, 4> texel(Pattern pattern, int level, int x, int y, Random& ra
   switch (pattern) {
     case Pattern::kNoise:
     case Pattern::kPyramid: {
-      const std::uint32_t r = random.next();
+      const std::uint32_t r = random.word();
       return {full(r & 1), full(r & 2), full(r & 4), full(r & 8)};
     }
     case Pattern::kComposite: {
-      const std::uint32_t r = random.next();
+      const std::uint32_t r = random.word();
       return {full(r & 1), static_cast<double>(r >> 24), full((level & 1) != 0),
               full(((x ^ y) & 1) != 0)};
     }
@@ -108,7 +108,7 @@ int log2_round_up(int n) { return std::bit_width(static_cast<unsigned>(n - 1)); 
 EncodedTexture make_texture(Pattern pattern, spec::texture::Format format, int width, int height,
                             std::uint32_t seed) {
   DEBURR_CHECK(width > 0 && height > 0, "a test texture has texels");
-  Random random(seed);
+  Random random(Random::kStride * seed + 1);
   const bool averages = pattern == Pattern::kPyramid || pattern == Pattern::kChecker;
   EncodedTexture texture;
   texture.format = format;

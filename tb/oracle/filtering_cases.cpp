@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tb/oracle/random.h"
+#include "tb/stimuli/random.h"
 
 namespace deburr::tb::texture {
 namespace {
@@ -55,7 +55,7 @@ double real(std::int64_t coordinate) {
 
 std::vector<spec::texture::Quad> filtering_quads(const Size& size, int count, std::uint32_t seed,
                                                  double lod_bias) {
-  Random random(seed);
+  Random random(Random::kStride * seed + 1);
   const int last = std::bit_width(static_cast<unsigned>(std::max(size.width, size.height))) - 1;
   std::vector<spec::texture::Quad> quads;
   for (int i = 0; i < count; ++i) {
@@ -64,7 +64,7 @@ std::vector<spec::texture::Quad> filtering_quads(const Size& size, int count, st
     const double threshold = std::max(0.0, std::floor(2.0 * sweep) / 2.0);
     const double reach = i % 8 == 3 ? 0.08 : 0.025;
     const double lod = i % 4 == 3 ? threshold + random.uniform(-reach, reach) : sweep;
-    const Jacobian j = jacobian(static_cast<int>(random.next() % 8), lod - lod_bias, random);
+    const Jacobian j = jacobian(static_cast<int>(random.word() % 8), lod - lod_bias, random);
     const double s0 = random.uniform(-2.0, 2.0);
     const double t0 = random.uniform(-2.0, 2.0);
     spec::texture::Quad quad;

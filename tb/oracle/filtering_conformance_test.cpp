@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "tb/oracle/conformance.h"
-#include "tb/oracle/random.h"
+#include "tb/stimuli/random.h"
 
 namespace deburr::tb::texture {
 namespace {
@@ -75,14 +75,14 @@ TEST(Golden, IsHighWithBiasAndClamps) {
                     {},
                     48,
                     seed};
-    c.descriptor.min_filter = static_cast<spec::texture::MinFilter>(random.next() % 6);
-    c.descriptor.mag_filter = static_cast<spec::texture::MagFilter>(random.next() % 2);
-    c.descriptor.wrap_s = static_cast<spec::texture::Wrap>(random.next() % 3);
-    c.descriptor.wrap_t = static_cast<spec::texture::Wrap>(random.next() % 3);
+    c.descriptor.min_filter = static_cast<spec::texture::MinFilter>(random.word() % 6);
+    c.descriptor.mag_filter = static_cast<spec::texture::MagFilter>(random.word() % 2);
+    c.descriptor.wrap_s = static_cast<spec::texture::Wrap>(random.word() % 3);
+    c.descriptor.wrap_t = static_cast<spec::texture::Wrap>(random.word() % 3);
     c.descriptor.lod_bias = static_cast<std::int16_t>(random.uniform(-768, 768));
-    if (seed % 3 == 0) c.descriptor.min_lod = static_cast<std::uint16_t>(random.next() % 768);
+    if (seed % 3 == 0) c.descriptor.min_lod = static_cast<std::uint16_t>(random.word() % 768);
     if (seed % 5 == 0)
-      c.descriptor.max_lod = static_cast<std::uint16_t>(c.descriptor.min_lod + random.next() % 768);
+      c.descriptor.max_lod = static_cast<std::uint16_t>(c.descriptor.min_lod + random.word() % 768);
     const CaseResult r = judge(c, filter);
     ASSERT_EQ(r.verdict, Verdict::kHigh) << r.worst;
     ASSERT_EQ(r.undecided, 0);

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tb/oracle/random.h"
+#include "tb/stimuli/random.h"
 
 namespace deburr {
 namespace {
@@ -20,7 +20,7 @@ using golden::ideal::kPrecisionLow;
 using golden::ideal::Rgba;
 using golden::ideal::Sampler;
 using golden::ideal::Texture;
-using tb::texture::Random;
+using tb::Random;
 
 Rgba grey(double value) { return {value, value, value, value}; }
 
@@ -188,13 +188,13 @@ RandomCase random_case(Random& random) {
   for (int size = 8; size > 0; size /= 2) {
     golden::ideal::Level level{size, size, {}};
     for (int i = 0; i < size * size; ++i)
-      level.texels.push_back({random.uniform(0, 255), random.next() % 2 * 255.0,
-                              random.uniform(0, 255), random.next() % 2 * 255.0});
+      level.texels.push_back({random.uniform(0, 255), random.word() % 2 * 255.0,
+                              random.uniform(0, 255), random.word() % 2 * 255.0});
     c.texture.levels.push_back(std::move(level));
   }
-  c.state = sampler(static_cast<spec::texture::MinFilter>(random.next() % 6),
-                    static_cast<spec::texture::MagFilter>(random.next() % 2),
-                    static_cast<spec::texture::Wrap>(random.next() % 3));
+  c.state = sampler(static_cast<spec::texture::MinFilter>(random.word() % 6),
+                    static_cast<spec::texture::MagFilter>(random.word() % 2),
+                    static_cast<spec::texture::Wrap>(random.word() % 3));
   const double d = std::exp2(random.uniform(-1.0, 3.5)) / 8;
   c.fragment = {random.uniform(-2, 2), random.uniform(-2, 2), d, 0, 0, random.uniform(0, d)};
   return c;

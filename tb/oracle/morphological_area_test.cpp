@@ -12,7 +12,7 @@
 #include "golden/morphological/area.h"
 #include "golden/morphological/line.h"
 #include "golden/morphological/morphological_golden.h"
-#include "tb/oracle/random.h"
+#include "tb/stimuli/random.h"
 
 namespace deburr {
 namespace {
@@ -26,7 +26,7 @@ using golden::morphological::EdgeShares;
 using golden::morphological::line_through;
 using golden::morphological::Prediction;
 using golden::morphological::shares;
-using tb::texture::Random;
+using tb::Random;
 
 // In units of a share, 1/256. Half of it is the rounding to 8 bits.
 constexpr double kBound = 0.57;

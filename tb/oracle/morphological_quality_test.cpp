@@ -7,8 +7,8 @@
 #include <iostream>
 #include <map>
 
-#include "tb/oracle/discs.h"
-#include "tb/oracle/line_fans.h"
+#include "tb/stimuli/discs.h"
+#include "tb/stimuli/line_fans.h"
 
 namespace deburr {
 namespace {
@@ -17,7 +17,8 @@ using tb::morphological::FanFigures;
 using tb::morphological::FanLimit;
 using tb::morphological::FanOptions;
 using tb::morphological::FanRow;
-using tb::morphological::Frame;
+using tb::morphological::measure_discs;
+using tb::morphological::measure_fans;
 
 std::map<std::string, FanFigures, std::less<>> table(const char* title, const FanOptions& options) {
   std::map<std::string, FanFigures, std::less<>> result;

@@ -14,15 +14,15 @@
 #include "golden/morphological/morphological_golden.h"
 #include "spec/morphological/packets.h"
 #include "spec/morphological/parameters.h"
-#include "tb/harness/random.h"
-#include "tb/oracle/discs.h"
-#include "tb/oracle/line_fans.h"
 #include "tb/papers/papers.h"
 #include "tb/results/progress.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/scenes.h"
 #include "tb/scene/truth.h"
+#include "tb/stimuli/discs.h"
+#include "tb/stimuli/line_fans.h"
+#include "tb/stimuli/random.h"
 
 namespace deburr::tb {
 namespace {
@@ -39,10 +39,6 @@ constexpr int kPaperLoops = 4;    // "all results use 4"
 constexpr int kTruthSamples = 8;  // each way, of a pixel
 
 std::string decimals(double value, int digits) { return fmt::format("{:.{}f}", value, digits); }
-
-double uniform(Random& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random.next() >> 11) * 0x1p-53;
-}
 
 double ratio(double a, double b) { return b > 0 ? a / b : 0; }
 
@@ -63,7 +59,7 @@ DigitalLine digital_line(double slope, double phase, int count) {
 
 // Slopes below 1 only: the steps are at least a pixel long.
 DigitalLine random_line(Random& random, int count) {
-  return digital_line(1 / uniform(random, 1, 40), uniform(random, 0, 1), count);
+  return digital_line(1 / random.uniform(1, 40), random.uniform(0, 1), count);
 }
 
 // ---- Theorem 1 ----------------------------------------------------------------------------------
@@ -283,7 +279,7 @@ PaperTable probes(const PaperOptions& options) {
       p.reach_columns = 2048;
       double pixels = 0, tested = 0, walked = 0;
       for (int i = 0; i < lines; ++i) {
-        const double slope = 1 / (length + uniform(random, 0, 1)), phase = uniform(random, 0, 1);
+        const double slope = 1 / (length + random.uniform(0, 1)), phase = random.uniform(0, 1);
         const int width = (3 * loops + 20) * (length + 1);
         Image frame(width, static_cast<int>(width * slope) + 8);
         for (int y = 0; y < frame.height; ++y)
@@ -515,8 +511,8 @@ PaperTable rules(const PaperOptions& options) {
     }
     rows[r].parameters.linear_light = false;  // coverage is measured in codes
     const morphological::Smoothing smoothing = morphological::smoothing_of(rows[r]);
-    const morphological::DiscFigures discs =
-        measure_discs(smoothing, {.pixels = options.quick ? 1000 : 4000, .seeds = 1});
+    const morphological::DiscFigures discs = morphological::measure_discs(
+        smoothing, {.pixels = options.quick ? 1000 : 4000, .seeds = 1});
     const auto mean = [&](std::size_t from, std::size_t to) {
       double sum = 0;
       for (std::size_t i = from; i <= to; ++i) sum += discs.by_radius[i] * discs.by_radius[i];

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "tb/harness/coverage.h"
-#include "tb/system/forked.h"
+#include "tb/harness/forked.h"
 #include "tb/system/morphological_runs.h"
 
 namespace deburr::tb::morphological_system {

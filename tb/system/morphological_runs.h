@@ -12,9 +12,9 @@
 #include "golden/morphological/configuration.h"
 #include "tb/env/morphological_environment.h"
 #include "tb/env/morphological_frames.h"
-#include "tb/harness/random.h"
 #include "tb/scene/scenes.h"
 #include "tb/scene/truth.h"
+#include "tb/stimuli/random.h"
 
 namespace deburr::tb::morphological_system {
 

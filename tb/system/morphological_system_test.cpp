@@ -10,7 +10,7 @@
 #include <string>
 #include <tuple>
 
-#include "tb/system/forked.h"
+#include "tb/harness/forked.h"
 #include "tb/system/morphological_runs.h"
 
 namespace deburr::tb::morphological_system {

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "tb/harness/coverage.h"
-#include "tb/system/forked.h"
+#include "tb/harness/forked.h"
 #include "tb/system/texture_runs.h"
 
 namespace deburr::tb {

@@ -2,8 +2,6 @@
 // The whole texture unit on input that no scene makes: descriptors at random, a few of them
 // invalid, over random bytes; quads of every slope with any coverage; rules, cache, memory and
 // weather at random too. Every colour, every line fill and every status register is compared.
-#include "tb/system/texture_random.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +9,8 @@
 #include <cstdint>
 #include <string>
 
-#include "tb/harness/random.h"
+#include "tb/stimuli/random.h"
+#include "tb/stimuli/texture_quads.h"
 #include "tb/system/texture_quad_bench.h"
 
 namespace deburr::tb {

@@ -6,7 +6,7 @@
 
 #include <tuple>
 
-#include "tb/system/forked.h"
+#include "tb/harness/forked.h"
 #include "tb/system/texture_quad_bench.h"
 #include "tb/system/texture_runs.h"
 

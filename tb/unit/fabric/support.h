@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdint>
 #include <exception>
@@ -20,44 +18,19 @@
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/unit.h"
 #include "tb/harness/driver.h"
-#include "tb/harness/random.h"
+#include "tb/harness/forked.h"
 #include "tb/harness/statistics.h"
+#include "tb/stimuli/random.h"
 
 namespace deburr::tb {
 
-// SystemC elaborates once in a process: each simulation gets a child of its own, which gives back a
-// text. An exception in the child comes back as "exception: ...".
+// The text that a simulation in a process of its own gives back, its exceptions included.
 inline std::string in_child(const std::function<std::string()>& simulation) {
-  int ends[2];
-  if (pipe(ends) != 0) throw std::runtime_error("pipe");
-  const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("fork");
-  if (child == 0) {
-    close(ends[0]);
-    std::string text;
-    try {
-      text = simulation();
-    } catch (const std::exception& error) {
-      text = std::string("exception: ") + error.what();
-    }
-    for (std::size_t done = 0; done < text.size();) {
-      const ssize_t n = write(ends[1], text.data() + done, text.size() - done);
-      if (n <= 0) break;
-      done += static_cast<std::size_t>(n);
-    }
-    close(ends[1]);
-    _exit(0);
+  try {
+    return forked_text(simulation);
+  } catch (const std::exception& error) {
+    return std::string("exception: ") + error.what();
   }
-  close(ends[1]);
-  std::string text;
-  char buffer[4096];
-  for (ssize_t n; (n = read(ends[0], buffer, sizeof buffer)) > 0;)
-    text.append(buffer, static_cast<std::size_t>(n));
-  close(ends[0]);
-  int status = 0;
-  waitpid(child, &status, 0);
-  if (!WIFEXITED(status)) text += fmt::format("child ended by signal {}", WTERMSIG(status));
-  return text;
 }
 
 struct Token {

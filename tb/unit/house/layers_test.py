@@ -18,6 +18,8 @@ ALLOWED = {
     "rtl_model": {"spec", "rtl_model"},
     "tb": {"spec", "golden", "rtl_model", "tb"},
 }
+# Rooms of tb that only tests look into; what the command is built from does not.
+TESTS_ALONE = {"unit", "system", "oracle", "negative", "bench", "baselines"}
 SOURCE = {".h", ".cpp", ".cmake", ".py", ".txt"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 FLOATING = re.compile(r"\b(float|double)\b")
@@ -53,6 +55,9 @@ def violations(root):
                     first = name.split("/")[0]
                     if first in ALLOWED and first not in allowed:
                         yield f"{where}:{number}: {layer} includes {first}"
+                    if (layer == "tb" and where.parts[1] not in TESTS_ALONE
+                            and first == "tb" and name.split("/")[1] in TESTS_ALONE):
+                        yield f"{where}:{number}: test support in the command"
                 if layer in {"golden", "rtl_model"} and not ideal and FLOATING.search(line):
                     yield f"{where}:{number}: floating point in {layer}"
                 if ASSERT.search(line) and "static_assert" not in line:
@@ -76,6 +81,7 @@ def planted_faults_are_caught():
         "golden/d.cpp": "#include <systemc>",
         "tb/b.cpp": "#include <systemc.h>",
         "tb/c.cpp": "assert(x > 0);",
+        "tb/app/a.cpp": '#include "tb/unit/scene/fixtures.h"',
         "golden/b.cpp": "double x;",
         "golden/ideal/c.cpp": '#include "../../rtl_model/x.h"',
         "spec/a.h": '#include "tb/scene/image.h"',

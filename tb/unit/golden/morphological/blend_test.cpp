@@ -11,7 +11,7 @@
 #include "golden/morphological/convert.h"
 #include "golden/morphological/traffic.h"
 #include "spec/error.h"
-#include "tb/oracle/random.h"
+#include "tb/stimuli/random.h"
 
 namespace deburr {
 namespace {
@@ -22,7 +22,7 @@ using golden::morphological::decide;
 using golden::morphological::Decision;
 using golden::morphological::PixelShares;
 using golden::morphological::tap_of;
-using tb::texture::Random;
+using tb::Random;
 
 TEST(Blender, DecidesTheAxisByThreeRules) {
   EXPECT_EQ(decide({0, 0, 0, 0, 9, 9}), Decision::kNone);
@@ -59,9 +59,9 @@ TEST(Blender, InvertsWithItsInputsInGammaSpaceOnly) {
   Random random(1);
   bool broken_in_linear_light = false;
   for (int i = 0; i < 200000; ++i) {
-    const int c = static_cast<int>(random.next() & 255), a = static_cast<int>(random.next() & 255),
-              b = static_cast<int>(random.next() & 255), wa = static_cast<int>(random.next() % 129),
-              wb = static_cast<int>(random.next() % 129);
+    const int c = static_cast<int>(random.word() & 255), a = static_cast<int>(random.word() & 255),
+              b = static_cast<int>(random.word() & 255), wa = static_cast<int>(random.word() % 129),
+              wb = static_cast<int>(random.word() % 129);
     const int result = blend_channel(false, c, a, wa, b, wb);
     EXPECT_TRUE(result >= 0 && result <= 255);
     EXPECT_EQ(blend_channel(false, 255 - c, 255 - a, wa, 255 - b, wb), 255 - result);
@@ -121,7 +121,7 @@ TEST(Conversion, OfBinary32IsTheRuleInRealNumbers) {
         std::numeric_limits<float>::quiet_NaN()}) {
     check(std::bit_cast<std::uint32_t>(v));
   }
-  for (int i = 0; i < 200000; ++i) check(random.next());
+  for (int i = 0; i < 200000; ++i) check(random.word());
   for (int i = 0; i < 200000; ++i) {
     check(std::bit_cast<std::uint32_t>(static_cast<float>(random.uniform(0, 1))));
   }

@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "tb/oracle/random.h"
+#include "tb/stimuli/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
 namespace deburr {
@@ -19,12 +19,12 @@ using golden::morphological::MorphologicalGolden;
 using golden::morphological::preset_parameters;
 using golden::morphological::RunCoverage;
 using spec::morphological::Preset;
+using tb::Random;
 using tb::morphological::Frame;
 using tb::morphological::grey;
-using tb::texture::Random;
 
 int below(Random& random, int n) {
-  return static_cast<int>(random.next() % static_cast<unsigned>(n));
+  return static_cast<int>(random.word() % static_cast<unsigned>(n));
 }
 
 // Greys that are sometimes too near for an edge, so that crossings go missing.
@@ -33,7 +33,7 @@ Frame rectangles(Random& random) {
   Frame frame(width, height, [](int, int) { return grey(128); });
   for (int i = 0; i < 25; ++i) {
     const int x0 = below(random, width), y0 = below(random, height);
-    const bool flat = random.next() % 2 == 0;
+    const bool flat = random.word() % 2 == 0;
     const int w = 1 + below(random, flat ? 40 : 3), h = 1 + below(random, flat ? 3 : 40);
     const int code = below(random, 8) * 6 + below(random, 2) * 100;
     for (int y = y0; y < std::min(height, y0 + h); ++y) {
@@ -45,12 +45,12 @@ Frame rectangles(Random& random) {
 
 Frame line(Random& random, bool steep) {
   const double slope = 1 / random.uniform(1, 26), start = random.uniform(0, 20);
-  const bool falling = random.next() % 2 == 0;
+  const bool falling = random.word() % 2 == 0;
   const Frame frame(120 + below(random, 100), 24 + below(random, 20), [&](int x, int y) {
     const double at = falling ? start + slope * x : start + 20 - slope * x;
     return grey(y < at ? 255 : 0);
   });
-  return steep ? tb::morphological::transposed(frame) : frame;
+  return steep ? Frame(tb::morphological::transposed(frame)) : frame;
 }
 
 Frame disc(Random& random) {

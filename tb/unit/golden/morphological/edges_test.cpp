@@ -9,7 +9,7 @@
 #include <cstdlib>
 
 #include "golden/morphological/luma.h"
-#include "tb/oracle/random.h"
+#include "tb/stimuli/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
 namespace deburr {
@@ -19,8 +19,8 @@ using golden::morphological::BitPlane;
 using golden::morphological::DepthView;
 using golden::morphological::EdgePlanes;
 using golden::morphological::find_edges;
+using tb::Random;
 using tb::morphological::Frame;
-using tb::texture::Random;
 
 // "Edges" of docs/number_formats_morphological.md, word for word.
 class PlainEdges {
@@ -108,7 +108,7 @@ class PlainEdges {
 // Codes near each other and far apart, so that every comparison goes both ways.
 Frame random_frame(int width, int height, Random& random) {
   return Frame(width, height, [&](int x, int y) {
-    const std::uint32_t r = random.next();
+    const std::uint32_t r = random.word();
     const int base = (x / 5 + y / 3) % 3 * 90;
     spec::morphological::Rgba8 pixel;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -121,7 +121,7 @@ Frame random_frame(int width, int height, Random& random) {
 std::vector<std::uint32_t> random_depth(const Frame& frame, Random& random) {
   std::vector<std::uint32_t> depth;
   for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
-    const std::uint32_t r = random.next();
+    const std::uint32_t r = random.word();
     depth.push_back(r % 5 == 0 ? 0 : r % 7 == 0 ? 0xFFFFFF : 0x400000 + r % 0x80000);
   }
   return depth;
@@ -224,7 +224,7 @@ TEST(MorphologicalEdges, ContrastOfExactlyTwiceTheStepDropsTheBit) {
 TEST(MorphologicalEdges, WithoutDepthThereAreNoDepthEdges) {
   spec::morphological::Parameters p;
   p.edge_source = spec::morphological::EdgeSource::kDepth;
-  EXPECT_EQ(find_edges(p, tb::morphological::noise_image().view()),
+  EXPECT_EQ(find_edges(p, Frame(tb::morphological::noise_image()).view()),
             (EdgePlanes{BitPlane(97, 61), BitPlane(97, 61)}));
 }
 

@@ -9,7 +9,7 @@
 #include "golden/morphological/area.h"
 #include "golden/morphological/runs.h"
 #include "spec/error.h"
-#include "tb/oracle/random.h"
+#include "tb/stimuli/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
 namespace deburr {
@@ -22,6 +22,7 @@ using golden::morphological::MorphologicalGolden;
 using golden::morphological::PredictedRun;
 using golden::morphological::preset_parameters;
 using spec::morphological::Preset;
+using tb::Random;
 using tb::morphological::Frame;
 using tb::morphological::grey;
 using tb::morphological::inverted;
@@ -29,7 +30,6 @@ using tb::morphological::mirrored_x;
 using tb::morphological::mirrored_y;
 using tb::morphological::smooth;
 using tb::morphological::transposed;
-using tb::texture::Random;
 
 std::vector<Frame> frames() {
   return {tb::morphological::noise_image(), tb::morphological::line_image(),
@@ -163,7 +163,7 @@ TEST(ExtremeFrames, WithoutEdgesPassUntouched) {
 TEST(ExtremeFrames, OfOneRowOrColumnHaveRunsOfOne) {
   Random random(1);
   for (const auto& p : rules()) {
-    const Frame row(200, 1, [&](int, int) { return grey(static_cast<int>(random.next() & 255)); });
+    const Frame row(200, 1, [&](int, int) { return grey(static_cast<int>(random.word() & 255)); });
     MorphologicalGolden golden(p);
     // No crossings can exist, so nothing is blended.
     EXPECT_EQ(golden.process(row.view()), row.pixels);
@@ -228,7 +228,7 @@ TEST(Alpha, PassesAndChangesNothing) {
   Random random(2);
   Frame frame = opaque;
   for (spec::morphological::Rgba8& pixel : frame.pixels)
-    pixel[3] = static_cast<std::uint8_t>(random.next());
+    pixel[3] = static_cast<std::uint8_t>(random.word());
   const auto p = preset_parameters(Preset::kDeburr);
   const Frame output = smooth(p, frame), expected = smooth(p, opaque);
   for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
@@ -269,11 +269,11 @@ int changes(int columns, int rows) {
   int result = 0;
   for (int i = 0; i < 200; ++i) {
     const Frame frame(kSize, kSize, [&](int x, int y) {
-      return grey((3 * x + 5 * y + i) / 17 % 2 * 180 + (random.next() % 16 == 0 ? 70 : 0));
+      return grey((3 * x + 5 * y + i) / 17 % 2 * 180 + (random.word() % 16 == 0 ? 70 : 0));
     });
     const Frame changed(kSize, kSize, [&](int x, int y) {
       const bool near = std::abs(x - kX) <= columns && std::abs(y - kY) <= rows;
-      return near ? frame.at(x, y) : grey(static_cast<int>(random.next() & 255));
+      return near ? frame.at(x, y) : grey(static_cast<int>(random.word() & 255));
     });
     result += smooth(p, frame).at(kX, kY) != smooth(p, changed).at(kX, kY);
   }

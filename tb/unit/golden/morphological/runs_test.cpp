@@ -14,7 +14,7 @@
 
 #include "golden/morphological/edges.h"
 #include "golden/morphological/predictor.h"
-#include "tb/oracle/random.h"
+#include "tb/stimuli/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
 namespace deburr {
@@ -30,9 +30,9 @@ using golden::morphological::PredictedRun;
 using golden::morphological::preset_parameters;
 using golden::morphological::SideEnd;
 using spec::morphological::Preset;
+using tb::Random;
 using tb::morphological::Frame;
 using tb::morphological::grey;
-using tb::texture::Random;
 
 // ---- planes and runs ----------------------------------------------------------------------------
 
@@ -40,7 +40,7 @@ BitPlane random_plane(int width, int height, int percent, Random& random) {
   BitPlane plane(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      if (random.next() % 100 < static_cast<unsigned>(percent)) plane.set(x, y);
+      if (random.word() % 100 < static_cast<unsigned>(percent)) plane.set(x, y);
     }
   }
   return plane;
@@ -173,13 +173,13 @@ TEST(ConsistentSets, AreThoseForWhichALineExists) {
   Random random(4);
   int consistent = 0;
   for (int i = 0; i < 20000; ++i) {
-    const int length = 1 + static_cast<int>(random.next() % 9);
+    const int length = 1 + static_cast<int>(random.word() % 9);
     ConsistentSet set(length);
     std::vector<ConsistentSet::Corner> corners = {{0, 0}, {1, length}};
     int right = length, left = 0;
-    const int sides = 1 + static_cast<int>(random.next() % 6);
+    const int sides = 1 + static_cast<int>(random.word() % 6);
     for (int k = 0; k < sides; ++k) {
-      const auto step = [&] { return length + static_cast<int>(random.next() % 3) - 1; };
+      const auto step = [&] { return length + static_cast<int>(random.word() % 3) - 1; };
       corners.push_back({k + 2, right += step()});
       EXPECT_EQ(set.consistent_with(corners.back()), line_exists(corners));
       set.add(corners.back());

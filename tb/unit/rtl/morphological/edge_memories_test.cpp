@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "rtl_model/morphological/runs/port_schedule.h"
-#include "tb/harness/random.h"
+#include "tb/stimuli/random.h"
 #include "tb/unit/rtl/morphological/support.h"
 
 namespace deburr::tb::morphological_rtl {
@@ -30,7 +30,7 @@ Parameters built(bool contiguous, int reach_rows = 32, int reach_columns = 256) 
 struct Shown {
   Shown(const Parameters& p, int width_, int height_, int row_, std::uint32_t permille)
       : width(width_), height(height_), row(row_), store(control, p), memories(p, store) {
-    bus.socket.bind(control.registers.bus);
+    bus.bus.bind(control.registers.bus);
     store.write_size(width, height);
     EXPECT_TRUE(store.latch());
     Random random(permille);
@@ -46,7 +46,7 @@ struct Shown {
   }
   int width, height, row;
   std::vector<bool> bits;
-  Bus bus{"bus"};
+  RegisterHost bus{"bus"};
   rtl::ControlRegisters control{"registers", spec::morphological::kRegisters,
                                 rtl::morphological::control_layout()};
   ParameterStore store;

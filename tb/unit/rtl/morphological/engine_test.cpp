@@ -44,7 +44,7 @@ TEST_P(Sizes, GiveTheSamePixelsInEveryEngine) {
       engine.pixels_in(in);
       engine.pixels_out(out);
       sink.beats_in(out);
-      bus.socket.bind(engine.registers);
+      bus.bus.bind(engine.registers);
       if (engine.memory()) {
         MemoryModelParameters m;
         m.latency_max = 50;
@@ -55,7 +55,7 @@ TEST_P(Sizes, GiveTheSamePixelsInEveryEngine) {
     Driver<spec::morphological::PixelBeat> driver;
     rtl::morphological::MorphologicalEngine engine;
     Sink<spec::morphological::BlendedBeat> sink;
-    Bus bus;
+    RegisterHost bus;
     Link<spec::morphological::PixelBeat> in;
     Link<spec::morphological::BlendedBeat> out;
     std::unique_ptr<MemoryModel> memory;

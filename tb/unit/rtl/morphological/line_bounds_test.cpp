@@ -9,7 +9,7 @@
 #include <deque>
 #include <utility>
 
-#include "tb/harness/random.h"
+#include "tb/stimuli/random.h"
 
 namespace deburr::tb::morphological_rtl {
 namespace {

@@ -48,25 +48,13 @@ TEST(ParameterStoreBlock, ResetValueOfTrimIsTheParameter) {
   EXPECT_FALSE(off.store.rules().trim);
 }
 
-void debug_write(EngineBench& bench, std::uint32_t offset, std::uint32_t value) {
-  std::array<unsigned char, 4> data{};
-  for (unsigned i = 0; i < 4; ++i) data[i] = static_cast<unsigned char>(value >> (8 * i));
-  tlm::tlm_generic_payload payload;
-  payload.set_command(tlm::TLM_WRITE_COMMAND);
-  payload.set_address(offset);
-  payload.set_data_ptr(data.data());
-  payload.set_data_length(4);
-  payload.set_streaming_width(4);
-  ASSERT_EQ(bench.bus.socket->transport_dbg(payload), 4u);
-}
-
 // Bits that a register does not have stay 0 on this way as well.
 TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
   EngineBench bench(in_memory());
-  debug_write(bench, reg::kPixelBase, 0x12345);
-  debug_write(bench, reg::kSize, 97u | 61u << 16 | 0xC000C000u);
-  debug_write(bench, reg::kThreshold, 0xABCD0000u | 6554u);
-  debug_write(bench, reg::kRules, 0xFFFE0000u | 1u << 15);
+  ASSERT_TRUE(bench.bus.debug_write(reg::kPixelBase, 0x12345));
+  ASSERT_TRUE(bench.bus.debug_write(reg::kSize, 97u | 61u << 16 | 0xC000C000u));
+  ASSERT_TRUE(bench.bus.debug_write(reg::kThreshold, 0xABCD0000u | 6554u));
+  ASSERT_TRUE(bench.bus.debug_write(reg::kRules, 0xFFFE0000u | 1u << 15));
   const Frame in = noise();
   bench.driver.send(beats_of(in, 1));
   bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },
@@ -115,7 +103,7 @@ TEST(Registers, ResetValuesAreTheParameters) {
   EXPECT_EQ(bench.bus.read(reg::kPixelBase), 0x12340u);
   bench.bus.write(reg::kSize, 0xFFFFFFFF);
   EXPECT_EQ(bench.bus.read(reg::kSize), 0x3FFF3FFFu);
-  EXPECT_EQ(bench.bus.write(reg::kPixels, 1), tlm::TLM_COMMAND_ERROR_RESPONSE);
+  EXPECT_EQ(bench.bus.try_write(reg::kPixels, 1), tlm::TLM_COMMAND_ERROR_RESPONSE);
 }
 
 TEST(Registers, RulesCountFromTheNextFrame) {
@@ -212,7 +200,7 @@ struct Engine {
     engine.pixels_in(in);
     engine.pixels_out(out);
     sink.beats_in(out);
-    bus.socket.bind(engine.registers);
+    bus.bus.bind(engine.registers);
   }
   // Pixels and taps of the frame.
   std::vector<spec::morphological::BlendedBeat> run(ClockDomain& clock, const Frame& frame) {
@@ -228,14 +216,14 @@ struct Engine {
   Driver<spec::morphological::PixelBeat> driver;
   rtl::morphological::MorphologicalEngine engine;
   Sink<spec::morphological::BlendedBeat> sink;
-  Bus bus;
+  RegisterHost bus;
   Link<spec::morphological::PixelBeat> in;
   Link<spec::morphological::BlendedBeat> out;
 };
 
 // Something for every rule: long stairs, steps of many heights side by side, bends, depth.
 Frame motley() {
-  Lcg s;
+  stimuli::Sequence s;
   const auto below = [&](int n) { return static_cast<int>(s.next() >> 8) % n; };
   Frame frame = draw(64, 44, [](int x, int y) { return grey(2 * x + 3 * y < 150 ? 90 : 160); });
   for (std::size_t i = 0; i < frame.depth.size(); ++i) frame.depth[i] = 4'000'000;
@@ -300,7 +288,7 @@ TEST_P(RegisterField, DoesWhatTheParameterDoes) {
   const std::uint32_t mask = static_cast<std::uint32_t>(
       ((std::uint64_t{1} << (field.high - field.low + 1)) - 1) << field.low);
   const std::uint32_t old = told.bus.read(field.offset);
-  EXPECT_EQ(told.bus.write(field.offset, (old & ~mask) | field.value << field.low),
+  EXPECT_EQ(told.bus.try_write(field.offset, (old & ~mask) | field.value << field.low),
             tlm::TLM_OK_RESPONSE);
   EXPECT_EQ(told.bus.read(field.offset), (old & ~mask) | field.value << field.low);
   const auto after = told.run(clock, frame);
@@ -424,7 +412,7 @@ TEST(Depth, Has24Bits) {
   const Frame expected = bench.run(frame);
   const spec::morphological::Work work = bench.engine.work();
   ASSERT_GT(work.blended_pixels, 100u);
-  Lcg s;
+  stimuli::Sequence s;
   for (std::uint32_t& d : frame.depth) d |= s.next() & 0xFF000000;
   EXPECT_EQ(bench.run(frame).pixel, expected.pixel);
   EXPECT_EQ(bench.engine.work().edge_pixels, 2 * work.edge_pixels);

@@ -15,7 +15,7 @@ namespace deburr::tb::morphological_rtl {
 // A ParameterStore with its bus, and a frame inside.
 struct Registers {
   explicit Registers(const Parameters& p) : store(control, p), bus("bus") {
-    bus.socket.bind(control.registers.bus);
+    bus.bus.bind(control.registers.bus);
   }
   Registers(const Parameters& p, int width, int height) : Registers(p) { frame(width, height); }
   void frame(int width, int height) {
@@ -30,7 +30,7 @@ struct Registers {
   rtl::ControlRegisters control{"registers", spec::morphological::kRegisters,
                                 rtl::morphological::control_layout()};
   rtl::morphological::ParameterStore store;
-  Bus bus;
+  RegisterHost bus;
 };
 
 // Sends each beat in its clock or, if there is no room, as soon as there is.

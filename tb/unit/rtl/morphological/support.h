@@ -5,7 +5,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <tlm_utils/simple_initiator_socket.h>
 
 #include <algorithm>
 #include <array>
@@ -24,6 +23,8 @@
 #include "tb/harness/bench.h"
 #include "tb/harness/driver.h"
 #include "tb/harness/memory_model.h"
+#include "tb/harness/register_host.h"
+#include "tb/stimuli/frames.h"
 
 namespace deburr::tb::morphological_rtl {
 
@@ -48,23 +49,13 @@ struct Frame {
         height(h),
         pixel(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)),
         depth(pixel.size()) {}
+  Frame(const Image& image)
+      : width(image.width), height(image.height), pixel(image.pixels), depth(pixel.size()) {}
   Rgba8& at(int x, int y) { return pixel[static_cast<std::size_t>(y * width + x)]; }
   const Rgba8& at(int x, int y) const { return pixel[static_cast<std::size_t>(y * width + x)]; }
 };
 
-inline Rgba8 grey(int v) {
-  const auto code = static_cast<std::uint8_t>(v);
-  return {code, code, code, 255};
-}
-
-// The generator of the test vectors, advanced before it is read.
-class Lcg {
- public:
-  std::uint32_t next() { return state_ = 1664525u * state_ + 1013904223u; }
-
- private:
-  std::uint32_t state_ = 1;
-};
+using stimuli::grey;
 
 template <class Colour>
 Frame draw(int width, int height, Colour&& colour) {
@@ -74,39 +65,17 @@ Frame draw(int width, int height, Colour&& colour) {
   return frame;
 }
 
-inline Frame noise(int width = 97, int height = 61) {
-  Lcg s;
-  return draw(width, height, [&](int, int) { return grey(s.next() >> 31 ? 255 : 0); });
-}
-inline Frame line(int width = 200, int height = 150) {
-  return draw(width, height, [](int x, int y) {
-    const int u = 2 * x - 300, v = 2 * y - 120;
-    if (u * u + v * v < 6400) return grey(90);
-    return grey(7 * (2 * x + 1) > 31 * (2 * y - 99) ? 255 : 0);
-  });
-}
+inline Frame noise(int width = 97, int height = 61) { return stimuli::noise_image(width, height); }
+inline Frame line(int width = 200, int height = 150) { return stimuli::line_image(width, height); }
 inline Frame blocks(int width = 90, int height = 80) {
-  Lcg s;
-  return draw(width, height, [&](int x, int y) -> Rgba8 {
-    const std::uint32_t r = s.next();
-    const int e = x / 23 + 2 * (y / 17) + ((x + 3 * y) % 41 < 9 ? 1 : 0) +
-                  ((r >> 20 & 31) == 0 ? static_cast<int>(r >> 30) : 0);
-    constexpr int kLevels[4] = {0, 60, 130, 255};
-    const int v = kLevels[e % 4];
-    return {static_cast<std::uint8_t>(v), static_cast<std::uint8_t>(255 - v),
-            static_cast<std::uint8_t>(3 * v % 256), 255};
-  });
+  return stimuli::blocks_image(width, height);
 }
-inline Frame checkerboard(int width, int height) {
-  return draw(width, height, [](int x, int y) { return grey((x + y) & 1 ? 255 : 0); });
-}
+inline Frame checkerboard(int width, int height) { return stimuli::checkerboard(width, height); }
 
-// FNV-1a over R, G, B in raster order, from the start value of the contract.
 inline std::uint64_t hash(const Frame& frame) {
-  std::uint64_t h = 1469598103934665603u;
-  for (const Rgba8& p : frame.pixel)
-    for (std::size_t c = 0; c < 3; ++c) h = (h ^ p[c]) * 1099511628211u;
-  return h;
+  Image image(frame.width, frame.height);
+  image.pixels = frame.pixel;
+  return stimuli::hash(image);
 }
 
 // A preset's rules with R and C; line_pixels small, so that tests are quick.
@@ -166,39 +135,6 @@ inline std::vector<spec::morphological::PixelBeat> beats_of(const Frame& frame, 
   return beats;
 }
 
-// Register accesses over TLM, as software would make them.
-class Bus final : public sc_core::sc_module {
- public:
-  tlm_utils::simple_initiator_socket<Bus> socket{"socket"};
-  explicit Bus(const sc_core::sc_module_name& name) : sc_module(name) {}
-  tlm::tlm_response_status write(std::uint32_t offset, std::uint32_t value) {
-    return access(tlm::TLM_WRITE_COMMAND, offset, value);
-  }
-  std::uint32_t read(std::uint32_t offset) {
-    std::uint32_t value = 0;
-    EXPECT_EQ(access(tlm::TLM_READ_COMMAND, offset, value), tlm::TLM_OK_RESPONSE) << offset;
-    return value;
-  }
-
- private:
-  tlm::tlm_response_status access(tlm::tlm_command command, std::uint32_t offset,
-                                  std::uint32_t& value) {
-    std::array<unsigned char, 4> data{};
-    for (unsigned i = 0; i < 4; ++i) data[i] = static_cast<unsigned char>(value >> (8 * i));
-    tlm::tlm_generic_payload payload;
-    payload.set_command(command);
-    payload.set_address(offset);
-    payload.set_data_ptr(data.data());
-    payload.set_data_length(4);
-    payload.set_streaming_width(4);
-    sc_core::sc_time delay;
-    socket->b_transport(payload, delay);
-    value = 0;
-    for (unsigned i = 0; i < 4; ++i) value |= std::uint32_t{data[i]} << (8 * i);
-    return payload.get_response_status();
-  }
-};
-
 // driver -> engine -> sink, a memory if the engine wants one, and the harness around them.
 struct EngineBench {
   struct Options {
@@ -216,7 +152,7 @@ struct EngineBench {
     engine.pixels_in(in);
     engine.pixels_out(out);
     sink.beats_in(out);
-    bus.socket.bind(engine.registers);
+    bus.bus.bind(engine.registers);
     if (engine.memory() != nullptr) {
       options.memory.bytes = 1u << 20;
       options.memory.latency_min = options.memory_latency;
@@ -255,7 +191,7 @@ struct EngineBench {
   Driver<spec::morphological::PixelBeat> driver;
   rtl::morphological::MorphologicalEngine engine;
   Sink<spec::morphological::BlendedBeat> sink;
-  Bus bus{"bus"};
+  RegisterHost bus{"bus"};
   std::unique_ptr<MemoryModel> memory;
   std::unique_ptr<Bench> bench;
   std::vector<Cycle> sent;  // when each beat was pushed into the engine's link

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Clocks of the whole engine against the contract: latency by formula, throughput, back-pressure,
 // the interlock, and that time may change but data may not.
-#include <sys/wait.h>
-#include <unistd.h>
+#include <optional>
 
+#include "tb/harness/forked.h"
 #include "tb/harness/monitor.h"
-#include "tb/harness/random.h"
+#include "tb/stimuli/random.h"
 #include "tb/unit/rtl/morphological/edge_memories.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
@@ -241,9 +241,10 @@ INSTANTIATE_TEST_SUITE_P(Seeds, UnderStress,
 
 // The order in which units are evaluated changes neither data nor any clock.
 TEST(EvaluationOrder, DoesNotMatter) {
-  std::vector<Cycle> cycles[2];
-  std::uint64_t hashes[2];
-  const auto one = [&](int i, std::optional<std::uint64_t> order) {
+  struct Digest {
+    std::uint64_t pixels, with_cycles;
+  };
+  const auto digest = [](std::optional<std::uint64_t> order) {
     EngineBench::Options options;
     options.bench.shuffle = order;
     options.bench.stall_permille = 80;
@@ -251,31 +252,15 @@ TEST(EvaluationOrder, DoesNotMatter) {
     p.lanes = spec::morphological::Lanes::kTwo;
     p.record_fifo = 4;
     EngineBench bench(p, options);
-    hashes[i] = hash(bench.run(blocks()));
-    cycles[i] = bench.sink.cycles();
+    const std::uint64_t pixels = hash(bench.run(blocks()));
+    std::uint64_t h = pixels;
+    for (const Cycle c : bench.sink.cycles()) h = (h ^ c) * 1099511628211u;
+    return Digest{pixels, h};
   };
-  // One simulation a process: the first in a child, which gives back a digest.
-  const auto digest = [&](int i) {
-    std::uint64_t h = hashes[i];
-    for (const Cycle c : cycles[i]) h = (h ^ c) * 1099511628211u;
-    return h;
-  };
-  int ends[2];
-  ASSERT_EQ(pipe(ends), 0);
-  const pid_t child = fork();
-  if (child == 0) {
-    one(0, std::nullopt);
-    const std::uint64_t h = digest(0);
-    const ssize_t written = write(ends[1], &h, sizeof h);
-    std::_Exit(written == sizeof h ? 0 : 1);
-  }
-  std::uint64_t plain = 0;
-  ASSERT_EQ(read(ends[0], &plain, sizeof plain), static_cast<ssize_t>(sizeof plain));
-  int status = 0;
-  waitpid(child, &status, 0);
-  one(1, 99);
-  EXPECT_EQ(hashes[1], 0xe86c7f9318eacf5eu);
-  EXPECT_EQ(digest(1), plain);
+  const auto plain = forked<Digest>([&] { return digest(std::nullopt); });
+  const Digest shuffled = digest(99);
+  EXPECT_EQ(shuffled.pixels, 0xe86c7f9318eacf5eu);
+  EXPECT_EQ(shuffled.with_cycles, plain.with_cycles);
 }
 
 // The next frame is taken in the clock after the last beat of this one has been pushed.

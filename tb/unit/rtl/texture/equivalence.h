@@ -16,8 +16,8 @@
 
 #include "spec/texture/descriptor.h"
 #include "tb/harness/driver.h"
-#include "tb/harness/random.h"
-#include "tb/system/texture_random.h"
+#include "tb/stimuli/random.h"
+#include "tb/stimuli/texture_quads.h"
 #include "tb/unit/rtl/texture/support.h"
 
 namespace deburr::tb {

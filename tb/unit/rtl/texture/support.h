@@ -5,7 +5,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <tlm_utils/simple_initiator_socket.h>
 
 #include <algorithm>
 #include <array>
@@ -27,6 +26,7 @@
 #include "spec/texture/parameters.h"
 #include "spec/texture/registers.h"
 #include "tb/harness/memory_model.h"
+#include "tb/harness/register_host.h"
 
 namespace deburr::tb::texture_rtl {
 
@@ -116,41 +116,9 @@ Cycle ready_at(ClockDomain& clock, const Link<T>& link, Cycle limit = 1000) {
   return clock.cycle();
 }
 
-// Register accesses over TLM, as software would make them.
-class Bus final : public sc_core::sc_module {
- public:
-  tlm_utils::simple_initiator_socket<Bus> socket{"socket"};
-  explicit Bus(const sc_core::sc_module_name& name) : sc_module(name) {}
-  tlm::tlm_response_status write(std::uint32_t offset, std::uint32_t value) {
-    return access(tlm::TLM_WRITE_COMMAND, offset, value);
-  }
-  std::uint32_t read(std::uint32_t offset) {
-    std::uint32_t value = 0;
-    EXPECT_EQ(access(tlm::TLM_READ_COMMAND, offset, value), tlm::TLM_OK_RESPONSE) << offset;
-    return value;
-  }
-
- private:
-  tlm::tlm_response_status access(tlm::tlm_command command, std::uint32_t offset,
-                                  std::uint32_t& value) {
-    std::array<unsigned char, 4> data;
-    for (unsigned i = 0; i < 4; ++i) data[i] = static_cast<unsigned char>(value >> (8 * i));
-    tlm::tlm_generic_payload payload;
-    payload.set_command(command);
-    payload.set_address(offset);
-    payload.set_data_ptr(data.data());
-    payload.set_data_length(4);
-    payload.set_streaming_width(4);
-    sc_core::sc_time delay;
-    socket->b_transport(payload, delay);
-    value = 0;
-    for (unsigned i = 0; i < 4; ++i) value |= std::uint32_t{data[i]} << (8 * i);
-    return payload.get_response_status();
-  }
-};
-
 // Writes a descriptor, field by field as docs/texture_unit.md has them.
-inline void write_descriptor(Bus& bus, std::uint32_t handle, const spec::texture::Descriptor& d) {
+inline void write_descriptor(RegisterHost& bus, std::uint32_t handle,
+                             const spec::texture::Descriptor& d) {
   namespace reg = spec::texture::reg;
   const std::uint32_t at = reg::kTextureBase + handle * reg::kTextureStride;
   const auto code = [](auto e) { return static_cast<std::uint32_t>(e); };
@@ -188,12 +156,12 @@ struct Store {
                 rtl::texture::control_layout()),
         descriptors((name + "descriptors").c_str(), control),
         bus((name + "bus").c_str()) {
-    bus.socket.bind(control.registers.bus);
+    bus.bus.bind(control.registers.bus);
     clock.on_reset([this] { control.reset(); });
   }
   rtl::ControlRegisters control;
   rtl::texture::Descriptors descriptors;
-  Bus bus;
+  RegisterHost bus;
 };
 
 // The whole unit between source and sink.
@@ -205,7 +173,7 @@ struct UnitBench {
     unit.quads_in(quads);
     unit.colours_out(colours);
     unit.memory()->bind(memory.ports);
-    bus.socket.bind(unit.registers);
+    bus.bus.bind(unit.registers);
     source.out(quads);
     sink.in(colours);
   }
@@ -226,7 +194,7 @@ struct UnitBench {
   rtl::texture::TextureUnit unit;
   Sink<spec::texture::Colour> sink{"sink", clock};
   MemoryModel memory;
-  Bus bus{"bus"};
+  RegisterHost bus{"bus"};
 };
 
 // A power-of-two RGBA8 texture in row-major order at address 0, levels one after the other. Texel

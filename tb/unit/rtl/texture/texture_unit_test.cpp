@@ -216,9 +216,9 @@ TEST(TextureRtlUnit, Registers) {
   EXPECT_EQ(b.bus.read(reg::kRules), 4u | 2u << 4 | 1u << 8 | 1u << 9 | 1u << 10 | 102u << 16);
   EXPECT_EQ(b.bus.read(reg::kControl), 1u);
   EXPECT_EQ(b.bus.read(reg::kStatus), 1u);
-  EXPECT_EQ(b.bus.write(reg::kId, 0), tlm::TLM_COMMAND_ERROR_RESPONSE);
-  EXPECT_EQ(b.bus.write(0x10, 0), tlm::TLM_ADDRESS_ERROR_RESPONSE);
-  EXPECT_EQ(b.bus.write(reg::kTextureBase + 16 * reg::kTextureStride, 0),
+  EXPECT_EQ(b.bus.try_write(reg::kId, 0), tlm::TLM_COMMAND_ERROR_RESPONSE);
+  EXPECT_EQ(b.bus.try_write(0x10, 0), tlm::TLM_ADDRESS_ERROR_RESPONSE);
+  EXPECT_EQ(b.bus.try_write(reg::kTextureBase + 16 * reg::kTextureStride, 0),
             tlm::TLM_ADDRESS_ERROR_RESPONSE);
   // A descriptor reads back.
   const spec::texture::Descriptor d = nearest_texture(b.memory);

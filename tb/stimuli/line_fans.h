@@ -22,12 +22,12 @@
 #include <vector>
 
 #include "spec/morphological/parameters.h"
-#include "tb/unit/golden/morphological/support.h"
+#include "tb/scene/image.h"
 
 namespace deburr::tb::morphological {
 
-// Smooths a frame; the frame itself for no smoothing.
-using Smoothing = std::function<Frame(const Frame&)>;
+// Smooths a picture; the picture itself for no smoothing.
+using Smoothing = std::function<Image(const Image&)>;
 
 struct FanOptions {
   double u_low = 0.05, u_high = 0.95;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/oracle/discs.h"
+#include "tb/stimuli/discs.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,8 @@
 #include <numbers>
 
 #include "golden/ideal/coverage.h"
-#include "tb/oracle/random.h"
+#include "tb/stimuli/frames.h"
+#include "tb/stimuli/random.h"
 
 namespace deburr::tb::morphological {
 namespace {
@@ -24,9 +25,10 @@ struct Errors {
 };
 
 void measure_disc(const Smoothing& smoothing, const Disc& disc, int side, Errors& errors) {
-  const Frame sampled(
-      side, side, [&](int x, int y) { return grey(disc.contains(x + 0.5, y + 0.5) ? 255 : 0); });
-  const Frame result = smoothing(sampled);
+  const Image sampled = stimuli::draw(side, side, [&](int x, int y) {
+    return stimuli::grey(disc.contains(x + 0.5, y + 0.5) ? 255 : 0);
+  });
+  const Image result = smoothing(sampled);
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
       const double truth = disc_coverage(disc, x, y);
@@ -47,7 +49,7 @@ DiscFigures measure_discs(const Smoothing& smoothing, const DiscOptions& options
     const int radius = kDiscRadii[i], side = 2 * (radius + kMargin) + 2;
     Errors errors;
     for (int seed = 1; seed <= options.seeds; ++seed) {
-      texture::Random random(static_cast<std::uint64_t>(1000 * seed + radius));
+      Random random(Random::kStride * static_cast<std::uint64_t>(1000 * seed + radius) + 1);
       for (double around = 0; around < options.pixels; around += 2 * std::numbers::pi * radius) {
         const double middle = side / 2.0 - 0.5;
         measure_disc(smoothing,

@@ -10,18 +10,26 @@ namespace deburr::tb {
 
 class Random {
  public:
+  // Distance of two states: the sequence begins one number later at a seed that is larger by it.
+  static constexpr std::uint64_t kStride = 0x9E3779B97F4A7C15ULL;
+
   explicit Random(std::uint64_t seed) : state_(seed) {}
   // A stream of its own for each name under one seed, whatever the order of construction.
   Random(std::uint64_t seed, std::string_view name) : state_(seed) {
     for (const char c : name)
-      state_ = (state_ ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL + 0x9E3779B97F4A7C15ULL;
+      state_ = (state_ ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL + kStride;
   }
   // splitmix64: every 64-bit number once in its period.
   std::uint64_t next() {
-    std::uint64_t z = (state_ += 0x9E3779B97F4A7C15ULL);
+    std::uint64_t z = (state_ += kStride);
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
     z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
     return z ^ (z >> 31);
+  }
+  std::uint32_t word() { return static_cast<std::uint32_t>(next() >> 32); }
+  // Uniform in [low, high).
+  double uniform(double low, double high) {
+    return low + (high - low) * (static_cast<double>(word()) * 0x1p-32);
   }
   // 0..bound-1; bound > 0. The bias is below bound / 2^32.
   std::uint32_t below(std::uint32_t bound) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/oracle/line_fans.h"
+#include "tb/stimuli/line_fans.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,10 @@
 #include <cmath>
 
 #include "golden/ideal/coverage.h"
-#include "tb/oracle/random.h"
+#include "golden/morphological/configuration.h"
+#include "golden/morphological/morphological_golden.h"
+#include "tb/stimuli/frames.h"
+#include "tb/stimuli/random.h"
 
 namespace deburr::tb::morphological {
 namespace {
@@ -54,9 +57,11 @@ void measure_line(const Smoothing& smoothing, int n, double slope, double phase,
   const int height = static_cast<int>(width * std::abs(slope)) + 2 * kMarginRows + 2;
   const double start = slope > 0 ? kMarginRows : height - kMarginRows;
   const HalfPlane above{slope, -1, start + (slope > 0 ? phase : -phase)};
-  const Frame sampled(width, height,
-                      [&](int x, int y) { return grey(above.at(x + 0.5, y + 0.5) > 0 ? 255 : 0); });
-  const Frame result = transpose ? transposed(smoothing(transposed(sampled))) : smoothing(sampled);
+  const Image sampled = stimuli::draw(width, height, [&](int x, int y) {
+    return stimuli::grey(above.at(x + 0.5, y + 0.5) > 0 ? 255 : 0);
+  });
+  const Image result =
+      transpose ? stimuli::transposed(smoothing(stimuli::transposed(sampled))) : smoothing(sampled);
 
   double previous = 0;
   for (int x = margin; x < width - margin; ++x) {
@@ -80,7 +85,7 @@ void measure_line(const Smoothing& smoothing, int n, double slope, double phase,
 FanFigures measure_fans(const Smoothing& smoothing, const FanOptions& options) {
   Sums sums;
   for (int seed = 1; seed <= options.seeds; ++seed) {
-    texture::Random random(static_cast<std::uint64_t>(seed));
+    Random random(Random::kStride * static_cast<std::uint64_t>(seed) + 1);
     for (int n = 1; n <= kSlopes; ++n) {
       for (int i = 0; i < options.lines; ++i) {
         // One line in each of `lines` equal parts of the interval: even cover, less noise.
@@ -167,8 +172,14 @@ std::vector<FanRow> rule_rows() {
 }
 
 Smoothing smoothing_of(const FanRow& row) {
-  if (!row.smoothed) return [](const Frame& frame) { return frame; };
-  return [parameters = row.parameters](const Frame& frame) { return smooth(parameters, frame); };
+  if (!row.smoothed) return [](const Image& image) { return image; };
+  return [parameters = row.parameters](const Image& image) {
+    using golden::morphological::MorphologicalGolden;
+    MorphologicalGolden golden(parameters, MorphologicalGolden::Detail::kPixels);
+    Image result(image.width, image.height);
+    result.pixels = golden.process({image.pixels, image.width, image.height});
+    return result;
+  };
 }
 
 const std::vector<FanLimit>& contract_figures() {

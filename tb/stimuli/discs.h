@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "tb/oracle/line_fans.h"
+#include "tb/stimuli/line_fans.h"
 
 namespace deburr::tb::morphological {
 

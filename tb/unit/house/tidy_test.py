@@ -1,0 +1,69 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""scripts/tidy on a tree of two files: it finds what is planted, and looks again at what has changed
+and at nothing else. usage: tidy_test.py SOURCE [unittest options]"""
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else ".").resolve()
+CLEAN = "// a header\ninline int* nothing() { return nullptr; }\n"
+PLANTED = "// a header\ninline int* nothing() { return 0; }\n"
+
+
+class Tidy(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="deburr_tidy_")
+        self.addCleanup(scratch.cleanup)
+        self.root = pathlib.Path(scratch.name).resolve()
+        (self.root / "build/release").mkdir(parents=True)
+        (self.root / "golden").mkdir()
+        (self.root / "scripts").mkdir()
+        shutil.copy(SOURCE / "scripts/tidy", self.root / "scripts/tidy")
+        shutil.copy(SOURCE / ".clang-tidy", self.root / ".clang-tidy")
+        (self.root / "golden/a.cpp").write_text('#include "golden/a.h"\nint* a() { return nothing(); }\n',
+                                                encoding="utf-8")
+        (self.root / "golden/b.cpp").write_text("int b() { return 1; }\n", encoding="utf-8")
+        self.header(CLEAN)
+        (self.root / "build/release/compile_commands.json").write_text(json.dumps(
+            [{"directory": str(self.root), "file": f"golden/{name}.cpp",
+              "command": f"c++ -std=c++20 -I. -c golden/{name}.cpp"} for name in "ab"]),
+            encoding="utf-8")
+
+    def header(self, text):
+        (self.root / "golden/a.h").write_text(text, encoding="utf-8")
+
+    def tidy(self):
+        done = subprocess.run([self.root / "scripts/tidy"], capture_output=True, text=True,
+                              check=False)
+        clean = len(list((self.root / "build/tidy").glob("*")))
+        return done.returncode, clean, done.stdout + done.stderr
+
+    def test_finds_what_is_planted_and_remembers_what_is_clean(self):
+        self.assertEqual(self.tidy()[:2], (0, 2))
+        code, _, text = self.tidy()
+        self.assertEqual(code, 0)
+        self.assertIn("(0 s of clang-tidy)", text)
+        self.header(PLANTED)
+        code, clean, text = self.tidy()
+        self.assertEqual((code, clean), (1, 2))
+        self.assertEqual(text.count("[modernize-use-nullptr"), 1)
+        self.header(CLEAN + "// longer\n")
+        self.assertEqual(self.tidy()[:2], (0, 3), "the file that includes it, and not the other")
+
+    def test_says_what_is_missing(self):
+        (self.root / "build/release/compile_commands.json").unlink()
+        code, _, text = self.tidy()
+        self.assertEqual(code, 2)
+        self.assertIn("configure first", text)
+
+
+if __name__ == "__main__":
+    if not shutil.which("clang-tidy"):
+        print("skipped: clang-tidy is absent")
+        sys.exit(0)
+    unittest.main()

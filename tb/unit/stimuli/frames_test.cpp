@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Patterns have the share of edges that they are asked for.
+#include "tb/stimuli/frames.h"
+
+#include <gtest/gtest.h>
+
+#include "spec/error.h"
+
+namespace deburr::tb::stimuli {
+namespace {
+
+// Pixels of 1000 that differ from the pixel to the left or above.
+int edge_permille(const Image& image) {
+  int edges = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      edges += (x > 0 && image.at(x, y) != image.at(x - 1, y)) ||
+               (y > 0 && image.at(x, y) != image.at(x, y - 1));
+  return static_cast<int>(1000LL * edges / (image.width * image.height));
+}
+
+TEST(Frames, RandomEdgesHaveTheirShare) {
+  for (const int permille : {0, 10, 100, 200, 500, 750})
+    EXPECT_NEAR(edge_permille(random_edges(500, 400, permille)), permille, 1 + permille / 50)
+        << permille;
+  EXPECT_THROW(random_edges(4, 4, 751), spec::CheckFailed);
+}
+
+TEST(Frames, RandomEdgesAreTheSameForTheSameSeedAlone) {
+  EXPECT_EQ(random_edges(60, 40, 200, 3), random_edges(60, 40, 200, 3));
+  EXPECT_NE(random_edges(60, 40, 200, 3), random_edges(60, 40, 200, 4));
+}
+
+TEST(Frames, DiagonalsHaveAnEdgeInOnePixelOfTheirThickness) {
+  for (const int thickness : {2, 4, 5})
+    EXPECT_NEAR(edge_permille(diagonals(200, 200, thickness)), 1000 / thickness, 3) << thickness;
+}
+
+TEST(Frames, TurnedTwiceAreThemselves) {
+  const Image image = blocks_image(31, 20);
+  EXPECT_EQ(transposed(transposed(image)), image);
+  EXPECT_EQ(mirrored_x(mirrored_x(image)), image);
+  EXPECT_EQ(mirrored_y(mirrored_y(image)), image);
+  EXPECT_EQ(inverted(inverted(image)), image);
+  EXPECT_EQ(transposed(image).at(3, 7), image.at(7, 3));
+  EXPECT_NE(mirrored_x(image), image);
+}
+
+}  // namespace
+}  // namespace deburr::tb::stimuli
