@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/morphological/morphological_engine.h"
 
-#include <array>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "spec/error.h"
@@ -11,32 +9,16 @@
 namespace deburr::rtl::morphological {
 namespace {
 
-// Checks every parameter against its declared range.
-struct RangeCheck {
-  void integer(std::string_view name, std::int32_t value, std::int32_t min, std::int32_t max,
-               std::string_view unit, std::string_view) const {
-    if (value < min || value > max)
-      throw spec::ConfigError("morphological." + std::string(name) + ": expected " +
-                              std::to_string(min) + ".." + std::to_string(max) + " " +
-                              std::string(unit) + ", got " + std::to_string(value));
-  }
-  template <class Enum, std::size_t N>
-  void choice(std::string_view name, Enum value, const std::array<std::string_view, N>&,
-              std::string_view) const {
-    if (static_cast<std::size_t>(value) >= N)
-      throw spec::ConfigError("morphological." + std::string(name) +
-                              ": no such choice: " + std::to_string(static_cast<int>(value)));
-  }
-  void boolean(std::string_view, bool, std::string_view) const {}
-};
-
 [[noreturn]] void refuse(const std::string& text) {
   throw spec::ConfigError("morphological." + text);
 }
 
-spec::morphological::Parameters checked(spec::morphological::Parameters p) {
-  const RangeCheck check;
-  describe(p, check);
+spec::morphological::Parameters checked(const spec::morphological::Parameters& parameters) {
+  if (parameters.divider_latency >= 1 && parameters.divider_latency < LineUnit::kLeastLatency)
+    refuse("divider.latency: expected at least " + std::to_string(LineUnit::kLeastLatency) +
+           " clocks, got " + std::to_string(parameters.divider_latency) +
+           ": two for the products and no more than two of 24 quotient bits in each of the others");
+  const spec::morphological::Parameters p = checked_ranges("morphological", parameters);
   if (p.window_rows % 2 != 0)
     refuse("window_rows: expected an even number of rows, got " + std::to_string(p.window_rows));
   const std::int32_t most_steps = p.window_rows / 2 - 2;
@@ -55,20 +37,13 @@ spec::morphological::Parameters checked(spec::morphological::Parameters p) {
   return p;
 }
 
-template <class T>
-std::vector<const T*> collect(sc_core::sc_object& root) {
-  std::vector<const T*> found;
-  for_each<T>(root, [&](const T& object) { found.push_back(&object); });
-  return found;
-}
-
 }  // namespace
 
 MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
                                          const spec::morphological::Parameters& parameters)
-    : sc_module(name),
+    : Engine(name, clock, spec::morphological::kRegisters, control_layout()),
       parameters_(checked(parameters)),
-      store("store", parameters_),
+      store(control, parameters_),
       window("edge_window", parameters_, store),
       rows(parameters_, store),
       sequencer("sequencer", clock, store, probe_),
@@ -124,11 +99,14 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
     MemoryPortParameters port;
     port.outstanding = 2 * static_cast<std::uint32_t>(parameters_.memory_outstanding);
     memory_port = std::make_unique<MemoryPort>("memory_port", clock, port);
-    requests_ = std::make_unique<Link<MemoryRequest>>("requests");
-    responses_ = std::make_unique<Link<MemoryResponse>>("responses");
+    requests_ = std::make_unique<Link<MemoryRequest>>(
+        "requests", 2, request_shape(port, 32, PixelStore::kTagBits));
+    responses_ = std::make_unique<Link<MemoryResponse>>(
+        "responses", 2, response_shape(port, 32, PixelStore::kTagBits));
     pixel_store.connect(*requests_, *responses_);
     memory_port->requests_in(*requests_);
     memory_port->responses_out(*responses_);
+    uses(*memory_port);
   }
 
   namespace reg = spec::morphological::reg;
@@ -143,13 +121,12 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
       {reg::kFrameCycles, &sequencer.frame_cycles},
       {reg::kRecordStalls, &extractor.record_stalls},
       {reg::kMemoryErrors, &pixel_store.memory_errors}};
-  for (const auto& [offset, counter] : shown) store.show(offset, *counter);
+  for (const auto& [offset, counter] : shown) control.show(offset, *counter);
   // Both axes count for themselves; the register shows the sum.
-  store.show_sum(reg::kExtendedRuns, predictor_h.extended_runs, predictor_v.extended_runs);
-  store.show_sum(reg::kSteps, predictor_h.steps, predictor_v.steps);
-  store.show_sum(reg::kProbes, predictor_h.probes, predictor_v.probes);
-  store.show_sum(reg::kDivides, divider_h.divides, divider_v.divides);
-  store.connect([this] { for_each<Counter>(*this, [](Counter& counter) { counter.reset(); }); });
+  control.show_sum(reg::kExtendedRuns, {&predictor_h.extended_runs, &predictor_v.extended_runs});
+  control.show_sum(reg::kSteps, {&predictor_h.steps, &predictor_v.steps});
+  control.show_sum(reg::kProbes, {&predictor_h.probes, &predictor_v.probes});
+  control.show_sum(reg::kDivides, {&divider_h.divides, &divider_v.divides});
 }
 
 void MorphologicalEngine::set_frame_size(int width, int height) {
@@ -195,9 +172,5 @@ void MorphologicalEngine::observe_lines(
     std::function<void(const spec::morphological::LineRecord&)> observer) {
   area.observer = std::move(observer);
 }
-
-std::vector<const Unit*> MorphologicalEngine::units() { return collect<Unit>(*this); }
-std::vector<const Counter*> MorphologicalEngine::counters() { return collect<Counter>(*this); }
-std::vector<const Storage*> MorphologicalEngine::memories() { return collect<Storage>(*this); }
 
 }  // namespace deburr::rtl::morphological

@@ -14,29 +14,28 @@
 //                                     memory (TLM-2.0 initiator), storage = memory only
 //
 // A frame is a sequence of slots, one a clock at most. Unstalled, beat j popped in clock c is
-// pushed out in clock c + (R + 5) x BPR + kPipelineLatency; one beat (1, 2 or 4 pixels) a clock. Stalls:
+// pushed out in clock c + (R + 5) x BPR + kPipelineLatency; one beat (1, 2 or 4 pixels) a clock.
+// Stalls:
 // `records` (extractor), `upstream` (sequencer), `memory` and `rows` (pixel store), `downstream`.
+// Made for 250 MHz; the longest path is the AreaUnit's, a 24 x 24 multiply.
 // Source: Reshetov 2009; paper 000.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <systemc>
-#include <tlm>
-#include <vector>
 
 #include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/fabric/engine.h"
 #include "rtl_model/fabric/histogram.h"
+#include "rtl_model/fabric/latency_probe.h"
 #include "rtl_model/fabric/memory_port.h"
-#include "rtl_model/fabric/register_block.h"
-#include "rtl_model/fabric/storage.h"
 #include "rtl_model/morphological/blend/area_unit.h"
 #include "rtl_model/morphological/blend/blender.h"
 #include "rtl_model/morphological/blend/pixel_store.h"
 #include "rtl_model/morphological/front/edge_detector.h"
 #include "rtl_model/morphological/front/luma_unit.h"
 #include "rtl_model/morphological/front/slot_sequencer.h"
-#include "rtl_model/morphological/latency_probe.h"
 #include "rtl_model/morphological/parameter_store.h"
 #include "rtl_model/morphological/runs/edge_rows.h"
 #include "rtl_model/morphological/runs/edge_window.h"
@@ -48,7 +47,7 @@
 
 namespace deburr::rtl::morphological {
 
-class MorphologicalEngine final : public sc_core::sc_module {
+class MorphologicalEngine final : public Engine {
  public:
   In<spec::morphological::PixelBeat> pixels_in{"pixels_in"};
   Out<spec::morphological::BlendedBeat> pixels_out{"pixels_out"};
@@ -78,17 +77,12 @@ class MorphologicalEngine final : public sc_core::sc_module {
   Blender blender;
   std::unique_ptr<MemoryPort> memory_port;  // only with storage = memory
 
-  // --- Sockets, to be bound from outside ---
-  tlm_utils::simple_target_socket<RegisterBlock>& registers = store.registers.bus;
-  // nullptr with storage = line_buffers: there is no such socket then.
-  tlm::tlm_initiator_socket<>* memory() { return memory_port ? &memory_port->memory : nullptr; }
-
   // Size of the frames to come, pixels: a write to SIZE from outside of time. ConfigError for 0,
   // over 8192 or wider than line_pixels. A reset puts SIZE back to 0.
   void set_frame_size(int width, int height);
 
   // No frame is inside and no beat waits in front. Between edges.
-  bool idle() const;
+  bool idle() const override;
   // Counts since the last reset or clear command; of one frame if there was one.
   spec::morphological::Work work() const;
   // Clocks from a beat being popped to the same beat being pushed.
@@ -99,23 +93,21 @@ class MorphologicalEngine final : public sc_core::sc_module {
   void observe_runs(std::function<void(const spec::morphological::RunRecord&)> observer);
   void observe_lines(std::function<void(const spec::morphological::LineRecord&)> observer);
 
-  // For reports: everything below this module, in the order of declaration. The bits of a memory
-  // whose size goes with `line_pixels` at another width: LineMemory::bits_at().
-  std::vector<const Unit*> units();
-  std::vector<const Counter*> counters();
-  std::vector<const Storage*> memories();
-
   const spec::morphological::Parameters& parameters() const { return parameters_; }
 
  private:
-  Link<SlotToken> slots_{"slots"};
-  Link<BeatToken> beats_{"beats"};
-  Link<LumaToken> lumas_{"lumas"};
-  Link<EdgeToken> edge_bits_{"edge_bits"};
-  Link<AreaSlotToken> area_slots_{"area_slots"};
+  const PayloadShape built_lanes_{.lanes = static_cast<std::uint32_t>(store.lanes())};
+  Link<SlotToken> slots_{"slots", 2, built_lanes_};
+  Link<BeatToken> beats_{"beats", 2, built_lanes_};
+  Link<LumaToken> lumas_{"lumas", 2, built_lanes_};
+  Link<EdgeToken> edge_bits_{"edge_bits", 2, built_lanes_};
+  Link<AreaSlotToken> area_slots_{"area_slots", 2, built_lanes_};
   Link<FetchToken> fetches_{"fetches"};
-  Link<ShareToken> shares_{"shares"};
-  Link<PixelToken> pixels_{"pixels"};
+  Link<ShareToken> shares_{"shares", 2, built_lanes_};
+  // The pixels of a slot wait here for its shares.
+  Link<PixelToken> pixels_{
+      "pixels", spec::morphological::kAreaLatency - spec::morphological::kPixelStoreLatency + 2,
+      built_lanes_};
   Link<FinishToken> finished_{"finished"};
   Link<FrameDoneToken> frames_done_{"frames_done"};
   LaneLinks<SumsToken> sums_h_, sums_v_;

@@ -2,49 +2,18 @@
 #include "rtl_model/morphological/parameter_store.h"
 
 #include <algorithm>
-#include <span>
-#include <string>
-#include <utility>
-
-#include "spec/error.h"
 
 namespace deburr::rtl::morphological {
 namespace {
 
 namespace reg = spec::morphological::reg;
 
-constexpr std::size_t kCount = spec::morphological::kRegisters.size();
 constexpr std::uint32_t kCoordinateMask = 0x3FFF;
 
-constexpr Access fabric_access(spec::Access access) {
-  switch (access) {
-    case spec::Access::kReadOnly:
-      return Access::kReadOnly;
-    case spec::Access::kReadWrite:
-      return Access::kReadWrite;
-    case spec::Access::kWriteOneToClear:
-      return Access::kWriteOneToClear;
-    case spec::Access::kCommand:
-      break;
-  }
-  return Access::kWriteOnly;
+int lanes_of(const spec::morphological::Parameters& p) {
+  return spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
 }
-
-constexpr std::array<RegisterDescription, kCount> kTable = [] {
-  std::array<RegisterDescription, kCount> table{};
-  for (std::size_t i = 0; i < kCount; ++i) {
-    const spec::RegisterInfo& info = spec::morphological::kRegisters[i];
-    table[i] = {info.offset, info.name.data(), fabric_access(info.access), info.reset,
-                info.meaning.data()};
-  }
-  return table;
-}();
-
-constexpr std::size_t index_at(std::uint32_t offset) {
-  std::size_t i = 0;
-  while (spec::morphological::kRegisters[i].offset != offset) ++i;
-  return i;
-}
+int reach_rows_of(const spec::morphological::Parameters& p) { return p.window_rows / 2 - 1; }
 
 // Bits [high:low] of a register.
 constexpr std::uint32_t bits(std::uint32_t value, int high, int low) {
@@ -83,86 +52,28 @@ Choice choice(std::uint32_t code, std::size_t choices) {
 
 }  // namespace
 
-std::span<const RegisterDescription> register_table() { return kTable; }
-
-ParameterStore::ParameterStore(const sc_core::sc_module_name& name,
-                               const spec::morphological::Parameters& parameters)
-    : sc_module(name),
-      registers("registers", kTable),
-      parameters_(parameters),
-      lanes_(spec::morphological::kLaneCount[static_cast<std::size_t>(parameters.lanes)]),
-      reach_rows_(parameters.window_rows / 2 - 1) {
-  for (std::size_t i = 0; i < kCount; ++i)
-    if (kTable[i].access == Access::kReadWrite)
-      registers.on_write(i, [this, i](std::uint32_t value) { written(i, value); });
-  registers.on_write(index_at(reg::kStatus), [this](std::uint32_t value) { sticky_ &= ~value; });
-  registers.on_read(index_at(reg::kStatus),
-                    [this] { return sticky_ | (inside_ ? 0 : reg::kStatusIdle); });
-  load();
+ControlLayout control_layout() {
+  return {.control = reg::kControl,
+          .status = reg::kStatus,
+          .enable = reg::kControlEnable,
+          .clear_counters = reg::kControlClearCounters,
+          .idle = reg::kStatusIdle,
+          .written_while_busy = reg::kStatusWrittenWhileBusy,
+          .busy_ignores_writes = true};
 }
 
-// Reset values that the parameters give.
-void ParameterStore::load() {
-  const spec::morphological::Parameters& p = parameters_;
-  const std::pair<std::uint32_t, std::uint32_t> values[] = {
-      {reg::kRules, encode_rules(p)},
-      {reg::kThreshold, static_cast<std::uint32_t>(p.threshold)},
-      {reg::kThresholdOn, static_cast<std::uint32_t>(p.threshold_on_depth_edge)},
-      {reg::kThresholdOff, static_cast<std::uint32_t>(p.threshold_off_depth_edge)},
-      {reg::kAlpha, static_cast<std::uint32_t>(p.alpha)},
-      {reg::kFloor, static_cast<std::uint32_t>(p.floor)},
-      {reg::kDepthThreshold, static_cast<std::uint32_t>(p.depth_threshold)}};
-  for (const auto& [offset, value] : values) registers.set(index_at(offset), value);
-  for (std::size_t i = 0; i < kCount; ++i) kept_[i] = registers.get(i);
-  decode();
-}
-
-void ParameterStore::reset() {
-  registers.reset();
-  enabled_ = true;
-  inside_ = false;
-  sticky_ = 0;
-  load();
-}
-
-void ParameterStore::written(std::size_t index, std::uint32_t value) {
-  const std::uint32_t offset = kTable[index].offset;
-  if (offset == reg::kControl) {
-    enabled_ = value & reg::kControlEnable;
-    if (value & reg::kControlClearCounters) clear_counters_();
-    registers.set(index, value & reg::kControlEnable);
-    return;
-  }
-  if (inside_) {
-    sticky_ |= reg::kStatusWrittenWhileBusy;
-    registers.set(index, kept_[index]);
-    return;
-  }
-  kept_[index] = value & writable(offset);
-  registers.set(index, kept_[index]);
-  decode();
-}
-
-void ParameterStore::write_size(int width, int height) {
-  const std::size_t index = index_at(reg::kSize);
-  written(index, static_cast<std::uint32_t>(width) | static_cast<std::uint32_t>(height) << 16);
-}
-
-std::uint32_t ParameterStore::value_at(std::uint32_t offset) const {
-  return registers.get(index_at(offset));
-}
-
-void ParameterStore::decode() {
-  const std::uint32_t size = value_at(reg::kSize), rules = value_at(reg::kRules);
-  FrameRules& f = next_;
+Decoded decode(const ControlRegisters& registers, const spec::morphological::Parameters& p) {
+  const std::uint32_t size = registers.value(reg::kSize), rules = registers.value(reg::kRules);
+  const std::int32_t lanes = lanes_of(p), reach_rows = reach_rows_of(p);
+  Decoded decoded;
+  FrameRules& f = decoded.rules;
   f.width = static_cast<std::int32_t>(size & kCoordinateMask);
   f.height = static_cast<std::int32_t>(size >> 16 & kCoordinateMask);
-  size_valid_ = f.width >= 1 && f.height >= 1 && f.width <= spec::morphological::kMaxFrameSize &&
-                f.height <= spec::morphological::kMaxFrameSize &&
-                f.width <= parameters_.line_pixels;
-  f.beats = static_cast<std::uint32_t>((f.width + lanes_ - 1) / lanes_);
-  f.rows = static_cast<std::uint32_t>(f.height + reach_rows_ + spec::morphological::kRowLag);
-  f.last_count = f.width - (static_cast<std::int32_t>(f.beats) - 1) * lanes_;
+  decoded.valid = f.width >= 1 && f.height >= 1 && f.width <= spec::morphological::kMaxFrameSize &&
+                  f.height <= spec::morphological::kMaxFrameSize && f.width <= p.line_pixels;
+  f.beats = static_cast<std::uint32_t>((f.width + lanes - 1) / lanes);
+  f.rows = static_cast<std::uint32_t>(f.height + reach_rows + spec::morphological::kRowLag);
+  f.last_count = f.width - (static_cast<std::int32_t>(f.beats) - 1) * lanes;
 
   f.source = choice<spec::morphological::EdgeSource>(bits(rules, 1, 0),
                                                      spec::morphological::kEdgeSourceNames.size());
@@ -175,56 +86,59 @@ void ParameterStore::decode() {
   f.predictor = choice<spec::morphological::Predictor>(bits(rules, 7, 6),
                                                        spec::morphological::kPredictorNames.size());
   f.steps = std::min({static_cast<std::int32_t>(bits(rules, 12, 8)), spec::morphological::kMaxSteps,
-                      reach_rows_ - 1});
+                      reach_rows - 1});
   if (f.predictor == spec::morphological::Predictor::kNone) f.steps = 0;
-  f.contiguous = bits(rules, 13, 13) != 0 && parameters_.contiguous;
+  f.contiguous = bits(rules, 13, 13) != 0 && p.contiguous;
   f.safe = bits(rules, 14, 14) != 0;
   f.linear_light = bits(rules, 15, 15) != 0;
   f.trim = bits(rules, 16, 16) != 0;
 
-  f.threshold = 255 * value_at(reg::kThreshold);
-  f.threshold_on = 255 * value_at(reg::kThresholdOn);
-  f.threshold_off = 255 * value_at(reg::kThresholdOff);
-  f.floor = 255 * value_at(reg::kFloor);
-  f.alpha = value_at(reg::kAlpha);
-  f.depth_threshold = value_at(reg::kDepthThreshold);
-  f.pixel_base = value_at(reg::kPixelBase);
+  f.threshold = 255 * registers.value(reg::kThreshold);
+  f.threshold_on = 255 * registers.value(reg::kThresholdOn);
+  f.threshold_off = 255 * registers.value(reg::kThresholdOff);
+  f.floor = 255 * registers.value(reg::kFloor);
+  f.alpha = registers.value(reg::kAlpha);
+  f.depth_threshold = registers.value(reg::kDepthThreshold);
+  f.pixel_base = registers.value(reg::kPixelBase);
+  return decoded;
+}
+
+ParameterStore::ParameterStore(ControlRegisters& registers,
+                               const spec::morphological::Parameters& p)
+    : registers_(registers), parameters_(p), lanes_(lanes_of(p)), reach_rows_(reach_rows_of(p)) {
+  for (const spec::RegisterInfo& info : spec::morphological::kRegisters)
+    if (info.access == spec::Access::kReadWrite && info.offset != reg::kControl)
+      registers.set_mask(info.offset, writable(info.offset));
+  registers.set_reset(reg::kRules, encode_rules(p));
+  registers.set_reset(reg::kThreshold, static_cast<std::uint32_t>(p.threshold));
+  registers.set_reset(reg::kThresholdOn, static_cast<std::uint32_t>(p.threshold_on_depth_edge));
+  registers.set_reset(reg::kThresholdOff, static_cast<std::uint32_t>(p.threshold_off_depth_edge));
+  registers.set_reset(reg::kAlpha, static_cast<std::uint32_t>(p.alpha));
+  registers.set_reset(reg::kFloor, static_cast<std::uint32_t>(p.floor));
+  registers.set_reset(reg::kDepthThreshold, static_cast<std::uint32_t>(p.depth_threshold));
+  registers.on_busy([this] { return inside_; });
+}
+
+void ParameterStore::write_size(int width, int height) {
+  registers_.write(reg::kSize,
+                   static_cast<std::uint32_t>(width) | static_cast<std::uint32_t>(height) << 16);
 }
 
 bool ParameterStore::latch() {
-  // Debug writes go past written(), so their bits are masked here.
-  for (std::size_t i = 0; i < kCount; ++i) {
-    const std::uint32_t offset = kTable[i].offset;
-    if (kTable[i].access != Access::kReadWrite || offset == reg::kControl) continue;
-    kept_[i] = registers.get(i) & writable(offset);
-    registers.set(i, kept_[i]);
-  }
-  decode();
-  if (!size_valid_) {
-    sticky_ |= reg::kStatusFraming;
+  registers_.mask_values();
+  const Decoded decoded = decode(registers_, parameters_);
+  if (!decoded.valid) {
+    set_sticky(reg::kStatusFraming);
     return false;
   }
-  rules_ = next_;
+  rules_ = decoded.rules;
   inside_ = true;
   return true;
 }
 
 void ParameterStore::leave() {
   inside_ = false;
-  sticky_ |= reg::kStatusFrameDone;
-}
-
-void ParameterStore::show(std::uint32_t offset, const Counter& counter) {
-  registers.show(index_at(offset), counter);
-}
-
-void ParameterStore::show_sum(std::uint32_t offset, const Counter& a, const Counter& b) {
-  registers.on_read(index_at(offset),
-                    [&a, &b] { return static_cast<std::uint32_t>(a.value() + b.value()); });
-}
-
-void ParameterStore::connect(std::function<void()> clear_counters) {
-  clear_counters_ = std::move(clear_counters);
+  set_sticky(reg::kStatusFrameDone);
 }
 
 }  // namespace deburr::rtl::morphological

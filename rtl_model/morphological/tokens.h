@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The wires between the blocks of the morphological engine: one struct a link. A comment gives the
-// width in hardware where the type does not. Lanes that a frame does not use hold old bits.
+// The wires between the blocks of the morphological engine: one struct a link, with its fields and
+// their widths. Lanes that a frame does not use hold old bits.
 #pragma once
 
 #include <array>
@@ -24,6 +24,12 @@ struct Slot {
   std::uint32_t number;  // U27, from 0 in each frame
   std::uint16_t row;     // U14
   std::uint16_t beat;    // U13
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("number", self.number, 27, "U27");
+    visit("row", self.row, 14, "U14");
+    visit("beat", self.beat, 13, "U13");
+  }
 };
 
 // SlotSequencer -> LumaUnit.
@@ -31,12 +37,23 @@ struct SlotToken {
   Slot slot;
   LanePixels pixel;
   Lanes32 depth;  // U24
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("slot", self.slot);
+    visit.lanes("pixel", self.pixel, 8, "U0.8", "rgba");
+    visit.lanes("depth", self.depth, 24, "U24");
+  }
 };
 
 // SlotSequencer -> PixelStore.
 struct BeatToken {
   Slot slot;
   LanePixels pixel;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("slot", self.slot);
+    visit.lanes("pixel", self.pixel, 8, "U0.8", "rgba");
+  }
 };
 
 // LumaUnit -> EdgeDetector.
@@ -44,29 +61,62 @@ struct LumaToken {
   Slot slot;
   Lanes32 luma;   // U8.16
   Lanes32 depth;  // U24
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("slot", self.slot);
+    visit.lanes("luma", self.luma, 24, "U8.16");
+    visit.lanes("depth", self.depth, 24, "U24");
+  }
 };
 
 // EdgeDetector -> RunExtractor: edges of row slot.row - 1, bit k: lane k.
 struct EdgeToken {
   Slot slot;
   std::uint8_t left, top;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("slot", self.slot);
+    visit.lane_bits("left", self.left, spec::morphological::kMaxLanes);
+    visit.lane_bits("top", self.top, spec::morphological::kMaxLanes);
+  }
 };
 
 // RunExtractor -> AreaUnit: edges of row slot.row - R - 5, which is being blended.
 struct AreaSlotToken {
   Slot slot;
   std::uint8_t left, top;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("slot", self.slot);
+    visit.lane_bits("left", self.left, spec::morphological::kMaxLanes);
+    visit.lane_bits("top", self.top, spec::morphological::kMaxLanes);
+  }
 };
 
 // RunExtractor -> PixelStore: the slot blends a row of the frame, so it needs pixels.
 struct FetchToken {
   Slot slot;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("slot", self.slot);
+  }
 };
 
 // Shares of the neighbours of one pixel, and the spans of the lines that give them.
 struct Shares {
   std::uint8_t up, down, left, right;                       // U0.8, 0..128
   std::uint16_t span_up, span_down, span_left, span_right;  // U12
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("up", self.up, 8, "U0.8");
+    visit("down", self.down, 8, "U0.8");
+    visit("left", self.left, 8, "U0.8");
+    visit("right", self.right, 8, "U0.8");
+    visit("span_up", self.span_up, 12, "U12");
+    visit("span_down", self.span_down, 12, "U12");
+    visit("span_left", self.span_left, 12, "U12");
+    visit("span_right", self.span_right, 12, "U12");
+  }
 };
 
 // AreaUnit -> Blender.
@@ -75,6 +125,14 @@ struct ShareToken {
   bool any;  // one of the shares below is not 0; if not, they hold old bits
   std::uint8_t left, top;
   std::array<Shares, spec::morphological::kMaxLanes> shares;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("slot", self.slot);
+    visit("any", self.any);
+    visit.lane_bits("left", self.left, spec::morphological::kMaxLanes);
+    visit.lane_bits("top", self.top, spec::morphological::kMaxLanes);
+    visit.lanes("shares", self.shares);
+  }
 };
 
 // PixelStore -> Blender: the pixels of a beat, the beats above and below, and the two pixels beside
@@ -82,6 +140,14 @@ struct ShareToken {
 struct PixelToken {
   LanePixels above, centre, below;
   spec::morphological::Rgba8 before, after;  // left of lane 0, right of the last lane
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit.lanes("above", self.above, 8, "U0.8", "rgba");
+    visit.lanes("centre", self.centre, 8, "U0.8", "rgba");
+    visit.lanes("below", self.below, 8, "U0.8", "rgba");
+    visit("before", self.before, 8, "U0.8", "rgba");
+    visit("after", self.after, 8, "U0.8", "rgba");
+  }
 };
 
 // The low bits of a slot's number, which go with a record. When the AreaUnit sees them, the slot is
@@ -121,16 +187,29 @@ struct SumsToken {
 struct LineToken {
   spec::morphological::LineRecord line;
   std::uint32_t slot;  // U15
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("line", self.line);
+    visit("slot", self.slot, 15, "U15");
+  }
 };
 
 // AreaUnit -> RunExtractor: records that are finished, by the parity of the row of their slot.
 struct FinishToken {
   std::array<std::uint8_t, 2> count;  // U4
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("count", self.count, 4, "U4");
+  }
 };
 
 // Blender -> SlotSequencer: the last beat of the frame has been pushed.
 struct FrameDoneToken {
   std::uint32_t slot;  // U27, number of its slot
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("slot", self.slot, 27, "U27");
+  }
 };
 
 // One link, one port a lane. Only the lanes that are built.

@@ -2,6 +2,8 @@
 #include "rtl_model/texture/data_stage.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 #include <string>
 
 #include "spec/texture/descriptor.h"
@@ -14,8 +16,14 @@ constexpr std::size_t kPadding = 3;
 
 // Little-endian, whatever the host is.
 std::uint32_t load(const std::uint8_t* bytes) {
-  return std::uint32_t{bytes[0]} | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
-         std::uint32_t{bytes[3]} << 24;
+  if constexpr (std::endian::native == std::endian::little) {
+    std::uint32_t word;
+    std::memcpy(&word, bytes, sizeof word);
+    return word;
+  } else {
+    return std::uint32_t{bytes[0]} | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
+           std::uint32_t{bytes[3]} << 24;
+  }
 }
 
 // A texel is the low bits of what is read.

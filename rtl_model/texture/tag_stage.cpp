@@ -61,6 +61,33 @@ void TagStage::read_sets(Cycle cycle) {
   }
 }
 
+// One line of the request in stage 2.
+inline TagStage::Line TagStage::look_up_line(Cycle cycle, std::size_t texel, CacheToken& out,
+                                             MissToken& missed) {
+  const std::uint32_t line = request_.line[texel];
+  tags_.check(cycle, texel, line);
+  if (const std::uint32_t slot = tags_.find(line); slot != TagStore::kAbsent) {
+    tags_.use(slot);
+    fill_number_[slot] > fills_.released(cycle) ? ++merged : ++hits;
+    return {slot << line_log2_, tags_.turned(slot) ? turn_ : 0, 0};
+  }
+  return order(line, texel, out, missed);
+}
+
+// It misses.
+TagStage::Line TagStage::order(std::uint32_t line, std::size_t texel, CacheToken& out,
+                               MissToken& missed) {
+  const bool turned = request_.token.turned[texel >> 1];
+  const TagStore::Place place = tags_.allocate(line, turned);
+  ++misses;
+  if (place.evicted) ++evictions;
+  fill_number_[place.slot] = ++ordered_;
+  missed.line[out.fills] = line;
+  out.victim[out.fills] = static_cast<std::uint16_t>(place.slot);
+  out.turned[out.fills] = turned;
+  return {0, 0, ++out.fills};
+}
+
 // Stage 2: up to four distinct lines, each looked up once, in the order of their first use.
 void TagStage::look_up(Cycle cycle, CacheToken& out) {
   ++requests;
@@ -88,30 +115,11 @@ void TagStage::look_up(Cycle cycle, CacheToken& out) {
   misses_out.push(cycle, missed);
 }
 
-TagStage::Line TagStage::look_up_line(Cycle cycle, std::size_t texel, CacheToken& out,
-                                      MissToken& missed) {
-  const std::uint32_t line = request_.line[texel];
-  tags_.check(cycle, texel, line);
-  if (const std::uint32_t slot = tags_.find(line); slot != TagStore::kAbsent) {
-    tags_.use(slot);
-    fill_number_[slot] > fills_.released(cycle) ? ++merged : ++hits;
-    return {slot << line_log2_, tags_.turned(slot) ? turn_ : 0, 0};
-  }
-  const bool turned = request_.token.turned[texel >> 1];
-  const TagStore::Place place = tags_.allocate(line, turned);
-  ++misses;
-  if (place.evicted) ++evictions;
-  fill_number_[place.slot] = ++ordered_;
-  missed.line[out.fills] = line;
-  out.victim[out.fills] = static_cast<std::uint16_t>(place.slot);
-  out.turned[out.fills] = turned;
-  return {0, 0, ++out.fills};
-}
-
 // Without changing anything. A request that misses nothing allocates nothing, so each line can be
 // looked at by itself.
 bool TagStage::would_miss() const {
-  return std::any_of(request_.line.begin(), request_.line.end(),
+  const auto lines = std::span(request_.line).first(request_.one_line ? 1 : 4);
+  return std::any_of(lines.begin(), lines.end(),
                      [&](std::uint32_t line) { return tags_.find(line) == TagStore::kAbsent; });
 }
 

@@ -62,6 +62,8 @@ class TagStage final : public Unit {
     std::uint8_t source;  // as in CacheToken
   };
   Line look_up_line(Cycle cycle, std::size_t texel, CacheToken& out, MissToken& missed);
+  [[gnu::noinline]] Line order(std::uint32_t line, std::size_t texel, CacheToken& out,
+                               MissToken& missed);
 
   const FillBuffer& fills_;
   TagStore tags_;

@@ -53,15 +53,17 @@ inline constexpr int kRecipFractionBits = 24;  // of LineRecord::slope
 inline constexpr int kInverseFractionBits = 12;
 inline constexpr int kMaxWeight = 128;  // U0.8: a half, the largest share of a neighbour
 inline constexpr int kRowLag = 5;       // rows of delay beyond the reach
+inline constexpr int kLeastDividerLatency = 14;
 
 // Clocks from a slot being taken by a block to it being taken by the next one; of the Blender, to
 // its output beat being pushed.
 inline constexpr int kSequencerLatency = 1;
-inline constexpr int kLumaLatency = 1;
-inline constexpr int kEdgeLatency = 1;
+inline constexpr int kLumaLatency = 2;
+inline constexpr int kEdgeLatency = 4;
 inline constexpr int kExtractorLatency = 2;
-inline constexpr int kAreaLatency = 1;
-inline constexpr int kBlenderLatency = 1;
+inline constexpr int kAreaLatency = 9;
+inline constexpr int kPixelStoreLatency = 2;  // beside the AreaUnit
+inline constexpr int kBlenderLatency = 5;
 // From a slot to its output beat.
 inline constexpr int kPipelineLatency = kSequencerLatency + kLumaLatency + kEdgeLatency +
                                         kExtractorLatency + kAreaLatency + kBlenderLatency;
@@ -169,7 +171,10 @@ void describe(Build& p, Visitor& v) {
             "Predictors for each axis and lane; each tries one step of both sides at a time.");
   v.integer("trial_clocks", p.trial_clocks, 1, 8, "clock",
             "Clocks from one trial of a predictor to its next; below 4 stages share a clock.");
-  v.integer("divider.latency", p.divider_latency, 1, 64, "clock", "Latency of the divider.");
+  v.integer(
+      "divider.latency", p.divider_latency, kLeastDividerLatency, 64, "clock",
+      "Latency of the divider: two clocks of products, then at most two of 24 quotient bits a "
+      "clock.");
   v.integer("divider.interval", p.divider_interval, 1, 64, "clock",
             "Initiation interval of the divider.");
   v.choice("storage", p.storage, kStorageNames,

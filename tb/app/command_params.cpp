@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `deburr params [UNIT]`: every parameter with default, range, unit and meaning.
+// `deburr params [UNIT]`: every parameter with kind, default, range, unit and meaning.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -40,7 +40,7 @@ Outcome print_params(const ParamsCommand& command) {
   for (const auto& engine : all) {
     ParameterSet set;
     RunParameters run = engine->run_parameters();
-    set.add("run", run);
+    set.add("run", ParameterKind::kRun, run);
     engine->add_parameters(set);
     for (const Parameter& p : set.all()) {
       const std::string group = p.name.substr(0, p.name.find('.'));
@@ -54,16 +54,17 @@ Outcome print_params(const ParamsCommand& command) {
     throw spec::ConfigError(fmt::format("no unit '{}'{} (known: {})", command.unit,
                                         did_you_mean(near_matches(command.unit, groups)),
                                         fmt::join(groups, ", ")));
-  std::size_t name = 0, value = 0, range = 0, unit = 0;
+  std::size_t name = 0, kind = 0, value = 0, range = 0, unit = 0;
   for (const Parameter& p : shown) {
+    kind = std::max(kind, kind_name(p).size());
     name = std::max(name, p.name.size());
     value = std::max(value, p.default_value.size());
     range = std::max(range, std::min<std::size_t>(p.range.size(), 40));
     unit = std::max(unit, p.unit.size());
   }
   for (const Parameter& p : shown)
-    fmt::print("{:{}}  {:{}}  {:{}}  {:{}}  {}\n", p.name, name, p.default_value, value, p.range,
-               range, p.unit, unit, p.meaning);
+    fmt::print("{:{}}  {:{}}  {:{}}  {:{}}  {:{}}  {}\n", p.name, name, kind_name(p), kind,
+               p.default_value, value, p.range, range, p.unit, unit, p.meaning);
   return {};
 }
 
@@ -71,7 +72,7 @@ Outcome print_params(const ParamsCommand& command) {
 
 void add_params(CLI::App& app, CommandLine& line) {
   CLI::App* command =
-      app.add_subcommand("params", "List every parameter: default, range, unit, meaning");
+      app.add_subcommand("params", "List every parameter: kind, default, range, unit, meaning");
   const auto options = std::make_shared<ParamsCommand>();
   command->add_option("UNIT", options->unit,
                       "Only these: run, scene, sampler, texture, memory, ...");

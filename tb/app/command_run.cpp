@@ -91,6 +91,11 @@ std::string summary_of(const Result& r, const std::filesystem::path& directory) 
                         grouped(r.comparisons), grouped(r.traffic_comparisons),
                         grouped(r.mismatches + r.traffic_mismatches));
   text += fmt::format("{} cycles, {:.3f} {}", grouped(r.cycles), r.throughput, r.throughput_unit);
+  std::string idealised;
+  for (const MemoryFigures& memory : r.memories)
+    if (!memory.idealised.empty())
+      idealised += fmt::format("{} {}", idealised.empty() ? ", IDEALISED" : ",", memory.name);
+  text += idealised;
   return text + fmt::format(", {}", (directory / "report.html").string());
 }
 
@@ -107,7 +112,7 @@ std::string from_repository(const std::string& text) {
 Outcome run_engine(Engine& engine, const RunOptions& options, const std::string& command) {
   ParameterSet set;
   RunParameters run = engine.run_parameters();
-  set.add("run", run);
+  set.add("run", ParameterKind::kRun, run);
   engine.add_parameters(set);
   apply(options, set);
   engine.resolve(set);
@@ -163,6 +168,10 @@ Outcome run_engine(Engine& engine, const RunOptions& options, const std::string&
     result.reason = from_repository(error.what());
     fmt::print(stderr, "deburr: {}\n", result.reason);
   }
+  for (const MemoryFigures& memory : result.memories)
+    if (!memory.idealised.empty())
+      fmt::print(stderr, "deburr: warning: this hardware cannot be built: memory {}: {}\n",
+                 memory.name, memory.idealised);
   if (code == 0 && run.check == CheckMode::kGolden && !result.interrupted &&
       (result.cycles == 0 || result.comparisons == 0)) {
     code = static_cast<int>(ExitCode::kSimulation);
@@ -256,7 +265,7 @@ void add_run(CLI::App& app, CommandLine& line) {
     // To know which shorthands are switches, the parameters are asked.
     ParameterSet probe;
     RunParameters defaults = engine->run_parameters();
-    probe.add("run", defaults);
+    probe.add("run", ParameterKind::kRun, defaults);
     engine->add_parameters(probe);
     // An engine may give an option of all engines a meaning of its own.
     const std::vector<Shorthand> own = engine->shorthands();

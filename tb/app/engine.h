@@ -29,6 +29,7 @@ struct RunParameters {
   bool shuffle = false;
   bool fast_path = true;
   bool check_links = true;
+  bool poison = false;
   std::string trace;
   std::int64_t trace_from = 0, trace_to = 2000;
   std::string fault;
@@ -52,6 +53,9 @@ void describe(RunParameters& p, Visitor& v) {
   v.boolean("fast_path", p.fast_path, "Let the clock domain run on; must change nothing.");
   v.boolean("check_links", p.check_links,
             "Protocol checkers on every link; off by default where a fault is planted.");
+  v.boolean("poison", p.poison,
+            "Fields that nobody wrote hold noise in every link, and each must fit its width; must "
+            "change nothing.");
   v.text("trace", p.trace, "glob", "Units and links whose waves go to trace.vcd; empty: none.");
   v.integer("trace_from", p.trace_from, 0, std::int64_t{1} << 40, "clk", "First cycle traced.");
   v.integer("trace_to", p.trace_to, 0, std::int64_t{1} << 40, "clk",

@@ -12,15 +12,13 @@
 #include "tb/app/morphological_engine.h"
 #include "tb/app/morphological_rules.h"
 #include "tb/app/pictures.h"
-#include "tb/env/frame_bench.h"
-#include "tb/results/interrupt.h"
-#include "tb/results/progress.h"
+#include "tb/app/shorthands.h"
+#include "tb/app/simulate.h"
+#include "tb/env/frame_composition.h"
 #include "tb/scene/truth.h"
 
 namespace deburr::tb {
 namespace {
-
-constexpr int kTruthSamples = 16;  // 16 x 16 a pixel
 
 class FrameCommand final : public Engine {
  public:
@@ -32,12 +30,12 @@ class FrameCommand final : public Engine {
   }
 
   void add_parameters(ParameterSet& set) override {
-    set.add("scene", scene_);
-    set.add("sampler", sampler_);
-    set.add("texture", texture_);
-    set.add("memory", memory_);
-    set.add("morphological", morphological_);
-    set.add("frame_memory", frame_memory_);
+    set.add("scene", ParameterKind::kInput, scene_);
+    set.add("sampler", ParameterKind::kInput, sampler_);
+    set.add_engine("texture", texture_);
+    add_memory(set, "memory", memory_);
+    set.add_engine("morphological", morphological_);
+    add_memory(set, "frame_memory", frame_memory_);
   }
   void resolve(ParameterSet& set) override {
     apply_preset(set, morphological_);
@@ -48,18 +46,7 @@ class FrameCommand final : public Engine {
   }
 
   std::vector<Shorthand> shorthands() const override {
-    return {
-        {"--scene", "scene.source", "object (default), plane, quad, tunnel, road, cylinders"},
-        {"--in", "scene.source", "Mesh file instead of a scene: .obj, .gltf, .glb"},
-        {"--texture", "scene.texture", "checker, road, brick, zone_plate, ..., or an image file"},
-        {"--size", "scene.width", "Size of the picture, WxH (512x512)", "scene.height"},
-        {"--mode", "sampler.mode", "Minification filter, one of GL's six (linear_mipmap_linear)"},
-        {"--aniso", "sampler.anisotropy", "Largest number of samples: 1, 2, 4, 8 or 16 (default)"},
-        {"--preset", "morphological.preset", "mlaa, mlaa-slope or deburr (default)"},
-        {"--lanes", "morphological.lanes",
-         "Pixels a clock of the morphological engine: 1 (default), 2 or 4"},
-        {"--storage", "morphological.storage",
-         "Of the pixels that the morphological engine delays: line_buffers (default) or memory"}};
+    return joined(scene_shorthands("object"), smoothing_shorthands());
   }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
@@ -77,73 +64,42 @@ class FrameCommand final : public Engine {
                     preset_label_));
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
     context.claim();
-    FrameBench bench(scene, options(run, context));
-    context.begin();
-    try {
-      Progress progress("frame", bench.smoothed().pixels.size(), "pixel");
-      bench.run([&](std::uint64_t pixels, std::uint64_t taken) {
-        progress.update(pixels, taken);
-        return !interrupted();
-      });
-    } catch (const spec::FileError&) {  // a wave that could not be written: nothing stays
-      throw;
-    } catch (...) {
-      bench.collect(result);
-      add_pictures(run, context, scene, bench, result);
-      throw;
-    }
-    bench.collect(result);
-    result.interrupted = !bench.complete();
-    add_pictures(run, context, scene, bench, result);
-    if (bench.complete()) bench.check();
+    Simulation simulation(simulation_options(run, context));
+    FrameComposition frame(simulation, scene, setup());
+    simulate(simulation, frame, context, result,
+             [&] { add_pictures(run, context, scene, frame, result); });
   }
 
   void describe_statistics(Result& result) override {
-    SceneParameters small = scene_;
-    small.width = small.height = 2;
-    small.texture_size = 4;
-    const TextureScene scene(small, sampler_, 1);
-    FrameBench(scene, FrameBenchOptions{}).collect(result);
+    const TextureScene scene = smallest(scene_, sampler_);
+    Simulation simulation({});
+    FrameComposition frame(simulation, scene, {});
+    describe(simulation, frame, result);
   }
 
  private:
-  FrameBenchOptions options(const RunParameters& run, const RunContext& context) const {
-    FrameBenchOptions o;
-    o.texture = texture_;
-    o.memory = memory_;
-    o.morphological = morphological_;
-    o.frame_memory = frame_memory_;
-    static_cast<SimulationOptions&>(o) = simulation_options(run, context);
-    return o;
-  }
+  FrameSetup setup() const { return {{texture_, memory_}, {morphological_, frame_memory_}}; }
 
   void add_pictures(const RunParameters& run, RunContext& context, const TextureScene& scene,
-                    const FrameBench& bench, Result& result) const {
-    const Image& before = bench.textured();
-    const Image& after = bench.smoothed();
-    const bool whole = bench.delivered() == after.pixels.size();
+                    const FrameComposition& frame, Result& result) const {
+    const Image& before = frame.buffer.frame();
+    const Image& after = frame.smoothing.frame();
+    const bool whole = frame.smoothing.delivered() == after.pixels.size();
     Image expected(after.width, after.height), truth;
+    if (after.pixels.size() != before.pixels.size()) return;  // nothing was begun
     const bool golden = run.check == CheckMode::kGolden;
-    if (golden) expected.pixels = bench.golden().pixels();
+    if (golden) expected.pixels = frame.smoothing.golden_model().pixels();
     if (run.truth && whole) {
-      RenderOptions render_options;
-      render_options.width = after.width;
-      render_options.height = after.height;
-      render_options.samples = kTruthSamples;
+      RenderOptions truth_options;
       // Coverage is averaged in the light in which the engine blends.
-      render_options.averaging =
+      truth_options.averaging =
           morphological_.linear_light ? Averaging::kLinear : Averaging::kStored;
-      truth = render_truth(scene.scene(), render_options, result);
-      if (!truth.empty())
-        result.quality =
-            judge_quality(fmt::format("supersampled-{}", kTruthSamples * kTruthSamples), before,
-                          after, truth, &scene.stream().depth);
+      truth = judge_by_scene(scene, truth_options, before, after, result);
     }
     add_smoothing_pictures(
-        context, {before, after, bench.taps(), bench.delivered(), golden ? &expected : nullptr,
-                  truth.empty() ? nullptr : &truth,
-                  "textured: what the texture unit left in the frame buffer",
-                  fmt::format("{} samples a pixel", kTruthSamples * kTruthSamples)});
+        context, {before, after, frame.smoothing.taps(), frame.smoothing.delivered(),
+                  golden ? &expected : nullptr, truth.empty() ? nullptr : &truth,
+                  "textured: what the texture unit left in the frame buffer", truth_caption()});
   }
 
   SceneParameters scene_;

@@ -12,10 +12,11 @@
 #include "spec/error.h"
 #include "tb/app/morphological_rules.h"
 #include "tb/app/pictures.h"
-#include "tb/env/morphological_bench.h"
+#include "tb/app/shorthands.h"
+#include "tb/app/simulate.h"
+#include "tb/env/morphological_environment.h"
 #include "tb/env/morphological_frames.h"
 #include "tb/results/interrupt.h"
-#include "tb/results/progress.h"
 #include "tb/scene/truth.h"
 
 namespace deburr::tb {
@@ -36,9 +37,9 @@ class MorphologicalCommand final : public Engine {
   double clock_mhz() const override { return 148.5; }  // the pixel clock of 1080p60
 
   void add_parameters(ParameterSet& set) override {
-    set.add("frame", frame_);
-    set.add("morphological", parameters_);
-    set.add("memory", memory_);
+    set.add("frame", ParameterKind::kInput, frame_);
+    set.add_engine("morphological", parameters_);
+    add_memory(set, "memory", memory_);
   }
 
   void resolve(ParameterSet& set) override {
@@ -50,16 +51,14 @@ class MorphologicalCommand final : public Engine {
   }
 
   std::vector<Shorthand> shorthands() const override {
-    return {
-        {"--in", "frame.source", "Image file of any format that OpenImageIO reads, or a mesh file"},
-        {"--scene", "frame.source", "Scene instead of a file: cylinders (default), road, ..."},
-        {"--truth", "frame.truth", "Anti-aliased picture to judge by"},
-        {"--depth", "frame.depth", "Depth of the image: silhouettes are judged too"},
-        {"--size", "frame.width", "Size of a rendered scene, WxH (640x480)", "frame.height"},
-        {"--preset", "morphological.preset", "mlaa, mlaa-slope or deburr (default)"},
-        {"--lanes", "morphological.lanes", "Pixels a clock: 1 (default), 2 or 4"},
-        {"--storage", "morphological.storage",
-         "Of delayed pixels: line_buffers (default) or memory"}};
+    return joined(
+        {{"--in", "frame.source",
+          "Image file of any format that OpenImageIO reads, or a mesh file"},
+         {"--scene", "frame.source", "Scene instead of a file: cylinders (default), road, ..."},
+         {"--truth", "frame.truth", "Anti-aliased picture to judge by"},
+         {"--depth", "frame.depth", "Depth of the image: silhouettes are judged too"},
+         {"--size", "frame.width", "Size of a rendered scene, WxH (640x480)", "frame.height"}},
+        smoothing_shorthands());
   }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
@@ -79,42 +78,20 @@ class MorphologicalCommand final : public Engine {
     const std::vector<MorphologicalInput> frames(static_cast<std::size_t>(frame_.count),
                                                  loaded.input);
     context.claim();
-    MorphologicalBench bench(frames, options(run, context));
-    context.begin();
-    try {
-      Progress progress("morphological", frames.size() * before.pixels.size(), "pixel");
-      bench.run([&](std::uint64_t pixels, std::uint64_t taken) {
-        progress.update(pixels, taken);
-        return !interrupted();
-      });
-    } catch (const spec::FileError&) {  // a wave that could not be written: nothing stays
-      throw;
-    } catch (...) {
-      bench.collect(result);
-      add_pictures(run, context, loaded, bench, result);
-      throw;
-    }
-    bench.collect(result);
-    result.interrupted = !bench.complete();
-    if (result.interrupted && result.cycles == 0) throw Interrupted();  // while golden worked
-    add_pictures(run, context, loaded, bench, result);
-    if (bench.complete()) bench.check();
+    Simulation simulation(simulation_options(run, context));
+    MorphologicalEnvironment environment(simulation, frames, {parameters_, memory_});
+    simulate(simulation, environment, context, result,
+             [&] { add_pictures(run, context, loaded, environment, result); });
   }
 
   void describe_statistics(Result& result) override {
     const std::vector<MorphologicalInput> frames = {{Image(2, 2), {}}};
-    MorphologicalBench(frames, MorphologicalBenchOptions{}).collect(result);
+    Simulation simulation({});
+    MorphologicalEnvironment environment(simulation, frames, {});
+    describe(simulation, environment, result);
   }
 
  private:
-  MorphologicalBenchOptions options(const RunParameters& run, const RunContext& context) const {
-    MorphologicalBenchOptions o;
-    o.morphological = parameters_;
-    o.memory = memory_;
-    static_cast<SimulationOptions&>(o) = simulation_options(run, context);
-    return o;
-  }
-
   void refuse_unused_frame(const ParameterSet& set) const {
     const bool depth_used = parameters_.edge_source != spec::morphological::EdgeSource::kLuma;
     // load_frame() has its own words for a truth beside a scene, and for a file that is not there.
@@ -147,19 +124,19 @@ class MorphologicalCommand final : public Engine {
   }
 
   static void add_pictures(const RunParameters& run, RunContext& context, const LoadedFrame& loaded,
-                           const MorphologicalBench& bench, Result& result) {
+                           const MorphologicalEnvironment& engine, Result& result) {
     const Image& before = loaded.input.image;
-    const Image& after = bench.frame();
+    const Image& after = engine.frame();
     if (after.pixels.size() != before.pixels.size()) return;  // no frame was begun
     Image expected(after.width, after.height);
-    const bool golden =
-        run.check == CheckMode::kGolden && bench.golden().pixels().size() == expected.pixels.size();
-    if (golden) expected.pixels = bench.golden().pixels();
+    const bool golden = run.check == CheckMode::kGolden &&
+                        engine.golden_model().pixels().size() == expected.pixels.size();
+    if (golden) expected.pixels = engine.golden_model().pixels();
     add_smoothing_pictures(
         context,
-        {before, after, bench.taps(), bench.delivered(), golden ? &expected : nullptr,
+        {before, after, engine.taps(), engine.delivered(), golden ? &expected : nullptr,
          loaded.truth ? &*loaded.truth : nullptr, "the frame as it came", loaded.truth_name});
-    if (loaded.truth && bench.delivered() == after.pixels.size())
+    if (loaded.truth && engine.delivered() == after.pixels.size())
       result.quality = judge_quality(loaded.truth_name, before, after, *loaded.truth,
                                      loaded.depth ? &*loaded.depth : nullptr);
   }

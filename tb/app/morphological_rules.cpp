@@ -22,7 +22,7 @@ void apply_preset(ParameterSet& set, const spec::morphological::Parameters& valu
   spec::morphological::Parameters rules = golden::morphological::preset_parameters(values.preset);
   const std::string by = fmt::format("preset {}", preset_name(values));
   ParameterSet preset;
-  preset.add("morphological", rules);
+  preset.add_engine("morphological", rules);
   for (const char* name :
        {"edges.threshold_mode", "edges.dynamic_luma", "edges.threshold", "edges.local_contrast",
         "predictor", "steps", "contiguous", "safe", "trim", "area", "diagonals"}) {

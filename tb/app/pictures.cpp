@@ -26,10 +26,21 @@ std::optional<double> value_of(double psnr) {
 
 }  // namespace
 
-Image render_truth(const Scene& scene, RenderOptions options, Result& result) {
+std::string truth_caption() {
+  return fmt::format("{} samples a pixel", kTruthSamples * kTruthSamples);
+}
+
+Image judge_by_scene(const TextureScene& scene, RenderOptions options, const Image& before,
+                     const Image& after, Result& result) {
+  options.width = after.width;
+  options.height = after.height;
+  options.samples = kTruthSamples;
   options.interrupted = interrupted;
   try {
-    return render(scene, options);
+    const Image truth = render(scene.scene(), options);
+    result.quality = judge_quality(fmt::format("supersampled-{}", kTruthSamples * kTruthSamples),
+                                   before, after, truth, &scene.stream().depth);
+    return truth;
   } catch (const Interrupted&) {
     result.interrupted = true;
     return {};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "spec/morphological/packets.h"
+#include "tb/env/texture_scene.h"
 #include "tb/results/result.h"
 #include "tb/results/run_context.h"
 #include "tb/scene/image.h"
@@ -17,9 +18,12 @@ namespace deburr::tb {
 
 inline constexpr int kDifferenceGain = 4;
 
-// The scene's truth. Ctrl-C on the way ends it: the result is marked, the picture empty, and what
-// was measured before stays.
-Image render_truth(const Scene& scene, RenderOptions options, Result& result);
+// The scene's truth, 16 x 16 samples a pixel, and the quality that it gives the result. Ctrl-C on
+// the way ends it: the result is marked, the picture empty, and what was measured before stays.
+inline constexpr int kTruthSamples = 16;
+std::string truth_caption();
+Image judge_by_scene(const TextureScene& scene, RenderOptions options, const Image& before,
+                     const Image& after, Result& result);
 
 // `after` and what went in, `before`, against the truth: over the frame, over edge pixels and, with
 // a depth, over silhouettes.

@@ -12,10 +12,9 @@
 #include "spec/error.h"
 #include "tb/app/morphological_rules.h"
 #include "tb/app/pictures.h"
-#include "tb/env/texture_bench.h"
-#include "tb/env/texture_scene.h"
-#include "tb/results/interrupt.h"
-#include "tb/results/progress.h"
+#include "tb/app/shorthands.h"
+#include "tb/app/simulate.h"
+#include "tb/env/texture_environment.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/textures.h"
@@ -23,8 +22,6 @@
 
 namespace deburr::tb {
 namespace {
-
-constexpr int kTruthSamples = 16;  // 16 x 16 a pixel
 
 class TextureEngine final : public Engine {
  public:
@@ -34,29 +31,21 @@ class TextureEngine final : public Engine {
   }
 
   void add_parameters(ParameterSet& set) override {
-    set.add("scene", scene_);
-    set.add("sampler", sampler_);
-    set.add("texture", texture_);
-    set.add("memory", memory_);
+    set.add("scene", ParameterKind::kInput, scene_);
+    set.add("sampler", ParameterKind::kInput, sampler_);
+    set.add_engine("texture", texture_);
+    add_memory(set, "memory", memory_);
   }
 
   std::vector<Shorthand> shorthands() const override {
-    return {
-        {"--scene", "scene.source", "plane (default), quad, tunnel, object, road, cylinders"},
-        {"--in", "scene.source", "Mesh file instead of a scene: .obj, .gltf, .glb"},
-        {"--texture", "scene.texture", "checker, road, brick, zone_plate, ..., or an image file"},
-        {"--size", "scene.width", "Size of the picture, WxH (512x512)", "scene.height"},
-        {"--mode", "sampler.mode", "Minification filter, one of GL's six (linear_mipmap_linear)"},
-        {"--aniso", "sampler.anisotropy", "Largest number of samples: 1, 2, 4, 8 or 16 (default)"},
-        {"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene (default)"},
-        {"--format", "sampler.format", "rgba8 (default), rgb565, rgba4444, l8, srgb8_a8"},
-        {"--layout", "sampler.layout", "tiled (default) or linear"}};
+    return joined(
+        scene_shorthands("plane"),
+        {{"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene (default)"},
+         {"--format", "sampler.format", "rgba8 (default), rgb565, rgba4444, l8, srgb8_a8"},
+         {"--layout", "sampler.layout", "tiled (default) or linear"}});
   }
 
-  void resolve(ParameterSet& set) override {
-    links_given_ = set.given("run.check_links");
-    refuse_unused_memory(set, "memory", memory_);
-  }
+  void resolve(ParameterSet& set) override { refuse_unused_memory(set, "memory", memory_); }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
     const TextureScene scene(scene_, sampler_, static_cast<std::uint32_t>(run.seed));
@@ -64,47 +53,20 @@ class TextureEngine final : public Engine {
     context.set_title(title(), summary_line(scene));
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
     context.claim();
-    TextureBench bench(scene, options(run, context));
-    context.begin();
-    try {
-      Progress progress("texture", scene.stream().counts.fragments, "fragment");
-      bench.run([&](std::uint64_t colours, std::uint64_t taken) {
-        progress.update(colours, taken);
-        return !interrupted();
-      });
-    } catch (const spec::FileError&) {  // a wave that could not be written: nothing stays
-      throw;
-    } catch (...) {
-      bench.collect(result);
-      add_pictures(run, context, scene, bench, result);
-      throw;
-    }
-    bench.collect(result);
-    result.interrupted = !bench.complete();
-    add_pictures(run, context, scene, bench, result);
-    if (bench.complete()) bench.check();
+    Simulation simulation(simulation_options(run, context));
+    TextureEnvironment environment(simulation, scene, {texture_, memory_});
+    simulate(simulation, environment, context, result,
+             [&] { add_pictures(run, context, scene, environment, result); });
   }
 
   void describe_statistics(Result& result) override {
-    SceneParameters small = scene_;
-    small.width = small.height = 2;
-    small.texture_size = 4;
-    const TextureScene scene(small, sampler_, 1);
-    TextureBench(scene, TextureBenchOptions{}).collect(result);
+    const TextureScene scene = smallest(scene_, sampler_);
+    Simulation simulation({});
+    TextureEnvironment environment(simulation, scene, {});
+    describe(simulation, environment, result);
   }
 
  private:
-  TextureBenchOptions options(const RunParameters& run, const RunContext& context) const {
-    TextureBenchOptions o;
-    o.texture = texture_;
-    o.memory = memory_;
-    static_cast<SimulationOptions&>(o) = simulation_options(run, context);
-    // Faults on links are seen by the link checkers first; they look away, so that the checks
-    // behind them show that they can fail too, unless the link checkers are what was asked for.
-    if (!run.fault.empty() && !links_given_) o.check_links = false;
-    return o;
-  }
-
   std::string title() const {
     return "Texture unit: " + std::filesystem::path(scene_.source).filename().string();
   }
@@ -145,17 +107,17 @@ class TextureEngine final : public Engine {
   }
 
   void add_pictures(const RunParameters& run, RunContext& context, const TextureScene& scene,
-                    const TextureBench& bench, Result& result) const {
+                    const TextureEnvironment& unit, Result& result) const {
     RenderOptions render_options;
     render_options.width = scene.stream().width;
     render_options.height = scene.stream().height;
     render_options.sampling = Sampling::kNearest;
     const Image before = render(scene.scene(), render_options);
-    const Image after = stored(bench.frame(), scene);
+    const Image after = stored(unit.frame(), scene);
     context.add_image("before", before, "Before", "nearest texel of level 0, no filter");
     context.add_image("after", after, "Hardware model", "the colours that the unit delivered");
     if (run.check == CheckMode::kGolden) {
-      const Image expected = stored(bench.golden_frame(), scene);
+      const Image expected = stored(unit.golden_frame(), scene);
       context.add_image("golden", expected, "Golden model",
                         "the same fragments by the golden model");
       // What was under way when the run was ended is on one side only.
@@ -166,15 +128,12 @@ class TextureEngine final : public Engine {
                               : "hardware against golden: any difference is bright");
     }
     if (run.truth && !result.interrupted) {
-      render_options.samples = kTruthSamples;
-      render_options.sampling = Sampling::kBilinear;
-      render_options.averaging = linear_light() ? Averaging::kLinear : Averaging::kStored;
-      const Image truth = render_truth(scene.scene(), render_options, result);
+      RenderOptions truth_options;
+      truth_options.sampling = Sampling::kBilinear;
+      truth_options.averaging = linear_light() ? Averaging::kLinear : Averaging::kStored;
+      const Image truth = judge_by_scene(scene, truth_options, before, after, result);
       if (truth.empty()) return;
-      result.quality = judge_quality(fmt::format("supersampled-{}", kTruthSamples * kTruthSamples),
-                                     before, after, truth, &scene.stream().depth);
-      context.add_image("truth", truth, "Truth",
-                        fmt::format("{} samples a pixel", kTruthSamples * kTruthSamples));
+      context.add_image("truth", truth, "Truth", truth_caption());
       context.add_image("error", difference(after, truth, kDifferenceGain), "Error",
                         fmt::format("hardware against truth, {} times", kDifferenceGain));
     }
@@ -184,7 +143,6 @@ class TextureEngine final : public Engine {
   SamplerParameters sampler_;
   spec::texture::Parameters texture_;
   MemoryParameters memory_;
-  bool links_given_ = false;
 };
 
 }  // namespace

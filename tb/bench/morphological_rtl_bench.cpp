@@ -205,7 +205,7 @@ int count_instructions(const std::string& image, const std::string& preset, int 
       setup.engine.extractor.record_stalls.value(), setup.engine.extractor.interlock_stalls.value(),
       setup.engine.beat_latency.min(), setup.engine.beat_latency.max());
   std::uint64_t bits = 0;
-  for (const rtl::Storage* storage : setup.engine.memories()) {
+  for (const rtl::MemoryBase* storage : setup.engine.memories()) {
     std::cout << fmt::format("  {:40} {:8} bits {}\n", storage->name(), storage->bits(),
                              storage->ports());
     bits += storage->bits();

@@ -4,21 +4,30 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 #include "tb/harness/memory_model.h"
+#include "tb/results/parameter_set.h"
 
 namespace deburr::tb {
 
-struct MemoryParameters {
+struct MemoryTiming {
   std::int32_t latency = 100, latency_max = 0;
   std::int32_t bytes_per_clock = 64;
   std::int32_t banks = 1, interleave_bytes = 64, bank_busy = 0;
   std::int32_t outstanding = 256;
+};
+
+// What goes wrong reads as zero, so it changes pixels.
+struct MemoryErrors {
   std::int64_t error_address = -1, error_bytes = 64;
 };
 
+struct MemoryParameters : MemoryTiming, MemoryErrors {};
+
 template <class Visitor>
-void describe(MemoryParameters& p, Visitor& v) {
+void describe(MemoryTiming& p, Visitor& v) {
   v.integer("latency", p.latency, 1, 100000, "clk", "From a request to the first byte.");
   v.integer("latency_max", p.latency_max, 0, 100000, "clk",
             "Above latency: each latency is drawn evenly from latency to this; 0: fixed.");
@@ -30,10 +39,19 @@ void describe(MemoryParameters& p, Visitor& v) {
   v.integer("bank_busy", p.bank_busy, 0, 100000, "clk",
             "From a request until its bank takes another.");
   v.integer("outstanding", p.outstanding, 1, 4096, "transaction", "Transactions in flight.");
+}
+
+template <class Visitor>
+void describe(MemoryErrors& p, Visitor& v) {
   v.integer("error_address", p.error_address, -1, std::int64_t{1} << 32, "byte",
             "First address that answers with an error; -1: none.");
   v.integer("error_bytes", p.error_bytes, 1, std::int64_t{1} << 32, "byte",
             "Bytes from error_address that answer with an error.");
+}
+
+inline void add_memory(ParameterSet& set, std::string_view prefix, MemoryParameters& p) {
+  set.add(prefix, ParameterKind::kSurroundings, static_cast<MemoryTiming&>(p));
+  set.add(prefix, ParameterKind::kInput, static_cast<MemoryErrors&>(p));
 }
 
 inline MemoryModelParameters memory_model_parameters(const MemoryParameters& p, std::uint64_t bytes,
@@ -50,6 +68,24 @@ inline MemoryModelParameters memory_model_parameters(const MemoryParameters& p, 
   m.bank_busy = static_cast<std::uint32_t>(p.bank_busy);
   m.outstanding = static_cast<std::uint32_t>(p.outstanding);
   return m;
+}
+
+// Bytes that answer with an error: [from, to).
+struct ErrorRange {
+  std::uint64_t from, to;
+  bool touches(std::uint64_t address, std::uint64_t bytes) const {
+    return address < to && address + bytes > from;
+  }
+};
+inline std::optional<ErrorRange> error_range(const MemoryParameters& p) {
+  if (p.error_address < 0) return std::nullopt;
+  const auto from = static_cast<std::uint64_t>(p.error_address);
+  return ErrorRange{from, from + static_cast<std::uint64_t>(p.error_bytes)};
+}
+// For what memory has done so far and may still do after a reset: clocks until all of it is over.
+inline std::uint64_t clocks_to_drain(const MemoryParameters& p) {
+  constexpr std::uint64_t kMargin = 100;
+  return 2 * static_cast<std::uint64_t>(std::max(p.latency, p.latency_max)) + kMargin;
 }
 
 }  // namespace deburr::tb

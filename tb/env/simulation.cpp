@@ -1,39 +1,35 @@
 // SPDX-License-Identifier: MIT
 #include "tb/env/simulation.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <utility>
 
-namespace deburr::tb {
+#include "tb/env/environment.h"
+#include "tb/results/progress.h"
 
-SimulationOptions simulation_options(const RunParameters& run, const RunContext& context) {
-  SimulationOptions o;
-  o.clock_mhz = run.clock_mhz;
-  o.seed = static_cast<std::uint64_t>(run.seed);
-  o.stall_permille = static_cast<std::uint32_t>(std::lround(run.stalls * 1000));
-  o.golden = run.check == CheckMode::kGolden;
-  o.shuffle = run.shuffle;
-  o.fast_path = run.fast_path;
-  o.check_links = run.check_links;
-  o.max_cycles = static_cast<rtl::Cycle>(run.max_cycles);
-  o.patience = static_cast<rtl::Cycle>(run.watchdog_cycles);
-  if (!run.fault.empty()) o.faults = {run.fault};
-  o.trace_scope = run.trace;
-  o.trace_file = context.trace_file().string();
-  o.trace_from = static_cast<rtl::Cycle>(run.trace_from);
-  o.trace_to = static_cast<rtl::Cycle>(run.trace_to);
-  return o;
+namespace deburr::tb {
+namespace {
+
+constexpr rtl::Cycle kResetCycles = 4;
+constexpr rtl::Cycle kReportPeriod = 4096;
+constexpr rtl::Cycle kNoLimit = rtl::Cycle{1} << 50;
+
+sc_core::sc_time clock_period(double mhz) {  // rounded to picoseconds
+  return sc_core::sc_time(std::round(1e6 / mhz), sc_core::SC_PS);
 }
 
-BenchOptions bench_options(const SimulationOptions& options, std::vector<std::string> link_faults) {
+BenchOptions bench_options(const SimulationOptions& options) {
   BenchOptions bench;
   bench.stall_permille = options.stall_permille;
   bench.seed = options.seed;
   if (options.shuffle) bench.shuffle = options.seed;
   bench.patience = options.patience;
   bench.check_links = options.check_links;
+  bench.poison = bench.check_widths = options.poison;
   bench.fast_path = options.fast_path;
-  bench.faults = std::move(link_faults);
   if (!options.trace_scope.empty()) {
     rtl::TraceOptions trace;
     trace.file = options.trace_file;
@@ -45,8 +41,124 @@ BenchOptions bench_options(const SimulationOptions& options, std::vector<std::st
   return bench;
 }
 
-sc_core::sc_time clock_period(double mhz) {
-  return sc_core::sc_time(std::round(1e6 / mhz), sc_core::SC_PS);
+// Adds the host's time between its construction and its end, however that comes.
+class HostClock {
+ public:
+  HostClock(double& seconds, double& cpu_seconds) : seconds_(seconds), cpu_seconds_(cpu_seconds) {}
+  ~HostClock() {
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    cpu_seconds_ += static_cast<double>(std::clock() - cpu_begin_) / CLOCKS_PER_SEC;
+  }
+  HostClock(const HostClock&) = delete;
+  HostClock& operator=(const HostClock&) = delete;
+
+ private:
+  double &seconds_, &cpu_seconds_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::clock_t cpu_begin_ = std::clock();
+};
+
+}  // namespace
+
+Simulation::Simulation(const SimulationOptions& options)
+    : options_(options),
+      clock_("clock", clock_period(options.clock_mhz)),
+      faults_(options.faults) {}
+
+Simulation::~Simulation() = default;
+
+void Simulation::elaborate(Environment& environment) {
+  environment_ = &environment;
+  BenchOptions bench = bench_options(options_);
+  bench.faults = faults_.link_faults();
+  bench.at_limit = [this] {
+    const Amount amount = environment_->amount();
+    return out_of_cycles(options_.max_cycles, amount.delivered, amount.total, amount.unit);
+  };
+  bench_ = std::make_unique<Bench>(clock_, bench);
+}
+
+void Simulation::reset() {
+  clock_.set_reset_n(false);
+  clock_.run(kResetCycles);
+  clock_.set_reset_n(true);
+  environment_->configure();
+}
+
+void Simulation::run(const GoOn& go_on) {
+  reset();
+  for (std::size_t piece = 0; environment_->begin(piece); ++piece)
+    if (!run_piece(piece, go_on)) return;
+  environment_->finish();
+  complete_ = true;
+  environment_->refuse_memory_errors();
+}
+
+bool Simulation::asks_to_stop(const GoOn& go_on) {
+  if (!go_on || clock_.cycle() < next_report_) return false;
+  next_report_ = clock_.cycle() + kReportPeriod;
+  const Amount amount = environment_->amount();
+  return !go_on(amount.delivered, amount.taken);
+}
+
+bool Simulation::run_piece(std::size_t piece, const GoOn& go_on) {
+  const rtl::Cycle before = cycles_;
+  const rtl::Cycle limit = options_.max_cycles != 0 ? options_.max_cycles : kNoLimit;
+  const rtl::Cycle reset_at = clock_.cycle() + options_.reset_after;
+  bool reset_due = piece == 0 && options_.reset_after > 0;
+  const auto done = [&] {
+    environment_->watch();
+    if (asks_to_stop(go_on)) return stopped_ = true;
+    return (reset_due && clock_.cycle() >= reset_at) || environment_->done();
+  };
+  begun_ = clock_.cycle();
+  running_ = true;
+  try {
+    const HostClock host_clock(host_seconds_, cpu_seconds_);
+    bench_->run(done, std::max(limit, before) - before, false);
+    if (!stopped_ && reset_due && clock_.cycle() >= reset_at) {
+      reset_due = false;
+      reset();
+      environment_->restart();
+      begun_ = clock_.cycle();
+      bench_->run(done, limit, false);
+    }
+  } catch (...) {
+    cycles_ = cycles();
+    running_ = false;
+    throw;
+  }
+  cycles_ = cycles();
+  running_ = false;
+  if (stopped_) return false;
+  if (bench_->links()) bench_->links()->check_empty();
+  environment_->end();
+  return true;
+}
+
+rtl::Cycle Simulation::cycles() const {
+  return running_ ? cycles_ + clock_.cycle() - begun_ : cycles_;
+}
+
+void Simulation::collect(Result& result) const {
+  result.cycles = cycles();
+  result.host_seconds = host_seconds_;
+  result.host_cpu_seconds = cpu_seconds_;
+  result.comparisons = result.mismatches = 0;
+  result.traffic_comparisons = result.traffic_mismatches = 0;
+  const auto sum = [&](const Environment::Boards& boards, std::uint64_t& comparisons,
+                       std::uint64_t& mismatches) {
+    for (const ScoreboardBase* board : boards) {
+      comparisons += board->comparisons();
+      // What never came differs too, once all of it could have come.
+      mismatches += board->mismatches() + (complete_ ? board->leftovers() : 0);
+    }
+  };
+  sum(environment_->outputs(), result.comparisons, result.mismatches);
+  sum(environment_->counters(), result.comparisons, result.mismatches);
+  sum(environment_->traffic(), result.traffic_comparisons, result.traffic_mismatches);
+  environment_->collect(result);
+  environment_->collect_headline(result);
 }
 
 }  // namespace deburr::tb

@@ -1,18 +1,30 @@
 // SPDX-License-Identifier: MIT
-// What every bench of the command is told about its simulation, whatever engine it holds.
+// One simulation, whatever engine it is of: clock, reset, random stalls, planted faults, waves,
+// progress, limits and time.
+//
+//   Simulation simulation(options);
+//   TextureEnvironment texture(simulation, scene, setup);
+//   simulation.elaborate(texture);        // after everything that it is made of
+//   simulation.run();
+//   texture.check();
+//   simulation.collect(result);
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
 #include <systemc>
 #include <vector>
 
 #include "rtl_model/fabric/clock_domain.h"
-#include "tb/app/engine.h"
+#include "tb/env/planted_faults.h"
 #include "tb/harness/bench.h"
-#include "tb/results/run_context.h"
+#include "tb/results/result.h"
 
 namespace deburr::tb {
+
+class Environment;
 
 struct SimulationOptions {
   double clock_mhz = 166.67;
@@ -22,22 +34,59 @@ struct SimulationOptions {
   bool shuffle = false;
   bool fast_path = true;
   bool check_links = true;
+  bool poison = false;        // fields that nobody wrote hold noise
   rtl::Cycle max_cycles = 0;  // 0: no limit
   rtl::Cycle patience = 20000;
-  // Names of the bench's own faults, or faults of the harness (fault_injector.h).
+  // Names that an environment knows, or faults of the harness (fault_injector.h).
   std::vector<std::string> faults;
+  rtl::Cycle reset_after = 0;  // resets once, so many cycles into the first piece; 0: never
   std::string trace_file, trace_scope;  // empty: none
   rtl::Cycle trace_from = 0, trace_to = 2000;
-
-  rtl::Cycle cycle_limit() const { return max_cycles != 0 ? max_cycles : rtl::Cycle{1} << 50; }
 };
 
-// As the parameters `run.*` say.
-SimulationOptions simulation_options(const RunParameters& run, const RunContext& context);
+// One a process: SystemC elaborates once.
+class Simulation {
+ public:
+  explicit Simulation(const SimulationOptions& options);
+  ~Simulation();
 
-// For the harness; `link_faults` are those of the options that it knows.
-BenchOptions bench_options(const SimulationOptions& options, std::vector<std::string> link_faults);
+  const SimulationOptions& options() const { return options_; }
+  rtl::ClockDomain& clock() { return clock_; }
+  FaultPlan& faults() { return faults_; }
 
-sc_core::sc_time clock_period(double mhz);  // rounded to picoseconds
+  // The environment that the run is about, which must outlive the last call of anything here. The
+  // design is complete. ConfigError for faults and waves of what does not exist.
+  void elaborate(Environment& environment);
+
+  // Called every few thousand cycles with what was delivered and taken (Environment::amount());
+  // false ends the run early.
+  using GoOn = std::function<bool(std::uint64_t delivered, std::uint64_t taken)>;
+  // Resets, and runs every piece of work to its end. Does not throw on mismatches: that is
+  // Environment::check(). SimulationError for memory errors and broken protocols, DeadlockError for
+  // no progress, OutOfCycles for max_cycles.
+  void run(const GoOn& go_on = {});
+
+  bool complete() const { return complete_; }  // false when ended early
+  // Clocks of all pieces so far; of one that a reset broke off, only those behind the reset.
+  rtl::Cycle cycles() const;
+  rtl::Cycle begun() const { return begun_; }  // the clock in which the last piece began
+  std::uint64_t activations() const { return clock_.activations(); }
+  // Everything measured so far, also after an exception from run().
+  void collect(Result& result) const;
+
+ private:
+  void reset();
+  bool run_piece(std::size_t piece, const GoOn& go_on);
+  bool asks_to_stop(const GoOn& go_on);
+
+  SimulationOptions options_;
+  rtl::ClockDomain clock_;
+  FaultPlan faults_;
+  Environment* environment_ = nullptr;
+  std::unique_ptr<Bench> bench_;
+  rtl::Cycle cycles_ = 0, begun_ = 0, next_report_ = 0;
+  double host_seconds_ = 0, cpu_seconds_ = 0;
+  bool running_ = false, stopped_ = false, complete_ = false;
+};
 
 }  // namespace deburr::tb

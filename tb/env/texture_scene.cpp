@@ -128,16 +128,25 @@ void TextureScene::lay_out(const SamplerParameters& sampler) {
 }
 
 TextureGolden make_golden(const TextureScene& scene, const spec::texture::Parameters& parameters,
-                          TextureGolden::Traffic traffic) {
+                          TextureGolden::Traffic traffic, const std::optional<ErrorRange>& errors) {
   TextureGolden golden(parameters, scene.memory().bytes(), traffic);
   int handle = 0;
   for (const spec::texture::Descriptor& descriptor : scene.memory().descriptors())
     golden.set_texture(handle++, descriptor);
+  if (errors) {
+    const std::uint64_t line_bytes = golden.cache().line_bytes();
+    golden.set_error_lines([range = *errors, line_bytes](std::uint32_t line) {
+      return range.touches(line * line_bytes, line_bytes);
+    });
+  }
   return golden;
 }
 
-GoldenFrame golden_frame(const TextureScene& scene, const spec::texture::Parameters& parameters) {
-  TextureGolden golden = make_golden(scene, parameters);
+GoldenFrame golden_frame(const TextureScene& scene, const spec::texture::Parameters& parameters,
+                         const std::optional<ErrorRange>& errors) {
+  // Only a cache that is followed knows of lines with errors.
+  const auto traffic = errors ? TextureGolden::Traffic::kPredict : TextureGolden::Traffic::kIgnore;
+  TextureGolden golden = make_golden(scene, parameters, traffic, errors);
   FrameAssembler frame(scene.stream(), scene.scene());
   GoldenFrame result;
   result.rgba.reserve(4 * scene.stream().counts.fragments);

@@ -5,12 +5,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "golden/texture/texture_golden.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/parameters.h"
+#include "tb/env/memory_parameters.h"
 #include "tb/env/texture_memory.h"
 #include "tb/scene/image.h"
 #include "tb/scene/rasteriser.h"
@@ -108,11 +110,13 @@ class TextureScene {
   std::vector<std::filesystem::path> inputs_;
 };
 
-// A golden model with the scene's textures. The scene must outlive it.
+// A golden model with the scene's textures, of a memory that answers with errors in `errors`. The
+// scene must outlive it.
 golden::texture::TextureGolden make_golden(const TextureScene& scene,
                                            const spec::texture::Parameters& parameters,
                                            golden::texture::TextureGolden::Traffic traffic =
-                                               golden::texture::TextureGolden::Traffic::kIgnore);
+                                               golden::texture::TextureGolden::Traffic::kIgnore,
+                                           const std::optional<ErrorRange>& errors = std::nullopt);
 
 // The whole picture by the golden model.
 struct GoldenFrame {
@@ -120,6 +124,7 @@ struct GoldenFrame {
   std::vector<std::uint8_t> rgba;  // of all covered lanes in order, 4 bytes each
   golden::texture::TextureWork work;
 };
-GoldenFrame golden_frame(const TextureScene& scene, const spec::texture::Parameters& parameters);
+GoldenFrame golden_frame(const TextureScene& scene, const spec::texture::Parameters& parameters,
+                         const std::optional<ErrorRange>& errors = std::nullopt);
 
 }  // namespace deburr::tb

@@ -82,6 +82,11 @@ class Scoreboard final : public ScoreboardBase {
     fail(mismatch);
   }
   std::uint64_t leftovers() const override { return waiting_; }
+  // After a reset: what was expected will not come; comparisons so far count.
+  void restart() {
+    expected_.clear();
+    waiting_ = 0;
+  }
 
  private:
   struct Expected {

@@ -210,7 +210,12 @@ class Configuration(CommandTest):
     def test_trace(self):
         self.run_texture(0, "--trace", "texture.texels", "--trace-to", "50", says="PASS")
         with open(self.path("out/trace.vcd")) as file:
-            self.assertIn("occupancy", file.read())
+            wave = file.read()
+        # One scope holds all: the clock, the number of its cycle, and the link as a scope of its own.
+        self.assertRegex(wave, r"(?s)^\$comment.*?\$scope module deburr \$end\n\$var wire 1 \S+ clk \$end")
+        self.assertEqual(wave.count("$scope module"), 3, "deburr.texture.texels")
+        for name in ("cycle", "occupancy", "push", "pop"):
+            self.assertRegex(wave, rf"\$var wire \d+ \S+ {name} ")
 
     def test_nothing_is_written_before_the_configuration_is_right(self):
         self.run_texture(2, "--set", "texture.fotprint=half")

@@ -247,8 +247,9 @@ class Configuration(Base):
 
 class Faults(Base):
     """What is planted must be found, by the right check; without link checkers by the scoreboards."""
-    CHECKED = ("--size", "64x48", "--set", "run.watchdog_cycles=2000")
-    UNCHECKED = CHECKED + ("--set", "run.check_links=false")
+    SMALL = ("--size", "64x48", "--set", "run.watchdog_cycles=2000")
+    CHECKED = SMALL + ("--set", "run.check_links=true")
+    UNCHECKED = SMALL + ("--set", "run.check_links=false")
     MEMORY = ("--storage", "memory")
 
     def fault(self, name, code, says, *arguments, engine="morphological"):
@@ -321,14 +322,45 @@ class Faults(Base):
         self.fault("flip:colours:50:56", 1, "mismatch", *self.UNCHECKED, engine="frame")
         self.fault("flip:blended:50:4", 1, "mismatch", *self.UNCHECKED, engine="frame")
 
+    def test_the_checkers_look_away_by_default(self):
+        self.fault("morphological.flip-bit", 1, "mismatch", *self.SMALL, engine="frame")
+        self.fault("flip-bit", 1, "mismatch", *self.SMALL)
+
+    def test_every_bit_of_the_output_of_a_frame_is_judged_or_refused(self):
+        """Its flags too; what is no bit of the beat is refused."""
+        last = None
+        for bit in (0, 31, 128, 256, 264, 272, 100000):
+            done = self.run_command("run", "frame", *self.UNCHECKED, "--out", self.path("out"), "--fault",
+                                    f"flip:blended:100:{bit}")
+            last = done.returncode
+            self.assertIn(last, (1, 2), done.stdout)
+            self.assertRegex(done.stdout, "FAIL (mismatch|configuration)")
+        self.assertEqual(last, 2)
+
+    def test_errors_of_the_texture_memory_of_a_frame(self):
+        self.run_engine(3, *self.SMALL, "--set", "memory.error_address=0", "--set", "memory.error_bytes=100000000",
+                        engine="frame", says="line fills with an error")
+        self.assertEqual(self.result()["checks"]["mismatches"], 0, "golden reads zero too")
+        self.assertEqual(self.result()["checks"]["traffic_mismatches"], 0)
+
+    def test_errors_of_the_frame_memory_of_a_frame(self):
+        self.run_engine(3, *self.SMALL, *self.MEMORY, "--set", "frame_memory.error_address=256", engine="frame",
+                        says=["lines with an error", "frame_memory.error_address"])
+        self.assertEqual(self.result()["checks"]["mismatches"], 0)
+
     def test_named_faults_of_a_frame(self):
-        for name, checked, unchecked in (("flip-bit", 3, 1), ("drop-pixel", 3, 1), ("duplicate-pixel", 3, 1),
-                                         ("flip-colour", 3, 1), ("drop-colour", 3, 4), ("stuck-ready", 4, 4),
-                                         ("lost-response", 4, 4), ("memory-error", 3, 3)):
+        for name, checked, unchecked in (
+                ("morphological.flip-bit", 3, 1), ("drop-pixel", 3, 1), ("duplicate-pixel", 3, 1),
+                ("texture.flip-bit", 3, 1), ("drop-colour", 3, 4), ("morphological.stuck-ready", 4, 4),
+                ("texture.lost-response", 4, 4), ("texture.memory-error", 3, 3), ("wrong-texel", 1, 1)):
             with self.subTest(name):
                 self.fault(name, checked, "", *self.CHECKED, engine="frame")
                 self.fault(name, unchecked, "", *self.UNCHECKED, engine="frame")
-        self.run_engine(2, *self.CHECKED, "--fault", "gremlin", engine="frame", says=["gremlin", "flip-colour"])
+        self.run_engine(2, *self.CHECKED, "--fault", "gremlin", engine="frame", says=["gremlin", "texture.flip-bit"])
+        self.run_engine(2, *self.CHECKED, "--fault", "flip-bit", engine="frame",
+                        says="texture.flip-bit or morphological.flip-bit")
+        self.run_engine(2, *self.CHECKED, "--fault", "morphological.lost-response", engine="frame",
+                        says="storage = memory")
         self.fault("stuck_ready:pixels:300", 4, "pixels", *self.CHECKED, engine="frame")
 
 

@@ -127,6 +127,8 @@ Comparison compare(const Json& a, const Json& b, const Tolerances& tolerances) {
                         is_worse(judge, x, y, tolerances)};
     if (key == "verdict") value.worse = left && *left == "pass" && (!right || *right != "pass");
     if (key == "verdict" && right && *right == "fail") value.worse = true;
+    // What B counts is not what could be built.
+    if (key.starts_with("idealised.")) value.worse = right != nullptr && left == nullptr;
     if (left && right && *left == *right && !value.worse) continue;
     comparison.worse = comparison.worse || value.worse;
     comparison.values.push_back(std::move(value));

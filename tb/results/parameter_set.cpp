@@ -165,6 +165,7 @@ void ParameterSet::Binder::add(std::string_view name, std::string_view unit, std
   Parameter p;
   p.name = prefix_.empty() ? std::string(name) : fmt::format("{}.{}", prefix_, name);
   DEBURR_CHECK(!set_.find(p.name), "parameter '" + p.name + "' is declared twice");
+  p.kind = kind_;
   p.unit = unit;
   p.range = std::move(range);
   p.meaning = meaning;
@@ -351,6 +352,13 @@ void ParameterSet::load(const std::filesystem::path& file) {
 nlohmann::ordered_json ParameterSet::resolved() const {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (const Parameter& p : parameters_) json[p.name] = p.json();
+  return json;
+}
+
+nlohmann::ordered_json ParameterSet::resolved(ParameterKind kind) const {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const Parameter& p : parameters_)
+    if (p.kind == kind) json[p.name] = p.json();
   return json;
 }
 

@@ -24,9 +24,22 @@
 
 namespace deburr::tb {
 
+// What a change of a parameter changes. Runs that agree in rules and inputs (and in the seed) share
+// one golden result, whatever they are built with.
+enum class ParameterKind : std::uint8_t {
+  kRun,           // how it is simulated and checked: nothing of the hardware
+  kInput,         // what the engine is given
+  kRule,          // pixels
+  kBuild,         // clocks and cost, and no pixel
+  kSurroundings,  // clocks: what is around the engine, such as memory
+};
+inline constexpr std::array<std::string_view, 5> kParameterKindNames = {"run", "input", "rule",
+                                                                        "build", "surroundings"};
+
 // One parameter, bound to the variable that holds it.
 struct Parameter {
   std::string name;
+  ParameterKind kind = ParameterKind::kRun;
   std::string unit;   // empty for choices, switches and text
   std::string range;  // "1..16", "half | quarter | ...", "true | false"
   std::string meaning;
@@ -38,14 +51,24 @@ struct Parameter {
   std::function<std::string(std::string_view)> parse;  // "" or why the text is refused
 };
 
+inline std::string_view kind_name(const Parameter& parameter) {
+  return kParameterKindNames[static_cast<std::size_t>(parameter.kind)];
+}
+
 class ParameterSet {
  public:
   // Binds every parameter of `values` under `prefix`. The values at this moment are the defaults.
   // `values` must outlive the set.
   template <class P>
-  void add(std::string_view prefix, P& values) {
-    Binder binder(*this, prefix);
+  void add(std::string_view prefix, ParameterKind kind, P& values) {
+    Binder binder(*this, prefix, kind);
     describe(values, binder);
+  }
+  // The same of an engine, whose parameters are a struct of Rules and one of Build.
+  template <class P>
+  void add_engine(std::string_view prefix, P& values) {
+    add(prefix, ParameterKind::kRule, static_cast<typename P::Rules&>(values));
+    add(prefix, ParameterKind::kBuild, static_cast<typename P::Build&>(values));
   }
 
   enum class Origin { kCommandLine, kFile };
@@ -75,6 +98,8 @@ class ParameterSet {
   std::vector<std::string> near_matches(std::string_view name) const;
   // name -> value for every parameter, in order of declaration.
   nlohmann::ordered_json resolved() const;
+  // The same of those of one kind.
+  nlohmann::ordered_json resolved(ParameterKind kind) const;
   // The same as a YAML file that `load` accepts, each line with its meaning as comment. What a
   // preset made is a comment too, so that another preset can be chosen beside the file.
   std::string yaml() const;
@@ -83,7 +108,8 @@ class ParameterSet {
   // The visitor of spec/parameters.h, with two kinds more that only the testbench uses.
   class Binder {
    public:
-    Binder(ParameterSet& set, std::string_view prefix) : set_(set), prefix_(prefix) {}
+    Binder(ParameterSet& set, std::string_view prefix, ParameterKind kind)
+        : set_(set), prefix_(prefix), kind_(kind) {}
     void integer(std::string_view name, std::int32_t& value, std::int32_t min, std::int32_t max,
                  std::string_view unit, std::string_view meaning);
     void integer(std::string_view name, std::int64_t& value, std::int64_t min, std::int64_t max,
@@ -112,6 +138,7 @@ class ParameterSet {
 
     ParameterSet& set_;
     std::string_view prefix_;
+    ParameterKind kind_;
   };
 
   struct Given {

@@ -360,30 +360,7 @@ class ReportBuilder {
       histogram << row({{"from", shown(bin["from"])}, {"count", shown(bin["count"])}});
     page_.set("histogram", histogram);
 
-    mustache::data sram{mustache::data::type::list};
-    std::uint64_t total = 0, total_at_width = 0;
-    const auto part = [&](const char* table, const std::string& name) {
-      const auto found = result_.find(table);
-      return found != result_.end() && found->contains(name) ? (*found)[name] : Json();
-    };
-    for (const auto& [name, bits] : result_["sram_bits"].items()) {
-      const Json at_width = part("sram_bits_at_frame_width", name);
-      total += bits.get<std::uint64_t>();
-      total_at_width += at_width.is_number() ? at_width.get<std::uint64_t>() : 0;
-      sram << row({{"name", name},
-                   {"bits", shown(bits)},
-                   {"at_width", shown(at_width)},
-                   {"ports", shown(part("sram_ports", name))}});
-    }
-    sram << row({{"name", "total"},
-                 {"bits", grouped(total)},
-                 {"at_width", grouped(total_at_width)},
-                 {"ports", ""}});
-    page_.set("sram", sram);
-    page_.set("sram_widths", total_at_width != 0 && total_at_width != total);
-    page_.set("sram_note", fmt::format("{:.2f} Mbit", static_cast<double>(total) / 1e6));
-    page_.set("sram_width_note",
-              fmt::format("{:.2f} Mbit", static_cast<double>(total_at_width) / 1e6));
+    fill_memories();
 
     mustache::data work{mustache::data::type::list};
     for (const auto& [name, value] : result_["work"].items()) {
@@ -426,6 +403,7 @@ class ReportBuilder {
     mustache::data parameters{mustache::data::type::list};
     for (const Json& p : manifest_.value("parameters", Json::array())) {
       mustache::data line = row({{"name", p.value("name", "")},
+                                 {"kind", p.value("kind", "")},
                                  {"value", shown(p["value"])},
                                  {"default", p.value("default", "")},
                                  {"range", p.value("range", "")},
@@ -435,6 +413,52 @@ class ReportBuilder {
       parameters << line;
     }
     page_.set("parameters", parameters);
+  }
+
+  void fill_memories() {
+    const Json& memories = result_["memories"];
+    const Json& bits = result_["memory_bits"];
+    const auto total = [&](const char* key) {
+      return bits.value("total", Json::object()).value(key, std::uint64_t{0});
+    };
+    const std::uint64_t logical = total("logical"), at_width = total("logical_at_frame_width");
+    mustache::data rows{mustache::data::type::list};
+    for (const auto& [name, m] : memories.items()) {
+      const auto text = [&](const char* key) { return shown(m.value(key, Json())); };
+      rows << row({{"name", name},
+                   {"content", text("content")},
+                   {"kind", text("kind")},
+                   {"size", fmt::format("{} x {}", text("words"), text("word_bits"))},
+                   {"ports", text("ports")},
+                   {"latency", text("read_latency")},
+                   {"built", text("built_as")},
+                   {"at_width", text("logical_bits_at_frame_width")},
+                   {"logical", text("logical_bits")},
+                   {"physical", text("physical_bits")}});
+    }
+    page_.set("memories", rows);
+    mustache::data kinds{mustache::data::type::list};
+    for (const auto& [kind, sum] : bits.items()) {
+      const auto text = [&](const char* key) { return shown(sum.value(key, Json())); };
+      kinds << row({{"kind", kind},
+                    {"number", text("memories")},
+                    {"at_width", text("logical_at_frame_width")},
+                    {"logical", text("logical")},
+                    {"physical", text("physical")}});
+    }
+    page_.set("memory_kinds", kinds);
+    page_.set("memory_widths", at_width != 0 && at_width != logical);
+    const auto megabits = [](std::uint64_t value) {
+      return fmt::format("{:.2f} Mbit", static_cast<double>(value) / 1e6);
+    };
+    page_.set("memory_note", megabits(logical));
+    page_.set("memory_physical_note", megabits(total("physical")));
+    page_.set("memory_width_note", megabits(at_width));
+    mustache::data idealised{mustache::data::type::list};
+    for (const std::string& memory : idealised_memories(result_))
+      idealised << row({{"memory", memory}});
+    page_.set("idealised", idealised);
+    page_.set("is_idealised", !idealised_memories(result_).empty());
   }
 
   void fill_origin() {

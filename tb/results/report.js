@@ -293,23 +293,26 @@
       }));
     }
 
-    // SRAM bits: for the width of this frame, and beyond it what was built for wider ones.
-    const sram = Object.entries(data.result.sram_bits);
-    if (sram.length > 0) {
-      const widths = data.result.sram_bits_at_frame_width || {};
-      const here = sram.map(([name, bits]) => widths[name] ?? bits);
-      const beyond = sram.map(([, bits], i) => bits - here[i]);
+    // Bits of the memories: for the width of this frame, beyond it what was built for wider ones,
+    // and beyond that copies and filled-up banks.
+    const memories = Object.entries(data.result.memories);
+    if (memories.length > 0) {
+      const here = memories.map(([, m]) => m.logical_bits_at_frame_width);
+      const beyond = memories.map(([, m], i) => m.logical_bits - here[i]);
+      const copied = memories.map(([, m]) => m.physical_bits - m.logical_bits);
       const wider = beyond.some((bits) => bits > 0);
+      const copies = copied.some((bits) => bits > 0);
       const series = (label, colour, values) =>
           ({label, data: values, backgroundColor: colour, maxBarThickness: 22});
-      charts.push(new Chart(byId('sram'), {
+      charts.push(new Chart(byId('memories'), {
         type: 'bar',
         data: {
-          // Whole names are in the table beside it.
-          labels: horizontal(sram.map(([name]) => name.replace(/^(texture|morphological)_/, '')),
-                             'sram-box'),
-          datasets: [series('at this width', css('--busy'), here),
-                     ...(wider ? [series('more, as built', css('--idle'), beyond)] : [])]
+          // Whole names are in the table below it.
+          labels: horizontal(memories.map(([name]) => name.replace(/^(texture|morphological)_/, '')),
+                             'memories-box'),
+          datasets: [series(wider ? 'at this width' : 'logical', css('--busy'), here),
+                     ...(wider ? [series('more, as built', css('--idle'), beyond)] : []),
+                     ...(copies ? [series('copies', css('--warn'), copied)] : [])]
         },
         options: {
           indexAxis: 'y',
@@ -318,7 +321,7 @@
                 ticks: {maxRotation: 0, autoSkipPadding: 12}},
             y: {stacked: true, grid: {display: false}, ticks: {autoSkip: false}}
           },
-          plugins: {legend: {display: wider, position: 'bottom', labels: {boxWidth: 12}}}
+          plugins: {legend: {display: wider || copies, position: 'bottom', labels: {boxWidth: 12}}}
         }
       }));
     }

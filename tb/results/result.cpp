@@ -86,13 +86,31 @@ Json to_json(const Result& r) {
                           {"cause", r.bottleneck->cause},
                           {"cycles", r.bottleneck->cycles},
                           {"meaning", r.bottleneck->meaning}};
-  for (const char* key : {"sram_bits", "sram_bits_at_frame_width", "sram_ports"})
-    json[key] = Json::object();
-  for (const SramMemory& memory : r.sram) {
-    json["sram_bits"][memory.name] = memory.bits;
-    json["sram_bits_at_frame_width"][memory.name] = memory.bits_at_frame_width;
-    json["sram_ports"][memory.name] = memory.ports;
+  json["memories"] = Json::object();
+  Json idealised = Json::object();
+  for (const MemoryFigures& m : r.memories) {
+    json["memories"][m.name] = {{"content", m.content},
+                                {"kind", m.kind},
+                                {"words", m.words},
+                                {"word_bits", m.word_bits},
+                                {"ports", m.ports},
+                                {"read_latency", m.read_latency},
+                                {"built_as", m.built_as},
+                                {"copies", m.copies},
+                                {"banks", m.banks},
+                                {"logical_bits", m.logical_bits},
+                                {"physical_bits", m.physical_bits},
+                                {"logical_bits_at_frame_width", m.logical_bits_at_frame_width}};
+    if (!m.idealised.empty()) idealised[m.name] = m.idealised;
   }
+  json["memory_bits"] = Json::object();
+  for (const MemoryBits& bits : memory_bits(r.memories))
+    json["memory_bits"][std::string(bits.kind)] = {
+        {"memories", bits.memories},
+        {"logical", bits.logical},
+        {"physical", bits.physical},
+        {"logical_at_frame_width", bits.logical_at_frame_width}};
+  if (!idealised.empty()) json["idealised"] = idealised;
   json["work"] = Json::object();
   for (const WorkItem& item : r.work) json["work"][item.name] = item.value;
   json["figures"] = Json::array();
@@ -117,12 +135,6 @@ Json to_json(const Result& r) {
                   {"cpu_seconds", r.host_cpu_seconds}};
   Json meanings = Json::object();
   collect_meanings(json, "", meanings);
-  for (const char* key : {"sram_bits", "sram_bits_at_frame_width", "sram_ports"})
-    for (const SramMemory& memory : r.sram) {  // whose names may have parts
-      const Statistic* s = find_statistic(fmt::format("{}.*", key));
-      meanings[fmt::format("{}.{}", key, memory.name)] = {{"unit", s->unit},
-                                                          {"meaning", s->meaning}};
-    }
   for (const UnitCycles& unit : r.units)
     for (const StallCycles& stall : unit.stalls)
       meanings[fmt::format("units.{}.stalls.{}", unit.name, stall.cause)] = {
@@ -131,6 +143,31 @@ Json to_json(const Result& r) {
     meanings["work." + item.name] = {{"unit", item.unit}, {"meaning", item.meaning}};
   json["meaning"] = meanings;
   return json;
+}
+
+// ---- memories -----------------------------------------------------------------------------------
+
+std::vector<MemoryBits> memory_bits(std::span<const MemoryFigures> memories) {
+  std::vector<MemoryBits> all = {{"flops"}, {"sram"}, {"rom"}, {"total"}};
+  for (const MemoryFigures& m : memories)
+    for (MemoryBits& bits : all) {
+      if (bits.kind != m.kind && bits.kind != "total") continue;
+      ++bits.memories;
+      bits.logical += m.logical_bits;
+      bits.physical += m.physical_bits;
+      bits.logical_at_frame_width += m.logical_bits_at_frame_width;
+    }
+  std::erase_if(all, [](const MemoryBits& b) { return b.kind != "total" && b.memories == 0; });
+  return all;
+}
+
+std::vector<std::string> idealised_memories(const Json& result) {
+  std::vector<std::string> all;
+  const auto found = result.find("idealised");
+  if (found == result.end() || !found->is_object()) return all;
+  for (const auto& [name, why] : found->items())
+    all.push_back(fmt::format("{} ({})", name, why.is_string() ? why.get<std::string>() : "?"));
+  return all;
 }
 
 // ---- the bottleneck -----------------------------------------------------------------------------
@@ -224,7 +261,7 @@ Json read_result(const std::filesystem::path& path) {
   if (!json.is_object() || json.value("schema", Json()) != kResultSchema)
     throw FileError(fmt::format("'{}' is not a result of schema {}", file.string(), kResultSchema));
   for (const char* key : {"unit", "verdict", "checks", "cycles", "throughput", "latency", "memory",
-                          "units", "sram_bits", "work", "host"})
+                          "units", "memories", "memory_bits", "work", "host"})
     if (!json.contains(key))
       throw FileError(fmt::format("'{}' is incomplete: '{}' is missing", file.string(), key));
   return json;

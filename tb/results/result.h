@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a run measured, and its file result.json (schema 1, docs/exploration.md).
+// What a run measured, and its file result.json (schema 2, docs/exploration.md).
 //
 // Written by an engine at the end of a run, read by `deburr report` and `deburr compare`. Unit and
 // meaning of each key travel with the file under "meaning": those of every engine come from
@@ -18,7 +18,7 @@
 
 namespace deburr::tb {
 
-inline constexpr int kResultSchema = 1;
+inline constexpr int kResultSchema = 2;
 
 enum class Verdict { kPass, kFail, kUnchecked };
 
@@ -72,12 +72,29 @@ struct Quality {
   std::optional<double> psnr_before_db, psnr_edge_before_db, psnr_silhouette_before_db;
 };
 
-// A memory as the model was built, and at the width of the frame that it had (equal where the size
-// does not go with the width).
-struct SramMemory {
-  std::string name, ports;
-  std::uint64_t bits = 0, bits_at_frame_width = 0;
+// A memory of the model and what it is built from. Logical bits are what the design asks for;
+// physical ones include copies for more read ports and the words that fill up the last bank.
+struct MemoryFigures {
+  std::string name, content;
+  std::string kind;  // "flops", "sram" or "rom"
+  std::uint64_t words = 0, word_bits = 0;
+  std::string ports;               // "2R1W"
+  std::uint64_t read_latency = 0;  // clocks
+  std::string built_as;            // "2 copies of 1R1W, 4 banks"
+  std::uint64_t copies = 1, banks = 1;
+  std::uint64_t logical_bits = 0, physical_bits = 0;
+  // Logical bits for frames of the width that this run had, where the size goes with the width.
+  std::uint64_t logical_bits_at_frame_width = 0;
+  std::string idealised;  // why no technology offers it; empty: it can be built
 };
+
+// Bits of all memories of a kind.
+struct MemoryBits {
+  std::string_view kind;  // "total": of all kinds
+  std::uint64_t memories = 0, logical = 0, physical = 0, logical_at_frame_width = 0;
+};
+// Of every kind that there is, and the total.
+std::vector<MemoryBits> memory_bits(std::span<const MemoryFigures> memories);
 
 // What a reader looks for first: a value of the result by its key ("work.frame_clocks"), beside
 // one that it should be compared with; without such a key, against_label is a remark.
@@ -102,7 +119,7 @@ struct Result {
   std::uint64_t bytes_read = 0, bytes_written = 0, lines_filled = 0;
   std::vector<UnitCycles> units;
   std::optional<Bottleneck> bottleneck;
-  std::vector<SramMemory> sram;
+  std::vector<MemoryFigures> memories;
   std::vector<WorkItem> work;
   std::vector<Figure> figures;
   std::optional<Quality> quality;
@@ -115,7 +132,11 @@ struct Result {
 
 nlohmann::ordered_json to_json(const Result& result);
 
-// Reads DIR/result.json (or the file itself) and checks that it is a complete schema-1 result:
+// "name (why)" of each idealised memory of a result.json.
+std::vector<std::string> idealised_memories(const nlohmann::ordered_json& result);
+
+// Reads DIR/result.json (or the file itself) and checks that it is a complete result of this
+// schema:
 // FileError otherwise.
 nlohmann::ordered_json read_result(const std::filesystem::path& path);
 

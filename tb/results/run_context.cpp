@@ -137,6 +137,16 @@ void RunContext::add_image(const std::string& name, const Image& image, std::str
                      {"caption", std::move(caption)}});
 }
 
+// A hash of all that decides what the golden model computes: two runs with the same one have the
+// same golden result. Files count by their content.
+std::string RunContext::golden_key() const {
+  Json key = {{"input", parameters_.resolved(ParameterKind::kInput)},
+              {"rule", parameters_.resolved(ParameterKind::kRule)},
+              {"seed", seed_}};
+  for (const Json& input : inputs_) key["files"].push_back(input["sha256"]);
+  return sha256(key.dump());
+}
+
 Json RunContext::manifest(const Result& result) const {
   const BuildInfo& build = build_info();
   Json json;
@@ -153,12 +163,16 @@ Json RunContext::manifest(const Result& result) const {
   json["systemc"] = build.systemc;
   json["started"] = started_;
   json["configuration"] = parameters_.resolved();
+  json["rules"] = parameters_.resolved(ParameterKind::kRule);
+  json["build"] = parameters_.resolved(ParameterKind::kBuild);
+  json["golden"] = golden_key();
   json["inputs"] = inputs_;
   json["host"] = {{"seconds", result.host_seconds}, {"mcycles_per_s", result.mcycles_per_s()}};
   json["images"] = images_;
   json["parameters"] = Json::array();
   for (const Parameter& p : parameters_.all())
     json["parameters"].push_back({{"name", p.name},
+                                  {"kind", kind_name(p)},
                                   {"value", p.text()},
                                   {"default", p.default_value},
                                   {"range", p.range},

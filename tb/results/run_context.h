@@ -61,10 +61,12 @@ class RunContext {
   void finish(const Result& result);
 
   const std::filesystem::path& directory() const { return directory_; }
+  const ParameterSet& parameters() const { return parameters_; }
   const std::string& command() const { return command_; }
 
  private:
   std::vector<std::string> old_results() const;
+  std::string golden_key() const;
   nlohmann::ordered_json manifest(const Result& result) const;
 
   std::filesystem::path directory_;

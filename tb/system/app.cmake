@@ -3,3 +3,6 @@ deburr_test(app_report_test LABELS system SOURCES app_report_test.cpp
             LINK deburr::results TIMEOUT 300)
 target_compile_definitions(app_report_test PRIVATE "DEBURR_COMMAND=\"$<TARGET_FILE:deburr>\"")
 add_dependencies(app_report_test deburr)
+add_test(NAME memories COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/memories_test.py" $<TARGET_FILE:deburr>)
+set_tests_properties(memories PROPERTIES LABELS system TIMEOUT 300
+                     ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")

@@ -6,7 +6,7 @@ foreach(suite system stress coverage)
     set(label system)
   endif()
   deburr_test(morphological_${suite}_test LABELS ${label} SOURCES morphological_${suite}_test.cpp
-              LINK deburr::morphological_bench TIMEOUT 300)
+              LINK deburr::morphological_environment TIMEOUT 300)
   target_compile_definitions(morphological_${suite}_test
                              PRIVATE DEBURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 endforeach()

@@ -119,15 +119,18 @@ std::vector<MorphologicalInput> telling_frames(const spec::morphological::Parame
 Hits met(const spec::morphological::Parameters& parameters,
          const std::vector<MorphologicalInput>& frames) {
   return forked<Hits>([&] {
-    MorphologicalBenchOptions options;
+    MorphologicalRunOptions options;
     options.morphological = parameters;
     options.records = true;
-    MorphologicalBench bench(frames, options);
-    bench.run();
-    bench.check();
+    Simulation simulation(options);
+    MorphologicalEnvironment environment(simulation, frames, options);
+    simulation.elaborate(environment);
+    simulation.run();
+    environment.check();
     Hits hits;
     std::size_t i = 0;
-    for (const CoverageBin& bin : bench.golden().coverage().bins()) hits.count.at(i++) = bin.hits;
+    for (const CoverageBin& bin : environment.golden_model().coverage().bins())
+      hits.count.at(i++) = bin.hits;
     return hits;
   });
 }

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "golden/morphological/configuration.h"
-#include "tb/env/morphological_bench.h"
+#include "tb/env/morphological_environment.h"
 #include "tb/env/morphological_frames.h"
 #include "tb/scene/scenes.h"
 #include "tb/scene/truth.h"
@@ -141,21 +141,28 @@ struct MorphologicalOutcome {
   std::uint64_t comparisons = 0, mismatches = 0, traffic_comparisons = 0, traffic_mismatches = 0;
 };
 
-// Simulates and judges: throws what MorphologicalBench throws, a Mismatch included.
+// Of the simulation and of the engine in it.
+struct MorphologicalRunOptions : SimulationOptions, MorphologicalSetup {
+  MorphologicalRunOptions() { clock_mhz = 148.5; }
+};
+
+// Simulates and judges: throws what Simulation::run() throws, and a Mismatch.
 inline MorphologicalOutcome simulate(const std::vector<MorphologicalInput>& frames,
-                                     const MorphologicalBenchOptions& options) {
-  MorphologicalBench bench(frames, options);
-  bench.run();
-  bench.check();
+                                     const MorphologicalRunOptions& options) {
+  Simulation simulation(options);
+  MorphologicalEnvironment environment(simulation, frames, options);
+  simulation.elaborate(environment);
+  simulation.run();
+  environment.check();
   Result result;
-  bench.collect(result);
-  auto& engine = bench.engine();
-  return {bench.cycles(),
+  simulation.collect(result);
+  const auto& engine = environment.engine();
+  return {simulation.cycles(),
           engine.sequencer.frame_cycles.value(),
-          bench.input_clocks(),
-          bench.pixel_hash(),
-          bench.pixels(),
-          bench.activations(),
+          environment.input_clocks(),
+          environment.pixel_hash(),
+          environment.delivered_in_all(),
+          simulation.activations(),
           engine.extractor.record_stalls.value(),
           engine.edges.edge_pixels.value(),
           engine.beat_latency.min(),

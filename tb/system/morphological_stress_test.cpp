@@ -19,8 +19,8 @@ using spec::morphological::Lanes;
 using spec::morphological::Storage;
 using Variant = std::tuple<Lanes, Storage>;
 
-MorphologicalBenchOptions options_of(Lanes lanes, Storage storage, Preset which = Preset::kDeburr) {
-  MorphologicalBenchOptions options;
+MorphologicalRunOptions options_of(Lanes lanes, Storage storage, Preset which = Preset::kDeburr) {
+  MorphologicalRunOptions options;
   options.morphological = preset(which, lanes);
   options.morphological.storage = storage;
   options.morphological.line_pixels = 512;
@@ -28,7 +28,7 @@ MorphologicalBenchOptions options_of(Lanes lanes, Storage storage, Preset which 
   return options;
 }
 
-MorphologicalOutcome run(const MorphologicalBenchOptions& options) {
+MorphologicalOutcome run(const MorphologicalRunOptions& options) {
   return forked<MorphologicalOutcome>([&] {
     return simulate({fans(16), blocks(150, 90, 2), noise(61, 40)}, options);
   });
@@ -44,13 +44,13 @@ void expect_same_data(const MorphologicalOutcome& a, const MorphologicalOutcome&
 
 class MorphologicalStress : public testing::TestWithParam<Variant> {
  protected:
-  MorphologicalBenchOptions calm() const {
+  MorphologicalRunOptions calm() const {
     return options_of(std::get<0>(GetParam()), std::get<1>(GetParam()));
   }
 };
 
 TEST_P(MorphologicalStress, FastPathIsInvisible) {
-  MorphologicalBenchOptions fast = calm(), slow = calm();
+  MorphologicalRunOptions fast = calm(), slow = calm();
   slow.fast_path = false;
   const MorphologicalOutcome a = run(fast), b = run(slow);
   expect_same_data(a, b);
@@ -59,7 +59,7 @@ TEST_P(MorphologicalStress, FastPathIsInvisible) {
 }
 
 TEST_P(MorphologicalStress, LinkCheckersAreInvisible) {
-  MorphologicalBenchOptions with = calm(), without = calm();
+  MorphologicalRunOptions with = calm(), without = calm();
   without.check_links = false;
   const MorphologicalOutcome a = run(with), b = run(without);
   expect_same_data(a, b);
@@ -67,12 +67,13 @@ TEST_P(MorphologicalStress, LinkCheckersAreInvisible) {
 }
 
 TEST_P(MorphologicalStress, OrderOfEvaluationIsInvisible) {
-  MorphologicalBenchOptions fixed = calm(), shuffled = calm();
+  MorphologicalRunOptions fixed = calm(), shuffled = calm();
   shuffled.shuffle = true;
   for (const std::uint32_t stalls : {0u, 200u}) {
     for (const std::uint64_t seed : {1u, 2u}) {
       fixed.seed = shuffled.seed = seed;
       fixed.stall_permille = shuffled.stall_permille = stalls;
+      fixed.poison = true;
       const MorphologicalOutcome a = run(fixed), b = run(shuffled);
       expect_same_data(a, b);
       EXPECT_EQ(a.cycles, b.cycles) << "seed " << seed << ", stalls " << stalls;
@@ -83,8 +84,9 @@ TEST_P(MorphologicalStress, OrderOfEvaluationIsInvisible) {
 TEST_P(MorphologicalStress, RandomStallsCostTimeAndNothingElse) {
   const MorphologicalOutcome quiet = run(calm());
   for (const std::uint32_t permille : {50u, 500u}) {
-    MorphologicalBenchOptions stalled = calm();
+    MorphologicalRunOptions stalled = calm();
     stalled.stall_permille = permille;
+    stalled.poison = true;
     stalled.seed = permille;
     stalled.shuffle = true;
     const MorphologicalOutcome outcome = run(stalled);
@@ -97,9 +99,10 @@ TEST_P(MorphologicalStress, ResetInMidFrameBeginsAgain) {
   const MorphologicalOutcome quiet = run(calm());
   // While rows fill, in the first flush rows, and at a cycle of no meaning; with stalls as well.
   for (const rtl::Cycle at : {40u, 3001u, 9000u, 12345u}) {
-    MorphologicalBenchOptions options = calm();
+    MorphologicalRunOptions options = calm();
     options.reset_after = at;
     options.stall_permille = at == 3001 ? 150 : 0;
+    options.poison = true;
     const MorphologicalOutcome outcome = run(options);
     EXPECT_EQ(quiet.hash, outcome.hash) << "reset after " << at;
     EXPECT_EQ(outcome.mismatches + outcome.traffic_mismatches, 0u);
@@ -108,8 +111,9 @@ TEST_P(MorphologicalStress, ResetInMidFrameBeginsAgain) {
 }
 
 TEST_P(MorphologicalStress, SameSeedGivesTheSameCycles) {
-  MorphologicalBenchOptions options = calm();
+  MorphologicalRunOptions options = calm();
   options.stall_permille = 150;
+  options.poison = true;
   options.memory.latency_max = 200;
   const MorphologicalOutcome a = run(options), b = run(options);
   expect_same_data(a, b);
@@ -132,13 +136,14 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(MorphologicalMemory, RandomLatencyBanksAndNarrowBusChangeNoData) {
   for (const Lanes lanes : {Lanes::kOne, Lanes::kFour}) {
     const MorphologicalOutcome quiet = run(options_of(lanes, Storage::kMemory));
-    MorphologicalBenchOptions options = options_of(lanes, Storage::kMemory);
+    MorphologicalRunOptions options = options_of(lanes, Storage::kMemory);
     options.memory.latency_max = 400;
     options.memory.banks = 4;
     options.memory.bank_busy = 6;
     options.memory.outstanding = 8;
     options.memory.bytes_per_clock = 16;
     options.stall_permille = 100;
+    options.poison = true;
     options.shuffle = true;
     for (const std::uint64_t seed : {1u, 2u}) {
       options.seed = seed;
@@ -169,21 +174,23 @@ class BrokenMemory : public testing::TestWithParam<Broken> {};
 // register counts each of them once more, for its write.
 TEST_P(BrokenMemory, ErrorResponsesReadAsZeroAndAreReported) {
   namespace reg = spec::morphological::reg;
-  MorphologicalBenchOptions options = options_of(GetParam().lanes, Storage::kMemory);
+  MorphologicalRunOptions options = options_of(GetParam().lanes, Storage::kMemory);
   options.memory.latency_max = 90;
   options.memory.error_address = GetParam().address;
   options.memory.error_bytes = GetParam().bytes;
   const std::vector<MorphologicalInput> frames = {blocks(150, 40)};  // 10 lines a row
-  MorphologicalBench bench(frames, options);
-  EXPECT_THROW(bench.run(), spec::SimulationError);
-  EXPECT_NO_THROW(bench.check());
-  EXPECT_EQ(bench.pixels(), 150u * 40u);
-  EXPECT_NE(bench.host().read(reg::kStatus) & reg::kStatusMemoryError, 0u);
+  Simulation simulation(options);
+  MorphologicalEnvironment environment(simulation, frames, options);
+  simulation.elaborate(environment);
+  EXPECT_THROW(simulation.run(), spec::SimulationError);
+  EXPECT_NO_THROW(environment.check());
+  EXPECT_EQ(environment.delivered_in_all(), 150u * 40u);
+  EXPECT_NE(environment.host().read(reg::kStatus) & reg::kStatusMemoryError, 0u);
   const std::int64_t first = GetParam().address / 64,
                      end = (GetParam().address + GetParam().bytes + 63) / 64;
   const auto lines = static_cast<std::uint64_t>(std::min<std::int64_t>(end, 400) - first);
-  EXPECT_EQ(bench.golden().memory_errors(), lines);
-  EXPECT_EQ(bench.host().read(reg::kMemoryErrors), 2 * lines);
+  EXPECT_EQ(environment.golden_model().memory_errors(), lines);
+  EXPECT_EQ(environment.host().read(reg::kMemoryErrors), 2 * lines);
 }
 INSTANTIATE_TEST_SUITE_P(MorphologicalMemory, BrokenMemory,
                          testing::Values(Broken{"two_lines", 640, 128, Lanes::kOne},

@@ -43,12 +43,14 @@ struct Met {
 };
 
 Met run(const SceneParameters& scene, const SamplerParameters& sampler,
-        const TextureBenchOptions& options) {
+        const TextureRunOptions& options) {
   return forked<Met>([&] {
     const TextureScene built(scene, sampler, 1);
-    TextureBench bench(built, options);
-    bench.run();
-    bench.check();
+    Simulation simulation(options);
+    TextureEnvironment environment(simulation, built, options);
+    simulation.elaborate(environment);
+    simulation.run();
+    environment.check();
     Met met;
     const golden::texture::TextureGolden golden = make_golden(built, options.texture);
     for (const spec::texture::Quad& quad : built.stream().quads) {
@@ -60,7 +62,7 @@ Met run(const SceneParameters& scene, const SamplerParameters& sampler,
         ++met.fragments;
       }
     }
-    const auto& tags = bench.unit().cache.tag_stage;
+    const auto& tags = environment.unit().cache.tag_stage;
     met.cache = {tags.hits.value(), tags.misses.value(), tags.merged.value(), 0};
     for (const rtl::Unit::StallCause& cause : tags.stalls())
       if (cause.name == "miss_queue_full") met.cache[3] = cause.cycles;
@@ -98,7 +100,7 @@ TEST(TextureCoverage, EveryBinIsHit) {
         sampler.layout = static_cast<spec::texture::Layout>(layout);
         sampler.format = static_cast<spec::texture::Format>(number % 5);
         sampler.magnification = static_cast<spec::texture::MagFilter>(number & 1);
-        TextureBenchOptions options;
+        TextureRunOptions options;
         options.texture.cache_bytes = 2048;
         options.texture.cache_outstanding = 4;  // so that the miss queue runs full
         // The tunnel's walls have their long axis across on two sides and upright on the others.

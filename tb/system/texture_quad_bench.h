@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The texture unit on quads and descriptors that need not come from a picture, against its golden
-// model: colours, line fills and status registers. TextureBench is for pictures; this one takes any
-// input the links and registers can carry, and can be reset in mid-run.
+// model: colours, line fills and status registers. TextureEnvironment is for pictures; this one
+// takes any input the links and registers can carry, and can be reset in mid-run.
 #pragma once
 
 #include <array>

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "golden/texture/texture_golden.h"
-#include "tb/env/texture_bench.h"
+#include "tb/env/texture_environment.h"
 #include "tb/env/texture_scene.h"
 
 namespace deburr::tb {
@@ -26,25 +26,30 @@ inline SceneParameters picture(const std::string& source, int side) {
   return scene;
 }
 
-// Simulates and judges: throws what TextureBench throws, a Mismatch included.
+// Of the simulation and of the texture unit in it.
+struct TextureRunOptions : SimulationOptions, TextureSetup {};
+
+// Simulates and judges: throws what Simulation::run() throws, and a Mismatch.
 inline TextureOutcome simulate(const SceneParameters& scene, const SamplerParameters& sampler,
-                               const TextureBenchOptions& options) {
+                               const TextureRunOptions& options) {
   constexpr std::uint32_t kTextureSeed =
       1;  // the options' seed is for the weather, not the picture
   const TextureScene built(scene, sampler, kTextureSeed);
-  TextureBench bench(built, options);
-  bench.run();
-  bench.check();
+  Simulation simulation(options);
+  TextureEnvironment environment(simulation, built, options);
+  simulation.elaborate(environment);
+  simulation.run();
+  environment.check();
   Result result;
-  bench.collect(result);
-  const golden::texture::TextureWork& work = bench.golden_work();
-  return {bench.cycles(),
-          bench.colour_hash(),
-          bench.colours(),
+  simulation.collect(result);
+  const golden::texture::TextureWork& work = environment.golden_work();
+  return {simulation.cycles(),
+          environment.colour_hash(),
+          environment.delivered(),
           work.bilinears,
           work.samples,
           work.line_fills,
-          bench.activations(),
+          simulation.activations(),
           result.comparisons,
           result.mismatches,
           result.traffic_comparisons,

@@ -13,8 +13,7 @@
 namespace deburr::tb {
 namespace {
 
-TextureOutcome run(const TextureBenchOptions& options, const char* source = "plane",
-                   int side = 128) {
+TextureOutcome run(const TextureRunOptions& options, const char* source = "plane", int side = 128) {
   return forked<TextureOutcome>(
       [&] { return simulate(picture(source, side), SamplerParameters{}, options); });
 }
@@ -32,13 +31,14 @@ class FastPath : public testing::TestWithParam<std::tuple<const char*, bool>> {}
 
 TEST_P(FastPath, IsInvisible) {
   const auto [source, storm] = GetParam();
-  TextureBenchOptions fast;
+  TextureRunOptions fast;
   if (storm) {
     fast.stall_permille = 150;
+    fast.poison = true;
     fast.shuffle = true;
     fast.memory.latency_max = 300;
   }
-  TextureBenchOptions slow = fast;
+  TextureRunOptions slow = fast;
   slow.fast_path = false;
   const TextureOutcome a = run(fast, source, 96), b = run(slow, source, 96);
   expect_same_data(a, b);
@@ -66,8 +66,9 @@ TEST_P(EveryModeInAStorm, IsIdenticalToGolden) {
   SamplerParameters sampler;
   sampler.mode = static_cast<spec::texture::MinFilter>(mode);
   sampler.anisotropy = static_cast<std::uint8_t>(lb_n);
-  TextureBenchOptions options;
+  TextureRunOptions options;
   options.stall_permille = 250;
+  options.poison = true;
   options.shuffle = true;
   options.seed = 1 + static_cast<std::uint64_t>(6 * lb_n + mode);
   options.memory.latency = 5;
@@ -116,6 +117,7 @@ TEST_P(FrameReset, LeavesNothingBehind) {
   memory.latency_min = memory.latency_max = 100;
   BenchOptions options;
   options.stall_permille = static_cast<std::uint32_t>(stall_permille);
+  options.poison = true;
   QuadBench bench(input, parameters, memory, options);
   bench.reset();
   const QuadOutcome fresh = bench.run();
@@ -172,7 +174,7 @@ TEST(FrameReset, IsMissedWhenThereIsNone) {
 // ---------------------------------------------------------------
 
 TEST(TextureStress, LinkCheckersAreInvisible) {
-  TextureBenchOptions with, without;
+  TextureRunOptions with, without;
   without.check_links = false;
   const TextureOutcome a = run(with), b = run(without);
   expect_same_data(a, b);
@@ -180,7 +182,7 @@ TEST(TextureStress, LinkCheckersAreInvisible) {
 }
 
 TEST(TextureStress, OrderOfEvaluationIsInvisible) {
-  TextureBenchOptions fixed, shuffled;
+  TextureRunOptions fixed, shuffled;
   shuffled.shuffle = true;
   const TextureOutcome a = run(fixed);
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
@@ -192,8 +194,9 @@ TEST(TextureStress, OrderOfEvaluationIsInvisible) {
 }
 
 TEST(TextureStress, OrderOfEvaluationIsInvisibleUnderStalls) {
-  TextureBenchOptions fixed, shuffled;
+  TextureRunOptions fixed, shuffled;
   fixed.stall_permille = shuffled.stall_permille = 200;
+  fixed.poison = true;
   shuffled.shuffle = true;
   const TextureOutcome a = run(fixed, "tunnel", 96), b = run(shuffled, "tunnel", 96);
   expect_same_data(a, b);
@@ -206,8 +209,9 @@ TEST_P(RandomStalls, CostTimeAndNothingElse) {
   const auto [source, permille] = GetParam();
   const TextureOutcome calm = run({}, source, 96);
   for (const std::uint64_t seed : {1u, 7u}) {
-    TextureBenchOptions stalled;
+    TextureRunOptions stalled;
     stalled.stall_permille = static_cast<std::uint32_t>(permille);
+    stalled.poison = true;
     stalled.seed = seed;
     const TextureOutcome outcome = run(stalled, source, 96);
     expect_same_data(calm, outcome);
@@ -222,7 +226,7 @@ INSTANTIATE_TEST_SUITE_P(TextureStress, RandomStalls,
 TEST(TextureStress, RandomMemoryLatencyChangesNoData) {
   const TextureOutcome calm = run({});
   for (const std::uint64_t seed : {1u, 2u}) {
-    TextureBenchOptions options;
+    TextureRunOptions options;
     options.seed = seed;
     options.memory.latency = 20;
     options.memory.latency_max = 400;
@@ -231,14 +235,16 @@ TEST(TextureStress, RandomMemoryLatencyChangesNoData) {
     options.memory.outstanding = 16;
     options.memory.bytes_per_clock = 16;
     options.stall_permille = 100;
+    options.poison = true;
     options.shuffle = true;
     expect_same_data(calm, run(options));
   }
 }
 
 TEST(TextureStress, SameSeedGivesTheSameCycles) {
-  TextureBenchOptions options;
+  TextureRunOptions options;
   options.stall_permille = 150;
+  options.poison = true;
   options.memory.latency_max = 300;
   const TextureOutcome a = run(options), b = run(options);
   expect_same_data(a, b);
@@ -252,7 +258,7 @@ TEST(TextureStress, SameSeedGivesTheSameCycles) {
 class HiddenLatency : public testing::TestWithParam<const char*> {};
 
 TEST_P(HiddenLatency, HundredCyclesKeepNinetySevenPercent) {
-  TextureBenchOptions none, hundred;
+  TextureRunOptions none, hundred;
   none.memory.latency = 1;
   none.memory.bytes_per_clock = 0;
   hundred.memory.latency = 100;
@@ -266,7 +272,7 @@ TEST_P(HiddenLatency, HundredCyclesKeepNinetySevenPercent) {
 INSTANTIATE_TEST_SUITE_P(TextureStress, HiddenLatency, testing::Values("plane", "quad", "tunnel"));
 
 TEST(TextureStress, AShortFifoDoesNotHideIt) {
-  TextureBenchOptions deep, flat;
+  TextureRunOptions deep, flat;
   flat.texture.cache_fifo_depth = 4;
   const TextureOutcome a = run(deep), b = run(flat);
   expect_same_data(a, b);

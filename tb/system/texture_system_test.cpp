@@ -91,7 +91,7 @@ int log_of(const Rules& rules) { return (std::get<0>(rules) + std::get<1>(rules)
 
 TEST_P(EveryRule, IsIdenticalToGolden) {
   const auto [footprint, bits] = GetParam();
-  TextureBenchOptions options;
+  TextureRunOptions options;
   options.texture.footprint = static_cast<spec::texture::FootprintRule>(footprint);
   options.texture.log2 = static_cast<spec::texture::Log2Rule>(log_of(GetParam()));
   options.texture.count = static_cast<spec::texture::CountRule>(bits & 1);
@@ -124,7 +124,7 @@ class EveryCache : public testing::TestWithParam<std::tuple<Geometry, int>> {};
 
 TEST_P(EveryCache, FillsTheLinesThatGoldenPredicts) {
   const auto [geometry, replacement] = GetParam();
-  TextureBenchOptions options;
+  TextureRunOptions options;
   options.texture.cache_bytes = geometry.bytes;
   options.texture.cache_line_bytes = geometry.line;
   options.texture.cache_ways = geometry.ways;

@@ -7,16 +7,12 @@
 namespace deburr::rtl::morphological {
 namespace {
 
-constexpr std::uint32_t kSpanBits = 12;
-// t S4.24 and growth U2.24, inverse, edges left, span, two sides, odd.
-constexpr std::uint32_t kWalkBits = 29 + 26 + 24 + 12 + kSpanBits + 4 + 1;
-constexpr std::uint32_t kShareBits = 8;
+constexpr std::uint32_t kSpanBits = 12, kShareBits = 8, kCoordinateBits = 13, kLengthBits = 12;
+// t S4.24 and growth U2.24, inverse, span, two sides.
+constexpr std::uint32_t kWalkBits = 29 + 26 + 24 + kSpanBits + 4;
 
 // Is slot a before slot b? Low bits of both, at most 2^14 apart.
 bool before(std::uint32_t a, std::uint32_t b) { return (a - b) & ((kSlotMask + 1) / 2); }
-
-// A beat's read and write for the slot, and a write a lane for arriving lines.
-std::string record_ports(int lanes) { return "1R" + std::to_string(1 + lanes) + "W"; }
 
 // |t|, S.24, to U1.12: rounded, saturated.
 std::uint32_t quantise(std::int64_t t) {
@@ -39,7 +35,43 @@ std::uint32_t triangle(std::uint32_t q, std::uint32_t inverse) {
   return limit((std::uint64_t{q * q} * inverse + (std::uint64_t{1} << 28)) >> 29);
 }
 
+MemoryShape marks_shape(std::size_t words, std::size_t columns, std::size_t banks,
+                        const char* content) {
+  return {.words = words,
+          .write_ports = static_cast<std::uint32_t>(banks),
+          .banks = static_cast<std::uint32_t>(banks),
+          .span = static_cast<std::uint32_t>(banks),
+          .separate_banks = banks > 1,
+          .content = content,
+          .columns = columns};
+}
+
+MemoryShape records_shape(MemoryShape shape) {
+  shape.word_bits = kWalkBits;
+  shape.read_ports = shape.banks;
+  shape.span = 1;
+  return shape;
+}
+
 }  // namespace
+
+AreaUnit::AxisRecords::AxisRecords(const std::string& axis, const MemoryShape& shape,
+                                   std::uint32_t mark_bits, std::uint32_t bank_count)
+    : banks(bank_count),
+      marks((axis + "_marks").c_str(),
+            [&] {
+              MemoryShape marked = shape;
+              marked.word_bits = mark_bits;
+              return marked;
+            }()),
+      records((axis + "_records").c_str(), records_shape(shape)) {
+  for (std::size_t bank = 0; bank < banks; ++bank) {
+    const std::string user = "bank " + std::to_string(bank);
+    read.emplace_back(records, user);
+    write_marks.emplace_back(marks, user);
+    write.emplace_back(records, user);
+  }
+}
 
 AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
                    const spec::morphological::Parameters& p, const ParameterStore& store)
@@ -47,157 +79,213 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
       lines_h_in("lines_h_in", store.lanes()),
       lines_v_in("lines_v_in", store.lanes()),
       store_(store),
-      lanes_(store.lanes()),
+      lanes_(static_cast<std::size_t>(store.lanes())),
       lag_(store.reach_rows() + spec::morphological::kRowLag),
-      pairs_(static_cast<std::size_t>(p.line_pixels) / 2 + spec::morphological::kMaxLanes),
-      left_weights_("left_weight_lines", p.line_pixels, 2 * kShareBits + kSpanBits, "1R1W",
-                    2 * pairs_),
-      top_weights_("top_weight_lines", p.line_pixels, kShareBits + kSpanBits, "1R1W", 2 * pairs_),
-      // Two rows of half as many entries.
-      row_records_("row_records", p.line_pixels, kWalkBits, record_ports(store.lanes()),
-                   2 * pairs_),
-      column_records_("column_records", p.line_pixels, kWalkBits + 1, record_ports(store.lanes()),
-                      2 * pairs_),
-      row_left_(2 * pairs_),
-      column_left_(2 * pairs_) {}
+      // Room for whole beats, of a pair at least.
+      columns_((static_cast<std::size_t>(p.line_pixels) + 2 * lanes_ - 1) / (2 * lanes_) * 2 *
+               lanes_),
+      pairs_(columns_ / 2),
+      weight_lines_("weight_lines", {.words = columns_,
+                                     .word_bits = 3 * kShareBits + 2 * kSpanBits,
+                                     .read_during_write = ReadDuringWrite::kNewWord,
+                                     .banks = static_cast<std::uint32_t>(2 * lanes_),
+                                     .span = static_cast<std::uint32_t>(lanes_ + 1),
+                                     .content = "shares of a column's edges in the row above",
+                                     .columns = static_cast<std::uint64_t>(p.line_pixels)}),
+      row_("row",
+           marks_shape(2 * pairs_, static_cast<std::size_t>(p.line_pixels),
+                       std::max<std::size_t>(1, lanes_ / 2),
+                       "a horizontal record a pair of columns, two rows"),
+           // Row, odd column, length.
+           kCoordinateBits + 1 + kLengthBits,
+           static_cast<std::uint32_t>(std::max<std::size_t>(1, lanes_ / 2))),
+      column_("column",
+              marks_shape(columns_, static_cast<std::size_t>(p.line_pixels), lanes_,
+                          "a vertical record a column"),
+              // Start, length up to R.
+              kCoordinateBits + 8, static_cast<std::uint32_t>(lanes_)) {}
 
 Activity AreaUnit::tick(Cycle cycle) {
   bool did = false, blocked = false;
-  if (slots_in.can_pop(cycle)) {
-    const AreaSlotToken& slot = slots_in.front(cycle);
-    const std::int32_t row = slot.slot.row, blended = row - lag_;
-    if (blended >= 0 && !shares_out.can_push(cycle)) {
+  const bool arrives = slots_in.can_pop(cycle);
+  if (arrives || !pipe_.empty()) {
+    if (pipe_.leaves() && pipe_.at(8)->slot.row >= lag_ && !shares_out.can_push(cycle)) {
       blocked = true;
     } else {
-      if (row == 0 || blended >= -1) {
-        ShareToken unused;
-        ShareToken& out = blended >= 0 ? shares_out.emplace(cycle) : unused;
-        pass(slot, out);
-      }
-      if (slot.slot.beat == 0) {
-        row_begin_ = slot.slot.number & kSlotMask;
-        odd_row_ = row & 1;
-      }
-      passed_ = (slot.slot.number + 1) & kSlotMask;
-      slots_in.pop(cycle);
+      pipe_.move();
       did = true;
+      if (const Beat* beat = pipe_.at(9)) send(cycle, *beat);
+      if (const Beat* beat = pipe_.at(8)) address_weights(cycle, *beat);
+      // Stages 4 to 7 are of the arithmetic that stage 3 begins.
+      if (Beat* beat = pipe_.at(3); beat && beat->any) evaluate(cycle, *beat);
+      if (Beat* beat = pipe_.at(2)) match(cycle, *beat);
+      if (arrives) {
+        address_marks(cycle, slots_in.front(cycle), pipe_.enter());
+        slots_in.pop(cycle);
+      }
     }
   }
-  const auto lanes = static_cast<std::size_t>(lanes_);
-  if ((lines_h_in.any_arrives(cycle, lanes) || lines_v_in.any_arrives(cycle, lanes)) &&
-      finished_out.can_push(cycle)) {
-    FinishToken finished{};
-    const bool stored_h = take_lines(cycle, lines_h_in, finished);
-    const bool stored_v = take_lines(cycle, lines_v_in, finished);
-    if (stored_h || stored_v) {
-      finished_out.push(cycle, finished);
-      did = true;
-    }
+  if (row_.entered_count + column_.entered_count != 0) {
+    if (!store_lines(cycle)) return did ? kBusy : blocked ? kStalledDownstream : kIdle;
+    did = true;
   }
+  if (lines_h_in.any_arrives(cycle, lanes_)) did |= take_lines(cycle, lines_h_in, row_);
+  if (lines_v_in.any_arrives(cycle, lanes_)) did |= take_lines(cycle, lines_v_in, column_);
   if (did) return kBusy;
   return blocked ? kStalledDownstream : kIdle;
 }
 
-bool AreaUnit::take_lines(Cycle cycle, LanePorts<In<LineToken>>& lines, FinishToken& finished) {
-  bool stored = false;
-  for (std::size_t lane = 0; lane < static_cast<std::size_t>(lanes_); ++lane) {
+// ---- Lines --------------------------------------------------------------------------------------
+
+std::size_t AreaUnit::place(const AxisRecords& side,
+                            const spec::morphological::RunRecord& run) const {
+  return &side == &row_ ? pair_of(run.line, run.start) : run.line;
+}
+
+// At the entrance: behind their slots, one a bank.
+bool AreaUnit::take_lines(Cycle cycle, LanePorts<In<LineToken>>& lines, AxisRecords& side) {
+  std::uint32_t taken = 0;  // banks
+  for (std::size_t lane = 0; lane < lanes_; ++lane) {
     In<LineToken>& in = lines[lane];
     if (!in.can_pop(cycle)) continue;
     const LineToken& token = in.front(cycle);
-    // What the slot has still to read here may be in the same entry.
+    // What the slot has still to read here may be in the same place.
     if (!before(token.slot, passed_)) continue;
-    store_line(token);
-    // Its slot row is the one that passes here, or the one before that.
-    ++finished.count[odd_row_ != before(token.slot, row_begin_)];
+    const std::uint32_t bank = 1u << place(side, token.line.run) % side.banks;
+    if (taken & bank) {
+      ++bank_conflicts;
+      continue;
+    }
+    taken |= bank;
+    side.entered[side.entered_count++] = token;
     in.pop(cycle);
-    stored = true;
   }
-  return stored;
+  return taken != 0;
 }
 
-void AreaUnit::store_line(const LineToken& token) {
+// A clock later.
+bool AreaUnit::store_lines(Cycle cycle) {
+  if (!finished_out.can_push(cycle)) return false;
+  FinishToken finished{};
+  for (AxisRecords* side : {&row_, &column_}) {
+    for (std::size_t i = 0; i < side->entered_count; ++i) {
+      const LineToken& token = side->entered[i];
+      store(cycle, *side, token);
+      // Its slot row is the one that passes here, or the one before that.
+      ++finished.count[odd_row_ != before(token.slot, row_begin_)];
+    }
+    side->entered_count = 0;
+  }
+  finished_out.push(cycle, finished);
+  return true;
+}
+
+void AreaUnit::store(Cycle cycle, AxisRecords& side, const LineToken& token) {
   const spec::morphological::LineRecord& line = token.line;
   if (observer) observer(line);
   ++records;
-  const bool horizontal = line.run.axis == spec::morphological::Axis::kHorizontal;
-  const std::size_t place = horizontal ? row_place(line.run.line, line.run.start) : line.run.line;
-  Walk& walk = horizontal ? row_records_[place] : column_records_[place];
-  (horizontal ? row_left_ : column_left_)[place] = line.run.length;
+  const std::size_t at = place(side, line.run), bank = at % side.banks;
+  side.write_marks[bank].write(cycle, at, {line.run.start, line.run.length, line.run.line});
+  Walk walk;
   walk.t = (std::int64_t{line.shift} << (spec::morphological::kRecipFractionBits - 1)) -
            std::int64_t{line.offset} * line.slope;
-  walk.growth = std::int64_t{line.scale} * line.slope;
+  walk.growth = static_cast<std::uint32_t>(line.scale) * line.slope;
   walk.inverse = line.inverse;
   walk.span = line.span;
   walk.before = line.before;
   walk.after = line.after;
-  walk.odd = line.run.start & 1;
-  walk.waiting = !horizontal;
+  side.write[bank].write(cycle, at, walk);
 }
 
-void AreaUnit::pass(const AreaSlotToken& token, ShareToken& out) {
-  const FrameRules& rules = store_.rules();
-  const std::int32_t first = token.slot.beat * lanes_;
-  const std::int32_t end = std::min(first + lanes_, rules.width);
-  if (token.slot.row == 0) {
-    for (std::int32_t x = first; x < end; ++x) {
-      const auto at = static_cast<std::size_t>(x);
-      left_weights_[at] = top_weights_[at] = {};
-      column_left_[at] = row_left_[row_place(0, x)] = row_left_[row_place(1, x)] = 0;
-    }
-    row_walk_left_ = 0;
-    return;
-  }
-  const std::int32_t row = token.slot.row - lag_ + 1;
-  const bool evaluates = row < rules.height;
-  bool any = false;
-  for (std::int32_t x = first; x < end; ++x) {
-    const auto at = static_cast<std::size_t>(x);
-    // Of the row above, which is blended; then the places are free.
-    Weights& left_place = left_weights_[at];
-    Weights& top_place = top_weights_[at];
-    const Weights left = left_place, top = top_place;
-    const Weights right = x + 1 < rules.width ? left_weights_[at + 1] : Weights{};
-    Weights below{}, beside{};
-    if (evaluates) {
-      const std::size_t place = row_place(row, x);
-      if (row_left_[place] != 0 && row_records_[place].odd == ((x & 1) != 0)) {
-        row_walk_ = row_records_[place];
-        row_walk_left_ = row_left_[place];
-        row_left_[place] = 0;
-      }
-      if (row_walk_left_ != 0) {
-        below = advance(row_walk_);
-        --row_walk_left_;
-        ++horizontal_edges;
-      }
-      if (column_left_[at] != 0) {
-        Walk& column = column_records_[at];
-        // A line may have been stored a row before its first.
-        if (!column.waiting || column.odd == ((row & 1) != 0)) {
-          column.waiting = false;
-          beside = advance(column);
-          --column_left_[at];
-          ++vertical_edges;
-        }
-      }
-    }
-    left_place = beside;
-    top_place = below;
-    Shares& shares = out.shares[static_cast<std::size_t>(x - first)];
-    shares = {top.second, below.first, left.second, right.first,
-              top.span,   below.span,  left.span,   right.span};
-    any |= (top.second | below.first | left.second | right.first) != 0;
-  }
-  out.slot = token.slot;
-  out.any = any;
-  out.left = token.left;
-  out.top = token.top;
+// ---- Slots --------------------------------------------------------------------------------------
+
+// Stage 1.
+void AreaUnit::address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat) {
+  beat.slot = token.slot;
+  beat.left = token.left;
+  beat.top = token.top;
+  beat.any = false;
+  const std::int32_t row = evaluated_row(token.slot);
+  beat.evaluates = works(token.slot) && row < store_.rules().height;
+  if (!beat.evaluates) return;
+  const std::size_t x = token.slot.beat * lanes_;
+  row_.read_marks.read(cycle, pair_of(row, x), static_cast<std::uint32_t>(row_.banks));
+  column_.read_marks.read(cycle, x, static_cast<std::uint32_t>(lanes_));
 }
 
-// The shares of the edge in hand, and one pixel on.
-AreaUnit::Weights AreaUnit::advance(Walk& walk) {
-  const std::int64_t t0 = walk.t, t1 = t0 + walk.growth;
-  walk.t = t1;
+// Stage 2.
+void AreaUnit::match(Cycle cycle, Beat& beat) {
+  const Slot& slot = beat.slot;
+  if (slot.beat == 0) {
+    row_begin_ = slot.number & kSlotMask;
+    odd_row_ = slot.row & 1;
+    hand_.length = 0;
+  }
+  passed_ = (slot.number + 1) & kSlotMask;
+  if (slot.row < 2) clear_marks(cycle, slot);
+  if (!beat.evaluates) return;
+  const std::size_t first = slot.beat * lanes_;
+  const std::size_t count =
+      std::min(lanes_, static_cast<std::size_t>(store_.rules().width) - first);
+  const std::int32_t row = evaluated_row(slot);
+  std::uint8_t hand = 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t x = first + i, pair = pair_of(row, x);
+    const Mark& mark = row_.read_marks.at(cycle, pair);
+    if (mark.length != 0 && mark.row == row && mark.start == x) {
+      hand_ = mark;
+      const std::size_t bank = pair % row_.banks;
+      row_.read[bank].read(cycle, pair);
+      hand = static_cast<std::uint8_t>(2 + bank);
+    }
+    Edge& along = beat.horizontal[i];
+    along.k = static_cast<std::uint16_t>(x - hand_.start);
+    along.from = hand_.length != 0 && along.k < hand_.length ? hand : 0;
+
+    const Mark& column = column_.read_marks.at(cycle, x);
+    Edge& down = beat.vertical[i];
+    // U13: a line may have been stored before its first row.
+    down.k = static_cast<std::uint16_t>((row - column.start) & 0x1FFF);
+    down.from = down.k < column.length;
+    if (down.from) column_.read[i].read(cycle, x);
+    beat.any |= along.from | down.from;
+  }
+}
+
+void AreaUnit::clear_marks(Cycle cycle, const Slot& slot) {
+  const std::size_t x = slot.beat * lanes_;
+  for (std::size_t bank = 0; bank < row_.banks; ++bank)
+    row_.write_marks[bank].write(cycle, pair_of(slot.row, x) + bank, Mark{});
+  if (slot.row != 0) return;
+  for (std::size_t bank = 0; bank < lanes_; ++bank)
+    column_.write_marks[bank].write(cycle, x + bank, Mark{});
+}
+
+// Stage 3, and what follows from it.
+void AreaUnit::evaluate(Cycle cycle, Beat& beat) {
+  const std::size_t first = beat.slot.beat * lanes_;
+  const std::size_t count =
+      std::min(lanes_, static_cast<std::size_t>(store_.rules().width) - first);
+  const std::int32_t row = evaluated_row(beat.slot);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Edge along = beat.horizontal[i], down = beat.vertical[i];
+    beat.below[i] = beat.beside[i] = {};
+    if (along.from) {
+      if (along.from >= 2 && along.k == 0)
+        hand_walk_ = row_.read[along.from - 2u].at(cycle, pair_of(row, first + i));
+      beat.below[i] = area(hand_walk_, along.k);
+      ++horizontal_edges;
+    }
+    if (down.from) {
+      beat.beside[i] = area(column_.read[i].at(cycle, first + i), down.k);
+      ++vertical_edges;
+    }
+  }
+}
+
+// The shares of pixel k of a record.
+AreaUnit::Weights AreaUnit::area(const Walk& walk, std::uint32_t k) {
+  const std::int64_t t0 = walk.t + std::int64_t{walk.growth} * k, t1 = t0 + walk.growth;
   const std::uint32_t q0 = quantise(t0), q1 = quantise(t1);
   std::uint32_t before = 0, after = 0;
   if (t1 <= 0) {
@@ -217,10 +305,50 @@ AreaUnit::Weights AreaUnit::advance(Walk& walk) {
           walk.span};
 }
 
+// Stage 8.
+void AreaUnit::address_weights(Cycle cycle, const Beat& beat) {
+  if (!works(beat.slot)) return;
+  const std::size_t x = beat.slot.beat * lanes_;
+  read_weights_.read(cycle, x, static_cast<std::uint32_t>(std::min(lanes_ + 1, columns_ - x)));
+}
+
+// Stage 9: shares of the row above go to the Blender, those of this row take their place.
+void AreaUnit::send(Cycle cycle, const Beat& beat) {
+  if (!works(beat.slot)) return;
+  const std::size_t first = beat.slot.beat * lanes_;
+  const auto width = static_cast<std::size_t>(store_.rules().width);
+  const std::size_t count = std::min(lanes_, width - first);
+  std::array<WeightWord, kLanes> row{};
+  if (beat.any)
+    for (std::size_t i = 0; i < count; ++i) row[i] = {beat.beside[i], beat.below[i]};
+  if (beat.slot.row >= lag_) {
+    ShareToken& out = shares_out.emplace(cycle);
+    bool any = false;
+    const WeightWord* above = &read_weights_.at(cycle, first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t x = first + i;
+      const WeightWord* const right = x + 1 < width ? &read_weights_.at(cycle, x + 1) : nullptr;
+      const Weights up = above->top, down = row[i].top, left = above->left;
+      const Weights beside = right ? right->left : Weights{};
+      out.shares[i] = {up.second, down.first, left.second, beside.first,
+                       up.span,   down.span,  left.span,   beside.span};
+      any |= (up.second | down.first | left.second | beside.first) != 0;
+      above = right;
+    }
+    out.slot = beat.slot;
+    out.any = any;
+    out.left = beat.left;
+    out.top = beat.top;
+  }
+  write_weights_.write(cycle, first, std::span<const WeightWord>(row.data(), lanes_));
+}
+
 void AreaUnit::reset() {
+  pipe_.reset();
+  row_.entered_count = column_.entered_count = 0;
+  hand_.length = 0;
   passed_ = row_begin_ = 0;
   odd_row_ = false;
-  row_walk_left_ = 0;
 }
 
 }  // namespace deburr::rtl::morphological

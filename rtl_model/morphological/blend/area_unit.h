@@ -3,16 +3,26 @@
 // trapezoid, or two triangles where the line crosses the edge.
 //
 // Where: between the LineUnits and the Blender. In slot row s it evaluates row y = s - R - 4 as the
-// raster passes: of each axis one edge a lane and clock. Horizontal: a record is taken at its start
-// column, then t grows by `scale x slope` a column. Vertical: each column keeps its open record,
-// whose t grows by as much a row. A line that arrives is stored in the clock of its pop, which
-// finishes the record; it waits while its slot has not yet passed here. To the Blender go the
-// shares of row y - 1: those of the row's edges from weight_lines, those of the top edges below as
-// evaluated. Latency 1, initiation interval 1. Stalls: `downstream`.
-// Formats: t S4.24, q U1.12, shares U0.8. Cost an axis and lane: one adder for t, two multipliers
-// 12 x 12 and two 24 x 24 (triangles); at the entrance two multipliers 24 x 24.
-// Memory: weight_lines (first, second and span of left edges, second and span of top edges),
-// row_records (2 rows, an entry a pair of columns), column_records; slot row 0 clears them.
+// raster passes: of each axis one edge a lane and clock. A record is written once and read at each
+// of its edges: the mark of its place says where it starts and how long it is, so pixel k of it is
+// known without a counter, and t = t(0) + k x scale x slope. Horizontal marks are read at their
+// start, and the record stays in hand from there on; vertical ones are read in every row.
+// To the Blender go the shares of row y - 1: those of the row's edges from weight_lines, those of
+// the top edges below as evaluated.
+// Latency 9, initiation interval 1. Stages: 1 marks: address; 2 marks: start and length against the
+// raster, records: address; 3 records, k x growth; 4 t at both ends of the edge; 5 quantised; 6
+// squares, trapezoid; 7 triangles; 8 limits, sides, weight_lines: address; 9 weight_lines,
+// write back.
+// A line that arrives is popped behind its slot (stage 2), multiplied in that clock and stored in
+// the next, which finishes the record. Marks and records have a bank a lane (a pair of columns a
+// bank: horizontal) with one write port each; a line whose bank a lower lane takes in its clock
+// waits, which `bank_conflicts` counts. Slot rows 0 and 1 clear the marks.
+// Stalls: `downstream`. Formats: t S4.24, q U1.12, shares U0.8. Cost an axis and lane: a multiplier
+// 26 x 12, two 12 x 12 and two 24 x 24 (triangles); at the entrance two multipliers 24 x 24.
+// Memory: weight_lines a column (first, second and span of its left edge, second and span of its
+// top edge); row_marks and row_records, two rows of pairs of columns; column_marks and
+// column_records, a column each; all 1R1W a bank.
+// Made for 250 MHz; longest path: 24 x 24 multiply.
 // Source: Reshetov 2009; paper 000, section 2.
 #pragma once
 
@@ -22,9 +32,10 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/morphological/line_memory.h"
 #include "rtl_model/morphological/parameter_store.h"
+#include "rtl_model/morphological/pipe.h"
 #include "rtl_model/morphological/tokens.h"
 
 namespace deburr::rtl::morphological {
@@ -44,44 +55,94 @@ class AreaUnit final : public Unit {
   Counter records{"records", "records", "lines stored"};
   Counter horizontal_edges{"horizontal_edges", "edges", "edges evaluated in horizontal records"};
   Counter vertical_edges{"vertical_edges", "edges", "edges evaluated in vertical records"};
+  Counter bank_conflicts{"bank_conflicts", "clk", "lines waited for the write port of their bank"};
 
   std::function<void(const spec::morphological::LineRecord&)> observer;
 
  private:
-  // A record as it is stored and walked along.
+  static constexpr std::size_t kLanes = spec::morphological::kMaxLanes;
+
+  // Where a record lies. Horizontal: its place is its pair of columns; vertical: its column.
+  struct Mark {
+    std::uint16_t start = 0;   // U13
+    std::uint16_t length = 0;  // U12, 0: none
+    std::uint16_t row = 0;     // U13, horizontal only
+  };
+  // A record as it is stored.
   struct Walk {
-    std::int64_t t = 0, growth = 0;  // S4.24 at the next edge, a pixel
-    std::uint32_t inverse = 0;       // U12.12
-    std::uint16_t span = 0;
+    std::int64_t t = 0;         // S4.24, at the first edge
+    std::uint32_t growth = 0;   // U2.24, a pixel
+    std::uint32_t inverse = 0;  // U12.12
+    std::uint16_t span = 0;     // U12
     spec::morphological::Side before{}, after{};
-    bool odd = false;      // it starts in an odd column (row record), an odd row (column record)
-    bool waiting = false;  // column record: its first row has not come yet
   };
   struct Weights {
     std::uint8_t first = 0, second = 0;
     std::uint16_t span = 0;
   };
+  struct WeightWord {
+    Weights left, top;  // of top, `first` is used as it is evaluated
+  };
+  // The records of an axis, in banks.
+  struct AxisRecords {
+    AxisRecords(const std::string& axis, const MemoryShape& marks, std::uint32_t mark_bits,
+                std::uint32_t banks);
+    const std::size_t banks;
+    Memory<Mark> marks;
+    ReadPort<Mark> read_marks{marks, "raster"};
+    Memory<Walk> records;
+    std::vector<ReadPort<Walk>> read;  // a bank each, as the others of banks
+    std::vector<WritePort<Mark>> write_marks;
+    std::vector<WritePort<Walk>> write;
+    // Lines at the entrance that are stored in this clock.
+    std::array<LineToken, kLanes> entered;
+    std::size_t entered_count = 0;
+  };
+  // An edge of the raster and the record that it lies in.
+  struct Edge {
+    std::uint16_t k = 0;    // pixel of the record
+    std::uint8_t from = 0;  // 0 none, 1 in hand, 2 + b: read from bank b in this beat
+  };
+  struct Beat {
+    Slot slot;
+    std::uint8_t left, top;
+    bool evaluates, any;  // any: one of the edges below lies in a record
+    std::array<Edge, kLanes> horizontal, vertical;
+    std::array<Weights, kLanes> below, beside;
+  };
 
-  bool take_lines(Cycle cycle, LanePorts<In<LineToken>>& lines, FinishToken& finished);
-  void store_line(const LineToken& token);
-  void pass(const AreaSlotToken& slot, ShareToken& out);
-  static Weights advance(Walk& walk);
-  std::size_t row_place(std::int32_t row, std::int32_t x) const {
-    return static_cast<std::size_t>(row & 1) * pairs_ + static_cast<std::size_t>(x) / 2;
+  void address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat);
+  void match(Cycle cycle, Beat& beat);
+  void evaluate(Cycle cycle, Beat& beat);
+  void address_weights(Cycle cycle, const Beat& beat);
+  void send(Cycle cycle, const Beat& beat);
+  void clear_marks(Cycle cycle, const Slot& slot);
+  bool store_lines(Cycle cycle);
+  bool take_lines(Cycle cycle, LanePorts<In<LineToken>>& lines, AxisRecords& side);
+  void store(Cycle cycle, AxisRecords& side, const LineToken& token);
+  std::size_t place(const AxisRecords& side, const spec::morphological::RunRecord& run) const;
+  static Weights area(const Walk& walk, std::uint32_t k);
+
+  // Rows of slots that evaluate or blend.
+  bool works(const Slot& slot) const { return slot.row + 1 >= lag_; }
+  std::int32_t evaluated_row(const Slot& slot) const { return slot.row - lag_ + 1; }
+  std::size_t pair_of(std::int32_t row, std::size_t x) const {
+    return static_cast<std::size_t>(row & 1) * pairs_ + x / 2;
   }
 
   const ParameterStore& store_;
-  const std::int32_t lanes_, lag_;  // rows from a slot to the row that it blends
-  std::size_t pairs_;               // pairs of columns
-  // The row buffers have room for whole beats.
-  LineMemory<Weights> left_weights_, top_weights_;
-  LineMemory<Walk> row_records_, column_records_;
-  // Edges left, 0: no record. The model keeps this field of the two memories apart, since it is
-  // read for every column.
-  std::vector<std::uint16_t> row_left_, column_left_;
-  Walk row_walk_;  // the horizontal record in hand
-  std::uint16_t row_walk_left_ = 0;
-  // U15, low bits: the slot that comes next; the first one of the row of the last one.
+  const std::size_t lanes_;
+  const std::int32_t lag_;     // rows from a slot to the row that it blends
+  const std::size_t columns_;  // whole beats
+  const std::size_t pairs_;    // of columns, whole beats
+  Memory<WeightWord> weight_lines_;
+  ReadPort<WeightWord> read_weights_{weight_lines_, "row above"};
+  WritePort<WeightWord> write_weights_{weight_lines_, "row"};
+  AxisRecords row_, column_;
+  Pipe<Beat, spec::morphological::kAreaLatency> pipe_;
+  Mark hand_;       // the horizontal record in hand, stage 2
+  Walk hand_walk_;  // stage 3
+  // U15, low bits: the slot that comes next into stage 3; the first one of the row of the last one.
   std::uint32_t passed_ = 0, row_begin_ = 0;
   bool odd_row_ = false;  // that row
 };

@@ -2,45 +2,85 @@
 #include "rtl_model/morphological/blend/blender.h"
 
 #include <algorithm>
+#include <bit>
+#include <string>
 
 #include "spec/morphological/packets.h"
 #include "spec/morphological/parameters.h"
 #include "spec/morphological/tables.h"
 
 namespace deburr::rtl::morphological {
+namespace {
+
+template <class Visit>
+void for_each_lane(std::uint8_t lanes, Visit&& visit) {
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1)
+    visit(static_cast<std::size_t>(std::countr_zero(left)));
+}
+
+}  // namespace
 
 Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
                  const ParameterStore& store, LatencyProbe& probe)
-    : Unit(name, clock), store_(store), probe_(probe) {}
+    : Unit(name, clock),
+      store_(store),
+      probe_(probe),
+      linear_rom_("linear_rom",
+                  {.words = spec::morphological::kLinear12FromSrgb.size(),
+                   .word_bits = 12,
+                   .kind = MemoryKind::kRom,
+                   .read_ports = static_cast<std::uint32_t>(9 * store.lanes()),
+                   .write_ports = 0,
+                   .content = "linear light of a code"},
+                  spec::morphological::kLinear12FromSrgb),
+      encode_rom_("encode_rom",
+                  {.words = spec::morphological::kSrgbFromLinear12.size(),
+                   .word_bits = 8,
+                   .kind = MemoryKind::kRom,
+                   .read_ports = static_cast<std::uint32_t>(3 * store.lanes()),
+                   .write_ports = 0,
+                   .content = "code of a linear light"},
+                  spec::morphological::kSrgbFromLinear12) {
+  for (int lane = 0; lane < store.lanes(); ++lane)
+    for (const char* const channel : {"r", "g", "b"}) {
+      const std::string at = std::to_string(lane) + "." + channel;
+      for (const char* const operand : {" centre", " first", " second"})
+        light_.emplace_back(linear_rom_, at + operand);
+      codes_.emplace_back(encode_rom_, at);
+    }
+}
 
 Activity Blender::tick(Cycle cycle) {
-  bool did = false;
-  if (stage_.full) {
-    if (!pixels_out.can_push(cycle) || (stage_.last && !frames_done_out.can_push(cycle)))
-      return kStalledDownstream;
-    deliver(cycle);
-    did = true;
-  }
-  if (shares_in.can_pop(cycle) && pixels_in.can_pop(cycle)) {
-    choose(shares_in.front(cycle), pixels_in.front(cycle));
+  const bool arrives = shares_in.can_pop(cycle) && pixels_in.can_pop(cycle);
+  if (!arrives && pipe_.empty()) return kIdle;
+  if (pipe_.leaves() &&
+      (!pixels_out.can_push(cycle) || (pipe_.at(5)->last && !frames_done_out.can_push(cycle))))
+    return kStalledDownstream;
+  pipe_.move();
+  if (const Beat* beat = pipe_.at(6)) deliver(cycle, *beat);
+  if (Beat* beat = pipe_.at(5)) round(cycle, *beat);
+  if (Beat* beat = pipe_.at(4)) multiply(*beat);
+  if (Beat* beat = pipe_.at(3)) subtract(cycle, *beat);
+  if (const Beat* beat = pipe_.at(2)) address_light(cycle, *beat);
+  if (arrives) {
+    choose(shares_in.front(cycle), pixels_in.front(cycle), pipe_.enter());
     shares_in.pop(cycle);
     pixels_in.pop(cycle);
-    did = true;
   }
-  return did ? kBusy : kIdle;
+  return kBusy;
 }
 
 // Stage 1.
-void Blender::choose(const ShareToken& token, const PixelToken& around) {
+void Blender::choose(const ShareToken& token, const PixelToken& around, Beat& beat) {
   const FrameRules& rules = store_.rules();
-  const bool end = token.slot.beat + 1u == rules.beats;
-  const auto count = static_cast<std::size_t>(end ? rules.last_count : store_.lanes());
-  stage_.full = true;
-  stage_.slot = token.slot;
-  stage_.last = end && token.slot.row + 1u == rules.rows;
+  const std::size_t count = count_of(token.slot);
+  beat.slot = token.slot;
+  beat.end = token.slot.beat + 1u == rules.beats;
+  beat.last = beat.end && token.slot.row + 1u == rules.rows;
+  beat.blend = 0;
+  beat.centre = around.centre;
   for (std::size_t i = 0; i < count; ++i) {
-    stage_.centre[i] = around.centre[i];
-    spec::morphological::BlendTap& tap = stage_.tap[i];
+    spec::morphological::BlendTap& tap = beat.tap[i];
     tap = {};
     tap.edges = static_cast<std::uint8_t>((token.left >> i & 1) | (token.top >> i & 1) << 1);
     if (!token.any) continue;
@@ -59,70 +99,91 @@ void Blender::choose(const ShareToken& token, const PixelToken& around) {
     tap.horizontal = horizontal;
     tap.first = horizontal ? s.left : s.up;
     tap.second = horizontal ? s.right : s.down;
+    beat.blend = static_cast<std::uint8_t>(beat.blend | 1u << i);
 
-    const spec::morphological::Rgba8& centre = around.centre[i];
     const spec::morphological::Rgba8& left = i == 0 ? around.before : around.centre[i - 1];
     const spec::morphological::Rgba8& right = i + 1 == count ? around.after : around.centre[i + 1];
-    const spec::morphological::Rgba8& first = horizontal ? left : around.above[i];
-    const spec::morphological::Rgba8& second = horizontal ? right : around.below[i];
-    Operands& o = stage_.operands[i];
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto light = [&](std::uint8_t value) -> std::int32_t {
-        return rules.linear_light ? spec::morphological::kLinear12FromSrgb[value] : value;
-      };
-      o.centre[c] = light(centre[c]);
-      // A neighbour without a share may lie outside the frame.
-      o.first[c] = tap.first ? light(first[c]) : o.centre[c];
-      o.second[c] = tap.second ? light(second[c]) : o.centre[c];
-    }
+    beat.operands[i].code = {around.centre[i], horizontal ? left : around.above[i],
+                             horizontal ? right : around.below[i]};
   }
 }
 
 // Stage 2.
-void Blender::deliver(Cycle cycle) {
-  const FrameRules& rules = store_.rules();
-  const Slot slot = stage_.slot;
-  const bool end = slot.beat + 1u == rules.beats;
-  const auto count = static_cast<std::size_t>(end ? rules.last_count : store_.lanes());
-  const std::int32_t row = slot.row - store_.reach_rows() - spec::morphological::kRowLag;
+void Blender::address_light(Cycle cycle, const Beat& beat) {
+  if (!store_.rules().linear_light) return;
+  for_each_lane(beat.blend, [&](std::size_t lane) {
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t operand = 0; operand < 3; ++operand)
+        light_[light_port(lane, c, operand)].read(cycle, beat.operands[lane].code[operand][c]);
+  });
+}
+
+// Stage 3.
+void Blender::subtract(Cycle cycle, Beat& beat) {
+  const bool linear = store_.rules().linear_light;
+  for_each_lane(beat.blend, [&](std::size_t lane) {
+    Operands& o = beat.operands[lane];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto light = [&](std::size_t operand) -> std::int32_t {
+        const std::uint8_t code = o.code[operand][c];
+        return linear ? light_[light_port(lane, c, operand)].at(cycle, code) : code;
+      };
+      o.centre[c] = light(0);
+      o.first[c] = light(1) - o.centre[c];
+      o.second[c] = light(2) - o.centre[c];
+    }
+  });
+}
+
+// Stage 4. A neighbour without a share may lie outside the frame.
+void Blender::multiply(Beat& beat) {
+  for_each_lane(beat.blend, [&](std::size_t lane) {
+    Operands& o = beat.operands[lane];
+    const spec::morphological::BlendTap& tap = beat.tap[lane];
+    for (std::size_t c = 0; c < 3; ++c)
+      o.sum[c] = tap.first * o.first[c] + tap.second * o.second[c];
+  });
+}
+
+// Stage 5.
+void Blender::round(Cycle cycle, Beat& beat) {
+  const bool linear = store_.rules().linear_light;
+  for_each_lane(beat.blend, [&](std::size_t lane) {
+    Operands& o = beat.operands[lane];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::int32_t v = o.sum[c], moved = ((v < 0 ? -v : v) + 128) >> 8;
+      o.value[c] = static_cast<std::uint16_t>(v < 0 ? o.centre[c] - moved : o.centre[c] + moved);
+      if (linear) codes_[lane * 3 + c].read(cycle, o.value[c]);
+    }
+  });
+}
+
+// Stage 6.
+void Blender::deliver(Cycle cycle, const Beat& beat) {
+  const bool linear = store_.rules().linear_light;
+  const Slot slot = beat.slot;
+  const std::size_t count = count_of(slot);
   spec::morphological::BlendedBeat& out = pixels_out.emplace(cycle);
   out = {};  // what leaves the engine is defined in every lane
   out.count = static_cast<std::uint8_t>(count);
-  out.end_of_row = end;
-  out.start_of_frame = row == 0 && slot.beat == 0;
+  out.end_of_row = beat.end;
+  out.start_of_frame =
+      slot.row == store_.reach_rows() + spec::morphological::kRowLag && slot.beat == 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const spec::morphological::BlendTap& tap = stage_.tap[i];
-    out.tap[i] = tap;
-    if (tap.first == 0 && tap.second == 0) {
-      out.pixel[i] = stage_.centre[i];
-    } else {
-      out.pixel[i] = blend(stage_.operands[i], tap, stage_.centre[i][3]);
-      ++blended_pixels;
-    }
+    out.tap[i] = beat.tap[i];
+    out.pixel[i] = beat.centre[i];
   }
+  for_each_lane(beat.blend, [&](std::size_t lane) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint16_t value = beat.operands[lane].value[c];
+      out.pixel[lane][c] =
+          linear ? codes_[lane * 3 + c].at(cycle, value) : static_cast<std::uint8_t>(value);
+    }
+    ++blended_pixels;
+  });
   pixels += count;
   beat_latency.record(probe_.leaves(cycle));
-  stage_.full = false;
-  if (stage_.last) frames_done_out.push(cycle, {slot.number});
+  if (beat.last) frames_done_out.push(cycle, {slot.number});
 }
-
-spec::morphological::Rgba8 Blender::blend(const Operands& o,
-                                          const spec::morphological::BlendTap& tap,
-                                          std::uint8_t alpha) const {
-  spec::morphological::Rgba8 result{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    const std::int32_t v =
-        tap.first * (o.first[c] - o.centre[c]) + tap.second * (o.second[c] - o.centre[c]);
-    const std::int32_t moved = ((v < 0 ? -v : v) + 128) >> 8;
-    const auto value =
-        static_cast<std::uint32_t>(v < 0 ? o.centre[c] - moved : o.centre[c] + moved);
-    result[c] = store_.rules().linear_light ? spec::morphological::kSrgbFromLinear12[value]
-                                            : static_cast<std::uint8_t>(value);
-  }
-  result[3] = alpha;
-  return result;
-}
-
-void Blender::reset() { stage_.full = false; }
 
 }  // namespace deburr::rtl::morphological

@@ -1,22 +1,28 @@
 // SPDX-License-Identifier: MIT
 // Decides the axis of each pixel and blends it with its two neighbours on that axis.
 //
-// Where: last block. Stage 1 chooses the axis and linearises, stage 2 multiplies, rounds and
-// encodes: latency 2 to the output link, initiation interval 1. Stalls: `downstream`. Rule: the
-// axis that has shares at all; else the longer line; else the larger sum, ties to up and down.
-// Formats: shares U0.8, linear light U0.12, result rounded by magnitude. Cost a lane: three 256 x
-// 12 bit ROMs a channel (behind the choice of the axis), two multipliers 8 x 13 and one 4096 x 8
-// bit ROM a channel, six comparators. Source: paper 000, section 2 (D sums); the tie rule is ours.
+// Where: last block. Latency 6 to the output link, initiation interval 1. Stages: 1 sums, spans,
+// axis and neighbours; 2 linear_rom: address; 3 linear light, differences; 4 products and their
+// sum; 5 rounding, new value, encode_rom: address; 6 codes. Stalls: `downstream`. Rule: the axis
+// that has shares at all; else the longer line; else the larger sum, ties to up and down.
+// Formats: shares U0.8, linear light U0.12, result rounded by magnitude. Cost a lane: nine reads of
+// linear_rom, 256 x 12 bits (three a channel, behind the choice of the axis), three of encode_rom,
+// 4096 x 8 bits (two reads a copy), two multipliers 8 x 13 a channel, six comparators.
+// Made for 300 MHz; longest path: 8 x 13 multiply + 22-bit add.
+// Source: paper 000, section 2 (D sums); the tie rule is ours.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <systemc>
+#include <vector>
 
 #include "rtl_model/fabric/histogram.h"
+#include "rtl_model/fabric/latency_probe.h"
+#include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/morphological/latency_probe.h"
 #include "rtl_model/morphological/parameter_store.h"
+#include "rtl_model/morphological/pipe.h"
 #include "rtl_model/morphological/tokens.h"
 
 namespace deburr::rtl::morphological {
@@ -31,35 +37,51 @@ class Blender final : public Unit {
   Blender(const sc_core::sc_module_name& name, ClockDomain& clock, const ParameterStore& store,
           LatencyProbe& probe);
   Activity tick(Cycle cycle) override;
-  void reset() override;
+  void reset() override { pipe_.reset(); }
 
   Counter pixels{"pixels", "pixels", "pixels delivered"};
   Counter blended_pixels{"blended_pixels", "pixels", "pixels that took a share of a neighbour"};
   Histogram beat_latency{"beat_latency", "clk", "from a beat being popped to it being pushed"};
 
  private:
-  // Registers between the stages. Operands in the light that is blended in, U0.12.
+  static constexpr std::size_t kLanes = spec::morphological::kMaxLanes;
+  // A pixel that takes a share.
   struct Operands {
-    std::array<std::int32_t, 3> centre, first, second;
+    std::array<spec::morphological::Rgba8, 3> code;     // centre, first, second
+    std::array<std::int32_t, 3> centre, first, second;  // differences to centre; S13
+    std::array<std::int32_t, 3> sum;                    // S22
+    std::array<std::uint16_t, 3> value;                 // U0.12
   };
-  struct Stage {
-    bool full = false;
-    bool last = false;  // beat of the frame
+  struct Beat {
     Slot slot;
+    bool end, last;      // of the row, of the frame
+    std::uint8_t blend;  // bit k: lane k takes a share
     LanePixels centre;
-    std::array<spec::morphological::BlendTap, spec::morphological::kMaxLanes> tap;
-    std::array<Operands, spec::morphological::kMaxLanes> operands;  // of lanes with a share
+    std::array<spec::morphological::BlendTap, kLanes> tap;
+    std::array<Operands, kLanes> operands;
   };
 
-  void choose(const ShareToken& shares, const PixelToken& around);
-  void deliver(Cycle cycle);
-  spec::morphological::Rgba8 blend(const Operands& operands,
-                                   const spec::morphological::BlendTap& tap,
-                                   std::uint8_t alpha) const;
+  void choose(const ShareToken& shares, const PixelToken& around, Beat& beat);
+  void address_light(Cycle cycle, const Beat& beat);
+  void subtract(Cycle cycle, Beat& beat);
+  void multiply(Beat& beat);
+  void round(Cycle cycle, Beat& beat);
+  void deliver(Cycle cycle, const Beat& beat);
+  std::size_t count_of(const Slot& slot) const {
+    return static_cast<std::size_t>(
+        slot.beat + 1u == store_.rules().beats ? store_.rules().last_count : store_.lanes());
+  }
+  static std::size_t light_port(std::size_t lane, std::size_t channel, std::size_t operand) {
+    return (lane * 3 + channel) * 3 + operand;
+  }
 
   const ParameterStore& store_;
   LatencyProbe& probe_;
-  Stage stage_;
+  Memory<std::uint16_t> linear_rom_;
+  std::vector<ReadPort<std::uint16_t>> light_;  // lane, channel, operand
+  Memory<std::uint8_t> encode_rom_;
+  std::vector<ReadPort<std::uint8_t>> codes_;  // lane, channel
+  Pipe<Beat, spec::morphological::kBlenderLatency + 1> pipe_;
 };
 
 }  // namespace deburr::rtl::morphological

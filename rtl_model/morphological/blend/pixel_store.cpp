@@ -3,19 +3,30 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 namespace deburr::rtl::morphological {
 namespace {
 
 constexpr std::int32_t kLinePixels =
     spec::morphological::kFrameLineBytes / spec::morphological::kFramePixelBytes;
-constexpr std::int32_t kMemoryRows = 3;
-// Number of a line in the largest frame; with it go its direction and whether it has come.
-constexpr std::uint32_t kTagBits = 22;
-static_assert(spec::morphological::kMaxFrameSize *
-                  (spec::morphological::kMaxFrameSize / kLinePixels) ==
-              1 << kTagBits);
 static_assert(spec::morphological::kFrameLineBytes == kLineBytes);
+
+constexpr std::size_t kStoreWords = 8;  // of a line that comes, in a clock
+
+// Words of a row, of whole lines of memory.
+std::size_t stride_of(std::int32_t line_pixels, std::int32_t lanes) {
+  return static_cast<std::size_t>((line_pixels + kLinePixels - 1) / kLinePixels *
+                                  (kLinePixels / lanes));
+}
+
+// A request's tag: place among the lines under way, line in its row, row on the chip.
+constexpr std::uint32_t kFlightBits = 8, kLineBits = 9;
+std::uint32_t tag_of(std::uint32_t flight, std::uint32_t line, std::int32_t row) {
+  return flight | line << kFlightBits |
+         static_cast<std::uint32_t>(row) << (kFlightBits + kLineBits);
+}
+static_assert(kFlightBits + kLineBits + 2 == PixelStore::kTagBits);
 
 }  // namespace
 
@@ -23,193 +34,232 @@ PixelStore::PixelStore(const sc_core::sc_module_name& name, ClockDomain& clock,
                        const spec::morphological::Parameters& p, ParameterStore& store)
     : Unit(name, clock),
       store_(store),
-      in_memory_(p.storage == spec::morphological::Storage::kMemory),
-      rows_(in_memory_ ? kMemoryRows : store.reach_rows() + 7),
-      // Whole lines of memory are loaded, whole beats stored.
-      stride_(
-          static_cast<std::size_t>((p.line_pixels + kLinePixels - 1) / kLinePixels * kLinePixels)),
-      outstanding_(static_cast<std::uint32_t>(p.memory_outstanding)),
-      memory_(declare_stall("memory", "a line of memory has not come, or cannot be sent")),
-      rows_stall_(declare_stall("rows", "the place of a beat still holds a pixel to be blended")),
-      pixels_("pixel_lines", p.line_pixels, static_cast<std::uint32_t>(rows_) * 32, "3R1W",
-              static_cast<std::size_t>(rows_) * stride_),
-      write_answered_(outstanding_),
-      line_loaded_(outstanding_) {
-  if (!in_memory_) return;
-  constexpr std::uint32_t kLineBits = 8 * spec::morphological::kFrameLineBytes;
-  buffers_.emplace_back("gather_line", 1, kLineBits);
-  buffers_.emplace_back("response_lines", outstanding_, kLineBits);
-  buffers_.emplace_back("lines_in_flight", 2 * outstanding_, kTagBits + 2);
+      lanes_(store.lanes()),
+      lag_(store.reach_rows() + spec::morphological::kRowLag),
+      rows_(p.storage == spec::morphological::Storage::kMemory
+                ? kLines
+                : (store.reach_rows() + 7 + kLines - 1) / kLines * kLines),
+      stride_(stride_of(p.line_pixels, lanes_)),
+      memory_stall_(declare_stall("memory", "a line of memory has not come, or cannot be sent")),
+      rows_stall_(declare_stall("rows", "the place of a beat still holds a pixel to be blended")) {
+  const bool in_memory = p.storage == spec::morphological::Storage::kMemory;
+  const std::uint32_t banks = in_memory ? kStoreWords : 2;
+  for (std::int32_t i = 0; i < kLines; ++i)
+    lines_.push_back(std::make_unique<Lines>(
+        "pixel_lines" + std::to_string(i),
+        MemoryShape{.words = static_cast<std::size_t>(rows_ / kLines) * stride_,
+                    .word_bits = static_cast<std::uint32_t>(32 * lanes_),
+                    .banks = banks,
+                    .span = banks,
+                    .content = "every fourth row of the pixels to be blended",
+                    .columns = static_cast<std::uint64_t>(p.line_pixels)}));
+  if (in_memory) memory_.emplace(static_cast<std::uint32_t>(p.memory_outstanding));
 }
 
 void PixelStore::connect(Link<MemoryRequest>& requests, Link<MemoryResponse>& responses) {
-  requests_ = &requests;
-  responses_ = &responses;
+  if (!memory_) return;
+  memory_->requests = &requests;
+  memory_->responses = &responses;
 }
 
 Activity PixelStore::tick(Cycle cycle) {
-  // Reads before writes: the rows are read-first.
   const Did fetched = fetch(cycle);
   const Did stored = store(cycle);
   bool did = fetched == Did::kWork || stored == Did::kWork;
-  if (in_memory_) {
-    const bool received = receive(cycle);
-    const bool asked = request(cycle);
-    did = did || received || asked;
+  if (memory_) {
+    did |= receive(cycle);
+    did |= settle();
+    did |= request(cycle);
   }
   if (did) return kBusy;
-  if (fetched == Did::kWaitsForMemory || stored == Did::kWaitsForMemory) return memory_;
+  if (fetched == Did::kWaitsForMemory || stored == Did::kWaitsForMemory) return memory_stall_;
   if (fetched == Did::kWaitsDownstream) return kStalledDownstream;
   return stored == Did::kWaitsForRows ? rows_stall_ : kIdle;
 }
 
+// ---- Out ----------------------------------------------------------------------------------------
+
 PixelStore::Did PixelStore::fetch(Cycle cycle) {
-  if (!fetches_in.can_pop(cycle)) return Did::kNothing;
+  Did did = Did::kNothing;
+  if (fetched_) {
+    if (!pixels_out.can_push(cycle)) return Did::kWaitsDownstream;
+    send(cycle);
+    did = Did::kWork;
+  }
+  if (!fetches_in.can_pop(cycle)) return did;
   const Slot slot = fetches_in.front(cycle).slot;
   const FrameRules& rules = store_.rules();
-  const std::int32_t y = slot.row - store_.reach_rows() - spec::morphological::kRowLag;
-  const std::int32_t lanes = store_.lanes(), first = slot.beat * lanes;
-  const std::int32_t end = std::min(first + lanes, rules.width);
+  const std::int32_t y = slot.row - lag_;
   const bool last_row = y + 1 == rules.height;
-  if (in_memory_) {
-    const std::uint32_t needed = last_row
-                                     ? frame_lines_
-                                     : static_cast<std::uint32_t>(y + 1) * row_lines_ +
-                                           static_cast<std::uint32_t>((end - 1) / kLinePixels) + 1;
-    if (loaded_ < needed) return Did::kWaitsForMemory;
+  if (memory_) {
+    const std::int32_t end = std::min((slot.beat + 1) * lanes_, rules.width);
+    const LinePlace needed = {y + 1, static_cast<std::uint32_t>((end - 1) / kLinePixels)};
+    if (last_row ? memory_->loaded.row < rules.height : !needed.before(memory_->loaded))
+      return did == Did::kWork ? did : Did::kWaitsForMemory;
   }
-  if (!pixels_out.can_push(cycle)) return Did::kWaitsDownstream;
-  if (slot.beat == 0) {
-    above_ = y > 0 ? row(y - 1) : nullptr;
-    centre_ = row(y);
-    below_ = last_row ? nullptr : row(y + 1);
+  if (slot.row != around_row_) {
+    around_ = {y > 0 ? row(y - 1) : Row{}, row(y), last_row ? Row{} : row(y + 1)};
+    around_row_ = slot.row;
   }
-  PixelToken& out = pixels_out.emplace(cycle);
-  for (std::int32_t x = first; x < end; ++x) {
-    const auto i = static_cast<std::size_t>(x - first);
-    out.centre[i] = centre_[x];
-    if (above_) out.above[i] = above_[x];
-    if (below_) out.below[i] = below_[x];
-  }
-  if (first > 0) out.before = centre_[first - 1];
-  if (end < rules.width) out.after = centre_[end];
-  fetched_ = slot.number + 1;
+  sent_ = around_;
+  const auto& [above, centre, below] = sent_;
+  if (above.lines) above.lines->read.read(cycle, above.from + slot.beat);
+  centre.lines->read.read(cycle, centre.from + slot.beat, slot.beat + 1u < rules.beats ? 2 : 1);
+  if (below.lines) below.lines->read.read(cycle, below.from + slot.beat);
+  fetched_ = true;
+  slot_ = slot;
+  asked_row_ = slot.row;
+  asked_beat_ = slot.beat + 1u;
   fetches_in.pop(cycle);
   return Did::kWork;
 }
+
+// Stage 2.
+void PixelStore::send(Cycle cycle) {
+  const auto& [above, centre, below] = sent_;
+  const std::size_t at = centre.from + slot_.beat;
+  PixelToken& out = pixels_out.emplace(cycle);
+  out.centre = centre.lines->read.at(cycle, at);
+  if (above.lines) out.above = above.lines->read.at(cycle, above.from + slot_.beat);
+  if (below.lines) out.below = below.lines->read.at(cycle, below.from + slot_.beat);
+  out.before = last_;
+  if (slot_.beat + 1u < store_.rules().beats) out.after = centre.lines->read.at(cycle, at + 1)[0];
+  last_ = out.centre[static_cast<std::size_t>(lanes_) - 1];
+  fetched_ = false;
+}
+
+// ---- In -----------------------------------------------------------------------------------------
 
 PixelStore::Did PixelStore::store(Cycle cycle) {
   if (!beats_in.can_pop(cycle)) return Did::kNothing;
   const BeatToken& beat = beats_in.front(cycle);
   const Slot slot = beat.slot;
-  const FrameRules& rules = store_.rules();
   if (slot.number == 0) begin_frame();
-  const std::int32_t lanes = store_.lanes(), first = slot.beat * lanes;
-  const std::int32_t count = std::min(lanes, rules.width - first);
-  if (in_memory_) {
-    if (!gather(cycle, beat, first, count)) return Did::kWaitsForMemory;
+  if (memory_) {
+    const std::int32_t first = slot.beat * lanes_;
+    if (!gather(cycle, beat, first, std::min(lanes_, store_.rules().width - first)))
+      return Did::kWaitsForMemory;
   } else {
-    // The row before this one must have been asked for up to this beat.
-    if (slot.row >= rows_ && fetched_ + rules.beats <= slot.number) return Did::kWaitsForRows;
-    if (slot.beat == 0) in_row_ = row(slot.row);
-    for (std::int32_t i = 0; i < count; ++i)
-      in_row_[first + i] = beat.pixel[static_cast<std::size_t>(i)];
+    if (!is_free(slot.row, slot.beat)) return Did::kWaitsForRows;
+    if (slot.beat == 0) in_ = row(slot.row);
+    in_.lines->write.write(cycle, in_.from + slot.beat, beat.pixel);
   }
   beats_in.pop(cycle);
   return Did::kWork;
 }
 
 void PixelStore::begin_frame() {
-  const FrameRules& rules = store_.rules();
-  fetched_ = 0;
-  row_lines_ = static_cast<std::uint32_t>((rules.width + kLinePixels - 1) / kLinePixels);
-  frame_lines_ = row_lines_ * static_cast<std::uint32_t>(rules.height);
-  sent_ = answered_ = asked_ = loaded_ = 0;
+  around_row_ = -1;
   asked_row_ = 0;
-  asked_line_ = 0;
-  std::fill(write_answered_.begin(), write_answered_.end(), false);
-  std::fill(line_loaded_.begin(), line_loaded_.end(), false);
+  asked_beat_ = 0;
+  if (!memory_) return;
+  memory_->row_lines =
+      static_cast<std::uint32_t>((store_.rules().width + kLinePixels - 1) / kLinePixels);
+  memory_->sent = memory_->answered = memory_->asked = memory_->loaded = {};
+  memory_->writes.reset();
+  memory_->reads.reset();
 }
 
 // Puts a beat into the line in hand and sends the line if it is complete; false if it could not.
 bool PixelStore::gather(Cycle cycle, const BeatToken& beat, std::int32_t x, std::int32_t count) {
+  InMemory& m = *memory_;
   const FrameRules& rules = store_.rules();
   const bool completes = (x + count) % kLinePixels == 0 || x + count == rules.width;
-  if (completes && (!requests_->can_push(cycle) || sent_ - answered_ == outstanding_)) return false;
+  if (completes && (!m.requests->can_push(cycle) || m.writes.full())) return false;
   const auto at = static_cast<std::size_t>(x % kLinePixels * spec::morphological::kFramePixelBytes);
-  std::memcpy(gathered_.data() + at, beat.pixel.data(),
+  std::memcpy(m.gathered.data() + at, beat.pixel.data(),
               static_cast<std::size_t>(count * spec::morphological::kFramePixelBytes));
   if (!completes) return true;
-  MemoryRequest& request = requests_->emplace(cycle);
-  request.address = address_of(sent_);
-  request.tag = sent_;
+  MemoryRequest& request = m.requests->emplace(cycle);
+  // 32 bits: a frame that begins below 4 GiB and ends above goes on at 0.
+  request.address = rules.pixel_base + m.sent.address;
+  request.tag = tag_of(m.writes.send(), m.sent.line, 0);
   request.lines = 1;
   request.write = true;
   request.byte_mask = ~std::uint64_t{0};
-  request.data = gathered_;
-  gathered_.fill(0);  // padding
-  ++sent_;
+  request.data = m.gathered;
+  m.gathered.fill(0);  // padding
+  m.sent.step(m.row_lines);
   ++lines_written;
   return true;
 }
 
 bool PixelStore::receive(Cycle cycle) {
-  if (!responses_->can_pop(cycle)) return false;
-  const MemoryResponse& response = responses_->front(cycle);
+  InMemory& m = *memory_;
+  if (!m.responses->can_pop(cycle)) return false;
+  const MemoryResponse& response = m.responses->front(cycle);
+  if (!response.write && !load(cycle, response)) return true;
   if (response.status != MemoryStatus::kOk) {
     ++memory_errors;
     store_.set_sticky(spec::morphological::reg::kStatusMemoryError);
   }
-  const std::uint32_t line = response.tag;
-  if (response.write) {
-    write_answered_[line % outstanding_] = true;
-    for (; answered_ != sent_ && write_answered_[answered_ % outstanding_]; ++answered_)
-      write_answered_[answered_ % outstanding_] = false;
-  } else {
-    // With an error, the port gives zeros.
-    const auto y = static_cast<std::int32_t>(line / row_lines_);
-    const std::size_t x = line % row_lines_ * static_cast<std::size_t>(kLinePixels);
-    std::memcpy(row(y) + x, response.data.data(), kLineBytes);
-    line_loaded_[line % outstanding_] = true;
-    for (; loaded_ != asked_ && line_loaded_[loaded_ % outstanding_]; ++loaded_)
-      line_loaded_[loaded_ % outstanding_] = false;
-  }
-  responses_->pop(cycle);
+  const std::uint32_t flight = response.tag & ((1u << kFlightBits) - 1);
+  (response.write ? m.writes : m.reads).come[flight] = true;
+  m.responses->pop(cycle);
   return true;
+}
+
+// Stores a line, or a half of it; with an error, the port gives zeros. False: not all of it yet.
+bool PixelStore::load(Cycle cycle, const MemoryResponse& response) {
+  InMemory& m = *memory_;
+  const auto lanes = static_cast<std::size_t>(lanes_);
+  const std::size_t words = kLinePixels / lanes, part = std::min(words, kStoreWords);
+  const std::size_t from = m.half ? part : 0;
+  const std::uint32_t line = response.tag >> kFlightBits & ((1u << kLineBits) - 1);
+  std::array<Word, kStoreWords> beats;
+  for (std::size_t i = 0; i < part; ++i)
+    std::memcpy(beats[i].data(),
+                response.data.data() +
+                    (from + i) * lanes * std::size_t{spec::morphological::kFramePixelBytes},
+                lanes * std::size_t{spec::morphological::kFramePixelBytes});
+  const Row to = row(static_cast<std::int32_t>(response.tag >> (kFlightBits + kLineBits)));
+  to.lines->write.write(cycle, to.from + line * words + from,
+                        std::span<const Word>(beats.data(), part));
+  m.half = !m.half && part < words;
+  return !m.half;
+}
+
+// That all lines before one have come is known a line a clock.
+bool PixelStore::settle() {
+  InMemory& m = *memory_;
+  const bool answered = m.writes.settle(), loaded = m.reads.settle();
+  if (answered) m.answered.step(m.row_lines);
+  if (loaded) m.loaded.step(m.row_lines);
+  return answered || loaded;
 }
 
 // Asks for the next line, if it has been written and there is a place for it.
 bool PixelStore::request(Cycle cycle) {
-  if (asked_ >= answered_ || asked_ - loaded_ == outstanding_ || !requests_->can_push(cycle))
-    return false;
+  InMemory& m = *memory_;
+  if (!m.asked.before(m.answered) || m.reads.full() || !m.requests->can_push(cycle)) return false;
   const FrameRules& rules = store_.rules();
-  if (asked_row_ >= rows_) {
-    // The row that it replaces is asked for by the Blender for the last time in this slot.
-    const std::uint32_t last_beat = std::min(
-        rules.beats - 1, ((asked_line_ + 1) * static_cast<std::uint32_t>(kLinePixels) - 1) /
-                             static_cast<std::uint32_t>(store_.lanes()));
-    const auto slot_row = static_cast<std::uint32_t>(asked_row_ + store_.reach_rows() + 3);
-    if (fetched_ <= slot_row * rules.beats + last_beat) return false;
-  }
-  MemoryRequest& request = requests_->emplace(cycle);
-  request.address = address_of(asked_);
-  request.tag = asked_;
+  const std::uint32_t last_beat =
+      std::min(rules.beats - 1, ((m.asked.line + 1) * static_cast<std::uint32_t>(kLinePixels) - 1) /
+                                    static_cast<std::uint32_t>(lanes_));
+  if (!is_free(m.asked.row, last_beat)) return false;
+  MemoryRequest& request = m.requests->emplace(cycle);
+  request.address = rules.pixel_base + m.asked.address;
+  request.tag = tag_of(m.reads.send(), m.asked.line, m.asked.row % rows_);
   request.lines = 1;
   request.write = false;
   request.byte_mask = ~std::uint64_t{0};
-  ++asked_;
-  if (++asked_line_ == row_lines_) {
-    asked_line_ = 0;
-    ++asked_row_;
-  }
+  m.asked.step(m.row_lines);
   ++lines_read;
   return true;
 }
 
 void PixelStore::reset() {
-  gathered_.fill(0);
-  fetched_ = 0;
-  frame_lines_ = sent_ = answered_ = asked_ = loaded_ = 0;
+  fetched_ = false;
+  around_row_ = -1;
+  asked_row_ = 0;
+  asked_beat_ = 0;
+  if (!memory_) return;
+  memory_->gathered.fill(0);
+  memory_->half = false;
+  memory_->row_lines = 0;
+  memory_->sent = memory_->answered = memory_->asked = memory_->loaded = {};
+  memory_->writes.reset();
+  memory_->reads.reset();
 }
 
 }  // namespace deburr::rtl::morphological

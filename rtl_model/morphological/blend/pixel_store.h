@@ -4,26 +4,32 @@
 //
 // Where: beside the pipe, from the SlotSequencer to the Blender. Two sides. In: a beat a clock is
 // stored. Out: for each slot that blends, the beat of row y = s - R - 5 with the beats above and
-// below and the pixels beside it, latency 1, initiation interval 1. With storage = memory the
-// in side gathers lines of 64 bytes and sends each when its last pixel has come (latency 1 to the
-// memory port), the out side loads rows y + 1, a line a request, into three rows on the chip as
-// soon as their place is free and their write has been answered; writes go before reads.
+// below and the pixels beside it. Latency 2, initiation interval 1. Stages: 1 address, 2 words.
+// With storage = memory the in side gathers lines of 64 bytes and sends each when its last pixel
+// has come (latency 1 to the memory port), the out side loads rows y + 1, a line a request, into
+// the rows on the chip as soon as their place is free and their write has been answered; writes go
+// before reads. A line that comes is stored eight words a clock (two clocks with one lane). Answers
+// may come in any order; that all before a line have come is seen a line a clock.
 // Stalls: `memory` (a line is not there yet, or cannot be sent), `rows` (the place of a beat that
 // comes in still holds a pixel that will be asked for: only if a row is shorter than the pipe),
-// `downstream`. Cost: pixel_lines, R + 7 rows x 32 bits (storage = memory: 3 rows), one write
-// and three reads of a column a clock, each in a row (bank) of its own; storage = memory also the
-// line that is gathered, memory.outstanding lines that have come and tags of twice as many.
+// `downstream`. Cost: pixel_lines0 to 3, together R + 7 rows (storage = memory: 4), rounded up to a
+// multiple of 4, a word a beat. Neighbouring rows lie in different ones, so that each is read and
+// written once a clock; two beats of the middle row come from two banks. storage = memory (8 banks)
+// also the line that is gathered and, for each line under way, a bit: has it come?
+// Made for 300 MHz; longest path: SRAM read + 4:1 choice.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/morphological/line_memory.h"
 #include "rtl_model/morphological/parameter_store.h"
 #include "rtl_model/morphological/tokens.h"
 
@@ -42,6 +48,8 @@ class PixelStore final : public Unit {
 
   // storage = memory: between this and the memory port.
   void connect(Link<MemoryRequest>& requests, Link<MemoryResponse>& responses);
+  // Bits of a request's tag.
+  static constexpr std::uint32_t kTagBits = 19;
 
   Counter lines_written{"lines_written", "lines", "lines of 64 bytes sent to memory"};
   Counter lines_read{"lines_read", "lines", "lines of 64 bytes asked of memory"};
@@ -51,43 +59,132 @@ class PixelStore final : public Unit {
   // What a side did in a clock.
   enum class Did { kNothing, kWork, kWaitsForMemory, kWaitsForRows, kWaitsDownstream };
 
+  // Lines under way in one direction, in their order.
+  struct Flight {
+    Flight(const char* name, std::uint32_t lines)
+        : places(lines),
+          bits(name, {.words = lines,
+                      .word_bits = 1,
+                      .kind = MemoryKind::kFlops,
+                      .latency = 0,
+                      .content = "lines under way: has it come?"}),
+          come(lines) {}
+    bool full() const { return count == places; }
+    std::uint32_t send() {
+      const std::uint32_t place = next;
+      next = next + 1 == places ? 0 : next + 1;
+      ++count;
+      return place;
+    }
+    // Has the oldest come? Then it is no longer under way.
+    bool settle() {
+      if (count == 0 || !come[oldest]) return false;
+      come[oldest] = false;
+      oldest = oldest + 1 == places ? 0 : oldest + 1;
+      --count;
+      return true;
+    }
+    void reset() {
+      next = oldest = count = 0;
+      come.assign(places, false);
+    }
+    const std::uint32_t places;
+    MemoryBase bits;
+    std::vector<bool> come;
+    std::uint32_t next = 0, oldest = 0, count = 0;
+  };
+  // A line of the frame, by row and place in it; counted, not divided.
+  struct LinePlace {
+    std::int32_t row = 0;
+    std::uint32_t line = 0;
+    std::uint32_t address = 0;  // bytes from the frame's base
+    void step(std::uint32_t row_lines) {
+      address += kLineBytes;
+      if (++line != row_lines) return;
+      line = 0;
+      ++row;
+    }
+    bool before(const LinePlace& other) const {
+      return row != other.row ? row < other.row : line < other.line;
+    }
+  };
+  // storage = memory.
+  struct InMemory {
+    explicit InMemory(std::uint32_t outstanding)
+        : writes("writes_in_flight", outstanding), reads("reads_in_flight", outstanding) {}
+    MemoryBase gather_line{"gather_line",
+                           {.words = 1,
+                            .word_bits = 8 * kLineBytes,
+                            .kind = MemoryKind::kFlops,
+                            .latency = 0,
+                            .mask_bits = 32,
+                            .content = "the line that is being gathered"}};
+    Link<MemoryRequest>* requests = nullptr;
+    Link<MemoryResponse>* responses = nullptr;
+    Line gathered{};
+    Flight writes, reads;
+    LinePlace sent, answered;  // writes; answered: all before this one
+    LinePlace asked, loaded;   // reads; loaded: all before this one
+    std::uint32_t row_lines = 0;
+    bool half = false;  // of the line at the responses is stored
+  };
+
+  using Word = LanePixels;
+  // Every fourth row.
+  struct Lines {
+    Lines(const std::string& name, const MemoryShape& shape) : memory(name.c_str(), shape) {}
+    Memory<Word> memory;
+    ReadPort<Word> read{memory, "blended row and its neighbours"};
+    WritePort<Word> write{memory, "in"};
+  };
+  static constexpr std::int32_t kLines = 4;
+
   Did fetch(Cycle cycle);
+  void send(Cycle cycle);
   Did store(Cycle cycle);
   bool gather(Cycle cycle, const BeatToken& beat, std::int32_t x, std::int32_t count);
   bool receive(Cycle cycle);
+  bool load(Cycle cycle, const MemoryResponse& response);
+  bool settle();
   bool request(Cycle cycle);
   void begin_frame();
-  // 32 bits: a frame that begins below 4 GiB and ends above goes on at 0.
-  std::uint32_t address_of(std::uint32_t line) const {
-    return store_.rules().pixel_base + line * kLineBytes;
+  // Has the row whose place row y takes been asked for up to this beat for the last time?
+  bool is_free(std::int32_t y, std::uint32_t beat) const {
+    const std::int32_t last = y - rows_ + 1 + lag_;
+    return y < rows_ || asked_row_ > last || (asked_row_ == last && asked_beat_ > beat);
   }
-  spec::morphological::Rgba8* row(std::int32_t y) {
-    return pixels_.data() + static_cast<std::size_t>(y % rows_) * stride_;
+  // A row on the chip.
+  struct Row {
+    Lines* lines = nullptr;  // nullptr: outside the frame
+    std::size_t from = 0;    // its first word
+  };
+  Row row(std::int32_t y) {
+    return {lines_[static_cast<std::size_t>(y % kLines)].get(),
+            static_cast<std::size_t>(y % rows_ / kLines) * stride_};
   }
 
   ParameterStore& store_;
-  const bool in_memory_;
-  const std::int32_t rows_;  // kept on the chip
-  const std::size_t stride_;
-  const std::uint32_t outstanding_;  // lines, each direction
-  Activity memory_, rows_stall_;
-  LineMemory<spec::morphological::Rgba8> pixels_;
-  std::deque<Buffer> buffers_;  // storage = memory
+  const std::int32_t lanes_, lag_;  // lag: rows from a slot to the row that it blends
+  const std::int32_t rows_;         // kept on the chip
+  const std::size_t stride_;        // words a row
+  Activity memory_stall_, rows_stall_;
+  std::vector<std::unique_ptr<Lines>> lines_;
+  Row in_;  // of the beat that comes in
+  struct Around {
+    Row above, centre, below;
+  };
+  // Of the slot in stage 1 and of that in stage 2.
+  Around around_, sent_;
+  std::int32_t around_row_ = -1;  // slot row of around_
+  std::optional<InMemory> memory_;
 
-  std::uint32_t fetched_ = 0;  // number of the next slot that will ask for pixels
-  spec::morphological::Rgba8 *in_row_ = nullptr, *above_ = nullptr, *centre_ = nullptr,
-                             *below_ = nullptr;
-
-  // storage = memory. Lines are numbered from 0 in each frame.
-  Link<MemoryRequest>* requests_ = nullptr;
-  Link<MemoryResponse>* responses_ = nullptr;
-  Line gathered_{};
-  std::uint32_t row_lines_ = 0, frame_lines_ = 0;
-  std::uint32_t sent_ = 0, answered_ = 0;  // writes; answered: all before this one
-  std::uint32_t asked_ = 0, loaded_ = 0;   // reads; loaded: all before this one
+  // The slot that comes next into stage 1.
   std::int32_t asked_row_ = 0;
-  std::uint32_t asked_line_ = 0;                    // of line `asked_`
-  std::vector<bool> write_answered_, line_loaded_;  // of the lines in flight, by number
+  std::uint32_t asked_beat_ = 0;
+  // Stage 2.
+  bool fetched_ = false;
+  Slot slot_{};
+  spec::morphological::Rgba8 last_{};  // pixel of the beat before
 };
 
 }  // namespace deburr::rtl::morphological

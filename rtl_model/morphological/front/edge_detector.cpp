@@ -8,41 +8,103 @@ namespace {
 
 constexpr std::uint32_t distance(std::uint32_t a, std::uint32_t b) { return a > b ? a - b : b - a; }
 
+std::uint64_t words_for(std::int32_t columns, std::uint32_t lanes) {
+  return (static_cast<std::uint32_t>(columns) + lanes - 1) / lanes * lanes;
+}
+
 }  // namespace
+
+EdgeDetector::DepthLines::DepthLines(std::int32_t columns, std::uint32_t lanes)
+    : lines("depth_lines", {.words = words_for(columns, lanes),
+                            .word_bits = 2 * 24,
+                            .read_during_write = ReadDuringWrite::kNewWord,
+                            .banks = lanes,
+                            .span = lanes,
+                            .content = "a column of the last two rows of depth",
+                            .columns = static_cast<std::uint64_t>(columns)}) {}
 
 EdgeDetector::EdgeDetector(const sc_core::sc_module_name& name, ClockDomain& clock,
                            const spec::morphological::Parameters& p, const ParameterStore& store)
     : Unit(name, clock),
       store_(store),
-      stride_(static_cast<std::size_t>(p.line_pixels)),
-      luma_("luma_lines", p.line_pixels, 3 * 24, "1R1W", kRows * stride_) {
+      lanes_(static_cast<std::size_t>(store.lanes())),
+      // The columns of a beat and the one beside it lie in banks of their own.
+      luma_lines_("luma_lines",
+                  {.words = std::max<std::uint64_t>(
+                       words_for(p.line_pixels, static_cast<std::uint32_t>(lanes_)), 2 * lanes_),
+                   .word_bits = 3 * 24,
+                   .read_during_write = ReadDuringWrite::kNewWord,
+                   .banks = static_cast<std::uint32_t>(2 * lanes_),
+                   .span = static_cast<std::uint32_t>(lanes_ + 1),
+                   .content = "a column of the last three rows of luma",
+                   .columns = static_cast<std::uint64_t>(p.line_pixels)}) {
   if (p.edge_source != spec::morphological::EdgeSource::kLuma)
-    depth_lines_ = std::make_unique<LineMemory<std::uint32_t>>("depth_lines", p.line_pixels, 2 * 24,
-                                                               "1R1W", kRows * stride_);
+    depth_.emplace(p.line_pixels, static_cast<std::uint32_t>(lanes_));
 }
 
 Activity EdgeDetector::tick(Cycle cycle) {
-  if (!lumas_in.can_pop(cycle)) return kIdle;
-  if (!edges_out.can_push(cycle)) return kStalledDownstream;
-  const LumaToken& token = lumas_in.front(cycle);
-  EdgeToken& out = edges_out.emplace(cycle);
-  out.slot = token.slot;
-  out.left = out.top = 0;
+  const bool arrives = lumas_in.can_pop(cycle);
+  if (pipe_.empty() && !arrives) return kIdle;
+  if (pipe_.leaves() && !edges_out.can_push(cycle)) return kStalledDownstream;
+  pipe_.move();
+  if (const Beat* beat = pipe_.at(4)) edges_out.push(cycle, beat->out);
   const std::int32_t height = store_.rules().height;
-  if (token.slot.row < height) store_row(token);
-  if (token.slot.row >= 1 && token.slot.row <= height) decide(token, out);
-  lumas_in.pop(cycle);
+  if (Beat* beat = pipe_.at(2)) {
+    const Slot& slot = beat->in.slot;
+    beat->out.slot = slot;
+    beat->out.left = beat->out.top = 0;
+    if (slot.row <= height) {
+      gather(cycle, beat->in);
+      if (slot.row >= 1) decide(beat->in, beat->out);
+    }
+  }
+  if (!arrives) return kBusy;
+  Beat& beat = pipe_.enter();
+  beat.in = lumas_in.take(cycle);
+  if (beat.in.slot.row <= height) address(cycle, beat.in.slot);
   return kBusy;
 }
 
-void EdgeDetector::store_row(const LumaToken& token) {
-  const auto lanes = static_cast<std::size_t>(store_.lanes());
-  const std::size_t x = token.slot.beat * lanes;
-  const std::size_t at = place({static_cast<std::int32_t>(x), token.slot.row});
-  const std::size_t count = std::min(lanes, stride_ - x);
-  for (std::size_t i = 0; i < count; ++i) luma_[at + i] = token.luma[i];
-  if (depth_lines_)
-    for (std::size_t i = 0; i < count; ++i) (*depth_lines_)[at + i] = token.depth[i];
+void EdgeDetector::address(Cycle cycle, const Slot& slot) {
+  const std::size_t x = slot.beat * lanes_;
+  const std::size_t words = luma_lines_.words();
+  read_luma_.read(cycle, x, static_cast<std::uint32_t>(std::min(lanes_ + 1, words - x)));
+  if (depth_) depth_->read.read(cycle, x, static_cast<std::uint32_t>(lanes_));
+}
+
+// The words on the output registers and the beat that has come, beside the columns before; then the
+// words go back, a row on.
+void EdgeDetector::gather(Cycle cycle, const LumaToken& token) {
+  const std::size_t x = token.slot.beat * lanes_;
+  const auto shift = [&](auto& around) {
+    for (auto& row : around)
+      for (std::size_t i = 0; i < kBefore; ++i) row[i] = row[i + lanes_];
+  };
+  shift(around_);
+  row_ = token.slot.row;
+  column_ = static_cast<std::int32_t>(x) - static_cast<std::int32_t>(kBefore);
+  std::array<LumaWord, spec::morphological::kMaxLanes> back;
+  for (std::size_t i = 0; i < lanes_; ++i) {
+    const LumaWord& word = read_luma_.at(cycle, x + i);
+    around_[0][kBefore + i] = token.luma[i];
+    for (std::size_t row = 0; row < 3; ++row) around_[row + 1][kBefore + i] = word[row];
+    back[i] = {token.luma[i], word[0], word[1]};
+  }
+  if (x + lanes_ < luma_lines_.words()) {
+    const LumaWord& word = read_luma_.at(cycle, x + lanes_);
+    for (std::size_t row = 0; row < 3; ++row) around_[row + 1][kBefore + lanes_] = word[row];
+  }
+  write_luma_.write(cycle, x, std::span<const LumaWord>(back.data(), lanes_));
+  if (!depth_) return;
+  shift(depth_->around);
+  std::array<DepthWord, spec::morphological::kMaxLanes> depth_back;
+  for (std::size_t i = 0; i < lanes_; ++i) {
+    const DepthWord& word = depth_->read.at(cycle, x + i);
+    depth_->around[0][kBefore + i] = token.depth[i];
+    for (std::size_t row = 0; row < 2; ++row) depth_->around[row + 1][kBefore + i] = word[row];
+    depth_back[i] = {token.depth[i], word[0]};
+  }
+  depth_->write.write(cycle, x, std::span<const DepthWord>(depth_back.data(), lanes_));
 }
 
 void EdgeDetector::decide(const LumaToken& token, EdgeToken& out) {

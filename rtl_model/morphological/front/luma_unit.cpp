@@ -4,10 +4,14 @@
 namespace deburr::rtl::morphological {
 
 Activity LumaUnit::tick(Cycle cycle) {
-  if (!slots_in.can_pop(cycle)) return kIdle;
-  if (!lumas_out.can_push(cycle)) return kStalledDownstream;
+  const bool arrives = slots_in.can_pop(cycle);
+  if (pipe_.empty() && !arrives) return kIdle;
+  if (pipe_.leaves() && !lumas_out.can_push(cycle)) return kStalledDownstream;
+  pipe_.move();
+  if (const LumaToken* sum = pipe_.at(2)) lumas_out.push(cycle, *sum);
+  if (!arrives) return kBusy;
   const SlotToken& token = slots_in.front(cycle);
-  LumaToken& out = lumas_out.emplace(cycle);
+  LumaToken& out = pipe_.enter();
   out.slot = token.slot;
   if (token.slot.row < store_.rules().height) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(store_.lanes()); ++i) {

@@ -6,13 +6,14 @@
 // one has been pushed. Stalls: `upstream` (no beat in an input slot), `downstream` (the pipe is
 // full: further on something waits for records, memory or room). A beat whose marks disagree with
 // SIZE sets the framing bit and is taken as SIZE says. Cost: three counters of 14 bits.
+// Made for 300 MHz; longest path: 14-bit compare + 27-bit count.
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/latency_probe.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/morphological/latency_probe.h"
 #include "rtl_model/morphological/parameter_store.h"
 #include "rtl_model/morphological/tokens.h"
 

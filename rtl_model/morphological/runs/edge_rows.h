@@ -66,7 +66,8 @@ class EdgeRows {
   static std::size_t parity(std::int32_t y) { return static_cast<std::size_t>(y & 1); }
   // In the memory of the row's parity.
   std::uint64_t address(std::int32_t y, std::int32_t column) const {
-    return static_cast<std::uint64_t>(y % rows_ / 2 * words_ + column / kWordColumns);
+    const std::int32_t place = y % rows_ / 2 * words_ + column / kWordColumns;
+    return static_cast<std::uint64_t>(place);
   }
 
   const ParameterStore& store_;

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/morphological/runs/line_unit.h"
 
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "spec/morphological/packets.h"
 #include "spec/morphological/parameters.h"
 #include "spec/morphological/shapes.h"
@@ -16,6 +21,18 @@ std::uint32_t inverse(std::int32_t pixels, std::uint32_t table) {
   const auto product = static_cast<std::uint64_t>(pixels) * table;
   return static_cast<std::uint32_t>((product + (std::uint64_t{1} << (kInverseDrop - 1))) >>
                                     kInverseDrop);
+}
+
+constexpr std::size_t kWords = spec::morphological::kMaxCorners;
+
+// The tables of the chord, by steps, and of the fit, by steps too: corners - 1.
+std::vector<std::uint32_t> inverse_words() {
+  std::vector<std::uint32_t> words(2 * kWords);
+  std::copy(spec::morphological::kChordInverseSlope.begin(),
+            spec::morphological::kChordInverseSlope.end(), words.begin());
+  std::copy(spec::morphological::kFitInverseSlope.begin() + 1,
+            spec::morphological::kFitInverseSlope.end(), words.begin() + kWords);
+  return words;
 }
 
 // Quotient of the divider, U0.24, rounded to nearest.
@@ -38,7 +55,17 @@ LineUnit::LineUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
       latency_(static_cast<Cycle>(p.divider_latency)),
       interval_(static_cast<Cycle>(p.divider_interval)),
       interval_stall_(declare_stall("interval", "the divider cannot start again yet")),
+      inverse_rom_("inverse_rom",
+                   {.words = 2 * kWords,
+                    .word_bits = 27,
+                    .kind = MemoryKind::kRom,
+                    .read_ports = static_cast<std::uint32_t>(lanes_),
+                    .write_ports = 0,
+                    .content = "inverse slope of a pixel, by steps: chord, fit"},
+                   inverse_words()),
       dividers_(lanes_) {
+  for (std::size_t lane = 0; lane < lanes_; ++lane)
+    inverse_.emplace_back(inverse_rom_, "lane " + std::to_string(lane));
   // As many as are under way when nothing waits: the next one starts when the oldest has gone.
   for (Divider& divider : dividers_) divider.flight.resize((latency_ + interval_ - 1) / interval_);
 }
@@ -48,6 +75,8 @@ Activity LineUnit::work(Cycle cycle) {
   for (std::size_t lane = 0; lane < lanes_; ++lane) {
     Divider& divider = dividers_[lane];
     In<SumsToken>& in = sums_in[lane];
+    if (Division* fresh = std::exchange(divider.fresh, nullptr); fresh && fresh->pixels != 0)
+      fresh->result.line.inverse = inverse(fresh->pixels, inverse_[lane].at(cycle, fresh->word));
     if (divider.count != 0) {
       const Division& oldest = divider.flight[divider.oldest];
       if (oldest.ready <= cycle) {
@@ -72,7 +101,9 @@ Activity LineUnit::work(Cycle cycle) {
     }
     std::size_t place = divider.oldest + divider.count++;
     if (place >= divider.flight.size()) place -= divider.flight.size();
-    divider.flight[place] = {line_of(in.front(cycle)), cycle + latency_};
+    divider.fresh = &divider.flight[place];
+    divider.fresh->ready = cycle + latency_;
+    begin(cycle, lane, in.front(cycle), *divider.fresh);
     divider.start_from = cycle + interval_;
     in.pop(cycle);
     ++divides;
@@ -84,10 +115,13 @@ Activity LineUnit::work(Cycle cycle) {
   return blocked ? kStalledDownstream : waits ? interval_stall_ : kIdle;
 }
 
-LineToken LineUnit::line_of(const SumsToken& sums) const {
+// Stage 1, and the quotient that comes of it.
+void LineUnit::begin(Cycle cycle, std::size_t lane, const SumsToken& sums, Division& division) {
   const spec::morphological::RunRecord& run = sums.run.run;
   const spec::morphological::RunShape& shape = spec::morphological::kRunShapes[run.shape];
-  LineToken token{};
+  division.pixels = 0;
+  LineToken& token = division.result;
+  token = {};
   token.slot = sums.run.slot;
   spec::morphological::LineRecord& line = token.line;
   line.run = run;
@@ -101,36 +135,36 @@ LineToken LineUnit::line_of(const SumsToken& sums) const {
     line.slope = divide(1, 2 * reach_);
     line.inverse = static_cast<std::uint32_t>(reach_) << spec::morphological::kInverseFractionBits;
     line.span = static_cast<std::uint16_t>(reach_ + 1);
-    return token;
+    return;
   }
   const std::int32_t left = sums.left, right = sums.right, corners = left + right + 2;
-  const std::int32_t span = sums.last - sums.first;
+  const std::int32_t span = sums.last - sums.first, steps = corners - 1;
+  division.word = static_cast<std::uint32_t>(steps);
   line.left_steps = sums.left;
   line.right_steps = sums.right;
   line.shift = right - left;
   line.span = static_cast<std::uint16_t>(span);
   if (store_.rules().predictor == spec::morphological::Predictor::kChord) {
-    const std::int32_t steps = corners - 1;
     line.scale = 2;
     line.offset = sums.first + sums.last;
     line.slope = divide(steps, 2 * span);
-    line.inverse =
-        inverse(span, spec::morphological::kChordInverseSlope[static_cast<std::size_t>(steps)]);
+    division.pixels = span;
   } else {
     // P = sum of J_i X_i with J_i = 2 i - (r + 1 - l).
     const std::int32_t p = 2 * sums.indexed_sum - (right + 1 - left) * sums.sum;
     line.scale = corners;
     line.offset = sums.sum;
     line.slope = divide(corners * corners - 1, std::int64_t{6} * p);
-    line.inverse =
-        inverse(p, spec::morphological::kFitInverseSlope[static_cast<std::size_t>(corners)]);
+    division.pixels = p;
+    division.word += kWords;
   }
-  return token;
+  inverse_[lane].read(cycle, division.word);
 }
 
 void LineUnit::reset() {
   for (Divider& divider : dividers_) {
     divider.oldest = divider.count = 0;
+    divider.fresh = nullptr;
     divider.start_from = 0;
   }
   in_flight_ = 0;

@@ -4,10 +4,16 @@
 //
 // Where: between an EndpointPredictor and the AreaUnit, one of these an axis, with one divider a
 // lane. Latency divider.latency, initiation interval divider.interval a lane; latency 1 more to
-// the AreaUnit by the link. Stalls: `interval` (the divider cannot start again yet), `downstream`
-// (its pipe of latency / interval places, rounded up, is full).
-// Formats: slope U0.24 = rdiv(a 2^24, b), inverse U12.12 from U1.26. Cost a lane: a pipelined
-// divider 36 / 27 bits, two multipliers 18 x 6 and 24 x 27, a ROM of 2 x 34 x 27 bits.
+// the AreaUnit by the link. Stages: 1 products (of the corners, of their sum), inverse_rom:
+// address; 2 P, numerator and denominator; from 3 on the division, at most two of 24 quotient bits
+// a clock (radix 4), beside it P x table in two stages and its rounding. So divider.latency is at
+// least kLeastLatency; a longer one takes fewer bits a clock. Stalls: `interval` (the divider
+// cannot start again yet), `downstream` (its pipe of latency / interval places, rounded up, is
+// full). Formats: slope U0.24 = rdiv(a 2^24, b), inverse U12.12 from U1.26. Cost a lane: a divider
+// 36 / 27 bits, pipelined with interval 1, two multipliers 18 x 6 and 24 x 27, a read of
+// inverse_rom (2 x 34 x 27 bits).
+// Made for 250 MHz; longest path: choice of 4 multiples + 29-bit add (a quotient digit), and half
+// of a 24 x 27 multiply.
 // Source: least-squares line with equidistant heights; paper 000 for the chord.
 #pragma once
 
@@ -15,6 +21,7 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/morphological/parameter_store.h"
 #include "rtl_model/morphological/tokens.h"
@@ -23,6 +30,9 @@ namespace deburr::rtl::morphological {
 
 class LineUnit final : public Unit {
  public:
+  // Two clocks of products, 24 quotient bits in twelve.
+  static constexpr std::int32_t kLeastLatency = spec::morphological::kLeastDividerLatency;
+
   LanePorts<In<SumsToken>> sums_in;
   LanePorts<Out<LineToken>> lines_out;
 
@@ -42,23 +52,28 @@ class LineUnit final : public Unit {
  private:
   struct Division {
     LineToken result;
-    Cycle ready;  // the quotient is in its register
+    Cycle ready;          // the quotient is in its register
+    std::int32_t pixels;  // the inverse is so many times a word of the table
+    std::uint32_t word;   // its address
   };
   // The divider of a lane; divisions in flight, oldest first, in a ring.
   struct Divider {
     std::vector<Division> flight;
     std::size_t oldest = 0, count = 0;
+    Division* fresh = nullptr;  // in stage 2
     Cycle start_from = 0;
   };
 
   Activity work(Cycle cycle);
-  LineToken line_of(const SumsToken& sums) const;
+  void begin(Cycle cycle, std::size_t lane, const SumsToken& sums, Division& division);
 
   const ParameterStore& store_;
   const std::size_t lanes_;
   const std::int32_t reach_;
   const Cycle latency_, interval_;
   Activity interval_stall_;
+  Memory<std::uint32_t> inverse_rom_;
+  std::vector<ReadPort<std::uint32_t>> inverse_;  // a lane
   std::vector<Divider> dividers_;
   std::uint32_t in_flight_ = 0;  // divisions, of all lanes
 };

@@ -73,7 +73,7 @@ class RunExtractor final : public Unit {
   // Records of an axis on their way into the FIFOs.
   struct AxisSide {
     std::deque<Fifo<RunToken>> fifo;
-    std::array<RunToken, 2 * spec::morphological::kMaxLanes> waiting;
+    std::array<RunToken, std::size_t{2} * spec::morphological::kMaxLanes> waiting;
     std::size_t count = 0;
     std::size_t turn = 0;  // FIFO of the next record
   };
@@ -85,7 +85,7 @@ class RunExtractor final : public Unit {
     std::uint64_t begun;  // step of the pipe
     std::size_t parity;   // of the slot's row
     std::size_t count;
-    std::array<RunToken, 3 * spec::morphological::kMaxLanes> run;
+    std::array<RunToken, std::size_t{3} * spec::morphological::kMaxLanes> run;
   };
 
   bool take_slot(Cycle cycle);  // false: it waits for records

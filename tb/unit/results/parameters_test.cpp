@@ -46,7 +46,7 @@ void describe(Sample& p, Visitor& v) {
 
 class Parameters : public testing::Test {
  protected:
-  Parameters() { set_.add("unit", values_); }
+  Parameters() { set_.add("unit", ParameterKind::kInput, values_); }
   ~Parameters() override {
     for (const auto& file : files_) std::filesystem::remove(file);
   }
@@ -165,7 +165,7 @@ TEST_F(Parameters, TheResolvedConfigurationLoadsAgain) {
   const std::string yaml = set_.yaml();
   Sample other;
   ParameterSet again;
-  again.add("unit", other);
+  again.add("unit", ParameterKind::kInput, other);
   again.load(file(yaml));
   EXPECT_EQ(other.source, values_.source);
   EXPECT_EQ(other.ways, 16);
@@ -211,13 +211,30 @@ TEST_F(Parameters, WhatHasNoEffectIsRefusedWhereItWasGiven) {
 TEST_F(Parameters, EveryDefaultOfTheTextureUnitIsWithinItsRange) {
   spec::texture::Parameters texture;
   ParameterSet set;
-  set.add("texture", texture);
+  set.add_engine("texture", texture);
   EXPECT_FALSE(set.all().empty());
   for (const Parameter& p : set.all()) {
     EXPECT_EQ(p.parse(p.default_value), "") << p.name;
     EXPECT_FALSE(p.meaning.empty()) << p.name;
     EXPECT_EQ(p.meaning.back(), '.') << p.name;
   }
+}
+
+// So that a sweep knows which points share a golden result.
+TEST_F(Parameters, OfAnEngineAreRulesOrBuildChoices) {
+  spec::texture::Parameters texture;
+  ParameterSet set;
+  set.add_engine("texture", texture);
+  set.add("unit", ParameterKind::kRun, values_);
+  EXPECT_EQ(set.find("texture.footprint")->kind, ParameterKind::kRule);
+  EXPECT_EQ(set.find("texture.cache.bytes")->kind, ParameterKind::kBuild);
+  EXPECT_EQ(set.find("unit.cache.ways")->kind, ParameterKind::kRun);
+  EXPECT_TRUE(set.resolved(ParameterKind::kRule).contains("texture.footprint"));
+  EXPECT_FALSE(set.resolved(ParameterKind::kRule).contains("texture.cache.bytes"));
+  EXPECT_EQ(set.resolved(ParameterKind::kBuild)["texture.cache.bytes"], 16384);
+  EXPECT_EQ(set.resolved(ParameterKind::kRule).size() + set.resolved(ParameterKind::kBuild).size() +
+                set.resolved(ParameterKind::kRun).size(),
+            set.all().size());
 }
 
 TEST(EditDistance, CountsEditsAndSwaps) {

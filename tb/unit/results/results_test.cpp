@@ -26,6 +26,24 @@ using testing::HasSubstr;
 using testing::Not;
 using Json = nlohmann::ordered_json;
 
+MemoryFigures memory(const char* name, const char* kind, std::uint64_t logical,
+                     std::uint64_t physical, std::uint64_t at_width) {
+  MemoryFigures m;
+  m.name = name;
+  m.content = "Lines of the cache.";
+  m.kind = kind;
+  m.words = logical / 64;
+  m.word_bits = 64;
+  m.ports = "2R1W";
+  m.read_latency = 1;
+  m.built_as = "2 copies of 1R1W";
+  m.copies = physical / logical;
+  m.logical_bits = logical;
+  m.physical_bits = physical;
+  m.logical_bits_at_frame_width = at_width;
+  return m;
+}
+
 Result sample_result() {
   Result r;
   r.unit = "texture";
@@ -42,7 +60,8 @@ Result sample_result() {
   r.units = {{"address", 40000, 13000, {{"downstream", "The next unit was not ready.", 1321}}},
              {"cache", 53000, 321, {{"downstream", "", 0}, {"wait_fill", "", 1000}}}};
   r.bottleneck = find_bottleneck(r.units, "cache");
-  r.sram = {{"cache.data", "1R1W", 131072, 131072}, {"cache.lines", "2RW", 5120, 1280}};
+  r.memories = {memory("cache_data", "sram", 131072, 262144, 131072),
+                memory("cache_lines", "flops", 5120, 5120, 1280)};
   r.work = {{"fragments", 1000, "fragment", "Colours </script><script>alert(1)</script>."}};
   r.figures = {{"Fragments", "work.fragments", "a remark"},
                {"Whole run", "cycles", "bound", "work.bound", true}};
@@ -73,21 +92,43 @@ class Directory : public testing::Test {
   std::filesystem::path path_;
 };
 
-TEST(ResultJson, HasTheKeysOfSchemaOneInOrder) {
+TEST(ResultJson, HasTheKeysOfSchemaTwoInOrder) {
   const Json json = to_json(sample_result());
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_THAT(keys,
-              testing::ElementsAre("schema", "unit", "verdict", "checks", "cycles", "clock_mhz",
-                                   "throughput", "latency", "memory", "units", "bottleneck",
-                                   "sram_bits", "sram_bits_at_frame_width", "sram_ports", "work",
-                                   "figures", "quality", "host", "meaning"));
-  EXPECT_EQ(json["schema"], 1);
+  EXPECT_THAT(keys, testing::ElementsAre("schema", "unit", "verdict", "checks", "cycles",
+                                         "clock_mhz", "throughput", "latency", "memory", "units",
+                                         "bottleneck", "memories", "memory_bits", "work", "figures",
+                                         "quality", "host", "meaning"));
+  EXPECT_EQ(json["schema"], 2);
   EXPECT_EQ(json["checks"]["comparisons"], 1000);
   EXPECT_EQ(json["units"]["address"]["stalls"]["downstream"], 1321);
   EXPECT_EQ(json["latency"]["histogram"][1]["count"], 200);
   EXPECT_EQ(json["quality"]["psnr_edge_db"], "inf");
   EXPECT_TRUE(json["quality"]["psnr_silhouette_db"].is_null());
+}
+
+TEST(Results, MemoriesAddUpByKind) {
+  const Json bits = to_json(sample_result())["memory_bits"];
+  EXPECT_EQ(bits["sram"]["logical"], 131072);
+  EXPECT_EQ(bits["sram"]["physical"], 262144);
+  EXPECT_EQ(bits["flops"]["memories"], 1);
+  EXPECT_EQ(bits["total"]["memories"], 2);
+  EXPECT_EQ(bits["total"]["physical"], 262144 + 5120);
+  EXPECT_EQ(bits["total"]["logical_at_frame_width"], 131072 + 1280);
+  EXPECT_FALSE(bits.contains("rom")) << "there is none";
+}
+
+TEST(Results, AnIdealisedMemoryIsNamedEverywhere) {
+  Result ideal = sample_result();
+  EXPECT_THAT(idealised_memories(to_json(ideal)), testing::IsEmpty());
+  EXPECT_FALSE(to_json(ideal).contains("idealised"));
+  ideal.memories[1].idealised = "nine ports";
+  EXPECT_THAT(idealised_memories(to_json(ideal)), testing::ElementsAre("cache_lines (nine ports)"));
+  const Comparison worse = compare(to_json(sample_result()), to_json(ideal), {});
+  EXPECT_TRUE(worse.worse) << "what B counts could not be built";
+  EXPECT_FALSE(compare(to_json(ideal), to_json(sample_result()), {}).worse);
+  EXPECT_FALSE(compare(to_json(ideal), to_json(ideal), {}).worse) << "it was before";
 }
 
 // Every number in the file has a unit and a meaning beside it.
@@ -233,9 +274,11 @@ TEST_F(Page, ShowsWhatTheIssueAsksForFirst) {
                               "41.25</td><td class=\"n\">+5.75</td>"));
   EXPECT_THAT(page, HasSubstr("<td class=\"n\">identical</td>"));
   EXPECT_THAT(page, Not(HasSubstr("Silhouette pixels"))) << "there was no depth";
-  EXPECT_THAT(page, HasSubstr("<td>cache.lines</td><td class=\"n\">1,280</td><td class=\"n\">"
-                              "5,120</td><td>2RW</td>"));
-  EXPECT_THAT(page, HasSubstr("<td>total</td><td class=\"n\">132,352</td><td class=\"n\">136,192"));
+  EXPECT_THAT(page, HasSubstr("<td>cache_lines</td><td>flops</td><td class=\"n\">80 x 64</td>"
+                              "<td>2R1W</td><td class=\"n\">1</td><td>2 copies of 1R1W</td>"
+                              "<td class=\"n\">1,280</td><td class=\"n\">5,120</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>total</td><td class=\"n\">2</td><td class=\"n\">132,352</td>"
+                              "<td class=\"n\">136,192</td><td class=\"n\">267,264"));
   EXPECT_THAT(page, HasSubstr("Limited by cache: stalled, wait fill"));
   EXPECT_THAT(page, HasSubstr("<td>a remark</td>"));
   EXPECT_THAT(page, HasSubstr("id=\"latency\""));
@@ -268,17 +311,25 @@ TEST_F(Page, OfAnInterruptedRunSaysWhatWasCompared) {
   EXPECT_THAT(page_of(r), HasSubstr("not checked against the golden model"));
 }
 
+TEST_F(Page, SaysThatAMemoryIsIdealised) {
+  EXPECT_THAT(page_of(sample_result()), Not(HasSubstr("cannot be built")));
+  Result ideal = sample_result();
+  ideal.memories[1].idealised = "nine ports";
+  const std::string page = page_of(ideal);
+  EXPECT_THAT(page, HasSubstr("cannot be built as it is"));
+  EXPECT_THAT(page, HasSubstr("cache_lines (nine ports)"));
+}
+
 // A result.json of an earlier version has none of the newer keys.
 TEST_F(Page, CanBeMadeFromAnOlderResult) {
   page_of(sample_result());
   Json json = Json::parse(read_file(path_ / "result.json", 1 << 20));
-  for (const char* key : {"bottleneck", "sram_bits_at_frame_width", "sram_ports", "figures"})
-    json.erase(key);
+  for (const char* key : {"bottleneck", "figures"}) json.erase(key);
   json["throughput"].erase("bound_meaning");
   for (const char* key : {"psnr_before_db", "psnr_edge_before_db"}) json["quality"].erase(key);
   std::ofstream(path_ / "result.json") << json.dump();
   const std::string page = build_report(path_);
-  EXPECT_THAT(page, HasSubstr("<td>cache.lines</td><td class=\"n\">5,120</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>cache_lines</td><td>flops</td>"));
   EXPECT_THAT(page, Not(HasSubstr("Key figures")));
 }
 

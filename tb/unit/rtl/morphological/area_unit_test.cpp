@@ -94,21 +94,21 @@ LineToken three(Axis axis, int line, int start, std::uint32_t slot) {
 
 class AreaLanes : public ::testing::TestWithParam<int> {};
 
-// A slot a clock goes in; of each that blends, shares come out a clock later.
-TEST_P(AreaLanes, LatencyAndIntervalAreOne) {
+// A slot a clock goes in; of each that blends, shares come out nine clocks later.
+TEST_P(AreaLanes, LatencyIsNineAndIntervalOne) {
   Area bench(small(GetParam()), 11, 7);
   bench.send_slots(0);
   const std::uint32_t first = bench.slots_before(kLag), last = bench.slots_before(kLag + 7);
-  bench.clock.run(last + 10);
+  bench.clock.run(last + 20);
   ASSERT_EQ(bench.shares_gate.beats.size(), last - first);
   for (std::uint32_t i = 0; i < last - first; ++i) {
-    // Sent in k, popped in k + 1, taken in k + 2.
-    ASSERT_EQ(bench.shares_gate.cycles[i], first + i + 2);
+    // Sent in k, popped in k + 1, sent in k + 9, taken in k + 10.
+    ASSERT_EQ(bench.shares_gate.cycles[i], first + i + 10);
     ASSERT_EQ(bench.shares_gate.beats[i].slot.number, first + i);
     ASSERT_EQ(bench.shares_gate.beats[i].left, (first + i) & 1);
     ASSERT_FALSE(bench.shares_gate.beats[i].any);
   }
-  EXPECT_EQ(bench.unit.busy_cycles(), last);
+  EXPECT_EQ(bench.unit.busy_cycles(), last + 8);
   EXPECT_EQ(bench.unit.stalled_cycles(), 0u);
 }
 
@@ -128,7 +128,7 @@ TEST_P(AreaLanes, SharesLieWhereTheRecordLies) {
   bench.drivers_v[0]->send(
       0, three(Axis::kVertical, 8, 5,
                bench.slots_before(5 + kReach + 2) + static_cast<std::uint32_t>(8 / lanes)));
-  bench.clock.run(bench.slots_before(9 + kLag) + 10);
+  bench.clock.run(bench.slots_before(9 + kLag) + 20);
   std::map<std::string, int> found;
   for (const ShareToken& token : bench.shares_gate.beats) {
     if (!token.any) continue;
@@ -157,9 +157,10 @@ TEST_P(AreaLanes, SharesLieWhereTheRecordLies) {
   EXPECT_EQ(bench.unit.vertical_edges.value(), 6u);
 }
 
-// A line is stored, and its record finished, in the clock of its pop, yet not before its slot has
-// passed; one a lane, of both axes at once; counted by the parity of the slot row.
-TEST_P(AreaLanes, ARecordIsFinishedInTheClockOfItsPopBehindItsSlot) {
+// A line is stored, and its record finished, in the clock after its pop, and it is popped when its
+// slot has passed two stages; one a bank, of both axes at once; counted by the parity of the slot
+// row.
+TEST_P(AreaLanes, ARecordIsFinishedAClockAfterItsPopBehindItsSlot) {
   Area bench(small(GetParam()), 11, 7);
   bench.send_slots(0);
   const std::uint32_t even = bench.slots_before(6) + 1, odd = bench.slots_before(7);
@@ -172,15 +173,23 @@ TEST_P(AreaLanes, ARecordIsFinishedInTheClockOfItsPopBehindItsSlot) {
   }
   bench.clock.run(odd + 40);
   const auto& done = bench.finished_gate;
-  ASSERT_EQ(done.beats.size(), 2u);
-  // Slot k is popped in k + 1; the token taken a clock later.
-  EXPECT_EQ(done.cycles[0], even + 2);
-  EXPECT_EQ(done.beats[0].count[0], 2 * bench.lanes);
-  EXPECT_EQ(done.beats[0].count[1], 0);
-  // Sent in odd + 3, popped in odd + 4, taken in odd + 5.
-  EXPECT_EQ(done.cycles[1], odd + 5);
-  EXPECT_EQ(done.beats[1].count[0], 0);
-  EXPECT_EQ(done.beats[1].count[1], bench.lanes);
+  // Pairs of columns lie in half as many banks as there are lanes, so that lines wait there once.
+  const int banks = std::max(1, bench.lanes / 2), clocks = bench.lanes / banks;
+  ASSERT_EQ(done.beats.size(), static_cast<std::size_t>(2 * clocks));
+  for (int i = 0; i < clocks; ++i) {
+    const auto clock = static_cast<std::size_t>(i), later = static_cast<std::size_t>(clocks + i);
+    // Slot k is popped in k + 1 and in its second stage in k + 2, and so is the line popped. It is
+    // stored in k + 3, the token taken a clock later.
+    EXPECT_EQ(done.cycles[clock], even + 4 + clock);
+    EXPECT_EQ(done.beats[clock].count[0], banks + (i == 0 ? bench.lanes : 0));
+    EXPECT_EQ(done.beats[clock].count[1], 0);
+    // Sent in odd + 3, popped in odd + 4, stored in odd + 5, taken in odd + 6.
+    EXPECT_EQ(done.cycles[later], odd + 6 + clock);
+    EXPECT_EQ(done.beats[later].count[0], 0);
+    EXPECT_EQ(done.beats[later].count[1], banks);
+  }
+  EXPECT_EQ(bench.unit.bank_conflicts.value(),
+            static_cast<std::uint64_t>(2 * (bench.lanes - banks)));
   EXPECT_EQ(bench.unit.records.value(), static_cast<std::uint64_t>(3 * bench.lanes));
 }
 INSTANTIATE_TEST_SUITE_P(Each, AreaLanes, ::testing::Values(0, 1, 2));
@@ -192,11 +201,11 @@ TEST(AreaUnitBlock, WaitsDownstreamWithItsSlotsAlone) {
   // Shares that nobody takes do not hold up a record.
   bench.drivers_h[0]->send(150, three(Axis::kHorizontal, 0, 0, 1));
   bench.clock.run(260);
-  // Two fit into the link, sent in first + 1 and first + 2; the third goes in 201. In between, a
-  // clock is busy with the record.
-  EXPECT_EQ(stalls(bench.unit, "downstream"), 201u - (first + 3) - 1);
+  // Two fit into the link, sent in first + 9 and first + 10; the third goes in 201. In between, two
+  // clocks are busy with the record.
+  EXPECT_EQ(stalls(bench.unit, "downstream"), 201u - (first + 11) - 2);
   ASSERT_EQ(bench.finished_gate.cycles.size(), 1u);
-  EXPECT_EQ(bench.finished_gate.cycles[0], 152u);
+  EXPECT_EQ(bench.finished_gate.cycles[0], 153u);
   ASSERT_EQ(bench.shares_gate.beats.size(), 15u);
   for (std::uint32_t i = 0; i < 15; ++i) {
     EXPECT_EQ(bench.shares_gate.beats[i].slot.number, first + i);
@@ -212,6 +221,42 @@ TEST(AreaUnitBlock, LinesWaitForRoomForTheirFinish) {
   ASSERT_EQ(bench.finished_gate.cycles.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(bench.finished_gate.cycles[i], 100 + i);
   EXPECT_EQ(bench.unit.records.value(), 4u);
+}
+
+// ---- what a memory does not do ------------------------------------------------------------------
+
+TEST(AreaUnitMemory, AMarkIsNotThereInTheClockOfItsAddress) {
+  Area bench(small(), 5, 3);
+  bench.send_slots(0);
+  // The first slot that evaluates is popped a clock after it was sent.
+  bench.clock.run(bench.slots_before(kLag - 1) + 2);
+  EXPECT_THAT(of_a_stage_less(bench.unit, bench.clock),
+              ::testing::AllOf(::testing::HasSubstr("row_marks"), ::testing::HasSubstr("is used")));
+}
+
+TEST(AreaUnitMemory, HasNoColumnBeyondTheLongestRow) {
+  Area bench(small(), 5, 3);
+  bench.send_slots(0);
+  bench.drivers_v[0]->send(20, three(Axis::kVertical, 4000, 0, 1));
+  EXPECT_THAT([&] { bench.clock.run(40); },
+              ::testing::ThrowsMessage<spec::CheckFailed>(::testing::HasSubstr("column_marks")));
+}
+
+// Two lines for a bank need two clocks: with one port too few the memory would say so.
+TEST(AreaUnitMemory, ABankTakesALineAClock) {
+  Area bench(small(2), 32, 7);
+  bench.send_slots(0);
+  const std::uint32_t slot = bench.slots_before(3);
+  for (int lane = 0; lane < 4; ++lane)
+    bench.drivers_v[static_cast<std::size_t>(lane)]->send(
+        slot + 8, three(Axis::kVertical, 4 * lane + 3, 0, slot));
+  bench.clock.run(slot + 30);
+  ASSERT_EQ(bench.finished_gate.beats.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(bench.finished_gate.cycles[i], slot + 11 + i);
+    EXPECT_EQ(bench.finished_gate.beats[i].count[1], 1);
+  }
+  EXPECT_EQ(bench.unit.bank_conflicts.value(), 3u + 2u + 1u);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ struct Blending {
   }
   ClockDomain clock{"clock", period()};
   Registers store;
-  LatencyProbe probe;
+  rtl::LatencyProbe probe;
   Link<ShareToken> shares{"shares"};
   Link<PixelToken> pixels{"pixels"};
   Link<spec::morphological::BlendedBeat> out{"out"};
@@ -89,8 +89,8 @@ TEST(BlenderBlock, ChoosesTheAxisAndRoundsTheMagnitude) {
     EXPECT_EQ(beat.pixel[0][0], rows[i].result) << i;
     EXPECT_EQ(beat.pixel[0][2], rows[i].result) << i;
     EXPECT_EQ(beat.pixel[0][3], 77) << "alpha passes";
-    // Pushed in i, popped in i + 1, sent in i + 2, taken in i + 3.
-    EXPECT_EQ(bench.sink.cycles()[i], i + 3);
+    // Pushed in i, popped in i + 1, sent in i + 6, taken in i + 7.
+    EXPECT_EQ(bench.sink.cycles()[i], i + 7);
   }
   EXPECT_EQ(bench.blender.blended_pixels.value(), rows.size() - 1);
 }
@@ -103,6 +103,24 @@ TEST(BlenderBlock, BlendsInLinearLight) {
   ASSERT_EQ(bench.sink.beats().size(), 2u);
   EXPECT_EQ(bench.sink.beats()[0].pixel[0][0], 188);  // encode(0.5)
   EXPECT_EQ(bench.sink.beats()[1].pixel[0][0], 1);
+}
+
+// ---- what a memory does not do ------------------------------------------------------------------
+
+TEST(BlenderMemory, AWordIsNotThereInTheClockOfItsAddress) {
+  Blending bench(preset(spec::morphological::Preset::kDeburr));
+  bench.send({128, 0, 0, 0, 3, 0, 0, 0}, 0, 255, 0, 0, 0);
+  bench.clock.run(3);  // popped in 1, asked for in 2
+  EXPECT_THAT(
+      of_a_stage_less(bench.blender, bench.clock),
+      ::testing::AllOf(::testing::HasSubstr("linear_rom"), ::testing::HasSubstr("is used")));
+}
+
+TEST(BlenderMemory, HasNoCodeForMoreThanWhite) {
+  Blending bench(preset(spec::morphological::Preset::kDeburr));
+  bench.send({255, 255, 0, 0, 3, 3, 0, 0}, 0, 255, 255, 0, 0);
+  EXPECT_THAT([&] { bench.clock.run(10); },
+              ::testing::ThrowsMessage<spec::CheckFailed>(::testing::HasSubstr("encode_rom")));
 }
 
 }  // namespace

@@ -48,13 +48,13 @@ TEST(EdgeDetectorBlock, FixedThresholdIsMetNotExceeded) {
   EXPECT_EQ(left_bits(front.detect(row({0, 1}), {{reg::kThreshold, 258}})), "00");
 }
 
-TEST(EdgeDetectorBlock, TakesThreeClocksFromBeatToBits) {
+TEST(EdgeDetectorBlock, TakesSevenClocksFromBeatToBits) {
   Front front(preset(spec::morphological::Preset::kMlaa));
   front.detect(row({0, 255, 0}));
-  // Taken by the sequencer a clock after the driver's push; one clock a block. The first slot
-  // carries no bits, its token still shows the time.
+  // Taken by the sequencer a clock after the driver's push; two clocks to the luma, four to the
+  // bits. The first slot carries no bits, its token still shows the time.
   const Cycle first = front.sink.cycles()[0];
-  EXPECT_EQ(front.beat_sink.cycles()[0], first - 2);  // sequencer -> pixel store
+  EXPECT_EQ(front.beat_sink.cycles()[0], first - 6);  // sequencer -> pixel store
   for (std::size_t i = 1; i < front.sink.cycles().size(); ++i)
     ASSERT_EQ(front.sink.cycles()[i], first + i) << "one slot a clock";
   EXPECT_EQ(front.sink.cycles().size(), (1u + 37u) * 3u);
@@ -126,6 +126,46 @@ TEST(EdgeDetectorBlock, LocalContrastIsStrictTwiceTheStep) {
   EXPECT_EQ(bits(kPlainRules), "00100010");
   EXPECT_EQ(bits(paper), "00000010");      // 2 x 40 > 115 is false
   EXPECT_EQ(bits(symmetric), "00100010");  // min(115, 0) = 0
+}
+
+// ---- what a memory does not do ------------------------------------------------------------------
+
+struct Detecting {
+  Detecting()
+      : p([] {
+          Parameters built = preset(spec::morphological::Preset::kMlaa);
+          built.line_pixels = 64;
+          return built;
+        }()),
+        registers(p, 64, 8),
+        ends(clock),
+        edges("edges", clock, p, registers.store) {
+    edges.lumas_in(ends.in);
+    edges.edges_out(ends.out);
+  }
+  ClockDomain clock{"clock", period()};
+  Parameters p;
+  Registers registers;
+  Ends<LumaToken, EdgeToken> ends;
+  EdgeDetector edges;
+};
+
+TEST(EdgeDetectorMemory, AWordIsNotThereInTheClockOfItsAddress) {
+  Detecting bench;
+  bench.ends.source.send(LumaToken{});
+  bench.clock.run(2);
+  EXPECT_THAT(
+      of_a_stage_less(bench.edges, bench.clock),
+      ::testing::AllOf(::testing::HasSubstr("luma_lines"), ::testing::HasSubstr("is used")));
+}
+
+TEST(EdgeDetectorMemory, HasNoColumnBeyondTheLongestRow) {
+  Detecting bench;
+  LumaToken token{};
+  token.slot.beat = 64;
+  bench.ends.source.send(token);
+  EXPECT_THAT([&] { bench.clock.run(10); },
+              ::testing::ThrowsMessage<spec::CheckFailed>(::testing::HasSubstr("luma_lines")));
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ Parameters built(bool contiguous, int reach_rows = 32, int reach_columns = 256) 
 // Memories that show a frame of random edges when row `row` has been found.
 struct Shown {
   Shown(const Parameters& p, int width_, int height_, int row_, std::uint32_t permille)
-      : width(width_), height(height_), row(row_), store("store", p), memories(p, store) {
-    bus.bus.bind(store.registers.bus);
+      : width(width_), height(height_), row(row_), store(control, p), memories(p, store) {
+    bus.bus.bind(control.registers.bus);
     store.write_size(width, height);
     EXPECT_TRUE(store.latch());
     Random random(permille);
@@ -47,6 +47,8 @@ struct Shown {
   int width, height, row;
   std::vector<bool> bits;
   RegisterHost bus{"bus"};
+  rtl::ControlRegisters control{"registers", spec::morphological::kRegisters,
+                                rtl::morphological::control_layout()};
   ParameterStore store;
   EdgeMemories memories;
 };

@@ -628,7 +628,7 @@ TEST(EndpointPredictorBlock, AResetTakesBackTheTurn) {
     bench.clock.set_reset_n(false);
     bench.clock.run(1);
     bench.clock.set_reset_n(true);
-    bench.registers.store.reset();
+    bench.registers.reset();
     bench.registers.frame(40, 30);
     edges();
   };

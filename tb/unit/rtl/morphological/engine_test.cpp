@@ -221,7 +221,7 @@ TEST(Accounts, EveryUnitHasItsNameAndEveryClockItsClass) {
                          "divider_h", "divider_v", "area", "pixel_store", "blender"));
   // Every slot is a busy clock of the pipe.
   EXPECT_EQ(bench.engine.sequencer.busy_cycles(), (80u + 37u) * 90u);
-  EXPECT_EQ(bench.engine.blender.busy_cycles(), 80u * 90u + 1u);
+  EXPECT_EQ(bench.engine.blender.busy_cycles(), 80u * 90u + 5u);
   EXPECT_EQ(bench.engine.beat_latency.count(), 80u * 90u);
 }
 
@@ -231,16 +231,24 @@ TEST(Accounts, MemoriesAreThoseOfTheContract) {
   p.edge_source = spec::morphological::EdgeSource::kPredicated;
   EngineBench bench(p);
   std::map<std::string, std::uint64_t> bits;
-  for (const rtl::Storage* storage : bench.engine.memories())
-    bits[storage->basename()] = storage->bits();
-  EXPECT_EQ(bits["edge_window"], 257'280u);
-  EXPECT_EQ(bits["edge_rows_even"] + bits["edge_rows_odd"], 138'240u);
+  for (const rtl::MemoryBase* memory : bench.engine.memories()) {
+    bits[memory->basename()] = memory->bits();
+    EXPECT_EQ(memory->idealised(), "") << memory->name();
+  }
   EXPECT_EQ(bits["luma_lines"], 138'240u);
   EXPECT_EQ(bits["depth_lines"], 92'160u);
-  EXPECT_EQ(bits["pixel_lines"], 2'396'160u);
-  EXPECT_EQ(bits["left_weight_lines"] + bits["top_weight_lines"], 92'160u);
-  EXPECT_EQ(bits["row_records"], 207'360u);
-  EXPECT_EQ(bits["column_records"], 209'280u);
+  for (const char* const lines : {"pixel_lines0", "pixel_lines1", "pixel_lines2", "pixel_lines3"})
+    EXPECT_EQ(bits[lines], 614'400u);
+  EXPECT_EQ(bits["weight_lines"], 92'160u);
+  EXPECT_EQ(bits["row_marks"], 1920u * 26u);
+  EXPECT_EQ(bits["row_records"], 1920u * 95u);
+  EXPECT_EQ(bits["column_marks"], 1920u * 21u);
+  EXPECT_EQ(bits["column_records"], 1920u * 95u);
+  EXPECT_EQ(bits["linear_rom"], 256u * 12u);
+  EXPECT_EQ(bits["encode_rom"], 4096u * 8u);
+  EXPECT_EQ(bits["inverse_rom"], 68u * 27u);
+  EXPECT_EQ(bits["edge_window"], 257'280u);
+  EXPECT_EQ(bits["edge_rows_even"] + bits["edge_rows_odd"], 138'240u);
   EXPECT_EQ(bits["record_fifo_h0"], 256u * 60u);
   EXPECT_EQ(bench.engine.window.memory.bits_at(960), 257'280u / 2);
 }
@@ -253,12 +261,14 @@ TEST(Memories, OfStorageInMemoryAreAllReported) {
   p.record_fifo = 256;
   EngineBench bench(p);
   std::map<std::string, std::uint64_t> bits;
-  for (const rtl::Storage* storage : bench.engine.memories())
-    bits[storage->basename()] = storage->bits();
-  EXPECT_EQ(bits["pixel_lines"], 184'320u);
+  for (const rtl::MemoryBase* memory : bench.engine.memories())
+    bits[memory->basename()] = memory->bits();
+  for (const char* const lines : {"pixel_lines0", "pixel_lines1", "pixel_lines2", "pixel_lines3"})
+    EXPECT_EQ(bits[lines], 61'440u);
   EXPECT_EQ(bits["gather_line"], 512u);
-  EXPECT_EQ(bits["response_lines"], 32u * 512u);
-  EXPECT_EQ(bits["lines_in_flight"], 64u * 24u);
+  EXPECT_EQ(bits["writes_in_flight"], 32u);
+  EXPECT_EQ(bits["reads_in_flight"], 32u);
+  EXPECT_GE(bits["response_buffer"], 64u * 512u);
   EXPECT_EQ(bits["record_fifo_h0"], 256u * 60u);
 }
 
@@ -328,6 +338,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadParameter{"diagonals: not built", [](auto& p) { p.diagonals = true; }},
         BadParameter{"round_corners: not built", [](auto& p) { p.round_corners = true; }},
         BadParameter{"threshold", [](auto& p) { p.threshold = 0; }},
+        BadParameter{"no more than two of 24 quotient bits",
+                     [](auto& p) { p.divider_latency = 13; }},
         BadParameter{"line_pixels", [](auto& p) { p.line_pixels = 8193; }}));
 
 TEST(BadFrames, AreNamed) {
@@ -367,17 +379,17 @@ TEST_P(Faults, AreCaught) {
 }
 INSTANTIATE_TEST_SUITE_P(
     Planted, Faults,
-    ::testing::Values(Planted{"flip:engine.slots:2000:79"},         // a high bit of green
-                      Planted{"flip:engine.lumas:3000:87"},         // a high bit of luma
-                      Planted{"flip:engine.edge_bits:2500:64"},     // a left edge
+    ::testing::Values(Planted{"flip:engine.slots:2000:pixel.0.g.7"},
+                      Planted{"flip:engine.lumas:3000:luma.0.23"},
+                      Planted{"flip:engine.edge_bits:2500:left"},
                       Planted{"drop:engine.edge_bits:2500"},        // a slot is lost
                       Planted{"duplicate:engine.area_slots:4500"},  // a slot comes twice
                       Planted{"flip:engine.sums_h0:200:last.3"},    // position of the last corner
                       Planted{"drop:engine.lines_v0:50"},           // a record is lost
                       Planted{"drop:engine.finished:20"},           // a record never ends
-                      Planted{"flip:engine.pixels:3000:135"},       // a pixel to be blended
-                      Planted{"drop:engine.shares:3000"},           // a slot is lost
-                      Planted{"drop:engine.frames_done:0"},         // the frame never ends
+                      Planted{"flip:engine.pixels:3000:centre.0.g.7"},
+                      Planted{"drop:engine.shares:3000"},    // a slot is lost
+                      Planted{"drop:engine.frames_done:0"},  // the frame never ends
                       Planted{"stuck_ready:engine.beats:3000"}));
 
 }  // namespace

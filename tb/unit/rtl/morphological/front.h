@@ -58,7 +58,7 @@ struct Front {
 
   ClockDomain clock{"clock", period()};
   Registers store;
-  rtl::morphological::LatencyProbe probe;
+  rtl::LatencyProbe probe;
   Link<spec::morphological::PixelBeat> in{"in"};
   Link<rtl::morphological::FrameDoneToken> done{"done"};
   Link<rtl::morphological::SlotToken> slots{"slots"};

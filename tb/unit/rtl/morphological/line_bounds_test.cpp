@@ -151,8 +151,8 @@ TEST(LineBounds, AreThoseOfTheDefinitionInLongGrowths) {
   EXPECT_GT(checked.bends, 1'000u);
 }
 
-// After steps L both ends may turn the line, by different letters: one to either side. By the same
-// letter both turn it to the same slope.
+// After a step L and a step L' either end may turn the line, by the letter that does not repeat the
+// two. Then both new corners lie above it.
 TEST(LineBounds, ABendIsTwoTurnsToTheSameSide) {
   Growth now(5, 6);
   now.right(true);  // 5 6

@@ -129,8 +129,8 @@ TEST_P(Divider, HasItsLatencyAndInterval) {
   EXPECT_EQ(bench.unit.occupancy.value(), 10u * static_cast<unsigned>(time.interval));
 }
 INSTANTIATE_TEST_SUITE_P(Times, Divider,
-                         ::testing::Values(DividerTime{1, 1}, DividerTime{24, 1},
-                                           DividerTime{24, 5}, DividerTime{7, 16},
+                         ::testing::Values(DividerTime{14, 1}, DividerTime{24, 1},
+                                           DividerTime{24, 5}, DividerTime{15, 16},
                                            DividerTime{64, 3}));
 
 SumsToken sums_of(int length) {
@@ -169,16 +169,16 @@ struct Dividing {
 };
 
 TEST(LineUnitBlock, WaitsForTheIntervalOfTheDivider) {
-  Dividing bench(1, 5);
+  Dividing bench(14, 20);
   for (int i = 1; i <= 6; ++i) bench.driver.send(0, sums_of(i));
-  bench.clock.run(60);
-  // One starts in 1, 6, .., 26; its quotient goes in the clock after; then three clocks of waiting,
+  bench.clock.run(140);
+  // One starts in 1, 21, .., 101; its quotient goes 14 clocks later; then five clocks of waiting,
   // but for the last.
   ASSERT_EQ(bench.gate.cycles.size(), 6u);
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(bench.gate.cycles[i], 3 + 5 * i);
-  EXPECT_EQ(stalls(bench.unit, "interval"), 5u * 3u);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(bench.gate.cycles[i], 16 + 20 * i);
+  EXPECT_EQ(stalls(bench.unit, "interval"), 5u * 5u);
   EXPECT_EQ(stalls(bench.unit, "downstream"), 0u);
-  EXPECT_EQ(bench.unit.busy_cycles(), 6u * 2u);
+  EXPECT_EQ(bench.unit.busy_cycles(), 6u * 15u);
 }
 
 class DividerPlaces : public ::testing::TestWithParam<DividerTime> {};
@@ -202,12 +202,12 @@ TEST_P(DividerPlaces, AreThoseOfItsPipe) {
   for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(bench.gate.beats[i].line.span, i + 1);
 }
 INSTANTIATE_TEST_SUITE_P(Times, DividerPlaces,
-                         ::testing::Values(DividerTime{1, 1}, DividerTime{24, 1},
-                                           DividerTime{24, 5}, DividerTime{7, 16},
+                         ::testing::Values(DividerTime{14, 1}, DividerTime{24, 1},
+                                           DividerTime{24, 5}, DividerTime{15, 16},
                                            DividerTime{16, 4}));
 
 TEST(LineUnitBlock, AResetLetsTheDividerStartAtOnce) {
-  Dividing bench(3, 16);
+  Dividing bench(14, 16);
   bench.driver.send(0, sums_of(3));
   bench.clock.run(3);
   bench.clock.set_reset_n(false);
@@ -218,8 +218,29 @@ TEST(LineUnitBlock, AResetLetsTheDividerStartAtOnce) {
   bench.driver.send(begin, sums_of(5));
   bench.clock.run(20);
   ASSERT_EQ(bench.gate.cycles.size(), 1u);
-  EXPECT_EQ(bench.gate.cycles[0], begin + 2 + 3);
+  EXPECT_EQ(bench.gate.cycles[0], begin + 2 + 14);
   EXPECT_EQ(bench.gate.beats[0].line.span, 5);
+}
+
+// ---- what a memory does not do ------------------------------------------------------------------
+
+TEST(LineUnitMemory, AWordIsNotThereInTheClockOfItsAddress) {
+  Lines bench(preset(spec::morphological::Preset::kDeburr));
+  bench.ends.source.send(sums_of({0, 3}, 0, 3));
+  bench.clock.run(2);
+  EXPECT_THAT(
+      of_a_stage_less(bench.unit, bench.clock),
+      ::testing::AllOf(::testing::HasSubstr("inverse_rom"), ::testing::HasSubstr("is used")));
+}
+
+TEST(LineUnitMemory, HasNoWordForMoreCornersThanThereAre) {
+  Lines bench(preset(spec::morphological::Preset::kDeburr));
+  SumsToken sums = sums_of({0, 3}, 0, 3);
+  sums.left = sums.right = 17;
+  sums.indexed_sum = 10'000;
+  bench.ends.source.send(sums);
+  EXPECT_THAT([&] { bench.clock.run(10); },
+              ::testing::ThrowsMessage<spec::CheckFailed>(::testing::HasSubstr("inverse_rom")));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace {
 
 using namespace rtl::morphological;  // NOLINT: a test of these
 
-TEST(LumaUnitBlock, AddsTheWeightsExactlyAClockLater) {
+TEST(LumaUnitBlock, AddsTheWeightsExactlyTwoClocksLater) {
   ClockDomain clock("clock", period());
   Parameters p = preset(spec::morphological::Preset::kDeburr);
   p.lanes = spec::morphological::Lanes::kTwo;
@@ -25,10 +25,12 @@ TEST(LumaUnitBlock, AddsTheWeightsExactlyAClockLater) {
   clock.run(1);  // pushed in 0
   EXPECT_FALSE(ends.out.can_pop(clock.cycle()));
   clock.run(1);  // popped in 1
+  EXPECT_FALSE(ends.out.can_pop(clock.cycle()));
+  clock.run(1);  // added in 2
   EXPECT_TRUE(ends.out.can_pop(clock.cycle()));
   clock.run(4);
   ASSERT_EQ(ends.sink.beats().size(), 3u);
-  EXPECT_THAT(ends.sink.cycles(), ::testing::ElementsAre(2, 3, 4));
+  EXPECT_THAT(ends.sink.cycles(), ::testing::ElementsAre(3, 4, 5));
   EXPECT_EQ(ends.sink.beats()[0].luma[0], 255u * 65536u);
   EXPECT_EQ(ends.sink.beats()[0].luma[1], 13933u + 2u * 46871u + 3u * 4732u);
   EXPECT_EQ(ends.sink.beats()[0].depth[1], 8u);

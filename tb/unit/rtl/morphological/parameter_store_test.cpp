@@ -37,7 +37,7 @@ TEST(ParameterStoreBlock, TrimIsABitOfRulesLatchedWithTheFrame) {
   on.store.leave();
   on.bus.write(reg::kRules, ~0u);
   EXPECT_EQ(on.bus.read(reg::kRules), 0x1FFFFu) << "no bits beyond";
-  on.store.reset();
+  on.reset();
   EXPECT_EQ(on.bus.read(reg::kRules), reset_value);
 }
 

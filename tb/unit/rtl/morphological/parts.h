@@ -14,14 +14,21 @@ namespace deburr::tb::morphological_rtl {
 
 // A ParameterStore with its bus, and a frame inside.
 struct Registers {
-  explicit Registers(const Parameters& p) : store("store", p), bus("bus") {
-    bus.bus.bind(store.registers.bus);
+  explicit Registers(const Parameters& p) : store(control, p), bus("bus") {
+    bus.bus.bind(control.registers.bus);
   }
   Registers(const Parameters& p, int width, int height) : Registers(p) { frame(width, height); }
   void frame(int width, int height) {
     store.write_size(width, height);
     EXPECT_TRUE(store.latch());
   }
+  // As the reset of the engine does.
+  void reset() {
+    control.reset();
+    store.reset();
+  }
+  rtl::ControlRegisters control{"registers", spec::morphological::kRegisters,
+                                rtl::morphological::control_layout()};
   rtl::morphological::ParameterStore store;
   RegisterHost bus;
 };
@@ -90,6 +97,17 @@ struct Ends {
   Driver<From> source;
   Sink<To> sink;
 };
+
+// What a second tick in the clock that has just passed says: a stage less, so that a word is used
+// before it is there.
+inline std::string of_a_stage_less(rtl::Unit& unit, const ClockDomain& clock) {
+  try {
+    unit.tick(clock.cycle() - 1);
+  } catch (const spec::CheckFailed& failure) {
+    return failure.what();
+  }
+  return "nothing";
+}
 
 // Clocks that a unit lost to a cause.
 inline std::uint64_t stalls(const rtl::Unit& unit, std::string_view cause) {

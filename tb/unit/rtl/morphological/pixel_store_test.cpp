@@ -27,6 +27,7 @@ Frame colours(int width, int height) {
 struct Storing {
   Storing(const Parameters& p, const Frame& f, Cycle pixels_open = 0)
       : frame(f),
+        outstanding(static_cast<std::uint32_t>(p.memory_outstanding)),
         lanes(lanes_of(p)),
         beats_a_row(morphological_rtl::beats_a_row(f, p)),
         registers(p, f.width, f.height),
@@ -55,9 +56,14 @@ struct Storing {
     beat_driver.send(at, token);
   }
   void fetch_beat(Cycle at, int y, int b) { fetch_driver.send(at, {slot(y + kLag, b)}); }
+  // Place among the lines under way, line in its row, row on the chip: as a request's tag has them.
+  std::uint32_t tag(std::uint32_t line, bool write) const {
+    const auto row_lines = static_cast<std::uint32_t>((frame.width + 15) / 16);
+    return line % outstanding | line % row_lines << 8 | (write ? 0 : line / row_lines % 4 << 17);
+  }
   void answer(Cycle at, std::uint32_t line, bool write, rtl::Line data = {}) {
     MemoryResponse response;
-    response.tag = line;
+    response.tag = tag(line, write);
     response.write = write;
     response.data = data;
     response_driver.send(at, response);
@@ -84,6 +90,7 @@ struct Storing {
   }
 
   const Frame frame;
+  const std::uint32_t outstanding;
   const int lanes, beats_a_row;
   ClockDomain clock{"clock", period()};
   Registers registers;
@@ -112,8 +119,8 @@ Parameters built(spec::morphological::Storage storage, int lanes_code) {
 
 class PixelStoreLanes : public ::testing::TestWithParam<int> {};
 
-// While a beat a clock comes in, a beat a clock goes out, a clock after it was asked for.
-TEST_P(PixelStoreLanes, LatencyAndIntervalAreOne) {
+// While a beat a clock comes in, a beat a clock goes out, two clocks after it was asked for.
+TEST_P(PixelStoreLanes, LatencyIsTwoAndIntervalOne) {
   Storing bench(built(spec::morphological::Storage::kLineBuffers, GetParam()), colours(9, 24));
   Cycle at = 0;
   for (int y = 0; y < 24 + kLag; ++y)
@@ -126,8 +133,8 @@ TEST_P(PixelStoreLanes, LatencyAndIntervalAreOne) {
   const std::size_t before = static_cast<std::size_t>(kLag * bench.beats_a_row);
   ASSERT_EQ(bench.pixel_gate.beats.size(), static_cast<std::size_t>(24 * bench.beats_a_row));
   for (std::size_t i = 0; i < bench.pixel_gate.beats.size(); ++i) {
-    // Pushed in i + before + 2, popped a clock later, sent in that clock, taken in the next.
-    ASSERT_EQ(bench.pixel_gate.cycles[i], before + i + 4);
+    // Pushed in i + before + 2, popped and read a clock later, sent in the next, taken in the next.
+    ASSERT_EQ(bench.pixel_gate.cycles[i], before + i + 5);
     const int row = static_cast<int>(i) / bench.beats_a_row;
     bench.expect_around(bench.pixel_gate.beats[i], row,
                         static_cast<int>(i) - row * bench.beats_a_row);
@@ -137,10 +144,10 @@ TEST_P(PixelStoreLanes, LatencyAndIntervalAreOne) {
 }
 INSTANTIATE_TEST_SUITE_P(Each, PixelStoreLanes, ::testing::Values(0, 1, 2));
 
-// R + 7 rows: the first beat of row R + 7 needs the place of row 0, which the first beat of row 1
-// asks for last, in slot row R + 6.
+// R + 7 rows, in fours: the first beat of the row behind them needs the place of row 0, which the
+// first beat of row 1 asks for last, in slot row R + 6.
 TEST(PixelStoreBlock, ABeatWaitsForItsPlaceAndSaysSo) {
-  constexpr int kRows = kReach + 7, kWidth = 5;
+  constexpr int kRows = (kReach + 7 + 3) / 4 * 4, kWidth = 5;
   constexpr Cycle kAsked = 100;
   Storing bench(built(spec::morphological::Storage::kLineBuffers, 0), colours(kWidth, kRows + 2));
   for (int y = 0; y < kRows + 2; ++y)
@@ -173,8 +180,8 @@ TEST(PixelStoreBlock, WaitsDownstream) {
       bench.fetch_beat(14, y, b);
     }
   bench.clock.run(80);
-  // The link takes two, sent in 15 and 16; taken from 50 on, so that the third is sent in 51.
-  EXPECT_EQ(stalls(bench.store, "downstream"), 51u - 17u);
+  // The link takes two, sent in 16 and 17; taken from 50 on, so that the third is sent in 51.
+  EXPECT_EQ(stalls(bench.store, "downstream"), 51u - 18u);
   ASSERT_EQ(bench.pixel_gate.beats.size(), 12u);
   for (std::size_t i = 0; i < 12; ++i) {
     EXPECT_EQ(bench.pixel_gate.cycles[i], 50 + i);
@@ -223,7 +230,7 @@ TEST(PixelStoreMemory, ALineIsReadAfterItsWriteAndAllBeforeItWereAnswered) {
   const Cycle taken[] = {72, 73, 82};
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_FALSE(bench.request_gate.beats[3 + i].write);
-    EXPECT_EQ(bench.request_gate.beats[3 + i].tag, i);
+    EXPECT_EQ(bench.request_gate.beats[3 + i].tag, bench.tag(static_cast<std::uint32_t>(i), false));
     EXPECT_EQ(bench.request_gate.cycles[3 + i], taken[i]);
   }
 }
@@ -249,7 +256,7 @@ TEST(PixelStoreMemory, WritesGoBeforeReads) {
   ASSERT_EQ(bench.request_gate.beats.size(), std::size(order));
   for (std::size_t i = 0; i < std::size(order); ++i) {
     EXPECT_EQ(bench.request_gate.beats[i].write, order[i].write) << i;
-    EXPECT_EQ(bench.request_gate.beats[i].tag, order[i].line) << i;
+    EXPECT_EQ(bench.request_gate.beats[i].tag, bench.tag(order[i].line, order[i].write)) << i;
     EXPECT_EQ(bench.request_gate.cycles[i], order[i].taken) << i;
   }
   EXPECT_EQ(bench.store.lines_written.value(), 6u);
@@ -266,29 +273,30 @@ TEST(PixelStoreMemory, AWriteAClockLeavesNoRoomForReads) {
   ASSERT_EQ(bench.request_gate.beats.size(), 11u);
   for (std::size_t i = 0; i < 11; ++i) {
     EXPECT_EQ(bench.request_gate.beats[i].write, i < 9) << i;
-    EXPECT_EQ(bench.request_gate.beats[i].tag, i < 9 ? i : i - 9);
+    EXPECT_EQ(bench.request_gate.beats[i].tag,
+              bench.tag(static_cast<std::uint32_t>(i < 9 ? i : i - 9), i < 9));
     EXPECT_EQ(bench.request_gate.cycles[i], i + 2);
   }
 }
 
-// Three rows on the chip: row 3 takes the place of row 0, which is asked for last with row 1. Of a
+// Four rows on the chip: row 4 takes the place of row 0, which is asked for last with row 1. Of a
 // row of two lines, each as soon as its own place is free.
 TEST(PixelStoreMemory, ALineIsReadInTheClockInWhichItsPlaceIsFree) {
-  Storing bench(built(spec::morphological::Storage::kMemory, 0), colours(32, 5));
-  constexpr Cycle kAsked = 220;
-  for (int y = 0; y < 5; ++y)
+  Storing bench(built(spec::morphological::Storage::kMemory, 0), colours(32, 6));
+  constexpr Cycle kAsked = 230;
+  for (int y = 0; y < 6; ++y)
     for (int b = 0; b < 32; ++b) bench.store_beat(0, y, b);
-  for (std::uint32_t line = 0; line < 10; ++line) bench.answer(170 + line, line, true);
-  for (std::uint32_t line = 0; line < 6; ++line) bench.answer(190, line, false, bench.line(line));
+  for (std::uint32_t line = 0; line < 12; ++line) bench.answer(196 + line, line, true);
+  for (std::uint32_t line = 0; line < 8; ++line) bench.answer(210, line, false, bench.line(line));
   for (int y = 0; y < 2; ++y)
     for (int b = 0; b < 32; ++b) bench.fetch_beat(kAsked, y, b);
-  bench.clock.run(320);
-  ASSERT_EQ(bench.request_gate.beats.size(), 10u + 8u);
-  EXPECT_EQ(bench.request_gate.beats[16].tag, 6u);
-  EXPECT_EQ(bench.request_gate.beats[17].tag, 7u);
+  bench.clock.run(330);
+  ASSERT_EQ(bench.request_gate.beats.size(), 12u + 10u);
+  EXPECT_EQ(bench.request_gate.beats[20].tag, bench.tag(8, false));
+  EXPECT_EQ(bench.request_gate.beats[21].tag, bench.tag(9, false));
   // Beat 15 of row 1 is sent in kAsked + 47 and popped a clock later, and so is the read.
-  EXPECT_EQ(bench.request_gate.cycles[16], kAsked + 49);
-  EXPECT_EQ(bench.request_gate.cycles[17], kAsked + 65);
+  EXPECT_EQ(bench.request_gate.cycles[20], kAsked + 49);
+  EXPECT_EQ(bench.request_gate.cycles[21], kAsked + 65);
   for (std::size_t i = 0; i < 64; ++i)
     bench.expect_around(bench.pixel_gate.beats.at(i), static_cast<int>(i) / 32,
                         static_cast<int>(i) % 32);
@@ -306,8 +314,9 @@ TEST(PixelStoreMemory, ABeatWaitsForTheLineBelow) {
   bench.clock.run(240);
   ASSERT_EQ(bench.pixel_gate.beats.size(), 32u);
   for (std::size_t b = 0; b < 32; ++b) {
-    // Sent in 150 + b, popped a clock later, taken in the next; the answer is popped in 201.
-    EXPECT_EQ(bench.pixel_gate.cycles[b], b < 16 ? 152 + b : 203 + b - 16);
+    // Sent in 150 + b, popped a clock later, then sent, then taken. Of the answer, eight beats are
+    // stored in 201 and in 202.
+    EXPECT_EQ(bench.pixel_gate.cycles[b], b < 16 ? 153 + b : 205 + b - 16);
     bench.expect_around(bench.pixel_gate.beats[b], 0, static_cast<int>(b));
   }
 }
@@ -325,8 +334,8 @@ TEST(PixelStoreMemory, ASlotWaitsForItsLine) {
   bench.clock.run(60);
   ASSERT_EQ(bench.pixel_gate.beats.size(), 4u);
   for (std::size_t b = 0; b < 4; ++b) {
-    // Popped in 41, sent in 42, taken in 43.
-    EXPECT_EQ(bench.pixel_gate.cycles[b], 43 + b);
+    // Stored in 41, read in 42, sent in 43, taken in 44.
+    EXPECT_EQ(bench.pixel_gate.cycles[b], 44 + b);
     bench.expect_around(bench.pixel_gate.beats[b], 0, static_cast<int>(b));
   }
   // From 11 to 41, but for the clocks of the two answers.
@@ -349,7 +358,7 @@ TEST(PixelStoreMemory, AWriteWaitsForRoom) {
   EXPECT_EQ(bench.request_gate.cycles[2], 13u);
   EXPECT_EQ(bench.request_gate.beats[3].write, false);
   EXPECT_EQ(bench.request_gate.cycles[3], 52u);
-  EXPECT_EQ(bench.request_gate.beats[4].tag, 3u);
+  EXPECT_EQ(bench.request_gate.beats[4].tag, bench.tag(3, true));
   EXPECT_EQ(bench.request_gate.cycles[4], 53u);
   EXPECT_EQ(stalls(bench.store, "memory"), (50u - 15u) + (79u - 55u));
 }
@@ -462,6 +471,25 @@ TEST(Memory, OutstandingIsKept) {
   EngineBench bench(p, options);
   bench.run(noise());
   EXPECT_EQ(bench.memory->most_outstanding(), 6u);
+}
+
+// ---- what a memory does not do ------------------------------------------------------------------
+
+TEST(PixelStoreLines, AWordIsNotThereInTheClockOfItsAddress) {
+  Storing bench(built(spec::morphological::Storage::kLineBuffers, 0), colours(6, 2));
+  bench.store_beat(0, 0, 0);
+  bench.fetch_beat(10, 0, 0);
+  bench.clock.run(12);
+  EXPECT_THAT(
+      of_a_stage_less(bench.store, bench.clock),
+      ::testing::AllOf(::testing::HasSubstr("pixel_lines0"), ::testing::HasSubstr("is used")));
+}
+
+TEST(PixelStoreLines, HaveNoBeatBeyondTheLongestRow) {
+  Storing bench(built(spec::morphological::Storage::kLineBuffers, 0), colours(6, 2));
+  bench.fetch_beat(10, 0, 4000);
+  EXPECT_THAT([&] { bench.clock.run(20); },
+              ::testing::ThrowsMessage<spec::CheckFailed>(::testing::HasSubstr("pixel_lines")));
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ class EveryClock : public ::testing::TestWithParam<Variant> {
     p.lanes = static_cast<spec::morphological::Lanes>(v.lanes_code);
     p.storage = v.storage;
     p.divider_interval = v.divider_interval;
-    p.divider_latency = 7;
+    p.divider_latency = 14;
     p.predictor_units = 1;
     p.record_fifo = 2;
     p.line_pixels = 32;

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "tb/app/simulate.h"
+
+#include <cmath>
+
+#include "spec/error.h"
+#include "tb/results/interrupt.h"
+#include "tb/results/progress.h"
+#include "tb/scene/truth.h"
+
+namespace deburr::tb {
+
+SimulationOptions simulation_options(const RunParameters& run, const RunContext& context) {
+  SimulationOptions o;
+  o.clock_mhz = run.clock_mhz;
+  o.seed = static_cast<std::uint64_t>(run.seed);
+  o.stall_permille = static_cast<std::uint32_t>(std::lround(run.stalls * 1000));
+  o.golden = run.check == CheckMode::kGolden;
+  o.shuffle = run.shuffle;
+  o.fast_path = run.fast_path;
+  o.check_links = run.check_links;
+  o.poison = run.poison;
+  o.max_cycles = static_cast<rtl::Cycle>(run.max_cycles);
+  o.patience = static_cast<rtl::Cycle>(run.watchdog_cycles);
+  if (!run.fault.empty()) o.faults = {run.fault};
+  // Faults on links are seen by the link checkers first; they look away, so that the checks behind
+  // them show that they can fail too, unless the link checkers are what was asked for.
+  if (!run.fault.empty() && !context.parameters().given("run.check_links")) o.check_links = false;
+  o.trace_scope = run.trace;
+  o.trace_file = context.trace_file().string();
+  o.trace_from = static_cast<rtl::Cycle>(run.trace_from);
+  o.trace_to = static_cast<rtl::Cycle>(run.trace_to);
+  return o;
+}
+
+void simulate(Simulation& simulation, Environment& environment, RunContext& context, Result& result,
+              const std::function<void()>& add_pictures) {
+  simulation.elaborate(environment);
+  context.begin();
+  try {
+    const Amount amount = environment.amount();
+    Progress progress(result.unit, amount.total, amount.unit);
+    simulation.run([&](std::uint64_t delivered, std::uint64_t taken) {
+      progress.update(delivered, taken);
+      return !interrupted();
+    });
+  } catch (const spec::FileError&) {  // a wave that could not be written: nothing stays
+    throw;
+  } catch (...) {
+    simulation.collect(result);
+    add_pictures();
+    throw;
+  }
+  simulation.collect(result);
+  result.interrupted = !simulation.complete();
+  if (result.interrupted && result.cycles == 0) throw Interrupted();  // while golden worked
+  add_pictures();
+  if (simulation.complete()) environment.check();
+}
+
+void describe(Simulation& simulation, Environment& environment, Result& result) {
+  simulation.elaborate(environment);
+  simulation.collect(result);
+}
+
+TextureScene smallest(SceneParameters scene, const SamplerParameters& sampler) {
+  scene.width = scene.height = 2;
+  scene.texture_size = 4;
+  return {scene, sampler, 1};
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// What the run of every engine has in common: from an environment to a result, whatever ends it.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "tb/app/engine.h"
+#include "tb/env/environment.h"
+#include "tb/env/simulation.h"
+#include "tb/env/texture_scene.h"
+#include "tb/results/result.h"
+#include "tb/results/run_context.h"
+
+namespace deburr::tb {
+
+// As the parameters `run.*` say.
+SimulationOptions simulation_options(const RunParameters& run, const RunContext& context);
+
+// Runs the environment between context.claim(), which comes before the simulation is made, and
+// context.finish(). `add_pictures` is called with what has come until then, also when the run is
+// broken off; Ctrl-C ends it at the next chance.
+void simulate(Simulation& simulation, Environment& environment, RunContext& context, Result& result,
+              const std::function<void()>& add_pictures);
+
+// For Engine::describe_statistics(): what an environment reports, without a run.
+void describe(Simulation& simulation, Environment& environment, Result& result);
+// The smallest picture of a scene, to elaborate with.
+TextureScene smallest(SceneParameters scene, const SamplerParameters& sampler);
+
+}  // namespace deburr::tb

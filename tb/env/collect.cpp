@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "tb/env/collect.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <utility>
+
+#include "rtl_model/fabric/memory_port.h"
+
+namespace deburr::tb {
+namespace {
+
+// Answers of memory are on their way and there is nothing else to do: latency that is hidden. It
+// costs nothing, so it counts as idle; what it costs is the stall of the unit that needs the line.
+bool only_waits(const rtl::Unit& unit, const rtl::Unit::StallCause& cause) {
+  return cause.name == "wait_memory" ||
+         (cause.name == "memory" && dynamic_cast<const rtl::MemoryPort*>(&unit) != nullptr);
+}
+
+}  // namespace
+
+std::string sentence(std::string text) {
+  if (text.empty()) return text;
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text.back() == '.' ? text : text + ".";
+}
+
+std::string name_within(const sc_core::sc_object& engine, const sc_core::sc_object& object) {
+  std::string name = std::string(object.name()).substr(std::string(engine.name()).size() + 1);
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
+
+UnitCycles unit_cycles(std::string name, const rtl::Unit& unit) {
+  UnitCycles cycles{std::move(name), unit.busy_cycles(), unit.idle_cycles(), {}};
+  for (const rtl::Unit::StallCause& cause : unit.stalls()) {
+    if (only_waits(unit, cause))
+      cycles.idle += cause.cycles;
+    else
+      cycles.stalls.push_back({cause.name, sentence(cause.meaning), cause.cycles});
+  }
+  return cycles;
+}
+
+MemoryFigures memory_figures(std::string name, const rtl::MemoryBase& storage, int width) {
+  MemoryFigures f;
+  f.name = std::move(name);
+  f.words = storage.words();
+  f.word_bits = storage.word_bits();
+  f.ports = storage.ports();
+  f.logical_bits = f.physical_bits = f.logical_bits_at_frame_width = storage.bits();
+  const auto* memory = dynamic_cast<const rtl::MemoryBase*>(&storage);
+  if (!memory) {  // does not say yet what it is built from
+    f.kind = rtl::name_of(rtl::MemoryBase::kind_for(storage.bits()));
+    return f;
+  }
+  f.content = sentence(memory->content());
+  f.kind = rtl::name_of(memory->memory_kind());
+  f.read_latency = memory->shape().latency;
+  f.built_as = memory->built_as();
+  f.copies = memory->copies();
+  f.banks = memory->banks();
+  f.physical_bits = memory->physical_bits();
+  if (width > 0) f.logical_bits_at_frame_width = memory->bits_at(static_cast<std::uint64_t>(width));
+  f.idealised = memory->idealised();
+  return f;
+}
+
+Latency latency_of(const rtl::Histogram& histogram) {
+  constexpr std::uint64_t kBins = 48;
+  Latency latency{histogram.min(),          histogram.percentile(50), histogram.percentile(95),
+                  histogram.percentile(99), histogram.max(),          {}};
+  if (histogram.count() == 0) return latency;
+  int shift = 0;
+  while ((latency.max >> shift) - (latency.min >> shift) >= kBins) ++shift;
+  for (std::uint64_t bin = latency.min >> shift; bin <= latency.max >> shift; ++bin)
+    latency.histogram.push_back({bin << shift, 0});
+  for (const rtl::Histogram::Bin& value : histogram.bins())
+    latency.histogram[(value.low >> shift) - (latency.min >> shift)].count += value.count;
+  return latency;
+}
+
+}  // namespace deburr::tb

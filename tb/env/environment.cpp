@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "tb/env/environment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "spec/error.h"
+#include "tb/env/collect.h"
+
+namespace deburr::tb {
+
+void Environment::check() const {
+  if (!golden()) return;
+  for (const Boards& boards : {outputs(), traffic(), counters()})
+    for (const ScoreboardBase* board : boards) board->check();
+}
+
+// ---- faults -------------------------------------------------------------------------------------
+
+std::vector<PlantedFault> Environment::memory_faults(const std::string& needs) {
+  return {{"lost-response", "Memory never answers request 20.", "", needs},
+          {"memory-error", "Memory answers request 20 with an error.", "", needs}};
+}
+
+void Environment::plant_in(MemoryModel& memory, const MemoryParameters& parameters) const {
+  if (planted("lost-response")) memory.lose_request(kFaultyRequest);
+  if (planted("memory-error")) memory.fail_request(kFaultyRequest);
+  if (const auto range = error_range(parameters)) memory.fail_range(range->from, range->to);
+}
+
+// ---- registers ----------------------------------------------------------------------------------
+
+void Environment::require_id(RegisterHost& host, std::uint32_t offset, std::uint32_t expected) {
+  if (const std::uint32_t id = host.read(offset); id != expected)
+    throw spec::SimulationError(
+        fmt::format("the ID register reads {:#x}, expected {:#x}", id, expected));
+}
+
+RegisterScoreboard::RegisterScoreboard(std::span<const spec::RegisterInfo> table)
+    : table_(table), board_("status registers", 0, [this](const Status& s) {
+        return fmt::format("{} = {}", name_of(s.offset), s.value);
+      }) {}
+
+std::string_view RegisterScoreboard::name_of(std::uint32_t offset) const {
+  for (const spec::RegisterInfo& info : table_)
+    if (info.offset == offset) return info.name;
+  return "?";
+}
+
+void RegisterScoreboard::judge(RegisterHost& host,
+                               std::span<const std::pair<std::uint32_t, std::uint64_t>> expected) {
+  for (const auto& [offset, value] : expected) {
+    board_.expect({offset, static_cast<std::uint32_t>(value)});
+    board_.got({offset, host.read(offset)}, std::string(name_of(offset)));
+  }
+}
+
+// ---- figures ------------------------------------------------------------------------------------
+
+std::string Environment::figure(std::string_view name) const {
+  return name_.empty() ? std::string(name) : fmt::format("{}_{}", name_, name);
+}
+
+void Environment::add(Result& result, std::string_view name, nlohmann::ordered_json value,
+                      std::string unit, std::string meaning) const {
+  result.work.push_back({figure(name), std::move(value), std::move(unit), std::move(meaning)});
+}
+
+void Environment::add(Result& result, std::string_view name, const rtl::Counter& counter) const {
+  add(result, name, counter.value(), counter.unit(), sentence(counter.meaning()));
+}
+
+void Environment::add(Result& result, std::string_view name, const rtl::Unit& unit) const {
+  result.units.push_back(unit_cycles(figure(name), unit));
+}
+
+void Environment::add(Result& result, std::string_view name, const rtl::MemoryBase& memory,
+                      int width) const {
+  result.memories.push_back(memory_figures(figure(name), memory, width));
+}
+
+void Environment::add(Result& result, const MemoryModel& memory) {
+  result.bytes_read += memory.bytes_read();
+  result.bytes_written += memory.bytes_written();
+}
+
+}  // namespace deburr::tb

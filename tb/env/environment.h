@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// An engine with everything around it that makes a run: unit, memory, register host, golden model,
+// scoreboards, faults, figures. A Simulation runs one; a composition of several is an environment
+// again (frame_composition.h).
+//
+// An environment that stands alone has no name, and its figures and faults are called as they are.
+// In a composition it has one ("texture"), which stands in front of them: work.texture_fragments,
+// --fault texture.flip-bit.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "rtl_model/fabric/counters.h"
+#include "rtl_model/fabric/memory.h"
+#include "rtl_model/fabric/unit.h"
+#include "spec/registers.h"
+#include "tb/env/memory_parameters.h"
+#include "tb/env/simulation.h"
+#include "tb/harness/memory_model.h"
+#include "tb/harness/register_host.h"
+#include "tb/harness/scoreboard.h"
+#include "tb/results/result.h"
+
+namespace deburr::tb {
+
+// What a run is counted in: for the progress shown and for the error of --max-cycles.
+struct Amount {
+  std::uint64_t delivered = 0, taken = 0, total = 0;
+  std::string_view unit;  // "pixel"
+};
+
+class Environment {
+ public:
+  virtual ~Environment() = default;
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+  // ---- the run, as Simulation leads it
+  // After a reset: identification, and registers that stay for the whole run.
+  virtual void configure() = 0;
+  // Begins a piece of work (a frame of several) that is done before the next begins; false: there
+  // are no more.
+  virtual bool begin(std::size_t piece) = 0;
+  // Between clocks: judges what has been recorded meanwhile.
+  virtual void watch() {}
+  // Everything of this piece was sent and nothing is inside any more.
+  virtual bool done() const = 0;
+  // A piece is done and its links are empty.
+  virtual void end() = 0;
+  // After a reset within a piece, and configure(): what came of it counts no more, it begins again.
+  virtual void restart() = 0;
+  // All pieces are done: counters are judged.
+  virtual void finish() = 0;
+  // SimulationError if memory answered with errors. After finish(), so that what they did to the
+  // outputs has been judged.
+  virtual void refuse_memory_errors() = 0;
+  virtual Amount amount() const = 0;
+  // Clocks until memory has answered everything that it was asked.
+  virtual rtl::Cycle clocks_to_drain() const = 0;
+
+  // ---- judging
+  using Boards = std::vector<const ScoreboardBase*>;
+  virtual Boards outputs() const = 0;   // pixels, colours
+  virtual Boards traffic() const = 0;   // accesses of memory
+  virtual Boards counters() const = 0;  // the engine's own, which echo what went wrong before
+  // Throws Mismatch where the golden model ran and something differs.
+  void check() const;
+
+  // ---- results, also of a run that was broken off
+  // Units, memories, bytes and counters, with this environment's name in front.
+  virtual void collect(Result& result) const = 0;
+  // Throughput, latency, figures and bottleneck: of the one environment that the run is about.
+  virtual void collect_headline(Result& result) const = 0;
+
+ protected:
+  Environment(Simulation& simulation, std::string name)
+      : simulation_(simulation), name_(std::move(name)) {}
+
+  Simulation& simulation() const { return simulation_; }
+  bool golden() const { return simulation_.options().golden; }
+
+  // ---- faults
+  void know(std::vector<PlantedFault> faults) {
+    simulation_.faults().know(name_, std::move(faults));
+  }
+  bool planted(std::string_view fault) const { return simulation_.faults().planted(name_, fault); }
+  // What a memory can do wrong: `lost-response` and `memory-error` of request kFaultyRequest, and
+  // the range of `error_address`.
+  static constexpr std::uint64_t kFaultyRequest = 20;
+  static std::vector<PlantedFault> memory_faults(const std::string& needs = {});
+  void plant_in(MemoryModel& memory, const MemoryParameters& parameters) const;
+
+  // ---- registers
+  static void require_id(RegisterHost& host, std::uint32_t offset, std::uint32_t expected);
+
+  // ---- figures
+  const std::string& name() const { return name_; }
+  // "fragments" -> "texture_fragments"
+  std::string figure(std::string_view name) const;
+  std::string key(std::string_view name) const { return "work." + figure(name); }
+  void add(Result& result, std::string_view name, nlohmann::ordered_json value, std::string unit,
+           std::string meaning) const;
+  void add(Result& result, std::string_view name, const rtl::Counter& counter) const;
+  void add(Result& result, std::string_view name, const rtl::Unit& unit) const;
+  void add(Result& result, std::string_view name, const rtl::MemoryBase& memory, int width) const;
+  static void add(Result& result, const MemoryModel& memory);
+
+ private:
+  Simulation& simulation_;
+  std::string name_;
+};
+
+// An engine's counters, read as a driver would, against the golden model's.
+class RegisterScoreboard {
+ public:
+  explicit RegisterScoreboard(std::span<const spec::RegisterInfo> table);
+  void judge(RegisterHost& host, std::span<const std::pair<std::uint32_t, std::uint64_t>> expected);
+  const ScoreboardBase& board() const { return board_; }
+
+ private:
+  struct Status {
+    std::uint32_t offset, value;
+    friend bool operator==(const Status&, const Status&) = default;
+  };
+  std::string_view name_of(std::uint32_t offset) const;
+  std::span<const spec::RegisterInfo> table_;
+  Scoreboard<Status> board_;
+};
+
+// FNV-1a, to compare runs that must not differ.
+class OutputHash {
+ public:
+  void add(std::uint64_t value) {
+    constexpr std::uint64_t kPrime = 0x100000001B3ULL;
+    hash_ = (hash_ ^ value) * kPrime;
+    hash_ ^= hash_ >> 29;
+  }
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xCBF29CE484222325ULL;
+};
+
+inline double number(std::uint64_t value) { return static_cast<double>(value); }
+inline double ratio(double a, double b) { return b > 0 ? a / b : 0.0; }
+inline double ratio(std::uint64_t a, std::uint64_t b) { return ratio(number(a), number(b)); }
+
+}  // namespace deburr::tb

@@ -1,0 +1,474 @@
+// SPDX-License-Identifier: MIT
+#include "tb/env/morphological_environment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+#include <utility>
+
+#include "golden/morphological/configuration.h"
+#include "golden/morphological/traffic.h"
+#include "spec/error.h"
+#include "spec/morphological/registers.h"
+#include "tb/env/collect.h"
+
+namespace deburr::tb {
+namespace {
+
+using golden::morphological::DepthView;
+using golden::morphological::frame_stride;
+using golden::morphological::ImageView;
+namespace reg = spec::morphological::reg;
+
+constexpr double kPixelClock1080p60 = 148.5;  // MHz
+
+constexpr std::uint32_t kLinkDepth = 2;
+
+// Lanes that are not built have no wires.
+rtl::PayloadShape shape_of(const spec::morphological::Parameters& p) {
+  return {static_cast<std::uint32_t>(lanes_of(p)), {}};
+}
+
+std::uint64_t memory_bytes(std::span<const MorphologicalInput> frames, std::uint32_t base) {
+  std::uint64_t bytes = 0;
+  for (const MorphologicalInput& frame : frames)
+    bytes = std::max(bytes, std::uint64_t{frame_stride(frame.image.width)} *
+                                static_cast<std::uint64_t>(frame.image.height));
+  return base + bytes;
+}
+
+std::string describe_pixel(const spec::morphological::Rgba8& p) {
+  return fmt::format("RGBA ({}, {}, {}, {})", p[0], p[1], p[2], p[3]);
+}
+std::string describe_tap(const spec::morphological::BlendTap& t) {
+  return fmt::format("{} shares {} {}, edges{}{}", t.horizontal ? "left/right" : "up/down", t.first,
+                     t.second, t.edges & 1 ? " left" : "", t.edges & 2 ? " top" : "");
+}
+std::string describe_run(const spec::morphological::RunRecord& r) {
+  constexpr std::array<std::string_view, 3> kParts = {"", " head", " tail"};
+  return fmt::format("{} run{} line {} start {} length {} {}",
+                     r.axis == spec::morphological::Axis::kHorizontal ? "horizontal" : "vertical",
+                     kParts[static_cast<std::size_t>(r.part)], r.line, r.start, r.length,
+                     spec::morphological::kRunShapes[r.shape & 15].name);
+}
+std::string describe_line(const spec::morphological::LineRecord& l) {
+  return fmt::format("{}: steps {} {}, scale {} offset {} shift {} slope {} inverse {} span {}",
+                     describe_run(l.run), l.left_steps, l.right_steps, l.scale, l.offset, l.shift,
+                     l.slope, l.inverse, l.span);
+}
+
+// Any order that both sides can be brought into.
+auto order_of(const spec::morphological::RunRecord& r) {
+  return std::tuple(r.axis, r.line, r.start, r.part);
+}
+
+// Clocks of 1/60 s that a frame may take, in MHz.
+double clock_for_60(std::uint64_t frame_clocks) { return number(frame_clocks) * 60 / 1e6; }
+
+}  // namespace
+
+int lanes_of(const spec::morphological::Parameters& p) {
+  return spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
+}
+
+std::uint64_t latency_by_formula(const spec::morphological::Parameters& p, int width) {
+  const auto reach = static_cast<std::uint64_t>(p.window_rows / 2 - 1);
+  return (reach + spec::morphological::kRowLag) * beats_a_row(width, lanes_of(p)) +
+         spec::morphological::kPipelineLatency;
+}
+
+std::uint64_t frame_clocks_by_formula(const spec::morphological::Parameters& p, int width,
+                                      int height) {
+  return latency_by_formula(p, width) +
+         static_cast<std::uint64_t>(height) * beats_a_row(width, lanes_of(p));
+}
+
+// ---- building -----------------------------------------------------------------------------------
+
+std::vector<PlantedFault> MorphologicalEnvironment::faults() const {
+  constexpr int kLeftEdgeBit = 64;  // of an EdgeToken: behind its slot
+  const int width = frames_.empty() ? 1 : frames_.front().image.width;
+  const std::uint64_t row = beats_a_row(width, lanes());
+  const std::string memory = in_memory() ? "" : "morphological.storage = memory";
+  std::vector<PlantedFault> list = {
+      {"flip-bit", "Flips a bit of the red channel of output beat 100.", "flip:blended:100:4"},
+      {"drop-pixel", "Drops output beat 100.", "drop:blended:100"},
+      {"duplicate-pixel", "Delivers output beat 100 twice.", "duplicate:blended:100"},
+      {"drop-input", "Drops input beat 50 on its way into the engine.", "drop:pixels:50"},
+      {"wrong-edge", "Flips the left edge of a pixel in row 1, behind the edge detector.",
+       fmt::format("flip:morphological.edge_bits:{}:{}", 2 * row + row / 2, kLeftEdgeBit)},
+      {"wrong-rule", "The engine tries one step less than was ordered."},
+      {"stuck-ready", "Holds back the slots of the luma unit from cycle 500 on.",
+       "stuck_ready:morphological.slots:500"},
+      {"duplicate-fetch", "Sends memory request 20 twice.",
+       fmt::format("duplicate:morphological.requests:{}", kFaultyRequest), memory}};
+  for (PlantedFault& fault : memory_faults(memory)) list.push_back(std::move(fault));
+  return list;
+}
+
+// The golden model always gets what was ordered.
+spec::morphological::Parameters MorphologicalEnvironment::as_built() const {
+  spec::morphological::Parameters p = setup_.morphological;
+  if (planted("wrong-rule")) p.steps = std::max(0, p.steps - 1);
+  return p;
+}
+
+MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
+                                                   std::span<const MorphologicalInput> frames,
+                                                   const MorphologicalSetup& setup,
+                                                   std::string name)
+    : Environment(simulation, std::move(name)),
+      pixels("pixels", kLinkDepth, shape_of(setup.morphological)),
+      frames_(frames),
+      setup_(setup),
+      blended_("blended", kLinkDepth, shape_of(setup.morphological)),
+      source_(this->name().empty()
+                  ? std::make_unique<FrameSource>("source", simulation.clock(), lanes())
+                  : nullptr),
+      engine_("morphological", simulation.clock(), as_built()),
+      sink_("sink", simulation.clock()),
+      host_("morphological_host"),
+      golden_(setup.morphological),
+      pixel_board_("pixels", describe_pixel),
+      tap_board_("taps", describe_tap),
+      run_board_("runs", 0, describe_run),
+      line_board_("lines", 0, describe_line),
+      traffic_board_("memory lines", 0,
+                     [](const spec::morphological::FrameAccess& a) {
+                       return fmt::format("{} of address {:#x}", a.write ? "write" : "read",
+                                          a.address);
+                     }),
+      register_board_(spec::morphological::kRegisters) {
+  for (const MorphologicalInput& frame : frames)
+    golden::morphological::check_frame(setup.morphological, frame.image.width, frame.image.height);
+  know(faults());
+  if (source_) source_->pixels_out(pixels);
+  engine_.pixels_in(pixels);
+  engine_.pixels_out(blended_);
+  sink_.beats_in(blended_);
+  host_.bus.bind(engine_.registers);
+  if (engine_.memory() != nullptr) {
+    MemoryModelParameters m = memory_model_parameters(
+        setup.memory, memory_bytes(frames, setup.pixel_base), simulation.options().seed);
+    m.record_writes = true;
+    memory_ = std::make_unique<MemoryModel>(memory_name().c_str(), simulation.clock().period(), m);
+    engine_.memory()->bind(memory_->ports);
+    plant_in(*memory_, setup.memory);
+    if (const auto range = error_range(setup.memory))
+      golden_.set_read_errors(
+          [range = *range](std::uint32_t line) {
+            return range.touches(line, spec::morphological::kFrameLineBytes);
+          },
+          setup.pixel_base);
+  }
+  sink_.keep(false);
+  sink_.on_beat = [this](rtl::Cycle cycle, const spec::morphological::BlendedBeat& beat) {
+    judge(cycle, beat);
+  };
+  if (golden() && setup.records) {
+    engine_.observe_runs(
+        [this](const spec::morphological::RunRecord& run) { runs_.push_back(run); });
+    engine_.observe_lines(
+        [this](const spec::morphological::LineRecord& line) { lines_.push_back(line); });
+  }
+}
+
+// ---- running ------------------------------------------------------------------------------------
+
+void MorphologicalEnvironment::configure() {
+  require_id(host_, reg::kId, reg::kIdValue);
+  golden_work_ = {};
+}
+
+bool MorphologicalEnvironment::begin(std::size_t piece) {
+  if (piece >= frames_.size()) return false;
+  current_ = piece;
+  expect();
+  start();
+  return true;
+}
+
+void MorphologicalEnvironment::expect() {
+  const MorphologicalInput& frame = frames_[current_];
+  const Image& image = frame.image;
+  frame_ = Image(image.width, image.height);
+  taps_.assign(frame_.pixels.size(), {});
+  position_ = 0;
+  runs_.clear();
+  lines_.clear();
+  if (!golden()) return;
+  const DepthView depth =
+      frame.depth.empty() ? DepthView() : DepthView(frame.depth, image.width, image.height);
+  golden_.process(ImageView(image.pixels, image.width, image.height), depth);
+  pixel_board_.expect(golden_.pixels(), image.width);
+  tap_board_.expect(golden_.taps(), image.width);
+}
+
+void MorphologicalEnvironment::start() {
+  const Image& image = frames_[current_].image;
+  host_.write(reg::kSize, static_cast<std::uint32_t>(image.width) |
+                              static_cast<std::uint32_t>(image.height) << 16);
+  if (in_memory()) host_.write(reg::kPixelBase, setup_.pixel_base);
+  if (source_) source_->start(frames_[current_]);
+}
+
+void MorphologicalEnvironment::restart() {
+  if (memory_) {
+    // What was asked of memory before is still on its way; it goes by before the frame begins. In a
+    // composition frames begin by themselves, so it has seen to that during reset.
+    if (source_) simulation().clock().run(clocks_to_drain());
+    memory_->clear_statistics();
+  }
+  position_ = 0;
+  runs_.clear();
+  lines_.clear();
+  all_delivered_ = 0;
+  pixel_board_.restart();
+  tap_board_.restart();
+  hash_ = {};
+  start();
+}
+
+bool MorphologicalEnvironment::done() const {
+  return (!source_ || source_->done()) && engine_.idle() && pixels.empty() && blended_.empty();
+}
+
+void MorphologicalEnvironment::end() {
+  judge_records();
+  judge_traffic();
+}
+
+void MorphologicalEnvironment::finish() {
+  if (!golden()) return;
+  const spec::morphological::Work& w = golden_work_;
+  const std::pair<std::uint32_t, std::uint64_t> expected[] = {
+      {reg::kPixels, w.pixels},
+      {reg::kEdgePixels, w.edge_pixels},
+      {reg::kHorizontalRuns, w.horizontal_runs},
+      {reg::kVerticalRuns, w.vertical_runs},
+      {reg::kLongRuns, w.long_runs},
+      {reg::kZRuns, w.z_runs},
+      {reg::kExtendedRuns, w.extended_runs},
+      {reg::kSteps, w.steps},
+      {reg::kProbes, w.probes},
+      {reg::kDivides, w.divides},
+      {reg::kBlendedPixels, w.blended_pixels}};
+  register_board_.judge(host_, expected);
+}
+
+void MorphologicalEnvironment::refuse_memory_errors() {
+  if (const std::uint32_t errors = host_.read(reg::kMemoryErrors); errors != 0)
+    throw spec::SimulationError(
+        fmt::format("memory answered {} lines with an error, which read as zero: look at "
+                    "{}.error_address and at PIXEL_BASE",
+                    errors, memory_name()));
+}
+
+Amount MorphologicalEnvironment::amount() const {
+  std::uint64_t all = 0;
+  for (const MorphologicalInput& frame : frames_) all += frame.image.pixels.size();
+  return {all_delivered_, engine_.sequencer.beats.value() * static_cast<std::uint64_t>(lanes()),
+          all, "pixel"};
+}
+
+// ---- judging ------------------------------------------------------------------------------------
+
+Environment::Boards MorphologicalEnvironment::outputs() const {
+  return {&pixel_board_, &tap_board_, &run_board_, &line_board_};
+}
+
+void MorphologicalEnvironment::judge(rtl::Cycle cycle,
+                                     const spec::morphological::BlendedBeat& beat) {
+  const auto width = static_cast<std::size_t>(frame_.width);
+  const std::size_t x = position_ % width;
+  const std::size_t left = position_ < frame_.pixels.size() ? width - x : 0;
+  const bool framed =
+      beat.count == std::min<std::size_t>(left, static_cast<std::size_t>(lanes())) &&
+      beat.start_of_frame == (position_ == 0) && beat.end_of_row == (beat.count == left);
+  if (golden() && !framed)
+    pixel_board_.complain(fmt::format(
+        "cycle {}: pixel ({}, {}): the beat has {} pixels, start of frame {}, end of row {}", cycle,
+        x, position_ / width, beat.count, beat.start_of_frame, beat.end_of_row));
+  for (std::size_t i = 0; i < std::min<std::size_t>(beat.count, spec::morphological::kMaxLanes);
+       ++i) {
+    const spec::morphological::Rgba8& p = beat.pixel[i];
+    const spec::morphological::BlendTap& t = beat.tap[i];
+    const std::uint64_t word = std::uint64_t{p[0]} | std::uint64_t{p[1]} << 8 |
+                               std::uint64_t{p[2]} << 16 | std::uint64_t{p[3]} << 24 |
+                               std::uint64_t{t.first} << 32 | std::uint64_t{t.second} << 40 |
+                               std::uint64_t{t.edges} << 48 | std::uint64_t{t.horizontal} << 56;
+    hash_.add(word);
+    if (golden()) {
+      pixel_board_.got(p, cycle);
+      tap_board_.got(t, cycle);
+    }
+    if (position_ < frame_.pixels.size()) {
+      frame_.pixels[position_] = p;
+      taps_[position_] = t;
+    }
+    ++position_;
+    ++all_delivered_;
+  }
+}
+
+void MorphologicalEnvironment::judge_records() {
+  if (!golden()) return;
+  const spec::morphological::Work& w = golden_.work();
+  const auto sum = [](std::uint64_t& total, std::uint64_t frame) { total += frame; };
+  sum(golden_work_.pixels, w.pixels);
+  sum(golden_work_.edge_pixels, w.edge_pixels);
+  sum(golden_work_.horizontal_runs, w.horizontal_runs);
+  sum(golden_work_.vertical_runs, w.vertical_runs);
+  sum(golden_work_.long_runs, w.long_runs);
+  sum(golden_work_.z_runs, w.z_runs);
+  sum(golden_work_.extended_runs, w.extended_runs);
+  sum(golden_work_.steps, w.steps);
+  sum(golden_work_.probes, w.probes);
+  sum(golden_work_.divides, w.divides);
+  sum(golden_work_.blended_pixels, w.blended_pixels);
+  if (!setup_.records) return;
+  std::vector<spec::morphological::RunRecord> runs;
+  std::vector<spec::morphological::LineRecord> lines;
+  for (const golden::morphological::PredictedRun& run : golden_.runs()) {
+    runs.push_back(run.line.run);
+    const spec::morphological::RunShape& shape =
+        spec::morphological::kRunShapes[run.line.run.shape];
+    if (shape.before != spec::morphological::Side::kNone ||
+        shape.after != spec::morphological::Side::kNone)
+      lines.push_back(run.line);
+  }
+  const auto by_run = [](const spec::morphological::RunRecord& a,
+                         const spec::morphological::RunRecord& b) {
+    return order_of(a) < order_of(b);
+  };
+  const auto by_line = [&](const spec::morphological::LineRecord& a,
+                           const spec::morphological::LineRecord& b) {
+    return by_run(a.run, b.run);
+  };
+  for (auto* list : {&runs, &runs_}) std::sort(list->begin(), list->end(), by_run);
+  for (auto* list : {&lines, &lines_}) std::sort(list->begin(), list->end(), by_line);
+  for (const spec::morphological::RunRecord& run : runs) run_board_.expect(run);
+  for (const spec::morphological::LineRecord& line : lines) line_board_.expect(line);
+  const std::string where = fmt::format("frame {}", current_);
+  for (const spec::morphological::RunRecord& run : runs_) run_board_.got(run, where);
+  for (const spec::morphological::LineRecord& line : lines_) line_board_.got(line, where);
+}
+
+// All writes ascending, all reads ascending; how they interleave is timing.
+void MorphologicalEnvironment::judge_traffic() {
+  if (!golden() || !in_memory()) return;
+  for (const spec::morphological::FrameAccess& access : golden_.traffic(setup_.pixel_base))
+    traffic_board_.expect(access);
+  const std::string where = fmt::format("frame {}", current_);
+  const auto judge_lines = [&](const std::vector<std::uint64_t>& lines, std::size_t& judged,
+                               bool write) {
+    for (; judged < lines.size(); ++judged)
+      traffic_board_.got({static_cast<std::uint32_t>(lines[judged]), write}, where);
+  };
+  judge_lines(memory_->lines_written(), writes_judged_, true);
+  judge_lines(memory_->lines_read(), reads_judged_, false);
+}
+
+// ---- results ------------------------------------------------------------------------------------
+
+void MorphologicalEnvironment::collect(Result& result) const {
+  auto& engine = const_cast<rtl::morphological::MorphologicalEngine&>(engine_);
+  for (const rtl::Unit* unit : engine.units()) add(result, name_within(engine, *unit), *unit);
+  for (const rtl::MemoryBase* memory : engine.memories())
+    add(result, name_within(engine, *memory), *memory, width());
+  if (memory_) {
+    add(result, *memory_);
+    result.lines_filled += memory_->reads();
+  }
+  const spec::morphological::Work work = engine.work();
+  add(result, "edge_pixels_percent", 100 * ratio(work.edge_pixels, work.pixels), "%",
+      "Pixels with a left or a top edge.");
+  add(result, "blended_pixels_percent", 100 * ratio(work.blended_pixels, work.pixels), "%",
+      "Pixels that took a share of a neighbour.");
+  for (const auto* divider : {&engine.divider_h, &engine.divider_v}) {
+    const double clocks =
+        number(divider->busy_cycles() + divider->idle_cycles() + divider->stalled_cycles());
+    add(result, name_within(engine, *divider) + "_occupancy_percent",
+        100 * ratio(number(divider->occupancy.value()), lanes() * clocks), "%",
+        "Occupancy: divisions x divider.interval over clocks x lanes, the clocks in which a "
+        "divider could not start another; at 100 % it is the limit. The unit is busy for longer, "
+        "while a division is under way.");
+  }
+  for (const rtl::Counter* counter : engine.counters())
+    add(result, name_within(engine, *counter), *counter);
+}
+
+std::vector<Figure> MorphologicalEnvironment::work_figures() const {
+  constexpr const char* kOccupancy = "divisions x interval, of clocks x lanes";
+  return {{"Divider occupancy, horizontal runs", key("divider_h_occupancy_percent"), kOccupancy},
+          {"Divider occupancy, vertical runs", key("divider_v_occupancy_percent"), kOccupancy},
+          {"Pixels on edges", key("edge_pixels_percent")},
+          {"Pixels blended", key("blended_pixels_percent")}};
+}
+
+void MorphologicalEnvironment::collect_headline(Result& result) const {
+  const spec::morphological::Parameters& p = setup_.morphological;
+  result.latency = latency_of(engine_.beat_latency);
+
+  result.throughput = ratio(number(all_delivered_), number(result.cycles));
+  result.throughput_unit = "pixel/clk";
+  result.throughput_bound = lanes();
+  result.throughput_bound_meaning =
+      "A beat a clock, a pixel a lane; filling and flushing the window not counted.";
+
+  const int width = std::max(1, frame_.width), height = std::max(1, frame_.height);
+  const std::uint64_t frame_clocks = engine_.sequencer.frame_cycles.value();
+  const std::uint64_t by_formula = frame_clocks_by_formula(p, width, height);
+  add(result, "frame_clocks", frame_clocks, "clk",
+      "Of the last frame, from its first input beat to its last output beat.");
+  add(result, "frame_clocks_by_formula", by_formula, "clk", "The same if nothing stalls.");
+  add(result, "latency_by_formula", latency_by_formula(p, width), "clk",
+      "From a pixel going in to it coming out if nothing stalls: (R + 5) rows and the clocks of "
+      "the pipe.");
+  add(result, "input_pixels_per_clock",
+      source_->done()
+          ? ratio(number(static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height)),
+                  number(input_clocks()))
+          : 0.0,
+      "pixel/clk", "Pixels of the last frame over clocks from its first to its last input beat.");
+  add(result, "memory_bytes_per_pixel",
+      ratio(number(result.bytes_read + result.bytes_written), number(all_delivered_)), "byte/pixel",
+      "Written and read again; 0 with line buffers.");
+  add(result, "frame_rate",
+      frame_clocks ? simulation().options().clock_mhz * 1e6 / number(frame_clocks) : 0.0, "frame/s",
+      "Frames of this size a second at the stated clock.");
+  // As slow for its clocks as this frame was, if that was slower than the formula; unknown before
+  // the first frame is through.
+  const double slowness = std::max(1.0, ratio(number(frame_clocks), number(by_formula)));
+  const double hd = slowness * clock_for_60(frame_clocks_by_formula(p, 1920, 1080));
+  using Json = nlohmann::ordered_json;
+  add(result, "clock_for_1080p60", frame_clocks ? Json(hd) : Json(), "MHz",
+      "Clock that 60 frames of 1920 x 1080 need, stalls of this run in proportion.");
+  add(result, "pixel_clock_of_1080p60", kPixelClock1080p60, "MHz",
+      "Of the standard, blanking included.");
+  add(result, "fits_1080p60", frame_clocks ? Json(hd <= kPixelClock1080p60) : Json(), "",
+      "Whether clock_for_1080p60 is at most the pixel clock of 1080p60, 148.5 MHz.");
+
+  result.figures.clear();
+  if (frame_clocks)
+    result.figures = {
+        {"Frame", "work.frame_clocks", "formula", "work.frame_clocks_by_formula", true},
+        {"Clock for 1080p60", "work.clock_for_1080p60", "pixel clock",
+         "work.pixel_clock_of_1080p60", true},
+        {"Fits 1080p60", "work.fits_1080p60"},
+        {"Frames of this size", "work.frame_rate"}};
+  if (engine_.beat_latency.count() > 0)
+    result.figures.push_back(
+        {"Latency of a pixel", "latency.max", "formula", "work.latency_by_formula", true});
+  if (source_->done() && frame_clocks)
+    result.figures.push_back(
+        {"Input rate", "work.input_pixels_per_clock", "lanes", "throughput.bound"});
+  if (memory_)
+    result.figures.push_back({"Memory traffic", "work.memory_bytes_per_pixel", "", "", true});
+  for (Figure& figure : work_figures()) result.figures.push_back(std::move(figure));
+  result.bottleneck = find_bottleneck(result.units, figure("blender"));
+}
+
+}  // namespace deburr::tb

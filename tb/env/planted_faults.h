@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Faults by name (`--fault NAME`), looked up in one place for every engine and every composition of
+// engines; docs/verification.md says what must catch each.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace deburr::tb {
+
+// What an environment can plant. With a link fault the harness plants it (fault_injector.h), else
+// the environment does.
+struct PlantedFault {
+  std::string name, meaning, link_fault{};
+  std::string needs{};  // why it cannot be planted in this run; empty: it can
+};
+
+// The faults that a run was given, against those that its environments know. An environment that
+// has a name of its own in the simulation ("texture") may be named in front: texture.flip-bit.
+class FaultPlan {
+ public:
+  explicit FaultPlan(std::vector<std::string> given) : given_(std::move(given)) {}
+
+  void know(std::string_view environment, std::vector<PlantedFault> faults);
+  // Before all environments are known too, since hardware is built with it: a name that turns out
+  // to mean two faults is refused by link_faults().
+  bool planted(std::string_view environment, std::string_view name) const;
+  // What the harness plants. ConfigError for a name that nobody knows, that two environments know,
+  // or whose fault cannot be planted.
+  std::vector<std::string> link_faults() const;
+
+ private:
+  struct Known {
+    std::string environment;
+    PlantedFault fault;
+    std::string full_name() const;
+  };
+  static bool names(std::string_view given, std::string_view environment, std::string_view name);
+
+  std::vector<std::string> given_;
+  std::vector<Known> known_;
+};
+
+}  // namespace deburr::tb

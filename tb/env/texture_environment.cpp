@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+#include "tb/env/texture_environment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "spec/error.h"
+#include "spec/texture/registers.h"
+#include "tb/env/collect.h"
+
+namespace deburr::tb {
+namespace {
+
+using golden::texture::TextureGolden;
+namespace reg = spec::texture::reg;
+
+constexpr std::uint64_t kMemoryGrain = 64;  // longer reads are recorded in parts of this size
+
+// "texture.cache.tag_stage" -> "tag_stage" (parts = 1), "texture.cache.tag_stage.hits" ->
+// "tag_stage_hits" (parts = 2): what is unique within the texture unit and still says what it is.
+std::string short_name(const sc_core::sc_object& object, int parts) {
+  std::string name = object.name();
+  std::size_t from = name.size();
+  for (int i = 0; i < parts && from != std::string::npos && from > 0; ++i)
+    from = name.rfind('.', from - 1);
+  if (from != std::string::npos) name = name.substr(from + 1);
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
+
+TextureGolden golden_model(const TextureScene& scene, const TextureSetup& setup, bool used) {
+  return make_golden(scene, setup.texture,
+                     used ? TextureGolden::Traffic::kPredict : TextureGolden::Traffic::kIgnore,
+                     error_range(setup.memory));
+}
+
+}  // namespace
+
+// ---- building -----------------------------------------------------------------------------------
+
+std::vector<PlantedFault> TextureEnvironment::faults() {
+  std::vector<PlantedFault> list = {
+      {"flip-bit", "Flips a bit of the red channel of colour 100.", "flip:colours:100:52"},
+      {"drop-colour", "Drops colour 100.", "drop:colours:100"},
+      {"duplicate-colour", "Delivers colour 100 twice.", "duplicate:colours:100"},
+      {"drop-quad", "Drops quad 50 on its way into the unit.", "drop:quads:50"},
+      {"duplicate-fetch", "Line fill 20 is read from memory twice; the picture stays perfect."},
+      {"duplicate-request", "The cache's request for line fill 20 is answered twice.",
+       "duplicate:texture.cache.memory_requests:20"},
+      {"stuck-ready", "Holds back the texel addresses from cycle 500 on.",
+       "stuck_ready:texture.texels:500"},
+      {"wrong-texel", "The texture in memory is not what the golden model reads."},
+      {"wrong-replacement", "The cache replaces by FIFO where LRU was ordered."}};
+  for (PlantedFault& fault : memory_faults()) list.push_back(std::move(fault));
+  return list;
+}
+
+// The golden model always gets what was ordered.
+spec::texture::Parameters TextureEnvironment::as_built() const {
+  spec::texture::Parameters p = setup_.texture;
+  if (planted("wrong-replacement")) p.cache_replacement = spec::texture::Replacement::kFifo;
+  return p;
+}
+
+TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScene& scene,
+                                       const TextureSetup& setup, std::string name)
+    : Environment(simulation, std::move(name)),
+      scene_(scene),
+      setup_(setup),
+      driver_("driver", simulation.clock()),
+      unit_("texture", simulation.clock(), as_built()),
+      memory_("memory", simulation.clock().period(),
+              memory_model_parameters(setup.memory, scene.memory().bytes().size(),
+                                      simulation.options().seed)),
+      host_("texture_host"),
+      stranger_("stranger"),
+      golden_(golden_model(scene, setup, golden())),
+      colour_board_("colours", 0, [this](const spec::texture::Colour& c) { return describe(c); }),
+      fill_board_("line fills", 0,
+                  [](const Fill& f) { return fmt::format("read of address {:#x}", f.address); }),
+      register_board_(spec::texture::kRegisters) {
+  know(faults());
+  driver_.beats_out(quads_);
+  unit_.quads_in(quads_);
+  unit_.colours_out(colours);
+  unit_.memory()->bind(memory_.ports);
+  host_.bus.bind(unit_.registers);
+  stranger_.memory.bind(memory_.ports);
+  if (this->name().empty()) {
+    sink_ = std::make_unique<Sink<spec::texture::Colour>>("sink", simulation.clock());
+    sink_->beats_in(colours);
+    sink_->keep(false);
+    sink_->on_beat = [this](rtl::Cycle cycle, const spec::texture::Colour& colour) {
+      judge(cycle, colour);
+    };
+  }
+  plant_in(memory_, setup.memory);
+  fetch_again_ = planted("duplicate-fetch");
+  std::vector<std::uint8_t> contents = scene.memory().bytes();
+  if (planted("wrong-texel"))
+    for (std::uint8_t& byte : contents) byte ^= 0x10;
+  memory_.preload(0, contents);
+
+  const std::vector<spec::texture::Quad>& quads = scene.stream().quads;
+  driver_.send([&quads](std::uint64_t index, spec::texture::Quad& quad) {
+    if (index >= quads.size()) return false;
+    quad = quads[index];
+    return true;
+  });
+  clear_outputs();
+  expect_from_golden();
+}
+
+void TextureEnvironment::expect_from_golden() {
+  if (!golden()) return;
+  const std::uint64_t line_bytes = golden_.cache().line_bytes();
+  golden_.set_fill_sink([this, line_bytes](std::uint32_t line) {
+    const std::uint64_t begin = line * line_bytes;
+    for (std::uint64_t a = begin; a < begin + line_bytes; a += kMemoryGrain)
+      fill_board_.expect({a});
+  });
+  driver_.on_send = [this](rtl::Cycle, const spec::texture::Quad& quad) {
+    golden_.process(quad, [this](const spec::texture::Colour& colour) {
+      colour_board_.expect(colour);
+      golden_frame_->put(colour);
+    });
+  };
+}
+
+void TextureEnvironment::clear_outputs() {
+  frame_ = std::make_unique<FrameAssembler>(scene_.stream(), scene_.scene());
+  golden_frame_ = std::make_unique<FrameAssembler>(scene_.stream(), scene_.scene());
+  fills_judged_ = 0;
+  delivered_ = 0;
+  hash_ = {};
+}
+
+// ---- running ------------------------------------------------------------------------------------
+
+void TextureEnvironment::configure() {
+  require_id(host_, reg::kId, reg::kIdValue);
+  int handle = 0;
+  for (const spec::texture::Descriptor& descriptor : scene_.memory().descriptors())
+    for (const auto& [offset, value] : descriptor_registers(handle++, descriptor))
+      host_.write(offset, value);
+}
+
+void TextureEnvironment::watch() {
+  if (fetch_again_ && memory_.lines_read().size() > kFaultyRequest) fetch_again();
+  if (!golden()) return;
+  const std::vector<std::uint64_t>& lines = memory_.lines_read();
+  for (; fills_judged_ < lines.size(); ++fills_judged_)
+    fill_board_.got({lines[fills_judged_]}, fmt::format("fill {}", fills_judged_));
+}
+
+bool TextureEnvironment::done() const {
+  return driver_.done() && unit_.idle() && quads_.empty() && colours.empty();
+}
+
+void TextureEnvironment::restart() {
+  memory_.clear_statistics();
+  colour_board_.restart();
+  fill_board_.restart();
+  clear_outputs();
+  golden_ = golden_model(scene_, setup_, golden());
+  expect_from_golden();
+}
+
+void TextureEnvironment::finish() {
+  if (!golden()) return;
+  const golden::texture::TextureWork& work = golden_.work();
+  const std::pair<std::uint32_t, std::uint64_t> expected[] = {
+      {reg::kFragments, work.fragments},
+      {reg::kBilinears, work.bilinears},
+      {reg::kLineFills, work.line_fills},
+      {reg::kClamped, work.clamped},
+      {reg::kSaturated, work.saturated},
+      {reg::kMemoryErrors, work.memory_errors},
+      {reg::kInvalidFragments, work.invalid_fragments}};
+  register_board_.judge(host_, expected);
+}
+
+void TextureEnvironment::refuse_memory_errors() {
+  if (const std::uint32_t errors = host_.read(reg::kMemoryErrors); errors != 0)
+    throw spec::SimulationError(
+        fmt::format("memory answered {} line fills with an error, which read as zero: look at "
+                    "memory.error_address, or at the addresses in the texture descriptors",
+                    errors));
+}
+
+Amount TextureEnvironment::amount() const {
+  return {delivered_, unit_.address.derivative.fragments.value(), scene_.stream().counts.fragments,
+          "fragment"};
+}
+
+// ---- judging ------------------------------------------------------------------------------------
+
+void TextureEnvironment::judge(rtl::Cycle cycle, const spec::texture::Colour& colour) {
+  ++delivered_;
+  hash_.add(colour.tag);
+  hash_.add(static_cast<std::uint64_t>(colour.lane) << 1 | (colour.last ? 1 : 0));
+  for (const std::uint8_t channel : colour.rgba) hash_.add(channel);
+  const std::uint64_t before = colour_board_.mismatches();
+  if (golden()) colour_board_.got(colour, fmt::format("cycle {}", cycle));
+  // After a mismatch tags and lanes may be anything; the picture then shows what can be placed.
+  const bool trusted = !golden() || colour_board_.mismatches() == before;
+  const auto& quads = scene_.stream().quads;
+  if (trusted) {
+    frame_->put(colour);
+  } else if (colour.tag < quads.size() && colour.lane < 4 &&
+             (quads[colour.tag].coverage >> colour.lane & 1)) {
+    try {
+      frame_->put(colour);
+    } catch (const spec::CheckFailed&) {  // a second colour for the same pixel: counted already
+    }
+  }
+}
+
+void TextureEnvironment::fetch_again() {
+  fetch_again_ = false;
+  std::array<unsigned char, kMemoryGrain> data{};
+  tlm::tlm_generic_payload payload;
+  payload.set_command(tlm::TLM_READ_COMMAND);
+  payload.set_address(memory_.lines_read()[kFaultyRequest]);
+  payload.set_data_ptr(data.data());
+  payload.set_data_length(static_cast<unsigned>(data.size()));
+  payload.set_streaming_width(static_cast<unsigned>(data.size()));
+  sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+  stranger_.memory->b_transport(payload, delay);
+}
+
+std::string TextureEnvironment::describe(const spec::texture::Colour& c) const {
+  std::string where = "no pixel";
+  if (c.tag < scene_.stream().quads.size() && c.lane < 4) {
+    const FragmentStream::Pixel p = scene_.stream().pixel(c.tag, c.lane);
+    where = fmt::format("pixel ({}, {})", p.x, p.y);
+  }
+  return fmt::format("{} tag {} lane {}{} RGBA ({}, {}, {}, {})", where, c.tag, c.lane,
+                     c.last ? " last" : "", c.rgba[0], c.rgba[1], c.rgba[2], c.rgba[3]);
+}
+
+// ---- results ------------------------------------------------------------------------------------
+
+void TextureEnvironment::collect(Result& result) const {
+  auto& unit = const_cast<rtl::texture::TextureUnit&>(unit_);
+  for (const rtl::Unit* u : unit.units()) add(result, short_name(*u, 1), *u);
+  for (const rtl::MemoryBase* memory : unit.memories())
+    add(result, short_name(*memory, 2), *memory, 0);
+  add(result, memory_);
+  const std::uint64_t lines = unit_.cache.miss_queue.line_fills.value();
+  result.lines_filled += lines;
+
+  const std::uint64_t bilinears = unit_.address.addresser.bilinears.value();
+  const std::uint64_t fragments = unit_.filter.fragments.value();
+  double texel_bytes = 4;
+  if (!scene_.memory().descriptors().empty())
+    texel_bytes = spec::texture::kFormatBytes[static_cast<std::size_t>(
+        scene_.memory().descriptors()[0].format)];
+  add(result, "fragments", fragments, "fragment", "Colours delivered.");
+  add(result, "bilinears", bilinears, "request", "Bilinear requests, one a sample and level.");
+  add(result, "bilinears_per_fragment", ratio(bilinears, fragments), "request/fragment",
+      "Cost of a fragment in clocks while nothing stalls.");
+  add(result, "misses_per_texel", ratio(number(lines), 4 * number(bilinears)), "line/texel",
+      "Line fills over texels asked for.");
+  add(result, "texels_fetched_per_fragment",
+      ratio(number(lines) * setup_.texture.cache_line_bytes / texel_bytes, number(fragments)),
+      "texel/fragment", "Texels of all lines fetched over fragments.");
+  for (const rtl::Counter* counter : unit.counters())
+    add(result, short_name(*counter, 2), *counter);
+}
+
+void TextureEnvironment::collect_headline(Result& result) const {
+  result.latency = latency_of(unit_.fragment_latency);
+  result.throughput = ratio(unit_.address.addresser.bilinears.value(), result.cycles);
+  result.throughput_unit = "bilinear/clk";
+  result.throughput_bound = 1;
+  result.throughput_bound_meaning = "One bilinear request a clock.";
+  result.figures = {{"Fragments", key("fragments")},
+                    {"Bilinear requests of a fragment", key("bilinears_per_fragment")},
+                    {"Line fills of a texel", key("misses_per_texel")},
+                    {"Texels fetched for a fragment", key("texels_fetched_per_fragment")}};
+  result.bottleneck = find_bottleneck(result.units, figure("filter"));
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// The texture unit on a scene.
+//
+//   TextureScene ─► Driver ─► TextureUnit ─► Sink ─► scoreboard, frame
+//                     │        │      └ registers ◄─ RegisterHost
+//                     ▼      MemoryModel ─► scoreboard of line fills
+//                   golden model (expected colours, expected fills)
+//
+// The golden model gets each quad when the driver sends it, so the comparison needs no more memory
+// than what is in flight, and every output is judged as it comes.
+#pragma once
+
+#include <tlm_utils/simple_initiator_socket.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <systemc>
+#include <vector>
+
+#include "golden/texture/texture_golden.h"
+#include "rtl_model/texture/texture_unit.h"
+#include "spec/texture/packets.h"
+#include "spec/texture/parameters.h"
+#include "tb/env/environment.h"
+#include "tb/env/memory_parameters.h"
+#include "tb/env/texture_scene.h"
+#include "tb/harness/driver.h"
+#include "tb/scene/rasteriser.h"
+
+namespace deburr::tb {
+
+struct TextureSetup {
+  spec::texture::Parameters texture;
+  MemoryParameters memory;
+};
+
+class TextureEnvironment final : public Environment {
+ public:
+  // The scene must outlive it. With a name it is part of a composition, which takes the colours
+  // from `colours` and shows them to judge(). ConfigError for wrong parameters.
+  TextureEnvironment(Simulation& simulation, const TextureScene& scene, const TextureSetup& setup,
+                     std::string name = {});
+
+  void configure() override;
+  bool begin(std::size_t piece) override { return piece == 0; }
+  void watch() override;
+  bool done() const override;
+  void end() override { watch(); }
+  void restart() override;
+  void finish() override;
+  void refuse_memory_errors() override;
+  Amount amount() const override;
+  rtl::Cycle clocks_to_drain() const override { return tb::clocks_to_drain(setup_.memory); }
+  Boards outputs() const override { return {&colour_board_}; }
+  Boards traffic() const override { return {&fill_board_}; }
+  Boards counters() const override { return {&register_board_.board()}; }
+  void collect(Result& result) const override;
+  void collect_headline(Result& result) const override;
+
+  rtl::Link<spec::texture::Colour> colours{"colours"};
+  void judge(rtl::Cycle cycle, const spec::texture::Colour& colour);
+  bool sent() const { return driver_.done(); }  // every quad
+
+  const Image& frame() const { return frame_->frame(); }
+  // The golden model's picture of the same fragments (empty without golden).
+  const Image& golden_frame() const { return golden_frame_->frame(); }
+  const golden::texture::TextureWork& golden_work() const { return golden_.work(); }
+  std::uint64_t delivered() const { return delivered_; }
+  // Over all colours and tags in order.
+  std::uint64_t colour_hash() const { return hash_.value(); }
+
+  const rtl::texture::TextureUnit& unit() const { return unit_; }
+  MemoryModel& memory() { return memory_; }
+  RegisterHost& host() { return host_; }
+
+ private:
+  struct Fill {
+    std::uint64_t address;
+    friend bool operator==(const Fill&, const Fill&) = default;
+  };
+  // For the fault of a fetch that nobody ordered.
+  struct Stranger : sc_core::sc_module {
+    explicit Stranger(const sc_core::sc_module_name& name) : sc_module(name) {}
+    tlm_utils::simple_initiator_socket<Stranger> memory{"memory"};
+  };
+
+  static std::vector<PlantedFault> faults();
+  spec::texture::Parameters as_built() const;
+  void expect_from_golden();
+  void clear_outputs();
+  void fetch_again();
+  std::string describe(const spec::texture::Colour& colour) const;
+
+  const TextureScene& scene_;
+  TextureSetup setup_;
+  rtl::Link<spec::texture::Quad> quads_{"quads"};
+  Driver<spec::texture::Quad> driver_;
+  rtl::texture::TextureUnit unit_;
+  std::unique_ptr<Sink<spec::texture::Colour>> sink_;  // alone
+  MemoryModel memory_;
+  RegisterHost host_;
+  Stranger stranger_;
+
+  golden::texture::TextureGolden golden_;
+  Scoreboard<spec::texture::Colour> colour_board_;
+  Scoreboard<Fill> fill_board_;
+  RegisterScoreboard register_board_;
+  std::unique_ptr<FrameAssembler> frame_, golden_frame_;
+  std::size_t fills_judged_ = 0;
+  std::uint64_t delivered_ = 0;
+  OutputHash hash_;
+  bool fetch_again_ = false;
+};
+
+}  // namespace deburr::tb
