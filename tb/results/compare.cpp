@@ -52,7 +52,7 @@ void flatten(const Json& node, const std::string& path, Values& values) {
     return;
   if (node.is_object()) {
     for (const auto& [key, value] : node.items())
-      flatten(value, path.empty() ? key : path + "." + key, values);
+      flatten(value, path.empty() ? key : fmt::format("{}.{}", path, key), values);
   } else if (!node.is_array()) {
     values.emplace_back(path, node);
   }

@@ -250,9 +250,10 @@ void ParameterSet::Binder::boolean(std::string_view name, bool& value, std::stri
       });
 }
 
-void ParameterSet::Binder::add_choice(std::string_view name, std::vector<std::string_view> names,
-                                      std::function<std::size_t()> get,
-                                      std::function<void(std::size_t)> set,
+void ParameterSet::Binder::add_choice(std::string_view name,
+                                      const std::vector<std::string_view>& names,
+                                      const std::function<std::size_t()>& get,
+                                      const std::function<void(std::size_t)>& set,
                                       std::string_view meaning) {
   const auto current = [names, get] { return std::string(names.at(get())); };
   add(

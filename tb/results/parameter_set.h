@@ -132,9 +132,9 @@ class ParameterSet {
              std::string_view meaning, std::function<std::string()> text,
              std::function<nlohmann::ordered_json()> json,
              std::function<std::string(std::string_view)> parse);
-    void add_choice(std::string_view name, std::vector<std::string_view> names,
-                    std::function<std::size_t()> get, std::function<void(std::size_t)> set,
-                    std::string_view meaning);
+    void add_choice(std::string_view name, const std::vector<std::string_view>& names,
+                    const std::function<std::size_t()>& get,
+                    const std::function<void(std::size_t)>& set, std::string_view meaning);
 
     ParameterSet& set_;
     std::string_view prefix_;

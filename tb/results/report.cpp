@@ -250,7 +250,7 @@ class ReportBuilder {
   std::string against(const Json& figure) const {
     const auto other = figure.find("against");
     if (other == figure.end()) return "";
-    const std::string label = other->value("label", "");
+    std::string label = other->value("label", "");
     if (!other->contains("key")) return label;
     const Json value = value_at(figure.value("key", ""));
     const Json reference = value_at(other->value("key", ""));

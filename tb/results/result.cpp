@@ -40,7 +40,7 @@ Json decibel(const std::optional<double>& value) {
 void collect_meanings(const Json& node, const std::string& path, Json& meanings) {
   if (node.is_object()) {
     for (const auto& [key, value] : node.items())
-      collect_meanings(value, path.empty() ? key : path + "." + key, meanings);
+      collect_meanings(value, path.empty() ? key : fmt::format("{}.{}", path, key), meanings);
     return;
   }
   if (const Statistic* s = find_statistic(path))
@@ -256,7 +256,7 @@ std::optional<Bottleneck> find_bottleneck(std::span<const UnitCycles> units,
 Json read_result(const std::filesystem::path& path) {
   const std::filesystem::path file =
       std::filesystem::is_directory(path) ? path / "result.json" : path;
-  const Json json = Json::parse(read_file(file, kMaxResultBytes), nullptr, false);
+  Json json = Json::parse(read_file(file, kMaxResultBytes), nullptr, false);
   if (json.is_discarded()) throw FileError(fmt::format("'{}' is not valid JSON", file.string()));
   if (!json.is_object() || json.value("schema", Json()) != kResultSchema)
     throw FileError(fmt::format("'{}' is not a result of schema {}", file.string(), kResultSchema));

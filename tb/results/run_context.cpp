@@ -61,7 +61,7 @@ std::vector<std::string> RunContext::old_results() const {
   const Json old = Json::parse(read_file(directory_ / kManifest, kMaxBytes), nullptr, false);
   if (!old.is_object() || !old.contains("schema") || !old.contains("configuration")) return {};
   std::vector<std::string> names = {"result.json", "report.html", kManifest};
-  if (old["configuration"].is_object() && old["configuration"].value("run.trace", "") != "")
+  if (old["configuration"].is_object() && !old["configuration"].value("run.trace", "").empty())
     names.emplace_back(kTrace);
   if (old.contains("images") && old["images"].is_array())
     for (const Json& image : old["images"]) {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "spec/error.h"
-#include "tb/system/forked.h"
+#include "tb/harness/forked.h"
 
 namespace deburr::tb {
 namespace {

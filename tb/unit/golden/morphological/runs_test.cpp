@@ -425,7 +425,7 @@ TEST(Trim, LeavesWhatTheContractSays) {
     if (end == SideEnd::kInconsistent || end == SideEnd::kCurve) return steps / 2;
     return steps;
   };
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 600; ++i) {
     // A parabola of random bend, and a line now and then.
     const double bend = i % 4 == 0 ? 0 : random.uniform(0.002, 0.05),
                  first = random.uniform(1, i % 3 == 0 ? 28 : 6);
