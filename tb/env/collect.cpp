@@ -43,27 +43,22 @@ UnitCycles unit_cycles(std::string name, const rtl::Unit& unit) {
   return cycles;
 }
 
-MemoryFigures memory_figures(std::string name, const rtl::MemoryBase& storage, int width) {
+MemoryFigures memory_figures(std::string name, const rtl::MemoryBase& memory, int width) {
   MemoryFigures f;
   f.name = std::move(name);
-  f.words = storage.words();
-  f.word_bits = storage.word_bits();
-  f.ports = storage.ports();
-  f.logical_bits = f.physical_bits = f.logical_bits_at_frame_width = storage.bits();
-  const auto* memory = dynamic_cast<const rtl::MemoryBase*>(&storage);
-  if (!memory) {  // does not say yet what it is built from
-    f.kind = rtl::name_of(rtl::MemoryBase::kind_for(storage.bits()));
-    return f;
-  }
-  f.content = sentence(memory->content());
-  f.kind = rtl::name_of(memory->memory_kind());
-  f.read_latency = memory->shape().latency;
-  f.built_as = memory->built_as();
-  f.copies = memory->copies();
-  f.banks = memory->banks();
-  f.physical_bits = memory->physical_bits();
-  if (width > 0) f.logical_bits_at_frame_width = memory->bits_at(static_cast<std::uint64_t>(width));
-  f.idealised = memory->idealised();
+  f.content = sentence(memory.content());
+  f.kind = rtl::name_of(memory.memory_kind());
+  f.words = memory.words();
+  f.word_bits = memory.word_bits();
+  f.ports = memory.ports();
+  f.read_latency = memory.shape().latency;
+  f.built_as = memory.built_as();
+  f.copies = memory.copies();
+  f.banks = memory.banks();
+  f.logical_bits = f.logical_bits_at_frame_width = memory.logical_bits();
+  if (width > 0) f.logical_bits_at_frame_width = memory.bits_at(static_cast<std::uint64_t>(width));
+  f.physical_bits = memory.physical_bits();
+  f.idealised = memory.idealised();
   return f;
 }
 

@@ -34,9 +34,6 @@ using rtl::Link;
 using spec::morphological::Parameters;
 using spec::morphological::Rgba8;
 
-// From a slot to its output beat.
-inline constexpr Cycle kPipe = spec::morphological::kPipelineLatency;
-
 inline sc_core::sc_time period() { return {10, sc_core::SC_NS}; }
 
 struct Frame {
