@@ -53,7 +53,7 @@ def counts(result):
     latency = {key: value for key, value in result.get("latency", {}).items() if key != "histogram"}
     parts = {key: result[key] for key in ("cycles", "throughput", "memory", "units", "work")
              if key in result}
-    full = {memory["name"]: memory["high_water"] for memory in result.get("memories", [])
+    full = {name: memory["high_water"] for name, memory in result.get("memories", {}).items()
             if "high_water" in memory}
     texts = {"unit", "bound_meaning", "bound_key"}
     return {path: value for path, value in flat({**parts, "latency": latency, "fifos": full}).items()

@@ -424,7 +424,7 @@ class ReportBuilder {
     const std::uint64_t logical = total("logical"), at_width = total("logical_at_frame_width");
     mustache::data rows{mustache::data::type::list};
     for (const auto& [name, m] : memories.items()) {
-      const auto text = [&](const char* key) { return shown(m.value(key, Json())); };
+      const auto text = [&of = m](const char* key) { return shown(of.value(key, Json())); };
       rows << row({{"name", name},
                    {"content", text("content")},
                    {"kind", text("kind")},
@@ -439,7 +439,7 @@ class ReportBuilder {
     page_.set("memories", rows);
     mustache::data kinds{mustache::data::type::list};
     for (const auto& [kind, sum] : bits.items()) {
-      const auto text = [&](const char* key) { return shown(sum.value(key, Json())); };
+      const auto text = [&of = sum](const char* key) { return shown(of.value(key, Json())); };
       kinds << row({{"kind", kind},
                     {"number", text("memories")},
                     {"at_width", text("logical_at_frame_width")},
