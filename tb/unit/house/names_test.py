@@ -9,7 +9,7 @@ import subprocess
 import sys
 
 LISTED = re.compile(r"^\s*Test\s+#\d+: (.*)$", re.M)
-UNSTABLE = re.compile(r"0x[0-9A-Fa-f]+|-byte object|GetParam\(\)|(?<![\w.])/[a-z]+/")
+UNSTABLE = re.compile(r"(?<![0-9])0x[0-9A-Fa-f]+|-byte object|GetParam\(\)|(?<![\w.])/[a-z]+/")
 
 
 def problems(listing):
