@@ -76,6 +76,7 @@ std::uint32_t MemoryPort::in_flight() const {
 
 Activity MemoryPort::tick(Cycle cycle) {
   const bool waiting = !arrived_.empty();
+  if (!waiting && !requests_in.can_pop(cycle)) return in_flight() != 0 ? stalled_memory_ : kIdle;
   bool did = respond(cycle);
   const bool response_blocked = waiting && !did && !responses_out.can_push(cycle);
   Activity lost = response_blocked   ? kStalledDownstream

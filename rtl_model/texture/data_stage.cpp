@@ -126,7 +126,7 @@ DataStage::Schedule DataStage::schedule(const CacheToken& request) const {
 
 // Four hits in one pass: all that most requests are. False, and nothing done, if words meet in a
 // bank.
-bool DataStage::read_at_once(Cycle cycle, const CacheToken& request) {
+inline bool DataStage::read_at_once(Cycle cycle, const CacheToken& request) {
   std::array<std::uint32_t, 4> word;
   for (std::size_t i = 0; i < 4; ++i) word[i] = request.place[i] >> 2;
   const auto apart = [&](std::size_t i, std::size_t j) { return word[i] ^ word[j]; };
@@ -179,11 +179,12 @@ void DataStage::write_fill(Cycle cycle, const CacheToken& request) {
 }
 
 // The request goes on to stage 2.
-void DataStage::finish(Cycle cycle, const CacheToken& request) {
+inline void DataStage::finish(Cycle cycle, const CacheToken& request) {
   const std::uint32_t mask = request.ticket.valid ? texel_mask(request.control) : 0;
   waiting_.ticket = request.ticket;
   waiting_.control = request.control;
-  for (std::uint32_t& texel : waiting_.texel) texel &= mask;
+  if (mask != ~0U)
+    for (std::uint32_t& texel : waiting_.texel) texel &= mask;
   waits_ = true;
   requests_in.pop(cycle);
   started_ = false;

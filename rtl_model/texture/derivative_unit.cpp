@@ -42,7 +42,7 @@ Activity DerivativeUnit::tick(Cycle cycle) {
   return kBusy;
 }
 
-void DerivativeUnit::take(Cycle cycle) {
+inline void DerivativeUnit::take(Cycle cycle) {
   quad_ = quads_in.take(cycle);
   waiting_ = quad_.coverage & 0xF;
   ++quads;
@@ -51,7 +51,7 @@ void DerivativeUnit::take(Cycle cycle) {
 
 // All stages, one lane: what is between them cannot be seen from outside, since a descriptor stands
 // still while the unit is busy.
-void DerivativeUnit::split(Cycle cycle, DerivativeToken& out) {
+inline void DerivativeUnit::split(Cycle cycle, DerivativeToken& out) {
   const auto lane = static_cast<unsigned>(std::countr_zero(waiting_));
   waiting_ &= waiting_ - 1;
   const TextureState& texture = descriptors_.read(cycle, quad_.texture);

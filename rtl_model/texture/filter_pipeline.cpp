@@ -10,35 +10,18 @@
 namespace deburr::rtl::texture {
 namespace {
 
-using Texel = std::array<std::uint16_t, 4>;  // U8.4 each
-
 constexpr std::uint32_t kCodedChannels = 4 * 3;
 
 spec::texture::Format format_of(const TexelQuadToken& token) {
   return static_cast<spec::texture::Format>(token.control.format);
 }
 
-constexpr unsigned bit_after(int stage) { return 1u << (stage - 1); }
-
-// Channels are widened to eight bits by repeating their high bits: wires.
-constexpr std::uint16_t unorm8(std::uint32_t v) {
-  return static_cast<std::uint16_t>((v & 255) << 4);
-}
-constexpr std::uint16_t unorm6(std::uint32_t v) { return unorm8((v & 63) << 2 | (v & 63) >> 4); }
-constexpr std::uint16_t unorm5(std::uint32_t v) { return unorm8((v & 31) << 3 | (v & 31) >> 2); }
-constexpr std::uint16_t unorm4(std::uint32_t v) { return unorm8((v & 15) << 4 | (v & 15)); }
-constexpr std::uint16_t kOpaque = unorm8(255);
-
-Texel unpack_rgba8(std::uint32_t raw) {
-  return {unorm8(raw), unorm8(raw >> 8), unorm8(raw >> 16), unorm8(raw >> 24)};
-}
-Texel unpack_rgb565(std::uint32_t raw) {
-  return {unorm5(raw >> 11), unorm6(raw >> 5), unorm5(raw), kOpaque};
-}
-Texel unpack_rgba4444(std::uint32_t raw) {
-  return {unorm4(raw >> 12), unorm4(raw >> 8), unorm4(raw >> 4), unorm4(raw)};
-}
-Texel unpack_l8(std::uint32_t raw) { return {unorm8(raw), unorm8(raw), unorm8(raw), kOpaque}; }
+// Channels are widened to eight bits by repeating their high bits: wires. U8.4.
+constexpr std::uint32_t unorm8(std::uint32_t v) { return (v & 255) << 4; }
+constexpr std::uint32_t unorm6(std::uint32_t v) { return unorm8((v & 63) << 2 | (v & 63) >> 4); }
+constexpr std::uint32_t unorm5(std::uint32_t v) { return unorm8((v & 31) << 3 | (v & 31) >> 2); }
+constexpr std::uint32_t unorm4(std::uint32_t v) { return unorm8((v & 15) << 4 | (v & 15)); }
+constexpr std::uint32_t kOpaque = unorm8(255);
 
 }  // namespace
 
@@ -70,148 +53,129 @@ FilterPipeline::FilterPipeline(const sc_core::sc_module_name& name, ClockDomain&
 // From the last stage to the first, so that each reads its predecessor's registers of the last
 // clock.
 Activity FilterPipeline::tick(Cycle cycle) {
-  const unsigned before = occupied_;
   const bool arrives = texels_in.can_pop(cycle);
-  if (before == 0 && !arrives) return kIdle;
-  if ((before & bit_after(7)) && !colours_out.can_push(cycle)) {
-    if (arrives) ++occupancy[0];
-    for (std::size_t stage = 1; stage < kStages; ++stage)
-      if (before >> (stage - 1) & 1) ++occupancy[stage];
-    return kStalledDownstream;
-  }
-  unsigned after = 0;
-  if (before & bit_after(7)) deliver(cycle);
-  if (before & bit_after(6) && accumulate()) after |= bit_after(7);
-  if (before & bit_after(5) && lerp_levels()) after |= bit_after(6);
-  if (before & bit_after(4)) lerp_rows(), after |= bit_after(5);
-  if (before & bit_after(3)) add(), after |= bit_after(4);
-  if (before & bit_after(2)) multiply(), after |= bit_after(3);
-  if (before & bit_after(1)) unpack(cycle), after |= bit_after(2);
+  if (requests_.empty() && !has_sample_ && !has_total_ && !arrives) return kIdle;
+  count_stages(arrives);
+  if (has_total_ && !colours_out.can_push(cycle)) return kStalledDownstream;
+  if (has_total_) deliver(cycle);
+  if (has_sample_) accumulate();
+  requests_.step();
+  if (requests_.works(6)) lerp_levels(requests_.leave());
+  if (requests_.works(2)) filter(cycle, requests_.at(2));
   if (arrives) {
-    raw_ = texels_in.front(cycle);
+    Request& request = requests_.enter();
+    request.token = texels_in.front(cycle);
     texels_in.pop(cycle);
-    look_up(cycle);
-    after |= bit_after(1);
+    look_up(cycle, request.token);
   }
-  occupied_ = after;
   return kBusy;
 }
 
-// Stage 1: the coded channels go into the ROM.
-void FilterPipeline::look_up(Cycle cycle) {
-  ++occupancy[0];
-  if (!raw_.ticket.valid || format_of(raw_) != spec::texture::Format::kSrgb8A8) return;
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t c = 0; c < 3; ++c)
-      linear_[3 * i + c].read(cycle, raw_.texel[i] >> (8 * c) & 255);
+// What each stage has before it in this clock.
+void FilterPipeline::count_stages(bool arrives) {
+  occupancy[0] += arrives;
+  for (int stage = 2; stage <= kRequestStages; ++stage)
+    occupancy[static_cast<std::size_t>(stage - 1)] += requests_.works(stage - 1);
+  occupancy[6] += has_sample_;
+  occupancy[7] += has_total_;
 }
 
-// Stage 2.
-void FilterPipeline::unpack(Cycle cycle) {
-  ++occupancy[1];
-  unpacked_.control = raw_.control;
-  unpacked_.ticket = raw_.ticket;
-  const auto each = [this](auto unpack_one) {
-    for (std::size_t i = 0; i < 4; ++i) unpacked_.texel[i] = unpack_one(raw_.texel[i]);
+// Stage 1: the coded channels go into the ROM.
+void FilterPipeline::look_up(Cycle cycle, const TexelQuadToken& token) {
+  if (!token.ticket.valid || format_of(token) != spec::texture::Format::kSrgb8A8) return;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      linear_[3 * i + c].read(cycle, token.texel[i] >> (8 * c) & 255);
+}
+
+// Stages 2 to 5: what is between them cannot be seen from outside.
+inline void FilterPipeline::filter(Cycle cycle, Request& request) const {
+  const TexelQuadToken& token = request.token;
+  const auto lerp = [&](auto&& unpack) {
+    // Stages 3 and 4: U8.4 x U1.8.
+    const std::uint32_t right = token.control.fraction_u, left = 256 - right;
+    const Channels upper = unpack(0) * left + unpack(1) * right,
+                   lower = unpack(2) * left + unpack(3) * right;
+    // Stage 5: U8.20, rounded to U8.12.
+    const std::uint32_t down = token.control.fraction_v, up = 256 - down;
+    request.row = (upper * up + lower * down).rounded(8);
   };
-  switch (format_of(raw_)) {
+  // Stage 2.
+  const auto lerp_each = [&](auto&& unpack_one) {
+    lerp([&](std::size_t i) { return unpack_one(token.texel[i]); });
+  };
+  switch (format_of(token)) {
     case spec::texture::Format::kRgba8:
-      return each(unpack_rgba8);
+      return lerp_each([](std::uint32_t raw) {
+        return Channels::of(unorm8(raw), unorm8(raw >> 8), unorm8(raw >> 16), unorm8(raw >> 24));
+      });
     case spec::texture::Format::kRgb565:
-      return each(unpack_rgb565);
+      return lerp_each([](std::uint32_t raw) {
+        return Channels::of(unorm5(raw >> 11), unorm6(raw >> 5), unorm5(raw), kOpaque);
+      });
     case spec::texture::Format::kRgba4444:
-      return each(unpack_rgba4444);
+      return lerp_each([](std::uint32_t raw) {
+        return Channels::of(unorm4(raw >> 12), unorm4(raw >> 8), unorm4(raw >> 4), unorm4(raw));
+      });
     case spec::texture::Format::kL8:
-      return each(unpack_l8);
+      return lerp_each([](std::uint32_t raw) {
+        return Channels::of(unorm8(raw), unorm8(raw), unorm8(raw), kOpaque);
+      });
     case spec::texture::Format::kSrgb8A8:
-      if (!raw_.ticket.valid) return;  // its weight is 0
-      for (std::size_t i = 0; i < 4; ++i) unpacked_.texel[i] = unpack_srgb(cycle, i);
+      if (!token.ticket.valid) return;  // its weight is 0
+      return lerp([&](std::size_t i) { return unpack_srgb(cycle, token, i); });
   }
 }
 
-std::array<std::uint16_t, 4> FilterPipeline::unpack_srgb(Cycle cycle, std::size_t texel) const {
-  const std::uint32_t raw = raw_.texel[texel];
+FilterPipeline::Channels FilterPipeline::unpack_srgb(Cycle cycle, const TexelQuadToken& token,
+                                                     std::size_t texel) const {
+  const std::uint32_t raw = token.texel[texel];
   const auto linear = [&](std::size_t channel) {
     return linear_[3 * texel + channel].at(cycle, raw >> (8 * channel) & 255);
   };
-  return {linear(0), linear(1), linear(2), unorm8(raw >> 24)};
+  return Channels::of(linear(0), linear(1), linear(2), unorm8(raw >> 24));
 }
 
-// Stage 3: U8.4 x U1.8.
-void FilterPipeline::multiply() {
-  ++occupancy[2];
-  products_.control = unpacked_.control;
-  products_.ticket = unpacked_.ticket;
-  const std::uint32_t right = unpacked_.control.fraction_u, left = 256 - right;
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t c = 0; c < 4; ++c)
-      products_.texel[i][c] = unpacked_.texel[i][c] * (i & 1 ? right : left);
-}
-
-// Stage 4.
-void FilterPipeline::add() {
-  ++occupancy[3];
-  sums_.control = products_.control;
-  sums_.ticket = products_.ticket;
-  for (std::size_t c = 0; c < 4; ++c) {
-    sums_.upper[c] = products_.texel[0][c] + products_.texel[1][c];
-    sums_.lower[c] = products_.texel[2][c] + products_.texel[3][c];
-  }
-}
-
-// Stage 5: U8.20, rounded to U8.12.
-void FilterPipeline::lerp_rows() {
-  ++occupancy[4];
-  row_.control = sums_.control;
-  row_.ticket = sums_.ticket;
-  const std::uint32_t lower = sums_.control.fraction_v, upper = 256 - lower;
-  for (std::size_t c = 0; c < 4; ++c)
-    row_.value[c] = (sums_.upper[c] * upper + sums_.lower[c] * lower + 128) >> 8;
-}
-
-// Stage 6: the levels of a sample in U8.20, rounded once to U8.12. True with the last of them.
-bool FilterPipeline::lerp_levels() {
-  ++occupancy[5];
-  const std::uint32_t weight = row_.control.level_weight;
-  for (std::size_t c = 0; c < 4; ++c) level_sum_[c] += row_.value[c] * weight;
-  if (!row_.control.last_of_sample) return false;
-  sample_.control = row_.control;
-  sample_.ticket = row_.ticket;
-  for (std::size_t c = 0; c < 4; ++c) sample_.value[c] = (level_sum_[c] + 128) >> 8;
+// Stage 6: the levels of a sample in U8.20, rounded once to U8.12; on with the last of them.
+void FilterPipeline::lerp_levels(const Request& request) {
+  const FilterControl& control = request.token.control;
+  level_sum_ = level_sum_ + request.row * control.level_weight;
+  if (!control.last_of_sample) return;
+  sample_ = {request.token.ticket, control.kernel_weight, control.sum_log2,
+             control.last_of_fragment, level_sum_.rounded(8)};
+  has_sample_ = true;
   level_sum_ = {};
-  return true;
 }
 
-// Stage 7: U15.12. True with the last sample of the fragment.
-bool FilterPipeline::accumulate() {
-  ++occupancy[6];
-  const std::uint32_t weight = sample_.control.kernel_weight;
-  for (std::size_t c = 0; c < 4; ++c) kernel_sum_[c] += sample_.value[c] * weight;
-  if (!sample_.control.last_of_fragment) return false;
-  total_ = {sample_.ticket, sample_.control.sum_log2, kernel_sum_};
+// Stage 7: U15.12; on with the last sample of the fragment.
+void FilterPipeline::accumulate() {
+  has_sample_ = false;
+  kernel_sum_ = kernel_sum_ + sample_.value * sample_.kernel_weight;
+  if (!sample_.last_of_fragment) return;
+  total_ = {sample_.ticket, sample_.sum_log2, kernel_sum_};
+  has_total_ = true;
   kernel_sum_ = {};
-  return true;
 }
 
 // Stage 8: the sum of the weights is a power of two, so the division is a shift.
-void FilterPipeline::deliver(Cycle cycle) {
-  ++occupancy[7];
-  const unsigned drop = 12u + total_.sum_log2;
-  const std::uint32_t half = 1u << (drop - 1);
+inline void FilterPipeline::deliver(Cycle cycle) {
+  has_total_ = false;
   spec::texture::Colour& colour = colours_out.emplace(cycle);
   colour.tag = total_.ticket.tag;
   colour.lane = total_.ticket.lane;
   colour.last = total_.ticket.last;
-  for (std::size_t c = 0; c < 4; ++c)
-    colour.rgba[c] = static_cast<std::uint8_t>((total_.value[c] + half) >> drop);
+  const auto value = total_.value.rounded(12U + total_.sum_log2).each();
+  for (std::size_t c = 0; c < 4; ++c) colour.rgba[c] = static_cast<std::uint8_t>(value[c]);
   ++fragments;
   fragment_latency.record(probe_.leaves(cycle + 1));
 }
 
 void FilterPipeline::reset() {
-  occupied_ = 0;
+  requests_.reset();
   level_sum_ = {};
+  has_sample_ = false;
   kernel_sum_ = {};
+  has_total_ = false;
 }
 
 }  // namespace deburr::rtl::texture

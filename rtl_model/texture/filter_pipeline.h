@@ -22,6 +22,7 @@
 #include "rtl_model/fabric/latency_probe.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/texture/stages.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/packets.h"
 
@@ -45,26 +46,41 @@ class FilterPipeline final : public Unit {
   std::array<Counter, kStages> occupancy;
 
  private:
-  using Channels = std::array<std::uint32_t, 4>;  // R, G, B, A
-  // The registers after each stage; stage 8 writes the output link.
-  struct Unpacked {
-    FilterControl control;
-    Ticket ticket;
-    std::array<std::array<std::uint16_t, 4>, 4> texel;  // U8.4
+  // R, G, B and A. The model keeps two channels in a word, so that one of its multiplications does
+  // the work of two: no channel ever needs more than 32 bits.
+  struct Channels {
+    static constexpr std::uint64_t kBoth = 0x1'0000'0001;
+    std::uint64_t rb, ga;  // R and G in the low halves
+
+    static constexpr Channels of(std::uint32_t r, std::uint32_t g, std::uint32_t b,
+                                 std::uint32_t a) {
+      return {r | std::uint64_t{b} << 32, g | std::uint64_t{a} << 32};
+    }
+    constexpr std::array<std::uint32_t, 4> each() const {
+      return {static_cast<std::uint32_t>(rb), static_cast<std::uint32_t>(ga),
+              static_cast<std::uint32_t>(rb >> 32), static_cast<std::uint32_t>(ga >> 32)};
+    }
+    friend constexpr Channels operator+(const Channels& x, const Channels& y) {
+      return {x.rb + y.rb, x.ga + y.ga};
+    }
+    friend constexpr Channels operator*(const Channels& x, std::uint32_t weight) {
+      return {x.rb * weight, x.ga * weight};
+    }
+    // Rounds `drop` bits off, at least one.
+    constexpr Channels rounded(unsigned drop) const {
+      const std::uint64_t half = kBoth << (drop - 1), kept = kBoth * (0xFFFF'FFFFU >> drop);
+      return {(rb + half) >> drop & kept, (ga + half) >> drop & kept};
+    }
   };
-  struct Products {
-    FilterControl control;
-    Ticket ticket;
-    std::array<Channels, 4> texel;  // U8.12
+  // A request in stages 1 to 6.
+  struct Request {
+    TexelQuadToken token;
+    Channels row;  // U8.12, after stage 5
   };
-  struct Sums {
-    FilterControl control;
+  struct Sample {
     Ticket ticket;
-    Channels upper, lower;  // U8.12
-  };
-  struct Lerped {
-    FilterControl control;
-    Ticket ticket;
+    std::uint8_t kernel_weight, sum_log2;
+    bool last_of_fragment;
     Channels value;  // U8.12
   };
   struct Total {
@@ -72,30 +88,27 @@ class FilterPipeline final : public Unit {
     std::uint8_t sum_log2;
     Channels value;  // U15.12
   };
+  static constexpr int kRequestStages = 6;
 
-  void look_up(Cycle cycle);
-  void unpack(Cycle cycle);
-  std::array<std::uint16_t, 4> unpack_srgb(Cycle cycle, std::size_t texel) const;
-  void multiply();
-  void add();
-  void lerp_rows();
-  bool lerp_levels();
-  bool accumulate();
+  void look_up(Cycle cycle, const TexelQuadToken& token);
+  void filter(Cycle cycle, Request& request) const;
+  Channels unpack_srgb(Cycle cycle, const TexelQuadToken& token, std::size_t texel) const;
+  void lerp_levels(const Request& request);
+  void accumulate();
   void deliver(Cycle cycle);
+  void count_stages(bool arrives);
 
   LatencyProbe& probe_;
   Memory<std::uint16_t> srgb_;
   std::vector<ReadPort<std::uint16_t>> linear_;  // 3 x texel + channel
-  unsigned occupied_ = 0;  // bit k: the registers after stage k + 1 hold a token
-  TexelQuadToken raw_{};
-  Unpacked unpacked_{};
-  Products products_{};
-  Sums sums_{};
-  Lerped row_{};
+  // The registers after each stage; stage 8 writes the output link.
+  Stages<Request, kRequestStages> requests_;
   Channels level_sum_{};  // U8.20, of the levels of the sample in hand
-  Lerped sample_{};
+  Sample sample_{};
+  bool has_sample_ = false;
   Channels kernel_sum_{};  // U15.12, of the samples of the fragment in hand
   Total total_{};
+  bool has_total_ = false;
 };
 
 }  // namespace deburr::rtl::texture

@@ -50,7 +50,13 @@ Activity LevelUnit::tick(Cycle cycle) {
 void LevelUnit::choose(Cycle cycle, const Log2Token& in, LevelToken& out) {
   // Stage 1.
   const TextureState& texture = descriptors_.read(cycle, in.ticket.texture);
-  out = {in.ticket, in.s, in.t, in.axis_s, in.axis_t, 0, 0, 0, false};
+  out.ticket = in.ticket;
+  out.s = in.s;
+  out.t = in.t;
+  out.axis_s = in.axis_s;
+  out.axis_t = in.axis_t;
+  out.count_log2 = out.level = out.fraction = 0;
+  out.linear = false;
   if (!out.ticket.valid) return;
   const int count = count_log2(in.lb_max, in.lb_min, texture.max_count_log2);
   out.count_log2 = static_cast<std::uint8_t>(count);

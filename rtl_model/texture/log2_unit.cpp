@@ -110,7 +110,7 @@ Activity Log2Unit::tick(Cycle cycle) {
   return kBusy;
 }
 
-Activity Log2Unit::tick_mitchell(Cycle cycle) {
+inline Activity Log2Unit::tick_mitchell(Cycle cycle) {
   if (!footprints_in.can_pop(cycle)) return kIdle;
   if (!logs_out.can_push(cycle)) return kStalledDownstream;
   const FootprintToken& in = footprints_in.front(cycle);

@@ -39,7 +39,7 @@ Activity MissQueue::tick(Cycle cycle) {
 }
 
 // One beat of at most 64 bytes from memory.
-bool MissQueue::receive(Cycle cycle) {
+inline bool MissQueue::receive(Cycle cycle) {
   if (!responses_in.can_pop(cycle)) return false;
   const MemoryResponse& response = responses_in.front(cycle);
   const std::uint32_t entry = response.tag;
@@ -56,7 +56,7 @@ bool MissQueue::receive(Cycle cycle) {
   return true;
 }
 
-Activity MissQueue::issue(Cycle cycle) {
+inline Activity MissQueue::issue(Cycle cycle) {
   if (waiting_ == 0) return kIdle;
   if (!fills.can_reserve(cycle)) return fill_buffer_full_;
   if (!requests_out.can_push(cycle)) return kStalledDownstream;
@@ -73,7 +73,7 @@ Activity MissQueue::issue(Cycle cycle) {
 }
 
 // All lines that one request misses, or none.
-bool MissQueue::accept(Cycle cycle) {
+inline bool MissQueue::accept(Cycle cycle) {
   if (!misses_in.can_pop(cycle)) return false;
   const MissToken& missed = misses_in.front(cycle);
   const auto places = static_cast<std::uint32_t>(lines_.words());

@@ -16,13 +16,19 @@ Activity SampleWalker::tick(Cycle cycle) {
   const bool stalled = walking_ && !samples_out.can_push(cycle);
   if (walking_ && !stalled) emit(cycle);
   if (scaled_.occupied && !walking_) start();
-  if (arrives && !scaled_.occupied) scale(levels_in.take(cycle));
+  if (arrives && !scaled_.occupied) {
+    scale(levels_in.front(cycle));
+    levels_in.pop(cycle);
+  }
   return stalled ? kStalledDownstream : kBusy;
 }
 
 // Stage 1.
 void SampleWalker::scale(const LevelToken& fragment) {
-  scaled_ = {true, fragment, fragment.axis_s * spread_, fragment.axis_t * spread_};
+  scaled_.occupied = true;
+  scaled_.fragment = fragment;
+  scaled_.step_s = fragment.axis_s * spread_;
+  scaled_.step_t = fragment.axis_t * spread_;
 }
 
 // Stage 2.

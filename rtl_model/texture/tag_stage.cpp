@@ -37,7 +37,7 @@ Activity TagStage::tick(Cycle cycle) {
 }
 
 // Stage 1: a port for each distinct line.
-void TagStage::read_sets(Cycle cycle) {
+inline void TagStage::read_sets(Cycle cycle) {
   Request& r = request_;
   r.token = texels_in.front(cycle);
   texels_in.pop(cycle);
@@ -89,7 +89,7 @@ TagStage::Line TagStage::order(std::uint32_t line, std::size_t texel, CacheToken
 }
 
 // Stage 2: up to four distinct lines, each looked up once, in the order of their first use.
-void TagStage::look_up(Cycle cycle, CacheToken& out) {
+inline void TagStage::look_up(Cycle cycle, CacheToken& out) {
   ++requests;
   const Request& r = request_;
   const std::uint32_t offset_mask = (1u << line_log2_) - 1;

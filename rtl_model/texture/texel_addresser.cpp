@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/texture/texel_addresser.h"
 
+#include <algorithm>
 #include <array>
 
 namespace deburr::rtl::texture {
@@ -9,27 +10,13 @@ namespace {
 constexpr int kFractionBits = 24;
 constexpr std::int64_t kOne = std::int64_t{1} << kFractionBits;
 
-// The bits of a 5-bit number in the even places of a 10-bit one: wires.
+// The bits of a 10-bit number in the even places of a 20-bit one: wires.
 constexpr auto kSpread = [] {
-  std::array<std::uint16_t, 32> table{};
-  for (unsigned i = 0; i < 32; ++i)
-    for (unsigned bit = 0; bit < 5; ++bit)
-      table[i] = static_cast<std::uint16_t>(table[i] | (i >> bit & 1) << (2 * bit));
+  std::array<std::uint32_t, 1024> table{};
+  for (std::uint32_t i = 0; i < table.size(); ++i)
+    for (unsigned bit = 0; bit < 10; ++bit) table[i] |= (i >> bit & 1) << (2 * bit);
   return table;
 }();
-std::uint32_t spread(std::uint32_t tile) {  // U10
-  return kSpread[tile & 31] | std::uint32_t{kSpread[tile >> 5]} << 10;
-}
-
-// Where tile number `tile` along one axis stands in Morton order, its bits in even places: the low
-// `common` bits interleave with those of the other axis, the others stand above both.
-std::uint32_t morton_part(std::uint32_t tile, int common) {
-  return spread(tile & ((1u << common) - 1)) | tile >> common << (2 * common);
-}
-// The same with the interleaved bits in the odd places.
-std::uint32_t odd_morton_part(std::uint32_t tile, int common) {
-  return spread(tile & ((1u << common) - 1)) << 1 | tile >> common << (2 * common);
-}
 
 }  // namespace
 
@@ -52,7 +39,7 @@ Activity TexelAddresser::tick(Cycle cycle) {
 
 // All stages: what is between them cannot be seen from outside, since a descriptor stands still
 // while the unit is busy.
-void TexelAddresser::request(Cycle cycle, const SampleToken& sample, TexelToken& out) {
+inline void TexelAddresser::request(Cycle cycle, const SampleToken& sample, TexelToken& out) {
   // Stage 1.
   const TextureState& texture = descriptors_.read(cycle, sample.ticket.texture);
   out.ticket = sample.ticket;
@@ -78,8 +65,8 @@ void TexelAddresser::request(Cycle cycle, const SampleToken& sample, TexelToken&
 
 // Stages 2 to 4, one axis: wrap the coordinate; scale it to texels; split it, bring both texels
 // into range.
-TexelAddresser::Axis TexelAddresser::scale(std::int64_t position, std::int32_t size,
-                                           spec::texture::Wrap wrap, bool linear) {
+inline TexelAddresser::Axis TexelAddresser::scale(std::int64_t position, std::int32_t size,
+                                                  spec::texture::Wrap wrap, bool linear) {
   if (wrap == spec::texture::Wrap::kRepeat) {
     position &= kOne - 1;
   } else if (wrap == spec::texture::Wrap::kMirroredRepeat) {
@@ -111,8 +98,8 @@ TexelAddresser::Axis TexelAddresser::scale(std::int64_t position, std::int32_t s
 }
 
 // Stage 5.
-void TexelAddresser::address(const TextureState& texture, const LevelGeometry& level, const Axis& x,
-                             const Axis& y, TexelToken& out) {
+inline void TexelAddresser::address(const TextureState& texture, const LevelGeometry& level,
+                                    const Axis& x, const Axis& y, TexelToken& out) {
   const auto x0 = static_cast<std::uint32_t>(x.first), x1 = static_cast<std::uint32_t>(x.second),
              y0 = static_cast<std::uint32_t>(y.first), y1 = static_cast<std::uint32_t>(y.second);
 
@@ -128,15 +115,18 @@ void TexelAddresser::address(const TextureState& texture, const LevelGeometry& l
     // bits.
     const int width_log2 = (7 - texture.texel_log2) / 2, row_log2 = width_log2 + texture.texel_log2;
     const int height_log2 = 6 - row_log2;
-    const int common =
-        level.tiles_x_log2 < level.tiles_y_log2 ? level.tiles_x_log2 : level.tiles_y_log2;
+    const std::uint32_t texels_x = (1u << width_log2) - 1, texels_y = (1u << height_log2) - 1;
+    // The tiles stand in Morton order: the low `common` bits of their numbers interleave, those of
+    // columns in the even places, the others stand above both.
+    const int common = std::min(level.tiles_x_log2, level.tiles_y_log2);
+    const std::uint32_t mixed = (1u << common) - 1;
     const auto column = [&](std::uint32_t at) {
-      return morton_part(at >> width_log2, common) << 6 | (at & ((1u << width_log2) - 1))
-                                                              << texture.texel_log2;
+      const std::uint32_t tile = at >> width_log2, low = tile & mixed;
+      return (kSpread[low] | (tile ^ low) << common) << 6 | (at & texels_x) << texture.texel_log2;
     };
     const auto row = [&](std::uint32_t at) {
-      return odd_morton_part(at >> height_log2, common) << 6 | (at & ((1u << height_log2) - 1))
-                                                                   << row_log2;
+      const std::uint32_t tile = at >> height_log2, low = tile & mixed;
+      return (kSpread[low] << 1 | (tile ^ low) << common) << 6 | (at & texels_y) << row_log2;
     };
     column0 = column(x0);
     column1 = column(x1);

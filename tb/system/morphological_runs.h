@@ -111,9 +111,9 @@ inline MorphologicalInput a_fifth(int width, int height) {
 
 // A fifth as well, side by side: diagonals of one pixel, a run of each axis in every other pixel,
 // from column `first` on over two fifths of the row.
-inline MorphologicalInput clustered(int width, int height, int first) {
+inline MorphologicalInput clustered(int width, int height, int first, int columns) {
   return draw(width, height, [&](int x, int y) {
-    return grey(x >= first && x < first + 2 * width / 5 - 4 && (x + y) / 2 % 2 != 0 ? 255 : 0);
+    return grey(x >= first && x < first + columns && (x + y) / 2 % 2 != 0 ? 255 : 0);
   });
 }
 

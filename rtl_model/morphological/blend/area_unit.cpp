@@ -32,7 +32,7 @@ std::uint32_t trapezoid(std::uint32_t q0, std::uint32_t q1) { return limit((q0 +
 
 // U2.24 x U12.12, halved, to U0.8.
 std::uint32_t triangle(std::uint32_t q, std::uint32_t inverse) {
-  return limit((std::uint64_t{q * q} * inverse + (std::uint64_t{1} << 28)) >> 29);
+  return limit((std::uint64_t{q} * q * inverse + (std::uint64_t{1} << 28)) >> 29);
 }
 
 MemoryShape marks_shape(std::size_t words, std::size_t columns, std::size_t banks,

@@ -16,8 +16,8 @@ constexpr std::size_t kStoreWords = 8;  // of a line that comes, in a clock
 
 // Words of a row, of whole lines of memory.
 std::size_t stride_of(std::int32_t line_pixels, std::int32_t lanes) {
-  return static_cast<std::size_t>((line_pixels + kLinePixels - 1) / kLinePixels *
-                                  (kLinePixels / lanes));
+  const std::int32_t lines = (line_pixels + kLinePixels - 1) / kLinePixels;
+  return static_cast<std::size_t>(lines) * static_cast<std::size_t>(kLinePixels / lanes);
 }
 
 // A request's tag: place among the lines under way, line in its row, row on the chip.
@@ -166,9 +166,10 @@ bool PixelStore::gather(Cycle cycle, const BeatToken& beat, std::int32_t x, std:
   const FrameRules& rules = store_.rules();
   const bool completes = (x + count) % kLinePixels == 0 || x + count == rules.width;
   if (completes && (!m.requests->can_push(cycle) || m.writes.full())) return false;
-  const auto at = static_cast<std::size_t>(x % kLinePixels * spec::morphological::kFramePixelBytes);
+  constexpr std::size_t kPixelBytes = spec::morphological::kFramePixelBytes;
+  const std::size_t at = static_cast<std::size_t>(x % kLinePixels) * kPixelBytes;
   std::memcpy(m.gathered.data() + at, beat.pixel.data(),
-              static_cast<std::size_t>(count * spec::morphological::kFramePixelBytes));
+              static_cast<std::size_t>(count) * kPixelBytes);
   if (!completes) return true;
   MemoryRequest& request = m.requests->emplace(cycle);
   // 32 bits: a frame that begins below 4 GiB and ends above goes on at 0.

@@ -9,7 +9,7 @@ namespace {
 constexpr std::uint32_t distance(std::uint32_t a, std::uint32_t b) { return a > b ? a - b : b - a; }
 
 std::uint64_t words_for(std::int32_t columns, std::uint32_t lanes) {
-  return (static_cast<std::uint32_t>(columns) + lanes - 1) / lanes * lanes;
+  return (static_cast<std::uint64_t>(columns) + lanes - 1) / lanes * lanes;
 }
 
 }  // namespace

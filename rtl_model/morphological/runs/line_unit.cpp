@@ -132,7 +132,7 @@ void LineUnit::begin(Cycle cycle, std::size_t lane, const SumsToken& sums, Divis
     line.scale = 2;
     line.offset =
         run.part == spec::morphological::RunPart::kHead ? reach_ : 2 * run.length - reach_;
-    line.slope = divide(1, 2 * reach_);
+    line.slope = divide(1, std::int64_t{2} * reach_);
     line.inverse = static_cast<std::uint32_t>(reach_) << spec::morphological::kInverseFractionBits;
     line.span = static_cast<std::uint16_t>(reach_ + 1);
     return;
@@ -147,7 +147,7 @@ void LineUnit::begin(Cycle cycle, std::size_t lane, const SumsToken& sums, Divis
   if (store_.rules().predictor == spec::morphological::Predictor::kChord) {
     line.scale = 2;
     line.offset = sums.first + sums.last;
-    line.slope = divide(steps, 2 * span);
+    line.slope = divide(steps, std::int64_t{2} * span);
     division.pixels = span;
   } else {
     // P = sum of J_i X_i with J_i = 2 i - (r + 1 - l).
