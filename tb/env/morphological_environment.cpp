@@ -88,17 +88,17 @@ std::uint64_t frame_clocks_by_formula(const spec::morphological::Parameters& p, 
 // ---- building -----------------------------------------------------------------------------------
 
 std::vector<PlantedFault> MorphologicalEnvironment::faults() const {
-  constexpr int kLeftEdgeBit = 64;  // of an EdgeToken: behind its slot
   const int width = frames_.empty() ? 1 : frames_.front().image.width;
   const std::uint64_t row = beats_a_row(width, lanes());
   const std::string memory = in_memory() ? "" : "morphological.storage = memory";
   std::vector<PlantedFault> list = {
-      {"flip-bit", "Flips a bit of the red channel of output beat 100.", "flip:blended:100:4"},
+      {"flip-bit", "Flips a bit of the red channel of output beat 100.",
+       "flip:blended:100:pixel.0.r.4"},
       {"drop-pixel", "Drops output beat 100.", "drop:blended:100"},
       {"duplicate-pixel", "Delivers output beat 100 twice.", "duplicate:blended:100"},
       {"drop-input", "Drops input beat 50 on its way into the engine.", "drop:pixels:50"},
       {"wrong-edge", "Flips the left edge of a pixel in row 1, behind the edge detector.",
-       fmt::format("flip:morphological.edge_bits:{}:{}", 2 * row + row / 2, kLeftEdgeBit)},
+       fmt::format("flip:morphological.edge_bits:{}:left", 2 * row + row / 2)},
       {"wrong-rule", "The engine tries one step less than was ordered."},
       {"stuck-ready", "Holds back the slots of the luma unit from cycle 500 on.",
        "stuck_ready:morphological.slots:500"},

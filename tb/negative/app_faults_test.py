@@ -88,8 +88,8 @@ class Faults(CommandTest):
         self.assertGreater(result["checks"]["traffic_mismatches"], 0)
 
     def test_a_fault_on_any_link(self):
-        # Bit 167: the highest bit of the first texel's red.
-        self.fault("flip:texture.texel_quads:12:167", 1, "mismatch", *self.UNCHECKED)
+        # The highest bit of the first texel's red.
+        self.fault("flip:texture.texel_quads:12:texel.0.7", 1, "mismatch", *self.UNCHECKED)
 
     def test_too_few_cycles(self):
         done = self.run_texture(3, "--max-cycles", "300",
