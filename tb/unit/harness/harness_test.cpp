@@ -134,8 +134,8 @@ TEST(Poison, ALookAfterThePopSeesNoise) {
   for (const bool poison : {false, true}) {
     const std::string looks = in_child([&] {
       rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+      Lingerer unit("unit", clock);  // ticked before the slot is refilled
       Driver<Token> driver("driver", clock);
-      Lingerer unit("unit", clock);
       rtl::Link<Token> link("link");
       driver.beats_out(link);
       unit.tokens_in(link);
