@@ -48,8 +48,7 @@ class Fifo final : public MemoryBase {
  private:
   Fifo(const char* name, std::uint32_t depth, std::uint32_t bits, const PayloadShape& shape)
       : MemoryBase(name, memory_shape(depth, bits)),
-        link_(inner_name("entries").c_str(), depth, kMostEntries, shape) {}
-  static constexpr std::uint32_t kMostEntries = 1U << 24;
+        link_(inner_name("entries").c_str(), depth, shape) {}
   static MemoryShape memory_shape(std::uint32_t depth, std::uint32_t bits) {
     const MemoryKind kind = kind_for(std::uint64_t{depth} * bits);
     return {.words = depth,

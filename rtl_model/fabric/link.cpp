@@ -9,12 +9,11 @@
 
 namespace deburr::rtl {
 
-LinkBase::LinkBase(const char* name, std::uint32_t depth, std::uint32_t most_depth,
-                   std::size_t payload_bytes, Payload payload)
+LinkBase::LinkBase(const char* name, std::uint32_t depth, std::size_t payload_bytes,
+                   Payload payload)
     : sc_object(name), depth_(depth), payload_bytes_(payload_bytes), payload_(std::move(payload)) {
-  DEBURR_CHECK(depth >= 1 && depth <= most_depth,
-               fmt::format("{}: depth {} is not in 1..{}; what stores more is a Fifo", this->name(),
-                           depth, most_depth));
+  DEBURR_CHECK(depth >= 1 && depth <= (1U << 24),
+               fmt::format("{}: depth {} is not in 1..2^24", this->name(), depth));
 }
 
 void LinkBase::adopt(Stamps* first, std::byte* payload, std::size_t slot_bytes) {

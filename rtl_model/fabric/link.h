@@ -5,8 +5,7 @@
 // refilled from t+1 on; at most one push and one pop a cycle. Depth 2 sustains one transfer a
 // clock, depth 1 every other clock. Latency 1, initiation interval 1. Stalls: `can_push` is "ready"
 // as the producer sees it, `can_pop` is "valid" as the consumer sees it. Cost: depth x payload bits
-// of registers, two pointers, one counter. A link is a hand-over and no store: what is deeper than
-// kMostDepth is a Fifo, whose bits are counted.
+// of registers, two pointers, one counter.
 //
 // The link keeps no "next state" that somebody would have to clock. Each slot of its ring carries,
 // for each side, the first cycle in which that side may act on it; each action moves these stamps
@@ -34,8 +33,6 @@ namespace deburr::rtl {
 // hierarchy come from the module that declares it.
 class LinkBase : public sc_core::sc_object {
  public:
-  static constexpr std::uint32_t kMostDepth = 8;
-
   const char* kind() const override { return "deburr_link"; }
 
   bool can_push(Cycle cycle) const { return cycle >= tail_->push_from; }
@@ -84,8 +81,7 @@ class LinkBase : public sc_core::sc_object {
     Stamps* next = nullptr;
   };
 
-  LinkBase(const char* name, std::uint32_t depth, std::uint32_t most_depth,
-           std::size_t payload_bytes, Payload payload);
+  LinkBase(const char* name, std::uint32_t depth, std::size_t payload_bytes, Payload payload);
   // The ring, once it exists: its first slot and payload, and the distance of slots.
   void adopt(Stamps* first, std::byte* payload, std::size_t slot_bytes);
 
@@ -148,7 +144,10 @@ class Link final : public LinkBase {
 
  public:
   explicit Link(const char* name, std::uint32_t depth = 2, const PayloadShape& shape = {})
-      : Link(name, depth, kMostDepth, shape) {}
+      : LinkBase(name, depth, sizeof(T), Payload::of<T>(shape)),
+        slots_(std::make_unique<Slot[]>(depth)) {
+    adopt(slots_.get(), reinterpret_cast<std::byte*>(&slots_[0].payload), sizeof(Slot));
+  }
 
   // The oldest beat. Needs can_pop(cycle).
   const T& front(Cycle cycle) const {
@@ -166,13 +165,6 @@ class Link final : public LinkBase {
   T& emplace(Cycle cycle) { return payload(advance_push(cycle)); }
 
  private:
-  template <class>
-  friend class Fifo;
-  Link(const char* name, std::uint32_t depth, std::uint32_t most_depth, const PayloadShape& shape)
-      : LinkBase(name, depth, most_depth, sizeof(T), Payload::of<T>(shape)),
-        slots_(std::make_unique<Slot[]>(depth)) {
-    adopt(slots_.get(), reinterpret_cast<std::byte*>(&slots_[0].payload), sizeof(Slot));
-  }
   struct Slot : Stamps {
     T payload{};
   };
