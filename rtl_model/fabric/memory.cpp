@@ -8,11 +8,12 @@
 namespace deburr::rtl {
 namespace {
 
-std::string port_text(std::uint32_t reads, std::uint32_t writes, std::uint32_t shared) {
+std::string port_text(const MemoryShape& shape) {
   std::string text;
-  if (reads) text += fmt::format("{}R", reads);
-  if (writes) text += fmt::format("{}W", writes);
-  if (shared) text += fmt::format("{}RW", shared);
+  if (shape.read_ports) text += fmt::format("{}R", shape.read_ports);
+  if (shape.write_ports) text += fmt::format("{}W", shape.write_ports);
+  if (shape.shared_ports) text += fmt::format("{}RW", shape.shared_ports);
+  if (shape.span > 1) text += fmt::format(" of {} words", shape.span);
   return text;
 }
 
@@ -39,9 +40,7 @@ const char* name_of(MemoryKind kind) {
 }
 
 MemoryBase::MemoryBase(const char* name, MemoryShape shape)
-    : Storage(name, shape.words, shape.word_bits,
-              port_text(shape.read_ports, shape.write_ports, shape.shared_ports)),
-      shape_(std::move(shape)) {
+    : Storage(name, shape.words, shape.word_bits, port_text(shape)), shape_(std::move(shape)) {
   const MemoryShape& s = shape_;
   DEBURR_CHECK(s.banks >= 1 && s.banks <= s.words && s.span >= 1 && s.latency <= kMostLatency &&
                    s.content.find('\n') == std::string::npos,
@@ -50,6 +49,9 @@ MemoryBase::MemoryBase(const char* name, MemoryShape shape)
   DEBURR_CHECK(s.latency > 0 || s.read_during_write != ReadDuringWrite::kNewWord,
                fmt::format("{}: what is written in a clock cannot be read in it without latency",
                            this->name()));
+  DEBURR_CHECK(s.mask_bits == 0 || s.word_bits % s.mask_bits == 0,
+               fmt::format("{}: a write mask of {} bits does not divide words of {}", this->name(),
+                           s.mask_bits, s.word_bits));
   const std::string wrong = find_build();
   if (wrong.empty()) return;
   if (s.idealised.empty())
@@ -68,6 +70,12 @@ std::string MemoryBase::find_build() {
   const std::uint32_t reads = of_bank(s.read_ports), writes = of_bank(s.write_ports),
                       shared = of_bank(s.shared_ports);
   if (reads + shared == 0) return "nobody reads it: give it a read port";
+  const std::uint32_t most = std::max({s.read_ports, s.write_ports, s.shared_ports});
+  if (s.separate_banks && s.banks < most)
+    return fmt::format(
+        "{} accesses of a kind cannot lie in {} separate banks in a clock: use {} banks, or fewer "
+        "ports",
+        most, s.banks, most);
   if (s.kind == MemoryKind::kFlops) {
     if (bits() > kMostFlopBits)
       return fmt::format(
@@ -79,6 +87,10 @@ std::string MemoryBase::find_build() {
     macro_ = "flip-flops";
     return {};
   }
+  if (s.banks > kFewBanks && s.words < std::uint64_t{kLeastBankWords} * s.banks)
+    return fmt::format(
+        "{} banks of fewer than {} words are no memory (up to {} banks may be as small): use flops",
+        s.banks, kLeastBankWords, kFewBanks);
   if (s.latency == 0)
     return "its words come a clock after the address at the earliest: latency 1 or more";
   if (s.span > 1 && (s.order != BankOrder::kInterleaved || s.span > s.banks))
@@ -167,6 +179,24 @@ PortedMemory::PortedMemory(const char* name, MemoryShape shape)
     read_banks_used_.assign(s.banks, kNever);
     write_banks_used_.assign(s.banks, kNever);
   }
+}
+
+void PortedMemory::check_content(std::size_t words) const {
+  const MemoryKind kind = shape().kind;
+  DEBURR_CHECK(
+      kind == MemoryKind::kRom ? words == words_
+                               : words == 0 || (kind == MemoryKind::kFlops && words <= words_),
+      fmt::format(
+          "{}: {} words of content for {} of {}: a rom has all of its words, flip-flops may "
+          "have some when they are switched on, sram has none",
+          name(), words, words_, name_of(kind)));
+}
+
+void PortedMemory::check_content(std::size_t address, std::uint64_t word, bool negative) const {
+  const std::uint32_t bits = word_bits();
+  const bool fits = bits >= 64 || (negative ? ~word >> (bits - 1) == 0 : word >> bits == 0);
+  DEBURR_CHECK(fits, fmt::format("{}: its content {:#x} at address {} has more than {} bits",
+                                 name(), word, address, bits));
 }
 
 PortedMemory::Port& PortedMemory::claim(Side side, const std::string& user) {
@@ -285,6 +315,14 @@ void PortedMemory::fail_stale(const Port& port, Cycle cycle, std::uint64_t wante
        fmt::format("the word of address {} is used, which {}; on the output register is that of "
                    "address {}, from cycle {} on",
                    wanted, when, there.address, there.due));
+}
+
+void PortedMemory::fail_again(const Port& port, Cycle cycle, Cycle issued,
+                              const Read& there) const {
+  fail(port, cycle,
+       fmt::format("the word of address {} as it was read in cycle {} is used; on the output "
+                   "register is that of cycle {}",
+                   there.address, issued, there.due - latency_));
 }
 
 void PortedMemory::fail(const Port& port, Cycle cycle, const std::string& what) const {

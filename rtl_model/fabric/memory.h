@@ -12,7 +12,9 @@
 // the simulation with the name of memory and port, the clock and what was expected.
 // Cost: physical_bits(), from what can be bought: SRAM with 1RW, 1R1W or 2RW, ROM with 1R or 2R,
 // flip-flops up to kMostFlopBits with any ports. More read ports are copies, `banks` divide the
-// words. What cannot be had so is refused, unless the shape says that it is idealised and why.
+// words, and more than kFewBanks of them have kLeastBankWords at least: smaller ones are
+// registers under another name. What cannot be had so is refused, unless the shape says that it is
+// idealised and why.
 //
 //   Memory<Entry> table_{"table", {.words = 512, .word_bits = 37, .content = "edges of two rows"}};
 //   ReadPort<Entry> lookup_{table_, "lookup"};
@@ -20,6 +22,10 @@
 //
 //   lookup_.read(cycle, column);                     // in clock t
 //   const Entry& entry = lookup_.at(cycle, column);  // in t + 1
+//
+// at(cycle, address) tells words apart by their address, so a word that is read again after a write
+// passes for its older self, if it is used a clock early; at(cycle, address, t) tells these apart
+// too.
 //
 // A copy of a port is one more handle of the same port: users that share it in time.
 //
@@ -35,6 +41,7 @@
 #include <span>
 #include <string>
 #include <systemc>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -81,6 +88,7 @@ class MemoryBase : public Storage {
  public:
   static constexpr std::uint64_t kMostFlopBits = 16'384;
   static constexpr std::uint32_t kMostLatency = 7;
+  static constexpr std::uint32_t kFewBanks = 64, kLeastBankWords = 16;
 
   // ConfigError if the shape cannot be built: with what to do about it.
   MemoryBase(const char* name, MemoryShape shape);
@@ -165,6 +173,9 @@ class PortedMemory : public MemoryBase {
     std::string user;  // of the first handle; empty: nobody yet
   };
 
+  // Can it hold so many words from the beginning, and does this one of them fit?
+  void check_content(std::size_t words) const;
+  void check_content(std::size_t address, std::uint64_t word, bool negative) const;
   // The next port of that kind that nobody uses yet.
   Port& claim(Side side, const std::string& user);
 
@@ -218,6 +229,13 @@ class PortedMemory : public MemoryBase {
       fail_stale(port, cycle, address, port.read[at]);
     return at;
   }
+  // The same, of the access in clock `issued`.
+  std::uint32_t arrived(const Port& port, Cycle cycle, std::uint64_t address, Cycle issued) const {
+    const std::uint32_t at = arrived(port, cycle, address);
+    if (port.read[at].due != issued + latency_) [[unlikely]]
+      fail_again(port, cycle, issued, port.read[at]);
+    return at;
+  }
 
   const std::uint64_t words_;
   const std::uint32_t span_, latency_;
@@ -246,6 +264,8 @@ class PortedMemory : public MemoryBase {
   [[noreturn, gnu::cold, gnu::noinline]] void fail_stale(const Port& port, Cycle cycle,
                                                          std::uint64_t wanted,
                                                          const Read& there) const;
+  [[noreturn, gnu::cold, gnu::noinline]] void fail_again(const Port& port, Cycle cycle,
+                                                         Cycle issued, const Read& there) const;
   [[noreturn, gnu::cold, gnu::noinline]] void fail(const Port& port, Cycle cycle,
                                                    const std::string& what) const;
 
@@ -258,19 +278,10 @@ class PortedMemory : public MemoryBase {
 template <class Word>
 class Memory final : public PortedMemory {
  public:
-  Memory(const char* name, MemoryShape shape)
-      : PortedMemory(name, std::move(shape)),
-        kept_(words_),
-        before_(writers_.size() * span_),
-        captured_(readers_.size() * (ring_ + 1) * span_) {}
-  // With content: a ROM, or what flip-flops hold when they are switched on.
+  Memory(const char* name, MemoryShape shape) : Memory(name, std::move(shape), Words{}) {}
+  // With content: a ROM, all of it, or what flip-flops hold when they are switched on.
   Memory(const char* name, MemoryShape shape, std::span<const Word> content)
-      : Memory(name, std::move(shape)) {
-    DEBURR_CHECK(content.size() <= kept_.size(),
-                 std::string(this->name()) + ": " + std::to_string(content.size()) +
-                     " words of content for " + std::to_string(kept_.size()));
-    std::copy(content.begin(), content.end(), kept_.begin());
-  }
+      : Memory(name, std::move(shape), Words{content}) {}
 
   // Without a port and without time: for tests, preloads and dumps only.
   Word& backdoor(std::uint64_t address) { return kept_.at(address); }
@@ -287,6 +298,22 @@ class Memory final : public PortedMemory {
   friend class ReadAccess;
   template <class>
   friend class WriteAccess;
+
+  struct Words {
+    std::span<const Word> content = {};
+  };
+  Memory(const char* name, MemoryShape shape, Words words)
+      : PortedMemory(name, std::move(shape)),
+        kept_(words_),
+        before_(writers_.size() * span_),
+        captured_(readers_.size() * (ring_ + 1) * span_) {
+    check_content(words.content.size());
+    if constexpr (std::is_integral_v<Word>)
+      for (std::size_t i = 0; i < words.content.size(); ++i)
+        check_content(i, static_cast<std::uint64_t>(words.content[i]),
+                      std::cmp_less(words.content[i], 0));
+    std::copy(words.content.begin(), words.content.end(), kept_.begin());
+  }
 
   Word* captured(const Port& port, std::uint32_t at) {
     return &captured_[(port.reader * (ring_ + 1) + at) * span_];
@@ -365,6 +392,11 @@ class ReadAccess {
   const Word& at(Cycle cycle, std::uint64_t address) const {
     return memory_->word(*port_, memory_->arrived(*port_, cycle, address), address);
   }
+  // The same, if it is the word as the access of clock `issued` read it: of an address that may be
+  // read again, an older word is caught too.
+  const Word& at(Cycle cycle, std::uint64_t address, Cycle issued) const {
+    return memory_->word(*port_, memory_->arrived(*port_, cycle, address, issued), address);
+  }
   // Both in one clock: of flip-flops without an output register.
   const Word& now(Cycle cycle, std::uint64_t address) {
     read(cycle, address);
@@ -413,9 +445,13 @@ class ReadAccess<void> {
     memory_->issue_read(*port_, cycle, address, count);
   }
   bool arrives(Cycle cycle) const { return PortedMemory::arrives(*port_, cycle); }
-  // CheckFailed unless a word, or the word of this address, is on the output register.
+  // CheckFailed unless a word, or the word of this address, or that of this address and access, is
+  // on the output register.
   void check(Cycle cycle) const { memory_->arrived(*port_, cycle); }
   void check(Cycle cycle, std::uint64_t address) const { memory_->arrived(*port_, cycle, address); }
+  void check(Cycle cycle, std::uint64_t address, Cycle issued) const {
+    memory_->arrived(*port_, cycle, address, issued);
+  }
 
  protected:
   ReadAccess(Memory<void>& memory, PortedMemory::Port& port) : memory_(&memory), port_(&port) {}

@@ -22,6 +22,18 @@ MemoryShape buffer_shape(const MemoryPortParameters& p) {
           .content = "lines that have come from memory, with their status"};
 }
 
+std::unique_ptr<const MemoryBase> make_gather_buffer(const MemoryPortParameters& p) {
+  if (p.max_write_lines == 1) return nullptr;
+  const std::uint32_t bits = 8 * p.line_bytes;
+  return std::make_unique<const MemoryBase>(
+      "gather_buffer",
+      MemoryShape{.words = p.max_write_lines,
+                  .word_bits = bits,
+                  .kind = MemoryBase::kind_for(std::uint64_t{p.max_write_lines} * bits),
+                  .latency = 1,
+                  .content = "lines of a burst that is to be written"});
+}
+
 }  // namespace
 
 PayloadShape request_shape(const MemoryPortParameters& port, std::uint32_t address_bits,
@@ -51,6 +63,7 @@ MemoryPort::MemoryPort(const sc_core::sc_module_name& name, ClockDomain& clock,
                        const MemoryPortParameters& parameters)
     : Unit(name, clock),
       response_buffer("response_buffer", buffer_shape(parameters)),
+      gather_buffer(make_gather_buffer(parameters)),
       parameters_(parameters),
       stalled_outstanding_(declare_stall("outstanding", "the limit of transactions is reached")),
       stalled_channel_(
@@ -62,6 +75,10 @@ MemoryPort::MemoryPort(const sc_core::sc_module_name& name, ClockDomain& clock,
   DEBURR_CHECK(parameters.max_burst_lines >= 1 && parameters.max_burst_lines <= 64,
                fmt::format("{}: bursts of {} lines, not in 1..64", this->name(),
                            parameters.max_burst_lines));
+  DEBURR_CHECK(
+      parameters.max_write_lines >= 1 && parameters.max_write_lines <= parameters.max_burst_lines,
+      fmt::format("{}: writes of {} lines, not in 1..{}", this->name(), parameters.max_write_lines,
+                  parameters.max_burst_lines));
   DEBURR_CHECK(parameters.line_bytes >= 4 && parameters.line_bytes <= kLineBytes,
                fmt::format("{}: lines of {} bytes, not in 4..{}", this->name(),
                            parameters.line_bytes, kLineBytes));
@@ -94,10 +111,15 @@ Activity MemoryPort::tick(Cycle cycle) {
       lost = stalled_channel_;
     } else {
       if (starts) {
-        DEBURR_CHECK(request.address % parameters_.line_bytes == 0 && request.lines >= 1 &&
-                         request.lines <= parameters_.max_burst_lines,
-                     fmt::format("{}: cycle {}: request for {} lines at {:#x}", name(), cycle,
-                                 request.lines, request.address));
+        const std::uint32_t most =
+            request.write ? parameters_.max_write_lines : parameters_.max_burst_lines;
+        DEBURR_CHECK(
+            request.address % parameters_.line_bytes == 0 && request.lines >= 1 &&
+                request.lines <= most,
+            fmt::format("{}: cycle {}: {} of {} lines at {:#x}, expected 1..{} lines from a "
+                        "multiple of {} bytes on",
+                        name(), cycle, request.write ? "write" : "read", request.lines,
+                        request.address, most, parameters_.line_bytes));
         gathering_ = &allocate();
         Transaction& t = *gathering_;
         t.tag = request.tag;

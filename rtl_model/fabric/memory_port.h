@@ -9,8 +9,13 @@
 // Latency: request popped in cycle c leaves in c; a response that arrives at a time before edge d
 // is pushed in d, so d is at the earliest c+1. It can be popped in d+1. Stalls: `outstanding`
 // (limit reached), `request_channel` (the target has not ended the last request), `downstream`
-// (nobody takes the responses). Cost: response_buffer, a place for every line that may come back,
-// written as it comes and read into the link's slot; a tag table, one multiplexer.
+// (nobody takes the responses).
+// Cost: response_buffer, a place for every line that may come back, written as it comes and read
+// into the link's slot; with bursts of writes gather_buffer, the lines of one; a tag table, one
+// multiplexer. What the interconnect is, the model leaves open: a burst goes and comes in one
+// transaction, and all responses that come before an edge are in the buffer at that edge, however
+// many. From it goes one beat a clock. A buffer of 1R1W takes them so if the interconnect brings at
+// most a line a clock.
 #pragma once
 
 #include <array>
@@ -34,9 +39,9 @@ using Line = std::array<std::uint8_t, kLineBytes>;
 struct MemoryRequest {
   std::uint64_t address = 0;  // bytes; a multiple of the port's line_bytes
   std::uint32_t tag = 0;      // comes back with the response; the unit's own business
-  std::uint16_t lines = 1;    // burst length, 1..MemoryPortParameters::max_burst_lines
+  std::uint16_t lines = 1;    // of a burst: at most max_burst_lines, of a write max_write_lines
   bool write = false;
-  std::uint64_t byte_mask = ~std::uint64_t{0};  // bit i: byte i is written; of the first beat
+  std::uint64_t byte_mask = 0;  // bit i: byte i is written; counts in a write's first beat only
   Line data{};
 
   template <class Self, class Visit>
@@ -77,6 +82,7 @@ struct MemoryResponse {
 struct MemoryPortParameters {
   std::uint32_t outstanding = 16;         // transactions; 1..1024
   std::uint32_t max_burst_lines = 1;      // lines; 1..64
+  std::uint32_t max_write_lines = 1;      // lines of a burst that writes; 1..max_burst_lines
   bool in_order = false;                  // responses in the order of requests
   std::uint32_t line_bytes = kLineBytes;  // 4..kLineBytes: of each beat, the first so many
 };
@@ -102,6 +108,8 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
 
   // Lines that have come and wait for the link, with their status.
   const MemoryBase response_buffer;
+  // The burst of writes whose beats are coming in, until it is sent. nullptr: writes are one line.
+  const std::unique_ptr<const MemoryBase> gather_buffer;
 
   std::uint32_t in_flight() const;
   // Untimed access through transport_dbg, from the end of elaboration on; gives the number of bytes

@@ -121,8 +121,11 @@ std::size_t PayloadBuilder::count(const std::string& name, std::size_t limit,
                                   std::size_t listed) const {
   for (const auto& [what, fewer] : shape_.counts)
     if (what == name) limit = fewer;
-  DEBURR_CHECK(limit >= 1, fmt::format("{}: no element is built", name));
-  return std::min(limit, listed);
+  if (limit == kAll) return listed;
+  DEBURR_CHECK(
+      limit >= 1 && limit <= listed,
+      fmt::format("{}: {} elements are built, its list allows 1..{}", name, limit, listed));
+  return limit;
 }
 
 PayloadNode PayloadBuilder::bytes(std::size_t size) const {
@@ -152,17 +155,71 @@ std::string PayloadBuilder::type_name(const std::type_info& type) {
 
 }  // namespace detail
 
+namespace {
+
+// Are all elements of an array as wide?
+bool alike(const PayloadNode& a, const PayloadNode& b) {
+  return a.field.bits == b.field.bits && std::equal(a.children.begin(), a.children.end(),
+                                                    b.children.begin(), b.children.end(), alike);
+}
+
+// The names of the arrays in a payload. Elements that differ have no type.
+void find_arrays(const PayloadNode& node, const std::string& path,
+                 std::vector<std::string>& arrays) {
+  const std::string name = path.empty() ? node.name : path + "." + node.name;
+  if (node.kind == PayloadNode::Kind::kArray) {
+    arrays.push_back(name);
+    for (const PayloadNode& element : node.children)
+      DEBURR_CHECK(alike(element, node.children.front()),
+                   fmt::format("{}.{} is not built as the other elements of its array are: narrow "
+                               "all of {}",
+                               name, element.name, name));
+  }
+  for (const PayloadNode& child : node.children) find_arrays(child, name, arrays);
+}
+
+}  // namespace
+
 Payload::Payload(PayloadNode node, const PayloadShape& shape) : node_(std::move(node)) {
   collect(node_);
-  std::vector<std::string> named;
-  for (const auto& [what, bits] : shape.widths) named.push_back(what);
-  for (const auto& [what, elements] : shape.counts) named.push_back(what);
-  for (const std::string& what : named)
-    DEBURR_CHECK(std::any_of(fields_.begin(), fields_.end(),
-                             [&](const Field& f) {
-                               return f.name == what || f.name.starts_with(what + ".");
-                             }),
-                 fmt::format("a payload without {} cannot be built with less of it", what));
+  check_fields();
+  check_shape(shape);
+}
+
+void Payload::check_fields() const {
+  std::vector<const Field*> sorted;
+  for (const Field& field : fields_) sorted.push_back(&field);
+  const auto check = [&](const auto& before, const auto& clash, const char* what) {
+    std::sort(sorted.begin(), sorted.end(),
+              [&](const Field* a, const Field* b) { return before(*a, *b); });
+    const auto found =
+        std::adjacent_find(sorted.begin(), sorted.end(),
+                           [&](const Field* a, const Field* b) { return clash(*a, *b); });
+    if (found != sorted.end())
+      throw spec::CheckFailed(fmt::format("a payload lists {} and {}: {}", (*found)->name,
+                                          (*std::next(found))->name, what));
+  };
+  check([](const Field& a, const Field& b) { return a.name < b.name; },
+        [](const Field& a, const Field& b) { return a.name == b.name; }, "one name for two fields");
+  check([](const Field& a, const Field& b) { return a.offset < b.offset; },
+        [](const Field& a, const Field& b) { return b.offset < a.offset + a.bytes; },
+        "one place for two fields");
+}
+
+void Payload::check_shape(const PayloadShape& shape) const {
+  for (const auto& [what, bits] : shape.widths) {
+    const std::string within = what + ".";
+    DEBURR_CHECK(
+        std::any_of(fields_.begin(), fields_.end(),
+                    [&](const Field& f) { return f.name == what || f.name.starts_with(within); }),
+        fmt::format("a payload without {} cannot be built with less of it", what));
+  }
+  std::vector<std::string> arrays;
+  find_arrays(node_, "", arrays);
+  for (const auto& [what, elements] : shape.counts)
+    DEBURR_CHECK(
+        std::find(arrays.begin(), arrays.end(), what) != arrays.end(),
+        fmt::format("a payload without an array {} cannot be built with less of it", what));
 }
 
 void Payload::collect(PayloadNode& node) {
@@ -211,8 +268,14 @@ void Payload::flip(std::byte* payload, Bit bit) const {
 }
 
 void Payload::fill(std::byte* payload, std::uint64_t pattern) const {
-  if (!listed()) return;
-  for (const Field& field : fields_) field.set(payload, pattern);
+  DEBURR_CHECK(listed(), "a payload that does not list its fields cannot be filled");
+  // splitmix64: neighbouring fields have nothing in common.
+  for (const Field& field : fields_) {
+    std::uint64_t noise = (pattern += 0x9E3779B97F4A7C15);
+    noise = (noise ^ noise >> 30) * 0xBF58476D1CE4E5B9;
+    noise = (noise ^ noise >> 27) * 0x94D049BB133111EB;
+    field.set(payload, noise ^ noise >> 31);
+  }
 }
 
 const Field* Payload::misfit(const std::byte* payload) const {
@@ -239,10 +302,40 @@ std::string Payload::difference(const std::byte* expected, const std::byte* got)
 
 namespace {
 
+// IEEE 1800-2017, annex B.
+constexpr std::string_view kReserved =
+    " accept_on alias always always_comb always_ff always_latch and assert assign assume automatic "
+    "before begin bind bins binsof bit break buf bufif0 bufif1 byte case casex casez cell chandle "
+    "checker class clocking cmos config const constraint context continue cover covergroup "
+    "coverpoint cross deassign default defparam design disable dist do edge else end endcase "
+    "endchecker endclass endclocking endconfig endfunction endgenerate endgroup endinterface "
+    "endmodule endpackage endprimitive endprogram endproperty endsequence endspecify endtable "
+    "endtask enum event eventually expect export extends extern final first_match for force "
+    "foreach forever fork forkjoin function generate genvar global highz0 highz1 if iff ifnone "
+    "ignore_bins illegal_bins implements implies import incdir include initial inout input inside "
+    "instance int integer interconnect interface intersect join join_any join_none large let "
+    "liblist library local localparam logic longint macromodule matches medium modport module nand "
+    "negedge nettype new nexttime nmos nor noshowcancelled not notif0 notif1 null or output "
+    "package packed parameter pmos posedge primitive priority program property protected pull0 "
+    "pull1 pulldown pullup pulsestyle_ondetect pulsestyle_onevent pure rand randc randcase "
+    "randsequence rcmos real realtime ref reg reject_on release repeat restrict return rnmos rpmos "
+    "rtran rtranif0 rtranif1 s_always s_eventually s_nexttime s_until s_until_with scalared "
+    "sequence shortint shortreal showcancelled signed small soft solve specify specparam static "
+    "string strong strong0 strong1 struct super supply0 supply1 sync_accept_on sync_reject_on "
+    "table tagged task this throughout time timeprecision timeunit tran tranif0 tranif1 tri tri0 "
+    "tri1 triand trior trireg type typedef union unique unique0 unsigned until until_with untyped "
+    "use uwire var vectored virtual void wait wait_order wand weak weak0 weak1 while wildcard wire "
+    "with within wor xnor xor ";
+
+std::string legal(const std::string& name) {
+  return kReserved.find(" " + name + " ") == std::string_view::npos ? name : name + "_";
+}
+
 // Typedefs by name; of two that share a name but not their fields, the later gets a number.
 class PackageWriter {
  public:
   std::string declare(const PayloadNode& node) {
+    if (node.kind == PayloadNode::Kind::kField) return declare_integer(node);
     std::string body;
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
       body += member(*child);
@@ -255,6 +348,14 @@ class PackageWriter {
   std::string text;
 
  private:
+  std::string declare_integer(const PayloadNode& node) {
+    const auto& [name, inserted] = unique(
+        fmt::format("{}{}_t", node.field.is_signed ? 's' : 'u', node.field.bits), type_of(node));
+    if (inserted)
+      text +=
+          fmt::format("  // {} bits\n  typedef {} {};\n\n", node.field.bits, type_of(node), name);
+    return name;
+  }
   static std::uint32_t width(const PayloadNode& node) {
     if (node.kind == PayloadNode::Kind::kField) return node.field.bits;
     std::uint32_t sum = 0;
@@ -294,7 +395,7 @@ class PackageWriter {
     while (at->kind == PayloadNode::Kind::kArray) at = &at->children.front();
     if (at->kind == PayloadNode::Kind::kField && !at->field.format.empty())
       note = "  // " + at->field.format;
-    return fmt::format("    {} {};{}\n", type, node.name, note);
+    return fmt::format("    {} {};{}\n", type, legal(node.name), note);
   }
 
   std::map<std::string, std::string> bodies_;
@@ -305,7 +406,7 @@ class PackageWriter {
 std::string payload_package(const std::string& name, std::span<const Payload* const> payloads) {
   PackageWriter writer;
   for (const Payload* payload : payloads)
-    if (payload->node().kind == PayloadNode::Kind::kStruct) writer.declare(payload->node());
+    if (payload->listed()) writer.declare(payload->node());
   return fmt::format("// SPDX-License-Identifier: MIT\npackage {};\n\n{}endpackage\n", name,
                      writer.text);
 }

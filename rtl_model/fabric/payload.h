@@ -27,7 +27,8 @@
 // cache) is given with the link: PayloadShape.
 //
 // Bit 0 of a payload is bit 0 of its first field. An integer without list has its own width, a bool
-// one bit.
+// one bit. An enumeration has no sign. The elements of an array are built alike, the names are
+// unique, and no bit of the C++ type is listed twice: a Payload checks it.
 #pragma once
 
 #include <array>
@@ -247,7 +248,8 @@ class PayloadBuilder {
   }
   template <class M>
   void lane_bits(std::string_view name, const M& member, std::uint32_t most) {
-    add(field(std::string(name), member, shape_.lanes < most ? shape_.lanes : most,
+    add(field(std::string(name), member,
+              static_cast<std::uint32_t>(count(path_ + std::string(name), shape_.lanes, most)),
               "a bit a lane"));
   }
 
@@ -311,17 +313,15 @@ class PayloadBuilder {
   PayloadNode field(std::string name, const M& member, std::uint32_t bits,
                     std::string_view format) {
     static_assert(std::is_integral_v<M> || std::is_enum_v<M>);
-    bool is_signed = std::is_signed_v<M>;
-    if constexpr (std::is_enum_v<M>) is_signed = std::is_signed_v<std::underlying_type_t<M>>;
     return field(std::move(name), reinterpret_cast<const std::byte*>(&member) - payload_, sizeof(M),
-                 bits, format, is_signed);
+                 bits, format, std::is_signed_v<M>);
   }
   PayloadNode field(std::string name, std::ptrdiff_t offset, std::size_t size, std::uint32_t bits,
                     std::string_view format, bool is_signed) const;
   static PayloadNode array(const std::string& name);
   // Elements of an array that are built.
   std::size_t count(const std::string& name, std::size_t limit, std::size_t listed) const;
-  // A type that does not list its fields yet.
+  // A type that does not list its fields.
   PayloadNode bytes(std::size_t size) const;
   static std::string type_name(const std::type_info& type);
 
@@ -363,7 +363,8 @@ class Payload {
   Bit bit(const std::string& text) const;
 
   void flip(std::byte* payload, Bit bit) const;
-  // A pattern in every field; nothing happens to a type without list, whose bytes may be anything.
+  // Noise in every field, from the seed `pattern` and the field's number. CheckFailed for a type
+  // without list, whose bytes may be anything.
   void fill(std::byte* payload, std::uint64_t pattern) const;
   // The first field whose C++ value has more bits than it is listed with; nullptr: none.
   const Field* misfit(const std::byte* payload) const;
@@ -375,6 +376,8 @@ class Payload {
  private:
   Payload(PayloadNode node, const PayloadShape& shape);
   void collect(PayloadNode& node);
+  void check_fields() const;
+  void check_shape(const PayloadShape& shape) const;
 
   PayloadNode node_;
   std::vector<Field> fields_;
@@ -393,7 +396,9 @@ std::string payload_difference(const T& expected, const T& got) {
 }
 
 // A SystemVerilog package with a packed struct for each payload and for what is in it. Fields stand
-// from the most significant one down, so that bit n of a struct is bit n of the payload.
+// from the most significant one down, so that bit n of a struct is bit n of the payload. A payload
+// that is an integer is a u16_t or s16_t. Names that the language reserves get a trailing
+// underscore.
 std::string payload_package(const std::string& name, std::span<const Payload* const> payloads);
 
 }  // namespace deburr::rtl

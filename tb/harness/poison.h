@@ -2,7 +2,8 @@
 // Fills what nobody has written: a slot of a link carries a bad pattern in every field, masked to
 // the field's width, from the clock after its beat was popped until it is refilled. A producer that
 // leaves a field out, or a consumer that looks at a beat once more after its pop, then reads noise
-// that changes with every beat instead of a plausible old value.
+// that changes with every beat and field instead of a plausible old value. A link whose payload
+// does not list its fields is refused.
 #pragma once
 
 #include <cstdint>

@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <deque>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/memory.h"
@@ -159,6 +163,224 @@ TEST(Memory, RuleOfReadDuringWriteHoldsInAnyOrder) {
   }
 }
 
+TEST(Memory, RuleOfReadDuringWriteHoldsForEachWordOfAnAccess) {
+  for (const bool read_first : {true, false})
+    for (const ReadDuringWrite rule :
+         {ReadDuringWrite::kOldWord, ReadDuringWrite::kNewWord, ReadDuringWrite::kForbidden}) {
+      Memory<int> memory("memory", {.words = 16,
+                                    .word_bits = 8,
+                                    .latency = 2,
+                                    .read_during_write = rule,
+                                    .banks = 4,
+                                    .span = 3});
+      ReadPort<int> read(memory, "read");
+      WritePort<int> write(memory, "write");
+      for (int a = 0; a < 16; ++a) memory.backdoor(static_cast<std::uint64_t>(a)) = 100 + a;
+      const auto both = [&](Cycle c, std::uint64_t read_at, std::uint64_t write_at) {
+        if (read_first) read.read(c, read_at, 3);
+        write.write(c, write_at, std::array{1, 2});
+        if (!read_first) read.read(c, read_at, 3);
+      };
+      const auto seen = [&](Cycle c, std::uint64_t from) {
+        return std::array{read.at(c, from), read.at(c, from + 1), read.at(c, from + 2)};
+      };
+      both(10, 4, 7);  // neighbours
+      EXPECT_EQ(seen(12, 4), (std::array{104, 105, 106}));
+      both(13, 4, 2);
+      EXPECT_EQ(seen(15, 4), (std::array{104, 105, 106}));
+      if (rule == ReadDuringWrite::kForbidden) {
+        EXPECT_THAT(refusal([&] { both(16, 4, 6); }), HasSubstr("forbidden"));
+        EXPECT_THAT(refusal([&] { both(17, 6, 5); }), HasSubstr("forbidden"));
+        continue;
+      }
+      const bool fresh = rule == ReadDuringWrite::kNewWord;
+      both(16, 4, 6);
+      EXPECT_EQ(seen(18, 4), (std::array{104, 105, fresh ? 1 : 106}));
+      both(19, 9, 8);
+      EXPECT_EQ(seen(21, 9), (std::array{fresh ? 2 : 109, 110, 111}));
+    }
+}
+
+// Each port has an output register of its own, and keeps its own word from before a write.
+TEST(Memory, PortsDoNotShareWords) {
+  Memory<int> memory("memory", {.words = 16,
+                                .word_bits = 8,
+                                .kind = MemoryKind::kFlops,
+                                .read_ports = 2,
+                                .write_ports = 2,
+                                .latency = 1});
+  for (int a = 0; a < 16; ++a) memory.backdoor(static_cast<std::uint64_t>(a)) = 100 + a;
+  ReadPort<int> a(memory, "a"), b(memory, "b");
+  WritePort<int> first(memory, "first"), second(memory, "second");
+  a.read(0, 3);
+  b.read(0, 9);
+  EXPECT_EQ(a.at(1, 3), 103);
+  EXPECT_EQ(b.at(1, 9), 109);
+  first.write(2, 3, 1);
+  second.write(2, 9, 2);
+  a.read(2, 3);
+  b.read(2, 9);
+  EXPECT_EQ(a.at(3, 3), 103);
+  EXPECT_EQ(b.at(3, 9), 109);
+  a.read(3, 9);
+  b.read(3, 3);
+  EXPECT_EQ(a.at(4, 9), 2);
+  EXPECT_EQ(b.at(4, 3), 1);
+}
+
+// An array without ports and without time, and what a port of the memory must show of it.
+class PlainArray {
+ public:
+  PlainArray(std::size_t words, std::uint32_t latency, bool new_word)
+      : latency_(latency), new_word_(new_word), words_(words) {}
+  int& operator[](std::size_t address) { return words_[address]; }
+
+  struct Access {
+    std::size_t port = 0;
+    bool write = false;
+    std::uint64_t address = 0;
+    std::vector<int> words;  // to be written; of a read, as many as are read
+    bool meets(const Access& other) const {
+      return address < other.address + other.words.size() && other.address < address + words.size();
+    }
+  };
+  struct Shown {
+    Cycle issued, due;
+    std::uint64_t address;
+    std::vector<int> words;
+  };
+  void clock(Cycle cycle, const std::vector<Access>& accesses) {
+    std::vector<int> after = words_;
+    for (const Access& a : accesses)
+      if (a.write) std::copy(a.words.begin(), a.words.end(), after.begin() + offset(a));
+    for (const Access& a : accesses) {
+      if (a.write) continue;
+      const auto from = (new_word_ ? after : words_).begin() + offset(a);
+      shown_.resize(std::max(shown_.size(), a.port + 1));
+      shown_[a.port].push_back(
+          {cycle, cycle + latency_, a.address,
+           std::vector<int>(from, from + static_cast<std::ptrdiff_t>(a.words.size()))});
+    }
+    words_ = std::move(after);
+  }
+  // nullptr: nothing yet.
+  const Shown* shown(std::size_t port, Cycle cycle) const {
+    const Shown* newest = nullptr;
+    if (port < shown_.size())
+      for (const Shown& one : shown_[port])
+        if (one.due <= cycle) newest = &one;
+    return newest;
+  }
+
+ private:
+  static std::ptrdiff_t offset(const Access& a) { return static_cast<std::ptrdiff_t>(a.address); }
+  Cycle latency_;
+  bool new_word_;
+  std::vector<int> words_;
+  std::vector<std::deque<Shown>> shown_;
+};
+
+// Any ports, span, latency and order of accesses within a clock.
+TEST(Memory, ShowsWhatAPlainArrayHasInItsTime) {
+  constexpr std::uint64_t kWords = 13;
+  std::uint64_t compared = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    Random random(seed, "memory");
+    const std::uint32_t latency = random.below(5), span = 1 + random.below(3);
+    const std::uint32_t reads = 1 + random.below(3), writes = 1 + random.below(3),
+                        shared = random.below(3);
+    const bool new_word = latency > 0 && random.chance(500);
+    Memory<int> memory("memory", {.words = kWords,
+                                  .word_bits = 32,
+                                  .read_ports = reads,
+                                  .write_ports = writes,
+                                  .shared_ports = shared,
+                                  .latency = latency,
+                                  .read_during_write = new_word ? ReadDuringWrite::kNewWord
+                                                                : ReadDuringWrite::kOldWord,
+                                  .banks = span,
+                                  .span = span,
+                                  .idealised = "any ports, so that their numbers are compared"});
+    std::deque<ReadPort<int>> read_ports;
+    std::deque<WritePort<int>> write_ports;
+    std::deque<SharedPort<int>> shared_ports;
+    for (std::uint32_t i = 0; i < reads; ++i) read_ports.emplace_back(memory, "read");
+    for (std::uint32_t i = 0; i < writes; ++i) write_ports.emplace_back(memory, "write");
+    for (std::uint32_t i = 0; i < shared; ++i) shared_ports.emplace_back(memory, "shared");
+    // Shared ones are among both.
+    std::vector<rtl::ReadAccess<int>*> readers;
+    std::vector<rtl::WriteAccess<int>*> writers;
+    for (ReadPort<int>& port : read_ports) readers.push_back(&port);
+    for (WritePort<int>& port : write_ports) writers.push_back(&port);
+    for (SharedPort<int>& port : shared_ports) {
+      readers.push_back(&port);
+      writers.push_back(&port);
+    }
+    PlainArray array(kWords, latency, new_word);
+    for (std::uint64_t a = 0; a < kWords; ++a)
+      memory.backdoor(a) = array[a] = 1'000'000 + static_cast<int>(a);
+    int next = 0;
+    for (Cycle cycle = 0; cycle < 120; ++cycle) {
+      std::vector<PlainArray::Access> accesses;
+      const auto access = [&](std::size_t port, bool write) {
+        PlainArray::Access a{port, write, 0, std::vector<int>(1 + random.below(span))};
+        a.address = random.below(static_cast<std::uint32_t>(kWords - a.words.size() + 1));
+        for (int& word : a.words) word = ++next;
+        for (const PlainArray::Access& other : accesses)
+          if (write && other.write && a.meets(other)) return;
+        accesses.push_back(std::move(a));
+      };
+      for (std::size_t i = 0; i < reads; ++i)
+        if (random.chance(600)) access(i, false);
+      for (std::size_t i = 0; i < writes; ++i)
+        if (random.chance(500)) access(i, true);
+      for (std::size_t i = 0; i < shared; ++i)
+        if (const bool write = random.chance(400); random.chance(700))
+          access((write ? writes : reads) + i, write);
+      for (std::size_t i = accesses.size(); i > 1; --i)
+        std::swap(accesses[i - 1], accesses[random.below(static_cast<std::uint32_t>(i))]);
+      for (const PlainArray::Access& a : accesses)
+        if (a.write)
+          writers[a.port]->write(cycle, a.address, std::span<const int>(a.words));
+        else
+          readers[a.port]->read(cycle, a.address, a.words.size());
+      array.clock(cycle, accesses);
+      for (std::size_t port = 0; port < readers.size(); ++port) {
+        const PlainArray::Shown* const shown = array.shown(port, cycle);
+        ASSERT_EQ(readers[port]->arrives(cycle), shown && shown->due == cycle);
+        if (!shown) continue;
+        ASSERT_EQ(readers[port]->word(cycle), shown->words[0]) << "seed " << seed;
+        for (std::size_t i = 0; i < shown->words.size(); ++i, ++compared)
+          ASSERT_EQ(readers[port]->at(cycle, shown->address + i, shown->issued), shown->words[i])
+              << "seed " << seed << ", port " << port << ", cycle " << cycle;
+      }
+    }
+    for (std::uint64_t a = 0; a < kWords; ++a) ASSERT_EQ(memory.backdoor(a), array[a]);
+  }
+  EXPECT_GT(compared, 100'000U);
+}
+
+// The address of a word that is read again does not tell whether it has come; its access does.
+TEST(Memory, AWordThatIsReadAgainIsToldByItsAccess) {
+  Ported p(2);
+  p.read.read(10, 3);
+  p.write.write(11, 3, 7);
+  p.read.read(12, 3);
+  EXPECT_EQ(p.read.at(13, 3), 103);  // a clock early: by its address it may be the one
+  EXPECT_THAT(refusal([&] { p.read.at(13, 3, 12); }),
+              AllOf(HasSubstr("cycle 13: read port reader: the word of address 3"),
+                    HasSubstr("as it was read in cycle 12"), HasSubstr("is that of cycle 10")));
+  EXPECT_EQ(p.read.at(13, 3, 10), 103);
+  EXPECT_EQ(p.read.at(14, 3, 12), 7);
+  EXPECT_THROW(p.read.at(14, 3, 10), spec::CheckFailed);
+  EXPECT_THROW(p.read.at(14, 4, 12), spec::CheckFailed);
+  Memory<void> checked("checked", {.words = 8, .word_bits = 4});
+  ReadPort<void> read(checked, "read");
+  read.read(4, 5);
+  EXPECT_NO_THROW(read.check(5, 5, 4));
+  EXPECT_THROW(read.check(5, 5, 5), spec::CheckFailed);
+}
+
 TEST(Memory, AWriteAfterTheReadDoesNotReachIt) {
   Ported p(3, ReadDuringWrite::kNewWord);
   p.read.read(10, 5);
@@ -224,6 +446,7 @@ TEST(Memory, OneAccessGivesNeighboursInDifferentBanks) {
   read.read(1, 5, 3);
   EXPECT_EQ(read.at(2, 5), 50);
   EXPECT_EQ(read.at(2, 7), 70);
+  EXPECT_EQ(memory.ports(), "1R1W of 3 words");
   EXPECT_THAT(refusal([&] { read.at(2, 8); }), HasSubstr("address 8"));
   EXPECT_THROW(read.read(3, 8, 3), spec::CheckFailed);
   EXPECT_THROW(read.read(4, 0, 4), spec::CheckFailed);
@@ -318,8 +541,37 @@ TEST(Memory, RomHasItsContent) {
   read.read(0, 3);
   EXPECT_EQ(read.at(1, 3), 16);
   EXPECT_EQ(rom.ports(), "1R");
-  EXPECT_THROW((Memory<std::uint16_t>("short", {.words = 4, .word_bits = 5}, kTable)),
-               spec::CheckFailed);
+  const auto build = [&](std::uint64_t words, std::uint32_t bits, MemoryKind kind) {
+    return Memory<std::uint16_t>("table",
+                                 {.words = words,
+                                  .word_bits = bits,
+                                  .kind = kind,
+                                  .write_ports = kind == MemoryKind::kRom ? 0U : 1U},
+                                 kTable);
+  };
+  EXPECT_THAT(refusal([&] { build(4, 5, MemoryKind::kRom); }), HasSubstr("5 words of content"));
+  EXPECT_THAT(refusal([&] { build(6, 5, MemoryKind::kRom); }), HasSubstr("all of its words"));
+  EXPECT_THAT(refusal([&] { build(5, 4, MemoryKind::kRom); }),
+              HasSubstr("0x10 at address 3 has more than 4 bits"));
+  EXPECT_THAT(refusal([&] { build(5, 5, MemoryKind::kSram); }), HasSubstr("sram has none"));
+  EXPECT_THAT(refusal([&] { build(4, 5, MemoryKind::kFlops); }), HasSubstr("5 words of content"));
+  EXPECT_NO_THROW(build(6, 5, MemoryKind::kFlops));
+  EXPECT_THAT(refusal([&] {
+                Memory<int>(
+                    "bare",
+                    {.words = 4, .word_bits = 5, .kind = MemoryKind::kRom, .write_ports = 0});
+              }),
+              HasSubstr("0 words of content"));
+}
+
+TEST(Memory, ContentWithASignFitsItsBits) {
+  const auto build = [](int word) {
+    const std::array<std::int16_t, 1> content = {static_cast<std::int16_t>(word)};
+    Memory<std::int16_t>(
+        "rom", {.words = 1, .word_bits = 5, .kind = MemoryKind::kRom, .write_ports = 0}, content);
+  };
+  for (const int word : {-16, -1, 0, 15, 31}) EXPECT_NO_THROW(build(word)) << word;
+  for (const int word : {-17, 32}) EXPECT_THROW(build(word), spec::CheckFailed) << word;
 }
 
 TEST(Memory, ResetClearsTheBookkeepingAndNotTheWords) {
@@ -330,6 +582,42 @@ TEST(Memory, ResetClearsTheBookkeepingAndNotTheWords) {
   EXPECT_NO_THROW(p.read.read(5, 3));
   EXPECT_EQ(p.read.at(6, 3), 103);
   EXPECT_EQ(p.memory.reads(), 1U);
+}
+
+// The domain looks after memories inside units and beside them.
+class Holder final : public rtl::Unit {
+ public:
+  Ported inside{1};
+  Holder(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
+  rtl::Activity tick(Cycle cycle) override {
+    inside.read.read(cycle, cycle % 16);
+    return rtl::kBusy;
+  }
+  void reset() override {}
+};
+
+TEST(Memory, TheDomainResetsIt) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  Holder holder("holder", clock);
+  Ported beside(1);
+  clock.run(5);
+  beside.read.read(clock.cycle(), 3);
+  EXPECT_EQ(holder.inside.memory.reads(), 5U);
+  EXPECT_EQ(beside.memory.reads(), 1U);
+  clock.set_reset_n(false);
+  clock.run(1);
+  for (Ported* p : {&holder.inside, &beside}) {
+    EXPECT_EQ(p->memory.reads(), 0U);
+    EXPECT_THROW(p->read.word(clock.cycle() + 1), spec::CheckFailed);
+    EXPECT_EQ(p->memory.backdoor(7), 107);
+  }
+}
+
+TEST(Memory, TheDomainAsksForAPortThatNobodyUses) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  Memory<int> memory("memory", {.words = 16, .word_bits = 8});
+  const ReadPort<int> read(memory, "read");
+  EXPECT_THAT(refusal([&] { clock.run(1); }), HasSubstr("memory: one of its ports 1R1W"));
 }
 
 // ---- what it costs ------------------------------------------------------------------------------
@@ -427,6 +715,35 @@ TEST(MemoryCost, WhatNobodySellsIsRefusedWithAWayOut) {
   EXPECT_THAT(
       refused({.words = 8, .word_bits = 8, .banks = 2, .order = BankOrder::kBlocks, .span = 2}),
       HasSubstr("interleaved banks"));
+  // Registers under another name; the bits of a row of 24 576 that are used at once.
+  for (const MemoryKind kind : {MemoryKind::kSram, MemoryKind::kRom}) {
+    const std::uint32_t writes = kind == MemoryKind::kSram ? 1 : 0;
+    const auto banked = [&](std::uint64_t words, std::uint32_t banks) {
+      return MemoryShape{.words = words,
+                         .word_bits = 2,
+                         .kind = kind,
+                         .write_ports = writes,
+                         .banks = banks,
+                         .span = banks};
+    };
+    EXPECT_THAT(refused(banked(24'576, 24'576)),
+                AllOf(HasSubstr("24576 banks of fewer than 16 words"), HasSubstr("use flops")));
+    EXPECT_THAT(refused(banked(65 * 16 - 1, 65)), HasSubstr("use flops"));
+    EXPECT_NO_THROW(MemoryBase("memory", banked(65 * 16, 65)));
+    EXPECT_NO_THROW(MemoryBase("memory", banked(64, 64)));
+  }
+  EXPECT_THAT(
+      refused({.words = 64, .word_bits = 8, .read_ports = 3, .banks = 2, .separate_banks = true}),
+      AllOf(HasSubstr("3 accesses of a kind"), HasSubstr("2 separate banks")));
+  EXPECT_THAT(refused({.words = 64,
+                       .word_bits = 8,
+                       .kind = MemoryKind::kFlops,
+                       .write_ports = 5,
+                       .banks = 4,
+                       .separate_banks = true}),
+              HasSubstr("use 5 banks"));
+  EXPECT_THAT(refusal([] { MemoryBase("memory", {.words = 8, .word_bits = 16, .mask_bits = 5}); }),
+              HasSubstr("a write mask of 5 bits does not divide words of 16"));
 }
 
 TEST(MemoryCost, IdealisedSaysSoAndWhy) {
@@ -459,6 +776,13 @@ TEST(MemoryCost, AMemoryPortBuffersWhatMayComeBack) {
   EXPECT_EQ(few.response_buffer.memory_kind(), MemoryKind::kFlops);
   EXPECT_EQ(many.response_buffer.bits(), 128U * 258);
   EXPECT_EQ(many.response_buffer.memory_kind(), MemoryKind::kSram);
+  EXPECT_EQ(many.gather_buffer, nullptr);
+  const rtl::MemoryPort bursts("bursts", clock, {.max_burst_lines = 8, .max_write_lines = 4});
+  ASSERT_NE(bursts.gather_buffer, nullptr);
+  EXPECT_EQ(bursts.gather_buffer->bits(), 4U * 512);
+  EXPECT_EQ(bursts.gather_buffer->memory_kind(), MemoryKind::kFlops);
+  EXPECT_THROW(rtl::MemoryPort("wrong", clock, {.max_burst_lines = 2, .max_write_lines = 4}),
+               spec::CheckFailed);
 }
 
 TEST(MemoryCost, ADeepFifoIsSram) {

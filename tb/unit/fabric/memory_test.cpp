@@ -8,6 +8,7 @@
 #include <set>
 
 #include "rtl_model/fabric/memory_port.h"
+#include "tb/harness/link_checker.h"
 #include "tb/harness/memory_model.h"
 #include "tb/unit/fabric/support.h"
 
@@ -49,10 +50,13 @@ struct Side {
   Driver<MemoryRequest> driver{"driver", clock};
   rtl::MemoryPort port;
   Sink<MemoryResponse> sink;
-  rtl::Link<MemoryRequest> requests{"requests"};
-  rtl::Link<MemoryResponse> responses{"responses"};
+  rtl::Link<MemoryRequest> requests;
+  rtl::Link<MemoryResponse> responses;
   explicit Side(const MemoryPortParameters& parameters = {}, std::uint32_t sink_stalls = 0)
-      : port("port", clock, parameters), sink("sink", clock, {sink_stalls, 1}) {
+      : port("port", clock, parameters),
+        sink("sink", clock, {sink_stalls, 1}),
+        requests("requests", 2, rtl::request_shape(parameters, 64, 32)),
+        responses("responses", 2, rtl::response_shape(parameters, 64, 32)) {
     driver.beats_out(requests);
     port.requests_in(requests);
     port.responses_out(responses);
@@ -186,6 +190,7 @@ TEST(MemoryPort, RandomLatencyOvertakesUnlessInOrder) {
 TEST(MemoryPort, BurstsOfReadsAndWrites) {
   MemoryPortParameters parameters;
   parameters.max_burst_lines = 8;
+  parameters.max_write_lines = 4;
   System s(parameters, with_latency(12));
   MemoryRequest burst = read_of(16);
   burst.lines = 8;
@@ -194,6 +199,7 @@ TEST(MemoryPort, BurstsOfReadsAndWrites) {
     MemoryRequest write = read_of(100);
     write.write = true;
     write.lines = 4;
+    write.byte_mask = ~std::uint64_t{0};
     write.data.fill(static_cast<std::uint8_t>(0xA0 + beat));
     s.driver.send(write);
   }
@@ -233,6 +239,7 @@ TEST(MemoryModel, AReadBehindAWriteIsARace) {
       System s({}, parameters);
       MemoryRequest write = read_of(3);
       write.write = true;
+      write.byte_mask = ~std::uint64_t{0};
       write.data.fill(0xEE);
       s.driver.send({write, read_of(3)});
       s.clock.run(40);
@@ -248,6 +255,48 @@ TEST(MemoryModel, AReadBehindAWriteIsARace) {
     });
     EXPECT_EQ(text, late ? "written old new " : "written new new ");
   }
+}
+
+// Every beat of a read fits the links as they are built for narrow lines; a mask that does not is
+// noticed.
+TEST(MemoryPort, NarrowLinesHaveNarrowBeats) {
+  MemoryPortParameters parameters;
+  parameters.line_bytes = 32;
+  System s(parameters, with_latency(5));
+  const LinkChecker checker(s.clock, "*", true);
+  for (std::uint32_t line = 0; line < 20; ++line) {
+    MemoryRequest read;
+    read.address = line * 32;
+    read.tag = line;
+    s.driver.send(read);
+  }
+  ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 20; }, 1000));
+  for (const MemoryResponse& response : s.sink.beats()) {
+    for (std::uint32_t i = 0; i < 32; ++i)
+      ASSERT_EQ(response.data[i], pattern(response.address + i)) << response.address;
+    for (std::uint32_t i = 32; i < kLineBytes; ++i) ASSERT_EQ(response.data[i], 0);
+  }
+  EXPECT_EQ(checker.beats(), 40U);
+  MemoryRequest write;
+  write.write = true;
+  write.byte_mask = std::uint64_t{1} << 32;
+  s.driver.send(write);
+  EXPECT_THROW(s.clock.run(10), spec::SimulationError);
+}
+
+TEST(MemoryPort, AWriteIsNoLongerThanThePlaceToGatherIt) {
+  MemoryPortParameters parameters;
+  parameters.max_burst_lines = 4;
+  parameters.max_write_lines = 2;
+  System s(parameters, with_latency(5));
+  MemoryRequest request = read_of(0);
+  request.lines = 4;
+  s.driver.send(request);
+  s.clock.run(20);
+  EXPECT_EQ(s.sink.received(), 4U);
+  request.write = true;
+  s.driver.send(request);
+  EXPECT_THROW(s.clock.run(20), spec::CheckFailed);
 }
 
 TEST(MemoryPort, MisalignedRequestIsABug) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FIFO, SRAM, arbiter, counters and histogram: timing, limits, and misuse that is caught.
+// FIFO, arbiter, counters and histogram: timing, limits, and misuse that is caught.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +9,6 @@
 #include "rtl_model/fabric/counters.h"
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/histogram.h"
-#include "rtl_model/fabric/sram.h"
 #include "tb/unit/fabric/support.h"
 
 namespace deburr::tb {
@@ -71,47 +70,6 @@ TEST(Fifo, InsideAUnitIsResetWithItsCounters) {
   clock.run(20);
   EXPECT_EQ(hoarder.coins.value(), 16U);
   EXPECT_EQ(statistics(clock)["sram_bits"]["hoarder.hoard"], 128);
-}
-
-TEST(Sram, KeepsWhatIsWrittenAndCountsItsBits) {
-  rtl::Sram<std::uint32_t> sram("sram", 1920, 24);
-  EXPECT_EQ(sram.bits(), 1920U * 24);
-  EXPECT_EQ(sram.ports(), "1R1W");
-  for (std::uint32_t a = 0; a < 1920; ++a) sram.write(a, a, a * 3);
-  for (std::uint32_t a = 0; a < 1920; ++a) EXPECT_EQ(sram.read(2000 + a, a), a * 3);
-}
-
-TEST(Sram, PortOveruseIsCaught) {
-  rtl::Sram<int> sram("sram", 16, 8);
-  sram.read(4, 1);
-  EXPECT_THROW(sram.read(4, 2), spec::CheckFailed);
-  sram.read(5, 2);  // a new cycle
-  sram.write(5, 3, 1);
-  EXPECT_THROW(sram.write(5, 4, 1), spec::CheckFailed);
-  EXPECT_THROW(sram.read(6, 16), spec::CheckFailed);
-
-  rtl::Sram<int> shared("shared", 16, 8, {0, 0, 1, false});
-  EXPECT_EQ(shared.ports(), "1RW");
-  shared.read(0, 1);
-  EXPECT_THROW(shared.write(0, 2, 1), spec::CheckFailed);
-  shared.write(1, 2, 1);
-  EXPECT_THROW(shared.read(1, 3), spec::CheckFailed);
-}
-
-TEST(Sram, CollisionIsCaughtUnlessReadFirst) {
-  rtl::Sram<int> sram("sram", 16, 8);
-  sram.write(0, 5, 50);
-  EXPECT_THROW(sram.read(0, 5), spec::CheckFailed);
-  sram.read(1, 5);
-  EXPECT_THROW(sram.write(1, 5, 51), spec::CheckFailed);
-
-  rtl::Sram<int> read_first("read_first", 16, 8, {1, 1, 0, true});
-  read_first.write(0, 5, 50);
-  read_first.write(1, 5, 51);
-  EXPECT_EQ(read_first.read(1, 5), 50);  // whichever comes first in the code
-  EXPECT_EQ(read_first.read(2, 5), 51);
-  read_first.write(2, 5, 52);
-  EXPECT_EQ(read_first.read(3, 5), 52);
 }
 
 TEST(RoundRobin, WhoWasGrantedWaitsForAllOthers) {

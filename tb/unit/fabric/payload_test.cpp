@@ -93,7 +93,61 @@ TEST(Payload, WidthIsTheSumOfWhatIsBuilt) {
   EXPECT_THROW(Payload::of<Beat>({.widths = {{"slope", 14}}}), spec::CheckFailed);
   EXPECT_THROW(Payload::of<Beat>({.widths = {{"slop", 4}}}), spec::CheckFailed);
   EXPECT_EQ(Payload::of<Beat>({.counts = {{"corner", 1}}}).bits(), 262U - 27);
-  EXPECT_THROW(Payload::of<Beat>({.counts = {{"corners", 1}}}), spec::CheckFailed);
+  for (const char* const no_array : {"corners", "slope", "edges", "place", "corner.0"})
+    EXPECT_THROW(Payload::of<Beat>({.counts = {{no_array, 1}}}), spec::CheckFailed) << no_array;
+  EXPECT_THROW(Payload::of<Beat>({.counts = {{"corner", 3}}}), spec::CheckFailed);
+  EXPECT_THROW(Payload::of<Beat>({.counts = {{"corner", 0}}}), spec::CheckFailed);
+  EXPECT_THROW(Payload::of<Beat>({.lanes = 5}), spec::CheckFailed);
+  EXPECT_EQ(Payload::of<Place>({.lanes = 5}).bits(), 27U);  // has nothing by lane
+}
+
+TEST(Payload, ElementsOfAnArrayAreBuiltAlike) {
+  EXPECT_EQ(Payload::of<Beat>({.widths = {{"corner.0.row", 4}, {"corner.1.row", 4}}}).bits(),
+            262U - 20);
+  EXPECT_THAT(text_of<spec::CheckFailed>([] {
+                Payload::of<Beat>({.widths = {{"corner.1.row", 4}}});
+              }),
+              HasSubstr("narrow all of corner"));
+  EXPECT_THROW(Payload::of<Beat>({.widths = {{"pixel.2.g", 7}}}), spec::CheckFailed);
+}
+
+struct OneName {
+  std::uint8_t a = 0, b = 0;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("a", self.a, 8);
+    visit("a", self.b, 8);
+  }
+};
+struct OnePlace {
+  std::uint8_t a = 0, b = 0;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("a", self.a, 8);
+    visit("b", self.a, 8);
+  }
+};
+
+TEST(Payload, EachFieldHasANameAndAPlaceOfItsOwn) {
+  EXPECT_THAT(text_of<spec::CheckFailed>([] { Payload::of<OneName>(); }),
+              HasSubstr("a and a: one name"));
+  EXPECT_THAT(text_of<spec::CheckFailed>([] { Payload::of<OnePlace>(); }),
+              AllOf(HasSubstr("one place"), HasSubstr("b")));
+}
+
+// The noise of a slot: what was forgotten differs from its neighbours and from the slot before.
+TEST(Payload, NoiseGoesWithTheField) {
+  const Payload payload = Payload::of<Beat>();
+  Beat one, other;
+  payload.fill(bytes(one), 1);
+  payload.fill(bytes(other), 2);
+  EXPECT_EQ(payload.misfit(bytes(one)), nullptr);
+  EXPECT_NE(one.place, one.corner[0]);
+  EXPECT_NE(one.corner[0], one.corner[1]);
+  EXPECT_NE(one.pixel[0], one.pixel[1]);
+  EXPECT_NE(one.pixel[0][0], one.pixel[0][1]);
+  EXPECT_NE(one.place, other.place);
+  EXPECT_NE(one.slope, other.slope);
 }
 
 // By hand: 32 + 5 + 7 + 1 + 32 + 32 x 8, and 32 + 5 + 6 + 1 + 1 + 2 + 32 x 8.
@@ -110,7 +164,7 @@ TEST(Payload, ATypeWithoutListHasItsBytes) {
   EXPECT_FALSE(payload.listed());
   EXPECT_EQ(payload.bits(), 64U);
   Plain plain{1, 2};
-  payload.fill(bytes(plain), ~std::uint64_t{0});
+  EXPECT_THROW(payload.fill(bytes(plain), 0), spec::CheckFailed);
   EXPECT_EQ(plain.a, 1U);
   payload.flip(bytes(plain), payload.bit("byte.4.1"));
   EXPECT_EQ(plain.b, 0U);
@@ -181,6 +235,59 @@ TEST(Payload, ADifferenceNamesTheFields) {
   EXPECT_EQ(rtl::payload_difference(expected, got), "pixel.1.r=17/18 slope=0/-3");
   EXPECT_EQ(rtl::payload_difference(expected, expected), "");
   EXPECT_THAT(rtl::payload_text(expected), AllOf(HasSubstr("pixel.1.r=17 "), HasSubstr("last=0")));
+}
+
+enum class Step { kUp, kDown, kLeft, kRight };  // an int to C++
+struct Reserved {
+  Step before = Step::kUp;
+  std::array<bool, 2> input{};
+  bool inputs = false;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("before", self.before, 2);
+    visit("input", self.input, 1);
+    visit("inputs", self.inputs);
+  }
+};
+
+TEST(Payload, AnEnumerationHasNoSign) {
+  const Payload payload = Payload::of<Reserved>();
+  Reserved reserved{Step::kRight};
+  EXPECT_EQ(payload.misfit(bytes(reserved)), nullptr);
+  EXPECT_THAT(payload.text(bytes(reserved)), HasSubstr("before=3"));
+  payload.flip(bytes(reserved), payload.bit("before.0"));
+  EXPECT_EQ(reserved.before, Step::kLeft);
+  reserved.before = Step{4};
+  ASSERT_NE(payload.misfit(bytes(reserved)), nullptr);
+  EXPECT_EQ(payload.misfit(bytes(reserved))->name, "before");
+}
+
+TEST(Payload, PackageIsLegalAndHasIntegersToo) {
+  const Payload reserved = Payload::of<Reserved>(), number = Payload::of<std::uint16_t>(),
+                again = Payload::of<std::uint16_t>(), sign = Payload::of<std::int32_t>(),
+                bit = Payload::of<bool>(), plain = Payload::of<Plain>();
+  const std::array<const Payload*, 6> all = {&reserved, &number, &again, &sign, &bit, &plain};
+  EXPECT_EQ(rtl::payload_package("words_pkg", all),
+            "// SPDX-License-Identifier: MIT\n"
+            "package words_pkg;\n"
+            "\n"
+            "  // 5 bits\n"
+            "  typedef struct packed {\n"
+            "    logic inputs;\n"
+            "    logic [1:0] input_;\n"
+            "    logic [1:0] before_;\n"
+            "  } reserved_t;\n"
+            "\n"
+            "  // 16 bits\n"
+            "  typedef logic [15:0] u16_t;\n"
+            "\n"
+            "  // 32 bits\n"
+            "  typedef logic signed [31:0] s32_t;\n"
+            "\n"
+            "  // 1 bits\n"
+            "  typedef logic u1_t;\n"
+            "\n"
+            "endpackage\n");
 }
 
 TEST(Payload, PackageDeclaresWhatIsInIt) {

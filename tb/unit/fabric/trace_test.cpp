@@ -171,6 +171,41 @@ TEST(Trace, ShowsEveryFieldAsItIsBuilt) {
   EXPECT_EQ(vcd.value("deburr.link.last", 20'000), "0");
 }
 
+struct Extremes {
+  std::uint64_t whole = 0;
+  std::int64_t signed_whole = 0;
+  std::int32_t part = 0;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("whole", self.whole, 64, "U64");
+    visit("signed_whole", self.signed_whole, 64, "S63");
+    visit("part", self.part, 17, "S16");
+  }
+};
+
+TEST(Trace, ShowsEveryBitOfWideAndOfSignedFields) {
+  const std::string file = testing::TempDir() + "extremes.vcd";
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  rtl::Link<Extremes> link("link");
+  clock.add(link);
+  {
+    rtl::Trace trace(clock, {file, {"*"}});
+    link.push(clock.cycle(), {0x8000'0000'0000'0001, -2, -65'536});
+    clock.run(1);
+    link.pop(clock.cycle());
+    link.push(clock.cycle(), {0x7FFF'FFFF'FFFF'FFFF, std::int64_t{1} << 62, -1});
+    clock.run(1);
+  }
+  const Vcd vcd(file);
+  const std::string zeros(62, '0'), ones(63, '1');
+  EXPECT_EQ(vcd.value("deburr.link.whole", 0), "1" + zeros + "1");
+  EXPECT_EQ(vcd.value("deburr.link.signed_whole", 0), ones + "0");
+  EXPECT_EQ(vcd.value("deburr.link.part", 0), "1" + std::string(16, '0'));
+  EXPECT_EQ(vcd.value("deburr.link.whole", 10'000), "0" + ones);
+  EXPECT_EQ(vcd.value("deburr.link.signed_whole", 10'000), "01" + zeros);
+  EXPECT_EQ(vcd.value("deburr.link.part", 10'000), std::string(17, '1'));
+}
+
 TEST(Trace, ScopeAndWindow) {
   const std::string file = testing::TempDir() + "window.vcd";
   Pipeline p(100);

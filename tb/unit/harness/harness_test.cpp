@@ -4,6 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
 #include "tb/harness/bench.h"
 #include "tb/harness/monitor.h"
 #include "tb/harness/scoreboard.h"
@@ -90,8 +97,94 @@ TEST(Bench, StallsChangeTimeButNoData) {
 
 TEST(Bench, TraceIsWritten) {
   BenchOptions options;
-  options.trace = rtl::TraceOptions{testing::TempDir() + "bench.vcd", {"link_*"}, 0, 100, true};
+  const std::string file = testing::TempDir() + "bench.vcd";
+  std::filesystem::remove(file);
+  options.trace = rtl::TraceOptions{file, {"link_*"}, 0, 100, true};
   EXPECT_EQ(beats_and_cycles(options), "1005");
+  std::ifstream stream(file);
+  const std::string waves{std::istreambuf_iterator<char>(stream), {}};
+  for (const char* const text :
+       {"$scope module link_0 $end", "$scope module link_4 $end", "\n#0\n", "\n#990000\n"})
+    EXPECT_THAT(waves, testing::HasSubstr(text));
+  EXPECT_THAT(waves, testing::Not(testing::HasSubstr("\n#1000000\n")));
+  EXPECT_THAT(waves, testing::Not(testing::HasSubstr("adder")));
+}
+
+// Keeps a reference to what it has popped, and looks at it a clock later.
+class Lingerer final : public rtl::Unit {
+ public:
+  rtl::In<Token> tokens_in{"tokens_in"};
+  std::uint32_t in_time = 0, too_late = 0;  // looks that saw the token
+  Lingerer(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
+  rtl::Activity tick(Cycle cycle) override {
+    if (const Token* const token = std::exchange(popped_, nullptr)) too_late += token->value == 7;
+    if (!tokens_in.can_pop(cycle)) return rtl::kIdle;
+    popped_ = &tokens_in.front(cycle);
+    tokens_in.pop(cycle);
+    in_time += popped_->value == 7;
+    return rtl::kBusy;
+  }
+  void reset() override { popped_ = nullptr; }
+
+ private:
+  const Token* popped_ = nullptr;
+};
+
+TEST(Poison, ALookAfterThePopSeesNoise) {
+  for (const bool poison : {false, true}) {
+    const std::string looks = in_child([&] {
+      rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+      Lingerer unit("unit", clock);  // ticked before the slot is refilled
+      Driver<Token> driver("driver", clock);
+      rtl::Link<Token> link("link");
+      driver.beats_out(link);
+      unit.tokens_in(link);
+      for (std::uint32_t i = 0; i < 50; ++i) driver.send(Token{i, 7});
+      BenchOptions options;
+      options.poison = poison;
+      Bench bench(clock, options);
+      bench.run([&] { return unit.in_time == 50; }, 1000);
+      clock.run(1);
+      return fmt::format("{} {}", unit.in_time, unit.too_late);
+    });
+    EXPECT_EQ(looks, poison ? "50 0" : "50 50");
+  }
+}
+
+TEST(Poison, FillsWhatHasBeenPoppedAndBeginsAgainAtAReset) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  rtl::Link<Token> link("link");
+  clock.add(link);
+  const Poison poison(clock, 5);
+  const auto slot = [&](std::uint64_t beat) {
+    Token token;
+    std::memcpy(&token, link.beat(beat), sizeof token);
+    return token;
+  };
+  const std::array<Token, 2> noise = {slot(0), slot(1)};
+  EXPECT_EQ(poison.slots(), 2U);
+  EXPECT_FALSE(noise[0] == noise[1]);
+  EXPECT_NE(noise[0].number, noise[0].value);
+  EXPECT_FALSE(noise[0] == Token{});
+
+  const Token token{3, 7};
+  link.push(clock.cycle(), token);
+  clock.run(1);
+  EXPECT_EQ(slot(0), token);  // as long as it waits
+  link.pop(clock.cycle());
+  EXPECT_EQ(slot(0), token);
+  clock.run(1);  // noise comes before units are ticked: the pop was in the clock before
+  EXPECT_FALSE(slot(0) == token);
+  EXPECT_FALSE(slot(0) == noise[0]);
+  EXPECT_EQ(slot(1), noise[1]);
+  EXPECT_EQ(poison.slots(), 3U);
+
+  link.push(clock.cycle(), token);
+  clock.set_reset_n(false);
+  clock.run(1);
+  EXPECT_EQ(slot(0), noise[0]);
+  EXPECT_EQ(slot(1), noise[1]);
+  EXPECT_EQ(poison.slots(), 5U);
 }
 
 TEST(StallInjector, OnOneSideOfOneLink) {

@@ -187,13 +187,13 @@ TEST(EdgeMemory, IsBuiltFromOneCopyAReadPort) {
   EngineBench bench(p);
   const auto& window = bench.engine.window.memory;
   EXPECT_EQ(window.memory_kind(), rtl::MemoryKind::kSram);
-  EXPECT_EQ(window.ports(), "2R1W");
+  EXPECT_EQ(window.ports(), "2R1W of 4 words");
   EXPECT_EQ(window.logical_bits(), 257'280u);
   EXPECT_EQ(window.physical_bits(), 2u * 257'280u);
   EXPECT_EQ(window.bits_at(960), 257'280u / 2);
   for (const auto& rows : bench.engine.rows.memory) {
     EXPECT_EQ(rows.memory_kind(), rtl::MemoryKind::kSram);
-    EXPECT_EQ(rows.ports(), "1R1W");
+    EXPECT_EQ(rows.ports(), "1R1W of 4 words");
     EXPECT_EQ(rows.logical_bits(), 18u * 30u * 128u);
     EXPECT_EQ(rows.physical_bits(), rows.logical_bits());
     EXPECT_EQ(rows.banks(), 4u);  // 130 columns may lie in four words
