@@ -150,8 +150,7 @@ PortedMemory::PortedMemory(const char* name, MemoryShape shape)
       span_(this->shape().span),
       latency_(this->shape().latency),
       ring_(std::bit_ceil(latency_ + 1) - 1),
-      checks_reads_(this->shape().separate_banks || forbids(this->shape())),
-      checks_writes_(checks_reads_ || this->shape().write_ports + this->shape().shared_ports > 1),
+      checks_(this->shape().separate_banks || forbids(this->shape())),
       one_bank_(this->shape().separate_banks && !forbids(this->shape()) &&
                 this->shape().order == BankOrder::kInterleaved &&
                 std::has_single_bit(this->shape().banks)),

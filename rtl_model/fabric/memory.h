@@ -195,16 +195,17 @@ class PortedMemory : public MemoryBase {
     ++reads_;
     if (one_bank_ && count == 1 && read_banks_[address & bank_mask_] != cycle) [[likely]]
       read_banks_[address & bank_mask_] = cycle;
-    else if (checks_reads_) [[unlikely]]
+    else if (checks_) [[unlikely]]
       check_read(port, cycle, address, count);
   }
   void issue_write(Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count) {
     issue(port, cycle, address, count);
+    const bool meets = written_ == cycle;
     port.written = written_ = cycle;
     port.write_address = address;
     port.write_count = count;
     ++writes_;
-    if (checks_writes_) [[unlikely]]
+    if (checks_ || meets) [[unlikely]]
       check_write(port, cycle, address, count);
   }
   static bool arrives(const Port& port, Cycle cycle) {
@@ -240,7 +241,7 @@ class PortedMemory : public MemoryBase {
   const std::uint64_t words_;
   const std::uint32_t span_, latency_;
   const std::uint32_t ring_;  // reads that a port remembers, a power of two, less one
-  const bool checks_reads_, checks_writes_;  // beyond those of issue()
+  const bool checks_;         // beyond those of issue(), and of writes of one clock
   // A word's bank is in its low bits, and all that check_read() would look at.
   const bool one_bank_;
   const std::uint64_t bank_mask_;
