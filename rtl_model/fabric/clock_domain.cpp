@@ -10,7 +10,6 @@
 #include "rtl_model/fabric/counters.h"
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/memory.h"
-#include "rtl_model/fabric/storage.h"
 #include "rtl_model/fabric/unit.h"
 
 namespace deburr::rtl {
@@ -46,7 +45,7 @@ void ClockDomain::end_of_elaboration() {
     memory.check_ports();
     const sc_core::sc_object* around = memory.get_parent_object();
     while (around && !dynamic_cast<const Unit*>(around)) around = around->get_parent_object();
-    if (!around) storages_.push_back(&memory);
+    if (!around) memories_.push_back(&memory);
   });
   for (Unit* unit : units_) {
     unit->check_ports();
@@ -56,8 +55,8 @@ void ClockDomain::end_of_elaboration() {
         if (port->link_base()) claim(*port->link_base());
       } else if (auto* link = dynamic_cast<LinkBase*>(&object)) {
         claim(*link);
-      } else if (auto* storage = dynamic_cast<Storage*>(&object)) {
-        storages_.push_back(storage);
+      } else if (auto* memory = dynamic_cast<MemoryBase*>(&object)) {
+        memories_.push_back(memory);
       } else if (auto* counter = dynamic_cast<Counter*>(&object)) {
         counters_.push_back(counter);
       } else if (auto* histogram = dynamic_cast<Histogram*>(&object)) {
@@ -211,7 +210,7 @@ void ClockDomain::reset_all() {
   for (const Slot& slot : slots_) slot.clocked->reset();
   for (Unit* unit : units_) unit->activity_.fill(0);
   for (LinkBase* link : links_) link->reset();
-  for (Storage* storage : storages_) storage->reset();
+  for (MemoryBase* memory : memories_) memory->reset();
   for (Counter* counter : counters_) counter->reset();
   for (Histogram* histogram : histograms_) histogram->reset();
   for (const std::function<void()>& action : on_reset_) action();

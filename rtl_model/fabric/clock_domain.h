@@ -110,7 +110,7 @@ class ClockDomain final : public sc_core::sc_module {
   std::vector<Clocked*> before_, after_;
   std::vector<Unit*> units_;
   std::vector<LinkBase*> links_;
-  std::vector<class Storage*> storages_;
+  std::vector<class MemoryBase*> memories_;
   std::vector<class Counter*> counters_;
   std::vector<class Histogram*> histograms_;
   std::vector<std::function<void()>> on_reset_;

@@ -12,15 +12,14 @@ namespace deburr::rtl {
 
 ControlRegisters::ControlRegisters(const char* name, std::span<const spec::RegisterInfo> table,
                                    const ControlLayout& layout)
-    : table_(register_descriptions(table)),
-      registers(name, table_),
+    : registers(name, table),
       layout_(layout),
       masks_(table.size(), ~std::uint32_t{0}),
       kept_(table.size()) {
-  for (std::size_t i = 0; i < table_.size(); ++i) {
-    resets_.push_back(table_[i].reset);
+  for (std::size_t i = 0; i < registers.table().size(); ++i) {
+    resets_.push_back(registers.table()[i].reset);
     kept_[i] = resets_[i];
-    if (table_[i].access == Access::kReadWrite)
+    if (registers.table()[i].access == spec::Access::kReadWrite)
       registers.on_write(i, [this, i](std::uint32_t value) { written(i, value); });
   }
   registers.on_write(index(layout.status), [this](std::uint32_t value) { sticky_ &= ~value; });
@@ -30,11 +29,11 @@ ControlRegisters::ControlRegisters(const char* name, std::span<const spec::Regis
 }
 
 std::size_t ControlRegisters::index(std::uint32_t offset) const {
-  const auto found = std::find_if(table_.begin(), table_.end(),
-                                  [&](const RegisterDescription& r) { return r.offset == offset; });
-  DEBURR_CHECK(found != table_.end(),
+  const auto found = std::find_if(registers.table().begin(), registers.table().end(),
+                                  [&](const spec::RegisterInfo& r) { return r.offset == offset; });
+  DEBURR_CHECK(found != registers.table().end(),
                fmt::format("{} has no register at {:#x}", registers.name(), offset));
-  return static_cast<std::size_t>(found - table_.begin());
+  return static_cast<std::size_t>(found - registers.table().begin());
 }
 
 void ControlRegisters::on_command(std::uint32_t control_bit, std::function<void()> action) {
@@ -57,7 +56,7 @@ void ControlRegisters::show_sum(std::uint32_t offset,
 }
 
 void ControlRegisters::written(std::size_t i, std::uint32_t value) {
-  const std::uint32_t offset = table_[i].offset;
+  const std::uint32_t offset = registers.table()[i].offset;
   if (offset == layout_.control) return write_control(value);
   if (busy_()) {
     sticky_ |= layout_.written_while_busy;
@@ -82,22 +81,24 @@ void ControlRegisters::write_control(std::uint32_t value) {
 }
 
 void ControlRegisters::mask_values() {
-  for (std::size_t i = 0; i < table_.size(); ++i) {
-    if (table_[i].access != Access::kReadWrite || table_[i].offset == layout_.control) continue;
+  for (std::size_t i = 0; i < registers.table().size(); ++i) {
+    if (registers.table()[i].access != spec::Access::kReadWrite ||
+        registers.table()[i].offset == layout_.control)
+      continue;
     kept_[i] = registers.get(i) & masks_[i];
     registers.set(i, kept_[i]);
   }
 }
 
 void ControlRegisters::reset() {
-  for (std::size_t i = 0; i < table_.size(); ++i) {
+  for (std::size_t i = 0; i < registers.table().size(); ++i) {
     kept_[i] = resets_[i];
     registers.set(i, resets_[i]);
   }
   enabled_ = value(layout_.control) & layout_.enable;
   sticky_ = 0;
-  for (const RegisterDescription& r : table_)
-    if (r.access == Access::kReadWrite && r.offset != layout_.control) changed_(r.offset);
+  for (const spec::RegisterInfo& r : registers.table())
+    if (r.access == spec::Access::kReadWrite && r.offset != layout_.control) changed_(r.offset);
 }
 
 }  // namespace deburr::rtl

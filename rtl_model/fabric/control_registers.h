@@ -30,9 +30,6 @@ struct ControlLayout {
 };
 
 class ControlRegisters {
- private:
-  std::vector<RegisterDescription> table_;
-
  public:
   RegisterBlock registers;
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <systemc>
 
 #include "rtl_model/fabric/link.h"
@@ -20,9 +21,6 @@ class Fifo final : public MemoryBase {
  public:
   explicit Fifo(const char* name, std::uint32_t depth, const PayloadShape& shape = {})
       : Fifo(name, depth, Payload::of<T>(shape).bits(), shape) {}
-  // `entry_bits`: of a payload that does not list its fields.
-  Fifo(const char* name, std::uint32_t depth, std::uint32_t entry_bits)
-      : Fifo(name, depth, entry_bits, PayloadShape{}) {}
 
   bool can_push(Cycle cycle) const { return link_.can_push(cycle); }
   bool can_pop(Cycle cycle) const { return link_.can_pop(cycle); }
@@ -36,8 +34,7 @@ class Fifo final : public MemoryBase {
 
   std::uint32_t occupancy() const { return link_.occupancy(); }
   bool empty() const { return link_.empty(); }
-  // Largest number of entries since reset.
-  std::uint32_t high_water() const { return high_water_; }
+  std::optional<std::uint64_t> high_water() const override { return high_water_; }
   // For a consumer in another unit: bind its port to this.
   Link<T>& link() { return link_; }
   void reset() override {
@@ -59,7 +56,7 @@ class Fifo final : public MemoryBase {
   }
 
   Link<T> link_;
-  std::uint32_t high_water_ = 0;
+  std::uint64_t high_water_ = 0;
 };
 
 }  // namespace deburr::rtl

@@ -40,9 +40,10 @@ const char* name_of(MemoryKind kind) {
 }
 
 MemoryBase::MemoryBase(const char* name, MemoryShape shape)
-    : Storage(name, shape.words, shape.word_bits, port_text(shape)), shape_(std::move(shape)) {
+    : sc_object(name), shape_(std::move(shape)), ports_(port_text(shape_)) {
   const MemoryShape& s = shape_;
-  DEBURR_CHECK(s.banks >= 1 && s.banks <= s.words && s.span >= 1 && s.latency <= kMostLatency &&
+  DEBURR_CHECK(s.words > 0 && s.word_bits > 0 && s.banks >= 1 && s.banks <= s.words &&
+                   s.span >= 1 && s.latency <= kMostLatency &&
                    s.content.find('\n') == std::string::npos,
                fmt::format("{}: {} words in {} banks, span {}, latency {}, content '{}'",
                            this->name(), s.words, s.banks, s.span, s.latency, s.content));
@@ -55,7 +56,7 @@ MemoryBase::MemoryBase(const char* name, MemoryShape shape)
   const std::string wrong = find_build();
   if (wrong.empty()) return;
   if (s.idealised.empty())
-    throw spec::ConfigError(fmt::format("{}: {} bits as {} {}: {}", this->name(), bits(),
+    throw spec::ConfigError(fmt::format("{}: {} bits as {} {}: {}", this->name(), logical_bits(),
                                         name_of(s.kind), ports(), wrong));
   idealised_ = s.idealised;
   macro_ = "idealised " + ports();
@@ -77,7 +78,7 @@ std::string MemoryBase::find_build() {
         "ports",
         most, s.banks, most);
   if (s.kind == MemoryKind::kFlops) {
-    if (bits() > kMostFlopBits)
+    if (logical_bits() > kMostFlopBits)
       return fmt::format(
           "flip-flops hold at most {} bits: use sram, whose words come a clock later, or make it "
           "smaller",
@@ -125,8 +126,12 @@ std::string MemoryBase::find_build() {
   return {};
 }
 
+std::string MemoryBase::inner_name(const char* suffix) const {
+  return fmt::format("{}_{}", basename(), suffix);
+}
+
 std::uint64_t MemoryBase::physical_bits() const {
-  if (shape_.kind == MemoryKind::kFlops) return bits();
+  if (shape_.kind == MemoryKind::kFlops) return logical_bits();
   const std::uint64_t bank_words = (words() + shape_.banks - 1) / shape_.banks;
   return bank_words * shape_.banks * copies_ * word_bits();
 }
@@ -140,7 +145,7 @@ std::string MemoryBase::built_as() const {
 }
 
 std::uint64_t MemoryBase::bits_at(std::uint64_t width) const {
-  if (shape_.columns == 0) return bits();
+  if (shape_.columns == 0) return logical_bits();
   return (words() * width + shape_.columns - 1) / shape_.columns * word_bits();
 }
 

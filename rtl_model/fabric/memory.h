@@ -38,6 +38,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <systemc>
@@ -46,7 +47,6 @@
 #include <vector>
 
 #include "rtl_model/fabric/clocked.h"
-#include "rtl_model/fabric/storage.h"
 #include "spec/error.h"
 
 namespace deburr::rtl {
@@ -84,7 +84,7 @@ struct MemoryShape {
 };
 
 // What reports see. Find them all with for_each<MemoryBase>.
-class MemoryBase : public Storage {
+class MemoryBase : public sc_core::sc_object {
  public:
   static constexpr std::uint64_t kMostFlopBits = 16'384;
   static constexpr std::uint32_t kMostLatency = 7;
@@ -95,9 +95,12 @@ class MemoryBase : public Storage {
   const char* kind() const override { return "deburr_memory"; }
 
   const MemoryShape& shape() const { return shape_; }
+  std::uint64_t words() const { return shape_.words; }
+  std::uint32_t word_bits() const { return shape_.word_bits; }
+  const std::string& ports() const { return ports_; }  // "1R1W", "4R1W of 16 words"
   MemoryKind memory_kind() const { return shape_.kind; }
   const std::string& content() const { return shape_.content; }
-  std::uint64_t logical_bits() const { return bits(); }
+  std::uint64_t logical_bits() const { return words() * word_bits(); }
   // With copies, and with the words that fill up the last bank.
   std::uint64_t physical_bits() const;
   std::uint32_t copies() const { return copies_; }
@@ -111,7 +114,9 @@ class MemoryBase : public Storage {
   std::uint64_t bits_at(std::uint64_t width) const;
 
   // Bookkeeping of the clock only. Contents stay, as in hardware.
-  void reset() override {}
+  virtual void reset() {}
+  // Most words in use at a time since reset, where that is known: of a FIFO.
+  virtual std::optional<std::uint64_t> high_water() const { return std::nullopt; }
   // Every port that the shape declares is used by somebody; the domain asks at the end of
   // elaboration, since a port that nobody uses is a cost that nobody pays.
   virtual void check_ports() const {}
@@ -121,11 +126,16 @@ class MemoryBase : public Storage {
     return bits <= kMostFlopBits ? MemoryKind::kFlops : MemoryKind::kSram;
   }
 
+ protected:
+  // A name for a part: "<own name>_<suffix>", since a memory is no module and has no children.
+  std::string inner_name(const char* suffix) const;
+
  private:
   // Finds copies_ and macro_. Empty, or what is wrong and what to do.
   std::string find_build();
 
   MemoryShape shape_;
+  std::string ports_;
   std::uint32_t copies_ = 1;
   std::string idealised_;
   std::string macro_;  // what a copy of a bank is: "1R1W"

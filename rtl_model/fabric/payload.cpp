@@ -128,16 +128,6 @@ std::size_t PayloadBuilder::count(const std::string& name, std::size_t limit,
   return limit;
 }
 
-PayloadNode PayloadBuilder::bytes(std::size_t size) const {
-  PayloadNode node = array("byte");
-  for (std::size_t i = 0; i < size; ++i) {
-    PayloadNode one = field(std::to_string(i), static_cast<std::ptrdiff_t>(i), 1, 8, {}, false);
-    one.field.name = "byte." + one.name;
-    node.children.push_back(std::move(one));
-  }
-  return node;
-}
-
 // deburr::rtl::texture::LevelToken -> level_token_t
 std::string PayloadBuilder::type_name(const std::type_info& type) {
   const std::unique_ptr<char, decltype(&std::free)> full(
@@ -268,7 +258,6 @@ void Payload::flip(std::byte* payload, Bit bit) const {
 }
 
 void Payload::fill(std::byte* payload, std::uint64_t pattern) const {
-  DEBURR_CHECK(listed(), "a payload that does not list its fields cannot be filled");
   // splitmix64: neighbouring fields have nothing in common.
   for (const Field& field : fields_) {
     std::uint64_t noise = (pattern += 0x9E3779B97F4A7C15);
@@ -405,8 +394,7 @@ class PackageWriter {
 
 std::string payload_package(const std::string& name, std::span<const Payload* const> payloads) {
   PackageWriter writer;
-  for (const Payload* payload : payloads)
-    if (payload->listed()) writer.declare(payload->node());
+  for (const Payload* payload : payloads) writer.declare(payload->node());
   return fmt::format("// SPDX-License-Identifier: MIT\npackage {};\n\n{}endpackage\n", name,
                      writer.text);
 }

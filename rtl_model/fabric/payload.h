@@ -193,8 +193,10 @@ constexpr std::uint32_t payload_bits_of() {
            payload_bits_of<typename T::value_type>();
   else if constexpr (std::is_same_v<T, bool>)
     return 1;
-  else
+  else {
+    static_assert(std::is_integral_v<T> || std::is_enum_v<T>, "a payload lists its fields");
     return static_cast<std::uint32_t>(sizeof(T) * 8);
+  }
 }
 
 // Members of an aggregate: the longest list of initialisers that it takes.
@@ -220,10 +222,9 @@ class PayloadBuilder {
   PayloadNode root(const T& payload) {
     if constexpr (HasFields<T>) {
       return structure("", payload);
-    } else if constexpr (std::is_integral_v<T> || std::is_enum_v<T>) {
-      return field("value", payload, payload_bits_of<T>(), {});
     } else {
-      return bytes(sizeof(T));
+      static_assert(std::is_integral_v<T> || std::is_enum_v<T>, "a payload lists its fields");
+      return field("value", payload, payload_bits_of<T>(), {});
     }
   }
 
@@ -321,8 +322,6 @@ class PayloadBuilder {
   static PayloadNode array(const std::string& name);
   // Elements of an array that are built.
   std::size_t count(const std::string& name, std::size_t limit, std::size_t listed) const;
-  // A type that does not list its fields.
-  PayloadNode bytes(std::size_t size) const;
   static std::string type_name(const std::type_info& type);
 
   const PayloadShape& shape_;
@@ -353,8 +352,6 @@ class Payload {
   }
 
   std::uint32_t bits() const { return bits_; }
-  // Not so: a type without list, whose bytes stand for its fields.
-  bool listed() const { return node_.kind != PayloadNode::Kind::kArray; }
   const std::vector<Field>& fields() const { return fields_; }
   const PayloadNode& node() const { return node_; }
   const Field* find(std::string_view field) const;  // nullptr: none of that name

@@ -11,32 +11,18 @@
 namespace deburr::rtl {
 namespace {
 
-const char* access_name(Access access) {
+const char* access_name(spec::Access access) {
   switch (access) {
-    case Access::kReadWrite:
+    case spec::Access::kReadWrite:
       return "RW";
-    case Access::kReadOnly:
+    case spec::Access::kReadOnly:
       return "RO";
-    case Access::kWriteOnly:
+    case spec::Access::kCommand:
       return "WO";
-    case Access::kWriteOneToClear:
+    case spec::Access::kWriteOneToClear:
       return "W1C";
   }
   return "?";
-}
-
-Access access_of(spec::Access access) {
-  switch (access) {
-    case spec::Access::kReadOnly:
-      return Access::kReadOnly;
-    case spec::Access::kReadWrite:
-      return Access::kReadWrite;
-    case spec::Access::kWriteOneToClear:
-      return Access::kWriteOneToClear;
-    case spec::Access::kCommand:
-      break;
-  }
-  return Access::kWriteOnly;
 }
 
 // Registers travel little-endian, whatever the host is.
@@ -51,16 +37,8 @@ std::uint32_t load(const std::uint8_t* from) {
 
 }  // namespace
 
-std::vector<RegisterDescription> register_descriptions(std::span<const spec::RegisterInfo> table) {
-  std::vector<RegisterDescription> descriptions;
-  for (const spec::RegisterInfo& info : table)
-    descriptions.push_back(
-        {info.offset, info.name.data(), access_of(info.access), info.reset, info.meaning.data()});
-  return descriptions;
-}
-
 RegisterBlock::RegisterBlock(const sc_core::sc_module_name& name,
-                             std::span<const RegisterDescription> table)
+                             std::span<const spec::RegisterInfo> table)
     : sc_module(name),
       table_(table),
       actions_(table.size()),
@@ -90,7 +68,7 @@ void RegisterBlock::on_read(std::size_t index, std::function<std::uint32_t()> va
 
 void RegisterBlock::show(std::size_t index, const Counter& counter, int shift) {
   DEBURR_CHECK(
-      table_[index].access == Access::kReadOnly,
+      table_[index].access == spec::Access::kReadOnly,
       fmt::format("{}.{} shows a counter, so it must be read-only", name(), table_[index].name));
   shown_.at(index) = {&counter, shift};
 }
@@ -129,13 +107,13 @@ void RegisterBlock::b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_t
   if (payload.get_data_length() != 4 || payload.get_streaming_width() < 4)
     return refuse(tlm::TLM_BURST_ERROR_RESPONSE);
   const auto index = static_cast<std::size_t>(found);
-  const Access access = table_[index].access;
-  if (access == (write ? Access::kReadOnly : Access::kWriteOnly))
+  const spec::Access access = table_[index].access;
+  if (access == (write ? spec::Access::kReadOnly : spec::Access::kCommand))
     return refuse(tlm::TLM_COMMAND_ERROR_RESPONSE);
   payload.set_response_status(tlm::TLM_OK_RESPONSE);
   if (!write) return store(payload.get_data_ptr(), read(index));
   const std::uint32_t value = load(payload.get_data_ptr());
-  if (access == Access::kWriteOneToClear)
+  if (access == spec::Access::kWriteOneToClear)
     values_[index] &= ~value;
   else
     values_[index] = value;
@@ -159,21 +137,21 @@ unsigned RegisterBlock::transport_dbg(tlm::tlm_generic_payload& payload) {
   return done;
 }
 
-std::string register_table_markdown(std::span<const RegisterDescription> table) {
+std::string register_table_markdown(std::span<const spec::RegisterInfo> table) {
   std::string text = "| offset | name | access | reset | meaning |\n|---|---|---|---|---|\n";
-  for (const RegisterDescription& r : table)
+  for (const spec::RegisterInfo& r : table)
     text += fmt::format("| 0x{:03X} | `{}` | {} | 0x{:08X} | {} |\n", r.offset, r.name,
                         access_name(r.access), r.reset, r.meaning);
   return text;
 }
 
-std::string register_header(std::span<const RegisterDescription> table, const std::string& space) {
+std::string register_header(std::span<const spec::RegisterInfo> table, const std::string& space) {
   std::string text = fmt::format(
       "// SPDX-License-Identifier: MIT\n// Generated from the register description.\n#pragma "
       "once\n\n"
       "#include <cstdint>\n\nnamespace {} {{\n\n",
       space);
-  for (const RegisterDescription& r : table)
+  for (const spec::RegisterInfo& r : table)
     text += fmt::format("inline constexpr std::uint32_t {} = 0x{:03X};  // {}: {}\n", r.name,
                         r.offset, access_name(r.access), r.meaning);
   return text + fmt::format("\n}}  // namespace {}\n", space);

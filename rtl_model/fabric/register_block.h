@@ -26,30 +26,12 @@
 
 namespace deburr::rtl {
 
-enum class Access : std::uint8_t {
-  kReadWrite,
-  kReadOnly,
-  kWriteOnly,  // a command: reads are an error
-  kWriteOneToClear
-};
-
-struct RegisterDescription {
-  std::uint32_t offset;  // bytes, multiple of 4
-  const char* name;      // UPPER_SNAKE
-  Access access;
-  std::uint32_t reset;
-  const char* meaning;  // one line: fields, unit, format
-};
-
-// A table of spec/ as the block takes it. The texts stay those of the table.
-std::vector<RegisterDescription> register_descriptions(std::span<const spec::RegisterInfo> table);
-
 class RegisterBlock final : public sc_core::sc_module {
  public:
   tlm_utils::simple_target_socket<RegisterBlock> bus{"bus"};
 
   // The table must outlive the block (a constant array).
-  RegisterBlock(const sc_core::sc_module_name& name, std::span<const RegisterDescription> table);
+  RegisterBlock(const sc_core::sc_module_name& name, std::span<const spec::RegisterInfo> table);
   const char* kind() const override { return "deburr_registers"; }
 
   // From the hardware's side, by position in the table (an enum beside it): no bus, no checks of
@@ -65,7 +47,7 @@ class RegisterBlock final : public sc_core::sc_module {
   void show(std::size_t index, const Counter& counter, int shift = 0);
   void reset();
 
-  std::span<const RegisterDescription> table() const { return table_; }
+  std::span<const spec::RegisterInfo> table() const { return table_; }
   std::size_t index_of(const std::string& register_name) const;  // ConfigError if there is none
 
  private:
@@ -78,7 +60,7 @@ class RegisterBlock final : public sc_core::sc_module {
   std::uint32_t read(std::size_t index) const;
   int find(std::uint64_t offset) const;
 
-  std::span<const RegisterDescription> table_;
+  std::span<const spec::RegisterInfo> table_;
   std::vector<std::uint32_t> values_;
   std::vector<int> index_by_word_;
   std::vector<std::function<void(std::uint32_t)>> actions_;
@@ -87,8 +69,8 @@ class RegisterBlock final : public sc_core::sc_module {
 };
 
 // | offset | name | access | reset | meaning | as Markdown.
-std::string register_table_markdown(std::span<const RegisterDescription> table);
+std::string register_table_markdown(std::span<const spec::RegisterInfo> table);
 // constexpr offsets for drivers, in the given namespace.
-std::string register_header(std::span<const RegisterDescription> table, const std::string& space);
+std::string register_header(std::span<const spec::RegisterInfo> table, const std::string& space);
 
 }  // namespace deburr::rtl

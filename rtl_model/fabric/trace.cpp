@@ -116,7 +116,7 @@ std::vector<std::string> Trace::names() {
   for_each<Unit>(add);
   for_each<Counter>(add);
   for_each<RegisterBlock>([&](const RegisterBlock& block) {
-    for (const RegisterDescription& r : block.table())
+    for (const spec::RegisterInfo& r : block.table())
       names.push_back(fmt::format("{}.{}", block.name(), r.name));
   });
   return names;

@@ -15,10 +15,6 @@ LinkChecker::LinkChecker(rtl::ClockDomain& clock, const std::string& glob, bool 
     : widths_(widths) {
   rtl::for_each<rtl::LinkBase>([&](rtl::LinkBase& link) {
     if (!rtl::glob_match(glob, link.name())) return;
-    DEBURR_CHECK(!widths_ || link.payload().listed(),
-                 fmt::format("{}: its payload does not list its fields, so their widths cannot be "
-                             "checked",
-                             link.name()));
     watched_.push_back({&link, link.pushes(), link.pops(),
                         std::vector<std::byte>(link.depth() * link.payload_bytes()), 0});
     // A beat that is there already is taken as it is.

@@ -5,8 +5,7 @@
 //   * at most one push and one pop, each by its side and not behind its back (conservation),
 //   * a pop takes a beat of an earlier cycle, a push a slot that was free before this cycle,
 //   * the payload at the pop is, bit for bit, the payload at the push,
-//   * and, if `widths` are asked for, no field of a pushed beat needs more bits than it has; a
-//     payload that does not list its fields is refused then.
+//   * and, if `widths` are asked for, no field of a pushed beat needs more bits than it has.
 // At the end: nothing is left in a link. A violation throws SimulationError.
 #pragma once
 

@@ -12,10 +12,6 @@ namespace deburr::tb {
 Poison::Poison(rtl::ClockDomain& clock, std::uint64_t seed, const std::string& glob) : seed_(seed) {
   rtl::for_each<rtl::LinkBase>([&](rtl::LinkBase& link) {
     if (!rtl::glob_match(glob, link.name())) return;
-    DEBURR_CHECK(link.payload().listed(),
-                 fmt::format("{}: its payload does not list its fields, so poison would leave it "
-                             "as it is",
-                             link.name()));
     poisoned_.push_back({&link, Random(seed, link.name()), link.pops()});
     fill_empty(poisoned_.back());
   });

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "rtl_model/fabric/counters.h"
-#include "rtl_model/fabric/storage.h"
+#include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
 
 namespace deburr::tb {
@@ -26,7 +26,7 @@ Json to_json(const rtl::Histogram& histogram, std::size_t bins) {
 Json statistics(const rtl::ClockDomain& clock, const std::string& prefix) {
   Json json{{"cycles", clock.cycles_since_reset()}, {"units", Json::object()},
             {"counters", Json::object()},           {"histograms", Json::object()},
-            {"sram_bits", Json::object()},          {"links", Json::object()}};
+            {"memories", Json::object()},           {"links", Json::object()}};
   const auto short_name = [&](const char* full) -> std::optional<std::string> {
     const std::string name = full;
     if (prefix.empty()) return name;
@@ -50,8 +50,11 @@ Json statistics(const rtl::ClockDomain& clock, const std::string& prefix) {
           {"value", counter->value()}, {"unit", counter->unit()}, {"meaning", counter->meaning()}};
     } else if (const auto* histogram = dynamic_cast<const rtl::Histogram*>(&object)) {
       json["histograms"][*name] = to_json(*histogram);
-    } else if (const auto* storage = dynamic_cast<const rtl::Storage*>(&object)) {
-      json["sram_bits"][*name] = storage->bits();
+    } else if (const auto* memory = dynamic_cast<const rtl::MemoryBase*>(&object)) {
+      json["memories"][*name] = {{"kind", rtl::name_of(memory->memory_kind())},
+                                 {"ports", memory->ports()},
+                                 {"logical_bits", memory->logical_bits()},
+                                 {"physical_bits", memory->physical_bits()}};
     } else if (const auto* link = dynamic_cast<const rtl::LinkBase*>(&object)) {
       json["links"][*name] = {{"depth", link->depth()},
                               {"payload_bits", link->payload_bits()},

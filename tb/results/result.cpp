@@ -101,6 +101,7 @@ Json to_json(const Result& r) {
                                 {"logical_bits", m.logical_bits},
                                 {"physical_bits", m.physical_bits},
                                 {"logical_bits_at_frame_width", m.logical_bits_at_frame_width}};
+    if (m.high_water) json["memories"][m.name]["high_water"] = *m.high_water;
     if (!m.idealised.empty()) idealised[m.name] = m.idealised;
   }
   json["memory_bits"] = Json::object();

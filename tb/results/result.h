@@ -85,7 +85,8 @@ struct MemoryFigures {
   std::uint64_t logical_bits = 0, physical_bits = 0;
   // Logical bits for frames of the width that this run had, where the size goes with the width.
   std::uint64_t logical_bits_at_frame_width = 0;
-  std::string idealised;  // why no technology offers it; empty: it can be built
+  std::optional<std::uint64_t> high_water;  // words in use at most, of a FIFO
+  std::string idealised;                    // why no technology offers it; empty: it can be built
 };
 
 // Bits of all memories of a kind.

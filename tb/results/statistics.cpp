@@ -51,6 +51,7 @@ constexpr std::array kStatistics = {
     Statistic{"memories.*.words", "word", "Words, as built."},
     Statistic{"memories.*.word_bits", "bit", "Bits of a word."},
     Statistic{"memories.*.ports", "", "Reads (R), writes (W) and either (RW) in a clock."},
+    Statistic{"memories.*.high_water", "word", "Most entries at a time; of a FIFO."},
     Statistic{"memories.*.read_latency", "clk", "From a read to its word; 0: the same clock."},
     Statistic{"memories.*.built_as", "", "The memories that can be bought, from which it is made."},
     Statistic{"memories.*.copies", "", "Copies with the same words, for more read ports."},

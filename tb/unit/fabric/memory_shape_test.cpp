@@ -772,14 +772,14 @@ TEST(MemoryCost, AMemoryPortBuffersWhatMayComeBack) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   const rtl::MemoryPort few("few", clock, {.outstanding = 16}),
       many("many", clock, {.outstanding = 64, .max_burst_lines = 2, .line_bytes = 32});
-  EXPECT_EQ(few.response_buffer.bits(), 16U * 514);
+  EXPECT_EQ(few.response_buffer.logical_bits(), 16U * 514);
   EXPECT_EQ(few.response_buffer.memory_kind(), MemoryKind::kFlops);
-  EXPECT_EQ(many.response_buffer.bits(), 128U * 258);
+  EXPECT_EQ(many.response_buffer.logical_bits(), 128U * 258);
   EXPECT_EQ(many.response_buffer.memory_kind(), MemoryKind::kSram);
   EXPECT_EQ(many.gather_buffer, nullptr);
   const rtl::MemoryPort bursts("bursts", clock, {.max_burst_lines = 8, .max_write_lines = 4});
   ASSERT_NE(bursts.gather_buffer, nullptr);
-  EXPECT_EQ(bursts.gather_buffer->bits(), 4U * 512);
+  EXPECT_EQ(bursts.gather_buffer->logical_bits(), 4U * 512);
   EXPECT_EQ(bursts.gather_buffer->memory_kind(), MemoryKind::kFlops);
   EXPECT_THROW(rtl::MemoryPort("wrong", clock, {.max_burst_lines = 2, .max_write_lines = 4}),
                spec::CheckFailed);
@@ -788,7 +788,7 @@ TEST(MemoryCost, AMemoryPortBuffersWhatMayComeBack) {
 TEST(MemoryCost, ADeepFifoIsSram) {
   const rtl::Fifo<std::uint32_t> shallow("shallow", 512), deep("deep", 513);
   EXPECT_EQ(shallow.memory_kind(), MemoryKind::kFlops);
-  EXPECT_EQ(shallow.bits(), 16'384U);
+  EXPECT_EQ(shallow.logical_bits(), 16'384U);
   EXPECT_EQ(deep.memory_kind(), MemoryKind::kSram);
   EXPECT_EQ(deep.built_as(), "1R1W");
   EXPECT_EQ(deep.physical_bits(), 513U * 32);

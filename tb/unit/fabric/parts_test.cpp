@@ -17,8 +17,8 @@ namespace {
 using rtl::Cycle;
 
 TEST(Fifo, LatencyOneIntervalOneAndHighWater) {
-  rtl::Fifo<int> fifo("fifo", 5, 12);
-  EXPECT_EQ(fifo.bits(), 60U);
+  rtl::Fifo<int> fifo("fifo", 5);
+  EXPECT_EQ(fifo.logical_bits(), 160U);
   fifo.push(0, 7);
   EXPECT_FALSE(fifo.can_pop(0));
   ASSERT_TRUE(fifo.can_pop(1));
@@ -42,7 +42,7 @@ TEST(Fifo, LatencyOneIntervalOneAndHighWater) {
 // A unit that fills a FIFO and never empties it.
 class Hoarder final : public rtl::Unit {
  public:
-  rtl::Fifo<int> hoard{"hoard", 16, 8};
+  rtl::Fifo<std::uint8_t> hoard{"hoard", 16};
   rtl::Counter coins{"coins", "coins", "put by"};
   Hoarder(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
   rtl::Activity tick(Cycle cycle) override {
@@ -69,7 +69,10 @@ TEST(Fifo, InsideAUnitIsResetWithItsCounters) {
   clock.set_reset_n(true);
   clock.run(20);
   EXPECT_EQ(hoarder.coins.value(), 16U);
-  EXPECT_EQ(statistics(clock)["sram_bits"]["hoarder.hoard"], 128);
+  const auto hoard = statistics(clock)["memories"]["hoarder.hoard"];
+  EXPECT_EQ(hoard["kind"], "flops");
+  EXPECT_EQ(hoard["logical_bits"], 128);
+  EXPECT_EQ(hoard["physical_bits"], 128);
 }
 
 TEST(RoundRobin, WhoWasGrantedWaitsForAllOthers) {

@@ -56,15 +56,11 @@ struct Beat {
   friend bool operator==(const Beat&, const Beat&) = default;
 };
 
-struct Plain {  // does not list its fields
-  std::uint32_t a, b;
-};
-
 // By hand: 14 + 13, 4 x 4 x 8, 2 x 27, 13, 33, 4, 2, 1.
 static_assert(rtl::kPayloadBits<Beat> == 27 + 128 + 54 + 13 + 33 + 4 + 2 + 1);
 static_assert(rtl::kPayloadBits<Place> == 27);
 static_assert(rtl::kPayloadBits<bool> == 1 && rtl::kPayloadBits<std::int16_t> == 16);
-static_assert(rtl::HasFields<Beat> && !rtl::HasFields<int> && !rtl::HasFields<Plain>);
+static_assert(rtl::HasFields<Beat> && !rtl::HasFields<int>);
 
 template <class T>
 std::byte* bytes(T& value) {
@@ -157,17 +153,6 @@ TEST(Payload, MemoryBeatsHaveTheWidthOfTheirPort) {
   EXPECT_EQ(Payload::of<rtl::MemoryRequest>(rtl::request_shape(port, 32, 5)).bits(), 333U);
   EXPECT_EQ(Payload::of<rtl::MemoryResponse>(rtl::response_shape(port, 32, 5)).bits(), 303U);
   EXPECT_EQ(rtl::kPayloadBits<rtl::MemoryRequest>, 64U + 32 + 7 + 1 + 64 + 512);
-}
-
-TEST(Payload, ATypeWithoutListHasItsBytes) {
-  const Payload payload = Payload::of<Plain>();
-  EXPECT_FALSE(payload.listed());
-  EXPECT_EQ(payload.bits(), 64U);
-  Plain plain{1, 2};
-  EXPECT_THROW(payload.fill(bytes(plain), 0), spec::CheckFailed);
-  EXPECT_EQ(plain.a, 1U);
-  payload.flip(bytes(plain), payload.bit("byte.4.1"));
-  EXPECT_EQ(plain.b, 0U);
 }
 
 TEST(Payload, FieldsHaveTheirPlaces) {
@@ -265,8 +250,8 @@ TEST(Payload, AnEnumerationHasNoSign) {
 TEST(Payload, PackageIsLegalAndHasIntegersToo) {
   const Payload reserved = Payload::of<Reserved>(), number = Payload::of<std::uint16_t>(),
                 again = Payload::of<std::uint16_t>(), sign = Payload::of<std::int32_t>(),
-                bit = Payload::of<bool>(), plain = Payload::of<Plain>();
-  const std::array<const Payload*, 6> all = {&reserved, &number, &again, &sign, &bit, &plain};
+                bit = Payload::of<bool>();
+  const std::array<const Payload*, 5> all = {&reserved, &number, &again, &sign, &bit};
   EXPECT_EQ(rtl::payload_package("words_pkg", all),
             "// SPDX-License-Identifier: MIT\n"
             "package words_pkg;\n"

@@ -12,13 +12,13 @@
 namespace deburr::tb {
 namespace {
 
-using rtl::Access;
+using spec::Access;
 
 enum Index { kControl, kStatus, kCommand, kFlags, kCount };
-constexpr rtl::RegisterDescription kTable[] = {
+constexpr spec::RegisterInfo kTable[] = {
     {0x00, "CONTROL", Access::kReadWrite, 0x00000005, "bit 0: enable; bits 2..1: mode"},
     {0x04, "STATUS", Access::kReadOnly, 0x00000001, "bit 0: idle"},
-    {0x08, "COMMAND", Access::kWriteOnly, 0, "bit 0: start"},
+    {0x08, "COMMAND", Access::kCommand, 0, "bit 0: start"},
     {0x10, "FLAGS", Access::kWriteOneToClear, 0, "bit i: error i was seen"},
     {0x14, "COUNT", Access::kReadOnly, 0, "lines fetched, low word"},
 };
@@ -146,9 +146,9 @@ TEST_F(Registers, NamesAndTexts) {
 }
 
 TEST(RegisterTable, MistakesAreCaught) {
-  static constexpr rtl::RegisterDescription twice[] = {{0, "A", Access::kReadWrite, 0, "a"},
-                                                       {0, "B", Access::kReadWrite, 0, "b"}};
-  static constexpr rtl::RegisterDescription odd[] = {{2, "A", Access::kReadWrite, 0, "a"}};
+  static constexpr spec::RegisterInfo twice[] = {{0, "A", Access::kReadWrite, 0, "a"},
+                                                 {0, "B", Access::kReadWrite, 0, "b"}};
+  static constexpr spec::RegisterInfo odd[] = {{2, "A", Access::kReadWrite, 0, "a"}};
   EXPECT_THROW(rtl::RegisterBlock("twice", twice), spec::CheckFailed);
   EXPECT_THROW(rtl::RegisterBlock("odd", odd), spec::CheckFailed);
 }

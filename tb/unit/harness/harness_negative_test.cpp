@@ -182,27 +182,6 @@ struct Nibble {
   }
 };
 
-struct Unlisted {
-  std::uint32_t a = 0, b = 0;
-};
-
-TEST(Negative, PoisonAndWidthsNeedFields) {
-  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
-  const rtl::Link<Unlisted> link("link");
-  const rtl::Link<Nibble> listed("listed");
-  for (const bool poison : {true, false}) {
-    const auto attach = [&](const char* glob) {
-      if (poison)
-        Poison(clock, 1, glob);
-      else
-        LinkChecker(clock, glob, true);
-    };
-    EXPECT_THROW(attach("link"), spec::CheckFailed);
-    EXPECT_NO_THROW(attach("listed"));
-  }
-  EXPECT_NO_THROW(LinkChecker(clock, "*", false));
-}
-
 TEST(Negative, AValueWiderThanItsFieldIsSeenByTheLinkChecker) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   Driver<Nibble> driver("driver", clock);

@@ -232,7 +232,7 @@ TEST(Accounts, MemoriesAreThoseOfTheContract) {
   EngineBench bench(p);
   std::map<std::string, std::uint64_t> bits;
   for (const rtl::MemoryBase* memory : bench.engine.memories()) {
-    bits[memory->basename()] = memory->bits();
+    bits[memory->basename()] = memory->logical_bits();
     EXPECT_EQ(memory->idealised(), "") << memory->name();
   }
   EXPECT_EQ(bits["luma_lines"], 138'240u);
@@ -262,7 +262,7 @@ TEST(Memories, OfStorageInMemoryAreAllReported) {
   EngineBench bench(p);
   std::map<std::string, std::uint64_t> bits;
   for (const rtl::MemoryBase* memory : bench.engine.memories())
-    bits[memory->basename()] = memory->bits();
+    bits[memory->basename()] = memory->logical_bits();
   for (const char* const lines : {"pixel_lines0", "pixel_lines1", "pixel_lines2", "pixel_lines3"})
     EXPECT_EQ(bits[lines], 61'440u);
   EXPECT_EQ(bits["gather_line"], 512u);

@@ -481,7 +481,7 @@ TEST(TextureRtlUnit, AccountsForItsMemories) {
     EXPECT_FALSE(memory->content().empty());
     EXPECT_EQ(memory->idealised(), "") << memory->name();
     if (memory->memory_kind() != rtl::MemoryKind::kFlops) continue;
-    EXPECT_LE(memory->bits(), rtl::MemoryBase::kMostFlopBits) << memory->name();
+    EXPECT_LE(memory->logical_bits(), rtl::MemoryBase::kMostFlopBits) << memory->name();
   }
   // Descriptors, tags, data banks, fill buffer, missed lines, latency FIFO, responses of the memory
   // port, sRGB.
@@ -491,15 +491,17 @@ TEST(TextureRtlUnit, AccountsForItsMemories) {
       if (memory->name() == "unit." + name) return *memory;
     throw spec::CheckFailed("no memory " + name);
   };
-  EXPECT_EQ(find("descriptors").bits(), 16u * 432);
-  EXPECT_EQ(find("cache.tag_stage.tags").bits(), 128u * (2 * (19 + 1 + 1) + 1));  // tag, valid,
-                                                                                  // turned; order
+  EXPECT_EQ(find("descriptors").logical_bits(), 16u * 432);
+  EXPECT_EQ(find("cache.tag_stage.tags").logical_bits(),
+            128u * (2 * (19 + 1 + 1) + 1));  // tag, valid,
+                                             // turned; order
   EXPECT_EQ(find("cache.data_stage.banks").physical_bits(), 16384u * 8);
   EXPECT_EQ(find("cache.data_stage.banks").built_as(), "1R1W, 16 banks");
-  EXPECT_EQ(find("cache.miss_queue.lines").bits(), 64u * 26);
+  EXPECT_EQ(find("cache.miss_queue.lines").logical_bits(), 64u * 26);
   EXPECT_EQ(find("cache.miss_queue.fill_buffer").physical_bits(), 64u * 512);
   // Ticket, control, four times (place, source, slot, turned), number of fills.
-  EXPECT_EQ(find("cache.latency_fifo.entries").bits(), 160u * (40 + 38 + 4 * (14 + 3 + 8 + 1) + 3));
+  EXPECT_EQ(find("cache.latency_fifo.entries").logical_bits(),
+            160u * (40 + 38 + 4 * (14 + 3 + 8 + 1) + 3));
   EXPECT_EQ(find("filter.srgb").physical_bits(), 6u * 256 * 12);  // copies of 2R
 }
 
