@@ -64,7 +64,8 @@ AreaUnit::AxisRecords::AxisRecords(const std::string& axis, const MemoryShape& s
               marked.word_bits = mark_bits;
               return marked;
             }()),
-      records((axis + "_records").c_str(), records_shape(shape)) {
+      records((axis + "_records").c_str(), records_shape(shape)),
+      mark(shape.words) {
   for (std::size_t bank = 0; bank < banks; ++bank) {
     const std::string user = "bank " + std::to_string(bank);
     read.emplace_back(records, user);
@@ -92,6 +93,7 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
                                      .span = static_cast<std::uint32_t>(lanes_ + 1),
                                      .content = "shares of a column's edges in the row above",
                                      .columns = static_cast<std::uint64_t>(p.line_pixels)}),
+      weights_(columns_),
       row_("row",
            marks_shape(2 * pairs_, static_cast<std::size_t>(p.line_pixels),
                        std::max<std::size_t>(1, lanes_ / 2),
@@ -185,7 +187,8 @@ void AreaUnit::store(Cycle cycle, AxisRecords& side, const LineToken& token) {
   if (observer) observer(line);
   ++records;
   const std::size_t at = place(side, line.run), bank = at % side.banks;
-  side.write_marks[bank].write(cycle, at, {line.run.start, line.run.length, line.run.line});
+  side.write_marks[bank].write(cycle, at);
+  side.mark[at] = {line.run.start, line.run.length, line.run.line};
   Walk walk;
   walk.t = (std::int64_t{line.shift} << (spec::morphological::kRecipFractionBits - 1)) -
            std::int64_t{line.offset} * line.slope;
@@ -209,8 +212,11 @@ void AreaUnit::address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat
   beat.evaluates = works(token.slot) && row < store_.rules().height;
   if (!beat.evaluates) return;
   const std::size_t x = token.slot.beat * lanes_;
-  row_.read_marks.read(cycle, pair_of(row, x), static_cast<std::uint32_t>(row_.banks));
-  column_.read_marks.read(cycle, x, static_cast<std::uint32_t>(lanes_));
+  const std::size_t pair = pair_of(row, x);
+  row_.read_marks.read(cycle, pair, row_.banks);
+  column_.read_marks.read(cycle, x, lanes_);
+  std::copy_n(&row_.mark[pair], row_.banks, beat.row_mark.begin());
+  std::copy_n(&column_.mark[x], lanes_, beat.column_mark.begin());
 }
 
 // Stage 2.
@@ -228,13 +234,15 @@ void AreaUnit::match(Cycle cycle, Beat& beat) {
   const std::size_t count =
       std::min(lanes_, static_cast<std::size_t>(store_.rules().width) - first);
   const std::int32_t row = evaluated_row(slot);
+  row_.read_marks.check(cycle, pair_of(row, first));
+  column_.read_marks.check(cycle, first);
   std::uint8_t hand = 1;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t x = first + i, pair = pair_of(row, x);
-    const Mark& mark = row_.read_marks.at(cycle, pair);
+    const std::size_t x = first + i;
+    const Mark& mark = beat.row_mark[i / 2];
     if (mark.length != 0 && mark.row == row && mark.start == x) {
       hand_ = mark;
-      const std::size_t bank = pair % row_.banks;
+      const std::size_t pair = pair_of(row, x), bank = pair % row_.banks;
       row_.read[bank].read(cycle, pair);
       hand = static_cast<std::uint8_t>(2 + bank);
     }
@@ -242,7 +250,7 @@ void AreaUnit::match(Cycle cycle, Beat& beat) {
     along.k = static_cast<std::uint16_t>(x - hand_.start);
     along.from = hand_.length != 0 && along.k < hand_.length ? hand : 0;
 
-    const Mark& column = column_.read_marks.at(cycle, x);
+    const Mark& column = beat.column_mark[i];
     Edge& down = beat.vertical[i];
     // U13: a line may have been stored before its first row.
     down.k = static_cast<std::uint16_t>((row - column.start) & 0x1FFF);
@@ -254,11 +262,16 @@ void AreaUnit::match(Cycle cycle, Beat& beat) {
 
 void AreaUnit::clear_marks(Cycle cycle, const Slot& slot) {
   const std::size_t x = slot.beat * lanes_;
-  for (std::size_t bank = 0; bank < row_.banks; ++bank)
-    row_.write_marks[bank].write(cycle, pair_of(slot.row, x) + bank, Mark{});
+  const std::size_t pair = pair_of(slot.row, x);
+  for (std::size_t bank = 0; bank < row_.banks; ++bank) {
+    row_.write_marks[bank].write(cycle, pair + bank);
+    row_.mark[pair + bank] = {};
+  }
   if (slot.row != 0) return;
-  for (std::size_t bank = 0; bank < lanes_; ++bank)
-    column_.write_marks[bank].write(cycle, x + bank, Mark{});
+  for (std::size_t bank = 0; bank < lanes_; ++bank) {
+    column_.write_marks[bank].write(cycle, x + bank);
+    column_.mark[x + bank] = {};
+  }
 }
 
 // Stage 3, and what follows from it.
@@ -267,17 +280,17 @@ void AreaUnit::evaluate(Cycle cycle, Beat& beat) {
   const std::size_t count =
       std::min(lanes_, static_cast<std::size_t>(store_.rules().width) - first);
   const std::int32_t row = evaluated_row(beat.slot);
+  beat.weights = {};
   for (std::size_t i = 0; i < count; ++i) {
     const Edge along = beat.horizontal[i], down = beat.vertical[i];
-    beat.below[i] = beat.beside[i] = {};
     if (along.from) {
       if (along.from >= 2 && along.k == 0)
         hand_walk_ = row_.read[along.from - 2u].at(cycle, pair_of(row, first + i));
-      beat.below[i] = area(hand_walk_, along.k);
+      beat.weights[i].top = area(hand_walk_, along.k);
       ++horizontal_edges;
     }
     if (down.from) {
-      beat.beside[i] = area(column_.read[i].at(cycle, first + i), down.k);
+      beat.weights[i].left = area(column_.read[i].at(cycle, first + i), down.k);
       ++vertical_edges;
     }
   }
@@ -309,38 +322,38 @@ AreaUnit::Weights AreaUnit::area(const Walk& walk, std::uint32_t k) {
 void AreaUnit::address_weights(Cycle cycle, const Beat& beat) {
   if (!works(beat.slot)) return;
   const std::size_t x = beat.slot.beat * lanes_;
-  read_weights_.read(cycle, x, static_cast<std::uint32_t>(std::min(lanes_ + 1, columns_ - x)));
+  read_weights_.read(cycle, x, std::min(lanes_ + 1, columns_ - x));
 }
 
-// Stage 9: shares of the row above go to the Blender, those of this row take their place.
+// Stage 9: shares of the row above go to the Blender, those of this row take their place. The words
+// have not changed since stage 8 but by what was written in its clock, which a read sees.
 void AreaUnit::send(Cycle cycle, const Beat& beat) {
   if (!works(beat.slot)) return;
   const std::size_t first = beat.slot.beat * lanes_;
-  const auto width = static_cast<std::size_t>(store_.rules().width);
-  const std::size_t count = std::min(lanes_, width - first);
-  std::array<WeightWord, kLanes> row{};
-  if (beat.any)
-    for (std::size_t i = 0; i < count; ++i) row[i] = {beat.beside[i], beat.below[i]};
+  WeightWord* const above = &weights_[first];
   if (beat.slot.row >= lag_) {
+    read_weights_.check(cycle, first);
+    const auto width = static_cast<std::size_t>(store_.rules().width);
+    const std::size_t count = std::min(lanes_, width - first);
     ShareToken& out = shares_out.emplace(cycle);
-    bool any = false;
-    const WeightWord* above = &read_weights_.at(cycle, first);
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t x = first + i;
-      const WeightWord* const right = x + 1 < width ? &read_weights_.at(cycle, x + 1) : nullptr;
-      const Weights up = above->top, down = row[i].top, left = above->left;
-      const Weights beside = right ? right->left : Weights{};
-      out.shares[i] = {up.second, down.first, left.second, beside.first,
-                       up.span,   down.span,  left.span,   beside.span};
-      any |= (up.second | down.first | left.second | beside.first) != 0;
-      above = right;
-    }
     out.slot = beat.slot;
-    out.any = any;
+    out.any = false;
     out.left = beat.left;
     out.top = beat.top;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Weights up = above[i].top, left = above[i].left;
+      const Weights down = beat.any ? beat.weights[i].top : Weights{};
+      const Weights right = first + i + 1 < width ? above[i + 1].left : Weights{};
+      out.shares[i] = {up.second, down.first, left.second, right.first,
+                       up.span,   down.span,  left.span,   right.span};
+      out.any |= (up.second | down.first | left.second | right.first) != 0;
+    }
   }
-  write_weights_.write(cycle, first, std::span<const WeightWord>(row.data(), lanes_));
+  write_weights_.write(cycle, first, lanes_);
+  if (beat.any)
+    std::copy_n(beat.weights.begin(), lanes_, above);
+  else
+    std::fill_n(above, lanes_, WeightWord{});
 }
 
 void AreaUnit::reset() {

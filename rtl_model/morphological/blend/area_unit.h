@@ -81,19 +81,20 @@ class AreaUnit final : public Unit {
     std::uint16_t span = 0;
   };
   struct WeightWord {
-    Weights left, top;  // of top, `first` is used as it is evaluated
+    Weights left{}, top{};  // of top, `first` is used as it is evaluated
   };
   // The records of an axis, in banks.
   struct AxisRecords {
     AxisRecords(const std::string& axis, const MemoryShape& marks, std::uint32_t mark_bits,
                 std::uint32_t banks);
     const std::size_t banks;
-    Memory<Mark> marks;
-    ReadPort<Mark> read_marks{marks, "raster"};
+    Memory<void> marks;
+    ReadPort<void> read_marks{marks, "raster"};
     Memory<Walk> records;
     std::vector<ReadPort<Walk>> read;  // a bank each, as the others of banks
-    std::vector<WritePort<Mark>> write_marks;
+    std::vector<WritePort<void>> write_marks;
     std::vector<WritePort<Walk>> write;
+    std::vector<Mark> mark;  // the words of `marks`
     // Lines at the entrance that are stored in this clock.
     std::array<LineToken, kLanes> entered;
     std::size_t entered_count = 0;
@@ -107,8 +108,10 @@ class AreaUnit final : public Unit {
     Slot slot;
     std::uint8_t left, top;
     bool evaluates, any;  // any: one of the edges below lies in a record
+    // The output registers of the marks, as they were in the clock of the address.
+    std::array<Mark, kLanes> row_mark, column_mark;
     std::array<Edge, kLanes> horizontal, vertical;
-    std::array<Weights, kLanes> below, beside;
+    std::array<WeightWord, kLanes> weights;  // if `any`
   };
 
   void address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat);
@@ -135,9 +138,10 @@ class AreaUnit final : public Unit {
   const std::int32_t lag_;     // rows from a slot to the row that it blends
   const std::size_t columns_;  // whole beats
   const std::size_t pairs_;    // of columns, whole beats
-  Memory<WeightWord> weight_lines_;
-  ReadPort<WeightWord> read_weights_{weight_lines_, "row above"};
-  WritePort<WeightWord> write_weights_{weight_lines_, "row"};
+  Memory<void> weight_lines_;
+  ReadPort<void> read_weights_{weight_lines_, "row above"};
+  WritePort<void> write_weights_{weight_lines_, "row"};
+  std::vector<WeightWord> weights_;  // the words of weight_lines
   AxisRecords row_, column_;
   Pipe<Beat, spec::morphological::kAreaLatency> pipe_;
   Mark hand_;       // the horizontal record in hand, stage 2
