@@ -65,7 +65,7 @@ AreaUnit::AxisRecords::AxisRecords(const std::string& axis, const MemoryShape& s
               return marked;
             }()),
       records((axis + "_records").c_str(), records_shape(shape)),
-      mark(shape.words) {
+      mark(shape.words + kLanes) {
   for (std::size_t bank = 0; bank < banks; ++bank) {
     const std::string user = "bank " + std::to_string(bank);
     read.emplace_back(records, user);
@@ -93,7 +93,7 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
                                      .span = static_cast<std::uint32_t>(lanes_ + 1),
                                      .content = "shares of a column's edges in the row above",
                                      .columns = static_cast<std::uint64_t>(p.line_pixels)}),
-      weights_(columns_),
+      weights_(columns_ / lanes_),
       row_("row",
            marks_shape(2 * pairs_, static_cast<std::size_t>(p.line_pixels),
                        std::max<std::size_t>(1, lanes_ / 2),
@@ -106,36 +106,6 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
                           "a vertical record a column"),
               // Start, length up to R.
               kCoordinateBits + 8, static_cast<std::uint32_t>(lanes_)) {}
-
-Activity AreaUnit::tick(Cycle cycle) {
-  bool did = false, blocked = false;
-  const bool arrives = slots_in.can_pop(cycle);
-  if (arrives || !pipe_.empty()) {
-    if (pipe_.leaves() && pipe_.at(8)->slot.row >= lag_ && !shares_out.can_push(cycle)) {
-      blocked = true;
-    } else {
-      pipe_.move();
-      did = true;
-      if (const Beat* beat = pipe_.at(9)) send(cycle, *beat);
-      if (const Beat* beat = pipe_.at(8)) address_weights(cycle, *beat);
-      // Stages 4 to 7 are of the arithmetic that stage 3 begins.
-      if (Beat* beat = pipe_.at(3); beat && beat->any) evaluate(cycle, *beat);
-      if (Beat* beat = pipe_.at(2)) match(cycle, *beat);
-      if (arrives) {
-        address_marks(cycle, slots_in.front(cycle), pipe_.enter());
-        slots_in.pop(cycle);
-      }
-    }
-  }
-  if (row_.entered_count + column_.entered_count != 0) {
-    if (!store_lines(cycle)) return did ? kBusy : blocked ? kStalledDownstream : kIdle;
-    did = true;
-  }
-  if (lines_h_in.any_arrives(cycle, lanes_)) did |= take_lines(cycle, lines_h_in, row_);
-  if (lines_v_in.any_arrives(cycle, lanes_)) did |= take_lines(cycle, lines_v_in, column_);
-  if (did) return kBusy;
-  return blocked ? kStalledDownstream : kIdle;
-}
 
 // ---- Lines --------------------------------------------------------------------------------------
 
@@ -208,6 +178,7 @@ void AreaUnit::address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat
   beat.left = token.left;
   beat.top = token.top;
   beat.any = false;
+  beat.weights = {};
   const std::int32_t row = evaluated_row(token.slot);
   beat.evaluates = works(token.slot) && row < store_.rules().height;
   if (!beat.evaluates) return;
@@ -215,8 +186,8 @@ void AreaUnit::address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat
   const std::size_t pair = pair_of(row, x);
   row_.read_marks.read(cycle, pair, row_.banks);
   column_.read_marks.read(cycle, x, lanes_);
-  std::copy_n(&row_.mark[pair], row_.banks, beat.row_mark.begin());
-  std::copy_n(&column_.mark[x], lanes_, beat.column_mark.begin());
+  std::copy_n(&row_.mark[pair], beat.row_mark.size(), beat.row_mark.begin());
+  std::copy_n(&column_.mark[x], beat.column_mark.size(), beat.column_mark.begin());
 }
 
 // Stage 2.
@@ -280,7 +251,6 @@ void AreaUnit::evaluate(Cycle cycle, Beat& beat) {
   const std::size_t count =
       std::min(lanes_, static_cast<std::size_t>(store_.rules().width) - first);
   const std::int32_t row = evaluated_row(beat.slot);
-  beat.weights = {};
   for (std::size_t i = 0; i < count; ++i) {
     const Edge along = beat.horizontal[i], down = beat.vertical[i];
     if (along.from) {
@@ -329,31 +299,66 @@ void AreaUnit::address_weights(Cycle cycle, const Beat& beat) {
 // have not changed since stage 8 but by what was written in its clock, which a read sees.
 void AreaUnit::send(Cycle cycle, const Beat& beat) {
   if (!works(beat.slot)) return;
+  if (beat.slot.row >= lag_) share(cycle, beat);
+  write_weights_.write(cycle, beat.slot.beat * lanes_, lanes_);
+  weights_[beat.slot.beat] = beat.weights;
+}
+
+void AreaUnit::share(Cycle cycle, const Beat& beat) {
   const std::size_t first = beat.slot.beat * lanes_;
-  WeightWord* const above = &weights_[first];
-  if (beat.slot.row >= lag_) {
-    read_weights_.check(cycle, first);
-    const auto width = static_cast<std::size_t>(store_.rules().width);
-    const std::size_t count = std::min(lanes_, width - first);
-    ShareToken& out = shares_out.emplace(cycle);
-    out.slot = beat.slot;
-    out.any = false;
-    out.left = beat.left;
-    out.top = beat.top;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Weights up = above[i].top, left = above[i].left;
-      const Weights down = beat.any ? beat.weights[i].top : Weights{};
-      const Weights right = first + i + 1 < width ? above[i + 1].left : Weights{};
-      out.shares[i] = {up.second, down.first, left.second, right.first,
-                       up.span,   down.span,  left.span,   right.span};
-      out.any |= (up.second | down.first | left.second | right.first) != 0;
+  read_weights_.check(cycle, first);
+  const auto width = static_cast<std::size_t>(store_.rules().width);
+  const std::size_t count = std::min(lanes_, width - first);
+  const WeightWords* const above = &weights_[beat.slot.beat];
+  const auto right_of = [&](std::size_t i) {
+    return i + 1 < lanes_          ? above[0][i + 1].left
+           : first + i + 1 < width ? above[1][0].left
+                                   : Weights{};
+  };
+  bool any = false;
+  for (std::size_t i = 0; i < count; ++i)
+    any |= (above[0][i].top.second | beat.weights[i].top.first | above[0][i].left.second |
+            right_of(i).first) != 0;
+
+  ShareToken& out = shares_out.emplace(cycle);
+  out.slot = beat.slot;
+  out.any = any;
+  out.left = beat.left;
+  out.top = beat.top;
+  if (!any) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Weights up = above[0][i].top, down = beat.weights[i].top;
+    const Weights left = above[0][i].left, right = right_of(i);
+    out.shares[i] = {up.second, down.first, left.second, right.first,
+                     up.span,   down.span,  left.span,   right.span};
+  }
+}
+
+Activity AreaUnit::tick(Cycle cycle) {
+  bool did = false, blocked = false;
+  const bool arrives = slots_in.can_pop(cycle);
+  if (arrives || !pipe_.empty()) {
+    if (pipe_.leaves() && pipe_.at(8)->slot.row >= lag_ && !shares_out.can_push(cycle)) {
+      blocked = true;
+    } else {
+      pipe_.move();
+      did = true;
+      if (const Beat* beat = pipe_.at(9)) send(cycle, *beat);
+      if (const Beat* beat = pipe_.at(8)) address_weights(cycle, *beat);
+      // Stages 4 to 7 are of the arithmetic that stage 3 begins.
+      if (Beat* beat = pipe_.at(3); beat && beat->any) evaluate(cycle, *beat);
+      if (Beat* beat = pipe_.at(2)) match(cycle, *beat);
+      if (arrives) address_marks(cycle, slots_in.take(cycle), pipe_.enter());
     }
   }
-  write_weights_.write(cycle, first, lanes_);
-  if (beat.any)
-    std::copy_n(beat.weights.begin(), lanes_, above);
-  else
-    std::fill_n(above, lanes_, WeightWord{});
+  if (row_.entered_count + column_.entered_count != 0) {
+    if (!store_lines(cycle)) return did ? kBusy : blocked ? kStalledDownstream : kIdle;
+    did = true;
+  }
+  if (lines_h_in.any_arrives(cycle, lanes_)) did |= take_lines(cycle, lines_h_in, row_);
+  if (lines_v_in.any_arrives(cycle, lanes_)) did |= take_lines(cycle, lines_v_in, column_);
+  if (did) return kBusy;
+  return blocked ? kStalledDownstream : kIdle;
 }
 
 void AreaUnit::reset() {

@@ -83,6 +83,7 @@ class AreaUnit final : public Unit {
   struct WeightWord {
     Weights left{}, top{};  // of top, `first` is used as it is evaluated
   };
+  using WeightWords = std::array<WeightWord, kLanes>;  // of a beat
   // The records of an axis, in banks.
   struct AxisRecords {
     AxisRecords(const std::string& axis, const MemoryShape& marks, std::uint32_t mark_bits,
@@ -94,7 +95,8 @@ class AreaUnit final : public Unit {
     std::vector<ReadPort<Walk>> read;  // a bank each, as the others of banks
     std::vector<WritePort<void>> write_marks;
     std::vector<WritePort<Walk>> write;
-    std::vector<Mark> mark;  // the words of `marks`
+    // The words of `marks`, and as many more as make a beat of most lanes.
+    std::vector<Mark> mark;
     // Lines at the entrance that are stored in this clock.
     std::array<LineToken, kLanes> entered;
     std::size_t entered_count = 0;
@@ -109,16 +111,19 @@ class AreaUnit final : public Unit {
     std::uint8_t left, top;
     bool evaluates, any;  // any: one of the edges below lies in a record
     // The output registers of the marks, as they were in the clock of the address.
-    std::array<Mark, kLanes> row_mark, column_mark;
+    std::array<Mark, (kLanes + 1) / 2> row_mark;
+    std::array<Mark, kLanes> column_mark;
     std::array<Edge, kLanes> horizontal, vertical;
-    std::array<WeightWord, kLanes> weights;  // if `any`
+    WeightWords weights;
   };
 
-  void address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat);
-  void match(Cycle cycle, Beat& beat);
+  // Once a clock each, from one place: inline.
+  inline void address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat);
+  inline void match(Cycle cycle, Beat& beat);
+  inline void address_weights(Cycle cycle, const Beat& beat);
+  inline void send(Cycle cycle, const Beat& beat);
+  inline void share(Cycle cycle, const Beat& beat);
   void evaluate(Cycle cycle, Beat& beat);
-  void address_weights(Cycle cycle, const Beat& beat);
-  void send(Cycle cycle, const Beat& beat);
   void clear_marks(Cycle cycle, const Slot& slot);
   bool store_lines(Cycle cycle);
   bool take_lines(Cycle cycle, LanePorts<In<LineToken>>& lines, AxisRecords& side);
@@ -141,7 +146,7 @@ class AreaUnit final : public Unit {
   Memory<void> weight_lines_;
   ReadPort<void> read_weights_{weight_lines_, "row above"};
   WritePort<void> write_weights_{weight_lines_, "row"};
-  std::vector<WeightWord> weights_;  // the words of weight_lines
+  std::vector<WeightWords> weights_;  // the words of weight_lines
   AxisRecords row_, column_;
   Pipe<Beat, spec::morphological::kAreaLatency> pipe_;
   Mark hand_;       // the horizontal record in hand, stage 2

@@ -50,38 +50,24 @@ Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
     }
 }
 
-Activity Blender::tick(Cycle cycle) {
-  const bool arrives = shares_in.can_pop(cycle) && pixels_in.can_pop(cycle);
-  if (!arrives && pipe_.empty()) return kIdle;
-  if (pipe_.leaves() &&
-      (!pixels_out.can_push(cycle) || (pipe_.at(5)->last && !frames_done_out.can_push(cycle))))
-    return kStalledDownstream;
-  pipe_.move();
-  if (const Beat* beat = pipe_.at(6)) deliver(cycle, *beat);
-  if (Beat* beat = pipe_.at(5)) round(cycle, *beat);
-  if (Beat* beat = pipe_.at(4)) multiply(*beat);
-  if (Beat* beat = pipe_.at(3)) subtract(cycle, *beat);
-  if (const Beat* beat = pipe_.at(2)) address_light(cycle, *beat);
-  if (arrives) {
-    choose(shares_in.front(cycle), pixels_in.front(cycle), pipe_.enter());
-    shares_in.pop(cycle);
-    pixels_in.pop(cycle);
-  }
-  return kBusy;
-}
-
 // Stage 1.
 void Blender::choose(const ShareToken& token, const PixelToken& around, Beat& beat) {
   const FrameRules& rules = store_.rules();
-  const std::size_t count = count_of(token.slot);
-  beat.slot = token.slot;
-  beat.end = token.slot.beat + 1u == rules.beats;
-  beat.last = beat.end && token.slot.row + 1u == rules.rows;
+  const Slot slot = token.slot;
+  const bool end = slot.beat + 1u == rules.beats;
+  const auto count = static_cast<std::size_t>(end ? rules.last_count : store_.lanes());
+  beat.slot = slot.number;
+  beat.last = end && slot.row + 1u == rules.rows;
   beat.blend = 0;
-  beat.centre = around.centre;
+  spec::morphological::BlendedBeat& result = beat.result;
+  result = {};  // what leaves the engine is defined in every lane
+  result.count = static_cast<std::uint8_t>(count);
+  result.end_of_row = end;
+  result.start_of_frame =
+      slot.row == store_.reach_rows() + spec::morphological::kRowLag && slot.beat == 0;
   for (std::size_t i = 0; i < count; ++i) {
-    spec::morphological::BlendTap& tap = beat.tap[i];
-    tap = {};
+    result.pixel[i] = around.centre[i];
+    spec::morphological::BlendTap& tap = result.tap[i];
     tap.edges = static_cast<std::uint8_t>((token.left >> i & 1) | (token.top >> i & 1) << 1);
     if (!token.any) continue;
 
@@ -139,7 +125,7 @@ void Blender::subtract(Cycle cycle, Beat& beat) {
 void Blender::multiply(Beat& beat) {
   for_each_lane(beat.blend, [&](std::size_t lane) {
     Operands& o = beat.operands[lane];
-    const spec::morphological::BlendTap& tap = beat.tap[lane];
+    const spec::morphological::BlendTap& tap = beat.result.tap[lane];
     for (std::size_t c = 0; c < 3; ++c)
       o.sum[c] = tap.first * o.first[c] + tap.second * o.second[c];
   });
@@ -161,18 +147,8 @@ void Blender::round(Cycle cycle, Beat& beat) {
 // Stage 6.
 void Blender::deliver(Cycle cycle, const Beat& beat) {
   const bool linear = store_.rules().linear_light;
-  const Slot slot = beat.slot;
-  const std::size_t count = count_of(slot);
   spec::morphological::BlendedBeat& out = pixels_out.emplace(cycle);
-  out = {};  // what leaves the engine is defined in every lane
-  out.count = static_cast<std::uint8_t>(count);
-  out.end_of_row = beat.end;
-  out.start_of_frame =
-      slot.row == store_.reach_rows() + spec::morphological::kRowLag && slot.beat == 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    out.tap[i] = beat.tap[i];
-    out.pixel[i] = beat.centre[i];
-  }
+  out = beat.result;
   for_each_lane(beat.blend, [&](std::size_t lane) {
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint16_t value = beat.operands[lane].value[c];
@@ -181,9 +157,29 @@ void Blender::deliver(Cycle cycle, const Beat& beat) {
     }
     ++blended_pixels;
   });
-  pixels += count;
+  pixels += beat.result.count;
   beat_latency.record(probe_.leaves(cycle));
-  if (beat.last) frames_done_out.push(cycle, {slot.number});
+  if (beat.last) frames_done_out.push(cycle, {beat.slot});
+}
+
+Activity Blender::tick(Cycle cycle) {
+  const bool arrives = shares_in.can_pop(cycle) && pixels_in.can_pop(cycle);
+  if (!arrives && pipe_.empty()) return kIdle;
+  if (pipe_.leaves() &&
+      (!pixels_out.can_push(cycle) || (pipe_.at(5)->last && !frames_done_out.can_push(cycle))))
+    return kStalledDownstream;
+  pipe_.move();
+  if (const Beat* beat = pipe_.at(6)) deliver(cycle, *beat);
+  if (Beat* beat = pipe_.at(5); beat && beat->blend) round(cycle, *beat);
+  if (Beat* beat = pipe_.at(4); beat && beat->blend) multiply(*beat);
+  if (Beat* beat = pipe_.at(3); beat && beat->blend) subtract(cycle, *beat);
+  if (const Beat* beat = pipe_.at(2); beat && beat->blend) address_light(cycle, *beat);
+  if (arrives) {
+    choose(shares_in.front(cycle), pixels_in.front(cycle), pipe_.enter());
+    shares_in.pop(cycle);
+    pixels_in.pop(cycle);
+  }
+  return kBusy;
 }
 
 }  // namespace deburr::rtl::morphological

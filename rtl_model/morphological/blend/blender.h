@@ -53,24 +53,20 @@ class Blender final : public Unit {
     std::array<std::uint16_t, 3> value;                 // U0.12
   };
   struct Beat {
-    Slot slot;
-    bool end, last;      // of the row, of the frame
+    std::uint32_t slot;  // number
+    bool last;           // of the frame
     std::uint8_t blend;  // bit k: lane k takes a share
-    LanePixels centre;
-    std::array<spec::morphological::BlendTap, kLanes> tap;
+    spec::morphological::BlendedBeat result;
     std::array<Operands, kLanes> operands;
   };
 
-  void choose(const ShareToken& shares, const PixelToken& around, Beat& beat);
+  // Once a clock each, from one place: inline.
+  inline void choose(const ShareToken& shares, const PixelToken& around, Beat& beat);
+  inline void deliver(Cycle cycle, const Beat& beat);
   void address_light(Cycle cycle, const Beat& beat);
   void subtract(Cycle cycle, Beat& beat);
   void multiply(Beat& beat);
   void round(Cycle cycle, Beat& beat);
-  void deliver(Cycle cycle, const Beat& beat);
-  std::size_t count_of(const Slot& slot) const {
-    return static_cast<std::size_t>(
-        slot.beat + 1u == store_.rules().beats ? store_.rules().last_count : store_.lanes());
-  }
   static std::size_t light_port(std::size_t lane, std::size_t channel, std::size_t operand) {
     return (lane * 3 + channel) * 3 + operand;
   }

@@ -61,48 +61,7 @@ void PixelStore::connect(Link<MemoryRequest>& requests, Link<MemoryResponse>& re
   memory_->responses = &responses;
 }
 
-Activity PixelStore::tick(Cycle cycle) {
-  const Did fetched = fetch(cycle);
-  const Did stored = store(cycle);
-  bool did = fetched == Did::kWork || stored == Did::kWork;
-  if (memory_) {
-    did |= receive(cycle);
-    did |= settle();
-    did |= request(cycle);
-  }
-  if (did) return kBusy;
-  if (fetched == Did::kWaitsForMemory || stored == Did::kWaitsForMemory) return memory_stall_;
-  if (fetched == Did::kWaitsDownstream) return kStalledDownstream;
-  return stored == Did::kWaitsForRows ? rows_stall_ : kIdle;
-}
-
 // ---- Out ----------------------------------------------------------------------------------------
-
-PixelStore::Did PixelStore::fetch(Cycle cycle) {
-  Did did = Did::kNothing;
-  if (fetched_) {
-    if (!pixels_out.can_push(cycle)) return Did::kWaitsDownstream;
-    send(cycle);
-    did = Did::kWork;
-  }
-  if (!fetches_in.can_pop(cycle)) return did;
-  const Slot slot = fetches_in.front(cycle).slot;
-  if (memory_ && !is_loaded(slot)) return did == Did::kWork ? did : Did::kWaitsForMemory;
-  if (slot.row != around_row_) {
-    const std::int32_t y = slot.row - lag_;
-    above_ = y > 0 ? row(y - 1) : Row{};
-    centre_ = row(y);
-    below_ = y + 1 == store_.rules().height ? Row{} : row(y + 1);
-    around_row_ = slot.row;
-  }
-  beat_ = slot.beat;
-  address(cycle);
-  fetched_ = true;
-  asked_row_ = slot.row;
-  asked_beat_ = slot.beat + 1u;
-  fetches_in.pop(cycle);
-  return Did::kWork;
-}
 
 // storage = memory: have the lines come that the slot needs?
 bool PixelStore::is_loaded(const Slot& slot) const {
@@ -112,6 +71,14 @@ bool PixelStore::is_loaded(const Slot& slot) const {
   const std::int32_t end = std::min((slot.beat + 1) * lanes_, rules.width);
   const LinePlace needed = {y + 1, static_cast<std::uint32_t>((end - 1) / kLinePixels)};
   return needed.before(memory_->loaded);
+}
+
+void PixelStore::look_around(std::int32_t slot_row) {
+  const std::int32_t y = slot_row - lag_;
+  above_ = y > 0 ? row(y - 1) : Row{};
+  centre_ = row(y);
+  below_ = y + 1 == store_.rules().height ? Row{} : row(y + 1);
+  around_row_ = slot_row;
 }
 
 // Stage 1.
@@ -141,6 +108,26 @@ void PixelStore::send(Cycle cycle) {
   fetched_ = false;
 }
 
+PixelStore::Did PixelStore::fetch(Cycle cycle) {
+  Did did = Did::kNothing;
+  if (fetched_) {
+    if (!pixels_out.can_push(cycle)) return Did::kWaitsDownstream;
+    send(cycle);
+    did = Did::kWork;
+  }
+  if (!fetches_in.can_pop(cycle)) return did;
+  const Slot slot = fetches_in.front(cycle).slot;
+  if (memory_ && !is_loaded(slot)) return did == Did::kWork ? did : Did::kWaitsForMemory;
+  if (slot.row != around_row_) look_around(slot.row);
+  beat_ = slot.beat;
+  address(cycle);
+  fetched_ = true;
+  asked_row_ = slot.row;
+  asked_beat_ = slot.beat + 1u;
+  fetches_in.pop(cycle);
+  return Did::kWork;
+}
+
 // ---- In -----------------------------------------------------------------------------------------
 
 PixelStore::Did PixelStore::store(Cycle cycle) {
@@ -160,6 +147,21 @@ PixelStore::Did PixelStore::store(Cycle cycle) {
   }
   beats_in.pop(cycle);
   return Did::kWork;
+}
+
+Activity PixelStore::tick(Cycle cycle) {
+  const Did fetched = fetch(cycle);
+  const Did stored = store(cycle);
+  bool did = fetched == Did::kWork || stored == Did::kWork;
+  if (memory_) {
+    did |= receive(cycle);
+    did |= settle();
+    did |= request(cycle);
+  }
+  if (did) return kBusy;
+  if (fetched == Did::kWaitsForMemory || stored == Did::kWaitsForMemory) return memory_stall_;
+  if (fetched == Did::kWaitsDownstream) return kStalledDownstream;
+  return stored == Did::kWaitsForRows ? rows_stall_ : kIdle;
 }
 
 void PixelStore::begin_frame() {

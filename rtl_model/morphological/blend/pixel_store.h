@@ -141,11 +141,13 @@ class PixelStore final : public Unit {
   };
   static constexpr std::int32_t kLines = 4;
 
-  Did fetch(Cycle cycle);
+  // Once a clock each, from one place: inline.
+  inline Did fetch(Cycle cycle);
+  inline void address(Cycle cycle);
+  inline void send(Cycle cycle);
+  inline Did store(Cycle cycle);
   bool is_loaded(const Slot& slot) const;
-  void address(Cycle cycle);
-  void send(Cycle cycle);
-  Did store(Cycle cycle);
+  void look_around(std::int32_t slot_row);
   bool gather(Cycle cycle, const BeatToken& beat, std::int32_t x, std::int32_t count);
   bool receive(Cycle cycle);
   bool load(Cycle cycle, const MemoryResponse& response);
