@@ -2,6 +2,7 @@
 #include "rtl_model/morphological/blend/area_unit.h"
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 
 namespace deburr::rtl::morphological {
@@ -186,8 +187,8 @@ void AreaUnit::address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat
   const std::size_t pair = pair_of(row, x);
   row_.read_marks.read(cycle, pair, row_.banks);
   column_.read_marks.read(cycle, x, lanes_);
-  std::copy_n(&row_.mark[pair], beat.row_mark.size(), beat.row_mark.begin());
-  std::copy_n(&column_.mark[x], beat.column_mark.size(), beat.column_mark.begin());
+  std::memcpy(beat.row_mark.data(), &row_.mark[pair], sizeof beat.row_mark);
+  std::memcpy(beat.column_mark.data(), &column_.mark[x], sizeof beat.column_mark);
 }
 
 // Stage 2.
@@ -207,7 +208,7 @@ void AreaUnit::match(Cycle cycle, Beat& beat) {
   const std::int32_t row = evaluated_row(slot);
   row_.read_marks.check(cycle, pair_of(row, first));
   column_.read_marks.check(cycle, first);
-  std::uint8_t hand = 1;
+  std::uint8_t hand = 1, any = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t x = first + i;
     const Mark& mark = beat.row_mark[i / 2];
@@ -219,7 +220,7 @@ void AreaUnit::match(Cycle cycle, Beat& beat) {
     }
     Edge& along = beat.horizontal[i];
     along.k = static_cast<std::uint16_t>(x - hand_.start);
-    along.from = hand_.length != 0 && along.k < hand_.length ? hand : 0;
+    along.from = along.k < hand_.length ? hand : 0;
 
     const Mark& column = beat.column_mark[i];
     Edge& down = beat.vertical[i];
@@ -227,8 +228,9 @@ void AreaUnit::match(Cycle cycle, Beat& beat) {
     down.k = static_cast<std::uint16_t>((row - column.start) & 0x1FFF);
     down.from = down.k < column.length;
     if (down.from) column_.read[i].read(cycle, x);
-    beat.any |= along.from | down.from;
+    any |= along.from | down.from;
   }
+  beat.any = any != 0;
 }
 
 void AreaUnit::clear_marks(Cycle cycle, const Slot& slot) {

@@ -63,7 +63,7 @@ class AreaUnit final : public Unit {
   static constexpr std::size_t kLanes = spec::morphological::kMaxLanes;
 
   // Where a record lies. Horizontal: its place is its pair of columns; vertical: its column.
-  struct Mark {
+  struct alignas(8) Mark {
     std::uint16_t start = 0;   // U13
     std::uint16_t length = 0;  // U12, 0: none
     std::uint16_t row = 0;     // U13, horizontal only
@@ -111,7 +111,7 @@ class AreaUnit final : public Unit {
     std::uint8_t left, top;
     bool evaluates, any;  // any: one of the edges below lies in a record
     // The output registers of the marks, as they were in the clock of the address.
-    std::array<Mark, (kLanes + 1) / 2> row_mark;
+    std::array<Mark, kLanes / 2> row_mark;
     std::array<Mark, kLanes> column_mark;
     std::array<Edge, kLanes> horizontal, vertical;
     WeightWords weights;
@@ -119,10 +119,10 @@ class AreaUnit final : public Unit {
 
   // Once a clock each, from one place: inline.
   inline void address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat);
-  inline void match(Cycle cycle, Beat& beat);
   inline void address_weights(Cycle cycle, const Beat& beat);
   inline void send(Cycle cycle, const Beat& beat);
   inline void share(Cycle cycle, const Beat& beat);
+  void match(Cycle cycle, Beat& beat);
   void evaluate(Cycle cycle, Beat& beat);
   void clear_marks(Cycle cycle, const Slot& slot);
   bool store_lines(Cycle cycle);

@@ -92,6 +92,7 @@ void Blender::choose(const ShareToken& token, const PixelToken& around, Beat& be
     beat.operands[i].code = {around.centre[i], horizontal ? left : around.above[i],
                              horizontal ? right : around.below[i]};
   }
+  blending_ += beat.blend != 0;
 }
 
 // Stage 2.
@@ -162,6 +163,17 @@ void Blender::deliver(Cycle cycle, const Beat& beat) {
   if (beat.last) frames_done_out.push(cycle, {beat.slot});
 }
 
+// Stages 5 to 2, which have nothing to do for a beat of which no lane takes a share.
+void Blender::blend(Cycle cycle) {
+  if (Beat* beat = pipe_.at(5); beat && beat->blend) {
+    round(cycle, *beat);
+    --blending_;
+  }
+  if (Beat* beat = pipe_.at(4)) multiply(*beat);
+  if (Beat* beat = pipe_.at(3)) subtract(cycle, *beat);
+  if (const Beat* beat = pipe_.at(2)) address_light(cycle, *beat);
+}
+
 Activity Blender::tick(Cycle cycle) {
   const bool arrives = shares_in.can_pop(cycle) && pixels_in.can_pop(cycle);
   if (!arrives && pipe_.empty()) return kIdle;
@@ -170,10 +182,7 @@ Activity Blender::tick(Cycle cycle) {
     return kStalledDownstream;
   pipe_.move();
   if (const Beat* beat = pipe_.at(6)) deliver(cycle, *beat);
-  if (Beat* beat = pipe_.at(5); beat && beat->blend) round(cycle, *beat);
-  if (Beat* beat = pipe_.at(4); beat && beat->blend) multiply(*beat);
-  if (Beat* beat = pipe_.at(3); beat && beat->blend) subtract(cycle, *beat);
-  if (const Beat* beat = pipe_.at(2); beat && beat->blend) address_light(cycle, *beat);
+  if (blending_ != 0) blend(cycle);
   if (arrives) {
     choose(shares_in.front(cycle), pixels_in.front(cycle), pipe_.enter());
     shares_in.pop(cycle);

@@ -37,7 +37,10 @@ class Blender final : public Unit {
   Blender(const sc_core::sc_module_name& name, ClockDomain& clock, const ParameterStore& store,
           LatencyProbe& probe);
   Activity tick(Cycle cycle) override;
-  void reset() override { pipe_.reset(); }
+  void reset() override {
+    pipe_.reset();
+    blending_ = 0;
+  }
 
   Counter pixels{"pixels", "pixels", "pixels delivered"};
   Counter blended_pixels{"blended_pixels", "pixels", "pixels that took a share of a neighbour"};
@@ -63,6 +66,7 @@ class Blender final : public Unit {
   // Once a clock each, from one place: inline.
   inline void choose(const ShareToken& shares, const PixelToken& around, Beat& beat);
   inline void deliver(Cycle cycle, const Beat& beat);
+  void blend(Cycle cycle);
   void address_light(Cycle cycle, const Beat& beat);
   void subtract(Cycle cycle, Beat& beat);
   void multiply(Beat& beat);
@@ -78,6 +82,7 @@ class Blender final : public Unit {
   Memory<std::uint8_t> encode_rom_;
   std::vector<ReadPort<std::uint8_t>> codes_;  // lane, channel
   Pipe<Beat, spec::morphological::kBlenderLatency + 1> pipe_;
+  std::uint32_t blending_ = 0;  // beats up to stage 5 of which a lane takes a share
 };
 
 }  // namespace deburr::rtl::morphological

@@ -101,9 +101,10 @@ void PixelStore::address(Cycle cycle) {
 
 // Stage 2. The rows are those of the slot still: the next one comes into stage 1 after this.
 void PixelStore::send(Cycle cycle) {
-  if (above_.lines) above_.lines->read.check(cycle, above_.from + beat_);
-  centre_.lines->read.check(cycle, centre_.from + beat_);
-  if (below_.lines) below_.lines->read.check(cycle, below_.from + beat_);
+  const std::uint32_t beat = beat_;
+  if (above_.lines) above_.lines->read.check(cycle, above_.from + beat);
+  centre_.lines->read.check(cycle, centre_.from + beat);
+  if (below_.lines) below_.lines->read.check(cycle, below_.from + beat);
   pixels_out.push(cycle, words_);
   fetched_ = false;
 }
@@ -118,13 +119,13 @@ PixelStore::Did PixelStore::fetch(Cycle cycle) {
   if (!fetches_in.can_pop(cycle)) return did;
   const Slot slot = fetches_in.front(cycle).slot;
   if (memory_ && !is_loaded(slot)) return did == Did::kWork ? did : Did::kWaitsForMemory;
+  fetches_in.pop(cycle);
   if (slot.row != around_row_) look_around(slot.row);
   beat_ = slot.beat;
   address(cycle);
   fetched_ = true;
   asked_row_ = slot.row;
   asked_beat_ = slot.beat + 1u;
-  fetches_in.pop(cycle);
   return Did::kWork;
 }
 
