@@ -67,10 +67,15 @@ void Blender::choose(const ShareToken& token, const PixelToken& around, Beat& be
       slot.row == store_.reach_rows() + spec::morphological::kRowLag && slot.beat == 0;
   for (std::size_t i = 0; i < count; ++i) {
     result.pixel[i] = around.centre[i];
-    spec::morphological::BlendTap& tap = result.tap[i];
-    tap.edges = static_cast<std::uint8_t>((token.left >> i & 1) | (token.top >> i & 1) << 1);
-    if (!token.any) continue;
+    result.tap[i].edges =
+        static_cast<std::uint8_t>((token.left >> i & 1) | (token.top >> i & 1) << 1);
+  }
+  if (token.any) choose_axes(token, around, beat);
+}
 
+void Blender::choose_axes(const ShareToken& token, const PixelToken& around, Beat& beat) {
+  const std::size_t count = beat.result.count;
+  for (std::size_t i = 0; i < count; ++i) {
     const Shares& s = token.shares[i];
     const int vertical_sum = s.up + s.down, horizontal_sum = s.left + s.right;
     if (vertical_sum + horizontal_sum == 0) continue;
@@ -82,6 +87,7 @@ void Blender::choose(const ShareToken& token, const PixelToken& around, Beat& be
       const int span_v = std::max(s.left ? s.span_left : 0, s.right ? s.span_right : 0);
       horizontal = span_h != span_v ? span_h < span_v : vertical_sum < horizontal_sum;
     }
+    spec::morphological::BlendTap& tap = beat.result.tap[i];
     tap.horizontal = horizontal;
     tap.first = horizontal ? s.left : s.up;
     tap.second = horizontal ? s.right : s.down;
@@ -147,9 +153,16 @@ void Blender::round(Cycle cycle, Beat& beat) {
 
 // Stage 6.
 void Blender::deliver(Cycle cycle, const Beat& beat) {
-  const bool linear = store_.rules().linear_light;
   spec::morphological::BlendedBeat& out = pixels_out.emplace(cycle);
   out = beat.result;
+  if (beat.blend != 0) encode(cycle, beat, out);
+  pixels += out.count;
+  beat_latency.record(probe_.leaves(cycle));
+  if (beat.last) frames_done_out.push(cycle, {beat.slot});
+}
+
+void Blender::encode(Cycle cycle, const Beat& beat, spec::morphological::BlendedBeat& out) {
+  const bool linear = store_.rules().linear_light;
   for_each_lane(beat.blend, [&](std::size_t lane) {
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint16_t value = beat.operands[lane].value[c];
@@ -158,9 +171,6 @@ void Blender::deliver(Cycle cycle, const Beat& beat) {
     }
     ++blended_pixels;
   });
-  pixels += beat.result.count;
-  beat_latency.record(probe_.leaves(cycle));
-  if (beat.last) frames_done_out.push(cycle, {beat.slot});
 }
 
 // Stages 5 to 2, which have nothing to do for a beat of which no lane takes a share.

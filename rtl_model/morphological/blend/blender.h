@@ -66,11 +66,13 @@ class Blender final : public Unit {
   // Once a clock each, from one place: inline.
   inline void choose(const ShareToken& shares, const PixelToken& around, Beat& beat);
   inline void deliver(Cycle cycle, const Beat& beat);
+  void choose_axes(const ShareToken& shares, const PixelToken& around, Beat& beat);
   void blend(Cycle cycle);
   void address_light(Cycle cycle, const Beat& beat);
   void subtract(Cycle cycle, Beat& beat);
   void multiply(Beat& beat);
   void round(Cycle cycle, Beat& beat);
+  void encode(Cycle cycle, const Beat& beat, spec::morphological::BlendedBeat& out);
   static std::size_t light_port(std::size_t lane, std::size_t channel, std::size_t operand) {
     return (lane * 3 + channel) * 3 + operand;
   }
