@@ -102,10 +102,19 @@ void PixelStore::address(Cycle cycle) {
 // Stage 2. The rows are those of the slot still: the next one comes into stage 1 after this.
 void PixelStore::send(Cycle cycle) {
   const std::uint32_t beat = beat_;
-  if (above_.lines) above_.lines->read.check(cycle, above_.from + beat);
+  PixelToken& out = pixels_out.emplace(cycle);
   centre_.lines->read.check(cycle, centre_.from + beat);
-  if (below_.lines) below_.lines->read.check(cycle, below_.from + beat);
-  pixels_out.push(cycle, words_);
+  out.before = words_.before;
+  out.centre = words_.centre;
+  if (beat + 1 < store_.rules().beats) out.after = words_.after;
+  if (above_.lines) {
+    above_.lines->read.check(cycle, above_.from + beat);
+    out.above = words_.above;
+  }
+  if (below_.lines) {
+    below_.lines->read.check(cycle, below_.from + beat);
+    out.below = words_.below;
+  }
   fetched_ = false;
 }
 
