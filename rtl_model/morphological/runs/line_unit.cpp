@@ -114,7 +114,7 @@ Activity LineUnit::work(Cycle cycle) {
   due_ = kNever;
   for (const Divider& divider : dividers_)
     if (divider.count != 0)
-      due_ = std::min(due_, divider.fresh ? cycle + 1 : divider.flight[divider.oldest].ready);
+      due_ = std::min(due_, divider.fresh ? cycle : divider.flight[divider.oldest].ready);
   if (did) return kBusy;
   return blocked ? kStalledDownstream : waits ? interval_stall_ : kIdle;
 }
