@@ -27,6 +27,7 @@ class Stages {
 
  public:
   bool empty() const { return occupied_ == 0; }
+  bool full() const { return occupied_ == (1U << (kStages - 1)) - 1; }
   // Something is in the last set of registers and leaves with the next step.
   bool leaving() const { return occupied_ >> (kStages - 2) & 1; }
 
