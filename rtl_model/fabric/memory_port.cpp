@@ -92,13 +92,17 @@ std::uint32_t MemoryPort::in_flight() const {
 }
 
 Activity MemoryPort::tick(Cycle cycle) {
+  if (arrived_.empty() && !requests_in.can_pop(cycle)) return busy() ? stalled_memory_ : kIdle;
+  return work(cycle);
+}
+
+Activity MemoryPort::work(Cycle cycle) {
   const bool waiting = !arrived_.empty();
-  if (!waiting && !requests_in.can_pop(cycle)) return in_flight() != 0 ? stalled_memory_ : kIdle;
   bool did = respond(cycle);
   const bool response_blocked = waiting && !did && !responses_out.can_push(cycle);
   Activity lost = response_blocked   ? kStalledDownstream
-                  : in_flight() != 0 ? stalled_memory_
-                                     : kIdle;
+                  : busy()         ? stalled_memory_
+                                   : kIdle;
   if (requests_in.can_pop(cycle)) {
     const MemoryRequest& request = requests_in.front(cycle);
     const bool starts = !gathering_;

@@ -65,8 +65,8 @@ DataStage::DataStage(const sc_core::sc_module_name& name, ClockDomain& clock,
 Activity DataStage::work(Cycle cycle) {
   const bool waits = waits_;
   if (waits && !texels_out.can_push(cycle)) return kStalledDownstream;
-  if (issued_) reads_[issued_port_].check(cycle, issued_word_);
-  issued_ = false;
+  if (issued_) issued_->check(cycle, issued_word_);
+  issued_ = nullptr;
   if (waits) {
     texels_out.push(cycle, waiting_);
     waits_ = false;
@@ -156,11 +156,10 @@ void DataStage::read(Cycle cycle, const CacheToken& request, int pass) {
 }
 
 // The words of a clock come together, so one of them stands for all.
-void DataStage::issue(Cycle cycle, std::size_t port, std::uint64_t word) {
+inline void DataStage::issue(Cycle cycle, std::size_t port, std::uint64_t word) {
   reads_[port].read(cycle, word);
-  issued_port_ = port;
+  issued_ = &reads_[port];
   issued_word_ = word;
-  issued_ = true;
 }
 
 void DataStage::write_fill(Cycle cycle, const CacheToken& request) {
@@ -190,6 +189,9 @@ inline void DataStage::finish(Cycle cycle, const CacheToken& request) {
   started_ = false;
 }
 
-void DataStage::reset() { started_ = waits_ = issued_ = false; }
+void DataStage::reset() {
+  started_ = waits_ = false;
+  issued_ = nullptr;
+}
 
 }  // namespace deburr::rtl::texture

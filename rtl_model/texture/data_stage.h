@@ -77,9 +77,8 @@ class DataStage final : public Unit {
   Schedule schedule_{};
   int passes_done_ = 0, fills_done_ = 0;
   // One of the words that the last clock has asked for.
-  std::size_t issued_port_ = 0;
+  const ReadPort<void>* issued_ = nullptr;
   std::uint64_t issued_word_ = 0;
-  bool issued_ = false;
   // The request in stage 2.
   bool waits_ = false;
   TexelQuadToken waiting_{};
