@@ -65,9 +65,9 @@ class LatencyProbe {
   // A ring of a power of two, marks of the items inside; the first one may be older.
   std::vector<Mark> marks_ = std::vector<Mark>(64);
   std::uint64_t pushed_ = 0, popped_ = 0;
-  Cycle newest_ = kNever;   // difference of the last mark
-  Cycle oldest_ = 0;        // difference of the first mark
-  Cycle next_ = kNever;     // first item of the second mark
+  Cycle newest_ = kNever;  // difference of the last mark
+  Cycle oldest_ = 0;       // difference of the first mark
+  Cycle next_ = kNever;    // first item of the second mark
 };
 
 }  // namespace deburr::rtl

@@ -100,9 +100,7 @@ Activity MemoryPort::work(Cycle cycle) {
   const bool waiting = !arrived_.empty();
   bool did = respond(cycle);
   const bool response_blocked = waiting && !did && !responses_out.can_push(cycle);
-  Activity lost = response_blocked   ? kStalledDownstream
-                  : busy()         ? stalled_memory_
-                                   : kIdle;
+  Activity lost = response_blocked ? kStalledDownstream : busy() ? stalled_memory_ : kIdle;
   if (requests_in.can_pop(cycle)) {
     const MemoryRequest& request = requests_in.front(cycle);
     const bool starts = !gathering_;

@@ -65,10 +65,9 @@ class DataStage final : public Unit {
   FillBuffer& fills_;
   std::uint32_t line_log2_, words_a_line_, turn_;
   Memory<void> banks_;
-  std::array<ReadPort<void>, 4> reads_{ReadPort<void>{banks_, "texel_0"},
-                                       ReadPort<void>{banks_, "texel_1"},
-                                       ReadPort<void>{banks_, "texel_2"},
-                                       ReadPort<void>{banks_, "texel_3"}};
+  std::array<ReadPort<void>, 4> reads_{
+      ReadPort<void>{banks_, "texel_0"}, ReadPort<void>{banks_, "texel_1"},
+      ReadPort<void>{banks_, "texel_2"}, ReadPort<void>{banks_, "texel_3"}};
   WritePort<void> write_{banks_, "fill"};
   std::vector<std::uint8_t> bytes_;  // of the banks, word by word
   Activity wait_fill_, write_fill_, bank_conflict_;

@@ -66,9 +66,8 @@ inline void TagStage::read_sets(Cycle cycle) {
 }
 
 // One line of the request in stage 2.
-inline TagStage::Line TagStage::look_up_line(Cycle cycle, std::uint64_t released,
-                                             std::size_t texel, CacheToken& out,
-                                             MissToken& missed) {
+inline TagStage::Line TagStage::look_up_line(Cycle cycle, std::uint64_t released, std::size_t texel,
+                                             CacheToken& out, MissToken& missed) {
   const std::uint32_t line = request_.line[texel];
   tags_.check(cycle, texel, line);
   if (const std::uint32_t slot = tags_.find(line); slot != TagStore::kAbsent) {
