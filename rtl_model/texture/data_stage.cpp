@@ -65,7 +65,7 @@ DataStage::DataStage(const sc_core::sc_module_name& name, ClockDomain& clock,
 Activity DataStage::work(Cycle cycle) {
   const bool waits = waits_;
   if (waits && !texels_out.can_push(cycle)) return kStalledDownstream;
-  if (issued_) issued_->check(cycle, issued_word_);
+  if (issued_) issued_->check(cycle, issued_word_, issued_at_);
   issued_ = nullptr;
   if (waits) {
     texels_out.push(cycle, waiting_);
@@ -160,6 +160,7 @@ inline void DataStage::issue(Cycle cycle, std::size_t port, std::uint64_t word) 
   reads_[port].read(cycle, word);
   issued_ = &reads_[port];
   issued_word_ = word;
+  issued_at_ = cycle;
 }
 
 void DataStage::write_fill(Cycle cycle, const CacheToken& request) {

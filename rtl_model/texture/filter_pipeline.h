@@ -5,11 +5,12 @@
 //
 // Where: after the TextureCache. Latency 8, initiation interval 1 a bilinear request; stages 6 and
 // 7 wait for the requests that belong together, so a colour leaves after the last request of its
-// fragment. When a colour cannot leave (`downstream`), the whole pipeline holds still. Made for
-// 250 MHz; longest path: two 20 x 9 bit multiplies and their sum, 18 rows of partial products where
-// a 24 x 24 multiply has 24.
-// Formats: U8.4 after stage 2, U8.12 after 4, 5 and 6, U15.12 in 7, U8.0 out; rounded in 5, 6
-// and 8. Cost, four channels: 16 + 8 + 4 + 4 multipliers (12 x 9, 20 x 9, 20 x 9, 20 x 5 bits), 24
+// fragment. Stage 1 cuts a texel into its fields, which are the addresses of the ROM `srgb`; its
+// words are there in stage 2. The model does stages 2 to 5 in stage 2, then delays. When a colour
+// cannot leave (`downstream`), the whole pipeline holds still. Made for 250 MHz; longest path: two
+// 20 x 9 bit multiplies and their sum, 18 rows of partial products where a 24 x 24 multiply has 24.
+// Formats: U8.4 after stage 2, U8.12 after 4, 5 and 6, U15.12 in 7, U8.0 out; rounded in 5, 6 and
+// 8. Cost, four channels: 16 + 8 + 4 + 4 multipliers (12 x 9, 20 x 9, 20 x 9, 20 x 5 bits), 24
 // adders, the ROM `srgb`, 256 x 12 bits, 12R, one word a coded channel. Source: paper 2.3.
 #pragma once
 

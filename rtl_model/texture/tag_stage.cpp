@@ -43,6 +43,7 @@ inline void TagStage::read_sets(Cycle cycle) {
   texels_in.pop(cycle);
   occupied_ = true;
   if (!r.token.ticket.valid) return;
+  r.read_at = cycle;
   const auto& address = r.token.address;
   r.line[0] = address[0] >> line_log2_;
   tags_.read(cycle, 0, r.line[0]);
@@ -69,7 +70,7 @@ inline void TagStage::read_sets(Cycle cycle) {
 inline TagStage::Line TagStage::look_up_line(Cycle cycle, std::uint64_t released, std::size_t texel,
                                              CacheToken& out, MissToken& missed) {
   const std::uint32_t line = request_.line[texel];
-  tags_.check(cycle, texel, line);
+  tags_.check(cycle, texel, line, request_.read_at);
   if (const std::uint32_t slot = tags_.find(line); slot != TagStore::kAbsent) {
     tags_.use(slot);
     fill_number_[slot] > released ? ++merged : ++hits;

@@ -52,6 +52,7 @@ class TagStage final : public Unit {
     std::array<std::uint32_t, 4> line;  // U27
     std::array<std::uint8_t, 4> first;  // U2, the first texel in the same line
     bool one_line;
+    Cycle read_at;  // for the check of its sets: no hardware
   };
   void read_sets(Cycle cycle);
   bool would_miss() const;

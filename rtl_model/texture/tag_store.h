@@ -41,9 +41,9 @@ class TagStore {
   }
 
   // --- Clock 2 ---
-  // The word that this port has read is there.
-  void check(Cycle cycle, std::size_t port, std::uint32_t line) const {
-    reads_[port].check(cycle, line & set_mask_);
+  // The word that this port has read in clock `issued` is there: the set may have been read before.
+  void check(Cycle cycle, std::size_t port, std::uint32_t line, Cycle issued) const {
+    reads_[port].check(cycle, line & set_mask_, issued);
   }
   // The slot of the line, or kAbsent.
   std::uint32_t find(std::uint32_t line) const {
