@@ -12,8 +12,7 @@
 // texels need two column parts, two row parts and four three-input adders. Cost: a choice of 1 in
 // 16 descriptors and 1 in 13 levels, two 34 x 13 bit multipliers, two 12 x 9 ones for `linear`
 // pitch; `tiled` is wires and multiplexers; registers of four requests, the first with 13 level
-// bases. Source: paper 2.2 (3) and (4); layouts
-// are ours.
+// bases. Source: paper 2.2 (3) and (4); layouts are ours.
 #pragma once
 
 #include <cstdint>
