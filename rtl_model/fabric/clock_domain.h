@@ -117,7 +117,7 @@ class ClockDomain final : public sc_core::sc_module {
   std::vector<ClockDomain*> domains_;  // all of the simulation, this one included
   std::uint64_t ignored_[kActivities] = {};
 
-  static constexpr Cycle kBlock = 64;
+  static constexpr Cycle kBlock = 256;
   Cycle cycle_ = 0, block_start_ = 0, reset_cycle_ = 0;
   Cycle block_end_ = 0;        // edges before this one may be evaluated without asking the kernel
   std::uint64_t horizon_ = 0;  // sc_time value up to which the current run will certainly go

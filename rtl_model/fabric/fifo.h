@@ -26,7 +26,7 @@ class Fifo final : public MemoryBase {
   bool can_pop(Cycle cycle) const { return link_.can_pop(cycle); }
   const T& front(Cycle cycle) const { return link_.front(cycle); }
   void pop(Cycle cycle) { link_.pop(cycle); }
-  T take(Cycle cycle) { return link_.take(cycle); }
+  const T& take(Cycle cycle) { return link_.take(cycle); }
   void push(Cycle cycle, const T& value) {
     link_.push(cycle, value);
     if (link_.occupancy() > high_water_) high_water_ = link_.occupancy();

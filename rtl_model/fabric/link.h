@@ -156,8 +156,8 @@ class Link final : public LinkBase {
     return payload(head_);
   }
   void pop(Cycle cycle) { advance_pop(cycle); }
-  // front and pop in one.
-  T take(Cycle cycle) { return payload(advance_pop(cycle)); }
+  // front and pop in one. The beat stays where it is until the next clock.
+  const T& take(Cycle cycle) { return payload(advance_pop(cycle)); }
 
   // Needs can_push(cycle).
   void push(Cycle cycle, const T& value) { payload(advance_push(cycle)) = value; }
@@ -212,7 +212,7 @@ class In final : public PortBase {
   bool can_pop(Cycle cycle) const { return link_->can_pop(cycle); }
   const T& front(Cycle cycle) const { return link_->front(cycle); }
   void pop(Cycle cycle) { link_->pop(cycle); }
-  T take(Cycle cycle) { return link_->take(cycle); }
+  const T& take(Cycle cycle) { return link_->take(cycle); }
   Link<T>& link() const { return *link_; }
 
  private:

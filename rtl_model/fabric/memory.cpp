@@ -154,7 +154,7 @@ PortedMemory::PortedMemory(const char* name, MemoryShape shape)
       words_(words()),
       span_(this->shape().span),
       latency_(this->shape().latency),
-      checks_(this->shape().separate_banks || forbids(this->shape())),
+      plain_(this->shape().separate_banks || forbids(this->shape()) ? 0 : words_),
       one_bank_(this->shape().separate_banks && !forbids(this->shape()) &&
                 this->shape().order == BankOrder::kInterleaved &&
                 std::has_single_bit(this->shape().banks)),

@@ -191,12 +191,12 @@ class PortedMemory : public MemoryBase {
   // The next port of that kind that nobody uses yet.
   Port& claim(Side side, const std::string& user);
 
-  // Everything about an access that does not depend on the words.
+  // Everything about an access that does not depend on the words. Most memories have nothing to
+  // check beyond this: plain_ is their number of words, and 0 of the others.
   void issue(Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count) {
     if (cycle == port.used) [[unlikely]]
       fail_twice(port, cycle, address);
-    if (address >= words_ || (count != 1 && (count - 1 >= span_ || address + count > words_)))
-        [[unlikely]]
+    if (count != 1 && (count - 1 >= span_ || address + count > words_)) [[unlikely]]
       fail_address(port, cycle, address, count);
     port.used = cycle;
   }
@@ -208,7 +208,10 @@ class PortedMemory : public MemoryBase {
     read.address = address;
     read.count = count;
     ++reads_;
-    if (!checks_) return;
+    if (address < plain_) [[likely]]
+      return;
+    if (address >= words_) [[unlikely]]
+      fail_address(port, cycle, address, count);
     if (one_bank_ && count == 1 && read_banks_[address & bank_mask_] != cycle) [[likely]]
       read_banks_[address & bank_mask_] = cycle;
     else
@@ -221,8 +224,11 @@ class PortedMemory : public MemoryBase {
     port.write_address = address;
     port.write_count = count;
     ++writes_;
-    if (checks_ || meets) [[unlikely]]
-      check_write(port, cycle, address, count);
+    if (address < plain_ && !meets) [[likely]]
+      return;
+    if (address >= words_) [[unlikely]]
+      fail_address(port, cycle, address, count);
+    check_write(port, cycle, address, count);
   }
   static bool arrives(const Port& port, Cycle cycle) {
     return std::any_of(port.read.begin(), port.read.end(),
@@ -258,7 +264,7 @@ class PortedMemory : public MemoryBase {
 
   const std::uint64_t words_;
   const std::uint32_t span_, latency_;
-  const bool checks_;  // beyond those of issue(), and of writes of one clock
+  const std::uint64_t plain_;
   // A word's bank is in its low bits, and all that check_read() would look at.
   const bool one_bank_;
   const std::uint64_t bank_mask_;

@@ -31,7 +31,7 @@
 
 namespace deburr::rtl {
 
-class Unit : public sc_core::sc_module, public Clocked {
+class Unit : public Clocked, public sc_core::sc_module {
  public:
   struct StallCause {
     std::string name, meaning;

@@ -97,7 +97,7 @@ class Sink final : public rtl::Unit {
   rtl::Activity tick(rtl::Cycle cycle) override {
     if (random_.chance(options_.stall_permille)) return stalled_;
     if (!beats_in.can_pop(cycle)) return rtl::kIdle;
-    const T beat = beats_in.take(cycle);
+    const T& beat = beats_in.take(cycle);
     ++received_;
     if (keep_) {
       beats_.push_back(beat);
