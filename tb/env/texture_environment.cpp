@@ -43,7 +43,7 @@ TextureGolden golden_model(const TextureScene& scene, const TextureSetup& setup,
 
 std::vector<PlantedFault> TextureEnvironment::faults() {
   std::vector<PlantedFault> list = {
-      {"flip-bit", "Flips a bit of the red channel of colour 100.", "flip:colours:100:52"},
+      {"flip-bit", "Flips a bit of the red channel of colour 100.", "flip:colours:100:rgba.r.4"},
       {"drop-colour", "Drops colour 100.", "drop:colours:100"},
       {"duplicate-colour", "Delivers colour 100 twice.", "duplicate:colours:100"},
       {"drop-quad", "Drops quad 50 on its way into the unit.", "drop:quads:50"},

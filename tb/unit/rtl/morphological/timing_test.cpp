@@ -43,7 +43,9 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.width << 'x' << c.hei
 
 class LatencyFormula : public ::testing::TestWithParam<Case> {};
 
-// Every beat, flush included, if BPR >= iterations + divider.latency + 16.
+// Every beat, flush included, if rows are long enough for the records: BPR >= T (N + 1) +
+// divider.latency + 12 if none waits for another, else the bound of bounds_test.cpp
+// (docs/morphological_hardware.md).
 TEST_P(LatencyFormula, HoldsForEveryBeat) {
   const Case c = GetParam();
   Parameters p = preset(Preset::kDeburr, c.reach_rows);
