@@ -34,7 +34,11 @@ class Faults(CommandTest):
         # Pixel, tag, expected, got and cycle.
         self.assertRegex(done.stderr, r"cycle \d+: item 100: expected pixel \(\d+, \d+\) "
                                       r"tag \d+ lane \d .*RGBA .*, got .*RGBA")
-        self.fault("flip-bit", 3, "changed while it waited", *self.CHECKED)
+        expected, got = map(int, re.search(r"\(expected/got: rgba\.r=(\d+)/(\d+)\)",
+                                           done.stderr).groups())
+        self.assertEqual(expected ^ got, 1 << 4, "the bit that `deburr params` promises")
+        done, _ = self.fault("flip-bit", 3, "changed while it waited", *self.CHECKED)
+        self.assertIn(f"(was/is): rgba.r={expected}/{got} ", done.stderr)
 
     def test_dropped_colour(self):
         self.fault("drop-colour", 1, "mismatch", *self.UNCHECKED)
