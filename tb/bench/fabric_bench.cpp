@@ -31,6 +31,10 @@ constexpr int kStages = 8;  // and a source and a sink
 
 struct Token {
   std::array<std::uint32_t, 16> words;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("words", self.words, 32);
+  }
 };
 
 // One register of noise: a linear congruential generator whose top bits decide.

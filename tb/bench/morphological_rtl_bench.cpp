@@ -206,9 +206,9 @@ int count_instructions(const std::string& image, const std::string& preset, int 
       setup.engine.beat_latency.min(), setup.engine.beat_latency.max());
   std::uint64_t bits = 0;
   for (const rtl::MemoryBase* storage : setup.engine.memories()) {
-    std::cout << fmt::format("  {:40} {:8} bits {}\n", memory->name(), memory->logical_bits(),
-                             memory->ports());
-    bits += memory->logical_bits();
+    std::cout << fmt::format("  {:40} {:8} bits {}\n", storage->name(), storage->logical_bits(),
+                             storage->ports());
+    bits += storage->logical_bits();
   }
   std::cout << fmt::format("  {:40} {:8} bits\n", "sum", bits);
   for (const rtl::Unit* unit : setup.engine.units())

@@ -189,7 +189,7 @@ TEST(EdgeMemory, IsBuiltFromOneCopyAReadPort) {
   EngineBench bench(p);
   const auto& window = bench.engine.window.memory;
   EXPECT_EQ(window.memory_kind(), rtl::MemoryKind::kSram);
-  EXPECT_EQ(window.ports(), "2R1W of 4 words");
+  EXPECT_EQ(window.ports(), "2R1W of 2 words");
   EXPECT_EQ(window.logical_bits(), 257'280u);
   EXPECT_EQ(window.physical_bits(), 2u * 257'280u);
   EXPECT_EQ(window.bits_at(960), 257'280u / 2);
