@@ -81,6 +81,17 @@ class Faults(CommandTest):
         self.assertEqual(result["checks"]["mismatches"], 0, done.stderr)
         self.assertEqual(result["checks"]["traffic_mismatches"], 0)
 
+    def test_memory_errors_of_other_lines_are_another_golden_result(self):
+        def golden(*arguments):
+            self.run_command("run", "texture", "--size", "32x32", "--out", self.path("out"), *arguments)
+            with open(self.path("out/manifest.json")) as file:
+                return json.load(file)["golden"]
+        long_lines = ("--set", "texture.cache.line_bytes=128")
+        error = ("--set", "memory.error_address=256")
+        self.assertEqual(golden(), golden(*long_lines))
+        self.assertNotEqual(golden(*error), golden(*error, *long_lines))
+        self.assertEqual(golden(*error), golden(*error, "--set", "memory.latency=3"))
+
     def test_wrong_texel(self):
         _, result = self.fault("wrong-texel", 1, "mismatch", *self.CHECKED)
         self.assertEqual(result["checks"]["traffic_mismatches"], 0,
