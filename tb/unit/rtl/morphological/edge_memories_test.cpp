@@ -277,7 +277,10 @@ class LongestStep : public ::testing::TestWithParam<int> {
   // Steps of `length` and `next` between long flat parts; the line goes down to the right.
   static Frame stairs(int length, int next) {
     return draw(250, 30, [=](int x, int y) {
-      const int row = x < kFrom ? 10 : x < kFrom + length ? 11 : x < kFrom + length + next ? 12 : 13;
+      const int row = x < kFrom                   ? 10
+                      : x < kFrom + length        ? 11
+                      : x < kFrom + length + next ? 12
+                                                  : 13;
       return grey(y >= row ? 255 : 0);
     });
   }
