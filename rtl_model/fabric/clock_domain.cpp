@@ -171,7 +171,7 @@ void ClockDomain::evaluate() {
 // evaluate() up to the end of the block, without what is usually not there. Whatever changes that
 // (reset, stop, a call into SystemC) moves the end of the block to before the next cycle.
 void ClockDomain::evaluate_block() {
-  if (!reset_n_ || shuffled_ || done_ || !before_.empty() || !after_.empty()) {
+  if (!reset_n_ || shuffled_ || !before_.empty() || !after_.empty()) {
     while (cycle_ < block_end_) evaluate();
     return;
   }
@@ -182,6 +182,10 @@ void ClockDomain::evaluate_block() {
     for (const Slot* slot = begin; slot != end; ++slot)
       ++slot->activity[slot->clocked->tick(cycle).code % kActivities];
     cycle_ = ++cycle;
+    if (done_ && (*done_)()) {
+      done_reached_ = true;
+      return;
+    }
   } while (cycle < block_end_);
 }
 

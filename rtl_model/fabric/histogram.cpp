@@ -15,48 +15,49 @@ Histogram::Histogram(const char* name, const char* unit, const char* meaning)
                fmt::format("{}: a histogram needs a unit and a meaning", this->name()));
 }
 
-void Histogram::record(std::uint64_t value) {
+void Histogram::settle() const {
+  if (repeats_ == 0) return;
+  const std::uint64_t value = last_;
   if (value < kDirect) {
-    if (value >= direct_.size()) direct_.resize(value + 1);
-    ++direct_[value];
+    if (value >= kept_.direct.size()) kept_.direct.resize(value + 1);
+    kept_.direct[value] += repeats_;
   } else {
     // Latencies in a row are alike: the page is nearly always the one before.
-    if (page_ == nullptr || page_number_ != value / kPage) {
-      page_number_ = value / kPage;
-      page_ = &pages_[page_number_];
+    if (kept_.page == nullptr || kept_.page_number != value / kPage) {
+      kept_.page_number = value / kPage;
+      kept_.page = &kept_.pages[kept_.page_number];
     }
-    ++(*page_)[value % kPage];
+    (*kept_.page)[value % kPage] += repeats_;
   }
-  ++count_;
-  sum_ += value;
-  min_ = std::min(min_, value);
-  max_ = std::max(max_, value);
+  kept_.count += repeats_;
+  kept_.sum += value * repeats_;
+  kept_.min = std::min(kept_.min, value);
+  kept_.max = std::max(kept_.max, value);
+  repeats_ = 0;
 }
 
 void Histogram::reset() {
-  direct_.clear();
-  pages_.clear();
-  page_ = nullptr;
-  count_ = sum_ = max_ = 0;
-  min_ = ~std::uint64_t{0};
+  kept_ = {};
+  repeats_ = 0;
 }
 
 template <class Visit>
 void Histogram::each(Visit visit) const {
-  for (std::size_t value = 0; value < direct_.size(); ++value)
-    if (direct_[value] && !visit(value, direct_[value])) return;
-  for (const auto& [number, page] : pages_)
+  settle();
+  for (std::size_t value = 0; value < kept_.direct.size(); ++value)
+    if (kept_.direct[value] && !visit(value, kept_.direct[value])) return;
+  for (const auto& [number, page] : kept_.pages)
     for (std::size_t i = 0; i < kPage; ++i)
       if (page[i] && !visit(number * kPage + i, page[i])) return;
 }
 
 std::uint64_t Histogram::percentile(unsigned percent) const {
   DEBURR_CHECK(percent <= 100, fmt::format("{}: percentile {}", name(), percent));
-  if (count_ == 0) return 0;
+  if (count() == 0) return 0;
   // Nearest rank: ceil(count * percent / 100), at least the first; in two parts against overflow.
-  const std::uint64_t rank =
-      std::max<std::uint64_t>(1, count_ / 100 * percent + (count_ % 100 * percent + 99) / 100);
-  std::uint64_t below = 0, found = max_;
+  const std::uint64_t rank = std::max<std::uint64_t>(
+      1, kept_.count / 100 * percent + (kept_.count % 100 * percent + 99) / 100);
+  std::uint64_t below = 0, found = kept_.max;
   each([&](std::uint64_t value, std::uint64_t count) {
     below += count;
     if (below < rank) return true;
@@ -75,7 +76,7 @@ std::vector<Histogram::Bin> Histogram::bins(std::size_t at_most) const {
   if (at_most == 0 || all.size() <= at_most) return all;
   // The least power of two of which the whole range needs no more than `at_most` bins.
   int shift = 0;
-  while ((max_ >> shift) - (min_ >> shift) >= at_most) ++shift;
+  while ((kept_.max >> shift) - (kept_.min >> shift) >= at_most) ++shift;
   std::vector<Bin> merged;
   for (const Bin& bin : all) {
     const std::uint64_t low = bin.low >> shift << shift;

@@ -24,13 +24,20 @@ class Histogram : public sc_core::sc_object {
   Histogram(const char* name, const char* unit, const char* meaning);
   const char* kind() const override { return "deburr_histogram"; }
 
-  void record(std::uint64_t value);
+  // Values in a row are mostly alike: they are counted here, and put into their bin by settle().
+  void record(std::uint64_t value) {
+    if (value != last_) [[unlikely]] {
+      settle();
+      last_ = value;
+    }
+    ++repeats_;
+  }
   void reset();
 
-  std::uint64_t count() const { return count_; }
-  std::uint64_t sum() const { return sum_; }
-  std::uint64_t min() const { return count_ ? min_ : 0; }
-  std::uint64_t max() const { return max_; }
+  std::uint64_t count() const { return settled().count; }
+  std::uint64_t sum() const { return settled().sum; }
+  std::uint64_t min() const { return settled().count ? kept_.min : 0; }
+  std::uint64_t max() const { return settled().max; }
   // The smallest value v such that at least `percent` % of all are <= v (nearest rank); 0 if empty.
   std::uint64_t percentile(unsigned percent) const;
   // The bins that are not empty, ascending; with a limit, neighbours are merged into bins of equal
@@ -44,15 +51,26 @@ class Histogram : public sc_core::sc_object {
   static constexpr std::uint64_t kPage = 64;  // values
   using Page = std::array<std::uint64_t, kPage>;
 
+  struct Kept {
+    std::vector<std::uint64_t> direct;
+    std::map<std::uint64_t, Page> pages;  // by value / kPage
+    Page* page = nullptr;                 // of the last large value, and its number
+    std::uint64_t page_number = 0;
+    std::uint64_t count = 0, sum = 0, min = ~std::uint64_t{0}, max = 0;
+  };
+
+  void settle() const;
+  const Kept& settled() const {
+    settle();
+    return kept_;
+  }
   // Calls visit(value, count) for every value recorded, ascending, until it returns false.
   template <class Visit>
   void each(Visit visit) const;
 
-  std::vector<std::uint64_t> direct_;
-  std::map<std::uint64_t, Page> pages_;  // by value / kPage
-  Page* page_ = nullptr;                 // of the last large value, and its number
-  std::uint64_t page_number_ = 0;
-  std::uint64_t count_ = 0, sum_ = 0, min_ = ~std::uint64_t{0}, max_ = 0;
+  std::uint64_t last_ = 0;
+  mutable std::uint64_t repeats_ = 0;  // of last_, not in kept_ yet
+  mutable Kept kept_;
   std::string unit_, meaning_;
 };
 

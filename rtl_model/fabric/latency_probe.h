@@ -7,7 +7,8 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <utility>
+#include <vector>
 
 #include "rtl_model/fabric/clocked.h"
 #include "spec/error.h"
@@ -21,9 +22,14 @@ class LatencyProbe {
     const Cycle offset = cycle - entered_;
     if (offset != newest_) {
       newest_ = offset;
-      if (marks_.empty()) oldest_ = offset, next_ = kNever;
-      marks_.push_back({entered_, offset});
-      if (marks_.size() == 2) next_ = entered_;
+      if (pushed_ == popped_) {
+        oldest_ = offset;
+        next_ = kNever;
+      } else if (pushed_ == popped_ + 1) {
+        next_ = entered_;
+      }
+      if (pushed_ - popped_ == marks_.size()) grow();
+      mark(pushed_++) = {entered_, offset};
     }
     ++entered_;
   }
@@ -31,9 +37,8 @@ class LatencyProbe {
   Cycle leaves(Cycle cycle) {
     DEBURR_CHECK(left_ != entered_, "something leaves that never entered");
     if (left_ == next_) {
-      marks_.pop_front();
-      oldest_ = marks_.front().offset;
-      next_ = marks_.size() > 1 ? marks_[1].first : kNever;
+      oldest_ = mark(++popped_).offset;
+      next_ = popped_ + 1 != pushed_ ? mark(popped_ + 1).first : kNever;
     }
     return cycle - (oldest_ + left_++);
   }
@@ -41,7 +46,7 @@ class LatencyProbe {
   void reset() {
     entered_ = left_ = 0;
     newest_ = next_ = kNever;
-    marks_.clear();
+    pushed_ = popped_ = 0;
   }
 
  private:
@@ -49,11 +54,20 @@ class LatencyProbe {
     Cycle first;   // number of the first item with
     Cycle offset;  // this difference of clock and number
   };
+  Mark& mark(std::uint64_t number) { return marks_[number & (marks_.size() - 1)]; }
+  void grow() {
+    std::vector<Mark> larger(2 * marks_.size());
+    for (std::uint64_t i = popped_; i != pushed_; ++i) larger[i & (larger.size() - 1)] = mark(i);
+    marks_ = std::move(larger);
+  }
+
   Cycle entered_ = 0, left_ = 0;
-  std::deque<Mark> marks_;  // of the items inside; the first one may be older
-  Cycle newest_ = kNever;   // difference of the last mark
-  Cycle oldest_ = 0;        // difference of the first mark
-  Cycle next_ = kNever;     // first item of the second mark
+  // A ring of a power of two, marks of the items inside; the first one may be older.
+  std::vector<Mark> marks_ = std::vector<Mark>(64);
+  std::uint64_t pushed_ = 0, popped_ = 0;
+  Cycle newest_ = kNever;  // difference of the last mark
+  Cycle oldest_ = 0;       // difference of the first mark
+  Cycle next_ = kNever;    // first item of the second mark
 };
 
 }  // namespace deburr::rtl

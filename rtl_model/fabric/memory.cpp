@@ -154,7 +154,6 @@ PortedMemory::PortedMemory(const char* name, MemoryShape shape)
       words_(words()),
       span_(this->shape().span),
       latency_(this->shape().latency),
-      ring_(std::bit_ceil(latency_ + 1) - 1),
       checks_(this->shape().separate_banks || forbids(this->shape())),
       one_bank_(this->shape().separate_banks && !forbids(this->shape()) &&
                 this->shape().order == BankOrder::kInterleaved &&
@@ -174,7 +173,12 @@ PortedMemory::PortedMemory(const char* name, MemoryShape shape)
   add(Side::kWrite, s.write_ports);
   add(Side::kShared, s.shared_ports);
   for (Port& port : ports_) {
-    port.reader = static_cast<std::uint32_t>(readers_.size());
+    // As many reads as can be under way, and the one whose word is on the output register.
+    for (std::uint32_t i = 0; i <= latency_; ++i) {
+      port.read[i].next = &port.read[i == latency_ ? 0 : i + 1];
+      port.read[i].place = (readers_.size() * (latency_ + 1) + i) * span_;
+    }
+    port.newest = port.read.data();
     port.writer = static_cast<std::uint32_t>(writers_.size());
     if (port.side != Side::kWrite) readers_.push_back(&port);
     if (port.side != Side::kRead) writers_.push_back(&port);
@@ -224,7 +228,7 @@ void PortedMemory::check_ports() const {
 void PortedMemory::reset() {
   for (Port& port : ports_) {
     port.used = port.written = kNever;
-    port.read.fill(Read{});
+    for (Read& read : port.read) read.due = kNever;
   }
   std::fill(read_banks_used_.begin(), read_banks_used_.end(), kNever);
   std::fill(write_banks_used_.begin(), write_banks_used_.end(), kNever);
@@ -232,12 +236,12 @@ void PortedMemory::reset() {
   reads_ = writes_ = 0;
 }
 
-std::uint32_t PortedMemory::arrived_before(const Port& port, Cycle cycle) const {
-  for (std::uint32_t i = 1; i <= ring_; ++i) {
-    const std::uint32_t at = (port.newest - i) & ring_;
-    if (port.read[at].due <= cycle) return at;
-  }
-  fail_early(port, cycle);
+const PortedMemory::Read& PortedMemory::arrived_before(const Port& port, Cycle cycle) const {
+  const Read* found = nullptr;
+  for (const Read* read = port.newest->next; read != port.newest; read = read->next)
+    if (read->due <= cycle) found = read;
+  if (found == nullptr) fail_early(port, cycle);
+  return *found;
 }
 
 void PortedMemory::use_banks(std::vector<Cycle>& used, const Port& port, Cycle cycle,
@@ -277,7 +281,7 @@ void PortedMemory::check_write(const Port& port, Cycle cycle, std::uint64_t addr
                        writer->user));
   if (!forbids(shape())) return;
   for (const Port* reader : readers_) {
-    const Read& read = reader->read[reader->newest];
+    const Read& read = *reader->newest;
     if (read.due == cycle + latency_ && overlap(address, count, read.address, read.count))
       fail(port, cycle,
            fmt::format("write of address {}, which {} reads in this clock: forbidden", address,
@@ -300,7 +304,7 @@ void PortedMemory::fail_address(const Port& port, Cycle cycle, std::uint64_t add
 }
 
 void PortedMemory::fail_early(const Port& port, Cycle cycle) const {
-  const Read& newest = port.read[port.newest];
+  const Read& newest = *port.newest;
   fail(port, cycle,
        newest.due == kNever
            ? std::string("a word is used, but none has been asked for")

@@ -170,12 +170,14 @@ class PortedMemory : public MemoryBase {
     Cycle due = kNever;  // its word is there from this clock on
     std::uint64_t address = 0;
     std::uint64_t count = 0;
+    std::size_t place = 0;  // of its words, in what the owner captures
+    Read* next = nullptr;   // the one after it, in a ring
   };
   struct Port {
-    Cycle used = kNever;       // the last access
-    std::uint32_t newest = 0;  // of the last reads
+    Cycle used = kNever;     // the last access
+    Read* newest = nullptr;  // of the last reads
     Side side = Side::kRead;
-    std::uint32_t reader = 0, writer = 0;  // its number among those that read, and that write
+    std::uint32_t writer = 0;  // its number among those that write
     std::array<Read, kMostLatency + 1> read;
     // The last write, for reads of the same clock.
     Cycle written = kNever;
@@ -200,12 +202,16 @@ class PortedMemory : public MemoryBase {
   }
   void issue_read(Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count) {
     issue(port, cycle, address, count);
-    port.newest = (port.newest + 1) & ring_;
-    port.read[port.newest] = {cycle + latency_, address, count};
+    Read& read = *port.newest->next;
+    port.newest = &read;
+    read.due = cycle + latency_;
+    read.address = address;
+    read.count = count;
     ++reads_;
+    if (!checks_) return;
     if (one_bank_ && count == 1 && read_banks_[address & bank_mask_] != cycle) [[likely]]
       read_banks_[address & bank_mask_] = cycle;
-    else if (checks_) [[unlikely]]
+    else
       check_read(port, cycle, address, count);
   }
   void issue_write(Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count) {
@@ -227,31 +233,32 @@ class PortedMemory : public MemoryBase {
       fail(port, cycle, "a part of a word is written, but the shape has no mask_bits");
   }
   // The read whose word is on the output register in `cycle`.
-  std::uint32_t arrived(const Port& port, Cycle cycle) const {
-    std::uint32_t at = port.newest;
-    if (port.read[at].due <= cycle) [[likely]]
-      return at;
+  const Read& arrived(const Port& port, Cycle cycle) const {
+    const Read& newest = *port.newest;
+    if (newest.due <= cycle) [[likely]]
+      return newest;
     return arrived_before(port, cycle);
   }
   // The same, which must have given the word at this address.
-  std::uint32_t arrived(const Port& port, Cycle cycle, std::uint64_t address) const {
-    const std::uint32_t at = arrived(port, cycle);
-    if (address - port.read[at].address >= port.read[at].count) [[unlikely]]
-      fail_stale(port, cycle, address, port.read[at]);
-    return at;
+  const Read& arrived(const Port& port, Cycle cycle, std::uint64_t address) const {
+    const Read& read = arrived(port, cycle);
+    if (address - read.address >= read.count) [[unlikely]]
+      fail_stale(port, cycle, address, read);
+    return read;
   }
   // The same, of the access in clock `issued`.
-  std::uint32_t arrived(const Port& port, Cycle cycle, std::uint64_t address, Cycle issued) const {
-    const std::uint32_t at = arrived(port, cycle, address);
-    if (port.read[at].due != issued + latency_) [[unlikely]]
-      fail_again(port, cycle, issued, port.read[at]);
-    return at;
+  const Read& arrived(const Port& port, Cycle cycle, std::uint64_t address, Cycle issued) const {
+    const Read& read = arrived(port, cycle, address);
+    if (read.due != issued + latency_) [[unlikely]]
+      fail_again(port, cycle, issued, read);
+    return read;
   }
+  // Words that the owner captures: of every read that a port remembers.
+  std::size_t captured_words() const { return readers_.size() * (latency_ + 1) * span_; }
 
   const std::uint64_t words_;
   const std::uint32_t span_, latency_;
-  const std::uint32_t ring_;  // reads that a port remembers, a power of two, less one
-  const bool checks_;         // beyond those of issue(), and of writes of one clock
+  const bool checks_;  // beyond those of issue(), and of writes of one clock
   // A word's bank is in its low bits, and all that check_read() would look at.
   const bool one_bank_;
   const std::uint64_t bank_mask_;
@@ -260,7 +267,7 @@ class PortedMemory : public MemoryBase {
   std::vector<Port*> readers_, writers_;  // shared ports are among both
 
  private:
-  std::uint32_t arrived_before(const Port& port, Cycle cycle) const;
+  const Read& arrived_before(const Port& port, Cycle cycle) const;
   void check_read(const Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count);
   void check_write(const Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count);
   void use_banks(std::vector<Cycle>& used, const Port& port, Cycle cycle, std::uint64_t address,
@@ -317,7 +324,7 @@ class Memory final : public PortedMemory {
       : PortedMemory(name, std::move(shape)),
         kept_(words_),
         before_(writers_.size() * span_),
-        captured_(readers_.size() * (ring_ + 1) * span_) {
+        captured_(captured_words()) {
     check_content(words.content.size());
     if constexpr (std::is_integral_v<Word>)
       for (std::size_t i = 0; i < words.content.size(); ++i)
@@ -326,15 +333,12 @@ class Memory final : public PortedMemory {
     std::copy(words.content.begin(), words.content.end(), kept_.begin());
   }
 
-  Word* captured(const Port& port, std::uint32_t at) {
-    return &captured_[(port.reader * (ring_ + 1) + at) * span_];
-  }
-  const Word& word(const Port& port, std::uint32_t at, std::uint64_t address) {
-    return captured(port, at)[address - port.read[at].address];
+  const Word& word(const Read& read, std::uint64_t address) const {
+    return captured_[read.place + (address - read.address)];
   }
   void read(Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count) {
     issue_read(port, cycle, address, count);
-    Word* const to = captured(port, port.newest);
+    Word* const to = &captured_[port.newest->place];
     to[0] = kept_[address];
     for (std::uint64_t i = 1; i < count; ++i) to[i] = kept_[address + i];
     if (written_ == cycle && !new_word_) give_old_words(to, cycle, address, count);
@@ -362,11 +366,10 @@ class Memory final : public PortedMemory {
   // To reads that were issued in this clock already.
   [[gnu::noinline]] void give_new_words(Cycle cycle, std::uint64_t address, std::uint64_t count) {
     for (const Port* reader : readers_) {
-      const Read& read = reader->read[reader->newest];
+      const Read& read = *reader->newest;
       if (read.due != cycle + latency_) continue;
       for (std::uint64_t i = 0; i < read.count; ++i)
-        if (read.address + i - address < count)
-          captured(*reader, reader->newest)[i] = kept_[read.address + i];
+        if (read.address + i - address < count) captured_[read.place + i] = kept_[read.address + i];
     }
   }
 
@@ -395,18 +398,18 @@ class ReadAccess {
   bool arrives(Cycle cycle) const { return PortedMemory::arrives(*port_, cycle); }
   // The (first) word on the output register.
   const Word& word(Cycle cycle) const {
-    const std::uint32_t at = memory_->arrived(*port_, cycle);
-    return *memory_->captured(*port_, at);
+    const PortedMemory::Read& read = memory_->arrived(*port_, cycle);
+    return memory_->word(read, read.address);
   }
   // The same, if it is the word of this address: a word that is used a clock early, when an older
   // one is still there, or too late, when a newer one is, is caught.
   const Word& at(Cycle cycle, std::uint64_t address) const {
-    return memory_->word(*port_, memory_->arrived(*port_, cycle, address), address);
+    return memory_->word(memory_->arrived(*port_, cycle, address), address);
   }
   // The same, if it is the word as the access of clock `issued` read it: of an address that may be
   // read again, an older word is caught too.
   const Word& at(Cycle cycle, std::uint64_t address, Cycle issued) const {
-    return memory_->word(*port_, memory_->arrived(*port_, cycle, address, issued), address);
+    return memory_->word(memory_->arrived(*port_, cycle, address, issued), address);
   }
   // Both in one clock: of flip-flops without an output register.
   const Word& now(Cycle cycle, std::uint64_t address) {

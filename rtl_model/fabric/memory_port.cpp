@@ -92,13 +92,15 @@ std::uint32_t MemoryPort::in_flight() const {
 }
 
 Activity MemoryPort::tick(Cycle cycle) {
+  if (arrived_.empty() && !requests_in.can_pop(cycle)) return busy() ? stalled_memory_ : kIdle;
+  return work(cycle);
+}
+
+Activity MemoryPort::work(Cycle cycle) {
   const bool waiting = !arrived_.empty();
-  if (!waiting && !requests_in.can_pop(cycle)) return in_flight() != 0 ? stalled_memory_ : kIdle;
   bool did = respond(cycle);
   const bool response_blocked = waiting && !did && !responses_out.can_push(cycle);
-  Activity lost = response_blocked   ? kStalledDownstream
-                  : in_flight() != 0 ? stalled_memory_
-                                     : kIdle;
+  Activity lost = response_blocked ? kStalledDownstream : busy() ? stalled_memory_ : kIdle;
   if (requests_in.can_pop(cycle)) {
     const MemoryRequest& request = requests_in.front(cycle);
     const bool starts = !gathering_;
@@ -130,10 +132,11 @@ Activity MemoryPort::tick(Cycle cycle) {
         t.arrived = false;
         t.set_address(request.address);
         t.data.resize(std::size_t{t.lines} * parameters_.line_bytes);
-        t.enables.assign(t.data.size(), TLM_BYTE_ENABLED);
-        if (request.write)
+        if (request.write) {
+          t.enables.assign(t.data.size(), TLM_BYTE_ENABLED);
           for (std::uint32_t i = 0; i < parameters_.line_bytes; ++i)
             if (!(request.byte_mask >> i & 1)) t.enables[i] = TLM_BYTE_DISABLED;
+        }
       }
       Transaction& t = *gathering_;
       if (t.write)
@@ -153,8 +156,10 @@ Activity MemoryPort::tick(Cycle cycle) {
 
 void MemoryPort::send(Transaction& t, Cycle cycle) {
   const auto length = static_cast<unsigned>(t.data.size());
-  const auto enabled = static_cast<std::uint64_t>(
-      std::count(t.enables.begin(), t.enables.end(), std::uint8_t{TLM_BYTE_ENABLED}));
+  const std::uint64_t enabled =
+      t.write ? static_cast<std::uint64_t>(
+                    std::count(t.enables.begin(), t.enables.end(), std::uint8_t{TLM_BYTE_ENABLED}))
+              : length;
   t.set_command(t.write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND);
   t.set_data_ptr(t.data.data());
   t.set_data_length(length);
@@ -270,8 +275,12 @@ bool MemoryPort::respond(Cycle cycle) {
     response.data.fill(0);
   ++t->next_line;
   if (response.last) {
-    in_flight_.erase(std::find(in_flight_.begin(), in_flight_.end(), t));
-    arrived_.erase(std::find(arrived_.begin(), arrived_.end(), t));
+    // Nearly always the oldest.
+    for (std::deque<Transaction*>* list : {&in_flight_, &arrived_})
+      if (list->front() == t)
+        list->pop_front();
+      else
+        list->erase(std::find(list->begin(), list->end(), t));
     t->release();
   }
   return true;

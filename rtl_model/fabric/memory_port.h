@@ -134,7 +134,9 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   Transaction& allocate();
   void send(Transaction& transaction, Cycle cycle);
   void arrived(Transaction& transaction, const sc_core::sc_time& when);
+  [[gnu::noinline]] Activity work(Cycle cycle);
   bool respond(Cycle cycle);
+  bool busy() const { return gathering_ || !in_flight_.empty(); }
 
   MemoryPortParameters parameters_;
   Activity stalled_outstanding_, stalled_channel_, stalled_memory_;

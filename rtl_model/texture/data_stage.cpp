@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <string>
 
 #include "spec/texture/descriptor.h"
 
@@ -28,7 +27,7 @@ std::uint32_t load(const std::uint8_t* bytes) {
 
 // A texel is the low bits of what is read.
 std::uint32_t texel_mask(const FilterControl& control) {
-  constexpr std::array<std::uint32_t, 5> kMask = {~0u, 0xFFFF, 0xFFFF, 0xFF, ~0u};
+  static constexpr std::array<std::uint32_t, 5> kMask = {~0u, 0xFFFF, 0xFFFF, 0xFF, ~0u};
   static_assert(kMask.size() == spec::texture::kFormatNames.size());
   return kMask[control.format];
 }
@@ -60,16 +59,14 @@ DataStage::DataStage(const sc_core::sc_module_name& name, ClockDomain& clock,
       bytes_(static_cast<std::size_t>(p.cache_bytes) + kPadding),
       wait_fill_(declare_stall("wait_fill", "a line of the request has not arrived")),
       write_fill_(declare_stall("write_fill", "the request has more lines to write")),
-      bank_conflict_(declare_stall("bank_conflict", "the request has more words in one bank")) {
-  for (int i = 0; i < 4; ++i) reads_.emplace_back(banks_, "texel_" + std::to_string(i));
-}
+      bank_conflict_(declare_stall("bank_conflict", "the request has more words in one bank")) {}
 
 // From the last stage to the first.
 Activity DataStage::work(Cycle cycle) {
   const bool waits = waits_;
   if (waits && !texels_out.can_push(cycle)) return kStalledDownstream;
-  if (issued_) reads_[issued_port_].check(cycle, issued_word_);
-  issued_ = false;
+  if (issued_) issued_->check(cycle, issued_word_, issued_at_);
+  issued_ = nullptr;
   if (waits) {
     texels_out.push(cycle, waiting_);
     waits_ = false;
@@ -124,11 +121,15 @@ DataStage::Schedule DataStage::schedule(const CacheToken& request) const {
   return s;
 }
 
-// Four hits in one pass: all that most requests are. False, and nothing done, if words meet in a
-// bank.
+// Four hits in one pass: all that most requests are. False if words meet in a bank:
+// then nothing has been read.
 inline bool DataStage::read_at_once(Cycle cycle, const CacheToken& request) {
   std::array<std::uint32_t, 4> word;
-  for (std::size_t i = 0; i < 4; ++i) word[i] = request.place[i] >> 2;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::uint32_t place = request.place[i];
+    waiting_.texel[i] = load(&bytes_[place]);
+    word[i] = place >> 2;
+  }
   const auto apart = [&](std::size_t i, std::size_t j) { return word[i] ^ word[j]; };
   const auto meet = [&](std::uint32_t difference) {
     return difference != 0 && (difference & (words_a_line_ - 1)) == 0;
@@ -138,7 +139,6 @@ inline bool DataStage::read_at_once(Cycle cycle, const CacheToken& request) {
   if ((a | b | c) >= words_a_line_ &&
       (meet(a) || meet(b) || meet(c) || meet(d) || meet(e) || meet(f)))
     return false;
-  for (std::size_t i = 0; i < 4; ++i) waiting_.texel[i] = load(&bytes_[request.place[i]]);
   // A word that two texels share is one read.
   issue(cycle, 0, word[0]);
   if (a != 0) reads_[1].read(cycle, word[1]);
@@ -156,11 +156,11 @@ void DataStage::read(Cycle cycle, const CacheToken& request, int pass) {
 }
 
 // The words of a clock come together, so one of them stands for all.
-void DataStage::issue(Cycle cycle, std::size_t port, std::uint64_t word) {
+inline void DataStage::issue(Cycle cycle, std::size_t port, std::uint64_t word) {
   reads_[port].read(cycle, word);
-  issued_port_ = port;
+  issued_ = &reads_[port];
   issued_word_ = word;
-  issued_ = true;
+  issued_at_ = cycle;
 }
 
 void DataStage::write_fill(Cycle cycle, const CacheToken& request) {
@@ -190,6 +190,9 @@ inline void DataStage::finish(Cycle cycle, const CacheToken& request) {
   started_ = false;
 }
 
-void DataStage::reset() { started_ = waits_ = issued_ = false; }
+void DataStage::reset() {
+  started_ = waits_ = false;
+  issued_ = nullptr;
+}
 
 }  // namespace deburr::rtl::texture

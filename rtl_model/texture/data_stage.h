@@ -12,8 +12,9 @@
 // texels that missed are taken from the fill as it passes. Stalls: `wait_fill` (a line has not
 // arrived), `write_fill` (more lines to write), `bank_conflict` (more passes to read),
 // `downstream`. Made for 250 MHz; longest path: SRAM read, then a choice of 1 in 32 words and of a
-// byte in it; before: a comparison of 14 bits and a choice of 1 in 4 addresses. Cost: banks of
-// lines x 32 bits, SRAM 1R1W, four texel registers, four word multiplexers, six comparators.
+// byte in it; before: a comparison of 14 bits, the pass of each texel (three 2-bit steps) and a
+// choice of 1 in 4 addresses. Cost: banks of lines x 32 bits, SRAM 1R1W, four texel registers, four
+// word multiplexers, six comparators.
 #pragma once
 
 #include <array>
@@ -65,7 +66,9 @@ class DataStage final : public Unit {
   FillBuffer& fills_;
   std::uint32_t line_log2_, words_a_line_, turn_;
   Memory<void> banks_;
-  std::vector<ReadPort<void>> reads_;
+  std::array<ReadPort<void>, 4> reads_{
+      ReadPort<void>{banks_, "texel_0"}, ReadPort<void>{banks_, "texel_1"},
+      ReadPort<void>{banks_, "texel_2"}, ReadPort<void>{banks_, "texel_3"}};
   WritePort<void> write_{banks_, "fill"};
   std::vector<std::uint8_t> bytes_;  // of the banks, word by word
   Activity wait_fill_, write_fill_, bank_conflict_;
@@ -73,10 +76,10 @@ class DataStage final : public Unit {
   bool started_ = false;
   Schedule schedule_{};
   int passes_done_ = 0, fills_done_ = 0;
-  // One of the words that the last clock has asked for.
-  std::size_t issued_port_ = 0;
+  // One of the words that were asked for last, and when: for the check, no hardware.
+  const ReadPort<void>* issued_ = nullptr;
   std::uint64_t issued_word_ = 0;
-  bool issued_ = false;
+  Cycle issued_at_ = 0;
   // The request in stage 2.
   bool waits_ = false;
   TexelQuadToken waiting_{};

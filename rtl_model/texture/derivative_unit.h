@@ -2,13 +2,14 @@
 // Splits a quad into its covered fragments and gives each the differences of its own row and
 // column, in texture coordinates and in texels of level 0.
 //
-// Where: head of the AddressUnit. Three stages: 1 differences, and the choice of the descriptor;
-// 2 products with the texture's size; 3 magnitude, rounding, saturation. Latency 3, initiation
-// interval one clock a covered lane (a quad without covered lanes: 1); stalled by `downstream`, and
-// then holds still as a whole; takes no quad while CONTROL.enable is 0. Made for 250 MHz; longest
-// path: 33 x 13 bit multiply. Formats: S7.24 in; S8.24 and U15.16 out, rounded to nearest,
-// saturated at 2^31 - 1 (counted). Cost: four 33-bit subtractors, four 33 x 13 bit multipliers,
-// four 46-bit adders, registers of a quad and of two fragments. Source: paper 2.2 (1).
+// Where: head of the AddressUnit. Three stages: 1 the next covered lane, its four differences, and
+// the choice of the descriptor; 2 four products of a difference with the texture's width or height;
+// 3 magnitude, rounding, saturation of each. The model does all in stage 1, then delays. Latency 3,
+// initiation interval one clock a covered lane (a quad without covered lanes: 1); stalled by
+// `downstream`, and then holds still as a whole; takes no quad while CONTROL.enable is 0. Made for
+// 250 MHz; longest path: 33 x 13 bit multiply. Formats: S7.24 in; S8.24 and U15.16 out, rounded to
+// nearest, saturated at 2^31 - 1 (counted). Cost: four 33-bit subtractors, four 33 x 13 bit
+// multipliers, four 46-bit adders, registers of a quad and of two fragments. Source: paper 2.2 (1).
 #pragma once
 
 #include <cstdint>

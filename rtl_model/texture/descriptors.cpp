@@ -97,14 +97,16 @@ TextureState decode(const ControlRegisters& registers, std::uint32_t handle) {
   t.texel_log2 = ceil_log2(bytes);
   const std::uint32_t tile_width = spec::texture::kTileWidth[bytes],
                       tile_height = spec::texture::kTileHeight[bytes];
+  t.tile_width_log2 = ceil_log2(tile_width);
+  t.tile_height_log2 = ceil_log2(tile_height);
   for (std::uint32_t k = 0; k < levels; ++k) {
     LevelGeometry& g = t.level[k];
     g.base = field(reg::kLevelBase + 4 * k);
     g.width = static_cast<std::uint16_t>(std::max(1, t.width >> k));
     g.height = static_cast<std::uint16_t>(std::max(1, t.height >> k));
     g.pitch = (g.width * bytes + 63) & ~63u;
-    g.tiles_x_log2 = ceil_log2((g.width + tile_width - 1) / tile_width);
-    g.tiles_y_log2 = ceil_log2((g.height + tile_height - 1) / tile_height);
+    g.mixed_log2 = std::min(ceil_log2((g.width + tile_width - 1) / tile_width),
+                            ceil_log2((g.height + tile_height - 1) / tile_height));
     valid = valid && g.base % spec::texture::kTileBytes == 0;
   }
   t.valid = valid;

@@ -25,19 +25,21 @@ namespace deburr::rtl::texture {
 
 // One mip level.
 struct LevelGeometry {
-  std::uint32_t base;                       // U32, byte address
-  std::uint32_t pitch;                      // U15, bytes a row, layout linear
-  std::uint16_t width, height;              // U13, texels
-  std::uint8_t tiles_x_log2, tiles_y_log2;  // U4, rounded-up tiles each way, layout tiled
+  std::uint32_t base;           // U32, byte address
+  std::uint32_t pitch;          // U15, bytes a row, layout linear
+  std::uint16_t width, height;  // U13, texels
+  std::uint8_t mixed_log2;      // U4, lb of the tiles along the shorter side, rounded
+                                // up: so many bits of their numbers interleave
 };
 
 // A descriptor, decoded.
 struct TextureState {
   bool valid = false;
-  std::uint16_t width = 0, height = 0;  // U13
-  std::uint8_t levels = 0;              // U4
-  std::uint8_t texel_log2 = 0;          // U2, lb of the bytes a texel
-  std::uint8_t max_count_log2 = 0;      // U3, lb N_max
+  std::uint16_t width = 0, height = 0;                     // U13
+  std::uint8_t levels = 0;                                 // U4
+  std::uint8_t texel_log2 = 0;                             // U2, lb of the bytes a texel
+  std::uint8_t tile_width_log2 = 0, tile_height_log2 = 0;  // U2, texels
+  std::uint8_t max_count_log2 = 0;                         // U3, lb N_max
   spec::texture::Format format{};
   spec::texture::Layout layout{};
   spec::texture::Wrap wrap_s{}, wrap_t{};

@@ -68,7 +68,7 @@ class FillBuffer {
   }
   bool ready(Cycle cycle) const { return read_ != released_ && read_at_ < cycle; }
   const std::uint8_t* line(Cycle cycle) const {
-    read_port_.check(cycle, oldest());
+    read_port_.check(cycle, oldest(), read_at_);
     return &bytes_[std::size_t{oldest()} * line_bytes_];
   }
   void release(Cycle cycle) {

@@ -72,43 +72,54 @@ Activity FilterPipeline::tick(Cycle cycle) {
 }
 
 // What each stage has before it in this clock.
-void FilterPipeline::count_stages(bool arrives) {
+inline void FilterPipeline::count_stages(bool arrives) {
+  occupancy[6] += has_sample_;
+  occupancy[7] += has_total_;
+  if (arrives && requests_.full()) [[likely]] {
+    for (std::size_t i = 0; i < kRequestStages; ++i) ++occupancy[i];
+    return;
+  }
   occupancy[0] += arrives;
   for (int stage = 2; stage <= kRequestStages; ++stage)
     occupancy[static_cast<std::size_t>(stage - 1)] += requests_.works(stage - 1);
-  occupancy[6] += has_sample_;
-  occupancy[7] += has_total_;
 }
 
 // Stage 1: the coded channels go into the ROM.
-void FilterPipeline::look_up(Cycle cycle, const TexelQuadToken& token) {
+inline void FilterPipeline::look_up(Cycle cycle, const TexelQuadToken& token) {
   if (!token.ticket.valid || format_of(token) != spec::texture::Format::kSrgb8A8) return;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t c = 0; c < 3; ++c)
       linear_[3 * i + c].read(cycle, token.texel[i] >> (8 * c) & 255);
 }
 
-// Stages 2 to 5: what is between them cannot be seen from outside.
+// Stages 3 to 5: what is between them cannot be seen from outside.
+template <class Unpack>
+inline void FilterPipeline::lerp(Request& request, Unpack&& unpack) {
+  const FilterControl& control = request.token.control;
+  // Stages 3 and 4: U8.4 x U1.8.
+  const std::uint32_t right = control.fraction_u, left = 256 - right;
+  const Channels upper = unpack(0) * left + unpack(1) * right,
+                 lower = unpack(2) * left + unpack(3) * right;
+  // Stage 5: U8.20, rounded to U8.12.
+  const std::uint32_t down = control.fraction_v, up = 256 - down;
+  request.row = (upper * up + lower * down).rounded(8);
+}
+
+// Stages 2 to 5.
 inline void FilterPipeline::filter(Cycle cycle, Request& request) const {
   const TexelQuadToken& token = request.token;
-  const auto lerp = [&](auto&& unpack) {
-    // Stages 3 and 4: U8.4 x U1.8.
-    const std::uint32_t right = token.control.fraction_u, left = 256 - right;
-    const Channels upper = unpack(0) * left + unpack(1) * right,
-                   lower = unpack(2) * left + unpack(3) * right;
-    // Stage 5: U8.20, rounded to U8.12.
-    const std::uint32_t down = token.control.fraction_v, up = 256 - down;
-    request.row = (upper * up + lower * down).rounded(8);
-  };
-  // Stage 2.
+  if (format_of(token) != spec::texture::Format::kRgba8) return filter_other(cycle, request);
+  lerp(request, [&](std::size_t i) { return Channels::of_bytes(token.texel[i]); });
+}
+
+void FilterPipeline::filter_other(Cycle cycle, Request& request) const {
+  const TexelQuadToken& token = request.token;
   const auto lerp_each = [&](auto&& unpack_one) {
-    lerp([&](std::size_t i) { return unpack_one(token.texel[i]); });
+    lerp(request, [&](std::size_t i) { return unpack_one(token.texel[i]); });
   };
   switch (format_of(token)) {
     case spec::texture::Format::kRgba8:
-      return lerp_each([](std::uint32_t raw) {
-        return Channels::of(unorm8(raw), unorm8(raw >> 8), unorm8(raw >> 16), unorm8(raw >> 24));
-      });
+      return;
     case spec::texture::Format::kRgb565:
       return lerp_each([](std::uint32_t raw) {
         return Channels::of(unorm5(raw >> 11), unorm6(raw >> 5), unorm5(raw), kOpaque);
@@ -123,7 +134,7 @@ inline void FilterPipeline::filter(Cycle cycle, Request& request) const {
       });
     case spec::texture::Format::kSrgb8A8:
       if (!token.ticket.valid) return;  // its weight is 0
-      return lerp([&](std::size_t i) { return unpack_srgb(cycle, token, i); });
+      return lerp(request, [&](std::size_t i) { return unpack_srgb(cycle, token, i); });
   }
 }
 

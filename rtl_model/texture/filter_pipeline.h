@@ -5,11 +5,12 @@
 //
 // Where: after the TextureCache. Latency 8, initiation interval 1 a bilinear request; stages 6 and
 // 7 wait for the requests that belong together, so a colour leaves after the last request of its
-// fragment. When a colour cannot leave (`downstream`), the whole pipeline holds still. Made for
-// 250 MHz; longest path: two 20 x 9 bit multiplies and their sum, 18 rows of partial products where
-// a 24 x 24 multiply has 24.
-// Formats: U8.4 after stage 2, U8.12 after 4, 5 and 6, U15.12 in 7, U8.0 out; rounded in 5, 6
-// and 8. Cost, four channels: 16 + 8 + 4 + 4 multipliers (12 x 9, 20 x 9, 20 x 9, 20 x 5 bits), 24
+// fragment. Stage 1 cuts a texel into its fields, which are the addresses of the ROM `srgb`; its
+// words are there in stage 2. The model does stages 2 to 5 in stage 2, then delays. When a colour
+// cannot leave (`downstream`), the whole pipeline holds still. Made for 250 MHz; longest path: two
+// 20 x 9 bit multiplies and their sum, 18 rows of partial products where a 24 x 24 multiply has 24.
+// Formats: U8.4 after stage 2, U8.12 after 4, 5 and 6, U15.12 in 7, U8.0 out; rounded in 5, 6 and
+// 8. Cost, four channels: 16 + 8 + 4 + 4 multipliers (12 x 9, 20 x 9, 20 x 9, 20 x 5 bits), 24
 // adders, the ROM `srgb`, 256 x 12 bits, 12R, one word a coded channel. Source: paper 2.3.
 #pragma once
 
@@ -56,6 +57,11 @@ class FilterPipeline final : public Unit {
                                  std::uint32_t a) {
       return {r | std::uint64_t{b} << 32, g | std::uint64_t{a} << 32};
     }
+    // `of` of the bytes of an RGBA8 texel as U8.4.
+    static constexpr Channels of_bytes(std::uint64_t rgba) {
+      constexpr std::uint64_t kBytes = kBoth * 0xFF;
+      return {((rgba | rgba << 16) & kBytes) << 4, ((rgba >> 8 | rgba << 8) & kBytes) << 4};
+    }
     constexpr std::array<std::uint32_t, 4> each() const {
       return {static_cast<std::uint32_t>(rb), static_cast<std::uint32_t>(ga),
               static_cast<std::uint32_t>(rb >> 32), static_cast<std::uint32_t>(ga >> 32)};
@@ -92,6 +98,9 @@ class FilterPipeline final : public Unit {
 
   void look_up(Cycle cycle, const TexelQuadToken& token);
   void filter(Cycle cycle, Request& request) const;
+  [[gnu::noinline]] void filter_other(Cycle cycle, Request& request) const;
+  template <class Unpack>
+  static void lerp(Request& request, Unpack&& unpack);
   Channels unpack_srgb(Cycle cycle, const TexelQuadToken& token, std::size_t texel) const;
   void lerp_levels(const Request& request);
   void accumulate();

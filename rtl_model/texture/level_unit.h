@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Number of samples, mip level and level fraction of a fragment, and which filter is in force.
 //
-// Where: after the Log2Unit. Three stages: 1 number of samples, and the choice of the descriptor;
-// 2 level of detail, clamped; 3 level and fraction. Latency 3, initiation interval 1; stalled by
-// `downstream`, and then holds still as a whole. Made for 250 MHz; longest path: 20-bit addition,
-// then two 20-bit comparisons with a choice. Formats: S5.12 in; l in S8.12, rounded once to S8.8
-// for the two-level modes. Cost: nine 20-bit adders or comparators and a few multiplexers; no
-// multiplier, since N is a power of two; registers of two fragments. Source: paper 1.3, equations
-// 2, 3 and 12; level of detail and modes as in GL.
+// Where: after the Log2Unit. Three stages: 1 difference of the logarithms, number of samples, and
+// the choice of the descriptor; 2 level of detail with bias, clamped to its range; 3 level and
+// fraction by mode, filter. The model does all in stage 1, then delays. Latency 3, initiation
+// interval 1; stalled by `downstream`, and then holds still as a whole. Made for 250 MHz; longest
+// path: 20-bit addition of three operands, then two 20-bit comparisons with a choice. Formats:
+// S5.12 in; l in S8.12, rounded once to S8.8 for the two-level modes. Cost: nine 20-bit adders or
+// comparators and a few multiplexers; no multiplier, since N is a power of two; registers of two
+// fragments. Source: paper 1.3, equations 2, 3 and 12; level of detail and modes as in GL.
 #pragma once
 
 #include <cstdint>

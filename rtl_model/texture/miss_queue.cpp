@@ -30,6 +30,12 @@ MissQueue::MissQueue(const sc_core::sc_module_name& name, ClockDomain& clock,
 }
 
 Activity MissQueue::tick(Cycle cycle) {
+  if (waiting_ == 0 && !responses_in.can_pop(cycle) && !misses_in.can_pop(cycle))
+    return fills.held(cycle) != 0 ? wait_memory_ : kIdle;
+  return work(cycle);
+}
+
+Activity MissQueue::work(Cycle cycle) {
   const bool received = receive(cycle);
   const Activity issued = issue(cycle);  // before accept: what comes in now is sent no earlier than
   const bool accepted = accept(cycle);   // in the next clock

@@ -44,6 +44,7 @@ class MissQueue final : public Unit {
   Counter most_waiting{"most_waiting", "lines", "largest number of lines waiting to be sent"};
 
  private:
+  [[gnu::noinline]] Activity work(Cycle cycle);
   bool receive(Cycle cycle);
   Activity issue(Cycle cycle);
   bool accept(Cycle cycle);

@@ -12,7 +12,11 @@
 //   if (stages_.works(2)) multiply(stages_.at(2));
 //   if (arrives) start(stages_.enter(), in.take(cycle));
 //
-// Cost: kStages - 1 sets of registers with a valid bit.
+// A unit may work an entry out in one clock and only delay it in the others, where nobody outside
+// can tell; its header says what hardware does in each stage.
+//
+// Made for the clock of its unit; longest path: a valid bit and the output link's ready, one gate,
+// then the enable of all registers. Cost: kStages - 1 sets of registers with a valid bit.
 #pragma once
 
 #include <array>
@@ -27,6 +31,7 @@ class Stages {
 
  public:
   bool empty() const { return occupied_ == 0; }
+  bool full() const { return occupied_ == (1U << (kStages - 1)) - 1; }
   // Something is in the last set of registers and leaves with the next step.
   bool leaving() const { return occupied_ >> (kStages - 2) & 1; }
 

@@ -43,6 +43,7 @@ inline void TagStage::read_sets(Cycle cycle) {
   texels_in.pop(cycle);
   occupied_ = true;
   if (!r.token.ticket.valid) return;
+  r.read_at = cycle;
   const auto& address = r.token.address;
   r.line[0] = address[0] >> line_log2_;
   tags_.read(cycle, 0, r.line[0]);
@@ -51,25 +52,29 @@ inline void TagStage::read_sets(Cycle cycle) {
           line_log2_ ==
       0;
   if (r.one_line) return;
-  r.first[0] = 0;
-  for (std::size_t i = 1; i < 4; ++i) {
-    r.line[i] = address[i] >> line_log2_;
-    std::size_t same = 0;
-    while (r.line[same] != r.line[i]) ++same;
-    r.first[i] = static_cast<std::uint8_t>(same);
-    if (same == i) tags_.read(cycle, i, r.line[i]);
-  }
+  const std::uint32_t line1 = address[1] >> line_log2_, line2 = address[2] >> line_log2_,
+                      line3 = address[3] >> line_log2_;
+  const std::uint32_t line0 = r.line[0];
+  const unsigned first1 = line1 == line0 ? 0 : 1;
+  const unsigned first2 = line2 == line0 ? 0 : line2 == line1 ? 1 : 2;
+  const unsigned first3 = line3 == line0 ? 0 : line3 == line1 ? 1 : line3 == line2 ? 2 : 3;
+  r.line = {line0, line1, line2, line3};
+  r.first = {0, static_cast<std::uint8_t>(first1), static_cast<std::uint8_t>(first2),
+             static_cast<std::uint8_t>(first3)};
+  if (first1 == 1) tags_.read(cycle, 1, line1);
+  if (first2 == 2) tags_.read(cycle, 2, line2);
+  if (first3 == 3) tags_.read(cycle, 3, line3);
 }
 
 // One line of the request in stage 2.
-inline TagStage::Line TagStage::look_up_line(Cycle cycle, std::size_t texel, CacheToken& out,
-                                             MissToken& missed) {
+inline TagStage::Line TagStage::look_up_line(Cycle cycle, std::uint64_t released, std::size_t texel,
+                                             CacheToken& out, MissToken& missed) {
   const std::uint32_t line = request_.line[texel];
-  tags_.check(cycle, texel, line);
+  tags_.check(cycle, texel, line, request_.read_at);
   if (const std::uint32_t slot = tags_.find(line); slot != TagStore::kAbsent) {
     tags_.use(slot);
-    fill_number_[slot] > fills_.released(cycle) ? ++merged : ++hits;
-    return {slot << line_log2_, tags_.turned(slot) ? turn_ : 0, 0};
+    fill_number_[slot] > released ? ++merged : ++hits;
+    return {slot << line_log2_ | (tags_.turned(slot) ? turn_ : 0), 0};
   }
   return order(line, texel, out, missed);
 }
@@ -85,7 +90,7 @@ TagStage::Line TagStage::order(std::uint32_t line, std::size_t texel, CacheToken
   missed.line[out.fills] = line;
   out.victim[out.fills] = static_cast<std::uint16_t>(place.slot);
   out.turned[out.fills] = turned;
-  return {0, 0, ++out.fills};
+  return {0, ++out.fills};
 }
 
 // Stage 2: up to four distinct lines, each looked up once, in the order of their first use.
@@ -93,19 +98,20 @@ inline void TagStage::look_up(Cycle cycle, CacheToken& out) {
   ++requests;
   const Request& r = request_;
   const std::uint32_t offset_mask = (1u << line_log2_) - 1;
+  const std::uint64_t released = fills_.released(cycle);
   MissToken missed{};
   const auto place = [&](std::size_t i, const Line& line) {
-    out.place[i] = line.base | ((r.token.address[i] & offset_mask) ^ line.turn);
-    out.source[i] = line.source;
+    out.place[i] = (r.token.address[i] & offset_mask) ^ line.place;
+    out.source[i] = static_cast<std::uint8_t>(line.source);
   };
   if (r.one_line) {
-    const Line line = look_up_line(cycle, 0, out, missed);
+    const Line line = look_up_line(cycle, released, 0, out, missed);
     for (std::size_t i = 0; i < 4; ++i) place(i, line);
   } else {
-    std::array<Line, 4> line{};
+    std::array<Line, 4> line;
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t first = r.first[i];
-      line[i] = first == i ? look_up_line(cycle, i, out, missed) : line[first];
+      line[i] = first == i ? look_up_line(cycle, released, i, out, missed) : line[first];
       place(i, line[i]);
     }
   }

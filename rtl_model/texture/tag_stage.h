@@ -52,16 +52,17 @@ class TagStage final : public Unit {
     std::array<std::uint32_t, 4> line;  // U27
     std::array<std::uint8_t, 4> first;  // U2, the first texel in the same line
     bool one_line;
+    Cycle read_at;  // for the check of its sets: no hardware
   };
   void read_sets(Cycle cycle);
   bool would_miss() const;
   void look_up(Cycle cycle, CacheToken& out);
   struct Line {
-    std::uint32_t base;   // of its slot; 0: it missed
-    std::uint32_t turn;   // what its bytes change places by
-    std::uint8_t source;  // as in CacheToken
+    std::uint32_t place;   // of its slot, what its bytes change places by below it; 0: it missed
+    std::uint32_t source;  // as in CacheToken
   };
-  Line look_up_line(Cycle cycle, std::size_t texel, CacheToken& out, MissToken& missed);
+  Line look_up_line(Cycle cycle, std::uint64_t released, std::size_t texel, CacheToken& out,
+                    MissToken& missed);
   [[gnu::noinline]] Line order(std::uint32_t line, std::size_t texel, CacheToken& out,
                                MissToken& missed);
 

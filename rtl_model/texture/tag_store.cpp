@@ -2,7 +2,6 @@
 #include "rtl_model/texture/tag_store.h"
 
 #include <algorithm>
-#include <string>
 
 #include "rtl_model/texture/tokens.h"
 
@@ -38,10 +37,6 @@ TagStore::TagStore(const char* name, const spec::texture::Parameters& p)
       tags_(std::size_t{1} << (sets_log2(p) + ways_log2_)),
       turned_(tags_.size()),
       age_(tags_.size()) {
-  for (std::size_t i = 0; i < kPorts; ++i) {
-    reads_.emplace_back(memory_, "line_" + std::to_string(i));
-    writes_.emplace_back(memory_, "line_" + std::to_string(i));
-  }
   reset();
 }
 

@@ -41,9 +41,9 @@ class TagStore {
   }
 
   // --- Clock 2 ---
-  // The word that this port has read is there.
-  void check(Cycle cycle, std::size_t port, std::uint32_t line) const {
-    reads_[port].check(cycle, line & set_mask_);
+  // The word that this port has read in clock `issued` is there: the set may have been read before.
+  void check(Cycle cycle, std::size_t port, std::uint32_t line, Cycle issued) const {
+    reads_[port].check(cycle, line & set_mask_, issued);
   }
   // The slot of the line, or kAbsent.
   std::uint32_t find(std::uint32_t line) const {
@@ -84,8 +84,12 @@ class TagStore {
   spec::texture::Replacement replacement_;
   std::uint32_t set_mask_, way_mask_, ways_log2_;
   Memory<void> memory_;
-  std::vector<ReadPort<void>> reads_;
-  std::vector<WritePort<void>> writes_;
+  std::array<ReadPort<void>, kPorts> reads_{
+      ReadPort<void>{memory_, "line_0"}, ReadPort<void>{memory_, "line_1"},
+      ReadPort<void>{memory_, "line_2"}, ReadPort<void>{memory_, "line_3"}};
+  std::array<WritePort<void>, kPorts> writes_{
+      WritePort<void>{memory_, "line_0"}, WritePort<void>{memory_, "line_1"},
+      WritePort<void>{memory_, "line_2"}, WritePort<void>{memory_, "line_3"}};
   std::vector<std::uint32_t> tags_;   // U27 and valid
   std::vector<std::uint8_t> turned_;  // U1
   std::vector<std::uint8_t> age_;  // the order of uses; 0: most recent; a permutation in each set

@@ -87,6 +87,8 @@ inline TexelAddresser::Axis TexelAddresser::scale(std::int64_t position, std::in
   }
   const std::int32_t last = size - 1;
   const bool repeats = wrap == spec::texture::Wrap::kRepeat;
+  if (axis.first >= 0 && axis.second <= last) [[likely]]
+    return axis;
   const auto into_range = [&](std::int32_t x) {
     if (x < 0) return repeats ? last : 0;
     if (x > last) return repeats ? 0 : last;
@@ -111,14 +113,12 @@ inline void TexelAddresser::address(const TextureState& texture, const LevelGeom
     row0 = y0 * level.pitch;
     row1 = y1 * level.pitch;
   } else {
-    // A tile of 64 bytes has 2^(6 - texel_log2) texels, its width takes the larger half of the
-    // bits.
-    const int width_log2 = (7 - texture.texel_log2) / 2, row_log2 = width_log2 + texture.texel_log2;
-    const int height_log2 = 6 - row_log2;
+    const unsigned width_log2 = texture.tile_width_log2, height_log2 = texture.tile_height_log2;
+    const unsigned row_log2 = width_log2 + texture.texel_log2;
     const std::uint32_t texels_x = (1u << width_log2) - 1, texels_y = (1u << height_log2) - 1;
     // The tiles stand in Morton order: the low `common` bits of their numbers interleave, those of
     // columns in the even places, the others stand above both.
-    const int common = std::min(level.tiles_x_log2, level.tiles_y_log2);
+    const unsigned common = level.mixed_log2;
     const std::uint32_t mixed = (1u << common) - 1;
     const auto column = [&](std::uint32_t at) {
       const std::uint32_t tile = at >> width_log2, low = tile & mixed;

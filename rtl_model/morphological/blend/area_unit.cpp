@@ -2,6 +2,7 @@
 #include "rtl_model/morphological/blend/area_unit.h"
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 
 namespace deburr::rtl::morphological {
@@ -64,7 +65,8 @@ AreaUnit::AxisRecords::AxisRecords(const std::string& axis, const MemoryShape& s
               marked.word_bits = mark_bits;
               return marked;
             }()),
-      records((axis + "_records").c_str(), records_shape(shape)) {
+      records((axis + "_records").c_str(), records_shape(shape)),
+      mark(shape.words + kLanes) {
   for (std::size_t bank = 0; bank < banks; ++bank) {
     const std::string user = "bank " + std::to_string(bank);
     read.emplace_back(records, user);
@@ -92,6 +94,7 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
                                      .span = static_cast<std::uint32_t>(lanes_ + 1),
                                      .content = "shares of a column's edges in the row above",
                                      .columns = static_cast<std::uint64_t>(p.line_pixels)}),
+      weights_(columns_ / lanes_),
       row_("row",
            marks_shape(2 * pairs_, static_cast<std::size_t>(p.line_pixels),
                        std::max<std::size_t>(1, lanes_ / 2),
@@ -104,36 +107,6 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
                           "a vertical record a column"),
               // Start, length up to R.
               kCoordinateBits + 8, static_cast<std::uint32_t>(lanes_)) {}
-
-Activity AreaUnit::tick(Cycle cycle) {
-  bool did = false, blocked = false;
-  const bool arrives = slots_in.can_pop(cycle);
-  if (arrives || !pipe_.empty()) {
-    if (pipe_.leaves() && pipe_.at(8)->slot.row >= lag_ && !shares_out.can_push(cycle)) {
-      blocked = true;
-    } else {
-      pipe_.move();
-      did = true;
-      if (const Beat* beat = pipe_.at(9)) send(cycle, *beat);
-      if (const Beat* beat = pipe_.at(8)) address_weights(cycle, *beat);
-      // Stages 4 to 7 are of the arithmetic that stage 3 begins.
-      if (Beat* beat = pipe_.at(3); beat && beat->any) evaluate(cycle, *beat);
-      if (Beat* beat = pipe_.at(2)) match(cycle, *beat);
-      if (arrives) {
-        address_marks(cycle, slots_in.front(cycle), pipe_.enter());
-        slots_in.pop(cycle);
-      }
-    }
-  }
-  if (row_.entered_count + column_.entered_count != 0) {
-    if (!store_lines(cycle)) return did ? kBusy : blocked ? kStalledDownstream : kIdle;
-    did = true;
-  }
-  if (lines_h_in.any_arrives(cycle, lanes_)) did |= take_lines(cycle, lines_h_in, row_);
-  if (lines_v_in.any_arrives(cycle, lanes_)) did |= take_lines(cycle, lines_v_in, column_);
-  if (did) return kBusy;
-  return blocked ? kStalledDownstream : kIdle;
-}
 
 // ---- Lines --------------------------------------------------------------------------------------
 
@@ -185,7 +158,8 @@ void AreaUnit::store(Cycle cycle, AxisRecords& side, const LineToken& token) {
   if (observer) observer(line);
   ++records;
   const std::size_t at = place(side, line.run), bank = at % side.banks;
-  side.write_marks[bank].write(cycle, at, {line.run.start, line.run.length, line.run.line});
+  side.write_marks[bank].write(cycle, at);
+  side.mark[at] = {line.run.start, line.run.length, line.run.line};
   Walk walk;
   walk.t = (std::int64_t{line.shift} << (spec::morphological::kRecipFractionBits - 1)) -
            std::int64_t{line.offset} * line.slope;
@@ -205,12 +179,16 @@ void AreaUnit::address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat
   beat.left = token.left;
   beat.top = token.top;
   beat.any = false;
+  beat.weights = {};
   const std::int32_t row = evaluated_row(token.slot);
   beat.evaluates = works(token.slot) && row < store_.rules().height;
   if (!beat.evaluates) return;
   const std::size_t x = token.slot.beat * lanes_;
-  row_.read_marks.read(cycle, pair_of(row, x), static_cast<std::uint32_t>(row_.banks));
-  column_.read_marks.read(cycle, x, static_cast<std::uint32_t>(lanes_));
+  const std::size_t pair = pair_of(row, x);
+  row_.read_marks.read(cycle, pair, row_.banks);
+  column_.read_marks.read(cycle, x, lanes_);
+  std::memcpy(beat.row_mark.data(), &row_.mark[pair], sizeof beat.row_mark);
+  std::memcpy(beat.column_mark.data(), &column_.mark[x], sizeof beat.column_mark);
 }
 
 // Stage 2.
@@ -228,37 +206,45 @@ void AreaUnit::match(Cycle cycle, Beat& beat) {
   const std::size_t count =
       std::min(lanes_, static_cast<std::size_t>(store_.rules().width) - first);
   const std::int32_t row = evaluated_row(slot);
-  std::uint8_t hand = 1;
+  row_.read_marks.check(cycle, pair_of(row, first));
+  column_.read_marks.check(cycle, first);
+  std::uint8_t hand = 1, any = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t x = first + i, pair = pair_of(row, x);
-    const Mark& mark = row_.read_marks.at(cycle, pair);
+    const std::size_t x = first + i;
+    const Mark& mark = beat.row_mark[i / 2];
     if (mark.length != 0 && mark.row == row && mark.start == x) {
       hand_ = mark;
-      const std::size_t bank = pair % row_.banks;
+      const std::size_t pair = pair_of(row, x), bank = pair % row_.banks;
       row_.read[bank].read(cycle, pair);
       hand = static_cast<std::uint8_t>(2 + bank);
     }
     Edge& along = beat.horizontal[i];
     along.k = static_cast<std::uint16_t>(x - hand_.start);
-    along.from = hand_.length != 0 && along.k < hand_.length ? hand : 0;
+    along.from = along.k < hand_.length ? hand : 0;
 
-    const Mark& column = column_.read_marks.at(cycle, x);
+    const Mark& column = beat.column_mark[i];
     Edge& down = beat.vertical[i];
     // U13: a line may have been stored before its first row.
     down.k = static_cast<std::uint16_t>((row - column.start) & 0x1FFF);
     down.from = down.k < column.length;
     if (down.from) column_.read[i].read(cycle, x);
-    beat.any |= along.from | down.from;
+    any |= along.from | down.from;
   }
+  beat.any = any != 0;
 }
 
 void AreaUnit::clear_marks(Cycle cycle, const Slot& slot) {
   const std::size_t x = slot.beat * lanes_;
-  for (std::size_t bank = 0; bank < row_.banks; ++bank)
-    row_.write_marks[bank].write(cycle, pair_of(slot.row, x) + bank, Mark{});
+  const std::size_t pair = pair_of(slot.row, x);
+  for (std::size_t bank = 0; bank < row_.banks; ++bank) {
+    row_.write_marks[bank].write(cycle, pair + bank);
+    row_.mark[pair + bank] = {};
+  }
   if (slot.row != 0) return;
-  for (std::size_t bank = 0; bank < lanes_; ++bank)
-    column_.write_marks[bank].write(cycle, x + bank, Mark{});
+  for (std::size_t bank = 0; bank < lanes_; ++bank) {
+    column_.write_marks[bank].write(cycle, x + bank);
+    column_.mark[x + bank] = {};
+  }
 }
 
 // Stage 3, and what follows from it.
@@ -269,15 +255,14 @@ void AreaUnit::evaluate(Cycle cycle, Beat& beat) {
   const std::int32_t row = evaluated_row(beat.slot);
   for (std::size_t i = 0; i < count; ++i) {
     const Edge along = beat.horizontal[i], down = beat.vertical[i];
-    beat.below[i] = beat.beside[i] = {};
     if (along.from) {
       if (along.from >= 2 && along.k == 0)
         hand_walk_ = row_.read[along.from - 2u].at(cycle, pair_of(row, first + i));
-      beat.below[i] = area(hand_walk_, along.k);
+      beat.weights[i].top = area(hand_walk_, along.k);
       ++horizontal_edges;
     }
     if (down.from) {
-      beat.beside[i] = area(column_.read[i].at(cycle, first + i), down.k);
+      beat.weights[i].left = area(column_.read[i].at(cycle, first + i), down.k);
       ++vertical_edges;
     }
   }
@@ -309,38 +294,73 @@ AreaUnit::Weights AreaUnit::area(const Walk& walk, std::uint32_t k) {
 void AreaUnit::address_weights(Cycle cycle, const Beat& beat) {
   if (!works(beat.slot)) return;
   const std::size_t x = beat.slot.beat * lanes_;
-  read_weights_.read(cycle, x, static_cast<std::uint32_t>(std::min(lanes_ + 1, columns_ - x)));
+  read_weights_.read(cycle, x, std::min(lanes_ + 1, columns_ - x));
 }
 
-// Stage 9: shares of the row above go to the Blender, those of this row take their place.
+// Stage 9: shares of the row above go to the Blender, those of this row take their place. The words
+// have not changed since stage 8 but by what was written in its clock, which a read sees.
 void AreaUnit::send(Cycle cycle, const Beat& beat) {
   if (!works(beat.slot)) return;
+  if (beat.slot.row >= lag_) share(cycle, beat);
+  write_weights_.write(cycle, beat.slot.beat * lanes_, lanes_);
+  weights_[beat.slot.beat] = beat.weights;
+}
+
+void AreaUnit::share(Cycle cycle, const Beat& beat) {
   const std::size_t first = beat.slot.beat * lanes_;
+  read_weights_.check(cycle, first);
   const auto width = static_cast<std::size_t>(store_.rules().width);
   const std::size_t count = std::min(lanes_, width - first);
-  std::array<WeightWord, kLanes> row{};
-  if (beat.any)
-    for (std::size_t i = 0; i < count; ++i) row[i] = {beat.beside[i], beat.below[i]};
-  if (beat.slot.row >= lag_) {
-    ShareToken& out = shares_out.emplace(cycle);
-    bool any = false;
-    const WeightWord* above = &read_weights_.at(cycle, first);
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t x = first + i;
-      const WeightWord* const right = x + 1 < width ? &read_weights_.at(cycle, x + 1) : nullptr;
-      const Weights up = above->top, down = row[i].top, left = above->left;
-      const Weights beside = right ? right->left : Weights{};
-      out.shares[i] = {up.second, down.first, left.second, beside.first,
-                       up.span,   down.span,  left.span,   beside.span};
-      any |= (up.second | down.first | left.second | beside.first) != 0;
-      above = right;
-    }
-    out.slot = beat.slot;
-    out.any = any;
-    out.left = beat.left;
-    out.top = beat.top;
+  const WeightWords* const above = &weights_[beat.slot.beat];
+  const auto right_of = [&](std::size_t i) {
+    return i + 1 < lanes_          ? above[0][i + 1].left
+           : first + i + 1 < width ? above[1][0].left
+                                   : Weights{};
+  };
+  bool any = false;
+  for (std::size_t i = 0; i < count; ++i)
+    any |= (above[0][i].top.second | beat.weights[i].top.first | above[0][i].left.second |
+            right_of(i).first) != 0;
+
+  ShareToken& out = shares_out.emplace(cycle);
+  out.slot = beat.slot;
+  out.any = any;
+  out.left = beat.left;
+  out.top = beat.top;
+  if (!any) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Weights up = above[0][i].top, down = beat.weights[i].top;
+    const Weights left = above[0][i].left, right = right_of(i);
+    out.shares[i] = {up.second, down.first, left.second, right.first,
+                     up.span,   down.span,  left.span,   right.span};
   }
-  write_weights_.write(cycle, first, std::span<const WeightWord>(row.data(), lanes_));
+}
+
+Activity AreaUnit::tick(Cycle cycle) {
+  bool did = false, blocked = false;
+  const bool arrives = slots_in.can_pop(cycle);
+  if (arrives || !pipe_.empty()) {
+    if (pipe_.leaves() && pipe_.at(8)->slot.row >= lag_ && !shares_out.can_push(cycle)) {
+      blocked = true;
+    } else {
+      pipe_.move();
+      did = true;
+      if (const Beat* beat = pipe_.at(9)) send(cycle, *beat);
+      if (const Beat* beat = pipe_.at(8)) address_weights(cycle, *beat);
+      // Stages 4 to 7 are of the arithmetic that stage 3 begins.
+      if (Beat* beat = pipe_.at(3); beat && beat->any) evaluate(cycle, *beat);
+      if (Beat* beat = pipe_.at(2)) match(cycle, *beat);
+      if (arrives) address_marks(cycle, slots_in.take(cycle), pipe_.enter());
+    }
+  }
+  if (row_.entered_count + column_.entered_count != 0) {
+    if (!store_lines(cycle)) return did ? kBusy : blocked ? kStalledDownstream : kIdle;
+    did = true;
+  }
+  if (lines_h_in.any_arrives(cycle, lanes_)) did |= take_lines(cycle, lines_h_in, row_);
+  if (lines_v_in.any_arrives(cycle, lanes_)) did |= take_lines(cycle, lines_v_in, column_);
+  if (did) return kBusy;
+  return blocked ? kStalledDownstream : kIdle;
 }
 
 void AreaUnit::reset() {

@@ -63,7 +63,7 @@ class AreaUnit final : public Unit {
   static constexpr std::size_t kLanes = spec::morphological::kMaxLanes;
 
   // Where a record lies. Horizontal: its place is its pair of columns; vertical: its column.
-  struct Mark {
+  struct alignas(8) Mark {
     std::uint16_t start = 0;   // U13
     std::uint16_t length = 0;  // U12, 0: none
     std::uint16_t row = 0;     // U13, horizontal only
@@ -81,19 +81,22 @@ class AreaUnit final : public Unit {
     std::uint16_t span = 0;
   };
   struct WeightWord {
-    Weights left, top;  // of top, `first` is used as it is evaluated
+    Weights left{}, top{};  // of top, `first` is used as it is evaluated
   };
+  using WeightWords = std::array<WeightWord, kLanes>;  // of a beat
   // The records of an axis, in banks.
   struct AxisRecords {
     AxisRecords(const std::string& axis, const MemoryShape& marks, std::uint32_t mark_bits,
                 std::uint32_t banks);
     const std::size_t banks;
-    Memory<Mark> marks;
-    ReadPort<Mark> read_marks{marks, "raster"};
+    Memory<void> marks;
+    ReadPort<void> read_marks{marks, "raster"};
     Memory<Walk> records;
     std::vector<ReadPort<Walk>> read;  // a bank each, as the others of banks
-    std::vector<WritePort<Mark>> write_marks;
+    std::vector<WritePort<void>> write_marks;
     std::vector<WritePort<Walk>> write;
+    // The words of `marks`, and as many more as make a beat of most lanes.
+    std::vector<Mark> mark;
     // Lines at the entrance that are stored in this clock.
     std::array<LineToken, kLanes> entered;
     std::size_t entered_count = 0;
@@ -107,15 +110,20 @@ class AreaUnit final : public Unit {
     Slot slot;
     std::uint8_t left, top;
     bool evaluates, any;  // any: one of the edges below lies in a record
+    // The output registers of the marks, as they were in the clock of the address.
+    std::array<Mark, kLanes / 2> row_mark;
+    std::array<Mark, kLanes> column_mark;
     std::array<Edge, kLanes> horizontal, vertical;
-    std::array<Weights, kLanes> below, beside;
+    WeightWords weights;
   };
 
-  void address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat);
+  // Once a clock each, from one place: inline.
+  inline void address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat);
+  inline void address_weights(Cycle cycle, const Beat& beat);
+  inline void send(Cycle cycle, const Beat& beat);
+  inline void share(Cycle cycle, const Beat& beat);
   void match(Cycle cycle, Beat& beat);
   void evaluate(Cycle cycle, Beat& beat);
-  void address_weights(Cycle cycle, const Beat& beat);
-  void send(Cycle cycle, const Beat& beat);
   void clear_marks(Cycle cycle, const Slot& slot);
   bool store_lines(Cycle cycle);
   bool take_lines(Cycle cycle, LanePorts<In<LineToken>>& lines, AxisRecords& side);
@@ -135,9 +143,10 @@ class AreaUnit final : public Unit {
   const std::int32_t lag_;     // rows from a slot to the row that it blends
   const std::size_t columns_;  // whole beats
   const std::size_t pairs_;    // of columns, whole beats
-  Memory<WeightWord> weight_lines_;
-  ReadPort<WeightWord> read_weights_{weight_lines_, "row above"};
-  WritePort<WeightWord> write_weights_{weight_lines_, "row"};
+  Memory<void> weight_lines_;
+  ReadPort<void> read_weights_{weight_lines_, "row above"};
+  WritePort<void> write_weights_{weight_lines_, "row"};
+  std::vector<WeightWords> weights_;  // the words of weight_lines
   AxisRecords row_, column_;
   Pipe<Beat, spec::morphological::kAreaLatency> pipe_;
   Mark hand_;       // the horizontal record in hand, stage 2

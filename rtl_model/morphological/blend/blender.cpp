@@ -50,41 +50,32 @@ Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
     }
 }
 
-Activity Blender::tick(Cycle cycle) {
-  const bool arrives = shares_in.can_pop(cycle) && pixels_in.can_pop(cycle);
-  if (!arrives && pipe_.empty()) return kIdle;
-  if (pipe_.leaves() &&
-      (!pixels_out.can_push(cycle) || (pipe_.at(5)->last && !frames_done_out.can_push(cycle))))
-    return kStalledDownstream;
-  pipe_.move();
-  if (const Beat* beat = pipe_.at(6)) deliver(cycle, *beat);
-  if (Beat* beat = pipe_.at(5)) round(cycle, *beat);
-  if (Beat* beat = pipe_.at(4)) multiply(*beat);
-  if (Beat* beat = pipe_.at(3)) subtract(cycle, *beat);
-  if (const Beat* beat = pipe_.at(2)) address_light(cycle, *beat);
-  if (arrives) {
-    choose(shares_in.front(cycle), pixels_in.front(cycle), pipe_.enter());
-    shares_in.pop(cycle);
-    pixels_in.pop(cycle);
-  }
-  return kBusy;
-}
-
 // Stage 1.
 void Blender::choose(const ShareToken& token, const PixelToken& around, Beat& beat) {
   const FrameRules& rules = store_.rules();
-  const std::size_t count = count_of(token.slot);
-  beat.slot = token.slot;
-  beat.end = token.slot.beat + 1u == rules.beats;
-  beat.last = beat.end && token.slot.row + 1u == rules.rows;
+  const Slot slot = token.slot;
+  const bool end = slot.beat + 1u == rules.beats;
+  const auto count = static_cast<std::size_t>(end ? rules.last_count : store_.lanes());
+  beat.slot = slot.number;
+  beat.last = end && slot.row + 1u == rules.rows;
   beat.blend = 0;
-  beat.centre = around.centre;
+  spec::morphological::BlendedBeat& result = beat.result;
+  result = {};  // what leaves the engine is defined in every lane
+  result.count = static_cast<std::uint8_t>(count);
+  result.end_of_row = end;
+  result.start_of_frame =
+      slot.row == store_.reach_rows() + spec::morphological::kRowLag && slot.beat == 0;
   for (std::size_t i = 0; i < count; ++i) {
-    spec::morphological::BlendTap& tap = beat.tap[i];
-    tap = {};
-    tap.edges = static_cast<std::uint8_t>((token.left >> i & 1) | (token.top >> i & 1) << 1);
-    if (!token.any) continue;
+    result.pixel[i] = around.centre[i];
+    result.tap[i].edges =
+        static_cast<std::uint8_t>((token.left >> i & 1) | (token.top >> i & 1) << 1);
+  }
+  if (token.any) choose_axes(token, around, beat);
+}
 
+void Blender::choose_axes(const ShareToken& token, const PixelToken& around, Beat& beat) {
+  const std::size_t count = beat.result.count;
+  for (std::size_t i = 0; i < count; ++i) {
     const Shares& s = token.shares[i];
     const int vertical_sum = s.up + s.down, horizontal_sum = s.left + s.right;
     if (vertical_sum + horizontal_sum == 0) continue;
@@ -96,6 +87,7 @@ void Blender::choose(const ShareToken& token, const PixelToken& around, Beat& be
       const int span_v = std::max(s.left ? s.span_left : 0, s.right ? s.span_right : 0);
       horizontal = span_h != span_v ? span_h < span_v : vertical_sum < horizontal_sum;
     }
+    spec::morphological::BlendTap& tap = beat.result.tap[i];
     tap.horizontal = horizontal;
     tap.first = horizontal ? s.left : s.up;
     tap.second = horizontal ? s.right : s.down;
@@ -106,6 +98,7 @@ void Blender::choose(const ShareToken& token, const PixelToken& around, Beat& be
     beat.operands[i].code = {around.centre[i], horizontal ? left : around.above[i],
                              horizontal ? right : around.below[i]};
   }
+  blending_ += beat.blend != 0;
 }
 
 // Stage 2.
@@ -139,7 +132,7 @@ void Blender::subtract(Cycle cycle, Beat& beat) {
 void Blender::multiply(Beat& beat) {
   for_each_lane(beat.blend, [&](std::size_t lane) {
     Operands& o = beat.operands[lane];
-    const spec::morphological::BlendTap& tap = beat.tap[lane];
+    const spec::morphological::BlendTap& tap = beat.result.tap[lane];
     for (std::size_t c = 0; c < 3; ++c)
       o.sum[c] = tap.first * o.first[c] + tap.second * o.second[c];
   });
@@ -160,19 +153,16 @@ void Blender::round(Cycle cycle, Beat& beat) {
 
 // Stage 6.
 void Blender::deliver(Cycle cycle, const Beat& beat) {
-  const bool linear = store_.rules().linear_light;
-  const Slot slot = beat.slot;
-  const std::size_t count = count_of(slot);
   spec::morphological::BlendedBeat& out = pixels_out.emplace(cycle);
-  out = {};  // what leaves the engine is defined in every lane
-  out.count = static_cast<std::uint8_t>(count);
-  out.end_of_row = beat.end;
-  out.start_of_frame =
-      slot.row == store_.reach_rows() + spec::morphological::kRowLag && slot.beat == 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    out.tap[i] = beat.tap[i];
-    out.pixel[i] = beat.centre[i];
-  }
+  out = beat.result;
+  if (beat.blend != 0) encode(cycle, beat, out);
+  pixels += out.count;
+  beat_latency.record(probe_.leaves(cycle));
+  if (beat.last) frames_done_out.push(cycle, {beat.slot});
+}
+
+void Blender::encode(Cycle cycle, const Beat& beat, spec::morphological::BlendedBeat& out) {
+  const bool linear = store_.rules().linear_light;
   for_each_lane(beat.blend, [&](std::size_t lane) {
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint16_t value = beat.operands[lane].value[c];
@@ -181,9 +171,34 @@ void Blender::deliver(Cycle cycle, const Beat& beat) {
     }
     ++blended_pixels;
   });
-  pixels += count;
-  beat_latency.record(probe_.leaves(cycle));
-  if (beat.last) frames_done_out.push(cycle, {slot.number});
+}
+
+// Stages 5 to 2, which have nothing to do for a beat of which no lane takes a share.
+void Blender::blend(Cycle cycle) {
+  if (Beat* beat = pipe_.at(5); beat && beat->blend) {
+    round(cycle, *beat);
+    --blending_;
+  }
+  if (Beat* beat = pipe_.at(4)) multiply(*beat);
+  if (Beat* beat = pipe_.at(3)) subtract(cycle, *beat);
+  if (const Beat* beat = pipe_.at(2)) address_light(cycle, *beat);
+}
+
+Activity Blender::tick(Cycle cycle) {
+  const bool arrives = shares_in.can_pop(cycle) && pixels_in.can_pop(cycle);
+  if (!arrives && pipe_.empty()) return kIdle;
+  if (pipe_.leaves() &&
+      (!pixels_out.can_push(cycle) || (pipe_.at(5)->last && !frames_done_out.can_push(cycle))))
+    return kStalledDownstream;
+  pipe_.move();
+  if (const Beat* beat = pipe_.at(6)) deliver(cycle, *beat);
+  if (blending_ != 0) blend(cycle);
+  if (arrives) {
+    choose(shares_in.front(cycle), pixels_in.front(cycle), pipe_.enter());
+    shares_in.pop(cycle);
+    pixels_in.pop(cycle);
+  }
+  return kBusy;
 }
 
 }  // namespace deburr::rtl::morphological

@@ -37,7 +37,10 @@ class Blender final : public Unit {
   Blender(const sc_core::sc_module_name& name, ClockDomain& clock, const ParameterStore& store,
           LatencyProbe& probe);
   Activity tick(Cycle cycle) override;
-  void reset() override { pipe_.reset(); }
+  void reset() override {
+    pipe_.reset();
+    blending_ = 0;
+  }
 
   Counter pixels{"pixels", "pixels", "pixels delivered"};
   Counter blended_pixels{"blended_pixels", "pixels", "pixels that took a share of a neighbour"};
@@ -53,24 +56,23 @@ class Blender final : public Unit {
     std::array<std::uint16_t, 3> value;                 // U0.12
   };
   struct Beat {
-    Slot slot;
-    bool end, last;      // of the row, of the frame
+    std::uint32_t slot;  // number
+    bool last;           // of the frame
     std::uint8_t blend;  // bit k: lane k takes a share
-    LanePixels centre;
-    std::array<spec::morphological::BlendTap, kLanes> tap;
+    spec::morphological::BlendedBeat result;
     std::array<Operands, kLanes> operands;
   };
 
-  void choose(const ShareToken& shares, const PixelToken& around, Beat& beat);
+  // Once a clock each, from one place: inline.
+  inline void choose(const ShareToken& shares, const PixelToken& around, Beat& beat);
+  inline void deliver(Cycle cycle, const Beat& beat);
+  void choose_axes(const ShareToken& shares, const PixelToken& around, Beat& beat);
+  void blend(Cycle cycle);
   void address_light(Cycle cycle, const Beat& beat);
   void subtract(Cycle cycle, Beat& beat);
   void multiply(Beat& beat);
   void round(Cycle cycle, Beat& beat);
-  void deliver(Cycle cycle, const Beat& beat);
-  std::size_t count_of(const Slot& slot) const {
-    return static_cast<std::size_t>(
-        slot.beat + 1u == store_.rules().beats ? store_.rules().last_count : store_.lanes());
-  }
+  void encode(Cycle cycle, const Beat& beat, spec::morphological::BlendedBeat& out);
   static std::size_t light_port(std::size_t lane, std::size_t channel, std::size_t operand) {
     return (lane * 3 + channel) * 3 + operand;
   }
@@ -82,6 +84,7 @@ class Blender final : public Unit {
   Memory<std::uint8_t> encode_rom_;
   std::vector<ReadPort<std::uint8_t>> codes_;  // lane, channel
   Pipe<Beat, spec::morphological::kBlenderLatency + 1> pipe_;
+  std::uint32_t blending_ = 0;  // beats up to stage 5 of which a lane takes a share
 };
 
 }  // namespace deburr::rtl::morphological

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <span>
 
 namespace deburr::rtl::morphological {
 namespace {
@@ -62,22 +61,62 @@ void PixelStore::connect(Link<MemoryRequest>& requests, Link<MemoryResponse>& re
   memory_->responses = &responses;
 }
 
-Activity PixelStore::tick(Cycle cycle) {
-  const Did fetched = fetch(cycle);
-  const Did stored = store(cycle);
-  bool did = fetched == Did::kWork || stored == Did::kWork;
-  if (memory_) {
-    did |= receive(cycle);
-    did |= settle();
-    did |= request(cycle);
-  }
-  if (did) return kBusy;
-  if (fetched == Did::kWaitsForMemory || stored == Did::kWaitsForMemory) return memory_stall_;
-  if (fetched == Did::kWaitsDownstream) return kStalledDownstream;
-  return stored == Did::kWaitsForRows ? rows_stall_ : kIdle;
+// ---- Out ----------------------------------------------------------------------------------------
+
+// storage = memory: have the lines come that the slot needs?
+bool PixelStore::is_loaded(const Slot& slot) const {
+  const FrameRules& rules = store_.rules();
+  const std::int32_t y = slot.row - lag_;
+  if (y + 1 == rules.height) return memory_->loaded.row >= rules.height;
+  const std::int32_t end = std::min((slot.beat + 1) * lanes_, rules.width);
+  const LinePlace needed = {y + 1, static_cast<std::uint32_t>((end - 1) / kLinePixels)};
+  return needed.before(memory_->loaded);
 }
 
-// ---- Out ----------------------------------------------------------------------------------------
+void PixelStore::look_around(std::int32_t slot_row) {
+  const std::int32_t y = slot_row - lag_;
+  above_ = y > 0 ? row(y - 1) : Row{};
+  centre_ = row(y);
+  below_ = y + 1 == store_.rules().height ? Row{} : row(y + 1);
+  around_row_ = slot_row;
+}
+
+// Stage 1.
+void PixelStore::address(Cycle cycle) {
+  words_.before = words_.centre[static_cast<std::size_t>(lanes_) - 1];
+  if (above_.lines) {
+    above_.lines->read.read(cycle, above_.from + beat_);
+    words_.above = above_.lines->words[above_.from + beat_];
+  }
+  const bool goes_on = beat_ + 1 < store_.rules().beats;
+  centre_.lines->read.read(cycle, centre_.from + beat_, goes_on ? 2 : 1);
+  const Word* const centre = &centre_.lines->words[centre_.from + beat_];
+  words_.centre = centre[0];
+  if (goes_on) words_.after = centre[1][0];
+  if (below_.lines) {
+    below_.lines->read.read(cycle, below_.from + beat_);
+    words_.below = below_.lines->words[below_.from + beat_];
+  }
+}
+
+// Stage 2. The rows are those of the slot still: the next one comes into stage 1 after this.
+void PixelStore::send(Cycle cycle) {
+  const std::uint32_t beat = beat_;
+  PixelToken& out = pixels_out.emplace(cycle);
+  centre_.lines->read.check(cycle, centre_.from + beat);
+  out.before = words_.before;
+  out.centre = words_.centre;
+  if (beat + 1 < store_.rules().beats) out.after = words_.after;
+  if (above_.lines) {
+    above_.lines->read.check(cycle, above_.from + beat);
+    out.above = words_.above;
+  }
+  if (below_.lines) {
+    below_.lines->read.check(cycle, below_.from + beat);
+    out.below = words_.below;
+  }
+  fetched_ = false;
+}
 
 PixelStore::Did PixelStore::fetch(Cycle cycle) {
   Did did = Did::kNothing;
@@ -88,44 +127,15 @@ PixelStore::Did PixelStore::fetch(Cycle cycle) {
   }
   if (!fetches_in.can_pop(cycle)) return did;
   const Slot slot = fetches_in.front(cycle).slot;
-  const FrameRules& rules = store_.rules();
-  const std::int32_t y = slot.row - lag_;
-  const bool last_row = y + 1 == rules.height;
-  if (memory_) {
-    const std::int32_t end = std::min((slot.beat + 1) * lanes_, rules.width);
-    const LinePlace needed = {y + 1, static_cast<std::uint32_t>((end - 1) / kLinePixels)};
-    if (last_row ? memory_->loaded.row < rules.height : !needed.before(memory_->loaded))
-      return did == Did::kWork ? did : Did::kWaitsForMemory;
-  }
-  if (slot.row != around_row_) {
-    around_ = {y > 0 ? row(y - 1) : Row{}, row(y), last_row ? Row{} : row(y + 1)};
-    around_row_ = slot.row;
-  }
-  sent_ = around_;
-  const auto& [above, centre, below] = sent_;
-  if (above.lines) above.lines->read.read(cycle, above.from + slot.beat);
-  centre.lines->read.read(cycle, centre.from + slot.beat, slot.beat + 1u < rules.beats ? 2 : 1);
-  if (below.lines) below.lines->read.read(cycle, below.from + slot.beat);
+  if (memory_ && !is_loaded(slot)) return did == Did::kWork ? did : Did::kWaitsForMemory;
+  fetches_in.pop(cycle);
+  if (slot.row != around_row_) look_around(slot.row);
+  beat_ = slot.beat;
+  address(cycle);
   fetched_ = true;
-  slot_ = slot;
   asked_row_ = slot.row;
   asked_beat_ = slot.beat + 1u;
-  fetches_in.pop(cycle);
   return Did::kWork;
-}
-
-// Stage 2.
-void PixelStore::send(Cycle cycle) {
-  const auto& [above, centre, below] = sent_;
-  const std::size_t at = centre.from + slot_.beat;
-  PixelToken& out = pixels_out.emplace(cycle);
-  out.centre = centre.lines->read.at(cycle, at);
-  if (above.lines) out.above = above.lines->read.at(cycle, above.from + slot_.beat);
-  if (below.lines) out.below = below.lines->read.at(cycle, below.from + slot_.beat);
-  out.before = last_;
-  if (slot_.beat + 1u < store_.rules().beats) out.after = centre.lines->read.at(cycle, at + 1)[0];
-  last_ = out.centre[static_cast<std::size_t>(lanes_) - 1];
-  fetched_ = false;
 }
 
 // ---- In -----------------------------------------------------------------------------------------
@@ -142,10 +152,26 @@ PixelStore::Did PixelStore::store(Cycle cycle) {
   } else {
     if (!is_free(slot.row, slot.beat)) return Did::kWaitsForRows;
     if (slot.beat == 0) in_ = row(slot.row);
-    in_.lines->write.write(cycle, in_.from + slot.beat, beat.pixel);
+    in_.lines->write.write(cycle, in_.from + slot.beat);
+    in_.lines->words[in_.from + slot.beat] = beat.pixel;
   }
   beats_in.pop(cycle);
   return Did::kWork;
+}
+
+Activity PixelStore::tick(Cycle cycle) {
+  const Did fetched = fetch(cycle);
+  const Did stored = store(cycle);
+  bool did = fetched == Did::kWork || stored == Did::kWork;
+  if (memory_) {
+    did |= receive(cycle);
+    did |= settle();
+    did |= request(cycle);
+  }
+  if (did) return kBusy;
+  if (fetched == Did::kWaitsForMemory || stored == Did::kWaitsForMemory) return memory_stall_;
+  if (fetched == Did::kWaitsDownstream) return kStalledDownstream;
+  return stored == Did::kWaitsForRows ? rows_stall_ : kIdle;
 }
 
 void PixelStore::begin_frame() {
@@ -207,15 +233,12 @@ bool PixelStore::load(Cycle cycle, const MemoryResponse& response) {
   const std::size_t words = kLinePixels / lanes, part = std::min(words, kStoreWords);
   const std::size_t from = m.half ? part : 0;
   const std::uint32_t line = response.tag >> kFlightBits & ((1u << kLineBits) - 1);
-  std::array<Word, kStoreWords> beats;
-  for (std::size_t i = 0; i < part; ++i)
-    std::memcpy(beats[i].data(),
-                response.data.data() +
-                    (from + i) * lanes * std::size_t{spec::morphological::kFramePixelBytes},
-                lanes * std::size_t{spec::morphological::kFramePixelBytes});
   const Row to = row(static_cast<std::int32_t>(response.tag >> (kFlightBits + kLineBits)));
-  to.lines->write.write(cycle, to.from + line * words + from,
-                        std::span<const Word>(beats.data(), part));
+  const std::size_t at = to.from + line * words + from;
+  to.lines->write.write(cycle, at, part);
+  const std::size_t bytes = lanes * std::size_t{spec::morphological::kFramePixelBytes};
+  for (std::size_t i = 0; i < part; ++i)
+    std::memcpy(to.lines->words[at + i].data(), response.data.data() + (from + i) * bytes, bytes);
   m.half = !m.half && part < words;
   return !m.half;
 }

@@ -132,16 +132,22 @@ class PixelStore final : public Unit {
   using Word = LanePixels;
   // Every fourth row.
   struct Lines {
-    Lines(const std::string& name, const MemoryShape& shape) : memory(name.c_str(), shape) {}
-    Memory<Word> memory;
-    ReadPort<Word> read{memory, "blended row and its neighbours"};
-    WritePort<Word> write{memory, "in"};
+    Lines(const std::string& name, const MemoryShape& shape)
+        : memory(name.c_str(), shape), words(shape.words) {}
+    Memory<void> memory;
+    ReadPort<void> read{memory, "blended row and its neighbours"};
+    WritePort<void> write{memory, "in"};
+    std::vector<Word> words;
   };
   static constexpr std::int32_t kLines = 4;
 
-  Did fetch(Cycle cycle);
-  void send(Cycle cycle);
-  Did store(Cycle cycle);
+  // Once a clock each, from one place: inline.
+  inline Did fetch(Cycle cycle);
+  inline void address(Cycle cycle);
+  inline void send(Cycle cycle);
+  inline Did store(Cycle cycle);
+  bool is_loaded(const Slot& slot) const;
+  void look_around(std::int32_t slot_row);
   bool gather(Cycle cycle, const BeatToken& beat, std::int32_t x, std::int32_t count);
   bool receive(Cycle cycle);
   bool load(Cycle cycle, const MemoryResponse& response);
@@ -170,21 +176,19 @@ class PixelStore final : public Unit {
   Activity memory_stall_, rows_stall_;
   std::vector<std::unique_ptr<Lines>> lines_;
   Row in_;  // of the beat that comes in
-  struct Around {
-    Row above, centre, below;
-  };
-  // Of the slot in stage 1 and of that in stage 2.
-  Around around_, sent_;
-  std::int32_t around_row_ = -1;  // slot row of around_
+  // Around the slot row `around_row_`.
+  Row above_, centre_, below_;
+  std::int32_t around_row_ = -1;
   std::optional<InMemory> memory_;
 
   // The slot that comes next into stage 1.
   std::int32_t asked_row_ = 0;
   std::uint32_t asked_beat_ = 0;
-  // Stage 2.
+  // Stage 2. The output registers of the lines hold the words as they were in the clock of the
+  // address, whatever is stored there from that clock on.
   bool fetched_ = false;
-  Slot slot_{};
-  spec::morphological::Rgba8 last_{};  // pixel of the beat before
+  std::uint32_t beat_ = 0;
+  PixelToken words_{};
 };
 
 }  // namespace deburr::rtl::morphological

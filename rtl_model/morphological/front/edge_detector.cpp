@@ -2,6 +2,8 @@
 #include "rtl_model/morphological/front/edge_detector.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 
 namespace deburr::rtl::morphological {
 namespace {
@@ -14,32 +16,76 @@ std::uint64_t words_for(std::int32_t columns, std::uint32_t lanes) {
 
 }  // namespace
 
-EdgeDetector::DepthLines::DepthLines(std::int32_t columns, std::uint32_t lanes)
-    : lines("depth_lines", {.words = words_for(columns, lanes),
-                            .word_bits = 2 * 24,
-                            .read_during_write = ReadDuringWrite::kNewWord,
-                            .banks = lanes,
-                            .span = lanes,
-                            .content = "a column of the last two rows of depth",
-                            .columns = static_cast<std::uint64_t>(columns)}) {}
+EdgeDetector::Lines::Lines(const char* name, const MemoryShape& shape, std::size_t lanes)
+    : lanes_(lanes), span_(shape.span), memory_(name, shape) {
+  rows_.fill(std::vector<std::uint32_t>(shape.words + spec::morphological::kMaxLanes));
+}
+
+// The memory says first whether the columns are there. Lanes that are not built are written too:
+// the next beat replaces them, before anyone looks.
+inline void EdgeDetector::Lines::take(Cycle cycle, const Slot& slot, const Lanes32& pixels) {
+  const std::uint64_t x = slot.beat * lanes_;
+  above_.read(cycle, x, std::min(span_, memory_.words() - x));
+  std::memcpy(&rows_[slot.row % rows_.size()][x], pixels.data(), sizeof pixels);
+}
 
 EdgeDetector::EdgeDetector(const sc_core::sc_module_name& name, ClockDomain& clock,
                            const spec::morphological::Parameters& p, const ParameterStore& store)
     : Unit(name, clock),
       store_(store),
-      lanes_(static_cast<std::size_t>(store.lanes())),
+      lanes_(static_cast<std::uint32_t>(store.lanes())),
       // The columns of a beat and the one beside it lie in banks of their own.
-      luma_lines_("luma_lines",
-                  {.words = std::max<std::uint64_t>(
-                       words_for(p.line_pixels, static_cast<std::uint32_t>(lanes_)), 2 * lanes_),
-                   .word_bits = 3 * 24,
-                   .read_during_write = ReadDuringWrite::kNewWord,
-                   .banks = static_cast<std::uint32_t>(2 * lanes_),
-                   .span = static_cast<std::uint32_t>(lanes_ + 1),
-                   .content = "a column of the last three rows of luma",
-                   .columns = static_cast<std::uint64_t>(p.line_pixels)}) {
-  if (p.edge_source != spec::morphological::EdgeSource::kLuma)
-    depth_.emplace(p.line_pixels, static_cast<std::uint32_t>(lanes_));
+      luma_("luma_lines",
+            {.words = std::max<std::uint64_t>(words_for(p.line_pixels, lanes_), 2 * lanes_),
+             .word_bits = 3 * 24,
+             .read_during_write = ReadDuringWrite::kNewWord,
+             .banks = 2 * lanes_,
+             .span = lanes_ + 1,
+             .content = "a column of the last three rows of luma",
+             .columns = static_cast<std::uint64_t>(p.line_pixels)},
+            lanes_) {
+  if (p.edge_source == spec::morphological::EdgeSource::kLuma) return;
+  depth_.emplace("depth_lines",
+                 MemoryShape{.words = words_for(p.line_pixels, lanes_),
+                             .word_bits = 2 * 24,
+                             .read_during_write = ReadDuringWrite::kNewWord,
+                             .banks = lanes_,
+                             .span = lanes_,
+                             .content = "a column of the last two rows of depth",
+                             .columns = static_cast<std::uint64_t>(p.line_pixels)},
+                 lanes_);
+}
+
+// Those that are large enough, of `count` pixels of row y, where there is a neighbour at all. By
+// the plain rule, a fixed threshold for luma; by the others.
+inline EdgeDetector::Edges EdgeDetector::plain_steps(std::int32_t first, std::int32_t count,
+                                                     std::int32_t y) const {
+  const std::uint32_t *const here = luma_.row(y) + first, *const above = luma_.row(y - 1) + first;
+  const std::uint32_t threshold = store_.rules().threshold;
+  std::uint32_t before = first == 0 ? 0 : here[-1];
+  Edges edges;
+  for (std::int32_t i = 0; i < count; ++i) {
+    edges.left |= std::uint32_t{distance(here[i], before) >= threshold} << i;
+    edges.top |= std::uint32_t{distance(here[i], above[i]) >= threshold} << i;
+    before = here[i];
+  }
+  return edges;
+}
+
+inline void EdgeDetector::decide(EdgeToken& out) {
+  const FrameRules& rules = store_.rules();
+  const bool plain = rules.source == spec::morphological::EdgeSource::kLuma && !rules.dynamic;
+  const std::int32_t y = out.slot.row - 1, first = out.slot.beat * store_.lanes();
+  const std::int32_t count = std::min(store_.lanes(), rules.width - first);
+  Edges edges = plain ? plain_steps(first, count, y) : steps(first, count, y);
+  if (first == 0) edges.left &= ~1u;
+  if (y == 0) edges.top = 0;
+  if ((edges.left | edges.top) == 0) return;
+  if (rules.local_contrast != spec::morphological::LocalContrast::kOff)
+    keep_strong(edges, first, y);
+  out.left = static_cast<std::uint8_t>(edges.left);
+  out.top = static_cast<std::uint8_t>(edges.top);
+  edge_pixels += static_cast<std::uint64_t>(std::popcount(edges.left | edges.top));
 }
 
 Activity EdgeDetector::tick(Cycle cycle) {
@@ -47,98 +93,51 @@ Activity EdgeDetector::tick(Cycle cycle) {
   if (pipe_.empty() && !arrives) return kIdle;
   if (pipe_.leaves() && !edges_out.can_push(cycle)) return kStalledDownstream;
   pipe_.move();
-  if (const Beat* beat = pipe_.at(4)) edges_out.push(cycle, beat->out);
+  if (const EdgeToken* edges = pipe_.at(4)) edges_out.push(cycle, *edges);
   const std::int32_t height = store_.rules().height;
-  if (Beat* beat = pipe_.at(2)) {
-    const Slot& slot = beat->in.slot;
-    beat->out.slot = slot;
-    beat->out.left = beat->out.top = 0;
-    if (slot.row <= height) {
-      gather(cycle, beat->in);
-      if (slot.row >= 1) decide(beat->in, beat->out);
+  if (EdgeToken* edges = pipe_.at(2)) {
+    edges->left = edges->top = 0;
+    if (edges->slot.row <= height) {
+      luma_.shift(cycle, edges->slot);
+      if (depth_) depth_->shift(cycle, edges->slot);
+      if (edges->slot.row >= 1) decide(*edges);
     }
   }
   if (!arrives) return kBusy;
-  Beat& beat = pipe_.enter();
-  beat.in = lumas_in.take(cycle);
-  if (beat.in.slot.row <= height) address(cycle, beat.in.slot);
+  const LumaToken& token = lumas_in.front(cycle);
+  pipe_.enter().slot = token.slot;
+  if (token.slot.row <= height) {
+    luma_.take(cycle, token.slot, token.luma);
+    if (depth_) depth_->take(cycle, token.slot, token.depth);
+  }
+  lumas_in.pop(cycle);
   return kBusy;
 }
 
-void EdgeDetector::address(Cycle cycle, const Slot& slot) {
-  const std::size_t x = slot.beat * lanes_;
-  const std::size_t words = luma_lines_.words();
-  read_luma_.read(cycle, x, static_cast<std::uint32_t>(std::min(lanes_ + 1, words - x)));
-  if (depth_) depth_->read.read(cycle, x, static_cast<std::uint32_t>(lanes_));
+EdgeDetector::Edges EdgeDetector::steps(std::int32_t first, std::int32_t count,
+                                        std::int32_t y) const {
+  Edges edges;
+  for (std::int32_t i = 0; i < count; ++i) {
+    const std::int32_t x = first + i;
+    if (x > 0 && is_edge({x, y}, {x - 1, y})) edges.left |= 1u << i;
+    if (y > 0 && is_edge({x, y}, {x, y - 1})) edges.top |= 1u << i;
+  }
+  return edges;
 }
 
-// The words on the output registers and the beat that has come, beside the columns before; then the
-// words go back, a row on.
-void EdgeDetector::gather(Cycle cycle, const LumaToken& token) {
-  const std::size_t x = token.slot.beat * lanes_;
-  const auto shift = [&](auto& around) {
-    for (auto& row : around)
-      for (std::size_t i = 0; i < kBefore; ++i) row[i] = row[i + lanes_];
-  };
-  shift(around_);
-  row_ = token.slot.row;
-  column_ = static_cast<std::int32_t>(x) - static_cast<std::int32_t>(kBefore);
-  std::array<LumaWord, spec::morphological::kMaxLanes> back;
-  for (std::size_t i = 0; i < lanes_; ++i) {
-    const LumaWord& word = read_luma_.at(cycle, x + i);
-    around_[0][kBefore + i] = token.luma[i];
-    for (std::size_t row = 0; row < 3; ++row) around_[row + 1][kBefore + i] = word[row];
-    back[i] = {token.luma[i], word[0], word[1]};
-  }
-  if (x + lanes_ < luma_lines_.words()) {
-    const LumaWord& word = read_luma_.at(cycle, x + lanes_);
-    for (std::size_t row = 0; row < 3; ++row) around_[row + 1][kBefore + lanes_] = word[row];
-  }
-  write_luma_.write(cycle, x, std::span<const LumaWord>(back.data(), lanes_));
-  if (!depth_) return;
-  shift(depth_->around);
-  std::array<DepthWord, spec::morphological::kMaxLanes> depth_back;
-  for (std::size_t i = 0; i < lanes_; ++i) {
-    const DepthWord& word = depth_->read.at(cycle, x + i);
-    depth_->around[0][kBefore + i] = token.depth[i];
-    for (std::size_t row = 0; row < 2; ++row) depth_->around[row + 1][kBefore + i] = word[row];
-    depth_back[i] = {token.depth[i], word[0]};
-  }
-  depth_->write.write(cycle, x, std::span<const DepthWord>(depth_back.data(), lanes_));
-}
-
-void EdgeDetector::decide(const LumaToken& token, EdgeToken& out) {
-  const FrameRules& rules = store_.rules();
-  const bool plain = rules.source == spec::morphological::EdgeSource::kLuma && !rules.dynamic;
-  const bool contrast = rules.local_contrast != spec::morphological::LocalContrast::kOff;
-  const std::int32_t lanes = store_.lanes(), y = token.slot.row - 1;
-  const std::int32_t first = token.slot.beat * lanes, end = std::min(first + lanes, rules.width);
-  for (std::int32_t x = first; x < end; ++x) {
+void EdgeDetector::keep_strong(Edges& edges, std::int32_t first, std::int32_t y) const {
+  for (std::uint32_t left = edges.left | edges.top; left != 0; left &= left - 1) {
+    const std::int32_t lane = std::countr_zero(left), x = first + lane;
     const Position p{x, y}, l{x - 1, y}, t{x, y - 1};
-    bool left, top;
-    if (plain) {
-      const std::uint32_t luma_p = luma(p);
-      left = x > 0 && distance(luma_p, luma(l)) >= rules.threshold;
-      top = y > 0 && distance(luma_p, luma(t)) >= rules.threshold;
-    } else {
-      left = x > 0 && is_edge(p, l);
-      top = y > 0 && is_edge(p, t);
-    }
-    if (contrast) {
-      left = left && survives(p, l, t);
-      top = top && survives(p, t, l);
-    }
-    const int lane = x - first;
-    out.left = static_cast<std::uint8_t>(out.left | int{left} << lane);
-    out.top = static_cast<std::uint8_t>(out.top | int{top} << lane);
-    if (left || top) ++edge_pixels;
+    if (edges.left >> lane & 1 && !survives(p, l, t)) edges.left ^= 1u << lane;
+    if (edges.top >> lane & 1 && !survives(p, t, l)) edges.top ^= 1u << lane;
   }
 }
 
 // Both pixels are inside.
 bool EdgeDetector::is_edge(Position p, Position q) const {
   const FrameRules& rules = store_.rules();
-  const std::uint32_t c = distance(luma(p), luma(q));
+  const std::uint32_t c = distance(luma_[p], luma_[q]);
   switch (rules.source) {
     case spec::morphological::EdgeSource::kDepth:
       return depth_edge(p, q);
@@ -148,19 +147,20 @@ bool EdgeDetector::is_edge(Position p, Position q) const {
       break;
   }
   if (!rules.dynamic) return c >= rules.threshold;
-  const std::uint32_t reference = rules.dynamic_max ? std::max(luma(p), luma(q)) : luma(p);
+  const std::uint32_t reference = rules.dynamic_max ? std::max(luma_[p], luma_[q]) : luma_[p];
   // U8.32: both sides are products with U0.16.
   return (std::uint64_t{c} << 16) > std::uint64_t{rules.alpha} * reference && c >= rules.floor;
 }
 
 bool EdgeDetector::depth_edge(Position p, Position q) const {
-  const std::uint32_t a = depth(p), b = depth(q);
+  if (!depth_) return false;  // not built: all of it is 0
+  const std::uint32_t a = (*depth_)[p], b = (*depth_)[q];
   return a != b && (std::uint64_t{distance(a, b)} << 16) >=
                        std::uint64_t{store_.rules().depth_threshold} * std::max(a, b);
 }
 
 std::uint32_t EdgeDetector::step(Position p, Position q) const {
-  return inside(p) && inside(q) ? distance(luma(p), luma(q)) : 0;
+  return inside(p) && inside(q) ? distance(luma_[p], luma_[q]) : 0;
 }
 
 // Is the step from p to its neighbour `across` (left or top) more than half of the largest step

@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <optional>
 #include <systemc>
+#include <vector>
 
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
@@ -45,39 +46,45 @@ class EdgeDetector final : public Unit {
   struct Position {
     std::int32_t x, y;
   };
-  struct Beat {
-    LumaToken in;
-    EdgeToken out;
+  // A memory of lines, its content by rows: row y is at y modulo 4, which holds the row that comes
+  // in and the three above it. A word of the memory is what stands in a column above that row.
+  // Beats read and write back in the order of the raster, and a read sees what is written in its
+  // clock: so a beat finds in stage 2 what was read for it in stage 1. Its own pixels stand in
+  // their row from stage 1 on, when the beat before has been decided.
+  class Lines {
+   public:
+    Lines(const char* name, const MemoryShape& shape, std::size_t lanes);
+    // Stage 1; stage 2: the words go back, a row on.
+    void take(Cycle cycle, const Slot& slot, const Lanes32& pixels);
+    void shift(Cycle cycle, const Slot& slot) {
+      above_.check(cycle, slot.beat * lanes_);
+      shift_.write(cycle, slot.beat * lanes_, lanes_);
+    }
+    const std::uint32_t* row(std::int32_t y) const {
+      return rows_[static_cast<std::size_t>(y) % rows_.size()].data();
+    }
+    std::uint32_t operator[](Position p) const { return row(p.y)[p.x]; }
+
+   private:
+    const std::size_t lanes_, span_;
+    Memory<void> memory_;
+    ReadPort<void> above_{memory_, "above"};
+    WritePort<void> shift_{memory_, "shift"};
+    std::array<std::vector<std::uint32_t>, 4> rows_;
   };
-  // A column of the rows above the one that comes in, the nearest first.
-  using LumaWord = std::array<std::uint32_t, 3>;
-  using DepthWord = std::array<std::uint32_t, 2>;
-  // The columns around a beat, of the row that comes in and those above it.
-  static constexpr std::size_t kBefore = 2;  // columns before the beat
-  static constexpr std::size_t kColumns = kBefore + spec::morphological::kMaxLanes + 1;
-  template <std::size_t kRows>
-  using Surroundings = std::array<std::array<std::uint32_t, kColumns>, kRows>;
-  struct DepthLines {
-    DepthLines(std::int32_t columns, std::uint32_t lanes);
-    Memory<DepthWord> lines;
-    ReadPort<DepthWord> read{lines, "above"};
-    WritePort<DepthWord> write{lines, "shift"};
-    Surroundings<3> around{};
+  // Bit k: lane k.
+  struct Edges {
+    std::uint32_t left = 0, top = 0;
   };
 
-  void address(Cycle cycle, const Slot& slot);
-  void gather(Cycle cycle, const LumaToken& token);
-  void decide(const LumaToken& token, EdgeToken& out);
+  void decide(EdgeToken& out);
+  Edges plain_steps(std::int32_t first, std::int32_t count, std::int32_t y) const;
+  Edges steps(std::int32_t first, std::int32_t count, std::int32_t y) const;
+  void keep_strong(Edges& edges, std::int32_t first, std::int32_t y) const;
   bool is_edge(Position p, Position q) const;
   bool depth_edge(Position p, Position q) const;
   bool survives(Position p, Position across, Position along) const;
 
-  std::uint32_t luma(Position p) const { return around_[row_of(p)][column_of(p)]; }
-  std::uint32_t depth(Position p) const {
-    return depth_ ? depth_->around[row_of(p)][column_of(p)] : 0;
-  }
-  std::size_t row_of(Position p) const { return static_cast<std::size_t>(row_ - p.y); }
-  std::size_t column_of(Position p) const { return static_cast<std::size_t>(p.x - column_); }
   bool inside(Position p) const {
     return p.x >= 0 && p.y >= 0 && p.x < store_.rules().width && p.y < store_.rules().height;
   }
@@ -85,14 +92,10 @@ class EdgeDetector final : public Unit {
   std::uint32_t step(Position p, Position q) const;
 
   const ParameterStore& store_;
-  const std::size_t lanes_;
-  Memory<LumaWord> luma_lines_;
-  ReadPort<LumaWord> read_luma_{luma_lines_, "above"};
-  WritePort<LumaWord> write_luma_{luma_lines_, "shift"};
-  std::optional<DepthLines> depth_;
-  Pipe<Beat, spec::morphological::kEdgeLatency> pipe_;
-  Surroundings<4> around_{};
-  std::int32_t row_ = 0, column_ = 0;  // of around_[0][0]
+  const std::uint32_t lanes_;
+  Lines luma_;
+  std::optional<Lines> depth_;
+  Pipe<EdgeToken, spec::morphological::kEdgeLatency> pipe_;
 };
 
 }  // namespace deburr::rtl::morphological

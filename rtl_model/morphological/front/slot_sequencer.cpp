@@ -10,6 +10,28 @@ SlotSequencer::SlotSequencer(const sc_core::sc_module_name& name, ClockDomain& c
       probe_(probe),
       upstream_(declare_stall("upstream", "inside a frame, and no beat has come")) {}
 
+inline void SlotSequencer::take_beat(Cycle cycle) {
+  const FrameRules& rules = store_.rules();
+  const spec::morphological::PixelBeat& beat = pixels_in.front(cycle);
+  const bool end = next_.beat + 1u == rules.beats;
+  const int count = end ? rules.last_count : store_.lanes();
+  if (beat.count != count || beat.end_of_row != end || beat.start_of_frame != (next_.number == 0))
+      [[unlikely]] {
+    ++framing_errors;
+    store_.set_sticky(spec::morphological::reg::kStatusFraming);
+  }
+  SlotToken& slot = slots_out.emplace(cycle);
+  BeatToken& stored = beats_out.emplace(cycle);
+  slot.slot = stored.slot = next_;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    slot.pixel[i] = stored.pixel[i] = beat.pixel[i];
+    slot.depth[i] = beat.depth[i] & 0xFFFFFF;
+  }
+  ++beats;
+  probe_.enters(cycle);
+  pixels_in.pop(cycle);
+}
+
 Activity SlotSequencer::tick(Cycle cycle) {
   if (!issuing_) [[unlikely]] {
     if (frames_done_in.can_pop(cycle)) {
@@ -45,28 +67,6 @@ Activity SlotSequencer::tick(Cycle cycle) {
     if (++next_.row == rules.rows) issuing_ = false;
   }
   return kBusy;
-}
-
-void SlotSequencer::take_beat(Cycle cycle) {
-  const FrameRules& rules = store_.rules();
-  const spec::morphological::PixelBeat& beat = pixels_in.front(cycle);
-  const bool end = next_.beat + 1u == rules.beats;
-  const int count = end ? rules.last_count : store_.lanes();
-  if (beat.count != count || beat.end_of_row != end || beat.start_of_frame != (next_.number == 0))
-      [[unlikely]] {
-    ++framing_errors;
-    store_.set_sticky(spec::morphological::reg::kStatusFraming);
-  }
-  SlotToken& slot = slots_out.emplace(cycle);
-  BeatToken& stored = beats_out.emplace(cycle);
-  slot.slot = stored.slot = next_;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    slot.pixel[i] = stored.pixel[i] = beat.pixel[i];
-    slot.depth[i] = beat.depth[i] & 0xFFFFFF;
-  }
-  ++beats;
-  probe_.enters(cycle);
-  pixels_in.pop(cycle);
 }
 
 void SlotSequencer::reset() {

@@ -43,8 +43,10 @@ class EdgeRows {
              std::uint32_t top) {
     const auto place = static_cast<std::uint32_t>(column) % kWordColumns;
     if (place == 0) gathered_ = {};
-    gathered_.left |= std::uint64_t{left} << place;
-    gathered_.top |= std::uint64_t{top} << place;
+    if ((left | top) != 0) {
+      gathered_.left |= std::uint64_t{left} << place;
+      gathered_.top |= std::uint64_t{top} << place;
+    }
     if (place + lanes_ == kWordColumns || column + lanes_ >= store_.rules().width)
       update_[parity(y)].write(cycle, address(y, column), gathered_);
   }

@@ -2,6 +2,7 @@
 #include "rtl_model/morphological/runs/edge_window.h"
 
 #include <algorithm>
+#include <bit>
 #include <string>
 
 #include "rtl_model/morphological/runs/port_schedule.h"
@@ -12,24 +13,33 @@ namespace {
 
 // The two columns beside vertical lattice line `line`, and their newest rows.
 struct BesideLine {
-  const EdgeColumn &before, &after;
+  const EdgeWindow& window;
+  std::int32_t line;
+  bool border;  // the line is the frame's right border
   std::int32_t newest_before, newest_after, rows;
 
-  std::int32_t age(std::int32_t newest, std::int32_t y) const {
+  void check(std::int32_t newest, std::int32_t y) const {
     const std::int32_t age = newest - y;
     if (age < 0 || age >= rows) [[unlikely]]
       throw spec::CheckFailed("edge_window: row " + std::to_string(y) + " is not among the " +
                               std::to_string(rows) + " up to row " + std::to_string(newest));
-    return age;
   }
   std::uint8_t code(std::int32_t y) const {
-    const std::int32_t here = age(newest_after, y), above = age(newest_after, y - 1);
-    return static_cast<std::uint8_t>(int{after.left[above]} | int{after.left[here]} << 1 |
-                                     int{before.top[age(newest_before, y)]} << 2 |
-                                     int{after.top[here]} << 3);
+    check(newest_after, y);
+    check(newest_after, y - 1);
+    check(newest_before, y);
+    const int first = int{window.top(line - 1, y)} << 2;
+    if (border) return static_cast<std::uint8_t>(first);
+    return static_cast<std::uint8_t>(int{window.left(line, y - 1)} |
+                                     int{window.left(line, y)} << 1 | first |
+                                     int{window.top(line, y)} << 3);
   }
   bool unbroken(std::int32_t from, std::int32_t end) const {
-    return after.left.all(age(newest_after, end - 1), age(newest_after, from));
+    check(newest_after, end - 1);
+    check(newest_after, from);
+    if (border) return from == end;
+    while (from < end && window.left(line, from)) ++from;
+    return from == end;
   }
 };
 
@@ -54,11 +64,19 @@ EdgeWindow::EdgeWindow(const char* name, const spec::morphological::Parameters& 
       store_(store),
       lanes_(store.lanes()),
       rows_(p.window_rows + 1),
+      lane_bits_(static_cast<std::uint32_t>(std::countr_zero(static_cast<std::uint32_t>(lanes_)))),
+      row_mask_(std::bit_ceil(static_cast<std::uint32_t>(rows_)) - 1),
+      row_beats_(static_cast<std::size_t>(p.line_pixels / lanes_) + 2),
       beat_(memory, "extractor"),
       update_(memory, "extractor"),
-      columns_(static_cast<std::size_t>(p.line_pixels) + 1) {
+      bits_((row_mask_ + 1) * row_beats_) {
   for (int i = 0; i < PortSchedule(p).ports(); ++i)
     lines_.emplace_back(memory, "predictors " + std::to_string(i));
+}
+
+void EdgeWindow::clear(std::int32_t beat) {
+  for (std::int32_t y = 0; y <= static_cast<std::int32_t>(row_mask_); ++y)
+    bits_[place(beat, y)] = {};
 }
 
 void EdgeWindow::read(Cycle cycle, std::size_t port, const Trial& trial) {
@@ -68,12 +86,10 @@ void EdgeWindow::read(Cycle cycle, std::size_t port, const Trial& trial) {
 }
 
 std::uint8_t EdgeWindow::hits(Cycle cycle, std::size_t port, const Trial& trial) const {
-  static constexpr EdgeColumn kNoEdges;
   const std::int32_t line = trial.line;
   lines_[port].check(cycle, at(std::max(line - 1, 0)));
-  const EdgeColumn* const column = &columns_[at(line)];
-  const BesideLine edges{column[0], line == store_.rules().width ? kNoEdges : column[1],
-                         newest_row(line - 1), newest_row(line), rows_};
+  const BesideLine edges{
+      *this, line, line == store_.rules().width, newest_row(line - 1), newest_row(line), rows_};
   return hits_of(trial, edges, store_.rules().contiguous);
 }
 

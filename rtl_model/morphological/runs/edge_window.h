@@ -19,7 +19,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <vector>
@@ -30,51 +29,9 @@
 
 namespace deburr::rtl::morphological {
 
-// A column of one plane; bit k: the k-th newest row.
-class ColumnBits {
- public:
-  static constexpr std::int32_t kMostRows = 259;
-
-  bool operator[](std::int32_t age) const {
-    const auto bit = static_cast<std::uint32_t>(age);
-    return words_[bit / 64] >> bit % 64 & 1;
-  }
-  // Bits first..first + 31.
-  std::uint32_t from(std::int32_t first) const {
-    const auto bit = static_cast<std::uint32_t>(first);
-    std::uint64_t bits = words_[bit / 64] >> bit % 64;
-    if (bit % 64 > 32) bits |= words_[bit / 64 + 1] << (64 - bit % 64);
-    return static_cast<std::uint32_t>(bits);
-  }
-  // A row on, in columns of so many rows.
-  void move_on(bool newest, std::int32_t rows) {
-    const auto last = static_cast<std::uint32_t>(rows - 1);
-    std::uint64_t in = newest ? 1 : 0;
-    for (std::uint32_t i = 0; i <= last / 64; ++i) {
-      const std::uint64_t out = words_[i] >> 63;
-      words_[i] = words_[i] << 1 | in;
-      in = out;
-    }
-    words_[last / 64] &= ~std::uint64_t{0} >> (63 - last % 64);
-  }
-  // Are the bits first..last all set?
-  bool all(std::int32_t first, std::int32_t last) const {
-    for (; first <= last; first = (first | 63) + 1)
-      if (~words_[static_cast<std::uint32_t>(first) / 64] & mask(first, last)) return false;
-    return true;
-  }
-
- private:
-  // Of the word that `first` lies in.
-  static std::uint64_t mask(std::int32_t first, std::int32_t last) {
-    const std::uint64_t from = ~std::uint64_t{0} << (first & 63);
-    return last > (first | 63) ? from : from & ~std::uint64_t{0} >> (63 - (last & 63));
-  }
-  std::array<std::uint64_t, kMostRows / 64 + 2> words_{};
-};
-
-struct EdgeColumn {
-  ColumnBits left, top;
+// The edges of a beat in a row; bit k: lane k.
+struct EdgeBits {
+  std::uint8_t left = 0, top = 0;
 };
 
 class EdgeWindow {
@@ -86,13 +43,24 @@ class EdgeWindow {
   void read_beat(Cycle cycle, std::int32_t column) {
     beat_.read(cycle, at(column), columns(column));
   }
-  // In a clock after: the words of that beat, which go back in slot row `row`, changed. The column
-  // before them stands in front of them, and is nothing at the frame's border.
-  EdgeColumn* write_beat(Cycle cycle, std::int32_t column, std::int32_t row) {
+  // In a clock after: the words of that beat go back in slot row `row`, moved on by the row above.
+  void write_beat(Cycle cycle, std::int32_t column, std::int32_t row, EdgeBits newest) {
     beat_.check(cycle, at(column));
     update_.write(cycle, at(column), columns(column));
     progress_ = {row, column + lanes_};
-    return &columns_[at(column) + 1];
+    if (row == 0) [[unlikely]]
+      clear(column >> lane_bits_);
+    else
+      bits_[place(column >> lane_bits_, row - 1)] = newest;
+  }
+  // Bits of those words, and of the column before them, a register in hardware, which is nothing at
+  // the frame's border.
+  EdgeBits beat(std::int32_t beat, std::int32_t y) const { return bits_[place(beat, y)]; }
+  bool left(std::int32_t x, std::int32_t y) const {
+    return beat(x >> lane_bits_, y).left >> lane(x) & 1;
+  }
+  bool top(std::int32_t x, std::int32_t y) const {
+    return beat(x >> lane_bits_, y).top >> lane(x) & 1;
   }
 
   // --- A predictor of vertical runs: both columns beside the trial's lattice line ---
@@ -100,13 +68,21 @@ class EdgeWindow {
   // In the clock after.
   std::uint8_t hits(Cycle cycle, std::size_t port, const Trial& trial) const;
 
-  std::int32_t rows() const { return rows_; }
   Memory<void> memory;
 
  private:
+  void clear(std::int32_t beat);
   // The newest row of a column, by where the beats are in the frame.
   std::int32_t newest_row(std::int32_t column) const {
     return progress_.row - (column < progress_.end ? 1 : 2);
+  }
+  // Of a beat's bits of row y; beat -1, in front of the frame, is nothing.
+  std::size_t place(std::int32_t beat, std::int32_t y) const {
+    return (static_cast<std::uint32_t>(y) & row_mask_) * row_beats_ +
+           static_cast<std::uint32_t>(beat + 1);
+  }
+  std::uint32_t lane(std::int32_t x) const {
+    return static_cast<std::uint32_t>(x) & ((1u << lane_bits_) - 1);
   }
   static std::uint64_t at(std::int32_t column) { return static_cast<std::uint64_t>(column); }
   std::uint32_t columns(std::int32_t first) const {
@@ -115,12 +91,15 @@ class EdgeWindow {
 
   const ParameterStore& store_;
   const std::int32_t lanes_, rows_;
+  const std::uint32_t lane_bits_, row_mask_;
+  const std::size_t row_beats_;
   ReadPort<void> beat_;
   WritePort<void> update_;
   std::deque<ReadPort<void>> lines_;
-  // The model reads words where they are: one that has moved on since its read was issued shows
-  // the same rows, a bit further on.
-  std::vector<EdgeColumn> columns_;  // and nothing left and right of the widest frame
+  // The model keeps the bits by rows and beats, row y at y modulo a power of two, and reads them
+  // where they are: a word that has moved on since its read was issued shows the same rows, a bit
+  // further on.
+  std::vector<EdgeBits> bits_;
   struct {
     std::int32_t row = 0, end = 0;
   } progress_;  // slot row of the last write, and the column behind it

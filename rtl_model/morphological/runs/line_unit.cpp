@@ -111,6 +111,10 @@ Activity LineUnit::work(Cycle cycle) {
     occupancy += interval_;
     did = true;
   }
+  due_ = kNever;
+  for (const Divider& divider : dividers_)
+    if (divider.count != 0)
+      due_ = std::min(due_, divider.fresh ? cycle : divider.flight[divider.oldest].ready);
   if (did) return kBusy;
   return blocked ? kStalledDownstream : waits ? interval_stall_ : kIdle;
 }

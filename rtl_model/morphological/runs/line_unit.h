@@ -40,7 +40,9 @@ class LineUnit final : public Unit {
            const spec::morphological::Parameters& parameters, const ParameterStore& store,
            spec::morphological::Axis axis);
   Activity tick(Cycle cycle) override {
-    return in_flight_ == 0 && !sums_in.any_arrives(cycle, lanes_) ? kIdle : work(cycle);
+    if (sums_in.any_arrives(cycle, lanes_)) return work(cycle);
+    if (in_flight_ == 0) return kIdle;
+    return cycle < due_ ? kBusy : work(cycle);
   }
   void reset() override;
 
@@ -76,6 +78,7 @@ class LineUnit final : public Unit {
   std::vector<ReadPort<std::uint32_t>> inverse_;  // a lane
   std::vector<Divider> dividers_;
   std::uint32_t in_flight_ = 0;  // divisions, of all lanes
+  Cycle due_ = 0;                // if none begins: up to here they only go on
 };
 
 }  // namespace deburr::rtl::morphological

@@ -2,6 +2,7 @@
 #include "rtl_model/morphological/runs/run_extractor.h"
 
 #include <algorithm>
+#include <bit>
 #include <string>
 
 namespace deburr::rtl::morphological {
@@ -29,8 +30,6 @@ RunExtractor::RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clo
       lanes_(store.lanes()),
       reach_rows_(store.reach_rows()),
       reach_columns_(p.reach_columns),
-      age_(reach_rows_ + 1),
-      rows_age_(age_ - rows.ahead()),
       records_(declare_stall("records",
                              "a record FIFO is full, or records of two slot rows before are not "
                              "finished")) {
@@ -39,6 +38,21 @@ RunExtractor::RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clo
     h_.fifo.emplace_back(("record_fifo_h" + std::to_string(lane)).c_str(), depth);
     v_.fifo.emplace_back(("record_fifo_v" + std::to_string(lane)).c_str(), depth);
   }
+}
+
+inline bool RunExtractor::take_slot(Cycle cycle) {
+  const EdgeToken& token = edges_in.front(cycle);
+  const std::size_t parity = token.slot.row & 1;
+  if (token.slot.beat == 0 && unfinished_[parity] + finding_[parity] != 0) {
+    ++record_stalls;
+    ++interlock_stalls;
+    return false;
+  }
+  token_ = token;
+  window_.read_beat(cycle, token.slot.beat * lanes_);
+  reads_ = true;
+  edges_in.pop(cycle);
+  return true;
 }
 
 Activity RunExtractor::tick(Cycle cycle) {
@@ -78,63 +92,36 @@ Activity RunExtractor::tick(Cycle cycle) {
   return kBusy;
 }
 
-bool RunExtractor::take_slot(Cycle cycle) {
-  const EdgeToken& token = edges_in.front(cycle);
-  const std::size_t parity = token.slot.row & 1;
-  if (token.slot.beat == 0 && unfinished_[parity] + finding_[parity] != 0) {
-    ++record_stalls;
-    ++interlock_stalls;
-    return false;
-  }
-  token_ = token;
-  window_.read_beat(cycle, token.slot.beat * lanes_);
-  reads_ = true;
-  edges_in.pop(cycle);
-  return true;
-}
-
 // The words of the slot's columns are here.
 void RunExtractor::pass(Cycle cycle) {
   const FrameRules& rules = store_.rules();
   const Slot& slot = token_.slot;
   const std::int32_t first = slot.beat * lanes_, end = std::min(first + lanes_, rules.width);
-  EdgeColumn* const columns = window_.write_beat(cycle, first, slot.row);
   const bool comes = slot.row >= 1 && slot.row <= rules.height;
-  // Bits of the row that is blended, of row y, and of the row that goes to EdgeRows.
+  const unsigned inside = comes ? (1u << (end - first)) - 1 : 0;
+  window_.write_beat(cycle, first, slot.row,
+                     {static_cast<std::uint8_t>(token_.left & inside),
+                      static_cast<std::uint8_t>(token_.top & inside)});
+  row_ = slot.row - reach_rows_ - 2;
   constexpr std::int32_t kBlended = spec::morphological::kRowLag - 2;  // rows above row y
-  std::uint32_t left_blended = 0, top_blended = 0, left_ahead = 0, top_ahead = 0;
-  bool any_top = open_, any_left = false;
-  for (std::int32_t i = 0; i < end - first; ++i) {
-    EdgeColumn& column = columns[i];
-    if (slot.row == 0) {
-      column = {};
-      continue;
-    }
-    column.left.move_on(comes && (token_.left >> i & 1), window_.rows());
-    column.top.move_on(comes && (token_.top >> i & 1), window_.rows());
-    const std::uint32_t left = column.left.from(rows_age_), top = column.top.from(rows_age_);
-    const auto ahead = static_cast<std::uint32_t>(rows_.ahead());
-    left_ahead |= (left & 1) << i;
-    top_ahead |= (top & 1) << i;
-    any_left |= (left >> ahead & 1) != 0;
-    any_top |= (top >> ahead & 1) != 0;
-    left_blended |= (left >> (ahead + kBlended) & 1) << i;
-    top_blended |= (top >> (ahead + kBlended) & 1) << i;
-  }
+  const EdgeBits blended = window_.beat(slot.beat, row_ - kBlended);
   AreaSlotToken& out = area_slots_out.emplace(cycle);
   out.slot = slot;
-  out.left = static_cast<std::uint8_t>(left_blended);
-  out.top = static_cast<std::uint8_t>(top_blended);
-  columns_ = columns;
-  row_ = slot.row - reach_rows_ - 2;
+  out.left = blended.left;
+  out.top = blended.top;
   const std::int32_t ahead = row_ + rows_.ahead();
-  if (ahead >= 0 && ahead < rules.height) rows_.write(cycle, ahead, first, left_ahead, top_ahead);
-  if (row_ < 0 || row_ >= rules.height || !(any_top || any_left)) return;
+  if (ahead >= 0 && ahead < rules.height) {
+    const EdgeBits bits = window_.beat(slot.beat, ahead);
+    rows_.write(cycle, ahead, first, bits.left, bits.top);
+  }
+  if (row_ < 0 || row_ >= rules.height) return;
+  here_ = window_.beat(slot.beat, row_);
+  if (!open_ && (here_.left | here_.top) == 0) return;
 
   Find& find = finds_[(oldest_ + found_) % finds_.size()];
   find.count = 0;
-  if (any_top) horizontal(find, first, end);
-  if (any_left) vertical(find, first, end);
+  if (open_ || here_.top != 0) horizontal(find, first, end);
+  if (here_.left != 0) vertical(find, first);
   if (find.count == 0) return;
   find.begun = step_;
   find.parity = slot.row & 1;
@@ -145,9 +132,8 @@ void RunExtractor::pass(Cycle cycle) {
 // Columns first..end - 1 of row y, and the end of the row.
 void RunExtractor::horizontal(Find& find, std::int32_t first, std::int32_t end) {
   for (std::int32_t x = first; x < end; ++x) {
-    const EdgeColumn& column = columns_[x - first];
-    const auto code_here = [&] { return code(column.left[age_ + 1], column.left[age_]); };
-    if (column.top[age_]) {
+    const auto code_here = [&] { return code(window_.left(x, row_ - 1), window_.left(x, row_)); };
+    if (here_.top >> (x - first) & 1) {
       if (!open_) {
         open_ = true;
         start_ = x;
@@ -179,24 +165,22 @@ void RunExtractor::close(Find& find, std::int32_t end, std::uint8_t end_code) {
 }
 
 // Runs that start in row y, and tails of long runs.
-void RunExtractor::vertical(Find& find, std::int32_t first, std::int32_t end) {
+void RunExtractor::vertical(Find& find, std::int32_t first) {
   const std::int32_t half = reach_rows_ / 2;
-  for (std::int32_t x = first; x < end; ++x) {
-    const EdgeColumn& before = columns_[x - first - 1];
-    const EdgeColumn& column = columns_[x - first];
-    const auto row = [&](std::int32_t below) { return age_ - below; };
-    if (!column.left[row(0)]) continue;
-    const bool starts = !column.left[row(-1)];
+  for (unsigned lanes = here_.left; lanes != 0; lanes &= lanes - 1) {
+    const std::int32_t x = first + std::countr_zero(lanes);
+    const auto edge = [&](std::int32_t below) { return window_.left(x, row_ + below); };
+    const bool starts = !edge(-1);
     // A tail ends where its half of the reach ends, and the run began at least R rows before that.
-    const bool ends = column.left[row(half - 1)] && !column.left[row(half)];
+    const bool ends = edge(half - 1) && !edge(half);
     if (!starts && !ends) continue;
     const auto code_at = [&](std::int32_t below) {
-      return code(before.top[row(below)], column.top[row(below)]);
+      return code(window_.top(x - 1, row_ + below), window_.top(x, row_ + below));
     };
     RunRecord run{Axis::kVertical, RunPart::kWhole, u16(x), u16(row_), u16(half), 0};
     std::int32_t length = 1;
     if (starts) {
-      while (length <= reach_rows_ && column.left[row(length)]) ++length;
+      while (length <= reach_rows_ && edge(length)) ++length;
       if (length > reach_rows_) {
         run.part = RunPart::kHead;
         found(find, run, code_at(0), 0);
@@ -205,7 +189,7 @@ void RunExtractor::vertical(Find& find, std::int32_t first, std::int32_t end) {
         found(find, run, code_at(0), code_at(length));
       }
     } else {
-      while (length <= reach_rows_ && column.left[row(half - 1 - length)]) ++length;
+      while (length <= reach_rows_ && edge(half - 1 - length)) ++length;
       if (length <= reach_rows_) continue;  // the end of a run that is not long
       run.part = RunPart::kTail;
       found(find, run, 0, code_at(half));

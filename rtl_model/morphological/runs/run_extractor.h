@@ -92,7 +92,7 @@ class RunExtractor final : public Unit {
   void pass(Cycle cycle);
   void horizontal(Find& find, std::int32_t first, std::int32_t end);
   void close(Find& find, std::int32_t end, std::uint8_t end_code);
-  void vertical(Find& find, std::int32_t first, std::int32_t end);
+  void vertical(Find& find, std::int32_t first);
   void found(Find& find, spec::morphological::RunRecord run, std::uint8_t start_code,
              std::uint8_t end_code) const;
   void deliver(const Find& find);
@@ -102,8 +102,6 @@ class RunExtractor final : public Unit {
   EdgeWindow& window_;
   EdgeRows& rows_;
   const std::int32_t lanes_, reach_rows_, reach_columns_;
-  const std::int32_t age_;       // of row y in a column: row s - 1 has 0
-  const std::int32_t rows_age_;  // of the row that goes to EdgeRows
   Activity records_;
   AxisSide h_, v_;
   std::array<std::uint32_t, 2> unfinished_{};  // records, by parity of the row of their slot
@@ -111,14 +109,13 @@ class RunExtractor final : public Unit {
 
   bool reads_ = false;  // a slot is in clock 1
   EdgeToken token_{};
-  // The beat's columns, moved on; columns_[-1]: the one left of them, a register in hardware.
-  const EdgeColumn* columns_ = nullptr;
 
   std::array<Find, kFindClocks + 1> finds_{};
   std::size_t oldest_ = 0, found_ = 0;
   std::uint64_t step_ = 0;  // clocks in which clocks 2 to 4 went on
 
   std::int32_t row_ = 0;  // y
+  EdgeBits here_;         // of row y in the beat
   bool open_ = false;     // a horizontal run
   std::int32_t start_ = 0;
   std::uint8_t start_code_ = 0;

@@ -19,30 +19,25 @@ struct EdgeMemories {
   void show(int y, Left&& left, Top&& top) {
     const rtl::morphological::FrameRules& rules = store.rules();
     const int lanes = store.lanes(), newest = y + store.reach_rows() + 1;
-    for (int first = 0; first < rules.width; first += lanes) {
-      window.read_beat(clock_++, first);
-      rtl::morphological::EdgeColumn* const columns =
-          window.write_beat(clock_++, first, newest + 1);
+    const auto beat = [&](int row, int first) {
+      rtl::morphological::EdgeBits bits;
+      if (row < 0 || row >= rules.height) return bits;
       for (int x = first; x < std::min(first + lanes, rules.width); ++x) {
-        rtl::morphological::EdgeColumn& column = columns[x - first];
-        column = {};
-        for (int row = 0; row <= newest; ++row) {
-          const bool inside = row < rules.height;
-          column.left.move_on(inside && left(x, row), window.rows());
-          column.top.move_on(inside && top(x, row), window.rows());
-        }
+        bits.left = static_cast<std::uint8_t>(bits.left | int{left(x, row)} << (x - first));
+        bits.top = static_cast<std::uint8_t>(bits.top | int{top(x, row)} << (x - first));
       }
-    }
+      return bits;
+    };
+    for (int row = -1; row <= newest; ++row)
+      for (int first = 0; first < rules.width; first += lanes) {
+        window.read_beat(clock_++, first);
+        window.write_beat(clock_++, first, row + 1, beat(row, first));
+      }
     for (int row = std::max(0, y - rows.ahead()); row < std::min(rules.height, y + rows.ahead());
          ++row)
       for (int first = 0; first < rules.width; first += lanes) {
-        unsigned lefts = 0, tops = 0;
-        for (int x = first; x < std::min(first + lanes, rules.width); ++x) {
-          lefts |= unsigned{left(x, row)} << (x - first);
-          tops |= unsigned{top(x, row)} << (x - first);
-        }
-        rows.write(clock_++, row, first, static_cast<std::uint8_t>(lefts),
-                   static_cast<std::uint8_t>(tops));
+        const rtl::morphological::EdgeBits bits = beat(row, first);
+        rows.write(clock_++, row, first, bits.left, bits.top);
       }
   }
 

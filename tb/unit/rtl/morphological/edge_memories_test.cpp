@@ -259,9 +259,9 @@ TEST(EdgeMemory, ABeatIsWrittenAClockAfterItWasReadAndNotBefore) {
   Shown shown(built(true), 150, 70, 30, 500);
   EdgeWindow& window = shown.memories.window;
   window.read_beat(7, 5);
-  expect_stop([&] { window.write_beat(7, 5, 64); }, "edge_window");
-  EXPECT_NO_THROW(window.write_beat(8, 5, 64));
-  expect_stop([&] { window.write_beat(9, 6, 64); }, "edge_window");
+  expect_stop([&] { window.write_beat(7, 5, 64, {}); }, "edge_window");
+  EXPECT_NO_THROW(window.write_beat(8, 5, 64, {}));
+  expect_stop([&] { window.write_beat(9, 6, 64, {}); }, "edge_window");
 }
 
 // No step is longer than a port shows: half the reach, then one more, as odd reaches allow.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The DataStage in the cache: bank passes, texels anywhere in a line, and hits in lines that are
 // replaced by the same request.
+#include <cstring>
+
 #include "tb/unit/rtl/texture/cache_bench.h"
 
 namespace deburr::tb::texture_rtl {
@@ -114,6 +116,86 @@ TEST(TextureRtlDataStage, PassesBeforeFills) {
   b.clock.run(100);
   b.check_data(asked);
   EXPECT_THAT(b.memory.lines_read(), ElementsAre(0, 64, 256, 320, 0));
+}
+
+// The data stage alone, with a buffer of lines that stays empty.
+struct StageBench {
+  explicit StageBench(const CacheToken& first) {
+    stage.requests_in(requests);
+    stage.texels_out(texels);
+    requests.push(0, first);
+    clock.run(2);  // taken in 1
+  }
+  static spec::texture::Parameters parameters() {
+    spec::texture::Parameters p = small_cache();
+    p.cache_bytes = 1024;
+    return p;
+  }
+  static CacheToken hit(std::array<std::uint32_t, 4> place) {
+    const TexelToken asked = request({});
+    CacheToken token{};
+    token.ticket = asked.ticket;
+    token.control = asked.control;
+    token.place = place;
+    return token;
+  }
+  ClockDomain clock{"clock", period()};
+  FillBuffer fills{"fills", 4, 64};
+  rtl::Link<CacheToken> requests{"requests"};
+  rtl::Link<TexelQuadToken> texels{"texels"};
+  DataStage stage{"stage", clock, parameters(), fills};
+};
+
+TEST(TextureRtlDataBanks, AWordIsNotThereInTheClockOfItsRead) {
+  StageBench b(StageBench::hit({0, 4, 16, 20}));
+  EXPECT_THAT(of_a_stage_less(b.stage, b.clock), Refuses("banks", kEarly));
+}
+
+// A second request: of the one before it, words stand on the output registers.
+std::string of_a_stage_less_again(std::array<std::uint32_t, 4> place) {
+  StageBench b(StageBench::hit({0, 4, 16, 20}));
+  b.clock.run(2);
+  b.requests.push(b.clock.cycle() - 1, StageBench::hit(place));
+  b.clock.run(1);
+  return of_a_stage_less(b.stage, b.clock);
+}
+TEST(TextureRtlDataBanks, AnotherWordOfTheRequestBeforeIsStale) {
+  EXPECT_THAT(of_a_stage_less_again({32, 36, 48, 52}), Refuses("banks", kEarly));
+}
+TEST(TextureRtlDataBanks, TheSameWordOfTheRequestBeforeIsStale) {
+  EXPECT_THAT(of_a_stage_less_again({0, 4, 16, 20}), Refuses("banks", kEarly));
+}
+
+TEST(TextureRtlDataBanks, OneQuadAClock) {
+  const CacheToken token = StageBench::hit({0, 4, 16, 20});
+  StageBench b(token);
+  EXPECT_THAT(of_a_second_token(b.stage, b.requests, token, b.clock), Refuses("banks", kTooMany));
+}
+
+// Texels 1 and 3 are left for the second pass; then the place of one of them moves into the bank of
+// the other.
+TEST(TextureRtlDataBanks, ABankIsReadOnceAClock) {
+  StageBench b(StageBench::hit({0, 64, 20, 84}));
+  ASSERT_EQ(b.stage.conflicts.value(), 1u);
+  const CacheToken moved = StageBench::hit({0, 64, 20, 128});
+  std::memcpy(b.requests.beat(0), &moved, sizeof moved);
+  EXPECT_THAT(refusal([&] { b.clock.run(1); }),
+              Refuses("banks", "bank 0 (address 32) is used twice"));
+}
+
+TEST(TextureRtlDataBanks, HaveNoWordBeyondTheLastLine) {
+  StageBench b(StageBench::hit({0, 4, 16, 20}));
+  b.clock.run(1);
+  b.requests.push(2, StageBench::hit({0, 4, 16, 1024}));
+  EXPECT_THAT(refusal([&] { b.clock.run(2); }), Refuses("banks", "expected at most"));
+}
+
+TEST(TextureRtlDataBanks, HaveNoPortForAnybodyElse) {
+  StageBench b(StageBench::hit({0, 4, 16, 20}));
+  EXPECT_THAT((of_one_port_more<rtl::ReadPort<void>, void>(b.stage, "banks")),
+              Refuses("banks", "one port more than 4R1W"));
+  EXPECT_THAT((of_one_port_more<rtl::WritePort<void>, void>(b.stage, "banks")),
+              Refuses("banks", "one port more than 4R1W"));
 }
 
 }  // namespace

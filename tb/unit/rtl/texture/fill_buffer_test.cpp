@@ -57,5 +57,41 @@ TEST(TextureRtlFillBuffer, LinesOf128BytesComeInTwoBeats) {
   EXPECT_EQ(buffer.line(14)[0], 11);
 }
 
+// The output register has one word: the next line cannot be read in the clock in which the one
+// before it was.
+TEST(TextureRtlFillBuffer, OneReadAClock) {
+  FillBuffer buffer("buffer", 4, 64);
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    buffer.reserve(1);
+    buffer.fill(10 + i, i, 0, kBeat, true);
+  }
+  buffer.read_ahead(12);
+  buffer.release(12);
+  EXPECT_THAT(refusal([&] { buffer.read_ahead(12); }), Refuses("buffer", kTooMany));
+}
+
+// An entry that is used again: the line before it still stands on the output register.
+TEST(TextureRtlFillBuffer, TheLineBeforeInTheSameEntryIsStale) {
+  FillBuffer buffer("buffer", 1, 64);
+  buffer.reserve(1);
+  buffer.fill(10, 0, 0, kBeat, true);
+  buffer.read_ahead(11);
+  buffer.line(12);
+  buffer.release(12);
+  buffer.reserve(13);
+  buffer.fill(20, 0, 0, kBeat, true);
+  buffer.read_ahead(21);
+  EXPECT_THAT(refusal([&] { buffer.line(21); }), Refuses("buffer", kEarly));
+  EXPECT_EQ(refusal([&] { buffer.line(22); }), "nothing");
+}
+
+TEST(TextureRtlFillBuffer, EachBeatComesOnce) {
+  FillBuffer buffer("buffer", 4, 64);
+  buffer.reserve(1);
+  buffer.fill(10, 0, 0, kBeat, true);
+  EXPECT_THAT(refusal([&] { buffer.fill(11, 0, 0, kBeat, true); }), Refuses("buffer", "twice"));
+  EXPECT_THAT(refusal([&] { buffer.fill(12, 4, 0, kBeat, true); }), Refuses("buffer", "entry 4"));
+}
+
 }  // namespace
 }  // namespace deburr::tb::texture_rtl

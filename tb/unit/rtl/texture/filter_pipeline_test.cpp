@@ -217,5 +217,29 @@ TEST(TextureRtlFilter, ResetForgetsPartialSums) {
   EXPECT_EQ(b.ends.sink.taken[0].token.rgba[0], 3);
 }
 
+struct CodedBench : FilterBench {
+  CodedBench() {
+    add(token);
+    clock.run(2);  // taken in 1
+  }
+  const TexelQuadToken token = request(Format::kSrgb8A8, grey(1, 2, 3, 4));
+};
+
+TEST(TextureRtlFilterSrgb, AWordIsNotThereInTheClockOfItsRead) {
+  CodedBench b;
+  EXPECT_THAT(of_a_stage_less(b.unit, b.clock), Refuses("srgb", kEarly));
+}
+
+TEST(TextureRtlFilterSrgb, OneQuadAClock) {
+  CodedBench b;
+  EXPECT_THAT(of_a_second_token(b.unit, b.ends.in, b.token, b.clock), Refuses("srgb", kTooMany));
+}
+
+TEST(TextureRtlFilterSrgb, HasNoPortForAnybodyElse) {
+  CodedBench b;
+  EXPECT_THAT((of_one_port_more<rtl::ReadPort<std::uint16_t>, std::uint16_t>(b.unit, "srgb")),
+              Refuses("srgb", "one port more than 12R"));
+}
+
 }  // namespace
 }  // namespace deburr::tb::texture_rtl

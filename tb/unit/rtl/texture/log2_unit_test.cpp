@@ -91,5 +91,34 @@ TEST(TextureRtlLog2, LatencyOneAndThree) {
   }
 }
 
+struct ExactBench {
+  ExactBench() {
+    unit.footprints_in(ends.in);
+    unit.logs_out(ends.out);
+    ends.source.add(token);
+    clock.run(2);  // taken in 1
+  }
+  const FootprintToken token{ticket(9), 1, 2, 3, 4, 6u << 16, 1u << 16};
+  ClockDomain clock{"clock", period()};
+  Log2Unit unit{"unit", clock, spec::texture::Log2Rule::kExact};
+  Ends<FootprintToken, Log2Token> ends{clock};
+};
+
+TEST(TextureRtlLog2Table, AWordIsNotThereInTheClockOfItsRead) {
+  ExactBench b;
+  EXPECT_THAT(of_a_stage_less(b.unit, b.clock), Refuses("table", kEarly));
+}
+
+TEST(TextureRtlLog2Table, OneFragmentAClock) {
+  ExactBench b;
+  EXPECT_THAT(of_a_second_token(b.unit, b.ends.in, b.token, b.clock), Refuses("table", kTooMany));
+}
+
+TEST(TextureRtlLog2Table, HasNoPortForAnybodyElse) {
+  ExactBench b;
+  EXPECT_THAT((of_one_port_more<rtl::ReadPort<std::uint16_t>, std::uint16_t>(b.unit, "table")),
+              Refuses("table", "one port more than 4R"));
+}
+
 }  // namespace
 }  // namespace deburr::tb::texture_rtl

@@ -42,5 +42,62 @@ TEST(TextureRtlMissQueue, FullQueueStallsTheTagStageAndLosesNothing) {
   EXPECT_EQ(b.cache.miss_queue.most_waiting.value(), 4u);
 }
 
+// The queue alone, with the test at both ends.
+struct QueueBench {
+  QueueBench() {
+    queue.misses_in(misses);
+    queue.requests_out(requests);
+    queue.responses_in(responses);
+  }
+  ClockDomain clock{"clock", period()};
+  Store store{clock};
+  rtl::Link<MissToken> misses{"misses"};
+  rtl::Link<rtl::MemoryRequest> requests{"requests"};
+  rtl::Link<rtl::MemoryResponse> responses{"responses"};
+  MissQueue queue{"queue", clock, small_cache(), store.control};
+};
+
+// Lines of two requests in a clock are more than its write ports take.
+TEST(TextureRtlMissQueue, TakesOneRequestAClock) {
+  QueueBench b;
+  const MissToken two{{1, 2}, 2};
+  b.misses.push(0, two);
+  b.clock.run(2);
+  EXPECT_THAT(of_a_second_token(b.queue, b.misses, two, b.clock), Refuses("lines", kTooMany));
+}
+
+// A link to memory that takes a second request in a clock would have the next line read too.
+TEST(TextureRtlMissQueue, SendsOneLineAClock) {
+  QueueBench b;
+  b.misses.push(0, {{1, 2, 3}, 3});
+  b.clock.run(3);  // taken in 1, the first line is sent in 2
+  ASSERT_EQ(b.queue.line_fills.value(), 1u);
+  b.requests.reset();
+  EXPECT_THAT(of_a_stage_less(b.queue, b.clock), Refuses("lines", kTooMany));
+}
+
+TEST(TextureRtlMissQueue, HasNoPortForAnybodyElse) {
+  QueueBench b;
+  EXPECT_THAT((of_one_port_more<rtl::ReadPort<std::uint32_t>, std::uint32_t>(b.queue, "lines")),
+              Refuses("lines", "one port more than 1R4W"));
+  EXPECT_THAT((of_one_port_more<rtl::WritePort<std::uint32_t>, std::uint32_t>(b.queue, "lines")),
+              Refuses("lines", "one port more than 1R4W"));
+}
+
+// A response for an entry that has been filled, and for one that does not exist.
+TEST(TextureRtlMissQueue, TakesEachLineOnce) {
+  QueueBench b;
+  b.misses.push(0, {{1}, 1});
+  b.clock.run(3);
+  const auto answer = [&](std::uint32_t tag) {
+    rtl::MemoryResponse response;
+    response.tag = tag;
+    b.responses.push(b.clock.cycle(), response);
+    return refusal([&] { b.clock.run(2); });
+  };
+  EXPECT_EQ(answer(0), "nothing");
+  EXPECT_THAT(answer(0), Refuses("fill_buffer", "twice"));
+}
+
 }  // namespace
 }  // namespace deburr::tb::texture_rtl

@@ -18,9 +18,12 @@
 #include <vector>
 
 #include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/fabric/counters.h"
 #include "rtl_model/fabric/link.h"
+#include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/texture_unit.h"
+#include "spec/error.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/packets.h"
 #include "spec/texture/parameters.h"
@@ -41,6 +44,48 @@ using rtl::Out;
 using rtl::Unit;
 
 inline sc_core::sc_time period() { return {10, sc_core::SC_NS}; }
+
+// What an access says that a memory must not let pass.
+template <class Access>
+std::string refusal(Access&& access) {
+  try {
+    access();
+  } catch (const spec::CheckFailed& failure) {
+    return failure.what();
+  }
+  return "nothing";
+}
+// A second tick in the clock that has just passed: a stage less, so that a word is used before it
+// is there.
+inline std::string of_a_stage_less(Unit& unit, const ClockDomain& clock) {
+  return refusal([&] { unit.tick(clock.cycle() - 1); });
+}
+// A second token in that clock, for a unit that has forgotten the first one.
+template <class T>
+std::string of_a_second_token(Unit& unit, Link<T>& link, const T& token, const ClockDomain& clock) {
+  const Cycle cycle = clock.cycle() - 1;
+  unit.reset();
+  link.reset();
+  link.push(cycle - 1, token);
+  return refusal([&] { unit.tick(cycle); });
+}
+// Is this text the refusal of that memory?
+MATCHER_P2(Refuses, memory, reason, "") {
+  return arg.find(memory) != std::string::npos && arg.find(reason) != std::string::npos;
+}
+inline constexpr const char* kEarly = "is used";
+inline constexpr const char* kTooMany = "one access too many";
+
+// A port that nobody has declared, on the only memory of this kind of word below `root`.
+template <class Port, class Word>
+std::string of_one_port_more(sc_core::sc_object& root, const std::string& name) {
+  rtl::Memory<Word>* found = nullptr;
+  rtl::for_each<rtl::Memory<Word>>(root, [&](rtl::Memory<Word>& memory) {
+    if (name == memory.basename()) found = &memory;
+  });
+  if (!found) return "no such memory";
+  return refusal([&] { Port(*found, "somebody"); });
+}
 
 // Pushes its tokens as fast as they are taken.
 template <class T>

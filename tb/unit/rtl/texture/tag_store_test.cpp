@@ -61,15 +61,25 @@ TEST(TextureRtlTagStore, SetsComeInTheNextClock) {
   TagStore tags("tags", small_cache());
   tags.read(5, 0, 2);
   tags.read(5, 1, 3);
-  EXPECT_THROW(tags.check(5, 0, 2), spec::CheckFailed);  // a clock early
-  EXPECT_THROW(tags.check(6, 2, 2), spec::CheckFailed);  // nobody asked this port
-  EXPECT_THROW(tags.check(6, 0, 3), spec::CheckFailed);  // the set of another line
-  tags.check(6, 0, 2);
-  tags.check(6, 1, 3);
+  EXPECT_THROW(tags.check(5, 0, 2, 5), spec::CheckFailed);  // a clock early
+  EXPECT_THROW(tags.check(6, 2, 2, 5), spec::CheckFailed);  // nobody asked this port
+  EXPECT_THROW(tags.check(6, 0, 3, 5), spec::CheckFailed);  // the set of another line
+  tags.check(6, 0, 2, 5);
+  tags.check(6, 1, 3, 5);
   tags.read(6, 0, 3);
-  EXPECT_THROW(tags.read(6, 0, 3), spec::CheckFailed);   // one access too many
-  tags.check(6, 0, 2);                                   // the word of before is still there
-  EXPECT_THROW(tags.check(7, 0, 2), spec::CheckFailed);  // and now it is not
+  EXPECT_THROW(tags.read(6, 0, 3), spec::CheckFailed);      // one access too many
+  tags.check(6, 0, 2, 5);                                   // the word of before is still there
+  EXPECT_THROW(tags.check(7, 0, 2, 6), spec::CheckFailed);  // and now it is not
+}
+
+// A set that is read in every clock: the word of the clock before is not the one that has been
+// asked for.
+TEST(TextureRtlTagStore, TheSetOfTheClockBeforeIsStale) {
+  TagStore tags("tags", small_cache());
+  tags.read(5, 0, 2);
+  tags.read(6, 0, 2);
+  EXPECT_THROW(tags.check(6, 0, 2, 6), spec::CheckFailed);
+  tags.check(7, 0, 2, 6);
 }
 
 // However many lines of a set a request changes, the set is written once; two requests in a clock
