@@ -5,8 +5,10 @@
 
 #include <array>
 #include <cstdint>
+#include <iterator>
 
 #include "spec/morphological/parameters.h"
+#include "spec/morphological/registers.h"
 #include "spec/morphological/shapes.h"
 
 namespace deburr::spec::morphological {
@@ -141,5 +143,24 @@ struct Work {
   std::uint64_t blended_pixels = 0;  // pixels with a share of a neighbour
   friend bool operator==(const Work&, const Work&) = default;
 };
+
+// All counts of a Work, and the registers that show them.
+struct WorkCount {
+  std::uint64_t Work::*count;
+  std::uint32_t offset;
+};
+inline constexpr WorkCount kWorkCounts[] = {{&Work::pixels, reg::kPixels},
+                                            {&Work::edge_pixels, reg::kEdgePixels},
+                                            {&Work::horizontal_runs, reg::kHorizontalRuns},
+                                            {&Work::vertical_runs, reg::kVerticalRuns},
+                                            {&Work::long_runs, reg::kLongRuns},
+                                            {&Work::z_runs, reg::kZRuns},
+                                            {&Work::extended_runs, reg::kExtendedRuns},
+                                            {&Work::steps, reg::kSteps},
+                                            {&Work::probes, reg::kProbes},
+                                            {&Work::divides, reg::kDivides},
+                                            {&Work::blended_pixels, reg::kBlendedPixels}};
+static_assert(sizeof(Work) == std::size(kWorkCounts) * sizeof(std::uint64_t),
+              "a count is not in the list");
 
 }  // namespace deburr::spec::morphological

@@ -64,7 +64,9 @@ std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines)
       "given; `surroundings` change clocks; `run` is how it is simulated and checked. Runs that "
       "agree in rules, inputs and seed\n"
       "share one golden result: `golden` in their `manifest.json` is the same, which lists `rules` "
-      "and `build` apart.\n";
+      "and `build` apart. With\n"
+      "lines that answer with an error (`error_address`) they must agree in build too, since a "
+      "whole line reads as zero.\n";
   for (const auto& engine : engines) {
     page += fmt::format("\n## `deburr run {}`\n", engine->name());
     ParameterSet set;

@@ -6,6 +6,8 @@
 //       and how many times as fast the golden model smooths the same frame
 //   morphological_rtl_bench --frames <image> <preset> <lanes> <n> [memory]   n frames and nothing
 //       else: cycles, stalls, edges, memory bits; for counting instructions with callgrind
+//   morphological_rtl_bench --trade                            bits of the edge memories and clocks
+//       of a frame by predictors and trial_clocks: the table of docs/morphological_hardware.md
 // Images: facets (slanted halves in cells of 32 pixels, some 10 % edge pixels), noise, flat,
 // stripes.
 #include <benchmark/benchmark.h>
@@ -24,8 +26,10 @@
 #include "golden/morphological/morphological_golden.h"
 #include "rtl_model/morphological/morphological_engine.h"
 #include "tb/harness/driver.h"
+#include "tb/harness/forked.h"
 #include "tb/harness/memory_model.h"
 #include "tb/harness/register_host.h"
+#include "tb/stimuli/frames.h"
 
 namespace deburr::tb {
 namespace {
@@ -59,18 +63,23 @@ spec::morphological::Rgba8 colour(const std::string& image, int x, int y) {
   return {code, code, code, 255};
 }
 
-std::vector<spec::morphological::PixelBeat> beats(const std::string& image, int lanes) {
+// Colour of a pixel: spec::morphological::Rgba8 picture(x, y).
+template <class Picture>
+std::vector<spec::morphological::PixelBeat> beats_of(Picture&& picture, int lanes) {
   std::vector<spec::morphological::PixelBeat> all;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; x += lanes) {
       spec::morphological::PixelBeat& beat = all.emplace_back();
       beat.count = static_cast<std::uint8_t>(lanes);
-      for (int i = 0; i < lanes; ++i)
-        beat.pixel[static_cast<std::size_t>(i)] = colour(image, x + i, y);
+      for (int i = 0; i < lanes; ++i) beat.pixel[static_cast<std::size_t>(i)] = picture(x + i, y);
       beat.start_of_frame = x == 0 && y == 0;
       beat.end_of_row = x + lanes == kWidth;
     }
   return all;
+}
+
+std::vector<spec::morphological::PixelBeat> beats(const std::string& image, int lanes) {
+  return beats_of([&](int x, int y) { return colour(image, x, y); }, lanes);
 }
 
 Parameters parameters(const std::string& preset, int lanes) {
@@ -217,6 +226,49 @@ int count_instructions(const std::string& image, const std::string& preset, int 
   return 0;
 }
 
+// A row of the trade: what the edge memories are built of, and the clocks of frames over those of
+// the formula. In a process of its own.
+std::string trade(int predictors, int trial_clocks) {
+  Parameters p = parameters("deburr", 1);
+  p.predictor_units = predictors;
+  p.trial_clocks = trial_clocks;
+  Setup setup(p);
+  const auto& engine = setup.engine;
+  std::uint64_t bits = engine.window.memory.physical_bits();
+  for (const auto& rows : engine.rows.memory) bits += rows.physical_bits();
+  std::string row =
+      fmt::format("| {} | {} | {} | {:.0f}", predictors, trial_clocks,
+                  engine.rows.memory[0].shape().read_ports, static_cast<double>(bits) / 1000);
+  const std::uint64_t unstalled =
+      (kHeight + static_cast<std::uint64_t>(p.window_rows / 2 - 1) + spec::morphological::kRowLag) *
+          kWidth +
+      spec::morphological::kPipelineLatency;
+  const auto add = [&](auto&& picture) {
+    setup.frame = beats_of(picture, 1);
+    run_frame(setup);
+    row += fmt::format(" | {:.3f}", static_cast<double>(engine.sequencer.frame_cycles.value()) /
+                                        static_cast<double>(unstalled));
+  };
+  for (const int permille : {10, 100, 200, 500}) {
+    const Image image = stimuli::random_edges(kWidth, kHeight, permille);
+    add([&](int x, int y) { return image.at(x, y); });
+  }
+  constexpr int kRecords = 40;
+  add([](int x, int y) {
+    return stimuli::grey(x >= kWidth - 2 * kRecords && (x + y) / 2 % 2 != 0 ? 255 : 0);
+  });
+  return row + " |\n";
+}
+
+int print_trade() {
+  std::cout << "| predictors | T | ports | kbit | 1 % | 10 % | 20 % | 50 % | 40 records |\n"
+               "|---|---|---|---|---|---|---|---|---|\n";
+  for (const int predictors : {1, 2, 4})
+    for (int clocks = 1; clocks <= 8; ++clocks)
+      std::cout << forked_text([=] { return trade(predictors, clocks); }) << std::flush;
+  return 0;
+}
+
 }  // namespace
 }  // namespace deburr::tb
 
@@ -224,6 +276,7 @@ int main(int argc, char** argv) {
   if (argc >= 6 && std::strcmp(argv[1], "--frames") == 0)
     return deburr::tb::count_instructions(argv[2], argv[3], std::atoi(argv[4]),
                                           std::strtoull(argv[5], nullptr, 10), argc > 6);
+  if (argc == 2 && std::strcmp(argv[1], "--trade") == 0) return deburr::tb::print_trade();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();

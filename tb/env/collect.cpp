@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tb/env/collect.h"
 
-#include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <utility>
@@ -27,9 +26,10 @@ std::string sentence(std::string text) {
 }
 
 std::string name_within(const sc_core::sc_object& engine, const sc_core::sc_object& object) {
-  std::string name = std::string(object.name()).substr(std::string(engine.name()).size() + 1);
-  std::replace(name.begin(), name.end(), '.', '_');
-  return name;
+  const sc_core::sc_object* const owner = object.get_parent_object();
+  std::string name = object.basename();
+  if (owner == &engine || dynamic_cast<const rtl::Unit*>(&object) != nullptr) return name;
+  return std::string(owner->basename()) + "_" + name;
 }
 
 UnitCycles unit_cycles(std::string name, const rtl::Unit& unit) {

@@ -15,7 +15,9 @@ namespace deburr::tb {
 // "a line is missing" -> "A line is missing."
 std::string sentence(std::string text);
 
-// "morphological.predictor_h.probes" within "morphological" -> "predictor_h_probes".
+// What a report calls it: a unit by its own name, anything else by its owner's as well, unless that
+// is the engine. "texture.cache.tag_stage" -> "tag_stage", "texture.cache.tag_stage.hits" ->
+// "tag_stage_hits", "morphological.edge_window" -> "edge_window".
 std::string name_within(const sc_core::sc_object& engine, const sc_core::sc_object& object);
 
 UnitCycles unit_cycles(std::string name, const rtl::Unit& unit);

@@ -242,19 +242,9 @@ void MorphologicalEnvironment::end() {
 
 void MorphologicalEnvironment::finish() {
   if (!golden()) return;
-  const spec::morphological::Work& w = golden_work_;
-  const std::pair<std::uint32_t, std::uint64_t> expected[] = {
-      {reg::kPixels, w.pixels},
-      {reg::kEdgePixels, w.edge_pixels},
-      {reg::kHorizontalRuns, w.horizontal_runs},
-      {reg::kVerticalRuns, w.vertical_runs},
-      {reg::kLongRuns, w.long_runs},
-      {reg::kZRuns, w.z_runs},
-      {reg::kExtendedRuns, w.extended_runs},
-      {reg::kSteps, w.steps},
-      {reg::kProbes, w.probes},
-      {reg::kDivides, w.divides},
-      {reg::kBlendedPixels, w.blended_pixels}};
+  std::vector<std::pair<std::uint32_t, std::uint64_t>> expected;
+  for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
+    expected.emplace_back(each.offset, golden_work_.*each.count);
   register_board_.judge(host_, expected);
 }
 
@@ -315,19 +305,8 @@ void MorphologicalEnvironment::judge(rtl::Cycle cycle,
 
 void MorphologicalEnvironment::judge_records() {
   if (!golden()) return;
-  const spec::morphological::Work& w = golden_.work();
-  const auto sum = [](std::uint64_t& total, std::uint64_t frame) { total += frame; };
-  sum(golden_work_.pixels, w.pixels);
-  sum(golden_work_.edge_pixels, w.edge_pixels);
-  sum(golden_work_.horizontal_runs, w.horizontal_runs);
-  sum(golden_work_.vertical_runs, w.vertical_runs);
-  sum(golden_work_.long_runs, w.long_runs);
-  sum(golden_work_.z_runs, w.z_runs);
-  sum(golden_work_.extended_runs, w.extended_runs);
-  sum(golden_work_.steps, w.steps);
-  sum(golden_work_.probes, w.probes);
-  sum(golden_work_.divides, w.divides);
-  sum(golden_work_.blended_pixels, w.blended_pixels);
+  for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
+    golden_work_.*each.count += golden_.work().*each.count;
   if (!setup_.records) return;
   std::vector<spec::morphological::RunRecord> runs;
   std::vector<spec::morphological::LineRecord> lines;
@@ -374,7 +353,7 @@ void MorphologicalEnvironment::judge_traffic() {
 // ---- results ------------------------------------------------------------------------------------
 
 void MorphologicalEnvironment::collect(Result& result) const {
-  auto& engine = const_cast<rtl::morphological::MorphologicalEngine&>(engine_);
+  const rtl::morphological::MorphologicalEngine& engine = engine_;
   for (const rtl::Unit* unit : engine.units()) add(result, name_within(engine, *unit), *unit);
   for (const rtl::MemoryBase* memory : engine.memories())
     add(result, name_within(engine, *memory), *memory, width());

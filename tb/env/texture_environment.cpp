@@ -19,18 +19,6 @@ namespace reg = spec::texture::reg;
 
 constexpr std::uint64_t kMemoryGrain = 64;  // longer reads are recorded in parts of this size
 
-// "texture.cache.tag_stage" -> "tag_stage" (parts = 1), "texture.cache.tag_stage.hits" ->
-// "tag_stage_hits" (parts = 2): what is unique within the texture unit and still says what it is.
-std::string short_name(const sc_core::sc_object& object, int parts) {
-  std::string name = object.name();
-  std::size_t from = name.size();
-  for (int i = 0; i < parts && from != std::string::npos && from > 0; ++i)
-    from = name.rfind('.', from - 1);
-  if (from != std::string::npos) name = name.substr(from + 1);
-  std::replace(name.begin(), name.end(), '.', '_');
-  return name;
-}
-
 TextureGolden golden_model(const TextureScene& scene, const TextureSetup& setup, bool used) {
   return make_golden(scene, setup.texture,
                      used ? TextureGolden::Traffic::kPredict : TextureGolden::Traffic::kIgnore,
@@ -43,7 +31,7 @@ TextureGolden golden_model(const TextureScene& scene, const TextureSetup& setup,
 
 std::vector<PlantedFault> TextureEnvironment::faults() {
   std::vector<PlantedFault> list = {
-      {"flip-bit", "Flips a bit of the red channel of colour 100.", "flip:colours:100:52"},
+      {"flip-bit", "Flips a bit of the red channel of colour 100.", "flip:colours:100:rgba.r.4"},
       {"drop-colour", "Drops colour 100.", "drop:colours:100"},
       {"duplicate-colour", "Delivers colour 100 twice.", "duplicate:colours:100"},
       {"drop-quad", "Drops quad 50 on its way into the unit.", "drop:quads:50"},
@@ -245,10 +233,9 @@ std::string TextureEnvironment::describe(const spec::texture::Colour& c) const {
 // ---- results ------------------------------------------------------------------------------------
 
 void TextureEnvironment::collect(Result& result) const {
-  auto& unit = const_cast<rtl::texture::TextureUnit&>(unit_);
-  for (const rtl::Unit* u : unit.units()) add(result, short_name(*u, 1), *u);
-  for (const rtl::MemoryBase* memory : unit.memories())
-    add(result, short_name(*memory, 2), *memory, 0);
+  for (const rtl::Unit* unit : unit_.units()) add(result, name_within(unit_, *unit), *unit);
+  for (const rtl::MemoryBase* memory : unit_.memories())
+    add(result, name_within(unit_, *memory), *memory, 0);
   add(result, memory_);
   const std::uint64_t lines = unit_.cache.miss_queue.line_fills.value();
   result.lines_filled += lines;
@@ -268,8 +255,8 @@ void TextureEnvironment::collect(Result& result) const {
   add(result, "texels_fetched_per_fragment",
       ratio(number(lines) * setup_.texture.cache_line_bytes / texel_bytes, number(fragments)),
       "texel/fragment", "Texels of all lines fetched over fragments.");
-  for (const rtl::Counter* counter : unit.counters())
-    add(result, short_name(*counter, 2), *counter);
+  for (const rtl::Counter* counter : unit_.counters())
+    add(result, name_within(unit_, *counter), *counter);
 }
 
 void TextureEnvironment::collect_headline(Result& result) const {

@@ -34,7 +34,11 @@ class Faults(CommandTest):
         # Pixel, tag, expected, got and cycle.
         self.assertRegex(done.stderr, r"cycle \d+: item 100: expected pixel \(\d+, \d+\) "
                                       r"tag \d+ lane \d .*RGBA .*, got .*RGBA")
-        self.fault("flip-bit", 3, "changed while it waited", *self.CHECKED)
+        expected, got = map(int, re.search(r"\(expected/got: rgba\.r=(\d+)/(\d+)\)",
+                                           done.stderr).groups())
+        self.assertEqual(expected ^ got, 1 << 4, "the bit that `deburr params` promises")
+        done, _ = self.fault("flip-bit", 3, "changed while it waited", *self.CHECKED)
+        self.assertIn(f"(was/is): rgba.r={expected}/{got} ", done.stderr)
 
     def test_dropped_colour(self):
         self.fault("drop-colour", 1, "mismatch", *self.UNCHECKED)
@@ -76,6 +80,17 @@ class Faults(CommandTest):
             result = json.load(file)
         self.assertEqual(result["checks"]["mismatches"], 0, done.stderr)
         self.assertEqual(result["checks"]["traffic_mismatches"], 0)
+
+    def test_memory_errors_of_other_lines_are_another_golden_result(self):
+        def golden(*arguments):
+            self.run_command("run", "texture", "--size", "32x32", "--out", self.path("out"), *arguments)
+            with open(self.path("out/manifest.json")) as file:
+                return json.load(file)["golden"]
+        long_lines = ("--set", "texture.cache.line_bytes=128")
+        error = ("--set", "memory.error_address=256")
+        self.assertEqual(golden(), golden(*long_lines))
+        self.assertNotEqual(golden(*error), golden(*error, *long_lines))
+        self.assertEqual(golden(*error), golden(*error, "--set", "memory.latency=3"))
 
     def test_wrong_texel(self):
         _, result = self.fault("wrong-texel", 1, "mismatch", *self.CHECKED)

@@ -138,11 +138,15 @@ void RunContext::add_image(const std::string& name, const Image& image, std::str
 }
 
 // A hash of all that decides what the golden model computes: two runs with the same one have the
-// same golden result. Files count by their content.
+// same golden result. Files count by their content. A line that memory answers with an error reads
+// as zero, and how long that is depends on what is built.
 std::string RunContext::golden_key() const {
   Json key = {{"input", parameters_.resolved(ParameterKind::kInput)},
               {"rule", parameters_.resolved(ParameterKind::kRule)},
               {"seed", seed_}};
+  for (const Parameter& p : parameters_.all())
+    if (p.name.ends_with("error_address") && p.text() != p.default_value)
+      key["build"] = parameters_.resolved(ParameterKind::kBuild);
   for (const Json& input : inputs_) key["files"].push_back(input["sha256"]);
   return sha256(key.dump());
 }

@@ -35,6 +35,10 @@ class Random {
   std::uint32_t below(std::uint32_t bound) {
     return static_cast<std::uint32_t>(((next() >> 32) * bound) >> 32);
   }
+  // low..high, both included.
+  int between(int low, int high) {
+    return low + static_cast<int>(below(static_cast<std::uint32_t>(high - low) + 1));
+  }
   // True in `permille` of 1000 calls.
   bool chance(std::uint32_t permille) { return permille != 0 && below(1000) < permille; }
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """docs/parameters.md, docs/statistics.md and docs/registers.md are what the program prints today.
 
-usage: app_pages_test.py DEBURR SOURCE [--write]     --write brings the pages up to date
+usage: pages_test.py DEBURR SOURCE [--write]     --write brings the pages up to date
 """
 import difflib
 import subprocess

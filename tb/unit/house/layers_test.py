@@ -26,6 +26,7 @@ FLOATING = re.compile(r"\b(float|double)\b")
 THREADS = re.compile(r"\bSC_C?THREAD\b")
 ASSERT = re.compile(r"(?<![\w_])assert\s*\(")
 NAMESPACE = re.compile(r"^\s*using\s+namespace\b")
+RANDOM = re.compile(r"\bstd::(?:mt19937|minstd_rand|ranlux|default_random|random_device|s?rand\b|\w+_distribution)")
 CONDITIONAL = re.compile(r"^\s*#\s*if(n?def)?\b")
 
 
@@ -50,6 +51,8 @@ def violations(root):
                         yield f"{where}:{number}: relative include {name}"
                     if name == "systemc.h":
                         yield f"{where}:{number}: <systemc.h> instead of <systemc>"
+                    if name == "random":
+                        yield f"{where}:{number}: <random> instead of tb/stimuli/random.h"
                     if layer in {"spec", "golden"} and name.split("/")[0] in {"systemc", "tlm"}:
                         yield f"{where}:{number}: SystemC in {layer}"
                     first = name.split("/")[0]
@@ -62,6 +65,8 @@ def violations(root):
                     yield f"{where}:{number}: floating point in {layer}"
                 if ASSERT.search(line) and "static_assert" not in line:
                     yield f"{where}:{number}: assert instead of DEBURR_CHECK"
+                if RANDOM.search(line):
+                    yield f"{where}:{number}: a generator besides tb/stimuli/random.h"
                 if path.suffix == ".h" and NAMESPACE.match(line):
                     yield f"{where}:{number}: using namespace in a header"
                 if layer == "rtl_model" and THREADS.search(line):
@@ -81,6 +86,9 @@ def planted_faults_are_caught():
         "golden/d.cpp": "#include <systemc>",
         "tb/b.cpp": "#include <systemc.h>",
         "tb/c.cpp": "assert(x > 0);",
+        "tb/d.cpp": "#include <random>",
+        "tb/unit/a.cpp": "std::mt19937_64 random(1);",
+        "tb/unit/b.cpp": "std::uniform_int_distribution<int> pick(0, 3);",
         "tb/app/a.cpp": '#include "tb/unit/scene/fixtures.h"',
         "golden/b.cpp": "double x;",
         "golden/ideal/c.cpp": '#include "../../rtl_model/x.h"',

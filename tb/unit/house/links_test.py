@@ -1,8 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """Checks that every link of the README and of docs/ leads to a file and to a heading in it, that
-every page of docs/ is linked from somewhere, and that no template placeholder was left standing."""
+every page of docs/ is linked from somewhere, that no template placeholder was left standing, and
+that paths and C++ names which are set as code there, and paths in scripts/, are those of the
+tree. NAME in a path stands for any."""
 import argparse
+import functools
 import pathlib
 import re
 import sys
@@ -11,6 +14,12 @@ import tempfile
 LINK = re.compile(r"\]\(([^)#\s]*)(?:#([^)\s]*))?\)")
 HEADING = re.compile(r"#+\s+(.*)")
 PLACEHOLDER = re.compile(r"@[A-Z_]{3,}@")
+CODE = re.compile(r"`([^`]+)`")
+FOLDERS = ("cmake", "docs", "golden", "rtl_model", "scripts", "spec", "tb")
+PATH = re.compile(rf"(?<![\w./-])((?:{'|'.join(FOLDERS)})/[\w./-]*\w/?|(?:\w+/)+\w+\.(?:h|cpp|py|md))(?![\w/{{])")
+# Qualified names, and single ones that can be no other word: CamelCase, kCamelCase.
+NAME = re.compile(r"(?<![\w:])(?:[A-Za-z_]\w*::)+\w+|\b[A-Z][a-z]+[A-Z]\w*|\bk[A-Z]\w+")
+SOURCES = (".h", ".cpp", ".cmake", ".txt", ".in")
 
 
 def anchors(page):
@@ -25,13 +34,63 @@ def anchors(page):
     return found
 
 
+class Tree:
+    """The files and the names of a checkout."""
+
+    def __init__(self, root):
+        files = [path for folder in FOLDERS for path in (root / folder).rglob("*")]
+        self.ends = {""}  # of every path: "line_bounds.h", "runs/line_bounds.h", ..
+        for parts in (path.relative_to(root).parts for path in files):
+            self.ends.update("/".join(parts[i:]) for i in range(len(parts)))
+        self.ends.update(FOLDERS)
+        self.texts = [path.read_text(encoding="utf-8") for path in files if path.suffix in SOURCES]
+
+    def has_path(self, path):
+        return "NAME" in path or path.rstrip("/") in self.ends
+
+    @functools.lru_cache(maxsize=None)
+    def has_name(self, name):
+        """It stands in a source like that, or a source declares its scope and has its last part."""
+        if any(re.search(rf"\b{name}\b", text) for text in self.texts):
+            return True
+        scope, _, last = name.rpartition("::")
+        declared = re.compile(rf"\b(?:class|struct|enum)\s+{scope.rpartition('::')[2]}\b"
+                              rf"|\bnamespace\s+(?:\w+::)*{scope}\s*{{")
+        return bool(scope) and any(declared.search(text) and re.search(rf"\b{last}\b", text)
+                                   for text in self.texts)
+
+
+def code_problems(tree, text, where):
+    """Paths and names in a piece of code of a page."""
+    for path in PATH.findall(text):
+        if not tree.has_path(path):
+            yield f"{where}: {path} does not exist"
+    for name in NAME.findall(PATH.sub("", text)):
+        if not tree.has_name(name):
+            yield f"{where}: no source has the name {name}"
+
+
+def script_problems(tree, root):
+    for script in sorted((root / "scripts").glob("*")):
+        for number, line in enumerate(script.read_text(encoding="utf-8").splitlines(), 1):
+            for path in PATH.findall(line):
+                if not tree.has_path(path):
+                    yield f"{script.relative_to(root)}:{number}: {path} does not exist"
+
+
 def problems(root):
     """Yields 'file:line: what' for every problem below root."""
+    tree = Tree(root)
+    yield from script_problems(tree, root)
     pages = [root / "README.md", *sorted((root / "docs").glob("*.md"))]
     linked = set()
     for page in pages:
+        fenced = False
         for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
             where = f"{page.relative_to(root)}:{number}"
+            fenced ^= line.startswith("```")
+            for code in [line] if fenced else CODE.findall(line):
+                yield from code_problems(tree, code, where)
             for target, anchor in LINK.findall(line):
                 if "://" in target:
                     continue
@@ -50,16 +109,27 @@ def problems(root):
 
 
 def planted_faults_are_caught():
-    """True if a dead link, a dead anchor, an orphan and a placeholder are each found."""
+    """True if a dead link, a dead anchor, an orphan, a placeholder, and paths and names that are
+    not there are each found, and nothing else."""
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
-        (root / "docs").mkdir()
+        for name in ("docs", "scripts", "spec/engine"):
+            (root / name).mkdir(parents=True)
         (root / "README.md").write_text(
             "[a](docs/a.md#a-heading) [b](docs/none.md) [c](docs/a.md#none) [d](#none)\n",
             encoding="utf-8")
-        (root / "docs/a.md").write_text("## A `heading`\n@TABLE@\n", encoding="utf-8")
+        (root / "docs/a.md").write_text(
+            "## A `heading`\n@TABLE@\n"
+            "`spec/engine/packets.h` `engine/packets.h` `spec/` `spec/NAME/` `a / b` `out/x.json`\n"
+            "`spec::engine::PixelBeat` `PixelBeat::count` `kLanes` `std::array` `Plain`\n"
+            "`spec/packets.h` `spec::PixelBeat` `engine/none.h` `PixelBeat::none` `EdgeBeat` `kNone`\n"
+            "```\nscripts/none --count 3\n```\n", encoding="utf-8")
         (root / "docs/orphan.md").write_text("alone\n", encoding="utf-8")
-        return len(list(problems(root))) == 5
+        (root / "scripts/test").write_text("# spec/engine/packets.h spec/none.h\n", encoding="utf-8")
+        (root / "spec/engine/packets.h").write_text(
+            "namespace deburr::spec::engine {\nstruct PixelBeat {\n  std::array<int, kLanes> count;\n};\n}\n",
+            encoding="utf-8")
+        return len(list(problems(root))) == 13
 
 
 def main():

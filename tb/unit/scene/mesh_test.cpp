@@ -10,6 +10,7 @@
 
 #include "tb/scene/image_io.h"
 #include "tb/scene/textures.h"
+#include "tb/stimuli/random.h"
 #include "tb/unit/scene/fixtures.h"
 
 namespace deburr::tb {
@@ -164,11 +165,12 @@ TEST(Obj, DamagedBytesNeverCrash) {
   const TemporaryFolder folder;
   const std::string good =
       std::string(kSquare) + "vn 0 0 1\nf 1//1 2//1 3//1\nf -4/1/1 -3/2/1 -2/3/1\n";
-  std::mt19937 random(7);
+  Random random(7);
   int refused = 0;
   for (int i = 0; i < 600; ++i) {
     std::string bytes = good;
-    for (int k = 0; k < 2; ++k) bytes[random() % bytes.size()] = static_cast<char>(random());
+    for (int k = 0; k < 2; ++k)
+      bytes[random.next() % bytes.size()] = static_cast<char>(random.word());
     try {
       import_mesh(folder.write("fuzz.obj", bytes));
     } catch (const spec::FileError&) {
@@ -366,11 +368,12 @@ TEST(Gltf, DamagedBytesNeverCrash) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   const std::string good = GltfFile().glb();
-  std::mt19937 random(5);
+  Random random(5);
   int refused = 0;
   for (int i = 0; i < 400; ++i) {
     std::string bytes = good;
-    for (int k = 0; k < 3; ++k) bytes[random() % bytes.size()] = static_cast<char>(random());
+    for (int k = 0; k < 3; ++k)
+      bytes[random.next() % bytes.size()] = static_cast<char>(random.word());
     try {
       import_mesh(folder.write("fuzz.glb", bytes));
     } catch (const spec::FileError&) {

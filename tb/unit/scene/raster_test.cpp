@@ -10,9 +10,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <random>
 
 #include "tb/scene/rasteriser.h"
+#include "tb/stimuli/random.h"
 #include "tb/unit/scene/fixtures.h"
 
 namespace deburr::tb {
@@ -50,15 +50,15 @@ ImageOf<int> overdraw(const Scene& scene, int size) {
 // multiples of 1/snap pixel, so that many lie exactly on pixel centres and many edges run through
 // them.
 void add_random_mesh(FlatScreen& screen, int size, std::uint32_t seed, double snap, double jitter) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> offset(-jitter, jitter);
+  Random random(seed);
+  const auto offset = [&] { return random.uniform(-jitter, jitter); };
   constexpr int kCells = 9;
   const double step = static_cast<double>(size + 16) / kCells;
   std::array<std::array<std::uint32_t, kCells + 1>, kCells + 1> grid;
   for (std::size_t j = 0; j <= kCells; ++j) {
     for (std::size_t i = 0; i <= kCells; ++i) {
-      const double x = -8.0 + step * static_cast<double>(i) + offset(random);
-      const double y = -8.0 + step * static_cast<double>(j) + offset(random);
+      const double x = -8.0 + step * static_cast<double>(i) + offset();
+      const double y = -8.0 + step * static_cast<double>(j) + offset();
       grid[j][i] = screen.vertex(std::round(x * snap) / snap, std::round(y * snap) / snap);
     }
   }
@@ -66,7 +66,7 @@ void add_random_mesh(FlatScreen& screen, int size, std::uint32_t seed, double sn
     for (std::size_t i = 0; i < kCells; ++i) {
       const auto a = grid[j][i], b = grid[j][i + 1], c = grid[j + 1][i], d = grid[j + 1][i + 1];
       // Either diagonal and either orientation: the rule must not depend on them.
-      if ((random() & 1u) != 0) {
+      if (random.chance(500)) {
         screen.triangle(a, b, d);
         screen.triangle(c, a, d);
       } else {
@@ -175,16 +175,15 @@ class RayReference {
 };
 
 Scene random_triangle(std::uint32_t seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  Random random(seed);
+  const auto place = [&] { return random.uniform(-1, 1); };
   Scene scene = make_scene("quad", {.texture_size = 16});
   scene.mesh.vertices.clear();
   scene.mesh.triangles.clear();
   for (int i = 0; i < 3; ++i)
-    scene.mesh.vertices.push_back(
-        {V3d(3 * place(random), 3 * place(random), -2 + 3 * place(random)),
-         V3d(0, 0, 1),
-         {0.5 + 0.5 * place(random), 0.5 + 0.5 * place(random)}});
+    scene.mesh.vertices.push_back({V3d{3 * place(), 3 * place(), -2 + 3 * place()},
+                                   V3d(0, 0, 1),
+                                   {0.5 + 0.5 * place(), 0.5 + 0.5 * place()}});
   scene.mesh.triangles.push_back({{0, 1, 2}, 0});
   scene.camera = {V3d(0, 0, 2.5), V3d(0, 0, 0), V3d(0, 1, 0), 0.9, 0.1};
   return scene;
@@ -452,8 +451,8 @@ TEST(Clipping, CountsSayWhatHappened) {
 
 TEST(Clipping, ClippedNeighboursStayWatertight) {
   // A floor of many triangles that passes under and behind the eye and out of every side.
-  std::mt19937 random(11);
-  std::uniform_real_distribution<double> jitter(-0.3, 0.3);
+  Random random(11);
+  const auto jitter = [&] { return random.uniform(-0.3, 0.3); };
   Scene scene = one_triangle({0, 0, 0}, {1, 0, 0}, {0, 0, 1});
   scene.mesh.vertices.clear();
   scene.mesh.triangles.clear();
@@ -462,7 +461,7 @@ TEST(Clipping, ClippedNeighboursStayWatertight) {
     for (std::uint32_t i = 0; i <= kCells; ++i) {
       const double scale = i == 0 || i == kCells || j == 0 || j == kCells ? 1e6 : 1.0;
       scene.mesh.vertices.push_back(
-          {V3d((i - 7.0 + jitter(random)) * scale, 0, (j - 7.0 + jitter(random)) * scale),
+          {V3d{(i - 7.0 + jitter()) * scale, 0, (j - 7.0 + jitter()) * scale},
            V3d(0, 1, 0),
            {0, 0}});
     }

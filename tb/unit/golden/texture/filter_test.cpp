@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include "golden/texture/sampling.h"
+#include "tb/stimuli/random.h"
 
 namespace deburr {
 namespace {
@@ -55,9 +55,9 @@ TEST(Decode, EightBitFormatsAndTheOrderOfBytes) {
 }
 
 TEST(Decode, TwoChannelFormIsTheSame) {
-  std::mt19937 random(1);
+  tb::Random random(1);
   for (int i = 0; i < 200000; ++i) {
-    const auto word = static_cast<std::uint32_t>(random());
+    const std::uint32_t word = random.word();
     for (const Format format :
          {Format::kRgba8, Format::kRgb565, Format::kRgba4444, Format::kL8, Format::kSrgb8A8}) {
       ASSERT_EQ(to_texel(decode_channels(format, word)), decode_texel(format, word));
@@ -92,14 +92,11 @@ TEST(Filter, EqualSamplesComeThroughUnchangedForEveryKernelAndCount) {
 }
 
 TEST(Filter, LerpsAreTheRoundedRealOnes) {
-  std::mt19937 random(2);
-  const auto below = [&](std::uint32_t n) {
-    return std::uniform_int_distribution<std::uint32_t>(0, n - 1)(random);
-  };
+  tb::Random random(2);
   for (int i = 0; i < 300000; ++i) {
-    const std::uint32_t a = below(4081), b = below(4081), f = below(256);
+    const std::uint32_t a = random.below(4081), b = random.below(4081), f = random.below(256);
     ASSERT_EQ(horizontal_lerp(a, b, f), 256 * (a * (1 - f / 256.0) + b * (f / 256.0)));
-    const std::uint32_t c = below(4080 * 256 + 1), d = below(4080 * 256 + 1);
+    const std::uint32_t c = random.below(4080 * 256 + 1), d = random.below(4080 * 256 + 1);
     ASSERT_EQ(vertical_lerp(c, d, f), std::floor(c * (1 - f / 256.0) + d * (f / 256.0) + 0.5));
     ASSERT_EQ(level_lerp(c, d, f), vertical_lerp(c, d, f));
   }
@@ -116,20 +113,20 @@ TEST(Filter, ResultRoundsTheTieUpwards) {
 
 // Two channels in one word never disturb each other, extreme values included.
 TEST(Filter, TwoChannelFormIsTheSame) {
-  std::mt19937 random(3);
+  tb::Random random(3);
   const auto value = [&](std::uint32_t top) -> std::uint32_t {
-    switch (random() % 4) {
+    switch (random.below(4)) {
       case 0:
         return 0;
       case 1:
         return top;
       default:
-        return std::uniform_int_distribution<std::uint32_t>(0, top)(random);
+        return random.below(top + 1);
     }
   };
   const auto pair = [](std::uint32_t low, std::uint32_t high) { return low | Lanes{high} << 32; };
   for (int i = 0; i < 300000; ++i) {
-    const std::uint32_t f = static_cast<std::uint32_t>(random() & 255);
+    const std::uint32_t f = random.below(256);
     const std::uint32_t a = value(4080), b = value(4080), c = value(4080), d = value(4080);
     ASSERT_EQ(horizontal_lerp(pair(a, b), pair(c, d), f),
               pair(horizontal_lerp(a, c, f), horizontal_lerp(b, d, f)));

@@ -9,10 +9,10 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <random>
 
 #include "golden/ideal/lod.h"
 #include "golden/texture/footprint.h"
+#include "tb/stimuli/random.h"
 
 namespace deburr {
 namespace {
@@ -95,9 +95,9 @@ TEST(Footprint, SquareRootIsExact) {
     if ((root + 1) * (root + 1) <= x) ++root;
     ASSERT_EQ(integer_square_root(x), root) << x;
   }
-  std::mt19937_64 random(1);
+  tb::Random random(1);
   for (int i = 0; i < 200000; ++i) {
-    const std::uint64_t r = random() >> (32 + random() % 31);
+    const std::uint64_t r = random.next() >> (32 + random.below(31));
     ASSERT_EQ(integer_square_root(r * r), r);
     if (r > 0) {
       ASSERT_EQ(integer_square_root(r * r - 1), r - 1);

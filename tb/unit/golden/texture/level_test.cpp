@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <random>
 
 #include "golden/ideal/lod.h"
 #include "golden/texture/footprint.h"
 #include "golden/texture/level_of_detail.h"
+#include "tb/stimuli/random.h"
 
 namespace deburr {
 namespace {
@@ -139,10 +139,8 @@ TEST(Level, CheckFindsPlantedFaults) {
 }
 
 TEST(Level, BiasAndClampsAsInTheContract) {
-  std::mt19937 random(3);
-  const auto pick = [&](int low, int high) {
-    return std::uniform_int_distribution<int>(low, high)(random);
-  };
+  tb::Random random(3);
+  const auto pick = [&](int low, int high) { return random.between(low, high); };
   spec::texture::Parameters p;
   for (int i = 0; i < 300000; ++i) {
     auto d = descriptor(kMinFilters[pick(0, 5)], pick(1, 13));
@@ -194,8 +192,9 @@ TEST(Level, FigureOneOfThePaperTakesTwoSamples) {
 
 // With exact rules the fixed level is the real one but for its last bits, wherever N agrees.
 TEST(Level, ExactRulesComeCloseToRealArithmetic) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> octave(-2, 9), angle(0, 6.28318);
+  tb::Random random(5);
+  const auto octave = [&] { return random.uniform(-2, 9); };
+  const auto angle = [&] { return random.uniform(0, 6.28318); };
   spec::texture::Parameters p;
   p.footprint = spec::texture::FootprintRule::kExact;
   p.log2 = spec::texture::Log2Rule::kExact;
@@ -205,8 +204,8 @@ TEST(Level, ExactRulesComeCloseToRealArithmetic) {
   double largest = 0;
   for (int i = 0; i < 100000; ++i) {
     golden::ideal::PixelFootprint f;
-    const double dx = std::exp2(octave(random)), dy = std::exp2(octave(random));
-    const double ax = angle(random), ay = angle(random);
+    const double dx = std::exp2(octave()), dy = std::exp2(octave());
+    const double ax = angle(), ay = angle();
     f.s_x = dx * std::cos(ax);
     f.t_x = dx * std::sin(ax);
     f.s_y = dy * std::cos(ay);

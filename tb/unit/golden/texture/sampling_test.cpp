@@ -8,7 +8,8 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <random>
+
+#include "tb/stimuli/random.h"
 
 namespace deburr {
 namespace {
@@ -22,12 +23,12 @@ constexpr Wrap kWraps[] = {Wrap::kRepeat, Wrap::kMirroredRepeat, Wrap::kClampToE
 // ---- walker -------------------------------------------------------------------------------------
 
 TEST(Walker, OffsetsAreTheRoundedFractionsOfTheAxis) {
-  std::mt19937_64 random(1);
+  tb::Random random(1);
   for (int lb_n = 0; lb_n <= 4; ++lb_n) {
     const int n = 1 << lb_n;
     for (int trial = 0; trial < 20000; ++trial) {
       const auto difference =
-          static_cast<std::int64_t>(random() >> (31 + trial % 24)) * (trial % 2 == 0 ? 1 : -1);
+          static_cast<std::int64_t>(random.next() >> (31 + trial % 24)) * (trial % 2 == 0 ? 1 : -1);
       const auto spread = static_cast<std::int32_t>(trial % 129);
       for (int i = 0; i < n; ++i) {
         // ((2 i + 1) / 2 N - 1/2) x spread / 64 x difference: every product is below 2^53.

@@ -6,13 +6,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <random>
 #include <span>
 #include <vector>
 
 #include "golden/texture/sampling.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/packets.h"
+#include "tb/stimuli/random.h"
 
 namespace deburr::tb::texture {
 
@@ -78,9 +78,9 @@ inline Pyramid checkerboard(int size, int cell) {
 }
 
 inline Pyramid noise(int width, int height, unsigned seed) {
-  std::mt19937 random(seed);
+  Random random(seed);
   return Pyramid(width, height, [&](int, int) {
-    const auto r = static_cast<std::uint32_t>(random());
+    const std::uint32_t r = random.word();
     return Rgba{static_cast<std::uint8_t>(r), static_cast<std::uint8_t>(r >> 8),
                 static_cast<std::uint8_t>(r >> 16), static_cast<std::uint8_t>(r >> 24)};
   });

@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <random>
 #include <set>
 
 #include "golden/texture/texture_golden.h"
 #include "spec/error.h"
+#include "tb/stimuli/random.h"
 #include "tb/unit/golden/texture/support.h"
 
 namespace deburr {
@@ -120,7 +120,7 @@ class PlainCache {
 class RandomWork {
  public:
   explicit RandomWork(unsigned seed) : random_(seed) {}
-  int pick(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
+  int pick(int low, int high) { return random_.between(low, high); }
 
   spec::texture::Parameters parameters() {
     spec::texture::Parameters p;
@@ -155,10 +155,9 @@ class RandomWork {
     spec::texture::Quad q;
     q.tag = tag;
     q.coverage = static_cast<std::uint8_t>(pick(0, 15));
-    std::uniform_real_distribution<double> where(-3, 3), octave(-14, 1), angle(0, 6.2832);
-    const double s = where(random_), t = where(random_);
-    const double dx = std::exp2(octave(random_)), dy = std::exp2(octave(random_));
-    const double ax = angle(random_), ay = angle(random_);
+    const double s = random_.uniform(-3, 3), t = random_.uniform(-3, 3);
+    const double dx = std::exp2(random_.uniform(-14, 1)), dy = std::exp2(random_.uniform(-14, 1));
+    const double ax = random_.uniform(0, 6.2832), ay = random_.uniform(0, 6.2832);
     for (std::size_t lane = 0; lane < 4; ++lane) {
       const double i = static_cast<double>(lane & 1), j = static_cast<double>(lane >> 1);
       q.s[lane] = static_cast<std::int32_t>((s + i * dx * std::cos(ax) + j * dy * std::cos(ay)) *
@@ -172,7 +171,7 @@ class RandomWork {
   }
 
  private:
-  std::mt19937 random_;
+  tb::Random random_;
 };
 
 // Runs random work on both; returns the number of lanes, fills and counters that differ. `spoil`

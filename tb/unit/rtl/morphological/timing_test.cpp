@@ -43,7 +43,9 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.width << 'x' << c.hei
 
 class LatencyFormula : public ::testing::TestWithParam<Case> {};
 
-// Every beat, flush included, if BPR >= iterations + divider.latency + 16.
+// Every beat, flush included, if rows are long enough for the records: BPR >= T (N + 1) +
+// divider.latency + 12 if none waits for another, else the bound of bounds_test.cpp
+// (docs/morphological_hardware.md).
 TEST_P(LatencyFormula, HoldsForEveryBeat) {
   const Case c = GetParam();
   Parameters p = preset(Preset::kDeburr, c.reach_rows);
@@ -175,6 +177,36 @@ INSTANTIATE_TEST_SUITE_P(
                       Load{"stairs_7", 0, stairs_7, 200}, Load{"verticals", 0, verticals, 200},
                       Load{"stairs_7_four_lanes", 2, stairs_7, 200}),
     [](const auto& param) { return param.param.name; });
+
+class FullWidth : public ::testing::TestWithParam<int> {};
+
+// The defaults at the width of 1080p: a pixel is taken in every clock, and none waits on its way.
+TEST_P(FullWidth, TakesRandomEdgesAtAPixelAClock) {
+  const int permille = GetParam();
+  Parameters p = preset(Preset::kDeburr);
+  const Parameters defaults;
+  p.line_pixels = defaults.line_pixels;
+  ASSERT_EQ(defaults.preset, p.preset);
+  ASSERT_EQ(defaults.window_rows, p.window_rows);
+  ASSERT_EQ(defaults.reach_columns, p.reach_columns);
+  EngineBench bench(p);
+  Times times(bench);
+  const Frame in = stimuli::random_edges(1920, 150, permille);
+  bench.run(in);
+  const spec::morphological::Work work = bench.engine.work();
+  EXPECT_NEAR(static_cast<double>(work.edge_pixels),
+              static_cast<double>(work.pixels) * permille / 1000, 2000);
+  constexpr Cycle kPixels = Cycle{1920} * 150, kLatency = Cycle{37} * 1920 + kPipe;
+  ASSERT_EQ(times.popped.size(), kPixels);
+  ASSERT_EQ(times.pushed.size(), kPixels);
+  EXPECT_EQ(times.popped.back() - times.popped.front(), kPixels - 1);
+  EXPECT_EQ(bench.engine.beat_latency.min(), kLatency);
+  EXPECT_EQ(bench.engine.beat_latency.max(), kLatency);
+  EXPECT_EQ(bench.engine.extractor.record_stalls.value(), 0u);
+  EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), kPixels + kLatency);
+}
+INSTANTIATE_TEST_SUITE_P(EdgePermille, FullWidth, ::testing::Values(50, 100, 200),
+                         [](const auto& param) { return std::to_string(param.param); });
 
 // Beyond that the slots wait, are counted, and nothing else changes.
 TEST(BackPressure, StallsAreCountedAndNothingIsLost) {

@@ -3,8 +3,8 @@
 #include "rtl_model/texture/footprint_unit.h"
 
 #include <cmath>
-#include <random>
 
+#include "tb/stimuli/random.h"
 #include "tb/unit/rtl/texture/support.h"
 
 namespace deburr::tb::texture_rtl {
@@ -109,10 +109,10 @@ TEST(TextureRtlFootprint, LatencyTwoAndNineteen) {
 TEST(TextureRtlFootprint, RootIsTheIntegerSquareRoot) {
   ClockDomain clock("clock", period());
   FootprintBench b(clock, "", spec::texture::FootprintRule::kExact);
-  std::mt19937 random(7);
+  Random random(7);
   std::vector<DerivativeToken> tokens;
   for (int i = 0; i < 4000; ++i) {
-    const auto any = [&] { return static_cast<std::uint32_t>(random() >> (1 + random() % 31)); };
+    const auto any = [&] { return random.word() >> (1 + random.below(31)); };
     tokens.push_back({ticket(), 0, 0, 0, 0, 0, 0, any(), any(), any(), any()});
   }
   tokens.push_back({ticket(), 0, 0, 0, 0, 0, 0, 0x7FFFFFFF, 0x7FFFFFFF, 0, 0});

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a run leaves behind: result.json, comparison, report, progress, files.
+#include "tb/results/result.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -16,7 +18,6 @@
 #include "tb/results/headline.h"
 #include "tb/results/progress.h"
 #include "tb/results/report.h"
-#include "tb/results/result.h"
 #include "tb/results/run_context.h"
 
 namespace deburr::tb {
