@@ -34,7 +34,7 @@ struct RunOptions {
   std::string config, out;
   std::vector<std::string> sets;
   std::vector<Assignment> shorthands;
-  bool resolve_only = false;
+  bool resolve_only = false, wait = false;
 };
 
 const std::vector<Shorthand>& common_shorthands() {
@@ -131,13 +131,14 @@ Outcome run_engine(Engine& engine, const RunOptions& options, const std::string&
   catch_interrupts();
   RunContext context(options.out.empty() ? fmt::format("out/{}", engine.name()) : options.out, set,
                      command, static_cast<std::uint64_t>(run.seed));
-  if (!options.config.empty()) context.protect(options.config);
   Result result;
   result.unit = engine.name();
   result.clock_mhz = run.clock_mhz;
   std::string kind;
   int code = 0;
   try {
+    context.claim(options.wait ? IfTaken::kWait : IfTaken::kRefuse);
+    if (!options.config.empty()) context.protect(options.config);
     engine.run(run, context, result);
     if (result.mismatches + result.traffic_mismatches > 0) {
       code = static_cast<int>(ExitCode::kMismatch);
@@ -260,6 +261,8 @@ void add_run(CLI::App& app, CommandLine& line) {
         ->add_option("--out", options->out,
                      fmt::format("Directory of the results (out/{})", engine->name()))
         ->type_name("DIR");
+    command->add_flag("--wait", options->wait,
+                      "Wait for another run that has the directory, instead of refusing");
     command->add_flag("--show-config", options->resolve_only,
                       "Print the resolved configuration and stop");
     // To know which shorthands are switches, the parameters are asked.

@@ -77,7 +77,6 @@ class MorphologicalCommand final : public Engine {
     for (const std::string& conversion : loaded.conversions) context.add_note(conversion);
     const std::vector<MorphologicalInput> frames(static_cast<std::size_t>(frame_.count),
                                                  loaded.input);
-    context.claim();
     Simulation simulation(simulation_options(run, context));
     MorphologicalEnvironment environment(simulation, frames, {parameters_, memory_});
     simulate(simulation, environment, context, result,

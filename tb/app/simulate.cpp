@@ -36,10 +36,10 @@ SimulationOptions simulation_options(const RunParameters& run, const RunContext&
 void simulate(Simulation& simulation, Environment& environment, RunContext& context, Result& result,
               const std::function<void()>& add_pictures) {
   simulation.elaborate(environment);
-  context.begin();
+  if (interrupted()) throw Interrupted();  // while the input was made: there is nothing to keep
   try {
     const Amount amount = environment.amount();
-    Progress progress(result.unit, amount.total, amount.unit);
+    Progress progress(result.unit, amount.total, amount.unit, context.quiet());
     simulation.run([&](std::uint64_t delivered, std::uint64_t taken) {
       progress.update(delivered, taken);
       return !interrupted();

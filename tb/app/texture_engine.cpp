@@ -52,7 +52,6 @@ class TextureEngine final : public Engine {
     for (const auto& input : scene.inputs()) context.add_input(input);
     context.set_title(title(), summary_line(scene));
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
-    context.claim();
     Simulation simulation(simulation_options(run, context));
     TextureEnvironment environment(simulation, scene, {texture_, memory_});
     simulate(simulation, environment, context, result,

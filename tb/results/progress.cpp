@@ -52,10 +52,11 @@ std::string Progress::line(std::string_view label, std::string_view unit, std::u
   return text;
 }
 
-Progress::Progress(std::string_view label, std::uint64_t total, std::string_view unit)
+Progress::Progress(std::string_view label, std::uint64_t total, std::string_view unit, bool quiet)
     : label_(label),
       unit_(unit),
       total_(total),
+      quiet_(quiet),
       terminal_(::isatty(STDERR_FILENO) == 1),
       start_(Clock::now()),
       last_(start_) {}
@@ -68,6 +69,7 @@ Progress::~Progress() {
 }
 
 void Progress::update(std::uint64_t delivered, std::uint64_t taken) {
+  if (quiet_) return;
   done_ = done(delivered, taken);
   const Clock::time_point now = Clock::now();
   if (now - last_ < (terminal_ ? Clock::duration(kTerminalPeriod) : kPlainPeriod)) return;

@@ -13,8 +13,8 @@ namespace deburr::tb {
 
 class Progress {
  public:
-  // `unit` is what is counted: "fragment".
-  Progress(std::string_view label, std::uint64_t total, std::string_view unit);
+  // `unit` is what is counted: "fragment". A quiet one says nothing.
+  Progress(std::string_view label, std::uint64_t total, std::string_view unit, bool quiet = false);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -38,7 +38,7 @@ class Progress {
   std::string label_, unit_;
   std::uint64_t total_;
   std::uint64_t done_ = 0;
-  bool terminal_;
+  bool quiet_, terminal_;
   bool shown_ = false;
   Clock::time_point start_, last_;
 };

@@ -75,8 +75,8 @@ Json read_manifest(const fs::path& directory) {
 
 class ReportBuilder {
  public:
-  explicit ReportBuilder(const fs::path& directory)
-      : result_(read_result(directory)), manifest_(read_manifest(directory)) {
+  ReportBuilder(const fs::path& directory, Json result, Json manifest)
+      : result_(std::move(result)), manifest_(std::move(manifest)) {
     fill_head();
     fill_images(directory);
     fill_tables();
@@ -513,7 +513,13 @@ std::string data_uri(const fs::path& image_file) {
   return "data:image/png;base64," + encoded;
 }
 
-std::string build_report(const fs::path& directory) { return ReportBuilder(directory).render(); }
+std::string build_report(const fs::path& pictures, Json result, Json manifest) {
+  return ReportBuilder(pictures, std::move(result), std::move(manifest)).render();
+}
+
+std::string build_report(const fs::path& directory) {
+  return build_report(directory, read_result(directory), read_manifest(directory));
+}
 
 void write_report(const fs::path& directory) {
   write_file_atomically(directory / "report.html", build_report(directory));
