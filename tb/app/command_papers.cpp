@@ -37,6 +37,8 @@ Outcome run_papers(const PapersCommand& command, const std::string& line) {
     if (std::find(known.begin(), known.end(), id) == known.end())
       throw spec::ConfigError(
           fmt::format("no paper '{}' here: known are {}", id, fmt::join(known, ", ")));
+  if (command.out.empty())
+    throw spec::ConfigError("--out: expected a name, got '': give one, or leave out --out");
   catch_interrupts();
   let_broken_pipes_fail();
   PaperOptions options = command.options;

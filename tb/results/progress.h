@@ -43,6 +43,22 @@ class Progress {
   Clock::time_point start_, last_;
 };
 
+// Work of which nobody knows how much is left, such as a truth that is rendered: how long it takes.
+class Waiting {
+ public:
+  explicit Waiting(std::string label, bool quiet = false);
+  ~Waiting();
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+  void update();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::string label_;
+  bool quiet_, terminal_, shown_ = false;
+  Clock::time_point start_, last_;
+};
+
 // What the error says when --max-cycles is reached: how far the run came and what to raise.
 std::string out_of_cycles(std::uint64_t cycles, std::uint64_t done, std::uint64_t total,
                           std::string_view unit);

@@ -105,6 +105,20 @@ class ReportBuilder {
       list << row({{"reason", reason}});
       page_.set("reason", list);
     }
+    mustache::data notes{mustache::data::type::list};
+    for (const Json& note : result_.value("notes", Json::array()))
+      notes << row({{"note", shown(note)}});
+    page_.set("notes", notes);
+    mustache::data mismatches_table{mustache::data::type::list};
+    for (const Json& m : result_.value("first_mismatches", Json::array()))
+      mismatches_table << row({{"check", m.value("check", "")},
+                               {"where", m.value("where", "")},
+                               {"item", m.value("item", "")},
+                               {"field", m.value("field", "")},
+                               {"expected", m.value("expected", "")},
+                               {"got", m.value("got", "")}});
+    page_.set("has_mismatches", mismatches_table.is_non_empty_list());
+    page_.set("mismatches", mismatches_table);
     page_.set("command", manifest_.value("command", ""));
     page_.set("cycles", shown(result_["cycles"]));
 

@@ -43,7 +43,9 @@ RunContext::RunContext(fs::path directory, const ParameterSet& parameters, std::
       started_(now_utc()),
       seed_(seed) {}
 
-fs::path RunContext::trace_file() const { return directory_.draft() / kTrace; }
+fs::path RunContext::trace_file() const {
+  return judging_only_ ? "/dev/null" : directory_.draft() / kTrace;
+}
 
 void RunContext::claim(IfTaken if_taken) {
   std::vector<std::string> names = {kResult, kReport};
@@ -60,7 +62,7 @@ void RunContext::set_title(std::string title, std::string summary) {
 
 void RunContext::add_note(const std::string& note) {
   if (!quiet_) fmt::print(stderr, "deburr: note: {}\n", note);
-  summary_ += "; " + note;
+  notes_.push_back(note);
 }
 
 void RunContext::add_input(const fs::path& file) {
@@ -73,6 +75,8 @@ void RunContext::add_image(const std::string& name, const Image& image, std::str
                            std::string caption) {
   DEBURR_CHECK(std::find(kPictureNames.begin(), kPictureNames.end(), name) != kPictureNames.end(),
                "kPictureNames lacks " + name);
+  const Parameter* wanted = parameters_.find("run.images");
+  if (wanted != nullptr && wanted->text() == "false") return;
   write_image(directory_.draft() / (name + ".png"), image);
   images_.push_back({{"file", name + ".png"},
                      {"role", name},
@@ -126,7 +130,9 @@ Json RunContext::manifest(const Result& result) const {
 }
 
 void RunContext::finish(const Result& result) {
-  const Json json = to_json(result), origin = manifest(result);
+  Result noted = result;
+  noted.notes = notes_;
+  const Json json = to_json(noted), origin = manifest(result);
   const fs::path draft = directory_.draft();
   write_file_atomically(draft / kResult, json.dump(2) + "\n");
   write_file_atomically(draft / kReport, build_report(draft, json, origin));

@@ -35,9 +35,12 @@ class RunContext {
   // Nothing on the error stream but errors.
   void set_quiet(bool quiet) { quiet_ = quiet; }
   bool quiet() const { return quiet_; }
+  // A run that ends where it would begin: everything that was given has been judged.
+  void set_judging_only() { judging_only_ = true; }
+  bool judging_only() const { return judging_only_; }
   void set_title(std::string title, std::string summary);
-  // What had to be decided about an input (a mesh without normals): on the error stream and, with
-  // the summary, in manifest and report.
+  // What had to be decided about an input (a mesh without normals): on the error stream, in result
+  // and report.
   void add_note(const std::string& note);
   // The directory is this run's from here on (RunDirectory::claim).
   void claim(IfTaken if_taken = IfTaken::kRefuse);
@@ -66,7 +69,8 @@ class RunContext {
   const ParameterSet& parameters_;
   std::string command_, title_, summary_, started_;
   std::uint64_t seed_;
-  bool quiet_ = false;
+  bool quiet_ = false, judging_only_ = false;
+  std::vector<std::string> notes_;
   nlohmann::ordered_json inputs_ = nlohmann::ordered_json::array();
   nlohmann::ordered_json images_ = nlohmann::ordered_json::array();
 };

@@ -74,8 +74,7 @@ std::string holder(const fs::path& claim) {
 
 [[noreturn]] void fail(std::string_view action, const fs::path& path, const std::string& reason) {
   throw spec::FileError(
-      fmt::format("cannot {} '{}': {}; free some space there, or choose another "
-                  "directory with --out",
+      fmt::format("cannot {} '{}': {}; make room there, or choose another directory with --out",
                   action, path.string(), reason));
 }
 

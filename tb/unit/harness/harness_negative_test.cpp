@@ -4,6 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
 #include "rtl_model/fabric/memory_port.h"
 #include "tb/harness/bench.h"
 #include "tb/harness/memory_model.h"
@@ -219,7 +223,63 @@ TEST(Negative, ScoreboardWithWhatNobodyExpects) {
   board.got(15);
   board.got(25, "cycle 7");
   EXPECT_THAT(text_of([&] { board.check(); }, ExitCode::kMismatch),
-              HasSubstr("cycle 7: got 25, expected nothing"));
+              HasSubstr("cycle 7: expected nothing, got 25"));
+}
+
+// One item that is lost, comes twice or comes late is as many mismatches as items are concerned,
+// whatever comes behind it.
+class OutOfStep : public testing::Test {
+ protected:
+  void run(const std::vector<int>& come) {
+    for (int i = 0; i < 1000; ++i) board_.expect(i);
+    for (const int i : come) board_.got(i);
+  }
+  static std::vector<int> counted() {
+    std::vector<int> all(1000);
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+  Scoreboard<int> board_{"board", 1};
+};
+
+TEST_F(OutOfStep, Lost) {
+  std::vector<int> come = counted();
+  come.erase(come.begin() + 100, come.begin() + 103);
+  run(come);
+  EXPECT_EQ(board_.mismatches(), 3u);
+  EXPECT_EQ(board_.leftovers(), 0u);
+  EXPECT_THAT(text_of([&] { board_.check(); }, ExitCode::kMismatch),
+              HasSubstr("item 100: expected 100, got nothing, or it later: next came 103"));
+}
+TEST_F(OutOfStep, Twice) {
+  std::vector<int> come = counted();
+  come.insert(come.begin() + 100, 99);
+  run(come);
+  EXPECT_EQ(board_.mismatches(), 1u);
+  EXPECT_EQ(board_.leftovers(), 0u);
+  EXPECT_THAT(text_of([&] { board_.check(); }, ExitCode::kMismatch),
+              HasSubstr("item 99: expected it once, got again 99"));
+}
+TEST_F(OutOfStep, Late) {
+  std::vector<int> come = counted();
+  std::rotate(come.begin() + 100, come.begin() + 101, come.begin() + 110);
+  run(come);
+  EXPECT_EQ(board_.mismatches(), 2u);
+  EXPECT_EQ(board_.leftovers(), 0u);
+}
+TEST_F(OutOfStep, WrongAndLostAreBothFound) {
+  std::vector<int> come = counted();
+  come[50] = -1;
+  come.erase(come.begin() + 100);
+  run(come);
+  EXPECT_EQ(board_.mismatches(), 2u);
+  EXPECT_EQ(board_.leftovers(), 0u);
+}
+TEST_F(OutOfStep, FurtherThanAnybodyLooks) {
+  std::vector<int> come = counted();
+  come.erase(come.begin() + 100, come.begin() + 300);
+  run(come);
+  EXPECT_GT(board_.mismatches() + board_.leftovers(), 200u);
 }
 TEST(Negative, ScoreboardThatSawNothing) {
   EXPECT_THROW(Scoreboard<int>("board", 1).check(), Mismatch);
