@@ -222,7 +222,7 @@ class FullDisk(Survival):
         if subprocess.run(["unshare", "-rm", "sh", "-c", mount], capture_output=True).returncode:
             self.skipTest("no user namespaces here")
         run = f"{DEBURR} run texture --size 64x64 --out {self.path('disk')}/out"
-        sums = f"(cd {self.path('disk')}/out && find . -type f | sort | xargs sha256sum)"
+        sums = f"cd {self.path('disk')}/out && find . -type f | sort | xargs sha256sum"
         fill = f"head -c $free /dev/zero > {self.path('disk')}/ballast"
         script = (f"{mount} && {run} >/dev/null || exit 9; before=$({sums}); "
                   "used=$(du -sb " + self.path("disk") + "/out | cut -f1); "
@@ -232,7 +232,7 @@ class FullDisk(Survival):
                   f"rm {self.path('disk')}/ballast; "
                   f"[ $code = 5 ] && [ \"$before\" = \"$({sums})\" ] && "
                   f"grep -q 'No space left' {self.path('log')} || "
-                  f"{{ echo step $step code $code; cat {self.path('log')}; {sums}; exit 1; }}; "
+                  f"{{ echo step $step code $code; cat {self.path('log')}; exit 1; }}; "
                   "done")
         done = subprocess.run(["unshare", "-rm", "sh", "-c", script], capture_output=True,
                               text=True, timeout=300)
@@ -275,7 +275,8 @@ class Papers(Survival):
     def test_into_a_pipe_that_is_closed(self):
         process = self.start()
         process.stdout.close()
-        err = process.stderr.read()
+        with process.stderr:
+            err = process.stderr.read()
         self.assertEqual(process.wait(120), 5, err)
         self.assertIn("standard output", err)
         self.assert_kept("000")
