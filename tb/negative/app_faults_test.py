@@ -50,6 +50,10 @@ class Faults(CommandTest):
         done, result = self.fault("drop-colour", 1, "mismatch", *self.UNCHECKED)
         self.assertEqual(result["checks"]["mismatches"], 1, "the rest is compared with its own")
         self.assertIn("next came", done.stderr)
+        with open(self.path("out/manifest.json")) as file:
+            captions = {i["role"]: i["caption"] for i in json.load(file)["images"]}
+        self.assertIn("any difference is bright", captions["difference"])
+        self.assertIn("1 pixels were not delivered", captions["after"])
         self.fault("drop-colour", 3, "vanished", *self.CHECKED)
 
     def test_duplicated_colour(self):

@@ -132,10 +132,12 @@ Json RunContext::manifest(const Result& result) const {
 void RunContext::finish(const Result& result) {
   Result noted = result;
   noted.notes = notes_;
-  const Json json = to_json(noted), origin = manifest(result);
+  const std::string text = to_json(noted).dump(2) + "\n";
+  const Json origin = manifest(result);
   const fs::path draft = directory_.draft();
-  write_file_atomically(draft / kResult, json.dump(2) + "\n");
-  write_file_atomically(draft / kReport, build_report(draft, json, origin));
+  write_file_atomically(draft / kResult, text);
+  // From the text, so that it is the page that `deburr report` makes of the file.
+  write_file_atomically(draft / kReport, build_report(draft, Json::parse(text), origin));
   directory_.publish(origin, kResult);
 }
 
