@@ -12,37 +12,65 @@
 #include "spec/error.h"
 #include "tb/app/commands.h"
 #include "tb/papers/papers.h"
-#include "tb/results/parameter_set.h"
-#include "tb/scene/image_io.h"
+#include "tb/results/interrupt.h"
+#include "tb/results/run_directory.h"
+#include "tb/scene/truth.h"
 
 namespace deburr::tb {
 namespace {
 
 struct PapersCommand {
   std::string out = "out/papers";
+  bool wait = false;
   std::vector<std::string> only;
   PaperOptions options;
 };
 
-Outcome run_papers(const PapersCommand& command) {
+bool printed(const std::string& text) {
+  return std::fputs(text.c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
+}
+
+Outcome run_papers(const PapersCommand& command, const std::string& line) {
   std::vector<std::string> known;
   for (const PaperEntry& entry : papers()) known.emplace_back(entry.id);
   for (const std::string& id : command.only)
     if (std::find(known.begin(), known.end(), id) == known.end())
       throw spec::ConfigError(
           fmt::format("no paper '{}' here: known are {}", id, fmt::join(known, ", ")));
-  prove_writable(command.out);
+  if (command.out.empty())
+    throw spec::ConfigError("--out: expected a name, got '': give one, or leave out --out");
+  catch_interrupts();
+  let_broken_pipes_fail();
+  PaperOptions options = command.options;
+  options.interrupted = interrupted;
+  RunDirectory directory(command.out);
   std::vector<Paper> done;
-  for (const PaperEntry& entry : papers()) {
-    if (!command.only.empty() &&
-        std::find(command.only.begin(), command.only.end(), entry.id) == command.only.end())
-      continue;
-    done.push_back(entry.build(command.options));
-    fmt::print("{}\n", to_text(done.back()));
-    std::fflush(stdout);
+  std::string ended;  // why it is not complete
+  int code = 0;
+  try {
+    directory.claim(line, {"papers.json", "index.html"},
+                    command.wait ? IfTaken::kWait : IfTaken::kRefuse);
+    for (const PaperEntry& entry : papers()) {
+      if (!command.only.empty() &&
+          std::find(command.only.begin(), command.only.end(), entry.id) == command.only.end())
+        continue;
+      done.push_back(entry.build(options));
+      if (!printed(to_text(done.back()) + "\n")) {
+        code = static_cast<int>(spec::ExitCode::kFile);
+        ended = "FAIL file: standard output cannot be written";
+        break;
+      }
+    }
+  } catch (const Interrupted&) {
+    code = kInterruptedExit;
+    ended = "INTERRUPTED papers";
   }
-  write_papers(command.out, done);
-  return {0, fmt::format("PASS papers: {} reproduced, {}/index.html", done.size(), command.out)};
+  if (done.empty()) return {code, ended + ": nothing was finished, no results were written"};
+  nlohmann::ordered_json manifest = write_papers(directory.draft(), done);
+  manifest["command"] = line;
+  directory.publish(std::move(manifest), "index.html");
+  const std::string left = fmt::format("{} reproduced, {}/index.html", done.size(), command.out);
+  return {code, code == 0 ? "PASS papers: " + left : ended + ": " + left};
 }
 
 }  // namespace
@@ -59,7 +87,11 @@ void add_papers(CLI::App& app, CommandLine& line) {
       ->check(CLI::Range(64, 4096));
   command->add_flag("--quick", options->options.quick,
                     "Leave out what takes more than a few seconds");
-  command->callback([options, &line] { line.action = [options] { return run_papers(*options); }; });
+  command->add_flag("--wait", options->wait,
+                    "Wait for another run that has the directory, instead of refusing");
+  command->callback([options, &line] {
+    line.action = [options, &line] { return run_papers(*options, line.text); };
+  });
 }
 
 }  // namespace deburr::tb

@@ -4,9 +4,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
+#include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "spec/error.h"
 #include "tb/app/commands.h"
 #include "tb/app/engine.h"
+#include "tb/app/shorthands.h"
 #include "tb/results/headline.h"
 #include "tb/results/interrupt.h"
 #include "tb/results/report.h"
@@ -31,26 +33,11 @@ struct Assignment {
 };
 
 struct RunOptions {
-  std::string config, out;
+  std::optional<std::string> config, out;
   std::vector<std::string> sets;
   std::vector<Assignment> shorthands;
-  bool resolve_only = false;
+  bool resolve_only = false, wait = false, quiet = false;
 };
-
-const std::vector<Shorthand>& common_shorthands() {
-  static const std::vector<Shorthand> options = {
-      {"--seed", "run.seed", "Seed of everything random"},
-      {"--check", "run.check", "golden (default) or none"},
-      {"--trace", "run.trace", "Write waves of these units and links (glob) to trace.vcd"},
-      {"--trace-from", "run.trace_from", "First cycle traced"},
-      {"--trace-to", "run.trace_to", "Cycle after the last one traced"},
-      {"--max-cycles", "run.max_cycles", "End with an error after so many cycles"},
-      {"--stalls", "run.stalls", "Random stalls: probability in each cycle"},
-      {"--shuffle", "run.shuffle", "Evaluate units in random order"},
-      {"--truth", "run.truth", "Compare with the scene's supersampled truth"},
-      {"--fault", "run.fault", "Plant a fault that the checks must catch (docs/verification.md)"}};
-  return options;
-}
 
 std::vector<Assignment> expand(const Shorthand& shorthand, const std::string& value) {
   if (!shorthand.second_parameter.empty()) {  // WxH
@@ -65,7 +52,11 @@ std::vector<Assignment> expand(const Shorthand& shorthand, const std::string& va
 }
 
 void apply(const RunOptions& options, ParameterSet& set) {
-  if (!options.config.empty()) set.load(options.config);
+  for (const auto& [name, value] : {std::pair("--config", options.config), {"--out", options.out}})
+    if (value && value->empty())
+      throw ConfigError(
+          fmt::format("{}: expected a name, got '': give one, or leave out {}", name, name));
+  if (options.config) set.load(*options.config);
   // The same parameter given twice with different values would silently lose one of them.
   std::map<std::string, Assignment> given;
   std::vector<Assignment> all = options.shorthands;
@@ -99,6 +90,40 @@ std::string summary_of(const Result& r, const std::filesystem::path& directory) 
   return text + fmt::format(", {}", (directory / "report.html").string());
 }
 
+std::string decibels(const std::optional<double>& after, const std::optional<double>& before) {
+  if (!after) return "-";
+  if (std::isinf(*after)) return "identical";
+  std::string text = fmt::format("{:.2f} dB", *after);
+  if (before && std::isfinite(*before)) text += fmt::format(" ({:+.2f})", *after - *before);
+  return text;
+}
+
+// Rate, bound, bottleneck and quality in a few lines.
+std::string figures_of(const Result& r) {
+  if (r.cycles == 0) return "";
+  std::string text = fmt::format("rate        {:.3f} {}", r.throughput, r.throughput_unit);
+  if (r.throughput_bound > 0)
+    text += fmt::format(", {:.1f} % of {:.4g}: {}", 100 * r.throughput / r.throughput_bound,
+                        r.throughput_bound, r.throughput_bound_meaning);
+  text += "\n";
+  if (r.bottleneck)
+    text +=
+        fmt::format("limited by  {}, {} in {:.1f} % of the cycles: {}\n", r.bottleneck->unit,
+                    r.bottleneck->cause,
+                    100 * static_cast<double>(r.bottleneck->cycles) / static_cast<double>(r.cycles),
+                    r.bottleneck->meaning);
+  if (r.quality) {
+    text += fmt::format("quality     {}", decibels(r.quality->psnr_db, r.quality->psnr_before_db));
+    if (r.quality->psnr_edge_db)
+      text += ", edges " + decibels(r.quality->psnr_edge_db, r.quality->psnr_edge_before_db);
+    if (r.quality->psnr_silhouette_db)
+      text += ", silhouettes " +
+              decibels(r.quality->psnr_silhouette_db, r.quality->psnr_silhouette_before_db);
+    text += fmt::format(" against {}\n", r.quality->reference);
+  }
+  return text;
+}
+
 // A failed check names its file as the compiler saw it; users know it from the root of the
 // repository.
 std::string from_repository(const std::string& text) {
@@ -109,7 +134,7 @@ std::string from_repository(const std::string& text) {
   return text;
 }
 
-Outcome run_engine(Engine& engine, const RunOptions& options, const std::string& command) {
+Outcome run_engine(Engine& engine, const RunOptions& options, const CommandLine& line) {
   ParameterSet set;
   RunParameters run = engine.run_parameters();
   set.add("run", ParameterKind::kRun, run);
@@ -124,20 +149,24 @@ Outcome run_engine(Engine& engine, const RunOptions& options, const std::string&
   if (run.trace.empty())
     for (const char* name : {"run.trace_from", "run.trace_to"})
       set.refuse(name, "nothing is traced without run.trace (--trace)");
+  RunContext context(options.out.value_or(fmt::format("out/{}", engine.name())), set, line.text,
+                     static_cast<std::uint64_t>(run.seed));
+  context.set_quiet(options.quiet || line.json);
+  Result result;
   if (options.resolve_only) {
+    context.set_judging_only();
+    engine.run(run, context, result);
     fmt::print("{}", set.yaml());
     return {};
   }
   catch_interrupts();
-  RunContext context(options.out.empty() ? fmt::format("out/{}", engine.name()) : options.out, set,
-                     command, static_cast<std::uint64_t>(run.seed));
-  if (!options.config.empty()) context.protect(options.config);
-  Result result;
   result.unit = engine.name();
   result.clock_mhz = run.clock_mhz;
   std::string kind;
   int code = 0;
   try {
+    context.claim(options.wait ? IfTaken::kWait : IfTaken::kRefuse);
+    if (options.config) context.protect(*options.config);
     engine.run(run, context, result);
     if (result.mismatches + result.traffic_mismatches > 0) {
       code = static_cast<int>(ExitCode::kMismatch);
@@ -169,7 +198,7 @@ Outcome run_engine(Engine& engine, const RunOptions& options, const std::string&
     fmt::print(stderr, "deburr: {}\n", result.reason);
   }
   for (const MemoryFigures& memory : result.memories)
-    if (!memory.idealised.empty())
+    if (!memory.idealised.empty() && !context.quiet())
       fmt::print(stderr, "deburr: warning: this hardware cannot be built: memory {}: {}\n",
                  memory.name, memory.idealised);
   if (code == 0 && run.check == CheckMode::kGolden && !result.interrupted &&
@@ -187,18 +216,20 @@ Outcome run_engine(Engine& engine, const RunOptions& options, const std::string&
     result.reason = "interrupted: the results cover what was done until then";
   }
   context.finish(result);
+  if (!context.quiet()) fmt::print("{}", figures_of(result));
+  const std::filesystem::path& directory = context.directory();
+  const std::string summary = summary_of(result, directory);
   if (code != 0)
-    return {code, fmt::format("FAIL {}: {} ({})", kind, headline(result.reason),
-                              summary_of(result, context.directory()))};
+    return {code, fmt::format("FAIL {}: {} ({})", kind, headline(result.reason), summary),
+            directory};
   if (result.interrupted) {
     fmt::print(stderr,
                "deburr: interrupted; the partial results are kept. Run the same command again "
                "for all of it.\n");
-    return {kInterruptedExit,
-            fmt::format("INTERRUPTED {}", summary_of(result, context.directory()))};
+    return {kInterruptedExit, fmt::format("INTERRUPTED {}", summary), directory};
   }
-  return {0, fmt::format("{} {}", result.verdict == Verdict::kPass ? "PASS" : "UNCHECKED",
-                         summary_of(result, context.directory()))};
+  return {0, fmt::format("{} {}", result.verdict == Verdict::kPass ? "PASS" : "UNCHECKED", summary),
+          directory};
 }
 
 // What --help calls a value of it.
@@ -224,7 +255,7 @@ void add_shorthand(CLI::App& command, const Shorthand& shorthand, RunOptions& op
     command.add_flag_callback(
         shorthand.option,
         [&options, shorthand] {
-          options.shorthands.push_back({shorthand.parameter, "true", shorthand.option});
+          options.shorthands.push_back({shorthand.parameter, shorthand.given, shorthand.option});
         },
         shorthand.help);
     return;
@@ -260,28 +291,26 @@ void add_run(CLI::App& app, CommandLine& line) {
         ->add_option("--out", options->out,
                      fmt::format("Directory of the results (out/{})", engine->name()))
         ->type_name("DIR");
+    command->add_flag("--wait", options->wait,
+                      "Wait for another run that has the directory, instead of refusing");
+    command->add_flag("--quiet", options->quiet,
+                      "Print nothing but errors and the line RESULT: ...");
+    command->add_flag("--json", line.json,
+                      "Print one JSON object: exit code, outcome, directory, result");
     command->add_flag("--show-config", options->resolve_only,
-                      "Print the resolved configuration and stop");
+                      "Judge the configuration as a run would, print it and stop");
     // To know which shorthands are switches, the parameters are asked.
     ParameterSet probe;
     RunParameters defaults = engine->run_parameters();
     probe.add("run", ParameterKind::kRun, defaults);
     engine->add_parameters(probe);
-    // An engine may give an option of all engines a meaning of its own.
-    const std::vector<Shorthand> own = engine->shorthands();
-    std::vector<Shorthand> all = common_shorthands();
-    std::erase_if(all, [&](const Shorthand& common) {
-      return std::any_of(own.begin(), own.end(),
-                         [&](const Shorthand& o) { return o.option == common.option; });
-    });
-    for (const auto& list : {all, own})
-      for (const Shorthand& shorthand : list) {
-        const Parameter* parameter = probe.find(shorthand.parameter);
-        DEBURR_CHECK(parameter, shorthand.option + " stands for an unknown parameter");
-        add_shorthand(*command, shorthand, *options, *parameter);
-      }
+    for (const Shorthand& shorthand : shorthands_of(*engine)) {
+      const Parameter* parameter = probe.find(shorthand.parameter);
+      DEBURR_CHECK(parameter, shorthand.option + " stands for an unknown parameter");
+      add_shorthand(*command, shorthand, *options, *parameter);
+    }
     command->callback([engine, options, &line] {
-      line.action = [engine, options, &line] { return run_engine(*engine, *options, line.text); };
+      line.action = [engine, options, &line] { return run_engine(*engine, *options, line); };
     });
   }
 }

@@ -3,6 +3,7 @@
 // when it is the one that was called.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -14,11 +15,13 @@ namespace deburr::tb {
 
 struct Outcome {
   int code = 0;
-  std::string text;  // after "RESULT: "; empty: a command that only prints
+  std::string text;                   // after "RESULT: "; empty: a command that only prints
+  std::filesystem::path directory{};  // with a result.json
 };
 
 struct CommandLine {
-  std::string text;  // as typed
+  std::string text;   // as typed
+  bool json = false;  // the standard output is one JSON object
   std::function<Outcome()> action;
 };
 
@@ -27,5 +30,6 @@ void add_papers(CLI::App& app, CommandLine& line);
 void add_params(CLI::App& app, CommandLine& line);
 void add_compare(CLI::App& app, CommandLine& line);
 void add_report(CLI::App& app, CommandLine& line);
+void add_completion(CLI::App& app, CommandLine& line);
 
 }  // namespace deburr::tb

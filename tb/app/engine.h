@@ -21,7 +21,7 @@ inline constexpr std::array<std::string_view, 2> kCheckModeNames = {"none", "gol
 
 struct RunParameters {
   CheckMode check = CheckMode::kGolden;
-  std::int64_t seed = 1;
+  std::int64_t seed = 1, stall_seed = 1;
   double clock_mhz = 166.67;
   std::int64_t max_cycles = 0;
   std::int32_t watchdog_cycles = 20000;
@@ -34,14 +34,16 @@ struct RunParameters {
   std::int64_t trace_from = 0, trace_to = 2000;
   std::string fault;
   bool truth = false;
+  bool images = true;
 };
 
 template <class Visitor>
 void describe(RunParameters& p, Visitor& v) {
   v.choice("check", p.check, kCheckModeNames,
            "golden: compare every output and every memory access with the golden model.");
-  v.integer("seed", p.seed, 0, 0xFFFFFFFF, "",
-            "Seed of scene textures, random stalls, random latency and shuffling.");
+  v.integer("seed", p.seed, 0, 0xFFFFFFFF, "", "Seed of what goes in: textures made by formula.");
+  v.integer("stall_seed", p.stall_seed, 0, 0xFFFFFFFF, "",
+            "Seed of what must change no pixel: random stalls, latency, shuffling and poison.");
   v.real("clock_mhz", p.clock_mhz, 1, 10000, "MHz", "Clock that times and rates are quoted for.");
   v.integer("max_cycles", p.max_cycles, 0, std::int64_t{1} << 40, "clk",
             "Ends the run with an error after so many cycles; 0: no limit.");
@@ -63,12 +65,14 @@ void describe(RunParameters& p, Visitor& v) {
   v.text("fault", p.fault, "name",
          "Plants a fault that the checks must catch (docs/verification.md).");
   v.boolean("truth", p.truth, "Compare the picture with the scene's supersampled truth.");
+  v.boolean("images", p.images, "Leave pictures, and show them in the report.");
 }
 
-// A command line option that stands for a parameter, or for two that are given as AxB.
+// A command line option that stands for a parameter, or for two that are given as AxB. Without a
+// value it sets a switch to `given`.
 struct Shorthand {
   std::string option, parameter, help;
-  std::string second_parameter{};
+  std::string second_parameter{}, given = "true";
 };
 
 class Engine {

@@ -9,6 +9,7 @@
 
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
+#include "tb/app/input_rules.h"
 #include "tb/app/morphological_engine.h"
 #include "tb/app/morphological_rules.h"
 #include "tb/app/pictures.h"
@@ -42,6 +43,10 @@ class FrameCommand final : public Engine {
     refuse_unused_rules(set, morphological_, "frame_memory");
     refuse_unused_memory(set, "memory", memory_);
     refuse_unused_memory(set, "frame_memory", frame_memory_);
+    refuse_slow_memory(set, "memory", memory_);
+    if (morphological_.storage == spec::morphological::Storage::kMemory)
+      refuse_slow_memory(set, "frame_memory", frame_memory_);
+    refuse_empty_lod_range(sampler_);
     preset_label_ = preset_label(set, morphological_);
   }
 
@@ -55,6 +60,7 @@ class FrameCommand final : public Engine {
       throw spec::ConfigError(
           "sampler.format: the frame buffer keeps codes; srgb8_a8 delivers linear light");
     const TextureScene scene(scene_, sampler_, static_cast<std::uint32_t>(run.seed));
+    refuse_nothing_drawn(scene);
     for (const auto& input : scene.inputs()) context.add_input(input);
     context.set_title(
         "Frame: " + std::filesystem::path(scene_.source).filename().string(),
@@ -63,7 +69,6 @@ class FrameCommand final : public Engine {
                     scene.stream().width, scene.stream().height, scene.stream().counts.fragments,
                     preset_label_));
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
-    context.claim();
     Simulation simulation(simulation_options(run, context));
     FrameComposition frame(simulation, scene, setup());
     simulate(simulation, frame, context, result,
@@ -94,7 +99,7 @@ class FrameCommand final : public Engine {
       // Coverage is averaged in the light in which the engine blends.
       truth_options.averaging =
           morphological_.linear_light ? Averaging::kLinear : Averaging::kStored;
-      truth = judge_by_scene(scene, truth_options, before, after, result);
+      truth = judge_by_scene(scene, truth_options, before, after, result, context);
     }
     add_smoothing_pictures(
         context, {before, after, frame.smoothing.taps(), frame.smoothing.delivered(),

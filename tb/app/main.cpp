@@ -5,11 +5,15 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -19,6 +23,7 @@
 #include "tb/results/headline.h"
 #include "tb/results/interrupt.h"
 #include "tb/results/parameter_set.h"
+#include "tb/results/result.h"
 
 namespace {
 
@@ -44,8 +49,18 @@ std::string quoted_command(int argc, char** argv) {
   return command;
 }
 
-int finish(const Outcome& outcome, const std::string& command) {
+int finish(const Outcome& outcome, const std::string& command, bool json) {
   std::fflush(stdout);
+  if (json) {
+    nlohmann::ordered_json object = {
+        {"exit_code", outcome.code}, {"outcome", outcome.text}, {"command", command}};
+    if (!outcome.directory.empty()) {
+      object["directory"] = outcome.directory.string();
+      object["result"] = deburr::tb::read_result(outcome.directory);
+    }
+    fmt::print("{}\n", object.dump(2));
+    return outcome.code;
+  }
   if (outcome.code != 0) fmt::print("REPRO: {}\n", command);
   fmt::print("RESULT: {}\n", outcome.text);
   return outcome.code;
@@ -53,9 +68,11 @@ int finish(const Outcome& outcome, const std::string& command) {
 
 // What was printed must have arrived: a full disk behind standard output is a failure too.
 int flushed(int code) {
+  errno = 0;
   const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  const int reason = errno != 0 ? errno : EIO;
   if (!lost) return code;
-  std::fputs("deburr: standard output could not be written: is the disk full?\n", stderr);
+  fmt::print(stderr, "deburr: standard output could not be written: {}\n", std::strerror(reason));
   return code != 0 ? code : static_cast<int>(ExitCode::kFile);
 }
 
@@ -130,37 +147,37 @@ int run(int argc, char** argv) {
       "failure after REPRO: ...");
   const std::string command = quoted_command(argc, argv);
 
-  deburr::tb::CommandLine line{command, nullptr};
+  deburr::tb::CommandLine line{command, false, nullptr};
+  const auto ended = [&](const Outcome& outcome) { return finish(outcome, command, line.json); };
   deburr::tb::add_run(app, line);
   deburr::tb::add_papers(app, line);
   deburr::tb::add_params(app, line);
   deburr::tb::add_compare(app, line);
   deburr::tb::add_report(app, line);
+  deburr::tb::add_completion(app, line);
   try {
     app.parse(argc, argv);
     const Outcome outcome = line.action();
-    return outcome.text.empty() ? outcome.code : finish(outcome, command);
+    return outcome.text.empty() ? outcome.code : ended(outcome);
   } catch (const CLI::Success& done) {  // --help, --version
     return app.exit(done);
   } catch (const CLI::ParseError& error) {
-    return finish(failure(static_cast<int>(ExitCode::kUsage), "usage",
-                          explain(app, argc, argv, error.what())),
-                  command);
+    line.json = std::any_of(argv, argv + argc,
+                            [](const char* word) { return std::string_view(word) == "--json"; });
+    return ended(failure(static_cast<int>(ExitCode::kUsage), "usage",
+                         explain(app, argc, argv, error.what())));
   } catch (const deburr::spec::Error& error) {
     constexpr const char* kKinds[] = {"",           "mismatch", "configuration",
                                       "simulation", "deadlock", "file"};
-    return finish(failure(static_cast<int>(error.code()), kKinds[static_cast<int>(error.code())],
-                          error.what()),
-                  command);
+    return ended(failure(static_cast<int>(error.code()), kKinds[static_cast<int>(error.code())],
+                         error.what()));
   } catch (const std::bad_alloc&) {
-    return finish(failure(static_cast<int>(ExitCode::kSimulation), "simulation",
-                          "out of memory: use a smaller picture or fewer textures"),
-                  command);
+    return ended(failure(static_cast<int>(ExitCode::kSimulation), "simulation",
+                         "out of memory: use a smaller picture or fewer textures"));
   } catch (const std::system_error& error) {  // fmt's, when standard output is full
-    return finish(failure(static_cast<int>(ExitCode::kFile), "file", error.what()), command);
+    return ended(failure(static_cast<int>(ExitCode::kFile), "file", error.what()));
   } catch (const std::exception& error) {
-    return finish(failure(static_cast<int>(ExitCode::kSimulation), "simulation", error.what()),
-                  command);
+    return ended(failure(static_cast<int>(ExitCode::kSimulation), "simulation", error.what()));
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
+#include "tb/app/input_rules.h"
 #include "tb/app/morphological_rules.h"
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
@@ -17,6 +18,7 @@
 #include "tb/env/morphological_environment.h"
 #include "tb/env/morphological_frames.h"
 #include "tb/results/interrupt.h"
+#include "tb/results/progress.h"
 #include "tb/scene/truth.h"
 
 namespace deburr::tb {
@@ -46,6 +48,8 @@ class MorphologicalCommand final : public Engine {
     apply_preset(set, parameters_);
     refuse_unused_rules(set, parameters_, "memory");
     refuse_unused_memory(set, "memory", memory_);
+    if (parameters_.storage == spec::morphological::Storage::kMemory)
+      refuse_slow_memory(set, "memory", memory_);
     refuse_unused_frame(set);
     preset_label_ = preset_label(set, parameters_);
   }
@@ -63,8 +67,16 @@ class MorphologicalCommand final : public Engine {
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
     golden::morphological::check_parameters(parameters_);
-    const LoadedFrame loaded =
-        load_frame(frame_, static_cast<std::uint32_t>(run.seed), interrupted);
+    FrameParameters wanted = frame_;
+    if (context.judging_only()) wanted.truth_samples = std::min(1, wanted.truth_samples);
+    const LoadedFrame loaded = [&] {
+      Waiting waiting("rendering scene and truth", context.quiet());
+      return load_frame(wanted, static_cast<std::uint32_t>(run.seed), [&] {
+        waiting.update();
+        return interrupted();
+      });
+    }();
+    if (is_rendered(frame_)) refuse_nothing_drawn(*loaded.depth, frame_.source);
     if (run.truth && !loaded.truth)
       throw spec::ConfigError(
           "run.truth: this image comes without a truth; name one with --truth FILE");
@@ -77,7 +89,6 @@ class MorphologicalCommand final : public Engine {
     for (const std::string& conversion : loaded.conversions) context.add_note(conversion);
     const std::vector<MorphologicalInput> frames(static_cast<std::size_t>(frame_.count),
                                                  loaded.input);
-    context.claim();
     Simulation simulation(simulation_options(run, context));
     MorphologicalEnvironment environment(simulation, frames, {parameters_, memory_});
     simulate(simulation, environment, context, result,

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "tb/results/interrupt.h"
+#include "tb/results/progress.h"
 #include "tb/results/report.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
@@ -17,7 +18,6 @@
 namespace deburr::tb {
 namespace {
 
-constexpr Rgba8 kNotDelivered = {128, 128, 128, 255}, kNotCompared = {0, 0, 0, 255};
 constexpr int kAnyDifference = 255;  // gain that makes it full scale
 
 std::optional<double> value_of(double psnr) {
@@ -31,11 +31,15 @@ std::string truth_caption() {
 }
 
 Image judge_by_scene(const TextureScene& scene, RenderOptions options, const Image& before,
-                     const Image& after, Result& result) {
+                     const Image& after, Result& result, const RunContext& context) {
   options.width = after.width;
   options.height = after.height;
   options.samples = kTruthSamples;
-  options.interrupted = interrupted;
+  Waiting waiting("rendering the truth", context.quiet());
+  options.interrupted = [&] {
+    waiting.update();
+    return interrupted();
+  };
   try {
     const Image truth = render(scene.scene(), options);
     result.quality = judge_quality(fmt::format("supersampled-{}", kTruthSamples * kTruthSamples),
@@ -62,6 +66,12 @@ Quality judge_quality(std::string reference, const Image& before, const Image& a
     quality.psnr_silhouette_before_db = value_of(psnr(before, truth, silhouettes));
   }
   return quality;
+}
+
+Image without(Image image, const std::vector<bool>& missing, const Rgba8& colour) {
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    if (missing[i]) image.pixels[i] = colour;
+  return image;
 }
 
 Image delivered_part(const Image& image, std::size_t delivered, const Rgba8& rest) {

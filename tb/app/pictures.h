@@ -23,7 +23,7 @@ inline constexpr int kDifferenceGain = 4;
 inline constexpr int kTruthSamples = 16;
 std::string truth_caption();
 Image judge_by_scene(const TextureScene& scene, RenderOptions options, const Image& before,
-                     const Image& after, Result& result);
+                     const Image& after, Result& result, const RunContext& context);
 
 // `after` and what went in, `before`, against the truth: over the frame, over edge pixels and, with
 // a depth, over silhouettes.
@@ -44,6 +44,11 @@ struct SmoothedFrame {
 // before, after, golden, difference, truth, error, change, edges, weights. Pixels that were not
 // delivered are grey in `after` and black where pictures are compared.
 void add_smoothing_pictures(RunContext& context, const SmoothedFrame& frame);
+
+// What stands for a pixel that did not come, and for one that could not be compared.
+inline constexpr Rgba8 kNotDelivered = {128, 128, 128, 255}, kNotCompared = {0, 0, 0, 255};
+// `colour` in place of the pixels that are missing.
+Image without(Image image, const std::vector<bool>& missing, const Rgba8& colour);
 
 // The first `delivered` pixels; `rest` in place of the others.
 Image delivered_part(const Image& image, std::size_t delivered, const Rgba8& rest);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tb/app/simulate.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "spec/error.h"
@@ -13,7 +15,7 @@ namespace deburr::tb {
 SimulationOptions simulation_options(const RunParameters& run, const RunContext& context) {
   SimulationOptions o;
   o.clock_mhz = run.clock_mhz;
-  o.seed = static_cast<std::uint64_t>(run.seed);
+  o.seed = static_cast<std::uint64_t>(run.stall_seed);
   o.stall_permille = static_cast<std::uint32_t>(std::lround(run.stalls * 1000));
   o.golden = run.check == CheckMode::kGolden;
   o.shuffle = run.shuffle;
@@ -33,13 +35,28 @@ SimulationOptions simulation_options(const RunParameters& run, const RunContext&
   return o;
 }
 
+namespace {
+
+void refuse_empty_trace(Simulation& simulation) {
+  const SimulationOptions& o = simulation.options();
+  const rtl::Cycle end = simulation.clock().cycle();
+  if (!o.trace_scope.empty() && o.trace_from >= end)
+    throw spec::ConfigError(
+        fmt::format("run.trace_from = {}: the run was over after cycle {}, so nothing was traced: "
+                    "give a --trace-from below it",
+                    o.trace_from, end));
+}
+
+}  // namespace
+
 void simulate(Simulation& simulation, Environment& environment, RunContext& context, Result& result,
               const std::function<void()>& add_pictures) {
   simulation.elaborate(environment);
-  context.begin();
+  if (context.judging_only()) return;
+  if (interrupted()) throw Interrupted();  // while the input was made: there is nothing to keep
   try {
     const Amount amount = environment.amount();
-    Progress progress(result.unit, amount.total, amount.unit);
+    Progress progress(result.unit, amount.total, amount.unit, context.quiet());
     simulation.run([&](std::uint64_t delivered, std::uint64_t taken) {
       progress.update(delivered, taken);
       return !interrupted();
@@ -55,7 +72,10 @@ void simulate(Simulation& simulation, Environment& environment, RunContext& cont
   result.interrupted = !simulation.complete();
   if (result.interrupted && result.cycles == 0) throw Interrupted();  // while golden worked
   add_pictures();
-  if (simulation.complete()) environment.check();
+  if (!simulation.complete()) return;
+  environment.check();
+  environment.refuse_unused_errors();
+  refuse_empty_trace(simulation);
 }
 
 void describe(Simulation& simulation, Environment& environment, Result& result) {

@@ -17,9 +17,9 @@ namespace deburr::tb {
 // As the parameters `run.*` say.
 SimulationOptions simulation_options(const RunParameters& run, const RunContext& context);
 
-// Runs the environment between context.claim(), which comes before the simulation is made, and
-// context.finish(). `add_pictures` is called with what has come until then, also when the run is
-// broken off; Ctrl-C ends it at the next chance.
+// Runs the environment between context.claim() and context.finish(). `add_pictures` is called with
+// what has come until then, also when the run is broken off; Ctrl-C ends it at the next chance.
+// Where the context only judges, it returns before the first clock.
 void simulate(Simulation& simulation, Environment& environment, RunContext& context, Result& result,
               const std::function<void()>& add_pictures);
 

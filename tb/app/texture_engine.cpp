@@ -3,18 +3,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "spec/error.h"
+#include "tb/app/input_rules.h"
 #include "tb/app/morphological_rules.h"
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
 #include "tb/app/simulate.h"
 #include "tb/env/texture_environment.h"
+#include "tb/results/report.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/textures.h"
@@ -45,14 +49,18 @@ class TextureEngine final : public Engine {
          {"--layout", "sampler.layout", "tiled (default) or linear"}});
   }
 
-  void resolve(ParameterSet& set) override { refuse_unused_memory(set, "memory", memory_); }
+  void resolve(ParameterSet& set) override {
+    refuse_unused_memory(set, "memory", memory_);
+    refuse_slow_memory(set, "memory", memory_);
+    refuse_empty_lod_range(sampler_);
+  }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
     const TextureScene scene(scene_, sampler_, static_cast<std::uint32_t>(run.seed));
+    refuse_nothing_drawn(scene);
     for (const auto& input : scene.inputs()) context.add_input(input);
     context.set_title(title(), summary_line(scene));
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
-    context.claim();
     Simulation simulation(simulation_options(run, context));
     TextureEnvironment environment(simulation, scene, {texture_, memory_});
     simulate(simulation, environment, context, result,
@@ -113,25 +121,36 @@ class TextureEngine final : public Engine {
     render_options.height = scene.stream().height;
     render_options.sampling = Sampling::kNearest;
     const Image before = render(scene.scene(), render_options);
-    const Image after = stored(unit.frame(), scene);
+    // What was under way when the run was ended came on one side only.
+    std::vector<bool> missing(before.pixels.size());
+    for (std::size_t i = 0; i < missing.size(); ++i)
+      missing[i] = scene.stream().depth.pixels[i] != 0 && unit.came()[i] == 0;
+    const auto lost = static_cast<std::uint64_t>(std::count(missing.begin(), missing.end(), true));
+    const std::string note =
+        lost == 0 ? "" : fmt::format("; grey: {} pixels were not delivered", grouped(lost));
+    const Image after = without(stored(unit.frame(), scene), missing, kNotDelivered);
     context.add_image("before", before, "Before", "nearest texel of level 0, no filter");
-    context.add_image("after", after, "Hardware model", "the colours that the unit delivered");
+    context.add_image("after", after, "Hardware model",
+                      "the colours that the unit delivered" + note);
     if (run.check == CheckMode::kGolden) {
-      const Image expected = stored(unit.golden_frame(), scene);
+      // Once the run is over, what did not come is lost, and differs.
+      const bool over = unit.done();
+      Image expected = stored(unit.golden_frame(), scene);
+      if (!over) expected = without(std::move(expected), missing, kNotDelivered);
       context.add_image("golden", expected, "Golden model",
-                        "the same fragments by the golden model");
-      // What was under way when the run was ended is on one side only.
-      if (!result.interrupted)
-        context.add_image("difference", difference(after, expected, 255), "Difference",
-                          count_different(after, expected) == 0
-                              ? "hardware against golden: none"
-                              : "hardware against golden: any difference is bright");
+                        over ? "the same fragments by the golden model"
+                             : "the same fragments by the golden model" + note);
+      context.add_image("difference", difference(after, expected, 255), "Difference",
+                        std::string(count_different(after, expected) == 0
+                                        ? "hardware against golden: none"
+                                        : "hardware against golden: any difference is bright") +
+                            (over || lost == 0 ? "" : "; black where nothing was delivered"));
     }
     if (run.truth && !result.interrupted) {
       RenderOptions truth_options;
       truth_options.sampling = Sampling::kBilinear;
       truth_options.averaging = linear_light() ? Averaging::kLinear : Averaging::kStored;
-      const Image truth = judge_by_scene(scene, truth_options, before, after, result);
+      const Image truth = judge_by_scene(scene, truth_options, before, after, result, context);
       if (truth.empty()) return;
       context.add_image("truth", truth, "Truth", truth_caption());
       context.add_image("error", difference(after, truth, kDifferenceGain), "Error",

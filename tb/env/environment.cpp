@@ -29,6 +29,15 @@ void Environment::plant_in(MemoryModel& memory, const MemoryParameters& paramete
   if (const auto range = error_range(parameters)) memory.fail_range(range->from, range->to);
 }
 
+void Environment::refuse_untouched(const MemoryModel& memory, const MemoryParameters& parameters) {
+  const auto range = error_range(parameters);
+  if (range && memory.errors() == 0)
+    throw spec::ConfigError(fmt::format(
+        "{0}.error_address = {1}: the run asked {0} for nothing from {1:#x} to {2:#x}, so no "
+        "access failed: name an address that it asks for, or more {0}.error_bytes",
+        memory.name(), range->from, range->to - 1));
+}
+
 // ---- registers ----------------------------------------------------------------------------------
 
 void Environment::require_id(RegisterHost& host, std::uint32_t offset, std::uint32_t expected) {

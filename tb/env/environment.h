@@ -60,6 +60,8 @@ class Environment {
   // SimulationError if memory answered with errors. After finish(), so that what they did to the
   // outputs has been judged.
   virtual void refuse_memory_errors() = 0;
+  // ConfigError if a range of memory was to answer with errors and nobody asked for it.
+  virtual void refuse_unused_errors() const = 0;
   virtual Amount amount() const = 0;
   // Clocks until memory has answered everything that it was asked.
   virtual rtl::Cycle clocks_to_drain() const = 0;
@@ -95,6 +97,7 @@ class Environment {
   static constexpr std::uint64_t kFaultyRequest = 20;
   static std::vector<PlantedFault> memory_faults(const std::string& needs = {});
   void plant_in(MemoryModel& memory, const MemoryParameters& parameters) const;
+  static void refuse_untouched(const MemoryModel& memory, const MemoryParameters& parameters);
 
   // ---- registers
   static void require_id(RegisterHost& host, std::uint32_t offset, std::uint32_t expected);

@@ -80,6 +80,11 @@ void FrameComposition::refuse_memory_errors() {
   smoothing.refuse_memory_errors();
 }
 
+void FrameComposition::refuse_unused_errors() const {
+  texture.refuse_unused_errors();
+  smoothing.refuse_unused_errors();
+}
+
 rtl::Cycle FrameComposition::clocks_to_drain() const {
   return std::max(texture.clocks_to_drain(), smoothing.clocks_to_drain());
 }

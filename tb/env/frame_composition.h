@@ -37,6 +37,7 @@ class FrameComposition final : public Environment {
   void restart() override;
   void finish() override;
   void refuse_memory_errors() override;
+  void refuse_unused_errors() const override;
   Amount amount() const override { return smoothing.amount(); }
   rtl::Cycle clocks_to_drain() const override;
   Boards outputs() const override;

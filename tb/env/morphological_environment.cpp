@@ -256,6 +256,10 @@ void MorphologicalEnvironment::refuse_memory_errors() {
                     errors, memory_name()));
 }
 
+void MorphologicalEnvironment::refuse_unused_errors() const {
+  if (memory_) refuse_untouched(*memory_, setup_.memory);
+}
+
 Amount MorphologicalEnvironment::amount() const {
   std::uint64_t all = 0;
   for (const MorphologicalInput& frame : frames_) all += frame.image.pixels.size();
@@ -278,9 +282,11 @@ void MorphologicalEnvironment::judge(rtl::Cycle cycle,
       beat.count == std::min<std::size_t>(left, static_cast<std::size_t>(lanes())) &&
       beat.start_of_frame == (position_ == 0) && beat.end_of_row == (beat.count == left);
   if (golden() && !framed)
-    pixel_board_.complain(fmt::format(
-        "cycle {}: pixel ({}, {}): the beat has {} pixels, start of frame {}, end of row {}", cycle,
-        x, position_ / width, beat.count, beat.start_of_frame, beat.end_of_row));
+    pixel_board_.complain(cycle, position_, "frame",
+                          fmt::format("{} pixels at most, start of frame {}, end of row {}", left,
+                                      position_ == 0, beat.count == left),
+                          fmt::format("{} pixels, start of frame {}, end of row {}", beat.count,
+                                      beat.start_of_frame, beat.end_of_row));
   for (std::size_t i = 0; i < std::min<std::size_t>(beat.count, spec::morphological::kMaxLanes);
        ++i) {
     const spec::morphological::Rgba8& p = beat.pixel[i];
@@ -301,6 +307,14 @@ void MorphologicalEnvironment::judge(rtl::Cycle cycle,
     ++position_;
     ++all_delivered_;
   }
+  if (beat.end_of_row && position_ % width != 0) go_on_at_row((position_ + width / 2) / width);
+}
+
+// A row that came too short or too long spoils no other one.
+void MorphologicalEnvironment::go_on_at_row(std::size_t row) {
+  position_ = row * static_cast<std::size_t>(frame_.width);
+  pixel_board_.go_on_at(position_);
+  tap_board_.go_on_at(position_);
 }
 
 void MorphologicalEnvironment::judge_records() {

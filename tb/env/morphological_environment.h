@@ -60,6 +60,7 @@ class MorphologicalEnvironment final : public Environment {
   void restart() override;
   void finish() override;
   void refuse_memory_errors() override;
+  void refuse_unused_errors() const override;
   Amount amount() const override;
   rtl::Cycle clocks_to_drain() const override {
     return memory_ ? tb::clocks_to_drain(setup_.memory) : 0;
@@ -102,6 +103,7 @@ class MorphologicalEnvironment final : public Environment {
   void start();
   void expect();
   void judge(rtl::Cycle cycle, const spec::morphological::BlendedBeat& beat);
+  void go_on_at_row(std::size_t row);
   void judge_records();
   void judge_traffic();
 

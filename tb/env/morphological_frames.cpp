@@ -108,7 +108,11 @@ LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed,
     }
     ReadReport report;
     frame.input.image = read_image(p.source, &report);
-    frame.conversions = report.conversions;
+    const auto note = [&](const std::string& file) {
+      for (const std::string& conversion : report.conversions)
+        frame.conversions.push_back(fmt::format("'{}': {}", file, conversion));
+    };
+    note(p.source);
     frame.inputs.emplace_back(p.source);
     const Image& image = frame.input.image;
     if (!p.depth.empty()) {
@@ -122,7 +126,8 @@ LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed,
             p.depth));
     }
     if (!p.truth.empty()) {
-      frame.truth = read_image(p.truth);
+      frame.truth = read_image(p.truth, &report);
+      note(p.truth);
       require_size("truth", p.truth, frame.truth->width, frame.truth->height, image);
       frame.truth_name = std::filesystem::path(p.truth).filename().string();
       frame.inputs.emplace_back(p.truth);

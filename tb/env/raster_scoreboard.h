@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -35,16 +36,24 @@ class RasterScoreboard final : public ScoreboardBase {
   void got(const Value& value, std::uint64_t cycle) {
     count();
     if (at_ == frame_.size()) {
-      fail(fmt::format("cycle {}: got {} after the frame's end", cycle, describe_(value)));
+      fail({"", fmt::format("cycle {}", cycle), "after the frame's end", "", "nothing",
+            describe_(value)});
       return;
     }
     const Value& wanted = frame_[at_];
     if (!(wanted == value))
-      fail(fmt::format("cycle {}: pixel ({}, {}): expected {}, got {}", cycle, at_ % width_,
-                       at_ / width_, describe_(wanted), describe_(value)));
+      fail({"", fmt::format("cycle {}", cycle), pixel(at_), "", describe_(wanted),
+            describe_(value)});
     ++at_;
   }
-  void complain(const std::string& text) { fail(text); }
+  // About the frame around the pixels.
+  void complain(std::uint64_t cycle, std::size_t position, std::string field, std::string expected,
+                std::string got) {
+    fail({"", fmt::format("cycle {}", cycle), pixel(position), std::move(field),
+          std::move(expected), std::move(got)});
+  }
+  // Goes on with another pixel: the order is broken, which is a complaint, not so many mismatches.
+  void go_on_at(std::size_t position) { at_ = std::min(position, frame_.size()); }
   std::uint64_t leftovers() const override { return lost_ + leftovers_here(); }
   std::size_t position() const { return at_; }
 
@@ -52,8 +61,10 @@ class RasterScoreboard final : public ScoreboardBase {
   std::uint64_t leftovers_here() const { return frame_.size() - at_; }
   std::string first_leftover() const override {
     return lost_ > 0 ? "pixels of a frame before"
-                     : fmt::format("pixel ({}, {}): {}", at_ % width_, at_ / width_,
-                                   describe_(frame_[at_]));
+                     : fmt::format("{}: {}", pixel(at_), describe_(frame_[at_]));
+  }
+  std::string pixel(std::size_t position) const {
+    return fmt::format("pixel ({}, {})", position % width_, position / width_);
   }
 
   Describe describe_;

@@ -145,6 +145,7 @@ void Simulation::collect(Result& result) const {
   result.host_seconds = host_seconds_;
   result.host_cpu_seconds = cpu_seconds_;
   result.comparisons = result.mismatches = 0;
+  result.first_mismatches.clear();
   result.traffic_comparisons = result.traffic_mismatches = 0;
   const auto sum = [&](const Environment::Boards& boards, std::uint64_t& comparisons,
                        std::uint64_t& mismatches) {
@@ -152,6 +153,8 @@ void Simulation::collect(Result& result) const {
       comparisons += board->comparisons();
       // What never came differs too, once all of it could have come.
       mismatches += board->mismatches() + (complete_ ? board->leftovers() : 0);
+      for (const Difference& d : board->differences())
+        result.first_mismatches.push_back({d.check, d.where, d.item, d.field, d.expected, d.got});
     }
   };
   sum(environment_->outputs(), result.comparisons, result.mismatches);

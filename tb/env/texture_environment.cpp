@@ -71,6 +71,7 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
                   [](const Fill& f) { return fmt::format("read of address {:#x}", f.address); }),
       register_board_(spec::texture::kRegisters) {
   know(faults());
+  colour_board_.call_items([this](const spec::texture::Colour& c) { return place(c); });
   driver_.beats_out(quads_);
   unit_.quads_in(quads_);
   unit_.colours_out(colours);
@@ -124,6 +125,7 @@ void TextureEnvironment::clear_outputs() {
   fills_judged_ = 0;
   delivered_ = 0;
   hash_ = {};
+  came_.assign(frame_->frame().pixels.size(), 0);
 }
 
 // ---- running ------------------------------------------------------------------------------------
@@ -179,6 +181,8 @@ void TextureEnvironment::refuse_memory_errors() {
                     errors));
 }
 
+void TextureEnvironment::refuse_unused_errors() const { refuse_untouched(memory_, setup_.memory); }
+
 Amount TextureEnvironment::amount() const {
   return {delivered_, unit_.address.derivative.fragments.value(), scene_.stream().counts.fragments,
           "fragment"};
@@ -193,6 +197,12 @@ void TextureEnvironment::judge(rtl::Cycle cycle, const spec::texture::Colour& co
   for (const std::uint8_t channel : colour.rgba) hash_.add(channel);
   const std::uint64_t before = colour_board_.mismatches();
   if (golden()) colour_board_.got(colour, fmt::format("cycle {}", cycle));
+  if (colour.tag < scene_.stream().quads.size() && colour.lane < 4) {
+    const FragmentStream::Pixel p = scene_.stream().pixel(colour.tag, colour.lane);
+    if (p.x >= 0 && p.y >= 0 && p.x < frame().width && p.y < frame().height)
+      came_[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(frame().width) +
+            static_cast<std::size_t>(p.x)] = 1;
+  }
   // After a mismatch tags and lanes may be anything; the picture then shows what can be placed.
   const bool trusted = !golden() || colour_board_.mismatches() == before;
   const auto& quads = scene_.stream().quads;
@@ -220,14 +230,15 @@ void TextureEnvironment::fetch_again() {
   stranger_.memory->b_transport(payload, delay);
 }
 
+std::string TextureEnvironment::place(const spec::texture::Colour& c) const {
+  if (c.tag >= scene_.stream().quads.size() || c.lane >= 4) return "no pixel";
+  const FragmentStream::Pixel p = scene_.stream().pixel(c.tag, c.lane);
+  return fmt::format("pixel ({}, {})", p.x, p.y);
+}
+
 std::string TextureEnvironment::describe(const spec::texture::Colour& c) const {
-  std::string where = "no pixel";
-  if (c.tag < scene_.stream().quads.size() && c.lane < 4) {
-    const FragmentStream::Pixel p = scene_.stream().pixel(c.tag, c.lane);
-    where = fmt::format("pixel ({}, {})", p.x, p.y);
-  }
-  return fmt::format("{} tag {} lane {}{} RGBA ({}, {}, {}, {})", where, c.tag, c.lane,
-                     c.last ? " last" : "", c.rgba[0], c.rgba[1], c.rgba[2], c.rgba[3]);
+  return fmt::format("tag {} lane {}{} RGBA ({}, {}, {}, {})", c.tag, c.lane, c.last ? " last" : "",
+                     c.rgba[0], c.rgba[1], c.rgba[2], c.rgba[3]);
 }
 
 // ---- results ------------------------------------------------------------------------------------

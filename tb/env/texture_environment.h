@@ -50,6 +50,7 @@ class TextureEnvironment final : public Environment {
   void restart() override;
   void finish() override;
   void refuse_memory_errors() override;
+  void refuse_unused_errors() const override;
   Amount amount() const override;
   rtl::Cycle clocks_to_drain() const override { return tb::clocks_to_drain(setup_.memory); }
   Boards outputs() const override { return {&colour_board_}; }
@@ -63,6 +64,8 @@ class TextureEnvironment final : public Environment {
   bool sent() const { return driver_.done(); }  // every quad
 
   const Image& frame() const { return frame_->frame(); }
+  // By pixel, whether a colour came for it.
+  const std::vector<std::uint8_t>& came() const { return came_; }
   // The golden model's picture of the same fragments (empty without golden).
   const Image& golden_frame() const { return golden_frame_->frame(); }
   const golden::texture::TextureWork& golden_work() const { return golden_.work(); }
@@ -90,6 +93,7 @@ class TextureEnvironment final : public Environment {
   void expect_from_golden();
   void clear_outputs();
   void fetch_again();
+  std::string place(const spec::texture::Colour& colour) const;
   std::string describe(const spec::texture::Colour& colour) const;
 
   const TextureScene& scene_;
@@ -107,6 +111,7 @@ class TextureEnvironment final : public Environment {
   Scoreboard<Fill> fill_board_;
   RegisterScoreboard register_board_;
   std::unique_ptr<FrameAssembler> frame_, golden_frame_;
+  std::vector<std::uint8_t> came_;
   std::size_t fills_judged_ = 0;
   std::uint64_t delivered_ = 0;
   OutputHash hash_;

@@ -3,9 +3,26 @@
 
 namespace deburr::tb {
 
-void ScoreboardBase::fail(const std::string& text) {
+namespace {
+
+// "cycle 812: item 100: expected A, got B (expected/got: ...)"
+std::string line(const Difference& d) {
+  std::string text;
+  for (const std::string& place : {d.where, d.item})
+    if (!place.empty()) text += place + ": ";
+  text += fmt::format("expected {}, got {}", d.expected, d.got);
+  return d.field.empty() || d.field == "order"
+             ? text
+             : fmt::format("{} (expected/got: {})", text, d.field);
+}
+
+}  // namespace
+
+void ScoreboardBase::fail(Difference difference) {
   ++mismatches_;
-  if (texts_.size() < kKept) texts_.push_back(text);
+  if (differences_.size() >= kKept) return;
+  difference.check = name_;
+  differences_.push_back(std::move(difference));
 }
 
 void ScoreboardBase::check() const {
@@ -18,10 +35,10 @@ void ScoreboardBase::check() const {
   if (leftovers())
     text +=
         fmt::format(", {} expected but never came, the first: {}", leftovers(), first_leftover());
-  if (!texts_.empty()) text += '\n';
-  for (const std::string& line : texts_) text += "\n  " + line;
-  if (mismatches_ > texts_.size())
-    text += fmt::format("\n  and {} more", mismatches_ - texts_.size());
+  if (!differences_.empty()) text += '\n';
+  for (const Difference& difference : differences_) text += "\n  " + line(difference);
+  if (mismatches_ > differences_.size())
+    text += fmt::format("\n  and {} more", mismatches_ - differences_.size());
   throw Mismatch(text);
 }
 

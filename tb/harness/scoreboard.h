@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Compares what came with what was expected. A run passes only if everything expected came, nothing
 // else did, and there were at least as many comparisons as the test promised.
+//
+// One item that is lost, comes twice or comes late is one mismatch: what follows it is compared
+// with what belongs to it again.
 #pragma once
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <concepts>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <map>
+#include <optional>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -20,6 +25,12 @@
 #include "tb/harness/verdict.h"
 
 namespace deburr::tb {
+
+// One mismatch, for people: where in the run ("cycle 812"), which item ("item 100", "pixel (3,
+// 4)"), which of its fields, and what they should have been.
+struct Difference {
+  std::string check, where, item, field, expected, got;
+};
 
 // The part that does not depend on what is compared.
 class ScoreboardBase {
@@ -32,19 +43,21 @@ class ScoreboardBase {
   std::uint64_t mismatches() const { return mismatches_; }
   virtual std::uint64_t leftovers() const = 0;  // expected, but they never came
   bool passed() const { return mismatches_ == 0 && leftovers() == 0 && comparisons_ >= minimum_; }
+  // The first few.
+  const std::vector<Difference>& differences() const { return differences_; }
   // Throws Mismatch with the first few differences unless passed().
   void check() const;
 
  protected:
   void count() { ++comparisons_; }
-  void fail(const std::string& text);
+  void fail(Difference difference);
   virtual std::string first_leftover() const = 0;
 
  private:
   static constexpr std::size_t kKept = 10;
   std::string name_;
   std::uint64_t minimum_, comparisons_ = 0, mismatches_ = 0;
-  std::vector<std::string> texts_;
+  std::vector<Difference> differences_;
 };
 
 // In order by default; with a key, in any order between keys and in order within one.
@@ -59,27 +72,60 @@ class Scoreboard final : public ScoreboardBase {
         describe_(std::move(describe)),
         key_(std::move(key)) {}
 
+  // What an item is called ("pixel (3, 4)") instead of its number.
+  void call_items(Describe name) { name_ = std::move(name); }
+
   void expect(const T& value) {
-    expected_[key_ ? key_(value) : 0].push_back({value, number_++});
+    expected_[key_ ? key_(value) : 0].waiting.push_back({value, number_++});
     ++waiting_;
   }
   void got(const T& value, const std::string& where = {}) {
     count();
-    const auto found = expected_.find(key_ ? key_(value) : 0);
-    if (found == expected_.end()) {
-      fail(fmt::format("{}got {}, expected nothing", prefix(where), text(value)));
+    Queue& queue = expected_[key_ ? key_(value) : 0];
+    auto& waiting = queue.waiting;
+    if (!waiting.empty() && waiting.front().value == value) {
+      queue.last = waiting.front();
+      waiting.pop_front();
+      --waiting_;
       return;
     }
-    const Expected wanted = found->second.front();
-    found->second.pop_front();
-    if (found->second.empty()) expected_.erase(found);
+    // Out of step: it may have come before, or be one of those that are missing, or come early.
+    if (const auto late = std::find(queue.lost.begin(), queue.lost.end(), value);
+        late != queue.lost.end()) {
+      fail({"", where, item(*late), "order", "it earlier", text(value)});
+      queue.lost.erase(late);
+      return;
+    }
+    const auto end = waiting.begin() +
+                     static_cast<std::ptrdiff_t>(std::min<std::size_t>(waiting.size(), kLookAhead));
+    const bool again = queue.last && queue.last->value == value;
+    if (const auto found = std::find(waiting.begin(), end, value); !again && found != end) {
+      for (auto lost = waiting.begin(); lost != found; ++lost) {
+        fail({"", where, item(*lost), "order", text(lost->value),
+              "nothing, or it later: next came " + text(value)});
+        queue.lost.push_back(*lost);
+        if (queue.lost.size() > kLookAhead) queue.lost.pop_front();
+      }
+      queue.last = *found;
+      waiting_ -= static_cast<std::uint64_t>(found - waiting.begin()) + 1;
+      waiting.erase(waiting.begin(), found + 1);
+      return;
+    }
+    if (again) {
+      fail({"", where, item(*queue.last), "order", "it once", "again " + text(value)});
+      return;
+    }
+    if (waiting.empty()) {
+      fail({"", where, "", "", "nothing", text(value)});
+      return;
+    }
+    const Expected wanted = waiting.front();
+    waiting.pop_front();
     --waiting_;
-    if (wanted.value == value) return;
-    std::string mismatch = fmt::format("{}item {}: expected {}, got {}", prefix(where),
-                                       wanted.number, text(wanted.value), text(value));
-    if constexpr (rtl::HasFields<T>)
-      mismatch += fmt::format(" (expected/got: {})", rtl::payload_difference(wanted.value, value));
-    fail(mismatch);
+    queue.last = wanted;
+    std::string fields;
+    if constexpr (rtl::HasFields<T>) fields = rtl::payload_difference(wanted.value, value);
+    fail({"", where, item(wanted), fields, text(wanted.value), text(value)});
   }
   std::uint64_t leftovers() const override { return waiting_; }
   // After a reset: what was expected will not come; comparisons so far count.
@@ -89,12 +135,19 @@ class Scoreboard final : public ScoreboardBase {
   }
 
  private:
+  // As far as is looked for an item that came at a wrong time.
+  static constexpr std::size_t kLookAhead = 64;
   struct Expected {
     T value;
     std::uint64_t number;
+    friend bool operator==(const Expected& a, const T& b) { return a.value == b; }
   };
-  static std::string prefix(const std::string& where) {
-    return where.empty() ? std::string() : where + ": ";
+  struct Queue {
+    std::deque<Expected> waiting, lost;
+    std::optional<Expected> last;  // that came
+  };
+  std::string item(const Expected& e) const {
+    return name_ ? name_(e.value) : fmt::format("item {}", e.number);
   }
   std::string text(const T& value) const {
     if (describe_) return describe_(value);
@@ -112,13 +165,16 @@ class Scoreboard final : public ScoreboardBase {
     }
   }
   std::string first_leftover() const override {
-    const Expected& first = expected_.begin()->second.front();
-    return fmt::format("item {}: {}", first.number, text(first.value));
+    const auto found = std::find_if(expected_.begin(), expected_.end(), [](const auto& entry) {
+      return !entry.second.waiting.empty();
+    });
+    const Expected& first = found->second.waiting.front();
+    return fmt::format("{}: {}", item(first), text(first.value));
   }
 
-  Describe describe_;
+  Describe describe_, name_;
   Key key_;
-  std::map<std::uint64_t, std::deque<Expected>> expected_;
+  std::map<std::uint64_t, Queue> expected_;
   std::uint64_t number_ = 0, waiting_ = 0;
 };
 

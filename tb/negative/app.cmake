@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # One ctest entry a class, so that they run side by side.
-foreach(class TextureFiles MeshFiles Configuration Output EarlierResults StandardOutput Interruption
+foreach(class TextureFiles MeshFiles Notes Configuration Output EarlierResults StandardOutput Interruption
               Results)
   add_test(NAME app_bad_input.${class}
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_bad_input_test.py" -v ${class})
@@ -9,5 +9,9 @@ endforeach()
 add_test(NAME app_faults COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_faults_test.py" -v)
 set_tests_properties(${APP_NEGATIVE_TESTS} app_faults PROPERTIES
   LABELS negative TIMEOUT 300 ENVIRONMENT "DEBURR=$<TARGET_FILE:deburr>;PYTHONDONTWRITEBYTECODE=1")
-# Two of its cases race a fixed sleep: other work beside it would decide them.
-set_tests_properties(app_bad_input.Interruption PROPERTIES RUN_SERIAL ON)
+foreach(class Killed SideBySide FullDisk Papers)
+  add_test(NAME app_survival.${class}
+           COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_survival_test.py" -v ${class})
+  set_tests_properties(app_survival.${class} PROPERTIES LABELS stress TIMEOUT 900
+    ENVIRONMENT "DEBURR=$<TARGET_FILE:deburr>;PYTHONDONTWRITEBYTECODE=1")
+endforeach()

@@ -3,6 +3,7 @@
 """Planted faults (deburr run texture --fault NAME): each must be caught, by the right check and
 with the right exit code. By default the link checkers look away, so that the scoreboards must see
 it; both ways are tried."""
+import html
 import json
 import os
 import re
@@ -32,20 +33,37 @@ class Faults(CommandTest):
         done, result = self.fault("flip-bit", 1, "mismatch", *self.UNCHECKED)
         self.assertEqual(result["checks"]["mismatches"], 1)
         # Pixel, tag, expected, got and cycle.
-        self.assertRegex(done.stderr, r"cycle \d+: item 100: expected pixel \(\d+, \d+\) "
+        self.assertRegex(done.stderr, r"cycle \d+: pixel \(\d+, \d+\): expected "
                                       r"tag \d+ lane \d .*RGBA .*, got .*RGBA")
         expected, got = map(int, re.search(r"\(expected/got: rgba\.r=(\d+)/(\d+)\)",
                                            done.stderr).groups())
         self.assertEqual(expected ^ got, 1 << 4, "the bit that `deburr params` promises")
+        line, = result["first_mismatches"]
+        self.assertEqual(line["check"], "colours")
+        self.assertRegex(line["where"], r"^cycle \d+$")
+        self.assertRegex(line["item"], r"^pixel \(\d+, \d+\)$")
+        self.assertRegex(line["field"], "rgba|RGBA|r")
+        with open(self.path("out/report.html")) as file:
+            page = html.unescape(file.read())
+        for text in ("First mismatches", *line.values()):
+            self.assertIn(f">{text}<", page)
         done, _ = self.fault("flip-bit", 3, "changed while it waited", *self.CHECKED)
         self.assertIn(f"(was/is): rgba.r={expected}/{got} ", done.stderr)
 
     def test_dropped_colour(self):
-        self.fault("drop-colour", 1, "mismatch", *self.UNCHECKED)
+        done, result = self.fault("drop-colour", 1, "mismatch", *self.UNCHECKED)
+        self.assertEqual(result["checks"]["mismatches"], 1, "the rest is compared with its own")
+        self.assertIn("next came", done.stderr)
+        with open(self.path("out/manifest.json")) as file:
+            captions = {i["role"]: i["caption"] for i in json.load(file)["images"]}
+        self.assertIn("any difference is bright", captions["difference"])
+        self.assertIn("1 pixels were not delivered", captions["after"])
         self.fault("drop-colour", 3, "vanished", *self.CHECKED)
 
     def test_duplicated_colour(self):
-        self.fault("duplicate-colour", 1, "mismatch", *self.UNCHECKED)
+        done, result = self.fault("duplicate-colour", 1, "mismatch", *self.UNCHECKED)
+        self.assertEqual(result["checks"]["mismatches"], 1)
+        self.assertIn("expected it once, got again", done.stderr)
         self.fault("duplicate-colour", 3, "appeared", *self.CHECKED)
 
     def test_dropped_quad(self):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Running the command in a scratch directory, and image files of every awkward kind."""
+import json
 import os
 import struct
 import subprocess
@@ -45,6 +46,25 @@ def float_tiff(width, height, value=0.5):
     return b"II*\0" + struct.pack("<I", ifd) + data + body + directory + struct.pack("<I", 0)
 
 
+def pages_tiff(width, height, pages):
+    """A little-endian TIFF of several RGB pictures; each directory stands before its pixels."""
+    pixels = bytes(range(1, 256)) * (3 * width * height // 255 + 1)
+    pixels = pixels[:3 * width * height]
+    out = b"II*\0" + struct.pack("<I", 8)
+    for page in range(pages):
+        size = 2 + 12 * 9 + 4 + 6
+        data = len(out) + size
+        entries = [(256, 4, 1, width), (257, 4, 1, height), (258, 3, 3, data - 6), (259, 3, 1, 1),
+                   (262, 3, 1, 2), (273, 4, 1, data), (277, 3, 1, 3), (278, 4, 1, height),
+                   (279, 4, 1, len(pixels))]
+        following = data + len(pixels) if page + 1 < pages else 0
+        out += struct.pack("<H", len(entries))
+        for entry in entries:
+            out += struct.pack("<HHII", *entry)
+        out += struct.pack("<I", following) + struct.pack("<HHH", 8, 8, 8) + pixels
+    return out
+
+
 class CommandTest(unittest.TestCase):
     """Every test runs in a directory of its own that disappears afterwards."""
 
@@ -60,6 +80,13 @@ class CommandTest(unittest.TestCase):
         with open(self.path(name), "wb") as file:
             file.write(content if isinstance(content, bytes) else content.encode())
         return self.path(name)
+
+    def result(self):
+        with open(self.path("out/result.json")) as file:
+            return json.load(file)
+
+    def notes(self):
+        return "\n".join(self.result().get("notes", []))
 
     def run_command(self, *arguments, **options):
         options.setdefault("cwd", self.directory)

@@ -270,11 +270,13 @@ class Faults(Base):
         self.fault("flip-bit", 3, "changed while it waited", *self.CHECKED)
 
     def test_dropped_pixel(self):
-        self.fault("drop-pixel", 1, "never came", *self.UNCHECKED)
+        self.fault("drop-pixel", 1, "end of row", *self.UNCHECKED)
+        self.assertLess(self.result()["checks"]["mismatches"], 2 * 64, "only its own row is spoiled")
         self.fault("drop-pixel", 3, "vanished", *self.CHECKED)
 
     def test_duplicated_pixel(self):
         self.fault("duplicate-pixel", 1, "mismatch", *self.UNCHECKED)
+        self.assertLess(self.result()["checks"]["mismatches"], 2 * 64, "only its own row is spoiled")
         self.fault("duplicate-pixel", 3, "appeared", *self.CHECKED)
 
     def test_dropped_input(self):

@@ -13,6 +13,7 @@
 #include "tb/results/embedded.h"
 #include "tb/results/report.h"
 #include "tb/scene/image_io.h"
+#include "tb/scene/truth.h"
 
 namespace deburr::tb {
 namespace {
@@ -83,6 +84,10 @@ const std::vector<PaperEntry>& papers() {
   return entries;
 }
 
+void PaperOptions::go_on() const {
+  if (interrupted()) throw Interrupted();
+}
+
 std::string verdict(double paper, int decimals, double ours, const char* otherwise) {
   const double half_a_digit = 0.5 * std::pow(10.0, -decimals);
   return std::fabs(ours - paper) <= half_a_digit * 1.0001 ? "right" : otherwise;
@@ -112,7 +117,8 @@ std::string to_text(const Paper& paper) {
   return out;
 }
 
-void write_papers(const std::filesystem::path& directory, const std::vector<Paper>& papers) {
+nlohmann::ordered_json write_papers(const std::filesystem::path& directory,
+                                    const std::vector<Paper>& papers) {
   Json json;
   json["schema"] = 1;
   json["commit"] = build_info().commit;
@@ -171,6 +177,9 @@ void write_papers(const std::filesystem::path& directory, const std::vector<Pape
   DEBURR_CHECK(page.is_valid(), "papers.mustache: " + page.error_message());
   write_file_atomically(directory / "papers.json", json.dump(2) + "\n");
   write_file_atomically(directory / "index.html", page.render(root));
+  Json ids = Json::array();
+  for (const Paper& paper : papers) ids.push_back(paper.id);
+  return {{"unit", "papers"}, {"papers", ids}, {"commit", build_info().commit}};
 }
 
 }  // namespace deburr::tb

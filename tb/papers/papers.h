@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -39,9 +40,13 @@ struct Paper {
 struct PaperOptions {
   bool quick = false;  // leave out what takes more than a few seconds
   int size = 512;      // side of the pictures and of the scenes that are measured
+  std::function<bool()> interrupted = [] { return false; };  // asked now and then
+
+  // Throws Interrupted when asked to: what was done of this paper is of no use.
+  void go_on() const;
 };
 
-// Builds one paper's part; shows progress on the error stream.
+// Builds one paper's part; shows progress on the error stream. May throw Interrupted.
 using PaperBuilder = Paper (*)(const PaperOptions&);
 struct PaperEntry {
   const char* id;
@@ -51,8 +56,9 @@ const std::vector<PaperEntry>& papers();
 
 // The tables as text, for the terminal.
 std::string to_text(const Paper& paper);
-// papers.json, the pictures and index.html, each atomically.
-void write_papers(const std::filesystem::path& directory, const std::vector<Paper>& papers);
+// papers.json, the pictures and index.html. Returns what a manifest says of them.
+nlohmann::ordered_json write_papers(const std::filesystem::path& directory,
+                                    const std::vector<Paper>& papers);
 
 // "right" when `ours` rounds to what the paper printed with so many decimals, else `otherwise`.
 std::string verdict(double paper, int decimals, double ours, const char* otherwise);

@@ -363,6 +363,7 @@ PaperTable quality(const PaperOptions& options, double low, double high) {
   FanFigures mlaa;
   Progress progress("paper 000", rows.size(), "row");
   for (std::size_t r = 0; r < rows.size(); ++r) {
+    options.go_on();
     const FanFigures figures = measure_fans(morphological::smoothing_of(rows[r]), fan);
     if (rows[r].name == "mlaa") mlaa = figures;
     const bool chord = rows[r].name.starts_with("chord") && rows[r].parameters.steps > 0;
@@ -476,8 +477,8 @@ Image zooms(const std::vector<Method>& list, const Mask& silhouettes, int strips
 std::vector<LitFrames> frames_of_rules(const PaperOptions& options) {
   std::vector<LitFrames> frames;
   for (const char* scene : {"cylinders", "object", "road"})
-    frames.push_back(
-        render_lit_frames(make_scene(scene), options.size, options.size, options.quick ? 4 : 8));
+    frames.push_back(render_lit_frames(make_scene(scene), options.size, options.size,
+                                       options.quick ? 4 : 8, options.interrupted));
   return frames;
 }
 
@@ -501,6 +502,7 @@ PaperTable rules(const PaperOptions& options) {
   std::vector<FanRow> rows = morphological::rule_rows();
   Progress progress("paper 000", rows.size(), "row");
   for (std::size_t r = 0; r < rows.size(); ++r) {
+    options.go_on();
     double edges = 0, silhouettes = 0;
     for (const LitFrames& lit : frames) {
       const Mask edge = edge_mask(lit.truth, lit.noaa);
@@ -557,7 +559,8 @@ Compared rendered_scenes(const PaperOptions& options) {
        {"plane", nullptr}}};
   for (const Shown& shown : kScenes) {
     const Scene scene = make_scene(shown.scene);
-    const LitFrames lit = render_lit_frames(scene, options.size, options.size, kTruthSamples);
+    const LitFrames lit =
+        render_lit_frames(scene, options.size, options.size, kTruthSamples, options.interrupted);
     const Mask edges = edge_mask(lit.truth, lit.noaa);
     const Mask silhouettes = silhouette_mask(edges, lit.depth);
     const std::vector<Method> list = methods(scene, lit.noaa, true);
@@ -655,16 +658,20 @@ Paper paper_000(const PaperOptions& options) {
   paper.source =
       "Zhong Yu-Chen and Wang Rui, Journal of Software 23, Suppl. 2, 2012 (001 is a second scan of "
       "it)";
-  paper.tables.push_back(theorem(options));
-  paper.tables.push_back(third_branch(options));
-  paper.tables.push_back(complexity(options));
-  paper.tables.push_back(probes(options));
-  paper.tables.push_back(quality(options, 0.05, 0.95));
-  paper.tables.push_back(quality(options, 0, 1));
-  paper.tables.push_back(rules(options));
+  const auto add = [&](PaperTable table) {
+    paper.tables.push_back(std::move(table));
+    options.go_on();
+  };
+  add(theorem(options));
+  add(third_branch(options));
+  add(complexity(options));
+  add(probes(options));
+  add(quality(options, 0.05, 0.95));
+  add(quality(options, 0, 1));
+  add(rules(options));
   Compared scenes = rendered_scenes(options);
-  paper.tables.push_back(std::move(scenes.table));
-  paper.tables.push_back(cost_of_a_loop(options));
+  add(std::move(scenes.table));
+  add(cost_of_a_loop(options));
   paper.figures = std::move(scenes.figures);
   return paper;
 }

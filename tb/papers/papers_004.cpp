@@ -235,7 +235,8 @@ std::vector<TextureScene> reference_scenes(int size) {
   return scenes;
 }
 
-PaperTable design_space(const std::vector<TextureScene>& scenes, Progress& progress) {
+PaperTable design_space(const std::vector<TextureScene>& scenes, const PaperOptions& options,
+                        Progress& progress) {
   PaperTable table{
       "Design space: error of each footprint and logarithm rule",
       "Level error of one side over log-uniform lengths and b/a uniform in [0, 1]; N over the "
@@ -267,6 +268,7 @@ PaperTable design_space(const std::vector<TextureScene>& scenes, Progress& progr
         row.push_back(decimals(percent, 2));
         sum += percent;
         progress.update(++done);
+        options.go_on();
       }
       row.push_back(decimals(sum / static_cast<double>(scenes.size()), 2));
       table.rows.push_back(std::move(row));
@@ -286,11 +288,11 @@ constexpr std::array<Gaussian, 3> kGaussians = {{{"whole", ideal::kEwaGaussian},
                                                  {"cut", ideal::kEwaHeckbert}}};
 
 // Every rule against both references on the checkerboard ground plane.
-PaperTable quality(int size) {
+PaperTable quality(const PaperOptions& options) {
   SceneParameters scene_parameters;
   scene_parameters.source = "plane";
   scene_parameters.texture = "checker";
-  scene_parameters.width = scene_parameters.height = size;
+  scene_parameters.width = scene_parameters.height = options.size;
   TextureScene scene(scene_parameters, SamplerParameters{}, 1);
   const Texture& texture = scene.scene().mesh.textures.at(0);
   std::vector<std::uint8_t> texels;
@@ -315,6 +317,7 @@ PaperTable quality(int size) {
         for (const ideal::Colour& c : ideal::ewa_image(image, block, kGaussians[g].options))
           ewa[g].push_back(c);
       progress.update(i + block.size());
+      options.go_on();
     }
   }
 
@@ -327,7 +330,7 @@ PaperTable quality(int size) {
           "figure more than any rule. Tents are spread over 1.6 x the axis, and at the end, for "
           "the paper's footprint and logarithm, over other lengths. "
           "LOD error: mean |l - exact l| over the same pixels.",
-          footprints.size(), size, size),
+          footprints.size(), options.size, options.size),
       {"footprint", "log2", "count", "kernel", "spread", "samples a fragment", "LOD error",
        "box dB"},
       {}};
@@ -382,6 +385,7 @@ PaperTable quality(int size) {
       row.push_back(decimals(ideal::psnr(reference, frame.rgba), 2));
     table.rows.push_back(std::move(row));
     progress.update(table.rows.size());
+    options.go_on();
   }
   return table;
 }
@@ -485,9 +489,9 @@ Paper paper_004(const PaperOptions& options) {
           "design space",
           spec::texture::kFootprintNames.size() * spec::texture::kLog2Names.size() * scenes.size(),
           "scene");
-      paper.tables.push_back(design_space(scenes, progress));
+      paper.tables.push_back(design_space(scenes, options, progress));
     }
-    paper.tables.push_back(quality(options.size));
+    paper.tables.push_back(quality(options));
   }
   paper.figures = figures(options.size);
   return paper;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reading what a user names (bounded, regular files only) and fingerprints for the manifest.
-// Writing is tb/scene/image_io.h: write_file_atomically and prove_writable.
+// Writing is tb/scene/image_io.h: write_file_atomically.
 #pragma once
 
 #include <cstddef>

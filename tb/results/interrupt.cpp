@@ -15,6 +15,8 @@ extern "C" void on_interrupt(int) { interrupt_requested = 1; }
 
 void let_full_files_fail() { std::signal(SIGXFSZ, SIG_IGN); }
 
+void let_broken_pipes_fail() { std::signal(SIGPIPE, SIG_IGN); }
+
 void catch_interrupts() {
   struct sigaction action {};
   action.sa_handler = on_interrupt;

@@ -6,6 +6,8 @@ namespace deburr::tb {
 
 // Lets a write beyond a file size limit fail instead of killing.
 void let_full_files_fail();
+// Lets a write into a pipe that nobody reads fail instead of killing.
+void let_broken_pipes_fail();
 // Takes over SIGINT and SIGTERM, for commands that ask interrupted() while they work.
 void catch_interrupts();
 bool interrupted();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "tb/results/report.h"
 
@@ -52,10 +53,11 @@ std::string Progress::line(std::string_view label, std::string_view unit, std::u
   return text;
 }
 
-Progress::Progress(std::string_view label, std::uint64_t total, std::string_view unit)
+Progress::Progress(std::string_view label, std::uint64_t total, std::string_view unit, bool quiet)
     : label_(label),
       unit_(unit),
       total_(total),
+      quiet_(quiet),
       terminal_(::isatty(STDERR_FILENO) == 1),
       start_(Clock::now()),
       last_(start_) {}
@@ -68,10 +70,36 @@ Progress::~Progress() {
 }
 
 void Progress::update(std::uint64_t delivered, std::uint64_t taken) {
+  if (quiet_) return;
   done_ = done(delivered, taken);
   const Clock::time_point now = Clock::now();
   if (now - last_ < (terminal_ ? Clock::duration(kTerminalPeriod) : kPlainPeriod)) return;
   show(done_, now);
+}
+
+Waiting::Waiting(std::string label, bool quiet)
+    : label_(std::move(label)),
+      quiet_(quiet),
+      terminal_(::isatty(STDERR_FILENO) == 1),
+      start_(Clock::now()),
+      last_(start_) {}
+
+Waiting::~Waiting() {
+  if (shown_ && terminal_) std::fputc('\n', stderr);
+}
+
+void Waiting::update() {
+  const Clock::time_point now = Clock::now();
+  if (quiet_ || now - last_ < (terminal_ ? Clock::duration(kTerminalPeriod) : kPlainPeriod)) return;
+  last_ = now;
+  shown_ = true;
+  const std::string text =
+      fmt::format("{}  {}", label_, time_text(std::chrono::duration<double>(now - start_).count()));
+  if (terminal_)
+    fmt::print(stderr, "\r{}\033[K", text);
+  else
+    fmt::print(stderr, "{}\n", text);
+  std::fflush(stderr);
 }
 
 void Progress::show(std::uint64_t done, Clock::time_point now) {

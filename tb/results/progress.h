@@ -13,8 +13,8 @@ namespace deburr::tb {
 
 class Progress {
  public:
-  // `unit` is what is counted: "fragment".
-  Progress(std::string_view label, std::uint64_t total, std::string_view unit);
+  // `unit` is what is counted: "fragment". A quiet one says nothing.
+  Progress(std::string_view label, std::uint64_t total, std::string_view unit, bool quiet = false);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -38,8 +38,24 @@ class Progress {
   std::string label_, unit_;
   std::uint64_t total_;
   std::uint64_t done_ = 0;
-  bool terminal_;
+  bool quiet_, terminal_;
   bool shown_ = false;
+  Clock::time_point start_, last_;
+};
+
+// Work of which nobody knows how much is left, such as a truth that is rendered: how long it takes.
+class Waiting {
+ public:
+  explicit Waiting(std::string label, bool quiet = false);
+  ~Waiting();
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+  void update();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::string label_;
+  bool quiet_, terminal_, shown_ = false;
   Clock::time_point start_, last_;
 };
 

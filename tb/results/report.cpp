@@ -75,8 +75,8 @@ Json read_manifest(const fs::path& directory) {
 
 class ReportBuilder {
  public:
-  explicit ReportBuilder(const fs::path& directory)
-      : result_(read_result(directory)), manifest_(read_manifest(directory)) {
+  ReportBuilder(const fs::path& directory, Json result, Json manifest)
+      : result_(std::move(result)), manifest_(std::move(manifest)) {
     fill_head();
     fill_images(directory);
     fill_tables();
@@ -105,6 +105,20 @@ class ReportBuilder {
       list << row({{"reason", reason}});
       page_.set("reason", list);
     }
+    mustache::data notes{mustache::data::type::list};
+    for (const Json& note : result_.value("notes", Json::array()))
+      notes << row({{"note", shown(note)}});
+    page_.set("notes", notes);
+    mustache::data mismatches_table{mustache::data::type::list};
+    for (const Json& m : result_.value("first_mismatches", Json::array()))
+      mismatches_table << row({{"check", m.value("check", "")},
+                               {"where", m.value("where", "")},
+                               {"item", m.value("item", "")},
+                               {"field", m.value("field", "")},
+                               {"expected", m.value("expected", "")},
+                               {"got", m.value("got", "")}});
+    page_.set("has_mismatches", mismatches_table.is_non_empty_list());
+    page_.set("mismatches", mismatches_table);
     page_.set("command", manifest_.value("command", ""));
     page_.set("cycles", shown(result_["cycles"]));
 
@@ -513,7 +527,13 @@ std::string data_uri(const fs::path& image_file) {
   return "data:image/png;base64," + encoded;
 }
 
-std::string build_report(const fs::path& directory) { return ReportBuilder(directory).render(); }
+std::string build_report(const fs::path& pictures, Json result, Json manifest) {
+  return ReportBuilder(pictures, std::move(result), std::move(manifest)).render();
+}
+
+std::string build_report(const fs::path& directory) {
+  return build_report(directory, read_result(directory), read_manifest(directory));
+}
 
 void write_report(const fs::path& directory) {
   write_file_atomically(directory / "report.html", build_report(directory));

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -13,6 +13,9 @@ namespace deburr::tb {
 
 // Reads the directory and returns the page; FileError when something is missing or not valid.
 std::string build_report(const std::filesystem::path& directory);
+// The page of a result that is not written yet; `pictures` are in a directory.
+std::string build_report(const std::filesystem::path& pictures, nlohmann::ordered_json result,
+                         nlohmann::ordered_json manifest);
 // build_report, written atomically to report.html of the same directory.
 void write_report(const std::filesystem::path& directory);
 

@@ -33,6 +33,13 @@
     const find = (role) => stills.findIndex((image) => image.dataset.role === role);
     if (find('before') >= 0) state.left = find('before');
     if (find('after') >= 0) state.right = find('after');
+    // What is wrong is the first thing to look at.
+    if (data.result.checks.mismatches > 0 && find('difference') >= 0) {
+      state.left = find('after');
+      state.right = find('difference');
+      state.split = 0;
+      split.value = '0';
+    }
     const pixels = stills.map(() => null);
 
     for (const side of ['left', 'right']) {

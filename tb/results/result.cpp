@@ -114,6 +114,15 @@ Json to_json(const Result& r) {
   if (!idealised.empty()) json["idealised"] = idealised;
   json["work"] = Json::object();
   for (const WorkItem& item : r.work) json["work"][item.name] = item.value;
+  if (!r.notes.empty()) json["notes"] = r.notes;
+  if (!r.first_mismatches.empty()) json["first_mismatches"] = Json::array();
+  for (const MismatchLine& m : r.first_mismatches)
+    json["first_mismatches"].push_back({{"check", m.check},
+                                        {"where", m.where},
+                                        {"item", m.item},
+                                        {"field", m.field},
+                                        {"expected", m.expected},
+                                        {"got", m.got}});
   json["figures"] = Json::array();
   for (const Figure& figure : r.figures) {
     Json entry = {{"label", figure.label}, {"key", figure.key}};

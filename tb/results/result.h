@@ -105,11 +105,18 @@ struct Figure {
   bool tile = false;  // among the large numbers at the top
 };
 
+// One mismatch: which check, where in the run ("cycle 812"), which item ("pixel (3, 4)").
+struct MismatchLine {
+  std::string check, where, item, field, expected, got;
+};
+
 struct Result {
   std::string unit;
   Verdict verdict = Verdict::kUnchecked;
   std::string reason;  // why it failed or is not complete; empty otherwise
   bool interrupted = false;
+  std::vector<std::string> notes;              // what had to be decided about an input
+  std::vector<MismatchLine> first_mismatches;  // of each check
   std::uint64_t comparisons = 0, mismatches = 0;
   std::uint64_t traffic_comparisons = 0, traffic_mismatches = 0;
   std::uint64_t cycles = 0;

@@ -23,9 +23,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr const char* kManifest = "manifest.json";
 constexpr const char* kTrace = "trace.vcd";
-constexpr const char* kUnfinishedTrace = "trace.vcd.partial";
+constexpr const char* kResult = "result.json";
+constexpr const char* kReport = "report.html";
 
 std::string now_utc() {
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
@@ -43,69 +43,16 @@ RunContext::RunContext(fs::path directory, const ParameterSet& parameters, std::
       started_(now_utc()),
       seed_(seed) {}
 
-fs::path RunContext::trace_file() const { return directory_ / kUnfinishedTrace; }
-
-RunContext::~RunContext() {
-  if (!claimed_) return;  // nothing here is this run's
-  std::error_code ignored;
-  fs::remove(trace_file(), ignored);
-  if (finished_) return;
-  for (const std::string& name : written_) fs::remove(directory_ / name, ignored);
+fs::path RunContext::trace_file() const {
+  return judging_only_ ? "/dev/null" : directory_.draft() / kTrace;
 }
 
-// What an earlier run left, by its manifest; nothing without one.
-std::vector<std::string> RunContext::old_results() const {
-  constexpr std::size_t kMaxBytes = 64u << 20;
-  std::error_code error;
-  if (!fs::is_regular_file(directory_ / kManifest, error)) return {};
-  const Json old = Json::parse(read_file(directory_ / kManifest, kMaxBytes), nullptr, false);
-  if (!old.is_object() || !old.contains("schema") || !old.contains("configuration")) return {};
-  std::vector<std::string> names = {"result.json", "report.html", kManifest};
-  if (old["configuration"].is_object() && !old["configuration"].value("run.trace", "").empty())
-    names.emplace_back(kTrace);
-  if (old.contains("images") && old["images"].is_array())
-    for (const Json& image : old["images"]) {
-      const fs::path file = image.is_object() ? image.value("file", "") : "";
-      // Only what an earlier run can have written: a picture in this directory.
-      if (!file.has_parent_path() && file.extension() == ".png") names.push_back(file.string());
-    }
-  return names;
-}
-
-void RunContext::claim() {
-  if (interrupted()) throw Interrupted();
-  const std::vector<std::string> old = old_results();
-  std::vector<std::string> concerned = old;
-  for (const char* name : {"result.json", "report.html", kManifest}) concerned.emplace_back(name);
+void RunContext::claim(IfTaken if_taken) {
+  std::vector<std::string> names = {kResult, kReport};
   const Parameter* trace = parameters_.find("run.trace");
-  const bool traces = trace != nullptr && !trace->text().empty();
-  if (traces) concerned.insert(concerned.end(), {kTrace, kUnfinishedTrace});
-  for (const std::string_view name : kPictureNames)
-    concerned.push_back(fmt::format("{}.png", name));
-  std::error_code error;
-  for (const std::string& name : concerned) {
-    const fs::path file = directory_ / name;
-    if (!fs::exists(file, error)) continue;
-    for (const fs::path& input : protected_)
-      if (fs::equivalent(file, input, error))
-        throw spec::ConfigError(fmt::format(
-            "the run reads '{}', and its results would replace it: choose another directory with "
-            "--out",
-            input.string()));
-    if (std::find(old.begin(), old.end(), name) == old.end())
-      throw spec::ConfigError(
-          fmt::format("'{}' exists, and no manifest.json beside it names it as an earlier run's: "
-                      "move it away, or choose another directory with --out",
-                      file.string()));
-  }
-  prove_writable(directory_);
-  claimed_ = true;
-}
-
-void RunContext::begin() {
-  std::error_code ignored;
-  for (const std::string& name : old_results()) fs::remove(directory_ / name, ignored);
-  begun_ = true;
+  if (trace != nullptr && !trace->text().empty()) names.emplace_back(kTrace);
+  for (const std::string_view name : kPictureNames) names.push_back(fmt::format("{}.png", name));
+  directory_.claim(command_, std::move(names), if_taken);
 }
 
 void RunContext::set_title(std::string title, std::string summary) {
@@ -114,8 +61,8 @@ void RunContext::set_title(std::string title, std::string summary) {
 }
 
 void RunContext::add_note(const std::string& note) {
-  fmt::print(stderr, "deburr: note: {}\n", note);
-  summary_ += "; " + note;
+  if (!quiet_) fmt::print(stderr, "deburr: note: {}\n", note);
+  notes_.push_back(note);
 }
 
 void RunContext::add_input(const fs::path& file) {
@@ -126,11 +73,11 @@ void RunContext::add_input(const fs::path& file) {
 
 void RunContext::add_image(const std::string& name, const Image& image, std::string title,
                            std::string caption) {
-  DEBURR_CHECK(begun_, "a picture before begin()");
   DEBURR_CHECK(std::find(kPictureNames.begin(), kPictureNames.end(), name) != kPictureNames.end(),
                "kPictureNames lacks " + name);
-  written_.push_back(name + ".png");
-  write_image(directory_ / (name + ".png"), image);
+  const Parameter* wanted = parameters_.find("run.images");
+  if (wanted != nullptr && wanted->text() == "false") return;
+  write_image(directory_.draft() / (name + ".png"), image);
   images_.push_back({{"file", name + ".png"},
                      {"role", name},
                      {"title", std::move(title)},
@@ -155,6 +102,7 @@ Json RunContext::manifest(const Result& result) const {
   const BuildInfo& build = build_info();
   Json json;
   json["schema"] = kResultSchema;
+  json["state"] = "complete";
   json["unit"] = result.unit;
   json["title"] = title_;
   json["summary"] = summary_;
@@ -186,26 +134,15 @@ Json RunContext::manifest(const Result& result) const {
 }
 
 void RunContext::finish(const Result& result) {
-  DEBURR_CHECK(begun_, "results before begin()");
-  std::error_code none;
-  if (fs::exists(trace_file(), none)) {
-    written_.emplace_back(kTrace);
-    std::error_code error;
-    fs::rename(trace_file(), directory_ / kTrace, error);
-    if (error)
-      throw spec::FileError(fmt::format("'{}' cannot be renamed to {}: {}", trace_file().string(),
-                                        kTrace, error.message()));
-  }
-  written_.emplace_back(kManifest);
-  write_file_atomically(directory_ / kManifest, manifest(result).dump(2) + "\n");
-  write_file_atomically(directory_ / "result.json", to_json(result).dump(2) + "\n");
-  finished_ = true;
-  try {
-    write_report(directory_);
-  } catch (const spec::FileError& error) {
-    throw spec::FileError(fmt::format("{}; the results are there, and `deburr report {}` makes it",
-                                      error.what(), directory_.string()));
-  }
+  Result noted = result;
+  noted.notes = notes_;
+  const std::string text = to_json(noted).dump(2) + "\n";
+  const Json origin = manifest(result);
+  const fs::path draft = directory_.draft();
+  write_file_atomically(draft / kResult, text);
+  // From the text, so that it is the page that `deburr report` makes of the file.
+  write_file_atomically(draft / kReport, build_report(draft, Json::parse(text), origin));
+  directory_.publish(origin, kResult);
 }
 
 }  // namespace deburr::tb

@@ -2,11 +2,10 @@
 // What surrounds one run of an engine: its parameters, inputs, output directory and manifest.
 //
 //   RunContext context(...);        // touches nothing
-//   context.add_input(file);        // every file that was read
 //   context.claim();                // may refuse; then waves may be written to trace_file()
-//   context.begin();                // earlier results go; the simulation follows
+//   context.add_input(file);        // every file that was read
 //   context.add_image(...);
-//   context.finish(result);         // without it, what this run wrote is removed again
+//   context.finish(result);         // without it, an earlier run's results stay as they were
 #pragma once
 
 #include <array>
@@ -19,6 +18,7 @@
 
 #include "tb/results/parameter_set.h"
 #include "tb/results/result.h"
+#include "tb/results/run_directory.h"
 #include "tb/scene/image.h"
 
 namespace deburr::tb {
@@ -32,50 +32,45 @@ class RunContext {
   // `command` is the line that repeats the run.
   RunContext(std::filesystem::path directory, const ParameterSet& parameters, std::string command,
              std::uint64_t seed);
-  ~RunContext();
-  RunContext(const RunContext&) = delete;
-  RunContext& operator=(const RunContext&) = delete;
-
+  // Nothing on the error stream but errors.
+  void set_quiet(bool quiet) { quiet_ = quiet; }
+  bool quiet() const { return quiet_; }
+  // A run that ends where it would begin: everything that was given has been judged.
+  void set_judging_only() { judging_only_ = true; }
+  bool judging_only() const { return judging_only_; }
   void set_title(std::string title, std::string summary);
-  // What had to be decided about an input (a mesh without normals): on the error stream and, with
-  // the summary, in manifest and report.
+  // What had to be decided about an input (a mesh without normals): on the error stream, in result
+  // and report.
   void add_note(const std::string& note);
-  // Fingerprints a file that the result depends on. Before claim().
+  // The directory is this run's from here on (RunDirectory::claim).
+  void claim(IfTaken if_taken = IfTaken::kRefuse);
+  // Fingerprints a file that the result depends on. ConfigError if the results would replace it.
   void add_input(const std::filesystem::path& file);
-  // A file that was read and must not be overwritten, without being listed. Before claim().
-  void protect(const std::filesystem::path& file) { protected_.push_back(file); }
-  // Makes the directory and proves it writable; removes nothing. ConfigError where this run would
-  // replace a file that it reads, or one that is not an earlier run's: no manifest names it.
-  // Interrupted if Ctrl-C came while the input was made: there is nothing to keep.
-  void claim();
-  // Removes the results of an earlier run, so that what is found there afterwards belongs to this
-  // one.
-  void begin();
-  // Where waves go until the run is over; finish() gives the file its name.
+  // A file that was read and must not be replaced, without being listed.
+  void protect(const std::filesystem::path& file) const { directory_.refuse_to_replace(file); }
+  // Where waves go until the run is over.
   std::filesystem::path trace_file() const;
   // Writes NAME.png and lists it for the report. NAME, which is the role too, is one of
   // kPictureNames.
   void add_image(const std::string& name, const Image& image, std::string title,
                  std::string caption);
-  // manifest.json, result.json and report.html, in this order: a result.json is always complete.
+  // Result, report and manifest; then all of it takes the place of an earlier run's results.
   void finish(const Result& result);
 
-  const std::filesystem::path& directory() const { return directory_; }
+  const std::filesystem::path& directory() const { return directory_.path(); }
   const ParameterSet& parameters() const { return parameters_; }
   const std::string& command() const { return command_; }
 
  private:
-  std::vector<std::string> old_results() const;
   std::string golden_key() const;
   nlohmann::ordered_json manifest(const Result& result) const;
 
-  std::filesystem::path directory_;
-  std::vector<std::filesystem::path> protected_;
-  std::vector<std::string> written_;  // removed again by a run that does not finish
-  bool claimed_ = false, begun_ = false, finished_ = false;
+  RunDirectory directory_;
   const ParameterSet& parameters_;
   std::string command_, title_, summary_, started_;
   std::uint64_t seed_;
+  bool quiet_ = false, judging_only_ = false;
+  std::vector<std::string> notes_;
   nlohmann::ordered_json inputs_ = nlohmann::ordered_json::array();
   nlohmann::ordered_json images_ = nlohmann::ordered_json::array();
 };

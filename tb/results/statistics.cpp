@@ -70,6 +70,9 @@ constexpr std::array kStatistics = {
     Statistic{"idealised.*", "",
               "Why no technology offers this memory. Such a result is of no hardware that can be "
               "built."},
+    Statistic{"notes", "", "What had to be decided about an input, such as 16 bits made 8."},
+    Statistic{"first_mismatches", "",
+              "The first mismatches of each check: where, which item and field, expected and got."},
     Statistic{"figures", "", "Keys of this file that a reader looks for first."},
     Statistic{"quality.reference", "", "What the picture is compared with."},
     Statistic{"quality.psnr_db", "dB", "PSNR over the frame; inf: identical."},

@@ -106,16 +106,4 @@ void write_file_atomically(const fs::path& path, std::string_view bytes) {
   file.rename();
 }
 
-void prove_writable(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw spec::FileError(fmt::format("cannot make the folder '{}': {}; choose another one",
-                                      folder.string(), error.message()));
-  }
-  TemporaryFile probe(folder / "writable");
-  probe.write("x");
-  probe.finish(1);
-}
-
 }  // namespace deburr::tb

@@ -112,6 +112,46 @@ void check_complete_jpeg(const fs::path& path) {
     fail_read(path.string(), "the JPEG has no end marker: the file is truncated; copy it again");
 }
 
+// libtiff fills the rest of a truncated file with zeros, so see whether every strip or tile of the
+// first picture lies within the file.
+void check_complete_tiff(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::uint64_t size = fs::file_size(path);
+  const bool little = file.get() == 'I';
+  const auto number = [&](std::uint64_t at, std::uint64_t bytes) {
+    std::uint64_t value = 0;
+    file.clear();
+    file.seekg(static_cast<std::streamoff>(std::min(at, size)));
+    for (std::uint64_t i = 0; i < bytes; ++i) {
+      const auto byte = static_cast<std::uint64_t>(file.get() & 255);
+      value = little ? value | byte << (8 * i) : value << 8 | byte;
+    }
+    return value;
+  };
+  const bool big = number(2, 2) == 43;
+  const std::uint64_t word = big ? 8 : 4, entry_bytes = 4 + 2 * word;
+  const std::uint64_t directory = number(word, word), first = directory + (big ? 8 : 2);
+  std::vector<std::uint64_t> offsets, counts;
+  for (std::uint64_t e = 0; e < number(directory, big ? 8 : 2) && first + e * entry_bytes < size;
+       ++e) {
+    const std::uint64_t at = first + e * entry_bytes, tag = number(at, 2), type = number(at + 2, 2);
+    const bool is_offset = tag == 273 || tag == 324, is_count = tag == 279 || tag == 325;
+    if (!is_offset && !is_count) continue;
+    const std::uint64_t bytes = type == 3 ? 2 : type == 4 ? 4 : 8;
+    const std::uint64_t values = std::min(number(at + 4, word), size);
+    const std::uint64_t value = at + 4 + word;
+    const std::uint64_t from = values * bytes <= word ? value : number(value, word);
+    for (std::uint64_t i = 0; i < values; ++i)
+      (is_offset ? offsets : counts).push_back(number(from + i * bytes, bytes));
+  }
+  for (std::size_t i = 0; i < std::min(offsets.size(), counts.size()); ++i)
+    if (offsets[i] > size || counts[i] > size - offsets[i])
+      fail_read(path.string(),
+                fmt::format("the TIFF ends after {} bytes, within its pixels: the file is "
+                            "truncated; copy it again",
+                            size));
+}
+
 template <class Value>
 std::vector<Value> read_pixels(const std::string& name, OIIO::ImageInput& input, int channels) {
   const OIIO::ImageSpec& spec = input.spec();
@@ -178,7 +218,13 @@ Image decode(const std::string& name, OIIO::ImageInput& input, ReadReport* repor
   const OIIO::ImageSpec spec = input.spec();
   const int channels = std::min(spec.nchannels, 4);
   const bool linear = declares_linear_light(spec);
-  if (report != nullptr) describe_conversions(spec, linear, *report);
+  if (report != nullptr) {
+    describe_conversions(spec, linear, *report);
+    if (input.seek_subimage(1, 0))
+      report->conversions.emplace_back("the first of several pictures");
+    input.geterror();
+    input.seek_subimage(0, 0);
+  }
   if (spec.format == OIIO::TypeUInt8)
     return expand<Rgba8>(read_pixels<std::uint8_t>(name, input, channels), spec.width, spec.height,
                          channels, std::uint8_t{255});
@@ -195,6 +241,7 @@ InputPointer open_checked(const fs::path& path) {
   InputPointer input = open_file(path);
   check_header(path.string(), input->spec());
   if (std::string_view(input->format_name()) == "jpeg") check_complete_jpeg(path);
+  if (std::string_view(input->format_name()) == "tiff") check_complete_tiff(path);
   return input;
 }
 

@@ -60,7 +60,4 @@ void write_mask(const std::filesystem::path& path, const Mask& mask);  // 0 and 
 // as it was.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
-// Throws FileError unless a file can be created, written and removed in `folder`; makes the folder.
-void prove_writable(const std::filesystem::path& folder);
-
 }  // namespace deburr::tb

@@ -189,8 +189,11 @@ class GltfImport {
       fail(fmt::format(
           "its texture '{}' is missing; put it beside the file or give a texture of your own",
           ours.name));
-    ours.image =
-        read_image_memory(fmt::format("{}: {}", path_.string(), ours.name), encoded->second);
+    ReadReport report;
+    ours.image = read_image_memory(fmt::format("{}: {}", path_.string(), ours.name),
+                                   encoded->second, &report);
+    for (const std::string& conversion : report.conversions)
+      builder_.note(fmt::format("'{}': {}", ours.name, conversion));
     return textures_[key] = builder_.add_texture(std::move(ours));
   }
 

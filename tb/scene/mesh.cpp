@@ -250,7 +250,10 @@ int MeshBuilder::texture_from_file(const fs::path& file) {
   Texture texture;
   texture.name = file.filename().string();
   try {
-    texture.image = read_image(file);
+    ReadReport report;
+    texture.image = read_image(file, &report);
+    for (const std::string& conversion : report.conversions)
+      note(fmt::format("'{}': {}", texture.name, conversion));
   } catch (const spec::FileError& error) {
     fail_mesh(path_,
               fmt::format("its texture cannot be used ({}); repair the reference or give a texture "

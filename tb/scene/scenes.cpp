@@ -87,7 +87,7 @@ bool is_formula(std::string_view name) {
 
 // A texture by name or from a file; `size` is the side of one made by formula.
 Texture choose_texture(const std::string& wanted, std::string_view otherwise,
-                       const SceneOptions& options) {
+                       const SceneOptions& options, std::vector<std::string>& notes) {
   Texture texture;
   texture.name = wanted.empty() ? std::string(otherwise) : wanted;
   texture.wrap_s = texture.wrap_t = options.wrap;
@@ -97,7 +97,10 @@ Texture choose_texture(const std::string& wanted, std::string_view otherwise,
         make_texture(texture.name, options.texture_size, options.texture_size, options.seed);
     return texture;
   }
-  texture.image = read_image(texture.name);
+  ReadReport report;
+  texture.image = read_image(texture.name, &report);
+  for (const std::string& conversion : report.conversions)
+    notes.push_back(fmt::format("'{}': {}", texture.name, conversion));
   if (texture.image.width > spec::texture::kMaxTextureSize ||
       texture.image.height > spec::texture::kMaxTextureSize)
     throw spec::FileError(fmt::format(
@@ -111,7 +114,7 @@ void add_texture(Scene& scene, const std::string& wanted, std::string_view other
                  const SceneOptions& options) {
   scene.mesh.materials.push_back(
       {std::string(otherwise), V3d(1, 1, 1), static_cast<int>(scene.mesh.textures.size())});
-  scene.mesh.textures.push_back(choose_texture(wanted, otherwise, options));
+  scene.mesh.textures.push_back(choose_texture(wanted, otherwise, options, scene.mesh.notes));
 }
 
 void make_plane(Scene& scene, const SceneOptions& options) {
@@ -246,7 +249,10 @@ Scene import_scene(const std::filesystem::path& path, const SceneOptions& option
   const bool replace = !options.texture.empty();
   scene.mesh = import_mesh(path, {.textures = !replace});
   scene.name = scene.mesh.name;
-  const Texture fallback = choose_texture(options.texture, "checker", options);
+  const Texture fallback = choose_texture(options.texture, "checker", options, scene.mesh.notes);
+  if (!replace && scene.mesh.textures.empty())
+    scene.mesh.notes.push_back(
+        fmt::format("'{}' has no texture: all of it gets '{}'", path.string(), fallback.name));
   texture_everything(scene.mesh, &fallback);
   if (scene.mesh.textures.size() > spec::texture::kMaxTextures)
     throw spec::FileError(

@@ -6,3 +6,6 @@ add_dependencies(app_report_test deburr)
 add_test(NAME memories COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/memories_test.py" $<TARGET_FILE:deburr>)
 set_tests_properties(memories PROPERTIES LABELS system TIMEOUT 300
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+add_test(NAME terminal COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/terminal_test.py" $<TARGET_FILE:deburr>)
+set_tests_properties(terminal PROPERTIES LABELS system TIMEOUT 300
+                     ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")

@@ -55,7 +55,6 @@ class Pictures : public testing::Test {
     ParameterSet parameters;
     RunContext context(path_, parameters, "x", 0);
     context.claim();
-    context.begin();
     add_smoothing_pictures(context, {before, after, std::vector<spec::morphological::BlendTap>(12),
                                      delivered, &golden, &truth, "", ""});
     Result result;

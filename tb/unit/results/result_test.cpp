@@ -231,7 +231,6 @@ TEST_F(Directory, TheReportIsSelfContainedAndEscapes) {
   RunContext context(path_, parameters, "deburr run texture --set a='<b>'", 7);
   context.set_title("A <title> & more", "summary");
   context.claim();
-  context.begin();
   context.add_image("before", Image(4, 3, {10, 20, 30, 255}), "Before", "");
   context.add_image("after", Image(4, 3, {11, 20, 30, 255}), "After", "");
   context.finish(sample_result());
@@ -262,8 +261,7 @@ class Page : public Directory {
     ParameterSet parameters;
     RunContext context(path_, parameters, "x", 0);
     context.claim();
-    context.begin();
-    context.finish(result);
+      context.finish(result);
     return read_file(path_ / "report.html", 1 << 24);
   }
 };
@@ -337,84 +335,12 @@ TEST_F(Page, CanBeMadeFromAnOlderResult) {
 TEST_F(Directory, AManifestCannotPullInFilesFromElsewhere) {
   ParameterSet parameters;
   RunContext context(path_, parameters, "x", 0);
-  context.begin();
+  context.claim();
   context.finish(sample_result());
   std::ofstream(path_ / "manifest.json") << R"({"images": [{"file": "../../etc/passwd"}]})";
   EXPECT_THROW(build_report(path_), spec::FileError);
   std::ofstream(path_ / "manifest.json") << "[]";
   EXPECT_THROW(build_report(path_), spec::FileError);
-}
-
-// A run's results under path_, with one picture.
-void leave_results(const std::filesystem::path& path) {
-  ParameterSet parameters;
-  RunContext context(path, parameters, "x", 0);
-  context.claim();
-  context.begin();
-  context.add_image("before", Image(1, 1), "", "");
-  context.finish(sample_result());
-}
-
-TEST_F(Directory, OldResultsDoNotSurviveTheStartOfARun) {
-  leave_results(path_);
-  std::ofstream(path_ / "notes.txt") << "mine";
-  std::ofstream(path_ / "photo.png") << "mine";
-  ParameterSet parameters;
-  RunContext context(path_, parameters, "x", 0);
-  context.claim();
-  EXPECT_TRUE(std::filesystem::exists(path_ / "result.json")) << "nothing goes before begin()";
-  context.begin();
-  for (const char* name : {"result.json", "manifest.json", "report.html", "before.png"})
-    EXPECT_FALSE(std::filesystem::exists(path_ / name)) << name;
-  for (const char* name : {"notes.txt", "photo.png"})
-    EXPECT_TRUE(std::filesystem::exists(path_ / name)) << name;
-}
-
-TEST_F(Directory, WhatNoManifestNamesIsNotReplaced) {
-  ParameterSet parameters;
-  for (const char* name : {"before.png", "result.json", "report.html", "manifest.json"}) {
-    std::ofstream(path_ / name) << "{}";
-    RunContext context(path_, parameters, "x", 0);
-    EXPECT_THROW(context.claim(), spec::ConfigError) << name;
-    EXPECT_EQ(read_file(path_ / name, 10), "{}");
-    std::filesystem::remove(path_ / name);
-  }
-}
-
-TEST_F(Directory, ARunDoesNotReplaceWhatItReads) {
-  leave_results(path_);
-  std::filesystem::create_symlink(path_ / "before.png", path_ / "link.png");
-  ParameterSet parameters;
-  for (const char* name : {"before.png", "link.png", "manifest.json"}) {
-    RunContext context(path_, parameters, "x", 0);
-    context.add_input(path_ / name);
-    EXPECT_THROW(context.claim(), spec::ConfigError) << name;
-  }
-  EXPECT_TRUE(std::filesystem::exists(path_ / "before.png"));
-}
-
-TEST_F(Directory, ARunThatDoesNotFinishLeavesNothing) {
-  {
-    ParameterSet parameters;
-    RunContext context(path_, parameters, "x", 0);
-    context.claim();
-    context.begin();
-    context.add_image("before", Image(1, 1), "", "");
-    std::ofstream(context.trace_file()) << "wave";
-    EXPECT_TRUE(std::filesystem::exists(path_ / "before.png"));
-  }
-  EXPECT_TRUE(std::filesystem::is_empty(path_));
-}
-
-TEST_F(Directory, AWaveGetsItsNameWhenTheRunIsOver) {
-  ParameterSet parameters;
-  RunContext context(path_, parameters, "x", 0);
-  context.claim();
-  context.begin();
-  std::ofstream(context.trace_file()) << "wave";
-  context.finish(sample_result());
-  EXPECT_EQ(read_file(path_ / "trace.vcd", 10), "wave");
-  EXPECT_FALSE(std::filesystem::exists(context.trace_file()));
 }
 
 TEST_F(Directory, Sha256IsThatOfTheContent) {

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "tb/app/input_rules.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <string>
+
+#include "spec/error.h"
+
+namespace deburr::tb {
+namespace {
+
+constexpr const char* kLook =
+    "look at the camera (scene.eye, scene.target, scene.fov) and at the size of the mesh";
+
+}  // namespace
+
+void refuse_nothing_drawn(const TextureScene& scene) {
+  if (scene.stream().counts.fragments > 0) return;
+  const Mesh& mesh = scene.scene().mesh;
+  const Bounds box = bounds(mesh);
+  throw spec::ConfigError(fmt::format(
+      "the scene '{}' draws nothing: none of its {} triangles, from ({:g}, {:g}, {:g}) to "
+      "({:g}, {:g}, {:g}), covers the centre of one of {} x {} pixels: {}",
+      scene.scene().name, mesh.triangles.size(), box.low.x, box.low.y, box.low.z, box.high.x,
+      box.high.y, box.high.z, scene.stream().width, scene.stream().height, kLook));
+}
+
+void refuse_nothing_drawn(const DepthImage& depth, std::string_view source) {
+  if (std::any_of(depth.pixels.begin(), depth.pixels.end(), [](float d) { return d > 0; })) return;
+  throw spec::ConfigError(
+      fmt::format("the scene '{}' draws nothing: none of its triangles covers the centre of one of "
+                  "{} x {} pixels: look at the size of the mesh",
+                  source, depth.width, depth.height));
+}
+
+void refuse_empty_lod_range(const SamplerParameters& sampler) {
+  if (sampler.min_lod > sampler.max_lod)
+    throw spec::ConfigError(fmt::format(
+        "sampler.min_lod = {} is above sampler.max_lod = {}: no level of detail lies between them",
+        sampler.min_lod, sampler.max_lod));
+}
+
+void refuse_slow_memory(const ParameterSet& set, std::string_view prefix,
+                        const MemoryParameters& memory) {
+  const std::string patience = set.find("run.watchdog_cycles")->text();
+  std::int64_t clocks = 0;
+  std::from_chars(patience.data(), patience.data() + patience.size(), clocks);
+  const bool drawn = memory.latency_max > memory.latency;
+  const std::int64_t slowest = std::max(memory.latency, memory.latency_max);
+  if (slowest + memory.bank_busy >= clocks)
+    throw spec::ConfigError(fmt::format(
+        "{0}.{1} = {2}{3} is not below run.watchdog_cycles = {4}, after which a run without "
+        "progress counts as dead: raise that (--set run.watchdog_cycles={5}), or make the memory "
+        "faster",
+        prefix, drawn ? "latency_max" : "latency", slowest,
+        memory.bank_busy > 0 ? fmt::format(" and {}.bank_busy = {}", prefix, memory.bank_busy) : "",
+        clocks, 2 * (slowest + memory.bank_busy)));
+}
+
+}  // namespace deburr::tb
