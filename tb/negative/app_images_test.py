@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """What the command does without OpenImageIO, which it loads when the first picture needs it: most of it, and a clear
 error for the rest."""
+import glob
 import os
 import shutil
 import unittest
@@ -14,10 +15,15 @@ MODULE = "libdeburr_images.so"
 class Images(CommandTest):
     def loaded(self, *arguments):
         """The libraries that the dynamic linker initialised in a run."""
-        done = self.run_command(*arguments, env={**os.environ, "LD_DEBUG": "files"})
+        log = self.path("loaded")
+        done = self.run_command(*arguments, env={**os.environ, "LD_DEBUG": "files", "LD_DEBUG_OUTPUT": log})
         self.assertEqual(done.returncode, 0, done.stdout)
-        return [line.split("calling init:")[1] for line in done.stderr.splitlines()
-                if "calling init:" in line]
+        lines = []
+        for name in glob.glob(f"{log}.*"):
+            with open(name) as file:
+                lines += file.read().splitlines()
+            os.remove(name)
+        return [line.split("calling init:")[1] for line in lines if "calling init:" in line]
 
     def assert_loads(self, expected, *arguments):
         libraries = self.loaded(*arguments)
