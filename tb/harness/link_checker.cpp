@@ -50,10 +50,9 @@ void LinkChecker::adopt(Watched& watched) {
   watched.head = static_cast<std::uint32_t>(watched.pops % watched.depth);
 }
 
-void LinkChecker::follow(Watched& w, rtl::Cycle cycle) {
+void LinkChecker::refuse_counts(const Watched& w, rtl::Cycle cycle) {
   const rtl::LinkBase& link = *w.link;
   const std::uint64_t pushed = link.last_push() == cycle, popped = link.last_pop() == cycle;
-  const std::uint64_t before = w.pushes - w.pops;
   if (link.pushes() != w.pushes + pushed)
     fail(link, cycle,
          fmt::format("{} beats have gone in, {} were pushed: a beat vanished or appeared",
@@ -62,28 +61,42 @@ void LinkChecker::follow(Watched& w, rtl::Cycle cycle) {
     fail(link, cycle,
          fmt::format("{} beats have gone out, {} were popped: a beat vanished", link.pops(),
                      w.pops + popped));
-  if (pushed && before == w.depth) fail(link, cycle, "a push into a link that was full");
-  if (popped && before == 0) fail(link, cycle, "a pop of a beat that was pushed in the same cycle");
+  if (pushed && w.pushes - w.pops == w.depth) fail(link, cycle, "a push into a link that was full");
+  fail(link, cycle, "a pop of a beat that was pushed in the same cycle");
+}
 
+void LinkChecker::refuse_change(const Watched& w, rtl::Cycle cycle) {
+  const std::string fields = w.link->payload().difference(w.copy(w.head), w.slot(w.head));
+  if (!fields.empty())
+    fail(*w.link, cycle,
+         fmt::format("beat {} changed while it waited (was/is): {}", w.pops, fields));
+}
+
+void LinkChecker::refuse_width(const Watched& w, rtl::Cycle cycle) {
+  if (const rtl::Field* wide = w.link->payload().misfit(w.slot(w.tail)))
+    fail(*w.link, cycle,
+         fmt::format("beat {}: the value of {} needs more than its {} bits", w.pushes, wide->name,
+                     wide->bits));
+}
+
+inline void LinkChecker::follow(Watched& w, rtl::Cycle cycle) {
+  const rtl::LinkBase& link = *w.link;
+  const bool pushed = link.last_push() == cycle, popped = link.last_pop() == cycle;
+  const std::uint64_t before = w.pushes - w.pops;
+  if (link.pushes() != w.pushes + pushed || link.pops() != w.pops + popped ||
+      (pushed && before == w.depth) || (popped && before == 0)) [[unlikely]]
+    refuse_counts(w, cycle);
   if (popped) {
     // All bytes first: the list of fields is needed for the text only.
-    const std::byte *was = w.copy(w.head), *is = w.slot(w.head);
-    if (std::memcmp(is, was, w.payload_bytes) != 0)
-      if (const std::string fields = link.payload().difference(was, is); !fields.empty())
-        fail(link, cycle,
-             fmt::format("beat {} changed while it waited (was/is): {}", w.pops, fields));
+    if (std::memcmp(w.slot(w.head), w.copy(w.head), w.payload_bytes) != 0) [[unlikely]]
+      refuse_change(w, cycle);
     ++w.compared;
     w.head = w.after(w.head);
     ++w.pops;
   }
   if (pushed) {
-    const std::byte* beat = w.slot(w.tail);
-    std::memcpy(w.copy(w.tail), beat, w.payload_bytes);
-    const rtl::Field* wide = widths_ ? link.payload().misfit(beat) : nullptr;
-    if (wide)
-      fail(link, cycle,
-           fmt::format("beat {}: the value of {} needs more than its {} bits", w.pushes, wide->name,
-                       wide->bits));
+    std::memcpy(w.copy(w.tail), w.slot(w.tail), w.payload_bytes);
+    if (widths_) refuse_width(w, cycle);
     w.tail = w.after(w.tail);
     ++w.pushes;
   }

@@ -45,11 +45,19 @@ class LinkChecker final : public rtl::Clocked {
     std::vector<std::byte> copies;
 
     const std::byte* slot(std::uint32_t number) const { return slots + number * slot_bytes; }
+    const std::byte* copy(std::uint32_t number) const {
+      return copies.data() + number * payload_bytes;
+    }
     std::byte* copy(std::uint32_t number) { return copies.data() + number * payload_bytes; }
     std::uint32_t after(std::uint32_t number) const { return number + 1 == depth ? 0 : number + 1; }
   };
   void adopt(Watched& watched);
   void follow(Watched& watched, rtl::Cycle cycle);
+  // What follow() does not look at closer unless it must, out of its way. The first throws always,
+  // the others if a field is concerned, and not only bits that belong to none.
+  [[noreturn, gnu::cold]] static void refuse_counts(const Watched& watched, rtl::Cycle cycle);
+  [[gnu::noinline]] static void refuse_change(const Watched& watched, rtl::Cycle cycle);
+  [[gnu::noinline]] static void refuse_width(const Watched& watched, rtl::Cycle cycle);
   std::vector<Watched> watched_;
   bool widths_;
 };

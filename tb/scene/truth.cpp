@@ -377,6 +377,9 @@ Image render(const Scene& scene, const RenderOptions& options) {
       const int x_begin = column * tile_pixels;
       const int pixels = std::min(options.width - x_begin, tile_pixels);
       for (int y = y_begin; y < y_end; ++y) {
+        const auto samples = owners.begin() + static_cast<std::ptrdiff_t>((y - y_begin) * n * tile);
+        if (std::all_of(samples, samples + n * tile, [](auto owner) { return owner == kNobody; }))
+          continue;
         const auto background = sky_colour(scene, y, options.height, transport);
         sums.assign(static_cast<std::size_t>(pixels), Sum());
         for (int j = y * n; j < (y + 1) * n; ++j) {
