@@ -377,14 +377,14 @@ Image render(const Scene& scene, const RenderOptions& options) {
       const int x_begin = column * tile_pixels;
       const int pixels = std::min(options.width - x_begin, tile_pixels);
       for (int y = y_begin; y < y_end; ++y) {
-        const auto samples = owners.begin() + static_cast<std::ptrdiff_t>((y - y_begin) * n * tile);
-        if (std::all_of(samples, samples + n * tile, [](auto owner) { return owner == kNobody; }))
+        const auto samples = owners.begin() + std::ptrdiff_t{y - y_begin} * n * tile;
+        if (std::all_of(samples, samples + std::ptrdiff_t{n} * tile,
+                        [](std::int32_t owner) { return owner == kNobody; }))
           continue;
         const auto background = sky_colour(scene, y, options.height, transport);
         sums.assign(static_cast<std::size_t>(pixels), Sum());
         for (int j = y * n; j < (y + 1) * n; ++j) {
-          const std::int32_t* const line =
-              &owners[static_cast<std::size_t>((j - row * tile) * tile)];
+          const std::int32_t* const line = &owners[0] + std::ptrdiff_t{j - row * tile} * tile;
           for (int i = 0, end = 0; i < pixels * n; i = end) {
             while (end < pixels * n && line[end] == line[i]) ++end;
             if (line[i] == kNobody)
