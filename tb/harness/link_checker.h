@@ -36,10 +36,28 @@ class LinkChecker final : public rtl::Clocked {
   struct Watched {
     const rtl::LinkBase* link;
     std::uint64_t pushes = 0, pops = 0;  // as of the end of the last cycle
-    std::vector<std::byte> copies;       // of the beats in the link, by number modulo depth
     std::uint64_t compared = 0;
+    // The link's slots and, packed, what the beats in them were when they were pushed; the slots of
+    // the next push and pop are counted along, for a division by the depth costs more than a beat.
+    const std::byte* slots;
+    std::size_t slot_bytes, payload_bytes;
+    std::uint32_t depth, tail = 0, head = 0;
+    std::vector<std::byte> copies;
+
+    const std::byte* slot(std::uint32_t number) const { return slots + number * slot_bytes; }
+    const std::byte* copy(std::uint32_t number) const {
+      return copies.data() + number * payload_bytes;
+    }
+    std::byte* copy(std::uint32_t number) { return copies.data() + number * payload_bytes; }
+    std::uint32_t after(std::uint32_t number) const { return number + 1 == depth ? 0 : number + 1; }
   };
+  void adopt(Watched& watched);
   void follow(Watched& watched, rtl::Cycle cycle);
+  // What follow() does not look at closer unless it must, out of its way. The first throws always,
+  // the others if a field is concerned, and not only bits that belong to none.
+  [[noreturn, gnu::cold]] static void refuse_counts(const Watched& watched, rtl::Cycle cycle);
+  [[gnu::noinline]] static void refuse_change(const Watched& watched, rtl::Cycle cycle);
+  [[gnu::noinline]] static void refuse_width(const Watched& watched, rtl::Cycle cycle);
   std::vector<Watched> watched_;
   bool widths_;
 };

@@ -88,9 +88,9 @@ class CommandTest(unittest.TestCase):
     def notes(self):
         return "\n".join(self.result().get("notes", []))
 
-    def run_command(self, *arguments, **options):
+    def run_command(self, *arguments, program=DEBURR, **options):
         options.setdefault("cwd", self.directory)
-        return subprocess.run([DEBURR, *arguments], text=True, capture_output=True, timeout=300,
+        return subprocess.run([program, *arguments], text=True, capture_output=True, timeout=300,
                               **options)
 
     def expect(self, code, *arguments, says=(), **options):

@@ -1,36 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include "tb/scene/image_io.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <bit>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <memory>
 
 #include "spec/error.h"
+#include "tb/scene/image_codec.h"
+#include "tb/scene/png.h"
 #include "tb/scene/textures.h"
 
 namespace deburr::tb {
 namespace {
 
 namespace fs = std::filesystem;
-using InputPointer = std::unique_ptr<OIIO::ImageInput>;
-
-// On one line.
-std::string last_error(OIIO::ImageInput* input) {
-  std::string text = input != nullptr && input->has_error() ? input->geterror() : OIIO::geterror();
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
-  for (std::size_t at; (at = text.find('\n')) != std::string::npos;) text.replace(at, 1, "; ");
-  return text.empty() ? "no reason given" : text;
-}
+using DecoderPointer = std::unique_ptr<ImageDecoder>;
+using Header = ImageDecoder::Header;
 
 // libpng and others print on the error stream what they report as well; ours says it once. While it
 // lives, nothing else in this process prints.
@@ -59,13 +52,7 @@ class SilentLibraries {
   throw spec::FileError(fmt::format("cannot read the image '{}': {}", name, reason));
 }
 
-OIIO::ImageSpec read_hints() {
-  OIIO::ImageSpec hints;
-  hints.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not multiplied by alpha
-  return hints;
-}
-
-InputPointer open_file(const fs::path& path) {
+DecoderPointer open_file(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) fail_read(path.string(), "no such file; check the path");
@@ -75,29 +62,27 @@ InputPointer open_file(const fs::path& path) {
   if (error) fail_read(path.string(), error.message());
   if (size == 0) fail_read(path.string(), "the file is empty (0 bytes); make it again");
   if (!std::ifstream(path)) fail_read(path.string(), "permission denied");
-  const OIIO::ImageSpec hints = read_hints();
-  InputPointer input = OIIO::ImageInput::open(path.string(), &hints);
-  if (!input) {
+  ImageCodec::Source source = image_codec().open_file(path.string());
+  if (!source.decoder) {
     fail_read(path.string(),
               fmt::format("not an image that OpenImageIO understands, or a damaged one ({}); "
                           "give a PNG, JPEG, TIFF, EXR, ...",
-                          last_error(nullptr)));
+                          source.error));
   }
-  return input;
+  return std::move(source.decoder);
 }
 
-void check_header(const std::string& name, const OIIO::ImageSpec& spec) {
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
+void check_header(const std::string& name, const Header& header) {
+  if (header.width < 1 || header.height < 1 || header.channels < 1)
     fail_read(name,
               fmt::format("its header says {} x {} pixels of {} channels; the file is damaged",
-                          spec.width, spec.height, spec.nchannels));
-  if (spec.width > kMaxImageSide || spec.height > kMaxImageSide)
+                          header.width, header.height, header.channels));
+  if (header.width > kMaxImageSide || header.height > kMaxImageSide)
     fail_read(name,
               fmt::format("its header says {} x {} pixels, the limit is {} x {}; scale it down "
                           "or cut it",
-                          spec.width, spec.height, kMaxImageSide, kMaxImageSide));
-  if (spec.depth > 1 || spec.deep)
-    fail_read(name, "it is a volume or a deep image; flatten it to two dimensions");
+                          header.width, header.height, kMaxImageSide, kMaxImageSide));
+  if (!header.flat) fail_read(name, "it is a volume or a deep image; flatten it to two dimensions");
 }
 
 // libjpeg fills the rest of a truncated file with grey and only warns, so look for the end marker.
@@ -153,14 +138,14 @@ void check_complete_tiff(const fs::path& path) {
 }
 
 template <class Value>
-std::vector<Value> read_pixels(const std::string& name, OIIO::ImageInput& input, int channels) {
-  const OIIO::ImageSpec& spec = input.spec();
-  std::vector<Value> values(static_cast<std::size_t>(spec.width) *
-                            static_cast<std::size_t>(spec.height) *
+std::vector<Value> read_pixels(const std::string& name, ImageDecoder& decoder, int channels) {
+  const Header& header = decoder.header();
+  std::vector<Value> values(static_cast<std::size_t>(header.width) *
+                            static_cast<std::size_t>(header.height) *
                             static_cast<std::size_t>(channels));
-  if (!input.read_image(0, 0, 0, channels, OIIO::BaseTypeFromC<Value>::value, values.data()))
+  if (!decoder.read(channels, values.data()))
     fail_read(name, fmt::format("the file is truncated or corrupt ({}); make or copy it again",
-                                last_error(&input)));
+                                decoder.error()));
   return values;
 }
 
@@ -188,61 +173,58 @@ std::uint8_t code_of(float value, bool linear) {
       std::floor(255 * (linear ? linear_to_srgb(clamped) : clamped) + 0.5));
 }
 
+constexpr const char* kBytes = "uint8";
+
 // By the name that OpenImageIO gives the file's colour space: "Linear" (every EXR), "linear" (HDR),
 // "lin_srgb", "scene_linear". Integers are codes, whatever the file says.
-bool declares_linear_light(const OIIO::ImageSpec& spec) {
-  if (!spec.format.is_floating_point()) return false;
-  std::string space = spec.get_string_attribute("oiio:ColorSpace");
+bool declares_linear_light(const Header& header) {
+  if (!header.floating_point) return false;
+  std::string space = header.colour_space;
   std::transform(space.begin(), space.end(), space.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return space.rfind("lin", 0) == 0 || space.rfind("scene_linear", 0) == 0;
 }
 
-void describe_conversions(const OIIO::ImageSpec& spec, bool linear, ReadReport& report) {
-  report.channels = spec.nchannels;
-  report.format = spec.format.c_str();
+void describe_conversions(const Header& header, bool linear, ReadReport& report) {
+  report.channels = header.channels;
+  report.format = header.value_format;
   report.conversions.clear();
   auto note = [&](std::string text) { report.conversions.push_back(std::move(text)); };
-  if (spec.format != OIIO::TypeUInt8)
-    note(fmt::format("{} values scaled to 8 bits", spec.format.c_str()));
-  if (spec.format.is_floating_point()) note("values clamped to [0, 1], NaN to 0");
+  if (header.value_format != kBytes)
+    note(fmt::format("{} values scaled to 8 bits", header.value_format));
+  if (header.floating_point) note("values clamped to [0, 1], NaN to 0");
   if (linear) note("linear light encoded with the sRGB curve");
-  if (!linear && spec.format.is_floating_point())
+  if (!linear && header.floating_point)
     note("the file does not say that it is linear light: taken as encoded");
-  if (spec.nchannels <= 2) note("grey copied to R, G and B");
-  if (spec.nchannels > 4) note(fmt::format("channels 5 to {} left out", spec.nchannels));
-  if (spec.get_int_attribute("Orientation", 1) != 1) note("orientation tag ignored");
+  if (header.channels <= 2) note("grey copied to R, G and B");
+  if (header.channels > 4) note(fmt::format("channels 5 to {} left out", header.channels));
+  if (header.orientation != 1) note("orientation tag ignored");
+  if (header.several) note("the first of several pictures");
 }
 
-Image decode(const std::string& name, OIIO::ImageInput& input, ReadReport* report) {
-  const OIIO::ImageSpec spec = input.spec();
-  const int channels = std::min(spec.nchannels, 4);
-  const bool linear = declares_linear_light(spec);
-  if (report != nullptr) {
-    describe_conversions(spec, linear, *report);
-    if (input.seek_subimage(1, 0))
-      report->conversions.emplace_back("the first of several pictures");
-    input.geterror();
-    input.seek_subimage(0, 0);
-  }
-  if (spec.format == OIIO::TypeUInt8)
-    return expand<Rgba8>(read_pixels<std::uint8_t>(name, input, channels), spec.width, spec.height,
-                         channels, std::uint8_t{255});
-  const FloatImage values = expand<Rgbaf>(read_pixels<float>(name, input, channels), spec.width,
-                                          spec.height, channels, 1.0f);
-  Image image(spec.width, spec.height);
+Image decode(const std::string& name, ImageDecoder& decoder, ReadReport* report) {
+  const Header& header = decoder.header();
+  const int channels = std::min(header.channels, 4);
+  const bool linear = declares_linear_light(header);
+  if (report != nullptr) describe_conversions(header, linear, *report);
+  if (header.value_format == kBytes)
+    return expand<Rgba8>(read_pixels<std::uint8_t>(name, decoder, channels), header.width,
+                         header.height, channels, std::uint8_t{255});
+  const FloatImage values = expand<Rgbaf>(read_pixels<float>(name, decoder, channels), header.width,
+                                          header.height, channels, 1.0f);
+  Image image(header.width, header.height);
   for (std::size_t i = 0; i < values.pixels.size(); ++i)
     for (std::size_t c = 0; c < 4; ++c)
       image.pixels[i][c] = code_of(values.pixels[i][c], linear && c < 3);
   return image;
 }
 
-InputPointer open_checked(const fs::path& path) {
-  InputPointer input = open_file(path);
-  check_header(path.string(), input->spec());
-  if (std::string_view(input->format_name()) == "jpeg") check_complete_jpeg(path);
-  if (std::string_view(input->format_name()) == "tiff") check_complete_tiff(path);
-  return input;
+DecoderPointer open_checked(const fs::path& path) {
+  DecoderPointer decoder = open_file(path);
+  check_header(path.string(), decoder->header());
+  if (decoder->header().file_format == "jpeg") check_complete_jpeg(path);
+  if (decoder->header().file_format == "tiff") check_complete_tiff(path);
+  return decoder;
 }
 
 // OpenImageIO chooses a reader by extension; a picture inside a glTF has none, so look at its
@@ -259,23 +241,14 @@ std::string extension_of(std::string_view bytes) {
   return "";
 }
 
-// Null when it is no image. `reader` must outlive what is returned.
-InputPointer open_memory(const std::string& name, OIIO::Filesystem::IOMemReader& reader) {
-  OIIO::ImageSpec hints = read_hints();
-  OIIO::Filesystem::IOProxy* proxy = &reader;
-  hints.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-  return OIIO::ImageInput::open(name, &hints, &reader);
-}
-
 Image decode_memory(const std::string& name, const std::string& extension, std::string_view bytes,
                     ReadReport* report) {
-  OIIO::Filesystem::IOMemReader reader(const_cast<char*>(bytes.data()), bytes.size());
-  InputPointer input = open_memory("memory" + extension, reader);
-  if (!input)
+  const ImageCodec::Source source = image_codec().open_memory("memory" + extension, bytes);
+  if (!source.decoder)
     fail_read(name, fmt::format("not an image that OpenImageIO understands, or a damaged one ({})",
-                                last_error(nullptr)));
-  check_header(name, input->spec());
-  return decode(name, *input, report);
+                                source.error));
+  check_header(name, source.decoder->header());
+  return decode(name, *source.decoder, report);
 }
 
 [[noreturn]] void fail_write(const fs::path& path, const std::string& reason) {
@@ -283,22 +256,14 @@ Image decode_memory(const std::string& name, const std::string& extension, std::
 }
 
 // Encodes to memory, so that what reaches the disk is written by write_file_atomically alone.
-std::vector<unsigned char> encode(const fs::path& path, const void* pixels, OIIO::ImageSpec spec,
-                                  OIIO::stride_t pixel_stride) {
-  auto output = OIIO::ImageOutput::create(path.string());
-  if (!output || !output->supports("ioproxy")) {
-    OIIO::geterror();
+std::vector<unsigned char> encode(const fs::path& path, const ImageCodec::Pixels& pixels) {
+  ImageCodec::Encoded encoded = image_codec().encode(path.string(), pixels);
+  if (!encoded.writable)
     fail_write(path,
                fmt::format("the extension '{}' is not a writable image format; use .png or .exr",
                            path.extension().string()));
-  }
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput proxy(bytes);
-  if (!output->set_ioproxy(&proxy) || !output->open(path.string(), spec) ||
-      !output->write_image(spec.format, pixels, pixel_stride) || !output->close())
-    fail_write(path, fmt::format("{}; use .png or .exr", output->geterror()));
-  return bytes;
+  if (!encoded.error.empty()) fail_write(path, fmt::format("{}; use .png or .exr", encoded.error));
+  return std::move(encoded.bytes);
 }
 
 bool is_lossy(const fs::path& path) {
@@ -320,8 +285,8 @@ void check_not_empty(const fs::path& path, int width, int height) {
 
 Image read_image(const fs::path& path, ReadReport* report) {
   const SilentLibraries silent;
-  const InputPointer input = open_checked(path);
-  return decode(path.string(), *input, report);
+  const DecoderPointer decoder = open_checked(path);
+  return decode(path.string(), *decoder, report);
 }
 
 Image read_image_memory(const std::string& name, std::string_view bytes, ReadReport* report) {
@@ -332,28 +297,29 @@ Image read_image_memory(const std::string& name, std::string_view bytes, ReadRep
 
 FloatImage read_float_image(const fs::path& path) {
   const SilentLibraries silent;
-  const InputPointer input = open_checked(path);
-  const int channels = std::min(input->spec().nchannels, 4);
-  return expand<Rgbaf>(read_pixels<float>(path.string(), *input, channels), input->spec().width,
-                       input->spec().height, channels, 1.0f);
+  const DecoderPointer decoder = open_checked(path);
+  const Header& header = decoder->header();
+  const int channels = std::min(header.channels, 4);
+  return expand<Rgbaf>(read_pixels<float>(path.string(), *decoder, channels), header.width,
+                       header.height, channels, 1.0f);
 }
 
 DepthImage read_depth(const fs::path& path) {
   const SilentLibraries silent;
-  const InputPointer input = open_checked(path);
-  const OIIO::ImageSpec spec = input->spec();
-  DepthImage depth(spec.width, spec.height);
-  if (spec.nchannels == 1 && spec.format.is_floating_point()) {
-    depth.pixels = read_pixels<float>(path.string(), *input, 1);
+  const DecoderPointer decoder = open_checked(path);
+  const Header& header = decoder->header();
+  DepthImage depth(header.width, header.height);
+  if (header.channels == 1 && header.floating_point) {
+    depth.pixels = read_pixels<float>(path.string(), *decoder, 1);
     return depth;
   }
-  if (spec.nchannels < 3 || spec.format != OIIO::TypeUInt8)
+  if (header.channels < 3 || header.value_format != kBytes)
     fail_read(
         path.string(),
         fmt::format("a depth picture has 24 bits in R, G and B or one float channel, this one has "
                     "{} channels of {}",
-                    spec.nchannels, spec.format.c_str()));
-  const auto bytes = read_pixels<std::uint8_t>(path.string(), *input, 3);
+                    header.channels, header.value_format));
+  const auto bytes = read_pixels<std::uint8_t>(path.string(), *decoder, 3);
   for (std::size_t i = 0; i < depth.pixels.size(); ++i) {
     const std::uint32_t value = static_cast<std::uint32_t>(bytes[3 * i]) << 16 |
                                 static_cast<std::uint32_t>(bytes[3 * i + 1]) << 8 |
@@ -365,10 +331,15 @@ DepthImage read_depth(const fs::path& path) {
 
 void write_image(const fs::path& path, const Image& image) {
   check_not_empty(path, image.width, image.height);
+  if (path.extension() == ".png") {
+    write_file_atomically(path, encode_png(image));
+    return;
+  }
+  const SilentLibraries silent;
   const bool opaque = std::all_of(image.pixels.begin(), image.pixels.end(),
                                   [](const Rgba8& pixel) { return pixel[3] == 255; });
-  const OIIO::ImageSpec spec(image.width, image.height, opaque ? 3 : 4, OIIO::TypeUInt8);
-  const auto bytes = encode(path, image.pixels.data(), spec, sizeof(Rgba8));
+  const auto bytes = encode(
+      path, {image.width, image.height, opaque ? 3 : 4, false, image.pixels.data(), sizeof(Rgba8)});
   const Image back = decode_memory(path.string(), path.extension().string(), view(bytes), nullptr);
   if (back.width != image.width || back.height != image.height ||
       (!is_lossy(path) && back.pixels != image.pixels))
@@ -378,20 +349,19 @@ void write_image(const fs::path& path, const Image& image) {
 
 void write_image(const fs::path& path, const FloatImage& image) {
   check_not_empty(path, image.width, image.height);
-  const OIIO::ImageSpec spec(image.width, image.height, 4, OIIO::TypeFloat);
-  const auto bytes = encode(path, image.pixels.data(), spec, sizeof(Rgbaf));
-  OIIO::Filesystem::IOMemReader reader(const_cast<unsigned char*>(bytes.data()), bytes.size());
-  const InputPointer input = open_memory(path.filename().string(), reader);
-  if (!input) fail_write(path, "what was encoded cannot be decoded: " + last_error(nullptr));
-  const OIIO::ImageSpec& got = input->spec();
-  bool same = got.width == image.width && got.height == image.height && got.nchannels == 4 &&
-              got.format == OIIO::TypeFloat;
+  const SilentLibraries silent;
+  const auto bytes =
+      encode(path, {image.width, image.height, 4, true, image.pixels.data(), sizeof(Rgbaf)});
+  const ImageCodec::Source source =
+      image_codec().open_memory(path.filename().string(), view(bytes));
+  if (!source.decoder) fail_write(path, "what was encoded cannot be decoded: " + source.error);
+  const Header& got = source.decoder->header();
+  bool same = got.width == image.width && got.height == image.height && got.channels == 4 &&
+              got.value_format == "float";
   if (same) {
-    const auto values = read_pixels<float>(path.string(), *input, 4);
+    const auto values = read_pixels<float>(path.string(), *source.decoder, 4);
     // Bits, not values: a NaN must come back too.
-    for (std::size_t i = 0; same && i < values.size(); ++i)
-      same = std::bit_cast<std::uint32_t>(values[i]) ==
-             std::bit_cast<std::uint32_t>(image.pixels[i / 4][i % 4]);
+    same = std::memcmp(values.data(), image.pixels.data(), values.size() * sizeof(float)) == 0;
   }
   if (!same) fail_write(path, "the format does not keep floats as they are; use .exr");
   write_file_atomically(path, view(bytes));

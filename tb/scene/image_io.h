@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Image files in and out, through OpenImageIO. Every failure is a spec::FileError that names the
-// file, the reason and what to do; a failed write leaves neither a half-written file nor a
-// temporary one.
+// Image files in and out. PNG files of 8 bits are written here, all else goes through OpenImageIO,
+// which is loaded when it is first needed (image_codec.h). Every failure is a spec::FileError that
+// names the file, the reason and what to do; a failed write leaves neither a half-written file nor
+// a temporary one.
 #pragma once
 
 #include <filesystem>
@@ -47,8 +48,9 @@ FloatImage read_float_image(const std::filesystem::path& path);
 // else.
 DepthImage read_depth(const std::filesystem::path& path);
 
-// Encodes by extension (.png, .exr, .tif, ... whatever OpenImageIO writes to memory), decodes what
-// was encoded, compares it pixel by pixel (lossy formats: size only) and then writes it atomically.
+// Encodes by extension (.png, .exr, .tif, ... whatever OpenImageIO writes to memory) and writes it
+// atomically. What OpenImageIO encoded is decoded first and compared pixel by pixel (lossy formats:
+// size only).
 void write_image(const std::filesystem::path& path, const Image& image);
 void write_image(const std::filesystem::path& path, const FloatImage& image);
 // 24-bit depth in R, G, B, as read_depth reads it: round(depth * (2^24 - 1)).

@@ -144,6 +144,21 @@ Span covered_span(const Primitive& p, const std::array<std::int64_t, 3>& e, int 
 
 }  // namespace
 
+void Primitive::edges_of_row(const std::array<std::int64_t, 3>& e, int count, EdgeRow& row) const {
+  // Integers of up to 53 bits are exact in a double, and then so is every term here.
+  constexpr std::int64_t kExact = std::int64_t{1} << 52;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::int64_t step = a[i] * kSubpixelOne, last = e[i] + step * (count - 1);
+    if (std::max(std::abs(e[i]), std::abs(last)) < kExact) {
+      const auto from = static_cast<double>(e[i]), by = static_cast<double>(step);
+      for (int k = 0; k < count; ++k) row[i][static_cast<std::size_t>(k)] = from + by * k;
+    } else {
+      for (int k = 0; k < count; ++k)
+        row[i][static_cast<std::size_t>(k)] = static_cast<double>(e[i] + step * k);
+    }
+  }
+}
+
 View::View(const Camera& camera, int width, int height, int grid)
     : eye_(camera.eye),
       near_(camera.near_plane),
@@ -236,18 +251,16 @@ Occlusion::Occlusion(const std::vector<Primitive>& primitives, int width, int he
   auto for_each_bin = [&](const Primitive& p, auto&& visit) {
     for (int row = p.top / tile_; row <= p.bottom / tile_; ++row)
       for (int column = p.left / tile_; column <= p.right / tile_; ++column)
-        visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-              static_cast<std::size_t>(column));
+        visit(bin(column, row));
   };
   first_.assign(bins + 1, 0);
-  for (const Primitive& p : primitives)
-    for_each_bin(p, [&](std::size_t bin) { ++first_[bin + 1]; });
+  for (const Primitive& p : primitives) for_each_bin(p, [&](std::size_t i) { ++first_[i + 1]; });
   for (std::size_t i = 0; i < bins; ++i) first_[i + 1] += first_[i];
   members_.resize(first_[bins]);
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
   for (std::size_t i = 0; i < primitives.size(); ++i)
     for_each_bin(primitives[i],
-                 [&](std::size_t bin) { members_[next[bin]++] = static_cast<std::uint32_t>(i); });
+                 [&](std::size_t at) { members_[next[at]++] = static_cast<std::uint32_t>(i); });
 }
 
 void Occlusion::resolve(int column, int row, int offset_x, int offset_y,
@@ -256,9 +269,9 @@ void Occlusion::resolve(int column, int row, int offset_x, int offset_y,
   owners.assign(samples, kNobody);
   depths.assign(samples, 0.0);
   const int x0 = column * tile_, y0 = row * tile_;
-  const std::size_t bin = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                          static_cast<std::size_t>(column);
-  for (std::uint32_t m = first_[bin]; m < first_[bin + 1]; ++m) {
+  const std::size_t here = bin(column, row);
+  EdgeRow edges;
+  for (std::uint32_t m = first_[here]; m < first_[here + 1]; ++m) {
     const Primitive& p = primitives_[members_[m]];
     const int left = std::max(x0, p.left), right = std::min(x0 + tile_ - 1, p.right);
     const int top = std::max(y0, p.top), bottom = std::min(y0 + tile_ - 1, p.bottom);
@@ -266,16 +279,19 @@ void Occlusion::resolve(int column, int row, int offset_x, int offset_y,
       std::array<std::int64_t, 3> e =
           p.edges(cell_centre(left) + offset_x, cell_centre(y) + offset_y);
       const Span span = covered_span(p, e, right - left);
+      const int count = span.last - span.first + 1;
+      if (count <= 0) continue;
       for (std::size_t i = 0; i < 3; ++i) e[i] += p.a[i] * kSubpixelOne * span.first;
-      std::size_t at = static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(tile_) +
-                       static_cast<std::size_t>(left + span.first - x0);
-      for (int k = span.first; k <= span.last; ++k, ++at) {
-        const double depth = p.depth(e);
-        if (depth > depths[at]) {
-          depths[at] = depth;
-          owners[at] = static_cast<std::int32_t>(members_[m]);
-        }
-        for (std::size_t i = 0; i < 3; ++i) e[i] += p.a[i] * kSubpixelOne;
+      p.edges_of_row(e, count, edges);
+      CellRow inverse_w;
+      for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
+        inverse_w[k] = p.depth(edges[0][k], edges[1][k], edges[2][k]);
+      const std::size_t at = static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(tile_) +
+                             static_cast<std::size_t>(left + span.first - x0);
+      for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+        if (!(inverse_w[k] > depths[at + k])) continue;
+        depths[at + k] = inverse_w[k];
+        owners[at + k] = static_cast<std::int32_t>(members_[m]);
       }
     }
   }

@@ -43,6 +43,12 @@ class View {
 // A sample position: cell (x, y) at (256 x + 128 + offset) / 256.
 constexpr std::int64_t cell_centre(int cell) { return std::int64_t{cell} * kSubpixelOne + 128; }
 
+inline constexpr int kMaxTile = 64;  // cells
+
+// A value at each of the cells of a piece of a tile's row.
+using CellRow = std::array<double, kMaxTile>;
+using EdgeRow = std::array<CellRow, 3>;
+
 // One triangle after clipping.
 struct Primitive {
   std::uint32_t triangle = 0;                    // index into Mesh::triangles
@@ -58,10 +64,11 @@ struct Primitive {
   bool covers(const std::array<std::int64_t, 3>& e) const {
     return ((e[0] + bias[0]) | (e[1] + bias[1]) | (e[2] + bias[2])) >= 0;
   }
-  double depth(const std::array<std::int64_t, 3>& e) const {  // 1 / w
-    return static_cast<double>(e[0]) * inverse_w[0] + static_cast<double>(e[1]) * inverse_w[1] +
-           static_cast<double>(e[2]) * inverse_w[2];
+  double depth(double e0, double e1, double e2) const {  // 1 / w
+    return e0 * inverse_w[0] + e1 * inverse_w[1] + e2 * inverse_w[2];
   }
+  // The edges at `count` cells from the one whose edges are `e` to the right.
+  void edges_of_row(const std::array<std::int64_t, 3>& e, int count, EdgeRow& row) const;
   // Weights of the mesh triangle's corners, each over w; their sum is 1 / w. Inside the triangle no
   // term is negative, so nothing cancels, however thin it is.
   Imath::V3d corner_weights(const std::array<std::int64_t, 3>& e) const {
@@ -78,10 +85,15 @@ inline constexpr std::int32_t kNobody = -1;
 // Which primitive is nearest at each sample of a rectangle of cells.
 class Occlusion {
  public:
+  // `tile` is at most kMaxTile.
   Occlusion(const std::vector<Primitive>& primitives, int width, int height, int tile);
   int columns() const { return columns_; }
   int rows() const { return rows_; }
   int tile() const { return tile_; }
+  // False where no primitive comes near the tile.
+  bool occupied(int column, int row) const {
+    return first_[bin(column, row)] < first_[bin(column, row) + 1];
+  }
 
   // For tile (column, row): owner and 1 / w of the sample at each cell centre + (offset_x,
   // offset_y) / 256. Row-major with tile() cells a row. Among equal depths the first primitive
@@ -90,6 +102,10 @@ class Occlusion {
                std::vector<double>& depths) const;
 
  private:
+  std::size_t bin(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
   const std::vector<Primitive>& primitives_;
   int tile_, columns_, rows_;
   std::vector<std::uint32_t> first_, members_;  // members of bin i: first_[i] .. first_[i + 1]
@@ -105,6 +121,7 @@ void for_each_resolved_pixel(const std::vector<Primitive>& primitives, const Vie
   std::vector<double> depths;
   for (int row = 0; row < occlusion.rows(); ++row) {
     for (int column = 0; column < occlusion.columns(); ++column) {
+      if (!occlusion.occupied(column, row)) continue;
       occlusion.resolve(column, row, 0, 0, owners, depths);
       for (std::size_t i = 0; i < owners.size(); ++i)
         if (owners[i] != kNobody)

@@ -76,7 +76,14 @@ class TextureReader {
       levels_ = mip_chain(texture.image, MipSpace::kSrgb);
     else
       levels_.push_back(texture.image);
+    const Rgba8& first = levels_[0].pixels[0];
+    plain_ = std::all_of(levels_.begin(), levels_.end(), [&](const Image& level) {
+      return std::all_of(level.pixels.begin(), level.pixels.end(),
+                         [&](const Rgba8& texel) { return texel == first; });
+    });
   }
+  // All texels are equal: every filter gives them.
+  bool plain() const { return plain_; }
   int width() const { return levels_[0].width; }
   int height() const { return levels_[0].height; }
 
@@ -123,6 +130,7 @@ class TextureReader {
   const Transport& transport_;
   spec::texture::Wrap wrap_s_, wrap_t_;
   std::vector<Image> levels_;
+  bool plain_ = false;
 };
 
 // Everything about a mesh triangle that its samples share.
@@ -162,7 +170,16 @@ Surface make_surface(const Scene& scene, const Triangle& triangle) {
   return surface;
 }
 
-// Colour of one primitive at one position, in the transport's space.
+// Colours of the samples in a piece of a tile's row, by channel.
+using ColourRow = std::array<std::array<float, kMaxTile>, 4>;
+
+Colour colour_at(const ColourRow& row, std::size_t k) {
+  return {row[0][k], row[1][k], row[2][k], row[3][k]};
+}
+
+// Colours of one primitive, in the transport's space. Samples are shaded a run at a time and in
+// loops without branches, which a compiler turns into vectors; each sample's own operations and
+// their order are the same in every run.
 class Shader {
  public:
   Shader(const Scene& scene, const std::vector<Primitive>& primitives, const RenderOptions& options,
@@ -175,54 +192,108 @@ class Shader {
       readers_.emplace_back(texture, transport, lit);
   }
 
-  // `x`, `y` in 1/256 cell; `cells` is the number of cells a pixel is wide.
-  Colour shade(std::int32_t owner, std::int64_t x, std::int64_t y, int cells) {
+  // The centres of `count` cells from (x, y) to the right go to row[.][first] and on; `cells` is
+  // the number of cells a pixel is wide.
+  void shade(std::int32_t owner, int x, int y, int cells, int count, ColourRow& row,
+             std::size_t first = 0) const {
     const Primitive& primitive = primitives_[static_cast<std::size_t>(owner)];
     const Surface& surface = surfaces_[primitive.triangle];
-    const V3d weights = primitive.corner_weights(primitive.edges(x, y));
-    const double w = 1.0 / (weights.x + weights.y + weights.z);
-    const double s = weights.dot(surface.s) * w, t = weights.dot(surface.t) * w;
+    const auto samples = static_cast<std::size_t>(count);
+    const Samples at = locate(primitive, x, y, count);
     const TextureReader* reader =
         surface.texture < 0 ? nullptr : &readers_[static_cast<std::size_t>(surface.texture)];
+    CellRow s, t;
+    if (reader != nullptr) {
+      at.interpolate(surface.s, samples, s);
+      at.interpolate(surface.t, samples, t);
+    }
     if (options_.shading == Shading::kTexture) {
-      if (reader == nullptr) return {1, 1, 1, 1};
-      return options_.sampling == Sampling::kNearest ? reader->nearest(s, t)
-                                                     : reader->bilinear(s, t);
+      for (std::size_t k = 0; k < samples; ++k)
+        put(reader == nullptr                         ? Colour{1, 1, 1, 1}
+            : options_.sampling == Sampling::kNearest ? reader->nearest(s[k], t[k])
+                                                      : reader->bilinear(s[k], t[k]),
+            row, first + k);
+      return;
     }
-    Colour colour{1, 1, 1, 1};
-    if (reader != nullptr)
-      colour = reader->trilinear(s, t, level(primitive, surface, *reader, s, t, w, cells));
-    const double light = weights.dot(surface.light) * w;
+    CellRow light;
+    at.interpolate(surface.light, samples, light);
+    if (reader == nullptr || reader->plain()) {
+      const Colour base = reader == nullptr ? Colour{1, 1, 1, 1} : reader->nearest(0.0, 0.0);
+      for (std::size_t c = 0; c < 4; ++c) std::fill_n(&row[c][first], samples, base[c]);
+    } else {
+      const Footprint footprint(primitive, surface, *reader, cells);
+      for (std::size_t k = 0; k < samples; ++k)
+        put(reader->trilinear(s[k], t[k], footprint.level(s[k], t[k], at.w[k])), row, first + k);
+    }
     // A multi-sampled pixel's centre may lie outside the triangle, where light extrapolates.
-    for (int c = 0; c < 3; ++c) {
-      float& channel = colour[static_cast<std::size_t>(c)];
-      channel = std::clamp(channel * static_cast<float>(light * surface.colour[c]), 0.0f, 1.0f);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double colour = surface.colour[static_cast<int>(c)];
+      float* const channel = &row[c][first];
+      for (std::size_t k = 0; k < samples; ++k)
+        channel[k] = std::clamp(channel[k] * static_cast<float>(light[k] * colour), 0.0f, 1.0f);
     }
-    colour[3] = 1.0f;
-    return colour;
+    std::fill_n(&row[3][first], samples, 1.0f);
   }
 
  private:
-  // Base-2 logarithm of the longer side of a whole pixel's footprint, so that frames with one and
-  // with many samples a pixel filter their textures alike and differ at edges only.
-  double level(const Primitive& p, const Surface& surface, const TextureReader& reader, double s,
-               double t, double w, int cells) const {
-    const double step = static_cast<double>(kSubpixelOne) * cells;
-    V3d dx(0, 0, 0), dy(0, 0, 0);
-    for (std::size_t i = 0; i < 3; ++i) {
-      dx += p.weight[i] * (static_cast<double>(p.a[i]) * step);
-      dy += p.weight[i] * (static_cast<double>(p.b[i]) * step);
-    }
-    auto derivative = [&](const V3d& d, const V3d& corners, double value) {
-      return (d.dot(corners) - value * (d.x + d.y + d.z)) * w;
-    };
-    const double sx = derivative(dx, surface.s, s) * reader.width();
-    const double tx = derivative(dx, surface.t, t) * reader.height();
-    const double sy = derivative(dy, surface.s, s) * reader.width();
-    const double ty = derivative(dy, surface.t, t) * reader.height();
-    const double longest = std::max(sx * sx + tx * tx, sy * sy + ty * ty);
-    return longest > 0.0 ? 0.5 * std::log2(longest) : 0.0;
+  static void put(const Colour& colour, ColourRow& row, std::size_t k) {
+    for (std::size_t c = 0; c < 4; ++c) row[c][k] = colour[c];
   }
+
+  // Weights of the triangle's corners, each over w, and w.
+  struct Samples {
+    CellRow x, y, z, w;
+    void interpolate(const V3d& corners, std::size_t count, CellRow& value) const {
+      for (std::size_t k = 0; k < count; ++k)
+        value[k] = (x[k] * corners.x + y[k] * corners.y + z[k] * corners.z) * w[k];
+    }
+  };
+  static Samples locate(const Primitive& p, int x, int y, int count) {
+    EdgeRow e;
+    p.edges_of_row(p.edges(cell_centre(x), cell_centre(y)), count, e);
+    Samples at;
+    const auto sum = [&](std::size_t k, double w0, double w1, double w2) {
+      return w0 * e[0][k] + w1 * e[1][k] + w2 * e[2][k];
+    };
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+      at.x[k] = sum(k, p.weight[0].x, p.weight[1].x, p.weight[2].x);
+      at.y[k] = sum(k, p.weight[0].y, p.weight[1].y, p.weight[2].y);
+      at.z[k] = sum(k, p.weight[0].z, p.weight[1].z, p.weight[2].z);
+      at.w[k] = 1.0 / (at.x[k] + at.y[k] + at.z[k]);
+    }
+    return at;
+  }
+
+  // A whole pixel's footprint in a texture, so that frames with one and with many samples a pixel
+  // filter their textures alike and differ at edges only.
+  class Footprint {
+   public:
+    Footprint(const Primitive& p, const Surface& surface, const TextureReader& reader, int cells)
+        : width_(reader.width()), height_(reader.height()) {
+      const double step = static_cast<double>(kSubpixelOne) * cells;
+      V3d dx(0, 0, 0), dy(0, 0, 0);
+      for (std::size_t i = 0; i < 3; ++i) {
+        dx += p.weight[i] * (static_cast<double>(p.a[i]) * step);
+        dy += p.weight[i] * (static_cast<double>(p.b[i]) * step);
+      }
+      x_ = {dx.dot(surface.s), dx.dot(surface.t), dx.x + dx.y + dx.z};
+      y_ = {dy.dot(surface.s), dy.dot(surface.t), dy.x + dy.y + dy.z};
+    }
+    // Base-2 logarithm of its longer side.
+    double level(double s, double t, double w) const {
+      const double sx = (x_.s - s * x_.sum) * w * width_, tx = (x_.t - t * x_.sum) * w * height_;
+      const double sy = (y_.s - s * y_.sum) * w * width_, ty = (y_.t - t * y_.sum) * w * height_;
+      const double longest = std::max(sx * sx + tx * tx, sy * sy + ty * ty);
+      return longest > 0.0 ? 0.5 * std::log2(longest) : 0.0;
+    }
+
+   private:
+    struct Step {
+      double s, t, sum;  // of the numerators, and of the weights
+    };
+    double width_, height_;
+    Step x_, y_;
+  };
 
   const std::vector<Primitive>& primitives_;
   RenderOptions options_;
@@ -271,38 +342,65 @@ Image render(const Scene& scene, const RenderOptions& options) {
   const bool encode_samples =
       options.shading == Shading::kLit && options.averaging == Averaging::kStored;
   const Transport stored(Transfer::kStored);
-  Shader shader(scene, primitives, options, transport);
+  const Shader shader(scene, primitives, options, transport);
 
-  const int tile_pixels = std::max(1, 64 / n), tile = tile_pixels * n;
+  const auto encoded = [&](Colour colour) {
+    for (std::size_t c = 0; c < 3; ++c)
+      colour[c] = stored.decode[transport.encode(static_cast<double>(colour[c]))];
+    return colour;
+  };
+  const auto finished = [&](const Sum& sum) {
+    return finish(sum, n * n, encode_samples ? stored : transport);
+  };
+
+  const int tile_pixels = std::max(1, kMaxTile / n), tile = tile_pixels * n;
   const Occlusion occlusion(primitives, view.width(), view.height(), tile);
   std::vector<std::int32_t> owners;
   std::vector<double> depths;
+  ColourRow colours;
+  std::vector<Sum> sums;
   Image image(options.width, options.height);
   for (int row = 0; row < occlusion.rows(); ++row) {
     if (options.interrupted && options.interrupted()) throw Interrupted();
+    const int y_begin = row * tile_pixels;
+    const int y_end = std::min(options.height, y_begin + tile_pixels);
+    for (int y = y_begin; y < y_end; ++y) {
+      Sum sum;
+      Colour background = sky_colour(scene, y, options.height, transport);
+      if (encode_samples) background = encoded(background);
+      for (int k = 0; k < n * n; ++k) sum.add(background);
+      std::fill_n(&image.at(0, y), options.width, finished(sum));
+    }
     for (int column = 0; column < occlusion.columns(); ++column) {
+      if (!occlusion.occupied(column, row)) continue;
       occlusion.resolve(column, row, 0, 0, owners, depths);
-      const int x_end = std::min(options.width, (column + 1) * tile_pixels);
-      const int y_end = std::min(options.height, (row + 1) * tile_pixels);
-      for (int y = row * tile_pixels; y < y_end; ++y) {
-        const Colour background = sky_colour(scene, y, options.height, transport);
-        for (int x = column * tile_pixels; x < x_end; ++x) {
-          Sum sum;
-          for (int j = y * n; j < (y + 1) * n; ++j) {
-            for (int i = x * n; i < (x + 1) * n; ++i) {
-              const int at = (j - row * tile) * tile + (i - column * tile);
-              const std::int32_t owner = owners[static_cast<std::size_t>(at)];
-              Colour colour = owner == kNobody
-                                  ? background
-                                  : shader.shade(owner, cell_centre(i), cell_centre(j), n);
-              if (encode_samples)
-                for (std::size_t c = 0; c < 3; ++c)
-                  colour[c] = stored.decode[transport.encode(static_cast<double>(colour[c]))];
-              sum.add(colour);
-            }
+      const int x_begin = column * tile_pixels;
+      const int pixels = std::min(options.width - x_begin, tile_pixels);
+      for (int y = y_begin; y < y_end; ++y) {
+        const auto samples = owners.begin() + std::ptrdiff_t{y - y_begin} * n * tile;
+        if (std::all_of(samples, samples + std::ptrdiff_t{n} * tile,
+                        [](std::int32_t owner) { return owner == kNobody; }))
+          continue;
+        const auto background = sky_colour(scene, y, options.height, transport);
+        sums.assign(static_cast<std::size_t>(pixels), Sum());
+        for (int j = y * n; j < (y + 1) * n; ++j) {
+          const std::int32_t* const line = &owners[0] + std::ptrdiff_t{j - row * tile} * tile;
+          for (int i = 0, end = 0; i < pixels * n; i = end) {
+            while (end < pixels * n && line[end] == line[i]) ++end;
+            if (line[i] == kNobody)
+              for (std::size_t c = 0; c < 4; ++c)
+                std::fill(&colours[c][static_cast<std::size_t>(i)], &colours[c][0] + end,
+                          background[c]);
+            else
+              shader.shade(line[i], column * tile + i, j, n, end - i, colours,
+                           static_cast<std::size_t>(i));
           }
-          image.at(x, y) = finish(sum, n * n, encode_samples ? stored : transport);
+          for (std::size_t x = 0, k = 0; x < sums.size(); ++x)
+            for (const std::size_t last = k + static_cast<std::size_t>(n); k < last; ++k)
+              sums[x].add(encode_samples ? encoded(colour_at(colours, k)) : colour_at(colours, k));
         }
+        for (int x = 0; x < pixels; ++x)
+          image.at(x_begin + x, y) = finished(sums[static_cast<std::size_t>(x)]);
       }
     }
   }
@@ -320,8 +418,9 @@ Image render_msaa4(const Scene& scene, int width, int height) {
   const View view(scene.camera, width, height, 1);
   const std::vector<Primitive> primitives = set_up(scene.mesh, view);
   const Transport transport(Transfer::kGamma22);
-  Shader shader(scene, primitives, options, transport);
+  const Shader shader(scene, primitives, options, transport);
   const Occlusion occlusion(primitives, width, height, kTileCells);
+  ColourRow one;
   std::array<std::vector<std::int32_t>, 4> owners;
   std::vector<double> depths;
   Image image(width, height);
@@ -340,9 +439,9 @@ Image render_msaa4(const Scene& scene, int width, int height) {
           for (std::size_t k = 0; k < 4; ++k) {
             const std::int32_t owner = owners[k][at];
             if (owner != shaded) {
-              colour = owner == kNobody ? background
-                                        : shader.shade(owner, cell_centre(x), cell_centre(y), 1);
               shaded = owner;
+              if (owner != kNobody) shader.shade(owner, x, y, 1, 1, one);
+              colour = owner == kNobody ? background : colour_at(one, 0);
             }
             sum.add(colour);
           }

@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -50,6 +53,16 @@ class TemporaryFolder {
 inline std::string read_bytes(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// FNV-1a of all bytes of a picture.
+template <class Pixel>
+std::uint64_t fnv(const ImageOf<Pixel>& image) {
+  std::uint64_t hash = 0xCBF29CE484222325u;
+  for (const Pixel& pixel : image.pixels)
+    for (const std::uint8_t byte : std::bit_cast<std::array<std::uint8_t, sizeof(Pixel)>>(pixel))
+      hash = (hash ^ byte) * 0x100000001B3u;
+  return hash;
 }
 
 // Runs `action`, which must throw a FileError, and returns its text.

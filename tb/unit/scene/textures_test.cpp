@@ -13,12 +13,7 @@
 namespace deburr::tb {
 namespace {
 
-std::uint64_t fnv(const Image& image) {
-  std::uint64_t hash = 0xCBF29CE484222325u;
-  for (const Rgba8& pixel : image.pixels)
-    for (const std::uint8_t byte : pixel) hash = (hash ^ byte) * 0x100000001B3u;
-  return hash;
-}
+using test::fnv;
 
 TEST(Textures, SameBytesForSameSeedAndOthersForAnother) {
   for (const std::string_view name : texture_names()) {

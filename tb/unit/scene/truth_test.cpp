@@ -19,6 +19,7 @@ namespace deburr::tb {
 namespace {
 
 using test::FlatScreen;
+using test::fnv;
 
 RenderOptions texture_options(int size, int samples) {
   RenderOptions options;
@@ -165,6 +166,42 @@ TEST(Truth, DepthOfAPlaneIsAnalytic) {
     // The ray falls by sin(pitch) - v cos(pitch) for each unit of w, and the eye is one unit high.
     const double inverse_w = std::sin(pitch) - v * std::cos(pitch);
     for (int x = 0; x < 64; x += 9) EXPECT_NEAR(depth.at(x, y), 0.1 * inverse_w, 2e-6);
+  }
+}
+
+// Whatever makes rendering faster must not move a bit. An odd size leaves tiles cut at two sides.
+TEST(Truth, PicturesAreRecorded) {
+  struct Recorded {
+    const char* scene;
+    std::uint64_t lit, lit_as_stored, stored, linear, msaa, depth;
+  };
+  constexpr int kWidth = 197, kHeight = 131;
+  for (const Recorded& r :
+       {Recorded{"plane", 0xEEAA09786C12455Cu, 0xA82241085E133829u, 0xDF046A4273E84B11u,
+                 0xC8F62743D9539F91u, 0xD167B3BBF4810200u, 0x84D9309EA865A712u},
+        Recorded{"quad", 0xB6CC5DC396AA890Cu, 0xA97B555AF21508C8u, 0x8137D860B4AAF6C6u,
+                 0x33E6F5F361715D6Bu, 0x5B15E107CA506E21u, 0xEB4924658BD8715Au},
+        Recorded{"tunnel", 0x58B3114FFC9D0287u, 0x797769CC03AFA4C6u, 0xDBC2E284A980CFFCu,
+                 0x6A281AE7239DFA3Cu, 0x27825C5DF11FD8CEu, 0x4CB3191B0449584Eu},
+        Recorded{"object", 0x6784F3FA96E8CBF6u, 0xB8F0FBACDDD566EAu, 0x6219E6FA879FBA55u,
+                 0xF06A2F2F8456DA5Cu, 0xA0F6FC541955C84Au, 0xB1CC656378FACB46u},
+        Recorded{"road", 0x5317753AC3771054u, 0xFFA803615C75441Cu, 0x2E12A510A305357Au,
+                 0x1E461510E2432EA0u, 0xAA285B2AFCCC128Du, 0xECD6B2216D95B4E8u},
+        Recorded{"cylinders", 0x3593AE2E9162B2C5u, 0x63F7B513E1D2E547u, 0xFB72F9D14CC2F2D4u,
+                 0x68FFA7A0E9855A23u, 0x3EA64DB0DF704E2Fu, 0xD1278006E47DE111u}}) {
+    const Scene scene = make_scene(r.scene, {.texture_size = 64});
+    const auto hash = [&](int samples, Shading shading, Sampling sampling, Averaging averaging) {
+      return fnv(render(scene, {kWidth, kHeight, samples, shading, sampling, averaging}));
+    };
+    EXPECT_EQ(hash(8, Shading::kLit, Sampling::kBilinear, Averaging::kLinear), r.lit) << r.scene;
+    EXPECT_EQ(hash(3, Shading::kLit, Sampling::kBilinear, Averaging::kStored), r.lit_as_stored)
+        << r.scene;
+    EXPECT_EQ(hash(1, Shading::kTexture, Sampling::kNearest, Averaging::kStored), r.stored)
+        << r.scene;
+    EXPECT_EQ(hash(5, Shading::kTexture, Sampling::kBilinear, Averaging::kLinear), r.linear)
+        << r.scene;
+    EXPECT_EQ(fnv(render_msaa4(scene, kWidth, kHeight)), r.msaa) << r.scene;
+    EXPECT_EQ(fnv(render_depth(scene, kWidth, kHeight)), r.depth) << r.scene;
   }
 }
 

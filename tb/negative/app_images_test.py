@@ -1,0 +1,70 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""What the command does without OpenImageIO, which it loads when the first picture needs it: most of it, and a clear
+error for the rest."""
+import glob
+import os
+import shutil
+import unittest
+
+from app_support import DEBURR, CommandTest, png
+
+MODULE = "libdeburr_images.so"
+
+
+class Images(CommandTest):
+    def loaded(self, *arguments):
+        """The libraries that the dynamic linker initialised in a run."""
+        log = self.path("loaded")
+        done = self.run_command(*arguments, env={**os.environ, "LD_DEBUG": "files", "LD_DEBUG_OUTPUT": log})
+        self.assertEqual(done.returncode, 0, done.stdout)
+        lines = []
+        for name in glob.glob(f"{log}.*"):
+            with open(name) as file:
+                lines += file.read().splitlines()
+            os.remove(name)
+        return [line.split("calling init:")[1] for line in lines if "calling init:" in line]
+
+    def assert_loads(self, expected, *arguments):
+        libraries = self.loaded(*arguments)
+        self.assertTrue(any("libstdc++" in name for name in libraries), "the list is not read right")
+        for name in (MODULE, "libOpenImageIO.so"):
+            self.assertEqual(any(name in library for library in libraries), expected, name)
+
+    def alone(self):
+        """The program without anything beside it."""
+        os.mkdir(self.path("bin"))
+        return shutil.copy(DEBURR, self.path("bin"))
+
+    def test_only_a_picture_to_read_loads_it(self):
+        picture = self.write("in.png", png(32, 24))
+        self.assert_loads(False, "--version")
+        self.assert_loads(False, "params")
+        for engine in ("texture", "morphological", "frame"):
+            self.assert_loads(False, "run", engine, "--size", "32x24", "--out", self.path(engine))
+            self.assertGreater(os.path.getsize(self.path(f"{engine}/after.png")), 50)
+        self.assert_loads(True, "run", "morphological", "--in", picture, "--out", self.path("read"))
+
+    def test_a_copy_without_the_module_says_what_is_missing(self):
+        program = self.alone()
+        picture = self.write("in.png", png(32, 24))
+        self.expect(0, "run", "morphological", "--size", "32x24", program=program)
+        self.expect(5, "run", "morphological", "--in", picture, "--out", self.path("out2"), program=program,
+                    says=(MODULE, "beside the program", "cannot open shared object file"))
+
+    def test_a_copy_with_the_module_beside_it_reads(self):
+        program = self.alone()
+        shutil.copy(os.path.join(os.path.dirname(DEBURR), MODULE), self.path("bin"))
+        picture = self.write("in.png", png(32, 24))
+        self.expect(0, "run", "morphological", "--in", picture, program=program)
+
+    def test_another_library_of_that_name_is_refused(self):
+        program = self.alone()
+        self.write(f"bin/{MODULE}", "this is no library")
+        picture = self.write("in.png", png(32, 24))
+        self.expect(5, "run", "morphological", "--in", picture, program=program,
+                    says=(MODULE, "beside the program"))
+
+
+if __name__ == "__main__":
+    unittest.main()

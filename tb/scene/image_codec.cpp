@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "tb/scene/image_codec.h"
+
+#include <dlfcn.h>
+#include <fmt/core.h>
+
+#include "spec/error.h"
+
+namespace deburr::tb {
+namespace {
+
+using Entry = const ImageCodec* (*)();
+
+// The program's run path says where to look: beside the program, or where the build puts it.
+const ImageCodec* load() {
+  void* const module = ::dlopen(kImageModule, RTLD_LAZY | RTLD_LOCAL);
+  void* const symbol = module != nullptr ? ::dlsym(module, kImageModuleEntry) : nullptr;
+  if (symbol == nullptr)
+    throw spec::FileError(fmt::format(
+        "images cannot be read, nor written but as PNG: the module {0} cannot be loaded ({1}); put "
+        "the {0} of the same build beside the program, and install OpenImageIO",
+        kImageModule, ::dlerror()));
+  return reinterpret_cast<Entry>(symbol)();
+}
+
+}  // namespace
+
+const ImageCodec& image_codec() {
+  static const ImageCodec* const codec = load();
+  return *codec;
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Question: do the measures of quality, and the pictures made of pictures, give the known answers?
+#include "tb/scene/quality.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "spec/error.h"
+#include "tb/scene/compose.h"
+
+namespace deburr::tb {
+namespace {
+
+TEST(Quality, PsnrKnownAnswers) {
+  const Image a(10, 10, {100, 100, 100, 255});
+  EXPECT_TRUE(std::isinf(psnr(a, a)));
+  EXPECT_NEAR(psnr(a, Image(10, 10, {101, 101, 101, 0})), 48.1308, 1e-4);    // alpha does not count
+  EXPECT_NEAR(psnr(a, Image(10, 10, {110, 100, 100, 255})), 32.9021, 1e-4);  // 100 / 3
+  EXPECT_NEAR(psnr(Image(2, 2, {0, 0, 0, 255}), Image(2, 2, {255, 255, 255, 255})), 0.0, 1e-12);
+  EXPECT_THROW(psnr(a, Image(10, 9)), spec::ConfigError);
+
+  Image b = a;
+  b.at(3, 4) = {130, 100, 100, 255};
+  Mask mask(10, 10);
+  EXPECT_TRUE(std::isnan(psnr(a, b, mask)));
+  mask.at(3, 4) = 1;
+  EXPECT_NEAR(mean_squared_error(a, b, mask), 300.0, 1e-9);
+  EXPECT_NEAR(mean_squared_error(a, b), 3.0, 1e-9);
+  EXPECT_EQ(count_different(a, b), 1);
+  EXPECT_EQ(count_different(a, b, 30), 0);
+  EXPECT_EQ(max_difference(a, b), 30);
+}
+
+TEST(Quality, EdgesAndSilhouettes) {
+  Image truth(5, 1, {50, 50, 50, 255}), input = truth;
+  input.at(1, 0)[2] = 52;  // 2: not an edge
+  input.at(2, 0)[0] = 47;  // 3: an edge
+  input.at(4, 0)[1] = 60;
+  const Mask edges = edge_mask(truth, input);
+  EXPECT_EQ(edges.pixels, (std::vector<std::uint8_t>{0, 0, 1, 0, 1}));
+  EXPECT_EQ(count(edges), 2);
+
+  DepthImage depth(5, 1);
+  depth.pixels = {1.0f, 1.0f, 1.04f, 1.06f, 1.0f};  // around pixel 2: 4 % and 1.9 %; around 4: 6 %
+  EXPECT_EQ(silhouette_mask(edges, depth).pixels, (std::vector<std::uint8_t>{0, 0, 0, 0, 1}));
+  for (float& value : depth.pixels) value = 1.0f / value;  // distances instead of inverse depth
+  EXPECT_EQ(silhouette_mask(edges, depth).pixels, (std::vector<std::uint8_t>{0, 0, 0, 0, 1}));
+  // Background against background is no step; against a surface it is.
+  const float infinity = std::numeric_limits<float>::infinity();
+  depth.pixels = {1.0f, 0.0f, infinity, 0.0f, 0.5f};
+  EXPECT_EQ(silhouette_mask(edges, depth).pixels, (std::vector<std::uint8_t>{0, 0, 0, 0, 1}));
+}
+
+TEST(Compose, DifferenceCropZoomAndSheet) {
+  Image a(4, 2, {10, 20, 30, 255}), b = a;
+  b.at(1, 1) = {15, 20, 0, 0};
+  EXPECT_EQ(difference(a, b, 8).at(1, 1), (Rgba8{40, 0, 240, 255}));
+  EXPECT_EQ(difference(a, b, 8).at(0, 0), (Rgba8{0, 0, 0, 255}));
+  EXPECT_EQ(difference(a, b, 100).at(1, 1), (Rgba8{255, 0, 255, 255}));
+
+  const Image cut = crop(b, 3, 1, 2, 5);  // moved inside: columns 2..3, rows 0..1
+  EXPECT_EQ(cut.width, 2);
+  EXPECT_EQ(cut.height, 2);
+  EXPECT_EQ(crop(b, 1, 1, 1, 1).at(0, 0), (Rgba8{15, 20, 0, 0}));
+  const Image large = zoom(b, 3);
+  EXPECT_EQ(large.width, 12);
+  EXPECT_EQ(large.at(5, 5), b.at(1, 1));
+  EXPECT_EQ(large.at(6, 5), b.at(2, 1));
+
+  const Rgba8 red{255, 0, 0, 255};
+  const Image page = sheet({a, b, cut}, 2, 3, red);
+  EXPECT_EQ(page.width, 4 + 3 + 4);
+  EXPECT_EQ(page.height, 2 + 3 + 2);
+  EXPECT_EQ(page.at(8, 1), b.at(1, 1));
+  EXPECT_EQ(page.at(4, 0), red);
+  EXPECT_EQ(page.at(3, 6), red);  // the smaller cell does not fill its place
+  Image framed = a;
+  draw_frame(framed, 1, 0, 2, 2, red);
+  EXPECT_EQ(framed.at(1, 0), red);
+  EXPECT_EQ(framed.at(3, 0), a.at(3, 0));
+}
+
+}  // namespace
+}  // namespace deburr::tb
