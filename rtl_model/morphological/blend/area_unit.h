@@ -9,10 +9,11 @@
 // start, and the record stays in hand from there on; vertical ones are read in every row.
 // To the Blender go the shares of row y - 1: those of the row's edges from weight_lines, those of
 // the top edges below as evaluated.
-// Latency 9, initiation interval 1. Stages: 1 marks: address; 2 marks: start and length against the
-// raster, records: address; 3 records, k x growth; 4 t at both ends of the edge; 5 quantised; 6
-// squares, trapezoid; 7 triangles; 8 limits, sides, weight_lines: address; 9 weight_lines,
-// write back.
+// Latency 9, initiation interval 1. Stages: 1 marks: address; 2 marks come, records: address, which
+// does not ask the marks; 3 marks against the raster, k, records: those of the marks or the one in
+// hand; 4 k x growth; 5 t at both ends of the edge, quantised; 6 squares, trapezoid; 7 triangles; 8
+// limits, sides, weight_lines: address; 9 weight_lines, write back. The model compares the marks in
+// stage 2, to read those records only that matter, and evaluates an edge in stage 3 at once.
 // A line that arrives is popped behind its slot (stage 2), multiplied in that clock and stored in
 // the next, which finishes the record. Marks and records have a bank a lane (a pair of columns a
 // bank: horizontal) with one write port each; a line whose bank a lower lane takes in its clock
@@ -109,7 +110,9 @@ class AreaUnit final : public Unit {
   struct Beat {
     Slot slot;
     std::uint8_t left, top;
-    bool evaluates, any;  // any: one of the edges below lies in a record
+    bool works, evaluates;         // has shares of a row, finds those of the next
+    bool any;                      // one of the edges below lies in a record
+    std::uint32_t x, count, pair;  // its columns: the first one, how many; the first mark
     // The output registers of the marks, as they were in the clock of the address.
     std::array<Mark, kLanes / 2> row_mark;
     std::array<Mark, kLanes> column_mark;
@@ -132,7 +135,6 @@ class AreaUnit final : public Unit {
   static Weights area(const Walk& walk, std::uint32_t k);
 
   // Rows of slots that evaluate or blend.
-  bool works(const Slot& slot) const { return slot.row + 1 >= lag_; }
   std::int32_t evaluated_row(const Slot& slot) const { return slot.row - lag_ + 1; }
   std::size_t pair_of(std::int32_t row, std::size_t x) const {
     return static_cast<std::size_t>(row & 1) * pairs_ + x / 2;

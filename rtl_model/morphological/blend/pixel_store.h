@@ -16,7 +16,8 @@
 // multiple of 4, a word a beat. Neighbouring rows lie in different ones, so that each is read and
 // written once a clock; two beats of the middle row come from two banks. storage = memory (8 banks)
 // also the line that is gathered and, for each line under way, a bit: has it come?
-// Made for 300 MHz; longest path: SRAM read + 4:1 choice.
+// Made for 300 MHz; longest path: SRAM read + 4:1 choice, or, storage = memory,
+// a choice of 1 in 256 lines under way (memory.outstanding), nothing behind it.
 #pragma once
 
 #include <array>
@@ -66,19 +67,28 @@ class PixelStore final : public Unit {
           bits(name, {.words = lines,
                       .word_bits = 1,
                       .kind = MemoryKind::kFlops,
+                      .write_ports = 2,
                       .latency = 0,
                       .content = "lines under way: has it come?"}),
           come(lines) {}
     bool full() const { return count == places; }
-    std::uint32_t send() {
+    std::uint32_t send(Cycle cycle) {
       const std::uint32_t place = next;
+      clear.write(cycle, place);
       next = next + 1 == places ? 0 : next + 1;
       ++count;
       return place;
     }
-    // Has the oldest come? Then it is no longer under way.
-    bool settle() {
-      if (count == 0 || !come[oldest]) return false;
+    void arrives(Cycle cycle, std::uint32_t place) {
+      set.write(cycle, place);
+      come[place] = true;
+    }
+    // Has the oldest come, in this clock at the latest? Then it is no longer under way. What comes
+    // in this clock goes past its bit; a place is cleared when it is given out again.
+    bool settle(Cycle cycle) {
+      if (count == 0) return false;
+      look.read(cycle, oldest);
+      if (!come[oldest]) return false;
       come[oldest] = false;
       oldest = oldest + 1 == places ? 0 : oldest + 1;
       --count;
@@ -89,7 +99,9 @@ class PixelStore final : public Unit {
       come.assign(places, false);
     }
     const std::uint32_t places;
-    MemoryBase bits;
+    Memory<void> bits;
+    ReadPort<void> look{bits, "oldest"};
+    WritePort<void> set{bits, "responses"}, clear{bits, "requests"};
     std::vector<bool> come;
     std::uint32_t next = 0, oldest = 0, count = 0;
   };
@@ -112,13 +124,16 @@ class PixelStore final : public Unit {
   struct InMemory {
     explicit InMemory(std::uint32_t outstanding)
         : writes("writes_in_flight", outstanding), reads("reads_in_flight", outstanding) {}
-    MemoryBase gather_line{"gather_line",
-                           {.words = 1,
-                            .word_bits = 8 * kLineBytes,
-                            .kind = MemoryKind::kFlops,
-                            .latency = 0,
-                            .mask_bits = 32,
-                            .content = "the line that is being gathered"}};
+    Memory<void> gather_line{"gather_line",
+                             {.words = 1,
+                              .word_bits = 8 * kLineBytes,
+                              .kind = MemoryKind::kFlops,
+                              .latency = 0,
+                              .mask_bits = 32,
+                              .content = "the line that is being gathered"}};
+    // The last beat of a line goes past it.
+    WritePort<void> gather{gather_line, "in"};
+    ReadPort<void> send{gather_line, "requests"};
     Link<MemoryRequest>* requests = nullptr;
     Link<MemoryResponse>* responses = nullptr;
     Line gathered{};
@@ -151,7 +166,7 @@ class PixelStore final : public Unit {
   bool gather(Cycle cycle, const BeatToken& beat, std::int32_t x, std::int32_t count);
   bool receive(Cycle cycle);
   bool load(Cycle cycle, const MemoryResponse& response);
-  bool settle();
+  bool settle(Cycle cycle);
   bool request(Cycle cycle);
   void begin_frame();
   // Has the row whose place row y takes been asked for up to this beat for the last time?

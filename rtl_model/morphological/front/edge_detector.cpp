@@ -104,13 +104,12 @@ Activity EdgeDetector::tick(Cycle cycle) {
     }
   }
   if (!arrives) return kBusy;
-  const LumaToken& token = lumas_in.front(cycle);
+  const LumaToken& token = lumas_in.take(cycle);
   pipe_.enter().slot = token.slot;
   if (token.slot.row <= height) {
     luma_.take(cycle, token.slot, token.luma);
     if (depth_) depth_->take(cycle, token.slot, token.depth);
   }
-  lumas_in.pop(cycle);
   return kBusy;
 }
 

@@ -14,8 +14,8 @@
 // reads of the two columns beside a lattice line, as many as the schedule of the predictors has
 // (PortSchedule). Read-first: a word that is read in the clock in which it moves on is the old one;
 // where the beats are in the frame tells which it was. Cost: (window_rows + 1) x 2 bits a column, a
-// copy a read port, banks by column. Longest path, at the address: a comparator of 13 bits and a
-// choice of two.
+// copy a read port, banks by column. Made for 250 MHz; longest path, at the address: a comparator
+// of 13 bits and a choice of two.
 #pragma once
 
 #include <algorithm>

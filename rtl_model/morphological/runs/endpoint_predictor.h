@@ -7,7 +7,7 @@
 // ports of their axis' memory by a fixed schedule (PortSchedule). Timing: Predictor; a result is
 // sent in the clock after the one in which its record is let go. Stalls: `downstream` (the result
 // registers are still full). Cost: the predictors; a lane predictor_units registers of a SumsToken
-// and their choice.
+// and their choice. Made for 250 MHz; longest path: Predictor, or a choice of 1 in 16 predictors.
 #pragma once
 
 #include <cstdint>

@@ -93,7 +93,7 @@ Activity RunExtractor::tick(Cycle cycle) {
 }
 
 // The words of the slot's columns are here.
-void RunExtractor::pass(Cycle cycle) {
+inline void RunExtractor::pass(Cycle cycle) {
   const FrameRules& rules = store_.rules();
   const Slot& slot = token_.slot;
   const std::int32_t first = slot.beat * lanes_, end = std::min(first + lanes_, rules.width);

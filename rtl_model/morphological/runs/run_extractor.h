@@ -8,8 +8,9 @@
 //   1      they come, move on by row s - 1 and go back; at fixed bits of them: the edges of the row
 //          that is blended (the slot goes on to AreaUnit and PixelStore), a row for EdgeRows, the
 //          end of a horizontal run (a counter), the beginning of a vertical run or of its tail
-//   2, 3   length of a vertical run: first gap below row y, in groups of 16 rows; choice of a group
-//   4      code of its end: choice of a row; shape; side or none
+//   2, 3   length of a vertical run: first gap below row y, in groups of 16 rows; choice of a
+//          group, and of each group the code at its first gap
+//   4      code of its end: choice of a group; shape; side or none
 //   5      into the FIFOs of the lanes in rotation, one a FIFO and clock
 //
 // Latency 2 of a slot, initiation interval 1; a record can be taken from its FIFO 6 clocks after
@@ -18,9 +19,10 @@
 // Stalls: `records` (a FIFO is full, or the interlock: slot row s waits until all records found in
 // slot row s - 2 are finished, and those that are being looked for found), `downstream`.
 // Cost a lane: a first-gap circuit of R + 1 bits, two choices of R + 1 : 1, two counters, 3 columns
-// of flip-flops (window_rows + 1 pairs of bits). Memory: record_fifo entries an axis and lane.
-// Made for 250 MHz; longest path: 32 : 1 choice, 16 : 1 table of shapes.
-// Source: paper 000, section 2.
+// of flip-flops (window_rows + 1 pairs of bits); registers of 12 records that are being looked for
+// and of 4 that wait for their FIFOs. Memory: record_fifo entries an axis and lane.
+// Made for 250 MHz; longest path: choice of 1 in 9 groups (window_rows of 258; 3 by default), 16 :
+// 1 table of shapes. Source: paper 000, section 2.
 #pragma once
 
 #include <array>
