@@ -202,7 +202,7 @@ bool PixelStore::gather(Cycle cycle, const BeatToken& beat, std::int32_t x, std:
   MemoryRequest& request = m.requests->emplace(cycle);
   // 32 bits: a frame that begins below 4 GiB and ends above goes on at 0.
   request.address = rules.pixel_base + m.sent.address;
-  request.tag = tag_of(m.writes.send(cycle), m.sent.line, 0);
+  request.tag = tag_of(m.writes.send(), m.sent.line, 0);
   request.lines = 1;
   request.write = true;
   request.byte_mask = ~std::uint64_t{0};
@@ -265,7 +265,7 @@ bool PixelStore::request(Cycle cycle) {
   if (!is_free(m.asked.row, last_beat)) return false;
   MemoryRequest& request = m.requests->emplace(cycle);
   request.address = rules.pixel_base + m.asked.address;
-  request.tag = tag_of(m.reads.send(cycle), m.asked.line, m.asked.row % rows_);
+  request.tag = tag_of(m.reads.send(), m.asked.line, m.asked.row % rows_);
   request.lines = 1;
   request.write = false;
   request.byte_mask = ~std::uint64_t{0};

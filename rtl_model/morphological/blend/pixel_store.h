@@ -72,38 +72,42 @@ class PixelStore final : public Unit {
                       .content = "lines under way: has it come?"}),
           come(lines) {}
     bool full() const { return count == places; }
-    std::uint32_t send(Cycle cycle) {
+    std::uint32_t send() {
       const std::uint32_t place = next;
-      clear.write(cycle, place);
       next = next + 1 == places ? 0 : next + 1;
       ++count;
       return place;
     }
+    // Before settle() of its clock. What comes as the oldest goes past its bit.
     void arrives(Cycle cycle, std::uint32_t place) {
+      passes = place == oldest;
+      if (passes) return;
       set.write(cycle, place);
       come[place] = true;
     }
-    // Has the oldest come, in this clock at the latest? Then it is no longer under way. What comes
-    // in this clock goes past its bit; a place is cleared when it is given out again.
+    // In every clock: has the oldest come? Then it is no longer under way.
     bool settle(Cycle cycle) {
       if (count == 0) return false;
       look.read(cycle, oldest);
-      if (!come[oldest]) return false;
-      come[oldest] = false;
+      if (!come[oldest] && !passes) return false;
+      if (!passes) clear.write(cycle, oldest);
+      passes = come[oldest] = false;
       oldest = oldest + 1 == places ? 0 : oldest + 1;
       --count;
       return true;
     }
     void reset() {
       next = oldest = count = 0;
+      passes = false;
       come.assign(places, false);
     }
     const std::uint32_t places;
     Memory<void> bits;
     ReadPort<void> look{bits, "oldest"};
-    WritePort<void> set{bits, "responses"}, clear{bits, "requests"};
+    WritePort<void> set{bits, "responses"}, clear{bits, "oldest"};
     std::vector<bool> come;
     std::uint32_t next = 0, oldest = 0, count = 0;
+    bool passes = false;  // the line that comes in this clock is the oldest
   };
   // A line of the frame, by row and place in it; counted, not divided.
   struct LinePlace {

@@ -63,6 +63,9 @@ inline EdgeDetector::Edges EdgeDetector::plain_steps(std::int32_t first, std::in
   const std::uint32_t *const here = luma_.row(y) + first, *const above = luma_.row(y - 1) + first;
   const std::uint32_t threshold = store_.rules().threshold;
   std::uint32_t before = first == 0 ? 0 : here[-1];
+  // With one lane the loop costs as much as its pixel.
+  if (count == 1)
+    return {distance(*here, before) >= threshold, distance(*here, *above) >= threshold};
   Edges edges;
   for (std::int32_t i = 0; i < count; ++i) {
     edges.left |= std::uint32_t{distance(here[i], before) >= threshold} << i;

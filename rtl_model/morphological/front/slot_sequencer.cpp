@@ -10,7 +10,7 @@ SlotSequencer::SlotSequencer(const sc_core::sc_module_name& name, ClockDomain& c
       probe_(probe),
       upstream_(declare_stall("upstream", "inside a frame, and no beat has come")) {}
 
-inline void SlotSequencer::take_beat(Cycle cycle) {
+[[gnu::always_inline]] inline void SlotSequencer::take_beat(Cycle cycle) {
   const FrameRules& rules = store_.rules();
   const spec::morphological::PixelBeat& beat = pixels_in.take(cycle);
   const bool end = next_.beat + 1u == rules.beats;

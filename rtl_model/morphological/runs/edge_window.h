@@ -56,6 +56,8 @@ class EdgeWindow {
   // Bits of those words, and of the column before them, a register in hardware, which is nothing at
   // the frame's border.
   EdgeBits beat(std::int32_t beat, std::int32_t y) const { return bits_[place(beat, y)]; }
+  // The same of all beats of row y, from the first one on.
+  const EdgeBits* beats(std::int32_t y) const { return &bits_[place(0, y)]; }
   bool left(std::int32_t x, std::int32_t y) const {
     return beat(x >> lane_bits_, y).left >> lane(x) & 1;
   }

@@ -68,6 +68,7 @@ class EndpointPredictor final : public Unit {
   std::vector<Place> places_;
   std::vector<std::size_t> turn_;  // of each lane: the predictor whose result is sent next
   std::uint32_t held_ = 0;         // records and results inside
+  std::uint32_t full_ = 0;         // result registers
   Cycle reset_ = kNever;           // the first clock after the reset: phase 0 of the schedule
 };
 

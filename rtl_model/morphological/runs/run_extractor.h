@@ -91,6 +91,7 @@ class RunExtractor final : public Unit {
   };
 
   bool take_slot(Cycle cycle);  // false: it waits for records
+  void begin_row();
   void pass(Cycle cycle);
   void horizontal(Find& find, std::int32_t first, std::int32_t end);
   void close(Find& find, std::int32_t end, std::uint8_t end_code);
@@ -117,8 +118,11 @@ class RunExtractor final : public Unit {
   std::uint64_t step_ = 0;  // clocks in which clocks 2 to 4 went on
 
   std::int32_t row_ = 0;  // y
-  EdgeBits here_;         // of row y in the beat
-  bool open_ = false;     // a horizontal run
+  // Of the words of the window: the row that is blended, the one for EdgeRows and row y; the latter
+  // two nullptr outside the frame.
+  const EdgeBits *blended_ = nullptr, *ahead_ = nullptr, *searched_ = nullptr;
+  EdgeBits here_;      // of row y in the beat
+  bool open_ = false;  // a horizontal run
   std::int32_t start_ = 0;
   std::uint8_t start_code_ = 0;
 };
