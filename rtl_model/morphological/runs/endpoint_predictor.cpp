@@ -45,7 +45,8 @@ Activity EndpointPredictor::work(Cycle cycle) {
     // The result registers take turns.
     Out<SumsToken>& out = sums_out[lane];
     std::size_t& turn = turn_[lane];
-    for (std::size_t i = 0, k = turn; full_ != 0 && i < units_; ++i, k = k + 1 == units_ ? 0 : k + 1) {
+    for (std::size_t i = 0, k = turn; full_ != 0 && i < units_;
+         ++i, k = k + 1 == units_ ? 0 : k + 1) {
       if (!group[k].full) continue;
       if (out.can_push(cycle)) {
         out.push(cycle, group[k].result);

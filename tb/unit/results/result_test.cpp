@@ -261,7 +261,7 @@ class Page : public Directory {
     ParameterSet parameters;
     RunContext context(path_, parameters, "x", 0);
     context.claim();
-      context.finish(result);
+    context.finish(result);
     return read_file(path_ / "report.html", 1 << 24);
   }
 };
