@@ -36,7 +36,8 @@ EdgeDetector::EdgeDetector(const sc_core::sc_module_name& name, ClockDomain& clo
       lanes_(static_cast<std::uint32_t>(store.lanes())),
       // The columns of a beat and the one beside it lie in banks of their own.
       luma_("luma_lines",
-            {.words = std::max<std::uint64_t>(words_for(p.line_pixels, lanes_), 2 * lanes_),
+            {.words = std::max<std::uint64_t>(words_for(p.line_pixels, lanes_),
+                                              std::uint64_t{2} * lanes_),
              .word_bits = 3 * 24,
              .read_during_write = ReadDuringWrite::kNewWord,
              .banks = 2 * lanes_,
