@@ -60,7 +60,7 @@ class FillBuffer {
         entry < entries_ && arrived_[entry] == kNever,
         std::string(memory_.name()) + ": entry " + std::to_string(entry) + " filled twice");
     write_.write(cycle, entry);
-    std::copy(beat.begin(), beat.end(), bytes_.begin() + entry * line_bytes_ + offset);
+    std::copy(beat.begin(), beat.end(), &bytes_[std::size_t{entry} * line_bytes_ + offset]);
     if (!complete) return;
     arrives_.write(cycle, entry);
     arrived_[entry] = cycle;
