@@ -32,13 +32,13 @@ DerivativeUnit::DerivativeUnit(const sc_core::sc_module_name& name, ClockDomain&
 
 Activity DerivativeUnit::tick(Cycle cycle) {
   const bool works = waiting_ != 0 || (registers_.enabled() && quads_in.can_pop(cycle));
-  if (stages_.empty() && !works) return kIdle;
-  if (stages_.leaving() && !derivatives_out.can_push(cycle)) return kStalledDownstream;
-  stages_.step();
-  if (stages_.works(kStages)) derivatives_out.push(cycle, stages_.leave());
+  if (pipe_.empty() && !works) return kIdle;
+  if (pipe_.leaves() && !derivatives_out.can_push(cycle)) return kStalledDownstream;
+  pipe_.move();
+  if (const DerivativeToken* done = pipe_.at(kStages)) derivatives_out.push(cycle, *done);
   if (!works) return kBusy;
   if (waiting_ == 0) take(cycle);
-  if (waiting_ != 0) split(cycle, stages_.enter());
+  if (waiting_ != 0) split(cycle, pipe_.enter());
   return kBusy;
 }
 
@@ -87,7 +87,7 @@ inline void DerivativeUnit::split(Cycle cycle, DerivativeToken& out) {
 
 void DerivativeUnit::reset() {
   waiting_ = 0;
-  stages_.reset();
+  pipe_.reset();
   probe_.reset();
 }
 

@@ -16,9 +16,9 @@
 #include <systemc>
 
 #include "rtl_model/fabric/latency_probe.h"
+#include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/descriptors.h"
-#include "rtl_model/texture/stages.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/packets.h"
 
@@ -53,7 +53,7 @@ class DerivativeUnit final : public Unit {
   // Registers.
   spec::texture::Quad quad_{};
   unsigned waiting_ = 0;  // U4, covered lanes of quad_ that have not left yet
-  Stages<DerivativeToken, kStages> stages_;
+  Pipe<DerivativeToken, kStages> pipe_;
 };
 
 }  // namespace deburr::rtl::texture

@@ -59,9 +59,9 @@ Activity FilterPipeline::tick(Cycle cycle) {
   if (has_total_ && !colours_out.can_push(cycle)) return kStalledDownstream;
   if (has_total_) deliver(cycle);
   if (has_sample_) accumulate();
-  requests_.step();
-  if (requests_.works(6)) lerp_levels(requests_.leave());
-  if (requests_.works(2)) filter(cycle, requests_.at(2));
+  requests_.move();
+  if (const Request* request = requests_.at(6)) lerp_levels(*request);
+  if (Request* request = requests_.at(2)) filter(cycle, *request);
   if (arrives) {
     Request& request = requests_.enter();
     request.token = texels_in.front(cycle);
@@ -80,8 +80,8 @@ inline void FilterPipeline::count_stages(bool arrives) {
     return;
   }
   occupancy[0] += arrives;
-  for (int stage = 2; stage <= kRequestStages; ++stage)
-    occupancy[static_cast<std::size_t>(stage - 1)] += requests_.works(stage - 1);
+  for (std::size_t stage = 2; stage <= kRequestStages; ++stage)
+    occupancy[stage - 1] += requests_.at(stage - 1) != nullptr;
 }
 
 // Stage 1: the coded channels go into the ROM.

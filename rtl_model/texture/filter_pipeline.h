@@ -22,8 +22,8 @@
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/latency_probe.h"
 #include "rtl_model/fabric/memory.h"
+#include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/texture/stages.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/packets.h"
 
@@ -111,7 +111,7 @@ class FilterPipeline final : public Unit {
   Memory<std::uint16_t> srgb_;
   std::vector<ReadPort<std::uint16_t>> linear_;  // 3 x texel + channel
   // The registers after each stage; stage 8 writes the output link.
-  Stages<Request, kRequestStages> requests_;
+  Pipe<Request, kRequestStages> requests_;
   Channels level_sum_{};  // U8.20, of the levels of the sample in hand
   Sample sample_{};
   bool has_sample_ = false;

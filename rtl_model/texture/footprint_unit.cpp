@@ -12,22 +12,22 @@ FootprintUnit::FootprintUnit(const sc_core::sc_module_name& name, ClockDomain& c
 Activity FootprintUnit::tick(Cycle cycle) {
   if (rule_ == spec::texture::FootprintRule::kExact) return tick_exact(cycle);
   const bool arrives = derivatives_in.can_pop(cycle);
-  if (stages_.empty() && !arrives) return kIdle;
-  if (stages_.leaving() && !footprints_out.can_push(cycle)) return kStalledDownstream;
-  stages_.step();
-  if (stages_.works(kStages)) footprints_out.push(cycle, stages_.leave());
+  if (pipe_.empty() && !arrives) return kIdle;
+  if (pipe_.leaves() && !footprints_out.can_push(cycle)) return kStalledDownstream;
+  pipe_.move();
+  if (const FootprintToken* done = pipe_.at(kStages)) footprints_out.push(cycle, *done);
   if (arrives) {
     const DerivativeToken& in = derivatives_in.front(cycle);
     const std::uint32_t d_x = side(rule_, in.size_s_x, in.size_t_x),
                         d_y = side(rule_, in.size_s_y, in.size_t_y);
     const bool x_is_major = d_x >= d_y;
-    stages_.enter() = {in.ticket,
-                       in.s,
-                       in.t,
-                       x_is_major ? in.s_x : in.s_y,
-                       x_is_major ? in.t_x : in.t_y,
-                       x_is_major ? d_x : d_y,
-                       x_is_major ? d_y : d_x};
+    pipe_.enter() = {in.ticket,
+                     in.s,
+                     in.t,
+                     x_is_major ? in.s_x : in.s_y,
+                     x_is_major ? in.t_x : in.t_y,
+                     x_is_major ? d_x : d_y,
+                     x_is_major ? d_y : d_x};
     derivatives_in.pop(cycle);
   }
   return kBusy;
@@ -63,7 +63,7 @@ Activity FootprintUnit::tick_exact(Cycle cycle) {
 }
 
 void FootprintUnit::reset() {
-  stages_.reset();
+  pipe_.reset();
   roots_.reset();
 }
 

@@ -18,9 +18,9 @@
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/root_pipeline.h"
-#include "rtl_model/texture/stages.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/parameters.h"
 
@@ -45,7 +45,7 @@ class FootprintUnit final : public Unit {
   Activity tick_exact(Cycle cycle);
 
   spec::texture::FootprintRule rule_;
-  Stages<FootprintToken, kStages> stages_;
+  Pipe<FootprintToken, kStages> pipe_;
   RootPipeline roots_;
 };
 

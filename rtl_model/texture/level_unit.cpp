@@ -34,12 +34,12 @@ int LevelUnit::count_log2(std::int32_t lb_max, std::int32_t lb_min, int limit) c
 
 Activity LevelUnit::tick(Cycle cycle) {
   const bool arrives = logs_in.can_pop(cycle);
-  if (stages_.empty() && !arrives) return kIdle;
-  if (stages_.leaving() && !levels_out.can_push(cycle)) return kStalledDownstream;
-  stages_.step();
-  if (stages_.works(kStages)) levels_out.push(cycle, stages_.leave());
+  if (pipe_.empty() && !arrives) return kIdle;
+  if (pipe_.leaves() && !levels_out.can_push(cycle)) return kStalledDownstream;
+  pipe_.move();
+  if (const LevelToken* done = pipe_.at(kStages)) levels_out.push(cycle, *done);
   if (arrives) {
-    choose(cycle, logs_in.front(cycle), stages_.enter());
+    choose(cycle, logs_in.front(cycle), pipe_.enter());
     logs_in.pop(cycle);
   }
   return kBusy;

@@ -14,9 +14,9 @@
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/descriptors.h"
-#include "rtl_model/texture/stages.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/parameters.h"
 
@@ -31,7 +31,7 @@ class LevelUnit final : public Unit {
             const Descriptors::Reader& descriptors, spec::texture::CountRule count,
             spec::texture::CountCap cap);
   Activity tick(Cycle cycle) override;
-  void reset() override { stages_.reset(); }
+  void reset() override { pipe_.reset(); }
 
   Counter magnified{"magnified", "fragments", "fragments with a level of detail of at most 0"};
   Counter two_levels{"two_levels", "fragments", "fragments that blend two levels"};
@@ -44,7 +44,7 @@ class LevelUnit final : public Unit {
   Descriptors::Reader descriptors_;
   spec::texture::CountRule count_;
   spec::texture::CountCap cap_;
-  Stages<LevelToken, kStages> stages_;
+  Pipe<LevelToken, kStages> pipe_;
 };
 
 }  // namespace deburr::rtl::texture

@@ -95,13 +95,13 @@ std::int32_t Log2Unit::log2(spec::texture::Log2Rule rule, std::uint32_t d) {
 Activity Log2Unit::tick(Cycle cycle) {
   if (rule_ == spec::texture::Log2Rule::kMitchell) return tick_mitchell(cycle);
   const bool arrives = footprints_in.can_pop(cycle);
-  if (stages_.empty() && !arrives) return kIdle;
-  if (stages_.leaving() && !logs_out.can_push(cycle)) return kStalledDownstream;
-  stages_.step();
-  if (stages_.works(3)) logs_out.push(cycle, correct_both(stages_.leave()));
-  if (stages_.works(2)) fetch(cycle, stages_.at(2));
+  if (pipe_.empty() && !arrives) return kIdle;
+  if (pipe_.leaves() && !logs_out.can_push(cycle)) return kStalledDownstream;
+  pipe_.move();
+  if (const Entry* done = pipe_.at(3)) logs_out.push(cycle, correct_both(*done));
+  if (Entry* entry = pipe_.at(2)) fetch(cycle, *entry);
   if (arrives) {
-    Entry& entry = stages_.enter();
+    Entry& entry = pipe_.enter();
     entry.token = footprints_in.take(cycle);
     entry.longer = normalise(entry.token.d_max);
     entry.shorter = normalise(entry.token.d_min);

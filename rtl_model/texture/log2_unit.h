@@ -21,8 +21,8 @@
 #include <vector>
 
 #include "rtl_model/fabric/memory.h"
+#include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/texture/stages.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/parameters.h"
 
@@ -35,7 +35,7 @@ class Log2Unit final : public Unit {
 
   Log2Unit(const sc_core::sc_module_name& name, ClockDomain& clock, spec::texture::Log2Rule rule);
   Activity tick(Cycle cycle) override;
-  void reset() override { stages_.reset(); }
+  void reset() override { pipe_.reset(); }
 
   // All stages at once: lb d in S5.12 of d in U16.16.
   static std::int32_t log2(spec::texture::Log2Rule rule, std::uint32_t d);
@@ -64,7 +64,7 @@ class Log2Unit final : public Unit {
   Log2Token correct_both(const Entry& entry) const;
 
   spec::texture::Log2Rule rule_;
-  Stages<Entry, kStages> stages_;
+  Pipe<Entry, kStages> pipe_;
   std::unique_ptr<Memory<std::uint16_t>> table_;  // `exact` alone
   std::vector<ReadPort<std::uint16_t>> reads_;    // low and high of the longer, of the shorter side
 };

@@ -26,33 +26,32 @@ void RootPipeline::two_digits(Root& r) {
 }
 
 bool RootPipeline::step(const DerivativeToken* next, FootprintToken* result) {
-  const bool leaves = leaving();
-  stages_.step();
-  if (leaves) {
-    const Entry& done = stages_.leave();
-    const bool x_is_major = done.x.root >= done.y.root;
-    const DerivativeToken& token = done.token;
+  pipe_.move();
+  const Entry* done = pipe_.at(kStages);
+  if (done) {
+    const bool x_is_major = done->x.root >= done->y.root;
+    const DerivativeToken& token = done->token;
     *result = {token.ticket,
                token.s,
                token.t,
                x_is_major ? token.s_x : token.s_y,
                x_is_major ? token.t_x : token.t_y,
-               std::max(done.x.root, done.y.root),
-               std::min(done.x.root, done.y.root)};
+               std::max(done->x.root, done->y.root),
+               std::min(done->x.root, done->y.root)};
   }
-  for (int stage = 3; stage < 3 + kDigitStages; ++stage)
-    if (stages_.works(stage)) {
-      two_digits(stages_.at(stage).x);
-      two_digits(stages_.at(stage).y);
+  for (std::size_t stage = 3; stage < 3 + kDigitStages; ++stage)
+    if (Entry* entry = pipe_.at(stage)) {
+      two_digits(entry->x);
+      two_digits(entry->y);
     }
-  if (stages_.works(2)) {
-    sum(stages_.at(2).x);
-    sum(stages_.at(2).y);
+  if (Entry* entry = pipe_.at(2)) {
+    sum(entry->x);
+    sum(entry->y);
   }
   if (next)
-    stages_.enter() = {*next, squares(next->size_s_x, next->size_t_x),
-                       squares(next->size_s_y, next->size_t_y)};
-  return leaves;
+    pipe_.enter() = {*next, squares(next->size_s_x, next->size_t_x),
+                     squares(next->size_s_y, next->size_t_y)};
+  return done != nullptr;
 }
 
 }  // namespace deburr::rtl::texture

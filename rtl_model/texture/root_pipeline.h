@@ -13,7 +13,7 @@
 
 #include <cstdint>
 
-#include "rtl_model/texture/stages.h"
+#include "rtl_model/fabric/pipe.h"
 #include "rtl_model/texture/tokens.h"
 
 namespace deburr::rtl::texture {
@@ -23,14 +23,14 @@ class RootPipeline {
   static constexpr int kDigitStages = 16;
   static constexpr int kStages = 2 + kDigitStages + 1;
 
-  bool empty() const { return stages_.empty(); }
+  bool empty() const { return pipe_.empty(); }
   // A token leaves with the next step.
-  bool leaving() const { return stages_.leaving(); }
+  bool leaving() const { return pipe_.leaves(); }
 
   // One clock. `next`: what enters, or nullptr; true if *result was written. With leaving(), call
   // only if the result can be delivered.
   bool step(const DerivativeToken* next, FootprintToken* result);
-  void reset() { stages_.reset(); }
+  void reset() { pipe_.reset(); }
 
  private:
   struct Root {
@@ -46,7 +46,7 @@ class RootPipeline {
   static void sum(Root& root);
   static void two_digits(Root& root);
 
-  Stages<Entry, kStages> stages_;
+  Pipe<Entry, kStages> pipe_;
 };
 
 }  // namespace deburr::rtl::texture

@@ -26,12 +26,12 @@ TexelAddresser::TexelAddresser(const sc_core::sc_module_name& name, ClockDomain&
 
 Activity TexelAddresser::tick(Cycle cycle) {
   const bool arrives = samples_in.can_pop(cycle);
-  if (stages_.empty() && !arrives) return kIdle;
-  if (stages_.leaving() && !texels_out.can_push(cycle)) return kStalledDownstream;
-  stages_.step();
-  if (stages_.works(kStages)) texels_out.push(cycle, stages_.leave());
+  if (pipe_.empty() && !arrives) return kIdle;
+  if (pipe_.leaves() && !texels_out.can_push(cycle)) return kStalledDownstream;
+  pipe_.move();
+  if (const TexelToken* done = pipe_.at(kStages)) texels_out.push(cycle, *done);
   if (arrives) {
-    request(cycle, samples_in.front(cycle), stages_.enter());
+    request(cycle, samples_in.front(cycle), pipe_.enter());
     samples_in.pop(cycle);
   }
   return kBusy;

@@ -18,9 +18,9 @@
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/descriptors.h"
-#include "rtl_model/texture/stages.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/descriptor.h"
 
@@ -34,7 +34,7 @@ class TexelAddresser final : public Unit {
   TexelAddresser(const sc_core::sc_module_name& name, ClockDomain& clock,
                  const Descriptors::Reader& descriptors);
   Activity tick(Cycle cycle) override;
-  void reset() override { stages_.reset(); }
+  void reset() override { pipe_.reset(); }
 
   Counter bilinears{"bilinears", "requests", "bilinear requests sent to the cache"};
 
@@ -52,7 +52,7 @@ class TexelAddresser final : public Unit {
                       const Axis& y, TexelToken& texels);
 
   Descriptors::Reader descriptors_;
-  Stages<TexelToken, kStages> stages_;
+  Pipe<TexelToken, kStages> pipe_;
 };
 
 }  // namespace deburr::rtl::texture

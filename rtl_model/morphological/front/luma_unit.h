@@ -8,9 +8,9 @@
 
 #include <systemc>
 
+#include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/morphological/parameter_store.h"
-#include "rtl_model/morphological/pipe.h"
 #include "rtl_model/morphological/tokens.h"
 
 namespace deburr::rtl::morphological {

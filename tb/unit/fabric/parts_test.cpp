@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// FIFO, arbiter, counters and histogram: timing, limits, and misuse that is caught.
+// FIFO, pipe, arbiter, counters and histogram: timing, limits, and misuse that is caught.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "rtl_model/fabric/arbiter.h"
 #include "rtl_model/fabric/counters.h"
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/histogram.h"
+#include "rtl_model/fabric/pipe.h"
 #include "tb/unit/fabric/support.h"
 
 namespace deburr::tb {
@@ -73,6 +75,55 @@ TEST(Fifo, InsideAUnitIsResetWithItsCounters) {
   EXPECT_EQ(hoard["kind"], "flops");
   EXPECT_EQ(hoard["logical_bits"], 128);
   EXPECT_EQ(hoard["physical_bits"], 128);
+}
+
+// Against a shift register of optionals, with bubbles, for every number of stages in use.
+template <std::size_t kStages>
+void compare_pipe_with_shift_register() {
+  rtl::Pipe<int, kStages> pipe;
+  std::array<std::optional<int>, kStages> stages;
+  const auto same = [&] {
+    bool empty = true, full = true;
+    for (std::size_t k = 0; k + 1 < kStages; ++k) {
+      empty = empty && !stages[k];
+      full = full && stages[k];
+    }
+    EXPECT_EQ(pipe.empty(), empty);
+    EXPECT_EQ(pipe.full(), full);
+    EXPECT_EQ(pipe.leaves(), stages[kStages - 2].has_value());
+    for (std::size_t k = 0; k < kStages; ++k) {
+      const int* beat = pipe.at(k + 1);
+      ASSERT_EQ(beat != nullptr, stages[k].has_value()) << "stage " << k + 1;
+      if (beat) {
+        EXPECT_EQ(*beat, *stages[k]) << "stage " << k + 1;
+      }
+    }
+  };
+  same();
+  Random random(kStages);
+  for (int move = 0; move < 400; ++move) {
+    pipe.move();
+    std::shift_right(stages.begin(), stages.end(), 1);
+    stages[0].reset();
+    // Full for a while, then empty for a while, then as it comes.
+    const bool enters = move < 100 || (move >= 200 && random.chance(500));
+    if (enters) {
+      pipe.enter() = move;
+      stages[0] = move;
+    }
+    same();
+  }
+  pipe.reset();
+  stages.fill({});
+  same();
+}
+
+TEST(Pipe, MovesAsAShiftRegisterDoes) {
+  compare_pipe_with_shift_register<2>();
+  compare_pipe_with_shift_register<3>();
+  compare_pipe_with_shift_register<9>();
+  compare_pipe_with_shift_register<19>();
+  compare_pipe_with_shift_register<31>();
 }
 
 TEST(RoundRobin, WhoWasGrantedWaitsForAllOthers) {

@@ -10,7 +10,12 @@
 //   if (Beat* beat = pipe_.at(2)) work(*beat);
 //   if (in.can_pop(cycle)) pipe_.enter() = in.take(cycle);        // the first
 //
-// Cost: kStages - 1 registers of a beat.
+// A beat stays where it is and is renamed from clock to clock, so that nothing is copied. A unit
+// may work a beat out in one clock and only delay it in the others, where nobody outside can tell;
+// its header says what hardware does in each stage.
+//
+// Made for the clock of its unit; longest path: a valid bit and the output link's ready, one gate,
+// then the enable of all registers. Cost: kStages - 1 registers of a beat, each with a valid bit.
 #pragma once
 
 #include <array>
@@ -18,15 +23,17 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace deburr::rtl::morphological {
+namespace deburr::rtl {
 
 template <class Beat, std::size_t kStages>
 class Pipe {
-  static_assert(kStages >= 2 && kStages <= 16);
+  static_assert(kStages >= 2 && kStages <= 31);
 
  public:
   // Nothing is on its way; what was in the last stage has left.
   bool empty() const { return (full_ & (kLast - 1)) == 0; }
+  // No bubble between the stages.
+  bool full() const { return (full_ & (kLast - 1)) == kLast - 1; }
   // The next move brings a beat into the last stage.
   bool leaves() const { return full_ & kLast >> 1; }
   // Every beat a stage on; that of the last stage has left.
@@ -53,4 +60,4 @@ class Pipe {
   std::uint32_t full_ = 0;  // bit k - 1: stage k
 };
 
-}  // namespace deburr::rtl::morphological
+}  // namespace deburr::rtl
