@@ -28,6 +28,20 @@ struct RangeCheck {
   void boolean(std::string_view, bool, std::string_view) const {}
 };
 
+// The row of kQualities that p names.
+void apply_quality(spec::morphological::Parameters& p) {
+  for (const spec::morphological::QualityRow& row : spec::morphological::kQualities) {
+    if (row.quality != p.quality) continue;
+    p.threshold = row.threshold;
+    p.search_steps = row.search_steps;
+    p.diagonals = row.diagonals;
+    p.diagonal_steps = row.diagonal_steps;
+    p.round_corners = row.round_corners;
+    p.corner_rounding = row.corner_rounding;
+    p.window_rows = row.window_rows;
+  }
+}
+
 [[noreturn]] void not_built(const spec::morphological::Parameters& p, const std::string& what) {
   throw spec::ConfigError(
       what + " not built yet (preset " +
@@ -37,14 +51,17 @@ struct RangeCheck {
 
 }  // namespace
 
-spec::morphological::Parameters preset_parameters(spec::morphological::Preset preset) {
+spec::morphological::Parameters preset_parameters(spec::morphological::Preset preset,
+                                                  spec::morphological::Quality quality) {
   spec::morphological::Parameters p;
+  p.quality = quality;
   for (const spec::morphological::PresetRow& row : spec::morphological::kPresets) {
     if (row.preset != preset) continue;
+    if (row.has_qualities) apply_quality(p);
     p.preset = row.preset;
     p.threshold_mode = row.threshold_mode;
     p.dynamic_luma = row.dynamic_luma;
-    p.threshold = row.threshold;
+    if (row.threshold != 0) p.threshold = row.threshold;
     p.local_contrast = row.local_contrast;
     p.predictor = row.predictor;
     p.steps = row.steps;
@@ -52,7 +69,8 @@ spec::morphological::Parameters preset_parameters(spec::morphological::Preset pr
     p.safe = row.safe;
     p.trim = row.trim;
     p.area = row.area;
-    p.diagonals = row.diagonals;
+    p.ends = row.ends;
+    p.blend = row.blend;
   }
   return p;
 }

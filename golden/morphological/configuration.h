@@ -11,9 +11,11 @@
 
 namespace deburr::golden::morphological {
 
-// The defaults with the rules of a preset applied. Never throws: what is not built is refused by
-// check_parameters().
-spec::morphological::Parameters preset_parameters(spec::morphological::Preset preset);
+// The defaults with the rules of a preset applied, after those of a quality if the preset has any.
+// Never throws: what is not built is refused by check_parameters().
+spec::morphological::Parameters preset_parameters(
+    spec::morphological::Preset preset,
+    spec::morphological::Quality quality = spec::morphological::Quality::kHigh);
 
 // Throws ConfigError: a value out of its range, or a mix that the engine does not have.
 void check_parameters(const spec::morphological::Parameters& parameters);
