@@ -42,13 +42,6 @@ void apply_quality(spec::morphological::Parameters& p) {
   }
 }
 
-[[noreturn]] void not_built(const spec::morphological::Parameters& p, const std::string& what) {
-  throw spec::ConfigError(
-      what + " not built yet (preset " +
-      std::string(spec::morphological::kPresetNames[static_cast<std::size_t>(p.preset)]) +
-      "); use area = analytic, diagonals = false, round_corners = false");
-}
-
 }  // namespace
 
 spec::morphological::Parameters preset_parameters(spec::morphological::Preset preset,
@@ -79,9 +72,6 @@ void check_parameters(const spec::morphological::Parameters& parameters) {
   spec::morphological::Parameters p = parameters;
   const RangeCheck ranges;
   describe(p, ranges);
-  if (p.area != spec::morphological::AreaSource::kAnalytic) not_built(p, "area tables are");
-  if (p.diagonals) not_built(p, "diagonal patterns are");
-  if (p.round_corners) not_built(p, "corner rounding is");
   if (p.window_rows % 2 != 0) {
     throw spec::ConfigError("morphological window_rows = " + std::to_string(p.window_rows) +
                             " is odd; use an even number of rows");
@@ -91,6 +81,12 @@ void check_parameters(const spec::morphological::Parameters& parameters) {
         "morphological steps = " + std::to_string(p.steps) + " reach beyond a window of " +
         std::to_string(p.window_rows) +
         " rows; at most window_rows / 2 - 2 = " + std::to_string(reach_rows(p) - 1) + " fit");
+  }
+  if (p.diagonals && p.diagonal_steps > reach_rows(p)) {
+    throw spec::ConfigError("morphological diagonal_steps = " + std::to_string(p.diagonal_steps) +
+                            " reach beyond a window of " + std::to_string(p.window_rows) +
+                            " rows; they need window_rows of at least " +
+                            std::to_string(2 * p.diagonal_steps + 2));
   }
   if (p.edge_source == spec::morphological::EdgeSource::kPredicated &&
       p.threshold_mode == spec::morphological::ThresholdMode::kDynamic) {

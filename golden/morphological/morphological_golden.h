@@ -2,17 +2,19 @@
 // Bit-exact reference of the whole morphological engine: a frame in, the smoothed frame out, with
 // every intermediate result and the predicted memory traffic.
 //
-// No time, no SystemC, integers only (docs/morphological_engine.md,
-// docs/number_formats_morphological.md; papers 000 and 001). The blocks are pure functions: luma.h,
-// edges.h, runs.h, predictor.h, line.h, area.h, blend.h, traffic.h; conversion of other images to
-// codes: convert.h. MorphologicalGolden strings them together over a frame. Edges are found for all
-// pixels, row by row; after that only edges and the pixels beside them cost time.
+// No time, no SystemC, integers only (docs/morphological_engine.md, docs/morphological_smaa.md,
+// docs/number_formats_morphological.md; papers 000, 001 and 003). The blocks are pure functions:
+// luma.h, edges.h, runs.h, predictor.h, line.h, area.h or area_table.h, corners.h, diagonals.h,
+// blend.h, traffic.h; conversion of other images to codes: convert.h. MorphologicalGolden strings
+// them together over a frame. Edges are found for all pixels, row by row; after that only edges and
+// the pixels beside them cost time.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <vector>
 
+#include "golden/morphological/area.h"
 #include "golden/morphological/blend.h"
 #include "golden/morphological/configuration.h"
 #include "golden/morphological/planes.h"
@@ -54,6 +56,9 @@ class MorphologicalGolden {
   int height() const { return edges_.left.height(); }
   const std::vector<spec::morphological::Rgba8>& pixels() const { return pixels_; }
   const EdgePlanes& edges() const { return edges_; }
+  // Shares of the top and of the left edge of a pixel, as the blender reads them.
+  EdgeShares top_shares(int x, int y) const { return horizontal_.at(x, y).of_edge(); }
+  EdgeShares left_shares(int x, int y) const { return vertical_.at(y, x).of_edge(); }
   // Counters of this frame alone; hardware adds up until its counters are cleared.
   const spec::morphological::Work& work() const { return work_; }
   // With kEverything, else empty. Taps are the engine's, edge bits included.
@@ -81,6 +86,7 @@ class MorphologicalGolden {
   struct Share {  // of one edge
     std::uint8_t first = 0, second = 0;
     std::uint16_t span = 0;
+    EdgeShares of_edge() const { return {first, second}; }
   };
   // Shares of all edges of one axis, in the order of the bits of `edges.along`: nothing is stored
   // for pixels without an edge.
@@ -89,10 +95,13 @@ class MorphologicalGolden {
     std::vector<Share> shares;
     std::vector<std::uint32_t> edges_before;  // each word of edges.along
     void count_edges();
-    Share at(int position, int line) const;  // zero where there is no edge
+    std::size_t index(int position, int line) const;  // of the share of an edge
+    Share at(int position, int line) const;           // zero where there is no edge
   };
   void process_axis(AxisShares& axis);
   void process_record(AxisShares& axis, const spec::morphological::RunRecord& run);
+  void share(AxisShares& axis, const spec::morphological::LineRecord& line) const;
+  void process_diagonals();
   void put_runs_in_order(std::size_t first_vertical);
   PixelShares gather(int x, int y) const;
   void blend_row(const ImageView& image, int y);
