@@ -135,8 +135,16 @@ TEST(Smaa, HasTheEdgesOfThePublishedOneOnGreys) {
 
 TEST(Smaa, HasItsEdgesOnColoursButWhereRoundingDecides) {
   int edges = 0, differing = 0, unexplained = 0;
+  // Of colours at random one in a million lies between the two thresholds.
+  Random random(3);
+  const auto any = [&](int, int) {
+    const std::uint32_t r = random.word();
+    return tb::Rgba8{static_cast<std::uint8_t>(r), static_cast<std::uint8_t>(r >> 8),
+                     static_cast<std::uint8_t>(r >> 16), 255};
+  };
   std::vector<Image> images = {tb::stimuli::blocks_image(),
-                               tb::stimuli::rendered_like(300, 200, 90)};
+                               tb::stimuli::rendered_like(300, 200, 90),
+                               tb::stimuli::draw(1000, 700, any)};
   for (std::uint64_t seed = 1; seed <= 6; ++seed) images.push_back(bars(220, 160, seed, true));
   for (const Image& image : images) {
     for (const Quality quality : kAll) {
@@ -150,7 +158,8 @@ TEST(Smaa, HasItsEdgesOnColoursButWhereRoundingDecides) {
   }
   std::cout << differing << " of " << edges << " edges differ by rounding\n";
   EXPECT_EQ(unexplained, 0);
-  EXPECT_LT(differing, edges / 1000);
+  EXPECT_GT(differing, 0);
+  EXPECT_LT(differing, edges / 10000);
   EXPECT_GT(edges, 50000);
 }
 
