@@ -30,78 +30,22 @@ SmaaMargins margins(const SmaaLuma& luma, double threshold, int x, int y, double
 
 // ---- orthogonal areas ---------------------------------------------------------------------------
 
-struct Point {
-  double x = 0, y = 0;
-};
-
-// Area between the axis and a line, over pixel `l`: second = below the axis (negative heights are
-// the side of the second pixel), first = above it.
-SmaaWeights area_under(Point from, Point to, int l) {
-  const double slope = (to.y - from.y) / (to.x - from.x);
-  const auto height = [&](double x) { return from.y + slope * (x - from.x); };
-  const double begin = std::max<double>(l, from.x), end = std::min<double>(l + 1, to.x);
-  if (begin >= end) return {};
-  SmaaWeights area;
-  const auto add = [&](double x1, double x2) {
-    const double signed_area = (height(x1) + height(x2)) / 2 * (x2 - x1);
-    (signed_area < 0 ? area.second : area.first) += std::abs(signed_area);
-  };
-  const double zero = slope == 0 ? begin : from.x - from.y / slope;
-  if (zero > begin && zero < end) {
-    add(begin, zero);
-    add(zero, end);
-  } else {
-    add(begin, end);
-  }
-  return area;
-}
-
-SmaaWeights sum(SmaaWeights a, SmaaWeights b) { return {a.first + b.first, a.second + b.second}; }
-
-// Short dips are made rounder.
-SmaaWeights smoothed(SmaaWeights a, int length) {
-  const auto smooth = [&](double area) {
-    const double round = std::sqrt(2 * area) / 2;
-    return std::lerp(round, area, std::min(1.0, length / 32.0));
-  };
-  return {smooth(a.first), smooth(a.second)};
-}
-
 // What crosses an end: the first side lies above the axis, the second below.
 struct Crossing {
   bool first = false, second = false;
 };
 
-// The pattern that two ends make, and its area at `l` pixels from the start and `r` from the end.
-SmaaWeights orthogonal_area(Crossing start, Crossing end, int l, int r) {
-  const int length = l + r + 1;
-  const Point middle{length / 2.0, 0}, last{static_cast<double>(length), 0};
-  const auto from = [&](double height) { return area_under({0, height}, middle, l); };
-  const auto to = [&](double height) { return area_under(middle, {last.x, height}, l); };
-  const auto across = [&](double height) { return area_under({0, height}, {last.x, -height}, l); };
-  // A half line is seen from the nearer half of its run only.
-  const int ends = (start.first || start.second ? 1 : 0) + (end.first || end.second ? 1 : 0);
-  if (ends == 0) return {};
-  const auto height = [](Crossing c) { return c.first ? 0.5 : -0.5; };
-  const bool start_both = start.first && start.second, end_both = end.first && end.second;
-  if (ends == 1) {
-    if (start_both || end_both) return {};
-    if (start.first || start.second) return l <= r ? from(height(start)) : SmaaWeights{};
-    return l >= r ? to(height(end)) : SmaaWeights{};
-  }
-  // Of two crossings on one end the one that is opposite to the other end's makes the line.
-  if (start_both && end_both) return {};
-  if (start_both) return across(-height(end));
-  if (end_both) return across(height(start));
-  if (start.first != end.first) return across(height(start));
-  return sum(smoothed(from(height(start)), length), smoothed(to(height(end)), length));
+int pattern_of(Crossing start, Crossing end) {
+  return (start.second ? 1 : 0) + (end.second ? 2 : 0) + (start.first ? 4 : 0) +
+         (end.first ? 8 : 0);
 }
 
 // The texture is indexed by square roots of the distances and filtered between its texels.
 SmaaWeights fetched_area(Crossing start, Crossing end, int l, int r) {
   const double u = std::sqrt(l), v = std::sqrt(r);
   const int i = static_cast<int>(u), j = static_cast<int>(v);
-  const auto texel = [&](int a, int b) { return orthogonal_area(start, end, a * a, b * b); };
+  const int pattern = pattern_of(start, end);
+  const auto texel = [&](int a, int b) { return smaa_area(pattern, a * a, b * b); };
   const auto mix = [](SmaaWeights a, SmaaWeights b, double t) {
     return SmaaWeights{std::lerp(a.first, b.first, t), std::lerp(a.second, b.second, t)};
   };
@@ -166,6 +110,10 @@ SmaaWeights edge_weights(const AxisView& axis, const SmaaSettings& settings, int
 }
 
 // ---- diagonals ----------------------------------------------------------------------------------
+
+struct Point {
+  double x = 0, y = 0;
+};
 
 constexpr int kSamples = 30;
 

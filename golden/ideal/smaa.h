@@ -16,6 +16,8 @@
 #include <span>
 #include <vector>
 
+#include "golden/ideal/smaa_area.h"
+
 namespace deburr::golden::ideal {
 
 struct SmaaSettings {
@@ -71,10 +73,6 @@ SmaaMargins left_margins(const SmaaLuma& luma, double threshold, int x, int y);
 SmaaMargins top_margins(const SmaaLuma& luma, double threshold, int x, int y);
 SmaaEdges smaa_edges(const SmaaLuma& luma, double threshold);
 
-// What each pixel of an edge takes of the other, 0..1.
-struct SmaaWeights {
-  double first = 0, second = 0;
-};
 struct SmaaPixelWeights {
   SmaaWeights top, left;
   bool diagonal = false;

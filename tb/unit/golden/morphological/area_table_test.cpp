@@ -11,6 +11,7 @@
 #include <cmath>
 #include <utility>
 
+#include "golden/ideal/smaa_area.h"
 #include "golden/morphological/corners.h"
 #include "golden/morphological/line.h"
 #include "spec/morphological/shapes.h"
@@ -19,6 +20,8 @@
 namespace deburr {
 namespace {
 
+using golden::ideal::smaa_area;
+using golden::ideal::SmaaWeights;
 using golden::morphological::AreaEntry;
 using golden::morphological::EdgeShares;
 using golden::morphological::FullAreaTable;
@@ -39,86 +42,7 @@ using spec::morphological::RunPart;
 using spec::morphological::RunRecord;
 using tb::morphological::Frame;
 
-// ---- areas in floating point, with subsample offsets ("Subsample rows")
-// --------------------------
-
-struct Area {
-  double second = 0, first = 0;
-  Area operator+(Area o) const { return {second + o.second, first + o.first}; }
-  Area half() const { return {second / 2, first / 2}; }
-};
-
-struct Point {
-  double x, y;
-};
-
-// Between the axis and the segment, over pixel l..l+1.
-Area under(Point p, Point q, int l) {
-  const double x1 = l, x2 = l + 1;
-  if (!((x1 >= p.x && x1 < q.x) || (x2 > p.x && x2 <= q.x))) return {};
-  const double slope = (q.y - p.y) / (q.x - p.x);
-  const double y1 = p.y + slope * (x1 - p.x), y2 = p.y + slope * (x2 - p.x);
-  const auto side = [](double signed_area) {
-    return signed_area < 0 ? Area{-signed_area, 0} : Area{0, signed_area};
-  };
-  if ((y1 < 0) == (y2 < 0) || std::abs(y1) < 1e-4 || std::abs(y2) < 1e-4)
-    return side((y1 + y2) / 2);
-  const double zero = p.x - p.y / slope;
-  // A segment that ends on the axis has no triangle beyond its end.
-  constexpr double kOnTheEnd = 1e-9;
-  const double left = zero > p.x + kOnTheEnd ? y1 * (zero - x1) / 2 : 0,
-               right = zero < q.x - kOnTheEnd ? y2 * (x2 - zero) / 2 : 0;
-  return side(left) + side(right);
-}
-
-double smoothed(double area, int length) {
-  const double root = std::sqrt(2 * area) / 2;
-  return root + (area - root) * std::min(length, 32) / 32;
-}
-Area smoothed(Area a, int length) {
-  return {smoothed(a.second, length), smoothed(a.first, length)};
-}
-
-// The published table at distances l and r.
-Area exact(int pattern, int l, int r, double offset) {
-  const int d = l + r + 1;
-  const double o1 = 0.5 + offset, o2 = offset - 0.5;
-  const Point middle{d / 2.0, 0};
-  const auto start = [&](double y) { return under({0, y}, middle, l); };
-  const auto end = [&](double y) { return under(middle, {static_cast<double>(d), y}, l); };
-  const auto whole = [&](double y1, double y2) {
-    return under({0, y1}, {static_cast<double>(d), y2}, l);
-  };
-  const auto z = [&](double y1, double y2) {
-    return offset == 0 ? whole(y1, y2) : (whole(y1, y2) + start(y1) + end(y2)).half();
-  };
-  switch (pattern) {
-    case 1:
-      return l <= r ? start(o2) : Area{};
-    case 2:
-      return l >= r ? end(o2) : Area{};
-    case 3:
-      return smoothed(start(o2), d) + smoothed(end(o2), d);
-    case 4:
-      return l <= r ? start(o1) : Area{};
-    case 8:
-      return l >= r ? end(o1) : Area{};
-    case 12:
-      return smoothed(start(o1), d) + smoothed(end(o1), d);
-    case 6:
-      return z(o1, o2);
-    case 7:
-    case 14:
-      return whole(o1, o2);
-    case 9:
-      return z(o2, o1);
-    case 11:
-    case 13:
-      return whole(o2, o1);
-    default:
-      return {};
-  }
-}
+// ---- entries ------------------------------------------------------------------------------------
 
 template <class Visit>  // visit(pattern, i, j)
 void each_entry(Visit&& visit) {
@@ -130,7 +54,7 @@ void each_entry(Visit&& visit) {
 TEST(AreaTable, HoldsTheRoundedAreas) {
   const FullAreaTable table;
   each_entry([&](int pattern, int i, int j) {
-    const Area area = exact(pattern, i * i, j * j, 0);
+    const SmaaWeights area = smaa_area(pattern, i * i, j * j);
     const AreaEntry entry = table.entry(pattern, i, j);
     EXPECT_NEAR(entry.second, 512 * area.second, 0.5 + 1e-9) << pattern << ' ' << i << ' ' << j;
     EXPECT_NEAR(entry.first, 512 * area.first, 0.5 + 1e-9) << pattern << ' ' << i << ' ' << j;
@@ -169,26 +93,11 @@ TEST(AreaTable, TellsPatternsApartThatAreNotMerged) {
 }
 
 TEST(AreaTable, LosesByMergingOnlyWithSubsampleOffsets) {
-  const auto loss = [](double offset) {
-    int largest = 0;
-    const auto code = [](double area) { return static_cast<int>(255 * area); };
-    for (const auto& [stored, read] :
-         {std::pair{6, 7}, std::pair{6, 14}, std::pair{9, 11}, std::pair{9, 13}}) {
-      for (int i = 0; i < 16; ++i) {
-        for (int j = 0; j < 16; ++j) {
-          const Area a = exact(stored, i * i, j * j, offset), b = exact(read, i * i, j * j, offset);
-          largest = std::max({largest, std::abs(code(a.second) - code(b.second)),
-                              std::abs(code(a.first) - code(b.first))});
-        }
-      }
-    }
-    return largest;
-  };
-  EXPECT_EQ(loss(0), 0);
+  EXPECT_EQ(golden::ideal::loss_by_merging(0), 0);
   for (const double sign : {-1.0, 1.0}) {
-    EXPECT_EQ(loss(sign * 0.125), 16);
-    EXPECT_EQ(loss(sign * 0.25), 32);
-    EXPECT_EQ(loss(sign * 0.375), 48);
+    EXPECT_EQ(golden::ideal::loss_by_merging(sign * 0.125), 16);
+    EXPECT_EQ(golden::ideal::loss_by_merging(sign * 0.25), 32);
+    EXPECT_EQ(golden::ideal::loss_by_merging(sign * 0.375), 48);
   }
 }
 
