@@ -163,18 +163,24 @@ TEST(Smaa, HasItsEdgesOnColoursButWhereRoundingDecides) {
   EXPECT_GT(edges, 50000);
 }
 
-// A step of exactly T is an edge in both, by whatever rounding T has: 51 codes are a fifth.
+// A step of exactly T is an edge in both: one of 255 blue codes has 0.0722 of full scale, which is
+// 4732 / 65536 in the weights of luma and in T alike.
 TEST(Smaa, SeesAStepOfExactlyTheThreshold) {
-  for (const int step : {50, 51, 52}) {
-    const Image image =
-        tb::stimuli::draw(2, 1, [&](int x, int) { return tb::stimuli::grey(x * step); });
+  const auto edges = [](int step, int threshold, double ideal) {
+    const Image image = tb::stimuli::draw(2, 1, [&](int x, int) {
+      return tb::Rgba8{0, 0, static_cast<std::uint8_t>(x * step), 255};
+    });
     spec::morphological::Parameters p = preset_parameters(Preset::kSmaa);
-    p.threshold = 13107;  // 0.2, rounded down
+    p.threshold = threshold;
     MorphologicalGolden golden(p);
     golden.process({image.pixels, 2, 1});
-    EXPECT_EQ(golden.edges().left.at(1, 0), step >= 51);
-    EXPECT_EQ(left_margins(luma_of(image), 0.2, 1, 0).edge(), step >= 51);
-  }
+    const bool edge = golden.edges().left.at(1, 0);
+    EXPECT_EQ(left_margins(luma_of(image), ideal, 1, 0).edge(), edge);
+    return edge;
+  };
+  EXPECT_TRUE(edges(255, 4732, 0.0722));
+  EXPECT_FALSE(edges(255, 4733, 4733.0 / 65536));
+  EXPECT_FALSE(edges(254, 4732, 0.0722));
 }
 
 struct WeightComparison {

@@ -58,6 +58,7 @@ void write_papers(const std::filesystem::path& directory, const std::vector<Pape
 std::string verdict(double paper, int decimals, double ours, const char* otherwise);
 
 Paper paper_000(const PaperOptions& options);
+Paper paper_003(const PaperOptions& options);
 Paper paper_004(const PaperOptions& options);
 
 }  // namespace deburr::tb
