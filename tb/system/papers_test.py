@@ -56,8 +56,8 @@ class Papers(unittest.TestCase):
 
     def test_ends_well(self):
         self.assertEqual(self.done.returncode, 0, self.done.stderr)
-        self.assertIn("RESULT: PASS papers: 2 reproduced", self.done.stdout)
-        self.assertEqual(set(self.papers), {"000", "004"})
+        self.assertIn("RESULT: PASS papers: 3 reproduced", self.done.stdout)
+        self.assertEqual(set(self.papers), {"000", "003", "004"})
 
     def test_every_picture_and_table_is_there(self):
         with open(os.path.join(self.scratch.name, "index.html")) as file:

@@ -286,6 +286,40 @@ TEST(AreaTable, GivesTheSameFramesInEveryLayout) {
   }
 }
 
+// With a chord or a fitted line the table is read where that line ends: nearer to the line's own
+// areas than the table of the run alone.
+TEST(AreaTable, GoesWithEveryPredictor) {
+  const Frame frame = tb::morphological::line_image();
+  const auto shares = [&](const Parameters& p) {
+    MorphologicalGolden golden(p);
+    golden.process(frame.view());
+    std::vector<int> all;
+    for (int y = 0; y < frame.height; ++y) {
+      for (int x = 0; x < frame.width; ++x) {
+        all.push_back(golden.top_shares(x, y).first);
+        all.push_back(golden.top_shares(x, y).second);
+      }
+    }
+    return all;
+  };
+  const auto difference = [](const std::vector<int>& a, const std::vector<int>& b) {
+    int sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]);
+    return sum;
+  };
+  for (const auto preset : {Preset::kMlaaSlope, Preset::kDeburr}) {
+    Parameters p = preset_parameters(preset);
+    const auto analytic = shares(p);
+    p.area = spec::morphological::AreaSource::kTableFull;
+    p.search_steps = 112;
+    const auto table = shares(p);
+    p.predictor = spec::morphological::Predictor::kNone;
+    const auto alone = shares(p);
+    EXPECT_NE(table, alone);
+    EXPECT_LT(difference(table, analytic), difference(alone, analytic));
+  }
+}
+
 // A run beyond the reach gives every pixel what the whole run would give it if the reach is 4N + 2
 // or more. Its tail holds 2N pixels with a reach of 4N + 1 and misses one that the search still
 // sees; with N = 32 the table has nothing for that pixel, so that a reach of 4N does as well.
