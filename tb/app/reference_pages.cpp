@@ -130,9 +130,8 @@ std::string registers_page() {
   namespace texture = spec::texture::reg;
   // One descriptor stands for all.
   constexpr std::uint32_t kSecond = texture::kTextureBase + texture::kTextureStride;
-  std::vector<rtl::RegisterDescription> unit;
-  for (const rtl::RegisterDescription& r :
-       rtl::register_descriptions(rtl::texture::register_table()))
+  std::vector<spec::RegisterInfo> unit;
+  for (const spec::RegisterInfo& r : rtl::texture::register_table())
     if (r.offset < kSecond) unit.push_back(r);
   return fmt::format(
       "# Registers\n\n"
@@ -145,7 +144,7 @@ std::string registers_page() {
       "\n## TextureUnit\n\n{}"
       "\nTextures 1..{} follow with the same registers, each 0x{:X} bytes after the one "
       "before.\n",
-      rtl::register_table_markdown(rtl::register_descriptions(spec::morphological::kRegisters)),
+      rtl::register_table_markdown(spec::morphological::kRegisters),
       rtl::register_table_markdown(unit), spec::texture::kMaxTextures - 1, texture::kTextureStride);
 }
 

@@ -12,9 +12,9 @@
 namespace deburr::tb {
 
 // {"cycles", "units": {name: {busy, idle, stalls: {cause: cycles}}}, "counters": {name: {value,
-// unit, meaning}}, "histograms": {name: see below}, "sram_bits": {name: bits}, "links": {name:
-// {depth, payload_bits, beats}}}. Names are full, without `prefix` and a dot if they begin with it;
-// objects outside of `prefix` are left out.
+// unit, meaning}}, "histograms": {name: see below}, "memories": {name: {kind, ports, logical_bits,
+// physical_bits}}, "links": {name: {depth, payload_bits, beats}}}. Names are full, without `prefix`
+// and a dot if they begin with it; objects outside of `prefix` are left out.
 nlohmann::ordered_json statistics(const rtl::ClockDomain& clock, const std::string& prefix = "");
 
 // {unit, meaning, count, sum, min, p50, p95, p99, max, histogram: [[low, high, count], ...]}
