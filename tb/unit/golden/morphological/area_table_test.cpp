@@ -286,38 +286,52 @@ TEST(AreaTable, GivesTheSameFramesInEveryLayout) {
   }
 }
 
-// With a chord or a fitted line the table is read where that line ends: nearer to the line's own
-// areas than the table of the run alone.
+// With a chord or a fitted line the table is read where that line ends, to the pixel.
 TEST(AreaTable, GoesWithEveryPredictor) {
-  const Frame frame = tb::morphological::line_image();
-  const auto shares = [&](const Parameters& p) {
+  const auto shares = [&](const Frame& frame, const Parameters& p) {
     MorphologicalGolden golden(p);
     golden.process(frame.view());
-    std::vector<int> all;
-    for (int y = 0; y < frame.height; ++y) {
-      for (int x = 0; x < frame.width; ++x) {
-        all.push_back(golden.top_shares(x, y).first);
-        all.push_back(golden.top_shares(x, y).second);
-      }
-    }
+    std::vector<EdgeShares> all;
+    for (int y = 0; y < frame.height; ++y)
+      for (int x = 0; x < frame.width; ++x) all.push_back(golden.top_shares(x, y));
     return all;
   };
-  const auto difference = [](const std::vector<int>& a, const std::vector<int>& b) {
-    int sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]);
-    return sum;
-  };
+  const Frame blocks = tb::morphological::blocks_image();
   for (const auto preset : {Preset::kMlaaSlope, Preset::kDeburr}) {
     Parameters p = preset_parameters(preset);
-    const auto analytic = shares(p);
     p.area = spec::morphological::AreaSource::kTableFull;
-    p.search_steps = 112;
-    const auto table = shares(p);
+    const auto table = shares(blocks, p);
+    for (const auto layout : {spec::morphological::AreaSource::kTableMerged,
+                              spec::morphological::AreaSource::kTableMinimal}) {
+      p.area = layout;
+      EXPECT_EQ(shares(blocks, p), table);
+    }
     p.predictor = spec::morphological::Predictor::kNone;
-    const auto alone = shares(p);
-    EXPECT_NE(table, alone);
-    EXPECT_LT(difference(table, analytic), difference(alone, analytic));
+    EXPECT_NE(shares(blocks, p), table);
   }
+  // On a true line the chord's ends bring the table nearer to the chord's own areas; those of a fit
+  // lie within half a pixel of the run's, so that it is the table of the run alone.
+  const Frame line = tb::morphological::line_image();
+  const auto off = [&](Parameters p) {
+    p.area = spec::morphological::AreaSource::kAnalytic;
+    const auto analytic = shares(line, p);
+    const auto distance = [&](spec::morphological::Predictor predictor) {
+      p.area = spec::morphological::AreaSource::kTableFull;
+      p.predictor = predictor;
+      const auto table = shares(line, p);
+      int sum = 0;
+      for (std::size_t i = 0; i < table.size(); ++i)
+        sum += std::abs(table[i].first - analytic[i].first) +
+               std::abs(table[i].second - analytic[i].second);
+      return sum;
+    };
+    const int own = distance(p.predictor);
+    return std::pair(own, distance(spec::morphological::Predictor::kNone));
+  };
+  const auto [chord, without_chord] = off(preset_parameters(Preset::kMlaaSlope));
+  EXPECT_LT(chord, without_chord);
+  const auto [fit, without_fit] = off(preset_parameters(Preset::kDeburr));
+  EXPECT_EQ(fit, without_fit);
 }
 
 // A run beyond the reach gives every pixel what the whole run would give it if the reach is 4N + 2
