@@ -164,10 +164,13 @@ PaperTable densities(const PaperOptions& options) {
       "Fixed T against T' = alpha x luma of the current pixel, eq (2) and (3). T' is above T "
       "where luma is above T / alpha, so it is no stricter threshold: it finds more edges in dark "
       "places and fewer in none if alpha = T. Beside black every step is an edge unless a floor "
-      "stops it. The verdict: does alpha give more edges than T of the same value?",
+      "stops it: shades is a frame of dark greys. The verdict: does alpha give more edges than T "
+      "of the same value?",
       {"frame", "T, alpha", "fixed", "dynamic", "dynamic, floor 2/255", "verdict"},
       {}};
-  for (const NamedImage& frame : frames(options)) {
+  std::vector<NamedImage> shown = frames(options);
+  shown.push_back({"shades", stimuli::shades_image(options.size, options.size)});
+  for (const NamedImage& frame : shown) {
     for (const Share& share : kShares) {
       const auto percent = [&](const Parameters& p) {
         return edge_pixels_percent(frame.image, edges_of(frame.image, p));
