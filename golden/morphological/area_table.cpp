@@ -16,15 +16,20 @@ constexpr int kRoots = spec::morphological::kTableRoots;
 // Runs of 32 pixels and more are not smoothed.
 constexpr int kSmoothed = 32;
 
+std::uint64_t length_of(int l, int r) {
+  const int length = l + r + 1;
+  return static_cast<std::uint64_t>(length);
+}
+
 std::uint64_t half_entry(int l, int r) {
-  const auto length = static_cast<std::uint64_t>(l + r + 1);
+  const std::uint64_t length = length_of(l, r);
   if (l > r) return 0;
   if (l == r) return rdiv(64, length);
   return rdiv(256 * static_cast<std::uint64_t>(r - l), length);
 }
 
 std::uint64_t dip_entry(int l, int r) {
-  const auto length = static_cast<std::uint64_t>(l + r + 1);
+  const std::uint64_t length = length_of(l, r);
   const auto off_centre = static_cast<std::uint64_t>(std::abs(l - r));
   if (length >= kSmoothed) {
     return off_centre > 0 ? rdiv(256 * off_centre, length) : rdiv(128, length);
@@ -52,7 +57,10 @@ std::uint8_t at(const AreaTile& tile, int i, int j) {
   return tile[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
 }
 
-std::size_t flat(int i, int j) { return static_cast<std::size_t>(i * kRoots + j); }
+std::size_t flat(int i, int j) {
+  const int place = i * kRoots + j;
+  return static_cast<std::size_t>(place);
+}
 
 // Patterns that the merged table stores, in order.
 constexpr std::array<int, 8> kStored = {1, 2, 3, 4, 6, 8, 9, 12};

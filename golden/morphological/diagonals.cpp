@@ -46,7 +46,7 @@ constexpr std::array<Lines, 16> kLines = {{
 }};
 
 constexpr int kSamples = 30;  // each way
-constexpr std::uint64_t kAll = kSamples * kSamples;
+constexpr std::uint64_t kAll = std::uint64_t{kSamples} * kSamples;
 
 // Samples of pixel (x, y) strictly below the line, in coordinates 58 times as large: samples lie at
 // whole numbers then, and so do the middles of lines.
@@ -80,7 +80,8 @@ Search search(int steps, Good&& good) {
 DiagonalTable::DiagonalTable() {
   for (int e1 = 0; e1 < 4; ++e1) {
     for (int e2 = 0; e2 < 4; ++e2) {
-      const Lines& lines = kLines[static_cast<std::size_t>(4 * e1 + e2)];
+      const int codes = 4 * e1 + e2;
+      const Lines& lines = kLines[static_cast<std::size_t>(codes)];
       const std::uint64_t all = kAll * static_cast<std::uint64_t>(lines.count);
       for (int d1 = 0; d1 < spec::morphological::kDiagonalDistances; ++d1) {
         for (int d2 = 0; d2 < spec::morphological::kDiagonalDistances; ++d2) {

@@ -31,7 +31,8 @@ class DiagonalTable {
  private:
   static constexpr std::size_t index(int e1, int e2, int d1, int d2) {
     constexpr int n = spec::morphological::kDiagonalDistances;
-    return static_cast<std::size_t>(((4 * e1 + e2) * n + d1) * n + d2);
+    const int place = ((4 * e1 + e2) * n + d1) * n + d2;
+    return static_cast<std::size_t>(place);
   }
   std::array<DiagonalAreas, kBits / 16> entries_{};
 };
