@@ -181,14 +181,20 @@ LineEnds line_ends(const spec::morphological::LineRecord& line) {
   return {limited(-pixels(begin)), limited(pixels(4096 - begin))};
 }
 
-EdgeShares table_shares(const spec::morphological::LineRecord& line, const LineEnds& ends,
-                        int search_steps, int k) {
+TableAddress table_address(const spec::morphological::LineRecord& line, const LineEnds& ends,
+                           int search_steps, int k) {
   const int left = 2 * search_steps - 1, right = 2 * search_steps;
   const int before = std::max(0, k - ends.first), after = std::max(0, ends.last - 1 - k);
+  const auto end_of = [](int distance, int limit) {
+    return distance > limit    ? SearchEnd::kBeyond
+           : distance == limit ? SearchEnd::kAtLimit
+                               : SearchEnd::kWithin;
+  };
   int shape = line.run.shape;
   if (before > left) shape &= 12;
   if (after > right) shape &= 3;
-  return table_shares(shape, std::min(before, left), std::min(after, right));
+  return {shape, std::min(before, left), std::min(after, right), end_of(before, left),
+          end_of(after, right)};
 }
 
 }  // namespace deburr::golden::morphological

@@ -86,8 +86,17 @@ struct LineEnds {
 };
 LineEnds line_ends(const spec::morphological::LineRecord& line);
 
-// Shares of the edge of pixel k of the record, whose searches end after `search_steps` (N).
-EdgeShares table_shares(const spec::morphological::LineRecord& line, const LineEnds& ends,
-                        int search_steps, int k);
+// What the searches of pixel k of the record see that end after `search_steps` (N).
+enum class SearchEnd : std::uint8_t { kWithin, kAtLimit, kBeyond };
+struct TableAddress {
+  int shape = 0;  // without the code of an end beyond its limit
+  int before = 0, after = 0;
+  SearchEnd start = SearchEnd::kWithin, end = SearchEnd::kWithin;
+};
+TableAddress table_address(const spec::morphological::LineRecord& line, const LineEnds& ends,
+                           int search_steps, int k);
+inline EdgeShares table_shares(const TableAddress& address) {
+  return table_shares(address.shape, address.before, address.after);
+}
 
 }  // namespace deburr::golden::morphological

@@ -246,6 +246,24 @@ void raw_edges(const Rule& rule, const LumaPlane& luma, const DepthView& depth, 
 
 }  // namespace
 
+bool floor_decides(const Parameters& p, const PixelPair& pair) {
+  using spec::morphological::DynamicLuma;
+  const auto of = [&](std::int32_t twice_luma) {
+    return std::int64_t{255} * p.floor << 17 >= std::int64_t{p.alpha} * twice_luma;
+  };
+  switch (p.dynamic_luma) {
+    case DynamicLuma::kCurrent:
+      return of(twice_reference<DynamicLuma::kCurrent>(pair));
+    case DynamicLuma::kMax:
+      return of(twice_reference<DynamicLuma::kMax>(pair));
+    case DynamicLuma::kMin:
+      return of(twice_reference<DynamicLuma::kMin>(pair));
+    case DynamicLuma::kMean:
+      break;
+  }
+  return of(twice_reference<DynamicLuma::kMean>(pair));
+}
+
 bool depth_edge(const Parameters& parameters, const PixelPair& pair) {
   return DepthRule(parameters)(pair);
 }

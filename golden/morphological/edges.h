@@ -24,6 +24,9 @@ bool depth_edge(const spec::morphological::Parameters& parameters, const PixelPa
 // The raw bit of an edge, local contrast not yet applied.
 bool raw_edge(const spec::morphological::Parameters& parameters, const PixelPair& pair);
 
+// Whether the floor is what a dynamic threshold compares the pair with.
+bool floor_decides(const spec::morphological::Parameters& parameters, const PixelPair& pair);
+
 // The edges of a whole frame. A missing depth reads 0 everywhere.
 EdgePlanes find_edges(const spec::morphological::Parameters& parameters, const ImageView& image,
                       const DepthView& depth = {});

@@ -87,6 +87,7 @@ const std::vector<spec::morphological::Rgba8>& MorphologicalGolden::process(
   }
 
   edges_ = find_edges(parameters_, image, depth);
+  if (everything_) count_thresholds(image);
   horizontal_.edges = AxisEdges::horizontal(edges_);
   vertical_.edges = AxisEdges::vertical(edges_);
   process_axis(horizontal_);
@@ -141,6 +142,7 @@ void MorphologicalGolden::process_record(AxisShares& axis,
     axis.shares.resize(axis.shares.size() + run.length);
   }
   if (!everything_) return;
+  count_searches(line);
   coverage_.count_run(run, prediction, axis.edges.along.width(), axis.edges.along.height());
   runs_.push_back({line, static_cast<std::int16_t>(prediction.left.end),
                    static_cast<std::int16_t>(prediction.right.end),
@@ -165,7 +167,35 @@ void MorphologicalGolden::share(AxisShares& axis,
     each([&](int k) { return shares(line, k); });
   } else {
     const LineEnds ends = line_ends(line);
-    each([&](int k) { return table_shares(line, ends, parameters_.search_steps, k); });
+    each([&](int k) {
+      return table_shares(table_address(line, ends, parameters_.search_steps, k));
+    });
+  }
+}
+
+// Of every record, with sides or without.
+void MorphologicalGolden::count_searches(const spec::morphological::LineRecord& line) {
+  if (parameters_.area == spec::morphological::AreaSource::kAnalytic) return;
+  const LineEnds ends = line_ends(line);
+  for (int k = 0; k < line.run.length; ++k)
+    smaa_coverage_.count_pixel(line.run.axis,
+                               table_address(line, ends, parameters_.search_steps, k));
+}
+
+void MorphologicalGolden::count_thresholds(const ImageView& image) {
+  if (parameters_.edge_source != spec::morphological::EdgeSource::kLuma ||
+      parameters_.threshold_mode != spec::morphological::ThresholdMode::kDynamic)
+    return;
+  const auto count = [&](bool edge, int x, int y, int from_x, int from_y) {
+    if (!edge) return;
+    const PixelPair pair{luma(image.at(x, y)), luma(image.at(from_x, from_y)), 0, 0};
+    smaa_coverage_.count_threshold(parameters_.dynamic_luma, floor_decides(parameters_, pair));
+  };
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      count(edges_.left.at(x, y), x, y, x - 1, y);
+      count(edges_.top.at(x, y), x, y, x, y - 1);
+    }
   }
 }
 
@@ -177,9 +207,13 @@ void MorphologicalGolden::process_diagonals() {
     for (int i = 0; i < edges_.top.words(); ++i) {
       for (std::uint64_t rest = edges_.top.row(y)[i]; rest != 0; rest &= rest - 1) {
         const int x = 64 * i + std::countr_zero(rest);
-        const DiagonalShares found =
-            diagonal_shares(rising_diagonal(edges_, parameters_.diagonal_steps, x, y),
-                            falling_diagonal(edges_, parameters_.diagonal_steps, x, y));
+        const DiagonalEnds rising = rising_diagonal(edges_, parameters_.diagonal_steps, x, y);
+        const DiagonalEnds falling = falling_diagonal(edges_, parameters_.diagonal_steps, x, y);
+        if (everything_) {
+          smaa_coverage_.count_diagonal(true, rising);
+          smaa_coverage_.count_diagonal(false, falling);
+        }
+        const DiagonalShares found = diagonal_shares(rising, falling);
         if (!found.taken()) continue;
         ++work_.diagonal_pixels;
         horizontal_.shares[horizontal_.index(x, y)] = {

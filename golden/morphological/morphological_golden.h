@@ -20,6 +20,7 @@
 #include "golden/morphological/planes.h"
 #include "golden/morphological/predictor.h"
 #include "golden/morphological/run_coverage.h"
+#include "golden/morphological/smaa_coverage.h"
 #include "spec/morphological/packets.h"
 #include "spec/morphological/parameters.h"
 
@@ -72,7 +73,11 @@ class MorphologicalGolden {
 
   // ---- of all frames ------------------------------------------------------------------------
   const RunCoverage& coverage() const { return coverage_; }
-  void clear_coverage() { coverage_ = {}; }
+  const SmaaCoverage& smaa_coverage() const { return smaa_coverage_; }
+  void clear_coverage() {
+    coverage_ = {};
+    smaa_coverage_ = {};
+  }
 
   // storage = memory: line addresses whose reads memory answers with an error; their pixels read as
   // zero wherever the blender uses them. Edges come from the stream and are not touched.
@@ -101,6 +106,8 @@ class MorphologicalGolden {
   void process_axis(AxisShares& axis);
   void process_record(AxisShares& axis, const spec::morphological::RunRecord& run);
   void share(AxisShares& axis, const spec::morphological::LineRecord& line) const;
+  void count_searches(const spec::morphological::LineRecord& line);
+  void count_thresholds(const ImageView& image);
   void process_diagonals();
   void put_runs_in_order(std::size_t first_vertical);
   PixelShares gather(int x, int y) const;
@@ -118,6 +125,7 @@ class MorphologicalGolden {
   std::vector<PredictedRun> runs_;
   spec::morphological::Work work_;
   RunCoverage coverage_;
+  SmaaCoverage smaa_coverage_;
   LinePredicate error_;
   std::uint32_t pixel_base_ = 0;
   std::uint64_t memory_errors_ = 0;

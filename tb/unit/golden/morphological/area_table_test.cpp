@@ -33,6 +33,7 @@ using golden::morphological::MinimalAreaTable;
 using golden::morphological::MorphologicalGolden;
 using golden::morphological::pattern_of_shape;
 using golden::morphological::preset_parameters;
+using golden::morphological::table_address;
 using golden::morphological::table_shares;
 using spec::morphological::LineRecord;
 using spec::morphological::Parameters;
@@ -248,7 +249,7 @@ TEST(Searches, EndAtTheirLimits) {
           if (before > left) seen &= 12;
           if (after > right) seen &= 3;
           const LineRecord line = whole_run(before + after + 1, shape);
-          EXPECT_EQ(table_shares(line, line_ends(line), steps, before),
+          EXPECT_EQ(table_shares(table_address(line, line_ends(line), steps, before)),
                     table_shares(seen, std::min(before, left), std::min(after, right)))
               << steps << ' ' << shape << ' ' << before << ' ' << after;
         }
@@ -262,7 +263,7 @@ TEST(Searches, SeeTheCrossingAtTheLimitOnly) {
   constexpr int kSteps = 4, kLeft = 7, kRight = 8;
   const auto shares = [](int before, int after) {
     const LineRecord line = whole_run(before + after + 1, 9);  // Z-first-second
-    return table_shares(line, line_ends(line), kSteps, before);
+    return table_shares(table_address(line, line_ends(line), kSteps, before));
   };
   EXPECT_NE(shares(kLeft, 20).first, 0);      // starts just in sight
   EXPECT_EQ(shares(kLeft + 1, 20).first, 0);  // a pixel too far
