@@ -157,7 +157,23 @@ class Configuration(Base):
         self.run_engine(2, *self.SMALL, "--set", "morphological.diagonals=true", says="not built")
         self.run_engine(2, *self.SMALL, "--preset", "smoothest", says="mlaa")
 
+    def test_a_quality_is_a_preset_of_the_preset(self):
+        for preset in ("smaa", "smaa-dynamic"):
+            for quality, rows, steps in (("low", 38, 4), ("medium", 70, 8), ("high", 134, 16), ("ultra", 258, 32)):
+                shown = self.run_engine(0, "--preset", preset, "--set", f"morphological.quality={quality}",
+                                        "--show-config").stdout
+                self.assertIn(f"morphological.window_rows: {rows}", shown)
+                self.assertIn(f"morphological.search_steps: {steps}", shown)
+                self.assertIn(f"By preset {preset}, quality {quality}.", shown)
+        given = self.run_engine(0, "--preset", "smaa", "--set", "morphological.window_rows=40", "--show-config").stdout
+        self.assertIn("morphological.window_rows: 40", given)
+        self.assertNotIn("# morphological.window_rows", given)
+
     def test_impossible_mixes(self):
+        self.run_engine(2, *self.SMALL, "--set", "morphological.diagonals=true", "--set",
+                        "morphological.diagonal_steps=10", "--set", "morphological.window_rows=20",
+                        says=["diagonal_steps", "window_rows of at least 22"])
+        self.run_engine(2, *self.SMALL, "--preset", "smaa", "--set", "morphological.search_steps=113", says="1..112")
         self.run_engine(2, *self.SMALL, "--set", "morphological.window_rows=33", says="window_rows")
         self.run_engine(2, *self.SMALL, "--set", "morphological.steps=16", "--set", "morphological.window_rows=20",
                         says="steps")
@@ -189,6 +205,13 @@ class Configuration(Base):
             (("--set", "morphological.edges.threshold_mode=dynamic"), "--set", "morphological.edges.threshold=9",
              "computes the threshold"),
             (("--preset", "mlaa"), "--set", "morphological.steps=3", "extends no run"),
+            ((), "--set", "morphological.quality=low", "morphological.preset = smaa or smaa-dynamic"),
+            ((), "--set", "morphological.search_steps=8", "area = analytic"),
+            ((), "--set", "morphological.diagonal_steps=4", "diagonals = true"),
+            (("--preset", "smaa", "--set", "morphological.quality=low"), "--set", "morphological.diagonal_steps=4",
+             "diagonals = true"),
+            ((), "--set", "morphological.corner_rounding=0", "round_corners = true"),
+            (("--preset", "smaa-dynamic"), "--set", "morphological.edges.threshold=9", "computes the threshold"),
             ((), "--trace-to", "100", "run.trace")]
         for others, option, value, why in morphological:
             self.run_engine(2, *others, option, value, says=["has no effect", why])
