@@ -166,7 +166,8 @@ inline constexpr WorkCount kWorkCounts[] = {{&Work::pixels, reg::kPixels},
                                             {&Work::steps, reg::kSteps},
                                             {&Work::probes, reg::kProbes},
                                             {&Work::divides, reg::kDivides},
-                                            {&Work::blended_pixels, reg::kBlendedPixels}};
+                                            {&Work::blended_pixels, reg::kBlendedPixels},
+                                            {&Work::diagonal_pixels, reg::kDiagonals}};
 static_assert(sizeof(Work) == std::size(kWorkCounts) * sizeof(std::uint64_t),
               "a count is not in the list");
 

@@ -29,11 +29,13 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <systemc>
 #include <vector>
 
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/morphological/blend/area_table.h"
 #include "rtl_model/morphological/parameter_store.h"
 #include "rtl_model/morphological/pipe.h"
 #include "rtl_model/morphological/tokens.h"
@@ -44,6 +46,8 @@ class AreaUnit final : public Unit {
  public:
   In<AreaSlotToken> slots_in{"slots_in"};
   LanePorts<In<LineToken>> lines_h_in, lines_v_in;
+  // From the DiagonalUnit, if it is built.
+  std::optional<In<DiagonalSharesToken>> diagonals_in;
   Out<ShareToken> shares_out{"shares_out"};
   Out<FinishToken> finished_out{"finished_out"};
 
@@ -75,6 +79,16 @@ class AreaUnit final : public Unit {
     std::uint32_t inverse = 0;  // U12.12
     std::uint16_t span = 0;     // U12
     spec::morphological::Side before{}, after{};
+    // Of a table: where the line's ends lie, S13, in the bits of growth and inverse.
+    void set_ends(std::int32_t first, std::int32_t last) {
+      growth = static_cast<std::uint32_t>(first);
+      inverse = static_cast<std::uint32_t>(last);
+    }
+    std::int32_t first_end() const { return static_cast<std::int32_t>(growth); }
+    std::int32_t last_end() const { return static_cast<std::int32_t>(inverse); }
+    // Of the engines with a table or corners.
+    std::uint8_t shape = 0, far = 0;
+    spec::morphological::RunPart part{};
   };
   struct Weights {
     std::uint8_t first = 0, second = 0;
@@ -87,7 +101,7 @@ class AreaUnit final : public Unit {
   // The records of an axis, in banks.
   struct AxisRecords {
     AxisRecords(const std::string& axis, const MemoryShape& marks, std::uint32_t mark_bits,
-                std::uint32_t banks);
+                bool corners);
     const std::size_t banks;
     Memory<void> marks;
     ReadPort<void> read_marks{marks, "raster"};
@@ -100,11 +114,23 @@ class AreaUnit final : public Unit {
     // Lines at the entrance that are stored in this clock.
     std::array<LineToken, kLanes> entered;
     std::size_t entered_count = 0;
+    // With a table: lines whose t(0) is known, a clock before they are stored.
+    std::array<LineToken, kLanes> measured;
+    std::size_t measured_count = 0;
   };
   // An edge of the raster and the record that it lies in.
   struct Edge {
     std::uint16_t k = 0;    // pixel of the record
     std::uint8_t from = 0;  // 0 none, 1 in hand, 2 + b: read from bank b in this beat
+    std::uint8_t near = 0;  // which end, if corners are rounded: 0 start, 1 end, 2 none
+  };
+  // An edge on its way through the table.
+  struct Search {
+    bool active = false;
+    std::int32_t left = 0, right = 0;  // S14, pixels before and behind
+    AreaTable::Query query;
+    std::uint8_t far = 0, near = 0;
+    std::uint16_t span = 0;
   };
   struct Beat {
     Slot slot;
@@ -115,39 +141,69 @@ class AreaUnit final : public Unit {
     std::array<Mark, kLanes> column_mark;
     std::array<Edge, kLanes> horizontal, vertical;
     WeightWords weights;
+    // With crossings in the places of the above: a mark a column, two entries a column.
+    std::array<Mark, kLanes> single_row_mark;
+    std::array<Mark, 2 * kLanes> entry_mark;
+    std::array<Search, 2 * kLanes> search;  // by lane, horizontal first
   };
 
   // Once a clock each, from one place: inline.
   inline void address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat);
+  bool takes_diagonals(const Beat& beat) const {
+    return diagonals_in && beat.evaluates && store_.rules().diagonal_steps != 0;
+  }
+  // The next move brings a beat to stage 8 whose diagonals are not there.
+  bool waits_for_diagonals(Cycle cycle) {
+    const Beat* const beat = diagonals_in ? pipe_.at(7) : nullptr;
+    return beat && takes_diagonals(*beat) && !diagonals_in->can_pop(cycle);
+  }
+  void take_diagonals(Cycle cycle, Beat& beat);
   inline void address_weights(Cycle cycle, const Beat& beat);
   inline void send(Cycle cycle, const Beat& beat);
   inline void share(Cycle cycle, const Beat& beat);
   void match(Cycle cycle, Beat& beat);
   void evaluate(Cycle cycle, Beat& beat);
+  void smaa_match(Cycle cycle, Beat& beat, std::size_t count, std::int32_t row);
+  void smaa_evaluate(Cycle cycle, Beat& beat);
+  void smaa_edge(Beat& beat, std::size_t lane, bool vertical, const Walk& walk, const Edge& edge);
+  void cut(Cycle cycle, Beat& beat);
+  void address_entries(Cycle cycle, Beat& beat);
+  void interpolate(Cycle cycle, Beat& beat);
+  Weights rounded(Weights weights, std::uint8_t far, std::uint8_t near) const;
   void clear_marks(Cycle cycle, const Slot& slot);
+  bool measure_lines();
   bool store_lines(Cycle cycle);
+  // Lines that are stored in this clock.
+  std::size_t entered() const {
+    return table_ ? row_.measured_count + column_.measured_count
+                  : row_.entered_count + column_.entered_count;
+  }
   bool take_lines(Cycle cycle, LanePorts<In<LineToken>>& lines, AxisRecords& side);
   void store(Cycle cycle, AxisRecords& side, const LineToken& token);
-  std::size_t place(const AxisRecords& side, const spec::morphological::RunRecord& run) const;
+  std::size_t place(const AxisRecords& side, const LineToken& token) const;
+  static void set_ends(Walk& walk);
   static Weights area(const Walk& walk, std::uint32_t k);
 
   // Rows of slots that evaluate or blend.
   bool works(const Slot& slot) const { return slot.row + 1 >= lag_; }
   std::int32_t evaluated_row(const Slot& slot) const { return slot.row - lag_ + 1; }
   std::size_t pair_of(std::int32_t row, std::size_t x) const {
-    return static_cast<std::size_t>(row & 1) * pairs_ + x / 2;
+    return static_cast<std::size_t>(row & 1) * pairs_ + (crossings_ ? x : x / 2);
   }
 
   const ParameterStore& store_;
   const std::size_t lanes_;
   const std::int32_t lag_;     // rows from a slot to the row that it blends
   const std::size_t columns_;  // whole beats
-  const std::size_t pairs_;    // of columns, whole beats
+  const bool crossings_, corners_, smaa_;  // built with; smaa_: with any of these, or a table
+  const std::size_t pairs_;  // of columns, whole beats; with crossings columns
   Memory<void> weight_lines_;
   ReadPort<void> read_weights_{weight_lines_, "row above"};
   WritePort<void> write_weights_{weight_lines_, "row"};
   std::vector<WeightWords> weights_;  // the words of weight_lines
   AxisRecords row_, column_;
+  std::optional<AreaTable> table_;
+  std::optional<Activity> diagonals_;  // waits for their shares
   Pipe<Beat, spec::morphological::kAreaLatency> pipe_;
   Mark hand_;       // the horizontal record in hand, stage 2
   Walk hand_walk_;  // stage 3

@@ -27,6 +27,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <optional>
 #include <systemc>
 
 #include "rtl_model/fabric/fifo.h"
@@ -44,6 +45,8 @@ class RunExtractor final : public Unit {
   In<FinishToken> finished_in{"finished_in"};
   Out<AreaSlotToken> area_slots_out{"area_slots_out"};
   Out<FetchToken> fetches_out{"fetches_out"};
+  // For the DiagonalUnit, if it is built.
+  std::optional<Out<DiagonalColumnsToken>> columns_out;
   // For the predictors, one a lane: bind to records(axis, lane).
   Link<RunToken>& records(spec::morphological::Axis axis, std::size_t lane) {
     return side(axis).fifo[lane].link();
@@ -88,13 +91,27 @@ class RunExtractor final : public Unit {
     std::array<RunToken, std::size_t{3} * spec::morphological::kMaxLanes> run;
   };
 
+  // The crossing edges at a corner, and which of them go on for a second pixel: bit 0 on the first
+  // side, bit 1 on the second.
+  struct Corner {
+    std::uint8_t code = 0, far = 0;
+  };
+
+  bool waits_for_diagonals(Cycle cycle) const;
   bool take_slot(Cycle cycle);  // false: it waits for records
   void pass(Cycle cycle);
+  void send_columns(Cycle cycle);
   void horizontal(Find& find, std::int32_t first, std::int32_t end);
-  void close(Find& find, std::int32_t end, std::uint8_t end_code);
+  void close(Find& find, std::int32_t end, Corner corner);
   void vertical(Find& find, std::int32_t first);
-  void found(Find& find, spec::morphological::RunRecord run, std::uint8_t start_code,
-             std::uint8_t end_code) const;
+  void smaa_vertical(Find& find, std::int32_t first, std::int32_t end);
+  void vertical_at(Find& find, std::int32_t x, bool starts);
+  void found(Find& find, spec::morphological::RunRecord run, Corner start, Corner end) const;
+  bool crosses(std::int32_t x, std::int32_t y) const {
+    return window_.top(x - 1, y) || window_.top(x, y);
+  }
+  Corner corner_of_row(std::int32_t x) const;
+  Corner corner_of_column(std::int32_t x, std::int32_t y, bool far) const;
   void deliver(const Find& find);
   void drain(AxisSide& from, Cycle cycle);
 
@@ -102,7 +119,17 @@ class RunExtractor final : public Unit {
   EdgeWindow& window_;
   EdgeRows& rows_;
   const std::int32_t lanes_, reach_rows_, reach_columns_;
+  const bool crossings_, corners_;  // built with
+  // Records of an axis that may wait another clock: with crossings the last slot of a row may find
+  // one more than there are lanes, the first of the next one fewer.
+  const std::size_t spare_;
+  // Rows of a frame whose diagonals take more clocks to come than a row has beats begin when those
+  // of the row before are there.
+  const Cycle diagonal_delay_;
+  const std::int32_t diagonal_rows_;  // M
+  Cycle passed_ = 0;                  // the last slot in clock 1
   Activity records_;
+  std::optional<Activity> diagonals_;
   AxisSide h_, v_;
   std::array<std::uint32_t, 2> unfinished_{};  // records, by parity of the row of their slot
   std::array<std::uint32_t, 2> finding_{};     // slots in clocks 2 to 4, alike
@@ -118,7 +145,7 @@ class RunExtractor final : public Unit {
   EdgeBits here_;         // of row y in the beat
   bool open_ = false;     // a horizontal run
   std::int32_t start_ = 0;
-  std::uint8_t start_code_ = 0;
+  Corner start_corner_;
 };
 
 }  // namespace deburr::rtl::morphological

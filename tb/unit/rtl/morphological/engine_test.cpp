@@ -333,10 +333,12 @@ INSTANTIATE_TEST_SUITE_P(
                        p.edge_source = spec::morphological::EdgeSource::kPredicated;
                        p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
                      }},
-        BadParameter{"table_full is not built",
-                     [](auto& p) { p.area = spec::morphological::AreaSource::kTableFull; }},
-        BadParameter{"diagonals: not built", [](auto& p) { p.diagonals = true; }},
-        BadParameter{"round_corners: not built", [](auto& p) { p.round_corners = true; }},
+        BadParameter{"diagonal_steps: 10 steps need window_rows of at least 22",
+                     [](auto& p) {
+                       p.window_rows = 20;
+                       p.diagonals = true;
+                       p.diagonal_steps = 10;
+                     }},
         BadParameter{"threshold", [](auto& p) { p.threshold = 0; }},
         BadParameter{"no more than two of 24 quotient bits",
                      [](auto& p) { p.divider_latency = 13; }},

@@ -36,7 +36,7 @@ TEST(ParameterStoreBlock, TrimIsABitOfRulesLatchedWithTheFrame) {
   EXPECT_TRUE(on.store.rules().safe);
   on.store.leave();
   on.bus.write(reg::kRules, ~0u);
-  EXPECT_EQ(on.bus.read(reg::kRules), 0x1FFFFu) << "no bits beyond";
+  EXPECT_EQ(on.bus.read(reg::kRules), 0x7FFFFFu) << "no bits beyond";
   on.reset();
   EXPECT_EQ(on.bus.read(reg::kRules), reset_value);
 }
@@ -48,13 +48,64 @@ TEST(ParameterStoreBlock, ResetValueOfTrimIsTheParameter) {
   EXPECT_FALSE(off.store.rules().trim);
 }
 
+// The register SMAA: its reset value, and values that no range has.
+TEST(ParameterStoreBlock, SmaaIsLimitedToItsRangesAndToWhatIsBuilt) {
+  Parameters p = smaa();
+  p.diagonal_steps = 6;
+  p.search_steps = 17;
+  p.corner_rounding = 200;
+  Registers store(p);
+  EXPECT_EQ(store.bus.read(reg::kSmaa), 17u | 6u << 8 | 200u << 16);
+  struct Row {
+    std::uint32_t value;
+    std::int32_t search, diagonal, loss;
+  };
+  for (const Row& row : {Row{17u | 6u << 8 | 200u << 16, 17, 6, 56}, Row{0, 1, 0, 256},
+                         Row{1u | 1u << 8 | 1u << 16, 1, 1, 255},
+                         Row{112u | 7u << 8 | 256u << 16, 112, 6, 0},
+                         Row{127u | 31u << 8 | 511u << 16, 112, 6, 0}}) {
+    store.bus.write(reg::kSmaa, row.value);
+    store.frame(8, 8);
+    const rtl::morphological::FrameRules& rules = store.store.rules();
+    EXPECT_TRUE(rules.table && rules.crossings && rules.strongest);
+    EXPECT_EQ(rules.search_steps, row.search) << row.value;
+    EXPECT_EQ(rules.diagonal_steps, row.diagonal) << row.value;
+    EXPECT_EQ(rules.corner_loss, row.loss) << row.value;
+    store.store.leave();
+  }
+  // Each block is switched by its own bit.
+  const std::uint32_t rules = store.bus.read(reg::kRules);
+  for (int bit = 18; bit <= 22; ++bit) {
+    store.bus.write(reg::kRules, rules & ~(1u << bit));
+    store.bus.write(reg::kSmaa, 4u | 6u << 8);
+    store.frame(8, 8);
+    EXPECT_EQ(store.store.rules().crossings, bit != 18);
+    EXPECT_EQ(store.store.rules().table, bit != 19);
+    EXPECT_EQ(store.store.rules().diagonal_steps, bit != 20 ? 6 : 0);
+    EXPECT_EQ(store.store.rules().corners, bit != 21);
+    EXPECT_EQ(store.store.rules().corner_loss, 256);
+    EXPECT_EQ(store.store.rules().strongest, bit != 22);
+    store.store.leave();
+  }
+}
+
+TEST(ParameterStoreBlock, DiagonalStepsAreAtMostTheReach) {
+  Parameters p = smaa();
+  p.window_rows = 10;
+  p.diagonal_steps = 4;
+  Registers store(p);
+  store.bus.write(reg::kSmaa, 4u | 31u << 8);
+  store.frame(8, 8);
+  EXPECT_EQ(store.store.rules().diagonal_steps, 4);
+}
+
 // Bits that a register does not have stay 0 on this way as well.
 TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
   EngineBench bench(in_memory());
   ASSERT_TRUE(bench.bus.debug_write(reg::kPixelBase, 0x12345));
   ASSERT_TRUE(bench.bus.debug_write(reg::kSize, 97u | 61u << 16 | 0xC000C000u));
   ASSERT_TRUE(bench.bus.debug_write(reg::kThreshold, 0xABCD0000u | 6554u));
-  ASSERT_TRUE(bench.bus.debug_write(reg::kRules, 0xFFFE0000u | 1u << 15));
+  ASSERT_TRUE(bench.bus.debug_write(reg::kRules, 0xFF800000u | 1u << 15));
   const Frame in = noise();
   bench.driver.send(beats_of(in, 1));
   bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },
@@ -122,8 +173,8 @@ TEST(Registers, RulesCountFromTheNextFrame) {
   // mlaa-slope.
   bench.bus.write(reg::kRules, 1u << 15 | 1u << 6 | 4u << 8);
   EXPECT_EQ(hash(bench.run(noise())), 0x6c40266cf03f3513u);
-  // Codes that no choice has: luma, off, none.
-  bench.bus.write(reg::kRules, 1u << 15 | 3u | 3u << 4 | 3u << 6 | 31u << 8);
+  // Codes that no choice has: luma, none.
+  bench.bus.write(reg::kRules, 1u << 15 | 3u | 3u << 6 | 31u << 8);
   EXPECT_EQ(hash(bench.run(line())), 0x5d62265609239471u);
 }
 
@@ -335,14 +386,29 @@ INSTANTIATE_TEST_SUITE_P(
         Field{"dynamic_does_not_go_with_depth", depth, reg::kRules, 2, 2, 1, as_it_is, false},
         Field{"dynamic_luma_max", dynamic, reg::kRules, 3, 3, 1,
               [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kMax; }},
+        Field{"dynamic_luma_min", dynamic, reg::kRules, 17, 17, 1,
+              [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kMin; }},
+        Field{"dynamic_luma_mean",
+              [](P& p) {
+                dynamic(p);
+                p.dynamic_luma = spec::morphological::DynamicLuma::kMax;
+              },
+              reg::kRules, 17, 17, 1,
+              [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kMean; }},
+        Field{"blend_strongest", as_it_is, reg::kRules, 22, 22, 1,
+              [](P& p) { p.blend = spec::morphological::BlendRule::kStrongest; }},
+        Field{"crossings_are_off_where_not_built", as_it_is, reg::kRules, 18, 18, 1, as_it_is,
+              false},
+        Field{"tables_are_off_where_not_built", as_it_is, reg::kRules, 19, 19, 1, as_it_is, false},
+        Field{"diagonals_are_off_where_not_built", as_it_is, reg::kRules, 20, 20, 1, as_it_is,
+              false},
+        Field{"corners_are_off_where_not_built", as_it_is, reg::kRules, 21, 21, 1, as_it_is, false},
         Field{"local_contrast_paper", as_it_is, reg::kRules, 4, 5, 1,
               [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kPaper; }},
         Field{"local_contrast_symmetric", as_it_is, reg::kRules, 4, 5, 2,
               [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kSymmetric; }},
-        Field{"local_contrast_3_is_off",
-              [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kSymmetric; },
-              reg::kRules, 4, 5, 3,
-              [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kOff; }},
+        Field{"local_contrast_smaa", as_it_is, reg::kRules, 4, 5, 3,
+              [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kSmaa; }},
         Field{"local_contrast_does_not_go_with_depth", depth, reg::kRules, 4, 5, 2, as_it_is,
               false},
         Field{"predictor_none", as_it_is, reg::kRules, 6, 7, 0,
@@ -392,9 +458,10 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(RegisterBits, ThatDoNotExistReadAsZero) {
   EngineBench bench(plain());
   const std::map<std::uint32_t, std::uint32_t> bits = {
-      {reg::kSize, 0x3FFF3FFF},    {reg::kRules, 0x1FFFF},         {reg::kThreshold, 0xFFFF},
+      {reg::kSize, 0x3FFF3FFF},    {reg::kRules, 0x7FFFFF},        {reg::kThreshold, 0xFFFF},
       {reg::kThresholdOn, 0xFFFF}, {reg::kThresholdOff, 0xFFFF},   {reg::kAlpha, 0xFFFF},
-      {reg::kFloor, 0xFFFF},       {reg::kDepthThreshold, 0xFFFF}, {reg::kPixelBase, 0xFFFFFFC0}};
+      {reg::kFloor, 0xFFFF},       {reg::kDepthThreshold, 0xFFFF}, {reg::kPixelBase, 0xFFFFFFC0},
+      {reg::kSmaa, 0x01FF1F7F}};
   for (const auto& [offset, mask] : bits) {
     bench.bus.write(offset, 0xFFFFFFFF);
     EXPECT_EQ(bench.bus.read(offset), mask) << offset;
