@@ -92,8 +92,8 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
   f.source = choice<spec::morphological::EdgeSource>(bits(rules, 1, 0),
                                                      spec::morphological::kEdgeSourceNames.size());
   f.dynamic = bits(rules, 2, 2) != 0 && f.source == spec::morphological::EdgeSource::kLuma;
-  f.dynamic_luma = static_cast<spec::morphological::DynamicLuma>(bits(rules, 3, 3) |
-                                                                bits(rules, 17, 17) << 1);
+  f.dynamic_luma =
+      static_cast<spec::morphological::DynamicLuma>(bits(rules, 3, 3) | bits(rules, 17, 17) << 1);
   f.local_contrast = choice<spec::morphological::LocalContrast>(
       bits(rules, 5, 4), spec::morphological::kLocalContrastNames.size());
   if (f.source == spec::morphological::EdgeSource::kDepth)

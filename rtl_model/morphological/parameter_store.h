@@ -5,12 +5,11 @@
 // inside. Timing: a write counts from the next clock edge on; rules are latched with the first
 // beat of a frame. A write while a frame is inside is ignored (CONTROL and STATUS excepted) and
 // sets a sticky bit. Codes of RULES that no choice has count as code 0; steps are limited to
-// window_rows / 2 - 2, those of SMAA's searches to their ranges; what was not built (depth lines with
-// source = luma) reads as 0, and `contiguous`, crossings, tables, diagonals and corners count as off
-// in an engine that was built without them.
-// A reset gives every register its reset value; SIZE is 0 then and must be written again.
-// Cost: 13 x 32 flip-flops twice (registers, decoded products of the frame inside).
-// Made for 300 MHz; longest path: 16-bit multiply by 255.
+// window_rows / 2 - 2, those of SMAA's searches to their ranges; what was not built (depth lines
+// with source = luma) reads as 0, and `contiguous`, crossings, tables, diagonals and corners count
+// as off in an engine that was built without them. A reset gives every register its reset value;
+// SIZE is 0 then and must be written again. Cost: 13 x 32 flip-flops twice (registers, decoded
+// products of the frame inside). Made for 300 MHz; longest path: 16-bit multiply by 255.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +42,7 @@ struct FrameRules {
   bool corners = false;                   // are rounded
   std::int32_t corner_loss = 0;           // U9, 256 - corner_rounding
   bool strongest = false;                 // blend
-  std::uint32_t pixel_base = 0;  // bytes
+  std::uint32_t pixel_base = 0;           // bytes
 };
 
 // CONTROL and STATUS, for the engine's ControlRegisters.

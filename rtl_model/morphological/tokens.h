@@ -102,8 +102,8 @@ struct FetchToken {
   }
 };
 
-// RunExtractor -> DiagonalUnit: columns of the beat about row slot.row - R - 3. Bit k: row k - M from
-// that one, M as built.
+// RunExtractor -> DiagonalUnit: columns of the beat about row slot.row - R - 3. Bit k: row k - M
+// from that one, M as built.
 struct DiagonalColumnsToken {
   Slot slot;
   std::array<std::uint64_t, spec::morphological::kMaxLanes> left, top;

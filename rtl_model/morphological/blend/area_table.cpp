@@ -132,13 +132,13 @@ AreaTable::AreaTable(AreaSource layout, int lanes)
   for (int parity = 0; parity < static_cast<int>(kParities); ++parity) {
     area_rom_.emplace_back(
         ("area_rom" + std::to_string(parity)).c_str(),
-        MemoryShape{.words = static_cast<std::uint64_t>(tiles_of(layout) * kTileWords),
-                    .word_bits = layout == AreaSource::kTableMinimal ? 8u : 16u,
-                    .kind = MemoryKind::kRom,
-                    .read_ports = static_cast<std::uint32_t>(readers) *
-                                  static_cast<std::uint32_t>(reads_),
-                    .write_ports = 0,
-                    .content = "areas of tiles, by the parities of both roots"},
+        MemoryShape{
+            .words = static_cast<std::uint64_t>(tiles_of(layout) * kTileWords),
+            .word_bits = layout == AreaSource::kTableMinimal ? 8u : 16u,
+            .kind = MemoryKind::kRom,
+            .read_ports = static_cast<std::uint32_t>(readers) * static_cast<std::uint32_t>(reads_),
+            .write_ports = 0,
+            .content = "areas of tiles, by the parities of both roots"},
         area_words(layout, parity));
     for (std::size_t port = 0; port < static_cast<std::size_t>(readers) * reads_; ++port)
       read_[static_cast<std::size_t>(parity)].emplace_back(area_rom_.back(),

@@ -9,11 +9,10 @@
 // are not read, 7 and 14 read 6, 11 and 13 read 9; minimal: two tiles of one value, T, read for
 // both sides, and U. All give the same shares. Every word is computed from the formulas of
 // docs/number_formats_morphological.md when the engine is built.
-// Formats: roots U4.8, entries U0.9 in eight bits, shares U0.8. Cost a reader: two reads of sqrt_rom
-// (225 x 12), one of each area_rom (minimal: two); three multipliers 9 x 8 and 18 x 8 for each of
-// two values.
-// Made for 250 MHz; longest path: ROM read + 9-bit subtract, 18 x 8 multiply + 25-bit add.
-// Source: SMAA (Jimenez et al. 2012); paper 003 (merged); minimal is ours.
+// Formats: roots U4.8, entries U0.9 in eight bits, shares U0.8. Cost a reader: two reads of
+// sqrt_rom (225 x 12), one of each area_rom (minimal: two); three multipliers 9 x 8 and 18 x 8 for
+// each of two values. Made for 250 MHz; longest path: ROM read + 9-bit subtract, 18 x 8 multiply +
+// 25-bit add. Source: SMAA (Jimenez et al. 2012); paper 003 (merged); minimal is ours.
 #pragma once
 
 #include <array>

@@ -89,8 +89,7 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
                lanes_),
       crossings_(p.ends == spec::morphological::Ends::kCrossings),
       corners_(p.round_corners),
-      smaa_(crossings_ || corners_ ||
-            p.area != spec::morphological::AreaSource::kAnalytic),
+      smaa_(crossings_ || corners_ || p.area != spec::morphological::AreaSource::kAnalytic),
       pairs_(crossings_ ? columns_ : columns_ / 2),
       weight_lines_("weight_lines", {.words = columns_,
                                      .word_bits = 3 * kShareBits + 2 * kSpanBits,
@@ -106,14 +105,14 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
                        crossings_ ? "a horizontal record a column, two rows"
                                   : "a horizontal record a pair of columns, two rows"),
            // Row, odd column, length.
-           kCoordinateBits + 1 + kLengthBits,
-           corners_),
-      column_("column",
-              marks_shape(crossings_ ? 2 * columns_ : columns_,
-                          static_cast<std::size_t>(p.line_pixels), crossings_ ? 2 * lanes_ : lanes_,
-                          crossings_ ? "two vertical records a column" : "a vertical record a column"),
-              // Start, length up to R.
-              kCoordinateBits + 8, corners_) {
+           kCoordinateBits + 1 + kLengthBits, corners_),
+      column_(
+          "column",
+          marks_shape(crossings_ ? 2 * columns_ : columns_, static_cast<std::size_t>(p.line_pixels),
+                      crossings_ ? 2 * lanes_ : lanes_,
+                      crossings_ ? "two vertical records a column" : "a vertical record a column"),
+          // Start, length up to R.
+          kCoordinateBits + 8, corners_) {
   if (p.area != spec::morphological::AreaSource::kAnalytic) table_.emplace(p.area, store.lanes());
   if (!p.diagonals) return;
   diagonals_in.emplace("diagonals_in");
@@ -564,7 +563,8 @@ Activity AreaUnit::tick(Cycle cycle) {
     }
   }
   if (entered() != 0) {
-    if (!store_lines(cycle)) return did ? kBusy : blocked ? kStalledDownstream : waits ? *diagonals_ : kIdle;
+    if (!store_lines(cycle))
+      return did ? kBusy : blocked ? kStalledDownstream : waits ? *diagonals_ : kIdle;
     did = true;
   }
   if (table_) did |= measure_lines();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The area that a record's line cuts off at each of its edges, as shares of the pixels across: a
-// trapezoid, or two triangles where the line crosses the edge.
+// trapezoid, or two triangles where the line crosses the edge; or SMAA's table of areas, by the
+// distances to both ends. Shares at sharp corners are reduced; a diagonal gives its own instead.
 //
 // Where: between the LineUnits and the Blender. In slot row s it evaluates row y = s - R - 4 as the
 // raster passes: of each axis one edge a lane and clock. A record is written once and read at each
@@ -9,21 +10,28 @@
 // start, and the record stays in hand from there on; vertical ones are read in every row.
 // To the Blender go the shares of row y - 1: those of the row's edges from weight_lines, those of
 // the top edges below as evaluated.
+// With crossings there is a horizontal record a column, and each column has two vertical ones, used
+// in turn (the token's `entry`): a run may begin in the row after its predecessor's end.
 // Latency 9, initiation interval 1. Stages: 1 marks: address; 2 marks: start and length against the
 // raster, records: address; 3 records, k x growth; 4 t at both ends of the edge; 5 quantised; 6
 // squares, trapezoid; 7 triangles; 8 limits, sides, weight_lines: address; 9 weight_lines,
-// write back.
+// write back. With a table: 3 k - a, b - 1 - k; 4 limits of the searches, shape that is left,
+// sqrt_rom: address; 5 roots, area_rom: address; 6 entries, differences; 7, 8 interpolation. Stage
+// 8 takes a beat of diagonals, 9 the corner factor and the choice between them.
 // A line that arrives is popped behind its slot (stage 2), multiplied in that clock and stored in
-// the next, which finishes the record. Marks and records have a bank a lane (a pair of columns a
+// the next, which finishes the record; with a table a clock later, since its ends a and b are two
+// more multiplies. Marks and records have a bank a lane (a pair of columns a
 // bank: horizontal) with one write port each; a line whose bank a lower lane takes in its clock
 // waits, which `bank_conflicts` counts. Slot rows 0 and 1 clear the marks.
-// Stalls: `downstream`. Formats: t S4.24, q U1.12, shares U0.8. Cost an axis and lane: a multiplier
-// 26 x 12, two 12 x 12 and two 24 x 24 (triangles); at the entrance two multipliers 24 x 24.
-// Memory: weight_lines a column (first, second and span of its left edge, second and span of its
-// top edge); row_marks and row_records, two rows of pairs of columns; column_marks and
-// column_records, a column each; all 1R1W a bank.
+// Stalls: `downstream`; `diagonals` (those of a beat have not come: not in an engine whose rows
+// begin as the RunExtractor lets them). Formats: t S4.24, q U1.12, a, b S13, shares U0.8. Cost an
+// axis and lane: a multiplier 26 x 12, two 12 x 12 and two 24 x 24 (triangles); at the entrance two
+// multipliers 24 x 24; with a table two 18 x 24 more there, and AreaTable's; with corners two 10
+// x 8. Memory: weight_lines a column (first, second and span of its left edge, second and span of
+// its top edge); row_marks and row_records, two rows of pairs of columns; column_marks and
+// column_records, a column each (with crossings a column and two a column); all 1R1W a bank.
 // Made for 250 MHz; longest path: 24 x 24 multiply.
-// Source: Reshetov 2009; paper 000, section 2.
+// Source: Reshetov 2009; paper 000, section 2; SMAA (Jimenez et al. 2012); paper 003.
 #pragma once
 
 #include <array>
@@ -193,10 +201,10 @@ class AreaUnit final : public Unit {
 
   const ParameterStore& store_;
   const std::size_t lanes_;
-  const std::int32_t lag_;     // rows from a slot to the row that it blends
-  const std::size_t columns_;  // whole beats
+  const std::int32_t lag_;                 // rows from a slot to the row that it blends
+  const std::size_t columns_;              // whole beats
   const bool crossings_, corners_, smaa_;  // built with; smaa_: with any of these, or a table
-  const std::size_t pairs_;  // of columns, whole beats; with crossings columns
+  const std::size_t pairs_;                // of columns, whole beats; with crossings columns
   Memory<void> weight_lines_;
   ReadPort<void> read_weights_{weight_lines_, "row above"};
   WritePort<void> write_weights_{weight_lines_, "row"};

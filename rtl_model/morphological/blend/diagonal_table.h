@@ -10,14 +10,13 @@
 
 namespace deburr::rtl::morphological {
 
-inline constexpr int kDiagonalWords = 4 * 4 * spec::morphological::kDiagonalDistances *
-                                      spec::morphological::kDiagonalDistances;
+inline constexpr int kDiagonalWords =
+    4 * 4 * spec::morphological::kDiagonalDistances * spec::morphological::kDiagonalDistances;
 
 constexpr std::uint64_t diagonal_address(int e1, int e2, int d1, int d2) {
-  return static_cast<std::uint64_t>(
-      ((4 * e1 + e2) * spec::morphological::kDiagonalDistances + d1) *
-          spec::morphological::kDiagonalDistances +
-      d2);
+  return static_cast<std::uint64_t>(((4 * e1 + e2) * spec::morphological::kDiagonalDistances + d1) *
+                                        spec::morphological::kDiagonalDistances +
+                                    d2);
 }
 
 const std::vector<std::uint16_t>& diagonal_words();

@@ -38,9 +38,8 @@ DiagonalUnit::DiagonalUnit(const sc_core::sc_module_name& name, ClockDomain& clo
             .content = "areas of diagonals, by crossing codes and distances of both ends"},
            diagonal_words()),
       shares_("diagonal_shares",
-              static_cast<std::uint32_t>((static_cast<std::size_t>(p.line_pixels) + lanes_ - 1) /
-                                             lanes_ +
-                                         16),
+              static_cast<std::uint32_t>(
+                  (static_cast<std::size_t>(p.line_pixels) + lanes_ - 1) / lanes_ + 16),
               PayloadShape{.lanes = static_cast<std::uint32_t>(lanes_)}) {
   for (std::size_t lane = 0; lane < lanes_; ++lane) {
     read_.emplace_back(rom_, std::to_string(lane) + " rising");
@@ -147,9 +146,8 @@ void DiagonalUnit::address(Cycle cycle, const Beat& beat) {
 
 // Stage 5.
 void DiagonalUnit::deliver(Cycle cycle, const Beat& beat) {
-  const std::uint32_t most = store_.rules().strongest
-                                 ? spec::morphological::kMaxDiagonalWeight
-                                 : spec::morphological::kMaxWeight;
+  const std::uint32_t most = store_.rules().strongest ? spec::morphological::kMaxDiagonalWeight
+                                                      : spec::morphological::kMaxWeight;
   DiagonalSharesToken token{};
   for (std::size_t lane = 0; lane < lanes_; ++lane) {
     if (!(beat.searched >> lane & 1)) continue;

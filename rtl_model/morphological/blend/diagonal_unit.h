@@ -16,10 +16,10 @@
 // crossing bits, d1 + d2 > 2; 4 diagonal_rom: address; 5 words, sums, limits, push. Stalls:
 // `downstream` (never: the FIFO holds a row and 16 beats, and the AreaUnit is ten slots behind).
 // Formats: shares U0.8, span U6. Cost a lane: four first-gap circuits of M bits, eight choices of
-// M + 1 : 1, two reads of diagonal_rom (6400 x 16); diagonal_window, (D + 1) lanes + M + 1 columns x
-// (4 M + 2 + 7) bits; diagonal_shares, a word of 23 lanes bits a beat.
-// Made for 250 MHz; longest path: 32 : 1 choice + 5-bit add, ROM read + 9-bit add.
-// Source: SMAA (Jimenez et al. 2012), diagonal patterns.
+// M + 1 : 1, two reads of diagonal_rom (6400 x 16); diagonal_window, (D + 1) lanes + M + 1 columns
+// x (4 M + 2 + 7) bits; diagonal_shares, a word of 23 lanes bits a beat. Made for 250 MHz; longest
+// path: 32 : 1 choice + 5-bit add, ROM read + 9-bit add. Source: SMAA (Jimenez et al. 2012),
+// diagonal patterns.
 #pragma once
 
 #include <array>

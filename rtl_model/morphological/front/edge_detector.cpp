@@ -198,8 +198,7 @@ bool EdgeDetector::survives(Position p, Position across, Position along) const {
     most = std::max(
         most, std::min(beside, std::max(step(across, across_along), step(across, across_after))));
   }
-  return 2 * c > most ||
-         (rule == spec::morphological::LocalContrast::kSmaa && 2 * c == most);
+  return 2 * c > most || (rule == spec::morphological::LocalContrast::kSmaa && 2 * c == most);
 }
 
 }  // namespace deburr::rtl::morphological

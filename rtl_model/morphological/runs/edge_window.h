@@ -8,15 +8,15 @@
 // hand is always at the same bits, and rows that are not there read as 0: those below the frame
 // come in as zeros, those above it are what slot row 0 clears. Holds window_rows + 1 rows: R on
 // either side of the row whose runs are being predicted, one for the records that are still under
-// way when the next slot row has begun, and the row being written. With crossings a word has one bit
-// more.
+// way when the next slot row has begun, and the row being written. With crossings a word has one
+// bit more.
 //
 // Synchronous SRAM, latency 1, never stalls. Ports: 1 write and 1 read of a beat (extractor), and
 // reads of the two columns beside a lattice line, as many as the schedule of the predictors has
 // (PortSchedule). Read-first: a word that is read in the clock in which it moves on is the old one;
-// where the beats are in the frame tells which it was. Cost: (window_rows + 1) x 2 bits a column (with
-// crossings one more), a copy a read port, banks by column. Longest path, at the address: a comparator of 13 bits and a
-// choice of two.
+// where the beats are in the frame tells which it was. Cost: (window_rows + 1) x 2 bits a column
+// (with crossings one more), a copy a read port, banks by column. Longest path, at the address: a
+// comparator of 13 bits and a choice of two.
 #pragma once
 
 #include <algorithm>

@@ -40,7 +40,8 @@ RunExtractor::RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clo
                              "finished")) {
   if (p.diagonals) {
     columns_out.emplace("columns_out");
-    diagonals_ = declare_stall("diagonals", "a short row waits for the diagonals of the one before");
+    diagonals_ =
+        declare_stall("diagonals", "a short row waits for the diagonals of the one before");
   }
   const auto depth = static_cast<std::uint32_t>(p.record_fifo);
   const PayloadShape shape = record_shape(p, "", "run.");
@@ -189,10 +190,9 @@ void RunExtractor::horizontal(Find& find, std::int32_t first, std::int32_t end) 
         start_corner_ = corner;
       } else if (x - start_ == reach_columns_) {
         // One edge longer than the reach: the head is known.
-        found(
-            find,
-            {Axis::kHorizontal, RunPart::kHead, u16(row_), u16(start_), u16(reach_columns_ / 2)},
-            start_corner_, {});
+        found(find,
+              {Axis::kHorizontal, RunPart::kHead, u16(row_), u16(start_), u16(reach_columns_ / 2)},
+              start_corner_, {});
       }
     } else if (open_) {
       close(find, x, corner_of_row(x));
@@ -227,8 +227,7 @@ RunExtractor::Corner RunExtractor::corner_of_column(std::int32_t x, std::int32_t
                                                     bool far) const {
   Corner corner{code(window_.top(x - 1, y), window_.top(x, y))};
   if (far)
-    corner.far =
-        code(window_.top(x - 2, y), x + 1 < store_.rules().width && window_.top(x + 1, y));
+    corner.far = code(window_.top(x - 2, y), x + 1 < store_.rules().width && window_.top(x + 1, y));
   return corner;
 }
 

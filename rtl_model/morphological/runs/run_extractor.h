@@ -12,15 +12,24 @@
 //   4      code of its end: choice of a row; shape; side or none
 //   5      into the FIFOs of the lanes in rotation, one a FIFO and clock
 //
+// With crossings a run also ends, and another begins, at a corner inside it that has a crossing
+// edge: a record a column and axis. Which of two entries a vertical run has is a bit of the
+// column's word, which turns over where a run begins. With rounded corners a record carries whether
+// its crossings go on for a second pixel; vertical runs need the column to the right for that and
+// are looked for a column behind, in the last slot of a row at its last column as well. With
+// diagonals clock 1 hands the columns of the beat on to the DiagonalUnit.
+//
 // Latency 2 of a slot, initiation interval 1; a record can be taken from its FIFO 6 clocks after
 // its slot was. Records without a side are counted and go nowhere. Rows of a single beat read a
 // word that is being written: it is taken from the register that it was written from.
 // Stalls: `records` (a FIFO is full, or the interlock: slot row s waits until all records found in
-// slot row s - 2 are finished, and those that are being looked for found), `downstream`.
+// slot row s - 2 are finished, and those that are being looked for found), `diagonals` (a row of
+// fewer beats than a diagonal takes waits until those of the row before are there), `downstream`.
 // Cost a lane: a first-gap circuit of R + 1 bits, two choices of R + 1 : 1, two counters, 3 columns
-// of flip-flops (window_rows + 1 pairs of bits). Memory: record_fifo entries an axis and lane.
+// of flip-flops (window_rows + 1 pairs of bits; with corners 5, and a circuit more). Memory:
+// record_fifo entries an axis and lane.
 // Made for 250 MHz; longest path: 32 : 1 choice, 16 : 1 table of shapes.
-// Source: paper 000, section 2.
+// Source: paper 000, section 2; SMAA (Jimenez et al. 2012).
 #pragma once
 
 #include <array>

@@ -92,9 +92,9 @@ TEST(EdgeDetectorBlock, EachLumaRuleIsStrictAtEquality) {
         Row{0, 150, 100, false, false}, Row{0, 151, 100, true, false},
         Row{1, 100, 200, false, false}, Row{1, 100, 201, true, true},
         Row{1, 100, 199, false, false}, Row{2, 100, 150, false, false},
-        Row{2, 100, 151, true, true}, Row{2, 100, 149, false, false},
-        Row{3, 60, 100, false, false}, Row{3, 60, 101, true, true}, Row{3, 60, 99, false, false},
-        Row{3, 61, 101, false, false}, Row{3, 59, 99, true, true}}) {
+        Row{2, 100, 151, true, true}, Row{2, 100, 149, false, false}, Row{3, 60, 100, false, false},
+        Row{3, 60, 101, true, true}, Row{3, 60, 99, false, false}, Row{3, 61, 101, false, false},
+        Row{3, 59, 99, true, true}}) {
     const std::map<std::uint32_t, std::uint32_t> writes = {
         {reg::kRules, 1u << 2 | (r.rule & 1) << 3 | r.rule >> 1 << 17},
         {reg::kAlpha, 32768},

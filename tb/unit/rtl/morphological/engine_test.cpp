@@ -323,26 +323,27 @@ TEST_P(BadParameters, AreNamed) {
 }
 INSTANTIATE_TEST_SUITE_P(
     Bad, BadParameters,
-    ::testing::Values(
-        BadParameter{"window_rows", [](auto& p) { p.window_rows = 67; }},
-        BadParameter{"window_rows", [](auto& p) { p.window_rows = 8; }},
-        BadParameter{"steps need window_rows of at least 20", [](auto& p) { p.window_rows = 18; }},
-        BadParameter{"reach_columns", [](auto& p) { p.reach_columns = 3; }},
-        BadParameter{"predicated",
-                     [](auto& p) {
-                       p.edge_source = spec::morphological::EdgeSource::kPredicated;
-                       p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
-                     }},
-        BadParameter{"diagonal_steps: 10 steps need window_rows of at least 22",
-                     [](auto& p) {
-                       p.window_rows = 20;
-                       p.diagonals = true;
-                       p.diagonal_steps = 10;
-                     }},
-        BadParameter{"threshold", [](auto& p) { p.threshold = 0; }},
-        BadParameter{"no more than two of 24 quotient bits",
-                     [](auto& p) { p.divider_latency = 13; }},
-        BadParameter{"line_pixels", [](auto& p) { p.line_pixels = 8193; }}));
+    ::testing::Values(BadParameter{"window_rows", [](auto& p) { p.window_rows = 67; }},
+                      BadParameter{"window_rows", [](auto& p) { p.window_rows = 8; }},
+                      BadParameter{"steps need window_rows of at least 20",
+                                   [](auto& p) { p.window_rows = 18; }},
+                      BadParameter{"reach_columns", [](auto& p) { p.reach_columns = 3; }},
+                      BadParameter{"predicated",
+                                   [](auto& p) {
+                                     p.edge_source = spec::morphological::EdgeSource::kPredicated;
+                                     p.threshold_mode =
+                                         spec::morphological::ThresholdMode::kDynamic;
+                                   }},
+                      BadParameter{"diagonal_steps: 10 steps need window_rows of at least 22",
+                                   [](auto& p) {
+                                     p.window_rows = 20;
+                                     p.diagonals = true;
+                                     p.diagonal_steps = 10;
+                                   }},
+                      BadParameter{"threshold", [](auto& p) { p.threshold = 0; }},
+                      BadParameter{"no more than two of 24 quotient bits",
+                                   [](auto& p) { p.divider_latency = 13; }},
+                      BadParameter{"line_pixels", [](auto& p) { p.line_pixels = 8193; }}));
 
 TEST(BadFrames, AreNamed) {
   EngineBench bench(deburr());

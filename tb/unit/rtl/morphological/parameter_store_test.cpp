@@ -60,10 +60,10 @@ TEST(ParameterStoreBlock, SmaaIsLimitedToItsRangesAndToWhatIsBuilt) {
     std::uint32_t value;
     std::int32_t search, diagonal, loss;
   };
-  for (const Row& row : {Row{17u | 6u << 8 | 200u << 16, 17, 6, 56}, Row{0, 1, 0, 256},
-                         Row{1u | 1u << 8 | 1u << 16, 1, 1, 255},
-                         Row{112u | 7u << 8 | 256u << 16, 112, 6, 0},
-                         Row{127u | 31u << 8 | 511u << 16, 112, 6, 0}}) {
+  for (const Row& row :
+       {Row{17u | 6u << 8 | 200u << 16, 17, 6, 56}, Row{0, 1, 0, 256},
+        Row{1u | 1u << 8 | 1u << 16, 1, 1, 255}, Row{112u | 7u << 8 | 256u << 16, 112, 6, 0},
+        Row{127u | 31u << 8 | 511u << 16, 112, 6, 0}}) {
     store.bus.write(reg::kSmaa, row.value);
     store.frame(8, 8);
     const rtl::morphological::FrameRules& rules = store.store.rules();

@@ -75,10 +75,10 @@ struct Planes {
 };
 
 // Word for word from the contract, on whole planes.
-std::vector<RunRecord> runs_by_definition(const Planes& planes, const Parameters& p) {
-  const bool crossings = p.ends == spec::morphological::Ends::kCrossings;
-  const int reach_rows = reach_of(p), reach_columns = p.reach_columns;
-  const bool corners = p.round_corners;
+std::vector<RunRecord> runs_by_definition(const Planes& planes, const Parameters& rules) {
+  const bool crossings = rules.ends == spec::morphological::Ends::kCrossings;
+  const int reach_rows = reach_of(rules), reach_columns = rules.reach_columns;
+  const bool corners = rules.round_corners;
   std::vector<RunRecord> found;
   for (const bool vertical : {false, true}) {
     const int lines = vertical ? planes.width : planes.height;

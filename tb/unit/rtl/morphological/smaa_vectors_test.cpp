@@ -87,8 +87,8 @@ const std::vector<Vector>& vectors() {
       {"blocks_runs_alone", blocks_image,
        high([](auto& p) { p.diagonals = p.round_corners = false; }), 0x475b72ab303e54ac, 1549, 1127,
        0, 0, 1376},
-      {"blocks_gaps", blocks_image, high([](auto& p) { p.ends = Ends::kGaps; }),
-       0x3695452169102f8d, 1549, 1034, 0, 4, 1283},
+      {"blocks_gaps", blocks_image, high([](auto& p) { p.ends = Ends::kGaps; }), 0x3695452169102f8d,
+       1549, 1034, 0, 4, 1283},
       {"blocks_small", blocks_image, high([](auto& p) {
          p.window_rows = 20;
          p.reach_columns = 9;
@@ -106,8 +106,9 @@ const std::vector<Vector>& vectors() {
          return p;
        },
        0x79094ad57908c708, 1595, 1179, 0, 4, 1407},
-      {"blocks_paper", blocks_image, high([](auto& p) { p.local_contrast = LocalContrast::kPaper; }),
-       0x7091425e2ea8d179, 1549, 1127, 0, 4, 1372},
+      {"blocks_paper", blocks_image,
+       high([](auto& p) { p.local_contrast = LocalContrast::kPaper; }), 0x7091425e2ea8d179, 1549,
+       1127, 0, 4, 1372},
       {"blocks_few_steps", blocks_image,
        [] {
          Parameters p = smaa(Quality::kUltra);
@@ -199,8 +200,7 @@ TEST_P(SmaaVectors, MinimalTable) {
   check(vector(), p, {});
 }
 
-INSTANTIATE_TEST_SUITE_P(Contract, SmaaVectors, 
-                         ::testing::Range(std::size_t{0}, vectors().size()),
+INSTANTIATE_TEST_SUITE_P(Contract, SmaaVectors, ::testing::Range(std::size_t{0}, vectors().size()),
                          [](const auto& param) { return vectors()[param.param].name; });
 
 }  // namespace

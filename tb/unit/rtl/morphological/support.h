@@ -101,9 +101,8 @@ inline Parameters preset(spec::morphological::Preset which, int reach_rows = 32,
 }
 
 // The SMAA presets: rules and window of the quality, then those of the preset's own row.
-inline Parameters smaa(
-    spec::morphological::Quality quality = spec::morphological::Quality::kHigh,
-    spec::morphological::Preset which = spec::morphological::Preset::kSmaa) {
+inline Parameters smaa(spec::morphological::Quality quality = spec::morphological::Quality::kHigh,
+                       spec::morphological::Preset which = spec::morphological::Preset::kSmaa) {
   const spec::morphological::QualityRow& row =
       spec::morphological::kQualities[static_cast<std::size_t>(quality)];
   Parameters p = preset(which, row.window_rows / 2 - 1);
