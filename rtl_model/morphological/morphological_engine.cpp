@@ -60,8 +60,8 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
       blender("blender", clock, store, probe_),
       sums_h_("sums_h", store.lanes(), record_shape(parameters_, "run.", "run.run.")),
       sums_v_("sums_v", store.lanes(), record_shape(parameters_, "run.", "run.run.")),
-      lines_h_("lines_h", store.lanes(), record_shape(parameters_, "", "line.run.")),
-      lines_v_("lines_v", store.lanes(), record_shape(parameters_, "", "line.run.")) {
+      lines_h_("lines_h", store.lanes(), line_shape(parameters_)),
+      lines_v_("lines_v", store.lanes(), line_shape(parameters_)) {
   sequencer.pixels_in(pixels_in);
   sequencer.slots_out(slots_);
   sequencer.beats_out(beats_);

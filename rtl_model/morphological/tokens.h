@@ -194,7 +194,14 @@ inline PayloadShape record_shape(const spec::morphological::Parameters& p, const
   PayloadShape shape;
   if (!p.round_corners) shape.widths.emplace_back(run + "far", 0);
   if (p.ends != spec::morphological::Ends::kCrossings)
-    shape.widths.emplace_back(token + "entry", 0);
+    for (const char* const field : {"entry", "beyond"}) shape.widths.emplace_back(token + field, 0);
+  return shape;
+}
+
+inline PayloadShape line_shape(const spec::morphological::Parameters& p) {
+  PayloadShape shape;
+  if (!p.round_corners) shape.widths.emplace_back("line.run.far", 0);
+  if (p.ends != spec::morphological::Ends::kCrossings) shape.widths.emplace_back("entry", 0);
   return shape;
 }
 
@@ -203,11 +210,14 @@ struct RunToken {
   spec::morphological::RunRecord run;
   std::uint32_t slot;  // low bits of the slot that the run was found in
   std::uint8_t entry;  // of its column: vertical, with crossings
+  // With crossings: edges along the run go on, bit 0 before its start, bit 1 behind its end.
+  std::uint8_t beyond;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("run", self.run);
     visit("slot", self.slot, 15, "U15");
     visit("entry", self.entry, 1, "U1");
+    visit("beyond", self.beyond, 2, "edges go on: before the start, behind the end");
   }
 };
 

@@ -183,7 +183,8 @@ void RunExtractor::horizontal(Find& find, std::int32_t first, std::int32_t end) 
         start_ = x;
         start_corner_ = corner_of_row(x);
       } else if (crossings && (window_.left(x, row_ - 1) || window_.left(x, row_))) {
-        const Corner corner = corner_of_row(x);
+        Corner corner = corner_of_row(x);
+        corner.beyond = true;
         close(find, x, corner);
         open_ = true;
         start_ = x;
@@ -262,7 +263,10 @@ void RunExtractor::vertical_at(Find& find, std::int32_t x, bool starts) {
       found(find, run, corner(0), {});
     } else {
       run.length = u16(length);
-      found(find, run, corner(0), corner(length));
+      Corner start = corner(0), end = corner(length);
+      start.beyond = window_.left(x, row_ - 1);
+      end.beyond = window_.left(x, row_ + length);
+      found(find, run, start, end);
     }
   } else {
     while (length <= reach_rows_ && goes_on(half - length, half - 1 - length)) ++length;
@@ -302,6 +306,7 @@ void RunExtractor::found(Find& find, RunRecord run, Corner start, Corner end) co
   RunToken& token = find.run[find.count++];
   token.run = run;
   token.slot = token_.slot.number & kSlotMask;
+  token.beyond = static_cast<std::uint8_t>(int{start.beyond} | int{end.beyond} << 1);
   token.entry = crossings_ && run.axis == Axis::kVertical ? window_.entry(run.line) : 0;
 }
 

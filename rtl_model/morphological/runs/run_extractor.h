@@ -104,6 +104,7 @@ class RunExtractor final : public Unit {
   // side, bit 1 on the second.
   struct Corner {
     std::uint8_t code = 0, far = 0;
+    bool beyond = false;  // edges along the run go on there
   };
 
   bool waits_for_diagonals(Cycle cycle) const;
