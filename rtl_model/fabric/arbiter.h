@@ -16,6 +16,7 @@ namespace deburr::rtl {
 
 // Who is granted last has the lowest priority next time: a requester waits for at most n-1 grants.
 // Combinational; cost: one n-bit priority chain (two with wrap) and a register of log2(n) bits.
+// Made for 250 MHz up to 32 requesters; longest path: their priority chain and the choice of one.
 class RoundRobin {
  public:
   explicit RoundRobin(int requesters) : requesters_(requesters) {

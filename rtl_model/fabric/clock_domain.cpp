@@ -179,8 +179,9 @@ void ClockDomain::evaluate_block() {
   const Slot* const begin = slots_.data();
   const Slot* const end = begin + slots_.size();
   do {
+    // Codes are below kActivities: declare_stall() has counted them.
     for (const Slot* slot = begin; slot != end; ++slot)
-      ++slot->activity[slot->clocked->tick(cycle).code % kActivities];
+      ++slot->activity[slot->clocked->tick(cycle).code];
     cycle_ = ++cycle;
     if (done_ && (*done_)()) {
       done_reached_ = true;

@@ -15,7 +15,8 @@
 // multiplexer. What the interconnect is, the model leaves open: a burst goes and comes in one
 // transaction, and all responses that come before an edge are in the buffer at that edge, however
 // many. From it goes one beat a clock. A buffer of 1R1W takes them so if the interconnect brings at
-// most a line a clock.
+// most a line a clock. Made for 250 MHz; longest path: a choice of 1 in 256 tags, nothing behind
+// it.
 #pragma once
 
 #include <array>

@@ -197,8 +197,8 @@ void Payload::check_fields() const {
 }
 
 void Payload::check_shape(const PayloadShape& shape) const {
-  for (const auto& [what, bits] : shape.widths) {
-    const std::string within = what + ".";
+  for (const auto& width : shape.widths) {
+    const std::string &what = width.first, within = what + ".";
     DEBURR_CHECK(
         std::any_of(fields_.begin(), fields_.end(),
                     [&](const Field& f) { return f.name == what || f.name.starts_with(within); }) ||

@@ -6,9 +6,9 @@
 // clock before its word is there. The oldest line is read ahead as soon as it has arrived, so that
 // it waits on the output register: what arrives in clock t is read in t+1 and there from t+2 on,
 // then a line a clock. An entry that is released in t can be reserved from t+1 on; one reservation,
-// one arriving beat and one release a clock. Made for 250 MHz; longest path: a 9-bit pointer, then
-// the memory's address. Cost: outstanding x line bits, flip-flops up to 16 kbit and SRAM above, an
-// arrived bit each.
+// one arriving beat and one release a clock. Made for 250 MHz; longest path: a choice of 1 in
+// 256 arrived bits (64 by default), then the memory's read enable. Cost: outstanding x line bits,
+// flip-flops up to 16 kbit and SRAM above, an arrived bit each.
 #pragma once
 
 #include <algorithm>
@@ -36,6 +36,13 @@ class FillBuffer {
                        .mask_bits = line_bytes > kLineBytes ? kLineBytes * 8 : 0,
                        .content = "lines on their way from memory"}),
         bytes_(std::size_t{entries} * line_bytes + kPadding),
+        bits_((std::string(name) + "_arrived").c_str(),
+              {.words = entries,
+               .word_bits = 1,
+               .kind = MemoryKind::kFlops,
+               .write_ports = 2,
+               .latency = 0,
+               .content = "lines on their way: has it come?"}),
         arrived_(entries, kNever) {}
 
   // --- Side of the MissQueue ---
@@ -53,15 +60,19 @@ class FillBuffer {
         entry < entries_ && arrived_[entry] == kNever,
         std::string(memory_.name()) + ": entry " + std::to_string(entry) + " filled twice");
     write_.write(cycle, entry);
-    std::copy(beat.begin(), beat.end(), bytes_.begin() + entry * line_bytes_ + offset);
-    if (complete) arrived_[entry] = cycle;
+    std::copy(beat.begin(), beat.end(), &bytes_[std::size_t{entry} * line_bytes_ + offset]);
+    if (!complete) return;
+    arrives_.write(cycle, entry);
+    arrived_[entry] = cycle;
   }
 
   // --- Side of the DataStage: the oldest fill only ---
   // In every clock, after anything else: reads the next line, if it is there and the output
   // register is free.
   void read_ahead(Cycle cycle) {
-    if (read_ != released_ || arrived_[oldest()] >= cycle) return;
+    if (read_ != released_ || reserved_ == released_) return;
+    oldest_.read(cycle, oldest());
+    if (arrived_[oldest()] >= cycle) return;
     read_port_.read(cycle, oldest());
     ++read_;
     read_at_ = cycle;
@@ -72,6 +83,7 @@ class FillBuffer {
     return &bytes_[std::size_t{oldest()} * line_bytes_];
   }
   void release(Cycle cycle) {
+    leaves_.write(cycle, oldest());
     arrived_[oldest()] = kNever;
     ++released_;
     released_at_ = cycle;
@@ -98,7 +110,10 @@ class FillBuffer {
   ReadPort<void> read_port_{memory_, "data_stage"};
   WritePort<void> write_{memory_, "miss_queue"};
   std::vector<std::uint8_t> bytes_;
-  std::vector<Cycle> arrived_;  // kNever: not yet
+  Memory<void> bits_;
+  ReadPort<void> oldest_{bits_, "data_stage"};
+  WritePort<void> arrives_{bits_, "miss_queue"}, leaves_{bits_, "data_stage"};
+  std::vector<Cycle> arrived_;  // since when the bit is set; kNever: it is not
   std::uint64_t reserved_ = 0, released_ = 0, read_ = 0;
   Cycle released_at_ = kNever, read_at_ = kNever;
 };

@@ -22,7 +22,11 @@ MissQueue::MissQueue(const sc_core::sc_module_name& name, ClockDomain& clock,
                        .write_ports = 4,
                        .latency = 0,
                        .content = "lines that wait to be sent"}),
-      failed_(static_cast<std::size_t>(p.cache_outstanding)),
+      failed_("failed", {.words = static_cast<std::uint64_t>(p.cache_outstanding),
+                         .word_bits = 1,
+                         .kind = MemoryKind::kFlops,
+                         .latency = 0,
+                         .content = "lines on their way: had a beat an error?"}),
       fill_buffer_full_(
           declare_stall("fill_buffer_full", "every entry of the fill buffer is held")),
       wait_memory_(declare_stall("wait_memory", "waits for lines, has nothing else to do")) {
@@ -49,9 +53,9 @@ inline bool MissQueue::receive(Cycle cycle) {
   if (!responses_in.can_pop(cycle)) return false;
   const MemoryResponse& response = responses_in.front(cycle);
   const std::uint32_t entry = response.tag;
-  if (response.status != MemoryStatus::kOk) failed_[entry] = true;
-  if (response.last && failed_[entry]) {
-    failed_[entry] = false;
+  const bool failed = response.status != MemoryStatus::kOk || had_error_.now(cycle, entry) != 0;
+  has_error_.write(cycle, entry, failed && !response.last);
+  if (response.last && failed) {
     ++memory_errors;
     registers_.set_sticky(spec::texture::reg::kStatusMemoryError);
   }
@@ -96,7 +100,7 @@ inline bool MissQueue::accept(Cycle cycle) {
 void MissQueue::reset() {
   fills.reset();
   head_ = waiting_ = 0;
-  std::fill(failed_.begin(), failed_.end(), false);
+  failed_.clear();
 }
 
 }  // namespace deburr::rtl::texture

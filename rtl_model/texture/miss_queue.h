@@ -55,7 +55,9 @@ class MissQueue final : public Unit {
   ReadPort<std::uint32_t> next_line_{lines_, "issue"};
   std::vector<WritePort<std::uint32_t>> new_lines_;
   std::uint32_t head_ = 0, waiting_ = 0;  // U8, oldest line and number of lines
-  std::vector<bool> failed_;              // a beat of the line in this entry had an error
+  Memory<std::uint8_t> failed_;
+  ReadPort<std::uint8_t> had_error_{failed_, "responses"};
+  WritePort<std::uint8_t> has_error_{failed_, "responses"};
   Activity fill_buffer_full_, wait_memory_;
 };
 

@@ -8,7 +8,8 @@
 // are looked up one after the other: a later look-up sees what an earlier one has allocated, so
 // four choices among the ways stand behind each other. Flip-flops end at 16 kbit, which is
 // kMostLines lines; the chain ends at kMostWays ways. Made for 250 MHz; longest path: a choice of 1
-// in 512 sets, or the comparison of tags and four choices of a way. Cost: sets x ways x (tag + 2)
+// in 512 sets, or the comparison of tags, four choices of a way and, for a set that is read in the
+// same clock, a choice of 1 in 5. Cost: sets x ways x (tag + 2)
 // bits and ways x (ways - 1) / 2 a set, 4 x ways comparators. Source: docs/number_formats.md, cache
 // and traffic.
 #pragma once

@@ -69,6 +69,7 @@ class FrameCommand final : public Engine {
                     scene.stream().width, scene.stream().height, scene.stream().counts.fragments,
                     preset_label_));
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
+    for (const std::string& note : build_notes(morphological_)) context.add_note(note);
     Simulation simulation(simulation_options(run, context));
     FrameComposition frame(simulation, scene, setup());
     simulate(simulation, frame, context, result,

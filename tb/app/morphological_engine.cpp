@@ -87,6 +87,7 @@ class MorphologicalCommand final : public Engine {
         "Morphological engine: " + std::filesystem::path(frame_.source).filename().string(),
         summary_line(loaded));
     for (const std::string& conversion : loaded.conversions) context.add_note(conversion);
+    for (const std::string& note : build_notes(parameters_)) context.add_note(note);
     const std::vector<MorphologicalInput> frames(static_cast<std::size_t>(frame_.count),
                                                  loaded.input);
     Simulation simulation(simulation_options(run, context));

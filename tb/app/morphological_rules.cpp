@@ -119,4 +119,12 @@ void refuse_unused_memory(const ParameterSet& set, std::string_view prefix,
     refuse("error_bytes", fmt::format("{}.error_address names no address", prefix));
 }
 
+std::vector<std::string> build_notes(const spec::morphological::Parameters& values) {
+  if (values.trial_clocks >= 4) return {};
+  return {fmt::format(
+      "morphological.trial_clocks = {}: steps of a trial share a clock, so the engine is not made "
+      "for 250 MHz (docs/morphological_hardware.md, Trials)",
+      values.trial_clocks)};
+}
+
 }  // namespace deburr::tb

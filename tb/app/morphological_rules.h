@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "spec/morphological/parameters.h"
 #include "tb/env/memory_parameters.h"
@@ -25,5 +26,8 @@ void refuse_unused_rules(const ParameterSet& set, const spec::morphological::Par
 // The same for a memory that is used.
 void refuse_unused_memory(const ParameterSet& set, std::string_view prefix,
                           const MemoryParameters& memory);
+
+// What the result says of a build that no clock of 250 MHz holds, although it can be simulated.
+std::vector<std::string> build_notes(const spec::morphological::Parameters& values);
 
 }  // namespace deburr::tb

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "rtl_model/fabric/memory.h"
 #include "spec/error.h"
 #include "tb/results/interrupt.h"
 #include "tb/results/progress.h"
@@ -47,6 +48,18 @@ void refuse_empty_trace(Simulation& simulation) {
                     o.trace_from, end));
 }
 
+// Copies are counted wherever bits are, but so many of a large memory are seldom meant.
+void note_copies(RunContext& context) {
+  constexpr std::uint32_t kMany = 8;
+  constexpr std::uint64_t kLarge = 1'000'000;
+  rtl::for_each<rtl::MemoryBase>([&](const rtl::MemoryBase& memory) {
+    if (memory.copies() > kMany && memory.physical_bits() > kLarge)
+      context.add_note(fmt::format("{}: {} copies, one a read port, {} kbit for {} of content",
+                                   memory.name(), memory.copies(), memory.physical_bits() / 1000,
+                                   memory.logical_bits() / 1000));
+  });
+}
+
 }  // namespace
 
 void simulate(Simulation& simulation, Environment& environment, RunContext& context, Result& result,
@@ -54,6 +67,7 @@ void simulate(Simulation& simulation, Environment& environment, RunContext& cont
   simulation.elaborate(environment);
   if (context.judging_only()) return;
   if (interrupted()) throw Interrupted();  // while the input was made: there is nothing to keep
+  note_copies(context);
   try {
     const Amount amount = environment.amount();
     Progress progress(result.unit, amount.total, amount.unit, context.quiet());

@@ -105,7 +105,7 @@ class Faults(CommandTest):
             with open(self.path("out/manifest.json")) as file:
                 return json.load(file)["golden"]
         long_lines = ("--set", "texture.cache.line_bytes=128")
-        error = ("--set", "memory.error_address=256")
+        error = ("--set", "memory.error_address=0", "--set", "memory.error_bytes=100000000")
         self.assertEqual(golden(), golden(*long_lines))
         self.assertNotEqual(golden(*error), golden(*error, *long_lines))
         self.assertEqual(golden(*error), golden(*error, "--set", "memory.latency=3"))

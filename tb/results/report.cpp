@@ -477,7 +477,8 @@ class ReportBuilder {
 
   void fill_origin() {
     mustache::data origin{mustache::data::type::list};
-    for (const char* key : {"version", "commit", "compiler", "build", "systemc", "seed", "started"})
+    for (const char* key :
+         {"version", "commit", "compiler", "build_type", "systemc", "seed", "started"})
       if (manifest_.contains(key))
         origin << row({{"name", key}, {"value", shown_plain(manifest_[key])}});
     for (const Json& input : manifest_.value("inputs", Json::array()))

@@ -111,7 +111,7 @@ Json RunContext::manifest(const Result& result) const {
   json["version"] = build.version;
   json["commit"] = build.commit;
   json["compiler"] = build.compiler;
-  json["build"] = build.build;
+  json["build_type"] = build.build;
   json["systemc"] = build.systemc;
   json["started"] = started_;
   json["configuration"] = parameters_.resolved();

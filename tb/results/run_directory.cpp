@@ -115,7 +115,7 @@ void RunDirectory::claim(const std::string& command, std::vector<std::string> na
                          IfTaken if_taken) {
   names_ = std::move(names);
   lock(if_taken);
-  if (fs::exists(draft() / kManifest)) swap();  // a run died on its last steps
+  if (fs::exists(draft() / kManifest)) move_in();  // a run died on its last steps
   clear_draft();
   write_claim(command);
   const std::set<std::string> ours = earlier();
@@ -234,14 +234,14 @@ void RunDirectory::publish(Json manifest, std::string_view head) {
       refuse_foreign(path_ / name);
   manifest["files"] = files;
   write_file_atomically(draft() / kManifest, manifest.dump(2) + "\n");
-  swap();
+  move_in();
   made_.clear();
   release();
 }
 
 // From a complete draft, or from wherever this stopped before, to results that are in place. What
 // has moved is no longer in the draft.
-void RunDirectory::swap() const {
+void RunDirectory::move_in() const {
   const std::vector<std::string> mine = files_of(draft() / kManifest);
   const auto waits = [&](const std::string& name) { return fs::exists(draft() / name); };
   std::vector<std::string> old = files_of(path_ / kManifest);

@@ -52,7 +52,7 @@ class RunDirectory {
   void lock(IfTaken if_taken);
   bool try_lock();
   void write_claim(const std::string& command) const;
-  void swap() const;
+  void move_in() const;
   void clear_draft() const;
   void release();
   std::set<std::string> earlier() const;

@@ -213,10 +213,15 @@ void AreaUnit::address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat
   beat.any = false;
   beat.weights = {};
   const std::int32_t row = evaluated_row(token.slot);
-  beat.evaluates = works(token.slot) && row < store_.rules().height;
-  if (!beat.evaluates) return;
   const std::size_t x = token.slot.beat * lanes_;
+  beat.x = static_cast<std::uint32_t>(x);
+  beat.count = static_cast<std::uint32_t>(
+      std::min(lanes_, static_cast<std::size_t>(store_.rules().width) - x));
+  beat.works = row >= 0;
+  beat.evaluates = beat.works && row < store_.rules().height;
+  if (!beat.evaluates) return;
   const std::size_t pair = pair_of(row, x);
+  beat.pair = static_cast<std::uint32_t>(pair);
   row_.read_marks.read(cycle, pair, row_.banks);
   column_.read_marks.read(cycle, crossings_ ? 2 * x : x, column_.banks);
   if (crossings_) {
@@ -239,16 +244,13 @@ void AreaUnit::match(Cycle cycle, Beat& beat) {
   passed_ = (slot.number + 1) & kSlotMask;
   if (slot.row < 2) clear_marks(cycle, slot);
   if (!beat.evaluates) return;
-  const std::size_t first = slot.beat * lanes_;
-  const std::size_t count =
-      std::min(lanes_, static_cast<std::size_t>(store_.rules().width) - first);
   const std::int32_t row = evaluated_row(slot);
-  row_.read_marks.check(cycle, pair_of(row, first));
-  column_.read_marks.check(cycle, crossings_ ? 2 * first : first);
-  if (smaa_) return smaa_match(cycle, beat, count, row);
+  row_.read_marks.check(cycle, beat.pair);
+  column_.read_marks.check(cycle, crossings_ ? 2 * beat.x : beat.x);
+  if (smaa_) return smaa_match(cycle, beat, row);
   std::uint8_t hand = 1, any = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t x = first + i;
+  for (std::size_t i = 0; i < beat.count; ++i) {
+    const std::size_t x = beat.x + i;
     const Mark& mark = beat.row_mark[i / 2];
     if (mark.length != 0 && mark.row == row && mark.start == x) {
       hand_ = mark;
@@ -288,20 +290,17 @@ void AreaUnit::clear_marks(Cycle cycle, const Slot& slot) {
 
 // Stage 3, and what follows from it.
 void AreaUnit::evaluate(Cycle cycle, Beat& beat) {
-  const std::size_t first = beat.slot.beat * lanes_;
-  const std::size_t count =
-      std::min(lanes_, static_cast<std::size_t>(store_.rules().width) - first);
   const std::int32_t row = evaluated_row(beat.slot);
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < beat.count; ++i) {
     const Edge along = beat.horizontal[i], down = beat.vertical[i];
     if (along.from) {
       if (along.from >= 2 && along.k == 0)
-        hand_walk_ = row_.read[along.from - 2u].at(cycle, pair_of(row, first + i));
+        hand_walk_ = row_.read[along.from - 2u].at(cycle, pair_of(row, beat.x + i));
       beat.weights[i].top = area(hand_walk_, along.k);
       ++horizontal_edges;
     }
     if (down.from) {
-      beat.weights[i].left = area(column_.read[i].at(cycle, first + i), down.k);
+      beat.weights[i].left = area(column_.read[i].at(cycle, beat.x + i), down.k);
       ++vertical_edges;
     }
   }
@@ -323,15 +322,14 @@ void AreaUnit::set_ends(Walk& walk) {
 }
 
 // Stage 2.
-void AreaUnit::smaa_match(Cycle cycle, Beat& beat, std::size_t count, std::int32_t row) {
-  const std::size_t first = beat.slot.beat * lanes_;
+void AreaUnit::smaa_match(Cycle cycle, Beat& beat, std::int32_t row) {
   const auto near = [](const Edge& edge, const Mark& mark) -> std::uint8_t {
     const std::int32_t twice = 2 * edge.k, last = mark.length - 1;
     return twice < last ? 0 : twice > last ? 1 : 2;
   };
   std::uint8_t hand = 1, any = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t x = first + i;
+  for (std::size_t i = 0; i < beat.count; ++i) {
+    const std::size_t x = beat.x + i;
     const Mark& mark = crossings_ ? beat.single_row_mark[i] : beat.row_mark[i / 2];
     if (mark.length != 0 && mark.row == row && mark.start == x) {
       hand_ = mark;
@@ -364,23 +362,20 @@ void AreaUnit::smaa_match(Cycle cycle, Beat& beat, std::size_t count, std::int32
 
 // Stage 3: what the table is asked, or all of the analytic area.
 void AreaUnit::smaa_evaluate(Cycle cycle, Beat& beat) {
-  const std::size_t first = beat.slot.beat * lanes_;
-  const std::size_t count =
-      std::min(lanes_, static_cast<std::size_t>(store_.rules().width) - first);
   const std::int32_t row = evaluated_row(beat.slot);
   const std::size_t entries = crossings_ ? 2 : 1;
   for (Search& search : beat.search) search.active = false;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < beat.count; ++i) {
     const Edge along = beat.horizontal[i], down = beat.vertical[i];
     if (along.from) {
       if (along.from >= 2 && along.k == 0)
-        hand_walk_ = row_.read[along.from - 2u].at(cycle, pair_of(row, first + i));
+        hand_walk_ = row_.read[along.from - 2u].at(cycle, pair_of(row, beat.x + i));
       smaa_edge(beat, i, false, hand_walk_, along);
       ++horizontal_edges;
     }
     if (down.from) {
       const std::size_t bank = crossings_ ? down.from - 2u : i;
-      smaa_edge(beat, i, true, column_.read[bank].at(cycle, entries * first + bank), down);
+      smaa_edge(beat, i, true, column_.read[bank].at(cycle, entries * beat.x + bank), down);
       ++vertical_edges;
     }
   }
@@ -486,25 +481,23 @@ void AreaUnit::take_diagonals(Cycle cycle, Beat& beat) {
 
 // Stage 8.
 void AreaUnit::address_weights(Cycle cycle, const Beat& beat) {
-  if (!works(beat.slot)) return;
-  const std::size_t x = beat.slot.beat * lanes_;
-  read_weights_.read(cycle, x, std::min(lanes_ + 1, columns_ - x));
+  if (beat.works)
+    read_weights_.read(cycle, beat.x, std::min<std::size_t>(lanes_ + 1, columns_ - beat.x));
 }
 
 // Stage 9: shares of the row above go to the Blender, those of this row take their place. The words
 // have not changed since stage 8 but by what was written in its clock, which a read sees.
 void AreaUnit::send(Cycle cycle, const Beat& beat) {
-  if (!works(beat.slot)) return;
+  if (!beat.works) return;
   if (beat.slot.row >= lag_) share(cycle, beat);
-  write_weights_.write(cycle, beat.slot.beat * lanes_, lanes_);
+  write_weights_.write(cycle, beat.x, lanes_);
   weights_[beat.slot.beat] = beat.weights;
 }
 
 void AreaUnit::share(Cycle cycle, const Beat& beat) {
-  const std::size_t first = beat.slot.beat * lanes_;
+  const std::size_t first = beat.x, count = beat.count;
   read_weights_.check(cycle, first);
   const auto width = static_cast<std::size_t>(store_.rules().width);
-  const std::size_t count = std::min(lanes_, width - first);
   const WeightWords* const above = &weights_[beat.slot.beat];
   const auto right_of = [&](std::size_t i) {
     return i + 1 < lanes_          ? above[0][i + 1].left

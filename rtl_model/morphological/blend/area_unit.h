@@ -12,12 +12,14 @@
 // the top edges below as evaluated.
 // With crossings there is a horizontal record a column, and each column has two vertical ones, used
 // in turn (the token's `entry`): a run may begin in the row after its predecessor's end.
-// Latency 9, initiation interval 1. Stages: 1 marks: address; 2 marks: start and length against the
-// raster, records: address; 3 records, k x growth; 4 t at both ends of the edge; 5 quantised; 6
-// squares, trapezoid; 7 triangles; 8 limits, sides, weight_lines: address; 9 weight_lines,
-// write back. With a table: 3 k - a, b - 1 - k; 4 limits of the searches, shape that is left,
-// sqrt_rom: address; 5 roots, area_rom: address; 6 entries, differences; 7, 8 interpolation. Stage
-// 8 takes a beat of diagonals, 9 the corner factor and the choice between them.
+// Latency 9, initiation interval 1. Stages: 1 marks: address; 2 marks come, records: address, which
+// does not ask the marks; 3 marks against the raster, k, records: those of the marks or the one in
+// hand; 4 k x growth; 5 t at both ends of the edge, quantised; 6 squares, trapezoid; 7 triangles; 8
+// limits, sides, weight_lines: address; 9 weight_lines, write back. With a table: 4 k - a, b - 1 -
+// k, limits of the searches, shape that is left, sqrt_rom: address; 5 roots, area_rom: address; 6
+// entries, differences; 7, 8 interpolation. Stage 8 takes a beat of diagonals, 9 the corner factor
+// and the choice between them. The model compares the marks in stage 2, to read those records only
+// that matter, and does the arithmetic of an edge at once, in stage 3 or behind the table's words.
 // A line that arrives is popped behind its slot (stage 2), multiplied in that clock and stored in
 // the next, which finishes the record; with a table a clock later, since its ends a and b are two
 // more multiplies. Marks and records have a bank a lane (a pair of columns a
@@ -143,7 +145,9 @@ class AreaUnit final : public Unit {
   struct Beat {
     Slot slot;
     std::uint8_t left, top;
-    bool evaluates, any;  // any: one of the edges below lies in a record
+    bool works, evaluates;         // has shares of a row, finds those of the next
+    bool any;                      // one of the edges below lies in a record
+    std::uint32_t x, count, pair;  // its columns: the first one, how many; the first mark
     // The output registers of the marks, as they were in the clock of the address.
     std::array<Mark, kLanes / 2> row_mark;
     std::array<Mark, kLanes> column_mark;
@@ -171,7 +175,7 @@ class AreaUnit final : public Unit {
   inline void share(Cycle cycle, const Beat& beat);
   void match(Cycle cycle, Beat& beat);
   void evaluate(Cycle cycle, Beat& beat);
-  void smaa_match(Cycle cycle, Beat& beat, std::size_t count, std::int32_t row);
+  void smaa_match(Cycle cycle, Beat& beat, std::int32_t row);
   void smaa_evaluate(Cycle cycle, Beat& beat);
   void smaa_edge(Beat& beat, std::size_t lane, bool vertical, const Walk& walk, const Edge& edge);
   void cut(Cycle cycle, Beat& beat);
@@ -193,7 +197,6 @@ class AreaUnit final : public Unit {
   static Weights area(const Walk& walk, std::uint32_t k);
 
   // Rows of slots that evaluate or blend.
-  bool works(const Slot& slot) const { return slot.row + 1 >= lag_; }
   std::int32_t evaluated_row(const Slot& slot) const { return slot.row - lag_ + 1; }
   std::size_t pair_of(std::int32_t row, std::size_t x) const {
     return static_cast<std::size_t>(row & 1) * pairs_ + (crossings_ ? x : x / 2);

@@ -231,11 +231,7 @@ Activity Blender::tick(Cycle cycle) {
   pipe_.move();
   if (const Beat* beat = pipe_.at(6)) deliver(cycle, *beat);
   if (blending_ != 0) blend(cycle);
-  if (arrives) {
-    choose(cycle, shares_in.front(cycle), pixels_in.front(cycle), pipe_.enter());
-    shares_in.pop(cycle);
-    pixels_in.pop(cycle);
-  }
+  if (arrives) choose(cycle, shares_in.take(cycle), pixels_in.take(cycle), pipe_.enter());
   return kBusy;
 }
 

@@ -126,9 +126,9 @@ PixelStore::Did PixelStore::fetch(Cycle cycle) {
     did = Did::kWork;
   }
   if (!fetches_in.can_pop(cycle)) return did;
-  const Slot slot = fetches_in.front(cycle).slot;
-  if (memory_ && !is_loaded(slot)) return did == Did::kWork ? did : Did::kWaitsForMemory;
-  fetches_in.pop(cycle);
+  if (memory_ && !is_loaded(fetches_in.front(cycle).slot))
+    return did == Did::kWork ? did : Did::kWaitsForMemory;
+  const Slot slot = fetches_in.take(cycle).slot;
   if (slot.row != around_row_) look_around(slot.row);
   beat_ = slot.beat;
   address(cycle);
@@ -165,7 +165,7 @@ Activity PixelStore::tick(Cycle cycle) {
   bool did = fetched == Did::kWork || stored == Did::kWork;
   if (memory_) {
     did |= receive(cycle);
-    did |= settle();
+    did |= settle(cycle);
     did |= request(cycle);
   }
   if (did) return kBusy;
@@ -194,9 +194,11 @@ bool PixelStore::gather(Cycle cycle, const BeatToken& beat, std::int32_t x, std:
   if (completes && (!m.requests->can_push(cycle) || m.writes.full())) return false;
   constexpr std::size_t kPixelBytes = spec::morphological::kFramePixelBytes;
   const std::size_t at = static_cast<std::size_t>(x % kLinePixels) * kPixelBytes;
+  m.gather.write(cycle, 0);
   std::memcpy(m.gathered.data() + at, beat.pixel.data(),
               static_cast<std::size_t>(count) * kPixelBytes);
   if (!completes) return true;
+  m.send.read(cycle, 0);
   MemoryRequest& request = m.requests->emplace(cycle);
   // 32 bits: a frame that begins below 4 GiB and ends above goes on at 0.
   request.address = rules.pixel_base + m.sent.address;
@@ -221,7 +223,7 @@ bool PixelStore::receive(Cycle cycle) {
     store_.set_sticky(spec::morphological::reg::kStatusMemoryError);
   }
   const std::uint32_t flight = response.tag & ((1u << kFlightBits) - 1);
-  (response.write ? m.writes : m.reads).come[flight] = true;
+  (response.write ? m.writes : m.reads).arrives(cycle, flight);
   m.responses->pop(cycle);
   return true;
 }
@@ -244,9 +246,9 @@ bool PixelStore::load(Cycle cycle, const MemoryResponse& response) {
 }
 
 // That all lines before one have come is known a line a clock.
-bool PixelStore::settle() {
+bool PixelStore::settle(Cycle cycle) {
   InMemory& m = *memory_;
-  const bool answered = m.writes.settle(), loaded = m.reads.settle();
+  const bool answered = m.writes.settle(cycle), loaded = m.reads.settle(cycle);
   if (answered) m.answered.step(m.row_lines);
   if (loaded) m.loaded.step(m.row_lines);
   return answered || loaded;

@@ -16,7 +16,8 @@
 // multiple of 4, a word a beat. Neighbouring rows lie in different ones, so that each is read and
 // written once a clock; two beats of the middle row come from two banks. storage = memory (8 banks)
 // also the line that is gathered and, for each line under way, a bit: has it come?
-// Made for 300 MHz; longest path: SRAM read + 4:1 choice.
+// Made for 300 MHz; longest path: SRAM read + 4:1 choice, or, storage = memory,
+// a choice of 1 in 256 lines under way (memory.outstanding), nothing behind it.
 #pragma once
 
 #include <array>
@@ -66,6 +67,7 @@ class PixelStore final : public Unit {
           bits(name, {.words = lines,
                       .word_bits = 1,
                       .kind = MemoryKind::kFlops,
+                      .write_ports = 2,
                       .latency = 0,
                       .content = "lines under way: has it come?"}),
           come(lines) {}
@@ -76,22 +78,36 @@ class PixelStore final : public Unit {
       ++count;
       return place;
     }
-    // Has the oldest come? Then it is no longer under way.
-    bool settle() {
-      if (count == 0 || !come[oldest]) return false;
-      come[oldest] = false;
+    // Before settle() of its clock. What comes as the oldest goes past its bit.
+    void arrives(Cycle cycle, std::uint32_t place) {
+      passes = place == oldest;
+      if (passes) return;
+      set.write(cycle, place);
+      come[place] = true;
+    }
+    // In every clock: has the oldest come? Then it is no longer under way.
+    bool settle(Cycle cycle) {
+      if (count == 0) return false;
+      look.read(cycle, oldest);
+      if (!come[oldest] && !passes) return false;
+      if (!passes) clear.write(cycle, oldest);
+      passes = come[oldest] = false;
       oldest = oldest + 1 == places ? 0 : oldest + 1;
       --count;
       return true;
     }
     void reset() {
       next = oldest = count = 0;
+      passes = false;
       come.assign(places, false);
     }
     const std::uint32_t places;
-    MemoryBase bits;
+    Memory<void> bits;
+    ReadPort<void> look{bits, "oldest"};
+    WritePort<void> set{bits, "responses"}, clear{bits, "oldest"};
     std::vector<bool> come;
     std::uint32_t next = 0, oldest = 0, count = 0;
+    bool passes = false;  // the line that comes in this clock is the oldest
   };
   // A line of the frame, by row and place in it; counted, not divided.
   struct LinePlace {
@@ -112,13 +128,16 @@ class PixelStore final : public Unit {
   struct InMemory {
     explicit InMemory(std::uint32_t outstanding)
         : writes("writes_in_flight", outstanding), reads("reads_in_flight", outstanding) {}
-    MemoryBase gather_line{"gather_line",
-                           {.words = 1,
-                            .word_bits = 8 * kLineBytes,
-                            .kind = MemoryKind::kFlops,
-                            .latency = 0,
-                            .mask_bits = 32,
-                            .content = "the line that is being gathered"}};
+    Memory<void> gather_line{"gather_line",
+                             {.words = 1,
+                              .word_bits = 8 * kLineBytes,
+                              .kind = MemoryKind::kFlops,
+                              .latency = 0,
+                              .mask_bits = 32,
+                              .content = "the line that is being gathered"}};
+    // The last beat of a line goes past it.
+    WritePort<void> gather{gather_line, "in"};
+    ReadPort<void> send{gather_line, "requests"};
     Link<MemoryRequest>* requests = nullptr;
     Link<MemoryResponse>* responses = nullptr;
     Line gathered{};
@@ -151,7 +170,7 @@ class PixelStore final : public Unit {
   bool gather(Cycle cycle, const BeatToken& beat, std::int32_t x, std::int32_t count);
   bool receive(Cycle cycle);
   bool load(Cycle cycle, const MemoryResponse& response);
-  bool settle();
+  bool settle(Cycle cycle);
   bool request(Cycle cycle);
   void begin_frame();
   // Has the row whose place row y takes been asked for up to this beat for the last time?

@@ -36,7 +36,8 @@ EdgeDetector::EdgeDetector(const sc_core::sc_module_name& name, ClockDomain& clo
       lanes_(static_cast<std::uint32_t>(store.lanes())),
       // The columns of a beat and the one beside it lie in banks of their own.
       luma_("luma_lines",
-            {.words = std::max<std::uint64_t>(words_for(p.line_pixels, lanes_), 2 * lanes_),
+            {.words = std::max<std::uint64_t>(words_for(p.line_pixels, lanes_),
+                                              std::uint64_t{2} * lanes_),
              .word_bits = 3 * 24,
              .read_during_write = ReadDuringWrite::kNewWord,
              .banks = 2 * lanes_,
@@ -63,6 +64,9 @@ inline EdgeDetector::Edges EdgeDetector::plain_steps(std::int32_t first, std::in
   const std::uint32_t *const here = luma_.row(y) + first, *const above = luma_.row(y - 1) + first;
   const std::uint32_t threshold = store_.rules().threshold;
   std::uint32_t before = first == 0 ? 0 : here[-1];
+  // With one lane the loop costs as much as its pixel.
+  if (count == 1)
+    return {distance(*here, before) >= threshold, distance(*here, *above) >= threshold};
   Edges edges;
   for (std::int32_t i = 0; i < count; ++i) {
     edges.left |= std::uint32_t{distance(here[i], before) >= threshold} << i;
@@ -104,13 +108,12 @@ Activity EdgeDetector::tick(Cycle cycle) {
     }
   }
   if (!arrives) return kBusy;
-  const LumaToken& token = lumas_in.front(cycle);
+  const LumaToken& token = lumas_in.take(cycle);
   pipe_.enter().slot = token.slot;
   if (token.slot.row <= height) {
     luma_.take(cycle, token.slot, token.luma);
     if (depth_) depth_->take(cycle, token.slot, token.depth);
   }
-  lumas_in.pop(cycle);
   return kBusy;
 }
 

@@ -6,8 +6,8 @@
 // which needs one row below and two above. A word of luma_lines holds a column of the last three
 // rows; it is read with the word to its right, and written back with the new row in stage 2, so
 // that rows of any length read what was written. Registers hold the two columns to the left.
-// Latency 4, initiation interval 1; stalled by `downstream` only. Stages: 1 address, 2 words and
-// differences, 3 products with the thresholds and maxima of two pairs, 4 the last maximum and the
+// Latency 4, initiation interval 1; stalled by `downstream` only. Stages: 1 address, 2 words, 3
+// differences, maxima of two pairs, products with the thresholds, 4 the last maxima and the
 // decision. Formats: U8.16 luma, U24 depth, U0.16 thresholds. Cost a lane: two differences and
 // compares (fixed), two multipliers 25 x 16 more (dynamic, depth), nine differences and an 8-input
 // maximum a bit (local contrast). Memory: luma_lines a column 3 rows x 24 bits, depth_lines 2 rows

@@ -10,7 +10,7 @@ Activity LumaUnit::tick(Cycle cycle) {
   pipe_.move();
   if (const LumaToken* sum = pipe_.at(2)) lumas_out.push(cycle, *sum);
   if (!arrives) return kBusy;
-  const SlotToken& token = slots_in.front(cycle);
+  const SlotToken& token = slots_in.take(cycle);
   LumaToken& out = pipe_.enter();
   out.slot = token.slot;
   if (token.slot.row < store_.rules().height) {
@@ -22,7 +22,6 @@ Activity LumaUnit::tick(Cycle cycle) {
       out.depth[i] = token.depth[i];
     }
   }
-  slots_in.pop(cycle);
   return kBusy;
 }
 

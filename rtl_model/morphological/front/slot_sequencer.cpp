@@ -10,9 +10,9 @@ SlotSequencer::SlotSequencer(const sc_core::sc_module_name& name, ClockDomain& c
       probe_(probe),
       upstream_(declare_stall("upstream", "inside a frame, and no beat has come")) {}
 
-inline void SlotSequencer::take_beat(Cycle cycle) {
+[[gnu::always_inline]] inline void SlotSequencer::take_beat(Cycle cycle) {
   const FrameRules& rules = store_.rules();
-  const spec::morphological::PixelBeat& beat = pixels_in.front(cycle);
+  const spec::morphological::PixelBeat& beat = pixels_in.take(cycle);
   const bool end = next_.beat + 1u == rules.beats;
   const int count = end ? rules.last_count : store_.lanes();
   if (beat.count != count || beat.end_of_row != end || beat.start_of_frame != (next_.number == 0))
@@ -29,7 +29,6 @@ inline void SlotSequencer::take_beat(Cycle cycle) {
   }
   ++beats;
   probe_.enters(cycle);
-  pixels_in.pop(cycle);
 }
 
 Activity SlotSequencer::tick(Cycle cycle) {

@@ -16,7 +16,7 @@ class EdgePort {
       : window_(&window), port_(static_cast<std::size_t>(port)) {}
   EdgePort(EdgeRows& rows, int port) : rows_(&rows), port_(static_cast<std::size_t>(port)) {}
 
-  void read(Cycle cycle, const Trial& trial) {
+  void read(Cycle cycle, Trial& trial) {
     if (window_ != nullptr)
       window_->read(cycle, port_, trial);
     else

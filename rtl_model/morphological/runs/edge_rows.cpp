@@ -49,11 +49,15 @@ struct StepEdges {
   std::size_t word(std::int32_t x) const {
     return static_cast<std::size_t>((x >> kWordShift) - (first >> kWordShift));
   }
+  // Out of line, so that a check costs a comparison.
+  [[noreturn, gnu::cold, gnu::noinline]] static void fail(std::int32_t x) {
+    throw spec::CheckFailed("edge_rows: the corner before column " + std::to_string(x) +
+                            " is not among those that have been read");
+  }
   std::uint8_t code(std::int32_t x) const {
     if (x < 0 || x > width) return 0;
     if (x > last + (last == width - 1) || (x != 0 && x <= first)) [[unlikely]]
-      throw spec::CheckFailed("edge_rows: the corner before column " + std::to_string(x) +
-                              " is not among those that have been read");
+      fail(x);
     unsigned code = 0;
     if (row != nullptr && x > 0) code |= bit(row[word(x - 1)].top, x - 1);
     if (x == width) return static_cast<std::uint8_t>(code);
@@ -89,30 +93,30 @@ EdgeRows::EdgeRows(const spec::morphological::Parameters& p, const ParameterStor
 }
 
 // From the corner before the step to the one behind its longest candidate.
-EdgeRows::Columns EdgeRows::columns_of(const Trial& trial) const {
+inline void EdgeRows::find_columns(Trial& trial) const {
   const std::int32_t most = std::min(trial.length + 1, trial.room);
   const std::int32_t least = store_.rules().contiguous ? 0 : trial.length - 1;
   const std::int32_t first = trial.to_the_right ? trial.at(least) - 1 : trial.at(most) - 1;
   const std::int32_t last = trial.to_the_right ? trial.at(most) : trial.at(least);
-  return {std::max(first, 0), std::min(last, store_.rules().width - 1)};
+  trial.first = std::max(first, 0);
+  trial.last = std::min(last, store_.rules().width - 1);
 }
 
-void EdgeRows::read(Cycle cycle, std::size_t port, const Trial& trial) {
-  const Columns columns = columns_of(trial);
-  if (columns.first > columns.last) return;  // beyond the frame's border
+void EdgeRows::read(Cycle cycle, std::size_t port, Trial& trial) {
+  find_columns(trial);
+  if (trial.first > trial.last) return;  // beyond the frame's border
   const auto words =
-      static_cast<std::uint32_t>(columns.last / kWordColumns - columns.first / kWordColumns + 1);
+      static_cast<std::uint32_t>(trial.last / kWordColumns - trial.first / kWordColumns + 1);
   for (const std::int32_t y : {trial.line, trial.line - 1})
-    if (in_frame(y)) steps_of_[parity(y)][port].read(cycle, address(y, columns.first), words);
+    if (in_frame(y)) steps_of_[parity(y)][port].read(cycle, address(y, trial.first), words);
 }
 
 std::uint8_t EdgeRows::hits(Cycle cycle, std::size_t port, const Trial& trial) const {
-  const Columns columns = columns_of(trial);
-  if (columns.first > columns.last) return 0;
+  if (trial.first > trial.last) return 0;
   const auto words_of = [&](std::int32_t y) {
-    return in_frame(y) ? &steps_of_[parity(y)][port].at(cycle, address(y, columns.first)) : nullptr;
+    return in_frame(y) ? &steps_of_[parity(y)][port].at(cycle, address(y, trial.first)) : nullptr;
   };
-  const StepEdges edges{words_of(trial.line), words_of(trial.line - 1), columns.first, columns.last,
+  const StepEdges edges{words_of(trial.line), words_of(trial.line - 1), trial.first, trial.last,
                         store_.rules().width};
   return hits_of(trial, edges, store_.rules().contiguous);
 }

@@ -14,7 +14,8 @@
 // Synchronous SRAM, latency 1, never stalls. Ports: 1 write, used once in 64 columns; reads as many
 // as the schedule of the predictors has (PortSchedule). Rows and columns outside the frame read
 // as 0. Cost: (2 N + 4) x 2 bits a column, a copy a read port; a word that is being gathered.
-// Longest path: the read, 8 : 1 choice of a bit.
+// Made for 250 MHz; longest path: the read, 8 : 1 choice of a bit. A row's place and its first word
+// are kept where rows are counted, not divided out of the row's number as the model does.
 #pragma once
 
 #include <array>
@@ -52,7 +53,7 @@ class EdgeRows {
   }
 
   // --- A predictor of horizontal runs: the columns of a step, of its row and of the one above ---
-  void read(Cycle cycle, std::size_t port, const Trial& trial);
+  void read(Cycle cycle, std::size_t port, Trial& trial);
   // In the clock after.
   std::uint8_t hits(Cycle cycle, std::size_t port, const Trial& trial) const;
 
@@ -60,10 +61,7 @@ class EdgeRows {
 
  private:
   static constexpr std::int32_t kWordColumns = 64;
-  struct Columns {
-    std::int32_t first, last;
-  };
-  Columns columns_of(const Trial& trial) const;
+  void find_columns(Trial& trial) const;
   bool in_frame(std::int32_t y) const { return y >= 0 && y < store_.rules().height; }
   static std::size_t parity(std::int32_t y) { return static_cast<std::size_t>(y & 1); }
   // In the memory of the row's parity.

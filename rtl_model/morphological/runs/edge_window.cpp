@@ -21,8 +21,12 @@ struct BesideLine {
   void check(std::int32_t newest, std::int32_t y) const {
     const std::int32_t age = newest - y;
     if (age < 0 || age >= rows) [[unlikely]]
-      throw spec::CheckFailed("edge_window: row " + std::to_string(y) + " is not among the " +
-                              std::to_string(rows) + " up to row " + std::to_string(newest));
+      fail(newest, y);
+  }
+  // Out of line, so that a check costs a comparison.
+  [[noreturn, gnu::cold, gnu::noinline]] void fail(std::int32_t newest, std::int32_t y) const {
+    throw spec::CheckFailed("edge_window: row " + std::to_string(y) + " is not among the " +
+                            std::to_string(rows) + " up to row " + std::to_string(newest));
   }
   std::uint8_t code(std::int32_t y) const {
     check(newest_after, y);

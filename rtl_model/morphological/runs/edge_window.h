@@ -15,8 +15,8 @@
 // reads of the two columns beside a lattice line, as many as the schedule of the predictors has
 // (PortSchedule). Read-first: a word that is read in the clock in which it moves on is the old one;
 // where the beats are in the frame tells which it was. Cost: (window_rows + 1) x 2 bits a column
-// (with crossings one more), a copy a read port, banks by column. Longest path, at the address: a
-// comparator of 13 bits and a choice of two.
+// (with crossings one more), a copy a read port, banks by column. Made for 250 MHz; longest path,
+// at the address: a comparator of 13 bits and a choice of two.
 #pragma once
 
 #include <algorithm>
@@ -57,6 +57,8 @@ class EdgeWindow {
   // Bits of those words, and of the column before them, a register in hardware, which is nothing at
   // the frame's border.
   EdgeBits beat(std::int32_t beat, std::int32_t y) const { return bits_[place(beat, y)]; }
+  // The same of all beats of row y, from the first one on.
+  const EdgeBits* beats(std::int32_t y) const { return &bits_[place(0, y)]; }
   bool left(std::int32_t x, std::int32_t y) const {
     return beat(x >> lane_bits_, y).left >> lane(x) & 1;
   }

@@ -45,11 +45,13 @@ Activity EndpointPredictor::work(Cycle cycle) {
     // The result registers take turns.
     Out<SumsToken>& out = sums_out[lane];
     std::size_t& turn = turn_[lane];
-    for (std::size_t i = 0, k = turn; i < units_; ++i, k = k + 1 == units_ ? 0 : k + 1) {
+    for (std::size_t i = 0, k = turn; full_ != 0 && i < units_;
+         ++i, k = k + 1 == units_ ? 0 : k + 1) {
       if (!group[k].full) continue;
       if (out.can_push(cycle)) {
         out.push(cycle, group[k].result);
         group[k].full = false;
+        --full_;
         --held_;
         turn = k + 1 == units_ ? 0 : k + 1;
         did = true;
@@ -72,6 +74,7 @@ Activity EndpointPredictor::work(Cycle cycle) {
         }
         place.result = predictor.join();
         place.full = true;
+        ++full_;
         did = true;
       };
       const bool held = !predictor.free();
@@ -101,7 +104,7 @@ void EndpointPredictor::reset() {
     place.full = false;
   }
   std::fill(turn_.begin(), turn_.end(), 0);
-  held_ = 0;
+  held_ = full_ = 0;
   reset_ = kNever;
 }
 

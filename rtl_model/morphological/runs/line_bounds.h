@@ -19,7 +19,8 @@
 // state is there for the next trial's `bounds`.
 // Cost: 8 x 12 flip-flops of corners, 4 x 6 of slope and remainders; 2 products of 6 x 6 bits, 8
 // adders of 7. (By the definition: 34 products of 13 x 6 bits and a running maximum and minimum
-// over them, a corner.) Longest path: 6 x 6 multiply, 12-bit add.
+// over them, a corner.) Made for 250 MHz; longest path: 6 x 6 multiply, 12-bit add; with
+// trial_clocks below 4 two and more of these steps share a clock.
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,8 @@
 // With T = 4 (the default) each stage has its clock. 5 and more leave clocks to slower memories or
 // longer paths. 3: the left side's words are chosen and compared in the clock in which they come,
 // if it reads a clock later (an odd number of ports). 2: so are both sides'. 1: besides, bounds and
-// the next address follow in the same clock. So 3 and below are for slow clocks.
+// the next address follow in the same clock. LineBounds needs four clocks a trial too: with 3, two
+// of its steps share a clock, with 1 all of them. So 3 and below are for slow clocks.
 // A record that is not extended leaves in the clock that takes it. One that is extended, takes from
 // its pop to the clock that may take the next one 1 clock, the wait for its phase, T clocks a
 // trial, and 1 clock; one behind the other T x trials + T clocks, if T >= 3 (else T x trials + 4 or
@@ -31,7 +32,8 @@
 // (safe); a side 16 flip-flops of letters, 3 x 60 of sums (trim; else 60), five comparators of 4
 // bits, three adders and a multiplier of 13 x 5 bits for its sums, trim another one of 13 x 4 and
 // two adders, a selector 3 : 1 of 60 bits. Made for 250 MHz; longest path: 13 x 5 multiply, 24-bit
-// add. Source: paper 000, sections 3 and 4; `safe`, `trim` and the sums are ours.
+// add, with trial_clocks of 4 and more. Source: paper 000, sections 3 and 4; `safe`, `trim` and the
+// sums are ours.
 #pragma once
 
 #include <array>

@@ -113,8 +113,19 @@ Activity RunExtractor::tick(Cycle cycle) {
   return kBusy;
 }
 
+void RunExtractor::begin_row() {
+  row_ = token_.slot.row - reach_rows_ - 2;
+  constexpr std::int32_t kBlended = spec::morphological::kRowLag - 2;  // rows above row y
+  blended_ = window_.beats(row_ - kBlended);
+  const auto in_frame = [&](std::int32_t y) {
+    return y >= 0 && y < store_.rules().height ? window_.beats(y) : nullptr;
+  };
+  ahead_ = in_frame(row_ + rows_.ahead());
+  searched_ = in_frame(row_);
+}
+
 // The words of the slot's columns are here.
-void RunExtractor::pass(Cycle cycle) {
+[[gnu::always_inline]] inline void RunExtractor::pass(Cycle cycle) {
   const FrameRules& rules = store_.rules();
   const Slot& slot = token_.slot;
   const std::int32_t first = slot.beat * lanes_, end = std::min(first + lanes_, rules.width);
@@ -123,22 +134,20 @@ void RunExtractor::pass(Cycle cycle) {
   window_.write_beat(cycle, first, slot.row,
                      {static_cast<std::uint8_t>(token_.left & inside),
                       static_cast<std::uint8_t>(token_.top & inside)});
-  row_ = slot.row - reach_rows_ - 2;
-  constexpr std::int32_t kBlended = spec::morphological::kRowLag - 2;  // rows above row y
-  const EdgeBits blended = window_.beat(slot.beat, row_ - kBlended);
+  if (slot.beat == 0) begin_row();
+  const EdgeBits blended = blended_[slot.beat];
   AreaSlotToken& out = area_slots_out.emplace(cycle);
   out.slot = slot;
   out.left = blended.left;
   out.top = blended.top;
   passed_ = cycle;
   if (store_.rules().diagonal_steps != 0) send_columns(cycle);
-  const std::int32_t ahead = row_ + rows_.ahead();
-  if (ahead >= 0 && ahead < rules.height) {
-    const EdgeBits bits = window_.beat(slot.beat, ahead);
-    rows_.write(cycle, ahead, first, bits.left, bits.top);
+  if (ahead_ != nullptr) {
+    const EdgeBits bits = ahead_[slot.beat];
+    rows_.write(cycle, row_ + rows_.ahead(), first, bits.left, bits.top);
   }
-  if (row_ < 0 || row_ >= rules.height) return;
-  here_ = window_.beat(slot.beat, row_);
+  if (searched_ == nullptr) return;
+  here_ = searched_[slot.beat];
   // One column more is in hand where corners are looked at a column behind.
   const bool behind = corners_ && first != 0 && window_.left(first - 1, row_);
   if (!open_ && !behind && (here_.left | here_.top) == 0) return;

@@ -8,8 +8,9 @@
 //   1      they come, move on by row s - 1 and go back; at fixed bits of them: the edges of the row
 //          that is blended (the slot goes on to AreaUnit and PixelStore), a row for EdgeRows, the
 //          end of a horizontal run (a counter), the beginning of a vertical run or of its tail
-//   2, 3   length of a vertical run: first gap below row y, in groups of 16 rows; choice of a group
-//   4      code of its end: choice of a row; shape; side or none
+//   2, 3   length of a vertical run: first gap below row y, in groups of 16 rows; choice of a
+//          group, and of each group the code at its first gap
+//   4      code of its end: choice of a group; shape; side or none
 //   5      into the FIFOs of the lanes in rotation, one a FIFO and clock
 //
 // With crossings a run also ends, and another begins, at a corner inside it that has a crossing
@@ -26,10 +27,11 @@
 // slot row s - 2 are finished, and those that are being looked for found), `diagonals` (a row of
 // fewer beats than a diagonal takes waits until those of the row before are there), `downstream`.
 // Cost a lane: a first-gap circuit of R + 1 bits, two choices of R + 1 : 1, two counters, 3 columns
-// of flip-flops (window_rows + 1 pairs of bits; with corners 5, and a circuit more). Memory:
-// record_fifo entries an axis and lane.
-// Made for 250 MHz; longest path: 32 : 1 choice, 16 : 1 table of shapes.
-// Source: paper 000, section 2; SMAA (Jimenez et al. 2012).
+// of flip-flops (window_rows + 1 pairs of bits; with corners 5, and a circuit more); registers of 12
+// records that are being looked for and of 4 that wait for their FIFOs. Memory: record_fifo entries
+// an axis and lane.
+// Made for 250 MHz; longest path: choice of 1 in 9 groups (window_rows of 258; 3 by default), 16 :
+// 1 table of shapes. Source: paper 000, section 2; SMAA (Jimenez et al. 2012).
 #pragma once
 
 #include <array>
@@ -109,6 +111,7 @@ class RunExtractor final : public Unit {
 
   bool waits_for_diagonals(Cycle cycle) const;
   bool take_slot(Cycle cycle);  // false: it waits for records
+  void begin_row();
   void pass(Cycle cycle);
   void send_columns(Cycle cycle);
   void horizontal(Find& find, std::int32_t first, std::int32_t end);
@@ -152,8 +155,11 @@ class RunExtractor final : public Unit {
   std::uint64_t step_ = 0;  // clocks in which clocks 2 to 4 went on
 
   std::int32_t row_ = 0;  // y
-  EdgeBits here_;         // of row y in the beat
-  bool open_ = false;     // a horizontal run
+  // Of the words of the window: the row that is blended, the one for EdgeRows and row y; the latter
+  // two nullptr outside the frame.
+  const EdgeBits *blended_ = nullptr, *ahead_ = nullptr, *searched_ = nullptr;
+  EdgeBits here_;      // of row y in the beat
+  bool open_ = false;  // a horizontal run
   std::int32_t start_ = 0;
   Corner start_corner_;
 };

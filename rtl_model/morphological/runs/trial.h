@@ -14,7 +14,8 @@ struct Trial {
   std::int32_t length;  // L
   std::int32_t room;    // the longest step that stays within the reach
   bool to_the_right;
-  std::uint8_t origin, corner;  // codes of the corners at its beginning and its end
+  std::uint8_t origin, corner;       // codes of the corners at its beginning and its end
+  std::int32_t first = 0, last = 0;  // columns that are read for it, in rows
 
   std::int32_t at(std::int32_t step) const { return to_the_right ? from + step : from - step; }
 };

@@ -250,6 +250,9 @@ TEST_F(Directory, TheReportIsSelfContainedAndEscapes) {
   for (const char* key :
        {"commit", "compiler", "systemc", "command", "seed", "configuration", "inputs", "host"})
     EXPECT_TRUE(manifest.contains(key)) << key;
+  // How the program was compiled, and what was chosen to build.
+  EXPECT_TRUE(manifest["build_type"].is_string());
+  EXPECT_TRUE(manifest["build"].is_object());
   for (const auto& entry : std::filesystem::directory_iterator(path_))
     EXPECT_THAT(entry.path().extension().string(), testing::AnyOf(".json", ".html", ".png"));
 }
@@ -261,7 +264,7 @@ class Page : public Directory {
     ParameterSet parameters;
     RunContext context(path_, parameters, "x", 0);
     context.claim();
-      context.finish(result);
+    context.finish(result);
     return read_file(path_ / "report.html", 1 << 24);
   }
 };

@@ -217,7 +217,7 @@ TEST(EdgeMemory, OneAccessTooManyInAClockStops) {
   Shown shown(built(true), 150, 70, 30, 500);
   EdgeWindow& window = shown.memories.window;
   EdgeRows& rows = shown.memories.rows;
-  const Trial across{40, 30, 3, 20, true, 2, 1}, along{31, 40, 3, 20, true, 2, 1};
+  Trial across{40, 30, 3, 20, true, 2, 1}, along{31, 40, 3, 20, true, 2, 1};
   for (const Cycle cycle : {Cycle{7}, Cycle{8}, Cycle{100}}) {
     window.read(cycle, 0, across);
     expect_stop([&] { window.read(cycle, 0, across); }, "edge_window");
@@ -232,7 +232,7 @@ TEST(EdgeMemory, AWordIsThereAClockAfterItsReadAndNotBefore) {
   Shown shown(built(true), 150, 70, 30, 500);
   EdgeWindow& window = shown.memories.window;
   EdgeRows& rows = shown.memories.rows;
-  const Trial across{40, 30, 3, 20, true, 2, 1}, along{31, 40, 3, 20, true, 2, 1};
+  Trial across{40, 30, 3, 20, true, 2, 1}, along{31, 40, 3, 20, true, 2, 1};
   // None has been read yet.
   expect_stop([&] { window.hits(7, 0, across); }, "edge_window");
   expect_stop([&] { rows.hits(7, 0, along); }, "edge_rows");
@@ -243,7 +243,7 @@ TEST(EdgeMemory, AWordIsThereAClockAfterItsReadAndNotBefore) {
   EXPECT_NO_THROW(window.hits(8, 0, across));
   EXPECT_NO_THROW(rows.hits(8, 0, along));
   // A read that is issued too late leaves the word of the one before.
-  const Trial next_across{60, 30, 3, 20, true, 2, 1}, next_along{33, 140, 3, 20, true, 2, 1};
+  Trial next_across{60, 30, 3, 20, true, 2, 1}, next_along{33, 140, 3, 20, true, 2, 1};
   window.read(9, 0, next_across);
   rows.read(9, 0, next_along);
   expect_stop([&] { window.hits(9, 0, next_across); }, "edge_window");

@@ -483,9 +483,9 @@ TEST(TextureRtlUnit, AccountsForItsMemories) {
     if (memory->memory_kind() != rtl::MemoryKind::kFlops) continue;
     EXPECT_LE(memory->logical_bits(), rtl::MemoryBase::kMostFlopBits) << memory->name();
   }
-  // Descriptors, tags, data banks, fill buffer, missed lines, latency FIFO, responses of the memory
-  // port, sRGB.
-  EXPECT_EQ(names.size(), 8u);
+  // Descriptors, tags, data banks, fill buffer and which of its lines have come, missed lines and
+  // which of them failed, latency FIFO, responses of the memory port, sRGB.
+  EXPECT_EQ(names.size(), 10u);
   const auto find = [&](const std::string& name) -> const rtl::MemoryBase& {
     for (const rtl::MemoryBase* memory : b.unit.memories())
       if (memory->name() == "unit." + name) return *memory;
