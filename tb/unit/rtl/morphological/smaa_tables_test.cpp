@@ -105,6 +105,115 @@ TEST(SmaaTables, LayoutsGiveTheSameShares) {
   }
 }
 
+// ---- clocks -------------------------------------------------------------------------------------
+
+class TableClocks : public ::testing::TestWithParam<AreaSource> {
+ protected:
+  struct Owner : sc_core::sc_module {
+    Owner(const sc_core::sc_module_name& name, AreaSource layout)
+        : sc_module(name), table(layout, 1) {}
+    AreaTable table;
+  };
+  // Of a query and of one with other addresses in every ROM, what the table says to this.
+  template <class Use>
+  static std::string said(Use&& use) {
+    Owner owner("owner", GetParam());
+    AreaTable::Query query{5, 3, 9}, other{100, 60, 9};
+    try {
+      use(owner.table, query, other);
+    } catch (const spec::CheckFailed& failure) {
+      return failure.what();
+    }
+    return "nothing";
+  }
+};
+
+// Roots come a clock after their addresses, entries a clock after theirs.
+TEST_P(TableClocks, WordsComeInTheirClock) {
+  EXPECT_EQ(said([](AreaTable& table, auto& query, auto&) {
+              table.address_roots(1, 0, query);
+              table.address_entries(2, 0, query);
+              const AreaTable::Shares shares = table.shares(3, 0, query);
+              EXPECT_NE(shares.first + shares.second, 0);
+            }),
+            "nothing");
+}
+// A query a clock, each of three stages at work: no word of one is another's.
+TEST_P(TableClocks, TakeAQueryAClock) {
+  Owner pipelined("pipelined", GetParam()), alone("alone", GetParam());
+  std::vector<AreaTable::Query> queries;
+  for (unsigned i = 0; i < 400; ++i)
+    queries.push_back({static_cast<std::uint8_t>(i * 37 % 225),
+                       static_cast<std::uint8_t>(i * 101 % 225),
+                       static_cast<std::uint8_t>(i * 7 % 16)});
+  std::vector<AreaTable::Query> one_by_one = queries;
+  for (std::size_t c = 0; c < queries.size() + 2; ++c) {
+    if (c >= 2) {
+      const AreaTable::Shares got = pipelined.table.shares(c, 0, queries[c - 2]);
+      AreaTable::Query& query = one_by_one[c - 2];
+      alone.table.address_roots(4 * c, 0, query);
+      alone.table.address_entries(4 * c + 1, 0, query);
+      const AreaTable::Shares want = alone.table.shares(4 * c + 2, 0, query);
+      ASSERT_EQ(got.first, want.first) << c;
+      ASSERT_EQ(got.second, want.second) << c;
+    }
+    if (c >= 1 && c <= queries.size()) pipelined.table.address_entries(c, 0, queries[c - 1]);
+    if (c < queries.size()) pipelined.table.address_roots(c, 0, queries[c]);
+  }
+}
+TEST_P(TableClocks, ARootIsNotUsedAClockEarly) {
+  EXPECT_THAT(said([](AreaTable& table, auto& query, auto&) {
+                table.address_roots(1, 0, query);
+                table.address_entries(1, 0, query);
+              }),
+              ::testing::AllOf(::testing::HasSubstr("sqrt_rom"), ::testing::HasSubstr("is used")));
+}
+TEST_P(TableClocks, ARootIsNotUsedAClockLate) {
+  EXPECT_THAT(said([](AreaTable& table, auto& query, auto& other) {
+                table.address_roots(1, 0, query);
+                table.address_roots(2, 0, other);
+                table.address_entries(3, 0, query);
+              }),
+              ::testing::AllOf(::testing::HasSubstr("sqrt_rom"),
+                               ::testing::HasSubstr("was there from cycle 2 on")));
+}
+TEST_P(TableClocks, AnEntryIsNotUsedAClockEarly) {
+  EXPECT_THAT(said([](AreaTable& table, auto& query, auto&) {
+                table.address_roots(1, 0, query);
+                table.address_entries(2, 0, query);
+                table.shares(2, 0, query);
+              }),
+              ::testing::AllOf(::testing::HasSubstr("area_rom"), ::testing::HasSubstr("is used")));
+}
+TEST_P(TableClocks, AnEntryIsNotUsedAClockLate) {
+  EXPECT_THAT(said([](AreaTable& table, auto& query, auto& other) {
+                table.address_roots(1, 0, query);
+                table.address_roots(2, 0, other);
+                table.address_entries(2, 0, query);
+                table.address_entries(3, 0, other);
+                table.shares(4, 0, query);
+              }),
+              ::testing::AllOf(::testing::HasSubstr("area_rom"),
+                               ::testing::HasSubstr("was there from cycle 3 on")));
+}
+// A port gives a word a clock: a second query of a reader in the same clock is refused.
+TEST_P(TableClocks, AReaderAsksOnceAClock) {
+  EXPECT_THAT(said([](AreaTable& table, auto& query, auto& other) {
+                table.address_roots(1, 0, query);
+                table.address_roots(1, 0, other);
+              }),
+              ::testing::HasSubstr("a second access"));
+  EXPECT_THAT(said([](AreaTable& table, auto& query, auto&) {
+                table.address_roots(1, 1, query);
+                table.address_roots(1, 0, query);
+              }),
+              "nothing")
+      << "another reader has ports of its own";
+}
+INSTANTIATE_TEST_SUITE_P(Each, TableClocks,
+                         ::testing::Values(AreaSource::kTableFull, AreaSource::kTableMerged,
+                                           AreaSource::kTableMinimal));
+
 // ---- planted faults -----------------------------------------------------------------------------
 
 // A falling stair of one pixel, and the hash of the contract.
