@@ -157,6 +157,83 @@ TEST(Registers, ResetValuesAreTheParameters) {
   EXPECT_EQ(bench.bus.try_write(reg::kPixels, 1), tlm::TLM_COMMAND_ERROR_RESPONSE);
 }
 
+// Bit by bit from the contract's table.
+TEST(Registers, ResetValuesOfSmaaAreThePresets) {
+  constexpr std::uint32_t kLinear = 1u << 15, kCrossings = 1u << 18, kTable = 1u << 19,
+                          kDiagonals = 1u << 20, kCorners = 1u << 21, kStrongest = 1u << 22;
+  using spec::morphological::Quality;
+  struct Row {
+    Preset preset;
+    Quality quality;
+    std::uint32_t rules, threshold, smaa;
+  };
+  constexpr std::uint32_t kFixed = 1u << 3 | 3u << 4 | kLinear | kCrossings | kTable | kStrongest,
+                          kDynamic = 1u << 2 | 1u << 4 | kLinear | kCrossings | kTable | kStrongest;
+  struct Owner : sc_core::sc_module {
+    Owner(const sc_core::sc_module_name& name, const Parameters& p) : sc_module(name), store(p) {}
+    Registers store;
+  };
+  for (const Row& row :
+       {Row{Preset::kSmaa, Quality::kLow, kFixed, 9830, 4u | 8u << 8 | 64u << 16},
+        Row{Preset::kSmaa, Quality::kMedium, kFixed, 6554, 8u | 8u << 8 | 64u << 16},
+        Row{Preset::kSmaa, Quality::kHigh, kFixed | kDiagonals | kCorners, 6554,
+            16u | 8u << 8 | 64u << 16},
+        Row{Preset::kSmaa, Quality::kUltra, kFixed | kDiagonals | kCorners, 3277,
+            32u | 16u << 8 | 64u << 16},
+        Row{Preset::kSmaaDynamic, Quality::kHigh, kDynamic | kDiagonals | kCorners, 1966,
+            16u | 8u << 8 | 64u << 16}}) {
+    Owner owner("owner", smaa(row.quality, row.preset));
+    EXPECT_EQ(owner.store.bus.read(reg::kRules), row.rules);
+    EXPECT_EQ(owner.store.bus.read(reg::kThreshold), row.threshold);
+    EXPECT_EQ(owner.store.bus.read(reg::kSmaa), row.smaa);
+    owner.store.bus.write(reg::kSmaa, 0);
+    owner.store.bus.write(reg::kRules, 0);
+    owner.store.reset();
+    EXPECT_EQ(owner.store.bus.read(reg::kRules), row.rules);
+    EXPECT_EQ(owner.store.bus.read(reg::kSmaa), row.smaa);
+  }
+}
+
+TEST(Registers, DiagonalsAreCountedShownAndCleared) {
+  EngineBench bench(smaa());
+  bench.run(noise());
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 233u);  // of the contract's vector
+  bench.run(noise());
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 233u);
+  EXPECT_EQ(bench.bus.try_write(reg::kDiagonals, 1), tlm::TLM_COMMAND_ERROR_RESPONSE);
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 233u);
+  // Switched off they are not looked for.
+  bench.bus.write(reg::kRules, bench.bus.read(reg::kRules) & ~(1u << 20));
+  bench.run(noise());
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 233u);
+  bench.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 0u);
+}
+
+TEST(Registers, DiagonalsReadZeroWhereNotBuilt) {
+  EngineBench bench(deburr());
+  bench.run(noise());
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 0u);
+}
+
+// The rules of a frame inside stand still.
+TEST(Registers, SmaaCountsFromTheNextFrame) {
+  EngineBench bench(smaa());
+  bench.engine.set_frame_size(97, 61);
+  bench.driver.send(beats_of(noise(), 1));
+  bench.clock.run(500);
+  const std::uint32_t before = bench.bus.read(reg::kSmaa);
+  bench.bus.write(reg::kSmaa, 1);
+  EXPECT_EQ(bench.bus.read(reg::kSmaa), before);
+  EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusWrittenWhileBusy);
+  bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },
+                   100'000);
+  EXPECT_EQ(hash(bench.last(97, 61)), 0x3d8c8d3867fd2bccu);
+  bench.wanted = bench.sink.received();
+  bench.bus.write(reg::kSmaa, 1);
+  EXPECT_NE(hash(bench.run(noise())), 0x3d8c8d3867fd2bccu);
+}
+
 TEST(Registers, RulesCountFromTheNextFrame) {
   EngineBench bench(deburr());
   EXPECT_EQ(hash(bench.run(blocks())), 0xe86c7f9318eacf5eu);
@@ -432,6 +509,77 @@ INSTANTIATE_TEST_SUITE_P(
         Field{"linear_light", as_it_is, reg::kRules, 15, 15, 0,
               [](P& p) { p.linear_light = false; }},
         Field{"trim", fit, reg::kRules, 16, 16, 1, [](P& p) { p.trim = true; }}),
+    [](const auto& field) { return field.param.name; });
+
+// All of SMAA's blocks, each of which a bit of RULES switches off and a field of SMAA moves.
+void with_smaa(P& p) {
+  p.ends = spec::morphological::Ends::kCrossings;
+  p.area = spec::morphological::AreaSource::kTableMerged;
+  p.search_steps = 4;
+  p.diagonals = true;
+  p.diagonal_steps = 8;
+  p.round_corners = true;
+  p.corner_rounding = 64;
+  p.blend = spec::morphological::BlendRule::kStrongest;
+  p.predictor = spec::morphological::Predictor::kNone;
+  p.steps = 0;
+}
+template <int kSteps>
+void search_steps(P& p) {
+  p.search_steps = kSteps;
+}
+template <int kSteps>
+void diagonal_steps(P& p) {
+  p.diagonal_steps = kSteps;
+}
+template <int kShare>
+void corner_rounding(P& p) {
+  p.corner_rounding = kShare;
+}
+void no_diagonals(P& p) { p.diagonals = false; }
+void no_corners(P& p) { p.round_corners = false; }
+
+INSTANTIATE_TEST_SUITE_P(
+    Smaa, RegisterField,
+    ::testing::Values(
+        Field{"ends_gaps", with_smaa, reg::kRules, 18, 18, 0,
+              [](P& p) { p.ends = spec::morphological::Ends::kGaps; }},
+        Field{"area_analytic", with_smaa, reg::kRules, 19, 19, 0,
+              [](P& p) { p.area = spec::morphological::AreaSource::kAnalytic; }},
+        Field{"diagonals_off", with_smaa, reg::kRules, 20, 20, 0, no_diagonals},
+        Field{"corners_off", with_smaa, reg::kRules, 21, 21, 0, no_corners},
+        Field{"blend_longest", with_smaa, reg::kRules, 22, 22, 0,
+              [](P& p) { p.blend = spec::morphological::BlendRule::kLongest; }},
+        Field{"dynamic_luma_current",
+              [](P& p) {
+                dynamic(p);
+                p.dynamic_luma = spec::morphological::DynamicLuma::kMin;
+              },
+              reg::kRules, 17, 17, 0,
+              [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kCurrent; }},
+        Field{"search_steps_1", with_smaa, reg::kSmaa, 0, 6, 1, search_steps<1>},
+        Field{"search_steps_5", with_smaa, reg::kSmaa, 0, 6, 5, search_steps<5>},
+        Field{"search_steps_112", with_smaa, reg::kSmaa, 0, 6, 112, search_steps<112>},
+        Field{"search_steps_0_is_1", with_smaa, reg::kSmaa, 0, 6, 0, search_steps<1>},
+        Field{"search_steps_113_is_112", with_smaa, reg::kSmaa, 0, 6, 113, search_steps<112>},
+        Field{"search_steps_127_is_112", with_smaa, reg::kSmaa, 0, 6, 127, search_steps<112>},
+        Field{"search_steps_count_for_tables_alone", as_it_is, reg::kSmaa, 0, 6, 1, as_it_is,
+              false},
+        Field{"diagonal_steps_2", with_smaa, reg::kSmaa, 8, 12, 2, diagonal_steps<2>},
+        Field{"diagonal_steps_1", with_smaa, reg::kSmaa, 8, 12, 1, diagonal_steps<1>},
+        Field{"diagonal_steps_0_are_none", with_smaa, reg::kSmaa, 8, 12, 0, no_diagonals},
+        Field{"diagonal_steps_9_are_as_many_as_built", with_smaa, reg::kSmaa, 8, 12, 9, as_it_is,
+              false},
+        Field{"diagonal_steps_31_are_as_many_as_built", with_smaa, reg::kSmaa, 8, 12, 31, as_it_is,
+              false},
+        Field{"corner_rounding_0", with_smaa, reg::kSmaa, 16, 24, 0, corner_rounding<0>},
+        Field{"corner_rounding_1", with_smaa, reg::kSmaa, 16, 24, 1, corner_rounding<1>},
+        Field{"corner_rounding_255", with_smaa, reg::kSmaa, 16, 24, 255, corner_rounding<255>},
+        Field{"corner_rounding_256_is_none", with_smaa, reg::kSmaa, 16, 24, 256, no_corners},
+        Field{"corner_rounding_257_is_256", with_smaa, reg::kSmaa, 16, 24, 257,
+              corner_rounding<256>},
+        Field{"corner_rounding_511_is_256", with_smaa, reg::kSmaa, 16, 24, 511,
+              corner_rounding<256>}),
     [](const auto& field) { return field.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
