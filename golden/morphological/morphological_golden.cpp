@@ -183,9 +183,12 @@ void MorphologicalGolden::count_searches(const spec::morphological::LineRecord& 
 }
 
 void MorphologicalGolden::count_thresholds(const ImageView& image) {
-  if (parameters_.edge_source != spec::morphological::EdgeSource::kLuma ||
-      parameters_.threshold_mode != spec::morphological::ThresholdMode::kDynamic)
+  if (parameters_.edge_source != spec::morphological::EdgeSource::kLuma) return;
+  if (parameters_.threshold_mode == spec::morphological::ThresholdMode::kFixed) {
+    if (parameters_.area != spec::morphological::AreaSource::kAnalytic || parameters_.diagonals)
+      smaa_coverage_.count_fixed(edges_.left.count() + edges_.top.count());
     return;
+  }
   const auto count = [&](bool edge, int x, int y, int from_x, int from_y) {
     if (!edge) return;
     const PixelPair pair{luma(image.at(x, y)), luma(image.at(from_x, from_y)), 0, 0};

@@ -94,6 +94,7 @@ std::vector<CoverageBin> SmaaCoverage::bins() const {
     for (std::size_t length = 0; length < 3; ++length)
       add(lengths_[direction][length], "diagonal-length", kDirections[direction], kLengths[length]);
   }
+  add(fixed_, "threshold", "fixed", {});
   for (std::size_t luma = 0; luma < 4; ++luma)
     for (std::size_t regime = 0; regime < 2; ++regime)
       add(thresholds_[luma][regime], "threshold", spec::morphological::kDynamicLumaNames[luma],

@@ -2,15 +2,15 @@
 // Functional coverage of SMAA's blocks: which situations the frames so far contained.
 //
 // Beside RunCoverage, for frames with a table, diagonals or a dynamic threshold:
-//   table/<axis>/<shape>/<distance>           pixels, by the shape that their searches leave and
-//   the
-//                                             longer of their distances
+//   table/<axis>/<shape>/<distance>           pixels, by the shape that their searches leave and by
+//                                             the longer of their distances
 //   table-entry/<tile>/<first|last>           distances 0, and beyond the last root but one
 //   search/<axis>/<end>/<at|beyond>           the limit
 //   diagonal/<direction>/<e1>-<e2>            directions that count
 //   diagonal-ends/<direction>/<which>         that are open
 //   diagonal-length/<direction>/<pixels>
-//   threshold/<luma>/<floor|alpha>            edges, by what their threshold was
+//   threshold/fixed                           edges of a fixed T
+//   threshold/<luma>/<floor|alpha>            edges of a dynamic one, by what decided it
 // Every bin can be reached (tb/unit/golden/morphological/coverage_test.cpp).
 #pragma once
 
@@ -34,6 +34,7 @@ class SmaaCoverage {
   void count_threshold(spec::morphological::DynamicLuma luma, bool floor) {
     ++thresholds_[static_cast<std::size_t>(luma)][floor ? 0 : 1];
   }
+  void count_fixed(std::uint64_t edges) { fixed_ += edges; }
   // Every bin, hit or not, always in the same order.
   std::vector<CoverageBin> bins() const;
 
@@ -48,6 +49,7 @@ class SmaaCoverage {
   std::array<std::array<std::uint64_t, 4>, 2> open_{};     //
   std::array<std::array<std::uint64_t, 3>, 2> lengths_{};  //
   std::array<Pair, 4> thresholds_{};
+  std::uint64_t fixed_ = 0;
 };
 
 }  // namespace deburr::golden::morphological
