@@ -178,6 +178,55 @@ class Configuration(Base):
                         "morphological.edges.threshold_mode=dynamic", says="predicated")
         self.run_engine(2, *self.SMALL, "--lanes", "3", says="1, 2, 4")
 
+    RANGES = {"edges.threshold": (1, 65535), "edges.alpha": (0, 65535), "edges.floor": (1, 65535),
+              "search_steps": (1, 112), "diagonal_steps": (1, 16), "corner_rounding": (0, 256)}
+
+    def test_numbers_of_smaa_out_of_their_ranges(self):
+        """Distances to 2N pixels lie within the 225 of the tables for every N, so that there is no table that does
+        not fit: N above that is out of range."""
+        for name, (least, most) in self.RANGES.items():
+            for value in (least - 1, most + 1, "few", 0.5):
+                self.run_engine(2, *self.SMALL, "--preset", "smaa", "--set", f"morphological.{name}={value}",
+                                says=[f"morphological.{name}", f"{least}..{most}"])
+        self.assertFalse(os.path.exists(self.path("out")))
+
+    def test_numbers_of_smaa_at_the_ends_of_their_ranges(self):
+        """Also alpha and T far outside of what the paper speaks of."""
+        for name, ends in self.RANGES.items():
+            preset = "smaa-dynamic" if name in ("edges.alpha", "edges.floor") else "smaa"
+            for value in ends:
+                self.run_engine(0, *self.SMALL, "--preset", preset, "--set", f"morphological.{name}={value}", says="PASS")
+
+    def test_unknown_choices_of_smaa(self):
+        for name, known in (("quality", "low, medium, high, ultra"), ("ends", "gaps, crossings"),
+                            ("area", "analytic, table_full, table_merged, table_minimal"),
+                            ("blend", "longest, strongest"), ("edges.dynamic_luma", "current, max, min, mean"),
+                            ("edges.local_contrast", "off, paper, symmetric, smaa"), ("diagonals", "true or false"),
+                            ("round_corners", "true or false")):
+            self.run_engine(2, *self.SMALL, "--preset", "smaa", "--set", f"morphological.{name}=none-such",
+                            says=[f"morphological.{name}", "none-such", known])
+        self.run_engine(2, *self.SMALL, "--preset", "smaa2", says=["smaa2", "did you mean 'smaa'?", "smaa-dynamic"])
+        self.assertFalse(os.path.exists(self.path("out")))
+
+    def test_mixes_of_smaa(self):
+        """What the contract refuses, and next to it what is legal."""
+        smaa = ("--preset", "smaa")
+
+        def rows(steps, window):
+            return self.SMALL + smaa + ("--set", f"morphological.diagonal_steps={steps}", "--set",
+                                        f"morphological.window_rows={window}")
+
+        for steps in (5, 6, 15, 16):
+            least = 2 * steps + 2
+            self.run_engine(2, *rows(steps, least - 2), says=["diagonal_steps", f"window_rows of at least {least}"])
+            self.run_engine(0, *rows(steps, least), says="PASS")
+        # Without diagonals the same window is legal.
+        self.run_engine(0, *self.SMALL, *smaa, "--set", "morphological.diagonals=false", "--set",
+                        "morphological.window_rows=10", says="PASS")
+        self.run_engine(2, *self.SMALL, "--preset", "smaa-dynamic", "--set", "morphological.edges.source=predicated",
+                        says=["predicated", "threshold_mode = fixed"])
+        self.run_engine(0, *self.SMALL, *smaa, "--set", "morphological.edges.source=predicated", says="PASS")
+
     def test_a_rule_beside_a_preset_overrides_it(self):
         done = self.run_engine(0, "--preset", "mlaa-slope", "--set", "morphological.steps=8", "--show-config")
         self.assertIn("morphological.steps: 8", done.stdout)

@@ -464,7 +464,13 @@ TEST(NamedErrors, OfParameters) {
   EXPECT_THAT(error_of([](P& p) { p.search_steps = 0; }), HasSubstr("search_steps"));
   EXPECT_THAT(error_of([](P& p) { p.diagonal_steps = 17; }), HasSubstr("outside 1..16"));
   EXPECT_THAT(error_of([](P& p) { p.corner_rounding = 257; }), HasSubstr("outside 0..256"));
+  EXPECT_THAT(error_of([](P& p) { p.diagonal_steps = 0; }), HasSubstr("diagonal_steps"));
+  EXPECT_THAT(error_of([](P& p) { p.corner_rounding = -1; }), HasSubstr("corner_rounding"));
   EXPECT_THAT(error_of([](P& p) { p.alpha = 65536; }), HasSubstr("edges.alpha"));
+  EXPECT_THAT(error_of([](P& p) { p.alpha = -1; }), HasSubstr("outside 0..65535"));
+  EXPECT_EQ(error_of([](P& p) { p.alpha = 0; }), "");
+  EXPECT_THAT(error_of([](P& p) { p.floor = 0; }), HasSubstr("edges.floor"));
+  EXPECT_THAT(error_of([](P& p) { p.threshold = 65536; }), HasSubstr("outside 1..65535"));
   const auto too_far = [](P& p) {
     p.steps = 4;
     p.diagonals = true;

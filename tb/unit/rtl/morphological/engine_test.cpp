@@ -341,9 +341,28 @@ INSTANTIATE_TEST_SUITE_P(
                                      p.diagonal_steps = 10;
                                    }},
                       BadParameter{"threshold", [](auto& p) { p.threshold = 0; }},
+                      BadParameter{"edges.threshold", [](auto& p) { p.threshold = 65536; }},
+                      BadParameter{"edges.alpha", [](auto& p) { p.alpha = -1; }},
+                      BadParameter{"edges.alpha", [](auto& p) { p.alpha = 65536; }},
+                      BadParameter{"edges.floor", [](auto& p) { p.floor = 0; }},
+                      BadParameter{"edges.floor", [](auto& p) { p.floor = 65536; }},
+                      BadParameter{"search_steps", [](auto& p) { p.search_steps = 0; }},
+                      BadParameter{"1..112", [](auto& p) { p.search_steps = 113; }},
+                      BadParameter{"diagonal_steps", [](auto& p) { p.diagonal_steps = 0; }},
+                      BadParameter{"1..16", [](auto& p) { p.diagonal_steps = 17; }},
+                      BadParameter{"corner_rounding", [](auto& p) { p.corner_rounding = -1; }},
+                      BadParameter{"0..256", [](auto& p) { p.corner_rounding = 257; }},
                       BadParameter{"no more than two of 24 quotient bits",
                                    [](auto& p) { p.divider_latency = 13; }},
                       BadParameter{"line_pixels", [](auto& p) { p.line_pixels = 8193; }}));
+
+// One row less would not do.
+TEST(GoodParameters, OfDiagonalsAsFarAsTheWindowReaches) {
+  Parameters p = smaa();
+  p.diagonal_steps = spec::morphological::kMaxDiagonalSteps;
+  p.window_rows = 2 * p.diagonal_steps + 2;
+  EXPECT_NO_THROW(EngineBench bench(p));
+}
 
 TEST(BadFrames, AreNamed) {
   EngineBench bench(deburr());
