@@ -208,10 +208,10 @@ inline PayloadShape line_shape(const spec::morphological::Parameters& p) {
 // RunExtractor -> EndpointPredictor.
 struct RunToken {
   spec::morphological::RunRecord run;
+  // With crossings: which of its column's two it is, vertical; edges along the run go on, bit 0
+  // before its start, bit 1 behind its end.
+  std::uint8_t entry, beyond;
   std::uint32_t slot;  // low bits of the slot that the run was found in
-  std::uint8_t entry;  // of its column: vertical, with crossings
-  // With crossings: edges along the run go on, bit 0 before its start, bit 1 behind its end.
-  std::uint8_t beyond;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("run", self.run);

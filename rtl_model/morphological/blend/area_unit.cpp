@@ -89,8 +89,11 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
                lanes_),
       crossings_(p.ends == spec::morphological::Ends::kCrossings),
       corners_(p.round_corners),
-      smaa_(crossings_ || corners_ || p.area != spec::morphological::AreaSource::kAnalytic),
-      pairs_(crossings_ ? columns_ : columns_ / 2),
+      smaa_(crossings_ || corners_ || p.diagonals ||
+            p.area != spec::morphological::AreaSource::kAnalytic),
+      pair_bits_(crossings_ ? 0 : 1),
+      entry_bits_(crossings_ ? 1 : 0),
+      pairs_(columns_ >> pair_bits_),
       weight_lines_("weight_lines", {.words = columns_,
                                      .word_bits = 3 * kShareBits + 2 * kSpanBits,
                                      .read_during_write = ReadDuringWrite::kNewWord,
@@ -101,15 +104,15 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
       weights_(columns_ / lanes_),
       row_("row",
            marks_shape(2 * pairs_, static_cast<std::size_t>(p.line_pixels),
-                       crossings_ ? lanes_ : std::max<std::size_t>(1, lanes_ / 2),
+                       std::max<std::size_t>(1, lanes_ >> pair_bits_),
                        crossings_ ? "a horizontal record a column, two rows"
                                   : "a horizontal record a pair of columns, two rows"),
            // Row, odd column, length.
            kCoordinateBits + 1 + kLengthBits, corners_),
       column_(
           "column",
-          marks_shape(crossings_ ? 2 * columns_ : columns_, static_cast<std::size_t>(p.line_pixels),
-                      crossings_ ? 2 * lanes_ : lanes_,
+          marks_shape(columns_ << entry_bits_, static_cast<std::size_t>(p.line_pixels),
+                      lanes_ << entry_bits_,
                       crossings_ ? "two vertical records a column" : "a vertical record a column"),
           // Start, length up to R.
           kCoordinateBits + 8, corners_) {
@@ -124,7 +127,7 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
 std::size_t AreaUnit::place(const AxisRecords& side, const LineToken& token) const {
   const spec::morphological::RunRecord& run = token.line.run;
   if (&side == &row_) return pair_of(run.line, run.start);
-  return crossings_ ? 2u * run.line + token.entry : run.line;
+  return (std::size_t{run.line} << entry_bits_) + token.entry;
 }
 
 // At the entrance: behind their slots, one a bank.
@@ -206,6 +209,7 @@ void AreaUnit::store(Cycle cycle, AxisRecords& side, const LineToken& token) {
 // ---- Slots --------------------------------------------------------------------------------------
 
 // Stage 1.
+template <bool kSmaa>
 void AreaUnit::address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat) {
   beat.slot = token.slot;
   beat.left = token.left;
@@ -220,20 +224,18 @@ void AreaUnit::address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat
   beat.works = row >= 0;
   beat.evaluates = beat.works && row < store_.rules().height;
   if (!beat.evaluates) return;
-  const std::size_t pair = pair_of(row, x);
+  const std::size_t pair = pair_of<kSmaa>(row, x);
   beat.pair = static_cast<std::uint32_t>(pair);
   row_.read_marks.read(cycle, pair, row_.banks);
-  column_.read_marks.read(cycle, crossings_ ? 2 * x : x, column_.banks);
-  if (crossings_) {
-    std::memcpy(beat.single_row_mark.data(), &row_.mark[pair], sizeof beat.single_row_mark);
-    std::memcpy(beat.entry_mark.data(), &column_.mark[2 * x], sizeof beat.entry_mark);
-    return;
-  }
-  std::memcpy(beat.row_mark.data(), &row_.mark[pair], sizeof beat.row_mark);
-  std::memcpy(beat.column_mark.data(), &column_.mark[x], sizeof beat.column_mark);
+  column_.read_marks.read(cycle, x << (kSmaa ? entry_bits_ : 0), kSmaa ? column_.banks : lanes_);
+  constexpr std::size_t kShare = kSmaa ? 1 : 2;  // without crossings half of them are read
+  std::memcpy(beat.row_mark.data(), &row_.mark[pair], sizeof beat.row_mark / kShare);
+  std::memcpy(beat.column_mark.data(), &column_.mark[x << (kSmaa ? entry_bits_ : 0)],
+              sizeof beat.column_mark / kShare);
 }
 
 // Stage 2.
+template <bool kSmaa>
 void AreaUnit::match(Cycle cycle, Beat& beat) {
   const Slot& slot = beat.slot;
   if (slot.beat == 0) {
@@ -246,15 +248,15 @@ void AreaUnit::match(Cycle cycle, Beat& beat) {
   if (!beat.evaluates) return;
   const std::int32_t row = evaluated_row(slot);
   row_.read_marks.check(cycle, beat.pair);
-  column_.read_marks.check(cycle, crossings_ ? 2 * beat.x : beat.x);
-  if (smaa_) return smaa_match(cycle, beat, row);
+  column_.read_marks.check(cycle, std::size_t{beat.x} << (kSmaa ? entry_bits_ : 0));
+  if constexpr (kSmaa) return smaa_match(cycle, beat, row);
   std::uint8_t hand = 1, any = 0;
   for (std::size_t i = 0; i < beat.count; ++i) {
     const std::size_t x = beat.x + i;
     const Mark& mark = beat.row_mark[i / 2];
     if (mark.length != 0 && mark.row == row && mark.start == x) {
       hand_ = mark;
-      const std::size_t pair = pair_of(row, x), bank = pair % row_.banks;
+      const std::size_t pair = pair_of<kSmaa>(row, x), bank = pair % row_.banks;
       row_.read[bank].read(cycle, pair);
       hand = static_cast<std::uint8_t>(2 + bank);
     }
@@ -281,7 +283,7 @@ void AreaUnit::clear_marks(Cycle cycle, const Slot& slot) {
     row_.mark[pair + bank] = {};
   }
   if (slot.row != 0) return;
-  const std::size_t column = crossings_ ? 2 * x : x;
+  const std::size_t column = x << entry_bits_;
   for (std::size_t bank = 0; bank < column_.banks; ++bank) {
     column_.write_marks[bank].write(cycle, column + bank);
     column_.mark[column + bank] = {};
@@ -330,7 +332,7 @@ void AreaUnit::smaa_match(Cycle cycle, Beat& beat, std::int32_t row) {
   std::uint8_t hand = 1, any = 0;
   for (std::size_t i = 0; i < beat.count; ++i) {
     const std::size_t x = beat.x + i;
-    const Mark& mark = crossings_ ? beat.single_row_mark[i] : beat.row_mark[i / 2];
+    const Mark& mark = beat.row_mark[i >> pair_bits_];
     if (mark.length != 0 && mark.row == row && mark.start == x) {
       hand_ = mark;
       const std::size_t at = pair_of(row, x), bank = at % row_.banks;
@@ -344,9 +346,9 @@ void AreaUnit::smaa_match(Cycle cycle, Beat& beat, std::int32_t row) {
 
     Edge& down = beat.vertical[i];
     down.from = 0;
-    const std::size_t entries = crossings_ ? 2 : 1;
+    const std::size_t entries = std::size_t{1} << entry_bits_;
     for (std::size_t entry = 0; entry < entries; ++entry) {
-      const Mark& column = crossings_ ? beat.entry_mark[2 * i + entry] : beat.column_mark[i];
+      const Mark& column = beat.column_mark[(i << entry_bits_) + entry];
       // U13: a line may have been stored before its first row.
       const auto k = static_cast<std::uint16_t>((row - column.start) & 0x1FFF);
       if (k >= column.length) continue;
@@ -363,7 +365,7 @@ void AreaUnit::smaa_match(Cycle cycle, Beat& beat, std::int32_t row) {
 // Stage 3: what the table is asked, or all of the analytic area.
 void AreaUnit::smaa_evaluate(Cycle cycle, Beat& beat) {
   const std::int32_t row = evaluated_row(beat.slot);
-  const std::size_t entries = crossings_ ? 2 : 1;
+  const std::size_t entries = std::size_t{1} << entry_bits_;
   for (Search& search : beat.search) search.active = false;
   for (std::size_t i = 0; i < beat.count; ++i) {
     const Edge along = beat.horizontal[i], down = beat.vertical[i];
@@ -523,49 +525,55 @@ void AreaUnit::share(Cycle cycle, const Beat& beat) {
   }
 }
 
-Activity AreaUnit::tick(Cycle cycle) {
+template <bool kSmaa>
+Activity AreaUnit::work(Cycle cycle) {
   bool did = false, blocked = false, waits = false;
   const bool arrives = slots_in.can_pop(cycle);
   if (arrives || !pipe_.empty()) {
     if (pipe_.leaves() && pipe_.at(8)->slot.row >= lag_ && !shares_out.can_push(cycle)) {
       blocked = true;
-    } else if (waits_for_diagonals(cycle)) {
+    } else if (kSmaa && waits_for_diagonals(cycle)) {
       waits = true;
     } else {
       pipe_.move();
       did = true;
       if (const Beat* beat = pipe_.at(9)) send(cycle, *beat);
       if (Beat* beat = pipe_.at(8)) {
-        if (takes_diagonals(*beat)) take_diagonals(cycle, *beat);
+        if (kSmaa && takes_diagonals(*beat)) take_diagonals(cycle, *beat);
         address_weights(cycle, *beat);
       }
       // Stages 4 to 7 are of the arithmetic that stage 3 begins.
-      if (table_) {
+      if (kSmaa && table_) {
         if (Beat* beat = pipe_.at(6); beat && beat->any) interpolate(cycle, *beat);
         if (Beat* beat = pipe_.at(5); beat && beat->any) address_entries(cycle, *beat);
         if (Beat* beat = pipe_.at(4); beat && beat->any) cut(cycle, *beat);
       }
       if (Beat* beat = pipe_.at(3); beat && beat->any) {
-        if (smaa_)
+        if constexpr (kSmaa)
           smaa_evaluate(cycle, *beat);
         else
           evaluate(cycle, *beat);
       }
-      if (Beat* beat = pipe_.at(2)) match(cycle, *beat);
-      if (arrives) address_marks(cycle, slots_in.take(cycle), pipe_.enter());
+      if (Beat* beat = pipe_.at(2)) match<kSmaa>(cycle, *beat);
+      if (arrives) address_marks<kSmaa>(cycle, slots_in.take(cycle), pipe_.enter());
     }
   }
-  if (entered() != 0) {
+  // Lines that are stored in this clock.
+  const std::size_t entered = kSmaa && table_ ? row_.measured_count + column_.measured_count
+                                              : row_.entered_count + column_.entered_count;
+  if (entered != 0) {
     if (!store_lines(cycle))
       return did ? kBusy : blocked ? kStalledDownstream : waits ? *diagonals_ : kIdle;
     did = true;
   }
-  if (table_) did |= measure_lines();
+  if (kSmaa && table_) did |= measure_lines();
   if (lines_h_in.any_arrives(cycle, lanes_)) did |= take_lines(cycle, lines_h_in, row_);
   if (lines_v_in.any_arrives(cycle, lanes_)) did |= take_lines(cycle, lines_v_in, column_);
   if (did) return kBusy;
   return blocked ? kStalledDownstream : waits ? *diagonals_ : kIdle;
 }
+
+Activity AreaUnit::tick(Cycle cycle) { return smaa_ ? work<true>(cycle) : work<false>(cycle); }
 
 void AreaUnit::reset() {
   pipe_.reset();

@@ -149,17 +149,18 @@ class AreaUnit final : public Unit {
     bool any;                      // one of the edges below lies in a record
     std::uint32_t x, count, pair;  // its columns: the first one, how many; the first mark
     // The output registers of the marks, as they were in the clock of the address.
-    std::array<Mark, kLanes / 2> row_mark;
-    std::array<Mark, kLanes> column_mark;
+    std::array<Mark, kLanes> row_mark;         // a pair of columns, with crossings a column
+    std::array<Mark, 2 * kLanes> column_mark;  // a column, with crossings two a column
     std::array<Edge, kLanes> horizontal, vertical;
     WeightWords weights;
-    // With crossings in the places of the above: a mark a column, two entries a column.
-    std::array<Mark, kLanes> single_row_mark;
-    std::array<Mark, 2 * kLanes> entry_mark;
     std::array<Search, 2 * kLanes> search;  // by lane, horizontal first
   };
 
+  // kSmaa: of an engine with crossings, corners, diagonals or a table; others do not pay for them.
+  template <bool kSmaa>
+  Activity work(Cycle cycle);
   // Once a clock each, from one place: inline.
+  template <bool kSmaa>
   inline void address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat);
   bool takes_diagonals(const Beat& beat) const {
     return diagonals_in && beat.evaluates && store_.rules().diagonal_steps != 0;
@@ -173,7 +174,8 @@ class AreaUnit final : public Unit {
   inline void address_weights(Cycle cycle, const Beat& beat);
   inline void send(Cycle cycle, const Beat& beat);
   inline void share(Cycle cycle, const Beat& beat);
-  void match(Cycle cycle, Beat& beat);
+  template <bool kSmaa>
+  [[gnu::noinline]] void match(Cycle cycle, Beat& beat);  // inline it costs the others registers
   void evaluate(Cycle cycle, Beat& beat);
   void smaa_match(Cycle cycle, Beat& beat, std::int32_t row);
   void smaa_evaluate(Cycle cycle, Beat& beat);
@@ -185,11 +187,6 @@ class AreaUnit final : public Unit {
   void clear_marks(Cycle cycle, const Slot& slot);
   bool measure_lines();
   bool store_lines(Cycle cycle);
-  // Lines that are stored in this clock.
-  std::size_t entered() const {
-    return table_ ? row_.measured_count + column_.measured_count
-                  : row_.entered_count + column_.entered_count;
-  }
   bool take_lines(Cycle cycle, LanePorts<In<LineToken>>& lines, AxisRecords& side);
   void store(Cycle cycle, AxisRecords& side, const LineToken& token);
   std::size_t place(const AxisRecords& side, const LineToken& token) const;
@@ -198,16 +195,19 @@ class AreaUnit final : public Unit {
 
   // Rows of slots that evaluate or blend.
   std::int32_t evaluated_row(const Slot& slot) const { return slot.row - lag_ + 1; }
+  template <bool kSmaa = true>
   std::size_t pair_of(std::int32_t row, std::size_t x) const {
-    return static_cast<std::size_t>(row & 1) * pairs_ + (crossings_ ? x : x / 2);
+    return static_cast<std::size_t>(row & 1) * pairs_ + (x >> (kSmaa ? pair_bits_ : 1));
   }
 
   const ParameterStore& store_;
   const std::size_t lanes_;
   const std::int32_t lag_;                 // rows from a slot to the row that it blends
   const std::size_t columns_;              // whole beats
-  const bool crossings_, corners_, smaa_;  // built with; smaa_: with any of these, or a table
-  const std::size_t pairs_;                // of columns, whole beats; with crossings columns
+  const bool crossings_, corners_, smaa_;  // built with; smaa_: with any block of SMAA's
+  // Columns that share a horizontal record, records of a column: both a power of two.
+  const std::uint32_t pair_bits_, entry_bits_;
+  const std::size_t pairs_;  // whole beats of such columns
   Memory<void> weight_lines_;
   ReadPort<void> read_weights_{weight_lines_, "row above"};
   WritePort<void> write_weights_{weight_lines_, "row"};

@@ -32,6 +32,7 @@ RunExtractor::RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clo
       reach_columns_(p.reach_columns),
       crossings_(p.ends == spec::morphological::Ends::kCrossings),
       corners_(p.round_corners),
+      smaa_(crossings_ || corners_ || p.diagonals),
       spare_(crossings_ || corners_ ? 1 : 0),
       diagonal_delay_(static_cast<Cycle>(diagonal_delay(p.diagonal_steps, store.lanes()))),
       diagonal_rows_(p.diagonal_steps),
@@ -74,7 +75,8 @@ bool RunExtractor::waits_for_diagonals(Cycle cycle) const {
          edges_in.front(cycle).slot.beat == 0 && cycle <= passed_ + diagonal_delay_;
 }
 
-Activity RunExtractor::tick(Cycle cycle) {
+template <bool kSmaa>
+Activity RunExtractor::work(Cycle cycle) {
   if (finished_in.can_pop(cycle)) {
     const FinishToken& token = finished_in.front(cycle);
     unfinished_[0] -= token.count[0];
@@ -85,7 +87,7 @@ Activity RunExtractor::tick(Cycle cycle) {
   if (v_.count) drain(v_, cycle);
   const bool arrives = edges_in.can_pop(cycle);
   // Records without room in their FIFOs hold all that is behind them.
-  if (std::max(h_.count, v_.count) > spare_) {
+  if (kSmaa ? std::max(h_.count, v_.count) > spare_ : h_.count + v_.count != 0) {
     if (arrives) ++record_stalls;
     return records_;
   }
@@ -100,15 +102,15 @@ Activity RunExtractor::tick(Cycle cycle) {
   if (reads_) {
     const bool blends = token_.slot.row >= reach_rows_ + spec::morphological::kRowLag;
     if (!area_slots_out.can_push(cycle) || (blends && !fetches_out.can_push(cycle)) ||
-        (columns_out && !columns_out->can_push(cycle)))
+        (kSmaa && columns_out && !columns_out->can_push(cycle)))
       return did ? kBusy : kStalledDownstream;
-    pass(cycle);
+    pass<kSmaa>(cycle);
     if (blends) fetches_out.emplace(cycle).slot = token_.slot;
     reads_ = false;
     did = true;
   }
   if (!arrives) return did || found_ != 0 ? kBusy : kIdle;
-  if (waits_for_diagonals(cycle)) return *diagonals_;
+  if (kSmaa && waits_for_diagonals(cycle)) return *diagonals_;
   if (!take_slot(cycle)) return records_;
   return kBusy;
 }
@@ -125,6 +127,7 @@ void RunExtractor::begin_row() {
 }
 
 // The words of the slot's columns are here.
+template <bool kSmaa>
 [[gnu::always_inline]] inline void RunExtractor::pass(Cycle cycle) {
   const FrameRules& rules = store_.rules();
   const Slot& slot = token_.slot;
@@ -140,8 +143,10 @@ void RunExtractor::begin_row() {
   out.slot = slot;
   out.left = blended.left;
   out.top = blended.top;
-  passed_ = cycle;
-  if (store_.rules().diagonal_steps != 0) send_columns(cycle);
+  if constexpr (kSmaa) {
+    passed_ = cycle;
+    if (rules.diagonal_steps != 0) send_columns(cycle);
+  }
   if (ahead_ != nullptr) {
     const EdgeBits bits = ahead_[slot.beat];
     rows_.write(cycle, row_ + rows_.ahead(), first, bits.left, bits.top);
@@ -149,13 +154,13 @@ void RunExtractor::begin_row() {
   if (searched_ == nullptr) return;
   here_ = searched_[slot.beat];
   // One column more is in hand where corners are looked at a column behind.
-  const bool behind = corners_ && first != 0 && window_.left(first - 1, row_);
+  const bool behind = kSmaa && corners_ && first != 0 && window_.left(first - 1, row_);
   if (!open_ && !behind && (here_.left | here_.top) == 0) return;
 
   Find& find = finds_[(oldest_ + found_) % finds_.size()];
   find.count = 0;
   if (open_ || here_.top != 0) horizontal(find, first, end);
-  if (crossings_ || corners_)
+  if (kSmaa && (crossings_ || corners_))
     smaa_vertical(find, first, end);
   else if (here_.left != 0)
     vertical(find, first);
@@ -352,6 +357,8 @@ void RunExtractor::drain(AxisSide& from, Cycle cycle) {
   from.count -= sent;
   for (std::size_t i = 0; i < from.count; ++i) from.waiting[i] = from.waiting[i + sent];
 }
+
+Activity RunExtractor::tick(Cycle cycle) { return smaa_ ? work<true>(cycle) : work<false>(cycle); }
 
 void RunExtractor::reset() {
   h_.count = v_.count = 0;

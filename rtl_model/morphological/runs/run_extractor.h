@@ -27,11 +27,11 @@
 // slot row s - 2 are finished, and those that are being looked for found), `diagonals` (a row of
 // fewer beats than a diagonal takes waits until those of the row before are there), `downstream`.
 // Cost a lane: a first-gap circuit of R + 1 bits, two choices of R + 1 : 1, two counters, 3 columns
-// of flip-flops (window_rows + 1 pairs of bits; with corners 5, and a circuit more); registers of 12
-// records that are being looked for and of 4 that wait for their FIFOs. Memory: record_fifo entries
-// an axis and lane.
-// Made for 250 MHz; longest path: choice of 1 in 9 groups (window_rows of 258; 3 by default), 16 :
-// 1 table of shapes. Source: paper 000, section 2; SMAA (Jimenez et al. 2012).
+// of flip-flops (window_rows + 1 pairs of bits; with corners 5, and a circuit more); registers of
+// 12 records that are being looked for and of 4 that wait for their FIFOs. Memory: record_fifo
+// entries an axis and lane. Made for 250 MHz; longest path: choice of 1 in 9 groups (window_rows of
+// 258; 3 by default), 16 : 1 table of shapes. Source: paper 000, section 2; SMAA (Jimenez et al.
+// 2012).
 #pragma once
 
 #include <array>
@@ -109,9 +109,13 @@ class RunExtractor final : public Unit {
     bool beyond = false;  // edges along the run go on there
   };
 
+  // kSmaa: of an engine with crossings, corners or diagonals; others do not pay for them.
+  template <bool kSmaa>
+  Activity work(Cycle cycle);
   bool waits_for_diagonals(Cycle cycle) const;
   bool take_slot(Cycle cycle);  // false: it waits for records
   void begin_row();
+  template <bool kSmaa>
   void pass(Cycle cycle);
   void send_columns(Cycle cycle);
   void horizontal(Find& find, std::int32_t first, std::int32_t end);
@@ -132,7 +136,7 @@ class RunExtractor final : public Unit {
   EdgeWindow& window_;
   EdgeRows& rows_;
   const std::int32_t lanes_, reach_rows_, reach_columns_;
-  const bool crossings_, corners_;  // built with
+  const bool crossings_, corners_, smaa_;  // built with; smaa_: with any of these, or diagonals
   // Records of an axis that may wait another clock: with crossings the last slot of a row may find
   // one more than there are lanes, the first of the next one fewer.
   const std::size_t spare_;
