@@ -1,23 +1,44 @@
 // SPDX-License-Identifier: MIT
 #include "golden/morphological/blend.h"
 
+#include <algorithm>
 #include <cstdlib>
+#include <optional>
 
+#include "golden/morphological/arithmetic.h"
 #include "spec/morphological/packets.h"
 #include "spec/morphological/tables.h"
 
 namespace deburr::golden::morphological {
 
-Decision decide(const PixelShares& s) {
+namespace {
+
+// What is decided if not both axes have shares.
+std::optional<Decision> decide_without_choice(const PixelShares& s) {
   const bool vertical_pair = (s.up | s.down) != 0;
   const bool horizontal_pair = (s.left | s.right) != 0;
   if (!vertical_pair) return horizontal_pair ? Decision::kOnlyLeftRight : Decision::kNone;
   if (!horizontal_pair) return Decision::kOnlyUpDown;
-  if (s.span_horizontal > s.span_vertical) return Decision::kLongerUpDown;
-  if (s.span_horizontal < s.span_vertical) return Decision::kLongerLeftRight;
-  const int vertical = s.up + s.down, horizontal = s.left + s.right;
+  return {};
+}
+
+Decision stronger(int vertical, int horizontal) {
   if (vertical == horizontal) return Decision::kTie;
   return vertical > horizontal ? Decision::kStrongerUpDown : Decision::kStrongerLeftRight;
+}
+
+}  // namespace
+
+Decision decide_by_length(const PixelShares& s) {
+  if (const auto decision = decide_without_choice(s)) return *decision;
+  if (s.span_horizontal > s.span_vertical) return Decision::kLongerUpDown;
+  if (s.span_horizontal < s.span_vertical) return Decision::kLongerLeftRight;
+  return stronger(s.up + s.down, s.left + s.right);
+}
+
+Decision decide_by_strength(const PixelShares& s) {
+  if (const auto decision = decide_without_choice(s)) return *decision;
+  return stronger(std::max(s.up, s.down), std::max(s.left, s.right));
 }
 
 spec::morphological::BlendTap tap_of(const PixelShares& s, Decision decision) {
@@ -26,6 +47,23 @@ spec::morphological::BlendTap tap_of(const PixelShares& s, Decision decision) {
   tap.first = static_cast<std::uint8_t>(tap.horizontal ? s.left : s.up);
   tap.second = static_cast<std::uint8_t>(tap.horizontal ? s.right : s.down);
   return tap;
+}
+
+std::uint32_t mix_reciprocal(int sum) {
+  return sum == 0 ? 0 : static_cast<std::uint32_t>(rdiv(65536, static_cast<std::uint64_t>(sum)));
+}
+
+spec::morphological::BlendTap mixed_by_squares(const spec::morphological::BlendTap& tap) {
+  if (tap.first == 0 || tap.second == 0) return tap;
+  const std::uint32_t reciprocal = mix_reciprocal(tap.first + tap.second);
+  const auto mixed = [&](std::uint32_t share) {
+    const std::uint64_t square = std::uint64_t{share} * share;
+    return static_cast<std::uint8_t>((square * reciprocal + (1u << 15)) >> 16);
+  };
+  spec::morphological::BlendTap result = tap;
+  result.first = mixed(tap.first);
+  result.second = mixed(tap.second);
+  return result;
 }
 
 int blend_channel(bool linear_light, int c, int n1, int w1, int n2, int w2) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The last block: decides the axis of a pixel and mixes it with the neighbours of that axis.
 //
-// docs/morphological_engine.md, "Blender"; docs/number_formats_morphological.md, "Blend". The axis
-// is decided here and nowhere else (paper 000's comparison of D sums, taken after the extension).
+// docs/morphological_engine.md, "Blender"; docs/morphological_smaa.md, "Blend";
+// docs/number_formats_morphological.md, "Blend" and "Strongest". The axis is decided here and
+// nowhere else: by the longer line (paper 000's comparison of D sums, taken after the extension) or
+// by the stronger share (SMAA).
 #pragma once
 
 #include <cstdint>
@@ -13,7 +15,7 @@ namespace deburr::golden::morphological {
 
 // What the four edges around a pixel offer it.
 struct PixelShares {
-  int up = 0, down = 0, left = 0, right = 0;  // U0.8 shares of the neighbours, 0..128
+  int up = 0, down = 0, left = 0, right = 0;  // U0.8 shares of the neighbours
   int span_horizontal = 0;                    // longest line that gives up or down
   int span_vertical = 0;                      // longest line that gives left or right
 };
@@ -29,7 +31,9 @@ enum class Decision : std::uint8_t {
   kStrongerLeftRight,  //
   kTie                 // rule 3 with equality: up and down
 };
-Decision decide(const PixelShares& shares);
+Decision decide_by_length(const PixelShares& shares);
+// The largest share decides; spans do not count, and with one pair that pair has it.
+Decision decide_by_strength(const PixelShares& shares);
 constexpr bool is_horizontal(Decision d) {
   return d == Decision::kOnlyLeftRight || d == Decision::kLongerLeftRight ||
          d == Decision::kStrongerLeftRight;
@@ -37,6 +41,11 @@ constexpr bool is_horizontal(Decision d) {
 
 // The two shares of the chosen axis; `edges` stays 0.
 spec::morphological::BlendTap tap_of(const PixelShares& shares, Decision decision);
+
+// R(sum of two shares), U0.16, 0..510; of 0: 0.
+std::uint32_t mix_reciprocal(int sum);
+// Each of the two shares in proportion to its square; one that is alone stays.
+spec::morphological::BlendTap mixed_by_squares(const spec::morphological::BlendTap& tap);
 
 // One channel code: v = w1 (n1 - c) + w2 (n2 - c), its magnitude rounded.
 int blend_channel(bool linear_light, int c, int n1, int w1, int n2, int w2);

@@ -28,23 +28,33 @@ struct RangeCheck {
   void boolean(std::string_view, bool, std::string_view) const {}
 };
 
-[[noreturn]] void not_built(const spec::morphological::Parameters& p, const std::string& what) {
-  throw spec::ConfigError(
-      what + " not built yet (preset " +
-      std::string(spec::morphological::kPresetNames[static_cast<std::size_t>(p.preset)]) +
-      "); use area = analytic, diagonals = false, round_corners = false");
+// The row of kQualities that p names.
+void apply_quality(spec::morphological::Parameters& p) {
+  for (const spec::morphological::QualityRow& row : spec::morphological::kQualities) {
+    if (row.quality != p.quality) continue;
+    p.threshold = row.threshold;
+    p.search_steps = row.search_steps;
+    p.diagonals = row.diagonals;
+    p.diagonal_steps = row.diagonal_steps;
+    p.round_corners = row.round_corners;
+    p.corner_rounding = row.corner_rounding;
+    p.window_rows = row.window_rows;
+  }
 }
 
 }  // namespace
 
-spec::morphological::Parameters preset_parameters(spec::morphological::Preset preset) {
+spec::morphological::Parameters preset_parameters(spec::morphological::Preset preset,
+                                                  spec::morphological::Quality quality) {
   spec::morphological::Parameters p;
+  p.quality = quality;
   for (const spec::morphological::PresetRow& row : spec::morphological::kPresets) {
     if (row.preset != preset) continue;
+    if (row.has_qualities) apply_quality(p);
     p.preset = row.preset;
     p.threshold_mode = row.threshold_mode;
     p.dynamic_luma = row.dynamic_luma;
-    p.threshold = row.threshold;
+    if (row.threshold != 0) p.threshold = row.threshold;
     p.local_contrast = row.local_contrast;
     p.predictor = row.predictor;
     p.steps = row.steps;
@@ -52,7 +62,8 @@ spec::morphological::Parameters preset_parameters(spec::morphological::Preset pr
     p.safe = row.safe;
     p.trim = row.trim;
     p.area = row.area;
-    p.diagonals = row.diagonals;
+    p.ends = row.ends;
+    p.blend = row.blend;
   }
   return p;
 }
@@ -61,9 +72,6 @@ void check_parameters(const spec::morphological::Parameters& parameters) {
   spec::morphological::Parameters p = parameters;
   const RangeCheck ranges;
   describe(p, ranges);
-  if (p.area != spec::morphological::AreaSource::kAnalytic) not_built(p, "area tables are");
-  if (p.diagonals) not_built(p, "diagonal patterns are");
-  if (p.round_corners) not_built(p, "corner rounding is");
   if (p.window_rows % 2 != 0) {
     throw spec::ConfigError("morphological window_rows = " + std::to_string(p.window_rows) +
                             " is odd; use an even number of rows");
@@ -73,6 +81,12 @@ void check_parameters(const spec::morphological::Parameters& parameters) {
         "morphological steps = " + std::to_string(p.steps) + " reach beyond a window of " +
         std::to_string(p.window_rows) +
         " rows; at most window_rows / 2 - 2 = " + std::to_string(reach_rows(p) - 1) + " fit");
+  }
+  if (p.diagonals && p.diagonal_steps > reach_rows(p)) {
+    throw spec::ConfigError("morphological diagonal_steps = " + std::to_string(p.diagonal_steps) +
+                            " reach beyond a window of " + std::to_string(p.window_rows) +
+                            " rows; they need window_rows of at least " +
+                            std::to_string(2 * p.diagonal_steps + 2));
   }
   if (p.edge_source == spec::morphological::EdgeSource::kPredicated &&
       p.threshold_mode == spec::morphological::ThresholdMode::kDynamic) {

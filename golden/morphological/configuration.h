@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Which parameters and frames the engine accepts, and the parameters of a preset.
 //
-// docs/morphological_engine.md, "Configuration errors". A rule that names a block which is not
-// built (area tables, diagonals, round corners: presets smaa and smaa-dynamic) is a ConfigError
-// that says so.
+// docs/morphological_engine.md, "Configuration errors"; docs/morphological_smaa.md, "Presets" and
+// "Errors".
 #pragma once
 
 #include "spec/morphological/packets.h"
@@ -11,9 +10,10 @@
 
 namespace deburr::golden::morphological {
 
-// The defaults with the rules of a preset applied. Never throws: what is not built is refused by
-// check_parameters().
-spec::morphological::Parameters preset_parameters(spec::morphological::Preset preset);
+// The defaults with the rules of a preset applied, after those of the quality if it has any.
+spec::morphological::Parameters preset_parameters(
+    spec::morphological::Preset preset,
+    spec::morphological::Quality quality = spec::morphological::Quality::kHigh);
 
 // Throws ConfigError: a value out of its range, or a mix that the engine does not have.
 void check_parameters(const spec::morphological::Parameters& parameters);

@@ -21,18 +21,24 @@ struct FixedRule {
   bool operator()(const PixelPair& pair) const { return step(pair) >= limit; }
 };
 
+// Twice the luma that alpha multiplies, so that a mean needs no rounding.
+template <spec::morphological::DynamicLuma luma>
+std::int32_t twice_reference(const PixelPair& pair) {
+  using spec::morphological::DynamicLuma;
+  if constexpr (luma == DynamicLuma::kCurrent) return 2 * pair.luma_p;
+  if constexpr (luma == DynamicLuma::kMax) return 2 * std::max(pair.luma_p, pair.luma_q);
+  if constexpr (luma == DynamicLuma::kMin) return 2 * std::min(pair.luma_p, pair.luma_q);
+  if constexpr (luma == DynamicLuma::kMean) return pair.luma_p + pair.luma_q;
+}
+
+template <spec::morphological::DynamicLuma luma>
 struct DynamicRule {
   std::int64_t alpha;
   std::int32_t floor;  // U8.16
-  bool larger;
-  explicit DynamicRule(const Parameters& p)
-      : alpha(p.alpha),
-        floor(255 * p.floor),
-        larger(p.dynamic_luma == spec::morphological::DynamicLuma::kMax) {}
+  explicit DynamicRule(const Parameters& p) : alpha(p.alpha), floor(255 * p.floor) {}
   bool operator()(const PixelPair& pair) const {
-    const std::int32_t reference = larger ? std::max(pair.luma_p, pair.luma_q) : pair.luma_p;
     const std::int64_t c = step(pair);
-    return (c << 16) > alpha * reference && c >= floor;
+    return (c << 17) > alpha * twice_reference<luma>(pair) && c >= floor;
   }
 };
 
@@ -66,8 +72,19 @@ decltype(auto) with_rule(const Parameters& p, Use&& use) {
     case spec::morphological::EdgeSource::kLuma:
       break;
   }
-  if (p.threshold_mode == spec::morphological::ThresholdMode::kDynamic) return use(DynamicRule(p));
-  return use(FixedRule(p));
+  if (p.threshold_mode == spec::morphological::ThresholdMode::kFixed) return use(FixedRule(p));
+  using spec::morphological::DynamicLuma;
+  switch (p.dynamic_luma) {
+    case DynamicLuma::kCurrent:
+      return use(DynamicRule<DynamicLuma::kCurrent>(p));
+    case DynamicLuma::kMin:
+      return use(DynamicRule<DynamicLuma::kMin>(p));
+    case DynamicLuma::kMean:
+      return use(DynamicRule<DynamicLuma::kMean>(p));
+    case DynamicLuma::kMax:
+      break;
+  }
+  return use(DynamicRule<DynamicLuma::kMax>(p));
 }
 
 // Eight flags of 0 or 1 become eight bits: the product moves flag i to bit 56 + i.
@@ -142,20 +159,21 @@ class StepRows {
   Rows across_, down_;
 };
 
-// Largest step around the left edge of (x, y); the bit stays if twice its own step is larger.
-std::int32_t contrast_left(spec::morphological::LocalContrast mode, const StepRows& c, int x) {
-  if (mode == spec::morphological::LocalContrast::kPaper) {
-    return std::max({c.down(0, x), c.down(1, x), c.across(0, x), c.across(0, x + 1), c.down(-1, x),
-                     c.across(0, x - 1)});
-  }
+// Largest of eq (2)'s steps around pixel x of the row, for its left and its top edge alike.
+std::int32_t contrast_of_pixel(const StepRows& c, int x) {
+  return std::max({c.down(0, x), c.down(1, x), c.across(0, x), c.across(0, x + 1), c.down(-1, x),
+                   c.across(0, x - 1)});
+}
+
+// Largest step around the left edge of pixel x in the symmetric form.
+std::int32_t contrast_left(const StepRows& c, int x) {
   const std::int32_t beside_p = std::max(c.down(0, x), c.down(1, x));
   const std::int32_t beside_q = std::max(c.down(0, x - 1), c.down(1, x - 1));
   return std::max(
       {c.across(0, x), c.across(0, x + 1), c.across(0, x - 1), std::min(beside_p, beside_q)});
 }
 
-std::int32_t contrast_top(spec::morphological::LocalContrast mode, const StepRows& c, int x) {
-  if (mode == spec::morphological::LocalContrast::kPaper) return contrast_left(mode, c, x);
+std::int32_t contrast_top(const StepRows& c, int x) {
   const std::int32_t beside_p = std::max(c.across(0, x), c.across(0, x + 1));
   const std::int32_t beside_q = std::max(c.across(-1, x), c.across(-1, x + 1));
   return std::max({c.down(0, x), c.down(1, x), c.down(-1, x), std::min(beside_p, beside_q)});
@@ -174,13 +192,31 @@ void filter(std::uint64_t* bits, int words, Keep&& keep) {
 
 void apply_local_contrast(spec::morphological::LocalContrast mode, const LumaPlane& luma,
                           EdgePlanes& edges) {
-  StepRows steps(luma);
-  for (int y = 0; y < luma.height; ++y) {
-    steps.advance_to(y);
-    filter(edges.left.row(y), edges.left.words(),
-           [&](int x) { return 2 * steps.across(0, x) > contrast_left(mode, steps, x); });
-    filter(edges.top.row(y), edges.top.words(),
-           [&](int x) { return 2 * steps.down(0, x) > contrast_top(mode, steps, x); });
+  using spec::morphological::LocalContrast;
+  StepRows c(luma);
+  // A bit stays if keeps(its own step, the largest around it).
+  const auto apply = [&](const auto& around_left, const auto& around_top, const auto& keeps) {
+    for (int y = 0; y < luma.height; ++y) {
+      c.advance_to(y);
+      filter(edges.left.row(y), edges.left.words(),
+             [&](int x) { return keeps(c.across(0, x), around_left(c, x)); });
+      filter(edges.top.row(y), edges.top.words(),
+             [&](int x) { return keeps(c.down(0, x), around_top(c, x)); });
+    }
+  };
+  const auto above_half = [](std::int32_t own, std::int32_t largest) { return 2 * own > largest; };
+  const auto half_or_more = [](std::int32_t own, std::int32_t largest) {
+    return 2 * own >= largest;
+  };
+  switch (mode) {
+    case LocalContrast::kOff:
+      return;
+    case LocalContrast::kPaper:
+      return apply(contrast_of_pixel, contrast_of_pixel, above_half);
+    case LocalContrast::kSymmetric:
+      return apply(contrast_left, contrast_top, above_half);
+    case LocalContrast::kSmaa:
+      return apply(contrast_of_pixel, contrast_of_pixel, half_or_more);
   }
 }
 
@@ -210,6 +246,24 @@ void raw_edges(const Rule& rule, const LumaPlane& luma, const DepthView& depth, 
 
 }  // namespace
 
+bool floor_decides(const Parameters& p, const PixelPair& pair) {
+  using spec::morphological::DynamicLuma;
+  const auto of = [&](std::int32_t twice_luma) {
+    return std::int64_t{255} * p.floor << 17 >= std::int64_t{p.alpha} * twice_luma;
+  };
+  switch (p.dynamic_luma) {
+    case DynamicLuma::kCurrent:
+      return of(twice_reference<DynamicLuma::kCurrent>(pair));
+    case DynamicLuma::kMax:
+      return of(twice_reference<DynamicLuma::kMax>(pair));
+    case DynamicLuma::kMin:
+      return of(twice_reference<DynamicLuma::kMin>(pair));
+    case DynamicLuma::kMean:
+      break;
+  }
+  return of(twice_reference<DynamicLuma::kMean>(pair));
+}
+
 bool depth_edge(const Parameters& parameters, const PixelPair& pair) {
   return DepthRule(parameters)(pair);
 }
@@ -223,8 +277,7 @@ EdgePlanes find_edges(const Parameters& parameters, const ImageView& image,
   const LumaPlane y = luma(image);
   EdgePlanes edges{BitPlane(image.width, image.height), BitPlane(image.width, image.height)};
   with_rule(parameters, [&](const auto& rule) { raw_edges(rule, y, depth, edges); });
-  if (parameters.edge_source != spec::morphological::EdgeSource::kDepth &&
-      parameters.local_contrast != spec::morphological::LocalContrast::kOff) {
+  if (parameters.edge_source != spec::morphological::EdgeSource::kDepth) {
     apply_local_contrast(parameters.local_contrast, y, edges);
   }
   return edges;

@@ -2,7 +2,7 @@
 // Left and top edge bits of a frame: raw edges from luma, depth or both, then local contrast.
 //
 // Second block; docs/number_formats_morphological.md, "Edges". Equations (2) and (3) of paper 003;
-// the symmetric form of local contrast is ours.
+// the symmetric form of local contrast, and all but `current` of the dynamic luma, are ours.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +23,9 @@ struct PixelPair {
 bool depth_edge(const spec::morphological::Parameters& parameters, const PixelPair& pair);
 // The raw bit of an edge, local contrast not yet applied.
 bool raw_edge(const spec::morphological::Parameters& parameters, const PixelPair& pair);
+
+// Whether the floor is what a dynamic threshold compares the pair with.
+bool floor_decides(const spec::morphological::Parameters& parameters, const PixelPair& pair);
 
 // The edges of a whole frame. A missing depth reads 0 everywhere.
 EdgePlanes find_edges(const spec::morphological::Parameters& parameters, const ImageView& image,

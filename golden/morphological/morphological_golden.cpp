@@ -6,7 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "golden/morphological/area.h"
+#include "golden/morphological/area_table.h"
+#include "golden/morphological/corners.h"
+#include "golden/morphological/diagonals.h"
 #include "golden/morphological/edges.h"
 #include "golden/morphological/line.h"
 #include "golden/morphological/runs.h"
@@ -45,14 +47,17 @@ void MorphologicalGolden::AxisShares::count_edges() {
   shares.reserve(count);
 }
 
-MorphologicalGolden::Share MorphologicalGolden::AxisShares::at(int position, int line) const {
-  if (!edges.along.at(position, line)) return {};
+std::size_t MorphologicalGolden::AxisShares::index(int position, int line) const {
   const int word = position >> 6, bit = position & 63;
   const std::uint64_t earlier = edges.along.row(line)[word] & ((std::uint64_t{1} << bit) - 1);
   const std::size_t base =
       edges_before[static_cast<std::size_t>(line) * static_cast<std::size_t>(edges.along.words()) +
                    static_cast<std::size_t>(word)];
-  return shares[base + bits_of(earlier)];
+  return base + bits_of(earlier);
+}
+
+MorphologicalGolden::Share MorphologicalGolden::AxisShares::at(int position, int line) const {
+  return edges.along.at(position, line) ? shares[index(position, line)] : Share{};
 }
 
 MorphologicalGolden::MorphologicalGolden(const spec::morphological::Parameters& parameters,
@@ -82,12 +87,14 @@ const std::vector<spec::morphological::Rgba8>& MorphologicalGolden::process(
   }
 
   edges_ = find_edges(parameters_, image, depth);
+  if (everything_) count_thresholds(image);
   horizontal_.edges = AxisEdges::horizontal(edges_);
   vertical_.edges = AxisEdges::vertical(edges_);
   process_axis(horizontal_);
   const std::size_t first_vertical = runs_.size();
   process_axis(vertical_);
   put_runs_in_order(first_vertical);
+  if (parameters_.diagonals) process_diagonals();
 
   memory_errors_ = 0;
   const ImageView source = as_read_back(image);
@@ -98,14 +105,13 @@ const std::vector<spec::morphological::Rgba8>& MorphologicalGolden::process(
 
 void MorphologicalGolden::process_axis(AxisShares& axis) {
   axis.count_edges();
-  const int longest = reach(parameters_, axis.edges.axis);
   std::uint64_t& runs = axis.edges.axis == spec::morphological::Axis::kHorizontal
                             ? work_.horizontal_runs
                             : work_.vertical_runs;
   for (int line = 0; line < axis.edges.along.height(); ++line) {
-    for_each_run(axis.edges.along, line, [&](int first, int end) {
+    for_each_run(axis.edges, parameters_.ends, line, [&](int first, int end) {
       ++runs;
-      const RunParts parts = records_of(axis.edges, longest, line, first, end);
+      const RunParts parts = records_of(parameters_, axis.edges, line, first, end);
       process_record(axis, parts.record[0]);
       if (parts.count == 1) return;
       ++work_.long_runs;
@@ -131,20 +137,96 @@ void MorphologicalGolden::process_record(AxisShares& axis,
   if (line.before != spec::morphological::Side::kNone ||
       line.after != spec::morphological::Side::kNone) {
     ++work_.divides;
-    for (int k = 0; k < run.length; ++k) {
-      const EdgeShares share = shares(line, k);
-      axis.shares.push_back({share.first, share.second, line.span});
-    }
+    share(axis, line);
   } else {
     axis.shares.resize(axis.shares.size() + run.length);
   }
   if (!everything_) return;
+  count_searches(line);
   coverage_.count_run(run, prediction, axis.edges.along.width(), axis.edges.along.height());
   runs_.push_back({line, static_cast<std::int16_t>(prediction.left.end),
                    static_cast<std::int16_t>(prediction.right.end),
                    static_cast<std::uint16_t>(prediction.probes),
                    static_cast<std::uint8_t>(prediction.iterations), prediction.left.outcome,
                    prediction.right.outcome, prediction.left.why, prediction.right.why});
+}
+
+void MorphologicalGolden::share(AxisShares& axis,
+                                const spec::morphological::LineRecord& line) const {
+  const auto put = [&](const EdgeShares& s) {
+    axis.shares.push_back({s.first, s.second, line.span});
+  };
+  // Each pixel's shares by of(k).
+  const auto each = [&](const auto& of) {
+    for (int k = 0; k < line.run.length; ++k) {
+      put(line.run.far == 0 ? of(k)
+                            : rounded_at_corners(of(k), line.run, parameters_.corner_rounding, k));
+    }
+  };
+  if (parameters_.area == spec::morphological::AreaSource::kAnalytic) {
+    each([&](int k) { return shares(line, k); });
+  } else {
+    const LineEnds ends = line_ends(line);
+    each([&](int k) {
+      return table_shares(table_address(line, ends, parameters_.search_steps, k));
+    });
+  }
+}
+
+// Of every record, with sides or without.
+void MorphologicalGolden::count_searches(const spec::morphological::LineRecord& line) {
+  if (parameters_.area == spec::morphological::AreaSource::kAnalytic) return;
+  const LineEnds ends = line_ends(line);
+  for (int k = 0; k < line.run.length; ++k)
+    smaa_coverage_.count_pixel(line.run.axis,
+                               table_address(line, ends, parameters_.search_steps, k));
+}
+
+void MorphologicalGolden::count_thresholds(const ImageView& image) {
+  if (parameters_.edge_source != spec::morphological::EdgeSource::kLuma) return;
+  if (parameters_.threshold_mode == spec::morphological::ThresholdMode::kFixed) {
+    if (parameters_.area != spec::morphological::AreaSource::kAnalytic || parameters_.diagonals)
+      smaa_coverage_.count_fixed(edges_.left.count() + edges_.top.count());
+    return;
+  }
+  const auto count = [&](bool edge, int x, int y, int from_x, int from_y) {
+    if (!edge) return;
+    const PixelPair pair{luma(image.at(x, y)), luma(image.at(from_x, from_y)), 0, 0};
+    smaa_coverage_.count_threshold(parameters_.dynamic_luma, floor_decides(parameters_, pair));
+  };
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      count(edges_.left.at(x, y), x, y, x - 1, y);
+      count(edges_.top.at(x, y), x, y, x, y - 1);
+    }
+  }
+}
+
+void MorphologicalGolden::process_diagonals() {
+  const int most = parameters_.blend == spec::morphological::BlendRule::kStrongest
+                       ? spec::morphological::kMaxDiagonalWeight
+                       : spec::morphological::kMaxWeight;
+  for (int y = 0; y < edges_.top.height(); ++y) {
+    for (int i = 0; i < edges_.top.words(); ++i) {
+      for (std::uint64_t rest = edges_.top.row(y)[i]; rest != 0; rest &= rest - 1) {
+        const int x = 64 * i + std::countr_zero(rest);
+        const DiagonalEnds rising = rising_diagonal(edges_, parameters_.diagonal_steps, x, y);
+        const DiagonalEnds falling = falling_diagonal(edges_, parameters_.diagonal_steps, x, y);
+        if (everything_) {
+          smaa_coverage_.count_diagonal(true, rising);
+          smaa_coverage_.count_diagonal(false, falling);
+        }
+        const DiagonalShares found = diagonal_shares(rising, falling);
+        if (!found.taken()) continue;
+        ++work_.diagonal_pixels;
+        horizontal_.shares[horizontal_.index(x, y)] = {
+            static_cast<std::uint8_t>(std::min(most, found.first)),
+            static_cast<std::uint8_t>(std::min(most, found.second)),
+            static_cast<std::uint16_t>(found.span)};
+        if (edges_.left.at(x, y)) vertical_.shares[vertical_.index(y, x)] = {};
+      }
+    }
+  }
 }
 
 // Vertical records were found column by column.
@@ -186,8 +268,10 @@ void MorphologicalGolden::blend_row(const ImageView& image, int y) {
 
 void MorphologicalGolden::blend_pixel(const ImageView& image, int x, int y) {
   const PixelShares shares = gather(x, y);
-  const Decision decision = decide(shares);
+  const bool strongest = parameters_.blend == spec::morphological::BlendRule::kStrongest;
+  const Decision decision = strongest ? decide_by_strength(shares) : decide_by_length(shares);
   spec::morphological::BlendTap tap = tap_of(shares, decision);
+  if (strongest) tap = mixed_by_squares(tap);
   const std::size_t index = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                             static_cast<std::size_t>(x);
   if (everything_) {

@@ -2,22 +2,25 @@
 // Bit-exact reference of the whole morphological engine: a frame in, the smoothed frame out, with
 // every intermediate result and the predicted memory traffic.
 //
-// No time, no SystemC, integers only (docs/morphological_engine.md,
-// docs/number_formats_morphological.md; papers 000 and 001). The blocks are pure functions: luma.h,
-// edges.h, runs.h, predictor.h, line.h, area.h, blend.h, traffic.h; conversion of other images to
-// codes: convert.h. MorphologicalGolden strings them together over a frame. Edges are found for all
-// pixels, row by row; after that only edges and the pixels beside them cost time.
+// No time, no SystemC, integers only (docs/morphological_engine.md, docs/morphological_smaa.md,
+// docs/number_formats_morphological.md; papers 000, 001 and 003). The blocks are pure functions:
+// luma.h, edges.h, runs.h, predictor.h, line.h, area.h or area_table.h, corners.h, diagonals.h,
+// blend.h, traffic.h; conversion of other images to codes: convert.h. MorphologicalGolden strings
+// them together over a frame. Edges are found for all pixels, row by row; after that only edges and
+// the pixels beside them cost time.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <vector>
 
+#include "golden/morphological/area.h"
 #include "golden/morphological/blend.h"
 #include "golden/morphological/configuration.h"
 #include "golden/morphological/planes.h"
 #include "golden/morphological/predictor.h"
 #include "golden/morphological/run_coverage.h"
+#include "golden/morphological/smaa_coverage.h"
 #include "spec/morphological/packets.h"
 #include "spec/morphological/parameters.h"
 
@@ -54,6 +57,9 @@ class MorphologicalGolden {
   int height() const { return edges_.left.height(); }
   const std::vector<spec::morphological::Rgba8>& pixels() const { return pixels_; }
   const EdgePlanes& edges() const { return edges_; }
+  // Shares of the top and of the left edge of a pixel, as the blender reads them.
+  EdgeShares top_shares(int x, int y) const { return horizontal_.at(x, y).of_edge(); }
+  EdgeShares left_shares(int x, int y) const { return vertical_.at(y, x).of_edge(); }
   // Counters of this frame alone; hardware adds up until its counters are cleared.
   const spec::morphological::Work& work() const { return work_; }
   // With kEverything, else empty. Taps are the engine's, edge bits included.
@@ -67,7 +73,11 @@ class MorphologicalGolden {
 
   // ---- of all frames ------------------------------------------------------------------------
   const RunCoverage& coverage() const { return coverage_; }
-  void clear_coverage() { coverage_ = {}; }
+  const SmaaCoverage& smaa_coverage() const { return smaa_coverage_; }
+  void clear_coverage() {
+    coverage_ = {};
+    smaa_coverage_ = {};
+  }
 
   // storage = memory: line addresses whose reads memory answers with an error; their pixels read as
   // zero wherever the blender uses them. Edges come from the stream and are not touched.
@@ -81,6 +91,7 @@ class MorphologicalGolden {
   struct Share {  // of one edge
     std::uint8_t first = 0, second = 0;
     std::uint16_t span = 0;
+    EdgeShares of_edge() const { return {first, second}; }
   };
   // Shares of all edges of one axis, in the order of the bits of `edges.along`: nothing is stored
   // for pixels without an edge.
@@ -89,10 +100,15 @@ class MorphologicalGolden {
     std::vector<Share> shares;
     std::vector<std::uint32_t> edges_before;  // each word of edges.along
     void count_edges();
-    Share at(int position, int line) const;  // zero where there is no edge
+    std::size_t index(int position, int line) const;  // of the share of an edge
+    Share at(int position, int line) const;           // zero where there is no edge
   };
   void process_axis(AxisShares& axis);
   void process_record(AxisShares& axis, const spec::morphological::RunRecord& run);
+  void share(AxisShares& axis, const spec::morphological::LineRecord& line) const;
+  void count_searches(const spec::morphological::LineRecord& line);
+  void count_thresholds(const ImageView& image);
+  void process_diagonals();
   void put_runs_in_order(std::size_t first_vertical);
   PixelShares gather(int x, int y) const;
   void blend_row(const ImageView& image, int y);
@@ -109,6 +125,7 @@ class MorphologicalGolden {
   std::vector<PredictedRun> runs_;
   spec::morphological::Work work_;
   RunCoverage coverage_;
+  SmaaCoverage smaa_coverage_;
   LinePredicate error_;
   std::uint32_t pixel_base_ = 0;
   std::uint64_t memory_errors_ = 0;

@@ -110,6 +110,10 @@ struct AxisEdges {
   int crossings(int position, int line) const {
     return (across.at(position, line - 1) ? 1 : 0) | (across.at(position, line) ? 2 : 0);
   }
+  // The crossings a pixel further out, on either side of them: do crossings() go on?
+  int far_crossings(int position, int line) const {
+    return (across.at(position, line - 2) ? 1 : 0) | (across.at(position, line + 1) ? 2 : 0);
+  }
   // The whole code of a corner: N, S, W, E in bits 0 to 3.
   int corner(int position, int line) const {
     return crossings(position, line) | (along.at(position - 1, line) ? 4 : 0) |

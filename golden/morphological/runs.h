@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Maximal runs of edges along an axis, as records with the shape that their ends give them.
+// Runs of edges along an axis, maximal or cut at crossing edges, as records with the shape that
+// their ends give them.
 //
-// Third block; docs/morphological_engine.md, "Runs" and "Long runs". Written for horizontal runs:
-// AxisEdges shows vertical ones the same way. Reshetov's L, U and Z patterns (paper 000, section
-// 2).
+// Third block; docs/morphological_engine.md, "Runs" and "Long runs"; docs/morphological_smaa.md,
+// "Runs that end at crossings". Written for horizontal runs: AxisEdges shows vertical ones the same
+// way. Reshetov's L, U and Z patterns (paper 000, section 2); SMAA's searches.
 #pragma once
 
 #include <bit>
@@ -41,6 +42,25 @@ void for_each_run(const BitPlane& along, int line, Sink&& sink) {
   }
 }
 
+// The first position in from..end-1 whose corner has a crossing edge, else `end`.
+int next_crossing(const AxisEdges& edges, int line, int from, int end);
+
+// Calls sink(first, end) for every run of a line, in order.
+template <class Sink>
+void for_each_run(const AxisEdges& edges, spec::morphological::Ends ends, int line, Sink&& sink) {
+  if (ends == spec::morphological::Ends::kGaps) {
+    for_each_run(edges.along, line, sink);
+    return;
+  }
+  for_each_run(edges.along, line, [&](int first, int end) {
+    while (first != end) {
+      const int cut = next_crossing(edges, line, first + 1, end);
+      sink(first, cut);
+      first = cut;
+    }
+  });
+}
+
 // Codes of a run's ends and the index of kRunShapes.
 int run_shape(const AxisEdges& edges, int line, int first, int end);
 
@@ -51,7 +71,8 @@ struct RunParts {
   const spec::morphological::RunRecord* begin() const { return record; }
   const spec::morphological::RunRecord* end() const { return record + count; }
 };
-RunParts records_of(const AxisEdges& edges, int reach, int line, int first, int end);
+RunParts records_of(const spec::morphological::Parameters& parameters, const AxisEdges& edges,
+                    int line, int first, int end);
 
 // Every record of the axis, by line, then by start.
 std::vector<spec::morphological::RunRecord> find_runs(

@@ -96,8 +96,8 @@ PayloadNode PayloadBuilder::field(std::string name, std::ptrdiff_t offset, std::
   const std::uint32_t listed = bits;
   for (const auto& [what, narrower] : shape_.widths)
     if (full == what || full.starts_with(what + ".")) bits = narrower;
-  DEBURR_CHECK(bits >= 1 && bits <= listed,
-               fmt::format("{}: {} bits, its list allows 1..{}", full, bits, listed));
+  DEBURR_CHECK(bits <= listed && listed != 0,
+               fmt::format("{}: {} bits, its list allows 0..{}", full, bits, listed));
   PayloadNode node;
   node.name = std::move(name);
   node.field = {full,
@@ -201,7 +201,8 @@ void Payload::check_shape(const PayloadShape& shape) const {
     const std::string &what = width.first, within = what + ".";
     DEBURR_CHECK(
         std::any_of(fields_.begin(), fields_.end(),
-                    [&](const Field& f) { return f.name == what || f.name.starts_with(within); }),
+                    [&](const Field& f) { return f.name == what || f.name.starts_with(within); }) ||
+            std::find(left_out_.begin(), left_out_.end(), what) != left_out_.end(),
         fmt::format("a payload without {} cannot be built with less of it", what));
   }
   std::vector<std::string> arrays;
@@ -219,6 +220,11 @@ void Payload::collect(PayloadNode& node) {
     fields_.push_back(node.field);
     return;
   }
+  std::erase_if(node.children, [&](const PayloadNode& child) {
+    const bool out = child.kind == PayloadNode::Kind::kField && child.field.bits == 0;
+    if (out) left_out_.push_back(child.field.name);
+    return out;
+  });
   for (PayloadNode& child : node.children) collect(child);
 }
 

@@ -47,7 +47,7 @@ namespace deburr::rtl {
 // What of a payload is built.
 struct PayloadShape {
   std::uint32_t lanes = ~std::uint32_t{0};  // fewer than the arrays by lane have
-  // Fields with fewer bits than listed, by the name of a field or of what it is in.
+  // Fields with fewer bits than listed, by the name of a field or of what it is in; 0: without it.
   std::vector<std::pair<std::string, std::uint32_t>> widths = {};
   // Arrays of which only the first elements are built, by name.
   std::vector<std::pair<std::string, std::uint32_t>> counts = {};
@@ -378,6 +378,7 @@ class Payload {
 
   PayloadNode node_;
   std::vector<Field> fields_;
+  std::vector<std::string> left_out_;  // names
   std::uint32_t bits_ = 0;
 };
 

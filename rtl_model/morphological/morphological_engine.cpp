@@ -28,12 +28,10 @@ spec::morphological::Parameters checked(const spec::morphological::Parameters& p
   if (p.edge_source == spec::morphological::EdgeSource::kPredicated &&
       p.threshold_mode == spec::morphological::ThresholdMode::kDynamic)
     refuse("edges.threshold_mode: dynamic does not go with edges.source = predicated; use fixed");
-  if (p.area != spec::morphological::AreaSource::kAnalytic)
-    refuse("area: " +
-           std::string(spec::morphological::kAreaSourceNames[static_cast<std::size_t>(p.area)]) +
-           " is not built; use analytic");
-  if (p.diagonals) refuse("diagonals: not built; use false");
-  if (p.round_corners) refuse("round_corners: not built; use false");
+  if (p.diagonals && p.diagonal_steps > p.window_rows / 2 - 1)
+    refuse("diagonal_steps: " + std::to_string(p.diagonal_steps) +
+           " steps need window_rows of at least " + std::to_string(2 * p.diagonal_steps + 2) +
+           ", got " + std::to_string(p.window_rows));
   return p;
 }
 
@@ -55,12 +53,15 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
       divider_h("divider_h", clock, parameters_, store, spec::morphological::Axis::kHorizontal),
       divider_v("divider_v", clock, parameters_, store, spec::morphological::Axis::kVertical),
       area("area", clock, parameters_, store),
+      diagonals(parameters_.diagonals
+                    ? std::make_unique<DiagonalUnit>("diagonals", clock, parameters_, store)
+                    : nullptr),
       pixel_store("pixel_store", clock, parameters_, store),
       blender("blender", clock, store, probe_),
-      sums_h_("sums_h", store.lanes()),
-      sums_v_("sums_v", store.lanes()),
-      lines_h_("lines_h", store.lanes()),
-      lines_v_("lines_v", store.lanes()) {
+      sums_h_("sums_h", store.lanes(), record_shape(parameters_, "run.", "run.run.")),
+      sums_v_("sums_v", store.lanes(), record_shape(parameters_, "run.", "run.run.")),
+      lines_h_("lines_h", store.lanes(), line_shape(parameters_)),
+      lines_v_("lines_v", store.lanes(), line_shape(parameters_)) {
   sequencer.pixels_in(pixels_in);
   sequencer.slots_out(slots_);
   sequencer.beats_out(beats_);
@@ -95,6 +96,14 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
   blender.pixels_out(pixels_out);
   blender.frames_done_out(frames_done_);
   sequencer.frames_done_in(frames_done_);
+  if (diagonals) {
+    columns_ = std::make_unique<Link<DiagonalColumnsToken>>(
+        "diagonal_columns", 2, diagonal_columns_shape(parameters_, store.lanes()));
+    (*extractor.columns_out)(*columns_);
+    diagonals->columns_in(*columns_);
+    (*area.diagonals_in)(diagonals->shares());
+    control.show(spec::morphological::reg::kDiagonals, diagonals->diagonal_pixels);
+  }
   if (parameters_.storage == spec::morphological::Storage::kMemory) {
     MemoryPortParameters port;
     port.outstanding = 2 * static_cast<std::uint32_t>(parameters_.memory_outstanding);
@@ -160,6 +169,7 @@ spec::morphological::Work MorphologicalEngine::work() const {
   work.probes = predictor_h.probes.value() + predictor_v.probes.value();
   work.divides = divider_h.divides.value() + divider_v.divides.value();
   work.blended_pixels = blender.blended_pixels.value();
+  if (diagonals) work.diagonal_pixels = diagonals->diagonal_pixels.value();
   return work;
 }
 

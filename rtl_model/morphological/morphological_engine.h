@@ -32,6 +32,7 @@
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/morphological/blend/area_unit.h"
 #include "rtl_model/morphological/blend/blender.h"
+#include "rtl_model/morphological/blend/diagonal_unit.h"
 #include "rtl_model/morphological/blend/pixel_store.h"
 #include "rtl_model/morphological/front/edge_detector.h"
 #include "rtl_model/morphological/front/luma_unit.h"
@@ -73,6 +74,7 @@ class MorphologicalEngine final : public Engine {
   EndpointPredictor predictor_h, predictor_v;
   LineUnit divider_h, divider_v;
   AreaUnit area;
+  std::unique_ptr<DiagonalUnit> diagonals;  // only with diagonals
   PixelStore pixel_store;
   Blender blender;
   std::unique_ptr<MemoryPort> memory_port;  // only with storage = memory
@@ -112,6 +114,7 @@ class MorphologicalEngine final : public Engine {
   Link<FrameDoneToken> frames_done_{"frames_done"};
   LaneLinks<SumsToken> sums_h_, sums_v_;
   LaneLinks<LineToken> lines_h_, lines_v_;
+  std::unique_ptr<Link<DiagonalColumnsToken>> columns_;
   std::unique_ptr<Link<MemoryRequest>> requests_;
   std::unique_ptr<Link<MemoryResponse>> responses_;
 };

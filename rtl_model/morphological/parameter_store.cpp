@@ -26,7 +26,9 @@ constexpr std::uint32_t writable(std::uint32_t offset) {
     case reg::kSize:
       return 0x3FFF3FFF;
     case reg::kRules:
-      return 0x1FFFF;
+      return 0x7FFFFF;
+    case reg::kSmaa:
+      return 0x01FF1F7F;
     case reg::kPixelBase:
       return ~(static_cast<std::uint32_t>(spec::morphological::kFrameLineBytes) - 1);
     default:
@@ -37,12 +39,24 @@ constexpr std::uint32_t writable(std::uint32_t offset) {
 std::uint32_t encode_rules(const spec::morphological::Parameters& p) {
   return static_cast<std::uint32_t>(p.edge_source) |
          static_cast<std::uint32_t>(p.threshold_mode) << 2 |
-         static_cast<std::uint32_t>(p.dynamic_luma) << 3 |
+         (static_cast<std::uint32_t>(p.dynamic_luma) & 1) << 3 |
          static_cast<std::uint32_t>(p.local_contrast) << 4 |
          static_cast<std::uint32_t>(p.predictor) << 6 | static_cast<std::uint32_t>(p.steps) << 8 |
          static_cast<std::uint32_t>(p.contiguous) << 13 | static_cast<std::uint32_t>(p.safe) << 14 |
          static_cast<std::uint32_t>(p.linear_light) << 15 |
-         static_cast<std::uint32_t>(p.trim) << 16;
+         static_cast<std::uint32_t>(p.trim) << 16 |
+         static_cast<std::uint32_t>(p.dynamic_luma) >> 1 << 17 |
+         static_cast<std::uint32_t>(p.ends) << 18 |
+         static_cast<std::uint32_t>(p.area != spec::morphological::AreaSource::kAnalytic) << 19 |
+         static_cast<std::uint32_t>(p.diagonals) << 20 |
+         static_cast<std::uint32_t>(p.round_corners) << 21 |
+         static_cast<std::uint32_t>(p.blend) << 22;
+}
+
+std::uint32_t encode_smaa(const spec::morphological::Parameters& p) {
+  return static_cast<std::uint32_t>(p.search_steps) |
+         static_cast<std::uint32_t>(p.diagonal_steps) << 8 |
+         static_cast<std::uint32_t>(p.corner_rounding) << 16;
 }
 
 template <class Choice>
@@ -78,7 +92,8 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
   f.source = choice<spec::morphological::EdgeSource>(bits(rules, 1, 0),
                                                      spec::morphological::kEdgeSourceNames.size());
   f.dynamic = bits(rules, 2, 2) != 0 && f.source == spec::morphological::EdgeSource::kLuma;
-  f.dynamic_max = bits(rules, 3, 3) != 0;
+  f.dynamic_luma =
+      static_cast<spec::morphological::DynamicLuma>(bits(rules, 3, 3) | bits(rules, 17, 17) << 1);
   f.local_contrast = choice<spec::morphological::LocalContrast>(
       bits(rules, 5, 4), spec::morphological::kLocalContrastNames.size());
   if (f.source == spec::morphological::EdgeSource::kDepth)
@@ -92,6 +107,19 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
   f.safe = bits(rules, 14, 14) != 0;
   f.linear_light = bits(rules, 15, 15) != 0;
   f.trim = bits(rules, 16, 16) != 0;
+
+  const std::uint32_t smaa = registers.value(reg::kSmaa);
+  const auto field = [&](int high, int low) {
+    return static_cast<std::int32_t>(bits(smaa, high, low));
+  };
+  f.crossings = bits(rules, 18, 18) != 0 && p.ends == spec::morphological::Ends::kCrossings;
+  f.table = bits(rules, 19, 19) != 0 && p.area != spec::morphological::AreaSource::kAnalytic;
+  f.search_steps = std::clamp(field(6, 0), 1, spec::morphological::kMaxSearchSteps);
+  if (bits(rules, 20, 20) != 0 && p.diagonals)
+    f.diagonal_steps = std::min({field(12, 8), p.diagonal_steps, reach_rows});
+  f.corners = bits(rules, 21, 21) != 0 && p.round_corners;
+  f.corner_loss = std::max(spec::morphological::kMaxCornerRounding - field(24, 16), 0);
+  f.strongest = bits(rules, 22, 22) != 0;
 
   f.threshold = 255 * registers.value(reg::kThreshold);
   f.threshold_on = 255 * registers.value(reg::kThresholdOn);
@@ -116,6 +144,7 @@ ParameterStore::ParameterStore(ControlRegisters& registers,
   registers.set_reset(reg::kAlpha, static_cast<std::uint32_t>(p.alpha));
   registers.set_reset(reg::kFloor, static_cast<std::uint32_t>(p.floor));
   registers.set_reset(reg::kDepthThreshold, static_cast<std::uint32_t>(p.depth_threshold));
+  registers.set_reset(reg::kSmaa, encode_smaa(p));
   registers.on_busy([this] { return inside_; });
 }
 

@@ -5,11 +5,11 @@
 // inside. Timing: a write counts from the next clock edge on; rules are latched with the first
 // beat of a frame. A write while a frame is inside is ignored (CONTROL and STATUS excepted) and
 // sets a sticky bit. Codes of RULES that no choice has count as code 0; steps are limited to
-// window_rows / 2 - 2; what was not built (depth lines with source = luma) reads as 0, and the rule
-// `contiguous` counts as off in an engine that was built without it.
-// A reset gives every register its reset value; SIZE is 0 then and must be written again.
-// Cost: 12 x 32 flip-flops twice (registers, decoded products of the frame inside).
-// Made for 300 MHz; longest path: 16-bit multiply by 255.
+// window_rows / 2 - 2, those of SMAA's searches to their ranges; what was not built (depth lines
+// with source = luma) reads as 0, and `contiguous`, crossings, tables, diagonals and corners count
+// as off in an engine that was built without them. A reset gives every register its reset value;
+// SIZE is 0 then and must be written again. Cost: 13 x 32 flip-flops twice (registers, decoded
+// products of the frame inside). Made for 300 MHz; longest path: 16-bit multiply by 255.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,8 @@ struct FrameRules {
   std::uint32_t rows = 0;              // U14, rows of slots: height + R + 5
   std::int32_t last_count = 0;         // U3, lanes of the last beat of a row
   spec::morphological::EdgeSource source{};
-  bool dynamic = false, dynamic_max = false;
+  bool dynamic = false;
+  spec::morphological::DynamicLuma dynamic_luma{};
   spec::morphological::LocalContrast local_contrast{};
   // Thresholds of luma steps, U8.16: 255 x register.
   std::uint32_t threshold = 0, threshold_on = 0, threshold_off = 0, floor = 0;
@@ -35,7 +36,13 @@ struct FrameRules {
   spec::morphological::Predictor predictor{};
   std::int32_t steps = 0;  // U5
   bool contiguous = false, safe = false, trim = false, linear_light = false;
-  std::uint32_t pixel_base = 0;  // bytes
+  bool crossings = false, table = false;  // where runs end, where areas come from
+  std::int32_t search_steps = 0;          // U7, 1..112
+  std::int32_t diagonal_steps = 0;        // U5, 0: none
+  bool corners = false;                   // are rounded
+  std::int32_t corner_loss = 0;           // U9, 256 - corner_rounding
+  bool strongest = false;                 // blend
+  std::uint32_t pixel_base = 0;           // bytes
 };
 
 // CONTROL and STATUS, for the engine's ControlRegisters.

@@ -102,9 +102,42 @@ struct FetchToken {
   }
 };
 
+// RunExtractor -> DiagonalUnit: columns of the beat about row slot.row - R - 3. Bit k: row k - M
+// from that one, M as built.
+struct DiagonalColumnsToken {
+  Slot slot;
+  std::array<std::uint64_t, spec::morphological::kMaxLanes> left, top;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("slot", self.slot);
+    visit.lanes("left", self.left, 2 * spec::morphological::kMaxDiagonalSteps + 1);
+    visit.lanes("top", self.top, 2 * spec::morphological::kMaxDiagonalSteps + 1);
+  }
+};
+inline PayloadShape diagonal_columns_shape(const spec::morphological::Parameters& p, int lanes) {
+  const auto rows = static_cast<std::uint32_t>(2 * p.diagonal_steps + 1);
+  return {.lanes = static_cast<std::uint32_t>(lanes), .widths = {{"left", rows}, {"top", rows}}};
+}
+// Beats from a column to the pixels that need no later one.
+inline int diagonal_delay(int steps, int lanes) { return (steps + 1 + lanes - 1) / lanes; }
+
+// DiagonalUnit -> AreaUnit: of each lane whose top edge takes its shares from a diagonal.
+struct DiagonalSharesToken {
+  std::uint8_t taken;  // bit k: lane k
+  Lanes8 first, second;
+  Lanes8 span;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit.lane_bits("taken", self.taken, spec::morphological::kMaxLanes);
+    visit.lanes("first", self.first, 8, "U0.8");
+    visit.lanes("second", self.second, 8, "U0.8");
+    visit.lanes("span", self.span, 6, "U6");
+  }
+};
+
 // Shares of the neighbours of one pixel, and the spans of the lines that give them.
 struct Shares {
-  std::uint8_t up, down, left, right;                       // U0.8, 0..128
+  std::uint8_t up, down, left, right;                       // U0.8
   std::uint16_t span_up, span_down, span_left, span_right;  // U12
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -154,14 +187,37 @@ struct PixelToken {
 // the next one there or the one after, or at most two rows of 8192 beats behind.
 inline constexpr std::uint32_t kSlotMask = (1u << 15) - 1;
 
+// Fields of a record that not every engine has, by where in its token the RunToken is ("run.") and
+// the RunRecord in that.
+inline PayloadShape record_shape(const spec::morphological::Parameters& p, const std::string& token,
+                                 const std::string& run) {
+  PayloadShape shape;
+  if (!p.round_corners) shape.widths.emplace_back(run + "far", 0);
+  if (p.ends != spec::morphological::Ends::kCrossings)
+    for (const char* const field : {"entry", "beyond"}) shape.widths.emplace_back(token + field, 0);
+  return shape;
+}
+
+inline PayloadShape line_shape(const spec::morphological::Parameters& p) {
+  PayloadShape shape;
+  if (!p.round_corners) shape.widths.emplace_back("line.run.far", 0);
+  if (p.ends != spec::morphological::Ends::kCrossings) shape.widths.emplace_back("entry", 0);
+  return shape;
+}
+
 // RunExtractor -> EndpointPredictor.
 struct RunToken {
   spec::morphological::RunRecord run;
+  // With crossings: which of its column's two it is, vertical; edges along the run go on, bit 0
+  // before its start, bit 1 behind its end.
+  std::uint8_t entry, beyond;
   std::uint32_t slot;  // low bits of the slot that the run was found in
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("run", self.run);
     visit("slot", self.slot, 15, "U15");
+    visit("entry", self.entry, 1, "U1");
+    visit("beyond", self.beyond, 2, "edges go on: before the start, behind the end");
   }
 };
 
@@ -187,10 +243,12 @@ struct SumsToken {
 struct LineToken {
   spec::morphological::LineRecord line;
   std::uint32_t slot;  // U15
+  std::uint8_t entry;  // U1
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("line", self.line);
     visit("slot", self.slot, 15, "U15");
+    visit("entry", self.entry, 1, "U1");
   }
 };
 
@@ -216,8 +274,8 @@ struct FrameDoneToken {
 template <class T>
 struct LaneLinks {
   std::deque<Link<T>> lane;
-  LaneLinks(const char* name, int lanes) {
-    for (int i = 0; i < lanes; ++i) lane.emplace_back((name + std::to_string(i)).c_str());
+  LaneLinks(const char* name, int lanes, const PayloadShape& shape = {}) {
+    for (int i = 0; i < lanes; ++i) lane.emplace_back((name + std::to_string(i)).c_str(), 2, shape);
   }
 };
 template <class Port>

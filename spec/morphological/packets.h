@@ -34,7 +34,8 @@ struct PixelBeat {
 };
 
 // How a pixel was blended, for checks and pictures: first = share of the upper (left) neighbour,
-// second = of the lower (right) one, U0.8; both 0 where the pixel passed unchanged.
+// second = of the lower (right) one, U0.8, as they are mixed; both 0 where the pixel passed
+// unchanged.
 struct BlendTap {
   bool horizontal = false;  // the neighbours are left and right
   std::uint8_t first = 0, second = 0;
@@ -73,6 +74,9 @@ enum class RunPart : std::uint8_t { kWhole, kHead, kTail };
 // A closed run. Horizontal: `line` is the row of the top edges, positions are columns. Vertical:
 // `line` is the column of the left edges, positions are rows. Corners are `start` and
 // `start + length`; of a head (tail) only the first (second) is a corner of the run.
+// `far` says which crossings go on for a second pixel (docs/morphological_smaa.md, "Corners"): bit
+// 0 on the first side and bit 1 on the second at the start, bits 2 and 3 at the end; 0 without
+// round_corners.
 struct RunRecord {
   Axis axis = Axis::kHorizontal;
   RunPart part = RunPart::kWhole;
@@ -80,6 +84,7 @@ struct RunRecord {
   std::uint16_t start = 0;
   std::uint16_t length = 0;  // pixels covered by this record
   std::uint8_t shape = 0;    // index of kRunShapes
+  std::uint8_t far = 0;
   friend bool operator==(const RunRecord&, const RunRecord&) = default;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -89,6 +94,7 @@ struct RunRecord {
     visit("start", self.start, 13, "U13");
     visit("length", self.length, 12, "U12");
     visit("shape", self.shape, 4, "index of kRunShapes");
+    visit("far", self.far, 4, "sharp corners: start first, second, end first, second");
   }
 };
 
@@ -137,10 +143,11 @@ struct Work {
   std::uint64_t long_runs = 0;  // of both axes, longer than the reach
   std::uint64_t z_runs = 0;     // clean Z, not long
   std::uint64_t extended_runs = 0;
-  std::uint64_t steps = 0;           // extensions kept
-  std::uint64_t probes = 0;          // corners tested
-  std::uint64_t divides = 0;         // records that have a side
-  std::uint64_t blended_pixels = 0;  // pixels with a share of a neighbour
+  std::uint64_t steps = 0;            // extensions kept
+  std::uint64_t probes = 0;           // corners tested
+  std::uint64_t divides = 0;          // records that have a side
+  std::uint64_t blended_pixels = 0;   // pixels with a share of a neighbour
+  std::uint64_t diagonal_pixels = 0;  // pixels whose top edge took its shares from a diagonal
   friend bool operator==(const Work&, const Work&) = default;
 };
 
@@ -159,7 +166,8 @@ inline constexpr WorkCount kWorkCounts[] = {{&Work::pixels, reg::kPixels},
                                             {&Work::steps, reg::kSteps},
                                             {&Work::probes, reg::kProbes},
                                             {&Work::divides, reg::kDivides},
-                                            {&Work::blended_pixels, reg::kBlendedPixels}};
+                                            {&Work::blended_pixels, reg::kBlendedPixels},
+                                            {&Work::diagonal_pixels, reg::kDiagonals}};
 static_assert(sizeof(Work) == std::size(kWorkCounts) * sizeof(std::uint64_t),
               "a count is not in the list");
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Parameters and presets of the morphological engine: rules, which change pixels, and build
-// choices, which change clocks and cost. Meaning: docs/morphological_engine.md; formats and
-// rounding, to the bit: docs/number_formats_morphological.md.
+// choices, which change clocks and cost. Meaning: docs/morphological_engine.md and
+// docs/morphological_smaa.md; formats and rounding, to the bit:
+// docs/number_formats_morphological.md.
 #pragma once
 
 #include <array>
@@ -16,6 +17,10 @@ enum class Preset : std::uint8_t { kMlaa, kMlaaSlope, kSmaa, kSmaaDynamic, kDebu
 inline constexpr std::array<std::string_view, 5> kPresetNames = {"mlaa", "mlaa-slope", "smaa",
                                                                  "smaa-dynamic", "deburr"};
 
+// Of the two SMAA presets; a row of kQualities.
+enum class Quality : std::uint8_t { kLow, kMedium, kHigh, kUltra };
+inline constexpr std::array<std::string_view, 4> kQualityNames = {"low", "medium", "high", "ultra"};
+
 enum class Lanes : std::uint8_t { kOne, kTwo, kFour };
 inline constexpr std::array<std::string_view, 3> kLanesNames = {"1", "2", "4"};
 inline constexpr std::array<std::uint8_t, 3> kLaneCount = {1, 2, 4};
@@ -27,19 +32,28 @@ inline constexpr std::array<std::string_view, 3> kEdgeSourceNames = {"luma", "de
 enum class ThresholdMode : std::uint8_t { kFixed, kDynamic };
 inline constexpr std::array<std::string_view, 2> kThresholdModeNames = {"fixed", "dynamic"};
 
-enum class DynamicLuma : std::uint8_t { kCurrent, kMax };
-inline constexpr std::array<std::string_view, 2> kDynamicLumaNames = {"current", "max"};
+enum class DynamicLuma : std::uint8_t { kCurrent, kMax, kMin, kMean };
+inline constexpr std::array<std::string_view, 4> kDynamicLumaNames = {"current", "max", "min",
+                                                                      "mean"};
 
-enum class LocalContrast : std::uint8_t { kOff, kPaper, kSymmetric };
-inline constexpr std::array<std::string_view, 3> kLocalContrastNames = {"off", "paper",
-                                                                        "symmetric"};
+enum class LocalContrast : std::uint8_t { kOff, kPaper, kSymmetric, kSmaa };
+inline constexpr std::array<std::string_view, 4> kLocalContrastNames = {"off", "paper", "symmetric",
+                                                                        "smaa"};
+
+// Where a run ends: at a gap, or at a crossing edge inside it too.
+enum class Ends : std::uint8_t { kGaps, kCrossings };
+inline constexpr std::array<std::string_view, 2> kEndsNames = {"gaps", "crossings"};
 
 enum class Predictor : std::uint8_t { kNone, kChord, kFit };
 inline constexpr std::array<std::string_view, 3> kPredictorNames = {"none", "chord", "fit"};
 
-enum class AreaSource : std::uint8_t { kAnalytic, kTableFull, kTableMerged };
-inline constexpr std::array<std::string_view, 3> kAreaSourceNames = {"analytic", "table_full",
-                                                                     "table_merged"};
+// The three tables are layouts of one: they give the same pixels.
+enum class AreaSource : std::uint8_t { kAnalytic, kTableFull, kTableMerged, kTableMinimal };
+inline constexpr std::array<std::string_view, 4> kAreaSourceNames = {
+    "analytic", "table_full", "table_merged", "table_minimal"};
+
+enum class BlendRule : std::uint8_t { kLongest, kStrongest };
+inline constexpr std::array<std::string_view, 2> kBlendRuleNames = {"longest", "strongest"};
 
 enum class Storage : std::uint8_t { kLineBuffers, kMemory };
 inline constexpr std::array<std::string_view, 2> kStorageNames = {"line_buffers", "memory"};
@@ -47,12 +61,17 @@ inline constexpr std::array<std::string_view, 2> kStorageNames = {"line_buffers"
 inline constexpr int kMaxFrameSize = 8192;  // pixels, each way
 inline constexpr int kMaxSteps = 16;        // N
 inline constexpr int kMaxCorners = 2 * kMaxSteps + 2;
-inline constexpr int kFrameLineBytes = 64;     // memory line of storage = memory
-inline constexpr int kFramePixelBytes = 4;     // R, G, B, A
-inline constexpr int kRecipFractionBits = 24;  // of LineRecord::slope
+inline constexpr int kMaxSearchSteps = 112;     // N of SMAA: distances stay within kTableDistances
+inline constexpr int kMaxDiagonalSteps = 16;    // M
+inline constexpr int kMaxCornerRounding = 256;  // 1/256: all of the weight stays
+inline constexpr int kFrameLineBytes = 64;      // memory line of storage = memory
+inline constexpr int kFramePixelBytes = 4;      // R, G, B, A
+inline constexpr int kRecipFractionBits = 24;   // of LineRecord::slope
 inline constexpr int kInverseFractionBits = 12;
-inline constexpr int kMaxWeight = 128;  // U0.8: a half, the largest share of a neighbour
-inline constexpr int kRowLag = 5;       // rows of delay beyond the reach
+inline constexpr int kMaxWeight = 128;  // U0.8: a half, the largest share that a run gives
+// Of a diagonal with blend = strongest, which normalises shares.
+inline constexpr int kMaxDiagonalWeight = 255;
+inline constexpr int kRowLag = 5;  // rows of delay beyond the reach
 inline constexpr int kLeastDividerLatency = 14;
 
 // Clocks from a slot being taken by a block to it being taken by the next one; of the Blender, to
@@ -75,6 +94,7 @@ inline constexpr std::array<std::uint32_t, 3> kLumaWeights = {13933, 46871, 4732
 // The defaults are the preset `deburr`.
 struct Rules {
   Preset preset = Preset::kDeburr;
+  Quality quality = Quality::kHigh;
   EdgeSource edge_source = EdgeSource::kLuma;
   ThresholdMode threshold_mode = ThresholdMode::kFixed;
   DynamicLuma dynamic_luma = DynamicLuma::kMax;
@@ -85,14 +105,19 @@ struct Rules {
   std::int32_t floor = 514;                      // U0.16: 2/255
   std::int32_t depth_threshold = 3277;           // U0.16: 0.05
   LocalContrast local_contrast = LocalContrast::kSymmetric;
+  Ends ends = Ends::kGaps;
   Predictor predictor = Predictor::kFit;
   std::int32_t steps = 8;
   bool contiguous = true;
   bool safe = true;
   bool trim = true;
   AreaSource area = AreaSource::kAnalytic;
+  std::int32_t search_steps = 16;
   bool diagonals = false;
+  std::int32_t diagonal_steps = 8;
   bool round_corners = false;
+  std::int32_t corner_rounding = 64;
+  BlendRule blend = BlendRule::kLongest;
   bool linear_light = true;
   std::int32_t window_rows = 66;
   std::int32_t reach_columns = 256;
@@ -118,13 +143,16 @@ template <class Visitor>
 void describe(Rules& p, Visitor& v) {
   v.choice("preset", p.preset, kPresetNames,
            "Named set of the rules below; rules given beside it override it.");
+  v.choice("quality", p.quality, kQualityNames,
+           "Named set of rules of the presets smaa and smaa-dynamic, which the preset and rules "
+           "given beside it override.");
   v.choice("edges.source", p.edge_source, kEdgeSourceNames,
            "What makes an edge: luma, depth, or luma with a threshold that depth moves.");
   v.choice("edges.threshold_mode", p.threshold_mode, kThresholdModeNames,
            "fixed: T. dynamic: alpha times luma (paper 003), above a floor.");
-  v.choice(
-      "edges.dynamic_luma", p.dynamic_luma, kDynamicLumaNames,
-      "Luma that alpha multiplies: of the current pixel (the paper) or the larger of the pair.");
+  v.choice("edges.dynamic_luma", p.dynamic_luma, kDynamicLumaNames,
+           "Luma that alpha multiplies: of the current pixel (paper 003), or the larger, the "
+           "smaller or the mean of the pair.");
   v.integer("edges.threshold", p.threshold, 1, 65535, "1/65536", "T, a share of full scale.");
   v.integer("edges.threshold_on_depth_edge", p.threshold_on_depth_edge, 1, 65535, "1/65536",
             "T of source = predicated where depth has an edge.");
@@ -136,8 +164,9 @@ void describe(Rules& p, Visitor& v) {
   v.integer("edges.depth_threshold", p.depth_threshold, 1, 65535, "1/65536",
             "Relative step of depth that is an edge.");
   v.choice("edges.local_contrast", p.local_contrast, kLocalContrastNames,
-           "Drop edges beside one of twice the contrast: eq (2), (3) of paper 003, or a symmetric "
-           "form of them.");
+           "Drop edges beside one of twice the contrast: eq (2), (3) of paper 003, a symmetric "
+           "form of them, or SMAA's, which keeps an edge of exactly half the contrast.");
+  v.choice("ends", p.ends, kEndsNames, "Where runs end: at gaps, or at crossing edges too (SMAA).");
   v.choice("predictor", p.predictor, kPredictorNames,
            "Line through a run: its own ends, the chord of the extended ends (paper 000), or the "
            "least-squares line through all visited corners.");
@@ -149,9 +178,22 @@ void describe(Rules& p, Visitor& v) {
   v.boolean("trim", p.trim,
             "A side that lost its line before N steps and the end of the reach gives back its last "
             "step; one that no line fits, half of its steps.");
-  v.choice("area", p.area, kAreaSourceNames, "Where areas come from; only analytic is built.");
-  v.boolean("diagonals", p.diagonals, "Diagonal patterns of SMAA; not built.");
-  v.boolean("round_corners", p.round_corners, "Corner rounding of SMAA; not built.");
+  v.choice("area", p.area, kAreaSourceNames,
+           "Where areas come from: the line itself, or SMAA's table as it is published, as paper "
+           "003 merges it, or as small as it gets; the tables give the same pixels.");
+  v.integer("search_steps", p.search_steps, 1, kMaxSearchSteps, "step",
+            "N: a table sees 2 N - 1 pixels to the left (up) and 2 N to the right (down).");
+  v.boolean("diagonals", p.diagonals, "Diagonal patterns of SMAA, before the others.");
+  v.integer("diagonal_steps", p.diagonal_steps, 1, kMaxDiagonalSteps, "step",
+            "M: pixels that a diagonal is followed each way.");
+  v.boolean("round_corners", p.round_corners,
+            "Corner rounding of SMAA: less weight where a crossing edge goes on for a second "
+            "pixel.");
+  v.integer("corner_rounding", p.corner_rounding, 0, kMaxCornerRounding, "1/256",
+            "Share of a weight that stays at such a corner.");
+  v.choice("blend", p.blend, kBlendRuleNames,
+           "Axis of a pixel and its weights: the longer line's, or the stronger share's with "
+           "shares in proportion to their squares (SMAA).");
   v.boolean("linear_light", p.linear_light, "Blend in linear light (sRGB) instead of codes.");
   v.integer("window_rows", p.window_rows, 10, 258, "row",
             "Rows of edges held; even. A pixel depends on window_rows / 2 - 1 rows each way.");
@@ -189,13 +231,31 @@ void describe(Parameters& p, Visitor& v) {
   describe(static_cast<Build&>(p), v);
 }
 
-// What a preset sets; every other parameter keeps its default. `area`, `diagonals` and
-// `round_corners` of the two SMAA presets name blocks that are not built yet.
+// What a quality of the SMAA presets sets, before the preset's own row; diagonal_steps and
+// corner_rounding keep their defaults where they are not used.
+struct QualityRow {
+  Quality quality;
+  std::int32_t threshold;  // of `smaa` only
+  std::int32_t search_steps;
+  bool diagonals;
+  std::int32_t diagonal_steps;
+  bool round_corners;
+  std::int32_t corner_rounding;
+  std::int32_t window_rows;
+};
+inline constexpr std::array<QualityRow, 4> kQualities = {{
+    {Quality::kLow, 9830, 4, false, 8, false, 64, 38},
+    {Quality::kMedium, 6554, 8, false, 8, false, 64, 70},
+    {Quality::kHigh, 6554, 16, true, 8, true, 64, 134},
+    {Quality::kUltra, 3277, 32, true, 16, true, 64, 258},
+}};
+
+// What a preset sets; every other parameter keeps its default.
 struct PresetRow {
   Preset preset;
   ThresholdMode threshold_mode;
   DynamicLuma dynamic_luma;
-  std::int32_t threshold;
+  std::int32_t threshold;  // 0: that of the quality
   LocalContrast local_contrast;
   Predictor predictor;
   std::int32_t steps;
@@ -203,20 +263,26 @@ struct PresetRow {
   bool safe;
   bool trim;
   AreaSource area;
-  bool diagonals;
+  Ends ends;
+  BlendRule blend;
+  bool has_qualities;  // a row of kQualities goes before
 };
 inline constexpr std::array<PresetRow, 5> kPresets = {{
     {Preset::kMlaa, ThresholdMode::kFixed, DynamicLuma::kMax, 6554, LocalContrast::kOff,
-     Predictor::kNone, 0, false, false, false, AreaSource::kAnalytic, false},
+     Predictor::kNone, 0, false, false, false, AreaSource::kAnalytic, Ends::kGaps,
+     BlendRule::kLongest, false},
     {Preset::kMlaaSlope, ThresholdMode::kFixed, DynamicLuma::kMax, 6554, LocalContrast::kOff,
-     Predictor::kChord, 4, false, false, false, AreaSource::kAnalytic, false},
-    {Preset::kSmaa, ThresholdMode::kFixed, DynamicLuma::kMax, 6554, LocalContrast::kPaper,
-     Predictor::kNone, 0, false, false, false, AreaSource::kTableFull, true},
-    {Preset::kSmaaDynamic, ThresholdMode::kDynamic, DynamicLuma::kCurrent, 6554,
+     Predictor::kChord, 4, false, false, false, AreaSource::kAnalytic, Ends::kGaps,
+     BlendRule::kLongest, false},
+    {Preset::kSmaa, ThresholdMode::kFixed, DynamicLuma::kMax, 0, LocalContrast::kSmaa,
+     Predictor::kNone, 0, false, false, false, AreaSource::kTableFull, Ends::kCrossings,
+     BlendRule::kStrongest, true},
+    {Preset::kSmaaDynamic, ThresholdMode::kDynamic, DynamicLuma::kCurrent, 1966,
      LocalContrast::kPaper, Predictor::kNone, 0, false, false, false, AreaSource::kTableMerged,
-     true},
+     Ends::kCrossings, BlendRule::kStrongest, true},
     {Preset::kDeburr, ThresholdMode::kFixed, DynamicLuma::kMax, 1966, LocalContrast::kSymmetric,
-     Predictor::kFit, 8, true, true, true, AreaSource::kAnalytic, false},
+     Predictor::kFit, 8, true, true, true, AreaSource::kAnalytic, Ends::kGaps, BlendRule::kLongest,
+     false},
 }};
 
 }  // namespace deburr::spec::morphological

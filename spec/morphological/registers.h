@@ -22,6 +22,7 @@ inline constexpr std::uint32_t kAlpha = 0x20;
 inline constexpr std::uint32_t kFloor = 0x24;
 inline constexpr std::uint32_t kDepthThreshold = 0x28;
 inline constexpr std::uint32_t kPixelBase = 0x2C;
+inline constexpr std::uint32_t kSmaa = 0x30;
 inline constexpr std::uint32_t kPixels = 0x40;
 inline constexpr std::uint32_t kEdgePixels = 0x44;
 inline constexpr std::uint32_t kHorizontalRuns = 0x48;
@@ -36,6 +37,7 @@ inline constexpr std::uint32_t kBlendedPixels = 0x68;
 inline constexpr std::uint32_t kFrameCycles = 0x6C;
 inline constexpr std::uint32_t kRecordStalls = 0x70;
 inline constexpr std::uint32_t kMemoryErrors = 0x74;
+inline constexpr std::uint32_t kDiagonals = 0x78;
 inline constexpr std::uint32_t kIdValue = 0xDEB00002;
 inline constexpr std::uint32_t kControlEnable = 1u << 0;
 inline constexpr std::uint32_t kControlClearCounters = 1u << 1;
@@ -47,7 +49,7 @@ inline constexpr std::uint32_t kStatusWrittenWhileBusy = 1u << 4;
 }  // namespace reg
 
 // Reset values marked 0 with the access kReadWrite are loaded from the parameters at construction.
-inline constexpr std::array<RegisterInfo, 26> kRegisters = {{
+inline constexpr std::array<RegisterInfo, 28> kRegisters = {{
     {reg::kId, "ID", Access::kReadOnly, reg::kIdValue,
      "Identifies the unit and the version of its register map."},
     {reg::kControl, "CONTROL", Access::kReadWrite, 1,
@@ -59,8 +61,10 @@ inline constexpr std::array<RegisterInfo, 26> kRegisters = {{
     {reg::kSize, "SIZE", Access::kReadWrite, 0,
      "Width [13:0] and height [29:16] of the frame in pixels, 1..8192 each."},
     {reg::kRules, "RULES", Access::kReadWrite, 0,
-     "edges.source [1:0], threshold_mode [2], dynamic_luma [3], local_contrast [5:4], predictor "
-     "[7:6], steps [12:8], contiguous [13], safe [14], linear_light [15], trim [16]."},
+     "edges.source [1:0], threshold_mode [2], dynamic_luma [17, 3], local_contrast [5:4], "
+     "predictor [7:6], steps [12:8], contiguous [13], safe [14], linear_light [15], trim [16], "
+     "ends = crossings [18], area from the table [19], diagonals [20], round_corners [21], blend = "
+     "strongest [22]. Blocks that are not built read as off."},
     {reg::kThreshold, "THRESHOLD", Access::kReadWrite, 0, "T, U0.16 [15:0]."},
     {reg::kThresholdOn, "THRESHOLD_ON", Access::kReadWrite, 0,
      "T of predicated edges where depth has an edge, U0.16 [15:0]."},
@@ -73,6 +77,8 @@ inline constexpr std::array<RegisterInfo, 26> kRegisters = {{
      "Relative depth step that is an edge, U0.16 [15:0]."},
     {reg::kPixelBase, "PIXEL_BASE", Access::kReadWrite, 0,
      "Byte address of the frame with storage = memory; a multiple of 64 (low bits read 0)."},
+    {reg::kSmaa, "SMAA", Access::kReadWrite, 0,
+     "search_steps [6:0], diagonal_steps [12:8], 0 for none, corner_rounding [24:16] in 1/256."},
     {reg::kPixels, "PIXELS", Access::kReadOnly, 0, "Pixels delivered."},
     {reg::kEdgePixels, "EDGE_PIXELS", Access::kReadOnly, 0, "Pixels with a left or a top edge."},
     {reg::kHorizontalRuns, "HORIZONTAL_RUNS", Access::kReadOnly, 0, "Maximal runs of top edges."},
@@ -92,6 +98,8 @@ inline constexpr std::array<RegisterInfo, 26> kRegisters = {{
     {reg::kRecordStalls, "RECORD_STALLS", Access::kReadOnly, 0,
      "Clocks in which the slot waited for records."},
     {reg::kMemoryErrors, "MEMORY_ERRORS", Access::kReadOnly, 0, "Memory responses with an error."},
+    {reg::kDiagonals, "DIAGONALS", Access::kReadOnly, 0,
+     "Pixels whose top edge took its shares from a diagonal."},
 }};
 
 }  // namespace deburr::spec::morphological

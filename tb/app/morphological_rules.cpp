@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <initializer_list>
 
 #include "golden/morphological/configuration.h"
@@ -16,23 +17,45 @@ std::string_view preset_name(const spec::morphological::Parameters& values) {
   return spec::morphological::kPresetNames[static_cast<std::size_t>(values.preset)];
 }
 
+bool has_qualities(const spec::morphological::Parameters& values) {
+  return std::any_of(
+      spec::morphological::kPresets.begin(), spec::morphological::kPresets.end(),
+      [&](const auto& row) { return row.preset == values.preset && row.has_qualities; });
+}
+
+// "preset mlaa", "preset smaa, quality high".
+std::string source_of(const spec::morphological::Parameters& values) {
+  std::string source = fmt::format("preset {}", preset_name(values));
+  if (has_qualities(values))
+    source +=
+        fmt::format(", quality {}",
+                    spec::morphological::kQualityNames[static_cast<std::size_t>(values.quality)]);
+  return source;
+}
+
 }  // namespace
 
 void apply_preset(ParameterSet& set, const spec::morphological::Parameters& values) {
-  spec::morphological::Parameters rules = golden::morphological::preset_parameters(values.preset);
-  const std::string by = fmt::format("preset {}", preset_name(values));
+  spec::morphological::Parameters rules =
+      golden::morphological::preset_parameters(values.preset, values.quality);
+  const std::string by = source_of(values);
   ParameterSet preset;
   preset.add_engine("morphological", rules);
-  for (const char* name :
-       {"edges.threshold_mode", "edges.dynamic_luma", "edges.threshold", "edges.local_contrast",
-        "predictor", "steps", "contiguous", "safe", "trim", "area", "diagonals"}) {
-    const std::string full = fmt::format("{}{}", kPrefix, name);
-    set.imply(full, preset.find(full)->text(), by);
-  }
+  const auto imply = [&](std::initializer_list<std::string_view> names) {
+    for (const std::string_view name : names) {
+      const std::string full = fmt::format("{}{}", kPrefix, name);
+      set.imply(full, preset.find(full)->text(), by);
+    }
+  };
+  imply({"edges.threshold_mode", "edges.dynamic_luma", "edges.threshold", "edges.local_contrast",
+         "ends", "predictor", "steps", "contiguous", "safe", "trim", "area", "diagonals",
+         "round_corners", "blend"});
+  if (has_qualities(values))
+    imply({"search_steps", "diagonal_steps", "corner_rounding", "window_rows"});
 }
 
 std::string preset_label(const ParameterSet& set, const spec::morphological::Parameters& values) {
-  std::string label = fmt::format("preset {}", preset_name(values));
+  std::string label = source_of(values);
   bool first = true;
   for (const Parameter* p : set.changed()) {
     label += first ? ", changed: " : ", ";
@@ -70,6 +93,13 @@ void refuse_unused_rules(const ParameterSet& set, const spec::morphological::Par
   if (p.predictor == spec::morphological::Predictor::kNone)
     refuse("morphological.predictor = none extends no run",
            {"steps", "contiguous", "safe", "trim"});
+  if (!has_qualities(p))
+    refuse("it belongs to morphological.preset = smaa or smaa-dynamic", {"quality"});
+  if (p.area == spec::morphological::AreaSource::kAnalytic)
+    refuse("morphological.area = analytic searches nothing", {"search_steps"});
+  if (!p.diagonals) refuse("it belongs to morphological.diagonals = true", {"diagonal_steps"});
+  if (!p.round_corners)
+    refuse("it belongs to morphological.round_corners = true", {"corner_rounding"});
   if (p.storage == spec::morphological::Storage::kLineBuffers) {
     constexpr std::string_view kWhy = "morphological.storage = line_buffers uses no memory";
     refuse(kWhy, {"memory.outstanding"});

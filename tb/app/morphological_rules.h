@@ -16,7 +16,7 @@ namespace deburr::tb {
 // The rules of `values.preset` for every rule "morphological.*" that was not given beside it.
 void apply_preset(ParameterSet& set, const spec::morphological::Parameters& values);
 
-// "preset mlaa", or "preset mlaa, changed: predictor, steps".
+// "preset mlaa", "preset smaa, quality high", or "preset mlaa, changed: predictor, steps".
 std::string preset_label(const ParameterSet& set, const spec::morphological::Parameters& values);
 
 // ConfigError for a rule or a parameter of the memory ("<memory>.*") that was given and has no

@@ -13,6 +13,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
@@ -23,6 +24,7 @@
 #include <string>
 #include <vector>
 
+#include "golden/morphological/configuration.h"
 #include "golden/morphological/morphological_golden.h"
 #include "rtl_model/morphological/morphological_engine.h"
 #include "tb/harness/driver.h"
@@ -83,18 +85,11 @@ std::vector<spec::morphological::PixelBeat> beats(const std::string& image, int 
 }
 
 Parameters parameters(const std::string& preset, int lanes) {
-  Parameters p;
-  for (const spec::morphological::PresetRow& row : spec::morphological::kPresets) {
-    if (spec::morphological::kPresetNames[static_cast<std::size_t>(row.preset)] != preset) continue;
-    p.preset = row.preset;
-    p.threshold = row.threshold;
-    p.local_contrast = row.local_contrast;
-    p.predictor = row.predictor;
-    p.steps = row.steps;
-    p.contiguous = row.contiguous;
-    p.safe = row.safe;
-    p.trim = row.trim;
-  }
+  const auto& names = spec::morphological::kPresetNames;
+  const auto* const which = std::find(names.begin(), names.end(), preset);
+  DEBURR_CHECK(which != names.end(), "no preset " + preset);
+  Parameters p = golden::morphological::preset_parameters(
+      static_cast<spec::morphological::Preset>(which - names.begin()));
   p.lanes = lanes == 1   ? spec::morphological::Lanes::kOne
             : lanes == 2 ? spec::morphological::Lanes::kTwo
                          : spec::morphological::Lanes::kFour;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -25,6 +26,8 @@ namespace reg = spec::morphological::reg;
 constexpr double kPixelClock1080p60 = 148.5;  // MHz
 
 constexpr std::uint32_t kLinkDepth = 2;
+
+constexpr std::int32_t kMostThreshold = 65535;  // of T and of the floor, U0.16
 
 // Lanes that are not built have no wires.
 rtl::PayloadShape shape_of(const spec::morphological::Parameters& p) {
@@ -99,20 +102,123 @@ std::vector<PlantedFault> MorphologicalEnvironment::faults() const {
       {"drop-input", "Drops input beat 50 on its way into the engine.", "drop:pixels:50"},
       {"wrong-edge", "Flips the left edge of a pixel in row 1, behind the edge detector.",
        fmt::format("flip:morphological.edge_bits:{}:left", 2 * row + row / 2)},
-      {"wrong-rule", "The engine tries one step less than was ordered."},
+      {"wrong-rule", "The engine tries one step less than was ordered.", "",
+       setup_.morphological.steps > 0 ? "" : "morphological.steps of at least 1"},
       {"stuck-ready", "Holds back the slots of the luma unit from cycle 500 on.",
        "stuck_ready:morphological.slots:500"},
       {"duplicate-fetch", "Sends memory request 20 twice.",
        fmt::format("duplicate:morphological.requests:{}", kFaultyRequest), memory}};
   for (PlantedFault& fault : memory_faults(memory)) list.push_back(std::move(fault));
+  for (PlantedFault& fault : smaa_faults()) list.push_back(std::move(fault));
   return list;
+}
+
+// Of SMAA's blocks. Those without a link are planted by as_built() and plant_in_roms().
+std::vector<PlantedFault> MorphologicalEnvironment::smaa_faults() const {
+  const spec::morphological::Parameters& p = setup_.morphological;
+  const auto unless = [](bool built, std::string needs) {
+    return built ? std::string() : "morphological." + std::move(needs);
+  };
+  const bool luma = p.edge_source == spec::morphological::EdgeSource::kLuma;
+  const bool dynamic = p.threshold_mode == spec::morphological::ThresholdMode::kDynamic;
+  const bool contrast = p.local_contrast == spec::morphological::LocalContrast::kSmaa ||
+                        p.local_contrast == spec::morphological::LocalContrast::kPaper;
+  const bool table = p.area != spec::morphological::AreaSource::kAnalytic;
+  const std::string for_table = unless(table, "area = table_full, table_merged or table_minimal"),
+                    for_diagonals = unless(p.diagonals, "diagonals = true");
+  return {
+      {"wrong-threshold",
+       "The threshold errs where it is just reached: T a unit higher, or alpha a unit lower.", "",
+       unless(luma && (dynamic ? p.alpha > 0 : p.threshold < kMostThreshold),
+              "edges.source = luma, alpha of at least 1, T of at most 65534")},
+      {"wrong-floor", "The floor of a dynamic threshold is a unit higher.", "",
+       unless(luma && dynamic && p.floor < kMostThreshold,
+              "edges.threshold_mode = dynamic, floor of at most 65534")},
+      {"wrong-contrast",
+       "An edge of exactly half the contrast beside it is dropped for kept, kept for dropped.", "",
+       unless(luma && contrast, "edges.local_contrast = smaa or paper")},
+      {"wrong-area", "Flips a bit of the word of area_rom0 that runs of one pixel read.", "",
+       for_table},
+      {"wrong-root", "Flips a bit of the word of sqrt_rom for two pixels.", "", for_table},
+      {"wrong-decode", "Patterns 6, 7 and 14 of the merged table read the tile of 9.", "",
+       unless(p.area == spec::morphological::AreaSource::kTableMerged, "area = table_merged")},
+      {"wrong-search", "Searches along runs end a step early.", "",
+       unless(table && p.search_steps > 1, "area = table_*, search_steps of at least 2")},
+      {"wrong-entry", "A vertical record is stored in the other entry of its column.",
+       "flip:morphological.lines_v0:20:entry",
+       unless(p.ends == spec::morphological::Ends::kCrossings, "ends = crossings")},
+      {"wrong-diagonal", "Searches along diagonals end a step early.", "",
+       unless(p.diagonals && p.diagonal_steps > 1,
+              "diagonals = true, diagonal_steps of at least 2")},
+      {"wrong-diagonal-area",
+       "Flips a bit of the words of diagonal_rom for two pixels to either end.", "", for_diagonals},
+      {"drop-diagonals", "Drops the shares of the diagonals of beat 200.",
+       "drop:morphological.diagonals.diagonal_shares_entries:200", for_diagonals},
+      {"wrong-corner", "Sharp corners keep 1/256 less of a weight.", "",
+       unless(p.round_corners && p.corner_rounding > 0,
+              "round_corners = true, corner_rounding of at least 1")},
+      {"wrong-mix", "Flips a bit of the word of mix_rom for shares that sum up to 64.", "",
+       unless(p.blend == spec::morphological::BlendRule::kStrongest, "blend = strongest")}};
 }
 
 // The golden model always gets what was ordered.
 spec::morphological::Parameters MorphologicalEnvironment::as_built() const {
   spec::morphological::Parameters p = setup_.morphological;
+  // A fault that would change nothing is refused by what it needs.
   if (planted("wrong-rule")) p.steps = std::max(0, p.steps - 1);
+  if (planted("wrong-threshold")) {
+    if (p.threshold_mode == spec::morphological::ThresholdMode::kDynamic)
+      p.alpha = std::max(0, p.alpha - 1);
+    else
+      p.threshold = std::min(kMostThreshold, p.threshold + 1);
+  }
+  if (planted("wrong-floor")) p.floor = std::min(kMostThreshold, p.floor + 1);
+  if (planted("wrong-contrast"))
+    p.local_contrast = p.local_contrast == spec::morphological::LocalContrast::kSmaa
+                           ? spec::morphological::LocalContrast::kPaper
+                           : spec::morphological::LocalContrast::kSmaa;
+  if (planted("wrong-search")) p.search_steps = std::max(1, p.search_steps - 1);
+  if (planted("wrong-diagonal")) p.diagonal_steps = std::max(1, p.diagonal_steps - 1);
+  if (planted("wrong-corner")) p.corner_rounding = std::max(0, p.corner_rounding - 1);
   return p;
+}
+
+void MorphologicalEnvironment::plant_in_roms() {
+  const auto in_rom = [&]<class Word>(const char* name, Word, auto&& change) {
+    rtl::for_each<rtl::MemoryBase>(engine_, [&](rtl::MemoryBase& memory) {
+      if (memory.basename() != std::string_view(name)) return;
+      auto* const rom = dynamic_cast<rtl::Memory<Word>*>(&memory);
+      DEBURR_CHECK(rom != nullptr, std::string(name) + " has other words");
+      change(*rom);
+    });
+  };
+  constexpr std::uint16_t kHalf = 0;
+  constexpr std::uint32_t kWord = 0;
+  // Tiles as the layout stores them, a parity of 64 words each.
+  using spec::morphological::AreaSource;
+  const AreaSource layout = setup_.morphological.area;
+  const std::uint64_t tile_of_6 = layout == AreaSource::kTableFull     ? 6
+                                  : layout == AreaSource::kTableMerged ? 4
+                                                                       : 0;
+  constexpr std::uint64_t kTileWords = 64, kMergedTileOf9 = 6;
+  if (planted("wrong-area"))
+    in_rom("area_rom0", kHalf, [&](auto& rom) { rom.backdoor(tile_of_6 * kTileWords) ^= 1u << 5; });
+  if (planted("wrong-root"))
+    in_rom("sqrt_rom", kHalf, [](auto& rom) { rom.backdoor(2) ^= 1u << 6; });
+  if (planted("wrong-decode"))
+    for (const char* const name : {"area_rom0", "area_rom1", "area_rom2", "area_rom3"})
+      in_rom(name, kHalf, [&](auto& rom) {
+        for (std::uint64_t i = 0; i < kTileWords; ++i)
+          rom.backdoor(tile_of_6 * kTileWords + i) = rom.backdoor(kMergedTileOf9 * kTileWords + i);
+      });
+  if (planted("wrong-diagonal-area"))
+    in_rom("diagonal_rom", kHalf, [](auto& rom) {
+      constexpr std::uint64_t kDistances = spec::morphological::kDiagonalDistances;
+      for (std::uint64_t codes = 0; codes < 16; ++codes)
+        rom.backdoor((codes * kDistances + 2) * kDistances + 2) ^= 1u << 4;
+    });
+  if (planted("wrong-mix"))
+    in_rom("mix_rom", kWord, [](auto& rom) { rom.backdoor(64) ^= 1u << 9; });
 }
 
 MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
@@ -144,6 +250,7 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
   for (const MorphologicalInput& frame : frames)
     golden::morphological::check_frame(setup.morphological, frame.image.width, frame.image.height);
   know(faults());
+  plant_in_roms();
   if (source_) source_->pixels_out(pixels);
   engine_.pixels_in(pixels);
   engine_.pixels_out(blended_);

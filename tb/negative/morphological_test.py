@@ -147,23 +147,85 @@ class Frames(Base):
 
 
 class Configuration(Base):
-    """Presets, rules beside them, and mixes that are not built."""
+    """Presets, rules beside them, and mixes that are impossible."""
     SMALL = ("--size", "48x40")
 
-    def test_not_built(self):
-        for preset in ("smaa", "smaa-dynamic"):
-            self.run_engine(2, *self.SMALL, "--preset", preset, says="not built")
-            self.assertFalse(os.path.exists(self.path("out/result.json")))
-        self.run_engine(2, *self.SMALL, "--set", "morphological.diagonals=true", says="not built")
+    def test_an_unknown_preset(self):
         self.run_engine(2, *self.SMALL, "--preset", "smoothest", says="mlaa")
+        self.assertFalse(os.path.exists(self.path("out/result.json")))
+
+    def test_a_quality_is_a_preset_of_the_preset(self):
+        for preset in ("smaa", "smaa-dynamic"):
+            for quality, rows, steps in (("low", 38, 4), ("medium", 70, 8), ("high", 134, 16), ("ultra", 258, 32)):
+                shown = self.run_engine(0, "--preset", preset, "--set", f"morphological.quality={quality}",
+                                        "--show-config").stdout
+                self.assertIn(f"morphological.window_rows: {rows}", shown)
+                self.assertIn(f"morphological.search_steps: {steps}", shown)
+                self.assertIn(f"By preset {preset}, quality {quality}.", shown)
+        given = self.run_engine(0, "--preset", "smaa", "--set", "morphological.window_rows=40", "--show-config").stdout
+        self.assertIn("morphological.window_rows: 40", given)
+        self.assertNotIn("# morphological.window_rows", given)
 
     def test_impossible_mixes(self):
+        self.run_engine(2, *self.SMALL, "--set", "morphological.diagonals=true", "--set",
+                        "morphological.diagonal_steps=10", "--set", "morphological.window_rows=20",
+                        says=["diagonal_steps", "window_rows of at least 22"])
+        self.run_engine(2, *self.SMALL, "--preset", "smaa", "--set", "morphological.search_steps=113", says="1..112")
         self.run_engine(2, *self.SMALL, "--set", "morphological.window_rows=33", says="window_rows")
         self.run_engine(2, *self.SMALL, "--set", "morphological.steps=16", "--set", "morphological.window_rows=20",
                         says="steps")
         self.run_engine(2, *self.SMALL, "--set", "morphological.edges.source=predicated", "--set",
                         "morphological.edges.threshold_mode=dynamic", says="predicated")
         self.run_engine(2, *self.SMALL, "--lanes", "3", says="1, 2, 4")
+
+    RANGES = {"edges.threshold": (1, 65535), "edges.alpha": (0, 65535), "edges.floor": (1, 65535),
+              "search_steps": (1, 112), "diagonal_steps": (1, 16), "corner_rounding": (0, 256)}
+
+    def test_numbers_of_smaa_out_of_their_ranges(self):
+        """Distances to 2N pixels lie within the 225 of the tables for every N, so that there is no table that does
+        not fit: N above that is out of range."""
+        for name, (least, most) in self.RANGES.items():
+            for value in (least - 1, most + 1, "few", 0.5):
+                self.run_engine(2, *self.SMALL, "--preset", "smaa", "--set", f"morphological.{name}={value}",
+                                says=[f"morphological.{name}", f"{least}..{most}"])
+        self.assertFalse(os.path.exists(self.path("out")))
+
+    def test_numbers_of_smaa_at_the_ends_of_their_ranges(self):
+        """Also alpha and T far outside of what the paper speaks of."""
+        for name, ends in self.RANGES.items():
+            preset = "smaa-dynamic" if name in ("edges.alpha", "edges.floor") else "smaa"
+            for value in ends:
+                self.run_engine(0, *self.SMALL, "--preset", preset, "--set", f"morphological.{name}={value}", says="PASS")
+
+    def test_unknown_choices_of_smaa(self):
+        for name, known in (("quality", "low, medium, high, ultra"), ("ends", "gaps, crossings"),
+                            ("area", "analytic, table_full, table_merged, table_minimal"),
+                            ("blend", "longest, strongest"), ("edges.dynamic_luma", "current, max, min, mean"),
+                            ("edges.local_contrast", "off, paper, symmetric, smaa"), ("diagonals", "true or false"),
+                            ("round_corners", "true or false")):
+            self.run_engine(2, *self.SMALL, "--preset", "smaa", "--set", f"morphological.{name}=none-such",
+                            says=[f"morphological.{name}", "none-such", known])
+        self.run_engine(2, *self.SMALL, "--preset", "smaa2", says=["smaa2", "did you mean 'smaa'?", "smaa-dynamic"])
+        self.assertFalse(os.path.exists(self.path("out")))
+
+    def test_mixes_of_smaa(self):
+        """What the contract refuses, and next to it what is legal."""
+        smaa = ("--preset", "smaa")
+
+        def rows(steps, window):
+            return self.SMALL + smaa + ("--set", f"morphological.diagonal_steps={steps}", "--set",
+                                        f"morphological.window_rows={window}")
+
+        for steps in (5, 6, 15, 16):
+            least = 2 * steps + 2
+            self.run_engine(2, *rows(steps, least - 2), says=["diagonal_steps", f"window_rows of at least {least}"])
+            self.run_engine(0, *rows(steps, least), says="PASS")
+        # Without diagonals the same window is legal.
+        self.run_engine(0, *self.SMALL, *smaa, "--set", "morphological.diagonals=false", "--set",
+                        "morphological.window_rows=10", says="PASS")
+        self.run_engine(2, *self.SMALL, "--preset", "smaa-dynamic", "--set", "morphological.edges.source=predicated",
+                        says=["predicated", "threshold_mode = fixed"])
+        self.run_engine(0, *self.SMALL, *smaa, "--set", "morphological.edges.source=predicated", says="PASS")
 
     def test_a_rule_beside_a_preset_overrides_it(self):
         done = self.run_engine(0, "--preset", "mlaa-slope", "--set", "morphological.steps=8", "--show-config")
@@ -189,6 +251,13 @@ class Configuration(Base):
             (("--set", "morphological.edges.threshold_mode=dynamic"), "--set", "morphological.edges.threshold=9",
              "computes the threshold"),
             (("--preset", "mlaa"), "--set", "morphological.steps=3", "extends no run"),
+            ((), "--set", "morphological.quality=low", "morphological.preset = smaa or smaa-dynamic"),
+            ((), "--set", "morphological.search_steps=8", "area = analytic"),
+            ((), "--set", "morphological.diagonal_steps=4", "diagonals = true"),
+            (("--preset", "smaa", "--set", "morphological.quality=low"), "--set", "morphological.diagonal_steps=4",
+             "diagonals = true"),
+            ((), "--set", "morphological.corner_rounding=0", "round_corners = true"),
+            (("--preset", "smaa-dynamic"), "--set", "morphological.edges.threshold=9", "computes the threshold"),
             ((), "--trace-to", "100", "run.trace")]
         for others, option, value, why in morphological:
             self.run_engine(2, *others, option, value, says=["has no effect", why])
@@ -362,6 +431,111 @@ class Faults(Base):
         self.run_engine(2, *self.CHECKED, "--fault", "morphological.lost-response", engine="frame",
                         says="storage = memory")
         self.fault("stuck_ready:pixels:300", 4, "pixels", *self.CHECKED, engine="frame")
+
+
+def stair_png(size):
+    """White beneath a stair of one pixel, which rises: one diagonal over the whole frame."""
+    return rgb_png(size, [bytes([255 if x + y >= size else 0]) * 3 for y in range(size) for x in range(size)])
+
+
+def columns_png(height, colours):
+    """A column of each colour."""
+    return rgb_png(len(colours), [bytes(colour) for _ in range(height) for colour in colours])
+
+
+class SmaaFaults(Base):
+    """Faults in SMAA's blocks. Scoreboards find them, so the link checkers change nothing but for faults of links."""
+    SMALL = ("--size", "64x48", "--set", "run.watchdog_cycles=2000")
+
+    def fault(self, name, *arguments, code=1, says="mismatch", unchecked=None, **options):
+        self.run_engine(0, *arguments, **options)  # without it all is well
+        for checked, expected in ((True, code), (False, unchecked or code)):
+            links = ("--set", f"run.check_links={str(checked).lower()}")
+            self.run_engine(expected, "--fault", name, *links, *arguments, says=says if expected == code else (),
+                            **options)
+            self.assertEqual(self.result()["verdict"], "fail")
+            if expected == 1:
+                self.assertGreater(self.result()["checks"]["mismatches"], 0)
+
+    def rules(self, **given):
+        return [word for name, value in given.items()
+                for word in ("--set", f"morphological.{name.replace('__', '.')}={value}")]
+
+    def picture(self, name, content):
+        return ("--in", self.write(name, content), "--set", "run.watchdog_cycles=2000")
+
+    def test_a_bit_of_the_table_in_each_layout(self):
+        for area in ("table_full", "table_merged", "table_minimal"):
+            with self.subTest(area):
+                rules = self.rules(quality="medium", area=area)
+                self.fault("wrong-area", "--preset", "smaa", *rules, *self.SMALL)
+                self.run_engine(1, "--fault", "wrong-root", "--preset", "smaa", *rules, *self.SMALL, says="mismatch")
+
+    def test_the_decode_of_the_merged_table(self):
+        self.fault("wrong-decode", "--preset", "smaa-dynamic", *self.SMALL)
+        self.fault("wrong-decode", "--preset", "smaa", *self.rules(area="table_merged"), *self.SMALL)
+
+    def test_the_other_roms(self):
+        self.fault("wrong-diagonal-area", "--preset", "smaa", *self.SMALL)
+        self.fault("wrong-mix", "--preset", "smaa", *self.SMALL)
+
+    def test_thresholds_at_equality(self):
+        # Steps of blue are 255 T exactly; steps from 1 to 2 are alpha times luma exactly.
+        blue = self.picture("blue.png", columns_png(8, [(0, 0, 0)] * 6 + [(0, 0, 255)] * 6))
+        dark = self.picture("dark.png", columns_png(8, [(1, 1, 1)] * 6 + [(2, 2, 2)] * 6))
+        off = self.rules(edges__local_contrast="off")
+        self.fault("wrong-threshold", *blue, "--preset", "smaa", *off, *self.rules(edges__threshold=4732))
+        self.fault("wrong-floor", *blue, "--preset", "smaa-dynamic", *off,
+                   *self.rules(edges__alpha=1, edges__floor=4732))
+        for luma in ("current", "max"):  # of the right column, which owns the edge and is the brighter
+            self.fault("wrong-threshold", *dark, "--preset", "smaa-dynamic", *off,
+                       *self.rules(edges__alpha=32768, edges__floor=1, edges__dynamic_luma=luma))
+        for luma, code in (("min", 65535), ("mean", 43690)):  # 1 and 1.5: just below, no equality
+            self.run_engine(0, "--fault", "wrong-threshold", *dark, "--preset", "smaa-dynamic", *off,
+                            *self.rules(edges__alpha=code, edges__floor=1, edges__dynamic_luma=luma), says="PASS")
+
+    def test_local_contrast_at_equality(self):
+        grey = self.picture("grey.png", columns_png(8, [(c, c, c) for c in [0] * 5 + [60] + [180] * 5]))
+        for contrast in ("smaa", "paper"):
+            self.fault("wrong-contrast", *grey, "--preset", "smaa", *self.rules(edges__local_contrast=contrast))
+
+    def test_searches_a_step_short(self):
+        self.fault("wrong-search", "--preset", "smaa", *self.rules(quality="low"), *self.SMALL)
+        self.fault("wrong-diagonal", *self.picture("stair.png", stair_png(40)), "--preset", "smaa")
+
+    def test_corners(self):
+        self.fault("wrong-corner", "--preset", "smaa", *self.SMALL)
+
+    def test_faults_of_links(self):
+        # In one column a vertical run in each row.
+        rows = rgb_png(64, [bytes([0 if x < 20 else 255 - 100 * (y % 2)] * 3) for y in range(48) for x in range(64)])
+        rules = self.rules(edges__local_contrast="off", diagonals="false")
+        self.fault("wrong-entry", *self.picture("rows.png", rows), "--preset", "smaa", *rules, code=3, unchecked=1,
+                   says="changed while it waited")
+        self.fault("drop-diagonals", "--preset", "smaa", *self.SMALL, code=3, unchecked=4, says="vanished")
+
+    def test_in_a_frame(self):
+        for name in ("wrong-area", "morphological.wrong-diagonal-area", "wrong-corner"):
+            self.fault(name, "--preset", "smaa", *self.SMALL, engine="frame")
+
+    def test_what_is_not_there_cannot_fail(self):
+        for name, needs in (("wrong-area", "area = table"), ("wrong-root", "area = table"),
+                            ("wrong-decode", "area = table_merged"), ("wrong-search", "search_steps of at least 2"),
+                            ("wrong-floor", "threshold_mode = dynamic"), ("wrong-contrast", "smaa or paper"),
+                            ("wrong-entry", "ends = crossings"), ("wrong-diagonal", "diagonals = true"),
+                            ("wrong-diagonal-area", "diagonals = true"), ("drop-diagonals", "diagonals = true"),
+                            ("wrong-corner", "round_corners = true"), ("wrong-mix", "blend = strongest")):
+            self.run_engine(2, *self.SMALL, "--fault", name, says=[name, "needs", needs])
+        smaa = ("--preset", "smaa")
+        for name, rules, needs in (("wrong-threshold", {"edges__threshold": 65535}, "T of at most 65534"),
+                                   ("wrong-search", {"search_steps": 1}, "search_steps of at least 2"),
+                                   ("wrong-diagonal", {"diagonal_steps": 1}, "diagonal_steps of at least 2"),
+                                   ("wrong-corner", {"corner_rounding": 0}, "corner_rounding of at least 1"),
+                                   ("wrong-decode", {"area": "table_full"}, "area = table_merged")):
+            self.run_engine(2, *self.SMALL, *smaa, *self.rules(**rules), "--fault", name, says=[name, "needs", needs])
+        self.run_engine(2, *self.SMALL, "--preset", "smaa-dynamic", *self.rules(edges__alpha=0), "--fault",
+                        "wrong-threshold", says="alpha of at least 1")
+        self.run_engine(2, *self.SMALL, "--preset", "mlaa", "--fault", "wrong-rule", says="steps of at least 1")
 
 
 if __name__ == "__main__":

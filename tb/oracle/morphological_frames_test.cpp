@@ -13,6 +13,8 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "golden/morphological/configuration.h"
 #include "golden/morphological/morphological_golden.h"
@@ -48,13 +50,16 @@ class Judge {
   Figures judge(const std::string& method, const Image& image) const {
     const Figures f{psnr(image, truth_, edges_),
                     silhouettes_ ? psnr(image, truth_, *silhouettes_) : 0};
-    std::cout << fmt::format("{:<12} {:<11} edges {:.2f} dB, silhouettes {:.2f} dB\n", name_,
+    std::cout << fmt::format("{:<12} {:<17} edges {:.2f} dB, silhouettes {:.2f} dB\n", name_,
                              method, f.edges, f.silhouettes);
     return f;
   }
   Figures judge(Preset preset) const {
     return judge(std::string(spec::morphological::kPresetNames[static_cast<std::size_t>(preset)]),
-                 smoothed(frame_, preset_parameters(preset)));
+                 preset_parameters(preset));
+  }
+  Figures judge(const std::string& method, const spec::morphological::Parameters& rules) const {
+    return judge(method, smoothed(frame_, rules));
   }
   bool has_silhouettes() const { return silhouettes_.has_value(); }
 
@@ -65,12 +70,65 @@ class Judge {
   std::optional<Mask> silhouettes_;
 };
 
-// Above both other presets by more than `margin` dB, on edges and on silhouettes.
+// SMAA in its qualities, and with the dynamic threshold of paper 003.
+std::vector<std::pair<std::string, spec::morphological::Parameters>> smaa_rules() {
+  std::vector<std::pair<std::string, spec::morphological::Parameters>> all;
+  for (const auto quality :
+       {spec::morphological::Quality::kLow, spec::morphological::Quality::kMedium,
+        spec::morphological::Quality::kHigh, spec::morphological::Quality::kUltra}) {
+    all.emplace_back(
+        fmt::format("smaa {}",
+                    spec::morphological::kQualityNames[static_cast<std::size_t>(quality)]),
+        preset_parameters(Preset::kSmaa, quality));
+  }
+  for (const int alpha : {3277, 6554, 13107}) {
+    spec::morphological::Parameters p = preset_parameters(Preset::kSmaaDynamic);
+    p.alpha = alpha;
+    all.emplace_back(fmt::format("smaa-dynamic {:.2f}", alpha / 65536.0), p);
+  }
+  return all;
+}
+
+// SMAA's blocks in deburr.
+std::vector<std::pair<std::string, spec::morphological::Parameters>> mixed_rules() {
+  const spec::morphological::Parameters deburr = preset_parameters(Preset::kDeburr);
+  std::vector<std::pair<std::string, spec::morphological::Parameters>> all;
+  const auto add = [&](const char* name, auto&&... changes) {
+    all.emplace_back(name, deburr);
+    (changes(all.back().second), ...);
+  };
+  using Parameters = spec::morphological::Parameters;
+  const auto diagonals = [](Parameters& p) { p.diagonals = true; };
+  const auto corners = [](Parameters& p) { p.round_corners = true; };
+  const auto strongest = [](Parameters& p) {
+    p.blend = spec::morphological::BlendRule::kStrongest;
+  };
+  const auto crossings = [](Parameters& p) { p.ends = spec::morphological::Ends::kCrossings; };
+  add("+ diagonals", diagonals);
+  add("+ corners", corners);
+  add("+ crossings", crossings);
+  add("+ strongest", strongest);
+  add("+ diag + strong", diagonals, strongest);
+  add("+ all four", diagonals, corners, crossings, strongest);
+  return all;
+}
+
+// Above both other presets by more than `margin` dB, on edges and on silhouettes; if that is much,
+// above SMAA too.
 void expect_deburr_best(const Judge& judge, double margin) {
   const Figures mlaa = judge.judge(Preset::kMlaa), slope = judge.judge(Preset::kMlaaSlope),
                 deburr = judge.judge(Preset::kDeburr);
   EXPECT_GT(deburr.edges, mlaa.edges + margin);
   EXPECT_GT(deburr.edges, slope.edges + margin);
+  for (const auto& [name, rules] : smaa_rules()) {
+    const Figures smaa = judge.judge(name, rules);
+    if (margin < 0.75) continue;
+    EXPECT_GT(deburr.edges, smaa.edges) << name;
+    if (judge.has_silhouettes()) {
+      EXPECT_GT(deburr.silhouettes, smaa.silhouettes) << name;
+    }
+  }
+  for (const auto& [name, rules] : mixed_rules()) judge.judge(name, rules);
   if (!judge.has_silhouettes()) return;
   EXPECT_GT(deburr.silhouettes, mlaa.silhouettes + margin);
   EXPECT_GT(deburr.silhouettes, slope.silhouettes + margin);
@@ -143,6 +201,7 @@ class RenderedFrames : public testing::TestWithParam<Rendered> {
     judge_.emplace(std::filesystem::path(r.source).stem().string(), lit_.noaa, lit_.truth,
                    lit_.depth);
     judge_->judge("none", lit_.noaa);
+    judge_->judge("MSAA 4x", render_msaa4(scene, r.width, r.height));
   }
   LitFrames lit_;
   std::optional<Judge> judge_;

@@ -80,7 +80,8 @@ mustache::data table_data(const PaperTable& table) {
 }  // namespace
 
 const std::vector<PaperEntry>& papers() {
-  static const std::vector<PaperEntry> entries = {{"000", &paper_000}, {"004", &paper_004}};
+  static const std::vector<PaperEntry> entries = {
+      {"000", &paper_000}, {"003", &paper_003}, {"004", &paper_004}};
   return entries;
 }
 

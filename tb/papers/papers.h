@@ -67,6 +67,7 @@ nlohmann::ordered_json write_papers(const std::filesystem::path& directory,
 std::string verdict(double paper, int decimals, double ours, const char* otherwise);
 
 Paper paper_000(const PaperOptions& options);
+Paper paper_003(const PaperOptions& options);
 Paper paper_004(const PaperOptions& options);
 
 }  // namespace deburr::tb

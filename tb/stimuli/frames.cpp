@@ -35,6 +35,15 @@ Image blocks_image(int width, int height) {
   });
 }
 
+Image shades_image(int width, int height) {
+  Sequence s;
+  return draw(width, height, [&](int x, int y) {
+    const int e = x / 11 + 2 * (y / 9) + ((x + 3 * y) % 41 < 9 ? 1 : 0);
+    const int v = std::array<int, 8>{0, 1, 3, 7, 20, 24, 90, 110}[static_cast<std::size_t>(e & 7)];
+    return grey(v + static_cast<int>(s.next() >> 31));
+  });
+}
+
 // FNV-1a.
 std::uint64_t hash(const Image& image) {
   std::uint64_t h = 1469598103934665603u;

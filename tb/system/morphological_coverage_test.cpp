@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Functional coverage of the morphological engine over frames that run through the hardware model:
 // shapes x orientation x length, predictions by side, outcome and length, what ended them, ends of
-// long runs, frame borders, decisions of the blender. Every bin must be hit, with every frame
-// identical to golden, runs and lines included.
+// long runs, frame borders, decisions of the blender; and of SMAA's blocks: shapes x distances,
+// limits, table entries, diagonals, thresholds. Every bin must be hit, with every frame identical
+// to golden, runs and lines included.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -13,6 +14,7 @@
 
 #include "tb/harness/coverage.h"
 #include "tb/harness/forked.h"
+#include "tb/stimuli/frames.h"
 #include "tb/system/morphological_runs.h"
 
 namespace deburr::tb::morphological_system {
@@ -20,7 +22,6 @@ namespace {
 
 using golden::morphological::CoverageBin;
 using golden::morphological::MorphologicalGolden;
-using golden::morphological::RunCoverage;
 
 MorphologicalInput transposed(const MorphologicalInput& f) {
   return draw(f.image.height, f.image.width, [&](int x, int y) { return f.image.at(y, x); });
@@ -84,13 +85,32 @@ struct Hits {
   std::array<std::uint64_t, 1024> count{};
 };
 
-void add(Coverage& coverage, const Hits& hits) {
-  const std::vector<CoverageBin> bins = RunCoverage().bins();
+using Bins = std::vector<CoverageBin> (*)(const MorphologicalGolden&);
+std::vector<CoverageBin> run_bins(const MorphologicalGolden& golden) {
+  return golden.coverage().bins();
+}
+std::vector<CoverageBin> smaa_bins(const MorphologicalGolden& golden) {
+  return golden.smaa_coverage().bins();
+}
+
+void add(Coverage& coverage, Bins bins_of, const Hits& hits) {
+  const std::vector<CoverageBin> bins = bins_of(MorphologicalGolden({}));
   ASSERT_LE(bins.size(), hits.count.size());
   for (std::size_t i = 0; i < bins.size(); ++i) {
     coverage.declare(bins[i].name);
     coverage.hit(bins[i].name, hits.count[i]);
   }
+}
+
+// Does golden meet a bin in this frame that nobody met before?
+bool tells(MorphologicalGolden& golden, Bins bins_of, const MorphologicalInput& frame,
+           std::set<std::string>& met) {
+  golden.clear_coverage();
+  golden.process({frame.image.pixels, frame.image.width, frame.image.height});
+  bool news = false;
+  for (const CoverageBin& bin : bins_of(golden))
+    if (bin.hits > 0) news |= met.insert(bin.name).second;
+  return news;
 }
 
 // Frames are added, golden alone, until no bin is empty; those that hit something new are kept.
@@ -105,18 +125,13 @@ std::vector<MorphologicalInput> telling_frames(const spec::morphological::Parame
                                : round % 6 == 4 ? line(random, true)
                                                 : disc(random);
     if (round % 120 == 119) frame = noise(100, 100, static_cast<std::uint64_t>(round));
-    golden.clear_coverage();
-    golden.process({frame.image.pixels, frame.image.width, frame.image.height});
-    bool tells = false;
-    for (const CoverageBin& bin : golden.coverage().bins())
-      if (bin.hits > 0) tells |= met.insert(bin.name).second;
-    if (tells) kept.push_back(std::move(frame));
+    if (tells(golden, run_bins, frame, met)) kept.push_back(std::move(frame));
   }
   return kept;
 }
 
 // What frames met, each of them identical to golden in the hardware model.
-Hits met(const spec::morphological::Parameters& parameters,
+Hits met(const spec::morphological::Parameters& parameters, Bins bins_of,
          const std::vector<MorphologicalInput>& frames) {
   return forked<Hits>([&] {
     MorphologicalRunOptions options;
@@ -129,7 +144,7 @@ Hits met(const spec::morphological::Parameters& parameters,
     environment.check();
     Hits hits;
     std::size_t i = 0;
-    for (const CoverageBin& bin : environment.golden_model().coverage().bins())
+    for (const CoverageBin& bin : bins_of(environment.golden_model()))
       hits.count.at(i++) = bin.hits;
     return hits;
   });
@@ -138,7 +153,7 @@ Hits met(const spec::morphological::Parameters& parameters,
 TEST(MorphologicalCoverage, EveryBinIsHit) {
   Coverage coverage;
   for (const auto& parameters : {wide(), narrow()})
-    add(coverage, met(parameters, telling_frames(parameters)));
+    add(coverage, run_bins, met(parameters, run_bins, telling_frames(parameters)));
   std::ofstream("morphological_coverage.json") << coverage.json();
   EXPECT_GT(coverage.size(), 200u);
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
@@ -146,9 +161,153 @@ TEST(MorphologicalCoverage, EveryBinIsHit) {
 
 TEST(MorphologicalCoverage, AHoleIsReported) {
   Coverage coverage;
-  add(coverage, met(wide(), {flat(8, 8, 3)}));
+  add(coverage, run_bins, met(wide(), run_bins, {flat(8, 8, 3)}));
   EXPECT_EQ(coverage.size() - coverage.holes().size(), 1u);  // decision/none
   EXPECT_THROW(coverage.hit("shape/diagonal"), spec::CheckFailed);
+}
+
+// ---- SMAA's blocks ------------------------------------------------------------------------------
+
+// Bands of three rows, of darker and of brighter greys in turn, cut at random and often where the
+// band above is cut as well: runs end at every crossing code, at any distance.
+MorphologicalInput bands(int width, int height, Random& random) {
+  MorphologicalInput frame = flat(width, height, 0);
+  std::vector<bool> above(static_cast<std::size_t>(width)), cuts = above;
+  for (int y0 = 0; y0 < height; y0 += 3) {
+    const std::uint32_t rare = 1 + random.below(60);
+    int code = 0;
+    for (int x = 0; x < width; ++x) {
+      const auto i = static_cast<std::size_t>(x);
+      cuts[i] = (above[i] && random.chance(500)) || random.below(rare) == 0;
+      if (x == 0 || cuts[i]) code = (code + 1 + static_cast<int>(random.below(2))) % 3;
+      for (int y = y0; y < std::min(y0 + 3, height); ++y)
+        frame.image.at(x, y) = grey(40 * code + (y0 / 3 % 2 == 0 ? 0 : 135));
+    }
+    above = cuts;
+  }
+  return frame;
+}
+
+// A stair of one pixel over the frame, either way.
+MorphologicalInput stair(int size, bool rises) {
+  return draw(size, size,
+              [&](int x, int y) { return grey((rises ? x + y >= size : y > x) ? 230 : 20); });
+}
+
+struct SmaaCase {
+  const char* name;
+  spec::morphological::Parameters parameters;
+};
+
+std::vector<SmaaCase> smaa_cases() {
+  using spec::morphological::DynamicLuma;
+  using spec::morphological::Quality;
+  std::vector<SmaaCase> cases;
+  const auto add_case = [&](const char* name, spec::morphological::Parameters p) {
+    p.line_pixels = 512;
+    cases.push_back({name, p});
+  };
+  for (const Quality q : {Quality::kLow, Quality::kUltra}) {
+    spec::morphological::Parameters p = quality(Preset::kSmaa, q);
+    p.local_contrast = spec::morphological::LocalContrast::kOff;
+    add_case(q == Quality::kLow ? "low" : "ultra", p);
+  }
+  for (const auto luma :
+       {DynamicLuma::kCurrent, DynamicLuma::kMax, DynamicLuma::kMin, DynamicLuma::kMean}) {
+    spec::morphological::Parameters p = preset(Preset::kSmaaDynamic);
+    p.dynamic_luma = luma;
+    add_case("dynamic", p);
+  }
+  // Far enough for the last entries of the table.
+  spec::morphological::Parameters far = preset(Preset::kSmaa);
+  far.search_steps = 112;
+  far.reach_columns = 1000;
+  add_case("far", far);
+  return cases;
+}
+
+std::vector<MorphologicalInput> smaa_frames(Random& random, int round) {
+  if (round == 0) {
+    // A step, and a bar on a floor, of which the middle is far from both ends.
+    return {
+        draw(422, 4,
+             [](int x, int y) {
+               return grey(y == 3 || (y == 2 && x > 0) || (y == 1 && x > 420) ? 255 : 0);
+             }),
+        draw(422, 3,
+             [](int x, int y) { return grey(y == 2 || (y == 1 && x > 0 && x < 421) ? 255 : 0); }),
+        stair(60, true),
+        stair(60, false),
+        MorphologicalInput{stimuli::shades_image(90, 80), {}},
+        rectangles(random)};
+  }
+  std::vector<MorphologicalInput> frames = {noise(120, 120, random.next())};
+  for (const int width : {1, 2, 3, 6, 15, 40, 160}) {
+    frames.push_back(bands(width, 150, random));
+    frames.push_back(transposed(frames.back()));
+  }
+  return frames;
+}
+
+// Of each case the frames that tell what none before has told, golden alone.
+std::vector<std::vector<MorphologicalInput>> telling_smaa_frames(
+    const std::vector<SmaaCase>& cases) {
+  const std::size_t bins = smaa_bins(MorphologicalGolden({})).size();
+  Random random(11);
+  std::vector<MorphologicalGolden> goldens;
+  for (const SmaaCase& each : cases) goldens.emplace_back(each.parameters);
+  std::vector<std::vector<MorphologicalInput>> kept(cases.size());
+  std::set<std::string> met;
+  for (int round = 0; round < 40 && met.size() < bins; ++round)
+    for (const MorphologicalInput& frame : smaa_frames(random, round))
+      for (std::size_t i = 0; i < cases.size(); ++i)
+        if (tells(goldens[i], smaa_bins, frame, met)) kept[i].push_back(frame);
+  return kept;
+}
+
+TEST(SmaaCoverage, EveryBinIsHit) {
+  const std::vector<SmaaCase> cases = smaa_cases();
+  const auto frames = telling_smaa_frames(cases);
+  Coverage coverage;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    EXPECT_FALSE(frames[i].empty()) << cases[i].name << ' ' << i << " tells nothing";
+    add(coverage, smaa_bins, met(cases[i].parameters, smaa_bins, frames[i]));
+  }
+  std::ofstream("smaa_coverage.json") << coverage.json();
+  // Shapes x distances of both axes, limits, table entries, diagonals both ways, thresholds.
+  EXPECT_EQ(coverage.size(), 2u * 16 * 5 + 2 * 2 * 2 + 2 * 2 + 2 * (16 + 4 + 3) + 1 + 4 * 2);
+  EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
+}
+
+// What no frame meets is listed by name: with a flat frame everything, with one stair all but its
+// own few bins.
+TEST(SmaaCoverage, HolesAreListed) {
+  Coverage flat_alone;
+  add(flat_alone, smaa_bins, met(smaa_cases()[0].parameters, smaa_bins, {flat(9, 9, 3)}));
+  EXPECT_EQ(flat_alone.holes().size(), flat_alone.size());
+
+  Coverage rising;
+  add(rising, smaa_bins, met(preset(Preset::kSmaa), smaa_bins, {stair(40, true)}));
+  std::set<std::string> hit;
+  for (const CoverageBin& bin : smaa_bins(MorphologicalGolden({}))) hit.insert(bin.name);
+  for (const std::string& hole : rising.holes()) hit.erase(hole);
+  EXPECT_TRUE(hit.contains("diagonal/rising/0-0"));
+  EXPECT_TRUE(hit.contains("diagonal-ends/rising/open-both"));
+  EXPECT_TRUE(hit.contains("threshold/fixed"));
+  for (const std::string& bin : hit) {
+    EXPECT_EQ(bin.find("falling"), std::string::npos) << bin;
+    EXPECT_FALSE(bin.starts_with("threshold/m")) << bin;
+  }
+  const std::string json = rising.json();
+  EXPECT_NE(json.find("\"diagonal/falling/0-0\": 0"), std::string::npos);
+  EXPECT_NE(json.substr(json.find("holes")).find("diagonal/falling/0-0"), std::string::npos);
+}
+
+TEST(SmaaCoverage, NoBinIsHitThatWasNotDeclared) {
+  Coverage coverage;
+  add(coverage, smaa_bins, {});
+  EXPECT_EQ(coverage.holes().size(), coverage.size());
+  EXPECT_THROW(coverage.hit("diagonal/level/0-0"), spec::CheckFailed);
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ namespace deburr::tb::morphological_system {
 using spec::morphological::Parameters;
 using spec::morphological::Preset;
 
-inline constexpr Preset kBuilt[] = {Preset::kMlaa, Preset::kMlaaSlope, Preset::kDeburr};
+inline constexpr Preset kBuilt[] = {Preset::kMlaa, Preset::kMlaaSlope, Preset::kSmaa,
+                                    Preset::kSmaaDynamic, Preset::kDeburr};
 
 inline Rgba8 grey(int code) {
   const auto c = static_cast<std::uint8_t>(code);
@@ -124,6 +125,10 @@ inline MorphologicalInput rendered(const std::string& scene, int width, int heig
   p.height = height;
   p.truth_samples = 0;
   return load_frame(p, 1).input;
+}
+
+inline Parameters quality(Preset which, spec::morphological::Quality how) {
+  return golden::morphological::preset_parameters(which, how);
 }
 
 inline Parameters preset(Preset which,

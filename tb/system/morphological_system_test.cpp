@@ -219,6 +219,73 @@ TEST_P(EveryRule, IsIdenticalToGolden) {
 INSTANTIATE_TEST_SUITE_P(Morphological, EveryRule,
                          testing::Combine(testing::Range(0, 5), testing::Range(0, 6)));
 
+// ---- SMAA: qualities, and its blocks mixed with those of other presets
+// ---------------------------
+
+using Qualities = std::tuple<Preset, spec::morphological::Quality, spec::morphological::Lanes>;
+class EveryQuality : public testing::TestWithParam<Qualities> {};
+
+TEST_P(EveryQuality, IsIdenticalToGolden) {
+  const auto [which, how, lanes] = GetParam();
+  MorphologicalRunOptions options;
+  options.morphological = quality(which, how);
+  options.morphological.lanes = lanes;
+  options.morphological.line_pixels = 1024;
+  options.records = true;
+  expect_identical({fans(40, 3), noise(131, 77), blocks(150, 120, 4), noise(5, 90, 3)}, options);
+}
+
+INSTANTIATE_TEST_SUITE_P(Morphological, EveryQuality,
+                         testing::Combine(testing::Values(Preset::kSmaa, Preset::kSmaaDynamic),
+                                          testing::Values(spec::morphological::Quality::kLow,
+                                                          spec::morphological::Quality::kMedium,
+                                                          spec::morphological::Quality::kHigh,
+                                                          spec::morphological::Quality::kUltra),
+                                          testing::Values(spec::morphological::Lanes::kOne,
+                                                          spec::morphological::Lanes::kTwo,
+                                                          spec::morphological::Lanes::kFour)),
+                         name_of<Qualities>);
+
+class EveryMix : public testing::TestWithParam<int> {};
+
+// Each rule drawn for itself.
+TEST_P(EveryMix, IsIdenticalToGolden) {
+  Random random(static_cast<std::uint64_t>(GetParam()) + 11);
+  const auto below = [&](int n) {
+    return static_cast<int>(random.below(static_cast<std::uint32_t>(n)));
+  };
+  MorphologicalRunOptions options;
+  Parameters& p = options.morphological;
+  p = preset(kBuilt[below(5)], static_cast<spec::morphological::Lanes>(below(3)));
+  p.threshold_mode = static_cast<spec::morphological::ThresholdMode>(below(2));
+  p.dynamic_luma = static_cast<spec::morphological::DynamicLuma>(below(4));
+  p.floor = 1 + below(900);
+  p.local_contrast = static_cast<spec::morphological::LocalContrast>(below(4));
+  p.ends = static_cast<spec::morphological::Ends>(below(2));
+  p.predictor = static_cast<spec::morphological::Predictor>(below(3));
+  p.area = static_cast<spec::morphological::AreaSource>(below(4));
+  p.search_steps = 1 + below(below(2) ? 112 : 6);
+  p.diagonals = below(3) != 0;
+  p.diagonal_steps = 1 + below(16);
+  p.round_corners = below(3) != 0;
+  p.corner_rounding = below(257);
+  p.blend = static_cast<spec::morphological::BlendRule>(below(2));
+  p.linear_light = below(2) != 0;
+  p.steps = below(9);
+  p.window_rows =
+      2 * (std::max({p.steps + 1, p.diagonals ? p.diagonal_steps : 0, 4}) + 1) + 2 * below(12);
+  p.reach_columns = 4 + below(80);
+  p.line_pixels = 400;
+  p.storage = static_cast<spec::morphological::Storage>(below(2));
+  options.records = true;
+  const auto seed = static_cast<std::uint64_t>(GetParam());
+  expect_identical({blocks(97, 80, seed + 1), fans(13, seed), noise(60, 50, seed),
+                    noise(1 + below(24), 40, seed), blocks(1 + below(24), 90, seed)},
+                   options);
+}
+
+INSTANTIATE_TEST_SUITE_P(Morphological, EveryMix, testing::Range(0, 60));
+
 TEST(Morphological, AddressesBeginAtPixelBase) {
   MorphologicalRunOptions options;
   options.morphological.storage = spec::morphological::Storage::kMemory;
@@ -385,21 +452,6 @@ INSTANTIATE_TEST_SUITE_P(
           "{}_lanes",
           spec::morphological::kLanesNames[static_cast<std::size_t>(sizing.param.lanes)]);
     });
-
-TEST(Morphological, WhatIsNotBuiltIsNamed) {
-  MorphologicalRunOptions options;
-  const Frames frames = {flat(4, 4, 0)};
-  for (const auto which : {Preset::kSmaa, Preset::kSmaaDynamic}) {
-    options.morphological = preset(which);
-    try {
-      Simulation simulation(options);
-      MorphologicalEnvironment environment(simulation, frames, options);
-      FAIL() << "not refused";
-    } catch (const spec::ConfigError& error) {
-      EXPECT_NE(std::string(error.what()).find("not built"), std::string::npos) << error.what();
-    }
-  }
-}
 
 }  // namespace
 }  // namespace deburr::tb::morphological_system

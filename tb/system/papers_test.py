@@ -56,8 +56,8 @@ class Papers(unittest.TestCase):
 
     def test_ends_well(self):
         self.assertEqual(self.done.returncode, 0, self.done.stderr)
-        self.assertIn("RESULT: PASS papers: 2 reproduced", self.done.stdout)
-        self.assertEqual(set(self.papers), {"000", "004"})
+        self.assertIn("RESULT: PASS papers: 3 reproduced", self.done.stdout)
+        self.assertEqual(set(self.papers), {"000", "003", "004"})
 
     def test_every_picture_and_table_is_there(self):
         with open(os.path.join(self.scratch.name, "index.html")) as file:
@@ -89,6 +89,30 @@ class Papers(unittest.TestCase):
                 if title.startswith("Rendered frames") and verdict == "best"}
         self.assertEqual(best, {f"{scene} deburr" for scene in
                                 ("cylinders", "object", "road", "quad")})
+
+    def test_003_is_right_but_where_it_merges_with_offsets(self):
+        found = list(verdicts(self.papers["003"]))
+        for title, row, verdict in found:
+            if title.startswith("What merging"):
+                self.assertEqual(verdict, "right" if row.startswith("0 ") else "inconsistent", row)
+            elif title.startswith("Edge pixels") or (title.startswith("Storage") and verdict not in ("reference", "ours")):
+                self.assertEqual(verdict, "right", row)
+            elif title.startswith("Raw edges"):
+                self.assertEqual(verdict, "asymmetric" if row.startswith("current") else "symmetric", row)
+        self.assertEqual(sum(title.startswith("Storage") and verdict == "right" for title, _, verdict in found), 4)
+        floor = [row for table in self.papers["003"]["tables"] if table["title"].startswith("Edge pixels")
+                 for row in table["rows"] if row["frame"] == "shades"]
+        self.assertEqual(len(floor), 3)
+        for row in floor:
+            self.assertLess(1.2 * float(row["dynamic, floor 2/255"]), float(row["dynamic"]))
+
+    def test_deburr_is_below_every_preset_on_lines(self):
+        rows = {row["rules"]: row for table in self.papers["003"]["tables"]
+                if table["title"].startswith("Quality matrix: lines") for row in table["rows"]}
+        self.assertEqual(len(rows), 14)
+        for name, row in rows.items():
+            if not name.startswith("deburr"):
+                self.assertEqual(row["verdict"], "behind", name)
 
     def test_every_rule_is_shown(self):
         rows = [row["rules"] for table in self.papers["000"]["tables"]

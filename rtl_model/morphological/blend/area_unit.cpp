@@ -11,6 +11,7 @@ namespace {
 constexpr std::uint32_t kSpanBits = 12, kShareBits = 8, kCoordinateBits = 13, kLengthBits = 12;
 // t S4.24 and growth U2.24, inverse, span, two sides.
 constexpr std::uint32_t kWalkBits = 29 + 26 + 24 + kSpanBits + 4;
+constexpr std::uint32_t kCornerBits = 4 + 2;  // far bits, part
 
 // Is slot a before slot b? Low bits of both, at most 2^14 apart.
 bool before(std::uint32_t a, std::uint32_t b) { return (a - b) & ((kSlotMask + 1) / 2); }
@@ -47,8 +48,8 @@ MemoryShape marks_shape(std::size_t words, std::size_t columns, std::size_t bank
           .columns = columns};
 }
 
-MemoryShape records_shape(MemoryShape shape) {
-  shape.word_bits = kWalkBits;
+MemoryShape records_shape(MemoryShape shape, bool corners) {
+  shape.word_bits = kWalkBits + (corners ? kCornerBits : 0);
   shape.read_ports = shape.banks;
   shape.span = 1;
   return shape;
@@ -57,16 +58,16 @@ MemoryShape records_shape(MemoryShape shape) {
 }  // namespace
 
 AreaUnit::AxisRecords::AxisRecords(const std::string& axis, const MemoryShape& shape,
-                                   std::uint32_t mark_bits, std::uint32_t bank_count)
-    : banks(bank_count),
+                                   std::uint32_t mark_bits, bool corners)
+    : banks(shape.banks),
       marks((axis + "_marks").c_str(),
             [&] {
               MemoryShape marked = shape;
               marked.word_bits = mark_bits;
               return marked;
             }()),
-      records((axis + "_records").c_str(), records_shape(shape)),
-      mark(shape.words + kLanes) {
+      records((axis + "_records").c_str(), records_shape(shape, corners)),
+      mark(shape.words + 2 * kLanes) {
   for (std::size_t bank = 0; bank < banks; ++bank) {
     const std::string user = "bank " + std::to_string(bank);
     read.emplace_back(records, user);
@@ -86,7 +87,13 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
       // Room for whole beats, of a pair at least.
       columns_((static_cast<std::size_t>(p.line_pixels) + 2 * lanes_ - 1) / (2 * lanes_) * 2 *
                lanes_),
-      pairs_(columns_ / 2),
+      crossings_(p.ends == spec::morphological::Ends::kCrossings),
+      corners_(p.round_corners),
+      smaa_(crossings_ || corners_ || p.diagonals ||
+            p.area != spec::morphological::AreaSource::kAnalytic),
+      pair_bits_(crossings_ ? 0 : 1),
+      entry_bits_(crossings_ ? 1 : 0),
+      pairs_(columns_ >> pair_bits_),
       weight_lines_("weight_lines", {.words = columns_,
                                      .word_bits = 3 * kShareBits + 2 * kSpanBits,
                                      .read_during_write = ReadDuringWrite::kNewWord,
@@ -97,22 +104,30 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
       weights_(columns_ / lanes_),
       row_("row",
            marks_shape(2 * pairs_, static_cast<std::size_t>(p.line_pixels),
-                       std::max<std::size_t>(1, lanes_ / 2),
-                       "a horizontal record a pair of columns, two rows"),
+                       std::max<std::size_t>(1, lanes_ >> pair_bits_),
+                       crossings_ ? "a horizontal record a column, two rows"
+                                  : "a horizontal record a pair of columns, two rows"),
            // Row, odd column, length.
-           kCoordinateBits + 1 + kLengthBits,
-           static_cast<std::uint32_t>(std::max<std::size_t>(1, lanes_ / 2))),
-      column_("column",
-              marks_shape(columns_, static_cast<std::size_t>(p.line_pixels), lanes_,
-                          "a vertical record a column"),
-              // Start, length up to R.
-              kCoordinateBits + 8, static_cast<std::uint32_t>(lanes_)) {}
+           kCoordinateBits + 1 + kLengthBits, corners_),
+      column_(
+          "column",
+          marks_shape(columns_ << entry_bits_, static_cast<std::size_t>(p.line_pixels),
+                      lanes_ << entry_bits_,
+                      crossings_ ? "two vertical records a column" : "a vertical record a column"),
+          // Start, length up to R.
+          kCoordinateBits + 8, corners_) {
+  if (p.area != spec::morphological::AreaSource::kAnalytic) table_.emplace(p.area, store.lanes());
+  if (!p.diagonals) return;
+  diagonals_in.emplace("diagonals_in");
+  diagonals_ = declare_stall("diagonals", "the diagonals of a beat have not come");
+}
 
 // ---- Lines --------------------------------------------------------------------------------------
 
-std::size_t AreaUnit::place(const AxisRecords& side,
-                            const spec::morphological::RunRecord& run) const {
-  return &side == &row_ ? pair_of(run.line, run.start) : run.line;
+std::size_t AreaUnit::place(const AxisRecords& side, const LineToken& token) const {
+  const spec::morphological::RunRecord& run = token.line.run;
+  if (&side == &row_) return pair_of(run.line, run.start);
+  return (std::size_t{run.line} << entry_bits_) + token.entry;
 }
 
 // At the entrance: behind their slots, one a bank.
@@ -124,7 +139,7 @@ bool AreaUnit::take_lines(Cycle cycle, LanePorts<In<LineToken>>& lines, AxisReco
     const LineToken& token = in.front(cycle);
     // What the slot has still to read here may be in the same place.
     if (!before(token.slot, passed_)) continue;
-    const std::uint32_t bank = 1u << place(side, token.line.run) % side.banks;
+    const std::uint32_t bank = 1u << place(side, token) % side.banks;
     if (taken & bank) {
       ++bank_conflicts;
       continue;
@@ -136,18 +151,32 @@ bool AreaUnit::take_lines(Cycle cycle, LanePorts<In<LineToken>>& lines, AxisReco
   return taken != 0;
 }
 
-// A clock later.
+// With a table: t(0) is there, the ends follow.
+bool AreaUnit::measure_lines() {
+  bool did = false;
+  for (AxisRecords* side : {&row_, &column_}) {
+    did |= side->entered_count != 0;
+    std::copy_n(side->entered.begin(), side->entered_count, side->measured.begin());
+    side->measured_count = side->entered_count;
+    side->entered_count = 0;
+  }
+  return did;
+}
+
+// A clock later; two with a table.
 bool AreaUnit::store_lines(Cycle cycle) {
   if (!finished_out.can_push(cycle)) return false;
   FinishToken finished{};
   for (AxisRecords* side : {&row_, &column_}) {
-    for (std::size_t i = 0; i < side->entered_count; ++i) {
-      const LineToken& token = side->entered[i];
+    const auto& lines = table_ ? side->measured : side->entered;
+    std::size_t& count = table_ ? side->measured_count : side->entered_count;
+    for (std::size_t i = 0; i < count; ++i) {
+      const LineToken& token = lines[i];
       store(cycle, *side, token);
       // Its slot row is the one that passes here, or the one before that.
       ++finished.count[odd_row_ != before(token.slot, row_begin_)];
     }
-    side->entered_count = 0;
+    count = 0;
   }
   finished_out.push(cycle, finished);
   return true;
@@ -157,7 +186,7 @@ void AreaUnit::store(Cycle cycle, AxisRecords& side, const LineToken& token) {
   const spec::morphological::LineRecord& line = token.line;
   if (observer) observer(line);
   ++records;
-  const std::size_t at = place(side, line.run), bank = at % side.banks;
+  const std::size_t at = place(side, token), bank = at % side.banks;
   side.write_marks[bank].write(cycle, at);
   side.mark[at] = {line.run.start, line.run.length, line.run.line};
   Walk walk;
@@ -165,6 +194,12 @@ void AreaUnit::store(Cycle cycle, AxisRecords& side, const LineToken& token) {
            std::int64_t{line.offset} * line.slope;
   walk.growth = static_cast<std::uint32_t>(line.scale) * line.slope;
   walk.inverse = line.inverse;
+  if (store_.rules().table) set_ends(walk);
+  if (table_ || corners_) {
+    walk.shape = line.run.shape;
+    walk.far = line.run.far;
+    walk.part = line.run.part;
+  }
   walk.span = line.span;
   walk.before = line.before;
   walk.after = line.after;
@@ -174,6 +209,7 @@ void AreaUnit::store(Cycle cycle, AxisRecords& side, const LineToken& token) {
 // ---- Slots --------------------------------------------------------------------------------------
 
 // Stage 1.
+template <bool kSmaa>
 void AreaUnit::address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat) {
   beat.slot = token.slot;
   beat.left = token.left;
@@ -188,15 +224,18 @@ void AreaUnit::address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat
   beat.works = row >= 0;
   beat.evaluates = beat.works && row < store_.rules().height;
   if (!beat.evaluates) return;
-  const std::size_t pair = pair_of(row, x);
+  const std::size_t pair = pair_of<kSmaa>(row, x);
   beat.pair = static_cast<std::uint32_t>(pair);
   row_.read_marks.read(cycle, pair, row_.banks);
-  column_.read_marks.read(cycle, x, lanes_);
-  std::memcpy(beat.row_mark.data(), &row_.mark[pair], sizeof beat.row_mark);
-  std::memcpy(beat.column_mark.data(), &column_.mark[x], sizeof beat.column_mark);
+  column_.read_marks.read(cycle, x << (kSmaa ? entry_bits_ : 0), kSmaa ? column_.banks : lanes_);
+  constexpr std::size_t kShare = kSmaa ? 1 : 2;  // without crossings half of them are read
+  std::memcpy(beat.row_mark.data(), &row_.mark[pair], sizeof beat.row_mark / kShare);
+  std::memcpy(beat.column_mark.data(), &column_.mark[x << (kSmaa ? entry_bits_ : 0)],
+              sizeof beat.column_mark / kShare);
 }
 
 // Stage 2.
+template <bool kSmaa>
 void AreaUnit::match(Cycle cycle, Beat& beat) {
   const Slot& slot = beat.slot;
   if (slot.beat == 0) {
@@ -209,14 +248,15 @@ void AreaUnit::match(Cycle cycle, Beat& beat) {
   if (!beat.evaluates) return;
   const std::int32_t row = evaluated_row(slot);
   row_.read_marks.check(cycle, beat.pair);
-  column_.read_marks.check(cycle, beat.x);
+  column_.read_marks.check(cycle, std::size_t{beat.x} << (kSmaa ? entry_bits_ : 0));
+  if constexpr (kSmaa) return smaa_match(cycle, beat, row);
   std::uint8_t hand = 1, any = 0;
   for (std::size_t i = 0; i < beat.count; ++i) {
     const std::size_t x = beat.x + i;
     const Mark& mark = beat.row_mark[i / 2];
     if (mark.length != 0 && mark.row == row && mark.start == x) {
       hand_ = mark;
-      const std::size_t pair = pair_of(row, x), bank = pair % row_.banks;
+      const std::size_t pair = pair_of<kSmaa>(row, x), bank = pair % row_.banks;
       row_.read[bank].read(cycle, pair);
       hand = static_cast<std::uint8_t>(2 + bank);
     }
@@ -243,9 +283,10 @@ void AreaUnit::clear_marks(Cycle cycle, const Slot& slot) {
     row_.mark[pair + bank] = {};
   }
   if (slot.row != 0) return;
-  for (std::size_t bank = 0; bank < lanes_; ++bank) {
-    column_.write_marks[bank].write(cycle, x + bank);
-    column_.mark[x + bank] = {};
+  const std::size_t column = x << entry_bits_;
+  for (std::size_t bank = 0; bank < column_.banks; ++bank) {
+    column_.write_marks[bank].write(cycle, column + bank);
+    column_.mark[column + bank] = {};
   }
 }
 
@@ -265,6 +306,148 @@ void AreaUnit::evaluate(Cycle cycle, Beat& beat) {
       ++vertical_edges;
     }
   }
+}
+
+// ---- With crossings, corners or a table ---------------------------------------------------------
+
+// Where the ends of the line lie: as if a step were its whole length, rounded to whole pixels.
+void AreaUnit::set_ends(Walk& walk) {
+  constexpr std::int64_t kHalf = std::int64_t{1} << (spec::morphological::kRecipFractionBits - 1);
+  // S5.12, above the line's lower end.
+  const std::int64_t height = (walk.t + kHalf + 2048) >> 12;
+  const auto limited = [](std::int64_t pixel) {
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(pixel, -4096, 4095));
+  };
+  const std::int64_t inverse = walk.inverse;
+  walk.set_ends(limited(-((height * inverse + kHalf) >> 24)),
+                limited(((4096 - height) * inverse + kHalf) >> 24));
+}
+
+// Stage 2.
+void AreaUnit::smaa_match(Cycle cycle, Beat& beat, std::int32_t row) {
+  const auto near = [](const Edge& edge, const Mark& mark) -> std::uint8_t {
+    const std::int32_t twice = 2 * edge.k, last = mark.length - 1;
+    return twice < last ? 0 : twice > last ? 1 : 2;
+  };
+  std::uint8_t hand = 1, any = 0;
+  for (std::size_t i = 0; i < beat.count; ++i) {
+    const std::size_t x = beat.x + i;
+    const Mark& mark = beat.row_mark[i >> pair_bits_];
+    if (mark.length != 0 && mark.row == row && mark.start == x) {
+      hand_ = mark;
+      const std::size_t at = pair_of(row, x), bank = at % row_.banks;
+      row_.read[bank].read(cycle, at);
+      hand = static_cast<std::uint8_t>(2 + bank);
+    }
+    Edge& along = beat.horizontal[i];
+    along.k = static_cast<std::uint16_t>(x - hand_.start);
+    along.from = along.k < hand_.length ? hand : 0;
+    along.near = near(along, hand_);
+
+    Edge& down = beat.vertical[i];
+    down.from = 0;
+    const std::size_t entries = std::size_t{1} << entry_bits_;
+    for (std::size_t entry = 0; entry < entries; ++entry) {
+      const Mark& column = beat.column_mark[(i << entry_bits_) + entry];
+      // U13: a line may have been stored before its first row.
+      const auto k = static_cast<std::uint16_t>((row - column.start) & 0x1FFF);
+      if (k >= column.length) continue;
+      down.k = k;
+      down.from = static_cast<std::uint8_t>(2 + entries * i + entry);
+      down.near = near(down, column);
+      column_.read[entries * i + entry].read(cycle, entries * x + entry);
+    }
+    any |= along.from | down.from;
+  }
+  beat.any = any != 0;
+}
+
+// Stage 3: what the table is asked, or all of the analytic area.
+void AreaUnit::smaa_evaluate(Cycle cycle, Beat& beat) {
+  const std::int32_t row = evaluated_row(beat.slot);
+  const std::size_t entries = std::size_t{1} << entry_bits_;
+  for (Search& search : beat.search) search.active = false;
+  for (std::size_t i = 0; i < beat.count; ++i) {
+    const Edge along = beat.horizontal[i], down = beat.vertical[i];
+    if (along.from) {
+      if (along.from >= 2 && along.k == 0)
+        hand_walk_ = row_.read[along.from - 2u].at(cycle, pair_of(row, beat.x + i));
+      smaa_edge(beat, i, false, hand_walk_, along);
+      ++horizontal_edges;
+    }
+    if (down.from) {
+      const std::size_t bank = crossings_ ? down.from - 2u : i;
+      smaa_edge(beat, i, true, column_.read[bank].at(cycle, entries * beat.x + bank), down);
+      ++vertical_edges;
+    }
+  }
+}
+
+void AreaUnit::smaa_edge(Beat& beat, std::size_t lane, bool vertical, const Walk& walk,
+                         const Edge& edge) {
+  const std::uint8_t near = walk.part == spec::morphological::RunPart::kHead   ? 0
+                            : walk.part == spec::morphological::RunPart::kTail ? 1
+                                                                               : edge.near;
+  if (!store_.rules().table) {
+    WeightWord& word = beat.weights[lane];
+    (vertical ? word.left : word.top) = rounded(area(walk, edge.k), walk.far, near);
+    return;
+  }
+  Search& search = beat.search[2 * lane + vertical];
+  search.active = true;
+  search.left = std::max(0, edge.k - walk.first_end());
+  search.right = std::max(0, walk.last_end() - 1 - edge.k);
+  search.query.shape = walk.shape;
+  search.far = walk.far;
+  search.near = near;
+  search.span = walk.span;
+}
+
+// Stage 4: searches end at their limit, and an end beyond it is not seen.
+void AreaUnit::cut(Cycle cycle, Beat& beat) {
+  const std::int32_t most_left = 2 * store_.rules().search_steps - 1, most_right = most_left + 1;
+  for (std::size_t reader = 0; reader < beat.search.size(); ++reader) {
+    Search& search = beat.search[reader];
+    if (!search.active) continue;
+    AreaTable::Query& query = search.query;
+    if (search.left > most_left) query.shape &= 0b1100;
+    if (search.right > most_right) query.shape &= 0b0011;
+    query.left = static_cast<std::uint8_t>(std::min(search.left, most_left));
+    query.right = static_cast<std::uint8_t>(std::min(search.right, most_right));
+    table_->address_roots(cycle, reader, query);
+  }
+}
+
+// Stage 5.
+void AreaUnit::address_entries(Cycle cycle, Beat& beat) {
+  for (std::size_t reader = 0; reader < beat.search.size(); ++reader)
+    if (beat.search[reader].active)
+      table_->address_entries(cycle, reader, beat.search[reader].query);
+}
+
+// Stage 6, and the arithmetic of 7 to 9.
+void AreaUnit::interpolate(Cycle cycle, Beat& beat) {
+  for (std::size_t reader = 0; reader < beat.search.size(); ++reader) {
+    const Search& search = beat.search[reader];
+    if (!search.active) continue;
+    const AreaTable::Shares shares = table_->shares(cycle, reader, search.query);
+    WeightWord& word = beat.weights[reader / 2];
+    (reader % 2 ? word.left : word.top) =
+        rounded({shares.first, shares.second, search.span}, search.far, search.near);
+  }
+}
+
+// Shares at sharp corners, U0.8; the factor is U1.9.
+AreaUnit::Weights AreaUnit::rounded(Weights weights, std::uint8_t far, std::uint8_t near) const {
+  const FrameRules& rules = store_.rules();
+  if (!rules.corners) return weights;
+  const auto side = [&](std::uint32_t share, int bit) {
+    const int start = far >> bit & 1, end = far >> (bit + 2) & 1;
+    const int sharp = near == 0 ? 2 * start : near == 1 ? 2 * end : start + end;
+    const auto factor = static_cast<std::uint32_t>(512 - rules.corner_loss * sharp);
+    return static_cast<std::uint8_t>((share * factor + 256) >> 9);
+  };
+  return {side(weights.first, 0), side(weights.second, 1), weights.span};
 }
 
 // The shares of pixel k of a record.
@@ -287,6 +470,15 @@ AreaUnit::Weights AreaUnit::area(const Walk& walk, std::uint32_t k) {
       walk.after == spec::morphological::Side::kNone ? 0 : after;
   return {static_cast<std::uint8_t>(limit(first)), static_cast<std::uint8_t>(limit(second)),
           walk.span};
+}
+
+// Stage 8: a diagonal gives the top edge its shares and takes those of the left one.
+void AreaUnit::take_diagonals(Cycle cycle, Beat& beat) {
+  const DiagonalSharesToken& token = diagonals_in->front(cycle);
+  for (std::size_t i = 0; i < lanes_; ++i)
+    if (token.taken >> i & 1)
+      beat.weights[i] = {{}, {token.first[i], token.second[i], token.span[i]}};
+  diagonals_in->pop(cycle);
 }
 
 // Stage 8.
@@ -333,36 +525,60 @@ void AreaUnit::share(Cycle cycle, const Beat& beat) {
   }
 }
 
-Activity AreaUnit::tick(Cycle cycle) {
-  bool did = false, blocked = false;
+template <bool kSmaa>
+Activity AreaUnit::work(Cycle cycle) {
+  bool did = false, blocked = false, waits = false;
   const bool arrives = slots_in.can_pop(cycle);
   if (arrives || !pipe_.empty()) {
     if (pipe_.leaves() && pipe_.at(8)->slot.row >= lag_ && !shares_out.can_push(cycle)) {
       blocked = true;
+    } else if (kSmaa && waits_for_diagonals(cycle)) {
+      waits = true;
     } else {
       pipe_.move();
       did = true;
       if (const Beat* beat = pipe_.at(9)) send(cycle, *beat);
-      if (const Beat* beat = pipe_.at(8)) address_weights(cycle, *beat);
+      if (Beat* beat = pipe_.at(8)) {
+        if (kSmaa && takes_diagonals(*beat)) take_diagonals(cycle, *beat);
+        address_weights(cycle, *beat);
+      }
       // Stages 4 to 7 are of the arithmetic that stage 3 begins.
-      if (Beat* beat = pipe_.at(3); beat && beat->any) evaluate(cycle, *beat);
-      if (Beat* beat = pipe_.at(2)) match(cycle, *beat);
-      if (arrives) address_marks(cycle, slots_in.take(cycle), pipe_.enter());
+      if (kSmaa && table_) {
+        if (Beat* beat = pipe_.at(6); beat && beat->any) interpolate(cycle, *beat);
+        if (Beat* beat = pipe_.at(5); beat && beat->any) address_entries(cycle, *beat);
+        if (Beat* beat = pipe_.at(4); beat && beat->any) cut(cycle, *beat);
+      }
+      if (Beat* beat = pipe_.at(3); beat && beat->any) {
+        if constexpr (kSmaa)
+          smaa_evaluate(cycle, *beat);
+        else
+          evaluate(cycle, *beat);
+      }
+      if (Beat* beat = pipe_.at(2)) match<kSmaa>(cycle, *beat);
+      if (arrives) address_marks<kSmaa>(cycle, slots_in.take(cycle), pipe_.enter());
     }
   }
-  if (row_.entered_count + column_.entered_count != 0) {
-    if (!store_lines(cycle)) return did ? kBusy : blocked ? kStalledDownstream : kIdle;
+  // Lines that are stored in this clock.
+  const std::size_t entered = kSmaa && table_ ? row_.measured_count + column_.measured_count
+                                              : row_.entered_count + column_.entered_count;
+  if (entered != 0) {
+    if (!store_lines(cycle))
+      return did ? kBusy : blocked ? kStalledDownstream : waits ? *diagonals_ : kIdle;
     did = true;
   }
+  if (kSmaa && table_) did |= measure_lines();
   if (lines_h_in.any_arrives(cycle, lanes_)) did |= take_lines(cycle, lines_h_in, row_);
   if (lines_v_in.any_arrives(cycle, lanes_)) did |= take_lines(cycle, lines_v_in, column_);
   if (did) return kBusy;
-  return blocked ? kStalledDownstream : kIdle;
+  return blocked ? kStalledDownstream : waits ? *diagonals_ : kIdle;
 }
+
+Activity AreaUnit::tick(Cycle cycle) { return smaa_ ? work<true>(cycle) : work<false>(cycle); }
 
 void AreaUnit::reset() {
   pipe_.reset();
   row_.entered_count = column_.entered_count = 0;
+  row_.measured_count = column_.measured_count = 0;
   hand_.length = 0;
   passed_ = row_begin_ = 0;
   odd_row_ = false;

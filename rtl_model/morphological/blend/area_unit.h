@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The area that a record's line cuts off at each of its edges, as shares of the pixels across: a
-// trapezoid, or two triangles where the line crosses the edge.
+// trapezoid, or two triangles where the line crosses the edge; or SMAA's table of areas, by the
+// distances to both ends. Shares at sharp corners are reduced; a diagonal gives its own instead.
 //
 // Where: between the LineUnits and the Blender. In slot row s it evaluates row y = s - R - 4 as the
 // raster passes: of each axis one edge a lane and clock. A record is written once and read at each
@@ -9,33 +10,43 @@
 // start, and the record stays in hand from there on; vertical ones are read in every row.
 // To the Blender go the shares of row y - 1: those of the row's edges from weight_lines, those of
 // the top edges below as evaluated.
+// With crossings there is a horizontal record a column, and each column has two vertical ones, used
+// in turn (the token's `entry`): a run may begin in the row after its predecessor's end.
 // Latency 9, initiation interval 1. Stages: 1 marks: address; 2 marks come, records: address, which
 // does not ask the marks; 3 marks against the raster, k, records: those of the marks or the one in
 // hand; 4 k x growth; 5 t at both ends of the edge, quantised; 6 squares, trapezoid; 7 triangles; 8
-// limits, sides, weight_lines: address; 9 weight_lines, write back. The model compares the marks in
-// stage 2, to read those records only that matter, and evaluates an edge in stage 3 at once.
+// limits, sides, weight_lines: address; 9 weight_lines, write back. With a table: 4 k - a, b - 1 -
+// k, limits of the searches, shape that is left, sqrt_rom: address; 5 roots, area_rom: address; 6
+// entries, differences; 7, 8 interpolation. Stage 8 takes a beat of diagonals, 9 the corner factor
+// and the choice between them. The model compares the marks in stage 2, to read those records only
+// that matter, and does the arithmetic of an edge at once, in stage 3 or behind the table's words.
 // A line that arrives is popped behind its slot (stage 2), multiplied in that clock and stored in
-// the next, which finishes the record. Marks and records have a bank a lane (a pair of columns a
+// the next, which finishes the record; with a table a clock later, since its ends a and b are two
+// more multiplies. Marks and records have a bank a lane (a pair of columns a
 // bank: horizontal) with one write port each; a line whose bank a lower lane takes in its clock
 // waits, which `bank_conflicts` counts. Slot rows 0 and 1 clear the marks.
-// Stalls: `downstream`. Formats: t S4.24, q U1.12, shares U0.8. Cost an axis and lane: a multiplier
-// 26 x 12, two 12 x 12 and two 24 x 24 (triangles); at the entrance two multipliers 24 x 24.
-// Memory: weight_lines a column (first, second and span of its left edge, second and span of its
-// top edge); row_marks and row_records, two rows of pairs of columns; column_marks and
-// column_records, a column each; all 1R1W a bank.
+// Stalls: `downstream`; `diagonals` (those of a beat have not come: not in an engine whose rows
+// begin as the RunExtractor lets them). Formats: t S4.24, q U1.12, a, b S13, shares U0.8. Cost an
+// axis and lane: a multiplier 26 x 12, two 12 x 12 and two 24 x 24 (triangles); at the entrance two
+// multipliers 24 x 24; with a table two 18 x 24 more there, and AreaTable's; with corners two 10
+// x 8. Memory: weight_lines a column (first, second and span of its left edge, second and span of
+// its top edge); row_marks and row_records, two rows of pairs of columns; column_marks and
+// column_records, a column each (with crossings a column and two a column); all 1R1W a bank.
 // Made for 250 MHz; longest path: 24 x 24 multiply.
-// Source: Reshetov 2009; paper 000, section 2.
+// Source: Reshetov 2009; paper 000, section 2; SMAA (Jimenez et al. 2012); paper 003.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <systemc>
 #include <vector>
 
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/morphological/blend/area_table.h"
 #include "rtl_model/morphological/parameter_store.h"
 #include "rtl_model/morphological/tokens.h"
 
@@ -45,6 +56,8 @@ class AreaUnit final : public Unit {
  public:
   In<AreaSlotToken> slots_in{"slots_in"};
   LanePorts<In<LineToken>> lines_h_in, lines_v_in;
+  // From the DiagonalUnit, if it is built.
+  std::optional<In<DiagonalSharesToken>> diagonals_in;
   Out<ShareToken> shares_out{"shares_out"};
   Out<FinishToken> finished_out{"finished_out"};
 
@@ -76,6 +89,16 @@ class AreaUnit final : public Unit {
     std::uint32_t inverse = 0;  // U12.12
     std::uint16_t span = 0;     // U12
     spec::morphological::Side before{}, after{};
+    // Of a table: where the line's ends lie, S13, in the bits of growth and inverse.
+    void set_ends(std::int32_t first, std::int32_t last) {
+      growth = static_cast<std::uint32_t>(first);
+      inverse = static_cast<std::uint32_t>(last);
+    }
+    std::int32_t first_end() const { return static_cast<std::int32_t>(growth); }
+    std::int32_t last_end() const { return static_cast<std::int32_t>(inverse); }
+    // Of the engines with a table or corners.
+    std::uint8_t shape = 0, far = 0;
+    spec::morphological::RunPart part{};
   };
   struct Weights {
     std::uint8_t first = 0, second = 0;
@@ -88,7 +111,7 @@ class AreaUnit final : public Unit {
   // The records of an axis, in banks.
   struct AxisRecords {
     AxisRecords(const std::string& axis, const MemoryShape& marks, std::uint32_t mark_bits,
-                std::uint32_t banks);
+                bool corners);
     const std::size_t banks;
     Memory<void> marks;
     ReadPort<void> read_marks{marks, "raster"};
@@ -101,11 +124,23 @@ class AreaUnit final : public Unit {
     // Lines at the entrance that are stored in this clock.
     std::array<LineToken, kLanes> entered;
     std::size_t entered_count = 0;
+    // With a table: lines whose t(0) is known, a clock before they are stored.
+    std::array<LineToken, kLanes> measured;
+    std::size_t measured_count = 0;
   };
   // An edge of the raster and the record that it lies in.
   struct Edge {
     std::uint16_t k = 0;    // pixel of the record
     std::uint8_t from = 0;  // 0 none, 1 in hand, 2 + b: read from bank b in this beat
+    std::uint8_t near = 0;  // which end, if corners are rounded: 0 start, 1 end, 2 none
+  };
+  // An edge on its way through the table.
+  struct Search {
+    bool active = false;
+    std::int32_t left = 0, right = 0;  // S14, pixels before and behind
+    AreaTable::Query query;
+    std::uint8_t far = 0, near = 0;
+    std::uint16_t span = 0;
   };
   struct Beat {
     Slot slot;
@@ -114,42 +149,72 @@ class AreaUnit final : public Unit {
     bool any;                      // one of the edges below lies in a record
     std::uint32_t x, count, pair;  // its columns: the first one, how many; the first mark
     // The output registers of the marks, as they were in the clock of the address.
-    std::array<Mark, kLanes / 2> row_mark;
-    std::array<Mark, kLanes> column_mark;
+    std::array<Mark, kLanes> row_mark;         // a pair of columns, with crossings a column
+    std::array<Mark, 2 * kLanes> column_mark;  // a column, with crossings two a column
     std::array<Edge, kLanes> horizontal, vertical;
     WeightWords weights;
+    std::array<Search, 2 * kLanes> search;  // by lane, horizontal first
   };
 
+  // kSmaa: of an engine with crossings, corners, diagonals or a table; others do not pay for them.
+  template <bool kSmaa>
+  Activity work(Cycle cycle);
   // Once a clock each, from one place: inline.
+  template <bool kSmaa>
   inline void address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat);
+  bool takes_diagonals(const Beat& beat) const {
+    return diagonals_in && beat.evaluates && store_.rules().diagonal_steps != 0;
+  }
+  // The next move brings a beat to stage 8 whose diagonals are not there.
+  bool waits_for_diagonals(Cycle cycle) {
+    const Beat* const beat = diagonals_in ? pipe_.at(7) : nullptr;
+    return beat && takes_diagonals(*beat) && !diagonals_in->can_pop(cycle);
+  }
+  void take_diagonals(Cycle cycle, Beat& beat);
   inline void address_weights(Cycle cycle, const Beat& beat);
   inline void send(Cycle cycle, const Beat& beat);
   inline void share(Cycle cycle, const Beat& beat);
-  void match(Cycle cycle, Beat& beat);
+  template <bool kSmaa>
+  [[gnu::noinline]] void match(Cycle cycle, Beat& beat);  // inline it costs the others registers
   void evaluate(Cycle cycle, Beat& beat);
+  void smaa_match(Cycle cycle, Beat& beat, std::int32_t row);
+  void smaa_evaluate(Cycle cycle, Beat& beat);
+  void smaa_edge(Beat& beat, std::size_t lane, bool vertical, const Walk& walk, const Edge& edge);
+  void cut(Cycle cycle, Beat& beat);
+  void address_entries(Cycle cycle, Beat& beat);
+  void interpolate(Cycle cycle, Beat& beat);
+  Weights rounded(Weights weights, std::uint8_t far, std::uint8_t near) const;
   void clear_marks(Cycle cycle, const Slot& slot);
+  bool measure_lines();
   bool store_lines(Cycle cycle);
   bool take_lines(Cycle cycle, LanePorts<In<LineToken>>& lines, AxisRecords& side);
   void store(Cycle cycle, AxisRecords& side, const LineToken& token);
-  std::size_t place(const AxisRecords& side, const spec::morphological::RunRecord& run) const;
+  std::size_t place(const AxisRecords& side, const LineToken& token) const;
+  static void set_ends(Walk& walk);
   static Weights area(const Walk& walk, std::uint32_t k);
 
   // Rows of slots that evaluate or blend.
   std::int32_t evaluated_row(const Slot& slot) const { return slot.row - lag_ + 1; }
+  template <bool kSmaa = true>
   std::size_t pair_of(std::int32_t row, std::size_t x) const {
-    return static_cast<std::size_t>(row & 1) * pairs_ + x / 2;
+    return static_cast<std::size_t>(row & 1) * pairs_ + (x >> (kSmaa ? pair_bits_ : 1));
   }
 
   const ParameterStore& store_;
   const std::size_t lanes_;
-  const std::int32_t lag_;     // rows from a slot to the row that it blends
-  const std::size_t columns_;  // whole beats
-  const std::size_t pairs_;    // of columns, whole beats
+  const std::int32_t lag_;                 // rows from a slot to the row that it blends
+  const std::size_t columns_;              // whole beats
+  const bool crossings_, corners_, smaa_;  // built with; smaa_: with any block of SMAA's
+  // Columns that share a horizontal record, records of a column: both a power of two.
+  const std::uint32_t pair_bits_, entry_bits_;
+  const std::size_t pairs_;  // whole beats of such columns
   Memory<void> weight_lines_;
   ReadPort<void> read_weights_{weight_lines_, "row above"};
   WritePort<void> write_weights_{weight_lines_, "row"};
   std::vector<WeightWords> weights_;  // the words of weight_lines
   AxisRecords row_, column_;
+  std::optional<AreaTable> table_;
+  std::optional<Activity> diagonals_;  // waits for their shares
   Pipe<Beat, spec::morphological::kAreaLatency> pipe_;
   Mark hand_;       // the horizontal record in hand, stage 2
   Walk hand_walk_;  // stage 3

@@ -18,6 +18,13 @@ void for_each_lane(std::uint8_t lanes, Visit&& visit) {
     visit(static_cast<std::size_t>(std::countr_zero(left)));
 }
 
+// R(s), U0.17: what squares are multiplied by to be shares of s again.
+std::vector<std::uint32_t> mix_words() {
+  std::vector<std::uint32_t> words(spec::morphological::kMixSums);
+  for (std::uint32_t s = 1; s < words.size(); ++s) words[s] = (2 * 65536 + s) / (2 * s);
+  return words;
+}
+
 }  // namespace
 
 Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
@@ -25,6 +32,14 @@ Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
     : Unit(name, clock),
       store_(store),
       probe_(probe),
+      mix_rom_("mix_rom",
+               {.words = spec::morphological::kMixSums,
+                .word_bits = 17,
+                .kind = MemoryKind::kRom,
+                .read_ports = static_cast<std::uint32_t>(store.lanes()),
+                .write_ports = 0,
+                .content = "65536 over a sum of shares"},
+               mix_words()),
       linear_rom_("linear_rom",
                   {.words = spec::morphological::kLinear12FromSrgb.size(),
                    .word_bits = 12,
@@ -41,17 +56,19 @@ Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
                    .write_ports = 0,
                    .content = "code of a linear light"},
                   spec::morphological::kSrgbFromLinear12) {
-  for (int lane = 0; lane < store.lanes(); ++lane)
+  for (int lane = 0; lane < store.lanes(); ++lane) {
+    mix_.emplace_back(mix_rom_, std::to_string(lane));
     for (const char* const channel : {"r", "g", "b"}) {
       const std::string at = std::to_string(lane) + "." + channel;
       for (const char* const operand : {" centre", " first", " second"})
         light_.emplace_back(linear_rom_, at + operand);
       codes_.emplace_back(encode_rom_, at);
     }
+  }
 }
 
 // Stage 1.
-void Blender::choose(const ShareToken& token, const PixelToken& around, Beat& beat) {
+void Blender::choose(Cycle cycle, const ShareToken& token, const PixelToken& around, Beat& beat) {
   const FrameRules& rules = store_.rules();
   const Slot slot = token.slot;
   const bool end = slot.beat + 1u == rules.beats;
@@ -70,17 +87,21 @@ void Blender::choose(const ShareToken& token, const PixelToken& around, Beat& be
     result.tap[i].edges =
         static_cast<std::uint8_t>((token.left >> i & 1) | (token.top >> i & 1) << 1);
   }
-  if (token.any) choose_axes(token, around, beat);
+  if (token.any) choose_axes(cycle, token, around, beat);
 }
 
-void Blender::choose_axes(const ShareToken& token, const PixelToken& around, Beat& beat) {
+void Blender::choose_axes(Cycle cycle, const ShareToken& token, const PixelToken& around,
+                          Beat& beat) {
+  const bool strongest = store_.rules().strongest;
   const std::size_t count = beat.result.count;
   for (std::size_t i = 0; i < count; ++i) {
     const Shares& s = token.shares[i];
     const int vertical_sum = s.up + s.down, horizontal_sum = s.left + s.right;
     if (vertical_sum + horizontal_sum == 0) continue;
     bool horizontal;
-    if (vertical_sum == 0 || horizontal_sum == 0) {
+    if (strongest) {
+      horizontal = std::max(s.left, s.right) > std::max(s.up, s.down);
+    } else if (vertical_sum == 0 || horizontal_sum == 0) {
       horizontal = vertical_sum == 0;
     } else {
       const int span_h = std::max(s.up ? s.span_up : 0, s.down ? s.span_down : 0);
@@ -92,6 +113,7 @@ void Blender::choose_axes(const ShareToken& token, const PixelToken& around, Bea
     tap.first = horizontal ? s.left : s.up;
     tap.second = horizontal ? s.right : s.down;
     beat.blend = static_cast<std::uint8_t>(beat.blend | 1u << i);
+    if (strongest) mix_[i].read(cycle, std::uint64_t{tap.first} + tap.second);
 
     const spec::morphological::Rgba8& left = i == 0 ? around.before : around.centre[i - 1];
     const spec::morphological::Rgba8& right = i + 1 == count ? around.after : around.centre[i + 1];
@@ -99,6 +121,19 @@ void Blender::choose_axes(const ShareToken& token, const PixelToken& around, Bea
                              horizontal ? right : around.below[i]};
   }
   blending_ += beat.blend != 0;
+}
+
+// Stages 2 and 3: each share becomes its square over the sum of both.
+void Blender::mix(Cycle cycle, Beat& beat) {
+  for_each_lane(beat.blend, [&](std::size_t lane) {
+    spec::morphological::BlendTap& tap = beat.result.tap[lane];
+    const std::uint32_t word = mix_[lane].at(cycle, std::uint64_t{tap.first} + tap.second);
+    const auto mixed = [&](std::uint32_t share) {
+      return static_cast<std::uint8_t>((std::uint64_t{share * share} * word + (1u << 15)) >> 16);
+    };
+    tap.first = mixed(tap.first);
+    tap.second = mixed(tap.second);
+  });
 }
 
 // Stage 2.
@@ -181,7 +216,10 @@ void Blender::blend(Cycle cycle) {
   }
   if (Beat* beat = pipe_.at(4)) multiply(*beat);
   if (Beat* beat = pipe_.at(3)) subtract(cycle, *beat);
-  if (const Beat* beat = pipe_.at(2)) address_light(cycle, *beat);
+  if (Beat* beat = pipe_.at(2)) {
+    address_light(cycle, *beat);
+    if (store_.rules().strongest) mix(cycle, *beat);
+  }
 }
 
 Activity Blender::tick(Cycle cycle) {
@@ -193,7 +231,7 @@ Activity Blender::tick(Cycle cycle) {
   pipe_.move();
   if (const Beat* beat = pipe_.at(6)) deliver(cycle, *beat);
   if (blending_ != 0) blend(cycle);
-  if (arrives) choose(shares_in.take(cycle), pixels_in.take(cycle), pipe_.enter());
+  if (arrives) choose(cycle, shares_in.take(cycle), pixels_in.take(cycle), pipe_.enter());
   return kBusy;
 }
 

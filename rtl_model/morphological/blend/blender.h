@@ -2,14 +2,18 @@
 // Decides the axis of each pixel and blends it with its two neighbours on that axis.
 //
 // Where: last block. Latency 6 to the output link, initiation interval 1. Stages: 1 sums, spans,
-// axis and neighbours; 2 linear_rom: address; 3 linear light, differences; 4 products and their
-// sum; 5 rounding, new value, encode_rom: address; 6 codes. Stalls: `downstream`. Rule: the axis
-// that has shares at all; else the longer line; else the larger sum, ties to up and down.
+// axis and neighbours, mix_rom: address of the chosen sum; 2 linear_rom: address; beside it the
+// word of mix_rom, squares of both shares; 3 linear light, differences; beside it squares x word; 4
+// products and their sum; 5 rounding, new value, encode_rom: address; 6 codes. Stalls:
+// `downstream`. Rule `longest`: the axis that has shares at all; else the longer line; else the
+// larger sum, ties to up and down. Rule `strongest`: the axis of the largest share, ties to up and
+// down; each share w of the pair becomes w^2 / (w1 + w2).
 // Formats: shares U0.8, linear light U0.12, result rounded by magnitude. Cost a lane: nine reads of
 // linear_rom, 256 x 12 bits (three a channel, behind the choice of the axis), three of encode_rom,
-// 4096 x 8 bits (two reads a copy), two multipliers 8 x 13 a channel, six comparators.
-// Made for 300 MHz; longest path: 8 x 13 multiply + 22-bit add.
-// Source: paper 000, section 2 (D sums); the tie rule is ours.
+// 4096 x 8 bits (two reads a copy), two multipliers 8 x 13 a channel, one of mix_rom, 511 x 17
+// bits, two multipliers 8 x 8 and two 17 x 16, nine comparators. Made for 250 MHz; longest path: 17
+// x 16 multiply + 33-bit add. Source: paper 000, section 2 (D sums), SMAA 1x (strongest); the tie
+// rules are ours.
 #pragma once
 
 #include <array>
@@ -64,10 +68,11 @@ class Blender final : public Unit {
   };
 
   // Once a clock each, from one place: inline.
-  inline void choose(const ShareToken& shares, const PixelToken& around, Beat& beat);
+  inline void choose(Cycle cycle, const ShareToken& shares, const PixelToken& around, Beat& beat);
   inline void deliver(Cycle cycle, const Beat& beat);
-  void choose_axes(const ShareToken& shares, const PixelToken& around, Beat& beat);
+  void choose_axes(Cycle cycle, const ShareToken& shares, const PixelToken& around, Beat& beat);
   void blend(Cycle cycle);
+  void mix(Cycle cycle, Beat& beat);
   void address_light(Cycle cycle, const Beat& beat);
   void subtract(Cycle cycle, Beat& beat);
   void multiply(Beat& beat);
@@ -79,6 +84,8 @@ class Blender final : public Unit {
 
   const ParameterStore& store_;
   LatencyProbe& probe_;
+  Memory<std::uint32_t> mix_rom_;
+  std::vector<ReadPort<std::uint32_t>> mix_;  // lane
   Memory<std::uint16_t> linear_rom_;
   std::vector<ReadPort<std::uint16_t>> light_;  // lane, channel, operand
   Memory<std::uint8_t> encode_rom_;

@@ -150,9 +150,25 @@ bool EdgeDetector::is_edge(Position p, Position q) const {
       break;
   }
   if (!rules.dynamic) return c >= rules.threshold;
-  const std::uint32_t reference = rules.dynamic_max ? std::max(luma_[p], luma_[q]) : luma_[p];
-  // U8.32: both sides are products with U0.16.
-  return (std::uint64_t{c} << 16) > std::uint64_t{rules.alpha} * reference && c >= rules.floor;
+  // U9.32: both sides are products with U0.16, of twice the luma.
+  return (std::uint64_t{c} << 17) > std::uint64_t{rules.alpha} * doubled_luma(p, q) &&
+         c >= rules.floor;
+}
+
+// Twice the luma that alpha multiplies, U9.16: the mean is exact.
+std::uint32_t EdgeDetector::doubled_luma(Position p, Position q) const {
+  const std::uint32_t here = luma_[p], across = luma_[q];
+  switch (store_.rules().dynamic_luma) {
+    case spec::morphological::DynamicLuma::kMax:
+      return 2 * std::max(here, across);
+    case spec::morphological::DynamicLuma::kMin:
+      return 2 * std::min(here, across);
+    case spec::morphological::DynamicLuma::kMean:
+      return here + across;
+    case spec::morphological::DynamicLuma::kCurrent:
+      break;
+  }
+  return 2 * here;
 }
 
 bool EdgeDetector::depth_edge(Position p, Position q) const {
@@ -167,7 +183,7 @@ std::uint32_t EdgeDetector::step(Position p, Position q) const {
 }
 
 // Is the step from p to its neighbour `across` (left or top) more than half of the largest step
-// near it? `along` is the other one of the two neighbours.
+// near it (`smaa`: half of it at least)? `along` is the other one of the two neighbours.
 bool EdgeDetector::survives(Position p, Position across, Position along) const {
   const std::int32_t ax = p.x - across.x, ay = p.y - across.y;  // from `across` to p
   const std::int32_t bx = p.x - along.x, by = p.y - along.y;
@@ -176,7 +192,8 @@ bool EdgeDetector::survives(Position p, Position across, Position along) const {
   const std::uint32_t c = step(p, across);
   std::uint32_t most = std::max({c, step(p, opposite), step(across, beyond)});
   const std::uint32_t beside = std::max(step(p, along), step(p, after));
-  if (store_.rules().local_contrast == spec::morphological::LocalContrast::kPaper) {
+  const spec::morphological::LocalContrast rule = store_.rules().local_contrast;
+  if (rule != spec::morphological::LocalContrast::kSymmetric) {
     most = std::max({most, beside, step(along, {along.x - bx, along.y - by})});
   } else {
     const Position across_along{across.x - bx, across.y - by};
@@ -184,7 +201,7 @@ bool EdgeDetector::survives(Position p, Position across, Position along) const {
     most = std::max(
         most, std::min(beside, std::max(step(across, across_along), step(across, across_after))));
   }
-  return 2 * c > most;
+  return 2 * c > most || (rule == spec::morphological::LocalContrast::kSmaa && 2 * c == most);
 }
 
 }  // namespace deburr::rtl::morphological

@@ -9,11 +9,11 @@
 // Latency 4, initiation interval 1; stalled by `downstream` only. Stages: 1 address, 2 words, 3
 // differences, maxima of two pairs, products with the thresholds, 4 the last maxima and the
 // decision. Formats: U8.16 luma, U24 depth, U0.16 thresholds. Cost a lane: two differences and
-// compares (fixed), two multipliers 24 x 16 more (dynamic, depth), nine differences and an 8-input
+// compares (fixed), two multipliers 25 x 16 more (dynamic, depth), nine differences and an 8-input
 // maximum a bit (local contrast). Memory: luma_lines a column 3 rows x 24 bits, depth_lines 2 rows
 // x 24 bits if built for depth; 1R1W, a read sees what is written in its clock.
-// Made for 250 MHz; longest path: 24 x 16 multiply, or three 24-bit compares with their choices.
-// Source: paper 003, eq (2), (3); the symmetric form is ours.
+// Made for 250 MHz; longest path: 25 x 16 multiply, or three 24-bit compares with their choices.
+// Source: paper 003, eq (1) to (3); SMAA 1x; the symmetric form, minimum and mean are ours.
 #pragma once
 
 #include <array>
@@ -82,6 +82,7 @@ class EdgeDetector final : public Unit {
   Edges steps(std::int32_t first, std::int32_t count, std::int32_t y) const;
   void keep_strong(Edges& edges, std::int32_t first, std::int32_t y) const;
   bool is_edge(Position p, Position q) const;
+  std::uint32_t doubled_luma(Position p, Position q) const;
   bool depth_edge(Position p, Position q) const;
   bool survives(Position p, Position across, Position along) const;
 

@@ -52,7 +52,8 @@ MemoryShape shape(const spec::morphological::Parameters& p, std::int32_t lanes) 
   const auto columns = static_cast<std::uint32_t>(std::max(2, lanes));
   shape.words = std::max(static_cast<std::uint32_t>(p.line_pixels), columns);
   shape.columns = static_cast<std::uint64_t>(p.line_pixels);
-  shape.word_bits = static_cast<std::uint32_t>(2 * (p.window_rows + 1));
+  const bool crossings = p.ends == spec::morphological::Ends::kCrossings;
+  shape.word_bits = static_cast<std::uint32_t>(2 * (p.window_rows + 1) + (crossings ? 1 : 0));
   shape.read_ports = static_cast<std::uint32_t>(1 + PortSchedule(p).ports());
   shape.read_during_write = ReadDuringWrite::kOldWord;
   shape.banks = shape.span = columns;
@@ -73,7 +74,8 @@ EdgeWindow::EdgeWindow(const char* name, const spec::morphological::Parameters& 
       row_beats_(static_cast<std::size_t>(p.line_pixels / lanes_) + 2),
       beat_(memory, "extractor"),
       update_(memory, "extractor"),
-      bits_((row_mask_ + 1) * row_beats_) {
+      bits_((row_mask_ + 1) * row_beats_),
+      entries_(row_beats_ * static_cast<std::size_t>(lanes_)) {
   for (int i = 0; i < PortSchedule(p).ports(); ++i)
     lines_.emplace_back(memory, "predictors " + std::to_string(i));
 }
@@ -81,6 +83,8 @@ EdgeWindow::EdgeWindow(const char* name, const spec::morphological::Parameters& 
 void EdgeWindow::clear(std::int32_t beat) {
   for (std::int32_t y = 0; y <= static_cast<std::int32_t>(row_mask_); ++y)
     bits_[place(beat, y)] = {};
+  for (std::int32_t lane = 0; lane < lanes_; ++lane)
+    entries_[static_cast<std::size_t>(beat * lanes_ + lane)] = 0;
 }
 
 void EdgeWindow::read(Cycle cycle, std::size_t port, const Trial& trial) {

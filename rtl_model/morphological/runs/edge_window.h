@@ -8,14 +8,15 @@
 // hand is always at the same bits, and rows that are not there read as 0: those below the frame
 // come in as zeros, those above it are what slot row 0 clears. Holds window_rows + 1 rows: R on
 // either side of the row whose runs are being predicted, one for the records that are still under
-// way when the next slot row has begun, and the row being written.
+// way when the next slot row has begun, and the row being written. With crossings a word has one
+// bit more.
 //
 // Synchronous SRAM, latency 1, never stalls. Ports: 1 write and 1 read of a beat (extractor), and
 // reads of the two columns beside a lattice line, as many as the schedule of the predictors has
 // (PortSchedule). Read-first: a word that is read in the clock in which it moves on is the old one;
-// where the beats are in the frame tells which it was. Cost: (window_rows + 1) x 2 bits a column, a
-// copy a read port, banks by column. Made for 250 MHz; longest path, at the address: a comparator
-// of 13 bits and a choice of two.
+// where the beats are in the frame tells which it was. Cost: (window_rows + 1) x 2 bits a column
+// (with crossings one more), a copy a read port, banks by column. Made for 250 MHz; longest path,
+// at the address: a comparator of 13 bits and a choice of two.
 #pragma once
 
 #include <algorithm>
@@ -65,6 +66,11 @@ class EdgeWindow {
     return beat(x >> lane_bits_, y).top >> lane(x) & 1;
   }
 
+  // --- The extractor, in an engine with crossings: which of its two entries the newest run of a
+  // column has. A bit of the word, which turns over where a run begins.
+  std::uint8_t entry(std::int32_t x) const { return entries_[static_cast<std::size_t>(x)]; }
+  void turn_entry(std::int32_t x) { entries_[static_cast<std::size_t>(x)] ^= 1; }
+
   // --- A predictor of vertical runs: both columns beside the trial's lattice line ---
   void read(Cycle cycle, std::size_t port, const Trial& trial);
   // In the clock after.
@@ -102,6 +108,7 @@ class EdgeWindow {
   // where they are: a word that has moved on since its read was issued shows the same rows, a bit
   // further on.
   std::vector<EdgeBits> bits_;
+  std::vector<std::uint8_t> entries_;  // by column
   struct {
     std::int32_t row = 0, end = 0;
   } progress_;  // slot row of the last write, and the column behind it

@@ -127,6 +127,7 @@ void LineUnit::begin(Cycle cycle, std::size_t lane, const SumsToken& sums, Divis
   LineToken& token = division.result;
   token = {};
   token.slot = sums.run.slot;
+  token.entry = sums.run.entry;
   spec::morphological::LineRecord& line = token.line;
   line.run = run;
   line.before = shape.before;

@@ -50,8 +50,10 @@ void Predictor::take(Cycle cycle, Cycle reset, const RunToken& token) {
   step_ = 0;
   const int start_code = run.shape & 3, end_code = run.shape >> 2;
   drift_ = end_code == kFirstSide ? -1 : 1;
-  const auto start = static_cast<std::uint8_t>(kAfter | start_code << kCrossing);
-  const auto end = static_cast<std::uint8_t>(kBefore | end_code << kCrossing);
+  const auto start = static_cast<std::uint8_t>(kAfter | (token.beyond & 1 ? kBefore : 0) |
+                                               start_code << kCrossing);
+  const auto end =
+      static_cast<std::uint8_t>(kBefore | (token.beyond & 2 ? kAfter : 0) | end_code << kCrossing);
   for (End* const side : {&right_, &left_}) {
     side->open = true;
     side->other = 0;

@@ -30,13 +30,25 @@ RunExtractor::RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clo
       lanes_(store.lanes()),
       reach_rows_(store.reach_rows()),
       reach_columns_(p.reach_columns),
+      crossings_(p.ends == spec::morphological::Ends::kCrossings),
+      corners_(p.round_corners),
+      smaa_(crossings_ || corners_ || p.diagonals),
+      spare_(crossings_ || corners_ ? 1 : 0),
+      diagonal_delay_(static_cast<Cycle>(diagonal_delay(p.diagonal_steps, store.lanes()))),
+      diagonal_rows_(p.diagonal_steps),
       records_(declare_stall("records",
                              "a record FIFO is full, or records of two slot rows before are not "
                              "finished")) {
+  if (p.diagonals) {
+    columns_out.emplace("columns_out");
+    diagonals_ =
+        declare_stall("diagonals", "a short row waits for the diagonals of the one before");
+  }
   const auto depth = static_cast<std::uint32_t>(p.record_fifo);
+  const PayloadShape shape = record_shape(p, "", "run.");
   for (int lane = 0; lane < store.lanes(); ++lane) {
-    h_.fifo.emplace_back(("record_fifo_h" + std::to_string(lane)).c_str(), depth);
-    v_.fifo.emplace_back(("record_fifo_v" + std::to_string(lane)).c_str(), depth);
+    h_.fifo.emplace_back(("record_fifo_h" + std::to_string(lane)).c_str(), depth, shape);
+    v_.fifo.emplace_back(("record_fifo_v" + std::to_string(lane)).c_str(), depth, shape);
   }
 }
 
@@ -55,7 +67,16 @@ inline bool RunExtractor::take_slot(Cycle cycle) {
   return true;
 }
 
-Activity RunExtractor::tick(Cycle cycle) {
+// In a row of fewer beats than a diagonal takes nothing else would bring the row before to an end
+// before it is needed: behind it columns are shifted only where no slot comes.
+bool RunExtractor::waits_for_diagonals(Cycle cycle) const {
+  const FrameRules& rules = store_.rules();
+  return rules.diagonal_steps != 0 && rules.beats < diagonal_delay_ &&
+         edges_in.front(cycle).slot.beat == 0 && cycle <= passed_ + diagonal_delay_;
+}
+
+template <bool kSmaa>
+Activity RunExtractor::work(Cycle cycle) {
   if (finished_in.can_pop(cycle)) {
     const FinishToken& token = finished_in.front(cycle);
     unfinished_[0] -= token.count[0];
@@ -66,7 +87,7 @@ Activity RunExtractor::tick(Cycle cycle) {
   if (v_.count) drain(v_, cycle);
   const bool arrives = edges_in.can_pop(cycle);
   // Records without room in their FIFOs hold all that is behind them.
-  if (h_.count + v_.count != 0) {
+  if (kSmaa ? std::max(h_.count, v_.count) > spare_ : h_.count + v_.count != 0) {
     if (arrives) ++record_stalls;
     return records_;
   }
@@ -80,14 +101,16 @@ Activity RunExtractor::tick(Cycle cycle) {
   }
   if (reads_) {
     const bool blends = token_.slot.row >= reach_rows_ + spec::morphological::kRowLag;
-    if (!area_slots_out.can_push(cycle) || (blends && !fetches_out.can_push(cycle)))
+    if (!area_slots_out.can_push(cycle) || (blends && !fetches_out.can_push(cycle)) ||
+        (kSmaa && columns_out && !columns_out->can_push(cycle)))
       return did ? kBusy : kStalledDownstream;
-    pass(cycle);
+    pass<kSmaa>(cycle);
     if (blends) fetches_out.emplace(cycle).slot = token_.slot;
     reads_ = false;
     did = true;
   }
   if (!arrives) return did || found_ != 0 ? kBusy : kIdle;
+  if (kSmaa && waits_for_diagonals(cycle)) return *diagonals_;
   if (!take_slot(cycle)) return records_;
   return kBusy;
 }
@@ -104,6 +127,7 @@ void RunExtractor::begin_row() {
 }
 
 // The words of the slot's columns are here.
+template <bool kSmaa>
 [[gnu::always_inline]] inline void RunExtractor::pass(Cycle cycle) {
   const FrameRules& rules = store_.rules();
   const Slot& slot = token_.slot;
@@ -119,18 +143,27 @@ void RunExtractor::begin_row() {
   out.slot = slot;
   out.left = blended.left;
   out.top = blended.top;
+  if constexpr (kSmaa) {
+    passed_ = cycle;
+    if (rules.diagonal_steps != 0) send_columns(cycle);
+  }
   if (ahead_ != nullptr) {
     const EdgeBits bits = ahead_[slot.beat];
     rows_.write(cycle, row_ + rows_.ahead(), first, bits.left, bits.top);
   }
   if (searched_ == nullptr) return;
   here_ = searched_[slot.beat];
-  if (!open_ && (here_.left | here_.top) == 0) return;
+  // One column more is in hand where corners are looked at a column behind.
+  const bool behind = kSmaa && corners_ && first != 0 && window_.left(first - 1, row_);
+  if (!open_ && !behind && (here_.left | here_.top) == 0) return;
 
   Find& find = finds_[(oldest_ + found_) % finds_.size()];
   find.count = 0;
   if (open_ || here_.top != 0) horizontal(find, first, end);
-  if (here_.left != 0) vertical(find, first);
+  if (kSmaa && (crossings_ || corners_))
+    smaa_vertical(find, first, end);
+  else if (here_.left != 0)
+    vertical(find, first);
   if (find.count == 0) return;
   find.begun = step_;
   find.parity = slot.row & 1;
@@ -138,78 +171,157 @@ void RunExtractor::begin_row() {
   ++found_;
 }
 
+// Row y - 1 and the rows about it.
+void RunExtractor::send_columns(Cycle cycle) {
+  const std::int32_t row = row_ - 1, most = diagonal_rows_;
+  if (row < 0 || row >= store_.rules().height) return;
+  DiagonalColumnsToken& token = columns_out->emplace(cycle);
+  token.slot = token_.slot;
+  token.left = token.top = {};
+  for (std::int32_t k = 0; k <= 2 * most; ++k) {
+    const EdgeBits bits = window_.beat(token_.slot.beat, row + k - most);
+    for (unsigned lanes = bits.left; lanes != 0; lanes &= lanes - 1)
+      token.left[static_cast<std::size_t>(std::countr_zero(lanes))] |= std::uint64_t{1} << k;
+    for (unsigned lanes = bits.top; lanes != 0; lanes &= lanes - 1)
+      token.top[static_cast<std::size_t>(std::countr_zero(lanes))] |= std::uint64_t{1} << k;
+  }
+}
+
 // Columns first..end - 1 of row y, and the end of the row.
 void RunExtractor::horizontal(Find& find, std::int32_t first, std::int32_t end) {
+  const bool crossings = store_.rules().crossings;
   for (std::int32_t x = first; x < end; ++x) {
-    const auto code_here = [&] { return code(window_.left(x, row_ - 1), window_.left(x, row_)); };
     if (here_.top >> (x - first) & 1) {
       if (!open_) {
         open_ = true;
         start_ = x;
-        start_code_ = code_here();
+        start_corner_ = corner_of_row(x);
+      } else if (crossings && (window_.left(x, row_ - 1) || window_.left(x, row_))) {
+        Corner corner = corner_of_row(x);
+        corner.beyond = true;
+        close(find, x, corner);
+        open_ = true;
+        start_ = x;
+        start_corner_ = corner;
       } else if (x - start_ == reach_columns_) {
         // One edge longer than the reach: the head is known.
-        found(
-            find,
-            {Axis::kHorizontal, RunPart::kHead, u16(row_), u16(start_), u16(reach_columns_ / 2), 0},
-            start_code_, 0);
+        found(find,
+              {Axis::kHorizontal, RunPart::kHead, u16(row_), u16(start_), u16(reach_columns_ / 2)},
+              start_corner_, {});
       }
     } else if (open_) {
-      close(find, x, code_here());
+      close(find, x, corner_of_row(x));
     }
   }
-  if (open_ && end == store_.rules().width) close(find, end, 0);
+  if (open_ && end == store_.rules().width) close(find, end, {});
 }
 
 // The run ends in front of column `end`.
-void RunExtractor::close(Find& find, std::int32_t end, std::uint8_t end_code) {
+void RunExtractor::close(Find& find, std::int32_t end, Corner corner) {
   open_ = false;
   const std::int32_t length = end - start_, half = reach_columns_ / 2;
   if (length > reach_columns_)
-    found(find, {Axis::kHorizontal, RunPart::kTail, u16(row_), u16(end - half), u16(half), 0}, 0,
-          end_code);
+    found(find, {Axis::kHorizontal, RunPart::kTail, u16(row_), u16(end - half), u16(half)}, {},
+          corner);
   else
-    found(find, {Axis::kHorizontal, RunPart::kWhole, u16(row_), u16(start_), u16(length), 0},
-          start_code_, end_code);
+    found(find, {Axis::kHorizontal, RunPart::kWhole, u16(row_), u16(start_), u16(length)},
+          start_corner_, corner);
+}
+
+// Corner (x, y) of the row in hand: from its column.
+RunExtractor::Corner RunExtractor::corner_of_row(std::int32_t x) const {
+  Corner corner{code(window_.left(x, row_ - 1), window_.left(x, row_))};
+  if (store_.rules().corners)
+    corner.far = code(window_.left(x, row_ - 2), window_.left(x, row_ + 1));
+  return corner;
+}
+
+// Corner (x, y) of a column's run: from the columns beside it. A second pixel beyond the frame is
+// nothing.
+RunExtractor::Corner RunExtractor::corner_of_column(std::int32_t x, std::int32_t y,
+                                                    bool far) const {
+  Corner corner{code(window_.top(x - 1, y), window_.top(x, y))};
+  if (far)
+    corner.far = code(window_.top(x - 2, y), x + 1 < store_.rules().width && window_.top(x + 1, y));
+  return corner;
 }
 
 // Runs that start in row y, and tails of long runs.
 void RunExtractor::vertical(Find& find, std::int32_t first) {
-  const std::int32_t half = reach_rows_ / 2;
   for (unsigned lanes = here_.left; lanes != 0; lanes &= lanes - 1) {
     const std::int32_t x = first + std::countr_zero(lanes);
+    const std::int32_t half = reach_rows_ / 2;
     const auto edge = [&](std::int32_t below) { return window_.left(x, row_ + below); };
     const bool starts = !edge(-1);
     // A tail ends where its half of the reach ends, and the run began at least R rows before that.
     const bool ends = edge(half - 1) && !edge(half);
-    if (!starts && !ends) continue;
-    const auto code_at = [&](std::int32_t below) {
-      return code(window_.top(x - 1, row_ + below), window_.top(x, row_ + below));
-    };
-    RunRecord run{Axis::kVertical, RunPart::kWhole, u16(x), u16(row_), u16(half), 0};
-    std::int32_t length = 1;
-    if (starts) {
-      while (length <= reach_rows_ && edge(length)) ++length;
-      if (length > reach_rows_) {
-        run.part = RunPart::kHead;
-        found(find, run, code_at(0), 0);
-      } else {
-        run.length = u16(length);
-        found(find, run, code_at(0), code_at(length));
-      }
-    } else {
-      while (length <= reach_rows_ && edge(half - 1 - length)) ++length;
-      if (length <= reach_rows_) continue;  // the end of a run that is not long
-      run.part = RunPart::kTail;
-      found(find, run, 0, code_at(half));
-    }
+    if (starts || ends) vertical_at(find, x, starts);
   }
 }
 
-void RunExtractor::found(Find& find, RunRecord run, std::uint8_t start_code,
-                         std::uint8_t end_code) const {
-  run.shape = static_cast<std::uint8_t>(start_code + 4 * end_code);
-  find.run[find.count++] = {run, token_.slot.number & kSlotMask};
+void RunExtractor::vertical_at(Find& find, std::int32_t x, bool starts) {
+  const FrameRules& rules = store_.rules();
+  const bool crossings = rules.crossings, far = rules.corners;
+  const std::int32_t half = reach_rows_ / 2;
+  // Does the run go on from the pixel above corner `below` to the one beneath it, or back?
+  const auto goes_on = [&](std::int32_t below, std::int32_t to) {
+    return window_.left(x, row_ + to) && !(crossings && crosses(x, row_ + below));
+  };
+  const auto corner = [&](std::int32_t below) { return corner_of_column(x, row_ + below, far); };
+  RunRecord run{Axis::kVertical, RunPart::kWhole, u16(x), u16(row_), u16(half)};
+  std::int32_t length = 1;
+  if (starts) {
+    while (length <= reach_rows_ && goes_on(length, length)) ++length;
+    if (length > reach_rows_) {
+      run.part = RunPart::kHead;
+      found(find, run, corner(0), {});
+    } else {
+      run.length = u16(length);
+      Corner start = corner(0), end = corner(length);
+      start.beyond = window_.left(x, row_ - 1);
+      end.beyond = window_.left(x, row_ + length);
+      found(find, run, start, end);
+    }
+  } else {
+    while (length <= reach_rows_ && goes_on(half - length, half - 1 - length)) ++length;
+    if (length <= reach_rows_) return;  // the end of a run that is not long
+    run.part = RunPart::kTail;
+    found(find, run, {}, corner(half));
+  }
+}
+
+// The same where crossings end runs, or corners need the column to the right: runs are looked for a
+// column behind then, in the last slot of a row at its last column as well. In which entry a run
+// lies is known with its own column.
+void RunExtractor::smaa_vertical(Find& find, std::int32_t first, std::int32_t end) {
+  const bool crossings = store_.rules().crossings;
+  const std::int32_t half = reach_rows_ / 2;
+  const auto starts = [&](std::int32_t x) {
+    return !window_.left(x, row_ - 1) || (crossings && crosses(x, row_));
+  };
+  const auto find_at = [&](std::int32_t x) {
+    if (!window_.left(x, row_)) return;
+    const bool begins = starts(x);
+    const bool ends = window_.left(x, row_ + half - 1) &&
+                      (!window_.left(x, row_ + half) || (crossings && crosses(x, row_ + half)));
+    if (begins || ends) vertical_at(find, x, begins);
+  };
+  if (corners_ && first != 0) find_at(first - 1);
+  const std::int32_t last = corners_ && end != store_.rules().width ? end - 1 : end;
+  for (std::int32_t x = first; x < end; ++x) {
+    if (crossings_ && window_.left(x, row_) && starts(x)) window_.turn_entry(x);
+    if (x < last) find_at(x);
+  }
+}
+
+void RunExtractor::found(Find& find, RunRecord run, Corner start, Corner end) const {
+  run.shape = static_cast<std::uint8_t>(start.code + 4 * end.code);
+  run.far = static_cast<std::uint8_t>(start.far + 4 * end.far);
+  RunToken& token = find.run[find.count++];
+  token.run = run;
+  token.slot = token_.slot.number & kSlotMask;
+  token.beyond = static_cast<std::uint8_t>(int{start.beyond} | int{end.beyond} << 1);
+  token.entry = crossings_ && run.axis == Axis::kVertical ? window_.entry(run.line) : 0;
 }
 
 void RunExtractor::deliver(const Find& find) {
@@ -246,12 +358,15 @@ void RunExtractor::drain(AxisSide& from, Cycle cycle) {
   for (std::size_t i = 0; i < from.count; ++i) from.waiting[i] = from.waiting[i + sent];
 }
 
+Activity RunExtractor::tick(Cycle cycle) { return smaa_ ? work<true>(cycle) : work<false>(cycle); }
+
 void RunExtractor::reset() {
   h_.count = v_.count = 0;
   h_.turn = v_.turn = 0;
   unfinished_ = finding_ = {};
   reads_ = false;
   found_ = 0;
+  passed_ = 0;
   open_ = false;
 }
 

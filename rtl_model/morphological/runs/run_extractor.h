@@ -13,22 +13,32 @@
 //   4      code of its end: choice of a group; shape; side or none
 //   5      into the FIFOs of the lanes in rotation, one a FIFO and clock
 //
+// With crossings a run also ends, and another begins, at a corner inside it that has a crossing
+// edge: a record a column and axis. Which of two entries a vertical run has is a bit of the
+// column's word, which turns over where a run begins. With rounded corners a record carries whether
+// its crossings go on for a second pixel; vertical runs need the column to the right for that and
+// are looked for a column behind, in the last slot of a row at its last column as well. With
+// diagonals clock 1 hands the columns of the beat on to the DiagonalUnit.
+//
 // Latency 2 of a slot, initiation interval 1; a record can be taken from its FIFO 6 clocks after
 // its slot was. Records without a side are counted and go nowhere. Rows of a single beat read a
 // word that is being written: it is taken from the register that it was written from.
 // Stalls: `records` (a FIFO is full, or the interlock: slot row s waits until all records found in
-// slot row s - 2 are finished, and those that are being looked for found), `downstream`.
+// slot row s - 2 are finished, and those that are being looked for found), `diagonals` (a row of
+// fewer beats than a diagonal takes waits until those of the row before are there), `downstream`.
 // Cost a lane: a first-gap circuit of R + 1 bits, two choices of R + 1 : 1, two counters, 3 columns
-// of flip-flops (window_rows + 1 pairs of bits); registers of 12 records that are being looked for
-// and of 4 that wait for their FIFOs. Memory: record_fifo entries an axis and lane.
-// Made for 250 MHz; longest path: choice of 1 in 9 groups (window_rows of 258; 3 by default), 16 :
-// 1 table of shapes. Source: paper 000, section 2.
+// of flip-flops (window_rows + 1 pairs of bits; with corners 5, and a circuit more); registers of
+// 12 records that are being looked for and of 4 that wait for their FIFOs. Memory: record_fifo
+// entries an axis and lane. Made for 250 MHz; longest path: choice of 1 in 9 groups (window_rows of
+// 258; 3 by default), 16 : 1 table of shapes. Source: paper 000, section 2; SMAA (Jimenez et al.
+// 2012).
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <optional>
 #include <systemc>
 
 #include "rtl_model/fabric/fifo.h"
@@ -46,6 +56,8 @@ class RunExtractor final : public Unit {
   In<FinishToken> finished_in{"finished_in"};
   Out<AreaSlotToken> area_slots_out{"area_slots_out"};
   Out<FetchToken> fetches_out{"fetches_out"};
+  // For the DiagonalUnit, if it is built.
+  std::optional<Out<DiagonalColumnsToken>> columns_out;
   // For the predictors, one a lane: bind to records(axis, lane).
   Link<RunToken>& records(spec::morphological::Axis axis, std::size_t lane) {
     return side(axis).fifo[lane].link();
@@ -90,14 +102,33 @@ class RunExtractor final : public Unit {
     std::array<RunToken, std::size_t{3} * spec::morphological::kMaxLanes> run;
   };
 
+  // The crossing edges at a corner, and which of them go on for a second pixel: bit 0 on the first
+  // side, bit 1 on the second.
+  struct Corner {
+    std::uint8_t code = 0, far = 0;
+    bool beyond = false;  // edges along the run go on there
+  };
+
+  // kSmaa: of an engine with crossings, corners or diagonals; others do not pay for them.
+  template <bool kSmaa>
+  Activity work(Cycle cycle);
+  bool waits_for_diagonals(Cycle cycle) const;
   bool take_slot(Cycle cycle);  // false: it waits for records
   void begin_row();
+  template <bool kSmaa>
   void pass(Cycle cycle);
+  void send_columns(Cycle cycle);
   void horizontal(Find& find, std::int32_t first, std::int32_t end);
-  void close(Find& find, std::int32_t end, std::uint8_t end_code);
+  void close(Find& find, std::int32_t end, Corner corner);
   void vertical(Find& find, std::int32_t first);
-  void found(Find& find, spec::morphological::RunRecord run, std::uint8_t start_code,
-             std::uint8_t end_code) const;
+  void smaa_vertical(Find& find, std::int32_t first, std::int32_t end);
+  void vertical_at(Find& find, std::int32_t x, bool starts);
+  void found(Find& find, spec::morphological::RunRecord run, Corner start, Corner end) const;
+  bool crosses(std::int32_t x, std::int32_t y) const {
+    return window_.top(x - 1, y) || window_.top(x, y);
+  }
+  Corner corner_of_row(std::int32_t x) const;
+  Corner corner_of_column(std::int32_t x, std::int32_t y, bool far) const;
   void deliver(const Find& find);
   void drain(AxisSide& from, Cycle cycle);
 
@@ -105,7 +136,17 @@ class RunExtractor final : public Unit {
   EdgeWindow& window_;
   EdgeRows& rows_;
   const std::int32_t lanes_, reach_rows_, reach_columns_;
+  const bool crossings_, corners_, smaa_;  // built with; smaa_: with any of these, or diagonals
+  // Records of an axis that may wait another clock: with crossings the last slot of a row may find
+  // one more than there are lanes, the first of the next one fewer.
+  const std::size_t spare_;
+  // Rows of a frame whose diagonals take more clocks to come than a row has beats begin when those
+  // of the row before are there.
+  const Cycle diagonal_delay_;
+  const std::int32_t diagonal_rows_;  // M
+  Cycle passed_ = 0;                  // the last slot in clock 1
   Activity records_;
+  std::optional<Activity> diagonals_;
   AxisSide h_, v_;
   std::array<std::uint32_t, 2> unfinished_{};  // records, by parity of the row of their slot
   std::array<std::uint32_t, 2> finding_{};     // slots in clocks 2 to 4, alike
@@ -124,7 +165,7 @@ class RunExtractor final : public Unit {
   EdgeBits here_;      // of row y in the beat
   bool open_ = false;  // a horizontal run
   std::int32_t start_ = 0;
-  std::uint8_t start_code_ = 0;
+  Corner start_corner_;
 };
 
 }  // namespace deburr::rtl::morphological

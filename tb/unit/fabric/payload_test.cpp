@@ -97,6 +97,74 @@ TEST(Payload, WidthIsTheSumOfWhatIsBuilt) {
   EXPECT_EQ(Payload::of<Place>({.lanes = 5}).bits(), 27U);  // has nothing by lane
 }
 
+// Width 0: the engine is built without the field. It has no bit, no wave, no fault, no place in the
+// types, and what the model keeps there is not looked at.
+TEST(Payload, AFieldOfWidthZeroIsNotBuilt) {
+  const PayloadShape without = {.widths = {{"slope", 0}, {"place.row", 0}, {"edges", 0}}};
+  const Payload payload = Payload::of<Beat>(without);
+  EXPECT_EQ(payload.bits(), 262U - 13 - 14 - 4);
+  for (const char* const gone : {"slope", "place.row", "edges"}) {
+    EXPECT_EQ(payload.find(gone), nullptr) << gone;
+    EXPECT_THAT(text_of<spec::ConfigError>([&] { payload.bit(gone); }),
+                HasSubstr("no field is named"));
+  }
+  // Those behind it move up.
+  EXPECT_EQ(payload.find("place.column")->first_bit, 0U);
+  EXPECT_EQ(payload.find("pixel.0.r")->first_bit, 13U);
+  EXPECT_EQ(payload.find("wide")->first_bit, 13U + 128 + 54);
+  EXPECT_EQ(payload.find("colour")->first_bit, 13U + 128 + 54 + 33);
+
+  Beat beat;
+  beat.slope = 77777;  // does not fit 13 bits
+  beat.place.row = 0xFFFF;
+  beat.edges = 0xFF;
+  EXPECT_EQ(payload.misfit(bytes(beat)), nullptr);
+  EXPECT_NE(Payload::of<Beat>().misfit(bytes(beat)), nullptr);
+  EXPECT_THAT(payload.text(bytes(beat)), testing::Not(HasSubstr("slope")));
+  // Noise and every fault leave it alone.
+  const Beat before = beat;
+  payload.fill(bytes(beat), 5);
+  for (std::uint32_t n = 0; n < payload.bits(); ++n)
+    payload.flip(bytes(beat), payload.bit(std::to_string(n)));
+  EXPECT_EQ(beat.slope, before.slope);
+  EXPECT_EQ(beat.place.row, before.place.row);
+  EXPECT_EQ(beat.edges, before.edges);
+  EXPECT_NE(beat.wide, before.wide);
+  EXPECT_THROW(payload.bit(std::to_string(payload.bits())), spec::ConfigError);
+
+  EXPECT_EQ(rtl::Link<Beat>("link", 2, without).payload_bits(), 231U);
+  EXPECT_EQ(rtl::Fifo<Beat>("fifo", 4, without).word_bits(), 231U);
+}
+
+TEST(Payload, OfElementsOfAnArrayAllAreBuiltOrNone) {
+  const PayloadShape without = {.widths = {{"corner.0.row", 0}, {"corner.1.row", 0}}};
+  const Payload payload = Payload::of<Beat>(without);
+  EXPECT_EQ(payload.bits(), 262U - 28);
+  EXPECT_EQ(payload.find("corner.1.row"), nullptr);
+  EXPECT_NE(payload.find("corner.1.column"), nullptr);
+  EXPECT_THAT(text_of<spec::CheckFailed>([] {
+                Payload::of<Beat>({.widths = {{"corner.1.row", 0}}});
+              }),
+              HasSubstr("all of corner"));
+  // A field that there never was cannot be left out.
+  EXPECT_THROW(Payload::of<Beat>({.widths = {{"slop", 0}}}), spec::CheckFailed);
+}
+
+TEST(Payload, PackageHasNoFieldOfWidthZero) {
+  const Payload place = Payload::of<Place>({.widths = {{"row", 0}}});
+  const std::array<const Payload*, 1> all = {&place};
+  EXPECT_EQ(rtl::payload_package("tokens_pkg", all),
+            "// SPDX-License-Identifier: MIT\n"
+            "package tokens_pkg;\n"
+            "\n"
+            "  // 13 bits\n"
+            "  typedef struct packed {\n"
+            "    logic [12:0] column;  // U13\n"
+            "  } place_t;\n"
+            "\n"
+            "endpackage\n");
+}
+
 TEST(Payload, ElementsOfAnArrayAreBuiltAlike) {
   EXPECT_EQ(Payload::of<Beat>({.widths = {{"corner.0.row", 4}, {"corner.1.row", 4}}}).bits(),
             262U - 20);

@@ -18,21 +18,64 @@ namespace {
 
 using golden::morphological::blend;
 using golden::morphological::blend_channel;
-using golden::morphological::decide;
+using golden::morphological::decide_by_length;
 using golden::morphological::Decision;
 using golden::morphological::PixelShares;
 using golden::morphological::tap_of;
 using tb::Random;
 
 TEST(Blender, DecidesTheAxisByThreeRules) {
-  EXPECT_EQ(decide({0, 0, 0, 0, 9, 9}), Decision::kNone);
-  EXPECT_EQ(decide({1, 0, 0, 0, 2, 90}), Decision::kOnlyUpDown);
-  EXPECT_EQ(decide({0, 0, 0, 1, 90, 2}), Decision::kOnlyLeftRight);
-  EXPECT_EQ(decide({1, 0, 128, 128, 5, 4}), Decision::kLongerUpDown);
-  EXPECT_EQ(decide({128, 128, 1, 0, 4, 5}), Decision::kLongerLeftRight);
-  EXPECT_EQ(decide({3, 4, 5, 1, 7, 7}), Decision::kStrongerUpDown);
-  EXPECT_EQ(decide({3, 4, 5, 3, 7, 7}), Decision::kStrongerLeftRight);
-  EXPECT_EQ(decide({3, 4, 5, 2, 7, 7}), Decision::kTie);
+  EXPECT_EQ(decide_by_length({0, 0, 0, 0, 9, 9}), Decision::kNone);
+  EXPECT_EQ(decide_by_length({1, 0, 0, 0, 2, 90}), Decision::kOnlyUpDown);
+  EXPECT_EQ(decide_by_length({0, 0, 0, 1, 90, 2}), Decision::kOnlyLeftRight);
+  EXPECT_EQ(decide_by_length({1, 0, 128, 128, 5, 4}), Decision::kLongerUpDown);
+  EXPECT_EQ(decide_by_length({128, 128, 1, 0, 4, 5}), Decision::kLongerLeftRight);
+  EXPECT_EQ(decide_by_length({3, 4, 5, 1, 7, 7}), Decision::kStrongerUpDown);
+  EXPECT_EQ(decide_by_length({3, 4, 5, 3, 7, 7}), Decision::kStrongerLeftRight);
+  EXPECT_EQ(decide_by_length({3, 4, 5, 2, 7, 7}), Decision::kTie);
+}
+
+TEST(Blender, DecidesTheAxisByTheStrongestShare) {
+  using golden::morphological::decide_by_strength;
+  EXPECT_EQ(decide_by_strength({0, 0, 0, 0, 9, 9}), Decision::kNone);
+  EXPECT_EQ(decide_by_strength({1, 0, 0, 0, 2, 90}), Decision::kOnlyUpDown);
+  EXPECT_EQ(decide_by_strength({0, 0, 0, 1, 90, 2}), Decision::kOnlyLeftRight);
+  // Neither spans nor sums count.
+  EXPECT_EQ(decide_by_strength({9, 9, 10, 0, 90, 2}), Decision::kStrongerLeftRight);
+  EXPECT_EQ(decide_by_strength({9, 9, 0, 10, 90, 2}), Decision::kStrongerLeftRight);
+  EXPECT_EQ(decide_by_strength({9, 10, 9, 9, 2, 90}), Decision::kStrongerUpDown);
+  EXPECT_EQ(decide_by_strength({10, 0, 9, 9, 2, 90}), Decision::kStrongerUpDown);
+  EXPECT_EQ(decide_by_strength({10, 0, 9, 10, 2, 90}), Decision::kTie);
+}
+
+// Two shares in proportion to their squares, for every pair; a single one as it is.
+TEST(Blender, MixesSharesBySquares) {
+  using golden::morphological::mixed_by_squares;
+  for (int a = 0; a < 256; ++a) {
+    EXPECT_EQ(golden::morphological::mix_reciprocal(a),
+              a == 0 ? 0u : static_cast<std::uint32_t>(std::floor(65536.0 / a + 0.5)));
+    for (int b = 0; b < 256; ++b) {
+      spec::morphological::BlendTap tap;
+      tap.horizontal = true;
+      tap.edges = 2;
+      tap.first = static_cast<std::uint8_t>(a);
+      tap.second = static_cast<std::uint8_t>(b);
+      const spec::morphological::BlendTap mixed = mixed_by_squares(tap);
+      EXPECT_TRUE(mixed.horizontal);
+      EXPECT_EQ(mixed.edges, 2);
+      EXPECT_LE(mixed.first + mixed.second, 256);
+      const double sum = std::max(1, a + b);
+      // The rounded reciprocal is off by half of 2^-16, of up to 255^2 at most.
+      EXPECT_NEAR(mixed.first, a * a / sum, 0.5 + a * a / 131072.0) << a << ' ' << b;
+      EXPECT_NEAR(mixed.second, b * b / sum, 0.5 + b * b / 131072.0) << a << ' ' << b;
+      if (a == 0 || b == 0) {
+        EXPECT_EQ(mixed, tap);
+      }
+    }
+  }
+  const auto mixed = mixed_by_squares({false, 64, 32, 0});
+  EXPECT_EQ(mixed.first, 43);
+  EXPECT_EQ(mixed.second, 11);
 }
 
 TEST(Blender, TakesTheSharesOfTheChosenAxisOnly) {

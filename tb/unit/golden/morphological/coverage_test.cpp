@@ -109,6 +109,84 @@ TEST(RunCoverage, AnEmptyFrameLeavesHoles) {
   EXPECT_EQ(hit, 1u);  // decision/none
 }
 
+// Bands of three rows, of darker and of brighter greys in turn, cut at random and often where the
+// band above is cut as well: runs end at every crossing code, at any distance.
+Frame bands(int width, int height, Random& random) {
+  Frame frame(width, height);
+  std::vector<bool> cuts(static_cast<std::size_t>(width)), above = cuts;
+  for (int y0 = 0; y0 < height; y0 += 3) {
+    const std::uint32_t rare = 1 + random.below(60);
+    int code = 0;
+    for (int x = 0; x < width; ++x) {
+      const auto i = static_cast<std::size_t>(x);
+      cuts[i] = (above[i] && random.chance(500)) || random.below(rare) == 0;
+      if (x == 0 || cuts[i]) code = (code + 1 + static_cast<int>(random.below(2))) % 3;
+      for (int y = y0; y < std::min(y0 + 3, height); ++y)
+        frame.at(x, y) = grey(40 * code + (y0 / 3 % 2 == 0 ? 0 : 135));
+    }
+    above = cuts;
+  }
+  return frame;
+}
+
+TEST(SmaaCoverage, EveryBinCanBeReached) {
+  using spec::morphological::DynamicLuma;
+  using spec::morphological::Quality;
+  Random random(11);
+  std::vector<MorphologicalGolden> goldens;
+  for (const Quality quality : {Quality::kLow, Quality::kUltra}) {
+    spec::morphological::Parameters p = preset_parameters(Preset::kSmaa, quality);
+    p.local_contrast = spec::morphological::LocalContrast::kOff;
+    goldens.emplace_back(p);
+  }
+  for (const auto luma :
+       {DynamicLuma::kCurrent, DynamicLuma::kMax, DynamicLuma::kMin, DynamicLuma::kMean}) {
+    spec::morphological::Parameters p = preset_parameters(Preset::kSmaaDynamic);
+    p.dynamic_luma = luma;
+    goldens.emplace_back(p);
+  }
+  // Runs that reach the last entries of the table: a step, and a bar on a floor.
+  spec::morphological::Parameters far = preset_parameters(Preset::kSmaa);
+  far.search_steps = 112;
+  far.reach_columns = 1000;
+  goldens.emplace_back(far);
+  const Frame step(422, 4, [](int x, int y) {
+    return grey(y == 3 || (y == 2 && x > 0) || (y == 1 && x > 420) ? 255 : 0);
+  });
+  const Frame bar(
+      422, 3, [](int x, int y) { return grey(y == 2 || (y == 1 && x > 0 && x < 421) ? 255 : 0); });
+  const Frame stairs = tb::stimuli::diagonals(60, 60, 3),
+              other_way = tb::morphological::mirrored_x(stairs);
+  const Frame noise = tb::morphological::noise_image(300, 300),
+              shades = tb::morphological::shades_image();
+  for (MorphologicalGolden& golden : goldens)
+    for (const Frame& frame : {step, bar, stairs, other_way, noise, shades})
+      golden.process(frame.view());
+  std::map<std::string, std::uint64_t> hits;
+  for (int round = 0; round < 40; ++round) {
+    for (const int width : {1, 2, 3, 6, 15, 40, 160}) {
+      const Frame frame = bands(width, 150, random);
+      for (MorphologicalGolden& golden : goldens) {
+        golden.process(frame.view());
+        golden.process(Frame(tb::morphological::transposed(frame)).view());
+      }
+    }
+    hits.clear();
+    for (const MorphologicalGolden& golden : goldens)
+      for (const CoverageBin& bin : golden.smaa_coverage().bins()) hits[bin.name] += bin.hits;
+    if (holes(hits).empty()) break;
+  }
+  EXPECT_THAT(holes(hits), testing::IsEmpty());
+  EXPECT_EQ(hits.size(), goldens[0].smaa_coverage().bins().size());  // names are unique
+}
+
+// Presets without SMAA's blocks hit nothing.
+TEST(SmaaCoverage, StaysEmptyWithoutItsBlocks) {
+  MorphologicalGolden golden(preset_parameters(Preset::kDeburr));
+  golden.process(Frame(tb::morphological::noise_image()).view());
+  for (const CoverageBin& bin : golden.smaa_coverage().bins()) EXPECT_EQ(bin.hits, 0u) << bin.name;
+}
+
 TEST(RunCoverage, LengthBinsAreThoseOfTheirNames) {
   const std::map<int, std::size_t> expected = {{1, 0}, {2, 1}, {3, 2},  {4, 2},  {5, 3},
                                                {8, 3}, {9, 4}, {16, 4}, {17, 5}, {2048, 5}};

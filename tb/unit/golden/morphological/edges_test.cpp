@@ -74,16 +74,27 @@ class PlainEdges {
     }
     if (p_.threshold_mode == spec::morphological::ThresholdMode::kFixed)
       return c(p, q) >= 255 * p_.threshold;
-    const std::int64_t reference = p_.dynamic_luma == spec::morphological::DynamicLuma::kCurrent
-                                       ? luma(p)
-                                       : std::max(luma(p), luma(q));
-    return 65536 * c(p, q) > p_.alpha * reference && c(p, q) >= 255 * p_.floor;
+    return 131072 * c(p, q) > p_.alpha * twice_reference(p, q) && c(p, q) >= 255 * p_.floor;
+  }
+  std::int64_t twice_reference(Pixel p, Pixel q) const {
+    switch (p_.dynamic_luma) {
+      case spec::morphological::DynamicLuma::kCurrent:
+        return 2 * luma(p);
+      case spec::morphological::DynamicLuma::kMax:
+        return 2 * std::max(luma(p), luma(q));
+      case spec::morphological::DynamicLuma::kMin:
+        return 2 * std::min(luma(p), luma(q));
+      case spec::morphological::DynamicLuma::kMean:
+        break;
+    }
+    return luma(p) + luma(q);
   }
   // `across`: towards the pixel on the other side of the edge; `along`: beside the edge.
   std::int64_t contrast(Pixel p, Pixel across, Pixel along) const {
     if (p_.edge_source == spec::morphological::EdgeSource::kDepth) return 0;
     const Pixel q = p + across;
-    if (p_.local_contrast == spec::morphological::LocalContrast::kPaper) {
+    if (p_.local_contrast == spec::morphological::LocalContrast::kPaper ||
+        p_.local_contrast == spec::morphological::LocalContrast::kSmaa) {
       const Pixel t = p + Pixel{0, -1}, l = p + Pixel{-1, 0};
       return std::max({c(p, t), c(p, p + Pixel{0, 1}), c(p, l), c(p, p + Pixel{1, 0}),
                        c(t, t + Pixel{0, -1}), c(l, l + Pixel{-1, 0})});
@@ -97,7 +108,8 @@ class PlainEdges {
   }
   bool stays(std::int64_t step, std::int64_t m) const {
     return p_.local_contrast == spec::morphological::LocalContrast::kOff ||
-           p_.edge_source == spec::morphological::EdgeSource::kDepth || 2 * step > m;
+           p_.edge_source == spec::morphological::EdgeSource::kDepth || 2 * step > m ||
+           (p_.local_contrast == spec::morphological::LocalContrast::kSmaa && 2 * step == m);
   }
 
   const spec::morphological::Parameters& p_;
@@ -150,6 +162,10 @@ constexpr Mode kModes[] = {
      spec::morphological::DynamicLuma::kMax},
     {spec::morphological::EdgeSource::kLuma, spec::morphological::ThresholdMode::kDynamic,
      spec::morphological::DynamicLuma::kCurrent},
+    {spec::morphological::EdgeSource::kLuma, spec::morphological::ThresholdMode::kDynamic,
+     spec::morphological::DynamicLuma::kMin},
+    {spec::morphological::EdgeSource::kLuma, spec::morphological::ThresholdMode::kDynamic,
+     spec::morphological::DynamicLuma::kMean},
     {spec::morphological::EdgeSource::kDepth, spec::morphological::ThresholdMode::kFixed,
      spec::morphological::DynamicLuma::kMax},
     {spec::morphological::EdgeSource::kPredicated, spec::morphological::ThresholdMode::kFixed,
@@ -163,7 +179,8 @@ TEST(MorphologicalEdges, AreThoseOfTheFormulas) {
   for (const Mode& mode : kModes) {
     for (const auto contrast :
          {spec::morphological::LocalContrast::kOff, spec::morphological::LocalContrast::kPaper,
-          spec::morphological::LocalContrast::kSymmetric}) {
+          spec::morphological::LocalContrast::kSymmetric,
+          spec::morphological::LocalContrast::kSmaa}) {
       std::uint64_t ones = 0, pixels = 0;
       for (const auto& size : kSizes) {
         spec::morphological::Parameters p;
@@ -219,6 +236,105 @@ TEST(MorphologicalEdges, ContrastOfExactlyTwiceTheStepDropsTheBit) {
   };
   EXPECT_FALSE(find_edges(p, codes(0, 20, 60).view()).left.at(1, 0));
   EXPECT_TRUE(find_edges(p, codes(0, 20, 59).view()).left.at(1, 0));
+}
+
+// Each rule at equality, one unit of alpha below and above it, for the left and the top bit, the
+// brighter pixel first and last.
+TEST(MorphologicalEdges, DynamicThresholdsHoldToTheUnit) {
+  using spec::morphological::DynamicLuma;
+  spec::morphological::Parameters p;
+  p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
+  p.local_contrast = spec::morphological::LocalContrast::kOff;
+  p.floor = 1;
+  struct Case {
+    DynamicLuma luma;
+    int q, own;  // codes of the pixel across and of the own one
+    int alpha;   // at which c is exactly alpha x luma
+  };
+  for (const Case& c :
+       {Case{DynamicLuma::kCurrent, 48, 64, 16384}, Case{DynamicLuma::kCurrent, 80, 64, 16384},
+        Case{DynamicLuma::kMax, 48, 64, 16384}, Case{DynamicLuma::kMax, 64, 48, 16384},
+        Case{DynamicLuma::kMin, 80, 64, 16384}, Case{DynamicLuma::kMin, 64, 80, 16384},
+        // The mean is 20.5: not a whole code.
+        Case{DynamicLuma::kMean, 18, 23, 0}, Case{DynamicLuma::kMean, 23, 18, 0},
+        Case{DynamicLuma::kMean, 56, 72, 16384}, Case{DynamicLuma::kMean, 72, 56, 16384}}) {
+    p.dynamic_luma = c.luma;
+    const auto edge = [&](int alpha) {
+      p.alpha = alpha;
+      const Frame across(2, 1,
+                         [&](int x, int) { return tb::morphological::grey(x ? c.own : c.q); });
+      const Frame down(1, 2, [&](int, int y) { return tb::morphological::grey(y ? c.own : c.q); });
+      const bool left = find_edges(p, across.view()).left.at(1, 0);
+      EXPECT_EQ(find_edges(p, down.view()).top.at(0, 1), left);
+      return left;
+    };
+    if (c.alpha != 0) {
+      EXPECT_TRUE(edge(c.alpha - 1));
+      EXPECT_FALSE(edge(c.alpha));  // strict
+      EXPECT_FALSE(edge(c.alpha + 1));
+    } else {
+      EXPECT_TRUE(edge(15984));  // 5 / 20.5 of 65536 is 15984.4
+      EXPECT_FALSE(edge(15985));
+    }
+  }
+}
+
+TEST(MorphologicalEdges, TheFloorIsNotStrict) {
+  spec::morphological::Parameters p;
+  p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
+  p.local_contrast = spec::morphological::LocalContrast::kOff;
+  p.alpha = 0;
+  // A blue step of 255 codes is 255 x 4732 units: equality.
+  const Frame frame(2, 1, [](int x, int) {
+    return spec::morphological::Rgba8{0, 0, static_cast<std::uint8_t>(255 * x), 255};
+  });
+  p.floor = 4732;
+  EXPECT_TRUE(find_edges(p, frame.view()).left.at(1, 0));
+  p.floor = 4733;
+  EXPECT_FALSE(find_edges(p, frame.view()).left.at(1, 0));
+}
+
+// Each of the six steps is the largest once, at twice the edge's own and one code on either side.
+TEST(MorphologicalEdges, LocalContrastOfThePaperAndOfSmaaDifferAtEqualityAlone) {
+  using spec::morphological::LocalContrast;
+  constexpr int kOwn = 20;
+  struct Neighbour {
+    int x, y;            // of pixel (3, 3)
+    int from_x, from_y;  // the pixel that the step is taken from
+  };
+  // c(p, b), c(p, r), c(p, t) or c(p, l), c(t, 2t), c(l, 2l).
+  for (const bool top : {false, true}) {
+    for (const Neighbour& n : {Neighbour{3, 4, 3, 3}, Neighbour{4, 3, 3, 3},
+                               top ? Neighbour{2, 3, 3, 3} : Neighbour{3, 2, 3, 3},
+                               Neighbour{3, 1, 3, 2}, Neighbour{1, 3, 2, 3}}) {
+      for (const int step : {2 * kOwn - 1, 2 * kOwn, 2 * kOwn + 1}) {
+        // Own edge between (3, 3) and the pixel left of (above) it; all else flat but for the
+        // neighbour and what lies beyond it, which continue its code.
+        std::array<std::array<int, 7>, 7> code{};
+        for (auto& row : code) row.fill(100);
+        const auto at = [&](int x, int y) -> int& {
+          return code[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
+        };
+        if (top) {
+          for (int x = 0; x < 7; ++x) at(x, 2) = at(x, 1) = at(x, 0) = 100 - kOwn;
+        } else {
+          for (int y = 0; y < 7; ++y) at(2, y) = at(1, y) = at(0, y) = 100 - kOwn;
+        }
+        at(n.x, n.y) = at(n.from_x, n.from_y) + step;
+        const Frame frame(7, 7, [&](int x, int y) { return tb::morphological::grey(at(x, y)); });
+        for (const auto contrast : {LocalContrast::kPaper, LocalContrast::kSmaa}) {
+          spec::morphological::Parameters p;
+          p.threshold = 1;
+          p.local_contrast = contrast;
+          const EdgePlanes edges = find_edges(p, frame.view());
+          const bool smaa = contrast == LocalContrast::kSmaa;
+          EXPECT_EQ(top ? edges.top.at(3, 3) : edges.left.at(3, 3),
+                    smaa ? step <= 2 * kOwn : step < 2 * kOwn)
+              << top << ' ' << n.x << ' ' << n.y << ' ' << step;
+        }
+      }
+    }
+  }
 }
 
 TEST(MorphologicalEdges, WithoutDepthThereAreNoDepthEdges) {

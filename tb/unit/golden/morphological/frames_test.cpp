@@ -73,6 +73,22 @@ TEST(Symmetry, MirroringDoesNotHoldForRulesThatLookToOneSide) {
   EXPECT_NE(smooth(current, mirrored_x(frame)), mirrored_x(smooth(current, frame)));
 }
 
+// Of the dynamic luma only `current` looks to one side.
+TEST(Symmetry, OfTheDynamicLuma) {
+  using spec::morphological::DynamicLuma;
+  const Frame frame = tb::morphological::rendered_like(180, 120, 60);
+  spec::morphological::Parameters p = preset_parameters(Preset::kMlaa);
+  p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
+  p.alpha = 30000;
+  for (const auto luma : {DynamicLuma::kMax, DynamicLuma::kMin, DynamicLuma::kMean}) {
+    p.dynamic_luma = luma;
+    EXPECT_EQ(smooth(p, mirrored_x(frame)), mirrored_x(smooth(p, frame)));
+    EXPECT_EQ(smooth(p, mirrored_y(frame)), mirrored_y(smooth(p, frame)));
+  }
+  p.dynamic_luma = DynamicLuma::kCurrent;
+  EXPECT_NE(smooth(p, mirrored_y(frame)), mirrored_y(smooth(p, frame)));
+}
+
 // Pixels whose two axes tie take up and down in either frame; all others are transposed.
 struct TransposedComparison {
   int ties = 0, differing_ties = 0, differing = 0;
@@ -114,6 +130,28 @@ TEST(Symmetry, TransposingTransposesAllButTies) {
   }
   EXPECT_GT(ties, 100);
   EXPECT_GT(differing_ties, 0);  // so ties are really excepted
+}
+
+// SMAA's rules look left as they look up; its diagonals are looked for at top edges only.
+TEST(Symmetry, TransposingTransposesSmaaButItsDiagonals) {
+  using spec::morphological::DynamicLuma;
+  spec::morphological::Parameters p = preset_parameters(Preset::kSmaa);
+  p.reach_columns = golden::morphological::reach_rows(p);
+  const auto differing = [&] {
+    int sum = 0;
+    for (const Frame& frame : frames()) sum += TransposedComparison(p, frame).differing;
+    return sum;
+  };
+  p.diagonals = false;
+  EXPECT_EQ(differing(), 0);
+  p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
+  for (const auto luma :
+       {DynamicLuma::kCurrent, DynamicLuma::kMax, DynamicLuma::kMin, DynamicLuma::kMean}) {
+    p.dynamic_luma = luma;
+    EXPECT_EQ(differing(), 0);
+  }
+  p.search_steps = 2;  // cuts most runs
+  EXPECT_EQ(differing(), 0);
 }
 
 TEST(Symmetry, TransposingNeedsEqualReaches) {
@@ -422,23 +460,70 @@ TEST(NamedErrors, OfParameters) {
                 p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
               }),
               HasSubstr("predicated"));
-  EXPECT_THAT(error_of([](P& p) { p.area = spec::morphological::AreaSource::kTableFull; }),
-              HasSubstr("not built yet"));
-  EXPECT_THAT(error_of([](P& p) { p.diagonals = true; }), HasSubstr("not built yet"));
-  EXPECT_THAT(error_of([](P& p) { p.round_corners = true; }), HasSubstr("not built yet"));
+  EXPECT_THAT(error_of([](P& p) { p.search_steps = 113; }), HasSubstr("outside 1..112"));
+  EXPECT_THAT(error_of([](P& p) { p.search_steps = 0; }), HasSubstr("search_steps"));
+  EXPECT_THAT(error_of([](P& p) { p.diagonal_steps = 17; }), HasSubstr("outside 1..16"));
+  EXPECT_THAT(error_of([](P& p) { p.corner_rounding = 257; }), HasSubstr("outside 0..256"));
+  EXPECT_THAT(error_of([](P& p) { p.diagonal_steps = 0; }), HasSubstr("diagonal_steps"));
+  EXPECT_THAT(error_of([](P& p) { p.corner_rounding = -1; }), HasSubstr("corner_rounding"));
+  EXPECT_THAT(error_of([](P& p) { p.alpha = 65536; }), HasSubstr("edges.alpha"));
+  EXPECT_THAT(error_of([](P& p) { p.alpha = -1; }), HasSubstr("outside 0..65535"));
+  EXPECT_EQ(error_of([](P& p) { p.alpha = 0; }), "");
+  EXPECT_THAT(error_of([](P& p) { p.floor = 0; }), HasSubstr("edges.floor"));
+  EXPECT_THAT(error_of([](P& p) { p.threshold = 65536; }), HasSubstr("outside 1..65535"));
+  const auto too_far = [](P& p) {
+    p.steps = 4;
+    p.diagonals = true;
+    p.diagonal_steps = 10;
+    p.window_rows = 20;
+  };
+  EXPECT_THAT(error_of(too_far), HasSubstr("diagonal_steps"));
+  EXPECT_THAT(error_of(too_far), HasSubstr("window_rows of at least 22"));
+  EXPECT_EQ(error_of([](P& p) {
+              p.steps = 4;
+              p.diagonals = true;
+              p.diagonal_steps = 9;
+              p.window_rows = 20;
+            }),
+            "");
 }
 
-TEST(NamedErrors, OfPresetsThatAreNotBuiltYet) {
-  for (const auto preset : {Preset::kSmaa, Preset::kSmaaDynamic}) {
-    EXPECT_THROW(MorphologicalGolden{preset_parameters(preset)}, spec::ConfigError);
-    // Their thresholds are there: with the blocks that exist they run.
-    spec::morphological::Parameters p = preset_parameters(preset);
-    p.area = spec::morphological::AreaSource::kAnalytic;
-    p.diagonals = false;
-    MorphologicalGolden golden(p);
-    const Frame frame = tb::morphological::blocks_image();
-    golden.process(frame.view());
-    EXPECT_GT(golden.work().blended_pixels, 100u);
+TEST(Presets, AreThoseOfTheContract) {
+  using spec::morphological::Quality;
+  struct Row {
+    Quality quality;
+    int threshold, search_steps, diagonal_steps, window_rows;
+    bool diagonals, round_corners;
+  };
+  for (const Row& row : {Row{Quality::kLow, 9830, 4, 8, 38, false, false},
+                         Row{Quality::kMedium, 6554, 8, 8, 70, false, false},
+                         Row{Quality::kHigh, 6554, 16, 8, 134, true, true},
+                         Row{Quality::kUltra, 3277, 32, 16, 258, true, true}}) {
+    for (const auto preset : {Preset::kSmaa, Preset::kSmaaDynamic}) {
+      const spec::morphological::Parameters p = preset_parameters(preset, row.quality);
+      const bool dynamic = preset == Preset::kSmaaDynamic;
+      EXPECT_EQ(p.quality, row.quality);
+      EXPECT_EQ(p.threshold, dynamic ? 1966 : row.threshold);
+      EXPECT_EQ(p.search_steps, row.search_steps);
+      EXPECT_EQ(p.diagonals, row.diagonals);
+      EXPECT_EQ(p.diagonal_steps, row.diagonal_steps);
+      EXPECT_EQ(p.round_corners, row.round_corners);
+      EXPECT_EQ(p.corner_rounding, 64);
+      EXPECT_EQ(p.window_rows, row.window_rows);
+      EXPECT_EQ(p.ends, spec::morphological::Ends::kCrossings);
+      EXPECT_EQ(p.blend, spec::morphological::BlendRule::kStrongest);
+      EXPECT_EQ(p.alpha, 6554);
+      EXPECT_EQ(p.floor, 514);
+      EXPECT_NO_THROW(MorphologicalGolden{p});
+    }
+  }
+  // Of the others a quality changes nothing.
+  for (const auto preset : {Preset::kMlaa, Preset::kMlaaSlope, Preset::kDeburr}) {
+    const spec::morphological::Parameters p = preset_parameters(preset, Quality::kUltra);
+    EXPECT_EQ(p.window_rows, 66);
+    EXPECT_EQ(p.ends, spec::morphological::Ends::kGaps);
+    EXPECT_EQ(p.blend, spec::morphological::BlendRule::kLongest);
+    EXPECT_FALSE(p.diagonals || p.round_corners);
   }
 }
 

@@ -103,6 +103,57 @@ TEST(Runs, HaveTheShapeOfTheirCrossings) {
   }
 }
 
+TEST(Runs, EndAtCrossingsAsInAWalkOverSingleBits) {
+  Random random(4);
+  for (const int width : {1, 63, 64, 65, 128, 129, 400}) {
+    for (const int percent : {0, 1, 10, 60}) {
+      const AxisEdges edges{spec::morphological::Axis::kHorizontal,
+                            random_plane(width, 8, 97, random),
+                            random_plane(width, 8, percent, random)};
+      for (int y = 0; y < 8; ++y) {
+        std::vector<std::pair<int, int>> found, expected;
+        golden::morphological::for_each_run(
+            edges, spec::morphological::Ends::kCrossings, y,
+            [&](int first, int end) { found.emplace_back(first, end); });
+        for (int x = 0; x < width; ++x) {
+          if (!edges.along.at(x, y)) continue;
+          if (edges.along.at(x - 1, y) && edges.crossings(x, y) == 0) {
+            expected.back().second = x + 1;
+          } else {
+            expected.emplace_back(x, x + 1);
+          }
+        }
+        EXPECT_EQ(found, expected);
+      }
+    }
+  }
+}
+
+TEST(Runs, KnowWhichOfTheirCrossingsGoOn) {
+  spec::morphological::Parameters p = preset_parameters(Preset::kMlaa);
+  for (int far = 0; far < 16; ++far) {
+    AxisEdges edges{spec::morphological::Axis::kHorizontal, BitPlane(12, 6), BitPlane(12, 6)};
+    for (int x = 4; x < 9; ++x) edges.along.set(x, 3);
+    if ((far & 1) != 0) edges.across.set(4, 1);
+    if ((far & 2) != 0) edges.across.set(4, 4);
+    if ((far & 4) != 0) edges.across.set(9, 1);
+    if ((far & 8) != 0) edges.across.set(9, 4);
+    p.round_corners = true;
+    p.reach_columns = 256;
+    auto records = find_runs(p, edges);
+    ASSERT_EQ(records.size(), 1u);
+    EXPECT_EQ(records[0].far, far);
+    EXPECT_EQ(records[0].shape, 0);
+    p.reach_columns = 4;
+    records = find_runs(p, edges);
+    ASSERT_EQ(records.size(), 2u);
+    EXPECT_EQ(records[0].far, far & 3);
+    EXPECT_EQ(records[1].far, far & 12);
+    p.round_corners = false;
+    EXPECT_EQ(find_runs(p, edges)[0].far, 0);
+  }
+}
+
 TEST(Runs, BeyondTheReachAreCutToTheirEnds) {
   spec::morphological::Parameters p = preset_parameters(Preset::kMlaa);
   p.reach_columns = 9;

@@ -27,6 +27,7 @@ using stimuli::mirrored_x;
 using stimuli::mirrored_y;
 using stimuli::noise_image;
 using stimuli::rendered_like;
+using stimuli::shades_image;
 using stimuli::transposed;
 
 // A picture that the golden model can look at.

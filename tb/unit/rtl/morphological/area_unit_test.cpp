@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace deburr::tb::morphological_rtl {
 namespace {
 
 using namespace rtl::morphological;  // NOLINT: a test of these
+using spec::morphological::AreaSource;
 using spec::morphological::Axis;
 using spec::morphological::RunPart;
 using spec::morphological::Side;
@@ -47,6 +49,11 @@ struct Area {
     shares_gate.beats_in(shares);
     unit.finished_out(finished);
     finished_gate.beats_in(finished);
+    if (!p.diagonals) return;
+    diagonals.emplace("diagonals");
+    diagonal_driver.emplace("diagonal_driver", clock);
+    diagonal_driver->beats_out(*diagonals);
+    (*unit.diagonals_in)(*diagonals);
   }
   // Slot k at clock `at` + k.
   void send_slots(Cycle at) {
@@ -73,6 +80,8 @@ struct Area {
   std::vector<std::unique_ptr<TimedDriver<LineToken>>> drivers_h, drivers_v;
   Gate<ShareToken> shares_gate;
   Gate<FinishToken> finished_gate;
+  std::optional<Link<DiagonalSharesToken>> diagonals;
+  std::optional<TimedDriver<DiagonalSharesToken>> diagonal_driver;
 };
 
 // The run of three of the contract's table, its first part on the first side.
@@ -223,6 +232,98 @@ TEST(AreaUnitBlock, LinesWaitForRoomForTheirFinish) {
   EXPECT_EQ(bench.unit.records.value(), 4u);
 }
 
+// ---- with SMAA's blocks -------------------------------------------------------------------------
+
+Parameters with_table(AreaSource layout, int lanes_code = 0) {
+  Parameters p = small(lanes_code);
+  p.area = layout;
+  p.ends = spec::morphological::Ends::kCrossings;
+  return p;
+}
+
+TEST_P(AreaLanes, LatencyIsNineWithATableToo) {
+  Area bench(with_table(AreaSource::kTableFull, GetParam()), 11, 7);
+  bench.send_slots(0);
+  // In each row a record, so that the table is read.
+  for (int y = 0; y < 7; ++y)
+    bench.drivers_h[0]->send(0, three(Axis::kHorizontal, y, 4, bench.slots_before(y + kReach + 2)));
+  const std::uint32_t first = bench.slots_before(kLag), last = bench.slots_before(kLag + 7);
+  bench.clock.run(last + 20);
+  ASSERT_EQ(bench.shares_gate.beats.size(), last - first);
+  std::size_t any = 0;
+  for (std::uint32_t i = 0; i < last - first; ++i) {
+    ASSERT_EQ(bench.shares_gate.cycles[i], first + i + 10);
+    any += bench.shares_gate.beats[i].any;
+  }
+  EXPECT_GE(any, 7u);
+  EXPECT_EQ(bench.unit.stalled_cycles(), 0u);
+}
+
+// What is one clock more than without a table; two banks a lane and axis, so that no line waits.
+TEST_P(AreaLanes, WithATableARecordIsFinishedAClockLater) {
+  Area bench(with_table(AreaSource::kTableMerged, GetParam()), 11, 7);
+  bench.send_slots(0);
+  const std::uint32_t slot = bench.slots_before(6) + 1;
+  for (int lane = 0; lane < bench.lanes; ++lane) {
+    const auto at = static_cast<std::size_t>(lane);
+    bench.drivers_h[at]->send(2, three(Axis::kHorizontal, 0, lane, slot));
+    bench.drivers_v[at]->send(2, three(Axis::kVertical, lane + 1, 0, slot));
+  }
+  bench.clock.run(slot + 40);
+  ASSERT_EQ(bench.finished_gate.beats.size(), 1u);
+  // Popped in slot + 2, t(0) in slot + 3, stored in slot + 4, taken a clock later.
+  EXPECT_EQ(bench.finished_gate.cycles[0], slot + 5);
+  EXPECT_EQ(bench.finished_gate.beats[0].count[0], 2 * bench.lanes);
+  EXPECT_EQ(bench.unit.bank_conflicts.value(), 0u);
+}
+
+class DiagonalsOfABeat : public ::testing::TestWithParam<Cycle> {};
+
+// They are popped in stage 8, eight clocks after the slot was sent: there in time they cost
+// nothing, and each clock that they come late is a stall of that name.
+TEST_P(DiagonalsOfABeat, AreWaitedForAndTakeThePlaceOfItsShares) {
+  Parameters p = with_table(AreaSource::kTableFull);
+  p.diagonals = true;
+  p.diagonal_steps = 3;
+  const Cycle late = GetParam();
+  Area bench(p, 11, 7);
+  bench.send_slots(0);
+  const std::uint32_t evaluated = bench.slots_before(kLag - 1), first = bench.slots_before(kLag),
+                      last = bench.slots_before(kLag + 7);
+  // Top edges of row 2, columns 3 to 5, and left edges of column 4.
+  bench.drivers_h[0]->send(0, three(Axis::kHorizontal, 2, 3, bench.slots_before(2 + kReach + 2)));
+  bench.drivers_v[0]->send(0, three(Axis::kVertical, 4, 1, bench.slots_before(1 + kReach + 2)));
+  for (std::uint32_t i = 0; i < 7u * 11u; ++i) {
+    DiagonalSharesToken token{};
+    if (i == 2 * 11 + 4) {
+      token.taken = 1;
+      token.first[0] = 77;
+      token.second[0] = 200;
+      token.span[0] = 9;
+    }
+    bench.diagonal_driver->send(evaluated + 7 + late + i, token);
+  }
+  bench.clock.run(last + 40);
+  EXPECT_EQ(stalls(bench.unit, "diagonals"), late);
+  ASSERT_EQ(bench.shares_gate.beats.size(), last - first);
+  for (std::uint32_t i = 0; i < last - first; ++i)
+    ASSERT_EQ(bench.shares_gate.cycles[i], first + i + 10 + late);
+  const auto at = [&](int x, int y) {
+    return bench.shares_gate.beats[static_cast<std::size_t>(y * 11 + x)].shares[0];
+  };
+  EXPECT_EQ(at(4, 1).down, 77);
+  EXPECT_EQ(at(4, 1).span_down, 9);
+  EXPECT_EQ(at(4, 2).up, 200);
+  EXPECT_EQ(at(4, 2).left, 0) << "the pixel is taken: its left edge has no shares";
+  EXPECT_EQ(at(3, 2).right, 0);
+  // Beside it the records stand.
+  EXPECT_NE(at(3, 1).down, 0);
+  EXPECT_NE(at(5, 2).up, 0);
+  EXPECT_NE(at(3, 1).right, 0);
+  EXPECT_NE(at(4, 3).left, 0);
+}
+INSTANTIATE_TEST_SUITE_P(Late, DiagonalsOfABeat, ::testing::Values(0, 1, 2, 9));
+
 // ---- what a memory does not do ------------------------------------------------------------------
 
 TEST(AreaUnitMemory, AMarkIsNotThereInTheClockOfItsAddress) {
@@ -233,6 +334,31 @@ TEST(AreaUnitMemory, AMarkIsNotThereInTheClockOfItsAddress) {
   EXPECT_THAT(of_a_stage_less(bench.unit, bench.clock),
               ::testing::AllOf(::testing::HasSubstr("row_marks"), ::testing::HasSubstr("is used")));
 }
+
+class AreaTables : public ::testing::TestWithParam<AreaSource> {
+ protected:
+  // The first slot that evaluates has a record under it.
+  static std::string a_stage_less_in(unsigned stage) {
+    Area bench(with_table(GetParam()), 5, 3);
+    bench.send_slots(0);
+    bench.drivers_h[0]->send(0, three(Axis::kHorizontal, 0, 0, bench.slots_before(kReach + 2)));
+    // Popped a clock after it was sent.
+    bench.clock.run(bench.slots_before(kLag - 1) + stage + 1);
+    return of_a_stage_less(bench.unit, bench.clock);
+  }
+};
+
+TEST_P(AreaTables, ARootIsNotThereInTheClockOfItsAddress) {
+  EXPECT_THAT(a_stage_less_in(4),
+              ::testing::AllOf(::testing::HasSubstr("sqrt_rom"), ::testing::HasSubstr("is used")));
+}
+TEST_P(AreaTables, AnEntryIsNotThereInTheClockOfItsAddress) {
+  EXPECT_THAT(a_stage_less_in(5),
+              ::testing::AllOf(::testing::HasSubstr("area_rom"), ::testing::HasSubstr("is used")));
+}
+INSTANTIATE_TEST_SUITE_P(Each, AreaTables,
+                         ::testing::Values(AreaSource::kTableFull, AreaSource::kTableMerged,
+                                           AreaSource::kTableMinimal));
 
 TEST(AreaUnitMemory, HasNoColumnBeyondTheLongestRow) {
   Area bench(small(), 5, 3);

@@ -105,6 +105,67 @@ TEST(BlenderBlock, BlendsInLinearLight) {
   EXPECT_EQ(bench.sink.beats()[1].pixel[0][0], 1);
 }
 
+// The axis of the largest share; squares of the shares over their sum.
+TEST(BlenderBlock, TheStrongestShareChoosesAndSquaresMix) {
+  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  p.linear_light = false;
+  p.blend = spec::morphological::BlendRule::kStrongest;
+  Blending bench(p);
+  struct Row {
+    Shares s;
+    bool horizontal;
+    int first, second;
+  };
+  const std::vector<Row> rows = {
+      {{0, 0, 0, 0, 9, 9, 9, 9}, false, 0, 0},
+      {{64, 32, 63, 63, 1, 1, 99, 99}, false, 43, 11},  // the longer line does not count
+      {{64, 32, 64, 64, 1, 1, 99, 99}, false, 43, 11},  // a tie
+      {{64, 32, 0, 65, 9, 9, 1, 1}, true, 0, 65},
+      {{60, 60, 61, 0, 9, 9, 1, 1}, true, 61, 0},  // the larger sum does not count
+      {{255, 255, 0, 0, 1, 1, 1, 1}, false, 128, 128},
+      {{1, 255, 0, 0, 1, 1, 1, 1}, false, 0, 254},
+      {{128, 128, 0, 0, 1, 1, 1, 1}, false, 64, 64}};
+  for (const Row& row : rows) bench.send(row.s, 100, 0, 200, 50, 255);
+  bench.clock.run(40);
+  ASSERT_EQ(bench.sink.beats().size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const spec::morphological::BlendTap& tap = bench.sink.beats()[i].tap[0];
+    EXPECT_EQ(tap.horizontal, rows[i].horizontal) << i;
+    EXPECT_EQ(tap.first, rows[i].first) << i;
+    EXPECT_EQ(tap.second, rows[i].second) << i;
+    EXPECT_EQ(bench.sink.cycles()[i], i + 7);
+  }
+  EXPECT_EQ(bench.sink.beats()[1].pixel[0][0], 100 + (-43 * 100 + 11 * 100 - 128) / 256);
+  EXPECT_EQ(bench.blender.blended_pixels.value(), rows.size() - 1);
+}
+
+TEST(BlenderBlock, MixesAllPairsOfShares) {
+  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  p.linear_light = false;
+  p.blend = spec::morphological::BlendRule::kStrongest;
+  Blending bench(p);
+  for (std::uint32_t a = 0; a < 256; ++a)
+    for (std::uint32_t b = 0; b < 256; ++b)
+      bench.send({static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b), 0, 0, 1, 1, 0, 0},
+                 100, 100, 100, 100, 100);
+  bench.clock.run(65'600);
+  ASSERT_EQ(bench.sink.beats().size(), 65'536u);
+  for (std::uint32_t a = 0; a < 256; ++a)
+    for (std::uint32_t b = 0; b < 256; ++b) {
+      const spec::morphological::BlendTap& tap = bench.sink.beats()[a * 256 + b].tap[0];
+      const std::uint32_t s = a + b;
+      if (s == 0) continue;
+      // Contract: R(s) = rdiv(65536, s), (w^2 R(s) + 2^15) >> 16.
+      const std::uint64_t r = (131072 + s) / (2 * s);
+      ASSERT_EQ(tap.first, (std::uint64_t{a} * a * r + 32768) >> 16) << a << " " << b;
+      ASSERT_EQ(tap.second, (std::uint64_t{b} * b * r + 32768) >> 16) << a << " " << b;
+      if (b == 0) {
+        ASSERT_EQ(tap.first, a) << "a single share stays";
+      }
+      ASSERT_LE(tap.first + tap.second, 256);
+    }
+}
+
 // ---- what a memory does not do ------------------------------------------------------------------
 
 TEST(BlenderMemory, AWordIsNotThereInTheClockOfItsAddress) {
@@ -114,6 +175,17 @@ TEST(BlenderMemory, AWordIsNotThereInTheClockOfItsAddress) {
   EXPECT_THAT(
       of_a_stage_less(bench.blender, bench.clock),
       ::testing::AllOf(::testing::HasSubstr("linear_rom"), ::testing::HasSubstr("is used")));
+}
+
+TEST(BlenderMemory, AWordOfMixRomIsNotThereInTheClockOfItsAddress) {
+  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  p.linear_light = false;
+  p.blend = spec::morphological::BlendRule::kStrongest;
+  Blending bench(p);
+  bench.send({128, 0, 0, 0, 3, 0, 0, 0}, 0, 255, 0, 0, 0);
+  bench.clock.run(2);  // popped in 1
+  EXPECT_THAT(of_a_stage_less(bench.blender, bench.clock),
+              ::testing::AllOf(::testing::HasSubstr("mix_rom"), ::testing::HasSubstr("is used")));
 }
 
 TEST(BlenderMemory, HasNoCodeForMoreThanWhite) {

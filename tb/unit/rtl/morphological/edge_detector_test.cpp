@@ -79,6 +79,34 @@ TEST(EdgeDetectorBlock, DynamicThresholdIsStrictAndHasAFloor) {
   EXPECT_EQ(left_bits(front.detect(row({0, 1, 0, 2, 0}), with(current))), "00011");
 }
 
+// Each luma rule at equality and a code on either side, left and top: alpha is a half.
+TEST(EdgeDetectorBlock, EachLumaRuleIsStrictAtEquality) {
+  Front front(preset(spec::morphological::Preset::kMlaa));
+  struct Row {
+    std::uint32_t rule;
+    int before, here;
+    bool edge, other_way;
+  };
+  for (const Row& r :
+       {Row{0, 50, 100, false, true}, Row{0, 49, 100, true, true}, Row{0, 51, 100, false, true},
+        Row{0, 150, 100, false, false}, Row{0, 151, 100, true, false},
+        Row{1, 100, 200, false, false}, Row{1, 100, 201, true, true},
+        Row{1, 100, 199, false, false}, Row{2, 100, 150, false, false},
+        Row{2, 100, 151, true, true}, Row{2, 100, 149, false, false}, Row{3, 60, 100, false, false},
+        Row{3, 60, 101, true, true}, Row{3, 60, 99, false, false}, Row{3, 61, 101, false, false},
+        Row{3, 59, 99, true, true}}) {
+    const std::map<std::uint32_t, std::uint32_t> writes = {
+        {reg::kRules, 1u << 2 | (r.rule & 1) << 3 | r.rule >> 1 << 17},
+        {reg::kAlpha, 32768},
+        {reg::kFloor, 1}};
+    const std::string edge = r.edge ? "01" : "00", other = r.other_way ? "01" : "00";
+    const Frame pair = row({r.before, r.here}), back = row({r.here, r.before});
+    EXPECT_EQ(left_bits(front.detect(pair, writes)), edge) << r.rule << " " << r.before;
+    EXPECT_EQ(top_bits(front.detect(transposed(pair), writes)), edge) << r.rule << " " << r.before;
+    EXPECT_EQ(left_bits(front.detect(back, writes)), other) << r.rule << " " << r.before;
+  }
+}
+
 TEST(EdgeDetectorBlock, DepthAndPredicatedSources) {
   Parameters p = preset(spec::morphological::Preset::kMlaa);
   p.edge_source = spec::morphological::EdgeSource::kDepth;
@@ -116,6 +144,13 @@ TEST(EdgeDetectorBlock, LocalContrastIsStrictTwiceTheStep) {
     EXPECT_EQ(left_bits(front.detect(row({0, 170, 255}), writes)), "010");
     EXPECT_EQ(top_bits(front.detect(transposed(row({0, 85, 255})), writes)), "001");
   }
+  // `smaa` keeps what is exactly half: 85 and 170.
+  const std::map<std::uint32_t, std::uint32_t> smaa = {{reg::kRules, 3u << 4}};
+  EXPECT_EQ(left_bits(front.detect(row({0, 85, 255}), smaa)), "011");
+  EXPECT_EQ(left_bits(front.detect(row({0, 84, 255}), smaa)), "001");
+  EXPECT_EQ(left_bits(front.detect(row({0, 170, 255}), smaa)), "011");
+  EXPECT_EQ(left_bits(front.detect(row({0, 171, 255}), smaa)), "010");
+  EXPECT_EQ(top_bits(front.detect(transposed(row({0, 170, 255})), smaa)), "011");
   // A strong step across, on one side only: the paper drops the bit of the pixel that sees it, the
   // symmetric form keeps it, since the other pixel of the pair sees none.
   const Frame corner = draw(

@@ -323,24 +323,46 @@ TEST_P(BadParameters, AreNamed) {
 }
 INSTANTIATE_TEST_SUITE_P(
     Bad, BadParameters,
-    ::testing::Values(
-        BadParameter{"window_rows", [](auto& p) { p.window_rows = 67; }},
-        BadParameter{"window_rows", [](auto& p) { p.window_rows = 8; }},
-        BadParameter{"steps need window_rows of at least 20", [](auto& p) { p.window_rows = 18; }},
-        BadParameter{"reach_columns", [](auto& p) { p.reach_columns = 3; }},
-        BadParameter{"predicated",
-                     [](auto& p) {
-                       p.edge_source = spec::morphological::EdgeSource::kPredicated;
-                       p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
-                     }},
-        BadParameter{"table_full is not built",
-                     [](auto& p) { p.area = spec::morphological::AreaSource::kTableFull; }},
-        BadParameter{"diagonals: not built", [](auto& p) { p.diagonals = true; }},
-        BadParameter{"round_corners: not built", [](auto& p) { p.round_corners = true; }},
-        BadParameter{"threshold", [](auto& p) { p.threshold = 0; }},
-        BadParameter{"no more than two of 24 quotient bits",
-                     [](auto& p) { p.divider_latency = 13; }},
-        BadParameter{"line_pixels", [](auto& p) { p.line_pixels = 8193; }}));
+    ::testing::Values(BadParameter{"window_rows", [](auto& p) { p.window_rows = 67; }},
+                      BadParameter{"window_rows", [](auto& p) { p.window_rows = 8; }},
+                      BadParameter{"steps need window_rows of at least 20",
+                                   [](auto& p) { p.window_rows = 18; }},
+                      BadParameter{"reach_columns", [](auto& p) { p.reach_columns = 3; }},
+                      BadParameter{"predicated",
+                                   [](auto& p) {
+                                     p.edge_source = spec::morphological::EdgeSource::kPredicated;
+                                     p.threshold_mode =
+                                         spec::morphological::ThresholdMode::kDynamic;
+                                   }},
+                      BadParameter{"diagonal_steps: 10 steps need window_rows of at least 22",
+                                   [](auto& p) {
+                                     p.window_rows = 20;
+                                     p.diagonals = true;
+                                     p.diagonal_steps = 10;
+                                   }},
+                      BadParameter{"threshold", [](auto& p) { p.threshold = 0; }},
+                      BadParameter{"edges.threshold", [](auto& p) { p.threshold = 65536; }},
+                      BadParameter{"edges.alpha", [](auto& p) { p.alpha = -1; }},
+                      BadParameter{"edges.alpha", [](auto& p) { p.alpha = 65536; }},
+                      BadParameter{"edges.floor", [](auto& p) { p.floor = 0; }},
+                      BadParameter{"edges.floor", [](auto& p) { p.floor = 65536; }},
+                      BadParameter{"search_steps", [](auto& p) { p.search_steps = 0; }},
+                      BadParameter{"1..112", [](auto& p) { p.search_steps = 113; }},
+                      BadParameter{"diagonal_steps", [](auto& p) { p.diagonal_steps = 0; }},
+                      BadParameter{"1..16", [](auto& p) { p.diagonal_steps = 17; }},
+                      BadParameter{"corner_rounding", [](auto& p) { p.corner_rounding = -1; }},
+                      BadParameter{"0..256", [](auto& p) { p.corner_rounding = 257; }},
+                      BadParameter{"no more than two of 24 quotient bits",
+                                   [](auto& p) { p.divider_latency = 13; }},
+                      BadParameter{"line_pixels", [](auto& p) { p.line_pixels = 8193; }}));
+
+// One row less would not do.
+TEST(GoodParameters, OfDiagonalsAsFarAsTheWindowReaches) {
+  Parameters p = smaa();
+  p.diagonal_steps = spec::morphological::kMaxDiagonalSteps;
+  p.window_rows = 2 * p.diagonal_steps + 2;
+  EXPECT_NO_THROW(EngineBench bench(p));
+}
 
 TEST(BadFrames, AreNamed) {
   EngineBench bench(deburr());

@@ -36,7 +36,7 @@ TEST(ParameterStoreBlock, TrimIsABitOfRulesLatchedWithTheFrame) {
   EXPECT_TRUE(on.store.rules().safe);
   on.store.leave();
   on.bus.write(reg::kRules, ~0u);
-  EXPECT_EQ(on.bus.read(reg::kRules), 0x1FFFFu) << "no bits beyond";
+  EXPECT_EQ(on.bus.read(reg::kRules), 0x7FFFFFu) << "no bits beyond";
   on.reset();
   EXPECT_EQ(on.bus.read(reg::kRules), reset_value);
 }
@@ -48,13 +48,64 @@ TEST(ParameterStoreBlock, ResetValueOfTrimIsTheParameter) {
   EXPECT_FALSE(off.store.rules().trim);
 }
 
+// The register SMAA: its reset value, and values that no range has.
+TEST(ParameterStoreBlock, SmaaIsLimitedToItsRangesAndToWhatIsBuilt) {
+  Parameters p = smaa();
+  p.diagonal_steps = 6;
+  p.search_steps = 17;
+  p.corner_rounding = 200;
+  Registers store(p);
+  EXPECT_EQ(store.bus.read(reg::kSmaa), 17u | 6u << 8 | 200u << 16);
+  struct Row {
+    std::uint32_t value;
+    std::int32_t search, diagonal, loss;
+  };
+  for (const Row& row :
+       {Row{17u | 6u << 8 | 200u << 16, 17, 6, 56}, Row{0, 1, 0, 256},
+        Row{1u | 1u << 8 | 1u << 16, 1, 1, 255}, Row{112u | 7u << 8 | 256u << 16, 112, 6, 0},
+        Row{127u | 31u << 8 | 511u << 16, 112, 6, 0}}) {
+    store.bus.write(reg::kSmaa, row.value);
+    store.frame(8, 8);
+    const rtl::morphological::FrameRules& rules = store.store.rules();
+    EXPECT_TRUE(rules.table && rules.crossings && rules.strongest);
+    EXPECT_EQ(rules.search_steps, row.search) << row.value;
+    EXPECT_EQ(rules.diagonal_steps, row.diagonal) << row.value;
+    EXPECT_EQ(rules.corner_loss, row.loss) << row.value;
+    store.store.leave();
+  }
+  // Each block is switched by its own bit.
+  const std::uint32_t rules = store.bus.read(reg::kRules);
+  for (int bit = 18; bit <= 22; ++bit) {
+    store.bus.write(reg::kRules, rules & ~(1u << bit));
+    store.bus.write(reg::kSmaa, 4u | 6u << 8);
+    store.frame(8, 8);
+    EXPECT_EQ(store.store.rules().crossings, bit != 18);
+    EXPECT_EQ(store.store.rules().table, bit != 19);
+    EXPECT_EQ(store.store.rules().diagonal_steps, bit != 20 ? 6 : 0);
+    EXPECT_EQ(store.store.rules().corners, bit != 21);
+    EXPECT_EQ(store.store.rules().corner_loss, 256);
+    EXPECT_EQ(store.store.rules().strongest, bit != 22);
+    store.store.leave();
+  }
+}
+
+TEST(ParameterStoreBlock, DiagonalStepsAreAtMostTheReach) {
+  Parameters p = smaa();
+  p.window_rows = 10;
+  p.diagonal_steps = 4;
+  Registers store(p);
+  store.bus.write(reg::kSmaa, 4u | 31u << 8);
+  store.frame(8, 8);
+  EXPECT_EQ(store.store.rules().diagonal_steps, 4);
+}
+
 // Bits that a register does not have stay 0 on this way as well.
 TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
   EngineBench bench(in_memory());
   ASSERT_TRUE(bench.bus.debug_write(reg::kPixelBase, 0x12345));
   ASSERT_TRUE(bench.bus.debug_write(reg::kSize, 97u | 61u << 16 | 0xC000C000u));
   ASSERT_TRUE(bench.bus.debug_write(reg::kThreshold, 0xABCD0000u | 6554u));
-  ASSERT_TRUE(bench.bus.debug_write(reg::kRules, 0xFFFE0000u | 1u << 15));
+  ASSERT_TRUE(bench.bus.debug_write(reg::kRules, 0xFF800000u | 1u << 15));
   const Frame in = noise();
   bench.driver.send(beats_of(in, 1));
   bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },
@@ -106,6 +157,83 @@ TEST(Registers, ResetValuesAreTheParameters) {
   EXPECT_EQ(bench.bus.try_write(reg::kPixels, 1), tlm::TLM_COMMAND_ERROR_RESPONSE);
 }
 
+// Bit by bit from the contract's table.
+TEST(Registers, ResetValuesOfSmaaAreThePresets) {
+  constexpr std::uint32_t kLinear = 1u << 15, kCrossings = 1u << 18, kTable = 1u << 19,
+                          kDiagonals = 1u << 20, kCorners = 1u << 21, kStrongest = 1u << 22;
+  using spec::morphological::Quality;
+  struct Row {
+    Preset preset;
+    Quality quality;
+    std::uint32_t rules, threshold, smaa;
+  };
+  constexpr std::uint32_t kFixed = 1u << 3 | 3u << 4 | kLinear | kCrossings | kTable | kStrongest,
+                          kDynamic = 1u << 2 | 1u << 4 | kLinear | kCrossings | kTable | kStrongest;
+  struct Owner : sc_core::sc_module {
+    Owner(const sc_core::sc_module_name& name, const Parameters& p) : sc_module(name), store(p) {}
+    Registers store;
+  };
+  for (const Row& row :
+       {Row{Preset::kSmaa, Quality::kLow, kFixed, 9830, 4u | 8u << 8 | 64u << 16},
+        Row{Preset::kSmaa, Quality::kMedium, kFixed, 6554, 8u | 8u << 8 | 64u << 16},
+        Row{Preset::kSmaa, Quality::kHigh, kFixed | kDiagonals | kCorners, 6554,
+            16u | 8u << 8 | 64u << 16},
+        Row{Preset::kSmaa, Quality::kUltra, kFixed | kDiagonals | kCorners, 3277,
+            32u | 16u << 8 | 64u << 16},
+        Row{Preset::kSmaaDynamic, Quality::kHigh, kDynamic | kDiagonals | kCorners, 1966,
+            16u | 8u << 8 | 64u << 16}}) {
+    Owner owner("owner", smaa(row.quality, row.preset));
+    EXPECT_EQ(owner.store.bus.read(reg::kRules), row.rules);
+    EXPECT_EQ(owner.store.bus.read(reg::kThreshold), row.threshold);
+    EXPECT_EQ(owner.store.bus.read(reg::kSmaa), row.smaa);
+    owner.store.bus.write(reg::kSmaa, 0);
+    owner.store.bus.write(reg::kRules, 0);
+    owner.store.reset();
+    EXPECT_EQ(owner.store.bus.read(reg::kRules), row.rules);
+    EXPECT_EQ(owner.store.bus.read(reg::kSmaa), row.smaa);
+  }
+}
+
+TEST(Registers, DiagonalsAreCountedShownAndCleared) {
+  EngineBench bench(smaa());
+  bench.run(noise());
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 233u);  // of the contract's vector
+  bench.run(noise());
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 233u);
+  EXPECT_EQ(bench.bus.try_write(reg::kDiagonals, 1), tlm::TLM_COMMAND_ERROR_RESPONSE);
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 233u);
+  // Switched off they are not looked for.
+  bench.bus.write(reg::kRules, bench.bus.read(reg::kRules) & ~(1u << 20));
+  bench.run(noise());
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 233u);
+  bench.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 0u);
+}
+
+TEST(Registers, DiagonalsReadZeroWhereNotBuilt) {
+  EngineBench bench(deburr());
+  bench.run(noise());
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 0u);
+}
+
+// The rules of a frame inside stand still.
+TEST(Registers, SmaaCountsFromTheNextFrame) {
+  EngineBench bench(smaa());
+  bench.engine.set_frame_size(97, 61);
+  bench.driver.send(beats_of(noise(), 1));
+  bench.clock.run(500);
+  const std::uint32_t before = bench.bus.read(reg::kSmaa);
+  bench.bus.write(reg::kSmaa, 1);
+  EXPECT_EQ(bench.bus.read(reg::kSmaa), before);
+  EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusWrittenWhileBusy);
+  bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },
+                   100'000);
+  EXPECT_EQ(hash(bench.last(97, 61)), 0x3d8c8d3867fd2bccu);
+  bench.wanted = bench.sink.received();
+  bench.bus.write(reg::kSmaa, 1);
+  EXPECT_NE(hash(bench.run(noise())), 0x3d8c8d3867fd2bccu);
+}
+
 TEST(Registers, RulesCountFromTheNextFrame) {
   EngineBench bench(deburr());
   EXPECT_EQ(hash(bench.run(blocks())), 0xe86c7f9318eacf5eu);
@@ -122,8 +250,8 @@ TEST(Registers, RulesCountFromTheNextFrame) {
   // mlaa-slope.
   bench.bus.write(reg::kRules, 1u << 15 | 1u << 6 | 4u << 8);
   EXPECT_EQ(hash(bench.run(noise())), 0x6c40266cf03f3513u);
-  // Codes that no choice has: luma, off, none.
-  bench.bus.write(reg::kRules, 1u << 15 | 3u | 3u << 4 | 3u << 6 | 31u << 8);
+  // Codes that no choice has: luma, none.
+  bench.bus.write(reg::kRules, 1u << 15 | 3u | 3u << 6 | 31u << 8);
   EXPECT_EQ(hash(bench.run(line())), 0x5d62265609239471u);
 }
 
@@ -335,14 +463,29 @@ INSTANTIATE_TEST_SUITE_P(
         Field{"dynamic_does_not_go_with_depth", depth, reg::kRules, 2, 2, 1, as_it_is, false},
         Field{"dynamic_luma_max", dynamic, reg::kRules, 3, 3, 1,
               [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kMax; }},
+        Field{"dynamic_luma_min", dynamic, reg::kRules, 17, 17, 1,
+              [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kMin; }},
+        Field{"dynamic_luma_mean",
+              [](P& p) {
+                dynamic(p);
+                p.dynamic_luma = spec::morphological::DynamicLuma::kMax;
+              },
+              reg::kRules, 17, 17, 1,
+              [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kMean; }},
+        Field{"blend_strongest", as_it_is, reg::kRules, 22, 22, 1,
+              [](P& p) { p.blend = spec::morphological::BlendRule::kStrongest; }},
+        Field{"crossings_are_off_where_not_built", as_it_is, reg::kRules, 18, 18, 1, as_it_is,
+              false},
+        Field{"tables_are_off_where_not_built", as_it_is, reg::kRules, 19, 19, 1, as_it_is, false},
+        Field{"diagonals_are_off_where_not_built", as_it_is, reg::kRules, 20, 20, 1, as_it_is,
+              false},
+        Field{"corners_are_off_where_not_built", as_it_is, reg::kRules, 21, 21, 1, as_it_is, false},
         Field{"local_contrast_paper", as_it_is, reg::kRules, 4, 5, 1,
               [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kPaper; }},
         Field{"local_contrast_symmetric", as_it_is, reg::kRules, 4, 5, 2,
               [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kSymmetric; }},
-        Field{"local_contrast_3_is_off",
-              [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kSymmetric; },
-              reg::kRules, 4, 5, 3,
-              [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kOff; }},
+        Field{"local_contrast_smaa", as_it_is, reg::kRules, 4, 5, 3,
+              [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kSmaa; }},
         Field{"local_contrast_does_not_go_with_depth", depth, reg::kRules, 4, 5, 2, as_it_is,
               false},
         Field{"predictor_none", as_it_is, reg::kRules, 6, 7, 0,
@@ -366,6 +509,77 @@ INSTANTIATE_TEST_SUITE_P(
         Field{"linear_light", as_it_is, reg::kRules, 15, 15, 0,
               [](P& p) { p.linear_light = false; }},
         Field{"trim", fit, reg::kRules, 16, 16, 1, [](P& p) { p.trim = true; }}),
+    [](const auto& field) { return field.param.name; });
+
+// All of SMAA's blocks, each of which a bit of RULES switches off and a field of SMAA moves.
+void with_smaa(P& p) {
+  p.ends = spec::morphological::Ends::kCrossings;
+  p.area = spec::morphological::AreaSource::kTableMerged;
+  p.search_steps = 4;
+  p.diagonals = true;
+  p.diagonal_steps = 8;
+  p.round_corners = true;
+  p.corner_rounding = 64;
+  p.blend = spec::morphological::BlendRule::kStrongest;
+  p.predictor = spec::morphological::Predictor::kNone;
+  p.steps = 0;
+}
+template <int kSteps>
+void search_steps(P& p) {
+  p.search_steps = kSteps;
+}
+template <int kSteps>
+void diagonal_steps(P& p) {
+  p.diagonal_steps = kSteps;
+}
+template <int kShare>
+void corner_rounding(P& p) {
+  p.corner_rounding = kShare;
+}
+void no_diagonals(P& p) { p.diagonals = false; }
+void no_corners(P& p) { p.round_corners = false; }
+
+INSTANTIATE_TEST_SUITE_P(
+    Smaa, RegisterField,
+    ::testing::Values(
+        Field{"ends_gaps", with_smaa, reg::kRules, 18, 18, 0,
+              [](P& p) { p.ends = spec::morphological::Ends::kGaps; }},
+        Field{"area_analytic", with_smaa, reg::kRules, 19, 19, 0,
+              [](P& p) { p.area = spec::morphological::AreaSource::kAnalytic; }},
+        Field{"diagonals_off", with_smaa, reg::kRules, 20, 20, 0, no_diagonals},
+        Field{"corners_off", with_smaa, reg::kRules, 21, 21, 0, no_corners},
+        Field{"blend_longest", with_smaa, reg::kRules, 22, 22, 0,
+              [](P& p) { p.blend = spec::morphological::BlendRule::kLongest; }},
+        Field{"dynamic_luma_current",
+              [](P& p) {
+                dynamic(p);
+                p.dynamic_luma = spec::morphological::DynamicLuma::kMin;
+              },
+              reg::kRules, 17, 17, 0,
+              [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kCurrent; }},
+        Field{"search_steps_1", with_smaa, reg::kSmaa, 0, 6, 1, search_steps<1>},
+        Field{"search_steps_5", with_smaa, reg::kSmaa, 0, 6, 5, search_steps<5>},
+        Field{"search_steps_112", with_smaa, reg::kSmaa, 0, 6, 112, search_steps<112>},
+        Field{"search_steps_0_is_1", with_smaa, reg::kSmaa, 0, 6, 0, search_steps<1>},
+        Field{"search_steps_113_is_112", with_smaa, reg::kSmaa, 0, 6, 113, search_steps<112>},
+        Field{"search_steps_127_is_112", with_smaa, reg::kSmaa, 0, 6, 127, search_steps<112>},
+        Field{"search_steps_count_for_tables_alone", as_it_is, reg::kSmaa, 0, 6, 1, as_it_is,
+              false},
+        Field{"diagonal_steps_2", with_smaa, reg::kSmaa, 8, 12, 2, diagonal_steps<2>},
+        Field{"diagonal_steps_1", with_smaa, reg::kSmaa, 8, 12, 1, diagonal_steps<1>},
+        Field{"diagonal_steps_0_are_none", with_smaa, reg::kSmaa, 8, 12, 0, no_diagonals},
+        Field{"diagonal_steps_9_are_as_many_as_built", with_smaa, reg::kSmaa, 8, 12, 9, as_it_is,
+              false},
+        Field{"diagonal_steps_31_are_as_many_as_built", with_smaa, reg::kSmaa, 8, 12, 31, as_it_is,
+              false},
+        Field{"corner_rounding_0", with_smaa, reg::kSmaa, 16, 24, 0, corner_rounding<0>},
+        Field{"corner_rounding_1", with_smaa, reg::kSmaa, 16, 24, 1, corner_rounding<1>},
+        Field{"corner_rounding_255", with_smaa, reg::kSmaa, 16, 24, 255, corner_rounding<255>},
+        Field{"corner_rounding_256_is_none", with_smaa, reg::kSmaa, 16, 24, 256, no_corners},
+        Field{"corner_rounding_257_is_256", with_smaa, reg::kSmaa, 16, 24, 257,
+              corner_rounding<256>},
+        Field{"corner_rounding_511_is_256", with_smaa, reg::kSmaa, 16, 24, 511,
+              corner_rounding<256>}),
     [](const auto& field) { return field.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -392,9 +606,10 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(RegisterBits, ThatDoNotExistReadAsZero) {
   EngineBench bench(plain());
   const std::map<std::uint32_t, std::uint32_t> bits = {
-      {reg::kSize, 0x3FFF3FFF},    {reg::kRules, 0x1FFFF},         {reg::kThreshold, 0xFFFF},
+      {reg::kSize, 0x3FFF3FFF},    {reg::kRules, 0x7FFFFF},        {reg::kThreshold, 0xFFFF},
       {reg::kThresholdOn, 0xFFFF}, {reg::kThresholdOff, 0xFFFF},   {reg::kAlpha, 0xFFFF},
-      {reg::kFloor, 0xFFFF},       {reg::kDepthThreshold, 0xFFFF}, {reg::kPixelBase, 0xFFFFFFC0}};
+      {reg::kFloor, 0xFFFF},       {reg::kDepthThreshold, 0xFFFF}, {reg::kPixelBase, 0xFFFFFFC0},
+      {reg::kSmaa, 0x01FF1F7F}};
   for (const auto& [offset, mask] : bits) {
     bench.bus.write(offset, 0xFFFFFFFF);
     EXPECT_EQ(bench.bus.read(offset), mask) << offset;

@@ -75,7 +75,10 @@ struct Planes {
 };
 
 // Word for word from the contract, on whole planes.
-std::vector<RunRecord> runs_by_definition(const Planes& planes, int reach_rows, int reach_columns) {
+std::vector<RunRecord> runs_by_definition(const Planes& planes, const Parameters& rules) {
+  const bool crossings = rules.ends == spec::morphological::Ends::kCrossings;
+  const int reach_rows = reach_of(rules), reach_columns = rules.reach_columns;
+  const bool corners = rules.round_corners;
   std::vector<RunRecord> found;
   for (const bool vertical : {false, true}) {
     const int lines = vertical ? planes.width : planes.height;
@@ -89,21 +92,30 @@ std::vector<RunRecord> runs_by_definition(const Planes& planes, int reach_rows, 
       const bool second = vertical ? planes.top_at(q, p) : planes.left_at(p, q);
       return (first ? 1 : 0) + (second ? 2 : 0);
     };
+    const auto far = [&](int at, int q) {
+      if (!corners) return 0;
+      const bool first = vertical ? planes.top_at(q - 2, at) : planes.left_at(at, q - 2);
+      const bool second = vertical ? planes.top_at(q + 1, at) : planes.left_at(at, q + 1);
+      return (first ? 1 : 0) + (second ? 2 : 0);
+    };
     for (int q = 0; q < lines; ++q)
       for (int p = 0; p < length; ++p) {
-        if (!along(p, q) || along(p - 1, q)) continue;
-        int end = p;
-        while (along(end, q)) ++end;
-        const auto add = [&](RunPart part, int start, int size, int shape) {
+        const auto crossed = [&](int at) { return crossings && code(at, q) != 0; };
+        if (!along(p, q) || (along(p - 1, q) && !crossed(p))) continue;
+        int end = p + 1;
+        while (along(end, q) && !crossed(end)) ++end;
+        const auto add = [&](RunPart part, int start, int size, int shape, int sharp) {
           found.push_back({vertical ? Axis::kVertical : Axis::kHorizontal, part,
                            static_cast<std::uint16_t>(q), static_cast<std::uint16_t>(start),
-                           static_cast<std::uint16_t>(size), static_cast<std::uint8_t>(shape)});
+                           static_cast<std::uint16_t>(size), static_cast<std::uint8_t>(shape),
+                           static_cast<std::uint8_t>(sharp)});
         };
         if (end - p > reach) {
-          add(RunPart::kHead, p, reach / 2, code(p, q));
-          add(RunPart::kTail, end - reach / 2, reach / 2, 4 * code(end, q));
+          add(RunPart::kHead, p, reach / 2, code(p, q), far(p, q));
+          add(RunPart::kTail, end - reach / 2, reach / 2, 4 * code(end, q), 4 * far(end, q));
         } else {
-          add(RunPart::kWhole, p, end - p, code(p, q) + 4 * code(end, q));
+          add(RunPart::kWhole, p, end - p, code(p, q) + 4 * code(end, q),
+              far(p, q) + 4 * far(end, q));
         }
       }
   }
@@ -181,12 +193,28 @@ void PrintTo(const Extract& e, std::ostream* out) {
 }
 class RunExtraction : public ::testing::TestWithParam<Extract> {};
 
+void extract(const Extract& e, spec::morphological::Ends ends, bool corners);
+
 // Planes that no image gives: every code at both ends, runs of all lengths, long runs.
 TEST_P(RunExtraction, FindsEveryRunOnce) {
-  const Extract e = GetParam();
+  extract(GetParam(), spec::morphological::Ends::kGaps, false);
+}
+TEST_P(RunExtraction, EndsRunsAtCrossings) {
+  extract(GetParam(), spec::morphological::Ends::kCrossings, false);
+}
+TEST_P(RunExtraction, SeesSharpCorners) {
+  extract(GetParam(), spec::morphological::Ends::kGaps, true);
+}
+TEST_P(RunExtraction, SeesSharpCornersAtCrossings) {
+  extract(GetParam(), spec::morphological::Ends::kCrossings, true);
+}
+
+void extract(const Extract& e, spec::morphological::Ends ends, bool corners) {
   Parameters p = preset(spec::morphological::Preset::kMlaa, e.reach_rows, e.reach_columns);
   p.lanes = static_cast<spec::morphological::Lanes>(e.lanes_code);
   p.record_fifo = 3;
+  p.ends = ends;
+  p.round_corners = corners;
   Extraction bench(p);
   bench.finisher.wait_permille = e.wait_permille;
   Random random(e.permille * 7u + static_cast<std::uint32_t>(e.width));
@@ -194,11 +222,13 @@ TEST_P(RunExtraction, FindsEveryRunOnce) {
   for (int y = 0; y < e.height; ++y)
     for (int x = 0; x < e.width; ++x) {
       const auto at = static_cast<std::size_t>(y * e.width + x);
-      planes.left[at] = x > 0 && random.chance(e.permille);
-      planes.top[at] = y > 0 && random.chance(e.permille);
+      // With crossings a band of each axis has few of the other one, else no run would be long.
+      const bool thin = ends == spec::morphological::Ends::kCrossings;
+      planes.left[at] = x > 0 && random.chance(thin && y % 16 < 6 ? 30 : e.permille);
+      planes.top[at] = y > 0 && random.chance(thin && x % 16 < 4 ? 30 : e.permille);
     }
   bench.run(planes);
-  std::vector<RunRecord> expected = runs_by_definition(planes, e.reach_rows, e.reach_columns);
+  std::vector<RunRecord> expected = runs_by_definition(planes, p);
   const auto order = [](const RunRecord& a, const RunRecord& b) { return key(a) < key(b); };
   std::sort(expected.begin(), expected.end(), order);
   std::sort(bench.runs.begin(), bench.runs.end(), order);
@@ -215,6 +245,20 @@ TEST_P(RunExtraction, FindsEveryRunOnce) {
   EXPECT_EQ(bench.extractor.horizontal_runs.value(), horizontal);
   EXPECT_EQ(bench.extractor.long_runs.value(), heads);
   EXPECT_EQ(bench.finisher.tokens.size(), records);  // those with a side, each once
+  // Runs of a column take its two entries in turn, those without a side as well.
+  std::map<std::pair<int, int>, std::uint8_t> entry;
+  std::uint8_t turn = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const RunRecord& run = expected[i];
+    if (run.axis != Axis::kVertical) continue;
+    if (i == 0 || expected[i - 1].axis != run.axis || expected[i - 1].line != run.line) turn = 0;
+    if (run.part != RunPart::kTail) turn ^= 1;
+    entry[{run.line, run.start}] = ends == spec::morphological::Ends::kCrossings ? turn : 0;
+  }
+  for (const auto& [cycle, token] : bench.finisher.tokens) {
+    const bool vertical = token.run.axis == Axis::kVertical;
+    ASSERT_EQ(token.entry, vertical ? entry.at({token.run.line, token.run.start}) : 0);
+  }
   // The row being blended comes out with its edges.
   for (const AreaSlotToken& token : bench.area_sink.beats()) {
     const int y = token.slot.row - e.reach_rows - spec::morphological::kRowLag;
@@ -264,6 +308,23 @@ TEST(RunExtractorBlock, AHorizontalRunOfOneMoreThanTheReachGivesHeadAndTailWitho
   EXPECT_THAT(bench.runs,
               ::testing::IsSupersetOf({RunRecord{Axis::kHorizontal, RunPart::kHead, 3, 11, 4, 1},
                                        RunRecord{Axis::kHorizontal, RunPart::kTail, 3, 16, 4, 0}}));
+  EXPECT_EQ(bench.extractor.record_stalls.value(), 0u);
+}
+
+// A record a column, axis and clock, and one more where a row ends: nobody waits.
+TEST(RunExtractorBlock, ARecordInEveryColumnDoesNotStall) {
+  Parameters p = preset(spec::morphological::Preset::kMlaa, 4, 8);
+  p.ends = spec::morphological::Ends::kCrossings;
+  p.round_corners = true;
+  Extraction bench(p);
+  Planes planes(40, 12);
+  for (int y = 0; y < 12; ++y)
+    for (int x = 0; x < 40; ++x) {
+      planes.left[static_cast<std::size_t>(y * 40 + x)] = x > 0;
+      planes.top[static_cast<std::size_t>(y * 40 + x)] = y > 0 && (x + y) % 3 != 0;
+    }
+  bench.run(planes);
+  EXPECT_EQ(bench.runs.size(), runs_by_definition(planes, p).size());
   EXPECT_EQ(bench.extractor.record_stalls.value(), 0u);
 }
 

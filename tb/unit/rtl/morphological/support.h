@@ -86,6 +86,9 @@ inline Parameters preset(spec::morphological::Preset which, int reach_rows = 32,
   p.dynamic_luma = row.dynamic_luma;
   p.threshold = row.threshold;
   p.local_contrast = row.local_contrast;
+  p.ends = row.ends;
+  p.area = row.area;
+  p.blend = row.blend;
   p.predictor = row.predictor;
   p.steps = row.steps;
   p.contiguous = row.contiguous;
@@ -94,6 +97,22 @@ inline Parameters preset(spec::morphological::Preset which, int reach_rows = 32,
   p.window_rows = 2 * reach_rows + 2;
   p.reach_columns = reach_columns;
   p.line_pixels = 256;
+  return p;
+}
+
+// The SMAA presets: rules and window of the quality, then those of the preset's own row.
+inline Parameters smaa(spec::morphological::Quality quality = spec::morphological::Quality::kHigh,
+                       spec::morphological::Preset which = spec::morphological::Preset::kSmaa) {
+  const spec::morphological::QualityRow& row =
+      spec::morphological::kQualities[static_cast<std::size_t>(quality)];
+  Parameters p = preset(which, row.window_rows / 2 - 1);
+  p.quality = quality;
+  if (p.threshold == 0) p.threshold = row.threshold;
+  p.search_steps = row.search_steps;
+  p.diagonals = row.diagonals;
+  p.diagonal_steps = row.diagonal_steps;
+  p.round_corners = row.round_corners;
+  p.corner_rounding = row.corner_rounding;
   return p;
 }
 

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: MIT
+#include "golden/ideal/smaa.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace deburr::golden::ideal {
+namespace {
+
+// ---- edges --------------------------------------------------------------------------------------
+
+// Step of luma between two pixels; nothing is seen of what lies outside.
+double step(const SmaaLuma& luma, int x, int y, int to_x, int to_y) {
+  const auto outside = [&](int px, int py) {
+    return px < 0 || py < 0 || px >= luma.width || py >= luma.height;
+  };
+  if (outside(x, y) || outside(to_x, to_y)) return 0;
+  return std::abs(luma.at(x, y) - luma.at(to_x, to_y));
+}
+
+SmaaMargins margins(const SmaaLuma& luma, double threshold, int x, int y, double own) {
+  const double largest = std::max({step(luma, x, y, x - 1, y), step(luma, x, y, x + 1, y),
+                                   step(luma, x, y, x, y - 1), step(luma, x, y, x, y + 1),
+                                   step(luma, x - 1, y, x - 2, y), step(luma, x, y - 1, x, y - 2)});
+  return {own - threshold, 2 * own - largest};
+}
+
+// ---- orthogonal areas ---------------------------------------------------------------------------
+
+// What crosses an end: the first side lies above the axis, the second below.
+struct Crossing {
+  bool first = false, second = false;
+};
+
+int pattern_of(Crossing start, Crossing end) {
+  return (start.second ? 1 : 0) + (end.second ? 2 : 0) + (start.first ? 4 : 0) +
+         (end.first ? 8 : 0);
+}
+
+// The texture is indexed by square roots of the distances and filtered between its texels.
+SmaaWeights fetched_area(Crossing start, Crossing end, int l, int r) {
+  const double u = std::sqrt(l), v = std::sqrt(r);
+  const int i = static_cast<int>(u), j = static_cast<int>(v);
+  const int pattern = pattern_of(start, end);
+  const auto texel = [&](int a, int b) { return smaa_area(pattern, a * a, b * b); };
+  const auto mix = [](SmaaWeights a, SmaaWeights b, double t) {
+    return SmaaWeights{std::lerp(a.first, b.first, t), std::lerp(a.second, b.second, t)};
+  };
+  return mix(mix(texel(i, j), texel(i + 1, j), u - i),
+             mix(texel(i, j + 1), texel(i + 1, j + 1), u - i), v - j);
+}
+
+// ---- searches -----------------------------------------------------------------------------------
+
+// An axis as its edges see it: `along` makes lines, `across` crosses them.
+struct AxisView {
+  std::function<bool(int, int)> along, across;
+  bool crossed(int x, int y) const { return across(x, y) || across(x, y - 1); }
+  Crossing crossing(int x, int y) const { return {across(x, y - 1), across(x, y)}; }
+};
+
+// Pixels to the left over which the edge goes on. A fetch sees a pair of pixels, the right one
+// first, with the edges that cross the line at the left of either.
+int search_left(const AxisView& axis, int x, int y, int steps) {
+  int distance = -1;
+  for (int fetch = 0; fetch < steps; ++fetch) {
+    const int right = x - 2 * fetch, left = right - 1;
+    int seen = axis.along(right, y) ? 1 : 0;
+    if (seen == 1 && axis.along(left, y) && !axis.crossed(right, y)) seen = 2;
+    distance += seen;
+    if (seen < 2 || axis.crossed(left, y)) break;
+  }
+  return distance;
+}
+
+// The same to the right, where a crossing comes before its pixel.
+int search_right(const AxisView& axis, int x, int y, int steps) {
+  int distance = 0;
+  for (int fetch = 0; fetch < steps; ++fetch) {
+    const int left = x + 1 + 2 * fetch, right = left + 1;
+    int seen = axis.along(left, y) && !axis.crossed(left, y) ? 1 : 0;
+    if (seen == 1 && axis.along(right, y) && !axis.crossed(right, y)) seen = 2;
+    distance += seen;
+    if (seen < 2) break;
+  }
+  return distance;
+}
+
+SmaaWeights edge_weights(const AxisView& axis, const SmaaSettings& settings, int x, int y) {
+  if (!axis.along(x, y)) return {};
+  const int l = search_left(axis, x, y, settings.search_steps);
+  const int r = search_right(axis, x, y, settings.search_steps);
+  const int start = x - l, end = x + r + 1;
+  SmaaWeights weights = fetched_area(axis.crossing(start, y), axis.crossing(end, y), l, r);
+  if (!settings.corner_keeps) return weights;
+  // The nearer end counts; both share it if neither is.
+  const double near_start = l <= r ? 1 : 0, near_end = r <= l ? 1 : 0;
+  const double loss = (1 - *settings.corner_keeps) / (near_start + near_end);
+  const auto kept = [&](int row) {
+    return std::clamp(
+        1 - loss * near_start * axis.across(start, row) - loss * near_end * axis.across(end, row),
+        0.0, 1.0);
+  };
+  weights.first *= kept(y - 2);
+  weights.second *= kept(y + 1);
+  return weights;
+}
+
+// ---- diagonals ----------------------------------------------------------------------------------
+
+struct Point {
+  double x = 0, y = 0;
+};
+
+constexpr int kSamples = 30;
+
+// Share of the samples of a pixel that lie below a line; all of them if the line is a point.
+double samples_below(Point from, Point to, double px, double py) {
+  int count = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    for (int j = 0; j < kSamples; ++j) {
+      const double x = px + static_cast<double>(i) / (kSamples - 1),
+                   y = py + static_cast<double>(j) / (kSamples - 1);
+      const double side =
+          (to.y - from.y) * (x - (from.x + to.x) / 2) + (from.x - to.x) * (y - (from.y + to.y) / 2);
+      constexpr double kOnTheLine = 1e-9;
+      count += (from.x == to.x && from.y == to.y) || side > kOnTheLine ? 1 : 0;
+    }
+  }
+  return static_cast<double>(count) / (kSamples * kSamples);
+}
+
+// The sixteen patterns in the order of publication: where each lies in the texture, and its lines.
+struct DiagonalPattern {
+  int e1, e2;
+  std::vector<std::pair<Point, Point>> lines;  // the second point moves with the length
+};
+const std::vector<DiagonalPattern>& diagonal_patterns() {
+  constexpr Point k00{0, 0}, k10{1, 0}, k11{1, 1};
+  static const std::vector<DiagonalPattern> patterns = {{0, 0, {{k11, k11}, {k10, k10}}},
+                                                        {1, 0, {{k10, k00}, {k10, k10}}},
+                                                        {0, 2, {{k00, k10}, {k10, k10}}},
+                                                        {1, 2, {{k10, k10}}},
+                                                        {2, 0, {{k11, k00}, {k11, k10}}},
+                                                        {3, 0, {{k11, k00}, {k10, k10}}},
+                                                        {2, 2, {{k11, k10}}},
+                                                        {3, 2, {{k11, k10}, {k10, k10}}},
+                                                        {0, 1, {{k00, k11}, {k10, k11}}},
+                                                        {1, 1, {{k10, k11}}},
+                                                        {0, 3, {{k00, k11}, {k10, k10}}},
+                                                        {1, 3, {{k10, k11}, {k10, k10}}},
+                                                        {2, 1, {{k11, k11}}},
+                                                        {3, 1, {{k11, k11}, {k10, k11}}},
+                                                        {2, 3, {{k11, k11}, {k11, k10}}},
+                                                        {3, 3, {{k11, k11}, {k10, k10}}}};
+  return patterns;
+}
+
+struct DiagonalValue {
+  double a = 0, b = 0;
+};
+DiagonalValue diagonal_area(int e1, int e2, int d1, int d2) {
+  for (const DiagonalPattern& pattern : diagonal_patterns()) {
+    if (pattern.e1 != e1 || pattern.e2 != e2) continue;
+    const double length = d1 + d2 + 1;
+    DiagonalValue value;
+    for (const auto& [from, moving] : pattern.lines) {
+      const Point to{moving.x + length, moving.y + length};
+      value.a += 1 - samples_below(from, to, 1 + d1, d1);
+      value.b += samples_below(from, to, 1 + d1, 1 + d1);
+    }
+    const auto lines = static_cast<double>(pattern.lines.size());
+    return {value.a / lines, value.b / lines};
+  }
+  return {};
+}
+
+// A search as the shader walks it: it stops behind the first pixel without both edges, or at its
+// last step.
+struct Walk {
+  int distance = 0;
+  bool ended = true;  // by a missing edge
+  bool last_top = false;
+};
+template <class Fetch>  // Fetch(x, y) -> pair of the two edges that make a step, top second
+Walk walk(int x, int y, int dx, int dy, int steps, Fetch&& fetch) {
+  int z = -1;
+  bool both = true;
+  std::pair<bool, bool> e;
+  while (z < steps - 1 && both) {
+    x += dx;
+    y += dy;
+    ++z;
+    e = fetch(x, y);
+    both = e.first && e.second;
+  }
+  return {z, !both, e.second};
+}
+
+std::optional<SmaaWeights> diagonal_weights(const SmaaEdges& edges, int steps, int x, int y) {
+  SmaaWeights weights;
+  const auto code = [](bool top, bool left) { return (top ? 2 : 0) + (left ? 1 : 0); };
+  {
+    const auto fetch = [&](int px, int py) {
+      return std::pair(edges.left(px, py), edges.top(px, py));
+    };
+    Walk down, up = walk(x, y, 1, -1, steps, fetch);
+    if (edges.left(x, y)) {
+      down = walk(x, y, -1, 1, steps, fetch);
+      down.distance += down.last_top ? 1 : 0;
+    }
+    const int d1 = down.distance, d2 = up.distance;
+    if (d1 + d2 > 2) {
+      const int e1 = code(edges.top(x - d1 - 1, y + d1), edges.left(x - d1, y + d1));
+      const int e2 = code(edges.top(x + d2 + 1, y - d2), edges.left(x + d2 + 1, y - d2 - 1));
+      const DiagonalValue v = diagonal_area(down.ended ? e1 : 0, up.ended ? e2 : 0, d1, d2);
+      weights.second += v.a;
+      weights.first += v.b;
+    }
+  }
+  {
+    const auto fetch = [&](int px, int py) {
+      return std::pair(edges.left(px + 1, py), edges.top(px, py));
+    };
+    Walk down, up = walk(x, y, -1, -1, steps, fetch);
+    if (edges.left(x + 1, y)) {
+      down = walk(x, y, 1, 1, steps, fetch);
+      down.distance += down.last_top ? 1 : 0;
+    }
+    const int d1 = up.distance, d2 = down.distance;
+    if (d1 + d2 > 2) {
+      const int e1 = code(edges.top(x - d1 - 1, y - d1), edges.left(x - d1, y - d1 - 1));
+      const int e2 = code(edges.top(x + d2 + 1, y + d2), edges.left(x + d2 + 1, y + d2));
+      const DiagonalValue v = diagonal_area(up.ended ? e1 : 0, down.ended ? e2 : 0, d1, d2);
+      weights.first += v.a;
+      weights.second += v.b;
+    }
+  }
+  if (weights.first == 0 && weights.second == 0) return {};
+  // Weights are kept in a texture of codes 0..1.
+  return SmaaWeights{std::min(1.0, weights.first), std::min(1.0, weights.second)};
+}
+
+}  // namespace
+
+SmaaMargins left_margins(const SmaaLuma& luma, double threshold, int x, int y) {
+  return margins(luma, threshold, x, y, step(luma, x, y, x - 1, y));
+}
+
+SmaaMargins top_margins(const SmaaLuma& luma, double threshold, int x, int y) {
+  return margins(luma, threshold, x, y, step(luma, x, y, x, y - 1));
+}
+
+SmaaEdges smaa_edges(const SmaaLuma& luma, double threshold) {
+  SmaaEdges edges(luma.width, luma.height);
+  for (int y = 0; y < luma.height; ++y) {
+    for (int x = 0; x < luma.width; ++x) {
+      edges.set_left(x, y, left_margins(luma, threshold, x, y).edge());
+      edges.set_top(x, y, top_margins(luma, threshold, x, y).edge());
+    }
+  }
+  return edges;
+}
+
+SmaaPixelWeights smaa_weights(const SmaaEdges& edges, const SmaaSettings& settings, int x, int y) {
+  SmaaPixelWeights weights;
+  const auto top = [&](int px, int py) { return edges.top(px, py); };
+  const auto left = [&](int px, int py) { return edges.left(px, py); };
+  if (settings.diagonal_steps > 0 && edges.top(x, y)) {
+    if (const auto diagonal = diagonal_weights(edges, settings.diagonal_steps, x, y)) {
+      weights.top = *diagonal;
+      weights.diagonal = true;
+      return weights;
+    }
+  }
+  weights.top = edge_weights({top, left}, settings, x, y);
+  const auto turned = [](const auto& of) { return [&of](int px, int py) { return of(py, px); }; };
+  weights.left = edge_weights({turned(left), turned(top)}, settings, y, x);
+  return weights;
+}
+
+}  // namespace deburr::golden::ideal

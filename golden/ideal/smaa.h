@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// SMAA 1x on luma in real numbers: edges, and the weight of every edge by searches from each pixel.
+//
+// Oracle of golden/morphological's edges, area table, diagonals and corners
+// (tb/oracle/smaa_test.cpp). Written from the published description, not from the engine's: it
+// knows no runs, no records and no windows, each pixel looks for its own ends, two pixels a fetch.
+// Jimenez, Echevarria, Sousa and Gutierrez, SMAA: Enhanced Subpixel Morphological Antialiasing,
+// 2012, and the shader published with it. Two liberties: edges outside the frame are none, where
+// the shader's sampler repeats the border, and areas keep their fraction, where its texture has
+// eight bits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "golden/ideal/smaa_area.h"
+
+namespace deburr::golden::ideal {
+
+struct SmaaSettings {
+  double threshold = 0.1;
+  int search_steps = 16;                      // of two pixels each
+  int diagonal_steps = 8;                     // 0: no diagonals
+  std::optional<double> corner_keeps = 0.25;  // share of a weight that stays at a sharp corner
+};
+
+// Which pixels have an edge on their left, and which above them.
+class SmaaEdges {
+ public:
+  SmaaEdges(int width, int height)
+      : width_(width),
+        height_(height),
+        left_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
+        top_(left_.size()) {}
+  int width() const { return width_; }
+  int height() const { return height_; }
+  bool left(int x, int y) const { return inside(x, y) && left_[index(x, y)]; }
+  bool top(int x, int y) const { return inside(x, y) && top_[index(x, y)]; }
+  void set_left(int x, int y, bool edge) { left_[index(x, y)] = edge; }
+  void set_top(int x, int y, bool edge) { top_[index(x, y)] = edge; }
+
+ private:
+  bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
+  int width_, height_;
+  std::vector<bool> left_, top_;
+};
+
+// Luma of a frame, 0..1, row by row.
+struct SmaaLuma {
+  std::vector<double> values;
+  int width = 0, height = 0;
+  double at(int x, int y) const {
+    return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(x)];
+  }
+};
+
+// One edge as it was decided: how far its step is above the threshold, and twice its step above the
+// largest one around it. An edge is where neither is below zero.
+struct SmaaMargins {
+  double threshold = 0, contrast = 0;
+  // Luma itself is rounded, in its last bits.
+  bool edge() const { return threshold > -1e-12 && contrast > -1e-12; }
+};
+SmaaMargins left_margins(const SmaaLuma& luma, double threshold, int x, int y);
+SmaaMargins top_margins(const SmaaLuma& luma, double threshold, int x, int y);
+SmaaEdges smaa_edges(const SmaaLuma& luma, double threshold);
+
+struct SmaaPixelWeights {
+  SmaaWeights top, left;
+  bool diagonal = false;
+};
+SmaaPixelWeights smaa_weights(const SmaaEdges& edges, const SmaaSettings& settings, int x, int y);
+
+}  // namespace deburr::golden::ideal

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// SMAA's area table: the shares of a pixel by the distances to the two ends of its run and the
+// pattern that its crossing edges make.
+//
+// After LineUnit, in place of area.h; docs/morphological_smaa.md, "Areas from tables";
+// docs/number_formats_morphological.md, "Distances" and "Area table". Jimenez et al., SMAA, 2012;
+// the merged layout is paper 003's, the minimal one ours. The golden reads the full one; that the
+// others decode to the same entries is a test's business
+// (tb/unit/golden/morphological/area_table_test.cpp).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "golden/morphological/area.h"
+#include "spec/morphological/packets.h"
+#include "spec/morphological/parameters.h"
+#include "spec/morphological/tables.h"
+
+namespace deburr::golden::morphological {
+
+// One value for each pair of roots, U0.9; entry (i, j) is that of the distances i^2 and j^2.
+using AreaTile = std::array<std::array<std::uint8_t, spec::morphological::kTableRoots>,
+                            spec::morphological::kTableRoots>;
+// The nearer half of a line that crosses the edge once: T of the number formats.
+AreaTile half_tile();
+// Both halves of a line that dips into one side, smoothed: U of the number formats.
+AreaTile dip_tile();
+
+// One entry of a tile of the published table.
+struct AreaEntry {
+  std::uint8_t second = 0, first = 0;  // U0.9
+  friend bool operator==(const AreaEntry&, const AreaEntry&) = default;
+};
+
+// Pattern of the published table: S_start + 2 S_end + 4 N_start + 8 N_end, of an index of
+// kRunShapes.
+constexpr int pattern_of_shape(int shape) {
+  return (shape >> 1 & 1) | (shape >> 3 & 1) << 1 | (shape & 1) << 2 | (shape >> 2 & 1) << 3;
+}
+
+// The three layouts: what they store, and the entry of a pattern that each decodes to.
+class FullAreaTable {
+ public:
+  FullAreaTable();
+  AreaEntry entry(int pattern, int i, int j) const {
+    return tiles_[static_cast<std::size_t>(pattern)][static_cast<std::size_t>(i)]
+                 [static_cast<std::size_t>(j)];
+  }
+  static constexpr int kBits = 16 * 256 * 16;
+
+ private:
+  using Tile = std::array<std::array<AreaEntry, spec::morphological::kTableRoots>,
+                          spec::morphological::kTableRoots>;
+  std::array<Tile, 16> tiles_;
+};
+
+class MergedAreaTable {
+ public:
+  explicit MergedAreaTable(const FullAreaTable& full);
+  AreaEntry entry(int pattern, int i, int j) const;
+  static constexpr int kBits = 8 * 256 * 16;
+
+ private:
+  std::array<std::array<AreaEntry, 256>, 8> tiles_;
+};
+
+class MinimalAreaTable {
+ public:
+  AreaEntry entry(int pattern, int i, int j) const;
+  static constexpr int kBits = 2 * 256 * 8;
+
+ private:
+  AreaTile half_ = half_tile(), dip_ = dip_tile();
+};
+
+// S(d), U4.8: the root by which a tile is read.
+int table_root(int distance);
+// Shares of a pixel `before` pixels from the start and `after` from the end of a run of this shape,
+// both 0..kTableDistances - 1.
+EdgeShares table_shares(int shape, int before, int after);
+
+// Where a line leaves the strip of one step, rounded to pixels from the record's start.
+struct LineEnds {
+  int first = 0, last = 0;
+};
+LineEnds line_ends(const spec::morphological::LineRecord& line);
+
+// What the searches of pixel k of the record see that end after `search_steps` (N).
+enum class SearchEnd : std::uint8_t { kWithin, kAtLimit, kBeyond };
+struct TableAddress {
+  int shape = 0;  // without the code of an end beyond its limit
+  int before = 0, after = 0;
+  SearchEnd start = SearchEnd::kWithin, end = SearchEnd::kWithin;
+};
+TableAddress table_address(const spec::morphological::LineRecord& line, const LineEnds& ends,
+                           int search_steps, int k);
+inline EdgeShares table_shares(const TableAddress& address) {
+  return table_shares(address.shape, address.before, address.after);
+}
+
+}  // namespace deburr::golden::morphological

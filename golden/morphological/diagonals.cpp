@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "golden/morphological/diagonals.h"
+
+#include <algorithm>
+#include <span>
+
+#include "golden/morphological/arithmetic.h"
+
+namespace deburr::golden::morphological {
+namespace {
+
+struct Point {
+  int x, y;
+};
+// The line runs from `from` to `to` + (n, n).
+struct Line {
+  Point from, to;
+};
+struct Lines {
+  int count;
+  std::array<Line, 2> line;
+};
+
+constexpr Point k00{0, 0}, k10{1, 0}, k11{1, 1};
+constexpr Lines one(Line a) { return {1, {a, a}}; }
+constexpr Lines two(Line a, Line b) { return {2, {a, b}}; }
+
+// By 4 e1 + e2.
+constexpr std::array<Lines, 16> kLines = {{
+    two({k11, k11}, {k10, k10}),  // 0, 0
+    two({k00, k11}, {k10, k11}),  // 0, 1
+    two({k00, k10}, {k10, k10}),  // 0, 2
+    two({k00, k11}, {k10, k10}),  // 0, 3
+    two({k10, k00}, {k10, k10}),  // 1, 0
+    one({k10, k11}),              // 1, 1
+    one({k10, k10}),              // 1, 2
+    two({k10, k11}, {k10, k10}),  // 1, 3
+    two({k11, k00}, {k11, k10}),  // 2, 0
+    one({k11, k11}),              // 2, 1
+    one({k11, k10}),              // 2, 2
+    two({k11, k11}, {k11, k10}),  // 2, 3
+    two({k11, k00}, {k10, k10}),  // 3, 0
+    two({k11, k11}, {k10, k11}),  // 3, 1
+    two({k11, k10}, {k10, k10}),  // 3, 2
+    two({k11, k11}, {k10, k10}),  // 3, 3
+}};
+
+constexpr int kSamples = 30;  // each way
+constexpr std::uint64_t kAll = std::uint64_t{kSamples} * kSamples;
+
+// Samples of pixel (x, y) strictly below the line, in coordinates 58 times as large: samples lie at
+// whole numbers then, and so do the middles of lines.
+std::uint64_t samples_below(Point p1, Point p2, int x, int y) {
+  if (p1.x == p2.x && p1.y == p2.y) return kAll;
+  const int a = p2.y - p1.y, b = p1.x - p2.x;
+  std::uint64_t count = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    const int across = a * (58 * x + 2 * i - 29 * (p1.x + p2.x));
+    for (int j = 0; j < kSamples; ++j) {
+      count += across + b * (58 * y + 2 * j - 29 * (p1.y + p2.y)) > 0 ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+// Distance of an end and whether it is open: `good(i)` says that step i follows the diagonal.
+struct Search {
+  int distance;
+  bool open;
+};
+template <class Good>
+Search search(int steps, Good&& good) {
+  int found = 0;
+  while (found < steps && good(found + 1)) ++found;
+  return {std::min(found, steps - 1), found == steps};
+}
+
+}  // namespace
+
+DiagonalTable::DiagonalTable() {
+  for (int e1 = 0; e1 < 4; ++e1) {
+    for (int e2 = 0; e2 < 4; ++e2) {
+      const int codes = 4 * e1 + e2;
+      const Lines& lines = kLines[static_cast<std::size_t>(codes)];
+      const std::uint64_t all = kAll * static_cast<std::uint64_t>(lines.count);
+      for (int d1 = 0; d1 < spec::morphological::kDiagonalDistances; ++d1) {
+        for (int d2 = 0; d2 < spec::morphological::kDiagonalDistances; ++d2) {
+          const int n = d1 + d2 + 1;
+          std::uint64_t above = 0, below = 0;
+          for (const Line& line :
+               std::span(lines.line).first(static_cast<std::size_t>(lines.count))) {
+            const Point to{line.to.x + n, line.to.y + n};
+            above += kAll - samples_below(line.from, to, 1 + d1, d1);
+            below += samples_below(line.from, to, 1 + d1, 1 + d1);
+          }
+          const auto area = [&](std::uint64_t samples) {
+            return static_cast<std::uint8_t>(
+                std::min<std::uint64_t>(255, rdiv(256 * samples, all)));
+          };
+          entries_[index(e1, e2, d1, d2)] = {area(above), area(below)};
+        }
+      }
+    }
+  }
+}
+
+const DiagonalTable& diagonal_table() {
+  static const DiagonalTable table;
+  return table;
+}
+
+DiagonalEnds rising_diagonal(const EdgePlanes& edges, int steps, int x, int y) {
+  const auto left = [&](int px, int py) { return edges.left.at(px, py); };
+  const auto top = [&](int px, int py) { return edges.top.at(px, py); };
+  DiagonalEnds ends;
+  if (left(x, y)) {
+    const Search down =
+        search(steps, [&](int i) { return left(x - i, y + i) && top(x - i, y + i); });
+    const int looked = down.distance + 1;
+    ends.d1 = down.distance + (top(x - looked, y + looked) ? 1 : 0);
+    ends.open1 = down.open;
+  }
+  const Search up = search(steps, [&](int i) { return left(x + i, y - i) && top(x + i, y - i); });
+  ends.d2 = up.distance;
+  ends.open2 = up.open;
+  if (!ends.counts()) return ends;
+  const int d1 = ends.d1, d2 = ends.d2;
+  if (!ends.open1) ends.e1 = 2 * top(x - d1 - 1, y + d1) + left(x - d1, y + d1);
+  if (!ends.open2) ends.e2 = 2 * top(x + d2 + 1, y - d2) + left(x + d2 + 1, y - d2 - 1);
+  return ends;
+}
+
+DiagonalEnds falling_diagonal(const EdgePlanes& edges, int steps, int x, int y) {
+  const auto left = [&](int px, int py) { return edges.left.at(px, py); };
+  const auto top = [&](int px, int py) { return edges.top.at(px, py); };
+  DiagonalEnds ends;
+  const Search up =
+      search(steps, [&](int i) { return top(x - i, y - i) && left(x - i + 1, y - i); });
+  ends.d1 = up.distance;
+  ends.open1 = up.open;
+  if (left(x + 1, y)) {
+    const Search down =
+        search(steps, [&](int i) { return top(x + i, y + i) && left(x + i + 1, y + i); });
+    const int looked = down.distance + 1;
+    ends.d2 = down.distance + (top(x + looked, y + looked) ? 1 : 0);
+    ends.open2 = down.open;
+  }
+  if (!ends.counts()) return ends;
+  const int d1 = ends.d1, d2 = ends.d2;
+  if (!ends.open1) ends.e1 = 2 * top(x - d1 - 1, y - d1) + left(x - d1, y - d1 - 1);
+  if (!ends.open2) ends.e2 = 2 * top(x + d2 + 1, y + d2) + left(x + d2 + 1, y + d2);
+  return ends;
+}
+
+DiagonalShares diagonal_shares(const DiagonalEnds& rising, const DiagonalEnds& falling) {
+  DiagonalShares shares;
+  const auto areas = [&](const DiagonalEnds& ends) {
+    shares.span = std::max(shares.span, ends.d1 + ends.d2 + 1);
+    return diagonal_table().at(ends.e1, ends.e2, ends.d1, ends.d2);
+  };
+  if (rising.counts()) {
+    const DiagonalAreas found = areas(rising);
+    shares.second += found.a;
+    shares.first += found.b;
+  }
+  if (falling.counts()) {
+    const DiagonalAreas found = areas(falling);
+    shares.first += found.a;
+    shares.second += found.b;
+  }
+  return shares;
+}
+
+}  // namespace deburr::golden::morphological

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Diagonal patterns: edges that step by one pixel and one row, and the shares of the line along
+// them.
+//
+// Beside the runs, whose shares they replace; docs/morphological_smaa.md, "Diagonals";
+// docs/number_formats_morphological.md, "Diagonal table". Jimenez et al., SMAA, 2012, section 4.2.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "golden/morphological/planes.h"
+#include "spec/morphological/tables.h"
+
+namespace deburr::golden::morphological {
+
+// The two areas of a pixel d1 and d2 pixels from the ends of a diagonal, U0.8.
+struct DiagonalAreas {
+  std::uint8_t a = 0, b = 0;
+  friend bool operator==(const DiagonalAreas&, const DiagonalAreas&) = default;
+};
+
+class DiagonalTable {
+ public:
+  DiagonalTable();
+  // e1, e2: crossing codes of the ends, 0..3. d1, d2: 0..19.
+  DiagonalAreas at(int e1, int e2, int d1, int d2) const { return entries_[index(e1, e2, d1, d2)]; }
+  static constexpr int kBits =
+      16 * spec::morphological::kDiagonalDistances * spec::morphological::kDiagonalDistances * 16;
+
+ private:
+  static constexpr std::size_t index(int e1, int e2, int d1, int d2) {
+    constexpr int n = spec::morphological::kDiagonalDistances;
+    const int place = ((4 * e1 + e2) * n + d1) * n + d2;
+    return static_cast<std::size_t>(place);
+  }
+  std::array<DiagonalAreas, kBits / 16> entries_{};
+};
+const DiagonalTable& diagonal_table();
+
+// One direction as it was found at a pixel. It counts if its ends are more than two pixels apart.
+struct DiagonalEnds {
+  int d1 = 0, d2 = 0;  // pixels to the ends
+  int e1 = 0, e2 = 0;  // their crossing codes, 0 of an end that is open
+  bool open1 = false, open2 = false;
+  bool counts() const { return d1 + d2 > 2; }
+};
+// At the top edge of (x, y), following at most `steps` pixels each way.
+DiagonalEnds rising_diagonal(const EdgePlanes& edges, int steps, int x, int y);
+DiagonalEnds falling_diagonal(const EdgePlanes& edges, int steps, int x, int y);
+
+// Shares of a top edge from its diagonals, not limited; both 0 where it has none.
+struct DiagonalShares {
+  int first = 0, second = 0;
+  int span = 0;
+  bool taken() const { return first + second != 0; }
+};
+DiagonalShares diagonal_shares(const DiagonalEnds& rising, const DiagonalEnds& falling);
+
+}  // namespace deburr::golden::morphological

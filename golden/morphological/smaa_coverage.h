@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Functional coverage of SMAA's blocks: which situations the frames so far contained.
+//
+// Beside RunCoverage, for frames with a table, diagonals or a dynamic threshold:
+//   table/<axis>/<shape>/<distance>           pixels, by the shape that their searches leave and by
+//                                             the longer of their distances
+//   table-entry/<tile>/<first|last>           distances 0, and beyond the last root but one
+//   search/<axis>/<end>/<at|beyond>           the limit
+//   diagonal/<direction>/<e1>-<e2>            directions that count
+//   diagonal-ends/<direction>/<which>         that are open
+//   diagonal-length/<direction>/<pixels>
+//   threshold/fixed                           edges of a fixed T
+//   threshold/<luma>/<floor|alpha>            edges of a dynamic one, by what decided it
+// Every bin can be reached (tb/unit/golden/morphological/coverage_test.cpp).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "golden/morphological/area_table.h"
+#include "golden/morphological/diagonals.h"
+#include "golden/morphological/run_coverage.h"
+#include "spec/morphological/packets.h"
+#include "spec/morphological/parameters.h"
+
+namespace deburr::golden::morphological {
+
+class SmaaCoverage {
+ public:
+  void count_pixel(spec::morphological::Axis axis, const TableAddress& address);
+  void count_diagonal(bool rising, const DiagonalEnds& ends);
+  void count_threshold(spec::morphological::DynamicLuma luma, bool floor) {
+    ++thresholds_[static_cast<std::size_t>(luma)][floor ? 0 : 1];
+  }
+  void count_fixed(std::uint64_t edges) { fixed_ += edges; }
+  // Every bin, hit or not, always in the same order.
+  std::vector<CoverageBin> bins() const;
+
+  static constexpr std::size_t kDistances = 5;  // 0, 1-3, 4-8, 9-24, 25 and more
+
+ private:
+  using Pair = std::array<std::uint64_t, 2>;
+  std::array<std::array<std::array<std::uint64_t, kDistances>, 16>, 2> table_{};
+  std::array<Pair, 2> entries_{};                          // half, dip; first, last
+  std::array<std::array<Pair, 2>, 2> searches_{};          // axis, end, at or beyond
+  std::array<std::array<std::uint64_t, 16>, 2> codes_{};   // rising, falling
+  std::array<std::array<std::uint64_t, 4>, 2> open_{};     //
+  std::array<std::array<std::uint64_t, 3>, 2> lengths_{};  //
+  std::array<Pair, 4> thresholds_{};
+  std::uint64_t fixed_ = 0;
+};
+
+}  // namespace deburr::golden::morphological

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/morphological/blend/area_table.h"
+
+#include <algorithm>
+#include <string>
+
+#include "spec/morphological/shapes.h"
+#include "spec/morphological/tables.h"
+
+namespace deburr::rtl::morphological {
+namespace {
+
+using spec::morphological::AreaSource;
+
+constexpr int kRoots = spec::morphological::kTableRoots;
+constexpr int kTileWords = kRoots * kRoots / 4;  // of a parity
+constexpr std::array<int, 8> kMergedTiles = {1, 2, 3, 4, 6, 8, 9, 12};
+enum MinimalTile : int { kT, kU };
+
+int nearest(int over, int under) { return (2 * over + under) / (2 * under); }
+
+int root(int square) {
+  int r = 0;
+  while ((r + 1) * (r + 1) <= square) ++r;
+  return r;
+}
+
+// The share of the nearer half of a line from half a pixel at the end to nothing in the middle.
+int half_entry(int i, int j) {
+  const int l = i * i, r = j * j, d = l + r + 1;
+  if (l > r) return 0;
+  return l < r ? nearest(256 * (r - l), d) : nearest(64, d);
+}
+
+// Of both halves, smoothed where the run is short.
+int arch_entry(int i, int j) {
+  const int l = i * i, r = j * j, d = l + r + 1, n = std::max(l, r) - std::min(l, r);
+  if (d >= 32) return n > 0 ? nearest(256 * n, d) : nearest(128, d);
+  const int own = n > 0 ? 8 * n : 4;
+  return own + (root(256 * (32 - d) * (32 - d) * std::max(n, 1) / d) + 1) / 2;
+}
+
+// Of the published table: second value in the low byte, first value in the high one.
+int pattern_entry(int p, int i, int j) {
+  const auto both = [](int second, int first) { return second | first << 8; };
+  switch (p) {
+    case 1:
+      return both(half_entry(i, j), 0);
+    case 2:
+      return both(half_entry(j, i), 0);
+    case 3:
+      return both(arch_entry(i, j), 0);
+    case 4:
+      return both(0, half_entry(i, j));
+    case 8:
+      return both(0, half_entry(j, i));
+    case 12:
+      return both(0, arch_entry(i, j));
+    case 6:
+    case 7:
+    case 14:
+      return both(half_entry(j, i), half_entry(i, j));
+    case 9:
+    case 11:
+    case 13:
+      return both(half_entry(i, j), half_entry(j, i));
+    default:
+      return 0;
+  }
+}
+
+int tiles_of(AreaSource layout) {
+  switch (layout) {
+    case AreaSource::kTableMerged:
+      return static_cast<int>(kMergedTiles.size());
+    case AreaSource::kTableMinimal:
+      return 2;
+    default:
+      return 16;
+  }
+}
+
+int stored_entry(AreaSource layout, int tile, int i, int j) {
+  switch (layout) {
+    case AreaSource::kTableMerged:
+      return pattern_entry(kMergedTiles[static_cast<std::size_t>(tile)], i, j);
+    case AreaSource::kTableMinimal:
+      return tile == kT ? half_entry(i, j) : arch_entry(i, j);
+    default:
+      return pattern_entry(tile, i, j);
+  }
+}
+
+std::vector<std::uint16_t> area_words(AreaSource layout, int parity) {
+  std::vector<std::uint16_t> words;
+  for (int tile = 0; tile < tiles_of(layout); ++tile)
+    for (int i = parity / 2; i < kRoots; i += 2)
+      for (int j = parity % 2; j < kRoots; j += 2)
+        words.push_back(static_cast<std::uint16_t>(stored_entry(layout, tile, i, j)));
+  return words;
+}
+
+std::vector<std::uint16_t> root_words() {
+  std::vector<std::uint16_t> words;
+  for (int d = 0; d < spec::morphological::kTableDistances; ++d)
+    words.push_back(static_cast<std::uint16_t>(root(65536 * d)));
+  return words;
+}
+
+// The pattern of a shape: its bits are the first and second crossing edge of the start, then of the
+// end.
+int pattern_of(std::uint8_t shape) {
+  return (shape >> 1 & 1) | (shape >> 3 & 1) << 1 | (shape & 1) << 2 | (shape >> 2 & 1) << 3;
+}
+
+}  // namespace
+
+AreaTable::AreaTable(AreaSource layout, int lanes)
+    : layout_(layout),
+      reads_(layout == AreaSource::kTableMinimal ? 2 : 1),
+      sqrt_rom_("sqrt_rom",
+                {.words = spec::morphological::kTableDistances,
+                 .word_bits = 12,
+                 .kind = MemoryKind::kRom,
+                 .read_ports = static_cast<std::uint32_t>(4 * lanes),
+                 .write_ports = 0,
+                 .content = "root of a distance, U4.8"},
+                root_words()) {
+  const int readers = 2 * lanes;
+  for (int port = 0; port < 2 * readers; ++port)
+    roots_.emplace_back(sqrt_rom_, "distance " + std::to_string(port));
+  for (int parity = 0; parity < static_cast<int>(kParities); ++parity) {
+    area_rom_.emplace_back(
+        ("area_rom" + std::to_string(parity)).c_str(),
+        MemoryShape{
+            .words = static_cast<std::uint64_t>(tiles_of(layout) * kTileWords),
+            .word_bits = layout == AreaSource::kTableMinimal ? 8u : 16u,
+            .kind = MemoryKind::kRom,
+            .read_ports = static_cast<std::uint32_t>(readers) * static_cast<std::uint32_t>(reads_),
+            .write_ports = 0,
+            .content = "areas of tiles, by the parities of both roots"},
+        area_words(layout, parity));
+    for (std::size_t port = 0; port < static_cast<std::size_t>(readers) * reads_; ++port)
+      read_[static_cast<std::size_t>(parity)].emplace_back(area_rom_.back(),
+                                                           "edge " + std::to_string(port));
+  }
+}
+
+void AreaTable::address_roots(Cycle cycle, std::size_t reader, const Query& query) {
+  roots_[2 * reader].read(cycle, query.left);
+  roots_[2 * reader + 1].read(cycle, query.right);
+}
+
+int AreaTable::tile(std::uint8_t shape) const {
+  const spec::morphological::RunShape& sides = spec::morphological::kRunShapes[shape];
+  if (sides.before == spec::morphological::Side::kNone &&
+      sides.after == spec::morphological::Side::kNone)
+    return -1;
+  int pattern = pattern_of(shape);
+  switch (layout_) {
+    case AreaSource::kTableMerged:
+      if (pattern == 7 || pattern == 14) pattern = 6;
+      if (pattern == 11 || pattern == 13) pattern = 9;
+      return static_cast<int>(std::find(kMergedTiles.begin(), kMergedTiles.end(), pattern) -
+                              kMergedTiles.begin());
+    case AreaSource::kTableMinimal:
+      return sides.before == sides.after ? kU : kT;
+    default:
+      return pattern;
+  }
+}
+
+AreaTable::Corners AreaTable::corners(std::uint8_t i, std::uint8_t j) {
+  Corners at{};
+  for (unsigned k = 0; k < kParities; ++k) {
+    const unsigned row = i + k / 2, column = j + k % 2;
+    at.rom[k] = static_cast<std::uint8_t>((row & 1) * 2 + (column & 1));
+    at.word[k] = static_cast<std::uint8_t>(row / 2 * (kRoots / 2) + column / 2);
+  }
+  return at;
+}
+
+void AreaTable::address_entries(Cycle cycle, std::size_t reader, Query& query) {
+  const std::uint16_t left = roots_[2 * reader].at(cycle, query.left);
+  const std::uint16_t right = roots_[2 * reader + 1].at(cycle, query.right);
+  query.i = static_cast<std::uint8_t>(left >> 8);
+  query.f = static_cast<std::uint8_t>(left);
+  query.j = static_cast<std::uint8_t>(right >> 8);
+  query.g = static_cast<std::uint8_t>(right);
+  const int from = tile(query.shape);
+  if (from < 0) return;
+  for (std::size_t side = 0; side < reads_; ++side) {
+    const Corners at = side == 0 ? corners(query.i, query.j) : corners(query.j, query.i);
+    for (std::size_t k = 0; k < kParities; ++k)
+      read_[at.rom[k]][reader * reads_ + side].read(
+          cycle, static_cast<std::uint64_t>(from * kTileWords + at.word[k]));
+  }
+}
+
+std::array<std::uint16_t, AreaTable::kParities> AreaTable::entries(Cycle cycle, std::size_t port,
+                                                                   int tile, const Corners& at) {
+  std::array<std::uint16_t, kParities> words{};
+  for (std::size_t k = 0; k < kParities; ++k)
+    words[k] = read_[at.rom[k]][port].at(
+        cycle, static_cast<std::uint64_t>(tile * kTileWords + at.word[k]));
+  return words;
+}
+
+AreaTable::Shares AreaTable::shares(Cycle cycle, std::size_t reader, const Query& query) {
+  const int from = tile(query.shape);
+  if (from < 0) return {};
+  // Between the entries at fractions f of the first root, g of the second one.
+  const auto between = [](const std::array<std::uint16_t, kParities>& words, int drop,
+                          std::uint32_t f, std::uint32_t g) {
+    const auto entry = [&](std::size_t k) -> std::uint32_t { return words[k] >> drop & 0xFF; };
+    const std::uint32_t low = (256 - f) * entry(0) + f * entry(2);
+    const std::uint32_t high = (256 - f) * entry(1) + f * entry(3);
+    return static_cast<std::uint8_t>(((256 - g) * low + g * high + (1u << 16)) >> 17);
+  };
+  const auto there = entries(cycle, reader * reads_, from, corners(query.i, query.j));
+  if (layout_ != AreaSource::kTableMinimal)
+    return {between(there, 8, query.f, query.g), between(there, 0, query.f, query.g)};
+  const auto back = entries(cycle, reader * reads_ + 1, from, corners(query.j, query.i));
+  const std::uint8_t before = between(there, 0, query.f, query.g);
+  const std::uint8_t after = between(back, 0, query.g, query.f);
+  const spec::morphological::RunShape& sides = spec::morphological::kRunShapes[query.shape];
+  Shares shares;
+  const auto give = [&](spec::morphological::Side side, std::uint8_t share) {
+    if (side == spec::morphological::Side::kFirst) shares.first = share;
+    if (side == spec::morphological::Side::kSecond) shares.second = share;
+  };
+  give(sides.after, after);
+  give(sides.before, before);
+  return shares;
+}
+
+}  // namespace deburr::rtl::morphological

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Words of diagonal_rom: SMAA's areas of a diagonal, A in the low byte, B in the high one, at
+// ((4 e1 + e2) x 20 + d1) x 20 + d2. Formula: docs/number_formats_morphological.md.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "spec/morphological/tables.h"
+
+namespace deburr::rtl::morphological {
+
+inline constexpr int kDiagonalWords =
+    4 * 4 * spec::morphological::kDiagonalDistances * spec::morphological::kDiagonalDistances;
+
+constexpr std::uint64_t diagonal_address(int e1, int e2, int d1, int d2) {
+  return static_cast<std::uint64_t>(((4 * e1 + e2) * spec::morphological::kDiagonalDistances + d1) *
+                                        spec::morphological::kDiagonalDistances +
+                                    d2);
+}
+
+const std::vector<std::uint16_t>& diagonal_words();
+
+}  // namespace deburr::rtl::morphological

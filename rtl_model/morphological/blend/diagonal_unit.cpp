@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/morphological/blend/diagonal_unit.h"
+
+#include <algorithm>
+#include <string>
+
+#include "rtl_model/morphological/blend/diagonal_table.h"
+
+namespace deburr::rtl::morphological {
+namespace {
+
+constexpr std::uint8_t kRowMask = 0x3F;
+constexpr std::uint32_t kTagBits = 7;
+
+}  // namespace
+
+DiagonalUnit::DiagonalUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
+                           const spec::morphological::Parameters& p, const ParameterStore& store)
+    : Unit(name, clock),
+      store_(store),
+      lanes_(static_cast<std::size_t>(store.lanes())),
+      steps_(p.diagonal_steps),
+      delay_(static_cast<std::size_t>(diagonal_delay(p.diagonal_steps, store.lanes()))),
+      window_memory_("diagonal_window",
+                     {.words = (delay_ + 1) * lanes_ + static_cast<std::size_t>(steps_) + 1,
+                      .word_bits = static_cast<std::uint32_t>(4 * steps_ + 2) + kTagBits,
+                      .kind = MemoryKind::kFlops,
+                      .latency = 0,
+                      .span = static_cast<std::uint32_t>((delay_ + 1) * lanes_) +
+                              static_cast<std::uint32_t>(steps_) + 1,
+                      .content = "columns about the pixels in hand, both planes, slot row"}),
+      rom_("diagonal_rom",
+           {.words = kDiagonalWords,
+            .word_bits = 16,
+            .kind = MemoryKind::kRom,
+            .read_ports = static_cast<std::uint32_t>(2 * lanes_),
+            .write_ports = 0,
+            .content = "areas of diagonals, by crossing codes and distances of both ends"},
+           diagonal_words()),
+      shares_("diagonal_shares",
+              static_cast<std::uint32_t>(
+                  (static_cast<std::size_t>(p.line_pixels) + lanes_ - 1) / lanes_ + 16),
+              PayloadShape{.lanes = static_cast<std::uint32_t>(lanes_)}) {
+  for (std::size_t lane = 0; lane < lanes_; ++lane) {
+    read_.emplace_back(rom_, std::to_string(lane) + " rising");
+    read_.emplace_back(rom_, std::to_string(lane) + " falling");
+  }
+}
+
+// Stage 1. Without a token: columns of no row.
+void DiagonalUnit::shift(Cycle cycle, const DiagonalColumnsToken* token) {
+  columns_.write(cycle, 0, lanes_);
+  const std::size_t first = token ? token->slot.beat * lanes_ : 0;
+  for (std::size_t lane = 0; lane < lanes_; ++lane) {
+    Column& column = window_[newest_++ % kPlaces];
+    column.valid = token && first + lane < static_cast<std::size_t>(store_.rules().width);
+    if (!column.valid) continue;
+    column.left = token->left[lane];
+    column.top = token->top[lane];
+    column.row = static_cast<std::uint8_t>(token->slot.row & kRowMask);
+  }
+}
+
+// Stages 2 and 3, of the window as stage 1 left it.
+void DiagonalUnit::search(Cycle cycle, Beat& beat) {
+  fixed_bits_.read(cycle, 0, window_memory_.words());
+  const std::size_t first = newest_ + kPlaces - (delay_ + 1) * lanes_;
+  beat.valid = window_[first % kPlaces].valid;
+  beat.searched = 0;
+  if (!beat.valid) return;
+  for (std::size_t lane = 0; lane < lanes_; ++lane) {
+    const Around at{*this, first + lane + kPlaces};
+    if (!window_[(first + lane) % kPlaces].valid || !at.top(0, 0)) continue;
+    beat.pixel[lane] = {rising(at), falling(at)};
+    if (beat.pixel[lane].rising.counts || beat.pixel[lane].falling.counts)
+      beat.searched = static_cast<std::uint8_t>(beat.searched | 1u << lane);
+  }
+}
+
+namespace {
+
+// The first step that is not good, of at most `most`.
+template <class Good>
+auto followed(int most, Good&& good) {
+  struct {
+    int distance;
+    bool open;
+    int looked;  // the last step that was looked at
+  } end{};
+  int count = 0;
+  while (count < most && good(count + 1)) ++count;
+  end.distance = std::min(count, most - 1);
+  end.open = count == most;
+  end.looked = end.distance + 1;
+  return end;
+}
+
+}  // namespace
+
+DiagonalUnit::Diagonal DiagonalUnit::rising(const Around& at) const {
+  const int most = store_.rules().diagonal_steps;
+  End down, up;
+  if (at.left(0, 0)) {
+    const auto end = followed(most, [&](int i) { return at.left(-i, i) && at.top(-i, i); });
+    down = {end.distance + at.top(-end.looked, end.looked), end.open};
+  }
+  const auto end = followed(most, [&](int i) { return at.left(i, -i) && at.top(i, -i); });
+  up = {end.distance, end.open};
+  Diagonal diagonal{down.distance + up.distance > 2, down.distance, up.distance, 0, 0};
+  if (!diagonal.counts) return diagonal;
+  const int d1 = diagonal.d1, d2 = diagonal.d2;
+  if (!down.open) diagonal.e1 = 2 * at.top(-d1 - 1, d1) + at.left(-d1, d1);
+  if (!up.open) diagonal.e2 = 2 * at.top(d2 + 1, -d2) + at.left(d2 + 1, -d2 - 1);
+  return diagonal;
+}
+
+DiagonalUnit::Diagonal DiagonalUnit::falling(const Around& at) const {
+  const int most = store_.rules().diagonal_steps;
+  End up, down;
+  const auto end = followed(most, [&](int i) { return at.top(-i, -i) && at.left(1 - i, -i); });
+  up = {end.distance, end.open};
+  if (at.left(1, 0)) {
+    const auto other = followed(most, [&](int i) { return at.top(i, i) && at.left(i + 1, i); });
+    down = {other.distance + at.top(other.looked, other.looked), other.open};
+  }
+  Diagonal diagonal{up.distance + down.distance > 2, up.distance, down.distance, 0, 0};
+  if (!diagonal.counts) return diagonal;
+  const int d1 = diagonal.d1, d2 = diagonal.d2;
+  if (!up.open) diagonal.e1 = 2 * at.top(-d1 - 1, -d1) + at.left(-d1, -d1 - 1);
+  if (!down.open) diagonal.e2 = 2 * at.top(d2 + 1, d2) + at.left(d2 + 1, d2);
+  return diagonal;
+}
+
+// Stage 4.
+void DiagonalUnit::address(Cycle cycle, const Beat& beat) {
+  for (std::size_t lane = 0; lane < lanes_; ++lane) {
+    if (!(beat.searched >> lane & 1)) continue;
+    const Pixel& pixel = beat.pixel[lane];
+    std::size_t port = 2 * lane;
+    for (const Diagonal* d : {&pixel.rising, &pixel.falling}) {
+      if (d->counts) read_[port].read(cycle, diagonal_address(d->e1, d->e2, d->d1, d->d2));
+      ++port;
+    }
+  }
+}
+
+// Stage 5.
+void DiagonalUnit::deliver(Cycle cycle, const Beat& beat) {
+  const std::uint32_t most = store_.rules().strongest ? spec::morphological::kMaxDiagonalWeight
+                                                      : spec::morphological::kMaxWeight;
+  DiagonalSharesToken token{};
+  for (std::size_t lane = 0; lane < lanes_; ++lane) {
+    if (!(beat.searched >> lane & 1)) continue;
+    std::uint32_t first = 0, second = 0;
+    int span = 0;
+    const Pixel& pixel = beat.pixel[lane];
+    std::size_t port = 2 * lane;
+    for (const Diagonal* d : {&pixel.rising, &pixel.falling}) {
+      if (d->counts) {
+        const std::uint32_t word =
+            read_[port].at(cycle, diagonal_address(d->e1, d->e2, d->d1, d->d2));
+        const std::uint32_t a = word & 0xFF, b = word >> 8;
+        first += d == &pixel.rising ? b : a;
+        second += d == &pixel.rising ? a : b;
+        span = std::max(span, d->d1 + d->d2 + 1);
+      }
+      ++port;
+    }
+    if (first + second == 0) continue;
+    token.taken = static_cast<std::uint8_t>(token.taken | 1u << lane);
+    token.first[lane] = static_cast<std::uint8_t>(std::min(first, most));
+    token.second[lane] = static_cast<std::uint8_t>(std::min(second, most));
+    token.span[lane] = static_cast<std::uint8_t>(span);
+    ++diagonal_pixels;
+  }
+  shares_.push(cycle, token);
+}
+
+Activity DiagonalUnit::tick(Cycle cycle) {
+  const bool arrives = columns_in.can_pop(cycle);
+  if (!arrives && drains_ == 0 && pipe_.empty()) return kIdle;
+  if (pipe_.leaves() && pipe_.at(kStages - 1)->valid && !shares_.can_push(cycle))
+    return kStalledDownstream;
+  pipe_.move();
+  if (const Beat* beat = pipe_.at(5); beat && beat->valid) deliver(cycle, *beat);
+  if (const Beat* beat = pipe_.at(4); beat && beat->valid) address(cycle, *beat);
+  if (arrives) {
+    const DiagonalColumnsToken& token = columns_in.front(cycle);
+    if (token.slot.row == store_.reach_rows() + spec::morphological::kRowLag - 2 &&
+        token.slot.beat == 0)
+      for (Column& column : window_) column.valid = false;
+    shift(cycle, &token);
+    drains_ = token.slot.beat + 1u == store_.rules().beats ? delay_ : 0;
+    columns_in.pop(cycle);
+    search(cycle, pipe_.enter());
+  } else if (drains_ != 0) {
+    shift(cycle, nullptr);
+    --drains_;
+    search(cycle, pipe_.enter());
+  }
+  return kBusy;
+}
+
+void DiagonalUnit::reset() {
+  pipe_.reset();
+  shares_.reset();
+  drains_ = 0;
+  for (Column& column : window_) column.valid = false;
+}
+
+}  // namespace deburr::rtl::morphological

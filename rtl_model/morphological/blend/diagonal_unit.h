@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Diagonal patterns of SMAA: follows steps of one pixel both ways from every top edge and gives the
+// shares of the pixels that lie on one.
+//
+// Where: beside the AreaUnit. In clock 1 of a slot the RunExtractor hands on the columns of its
+// beat, 2 M + 1 rows about row y = s - R - 3, M = diagonal_steps; in a window of them in flip-flops
+// every step of every search is a fixed bit. The pixels in hand lie D = ceil((M + 1) / lanes) beats
+// behind the newest columns. Each column carries 6 bits of its slot row and a valid bit; a column
+// of another row, or none, reads as 0, which is the frame's border. Behind the last beat of a row,
+// and only there, columns that are not valid are shifted in clocks in which no beat has come, so
+// that the row is finished. Results go, a word a beat, in raster order, into a FIFO that the
+// AreaUnit takes them from a row later.
+//
+// Latency D + 5 clocks from the columns to the FIFO, initiation interval 1 whatever the edges.
+// Stages: 1 shift; 2 tags, good steps, first gap of four searches; 3 the ends' extra bits and
+// crossing bits, d1 + d2 > 2; 4 diagonal_rom: address; 5 words, sums, limits, push. Stalls:
+// `downstream` (never: the FIFO holds a row and 16 beats, and the AreaUnit is ten slots behind).
+// Formats: shares U0.8, span U6. Cost a lane: four first-gap circuits of M bits, eight choices of
+// M + 1 : 1, two reads of diagonal_rom (6400 x 16); diagonal_window, (D + 1) lanes + M + 1 columns
+// x (4 M + 2 + 7) bits; diagonal_shares, a word of 23 lanes bits a beat. Made for 250 MHz; longest
+// path: 32 : 1 choice + 5-bit add, ROM read + 9-bit add. Source: SMAA (Jimenez et al. 2012),
+// diagonal patterns.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <systemc>
+#include <vector>
+
+#include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/memory.h"
+#include "rtl_model/fabric/unit.h"
+#include "rtl_model/morphological/parameter_store.h"
+#include "rtl_model/morphological/pipe.h"
+#include "rtl_model/morphological/tokens.h"
+
+namespace deburr::rtl::morphological {
+
+class DiagonalUnit final : public Unit {
+ public:
+  In<DiagonalColumnsToken> columns_in{"columns_in"};
+  // For the AreaUnit.
+  Link<DiagonalSharesToken>& shares() { return shares_.link(); }
+
+  DiagonalUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
+               const spec::morphological::Parameters& parameters, const ParameterStore& store);
+  Activity tick(Cycle cycle) override;
+  void reset() override;
+
+  Counter diagonal_pixels{"diagonal_pixels", "pixels",
+                          "pixels whose top edge took its shares from a diagonal"};
+
+ private:
+  static constexpr std::size_t kLanes = spec::morphological::kMaxLanes;
+  static constexpr std::size_t kPlaces = 64;  // of the window, more than are built
+  static constexpr std::size_t kStages = 5;
+
+  struct Column {
+    std::uint64_t left = 0, top = 0;  // bit k: row y + k - M
+    std::uint8_t row = 0;             // U6, of the slot
+    bool valid = false;
+  };
+  // One of the two diagonals through a pixel, as far as it counts.
+  struct Diagonal {
+    bool counts = false;
+    int d1 = 0, d2 = 0, e1 = 0, e2 = 0;
+  };
+  struct Pixel {
+    Diagonal rising, falling;
+  };
+  struct Beat {
+    bool valid = false;  // there are pixels
+    std::uint8_t searched = 0;
+    std::array<Pixel, kLanes> pixel;
+  };
+  // An end of a search.
+  struct End {
+    int distance = 0;
+    bool open = false;
+  };
+  // Bits about the pixel in hand.
+  struct Around {
+    const DiagonalUnit& unit;
+    std::size_t place;  // of its column
+    bool left(int dx, int dy) const { return unit.bit(&Column::left, place, dx, dy); }
+    bool top(int dx, int dy) const { return unit.bit(&Column::top, place, dx, dy); }
+  };
+
+  bool bit(std::uint64_t Column::*plane, std::size_t place, int dx, int dy) const {
+    const Column& column = window_[(place + static_cast<std::size_t>(dx)) % kPlaces];
+    return column.valid && column.row == window_[place % kPlaces].row &&
+           (column.*plane >> (dy + steps_) & 1);
+  }
+  void shift(Cycle cycle, const DiagonalColumnsToken* token);
+  void search(Cycle cycle, Beat& beat);
+  void address(Cycle cycle, const Beat& beat);
+  void deliver(Cycle cycle, const Beat& beat);
+  Diagonal rising(const Around& at) const;
+  Diagonal falling(const Around& at) const;
+
+  const ParameterStore& store_;
+  const std::size_t lanes_;
+  const int steps_;          // M, as built
+  const std::size_t delay_;  // D, beats
+  Memory<void> window_memory_;
+  ReadPort<void> fixed_bits_{window_memory_, "searches"};  // of all words
+  WritePort<void> columns_{window_memory_, "columns"};
+  Memory<std::uint16_t> rom_;
+  std::vector<ReadPort<std::uint16_t>> read_;  // a lane: rising, falling
+  Fifo<DiagonalSharesToken> shares_;
+  std::array<Column, kPlaces> window_{};
+  std::size_t newest_ = 0;  // place behind the newest column
+  std::size_t drains_ = 0;  // shifts that finish the row whose last beat has come
+  Pipe<Beat, kStages> pipe_;
+};
+
+}  // namespace deburr::rtl::morphological

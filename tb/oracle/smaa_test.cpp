@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+// Is the integer golden SMAA? Its edges and the shares of every edge against golden/ideal/smaa,
+// which follows the published description in real numbers, on frames of greys, where no step of
+// luma lies at a threshold, and of colours, where rounding must explain every difference.
+#include "golden/ideal/smaa.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <string>
+
+#include "golden/morphological/morphological_golden.h"
+#include "tb/stimuli/frames.h"
+#include "tb/stimuli/random.h"
+
+namespace deburr {
+namespace {
+
+using golden::ideal::SmaaEdges;
+using golden::ideal::SmaaLuma;
+using golden::ideal::SmaaMargins;
+using golden::ideal::SmaaPixelWeights;
+using golden::ideal::SmaaSettings;
+using golden::ideal::SmaaWeights;
+using golden::morphological::EdgeShares;
+using golden::morphological::MorphologicalGolden;
+using golden::morphological::preset_parameters;
+using spec::morphological::Preset;
+using spec::morphological::Quality;
+using tb::Image;
+using tb::Random;
+
+// As published.
+SmaaSettings settings(Quality quality) {
+  switch (quality) {
+    case Quality::kLow:
+      return {0.15, 4, 0, {}};
+    case Quality::kMedium:
+      return {0.1, 8, 0, {}};
+    case Quality::kHigh:
+      return {0.1, 16, 8, 0.25};
+    case Quality::kUltra:
+      return {0.05, 32, 16, 0.25};
+  }
+  return {};
+}
+constexpr Quality kAll[] = {Quality::kLow, Quality::kMedium, Quality::kHigh, Quality::kUltra};
+
+SmaaLuma luma_of(const Image& image) {
+  SmaaLuma luma{{}, image.width, image.height};
+  for (const auto& p : image.pixels)
+    luma.values.push_back((0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]) / 255);
+  return luma;
+}
+
+// Bars of all lengths and slopes, so that runs end at crossings, at gaps, at T's and at the limits.
+Image bars(int width, int height, std::uint64_t seed, bool coloured) {
+  Random random(seed);
+  Image image(width, height);
+  for (auto& pixel : image.pixels) pixel = tb::stimuli::grey(90);
+  for (int i = 0; i < 60; ++i) {
+    const double x = random.uniform(0, width), y = random.uniform(0, height),
+                 angle = random.uniform(0, 6.3), length = random.uniform(2, 90),
+                 thickness = random.uniform(0.6, 12);
+    const double dx = std::cos(angle), dy = std::sin(angle);
+    const auto code = [&] { return static_cast<std::uint8_t>(random.below(256)); };
+    const tb::Rgba8 colour = coloured ? tb::Rgba8{code(), code(), code(), 255}
+                                      : tb::stimuli::grey(static_cast<int>(random.below(256)));
+    for (int py = 0; py < height; ++py) {
+      for (int px = 0; px < width; ++px) {
+        const double along = (px - x) * dx + (py - y) * dy,
+                     beside = std::abs((px - x) * dy - (py - y) * dx);
+        if (along >= 0 && along <= length && beside <= thickness / 2) image.at(px, py) = colour;
+      }
+    }
+  }
+  return image;
+}
+
+std::vector<Image> greys() {
+  std::vector<Image> images = {tb::stimuli::noise_image(), tb::stimuli::line_image(),
+                               tb::stimuli::shades_image(), tb::stimuli::random_edges(120, 80, 200),
+                               tb::stimuli::diagonals(60, 60, 3)};
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) images.push_back(bars(220, 160, seed, false));
+  return images;
+}
+
+SmaaEdges edges_of(const MorphologicalGolden& golden) {
+  SmaaEdges edges(golden.width(), golden.height());
+  for (int y = 0; y < golden.height(); ++y) {
+    for (int x = 0; x < golden.width(); ++x) {
+      edges.set_left(x, y, golden.edges().left.at(x, y));
+      edges.set_top(x, y, golden.edges().top.at(x, y));
+    }
+  }
+  return edges;
+}
+
+struct EdgeComparison {
+  int edges = 0, differing = 0, unexplained = 0;
+  EdgeComparison(const MorphologicalGolden& golden, const SmaaLuma& luma, double threshold) {
+    // T is rounded by half of 2^-16, each of three weights of luma by as much.
+    constexpr double kRounding = 4.0 / 131072;
+    const auto compare = [&](bool edge, const SmaaMargins& ideal) {
+      edges += ideal.edge();
+      if (edge == ideal.edge()) return;
+      ++differing;
+      unexplained +=
+          std::abs(ideal.threshold) > kRounding && std::abs(ideal.contrast) > 2 * kRounding;
+    };
+    for (int y = 0; y < luma.height; ++y) {
+      for (int x = 0; x < luma.width; ++x) {
+        compare(golden.edges().left.at(x, y), left_margins(luma, threshold, x, y));
+        compare(golden.edges().top.at(x, y), top_margins(luma, threshold, x, y));
+      }
+    }
+  }
+};
+
+TEST(Smaa, HasTheEdgesOfThePublishedOneOnGreys) {
+  int edges = 0;
+  for (const Image& image : greys()) {
+    for (const Quality quality : kAll) {
+      MorphologicalGolden golden(preset_parameters(Preset::kSmaa, quality));
+      golden.process({image.pixels, image.width, image.height});
+      const EdgeComparison found(golden, luma_of(image), settings(quality).threshold);
+      EXPECT_EQ(found.differing, 0);
+      edges += found.edges;
+    }
+  }
+  EXPECT_GT(edges, 100000);
+}
+
+TEST(Smaa, HasItsEdgesOnColoursButWhereRoundingDecides) {
+  int edges = 0, differing = 0, unexplained = 0;
+  // Of colours at random one in a million lies between the two thresholds.
+  Random random(3);
+  const auto any = [&](int, int) {
+    const std::uint32_t r = random.word();
+    return tb::Rgba8{static_cast<std::uint8_t>(r), static_cast<std::uint8_t>(r >> 8),
+                     static_cast<std::uint8_t>(r >> 16), 255};
+  };
+  std::vector<Image> images = {tb::stimuli::blocks_image(),
+                               tb::stimuli::rendered_like(300, 200, 90),
+                               tb::stimuli::draw(1000, 700, any)};
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) images.push_back(bars(220, 160, seed, true));
+  for (const Image& image : images) {
+    for (const Quality quality : kAll) {
+      MorphologicalGolden golden(preset_parameters(Preset::kSmaa, quality));
+      golden.process({image.pixels, image.width, image.height});
+      const EdgeComparison found(golden, luma_of(image), settings(quality).threshold);
+      edges += found.edges;
+      differing += found.differing;
+      unexplained += found.unexplained;
+    }
+  }
+  std::cout << differing << " of " << edges << " edges differ by rounding\n";
+  EXPECT_EQ(unexplained, 0);
+  EXPECT_GT(differing, 0);
+  EXPECT_LT(differing, edges / 10000);
+  EXPECT_GT(edges, 50000);
+}
+
+// A step of exactly T is an edge in both: one of 255 blue codes has 0.0722 of full scale, which is
+// 4732 / 65536 in the weights of luma and in T alike.
+TEST(Smaa, SeesAStepOfExactlyTheThreshold) {
+  const auto edges = [](int step, int threshold, double ideal) {
+    const Image image = tb::stimuli::draw(2, 1, [&](int x, int) {
+      return tb::Rgba8{0, 0, static_cast<std::uint8_t>(x * step), 255};
+    });
+    spec::morphological::Parameters p = preset_parameters(Preset::kSmaa);
+    p.threshold = threshold;
+    MorphologicalGolden golden(p);
+    golden.process({image.pixels, 2, 1});
+    const bool edge = golden.edges().left.at(1, 0);
+    EXPECT_EQ(left_margins(luma_of(image), ideal, 1, 0).edge(), edge);
+    return edge;
+  };
+  EXPECT_TRUE(edges(255, 4732, 0.0722));
+  EXPECT_FALSE(edges(255, 4733, 4733.0 / 65536));
+  EXPECT_FALSE(edges(254, 4732, 0.0722));
+}
+
+struct WeightComparison {
+  int edges = 0, diagonals = 0, wrong = 0, differently_taken = 0;
+  double worst = 0;  // of 255
+  void add(const MorphologicalGolden& golden, const SmaaSettings& ideal) {
+    const SmaaEdges edge_map = edges_of(golden);
+    std::uint64_t taken = 0;
+    for (int y = 0; y < golden.height(); ++y) {
+      for (int x = 0; x < golden.width(); ++x) {
+        if (!edge_map.top(x, y) && !edge_map.left(x, y)) continue;
+        const SmaaPixelWeights weights = smaa_weights(edge_map, ideal, x, y);
+        taken += weights.diagonal;
+        compare(weights.top, golden.top_shares(x, y));
+        compare(weights.left, golden.left_shares(x, y));
+      }
+    }
+    diagonals += static_cast<int>(taken);
+    differently_taken += taken != golden.work().diagonal_pixels;
+  }
+
+ private:
+  void compare(const SmaaWeights& ideal, EdgeShares found) {
+    ++edges;
+    const double off = 255 * std::max(std::abs(ideal.first - found.first / 256.0),
+                                      std::abs(ideal.second - found.second / 256.0));
+    worst = std::max(worst, off);
+    wrong += off > 1;
+  }
+};
+
+// Windows wide enough that no run is cut by them.
+WeightComparison compared(Quality quality, const SmaaSettings& ideal) {
+  WeightComparison comparison;
+  for (const Image& image : greys()) {
+    MorphologicalGolden golden(preset_parameters(Preset::kSmaa, quality));
+    golden.process({image.pixels, image.width, image.height});
+    comparison.add(golden, ideal);
+  }
+  return comparison;
+}
+
+TEST(Smaa, HasTheWeightsOfThePublishedOne) {
+  for (const Quality quality : kAll) {
+    const WeightComparison found = compared(quality, settings(quality));
+    std::cout << spec::morphological::kQualityNames[static_cast<std::size_t>(quality)] << ": "
+              << found.edges << " edges, " << found.diagonals << " diagonals, worst difference "
+              << found.worst << " / 255\n";
+    EXPECT_EQ(found.wrong, 0);
+    EXPECT_EQ(found.differently_taken, 0);
+    EXPECT_GT(found.edges, 30000);
+    EXPECT_EQ(found.diagonals > 1000, settings(quality).diagonal_steps > 0);
+  }
+}
+
+// The comparison sees a step of a search, a step of a diagonal, and the corners.
+TEST(Smaa, DiffersFromAnyOtherSetting) {
+  const auto wrong = [](void (*change)(SmaaSettings&)) {
+    SmaaSettings ideal = settings(Quality::kHigh);
+    change(ideal);
+    return compared(Quality::kHigh, ideal).wrong;
+  };
+  EXPECT_GT(wrong([](SmaaSettings& s) { s.search_steps = 15; }), 10);
+  EXPECT_GT(wrong([](SmaaSettings& s) { s.search_steps = 17; }), 10);
+  EXPECT_GT(wrong([](SmaaSettings& s) { s.diagonal_steps = 7; }), 10);
+  EXPECT_GT(wrong([](SmaaSettings& s) { s.diagonal_steps = 9; }), 10);
+  EXPECT_GT(wrong([](SmaaSettings& s) { s.diagonal_steps = 0; }), 10);
+  EXPECT_GT(wrong([](SmaaSettings& s) { s.corner_keeps = 0.3; }), 10);
+  EXPECT_GT(wrong([](SmaaSettings& s) { s.corner_keeps.reset(); }), 10);
+}
+
+}  // namespace
+}  // namespace deburr

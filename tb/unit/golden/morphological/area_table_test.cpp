@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: MIT
+// Are the area tables those of the formula, and are their three layouts one table? Every entry
+// against the areas in floating point, limits of the searches, ends of every line, what the layouts
+// cost, what merging loses with subsample offsets, and corner rounding.
+#include "golden/morphological/area_table.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "golden/ideal/smaa_area.h"
+#include "golden/morphological/corners.h"
+#include "golden/morphological/line.h"
+#include "spec/morphological/shapes.h"
+#include "tb/unit/golden/morphological/support.h"
+
+namespace deburr {
+namespace {
+
+using golden::ideal::smaa_area;
+using golden::ideal::SmaaWeights;
+using golden::morphological::AreaEntry;
+using golden::morphological::EdgeShares;
+using golden::morphological::FullAreaTable;
+using golden::morphological::line_ends;
+using golden::morphological::line_through;
+using golden::morphological::LineEnds;
+using golden::morphological::MergedAreaTable;
+using golden::morphological::MinimalAreaTable;
+using golden::morphological::MorphologicalGolden;
+using golden::morphological::pattern_of_shape;
+using golden::morphological::preset_parameters;
+using golden::morphological::table_address;
+using golden::morphological::table_shares;
+using spec::morphological::LineRecord;
+using spec::morphological::Parameters;
+using spec::morphological::Preset;
+using spec::morphological::Quality;
+using spec::morphological::RunPart;
+using spec::morphological::RunRecord;
+using tb::morphological::Frame;
+
+// ---- entries ------------------------------------------------------------------------------------
+
+template <class Visit>  // visit(pattern, i, j)
+void each_entry(Visit&& visit) {
+  for (int pattern = 0; pattern < 16; ++pattern)
+    for (int i = 0; i < 16; ++i)
+      for (int j = 0; j < 16; ++j) visit(pattern, i, j);
+}
+
+TEST(AreaTable, HoldsTheRoundedAreas) {
+  const FullAreaTable table;
+  each_entry([&](int pattern, int i, int j) {
+    const SmaaWeights area = smaa_area(pattern, i * i, j * j);
+    const AreaEntry entry = table.entry(pattern, i, j);
+    EXPECT_NEAR(entry.second, 512 * area.second, 0.5 + 1e-9) << pattern << ' ' << i << ' ' << j;
+    EXPECT_NEAR(entry.first, 512 * area.first, 0.5 + 1e-9) << pattern << ' ' << i << ' ' << j;
+  });
+}
+
+TEST(AreaTable, IsTheSameInEveryLayout) {
+  const FullAreaTable full;
+  const MergedAreaTable merged(full);
+  const MinimalAreaTable minimal;
+  int zero = 0;
+  each_entry([&](int pattern, int i, int j) {
+    EXPECT_EQ(merged.entry(pattern, i, j), full.entry(pattern, i, j))
+        << pattern << ' ' << i << ' ' << j;
+    EXPECT_EQ(minimal.entry(pattern, i, j), full.entry(pattern, i, j))
+        << pattern << ' ' << i << ' ' << j;
+    zero += full.entry(pattern, i, j) == AreaEntry{};
+  });
+  EXPECT_LT(zero, 8 * 256);  // most entries say something
+}
+
+// Patterns that the merged layout reads together differ from those that it does not.
+TEST(AreaTable, TellsPatternsApartThatAreNotMerged) {
+  const FullAreaTable full;
+  const auto same = [&](int p, int q) {
+    for (int i = 0; i < 16; ++i)
+      for (int j = 0; j < 16; ++j)
+        if (full.entry(p, i, j) != full.entry(q, i, j)) return false;
+    return true;
+  };
+  constexpr std::array<int, 9> kDistinct = {0, 1, 2, 3, 4, 6, 8, 9, 12};
+  for (const int p : kDistinct)
+    for (const int q : kDistinct) EXPECT_EQ(same(p, q), p == q) << p << ' ' << q;
+  EXPECT_TRUE(same(6, 7) && same(6, 14) && same(9, 11) && same(9, 13));
+  EXPECT_TRUE(same(0, 5) && same(0, 10) && same(0, 15));
+}
+
+TEST(AreaTable, LosesByMergingOnlyWithSubsampleOffsets) {
+  EXPECT_EQ(golden::ideal::loss_by_merging(0), 0);
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_EQ(golden::ideal::loss_by_merging(sign * 0.125), 16);
+    EXPECT_EQ(golden::ideal::loss_by_merging(sign * 0.25), 32);
+    EXPECT_EQ(golden::ideal::loss_by_merging(sign * 0.375), 48);
+  }
+}
+
+TEST(AreaTable, CostsTheContractsBits) {
+  EXPECT_EQ(FullAreaTable::kBits, 65536);
+  EXPECT_EQ(MergedAreaTable::kBits, 32768);
+  EXPECT_EQ(MinimalAreaTable::kBits, 4096);
+}
+
+// Paper 003's 1138 KB -> 547 KB is the published texture printed as source text: rows of one tile
+// height for each of seven offsets, two channels, twelve bytes of six characters a line and six
+// more for its end and indent.
+TEST(AreaTable, ShrinksByThePapersShareInBothReadings) {
+  struct Texture {
+    int width, height;
+    int bytes() const { return 2 * width * height; }
+    int characters() const { return 6 * bytes() + bytes() / 12 * 6; }
+    int kilobytes() const { return (characters() + 60 + 1023) / 1024; }
+  };
+  // The published one has 5 x 5 orthogonal and 4 x 4 diagonal places of 16 or 20 pixels; the merged
+  // one 8 orthogonal and 16 diagonal tiles of 16 x 16.
+  const Texture full{160, 560}, merged{96, 448};
+  EXPECT_EQ(full.width, 5 * 16 + 4 * 20);
+  EXPECT_EQ(full.height, 7 * 5 * 16);
+  EXPECT_EQ(merged.width * merged.height, 7 * (8 + 16) * 256);
+  EXPECT_EQ(full.bytes(), 179200);
+  EXPECT_EQ(merged.bytes(), 86016);
+  EXPECT_NEAR(100.0 * (full.bytes() - merged.bytes()) / full.bytes(), 52.00, 0.005);
+  EXPECT_EQ(full.characters(), 1164798);
+  EXPECT_EQ(merged.characters(), 559104);
+  EXPECT_EQ(full.kilobytes(), 1138);
+  EXPECT_EQ(merged.kilobytes(), 547);
+  EXPECT_NEAR(100.0 * (full.kilobytes() - merged.kilobytes()) / full.kilobytes(), 51.93, 0.005);
+}
+
+// ---- reading it ---------------------------------------------------------------------------------
+
+TEST(AreaTable, IsReadBetweenRoots) {
+  for (int d = 0; d < spec::morphological::kTableDistances; ++d) {
+    const double root = 256 * std::sqrt(d);
+    EXPECT_EQ(golden::morphological::table_root(d), std::floor(root)) << d;
+  }
+  // At squares the share is the entry itself, halved.
+  const FullAreaTable table;
+  for (int shape = 0; shape < 16; ++shape) {
+    for (int i = 0; i < 15; ++i) {
+      for (int j = 0; j < 15; ++j) {
+        const AreaEntry entry = table.entry(pattern_of_shape(shape), i, j);
+        const EdgeShares shares = table_shares(shape, i * i, j * j);
+        EXPECT_EQ(shares.first, (entry.first + 1) / 2);
+        EXPECT_EQ(shares.second, (entry.second + 1) / 2);
+      }
+    }
+  }
+}
+
+TEST(AreaTable, NeverGivesMoreThanAHalf) {
+  int most = 0;
+  for (int shape = 0; shape < 16; ++shape) {
+    for (int l = 0; l < spec::morphological::kTableDistances; ++l) {
+      for (int r = 0; r < spec::morphological::kTableDistances; ++r) {
+        const EdgeShares s = table_shares(shape, l, r);
+        most = std::max({most, int{s.first}, int{s.second}});
+      }
+    }
+  }
+  EXPECT_EQ(most, spec::morphological::kMaxWeight);
+}
+
+// The same run from its other end: codes and distances change places, shares stay.
+TEST(AreaTable, IsSymmetric) {
+  for (int shape = 0; shape < 16; ++shape) {
+    const int reversed = shape >> 2 | (shape & 3) << 2;
+    const auto swapped = [](int code) { return code >> 1 | (code & 1) << 1; };
+    const int upside_down = swapped(shape & 3) | swapped(shape >> 2) << 2;
+    for (int l = 0; l < 225; l += 3) {
+      for (int r = 0; r < 225; r += 2) {
+        const EdgeShares s = table_shares(shape, l, r);
+        EXPECT_EQ(table_shares(reversed, r, l), s);
+        EXPECT_EQ(table_shares(upside_down, l, r), (EdgeShares{s.second, s.first}));
+      }
+    }
+  }
+}
+
+// ---- distances and limits -----------------------------------------------------------------------
+
+LineRecord whole_run(int length, int shape) {
+  RunRecord run;
+  run.length = static_cast<std::uint16_t>(length);
+  run.shape = static_cast<std::uint8_t>(shape);
+  golden::morphological::Prediction none;
+  none.right.end = length;
+  return line_through(preset_parameters(Preset::kSmaa), run, none);
+}
+
+LineRecord part_of_long_run(RunPart part, int reach, int shape) {
+  RunRecord run;
+  run.part = part;
+  run.length = static_cast<std::uint16_t>(reach / 2);
+  run.shape = static_cast<std::uint8_t>(shape);
+  Parameters p = preset_parameters(Preset::kSmaa);
+  p.reach_columns = reach;
+  return line_through(p, run, {});
+}
+
+TEST(LineEnds, AreTheRunsOwnAtEveryLength) {
+  const auto ends = [](const LineRecord& line) {
+    const LineEnds e = line_ends(line);
+    return std::pair(e.first, e.last);
+  };
+  for (int length = 1; length <= 2048; ++length) {
+    EXPECT_EQ(ends(whole_run(length, 9)), std::pair(0, length));
+    if (length < 4) continue;
+    EXPECT_EQ(ends(part_of_long_run(RunPart::kHead, length, 1)), std::pair(0, length));
+    EXPECT_EQ(ends(part_of_long_run(RunPart::kTail, length, 8)),
+              std::pair(length / 2 - length, length / 2));
+  }
+}
+
+// Of an extended run they lie where its line leaves the strip: the chord of -6, -3, [0, 4] is at
+// -1/5 of a step at the start and takes 10/3 pixels a step.
+TEST(LineEnds, FollowTheLineOfAnExtendedRun) {
+  RunRecord run;
+  run.length = 4;
+  run.shape = 9;
+  golden::morphological::Prediction p;
+  p.left.steps = 2;
+  p.left.corner[0] = -3;
+  p.left.corner[1] = -6;
+  p.left.end = -6;
+  p.right.end = 4;
+  const LineEnds ends = line_ends(line_through(preset_parameters(Preset::kMlaaSlope), run, p));
+  EXPECT_EQ(ends.first, 1);  // 2/3
+  EXPECT_EQ(ends.last, 4);
+}
+
+// 2N - 1 pixels before and 2N behind are seen, one more is not: the distance stays and the code
+// goes.
+TEST(Searches, EndAtTheirLimits) {
+  for (const int steps : {1, 4, 16, 112}) {
+    const int left = 2 * steps - 1, right = 2 * steps;
+    for (int shape = 0; shape < 16; ++shape) {
+      for (const int before : {left - 1, left, left + 1, left + 2}) {
+        for (const int after : {right - 1, right, right + 1, right + 2}) {
+          if (before + after + 1 > 2048) continue;
+          int seen = shape;
+          if (before > left) seen &= 12;
+          if (after > right) seen &= 3;
+          const LineRecord line = whole_run(before + after + 1, shape);
+          EXPECT_EQ(table_shares(table_address(line, line_ends(line), steps, before)),
+                    table_shares(seen, std::min(before, left), std::min(after, right)))
+              << steps << ' ' << shape << ' ' << before << ' ' << after;
+        }
+      }
+    }
+  }
+}
+
+// What one pixel more or less would do, on a Z: the far end is seen or not.
+TEST(Searches, SeeTheCrossingAtTheLimitOnly) {
+  constexpr int kSteps = 4, kLeft = 7, kRight = 8;
+  const auto shares = [](int before, int after) {
+    const LineRecord line = whole_run(before + after + 1, 9);  // Z-first-second
+    return table_shares(table_address(line, line_ends(line), kSteps, before));
+  };
+  EXPECT_NE(shares(kLeft, 20).first, 0);      // starts just in sight
+  EXPECT_EQ(shares(kLeft + 1, 20).first, 0);  // a pixel too far
+  EXPECT_NE(shares(20, kRight).second, 0);
+  EXPECT_EQ(shares(20, kRight + 1).second, 0);
+}
+
+// ---- whole frames -------------------------------------------------------------------------------
+
+TEST(AreaTable, GivesTheSameFramesInEveryLayout) {
+  for (const Frame& frame : {Frame(tb::morphological::blocks_image()),
+                             Frame(tb::morphological::rendered_like(180, 120, 60))}) {
+    Parameters p = preset_parameters(Preset::kSmaa);
+    const Frame full = smooth(p, frame);
+    p.area = spec::morphological::AreaSource::kTableMerged;
+    EXPECT_EQ(smooth(p, frame), full);
+    p.area = spec::morphological::AreaSource::kTableMinimal;
+    EXPECT_EQ(smooth(p, frame), full);
+    p.area = spec::morphological::AreaSource::kAnalytic;
+    EXPECT_NE(smooth(p, frame), full);
+  }
+}
+
+// With a chord or a fitted line the table is read where that line ends, to the pixel.
+TEST(AreaTable, GoesWithEveryPredictor) {
+  const auto shares = [&](const Frame& frame, const Parameters& p) {
+    MorphologicalGolden golden(p);
+    golden.process(frame.view());
+    std::vector<EdgeShares> all;
+    for (int y = 0; y < frame.height; ++y)
+      for (int x = 0; x < frame.width; ++x) all.push_back(golden.top_shares(x, y));
+    return all;
+  };
+  const Frame blocks = tb::morphological::blocks_image();
+  for (const auto preset : {Preset::kMlaaSlope, Preset::kDeburr}) {
+    Parameters p = preset_parameters(preset);
+    p.area = spec::morphological::AreaSource::kTableFull;
+    const auto table = shares(blocks, p);
+    for (const auto layout : {spec::morphological::AreaSource::kTableMerged,
+                              spec::morphological::AreaSource::kTableMinimal}) {
+      p.area = layout;
+      EXPECT_EQ(shares(blocks, p), table);
+    }
+    p.predictor = spec::morphological::Predictor::kNone;
+    EXPECT_NE(shares(blocks, p), table);
+  }
+  // On a true line the chord's ends bring the table nearer to the chord's own areas; those of a fit
+  // lie within half a pixel of the run's, so that it is the table of the run alone.
+  const Frame line = tb::morphological::line_image();
+  const auto off = [&](Parameters p) {
+    p.area = spec::morphological::AreaSource::kAnalytic;
+    const auto analytic = shares(line, p);
+    const auto distance = [&](spec::morphological::Predictor predictor) {
+      p.area = spec::morphological::AreaSource::kTableFull;
+      p.predictor = predictor;
+      const auto table = shares(line, p);
+      int sum = 0;
+      for (std::size_t i = 0; i < table.size(); ++i)
+        sum += std::abs(table[i].first - analytic[i].first) +
+               std::abs(table[i].second - analytic[i].second);
+      return sum;
+    };
+    const int own = distance(p.predictor);
+    return std::pair(own, distance(spec::morphological::Predictor::kNone));
+  };
+  const auto [chord, without_chord] = off(preset_parameters(Preset::kMlaaSlope));
+  EXPECT_LT(chord, without_chord);
+  const auto [fit, without_fit] = off(preset_parameters(Preset::kDeburr));
+  EXPECT_EQ(fit, without_fit);
+}
+
+// A run beyond the reach gives every pixel what the whole run would give it if the reach is 4N + 2
+// or more. Its tail holds 2N pixels with a reach of 4N + 1 and misses one that the search still
+// sees; with N = 32 the table has nothing for that pixel, so that a reach of 4N does as well.
+TEST(Searches, LoseNothingByTheReachOf4NPlus2) {
+  const auto shares = [](Quality quality, int length, int reach) {
+    const Frame frame(length + 2, 4, [&](int x, int y) {
+      const bool white = y == 3 || (y == 2 && x > 0) || (y == 1 && x > length);
+      return tb::morphological::grey(white ? 255 : 0);
+    });
+    Parameters p = preset_parameters(Preset::kSmaa, quality);
+    p.reach_columns = reach;
+    MorphologicalGolden golden(p);
+    golden.process(frame.view());
+    EXPECT_EQ(golden.work().long_runs, reach < length ? 1u : 0u);
+    std::vector<EdgeShares> all;
+    for (int x = 1; x <= length; ++x) all.push_back(golden.top_shares(x, 2));
+    return all;
+  };
+  const auto low = shares(Quality::kLow, 60, 100);
+  for (int reach = 18; reach < 60; ++reach) EXPECT_EQ(shares(Quality::kLow, 60, reach), low);
+  EXPECT_NE(shares(Quality::kLow, 60, 17), low);
+  const auto ultra = shares(Quality::kUltra, 300, 400);
+  EXPECT_EQ(shares(Quality::kUltra, 300, 130), ultra);
+  EXPECT_EQ(shares(Quality::kUltra, 300, 128), ultra);
+  EXPECT_NE(shares(Quality::kUltra, 300, 126), ultra);
+}
+
+// ---- corners ------------------------------------------------------------------------------------
+
+TEST(Corners, KeepTheirShareOfTheWeightBesideASharpCorner) {
+  RunRecord run;
+  run.length = 5;
+  const EdgeShares shares{100, 60};
+  const auto at = [&](int far, int stays, int k) {
+    run.far = static_cast<std::uint8_t>(far);
+    const EdgeShares s = golden::morphological::rounded_at_corners(shares, run, stays, k);
+    return std::pair(int{s.first}, int{s.second});
+  };
+  for (int k = 0; k < 5; ++k) {
+    EXPECT_EQ(at(0, 64, k), std::pair(100, 60));
+    EXPECT_EQ(at(15, 256, k), std::pair(100, 60));
+    EXPECT_EQ(at(15, 0, k), std::pair(0, 0));
+    EXPECT_EQ(at(15, 64, k), std::pair(25, 15));
+    EXPECT_EQ(at(1, 64, k), std::pair(k < 2 ? 25 : k == 2 ? 63 : 100, 60));  // 62.5 rounds up
+    EXPECT_EQ(at(2, 64, k), std::pair(100, k < 2 ? 15 : k == 2 ? 38 : 60));
+    EXPECT_EQ(at(4, 64, k), std::pair(k > 2 ? 25 : k == 2 ? 63 : 100, 60));
+    EXPECT_EQ(at(8, 64, k), std::pair(100, k > 2 ? 15 : k == 2 ? 38 : 60));
+  }
+  run.part = RunPart::kHead;
+  for (int k = 0; k < 5; ++k) EXPECT_EQ(at(1, 64, k), std::pair(25, 60));
+  run.part = RunPart::kTail;
+  for (int k = 0; k < 5; ++k) EXPECT_EQ(at(4, 64, k), std::pair(25, 60));
+}
+
+// A run of an even number of pixels has no middle.
+TEST(Corners, SplitAnEvenRunInTwo) {
+  RunRecord run;
+  run.length = 4;
+  run.far = 1;
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_EQ(golden::morphological::rounded_at_corners({128, 0}, run, 128, k).first,
+              k < 2 ? 64 : 128);
+  }
+}
+
+}  // namespace
+}  // namespace deburr

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: MIT
+// Are diagonals found as docs/morphological_smaa.md says? Staircases of every length with every
+// code at their ends, both ways, open or not, at borders; the table against the areas of its lines;
+// and what a pixel that is taken does to the shares of its edges.
+#include "golden/morphological/diagonals.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tb/stimuli/random.h"
+#include "tb/unit/golden/morphological/support.h"
+
+namespace deburr {
+namespace {
+
+using golden::morphological::BitPlane;
+using golden::morphological::diagonal_shares;
+using golden::morphological::diagonal_table;
+using golden::morphological::DiagonalAreas;
+using golden::morphological::DiagonalEnds;
+using golden::morphological::DiagonalShares;
+using golden::morphological::EdgePlanes;
+using golden::morphological::falling_diagonal;
+using golden::morphological::MorphologicalGolden;
+using golden::morphological::preset_parameters;
+using golden::morphological::rising_diagonal;
+using spec::morphological::Parameters;
+using spec::morphological::Preset;
+using tb::Random;
+using tb::morphological::Frame;
+
+bool operator==(const DiagonalEnds& a, const DiagonalEnds& b) {
+  return a.d1 == b.d1 && a.d2 == b.d2 && a.e1 == b.e1 && a.e2 == b.e2 && a.open1 == b.open1 &&
+         a.open2 == b.open2;
+}
+
+constexpr int kSize = 60, kX = 30, kY = 30;
+
+EdgePlanes empty(int width = kSize, int height = kSize) {
+  return {BitPlane(width, height), BitPlane(width, height)};
+}
+
+// Steps 1..down and 1..up of the diagonal at (kX, kY), whose own two edges are set.
+EdgePlanes rising(int down, int up) {
+  EdgePlanes e = empty();
+  for (int i = -down; i <= up; ++i) {
+    e.top.set(kX + i, kY - i);
+    e.left.set(kX + i, kY - i);
+  }
+  return e;
+}
+EdgePlanes falling(int up, int down) {
+  EdgePlanes e = empty();
+  for (int i = -up; i <= down; ++i) {
+    e.top.set(kX + i, kY + i);
+    e.left.set(kX + i + 1, kY + i);
+  }
+  return e;
+}
+
+TEST(Diagonal, IsFollowedFromEachEnd) {
+  for (const int steps : {1, 2, 3, 8, 16}) {
+    for (int a = 0; a <= steps + 1; ++a) {
+      for (int b = 0; b <= steps + 1; ++b) {
+        const DiagonalEnds up = rising_diagonal(rising(a, b), steps, kX, kY);
+        // A staircase that goes on beyond the search has the top edge that lengthens end 1.
+        const int further = a >= steps ? 1 : 0;
+        EXPECT_EQ(up.d1, std::min(a, steps - 1) + further);
+        EXPECT_EQ(up.d2, std::min(b, steps - 1));
+        EXPECT_EQ(up.open1, a >= steps);
+        EXPECT_EQ(up.open2, b >= steps);
+        const DiagonalEnds down = falling_diagonal(falling(a, b), steps, kX, kY);
+        EXPECT_EQ(down.d1, std::min(a, steps - 1));
+        EXPECT_EQ(down.d2, std::min(b, steps - 1) + (b >= steps ? 1 : 0));
+        EXPECT_EQ(down.open1, a >= steps);
+        EXPECT_EQ(down.open2, b >= steps);
+        EXPECT_EQ(up.counts(), up.d1 + up.d2 >= 3);
+      }
+    }
+  }
+}
+
+// The last top edge of a staircase without its left edge is a pixel more of end 1 (rising) or of
+// end 2 (falling), and of no other.
+TEST(Diagonal, IsAPixelLongerByATopEdgeAlone) {
+  constexpr int kSteps = 8;
+  for (int n = 0; n < kSteps; ++n) {
+    EdgePlanes e = rising(n, 4);
+    e.top.set(kX - n - 1, kY + n + 1);
+    EXPECT_EQ(rising_diagonal(e, kSteps, kX, kY).d1, n + 1);
+    e = rising(4, n);
+    e.top.set(kX + n + 1, kY - n - 1);
+    EXPECT_EQ(rising_diagonal(e, kSteps, kX, kY).d2, n);
+    e = falling(4, n);
+    e.top.set(kX + n + 1, kY + n + 1);
+    EXPECT_EQ(falling_diagonal(e, kSteps, kX, kY).d2, n + 1);
+    e = falling(n, 4);
+    e.top.set(kX - n - 1, kY - n - 1);
+    EXPECT_EQ(falling_diagonal(e, kSteps, kX, kY).d1, n);
+  }
+}
+
+TEST(Diagonal, NeedsAnEdgeBesideThePixelForOneOfItsEnds) {
+  EdgePlanes e = empty();
+  for (int i = -5; i <= 5; ++i) {
+    e.top.set(kX + i, kY - i);
+    if (i != 0) e.left.set(kX + i, kY - i);
+  }
+  const DiagonalEnds up = rising_diagonal(e, 8, kX, kY);
+  EXPECT_EQ(up.d1, 0);
+  EXPECT_EQ(up.d2, 5);
+  e = empty();
+  for (int i = -5; i <= 5; ++i) {
+    e.top.set(kX + i, kY + i);
+    if (i != 0) e.left.set(kX + i + 1, kY + i);
+  }
+  const DiagonalEnds down = falling_diagonal(e, 8, kX, kY);
+  EXPECT_EQ(down.d1, 5);
+  EXPECT_EQ(down.d2, 0);
+}
+
+// Each bit of a code alone, from the place that the contract names; an open end has none.
+TEST(Diagonal, ReadsTheCodesOfItsEnds) {
+  for (int code1 = 0; code1 < 4; ++code1) {
+    for (int code2 = 0; code2 < 4; ++code2) {
+      EdgePlanes e = rising(3, 4);
+      if (code1 & 2) e.top.set(kX - 4, kY + 3);
+      if (code1 & 1) e.left.set(kX - 3, kY + 3);  // set already: the diagonal's own
+      if (code2 & 2) e.top.set(kX + 5, kY - 4);
+      if (code2 & 1) e.left.set(kX + 5, kY - 5);
+      const DiagonalEnds up = rising_diagonal(e, 8, kX, kY);
+      EXPECT_EQ(up.e1, (code1 & 2) | 1);
+      EXPECT_EQ(up.e2, code2);
+      const DiagonalEnds open = rising_diagonal(e, 3, kX, kY);
+      EXPECT_TRUE(open.open1 && open.open2);
+      EXPECT_EQ(open.e1, 0);
+      EXPECT_EQ(open.e2, 0);
+
+      EdgePlanes f = falling(3, 4);
+      if (code1 & 2) f.top.set(kX - 4, kY - 3);
+      if (code1 & 1) f.left.set(kX - 3, kY - 4);
+      if (code2 & 2) f.top.set(kX + 5, kY + 4);
+      const DiagonalEnds down = falling_diagonal(f, 8, kX, kY);
+      EXPECT_EQ(down.e1, code1);
+      EXPECT_EQ(down.e2, (code2 & 2) | 1);  // left(x + d2 + 1, y + d2) is the diagonal's own
+    }
+  }
+  // With the lengthening top edge the own left edge is a pixel behind: all of e1 is free.
+  for (int code = 0; code < 4; ++code) {
+    EdgePlanes e = rising(3, 4);
+    e.top.set(kX - 4, kY + 4);
+    if (code & 2) e.top.set(kX - 5, kY + 4);
+    // A left edge there would make it a step of the diagonal.
+    const DiagonalEnds up = rising_diagonal(e, 8, kX, kY);
+    EXPECT_EQ(up.d1, 4);
+    EXPECT_EQ(up.e1, code & 2);
+    EdgePlanes f = falling(3, 4);
+    f.top.set(kX + 5, kY + 5);
+    if (code & 2) f.top.set(kX + 6, kY + 5);
+    const DiagonalEnds down = falling_diagonal(f, 8, kX, kY);
+    EXPECT_EQ(down.d2, 5);
+    EXPECT_EQ(down.e2, code & 2);
+  }
+}
+
+// Nothing outside the frame is an edge: the same bits in the middle of a larger frame give the same
+// ends, for frames of one pixel to more than a search is long.
+TEST(Diagonal, EndsAtTheBorders) {
+  constexpr int kSteps = 4, kMargin = 12;
+  Random random(7);
+  int counted = 0;
+  for (int width = 1; width <= 2 * kSteps + 3; ++width) {
+    for (int height : {1, 2, 3, 5, 11}) {
+      EdgePlanes small = empty(width, height),
+                 large = empty(width + 2 * kMargin, height + 2 * kMargin);
+      for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+          if (random.chance(800)) {
+            small.left.set(x, y);
+            large.left.set(x + kMargin, y + kMargin);
+          }
+          if (random.chance(800)) {
+            small.top.set(x, y);
+            large.top.set(x + kMargin, y + kMargin);
+          }
+        }
+      }
+      for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+          const DiagonalEnds up = rising_diagonal(small, kSteps, x, y);
+          const DiagonalEnds down = falling_diagonal(small, kSteps, x, y);
+          EXPECT_TRUE(up == rising_diagonal(large, kSteps, x + kMargin, y + kMargin));
+          EXPECT_TRUE(down == falling_diagonal(large, kSteps, x + kMargin, y + kMargin));
+          counted += up.counts() + down.counts();
+        }
+      }
+    }
+  }
+  EXPECT_GT(counted, 100);
+}
+
+// ---- the table ----------------------------------------------------------------------------------
+
+// A line through two corners of a pixel halves it, but for the samples on it, which count for
+// neither side: 1 - 435/900 above and 435/900 below.
+TEST(DiagonalTable, HalvesThePixelsOfAPlainDiagonal) {
+  for (int d1 = 0; d1 < 20; ++d1) {
+    for (int d2 = 0; d2 < 20; ++d2) {
+      EXPECT_EQ(diagonal_table().at(1, 2, d1, d2), (DiagonalAreas{132, 0}));
+      EXPECT_EQ(diagonal_table().at(2, 1, d1, d2), (DiagonalAreas{0, 124}));
+    }
+  }
+}
+
+TEST(DiagonalTable, ApproachesTheAreasBesideItsLine) {
+  // Pair (2, 2): one line from (1, 1) to (1 + n, n); its area in the pixel from (1 + d1, d1) and in
+  // the one below it, by integration over columns.
+  const auto clipped = [](double v) { return std::clamp(v, 0.0, 1.0); };
+  for (int d1 = 0; d1 < 20; ++d1) {
+    for (int d2 = 0; d2 < 20; ++d2) {
+      const double n = d1 + d2 + 1, slope = (n - 1) / n;
+      double above = 0, below = 0;
+      constexpr int kColumns = 1000;
+      for (int i = 0; i < kColumns; ++i) {
+        const double x = 1 + d1 + (i + 0.5) / kColumns, y = 1 + (x - 1) * slope;
+        above += 1 - clipped(y - d1);
+        below += clipped(y - (d1 + 1));
+      }
+      // Samples lie on the pixel's border, so that an area is a thirtieth off at most, and rounded.
+      constexpr double kOff = 1.0 / 30 + 1.0 / 512 + 1.0 / kColumns;
+      EXPECT_NEAR(diagonal_table().at(2, 2, d1, d2).a / 256.0, above / kColumns, kOff);
+      EXPECT_NEAR(diagonal_table().at(2, 2, d1, d2).b / 256.0, below / kColumns, kOff);
+    }
+  }
+}
+
+TEST(DiagonalTable, CostsTheContractsBits) {
+  EXPECT_EQ(golden::morphological::DiagonalTable::kBits, 102400);
+}
+
+TEST(DiagonalShares, AddUpBothDirectionsAndSwapTheFallingOnes) {
+  DiagonalEnds up;
+  up.d1 = 3;
+  up.d2 = 1;
+  up.e1 = 2;
+  DiagonalEnds down;
+  down.d1 = 2;
+  down.d2 = 4;
+  down.e2 = 3;
+  const DiagonalAreas a = diagonal_table().at(2, 0, 3, 1), b = diagonal_table().at(0, 3, 2, 4);
+  ASSERT_NE(a.a, a.b);
+  ASSERT_NE(b.a, b.b);
+  const DiagonalShares both = diagonal_shares(up, down);
+  EXPECT_EQ(both.second, a.a + b.b);
+  EXPECT_EQ(both.first, a.b + b.a);
+  EXPECT_EQ(both.span, 7);
+  const DiagonalShares one = diagonal_shares(up, {});
+  EXPECT_EQ(one.second, a.a);
+  EXPECT_EQ(one.first, a.b);
+  EXPECT_EQ(one.span, 5);
+  EXPECT_FALSE(diagonal_shares({}, {}).taken());
+}
+
+// ---- frames -------------------------------------------------------------------------------------
+
+TEST(DiagonalPixels, TakeTheirSharesFromTheRuns) {
+  Parameters p = preset_parameters(Preset::kSmaa);
+  const Frame frame = tb::morphological::noise_image();
+  MorphologicalGolden with(p);
+  with.process(frame.view());
+  p.diagonals = false;
+  MorphologicalGolden without(p);
+  without.process(frame.view());
+  EXPECT_EQ(with.edges(), without.edges());
+  std::uint64_t taken = 0, of_left = 0;
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      const DiagonalShares found =
+          with.edges().top.at(x, y)
+              ? diagonal_shares(rising_diagonal(with.edges(), p.diagonal_steps, x, y),
+                                falling_diagonal(with.edges(), p.diagonal_steps, x, y))
+              : DiagonalShares{};
+      if (found.taken()) {
+        ++taken;
+        of_left += without.left_shares(x, y) != golden::morphological::EdgeShares{};
+        EXPECT_EQ(with.top_shares(x, y).first, std::min(255, found.first));
+        EXPECT_EQ(with.top_shares(x, y).second, std::min(255, found.second));
+        EXPECT_EQ(with.left_shares(x, y), golden::morphological::EdgeShares{});
+      } else {
+        EXPECT_EQ(with.top_shares(x, y), without.top_shares(x, y));
+        EXPECT_EQ(with.left_shares(x, y), without.left_shares(x, y));
+      }
+    }
+  }
+  EXPECT_EQ(with.work().diagonal_pixels, taken);
+  EXPECT_GT(taken, 100u);
+  EXPECT_GT(of_left, 10u);
+}
+
+// The rule of the longest line keeps every share below a half.
+TEST(DiagonalPixels, KeepWithinTheLimitOfTheBlendRule) {
+  Parameters p = preset_parameters(Preset::kSmaa);
+  const Frame frame = tb::morphological::noise_image();
+  const auto most = [&] {
+    MorphologicalGolden golden(p);
+    golden.process(frame.view());
+    int result = 0;
+    for (int y = 0; y < frame.height; ++y)
+      for (int x = 0; x < frame.width; ++x)
+        result = std::max(
+            {result, int{golden.top_shares(x, y).first}, int{golden.top_shares(x, y).second}});
+    return result;
+  };
+  EXPECT_GT(most(), 128);
+  p.blend = spec::morphological::BlendRule::kLongest;
+  EXPECT_EQ(most(), 128);
+}
+
+}  // namespace
+}  // namespace deburr

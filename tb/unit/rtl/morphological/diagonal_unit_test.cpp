@@ -1,0 +1,577 @@
+// SPDX-License-Identifier: MIT
+// DiagonalUnit against the golden model's function, to the bit: stairs of every length about the
+// limit of the searches, both ways, with every code at their ends, and random edges, in rows of any
+// number of beats; its clocks, its ports, and faults in what it reads.
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "golden/morphological/diagonals.h"
+#include "rtl_model/morphological/blend/diagonal_table.h"
+#include "tb/stimuli/random.h"
+#include "tb/unit/rtl/morphological/parts.h"
+
+namespace deburr::tb::morphological_rtl {
+namespace {
+
+using namespace rtl::morphological;  // NOLINT: a test of these
+using golden::morphological::BitPlane;
+using golden::morphological::diagonal_shares;
+using golden::morphological::DiagonalEnds;
+using golden::morphological::DiagonalShares;
+using golden::morphological::EdgePlanes;
+using golden::morphological::falling_diagonal;
+using golden::morphological::rising_diagonal;
+using spec::morphological::BlendRule;
+using spec::morphological::kMaxDiagonalSteps;
+namespace reg = spec::morphological::reg;
+
+constexpr Cycle kStages = 5;
+
+// What a unit is built with: M, and the lanes.
+struct Build {
+  int steps, lanes_code;
+};
+void PrintTo(const Build& b, std::ostream* out) {
+  *out << "M = " << b.steps << ", lanes code " << b.lanes_code;
+}
+
+Parameters built_as(const Build& build) {
+  Parameters p = smaa(spec::morphological::Quality::kUltra);
+  p.diagonal_steps = build.steps;
+  p.lanes = static_cast<spec::morphological::Lanes>(build.lanes_code);
+  p.line_pixels = 128;
+  return p;
+}
+
+// columns -> DiagonalUnit -> a word a beat.
+struct Diagonals {
+  explicit Diagonals(const Parameters& p, Cycle opens = 0)
+      : built(p.diagonal_steps),
+        lanes(lanes_of(p)),
+        reach(reach_of(p)),
+        registers(p),
+        columns("columns", 2, diagonal_columns_shape(p, lanes)),
+        unit("diagonals", clock, p, registers.store),
+        gate("gate", clock, opens) {
+    driver.beats_out(columns);
+    unit.columns_in(columns);
+    gate.beats_in(unit.shares());
+  }
+  // Bits [high:low] of a register, of the frames from now on.
+  void tell(std::uint32_t offset, int high, int low, std::uint32_t value) {
+    const std::uint32_t mask = ((2u << (high - low)) - 1) << low;
+    registers.bus.write(offset, (registers.bus.read(offset) & ~mask) | value << low);
+  }
+  int beats(const EdgePlanes& edges) const { return (edges.top.width() + lanes - 1) / lanes; }
+  std::size_t words(const EdgePlanes& edges) const {
+    return static_cast<std::size_t>(beats(edges) * edges.top.height());
+  }
+  Cycle delay() const { return static_cast<Cycle>(diagonal_delay(built, lanes)); }
+
+  // Columns of a beat about row y, as the RunExtractor hands them on.
+  DiagonalColumnsToken token(const EdgePlanes& edges, int y, int beat) const {
+    DiagonalColumnsToken t{};
+    t.slot = {static_cast<std::uint32_t>((y + reach + 3) * beats(edges) + beat),
+              static_cast<std::uint16_t>(y + reach + 3), static_cast<std::uint16_t>(beat)};
+    for (int lane = 0; lane < lanes; ++lane)
+      for (int k = 0; k <= 2 * built; ++k) {
+        const int x = beat * lanes + lane;
+        const auto i = static_cast<std::size_t>(lane);
+        t.left[i] |= std::uint64_t{edges.left.at(x, y + k - built)} << k;
+        t.top[i] |= std::uint64_t{edges.top.at(x, y + k - built)} << k;
+      }
+    return t;
+  }
+  // A frame, a beat a clock from the next clock on, and `gap` clocks more between rows.
+  void send(const EdgePlanes& edges, Cycle gap = 0) {
+    registers.frame(edges.top.width(), edges.top.height());
+    Cycle at = clock.cycle();
+    for (int y = 0; y < edges.top.height(); ++y, at += gap)
+      for (int beat = 0; beat < beats(edges); ++beat) driver.send(at++, token(edges, y, beat));
+  }
+  // The words of a frame. In rows of fewer beats than a diagonal takes the RunExtractor waits.
+  std::vector<DiagonalSharesToken> run(const EdgePlanes& edges) {
+    const std::size_t before = gate.beats.size(), wanted = before + words(edges);
+    send(edges, static_cast<Cycle>(beats(edges)) < delay() ? delay() : 0);
+    clock.run_until([&] { return gate.beats.size() >= wanted; }, 1'000'000);
+    clock.run(delay() + 20);
+    registers.store.leave();
+    return {gate.beats.begin() + static_cast<std::ptrdiff_t>(before), gate.beats.end()};
+  }
+
+  const int built, lanes, reach;
+  ClockDomain clock{"clock", period()};
+  Registers registers;
+  Link<DiagonalColumnsToken> columns;
+  TimedDriver<DiagonalColumnsToken> driver{"driver", clock};
+  DiagonalUnit unit;
+  Gate<DiagonalSharesToken> gate;
+};
+
+// What golden says of a frame, and what it has read for that.
+struct Expected {
+  std::vector<DiagonalSharesToken> words;
+  std::uint64_t taken = 0, reads = 0;
+};
+
+Expected expected(const EdgePlanes& edges, int steps, int lanes, bool strongest = true) {
+  const int width = edges.top.width(), most = strongest ? 255 : 128;
+  Expected all;
+  for (int y = 0; y < edges.top.height(); ++y)
+    for (int x0 = 0; x0 < width; x0 += lanes) {
+      DiagonalSharesToken word{};
+      for (int lane = 0; lane < std::min(lanes, width - x0); ++lane) {
+        const int x = x0 + lane;
+        if (steps == 0 || !edges.top.at(x, y)) continue;
+        const DiagonalEnds rising = rising_diagonal(edges, steps, x, y),
+                           falling = falling_diagonal(edges, steps, x, y);
+        all.reads += std::uint64_t{rising.counts()} + std::uint64_t{falling.counts()};
+        const DiagonalShares shares = diagonal_shares(rising, falling);
+        if (!shares.taken()) continue;
+        ++all.taken;
+        const auto i = static_cast<std::size_t>(lane);
+        word.taken = static_cast<std::uint8_t>(word.taken | 1u << lane);
+        word.first[i] = static_cast<std::uint8_t>(std::min(most, shares.first));
+        word.second[i] = static_cast<std::uint8_t>(std::min(most, shares.second));
+        word.span[i] = static_cast<std::uint8_t>(shares.span);
+      }
+      all.words.push_back(word);
+    }
+  return all;
+}
+
+// Lanes that are not taken hold old bits.
+std::size_t differences(const std::vector<DiagonalSharesToken>& got, const Expected& want) {
+  if (got.size() != want.words.size()) return 1'000'000 + got.size();
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < got.size(); ++i) {
+    count += got[i].taken != want.words[i].taken;
+    for (std::size_t lane = 0; lane < 4; ++lane)
+      if (got[i].taken & want.words[i].taken & 1u << lane)
+        count += got[i].first[lane] != want.words[i].first[lane] ||
+                 got[i].second[lane] != want.words[i].second[lane] ||
+                 got[i].span[lane] != want.words[i].span[lane];
+  }
+  return count;
+}
+
+EdgePlanes empty(int width, int height) {
+  return {BitPlane(width, height), BitPlane(width, height)};
+}
+
+// Edges at random, and stairs of both directions laid over them, cut at random.
+EdgePlanes random_edges(int width, int height, std::uint64_t seed) {
+  Random random(seed);
+  EdgePlanes edges = empty(width, height);
+  const std::uint32_t density = 50 + random.below(700);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      // No edge lies on the border.
+      if (x > 0 && random.chance(density)) edges.left.set(x, y);
+      if (y > 0 && random.chance(density)) edges.top.set(x, y);
+    }
+  for (int stair = 0; stair < width * height / 60; ++stair) {
+    const int x0 = random.between(0, width - 1), y0 = random.between(0, height - 1),
+              length = random.between(1, 40);
+    const bool rises = random.chance(500);
+    for (int i = 0; i < length; ++i) {
+      const int x = x0 + i, y = rises ? y0 - i : y0 + i, side = rises ? x : x + 1;
+      if (x >= width || y < 1 || y >= height) break;
+      if (!random.chance(20)) edges.top.set(x, y);
+      if (side > 0 && side < width && !random.chance(20)) edges.left.set(side, y);
+    }
+  }
+  return edges;
+}
+
+// A stair of `down` and `up` good steps about (x, y), whose own edges are set.
+void rise(EdgePlanes& edges, int x, int y, int down, int up) {
+  for (int i = -down; i <= up; ++i) {
+    edges.top.set(x + i, y - i);
+    edges.left.set(x + i, y - i);
+  }
+}
+void fall(EdgePlanes& edges, int x, int y, int up, int down) {
+  for (int i = -up; i <= down; ++i) {
+    edges.top.set(x + i, y + i);
+    edges.left.set(x + i + 1, y + i);
+  }
+}
+
+// ---- to the bit ---------------------------------------------------------------------------------
+
+class DiagonalBuilds : public ::testing::TestWithParam<Build> {};
+
+TEST_P(DiagonalBuilds, RandomEdgesGiveWhatGoldenSays) {
+  const Parameters p = built_as(GetParam());
+  Diagonals bench(p);
+  std::uint64_t taken = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const EdgePlanes edges = random_edges(75, 50, seed);
+    const Expected want = expected(edges, p.diagonal_steps, bench.lanes);
+    EXPECT_EQ(differences(bench.run(edges), want), 0u) << seed;
+    taken += want.taken;
+  }
+  EXPECT_EQ(bench.unit.diagonal_pixels.value(), taken);
+  if (p.diagonal_steps == 1) {
+    EXPECT_EQ(taken, 0u) << "with one step d1 + d2 is never above 2";
+  } else {
+    EXPECT_GT(taken, 1'500u);
+  }
+}
+
+// Both ends of both directions a step short of the limit, at it and a step beyond it, with each
+// code at both ends and with the edge that makes one end a pixel longer.
+TEST_P(DiagonalBuilds, StairsAboutTheLimitGiveWhatGoldenSays) {
+  Parameters p = built_as(GetParam());
+  const int m = p.diagonal_steps, size = 2 * m + 9, x = m + 4, y = m + 4;
+  std::map<std::string, int> met;
+  std::vector<EdgePlanes> stairs;
+  for (const bool rises : {true, false})
+    for (int a = std::max(0, m - 1); a <= m + 1; ++a)
+      for (int b = std::max(0, m - 1); b <= m + 1; ++b)
+        for (unsigned ends = 0; ends < 32; ++ends) {
+          EdgePlanes edges = empty(size, size);
+          if (rises) {
+            rise(edges, x, y, a, b);
+            if (ends & 1) edges.top.set(x - a - 1, y + a);
+            if (ends & 2) edges.left.set(x - a, y + a + 1);
+            if (ends & 4) edges.left.set(x + b + 1, y - b - 1);
+            if (ends & 8) edges.top.set(x + b + 1, y - b);
+            if (ends & 16) edges.top.set(x - a - 1, y + a + 1);
+          } else {
+            fall(edges, x, y, a, b);
+            if (ends & 1) edges.top.set(x - a - 1, y - a);
+            if (ends & 2) edges.left.set(x - a, y - a - 1);
+            if (ends & 4) edges.left.set(x + b + 1, y + b + 1);
+            if (ends & 8) edges.top.set(x + b + 1, y + b);
+            if (ends & 16) edges.top.set(x + b + 1, y + b + 1);
+          }
+          const DiagonalEnds found =
+              rises ? rising_diagonal(edges, m, x, y) : falling_diagonal(edges, m, x, y);
+          ++met[std::string(rises ? "rising" : "falling") + (found.open1 ? " open" : " closed") +
+                (found.open2 ? " open" : " closed")];
+          stairs.push_back(std::move(edges));
+        }
+  EXPECT_EQ(met.size(), 8u);
+  // All in one frame, each with a border of its own.
+  constexpr int kAbreast = 6;
+  const int rows = (static_cast<int>(stairs.size()) + kAbreast - 1) / kAbreast;
+  EdgePlanes sheet = empty(kAbreast * size, rows * size);
+  for (std::size_t i = 0; i < stairs.size(); ++i) {
+    const int x0 = static_cast<int>(i) % kAbreast * size,
+              y0 = static_cast<int>(i) / kAbreast * size;
+    for (int v = 0; v < size; ++v)
+      for (int u = 0; u < size; ++u) {
+        if (stairs[i].left.at(u, v)) sheet.left.set(x0 + u, y0 + v);
+        if (stairs[i].top.at(u, v)) sheet.top.set(x0 + u, y0 + v);
+      }
+  }
+  p.line_pixels = kAbreast * size;
+  Diagonals bench(p);
+  const Expected want = expected(sheet, m, bench.lanes);
+  EXPECT_EQ(differences(bench.run(sheet), want), 0u);
+  EXPECT_EQ(bench.unit.diagonal_pixels.value(), want.taken);
+}
+
+// Rows of one column to 2 M + 3, of fewer beats than a diagonal takes and of more.
+TEST_P(DiagonalBuilds, RowsOfAnyLengthEndAtTheirBorders) {
+  const Parameters p = built_as(GetParam());
+  Diagonals bench(p);
+  for (int width = 1; width <= 2 * p.diagonal_steps + 3; ++width) {
+    const EdgePlanes edges = random_edges(width, 20, static_cast<std::uint64_t>(width));
+    EXPECT_EQ(differences(bench.run(edges), expected(edges, p.diagonal_steps, bench.lanes)), 0u)
+        << width;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Each, DiagonalBuilds,
+                         ::testing::Values(Build{1, 0}, Build{2, 1}, Build{3, 2}, Build{8, 0},
+                                           Build{8, 1}, Build{8, 2}, Build{15, 0}, Build{16, 0},
+                                           Build{16, 1}, Build{16, 2}));
+
+// Fewer steps than are built, by the register; one more or less would have been seen.
+TEST(DiagonalUnitBlock, TakesAsManyStepsAsTheRegisterSays) {
+  const Parameters p = built_as({kMaxDiagonalSteps, 0});
+  const EdgePlanes edges = random_edges(90, 60, 5);
+  Diagonals bench(p);
+  for (const int steps : {1, 2, 3, 7, 8, 15, 16, 31}) {
+    bench.tell(reg::kSmaa, 12, 8, static_cast<std::uint32_t>(steps));
+    const auto words = bench.run(edges);
+    const int used = std::min(steps, kMaxDiagonalSteps);
+    EXPECT_EQ(differences(words, expected(edges, used, 1)), 0u) << steps;
+    for (const int other : {used - 1, used + 1})
+      if (other >= 1) {
+        EXPECT_GT(differences(words, expected(edges, other, 1)), 0u) << steps << " as " << other;
+      }
+  }
+}
+
+// Both directions in one pixel add up to shares of a half and more.
+TEST(DiagonalUnitBlock, LimitsSharesAsTheBlendRuleSays) {
+  const Parameters p = built_as({8, 0});
+  Diagonals bench(p);
+  std::size_t limited = 0;
+  for (const bool strongest : {true, false}) {
+    bench.tell(reg::kRules, 22, 22, strongest);
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      const EdgePlanes edges = random_edges(80, 40, seed);
+      const auto words = bench.run(edges);
+      EXPECT_EQ(differences(words, expected(edges, 8, 1, strongest)), 0u) << seed;
+      limited += differences(words, expected(edges, 8, 1, !strongest));
+    }
+  }
+  EXPECT_GT(limited, 50u) << "the limits differ nowhere";
+}
+
+// ---- clocks -------------------------------------------------------------------------------------
+
+class DiagonalClocks : public ::testing::TestWithParam<Build> {};
+
+// A beat a clock goes in and a word a clock comes out, each D + 5 clocks after its columns, whether
+// nothing is an edge or everything.
+TEST_P(DiagonalClocks, AWordComesDPlusFiveClocksAfterItsColumns) {
+  const Parameters p = built_as(GetParam());
+  Diagonals bench(p);
+  const Cycle latency =
+      (static_cast<Cycle>(p.diagonal_steps) + 1 + static_cast<Cycle>(bench.lanes) - 1) /
+          static_cast<Cycle>(bench.lanes) +
+      5;
+  const int width = 3 * (p.diagonal_steps + 1) + 1;
+  Cycle idle = 0, cycles = 0;
+  for (const bool all : {false, true}) {
+    EdgePlanes edges = empty(width, 9);
+    for (int y = 0; all && y < 9; ++y)
+      for (int x = 0; x < width; ++x) {
+        edges.left.set(x, y);
+        edges.top.set(x, y);
+      }
+    const Cycle begins = bench.clock.cycle();
+    const std::size_t first = bench.gate.cycles.size();
+    ASSERT_EQ(bench.run(edges).size(), bench.words(edges));
+    for (std::size_t i = 0; i < bench.words(edges); ++i)
+      // Sent in k, popped in k + 1, taken that many clocks later.
+      ASSERT_EQ(bench.gate.cycles[first + i], begins + i + 1 + latency) << i;
+    idle = bench.unit.idle_cycles();
+    cycles = bench.clock.cycle();
+  }
+  EXPECT_EQ(stalls(bench.unit, "downstream"), 0u);
+  EXPECT_EQ(bench.unit.busy_cycles() + idle, cycles);
+  // Four bubbles behind each last beat, and the shifts that end the row.
+  const EdgePlanes edges = empty(width, 9);
+  EXPECT_EQ(bench.unit.busy_cycles(), 2 * (bench.words(edges) + bench.delay() + kStages - 1));
+}
+
+// Where no beat comes a row is finished all the same, by as many shifts; a word of the row's last D
+// beats does not wait for the next row.
+TEST_P(DiagonalClocks, ARowIsFinishedWithoutTheNext) {
+  const Parameters p = built_as(GetParam());
+  Diagonals bench(p);
+  const EdgePlanes edges = random_edges(3 * p.diagonal_steps + 8, 6, 9);
+  const Cycle gap = 3 * bench.delay() + 20;
+  bench.send(edges, gap);
+  const auto beats = static_cast<std::size_t>(bench.beats(edges));
+  bench.clock.run(static_cast<Cycle>(bench.words(edges)) + 7 * gap);
+  EXPECT_EQ(differences(bench.gate.beats, expected(edges, p.diagonal_steps, bench.lanes)), 0u);
+  ASSERT_EQ(bench.gate.cycles.size(), bench.words(edges));
+  for (std::size_t i = 0; i < bench.words(edges); ++i)
+    ASSERT_EQ(bench.gate.cycles[i], i + i / beats * gap + 1 + bench.delay() + kStages) << i;
+}
+
+// A gap inside a row holds up what is behind the newest columns, and nothing is lost.
+TEST_P(DiagonalClocks, AGapInARowHoldsItUp) {
+  const Parameters p = built_as(GetParam());
+  Diagonals bench(p);
+  const EdgePlanes edges = random_edges(4 * p.diagonal_steps + 9, 5, 2);
+  bench.registers.frame(edges.top.width(), edges.top.height());
+  Random random(4);
+  Cycle at = 0;
+  std::vector<Cycle> sent;
+  for (int y = 0; y < 5; ++y)
+    for (int beat = 0; beat < bench.beats(edges); ++beat) {
+      at += random.chance(300) ? random.below(30) : 1;
+      sent.push_back(at);
+      bench.driver.send(at++, bench.token(edges, y, beat));
+    }
+  bench.clock.run(at + 2 * bench.delay() + 40);
+  EXPECT_EQ(differences(bench.gate.beats, expected(edges, p.diagonal_steps, bench.lanes)), 0u);
+  for (std::size_t i = 0; i < bench.gate.cycles.size(); ++i) {
+    EXPECT_GE(bench.gate.cycles[i], sent[i] + 1 + bench.delay() + kStages);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Each, DiagonalClocks,
+                         ::testing::Values(Build{1, 0}, Build{8, 0}, Build{8, 1}, Build{8, 2},
+                                           Build{16, 0}, Build{16, 2}));
+
+// The FIFO holds a row and 16 beats; beyond that the unit waits with all that is in it.
+TEST(DiagonalUnitBlock, WaitsDownstreamBeyondARowAndSixteenBeats) {
+  Parameters p = built_as({8, 0});
+  p.line_pixels = 50;
+  constexpr Cycle kOpens = 150;
+  Diagonals bench(p, kOpens);
+  const EdgePlanes edges = random_edges(50, 8, 6);
+  bench.send(edges);
+  bench.clock.run(kOpens + 450);
+  EXPECT_EQ(differences(bench.gate.beats, expected(edges, 8, 1)), 0u);
+  // Word i would be pushed in i + D + 5; word 66 waits until the first one is taken.
+  constexpr Cycle kPush = 9 + 5;
+  EXPECT_EQ(stalls(bench.unit, "downstream"), kOpens + 1 - (66 + kPush));
+  for (std::size_t i = 0; i < bench.gate.cycles.size(); ++i)
+    ASSERT_EQ(bench.gate.cycles[i], kOpens + i);
+}
+
+// In the middle of a row: what comes after the reset is what comes after that of a new unit.
+TEST(DiagonalUnitBlock, AResetLeavesNothing) {
+  const Parameters p = built_as({8, 1});
+  Diagonals bench(p);
+  const EdgePlanes before = random_edges(60, 9, 1), after = random_edges(44, 9, 2);
+  for (Cycle clocks = 100; clocks < 130; ++clocks) {
+    bench.send(before);
+    bench.clock.run(clocks);
+    bench.registers.reset();
+    bench.clock.set_reset_n(false);
+    bench.clock.run(1);
+    bench.clock.set_reset_n(true);
+    const Cycle begins = bench.clock.cycle();
+    EXPECT_EQ(differences(bench.run(after), expected(after, 8, 2)), 0u) << clocks;
+    EXPECT_EQ(bench.gate.cycles.at(0), begins + 1 + bench.delay() + kStages);
+  }
+}
+
+// ---- memories and ports -------------------------------------------------------------------------
+
+template <class Memory = rtl::MemoryBase>
+Memory& memory_of(Diagonals& bench, const std::string& name) {
+  Memory* found = nullptr;
+  rtl::for_each<rtl::MemoryBase>(bench.unit, [&](rtl::MemoryBase& memory) {
+    if (memory.basename() == name) found = dynamic_cast<Memory*>(&memory);
+  });
+  if (found == nullptr) throw std::runtime_error("no memory " + name);
+  return *found;
+}
+using Rom = rtl::Memory<std::uint16_t>;
+
+// What the contract's table says, and no access more than a direction that counts asks for.
+TEST_P(DiagonalClocks, PortsAndAccessesAreTheContracts) {
+  const Parameters p = built_as(GetParam());
+  Diagonals bench(p);
+  const auto lanes = static_cast<std::uint64_t>(bench.lanes),
+             m = static_cast<std::uint64_t>(p.diagonal_steps),
+             d = static_cast<std::uint64_t>(bench.delay());
+  EXPECT_EQ(d, (m + lanes) / lanes);
+  Rom& rom = memory_of<Rom>(bench, "diagonal_rom");
+  EXPECT_EQ(rom.shape().words, 6400u);
+  EXPECT_EQ(rom.shape().word_bits, 16u);
+  EXPECT_EQ(rom.shape().kind, rtl::MemoryKind::kRom);
+  EXPECT_EQ(rom.shape().latency, 1u);
+  EXPECT_EQ(rom.shape().read_ports, 2 * lanes);
+  auto& window = memory_of<rtl::PortedMemory>(bench, "diagonal_window");
+  EXPECT_EQ(window.shape().words, (d + 1) * lanes + m + 1);
+  EXPECT_EQ(window.shape().word_bits, 4 * m + 2 + 7);
+  EXPECT_EQ(window.shape().kind, rtl::MemoryKind::kFlops);
+  const rtl::MemoryBase& fifo = memory_of(bench, "diagonal_shares");
+  EXPECT_EQ(fifo.shape().words, (128 + lanes - 1) / lanes + 16);
+  EXPECT_EQ(fifo.shape().word_bits, 23 * lanes);
+  for (const rtl::MemoryBase* memory : {static_cast<const rtl::MemoryBase*>(&rom),
+                                        static_cast<const rtl::MemoryBase*>(&window), &fifo})
+    EXPECT_EQ(memory->idealised(), "") << memory->name();
+
+  const EdgePlanes edges = random_edges(70, 30, 8);
+  bench.run(edges);
+  EXPECT_EQ(rom.reads(), expected(edges, p.diagonal_steps, bench.lanes).reads);
+  // A write a shift, and all words read at fixed bits; behind the last beat D shifts more.
+  EXPECT_EQ(window.writes(), bench.words(edges) + bench.delay());
+  EXPECT_EQ(window.reads(), bench.words(edges) + bench.delay());
+}
+
+// A stage less between address and word.
+TEST(DiagonalUnitMemory, AWordOfTheRomIsNotThereInTheClockOfItsAddress) {
+  const Parameters p = built_as({8, 0});
+  Diagonals bench(p);
+  EdgePlanes edges = empty(40, 20);
+  fall(edges, 0, 0, 0, 6);
+  bench.send(edges);
+  // The first pixel, popped in 1.
+  const Cycle addressed = 1 + bench.delay() + 3;
+  bench.clock.run(addressed + 1);
+  EXPECT_THAT(
+      of_a_stage_less(bench.unit, bench.clock),
+      ::testing::AllOf(::testing::HasSubstr("diagonal_rom"), ::testing::HasSubstr("is used")));
+}
+
+// ---- planted faults -----------------------------------------------------------------------------
+
+struct Planted {
+  const char* name;
+  void (*in_rom)(Rom&);
+};
+void PrintTo(const Planted& f, std::ostream* out) { *out << f.name; }
+class DiagonalFaults : public ::testing::TestWithParam<Planted> {};
+
+void for_all(Rom& rom, const std::function<std::uint16_t(int, int, int, int)>& word) {
+  std::vector<std::uint16_t> words;
+  for (int e1 = 0; e1 < 4; ++e1)
+    for (int e2 = 0; e2 < 4; ++e2)
+      for (int d1 = 0; d1 < 20; ++d1)
+        for (int d2 = 0; d2 < 20; ++d2) words.push_back(word(e1, e2, d1, d2));
+  for (std::size_t i = 0; i < words.size(); ++i) rom.backdoor(i) = words[i];
+}
+
+// What is wrong in the ROM is what a wrong decode, choice or address would read.
+TEST_P(DiagonalFaults, AreSeen) {
+  const Parameters p = built_as({8, 0});
+  Diagonals bench(p);
+  GetParam().in_rom(memory_of<Rom>(bench, "diagonal_rom"));
+  const EdgePlanes edges = random_edges(75, 60, 3);
+  EXPECT_GT(differences(bench.run(edges), expected(edges, 8, 1)), 0u);
+}
+INSTANTIATE_TEST_SUITE_P(
+    Rom, DiagonalFaults,
+    ::testing::Values(
+        Planted{"a bit of a word",
+                [](Rom& rom) { rom.backdoor(diagonal_address(0, 0, 2, 1)) ^= 1; }},
+        Planted{"rising for falling",
+                [](Rom& rom) {
+                  for_all(rom, [&](int e1, int e2, int d1, int d2) {
+                    const std::uint16_t word = rom.backdoor(diagonal_address(e1, e2, d1, d2));
+                    return static_cast<std::uint16_t>(word << 8 | word >> 8);
+                  });
+                }},
+        Planted{"codes of the ends exchanged",
+                [](Rom& rom) {
+                  for_all(rom, [&](int e1, int e2, int d1, int d2) {
+                    return rom.backdoor(diagonal_address(e2, e1, d1, d2));
+                  });
+                }},
+        Planted{"bits of a code exchanged",
+                [](Rom& rom) {
+                  for_all(rom, [&](int e1, int e2, int d1, int d2) {
+                    return rom.backdoor(diagonal_address(e1 >> 1 | (e1 & 1) << 1, e2, d1, d2));
+                  });
+                }},
+        Planted{"a pixel further from end 1",
+                [](Rom& rom) {
+                  for_all(rom, [&](int e1, int e2, int d1, int d2) {
+                    return rom.backdoor(diagonal_address(e1, e2, std::min(19, d1 + 1), d2));
+                  });
+                }},
+        Planted{"a pixel further from end 2", [](Rom& rom) {
+                  for_all(rom, [&](int e1, int e2, int d1, int d2) {
+                    return rom.backdoor(diagonal_address(e1, e2, d1, std::min(19, d2 + 1)));
+                  });
+                }}));
+
+// One bit of one plane of one column.
+TEST(DiagonalFault, AFlippedEdgeIsSeen) {
+  const Parameters p = built_as({8, 0});
+  Diagonals bench(p);
+  EdgePlanes edges = random_edges(75, 60, 3);
+  const Expected want = expected(edges, 8, 1);
+  edges.left.row(30)[0] ^= std::uint64_t{0xFFFF} << 20;
+  EXPECT_GT(differences(bench.run(edges), want), 0u);
+}
+
+}  // namespace
+}  // namespace deburr::tb::morphological_rtl

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+// SMAA's tables in the hardware: every word by the contract's hashes, every read of the three
+// layouts equal, and faults in each ROM and on each link of its blocks caught.
+#include <array>
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "rtl_model/morphological/blend/area_table.h"
+#include "rtl_model/morphological/blend/diagonal_table.h"
+#include "spec/morphological/tables.h"
+#include "tb/unit/rtl/morphological/parts.h"
+
+namespace deburr::tb::morphological_rtl {
+namespace {
+
+using rtl::morphological::AreaTable;
+using spec::morphological::AreaSource;
+using spec::morphological::Preset;
+using spec::morphological::Quality;
+
+// As the test vectors: FNV-1a, numbers over 255 by their bytes, highest first.
+struct Fnv {
+  std::uint64_t hash = 1469598103934665603u;
+  void add(std::uint64_t value, int bytes) {
+    for (int byte = bytes - 1; byte >= 0; --byte)
+      hash = (hash ^ (value >> (8 * byte) & 0xFF)) * 1099511628211u;
+  }
+};
+
+template <class Word>
+rtl::Memory<Word>& rom(const std::string& name) {
+  rtl::Memory<Word>* found = nullptr;
+  rtl::for_each<rtl::MemoryBase>([&](rtl::MemoryBase& memory) {
+    if (memory.basename() == name) found = dynamic_cast<rtl::Memory<Word>*>(&memory);
+  });
+  if (found == nullptr) throw std::runtime_error("no memory " + name);
+  return *found;
+}
+
+TEST(SmaaTables, WordsHaveTheContractsHashes) {
+  Parameters p = smaa();
+  p.area = AreaSource::kTableMinimal;
+  EngineBench bench(p);
+  for (const auto& [tile, hash] :
+       {std::pair{0u, 0x08fb6f2f5185e12bu}, std::pair{1u, 0x4091cb22adf7523au}}) {
+    Fnv fnv;
+    for (unsigned i = 0; i < 16; ++i)
+      for (unsigned j = 0; j < 16; ++j)
+        fnv.add(rom<std::uint16_t>("area_rom" + std::to_string(i % 2 * 2 + j % 2))
+                    .backdoor(64u * tile + i / 2 * 8 + j / 2),
+                1);
+    EXPECT_EQ(fnv.hash, hash) << tile;
+  }
+  Fnv roots, mix, diagonals;
+  for (unsigned d = 0; d < 225; ++d) roots.add(rom<std::uint16_t>("sqrt_rom").backdoor(d), 2);
+  for (unsigned s = 0; s < 511; ++s) mix.add(rom<std::uint32_t>("mix_rom").backdoor(s), 3);
+  for (unsigned at = 0; at < 6400; ++at) {
+    const std::uint16_t word = rom<std::uint16_t>("diagonal_rom").backdoor(at);
+    diagonals.add(word & 0xFFu, 1);
+    diagonals.add(word >> 8, 1);
+  }
+  EXPECT_EQ(roots.hash, 0x0cdd319ff9fc3614u);
+  EXPECT_EQ(mix.hash, 0xd96f58a228eff378u);
+  EXPECT_EQ(diagonals.hash, 0xbd207affdb832b8fu);
+}
+
+TEST(SmaaTables, LayoutsGiveTheSameShares) {
+  struct Owner : sc_core::sc_module {
+    Owner(const sc_core::sc_module_name& name, AreaSource layout)
+        : sc_module(name), table(layout, 1) {}
+    AreaTable table;
+  };
+  Owner full("full", AreaSource::kTableFull), merged("merged", AreaSource::kTableMerged),
+      minimal("minimal", AreaSource::kTableMinimal);
+  Cycle cycle = 1;
+  const auto read = [&](AreaTable& table, int l, int r, int shape) {
+    AreaTable::Query query{static_cast<std::uint8_t>(l), static_cast<std::uint8_t>(r),
+                           static_cast<std::uint8_t>(shape)};
+    table.address_roots(cycle, 0, query);
+    table.address_entries(cycle + 1, 0, query);
+    const AreaTable::Shares shares = table.shares(cycle + 2, 0, query);
+    cycle += 3;
+    return std::pair<int, int>{shares.first, shares.second};
+  };
+  // Step of the first distance: every pair with a small one, and the last.
+  for (int shape = 0; shape < 16; ++shape)
+    for (int l = 0; l < 225; l += l < 30 || l > 220 ? 1 : 7)
+      for (int r = 0; r < 225; ++r) {
+        const auto expected = read(full.table, l, r, shape);
+        ASSERT_EQ(read(merged.table, l, r, shape), expected) << shape << " " << l << " " << r;
+        ASSERT_EQ(read(minimal.table, l, r, shape), expected) << shape << " " << l << " " << r;
+      }
+  // By hand from the contract: T and U of an L and a U on the second side.
+  struct Value {
+    int l, r, half, arch;
+  };
+  for (const Value& v : {Value{0, 0, 32, 126}, Value{0, 1, 64, 89}, Value{1, 2, 33, 76},
+                         Value{2, 3, 30, 67}, Value{3, 3, 15, 56}, Value{5, 7, 24, 47},
+                         Value{31, 32, 7, 11}, Value{223, 224, 1, 1}, Value{0, 224, 128, 128}}) {
+    for (AreaTable* table : {&full.table, &merged.table, &minimal.table}) {
+      EXPECT_EQ(read(*table, v.l, v.r, 2), std::pair(0, v.half)) << v.l;
+      EXPECT_EQ(read(*table, v.l, v.r, 10), std::pair(0, v.arch)) << v.l;
+    }
+  }
+}
+
+// ---- clocks -------------------------------------------------------------------------------------
+
+class TableClocks : public ::testing::TestWithParam<AreaSource> {
+ protected:
+  struct Owner : sc_core::sc_module {
+    Owner(const sc_core::sc_module_name& name, AreaSource layout)
+        : sc_module(name), table(layout, 1) {}
+    AreaTable table;
+  };
+  // Of a query and of one with other addresses in every ROM, what the table says to this.
+  template <class Use>
+  static std::string said(Use&& use) {
+    Owner owner("owner", GetParam());
+    AreaTable::Query query{5, 3, 9}, other{100, 60, 9};
+    try {
+      use(owner.table, query, other);
+    } catch (const spec::CheckFailed& failure) {
+      return failure.what();
+    }
+    return "nothing";
+  }
+};
+
+// Roots come a clock after their addresses, entries a clock after theirs.
+TEST_P(TableClocks, WordsComeInTheirClock) {
+  EXPECT_EQ(said([](AreaTable& table, auto& query, auto&) {
+              table.address_roots(1, 0, query);
+              table.address_entries(2, 0, query);
+              const AreaTable::Shares shares = table.shares(3, 0, query);
+              EXPECT_NE(shares.first + shares.second, 0);
+            }),
+            "nothing");
+}
+// A query a clock, each of three stages at work: no word of one is another's.
+TEST_P(TableClocks, TakeAQueryAClock) {
+  Owner pipelined("pipelined", GetParam()), alone("alone", GetParam());
+  std::vector<AreaTable::Query> queries;
+  for (unsigned i = 0; i < 400; ++i)
+    queries.push_back({static_cast<std::uint8_t>(i * 37 % 225),
+                       static_cast<std::uint8_t>(i * 101 % 225),
+                       static_cast<std::uint8_t>(i * 7 % 16)});
+  std::vector<AreaTable::Query> one_by_one = queries;
+  for (std::size_t c = 0; c < queries.size() + 2; ++c) {
+    if (c >= 2) {
+      const AreaTable::Shares got = pipelined.table.shares(c, 0, queries[c - 2]);
+      AreaTable::Query& query = one_by_one[c - 2];
+      alone.table.address_roots(4 * c, 0, query);
+      alone.table.address_entries(4 * c + 1, 0, query);
+      const AreaTable::Shares want = alone.table.shares(4 * c + 2, 0, query);
+      ASSERT_EQ(got.first, want.first) << c;
+      ASSERT_EQ(got.second, want.second) << c;
+    }
+    if (c >= 1 && c <= queries.size()) pipelined.table.address_entries(c, 0, queries[c - 1]);
+    if (c < queries.size()) pipelined.table.address_roots(c, 0, queries[c]);
+  }
+}
+TEST_P(TableClocks, ARootIsNotUsedAClockEarly) {
+  EXPECT_THAT(said([](AreaTable& table, auto& query, auto&) {
+                table.address_roots(1, 0, query);
+                table.address_entries(1, 0, query);
+              }),
+              ::testing::AllOf(::testing::HasSubstr("sqrt_rom"), ::testing::HasSubstr("is used")));
+}
+TEST_P(TableClocks, ARootIsNotUsedAClockLate) {
+  EXPECT_THAT(said([](AreaTable& table, auto& query, auto& other) {
+                table.address_roots(1, 0, query);
+                table.address_roots(2, 0, other);
+                table.address_entries(3, 0, query);
+              }),
+              ::testing::AllOf(::testing::HasSubstr("sqrt_rom"),
+                               ::testing::HasSubstr("was there from cycle 2 on")));
+}
+TEST_P(TableClocks, AnEntryIsNotUsedAClockEarly) {
+  EXPECT_THAT(said([](AreaTable& table, auto& query, auto&) {
+                table.address_roots(1, 0, query);
+                table.address_entries(2, 0, query);
+                table.shares(2, 0, query);
+              }),
+              ::testing::AllOf(::testing::HasSubstr("area_rom"), ::testing::HasSubstr("is used")));
+}
+TEST_P(TableClocks, AnEntryIsNotUsedAClockLate) {
+  EXPECT_THAT(said([](AreaTable& table, auto& query, auto& other) {
+                table.address_roots(1, 0, query);
+                table.address_roots(2, 0, other);
+                table.address_entries(2, 0, query);
+                table.address_entries(3, 0, other);
+                table.shares(4, 0, query);
+              }),
+              ::testing::AllOf(::testing::HasSubstr("area_rom"),
+                               ::testing::HasSubstr("was there from cycle 3 on")));
+}
+// A port gives a word a clock: a second query of a reader in the same clock is refused.
+TEST_P(TableClocks, AReaderAsksOnceAClock) {
+  EXPECT_THAT(said([](AreaTable& table, auto& query, auto& other) {
+                table.address_roots(1, 0, query);
+                table.address_roots(1, 0, other);
+              }),
+              ::testing::HasSubstr("a second access"));
+  EXPECT_THAT(said([](AreaTable& table, auto& query, auto&) {
+                table.address_roots(1, 1, query);
+                table.address_roots(1, 0, query);
+              }),
+              "nothing")
+      << "another reader has ports of its own";
+}
+INSTANTIATE_TEST_SUITE_P(Each, TableClocks,
+                         ::testing::Values(AreaSource::kTableFull, AreaSource::kTableMerged,
+                                           AreaSource::kTableMinimal));
+
+// ---- planted faults -----------------------------------------------------------------------------
+
+// A falling stair of one pixel, and the hash of the contract.
+Frame stair() {
+  return draw(8, 9, [](int x, int y) { return grey(x + y >= 8 ? 255 : 0); });
+}
+constexpr std::uint64_t kStair = 0x558a9522fb4d9117;
+
+TEST(SmaaStair, HasTheContractsHash) {
+  EngineBench bench(smaa());
+  EXPECT_EQ(hash(bench.run(stair())), kStair);
+}
+
+TEST(SmaaRomFaults, AWordOfDiagonalRomIsMissed) {
+  EngineBench bench(smaa());
+  rom<std::uint16_t>("diagonal_rom").backdoor(rtl::morphological::diagonal_address(0, 0, 4, 3)) ^=
+      1u << 4;
+  EXPECT_NE(hash(bench.run(stair())), kStair);
+}
+
+struct RomFault {
+  const char* name;
+  std::uint64_t address;
+};
+void PrintTo(const RomFault& f, std::ostream* out) { *out << f.name; }
+class SmaaRomFault : public ::testing::TestWithParam<RomFault> {};
+
+// One entry one step off.
+TEST_P(SmaaRomFault, IsCaught) {
+  EngineBench bench(smaa(Quality::kMedium));
+  if (std::string(GetParam().name) == "mix_rom")
+    rom<std::uint32_t>("mix_rom").backdoor(GetParam().address) += 1u << 9;
+  else
+    rom<std::uint16_t>(GetParam().name).backdoor(GetParam().address) ^=
+        static_cast<std::uint16_t>(std::string(GetParam().name) == "sqrt_rom" ? 64 : 1);
+  EXPECT_NE(hash(bench.run(noise())), 0x605145727a436382u);
+}
+// Entries (0, 0) to (1, 0) of pattern 6, (1, 1) of 2; of the others what short runs ask for.
+INSTANTIATE_TEST_SUITE_P(Planted, SmaaRomFault,
+                         ::testing::Values(RomFault{"area_rom0", 6 * 64},
+                                           RomFault{"area_rom1", 6 * 64},
+                                           RomFault{"area_rom2", 6 * 64},
+                                           RomFault{"area_rom3", 2 * 64}, RomFault{"sqrt_rom", 2},
+                                           RomFault{"mix_rom", 64}));
+
+class SmaaLinkFaults : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(SmaaLinkFaults, AreCaught) {
+  EngineBench::Options options;
+  options.bench.faults = {GetParam()};
+  options.bench.check_links = false;
+  options.bench.patience = 5'000;
+  EngineBench bench(smaa(), options);
+  bool caught = false;
+  try {
+    caught = hash(bench.run(noise(), 100'000)) != 0x3d8c8d3867fd2bccu ||
+             bench.engine.work().diagonal_pixels != 233;
+  } catch (const spec::SimulationError& error) {
+    // A planted fault that was never reached is no catch.
+    caught = std::string(error.what()).find("never") == std::string::npos;
+    if (!caught) ADD_FAILURE() << error.what();
+  } catch (const spec::ConfigError& error) {
+    FAIL() << error.what();
+  } catch (const std::exception&) {
+    caught = true;
+  }
+  EXPECT_TRUE(caught);
+}
+INSTANTIATE_TEST_SUITE_P(
+    Planted, SmaaLinkFaults,
+    ::testing::Values("flip:engine.diagonal_columns:2000:top.0.8",
+                      "drop:engine.diagonal_columns:2000", "duplicate:engine.diagonal_columns:2000",
+                      "drop:engine.diagonals.diagonal_shares_entries:2000",
+                      "duplicate:engine.diagonals.diagonal_shares_entries:2000",
+                      "flip:engine.lines_h0:200:line.run.far.0",
+                      "flip:engine.lines_v0:300:line.run.far.2",
+                      "flip:engine.lines_h0:200:line.run.shape.0"));
+
+}  // namespace
+}  // namespace deburr::tb::morphological_rtl
