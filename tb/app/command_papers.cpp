@@ -94,9 +94,8 @@ void add_papers(CLI::App& app, CommandLine& line) {
   command->add_flag("--quiet", options->quiet, "Print nothing but errors and the line RESULT: ...");
   command->add_flag("--json", line.json,
                     "Print one JSON object: exit code, outcome, directory, result");
-  command->callback([options, &line] {
-    line.action = [options, &line] { return run_papers(*options, line); };
-  });
+  command->callback(
+      [options, &line] { line.action = [options, &line] { return run_papers(*options, line); }; });
 }
 
 }  // namespace deburr::tb

@@ -204,12 +204,12 @@ PaperTable third_branch(const PaperOptions& options) {
     const auto n = static_cast<double>(sides);
     const double error = 100 * std::sqrt(squares / n);
     errors[literal ? 1 : 0] = error;
-    table.rows.push_back({literal ? "as printed" : "corrected", fmt::format("{}", sides),
-                          decimals(100 * static_cast<double>(taken) / n, 1),
-                          decimals(100 * static_cast<double>(beside) / n, 1),
-                          decimals(static_cast<double>(steps) / n, 2), decimals(error, 2),
-                          literal ? at_most(errors[1], errors[0], "harmless", "misprint")
-                                  : claim(beside)});
+    table.rows.push_back(
+        {literal ? "as printed" : "corrected", fmt::format("{}", sides),
+         decimals(100 * static_cast<double>(taken) / n, 1),
+         decimals(100 * static_cast<double>(beside) / n, 1),
+         decimals(static_cast<double>(steps) / n, 2), decimals(error, 2),
+         literal ? at_most(errors[1], errors[0], "harmless", "misprint") : claim(beside)});
   }
   return table;
 }
@@ -249,12 +249,11 @@ PaperTable complexity(const PaperOptions& options) {
       const Sums& sum = sums[c];
       if (sum.sides == 0) continue;
       const auto n = static_cast<double>(sum.sides);
-      table.rows.push_back({fmt::format("{}", loops),
-                            fmt::format("{}-{}", kClasses[c].first, kClasses[c].second),
-                            fmt::format("{}", sum.sides), fmt::format("{}", loops + 2),
-                            decimals(static_cast<double>(sum.fetches) / n, 2),
-                            fmt::format("{}", sum.most), fmt::format("{}", sum.tests),
-                            decimals(sum.walk / n, 2), at_most(sum.most, loops + 2)});
+      table.rows.push_back(
+          {fmt::format("{}", loops), fmt::format("{}-{}", kClasses[c].first, kClasses[c].second),
+           fmt::format("{}", sum.sides), fmt::format("{}", loops + 2),
+           decimals(static_cast<double>(sum.fetches) / n, 2), fmt::format("{}", sum.most),
+           fmt::format("{}", sum.tests), decimals(sum.walk / n, 2), at_most(sum.most, loops + 2)});
     }
   }
   return table;
@@ -607,16 +606,14 @@ Compared rendered_scenes(const PaperOptions& options) {
   Waiting waiting("paper 000: rendering scenes and truth, and smoothing", options.quiet);
   for (const Shown& shown : kScenes) {
     const Scene scene = make_scene(shown.scene);
-    const LitFrames lit =
-        render_lit_frames(scene, options.size, options.size, kTruthSamples,
-                          options.watching(waiting));
+    const LitFrames lit = render_lit_frames(scene, options.size, options.size, kTruthSamples,
+                                            options.watching(waiting));
     const Mask edges = edge_mask(lit.truth, lit.noaa);
     const Mask silhouettes = silhouette_mask(edges, lit.depth);
     const std::vector<Method> list = methods(scene, lit.noaa, true);
     std::vector<Scores> scores;
     for (const Method& m : list) {
-      scores.push_back(
-          {psnr(m.image, lit.truth, edges), psnr(m.image, lit.truth, silhouettes)});
+      scores.push_back({psnr(m.image, lit.truth, edges), psnr(m.image, lit.truth, silhouettes)});
       waiting.update();
     }
     for (std::size_t i = 0; i < list.size(); ++i)
