@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // EdgeDetector behind SlotSequencer and LumaUnit: thresholds by hand, the sources of an edge, local
 // contrast, and its clocks.
+#include <algorithm>
 #include <map>
 #include <string>
 #include <tuple>
@@ -126,10 +127,16 @@ class AtEquality : public testing::TestWithParam<spec::morphological::Lanes> {
     p.lanes = GetParam();
     return p;
   }
-  // Left edges in a row and top edges in a column.
+  // Left edges in a row, and top edges in a column of three pixels.
   void expect(const Frame& frame, const Writes& writes, const std::string& bits) {
     EXPECT_EQ(left_bits(front.detect(frame, writes)), bits);
-    EXPECT_EQ(top_bits(front.detect(transposed(frame), writes)), bits);
+    Frame column = draw(3, frame.width, [&](int, int y) { return frame.at(y, 0); });
+    std::string thrice;
+    for (std::size_t y = 0; y < bits.size(); ++y) {
+      thrice.append(3, bits[y]);
+      std::fill_n(column.depth.begin() + static_cast<std::ptrdiff_t>(3 * y), 3, frame.depth[y]);
+    }
+    EXPECT_EQ(top_bits(front.detect(column, writes)), thrice);
   }
   Front front{parameters()};
 };
