@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "spec/error.h"
 #include "tb/env/collect.h"
@@ -36,6 +37,19 @@ void Environment::let_blind(std::initializer_list<ScoreboardBase*> boards) {
     std::replace(name.begin(), name.end(), ' ', '-');
     if (planted(name)) board->look_away();
     faults.push_back({std::move(name), fmt::format("Compares nothing of: {}.", board->name())});
+  }
+  know(std::move(faults));
+}
+
+void Environment::let_miscount(RegisterScoreboard& board, std::span<const std::uint32_t> offsets) {
+  std::vector<PlantedFault> faults;
+  for (const std::uint32_t offset : offsets) {
+    std::string name = fmt::format("miscount-{}", board.name_of(offset));
+    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) {
+      return c == '_' ? '-' : static_cast<char>(std::tolower(c));
+    });
+    if (planted(name)) board.misread(offset);
+    faults.push_back({std::move(name), fmt::format("{} is wrong by one.", board.name_of(offset))});
   }
   know(std::move(faults));
 }
@@ -73,7 +87,8 @@ void RegisterScoreboard::judge(RegisterHost& host,
   board_.require(expected.size());
   for (const auto& [offset, value] : expected) {
     board_.expect({offset, static_cast<std::uint32_t>(value)});
-    board_.got({offset, host.read(offset)}, std::string(name_of(offset)));
+    const std::uint32_t wrong = offset == misread_ ? 1 : 0;
+    board_.got({offset, host.read(offset) ^ wrong}, std::string(name_of(offset)));
   }
 }
 

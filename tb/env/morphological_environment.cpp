@@ -145,6 +145,10 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
     golden::morphological::check_frame(setup.morphological, frame.image.width, frame.image.height);
   know(faults());
   let_blind({&pixel_board_, &tap_board_, &register_board_.board()});
+  std::vector<std::uint32_t> judged;
+  for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
+    judged.push_back(each.offset);
+  let_miscount(register_board_, judged);
   if (setup.records) let_blind({&run_board_, &line_board_});
   if (in_memory()) let_blind({&traffic_board_});
   if (source_) source_->pixels_out(pixels);

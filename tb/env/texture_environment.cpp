@@ -17,6 +17,10 @@ namespace {
 using golden::texture::TextureGolden;
 namespace reg = spec::texture::reg;
 
+// Every register that counts.
+constexpr std::uint32_t kJudged[] = {reg::kFragments,       reg::kBilinears, reg::kLineFills,
+                                     reg::kClamped,         reg::kSaturated, reg::kMemoryErrors,
+                                     reg::kInvalidFragments};
 constexpr std::uint64_t kMemoryGrain = 64;  // longer reads are recorded in parts of this size
 
 TextureGolden golden_model(const TextureScene& scene, const TextureSetup& setup, bool used) {
@@ -72,6 +76,7 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
       register_board_(spec::texture::kRegisters) {
   know(faults());
   let_blind({&colour_board_, &fill_board_, &register_board_.board()});
+  let_miscount(register_board_, kJudged);
   colour_board_.call_items([this](const spec::texture::Colour& c) { return place(c); });
   driver_.beats_out(quads_);
   unit_.quads_in(quads_);

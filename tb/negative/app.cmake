@@ -6,7 +6,7 @@ foreach(class TextureFiles MeshFiles Notes Configuration Output EarlierResults S
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_bad_input_test.py" -v ${class})
   list(APPEND APP_NEGATIVE_TESTS app_bad_input.${class})
 endforeach()
-foreach(class Faults Blind)
+foreach(class Faults Registers Blind)
   add_test(NAME app_faults.${class}
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_faults_test.py" -v ${class})
   list(APPEND APP_NEGATIVE_TESTS app_faults.${class})

@@ -146,6 +146,37 @@ class Faults(CommandTest):
                          says="never reached")
 
 
+class Registers(CommandTest):
+    """Each status register that is judged can fail the run by itself."""
+
+    def judged(self, engine):
+        done = self.expect(2, "run", engine, "--fault", "gremlin")
+        line = next(line for line in done.stderr.splitlines() if "no fault 'gremlin'" in line)
+        return [word.strip(",") for word in line.split() if "miscount-" in word]
+
+    def miscount(self, engine, expected):
+        faults = self.judged(engine)
+        self.assertEqual([fault.split("miscount-")[1] for fault in faults], expected)
+        for fault in faults:
+            name = fault.split("miscount-")[1].upper().replace("-", "_")
+            self.expect(1, "run", engine, "--size", "24x24", "--out", self.path("out"), "--fault", fault,
+                        says=[f"status registers: 1 mismatches in", f"{name}: "])
+            self.assertEqual(self.result()["checks"]["mismatches"], 1)
+
+    TEXTURE = ["fragments", "bilinears", "line-fills", "clamped", "saturated", "memory-errors", "invalid-fragments"]
+    MORPHOLOGICAL = ["pixels", "edge-pixels", "horizontal-runs", "vertical-runs", "long-runs", "z-runs",
+                     "extended-runs", "steps", "probes", "divides", "blended-pixels"]
+
+    def test_texture(self):
+        self.miscount("texture", self.TEXTURE)
+
+    def test_morphological(self):
+        self.miscount("morphological", self.MORPHOLOGICAL)
+
+    def test_frame(self):
+        self.miscount("frame", self.TEXTURE + self.MORPHOLOGICAL)
+
+
 class Blind(CommandTest):
     """A scoreboard that compares nothing, although everything else of the run is right, is no pass."""
     TEXTURE = ("colours", "line-fills", "status-registers")
