@@ -21,7 +21,7 @@ namespace {
 
 struct PapersCommand {
   std::string out = "out/papers";
-  bool wait = false;
+  bool wait = false, quiet = false;
   std::vector<std::string> only;
   PaperOptions options;
 };
@@ -30,7 +30,7 @@ bool printed(const std::string& text) {
   return std::fputs(text.c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
 }
 
-Outcome run_papers(const PapersCommand& command, const std::string& line) {
+Outcome run_papers(const PapersCommand& command, const CommandLine& line) {
   std::vector<std::string> known;
   for (const PaperEntry& entry : papers()) known.emplace_back(entry.id);
   for (const std::string& id : command.only)
@@ -43,19 +43,20 @@ Outcome run_papers(const PapersCommand& command, const std::string& line) {
   let_broken_pipes_fail();
   PaperOptions options = command.options;
   options.interrupted = interrupted;
+  options.quiet = command.quiet || line.json;
   RunDirectory directory(command.out);
   std::vector<Paper> done;
   std::string ended;  // why it is not complete
   int code = 0;
   try {
-    directory.claim(line, {"papers.json", "index.html"},
+    directory.claim(line.text, {"papers.json", "index.html"},
                     command.wait ? IfTaken::kWait : IfTaken::kRefuse);
     for (const PaperEntry& entry : papers()) {
       if (!command.only.empty() &&
           std::find(command.only.begin(), command.only.end(), entry.id) == command.only.end())
         continue;
       done.push_back(entry.build(options));
-      if (!printed(to_text(done.back()) + "\n")) {
+      if (!options.quiet && !printed(to_text(done.back()) + "\n")) {
         code = static_cast<int>(spec::ExitCode::kFile);
         ended = "FAIL file: standard output cannot be written";
         break;
@@ -67,10 +68,11 @@ Outcome run_papers(const PapersCommand& command, const std::string& line) {
   }
   if (done.empty()) return {code, ended + ": nothing was finished, no results were written"};
   nlohmann::ordered_json manifest = write_papers(directory.draft(), done);
-  manifest["command"] = line;
+  manifest["command"] = line.text;
   directory.publish(std::move(manifest), "index.html");
   const std::string left = fmt::format("{} reproduced, {}/index.html", done.size(), command.out);
-  return {code, code == 0 ? "PASS papers: " + left : ended + ": " + left};
+  return {code, code == 0 ? "PASS papers: " + left : ended + ": " + left, command.out,
+          "papers.json"};
 }
 
 }  // namespace
@@ -89,9 +91,11 @@ void add_papers(CLI::App& app, CommandLine& line) {
                     "Leave out what takes more than a few seconds");
   command->add_flag("--wait", options->wait,
                     "Wait for another run that has the directory, instead of refusing");
-  command->callback([options, &line] {
-    line.action = [options, &line] { return run_papers(*options, line.text); };
-  });
+  command->add_flag("--quiet", options->quiet, "Print nothing but errors and the line RESULT: ...");
+  command->add_flag("--json", line.json,
+                    "Print one JSON object: exit code, outcome, directory, result");
+  command->callback(
+      [options, &line] { line.action = [options, &line] { return run_papers(*options, line); }; });
 }
 
 }  // namespace deburr::tb

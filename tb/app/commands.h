@@ -16,7 +16,8 @@ namespace deburr::tb {
 struct Outcome {
   int code = 0;
   std::string text;                   // after "RESULT: "; empty: a command that only prints
-  std::filesystem::path directory{};  // with a result.json
+  std::filesystem::path directory{};  // of the results
+  std::string result = "result.json";  // in it: what --json shows
 };
 
 struct CommandLine {

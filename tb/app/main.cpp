@@ -20,15 +20,17 @@
 #include "spec/error.h"
 #include "tb/app/commands.h"
 #include "tb/results/build_info.h"
+#include "tb/results/file.h"
 #include "tb/results/headline.h"
 #include "tb/results/interrupt.h"
 #include "tb/results/parameter_set.h"
-#include "tb/results/result.h"
 
 namespace {
 
 using deburr::spec::ExitCode;
 using deburr::tb::Outcome;
+
+constexpr std::size_t kMaxResultBytes = std::size_t{64} << 20;
 
 // The command line as a shell takes it back.
 std::string quoted_command(int argc, char** argv) {
@@ -56,7 +58,8 @@ int finish(const Outcome& outcome, const std::string& command, bool json) {
         {"exit_code", outcome.code}, {"outcome", outcome.text}, {"command", command}};
     if (!outcome.directory.empty()) {
       object["directory"] = outcome.directory.string();
-      object["result"] = deburr::tb::read_result(outcome.directory);
+      object["result"] = nlohmann::ordered_json::parse(
+          deburr::tb::read_file(outcome.directory / outcome.result, kMaxResultBytes));
     }
     fmt::print("{}\n", object.dump(2));
     return outcome.code;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "spec/error.h"
 #include "tb/env/collect.h"
@@ -29,6 +30,30 @@ void Environment::plant_in(MemoryModel& memory, const MemoryParameters& paramete
   if (const auto range = error_range(parameters)) memory.fail_range(range->from, range->to);
 }
 
+void Environment::let_blind(std::initializer_list<ScoreboardBase*> boards) {
+  std::vector<PlantedFault> faults;
+  for (ScoreboardBase* board : boards) {
+    std::string name = "blind-" + board->name();
+    std::replace(name.begin(), name.end(), ' ', '-');
+    if (planted(name)) board->look_away();
+    faults.push_back({std::move(name), fmt::format("Compares nothing of: {}.", board->name())});
+  }
+  know(std::move(faults));
+}
+
+void Environment::let_miscount(RegisterScoreboard& board, std::span<const std::uint32_t> offsets) {
+  std::vector<PlantedFault> faults;
+  for (const std::uint32_t offset : offsets) {
+    std::string name = fmt::format("miscount-{}", board.name_of(offset));
+    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) {
+      return c == '_' ? '-' : static_cast<char>(std::tolower(c));
+    });
+    if (planted(name)) board.misread(offset);
+    faults.push_back({std::move(name), fmt::format("{} is wrong by one.", board.name_of(offset))});
+  }
+  know(std::move(faults));
+}
+
 void Environment::refuse_untouched(const MemoryModel& memory, const MemoryParameters& parameters) {
   const auto range = error_range(parameters);
   if (range && memory.errors() == 0)
@@ -47,7 +72,7 @@ void Environment::require_id(RegisterHost& host, std::uint32_t offset, std::uint
 }
 
 RegisterScoreboard::RegisterScoreboard(std::span<const spec::RegisterInfo> table)
-    : table_(table), board_("status registers", 0, [this](const Status& s) {
+    : table_(table), board_("status registers", 1, [this](const Status& s) {
         return fmt::format("{} = {}", name_of(s.offset), s.value);
       }) {}
 
@@ -59,9 +84,11 @@ std::string_view RegisterScoreboard::name_of(std::uint32_t offset) const {
 
 void RegisterScoreboard::judge(RegisterHost& host,
                                std::span<const std::pair<std::uint32_t, std::uint64_t>> expected) {
+  board_.require(expected.size());
   for (const auto& [offset, value] : expected) {
     board_.expect({offset, static_cast<std::uint32_t>(value)});
-    board_.got({offset, host.read(offset)}, std::string(name_of(offset)));
+    const std::uint32_t wrong = offset == misread_ ? 1 : 0;
+    board_.got({offset, host.read(offset) ^ wrong}, std::string(name_of(offset)));
   }
 }
 

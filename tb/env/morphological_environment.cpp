@@ -251,6 +251,13 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
     golden::morphological::check_frame(setup.morphological, frame.image.width, frame.image.height);
   know(faults());
   plant_in_roms();
+  let_blind({&pixel_board_, &tap_board_, &register_board_.board()});
+  std::vector<std::uint32_t> judged;
+  for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
+    judged.push_back(each.offset);
+  let_miscount(register_board_, judged);
+  if (setup.records) let_blind({&run_board_, &line_board_});
+  if (in_memory()) let_blind({&traffic_board_});
   if (source_) source_->pixels_out(pixels);
   engine_.pixels_in(pixels);
   engine_.pixels_out(blended_);
@@ -349,10 +356,28 @@ void MorphologicalEnvironment::end() {
 
 void MorphologicalEnvironment::finish() {
   if (!golden()) return;
+  require_comparisons();
   std::vector<std::pair<std::uint32_t, std::uint64_t>> expected;
   for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
     expected.emplace_back(each.offset, golden_work_.*each.count);
   register_board_.judge(host_, expected);
+}
+
+// As much as the frames have; of runs and lines as many as the engine counted, since a frame may
+// have none.
+void MorphologicalEnvironment::require_comparisons() {
+  std::uint64_t area = 0, lines = 0;
+  for (const MorphologicalInput& frame : frames_) {
+    area += frame.image.pixels.size();
+    lines += frame_stride(frame.image.width) / spec::morphological::kFrameLineBytes *
+             static_cast<std::uint64_t>(frame.image.height);
+  }
+  pixel_board_.require(area);
+  tap_board_.require(area);
+  if (in_memory()) traffic_board_.require(2 * lines);
+  if (!setup_.records) return;
+  run_board_.require(engine_.work().horizontal_runs + engine_.work().vertical_runs);
+  line_board_.require(engine_.work().z_runs);
 }
 
 void MorphologicalEnvironment::refuse_memory_errors() {
@@ -377,7 +402,13 @@ Amount MorphologicalEnvironment::amount() const {
 // ---- judging ------------------------------------------------------------------------------------
 
 Environment::Boards MorphologicalEnvironment::outputs() const {
-  return {&pixel_board_, &tap_board_, &run_board_, &line_board_};
+  Boards boards = {&pixel_board_, &tap_board_};
+  if (setup_.records) boards.insert(boards.end(), {&run_board_, &line_board_});
+  return boards;
+}
+
+Environment::Boards MorphologicalEnvironment::traffic() const {
+  return in_memory() ? Boards{&traffic_board_} : Boards{};
 }
 
 void MorphologicalEnvironment::judge(rtl::Cycle cycle,

@@ -66,7 +66,7 @@ class MorphologicalEnvironment final : public Environment {
     return memory_ ? tb::clocks_to_drain(setup_.memory) : 0;
   }
   Boards outputs() const override;
-  Boards traffic() const override { return {&traffic_board_}; }
+  Boards traffic() const override;
   Boards counters() const override { return {&register_board_.board()}; }
   void collect(Result& result) const override;
   void collect_headline(Result& result) const override;
@@ -108,6 +108,7 @@ class MorphologicalEnvironment final : public Environment {
   void go_on_at_row(std::size_t row);
   void judge_records();
   void judge_traffic();
+  void require_comparisons();
 
   std::span<const MorphologicalInput> frames_;
   MorphologicalSetup setup_;

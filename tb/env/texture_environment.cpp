@@ -70,6 +70,11 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
                   [](const Fill& f) { return fmt::format("read of address {:#x}", f.address); }),
       register_board_(spec::texture::kRegisters) {
   know(faults());
+  let_blind({&colour_board_, &fill_board_, &register_board_.board()});
+  namespace reg = spec::texture::reg;
+  let_miscount(register_board_,
+               std::array{reg::kFragments, reg::kBilinears, reg::kLineFills, reg::kClamped,
+                          reg::kSaturated, reg::kMemoryErrors, reg::kInvalidFragments});
   colour_board_.call_items([this](const spec::texture::Colour& c) { return place(c); });
   driver_.beats_out(quads_);
   unit_.quads_in(quads_);
@@ -161,6 +166,8 @@ void TextureEnvironment::restart() {
 void TextureEnvironment::finish() {
   if (!golden()) return;
   namespace reg = spec::texture::reg;
+  colour_board_.require(scene_.stream().counts.fragments);
+  fill_board_.require(std::max<std::uint64_t>(1, memory_.bytes_read() / kMemoryGrain));
   const golden::texture::TextureWork& work = golden_.work();
   const std::pair<std::uint32_t, std::uint64_t> expected[] = {
       {reg::kFragments, work.fragments},

@@ -6,9 +6,13 @@ foreach(class TextureFiles MeshFiles Notes Configuration Output EarlierResults S
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_bad_input_test.py" -v ${class})
   list(APPEND APP_NEGATIVE_TESTS app_bad_input.${class})
 endforeach()
-add_test(NAME app_faults COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_faults_test.py" -v)
+foreach(class Faults Registers Blind)
+  add_test(NAME app_faults.${class}
+           COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_faults_test.py" -v ${class})
+  list(APPEND APP_NEGATIVE_TESTS app_faults.${class})
+endforeach()
 add_test(NAME app_images COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_images_test.py" -v)
-set_tests_properties(${APP_NEGATIVE_TESTS} app_faults app_images PROPERTIES
+set_tests_properties(${APP_NEGATIVE_TESTS} app_images PROPERTIES
   LABELS negative TIMEOUT 300 ENVIRONMENT "DEBURR=$<TARGET_FILE:deburr>;PYTHONDONTWRITEBYTECODE=1")
 foreach(class Killed SideBySide FullDisk Papers)
   add_test(NAME app_survival.${class}

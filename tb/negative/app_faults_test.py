@@ -146,5 +146,84 @@ class Faults(CommandTest):
                          says="never reached")
 
 
+class Registers(CommandTest):
+    """Each status register that is judged can fail the run by itself."""
+
+    def judged(self, engine):
+        done = self.expect(2, "run", engine, "--fault", "gremlin")
+        line = next(line for line in done.stderr.splitlines() if "no fault 'gremlin'" in line)
+        return [word.strip(",") for word in line.split() if "miscount-" in word]
+
+    def miscount(self, engine, expected):
+        faults = self.judged(engine)
+        self.assertEqual([fault.split("miscount-")[1] for fault in faults], expected)
+        for fault in faults:
+            name = fault.split("miscount-")[1].upper().replace("-", "_")
+            self.expect(1, "run", engine, "--size", "24x24", "--out", self.path("out"), "--fault", fault,
+                        says=[f"status registers: 1 mismatches in", f"{name}: "])
+            self.assertEqual(self.result()["checks"]["mismatches"], 1)
+
+    TEXTURE = ["fragments", "bilinears", "line-fills", "clamped", "saturated", "memory-errors", "invalid-fragments"]
+    MORPHOLOGICAL = ["pixels", "edge-pixels", "horizontal-runs", "vertical-runs", "long-runs", "z-runs",
+                     "extended-runs", "steps", "probes", "divides", "blended-pixels"]
+
+    def test_texture(self):
+        self.miscount("texture", self.TEXTURE)
+
+    def test_morphological(self):
+        self.miscount("morphological", self.MORPHOLOGICAL)
+
+    def test_frame(self):
+        self.miscount("frame", self.TEXTURE + self.MORPHOLOGICAL)
+
+
+class Blind(CommandTest):
+    """A scoreboard that compares nothing, although everything else of the run is right, is no pass."""
+    TEXTURE = ("colours", "line-fills", "status-registers")
+    MORPHOLOGICAL = ("pixels", "taps", "memory-lines", "status-registers")
+
+    def blind(self, engine, board, *arguments):
+        name = board.split(".")[-1].removeprefix("blind-").replace("-", " ")
+        done = self.expect(1, "run", engine, "--size", "32x32", "--out", self.path("out"), "--fault", board,
+                           *arguments, says=f"{name}: 0 mismatches in 0 comparisons, only 0 comparisons, at least")
+        self.assertIn("FAIL mismatch: ", done.stdout)
+        result = self.result()
+        self.assertEqual((result["verdict"], result["checks"]["mismatches"],
+                          result["checks"]["traffic_mismatches"]), ("fail", 0, 0))
+        return int(done.stderr.split("at least ")[1].split()[0])
+
+    def known(self, engine, *arguments):
+        """All scoreboards that a run of the engine has."""
+        done = self.expect(2, "run", engine, "--fault", "gremlin", *arguments)
+        line = next(line for line in done.stderr.splitlines() if "no fault 'gremlin'" in line)
+        return {word.strip(",") for word in line.split() if "blind-" in word}
+
+    def test_texture(self):
+        boards = {f"blind-{board}" for board in self.TEXTURE}
+        self.assertEqual(self.known("texture"), boards)
+        needed = {board: self.blind("texture", board) for board in boards}
+        self.assertEqual(needed["blind-colours"], 32 * 32)
+        self.assertEqual(needed["blind-status-registers"], 7)
+        self.run_texture(0)
+        self.assertEqual(needed["blind-line-fills"], self.result()["memory"]["lines_filled"])
+
+    def test_morphological(self):
+        memory = ("--storage", "memory")
+        boards = {f"blind-{board}" for board in self.MORPHOLOGICAL}
+        self.assertEqual(self.known("morphological", *memory), boards)
+        self.assertEqual(self.known("morphological"), boards - {"blind-memory-lines"})
+        needed = {board: self.blind("morphological", board, *memory) for board in boards}
+        self.assertEqual(needed, {"blind-pixels": 32 * 32, "blind-taps": 32 * 32,
+                                  "blind-memory-lines": 2 * 2 * 32, "blind-status-registers": 11})
+
+    def test_frame(self):
+        memory = ("--storage", "memory")
+        boards = ({f"texture.blind-{board}" for board in self.TEXTURE} |
+                  {f"morphological.blind-{board}" for board in self.MORPHOLOGICAL})
+        self.assertEqual(self.known("frame", *memory), boards)
+        for board in boards:
+            self.assertGreater(self.blind("frame", board, *memory), 0)
+
+
 if __name__ == "__main__":
     unittest.main()

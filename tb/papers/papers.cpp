@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
 
 #include "spec/error.h"
 #include "tb/results/build_info.h"
 #include "tb/results/embedded.h"
+#include "tb/results/progress.h"
 #include "tb/results/report.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/truth.h"
@@ -89,9 +89,11 @@ void PaperOptions::go_on() const {
   if (interrupted()) throw Interrupted();
 }
 
-std::string verdict(double paper, int decimals, double ours, const char* otherwise) {
-  const double half_a_digit = 0.5 * std::pow(10.0, -decimals);
-  return std::fabs(ours - paper) <= half_a_digit * 1.0001 ? "right" : otherwise;
+std::function<bool()> PaperOptions::watching(Waiting& waiting) const {
+  return [&waiting, ask = interrupted] {
+    waiting.update();
+    return ask();
+  };
 }
 
 std::string decimals(double value, int digits) { return fmt::format("{:.{}f}", value, digits); }

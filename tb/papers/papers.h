@@ -9,13 +9,17 @@
 #include <string>
 #include <vector>
 
+#include "tb/papers/verdicts.h"
 #include "tb/scene/image.h"
 
 namespace deburr::tb {
 
+class Waiting;
+
 struct PaperTable {
   std::string title, note;
-  std::vector<std::string> columns;  // a column named "verdict" is shown as one
+  // A column named "verdict" is shown as one (verdicts.h); "-": nothing is claimed of this row.
+  std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
 };
 
@@ -40,10 +44,13 @@ struct Paper {
 struct PaperOptions {
   bool quick = false;  // leave out what takes more than a few seconds
   int size = 512;      // side of the pictures and of the scenes that are measured
+  bool quiet = false;  // no progress
   std::function<bool()> interrupted = [] { return false; };  // asked now and then
 
   // Throws Interrupted when asked to: what was done of this paper is of no use.
   void go_on() const;
+  // The same question of those who ask by themselves, and shows what is waited for meanwhile.
+  std::function<bool()> watching(Waiting& waiting) const;
 };
 
 // Builds one paper's part; shows progress on the error stream. May throw Interrupted.
@@ -62,9 +69,6 @@ std::string to_text(const Paper& paper);
 // papers.json, the pictures and index.html. Returns what a manifest says of them.
 nlohmann::ordered_json write_papers(const std::filesystem::path& directory,
                                     const std::vector<Paper>& papers);
-
-// "right" when `ours` rounds to what the paper printed with so many decimals, else `otherwise`.
-std::string verdict(double paper, int decimals, double ours, const char* otherwise);
 
 Paper paper_000(const PaperOptions& options);
 Paper paper_003(const PaperOptions& options);

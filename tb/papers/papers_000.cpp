@@ -110,14 +110,14 @@ PaperTable theorem(const PaperOptions& options) {
                    {}};
   table.rows = {
       {fmt::format("lines with lengths that differ by more, of {} ({} runs)", pairs, runs), "0",
-       fmt::format("{}", violations), violations == 0 ? "right" : "wrong"},
+       fmt::format("{}", violations), claim(violations)},
       {"runs with a slope outside 1/(L+1) .. 1/(L-1)", "0", fmt::format("{}", outside),
-       outside == 0 ? "right" : "wrong"},
+       claim(outside)},
       {"two steps of the rarer length side by side", "not said", fmt::format("{}", neighbours),
-       neighbours == 0 ? "never" : "happens"},
+       claim(neighbours, "never", "happens")},
       {"random sequences of L and L + 1 that obey the theorem and are no line, %", "not said",
        decimals(100 * ratio(static_cast<double>(impossible), static_cast<double>(obeying)), 1),
-       impossible > 0 ? "insufficient" : "sufficient"}};
+       claim(impossible, "sufficient", "insufficient")}};
   return table;
 }
 
@@ -202,13 +202,12 @@ PaperTable third_branch(const PaperOptions& options) {
     const auto n = static_cast<double>(sides);
     const double error = 100 * std::sqrt(squares / n);
     errors[literal ? 1 : 0] = error;
-    table.rows.push_back({literal ? "as printed" : "corrected", fmt::format("{}", sides),
-                          decimals(100 * static_cast<double>(taken) / n, 1),
-                          decimals(100 * static_cast<double>(beside) / n, 1),
-                          decimals(static_cast<double>(steps) / n, 2), decimals(error, 2),
-                          !literal                ? "built"
-                          : errors[1] > errors[0] ? "misprint"
-                                                  : "harmless"});
+    table.rows.push_back(
+        {literal ? "as printed" : "corrected", fmt::format("{}", sides),
+         decimals(100 * static_cast<double>(taken) / n, 1),
+         decimals(100 * static_cast<double>(beside) / n, 1),
+         decimals(static_cast<double>(steps) / n, 2), decimals(error, 2),
+         literal ? at_most(errors[1], errors[0], "harmless", "misprint") : claim(beside)});
   }
   return table;
 }
@@ -248,12 +247,11 @@ PaperTable complexity(const PaperOptions& options) {
       const Sums& sum = sums[c];
       if (sum.sides == 0) continue;
       const auto n = static_cast<double>(sum.sides);
-      table.rows.push_back({fmt::format("{}", loops),
-                            fmt::format("{}-{}", kClasses[c].first, kClasses[c].second),
-                            fmt::format("{}", sum.sides), fmt::format("{}", loops + 2),
-                            decimals(static_cast<double>(sum.fetches) / n, 2),
-                            fmt::format("{}", sum.most), fmt::format("{}", sum.tests),
-                            decimals(sum.walk / n, 2), sum.most <= loops + 2 ? "right" : "wrong"});
+      table.rows.push_back(
+          {fmt::format("{}", loops), fmt::format("{}-{}", kClasses[c].first, kClasses[c].second),
+           fmt::format("{}", sum.sides), fmt::format("{}", loops + 2),
+           decimals(static_cast<double>(sum.fetches) / n, 2), fmt::format("{}", sum.most),
+           fmt::format("{}", sum.tests), decimals(sum.walk / n, 2), at_most(sum.most, loops + 2)});
     }
   }
   return table;
@@ -270,6 +268,7 @@ PaperTable probes(const PaperOptions& options) {
       {}};
   Random random(4);
   const int lines = options.quick ? 2 : 12;
+  Waiting waiting("paper 000: lines through the engine", options.quiet);
   for (const int loops : {1, 2, 4, 8})
     for (const int length : {1, 2, 4, 8, 16}) {
       Parameters p = preset_parameters(Preset::kMlaaSlope);
@@ -287,6 +286,7 @@ PaperTable probes(const PaperOptions& options) {
           }
         MorphologicalGolden golden(p);
         golden.process({frame.pixels, frame.width, frame.height});
+        waiting.update();
         for (const auto& run : golden.runs()) {
           const spec::morphological::LineRecord& line = run.line;
           if (line.run.axis != spec::morphological::Axis::kHorizontal || line.left_steps != loops ||
@@ -300,7 +300,7 @@ PaperTable probes(const PaperOptions& options) {
       table.rows.push_back({fmt::format("{}", loops), fmt::format("{}", length),
                             decimals(pixels, 0), decimals(ratio(tested, pixels), 2),
                             decimals(ratio(walked, pixels), 1), decimals(ratio(walked, tested), 1),
-                            walked > tested ? "fewer" : "more"});
+                            below(tested, walked, "fewer", "more")});
     }
   return table;
 }
@@ -330,8 +330,7 @@ std::vector<std::string> cells_of(std::string name, const FanFigures& figures,
 }
 
 // "kept", or the names of the figures that are above.
-std::string against_contract(const FanFigures& figures) {
-  const std::vector<std::string> above = exceeded(morphological::asked_of_ours(), figures);
+std::string contract_text(const std::vector<std::string>& above) {
   std::string text = above.empty() ? "kept" : "above:";
   for (const std::string& name : above) text += " " + name + (name == above.back() ? "" : ",");
   return text;
@@ -349,7 +348,10 @@ PaperTable quality(const PaperOptions& options, double low, double high) {
                   "its change from column to column; n = 2..20). Chord is the paper's line, fit is "
                   "ours. Against MLAA: smoother means less undulation, steadier less jump. Rows in "
                   "brackets are the contract's, found by another program on other lines: ours must "
-                  "not be above its line fit.",
+                  "not be above its line fit. Verdicts: of mlaa whether it has less undulation "
+                  "than no anti-aliasing, of a chord without steps whether it is mlaa, of the "
+                  "other chords and of two steps a side whether they have less undulation than "
+                  "mlaa, of the others whether the contract is kept.",
                   fan.lines, fan.seeds),
       {"line"},
       {}};
@@ -358,32 +360,40 @@ PaperTable quality(const PaperOptions& options, double low, double high) {
   for (const char* name : {"undulation", "jump", "against mlaa", "contract", "verdict"})
     table.columns.emplace_back(name);
   const std::vector<FanRow> rows = quality_rows();
-  FanFigures mlaa;
-  Progress progress("paper 000", rows.size(), "row");
+  FanFigures none, mlaa;
+  Progress progress("paper 000", rows.size(), "row", options.quiet);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     options.go_on();
     const FanFigures figures = measure_fans(morphological::smoothing_of(rows[r]), fan);
+    if (rows[r].name == "none") none = figures;
     if (rows[r].name == "mlaa") mlaa = figures;
     const bool chord = rows[r].name.starts_with("chord") && rows[r].parameters.steps > 0;
     const bool ours = rows[r].name.starts_with("fit") || rows[r].name == "deburr";
     // Two steps a side are not what the contract's row has.
     const bool judged = ours && rows[r].parameters.steps >= 4;
-    const std::string contract = judged ? against_contract(figures) : "-";
+    const std::vector<std::string> above = exceeded(morphological::asked_of_ours(), figures);
     std::vector<std::string> cells = cells_of(rows[r].name, figures, 1);
     cells.push_back(!chord && !ours
                         ? "-"
                         : fmt::format("{}, {}",
                                       figures.undulation < mlaa.undulation ? "smoother" : "rougher",
                                       figures.jump < mlaa.jump ? "steadier" : "less steady"));
-    cells.push_back(contract);
-    cells.emplace_back(judged          ? contract == "kept" ? "right" : "worse"
-                       : chord || ours ? figures.undulation < mlaa.undulation ? "right" : "wrong"
-                                       : "reference");
+    cells.push_back(judged ? contract_text(above) : "-");
+    if (judged)
+      cells.push_back(claim(std::ssize(above), "right", "worse"));
+    else if (chord || ours)
+      cells.push_back(below(figures.undulation, mlaa.undulation));
+    else if (rows[r].name == "chord N = 0")
+      cells.push_back(verdict(mlaa.undulation, 9, figures.undulation, "wrong"));
+    else if (rows[r].name == "mlaa")
+      cells.push_back(below(figures.undulation, none.undulation));
+    else
+      cells.emplace_back("-");
     table.rows.push_back(cells);
     for (const morphological::FanLimit& limit : morphological::contract_figures()) {
       if (limit.name != rows[r].name) continue;
       cells = cells_of(fmt::format("({})", limit.name), limit.figures);
-      cells.insert(cells.end(), {"-", "-", "reference"});
+      cells.insert(cells.end(), {"-", "-", "-"});
       table.rows.push_back(cells);
     }
     progress.update(r + 1);
@@ -474,10 +484,24 @@ Image zooms(const std::vector<Method>& list, const Mask& silhouettes, int strips
 // Rendered scenes whose edges are mostly geometry.
 std::vector<LitFrames> frames_of_rules(const PaperOptions& options) {
   std::vector<LitFrames> frames;
+  Waiting waiting("paper 000: rendering scenes and truth", options.quiet);
   for (const char* scene : {"cylinders", "object", "road"})
     frames.push_back(render_lit_frames(make_scene(scene), options.size, options.size,
-                                       options.quick ? 4 : 8, options.interrupted));
+                                       options.quick ? 4 : 8, options.watching(waiting)));
   return frames;
+}
+
+// The row that this one is made of: the one above, or the one that it names ("mlaa, deburr's
+// edges"); none of a preset itself.
+std::optional<std::size_t> made_of(const std::vector<FanRow>& rows, std::size_t row) {
+  const std::string& name = rows[row].name;
+  const std::size_t comma = name.find(',');
+  for (std::size_t i = 0; comma != std::string::npos && i < row; ++i)
+    if (rows[i].name == name.substr(0, comma) ||
+        rows[i].name.ends_with("= " + name.substr(0, comma)))
+      return i;
+  if (row == 0) return {};
+  return row - 1;
 }
 
 // What each rule of deburr adds.
@@ -490,7 +514,8 @@ PaperTable rules(const PaperOptions& options) {
       "and on silhouettes. A curve refutes most extensions: contiguous and safe keep the false "
       "ones "
       "out, trim gives back what the bend has already spoilt. These scenes have strong edges only; "
-      "contrast and threshold pay on frames with weak ones.",
+      "contrast and threshold pay on frames with weak ones. The verdict: what a row brings against "
+      "the row above, or against the one that it names, as they are shown here.",
       {"rules", "lines", "discs 8-32", "discs 64-256", "edges", "silhouettes", "verdict"},
       {}};
   FanOptions fan;
@@ -498,7 +523,8 @@ PaperTable rules(const PaperOptions& options) {
   fan.seeds = 1;
   const std::vector<LitFrames> frames = frames_of_rules(options);
   std::vector<FanRow> rows = morphological::rule_rows();
-  Progress progress("paper 000", rows.size(), "row");
+  std::vector<Figures> figures;
+  Progress progress("paper 000", rows.size(), "row", options.quiet);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     options.go_on();
     double edges = 0, silhouettes = 0;
@@ -518,12 +544,31 @@ PaperTable rules(const PaperOptions& options) {
       for (std::size_t i = from; i <= to; ++i) sum += discs.by_radius[i] * discs.by_radius[i];
       return std::sqrt(sum / static_cast<double>(to - from + 1));
     };
-    table.rows.push_back({rows[r].name, decimals(measure_fans(smoothing, fan).by_class.back(), 1),
-                          decimals(mean(0, 2), 1), decimals(mean(3, 5), 1), decimals(edges, 2),
-                          decimals(silhouettes, 2), r < 2 ? "reference" : "added"});
+    figures.push_back({{measure_fans(smoothing, fan).by_class.back(), mean(0, 2), mean(3, 5)},
+                       {edges, silhouettes}});
+    std::vector<std::string> cells = {rows[r].name};
+    for (const double error : figures.back().errors) cells.push_back(decimals(error, 1));
+    for (const double quality : figures.back().qualities) cells.push_back(decimals(quality, 2));
+    const std::optional<std::size_t> before = made_of(rows, r);
+    cells.push_back(before ? brings(figures[*before], figures[r], 1, 2) : "-");
+    table.rows.push_back(std::move(cells));
     progress.update(r + 1);
   }
   return table;
+}
+
+// Of a method among those of a scene.
+std::string scene_verdict(const std::vector<Method>& list, const std::vector<Scores>& scores,
+                          std::size_t which) {
+  if (list[which].name == "deburr") return place(scores, which);
+  const auto better_than = [&](std::string_view other) {
+    const auto found = std::find_if(list.begin(), list.end(),
+                                    [&](const Method& method) { return method.name == other; });
+    return beats(scores[which], scores[static_cast<std::size_t>(found - list.begin())]) ? "better"
+                                                                                        : "worse";
+  };
+  if (list[which].name == "none") return "-";
+  return better_than(list[which].name == "mlaa-slope" ? "mlaa" : "none");
 }
 
 struct Compared {
@@ -537,9 +582,10 @@ Compared rendered_scenes(const PaperOptions& options) {
   table = {
       "Rendered frames against supersampled truth, PSNR in dB",
       "Edge pixels: truth and frame differ by more than 2/255; silhouettes: with a depth step "
-      "of 5 % to a neighbour. The verdict of mlaa-slope says whether it is better than mlaa on "
-      "both, that of deburr whether it is best of the three. The edges of tunnel and plane are "
-      "texture: smoothing them gains little or loses.",
+      "of 5 % to a neighbour. The verdict of MSAA 4x and mlaa says whether they are better than "
+      "none on both, that of mlaa-slope whether it is better than mlaa; that of deburr is its "
+      "place among all five, the best being better than all others on both. The edges of tunnel "
+      "and plane are texture: smoothing them gains little or loses.",
       {"scene", "method", "frame", "edges", "silhouettes", "verdict"},
       {}};
   struct Shown {
@@ -555,32 +601,25 @@ Compared rendered_scenes(const PaperOptions& options) {
        {"quad", nullptr},
        {"tunnel", nullptr},
        {"plane", nullptr}}};
+  Waiting waiting("paper 000: rendering scenes and truth, and smoothing", options.quiet);
   for (const Shown& shown : kScenes) {
     const Scene scene = make_scene(shown.scene);
-    const LitFrames lit =
-        render_lit_frames(scene, options.size, options.size, kTruthSamples, options.interrupted);
+    const LitFrames lit = render_lit_frames(scene, options.size, options.size, kTruthSamples,
+                                            options.watching(waiting));
     const Mask edges = edge_mask(lit.truth, lit.noaa);
     const Mask silhouettes = silhouette_mask(edges, lit.depth);
     const std::vector<Method> list = methods(scene, lit.noaa, true);
-    std::vector<double> on_edges, on_silhouettes;
+    std::vector<Scores> scores;
     for (const Method& m : list) {
-      on_edges.push_back(psnr(m.image, lit.truth, edges));
-      on_silhouettes.push_back(psnr(m.image, lit.truth, silhouettes));
+      scores.push_back({psnr(m.image, lit.truth, edges), psnr(m.image, lit.truth, silhouettes)});
+      waiting.update();
     }
-    const std::size_t n = list.size();
-    // Better than another on edges, and on silhouettes where there are any.
-    const auto beats = [&](std::size_t a, std::size_t b) {
-      return on_edges[a] > on_edges[b] && !(on_silhouettes[a] <= on_silhouettes[b]);
-    };
-    for (std::size_t i = 0; i < n; ++i) {
-      std::string word = "reference";
-      if (i == n - 2) word = beats(n - 2, n - 3) ? "better" : "worse";
-      if (i == n - 1) word = beats(n - 1, n - 2) && beats(n - 1, n - 3) ? "best" : "worse";
-      table.rows.push_back({shown.scene, list[i].name, decimals(psnr(list[i].image, lit.truth), 2),
-                            decimals(on_edges[i], 2),
-                            std::isnan(on_silhouettes[i]) ? "-" : decimals(on_silhouettes[i], 2),
-                            word});
-    }
+    for (std::size_t i = 0; i < list.size(); ++i)
+      table.rows.push_back(
+          {shown.scene, list[i].name, decimals(psnr(list[i].image, lit.truth), 2),
+           decimals(scores[i].edges, 2),
+           std::isnan(scores[i].silhouettes) ? "-" : decimals(scores[i].silhouettes, 2),
+           scene_verdict(list, scores, i)});
     if (shown.title == nullptr) continue;
     PaperFigure figure{shown.title, "", {}};
     for (const Method& m : list) {
@@ -623,7 +662,9 @@ PaperTable cost_of_a_loop(const PaperOptions& options) {
     const std::uint8_t v = random.chance(500) ? 255 : 0;
     p = {v, v, v, 255};
   }
-  const auto trials = [](const Image& image, int loops) {
+  Waiting waiting("paper 000: cost of a loop", options.quiet);
+  const auto trials = [&waiting](const Image& image, int loops) {
+    waiting.update();
     Parameters p = preset_parameters(Preset::kMlaaSlope);
     p.steps = loops;
     MorphologicalGolden golden(p);
@@ -640,7 +681,7 @@ PaperTable cost_of_a_loop(const PaperOptions& options) {
     const double more = (now - before) / kClocksAMs, more_most = (most - before_most) / kClocksAMs;
     table.rows.push_back({fmt::format("{}", loops), decimals(now, 0), decimals(more, 4),
                           decimals(most, 0), decimals(more_most, 4), decimals(frame_ms, 3),
-                          more < 0.07 ? "less" : "more"});
+                          below(more, 0.07, "less", "more")});
     before = now;
     before_most = most;
   }

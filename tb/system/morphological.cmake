@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
-foreach(suite system stress coverage)
+foreach(suite system stress coverage records)
   if(suite STREQUAL stress)
     set(label stress)
+  elseif(suite STREQUAL records)
+    set(label negative)
   else()
     set(label system)
   endif()

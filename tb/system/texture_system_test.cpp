@@ -191,6 +191,7 @@ TEST(Texture, FullHdFrameIsIdenticalToGolden) {
 struct Traffic {
   const char* source;
   double misses_per_texel, texels_per_fragment, bilinears_per_fragment;
+  std::uint64_t fills, bilinears, fragments;  // ours, on every machine
 };
 class CacheTraffic : public testing::TestWithParam<Traffic> {};
 
@@ -203,17 +204,22 @@ TEST_P(CacheTraffic, IsAsAnIndependentSimulationFound) {
              fragments = static_cast<double>(got.colours);
   const auto expect_near = [](const char* what, double value, double expected) {
     testing::Test::RecordProperty(what, fmt::format("{:.3f}", value));
-    EXPECT_NEAR(value, expected, 0.2 * expected) << what;
+    // Its scenes were drawn by another rasteriser, and fill less of the picture.
+    EXPECT_NEAR(value, expected, 0.12 * expected) << what;
   };
   expect_near("misses_per_texel_percent", 100 * fills / (4 * bilinears), wanted.misses_per_texel);
   expect_near("texels_fetched_per_fragment", 16 * fills / fragments, wanted.texels_per_fragment);
   expect_near("bilinears_per_fragment", bilinears / fragments, wanted.bilinears_per_fragment);
+  EXPECT_EQ(got.fills, wanted.fills);
+  EXPECT_EQ(got.bilinears, wanted.bilinears);
+  EXPECT_EQ(got.colours, wanted.fragments);
 }
 
 INSTANTIATE_TEST_SUITE_P(Texture, CacheTraffic,
-                         testing::Values(Traffic{"plane", 1.81, 9.0, 7.8},
-                                         Traffic{"quad", 2.76, 3.7, 2.1},
-                                         Traffic{"tunnel", 3.28, 10.5, 5.0}),
+                         testing::Values(Traffic{"plane", 1.81, 9.0, 7.8, 141431, 2030284, 262144},
+                                         Traffic{"quad", 2.76, 3.7, 2.1, 48124, 466436, 234202},
+                                         Traffic{"tunnel", 3.28, 10.5, 5.0, 170261, 1331329,
+                                                 259636}),
                          [](const auto& p) { return std::string(p.param.source); });
 
 // ---- meshes and textures that others made

@@ -333,6 +333,28 @@ TEST(MemoryPort, ErrorResponsesComeBackWithTheirTag) {
   EXPECT_EQ(s.memory.errors(), 4U);
 }
 
+TEST(MemoryPort, WritesFailLikeReads) {
+  System s({}, with_latency(7));
+  s.memory.fail_range(64 * 10, 64 * 12);
+  const auto write_of = [](std::uint32_t line) {
+    MemoryRequest request = read_of(line);
+    request.write = true;
+    request.byte_mask = ~std::uint64_t{0};
+    return request;
+  };
+  for (const MemoryRequest& request : {write_of(9), write_of(10), read_of(11), write_of(11)})
+    s.driver.send(request);
+  ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 4; }, 1000));
+  std::vector<MemoryStatus> status;
+  for (const MemoryResponse& response : s.sink.beats()) status.push_back(response.status);
+  EXPECT_EQ(status,
+            (std::vector<MemoryStatus>{MemoryStatus::kOk, MemoryStatus::kAddressError,
+                                       MemoryStatus::kAddressError, MemoryStatus::kAddressError}));
+  EXPECT_EQ(s.port.errors.value(), 3U);
+  EXPECT_EQ(s.port.writes.value(), 3U);
+  EXPECT_EQ(s.port.reads.value(), 1U);
+}
+
 TEST(MemoryPort, RequestsBeyondTheMemorysLimitAreHeldBack) {
   MemoryModelParameters parameters = with_latency(20);
   parameters.outstanding = 3;

@@ -5,7 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <functional>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "rtl_model/fabric/memory_port.h"
@@ -203,6 +207,87 @@ TEST(Negative, AValueWiderThanItsFieldIsSeenByTheLinkChecker) {
       HasSubstr("link: cycle 2: beat 2: the value of value needs more than its 4 bits"));
 }
 
+// A link whose ends do as they like: the link itself would refuse all of this.
+class Rogue final : public rtl::LinkBase, public rtl::Clocked {
+ public:
+  using Acts = std::function<void(Rogue&, Cycle)>;
+  Rogue(rtl::ClockDomain& clock, Acts acts)
+      : LinkBase("rogue", 2, sizeof(Token), rtl::Payload::of<Token>({})), acts_(std::move(acts)) {
+    LinkBase::adopt(slots_.data(), reinterpret_cast<std::byte*>(&slots_[0].token), sizeof(Slot));
+    clock.add_before(*this);
+  }
+  void push(Cycle cycle, const Token& token) {
+    tail_->push_from = 0;
+    static_cast<Slot*>(advance_push(cycle))->token = token;
+  }
+  void pop(Cycle cycle) {
+    head_->pop_from = 0;
+    advance_pop(cycle);
+  }
+  rtl::Activity tick(Cycle cycle) override {
+    acts_(*this, cycle);
+    return rtl::kIdle;
+  }
+  void reset() override {}
+
+ private:
+  struct Slot : Stamps {
+    Token token{};
+  };
+  std::array<Slot, 2> slots_{};
+  Acts acts_;
+};
+
+std::string rogue(const Rogue::Acts& acts) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  Rogue link(clock, acts);
+  LinkChecker checker(clock);
+  try {
+    clock.run(20);
+  } catch (const spec::SimulationError& error) {
+    return error.what();
+  }
+  return fmt::format("{} beats", checker.beats());
+}
+// A beat pushed in every clock and popped in the next: both in the same clock all the time.
+void stream(Rogue& link, Cycle cycle) {
+  if (cycle > 0) link.pop(cycle);
+  link.push(cycle, Token{static_cast<std::uint32_t>(cycle), 7});
+}
+
+TEST(LinkChecker, IsSilentWhileBeatsComeAndGoInTheSameClock) {
+  EXPECT_EQ(rogue(&stream), "19 beats");
+}
+TEST(LinkChecker, SeesABeatThatChangesWhereBeatsComeAndGoInTheSameClock) {
+  EXPECT_THAT(
+      rogue([](Rogue& link, Cycle cycle) {
+        if (cycle == 9) link.beat(link.pops())[0] ^= std::byte{4};
+        stream(link, cycle);
+      }),
+      AllOf(HasSubstr("rogue: cycle 9: beat 8 changed while it waited"), HasSubstr("number=8/12")));
+}
+TEST(LinkChecker, SeesAPopInTheClockOfThePush) {
+  EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) {
+                if (cycle != 5) return;
+                link.push(cycle, {});
+                link.pop(cycle);
+              }),
+              HasSubstr("rogue: cycle 5: a pop of a beat that was pushed in the same cycle"));
+}
+TEST(LinkChecker, SeesAPushIntoAFullLink) {
+  EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) { link.push(cycle, {}); }),
+              HasSubstr("rogue: cycle 2: a push into a link that was full"));
+}
+TEST(LinkChecker, SeesTwoPopsInAClock) {
+  EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) {
+                if (cycle < 2) link.push(cycle, {});
+                if (cycle != 4) return;
+                link.pop(cycle);
+                link.pop(cycle);
+              }),
+              HasSubstr("rogue: cycle 4: 2 beats have gone out, 1 were popped"));
+}
+
 TEST(Negative, ScoreboardWithTooFewComparisons) {
   Scoreboard<int> board("board", 2);
   board.expect(1);
@@ -217,6 +302,36 @@ TEST(Negative, ScoreboardWithLeftovers) {
   board.got(1);
   EXPECT_THAT(text_of([&] { board.check(); }, ExitCode::kMismatch),
               HasSubstr("1 expected but never came, the first: item 1: 2"));
+}
+TEST(Negative, ScoreboardLooksAtTheLastItemToo) {
+  Scoreboard<int> board("board", 3);
+  for (const int i : {1, 2, 3}) board.expect(i);
+  for (const int i : {1, 2, 4}) board.got(i);
+  EXPECT_THAT(text_of([&] { board.check(); }, ExitCode::kMismatch),
+              HasSubstr("1 mismatches in 3 comparisons"));
+  Scoreboard<int> lost("lost", 0);
+  lost.expect(1);
+  EXPECT_THAT(text_of([&] { lost.check(); }, ExitCode::kMismatch),
+              HasSubstr("1 expected but never came"));
+}
+TEST(Negative, ScoreboardThatNeedsMoreThanItWasBuiltWith) {
+  Scoreboard<int> board("board", 0);
+  EXPECT_NO_THROW(board.check());
+  board.require(2);
+  board.require(1);  // the most that was asked counts
+  board.expect(1);
+  board.got(1);
+  EXPECT_THAT(text_of([&] { board.check(); }, ExitCode::kMismatch),
+              HasSubstr("only 1 comparisons, at least 2 are needed"));
+}
+TEST(Negative, ScoreboardThatLooksAway) {
+  Scoreboard<int> board("board", 1);
+  board.look_away();
+  board.expect(1);
+  board.got(2);
+  EXPECT_EQ(board.mismatches() + board.leftovers(), 0u);
+  EXPECT_THAT(text_of([&] { board.check(); }, ExitCode::kMismatch),
+              HasSubstr("only 0 comparisons"));
 }
 TEST(Negative, ScoreboardWithWhatNobodyExpects) {
   Scoreboard<int> board("board", 1, {}, [](int v) { return static_cast<std::uint64_t>(v) / 10; });

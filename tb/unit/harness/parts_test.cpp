@@ -197,6 +197,45 @@ TEST(StallInjector, OnOneSideOfOneLink) {
   EXPECT_EQ(p.adders[2]->cycles_of(rtl::kStalledDownstream), 0U);
 }
 
+TEST(StallInjector, OnTheOtherSideOfOneLink) {
+  Pipeline p(1000, 0);
+  StallInjector stalls(p.clock, {0, 500, 1, "link_2"});
+  p.clock.run_until([&] { return p.sink.received() == 1000; }, 100'000);
+  EXPECT_NEAR(static_cast<double>(p.clock.cycle()), 2000, 150);
+  EXPECT_NEAR(static_cast<double>(p.adders[2]->idle_cycles()), 1000, 150);
+}
+
+// Clocks in which an end that is always willing did nothing, although the other one let it.
+struct Held final : rtl::Clocked {
+  Held(rtl::ClockDomain& clock, Pipeline& p) : pipeline(p) { clock.add_after(*this); }
+  rtl::Activity tick(Cycle cycle) override {
+    const rtl::LinkBase& first = *pipeline.links.front();
+    const rtl::LinkBase& last = *pipeline.links.back();
+    const auto before = [&](Cycle stamp) { return stamp == cycle ? 1u : 0u; };
+    const std::uint32_t room =
+        first.depth() - first.occupancy() + before(first.last_push()) - before(first.last_pop());
+    pushes += !pipeline.driver.done() && first.last_push() != cycle && room > 0;
+    const std::uint32_t waiting = last.occupancy() - before(last.last_push());
+    pops += last.last_pop() != cycle && waiting > 0;
+    return rtl::kIdle;
+  }
+  void reset() override {}
+  Pipeline& pipeline;
+  std::uint64_t pushes = 0, pops = 0;
+};
+
+std::string held_in_a_run(std::uint32_t stall_permille) {
+  Pipeline p(1000, 0);
+  BenchOptions options;
+  options.stall_permille = stall_permille;
+  Bench bench(p.clock, options);
+  Held held(p.clock, p);
+  bench.run([&] { return p.sink.received() == 1000; }, 100'000);
+  return fmt::format("{} {}", held.pushes > 200, held.pops > 200);
+}
+TEST(Bench, StallsBothSidesOfEveryLink) { EXPECT_EQ(held_in_a_run(300), "true true"); }
+TEST(Bench, WithoutStallsHoldsNobody) { EXPECT_EQ(held_in_a_run(0), "false false"); }
+
 TEST(Monitor, SeesEveryBeatAtBothEnds) {
   Pipeline p(200);
   std::vector<Cycle> pushed, popped;

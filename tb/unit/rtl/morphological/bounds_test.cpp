@@ -125,19 +125,26 @@ TEST(Bursts, TheBoundsOfTheDefaults) {
 
 // A burst at the end of a row and one at the beginning of the next.
 struct Depth {
-  int fifo;
+  int beats, records, fifo;
   bool stalls;
 };
-void PrintTo(const Depth& d, std::ostream* out) { *out << d.fifo; }
+void PrintTo(const Depth& d, std::ostream* out) {
+  *out << d.records << " records in rows of " << d.beats << ", FIFO of " << d.fifo;
+}
+// Of both bursts: record_fifo >= n (1 - 2 / q) + 8 holds one.
+constexpr int depth_for(int records) {
+  constexpr int kClocks = 18;  // q of deburr
+  return 2 * ((records * (kClocks - 2) + kClocks - 1) / kClocks + 8);
+}
 class FifoDepth : public ::testing::TestWithParam<Depth> {};
 TEST_P(FifoDepth, HoldsBothBursts) {
   Parameters p = preset(Preset::kDeburr);
-  p.line_pixels = 800;
+  const int width = GetParam().beats, records = GetParam().records;
+  p.line_pixels = width;
   p.record_fifo = GetParam().fifo;
   EngineBench bench(p);
-  constexpr int kRecords = 20;
-  const Frame in = draw(800, 120, [](int x, int y) {
-    const bool burst = y % 40 < 20 ? x >= 800 - 2 * kRecords : x < 2 * kRecords;
+  const Frame in = draw(width, 120, [=](int x, int y) {
+    const bool burst = y % 40 < 20 ? x >= width - 2 * records : x < 2 * records;
     return grey(burst && (x + y) / 2 % 2 != 0 ? 255 : 0);
   });
   bench.run(in);
@@ -146,7 +153,16 @@ TEST_P(FifoDepth, HoldsBothBursts) {
   EXPECT_EQ(bench.engine.extractor.interlock_stalls.value(), 0u);
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), unstalled(in, p) + stalls);
 }
-INSTANTIATE_TEST_SUITE_P(Depths, FifoDepth, ::testing::Values(Depth{24, true}, Depth{44, false}));
+// As many records as rows of 1200, 1920 and 2480 beats may hold: what the formula gives is enough,
+// and a third less is not. The default of 256 does for rows of 1920.
+INSTANTIATE_TEST_SUITE_P(
+    Depths, FifoDepth,
+    ::testing::Values(Depth{800, 20, 24, true}, Depth{800, 20, 44, false},
+                      Depth{1200, 66, depth_for(66), false},
+                      Depth{1200, 66, depth_for(66) * 2 / 3, true}, Depth{1920, 106, 256, false},
+                      Depth{1920, 106, depth_for(106) * 2 / 3, true},
+                      Depth{2480, 137, depth_for(137), false},
+                      Depth{2480, 137, depth_for(137) * 2 / 3, true}));
 
 // Rows shorter than the pipe wait for the line buffers, records or not.
 struct Narrow {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // EdgeDetector behind SlotSequencer and LumaUnit: thresholds by hand, the sources of an edge, local
 // contrast, and its clocks.
+#include <algorithm>
 #include <map>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "tb/unit/rtl/morphological/front.h"
@@ -131,6 +134,96 @@ TEST(EdgeDetectorBlock, WithoutDepthLinesDepthReadsZero) {
   EXPECT_EQ(left_bits(front.detect(frame, {{reg::kRules, 1}})), "000");
   EXPECT_EQ(left_bits(front.detect(frame, {{reg::kRules, 2}})), "011");
 }
+
+// ---- every comparison at equality, and one on either side ---------------------------------------
+
+// Blue at 255 has the luma 255 x 4732, and black none: their step is 255 T with T = 4732 exactly.
+constexpr std::uint32_t kBlueStep = 4732;
+Frame black_and_blue(const char* colours) {
+  Frame frame(static_cast<int>(std::string(colours).size()), 1);
+  for (std::size_t i = 0; colours[i] != '\0'; ++i)
+    frame.pixel[i] = colours[i] == 'b' ? Rgba8{0, 0, 255, 255} : Rgba8{0, 0, 0, 255};
+  return frame;
+}
+
+class AtEquality : public testing::TestWithParam<spec::morphological::Lanes> {
+ protected:
+  using Writes = std::map<std::uint32_t, std::uint32_t>;
+  static Parameters parameters() {
+    Parameters p = preset(spec::morphological::Preset::kMlaa);
+    p.edge_source = spec::morphological::EdgeSource::kPredicated;  // depth is built
+    p.lanes = GetParam();
+    return p;
+  }
+  // Left edges in a row, and top edges in a column of three pixels.
+  void expect(const Frame& frame, const Writes& writes, const std::string& bits) {
+    EXPECT_EQ(left_bits(front.detect(frame, writes)), bits);
+    Frame column = draw(3, frame.width, [&](int, int y) { return frame.at(y, 0); });
+    std::string thrice;
+    for (std::size_t y = 0; y < bits.size(); ++y) {
+      thrice.append(3, bits[y]);
+      std::fill_n(column.depth.begin() + static_cast<std::ptrdiff_t>(3 * y), 3, frame.depth[y]);
+    }
+    EXPECT_EQ(top_bits(front.detect(column, writes)), thrice);
+  }
+  Front front{parameters()};
+};
+
+TEST_P(AtEquality, AFixedThresholdIsMet) {
+  const Frame frame = black_and_blue(".b.b..bb.");
+  for (const auto& [threshold, bits] : {std::pair{kBlueStep - 1, "011110101"},
+                                        {kBlueStep, "011110101"},
+                                        {kBlueStep + 1, "000000000"}})
+    expect(frame, {{reg::kRules, 0}, {reg::kThreshold, threshold}}, bits);
+}
+
+TEST_P(AtEquality, ADynamicThresholdIsExceeded) {
+  // Codes 1 and 2: a step of half the larger one.
+  for (const std::uint32_t larger : {0u, 1u << 3})
+    for (const auto& [alpha, bits] : {std::pair{32767u, "01"}, {32768u, "00"}, {32769u, "00"}})
+      expect(row({1, 2}), {{reg::kRules, 1u << 2 | larger}, {reg::kAlpha, alpha}, {reg::kFloor, 1}},
+             bits);
+}
+
+TEST_P(AtEquality, AFloorIsMet) {
+  // The current pixel is black, so that alpha asks for nothing.
+  for (const auto& [floor, bits] :
+       {std::pair{kBlueStep - 1, "01"}, {kBlueStep, "01"}, {kBlueStep + 1, "00"}})
+    expect(black_and_blue("b."),
+           {{reg::kRules, 1u << 2}, {reg::kAlpha, 65535}, {reg::kFloor, floor}}, bits);
+}
+
+TEST_P(AtEquality, ADepthThresholdIsMet) {
+  // 64 of 1024 are 4096 / 65536.
+  Frame frame = row({0, 0, 0});
+  frame.depth = {1024, 960, 1024};
+  for (const auto& [threshold, bits] : {std::pair{4095u, "011"}, {4096u, "011"}, {4097u, "000"}})
+    expect(frame, {{reg::kRules, 1}, {reg::kDepthThreshold, threshold}}, bits);
+  // And a step of one code on either side.
+  for (const auto& [depth, bits] : {std::pair{959u, "01"}, {960u, "01"}, {961u, "00"}}) {
+    Frame pair = row({0, 0});
+    pair.depth = {1024, depth};
+    expect(pair, {{reg::kRules, 1}, {reg::kDepthThreshold, 4096}}, bits);
+  }
+  // Whatever the threshold: the same depth is no edge.
+  frame.depth = {7, 7, 0};
+  expect(frame, {{reg::kRules, 1}, {reg::kDepthThreshold, 0}}, "001");
+}
+
+TEST_P(AtEquality, PredicatedThresholdsAreMet) {
+  Frame frame = black_and_blue(".b.");
+  frame.depth = {1000, 1000, 1};  // a depth edge at the second step only
+  for (const auto& [on, off, bits] : {std::tuple{kBlueStep, kBlueStep, "011"},
+                                      {kBlueStep + 1, kBlueStep, "010"},
+                                      {kBlueStep, kBlueStep + 1, "001"},
+                                      {kBlueStep - 1, kBlueStep - 1, "011"},
+                                      {kBlueStep + 1, kBlueStep + 1, "000"}})
+    expect(frame, {{reg::kRules, 2}, {reg::kThresholdOn, on}, {reg::kThresholdOff, off}}, bits);
+}
+
+INSTANTIATE_TEST_SUITE_P(EdgeDetector, AtEquality,
+                         testing::Values(spec::morphological::Lanes::kOne,
+                                         spec::morphological::Lanes::kFour));
 
 TEST(EdgeDetectorBlock, LocalContrastIsStrictTwiceTheStep) {
   Front front(preset(spec::morphological::Preset::kMlaa));

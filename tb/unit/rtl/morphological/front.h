@@ -17,7 +17,8 @@ struct Bits {
 // Frame in, edge bits out; the rules change by register between frames.
 struct Front {
   explicit Front(const Parameters& p)
-      : store(p),
+      : lanes(lanes_of(p)),
+        store(p),
         sequencer("sequencer", clock, store.store, probe),
         luma("luma", clock, store.store),
         edges("edges", clock, p, store.store) {
@@ -42,7 +43,7 @@ struct Front {
     clock.set_reset_n(true);
     for (const auto& [offset, value] : writes) store.bus.write(offset, value);
     store.store.write_size(frame.width, frame.height);
-    const auto all = beats_of(frame, 1);
+    const auto all = beats_of(frame, lanes);
     driver.send([all](std::uint64_t i, spec::morphological::PixelBeat& beat) {
       if (i >= all.size()) return false;
       beat = all[i];
@@ -51,11 +52,14 @@ struct Front {
     clock.run(static_cast<Cycle>((frame.height + 40) * frame.width + 20));
     std::vector<Bits> found;
     for (const rtl::morphological::EdgeToken& token : sink.beats())
-      if (token.slot.row >= 1 && token.slot.row <= frame.height)
-        found.push_back({(token.left & 1) != 0, (token.top & 1) != 0});
+      for (int lane = 0; lane < lanes; ++lane)
+        if (token.slot.row >= 1 && token.slot.row <= frame.height &&
+            token.slot.beat * lanes + lane < frame.width)
+          found.push_back({(token.left >> lane & 1) != 0, (token.top >> lane & 1) != 0});
     return found;
   }
 
+  int lanes;
   ClockDomain clock{"clock", period()};
   Registers store;
   rtl::LatencyProbe probe;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Reset of the morphological engine at every clock of a frame: what comes after it is, to the bit
-// and to the clock, what comes after a reset of an engine that never had a frame.
+// and to the clock, what comes after a reset of an engine that never had a frame. And whatever
+// sticks is forgotten: every register and figure reads as in a new engine.
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "tb/harness/engine_state.h"
 #include "tb/unit/rtl/morphological/support.h"
 
 namespace deburr::tb::morphological_rtl {
@@ -186,6 +189,98 @@ TEST_P(ResetAt, AnyClockLeavesNothingBehind) {
 }
 INSTANTIATE_TEST_SUITE_P(Clocks, ResetAt,
                          ::testing::Values(5, 100, 3301, 3402, 3777, 4500, 5002, 6001, 7500, 9300));
+
+// ---- whatever sticks ----------------------------------------------------------------------------
+
+class AfterReset : public ::testing::TestWithParam<spec::morphological::Storage> {
+ protected:
+  using State = std::vector<std::string>;
+  static Parameters parameters() {
+    Parameters p = preset(Preset::kMlaaSlope, 6);
+    p.storage = GetParam();
+    return p;
+  }
+  State state() { return engine_state(bench.engine, bench.bus); }
+  void reset() {
+    send({});
+    bench.clock.set_reset_n(false);
+    bench.clock.run(40);  // answers of memory go by
+    bench.clock.set_reset_n(true);
+  }
+  // Once in a reset at most: the driver begins again after it.
+  void send(std::vector<spec::morphological::PixelBeat> beats) {
+    bench.driver.send(
+        [all = std::move(beats)](std::uint64_t i, spec::morphological::PixelBeat& beat) {
+          if (i < all.size()) beat = all[i];
+          return i < all.size();
+        });
+  }
+
+  // Pixels, clocks and figures of a frame.
+  State job() {
+    const Cycle begin = bench.clock.cycle();
+    bench.engine.set_frame_size(40, 30);
+    send(beats_of(noise(40, 30), 1));
+    bench.bench->run([&] { return bench.sink.received() == 1200 && bench.engine.idle(); }, 100'000);
+    State trail = state();
+    for (const Cycle cycle : bench.sink.cycles())
+      trail.push_back("beat in " + std::to_string(cycle - begin));
+    trail.push_back("pixels " + std::to_string(hash(bench.last(40, 30))));
+    return trail;
+  }
+
+  void spoil() {
+    if (bench.memory)
+      bench.memory->fail_request(bench.memory->reads() + bench.memory->writes() + 3);
+    const Frame frame = noise(33, 20);
+    bench.engine.set_frame_size(33, 20);
+    std::vector<spec::morphological::PixelBeat> beats = beats_of(frame, 1);
+    beats[40].start_of_frame = true;  // not as SIZE says
+    send(beats);
+    bench.clock.run(50);
+    bench.bus.write(reg::kThreshold, 77);  // while a frame is inside
+    EXPECT_TRUE(
+        bench.clock.run_until([&] { return bench.driver.done() && bench.engine.idle(); }, 50'000));
+    std::uint32_t sticky = reg::kStatusIdle | reg::kStatusFrameDone | reg::kStatusFraming |
+                           reg::kStatusWrittenWhileBusy;
+    if (bench.memory) sticky |= reg::kStatusMemoryError;
+    EXPECT_EQ(bench.bus.read(reg::kStatus), sticky);
+    // Every writable register has another value, and counters have counted.
+    for (const spec::RegisterInfo& info : spec::morphological::kRegisters)
+      if (info.access == spec::Access::kReadWrite && info.offset != reg::kControl)
+        bench.bus.write(info.offset, ~bench.bus.read(info.offset));
+    for (const std::uint32_t counter : {reg::kPixels, reg::kEdgePixels, reg::kFrameCycles})
+      EXPECT_GT(bench.bus.read(counter), 0u) << counter;
+    EXPECT_GT(bench.engine.beat_latency.max(), 0u);
+    bench.bus.write(reg::kControl, 0);
+    EXPECT_EQ(bench.bus.read(reg::kControl), 0u);
+  }
+
+  EngineBench bench{parameters()};
+};
+
+TEST_P(AfterReset, EverythingReadsAsInANewEngine) {
+  bench.clock.run(5);
+  const State fresh = state();
+  spoil();
+  EXPECT_NE(state_difference(fresh, state()), "") << "there is something to forget";
+  reset();
+  bench.clock.run(5);
+  EXPECT_EQ(state_difference(fresh, state()), "");
+}
+
+TEST_P(AfterReset, TheNextFrameIsThatOfANewEngine) {
+  const State fresh = job();
+  ASSERT_GT(fresh.size(), 1200u);
+  reset();
+  spoil();
+  reset();
+  EXPECT_EQ(state_difference(fresh, job()), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Morphological, AfterReset,
+                         ::testing::Values(spec::morphological::Storage::kLineBuffers,
+                                           spec::morphological::Storage::kMemory));
 
 }  // namespace
 }  // namespace deburr::tb::morphological_rtl

@@ -146,6 +146,73 @@ struct StageBench {
   DataStage stage{"stage", clock, parameters(), fills};
 };
 
+// ---- clocks of passes and fills -----------------------------------------------------------------
+
+// The data stage alone with a request of so many passes, and lines to write that have all come.
+struct Clocks {
+  Cycle taken;  // of the request, from the clock that takes it to the one that lets it go
+  std::uint64_t wait_fill, write_fill, bank_conflict;
+  friend bool operator==(const Clocks&, const Clocks&) = default;
+  friend void PrintTo(const Clocks& c, std::ostream* out) {
+    *out << c.taken << " clocks, wait_fill " << c.wait_fill << ", write_fill " << c.write_fill
+         << ", bank_conflict " << c.bank_conflict;
+  }
+};
+Clocks clocks_of(std::uint32_t hits, std::uint32_t passes, std::uint8_t lines) {
+  ClockDomain clock("clock", period());
+  FillBuffer fills("fills", 4, 64);
+  rtl::Link<CacheToken> requests("requests");
+  rtl::Link<TexelQuadToken> texels("texels");
+  DataStage stage("stage", clock, StageBench::parameters(), fills);
+  stage.requests_in(requests);
+  stage.texels_out(texels);
+  const std::array<std::uint8_t, 64> line{};
+  for (std::uint8_t i = 0; i < lines; ++i) {
+    fills.fill(clock.cycle(), fills.reserve(clock.cycle()), 0, line, true);
+    clock.run(1);
+  }
+  clock.run(3);
+  // Words of one bank for as many hits as there are passes, the other hits in banks of their own.
+  CacheToken token = StageBench::hit({0, 0, 0, 0});
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    token.place[i] = i < passes ? 64 * i : 4 * (i + 1);
+    if (i >= hits) token.source[i] = static_cast<std::uint8_t>(1 + (i - hits) % lines);
+    token.victim[i] = static_cast<std::uint16_t>(8 + i);
+  }
+  token.fills = lines;
+  const Cycle pushed = clock.cycle();
+  requests.push(pushed, token);
+  const Cycle ready = ready_at(clock, texels, 40);
+  // Taken a clock after the push; the last clock of stage 1 is one before the push of the texels.
+  const auto stalls = stage.stalls();
+  return {ready - 1 - (pushed + 1), stalls[1].cycles, stalls[2].cycles, stalls[3].cycles};
+}
+
+struct PassesAndFills {
+  std::uint32_t hits, passes;
+  std::uint8_t lines;
+  Clocks expected;
+};
+void PrintTo(const PassesAndFills& c, std::ostream* out) {
+  *out << c.passes << " passes, " << int{c.lines} << " lines";
+}
+class DataStageClocks : public testing::TestWithParam<PassesAndFills> {};
+
+// The first line is written in the clock of the last pass, then one a clock.
+TEST_P(DataStageClocks, FillsBeginInTheClockOfTheLastPass) {
+  const PassesAndFills& c = GetParam();
+  EXPECT_EQ(clocks_of(c.hits, c.passes, c.lines), c.expected);
+}
+INSTANTIATE_TEST_SUITE_P(
+    TextureRtl, DataStageClocks,
+    testing::Values(PassesAndFills{4, 1, 0, {1, 0, 0, 0}}, PassesAndFills{4, 2, 0, {2, 0, 0, 1}},
+                    PassesAndFills{4, 4, 0, {4, 0, 0, 3}}, PassesAndFills{3, 1, 1, {1, 0, 0, 0}},
+                    PassesAndFills{3, 2, 1, {2, 0, 0, 1}}, PassesAndFills{3, 3, 1, {3, 0, 0, 2}},
+                    PassesAndFills{2, 1, 2, {2, 0, 1, 0}}, PassesAndFills{2, 2, 2, {3, 0, 1, 1}},
+                    PassesAndFills{1, 1, 3, {3, 0, 2, 0}}, PassesAndFills{0, 0, 4, {4, 0, 3, 0}}));
+
+// ---- what the banks do not do -------------------------------------------------------------------
+
 TEST(TextureRtlDataBanks, AWordIsNotThereInTheClockOfItsRead) {
   StageBench b(StageBench::hit({0, 4, 16, 20}));
   EXPECT_THAT(of_a_stage_less(b.stage, b.clock), Refuses("banks", kEarly));

@@ -33,6 +33,23 @@ TEST(TextureRtlDescriptors, FollowTheRegisters) {
   EXPECT_FALSE(read.read(5, 3).valid);
 }
 
+// Level clamps are U8.8, shown with 12 fraction bits: no bit of them is lost.
+TEST(TextureRtlDescriptors, ClampsHaveAllTheirBits) {
+  ClockDomain clock("clock", period());
+  Store store(clock);
+  auto read = store.descriptors.for_levels;
+  rtl::Cycle cycle = 0;
+  for (int bit = 0; bit < 16; ++bit) {
+    spec::texture::Descriptor d = some_texture();
+    d.min_lod = static_cast<std::uint16_t>(1u << bit);
+    d.max_lod = static_cast<std::uint16_t>(1u << (15 - bit));
+    write_descriptor(store.bus, 3, d);
+    const rtl::texture::TextureState& t = read.read(++cycle, 3);
+    EXPECT_EQ(t.min_lod, 1 << (bit + 4));
+    EXPECT_EQ(t.max_lod, 1 << (15 - bit + 4));
+  }
+}
+
 TEST(TextureRtlDescriptors, OneReadAClockAndPort) {
   ClockDomain clock("clock", period());
   Store store(clock);

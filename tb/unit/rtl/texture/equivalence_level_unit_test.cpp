@@ -40,8 +40,8 @@ spec::texture::Descriptor level_texture(Random& random, int number) {
     d.max_anisotropy_log2 = static_cast<std::uint8_t>(number / 48);
   } else if (random.chance(300)) {
     d.lod_bias = any_of(random, std::array<std::int16_t, 6>{-32768, 32767, -1, 1, -256, 4096});
-    d.min_lod = any_of(random, std::array<std::uint16_t, 4>{0, 1, 4096, 65535});
-    d.max_lod = any_of(random, std::array<std::uint16_t, 4>{0, 1, 3072, 65535});
+    d.min_lod = any_of(random, std::array<std::uint16_t, 5>{0, 1, 4096, 32768, 65535});
+    d.max_lod = any_of(random, std::array<std::uint16_t, 5>{0, 1, 3072, 32768, 65535});
   }
   return d;
 }

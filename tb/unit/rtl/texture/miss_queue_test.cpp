@@ -44,7 +44,8 @@ TEST(TextureRtlMissQueue, FullQueueStallsTheTagStageAndLosesNothing) {
 
 // The queue alone, with the test at both ends.
 struct QueueBench {
-  QueueBench() {
+  explicit QueueBench(const spec::texture::Parameters& p = small_cache())
+      : queue("queue", clock, p, store.control) {
     queue.misses_in(misses);
     queue.requests_out(requests);
     queue.responses_in(responses);
@@ -54,8 +55,66 @@ struct QueueBench {
   rtl::Link<MissToken> misses{"misses"};
   rtl::Link<rtl::MemoryRequest> requests{"requests"};
   rtl::Link<rtl::MemoryResponse> responses{"responses"};
-  MissQueue queue{"queue", clock, small_cache(), store.control};
+  MissQueue queue;
 };
+
+// Lines of 128 bytes come in two beats: one of them with an error is one line with an error, and
+// the next line in its place knows nothing of it, after a reset neither.
+TEST(TextureRtlMissQueue, ALineOfTwoBeatsFailsOnce) {
+  spec::texture::Parameters p = small_cache();
+  p.cache_bytes = 512;
+  p.cache_line_bytes = 128;
+  p.cache_outstanding = 1;
+  QueueBench b(p);
+  std::uint32_t line = 0;
+  const auto ask = [&] {
+    b.misses.push(b.clock.cycle(), {{++line}, 1});
+    b.clock.run(4);
+    ASSERT_FALSE(b.requests.empty());
+    EXPECT_EQ(b.requests.front(b.clock.cycle()).lines, 2u);
+    b.requests.pop(b.clock.cycle());
+  };
+  const auto answer = [&](std::uint16_t beat, bool failed) {
+    rtl::MemoryResponse response;
+    response.line = beat;
+    response.last = beat == 1;
+    response.status = failed ? rtl::MemoryStatus::kError : rtl::MemoryStatus::kOk;
+    b.responses.push(b.clock.cycle(), response);
+    b.clock.run(3);
+  };
+  const auto use = [&] {
+    b.queue.fills.read_ahead(b.clock.cycle());
+    ASSERT_TRUE(b.queue.fills.ready(b.clock.cycle() + 1));
+    b.queue.fills.release(b.clock.cycle() + 1);
+    b.clock.run(2);
+  };
+  std::uint64_t errors = 0;
+  for (const auto& [first, second] : {std::pair{false, false},
+                                      {true, false},
+                                      {false, false},
+                                      {false, true},
+                                      {false, false},
+                                      {true, true},
+                                      {false, false}}) {
+    ask();
+    answer(0, first);
+    EXPECT_EQ(b.queue.memory_errors.value(), errors) << "the line has not come yet";
+    answer(1, second);
+    errors += first || second;
+    EXPECT_EQ(b.queue.memory_errors.value(), errors) << first << second;
+    use();
+  }
+  EXPECT_EQ(errors, 3u);
+  ask();
+  answer(0, true);
+  b.clock.set_reset_n(false);
+  b.clock.run(1);
+  b.clock.set_reset_n(true);
+  ask();
+  answer(0, false);
+  answer(1, false);
+  EXPECT_EQ(b.queue.memory_errors.value(), 0u);
+}
 
 // Lines of two requests in a clock are more than its write ports take.
 TEST(TextureRtlMissQueue, TakesOneRequestAClock) {

@@ -53,7 +53,14 @@ TEST(TextureRtlTagStore, RandomReplacementStepsOnlyForValidLines) {
   }
   tags.invalidate();
   EXPECT_EQ(tags.find(102), TagStore::kAbsent);
-  EXPECT_EQ(tags.allocate(7, false).slot, 0u);
+  for (std::uint32_t line = 0; line < 4; ++line) EXPECT_EQ(tags.allocate(line, false).slot, line);
+  // The shift register goes on where it was; a reset begins it again.
+  for (const std::uint32_t way : {3u, 1u, 0u, 0u})
+    EXPECT_EQ(tags.allocate(200 + way, false).slot, way);
+  tags.reset();
+  for (std::uint32_t line = 0; line < 4; ++line) EXPECT_EQ(tags.allocate(line, false).slot, line);
+  for (const std::uint32_t way : {0u, 0u, 0u, 2u})
+    EXPECT_EQ(tags.allocate(300 + way, false).slot, way);
 }
 
 // The sets are read a clock before they are looked up, each through a port of its own.

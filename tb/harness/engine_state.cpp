@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "tb/harness/engine_state.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "rtl_model/fabric/histogram.h"
+#include "rtl_model/fabric/memory.h"
+#include "rtl_model/fabric/unit.h"
+
+namespace deburr::tb {
+namespace {
+
+template <class T>
+void collect(const sc_core::sc_object& root, std::vector<const T*>& found) {
+  for (const sc_core::sc_object* child : root.get_child_objects()) {
+    if (const auto* wanted = dynamic_cast<const T*>(child)) found.push_back(wanted);
+    collect(*child, found);
+  }
+}
+
+// Without the name of the engine.
+std::string inner_name(const rtl::Engine& engine, const sc_core::sc_object& object) {
+  return std::string(object.name()).substr(std::string(engine.name()).size() + 1);
+}
+
+}  // namespace
+
+std::vector<std::string> engine_state(const rtl::Engine& engine, RegisterHost& host,
+                                      const std::vector<std::uint32_t>& more_registers) {
+  std::vector<std::string> state;
+  const auto add = [&](const std::string& name, std::uint64_t value) {
+    state.push_back(fmt::format("{} = {:#x}", name, value));
+  };
+  for (const spec::RegisterInfo& info : engine.control.registers.table())
+    add(fmt::format("register {}", info.name), host.read(info.offset));
+  for (const std::uint32_t offset : more_registers)
+    add(fmt::format("register {:#x}", offset), host.read(offset));
+  for (const rtl::Counter* counter : engine.counters())
+    add(inner_name(engine, *counter), counter->value());
+  std::vector<const rtl::Histogram*> histograms;
+  collect(engine, histograms);
+  for (const rtl::Histogram* histogram : histograms) {
+    const std::string name = inner_name(engine, *histogram);
+    add(name + ".count", histogram->count());
+    add(name + ".sum", histogram->sum());
+    add(name + ".min", histogram->min());
+    add(name + ".max", histogram->max());
+    for (const rtl::Histogram::Bin& bin : histogram->bins())
+      add(fmt::format("{} of {}", name, bin.low), bin.count);
+  }
+  for (const rtl::Unit* unit : engine.units()) {
+    const std::string name = inner_name(engine, *unit);
+    add(name + ".busy", unit->busy_cycles());
+    add(name + ".idle", unit->idle_cycles());
+    for (const rtl::Unit::StallCause& cause : unit->stalls())
+      add(name + "." + cause.name, cause.cycles);
+  }
+  for (const rtl::MemoryBase* memory : engine.memories())
+    if (const auto high_water = memory->high_water())
+      add(inner_name(engine, *memory) + ".high_water", *high_water);
+  return state;
+}
+
+std::string state_difference(const std::vector<std::string>& was,
+                             const std::vector<std::string>& is) {
+  std::string text;
+  for (std::size_t i = 0; i < std::max(was.size(), is.size()); ++i) {
+    const std::string a = i < was.size() ? was[i] : "nothing",
+                      b = i < is.size() ? is[i] : "nothing";
+    if (a != b) text += fmt::format("was {}, is {}\n", a, b);
+  }
+  return text;
+}
+
+}  // namespace deburr::tb

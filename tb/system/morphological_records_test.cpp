@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// The scoreboards of runs and lines inside the engine can fail: each by itself where only it can
+// see the fault, and where it compares nothing.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "tb/harness/verdict.h"
+#include "tb/system/morphological_runs.h"
+
+namespace deburr::tb::morphological_system {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+struct Judged {
+  std::set<std::string> checks;  // with a mismatch
+  std::uint64_t mismatches;
+  std::string complaint;  // of the first scoreboard that failed
+};
+
+Judged judged(const std::string& fault) {
+  MorphologicalRunOptions options;
+  options.morphological = preset(Preset::kDeburr);
+  options.morphological.line_pixels = 256;
+  options.records = true;
+  options.check_links = false;
+  if (!fault.empty()) options.faults = {fault};
+  const std::vector<MorphologicalInput> frames = {fans(16), blocks(60, 50)};
+  Simulation simulation(options);
+  MorphologicalEnvironment environment(simulation, frames, options);
+  simulation.elaborate(environment);
+  simulation.run();
+  Result result;
+  simulation.collect(result);
+  Judged j{{}, result.mismatches + result.traffic_mismatches, ""};
+  for (const auto& mismatch : result.first_mismatches) j.checks.insert(mismatch.check);
+  try {
+    environment.check();
+  } catch (const Mismatch& mismatch) {
+    j.complaint = mismatch.what();
+  }
+  return j;
+}
+
+TEST(Records, WithoutAFaultPass) {
+  const Judged j = judged("");
+  EXPECT_EQ(j.complaint, "");
+  EXPECT_EQ(j.mismatches, 0u);
+}
+
+// Steps that were kept move no share: pixels stay perfect.
+TEST(Records, OnlyTheLineScoreboardSeesTheStepsOfALine) {
+  const Judged j = judged("flip:morphological.lines_h0:5:line.left_steps.0");
+  EXPECT_THAT(j.checks, ElementsAre("lines"));
+  EXPECT_EQ(j.mismatches, 1u);
+  EXPECT_THAT(j.complaint, HasSubstr("lines: 1 mismatches"));
+}
+TEST(Records, OnlyTheLineScoreboardSeesTheStepsOfALineUpright) {
+  const Judged j = judged("flip:morphological.lines_v0:5:line.right_steps.1");
+  EXPECT_THAT(j.checks, ElementsAre("lines"));
+  EXPECT_EQ(j.mismatches, 1u);
+}
+
+TEST(Records, TheRunScoreboardSeesAWrongEdge) {
+  EXPECT_THAT(judged("wrong-edge").checks, Contains("runs"));
+}
+
+TEST(Records, RunsThatAreNotComparedAreNoPass) {
+  const Judged j = judged("blind-runs");
+  EXPECT_EQ(j.mismatches, 0u);
+  EXPECT_THAT(j.complaint, HasSubstr("runs: 0 mismatches in 0 comparisons, only 0 comparisons"));
+}
+TEST(Records, LinesThatAreNotComparedAreNoPass) {
+  const Judged j = judged("blind-lines");
+  EXPECT_EQ(j.mismatches, 0u);
+  EXPECT_THAT(j.complaint, HasSubstr("lines: 0 mismatches in 0 comparisons, only 0 comparisons"));
+}
+
+}  // namespace
+}  // namespace deburr::tb::morphological_system
