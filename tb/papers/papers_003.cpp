@@ -71,29 +71,22 @@ PaperTable sizes() {
       "of one value.",
       {"item", "paper", "ours", "verdict"},
       {}};
-  const auto add = [&](std::string item, std::string paper, std::string ours, std::string word) {
-    table.rows.push_back({std::move(item), std::move(paper), std::move(ours), std::move(word)});
+  const auto add = [&](std::string item, const std::string& paper, double ours, int digits = 0) {
+    table.rows.push_back(judged_row(std::move(item), paper, ours, digits, "wrong"));
   };
-  add("SMAA, printed, KB", "1138", fmt::format("{}", kFull.printed_kilobytes()),
-      verdict(1138, 0, kFull.printed_kilobytes(), "wrong"));
-  add("merged, printed, KB", "547", fmt::format("{}", kMerged.printed_kilobytes()),
-      verdict(547, 0, kMerged.printed_kilobytes(), "wrong"));
-  add("saving, printed, %", "51.93", decimals(printed, 2), verdict(51.93, 2, printed, "wrong"));
-  add("SMAA, binary, bytes", "-", fmt::format("{}", kFull.bytes()), "reference");
-  add("merged, binary, bytes", "-", fmt::format("{}", kMerged.bytes()), "reference");
-  add("saving, binary, %", "-", decimals(saving(kFull.bytes(), kMerged.bytes()), 2), "reference");
-  const double orthogonal = saving(golden::morphological::FullAreaTable::kBits,
-                                   golden::morphological::MergedAreaTable::kBits);
-  add("orthogonal patterns, saving, %", "50", decimals(orthogonal, 0),
-      verdict(50, 0, orthogonal, "wrong"));
-  add("ROM of SMAA 1x, bits: table_full", "-",
-      fmt::format("{}", golden::morphological::FullAreaTable::kBits), "reference");
-  add("table_merged", "-", fmt::format("{}", golden::morphological::MergedAreaTable::kBits),
-      "reference");
-  add("table_minimal", "-", fmt::format("{}", golden::morphological::MinimalAreaTable::kBits),
-      "ours");
-  add("diagonals", "-", fmt::format("{}", golden::morphological::DiagonalTable::kBits),
-      "reference");
+  add("SMAA, printed, KB", "1138", kFull.printed_kilobytes());
+  add("merged, printed, KB", "547", kMerged.printed_kilobytes());
+  add("saving, printed, %", "51.93", printed, 2);
+  add("SMAA, binary, bytes", kNotPrinted, kFull.bytes());
+  add("merged, binary, bytes", kNotPrinted, kMerged.bytes());
+  add("saving, binary, %", kNotPrinted, saving(kFull.bytes(), kMerged.bytes()), 2);
+  add("orthogonal patterns, saving, %", "50",
+      saving(golden::morphological::FullAreaTable::kBits,
+             golden::morphological::MergedAreaTable::kBits));
+  add("ROM of SMAA 1x, bits: table_full", kNotPrinted, golden::morphological::FullAreaTable::kBits);
+  add("table_merged", kNotPrinted, golden::morphological::MergedAreaTable::kBits);
+  add("table_minimal", kNotPrinted, golden::morphological::MinimalAreaTable::kBits);
+  add("diagonals", kNotPrinted, golden::morphological::DiagonalTable::kBits);
   return table;
 }
 
@@ -108,7 +101,7 @@ PaperTable merging() {
   for (const double offset : golden::ideal::kSmaaOffsets) {
     const int loss = golden::ideal::loss_by_merging(offset);
     table.rows.push_back({fmt::format("{:g}", offset), "0", fmt::format("{}", loss),
-                          loss == 0 ? "right" : "inconsistent"});
+                          claim(loss, "right", "inconsistent")});
   }
   return table;
 }
@@ -183,7 +176,7 @@ PaperTable densities(const PaperOptions& options) {
       const double t = percent(fixed(share.code)), open = percent(dynamic(share.code, kNoFloor)),
                    floored = percent(dynamic(share.code, 514));
       table.rows.push_back({frame.name, fmt::format("{:g}", share.real), decimals(t, 2),
-                            decimals(open, 2), decimals(floored, 2), open > t ? "right" : "wrong"});
+                            decimals(open, 2), decimals(floored, 2), below(t, open)});
     }
   }
   return table;
@@ -213,8 +206,8 @@ PaperTable symmetry(const PaperOptions& options) {
     }
     const double percent = 100.0 * static_cast<double>(changed) / static_cast<double>(bits);
     table.rows.push_back({std::string(spec::morphological::kDynamicLumaNames[luma]),
-                          luma == 0 ? "used" : "-", decimals(percent, 2),
-                          changed == 0 ? "symmetric" : "asymmetric"});
+                          luma == 0 ? "used" : kNotPrinted, decimals(percent, 2),
+                          claim(changed, "symmetric", "asymmetric")});
   }
   return table;
 }
@@ -297,12 +290,14 @@ PaperTable matrix_of_lines(const PaperOptions& options) {
   while (all[deburr].name != "deburr") ++deburr;
   for (std::size_t i = 0; i < all.size(); ++i) {
     std::vector<std::string> cells = {all[i].name};
-    bool above = true;
+    std::int64_t ahead = 0;
     for (std::size_t k = 0; k < figures[i].size(); ++k) {
       cells.push_back(decimals(figures[i][k], 1));
-      above = above && figures[i][k] > figures[deburr][k];
+      ahead += figures[i][k] <= figures[deburr][k];
     }
-    cells.emplace_back(i == deburr ? "ours" : i > deburr ? "variant" : above ? "behind" : "ahead");
+    cells.push_back(i == deburr  ? "ours"
+                    : i > deburr ? "variant"
+                                 : claim(ahead, "behind", "ahead"));
     table.rows.push_back(cells);
   }
   return table;
@@ -360,7 +355,8 @@ PaperTable matrix_of_frames(const PaperOptions& options) {
     cells.push_back(decimals(sum.edges / n, 2));
     cells.push_back(decimals(sum.silhouettes / std::max(1, sum.with_silhouettes), 2));
     cells.push_back(all[i].smoothed ? decimals(sum.density / n, 2) : "-");
-    cells.emplace_back(i == deburr ? "ours" : sum.edges > sums[deburr].edges ? "ahead" : "behind");
+    cells.push_back(i == deburr ? "ours"
+                                : at_most(sum.edges, sums[deburr].edges, "behind", "ahead"));
     table.rows.push_back(cells);
   }
   return table;
@@ -425,7 +421,7 @@ PaperTable matrix_of_costs(const PaperOptions& options) {
     table.rows.push_back({method.name, fmt::format("{}", cost.clocks),
                           fmt::format("{}", cost.rom_bits), fmt::format("{}", cost.ram_bits),
                           decimals(at_fifth, 3), decimals(slowdown(paper), 3),
-                          at_fifth < 1.005 ? "right" : "wrong"});
+                          below(at_fifth, 1.005)});
     progress.update(table.rows.size());
   }
   return table;
