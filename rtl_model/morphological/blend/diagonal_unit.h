@@ -29,9 +29,9 @@
 
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/memory.h"
+#include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/morphological/parameter_store.h"
-#include "rtl_model/morphological/pipe.h"
 #include "rtl_model/morphological/tokens.h"
 
 namespace deburr::rtl::morphological {
