@@ -33,6 +33,12 @@ RUNS = [
     *(f"morphological --in @{frame}-256x144 --preset {preset} --lanes {lanes}"
       for frame in ("random_edges-200", "random_edges-500", "diagonals-2")
       for preset in ("deburr", "mlaa") for lanes in (1, 4)),
+    "morphological --in @random_edges-200-256x144 --preset smaa",
+    "morphological --in @random_edges-500-256x144 --preset smaa-dynamic",
+    "morphological --in @diagonals-2-256x144 --preset smaa --set morphological.quality=ultra --lanes 4",
+    # Records in every column, all of them extended.
+    "morphological --in @diagonals-2-256x144 --set morphological.ends=crossings"
+    " --set morphological.area=table_minimal --set morphological.round_corners=true",
     "morphological --in @random_edges-10-256x144",
     "morphological --in @random_edges-500-256x144 --storage memory",
     "morphological --size 256x256",

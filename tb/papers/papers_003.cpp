@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,6 +19,9 @@
 #include "golden/morphological/edges.h"
 #include "golden/morphological/morphological_golden.h"
 #include "spec/morphological/parameters.h"
+#include "tb/env/morphological_environment.h"
+#include "tb/env/morphological_frames.h"
+#include "tb/harness/forked.h"
 #include "tb/papers/papers.h"
 #include "tb/results/progress.h"
 #include "tb/scene/quality.h"
@@ -361,6 +366,71 @@ PaperTable matrix_of_frames(const PaperOptions& options) {
   return table;
 }
 
+struct Cost {
+  std::uint64_t clocks, unstalled;   // of a frame, measured and by formula
+  std::uint64_t rom_bits, ram_bits;  // physical
+};
+
+// The frame through the hardware model, every pixel compared with golden; in a process of its own.
+Cost cost_of(const Parameters& parameters, const Image& image) {
+  return forked<Cost>([&] {
+    const MorphologicalInput frame{image, {}};
+    SimulationOptions options;
+    options.check_links = false;
+    Simulation simulation(options);
+    MorphologicalSetup setup;
+    setup.morphological = parameters;
+    setup.morphological.line_pixels = std::max(1920, image.width);
+    MorphologicalEnvironment environment(simulation, {&frame, 1}, setup);
+    simulation.elaborate(environment);
+    simulation.run();
+    environment.check();
+    Result result;
+    simulation.collect(result);
+    Cost cost{environment.engine().sequencer.frame_cycles.value(),
+              frame_clocks_by_formula(parameters, image.width, image.height), 0, 0};
+    for (const MemoryFigures& memory : result.memories)
+      (memory.kind == "rom" ? cost.rom_bits : cost.ram_bits) += memory.physical_bits;
+    return cost;
+  });
+}
+
+PaperTable matrix_of_costs(const PaperOptions& options) {
+  PaperTable table{
+      "Quality matrix: cost",
+      "The hardware model, one lane, lines of up to 1920 pixels. Clocks of a frame (object, of the "
+      "size of the pictures) and physical bits, which include copies for more ports, and the "
+      "predictor's memories, which every engine has; then clocks over those of an engine that "
+      "never waits, for 256 x 144 pixels at random of which 20 % have an edge, and 37 %, which is "
+      "what the paper's threshold gives. The verdict: is it a pixel a clock up to 20 %?",
+      {"rules", "clocks", "ROM, bits", "flip-flops and SRAM, bits", "20 %", "37 %", "verdict"},
+      {}};
+  RenderOptions render_options;
+  render_options.width = render_options.height = options.size;
+  render_options.shading = Shading::kLit;
+  const Image frame = render(make_scene("object"), render_options);
+  const Image fifth = stimuli::random_edges(256, 144, 200),
+              paper = stimuli::random_edges(256, 144, 370);
+  std::vector<Method> all = methods();
+  std::erase_if(all, [](const Method& method) { return !method.smoothed; });
+  Progress progress("paper 003", all.size(), "row");
+  for (const Method& method : all) {
+    options.go_on();
+    const auto slowdown = [&](const Image& image) {
+      const Cost cost = cost_of(method.parameters, image);
+      return static_cast<double>(cost.clocks) / static_cast<double>(cost.unstalled);
+    };
+    const Cost cost = cost_of(method.parameters, frame);
+    const double at_fifth = slowdown(fifth);
+    table.rows.push_back({method.name, fmt::format("{}", cost.clocks),
+                          fmt::format("{}", cost.rom_bits), fmt::format("{}", cost.ram_bits),
+                          decimals(at_fifth, 3), decimals(slowdown(paper), 3),
+                          at_fifth < 1.005 ? "right" : "wrong"});
+    progress.update(table.rows.size());
+  }
+  return table;
+}
+
 // ---- pictures -----------------------------------------------------------------------------------
 
 // Black where a pixel has an edge.
@@ -413,6 +483,7 @@ Paper paper_003(const PaperOptions& options) {
   paper.tables.push_back(symmetry(options));
   paper.tables.push_back(matrix_of_lines(options));
   paper.tables.push_back(matrix_of_frames(options));
+  paper.tables.push_back(matrix_of_costs(options));
   const std::vector<NamedImage> all = frames(options);
   paper.figures.push_back(edge_figure("Figure 3: edges of a figure", all[1]));
   paper.figures.push_back(edge_figure("Figure 4: edges of objects", all[0]));

@@ -114,6 +114,14 @@ class Papers(unittest.TestCase):
             if not name.startswith("deburr"):
                 self.assertEqual(row["verdict"], "behind", name)
 
+    def test_every_rule_takes_a_pixel_a_clock(self):
+        rows = [row for table in self.papers["003"]["tables"]
+                if table["title"].startswith("Quality matrix: cost") for row in table["rows"]]
+        self.assertEqual(len(rows), 13)
+        for row in rows:
+            self.assertEqual(row["verdict"], "right", row)
+            self.assertGreaterEqual(float(row["37 %"]), 1, row)
+
     def test_every_rule_is_shown(self):
         rows = [row["rules"] for table in self.papers["000"]["tables"]
                 if table["title"].startswith("The rules") for row in table["rows"]]
