@@ -22,11 +22,12 @@ struct Variant {
   int divider_interval;
   int width;  // of the frame after the reset
   std::uint32_t memory_latency;
+  bool smaa = false;  // with all of its blocks
 };
 void PrintTo(const Variant& v, std::ostream* out) {
   *out << int{spec::morphological::kLaneCount[static_cast<std::size_t>(v.lanes_code)]} << " lanes, "
        << spec::morphological::kStorageNames[static_cast<std::size_t>(v.storage)] << ", interval "
-       << v.divider_interval << ", width " << v.width;
+       << v.divider_interval << ", width " << v.width << (v.smaa ? ", smaa" : "");
 }
 
 // All that a frame leaves behind.
@@ -53,6 +54,17 @@ class EveryClock : public ::testing::TestWithParam<Variant> {
     p.predictor_units = 1;
     p.record_fifo = 2;
     p.line_pixels = 32;
+    if (v.smaa) {
+      p.predictor = spec::morphological::Predictor::kNone;
+      p.steps = 0;
+      p.ends = spec::morphological::Ends::kCrossings;
+      p.area = spec::morphological::AreaSource::kTableMerged;
+      p.search_steps = 2;
+      p.diagonals = true;
+      p.diagonal_steps = 4;
+      p.round_corners = true;
+      p.blend = spec::morphological::BlendRule::kStrongest;
+    }
     return p;
   }
 };
@@ -117,6 +129,7 @@ TEST_P(EveryClock, OfAFrameMayBeTheLast) {
   finish();
   const Cycle last = bench.clock.cycle() - clocks;
   ASSERT_GT(trail.record_stalls, 0u);
+  ASSERT_EQ(trail.work.diagonal_pixels != 0, GetParam().smaa);
   for (Cycle at = 1; at < last; ++at) {
     SCOPED_TRACE("reset " + std::to_string(at) + " clocks into a frame");
     reset_to(broken, 1);
@@ -151,10 +164,38 @@ INSTANTIATE_TEST_SUITE_P(
                       Variant{2, spec::morphological::Storage::kMemory, 5, 9, 20},
                       Variant{2, spec::morphological::Storage::kMemory, 5, 9, 21},
                       Variant{2, spec::morphological::Storage::kMemory, 5, 9, 22},
-                      Variant{2, spec::morphological::Storage::kMemory, 5, 9, 23}));
+                      Variant{2, spec::morphological::Storage::kMemory, 5, 9, 23},
+                      Variant{0, spec::morphological::Storage::kLineBuffers, 16, 9, 20, true},
+                      Variant{1, spec::morphological::Storage::kLineBuffers, 8, 9, 20, true},
+                      Variant{2, spec::morphological::Storage::kLineBuffers, 16, 4, 20, true},
+                      Variant{1, spec::morphological::Storage::kMemory, 9, 9, 20, true}));
 
 // Frames of ordinary size, with a reset in mid-run.
 class ResetAt : public ::testing::TestWithParam<int> {};
+
+TEST_P(ResetAt, AnyClockOfSmaaLeavesNothingBehind) {
+  EngineBench bench(smaa());
+  bench.engine.set_frame_size(97, 61);
+  bool first = true;
+  const auto dense = beats_of(noise(), 1), wanted = beats_of(line(), 1);
+  bench.driver.send([&](std::uint64_t i, spec::morphological::PixelBeat& beat) {
+    const auto& beats = first ? dense : wanted;
+    if (i >= beats.size()) return false;
+    beat = beats[i];
+    return true;
+  });
+  bench.clock.run(static_cast<Cycle>(GetParam()));
+  bench.clock.set_reset_n(false);
+  first = false;
+  bench.clock.run(2);
+  bench.clock.set_reset_n(true);
+  EXPECT_EQ(bench.engine.work(), spec::morphological::Work{});
+  bench.engine.set_frame_size(200, 150);
+  bench.bench->run([&] { return bench.sink.received() == 200 * 150 && bench.engine.idle(); },
+                   1'000'000);
+  EXPECT_EQ(hash(bench.last(200, 150)), 0x1038e74b0d3dfd71u);  // of the contract's vector
+  EXPECT_EQ(bench.engine.work().diagonal_pixels, 44u);
+}
 
 TEST_P(ResetAt, AnyClockLeavesNothingBehind) {
   Parameters p = preset(Preset::kMlaaSlope);
