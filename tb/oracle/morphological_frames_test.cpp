@@ -4,6 +4,7 @@
 // and on the scenes that every clone has.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,7 @@
 
 #include "golden/morphological/configuration.h"
 #include "golden/morphological/morphological_golden.h"
+#include "tb/oracle/stand_ins.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/truth.h"
@@ -269,6 +271,36 @@ INSTANTIATE_TEST_SUITE_P(
                     Rendered{"kenney/racing/models/vehicle-truck-green.glb", 512, 512, 1},
                     Rendered{"kenney/racing/models/decoration-empty.glb", 512, 512, 1}),
     name_of);
+
+// ---- stand-ins, for clones without the data folder ----------------------------------------------
+
+struct StandIn {
+  const char* kind;
+  std::uint64_t seed;
+};
+void PrintTo(const StandIn& s, std::ostream* out) { *out << s.kind << ' ' << s.seed; }
+
+class StandIns : public testing::TestWithParam<StandIn> {};
+TEST_P(StandIns, DeburrIsBestToo) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / fmt::format("deburr_stand_in_{}", ::getpid());
+  std::filesystem::create_directories(folder);
+  const Scene scene = import_scene(write_stand_in(folder, GetParam().kind, GetParam().seed));
+  std::filesystem::remove_all(folder);
+  const LitFrames lit = render_lit_frames(scene, 512, 512, 8);
+  const Judge judge(fmt::format("{} {}", GetParam().kind, GetParam().seed), lit.noaa, lit.truth,
+                    lit.depth);
+  const Figures none = judge.judge("none", lit.noaa), deburr = judge.judge(Preset::kDeburr);
+  EXPECT_GT(deburr.edges, none.edges + 1.5);
+  EXPECT_GT(deburr.silhouettes, none.silhouettes + 4);
+  expect_deburr_best(judge, 0.2);
+}
+INSTANTIATE_TEST_SUITE_P(
+    Frames, StandIns,
+    testing::Values(StandIn{"street", 1}, StandIn{"street", 2}, StandIn{"street", 3},
+                    StandIn{"vehicle", 1}, StandIn{"vehicle", 2}, StandIn{"vehicle", 3},
+                    StandIn{"forest", 1}, StandIn{"forest", 2}, StandIn{"forest", 3}),
+    [](const auto& p) { return fmt::format("{}_{}", p.param.kind, p.param.seed); });
 
 // Where nearly all edges are texture, blending them gains nothing, and deburr, which sees more of
 // them, is behind mlaa: by how much at most, docs/results.md says.
