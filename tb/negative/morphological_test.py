@@ -195,7 +195,8 @@ class Configuration(Base):
         for name, ends in self.RANGES.items():
             preset = "smaa-dynamic" if name in ("edges.alpha", "edges.floor") else "smaa"
             for value in ends:
-                self.run_engine(0, *self.SMALL, "--preset", preset, "--set", f"morphological.{name}={value}", says="PASS")
+                self.run_engine(0, *self.SMALL, "--preset", preset, "--set", f"morphological.{name}={value}",
+                                says="PASS")
 
     def test_unknown_choices_of_smaa(self):
         for name, known in (("quality", "low, medium, high, ultra"), ("ends", "gaps, crossings"),

@@ -67,7 +67,7 @@ struct Diagonals {
   }
   int beats(const EdgePlanes& edges) const { return (edges.top.width() + lanes - 1) / lanes; }
   std::size_t words(const EdgePlanes& edges) const {
-    return static_cast<std::size_t>(beats(edges) * edges.top.height());
+    return static_cast<std::size_t>(beats(edges)) * static_cast<std::size_t>(edges.top.height());
   }
   Cycle delay() const { return static_cast<Cycle>(diagonal_delay(built, lanes)); }
 
