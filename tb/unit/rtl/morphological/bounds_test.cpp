@@ -155,14 +155,14 @@ TEST_P(FifoDepth, HoldsBothBursts) {
 }
 // As many records as rows of 1200, 1920 and 2480 beats may hold: what the formula gives is enough,
 // and a third less is not. The default of 256 does for rows of 1920.
-INSTANTIATE_TEST_SUITE_P(
-    Depths, FifoDepth,
-    ::testing::Values(Depth{800, 20, 24, true}, Depth{800, 20, 44, false},
-                      Depth{1200, 66, depth_for(66), false},
-                      Depth{1200, 66, depth_for(66) * 2 / 3, true}, Depth{1920, 106, 256, false},
-                      Depth{1920, 106, depth_for(106) * 2 / 3, true},
-                      Depth{2480, 137, depth_for(137), false},
-                      Depth{2480, 137, depth_for(137) * 2 / 3, true}));
+INSTANTIATE_TEST_SUITE_P(Depths, FifoDepth,
+                         ::testing::Values(Depth{800, 20, 24, true}, Depth{800, 20, 44, false},
+                                           Depth{1200, 66, depth_for(66), false},
+                                           Depth{1200, 66, depth_for(66) * 2 / 3, true},
+                                           Depth{1920, 106, 256, false},
+                                           Depth{1920, 106, depth_for(106) * 2 / 3, true},
+                                           Depth{2480, 137, depth_for(137), false},
+                                           Depth{2480, 137, depth_for(137) * 2 / 3, true}));
 
 // Rows shorter than the pipe wait for the line buffers, records or not.
 struct Narrow {
