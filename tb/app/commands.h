@@ -15,8 +15,8 @@ namespace deburr::tb {
 
 struct Outcome {
   int code = 0;
-  std::string text;                   // after "RESULT: "; empty: a command that only prints
-  std::filesystem::path directory{};  // of the results
+  std::string text;                    // after "RESULT: "; empty: a command that only prints
+  std::filesystem::path directory{};   // of the results
   std::string result = "result.json";  // in it: what --json shows
 };
 
