@@ -165,7 +165,7 @@ class Registers(CommandTest):
 
     TEXTURE = ["fragments", "bilinears", "line-fills", "clamped", "saturated", "memory-errors", "invalid-fragments"]
     MORPHOLOGICAL = ["pixels", "edge-pixels", "horizontal-runs", "vertical-runs", "long-runs", "z-runs",
-                     "extended-runs", "steps", "probes", "divides", "blended-pixels"]
+                     "extended-runs", "steps", "probes", "divides", "blended-pixels", "diagonals"]
 
     def test_texture(self):
         self.miscount("texture", self.TEXTURE)
@@ -214,7 +214,7 @@ class Blind(CommandTest):
         self.assertEqual(self.known("morphological"), boards - {"blind-memory-lines"})
         needed = {board: self.blind("morphological", board, *memory) for board in boards}
         self.assertEqual(needed, {"blind-pixels": 32 * 32, "blind-taps": 32 * 32,
-                                  "blind-memory-lines": 2 * 2 * 32, "blind-status-registers": 11})
+                                  "blind-memory-lines": 2 * 2 * 32, "blind-status-registers": 12})
 
     def test_frame(self):
         memory = ("--storage", "memory")
