@@ -46,7 +46,6 @@ using spec::morphological::Preset;
 using spec::morphological::Quality;
 using spec::morphological::ThresholdMode;
 
-std::string decimals(double value, int digits) { return fmt::format("{:.{}f}", value, digits); }
 
 // ---- the table ----------------------------------------------------------------------------------
 

@@ -102,6 +102,7 @@ std::vector<std::uint16_t> area_words(AreaSource layout, int parity) {
 
 std::vector<std::uint16_t> root_words() {
   std::vector<std::uint16_t> words;
+  words.reserve(spec::morphological::kTableDistances);
   for (int d = 0; d < spec::morphological::kTableDistances; ++d)
     words.push_back(static_cast<std::uint16_t>(root(65536 * d)));
   return words;
@@ -193,7 +194,7 @@ void AreaTable::address_entries(Cycle cycle, std::size_t reader, Query& query) {
     const Corners at = side == 0 ? corners(query.i, query.j) : corners(query.j, query.i);
     for (std::size_t k = 0; k < kParities; ++k)
       read_[at.rom[k]][reader * reads_ + side].read(
-          cycle, static_cast<std::uint64_t>(from * kTileWords + at.word[k]));
+          cycle, static_cast<std::uint64_t>(from) * kTileWords + at.word[k]);
   }
 }
 
@@ -202,7 +203,7 @@ std::array<std::uint16_t, AreaTable::kParities> AreaTable::entries(Cycle cycle, 
   std::array<std::uint16_t, kParities> words{};
   for (std::size_t k = 0; k < kParities; ++k)
     words[k] = read_[at.rom[k]][port].at(
-        cycle, static_cast<std::uint64_t>(tile * kTileWords + at.word[k]));
+        cycle, static_cast<std::uint64_t>(tile) * kTileWords + at.word[k]);
   return words;
 }
 

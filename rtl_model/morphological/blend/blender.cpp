@@ -129,7 +129,7 @@ void Blender::mix(Cycle cycle, Beat& beat) {
     spec::morphological::BlendTap& tap = beat.result.tap[lane];
     const std::uint32_t word = mix_[lane].at(cycle, std::uint64_t{tap.first} + tap.second);
     const auto mixed = [&](std::uint32_t share) {
-      return static_cast<std::uint8_t>((std::uint64_t{share * share} * word + (1u << 15)) >> 16);
+      return static_cast<std::uint8_t>((std::uint64_t{share} * share * word + (1u << 15)) >> 16);
     };
     tap.first = mixed(tap.first);
     tap.second = mixed(tap.second);

@@ -14,9 +14,9 @@ inline constexpr int kDiagonalWords =
     4 * 4 * spec::morphological::kDiagonalDistances * spec::morphological::kDiagonalDistances;
 
 constexpr std::uint64_t diagonal_address(int e1, int e2, int d1, int d2) {
-  return static_cast<std::uint64_t>(((4 * e1 + e2) * spec::morphological::kDiagonalDistances + d1) *
-                                        spec::morphological::kDiagonalDistances +
-                                    d2);
+  constexpr int kDistances = spec::morphological::kDiagonalDistances;
+  const int word = ((4 * e1 + e2) * kDistances + d1) * kDistances + d2;
+  return static_cast<std::uint64_t>(word);
 }
 
 const std::vector<std::uint16_t>& diagonal_words();

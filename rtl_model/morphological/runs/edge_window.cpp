@@ -83,8 +83,10 @@ EdgeWindow::EdgeWindow(const char* name, const spec::morphological::Parameters& 
 void EdgeWindow::clear(std::int32_t beat) {
   for (std::int32_t y = 0; y <= static_cast<std::int32_t>(row_mask_); ++y)
     bits_[place(beat, y)] = {};
-  for (std::int32_t lane = 0; lane < lanes_; ++lane)
-    entries_[static_cast<std::size_t>(beat * lanes_ + lane)] = 0;
+  for (std::int32_t lane = 0; lane < lanes_; ++lane) {
+    const std::int32_t column = beat * lanes_ + lane;
+    entries_[static_cast<std::size_t>(column)] = 0;
+  }
 }
 
 void EdgeWindow::read(Cycle cycle, std::size_t port, const Trial& trial) {
