@@ -46,7 +46,6 @@ using spec::morphological::Preset;
 using spec::morphological::Quality;
 using spec::morphological::ThresholdMode;
 
-
 // ---- the table ----------------------------------------------------------------------------------
 
 // A texture of two-byte texels as the public generator prints it: six characters a byte, and six
