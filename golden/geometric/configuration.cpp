@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "golden/geometric/configuration.h"
+
+#include <string>
+
+#include "spec/error.h"
+
+namespace deburr::golden::geometric {
+namespace {
+
+using spec::geometric::Refusal;
+
+// Checks each value against its declared range.
+struct RangeCheck {
+  void integer(std::string_view name, std::int32_t value, std::int32_t min, std::int32_t max,
+               std::string_view unit, std::string_view) const {
+    if (value >= min && value <= max) return;
+    throw spec::ConfigError("geometric " + std::string(name) + " = " + std::to_string(value) +
+                            " is outside " + std::to_string(min) + ".." + std::to_string(max) +
+                            " " + std::string(unit));
+  }
+  template <class Enum, std::size_t N>
+  void choice(std::string_view name, Enum value, const std::array<std::string_view, N>&,
+              std::string_view) const {
+    if (static_cast<std::size_t>(value) >= N) {
+      throw spec::ConfigError("geometric " + std::string(name) + " is none of its " +
+                              std::to_string(N) + " choices");
+    }
+  }
+  void boolean(std::string_view, bool, std::string_view) const {}
+};
+
+void check_banks(const char* name, std::int32_t value, std::int32_t step) {
+  if (value % step == 0) return;
+  throw spec::ConfigError("geometric " + std::string(name) + " = " + std::to_string(value) +
+                          " does not fill its banks; use a multiple of " + std::to_string(step));
+}
+
+}  // namespace
+
+spec::geometric::Parameters preset_parameters(spec::geometric::Preset preset) {
+  spec::geometric::Parameters p;
+  for (const spec::geometric::PresetRow& row : spec::geometric::kPresets) {
+    if (row.preset != preset) continue;
+    p.preset = row.preset;
+    p.select = row.select;
+    p.crease = row.crease;
+    p.combine = row.combine;
+    p.frame_copy = row.frame_copy;
+  }
+  return p;
+}
+
+void check_parameters(const spec::geometric::Parameters& parameters) {
+  spec::geometric::Parameters p = parameters;
+  const RangeCheck ranges;
+  describe(p, ranges);
+  if (p.pipelined && p.reciprocal_table != 0) {
+    throw spec::ConfigError("geometric reciprocal_table = " + std::to_string(p.reciprocal_table) +
+                            " has no effect beside pipelined dividers; set one of them to 0");
+  }
+  if (p.fills > p.memory_outstanding) {
+    throw spec::ConfigError("geometric fills = " + std::to_string(p.fills) +
+                            " exceeds memory.outstanding = " +
+                            std::to_string(p.memory_outstanding) + "; raise that or lower fills");
+  }
+  // Sixteen banks of at least sixteen words of 32 facing bits.
+  check_banks("face_limit", p.face_limit, 16 * 32);
+  check_banks("touched_words", p.touched_words, 16);
+}
+
+Refusal refusal(const spec::geometric::Parameters& p, const FrameCounts& counts) {
+  constexpr int kMax = spec::geometric::kMaxFrameSize;
+  if (counts.width < 1 || counts.height < 1 || counts.width > kMax || counts.height > kMax)
+    return Refusal::kSize;
+  if (counts.width > p.line_pixels) return Refusal::kWidth;
+  if (touched_words(counts.width, counts.height) > p.touched_words) return Refusal::kTouchedWords;
+  if (counts.edge_count > spec::geometric::kMaxEdges) return Refusal::kEdgeCount;
+  if (counts.vertex_count > spec::geometric::kMaxVertices) return Refusal::kVertexCount;
+  if (p.select == spec::geometric::Select::kEdges &&
+      counts.face_count > static_cast<std::uint64_t>(p.face_limit))
+    return Refusal::kFaceCount;
+  return Refusal::kNone;
+}
+
+void check_frame(const spec::geometric::Parameters& p, const FrameCounts& counts) {
+  const std::string frame = "a frame of " + std::to_string(counts.width) + " x " +
+                            std::to_string(counts.height) + " pixels";
+  switch (refusal(p, counts)) {
+    case Refusal::kNone:
+    case Refusal::kDisabled:
+      return;
+    case Refusal::kSize:
+      throw spec::ConfigError(frame + "; 1..8192 each way are possible");
+    case Refusal::kWidth:
+      throw spec::ConfigError(frame + " does not fit rows of " + std::to_string(p.line_pixels) +
+                              " pixels; raise line_pixels");
+    case Refusal::kTouchedWords:
+      throw spec::ConfigError(frame + " needs " +
+                              std::to_string(touched_words(counts.width, counts.height)) +
+                              " touched words, the build has " + std::to_string(p.touched_words) +
+                              "; raise touched_words");
+    case Refusal::kEdgeCount:
+      throw spec::ConfigError(std::to_string(counts.edge_count) +
+                              " edges; at most 2^24 are possible");
+    case Refusal::kVertexCount:
+      throw spec::ConfigError(std::to_string(counts.vertex_count) +
+                              " vertices; at most 2^24 are possible");
+    case Refusal::kFaceCount:
+      throw spec::ConfigError(std::to_string(counts.face_count) +
+                              " faces, the build holds the facing bits of " +
+                              std::to_string(p.face_limit) + "; raise face_limit");
+  }
+}
+
+}  // namespace deburr::golden::geometric

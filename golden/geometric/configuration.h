@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Which parameters and frames the engine accepts, and the parameters of a preset.
+//
+// docs/geometric.md, "Errors"; docs/geometric_hardware.md, "Parameters".
+#pragma once
+
+#include <cstdint>
+
+#include "spec/geometric/parameters.h"
+#include "spec/geometric/registers.h"
+
+namespace deburr::golden::geometric {
+
+// The defaults with the rules of a preset applied.
+spec::geometric::Parameters preset_parameters(spec::geometric::Preset preset);
+
+// Throws ConfigError: a value out of its range, or a mix that the engine does not have.
+void check_parameters(const spec::geometric::Parameters& parameters);
+
+// What the registers of a start say of its size.
+struct FrameCounts {
+  int width = 0, height = 0;                                       // pixels
+  std::uint64_t edge_count = 0, vertex_count = 0, face_count = 0;  // records, facing bits
+};
+
+// Why the engine refuses to start: the first reason that holds. Never kDisabled, which is not a
+// matter of sizes.
+spec::geometric::Refusal refusal(const spec::geometric::Parameters& parameters,
+                                 const FrameCounts& counts);
+// Throws ConfigError that names the refusal and what would be possible.
+void check_frame(const spec::geometric::Parameters& parameters, const FrameCounts& counts);
+
+// W_t: words of touched bits that a frame needs.
+constexpr std::int64_t touched_words(int width, int height) {
+  constexpr int kPixels = spec::geometric::kBlocksInWord * spec::geometric::kBlockSize;
+  return std::int64_t{(width + kPixels - 1) / kPixels} *
+         ((height + spec::geometric::kBlockSize - 1) / spec::geometric::kBlockSize);
+}
+
+}  // namespace deburr::golden::geometric

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// Functional coverage of the geometric engine: which situations the frames so far contained.
+//
+// Counted by the golden, which knows every edge, line, candidate and block. Small named bins:
+//   class/<select>/<crease>/<class>      of edges
+//   line/<octant>/<length>               below a pixel, below four (the table's), longer
+//   fate/<fate>                          of kept edges that are no line
+//   columns/<cut>                        by the frame: at the start, at the end, both, none
+//   rows/<crossing>                      of the frame's rows along a line
+//   tie/<kind>                           a line exactly through a pixel's centre
+//   border/<border>                      a neighbour outside of it
+//   depth/<farther>/<outcome>            of the test against the farther pixel
+//   weight/<direction>/<outcome>
+//   group/<end>                          what ended a group of columns
+//   fetch/<cache>/<outcome>
+//   resolve/<decision>, original/<where>, lines/<n>
+// Every bin can be reached (tb/unit/golden/geometric/coverage_test.cpp).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "golden/geometric/line.h"
+#include "golden/geometric/resolve.h"
+#include "spec/geometric/packets.h"
+#include "spec/geometric/parameters.h"
+#include "spec/geometric/records.h"
+
+namespace deburr::golden::geometric {
+
+struct CoverageBin {
+  std::string name;
+  std::uint64_t hits = 0;
+};
+
+enum class GroupEnd : std::uint8_t { kLength, kAcross, kAlong, kLine };
+enum class Fetch : std::uint8_t { kHit, kMiss, kReplaced, kReadBack };
+enum class CacheKind : std::uint8_t { kVertex, kDepth, kBlock };
+enum class Original : std::uint8_t { kNone, kAbove, kLeft };
+
+class EdgeCoverage {
+ public:
+  void count_class(const spec::geometric::Rules& rules, spec::geometric::EdgeClass c) {
+    ++classes_[index(rules.select)][index(rules.crease)][index(c)];
+  }
+  void count_fate(LineFate fate) { ++fates_[index(fate)]; }
+  // Whether the ends of the edge from p to q were cut off by the frame, and its octant and length.
+  void count_line(const spec::geometric::Vertex& p, const spec::geometric::Vertex& q, int width,
+                  int height);
+  void count_tie(const spec::geometric::LineRecord& line);
+  void count_outside(spec::geometric::Direction direction) { ++borders_[index(direction)]; }
+  void count_depth(std::uint32_t own, std::uint32_t other, bool passed);
+  void count_weight(spec::geometric::Combine rule, const spec::geometric::Weights& before,
+                    spec::geometric::Direction direction, int coverage);
+  void count_group(GroupEnd end) { ++groups_[index(end)]; }
+  void count_fetch(CacheKind cache, Fetch outcome) { ++fetches_[index(cache)][index(outcome)]; }
+  void count_tap(const spec::geometric::Weights& weights);
+  void count_original(Original where) { ++originals_[index(where)]; }
+  void count_block_lines(std::size_t lines) { ++block_lines_[lines]; }
+
+  // Every bin that can be reached, hit or not, always in the same order.
+  std::vector<CoverageBin> bins() const;
+  void merge(const EdgeCoverage& other);
+
+  // Raster: four rows of a block and of its neighbours to one side, and a row above and below.
+  static constexpr std::size_t kMaxBlockLines = 10;
+
+ private:
+  template <class Enum>
+  static constexpr std::size_t index(Enum value) {
+    return static_cast<std::size_t>(value);
+  }
+  using BinSink = std::function<void(std::string name, std::uint64_t hits)>;
+  void for_each_bin(const BinSink& sink) const;
+  template <class Visit>
+  static void for_each_table(EdgeCoverage& a, const EdgeCoverage& b, Visit&& visit);
+
+  std::array<std::array<std::array<std::uint64_t, 7>, 3>, 2> classes_{};
+  std::array<std::array<std::uint64_t, 3>, 8> lines_{};
+  std::array<std::uint64_t, 6> fates_{};
+  std::array<std::uint64_t, 4> columns_{};
+  std::array<std::uint64_t, 5> rows_{};
+  std::array<std::uint64_t, 4> ties_{};
+  std::array<std::uint64_t, 4> borders_{};
+  std::array<std::array<std::uint64_t, 2>, 4> depths_{};
+  std::array<std::array<std::uint64_t, 4>, 4> weights_{};
+  std::array<std::uint64_t, 4> groups_{};
+  std::array<std::array<std::uint64_t, 4>, 3> fetches_{};
+  std::array<std::uint64_t, 3> taps_{};
+  std::array<std::uint64_t, 3> originals_{};
+  std::array<std::uint64_t, kMaxBlockLines + 1> block_lines_{};
+};
+
+}  // namespace deburr::golden::geometric

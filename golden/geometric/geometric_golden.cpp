@@ -1,0 +1,446 @@
+// SPDX-License-Identifier: MIT
+#include "golden/geometric/geometric_golden.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "golden/geometric/line.h"
+#include "golden/geometric/resolve.h"
+#include "spec/error.h"
+
+namespace deburr::golden::geometric {
+namespace {
+
+using spec::geometric::Axis;
+using spec::geometric::BlockRecord;
+using spec::geometric::Candidate;
+using spec::geometric::Direction;
+using spec::geometric::Edge;
+using spec::geometric::EdgeClass;
+using spec::geometric::LineRecord;
+using spec::geometric::Region;
+using spec::geometric::Rgba8;
+using spec::geometric::Vertex;
+using spec::geometric::Weights;
+
+template <class Pixel>
+void check_view(const morphological::ViewOf<Pixel>& view, int width, int height, const char* what) {
+  const auto w = static_cast<std::size_t>(view.width), h = static_cast<std::size_t>(view.height);
+  DEBURR_CHECK(view.width == width && view.height == height && view.stride >= w &&
+                   view.pixels.size() >= (h - 1) * view.stride + w,
+               std::string(what) + " of " + std::to_string(view.width) + " x " +
+                   std::to_string(view.height) + " pixels, stride " + std::to_string(view.stride) +
+                   ", in a span of " + std::to_string(view.pixels.size()) + " for a frame of " +
+                   std::to_string(width) + " x " + std::to_string(height));
+}
+
+std::uint32_t lines_of(std::size_t records, std::size_t in_line) {
+  return static_cast<std::uint32_t>((records + in_line - 1) / in_line);
+}
+
+// The few lines of a block, by v, then u.
+class LineSet {
+ public:
+  void add(const LineOfPixels& line) {
+    const auto less = [](const LineOfPixels& a, const LineOfPixels& b) {
+      return a.v != b.v ? a.v < b.v : a.u < b.u;
+    };
+    LineOfPixels* const where = std::lower_bound(begin(), end(), line, less);
+    if (where != end() && *where == line) return;
+    std::copy_backward(where, end(), end() + 1);
+    *where = line;
+    ++size_;
+  }
+  LineOfPixels* begin() { return lines_.data(); }
+  LineOfPixels* end() { return lines_.data() + size_; }
+  std::size_t size() const { return size_; }
+
+ private:
+  std::array<LineOfPixels, EdgeCoverage::kMaxBlockLines> lines_;
+  std::size_t size_ = 0;
+};
+
+int cache_bits(spec::geometric::CacheLines lines) {
+  return spec::geometric::kCacheLineBits[static_cast<std::size_t>(lines)];
+}
+
+}  // namespace
+
+GeometricGolden::GeometricGolden(const spec::geometric::Parameters& parameters, Detail detail)
+    : parameters_(parameters), everything_(detail == Detail::kEverything) {
+  check_parameters(parameters);
+  lanes_ = spec::geometric::kLaneCount[static_cast<std::size_t>(parameters.walkers)];
+}
+
+const std::vector<Rgba8>& GeometricGolden::process(const FrameInput& input) {
+  start(input);
+  for (const Edge& edge : input_.edges) draw_edge(edge);
+  for (int by = 0; by < layout_.block_rows(); ++by) {
+    const std::uint8_t* row = &touched_[static_cast<std::size_t>(by * layout_.block_columns())];
+    for (int bx = 0; bx < layout_.block_columns(); ++bx) {
+      if (row[bx] != 0) resolve_block(bx, by);
+    }
+  }
+  if (follow_) finish_traffic();
+  return pixels_;
+}
+
+void GeometricGolden::start(const FrameInput& input) {
+  check_frame(parameters_, {input.image.width, input.image.height, input.edges.size(),
+                            input.vertices.size(), input.facing.count});
+  input_ = input;
+  width_ = input.image.width;
+  height_ = input.image.height;
+  check_view(input.image, width_, height_, "an image");
+  if (parameters_.depth_test != spec::geometric::DepthTest::kOff)
+    check_view(input.depth, width_, height_, "depth");
+  DEBURR_CHECK(input.facing.bytes.size() >= (std::size_t{input.facing.count} + 7) / 8,
+               "facing bits of " + std::to_string(input.facing.count) + " faces in " +
+                   std::to_string(input.facing.bytes.size()) + " bytes");
+  for (const std::uint32_t base :
+       {input.bases.edges, input.bases.vertices, input.bases.facing, input.bases.depth,
+        input.bases.colour, input.bases.weights, input.bases.copy}) {
+    DEBURR_CHECK(base % spec::geometric::kLineBytes == 0,
+                 "base address " + std::to_string(base) + " is not a multiple of 64");
+  }
+  work_ = {};
+  traffic_.clear();
+  classes_.clear();
+  lines_.clear();
+  candidates_.clear();
+  blocks_.clear();
+  memory_errors_ = 0;
+  follow_ = everything_ || error_ != nullptr;
+  layout_ = FrameLayout(parameters_.layout, width_, height_);
+  const auto blocks = static_cast<std::size_t>(layout_.block_columns()) *
+                      static_cast<std::size_t>(layout_.block_rows());
+  touched_.assign(blocks, 0);
+  weights_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), {});
+  if (follow_) {
+    vertex_cache_.reset(cache_bits(parameters_.vertex_lines), cache_bits(parameters_.vertex_lines));
+    const int depth_bits = cache_bits(parameters_.depth_lines);
+    depth_cache_.reset(depth_bits, depth_column_bits(parameters_.layout, depth_bits));
+    const int block_bits = cache_bits(parameters_.weight_blocks);
+    block_cache_.reset(block_bits, block_column_bits(block_bits));
+  }
+  pixels_.resize(weights_.size());
+  for (int y = 0; y < height_; ++y) {
+    std::copy_n(input.image.row(y), width_,
+                pixels_.begin() + static_cast<std::ptrdiff_t>(y) * width_);
+  }
+  if (error_) read_with_errors();
+}
+
+// Lines that memory cannot read are zeros.
+void GeometricGolden::read_with_errors() {
+  const Bases& bases = input_.bases;
+  constexpr std::uint32_t kLine = spec::geometric::kLineBytes;
+  const auto record = [](std::size_t i, std::size_t in_line) {
+    return static_cast<std::uint32_t>(i / in_line) * kLine;
+  };
+  read_edges_.assign(input_.edges.begin(), input_.edges.end());
+  for (std::size_t i = 0; i < read_edges_.size(); ++i)
+    if (bad(bases.edges + record(i, spec::geometric::kEdgesInLine))) read_edges_[i] = {};
+  read_vertices_.assign(input_.vertices.begin(), input_.vertices.end());
+  for (std::size_t i = 0; i < read_vertices_.size(); ++i)
+    if (bad(bases.vertices + record(i, spec::geometric::kVerticesInLine))) read_vertices_[i] = {};
+  read_facing_.assign(input_.facing.bytes.begin(), input_.facing.bytes.end());
+  for (std::size_t i = 0; i < read_facing_.size(); ++i)
+    if (bad(bases.facing + record(i, kLine))) read_facing_[i] = 0;
+  read_depth_.assign(weights_.size(), 0);
+  read_image_ = pixels_;
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                     static_cast<std::size_t>(x);
+      const std::uint32_t line = layout_.offset_of(layout_.line_of(x, y));
+      if (!input_.depth.empty() && !bad(bases.depth + line)) read_depth_[i] = input_.depth.at(x, y);
+      if (bad(bases.colour + line) || (parameters_.frame_copy && bad(bases.copy + line)))
+        read_image_[i] = {};
+    }
+  }
+  input_.edges = read_edges_;
+  input_.vertices = read_vertices_;
+  input_.facing.bytes = read_facing_;
+  input_.depth = {read_depth_, width_, height_};
+  input_.image = {read_image_, width_, height_};
+}
+
+void GeometricGolden::draw_edge(const Edge& edge) {
+  ++work_.edges;
+  const EdgeClass c = classify(parameters_, edge,
+                               static_cast<std::uint32_t>(input_.vertices.size()), input_.facing);
+  switch (c) {
+    case EdgeClass::kInvalid:
+      ++work_.invalid_edges;
+      break;
+    case EdgeClass::kBoundary:
+      ++work_.boundary_edges;
+      break;
+    case EdgeClass::kSilhouette:
+      ++work_.silhouette_edges;
+      break;
+    case EdgeClass::kBack:
+      ++work_.back_edges;
+      break;
+    case EdgeClass::kCrease:
+      ++work_.crease_edges;
+      break;
+    case EdgeClass::kFlat:
+      ++work_.flat_edges;
+      break;
+    case EdgeClass::kUnclassified:
+      break;
+  }
+  if (everything_) {
+    classes_.push_back(c);
+    coverage_.count_class(parameters_, c);
+  }
+  if (!is_kept(c)) return;
+  ++work_.kept_edges;
+  if (follow_) fetch_vertices(edge);
+  const Vertex &p = input_.vertices[edge.v0], &q = input_.vertices[edge.v1];
+  LineRecord line;
+  const LineFate fate = set_up_line(p, q, width_, height_, line);
+  if (everything_) coverage_.count_fate(fate);
+  switch (fate) {
+    case LineFate::kOutside:
+      ++work_.outside_edges;
+      return;
+    case LineFate::kDegenerate:
+      ++work_.degenerate_edges;
+      return;
+    case LineFate::kEmptyColumns:
+    case LineFate::kEmptyBefore:
+    case LineFate::kEmptyBehind:
+      ++work_.empty_edges;
+      return;
+    case LineFate::kLine:
+      break;
+  }
+  ++work_.lines;
+  work_.columns += line.count;
+  if (everything_) {
+    lines_.push_back(line);
+    coverage_.count_line(p, q, width_, height_);
+  }
+  if (follow_) {
+    walk<true>(line);
+  } else {
+    walk<false>(line);
+  }
+}
+
+void GeometricGolden::fetch_vertices(const Edge& edge) {
+  const auto fetch = [&](std::uint32_t line) {
+    std::uint64_t replaced = 0;
+    const bool hit = vertex_cache_.look_up(line, 0, replaced);
+    if (!hit) {
+      traffic_.read(Region::kVertices)
+          .push_back(input_.bases.vertices + line * spec::geometric::kLineBytes);
+    }
+    coverage_.count_fetch(CacheKind::kVertex, hit ? Fetch::kHit
+                                              : replaced == DirectMapped::kNothing
+                                                  ? Fetch::kMiss
+                                                  : Fetch::kReplaced);
+  };
+  const std::uint32_t first = edge.v0 / spec::geometric::kVerticesInLine;
+  const std::uint32_t second = edge.v1 / spec::geometric::kVerticesInLine;
+  fetch(first);
+  if (second != first) fetch(second);
+}
+
+template <bool kFollow>
+void GeometricGolden::walk(const LineRecord& line) {
+  const bool horizontal = line.axis == Axis::kHorizontal;
+  const int rows = horizontal ? height_ : width_;
+  const bool test = parameters_.depth_test != spec::geometric::DepthTest::kOff;
+  std::int64_t position = line.position, depth = line.depth;
+  int group_block = 0, group_size = 0;  // row of blocks, columns
+  const int end = line.first + line.count;
+  for (int c = line.first; c < end; ++c, position += line.slope, depth += line.depth_step) {
+    const ColumnPoint at = point_at(position, depth);
+    const int block = at.row >> 2;
+    if (group_size == 0 || group_size == lanes_ || (c & 3) == 0 || block != group_block) {
+      if (kFollow && everything_ && group_size != 0) {
+        coverage_.count_group(group_size == lanes_ ? GroupEnd::kLength
+                              : (c & 3) == 0       ? GroupEnd::kAlong
+                                                   : GroupEnd::kAcross);
+      }
+      ++work_.groups;
+      group_size = 0;
+      group_block = block;
+    }
+    ++group_size;
+    if (static_cast<unsigned>(at.row) >= static_cast<unsigned>(rows)) continue;
+    const int share = geometric::coverage(at.distance);
+    if (share == 0) continue;
+    const bool forward = is_forward(at.distance, line.tie_forward);
+    const Direction to = direction(line.axis, forward);
+    const int neighbour = at.row + (forward ? 1 : -1);
+    if (static_cast<unsigned>(neighbour) >= static_cast<unsigned>(rows)) {
+      if (kFollow && everything_) coverage_.count_outside(to);
+      continue;
+    }
+    ++work_.candidates;
+    const int x = horizontal ? c : at.row, y = horizontal ? at.row : c;
+    const int nx = horizontal ? c : neighbour, ny = horizontal ? neighbour : c;
+    bool passed = true;
+    if (test) {
+      const std::uint32_t own = input_.depth.at(x, y) & 0xFFFFFF;
+      const std::uint32_t other = input_.depth.at(nx, ny) & 0xFFFFFF;
+      passed = passes(parameters_, at.depth, own, other);
+      if (kFollow) {
+        fetch_depth(x, y, nx, ny);
+        if (everything_ && parameters_.depth_test == spec::geometric::DepthTest::kFarther)
+          coverage_.count_depth(own, other, passed);
+      }
+    }
+    if (kFollow && everything_) {
+      if (at.distance == 0) coverage_.count_tie(line);
+      candidates_.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), to,
+                             static_cast<std::uint8_t>(share), at.depth, passed});
+    }
+    if (!passed) continue;
+    ++work_.passed;
+    const auto bx = static_cast<std::uint32_t>(x >> 2), by = static_cast<std::uint32_t>(y >> 2);
+    if (kFollow) look_up_block(bx, by);
+    touched_[by * static_cast<std::size_t>(layout_.block_columns()) + bx] = 1;
+    Weights& weights = weights_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                                static_cast<std::size_t>(x)];
+    if (kFollow && everything_) coverage_.count_weight(parameters_.combine, weights, to, share);
+    combine(parameters_.combine, weights, to, static_cast<std::uint8_t>(share));
+  }
+  if (kFollow && everything_) coverage_.count_group(GroupEnd::kLine);
+}
+
+void GeometricGolden::fetch_depth(int x, int y, int nx, int ny) {
+  const auto fetch = [&](const LineOfPixels& line) {
+    std::uint64_t replaced = 0;
+    const bool hit = depth_cache_.look_up(line.u, line.v, replaced);
+    if (!hit) traffic_.read(Region::kDepth).push_back(input_.bases.depth + layout_.offset_of(line));
+    coverage_.count_fetch(CacheKind::kDepth, hit ? Fetch::kHit
+                                             : replaced == DirectMapped::kNothing
+                                                 ? Fetch::kMiss
+                                                 : Fetch::kReplaced);
+  };
+  const LineOfPixels own = layout_.line_of(x, y);
+  fetch(own);
+  if (parameters_.depth_test != spec::geometric::DepthTest::kFarther) return;
+  const LineOfPixels other = layout_.line_of(nx, ny);
+  if (other != own) fetch(other);
+}
+
+std::uint32_t GeometricGolden::block_address(std::uint32_t bx, std::uint32_t by) const {
+  const std::uint32_t block = by * static_cast<std::uint32_t>(layout_.block_columns()) + bx;
+  return input_.bases.weights + layout_.block_offset(block);
+}
+
+void GeometricGolden::look_up_block(std::uint32_t bx, std::uint32_t by) {
+  std::uint64_t replaced = 0;
+  if (block_cache_.look_up(bx, by, replaced)) {
+    coverage_.count_fetch(CacheKind::kBlock, Fetch::kHit);
+    return;
+  }
+  if (replaced != DirectMapped::kNothing) {
+    traffic_.write(Region::kWeights)
+        .push_back(block_address(DirectMapped::u_of(replaced), DirectMapped::v_of(replaced)));
+    coverage_.count_fetch(CacheKind::kBlock, Fetch::kReplaced);
+  }
+  const std::size_t block = by * static_cast<std::size_t>(layout_.block_columns()) + bx;
+  if (touched_[block] == 0) {
+    coverage_.count_fetch(CacheKind::kBlock, Fetch::kMiss);
+    return;
+  }
+  coverage_.count_fetch(CacheKind::kBlock, Fetch::kReadBack);
+  const std::uint32_t address = block_address(bx, by);
+  traffic_.read(Region::kWeights).push_back(address);
+  if (bad(address)) forget_block(static_cast<int>(bx), static_cast<int>(by));
+}
+
+void GeometricGolden::forget_block(int bx, int by) {
+  for (int y = 4 * by; y < std::min(4 * by + 4, height_); ++y) {
+    const auto row = weights_.begin() + static_cast<std::ptrdiff_t>(y) * width_;
+    std::fill(row + 4 * bx, row + std::min(4 * bx + 4, width_), Weights{});
+  }
+}
+
+void GeometricGolden::resolve_block(int bx, int by) {
+  ++work_.blocks;
+  if (follow_ &&
+      !block_cache_.holds(static_cast<std::uint32_t>(bx), static_cast<std::uint32_t>(by))) {
+    const std::uint32_t address =
+        block_address(static_cast<std::uint32_t>(bx), static_cast<std::uint32_t>(by));
+    traffic_.read(Region::kWeights).push_back(address);
+    if (bad(address)) forget_block(bx, by);
+  }
+  BlockRecord record;
+  record.x = static_cast<std::uint16_t>(bx);
+  record.y = static_cast<std::uint16_t>(by);
+  LineSet read, written;
+  for (int y = 4 * by; y < std::min(4 * by + 4, height_); ++y) {
+    for (int x = 4 * bx; x < std::min(4 * bx + 4, width_); ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                            static_cast<std::size_t>(x);
+      const Weights& weights = weights_[i];
+      if (!is_blended(weights)) continue;
+      ++work_.blended_pixels;
+      const Tap tap = tap_of(weights);
+      const int dx = tap.left_right ? 1 : 0, dy = tap.left_right ? 0 : 1;
+      const Rgba8& pixel = input_.image.at(x, y);
+      // A neighbour without a weight may lie outside the frame; the pixel itself stands in for it.
+      const Rgba8& first = tap.first != 0 ? input_.image.at(x - dx, y - dy) : pixel;
+      const Rgba8& second = tap.second != 0 ? input_.image.at(x + dx, y + dy) : pixel;
+      pixels_[i] = resolve(parameters_, tap, pixel, first, second);
+      if (!follow_) continue;
+      read.add(layout_.line_of(x, y));
+      written.add(layout_.line_of(x, y));
+      if (tap.first != 0) read.add(layout_.line_of(x - dx, y - dy));
+      if (tap.second != 0) read.add(layout_.line_of(x + dx, y + dy));
+      if (!everything_) continue;
+      const auto k = static_cast<std::size_t>(4 * (y & 3) + (x & 3));
+      record.weights[k] = weights;
+      record.pixels[k] = pixels_[i];
+      record.blended = static_cast<std::uint16_t>(record.blended | 1u << k);
+      coverage_.count_tap(weights);
+      if (tap.first != 0 && is_blended(weights_at(x - dx, y - dy))) {
+        coverage_.count_original(tap.left_right ? Original::kLeft : Original::kAbove);
+      } else {
+        coverage_.count_original(Original::kNone);
+      }
+    }
+  }
+  if (!follow_) return;
+  const bool copied = parameters_.frame_copy;
+  Traffic::List& reads = traffic_.read(copied ? Region::kCopy : Region::kColour);
+  for (const LineOfPixels& line : read)
+    reads.push_back((copied ? input_.bases.copy : input_.bases.colour) + layout_.offset_of(line));
+  for (const LineOfPixels& line : written)
+    traffic_.write(Region::kColour).push_back(input_.bases.colour + layout_.offset_of(line));
+  if (!everything_) return;
+  coverage_.count_block_lines(read.size());
+  blocks_.push_back(record);
+}
+
+void GeometricGolden::finish_traffic() {
+  const Bases& bases = input_.bases;
+  using spec::geometric::kEdgesInLine, spec::geometric::kFacesInLine, spec::geometric::kLineBytes;
+  if (parameters_.select == spec::geometric::Select::kEdges) {
+    Traffic::append_lines(traffic_.read(Region::kFaces), bases.facing,
+                          lines_of(input_.facing.count, kFacesInLine));
+  }
+  Traffic::append_lines(traffic_.read(Region::kEdges), bases.edges,
+                        lines_of(input_.edges.size(), kEdgesInLine));
+  if (parameters_.frame_copy) {
+    const std::uint32_t lines = layout_.bytes() / kLineBytes;
+    Traffic::append_lines(traffic_.read(Region::kColour), bases.colour, lines);
+    Traffic::append_lines(traffic_.write(Region::kCopy), bases.copy, lines);
+  }
+  if (!error_) return;
+  for (const auto* lists : {&traffic_.reads, &traffic_.writes})
+    for (const Traffic::List& list : *lists)
+      memory_errors_ += static_cast<std::uint64_t>(std::count_if(list.begin(), list.end(), error_));
+}
+
+}  // namespace deburr::golden::geometric

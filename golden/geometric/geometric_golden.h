@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// Bit-exact reference of the whole geometric engine: edges, vertices, facing bits, depth and a
+// frame in, the smoothed frame out, with every intermediate result and the memory traffic.
+//
+// No time, no SystemC, integers only (docs/geometric.md, docs/number_formats_geometric.md; paper
+// 002). The steps are functions: classify.h, line.h, resolve.h; where things lie and what is
+// fetched: traffic.h. GeometricGolden strings them together over a frame. An edge that is dropped
+// costs a look at its record, a line its columns, a touched block its pixels; nothing else of the
+// frame is visited but to copy it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "golden/geometric/classify.h"
+#include "golden/geometric/configuration.h"
+#include "golden/geometric/edge_coverage.h"
+#include "golden/geometric/traffic.h"
+#include "golden/morphological/planes.h"
+#include "spec/geometric/packets.h"
+#include "spec/geometric/parameters.h"
+#include "spec/geometric/records.h"
+
+namespace deburr::golden::geometric {
+
+using ImageView = morphological::ViewOf<spec::geometric::Rgba8>;
+using DepthView = morphological::ViewOf<std::uint32_t>;  // U24 in bits 23..0, the rest is ignored
+
+// What the engine finds in memory, and where. Views and spans are someone else's.
+struct FrameInput {
+  ImageView image;  // its size is the frame's
+  DepthView depth;  // of the same size; may be empty with depth_test = off
+  std::span<const spec::geometric::Edge> edges;
+  std::span<const spec::geometric::Vertex> vertices;
+  FacingBits facing;
+  Bases bases = {};
+};
+
+class GeometricGolden {
+ public:
+  // kPixels: pixels, weights and work only; the fastest. kEverything: classes, lines, candidates,
+  // blocks, traffic and coverage too.
+  enum class Detail { kPixels, kEverything };
+
+  // Throws ConfigError (configuration.h).
+  explicit GeometricGolden(const spec::geometric::Parameters& parameters,
+                           Detail detail = Detail::kEverything);
+
+  // The output frame, row by row without gaps; valid until the next call. Throws ConfigError for
+  // what the engine refuses to start, CheckFailed for views that are smaller than they say.
+  const std::vector<spec::geometric::Rgba8>& process(const FrameInput& input);
+
+  // ---- of the last frame; index y * width + x -----------------------------------------------
+  int width() const { return width_; }
+  int height() const { return height_; }
+  const std::vector<spec::geometric::Rgba8>& pixels() const { return pixels_; }
+  const std::vector<spec::geometric::Weights>& weights() const { return weights_; }
+  // Counters of this frame alone; hardware adds up until its counters are cleared.
+  const spec::geometric::Work& work() const { return work_; }
+  // With kEverything, else empty; each in order.
+  const std::vector<spec::geometric::EdgeClass>& classes() const { return classes_; }
+  const std::vector<spec::geometric::LineRecord>& lines() const { return lines_; }
+  const std::vector<spec::geometric::Candidate>& candidates() const { return candidates_; }
+  const std::vector<spec::geometric::BlockRecord>& blocks() const { return blocks_; }
+  const Traffic& traffic() const { return traffic_; }
+
+  // ---- of all frames ------------------------------------------------------------------------
+  const EdgeCoverage& coverage() const { return coverage_; }
+  void clear_coverage() { coverage_ = {}; }
+
+  // Line addresses whose reads and writes memory answers with an error: reads give zeros, writes
+  // are taken for done.
+  using LinePredicate = std::function<bool(std::uint32_t address)>;
+  void set_memory_errors(LinePredicate error) { error_ = std::move(error); }
+  std::uint64_t memory_errors() const { return memory_errors_; }  // of the last frame
+
+  const spec::geometric::Parameters& parameters() const { return parameters_; }
+
+ private:
+  void start(const FrameInput& input);
+  void read_with_errors();
+  void draw_edge(const spec::geometric::Edge& edge);
+  void fetch_vertices(const spec::geometric::Edge& edge);
+  template <bool kFollow>
+  void walk(const spec::geometric::LineRecord& line);
+  void fetch_depth(int x, int y, int nx, int ny);
+  void look_up_block(std::uint32_t bx, std::uint32_t by);
+  void forget_block(int bx, int by);
+  void resolve_block(int bx, int by);
+  void finish_traffic();
+  bool bad(std::uint32_t address) const { return error_ && error_(address); }
+  const spec::geometric::Weights& weights_at(int x, int y) const {
+    return weights_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                    static_cast<std::size_t>(x)];
+  }
+  std::uint32_t block_address(std::uint32_t bx, std::uint32_t by) const;
+
+  spec::geometric::Parameters parameters_;
+  bool everything_;
+  bool follow_ = false;  // the caches, too
+  int lanes_ = 1;
+
+  FrameInput input_;
+  int width_ = 0, height_ = 0;
+  FrameLayout layout_;
+  std::vector<spec::geometric::Rgba8> pixels_;
+  std::vector<spec::geometric::Weights> weights_;
+  std::vector<std::uint8_t> touched_;  // by block
+  spec::geometric::Work work_;
+
+  DirectMapped vertex_cache_, depth_cache_, block_cache_;
+  Traffic traffic_;
+  std::vector<spec::geometric::EdgeClass> classes_;
+  std::vector<spec::geometric::LineRecord> lines_;
+  std::vector<spec::geometric::Candidate> candidates_;
+  std::vector<spec::geometric::BlockRecord> blocks_;
+  EdgeCoverage coverage_;
+
+  LinePredicate error_;
+  std::uint64_t memory_errors_ = 0;
+  // What is read where memory has errors.
+  std::vector<spec::geometric::Edge> read_edges_;
+  std::vector<spec::geometric::Vertex> read_vertices_;
+  std::vector<std::uint8_t> read_facing_;
+  std::vector<std::uint32_t> read_depth_;
+  std::vector<spec::geometric::Rgba8> read_image_;
+};
+
+}  // namespace deburr::golden::geometric

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "golden/geometric/resolve.h"
+
+#include <algorithm>
+
+#include "golden/morphological/blend.h"
+
+namespace deburr::golden::geometric {
+
+using spec::geometric::Direction;
+using spec::geometric::Rgba8;
+using spec::geometric::Weights;
+
+void combine(spec::geometric::Combine rule, Weights& weights, Direction direction,
+             std::uint8_t coverage) {
+  std::uint8_t& weight = weights[static_cast<std::size_t>(direction)];
+  if (rule == spec::geometric::Combine::kMax) {
+    weight = std::max(weight, coverage);
+  } else {
+    weights = {};
+    weight = coverage;
+  }
+}
+
+Tap tap_of(const Weights& weights) {
+  const int up = weights[0], down = weights[1], left = weights[2], right = weights[3];
+  if (left + right > up + down) return {true, left, right};
+  return {false, up, down};
+}
+
+Rgba8 resolve(const spec::geometric::Rules& rules, const Tap& tap, const Rgba8& pixel,
+              const Rgba8& first, const Rgba8& second) {
+  Rgba8 result =
+      morphological::blend(rules.linear_light, pixel, first, tap.first, second, tap.second);
+  if (rules.mark) result[3] = static_cast<std::uint8_t>(result[3] & 0xFE);
+  return result;
+}
+
+}  // namespace deburr::golden::geometric

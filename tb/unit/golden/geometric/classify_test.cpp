@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// Which edges does the golden keep, and which parameters and frames does it take?
+#include "golden/geometric/classify.h"
+
+#include <gmock/gmock.h>
+
+#include "golden/geometric/configuration.h"
+#include "spec/error.h"
+
+namespace deburr {
+namespace {
+
+using golden::geometric::check_frame;
+using golden::geometric::check_parameters;
+using golden::geometric::classify;
+using golden::geometric::FacingBits;
+using golden::geometric::FrameCounts;
+using golden::geometric::is_kept;
+using golden::geometric::preset_parameters;
+using golden::geometric::refusal;
+using spec::geometric::Crease;
+using spec::geometric::Edge;
+using spec::geometric::EdgeClass;
+using spec::geometric::Parameters;
+using spec::geometric::Preset;
+using spec::geometric::Refusal;
+using spec::geometric::Rules;
+using spec::geometric::Select;
+namespace flag = spec::geometric::flag;
+
+constexpr Select kSelects[] = {Select::kAll, Select::kEdges};
+constexpr Crease kCreases[] = {Crease::kOff, Crease::kPaper, Crease::kShading};
+
+// The page's table of classes, read as a list of rows.
+EdgeClass from_the_page(const Rules& rules, int flags, bool front0, bool front1) {
+  if ((flags & 1) != 0) return EdgeClass::kBoundary;
+  if (rules.select == Select::kAll) return EdgeClass::kUnclassified;
+  if (front0 != front1) return EdgeClass::kSilhouette;
+  if (!front0) return EdgeClass::kBack;
+  const bool paper = (flags & 2) != 0;
+  const bool shading = (flags & 6) == 6 || (flags & 8) != 0;
+  const bool crease = rules.crease == Crease::kPaper     ? paper
+                      : rules.crease == Crease::kShading ? shading
+                                                         : false;
+  return crease ? EdgeClass::kCrease : EdgeClass::kFlat;
+}
+
+TEST(Classify, AllFlagsFacingsAndRules) {
+  int seen = 0;
+  for (const Select select : kSelects) {
+    for (const Crease crease : kCreases) {
+      Rules rules;
+      rules.select = select;
+      rules.crease = crease;
+      for (int flags = 0; flags < 256; ++flags) {
+        for (int facings = 0; facings < 4; ++facings) {
+          // Faces 3 and 10: bits of different bytes.
+          const std::array<std::uint8_t, 2> bytes = {
+              static_cast<std::uint8_t>((facings & 1) != 0 ? 8 : 0),
+              static_cast<std::uint8_t>((facings & 2) != 0 ? 4 : 0)};
+          const Edge edge{0, 1, 3, 10, static_cast<std::uint8_t>(flags)};
+          EXPECT_EQ(classify(rules, edge, 2, {bytes, 11}),
+                    from_the_page(rules, flags, (facings & 1) != 0, (facings & 2) != 0))
+              << flags << ' ' << facings;
+          ++seen;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(seen, 2 * 3 * 256 * 4);
+}
+
+TEST(Classify, IndicesEndWhereTheCountsEnd) {
+  const std::array<std::uint8_t, 1> bytes = {0xFF};
+  const FacingBits facing{bytes, 5};
+  Rules edges, all;
+  all.select = Select::kAll;
+  const auto is_valid = [&](const Rules& rules, const Edge& edge) {
+    return classify(rules, edge, 4, facing) != EdgeClass::kInvalid;
+  };
+  EXPECT_TRUE(is_valid(edges, {3, 3, 4, 4, 0}));
+  EXPECT_FALSE(is_valid(edges, {4, 3, 4, 4, 0}));
+  EXPECT_FALSE(is_valid(edges, {3, 4, 4, 4, 0}));
+  EXPECT_FALSE(is_valid(edges, {3, 3, 5, 4, 0}));
+  EXPECT_FALSE(is_valid(edges, {3, 3, 4, 5, 0}));
+  // A boundary has no second face; its first must be there all the same.
+  EXPECT_TRUE(is_valid(edges, {3, 3, 4, 5, flag::kBoundary}));
+  EXPECT_FALSE(is_valid(edges, {3, 3, 5, 0, flag::kBoundary}));
+  // Without a choice no face matters.
+  EXPECT_TRUE(is_valid(all, {3, 3, 5, 5, 0}));
+  EXPECT_FALSE(is_valid(all, {4, 3, 0, 0, 0}));
+  EXPECT_FALSE(is_valid(all, {3, 4, 0, 0, flag::kBoundary}));
+}
+
+TEST(Classify, KeepsWhatCanBeSeenAsAnEdge) {
+  using enum EdgeClass;
+  for (const EdgeClass c : {kBoundary, kSilhouette, kCrease, kUnclassified})
+    EXPECT_TRUE(is_kept(c));
+  for (const EdgeClass c : {kInvalid, kBack, kFlat}) EXPECT_FALSE(is_kept(c));
+}
+
+// ---- configuration ------------------------------------------------------------------------------
+
+TEST(Configuration, PresetsAreThePages) {
+  const Parameters gpaa = preset_parameters(Preset::kGpaa);
+  EXPECT_EQ(gpaa.select, Select::kAll);
+  EXPECT_EQ(gpaa.combine, spec::geometric::Combine::kLast);
+  EXPECT_TRUE(gpaa.frame_copy);
+  const Parameters optimised = preset_parameters(Preset::kGpaaOptimised);
+  EXPECT_EQ(optimised.select, Select::kEdges);
+  EXPECT_EQ(optimised.crease, Crease::kPaper);
+  EXPECT_EQ(optimised.combine, spec::geometric::Combine::kLast);
+  EXPECT_TRUE(optimised.frame_copy);
+  const Parameters deburr = preset_parameters(Preset::kDeburr), untouched;
+  EXPECT_EQ(deburr.crease, Crease::kShading);
+  EXPECT_EQ(deburr.crease, untouched.crease);
+  EXPECT_EQ(deburr.combine, untouched.combine);
+  EXPECT_EQ(deburr.frame_copy, untouched.frame_copy);
+  for (const Parameters& p : {gpaa, optimised, deburr}) EXPECT_NO_THROW(check_parameters(p));
+}
+
+void refused(void (*change)(Parameters&), const char* name) {
+  Parameters p;
+  change(p);
+  EXPECT_THAT([&] { check_parameters(p); },
+              testing::ThrowsMessage<spec::ConfigError>(testing::HasSubstr(name)));
+}
+
+TEST(Configuration, RefusesByName) {
+  refused([](Parameters& p) { p.depth_bias = 0; }, "depth_bias = 0 is outside 1..24");
+  refused([](Parameters& p) { p.depth_bias = 25; }, "depth_bias");
+  refused([](Parameters& p) { p.select = static_cast<Select>(2); }, "select");
+  refused([](Parameters& p) { p.reciprocal_table = 10; }, "reciprocal_table");
+  refused([](Parameters& p) { p.fills = 129; }, "memory.outstanding");
+  refused([](Parameters& p) { p.face_limit = 8193; }, "face_limit");
+  refused([](Parameters& p) { p.touched_words = 17; }, "touched_words");
+  Parameters table;
+  table.pipelined = false;
+  table.reciprocal_table = 10;
+  EXPECT_NO_THROW(check_parameters(table));
+}
+
+TEST(Configuration, FramesEndWhereTheBuildEnds) {
+  Parameters p;  // 2048 pixels, 1088 words, 32768 faces
+  const auto why = [&](FrameCounts counts) { return refusal(p, counts); };
+  EXPECT_EQ(why({1920, 1080, 1, 1, 1}), Refusal::kNone);
+  EXPECT_EQ(why({2048, 1088, 1, 1, 1}), Refusal::kNone);
+  EXPECT_EQ(why({2048, 1089, 1, 1, 1}), Refusal::kTouchedWords);
+  EXPECT_EQ(why({2049, 1080, 1, 1, 1}), Refusal::kWidth);
+  EXPECT_EQ(why({0, 10, 0, 0, 0}), Refusal::kSize);
+  EXPECT_EQ(why({10, 0, 0, 0, 0}), Refusal::kSize);
+  EXPECT_EQ(why({10, 8193, 0, 0, 0}), Refusal::kSize);
+  EXPECT_EQ(why({512, 4352, 0, 0, 0}), Refusal::kNone);
+  EXPECT_EQ(why({513, 4352, 0, 0, 0}), Refusal::kTouchedWords);
+  EXPECT_EQ(why({8, 8, 1u << 24, 1u << 24, 32768}), Refusal::kNone);
+  EXPECT_EQ(why({8, 8, (1u << 24) + 1, 0, 0}), Refusal::kEdgeCount);
+  EXPECT_EQ(why({8, 8, 0, (1u << 24) + 1, 0}), Refusal::kVertexCount);
+  EXPECT_EQ(why({8, 8, 0, 0, 32769}), Refusal::kFaceCount);
+  p.select = Select::kAll;
+  EXPECT_EQ(why({8, 8, 0, 0, 32769}), Refusal::kNone);
+  p.select = Select::kEdges;
+  for (const FrameCounts& counts :
+       {FrameCounts{2048, 1089, 1, 1, 1}, FrameCounts{2049, 1080, 1, 1, 1},
+        FrameCounts{0, 10, 0, 0, 0}, FrameCounts{8, 8, (1u << 24) + 1, 0, 0},
+        FrameCounts{8, 8, 0, (1u << 24) + 1, 0}, FrameCounts{8, 8, 0, 0, 32769}})
+    EXPECT_THROW(check_frame(p, counts), spec::ConfigError);
+}
+
+}  // namespace
+}  // namespace deburr

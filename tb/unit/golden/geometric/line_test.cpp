@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: MIT
+// Is a line what the formats say: columns, reciprocals, bounds against exact fractions, coverage,
+// ties, the depth test, weights and the blend?
+#include "golden/geometric/line.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "golden/geometric/resolve.h"
+#include "golden/morphological/blend.h"
+#include "spec/geometric/tables.h"
+#include "tb/stimuli/random.h"
+
+namespace deburr {
+namespace {
+
+using golden::geometric::combine;
+using golden::geometric::LineFate;
+using golden::geometric::passes;
+using golden::geometric::point_at;
+using golden::geometric::reciprocal;
+using golden::geometric::resolve;
+using golden::geometric::set_up_line;
+using golden::geometric::tap_of;
+using spec::geometric::Axis;
+using spec::geometric::Combine;
+using spec::geometric::DepthTest;
+using spec::geometric::Direction;
+using spec::geometric::LineRecord;
+using spec::geometric::Rules;
+using spec::geometric::Vertex;
+using spec::geometric::Weights;
+
+Vertex vertex(int major, int minor, bool horizontal, std::uint32_t depth = 5) {
+  return horizontal ? Vertex{major, minor, depth, true} : Vertex{minor, major, depth, true};
+}
+
+// ---- columns ------------------------------------------------------------------------------------
+
+// The columns whose centres lie in [m0, m1) and in the frame, one after the other.
+TEST(Columns, AreThoseWhoseCentresLieInTheLine) {
+  constexpr int kSide = 6;
+  int lines = 0;
+  for (const bool horizontal : {true, false}) {
+    for (const int around : {0, 256 * kSide}) {
+      for (int m0 = around - 800; m0 <= around + 800; m0 += 3) {
+        for (const int length : {1, 2, 127, 128, 129, 255, 256, 257, 300, 511, 513, 767}) {
+          const int m1 = m0 + length;
+          LineRecord line;
+          const LineFate fate = set_up_line(vertex(m0, 300, horizontal),
+                                            vertex(m1, 300, horizontal), kSide, kSide, line);
+          int first = -1, count = 0;
+          for (int c = 0; c < kSide; ++c) {
+            const int centre = 256 * c + 128;
+            if (centre < m0 || centre >= m1) continue;
+            if (first < 0) first = c;
+            ++count;
+          }
+          if (count == 0) {
+            EXPECT_EQ(fate, LineFate::kEmptyColumns) << m0 << ' ' << m1;
+            continue;
+          }
+          ASSERT_EQ(fate, LineFate::kLine) << m0 << ' ' << m1;
+          EXPECT_EQ(line.first, first) << m0 << ' ' << m1;
+          EXPECT_EQ(line.count, count) << m0 << ' ' << m1;
+          ++lines;
+        }
+      }
+    }
+  }
+  EXPECT_GT(lines, 9000);
+}
+
+TEST(Columns, SidesOfTheFrameAreThoseOfTheAxis) {
+  LineRecord line;
+  ASSERT_EQ(set_up_line({0, 300, 0, true}, {9000, 301, 0, true}, 20, 10, line), LineFate::kLine);
+  EXPECT_EQ(line.count, 20);
+  ASSERT_EQ(set_up_line({300, 0, 0, true}, {301, 9000, 0, true}, 20, 10, line), LineFate::kLine);
+  EXPECT_EQ(line.count, 10);
+}
+
+TEST(Fates, EachHasItsReason) {
+  LineRecord line;
+  const auto fate = [&](Vertex p, Vertex q) { return set_up_line(p, q, 16, 16, line); };
+  constexpr std::int32_t kBand = spec::geometric::kGuardBand;
+  EXPECT_EQ(fate({0, 0, 0, false}, {900, 0, 0, true}), LineFate::kOutside);
+  EXPECT_EQ(fate({0, 0, 0, true}, {900, 0, 0, false}), LineFate::kOutside);
+  EXPECT_EQ(fate({kBand, 0, 0, true}, {900, 0, 0, true}), LineFate::kOutside);
+  EXPECT_EQ(fate({kBand - 1, 0, 0, true}, {900, 0, 0, true}), LineFate::kLine);
+  EXPECT_EQ(fate({-kBand - 1, 0, 0, true}, {900, 0, 0, true}), LineFate::kOutside);
+  EXPECT_EQ(fate({-kBand, 0, 0, true}, {900, 0, 0, true}), LineFate::kLine);
+  EXPECT_EQ(fate({0, kBand, 0, true}, {0, 900, 0, true}), LineFate::kOutside);
+  EXPECT_EQ(fate({0, -kBand, 0, true}, {0, 900, 0, true}), LineFate::kLine);
+  EXPECT_EQ(fate({40, 50, 1, true}, {40, 50, 2, true}), LineFate::kDegenerate);
+  EXPECT_EQ(fate({0, -1, 0, true}, {900, -1, 0, true}), LineFate::kEmptyBefore);
+  EXPECT_EQ(fate({0, -1, 0, true}, {900, 0, 0, true}), LineFate::kLine);
+  EXPECT_EQ(fate({0, 4096, 0, true}, {900, 4096, 0, true}), LineFate::kEmptyBehind);
+  EXPECT_EQ(fate({0, 4095, 0, true}, {900, 4096, 0, true}), LineFate::kLine);
+  EXPECT_EQ(fate({-300, 0, 0, true}, {-10, 0, 0, true}), LineFate::kEmptyColumns);
+}
+
+TEST(Axis, TiesAreVertical) {
+  LineRecord line;
+  for (const int dx : {500, -500}) {
+    for (const int dy : {499, 500, 501, -499, -500, -501}) {
+      ASSERT_EQ(set_up_line({1000, 1000, 0, true}, {1000 + dx, 1000 + dy, 0, true}, 16, 16, line),
+                LineFate::kLine);
+      EXPECT_EQ(line.axis, std::abs(dy) < 500 ? Axis::kHorizontal : Axis::kVertical);
+    }
+  }
+}
+
+// ---- numbers ------------------------------------------------------------------------------------
+
+TEST(Reciprocal, IsTheQuotientAndTheTableHoldsIt) {
+  tb::Random random(3);
+  const auto check = [](std::uint32_t length) {
+    int e = 0;
+    while ((length >> (e + 1)) != 0) ++e;
+    const std::uint32_t l = length << (22 - e);
+    ASSERT_GE(l, 1u << 22);
+    ASSERT_LT(l, 1u << 23);
+    const std::uint64_t r = reciprocal(l);
+    ASSERT_LE(r * l, std::uint64_t{1} << 48);
+    ASSERT_GT((r + 1) * l, std::uint64_t{1} << 48);
+    ASSERT_GT(r, 1u << 25);
+    ASSERT_LE(r, 1u << 26);
+    for (int n = 1; n <= 11; ++n) {
+      if (length >> n != 0) continue;
+      const std::uint32_t entry = (l >> 12) - 1024;
+      ASSERT_EQ(entry % (1u << (11 - n)), 0u) << length << ' ' << n;
+      ASSERT_EQ(r, (1u << 26) - spec::geometric::kReciprocalDeficit[entry]);
+    }
+  };
+  for (std::uint32_t length = 1; length < 1u << 16; ++length) check(length);
+  for (int i = 0; i < 100000; ++i) check(1 + random.below((1u << 23) - 1));
+}
+
+// Position, depth and slope against the exact line, within the bounds of the formats' page.
+TEST(Line, StaysWithinItsBounds) {
+  tb::Random random(11);
+  double worst_slope = 0, worst_position = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const int reach = random.chance(500) ? 2000 : (1 << 22) - 1;
+    const auto coordinate = [&] { return random.between(-reach, reach); };
+    const Vertex p{coordinate(), coordinate(), random.below(1u << 24), true};
+    const Vertex q{coordinate(), coordinate(), random.below(1u << 24), true};
+    LineRecord line;
+    if (set_up_line(p, q, 8192, 8192, line) != LineFate::kLine) continue;
+    const bool horizontal = line.axis == Axis::kHorizontal;
+    using Real = long double;
+    const auto major = [&](const Vertex& v) { return static_cast<Real>(horizontal ? v.x : v.y); };
+    const auto minor = [&](const Vertex& v) { return static_cast<Real>(horizontal ? v.y : v.x); };
+    const Vertex &a = major(p) < major(q) ? p : q, &b = &a == &p ? q : p;
+    const Real slope = (minor(b) - minor(a)) / (major(b) - major(a));
+    worst_slope =
+        std::max(worst_slope, static_cast<double>(std::abs(line.slope - slope * 0x1p24L)));
+    for (const int n : {0, line.count / 2, line.count - 1}) {
+      const Real centre = 256.0L * (line.first + n) + 128, offset = centre - major(a);
+      const Real exact = (minor(a) + slope * offset) / 256 * 0x1p24L;
+      const Real position = static_cast<Real>(line.position - 128 + std::int64_t{n} * line.slope);
+      const Real bound = n + (256.0L * line.first + 128 - major(a)) / 256 + 2;
+      ASSERT_LT(std::abs(position - exact), bound);
+      worst_position =
+          std::max(worst_position, static_cast<double>(std::abs(position - exact) / bound));
+      const Real d0 = static_cast<Real>(a.depth), d1 = static_cast<Real>(b.depth);
+      const Real exact_depth = d0 + (d1 - d0) * offset / (major(b) - major(a));
+      const Real depth = static_cast<Real>((line.depth + n * line.depth_step) / 4096.0L);
+      const Real towards_start = d1 > d0 ? exact_depth - depth : depth - exact_depth;
+      ASSERT_GT(towards_start, -1e-6L);
+      ASSERT_LT(towards_start, 4 + n / 4096.0L);
+      ASSERT_GE(depth, std::min(d0, d1));
+      ASSERT_LE(depth, std::max(d0, d1));
+    }
+  }
+  EXPECT_LT(worst_slope, 1.0);
+  EXPECT_GT(worst_slope, 0.4);  // the bound is not idle
+  EXPECT_GT(worst_position, 0.3);
+}
+
+TEST(Line, EvenSlopesMeetCentresExactly) {
+  for (const int rise : {0, 1, 2, -1, -2}) {  // slopes 0, 1/2, 1
+    const bool tie_axis = std::abs(rise) == 2;
+    LineRecord line;
+    ASSERT_EQ(set_up_line({128, 8320, 0, true}, {128 + 2 * 3072, 8320 + rise * 3072, 0, true}, 64,
+                          64, line),
+              LineFate::kLine);
+    EXPECT_EQ(line.axis, tie_axis ? Axis::kVertical : Axis::kHorizontal);
+    int ties = 0;
+    for (int n = 0; n < line.count; ++n)
+      ties += point_at(line.position + std::int64_t{n} * line.slope, 0).distance == 0 ? 1 : 0;
+    EXPECT_EQ(ties, std::abs(rise) == 1 ? (line.count + 1) / 2 : line.count);
+  }
+}
+
+TEST(Coverage, OfAllDistances) {
+  for (int distance = -32768; distance < 32768; ++distance) {
+    const double exact = 256 * (0.5 - std::abs(distance) / 65536.0);
+    ASSERT_EQ(golden::geometric::coverage(distance), static_cast<int>(std::floor(exact + 0.5)));
+    ASSERT_EQ(golden::geometric::coverage(distance) == 0, std::abs(distance) > 32640);
+    ASSERT_EQ(golden::geometric::coverage(distance) == 128, std::abs(distance) <= 128);
+    // The point at a position says the same distance and the row below it.
+    const auto at = point_at((std::int64_t{7} << 24) + (std::int64_t{distance} + 32768) * 256, 0);
+    ASSERT_EQ(at.row, 7);
+    ASSERT_EQ(at.distance, distance);
+    const auto before =
+        point_at((std::int64_t{-7} * (1 << 24)) + (std::int64_t{distance} + 32768) * 256, 0);
+    ASSERT_EQ(before.row, -7);
+    ASSERT_EQ(before.distance, distance);
+  }
+}
+
+TEST(Direction, OfAllSidesAndTies) {
+  using golden::geometric::direction;
+  using golden::geometric::is_forward;
+  for (const bool tie : {false, true}) {
+    EXPECT_TRUE(is_forward(1, tie));
+    EXPECT_FALSE(is_forward(-1, tie));
+    EXPECT_EQ(is_forward(0, tie), tie);
+  }
+  EXPECT_EQ(direction(Axis::kHorizontal, true), Direction::kDown);
+  EXPECT_EQ(direction(Axis::kHorizontal, false), Direction::kUp);
+  EXPECT_EQ(direction(Axis::kVertical, true), Direction::kRight);
+  EXPECT_EQ(direction(Axis::kVertical, false), Direction::kLeft);
+  LineRecord line;
+  const auto tie_forward = [&](int dx, int dy) {
+    EXPECT_EQ(set_up_line({2000, 2000, 0, true}, {2000 + dx, 2000 + dy, 0, true}, 16, 16, line),
+              LineFate::kLine);
+    return line.tie_forward;
+  };
+  EXPECT_TRUE(tie_forward(900, 1));
+  EXPECT_FALSE(tie_forward(900, 0));
+  EXPECT_FALSE(tie_forward(900, -1));
+  EXPECT_FALSE(tie_forward(-900, 1));
+  EXPECT_TRUE(tie_forward(-900, -1));
+  EXPECT_FALSE(tie_forward(1, 900));
+  EXPECT_FALSE(tie_forward(-1, 900));
+}
+
+// ---- depth --------------------------------------------------------------------------------------
+
+TEST(DepthTest, AtEqualityAndOneOnEitherSide) {
+  Rules rules;
+  tb::Random random(5);
+  for (int bias = 1; bias <= 24; ++bias) {
+    rules.depth_bias = bias;
+    for (int i = 0; i < 200; ++i) {
+      const std::uint32_t own = i == 0 ? 0xFFFFFF : i == 1 ? 1 : random.below(1u << 24);
+      const std::uint32_t other = i == 2 ? own : random.below(1u << 24);
+      for (const DepthTest test : {DepthTest::kOwn, DepthTest::kFarther}) {
+        rules.depth_test = test;
+        const std::uint32_t f = test == DepthTest::kOwn ? own : std::min(own, other);
+        const std::uint32_t limit = f - static_cast<std::uint32_t>(f / std::exp2(bias));
+        EXPECT_TRUE(passes(rules, limit, own, other)) << bias << ' ' << f;
+        EXPECT_TRUE(passes(rules, limit + 1, own, other));
+        if (limit > 0) {
+          EXPECT_FALSE(passes(rules, limit - 1, own, other)) << bias << ' ' << f;
+        }
+      }
+      rules.depth_test = DepthTest::kOff;
+      EXPECT_TRUE(passes(rules, 0, own, other));
+    }
+  }
+}
+
+// ---- weights ------------------------------------------------------------------------------------
+
+TEST(Weights, MaxKeepsTheLargerLastTheLast) {
+  Weights w = {10, 20, 30, 40};
+  combine(Combine::kMax, w, Direction::kLeft, 29);
+  EXPECT_EQ(w, (Weights{10, 20, 30, 40}));
+  combine(Combine::kMax, w, Direction::kLeft, 31);
+  EXPECT_EQ(w, (Weights{10, 20, 31, 40}));
+  combine(Combine::kLast, w, Direction::kDown, 5);
+  EXPECT_EQ(w, (Weights{0, 5, 0, 0}));
+}
+
+// Every pair of weights of an axis, against the division-free form written out; and which axis.
+TEST(Resolve, AllPairsOfWeights) {
+  Rules rules;
+  const spec::geometric::Rgba8 own = {10, 200, 77, 201}, one = {250, 3, 90, 1},
+                               two = {0, 255, 76, 2};
+  for (const bool linear : {false, true}) {
+    rules.linear_light = linear;
+    for (const bool mark : {false, true}) {
+      rules.mark = mark;
+      for (int a = 0; a <= 128; ++a) {
+        for (int b = 0; b <= 128; ++b) {
+          const auto result = resolve(rules, {false, a, b}, own, one, two);
+          for (std::size_t c = 0; c < 3; ++c) {
+            const auto decode = [&](int code) {
+              return linear
+                         ? int{spec::geometric::kLinear12FromSrgb[static_cast<std::size_t>(code)]}
+                         : code;
+            };
+            const double v = (decode(one[c]) - decode(own[c])) * a / 256.0 +
+                             (decode(two[c]) - decode(own[c])) * b / 256.0;
+            const double rounded = std::copysign(std::floor(std::abs(v) + 0.5), v);
+            const int value = decode(own[c]) + static_cast<int>(rounded);
+            ASSERT_EQ(result[c],
+                      linear
+                          ? int{spec::geometric::kSrgbFromLinear12[static_cast<std::size_t>(value)]}
+                          : value);
+          }
+          ASSERT_EQ(result[3], mark ? 200 : 201);
+        }
+      }
+    }
+  }
+}
+
+TEST(Resolve, TheHeavierAxisAndUpDownOnATie) {
+  EXPECT_TRUE(tap_of({10, 20, 15, 16}).left_right);
+  EXPECT_FALSE(tap_of({10, 20, 15, 15}).left_right);
+  EXPECT_FALSE(tap_of({10, 20, 15, 14}).left_right);
+  const auto vertical = tap_of({10, 20, 1, 2}), horizontal = tap_of({1, 2, 30, 40});
+  EXPECT_EQ(vertical.first, 10);
+  EXPECT_EQ(vertical.second, 20);
+  EXPECT_EQ(horizontal.first, 30);
+  EXPECT_EQ(horizontal.second, 40);
+  EXPECT_FALSE(golden::geometric::is_blended({0, 0, 0, 0}));
+  for (std::size_t i = 0; i < 4; ++i) {
+    Weights w = {};
+    w[i] = 1;
+    EXPECT_TRUE(golden::geometric::is_blended(w));
+  }
+}
+
+}  // namespace
+}  // namespace deburr
