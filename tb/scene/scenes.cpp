@@ -10,6 +10,7 @@
 #include "spec/error.h"
 #include "tb/scene/exact_math.h"
 #include "tb/scene/image_io.h"
+#include "tb/scene/models.h"
 #include "tb/scene/setup.h"
 #include "tb/scene/textures.h"
 
@@ -19,13 +20,19 @@ namespace {
 using Imath::V2d;
 using Imath::V3d;
 
-constexpr std::array<SceneName, 6> kSceneNames{{
+constexpr std::array<SceneName, 12> kSceneNames{{
     {"plane", "checkerboard ground plane in perspective"},
     {"quad", "one tilted square with a checkerboard"},
     {"tunnel", "brick tunnel seen from inside"},
     {"object", "torus knot, lit and textured"},
     {"road", "street between two brick walls"},
     {"cylinders", "five plain cylinders at different slopes"},
+    {"cube", "plain cube (paper 002)"},
+    {"wheelcover", "plain wheel cover, 48 segments (paper 002)"},
+    {"wing", "plain wing with a NACA 2412 section (paper 002)"},
+    {"canopy", "plain canopy, open below (paper 002)"},
+    {"sphere", "plain sphere of 16 128 faces"},
+    {"terrain", "textured hills, open at their borders"},
 }};
 
 // ---- surfaces -----------------------------------------------------------------------------------
@@ -209,6 +216,19 @@ void frame_whole_mesh(Scene& scene) {
   scene.camera.near_plane = std::max(0.01 * distance, 0.5 * (distance - radius));
 }
 
+// A model of one plain colour, framed as an imported mesh is.
+void make_model(Scene& scene, void (*add)(Mesh&, std::uint32_t), const V3d& colour) {
+  scene.mesh.materials.push_back({scene.name, colour, -1});
+  add(scene.mesh, 0);
+  frame_whole_mesh(scene);
+}
+
+void make_terrain(Scene& scene, const SceneOptions& options) {
+  add_texture(scene, options.texture, "brick", options);
+  add_terrain(scene.mesh, 0);
+  scene.camera = {V3d(0.1, 0.28, 1.05), V3d(0, -0.05, 0), V3d(0, 1, 0), 0.8, 0.05};
+}
+
 void finish(Scene& scene, const SceneOptions& options) {
   if (options.camera) scene.camera = *options.camera;
   View(scene.camera, 1, 1, 1);  // refuses an impossible camera here, with its reason
@@ -233,6 +253,18 @@ Scene make_scene(std::string_view name, const SceneOptions& options) {
     make_road(scene, options);
   } else if (name == "cylinders") {
     make_cylinders(scene, options);
+  } else if (name == "cube") {
+    make_model(scene, add_cube, V3d(0.75, 0.15, 0.12));
+  } else if (name == "wheelcover") {
+    make_model(scene, add_wheel_cover, V3d(0.4, 0.42, 0.45));
+  } else if (name == "wing") {
+    make_model(scene, add_wing, V3d(0.6, 0.62, 0.65));
+  } else if (name == "canopy") {
+    make_model(scene, add_canopy, V3d(0.12, 0.3, 0.7));
+  } else if (name == "sphere") {
+    make_model(scene, add_sphere, V3d(0.85, 0.55, 0.08));
+  } else if (name == "terrain") {
+    make_terrain(scene, options);
   } else {
     std::string known;
     for (const SceneName& each : kSceneNames) known += fmt::format(" {}", each.name);

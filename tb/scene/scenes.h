@@ -28,7 +28,8 @@ struct Camera {
 struct Lighting {
   Imath::V3d key_direction{0.45, 0.8, 0.4}, fill_direction{-0.6, 0.3, -0.7};
   double key = 0.75, fill = 0.2, ambient = 0.15;
-  bool smooth = true;  // interpolated vertex normals, else one normal a face
+  double specular = 0.25;  // of both lights, in Phong's model alone; its exponent is 32
+  bool smooth = true;      // interpolated vertex normals, else one normal a face
 };
 
 struct Scene {
@@ -50,7 +51,7 @@ struct SceneOptions {
 struct SceneName {
   std::string_view name, meaning;
 };
-// plane, quad, tunnel, object, road, cylinders
+// plane, quad, tunnel, object, road, cylinders; cube, wheelcover, wing, canopy, sphere, terrain
 std::span<const SceneName> scene_names();
 
 // Throws ConfigError for an unknown name (listing the known) or an impossible camera.

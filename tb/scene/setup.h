@@ -29,6 +29,10 @@ class View {
 
   // (x, y, w): w is the distance along the view direction, x / w and y / w are cells.
   Imath::V3d transform(const Imath::V3d& point) const;
+  // From the eye through the cell position (x, y), one unit along the view direction long.
+  Imath::V3d ray(double x, double y) const {
+    return forward_ + right_ * ((x - centre_x_) / focal_) + down_ * ((y - centre_y_) / focal_);
+  }
   int width() const { return width_; }    // cells
   int height() const { return height_; }  // cells
   int grid() const { return grid_; }

@@ -135,9 +135,10 @@ class TextureReader {
 
 // Everything about a mesh triangle that its samples share.
 struct Surface {
-  V3d s, t;    // at the corners
-  V3d light;   // at the corners, relative to white
-  V3d colour;  // of the material
+  V3d s, t;                   // at the corners
+  V3d light;                  // at the corners, relative to white
+  std::array<V3d, 3> normal;  // at the corners, x of all three first
+  V3d colour;                 // of the material
   int texture = -1;
 };
 
@@ -165,7 +166,10 @@ Surface make_surface(const Scene& scene, const Triangle& triangle) {
     const bool smooth = scene.lighting.smooth && normal.length2() > 0.0;
     // A vertex normal points to the side of the face that the modeller meant as the outside.
     const double outside = smooth && normal.dot(face) < 0.0 ? -side : side;
-    surface.light[i] = light_on(scene.lighting, (smooth ? normal * outside : face * side));
+    const V3d turned = smooth ? normal * outside : face * side;
+    surface.light[i] = light_on(scene.lighting, turned);
+    for (int axis = 0; axis < 3; ++axis)
+      surface.normal[static_cast<std::size_t>(axis)][i] = turned[axis];
   }
   return surface;
 }
@@ -173,29 +177,70 @@ Surface make_surface(const Scene& scene, const Triangle& triangle) {
 // Colours of the samples in a piece of a tile's row, by channel.
 using ColourRow = std::array<std::array<float, kMaxTile>, 4>;
 
+using NormalRow = std::array<std::array<float, 3>, kMaxTile>;
+
 Colour colour_at(const ColourRow& row, std::size_t k) {
   return {row[0][k], row[1][k], row[2][k], row[3][k]};
 }
+
+// Phong's model: diffuse, ambient and specular light of two directional lights, without shadows.
+// Deferred and direct lighting share it. Its exponent is a power of two, so that it takes
+// multiplications alone and gives the same bits everywhere.
+class Phong {
+ public:
+  explicit Phong(const Scene& scene) : lighting_(scene.lighting) {
+    key_ = lighting_.key_direction.normalized();
+    fill_ = lighting_.fill_direction.normalized();
+  }
+  // Albedo in, light towards the eye out. `normal` as a G-buffer holds it; `ray` from the eye.
+  void shade(const std::array<float, 3>& normal, const V3d& ray, float& r, float& g,
+             float& b) const {
+    const V3d n(static_cast<double>(normal[0]), static_cast<double>(normal[1]),
+                static_cast<double>(normal[2]));
+    const V3d to_eye = -ray.normalized();
+    double diffuse = lighting_.ambient, specular = 0.0;
+    add(n, to_eye, key_, lighting_.key, diffuse, specular);
+    add(n, to_eye, fill_, lighting_.fill, diffuse, specular);
+    for (float* const channel : {&r, &g, &b})
+      *channel = std::clamp(static_cast<float>(static_cast<double>(*channel) * diffuse + specular),
+                            0.0f, 1.0f);
+  }
+
+ private:
+  void add(const V3d& n, const V3d& to_eye, const V3d& towards, double strength, double& diffuse,
+           double& specular) const {
+    const double cosine = n.dot(towards);
+    if (!(cosine > 0.0)) return;
+    diffuse += strength * cosine;
+    double mirrored = (n * (2.0 * cosine) - towards).dot(to_eye);
+    if (!(mirrored > 0.0)) return;
+    for (int doubling = 0; doubling < 5; ++doubling) mirrored *= mirrored;  // ^ 32
+    specular += strength * lighting_.specular * mirrored;
+  }
+  Lighting lighting_;
+  V3d key_, fill_;
+};
 
 // Colours of one primitive, in the transport's space. Samples are shaded a run at a time and in
 // loops without branches, which a compiler turns into vectors; each sample's own operations and
 // their order are the same in every run.
 class Shader {
  public:
-  Shader(const Scene& scene, const std::vector<Primitive>& primitives, const RenderOptions& options,
-         const Transport& transport)
-      : primitives_(primitives), options_(options) {
+  Shader(const Scene& scene, const std::vector<Primitive>& primitives, const View& view,
+         const RenderOptions& options, const Transport& transport)
+      : primitives_(primitives), view_(view), options_(options), phong_(scene) {
     for (const Triangle& triangle : scene.mesh.triangles)
       surfaces_.push_back(make_surface(scene, triangle));
-    const bool lit = options.shading == Shading::kLit;
+    const bool lit = options.shading != Shading::kTexture;
     for (const Texture& texture : scene.mesh.textures)
       readers_.emplace_back(texture, transport, lit);
   }
 
   // The centres of `count` cells from (x, y) to the right go to row[.][first] and on; `cells` is
   // the number of cells a pixel is wide.
+  // With `normals` (kPhong) colours stay without light, and normals go there.
   void shade(std::int32_t owner, int x, int y, int cells, int count, ColourRow& row,
-             std::size_t first = 0) const {
+             std::size_t first = 0, NormalRow* normals = nullptr) const {
     const Primitive& primitive = primitives_[static_cast<std::size_t>(owner)];
     const Surface& surface = surfaces_[primitive.triangle];
     const auto samples = static_cast<std::size_t>(count);
@@ -215,8 +260,6 @@ class Shader {
             row, first + k);
       return;
     }
-    CellRow light;
-    at.interpolate(surface.light, samples, light);
     if (reader == nullptr || reader->plain()) {
       const Colour base = reader == nullptr ? Colour{1, 1, 1, 1} : reader->nearest(0.0, 0.0);
       for (std::size_t c = 0; c < 4; ++c) std::fill_n(&row[c][first], samples, base[c]);
@@ -225,6 +268,24 @@ class Shader {
       for (std::size_t k = 0; k < samples; ++k)
         put(reader->trilinear(s[k], t[k], footprint.level(s[k], t[k], at.w[k])), row, first + k);
     }
+    std::fill_n(&row[3][first], samples, 1.0f);
+    if (options_.shading == Shading::kPhong) {
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t k = first; k < first + samples; ++k)
+          row[c][k] *= static_cast<float>(surface.colour[static_cast<int>(c)]);
+      if (normals != nullptr) {
+        normals_of(surface, at, samples, *normals, first);
+        return;
+      }
+      NormalRow turned;
+      normals_of(surface, at, samples, turned, 0);
+      for (std::size_t k = 0; k < samples; ++k)
+        phong_.shade(turned[k], view_.ray(x + static_cast<int>(k) + 0.5, y + 0.5),
+                     row[0][first + k], row[1][first + k], row[2][first + k]);
+      return;
+    }
+    CellRow light;
+    at.interpolate(surface.light, samples, light);
     // A multi-sampled pixel's centre may lie outside the triangle, where light extrapolates.
     for (std::size_t c = 0; c < 3; ++c) {
       const double colour = surface.colour[static_cast<int>(c)];
@@ -232,7 +293,6 @@ class Shader {
       for (std::size_t k = 0; k < samples; ++k)
         channel[k] = std::clamp(channel[k] * static_cast<float>(light[k] * colour), 0.0f, 1.0f);
     }
-    std::fill_n(&row[3][first], samples, 1.0f);
   }
 
  private:
@@ -248,6 +308,19 @@ class Shader {
         value[k] = (x[k] * corners.x + y[k] * corners.y + z[k] * corners.z) * w[k];
     }
   };
+  static void normals_of(const Surface& surface, const Samples& at, std::size_t count,
+                         NormalRow& normals, std::size_t first) {
+    CellRow nx, ny, nz;
+    at.interpolate(surface.normal[0], count, nx);
+    at.interpolate(surface.normal[1], count, ny);
+    at.interpolate(surface.normal[2], count, nz);
+    for (std::size_t k = 0; k < count; ++k) {
+      const double length = std::sqrt(nx[k] * nx[k] + ny[k] * ny[k] + nz[k] * nz[k]);
+      const double scale = length > 0.0 ? 1.0 / length : 0.0;
+      normals[first + k] = {static_cast<float>(nx[k] * scale), static_cast<float>(ny[k] * scale),
+                            static_cast<float>(nz[k] * scale)};
+    }
+  }
   static Samples locate(const Primitive& p, int x, int y, int count) {
     EdgeRow e;
     p.edges_of_row(p.edges(cell_centre(x), cell_centre(y)), count, e);
@@ -296,13 +369,15 @@ class Shader {
   };
 
   const std::vector<Primitive>& primitives_;
+  const View& view_;
   RenderOptions options_;
+  Phong phong_;
   std::vector<Surface> surfaces_;
   std::vector<TextureReader> readers_;
 };
 
 Transport transport_of(Shading shading, Averaging averaging) {
-  if (shading == Shading::kLit) return Transport(Transfer::kGamma22);
+  if (shading != Shading::kTexture) return Transport(Transfer::kGamma22);
   return Transport(averaging == Averaging::kLinear ? Transfer::kSrgb : Transfer::kStored);
 }
 
@@ -340,9 +415,9 @@ Image render(const Scene& scene, const RenderOptions& options) {
   const Transport transport = transport_of(options.shading, options.averaging);
   // Lit colours are made in linear light; averaging them as stored means encoding each sample.
   const bool encode_samples =
-      options.shading == Shading::kLit && options.averaging == Averaging::kStored;
+      options.shading != Shading::kTexture && options.averaging == Averaging::kStored;
   const Transport stored(Transfer::kStored);
-  const Shader shader(scene, primitives, options, transport);
+  const Shader shader(scene, primitives, view, options, transport);
 
   const auto encoded = [&](Colour colour) {
     for (std::size_t c = 0; c < 3; ++c)
@@ -407,18 +482,18 @@ Image render(const Scene& scene, const RenderOptions& options) {
   return image;
 }
 
-Image render_msaa4(const Scene& scene, int width, int height) {
+Image render_msaa4(const Scene& scene, int width, int height, Shading shading) {
   struct Offset {
     int x, y;
   };
   constexpr std::array<Offset, 4> kRotatedGrid{{{-32, -96}, {96, -32}, {-96, 32}, {32, 96}}};
   constexpr int kTileCells = 32;
   RenderOptions options;
-  options.shading = Shading::kLit;
+  options.shading = shading;
   const View view(scene.camera, width, height, 1);
   const std::vector<Primitive> primitives = set_up(scene.mesh, view);
   const Transport transport(Transfer::kGamma22);
-  const Shader shader(scene, primitives, options, transport);
+  const Shader shader(scene, primitives, view, options, transport);
   const Occlusion occlusion(primitives, width, height, kTileCells);
   ColourRow one;
   std::array<std::vector<std::int32_t>, 4> owners;
@@ -463,13 +538,56 @@ DepthImage render_depth(const Scene& scene, int width, int height) {
   return depth;
 }
 
+GBuffer render_gbuffer(const Scene& scene, int width, int height) {
+  RenderOptions options;
+  options.shading = Shading::kPhong;
+  const View view(scene.camera, width, height, 1);
+  const std::vector<Primitive> primitives = set_up(scene.mesh, view);
+  const Transport transport(Transfer::kGamma22);
+  const Shader shader(scene, primitives, view, options, transport);
+  GBuffer buffer{ImageOf<std::array<float, 3>>(width, height), FloatImage(width, height),
+                 DepthImage(width, height)};
+  ColourRow one;
+  NormalRow normal;
+  for_each_resolved_pixel(
+      primitives, view, [&](int x, int y, std::int32_t owner, double inverse_w) {
+        shader.shade(owner, x, y, 1, 1, one, 0, &normal);
+        buffer.normal.at(x, y) = normal[0];
+        buffer.albedo.at(x, y) = colour_at(one, 0);
+        buffer.depth.at(x, y) = static_cast<float>(scene.camera.near_plane * inverse_w);
+      });
+  return buffer;
+}
+
+Image light(const Scene& scene, const GBuffer& buffer) {
+  const int width = buffer.depth.width, height = buffer.depth.height;
+  const View view(scene.camera, width, height, 1);
+  const Phong phong(scene);
+  const Transport transport(Transfer::kGamma22);
+  Image image(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      Sum sum;
+      Colour colour = sky_colour(scene, y, height, transport);
+      if (buffer.depth.at(x, y) > 0.0f) {
+        colour = buffer.albedo.at(x, y);
+        phong.shade(buffer.normal.at(x, y), view.ray(x + 0.5, y + 0.5), colour[0], colour[1],
+                    colour[2]);
+      }
+      sum.add(colour);
+      image.at(x, y) = finish(sum, 1, transport);
+    }
+  }
+  return image;
+}
+
 LitFrames render_lit_frames(const Scene& scene, int width, int height, int samples,
-                            const std::function<bool()>& interrupted) {
+                            const std::function<bool()>& interrupted, Shading shading) {
   RenderOptions options;
   options.interrupted = interrupted;
   options.width = width;
   options.height = height;
-  options.shading = Shading::kLit;
+  options.shading = shading;
   options.averaging = Averaging::kLinear;
   LitFrames frames;
   frames.noaa = render(scene, options);

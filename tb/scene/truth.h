@@ -3,6 +3,7 @@
 // frames, and depth. Visibility is that of the rasteriser on an N times finer grid.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <exception>
 #include <functional>
@@ -14,7 +15,8 @@ namespace deburr::tb {
 
 enum class Shading : std::uint8_t {
   kTexture,  // the texture's colour alone, from level 0: what the texture unit should approach
-  kLit       // material x texture (trilinear, footprint of a whole pixel) x light, gamma 2.2
+  kLit,      // material x texture (trilinear, footprint of a whole pixel) x light, gamma 2.2
+  kPhong     // the same surface with Phong's light at every sample: see GBuffer
 };
 enum class Sampling : std::uint8_t { kNearest, kBilinear };  // of level 0 in Shading::kTexture
 enum class Averaging : std::uint8_t {
@@ -41,11 +43,23 @@ struct RenderOptions {
 Image render(const Scene& scene, const RenderOptions& options);
 
 // 4 x MSAA on the rotated grid (-2,-6) (6,-2) (-6,2) (2,6) sixteenths of a pixel: coverage and
-// depth at each sample, colour once a triangle at the pixel centre, kLit, averaged in linear light.
-Image render_msaa4(const Scene& scene, int width, int height);
+// depth at each sample, colour once a triangle at the pixel centre, kLit or kPhong, averaged in
+// linear light.
+Image render_msaa4(const Scene& scene, int width, int height, Shading shading = Shading::kLit);
 
 // near/w at pixel centres, 0 = nothing there.
 DepthImage render_depth(const Scene& scene, int width, int height);
+
+// What deferred lighting starts from (paper 002, section 1.2), at pixel centres.
+struct GBuffer {
+  ImageOf<std::array<float, 3>> normal;  // unit length, turned to the eye; 0 where nothing is
+  FloatImage albedo;                     // linear light
+  DepthImage depth;                      // near/w, 0 = nothing there
+};
+GBuffer render_gbuffer(const Scene& scene, int width, int height);
+// Phong's light on a G-buffer of the scene: both lights, ambient, specular. Equal to render() with
+// kPhong and one sample.
+Image light(const Scene& scene, const GBuffer& buffer);
 
 // The set that morphological anti-aliasing is judged on, as data/README.md describes it.
 struct LitFrames {
@@ -54,6 +68,7 @@ struct LitFrames {
   DepthImage depth;
 };
 LitFrames render_lit_frames(const Scene& scene, int width, int height, int samples,
-                            const std::function<bool()>& interrupted = nullptr);
+                            const std::function<bool()>& interrupted = nullptr,
+                            Shading shading = Shading::kLit);
 
 }  // namespace deburr::tb

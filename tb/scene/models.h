@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Meshes by formula for the geometric engine: the four models of paper 002, a sphere and a terrain.
+//
+// Counter-clockwise seen from outside, welded (a place has one position, bit for bit), with vertex
+// normals that are smooth where faces meet at less than 40 degrees and split where they do not.
+// Materials are the caller's. Internal to tb/scene.
+#pragma once
+
+#include <cstdint>
+
+#include "tb/scene/mesh.h"
+
+namespace deburr::tb {
+
+void add_cube(Mesh& mesh, std::uint32_t material);         // 12 faces, 18 edges
+void add_wheel_cover(Mesh& mesh, std::uint32_t material);  // 480 faces, 720 edges
+void add_wing(Mesh& mesh, std::uint32_t material);         // NACA 2412; 16 640 faces, 24 960 edges
+void add_canopy(Mesh& mesh, std::uint32_t material);       // open below; 1472 faces, 2232 edges
+void add_sphere(Mesh& mesh, std::uint32_t material);       // 16 128 faces, 24 192 edges
+void add_terrain(Mesh& mesh, std::uint32_t material);      // open; 4608 faces, 7008 edges
+
+}  // namespace deburr::tb
