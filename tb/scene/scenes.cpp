@@ -37,6 +37,9 @@ constexpr std::array<SceneName, 12> kSceneNames{{
 
 // ---- surfaces -----------------------------------------------------------------------------------
 
+// Where a closed curve starts again: its last point is its first one, to the bit.
+double around_again(double share) { return share == 1.0 ? 0.0 : share; }
+
 // Adds a grid of (columns x rows) cells; position, normal and uv come from `at(i / columns, j /
 // rows)`.
 template <class At>
@@ -71,7 +74,7 @@ void add_cylinder(Mesh& mesh, const V3d& bottom, const V3d& top, double radius, 
   const V3d u = axis.cross(std::abs(axis.z) < 0.9 ? V3d(0, 0, 1) : V3d(1, 0, 0)).normalized();
   const V3d v = axis.cross(u);
   auto around = [&](double i) {
-    const SinCos turn = sin_cos(2.0 * kPi * i);
+    const SinCos turn = sin_cos(2.0 * kPi * around_again(i));
     return u * turn.cos + v * turn.sin;
   };
   add_grid(mesh, segments, 1, material, [&](double i, double j) {
@@ -144,7 +147,7 @@ void make_tunnel(Scene& scene, const SceneOptions& options) {
   add_texture(scene, options.texture, "brick", options);
   constexpr double kLength = 24.0;
   add_grid(scene.mesh, 128, 4, 0, [&](double i, double j) {
-    const SinCos turn = sin_cos(2.0 * kPi * i);
+    const SinCos turn = sin_cos(2.0 * kPi * around_again(i));
     return Vertex{V3d(turn.cos, turn.sin, 1.0 - kLength * j), V3d(-turn.cos, -turn.sin, 0),
                   V2d(i, kLength * j)};
   });
@@ -160,9 +163,10 @@ void make_object(Scene& scene, const SceneOptions& options) {
     return V3d(r * p.cos, r * p.sin, 0.4 * q.sin);
   };
   add_grid(scene.mesh, 360, 28, 0, [&](double i, double j) {
-    const V3d centre = curve(i), tangent_vector = (curve(i + 1e-4) - curve(i - 1e-4)).normalized();
+    const double u = around_again(i);
+    const V3d centre = curve(u), tangent_vector = (curve(u + 1e-4) - curve(u - 1e-4)).normalized();
     const V3d side = tangent_vector.cross(centre).normalized(), up = side.cross(tangent_vector);
-    const SinCos turn = sin_cos(2.0 * kPi * j);
+    const SinCos turn = sin_cos(2.0 * kPi * around_again(j));
     const V3d normal = side * turn.cos + up * turn.sin;
     return Vertex{centre + normal * 0.22, normal, V2d(8.0 * i, j)};
   });
@@ -216,9 +220,9 @@ void frame_whole_mesh(Scene& scene) {
   scene.camera.near_plane = std::max(0.01 * distance, 0.5 * (distance - radius));
 }
 
-// A model of one plain colour, framed as an imported mesh is.
-void make_model(Scene& scene, void (*add)(Mesh&, std::uint32_t), const V3d& colour) {
-  scene.mesh.materials.push_back({scene.name, colour, -1});
+// A white model, framed as an imported mesh is.
+void make_model(Scene& scene, void (*add)(Mesh&, std::uint32_t)) {
+  scene.mesh.materials.push_back({scene.name, V3d(1, 1, 1), -1});
   add(scene.mesh, 0);
   frame_whole_mesh(scene);
 }
@@ -254,15 +258,15 @@ Scene make_scene(std::string_view name, const SceneOptions& options) {
   } else if (name == "cylinders") {
     make_cylinders(scene, options);
   } else if (name == "cube") {
-    make_model(scene, add_cube, V3d(0.75, 0.15, 0.12));
+    make_model(scene, add_cube);
   } else if (name == "wheelcover") {
-    make_model(scene, add_wheel_cover, V3d(0.4, 0.42, 0.45));
+    make_model(scene, add_wheel_cover);
   } else if (name == "wing") {
-    make_model(scene, add_wing, V3d(0.6, 0.62, 0.65));
+    make_model(scene, add_wing);
   } else if (name == "canopy") {
-    make_model(scene, add_canopy, V3d(0.12, 0.3, 0.7));
+    make_model(scene, add_canopy);
   } else if (name == "sphere") {
-    make_model(scene, add_sphere, V3d(0.85, 0.55, 0.08));
+    make_model(scene, add_sphere);
   } else if (name == "terrain") {
     make_terrain(scene, options);
   } else {

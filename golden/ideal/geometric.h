@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Geometric post-process anti-aliasing in real numbers: the paper's equations with exact fractions,
+// no rounding of positions, weights or colours.
+//
+// Truth for the bit-exact golden's arithmetic (paper 002, equations (6) to (8), with the
+// corrections of docs/geometric.md). What the method itself cannot do it cannot do either; that is
+// measured against supersampling.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace deburr::golden::ideal {
+
+struct ScreenPoint {
+  double x = 0, y = 0;  // pixels, y downwards, centres at halves
+  double depth = 0;     // near / w
+};
+struct ScreenLine {
+  ScreenPoint p, q;
+};
+
+// A pixel that a line cuts, once a column of its longer axis.
+struct CutPixel {
+  int x = 0, y = 0;
+  int direction = 0;    // of the neighbour: 0 up, 1 down, 2 left, 3 right
+  double distance = 0;  // dis of equation (7): along the shorter axis, down or right positive
+  double coverage = 0;  // 1/2 - |dis|, above 0
+  double depth = 0;     // of the line
+};
+// Pixels of the frame with a neighbour in the frame, in the order of columns.
+std::vector<CutPixel> cut_pixels(const ScreenLine& line, int width, int height);
+
+using SideWeights = std::array<double, 4>;  // up, down, left, right
+using Light = std::array<double, 3>;
+
+struct GpaaOptions {
+  bool last_wins = false;           // else the largest of each direction
+  double depth_bias = 1.0 / 512.0;  // relative, against the farther of pixel and neighbour
+};
+
+// Weights of all pixels after all lines, row by row. `depth` is near / w of each pixel.
+std::vector<SideWeights> side_weights(std::span<const ScreenLine> lines,
+                                      std::span<const double> depth, int width, int height,
+                                      const GpaaOptions& options = {});
+// Equation (8) for both neighbours of the heavier axis.
+std::vector<Light> blended(std::span<const Light> frame, std::span<const SideWeights> weights,
+                           int width, int height);
+
+}  // namespace deburr::golden::ideal

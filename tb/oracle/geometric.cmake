@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: MIT
+deburr_test(geometric_ideal_test LABELS oracle
+  SOURCES "${CMAKE_CURRENT_LIST_DIR}/geometric_ideal_test.cpp"
+  LINK deburr::geometric_frames deburr::ideal)
+deburr_test(geometric_quality_test LABELS oracle TIMEOUT 300
+  SOURCES "${CMAKE_CURRENT_LIST_DIR}/geometric_quality_test.cpp"
+  LINK deburr::geometric_frames)
+target_compile_definitions(geometric_quality_test
+  PRIVATE DEBURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

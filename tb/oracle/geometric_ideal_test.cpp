@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+// Does the bit-exact geometric engine do what the paper's equations say in real numbers? Lines,
+// weights and colours against golden/ideal/geometric.h; the equations themselves against the area
+// that a half-plane covers.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <string>
+
+#include "golden/geometric/line.h"
+#include "golden/geometric/resolve.h"
+#include "golden/ideal/coverage.h"
+#include "golden/ideal/geometric.h"
+#include "spec/geometric/tables.h"
+#include "tb/stimuli/geometric_frames.h"
+#include "tb/stimuli/random.h"
+
+namespace deburr {
+namespace {
+
+using golden::geometric::GeometricGolden;
+using golden::geometric::preset_parameters;
+using golden::ideal::cut_pixels;
+using golden::ideal::CutPixel;
+using golden::ideal::GpaaOptions;
+using golden::ideal::Light;
+using golden::ideal::ScreenLine;
+using golden::ideal::ScreenPoint;
+using golden::ideal::SideWeights;
+using spec::geometric::Preset;
+using tb::geometric::Frame;
+
+constexpr double kDepthScale = 0xFFFFFF;
+
+// ---- the equations ------------------------------------------------------------------------------
+
+// Over a whole number of periods of a line the weights give away as much as the line cuts off; a
+// single pixel may lie off by an eighth of the slope, where the line leaves it through its top.
+TEST(Ideal, WeightsAreTheAreaThatALineCutsOff) {
+  constexpr int kSize = 64;
+  for (const double slope : {0.0, 0.05, 0.21, 0.5, 0.77, 0.99, -0.3, -0.9}) {
+    const ScreenLine line{{-10, 32.3 - 42 * slope, 1}, {74, 32.3 + 42 * slope, 1}};
+    const std::vector<CutPixel> cuts = cut_pixels(line, kSize, kSize);
+    ASSERT_EQ(cuts.size(), static_cast<std::size_t>(kSize));
+    // Inside is below the line; y grows downwards.
+    const golden::ideal::HalfPlane below{-slope, 1, -(line.p.y - slope * line.p.x)};
+    double sum = 0, worst = 0;
+    for (const CutPixel& cut : cuts) {
+      const double covered = golden::ideal::coverage(below, cut.x, cut.y);
+      // The centre's owner keeps 1 - coverage of its pixel.
+      const double owner_is_below = cut.distance <= 0.0 ? 1.0 : 0.0;
+      const double given = owner_is_below != 0.0 ? 1.0 - cut.coverage : cut.coverage;
+      sum += given - covered;
+      worst = std::max(worst, std::abs(given - covered));
+    }
+    EXPECT_LT(std::abs(sum) / kSize, 0.021) << slope;
+    EXPECT_LE(worst, std::abs(slope) / 8 + 1e-12) << slope;
+    if (std::abs(slope) > 0.2) {
+      EXPECT_GT(worst, std::abs(slope) / 24) << slope;
+    }
+  }
+}
+
+TEST(Ideal, BorderAndCentreAreThePapersCorrected) {
+  const auto at = [](double y) { return cut_pixels({{2, y, 1}, {5, y, 1}}, 8, 8); };
+  EXPECT_EQ(at(3.0).size(), 0u);  // |dis| = 1/2: nothing
+  ASSERT_EQ(at(3.5).size(), 3u);  // through the centre: a half
+  EXPECT_EQ(at(3.5)[0].coverage, 0.5);
+  EXPECT_EQ(at(3.5)[0].direction, 0);
+  EXPECT_EQ(at(3.75)[0].coverage, 0.25);
+  EXPECT_EQ(at(3.75)[0].direction, 1);
+  // The distance runs along the axis, not across the line.
+  const auto slanted = cut_pixels({{0, 0.2, 1}, {8, 6.2, 1}}, 8, 8);
+  EXPECT_NEAR(slanted[0].distance, 0.2 + 0.75 * 0.5 - 0.5, 1e-12);
+}
+
+// ---- golden against ideal -----------------------------------------------------------------------
+
+struct Compared {
+  std::size_t weights = 0, off = 0;  // of at least one of them above 0
+  double worst = 0;                  // of those that are not off
+  std::size_t pixels = 0, codes_off = 0;
+  int worst_code = 0;
+};
+
+Light decoded(const tb::Rgba8& pixel) {
+  Light light;
+  for (std::size_t c = 0; c < 3; ++c) light[c] = spec::geometric::kLinear12FromSrgb[pixel[c]];
+  return light;
+}
+
+// Kept edges as lines of the vertices that the engine sees.
+std::vector<ScreenLine> lines_of(const Frame& frame, const GeometricGolden& golden) {
+  std::vector<ScreenLine> lines;
+  for (std::size_t i = 0; i < frame.screen.edges.size(); ++i) {
+    if (!golden::geometric::is_kept(golden.classes()[i])) continue;
+    const auto& p = frame.screen.vertices[frame.screen.edges[i].v0];
+    const auto& q = frame.screen.vertices[frame.screen.edges[i].v1];
+    if (!p.usable || !q.usable) continue;
+    const auto point = [](const spec::geometric::Vertex& v) {
+      return ScreenPoint{v.x / 256.0, v.y / 256.0, v.depth / kDepthScale};
+    };
+    lines.push_back({point(p), point(q)});
+  }
+  return lines;
+}
+
+Compared compare(const Frame& frame, Preset preset) {
+  const int width = frame.image.width, height = frame.image.height;
+  GeometricGolden golden(preset_parameters(preset));
+  golden.process(frame.input());
+  std::vector<double> depth;
+  for (const std::uint32_t code : frame.depths) depth.push_back(code / kDepthScale);
+  GpaaOptions options;
+  options.last_wins = preset != Preset::kDeburr;
+  const std::vector<SideWeights> weights =
+      golden::ideal::side_weights(lines_of(frame, golden), depth, width, height, options);
+  std::vector<Light> light;
+  for (const tb::Rgba8& pixel : frame.image.pixels) light.push_back(decoded(pixel));
+  const std::vector<Light> image = golden::ideal::blended(light, weights, width, height);
+
+  constexpr double kRounding = 1.0 / 512 + 1.0 / 16384;
+  Compared result;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    bool same = true;
+    for (std::size_t d = 0; d < 4; ++d) {
+      const double mine = golden.weights()[i][d] / 256.0;
+      if (mine == 0.0 && weights[i][d] == 0.0) continue;
+      ++result.weights;
+      const double difference = std::abs(mine - weights[i][d]);
+      if (difference > kRounding) {
+        ++result.off;
+        same = false;
+      } else {
+        result.worst = std::max(result.worst, difference);
+      }
+    }
+    if (!same || !golden::geometric::is_blended(golden.weights()[i])) continue;
+    ++result.pixels;
+    for (std::size_t c = 0; c < 3; ++c) {
+      // Codes next to the exact value are one code off at most.
+      const auto code = spec::geometric::kSrgbFromLinear12[static_cast<std::size_t>(
+          std::clamp(std::lround(image[i][c]), 0l, 4095l))];
+      const int difference = std::abs(int{code} - int{golden.pixels()[i][c]});
+      result.worst_code = std::max(result.worst_code, difference);
+      result.codes_off += difference > 1 ? 1 : 0;
+    }
+  }
+  return result;
+}
+
+class Scenes : public testing::TestWithParam<const char*> {};
+
+TEST_P(Scenes, GoldenIsTheIdealRounded) {
+  const Frame frame =
+      tb::geometric::make_frame(tb::make_scene(GetParam(), {.texture_size = 128}), 640, 480);
+  for (const Preset preset : {Preset::kGpaa, Preset::kGpaaOptimised, Preset::kDeburr}) {
+    const Compared c = compare(frame, preset);
+    std::cout << GetParam() << ' '
+              << spec::geometric::kPresetNames[static_cast<std::size_t>(preset)] << ": "
+              << c.weights << " weights, " << c.off << " off, worst other " << c.worst * 512
+              << " / 512; " << c.pixels << " pixels, worst " << c.worst_code << " codes\n";
+    EXPECT_GT(c.weights, 500u);
+    // A tie, or a depth at the limit, that rounding turns: the weight goes to another neighbour.
+    // The road's far end has depths of a few thousand units, of which the line lacks up to four.
+    const bool shallow = std::string(GetParam()) == "road";
+    EXPECT_LE(c.off, 4 + c.weights / (shallow ? 25 : 500));
+    EXPECT_GT(c.worst, 0.9 / 512);
+    EXPECT_LE(c.codes_off, 3 * c.pixels / 100);
+    EXPECT_LE(c.worst_code, 6);  // in the dark, where a code is a small step of light
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, Scenes,
+                         testing::Values("cube", "wheelcover", "wing", "canopy", "sphere",
+                                         "terrain", "object", "road"));
+
+// The ideal line in real numbers against P, over random lines far beyond the frame.
+TEST(Line, PositionsAreTheIdealOnes) {
+  tb::Random random(21);
+  std::size_t compared = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const auto coordinate = [&] { return random.between(-(1 << 21), 1 << 21); };
+    const spec::geometric::Vertex p{coordinate(), coordinate(), random.below(1u << 24), true};
+    const spec::geometric::Vertex q{coordinate(), coordinate(), random.below(1u << 24), true};
+    spec::geometric::LineRecord line;
+    if (golden::geometric::set_up_line(p, q, 1280, 720, line) != golden::geometric::LineFate::kLine)
+      continue;
+    const auto cuts = cut_pixels({{p.x / 256.0, p.y / 256.0, p.depth / kDepthScale},
+                                  {q.x / 256.0, q.y / 256.0, q.depth / kDepthScale}},
+                                 1280, 720);
+    const bool horizontal = line.axis == spec::geometric::Axis::kHorizontal;
+    for (const CutPixel& cut : cuts) {
+      const int n = (horizontal ? cut.x : cut.y) - line.first;
+      ASSERT_GE(n, 0);
+      ASSERT_LT(n, line.count);
+      const auto at = golden::geometric::point_at(line.position + std::int64_t{n} * line.slope,
+                                                  line.depth + std::int64_t{n} * line.depth_step);
+      const double exact = (horizontal ? cut.y : cut.x) + 0.5 + cut.distance;
+      EXPECT_NEAR(at.row + 0.5 + at.distance / 65536.0, exact, 1.0 / 65536 + 0.0006);
+      EXPECT_NEAR(at.depth, cut.depth * kDepthScale, 8.0);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 5000u);
+}
+
+}  // namespace
+}  // namespace deburr

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+// Does the geometric engine smooth edges as well as the contract asks, does selection pay, and
+// where is the method weak? Against supersampling (docs/geometric_quality.md).
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "golden/morphological/morphological_golden.h"
+#include "tb/stimuli/geometric_frames.h"
+#include "tb/unit/scene/fixtures.h"
+
+namespace deburr {
+namespace {
+
+using golden::geometric::preset_parameters;
+using spec::geometric::Crease;
+using spec::geometric::DepthTest;
+using spec::geometric::Parameters;
+using spec::geometric::Preset;
+using spec::geometric::Work;
+using tb::Image;
+using tb::geometric::Judge;
+using tb::geometric::smoothed;
+using tb::geometric::Smoothed;
+
+constexpr int kWidth = 640, kHeight = 480;
+
+// The morphological engine behind the geometric one leaves alone what that blended, and if so asked
+// what lies beside it.
+enum class LeftAlone { kNothing, kBlended, kBesideToo };
+Image morphological_after(const Image& geometric, LeftAlone what) {
+  golden::morphological::MorphologicalGolden golden(
+      golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr),
+      golden::morphological::MorphologicalGolden::Detail::kPixels);
+  Image result = geometric;
+  result.pixels = golden.process({geometric.pixels, geometric.width, geometric.height});
+  if (what == LeftAlone::kNothing) return result;
+  const auto blended = [&](int x, int y) {
+    return x >= 0 && y >= 0 && x < geometric.width && y < geometric.height &&
+           (geometric.at(x, y)[3] & 1) == 0;
+  };
+  for (int y = 0; y < result.height; ++y) {
+    for (int x = 0; x < result.width; ++x) {
+      const bool beside =
+          blended(x - 1, y) || blended(x + 1, y) || blended(x, y - 1) || blended(x, y + 1);
+      if (blended(x, y) || (what == LeftAlone::kBesideToo && beside))
+        result.at(x, y) = geometric.at(x, y);
+    }
+  }
+  return result;
+}
+
+struct Row {
+  double edges, silhouettes;  // RMSE
+  double edge_psnr, silhouette_psnr;
+};
+
+struct Table {
+  std::map<std::string, Row> rows;
+  std::map<Preset, Work> work;
+  std::int64_t edge_pixels = 0;
+  std::size_t table_edges = 0;
+};
+
+Table measure(const tb::Scene& scene, int width, int height, int samples) {
+  const Judge judge(scene, width, height, samples);
+  Table table;
+  table.edge_pixels = tb::count(judge.edges);
+  table.table_edges = judge.frame.table.edges.size();
+  const auto add = [&](const std::string& name, const Image& image) {
+    const Row row{judge.edge_rmse(image), judge.silhouette_rmse(image), judge.edge_psnr(image),
+                  judge.silhouette_psnr(image)};
+    table.rows[name] = row;
+    fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", scene.name, name, row.edges,
+               row.silhouettes, row.edge_psnr, row.silhouette_psnr);
+  };
+  add("none", judge.frame.image);
+  add("msaa4", judge.msaa);
+  add("morphological", morphological_after(judge.frame.image, LeftAlone::kNothing));
+  for (const Preset preset : {Preset::kGpaa, Preset::kGpaaOptimised, Preset::kDeburr}) {
+    const Smoothed result = smoothed(judge.frame, preset_parameters(preset));
+    add(std::string(spec::geometric::kPresetNames[static_cast<std::size_t>(preset)]), result.image);
+    table.work[preset] = result.work;
+  }
+  Parameters marked = preset_parameters(Preset::kDeburr);
+  marked.mark = true;
+  const Smoothed both = smoothed(judge.frame, marked);
+  add("both", morphological_after(both.image, LeftAlone::kBlended));
+  add("both, beside", morphological_after(both.image, LeftAlone::kBesideToo));
+  fmt::print("| {} | edges {} -> {} -> {} | columns {}, {}, {} | blended {} of {} edge pixels |\n",
+             scene.name, table.table_edges, table.work[Preset::kGpaaOptimised].kept_edges,
+             table.work[Preset::kDeburr].kept_edges, table.work[Preset::kGpaa].columns,
+             table.work[Preset::kGpaaOptimised].columns, table.work[Preset::kDeburr].columns,
+             table.work[Preset::kDeburr].blended_pixels, table.edge_pixels);
+  std::fflush(stdout);
+  return table;
+}
+
+// ---- the table ----------------------------------------------------------------------------------
+
+// RMSE on edge pixels over that of the aliased frame: the contract's columns, whose scenes had
+// other colours; its wing has none. `kept`: edges that the paper's selection leaves, by the
+// contract.
+struct Goal {
+  const char* scene;
+  double of_aliased;
+  std::uint64_t all, kept;
+};
+const Goal kGoals[] = {{"cube", 1.45 / 19.7, 18, 9},
+                       {"sphere", 2.44 / 20.0, 24192, 224},
+                       {"wheelcover", 2.9 / 15.1, 720, 213},
+                       {"wing", 0.25, 24960, 315},
+                       {"object", 6.5 / 18.7, 30240, 0}};
+
+void PrintTo(const Goal& goal, std::ostream* out) { *out << goal.scene; }
+
+class Goals : public testing::TestWithParam<Goal> {};
+
+TEST_P(Goals, AreKept) {
+  const Goal& goal = GetParam();
+  Table t = measure(tb::make_scene(goal.scene), kWidth, kHeight, 16);
+  const auto rmse = [&](const char* row) { return t.rows.at(row).edges; };
+  EXPECT_LE(rmse("deburr") / rmse("none"), 1.05 * goal.of_aliased);
+  // Selection improves quality, ours at least as much as the paper's.
+  EXPECT_LT(rmse("gpaa-optimised"), rmse("gpaa"));
+  EXPECT_LE(rmse("deburr"), 1.05 * rmse("gpaa-optimised"));
+  EXPECT_LT(rmse("gpaa"), rmse("none"));
+  // Above MSAA 4x, on silhouettes too, alone and with the morphological engine behind it.
+  for (const char* row : {"deburr", "both", "both, beside"}) {
+    EXPECT_GT(t.rows.at(row).edge_psnr, t.rows.at("msaa4").edge_psnr) << row;
+    EXPECT_GT(t.rows.at(row).silhouette_psnr, t.rows.at("msaa4").silhouette_psnr) << row;
+  }
+  // What lies beside blended pixels must stay, or silhouettes are smoothed twice.
+  EXPECT_GE(t.rows.at("both, beside").silhouette_psnr, t.rows.at("deburr").silhouette_psnr - 0.005);
+  EXPECT_EQ(t.table_edges, goal.all);
+  if (goal.kept != 0) {
+    const double kept = static_cast<double>(t.work[Preset::kGpaaOptimised].kept_edges);
+    EXPECT_NEAR(kept, static_cast<double>(goal.kept), 0.05 * static_cast<double>(goal.kept));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Goals, testing::ValuesIn(kGoals));
+
+class Others : public testing::TestWithParam<const char*> {};
+
+TEST_P(Others, AreBetterThanTheFrame) {
+  const Table t = measure(tb::make_scene(GetParam()), kWidth, kHeight, 16);
+  EXPECT_LT(t.rows.at("deburr").silhouettes, 0.5 * t.rows.at("none").silhouettes);
+  EXPECT_LT(t.rows.at("deburr").edges, t.rows.at("gpaa").edges);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Others, testing::Values("canopy", "terrain", "road", "cylinders"));
+
+// The second textured scene of the contract is a mesh of someone else's.
+TEST(Goals, TheTrackIsKept) {
+  DEBURR_REQUIRE_DATA(data);
+  tb::SceneOptions options;
+  options.camera = tb::Camera{{4.6, 2.6, 12.5}, {-0.6, 0.4, -4}, {0, 1, 0}, 1.0, 0.1};
+  const tb::Scene scene = tb::load_scene((data / "meshes" / "scene_track.obj").string(), options);
+  Table t = measure(scene, 1280, 720, 8);
+  EXPECT_LE(t.rows.at("deburr").edges / t.rows.at("none").edges, 1.05 * 7.1 / 18.0);
+  EXPECT_GT(t.rows.at("deburr").silhouette_psnr, t.rows.at("msaa4").silhouette_psnr);
+  EXPECT_EQ(t.work[Preset::kGpaa].edges, 27883u);
+  EXPECT_EQ(t.work[Preset::kDeburr].kept_edges, 12323u);
+}
+
+// ---- what the rules are for ---------------------------------------------------------------------
+
+// The checks above can fail: each rule that is taken away costs what the page says.
+TEST(Rules, EachPays) {
+  struct Case {
+    const char* scene;
+    const char* name;
+    void (*change)(Parameters&);
+    double at_least;  // of the error with the rule
+  };
+  const Case cases[] = {
+      {"sphere", "depth_test own", [](Parameters& p) { p.depth_test = DepthTest::kOwn; }, 3.0},
+      {"object", "depth_test own", [](Parameters& p) { p.depth_test = DepthTest::kOwn; }, 1.2},
+      {"cube", "crease off", [](Parameters& p) { p.crease = Crease::kOff; }, 2.0},
+      {"object", "crease paper", [](Parameters& p) { p.crease = Crease::kPaper; }, 1.2},
+      {"object", "linear_light off", [](Parameters& p) { p.linear_light = false; }, 1.1},
+      {"sphere", "select all", [](Parameters& p) { p.select = spec::geometric::Select::kAll; },
+       1.5},
+  };
+  std::map<std::string, Judge> judges;
+  for (const Case& c : cases) {
+    const auto found =
+        judges.try_emplace(c.scene, tb::make_scene(c.scene), kWidth, kHeight, 8).first;
+    const Judge& judge = found->second;
+    Parameters p = preset_parameters(Preset::kDeburr);
+    const double with = judge.edge_rmse(smoothed(judge.frame, p).image);
+    c.change(p);
+    const double without = judge.edge_rmse(smoothed(judge.frame, p).image);
+    fmt::print("| {} | {} | {:.2f} | {:.2f} |\n", c.scene, c.name, with, without);
+    EXPECT_GT(without, c.at_least * with) << c.scene << ' ' << c.name;
+  }
+}
+
+// ---- the weak spot ------------------------------------------------------------------------------
+
+// White bars of a width, slightly turned, on black.
+tb::Scene bars(double width) {
+  tb::test::FlatScreen screen(256);
+  for (int i = 0; i < 8; ++i) {
+    const double x = 16.3 + 30 * i, lean = 3.0 + 1.7 * i;
+    const auto a = screen.vertex(x, 8), b = screen.vertex(x + width, 8),
+               c = screen.vertex(x + lean + width, 248), d = screen.vertex(x + lean, 248);
+    screen.triangle(a, c, b);
+    screen.triangle(a, d, c);
+  }
+  screen.scene().lighting.specular = 0;
+  screen.scene().lighting.key_direction = {0, 0, 1};
+  return screen.scene();
+}
+
+// Two edges within a pixel: each blends with the neighbour across it as if the other were not
+// there, and what has no pixel of its own cannot be blended at all.
+TEST(WeakSpot, TwoEdgesWithinAPixel) {
+  std::map<double, double> left;  // of the aliased error
+  for (const double width : {0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 6.0}) {
+    const Judge judge(bars(width), 256, 256, 16);
+    const double none = judge.edge_rmse(judge.frame.image);
+    const double ours =
+        judge.edge_rmse(smoothed(judge.frame, preset_parameters(Preset::kDeburr)).image);
+    left[width] = ours / none;
+    fmt::print("| {} | {:.1f} | {:.1f} | {:.1f} |\n", width, none, judge.edge_rmse(judge.msaa),
+               ours);
+  }
+  for (const double wide : {1.0, 1.5, 2.0, 3.0, 6.0}) EXPECT_LT(left.at(wide), 0.05);
+  for (const double thin : {0.25, 0.5, 0.75}) EXPECT_GT(left.at(thin), 0.5);
+}
+
+}  // namespace
+}  // namespace deburr
