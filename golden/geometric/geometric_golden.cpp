@@ -77,7 +77,7 @@ const std::vector<Rgba8>& GeometricGolden::process(const FrameInput& input) {
   start(input);
   for (const Edge& edge : input_.edges) draw_edge(edge);
   for (int by = 0; by < layout_.block_rows(); ++by) {
-    const std::uint8_t* row = &touched_[static_cast<std::size_t>(by * layout_.block_columns())];
+    const std::uint8_t* row = touched_.data() + std::ptrdiff_t{by} * layout_.block_columns();
     for (int bx = 0; bx < layout_.block_columns(); ++bx) {
       if (row[bx] != 0) resolve_block(bx, by);
     }
@@ -362,7 +362,7 @@ void GeometricGolden::look_up_block(std::uint32_t bx, std::uint32_t by) {
 void GeometricGolden::forget_block(int bx, int by) {
   for (int y = 4 * by; y < std::min(4 * by + 4, height_); ++y) {
     const auto row = weights_.begin() + static_cast<std::ptrdiff_t>(y) * width_;
-    std::fill(row + 4 * bx, row + std::min(4 * bx + 4, width_), Weights{});
+    std::fill(row + std::ptrdiff_t{4} * bx, row + std::min(4 * bx + 4, width_), Weights{});
   }
 }
 
@@ -399,7 +399,7 @@ void GeometricGolden::resolve_block(int bx, int by) {
       if (tap.first != 0) read.add(layout_.line_of(x - dx, y - dy));
       if (tap.second != 0) read.add(layout_.line_of(x + dx, y + dy));
       if (!everything_) continue;
-      const auto k = static_cast<std::size_t>(4 * (y & 3) + (x & 3));
+      const std::size_t k = 4 * static_cast<std::size_t>(y & 3) + static_cast<std::size_t>(x & 3);
       record.weights[k] = weights;
       record.pixels[k] = pixels_[i];
       record.blended = static_cast<std::uint16_t>(record.blended | 1u << k);

@@ -81,7 +81,7 @@ mustache::data table_data(const PaperTable& table) {
 
 const std::vector<PaperEntry>& papers() {
   static const std::vector<PaperEntry> entries = {
-      {"000", &paper_000}, {"003", &paper_003}, {"004", &paper_004}};
+      {"000", &paper_000}, {"002", &paper_002}, {"003", &paper_003}, {"004", &paper_004}};
   return entries;
 }
 

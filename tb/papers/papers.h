@@ -71,6 +71,7 @@ nlohmann::ordered_json write_papers(const std::filesystem::path& directory,
                                     const std::vector<Paper>& papers);
 
 Paper paper_000(const PaperOptions& options);
+Paper paper_002(const PaperOptions& options);
 Paper paper_003(const PaperOptions& options);
 Paper paper_004(const PaperOptions& options);
 

@@ -33,10 +33,8 @@ using tb::geometric::vector_drawing;
 // A drawing of one line over black and white halves, everything in front.
 Drawing one_line(int x0, int y0, int x1, int y1, int width = 16, int height = 16) {
   Drawing d(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      d.colours[static_cast<std::size_t>(y * width + x)] =
-          y < height / 2 ? Rgba8{0, 0, 0, 255} : Rgba8{255, 255, 255, 255};
+  std::fill(d.colours.begin(), d.colours.end(), Rgba8{255, 255, 255, 255});
+  std::fill_n(d.colours.begin(), d.colours.size() / 2, Rgba8{0, 0, 0, 255});
   d.vertices = {{x0, y0, 0xFFFFFF, true}, {x1, y1, 0xFFFFFF, true}};
   d.set_facing(0, true);
   d.edges = {{0, 1, 0, 0, spec::geometric::flag::kBoundary}};
@@ -286,8 +284,8 @@ TEST(MemoryErrors, ReadAsZeros) {
   std::fill(changed.facing.begin(), changed.facing.end(), 0);
   with_error(kVectorBases.facing, expect_same_as(changed));
   changed = d;
-  for (int i = 0; i < 16; ++i)  // line 5 of the tiled buffer: block (3, 0)
-    changed.depths[static_cast<std::size_t>(i / 4 * 61 + 12 + i % 4)] = 0;
+  for (std::size_t i = 0; i < 16; ++i)  // line 5 of the tiled buffer: block (3, 0)
+    changed.depths[i / 4 * 61 + 12 + i % 4] = 0;
   with_error(kVectorBases.depth + 256 + 64, expect_same_as(changed));
   GeometricGolden clean(p);
   clean.process(d.input(kVectorBases));
@@ -295,8 +293,8 @@ TEST(MemoryErrors, ReadAsZeros) {
   with_error(kVectorBases.colour + 256, [&](const GeometricGolden& golden) {
     EXPECT_EQ(golden.weights(), clean.weights());
     EXPECT_NE(golden.pixels(), clean.pixels());
-    for (int i = 0; i < 16; ++i) {
-      const auto k = static_cast<std::size_t>(i / 4 * 61 + 8 + i % 4);
+    for (std::size_t i = 0; i < 16; ++i) {
+      const std::size_t k = i / 4 * 61 + 8 + i % 4;
       if (golden.weights()[k] == Weights{}) {
         EXPECT_EQ(golden.pixels()[k], d.colours[k]);
       } else {
