@@ -286,10 +286,11 @@ Scene import_scene(const std::filesystem::path& path, const SceneOptions& option
   scene.mesh = import_mesh(path, {.textures = !replace});
   scene.name = scene.mesh.name;
   const Texture fallback = choose_texture(options.texture, "checker", options, scene.mesh.notes);
-  if (!replace && scene.mesh.textures.empty())
+  const bool plain = options.plain && !replace;
+  if (!replace && !plain && scene.mesh.textures.empty())
     scene.mesh.notes.push_back(
         fmt::format("'{}' has no texture: all of it gets '{}'", path.string(), fallback.name));
-  texture_everything(scene.mesh, &fallback);
+  texture_everything(scene.mesh, plain ? nullptr : &fallback);
   if (scene.mesh.textures.size() > spec::texture::kMaxTextures)
     throw spec::FileError(
         fmt::format("the mesh '{}' has {} textures, the unit has {} descriptors; merge "

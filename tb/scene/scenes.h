@@ -46,6 +46,7 @@ struct SceneOptions {
   std::uint32_t seed = 1;
   spec::texture::Wrap wrap = spec::texture::Wrap::kRepeat;
   std::optional<Camera> camera = {};  // instead of the scene's own
+  bool plain = false;  // an imported mesh without textures keeps its colours: no checkerboard
 };
 
 struct SceneName {

@@ -3,6 +3,7 @@
 // or a named error (docs/geometric.md, "The host's side")?
 #include "tb/scene/edge_table.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -197,6 +198,27 @@ TEST(EdgeTable, RefusesByName) {
   mesh = cube;
   mesh.triangles.assign((1u << 20) + 1, cube.triangles[0]);
   refused(mesh, "1048577 faces");
+}
+
+// A box of quadrilaterals without normals or coordinates, as a file. (Of a cube the projection has
+// whole repeats at every corner, and no seam.)
+TEST(EdgeTable, OfAnImportedMesh) {
+  const test::TemporaryFolder folder;
+  std::string obj;
+  for (const V3d& p : cube_points()) obj += fmt::format("v {} {} {}\n", p.x, 0.83 * p.y, p.z);
+  obj += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  const std::string file = folder.write("cube.obj", obj).string();
+  const auto flags = [](const Scene& scene) {
+    std::map<int, int> count;
+    for (const Edge& edge : build_edge_table(scene.mesh).edges) ++count[edge.flags];
+    return count;
+  };
+  constexpr int kCrease = flag::kAngle | flag::kSplitNormals;
+  // Plain faces have creases alone; a texture projected onto them has seams there, too.
+  EXPECT_EQ(flags(load_scene(file, {.plain = true})), (std::map<int, int>{{0, 6}, {kCrease, 12}}));
+  const std::map<int, int> textured = flags(load_scene(file));
+  EXPECT_EQ(textured.at(0), 6);
+  EXPECT_GT(textured.at(kCrease | flag::kSeam), 0);
 }
 
 // ---- the frame ----------------------------------------------------------------------------------
