@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "spec/morphological/parameters.h"
-#include "tb/env/morphological_frames.h"
+#include "tb/scene/edge_table.h"
 
 namespace deburr::tb {
 

@@ -9,6 +9,7 @@
 #include "tb/env/collect.h"
 #include "tb/env/morphological_frames.h"
 #include "tb/results/report.h"
+#include "tb/scene/edge_table.h"
 
 namespace deburr::tb {
 namespace {

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "spec/error.h"
+#include "tb/scene/edge_table.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/scenes.h"
 #include "tb/scene/truth.h"
@@ -79,16 +80,6 @@ bool looks_like_a_picture(const DepthImage& depth) {
   for (std::size_t c = 0; c < 3; ++c)
     if (products[c] > kAlike * std::sqrt(squares[c] * squares[(c + 1) % 3])) return true;
   return false;
-}
-
-std::vector<std::uint32_t> depth_codes(const DepthImage& depth) {
-  constexpr double kFull = (1 << 24) - 1;
-  std::vector<std::uint32_t> codes(depth.pixels.size());
-  std::transform(depth.pixels.begin(), depth.pixels.end(), codes.begin(), [](float value) {
-    if (!(value > 0.0f)) return std::uint32_t{0};  // also NaN
-    return static_cast<std::uint32_t>(std::floor(kFull * std::min<double>(value, 1.0) + 0.5));
-  });
-  return codes;
 }
 
 LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed,

@@ -62,7 +62,4 @@ LoadedFrame load_frame(const FrameParameters& parameters, std::uint32_t seed,
 // two of them alike. Of depth, G and B are the lower digits of R: they fall as it rises.
 bool looks_like_a_picture(const DepthImage& depth);
 
-// U24 of every pixel.
-std::vector<std::uint32_t> depth_codes(const DepthImage& depth);
-
 }  // namespace deburr::tb
