@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// Parameters, presets and limits of the geometric engine: rules, which change pixels, and build
+// choices, which change clocks, traffic and cost. Meaning: docs/geometric.md; formats and rounding,
+// to the bit: docs/number_formats_geometric.md; clocks: docs/geometric_hardware.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "spec/parameters.h"
+
+namespace deburr::spec::geometric {
+
+enum class Preset : std::uint8_t { kGpaa, kGpaaOptimised, kDeburr };
+inline constexpr std::array<std::string_view, 3> kPresetNames = {"gpaa", "gpaa-optimised",
+                                                                 "deburr"};
+
+enum class Select : std::uint8_t { kAll, kEdges };
+inline constexpr std::array<std::string_view, 2> kSelectNames = {"all", "edges"};
+
+enum class Crease : std::uint8_t { kOff, kPaper, kShading };
+inline constexpr std::array<std::string_view, 3> kCreaseNames = {"off", "paper", "shading"};
+
+enum class DepthTest : std::uint8_t { kOff, kOwn, kFarther };
+inline constexpr std::array<std::string_view, 3> kDepthTestNames = {"off", "own", "farther"};
+
+enum class Combine : std::uint8_t { kMax, kLast };
+inline constexpr std::array<std::string_view, 2> kCombineNames = {"max", "last"};
+
+enum class Layout : std::uint8_t { kRaster, kTiled };
+inline constexpr std::array<std::string_view, 2> kLayoutNames = {"raster", "tiled"};
+
+// Edges, walkers or pixels a clock.
+enum class Lanes : std::uint8_t { kOne, kTwo, kFour };
+inline constexpr std::array<std::string_view, 3> kLanesNames = {"1", "2", "4"};
+inline constexpr std::array<std::uint8_t, 3> kLaneCount = {1, 2, 4};
+inline constexpr int kMaxLanes = 4;
+
+// Words of a memory, codes 0..6.
+enum class CacheLines : std::uint8_t { k16, k32, k64, k128, k256, k512, k1024 };
+inline constexpr std::array<std::string_view, 7> kCacheLinesNames = {"16",  "32",  "64",  "128",
+                                                                     "256", "512", "1024"};
+inline constexpr std::array<std::uint16_t, 7> kCacheLineCount = {16, 32, 64, 128, 256, 512, 1024};
+inline constexpr std::array<std::uint8_t, 7> kCacheLineBits = {4, 5, 6, 7, 8, 9, 10};
+
+// ---- limits
+inline constexpr int kMaxFrameSize = 8192;  // pixels, each way
+inline constexpr std::uint32_t kMaxEdges = 1u << 24;
+inline constexpr std::uint32_t kMaxVertices = 1u << 24;
+inline constexpr std::uint32_t kMaxFaces = 1u << 20;
+// Vertices that the engine draws from lie in [-kGuardBand, kGuardBand) both ways, S14.8.
+inline constexpr int kGuardBandPixels = 1 << 14;
+inline constexpr std::int32_t kGuardBand = kGuardBandPixels << 8;
+
+// ---- formats
+inline constexpr int kSubpixelBits = 8;        // of positions
+inline constexpr int kDepthBits = 24;          // of depths; near / w, grows towards the eye
+inline constexpr int kLengthBits = 23;         // of the extent of a line, U15.8
+inline constexpr int kReciprocalBits = 26;     // fraction bits of a reciprocal, U1.26
+inline constexpr int kSlopeBits = 24;          // fraction bits of slope and position
+inline constexpr int kDistanceBits = 16;       // fraction bits of the distance to a line
+inline constexpr int kDepthStepBits = 12;      // fraction bits of a depth along a line
+inline constexpr int kMaxWeight = 128;         // U0.8: a half, the largest share of a neighbour
+inline constexpr int kBlockSize = 4;           // pixels of a block, each way
+inline constexpr int kBlockPixels = 16;        // of a block, and of a line of memory
+inline constexpr int kTileSize = 8;            // pixels of a tile, each way
+inline constexpr int kBlocksInWord = 128;      // blocks of a row whose touched bits share a word
+inline constexpr int kMaxReciprocalBits = 11;  // of the table's lengths
+
+// Rules: what changes pixels. Golden and hardware obey them. The defaults are the preset `deburr`.
+struct Rules {
+  Preset preset = Preset::kDeburr;
+  Select select = Select::kEdges;
+  Crease crease = Crease::kShading;
+  DepthTest depth_test = DepthTest::kFarther;
+  std::int32_t depth_bias = 9;
+  Combine combine = Combine::kMax;
+  bool linear_light = true;
+  bool mark = false;
+};
+
+// Build choices: what changes clocks, traffic and cost, and no pixel. Runs that differ in these
+// alone share one golden picture. `layout` and `frame_copy` are registers all the same.
+struct Build {
+  Layout layout = Layout::kTiled;
+  bool frame_copy = false;
+  std::int32_t line_pixels = 2048;
+  std::int32_t touched_words = 1088;
+  std::int32_t face_limit = 32768;
+  Lanes edge_lanes = Lanes::kTwo;
+  std::int32_t edge_lines = 64;
+  CacheLines vertex_lines = CacheLines::k64;
+  std::int32_t dividers = 1;
+  bool pipelined = true;
+  std::int32_t reciprocal_table = 0;
+  std::int32_t line_fifo = 16;
+  Lanes walkers = Lanes::kFour;
+  CacheLines depth_lines = CacheLines::k128;
+  CacheLines weight_blocks = CacheLines::k128;
+  std::int32_t fills = 64;
+  std::int32_t latency_fifo = 128;
+  Lanes resolve_lanes = Lanes::kTwo;
+  std::int32_t resolve_lines = 64;
+  std::int32_t memory_outstanding = 128;
+};
+
+struct Parameters : Rules, Build {};
+
+template <class Visitor>
+void describe(Rules& p, Visitor& v) {
+  v.choice("preset", p.preset, kPresetNames,
+           "Named set of what follows; parameters given beside it override it.");
+  v.choice("select", p.select, kSelectNames,
+           "Which edges are drawn: all of them, or boundaries, silhouettes and visible creases.");
+  v.choice("crease", p.crease, kCreaseNames,
+           "What a crease is: nothing, an angle (eq 4 of paper 002), or what changes the shading.");
+  v.choice("depth_test", p.depth_test, kDepthTestNames,
+           "What a line must not lie behind: nothing, its pixel, or the farther of its pixel and "
+           "the neighbour.");
+  v.integer("depth_bias", p.depth_bias, 1, 24, "bit",
+            "A line may lie behind by 2^-n of the depth that it is compared with.");
+  v.choice("combine", p.combine, kCombineNames,
+           "Weights of several lines: the largest of each direction, or the last one alone.");
+  v.boolean("linear_light", p.linear_light, "Blend in linear light instead of sRGB codes.");
+  v.boolean("mark", p.mark,
+            "Clear the low bit of alpha where a pixel was blended, for the engine that follows.");
+}
+
+template <class Visitor>
+void describe(Build& p, Visitor& v) {
+  v.choice("layout", p.layout, kLayoutNames,
+           "Order of pixels in colour and depth buffer: rows, or 8 x 8 tiles.");
+  v.boolean("frame_copy", p.frame_copy,
+            "Copy the whole frame first and blend from the copy, as the original method does.");
+  v.integer("line_pixels", p.line_pixels, 64, kMaxFrameSize, "pixel",
+            "Widest frame that the rows of originals hold.");
+  v.integer("touched_words", p.touched_words, 16, 65536, "word",
+            "Touched bits of 128 blocks each; a frame needs a word for every 512 x 4 pixels.");
+  v.integer("face_limit", p.face_limit, 8192, static_cast<std::int32_t>(kMaxFaces), "face",
+            "Facing bits on the chip; a mesh with more faces is refused.");
+  v.choice("edge_lanes", p.edge_lanes, kLanesNames, "Edges classified a clock.");
+  v.integer("edge_lines", p.edge_lines, 4, 256, "line",
+            "Lines of the edge table read ahead, four edges each.");
+  v.choice("vertex_lines", p.vertex_lines, kCacheLinesNames,
+           "Lines of the vertex cache, four vertices each.");
+  v.integer("dividers", p.dividers, 1, 8, "unit", "Dividers of the line setup.");
+  v.boolean("pipelined", p.pipelined,
+            "A divider takes a line every clock instead of every thirteenth.");
+  v.integer("reciprocal_table", p.reciprocal_table, 0, kMaxReciprocalBits, "bit",
+            "Lines shorter than 2^n / 256 pixels take their reciprocal from a table; 0: none. For "
+            "dividers that are not pipelined.");
+  v.integer("line_fifo", p.line_fifo, 2, 256, "line", "Lines waiting for the walkers.");
+  v.choice("walkers", p.walkers, kLanesNames, "Pixels of a line walked a clock.");
+  v.choice("depth_lines", p.depth_lines, kCacheLinesNames,
+           "Lines of the depth cache, sixteen pixels each.");
+  v.choice("weight_blocks", p.weight_blocks, kCacheLinesNames,
+           "Blocks of 4 x 4 pixels whose weights are on the chip.");
+  v.integer("fills", p.fills, 4, 256, "line", "Lines on their way into each of the three caches.");
+  v.integer("latency_fifo", p.latency_fifo, 4, 1024, "token",
+            "Look-ups that wait for their lines, for each of the three caches.");
+  v.choice("resolve_lanes", p.resolve_lanes, kLanesNames, "Pixels blended a clock.");
+  v.integer("resolve_lines", p.resolve_lines, 16, 256, "line",
+            "Lines of colours and weights on their way to the resolve.");
+  v.integer("memory.outstanding", p.memory_outstanding, 1, 1024, "transaction",
+            "Transactions in flight.");
+}
+
+template <class Visitor>
+void describe(Parameters& p, Visitor& v) {
+  describe(static_cast<Rules&>(p), v);
+  describe(static_cast<Build&>(p), v);
+}
+
+// What a preset sets; every other parameter keeps its default.
+struct PresetRow {
+  Preset preset;
+  Select select;
+  Crease crease;
+  Combine combine;
+  bool frame_copy;
+};
+inline constexpr std::array<PresetRow, 3> kPresets = {{
+    {Preset::kGpaa, Select::kAll, Crease::kPaper, Combine::kLast, true},
+    {Preset::kGpaaOptimised, Select::kEdges, Crease::kPaper, Combine::kLast, true},
+    {Preset::kDeburr, Select::kEdges, Crease::kShading, Combine::kMax, false},
+}};
+
+}  // namespace deburr::spec::geometric
