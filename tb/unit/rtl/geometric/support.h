@@ -112,8 +112,7 @@ struct Fnv {
 struct EngineOptions {
   std::uint32_t latency = 20, scatter = 0;
   std::uint32_t memory_bytes = 1u << 20;
-  bool unlimited = false;  // a response a clock whatever it carries
-  BenchOptions bench;
+  BenchOptions bench = {};
 };
 
 // The engine with memory, host and checkers.
@@ -304,9 +303,7 @@ inline Configuration configuration(char name) {
   using namespace spec::geometric;  // NOLINT: names of choices
   Configuration c{name, with_preset(Preset::kDeburr), 0xbfce4abe8f3b22f8, 0x6cc78624e74c2575, 0};
   Parameters& p = c.p;
-  const auto small = [&] {
-    p.depth_lines = p.weight_blocks = p.vertex_lines = CacheLines::k16;
-  };
+  const auto small = [&] { p.depth_lines = p.weight_blocks = p.vertex_lines = CacheLines::k16; };
   switch (name) {
     case 'a':
       c.traffic = 0x05d525abe62406ac;

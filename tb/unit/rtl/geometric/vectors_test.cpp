@@ -42,18 +42,18 @@ TEST_P(Vectors, PixelsWeightsAndTraffic) {
   b.run();
   const spec::geometric::Work w = b.engine.work();
   EXPECT_EQ(w.edges, 300u);
-  EXPECT_THAT((std::array<std::uint64_t, 17>{
-                  w.boundary_edges, w.silhouette_edges, w.back_edges, w.crease_edges, w.flat_edges,
-                  w.invalid_edges, w.kept_edges, w.outside_edges, w.degenerate_edges,
-                  w.empty_edges, w.lines, w.columns, w.groups, w.candidates, w.passed, w.blocks,
-                  w.blended_pixels}),
-              testing::ElementsAreArray(counts().at(c.name)));
+  EXPECT_THAT(
+      (std::array<std::uint64_t, 17>{
+          w.boundary_edges, w.silhouette_edges, w.back_edges, w.crease_edges, w.flat_edges,
+          w.invalid_edges, w.kept_edges, w.outside_edges, w.degenerate_edges, w.empty_edges,
+          w.lines, w.columns, w.groups, w.candidates, w.passed, w.blocks, w.blended_pixels}),
+      testing::ElementsAreArray(counts().at(c.name)));
   const std::uint32_t colours = c.p.frame_copy ? b.bases.copy : b.bases.colour;
-  EXPECT_THAT((std::array<std::size_t, 6>{
-                  b.reads(b.bases.vertices).size(), b.reads(b.bases.depth).size(),
-                  b.reads(b.bases.weights).size(), b.writes(b.bases.weights).size(),
-                  b.reads(colours).size(), b.writes(b.bases.colour).size()}),
-              testing::ElementsAreArray(traffic().at(c.name)));
+  EXPECT_THAT(
+      (std::array<std::size_t, 6>{b.reads(b.bases.vertices).size(), b.reads(b.bases.depth).size(),
+                                  b.reads(b.bases.weights).size(), b.writes(b.bases.weights).size(),
+                                  b.reads(colours).size(), b.writes(b.bases.colour).size()}),
+      testing::ElementsAreArray(traffic().at(c.name)));
   EXPECT_EQ(b.weight_hash(), c.weights);
   EXPECT_EQ(b.pixel_hash(), c.pixels);
   EXPECT_EQ(b.traffic_hash(), c.traffic);
