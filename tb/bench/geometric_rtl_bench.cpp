@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Clocks of the geometric engine's hardware model, and frames for counting its instructions.
 //
-//   geometric_rtl_bench --frames <n> [preset [walkers [edge_lanes [raster]]]]   n frames of
-//       1280 x 720: 33 000 edges, a fifth of them kept, some 22 000 columns; cycles, then clocks
-//       of both phases, work, stalls and memory bits
+//   geometric_rtl_bench --frames <n> [preset [walkers [edge_lanes [layout [passes]]]]]
+//       n frames of 1280 x 720: 33 000 edges, a fifth of them kept, some 24 000 columns, passing
+//       the same places so many times; cycles, then clocks of both phases, work, stalls, memories
 //   geometric_rtl_bench --dividers      clocks of the edges over dividers, with and without table
 #include <fmt/format.h>
 
@@ -41,7 +41,8 @@ void put(std::vector<std::uint8_t>& bytes, std::uint32_t word) {
 }
 
 // Every fifth edge is a step on a curve that winds over the frame; the others are flat.
-void load(MemoryModel& memory) {
+// `passes`: so many rings lie on each other.
+void load(MemoryModel& memory, std::uint32_t passes) {
   std::vector<std::uint8_t> edges, vertices;
   for (std::uint32_t i = 0; i < kEdges; ++i) {
     const std::uint32_t step = i / 5;
@@ -53,7 +54,7 @@ void load(MemoryModel& memory) {
   }
   for (std::uint32_t i = 0; i <= kKept; ++i) {
     // Rings of 60 to 220 steps of some 4 pixels, side by side.
-    const std::uint32_t ring = i / 220;
+    const std::uint32_t ring = i / 220 / passes;
     const double angle = (i % 220) * 2 * 3.14159265358979 / 220, radius = 60 + ring % 5 * 20;
     const double x = 200 + ring % 6 * 170 + radius * std::cos(angle + ring),
                  y = 160 + ring / 6 * 90 + radius * std::sin(angle + ring);
@@ -72,11 +73,11 @@ void load(MemoryModel& memory) {
 }
 
 struct Frames {
-  explicit Frames(const Parameters& p)
+  explicit Frames(const Parameters& p, std::uint32_t passes = 1)
       : engine("engine", clock, p), memory("memory", {4, sc_core::SC_NS}, memory_parameters()) {
     engine.memory()->bind(memory.ports);
     bus.bus.bind(engine.registers);
-    load(memory);
+    load(memory, passes);
     const std::pair<std::uint32_t, std::uint32_t> values[] = {
         {reg::kSize, kWidth | kHeight << 16}, {reg::kEdgeCount, kEdges},
         {reg::kVertexCount, kKept + 1},       {reg::kFaceCount, kFaces},
@@ -126,8 +127,9 @@ void frames(int count, const std::vector<std::string>& arguments) {
   using spec::geometric::Lanes;
   if (arguments.size() > 1) p.walkers = choice<Lanes>(arguments[1], kLanesNames);
   if (arguments.size() > 2) p.edge_lanes = choice<Lanes>(arguments[2], kLanesNames);
-  if (arguments.size() > 3) p.layout = spec::geometric::Layout::kRaster;
-  Frames f(p);
+  if (arguments.size() > 3)
+    p.layout = choice<spec::geometric::Layout>(arguments[3], spec::geometric::kLayoutNames);
+  Frames f(p, arguments.size() > 4 ? static_cast<std::uint32_t>(std::stoi(arguments[4])) : 1);
   for (int i = 0; i < count; ++i) f.run();
   std::cout << fmt::format("{} cycles\n", f.clock.cycle());
   std::cout << fmt::format("last frame: {} clocks, edges {}, resolve {}\n",

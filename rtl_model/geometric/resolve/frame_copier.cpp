@@ -37,28 +37,26 @@ Activity FrameCopier::tick(Cycle cycle) {
       buffer_.fill(cycle, response.tag, response.data);
     did = true;
   }
-  bool blocked = false;
-  if (buffer_.ready(cycle)) {
-    blocked = !memory.requests_out.can_push(cycle);
-    if (!blocked) {
+  // A read goes first, so that the places stay on their way.
+  const bool reads = asked_ != lines && buffer_.can_reserve(cycle),
+             blocked = !memory.requests_out.can_push(cycle);
+  if ((reads || buffer_.ready(cycle)) && !blocked) {
+    if (reads) {
+      memory.read(cycle, rules.colour_base + asked_ * kLineBytes, buffer_.reserve());
+      ++asked_;
+    } else {
       memory.write(cycle, rules.copy_base + written_ * kLineBytes, 0, ~std::uint64_t{0}) =
           buffer_.line(cycle);
       buffer_.release(cycle);
       ++written_;
       ++lines_copied;
-      did = true;
     }
-  } else if (asked_ != lines && buffer_.can_reserve(cycle)) {
-    blocked = !memory.requests_out.can_push(cycle);
-    if (!blocked) {
-      memory.read(cycle, rules.colour_base + asked_ * kLineBytes, buffer_.reserve());
-      ++asked_;
-      did = true;
-    }
+    did = true;
   }
   buffer_.read_ahead(cycle);
   if (answered_ == lines) done_.set(cycle, true);
-  return did ? kBusy : blocked ? kStalledDownstream : answered_ == lines ? kIdle : stalled_memory_;
+  if (did || answered_ == lines) return did ? kBusy : kIdle;
+  return blocked ? kStalledDownstream : stalled_memory_;
 }
 
 void FrameCopier::reset() {
