@@ -143,5 +143,64 @@ TEST(EdgeOrder, DoesNotMatterWithMax) {
   }
 }
 
+// Of a frame of any size and whatever lines, in place and from a copy, rows or tiles: one picture.
+Scene random_scene(std::uint64_t seed) {
+  Random random(seed, "scene");
+  Scene scene;
+  scene.width = random.between(1, 90);
+  scene.height = random.between(1, 70);
+  for (int i = 0; i < scene.width * scene.height; ++i) {
+    const std::uint32_t v = random.word();
+    scene.colours.push_back({static_cast<std::uint8_t>(v), static_cast<std::uint8_t>(v >> 8),
+                             static_cast<std::uint8_t>(v >> 16),
+                             static_cast<std::uint8_t>(v >> 24)});
+    scene.depths.push_back(random.chance(500) ? 0 : random.word() >> 8);
+  }
+  const int vertices = random.between(2, 150), faces = random.between(1, 1200),
+            edges = random.between(1, 250), spread = 256 << random.between(2, 8);
+  const int x = random.between(0, 256 * scene.width), y = random.between(0, 256 * scene.height);
+  for (int i = 0; i < vertices; ++i)
+    scene.vertices.push_back({x + random.between(-spread, spread),
+                              y + random.between(-spread, spread), random.word() >> 8,
+                              !random.chance(20)});
+  for (int i = 0; i < faces; ++i) scene.facing.push_back(random.chance(600));
+  const auto below = [&](int bound) { return random.below(static_cast<std::uint32_t>(bound)); };
+  for (int i = 0; i < edges; ++i)
+    scene.edges.push_back({below(vertices), below(vertices), below(faces + 2), below(faces),
+                           static_cast<std::uint8_t>(below(16))});
+  return scene;
+}
+class RandomFrames : public ::testing::TestWithParam<int> {};
+TEST_P(RandomFrames, InPlaceAndCopiedRowsAndTilesAreTheSame) {
+  for (int i = 0; i < 6; ++i) {
+    const auto seed = static_cast<std::uint64_t>(100 * GetParam() + i);
+    const Scene scene = random_scene(seed);
+    std::string first;
+    for (int variant = 0; variant < 6; ++variant) {
+      const std::string got = in_child([&] {
+        Parameters p;
+        if (GetParam() % 2) p.combine = spec::geometric::Combine::kLast;
+        p.mark = GetParam() % 3 == 0;
+        p.layout = static_cast<spec::geometric::Layout>(variant & 1);
+        p.frame_copy = (variant & 2) != 0;
+        p.walkers = p.resolve_lanes = static_cast<Lanes>(variant % 3);
+        if (variant >= 3) p.weight_blocks = p.depth_lines = p.vertex_lines = CacheLines::k16;
+        EngineOptions options;
+        options.scatter = variant == 4 ? 50 : 0;
+        options.bench.poison = variant == 5;
+        EngineBench b(p, options);
+        b.load(scene);
+        b.run();
+        return std::to_string(b.pixel_hash()) + " " + std::to_string(b.weight_hash()) + " " +
+               std::to_string(b.engine.work().blended_pixels) + " " +
+               std::to_string(b.engine.work().passed);
+      });
+      if (first.empty()) first = got;
+      EXPECT_EQ(got, first) << "seed " << seed << ", variant " << variant;
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomFrames, ::testing::Range(0, 10));
+
 }  // namespace
 }  // namespace deburr::tb::geometric_rtl
