@@ -16,7 +16,10 @@ MemoryArbiter::Side::Side(Client which, const MemoryPortParameters& port)
     : requests(named(which, "requests").c_str(), 2, request_shape(port, 32, kPlaceBits)),
       responses(named(which, "responses").c_str(), 2, response_shape(port, 32, kPlaceBits)),
       requests_in(named(which, "requests_in").c_str()),
-      responses_out(named(which, "responses_out").c_str()) {
+      responses_out(named(which, "responses_out").c_str()),
+      read_latency(named(which, "read_latency").c_str(), "clk",
+                   "from the arbiter's taking a read to its answer's leaving it"),
+      granted(std::size_t{1} << kPlaceBits) {
   requests_in(requests);
   responses_out(responses);
 }
@@ -47,6 +50,7 @@ Activity MemoryArbiter::tick(Cycle cycle) {
       MemoryResponse& out = side.responses_out.emplace(cycle);
       out = response;
       out.tag = response.tag & ((1u << kPlaceBits) - 1);
+      if (!out.write) side.read_latency.record(cycle - side.granted[out.tag]);
       responses_in.pop(cycle);
       did = true;
     }
@@ -59,8 +63,10 @@ Activity MemoryArbiter::tick(Cycle cycle) {
   const int chosen = round_robin_.choose(waiting);
   round_robin_.grant(chosen);
   const auto client = static_cast<std::uint32_t>(chosen);
+  Side& side = *sides_[client];
   MemoryRequest& out = requests_out.emplace(cycle);
-  out = sides_[client]->requests_in.take(cycle);
+  out = side.requests_in.take(cycle);
+  if (!out.write) side.granted[out.tag] = cycle;
   out.tag |= client << kPlaceBits;
   return kBusy;
 }

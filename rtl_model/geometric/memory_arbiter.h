@@ -13,8 +13,10 @@
 #include <cstdint>
 #include <memory>
 #include <systemc>
+#include <vector>
 
 #include "rtl_model/fabric/arbiter.h"
+#include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/geometric/parameter_store.h"
@@ -73,6 +75,9 @@ class MemoryArbiter final : public Unit {
   void connect(Client which, MemoryClient& client);
   Activity tick(Cycle cycle) override;
   void reset() override { round_robin_.reset(); }
+  const Histogram& read_latency(Client which) const {
+    return sides_[static_cast<std::size_t>(which)]->read_latency;
+  }
 
   Counter memory_errors{"memory_errors", "responses", "memory responses with an error"};
 
@@ -83,6 +88,8 @@ class MemoryArbiter final : public Unit {
     Link<MemoryResponse> responses;
     In<MemoryRequest> requests_in;
     Out<MemoryResponse> responses_out;
+    Histogram read_latency;      // of its reads
+    std::vector<Cycle> granted;  // by its own number, which one read has at a time
   };
   ParameterStore& store_;
   std::array<std::unique_ptr<Side>, kClients> sides_;

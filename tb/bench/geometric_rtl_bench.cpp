@@ -4,6 +4,7 @@
 //   geometric_rtl_bench --frames <n> [preset [walkers [edge_lanes [layout [passes]]]]]
 //       n frames of 1280 x 720: 33 000 edges, a fifth of them kept, some 24 000 columns, passing
 //       the same places so many times; cycles, then clocks of both phases, work, stalls, memories
+//   geometric_rtl_bench --idle <n>      n clocks of an engine that waits for a frame
 //   geometric_rtl_bench --dividers      clocks of the edges over dividers, with and without table
 #include <fmt/format.h>
 
@@ -184,6 +185,8 @@ int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   if (arguments.size() >= 2 && arguments[0] == "--frames")
     deburr::tb::frames(std::atoi(arguments[1].c_str()), {arguments.begin() + 2, arguments.end()});
+  else if (arguments.size() == 2 && arguments[0] == "--idle")
+    deburr::tb::Frames({}).clock.run(std::stoull(arguments[1]));
   else if (arguments.size() == 1 && arguments[0] == "--dividers")
     deburr::tb::dividers();
   else

@@ -300,7 +300,10 @@ inline Parameters with_preset(spec::geometric::Preset preset) {
   return p;
 }
 inline Configuration configuration(char name) {
-  using namespace spec::geometric;  // NOLINT: names of choices
+  using spec::geometric::CacheLines;
+  using spec::geometric::Lanes;
+  using spec::geometric::Layout;
+  using spec::geometric::Preset;
   Configuration c{name, with_preset(Preset::kDeburr), 0xbfce4abe8f3b22f8, 0x6cc78624e74c2575, 0};
   Parameters& p = c.p;
   const auto small = [&] { p.depth_lines = p.weight_blocks = p.vertex_lines = CacheLines::k16; };
@@ -336,8 +339,8 @@ inline Configuration configuration(char name) {
       c.traffic = 0xe27e145fd8e2b753;
       break;
     case 'g':
-      p.crease = Crease::kOff;
-      p.depth_test = DepthTest::kOwn;
+      p.crease = spec::geometric::Crease::kOff;
+      p.depth_test = spec::geometric::DepthTest::kOwn;
       p.depth_bias = 4;
       p.linear_light = false;
       p.mark = true;
@@ -348,8 +351,8 @@ inline Configuration configuration(char name) {
       c.traffic = 0xd29f2a365f31ea07;
       break;
     default:
-      p.select = Select::kAll;
-      p.depth_test = DepthTest::kOff;
+      p.select = spec::geometric::Select::kAll;
+      p.depth_test = spec::geometric::DepthTest::kOff;
       p.layout = Layout::kRaster;
       p.weight_blocks = CacheLines::k16;
       c.pixels = 0x095774cc41e669b3;
