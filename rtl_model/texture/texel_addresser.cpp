@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <array>
 
+#include "spec/texture/packets.h"
+
 namespace deburr::rtl::texture {
 namespace {
 
-constexpr int kFractionBits = 24;
-constexpr std::int64_t kOne = std::int64_t{1} << kFractionBits;
+using spec::texture::kCoordinateFractionBits;
+
+constexpr std::int64_t kOne = std::int64_t{1} << kCoordinateFractionBits;
 
 // The bits of a 10-bit number in the even places of a 20-bit one: wires.
 constexpr auto kSpread = [] {
@@ -82,7 +85,7 @@ inline TexelAddresser::Axis TexelAddresser::scale(std::int64_t position, std::in
     axis.second = axis.first + 1;
     axis.fraction = static_cast<std::uint8_t>(u & 255);
   } else {
-    axis.first = axis.second = static_cast<std::int32_t>(scaled >> kFractionBits);
+    axis.first = axis.second = static_cast<std::int32_t>(scaled >> kCoordinateFractionBits);
     axis.fraction = 0;
   }
   const std::int32_t last = size - 1;

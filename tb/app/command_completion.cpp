@@ -37,7 +37,7 @@ void add_words(Words& words, const CLI::App& command, const std::string& path) {
     for (const std::string& name : option->get_lnames()) {
       here += "--" + name + " ";
       // What takes a value that nobody knows is left to the shell, which knows files.
-      if (option->get_items_expected_min() > 0) words[path + ":--" + name];
+      if (option->get_items_expected_min() > 0) words[fmt::format("{}:--{}", path, name)];
     }
   for (const CLI::App* sub : command.get_subcommands(nullptr))
     add_words(words, *sub, path + " " + sub->get_name());

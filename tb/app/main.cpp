@@ -117,6 +117,7 @@ std::string explain(const CLI::App& app, int argc, char** argv, const std::strin
                                      [&](const CLI::App* c) { return c->get_name() == word; });
       if (next == commands.end()) {
         std::vector<std::string> known;
+        known.reserve(commands.size());
         for (const CLI::App* other : commands) known.push_back(other->get_name());
         return see(fmt::format("no '{} {}'{}, known are {}", path, word,
                                deburr::tb::did_you_mean(deburr::tb::near_matches(word, known)),

@@ -41,7 +41,7 @@ Image judge_by_scene(const TextureScene& scene, RenderOptions options, const Ima
     return interrupted();
   };
   try {
-    const Image truth = render(scene.scene(), options);
+    Image truth = render(scene.scene(), options);
     result.quality = judge_quality(fmt::format("supersampled-{}", kTruthSamples * kTruthSamples),
                                    before, after, truth, &scene.stream().depth);
     return truth;

@@ -15,7 +15,6 @@ namespace deburr::tb {
 namespace {
 
 using golden::texture::TextureGolden;
-namespace reg = spec::texture::reg;
 
 constexpr std::uint64_t kMemoryGrain = 64;  // longer reads are recorded in parts of this size
 
@@ -131,7 +130,7 @@ void TextureEnvironment::clear_outputs() {
 // ---- running ------------------------------------------------------------------------------------
 
 void TextureEnvironment::configure() {
-  require_id(host_, reg::kId, reg::kIdValue);
+  require_id(host_, spec::texture::reg::kId, spec::texture::reg::kIdValue);
   int handle = 0;
   for (const spec::texture::Descriptor& descriptor : scene_.memory().descriptors())
     for (const auto& [offset, value] : descriptor_registers(handle++, descriptor))
@@ -161,6 +160,7 @@ void TextureEnvironment::restart() {
 
 void TextureEnvironment::finish() {
   if (!golden()) return;
+  namespace reg = spec::texture::reg;
   const golden::texture::TextureWork& work = golden_.work();
   const std::pair<std::uint32_t, std::uint64_t> expected[] = {
       {reg::kFragments, work.fragments},
@@ -174,7 +174,7 @@ void TextureEnvironment::finish() {
 }
 
 void TextureEnvironment::refuse_memory_errors() {
-  if (const std::uint32_t errors = host_.read(reg::kMemoryErrors); errors != 0)
+  if (const std::uint32_t errors = host_.read(spec::texture::reg::kMemoryErrors); errors != 0)
     throw spec::SimulationError(
         fmt::format("memory answered {} line fills with an error, which read as zero: look at "
                     "memory.error_address, or at the addresses in the texture descriptors",

@@ -73,9 +73,9 @@ std::array<double, 4> box_average(spec::texture::Format format, const EncodedLev
   const int x1 = std::max(x * above.width / width + 1, (x + 1) * above.width / width);
   const int y1 = std::max(y * above.height / height + 1, (y + 1) * above.height / height);
   for (int j = y * above.height / height; j < y1; ++j) {
+    const std::uint32_t* const row = &above.codes[static_cast<std::size_t>(j) * above.width];
     for (int i = x * above.width / width; i < x1; ++i, ++count) {
-      const auto colour =
-          channels(format, above.codes[static_cast<std::size_t>(j * above.width + i)]);
+      const auto colour = channels(format, row[i]);
       for (std::size_t c = 0; c < 4; ++c) sum[c] += colour[c];
     }
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tb/oracle/plane.h"
 #include "tb/stimuli/random.h"
 
 namespace deburr::tb::texture {
@@ -41,10 +42,6 @@ Jacobian jacobian(int kind, double lod, Random& random) {
     default:  // long along y
       return {random.uniform(-d, d) / 4, 0.0, 0.0, -d};
   }
-}
-
-std::int32_t fixed(double coordinate) {
-  return static_cast<std::int32_t>(std::lround(coordinate * spec::texture::kCoordinateOne));
 }
 
 double real(std::int64_t coordinate) {

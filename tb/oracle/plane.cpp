@@ -6,13 +6,10 @@
 #include "spec/error.h"
 
 namespace deburr::tb::texture {
-namespace {
 
 std::int32_t fixed(double coordinate) {
   return static_cast<std::int32_t>(std::lround(coordinate * spec::texture::kCoordinateOne));
 }
-
-}  // namespace
 
 spec::texture::Quad CoordinateImage::quad(int x, int y) const {
   spec::texture::Quad quad;
@@ -89,11 +86,13 @@ std::vector<golden::ideal::Rgba> plane_truth(const PlaneView& view,
   for (int y = 0; y < view.height; ++y) {
     for (int x = 0; x < view.width; ++x) {
       golden::ideal::Rgba sum{};
-      for (int k = 0; k < n * n; ++k) {
-        golden::ideal::Fragment f;
-        view.coordinates(x + (k % n + 0.5) / n, y + (k / n + 0.5) / n, f.s, f.t);
-        const golden::ideal::Rgba colour = exact_colour(texture, sampler, f);
-        for (std::size_t c = 0; c < 4; ++c) sum[c] += colour[c] / (n * n);
+      for (int j = 0; j < n; ++j) {
+        for (int i = 0; i < n; ++i) {
+          golden::ideal::Fragment f;
+          view.coordinates(x + (i + 0.5) / n, y + (j + 0.5) / n, f.s, f.t);
+          const golden::ideal::Rgba colour = exact_colour(texture, sampler, f);
+          for (std::size_t c = 0; c < 4; ++c) sum[c] += colour[c] / (n * n);
+        }
       }
       truth.push_back(sum);
     }

@@ -12,6 +12,8 @@
 
 namespace deburr::tb::texture {
 
+std::int32_t fixed(double coordinate);  // as S7.24, the nearest
+
 // Texture coordinates S7.24 at the centres of width x height pixels, both even; row 0 is farthest.
 struct CoordinateImage {
   int width = 0, height = 0;

@@ -93,6 +93,8 @@ std::string verdict(double paper, int decimals, double ours, const char* otherwi
   return std::fabs(ours - paper) <= half_a_digit * 1.0001 ? "right" : otherwise;
 }
 
+std::string decimals(double value, int digits) { return fmt::format("{:.{}f}", value, digits); }
+
 std::string to_text(const Paper& paper) {
   std::string out = fmt::format("== {} {} ==\n", paper.id, paper.title);
   for (const PaperTable& table : paper.tables) {

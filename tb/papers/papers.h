@@ -54,6 +54,9 @@ struct PaperEntry {
 };
 const std::vector<PaperEntry>& papers();
 
+// A number for a table.
+std::string decimals(double value, int digits);
+
 // The tables as text, for the terminal.
 std::string to_text(const Paper& paper);
 // papers.json, the pictures and index.html. Returns what a manifest says of them.

@@ -38,8 +38,6 @@ using spec::morphological::Preset;
 constexpr int kPaperLoops = 4;    // "all results use 4"
 constexpr int kTruthSamples = 8;  // each way, of a pixel
 
-std::string decimals(double value, int digits) { return fmt::format("{:.{}f}", value, digits); }
-
 double ratio(double a, double b) { return b > 0 ? a / b : 0; }
 
 // ---- digital lines, as positions of their steps -------------------------------------------------

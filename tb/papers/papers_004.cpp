@@ -36,8 +36,6 @@ constexpr double kLog2One = 4096;   // S5.12
 constexpr double kSideOne = 65536;  // U16.16
 constexpr double kAlphas[] = {0.5, 0.25, 0.3284};
 
-std::string decimals(double value, int digits) { return fmt::format("{:.{}f}", value, digits); }
-
 template <class Enum, std::size_t N>
 std::string name_of(Enum value, const std::array<std::string_view, N>& names) {
   return std::string(names.at(static_cast<std::size_t>(value)));

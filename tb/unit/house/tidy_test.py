@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""scripts/tidy on a tree of two files: it finds what is planted, and looks again at what has changed
-and at nothing else. usage: tidy_test.py SOURCE [unittest options]"""
+"""scripts/tidy on a tree of two files: it finds what is planted, looks again at what has changed and
+at nothing else, and sees in files that it looks at together what it sees in each alone. usage: tidy_test.py SOURCE [unittest options]"""
 import json
 import pathlib
 import shutil
@@ -47,13 +47,32 @@ class Tidy(unittest.TestCase):
         self.assertEqual(self.tidy()[:2], (0, 2))
         code, _, text = self.tidy()
         self.assertEqual(code, 0)
-        self.assertIn("(0 s of clang-tidy)", text)
+        self.assertIn("0 of 2 files looked at", text)
         self.header(PLANTED)
         code, clean, text = self.tidy()
         self.assertEqual((code, clean), (1, 2))
         self.assertEqual(text.count("[modernize-use-nullptr"), 1)
         self.header(CLEAN + "// longer\n")
         self.assertEqual(self.tidy()[:2], (0, 3), "the file that includes it, and not the other")
+
+    def test_looks_apart_at_files_whose_names_clash(self):
+        for name in "ab":
+            (self.root / f"golden/{name}.cpp").write_text(
+                f"static int own() {{ return 1; }}\nint {name}() {{ return own(); }}\n",
+                encoding="utf-8")
+        self.assertEqual(self.tidy()[:2], (0, 2))
+        (self.root / "golden/b.cpp").write_text(
+            "static int* own() { return 0; }\nint* b() { return own(); }\n", encoding="utf-8")
+        (self.root / "golden/a.cpp").write_text(
+            "static int* own() { return 0; }\nint* a() { return own(); }\n", encoding="utf-8")
+        code, clean, text = self.tidy()
+        self.assertEqual((code, clean, text.count("[modernize-use-nullptr")), (1, 2, 2))
+
+    def test_does_not_take_for_clean_what_does_not_compile(self):
+        (self.root / "golden/a.cpp").write_text('#include "golden/nowhere.h"\n', encoding="utf-8")
+        code, clean, text = self.tidy()
+        self.assertEqual((code, clean), (1, 1))
+        self.assertIn("[clang-diagnostic-error]", text)
 
     def test_says_what_is_missing(self):
         (self.root / "build/release/compile_commands.json").unlink()
