@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/geometric/edges/edge_classifier.h"
+
+#include <bit>
+#include <string>
+
+#include "spec/geometric/records.h"
+
+namespace deburr::rtl::geometric {
+
+namespace flag = spec::geometric::flag;
+using spec::geometric::Crease;
+using spec::geometric::Select;
+
+EdgeClassifier::EdgeClassifier(const sc_core::sc_module_name& name, ClockDomain& clock,
+                               const spec::geometric::Parameters& p, ParameterStore& store,
+                               FacingStore& facing)
+    : Unit(name, clock), store_(store) {
+  for (int lane = 0; lane < spec::geometric::kLaneCount[static_cast<std::size_t>(p.edge_lanes)];
+       ++lane)
+    for (const char* const face : {" f0", " f1"})
+      ports_.emplace_back(facing.words, "lane " + std::to_string(lane) + face);
+}
+
+// Stage 1.
+void EdgeClassifier::look(Cycle cycle, Beat& beat) {
+  const FrameRules& rules = store_.rules();
+  const bool selects = rules.select == Select::kEdges;
+  beat.valid = beat.looked = 0;
+  for (std::size_t lane = 0; lane < beat.edges.count; ++lane) {
+    const EdgeFields& edge = beat.edges.edge[lane];
+    const bool boundary = edge.flags & flag::kBoundary;
+    const bool vertices = edge.v0 < rules.vertex_count && edge.v1 < rules.vertex_count;
+    const bool faces = edge.f0 < rules.face_count && (boundary || edge.f1 < rules.face_count);
+    if (!vertices || (selects && !faces)) continue;
+    const auto bit = static_cast<std::uint8_t>(1u << lane);
+    beat.valid |= bit;
+    if (boundary || !selects) continue;
+    beat.looked |= bit;
+    ports_[2 * lane].read(cycle, edge.f0 >> 5);
+    ports_[2 * lane + 1].read(cycle, edge.f1 >> 5);
+  }
+}
+
+// Stage 2.
+void EdgeClassifier::choose_bits(Cycle cycle, Beat& beat) {
+  beat.facing0 = beat.facing1 = 0;
+  for (std::uint32_t left = beat.looked; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    const EdgeFields& edge = beat.edges.edge[lane];
+    const auto facing = [&](std::size_t port, std::uint32_t face) {
+      return ports_[port].at(cycle, face >> 5) >> (face & 31) & 1;
+    };
+    beat.facing0 |= static_cast<std::uint8_t>(facing(2 * lane, edge.f0) << lane);
+    beat.facing1 |= static_cast<std::uint8_t>(facing(2 * lane + 1, edge.f1) << lane);
+  }
+}
+
+// Stage 3, of one lane.
+bool EdgeClassifier::keeps(const EdgeFields& edge, bool valid, bool facing0, bool facing1) {
+  const FrameRules& rules = store_.rules();
+  if (!valid) {
+    ++invalid_edges;
+    store_.set_sticky(spec::geometric::reg::kStatusInvalidEdge);
+    return false;
+  }
+  if (edge.flags & flag::kBoundary) {
+    ++boundary_edges;
+    return true;
+  }
+  if (rules.select == Select::kAll) return true;
+  if (facing0 != facing1) {
+    ++silhouette_edges;
+    return true;
+  }
+  if (!facing0) {
+    ++back_edges;
+    return false;
+  }
+  const bool angle = edge.flags & flag::kAngle, split = edge.flags & flag::kSplitNormals,
+             seam = edge.flags & flag::kSeam;
+  const bool crease = (rules.crease == Crease::kPaper && angle) ||
+                      (rules.crease == Crease::kShading && ((angle && split) || seam));
+  ++(crease ? crease_edges : flat_edges);
+  return crease;
+}
+
+void EdgeClassifier::classify(const Beat& beat) {
+  edges += beat.edges.count;
+  for (std::size_t lane = 0; lane < beat.edges.count; ++lane)
+    if (keeps(beat.edges.edge[lane], beat.valid >> lane & 1, beat.facing0 >> lane & 1,
+              beat.facing1 >> lane & 1)) {
+      ++kept_edges;
+      pending_ |= static_cast<std::uint8_t>(1u << lane);
+    }
+  if (beat.edges.end) pending_ = kEnd;
+}
+
+void EdgeClassifier::leave(Cycle cycle) {
+  KeptEdge& kept = edges_out.emplace(cycle);
+  kept.end = pending_ == kEnd;
+  if (!kept.end) {
+    const EdgeFields& edge =
+        pipe_.at(3)->edges.edge[static_cast<std::size_t>(std::countr_zero(pending_))];
+    kept.v0 = edge.v0;
+    kept.v1 = edge.v1;
+  }
+  pending_ &= static_cast<std::uint8_t>(pending_ - 1);
+}
+
+Activity EdgeClassifier::tick(Cycle cycle) {
+  if (pending_ != 0) {
+    if (!edges_out.can_push(cycle)) return kStalledDownstream;
+    leave(cycle);
+    return kBusy;
+  }
+  const bool arrives = edges_in.can_pop(cycle);
+  if (!arrives && pipe_.empty()) return kIdle;
+  pipe_.move();
+  if (const Beat* beat = pipe_.at(3)) {
+    classify(*beat);
+    if (pending_ != 0 && edges_out.can_push(cycle)) leave(cycle);
+  }
+  if (Beat* beat = pipe_.at(2)) choose_bits(cycle, *beat);
+  if (arrives) {
+    Beat& beat = pipe_.enter();
+    beat.edges = edges_in.take(cycle);
+    look(cycle, beat);
+  }
+  return kBusy;
+}
+
+void EdgeClassifier::reset() {
+  pipe_.reset();
+  pending_ = 0;
+}
+
+}  // namespace deburr::rtl::geometric

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Decides of each edge whether it can be seen as one, and lets those through.
+//
+// Where: behind the EdgeReader. Latency 3, and a clock for each kept edge that waits for another of
+// its beat; initiation interval: the kept edges of a beat, at least 1. Stages: 1 ranges, addresses
+// of the facing bits; 2 their words, bit of 32; 3 class, counts; kept edges leave one a clock.
+// Stalls: `downstream`. Cost: a lane four 24-bit compares and two reads of FacingStore; registers
+// of two beats. Made for 250 MHz; longest path: 24-bit compare, or SRAM read and 32 : 1 choice.
+// Source: paper 002, eqs (1) to (4), as docs/geometric.md has them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <systemc>
+#include <vector>
+
+#include "rtl_model/fabric/pipe.h"
+#include "rtl_model/geometric/edges/facing_store.h"
+#include "rtl_model/geometric/tokens.h"
+
+namespace deburr::rtl::geometric {
+
+class EdgeClassifier final : public Unit {
+ public:
+  In<EdgeBeat> edges_in{"edges_in"};
+  Out<KeptEdge> edges_out{"edges_out"};
+
+  EdgeClassifier(const sc_core::sc_module_name& name, ClockDomain& clock,
+                 const spec::geometric::Parameters& parameters, ParameterStore& store,
+                 FacingStore& facing);
+  Activity tick(Cycle cycle) override;
+  void reset() override;
+
+  Counter edges{"edges", "edges", "edges read"};
+  Counter boundary_edges{"boundary_edges", "edges", "edges of a single face"};
+  Counter silhouette_edges{"silhouette_edges", "edges",
+                           "edges between a face turned to the eye and one turned away"};
+  Counter back_edges{"back_edges", "edges", "edges of two faces turned away"};
+  Counter crease_edges{"crease_edges", "edges", "creases between two faces turned to the eye"};
+  Counter flat_edges{"flat_edges", "edges",
+                     "edges between two faces turned to the eye that are no crease"};
+  Counter invalid_edges{"invalid_edges", "edges", "edges with an index out of range"};
+  Counter kept_edges{"kept_edges", "edges", "edges whose vertices are fetched"};
+
+ private:
+  struct Beat {
+    EdgeBeat edges;
+    std::uint8_t valid;   // bit k: the indices of lane k are in range
+    std::uint8_t looked;  // bit k: its facing bits are asked for
+    std::uint8_t facing0, facing1;
+  };
+  void look(Cycle cycle, Beat& beat);
+  void choose_bits(Cycle cycle, Beat& beat);
+  void classify(const Beat& beat);
+  bool keeps(const EdgeFields& edge, bool valid, bool facing0, bool facing1);
+  void leave(Cycle cycle);
+
+  static constexpr std::uint8_t kEnd = 1u << kLanes;  // of pending_
+  ParameterStore& store_;
+  std::vector<ReadPort<std::uint32_t>> ports_;  // lane, face
+  Pipe<Beat, 3> pipe_;
+  std::uint8_t pending_ = 0;  // lanes of the beat in stage 3 that have not left
+};
+
+}  // namespace deburr::rtl::geometric

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/geometric/edges/edge_reader.h"
+
+#include <algorithm>
+
+#include "spec/geometric/records.h"
+
+namespace deburr::rtl::geometric {
+
+using spec::geometric::kEdgesInLine;
+using spec::geometric::kIndexMask;
+using spec::geometric::kLineBytes;
+
+EdgeReader::EdgeReader(const sc_core::sc_module_name& name, ClockDomain& clock,
+                       const spec::geometric::Parameters& p, const ParameterStore& store,
+                       const FrameSequencer& sequencer)
+    : Unit(name, clock),
+      store_(store),
+      sequencer_(sequencer),
+      lanes_(spec::geometric::kLaneCount[static_cast<std::size_t>(p.edge_lanes)]),
+      buffer_("edge_buffer", p.edge_lines, kLineBytes * 8, "edges read ahead"),
+      stalled_facing_(declare_stall("facing", "the frame's begin is not over")),
+      stalled_edges_(declare_stall("edges", "the next line of edges has not come")) {}
+
+bool EdgeReader::ask(Cycle cycle) {
+  const FrameRules& rules = store_.rules();
+  const std::uint32_t lines = (rules.edge_count + kEdgesInLine - 1) / kEdgesInLine;
+  if (asked_ == lines || !buffer_.can_reserve(cycle) || !memory.requests_out.can_push(cycle))
+    return false;
+  memory.read(cycle, rules.edge_base + asked_ * kLineBytes, buffer_.reserve());
+  ++asked_;
+  ++lines_read;
+  return true;
+}
+
+Activity EdgeReader::hand_on(Cycle cycle) {
+  const std::uint32_t left = store_.rules().edge_count - handed_;
+  if (sequencer_.phase(cycle) != Phase::kEdges) return left ? stalled_facing_ : kIdle;
+  if (left != 0 && !buffer_.ready(cycle)) return stalled_edges_;
+  if (!edges_out.can_push(cycle)) return kStalledDownstream;
+  EdgeBeat& beat = edges_out.emplace(cycle);
+  beat.end = ended_ = left == 0;
+  beat.count = static_cast<std::uint8_t>(std::min(left, lanes_));
+  if (ended_) return kBusy;
+  const Line& line = buffer_.line(cycle);
+  const std::uint32_t first = handed_ % kEdgesInLine;
+  for (std::uint32_t lane = 0; lane < beat.count; ++lane) {
+    const std::size_t word = 4 * (first + lane);
+    const std::uint32_t faces = word_of(line, word + 2);
+    EdgeFields& edge = beat.edge[lane];
+    edge.v0 = word_of(line, word) & kIndexMask;
+    edge.v1 = word_of(line, word + 1) & kIndexMask;
+    edge.f0 = faces & kIndexMask;
+    edge.f1 = word_of(line, word + 3) & kIndexMask;
+    edge.flags = static_cast<std::uint8_t>(faces >> spec::geometric::kFlagShift & 0xF);
+  }
+  handed_ += beat.count;
+  if (handed_ % kEdgesInLine == 0 || left == beat.count) buffer_.release(cycle);
+  return kBusy;
+}
+
+Activity EdgeReader::tick(Cycle cycle) {
+  const Phase phase = sequencer_.phase(cycle);
+  if (phase == Phase::kIdle) return kIdle;
+  if (phase == Phase::kResolve) {
+    asked_ = handed_ = 0;
+    ended_ = false;
+    return kIdle;
+  }
+  if (ended_) return kIdle;
+  const Activity activity = hand_on(cycle);
+  bool did = ask(cycle);
+  if (memory.responses_in.can_pop(cycle)) {
+    const MemoryResponse& response = memory.responses_in.take(cycle);
+    buffer_.fill(cycle, response.tag, response.data);
+    did = true;
+  }
+  buffer_.read_ahead(cycle);
+  return did ? kBusy : activity;
+}
+
+void EdgeReader::reset() {
+  buffer_.reset();
+  asked_ = handed_ = 0;
+  ended_ = false;
+}
+
+}  // namespace deburr::rtl::geometric

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Reads the edge table ahead and hands its records on, edge_lanes a clock.
+//
+// Where: head of the pipe. Latency 2 from a line's answer to the output link (1 line, 2 choice of
+// its edges); edge_lanes edges a clock. Lines are asked for as soon as a frame begins, and each has
+// its place in edge_buffer before; edges go out once the begin is over. Stalls: `facing` (the begin
+// is not over), `edges` (the next line has not come), `downstream`. After the last record comes the
+// frame's end. Cost: edge_buffer, counters of 25 bits. Made for 250 MHz; longest path: SRAM read,
+// 4 : 1 choice.
+#pragma once
+
+#include <cstdint>
+#include <systemc>
+
+#include "rtl_model/geometric/fill_store.h"
+#include "rtl_model/geometric/frame_sequencer.h"
+#include "rtl_model/geometric/memory_arbiter.h"
+#include "rtl_model/geometric/tokens.h"
+
+namespace deburr::rtl::geometric {
+
+class EdgeReader final : public Unit {
+ public:
+  MemoryClient memory;
+  Out<EdgeBeat> edges_out{"edges_out"};
+
+  EdgeReader(const sc_core::sc_module_name& name, ClockDomain& clock,
+             const spec::geometric::Parameters& parameters, const ParameterStore& store,
+             const FrameSequencer& sequencer);
+  Activity tick(Cycle cycle) override;
+  void reset() override;
+
+  Counter lines_read{"lines_read", "lines", "lines of the edge table read"};
+
+ private:
+  bool ask(Cycle cycle);
+  Activity hand_on(Cycle cycle);
+
+  const ParameterStore& store_;
+  const FrameSequencer& sequencer_;
+  const std::uint32_t lanes_;
+  FillStore<Line> buffer_;
+  Activity stalled_facing_, stalled_edges_;
+  std::uint32_t asked_ = 0;   // U23, lines
+  std::uint32_t handed_ = 0;  // U25, edges
+  bool ended_ = false;
+};
+
+}  // namespace deburr::rtl::geometric

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/geometric/edges/facing_store.h"
+
+#include <array>
+#include <span>
+
+namespace deburr::rtl::geometric {
+namespace {
+
+std::uint32_t lanes_of(const spec::geometric::Parameters& p) {
+  return spec::geometric::kLaneCount[static_cast<std::size_t>(p.edge_lanes)];
+}
+
+}  // namespace
+
+FacingStore::FacingStore(const sc_core::sc_module_name& name, ClockDomain& clock,
+                         const spec::geometric::Parameters& p, const ParameterStore& store,
+                         const FrameSequencer& sequencer)
+    : Unit(name, clock),
+      words("facing", {.words = static_cast<std::uint64_t>(p.face_limit) / 32,
+                       .word_bits = 32,
+                       .read_ports = 2 * lanes_of(p),
+                       .banks = kWordsInLine,
+                       .span = kWordsInLine,
+                       .content = "facing bits"}),
+      store_(store),
+      sequencer_(sequencer),
+      stalled_memory_(declare_stall("memory", "waits for facing bits")) {}
+
+Activity FacingStore::tick(Cycle cycle) {
+  bool did = false;
+  if (memory.responses_in.can_pop(cycle)) {
+    const MemoryResponse& response = memory.responses_in.take(cycle);
+    std::array<std::uint32_t, kWordsInLine> line;
+    for (std::size_t i = 0; i < kWordsInLine; ++i) line[i] = word_of(response.data, i);
+    write_.write(cycle, response.tag * kWordsInLine, std::span<const std::uint32_t>(line));
+    ++answered_;
+    did = true;
+  }
+  const Phase phase = sequencer_.phase(cycle);
+  if (phase != Phase::kBegin) {
+    if (phase == Phase::kEdges && loaded_.get(cycle)) {
+      loaded_.set(cycle, false);
+      asked_ = answered_ = 0;
+    }
+    return did ? kBusy : kIdle;
+  }
+  const FrameRules& rules = store_.rules();
+  const std::uint32_t lines =
+      rules.select == spec::geometric::Select::kAll
+          ? 0
+          : (rules.face_count + spec::geometric::kFacesInLine - 1) / spec::geometric::kFacesInLine;
+  if (asked_ < lines) {
+    if (!memory.requests_out.can_push(cycle)) return did ? kBusy : kStalledDownstream;
+    memory.read(cycle, rules.face_base + asked_ * spec::geometric::kLineBytes, asked_);
+    ++asked_;
+    ++lines_read;
+    return kBusy;
+  }
+  if (answered_ == lines && !loaded_.get(cycle)) loaded_.set(cycle, true);
+  return did ? kBusy : answered_ == lines ? kIdle : stalled_memory_;
+}
+
+void FacingStore::reset() {
+  asked_ = answered_ = 0;
+  loaded_.reset();
+}
+
+}  // namespace deburr::rtl::geometric

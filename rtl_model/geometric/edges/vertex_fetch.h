@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// Fetches both vertices of each kept edge through a small cache that looks ahead.
+//
+// Where: behind the EdgeClassifier. Latency 5, and the wait for a line; initiation interval 1, 2 if
+// both look-ups miss. Stages: 1 address of the tags; 2 two tags, a fill ordered a clock; FIFO; 3 a
+// line installed, address of the words; 4 the words, choice of a vertex; 5 leave. Tags change when
+// a fill is ordered, data when it is used, in the same order; what a miss wants is taken from the
+// line that came. Stalls: `vertices` (the line has not come), `fills` (no place for one),
+// `downstream`. Cost: tags and data 2R1W, the lines on their way, the FIFO; two 22-bit compares.
+// Made for 250 MHz; longest path: SRAM read + 23-bit compare.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <systemc>
+
+#include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/pipe.h"
+#include "rtl_model/geometric/fill_store.h"
+#include "rtl_model/geometric/frame_sequencer.h"
+#include "rtl_model/geometric/memory_arbiter.h"
+#include "rtl_model/geometric/tokens.h"
+
+namespace deburr::rtl::geometric {
+
+class VertexFetch final : public Unit {
+ public:
+  In<KeptEdge> edges_in{"edges_in"};
+  Out<EdgeEnds> ends_out{"ends_out"};
+  MemoryClient memory;
+
+  VertexFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
+              const spec::geometric::Parameters& parameters, const ParameterStore& store,
+              const FrameSequencer& sequencer);
+  Activity tick(Cycle cycle) override;
+  void reset() override;
+  bool cleared(Cycle cycle) const { return cleared_.get(cycle); }
+
+  Counter lookups{"lookups", "lines", "lines of vertices looked up"};
+  Counter misses{"misses", "lines", "look-ups that ordered a line"};
+
+ private:
+  using VertexLine = std::array<VertexFields, spec::geometric::kVerticesInLine>;
+  struct Lookup {
+    std::array<std::uint16_t, 2> index;  // U10
+    std::array<std::uint8_t, 2> place;   // U2, of the vertex in its line
+    std::uint8_t missed;                 // bit k: look-up k
+    bool one_line;                       // look-up 1 is look-up 0
+    bool end;
+    template <class Self, class Visit>
+    static constexpr void fields(Self& self, Visit&& visit) {
+      visit("index", self.index, 10, "U10");
+      visit("place", self.place, 2, "U2");
+      visit("missed", self.missed, 2, "bit k: look-up k");
+      visit("one_line", self.one_line);
+      visit("end", self.end);
+    }
+  };
+  struct Work {
+    Lookup lookup;
+    EdgeEnds ends;
+    std::uint8_t from_cache;  // bit k: the word of look-up k comes from the data
+  };
+
+  bool clear(Cycle cycle);
+  Activity look_up(Cycle cycle);
+  Activity deliver(Cycle cycle);
+  bool install(Cycle cycle, std::size_t which);
+
+  const ParameterStore& store_;
+  const FrameSequencer& sequencer_;
+  const std::uint32_t lines_;
+  Memory<std::uint32_t> tags_;  // line + valid bit
+  std::array<ReadPort<std::uint32_t>, 2> tag_ports_{ReadPort<std::uint32_t>{tags_, "v0"},
+                                                    ReadPort<std::uint32_t>{tags_, "v1"}};
+  WritePort<std::uint32_t> tag_write_{tags_, "fills"};
+  Memory<VertexLine> data_;
+  std::array<ReadPort<VertexLine>, 2> data_ports_{ReadPort<VertexLine>{data_, "v0"},
+                                                  ReadPort<VertexLine>{data_, "v1"}};
+  WritePort<VertexLine> data_write_{data_, "install"};
+  FillStore<VertexLine> fills_;
+  Fifo<Lookup> fifo_;
+  Activity stalled_vertices_, stalled_fills_;
+  Wire<bool> cleared_{false};
+  std::uint32_t clearing_ = 0;  // U11, tags that are cleared
+
+  // Stage 2.
+  KeptEdge edge_{};
+  Lookup lookup_{};
+  bool looking_ = false, first_done_ = false;
+  Cycle looked_ = 0;
+  // Stages 3 to 5.
+  Work work_{};
+  bool working_ = false;
+  Pipe<Work, 3> pipe_;
+};
+
+}  // namespace deburr::rtl::geometric

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Lines on their way from memory: places are reserved and released in one order, and filled in any.
+//
+// Where: in each unit that reads memory. 1R1W, read a clock before the word is there; the oldest
+// line is read ahead as soon as it has come, so that it waits on the output register: what is
+// filled in clock t is there from t + 2 on, then a line a clock. A place that is released in t can
+// be reserved from t + 1 on. One reservation, one line in and one out a clock. Both ends may be
+// different units. Made for 250 MHz; longest path: a choice of 1 in 256 arrived bits, then the read
+// enable. Cost: places x word bits, an arrived bit each.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "rtl_model/fabric/memory.h"
+
+namespace deburr::rtl::geometric {
+
+template <class Word>
+class FillStore {
+ public:
+  FillStore(const char* name, std::int32_t places, std::uint32_t bits, std::string content,
+            MemoryKind kind = MemoryKind::kSram)
+      : places_(static_cast<std::uint32_t>(places)),
+        memory_(name,
+                {.words = places_, .word_bits = bits, .kind = kind, .content = std::move(content)}),
+        arrived_(places_, kNever) {}
+
+  // --- Who asks ---
+  bool can_reserve(Cycle cycle) const {
+    return reserved_ - (released_ - (released_at_ == cycle)) < places_;
+  }
+  std::uint32_t reserve() { return static_cast<std::uint32_t>(reserved_++ % places_); }
+  void fill(Cycle cycle, std::uint32_t place, const Word& word) {
+    DEBURR_CHECK(
+        place < places_ && arrived_[place] == kNever,
+        std::string(memory_.name()) + ": place " + std::to_string(place) + " is filled twice");
+    write_.write(cycle, place, word);
+    arrived_[place] = cycle;
+  }
+
+  // --- Who uses them: the oldest only ---
+  bool ready(Cycle cycle) const { return read_ != released_ && read_at_ < cycle; }
+  const Word& line(Cycle cycle) const { return read_port_.at(cycle, oldest(), read_at_); }
+  void release(Cycle cycle) {
+    arrived_[oldest()] = kNever;
+    ++released_;
+    released_at_ = cycle;
+  }
+  // In every clock, after anything else.
+  void read_ahead(Cycle cycle) {
+    if (read_ != released_ || arrived_[oldest()] >= cycle) return;
+    read_port_.read(cycle, oldest());
+    ++read_;
+    read_at_ = cycle;
+  }
+
+  bool empty() const { return reserved_ == released_; }
+  void reset() {
+    reserved_ = released_ = read_ = 0;
+    released_at_ = read_at_ = kNever;
+    std::fill(arrived_.begin(), arrived_.end(), kNever);
+  }
+
+ private:
+  std::uint32_t oldest() const { return static_cast<std::uint32_t>(released_ % places_); }
+
+  const std::uint32_t places_;
+  Memory<Word> memory_;
+  ReadPort<Word> read_port_{memory_, "oldest"};
+  WritePort<Word> write_{memory_, "responses"};
+  std::vector<Cycle> arrived_;  // since when the bit is set; kNever: it is not
+  std::uint64_t reserved_ = 0, released_ = 0, read_ = 0;
+  Cycle released_at_ = kNever, read_at_ = kNever;
+};
+
+}  // namespace deburr::rtl::geometric

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/geometric/frame_sequencer.h"
+
+namespace deburr::rtl::geometric {
+namespace {
+
+namespace reg = spec::geometric::reg;
+
+void hold(Counter& counter, Cycle clocks) {
+  counter.reset();
+  counter += clocks;
+}
+
+}  // namespace
+
+FrameSequencer::FrameSequencer(const sc_core::sc_module_name& name, ClockDomain& clock,
+                               ParameterStore& store)
+    : Unit(name, clock), store_(store) {}
+
+void FrameSequencer::enter(Cycle cycle, Phase next) {
+  state_ = next;
+  phase_.set(cycle, next);
+}
+
+Activity FrameSequencer::tick(Cycle cycle) {
+  switch (state_) {
+    case Phase::kIdle:
+      if (!started_) return kIdle;
+      started_ = false;
+      refused_ = store_.latch(start_enabled_);
+      if (refused_ != spec::geometric::Refusal::kNone) {
+        store_.set_sticky(reg::kStatusRefused);
+        return kBusy;
+      }
+      begun_ = cycle;
+      enter(cycle, Phase::kBegin);
+      break;
+    case Phase::kBegin:
+      if (phase_.get(cycle) == Phase::kBegin && begin_done(cycle)) enter(cycle, Phase::kEdges);
+      break;
+    case Phase::kEdges:
+      if (!edges_done(cycle)) break;
+      drawn_ = cycle;
+      enter(cycle, Phase::kResolve);
+      break;
+    case Phase::kResolve:
+      if (!resolve_done(cycle)) break;
+      hold(frame_cycles, cycle - begun_ + 1);
+      hold(edge_cycles, drawn_ - begun_ + 1);
+      hold(resolve_cycles, cycle - drawn_);
+      store_.set_sticky(reg::kStatusFrameDone);
+      enter(cycle, Phase::kIdle);
+      break;
+  }
+  return kBusy;
+}
+
+void FrameSequencer::reset() {
+  phase_.reset();
+  state_ = Phase::kIdle;
+  started_ = start_enabled_ = false;
+  refused_ = {};
+  begun_ = drawn_ = 0;
+}
+
+}  // namespace deburr::rtl::geometric

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/geometric/geometric_engine.h"
+
+#include <string>
+#include <utility>
+
+#include "spec/error.h"
+
+namespace deburr::rtl::geometric {
+namespace {
+
+namespace reg = spec::geometric::reg;
+
+[[noreturn]] void refuse(const std::string& text) { throw spec::ConfigError("geometric." + text); }
+
+spec::geometric::Parameters checked(const spec::geometric::Parameters& parameters) {
+  const spec::geometric::Parameters p = checked_ranges("geometric", parameters);
+  if (p.pipelined && p.reciprocal_table != 0)
+    refuse("reciprocal_table: has no effect with pipelined; use 0, or pipelined = false");
+  if (p.face_limit % spec::geometric::kFacesInLine != 0)
+    refuse("face_limit: expected a multiple of " + std::to_string(spec::geometric::kFacesInLine) +
+           ", got " + std::to_string(p.face_limit) + ": a line is written at once");
+  if (p.fills > p.memory_outstanding)
+    refuse("fills: " + std::to_string(p.fills) + " lines on their way need memory.outstanding of " +
+           "as many, got " + std::to_string(p.memory_outstanding));
+  return p;
+}
+
+PayloadShape lanes(spec::geometric::Lanes code) {
+  return {.lanes = spec::geometric::kLaneCount[static_cast<std::size_t>(code)]};
+}
+
+MemoryPortParameters port_of(const spec::geometric::Parameters& p) {
+  MemoryPortParameters port;
+  port.outstanding = static_cast<std::uint32_t>(p.memory_outstanding);
+  return port;
+}
+
+}  // namespace
+
+GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
+                                 const spec::geometric::Parameters& parameters)
+    : Engine(name, clock, spec::geometric::kRegisters, control_layout()),
+      parameters_(checked(parameters)),
+      edge_lanes_(lanes(parameters_.edge_lanes)),
+      walkers_(lanes(parameters_.walkers)),
+      port_(port_of(parameters_)),
+      store(control, parameters_),
+      frame_sequencer("frame_sequencer", clock, store),
+      memory_arbiter("memory_arbiter", clock, store, port_),
+      facing_store("facing_store", clock, parameters_, store, frame_sequencer),
+      edge_reader("edge_reader", clock, parameters_, store, frame_sequencer),
+      edge_classifier("edge_classifier", clock, parameters_, store, facing_store),
+      vertex_fetch("vertex_fetch", clock, parameters_, store, frame_sequencer),
+      line_setup("line_setup", clock, parameters_, store),
+      line_walker("line_walker", clock, parameters_),
+      coverage_unit("coverage_unit", clock, store),
+      depth_test("depth_test", clock, parameters_, store, frame_sequencer),
+      weight_combiner("weight_combiner", clock, parameters_, store, frame_sequencer),
+      frame_copier("frame_copier", clock, store, frame_sequencer),
+      block_scanner("block_scanner", clock, parameters_, store, frame_sequencer, weight_combiner),
+      block_fetch("block_fetch", clock, parameters_, store, weight_combiner),
+      resolver("resolver", clock, parameters_, store, frame_sequencer, block_fetch),
+      memory_port("memory_port", clock, port_),
+      edges_("edges", 2, edge_lanes_),
+      lines_("line_fifo", static_cast<std::uint32_t>(parameters_.line_fifo)),
+      groups_("groups", 2, walkers_),
+      candidates_("candidates", 2, walkers_),
+      weights_("weights", 2, walkers_),
+      blocks_("block_fifo", static_cast<std::uint32_t>(parameters_.resolve_lines) / 4),
+      requests_("requests", 2, request_shape(port_, 32, kRequestTagBits)),
+      responses_("responses", 2, response_shape(port_, 32, kRequestTagBits)) {
+  edge_reader.edges_out(edges_);
+  edge_classifier.edges_in(edges_);
+  edge_classifier.edges_out(kept_);
+  vertex_fetch.edges_in(kept_);
+  vertex_fetch.ends_out(ends_);
+  line_setup.ends_in(ends_);
+  line_setup.lines_out(lines_.link());
+  line_walker.lines_in(lines_.link());
+  line_walker.groups_out(groups_);
+  coverage_unit.groups_in(groups_);
+  coverage_unit.candidates_out(candidates_);
+  depth_test.candidates_in(candidates_);
+  depth_test.weights_out(weights_);
+  weight_combiner.weights_in(weights_);
+  block_scanner.blocks_out(touched_blocks_);
+  block_fetch.blocks_in(touched_blocks_);
+  block_fetch.blocks_out(blocks_.link());
+  resolver.blocks_in(blocks_.link());
+  memory_arbiter.connect(Client::kFacing, facing_store.memory);
+  memory_arbiter.connect(Client::kEdges, edge_reader.memory);
+  memory_arbiter.connect(Client::kVertices, vertex_fetch.memory);
+  memory_arbiter.connect(Client::kDepth, depth_test.memory);
+  memory_arbiter.connect(Client::kWeights, weight_combiner.memory);
+  memory_arbiter.connect(Client::kBlocks, block_fetch.memory);
+  memory_arbiter.connect(Client::kResolve, resolver.memory);
+  memory_arbiter.connect(Client::kCopy, frame_copier.memory);
+  memory_arbiter.requests_out(requests_);
+  memory_port.requests_in(requests_);
+  memory_port.responses_out(responses_);
+  memory_arbiter.responses_in(responses_);
+  uses(memory_port);
+
+  frame_sequencer.begin_done = [this](Cycle cycle) {
+    return facing_store.loaded(cycle) && vertex_fetch.cleared(cycle) && depth_test.cleared(cycle) &&
+           weight_combiner.cleared(cycle);
+  };
+  frame_sequencer.edges_done = [this](Cycle cycle) {
+    return weight_combiner.drawn(cycle) && frame_copier.done(cycle);
+  };
+  frame_sequencer.resolve_done = [this](Cycle cycle) { return resolver.done(cycle); };
+  // Enable has its new value by now.
+  control.on_command(reg::kControlStart, [this] { frame_sequencer.start(store.enabled()); });
+  control.registers.on_read(control.registers.index_of("REFUSAL"), [this] {
+    return static_cast<std::uint32_t>(frame_sequencer.refused());
+  });
+
+  const std::pair<std::uint32_t, const Counter*> shown[] = {
+      {reg::kEdges, &edge_classifier.edges},
+      {reg::kBoundaryEdges, &edge_classifier.boundary_edges},
+      {reg::kSilhouetteEdges, &edge_classifier.silhouette_edges},
+      {reg::kBackEdges, &edge_classifier.back_edges},
+      {reg::kCreaseEdges, &edge_classifier.crease_edges},
+      {reg::kFlatEdges, &edge_classifier.flat_edges},
+      {reg::kInvalidEdges, &edge_classifier.invalid_edges},
+      {reg::kKeptEdges, &edge_classifier.kept_edges},
+      {reg::kOutsideEdges, &line_setup.outside_edges},
+      {reg::kDegenerateEdges, &line_setup.degenerate_edges},
+      {reg::kEmptyEdges, &line_setup.empty_edges},
+      {reg::kLines, &line_setup.lines},
+      {reg::kColumns, &line_walker.columns},
+      {reg::kGroups, &line_walker.groups},
+      {reg::kCandidates, &coverage_unit.candidates},
+      {reg::kPassed, &depth_test.passed},
+      {reg::kBlocks, &resolver.blocks},
+      {reg::kBlendedPixels, &resolver.blended_pixels},
+      {reg::kMemoryErrors, &memory_arbiter.memory_errors},
+      {reg::kFrameCycles, &frame_sequencer.frame_cycles},
+      {reg::kEdgeCycles, &frame_sequencer.edge_cycles},
+      {reg::kResolveCycles, &frame_sequencer.resolve_cycles}};
+  for (const auto& [offset, counter] : shown) control.show(offset, *counter);
+}
+
+spec::geometric::Work GeometricEngine::work() const {
+  spec::geometric::Work work;
+  work.edges = edge_classifier.edges.value();
+  work.boundary_edges = edge_classifier.boundary_edges.value();
+  work.silhouette_edges = edge_classifier.silhouette_edges.value();
+  work.back_edges = edge_classifier.back_edges.value();
+  work.crease_edges = edge_classifier.crease_edges.value();
+  work.flat_edges = edge_classifier.flat_edges.value();
+  work.invalid_edges = edge_classifier.invalid_edges.value();
+  work.kept_edges = edge_classifier.kept_edges.value();
+  work.outside_edges = line_setup.outside_edges.value();
+  work.degenerate_edges = line_setup.degenerate_edges.value();
+  work.empty_edges = line_setup.empty_edges.value();
+  work.lines = line_setup.lines.value();
+  work.columns = line_walker.columns.value();
+  work.groups = line_walker.groups.value();
+  work.candidates = coverage_unit.candidates.value();
+  work.passed = depth_test.passed.value();
+  work.blocks = resolver.blocks.value();
+  work.blended_pixels = resolver.blended_pixels.value();
+  return work;
+}
+
+}  // namespace deburr::rtl::geometric

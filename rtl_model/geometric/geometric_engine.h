@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// The geometric engine: smooths the jagged edges of a finished frame along the edges of its mesh
+// (docs/geometric.md; phases, latencies, memories: docs/geometric_hardware.md).
+//
+//   FrameSequencer      FacingStore
+//                            |
+//   EdgeReader -> EdgeClassifier -> VertexFetch -> LineSetup -> line FIFO -> LineWalker
+//       -> CoverageUnit -> DepthTest -> WeightCombiner
+//                                            | when all is drawn
+//   FrameCopier                        BlockScanner -> BlockFetch -> block FIFO -> Resolver
+//
+//   all that read or write memory -> MemoryArbiter -> MemoryPort: memory (TLM-2.0 initiator)
+//   ParameterStore: registers (TLM-2.0 target)
+//
+// Everything is in order; only memory answers in any. Made for 250 MHz; longest path: a 24 x 24
+// multiply. Source: Persson, GPAA; paper 002.
+#pragma once
+
+#include <functional>
+#include <systemc>
+
+#include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/fabric/engine.h"
+#include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/memory_port.h"
+#include "rtl_model/geometric/edges/edge_classifier.h"
+#include "rtl_model/geometric/edges/edge_reader.h"
+#include "rtl_model/geometric/edges/facing_store.h"
+#include "rtl_model/geometric/edges/vertex_fetch.h"
+#include "rtl_model/geometric/frame_sequencer.h"
+#include "rtl_model/geometric/lines/coverage_unit.h"
+#include "rtl_model/geometric/lines/depth_test.h"
+#include "rtl_model/geometric/lines/line_setup.h"
+#include "rtl_model/geometric/lines/line_walker.h"
+#include "rtl_model/geometric/memory_arbiter.h"
+#include "rtl_model/geometric/parameter_store.h"
+#include "rtl_model/geometric/resolve/block_fetch.h"
+#include "rtl_model/geometric/resolve/block_scanner.h"
+#include "rtl_model/geometric/resolve/frame_copier.h"
+#include "rtl_model/geometric/resolve/resolver.h"
+#include "rtl_model/geometric/weights/weight_combiner.h"
+#include "spec/geometric/packets.h"
+#include "spec/geometric/parameters.h"
+
+namespace deburr::rtl::geometric {
+
+class GeometricEngine final : public Engine {
+ public:
+  // ConfigError if a parameter is out of range, or names or combines what is not built.
+  GeometricEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
+                  const spec::geometric::Parameters& parameters);
+  const char* kind() const override { return "deburr_geometric_engine"; }
+
+ private:
+  const spec::geometric::Parameters parameters_;
+  const PayloadShape edge_lanes_, walkers_;
+  const MemoryPortParameters port_;
+
+ public:
+  // --- The blocks, in the order of the figure ---
+  ParameterStore store;
+  FrameSequencer frame_sequencer;
+  MemoryArbiter memory_arbiter;
+  FacingStore facing_store;
+  EdgeReader edge_reader;
+  EdgeClassifier edge_classifier;
+  VertexFetch vertex_fetch;
+  LineSetup line_setup;
+  LineWalker line_walker;
+  CoverageUnit coverage_unit;
+  DepthTest depth_test;
+  WeightCombiner weight_combiner;
+  FrameCopier frame_copier;
+  BlockScanner block_scanner;
+  BlockFetch block_fetch;
+  Resolver resolver;
+  MemoryPort memory_port;
+
+  // No frame is under way. Between edges.
+  bool idle() const override { return frame_sequencer.idle(); }
+  // Counts since they were cleared.
+  spec::geometric::Work work() const;
+
+ private:
+  Link<EdgeBeat> edges_;
+  Link<KeptEdge> kept_{"kept"};
+  Link<EdgeEnds> ends_{"ends"};
+  Fifo<LineToken> lines_;
+  Link<GroupToken> groups_;
+  Link<CandidateToken> candidates_;
+  Link<WeightToken> weights_;
+  Link<TouchedBlock> touched_blocks_{"touched_blocks"};
+  Fifo<BlockToken> blocks_;
+  Link<MemoryRequest> requests_;
+  Link<MemoryResponse> responses_;
+};
+
+}  // namespace deburr::rtl::geometric

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/geometric/lines/depth_test.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "spec/geometric/records.h"
+
+namespace deburr::rtl::geometric {
+namespace {
+
+constexpr std::uint32_t kTagBits = 23;
+
+std::uint32_t tag_of(std::uint32_t u, std::uint32_t v, bool tiled) {
+  // The wider of both takes what the other leaves: 9 + 13 bits, or 11 + 11.
+  return 1u << (kTagBits - 1) | (tiled ? v << 11 | u : v << 9 | u);
+}
+
+template <class Visit>
+void for_each_lane(std::uint32_t lanes, Visit&& visit) {
+  for (; lanes != 0; lanes &= lanes - 1) visit(static_cast<std::size_t>(std::countr_zero(lanes)));
+}
+
+}  // namespace
+
+DepthTest::DepthTest(const sc_core::sc_module_name& name, ClockDomain& clock,
+                     const spec::geometric::Parameters& p, const ParameterStore& store,
+                     const FrameSequencer& sequencer)
+    : Unit(name, clock),
+      store_(store),
+      sequencer_(sequencer),
+      lines_(spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.depth_lines)]),
+      index_bits_(spec::geometric::kCacheLineBits[static_cast<std::size_t>(p.depth_lines)]),
+      tags_("depth_tags", {.words = lines_,
+                           .word_bits = kTagBits,
+                           .read_ports = 2,
+                           .read_during_write = ReadDuringWrite::kNewWord,
+                           .content = "u, v, valid"}),
+      data_("depth_data", {.words = lines_,
+                           .word_bits = 24 * spec::geometric::kPixelsInLine,
+                           .read_ports = 2,
+                           .content = "sixteen depths"}),
+      fills_("depth_fills", p.fills, 24 * spec::geometric::kPixelsInLine, "depths on their way"),
+      fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo),
+            {.lanes = spec::geometric::kLaneCount[static_cast<std::size_t>(p.walkers)]}),
+      stalled_depth_(declare_stall("depth", "a line of depths has not come")),
+      stalled_fills_(declare_stall("fills", "no place for a line of depths is free")) {}
+
+bool DepthTest::clear(Cycle cycle) {
+  if (clearing_ == lines_) return false;
+  tag_write_.write(cycle, clearing_, 0);
+  if (++clearing_ == lines_) cleared_.set(cycle, true);
+  return true;
+}
+
+// Its number among the group's lines.
+std::uint8_t DepthTest::add_line(Wanted& wanted, Place line) const {
+  Lookup& l = wanted.lookup;
+  for (std::uint8_t i = 0; i < l.count; ++i)
+    if (wanted.line[i] == line) return i;
+  const bool tiled = store_.rules().tiled;
+  const std::uint32_t half = (index_bits_ + 1) / 2;
+  const std::uint32_t low = tiled ? half : half > 3 ? half - 2 : 1;
+  wanted.line[l.count] = line;
+  l.index[l.count] = static_cast<std::uint16_t>(
+      (line.u & ((1u << low) - 1)) | (line.v & ((1u << (index_bits_ - low)) - 1)) << low);
+  return l.count++;
+}
+
+// Stage 1.
+void DepthTest::find_lines(const CandidateToken& group, Wanted& out) const {
+  const FrameRules& rules = store_.rules();
+  Lookup& l = out.lookup;
+  l.group = group;
+  l.count = l.missed = 0;
+  if (group.end || rules.depth_test == spec::geometric::DepthTest::kOff) return;
+  const auto find = [&](std::uint32_t x, std::uint32_t y, std::uint8_t& line, std::uint8_t& word) {
+    const auto at = [&](std::uint32_t u, std::uint32_t v, std::uint32_t w) {
+      line = add_line(out, {static_cast<std::uint16_t>(u), static_cast<std::uint16_t>(v)});
+      word = static_cast<std::uint8_t>(w);
+    };
+    if (rules.tiled)
+      at(x >> 2, y >> 2, (y & 3) << 2 | (x & 3));
+    else
+      at(x >> 4, y, x & 15);
+  };
+  for_each_lane(group.candidates, [&](std::size_t lane) {
+    const std::uint32_t x = group.block_x * 4u + (group.place[lane] & 3),
+                        y = group.block_y * 4u + (group.place[lane] >> 2);
+    find(x, y, l.own_line[lane], l.own_word[lane]);
+    if (rules.depth_test != spec::geometric::DepthTest::kFarther) return;
+    const std::uint32_t step = group.forward >> lane & 1 ? 1 : ~0u;
+    find(group.vertical ? x + step : x, group.vertical ? y : y + step, l.other_line[lane],
+         l.other_word[lane]);
+  });
+}
+
+// Stage 2, of the pair that is looked up next.
+void DepthTest::read_tags(Cycle cycle) {
+  looked_ = cycle;
+  first_done_ = false;
+  for (std::size_t port = 0; port < 2 && pair_ + port < looking_.lookup.count; ++port)
+    tag_ports_[port].read(cycle, looking_.lookup.index[pair_ + port]);
+}
+
+Activity DepthTest::order(Cycle cycle, std::size_t which) {
+  if (!fills_.can_reserve(cycle)) return stalled_fills_;
+  if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
+  const FrameRules& rules = store_.rules();
+  const Place line = looking_.line[which];
+  memory.read(cycle, rules.depth_base + rules.line_offset(line.u, line.v), fills_.reserve());
+  tag_write_.write(cycle, looking_.lookup.index[which], tag_of(line.u, line.v, rules.tiled));
+  looking_.lookup.missed |= static_cast<std::uint8_t>(1u << which);
+  ++misses;
+  return kBusy;
+}
+
+// Stage 3; kIdle: the pair is done.
+Activity DepthTest::look_up_pair(Cycle cycle) {
+  const Lookup& l = looking_.lookup;
+  const auto found = [&](std::size_t port) {
+    const Place line = looking_.line[pair_ + port];
+    return tag_ports_[port].at(cycle, l.index[pair_ + port], looked_) ==
+           tag_of(line.u, line.v, store_.rules().tiled);
+  };
+  if (!first_done_) {
+    const bool missed = !found(0), two = pair_ + 1 < l.count, other_missed = two && !found(1);
+    if (missed)
+      if (const Activity done = order(cycle, pair_); done != kBusy) return done;
+    first_done_ = true;
+    lookups += two ? 2 : 1;
+    if (!other_missed) return kIdle;
+    if (missed) return kBusy;
+  }
+  const Activity done = order(cycle, pair_ + 1);
+  return done == kBusy ? kIdle : done;
+}
+
+// Stages 3 to 1.
+Activity DepthTest::look_up(Cycle cycle) {
+  bool did = false;
+  if (is_looking_) {
+    const std::size_t count = looking_.lookup.count;
+    const bool last = pair_ + 2 >= count;
+    if (last && !fifo_.can_push(cycle)) return kStalledDownstream;
+    if (count != 0)
+      if (const Activity done = look_up_pair(cycle); done != kIdle) return done;
+    did = true;
+    if (last) {
+      fifo_.push(cycle, looking_.lookup);
+      is_looking_ = false;
+    } else {
+      pair_ += 2;
+      read_tags(cycle);
+    }
+  }
+  if (!is_looking_ && has_addressed_) {
+    looking_ = addressed_;
+    has_addressed_ = false;
+    is_looking_ = did = true;
+    pair_ = 0;
+    read_tags(cycle);
+  }
+  if (!has_addressed_ && candidates_in.can_pop(cycle)) {
+    find_lines(candidates_in.take(cycle), addressed_);
+    has_addressed_ = did = true;
+  }
+  return did ? kBusy : kIdle;
+}
+
+void DepthTest::capture(Work& work, std::size_t which, const DepthLine& line) const {
+  const Lookup& l = work.lookup;
+  const bool farther = store_.rules().depth_test == spec::geometric::DepthTest::kFarther;
+  for_each_lane(l.group.candidates, [&](std::size_t lane) {
+    if (l.own_line[lane] == which) work.own[lane] = line[l.own_word[lane]];
+    if (farther && l.other_line[lane] == which) work.other[lane] = line[l.other_word[lane]];
+  });
+}
+
+// Stage 5.
+void DepthTest::capture_words(Cycle cycle) {
+  Work& work = reading_last_ ? *pipe_.at(2) : work_;
+  for (std::size_t port = 0; port < 2; ++port)
+    if (reading_ >> port & 1) {
+      const std::size_t which = reading_step_ + port;
+      capture(work, which, data_ports_[port].at(cycle, work.lookup.index[which]));
+    }
+  reading_ = 0;
+}
+
+// Stage 6.
+void DepthTest::test(Cycle cycle, Work& work) {
+  const FrameRules& rules = store_.rules();
+  const CandidateToken& group = work.lookup.group;
+  std::uint8_t passing = 0;
+  for_each_lane(group.candidates, [&](std::size_t lane) {
+    std::uint32_t far = work.own[lane];
+    if (rules.depth_test == spec::geometric::DepthTest::kFarther)
+      far = std::min(far, work.other[lane]);
+    const bool passes = rules.depth_test == spec::geometric::DepthTest::kOff ||
+                        group.depth[lane] >= far - (far >> rules.depth_bias);
+    passing |= static_cast<std::uint8_t>(passes << lane);
+    if (!observer) return;
+    const bool forward = group.forward >> lane & 1;
+    observer({static_cast<std::uint16_t>(group.block_x * 4 + (group.place[lane] & 3)),
+              static_cast<std::uint16_t>(group.block_y * 4 + (group.place[lane] >> 2)),
+              static_cast<spec::geometric::Direction>(2 * group.vertical + forward),
+              group.coverage[lane], group.depth[lane], passes});
+  });
+  if (passing == 0 && !group.end) return;
+  passed += static_cast<std::uint64_t>(std::popcount(passing));
+  WeightToken& out = weights_out.emplace(cycle);
+  out.block_x = group.block_x;
+  out.block_y = group.block_y;
+  out.vertical = group.vertical;
+  out.candidates = passing;
+  out.forward = group.forward;
+  out.place = group.place;
+  out.coverage = group.coverage;
+  out.end = group.end;
+}
+
+// Stages 6 to 4.
+Activity DepthTest::deliver(Cycle cycle) {
+  if (!working_ && !fifo_.can_pop(cycle) && pipe_.empty()) return kIdle;
+  if (pipe_.leaves() && !weights_out.can_push(cycle)) return kStalledDownstream;
+  pipe_.move();
+  if (Work* work = pipe_.at(3)) test(cycle, *work);
+  if (reading_ != 0) capture_words(cycle);
+  if (!working_) {
+    if (!fifo_.can_pop(cycle)) return kBusy;
+    work_.lookup = fifo_.take(cycle);
+    working_ = true;
+    step_ = 0;
+  }
+  Lookup& l = work_.lookup;
+  const std::uint32_t pair = l.missed >> step_ & 3;
+  if (pair != 0) {
+    if (!fills_.ready(cycle)) return stalled_depth_;
+    const std::size_t which = step_ + (pair & 1 ? 0 : 1);
+    const DepthLine& line = fills_.line(cycle);
+    data_write_.write(cycle, l.index[which], line);
+    capture(work_, which, line);
+    fills_.release(cycle);
+    l.missed &= static_cast<std::uint8_t>(~(1u << which));
+    installed_ |= static_cast<std::uint8_t>(1u << which);
+    if (pair == 3) return kBusy;
+  }
+  for (std::size_t port = 0; port < 2 && step_ + port < l.count; ++port)
+    if (!(installed_ >> (step_ + port) & 1)) {
+      data_ports_[port].read(cycle, l.index[step_ + port]);
+      reading_ |= static_cast<std::uint8_t>(1u << port);
+    }
+  reading_step_ = step_;
+  step_ += 2;
+  reading_last_ = step_ >= l.count;
+  if (reading_last_) {
+    pipe_.enter() = work_;
+    working_ = false;
+    installed_ = 0;
+  }
+  return kBusy;
+}
+
+Activity DepthTest::tick(Cycle cycle) {
+  const Phase phase = sequencer_.phase(cycle);
+  if (phase != Phase::kEdges) {
+    if (phase == Phase::kBegin) return clear(cycle) ? kBusy : kIdle;
+    return kIdle;
+  }
+  if (clearing_ != 0) {
+    clearing_ = 0;
+    cleared_.set(cycle, false);
+  }
+  const Activity data = deliver(cycle);
+  const Activity tags = look_up(cycle);
+  bool did = data == kBusy || tags == kBusy;
+  if (memory.responses_in.can_pop(cycle)) {
+    const MemoryResponse& response = memory.responses_in.take(cycle);
+    DepthLine line;
+    for (std::size_t i = 0; i < line.size(); ++i) line[i] = word_of(response.data, i) & 0xFFFFFF;
+    fills_.fill(cycle, response.tag, line);
+    did = true;
+  }
+  fills_.read_ahead(cycle);
+  return did ? kBusy : data != kIdle ? data : tags;
+}
+
+void DepthTest::reset() {
+  fills_.reset();
+  fifo_.reset();
+  pipe_.reset();
+  cleared_.reset();
+  clearing_ = 0;
+  has_addressed_ = is_looking_ = first_done_ = working_ = false;
+  reading_ = installed_ = 0;
+}
+
+}  // namespace deburr::rtl::geometric

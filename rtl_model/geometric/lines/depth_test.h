@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// Drops the candidates that lie behind what the frame shows: behind the farther of their own pixel
+// and the neighbour that they would take from.
+//
+// Where: behind the CoverageUnit, with a small cache of depth lines that looks ahead. Latency 6,
+// and the wait for a line; initiation interval of a group with D lines: its look-ups go in pairs,
+// each takes a clock, two if both miss; at least 1. Stages: 1 lines, first uses; 2 address of the
+// tags, line addresses; 3 two tags, a fill ordered a clock; FIFO; 4 a line installed, address of
+// the words; 5 two lines, choice of depths; 6 test. A group of which no candidate passes leaves
+// nothing. Lines of a group have different indices, so none replaces another. Stalls: `depth` (the
+// line has not come), `fills` (no place for one), `downstream`.
+// Cost: tags and data 2R1W, the lines on their way, the FIFO; 28 compares of lines, two 13 x 10
+// multiplies; a lane two 16 : 1 choices of 24 bits and a 24-bit compare. Made for 250 MHz; longest
+// path: SRAM read, 16 : 1 choice; 24-bit shift, add and compare.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <systemc>
+
+#include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/pipe.h"
+#include "rtl_model/geometric/fill_store.h"
+#include "rtl_model/geometric/frame_sequencer.h"
+#include "rtl_model/geometric/memory_arbiter.h"
+#include "rtl_model/geometric/tokens.h"
+
+namespace deburr::rtl::geometric {
+
+class DepthTest final : public Unit {
+ public:
+  In<CandidateToken> candidates_in{"candidates_in"};
+  Out<WeightToken> weights_out{"weights_out"};
+  MemoryClient memory;
+
+  DepthTest(const sc_core::sc_module_name& name, ClockDomain& clock,
+            const spec::geometric::Parameters& parameters, const ParameterStore& store,
+            const FrameSequencer& sequencer);
+  Activity tick(Cycle cycle) override;
+  void reset() override;
+  bool cleared(Cycle cycle) const { return cleared_.get(cycle); }
+
+  std::function<void(const spec::geometric::Candidate&)> observer;
+
+  Counter passed{"passed", "pixels", "candidates that passed the depth test"};
+  Counter lookups{"lookups", "lines", "lines of depth looked up"};
+  Counter misses{"misses", "lines", "look-ups that ordered a line"};
+
+ private:
+  // Of a group: raster, vertical, four own lines and four neighbours beyond a multiple of 16.
+  static constexpr std::size_t kMostLines = 8;
+  using DepthLine = std::array<std::uint32_t, spec::geometric::kPixelsInLine>;
+  struct Lookup {
+    CandidateToken group;
+    std::uint8_t count;                           // U4, lines
+    std::uint8_t missed;                          // bit i: line i
+    std::array<std::uint16_t, kMostLines> index;  // U10
+    Lanes8 own_line, own_word;                    // U3, U4: where a lane's depths are
+    Lanes8 other_line, other_word;
+    template <class Self, class Visit>
+    static constexpr void fields(Self& self, Visit&& visit) {
+      visit("group", self.group);
+      visit("count", self.count, 4, "U4");
+      visit("missed", self.missed, kMostLines, "bit i: line i");
+      visit("index", self.index, 10, "U10");
+      visit.lanes("own_line", self.own_line, 3, "U3");
+      visit.lanes("own_word", self.own_word, 4, "U4");
+      visit.lanes("other_line", self.other_line, 3, "U3");
+      visit.lanes("other_word", self.other_word, 4, "U4");
+    }
+  };
+  // A line of memory.
+  struct Place {
+    std::uint16_t u, v;  // U11, U13
+    friend bool operator==(const Place&, const Place&) = default;
+  };
+  struct Wanted {
+    Lookup lookup;
+    std::array<Place, kMostLines> line;
+  };
+  struct Work {
+    Lookup lookup;
+    Lanes32 own, other;  // U24
+  };
+
+  bool clear(Cycle cycle);
+  void find_lines(const CandidateToken& group, Wanted& out) const;
+  std::uint8_t add_line(Wanted& wanted, Place line) const;
+  void read_tags(Cycle cycle);
+  Activity look_up(Cycle cycle);
+  Activity look_up_pair(Cycle cycle);
+  Activity order(Cycle cycle, std::size_t which);
+  void capture(Work& work, std::size_t which, const DepthLine& line) const;
+  void capture_words(Cycle cycle);
+  Activity deliver(Cycle cycle);
+  void test(Cycle cycle, Work& work);
+
+  const ParameterStore& store_;
+  const FrameSequencer& sequencer_;
+  const std::uint32_t lines_, index_bits_;
+  Memory<std::uint32_t> tags_;
+  std::array<ReadPort<std::uint32_t>, 2> tag_ports_{ReadPort<std::uint32_t>{tags_, "even"},
+                                                    ReadPort<std::uint32_t>{tags_, "odd"}};
+  WritePort<std::uint32_t> tag_write_{tags_, "fills"};
+  Memory<DepthLine> data_;
+  std::array<ReadPort<DepthLine>, 2> data_ports_{ReadPort<DepthLine>{data_, "even"},
+                                                 ReadPort<DepthLine>{data_, "odd"}};
+  WritePort<DepthLine> data_write_{data_, "install"};
+  FillStore<DepthLine> fills_;
+  Fifo<Lookup> fifo_;
+  Activity stalled_depth_, stalled_fills_;
+  Wire<bool> cleared_{false};
+  std::uint32_t clearing_ = 0;  // U11
+
+  // Stages 2 and 3.
+  Wanted addressed_{}, looking_{};
+  bool has_addressed_ = false, is_looking_ = false, first_done_ = false;
+  std::size_t pair_ = 0;  // U3, first line of the pair that is looked up
+  Cycle looked_ = 0;
+  // Stages 4 to 6.
+  Work work_{};
+  bool working_ = false;
+  std::size_t step_ = 0;          // U4, first line of the pair that is installed and read
+  std::uint8_t installed_ = 0;    // bit i: line i of the group in stage 4 came from memory
+  std::uint8_t reading_ = 0;      // bit k: a word is on port k
+  std::size_t reading_step_ = 0;  // its pair
+  bool reading_last_ = false;     // of the group in stage 5, else of that in stage 4
+  Pipe<Work, 3> pipe_;
+};
+
+}  // namespace deburr::rtl::geometric

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Turns a kept edge into a line: axis, columns, slope, position and depth at the first column.
+//
+// Where: behind VertexFetch. Latency 22; initiation interval 1 if pipelined, else 13 / dividers for
+// a line that is not in the table, 1 for one that is and for an edge that is dropped. Stages:
+// 1 differences; 2 axis, ends, first and last column, drops; 3 leading one; 4 shift, address of the
+// table; 5-17 quotient, two bits a clock, a 27th where L is a power of two; 18, 19 slope, t, depth
+// step; 20, 21 slope x offset, D x t; 22 sums. All stages move together; before the quotient a line
+// waits for a divider. Stalls: `divider` (none is free), `downstream`.
+// Cost: 13 stages of radix 4 (choice of 0..3 l, 26-bit add), or `dividers` of one; multiplies
+// 23 x 27, 23 x 24, 24 x 25, 25 x 23, 24 x 24; registers of 22 lines; reciprocal_rom. Made for
+// 250 MHz; longest path: choice of 4 multiples + 26-bit add; 23 x 27 multiply over two clocks.
+// Error bounds: docs/number_formats_geometric.md. Source: paper 002, eqs (5), (6).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <systemc>
+
+#include "rtl_model/fabric/memory.h"
+#include "rtl_model/fabric/pipe.h"
+#include "rtl_model/fabric/unit.h"
+#include "rtl_model/geometric/parameter_store.h"
+#include "rtl_model/geometric/tokens.h"
+
+namespace deburr::rtl::geometric {
+
+class LineSetup final : public Unit {
+ public:
+  In<EdgeEnds> ends_in{"ends_in"};
+  Out<LineToken> lines_out{"lines_out"};
+
+  LineSetup(const sc_core::sc_module_name& name, ClockDomain& clock,
+            const spec::geometric::Parameters& parameters, const ParameterStore& store);
+  Activity tick(Cycle cycle) override;
+  void reset() override;
+
+  std::function<void(const spec::geometric::LineRecord&)> observer;
+
+  Counter outside_edges{"outside_edges", "edges", "kept edges with a vertex that is not usable"};
+  Counter degenerate_edges{"degenerate_edges", "edges", "kept edges with both ends in one place"};
+  Counter empty_edges{"empty_edges", "edges", "kept edges without a column of the frame"};
+  Counter lines{"lines", "lines", "lines set up"};
+  Counter table_lines{"table_lines", "lines", "lines whose reciprocal came from the table"};
+  Counter divider_clocks{"divider_clocks", "clk", "clocks of dividers in use, all dividers"};
+
+ private:
+  static constexpr std::size_t kFront = 4, kBack = 18;  // stages before and from the quotient on
+  static constexpr std::uint64_t kDivideClocks = 13;
+
+  struct Beat {
+    EdgeEnds ends;
+    bool dropped;
+    bool in_table;
+    bool minor_falls, depth_falls;
+    std::uint8_t exponent;       // U5, floor(lb L)
+    std::int32_t major0;         // S14.8
+    std::int32_t minor0;         // S14.8
+    std::uint32_t depth0;        // U24
+    std::uint32_t length;        // U15.8, L
+    std::uint32_t minor_extent;  // U15.8, |dm|
+    std::uint32_t depth_extent;  // U24, D
+    std::uint32_t normalised;    // U23, l
+    std::uint32_t reciprocal;    // U1.26
+    std::uint32_t slope;         // U1.24
+    std::uint32_t offset;        // U15.8
+    std::uint32_t share;         // U0.24, t
+    spec::geometric::LineRecord line;
+  };
+  void find_axis(Beat& beat);
+  void normalise(Cycle cycle, Beat& beat);
+  void divide(Cycle cycle, Beat& beat) const;
+  static void scale(Beat& beat);
+  static void sum(Beat& beat);
+  std::uint64_t* free_divider();
+  void deliver(Cycle cycle, const Beat& beat);
+  bool advance_front(Cycle cycle);
+
+  const ParameterStore& store_;
+  const bool pipelined_;
+  const std::uint32_t table_bits_;
+  std::unique_ptr<Memory<std::uint32_t>> table_;  // nullptr: none
+  std::unique_ptr<ReadPort<std::uint32_t>> table_port_;
+  Activity stalled_divider_;
+  Pipe<Beat, kFront + 1> front_;  // its last stage is the first one of the quotient
+  Pipe<Beat, kBack> back_;
+  std::uint64_t moves_ = 0;                   // clocks in which the stages moved
+  std::array<std::uint64_t, 8> free_from_{};  // of each divider, in moves
+  const std::size_t dividers_;
+};
+
+}  // namespace deburr::rtl::geometric

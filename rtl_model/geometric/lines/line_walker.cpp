@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/geometric/lines/line_walker.h"
+
+#include <algorithm>
+
+namespace deburr::rtl::geometric {
+namespace {
+
+constexpr int kRowShift = spec::geometric::kSlopeBits, kBlockShift = 2;
+constexpr int kDistanceShift = spec::geometric::kSlopeBits - spec::geometric::kDistanceBits;
+
+}  // namespace
+
+Activity LineWalker::tick(Cycle cycle) {
+  const bool begins = line_.count == 0;
+  if (begins && !lines_in.can_pop(cycle)) return kIdle;
+  if (!groups_out.can_push(cycle)) return kStalledDownstream;
+  GroupToken& group = groups_out.emplace(cycle);
+  group.end = false;
+  if (begins) {
+    const LineToken& token = lines_in.take(cycle);
+    if (token.end) {
+      group.end = true;
+      group.count = 0;
+      return kBusy;
+    }
+    line_ = token.line;
+    line_columns.record(line_.count);
+  }
+  // Only columns of one block of the major axis are looked at.
+  const std::uint32_t most =
+      std::min({walkers_, std::uint32_t{line_.count},
+                spec::geometric::kBlockSize - (line_.first & (spec::geometric::kBlockSize - 1u))});
+  std::int64_t position = line_.position, depth = line_.depth;
+  const std::int64_t block = position >> (kRowShift + kBlockShift);
+  std::uint32_t count = 0;
+  do {
+    group.position[count++] = static_cast<std::int32_t>(position >> kDistanceShift);
+    position += line_.slope;
+    depth += line_.depth_step;
+  } while (count < most && position >> (kRowShift + kBlockShift) == block);
+  group.vertical = line_.axis == spec::geometric::Axis::kVertical;
+  group.tie_forward = line_.tie_forward;
+  group.column = line_.first;
+  group.count = static_cast<std::uint8_t>(count);
+  group.depth = line_.depth;
+  group.step = line_.depth_step;
+  line_.position = position;
+  line_.depth = depth;
+  line_.first = static_cast<std::uint16_t>(line_.first + count);
+  line_.count = static_cast<std::uint16_t>(line_.count - count);
+  columns += count;
+  ++groups;
+  return kBusy;
+}
+
+}  // namespace deburr::rtl::geometric

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/geometric/memory_arbiter.h"
+
+#include <string>
+
+namespace deburr::rtl::geometric {
+namespace {
+
+std::string named(Client which, const char* what) {
+  return std::string(kClientNames[static_cast<std::size_t>(which)]) + "_" + what;
+}
+
+}  // namespace
+
+MemoryArbiter::Side::Side(Client which, const MemoryPortParameters& port)
+    : requests(named(which, "requests").c_str(), 2, request_shape(port, 32, kPlaceBits)),
+      responses(named(which, "responses").c_str(), 2, response_shape(port, 32, kPlaceBits)),
+      requests_in(named(which, "requests_in").c_str()),
+      responses_out(named(which, "responses_out").c_str()),
+      read_latency(named(which, "read_latency").c_str(), "clk",
+                   "from the arbiter's taking a read to its answer's leaving it"),
+      granted(std::size_t{1} << kPlaceBits) {
+  requests_in(requests);
+  responses_out(responses);
+}
+
+MemoryArbiter::MemoryArbiter(const sc_core::sc_module_name& name, ClockDomain& clock,
+                             ParameterStore& store, const MemoryPortParameters& port)
+    : Unit(name, clock), store_(store) {
+  for (std::size_t i = 0; i < kClients; ++i)
+    sides_[i] = std::make_unique<Side>(static_cast<Client>(i), port);
+}
+
+void MemoryArbiter::connect(Client which, MemoryClient& client) {
+  Side& side = *sides_[static_cast<std::size_t>(which)];
+  client.requests_out(side.requests);
+  client.responses_in(side.responses);
+}
+
+Activity MemoryArbiter::tick(Cycle cycle) {
+  bool did = false;
+  if (responses_in.can_pop(cycle)) {
+    const MemoryResponse& response = responses_in.front(cycle);
+    Side& side = *sides_[response.tag >> kPlaceBits];
+    if (side.responses_out.can_push(cycle)) {
+      if (response.status != MemoryStatus::kOk) {
+        ++memory_errors;
+        store_.set_sticky(spec::geometric::reg::kStatusMemoryError);
+      }
+      MemoryResponse& out = side.responses_out.emplace(cycle);
+      out = response;
+      out.tag = response.tag & ((1u << kPlaceBits) - 1);
+      if (!out.write) side.read_latency.record(cycle - side.granted[out.tag]);
+      responses_in.pop(cycle);
+      did = true;
+    }
+  }
+  std::uint64_t waiting = 0;
+  for (std::size_t i = 0; i < kClients; ++i)
+    waiting |= std::uint64_t{sides_[i]->requests_in.can_pop(cycle)} << i;
+  if (waiting == 0) return did ? kBusy : kIdle;
+  if (!requests_out.can_push(cycle)) return did ? kBusy : kStalledDownstream;
+  const int chosen = round_robin_.choose(waiting);
+  round_robin_.grant(chosen);
+  const auto client = static_cast<std::uint32_t>(chosen);
+  Side& side = *sides_[client];
+  MemoryRequest& out = requests_out.emplace(cycle);
+  out = side.requests_in.take(cycle);
+  if (!out.write) side.granted[out.tag] = cycle;
+  out.tag |= client << kPlaceBits;
+  return kBusy;
+}
+
+}  // namespace deburr::rtl::geometric

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/geometric/resolve/block_fetch.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "spec/geometric/records.h"
+
+namespace deburr::rtl::geometric {
+namespace {
+
+constexpr std::uint32_t kColourPlace = 1u << (kPlaceBits - 1);
+
+}  // namespace
+
+BlockFetch::BlockFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
+                       const spec::geometric::Parameters& p, const ParameterStore& store,
+                       const WeightCombiner& combiner)
+    : Unit(name, clock),
+      colours("resolve_colours", p.resolve_lines / 2, 8 * spec::geometric::kLineBytes,
+              "colours on their way to the resolve"),
+      store_(store),
+      combiner_(combiner),
+      tag_port_(combiner.tag_port()),
+      data_port_(combiner.data_port()),
+      weights_("resolve_weights", p.resolve_lines / 2, 8 * spec::geometric::kLineBytes,
+               "weights on their way to the resolve"),
+      fifo_("latency_fifo", static_cast<std::uint32_t>(p.resolve_lines / 2)),
+      stalled_weights_(declare_stall("weights", "a block of weights has not come")),
+      stalled_colours_(declare_stall("colours", "no place for a line of colours is free")) {}
+
+// Stages 2 and 1.
+Activity BlockFetch::look_up(Cycle cycle) {
+  if (looking_) {
+    if (!fifo_.can_push(cycle)) return kStalledDownstream;
+    Lookup lookup{block_, 0, true};
+    if (!block_.end) {
+      lookup.index = static_cast<std::uint16_t>(combiner_.index_of(block_.x, block_.y));
+      lookup.cached =
+          tag_port_.at(cycle, lookup.index, looked_) == WeightCombiner::tag_of(block_.x, block_.y);
+      if (!lookup.cached) {
+        if (!weights_.can_reserve(cycle)) return stalled_weights_;
+        if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
+        const FrameRules& rules = store_.rules();
+        memory.read(cycle,
+                    rules.weight_base +
+                        spec::geometric::kLineBytes * (block_.y * rules.blocks_across + block_.x),
+                    weights_.reserve());
+        ++weights_read;
+      }
+    }
+    fifo_.push(cycle, lookup);
+    looking_ = false;
+  }
+  if (!blocks_in.can_pop(cycle)) return kIdle;
+  block_ = blocks_in.take(cycle);
+  looking_ = true;
+  looked_ = cycle;
+  if (!block_.end) tag_port_.read(cycle, combiner_.index_of(block_.x, block_.y));
+  return kBusy;
+}
+
+// What a pixel takes from, by its weights: bits of `lines`.
+std::uint32_t BlockFetch::lines_of_pixel(const BlockToken& block, std::uint32_t pixel,
+                                         bool horizontal) const {
+  const std::uint32_t x = pixel & 3, y = pixel >> 2;
+  const bool tiled = store_.rules().tiled;
+  const spec::geometric::Weights& w = block.weights[pixel];
+  const bool first = w[horizontal ? 2 : 0] != 0, second = w[horizontal ? 3 : 1] != 0;
+  const std::uint32_t row = tiled ? 1 : y + 1;
+  const auto bit = [](std::uint32_t i, std::uint32_t j) { return 1u << (3 * i + j); };
+  std::uint32_t lines = bit(row, 1);
+  if (horizontal) {
+    const std::uint32_t edge = tiled ? 0 : block.x & 3;  // in its line of memory
+    if (first && x == 0 && edge == 0) lines |= bit(row, 0);
+    if (second && x == 3 && (tiled || edge == 3)) lines |= bit(row, 2);
+  } else {
+    if (first && (!tiled || y == 0)) lines |= bit(row - 1, 1);
+    if (second && (!tiled || y == 3)) lines |= bit(row + 1, 1);
+  }
+  return lines;
+}
+
+// Stage 4.
+void BlockFetch::choose(BlockToken& block) const {
+  block.blended = block.horizontal = 0;
+  block.lines = 0;
+  for (std::uint32_t pixel = 0; pixel < spec::geometric::kBlockPixels; ++pixel) {
+    const auto& [up, down, left, right] = block.weights[pixel];
+    if ((up | down | left | right) == 0) continue;
+    const bool horizontal = left + right > up + down;
+    block.blended = static_cast<std::uint16_t>(block.blended | 1u << pixel);
+    block.horizontal =
+        static_cast<std::uint16_t>(block.horizontal | std::uint32_t{horizontal} << pixel);
+    block.lines |= lines_of_pixel(block, pixel, horizontal);
+  }
+}
+
+// Stage 5; kIdle: nothing is left to do.
+Activity BlockFetch::ask(Cycle cycle) {
+  if (!is_asking_) return kIdle;
+  if (!handed_ && !blocks_out.can_push(cycle)) return kStalledDownstream;
+  if (to_ask_ != 0) {
+    if (!colours.can_reserve(cycle)) return stalled_colours_;
+    if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
+    const FrameRules& rules = store_.rules();
+    const auto line = static_cast<std::uint32_t>(std::countr_zero(to_ask_));
+    const std::uint32_t i = line / 3, j = line % 3;
+    const std::uint32_t u = (rules.tiled ? asking_.x : asking_.x >> 2) + j - 1,
+                        v = (rules.tiled ? asking_.y : asking_.y * 4u) + i - 1;
+    memory.read(cycle,
+                (rules.frame_copy ? rules.copy_base : rules.colour_base) + rules.line_offset(u, v),
+                colours.reserve() | kColourPlace);
+    ++lines_read;
+    to_ask_ &= to_ask_ - 1;
+  }
+  if (!handed_) blocks_out.push(cycle, asking_);
+  handed_ = true;
+  if (to_ask_ == 0) is_asking_ = false;
+  return kBusy;
+}
+
+// Stages 5 to 3.
+Activity BlockFetch::deliver(Cycle cycle) {
+  const Activity asked = ask(cycle);
+  bool did = asked == kBusy;
+  if (is_fetched_ && !is_asking_) {
+    if (!token_.end) {
+      if (fetched_.cached) token_.weights = data_port_.at(cycle, fetched_.index);
+      choose(token_);
+    }
+    asking_ = token_;
+    to_ask_ = token_.lines;
+    is_fetched_ = handed_ = false;
+    is_asking_ = did = true;
+  }
+  if (is_fetched_ || !fifo_.can_pop(cycle)) return did ? kBusy : asked;
+  const Lookup& next = fifo_.front(cycle);
+  if (!next.cached) {
+    if (!weights_.ready(cycle)) return did ? kBusy : stalled_weights_;
+    token_.weights = weights_.line(cycle);
+    weights_.release(cycle);
+  } else if (!next.block.end) {
+    data_port_.read(cycle, next.index);
+  }
+  token_.x = next.block.x;
+  token_.y = next.block.y;
+  token_.above = next.block.above;
+  token_.end = next.block.end;
+  token_.lines = 0;
+  fetched_ = next;
+  fifo_.pop(cycle);
+  is_fetched_ = true;
+  return kBusy;
+}
+
+Activity BlockFetch::tick(Cycle cycle) {
+  const Activity data = deliver(cycle);
+  const Activity tags = look_up(cycle);
+  bool did = data == kBusy || tags == kBusy;
+  if (memory.responses_in.can_pop(cycle)) {
+    const MemoryResponse& response = memory.responses_in.take(cycle);
+    if (response.tag & kColourPlace) {
+      colours.fill(cycle, response.tag & (kColourPlace - 1), response.data);
+    } else {
+      BlockWeights block;
+      for (std::size_t i = 0; i < block.size(); ++i)
+        std::copy_n(response.data.begin() + static_cast<std::ptrdiff_t>(4 * i), 4,
+                    block[i].begin());
+      weights_.fill(cycle, response.tag, block);
+    }
+    did = true;
+  }
+  if (!weights_.empty()) weights_.read_ahead(cycle);
+  return did ? kBusy : data != kIdle ? data : tags;
+}
+
+void BlockFetch::reset() {
+  colours.reset();
+  weights_.reset();
+  fifo_.reset();
+  looking_ = is_fetched_ = is_asking_ = handed_ = false;
+  to_ask_ = 0;
+}
+
+}  // namespace deburr::rtl::geometric

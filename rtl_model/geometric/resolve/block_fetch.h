@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Brings what the resolve of a touched block needs: its weights, from the cache or from memory, and
+// the lines of colours that hold its blended pixels and what these take from.
+//
+// Where: between BlockScanner and Resolver, which takes the lines out of `colours`. Latency 5, and
+// the wait for weights; initiation interval max(1, lines to read). Stages: 1 tag of the block;
+// 2 a read of weights ordered; FIFO; 3 weights, from the cache's data or the line that came; 4 axis
+// of each pixel, lines that are needed; 5 requests, one a clock, the block with the first. Weights
+// and colours have their places apart: weights of blocks to come cannot take those of the lines
+// that the oldest block waits for. Stalls: `weights` (a block has not come), `colours` (no place
+// for a line), `downstream`. Requests of colours go before those of weights.
+// Cost: weights and lines on their way, the FIFO, 16 9-bit compares, a 13 x 10 and a 11 x 11
+// multiply. Made for 250 MHz; longest path: SRAM read + 10-bit compare.
+#pragma once
+
+#include <cstdint>
+#include <systemc>
+
+#include "rtl_model/fabric/fifo.h"
+#include "rtl_model/geometric/fill_store.h"
+#include "rtl_model/geometric/frame_sequencer.h"
+#include "rtl_model/geometric/memory_arbiter.h"
+#include "rtl_model/geometric/tokens.h"
+#include "rtl_model/geometric/weights/weight_combiner.h"
+
+namespace deburr::rtl::geometric {
+
+class BlockFetch final : public Unit {
+ public:
+  In<TouchedBlock> blocks_in{"blocks_in"};
+  Out<BlockToken> blocks_out{"blocks_out"};
+  MemoryClient memory;
+  FillStore<Line> colours;
+
+  BlockFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
+             const spec::geometric::Parameters& parameters, const ParameterStore& store,
+             const WeightCombiner& combiner);
+  Activity tick(Cycle cycle) override;
+  void reset() override;
+
+  Counter weights_read{"weights_read", "lines", "blocks of weights read from memory"};
+  Counter lines_read{"lines_read", "lines", "lines of colours read, of the frame or its copy"};
+
+ private:
+  struct Lookup {
+    TouchedBlock block;
+    std::uint16_t index;  // U10
+    bool cached;
+    template <class Self, class Visit>
+    static constexpr void fields(Self& self, Visit&& visit) {
+      visit("block", self.block);
+      visit("index", self.index, 10, "U10");
+      visit("cached", self.cached);
+    }
+  };
+  Activity look_up(Cycle cycle);
+  Activity deliver(Cycle cycle);
+  Activity ask(Cycle cycle);
+  void choose(BlockToken& block) const;
+  std::uint32_t lines_of_pixel(const BlockToken& block, std::uint32_t pixel, bool horizontal) const;
+
+  const ParameterStore& store_;
+  const WeightCombiner& combiner_;
+  ReadPort<std::uint32_t> tag_port_;
+  ReadPort<BlockWeights> data_port_;
+  FillStore<BlockWeights> weights_;
+  Fifo<Lookup> fifo_;
+  Activity stalled_weights_, stalled_colours_;
+
+  TouchedBlock block_{};  // stage 2
+  bool looking_ = false;
+  Cycle looked_ = 0;
+  Lookup fetched_{};  // stage 4
+  BlockToken token_{};
+  bool is_fetched_ = false;
+  BlockToken asking_{};  // stage 5
+  std::uint32_t to_ask_ = 0;
+  bool is_asking_ = false, handed_ = false;
+};
+
+}  // namespace deburr::rtl::geometric

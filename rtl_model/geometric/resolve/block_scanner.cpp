@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/geometric/resolve/block_scanner.h"
+
+#include <bit>
+
+namespace deburr::rtl::geometric {
+
+using spec::geometric::kBlocksInWord;
+
+BlockScanner::BlockScanner(const sc_core::sc_module_name& name, ClockDomain& clock,
+                           const spec::geometric::Parameters& p, const ParameterStore& store,
+                           const FrameSequencer& sequencer, const WeightCombiner& combiner)
+    : Unit(name, clock),
+      store_(store),
+      sequencer_(sequencer),
+      touched_port_(combiner.touched_port()),
+      above_("touched_above", {.words = static_cast<std::uint64_t>((p.line_pixels + 511) / 512),
+                               .word_bits = kBlocksInWord,
+                               .kind = MemoryKind::kFlops,
+                               .latency = 0,
+                               .content = "touched words of the block row above"}) {}
+
+// Stage 2.
+void BlockScanner::load(Cycle cycle) {
+  const FrameRules& rules = store_.rules();
+  left_ = touched_port_.at(cycle, taken_);
+  above_word_ = row_ == 0 ? TouchedWord{} : above_read_.now(cycle, column_);
+  above_write_.write(cycle, column_, left_);
+  block_x_ = column_ * kBlocksInWord;
+  block_y_ = row_;
+  ++taken_;
+  if (++column_ == rules.words_across) {
+    column_ = 0;
+    ++row_;
+  }
+}
+
+Activity BlockScanner::tick(Cycle cycle) {
+  if (sequencer_.phase(cycle) != Phase::kResolve) {
+    if (ended_) reset();
+    return kIdle;
+  }
+  if (ended_) return kIdle;
+  const std::uint32_t words = store_.rules().touched_words;
+  const bool any = left_.bits[0] | left_.bits[1];
+  const bool finished = !any && taken_ == words;
+  if ((any || finished) && !blocks_out.can_push(cycle)) return kStalledDownstream;
+  if (finished) {
+    blocks_out.emplace(cycle).end = ended_ = true;
+    return kBusy;
+  }
+  if (any) {
+    const std::size_t half = left_.bits[0] ? 0 : 1;
+    const std::uint32_t bit = static_cast<std::uint32_t>(64 * half) +
+                              static_cast<std::uint32_t>(std::countr_zero(left_.bits[half]));
+    left_.bits[half] &= left_.bits[half] - 1;
+    TouchedBlock& block = blocks_out.emplace(cycle);
+    block.x = static_cast<std::uint16_t>(block_x_ + bit);
+    block.y = static_cast<std::uint16_t>(block_y_);
+    block.above = above_word_.get(bit);
+    block.end = false;
+  }
+  if ((left_.bits[0] | left_.bits[1]) == 0 && taken_ != asked_) load(cycle);
+  if (asked_ != words && asked_ == taken_) touched_port_.read(cycle, asked_++);
+  return kBusy;
+}
+
+void BlockScanner::reset() {
+  asked_ = taken_ = column_ = row_ = 0;
+  left_ = above_word_ = {};
+  ended_ = false;
+}
+
+}  // namespace deburr::rtl::geometric

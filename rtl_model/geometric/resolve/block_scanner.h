@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Finds the touched blocks of a frame, in raster order of blocks.
+//
+// Where: head of the resolve. Latency 3 from its begin to the first block; a word of 128 blocks
+// takes a clock for each touched one, at least 1. Stages: 1 address of the word; 2 word; 3 first
+// bit of 128, by groups of 16, the next group taken up while the last bit of the one before leaves.
+// After the last block comes the frame's end. Stalls: `downstream`. Cost: the touched words of the
+// block row above (touched_above), two words of registers, two 16 : 1 priorities. Made for 250 MHz;
+// longest path: 16 : 1 priority.
+#pragma once
+
+#include <cstdint>
+#include <systemc>
+
+#include "rtl_model/fabric/memory.h"
+#include "rtl_model/geometric/frame_sequencer.h"
+#include "rtl_model/geometric/tokens.h"
+#include "rtl_model/geometric/weights/weight_combiner.h"
+
+namespace deburr::rtl::geometric {
+
+class BlockScanner final : public Unit {
+ public:
+  Out<TouchedBlock> blocks_out{"blocks_out"};
+
+  BlockScanner(const sc_core::sc_module_name& name, ClockDomain& clock,
+               const spec::geometric::Parameters& parameters, const ParameterStore& store,
+               const FrameSequencer& sequencer, const WeightCombiner& combiner);
+  Activity tick(Cycle cycle) override;
+  void reset() override;
+
+ private:
+  void load(Cycle cycle);
+
+  const ParameterStore& store_;
+  const FrameSequencer& sequencer_;
+  ReadPort<TouchedWord> touched_port_;
+  Memory<TouchedWord> above_;
+  ReadPort<TouchedWord> above_read_{above_, "this row"};
+  WritePort<TouchedWord> above_write_{above_, "next row"};
+  std::uint32_t asked_ = 0, taken_ = 0;      // U17, words
+  std::uint32_t column_ = 0, row_ = 0;       // U5, U12: of the word taken next
+  std::uint32_t block_x_ = 0, block_y_ = 0;  // first block of the word in stage 3
+  TouchedWord left_, above_word_;            // of that word: not yet sent; the row above
+  bool ended_ = false;
+};
+
+}  // namespace deburr::rtl::geometric

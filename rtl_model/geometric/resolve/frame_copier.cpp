@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/geometric/resolve/frame_copier.h"
+
+#include "spec/geometric/records.h"
+
+namespace deburr::rtl::geometric {
+
+using spec::geometric::kLineBytes;
+
+FrameCopier::FrameCopier(const sc_core::sc_module_name& name, ClockDomain& clock,
+                         const ParameterStore& store, const FrameSequencer& sequencer)
+    : Unit(name, clock),
+      store_(store),
+      sequencer_(sequencer),
+      buffer_("copy_buffer", kLines, 8 * kLineBytes, "lines between read and write",
+              MemoryKind::kFlops),
+      stalled_memory_(declare_stall("memory", "the next line has not come")) {}
+
+Activity FrameCopier::tick(Cycle cycle) {
+  const Phase phase = sequencer_.phase(cycle);
+  if (phase != Phase::kBegin && phase != Phase::kEdges) {
+    if (done_.get(cycle)) {
+      done_.set(cycle, false);
+      asked_ = written_ = answered_ = 0;
+    }
+    return kIdle;
+  }
+  if (done_.get(cycle)) return kIdle;
+  const FrameRules& rules = store_.rules();
+  const std::uint32_t lines = rules.frame_copy ? rules.frame_lines() : 0;
+  bool did = false;
+  if (memory.responses_in.can_pop(cycle)) {
+    const MemoryResponse& response = memory.responses_in.take(cycle);
+    if (response.write)
+      ++answered_;
+    else
+      buffer_.fill(cycle, response.tag, response.data);
+    did = true;
+  }
+  // A read goes first, so that the places stay on their way.
+  const bool reads = asked_ != lines && buffer_.can_reserve(cycle),
+             blocked = !memory.requests_out.can_push(cycle);
+  if ((reads || buffer_.ready(cycle)) && !blocked) {
+    if (reads) {
+      memory.read(cycle, rules.colour_base + asked_ * kLineBytes, buffer_.reserve());
+      ++asked_;
+    } else {
+      memory.write(cycle, rules.copy_base + written_ * kLineBytes, 0, ~std::uint64_t{0}) =
+          buffer_.line(cycle);
+      buffer_.release(cycle);
+      ++written_;
+      ++lines_copied;
+    }
+    did = true;
+  }
+  buffer_.read_ahead(cycle);
+  if (answered_ == lines) done_.set(cycle, true);
+  if (did || answered_ == lines) return did ? kBusy : kIdle;
+  return blocked ? kStalledDownstream : stalled_memory_;
+}
+
+void FrameCopier::reset() {
+  buffer_.reset();
+  asked_ = written_ = answered_ = 0;
+  done_.reset();
+}
+
+}  // namespace deburr::rtl::geometric

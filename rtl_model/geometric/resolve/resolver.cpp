@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/geometric/resolve/resolver.h"
+
+#include <algorithm>
+#include <bit>
+#include <string>
+
+#include "spec/geometric/records.h"
+#include "spec/geometric/tables.h"
+
+namespace deburr::rtl::geometric {
+namespace {
+
+std::uint32_t lanes_of(const spec::geometric::Parameters& p) {
+  return spec::geometric::kLaneCount[static_cast<std::size_t>(p.resolve_lanes)];
+}
+
+spec::geometric::Rgba8 pixel_of(const Line& line, std::size_t pixel) {
+  spec::geometric::Rgba8 rgba;
+  std::copy_n(line.begin() + static_cast<std::ptrdiff_t>(4 * pixel), 4, rgba.begin());
+  return rgba;
+}
+
+}  // namespace
+
+Resolver::Resolver(const sc_core::sc_module_name& name, ClockDomain& clock,
+                   const spec::geometric::Parameters& p, const ParameterStore& store,
+                   const FrameSequencer& sequencer, BlockFetch& fetch)
+    : Unit(name, clock),
+      store_(store),
+      sequencer_(sequencer),
+      fetch_(fetch),
+      lanes_(lanes_of(p)),
+      originals_("originals", {.words = static_cast<std::uint64_t>((p.line_pixels + 3) / 4),
+                               .word_bits = 100,
+                               .read_during_write = ReadDuringWrite::kNewWord,
+                               .content = "four pixels before they were blended, and whether",
+                               .columns = static_cast<std::uint64_t>(p.line_pixels)}),
+      linear_rom_("linear_rom",
+                  {.words = spec::geometric::kLinear12FromSrgb.size(),
+                   .word_bits = 12,
+                   .kind = MemoryKind::kRom,
+                   .read_ports = 9 * lanes_,
+                   .write_ports = 0,
+                   .content = "linear light of a code"},
+                  spec::geometric::kLinear12FromSrgb),
+      encode_rom_("encode_rom",
+                  {.words = spec::geometric::kSrgbFromLinear12.size(),
+                   .word_bits = 8,
+                   .kind = MemoryKind::kRom,
+                   .read_ports = 3 * lanes_,
+                   .write_ports = 0,
+                   .content = "code of a linear light"},
+                  spec::geometric::kSrgbFromLinear12),
+      stalled_colours_(declare_stall("colours", "a line of colours has not come")) {
+  for (std::uint32_t lane = 0; lane < lanes_; ++lane)
+    for (const char* const channel : {"r", "g", "b"}) {
+      const std::string at = std::to_string(lane) + "." + channel;
+      for (const char* const operand : {" centre", " first", " second"})
+        light_.emplace_back(linear_rom_, at + operand);
+      codes_.emplace_back(encode_rom_, at);
+    }
+}
+
+// Stage 1: line `number` = 3 i + j of the block (BlockToken::lines).
+void Resolver::place(const Line& line, std::uint32_t number) {
+  const std::size_t i = number / 3, j = number % 3;
+  Window& w = window_;
+  if (store_.rules().tiled) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (i == 0) w.up[k] = pixel_of(line, 12 + k);
+      if (i == 2) w.down[k] = pixel_of(line, k);
+      if (i == 1 && j == 0) w.left[k] = pixel_of(line, 4 * k + 3);
+      if (i == 1 && j == 2) w.right[k] = pixel_of(line, 4 * k);
+    }
+    if (number == 4)
+      for (std::size_t k = 0; k < 16; ++k) w.own[k] = pixel_of(line, k);
+    return;
+  }
+  if (j == 0) {
+    w.left[i - 1] = pixel_of(line, 15);
+  } else if (j == 2) {
+    w.right[i - 1] = pixel_of(line, 0);
+  } else {
+    const std::size_t first = 4u * (block(newest_).x & 3);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Rgba pixel = pixel_of(line, first + k);
+      (i == 0 ? w.up[k] : i == 5 ? w.down[k] : w.own[4 * (i - 1) + k]) = pixel;
+    }
+    if (i == 0 || i == 5) return;
+    if (first != 0) w.left[i - 1] = pixel_of(line, first - 1);
+    if (first != 12) w.right[i - 1] = pixel_of(line, first + 4);
+  }
+}
+
+Activity Resolver::load(Cycle cycle) {
+  if (!loading_) {
+    if (!blocks_in.can_pop(cycle)) return kIdle;
+    const BlockToken& token = block(++newest_) = blocks_in.take(cycle);
+    loading_ = true;
+    to_load_ = token.end ? 0 : token.lines;
+    if (!token.end) originals_read_.read(cycle, token.x);
+    if (to_load_ == 0) return kBusy;
+    if (!fetch_.colours.ready(cycle)) return kBusy;
+  }
+  if (to_load_ == 0) return kStalledDownstream;
+  if (!fetch_.colours.ready(cycle)) return stalled_colours_;
+  place(fetch_.colours.line(cycle), static_cast<std::uint32_t>(std::countr_zero(to_load_)));
+  fetch_.colours.release(cycle);
+  to_load_ &= to_load_ - 1;
+  return kBusy;
+}
+
+// Neighbours that were blended before are what they were then.
+void Resolver::restore(Cycle cycle, const BlockToken& block) {
+  const auto over = [](const Originals& kept, std::array<Rgba, 4>& pixels) {
+    for (std::size_t k = 0; k < 4; ++k)
+      if (kept.blended >> k & 1) pixels[k] = kept.pixel[k];
+  };
+  if (block.above) over(originals_read_.at(cycle, block.x), sources_.up);
+  if (has_left_ && left_x_ + 1 == block.x && left_y_ == block.y) over(left_, sources_.left);
+}
+
+// Stage 2.
+void Resolver::move_on(Cycle cycle) {
+  const BlockToken& token = block(newest_);
+  blending_ = true;
+  loading_ = false;
+  blended_block_ = newest_;
+  to_blend_ = token.end ? 0 : token.blended;
+  sources_ = window_;
+  if (token.end) {
+    has_left_ = false;
+    return;
+  }
+  if (!store_.rules().frame_copy) restore(cycle, token);
+  Originals below;
+  left_.blended = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    below.pixel[k] = window_.own[12 + k];
+    below.blended |= static_cast<std::uint8_t>((token.blended >> (12 + k) & 1) << k);
+    left_.pixel[k] = window_.own[4 * k + 3];
+    left_.blended |= static_cast<std::uint8_t>((token.blended >> (4 * k + 3) & 1) << k);
+  }
+  originals_write_.write(cycle, token.x, below);
+  left_x_ = token.x;
+  left_y_ = token.y;
+  has_left_ = true;
+}
+
+// Stage 3.
+void Resolver::take_pixels(Cycle cycle, Beat& beat) {
+  const BlockToken& token = block(blended_block_);
+  const bool linear = store_.rules().linear_light;
+  beat.block = static_cast<std::uint8_t>(blended_block_ % kBlocks);
+  beat.count = 0;
+  for (; to_blend_ != 0 && beat.count < lanes_; to_blend_ &= to_blend_ - 1) {
+    const auto p = static_cast<std::size_t>(std::countr_zero(to_blend_)), x = p & 3, y = p >> 2;
+    const bool horizontal = token.horizontal >> p & 1;
+    const auto& [up, down, left, right] = token.weights[p];
+    Operands& o = beat.operands[beat.count];
+    o.pixel = static_cast<std::uint8_t>(p);
+    o.code[0] = sources_.own[p];
+    if (horizontal) {
+      o.weight = {left, right};
+      o.code[1] = x > 0 ? sources_.own[p - 1] : sources_.left[y];
+      o.code[2] = x < 3 ? sources_.own[p + 1] : sources_.right[y];
+    } else {
+      o.weight = {up, down};
+      o.code[1] = y > 0 ? sources_.own[p - 4] : sources_.up[x];
+      o.code[2] = y < 3 ? sources_.own[p + 4] : sources_.down[x];
+    }
+    if (linear)
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t operand = 0; operand < 3; ++operand)
+          light_[(beat.count * 3u + c) * 3 + operand].read(cycle, o.code[operand][c]);
+    ++beat.count;
+  }
+  beat.last = to_blend_ == 0;
+  blending_ = !beat.last;
+}
+
+// Stage 4.
+void Resolver::subtract(Cycle cycle, Beat& beat) {
+  const bool linear = store_.rules().linear_light;
+  for (std::size_t lane = 0; lane < beat.count; ++lane) {
+    Operands& o = beat.operands[lane];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto light = [&](std::size_t operand) -> std::int32_t {
+        const std::uint8_t code = o.code[operand][c];
+        return linear ? light_[(lane * 3 + c) * 3 + operand].at(cycle, code) : code;
+      };
+      o.centre[c] = light(0);
+      o.first[c] = light(1) - o.centre[c];
+      o.second[c] = light(2) - o.centre[c];
+    }
+  }
+}
+
+// Stage 5.
+void Resolver::multiply(Beat& beat) {
+  for (std::size_t lane = 0; lane < beat.count; ++lane) {
+    Operands& o = beat.operands[lane];
+    for (std::size_t c = 0; c < 3; ++c)
+      o.sum[c] = o.weight[0] * o.first[c] + o.weight[1] * o.second[c];
+  }
+}
+
+// Stage 6.
+void Resolver::round(Cycle cycle, Beat& beat) {
+  const bool linear = store_.rules().linear_light;
+  for (std::size_t lane = 0; lane < beat.count; ++lane) {
+    Operands& o = beat.operands[lane];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::int32_t v = o.sum[c], moved = ((v < 0 ? -v : v) + 128) >> 8;
+      o.value[c] = static_cast<std::uint16_t>(v < 0 ? o.centre[c] - moved : o.centre[c] + moved);
+      if (linear) codes_[lane * 3 + c].read(cycle, o.value[c]);
+    }
+  }
+}
+
+// Stage 7.
+void Resolver::encode(Cycle cycle, const Beat& beat) {
+  const FrameRules& rules = store_.rules();
+  for (std::size_t lane = 0; lane < beat.count; ++lane) {
+    const Operands& o = beat.operands[lane];
+    Rgba& result = results_[o.pixel];
+    for (std::size_t c = 0; c < 3; ++c)
+      result[c] = rules.linear_light ? codes_[lane * 3 + c].at(cycle, o.value[c])
+                                     : static_cast<std::uint8_t>(o.value[c]);
+    result[3] = static_cast<std::uint8_t>(rules.mark ? o.code[0][3] & 0xFE : o.code[0][3]);
+  }
+  blended_pixels += beat.count;
+  if (beat.last) close(beat.block);
+}
+
+// A block is complete.
+void Resolver::close(std::uint32_t number) {
+  const BlockToken& token = block(number);
+  if (token.end) {
+    ended_ = true;
+    return;
+  }
+  ++blocks;
+  written_block_ = number;
+  written_ = results_;
+  if (store_.rules().tiled) {
+    to_write_ = token.blended != 0;
+  } else {
+    for (std::uint32_t row = 0; row < 4; ++row)
+      to_write_ |= static_cast<std::uint32_t>((token.blended >> (4 * row) & 0xF) != 0) << row;
+  }
+  if (!observer) return;
+  spec::geometric::BlockRecord record;
+  record.x = token.x;
+  record.y = token.y;
+  record.weights = token.weights;
+  record.blended = token.blended;
+  for (std::size_t i = 0; i < results_.size(); ++i)
+    if (token.blended >> i & 1) record.pixels[i] = results_[i];
+  observer(record);
+}
+
+// Stage 8; false: the link takes nothing.
+bool Resolver::write(Cycle cycle) {
+  if (!memory.requests_out.can_push(cycle)) return false;
+  const FrameRules& rules = store_.rules();
+  const BlockToken& token = block(written_block_);
+  const auto row = static_cast<std::uint32_t>(std::countr_zero(to_write_));
+  const std::uint32_t first_pixel = rules.tiled ? 0 : 4 * row, pixels = rules.tiled ? 16 : 4,
+                      at = rules.tiled ? 0 : 4u * (token.x & 3);  // in the line
+  const std::uint32_t offset = rules.tiled ? rules.line_offset(token.x, token.y)
+                                           : rules.line_offset(token.x >> 2, token.y * 4u + row);
+  std::uint64_t mask = 0;
+  for (std::uint32_t k = 0; k < pixels; ++k)
+    if (token.blended >> (first_pixel + k) & 1) mask |= std::uint64_t{0xF} << (4 * (at + k));
+  Line& line = memory.write(cycle, rules.colour_base + offset, 0, mask);
+  line.fill(0);
+  for (std::uint32_t k = 0; k < pixels; ++k)
+    std::copy_n(written_[first_pixel + k].begin(), 4,
+                line.begin() + static_cast<std::ptrdiff_t>(4 * (at + k)));
+  to_write_ &= to_write_ - 1;
+  ++writes_;
+  ++lines_written;
+  return true;
+}
+
+// Stages 7 to 3; false: the block before is not written yet.
+bool Resolver::blend(Cycle cycle) {
+  if (const Beat* next = pipe_.at(4); next && next->last && to_write_ != 0) return false;
+  pipe_.move();
+  if (const Beat* beat = pipe_.at(5)) encode(cycle, *beat);
+  if (Beat* beat = pipe_.at(4)) round(cycle, *beat);
+  if (Beat* beat = pipe_.at(3)) multiply(*beat);
+  if (Beat* beat = pipe_.at(2)) subtract(cycle, *beat);
+  if (blending_) take_pixels(cycle, pipe_.enter());
+  return true;
+}
+
+Activity Resolver::tick(Cycle cycle) {
+  if (sequencer_.phase(cycle) != Phase::kResolve) {
+    if (done_.get(cycle)) done_.set(cycle, false);
+    ended_ = false;
+    return kIdle;
+  }
+  bool did = false, blocked = false;
+  if (memory.responses_in.can_pop(cycle)) {
+    memory.responses_in.pop(cycle);
+    --writes_;
+    did = true;
+  }
+  if (to_write_ != 0) (write(cycle) ? did : blocked) = true;
+  if (!pipe_.empty() || blending_) (blend(cycle) ? did : blocked) = true;
+  if (loading_ && to_load_ == 0 && !blending_) {
+    move_on(cycle);
+    did = true;
+  }
+  const Activity loaded = load(cycle);
+  fetch_.colours.read_ahead(cycle);
+  if (ended_ && writes_ == 0 && to_write_ == 0 && !done_.get(cycle)) done_.set(cycle, true);
+  if (did) return kBusy;
+  return blocked ? kStalledDownstream : loaded;
+}
+
+void Resolver::reset() {
+  pipe_.reset();
+  done_.reset();
+  newest_ = 0;
+  loading_ = blending_ = has_left_ = ended_ = false;
+  to_load_ = to_blend_ = to_write_ = writes_ = 0;
+}
+
+}  // namespace deburr::rtl::geometric

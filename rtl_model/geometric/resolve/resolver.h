@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// Blends the pixels of a touched block and writes them back, in place.
+//
+// Where: end of the resolve. Latency 8 for a block of one line and resolve_lanes pixels: 1 a line
+// into the window; 2 originals over it; 3 choice of pixels, linear_rom: address; 4 linear light,
+// differences; 5 products; 6 rounding, encode_rom: address; 7 codes; 8 write. Initiation interval:
+// max(1, lines, ceil(blended pixels / resolve_lanes), lines to write) of a block; loading, blending
+// and writing work on three blocks behind each other. A neighbour that was blended before is
+// replaced by what it was: `originals` keeps the last row of each block column, registers the last
+// column of the block to the left. With frame_copy neighbours come from the copy, and nothing is
+// replaced. Stalls: `colours` (the next line has not come), `downstream`.
+// Formats: weights U0.8, linear light U0.12, result rounded by magnitude. Cost: window of 32 pixels
+// twice, 16 pixels of results twice, originals; a lane nine reads of linear_rom, three of
+// encode_rom, six multiplies 8 x 13. Made for 250 MHz; longest path: 8 x 13 multiply + 22-bit add.
+// Source: paper 002, eq (8).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <systemc>
+#include <vector>
+
+#include "rtl_model/fabric/memory.h"
+#include "rtl_model/fabric/pipe.h"
+#include "rtl_model/geometric/frame_sequencer.h"
+#include "rtl_model/geometric/memory_arbiter.h"
+#include "rtl_model/geometric/resolve/block_fetch.h"
+#include "rtl_model/geometric/tokens.h"
+
+namespace deburr::rtl::geometric {
+
+class Resolver final : public Unit {
+ public:
+  In<BlockToken> blocks_in{"blocks_in"};
+  MemoryClient memory;
+
+  Resolver(const sc_core::sc_module_name& name, ClockDomain& clock,
+           const spec::geometric::Parameters& parameters, const ParameterStore& store,
+           const FrameSequencer& sequencer, BlockFetch& fetch);
+  Activity tick(Cycle cycle) override;
+  void reset() override;
+  // The frame's end has come, and every write is answered.
+  bool done(Cycle cycle) const { return done_.get(cycle); }
+
+  std::function<void(const spec::geometric::BlockRecord&)> observer;
+
+  Counter blocks{"blocks", "blocks", "touched blocks"};
+  Counter blended_pixels{"blended_pixels", "pixels", "pixels that were blended"};
+  Counter lines_written{"lines_written", "lines", "lines of colours written"};
+
+ private:
+  using Rgba = spec::geometric::Rgba8;
+  struct Window {
+    std::array<Rgba, 16> own;
+    std::array<Rgba, 4> up, down, left, right;
+  };
+  // A row or column of a block as it was before, and which of it was blended.
+  struct Originals {
+    std::array<Rgba, 4> pixel{};
+    std::uint8_t blended = 0;
+  };
+  struct Operands {
+    std::array<Rgba, 3> code;                           // centre, first, second
+    std::array<std::uint8_t, 2> weight;                 // U0.8
+    std::array<std::int32_t, 3> centre, first, second;  // differences to the centre; S13
+    std::array<std::int32_t, 3> sum;                    // S22
+    std::array<std::uint16_t, 3> value;                 // U0.12
+    std::uint8_t pixel;                                 // U4, of the block
+  };
+  struct Beat {
+    std::uint8_t block;  // its place in blocks_
+    std::uint8_t count;  // U3, pixels
+    bool last;           // of its block
+    std::array<Operands, kLanes> operands;
+  };
+
+  BlockToken& block(std::uint32_t number) { return blocks_[number % kBlocks]; }
+  Activity load(Cycle cycle);
+  void place(const Line& line, std::uint32_t number);
+  void move_on(Cycle cycle);
+  void restore(Cycle cycle, const BlockToken& block);
+  void take_pixels(Cycle cycle, Beat& beat);
+  void subtract(Cycle cycle, Beat& beat);
+  static void multiply(Beat& beat);
+  void round(Cycle cycle, Beat& beat);
+  void encode(Cycle cycle, const Beat& beat);
+  void close(std::uint32_t number);
+  bool write(Cycle cycle);
+  bool blend(Cycle cycle);
+
+  const ParameterStore& store_;
+  const FrameSequencer& sequencer_;
+  BlockFetch& fetch_;
+  const std::uint32_t lanes_;
+  Memory<Originals> originals_;
+  ReadPort<Originals> originals_read_{originals_, "above"};
+  WritePort<Originals> originals_write_{originals_, "last row"};
+  Memory<std::uint16_t> linear_rom_;
+  std::vector<ReadPort<std::uint16_t>> light_;  // lane, channel, operand
+  Memory<std::uint8_t> encode_rom_;
+  std::vector<ReadPort<std::uint8_t>> codes_;  // lane, channel
+  Activity stalled_colours_;
+
+  // The tokens of the blocks inside: they travel with their stages.
+  static constexpr std::uint32_t kBlocks = 16;
+  std::array<BlockToken, kBlocks> blocks_{};
+  std::uint32_t newest_ = 0;  // number of the block in stage 1
+
+  // Stage 1.
+  bool loading_ = false;
+  std::uint32_t to_load_ = 0;  // lines
+  Window window_{};
+  // Stage 2.
+  Originals left_;  // last column of the block that came last
+  std::uint16_t left_x_ = 0, left_y_ = 0;
+  bool has_left_ = false;
+  // Stages 3 to 7.
+  bool blending_ = false;
+  std::uint32_t blended_block_ = 0;  // number
+  std::uint32_t to_blend_ = 0;       // bit i: pixel i
+  Window sources_{};
+  Pipe<Beat, 5> pipe_;
+  std::array<Rgba, 16> results_{};
+  // Stage 8.
+  std::uint32_t written_block_ = 0;  // number
+  std::uint32_t to_write_ = 0;       // its lines; rows if raster
+  std::array<Rgba, 16> written_{};
+  std::uint32_t writes_ = 0;  // U8, that are not answered
+  bool ended_ = false;
+  Wire<bool> done_{false};
+};
+
+}  // namespace deburr::rtl::geometric

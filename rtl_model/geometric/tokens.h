@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+// The wires between the blocks of the geometric engine: one struct a link, with its fields and
+// their widths. Lanes that a token does not use hold old bits. After the last token of a frame
+// comes one with `end` and nothing else.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "spec/geometric/packets.h"
+#include "spec/geometric/parameters.h"
+#include "spec/geometric/records.h"
+
+namespace deburr::rtl::geometric {
+
+inline constexpr std::size_t kLanes = spec::geometric::kMaxLanes;
+using Lanes8 = std::array<std::uint8_t, kLanes>;
+using Lanes32 = std::array<std::uint32_t, kLanes>;
+
+struct EdgeFields {
+  std::uint32_t v0, v1, f0, f1;  // U24
+  std::uint8_t flags;            // spec::geometric::flag
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("v0", self.v0, 24, "U24");
+    visit("v1", self.v1, 24, "U24");
+    visit("f0", self.f0, 24, "U24");
+    visit("f1", self.f1, 24, "U24");
+    visit("flags", self.flags, 4, "boundary, angle, split normals, seam");
+  }
+};
+
+// EdgeReader -> EdgeClassifier.
+struct EdgeBeat {
+  std::array<EdgeFields, kLanes> edge;
+  std::uint8_t count;  // U3, 1..lanes
+  bool end;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit.lanes("edge", self.edge);
+    visit("count", self.count, 3, "U3");
+    visit("end", self.end);
+  }
+};
+
+// EdgeClassifier -> VertexFetch.
+struct KeptEdge {
+  std::uint32_t v0, v1;  // U24
+  bool end;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("v0", self.v0, 24, "U24");
+    visit("v1", self.v1, 24, "U24");
+    visit("end", self.end);
+  }
+};
+
+// A vertex on the chip: out of the guard band is not usable.
+struct VertexFields {
+  std::int32_t x = 0, y = 0;  // S14.8
+  std::uint32_t depth = 0;    // U24
+  bool usable = false;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("x", self.x, 23, "S14.8");
+    visit("y", self.y, 23, "S14.8");
+    visit("depth", self.depth, 24, "U24");
+    visit("usable", self.usable);
+  }
+};
+
+// VertexFetch -> LineSetup.
+struct EdgeEnds {
+  std::array<VertexFields, 2> vertex;
+  bool end;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("vertex", self.vertex);
+    visit("end", self.end);
+  }
+};
+
+// LineSetup -> LineWalker.
+struct LineToken {
+  spec::geometric::LineRecord line;
+  bool end;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("line", self.line);
+    visit("end", self.end);
+  }
+};
+
+// LineWalker -> CoverageUnit: columns of a line in one block.
+struct GroupToken {
+  bool vertical;
+  bool tie_forward;
+  std::uint16_t column;                       // U13, of lane 0
+  std::uint8_t count;                         // U3, 1..lanes
+  std::array<std::int32_t, kLanes> position;  // S15.16: row, and where in it
+  std::int64_t depth;                         // S25.12, of lane 0
+  std::int64_t step;                          // S25.12 a lane
+  bool end;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("vertical", self.vertical);
+    visit("tie_forward", self.tie_forward);
+    visit("column", self.column, 13, "U13");
+    visit("count", self.count, 3, "U3");
+    visit.lanes("position", self.position, 32, "S15.16");
+    visit("depth", self.depth, 38, "S25.12");
+    visit("step", self.step, 38, "S25.12");
+    visit("end", self.end);
+  }
+};
+
+// CoverageUnit -> DepthTest -> WeightCombiner: candidates in one block of 4 x 4 pixels, a pixel a
+// lane. Behind the test, those that passed.
+struct CandidateToken {
+  std::uint16_t block_x, block_y;  // U11
+  bool vertical;                   // neighbours left or right, else up or down
+  std::uint8_t candidates;         // bit k: lane k is one
+  std::uint8_t forward;            // bit k: its neighbour is down or right
+  Lanes8 place;                    // U4, 4 y + x in the block
+  Lanes8 coverage;                 // U0.8, 1..128
+  Lanes32 depth;                   // U24, of the line
+  bool end;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("block_x", self.block_x, 11, "U11");
+    visit("block_y", self.block_y, 11, "U11");
+    visit("vertical", self.vertical);
+    visit.lane_bits("candidates", self.candidates, kLanes);
+    visit.lane_bits("forward", self.forward, kLanes);
+    visit.lanes("place", self.place, 4, "U4");
+    visit.lanes("coverage", self.coverage, 8, "U0.8");
+    visit.lanes("depth", self.depth, 24, "U24");
+    visit("end", self.end);
+  }
+};
+
+struct WeightToken {
+  std::uint16_t block_x, block_y;  // U11
+  bool vertical;
+  std::uint8_t candidates;  // that passed
+  std::uint8_t forward;
+  Lanes8 place;     // U4
+  Lanes8 coverage;  // U0.8
+  bool end;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("block_x", self.block_x, 11, "U11");
+    visit("block_y", self.block_y, 11, "U11");
+    visit("vertical", self.vertical);
+    visit.lane_bits("candidates", self.candidates, kLanes);
+    visit.lane_bits("forward", self.forward, kLanes);
+    visit.lanes("place", self.place, 4, "U4");
+    visit.lanes("coverage", self.coverage, 8, "U0.8");
+    visit("end", self.end);
+  }
+};
+
+// BlockScanner -> BlockFetch.
+struct TouchedBlock {
+  std::uint16_t x, y;  // U11
+  bool above;          // the block above is touched, too
+  bool end;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("x", self.x, 11, "U11");
+    visit("y", self.y, 11, "U11");
+    visit("above", self.above);
+    visit("end", self.end);
+  }
+};
+
+using BlockWeights = std::array<spec::geometric::Weights, spec::geometric::kBlockPixels>;
+
+// BlockFetch -> Resolver. `lines`: those of memory that are read for the block, bit 3 i + j. Tiled:
+// block (x - 1 + j, y - 1 + i); raster: row 4 y - 1 + i, sixteen pixels at x / 4 - 1 + j.
+struct BlockToken {
+  std::uint16_t x, y;  // U11
+  bool above;
+  BlockWeights weights;
+  std::uint16_t blended;     // bit i: pixel i
+  std::uint16_t horizontal;  // bit i: it takes from left and right
+  std::uint32_t lines;       // U18
+  bool end;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("x", self.x, 11, "U11");
+    visit("y", self.y, 11, "U11");
+    visit("above", self.above);
+    visit("weights", self.weights, 8, "U0.8", "udlr");
+    visit("blended", self.blended, 16, "bit i: pixel i");
+    visit("horizontal", self.horizontal, 16, "bit i: pixel i");
+    visit("lines", self.lines, 18, "bit 3 i + j");
+    visit("end", self.end);
+  }
+};
+
+// Little-endian words of a line of memory.
+template <class Line>
+std::uint32_t word_of(const Line& line, std::size_t word) {
+  return static_cast<std::uint32_t>(line[4 * word]) |
+         static_cast<std::uint32_t>(line[4 * word + 1]) << 8 |
+         static_cast<std::uint32_t>(line[4 * word + 2]) << 16 |
+         static_cast<std::uint32_t>(line[4 * word + 3]) << 24;
+}
+
+}  // namespace deburr::rtl::geometric

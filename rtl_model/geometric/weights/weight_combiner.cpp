@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/geometric/weights/weight_combiner.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "spec/geometric/records.h"
+
+namespace deburr::rtl::geometric {
+namespace {
+
+using spec::geometric::Weights;
+
+constexpr std::uint32_t kBlockMask = spec::geometric::kBlocksInWord - 1;
+constexpr std::uint64_t kWholeLine = ~std::uint64_t{0};
+
+std::size_t cache_of(const spec::geometric::Parameters& p) {
+  return static_cast<std::size_t>(p.weight_blocks);
+}
+
+}  // namespace
+
+WeightCombiner::WeightCombiner(const sc_core::sc_module_name& name, ClockDomain& clock,
+                               const spec::geometric::Parameters& p, const ParameterStore& store,
+                               const FrameSequencer& sequencer)
+    : Unit(name, clock),
+      store_(store),
+      sequencer_(sequencer),
+      blocks_(spec::geometric::kCacheLineCount[cache_of(p)]),
+      index_bits_(spec::geometric::kCacheLineBits[cache_of(p)]),
+      low_bits_((index_bits_ + 1) / 2),
+      tags_("weight_tags", {.words = blocks_,
+                            .word_bits = kTagBits,
+                            .read_during_write = ReadDuringWrite::kNewWord,
+                            .content = "x, y of a block, valid"}),
+      touched_("touched", {.words = static_cast<std::uint64_t>(p.touched_words),
+                           .word_bits = spec::geometric::kBlocksInWord,
+                           .read_during_write = ReadDuringWrite::kNewWord,
+                           .content = "a bit a block: a line has cut it"}),
+      data_("weight_data", {.words = blocks_,
+                            .word_bits = 8 * spec::geometric::kLineBytes,
+                            .read_during_write = ReadDuringWrite::kNewWord,
+                            .content = "sixteen pixels of four weights"}),
+      fills_("weight_fills", p.fills, 8 * spec::geometric::kLineBytes, "weights on their way"),
+      spill_("spill", {.words = static_cast<std::uint64_t>(p.fills),
+                       .word_bits = kTagBits,
+                       .kind = MemoryKind::kFlops,
+                       .read_ports = static_cast<std::uint32_t>(p.fills),
+                       .write_ports = 2,
+                       .latency = 0,
+                       .content = "blocks on their way out, compared at once"}),
+      fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo),
+            {.lanes = spec::geometric::kLaneCount[static_cast<std::size_t>(p.walkers)]}),
+      stalled_weights_(declare_stall("weights", "a block of weights has not come")),
+      stalled_fills_(declare_stall("fills", "no place for a block of weights is free")),
+      stalled_spill_(declare_stall("spill", "a block is still on its way out")),
+      spilled_(static_cast<std::size_t>(p.fills), 0) {}
+
+Activity WeightCombiner::clear(Cycle cycle) {
+  const std::uint32_t words = store_.rules().touched_words, all = std::max(words, blocks_);
+  if (clearing_ == all) return kIdle;
+  if (clearing_ < words) touched_write_.write(cycle, clearing_, TouchedWord{});
+  if (clearing_ < blocks_) tag_write_.write(cycle, clearing_, 0);
+  if (++clearing_ == all) cleared_.set(cycle, true);
+  return kBusy;
+}
+
+std::uint32_t WeightCombiner::address_of(std::uint32_t x, std::uint32_t y) const {
+  const FrameRules& rules = store_.rules();
+  return rules.weight_base + spec::geometric::kLineBytes * (y * rules.blocks_across + x);
+}
+
+bool WeightCombiner::spilling(std::uint32_t tag) const {
+  return std::find(spilled_.begin(), spilled_.end(), tag) != spilled_.end();
+}
+
+// Stage 2; kIdle: done.
+Activity WeightCombiner::look_up_block(Cycle cycle) {
+  const std::uint32_t x = lookup_.group.block_x, y = lookup_.group.block_y, tag = tag_of(x, y);
+  const std::uint32_t there = tag_port_.at(cycle, lookup_.index, looked_);
+  lookup_.missed = there != tag;
+  lookup_.reads = lookup_.replaces = false;
+  if (lookup_.missed) {
+    const TouchedWord& touched = touched_port_.at(cycle, touched_at_, looked_);
+    lookup_.reads = touched.get(x & kBlockMask);
+    lookup_.replaces = there != 0;
+    if (lookup_.reads) {
+      if (spilling(tag)) return stalled_spill_;
+      if (!fills_.can_reserve(cycle)) return stalled_fills_;
+      if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
+    }
+    if (lookup_.replaces) {
+      const auto free = std::find(spilled_.begin(), spilled_.end(), 0u);
+      if (free == spilled_.end()) return stalled_spill_;
+      *free = there;
+      lookup_.spill = static_cast<std::uint8_t>(free - spilled_.begin());
+      lookup_.old_x = there & 0x7FF;
+      lookup_.old_y = there >> 11 & 0x7FF;
+    }
+    if (lookup_.reads) {
+      memory.read(cycle, address_of(x, y), fills_.reserve());
+      ++blocks_read;
+    } else {
+      TouchedWord word = touched;
+      word.set(x & kBlockMask);
+      touched_write_.write(cycle, touched_at_, word);
+    }
+    tag_write_.write(cycle, lookup_.index, tag);
+    ++misses;
+  }
+  ++lookups;
+  return kIdle;
+}
+
+// Stages 2 and 1.
+Activity WeightCombiner::look_up(Cycle cycle) {
+  if (looking_) {
+    if (!fifo_.can_push(cycle)) return kStalledDownstream;
+    if (!lookup_.group.end)
+      if (const Activity done = look_up_block(cycle); done != kIdle) return done;
+    fifo_.push(cycle, lookup_);
+    looking_ = false;
+  }
+  if (!weights_in.can_pop(cycle)) return kIdle;
+  lookup_.group = weights_in.take(cycle);
+  lookup_.missed = lookup_.reads = lookup_.replaces = false;
+  looking_ = true;
+  looked_ = cycle;
+  if (lookup_.group.end) return kBusy;
+  const std::uint32_t x = lookup_.group.block_x, y = lookup_.group.block_y;
+  lookup_.index = static_cast<std::uint16_t>(index_of(x, y));
+  touched_at_ = y * store_.rules().words_across + x / spec::geometric::kBlocksInWord;
+  tag_port_.read(cycle, lookup_.index);
+  touched_port_.read(cycle, touched_at_);
+  return kBusy;
+}
+
+// Stage 4.
+void WeightCombiner::combine(Cycle cycle, Work& work) {
+  const Lookup& l = work.lookup;
+  const Work* const before = pipe_.at(3);
+  const bool past = before && !before->lookup.group.end && before->lookup.index == l.index;
+  if (!l.missed || l.replaces) {
+    const BlockWeights& there = past ? before->block : data_port_.at(cycle, l.index);
+    if (l.replaces) {
+      Line& line = memory.write(cycle, address_of(l.old_x, l.old_y), l.spill, kWholeLine);
+      for (std::size_t i = 0; i < there.size(); ++i)
+        std::copy(there[i].begin(), there[i].end(),
+                  line.begin() + static_cast<std::ptrdiff_t>(4 * i));
+      ++writes_;
+      ++blocks_written;
+    }
+    if (!l.missed) work.block = there;
+  }
+  const bool last = store_.rules().combine == spec::geometric::Combine::kLast;
+  for (std::uint32_t left = l.group.candidates; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    Weights& weights = work.block[l.group.place[lane]];
+    const std::size_t direction = 2u * l.group.vertical + (l.group.forward >> lane & 1u);
+    if (last) weights = {};
+    weights[direction] = std::max(weights[direction], l.group.coverage[lane]);
+  }
+}
+
+// Stages 5 to 3.
+Activity WeightCombiner::deliver(Cycle cycle) {
+  if (!fifo_.can_pop(cycle) && pipe_.empty()) return kIdle;
+  if (const Work* next = pipe_.at(1);
+      next && next->lookup.replaces && !memory.requests_out.can_push(cycle))
+    return kStalledDownstream;
+  pipe_.move();
+  if (const Work* work = pipe_.at(3)) {
+    if (work->lookup.group.end)
+      ended_ = true;
+    else
+      data_write_.write(cycle, work->lookup.index, work->block);
+  }
+  if (Work* work = pipe_.at(2); work && !work->lookup.group.end) combine(cycle, *work);
+  if (!fifo_.can_pop(cycle)) return kBusy;
+  const Lookup& l = fifo_.front(cycle);
+  if (l.reads && !fills_.ready(cycle)) return stalled_weights_;
+  Work& work = pipe_.enter();
+  if (l.reads) {
+    work.block = fills_.line(cycle);
+    fills_.release(cycle);
+  } else if (l.missed) {
+    work.block = {};
+  }
+  if (!l.group.end && (!l.missed || l.replaces)) data_port_.read(cycle, l.index);
+  work.lookup = l;
+  fifo_.pop(cycle);
+  return kBusy;
+}
+
+void WeightCombiner::answer(Cycle cycle) {
+  const MemoryResponse& response = memory.responses_in.take(cycle);
+  if (response.write) {
+    spilled_[response.tag] = 0;
+    --writes_;
+    return;
+  }
+  BlockWeights block;
+  for (std::size_t i = 0; i < block.size(); ++i)
+    std::copy_n(response.data.begin() + static_cast<std::ptrdiff_t>(4 * i), 4, block[i].begin());
+  fills_.fill(cycle, response.tag, block);
+}
+
+Activity WeightCombiner::tick(Cycle cycle) {
+  const Phase phase = sequencer_.phase(cycle);
+  if (phase == Phase::kBegin) return clear(cycle);
+  if (phase != Phase::kEdges) {
+    if (ended_) {
+      ended_ = false;
+      drawn_.set(cycle, false);
+    }
+    return kIdle;
+  }
+  if (clearing_ != 0) {
+    clearing_ = 0;
+    cleared_.set(cycle, false);
+  }
+  const Activity data = deliver(cycle);
+  const Activity tags = look_up(cycle);
+  bool did = data == kBusy || tags == kBusy;
+  if (memory.responses_in.can_pop(cycle)) {
+    answer(cycle);
+    did = true;
+  }
+  fills_.read_ahead(cycle);
+  if (ended_ && writes_ == 0 && !drawn_.get(cycle)) drawn_.set(cycle, true);
+  return did ? kBusy : data != kIdle ? data : tags;
+}
+
+void WeightCombiner::reset() {
+  fills_.reset();
+  fifo_.reset();
+  pipe_.reset();
+  cleared_.reset();
+  drawn_.reset();
+  clearing_ = 0;
+  looking_ = ended_ = false;
+  std::fill(spilled_.begin(), spilled_.end(), 0);
+  writes_ = 0;
+}
+
+}  // namespace deburr::rtl::geometric

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// Keeps the four weights of each pixel that a line has cut, block by block, and which blocks these
+// are.
+//
+// Where: end of the edges' pipe; the resolve reads its memories through handles of its ports.
+// Latency 5, and the wait for a block; initiation interval 1. Stages: 1 address of tag and touched
+// word, address of the block in memory; 2 tag, touched bit; a read ordered; FIFO; 3 a block
+// installed, address of the word; 4 the word, or what came for it, and the maxima; a replaced block
+// is written back; 5 written. A word that is written in stage 5 goes past the memory to the group
+// behind. Stalls: `weights` (the block has not come), `fills` (no place for one), `spill` (the
+// block is still on its way out, or the list of those is full), `downstream`. A write goes before a
+// read of the same clock.
+// Cost: tags, touched map and data 1R1W, the blocks on their way, the FIFO; the spill list, 22 bits
+// each, compared at once; two 11 x 11 multiplies; a lane a 16 : 1 place and an 8-bit compare. Made
+// for 250 MHz; longest path: SRAM read + 8-bit compare.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <systemc>
+#include <vector>
+
+#include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/pipe.h"
+#include "rtl_model/geometric/fill_store.h"
+#include "rtl_model/geometric/frame_sequencer.h"
+#include "rtl_model/geometric/memory_arbiter.h"
+#include "rtl_model/geometric/tokens.h"
+
+namespace deburr::rtl::geometric {
+
+// 128 blocks of a row.
+struct TouchedWord {
+  std::array<std::uint64_t, 2> bits{};
+  bool get(std::uint32_t bit) const { return bits[bit >> 6] >> (bit & 63) & 1; }
+  void set(std::uint32_t bit) { bits[bit >> 6] |= std::uint64_t{1} << (bit & 63); }
+};
+
+class WeightCombiner final : public Unit {
+ public:
+  In<WeightToken> weights_in{"weights_in"};
+  MemoryClient memory;
+
+  WeightCombiner(const sc_core::sc_module_name& name, ClockDomain& clock,
+                 const spec::geometric::Parameters& parameters, const ParameterStore& store,
+                 const FrameSequencer& sequencer);
+  Activity tick(Cycle cycle) override;
+  void reset() override;
+  bool cleared(Cycle cycle) const { return cleared_.get(cycle); }
+  // The frame's end has come, and every write is answered.
+  bool drawn(Cycle cycle) const { return drawn_.get(cycle); }
+
+  // --- For the resolve, which shares the ports in time ---
+  ReadPort<std::uint32_t> tag_port() const { return tag_port_; }
+  ReadPort<BlockWeights> data_port() const { return data_port_; }
+  ReadPort<TouchedWord> touched_port() const { return touched_port_; }
+  std::uint32_t index_of(std::uint32_t x, std::uint32_t y) const {
+    return (x & ((1u << low_bits_) - 1)) | (y & ((1u << (index_bits_ - low_bits_)) - 1))
+                                               << low_bits_;
+  }
+  static std::uint32_t tag_of(std::uint32_t x, std::uint32_t y) { return kValid | y << 11 | x; }
+
+  Counter lookups{"lookups", "blocks", "blocks looked up"};
+  Counter misses{"misses", "blocks", "look-ups of a block that is not in the cache"};
+  Counter blocks_read{"blocks_read", "blocks", "blocks that came back from memory"};
+  Counter blocks_written{"blocks_written", "blocks", "replaced blocks written to memory"};
+
+ private:
+  static constexpr std::uint32_t kTagBits = 23, kValid = 1u << (kTagBits - 1);
+  struct Lookup {
+    WeightToken group;
+    std::uint16_t index;         // U10
+    bool missed, reads;          // reads: what missed comes from memory, else it is zeros
+    bool replaces;               // a block is written back
+    std::uint16_t old_x, old_y;  // U11, that block
+    std::uint8_t spill;          // U8, its place in the list
+    template <class Self, class Visit>
+    static constexpr void fields(Self& self, Visit&& visit) {
+      visit("group", self.group);
+      visit("index", self.index, 10, "U10");
+      visit("missed", self.missed);
+      visit("reads", self.reads);
+      visit("replaces", self.replaces);
+      visit("old_x", self.old_x, 11, "U11");
+      visit("old_y", self.old_y, 11, "U11");
+      visit("spill", self.spill, 8, "U8");
+    }
+  };
+  struct Work {
+    Lookup lookup;
+    BlockWeights block;
+  };
+
+  Activity clear(Cycle cycle);
+  Activity look_up(Cycle cycle);
+  Activity look_up_block(Cycle cycle);
+  Activity deliver(Cycle cycle);
+  void combine(Cycle cycle, Work& work);
+  void answer(Cycle cycle);
+  std::uint32_t address_of(std::uint32_t x, std::uint32_t y) const;
+  bool spilling(std::uint32_t tag) const;
+
+  const ParameterStore& store_;
+  const FrameSequencer& sequencer_;
+  const std::uint32_t blocks_, index_bits_, low_bits_;
+  Memory<std::uint32_t> tags_;
+  ReadPort<std::uint32_t> tag_port_{tags_, "look-up"};
+  WritePort<std::uint32_t> tag_write_{tags_, "look-up"};
+  Memory<TouchedWord> touched_;
+  ReadPort<TouchedWord> touched_port_{touched_, "look-up"};
+  WritePort<TouchedWord> touched_write_{touched_, "look-up"};
+  Memory<BlockWeights> data_;
+  ReadPort<BlockWeights> data_port_{data_, "block"};
+  WritePort<BlockWeights> data_write_{data_, "block"};
+  FillStore<BlockWeights> fills_;
+  MemoryBase spill_;  // by place: valid and tag, in spilled_
+  Fifo<Lookup> fifo_;
+  Activity stalled_weights_, stalled_fills_, stalled_spill_;
+  Wire<bool> cleared_{false}, drawn_{false};
+  std::uint32_t clearing_ = 0;  // U17
+
+  // Stage 2.
+  Lookup lookup_{};
+  std::uint32_t touched_at_ = 0;  // U16, word of its touched bit
+  bool looking_ = false;
+  Cycle looked_ = 0;
+  // Stages 3 to 5.
+  Pipe<Work, 3> pipe_;
+  std::vector<std::uint32_t> spilled_;  // 0: free
+  std::uint32_t writes_ = 0;            // U8, that are not answered
+  bool ended_ = false;
+};
+
+}  // namespace deburr::rtl::geometric

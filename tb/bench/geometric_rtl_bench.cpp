@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Clocks of the geometric engine's hardware model, and frames for counting its instructions.
+//
+//   geometric_rtl_bench --frames <n> [preset [walkers [edge_lanes [layout [passes]]]]]
+//       n frames of 1280 x 720: 33 000 edges, a fifth of them kept, some 24 000 columns, passing
+//       the same places so many times; cycles, then clocks of both phases, work, stalls, memories
+//   geometric_rtl_bench --idle <n>      n clocks of an engine that waits for a frame
+//   geometric_rtl_bench --dividers      clocks of the edges over dividers, with and without table
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rtl_model/geometric/geometric_engine.h"
+#include "tb/harness/forked.h"
+#include "tb/harness/memory_model.h"
+#include "tb/harness/register_host.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace reg = spec::geometric::reg;
+namespace flag = spec::geometric::flag;
+using spec::geometric::Parameters;
+
+constexpr int kWidth = 1280, kHeight = 720;
+constexpr std::uint32_t kEdges = 33'000, kKept = kEdges / 5, kFaces = 22'000;
+constexpr std::uint32_t kEdgeBase = 0, kVertexBase = 0x100000, kFaceBase = 0x180000,
+                        kDepthBase = 0x200000, kColourBase = 0x600000, kWeightBase = 0xA00000,
+                        kCopyBase = 0xE00000, kBytes = 0x1200000;
+
+void put(std::vector<std::uint8_t>& bytes, std::uint32_t word) {
+  for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
+}
+
+// Every fifth edge is a step on a curve that winds over the frame; the others are flat.
+// `passes`: so many rings lie on each other.
+void load(MemoryModel& memory, std::uint32_t passes) {
+  std::vector<std::uint8_t> edges, vertices;
+  for (std::uint32_t i = 0; i < kEdges; ++i) {
+    const std::uint32_t step = i / 5;
+    put(edges, step);
+    put(edges, step + 1);
+    put(edges, i % kFaces | std::uint32_t{i % 5 == 0 ? flag::kBoundary : 0U}
+                                << spec::geometric::kFlagShift);
+    put(edges, (i + 1) % kFaces);
+  }
+  for (std::uint32_t i = 0; i <= kKept; ++i) {
+    // Rings of 60 to 220 steps of some 4 pixels, side by side.
+    const std::uint32_t ring = i / 220 / passes;
+    const double angle = (i % 220) * 2 * 3.14159265358979 / 220, radius = 60 + ring % 5 * 20;
+    const double x = 200 + ring % 6 * 170 + radius * std::cos(angle + ring),
+                 y = 160 + ring / 6 * 90 + radius * std::sin(angle + ring);
+    put(vertices, static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(256 * x))));
+    put(vertices, static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(256 * y))));
+    put(vertices, 9'000'000);
+    put(vertices, 1);
+  }
+  memory.preload(kEdgeBase, edges);
+  memory.preload(kVertexBase, vertices);
+  memory.preload(kFaceBase, std::vector<std::uint8_t>(kFaces / 8, 0xFF));
+  std::vector<std::uint8_t> colours(std::size_t{kWidth} * kHeight * 4);
+  for (std::size_t i = 0; i < colours.size(); ++i)
+    colours[i] = static_cast<std::uint8_t>(i * 2654435761u >> 16);
+  memory.preload(kColourBase, colours);
+}
+
+struct Frames {
+  explicit Frames(const Parameters& p, std::uint32_t passes = 1)
+      : engine("engine", clock, p), memory("memory", {4, sc_core::SC_NS}, memory_parameters()) {
+    engine.memory()->bind(memory.ports);
+    bus.bus.bind(engine.registers);
+    load(memory, passes);
+    const std::pair<std::uint32_t, std::uint32_t> values[] = {
+        {reg::kSize, kWidth | kHeight << 16}, {reg::kEdgeCount, kEdges},
+        {reg::kVertexCount, kKept + 1},       {reg::kFaceCount, kFaces},
+        {reg::kEdgeBase, kEdgeBase},          {reg::kVertexBase, kVertexBase},
+        {reg::kFaceBase, kFaceBase},          {reg::kDepthBase, kDepthBase},
+        {reg::kColourBase, kColourBase},      {reg::kWeightBase, kWeightBase},
+        {reg::kCopyBase, kCopyBase}};
+    for (const auto& [offset, value] : values) bus.write(offset, value);
+  }
+  static MemoryModelParameters memory_parameters() {
+    MemoryModelParameters p;
+    p.bytes = kBytes;
+    p.outstanding = 1024;
+    p.record_reads = false;
+    return p;
+  }
+  void run() {
+    bus.write(reg::kControl, reg::kControlEnable | reg::kControlStart);
+    if (!clock.run_until([this] { return engine.idle(); }, 10'000'000)) std::abort();
+  }
+
+  rtl::ClockDomain clock{"clock", {4, sc_core::SC_NS}};
+  rtl::geometric::GeometricEngine engine;
+  MemoryModel memory;
+  RegisterHost bus{"bus"};
+};
+
+template <class Choice, std::size_t N>
+Choice choice(std::string_view text, const std::array<std::string_view, N>& names) {
+  for (std::size_t i = 0; i < N; ++i)
+    if (text == names[i]) return static_cast<Choice>(i);
+  std::cerr << text << ": no such choice\n";
+  std::exit(2);
+}
+
+void frames(int count, const std::vector<std::string>& arguments) {
+  Parameters p;
+  if (!arguments.empty()) {
+    p.preset = choice<spec::geometric::Preset>(arguments[0], spec::geometric::kPresetNames);
+    const auto& row = spec::geometric::kPresets[static_cast<std::size_t>(p.preset)];
+    p.select = row.select;
+    p.crease = row.crease;
+    p.combine = row.combine;
+    p.frame_copy = row.frame_copy;
+  }
+  using spec::geometric::kLanesNames;
+  using spec::geometric::Lanes;
+  if (arguments.size() > 1) p.walkers = choice<Lanes>(arguments[1], kLanesNames);
+  if (arguments.size() > 2) p.edge_lanes = choice<Lanes>(arguments[2], kLanesNames);
+  if (arguments.size() > 3)
+    p.layout = choice<spec::geometric::Layout>(arguments[3], spec::geometric::kLayoutNames);
+  Frames f(p, arguments.size() > 4 ? static_cast<std::uint32_t>(std::stoi(arguments[4])) : 1);
+  for (int i = 0; i < count; ++i) f.run();
+  std::cout << fmt::format("{} cycles\n", f.clock.cycle());
+  std::cout << fmt::format("last frame: {} clocks, edges {}, resolve {}\n",
+                           f.bus.read(reg::kFrameCycles), f.bus.read(reg::kEdgeCycles),
+                           f.bus.read(reg::kResolveCycles));
+  for (const auto& row : spec::geometric::kWorkCounts)
+    for (const spec::RegisterInfo& info : spec::geometric::kRegisters)
+      if (info.offset == row.offset)
+        std::cout << fmt::format("{} {}  ", info.name, f.engine.work().*row.count);
+  std::cout << "\n";
+  for (const rtl::Unit* unit : f.engine.units()) {
+    std::cout << fmt::format("{:16} busy {}", unit->basename(), unit->busy_cycles());
+    for (const auto& stall : unit->stalls())
+      if (stall.cycles) std::cout << fmt::format(", {} {}", stall.name, stall.cycles);
+    std::cout << "\n";
+  }
+  std::uint64_t logical = 0, physical = 0;
+  for (const rtl::MemoryBase* memory : f.engine.memories()) {
+    std::cout << fmt::format("{:40} {:6} x {:4} {:6} {:18} {} bits, {} physical\n", memory->name(),
+                             memory->words(), memory->word_bits(), name_of(memory->memory_kind()),
+                             memory->built_as(), memory->logical_bits(), memory->physical_bits());
+    logical += memory->logical_bits();
+    physical += memory->physical_bits();
+  }
+  std::cout << fmt::format("memory bits {}, physical {}\n", logical, physical);
+}
+
+void dividers() {
+  std::cout << "dividers  without table  with table of 10 bits  (clocks of the edges)\n";
+  const auto clocks = [](int units, int table, bool pipelined) {
+    return forked_text([&] {
+      Parameters p;
+      p.edge_lanes = spec::geometric::Lanes::kFour;
+      p.pipelined = pipelined;
+      p.dividers = units;
+      p.reciprocal_table = table;
+      Frames f(p);
+      f.run();
+      return std::to_string(f.bus.read(reg::kEdgeCycles));
+    });
+  };
+  for (int units = 1; units <= 8; ++units)
+    std::cout << fmt::format("{:8} {:>14} {:>22}\n", units, clocks(units, 0, false),
+                             clocks(units, 10, false));
+  std::cout << fmt::format("pipelined {:>13}\n", clocks(1, 0, true));
+}
+
+}  // namespace
+}  // namespace deburr::tb
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (arguments.size() >= 2 && arguments[0] == "--frames")
+    deburr::tb::frames(std::atoi(arguments[1].c_str()), {arguments.begin() + 2, arguments.end()});
+  else if (arguments.size() == 2 && arguments[0] == "--idle")
+    deburr::tb::Frames({}).clock.run(std::stoull(arguments[1]));
+  else if (arguments.size() == 1 && arguments[0] == "--dividers")
+    deburr::tb::dividers();
+  else
+    return 2;
+  return 0;
+}

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// What the tests of single units share: registers, a frame that stays in its edges or its resolve,
+// and memory; and a queue of tokens at each end of the unit.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rtl_model/geometric/frame_sequencer.h"
+#include "rtl_model/geometric/memory_arbiter.h"
+#include "tb/harness/forked.h"
+#include "tb/unit/rtl/geometric/support.h"
+
+namespace deburr::tb::geometric_rtl {
+
+// The text that a simulation in a process of its own gives back, its exceptions included.
+inline std::string in_child(const std::function<std::string()>& simulation) {
+  try {
+    return forked_text(simulation);
+  } catch (const std::exception& error) {
+    return std::string("exception: ") + error.what();
+  }
+}
+
+// Pushes its tokens as fast as they are taken.
+template <class T>
+class Source final : public rtl::Unit {
+ public:
+  rtl::Out<T> out{"out"};
+  Source(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
+  rtl::Activity tick(Cycle cycle) override {
+    if (next_ == tokens_.size()) return rtl::kIdle;
+    if (!out.can_push(cycle)) return rtl::kStalledDownstream;
+    out.push(cycle, tokens_[next_++]);
+    return rtl::kBusy;
+  }
+  void reset() override {
+    tokens_.clear();
+    next_ = 0;
+  }
+  void add(const T& token) { tokens_.push_back(token); }
+
+ private:
+  std::vector<T> tokens_;
+  std::size_t next_ = 0;
+};
+
+// Takes every token at once, and notes when.
+template <class T>
+class Taker final : public rtl::Unit {
+ public:
+  struct Taken {
+    Cycle cycle;
+    T token;
+  };
+  rtl::In<T> in{"in"};
+  Taker(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
+  rtl::Activity tick(Cycle cycle) override {
+    if (!in.can_pop(cycle)) return rtl::kIdle;
+    taken.push_back({cycle, in.take(cycle)});
+    return rtl::kBusy;
+  }
+  void reset() override { taken.clear(); }
+  std::vector<Taken> taken;
+};
+
+template <class From, class To>
+struct Ends {
+  explicit Ends(ClockDomain& clock)
+      : in("in"), out("out"), source("source", clock), sink("sink", clock) {
+    source.out(in);
+    sink.in(out);
+  }
+  rtl::Link<From> in;
+  rtl::Link<To> out;
+  Source<From> source;
+  Taker<To> sink;
+};
+
+// All that a unit needs around it.
+struct Frame {
+  explicit Frame(const Parameters& parameters, std::uint32_t clocks = 20)
+      : control("registers", spec::geometric::kRegisters, rtl::geometric::control_layout()),
+        store(control, parameters),
+        sequencer("sequencer", clock, store),
+        port_parameters{.outstanding = static_cast<std::uint32_t>(parameters.memory_outstanding)},
+        arbiter("arbiter", clock, store, port_parameters),
+        port("port", clock, port_parameters),
+        memory("memory", period(), EngineBench::memory_parameters({.latency = clocks})),
+        requests("requests"),
+        responses("responses") {
+    bus.bus.bind(control.registers.bus);
+    control.on_command(reg::kControlStart, [this] { sequencer.start(true); });
+    arbiter.requests_out(requests);
+    port.requests_in(requests);
+    port.responses_out(responses);
+    arbiter.responses_in(responses);
+    port.memory.bind(memory.ports);
+    sequencer.begin_done = [this](Cycle cycle) { return begun(cycle); };
+    sequencer.edges_done = [](Cycle) { return false; };
+    sequencer.resolve_done = [](Cycle) { return false; };
+  }
+  // A frame of this size is in its edges.
+  void begin(int width, int height) {
+    bus.write(reg::kSize, static_cast<std::uint32_t>(width) | static_cast<std::uint32_t>(height)
+                                                                  << 16);
+    bus.write(reg::kControl, reg::kControlEnable | reg::kControlStart);
+    clock.run_until(
+        [this] { return sequencer.phase(clock.cycle()) == rtl::geometric::Phase::kEdges; },
+        100'000);
+    clock.run(1);
+  }
+  // Clocks from the unit's taking this token to the first clock in which the next one can take what
+  // becomes of it: not ready a clock before.
+  template <class From, class To>
+  std::string latency(Ends<From, To>& ends, const From& token) {
+    const Cycle pushed = clock.cycle();
+    ends.in.push(pushed, token);
+    const std::size_t before = ends.sink.taken.size();
+    clock.run_until([&] { return ends.sink.taken.size() != before; }, 1000);
+    return std::to_string(ends.sink.taken.back().cycle - pushed - 1);
+  }
+
+  std::function<bool(Cycle)> begun = [](Cycle) { return true; };
+  ClockDomain clock{"clock", period()};
+  rtl::ControlRegisters control;
+  rtl::geometric::ParameterStore store;
+  rtl::geometric::FrameSequencer sequencer;
+  rtl::MemoryPortParameters port_parameters;
+  rtl::geometric::MemoryArbiter arbiter;
+  rtl::MemoryPort port;
+  MemoryModel memory;
+  RegisterHost bus{"bus"};
+  rtl::Link<rtl::MemoryRequest> requests;
+  rtl::Link<rtl::MemoryResponse> responses;
+};
+
+}  // namespace deburr::tb::geometric_rtl

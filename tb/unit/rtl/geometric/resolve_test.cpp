@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+// The resolve's units, and those that feed the edges' pipe: latency and initiation interval, as
+// docs/geometric_hardware.md has them; memory answers 20 clocks after a request.
+#include <map>
+
+#include "rtl_model/geometric/edges/edge_reader.h"
+#include "rtl_model/geometric/edges/facing_store.h"
+#include "rtl_model/geometric/resolve/block_fetch.h"
+#include "rtl_model/geometric/resolve/block_scanner.h"
+#include "rtl_model/geometric/resolve/frame_copier.h"
+#include "rtl_model/geometric/resolve/resolver.h"
+#include "rtl_model/geometric/weights/weight_combiner.h"
+#include "tb/unit/rtl/geometric/parts.h"
+
+namespace deburr::tb::geometric_rtl {
+namespace {
+
+using namespace rtl::geometric;  // NOLINT: names of units and tokens
+using spec::geometric::CacheLines;
+using spec::geometric::Layout;
+
+// Everything from the WeightCombiner on; the test gives the combiner its groups.
+struct ResolveBench : Frame {
+  explicit ResolveBench(const Parameters& p = {}, int width = 1024, int height = 64)
+      : Frame(p),
+        combiner("combiner", clock, p, store, sequencer),
+        scanner("scanner", clock, p, store, sequencer, combiner),
+        fetch("fetch", clock, p, store, combiner),
+        resolver("resolver", clock, p, store, sequencer, fetch),
+        weights("weights"),
+        touched("touched"),
+        blocks("blocks", 16),
+        source("source", clock) {
+    arbiter.connect(Client::kWeights, combiner.memory);
+    arbiter.connect(Client::kBlocks, fetch.memory);
+    arbiter.connect(Client::kResolve, resolver.memory);
+    source.out(weights);
+    combiner.weights_in(weights);
+    scanner.blocks_out(touched);
+    fetch.blocks_in(touched);
+    fetch.blocks_out(blocks);
+    resolver.blocks_in(blocks);
+    begun = [this](Cycle cycle) { return combiner.cleared(cycle); };
+    sequencer.edges_done = [this](Cycle cycle) { return combiner.drawn(cycle); };
+    sequencer.resolve_done = [this](Cycle cycle) { return resolver.done(cycle); };
+    bus.write(reg::kWeightBase, 0x80000);
+    begin(width, height);
+    resolver.observer = [this](const spec::geometric::BlockRecord& block) {
+      resolved.push_back(block);
+    };
+  }
+  // A block with these pixels cut, which take from above, or from the left.
+  void touch(int bx, int by, std::uint16_t pixels, bool vertical = false) {
+    for (std::uint32_t left = pixels; left != 0; left &= left - 1) {
+      WeightToken t{};
+      t.block_x = static_cast<std::uint16_t>(bx);
+      t.block_y = static_cast<std::uint16_t>(by);
+      t.vertical = vertical;
+      t.candidates = 1;
+      t.place[0] = static_cast<std::uint8_t>(std::countr_zero(left));
+      t.coverage[0] = 128;
+      source.add(t);
+    }
+  }
+  // Draws, then notes when each link got its first and last beat.
+  void run() {
+    WeightToken last{};
+    last.end = true;
+    source.add(last);
+    while (sequencer.phase(clock.cycle()) != Phase::kResolve) clock.run(1);
+    resolve_from = clock.cycle();
+    const std::uint64_t sent = arbiter.requests_out.link().pushes();
+    while (!sequencer.idle()) {
+      clock.run(1);
+      const Cycle now = clock.cycle();
+      const auto note = [&](const char* name, std::uint64_t count) {
+        auto& times = at[name];
+        while (times.size() < count) times.push_back(now - 1);
+      };
+      note("touched", touched.pushes());
+      note("fetched", touched.pops());
+      note("blocks", blocks.pushes());
+      note("resolved", blocks.pops());
+      note("writes", resolver.lines_written.value());
+      note("reads", fetch.lines_read.value());
+      note("requests", arbiter.requests_out.link().pushes() - sent);
+    }
+  }
+  WeightCombiner combiner;
+  BlockScanner scanner;
+  BlockFetch fetch;
+  Resolver resolver;
+  rtl::Link<WeightToken> weights;
+  rtl::Link<TouchedBlock> touched;
+  rtl::Link<BlockToken> blocks;
+  Source<WeightToken> source;
+  Cycle resolve_from = 0;
+  std::map<std::string, std::vector<Cycle>> at;  // clocks of the beats
+  std::vector<spec::geometric::BlockRecord> resolved;
+};
+
+TEST(Resolve, LatenciesOfABlock) {
+  ResolveBench b;
+  b.touch(0, 0, 1u << 5);
+  b.run();
+  // The scanner's latency counts from the first clock of the phase.
+  EXPECT_EQ(b.at["touched"][0] + 1 - b.resolve_from, 3u);
+  EXPECT_EQ(b.at["blocks"][0] + 1 - b.at["fetched"][0], 5u);
+  // Its line comes M + 6 after it was asked for, as that of a cache does: arbiter, port, M, port,
+  // arbiter, place, register.
+  EXPECT_EQ(b.at["reads"][0], b.at["blocks"][0]);
+  EXPECT_EQ(b.at["writes"][0] - b.at["reads"][0], 27u + 7);
+  EXPECT_EQ(b.resolved.size(), 1u);
+}
+TEST(Resolve, AWordTakesAClockForEachBlock) {
+  ResolveBench b({}, 2048, 64);  // four words a row, 64 in all
+  b.touch(0, 0, 1);
+  b.touch(3, 0, 1);
+  b.touch(127, 0, 1);
+  b.touch(128, 0, 1);
+  b.touch(511, 15, 1);
+  b.run();
+  std::vector<Cycle> clocks;
+  for (const Cycle c : b.at["touched"]) clocks.push_back(c - b.at["touched"][0]);
+  // The end follows the last block of the last word.
+  EXPECT_THAT(clocks, testing::ElementsAre(0, 1, 2, 3, 65, 66));
+  EXPECT_THAT(b.resolved, testing::SizeIs(5));
+  EXPECT_EQ(b.resolved[4].x, 511);
+  EXPECT_EQ(b.resolved[4].y, 15);
+}
+TEST(Resolve, EveryTouchedBlockOnceInOrder) {
+  ResolveBench b({}, 1024, 64);
+  for (const int x : {0, 5, 127, 128, 255}) b.touch(x, 2, 1);
+  for (const int x : {1, 5, 127, 129, 255}) b.touch(x, 3, 1);
+  b.touch(5, 5, 1);
+  b.run();
+  std::vector<std::pair<int, int>> places;
+  for (const auto& block : b.resolved) places.emplace_back(block.y, block.x);
+  EXPECT_THAT(places, testing::ElementsAreArray(std::vector<std::pair<int, int>>{{2, 0},
+                                                                                 {2, 5},
+                                                                                 {2, 127},
+                                                                                 {2, 128},
+                                                                                 {2, 255},
+                                                                                 {3, 1},
+                                                                                 {3, 5},
+                                                                                 {3, 127},
+                                                                                 {3, 129},
+                                                                                 {3, 255},
+                                                                                 {5, 5}}));
+}
+
+// Clocks a block, of many: one is max(lines, beats, lines to write) in the Resolver, and lines +
+// lines to write at the port. The first reads are ahead of the first write.
+Cycle per_block(const Parameters& p, std::uint16_t pixels, bool vertical) {
+  constexpr int kBlocks = 160;
+  ResolveBench b(p, 256, 128);
+  for (int i = 0; i < kBlocks; ++i) b.touch(1 + i % 16 * 2, 1 + i / 16 * 2, pixels, vertical);
+  b.run();
+  EXPECT_EQ(b.fetch.weights_read.value(), 0u);
+  const auto& writes = b.at["writes"];
+  return (writes.back() - writes.front() + kBlocks / 2) / kBlocks;
+}
+TEST(Resolve, IntervalOfABlock) {
+  const auto of = [](Layout layout, std::uint16_t pixels, bool vertical) {
+    return in_child([&] {
+      Parameters p;
+      p.layout = layout;
+      p.weight_blocks = CacheLines::k1024;
+      return std::to_string(per_block(p, pixels, vertical));
+    });
+  };
+  // Two pixels inside: one line, one write, one beat; the port takes two clocks.
+  EXPECT_EQ(of(Layout::kTiled, 0x0060, false), "2");
+  // The upper row takes from the block above: two lines, two beats, one write.
+  EXPECT_EQ(of(Layout::kTiled, 0x000F, false), "3");
+  // All pixels: eight beats.
+  EXPECT_EQ(of(Layout::kTiled, 0xFFFF, false), "8");
+  // Raster: four rows and the one above, four writes.
+  EXPECT_EQ(of(Layout::kRaster, 0x1111, false), "9");
+  EXPECT_EQ(of(Layout::kRaster, 0x2222, true), "8");
+}
+
+// ---- FacingStore and EdgeReader, in a frame that begins
+
+struct ReaderBench : Frame {
+  explicit ReaderBench(const Parameters& p, std::uint32_t edges, std::uint32_t faces)
+      : Frame(p),
+        facing("facing", clock, p, store, sequencer),
+        reader("reader", clock, p, store, sequencer),
+        beats("beats"),
+        taker("taker", clock) {
+    arbiter.connect(Client::kFacing, facing.memory);
+    arbiter.connect(Client::kEdges, reader.memory);
+    for (std::uint32_t lane = 0;
+         lane < 2u * spec::geometric::kLaneCount[static_cast<std::size_t>(p.edge_lanes)]; ++lane)
+      ports.emplace_back(facing.words, "test");
+    reader.edges_out(beats);
+    taker.in(beats);
+    begun = [this](Cycle cycle) { return facing.loaded(cycle); };
+    bus.write(reg::kEdgeCount, edges);
+    bus.write(reg::kFaceCount, faces);
+    bus.write(reg::kFaceBase, 0x40000);
+    from = clock.cycle();
+    begin(64, 64);
+  }
+  std::vector<rtl::ReadPort<std::uint32_t>> ports;
+  FacingStore facing;
+  EdgeReader reader;
+  rtl::Link<EdgeBeat> beats;
+  Taker<EdgeBeat> taker;
+  Cycle from;
+};
+TEST(EdgeReader, EdgeLanesAClock) {
+  for (int code = 0; code < 3; ++code) {
+    const std::string got = in_child([code] {
+      Parameters p;
+      p.edge_lanes = static_cast<spec::geometric::Lanes>(code);
+      const std::uint32_t lanes = spec::geometric::kLaneCount[static_cast<std::size_t>(code)];
+      ReaderBench b(p, 403, 1);
+      b.clock.run(1000);
+      std::uint32_t edges = 0;
+      for (const auto& taken : b.taker.taken) edges += taken.token.count;
+      const Cycle clocks = b.taker.taken.back().cycle - b.taker.taken.front().cycle;
+      return std::to_string(edges) + " " + std::to_string(clocks - (403 + lanes - 1) / lanes);
+    });
+    EXPECT_EQ(got, "403 0") << code;
+  }
+}
+TEST(FacingStore, ALineAClock) {
+  for (const std::uint32_t faces : {512u, 512u * 33}) {
+    const std::string got = in_child([faces] {
+      ReaderBench b({}, 0, faces);
+      EXPECT_EQ(b.facing.lines_read.value(), faces / 512);
+      return std::to_string(b.facing.busy_cycles() + b.facing.stalled_cycles() - faces / 512);
+    });
+    EXPECT_EQ(got, "25") << faces;
+  }
+}
+
+}  // namespace
+}  // namespace deburr::tb::geometric_rtl

@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: MIT
+// What the tests of the geometric engine's hardware model share: the engine with its memory and
+// host, the contract's scene, and the hashes that the contract gives.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <systemc>
+#include <vector>
+
+#include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/geometric/geometric_engine.h"
+#include "spec/geometric/packets.h"
+#include "spec/geometric/parameters.h"
+#include "spec/geometric/records.h"
+#include "spec/geometric/registers.h"
+#include "tb/harness/bench.h"
+#include "tb/harness/memory_model.h"
+#include "tb/harness/register_host.h"
+
+namespace deburr::tb::geometric_rtl {
+
+using rtl::ClockDomain;
+using rtl::Cycle;
+using spec::geometric::Parameters;
+namespace reg = spec::geometric::reg;
+
+inline sc_core::sc_time period() { return {10, sc_core::SC_NS}; }
+
+// The contract's bases.
+struct Bases {
+  std::uint32_t edges = 0x10000, vertices = 0x20000, faces = 0x30000, depth = 0x40000,
+                colour = 0x50000, weights = 0x60000, copy = 0x70000;
+};
+inline constexpr std::uint32_t kRegionBytes = 0x10000;
+
+// A frame as it lies in memory.
+struct Scene {
+  int width = 0, height = 0;
+  std::vector<std::array<std::uint8_t, 4>> colours;
+  std::vector<std::uint32_t> depths;
+  std::vector<spec::geometric::Vertex> vertices;
+  std::vector<spec::geometric::Edge> edges;
+  std::vector<bool> facing;
+};
+
+// Byte offset of a pixel, by the table of docs/geometric.md.
+inline std::uint32_t pixel_offset(bool tiled, int width, int x, int y) {
+  if (!tiled) return static_cast<std::uint32_t>(y * ((4 * width + 63) / 64 * 64) + 4 * x);
+  const int bx = x / 4, by = y / 4, tiles = (width + 7) / 8;
+  return static_cast<std::uint32_t>(256 * (by / 2 * tiles + bx / 2) + 64 * (2 * (by % 2) + bx % 2) +
+                                    4 * (4 * (y % 4) + x % 4));
+}
+
+// The scene of the contract's vectors.
+inline Scene contract_scene() {
+  std::uint32_t s = 1;
+  const auto r = [&s] { return s = 1664525u * s + 1013904223u; };
+  Scene scene;
+  scene.width = 61;
+  scene.height = 45;
+  const std::size_t pixels = 61 * 45;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const std::uint32_t v = r();
+    scene.colours.push_back({static_cast<std::uint8_t>(v >> 24),
+                             static_cast<std::uint8_t>(v >> 16 & 255),
+                             static_cast<std::uint8_t>(v >> 8 & 255), 255});
+  }
+  constexpr std::array<std::uint32_t, 8> kDepths = {0,       3000000, 3005000, 6000000,
+                                                    6011000, 9000000, 9017000, 16777215};
+  for (std::size_t i = 0; i < pixels; ++i) scene.depths.push_back(kDepths[r() >> 29]);
+  for (int i = 0; i < 200; ++i) {
+    spec::geometric::Vertex v;
+    v.x = static_cast<std::int32_t>((r() >> 16) % 20480) - 2304;
+    v.y = static_cast<std::int32_t>((r() >> 16) % 16384) - 2304;
+    v.depth = r() >> 8;
+    v.usable = i != 7;
+    if (i < 10) {
+      v.x &= ~127;
+      v.y &= ~127;
+    }
+    if (i == 11) v.x = 1 << 22;
+    scene.vertices.push_back(v);
+  }
+  for (int i = 0; i < 49; ++i) scene.facing.push_back(r() >> 31);
+  for (int i = 0; i < 300; ++i) {
+    spec::geometric::Edge e;
+    e.v0 = (r() >> 16) % 201;
+    e.v1 = (r() >> 16) % 200;
+    e.f0 = (r() >> 16) % 50;
+    e.f1 = (r() >> 16) % 50;
+    e.flags = static_cast<std::uint8_t>((r() >> 16) % 16);
+    scene.edges.push_back(e);
+  }
+  return scene;
+}
+
+struct Fnv {
+  std::uint64_t value = 1469598103934665603u;
+  void byte(std::uint8_t b) { value = (value ^ b) * 1099511628211u; }
+  void word(std::uint64_t w) {
+    for (int i = 0; i < 4; ++i) byte(static_cast<std::uint8_t>(w >> (8 * i)));
+  }
+};
+
+struct EngineOptions {
+  std::uint32_t latency = 20, scatter = 0;
+  std::uint32_t memory_bytes = 1u << 20;
+  BenchOptions bench = {};
+};
+
+// The engine with memory, host and checkers.
+class EngineBench {
+ public:
+  static MemoryModelParameters memory_parameters(const EngineOptions& options) {
+    MemoryModelParameters p;
+    p.bytes = options.memory_bytes;
+    p.latency_min = options.latency;
+    p.latency_max = options.latency + options.scatter;
+    p.outstanding = 1024;
+    p.record_writes = true;
+    return p;
+  }
+
+  explicit EngineBench(const Parameters& parameters = {}, const EngineOptions& options = {})
+      : p(parameters),
+        engine("engine", clock, parameters),
+        memory("memory", period(), memory_parameters(options)) {
+    engine.memory()->bind(memory.ports);
+    bus.bus.bind(engine.registers);
+    engine.line_setup.observer = [this](const spec::geometric::LineRecord& l) {
+      lines.push_back(l);
+    };
+    engine.depth_test.observer = [this](const spec::geometric::Candidate& c) {
+      candidates.push_back(c);
+    };
+    engine.resolver.observer = [this](const spec::geometric::BlockRecord& b) {
+      blocks.push_back(b);
+    };
+    bench = std::make_unique<Bench>(clock, options.bench);
+  }
+
+  void store_word(std::vector<std::uint8_t>& bytes, std::uint32_t word) {
+    for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
+  }
+  // Writes a scene to memory and its sizes and bases to the registers.
+  void load(const Scene& scene) {
+    width = scene.width;
+    height = scene.height;
+    std::vector<std::uint8_t> bytes;
+    for (const auto& e : scene.edges)
+      for (const std::uint32_t word :
+           {e.v0, e.v1, e.f0 | std::uint32_t{e.flags} << spec::geometric::kFlagShift, e.f1})
+        store_word(bytes, word);
+    if (!bytes.empty()) memory.preload(bases.edges, bytes);
+    bytes.clear();
+    for (const auto& v : scene.vertices)
+      for (const std::uint32_t word :
+           {static_cast<std::uint32_t>(v.x), static_cast<std::uint32_t>(v.y), v.depth,
+            std::uint32_t{v.usable}})
+        store_word(bytes, word);
+    if (!bytes.empty()) memory.preload(bases.vertices, bytes);
+    bytes.assign((scene.facing.size() + 7) / 8, 0);
+    for (std::size_t f = 0; f < scene.facing.size(); ++f)
+      bytes[f / 8] = static_cast<std::uint8_t>(bytes[f / 8] | scene.facing[f] << f % 8);
+    if (!bytes.empty()) memory.preload(bases.faces, bytes);
+    load_frame(scene);
+    bus.write(reg::kSize, static_cast<std::uint32_t>(width) | static_cast<std::uint32_t>(height)
+                                                                  << 16);
+    bus.write(reg::kEdgeCount, static_cast<std::uint32_t>(scene.edges.size()));
+    bus.write(reg::kVertexCount, static_cast<std::uint32_t>(scene.vertices.size()));
+    bus.write(reg::kFaceCount, static_cast<std::uint32_t>(scene.facing.size()));
+    bus.write(reg::kEdgeBase, bases.edges);
+    bus.write(reg::kVertexBase, bases.vertices);
+    bus.write(reg::kFaceBase, bases.faces);
+    bus.write(reg::kDepthBase, bases.depth);
+    bus.write(reg::kColourBase, bases.colour);
+    bus.write(reg::kWeightBase, bases.weights);
+    bus.write(reg::kCopyBase, bases.copy);
+  }
+  void load_frame(const Scene& scene) {
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const std::size_t i = static_cast<std::size_t>(y * width + x);
+        const std::uint32_t at = pixel_offset(tiled(), width, x, y);
+        if (i < scene.colours.size()) memory.preload(bases.colour + at, scene.colours[i]);
+        std::vector<std::uint8_t> depth;
+        if (i < scene.depths.size()) {
+          store_word(depth, scene.depths[i]);
+          memory.preload(bases.depth + at, depth);
+        }
+      }
+  }
+  bool tiled() const { return p.layout == spec::geometric::Layout::kTiled; }
+  void start() { bus.write(reg::kControl, reg::kControlEnable | reg::kControlStart); }
+  // A whole frame; gives its clocks.
+  Cycle run(Cycle limit = 2'000'000) {
+    lines.clear();
+    candidates.clear();
+    blocks.clear();
+    memory.clear_statistics();
+    start();
+    return bench->run([this] { return engine.idle(); }, limit);
+  }
+  void reset(Cycle cycles = 2) {
+    clock.set_reset_n(false);
+    clock.run(cycles);
+    clock.set_reset_n(true);
+  }
+
+  // --- What the contract hashes ---
+  std::uint64_t pixel_hash() const {
+    Fnv hash;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        for (const std::uint8_t byte :
+             memory.dump(bases.colour + pixel_offset(tiled(), width, x, y), 4))
+          hash.byte(byte);
+    return hash.value;
+  }
+  std::uint64_t weight_hash() const {
+    std::vector<spec::geometric::Weights> weights(static_cast<std::size_t>(width * height));
+    for (const spec::geometric::BlockRecord& block : blocks)
+      for (int i = 0; i < 16; ++i) {
+        const int x = block.x * 4 + i % 4, y = block.y * 4 + i / 4;
+        if (x < width && y < height)
+          weights[static_cast<std::size_t>(y * width + x)] =
+              block.weights[static_cast<std::size_t>(i)];
+      }
+    Fnv hash;
+    for (const spec::geometric::Weights& w : weights)
+      for (const std::uint8_t byte : w) hash.byte(byte);
+    return hash.value;
+  }
+  std::vector<std::uint64_t> accesses(const std::vector<std::uint64_t>& all,
+                                      std::uint32_t base) const {
+    std::vector<std::uint64_t> found;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(found),
+                 [&](std::uint64_t a) { return a >= base && a < base + kRegionBytes; });
+    return found;
+  }
+  std::vector<std::uint64_t> reads(std::uint32_t base) const {
+    return accesses(memory.lines_read(), base);
+  }
+  std::vector<std::uint64_t> writes(std::uint32_t base) const {
+    return accesses(memory.lines_written(), base);
+  }
+  // Reads of weights while edges are drawn come before those of the resolve.
+  std::uint64_t traffic_hash() const {
+    Fnv hash;
+    const auto add = [&](const std::vector<std::uint64_t>& list) {
+      for (const std::uint64_t address : list) hash.word(address);
+    };
+    for (const std::uint32_t base :
+         {bases.faces, bases.edges, bases.vertices, bases.depth, bases.weights})
+      add(reads(base));
+    add(writes(bases.weights));
+    add(reads(p.frame_copy ? bases.copy : bases.colour));
+    add(writes(bases.colour));
+    if (p.frame_copy) {
+      add(reads(bases.colour));
+      add(writes(bases.copy));
+    }
+    return hash.value;
+  }
+
+  const Parameters p;
+  const Bases bases;
+  int width = 0, height = 0;
+  ClockDomain clock{"clock", period()};
+  rtl::geometric::GeometricEngine engine;
+  MemoryModel memory;
+  RegisterHost bus{"bus"};
+  std::unique_ptr<Bench> bench;
+  std::vector<spec::geometric::LineRecord> lines;
+  std::vector<spec::geometric::Candidate> candidates;
+  std::vector<spec::geometric::BlockRecord> blocks;
+};
+
+// The contract's configurations.
+struct Configuration {
+  char name;
+  Parameters p;
+  std::uint64_t pixels, weights, traffic;
+};
+inline Parameters with_preset(spec::geometric::Preset preset) {
+  const auto& row = spec::geometric::kPresets[static_cast<std::size_t>(preset)];
+  Parameters p;
+  p.preset = preset;
+  p.select = row.select;
+  p.crease = row.crease;
+  p.combine = row.combine;
+  p.frame_copy = row.frame_copy;
+  return p;
+}
+inline Configuration configuration(char name) {
+  using spec::geometric::CacheLines;
+  using spec::geometric::Lanes;
+  using spec::geometric::Layout;
+  using spec::geometric::Preset;
+  Configuration c{name, with_preset(Preset::kDeburr), 0xbfce4abe8f3b22f8, 0x6cc78624e74c2575, 0};
+  Parameters& p = c.p;
+  const auto small = [&] { p.depth_lines = p.weight_blocks = p.vertex_lines = CacheLines::k16; };
+  switch (name) {
+    case 'a':
+      c.traffic = 0x05d525abe62406ac;
+      break;
+    case 'b':
+      p.layout = Layout::kRaster;
+      c.traffic = 0x1cca5c4cd350ef99;
+      break;
+    case 'c':
+      p.walkers = Lanes::kOne;
+      small();
+      c.traffic = 0x3d300c73436d0324;
+      break;
+    case 'd':
+      p.layout = Layout::kRaster;
+      p.walkers = Lanes::kTwo;
+      small();
+      c.traffic = 0x0290086e5caa5d65;
+      break;
+    case 'e':
+      p = with_preset(Preset::kGpaaOptimised);
+      c.pixels = 0x31c35ac184f4e760;
+      c.weights = 0xbadcaac952dfc9ed;
+      c.traffic = 0x9273c837cbb2c537;
+      break;
+    case 'f':
+      p = with_preset(Preset::kGpaa);
+      c.pixels = 0x9e2d94b3be2f9be4;
+      c.weights = 0x9d0d9b07b9151d21;
+      c.traffic = 0xe27e145fd8e2b753;
+      break;
+    case 'g':
+      p.crease = spec::geometric::Crease::kOff;
+      p.depth_test = spec::geometric::DepthTest::kOwn;
+      p.depth_bias = 4;
+      p.linear_light = false;
+      p.mark = true;
+      p.layout = Layout::kRaster;
+      p.walkers = Lanes::kTwo;
+      c.pixels = 0x812d11a355250433;
+      c.weights = 0xea5cdef281327420;
+      c.traffic = 0xd29f2a365f31ea07;
+      break;
+    default:
+      p.select = spec::geometric::Select::kAll;
+      p.depth_test = spec::geometric::DepthTest::kOff;
+      p.layout = Layout::kRaster;
+      p.weight_blocks = CacheLines::k16;
+      c.pixels = 0x095774cc41e669b3;
+      c.weights = 0x721dca7bb6a8d77f;
+      c.traffic = 0xd81315c6f0a3ee49;
+  }
+  return c;
+}
+
+}  // namespace deburr::tb::geometric_rtl

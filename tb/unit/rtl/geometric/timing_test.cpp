@@ -1,0 +1,428 @@
+// SPDX-License-Identifier: MIT
+// Latency and initiation interval of each unit of the edges' pipe by itself, as
+// docs/geometric_hardware.md has them; memory answers 20 clocks after a request.
+#include <numeric>
+
+#include "rtl_model/geometric/edges/edge_classifier.h"
+#include "rtl_model/geometric/edges/vertex_fetch.h"
+#include "rtl_model/geometric/lines/coverage_unit.h"
+#include "rtl_model/geometric/lines/depth_test.h"
+#include "rtl_model/geometric/lines/line_walker.h"
+#include "rtl_model/geometric/weights/weight_combiner.h"
+#include "tb/unit/rtl/geometric/parts.h"
+
+namespace deburr::tb::geometric_rtl {
+namespace {
+
+using namespace rtl::geometric;  // NOLINT: names of units and tokens
+using spec::geometric::Lanes;
+using spec::geometric::Layout;
+
+// Clocks from the first to the last of what has come out.
+template <class E>
+Cycle spread(const E& ends) {
+  return ends.sink.taken.back().cycle - ends.sink.taken.front().cycle;
+}
+template <class F, class E>
+void finish(F& frame, const E& ends, std::size_t tokens) {
+  ASSERT_TRUE(frame.clock.run_until([&] { return ends.sink.taken.size() == tokens; }, 100'000));
+}
+
+// ---- EdgeClassifier, with select = all: what is in range is kept
+struct ClassifierBench : Frame {
+  explicit ClassifierBench(const Parameters& p)
+      : Frame(p),
+        facing("facing", clock, p, store, sequencer),
+        unit("unit", clock, p, store, facing),
+        ends(clock) {
+    arbiter.connect(Client::kFacing, facing.memory);
+    unit.edges_in(ends.in);
+    unit.edges_out(ends.out);
+    bus.write(reg::kVertexCount, 100);
+    begin(64, 64);
+  }
+  static Parameters all(Lanes lanes) {
+    Parameters p;
+    p.select = spec::geometric::Select::kAll;
+    p.edge_lanes = lanes;
+    return p;
+  }
+  // So many edges, of which lane k is kept if bit k is set.
+  static EdgeBeat beat(std::uint8_t count, unsigned kept) {
+    EdgeBeat b{};
+    b.count = count;
+    for (unsigned lane = 0; lane < count; ++lane) b.edge[lane].v0 = kept >> lane & 1 ? lane : 1000;
+    return b;
+  }
+  FacingStore facing;
+  EdgeClassifier unit;
+  Ends<EdgeBeat, KeptEdge> ends;
+};
+TEST(EdgeClassifier, LatencyIsThree) {
+  ClassifierBench b(ClassifierBench::all(Lanes::kTwo));
+  EXPECT_EQ(b.latency(b.ends, ClassifierBench::beat(2, 2)), "3");
+}
+TEST(EdgeClassifier, ABeatAClockIfOneIsKept) {
+  ClassifierBench b(ClassifierBench::all(Lanes::kFour));
+  for (int i = 0; i < 100; ++i) b.ends.source.add(ClassifierBench::beat(4, 1u << i % 4));
+  finish(b, b.ends, 100);
+  EXPECT_EQ(spread(b.ends), 99u);
+}
+TEST(EdgeClassifier, ABeatWithoutAKeptEdgeTakesAClock) {
+  ClassifierBench b(ClassifierBench::all(Lanes::kTwo));
+  b.ends.source.add(ClassifierBench::beat(2, 1));
+  for (int i = 0; i < 50; ++i) b.ends.source.add(ClassifierBench::beat(2, 0));
+  b.ends.source.add(ClassifierBench::beat(2, 1));
+  finish(b, b.ends, 2);
+  EXPECT_EQ(spread(b.ends), 51u);
+}
+TEST(EdgeClassifier, KeptEdgesLeaveOneAClock) {
+  ClassifierBench b(ClassifierBench::all(Lanes::kFour));
+  for (int i = 0; i < 25; ++i) b.ends.source.add(ClassifierBench::beat(4, 15));
+  finish(b, b.ends, 100);
+  EXPECT_EQ(spread(b.ends), 99u);
+  for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(b.ends.sink.taken[i].token.v0, i % 4);
+}
+
+// ---- VertexFetch
+struct VertexBench : Frame {
+  VertexBench() : Frame({}), unit("unit", clock, {}, store, sequencer), ends(clock) {
+    arbiter.connect(Client::kVertices, unit.memory);
+    unit.edges_in(ends.in);
+    unit.ends_out(ends.out);
+    begun = [this](Cycle cycle) { return unit.cleared(cycle); };
+    begin(64, 64);
+  }
+  VertexFetch unit;
+  Ends<KeptEdge, EdgeEnds> ends;
+};
+TEST(VertexFetch, LatencyIsFiveOrWaitsForALine) {
+  VertexBench b;
+  EXPECT_EQ(b.latency(b.ends, {1, 9, false}), "32");  // the second miss came a clock later
+  b.clock.run(10);
+  EXPECT_EQ(b.latency(b.ends, {9, 2, false}), "5");
+  b.clock.run(10);
+  EXPECT_EQ(b.latency(b.ends, {2, 17, false}), "31");
+  EXPECT_EQ(b.unit.misses.value(), 3u);
+  EXPECT_EQ(b.unit.lookups.value(), 6u);
+}
+TEST(VertexFetch, AnEdgeAClockWhereAtMostOneLookUpMisses) {
+  VertexBench b;
+  for (std::uint32_t i = 0; i < 60; ++i) b.ends.source.add({4 * i, 4 * i + 4, false});
+  finish(b, b.ends, 60);
+  EXPECT_EQ(spread(b.ends), 59u);
+  EXPECT_EQ(b.unit.misses.value(), 61u);
+}
+TEST(VertexFetch, TwoClocksWhereBothMiss) {
+  VertexBench b;
+  for (std::uint32_t i = 0; i < 30; ++i) b.ends.source.add({8 * i, 8 * i + 4, false});
+  finish(b, b.ends, 30);
+  EXPECT_EQ(spread(b.ends), 58u);
+}
+TEST(VertexFetch, TwoLinesOfOneIndexAreFetchedAnew) {
+  VertexBench b;
+  std::vector<std::uint8_t> bytes(64 * 65);
+  bytes[0] = 77;
+  bytes[12] = 1;
+  bytes[64 * 64] = 99;
+  bytes[64 * 64 + 12] = 1;
+  b.memory.preload(0, bytes);
+  for (int i = 0; i < 4; ++i) b.ends.source.add({0, 256, false});
+  for (int i = 0; i < 4; ++i) b.ends.source.add({256, 0, false});
+  finish(b, b.ends, 8);
+  // Edge 5 finds its v0, which edge 4 fetched last, and so on.
+  EXPECT_EQ(b.unit.misses.value(), 2u + 2 + 2 + 2 + 1 + 2 + 2 + 2);
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(b.ends.sink.taken[i].token.vertex[i < 4 ? 0 : 1].x, 77) << i;
+    EXPECT_EQ(b.ends.sink.taken[i].token.vertex[i < 4 ? 1 : 0].x, 99) << i;
+  }
+}
+
+// ---- LineWalker
+struct WalkerBench : Frame {
+  explicit WalkerBench(Lanes walkers, const Parameters& p = {})
+      : Frame(p), unit("unit", clock, with(walkers)), ends(clock) {
+    unit.lines_in(ends.in);
+    unit.groups_out(ends.out);
+    begin(2048, 64);
+  }
+  static Parameters with(Lanes walkers) {
+    Parameters p;
+    p.walkers = walkers;
+    return p;
+  }
+  // In row 6, from column `first` on.
+  static LineToken line(int first, int count, int slope = 0) {
+    LineToken token{};
+    token.line.first = static_cast<std::uint16_t>(first);
+    token.line.count = static_cast<std::uint16_t>(count);
+    token.line.position = (std::int64_t{6} << 24) + (1 << 23);
+    token.line.slope = slope;
+    return token;
+  }
+  LineWalker unit;
+  Ends<LineToken, GroupToken> ends;
+};
+TEST(LineWalker, LatencyIsOne) {
+  WalkerBench b(Lanes::kFour);
+  EXPECT_EQ(b.latency(b.ends, WalkerBench::line(3, 1)), "1");
+}
+TEST(LineWalker, APixelAClockAndWalker) {
+  for (const auto& [lanes, count] :
+       {std::pair{Lanes::kOne, 1}, {Lanes::kTwo, 2}, {Lanes::kFour, 4}}) {
+    const std::string got = in_child([lanes = lanes, count = count] {
+      WalkerBench b(lanes);
+      b.ends.source.add(WalkerBench::line(0, 1000));
+      b.ends.source.add(WalkerBench::line(4, 500));
+      finish(b, b.ends, static_cast<std::size_t>(1500 / count));
+      return std::to_string(spread(b.ends)) + " " + std::to_string(b.unit.columns.value());
+    });
+    EXPECT_EQ(got, std::to_string(1500 / count - 1) + " 1500");
+  }
+}
+TEST(LineWalker, GroupsEndAtBlocks) {
+  WalkerBench b(Lanes::kFour);
+  b.ends.source.add(WalkerBench::line(3, 4));              // 1 + 3
+  b.ends.source.add(WalkerBench::line(8, 4, 1 << 24));     // rows 6, 7 | 8, 9
+  b.ends.source.add(WalkerBench::line(8, 5, -(1 << 24)));  // rows 6, 5, 4 | 3 | 2
+  finish(b, b.ends, 7);
+  std::vector<int> counts;
+  for (const auto& taken : b.ends.sink.taken) counts.push_back(taken.token.count);
+  EXPECT_THAT(counts, testing::ElementsAre(1, 3, 2, 2, 3, 1, 1));
+  EXPECT_EQ(spread(b.ends), 6u);
+}
+
+// ---- CoverageUnit
+struct CoverageBench : Frame {
+  CoverageBench() : Frame({}), unit("unit", clock, store), ends(clock) {
+    unit.groups_in(ends.in);
+    unit.candidates_out(ends.out);
+    begin(64, 48);
+  }
+  static GroupToken group(bool vertical, int row, int distance, bool tie = false) {
+    GroupToken token{};
+    token.vertical = vertical;
+    token.tie_forward = tie;
+    token.column = 5;
+    token.count = 1;
+    token.position[0] = row * 65536 + 32768 + distance;
+    return token;
+  }
+  // "direction coverage", or nothing.
+  std::string one(const GroupToken& token) {
+    ends.sink.taken.clear();
+    ends.source.add(token);
+    GroupToken last{};
+    last.end = true;
+    ends.source.add(last);
+    clock.run_until([&] { return !ends.sink.taken.empty() && ends.sink.taken.back().token.end; },
+                    100);
+    if (ends.sink.taken.size() == 1) return "";
+    const CandidateToken& c = ends.sink.taken[0].token;
+    return std::string(c.forward & 1 ? "+" : "-") + std::to_string(c.coverage[0]);
+  }
+  CoverageUnit unit;
+  Ends<GroupToken, CandidateToken> ends;
+};
+TEST(CoverageUnit, LatencyIsTwo) {
+  CoverageBench b;
+  EXPECT_EQ(b.latency(b.ends, CoverageBench::group(false, 7, 3)), "2");
+}
+TEST(CoverageUnit, AGroupAClock) {
+  CoverageBench b;
+  for (int i = 0; i < 50; ++i) b.ends.source.add(CoverageBench::group(false, 7, i));
+  finish(b, b.ends, 50);
+  EXPECT_EQ(spread(b.ends), 49u);
+}
+TEST(CoverageUnit, EveryDistance) {
+  CoverageBench b;
+  for (int distance = -32768; distance < 32768; ++distance)
+    b.ends.source.add(CoverageBench::group(false, 7, distance));
+  b.clock.run(65'536 + 10);
+  const auto& taken = b.ends.sink.taken;
+  std::size_t at = 0;
+  for (int distance = -32768; distance < 32768; ++distance) {
+    const int wanted = (32768 - std::abs(distance) + 128) / 256;
+    ASSERT_EQ(wanted == 0, std::abs(distance) > 32640);
+    if (wanted == 0) continue;
+    ASSERT_EQ(taken[at].token.coverage[0], wanted) << distance;
+    ASSERT_EQ(taken[at].token.forward, distance > 0) << distance;
+    ++at;
+  }
+  EXPECT_EQ(at, taken.size());
+}
+TEST(CoverageUnit, TiesAndBorders) {
+  CoverageBench b;
+  EXPECT_EQ(b.one(CoverageBench::group(false, 7, 0, true)), "+128");
+  EXPECT_EQ(b.one(CoverageBench::group(false, 7, 0, false)), "-128");
+  EXPECT_EQ(b.one(CoverageBench::group(true, 7, 0, false)), "-128");
+  EXPECT_EQ(b.one(CoverageBench::group(false, 0, -9)), "");
+  EXPECT_EQ(b.one(CoverageBench::group(false, 0, 9)), "+128");
+  EXPECT_EQ(b.one(CoverageBench::group(false, -1, 9)), "");
+  EXPECT_EQ(b.one(CoverageBench::group(false, 47, 9)), "");
+  EXPECT_EQ(b.one(CoverageBench::group(false, 47, -900)), "-124");
+  EXPECT_EQ(b.one(CoverageBench::group(false, 48, -900)), "");
+  EXPECT_EQ(b.one(CoverageBench::group(true, 63, 900)), "");
+  EXPECT_EQ(b.one(CoverageBench::group(true, 62, 900)), "+124");
+}
+
+// ---- DepthTest
+struct DepthBench : Frame {
+  explicit DepthBench(const Parameters& p = {})
+      : Frame(p), unit("unit", clock, p, store, sequencer), ends(clock) {
+    arbiter.connect(Client::kDepth, unit.memory);
+    unit.candidates_in(ends.in);
+    unit.weights_out(ends.out);
+    begun = [this](Cycle cycle) { return unit.cleared(cycle); };
+    begin(256, 256);
+  }
+  static Parameters raster() {
+    Parameters p;
+    p.layout = Layout::kRaster;
+    return p;
+  }
+  // A column of four pixels at the left side of a block, that take from the left.
+  static CandidateToken column(int bx, int by) {
+    CandidateToken token{};
+    token.block_x = static_cast<std::uint16_t>(bx);
+    token.block_y = static_cast<std::uint16_t>(by);
+    token.vertical = true;
+    token.candidates = 15;
+    token.place = {0, 4, 8, 12};
+    token.coverage = {9, 9, 9, 9};
+    return token;
+  }
+  // One pixel inside of a block.
+  static CandidateToken pixel(int bx, int by, std::uint32_t depth = 0) {
+    CandidateToken token = column(bx, by);
+    token.candidates = 1;
+    token.place[0] = 5;
+    token.depth[0] = depth;
+    return token;
+  }
+  DepthTest unit;
+  Ends<CandidateToken, WeightToken> ends;
+};
+TEST(DepthTest, LatencyIsSixOrWaitsForALine) {
+  DepthBench b;
+  EXPECT_EQ(b.latency(b.ends, DepthBench::pixel(3, 4)), "32");
+  b.clock.run(10);
+  EXPECT_EQ(b.latency(b.ends, DepthBench::pixel(3, 4)), "6");
+}
+TEST(DepthTest, AGroupOfOneLineAClock) {
+  DepthBench b;
+  for (int i = 0; i < 60; ++i) b.ends.source.add(DepthBench::pixel(i, 4));
+  finish(b, b.ends, 60);
+  EXPECT_EQ(spread(b.ends), 59u);
+  EXPECT_EQ(b.unit.misses.value(), 60u);
+}
+TEST(DepthTest, EightLinesTakeFourClocksOrEightMisses) {
+  DepthBench b(DepthBench::raster());
+  for (int i = 0; i < 7; ++i) b.ends.source.add(DepthBench::column(4, i));
+  finish(b, b.ends, 7);
+  EXPECT_EQ(b.unit.misses.value(), 56u);
+  EXPECT_EQ(spread(b.ends), 6u * 8);
+  b.clock.run(20);
+  b.ends.sink.taken.clear();
+  for (int i = 0; i < 7; ++i) b.ends.source.add(DepthBench::column(4, i));
+  finish(b, b.ends, 7);
+  EXPECT_EQ(spread(b.ends), 6u * 4);
+  EXPECT_EQ(b.unit.misses.value(), 56u);
+}
+TEST(DepthTest, PassesAtEqualityForEachBias) {
+  for (int bias = 1; bias <= 24; ++bias) {
+    const std::string got = in_child([bias] {
+      Parameters p;
+      p.depth_bias = bias;
+      DepthBench b(p);
+      constexpr std::uint32_t kDepth = 11'000'007;
+      std::vector<std::uint8_t> line;
+      for (int i = 0; i < 16; ++i)
+        for (int byte = 0; byte < 4; ++byte)
+          line.push_back(static_cast<std::uint8_t>((kDepth | 0xAA000000u) >> (8 * byte)));
+      b.memory.preload(0, line);
+      const std::uint32_t least = kDepth - (kDepth >> bias);
+      std::vector<bool> passed;
+      b.unit.observer = [&](const spec::geometric::Candidate& c) { passed.push_back(c.passed); };
+      for (const std::uint32_t depth : {least - 1, least, least + 1})
+        b.ends.source.add(DepthBench::pixel(0, 0, depth));
+      finish(b, b.ends, 2);
+      b.clock.run(10);
+      return std::string(passed == std::vector<bool>{false, true, true} ? "right" : "wrong");
+    });
+    EXPECT_EQ(got, "right") << bias;
+  }
+}
+
+// ---- WeightCombiner: nothing comes out of it
+struct CombinerBench : Frame {
+  explicit CombinerBench(const Parameters& p = {})
+      : Frame(p), unit("unit", clock, p, store, sequencer), in("in"), source("source", clock) {
+    arbiter.connect(Client::kWeights, unit.memory);
+    unit.weights_in(in);
+    source.out(in);
+    begun = [this](Cycle cycle) { return unit.cleared(cycle); };
+    bus.write(reg::kWeightBase, 0);
+    begin(2048, 16);
+  }
+  static WeightToken token(int bx, int by) {
+    WeightToken t{};
+    t.block_x = static_cast<std::uint16_t>(bx);
+    t.block_y = static_cast<std::uint16_t>(by);
+    t.candidates = 1;
+    t.coverage[0] = 100;
+    return t;
+  }
+  static WeightToken end() {
+    WeightToken t{};
+    t.end = true;
+    return t;
+  }
+  Cycle until_drawn() {
+    const Cycle from = clock.cycle();
+    while (!unit.drawn(clock.cycle())) clock.run(1);
+    return clock.cycle() - from;
+  }
+  WeightCombiner unit;
+  rtl::Link<WeightToken> in;
+  Source<WeightToken> source;
+};
+TEST(WeightCombiner, LatencyIsFive) {
+  CombinerBench b;
+  b.in.push(b.clock.cycle(), CombinerBench::end());
+  EXPECT_EQ(b.until_drawn(), 1u + 5);
+}
+TEST(WeightCombiner, AGroupAClockWhateverBlock) {
+  CombinerBench b;
+  for (int i = 0; i < 100; ++i) b.source.add(CombinerBench::token(5, 1));
+  for (int i = 0; i < 500; ++i) b.source.add(CombinerBench::token(i, 2));
+  b.source.add(CombinerBench::end());
+  const Cycle clocks = b.until_drawn();
+  EXPECT_EQ(b.unit.misses.value(), 501u);
+  // Of 128 blocks a row of the cache holds 16.
+  EXPECT_GT(b.unit.blocks_written.value(), 400u);
+  EXPECT_EQ(b.unit.stalled_cycles(), 0u);
+  // The last write is answered a while after it was sent.
+  EXPECT_LE(clocks, 601u + 6 + 30);
+}
+TEST(WeightCombiner, ABlockThatComesBackWaitsForItsWrite) {
+  CombinerBench b;
+  for (int i = 0; i < 3; ++i) {
+    b.source.add(CombinerBench::token(0, 0));
+    b.source.add(CombinerBench::token(16, 0));
+  }
+  b.source.add(CombinerBench::end());
+  b.until_drawn();
+  EXPECT_EQ(b.unit.misses.value(), 6u);
+  EXPECT_EQ(b.unit.blocks_read.value(), 4u);
+  EXPECT_EQ(b.unit.blocks_written.value(), 5u);
+  const auto stalls = b.unit.stalls();
+  const auto spill =
+      std::find_if(stalls.begin(), stalls.end(), [](const auto& s) { return s.name == "spill"; });
+  ASSERT_NE(spill, stalls.end());
+  EXPECT_GT(spill->cycles, 0u);
+  EXPECT_EQ(b.memory.dump(0, 1)[0], 100);
+}
+
+}  // namespace
+}  // namespace deburr::tb::geometric_rtl
