@@ -148,7 +148,8 @@ class Papers(unittest.TestCase):
     def test_004_is_quoted_as_it_is_printed(self):
         for table in self.papers["004"]["tables"]:
             printed = next(e[2] for t, e in EXPECTED_004.items() if table["title"].startswith(t))
-            self.assertEqual([row["paper"] for row in table["rows"]], printed, table["title"])
+            with self.subTest(table["title"]):
+                self.assertEqual([row["paper"] for row in table["rows"]], printed)
 
     def test_what_is_not_reproduced_says_why(self):
         rows = [row for table in self.papers["004"]["tables"]

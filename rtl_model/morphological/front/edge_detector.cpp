@@ -146,10 +146,9 @@ bool EdgeDetector::is_edge(Position p, Position q) const {
       return depth_edge(p, q);
     case spec::morphological::EdgeSource::kPredicated:
       return c >= (depth_edge(p, q) ? rules.threshold_on : rules.threshold_off);
-    case spec::morphological::EdgeSource::kLuma:
+    case spec::morphological::EdgeSource::kLuma:  // dynamic: fixed ones are plain
       break;
   }
-  if (!rules.dynamic) return c >= rules.threshold;
   // U9.32: both sides are products with U0.16, of twice the luma.
   return (std::uint64_t{c} << 17) > std::uint64_t{rules.alpha} * doubled_luma(p, q) &&
          c >= rules.floor;

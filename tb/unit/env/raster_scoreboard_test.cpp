@@ -47,7 +47,7 @@ TEST_F(Raster, SeesEachWrongPixel) {
     RasterScoreboard<int> board("frame", [](const int& v) { return std::to_string(v); });
     board.expect(frame_, 3);
     for (std::size_t k = 0; k < frame_.size(); ++k) board.got(frame_[k] + (k == i), 12);
-    EXPECT_EQ(board.mismatches(), 1U) << i;
+    ASSERT_EQ(board.mismatches(), 1U) << i;
     EXPECT_EQ(board.differences().front().item,
               "pixel (" + std::to_string(i % 3) + ", " + std::to_string(i / 3) + ")");
     EXPECT_EQ(board.differences().front().where, "cycle 12");

@@ -34,12 +34,14 @@ void describe(P& p, Visitor& v) {
   v.boolean("safe", p.safe, "Whether.");
 }
 
-constexpr std::uint32_t kControl = 0x04, kStatus = 0x08, kSize = 0x10, kTokens = 0x20, kBoth = 0x24;
-constexpr std::array<spec::RegisterInfo, 6> kTable = {{
+constexpr std::uint32_t kControl = 0x04, kStatus = 0x08, kSize = 0x10, kLimit = 0x14,
+                        kTokens = 0x20, kBoth = 0x24;
+constexpr std::array<spec::RegisterInfo, 7> kTable = {{
     {0x00, "ID", Access::kReadOnly, 0xDEB000FF, "Which."},
     {kControl, "CONTROL", Access::kReadWrite, 1, "Bit 0 enable, 1 clear, 2 flush."},
     {kStatus, "STATUS", Access::kWriteOneToClear, 1, "Bit 0 idle, 1 framing, 2 written."},
     {kSize, "SIZE", Access::kReadWrite, 0, "Width [13:0]."},
+    {kLimit, "LIMIT", Access::kReadWrite, 0, "All of its bits."},
     {kTokens, "TOKENS", Access::kReadOnly, 0, "Tokens."},
     {kBoth, "BOTH", Access::kReadOnly, 0, "Tokens of both."},
 }};
@@ -166,6 +168,8 @@ TEST(Engine, WritesAreMaskedAndDecoded) {
   bed.host.write(kSize, 0xFFFFFFFF);
   EXPECT_EQ(bed.host.read(kSize), 0x3FFFU);
   EXPECT_EQ(bed.engine.changed, before + 1);
+  bed.host.write(kLimit, 0xFFFFFFFF);
+  EXPECT_EQ(bed.host.read(kLimit), 0xFFFFFFFFU);
   bed.engine.control.registers.set(3, 0xFFFF0001);  // as a debug write does
   bed.engine.control.mask_values();
   EXPECT_EQ(bed.engine.control.value(kSize), 1U);

@@ -434,6 +434,14 @@ TEST(Memory, SharedPortReadsOrWrites) {
   port.write(2, 3, 34);
   EXPECT_EQ(port.at(2, 3), 33);
   EXPECT_EQ(memory.built_as(), "1RW");
+  EXPECT_EQ(memory.ports(), "1RW");
+  const MemoryBase mixed("mixed", {.words = 8,
+                                   .word_bits = 8,
+                                   .read_ports = 2,
+                                   .write_ports = 1,
+                                   .shared_ports = 3,
+                                   .idealised = "three kinds of ports"});
+  EXPECT_EQ(mixed.ports(), "2R1W3RW");
 }
 
 TEST(Memory, OneAccessGivesNeighboursInDifferentBanks) {

@@ -231,11 +231,15 @@ TEST(Accounts, MemoriesAreThoseOfTheContract) {
   p.edge_source = spec::morphological::EdgeSource::kPredicated;
   EngineBench bench(p);
   std::map<std::string, std::uint64_t> bits;
+  std::map<std::string, std::string> ports;
   for (const rtl::MemoryBase* memory : bench.engine.memories()) {
     bits[memory->basename()] = memory->logical_bits();
+    ports[memory->basename()] = memory->ports();
     EXPECT_EQ(memory->idealised(), "") << memory->name();
   }
   EXPECT_EQ(bits["luma_lines"], 138'240u);
+  EXPECT_EQ(ports["luma_lines"], "1R1W of 2 words");  // a beat's column and the one beside it
+  EXPECT_EQ(ports["depth_lines"], "1R1W");
   EXPECT_EQ(bits["depth_lines"], 92'160u);
   for (const char* const lines : {"pixel_lines0", "pixel_lines1", "pixel_lines2", "pixel_lines3"})
     EXPECT_EQ(bits[lines], 614'400u);
@@ -251,6 +255,17 @@ TEST(Accounts, MemoriesAreThoseOfTheContract) {
   EXPECT_EQ(bits["edge_rows_even"] + bits["edge_rows_odd"], 138'240u);
   EXPECT_EQ(bits["record_fifo_h0"], 256u * 60u);
   EXPECT_EQ(bench.engine.window.memory.bits_at(960), 257'280u / 2);
+}
+
+// A row of one pixel still has a column beside it.
+TEST(Memories, OfTheNarrowestRowsHaveTheirBanks) {
+  Parameters p;
+  p.line_pixels = 1;
+  EngineBench bench(p);
+  for (const rtl::MemoryBase* memory : bench.engine.memories())
+    if (std::string(memory->basename()) == "luma_lines") {
+      EXPECT_EQ(memory->words(), 2u);
+    }
 }
 
 // Every memory that there is, also where the model keeps something else.

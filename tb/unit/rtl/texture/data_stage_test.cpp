@@ -2,6 +2,8 @@
 // The DataStage in the cache: bank passes, texels anywhere in a line, and hits in lines that are
 // replaced by the same request.
 #include <cstring>
+#include <tuple>
+#include <utility>
 
 #include "tb/unit/rtl/texture/cache_bench.h"
 
@@ -158,7 +160,7 @@ struct Clocks {
          << ", bank_conflict " << c.bank_conflict;
   }
 };
-Clocks clocks_of(std::uint32_t hits, std::uint32_t passes, std::uint8_t lines) {
+Clocks clocks_of(const CacheToken& token) {
   ClockDomain clock("clock", period());
   FillBuffer fills("fills", 4, 64);
   rtl::Link<CacheToken> requests("requests");
@@ -167,25 +169,34 @@ Clocks clocks_of(std::uint32_t hits, std::uint32_t passes, std::uint8_t lines) {
   stage.requests_in(requests);
   stage.texels_out(texels);
   const std::array<std::uint8_t, 64> line{};
-  for (std::uint8_t i = 0; i < lines; ++i) {
+  for (std::uint8_t i = 0; i < token.fills; ++i) {
     fills.fill(clock.cycle(), fills.reserve(clock.cycle()), 0, line, true);
     clock.run(1);
   }
   clock.run(3);
-  // Words of one bank for as many hits as there are passes, the other hits in banks of their own.
-  CacheToken token = StageBench::hit({0, 0, 0, 0});
-  for (std::uint32_t i = 0; i < 4; ++i) {
-    token.place[i] = i < passes ? 64 * i : 4 * (i + 1);
-    if (i >= hits) token.source[i] = static_cast<std::uint8_t>(1 + (i - hits) % lines);
-    token.victim[i] = static_cast<std::uint16_t>(8 + i);
-  }
-  token.fills = lines;
   const Cycle pushed = clock.cycle();
   requests.push(pushed, token);
   const Cycle ready = ready_at(clock, texels, 40);
   // Taken a clock after the push; the last clock of stage 1 is one before the push of the texels.
   const auto stalls = stage.stalls();
   return {ready - 1 - (pushed + 1), stalls[1].cycles, stalls[2].cycles, stalls[3].cycles};
+}
+
+// Words of one bank for as many hits as there are passes, the other hits in banks of their own.
+// What misses stands at the beginning of its line, in the bank of the hits, and meets nobody.
+CacheToken request_of(std::uint32_t hits, std::uint32_t passes, std::uint8_t lines,
+                      bool misses_first) {
+  CacheToken token = StageBench::hit({0, 0, 0, 0});
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    const std::uint32_t i = misses_first ? 3 - k : k;
+    token.victim[i] = static_cast<std::uint16_t>(8 + i);
+    if (k >= hits)
+      token.source[i] = static_cast<std::uint8_t>(1 + (k - hits) % lines);
+    else
+      token.place[i] = k < passes ? 64 * (k + 1) : 4 * (k + 1);
+  }
+  token.fills = lines;
+  return token;
 }
 
 struct PassesAndFills {
@@ -196,20 +207,47 @@ struct PassesAndFills {
 void PrintTo(const PassesAndFills& c, std::ostream* out) {
   *out << c.passes << " passes, " << int{c.lines} << " lines";
 }
-class DataStageClocks : public testing::TestWithParam<PassesAndFills> {};
+class DataStageClocks : public testing::TestWithParam<std::tuple<bool, PassesAndFills>> {};
 
 // The first line is written in the clock of the last pass, then one a clock.
 TEST_P(DataStageClocks, FillsBeginInTheClockOfTheLastPass) {
-  const PassesAndFills& c = GetParam();
-  EXPECT_EQ(clocks_of(c.hits, c.passes, c.lines), c.expected);
+  const auto& [misses_first, c] = GetParam();
+  EXPECT_EQ(clocks_of(request_of(c.hits, c.passes, c.lines, misses_first)), c.expected);
 }
-INSTANTIATE_TEST_SUITE_P(
-    TextureRtl, DataStageClocks,
-    testing::Values(PassesAndFills{4, 1, 0, {1, 0, 0, 0}}, PassesAndFills{4, 2, 0, {2, 0, 0, 1}},
-                    PassesAndFills{4, 4, 0, {4, 0, 0, 3}}, PassesAndFills{3, 1, 1, {1, 0, 0, 0}},
-                    PassesAndFills{3, 2, 1, {2, 0, 0, 1}}, PassesAndFills{3, 3, 1, {3, 0, 0, 2}},
-                    PassesAndFills{2, 1, 2, {2, 0, 1, 0}}, PassesAndFills{2, 2, 2, {3, 0, 1, 1}},
-                    PassesAndFills{1, 1, 3, {3, 0, 2, 0}}, PassesAndFills{0, 0, 4, {4, 0, 3, 0}}));
+INSTANTIATE_TEST_SUITE_P(TextureRtl, DataStageClocks,
+                         testing::Combine(testing::Bool(),
+                                          testing::Values(PassesAndFills{4, 1, 0, {1, 0, 0, 0}},
+                                                          PassesAndFills{4, 2, 0, {2, 0, 0, 1}},
+                                                          PassesAndFills{4, 4, 0, {4, 0, 0, 3}},
+                                                          PassesAndFills{3, 1, 1, {1, 0, 0, 0}},
+                                                          PassesAndFills{3, 2, 1, {2, 0, 0, 1}},
+                                                          PassesAndFills{3, 3, 1, {3, 0, 0, 2}},
+                                                          PassesAndFills{2, 1, 2, {2, 0, 1, 0}},
+                                                          PassesAndFills{2, 2, 2, {3, 0, 1, 1}},
+                                                          PassesAndFills{1, 1, 3, {3, 0, 2, 0}},
+                                                          PassesAndFills{0, 0, 4, {4, 0, 3, 0}})));
+
+// Two texels of a request that hit: in different words of a bank they take two passes, in one word
+// one, whichever two they are.
+using TexelPair = std::pair<std::size_t, std::size_t>;
+class TwoTexels : public testing::TestWithParam<std::tuple<TexelPair, bool>> {};
+TEST_P(TwoTexels, MeetUnlessTheyShareAWord) {
+  const auto [pair, share] = GetParam();
+  const auto [first, second] = pair;
+  CacheToken token = StageBench::hit({4, 8, 12, 16});
+  token.place[second] = token.place[first] + (share ? 1 : 64);
+  EXPECT_EQ(clocks_of(token), share ? (Clocks{1, 0, 0, 0}) : (Clocks{2, 0, 0, 1}));
+}
+INSTANTIATE_TEST_SUITE_P(TextureRtl, TwoTexels,
+                         testing::Combine(testing::Values(TexelPair{0, 1}, TexelPair{0, 2},
+                                                          TexelPair{0, 3}, TexelPair{1, 2},
+                                                          TexelPair{1, 3}, TexelPair{2, 3}),
+                                          testing::Bool()));
+
+// Two words, each of two texels.
+TEST(TextureRtlDataStage, TwoWordsOfABankTakeTwoPasses) {
+  EXPECT_EQ(clocks_of(StageBench::hit({0, 64, 1, 65})), (Clocks{2, 0, 0, 1}));
+}
 
 // ---- what the banks do not do -------------------------------------------------------------------
 

@@ -499,6 +499,8 @@ TEST(TextureRtlUnit, AccountsForItsMemories) {
   EXPECT_EQ(find("cache.data_stage.banks").built_as(), "1R1W, 16 banks");
   EXPECT_EQ(find("cache.miss_queue.lines").logical_bits(), 64u * 26);
   EXPECT_EQ(find("cache.miss_queue.fill_buffer").physical_bits(), 64u * 512);
+  EXPECT_EQ(find("cache.miss_queue.fill_buffer_arrived").logical_bits(), 64u);
+  EXPECT_EQ(find("cache.miss_queue.failed").logical_bits(), 64u);
   // Ticket, control, four times (place, source, slot, turned), number of fills.
   EXPECT_EQ(find("cache.latency_fifo.entries").logical_bits(),
             160u * (40 + 38 + 4 * (14 + 3 + 8 + 1) + 3));
