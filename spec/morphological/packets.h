@@ -148,6 +148,7 @@ struct Work {
   std::uint64_t divides = 0;          // records that have a side
   std::uint64_t blended_pixels = 0;   // pixels with a share of a neighbour
   std::uint64_t diagonal_pixels = 0;  // pixels whose top edge took its shares from a diagonal
+  std::uint64_t left_pixels = 0;      // would have taken a share, and were left
   friend bool operator==(const Work&, const Work&) = default;
 };
 
@@ -167,7 +168,8 @@ inline constexpr WorkCount kWorkCounts[] = {{&Work::pixels, reg::kPixels},
                                             {&Work::probes, reg::kProbes},
                                             {&Work::divides, reg::kDivides},
                                             {&Work::blended_pixels, reg::kBlendedPixels},
-                                            {&Work::diagonal_pixels, reg::kDiagonals}};
+                                            {&Work::diagonal_pixels, reg::kDiagonals},
+                                            {&Work::left_pixels, reg::kLeftPixels}};
 static_assert(sizeof(Work) == std::size(kWorkCounts) * sizeof(std::uint64_t),
               "a count is not in the list");
 

@@ -38,6 +38,7 @@ inline constexpr std::uint32_t kFrameCycles = 0x6C;
 inline constexpr std::uint32_t kRecordStalls = 0x70;
 inline constexpr std::uint32_t kMemoryErrors = 0x74;
 inline constexpr std::uint32_t kDiagonals = 0x78;
+inline constexpr std::uint32_t kLeftPixels = 0x7C;
 inline constexpr std::uint32_t kIdValue = 0xDEB00002;
 inline constexpr std::uint32_t kControlEnable = 1u << 0;
 inline constexpr std::uint32_t kControlClearCounters = 1u << 1;
@@ -49,7 +50,7 @@ inline constexpr std::uint32_t kStatusWrittenWhileBusy = 1u << 4;
 }  // namespace reg
 
 // Reset values marked 0 with the access kReadWrite are loaded from the parameters at construction.
-inline constexpr std::array<RegisterInfo, 28> kRegisters = {{
+inline constexpr std::array<RegisterInfo, 29> kRegisters = {{
     {reg::kId, "ID", Access::kReadOnly, reg::kIdValue,
      "Identifies the unit and the version of its register map."},
     {reg::kControl, "CONTROL", Access::kReadWrite, 1,
@@ -64,7 +65,7 @@ inline constexpr std::array<RegisterInfo, 28> kRegisters = {{
      "edges.source [1:0], threshold_mode [2], dynamic_luma [17, 3], local_contrast [5:4], "
      "predictor [7:6], steps [12:8], contiguous [13], safe [14], linear_light [15], trim [16], "
      "ends = crossings [18], area from the table [19], diagonals [20], round_corners [21], blend = "
-     "strongest [22]. Blocks that are not built read as off."},
+     "strongest [22], leave [24:23]. Blocks that are not built read as off."},
     {reg::kThreshold, "THRESHOLD", Access::kReadWrite, 0, "T, U0.16 [15:0]."},
     {reg::kThresholdOn, "THRESHOLD_ON", Access::kReadWrite, 0,
      "T of predicated edges where depth has an edge, U0.16 [15:0]."},
@@ -100,6 +101,8 @@ inline constexpr std::array<RegisterInfo, 28> kRegisters = {{
     {reg::kMemoryErrors, "MEMORY_ERRORS", Access::kReadOnly, 0, "Memory responses with an error."},
     {reg::kDiagonals, "DIAGONALS", Access::kReadOnly, 0,
      "Pixels whose top edge took its shares from a diagonal."},
+    {reg::kLeftPixels, "LEFT_PIXELS", Access::kReadOnly, 0,
+     "Pixels that would have taken a share and were left."},
 }};
 
 }  // namespace deburr::spec::morphological

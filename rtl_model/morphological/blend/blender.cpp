@@ -75,7 +75,7 @@ void Blender::choose(Cycle cycle, const ShareToken& token, const PixelToken& aro
   const auto count = static_cast<std::size_t>(end ? rules.last_count : store_.lanes());
   beat.slot = slot.number;
   beat.last = end && slot.row + 1u == rules.rows;
-  beat.blend = 0;
+  beat.blend = beat.left = 0;
   spec::morphological::BlendedBeat& result = beat.result;
   result = {};  // what leaves the engine is defined in every lane
   result.count = static_cast<std::uint8_t>(count);
@@ -90,14 +90,35 @@ void Blender::choose(Cycle cycle, const ShareToken& token, const PixelToken& aro
   if (token.any) choose_axes(cycle, token, around, beat);
 }
 
+// By its own mark, or those of its neighbours in the frame.
+bool Blender::is_left(const Slot& slot, const PixelToken& around, std::size_t lane,
+                      std::size_t count) const {
+  const FrameRules& rules = store_.rules();
+  const auto marked = [](const spec::morphological::Rgba8& pixel) { return (pixel[3] & 1) == 0; };
+  if (marked(around.centre[lane])) return true;
+  if (rules.leave != spec::morphological::Leave::kBeside) return false;
+  const bool first_row = slot.row == store_.reach_rows() + spec::morphological::kRowLag,
+             last_row = slot.row + 1u == rules.rows, first_column = slot.beat == 0 && lane == 0,
+             last_lane = lane + 1 == count,
+             last_column = last_lane && slot.beat + 1u == rules.beats;
+  return (!first_row && marked(around.above[lane])) || (!last_row && marked(around.below[lane])) ||
+         (!first_column && marked(lane == 0 ? around.before : around.centre[lane - 1])) ||
+         (!last_column && marked(last_lane ? around.after : around.centre[lane + 1]));
+}
+
 void Blender::choose_axes(Cycle cycle, const ShareToken& token, const PixelToken& around,
                           Beat& beat) {
-  const bool strongest = store_.rules().strongest;
+  const bool strongest = store_.rules().strongest,
+             leaves = store_.rules().leave != spec::morphological::Leave::kNone;
   const std::size_t count = beat.result.count;
   for (std::size_t i = 0; i < count; ++i) {
     const Shares& s = token.shares[i];
     const int vertical_sum = s.up + s.down, horizontal_sum = s.left + s.right;
     if (vertical_sum + horizontal_sum == 0) continue;
+    if (leaves && is_left(token.slot, around, i, count)) {
+      beat.left = static_cast<std::uint8_t>(beat.left | 1u << i);
+      continue;
+    }
     bool horizontal;
     if (strongest) {
       horizontal = std::max(s.left, s.right) > std::max(s.up, s.down);
@@ -191,6 +212,10 @@ void Blender::deliver(Cycle cycle, const Beat& beat) {
   spec::morphological::BlendedBeat& out = pixels_out.emplace(cycle);
   out = beat.result;
   if (beat.blend != 0) encode(cycle, beat, out);
+  if (store_.rules().leave != spec::morphological::Leave::kNone) {
+    left_pixels += static_cast<std::uint64_t>(std::popcount(beat.left));
+    for (std::size_t i = 0; i < out.count; ++i) out.pixel[i][3] |= 1;
+  }
   pixels += out.count;
   beat_latency.record(probe_.leaves(cycle));
   if (beat.last) frames_done_out.push(cycle, {beat.slot});

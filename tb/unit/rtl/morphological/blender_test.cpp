@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Blender: the choice of the axis, rounding, and linear light, by hand from the contract.
+#include <array>
+#include <string>
 #include <vector>
 
 #include "tb/unit/rtl/morphological/parts.h"
@@ -10,8 +12,9 @@ namespace {
 using namespace rtl::morphological;  // NOLINT: a test of these
 
 struct Blending {
-  explicit Blending(const Parameters& p) : store(p), blender("blender", clock, store.store, probe) {
-    store.frame(8, 8);
+  explicit Blending(const Parameters& p, int width = 8, int height = 8)
+      : store(p), blender("blender", clock, store.store, probe) {
+    store.frame(width, height);
     shares_source.beats_out(shares);
     pixel_source.beats_out(pixels);
     blender.shares_in(shares);
@@ -36,6 +39,9 @@ struct Blending {
     around.below[0] = grey(down);
     around.before = grey(left);
     around.after = grey(right);
+    send(token, around);
+  }
+  void send(const ShareToken& token, const PixelToken& around) {
     probe.enters(clock.cycle());
     shares_source.send(token);
     pixel_source.send(around);
@@ -164,6 +170,130 @@ TEST(BlenderBlock, MixesAllPairsOfShares) {
       }
       ASSERT_LE(tap.first + tap.second, 256);
     }
+}
+
+// ---- pixels that are left -----------------------------------------------------------------------
+
+using spec::morphological::BlendRule;
+using spec::morphological::Leave;
+
+struct LeaveCase {
+  Leave leave;
+  BlendRule blend;
+  int lanes_code;
+};
+class LeaveRule : public ::testing::TestWithParam<LeaveCase> {};
+
+// Each pixel of a frame takes a share with one mark alone: its own, or that of a neighbour above,
+// to the left, to the right, below; beyond the frame there are old bits, which may look like one.
+TEST_P(LeaveRule, LooksAtTheMarksOfTheFrame) {
+  constexpr int kWidth = 10, kHeight = 4;
+  constexpr std::array<std::array<int, 2>, 6> kMarks = {
+      {{0, 0}, {0, -1}, {-1, 0}, {1, 0}, {0, 1}, {9, 9}}};  // the last one: none
+  const LeaveCase& row = GetParam();
+  Parameters p = small(row.lanes_code);
+  p.linear_light = false;
+  p.leave = row.leave;
+  p.blend = row.blend;
+  Blending bench(p, kWidth, kHeight);
+  const int lanes = lanes_of(p);
+  const auto at = [&](int x, int y, const std::array<int, 2>& mark, int of_x, int of_y) {
+    const bool marked = x == of_x + mark[0] && y == of_y + mark[1];
+    // Not the other pixels' marks: each bit beside the lowest is noise.
+    return spec::morphological::Rgba8{100, 100, 100,
+                                      static_cast<std::uint8_t>((x * 37 + y * 90) * 2 | !marked)};
+  };
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      for (const std::array<int, 2>& mark : kMarks) {
+        ShareToken token{};
+        const int beat = x / lanes, from = beat * lanes;
+        token.slot.row = static_cast<std::uint16_t>(y + kLag);
+        token.slot.beat = static_cast<std::uint16_t>(beat);
+        token.any = true;
+        token.shares[static_cast<std::size_t>(x - from)] = {64, 0, 0, 0, 3, 0, 0, 0};
+        token.left = 0xF;
+        PixelToken around{};
+        for (int lane = 0; lane < lanes; ++lane) {
+          const auto i = static_cast<std::size_t>(lane);
+          around.above[i] = at(from + lane, y - 1, mark, x, y);
+          around.above[i][0] = 20;
+          around.centre[i] = at(from + lane, y, mark, x, y);
+          around.below[i] = at(from + lane, y + 1, mark, x, y);
+        }
+        around.before = at(from - 1, y, mark, x, y);
+        around.after = at(from + lanes, y, mark, x, y);
+        bench.send(token, around);
+      }
+  constexpr std::size_t kBeats = kWidth * kHeight * kMarks.size();
+  bench.clock.run(kBeats + 20);
+  ASSERT_EQ(bench.sink.beats().size(), kBeats);
+  std::size_t i = 0;
+  std::uint64_t left_pixels = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      for (const std::array<int, 2>& mark : kMarks) {
+        const spec::morphological::BlendedBeat& beat = bench.sink.beats()[i];
+        const int mark_x = x + mark[0], mark_y = y + mark[1];
+        const bool inside = mark_x >= 0 && mark_x < kWidth && mark_y >= 0 && mark_y < kHeight,
+                   own = mark[0] == 0 && mark[1] == 0;
+        const bool left =
+            inside && (row.leave == Leave::kBeside || (row.leave == Leave::kMarked && own));
+        const auto lane = static_cast<std::size_t>(x % lanes);
+        const spec::morphological::BlendTap& tap = beat.tap[lane];
+        const std::string where = std::to_string(x) + ", " + std::to_string(y) + " mark " +
+                                  std::to_string(mark[0]) + ", " + std::to_string(mark[1]);
+        ASSERT_EQ(tap.first, left ? 0 : 64) << where;
+        ASSERT_FALSE(tap.horizontal);
+        ASSERT_EQ(tap.edges, 1);
+        ASSERT_EQ(beat.pixel[lane][0], left ? 100 : 80) << where;
+        for (int k = 0; k < beat.count; ++k) {
+          const int alpha = at(x / lanes * lanes + k, y, mark, x, y)[3];
+          ASSERT_EQ(beat.pixel[static_cast<std::size_t>(k)][3],
+                    row.leave == Leave::kNone ? alpha : alpha | 1);
+        }
+        for (std::size_t k = beat.count; k < beat.pixel.size(); ++k)
+          ASSERT_EQ(beat.pixel[k], (spec::morphological::Rgba8{})) << "a lane that is not there";
+        // Pushed in i, popped in i + 1, sent in i + 6, taken in i + 7, whatever is left.
+        ASSERT_EQ(bench.sink.cycles()[i], i + 7);
+        left_pixels += left;
+        ++i;
+      }
+  EXPECT_EQ(bench.blender.left_pixels.value(), left_pixels);
+  EXPECT_EQ(bench.blender.blended_pixels.value(), kBeats - left_pixels);
+}
+INSTANTIATE_TEST_SUITE_P(
+    EveryOne, LeaveRule, ::testing::ValuesIn([] {
+      std::vector<LeaveCase> cases;
+      for (const Leave leave : {Leave::kNone, Leave::kMarked, Leave::kBeside})
+        for (const BlendRule blend : {BlendRule::kLongest, BlendRule::kStrongest})
+          for (int lanes = 0; lanes < 3; ++lanes) cases.push_back({leave, blend, lanes});
+      return cases;
+    }()),
+    [](const auto& row) {
+      return std::string(
+                 spec::morphological::kLeaveNames[static_cast<std::size_t>(row.param.leave)]) +
+             "_" +
+             std::string(
+                 spec::morphological::kBlendRuleNames[static_cast<std::size_t>(row.param.blend)]) +
+             "_" + std::to_string(1 << row.param.lanes_code);
+    });
+
+TEST(BlenderBlock, ALeftPixelWithoutAShareCountsNowhere) {
+  Parameters p = small();
+  p.leave = Leave::kBeside;
+  Blending bench(p);
+  for (const int share : {0, 9}) {
+    ShareToken token{};
+    token.slot.row = static_cast<std::uint16_t>(2 + kLag);
+    token.slot.beat = 3;
+    token.any = share != 0;
+    token.shares[0].right = static_cast<std::uint8_t>(share);
+    bench.send(token, {});  // all alphas are 0
+  }
+  bench.clock.run(20);
+  EXPECT_EQ(bench.blender.left_pixels.value(), 1u);
+  EXPECT_EQ(bench.blender.blended_pixels.value(), 0u);
 }
 
 // ---- what a memory does not do ------------------------------------------------------------------
