@@ -99,7 +99,9 @@ const std::vector<spec::morphological::Rgba8>& MorphologicalGolden::process(
   memory_errors_ = 0;
   const ImageView source = as_read_back(image);
   for (int y = 0; y < image.height; ++y) blend_row(source, y);
-  if (everything_) coverage_.count_pixels(Decision::kNone, pixels - work_.blended_pixels);
+  if (everything_) {
+    coverage_.count_pixels(Decision::kNone, pixels - work_.blended_pixels - work_.left_pixels);
+  }
   return pixels_;
 }
 
@@ -246,7 +248,14 @@ PixelShares MorphologicalGolden::gather(int x, int y) const {
   return s;
 }
 
-// Only pixels beside an edge can change; they are visited a word of bits at a time.
+// Of a pixel that has a share.
+bool MorphologicalGolden::is_left(const ImageView& image, int x, int y) {
+  const Marks marks = marks_of(parameters_.leave, image, x, y);
+  if (everything_) leave_coverage_.count_pixel(parameters_.leave, marks, image, x, y);
+  return marks != 0;
+}
+
+// Only pixels beside an edge can change colour; they are visited a word of bits at a time.
 void MorphologicalGolden::blend_row(const ImageView& image, int y) {
   const auto row_start = pixels_.begin() + static_cast<std::ptrdiff_t>(y) * image.width;
   std::copy_n(image.row(y), image.width, row_start);
@@ -264,13 +273,20 @@ void MorphologicalGolden::blend_row(const ImageView& image, int y) {
       blend_pixel(image, 64 * i + std::countr_zero(rest), y);
     }
   }
+  if (parameters_.leave != spec::morphological::Leave::kNone) {
+    std::for_each_n(row_start, image.width, [](spec::morphological::Rgba8& pixel) {
+      pixel[3] = static_cast<std::uint8_t>(pixel[3] | 1);
+    });
+  }
 }
 
 void MorphologicalGolden::blend_pixel(const ImageView& image, int x, int y) {
   const PixelShares shares = gather(x, y);
   const bool strongest = parameters_.blend == spec::morphological::BlendRule::kStrongest;
   const Decision decision = strongest ? decide_by_strength(shares) : decide_by_length(shares);
-  spec::morphological::BlendTap tap = tap_of(shares, decision);
+  const bool left = decision != Decision::kNone && is_left(image, x, y);
+  spec::morphological::BlendTap tap;
+  if (!left) tap = tap_of(shares, decision);
   if (strongest) tap = mixed_by_squares(tap);
   const std::size_t index = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                             static_cast<std::size_t>(x);
@@ -281,8 +297,9 @@ void MorphologicalGolden::blend_pixel(const ImageView& image, int x, int y) {
     decisions_[index] = decision;
   }
   if (decision == Decision::kNone) return;
-  ++work_.blended_pixels;
   if (everything_) coverage_.count_pixel(decision);
+  ++(left ? work_.left_pixels : work_.blended_pixels);
+  if (left) return;
   // A neighbour without a share may lie outside the frame; the pixel itself stands in for it.
   const spec::morphological::Rgba8& pixel = image.at(x, y);
   const int dx = tap.horizontal ? 1 : 0, dy = tap.horizontal ? 0 : 1;

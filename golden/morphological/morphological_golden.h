@@ -5,9 +5,9 @@
 // No time, no SystemC, integers only (docs/morphological_engine.md, docs/morphological_smaa.md,
 // docs/number_formats_morphological.md; papers 000, 001 and 003). The blocks are pure functions:
 // luma.h, edges.h, runs.h, predictor.h, line.h, area.h or area_table.h, corners.h, diagonals.h,
-// blend.h, traffic.h; conversion of other images to codes: convert.h. MorphologicalGolden strings
-// them together over a frame. Edges are found for all pixels, row by row; after that only edges and
-// the pixels beside them cost time.
+// blend.h, leave.h, traffic.h; conversion of other images to codes: convert.h. MorphologicalGolden
+// strings them together over a frame. Edges are found for all pixels, row by row; after that only
+// edges and the pixels beside them cost time.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +17,7 @@
 #include "golden/morphological/area.h"
 #include "golden/morphological/blend.h"
 #include "golden/morphological/configuration.h"
+#include "golden/morphological/leave.h"
 #include "golden/morphological/planes.h"
 #include "golden/morphological/predictor.h"
 #include "golden/morphological/run_coverage.h"
@@ -74,8 +75,10 @@ class MorphologicalGolden {
   // ---- of all frames ------------------------------------------------------------------------
   const RunCoverage& coverage() const { return coverage_; }
   const SmaaCoverage& smaa_coverage() const { return smaa_coverage_; }
+  const LeaveCoverage& leave_coverage() const { return leave_coverage_; }
   void clear_coverage() {
     coverage_ = {};
+    leave_coverage_ = {};
     smaa_coverage_ = {};
   }
 
@@ -111,6 +114,7 @@ class MorphologicalGolden {
   void process_diagonals();
   void put_runs_in_order(std::size_t first_vertical);
   PixelShares gather(int x, int y) const;
+  bool is_left(const ImageView& image, int x, int y);
   void blend_row(const ImageView& image, int y);
   void blend_pixel(const ImageView& image, int x, int y);
   ImageView as_read_back(const ImageView& image);
@@ -126,6 +130,7 @@ class MorphologicalGolden {
   spec::morphological::Work work_;
   RunCoverage coverage_;
   SmaaCoverage smaa_coverage_;
+  LeaveCoverage leave_coverage_;
   LinePredicate error_;
   std::uint32_t pixel_base_ = 0;
   std::uint64_t memory_errors_ = 0;
