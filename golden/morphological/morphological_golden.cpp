@@ -75,6 +75,27 @@ const std::vector<spec::morphological::Rgba8>& MorphologicalGolden::process(
                  "depth and image differ in size");
     check_view(depth, "depth");
   }
+  edges_ = find_edges(parameters_, image, depth);
+  if (everything_) count_thresholds(image);
+  smooth(image);
+  return pixels_;
+}
+
+const std::vector<spec::morphological::Rgba8>& MorphologicalGolden::process(
+    const ImageView& image, const EdgePlanes& edges) {
+  check_frame(parameters_, image.width, image.height);
+  check_view(image, "a frame");
+  for (const BitPlane* plane : {&edges.left, &edges.top}) {
+    DEBURR_CHECK(plane->width() == image.width && plane->height() == image.height,
+                 "edges and image differ in size");
+  }
+  edges_ = edges;
+  smooth(image);
+  return pixels_;
+}
+
+// Everything behind the edges.
+void MorphologicalGolden::smooth(const ImageView& image) {
   work_ = {};
   runs_.clear();
   const std::size_t pixels =
@@ -86,8 +107,6 @@ const std::vector<spec::morphological::Rgba8>& MorphologicalGolden::process(
     decisions_.assign(pixels, Decision::kNone);
   }
 
-  edges_ = find_edges(parameters_, image, depth);
-  if (everything_) count_thresholds(image);
   horizontal_.edges = AxisEdges::horizontal(edges_);
   vertical_.edges = AxisEdges::vertical(edges_);
   process_axis(horizontal_);
@@ -102,7 +121,6 @@ const std::vector<spec::morphological::Rgba8>& MorphologicalGolden::process(
   if (everything_) {
     coverage_.count_pixels(Decision::kNone, pixels - work_.blended_pixels - work_.left_pixels);
   }
-  return pixels_;
 }
 
 void MorphologicalGolden::process_axis(AxisShares& axis) {
@@ -248,11 +266,12 @@ PixelShares MorphologicalGolden::gather(int x, int y) const {
   return s;
 }
 
-// Of a pixel that has a share.
-bool MorphologicalGolden::is_left(const ImageView& image, int x, int y) {
+// The rule `leave`, for a pixel that has a share.
+spec::morphological::BlendTap MorphologicalGolden::remaining_tap(
+    const ImageView& image, int x, int y, const spec::morphological::BlendTap& tap) {
   const Marks marks = marks_of(parameters_.leave, image, x, y);
-  if (everything_) leave_coverage_.count_pixel(parameters_.leave, marks, image, x, y);
-  return marks != 0;
+  if (everything_) leave_coverage_.count_pixel(parameters_.leave, marks, tap, image, x, y);
+  return remaining(parameters_.leave, marks, tap);
 }
 
 // Only pixels beside an edge can change colour; they are visited a word of bits at a time.
@@ -284,9 +303,9 @@ void MorphologicalGolden::blend_pixel(const ImageView& image, int x, int y) {
   const PixelShares shares = gather(x, y);
   const bool strongest = parameters_.blend == spec::morphological::BlendRule::kStrongest;
   const Decision decision = strongest ? decide_by_strength(shares) : decide_by_length(shares);
-  const bool left = decision != Decision::kNone && is_left(image, x, y);
-  spec::morphological::BlendTap tap;
-  if (!left) tap = tap_of(shares, decision);
+  spec::morphological::BlendTap tap = tap_of(shares, decision);
+  if (decision != Decision::kNone) tap = remaining_tap(image, x, y, tap);
+  const bool left = (tap.first | tap.second) == 0;
   if (strongest) tap = mixed_by_squares(tap);
   const std::size_t index = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                             static_cast<std::size_t>(x);

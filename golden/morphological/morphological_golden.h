@@ -52,6 +52,10 @@ class MorphologicalGolden {
   // image; without one every depth is 0. Throws ConfigError for a frame the engine does not take.
   const std::vector<spec::morphological::Rgba8>& process(const ImageView& image,
                                                          const DepthView& depth = {});
+  // The same with edges that someone else found, of the image's size; those in column 0 (left) and
+  // row 0 (top) must be 0.
+  const std::vector<spec::morphological::Rgba8>& process(const ImageView& image,
+                                                         const EdgePlanes& edges);
 
   // ---- of the last frame; index y * width + x -----------------------------------------------
   int width() const { return edges_.left.width(); }
@@ -106,6 +110,7 @@ class MorphologicalGolden {
     std::size_t index(int position, int line) const;  // of the share of an edge
     Share at(int position, int line) const;           // zero where there is no edge
   };
+  void smooth(const ImageView& image);
   void process_axis(AxisShares& axis);
   void process_record(AxisShares& axis, const spec::morphological::RunRecord& run);
   void share(AxisShares& axis, const spec::morphological::LineRecord& line) const;
@@ -114,7 +119,8 @@ class MorphologicalGolden {
   void process_diagonals();
   void put_runs_in_order(std::size_t first_vertical);
   PixelShares gather(int x, int y) const;
-  bool is_left(const ImageView& image, int x, int y);
+  spec::morphological::BlendTap remaining_tap(const ImageView& image, int x, int y,
+                                              const spec::morphological::BlendTap& tap);
   void blend_row(const ImageView& image, int y);
   void blend_pixel(const ImageView& image, int x, int y);
   ImageView as_read_back(const ImageView& image);

@@ -38,22 +38,34 @@ Frame marked(Frame frame, Random& random, unsigned rare) {
   return frame;
 }
 
-bool asked_to_leave(const Frame& frame, Leave leave, int x, int y) {
-  const auto mark = [&](int at_x, int at_y) {
-    return at_x >= 0 && at_y >= 0 && at_x < frame.width && at_y < frame.height &&
-           frame.at(at_x, at_y)[3] % 2 == 0;
-  };
-  if (leave == Leave::kNone) return false;
-  const bool beside = mark(x - 1, y) || mark(x + 1, y) || mark(x, y - 1) || mark(x, y + 1);
-  return mark(x, y) || (leave == Leave::kBeside && beside);
+bool has_mark(const Frame& frame, int x, int y) {
+  return x >= 0 && y >= 0 && x < frame.width && y < frame.height && frame.at(x, y)[3] % 2 == 0;
 }
 
-// The frame that the engine without the rule makes, with the pixels that are left put back.
+bool asked_to_leave(const Frame& frame, Leave leave, int x, int y) {
+  if (leave == Leave::kNone) return false;
+  const bool beside = has_mark(frame, x - 1, y) || has_mark(frame, x + 1, y) ||
+                      has_mark(frame, x, y - 1) || has_mark(frame, x, y + 1);
+  return has_mark(frame, x, y) || (leave == Leave::kBeside && beside);
+}
+
+Rgba8 mix(bool linear_light, const Frame& frame, int x, int y, const BlendTap& tap) {
+  const int dx = tap.horizontal ? 1 : 0, dy = tap.horizontal ? 0 : 1;
+  const Rgba8& own = frame.at(x, y);
+  return golden::morphological::blend(linear_light, own,
+                                      tap.first != 0 ? frame.at(x - dx, y - dy) : own, tap.first,
+                                      tap.second != 0 ? frame.at(x + dx, y + dy) : own, tap.second);
+}
+
+// The frame that the engine without the rule makes, with the pixels that are left put back, and
+// those with half a share mixed again.
 void expect_as_put_back(Parameters p, const Frame& frame) {
   p.leave = Leave::kNone;
   MorphologicalGolden plain(p);
   plain.process(frame.view());
-  for (const Leave leave : {Leave::kMarked, Leave::kBeside}) {
+  const bool squares = p.blend == spec::morphological::BlendRule::kStrongest;
+  for (const Leave leave : {Leave::kMarked, Leave::kBeside, Leave::kHalf}) {
+    if (squares && leave == Leave::kHalf) continue;  // the taps are mixed already
     p.leave = leave;
     MorphologicalGolden golden(p);
     golden.process(frame.view());
@@ -61,16 +73,20 @@ void expect_as_put_back(Parameters p, const Frame& frame) {
     for (int y = 0; y < frame.height; ++y) {
       for (int x = 0; x < frame.width; ++x) {
         const auto i = static_cast<std::size_t>(y * frame.width + x);
-        Rgba8 pixel = plain.pixels()[i];
         BlendTap tap = plain.taps()[i];
-        if (asked_to_leave(frame, leave, x, y)) {
-          pixel = frame.pixels[i];
-          if ((tap.first | tap.second) != 0) {
-            --work.blended_pixels;
-            ++work.left_pixels;
-          }
-          tap = {false, 0, 0, tap.edges};
+        const bool had = (tap.first | tap.second) != 0;
+        const int dx = tap.horizontal ? 1 : 0, dy = tap.horizontal ? 0 : 1;
+        if (leave == Leave::kHalf) {
+          if (has_mark(frame, x - dx, y - dy)) tap.first /= 2;
+          if (has_mark(frame, x + dx, y + dy)) tap.second /= 2;
         }
+        const bool takes = (tap.first | tap.second) != 0 && !asked_to_leave(frame, leave, x, y);
+        if (had && !takes) {
+          --work.blended_pixels;
+          ++work.left_pixels;
+        }
+        if (!takes) tap = {false, 0, 0, tap.edges};
+        Rgba8 pixel = takes ? mix(p.linear_light, frame, x, y, tap) : frame.pixels[i];
         pixel[3] = static_cast<std::uint8_t>(frame.pixels[i][3] | 1);
         ASSERT_EQ(golden.pixels()[i], pixel) << x << ' ' << y;
         ASSERT_EQ(golden.taps()[i], tap) << x << ' ' << y;
@@ -165,6 +181,49 @@ TEST(Leave, KnowsTheBorders) {
   EXPECT_GE(tried, 12);
 }
 
+// Shares are halved before they are mixed by their squares: of 60 and 100 with the first neighbour
+// marked, 30 and 100 remain, which become 900 / 130 and 10000 / 130.
+TEST(Leave, HalvesBeforeSquares) {
+  using golden::morphological::mixed_by_squares;
+  using golden::morphological::remaining;
+  constexpr golden::morphological::Marks kUp = 2, kLeft = 4, kRight = 8, kDown = 16;
+  const BlendTap vertical{false, 60, 100, 0}, horizontal{true, 60, 100, 0};
+  EXPECT_EQ(remaining(Leave::kHalf, kUp, vertical), (BlendTap{false, 30, 100, 0}));
+  EXPECT_EQ(remaining(Leave::kHalf, kDown, vertical), (BlendTap{false, 60, 50, 0}));
+  EXPECT_EQ(remaining(Leave::kHalf, kLeft | kRight, vertical), vertical);
+  EXPECT_EQ(remaining(Leave::kHalf, kLeft, horizontal), (BlendTap{true, 30, 100, 0}));
+  EXPECT_EQ(remaining(Leave::kHalf, kUp | kRight, horizontal), (BlendTap{true, 60, 50, 0}));
+  EXPECT_EQ(mixed_by_squares(remaining(Leave::kHalf, kUp, vertical)), (BlendTap{false, 7, 77, 0}));
+  EXPECT_EQ(remaining(Leave::kHalf, kRight, BlendTap{true, 0, 1, 0}), BlendTap{});
+
+  // In a frame: SMAA's diagonals give pixels two shares.
+  Parameters p = preset_parameters(Preset::kSmaa);
+  Random random(8);
+  const Frame frame = marked(tb::morphological::noise_image(), random, 3);
+  MorphologicalGolden plain(p);
+  plain.process(frame.view());
+  p.leave = Leave::kHalf;
+  MorphologicalGolden golden(p);
+  golden.process(frame.view());
+  int two = 0;
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      const auto i = static_cast<std::size_t>(y * frame.width + x);
+      const BlendTap before = plain.taps()[i], tap = golden.taps()[i];
+      const int dx = before.horizontal ? 1 : 0, dy = before.horizontal ? 0 : 1;
+      const bool first = has_mark(frame, x - dx, y - dy), second = has_mark(frame, x + dx, y + dy);
+      if (has_mark(frame, x, y)) {
+        EXPECT_EQ(tap.first | tap.second, 0);
+      } else if (before.first != 0 && before.second != 0 && first && !second) {
+        EXPECT_LE(tap.first, before.first);
+        EXPECT_GE(tap.second, before.second);
+        two += tap.first < before.first && tap.second > before.second;
+      }
+    }
+  }
+  EXPECT_GT(two, 10);
+}
+
 // A marked pixel is as good a neighbour as any: what lies across from it takes its share of it.
 TEST(Leave, MarkedPixelsAreNeighbours) {
   Parameters p = preset_parameters(Preset::kMlaa);
@@ -202,25 +261,28 @@ TEST(LeaveCoverage, EveryBinCanBeReached) {
     p.leave = leave;
     return MorphologicalGolden(p);
   };
-  MorphologicalGolden by_mark = with(Leave::kMarked), beside = with(Leave::kBeside);
+  MorphologicalGolden by_mark = with(Leave::kMarked), beside = with(Leave::kBeside),
+                      half = with(Leave::kHalf);
   for (int i = 0; i < 4; ++i) {
     const Frame frame = marked(tb::morphological::rendered_like(120, 90, 80), random, 20);
-    by_mark.process(frame.view());
-    beside.process(frame.view());
+    for (MorphologicalGolden* golden : {&by_mark, &beside, &half}) golden->process(frame.view());
   }
-  const auto missed = [](const MorphologicalGolden& golden) {
+  const auto hit = [](const MorphologicalGolden& golden) {
     std::set<std::string> names;
     for (const CoverageBin& bin : golden.leave_coverage().bins())
-      if (bin.hits == 0) names.insert(bin.name);
+      if (bin.hits != 0) names.insert(bin.name);
     return names;
   };
-  const std::size_t bins = 1 + 6 + 4 * 2;
-  EXPECT_EQ(beside.leave_coverage().bins().size(), bins);
-  EXPECT_EQ(missed(by_mark).size(), bins - 1);
-  EXPECT_FALSE(missed(by_mark).contains("left/marked/own"));
-  EXPECT_THAT(missed(beside), testing::ElementsAre("left/marked/own"));
+  EXPECT_THAT(hit(by_mark), testing::ElementsAre("left/marked/own"));
+  EXPECT_THAT(hit(half), testing::UnorderedElementsAre("left/half/own", "half/up", "half/left",
+                                                       "half/right", "half/down", "half/nothing"));
+  std::set<std::string> all = hit(beside);
+  EXPECT_EQ(all.size(), 6u + 4 * 2);
+  all.merge(hit(by_mark));
+  all.merge(hit(half));
+  EXPECT_EQ(all.size(), beside.leave_coverage().bins().size());
   beside.clear_coverage();
-  EXPECT_EQ(missed(beside).size(), bins);
+  EXPECT_THAT(hit(beside), testing::IsEmpty());
 }
 
 }  // namespace
