@@ -130,6 +130,15 @@ struct Rules {
   std::int32_t reach_columns = 256;
 };
 
+// What a frame sets that the geometric engine has smoothed before, beside any preset with a fixed
+// threshold: edges as ever, but only where depth has one.
+struct FollowingRules {
+  EdgeSource edge_source = EdgeSource::kPredicated;
+  std::int32_t threshold_on_depth_edge = 1966;    // U0.16: 0.03
+  std::int32_t threshold_off_depth_edge = 65535;  // U0.16: never
+  Leave leave = Leave::kHalf;
+};
+
 // Build choices: what changes clocks and cost, and no pixel. Runs that differ in these alone share
 // one golden picture.
 struct Build {
