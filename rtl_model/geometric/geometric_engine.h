@@ -23,6 +23,7 @@
 #include "rtl_model/fabric/engine.h"
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/memory_port.h"
+#include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/edges/edge_classifier.h"
 #include "rtl_model/geometric/edges/edge_reader.h"
 #include "rtl_model/geometric/edges/facing_store.h"
@@ -75,6 +76,8 @@ class GeometricEngine final : public Engine {
   BlockFetch block_fetch;
   Resolver resolver;
   MemoryPort memory_port;
+
+  EdgeLatency edge_latency;
 
   // No frame is under way. Between edges.
   bool idle() const override { return frame_sequencer.idle(); }

@@ -103,9 +103,11 @@ class FrameCommand final : public Engine {
       truth = judge_by_scene(scene, truth_options, before, after, result, context);
     }
     add_smoothing_pictures(
-        context, {before, after, frame.smoothing.taps(), frame.smoothing.delivered(),
-                  golden ? &expected : nullptr, truth.empty() ? nullptr : &truth,
-                  "textured: what the texture unit left in the frame buffer", truth_caption()});
+        context,
+        {before, after, frame.smoothing.delivered(), golden ? &expected : nullptr,
+         truth.empty() ? nullptr : &truth,
+         "textured: what the texture unit left in the frame buffer", truth_caption()},
+        frame.smoothing.taps());
   }
 
   SceneParameters scene_;

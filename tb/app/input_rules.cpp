@@ -16,21 +16,33 @@ namespace {
 constexpr const char* kLook =
     "look at the camera (scene.eye, scene.target, scene.fov) and at the size of the mesh";
 
-}  // namespace
+bool shows_something(const DepthImage& depth) {
+  return std::any_of(depth.pixels.begin(), depth.pixels.end(), [](float d) { return d > 0; });
+}
 
-void refuse_nothing_drawn(const TextureScene& scene) {
-  if (scene.stream().counts.fragments > 0) return;
-  const Mesh& mesh = scene.scene().mesh;
+[[noreturn]] void refuse(const Scene& scene, int width, int height) {
+  const Mesh& mesh = scene.mesh;
   const Bounds box = bounds(mesh);
   throw spec::ConfigError(fmt::format(
       "the scene '{}' draws nothing: none of its {} triangles, from ({:g}, {:g}, {:g}) to "
       "({:g}, {:g}, {:g}), covers the centre of one of {} x {} pixels: {}",
-      scene.scene().name, mesh.triangles.size(), box.low.x, box.low.y, box.low.z, box.high.x,
-      box.high.y, box.high.z, scene.stream().width, scene.stream().height, kLook));
+      scene.name, mesh.triangles.size(), box.low.x, box.low.y, box.low.z, box.high.x, box.high.y,
+      box.high.z, width, height, kLook));
+}
+
+}  // namespace
+
+void refuse_nothing_drawn(const TextureScene& scene) {
+  if (scene.stream().counts.fragments > 0) return;
+  refuse(scene.scene(), scene.stream().width, scene.stream().height);
+}
+
+void refuse_nothing_drawn(const Scene& scene, const DepthImage& depth) {
+  if (!shows_something(depth)) refuse(scene, depth.width, depth.height);
 }
 
 void refuse_nothing_drawn(const DepthImage& depth, std::string_view source) {
-  if (std::any_of(depth.pixels.begin(), depth.pixels.end(), [](float d) { return d > 0; })) return;
+  if (shows_something(depth)) return;
   throw spec::ConfigError(
       fmt::format("the scene '{}' draws nothing: none of its triangles covers the centre of one of "
                   "{} x {} pixels: look at the size of the mesh",

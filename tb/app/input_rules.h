@@ -14,6 +14,7 @@ namespace deburr::tb {
 
 // ConfigError each.
 void refuse_nothing_drawn(const TextureScene& scene);
+void refuse_nothing_drawn(const Scene& scene, const DepthImage& depth);
 void refuse_nothing_drawn(const DepthImage& depth, std::string_view source);
 void refuse_empty_lod_range(const SamplerParameters& sampler);
 // `prefix` names the memory's parameters.

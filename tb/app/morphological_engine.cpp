@@ -146,8 +146,9 @@ class MorphologicalCommand final : public Engine {
     if (golden) expected.pixels = engine.golden_model().pixels();
     add_smoothing_pictures(
         context,
-        {before, after, engine.taps(), engine.delivered(), golden ? &expected : nullptr,
-         loaded.truth ? &*loaded.truth : nullptr, "the frame as it came", loaded.truth_name});
+        {before, after, engine.delivered(), golden ? &expected : nullptr,
+         loaded.truth ? &*loaded.truth : nullptr, "the frame as it came", loaded.truth_name},
+        engine.taps());
     if (loaded.truth && engine.delivered() == after.pixels.size())
       result.quality = judge_quality(loaded.truth_name, before, after, *loaded.truth,
                                      loaded.depth ? &*loaded.depth : nullptr);

@@ -58,6 +58,7 @@ std::string preset_label(const ParameterSet& set, const spec::morphological::Par
   std::string label = source_of(values);
   bool first = true;
   for (const Parameter* p : set.changed()) {
+    if (!p->name.starts_with(kPrefix)) continue;
     label += first ? ", changed: " : ", ";
     label += p->name.substr(kPrefix.size());
     first = false;

@@ -81,7 +81,7 @@ Image delivered_part(const Image& image, std::size_t delivered, const Rgba8& res
   return part;
 }
 
-void add_smoothing_pictures(RunContext& context, const SmoothedFrame& frame) {
+void add_frame_pictures(RunContext& context, const SmoothedFrame& frame) {
   const std::size_t all = frame.after.pixels.size();
   const Image after = delivered_part(frame.after, frame.delivered, kNotDelivered);
   const auto compared = [&](const Image& with, int gain) {
@@ -112,9 +112,15 @@ void add_smoothing_pictures(RunContext& context, const SmoothedFrame& frame) {
   }
   context.add_image("change", compared(frame.before, kDifferenceGain), "Change",
                     fmt::format("after against before, {} times{}", kDifferenceGain, unknown));
-  context.add_image("edges", edge_picture(frame.before, frame.taps), "Edges",
+}
+
+void add_smoothing_pictures(RunContext& context, const SmoothedFrame& frame,
+                            const std::vector<spec::morphological::BlendTap>& taps) {
+  add_frame_pictures(context, frame);
+  context.add_image("edges", edge_picture(frame.before, taps), "Edges",
                     "left edges red, top edges green");
-  context.add_image("weights", weight_picture(after.width, after.height, frame.taps), "Weights",
+  context.add_image("weights", weight_picture(frame.after.width, frame.after.height, taps),
+                    "Weights",
                     "share of the upper or left neighbour red, of the lower or right one green, "
                     "blue where the two are left and right");
 }

@@ -30,20 +30,22 @@ Image judge_by_scene(const TextureScene& scene, RenderOptions options, const Ima
 Quality judge_quality(std::string reference, const Image& before, const Image& after,
                       const Image& truth, const DepthImage* depth);
 
-// A frame that the morphological engine smoothed, or as much of it as it delivered.
+// A frame that an engine smoothed, or as much of it as it delivered.
 struct SmoothedFrame {
   const Image& before;
   const Image& after;
-  const std::vector<spec::morphological::BlendTap>& taps;
-  std::size_t delivered;  // pixels of `after` and `taps`, in raster order
+  std::size_t delivered;  // pixels of `after`, in raster order
   const Image* golden;    // nullptr: not checked
   const Image* truth;     // nullptr: none
   std::string before_caption, truth_caption;
 };
 
-// before, after, golden, difference, truth, error, change, edges, weights. Pixels that were not
-// delivered are grey in `after` and black where pictures are compared.
-void add_smoothing_pictures(RunContext& context, const SmoothedFrame& frame);
+// before, after, golden, difference, truth, error, change. Pixels that were not delivered are grey
+// in `after` and black where pictures are compared.
+void add_frame_pictures(RunContext& context, const SmoothedFrame& frame);
+// The same, and edges and weights of the morphological engine.
+void add_smoothing_pictures(RunContext& context, const SmoothedFrame& frame,
+                            const std::vector<spec::morphological::BlendTap>& taps);
 
 // What stands for a pixel that did not come, and for one that could not be compared.
 inline constexpr Rgba8 kNotDelivered = {128, 128, 128, 255}, kNotCompared = {0, 0, 0, 255};

@@ -12,6 +12,7 @@
 #include "golden/texture/texture_golden.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/parameters.h"
+#include "tb/env/camera_parameters.h"
 #include "tb/env/memory_parameters.h"
 #include "tb/env/texture_memory.h"
 #include "tb/scene/image.h"
@@ -23,15 +24,13 @@ namespace deburr::tb {
 inline constexpr std::array<std::string_view, 2> kTraversalNames = {"raster", "tiles8x8"};
 inline constexpr std::array<std::string_view, 2> kVisibilityNames = {"visible", "overdraw"};
 
-struct SceneParameters {
+struct SceneParameters : CameraParameters {
   std::string source = "plane";
   std::string texture;
   std::int32_t texture_size = 1024;
   std::int32_t width = 512, height = 512;
   Traversal traversal = Traversal::kTiles8x8;
   Visibility visibility = Visibility::kVisible;
-  std::string eye, target;
-  double fov = 0;
 };
 
 template <class Visitor>
@@ -50,9 +49,7 @@ void describe(SceneParameters& p, Visitor& v) {
   v.choice("traversal", p.traversal, kTraversalNames, "Order of a triangle's quads.");
   v.choice("visibility", p.visibility, kVisibilityNames,
            "visible: one fragment a pixel, as after a depth pre-pass; overdraw: all of them.");
-  v.text("eye", p.eye, "x,y,z", "Position of the camera instead of the scene's own.");
-  v.text("target", p.target, "x,y,z", "What the camera looks at instead of the scene's own.");
-  v.real("fov", p.fov, 0, 3.1, "radian", "Vertical field of view; 0: the scene's own.");
+  describe(static_cast<CameraParameters&>(p), v);
 }
 
 enum class WrapChoice : std::uint8_t { kScene, kRepeat, kMirroredRepeat, kClampToEdge };

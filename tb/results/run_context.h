@@ -24,8 +24,9 @@
 namespace deburr::tb {
 
 // Every picture that a run may leave.
-inline constexpr std::array<std::string_view, 9> kPictureNames = {
-    "before", "after", "golden", "difference", "truth", "error", "change", "edges", "weights"};
+inline constexpr std::array<std::string_view, 10> kPictureNames = {
+    "before", "after",  "golden", "difference", "truth",
+    "error",  "change", "edges",  "weights",    "classes"};
 
 class RunContext {
  public:

@@ -87,12 +87,14 @@ bool EdgeClassifier::keeps(const EdgeFields& edge, bool valid, bool facing0, boo
 
 void EdgeClassifier::classify(const Beat& beat) {
   edges += beat.edges.count;
-  for (std::size_t lane = 0; lane < beat.edges.count; ++lane)
-    if (keeps(beat.edges.edge[lane], beat.valid >> lane & 1, beat.facing0 >> lane & 1,
-              beat.facing1 >> lane & 1)) {
-      ++kept_edges;
-      pending_ |= static_cast<std::uint8_t>(1u << lane);
-    }
+  for (std::size_t lane = 0; lane < beat.edges.count; ++lane) {
+    const bool kept = keeps(beat.edges.edge[lane], beat.valid >> lane & 1, beat.facing0 >> lane & 1,
+                            beat.facing1 >> lane & 1);
+    if (latency) latency->judge(kept);
+    if (!kept) continue;
+    ++kept_edges;
+    pending_ |= static_cast<std::uint8_t>(1u << lane);
+  }
   if (beat.edges.end) pending_ = kEnd;
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "rtl_model/fabric/pipe.h"
+#include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/edges/facing_store.h"
 #include "rtl_model/geometric/tokens.h"
 
@@ -31,6 +32,7 @@ class EdgeClassifier final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override;
 
+  EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter edges{"edges", "edges", "edges read"};
   Counter boundary_edges{"boundary_edges", "edges", "edges of a single face"};
   Counter silhouette_edges{"silhouette_edges", "edges",

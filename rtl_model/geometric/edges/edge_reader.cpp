@@ -42,6 +42,7 @@ Activity EdgeReader::hand_on(Cycle cycle) {
   beat.end = ended_ = left == 0;
   beat.count = static_cast<std::uint8_t>(std::min(left, lanes_));
   if (ended_) return kBusy;
+  if (latency) latency->leave(cycle, beat.count);
   const Line& line = buffer_.line(cycle);
   const std::uint32_t first = handed_ % kEdgesInLine;
   for (std::uint32_t lane = 0; lane < beat.count; ++lane) {
@@ -80,6 +81,7 @@ Activity EdgeReader::tick(Cycle cycle) {
 }
 
 void EdgeReader::reset() {
+  if (latency) latency->reset();
   buffer_.reset();
   asked_ = handed_ = 0;
   ended_ = false;

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/fill_store.h"
 #include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/memory_arbiter.h"
@@ -30,6 +31,7 @@ class EdgeReader final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override;
 
+  EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter lines_read{"lines_read", "lines", "lines of the edge table read"};
 
  private:

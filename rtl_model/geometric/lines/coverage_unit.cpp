@@ -51,9 +51,12 @@ Activity CoverageUnit::tick(Cycle cycle) {
       next && (next->candidates || next->end) && !candidates_out.can_push(cycle))
     return kStalledDownstream;
   pipe_.move();
-  if (const CandidateToken* done = pipe_.at(2); done && (done->candidates || done->end)) {
-    candidates += static_cast<std::uint64_t>(std::popcount(done->candidates));
-    candidates_out.push(cycle, *done);
+  if (const CandidateToken* done = pipe_.at(2)) {
+    if (latency && !done->end) latency->cover(done->candidates != 0);
+    if (done->candidates || done->end) {
+      candidates += static_cast<std::uint64_t>(std::popcount(done->candidates));
+      candidates_out.push(cycle, *done);
+    }
   }
   if (arrives) find(groups_in.take(cycle), pipe_.enter());
   return kBusy;

@@ -13,6 +13,7 @@
 
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/parameter_store.h"
 #include "rtl_model/geometric/tokens.h"
 
@@ -28,6 +29,7 @@ class CoverageUnit final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override { pipe_.reset(); }
 
+  EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter candidates{"candidates", "pixels", "pixels with a neighbour and a coverage"};
 
  private:

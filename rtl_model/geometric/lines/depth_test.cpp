@@ -207,6 +207,7 @@ void DepthTest::test(Cycle cycle, Work& work) {
               static_cast<spec::geometric::Direction>(2 * group.vertical + forward),
               group.coverage[lane], group.depth[lane], passes});
   });
+  if (latency && !group.end) latency->test(passing != 0);
   if (passing == 0 && !group.end) return;
   passed += static_cast<std::uint64_t>(std::popcount(passing));
   WeightToken& out = weights_out.emplace(cycle);

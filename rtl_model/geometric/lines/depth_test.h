@@ -21,6 +21,7 @@
 
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/pipe.h"
+#include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/fill_store.h"
 #include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/memory_arbiter.h"
@@ -43,6 +44,7 @@ class DepthTest final : public Unit {
 
   std::function<void(const spec::geometric::Candidate&)> observer;
 
+  EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter passed{"passed", "pixels", "candidates that passed the depth test"};
   Counter lookups{"lookups", "lines", "lines of depth looked up"};
   Counter misses{"misses", "lines", "look-ups that ordered a line"};

@@ -187,7 +187,10 @@ bool LineSetup::advance_front(Cycle cycle) {
   }
   if (Beat* beat = front_.at(kFront); beat && !beat->dropped && !beat->ends.end)
     normalise(cycle, *beat);
-  if (Beat* beat = front_.at(2)) find_axis(*beat);
+  if (Beat* beat = front_.at(2)) {
+    find_axis(*beat);
+    if (latency && !beat->ends.end) latency->set_up(!beat->dropped);
+  }
   if (ends_in.can_pop(cycle)) front_.enter().ends = ends_in.take(cycle);
   return true;
 }

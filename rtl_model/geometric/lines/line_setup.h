@@ -22,6 +22,7 @@
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/parameter_store.h"
 #include "rtl_model/geometric/tokens.h"
 
@@ -39,6 +40,7 @@ class LineSetup final : public Unit {
 
   std::function<void(const spec::geometric::LineRecord&)> observer;
 
+  EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter outside_edges{"outside_edges", "edges", "kept edges with a vertex that is not usable"};
   Counter degenerate_edges{"degenerate_edges", "edges", "kept edges with both ends in one place"};
   Counter empty_edges{"empty_edges", "edges", "kept edges without a column of the frame"};

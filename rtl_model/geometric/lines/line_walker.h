@@ -13,6 +13,7 @@
 
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/tokens.h"
 
 namespace deburr::rtl::geometric {
@@ -29,6 +30,7 @@ class LineWalker final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override { line_.count = 0; }
 
+  EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter columns{"columns", "columns", "columns walked"};
   Counter groups{"groups", "groups", "clocks in which the walkers stepped"};
   Histogram line_columns{"line_columns", "columns", "columns of a line"};

@@ -170,10 +170,13 @@ Activity WeightCombiner::deliver(Cycle cycle) {
     return kStalledDownstream;
   pipe_.move();
   if (const Work* work = pipe_.at(3)) {
-    if (work->lookup.group.end)
+    if (work->lookup.group.end) {
       ended_ = true;
-    else
+      if (latency) latency->end();
+    } else {
       data_write_.write(cycle, work->lookup.index, work->block);
+      if (latency) latency->write(cycle);
+    }
   }
   if (Work* work = pipe_.at(2); work && !work->lookup.group.end) combine(cycle, *work);
   if (!fifo_.can_pop(cycle)) return kBusy;

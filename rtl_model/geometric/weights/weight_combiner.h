@@ -22,6 +22,7 @@
 
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/pipe.h"
+#include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/fill_store.h"
 #include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/memory_arbiter.h"
@@ -60,6 +61,7 @@ class WeightCombiner final : public Unit {
   }
   static std::uint32_t tag_of(std::uint32_t x, std::uint32_t y) { return kValid | y << 11 | x; }
 
+  EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter lookups{"lookups", "blocks", "blocks looked up"};
   Counter misses{"misses", "blocks", "look-ups of a block that is not in the cache"};
   Counter blocks_read{"blocks_read", "blocks", "blocks that came back from memory"};

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Pictures of what the geometric engine did besides the frame: weights and lines.
+#pragma once
+
+#include <span>
+
+#include "spec/geometric/packets.h"
+#include "spec/geometric/parameters.h"
+#include "tb/results/run_context.h"
+#include "tb/scene/image.h"
+#include "tb/stimuli/geometric_frames.h"
+
+namespace deburr::tb {
+
+// weights and classes.
+void add_edge_pictures(RunContext& context, const geometric::Frame& frame,
+                       const spec::geometric::Parameters& parameters,
+                       std::span<const spec::geometric::BlockRecord> blocks);
+
+// Shares of neighbours, twice as bright: up or left red, down or right green; blue where the pair
+// is left and right.
+Image weight_picture(int width, int height, std::span<const spec::geometric::BlockRecord> blocks);
+
+// The lines that are drawn by these rules over the frame in grey: boundaries yellow, silhouettes
+// red, creases cyan, edges that are not classified white; dark where the depth test fails.
+Image class_picture(const geometric::Frame& frame, const spec::geometric::Parameters& parameters);
+
+}  // namespace deburr::tb

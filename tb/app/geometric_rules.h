@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// The geometric engine's rules as a user gives them: a preset, rules beside it that change it, and
+// parameters that have no effect under the others, which are refused.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "spec/geometric/parameters.h"
+#include "tb/app/engine.h"
+#include "tb/results/parameter_set.h"
+
+namespace deburr::tb {
+
+// The rules of `values.preset` for every parameter "geometric.*" that was not given beside it.
+void apply_preset(ParameterSet& set, const spec::geometric::Parameters& values);
+
+// "preset gpaa", or "preset gpaa, changed: combine".
+std::string preset_label(const ParameterSet& set, const spec::geometric::Parameters& values);
+
+// ConfigError for a parameter that was given and has no effect. After apply_preset().
+void refuse_unused_rules(const ParameterSet& set, const spec::geometric::Parameters& values);
+
+// What the result says of a build that wastes what it has.
+std::vector<std::string> build_notes(const spec::geometric::Parameters& values);
+
+// Of what draws edges: --preset, --layout, --walkers.
+std::vector<Shorthand> edge_shorthands();
+
+}  // namespace deburr::tb

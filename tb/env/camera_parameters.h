@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Another camera than the scene's own, as parameters.
+#pragma once
+
+#include <string>
+
+#include "tb/scene/scenes.h"
+
+namespace deburr::tb {
+
+struct CameraParameters {
+  std::string eye, target;
+  double fov = 0;
+};
+
+template <class Visitor>
+void describe(CameraParameters& p, Visitor& v) {
+  v.text("eye", p.eye, "x,y,z", "Position of the camera instead of the scene's own.");
+  v.text("target", p.target, "x,y,z", "What the camera looks at instead of the scene's own.");
+  v.real("fov", p.fov, 0, 3.1, "radian", "Vertical field of view; 0: the scene's own.");
+}
+
+// The scene seen by that camera. ConfigError for what is no position, or nothing to look at.
+void look(Scene& scene, const CameraParameters& parameters);
+
+}  // namespace deburr::tb
