@@ -127,6 +127,7 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
       {reg::kLongRuns, &extractor.long_runs},
       {reg::kZRuns, &extractor.z_runs},
       {reg::kBlendedPixels, &blender.blended_pixels},
+      {reg::kLeftPixels, &blender.left_pixels},
       {reg::kFrameCycles, &sequencer.frame_cycles},
       {reg::kRecordStalls, &extractor.record_stalls},
       {reg::kMemoryErrors, &pixel_store.memory_errors}};
@@ -169,6 +170,7 @@ spec::morphological::Work MorphologicalEngine::work() const {
   work.probes = predictor_h.probes.value() + predictor_v.probes.value();
   work.divides = divider_h.divides.value() + divider_v.divides.value();
   work.blended_pixels = blender.blended_pixels.value();
+  work.left_pixels = blender.left_pixels.value();
   if (diagonals) work.diagonal_pixels = diagonals->diagonal_pixels.value();
   return work;
 }

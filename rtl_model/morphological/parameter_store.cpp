@@ -26,7 +26,7 @@ constexpr std::uint32_t writable(std::uint32_t offset) {
     case reg::kSize:
       return 0x3FFF3FFF;
     case reg::kRules:
-      return 0x7FFFFF;
+      return 0x1FFFFFF;
     case reg::kSmaa:
       return 0x01FF1F7F;
     case reg::kPixelBase:
@@ -50,7 +50,7 @@ std::uint32_t encode_rules(const spec::morphological::Parameters& p) {
          static_cast<std::uint32_t>(p.area != spec::morphological::AreaSource::kAnalytic) << 19 |
          static_cast<std::uint32_t>(p.diagonals) << 20 |
          static_cast<std::uint32_t>(p.round_corners) << 21 |
-         static_cast<std::uint32_t>(p.blend) << 22;
+         static_cast<std::uint32_t>(p.blend) << 22 | static_cast<std::uint32_t>(p.leave) << 23;
 }
 
 std::uint32_t encode_smaa(const spec::morphological::Parameters& p) {
@@ -120,6 +120,7 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
   f.corners = bits(rules, 21, 21) != 0 && p.round_corners;
   f.corner_loss = std::max(spec::morphological::kMaxCornerRounding - field(24, 16), 0);
   f.strongest = bits(rules, 22, 22) != 0;
+  f.leave = static_cast<spec::morphological::Leave>(bits(rules, 24, 23));
 
   f.threshold = 255 * registers.value(reg::kThreshold);
   f.threshold_on = 255 * registers.value(reg::kThresholdOn);

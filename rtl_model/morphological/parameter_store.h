@@ -42,7 +42,8 @@ struct FrameRules {
   bool corners = false;                   // are rounded
   std::int32_t corner_loss = 0;           // U9, 256 - corner_rounding
   bool strongest = false;                 // blend
-  std::uint32_t pixel_base = 0;           // bytes
+  spec::morphological::Leave leave{};
+  std::uint32_t pixel_base = 0;  // bytes
 };
 
 // CONTROL and STATUS, for the engine's ControlRegisters.

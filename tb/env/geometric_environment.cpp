@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -250,24 +250,34 @@ std::optional<std::uint32_t> GeometricEnvironment::face_of_a_fault() const {
   return std::nullopt;
 }
 
-// The number of a block with a pixel that takes much from a blended one in the block above, whose
-// colour blending changed much.
+// The number of a block with a pixel that takes from a blended one in the block above, and would be
+// another if it took that as it is now. The block above was written long before: lines are read
+// ahead, and what was read before it was written is not stale.
 std::optional<std::size_t> GeometricEnvironment::block_that_takes_from_above() const {
-  constexpr int kMuch = 24;  // codes, and weight
+  constexpr int kInside = 16;  // blocks in the stages of the resolve
   if (frames_.empty() || setup_.geometric.frame_copy) return std::nullopt;
+  const auto ahead =
+      static_cast<std::size_t>(kInside + setup_.geometric.resolve_lines / 4 +
+                               std::max(setup_.memory.latency, setup_.memory.latency_max));
   const geometric::Frame& frame = frames_.front();
   golden::geometric::GeometricGolden golden(setup_.geometric);
   const std::vector<Rgba8>& after = golden.process(frame.input());
+  std::map<std::pair<int, int>, std::size_t> numbers;  // of the blocks, by row and column
   for (std::size_t i = 0; i < golden.blocks().size(); ++i) {
     const BlockRecord& block = golden.blocks()[i];
-    if (block.y == 0) continue;
+    numbers[{block.y, block.x}] = i;
+    const auto above = numbers.find({block.y - 1, block.x});
+    if (above == numbers.end() || above->second + ahead > i) continue;
     for (std::size_t k = 0; k < spec::geometric::kBlockSize; ++k) {
-      const auto [left_right, first, second] = golden::geometric::tap_of(block.weights[k]);
-      if (left_right || first < kMuch) continue;
-      const std::size_t above =
-          frame.image.index(4 * block.x + static_cast<int>(k), 4 * block.y - 1);
-      for (std::size_t c = 0; c < 3; ++c)
-        if (std::abs(frame.image.pixels[above][c] - after[above][c]) >= kMuch) return i;
+      const golden::geometric::Tap tap = golden::geometric::tap_of(block.weights[k]);
+      if (tap.left_right || tap.first == 0) continue;
+      const int x = 4 * block.x + static_cast<int>(k), y = 4 * block.y;
+      const Rgba8 &pixel = frame.image.at(x, y),
+                  &below = tap.second != 0 ? frame.image.at(x, y + 1) : pixel;
+      const Rgba8& stale = after[frame.image.index(x, y - 1)];
+      if (golden::geometric::resolve(setup_.geometric, tap, pixel, stale, below) !=
+          after[frame.image.index(x, y)])
+        return i;
     }
   }
   return std::nullopt;
@@ -303,7 +313,9 @@ std::vector<PlantedFault> GeometricEnvironment::faults() const {
       {"stale-neighbour", "A block takes from the block above as that was blended.",
        stale_neighbour,
        unless(!planted("stale-neighbour") || !stale_neighbour.empty(),
-              "geometric.frame_copy = false, a block that takes much from a blended pixel above")},
+              "geometric.frame_copy = false, a pixel that takes from one above that was written "
+              "long before (a "
+              "larger frame, a faster memory)")},
       {"double-blend", "Resolves block 5 twice.", "duplicate:geometric.touched_blocks:5"},
       {"flip-weight", "Flips a bit of a weight of block 5.",
        "flip:geometric.block_fifo_entries:5:weights.5.u.4"},

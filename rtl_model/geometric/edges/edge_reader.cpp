@@ -46,7 +46,7 @@ Activity EdgeReader::hand_on(Cycle cycle) {
   const Line& line = buffer_.line(cycle);
   const std::uint32_t first = handed_ % kEdgesInLine;
   for (std::uint32_t lane = 0; lane < beat.count; ++lane) {
-    const std::size_t word = 4 * (first + lane);
+    const std::size_t word = std::size_t{4} * (first + lane);
     const std::uint32_t faces = word_of(line, word + 2);
     EdgeFields& edge = beat.edge[lane];
     edge.v0 = word_of(line, word) & kIndexMask;

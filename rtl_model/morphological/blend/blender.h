@@ -7,13 +7,15 @@
 // products and their sum; 5 rounding, new value, encode_rom: address; 6 codes. Stalls:
 // `downstream`. Rule `longest`: the axis that has shares at all; else the longer line; else the
 // larger sum, ties to up and down. Rule `strongest`: the axis of the largest share, ties to up and
-// down; each share w of the pair becomes w^2 / (w1 + w2).
+// down; each share w of the pair becomes w^2 / (w1 + w2). Rule `leave`: a pixel that is marked (bit
+// 0 of its alpha is 0), or beside one that is, takes no share; or it takes half of a marked one's.
+// The mark ends here.
 // Formats: shares U0.8, linear light U0.12, result rounded by magnitude. Cost a lane: nine reads of
 // linear_rom, 256 x 12 bits (three a channel, behind the choice of the axis), three of encode_rom,
 // 4096 x 8 bits (two reads a copy), two multipliers 8 x 13 a channel, one of mix_rom, 511 x 17
-// bits, two multipliers 8 x 8 and two 17 x 16, nine comparators. Made for 250 MHz; longest path: 17
-// x 16 multiply + 33-bit add. Source: paper 000, section 2 (D sums), SMAA 1x (strongest); the tie
-// rules are ours.
+// bits, two multipliers 8 x 8 and two 17 x 16, nine comparators, five bits of marks, two shifts.
+// Made for 250 MHz; longest path: 17 x 16 multiply + 33-bit add. Source: paper 000, section 2 (D
+// sums), SMAA 1x (strongest); the tie rules are ours.
 #pragma once
 
 #include <array>
@@ -48,6 +50,7 @@ class Blender final : public Unit {
 
   Counter pixels{"pixels", "pixels", "pixels delivered"};
   Counter blended_pixels{"blended_pixels", "pixels", "pixels that took a share of a neighbour"};
+  Counter left_pixels{"left_pixels", "pixels", "pixels that the rule left without a share"};
   Histogram beat_latency{"beat_latency", "clk", "from a beat being popped to it being pushed"};
 
  private:
@@ -63,6 +66,7 @@ class Blender final : public Unit {
     std::uint32_t slot;  // number
     bool last;           // of the frame
     std::uint8_t blend;  // bit k: lane k takes a share
+    std::uint8_t left;   // bit k: it had one, and the rule took it
     spec::morphological::BlendedBeat result;
     std::array<Operands, kLanes> operands;
   };
@@ -70,6 +74,8 @@ class Blender final : public Unit {
   // Once a clock each, from one place: inline.
   inline void choose(Cycle cycle, const ShareToken& shares, const PixelToken& around, Beat& beat);
   inline void deliver(Cycle cycle, const Beat& beat);
+  bool is_left(const Slot& slot, const PixelToken& around, std::size_t lane,
+               std::size_t count) const;
   void choose_axes(Cycle cycle, const ShareToken& shares, const PixelToken& around, Beat& beat);
   void blend(Cycle cycle);
   void mix(Cycle cycle, Beat& beat);

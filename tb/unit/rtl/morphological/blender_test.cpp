@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Blender: the choice of the axis, rounding, and linear light, by hand from the contract.
+#include <array>
+#include <string>
 #include <vector>
 
+#include "tb/harness/forked.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
 namespace deburr::tb::morphological_rtl {
@@ -10,8 +13,9 @@ namespace {
 using namespace rtl::morphological;  // NOLINT: a test of these
 
 struct Blending {
-  explicit Blending(const Parameters& p) : store(p), blender("blender", clock, store.store, probe) {
-    store.frame(8, 8);
+  explicit Blending(const Parameters& p, int width = 8, int height = 8)
+      : store(p), blender("blender", clock, store.store, probe) {
+    store.frame(width, height);
     shares_source.beats_out(shares);
     pixel_source.beats_out(pixels);
     blender.shares_in(shares);
@@ -36,6 +40,9 @@ struct Blending {
     around.below[0] = grey(down);
     around.before = grey(left);
     around.after = grey(right);
+    send(token, around);
+  }
+  void send(const ShareToken& token, const PixelToken& around) {
     probe.enters(clock.cycle());
     shares_source.send(token);
     pixel_source.send(around);
@@ -164,6 +171,211 @@ TEST(BlenderBlock, MixesAllPairsOfShares) {
       }
       ASSERT_LE(tap.first + tap.second, 256);
     }
+}
+
+// ---- pixels that are left -----------------------------------------------------------------------
+
+using spec::morphological::BlendRule;
+using spec::morphological::Leave;
+
+struct LeaveCase {
+  Leave leave;
+  BlendRule blend;
+  int lanes_code;
+};
+class LeaveRule : public ::testing::TestWithParam<LeaveCase> {};
+
+// Each pixel of a frame takes a share with one mark alone: its own, or that of a neighbour above,
+// to the left, to the right, below; beyond the frame there are old bits, which may look like one.
+TEST_P(LeaveRule, LooksAtTheMarksOfTheFrame) {
+  constexpr int kWidth = 10, kHeight = 4;
+  constexpr std::array<std::array<int, 2>, 6> kMarks = {
+      {{0, 0}, {0, -1}, {-1, 0}, {1, 0}, {0, 1}, {9, 9}}};  // the last one: none
+  const LeaveCase& row = GetParam();
+  Parameters p = small(row.lanes_code);
+  p.linear_light = false;
+  p.leave = row.leave;
+  p.blend = row.blend;
+  Blending bench(p, kWidth, kHeight);
+  const int lanes = lanes_of(p);
+  const auto at = [&](int x, int y, const std::array<int, 2>& mark, int of_x, int of_y) {
+    const bool marked = x == of_x + mark[0] && y == of_y + mark[1];
+    // Not the other pixels' marks: each bit beside the lowest is noise.
+    return spec::morphological::Rgba8{100, 100, 100,
+                                      static_cast<std::uint8_t>((x * 37 + y * 90) * 2 | !marked)};
+  };
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      for (const std::array<int, 2>& mark : kMarks) {
+        ShareToken token{};
+        const int beat = x / lanes, from = beat * lanes;
+        token.slot.row = static_cast<std::uint16_t>(y + kLag);
+        token.slot.beat = static_cast<std::uint16_t>(beat);
+        token.any = true;
+        token.shares[static_cast<std::size_t>(x - from)] = {64, 0, 0, 0, 3, 0, 0, 0};
+        token.left = 0xF;
+        PixelToken around{};
+        for (int lane = 0; lane < lanes; ++lane) {
+          const auto i = static_cast<std::size_t>(lane);
+          around.above[i] = at(from + lane, y - 1, mark, x, y);
+          around.above[i][0] = 20;
+          around.centre[i] = at(from + lane, y, mark, x, y);
+          around.below[i] = at(from + lane, y + 1, mark, x, y);
+        }
+        around.before = at(from - 1, y, mark, x, y);
+        around.after = at(from + lanes, y, mark, x, y);
+        bench.send(token, around);
+      }
+  constexpr std::size_t kBeats = kWidth * kHeight * kMarks.size();
+  bench.clock.run(kBeats + 20);
+  ASSERT_EQ(bench.sink.beats().size(), kBeats);
+  std::size_t i = 0;
+  std::uint64_t left_pixels = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      for (const std::array<int, 2>& mark : kMarks) {
+        const spec::morphological::BlendedBeat& beat = bench.sink.beats()[i];
+        const int mark_x = x + mark[0], mark_y = y + mark[1];
+        const bool inside = mark_x >= 0 && mark_x < kWidth && mark_y >= 0 && mark_y < kHeight,
+                   own = mark[0] == 0 && mark[1] == 0;
+        const bool left =
+            inside && (row.leave == Leave::kBeside || (row.leave != Leave::kNone && own));
+        const bool above = row.leave == Leave::kHalf && mark[0] == 0 && mark[1] == -1;
+        const auto lane = static_cast<std::size_t>(x % lanes);
+        const spec::morphological::BlendTap& tap = beat.tap[lane];
+        const std::string where = std::to_string(x) + ", " + std::to_string(y) + " mark " +
+                                  std::to_string(mark[0]) + ", " + std::to_string(mark[1]);
+        ASSERT_EQ(tap.first, left ? 0 : above ? 32 : 64) << where;
+        ASSERT_FALSE(tap.horizontal);
+        ASSERT_EQ(tap.edges, 1);
+        ASSERT_EQ(beat.pixel[lane][0], left ? 100 : above ? 90 : 80) << where;
+        for (int k = 0; k < beat.count; ++k) {
+          const int alpha = at(x / lanes * lanes + k, y, mark, x, y)[3];
+          ASSERT_EQ(beat.pixel[static_cast<std::size_t>(k)][3],
+                    row.leave == Leave::kNone ? alpha : alpha | 1);
+        }
+        for (std::size_t k = beat.count; k < beat.pixel.size(); ++k)
+          ASSERT_EQ(beat.pixel[k], (spec::morphological::Rgba8{})) << "a lane that is not there";
+        // Pushed in i, popped in i + 1, sent in i + 6, taken in i + 7, whatever is left.
+        ASSERT_EQ(bench.sink.cycles()[i], i + 7);
+        left_pixels += left;
+        ++i;
+      }
+  EXPECT_EQ(bench.blender.left_pixels.value(), left_pixels);
+  EXPECT_EQ(bench.blender.blended_pixels.value(), kBeats - left_pixels);
+}
+INSTANTIATE_TEST_SUITE_P(
+    EveryOne, LeaveRule, ::testing::ValuesIn([] {
+      std::vector<LeaveCase> cases;
+      for (const Leave leave : {Leave::kNone, Leave::kMarked, Leave::kBeside, Leave::kHalf})
+        for (const BlendRule blend : {BlendRule::kLongest, BlendRule::kStrongest})
+          for (int lanes = 0; lanes < 3; ++lanes) cases.push_back({leave, blend, lanes});
+      return cases;
+    }()),
+    [](const auto& row) {
+      return std::string(
+                 spec::morphological::kLeaveNames[static_cast<std::size_t>(row.param.leave)]) +
+             "_" +
+             std::string(
+                 spec::morphological::kBlendRuleNames[static_cast<std::size_t>(row.param.blend)]) +
+             "_" + std::to_string(1 << row.param.lanes_code);
+    });
+
+// Shares of the chosen axis alone, each by its own neighbour, before they are mixed.
+class HalfShares : public ::testing::TestWithParam<int> {};
+TEST_P(HalfShares, AreThoseOfMarkedNeighbours) {
+  const int lanes_code = GetParam();
+  Parameters p = small(lanes_code);
+  p.linear_light = false;
+  p.leave = Leave::kHalf;
+  struct Row {
+    Shares s;
+    unsigned marks;  // up 1, down 2, left 4, right 8
+    bool horizontal;
+    int first, second;
+  };
+  const std::vector<Row> rows = {{{65, 33, 0, 0, 9, 9, 0, 0}, 0, false, 65, 33},
+                                 {{65, 33, 0, 0, 9, 9, 0, 0}, 1, false, 32, 33},
+                                 {{65, 33, 0, 0, 9, 9, 0, 0}, 2, false, 65, 16},
+                                 {{65, 33, 0, 0, 9, 9, 0, 0}, 3, false, 32, 16},
+                                 {{65, 33, 0, 0, 9, 9, 0, 0}, 12, false, 65, 33},
+                                 {{0, 0, 65, 33, 0, 0, 9, 9}, 4, true, 32, 33},
+                                 {{0, 0, 65, 33, 0, 0, 9, 9}, 8, true, 65, 16},
+                                 {{0, 0, 65, 33, 0, 0, 9, 9}, 3, true, 65, 33},
+                                 // The axis is chosen by whole shares.
+                                 {{60, 0, 50, 0, 9, 0, 9, 0}, 1, false, 30, 0},
+                                 {{1, 0, 0, 0, 9, 0, 0, 0}, 1, false, 0, 0},
+                                 {{0, 0, 1, 0, 0, 0, 9, 0}, 4, false, 0, 0},
+                                 {{1, 1, 0, 0, 9, 9, 0, 0}, 1, false, 0, 1},
+                                 {{0, 0, 1, 2, 0, 0, 9, 9}, 12, true, 0, 1}};
+  const int lanes = lanes_of(p);
+  for (const BlendRule blend : {BlendRule::kLongest, BlendRule::kStrongest}) {
+    p.blend = blend;
+    const std::string got = forked_text([&] {
+      Blending bench(p, 4 * lanes, 8);
+      for (const Row& row : rows)
+        for (int lane = 0; lane < lanes; ++lane) {
+          const auto i = static_cast<std::size_t>(lane);
+          ShareToken token{};
+          token.slot.row = static_cast<std::uint16_t>(2 + kLag);
+          token.slot.beat = 1;
+          token.any = true;
+          token.shares[i] = row.s;
+          PixelToken around{};
+          const auto alpha = [&](unsigned bit) {
+            return static_cast<std::uint8_t>(row.marks & bit ? 254 : 1);
+          };
+          for (auto& pixel : around.centre) pixel = {100, 100, 100, 1};
+          around.above[i] = {200, 200, 200, alpha(1)};
+          around.below[i] = {20, 20, 20, alpha(2)};
+          (lane == 0 ? around.before : around.centre[i - 1]) = {200, 200, 200, alpha(4)};
+          (lane + 1 == lanes ? around.after : around.centre[i + 1]) = {20, 20, 20, alpha(8)};
+          bench.send(token, around);
+        }
+      bench.clock.run(rows.size() * 4 + 20);
+      std::string wrong;
+      std::size_t beat = 0, blended = 0;
+      for (const Row& row : rows)
+        for (int lane = 0; lane < lanes; ++lane, ++beat) {
+          const auto& tap = bench.sink.beats().at(beat).tap[static_cast<std::size_t>(lane)];
+          int first = row.first, second = row.second;
+          if (blend == BlendRule::kStrongest && first + second != 0) {
+            const int s = first + second, r = (131072 + s) / (2 * s);
+            first = (first * first * r + 32768) >> 16;
+            second = (second * second * r + 32768) >> 16;
+          }
+          blended += row.first + row.second != 0;
+          if (tap.horizontal != row.horizontal || tap.first != first || tap.second != second)
+            wrong += std::to_string(beat) + " ";
+          const int value = bench.sink.beats()[beat].pixel[static_cast<std::size_t>(lane)][1],
+                    sum = first * 100 - second * 80, moved = ((sum < 0 ? -sum : sum) + 128) / 256;
+          if (value != 100 + (sum < 0 ? -moved : moved)) wrong += std::to_string(beat) + "v ";
+        }
+      if (bench.blender.blended_pixels.value() != blended ||
+          bench.blender.left_pixels.value() != beat - blended)
+        wrong += "counts";
+      return wrong;
+    });
+    EXPECT_EQ(got, "");
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Lanes, HalfShares, ::testing::Range(0, 3));
+
+TEST(BlenderBlock, ALeftPixelWithoutAShareCountsNowhere) {
+  Parameters p = small();
+  p.leave = Leave::kBeside;
+  Blending bench(p);
+  for (const int share : {0, 9}) {
+    ShareToken token{};
+    token.slot.row = static_cast<std::uint16_t>(2 + kLag);
+    token.slot.beat = 3;
+    token.any = share != 0;
+    token.shares[0].right = static_cast<std::uint8_t>(share);
+    bench.send(token, {});  // all alphas are 0
+  }
+  bench.clock.run(20);
+  EXPECT_EQ(bench.blender.left_pixels.value(), 1u);
+  EXPECT_EQ(bench.blender.blended_pixels.value(), 0u);
 }
 
 // ---- what a memory does not do ------------------------------------------------------------------

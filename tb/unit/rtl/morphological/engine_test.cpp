@@ -143,6 +143,110 @@ TEST(Pixels, AlphaPassesAndAnIsolatedStepBlendsAsTheContractsTableSays) {
     for (int x = 0; x < 13; ++x) EXPECT_EQ(out.at(x, y)[3], x + y);
 }
 
+// ---- pixels that are left -----------------------------------------------------------------------
+
+struct Leaving {
+  const char* name;
+  Parameters (*rules)();
+  int lanes_code;
+  bool in_memory;
+};
+void PrintTo(const Leaving& leaving, std::ostream* out) { *out << leaving.name; }
+class LeftPixels : public ::testing::TestWithParam<Leaving> {};
+
+// Of the frame that no rule leaves alone: what is left is as it came, everything else is the same.
+TEST_P(LeftPixels, AreAsTheyCameAndNothingElseChanges) {
+  constexpr std::uint32_t kBeside = 2;
+  Parameters p = GetParam().rules();
+  p.lanes = static_cast<spec::morphological::Lanes>(GetParam().lanes_code);
+  if (GetParam().in_memory) p.storage = spec::morphological::Storage::kMemory;
+  EngineBench bench(p);
+  const int lanes = lanes_of(p), w = 83, h = 47;
+  Frame frame = blocks(w, h);
+  stimuli::Sequence random;
+  for (Rgba8& pixel : frame.pixel) pixel[3] = static_cast<std::uint8_t>(random.next() >> 16 | 1);
+  for (std::size_t i = 0; i < frame.pixel.size(); ++i)
+    if ((random.next() >> 16) % 12 == 0) frame.pixel[i][3] &= 0xFE;
+  const auto run = [&](std::uint32_t leave) {
+    bench.bus.write(reg::kRules, (bench.bus.read(reg::kRules) & ~(3u << 23)) | leave << 23);
+    bench.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
+    const std::size_t before = bench.sink.beats().size();
+    bench.run(frame);
+    return std::vector<spec::morphological::BlendedBeat>(
+        bench.sink.beats().begin() + static_cast<std::ptrdiff_t>(before), bench.sink.beats().end());
+  };
+  const auto whole = run(0);
+  const spec::morphological::Work work = bench.engine.work();
+  ASSERT_GT(work.blended_pixels, 300u);
+  ASSERT_EQ(work.left_pixels, 0u);
+  const auto marked = [&](int x, int y) {
+    return x >= 0 && x < w && y >= 0 && y < h && frame.at(x, y)[3] % 2 == 0;
+  };
+  for (const std::uint32_t leave : {1u, kBeside, 3u}) {
+    const auto beats = run(leave);
+    const auto beats_a_row = static_cast<std::size_t>((w + lanes - 1) / lanes);
+    spec::morphological::Work expected = work;
+    for (int y = 0; y < h; ++y)
+      for (int x = 0; x < w; ++x) {
+        const std::size_t beat = static_cast<std::size_t>(y) * beats_a_row +
+                                 static_cast<std::size_t>(x / lanes),
+                          lane = static_cast<std::size_t>(x % lanes);
+        const bool left =
+            marked(x, y) || (leave == kBeside && (marked(x, y - 1) || marked(x - 1, y) ||
+                                                  marked(x + 1, y) || marked(x, y + 1)));
+        spec::morphological::BlendTap tap = whole[beat].tap[lane];
+        Rgba8 pixel = whole[beat].pixel[lane];
+        if (left) {
+          const bool took = tap.first != 0 || tap.second != 0;
+          expected.left_pixels += took;
+          expected.blended_pixels -= took;
+          tap.first = tap.second = 0;
+          tap.horizontal = false;
+          pixel = frame.at(x, y);
+        }
+        pixel[3] = frame.at(x, y)[3] | 1;
+        // Halved shares are the Blender's test; here they leave the rest alone.
+        if (leave == 3 && !left && (tap.first != 0 || tap.second != 0)) {
+          const int dx = tap.horizontal, dy = !tap.horizontal;
+          const bool first = tap.first != 0 && marked(x - dx, y - dy),
+                     second = tap.second != 0 && marked(x + dx, y + dy);
+          if (first || second) {
+            const spec::morphological::BlendTap& half = beats[beat].tap[lane];
+            ASSERT_EQ(beats[beat].pixel[lane][3], pixel[3]);
+            const bool takes = half.first != 0 || half.second != 0;
+            expected.left_pixels += !takes;
+            expected.blended_pixels -= !takes;
+            ASSERT_EQ(half.horizontal, tap.horizontal && takes);
+            if (p.blend == spec::morphological::BlendRule::kLongest) {
+              ASSERT_EQ(half.first, tap.first >> first);
+              ASSERT_EQ(half.second, tap.second >> second);
+            }
+            continue;
+          }
+        }
+        ASSERT_EQ(beats[beat].tap[lane], tap) << x << ' ' << y;
+        ASSERT_EQ(beats[beat].pixel[lane], pixel) << x << ' ' << y;
+      }
+    EXPECT_EQ(bench.engine.work(), expected);
+    EXPECT_GT(expected.left_pixels, 10u);
+    EXPECT_EQ(bench.bus.read(reg::kLeftPixels), expected.left_pixels);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(
+    Any, LeftPixels,
+    ::testing::Values(
+        Leaving{"deburr_1", [] { return deburr(); }, 0, false},
+        Leaving{"deburr_4", [] { return deburr(); }, 2, false},
+        Leaving{"mlaa_2", [] { return preset(Preset::kMlaa); }, 1, false},
+        Leaving{"mlaa_memory_4", [] { return preset(Preset::kMlaa); }, 2, true},
+        Leaving{"slope_memory_1", [] { return preset(Preset::kMlaaSlope); }, 0, true},
+        Leaving{"smaa_1", [] { return smaa(); }, 0, false},
+        Leaving{"smaa_2", [] { return smaa(spec::morphological::Quality::kMedium); }, 1, false},
+        Leaving{"smaa_dynamic_4",
+                [] { return smaa(spec::morphological::Quality::kUltra, Preset::kSmaaDynamic); }, 2,
+                false}),
+    [](const auto& row) { return std::string(row.param.name); });
+
 // Mirroring the frame mirrors the output, whatever its size.
 TEST(Symmetry, MirroredFramesGiveMirroredOutput) {
   Parameters p = preset(Preset::kDeburr, 9, 9);

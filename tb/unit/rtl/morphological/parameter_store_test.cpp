@@ -36,7 +36,7 @@ TEST(ParameterStoreBlock, TrimIsABitOfRulesLatchedWithTheFrame) {
   EXPECT_TRUE(on.store.rules().safe);
   on.store.leave();
   on.bus.write(reg::kRules, ~0u);
-  EXPECT_EQ(on.bus.read(reg::kRules), 0x7FFFFFu) << "no bits beyond";
+  EXPECT_EQ(on.bus.read(reg::kRules), 0x1FFFFFFu) << "no bits beyond";
   on.reset();
   EXPECT_EQ(on.bus.read(reg::kRules), reset_value);
 }
@@ -105,7 +105,7 @@ TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
   ASSERT_TRUE(bench.bus.debug_write(reg::kPixelBase, 0x12345));
   ASSERT_TRUE(bench.bus.debug_write(reg::kSize, 97u | 61u << 16 | 0xC000C000u));
   ASSERT_TRUE(bench.bus.debug_write(reg::kThreshold, 0xABCD0000u | 6554u));
-  ASSERT_TRUE(bench.bus.debug_write(reg::kRules, 0xFF800000u | 1u << 15));
+  ASSERT_TRUE(bench.bus.debug_write(reg::kRules, 0xFE000000u | 1u << 15));
   const Frame in = noise();
   bench.driver.send(beats_of(in, 1));
   bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },
@@ -349,7 +349,7 @@ struct Engine {
   Link<spec::morphological::BlendedBeat> out;
 };
 
-// Something for every rule: long stairs, steps of many heights side by side, bends, depth.
+// Something for every rule: long stairs, steps of many heights side by side, bends, depth, marks.
 Frame motley() {
   stimuli::Sequence s;
   const auto below = [&](int n) { return static_cast<int>(s.next() >> 8) % n; };
@@ -363,7 +363,8 @@ Frame motley() {
     for (int y = y0; y < std::min(44, y0 + h); ++y)
       for (int x = x0 + (wide ? 0 : (y - y0) / (slope + 1)); x < std::min(64, x0 + w); ++x) {
         frame.at(x, y) = {static_cast<std::uint8_t>(code), static_cast<std::uint8_t>(code / 2 + 20),
-                          static_cast<std::uint8_t>(255 - code), 9};
+                          static_cast<std::uint8_t>(255 - code),
+                          static_cast<std::uint8_t>(8 + code % 2)};
         frame.depth[static_cast<std::size_t>(y * 64 + x)] = depth;
       }
   }
@@ -435,6 +436,10 @@ void dynamic(P& p) {
   p.floor = 900;
 }
 void fit(P& p) { p.predictor = spec::morphological::Predictor::kFit; }
+void marked(P& p) { p.leave = spec::morphological::Leave::kMarked; }
+void beside(P& p) { p.leave = spec::morphological::Leave::kBeside; }
+void half(P& p) { p.leave = spec::morphological::Leave::kHalf; }
+void as_before(P& p) { p.leave = spec::morphological::Leave::kNone; }
 template <int kSteps>
 void steps(P& p) {
   p.steps = kSteps;
@@ -474,6 +479,10 @@ INSTANTIATE_TEST_SUITE_P(
               [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kMean; }},
         Field{"blend_strongest", as_it_is, reg::kRules, 22, 22, 1,
               [](P& p) { p.blend = spec::morphological::BlendRule::kStrongest; }},
+        Field{"leave_marked", as_it_is, reg::kRules, 23, 24, 1, marked},
+        Field{"leave_beside", as_it_is, reg::kRules, 23, 24, 2, beside},
+        Field{"leave_none", beside, reg::kRules, 23, 24, 0, as_before},
+        Field{"leave_half", as_it_is, reg::kRules, 23, 24, 3, half},
         Field{"crossings_are_off_where_not_built", as_it_is, reg::kRules, 18, 18, 1, as_it_is,
               false},
         Field{"tables_are_off_where_not_built", as_it_is, reg::kRules, 19, 19, 1, as_it_is, false},
@@ -606,7 +615,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(RegisterBits, ThatDoNotExistReadAsZero) {
   EngineBench bench(plain());
   const std::map<std::uint32_t, std::uint32_t> bits = {
-      {reg::kSize, 0x3FFF3FFF},    {reg::kRules, 0x7FFFFF},        {reg::kThreshold, 0xFFFF},
+      {reg::kSize, 0x3FFF3FFF},    {reg::kRules, 0x1FFFFFF},       {reg::kThreshold, 0xFFFF},
       {reg::kThresholdOn, 0xFFFF}, {reg::kThresholdOff, 0xFFFF},   {reg::kAlpha, 0xFFFF},
       {reg::kFloor, 0xFFFF},       {reg::kDepthThreshold, 0xFFFF}, {reg::kPixelBase, 0xFFFFFFC0},
       {reg::kSmaa, 0x01FF1F7F}};
@@ -643,9 +652,12 @@ TEST(CounterRegisters, ShowTheirCounters) {
   p.record_fifo = 2;
   p.window_rows = 14;
   p.reach_columns = 5;
+  p.leave = spec::morphological::Leave::kMarked;
   EngineBench bench(p);
   bench.memory->fail_range(64 * 5, 64 * 8);
-  bench.run(noise(64, 44));
+  Frame frame = noise(64, 44);
+  for (std::size_t i = 0; i < frame.pixel.size(); i += 7) frame.pixel[i][3] = 0;
+  bench.run(frame);
   const auto& e = bench.engine;
   const std::map<std::uint32_t, std::uint64_t> shown = {
       {reg::kPixels, e.blender.pixels.value()},
@@ -660,6 +672,7 @@ TEST(CounterRegisters, ShowTheirCounters) {
       {reg::kProbes, e.predictor_h.probes.value() + e.predictor_v.probes.value()},
       {reg::kDivides, e.divider_h.divides.value() + e.divider_v.divides.value()},
       {reg::kBlendedPixels, e.blender.blended_pixels.value()},
+      {reg::kLeftPixels, e.blender.left_pixels.value()},
       {reg::kFrameCycles, e.sequencer.frame_cycles.value()},
       {reg::kRecordStalls, e.extractor.record_stalls.value()},
       {reg::kMemoryErrors, e.pixel_store.memory_errors.value()}};
