@@ -207,7 +207,8 @@ class FrameCommand final : public Engine {
     if (!frame.geometric) return;
     geometric::Frame edges = frame.edges();
     edges.image = before;
-    add_edge_pictures(context, edges, geometric_, frame.geometric->blocks(), "edge_weights");
+    add_edge_pictures(context, edges, geometric_, frame.geometric->blocks(),
+                      frame.morphological ? "edge_weights" : "weights");
   }
 
   SceneParameters scene_;

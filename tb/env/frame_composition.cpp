@@ -137,8 +137,10 @@ void FrameComposition::hand_on() {
     drawn_ = true;
     drawn_until_ = simulation().clock().cycle();
     if (!morphological) return;
-    if (golden()) morphological_frames_.front().image = geometric->expected_frame();
-    morphological->begin(0);
+    if (!followed_) {
+      if (golden()) morphological_frames_.front().image = geometric->expected_frame();
+      followed_ = morphological->begin(0);
+    }
     buffer.release(geometric->frame());
   }
 }
@@ -163,8 +165,7 @@ void FrameComposition::restart() {
     geometric->restart();
     put_sky();
   }
-  // What it was judged by is asked for again when it begins.
-  if (morphological && (!geometric || drawn_)) morphological->restart();
+  if (morphological && (!geometric || followed_)) morphological->restart();
   drawing_ = drawn_ = false;
 }
 

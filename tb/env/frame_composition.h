@@ -102,6 +102,7 @@ class FrameComposition final : public Environment {
   int width_, height_;
   spec::morphological::Parameters morphological_parameters_;
   bool drawing_ = false, drawn_ = false;  // by the geometric engine
+  bool followed_ = false;                 // the morphological engine has begun behind it
   rtl::Cycle drawn_from_ = 0, drawn_until_ = 0;
 };
 
