@@ -18,8 +18,7 @@ namespace deburr::rtl::geometric {
 
 class EdgeLatency {
  public:
-  Histogram histogram{"edge_latency", "clk",
-                      "from an edge's leaving the EdgeReader to its last group's being written"};
+  explicit EdgeLatency(Histogram& histogram) : histogram_(histogram) {}
 
   void leave(Cycle cycle, std::uint32_t edges) { edges_.insert(edges_.end(), edges, cycle); }
   // Of an edge: whether it is kept.
@@ -83,8 +82,9 @@ class EdgeLatency {
     const auto group = take(from);
     if (group && any) to.push_back(*group);
   }
-  void record() { histogram.record(written_ - newest_->left); }
+  void record() { histogram_.record(written_ - newest_->left); }
 
+  Histogram& histogram_;
   std::deque<Cycle> edges_, kept_, lines_;
   std::deque<Group> walked_, covered_, passed_;
   std::uint64_t number_ = 0;     // of the line that is walked

@@ -105,7 +105,7 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
   for (EdgeLatency** const latency :
        {&edge_reader.latency, &edge_classifier.latency, &line_setup.latency, &line_walker.latency,
         &coverage_unit.latency, &depth_test.latency, &weight_combiner.latency})
-    *latency = &edge_latency;
+    *latency = &latency_;
 
   frame_sequencer.begin_done = [this](Cycle cycle) {
     return facing_store.loaded(cycle) && vertex_fetch.cleared(cycle) && depth_test.cleared(cycle) &&

@@ -77,7 +77,8 @@ class GeometricEngine final : public Engine {
   Resolver resolver;
   MemoryPort memory_port;
 
-  EdgeLatency edge_latency;
+  // Of edges that are lines with a pixel that passes.
+  const Histogram& edge_latency = weight_combiner.edge_latency;
 
   // No frame is under way. Between edges.
   bool idle() const override { return frame_sequencer.idle(); }
@@ -85,6 +86,7 @@ class GeometricEngine final : public Engine {
   spec::geometric::Work work() const;
 
  private:
+  EdgeLatency latency_{weight_combiner.edge_latency};
   Link<EdgeBeat> edges_;
   Link<KeptEdge> kept_{"kept"};
   Link<EdgeEnds> ends_{"ends"};

@@ -127,8 +127,7 @@ std::string figures_of(const Result& r) {
 // A failed check names its file as the compiler saw it; users know it from the root of the
 // repository.
 std::string from_repository(const std::string& text) {
-  for (const char* layer :
-       {"layers/spec/", "layers/golden/", "layers/rtl_model/", "layers/tb/"})
+  for (const char* layer : {"layers/spec/", "layers/golden/", "layers/rtl_model/", "layers/tb/"})
     if (const std::size_t at = text.find(layer); at != std::string::npos)
       return text.substr(at + std::string_view(layer).size());
   return text;

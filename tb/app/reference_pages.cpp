@@ -9,6 +9,7 @@
 
 #include "rtl_model/fabric/register_block.h"
 #include "rtl_model/texture/descriptors.h"
+#include "spec/geometric/registers.h"
 #include "spec/morphological/registers.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/registers.h"
@@ -142,10 +143,12 @@ std::string registers_page() {
       "socket `registers`: RW read and write, RO read only, WO write only, W1C write one to "
       "clear. Registers with the reset\n"
       "value 0 that hold a rule are loaded from the parameters instead.\n"
+      "\n## GeometricEngine\n\n{}"
       "\n## MorphologicalEngine\n\n{}"
       "\n## TextureUnit\n\n{}"
       "\nTextures 1..{} follow with the same registers, each 0x{:X} bytes after the one "
       "before.\n",
+      rtl::register_table_markdown(spec::geometric::kRegisters),
       rtl::register_table_markdown(spec::morphological::kRegisters),
       rtl::register_table_markdown(unit), spec::texture::kMaxTextures - 1, texture::kTextureStride);
 }

@@ -42,6 +42,12 @@ RUNS = [
     "morphological --in @random_edges-10-256x144",
     "morphological --in @random_edges-500-256x144 --storage memory",
     "morphological --size 256x256",
+    # Presets; rows instead of tiles with a walker; more lines than caches hold, far from memory.
+    *(f"geometric --scene wheelcover --size 256x192 --preset {preset}"
+      for preset in ("gpaa", "gpaa-optimised", "deburr")),
+    "geometric --scene wing --size 256x192 --layout raster --walkers 1",
+    "geometric --scene terrain --size 256x192 --set geometric.pipelined=false --set memory.latency=200"
+    " --set geometric.depth_lines=16 --set geometric.weight_blocks=16 --set geometric.vertex_lines=16",
     "frame --scene object --size 128x128",
 ]
 

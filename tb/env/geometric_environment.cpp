@@ -755,7 +755,7 @@ std::uint64_t GeometricEnvironment::frame_clocks_bound() const {
 void GeometricEnvironment::collect_headline(Result& result) const {
   const rtl::geometric::GeometricEngine& e = engine_;
   const std::uint64_t edges = e.work().edges, frame_clocks = e.frame_sequencer.frame_cycles.value();
-  result.latency = latency_of(e.edge_latency.histogram);
+  result.latency = latency_of(e.edge_latency);
 
   result.throughput = ratio(edges, result.cycles);
   result.throughput_unit = "edge/clk";

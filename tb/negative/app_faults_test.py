@@ -167,11 +167,21 @@ class Registers(CommandTest):
     MORPHOLOGICAL = ["pixels", "edge-pixels", "horizontal-runs", "vertical-runs", "long-runs", "z-runs",
                      "extended-runs", "steps", "probes", "divides", "blended-pixels", "diagonals"]
 
+    GEOMETRIC = ["id", "control", "status", "size", "rules", "edge-count", "vertex-count", "face-count", "edge-base",
+                 "vertex-base", "face-base", "depth-base", "colour-base", "weight-base", "copy-base", "refusal", "edges",
+                 "boundary-edges", "silhouette-edges", "back-edges", "crease-edges", "flat-edges", "invalid-edges",
+                 "kept-edges", "outside-edges", "degenerate-edges", "empty-edges", "lines", "columns", "groups",
+                 "candidates", "passed", "blocks", "blended-pixels", "memory-errors", "frame-cycles", "edge-cycles",
+                 "resolve-cycles"]
+
     def test_texture(self):
         self.miscount("texture", self.TEXTURE)
 
     def test_morphological(self):
         self.miscount("morphological", self.MORPHOLOGICAL)
+
+    def test_geometric(self):
+        self.miscount("geometric", self.GEOMETRIC)
 
     def test_frame(self):
         self.miscount("frame", self.TEXTURE + self.MORPHOLOGICAL)
@@ -181,6 +191,7 @@ class Blind(CommandTest):
     """A scoreboard that compares nothing, although everything else of the run is right, is no pass."""
     TEXTURE = ("colours", "line-fills", "status-registers")
     MORPHOLOGICAL = ("pixels", "taps", "memory-lines", "status-registers")
+    GEOMETRIC = ("lines", "candidates", "blocks", "pixels", "memory-lines", "status-registers")
 
     def blind(self, engine, board, *arguments):
         name = board.split(".")[-1].removeprefix("blind-").replace("-", " ")
@@ -215,6 +226,17 @@ class Blind(CommandTest):
         needed = {board: self.blind("morphological", board, *memory) for board in boards}
         self.assertEqual(needed, {"blind-pixels": 32 * 32, "blind-taps": 32 * 32,
                                   "blind-memory-lines": 2 * 2 * 32, "blind-status-registers": 12})
+
+    def test_geometric(self):
+        boards = {f"blind-{board}" for board in self.GEOMETRIC}
+        self.assertEqual(self.known("geometric"), boards)
+        needed = {board: self.blind("geometric", board) for board in boards}
+        self.assertEqual((needed["blind-pixels"], needed["blind-status-registers"]), (32 * 32, 38))
+        work, memory = self.result()["work"], self.result()["memory"]
+        self.assertEqual(needed["blind-lines"], work["line_setup_lines"])
+        self.assertEqual(needed["blind-candidates"], work["coverage_unit_candidates"])
+        self.assertEqual(needed["blind-blocks"], work["resolver_blocks"])
+        self.assertEqual(needed["blind-memory-lines"], memory["lines_filled"] + work["memory_port_writes"])
 
     def test_frame(self):
         memory = ("--storage", "memory")

@@ -40,7 +40,7 @@ class Images(CommandTest):
         picture = self.write("in.png", png(32, 24))
         self.assert_loads(False, "--version")
         self.assert_loads(False, "params")
-        for engine in ("texture", "morphological", "frame"):
+        for engine in ("texture", "morphological", "geometric", "frame"):
             self.assert_loads(False, "run", engine, "--size", "32x24", "--out", self.path(engine))
             self.assertGreater(os.path.getsize(self.path(f"{engine}/after.png")), 50)
         self.assert_loads(True, "run", "morphological", "--in", picture, "--out", self.path("read"))

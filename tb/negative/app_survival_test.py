@@ -17,6 +17,7 @@ DRAFT = ".deburr_run"
 ENGINES = {
     "texture": ("--size", "96x96"),
     "morphological": ("--size", "160x120", "--set", "frame.truth_samples=2"),
+    "geometric": ("--scene", "canopy", "--size", "320x240"),
     "frame": ("--size", "64x64"),
 }
 WAVES = ("--trace", "*", "--trace-to", "400")
@@ -114,6 +115,12 @@ class Killed(Survival):
 
     def test_morphological_with_waves(self):
         self.kill_often("morphological", *WAVES)
+
+    def test_geometric(self):
+        self.kill_often("geometric")
+
+    def test_geometric_with_waves(self):
+        self.kill_often("geometric", *WAVES)
 
     def test_frame(self):
         self.kill_often("frame")

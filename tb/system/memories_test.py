@@ -22,6 +22,8 @@ def runs():
         yield ("morphological", "--preset", preset, "--lanes", lanes, "--storage", storage)
     for preset in presets:
         yield ("frame", "--preset", preset)
+    for preset, layout in itertools.product(("gpaa", "gpaa-optimised", "deburr"), ("tiled", "raster")):
+        yield ("geometric", "--preset", preset, "--layout", layout)
 
 
 class Memories(unittest.TestCase):
@@ -42,7 +44,7 @@ class Memories(unittest.TestCase):
                 self.assertNotIn("cannot be built", said)
 
     def test_totals_are_sums(self):
-        for arguments in (("texture",), ("morphological",), ("frame",)):
+        for arguments in (("texture",), ("morphological",), ("geometric",), ("frame",)):
             _, result = self.result(*arguments)
             memories = result["memories"].values()
             self.assertTrue(memories)

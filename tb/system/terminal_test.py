@@ -114,7 +114,7 @@ class Completion(unittest.TestCase):
     def test_commands(self):
         self.assertEqual(self.complete("pa"), ["papers", "params"])
         self.assertEqual(set(self.complete("run", "")) - {"--help"},
-                         {"texture", "morphological", "frame"})
+                         {"texture", "morphological", "geometric", "frame"})
 
     def test_options(self):
         self.assertEqual(self.complete("run", "texture", "--trace-f"), ["--trace-from"])

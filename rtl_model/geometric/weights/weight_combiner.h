@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/fill_store.h"
@@ -66,6 +67,8 @@ class WeightCombiner final : public Unit {
   Counter misses{"misses", "blocks", "look-ups of a block that is not in the cache"};
   Counter blocks_read{"blocks_read", "blocks", "blocks that came back from memory"};
   Counter blocks_written{"blocks_written", "blocks", "replaced blocks written to memory"};
+  Histogram edge_latency{"edge_latency", "clk",
+                         "from an edge's leaving the EdgeReader to its last group's being written"};
 
  private:
   static constexpr std::uint32_t kTagBits = 23, kValid = 1u << (kTagBits - 1);

@@ -1,0 +1,249 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Bad input and planted faults of `deburr run geometric`: each has its exit code and says what is wrong; awkward but
+legal meshes pass. See --help of unittest."""
+import os
+import unittest
+
+from app_support import CommandTest, png
+
+SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n"
+
+
+class Base(CommandTest):
+    def run_engine(self, code, *arguments, says=(), **options):
+        return self.expect(code, "run", "geometric", "--out", self.path("out"), *arguments, says=says, **options)
+
+
+class Meshes(Base):
+    """Mesh files and scenes."""
+
+    def mesh(self, code, name, content, *arguments, says=()):
+        return self.run_engine(code, "--in", self.write(name, content), "--size", "32x32", *arguments, says=says)
+
+    def test_an_image_has_no_edges(self):
+        self.run_engine(2, "--in", self.write("frame.png", png(8, 8)), says=["frame.png", "an image has no edges"])
+        self.run_engine(2, "--in", self.path("missing.png"), says="an image has no edges")
+        self.assertFalse(os.path.exists(self.path("out")))
+
+    def test_unknown_scene(self):
+        self.run_engine(2, "--scene", "wheel", says=["wheel", "wheelcover"])
+
+    def test_files(self):
+        self.run_engine(5, "--in", self.path("missing.obj"), says="missing.obj")
+        self.mesh(5, "empty.obj", "", says="empty.obj")
+        self.mesh(5, "points.obj", "v 0 0 0\nv 1 0 0\n", says=["points.obj", "no triangles"])
+        self.mesh(5, "nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", says="nan.obj")
+
+    def test_a_mesh_without_edges(self):
+        self.mesh(2, "line.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 1\nf 3 3 3\n",
+                  says=["line", "has no edges", "none of its 2 faces has an area"])
+
+    def test_nothing_is_drawn(self):
+        away = ("--set", "scene.eye=0,0,3", "--set", "scene.target=0,0,9")
+        self.mesh(2, "square.obj", SQUARE, *away, says=["square", "draws nothing", "scene.eye", "32 x 32"])
+        self.run_engine(2, "--scene", "cube", *away, says="draws nothing")
+        self.assertFalse(os.path.exists(self.path("out")))
+
+    def test_one_triangle(self):
+        self.mesh(0, "one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "--set", "scene.eye=0,0,2", says="PASS")
+        self.assertEqual(self.result()["work"]["edge_classifier_boundary_edges"], 3)
+
+    def test_awkward_meshes_are_noted(self):
+        fin = SQUARE + "v 0 0 1\nf 1 3 5\n"
+        self.mesh(0, "fin.obj", fin, says="PASS")
+        self.assertIn("1 edges belong to three faces or more: drawn as boundaries", self.notes())
+        self.mesh(0, "turned.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 4 3\n", says="PASS")
+        self.assertIn("1 edges belong to two faces that pass them in the same direction", self.notes())
+        self.mesh(0, "thin.obj", SQUARE + "f 1 2 2\n", says="PASS")
+        self.assertIn("1 faces have no area", self.notes())
+
+    def test_a_camera_inside(self):
+        """Edges behind the eye are clipped or dropped."""
+        self.run_engine(0, "--scene", "terrain", "--size", "64x48", "--set", "scene.eye=0,0.1,0", "--set",
+                        "scene.target=0.3,0.1,-1", says="PASS")
+        self.assertGreater(self.result()["work"]["line_setup_outside_edges"], 0)
+
+    def test_a_pixel(self):
+        self.run_engine(0, "--scene", "cube", "--size", "1x1", says="PASS")
+        self.run_engine(0, "--scene", "cube", "--size", "1x100", says="PASS")
+
+
+class Configuration(Base):
+    """What is refused since it cannot be built, or has no effect."""
+    SMALL = ("--scene", "cube", "--size", "48x32")
+
+    def refused(self, says, *given, scene=SMALL):
+        self.run_engine(2, *scene, *(word for each in given for word in ("--set", each)), says=says)
+        self.assertFalse(os.path.exists(self.path("out")))
+
+    def test_frames_and_meshes_that_the_build_does_not_hold(self):
+        self.refused(["65 x 32", "64 pixels", "line_pixels"], "geometric.line_pixels=64",
+                     scene=("--scene", "cube", "--size", "65x32"))
+        self.refused(["touched words", "the build has 16"], "geometric.touched_words=16",
+                     scene=("--scene", "cube", "--size", "48x65"))
+        self.refused(["16128 faces", "8192", "face_limit"], "geometric.face_limit=8192", scene=("--scene", "sphere"))
+
+    def test_what_has_no_effect(self):
+        self.refused(["reciprocal_table", "no effect", "pipelined = false"], "geometric.reciprocal_table=4")
+        self.refused(["dividers", "no effect"], "geometric.dividers=2")
+        self.refused(["crease", "no effect", "select = all"], "geometric.select=all", "geometric.crease=paper")
+        self.run_engine(2, *self.SMALL, "--preset", "gpaa", "--set", "geometric.crease=shading", says="select = all")
+        self.refused(["face_limit", "no effect"], "geometric.select=all", "geometric.face_limit=8192")
+        self.refused(["depth_bias", "no effect"], "geometric.depth_test=off", "geometric.depth_bias=4")
+        self.refused(["depth_lines", "no effect"], "geometric.depth_test=off", "geometric.depth_lines=64")
+        self.refused(["scene.truth_samples", "no effect", "--truth"], "scene.truth_samples=4")
+        self.refused(["memory.error_bytes", "no effect"], "memory.error_bytes=64")
+        self.refused(["memory.interleave_bytes", "no effect"], "memory.interleave_bytes=256")
+
+    def test_what_cannot_be_built(self):
+        self.refused(["face_limit = 8193", "512"], "geometric.face_limit=8193")
+        self.refused(["fills = 64", "memory.outstanding"], "geometric.memory.outstanding=32")
+        self.refused(["geometric.walkers", "one of 1, 2, 4"], "geometric.walkers=3")
+        self.refused(["1..24"], "geometric.depth_bias=25")
+        self.refused(["memory.latency = 20000", "run.watchdog_cycles"], "memory.latency=20000")
+
+    def test_notes_of_a_build(self):
+        self.run_engine(0, *self.SMALL, "--set", "geometric.latency_fifo=32", says="latency_fifo = 32 is below")
+
+    def test_presets(self):
+        for preset, lines in (("gpaa", 18), ("gpaa-optimised", 9), ("deburr", 9)):
+            self.run_engine(0, *self.SMALL, "--preset", preset, says="PASS")
+            self.assertEqual(self.result()["work"]["line_setup_lines"], lines, preset)
+
+    def test_show_config(self):
+        done = self.run_command("run", "geometric", "--preset", "gpaa", "--show-config")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        file = self.write("run.yaml", done.stdout)
+        self.run_engine(0, *self.SMALL, "--config", file, says="PASS")
+        self.run_engine(0, *self.SMALL, "--config", file, "--preset", "deburr", says="PASS")
+        self.assertEqual(self.result()["work"]["line_setup_lines"], 9)
+
+    def test_order_of_edges(self):
+        """The picture stays with `max`, whose seed decides nothing else; the traffic does not."""
+        def picture(*arguments):
+            self.run_engine(0, "--scene", "canopy", "--size", "96x64", *arguments, says="PASS")
+            with open(self.path("out/after.png"), "rb") as file:
+                return file.read(), self.result()["work"]["vertex_fetch_misses"]
+
+        table, misses = picture()
+        shuffled, more = picture("--set", "scene.edge_order=shuffled")
+        again, others = picture("--set", "scene.edge_order=shuffled", "--seed", "2")
+        self.assertTrue(table == shuffled == again)
+        self.assertEqual(len({misses, more, others}), 3)
+
+    def test_waves(self):
+        self.run_engine(0, *self.SMALL, "--trace", "geometric.candidates", "--trace-to", "600", says="PASS")
+        with open(self.path("out/trace.vcd")) as file:
+            waves = file.read()
+        for name in ("block_x", "coverage", "forward"):
+            self.assertIn(name, waves)
+        self.run_engine(2, *self.SMALL, "--trace", "geometric.nothing*", says=["nothing*", "geometric.line_setup"])
+
+    def test_pictures(self):
+        self.run_engine(0, *self.SMALL, "--truth", "--set", "scene.truth_samples=4", says=["PASS", "supersampled-16"])
+        pictures = {name for name in os.listdir(self.path("out")) if name.endswith(".png")}
+        self.assertEqual(pictures, {f"{name}.png" for name in (
+            "before", "after", "golden", "difference", "truth", "error", "change", "weights", "classes")})
+        self.assertGreater(self.result()["quality"]["psnr_silhouette_db"],
+                           self.result()["quality"]["psnr_silhouette_before_db"])
+
+    def test_too_few_cycles(self):
+        self.run_engine(3, *self.SMALL, "--max-cycles", "300", says=["not done after 300 cycles", "of 18 edges"])
+        self.run_engine(0, *self.SMALL, "--set", "scene.count=2")
+        cycles = self.result()["cycles"]
+        self.run_engine(3, *self.SMALL, "--set", "scene.count=2", "--max-cycles", str(cycles - 1),
+                        says="of 36 edges")
+
+
+class Faults(Base):
+    SMALL = ("--scene", "wheelcover", "--size", "96x96", "--set", "run.watchdog_cycles=2000")
+
+    def fault(self, name, checked, unchecked, *arguments, says="", board=None):
+        for links, code in (("true", checked), ("false", unchecked)):
+            self.run_engine(code, *(arguments or self.SMALL), "--fault", name, "--set", f"run.check_links={links}",
+                            says=says)
+            result = self.result()
+            self.assertEqual(result["verdict"], "fail")
+            self.assertTrue(os.path.exists(self.path("out/report.html")), "failed runs have a report")
+            if code == 1:
+                self.assertGreater(result["checks"]["mismatches"] + result["checks"]["traffic_mismatches"], 0)
+                self.assertIn(board, {line["check"] for line in result["first_mismatches"]}, name)
+        return result
+
+    def test_without_a_fault(self):
+        self.run_engine(0, *self.SMALL, says="PASS")
+
+    def test_facing(self):
+        self.fault("wrong-facing", 1, 1, board="status registers")
+
+    def test_reciprocals(self):
+        self.fault("wrong-slope", 1, 1, *self.SMALL, "--set", "geometric.pipelined=false", "--set",
+                   "geometric.reciprocal_table=11", board="lines")
+
+    def test_lines_and_groups(self):
+        for name in ("drop-line", "duplicate-line", "drop-group", "duplicate-group", "wrong-direction"):
+            with self.subTest(name):
+                result = self.fault(name, 3, 1, board="candidates")
+                if name.startswith("duplicate"):  # the larger of two equal weights
+                    self.assertNotIn("pixels", {line["check"] for line in result["first_mismatches"]})
+
+    def test_depth(self):
+        self.fault("stale-depth", 3, 1, board="candidates")
+
+    def test_caches(self):
+        result = self.fault("wrong-replacement", 1, 1, board="memory lines")
+        self.assertEqual(result["checks"]["mismatches"], 0, "the picture stays")
+
+    def test_originals(self):
+        dense = ("--scene", "wheelcover", "--size", "400x200", "--set", "geometric.select=all", "--set",
+                 "memory.latency=1")
+        self.fault("stale-neighbour", 3, 1, *dense, board="blocks")
+
+    def test_blocks(self):
+        self.fault("double-blend", 3, 1, board="blocks")
+        self.fault("flip-weight", 3, 1, board="blocks")
+
+    def test_memory(self):
+        self.fault("duplicate-fetch", 3, 3)
+        self.fault("memory-error", 3, 3, says="memory answered 1 lines with an error")
+        self.fault("lost-response", 4, 4, says="no link has moved")
+        self.fault("stuck-ready", 4, 4, says=["no link has moved", "geometric.touched_blocks"])
+
+    def test_memory_errors_by_address_are_predicted(self):
+        """Of a line of each region, of each region, and of all of them."""
+        canopy = ("--scene", "canopy", "--size", "64x64", "--set", "geometric.weight_blocks=16")
+        pages = {"faces": 1, "edges": 9, "vertices": 4, "depth": 4, "weights": 4, "colour": 4, "copy": 4}
+        for preset in ("deburr", "gpaa-optimised"):
+            page = 0
+            for region, count in pages.items():
+                if region == "copy" and preset == "deburr":
+                    continue
+                self.failing(4096 * page, 4096 * count, *canopy, "--preset", preset)
+                if region not in ("depth", "weights", "colour"):  # where any line may be untouched
+                    self.failing(4096 * page, 1, *canopy, "--preset", preset)
+                page += count
+            self.failing(0, 4096 * page, *canopy, "--preset", preset)
+
+    def failing(self, address, count, *arguments):
+        self.run_engine(3, *arguments, "--set", f"memory.error_address={address}", "--set",
+                        f"memory.error_bytes={count}", says="with an error")
+        checks = self.result()["checks"]
+        self.assertEqual((checks["mismatches"], checks["traffic_mismatches"]), (0, 0), (address, count, arguments))
+
+    def test_what_is_not_there_cannot_fail(self):
+        for name, arguments, needs in (
+                ("wrong-facing", ("--preset", "gpaa"), "select = edges"),
+                ("wrong-slope", (), "reciprocal_table of at least 1"),
+                ("stale-depth", ("--set", "geometric.depth_test=off"), "depth_test = own, farther"),
+                ("stale-neighbour", ("--preset", "gpaa"), "frame_copy = false")):
+            self.run_engine(2, *self.SMALL, *arguments, "--fault", name, says=[name, "needs", needs])
+
+    def test_a_fault_on_any_link(self):
+        self.run_engine(1, *self.SMALL, "--fault", "flip:geometric.weights:10:coverage.0.5", says="mismatch")
+        self.run_engine(3, *self.SMALL, "--fault", "drop:geometric.weights:100000", says="never reached")
+        self.run_engine(2, *self.SMALL, "--fault", "gremlin", says=["gremlin", "stale-neighbour"])
+
+
+if __name__ == "__main__":
+    unittest.main()
