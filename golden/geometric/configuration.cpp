@@ -4,6 +4,7 @@
 #include <string>
 
 #include "spec/error.h"
+#include "spec/geometric/records.h"
 
 namespace deburr::golden::geometric {
 namespace {
@@ -29,12 +30,6 @@ struct RangeCheck {
   }
   void boolean(std::string_view, bool, std::string_view) const {}
 };
-
-void check_banks(const char* name, std::int32_t value, std::int32_t step) {
-  if (value % step == 0) return;
-  throw spec::ConfigError("geometric " + std::string(name) + " = " + std::to_string(value) +
-                          " does not fill its banks; use a multiple of " + std::to_string(step));
-}
 
 }  // namespace
 
@@ -64,9 +59,11 @@ void check_parameters(const spec::geometric::Parameters& parameters) {
                             " exceeds memory.outstanding = " +
                             std::to_string(p.memory_outstanding) + "; raise that or lower fills");
   }
-  // Sixteen banks of at least sixteen words of 32 facing bits.
-  check_banks("face_limit", p.face_limit, 16 * 32);
-  check_banks("touched_words", p.touched_words, 16);
+  if (p.face_limit % spec::geometric::kFacesInLine != 0) {
+    throw spec::ConfigError("geometric face_limit = " + std::to_string(p.face_limit) +
+                            " does not fill its banks; use a multiple of " +
+                            std::to_string(spec::geometric::kFacesInLine));
+  }
 }
 
 Refusal refusal(const spec::geometric::Parameters& p, const FrameCounts& counts) {

@@ -13,6 +13,7 @@ namespace {
 using spec::geometric::Axis;
 using spec::geometric::Crease;
 using spec::geometric::EdgeClass;
+using spec::geometric::Layout;
 using spec::geometric::Select;
 using spec::geometric::Vertex;
 
@@ -144,8 +145,12 @@ void EdgeCoverage::for_each_bin(const BinSink& sink) const {
         sink(slash({"fetch", kCaches[i], kFetches[k]}), fetches_[i][k]);
   list("resolve", kTaps, taps_);
   list("original", kOriginals, originals_);
-  for (std::size_t i = 1; i < block_lines_.size(); ++i)
-    sink(slash({"lines", std::to_string(i)}), block_lines_[i]);
+  for (std::size_t layout = 0; layout < block_lines_.size(); ++layout) {
+    const bool tiled = static_cast<Layout>(layout) == Layout::kTiled;
+    for (std::size_t i = 1; i <= (tiled ? kMaxTiledLines : kMaxBlockLines); ++i)
+      sink(slash({"lines", spec::geometric::kLayoutNames[layout], std::to_string(i)}),
+           block_lines_[layout][i]);
+  }
 }
 
 std::vector<CoverageBin> EdgeCoverage::bins() const {

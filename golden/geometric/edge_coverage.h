@@ -13,7 +13,8 @@
 //   weight/<direction>/<outcome>
 //   group/<end>                          what ended a group of columns
 //   fetch/<cache>/<outcome>
-//   resolve/<decision>, original/<where>, lines/<n>
+//   resolve/<decision>, original/<where>
+//   lines/<layout>/<n>                   of colours of a block
 // Every bin can be reached (tb/unit/golden/geometric/coverage_test.cpp).
 #pragma once
 
@@ -60,7 +61,9 @@ class EdgeCoverage {
   void count_fetch(CacheKind cache, Fetch outcome) { ++fetches_[index(cache)][index(outcome)]; }
   void count_tap(const spec::geometric::Weights& weights);
   void count_original(Original where) { ++originals_[index(where)]; }
-  void count_block_lines(std::size_t lines) { ++block_lines_[lines]; }
+  void count_block_lines(spec::geometric::Layout layout, std::size_t lines) {
+    ++block_lines_[index(layout)][lines];
+  }
 
   // Every bin that can be reached, hit or not, always in the same order.
   std::vector<CoverageBin> bins() const;
@@ -68,6 +71,7 @@ class EdgeCoverage {
 
   // Raster: four rows of a block and of its neighbours to one side, and a row above and below.
   static constexpr std::size_t kMaxBlockLines = 10;
+  static constexpr std::size_t kMaxTiledLines = 5;  // itself and its neighbours
 
  private:
   template <class Enum>
@@ -92,7 +96,7 @@ class EdgeCoverage {
   std::array<std::array<std::uint64_t, 4>, 3> fetches_{};
   std::array<std::uint64_t, 3> taps_{};
   std::array<std::uint64_t, 3> originals_{};
-  std::array<std::uint64_t, kMaxBlockLines + 1> block_lines_{};
+  std::array<std::array<std::uint64_t, kMaxBlockLines + 1>, 2> block_lines_{};
 };
 
 }  // namespace deburr::golden::geometric

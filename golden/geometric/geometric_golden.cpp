@@ -419,7 +419,7 @@ void GeometricGolden::resolve_block(int bx, int by) {
   for (const LineOfPixels& line : written)
     traffic_.write(Region::kColour).push_back(input_.bases.colour + layout_.offset_of(line));
   if (!everything_) return;
-  coverage_.count_block_lines(read.size());
+  coverage_.count_block_lines(parameters_.layout, read.size());
   blocks_.push_back(record);
 }
 

@@ -91,4 +91,31 @@ std::vector<Light> blended(std::span<const Light> frame, std::span<const SideWei
   return result;
 }
 
+std::vector<NearestEdges> nearest_edges(std::span<const SideWeights> weights) {
+  std::vector<NearestEdges> result;
+  result.reserve(weights.size());
+  const auto nearer = [](double before, double behind) {
+    return before >= behind ? -before : behind;
+  };
+  for (const SideWeights& w : weights) result.push_back({nearer(w[2], w[3]), nearer(w[0], w[1])});
+  return result;
+}
+
+std::vector<Light> blended(std::span<const Light> frame, std::span<const NearestEdges> edges,
+                           int width) {
+  std::vector<Light> result(frame.begin(), frame.end());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const NearestEdges& e = edges[i];
+    const bool across = std::abs(e.horizontal) > std::abs(e.vertical);
+    const double share = across ? e.horizontal : e.vertical;
+    if (share == 0.0) continue;
+    const int direction = (across ? 2 : 0) + (share > 0.0 ? 1 : 0);
+    const Light& neighbour =
+        frame[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + towards(direction, width))];
+    for (std::size_t c = 0; c < 3; ++c)
+      result[i][c] += std::abs(share) * (neighbour[c] - frame[i][c]);
+  }
+  return result;
+}
+
 }  // namespace deburr::golden::ideal

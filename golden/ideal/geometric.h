@@ -48,4 +48,14 @@ std::vector<SideWeights> side_weights(std::span<const ScreenLine> lines,
 std::vector<Light> blended(std::span<const Light> frame, std::span<const SideWeights> weights,
                            int width, int height);
 
+// Geometry buffer AA's way of writing the same down: the nearest edge of each pixel along either
+// axis, as the share of the neighbour across it; left and up are negative.
+struct NearestEdges {
+  double horizontal = 0, vertical = 0;
+};
+std::vector<NearestEdges> nearest_edges(std::span<const SideWeights> weights);
+// Each pixel with one neighbour, across the nearer of its two edges; the vertical one if they tie.
+std::vector<Light> blended(std::span<const Light> frame, std::span<const NearestEdges> edges,
+                           int width);
+
 }  // namespace deburr::golden::ideal

@@ -68,6 +68,16 @@ spec::morphological::Parameters preset_parameters(spec::morphological::Preset pr
   return p;
 }
 
+spec::morphological::Parameters following_geometric(spec::morphological::Parameters p) {
+  const spec::morphological::FollowingRules rules;
+  p.leave = rules.leave;
+  if (p.threshold_mode == spec::morphological::ThresholdMode::kDynamic) return p;
+  p.edge_source = rules.edge_source;
+  p.threshold_on_depth_edge = rules.threshold_on_depth_edge;
+  p.threshold_off_depth_edge = rules.threshold_off_depth_edge;
+  return p;
+}
+
 void check_parameters(const spec::morphological::Parameters& parameters) {
   spec::morphological::Parameters p = parameters;
   const RangeCheck ranges;

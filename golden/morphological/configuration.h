@@ -15,6 +15,10 @@ spec::morphological::Parameters preset_parameters(
     spec::morphological::Preset preset,
     spec::morphological::Quality quality = spec::morphological::Quality::kHigh);
 
+// These with what following the geometric engine sets; edges stay as they are where the threshold
+// is dynamic.
+spec::morphological::Parameters following_geometric(spec::morphological::Parameters parameters);
+
 // Throws ConfigError: a value out of its range, or a mix that the engine does not have.
 void check_parameters(const spec::morphological::Parameters& parameters);
 // Throws ConfigError: no pixels, over 8192 pixels a side, wider than the line buffers.

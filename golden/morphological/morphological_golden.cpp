@@ -75,6 +75,27 @@ const std::vector<spec::morphological::Rgba8>& MorphologicalGolden::process(
                  "depth and image differ in size");
     check_view(depth, "depth");
   }
+  edges_ = find_edges(parameters_, image, depth);
+  if (everything_) count_thresholds(image);
+  smooth(image);
+  return pixels_;
+}
+
+const std::vector<spec::morphological::Rgba8>& MorphologicalGolden::process(
+    const ImageView& image, const EdgePlanes& edges) {
+  check_frame(parameters_, image.width, image.height);
+  check_view(image, "a frame");
+  for (const BitPlane* plane : {&edges.left, &edges.top}) {
+    DEBURR_CHECK(plane->width() == image.width && plane->height() == image.height,
+                 "edges and image differ in size");
+  }
+  edges_ = edges;
+  smooth(image);
+  return pixels_;
+}
+
+// Everything behind the edges.
+void MorphologicalGolden::smooth(const ImageView& image) {
   work_ = {};
   runs_.clear();
   const std::size_t pixels =
@@ -86,8 +107,6 @@ const std::vector<spec::morphological::Rgba8>& MorphologicalGolden::process(
     decisions_.assign(pixels, Decision::kNone);
   }
 
-  edges_ = find_edges(parameters_, image, depth);
-  if (everything_) count_thresholds(image);
   horizontal_.edges = AxisEdges::horizontal(edges_);
   vertical_.edges = AxisEdges::vertical(edges_);
   process_axis(horizontal_);
@@ -99,8 +118,9 @@ const std::vector<spec::morphological::Rgba8>& MorphologicalGolden::process(
   memory_errors_ = 0;
   const ImageView source = as_read_back(image);
   for (int y = 0; y < image.height; ++y) blend_row(source, y);
-  if (everything_) coverage_.count_pixels(Decision::kNone, pixels - work_.blended_pixels);
-  return pixels_;
+  if (everything_) {
+    coverage_.count_pixels(Decision::kNone, pixels - work_.blended_pixels - work_.left_pixels);
+  }
 }
 
 void MorphologicalGolden::process_axis(AxisShares& axis) {
@@ -246,7 +266,15 @@ PixelShares MorphologicalGolden::gather(int x, int y) const {
   return s;
 }
 
-// Only pixels beside an edge can change; they are visited a word of bits at a time.
+// The rule `leave`, for a pixel that has a share.
+spec::morphological::BlendTap MorphologicalGolden::remaining_tap(
+    const ImageView& image, int x, int y, const spec::morphological::BlendTap& tap) {
+  const Marks marks = marks_of(parameters_.leave, image, x, y);
+  if (everything_) leave_coverage_.count_pixel(parameters_.leave, marks, tap, image, x, y);
+  return remaining(parameters_.leave, marks, tap);
+}
+
+// Only pixels beside an edge can change colour; they are visited a word of bits at a time.
 void MorphologicalGolden::blend_row(const ImageView& image, int y) {
   const auto row_start = pixels_.begin() + static_cast<std::ptrdiff_t>(y) * image.width;
   std::copy_n(image.row(y), image.width, row_start);
@@ -264,6 +292,11 @@ void MorphologicalGolden::blend_row(const ImageView& image, int y) {
       blend_pixel(image, 64 * i + std::countr_zero(rest), y);
     }
   }
+  if (parameters_.leave != spec::morphological::Leave::kNone) {
+    std::for_each_n(row_start, image.width, [](spec::morphological::Rgba8& pixel) {
+      pixel[3] = static_cast<std::uint8_t>(pixel[3] | 1);
+    });
+  }
 }
 
 void MorphologicalGolden::blend_pixel(const ImageView& image, int x, int y) {
@@ -271,6 +304,8 @@ void MorphologicalGolden::blend_pixel(const ImageView& image, int x, int y) {
   const bool strongest = parameters_.blend == spec::morphological::BlendRule::kStrongest;
   const Decision decision = strongest ? decide_by_strength(shares) : decide_by_length(shares);
   spec::morphological::BlendTap tap = tap_of(shares, decision);
+  if (decision != Decision::kNone) tap = remaining_tap(image, x, y, tap);
+  const bool left = (tap.first | tap.second) == 0;
   if (strongest) tap = mixed_by_squares(tap);
   const std::size_t index = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                             static_cast<std::size_t>(x);
@@ -281,8 +316,9 @@ void MorphologicalGolden::blend_pixel(const ImageView& image, int x, int y) {
     decisions_[index] = decision;
   }
   if (decision == Decision::kNone) return;
-  ++work_.blended_pixels;
   if (everything_) coverage_.count_pixel(decision);
+  ++(left ? work_.left_pixels : work_.blended_pixels);
+  if (left) return;
   // A neighbour without a share may lie outside the frame; the pixel itself stands in for it.
   const spec::morphological::Rgba8& pixel = image.at(x, y);
   const int dx = tap.horizontal ? 1 : 0, dy = tap.horizontal ? 0 : 1;

@@ -5,9 +5,9 @@
 // No time, no SystemC, integers only (docs/morphological_engine.md, docs/morphological_smaa.md,
 // docs/number_formats_morphological.md; papers 000, 001 and 003). The blocks are pure functions:
 // luma.h, edges.h, runs.h, predictor.h, line.h, area.h or area_table.h, corners.h, diagonals.h,
-// blend.h, traffic.h; conversion of other images to codes: convert.h. MorphologicalGolden strings
-// them together over a frame. Edges are found for all pixels, row by row; after that only edges and
-// the pixels beside them cost time.
+// blend.h, leave.h, traffic.h; conversion of other images to codes: convert.h. MorphologicalGolden
+// strings them together over a frame. Edges are found for all pixels, row by row; after that only
+// edges and the pixels beside them cost time.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +17,7 @@
 #include "golden/morphological/area.h"
 #include "golden/morphological/blend.h"
 #include "golden/morphological/configuration.h"
+#include "golden/morphological/leave.h"
 #include "golden/morphological/planes.h"
 #include "golden/morphological/predictor.h"
 #include "golden/morphological/run_coverage.h"
@@ -51,6 +52,10 @@ class MorphologicalGolden {
   // image; without one every depth is 0. Throws ConfigError for a frame the engine does not take.
   const std::vector<spec::morphological::Rgba8>& process(const ImageView& image,
                                                          const DepthView& depth = {});
+  // The same with edges that someone else found, of the image's size; those in column 0 (left) and
+  // row 0 (top) must be 0.
+  const std::vector<spec::morphological::Rgba8>& process(const ImageView& image,
+                                                         const EdgePlanes& edges);
 
   // ---- of the last frame; index y * width + x -----------------------------------------------
   int width() const { return edges_.left.width(); }
@@ -74,8 +79,10 @@ class MorphologicalGolden {
   // ---- of all frames ------------------------------------------------------------------------
   const RunCoverage& coverage() const { return coverage_; }
   const SmaaCoverage& smaa_coverage() const { return smaa_coverage_; }
+  const LeaveCoverage& leave_coverage() const { return leave_coverage_; }
   void clear_coverage() {
     coverage_ = {};
+    leave_coverage_ = {};
     smaa_coverage_ = {};
   }
 
@@ -103,6 +110,7 @@ class MorphologicalGolden {
     std::size_t index(int position, int line) const;  // of the share of an edge
     Share at(int position, int line) const;           // zero where there is no edge
   };
+  void smooth(const ImageView& image);
   void process_axis(AxisShares& axis);
   void process_record(AxisShares& axis, const spec::morphological::RunRecord& run);
   void share(AxisShares& axis, const spec::morphological::LineRecord& line) const;
@@ -111,6 +119,8 @@ class MorphologicalGolden {
   void process_diagonals();
   void put_runs_in_order(std::size_t first_vertical);
   PixelShares gather(int x, int y) const;
+  spec::morphological::BlendTap remaining_tap(const ImageView& image, int x, int y,
+                                              const spec::morphological::BlendTap& tap);
   void blend_row(const ImageView& image, int y);
   void blend_pixel(const ImageView& image, int x, int y);
   ImageView as_read_back(const ImageView& image);
@@ -126,6 +136,7 @@ class MorphologicalGolden {
   spec::morphological::Work work_;
   RunCoverage coverage_;
   SmaaCoverage smaa_coverage_;
+  LeaveCoverage leave_coverage_;
   LinePredicate error_;
   std::uint32_t pixel_base_ = 0;
   std::uint64_t memory_errors_ = 0;

@@ -120,8 +120,7 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
   f.corners = bits(rules, 21, 21) != 0 && p.round_corners;
   f.corner_loss = std::max(spec::morphological::kMaxCornerRounding - field(24, 16), 0);
   f.strongest = bits(rules, 22, 22) != 0;
-  f.leave = choice<spec::morphological::Leave>(bits(rules, 24, 23),
-                                               spec::morphological::kLeaveNames.size());
+  f.leave = static_cast<spec::morphological::Leave>(bits(rules, 24, 23));
 
   f.threshold = 255 * registers.value(reg::kThreshold);
   f.threshold_on = 255 * registers.value(reg::kThresholdOn);

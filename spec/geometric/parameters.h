@@ -67,6 +67,7 @@ inline constexpr int kBlockPixels = 16;        // of a block, and of a line of m
 inline constexpr int kTileSize = 8;            // pixels of a tile, each way
 inline constexpr int kBlocksInWord = 128;      // blocks of a row whose touched bits share a word
 inline constexpr int kMaxReciprocalBits = 11;  // of the table's lengths
+inline constexpr int kMinFills = 8;            // a group may order eight lines of depth
 
 // Rules: what changes pixels. Golden and hardware obey them. The defaults are the preset `deburr`.
 struct Rules {
@@ -156,7 +157,8 @@ void describe(Build& p, Visitor& v) {
            "Lines of the depth cache, sixteen pixels each.");
   v.choice("weight_blocks", p.weight_blocks, kCacheLinesNames,
            "Blocks of 4 x 4 pixels whose weights are on the chip.");
-  v.integer("fills", p.fills, 4, 256, "line", "Lines on their way into each of the three caches.");
+  v.integer("fills", p.fills, kMinFills, 256, "line",
+            "Lines on their way into each of the three caches.");
   v.integer("latency_fifo", p.latency_fifo, 4, 1024, "token",
             "Look-ups that wait for their lines, for each of the three caches.");
   v.choice("resolve_lanes", p.resolve_lanes, kLanesNames, "Pixels blended a clock.");

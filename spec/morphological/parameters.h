@@ -55,10 +55,11 @@ inline constexpr std::array<std::string_view, 4> kAreaSourceNames = {
 enum class BlendRule : std::uint8_t { kLongest, kStrongest };
 inline constexpr std::array<std::string_view, 2> kBlendRuleNames = {"longest", "strongest"};
 
-// Whose pixels are left as they are: none, marked ones, or those beside a marked one too. A pixel
-// is marked if bit 0 of its alpha is 0.
-enum class Leave : std::uint8_t { kNone, kMarked, kBeside };
-inline constexpr std::array<std::string_view, 3> kLeaveNames = {"none", "marked", "beside"};
+// Whose pixels are left as they are: none, marked ones, or those beside a marked one too; or marked
+// ones, and others take half of what they would take of a marked one. A pixel is marked if bit 0 of
+// its alpha is 0.
+enum class Leave : std::uint8_t { kNone, kMarked, kBeside, kHalf };
+inline constexpr std::array<std::string_view, 4> kLeaveNames = {"none", "marked", "beside", "half"};
 
 enum class Storage : std::uint8_t { kLineBuffers, kMemory };
 inline constexpr std::array<std::string_view, 2> kStorageNames = {"line_buffers", "memory"};
@@ -127,6 +128,15 @@ struct Rules {
   bool linear_light = true;
   std::int32_t window_rows = 66;
   std::int32_t reach_columns = 256;
+};
+
+// What a frame sets that the geometric engine has smoothed before, beside any preset with a fixed
+// threshold: edges as ever, but only where depth has one.
+struct FollowingRules {
+  EdgeSource edge_source = EdgeSource::kPredicated;
+  std::int32_t threshold_on_depth_edge = 1966;    // U0.16: 0.03
+  std::int32_t threshold_off_depth_edge = 65535;  // U0.16: never
+  Leave leave = Leave::kHalf;
 };
 
 // Build choices: what changes clocks and cost, and no pixel. Runs that differ in these alone share
@@ -203,7 +213,8 @@ void describe(Rules& p, Visitor& v) {
   v.choice(
       "leave", p.leave, kLeaveNames,
       "Pixels that take no share: none, those that the geometric engine marked (bit 0 of alpha "
-      "is 0), or these and the four beside each. Other than none, it ends the mark.");
+      "is 0), or these and the four beside each; half: marked ones, and others take half of "
+      "a marked one's share. Other than none, it ends the mark.");
   v.boolean("linear_light", p.linear_light, "Blend in linear light (sRGB) instead of codes.");
   v.integer("window_rows", p.window_rows, 10, 258, "row",
             "Rows of edges held; even. A pixel depends on window_rows / 2 - 1 rows each way.");

@@ -102,7 +102,7 @@ inline constexpr std::array<RegisterInfo, 29> kRegisters = {{
     {reg::kDiagonals, "DIAGONALS", Access::kReadOnly, 0,
      "Pixels whose top edge took its shares from a diagonal."},
     {reg::kLeftPixels, "LEFT_PIXELS", Access::kReadOnly, 0,
-     "Pixels that would have taken a share and were left."},
+     "Pixels that would have taken a share and took none, by the rule leave."},
 }};
 
 }  // namespace deburr::spec::morphological

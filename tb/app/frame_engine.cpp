@@ -7,8 +7,11 @@
 #include <string>
 #include <utility>
 
+#include "golden/geometric/configuration.h"
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
+#include "tb/app/geometric_pictures.h"
+#include "tb/app/geometric_rules.h"
 #include "tb/app/input_rules.h"
 #include "tb/app/morphological_engine.h"
 #include "tb/app/morphological_rules.h"
@@ -21,101 +24,201 @@
 namespace deburr::tb {
 namespace {
 
+struct FrameChoice {
+  Smoothing smoothing = Smoothing::kMorphological;
+};
+
+template <class Visitor>
+void describe(FrameChoice& p, Visitor& v) {
+  v.choice("smoothing", p.smoothing, kSmoothingNames,
+           "What smooths the textured frame: the morphological engine, the geometric one, or the "
+           "first behind the second.");
+}
+
 class FrameCommand final : public Engine {
  public:
   FrameCommand() { scene_.source = "object"; }
 
   std::string_view name() const override { return "frame"; }
   std::string_view summary() const override {
-    return "A scene through the texture unit, a frame buffer and the morphological engine";
+    return "A scene through the texture unit, a frame buffer and the engines that smooth";
   }
 
   void add_parameters(ParameterSet& set) override {
     set.add("scene", ParameterKind::kInput, scene_);
     set.add("sampler", ParameterKind::kInput, sampler_);
+    set.add("frame", ParameterKind::kRule, choice_);
     set.add_engine("texture", texture_);
     add_memory(set, "memory", memory_);
+    set.add_engine("geometric", geometric_);
+    add_memory(set, "geometric_memory", geometric_memory_);
     set.add_engine("morphological", morphological_);
     add_memory(set, "frame_memory", frame_memory_);
   }
   void resolve(ParameterSet& set) override {
+    apply_preset(set, geometric_);
     apply_preset(set, morphological_);
-    refuse_unused_rules(set, morphological_, "frame_memory");
+    if (choice_.smoothing == Smoothing::kGeometricMorphological) let_follow(set);
+    resolve_geometric(set);
+    resolve_morphological(set);
     refuse_unused_memory(set, "memory", memory_);
-    refuse_unused_memory(set, "frame_memory", frame_memory_);
     refuse_slow_memory(set, "memory", memory_);
-    if (morphological_.storage == spec::morphological::Storage::kMemory)
-      refuse_slow_memory(set, "frame_memory", frame_memory_);
     refuse_empty_lod_range(sampler_);
-    preset_label_ = preset_label(set, morphological_);
   }
 
   std::vector<Shorthand> shorthands() const override {
-    return joined(scene_shorthands("object"), smoothing_shorthands());
+    return joined(joined(scene_shorthands("object"), smoothing_shorthands()),
+                  {{"--smoothing", "frame.smoothing",
+                    "morphological (default), geometric or geometric-morphological"}});
   }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
-    golden::morphological::check_parameters(morphological_);
+    if (has_geometric(choice_.smoothing)) golden::geometric::check_parameters(geometric_);
+    if (has_morphological(choice_.smoothing))
+      golden::morphological::check_parameters(morphological_);
     if (sampler_.format == spec::texture::Format::kSrgb8A8)
       throw spec::ConfigError(
           "sampler.format: the frame buffer keeps codes; srgb8_a8 delivers linear light");
     const TextureScene scene(scene_, sampler_, static_cast<std::uint32_t>(run.seed));
     refuse_nothing_drawn(scene);
     for (const auto& input : scene.inputs()) context.add_input(input);
-    context.set_title(
-        "Frame: " + std::filesystem::path(scene_.source).filename().string(),
-        fmt::format("{} x {} pixels, {} fragments; texture unit, frame buffer and morphological "
-                    "engine ({}) on one clock, overlapped row by row",
-                    scene.stream().width, scene.stream().height, scene.stream().counts.fragments,
-                    preset_label_));
+    context.set_title("Frame: " + std::filesystem::path(scene_.source).filename().string(),
+                      fmt::format("{} x {} pixels, {} fragments; texture unit, frame buffer and {}",
+                                  scene.stream().width, scene.stream().height,
+                                  scene.stream().counts.fragments, engines_line()));
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
-    for (const std::string& note : build_notes(morphological_)) context.add_note(note);
+    if (has_geometric(choice_.smoothing))
+      for (const std::string& note : build_notes(geometric_)) context.add_note(note);
+    if (has_morphological(choice_.smoothing))
+      for (const std::string& note : build_notes(morphological_)) context.add_note(note);
     Simulation simulation(simulation_options(run, context));
-    FrameComposition frame(simulation, scene, setup());
+    FrameComposition frame(simulation, scene, setup(choice_.smoothing));
     simulate(simulation, frame, context, result,
              [&] { add_pictures(run, context, scene, frame, result); });
   }
 
+  // Of all engines at once.
   void describe_statistics(Result& result) override {
     const TextureScene scene = smallest(scene_, sampler_);
     Simulation simulation({});
-    FrameComposition frame(simulation, scene, {});
+    FrameComposition frame(simulation, scene, setup(Smoothing::kGeometricMorphological));
     describe(simulation, frame, result);
   }
 
  private:
-  FrameSetup setup() const { return {{texture_, memory_}, {morphological_, frame_memory_}}; }
+  FrameSetup setup(Smoothing smoothing) const {
+    return {{texture_, memory_},
+            {morphological_, frame_memory_},
+            {geometric_, geometric_memory_},
+            smoothing};
+  }
+
+  // What the one engine does for the other, unless something else is given.
+  void let_follow(ParameterSet& set) const {
+    const std::string by = "frame.smoothing = geometric-morphological";
+    set.imply("geometric.mark", "true", by);
+    spec::morphological::Parameters rules =
+        golden::morphological::following_geometric(morphological_);
+    ParameterSet following;
+    following.add_engine("morphological", rules);
+    std::vector<std::string> names = {"leave"};
+    if (rules.edge_source != morphological_.edge_source) names.push_back("edges.source");
+    if (rules.edge_source == spec::morphological::EdgeSource::kPredicated &&
+        !set.given("morphological.edges.source"))
+      names.insert(names.end(),
+                   {"edges.threshold_on_depth_edge", "edges.threshold_off_depth_edge"});
+    for (const std::string& name : names) {
+      const std::string full = "morphological." + name;
+      set.imply(full, following.find(full)->text(), by);
+    }
+  }
+
+  void resolve_geometric(ParameterSet& set) {
+    if (!has_geometric(choice_.smoothing)) {
+      for (const char* const prefix : {"geometric.", "geometric_memory."})
+        set.refuse_all(prefix, "frame.smoothing = morphological draws no edges");
+      return;
+    }
+    refuse_unused_rules(set, geometric_);
+    refuse_unused_memory(set, "geometric_memory", geometric_memory_);
+    refuse_slow_memory(set, "geometric_memory", geometric_memory_);
+    geometric_label_ = preset_label(set, geometric_);
+  }
+
+  void resolve_morphological(ParameterSet& set) {
+    if (!has_morphological(choice_.smoothing)) {
+      for (const char* const prefix : {"morphological.", "frame_memory."})
+        set.refuse_all(prefix, "frame.smoothing = geometric has no morphological engine");
+      return;
+    }
+    refuse_unused_rules(set, morphological_, "frame_memory");
+    refuse_unused_memory(set, "frame_memory", frame_memory_);
+    if (morphological_.storage == spec::morphological::Storage::kMemory)
+      refuse_slow_memory(set, "frame_memory", frame_memory_);
+    morphological_label_ = preset_label(set, morphological_);
+  }
+
+  std::string engines_line() const {
+    switch (choice_.smoothing) {
+      case Smoothing::kMorphological:
+        return fmt::format("morphological engine ({}) on one clock, overlapped row by row",
+                           morphological_label_);
+      case Smoothing::kGeometric:
+        return fmt::format("geometric engine ({}) on one clock, one after the other",
+                           geometric_label_);
+      default:
+        return fmt::format(
+            "geometric engine ({}), morphological engine ({}) on one clock, one after the other",
+            geometric_label_, morphological_label_);
+    }
+  }
+
+  bool blends_in_linear_light() const {
+    return has_morphological(choice_.smoothing) ? morphological_.linear_light
+                                                : geometric_.linear_light;
+  }
 
   void add_pictures(const RunParameters& run, RunContext& context, const TextureScene& scene,
                     const FrameComposition& frame, Result& result) const {
     const Image& before = frame.buffer.frame();
-    const Image& after = frame.smoothing.frame();
-    const bool whole = frame.smoothing.delivered() == after.pixels.size();
-    Image expected(after.width, after.height), truth;
+    const Image after = frame.frame();
+    const bool whole = frame.delivered() == after.pixels.size();
+    Image expected, truth;
     if (after.pixels.size() != before.pixels.size()) return;  // nothing was begun
     const bool golden = run.check == CheckMode::kGolden;
-    if (golden) expected.pixels = frame.smoothing.golden_model().pixels();
+    if (golden) expected = frame.golden_frame();
     if (run.truth && whole) {
       RenderOptions truth_options;
       // Coverage is averaged in the light in which the engine blends.
-      truth_options.averaging =
-          morphological_.linear_light ? Averaging::kLinear : Averaging::kStored;
+      truth_options.averaging = blends_in_linear_light() ? Averaging::kLinear : Averaging::kStored;
       truth = judge_by_scene(scene, truth_options, before, after, result, context);
     }
-    add_smoothing_pictures(
-        context,
-        {before, after, frame.smoothing.delivered(), golden ? &expected : nullptr,
-         truth.empty() ? nullptr : &truth,
-         "textured: what the texture unit left in the frame buffer", truth_caption()},
-        frame.smoothing.taps());
+    const SmoothedFrame smoothed{before,
+                                 after,
+                                 frame.delivered(),
+                                 golden ? &expected : nullptr,
+                                 truth.empty() ? nullptr : &truth,
+                                 "textured: what the texture unit left in the frame buffer",
+                                 truth_caption()};
+    if (frame.morphological)
+      add_smoothing_pictures(context, smoothed, frame.morphological->taps());
+    else
+      add_frame_pictures(context, smoothed);
+    if (!frame.geometric) return;
+    geometric::Frame edges = frame.edges();
+    edges.image = before;
+    add_edge_pictures(context, edges, geometric_, frame.geometric->blocks(),
+                      frame.morphological ? "edge_weights" : "weights");
   }
 
   SceneParameters scene_;
   SamplerParameters sampler_;
   spec::texture::Parameters texture_;
-  MemoryParameters memory_, frame_memory_;
+  MemoryParameters memory_, geometric_memory_, frame_memory_;
+  FrameChoice choice_;
+  spec::geometric::Parameters geometric_;
   spec::morphological::Parameters morphological_;
-  std::string preset_label_;
+  std::string geometric_label_, morphological_label_;
 };
 
 }  // namespace

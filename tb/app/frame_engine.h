@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `deburr run frame`: a scene through the texture unit and the morphological engine.
+// `deburr run frame`: a scene through the texture unit and the engines that smooth.
 #pragma once
 
 #include <memory>

@@ -109,8 +109,9 @@ Image class_picture(const geometric::Frame& frame, const spec::geometric::Parame
 
 void add_edge_pictures(RunContext& context, const geometric::Frame& frame,
                        const spec::geometric::Parameters& parameters,
-                       std::span<const spec::geometric::BlockRecord> blocks) {
-  context.add_image("weights", weight_picture(frame.image.width, frame.image.height, blocks),
+                       std::span<const spec::geometric::BlockRecord> blocks,
+                       const std::string& weights) {
+  context.add_image(weights, weight_picture(frame.image.width, frame.image.height, blocks),
                     "Weights",
                     "share of the upper or left neighbour red, of the lower or right one green, "
                     "blue where the two are left and right");

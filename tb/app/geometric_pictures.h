@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "spec/geometric/packets.h"
 #include "spec/geometric/parameters.h"
@@ -12,10 +13,11 @@
 
 namespace deburr::tb {
 
-// weights and classes.
+// Weights, under this name, and classes.
 void add_edge_pictures(RunContext& context, const geometric::Frame& frame,
                        const spec::geometric::Parameters& parameters,
-                       std::span<const spec::geometric::BlockRecord> blocks);
+                       std::span<const spec::geometric::BlockRecord> blocks,
+                       const std::string& weights = "weights");
 
 // Shares of neighbours, twice as bright: up or left red, down or right green; blue where the pair
 // is left and right.

@@ -2,6 +2,7 @@
 #include "tb/env/frame_buffer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "spec/morphological/parameters.h"
 #include "tb/scene/edge_table.h"
@@ -9,12 +10,18 @@
 namespace deburr::tb {
 
 FrameBuffer::FrameBuffer(const sc_core::sc_module_name& name, rtl::ClockDomain& clock,
-                         const TextureScene& scene, int lanes)
+                         const TextureScene& scene, int lanes, Rows rows)
     : Unit(name, clock),
+      pixels_out(rows == Rows::kNever
+                     ? nullptr
+                     : std::make_unique<rtl::Out<spec::morphological::PixelBeat>>("pixels_out")),
       scene_(scene),
       lanes_(lanes),
+      rows_(rows),
       waiting_(declare_stall("texture", "the next row still lacks fragments")),
       sky_(FrameAssembler(scene.stream(), scene.scene()).frame()) {
+  if (rows == Rows::kWhenReleased)
+    held_ = declare_stall("geometric", "the geometric engine is at the frame");
   input_.depth = depth_codes(scene.stream().depth);
   reset();
 }
@@ -22,11 +29,15 @@ FrameBuffer::FrameBuffer(const sc_core::sc_module_name& name, rtl::ClockDomain& 
 void FrameBuffer::reset() {
   const FragmentStream& stream = scene_.stream();
   input_.image = sky_;
+  released_ = false;
+  all_missing_ = 0;
   missing_.assign(static_cast<std::size_t>(stream.height), 0);
   for (const spec::texture::Quad& quad : stream.quads)
     for (int lane = 0; lane < 4; ++lane)
-      if (quad.coverage >> lane & 1)
+      if (quad.coverage >> lane & 1) {
         ++missing_[static_cast<std::size_t>(stream.pixel(quad.tag, lane).y)];
+        ++all_missing_;
+      }
   x_ = y_ = 0;
   last_colour_ = first_beat_ = 0;
 }
@@ -39,24 +50,38 @@ void FrameBuffer::store(rtl::Cycle cycle, const spec::texture::Colour& colour) {
   if (colour.tag >= stream.quads.size() || colour.lane >= 4) return;  // counted by the scoreboard
   const FragmentStream::Pixel p = stream.pixel(colour.tag, colour.lane);
   if (p.x >= stream.width || p.y >= stream.height) return;
-  if (stream.visible[colour.tag] >> colour.lane & 1) input_.image.at(p.x, p.y) = colour.rgba;
+  if (stream.visible[colour.tag] >> colour.lane & 1) {
+    input_.image.at(p.x, p.y) = colour.rgba;
+    if (on_pixel) on_pixel(p.x, p.y, colour.rgba);
+  }
   std::uint32_t& missing = missing_[static_cast<std::size_t>(p.y)];
-  if (missing > 0) --missing;
+  if (missing == 0) return;
+  --missing;
+  --all_missing_;
+}
+
+void FrameBuffer::release(Image frame) {
+  before_ = std::exchange(input_.image, std::move(frame));
+  released_ = true;
+}
+
+bool FrameBuffer::may_send() const {
+  return rows_ == Rows::kWhenReleased ? released_ : missing_[static_cast<std::size_t>(y_)] == 0;
 }
 
 rtl::Activity FrameBuffer::tick(rtl::Cycle cycle) {
   bool worked = false;
   rtl::Activity activity = rtl::kIdle;
-  if (!done()) {
-    if (missing_[static_cast<std::size_t>(y_)] != 0) {
-      activity = waiting_;
-    } else if (!pixels_out.can_push(cycle)) {
+  if (pixels_out && !done()) {
+    if (!may_send()) {
+      activity = rows_ == Rows::kWhenReleased && complete() ? held_ : waiting_;
+    } else if (!pixels_out->can_push(cycle)) {
       activity = rtl::kStalledDownstream;
     } else {
       if (x_ == 0 && y_ == 0) first_beat_ = cycle;
       const spec::morphological::PixelBeat beat = pixel_beat(input_, x_, y_, lanes_);
       bytes_read += static_cast<std::uint64_t>(spec::morphological::kFramePixelBytes) * beat.count;
-      pixels_out.push(cycle, beat);
+      pixels_out->push(cycle, beat);
       x_ += lanes_;
       if (x_ >= input_.image.width) x_ = 0, ++y_;
       worked = true;

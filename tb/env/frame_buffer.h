@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Between the two engines of a whole frame: takes the colours of the texture unit, gives complete
-// rows to the morphological engine.
+// Behind the texture unit of a whole frame: takes its colours, gives complete rows to the
+// morphological engine, as they come or once the geometric engine is done with the frame.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <systemc>
 #include <vector>
 
@@ -16,21 +17,31 @@
 
 namespace deburr::tb {
 
+enum class Rows : std::uint8_t { kAsTheyCome, kWhenReleased, kNever };
+
 // Takes a colour a clock, gives a beat of a complete row a clock. Its memory is
-// not modelled in time. Stalls: `texture` (the next row still lacks fragments), `downstream`.
+// not modelled in time. Stalls: `texture` (the next row, or any, still lacks fragments),
+// `geometric` (the frame is complete and not yet released), `downstream`.
 class FrameBuffer final : public rtl::Unit {
  public:
   rtl::In<spec::texture::Colour> colours_in{"colours_in"};
-  rtl::Out<spec::morphological::PixelBeat> pixels_out{"pixels_out"};
+  // None if rows never go out.
+  std::unique_ptr<rtl::Out<spec::morphological::PixelBeat>> pixels_out;
 
   FrameBuffer(const sc_core::sc_module_name& name, rtl::ClockDomain& clock,
-              const TextureScene& scene, int lanes);
+              const TextureScene& scene, int lanes, Rows rows = Rows::kAsTheyCome);
   rtl::Activity tick(rtl::Cycle cycle) override;
   void reset() override;
 
-  bool done() const { return y_ == input_.image.height; }
-  const Image& frame() const { return input_.image; }
+  bool done() const { return pixels_out ? y_ == input_.image.height : complete(); }
+  // Every fragment has come.
+  bool complete() const { return all_missing_ == 0; }
+  // Rows of this frame go out from the next clock on, instead of what has come.
+  void release(Image frame);
+  // What has come, over the sky.
+  const Image& frame() const { return released_ ? before_ : input_.image; }
   std::function<void(rtl::Cycle, const spec::texture::Colour&)> on_colour;
+  std::function<void(int x, int y, const Rgba8&)> on_pixel;  // that is seen
   rtl::Cycle last_colour() const { return last_colour_; }
   rtl::Cycle first_beat() const { return first_beat_; }
   rtl::Counter bytes_written{"bytes_written", "byte", "bytes of colours written"};
@@ -39,11 +50,15 @@ class FrameBuffer final : public rtl::Unit {
  private:
   void store(rtl::Cycle cycle, const spec::texture::Colour& colour);
   const TextureScene& scene_;
+  bool may_send() const;
   int lanes_;
-  rtl::Activity waiting_;
-  MorphologicalInput input_;
-  Image sky_;
+  Rows rows_;
+  rtl::Activity waiting_, held_{};
+  MorphologicalInput input_;  // what goes out
+  Image sky_, before_;
   std::vector<std::uint32_t> missing_;  // fragments that each row still lacks
+  std::uint64_t all_missing_ = 0;
+  bool released_ = false;
   int x_ = 0, y_ = 0;
   rtl::Cycle last_colour_ = 0, first_beat_ = 0;
 };

@@ -594,23 +594,29 @@ void GeometricEnvironment::judge_traffic() {
 }
 
 // Lines whose writes memory refuses stay as they were.
+Image GeometricEnvironment::expected_frame() const {
+  Image expected = current().image;
+  const auto range = error_range(setup_.memory);
+  const FrameLayout where = layout();
+  for (int y = 0; y < expected.height; ++y) {
+    for (int x = 0; x < expected.width; ++x) {
+      const std::size_t i = expected.index(x, y);
+      const std::uint64_t line =
+          std::uint64_t{regions_.base(Region::kColour)} + where.offset_of(where.line_of(x, y));
+      if (!range || !range->touches(line, kLine)) expected.pixels[i] = golden_.pixels()[i];
+    }
+  }
+  return expected;
+}
+
 void GeometricEnvironment::judge_frame() {
   const Image after = frame();
   for (const Rgba8& pixel : after.pixels)
     hash_.add(pixel[0] | std::uint64_t{pixel[1]} << 8 | std::uint64_t{pixel[2]} << 16 |
               std::uint64_t{pixel[3]} << 24);
   if (!golden()) return;
-  expected_pixels_ = golden_.pixels();
-  if (const auto range = error_range(setup_.memory)) {
-    const FrameLayout where = layout();
-    for (int y = 0; y < after.height; ++y)
-      for (int x = 0; x < after.width; ++x)
-        if (range->touches(std::uint64_t{regions_.base(Region::kColour)} +
-                               where.offset_of(where.line_of(x, y)),
-                           kLine))
-          expected_pixels_[after.index(x, y)] = current().image.at(x, y);
-  }
-  pixel_board_.expect(expected_pixels_, after.width);
+  expected_ = expected_frame();
+  pixel_board_.expect(expected_.pixels, after.width);
   const rtl::Cycle cycle = simulation().clock().cycle();
   for (const Rgba8& pixel : after.pixels) pixel_board_.got(pixel, cycle);
 }
@@ -741,6 +747,11 @@ std::vector<Figure> GeometricEnvironment::work_figures() const {
           {"Traffic of frame buffers alone", key("frame_bytes_a_blended_pixel")}};
 }
 
+std::uint64_t GeometricEnvironment::frame_clocks_bound() const {
+  return frames_done_ > 0 ? clocks_bound(engine_, setup_, current(), frames_done_) / frames_done_
+                          : 0;
+}
+
 void GeometricEnvironment::collect_headline(Result& result) const {
   const rtl::geometric::GeometricEngine& e = engine_;
   const std::uint64_t edges = e.work().edges, frame_clocks = e.frame_sequencer.frame_cycles.value();
@@ -756,7 +767,7 @@ void GeometricEnvironment::collect_headline(Result& result) const {
       "needs for this work.";
 
   add(result, "frame_clocks", frame_clocks, "clk", "Of the last frame, from its start to its end.");
-  add(result, "frame_clocks_bound", frames_done_ > 0 ? bound / frames_done_ : 0, "clk",
+  add(result, "frame_clocks_bound", frame_clocks_bound(), "clk",
       "The bound of the throughput, in clocks of a frame.");
   using Json = nlohmann::ordered_json;
   add(result, "frame_rate",

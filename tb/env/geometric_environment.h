@@ -87,8 +87,11 @@ class GeometricEnvironment final : public Environment {
 
   // Of its work, for the report of a composition too.
   std::vector<Figure> work_figures() const;
-  // The last frame as it is in memory.
+  // The frame as it is in memory, and as it should be when the engine is done.
   Image frame() const;
+  Image expected_frame() const;
+  // Clocks below which no frame of the work done so far can be drawn.
+  std::uint64_t frame_clocks_bound() const;
   // Weights of the last frame's blended pixels, as the engine resolved them.
   const std::vector<spec::geometric::BlockRecord>& blocks() const { return blocks_; }
   // The golden model, which has seen every frame (none without golden).
@@ -141,7 +144,7 @@ class GeometricEnvironment final : public Environment {
 
   std::size_t current_ = 0;  // of frames_
   bool started_ = false;
-  std::vector<Rgba8> expected_pixels_;
+  Image expected_;
   std::vector<spec::geometric::BlockRecord> blocks_;
   std::size_t reads_judged_ = 0, writes_judged_ = 0;
   std::uint64_t frames_done_ = 0, edges_done_ = 0, edge_clocks_ = 0, resolve_clocks_ = 0;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -390,6 +391,7 @@ Compared pictures(const PaperOptions& options) {
       {}};
   Waiting waiting("paper 002: rendering models and truth, and smoothing", options.quiet);
   std::vector<std::pair<std::string, std::string>> scenes;
+  scenes.reserve(std::size(kModels) + 3);
   for (const Model& model : kModels) scenes.emplace_back(model.scene, model.figure);
   scenes.emplace_back("sphere", "");
   scenes.emplace_back("object", "");
@@ -410,6 +412,7 @@ Compared pictures(const PaperOptions& options) {
            std::move(result.image), number(result.work.kept_edges)});
     }
     std::vector<Scores> scores;
+    scores.reserve(methods.size());
     for (const Method& method : methods)
       scores.push_back({judge.edge_psnr(method.image), judge.silhouette_psnr(method.image)});
     const auto word = [&](std::size_t i) -> std::string {

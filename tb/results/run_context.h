@@ -24,9 +24,9 @@
 namespace deburr::tb {
 
 // Every picture that a run may leave.
-inline constexpr std::array<std::string_view, 10> kPictureNames = {
-    "before", "after",  "golden", "difference", "truth",
-    "error",  "change", "edges",  "weights",    "classes"};
+inline constexpr std::array<std::string_view, 11> kPictureNames = {
+    "before", "after", "golden",  "difference", "truth",       "error",
+    "change", "edges", "weights", "classes",    "edge_weights"};
 
 class RunContext {
  public:

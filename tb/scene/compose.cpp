@@ -9,14 +9,11 @@
 #include "spec/error.h"
 
 namespace deburr::tb {
-namespace {
 
 void paste(Image& onto, const Image& picture, int left, int top) {
   for (int y = 0; y < picture.height; ++y)
     std::copy_n(&picture.at(0, y), picture.width, &onto.at(left, top + y));
 }
-
-}  // namespace
 
 Image difference(const Image& a, const Image& b, int gain) {
   if (a.width != b.width || a.height != b.height)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pictures made of pictures: differences, zoomed crops, side-by-side sheets. Nothing draws text;
-// labels belong to the HTML report.
+// Pictures made of pictures: differences, zoomed crops, side-by-side sheets. Text is
+// label.h's; reports put theirs beside the pictures.
 #pragma once
 
 #include <vector>
@@ -21,6 +21,9 @@ Image zoom(const Image& image, int factor);
 // Cells of equal size (the largest picture's), row by row, `gap` pixels of `background` between.
 Image sheet(const std::vector<Image>& cells, int columns, int gap = 8,
             const Rgba8& background = {255, 255, 255, 255});
+
+// `picture` onto `onto`, which it must not leave.
+void paste(Image& onto, const Image& picture, int left, int top);
 
 // A one-pixel frame in `colour` around the rectangle, to show where a crop was taken.
 void draw_frame(Image& image, int x, int y, int width, int height, const Rgba8& colour);

@@ -277,6 +277,7 @@ TEST_P(EveryMix, IsIdenticalToGolden) {
   p.reach_columns = 4 + below(80);
   p.line_pixels = 400;
   p.storage = static_cast<spec::morphological::Storage>(below(2));
+  p.leave = static_cast<spec::morphological::Leave>(below(4));
   options.records = true;
   const auto seed = static_cast<std::uint64_t>(GetParam());
   expect_identical({blocks(97, 80, seed + 1), fans(13, seed), noise(60, 50, seed),
@@ -285,6 +286,50 @@ TEST_P(EveryMix, IsIdenticalToGolden) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Morphological, EveryMix, testing::Range(0, 60));
+
+// ---- pixels that another engine marked ----------------------------------------------------------
+
+using Marks = std::tuple<Preset, spec::morphological::Lanes, spec::morphological::Leave>;
+class MarkedFrames : public testing::TestWithParam<Marks> {};
+
+// Marks at random, as lines of them, and at the borders.
+MorphologicalInput marked(MorphologicalInput frame, std::uint64_t seed) {
+  Random random(seed, "marks");
+  const int width = frame.image.width, height = frame.image.height;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const bool border = x == 0 || y == 0 || x + 1 == width || y + 1 == height;
+      const bool mark = random.chance(border ? 300 : 60) || (x + 3 * y) % 41 == 0;
+      std::uint8_t& alpha = frame.image.at(x, y)[3];
+      alpha = static_cast<std::uint8_t>((random.word() & 0xFE) | !mark);
+    }
+  return frame;
+}
+
+TEST_P(MarkedFrames, AreIdenticalToGolden) {
+  const auto [which, lanes, leave] = GetParam();
+  MorphologicalRunOptions options;
+  Parameters& p = options.morphological;
+  p = preset(which, lanes);
+  p.leave = leave;
+  p.line_pixels = 512;
+  if (leave == spec::morphological::Leave::kBeside)
+    p.storage = spec::morphological::Storage::kMemory;
+  options.records = true;
+  expect_identical({marked(blocks(133, 90, 5), 1), marked(fans(15, 2), 2), marked(noise(67, 50), 3),
+                    marked(noise(3, 40), 4), marked(noise(90, 2), 5)},
+                   options);
+}
+
+INSTANTIATE_TEST_SUITE_P(Morphological, MarkedFrames,
+                         testing::Combine(testing::ValuesIn(kBuilt),
+                                          testing::Values(spec::morphological::Lanes::kOne,
+                                                          spec::morphological::Lanes::kTwo,
+                                                          spec::morphological::Lanes::kFour),
+                                          testing::Values(spec::morphological::Leave::kMarked,
+                                                          spec::morphological::Leave::kBeside,
+                                                          spec::morphological::Leave::kHalf)),
+                         name_of<Marks>);
 
 TEST(Morphological, AddressesBeginAtPixelBase) {
   MorphologicalRunOptions options;

@@ -147,6 +147,7 @@ Activity DepthTest::look_up(Cycle cycle) {
       if (const Activity done = look_up_pair(cycle); done != kIdle) return done;
     did = true;
     if (last) {
+      if (count != 0) group_lines.record(count);
       fifo_.push(cycle, looking_.lookup);
       is_looking_ = false;
     } else {

@@ -20,6 +20,7 @@
 #include <systemc>
 
 #include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/fill_store.h"
@@ -48,6 +49,7 @@ class DepthTest final : public Unit {
   Counter passed{"passed", "pixels", "candidates that passed the depth test"};
   Counter lookups{"lookups", "lines", "lines of depth looked up"};
   Counter misses{"misses", "lines", "look-ups that ordered a line"};
+  Histogram group_lines{"group_lines", "lines", "lines of depth of a group"};
 
  private:
   // Of a group: raster, vertical, four own lines and four neighbours beyond a multiple of 16.

@@ -2,6 +2,7 @@
 #include "rtl_model/geometric/resolve/block_fetch.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "spec/geometric/records.h"
@@ -81,8 +82,25 @@ std::uint32_t BlockFetch::lines_of_pixel(const BlockToken& block, std::uint32_t 
   return lines;
 }
 
+// What memory gives as weights may be anything.
+void BlockFetch::limit(BlockToken& block) const {
+  const FrameRules& rules = store_.rules();
+  const std::int32_t last_x = rules.width - 1, last_y = rules.height - 1;
+  for (std::int32_t pixel = 0; pixel < spec::geometric::kBlockPixels; ++pixel) {
+    const std::int32_t x = 4 * block.x + (pixel & 3), y = 4 * block.y + (pixel >> 2);
+    const bool inside = x <= last_x && y <= last_y;
+    const std::array<bool, 4> may = {inside && y != 0, inside && y != last_y, inside && x != 0,
+                                     inside && x != last_x};
+    for (std::size_t direction = 0; direction < may.size(); ++direction) {
+      std::uint8_t& weight = block.weights[static_cast<std::size_t>(pixel)][direction];
+      weight = may[direction] ? std::min<std::uint8_t>(weight, spec::geometric::kMaxWeight) : 0;
+    }
+  }
+}
+
 // Stage 4.
 void BlockFetch::choose(BlockToken& block) const {
+  limit(block);
   block.blended = block.horizontal = 0;
   block.lines = 0;
   for (std::uint32_t pixel = 0; pixel < spec::geometric::kBlockPixels; ++pixel) {

@@ -4,13 +4,14 @@
 //
 // Where: between BlockScanner and Resolver, which takes the lines out of `colours`. Latency 5, and
 // the wait for weights; initiation interval max(1, lines to read). Stages: 1 tag of the block;
-// 2 a read of weights ordered; FIFO; 3 weights, from the cache's data or the line that came; 4 axis
-// of each pixel, lines that are needed; 5 requests, one a clock, the block with the first. Weights
-// and colours have their places apart: weights of blocks to come cannot take those of the lines
-// that the oldest block waits for. Stalls: `weights` (a block has not come), `colours` (no place
-// for a line), `downstream`. Requests of colours go before those of weights.
-// Cost: weights and lines on their way, the FIFO, 16 9-bit compares, a 13 x 10 and a 11 x 11
-// multiply. Made for 250 MHz; longest path: SRAM read + 10-bit compare.
+// 2 a read of weights ordered; FIFO; 3 weights, from the cache's data or the line that came; 4
+// limits, axis of each pixel, lines that are needed; 5 requests, one a clock, the block with the
+// first. Weights and colours have their places apart: weights of blocks to come cannot take those
+// of the lines that the oldest block waits for. Stalls: `weights` (a block has not come), `colours`
+// (no place for a line), `downstream`. Requests of colours go before those of weights. Whatever
+// memory gives as weights, a pixel takes a half at most of each neighbour, and nothing from outside
+// of the frame. Cost: weights and lines on their way, the FIFO, 16 9-bit compares, a 13 x 10 and a
+// 11 x 11 multiply. Made for 250 MHz; longest path: SRAM read, limits of a weight + 10-bit compare.
 #pragma once
 
 #include <cstdint>
@@ -57,6 +58,7 @@ class BlockFetch final : public Unit {
   Activity deliver(Cycle cycle);
   Activity ask(Cycle cycle);
   void choose(BlockToken& block) const;
+  void limit(BlockToken& block) const;
   std::uint32_t lines_of_pixel(const BlockToken& block, std::uint32_t pixel, bool horizontal) const;
 
   const ParameterStore& store_;

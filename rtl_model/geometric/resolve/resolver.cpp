@@ -82,7 +82,7 @@ void Resolver::place(const Line& line, std::uint32_t number) {
   } else if (j == 2) {
     w.right[i - 1] = pixel_of(line, 0);
   } else {
-    const std::size_t first = 4u * (block(newest_).x & 3);
+    const std::size_t first = std::size_t{4} * (block(newest_).x & 3);
     for (std::size_t k = 0; k < 4; ++k) {
       const Rgba pixel = pixel_of(line, first + k);
       (i == 0 ? w.up[k] : i == 5 ? w.down[k] : w.own[4 * (i - 1) + k]) = pixel;
@@ -173,7 +173,7 @@ void Resolver::take_pixels(Cycle cycle, Beat& beat) {
     if (linear)
       for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t operand = 0; operand < 3; ++operand)
-          light_[(beat.count * 3u + c) * 3 + operand].read(cycle, o.code[operand][c]);
+          light_[(beat.count * std::size_t{3} + c) * 3 + operand].read(cycle, o.code[operand][c]);
     ++beat.count;
   }
   beat.last = to_blend_ == 0;

@@ -126,7 +126,7 @@ class Resolver final : public Unit {
   std::uint32_t written_block_ = 0;  // number
   std::uint32_t to_write_ = 0;       // its lines; rows if raster
   std::array<Rgba, 16> written_{};
-  std::uint32_t writes_ = 0;  // U8, that are not answered
+  std::uint32_t writes_ = 0;  // U11, that are not answered
   bool ended_ = false;
   Wire<bool> done_{false};
 };

@@ -132,7 +132,7 @@ class WeightCombiner final : public Unit {
   // Stages 3 to 5.
   Pipe<Work, 3> pipe_;
   std::vector<std::uint32_t> spilled_;  // 0: free
-  std::uint32_t writes_ = 0;            // U8, that are not answered
+  std::uint32_t writes_ = 0;            // U9, that are not answered
   bool ended_ = false;
 };
 

@@ -12,11 +12,16 @@
 namespace deburr::rtl::morphological {
 namespace {
 
+using spec::morphological::Leave;
+
 template <class Visit>
 void for_each_lane(std::uint8_t lanes, Visit&& visit) {
   for (std::uint32_t left = lanes; left != 0; left &= left - 1)
     visit(static_cast<std::size_t>(std::countr_zero(left)));
 }
+
+// By the geometric engine.
+bool is_marked(const spec::morphological::Rgba8& pixel) { return (pixel[3] & 1) == 0; }
 
 // R(s), U0.17: what squares are multiplied by to be shares of s again.
 std::vector<std::uint32_t> mix_words() {
@@ -90,32 +95,32 @@ void Blender::choose(Cycle cycle, const ShareToken& token, const PixelToken& aro
   if (token.any) choose_axes(cycle, token, around, beat);
 }
 
-// By its own mark, or those of its neighbours in the frame.
+// By its own mark, or with `beside` those of its neighbours in the frame.
 bool Blender::is_left(const Slot& slot, const PixelToken& around, std::size_t lane,
                       std::size_t count) const {
   const FrameRules& rules = store_.rules();
-  const auto marked = [](const spec::morphological::Rgba8& pixel) { return (pixel[3] & 1) == 0; };
-  if (marked(around.centre[lane])) return true;
-  if (rules.leave != spec::morphological::Leave::kBeside) return false;
+  if (is_marked(around.centre[lane])) return true;
+  if (rules.leave != Leave::kBeside) return false;
   const bool first_row = slot.row == store_.reach_rows() + spec::morphological::kRowLag,
              last_row = slot.row + 1u == rules.rows, first_column = slot.beat == 0 && lane == 0,
              last_lane = lane + 1 == count,
              last_column = last_lane && slot.beat + 1u == rules.beats;
-  return (!first_row && marked(around.above[lane])) || (!last_row && marked(around.below[lane])) ||
-         (!first_column && marked(lane == 0 ? around.before : around.centre[lane - 1])) ||
-         (!last_column && marked(last_lane ? around.after : around.centre[lane + 1]));
+  return (!first_row && is_marked(around.above[lane])) ||
+         (!last_row && is_marked(around.below[lane])) ||
+         (!first_column && is_marked(lane == 0 ? around.before : around.centre[lane - 1])) ||
+         (!last_column && is_marked(last_lane ? around.after : around.centre[lane + 1]));
 }
 
 void Blender::choose_axes(Cycle cycle, const ShareToken& token, const PixelToken& around,
                           Beat& beat) {
-  const bool strongest = store_.rules().strongest,
-             leaves = store_.rules().leave != spec::morphological::Leave::kNone;
+  const bool strongest = store_.rules().strongest;
+  const Leave leave = store_.rules().leave;
   const std::size_t count = beat.result.count;
   for (std::size_t i = 0; i < count; ++i) {
     const Shares& s = token.shares[i];
     const int vertical_sum = s.up + s.down, horizontal_sum = s.left + s.right;
     if (vertical_sum + horizontal_sum == 0) continue;
-    if (leaves && is_left(token.slot, around, i, count)) {
+    if (leave != Leave::kNone && is_left(token.slot, around, i, count)) {
       beat.left = static_cast<std::uint8_t>(beat.left | 1u << i);
       continue;
     }
@@ -129,17 +134,29 @@ void Blender::choose_axes(Cycle cycle, const ShareToken& token, const PixelToken
       const int span_v = std::max(s.left ? s.span_left : 0, s.right ? s.span_right : 0);
       horizontal = span_h != span_v ? span_h < span_v : vertical_sum < horizontal_sum;
     }
+    const spec::morphological::Rgba8& first = !horizontal ? around.above[i]
+                                              : i == 0    ? around.before
+                                                          : around.centre[i - 1];
+    const spec::morphological::Rgba8& second = !horizontal      ? around.below[i]
+                                               : i + 1 == count ? around.after
+                                                                : around.centre[i + 1];
+    std::uint8_t first_share = horizontal ? s.left : s.up,
+                 second_share = horizontal ? s.right : s.down;
+    if (leave == Leave::kHalf) {
+      first_share = static_cast<std::uint8_t>(first_share >> is_marked(first));
+      second_share = static_cast<std::uint8_t>(second_share >> is_marked(second));
+      if (first_share + second_share == 0) {
+        beat.left = static_cast<std::uint8_t>(beat.left | 1u << i);
+        continue;
+      }
+    }
     spec::morphological::BlendTap& tap = beat.result.tap[i];
     tap.horizontal = horizontal;
-    tap.first = horizontal ? s.left : s.up;
-    tap.second = horizontal ? s.right : s.down;
+    tap.first = first_share;
+    tap.second = second_share;
+    beat.operands[i].code = {around.centre[i], first, second};
     beat.blend = static_cast<std::uint8_t>(beat.blend | 1u << i);
     if (strongest) mix_[i].read(cycle, std::uint64_t{tap.first} + tap.second);
-
-    const spec::morphological::Rgba8& left = i == 0 ? around.before : around.centre[i - 1];
-    const spec::morphological::Rgba8& right = i + 1 == count ? around.after : around.centre[i + 1];
-    beat.operands[i].code = {around.centre[i], horizontal ? left : around.above[i],
-                             horizontal ? right : around.below[i]};
   }
   blending_ += beat.blend != 0;
 }
@@ -212,7 +229,7 @@ void Blender::deliver(Cycle cycle, const Beat& beat) {
   spec::morphological::BlendedBeat& out = pixels_out.emplace(cycle);
   out = beat.result;
   if (beat.blend != 0) encode(cycle, beat, out);
-  if (store_.rules().leave != spec::morphological::Leave::kNone) {
+  if (store_.rules().leave != Leave::kNone) {
     left_pixels += static_cast<std::uint64_t>(std::popcount(beat.left));
     for (std::size_t i = 0; i < out.count; ++i) out.pixel[i][3] |= 1;
   }

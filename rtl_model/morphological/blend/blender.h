@@ -8,13 +8,14 @@
 // `downstream`. Rule `longest`: the axis that has shares at all; else the longer line; else the
 // larger sum, ties to up and down. Rule `strongest`: the axis of the largest share, ties to up and
 // down; each share w of the pair becomes w^2 / (w1 + w2). Rule `leave`: a pixel that is marked (bit
-// 0 of its alpha is 0), or beside one that is, takes no share, and the mark ends here.
+// 0 of its alpha is 0), or beside one that is, takes no share; or it takes half of a marked one's.
+// The mark ends here.
 // Formats: shares U0.8, linear light U0.12, result rounded by magnitude. Cost a lane: nine reads of
 // linear_rom, 256 x 12 bits (three a channel, behind the choice of the axis), three of encode_rom,
 // 4096 x 8 bits (two reads a copy), two multipliers 8 x 13 a channel, one of mix_rom, 511 x 17
-// bits, two multipliers 8 x 8 and two 17 x 16, nine comparators, five bits of marks. Made for 250
-// MHz; longest path: 17 x 16 multiply + 33-bit add. Source: paper 000, section 2 (D sums), SMAA 1x
-// (strongest); the tie rules are ours.
+// bits, two multipliers 8 x 8 and two 17 x 16, nine comparators, five bits of marks, two shifts.
+// Made for 250 MHz; longest path: 17 x 16 multiply + 33-bit add. Source: paper 000, section 2 (D
+// sums), SMAA 1x (strongest); the tie rules are ours.
 #pragma once
 
 #include <array>
@@ -49,7 +50,7 @@ class Blender final : public Unit {
 
   Counter pixels{"pixels", "pixels", "pixels delivered"};
   Counter blended_pixels{"blended_pixels", "pixels", "pixels that took a share of a neighbour"};
-  Counter left_pixels{"left_pixels", "pixels", "pixels with a share that the rule left alone"};
+  Counter left_pixels{"left_pixels", "pixels", "pixels that the rule left without a share"};
   Histogram beat_latency{"beat_latency", "clk", "from a beat being popped to it being pushed"};
 
  private:
@@ -65,7 +66,7 @@ class Blender final : public Unit {
     std::uint32_t slot;  // number
     bool last;           // of the frame
     std::uint8_t blend;  // bit k: lane k takes a share
-    std::uint8_t left;   // bit k: it would, but is left alone
+    std::uint8_t left;   // bit k: it had one, and the rule took it
     spec::morphological::BlendedBeat result;
     std::array<Operands, kLanes> operands;
   };

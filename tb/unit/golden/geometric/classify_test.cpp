@@ -133,7 +133,8 @@ TEST(Configuration, RefusesByName) {
   refused([](Parameters& p) { p.reciprocal_table = 10; }, "reciprocal_table");
   refused([](Parameters& p) { p.fills = 129; }, "memory.outstanding");
   refused([](Parameters& p) { p.face_limit = 8193; }, "face_limit");
-  refused([](Parameters& p) { p.touched_words = 17; }, "touched_words");
+  refused([](Parameters& p) { p.touched_words = 15; }, "touched_words");
+  refused([](Parameters& p) { p.fills = 7; }, "fills = 7 is outside 8..256");
   Parameters table;
   table.pipelined = false;
   table.reciprocal_table = 10;

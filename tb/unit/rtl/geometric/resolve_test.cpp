@@ -43,6 +43,7 @@ struct ResolveBench : Frame {
     begun = [this](Cycle cycle) { return combiner.cleared(cycle); };
     sequencer.edges_done = [this](Cycle cycle) { return combiner.drawn(cycle); };
     sequencer.resolve_done = [this](Cycle cycle) { return resolver.done(cycle); };
+    bus.write(reg::kColourBase, 0x40000);
     bus.write(reg::kWeightBase, 0x80000);
     begin(width, height);
     resolver.observer = [this](const spec::geometric::BlockRecord& block) {
@@ -68,6 +69,7 @@ struct ResolveBench : Frame {
     last.end = true;
     source.add(last);
     while (sequencer.phase(clock.cycle()) != Phase::kResolve) clock.run(1);
+    if (before_resolve) before_resolve();
     resolve_from = clock.cycle();
     const std::uint64_t sent = arbiter.requests_out.link().pushes();
     while (!sequencer.idle()) {
@@ -95,6 +97,7 @@ struct ResolveBench : Frame {
   rtl::Link<BlockToken> blocks;
   Source<WeightToken> source;
   Cycle resolve_from = 0;
+  std::function<void()> before_resolve;
   std::map<std::string, std::vector<Cycle>> at;  // clocks of the beats
   std::vector<spec::geometric::BlockRecord> resolved;
 };
@@ -147,6 +150,61 @@ TEST(Resolve, EveryTouchedBlockOnceInOrder) {
                                                                                  {3, 129},
                                                                                  {3, 255},
                                                                                  {5, 5}}));
+}
+
+// Blocks are in memory when it is overwritten by somebody else: what a pixel takes stays a half of
+// each neighbour at most, all of it from the frame, and nothing is touched outside of the regions.
+TEST(Resolve, WeightsOfMemoryMayBeAnything) {
+  for (const Layout layout : {Layout::kTiled, Layout::kRaster})
+    for (const auto& [width, height] : {std::pair{66, 6}, {67, 9}, {128, 8}, {65, 5}}) {
+      const std::string got = in_child([layout, width = width, height = height] {
+        constexpr std::uint32_t kColours = 0x40000, kWeights = 0x80000;
+        Parameters p;
+        p.layout = layout;
+        p.weight_blocks = CacheLines::k16;
+        ResolveBench b(p, width, height);
+        const int across = (width + 3) / 4, down = (height + 3) / 4;
+        for (int y = 0; y < down; ++y)
+          for (int x = 0; x < across; ++x) b.touch(x, y, 1u << 5);
+        const std::vector<std::uint8_t> noise(static_cast<std::size_t>(64 * across * down), 0xFF);
+        b.before_resolve = [&] {
+          b.memory.clear_statistics();
+          b.memory.preload(kWeights, noise);
+        };
+        b.run();
+        const std::uint32_t bytes =
+            layout == Layout::kTiled
+                ? static_cast<std::uint32_t>(256 * ((width + 7) / 8) * ((height + 7) / 8))
+                : static_cast<std::uint32_t>(64 * ((width + 15) / 16) * height);
+        std::string wrong;
+        for (const auto* lines : {&b.memory.lines_read(), &b.memory.lines_written()})
+          for (const std::uint64_t address : *lines) {
+            const bool colours = address >= kColours && address < kColours + bytes,
+                       weights = address >= kWeights && address < kWeights + noise.size();
+            if (!colours && !(weights && lines == &b.memory.lines_read())) wrong += "address ";
+          }
+        std::size_t from_memory = 0;
+        for (const auto& block : b.resolved) {
+          // It was in the cache; the pixel itself may lie outside of the frame.
+          if ((block.blended & ~(1u << 5)) == 0) continue;
+          ++from_memory;
+          for (int i = 0; i < 16; ++i) {
+            const int x = 4 * block.x + i % 4, y = 4 * block.y + i / 4;
+            const bool inside = x < width && y < height;
+            const auto most = [&](bool neighbour) {
+              return static_cast<std::uint8_t>(inside && neighbour ? 128 : 0);
+            };
+            const spec::geometric::Weights wanted = {most(y > 0), most(y + 1 < height), most(x > 0),
+                                                     most(x + 1 < width)};
+            if (block.weights[static_cast<std::size_t>(i)] != wanted) wrong += "weights ";
+            if ((block.blended >> i & 1) != inside) wrong += "blended ";
+          }
+        }
+        if (from_memory < 8) wrong += "all of them were in the cache";
+        return wrong;
+      });
+      EXPECT_EQ(got, "") << width;
+    }
 }
 
 // Clocks a block, of many: one is max(lines, beats, lines to write) in the Resolver, and lines +

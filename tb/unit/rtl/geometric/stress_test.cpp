@@ -113,7 +113,7 @@ TEST_P(EveryBuild, GivesTheSamePicture) {
 INSTANTIATE_TEST_SUITE_P(
     Table, EveryBuild,
     ::testing::Values(Builds{Lanes::kOne, Lanes::kOne, Lanes::kOne, CacheLines::k16,
-                             CacheLines::k16, CacheLines::k16, 4, 4, 1, 0, false},
+                             CacheLines::k16, CacheLines::k16, 8, 4, 1, 0, false},
                       Builds{Lanes::kFour, Lanes::kTwo, Lanes::kFour, CacheLines::k1024,
                              CacheLines::k1024, CacheLines::k1024, 128, 1024, 8, 11, false},
                       Builds{Lanes::kTwo, Lanes::kFour, Lanes::kOne, CacheLines::k32,

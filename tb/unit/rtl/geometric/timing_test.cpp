@@ -329,6 +329,17 @@ TEST(DepthTest, EightLinesTakeFourClocksOrEightMisses) {
   EXPECT_EQ(spread(b.ends), 6u * 4);
   EXPECT_EQ(b.unit.misses.value(), 56u);
 }
+// As few places for lines as can be built: a group that orders eight holds all of them.
+TEST(DepthTest, EightLinesFitIntoTheFewestFills) {
+  Parameters p = DepthBench::raster();
+  p.fills = spec::geometric::kMinFills;
+  DepthBench b(p);
+  for (int i = 0; i < 9; ++i) b.ends.source.add(DepthBench::column(4, i));
+  finish(b, b.ends, 9);
+  EXPECT_EQ(b.unit.misses.value(), 72u);
+  // The next group begins when the one before has left its places: M + 6 and eight lines.
+  EXPECT_LE(spread(b.ends), 8u * (26 + 8 + 8));
+}
 TEST(DepthTest, PassesAtEqualityForEachBias) {
   for (int bias = 1; bias <= 24; ++bias) {
     const std::string got = in_child([bias] {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tb/harness/forked.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
 namespace deburr::tb::morphological_rtl {
@@ -238,15 +239,16 @@ TEST_P(LeaveRule, LooksAtTheMarksOfTheFrame) {
         const bool inside = mark_x >= 0 && mark_x < kWidth && mark_y >= 0 && mark_y < kHeight,
                    own = mark[0] == 0 && mark[1] == 0;
         const bool left =
-            inside && (row.leave == Leave::kBeside || (row.leave == Leave::kMarked && own));
+            inside && (row.leave == Leave::kBeside || (row.leave != Leave::kNone && own));
+        const bool above = row.leave == Leave::kHalf && mark[0] == 0 && mark[1] == -1;
         const auto lane = static_cast<std::size_t>(x % lanes);
         const spec::morphological::BlendTap& tap = beat.tap[lane];
         const std::string where = std::to_string(x) + ", " + std::to_string(y) + " mark " +
                                   std::to_string(mark[0]) + ", " + std::to_string(mark[1]);
-        ASSERT_EQ(tap.first, left ? 0 : 64) << where;
+        ASSERT_EQ(tap.first, left ? 0 : above ? 32 : 64) << where;
         ASSERT_FALSE(tap.horizontal);
         ASSERT_EQ(tap.edges, 1);
-        ASSERT_EQ(beat.pixel[lane][0], left ? 100 : 80) << where;
+        ASSERT_EQ(beat.pixel[lane][0], left ? 100 : above ? 90 : 80) << where;
         for (int k = 0; k < beat.count; ++k) {
           const int alpha = at(x / lanes * lanes + k, y, mark, x, y)[3];
           ASSERT_EQ(beat.pixel[static_cast<std::size_t>(k)][3],
@@ -265,7 +267,7 @@ TEST_P(LeaveRule, LooksAtTheMarksOfTheFrame) {
 INSTANTIATE_TEST_SUITE_P(
     EveryOne, LeaveRule, ::testing::ValuesIn([] {
       std::vector<LeaveCase> cases;
-      for (const Leave leave : {Leave::kNone, Leave::kMarked, Leave::kBeside})
+      for (const Leave leave : {Leave::kNone, Leave::kMarked, Leave::kBeside, Leave::kHalf})
         for (const BlendRule blend : {BlendRule::kLongest, BlendRule::kStrongest})
           for (int lanes = 0; lanes < 3; ++lanes) cases.push_back({leave, blend, lanes});
       return cases;
@@ -278,6 +280,86 @@ INSTANTIATE_TEST_SUITE_P(
                  spec::morphological::kBlendRuleNames[static_cast<std::size_t>(row.param.blend)]) +
              "_" + std::to_string(1 << row.param.lanes_code);
     });
+
+// Shares of the chosen axis alone, each by its own neighbour, before they are mixed.
+class HalfShares : public ::testing::TestWithParam<int> {};
+TEST_P(HalfShares, AreThoseOfMarkedNeighbours) {
+  const int lanes_code = GetParam();
+  Parameters p = small(lanes_code);
+  p.linear_light = false;
+  p.leave = Leave::kHalf;
+  struct Row {
+    Shares s;
+    unsigned marks;  // up 1, down 2, left 4, right 8
+    bool horizontal;
+    int first, second;
+  };
+  const std::vector<Row> rows = {{{65, 33, 0, 0, 9, 9, 0, 0}, 0, false, 65, 33},
+                                 {{65, 33, 0, 0, 9, 9, 0, 0}, 1, false, 32, 33},
+                                 {{65, 33, 0, 0, 9, 9, 0, 0}, 2, false, 65, 16},
+                                 {{65, 33, 0, 0, 9, 9, 0, 0}, 3, false, 32, 16},
+                                 {{65, 33, 0, 0, 9, 9, 0, 0}, 12, false, 65, 33},
+                                 {{0, 0, 65, 33, 0, 0, 9, 9}, 4, true, 32, 33},
+                                 {{0, 0, 65, 33, 0, 0, 9, 9}, 8, true, 65, 16},
+                                 {{0, 0, 65, 33, 0, 0, 9, 9}, 3, true, 65, 33},
+                                 // The axis is chosen by whole shares.
+                                 {{60, 0, 50, 0, 9, 0, 9, 0}, 1, false, 30, 0},
+                                 {{1, 0, 0, 0, 9, 0, 0, 0}, 1, false, 0, 0},
+                                 {{0, 0, 1, 0, 0, 0, 9, 0}, 4, false, 0, 0},
+                                 {{1, 1, 0, 0, 9, 9, 0, 0}, 1, false, 0, 1},
+                                 {{0, 0, 1, 2, 0, 0, 9, 9}, 12, true, 0, 1}};
+  const int lanes = lanes_of(p);
+  for (const BlendRule blend : {BlendRule::kLongest, BlendRule::kStrongest}) {
+    p.blend = blend;
+    const std::string got = forked_text([&] {
+      Blending bench(p, 4 * lanes, 8);
+      for (const Row& row : rows)
+        for (int lane = 0; lane < lanes; ++lane) {
+          const auto i = static_cast<std::size_t>(lane);
+          ShareToken token{};
+          token.slot.row = static_cast<std::uint16_t>(2 + kLag);
+          token.slot.beat = 1;
+          token.any = true;
+          token.shares[i] = row.s;
+          PixelToken around{};
+          const auto alpha = [&](unsigned bit) {
+            return static_cast<std::uint8_t>(row.marks & bit ? 254 : 1);
+          };
+          for (auto& pixel : around.centre) pixel = {100, 100, 100, 1};
+          around.above[i] = {200, 200, 200, alpha(1)};
+          around.below[i] = {20, 20, 20, alpha(2)};
+          (lane == 0 ? around.before : around.centre[i - 1]) = {200, 200, 200, alpha(4)};
+          (lane + 1 == lanes ? around.after : around.centre[i + 1]) = {20, 20, 20, alpha(8)};
+          bench.send(token, around);
+        }
+      bench.clock.run(rows.size() * 4 + 20);
+      std::string wrong;
+      std::size_t beat = 0, blended = 0;
+      for (const Row& row : rows)
+        for (int lane = 0; lane < lanes; ++lane, ++beat) {
+          const auto& tap = bench.sink.beats().at(beat).tap[static_cast<std::size_t>(lane)];
+          int first = row.first, second = row.second;
+          if (blend == BlendRule::kStrongest && first + second != 0) {
+            const int s = first + second, r = (131072 + s) / (2 * s);
+            first = (first * first * r + 32768) >> 16;
+            second = (second * second * r + 32768) >> 16;
+          }
+          blended += row.first + row.second != 0;
+          if (tap.horizontal != row.horizontal || tap.first != first || tap.second != second)
+            wrong += std::to_string(beat) + " ";
+          const int value = bench.sink.beats()[beat].pixel[static_cast<std::size_t>(lane)][1],
+                    sum = first * 100 - second * 80, moved = ((sum < 0 ? -sum : sum) + 128) / 256;
+          if (value != 100 + (sum < 0 ? -moved : moved)) wrong += std::to_string(beat) + "v ";
+        }
+      if (bench.blender.blended_pixels.value() != blended ||
+          bench.blender.left_pixels.value() != beat - blended)
+        wrong += "counts";
+      return wrong;
+    });
+    EXPECT_EQ(got, "");
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Lanes, HalfShares, ::testing::Range(0, 3));
 
 TEST(BlenderBlock, ALeftPixelWithoutAShareCountsNowhere) {
   Parameters p = small();

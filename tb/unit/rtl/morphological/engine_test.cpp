@@ -156,7 +156,7 @@ class LeftPixels : public ::testing::TestWithParam<Leaving> {};
 
 // Of the frame that no rule leaves alone: what is left is as it came, everything else is the same.
 TEST_P(LeftPixels, AreAsTheyCameAndNothingElseChanges) {
-  constexpr std::uint32_t kMarked = 1, kBeside = 2;
+  constexpr std::uint32_t kBeside = 2;
   Parameters p = GetParam().rules();
   p.lanes = static_cast<spec::morphological::Lanes>(GetParam().lanes_code);
   if (GetParam().in_memory) p.storage = spec::morphological::Storage::kMemory;
@@ -182,7 +182,7 @@ TEST_P(LeftPixels, AreAsTheyCameAndNothingElseChanges) {
   const auto marked = [&](int x, int y) {
     return x >= 0 && x < w && y >= 0 && y < h && frame.at(x, y)[3] % 2 == 0;
   };
-  for (const std::uint32_t leave : {kMarked, kBeside}) {
+  for (const std::uint32_t leave : {1u, kBeside, 3u}) {
     const auto beats = run(leave);
     const auto beats_a_row = static_cast<std::size_t>((w + lanes - 1) / lanes);
     spec::morphological::Work expected = work;
@@ -205,6 +205,25 @@ TEST_P(LeftPixels, AreAsTheyCameAndNothingElseChanges) {
           pixel = frame.at(x, y);
         }
         pixel[3] = frame.at(x, y)[3] | 1;
+        // Halved shares are the Blender's test; here they leave the rest alone.
+        if (leave == 3 && !left && (tap.first != 0 || tap.second != 0)) {
+          const int dx = tap.horizontal, dy = !tap.horizontal;
+          const bool first = tap.first != 0 && marked(x - dx, y - dy),
+                     second = tap.second != 0 && marked(x + dx, y + dy);
+          if (first || second) {
+            const spec::morphological::BlendTap& half = beats[beat].tap[lane];
+            ASSERT_EQ(beats[beat].pixel[lane][3], pixel[3]);
+            const bool takes = half.first != 0 || half.second != 0;
+            expected.left_pixels += !takes;
+            expected.blended_pixels -= !takes;
+            ASSERT_EQ(half.horizontal, tap.horizontal && takes);
+            if (p.blend == spec::morphological::BlendRule::kLongest) {
+              ASSERT_EQ(half.first, tap.first >> first);
+              ASSERT_EQ(half.second, tap.second >> second);
+            }
+            continue;
+          }
+        }
         ASSERT_EQ(beats[beat].tap[lane], tap) << x << ' ' << y;
         ASSERT_EQ(beats[beat].pixel[lane], pixel) << x << ' ' << y;
       }

@@ -438,6 +438,7 @@ void dynamic(P& p) {
 void fit(P& p) { p.predictor = spec::morphological::Predictor::kFit; }
 void marked(P& p) { p.leave = spec::morphological::Leave::kMarked; }
 void beside(P& p) { p.leave = spec::morphological::Leave::kBeside; }
+void half(P& p) { p.leave = spec::morphological::Leave::kHalf; }
 void as_before(P& p) { p.leave = spec::morphological::Leave::kNone; }
 template <int kSteps>
 void steps(P& p) {
@@ -481,7 +482,7 @@ INSTANTIATE_TEST_SUITE_P(
         Field{"leave_marked", as_it_is, reg::kRules, 23, 24, 1, marked},
         Field{"leave_beside", as_it_is, reg::kRules, 23, 24, 2, beside},
         Field{"leave_none", beside, reg::kRules, 23, 24, 0, as_before},
-        Field{"leave_3_is_none", marked, reg::kRules, 23, 24, 3, as_before},
+        Field{"leave_half", as_it_is, reg::kRules, 23, 24, 3, half},
         Field{"crossings_are_off_where_not_built", as_it_is, reg::kRules, 18, 18, 1, as_it_is,
               false},
         Field{"tables_are_off_where_not_built", as_it_is, reg::kRules, 19, 19, 1, as_it_is, false},

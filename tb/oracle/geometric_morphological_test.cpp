@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: MIT
+// Which way of joining the geometric and the morphological engine smooths best? Every way on every
+// scene from its own camera and from others that nothing was tuned on, against supersampling
+// (docs/geometric_quality.md).
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "golden/geometric/resolve.h"
+#include "golden/ideal/geometric.h"
+#include "golden/morphological/morphological_golden.h"
+#include "spec/geometric/tables.h"
+#include "tb/stimuli/geometric_frames.h"
+#include "tb/unit/scene/fixtures.h"
+
+namespace deburr {
+namespace {
+
+using golden::geometric::GeometricGolden;
+using golden::ideal::Light;
+using golden::ideal::NearestEdges;
+using golden::ideal::SideWeights;
+using golden::morphological::EdgePlanes;
+using golden::morphological::MorphologicalGolden;
+using spec::morphological::Leave;
+using spec::morphological::Parameters;
+using tb::Image;
+using tb::geometric::Judge;
+
+constexpr int kWidth = 640, kHeight = 480;
+
+Parameters rules(Leave leave = Leave::kNone) {
+  Parameters p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr);
+  p.leave = leave;
+  return p;
+}
+
+// ---- the two channels ---------------------------------------------------------------------------
+
+std::vector<NearestEdges> channels_of(const GeometricGolden& golden) {
+  std::vector<SideWeights> weights;
+  for (const spec::geometric::Weights& w : golden.weights())
+    weights.push_back({w[0] / 256.0, w[1] / 256.0, w[2] / 256.0, w[3] / 256.0});
+  return golden::ideal::nearest_edges(weights);
+}
+
+// Blended by the channels alone, in the light of the engine's tables.
+Image blended_by(const std::vector<NearestEdges>& channels, const Image& frame) {
+  std::vector<Light> light;
+  for (const tb::Rgba8& pixel : frame.pixels) {
+    Light l;
+    for (std::size_t c = 0; c < 3; ++c) l[c] = spec::geometric::kLinear12FromSrgb[pixel[c]];
+    light.push_back(l);
+  }
+  const std::vector<Light> result = golden::ideal::blended(light, channels, frame.width);
+  Image image = frame;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      image.pixels[i][c] =
+          spec::geometric::kSrgbFromLinear12[static_cast<std::size_t>(std::lround(result[i][c]))];
+    }
+  }
+  return image;
+}
+
+// The channels as edges between pixels: between a pixel and the neighbour that it would take from.
+// A line gives one such edge a column; where it goes on a row further the edge across, at which
+// runs end, is missing, and is put in.
+EdgePlanes edges_of(const std::vector<NearestEdges>& channels, int width, int height) {
+  EdgePlanes edges;
+  for (auto* plane : {&edges.left, &edges.top}) plane->resize(width, height);
+  const auto at = [&](int x, int y) {
+    return channels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                    static_cast<std::size_t>(x)];
+  };
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const NearestEdges e = at(x, y);
+      if (e.horizontal != 0.0) edges.left.set(x + (e.horizontal > 0.0 ? 1 : 0), y);
+      if (e.vertical != 0.0) edges.top.set(x, y + (e.vertical > 0.0 ? 1 : 0));
+    }
+  }
+  EdgePlanes result = edges;
+  const auto& [left, top] = edges;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const bool rises = top.at(x - 1, y + 1) && top.at(x, y) && !top.at(x - 1, y);
+      const bool falls = top.at(x - 1, y) && top.at(x, y + 1) && !top.at(x, y);
+      if (x > 0 && (rises || falls)) result.left.set(x, y);
+      const bool to_left = left.at(x + 1, y - 1) && left.at(x, y) && !left.at(x, y - 1);
+      const bool to_right = left.at(x, y - 1) && left.at(x + 1, y) && !left.at(x, y);
+      if (y > 0 && (to_left || to_right)) result.top.set(x, y);
+    }
+  }
+  return result;
+}
+
+// Luma's edges where one of the two pixels has a channel.
+EdgePlanes luma_edges_at(const std::vector<NearestEdges>& channels, const Image& frame) {
+  MorphologicalGolden golden(rules(), MorphologicalGolden::Detail::kPixels);
+  golden.process({frame.pixels, frame.width, frame.height});
+  EdgePlanes result;
+  for (auto* plane : {&result.left, &result.top}) plane->resize(frame.width, frame.height);
+  const auto has = [&](int x, int y) {
+    const NearestEdges& e =
+        channels[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
+                 static_cast<std::size_t>(x)];
+    return e.horizontal != 0.0 || e.vertical != 0.0;
+  };
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      if (golden.edges().left.at(x, y) && (has(x, y) || has(x - 1, y))) result.left.set(x, y);
+      if (golden.edges().top.at(x, y) && (has(x, y) || has(x, y - 1))) result.top.set(x, y);
+    }
+  }
+  return result;
+}
+
+// ---- all ways -----------------------------------------------------------------------------------
+
+struct Figures {
+  double edges = 0, silhouettes = 0;  // RMSE
+};
+using Table = std::map<std::string, Figures>;
+
+double better_by(double a, double than) { return 20 * std::log10(than / a); }  // dB
+
+Table measure(const tb::Scene& scene, const std::string& name, int width, int height, int samples) {
+  const Judge judge(scene, width, height, samples);
+  const Image& frame = judge.frame.image;
+  Table table;
+  const auto add = [&](const char* way, const Image& image) {
+    table[way] = {judge.edge_rmse(image), judge.silhouette_rmse(image)};
+    fmt::print("| {} | {} | {:.2f} / {:.2f} |\n", name, way, table[way].edges,
+               table[way].silhouettes);
+  };
+  const auto smoothed = [&](const Image& image, const Parameters& p) {
+    MorphologicalGolden golden(p, MorphologicalGolden::Detail::kPixels);
+    Image result = image;
+    result.pixels = golden.process({image.pixels, image.width, image.height},
+                                   {judge.frame.depths, image.width, image.height});
+    return result;
+  };
+  const auto with_edges = [&](const EdgePlanes& edges) {
+    MorphologicalGolden golden(rules(), MorphologicalGolden::Detail::kPixels);
+    Image result = frame;
+    result.pixels = golden.process({frame.pixels, width, height}, edges);
+    return result;
+  };
+
+  spec::geometric::Parameters geometric_rules =
+      golden::geometric::preset_parameters(spec::geometric::Preset::kDeburr);
+  geometric_rules.mark = true;
+  GeometricGolden golden(geometric_rules, GeometricGolden::Detail::kPixels);
+  Image geometric = frame;
+  geometric.pixels = golden.process(judge.frame.input());
+  const std::vector<NearestEdges> channels = channels_of(golden);
+
+  add("none", frame);
+  add("msaa4", judge.msaa);
+  add("morphological", smoothed(frame, rules()));
+  add("geometric", geometric);
+  add("twice", smoothed(geometric, rules()));
+  add("marked", smoothed(geometric, rules(Leave::kMarked)));
+  add("beside", smoothed(geometric, rules(Leave::kBeside)));
+  add("half", smoothed(geometric, rules(Leave::kHalf)));
+  const Parameters following = golden::morphological::following_geometric(rules());
+  for (const auto& [way, leave] :
+       {std::pair("depth, marked", Leave::kMarked), std::pair("depth, beside", Leave::kBeside)}) {
+    Parameters p = following;
+    p.leave = leave;
+    add(way, smoothed(geometric, p));
+  }
+  add("depth, half", smoothed(geometric, following));
+  add("two channels", blended_by(channels, frame));
+  add("channels as edges", with_edges(edges_of(channels, width, height)));
+  add("luma edges at channels", with_edges(luma_edges_at(channels, frame)));
+  std::fflush(stdout);
+  return table;
+}
+
+// What is asked of every scene and camera. Where lines that are not seen lie within a pixel of
+// those that are (terrain), the geometric engine's own weights are wrong.
+void judge_ways(const Table& t, bool lines_are_apart) {
+  const auto gain = [&](const char* way, const char* than) {
+    return Figures{better_by(t.at(way).edges, t.at(than).edges),
+                   better_by(t.at(way).silhouettes, t.at(than).silhouettes)};
+  };
+  const Figures joined = gain("depth, half", "geometric");
+  EXPECT_GT(joined.edges, -0.25);
+  EXPECT_GT(joined.silhouettes, -0.25);
+  EXPECT_GT(gain("half", "twice").silhouettes, 0.6);
+  // The channels say less than the four weights.
+  EXPECT_LT(gain("two channels", "geometric").edges, 0.2);
+  if (!lines_are_apart) return;
+  EXPECT_GT(gain("depth, half", "msaa4").silhouettes, 0);
+  EXPECT_GT(gain("depth, half", "morphological").silhouettes, 1);
+  // Runs of edges say less than distances, whoever found the edges.
+  EXPECT_LT(gain("channels as edges", "depth, half").silhouettes, -0.5);
+  EXPECT_LT(gain("luma edges at channels", "depth, half").silhouettes, -0.4);
+}
+
+tb::Scene turned(const std::string& name, double degrees) {
+  tb::Scene scene = tb::make_scene(name);
+  const double angle = degrees * std::numbers::pi / 180;
+  const Imath::V3d from = scene.camera.eye - scene.camera.target;
+  const Imath::V3d to{from.x * std::cos(angle) + from.z * std::sin(angle), from.y,
+                      from.z * std::cos(angle) - from.x * std::sin(angle)};
+  scene.camera.eye = scene.camera.target + to;
+  return scene;
+}
+
+class Joined : public testing::TestWithParam<const char*> {};
+
+TEST_P(Joined, IsBestAsBuilt) {
+  const std::string name = GetParam();
+  for (const int degrees : {0, 25, -50, 77}) {
+    SCOPED_TRACE(degrees);
+    judge_ways(measure(turned(name, degrees), fmt::format("{} {}", name, degrees), kWidth, kHeight,
+                       degrees == 0 ? 16 : 8),
+               name != "terrain");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Joined,
+                         testing::Values("cube", "sphere", "wheelcover", "wing", "canopy",
+                                         "cylinders", "object", "road", "terrain"));
+
+TEST(Joined, TracksToo) {
+  DEBURR_REQUIRE_DATA(data);
+  const tb::Camera cameras[] = {{{4.6, 2.6, 12.5}, {-0.6, 0.4, -4}, {0, 1, 0}, 1.0, 0.1},
+                                {{-4, 1.5, 10}, {2, 0.5, -4}, {0, 1, 0}, 1.0, 0.1},
+                                {{8, 1.2, 2}, {-4, 0.8, -2}, {0, 1, 0}, 1.0, 0.1}};
+  int camera = 0;
+  for (const tb::Camera& each : cameras) {
+    tb::SceneOptions options;
+    options.camera = each;
+    const tb::Scene scene = tb::load_scene((data / "meshes" / "scene_track.obj").string(), options);
+    judge_ways(measure(scene, fmt::format("track {}", camera++), 1280, 720, 8), true);
+  }
+}
+
+// ---- the outermost line -------------------------------------------------------------------------
+
+// The frame if of all candidates of a pixel for one neighbour the outermost counted, as seen from
+// what is nearer.
+Image by_outermost(const tb::geometric::Frame& frame, const spec::geometric::Parameters& p) {
+  GeometricGolden golden(p);
+  golden.process(frame.input());
+  std::vector<spec::geometric::Weights> weights(frame.depths.size());
+  constexpr int kX[] = {0, 0, -1, 1}, kY[] = {-1, 1, 0, 0};
+  for (const spec::geometric::Candidate& c : golden.candidates()) {
+    if (!c.passed) continue;
+    const auto d = static_cast<std::size_t>(c.direction);
+    const std::size_t own = frame.image.index(c.x, c.y),
+                      other = frame.image.index(c.x + kX[d], c.y + kY[d]);
+    std::uint8_t& weight = weights[own][d];
+    const bool smallest = frame.depths[own] > frame.depths[other] && weight != 0;
+    weight = smallest ? std::min(weight, c.coverage) : std::max(weight, c.coverage);
+  }
+  Image image = frame.image;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const spec::geometric::Weights& w = weights[image.index(x, y)];
+      if (!golden::geometric::is_blended(w)) continue;
+      const golden::geometric::Tap tap = golden::geometric::tap_of(w);
+      const int dx = tap.left_right ? 1 : 0, dy = tap.left_right ? 0 : 1;
+      const tb::Rgba8& own = frame.image.at(x, y);
+      image.at(x, y) = golden::geometric::resolve(
+          p, tap, own, tap.first != 0 ? frame.image.at(x - dx, y - dy) : own,
+          tap.second != 0 ? frame.image.at(x + dx, y + dy) : own);
+    }
+  }
+  return image;
+}
+
+TEST(Outermost, WouldMendHiddenLines) {
+  spec::geometric::Parameters p =
+      golden::geometric::preset_parameters(spec::geometric::Preset::kDeburr);
+  p.mark = true;
+  for (const char* name : {"wheelcover", "canopy", "cylinders", "object", "terrain"}) {
+    for (const int degrees : {0, 25, -50, 77}) {
+      const Judge judge(turned(name, degrees), kWidth, kHeight, 8);
+      const auto followed = [&](const Image& image) {
+        MorphologicalGolden golden(golden::morphological::following_geometric(rules()),
+                                   MorphologicalGolden::Detail::kPixels);
+        Image result = image;
+        result.pixels =
+            golden.process({image.pixels, kWidth, kHeight}, {judge.frame.depths, kWidth, kHeight});
+        return result;
+      };
+      Image largest = judge.frame.image;
+      GeometricGolden golden(p, GeometricGolden::Detail::kPixels);
+      largest.pixels = golden.process(judge.frame.input());
+      const Image outermost = by_outermost(judge.frame, p);
+      std::string row = fmt::format("| {} {} |", name, degrees);
+      for (const Image& image :
+           {judge.msaa, largest, outermost, followed(largest), followed(outermost)})
+        row +=
+            fmt::format(" {:.2f} / {:.2f} |", judge.edge_rmse(image), judge.silhouette_rmse(image));
+      fmt::print("{}\n", row);
+      const double gain =
+          better_by(judge.silhouette_rmse(outermost), judge.silhouette_rmse(largest));
+      EXPECT_GT(gain, std::string(name) == "terrain" ? 1 : -0.1) << name << ' ' << degrees;
+    }
+  }
+}
+
+// ---- of the channels alone ----------------------------------------------------------------------
+
+// The nearer side of each axis, and the neighbour across the nearer edge of both.
+TEST(NearestEdges, KeepTheNearerSide) {
+  const std::vector<SideWeights> weights = {{0, 0, 0, 0.25}, {0.5, 0.25, 0.125, 0}, {0, 0, 0, 0}};
+  const std::vector<NearestEdges> e = golden::ideal::nearest_edges(weights);
+  EXPECT_EQ(e[0].horizontal, 0.25);
+  EXPECT_EQ(e[1].vertical, -0.5);
+  EXPECT_EQ(e[1].horizontal, -0.125);
+  EXPECT_EQ(e[2].vertical, 0.0);
+
+  const std::vector<Light> frame = {{8, 8, 8}, {0, 0, 0}, {4, 4, 4}, {16, 16, 16}};
+  const std::vector<Light> image =
+      golden::ideal::blended(frame, std::vector<NearestEdges>{{0.25, 0}, {}, {0.25, -0.5}, {}}, 2);
+  EXPECT_EQ(image[0][0], 8 - 0.25 * 8);
+  EXPECT_EQ(image[1][0], 0);
+  EXPECT_EQ(image[2][0], 4 + 0.5 * 4);
+  EXPECT_EQ(image[3][0], 16);
+}
+
+}  // namespace
+}  // namespace deburr

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// What must not change a pixel, a candidate or a line of memory of a rendered frame: stalls on
+// every link, memory that answers late and in any order, the order in which units are evaluated,
+// the fast path, noise in what nobody wrote; and a reset in each phase of a frame, after which
+// everything is as after the first one.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+
+#include "tb/harness/engine_state.h"
+#include "tb/harness/forked.h"
+#include "tb/system/geometric_runs.h"
+
+namespace deburr::tb::geometric_system {
+namespace {
+
+using rtl::geometric::Phase;
+
+class GeometricStress : public testing::TestWithParam<Preset> {
+ protected:
+  static GeometricRunOptions calm() {
+    GeometricRunOptions options;
+    options.geometric = preset(GetParam());
+    options.geometric.weight_blocks = CacheLines::k16;  // so that blocks spill
+    options.geometric.depth_lines = options.geometric.vertex_lines = CacheLines::k32;
+    return options;
+  }
+  static GeometricOutcome run(const GeometricRunOptions& options) {
+    return forked<GeometricOutcome>([&] {
+      return simulate({scene_frame("object", 120, 90), random_frame(77, 50, 4)}, options);
+    });
+  }
+};
+
+TEST_P(GeometricStress, NothingOutsideChangesThePicture) {
+  const GeometricOutcome quiet = run(calm());
+  EXPECT_GT(quiet.spilled, 100u);
+  const auto expect_same = [&](const char* what, auto&& change) {
+    GeometricRunOptions options = calm();
+    change(options);
+    const GeometricOutcome outcome = run(options);
+    EXPECT_EQ(outcome.hash, quiet.hash) << what;
+    EXPECT_EQ(outcome.mismatches + outcome.traffic_mismatches, 0u) << what;
+    EXPECT_EQ(outcome.comparisons, quiet.comparisons) << what;
+    EXPECT_EQ(outcome.traffic_comparisons, quiet.traffic_comparisons) << what;
+    return outcome;
+  };
+  for (const std::uint32_t permille : {50u, 300u, 600u}) {
+    const GeometricOutcome slow = expect_same("stalls", [&](GeometricRunOptions& o) {
+      o.stall_permille = permille;
+      o.seed = permille;
+    });
+    EXPECT_GT(slow.cycles, quiet.cycles);
+  }
+  for (const int latency_max : {30, 300}) {
+    expect_same("latency", [&](GeometricRunOptions& o) {
+      o.memory.latency = 1;
+      o.memory.latency_max = latency_max;
+      o.memory.banks = 4;
+      o.memory.bank_busy = 3;
+    });
+  }
+  expect_same("little bandwidth", [](GeometricRunOptions& o) {
+    o.memory.bytes_per_clock = 8;
+    o.memory.outstanding = 2;
+  });
+  const GeometricOutcome shuffled =
+      expect_same("order of evaluation", [](GeometricRunOptions& o) { o.shuffle = true; });
+  EXPECT_EQ(shuffled.cycles, quiet.cycles);
+  const GeometricOutcome slow_path =
+      expect_same("fast path off", [](GeometricRunOptions& o) { o.fast_path = false; });
+  EXPECT_EQ(slow_path.cycles, quiet.cycles);
+  EXPECT_GE(slow_path.activations, quiet.activations);
+  const GeometricOutcome noisy =
+      expect_same("poison", [](GeometricRunOptions& o) { o.poison = true; });
+  EXPECT_EQ(noisy.cycles, quiet.cycles);
+  expect_same("everything", [](GeometricRunOptions& o) {
+    o.stall_permille = 150;
+    o.memory.latency_max = 120;
+    o.shuffle = o.poison = true;
+    o.seed = 9;
+  });
+}
+
+TEST_P(GeometricStress, SameSeedGivesTheSameClocks) {
+  GeometricRunOptions options = calm();
+  options.stall_permille = 150;
+  options.memory.latency_max = 80;
+  options.seed = 5;
+  const GeometricOutcome first = run(options), second = run(options);
+  EXPECT_EQ(first.cycles, second.cycles);
+  options.seed = 6;
+  EXPECT_NE(run(options).cycles, first.cycles);
+}
+
+TEST_P(GeometricStress, ARunThatIsResetBeginsAgain) {
+  const GeometricOutcome quiet = run(calm());
+  for (const rtl::Cycle at : {3u, 40u, 150u, 900u, 4001u}) {
+    GeometricRunOptions options = calm();
+    options.reset_after = at;
+    options.stall_permille = at == 900 ? 150 : 0;
+    options.poison = true;
+    const GeometricOutcome outcome = run(options);
+    EXPECT_EQ(outcome.hash, quiet.hash) << "reset after " << at;
+    EXPECT_EQ(outcome.mismatches + outcome.traffic_mismatches, 0u) << at;
+    EXPECT_EQ(outcome.lines, quiet.lines);
+  }
+}
+
+// Everything that can be read of the engine, not what comes out of it alone.
+TEST_P(GeometricStress, AfterAResetInAnyPhaseTheStateIsThatOfANewEngine) {
+  const GeometricRunOptions options = calm();
+  Simulation simulation(options);
+  const std::vector<Frame> frames = {scene_frame("object", 120, 90)};
+  GeometricEnvironment environment(simulation, frames, options);
+  simulation.elaborate(environment);
+  rtl::ClockDomain& clock = simulation.clock();
+  const auto reset = [&] {
+    clock.set_reset_n(false);
+    clock.run(4);
+    clock.set_reset_n(true);
+    environment.configure();
+  };
+  reset();
+  const std::vector<std::string> fresh = engine_state(environment.engine(), environment.host());
+  ASSERT_GT(fresh.size(), 150u);
+  const auto phase = [&] { return environment.engine().frame_sequencer.phase(clock.cycle()); };
+  environment.begin(0);
+  std::array<int, 4> resets{};  // by phase
+  for (const auto& [wanted, clocks] : std::initializer_list<std::pair<Phase, int>>{
+           {Phase::kIdle, 0},  // in the clock after the write
+           {Phase::kBegin, 1},
+           {Phase::kBegin, 30},
+           {Phase::kEdges, 0},
+           {Phase::kEdges, 60},
+           {Phase::kEdges, 700},
+           {Phase::kResolve, 0},
+           {Phase::kResolve, 40},
+           {Phase::kResolve, 300}}) {
+    ASSERT_TRUE(clock.run_until([&, wanted = wanted] { return phase() == wanted; }, 100'000));
+    clock.run(static_cast<rtl::Cycle>(clocks));
+    ++resets[static_cast<std::size_t>(phase())];
+    ASSERT_FALSE(environment.engine().idle()) << clocks << " clocks into a phase";
+    reset();
+    EXPECT_EQ(state_difference(fresh, engine_state(environment.engine(), environment.host())), "");
+    environment.restart();
+  }
+  EXPECT_EQ(resets, (std::array<int, 4>{1, 2, 3, 3}));
+  const auto finished = [&] {
+    environment.watch();
+    return environment.done();
+  };
+  ASSERT_TRUE(clock.run_until(finished, 200'000));
+  environment.end();
+  environment.finish();
+  EXPECT_NO_THROW(environment.check());
+  reset();
+  EXPECT_EQ(state_difference(fresh, engine_state(environment.engine(), environment.host())), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Geometric, GeometricStress, testing::ValuesIn(kPresets),
+                         [](const auto& row) { return std::to_string(row.index); });
+
+}  // namespace
+}  // namespace deburr::tb::geometric_system

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+// Whole frames through the hardware model of the geometric engine: every line, candidate, block,
+// pixel, counter and memory line equal to the golden model, for every preset and build; and what
+// must not change the picture.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <tuple>
+
+#include "spec/error.h"
+#include "tb/env/geometric_frames.h"
+#include "tb/harness/forked.h"
+#include "tb/system/geometric_runs.h"
+
+namespace deburr::tb::geometric_system {
+namespace {
+
+using Frames = std::vector<Frame>;
+
+// Everything came and was compared: each pixel, and more than that.
+GeometricOutcome expect_identical(const Frames& frames, const GeometricRunOptions& options) {
+  const GeometricOutcome outcome = simulate(frames, options);
+  EXPECT_EQ(outcome.mismatches, 0u);
+  EXPECT_EQ(outcome.traffic_mismatches, 0u);
+  std::uint64_t pixels = 0, edges = 0;
+  for (const Frame& frame : frames) {
+    pixels += frame.image.pixels.size();
+    edges += frame.screen.edges.size();
+  }
+  EXPECT_GE(outcome.comparisons, pixels + outcome.lines + outcome.candidates);
+  EXPECT_GE(outcome.traffic_comparisons, edges / 4);
+  return outcome;
+}
+
+template <class Tuple>
+std::string name_of(const testing::TestParamInfo<Tuple>& info) {
+  std::string name{
+      spec::geometric::kPresetNames[static_cast<std::size_t>(std::get<0>(info.param))]};
+  std::replace(name.begin(), name.end(), '-', '_');
+  return fmt::format("{}_{}", name, info.index);
+}
+
+// ---- presets x layouts x walkers x edge lanes ---------------------------------------------------
+
+using Variant = std::tuple<Preset, Layout, Lanes, Lanes>;
+class EveryVariant : public testing::TestWithParam<Variant> {};
+
+TEST_P(EveryVariant, FramesBehindEachOtherAreIdenticalToGolden) {
+  const auto [which, layout, walkers, edge_lanes] = GetParam();
+  GeometricRunOptions options;
+  options.geometric = preset(which);
+  options.geometric.layout = layout;
+  options.geometric.walkers = walkers;
+  options.geometric.edge_lanes = edge_lanes;
+  options.geometric.line_pixels = 1024;
+  const GeometricOutcome outcome = expect_identical(
+      {random_frame(131, 77, 1), random_frame(5, 90, 2, 90), random_frame(603, 9, 3, 200),
+       random_frame(64, 64, 4, 700), random_frame(1, 1, 5, 40)},
+      options);
+  EXPECT_GT(outcome.blended, 4000u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Geometric, EveryVariant,
+                         testing::Combine(testing::ValuesIn(kPresets),
+                                          testing::Values(Layout::kRaster, Layout::kTiled),
+                                          testing::Values(Lanes::kOne, Lanes::kTwo, Lanes::kFour),
+                                          testing::Values(Lanes::kOne, Lanes::kTwo, Lanes::kFour)),
+                         name_of<Variant>);
+
+class EveryMix : public testing::TestWithParam<int> {};
+
+// Each rule and each size drawn for itself.
+TEST_P(EveryMix, IsIdenticalToGolden) {
+  const auto seed = static_cast<std::uint64_t>(GetParam());
+  Random random(seed, "mix");
+  const auto below = [&](int n) {
+    return static_cast<int>(random.below(static_cast<std::uint32_t>(n)));
+  };
+  const auto lanes = [&] { return static_cast<Lanes>(below(3)); };
+  const auto cache = [&] { return static_cast<CacheLines>(below(below(2) ? 7 : 2)); };
+  GeometricRunOptions options;
+  Parameters& p = options.geometric;
+  p.select = static_cast<spec::geometric::Select>(below(4) != 0);
+  p.crease = static_cast<spec::geometric::Crease>(below(3));
+  p.depth_test = static_cast<spec::geometric::DepthTest>(below(3));
+  p.depth_bias = 1 + below(24);
+  p.combine = static_cast<spec::geometric::Combine>(below(2));
+  p.linear_light = below(2) != 0;
+  p.mark = below(2) != 0;
+  p.layout = static_cast<Layout>(below(2));
+  p.frame_copy = below(3) == 0;
+  p.line_pixels = 300;
+  p.touched_words = 16 + below(64);
+  p.face_limit = 8192 + 512 * below(3);
+  p.edge_lanes = lanes();
+  p.edge_lines = 4 + below(60);
+  p.vertex_lines = cache();
+  p.pipelined = below(3) == 0;
+  p.dividers = 1 + below(8);
+  p.reciprocal_table = p.pipelined ? 0 : below(12);
+  p.line_fifo = 2 + below(20);
+  p.walkers = lanes();
+  p.depth_lines = cache();
+  p.weight_blocks = cache();
+  p.fills = spec::geometric::kMinFills + below(below(2) ? 60 : 4);
+  p.latency_fifo = 4 + below(200);
+  p.resolve_lanes = lanes();
+  p.resolve_lines = 16 + 2 * below(50);
+  p.memory_outstanding = p.fills + below(80);
+  options.memory.latency = 1 + below(60);
+  options.memory.latency_max = below(2) ? 0 : options.memory.latency + below(120);
+  options.memory.banks = 1 << below(4);
+  options.memory.bank_busy = below(6);
+  options.seed = seed + 1;
+  expect_identical({random_frame(1 + below(300), 1 + below(60), seed + 100, 1 + below(500)),
+                    random_frame(1 + below(70), 1 + below(60), seed + 200, 1 + below(500)),
+                    random_frame(1 + below(24), 1 + below(60), seed + 300, 1 + below(80))},
+                   options);
+}
+
+INSTANTIATE_TEST_SUITE_P(Geometric, EveryMix, testing::Range(0, 80));
+
+// ---- scenes, and meshes that others made --------------------------------------------------------
+
+using Named = std::tuple<Preset, const char*>;
+class RenderedFrame : public testing::TestWithParam<Named> {};
+
+TEST_P(RenderedFrame, IsIdenticalToGolden) {
+  const auto [which, scene] = GetParam();
+  GeometricRunOptions options;
+  options.geometric = preset(which);
+  options.check_links = false;
+  const GeometricOutcome outcome = expect_identical({scene_frame(scene, 320, 240)}, options);
+  EXPECT_GT(outcome.blended, 300u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Geometric, RenderedFrame,
+                         testing::Combine(testing::ValuesIn(kPresets),
+                                          testing::Values("cube", "wheelcover", "wing", "canopy",
+                                                          "sphere", "terrain", "object")),
+                         name_of<Named>);
+
+class DataMesh : public testing::TestWithParam<Named> {};
+
+TEST_P(DataMesh, IsIdenticalToGolden) {
+  const auto [which, name] = GetParam();
+  const char* folder = std::getenv("DEBURR_DATA");
+  const std::filesystem::path file =
+      (folder ? folder : std::filesystem::path(DEBURR_SOURCE_DIR) / "../shared/data") / "meshes" /
+      name;
+  if (!std::filesystem::exists(file))
+    GTEST_SKIP() << "no " << file << ": set DEBURR_DATA to the folder that holds meshes/";
+  GeometricSceneParameters scene;
+  scene.source = file.string();
+  GeometricRunOptions options;
+  options.geometric = preset(which);
+  options.geometric.face_limit = 1 << 17;
+  options.check_links = false;
+  const LoadedGeometricFrame loaded = load_geometric_frame(scene, 1, false);
+  const GeometricOutcome outcome = expect_identical({loaded.frame}, options);
+  EXPECT_GT(outcome.blended, 300u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Geometric, DataMesh,
+                         testing::Values(std::tuple{Preset::kDeburr, "scene_track.obj"},
+                                         std::tuple{Preset::kGpaaOptimised, "scene_track.obj"},
+                                         std::tuple{Preset::kDeburr, "teapot.obj"},
+                                         std::tuple{Preset::kGpaa, "teapot.obj"},
+                                         std::tuple{Preset::kDeburr, "spot.obj"},
+                                         std::tuple{Preset::kDeburr, "WusonOBJ.obj"},
+                                         std::tuple{Preset::kDeburr, "kenney_truck.obj"}),
+                         name_of<Named>);
+
+// ---- what must not change the picture -----------------------------------------------------------
+
+class SamePicture : public testing::TestWithParam<Preset> {};
+
+TEST_P(SamePicture, WhateverTheBuildAndWithMaxTheOrderOfEdges) {
+  const Preset which = GetParam();
+  const auto run = [&](auto&& change, std::uint64_t shuffle = 0) {
+    return forked<GeometricOutcome>([&] {
+      GeometricRunOptions options;
+      options.geometric = preset(which);
+      change(options.geometric);
+      Frames frames = {scene_frame("object", 160, 120), random_frame(97, 61, 8)};
+      if (shuffle != 0)
+        for (Frame& frame : frames) shuffle_edges(frame, shuffle);
+      return simulate(frames, options);
+    });
+  };
+  const GeometricOutcome built = run([](Parameters&) {});
+  const auto expect_same = [&](const GeometricOutcome& other, const char* what) {
+    EXPECT_EQ(other.hash, built.hash) << what;
+    EXPECT_EQ(other.candidates, built.candidates) << what;
+    EXPECT_NE(other.cycles, built.cycles) << what << " shows nowhere";
+  };
+  expect_same(run([](Parameters& p) { p.walkers = Lanes::kOne; }), "one walker");
+  expect_same(run([](Parameters& p) { p.walkers = Lanes::kTwo; }), "two walkers");
+  expect_same(run([](Parameters& p) { p.layout = Layout::kRaster; }), "raster");
+  expect_same(run([](Parameters& p) { p.frame_copy = !p.frame_copy; }), "frame_copy");
+  expect_same(run([](Parameters& p) { p.weight_blocks = CacheLines::k16; }), "few blocks");
+  expect_same(run([](Parameters& p) {
+                p.pipelined = false;
+                p.reciprocal_table = 10;
+              }),
+              "a divider and a table");
+  const bool max = preset(which).combine == spec::geometric::Combine::kMax;
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    const GeometricOutcome shuffled = run([](Parameters&) {}, seed);
+    EXPECT_EQ(shuffled.candidates, built.candidates);
+    EXPECT_EQ(shuffled.hash == built.hash, max) << "shuffled by " << seed;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Geometric, SamePicture, testing::ValuesIn(kPresets),
+                         [](const auto& row) { return fmt::format("{}", row.index); });
+
+// ---- memory that answers with errors ------------------------------------------------------------
+
+using Broken = std::tuple<Preset, std::size_t>;
+class BrokenMemory : public testing::TestWithParam<Broken> {};
+
+// The golden model predicts what is read as zeros, and counts the answers.
+TEST_P(BrokenMemory, ErrorResponsesReadAsZeroAndAreReported) {
+  const auto [which, region] = GetParam();
+  GeometricRunOptions options;
+  options.geometric = preset(which);
+  options.geometric.weight_blocks = CacheLines::k16;
+  const std::vector<Frame> frames = {random_frame(90, 50, region + 20)};
+  const RegionMap map(frames, options.geometric);
+  const auto index = static_cast<spec::geometric::Region>(region);
+  const std::uint64_t from = map.base(index);
+  options.memory.error_address = static_cast<std::int64_t>(from);
+  options.memory.error_bytes = 64 * 9;
+  Simulation simulation(options);
+  GeometricEnvironment environment(simulation, frames, options);
+  simulation.elaborate(environment);
+  const bool used = index == spec::geometric::Region::kCopy    ? options.geometric.frame_copy
+                    : index == spec::geometric::Region::kFaces ? which != Preset::kGpaa
+                                                               : true;
+  if (!used) {
+    EXPECT_NO_THROW(simulation.run());
+    EXPECT_THROW(environment.refuse_unused_errors(), spec::ConfigError);
+    return;
+  }
+  EXPECT_THROW(simulation.run(), spec::SimulationError);
+  EXPECT_NO_THROW(environment.check());
+  namespace reg = spec::geometric::reg;
+  EXPECT_NE(environment.host().read(reg::kStatus) & reg::kStatusMemoryError, 0u);
+  EXPECT_EQ(environment.host().read(reg::kMemoryErrors),
+            environment.golden_model().memory_errors());
+  EXPECT_GT(environment.golden_model().memory_errors(), 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Geometric, BrokenMemory,
+                         testing::Combine(testing::ValuesIn(kPresets),
+                                          testing::Range(std::size_t{0}, RegionMap::kRegions)),
+                         name_of<Broken>);
+
+}  // namespace
+}  // namespace deburr::tb::geometric_system

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+// Are marked pixels, and with `beside` those next to one, left as they are, everything else
+// smoothed as ever, and the marks gone? One by one, and against a reference that knows nothing of
+// the golden but its frame without the rule.
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <set>
+#include <string>
+
+#include "tb/stimuli/random.h"
+#include "tb/unit/golden/morphological/support.h"
+
+namespace deburr {
+namespace {
+
+using golden::morphological::CoverageBin;
+using golden::morphological::MorphologicalGolden;
+using golden::morphological::preset_parameters;
+using spec::morphological::BlendTap;
+using spec::morphological::Leave;
+using spec::morphological::Parameters;
+using spec::morphological::Preset;
+using spec::morphological::Rgba8;
+using tb::Random;
+using tb::morphological::Frame;
+using tb::morphological::grey;
+
+constexpr Preset kAll[] = {Preset::kMlaa, Preset::kMlaaSlope, Preset::kSmaa, Preset::kSmaaDynamic,
+                           Preset::kDeburr};
+
+// Marks one pixel in `rare`; other bits of alpha are random.
+Frame marked(Frame frame, Random& random, unsigned rare) {
+  for (Rgba8& pixel : frame.pixels) {
+    const bool mark = random.below(rare) == 0;
+    pixel[3] = static_cast<std::uint8_t>((random.below(128) << 1) | (mark ? 0 : 1));
+  }
+  return frame;
+}
+
+bool has_mark(const Frame& frame, int x, int y) {
+  return x >= 0 && y >= 0 && x < frame.width && y < frame.height && frame.at(x, y)[3] % 2 == 0;
+}
+
+bool asked_to_leave(const Frame& frame, Leave leave, int x, int y) {
+  if (leave == Leave::kNone) return false;
+  const bool beside = has_mark(frame, x - 1, y) || has_mark(frame, x + 1, y) ||
+                      has_mark(frame, x, y - 1) || has_mark(frame, x, y + 1);
+  return has_mark(frame, x, y) || (leave == Leave::kBeside && beside);
+}
+
+Rgba8 mix(bool linear_light, const Frame& frame, int x, int y, const BlendTap& tap) {
+  const int dx = tap.horizontal ? 1 : 0, dy = tap.horizontal ? 0 : 1;
+  const Rgba8& own = frame.at(x, y);
+  return golden::morphological::blend(linear_light, own,
+                                      tap.first != 0 ? frame.at(x - dx, y - dy) : own, tap.first,
+                                      tap.second != 0 ? frame.at(x + dx, y + dy) : own, tap.second);
+}
+
+// The frame that the engine without the rule makes, with the pixels that are left put back, and
+// those with half a share mixed again.
+void expect_as_put_back(Parameters p, const Frame& frame) {
+  p.leave = Leave::kNone;
+  MorphologicalGolden plain(p);
+  plain.process(frame.view());
+  const bool squares = p.blend == spec::morphological::BlendRule::kStrongest;
+  for (const Leave leave : {Leave::kMarked, Leave::kBeside, Leave::kHalf}) {
+    if (squares && leave == Leave::kHalf) continue;  // the taps are mixed already
+    p.leave = leave;
+    MorphologicalGolden golden(p);
+    golden.process(frame.view());
+    spec::morphological::Work work = plain.work();
+    for (int y = 0; y < frame.height; ++y) {
+      for (int x = 0; x < frame.width; ++x) {
+        const auto i = static_cast<std::size_t>(y * frame.width + x);
+        BlendTap tap = plain.taps()[i];
+        const bool had = (tap.first | tap.second) != 0;
+        const int dx = tap.horizontal ? 1 : 0, dy = tap.horizontal ? 0 : 1;
+        if (leave == Leave::kHalf) {
+          if (has_mark(frame, x - dx, y - dy)) tap.first /= 2;
+          if (has_mark(frame, x + dx, y + dy)) tap.second /= 2;
+        }
+        const bool takes = (tap.first | tap.second) != 0 && !asked_to_leave(frame, leave, x, y);
+        if (had && !takes) {
+          --work.blended_pixels;
+          ++work.left_pixels;
+        }
+        if (!takes) tap = {false, 0, 0, tap.edges};
+        Rgba8 pixel = takes ? mix(p.linear_light, frame, x, y, tap) : frame.pixels[i];
+        pixel[3] = static_cast<std::uint8_t>(frame.pixels[i][3] | 1);
+        ASSERT_EQ(golden.pixels()[i], pixel) << x << ' ' << y;
+        ASSERT_EQ(golden.taps()[i], tap) << x << ' ' << y;
+      }
+    }
+    EXPECT_EQ(golden.work(), work);
+    EXPECT_EQ(golden.decisions(), plain.decisions());
+  }
+}
+
+TEST(Leave, PutsBackWhatIsMarked) {
+  Random random(5);
+  for (const Preset preset : kAll) {
+    for (const unsigned rare : {1u, 2u, 6u, 40u, 1000000u}) {
+      expect_as_put_back(preset_parameters(preset),
+                         marked(tb::morphological::rendered_like(131, 70, 60), random, rare));
+    }
+    expect_as_put_back(preset_parameters(preset),
+                       marked(tb::morphological::noise_image(), random, 9));
+  }
+}
+
+TEST(Leave, PutsBackInNarrowFrames) {
+  Random random(6);
+  for (const auto& [w, h] : {std::pair(1, 50), {50, 1}, {2, 40}, {40, 2}, {64, 5}, {65, 5}}) {
+    const Frame blocks(w, h, [&](int, int) { return grey(random.below(2) == 0 ? 10 : 220); });
+    for (const Preset preset : kAll)
+      expect_as_put_back(preset_parameters(preset), marked(blocks, random, 8));
+  }
+}
+
+// A step of 40 columns: every pixel of rows 3 and 4 but those in the middle has a share.
+Frame step() {
+  return {40, 8, [](int x, int y) { return grey(y < (x < 20 ? 4 : 5) ? 230 : 20); }};
+}
+
+// One mark at a place leaves that pixel, and with `beside` its four neighbours.
+TEST(Leave, LooksAtFivePlaces) {
+  Parameters p = preset_parameters(Preset::kMlaa);
+  const Frame plain = step();
+  const Frame smoothed = smooth(p, plain);
+  ASSERT_NE(smoothed.at(12, 4), plain.at(12, 4));
+  struct Case {
+    int dx, dy;
+    bool left_by_mark, left_beside;
+  };
+  for (const Case& c :
+       {Case{0, 0, true, true}, Case{-1, 0, false, true}, Case{1, 0, false, true},
+        Case{0, -1, false, true}, Case{0, 1, false, true}, Case{-1, -1, false, false},
+        Case{1, 1, false, false}, Case{2, 0, false, false}, Case{0, -2, false, false}}) {
+    Frame frame = plain;
+    frame.at(12 + c.dx, 4 + c.dy)[3] = 254;
+    for (const Leave leave : {Leave::kNone, Leave::kMarked, Leave::kBeside}) {
+      p.leave = leave;
+      const bool left = leave == Leave::kMarked   ? c.left_by_mark
+                        : leave == Leave::kBeside ? c.left_beside
+                                                  : false;
+      const Frame output = smooth(p, frame);
+      EXPECT_EQ(output.at(12, 4)[0], (left ? plain : smoothed).at(12, 4)[0]) << c.dx << ' ' << c.dy;
+      // The mark stays with `none` and ends with the others.
+      EXPECT_EQ(output.at(12 + c.dx, 4 + c.dy)[3], leave == Leave::kNone ? 254 : 255);
+    }
+  }
+}
+
+// The last pixel of a row and the first of the next are no neighbours, nor are the first and the
+// last row.
+TEST(Leave, KnowsTheBorders) {
+  Parameters p = preset_parameters(Preset::kMlaa);
+  p.leave = Leave::kBeside;
+  constexpr int kLast = 29;
+  const Frame diamond(kLast + 1, kLast + 1, [](int x, int y) {
+    return grey(std::abs(2 * x - kLast) + std::abs(2 * y - kLast) < 40 ? 230 : 20);
+  });
+  const Frame expected = smooth(p, diamond);
+  int tried = 0;
+  const auto stays_blended = [&](int x, int y, int marked_x, int marked_y) {
+    if (expected.at(x, y) == diamond.at(x, y)) return;
+    Frame frame = diamond;
+    frame.at(marked_x, marked_y)[3] = 0;
+    EXPECT_EQ(smooth(p, frame).at(x, y), expected.at(x, y)) << x << ' ' << y;
+    ++tried;
+  };
+  for (int i = 0; i <= kLast; ++i) {
+    if (i > 0) stays_blended(0, i, kLast, i - 1);
+    if (i < kLast) stays_blended(kLast, i, 0, i + 1);
+    stays_blended(0, i, kLast, i);
+    stays_blended(kLast, i, 0, i);
+    stays_blended(i, 0, i, kLast);
+    stays_blended(i, kLast, i, 0);
+  }
+  EXPECT_GE(tried, 12);
+}
+
+// Shares are halved before they are mixed by their squares: of 60 and 100 with the first neighbour
+// marked, 30 and 100 remain, which become 900 / 130 and 10000 / 130.
+TEST(Leave, HalvesBeforeSquares) {
+  using golden::morphological::mixed_by_squares;
+  using golden::morphological::remaining;
+  constexpr golden::morphological::Marks kUp = 2, kLeft = 4, kRight = 8, kDown = 16;
+  const BlendTap vertical{false, 60, 100, 0}, horizontal{true, 60, 100, 0};
+  EXPECT_EQ(remaining(Leave::kHalf, kUp, vertical), (BlendTap{false, 30, 100, 0}));
+  EXPECT_EQ(remaining(Leave::kHalf, kDown, vertical), (BlendTap{false, 60, 50, 0}));
+  EXPECT_EQ(remaining(Leave::kHalf, kLeft | kRight, vertical), vertical);
+  EXPECT_EQ(remaining(Leave::kHalf, kLeft, horizontal), (BlendTap{true, 30, 100, 0}));
+  EXPECT_EQ(remaining(Leave::kHalf, kUp | kRight, horizontal), (BlendTap{true, 60, 50, 0}));
+  EXPECT_EQ(mixed_by_squares(remaining(Leave::kHalf, kUp, vertical)), (BlendTap{false, 7, 77, 0}));
+  EXPECT_EQ(remaining(Leave::kHalf, kRight, BlendTap{true, 0, 1, 0}), BlendTap{});
+
+  // In a frame: SMAA's diagonals give pixels two shares.
+  Parameters p = preset_parameters(Preset::kSmaa);
+  Random random(8);
+  const Frame frame = marked(tb::morphological::noise_image(), random, 3);
+  MorphologicalGolden plain(p);
+  plain.process(frame.view());
+  p.leave = Leave::kHalf;
+  MorphologicalGolden golden(p);
+  golden.process(frame.view());
+  int two = 0;
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      const auto i = static_cast<std::size_t>(y * frame.width + x);
+      const BlendTap before = plain.taps()[i], tap = golden.taps()[i];
+      const int dx = before.horizontal ? 1 : 0, dy = before.horizontal ? 0 : 1;
+      const bool first = has_mark(frame, x - dx, y - dy), second = has_mark(frame, x + dx, y + dy);
+      if (has_mark(frame, x, y)) {
+        EXPECT_EQ(tap.first | tap.second, 0);
+      } else if (before.first != 0 && before.second != 0 && first && !second) {
+        EXPECT_LE(tap.first, before.first);
+        EXPECT_GE(tap.second, before.second);
+        two += tap.first < before.first && tap.second > before.second;
+      }
+    }
+  }
+  EXPECT_GT(two, 10);
+}
+
+// A marked pixel is as good a neighbour as any: what lies across from it takes its share of it.
+TEST(Leave, MarkedPixelsAreNeighbours) {
+  Parameters p = preset_parameters(Preset::kMlaa);
+  p.leave = Leave::kMarked;
+  Frame frame = step();
+  for (int x = 0; x < 40; ++x) frame.at(x, 3)[3] = 0;
+  const Frame without = smooth(p, step()), with = smooth(p, frame);
+  for (int x = 0; x < 40; ++x) {
+    EXPECT_EQ(with.at(x, 4), without.at(x, 4));
+    EXPECT_EQ(with.at(x, 3)[0], frame.at(x, 3)[0]);
+  }
+}
+
+// A line that memory does not give back is zeros, alpha too, so its pixels are marked.
+TEST(Leave, LinesThatCannotBeReadAreMarked) {
+  Parameters p = preset_parameters(Preset::kMlaa);
+  p.storage = spec::morphological::Storage::kMemory;
+  p.leave = Leave::kBeside;
+  const Frame frame = step();  // rows of 192 bytes, lines of 16 pixels
+  MorphologicalGolden golden(p);
+  golden.set_read_errors([](std::uint32_t address) { return address == 4 * 192; });
+  golden.process(frame.view());
+  for (int x = 0; x < 16; ++x) {
+    EXPECT_EQ(golden.pixels()[static_cast<std::size_t>(4 * 40 + x)], (Rgba8{0, 0, 0, 1}));
+    EXPECT_EQ(golden.pixels()[static_cast<std::size_t>(3 * 40 + x)], frame.at(x, 3));
+  }
+  EXPECT_GT(golden.work().left_pixels, 5u);
+  EXPECT_GT(golden.work().blended_pixels, 0u);
+}
+
+TEST(LeaveCoverage, EveryBinCanBeReached) {
+  Random random(9);
+  const auto with = [](Leave leave) {
+    Parameters p = preset_parameters(Preset::kDeburr);
+    p.leave = leave;
+    return MorphologicalGolden(p);
+  };
+  MorphologicalGolden by_mark = with(Leave::kMarked), beside = with(Leave::kBeside),
+                      half = with(Leave::kHalf);
+  for (int i = 0; i < 4; ++i) {
+    const Frame frame = marked(tb::morphological::rendered_like(120, 90, 80), random, 20);
+    for (MorphologicalGolden* golden : {&by_mark, &beside, &half}) golden->process(frame.view());
+  }
+  const auto hit = [](const MorphologicalGolden& golden) {
+    std::set<std::string> names;
+    for (const CoverageBin& bin : golden.leave_coverage().bins())
+      if (bin.hits != 0) names.insert(bin.name);
+    return names;
+  };
+  EXPECT_THAT(hit(by_mark), testing::ElementsAre("left/marked/own"));
+  EXPECT_THAT(hit(half), testing::UnorderedElementsAre("left/half/own", "half/up", "half/left",
+                                                       "half/right", "half/down", "half/nothing"));
+  std::set<std::string> all = hit(beside);
+  EXPECT_EQ(all.size(), 6u + 4 * 2);
+  all.merge(hit(by_mark));
+  all.merge(hit(half));
+  EXPECT_EQ(all.size(), beside.leave_coverage().bins().size());
+  beside.clear_coverage();
+  EXPECT_THAT(hit(beside), testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace deburr

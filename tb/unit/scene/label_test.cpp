@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Is every letter there, each another, and where it should be?
+#include "tb/scene/label.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "spec/error.h"
+
+namespace deburr::tb {
+namespace {
+
+constexpr Rgba8 kInk = {10, 20, 30, 255}, kPaper = {250, 240, 230, 255};
+
+TEST(Label, HasADifferentPictureForEachCharacter) {
+  std::set<std::vector<Rgba8>> seen;
+  const std::string all = "abcdefghijklmnopqrstuvwxyzABMS0123456789.-+ ";
+  for (const char c : all) seen.insert(label(std::string(1, c), 1, kInk, kPaper).pixels);
+  EXPECT_EQ(seen.size(), all.size());
+}
+
+TEST(Label, PutsLettersSideBySideAtAnyScale) {
+  const Image one = label("db", 1, kInk, kPaper), three = label("db", 3, kInk, kPaper);
+  EXPECT_EQ(one.width, 12);
+  EXPECT_EQ(one.height, 9);
+  EXPECT_EQ(three.width, 36);
+  EXPECT_EQ(three.height, 27);
+  for (int y = 0; y < three.height; ++y)
+    for (int x = 0; x < three.width; ++x) EXPECT_EQ(three.at(x, y), one.at(x / 3, y / 3));
+  // The stems: of d on its right, of b on its left; a dot of paper behind each letter.
+  for (int y = 0; y < 7; ++y) {
+    EXPECT_EQ(one.at(4, y), kInk);
+    EXPECT_EQ(one.at(5, y), kPaper);
+    EXPECT_EQ(one.at(6, y), kInk);
+    EXPECT_EQ(one.at(11, y), kPaper);
+  }
+}
+
+TEST(Label, RefusesWhatItHasNoLetterFor) {
+  EXPECT_THROW(label("50 %", 1), spec::ConfigError);
+  EXPECT_EQ(label("", 2).height, 18);
+}
+
+}  // namespace
+}  // namespace deburr::tb
