@@ -52,21 +52,17 @@ class EdgeLatency {
   // The frame's end.
   void end() {
     if (newest_) record();
-    clear();
+    reset();
   }
   void reset() {
-    clear();
-    histogram.reset();
-  }
-
- private:
-  void clear() {
     edges_.clear();
     kept_.clear();
     lines_.clear();
     for (auto* groups : {&walked_, &covered_, &passed_}) groups->clear();
     newest_.reset();
   }
+
+ private:
   struct Group {
     Cycle left;
     std::uint64_t line;

@@ -290,7 +290,7 @@ void FrameComposition::collect_headline(Result& result) const {
                   "a clock, or smoothing_clocks_by_formula.");
 
   result.latency = morphological ? latency_of(morphological->engine().beat_latency)
-                                 : latency_of(geometric->engine().edge_latency.histogram);
+                                 : latency_of(geometric->engine().edge_latency);
   result.throughput = ratio(pixels(), result.cycles);
   if (morphological) result.throughput = ratio(morphological->delivered_in_all(), result.cycles);
   result.throughput_unit = "pixel/clk";
