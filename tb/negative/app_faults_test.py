@@ -165,7 +165,8 @@ class Registers(CommandTest):
 
     TEXTURE = ["fragments", "bilinears", "line-fills", "clamped", "saturated", "memory-errors", "invalid-fragments"]
     MORPHOLOGICAL = ["pixels", "edge-pixels", "horizontal-runs", "vertical-runs", "long-runs", "z-runs",
-                     "extended-runs", "steps", "probes", "divides", "blended-pixels", "diagonals"]
+                     "extended-runs", "steps", "probes", "divides", "blended-pixels", "diagonals",
+                     "left-pixels"]
 
     GEOMETRIC = ["id", "control", "status", "size", "rules", "edge-count", "vertex-count", "face-count", "edge-base",
                  "vertex-base", "face-base", "depth-base", "colour-base", "weight-base", "copy-base", "refusal", "edges",
@@ -225,7 +226,7 @@ class Blind(CommandTest):
         self.assertEqual(self.known("morphological"), boards - {"blind-memory-lines"})
         needed = {board: self.blind("morphological", board, *memory) for board in boards}
         self.assertEqual(needed, {"blind-pixels": 32 * 32, "blind-taps": 32 * 32,
-                                  "blind-memory-lines": 2 * 2 * 32, "blind-status-registers": 12})
+                                  "blind-memory-lines": 2 * 2 * 32, "blind-status-registers": 13})
 
     def test_geometric(self):
         boards = {f"blind-{board}" for board in self.GEOMETRIC}
@@ -245,6 +246,12 @@ class Blind(CommandTest):
         self.assertEqual(self.known("frame", *memory), boards)
         for board in boards:
             self.assertGreater(self.blind("frame", board, *memory), 0)
+        smoothing = ("--smoothing", "geometric-morphological")
+        boards |= {f"geometric.blind-{board}" for board in self.GEOMETRIC}
+        self.assertEqual(self.known("frame", *memory, *smoothing), boards)
+        for board in sorted(boards):
+            if board.startswith("geometric."):
+                self.assertGreater(self.blind("frame", board, *smoothing), 0)
 
 
 if __name__ == "__main__":
