@@ -245,6 +245,12 @@ class Blind(CommandTest):
         self.assertEqual(self.known("frame", *memory), boards)
         for board in boards:
             self.assertGreater(self.blind("frame", board, *memory), 0)
+        smoothing = ("--smoothing", "geometric-morphological")
+        boards |= {f"geometric.blind-{board}" for board in self.GEOMETRIC}
+        self.assertEqual(self.known("frame", *memory, *smoothing), boards)
+        for board in sorted(boards):
+            if board.startswith("geometric."):
+                self.assertGreater(self.blind("frame", board, *smoothing), 0)
 
 
 if __name__ == "__main__":

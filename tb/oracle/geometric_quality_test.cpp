@@ -22,6 +22,7 @@ using spec::geometric::DepthTest;
 using spec::geometric::Parameters;
 using spec::geometric::Preset;
 using spec::geometric::Work;
+using spec::morphological::Leave;
 using tb::Image;
 using tb::geometric::Judge;
 using tb::geometric::smoothed;
@@ -29,28 +30,16 @@ using tb::geometric::Smoothed;
 
 constexpr int kWidth = 640, kHeight = 480;
 
-// The morphological engine behind the geometric one leaves alone what that blended, and if so asked
-// what lies beside it.
-enum class LeftAlone { kNothing, kBlended, kBesideToo };
-Image morphological_after(const Image& geometric, LeftAlone what) {
+// The morphological engine behind the geometric one. More ways of joining the two:
+// geometric_morphological_test.cpp.
+Image morphological_after(const Image& geometric, Leave leave) {
+  spec::morphological::Parameters rules =
+      golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr);
+  rules.leave = leave;
   golden::morphological::MorphologicalGolden golden(
-      golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr),
-      golden::morphological::MorphologicalGolden::Detail::kPixels);
+      rules, golden::morphological::MorphologicalGolden::Detail::kPixels);
   Image result = geometric;
   result.pixels = golden.process({geometric.pixels, geometric.width, geometric.height});
-  if (what == LeftAlone::kNothing) return result;
-  const auto blended = [&](int x, int y) {
-    return x >= 0 && y >= 0 && x < geometric.width && y < geometric.height &&
-           (geometric.at(x, y)[3] & 1) == 0;
-  };
-  for (int y = 0; y < result.height; ++y) {
-    for (int x = 0; x < result.width; ++x) {
-      const bool beside =
-          blended(x - 1, y) || blended(x + 1, y) || blended(x, y - 1) || blended(x, y + 1);
-      if (blended(x, y) || (what == LeftAlone::kBesideToo && beside))
-        result.at(x, y) = geometric.at(x, y);
-    }
-  }
   return result;
 }
 
@@ -80,7 +69,7 @@ Table measure(const tb::Scene& scene, int width, int height, int samples) {
   };
   add("none", judge.frame.image);
   add("msaa4", judge.msaa);
-  add("morphological", morphological_after(judge.frame.image, LeftAlone::kNothing));
+  add("morphological", morphological_after(judge.frame.image, Leave::kNone));
   for (const Preset preset : {Preset::kGpaa, Preset::kGpaaOptimised, Preset::kDeburr}) {
     const Smoothed result = smoothed(judge.frame, preset_parameters(preset));
     add(std::string(spec::geometric::kPresetNames[static_cast<std::size_t>(preset)]), result.image);
@@ -89,8 +78,8 @@ Table measure(const tb::Scene& scene, int width, int height, int samples) {
   Parameters marked = preset_parameters(Preset::kDeburr);
   marked.mark = true;
   const Smoothed both = smoothed(judge.frame, marked);
-  add("both", morphological_after(both.image, LeftAlone::kBlended));
-  add("both, beside", morphological_after(both.image, LeftAlone::kBesideToo));
+  add("both", morphological_after(both.image, Leave::kMarked));
+  add("both, beside", morphological_after(both.image, Leave::kBeside));
   fmt::print("| {} | edges {} -> {} -> {} | columns {}, {}, {} | blended {} of {} edge pixels |\n",
              scene.name, table.table_edges, table.work[Preset::kGpaaOptimised].kept_edges,
              table.work[Preset::kDeburr].kept_edges, table.work[Preset::kGpaa].columns,
