@@ -2,8 +2,8 @@
 // Functional coverage of the morphological engine over frames that run through the hardware model:
 // shapes x orientation x length, predictions by side, outcome and length, what ended them, ends of
 // long runs, frame borders, decisions of the blender; and of SMAA's blocks: shapes x distances,
-// limits, table entries, diagonals, thresholds. Every bin must be hit, with every frame identical
-// to golden, runs and lines included.
+// limits, table entries, diagonals, thresholds; and of what marks do. Every bin must be hit, with
+// every frame identical to golden, runs and lines included.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -91,6 +91,9 @@ std::vector<CoverageBin> run_bins(const MorphologicalGolden& golden) {
 }
 std::vector<CoverageBin> smaa_bins(const MorphologicalGolden& golden) {
   return golden.smaa_coverage().bins();
+}
+std::vector<CoverageBin> leave_bins(const MorphologicalGolden& golden) {
+  return golden.leave_coverage().bins();
 }
 
 void add(Coverage& coverage, Bins bins_of, const Hits& hits) {
@@ -252,6 +255,42 @@ TEST(SmaaCoverage, EveryBinIsHit) {
   // Shapes x distances of both axes, limits, table entries, diagonals both ways, thresholds.
   EXPECT_EQ(coverage.size(), 2u * 16 * 5 + 2 * 2 * 2 + 2 * 2 + 2 * (16 + 4 + 3) + 1 + 4 * 2);
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
+}
+
+// ---- marks --------------------------------------------------------------------------------------
+
+// Marks at random, of pixels at the borders too. Lines have the smallest shares.
+std::vector<MorphologicalInput> marked_frames() {
+  Random random(13);
+  std::vector<MorphologicalInput> frames;
+  for (int i = 0; i < 24; ++i) {
+    frames.push_back(i % 3 == 0   ? noise(60, 40, random.next())
+                     : i % 3 == 1 ? rectangles(random)
+                                  : line(random, i % 2 == 0));
+    for (Rgba8& pixel : frames.back().image.pixels)
+      pixel[3] = static_cast<std::uint8_t>(random.word() << 1 | (random.chance(200) ? 0 : 1));
+  }
+  return frames;
+}
+
+TEST(LeaveCoverage, EveryBinIsHit) {
+  using spec::morphological::Leave;
+  Coverage coverage;
+  for (const Leave leave : {Leave::kMarked, Leave::kBeside, Leave::kHalf}) {
+    spec::morphological::Parameters p = preset(Preset::kDeburr);
+    p.line_pixels = 512;
+    p.leave = leave;
+    add(coverage, leave_bins, met(p, leave_bins, marked_frames()));
+  }
+  std::ofstream("leave_coverage.json") << coverage.json();
+  EXPECT_EQ(coverage.size(), 2u + 6 + 4 * 2 + 5);
+  EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
+}
+
+TEST(LeaveCoverage, WithoutTheRuleNothingIsHit) {
+  Coverage coverage;
+  add(coverage, leave_bins, met(narrow(), leave_bins, marked_frames()));
+  EXPECT_EQ(coverage.holes().size(), coverage.size());
 }
 
 // What no frame meets is listed by name: with a flat frame everything, with one stair all but its
