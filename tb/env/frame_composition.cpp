@@ -53,6 +53,11 @@ bool FrameComposition::begin(std::size_t piece) {
   return texture.begin(piece) && smoothing.begin(piece);
 }
 
+void FrameComposition::watch() {
+  texture.watch();
+  smoothing.watch();
+}
+
 bool FrameComposition::done() const { return buffer.done() && texture.done() && smoothing.done(); }
 
 void FrameComposition::end() {

@@ -31,7 +31,7 @@ class FrameComposition final : public Environment {
 
   void configure() override;
   bool begin(std::size_t piece) override;
-  void watch() override { texture.watch(); }
+  void watch() override;
   bool done() const override;
   void end() override;
   void restart() override;

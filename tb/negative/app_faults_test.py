@@ -165,7 +165,8 @@ class Registers(CommandTest):
 
     TEXTURE = ["fragments", "bilinears", "line-fills", "clamped", "saturated", "memory-errors", "invalid-fragments"]
     MORPHOLOGICAL = ["pixels", "edge-pixels", "horizontal-runs", "vertical-runs", "long-runs", "z-runs",
-                     "extended-runs", "steps", "probes", "divides", "blended-pixels", "diagonals"]
+                     "extended-runs", "steps", "probes", "divides", "blended-pixels", "diagonals", "frame-cycles",
+                     "memory-errors"]
 
     def test_texture(self):
         self.miscount("texture", self.TEXTURE)

@@ -55,7 +55,7 @@ Outcome run(const SimulationOptions& options, const FrameSetup& setup) {
 
 TEST(FrameComposition, IsJudgedAtBothEnginesAndTheirRegisters) {
   const Outcome o = run({}, {});
-  constexpr std::uint64_t kRegisters = 7 + 12;
+  constexpr std::uint64_t kRegisters = 7 + 14;
   EXPECT_EQ(o.pixels, 48u * 32u);
   EXPECT_GT(o.colours, 0u);
   EXPECT_EQ(o.comparisons, o.colours + 2 * o.pixels + kRegisters);
