@@ -255,6 +255,7 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
   std::vector<std::uint32_t> judged;
   for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
     judged.push_back(each.offset);
+  judged.insert(judged.end(), {reg::kFrameCycles, reg::kMemoryErrors});
   let_miscount(register_board_, judged);
   if (setup.records) let_blind({&run_board_, &line_board_});
   if (in_memory()) let_blind({&traffic_board_});
@@ -294,6 +295,7 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
 void MorphologicalEnvironment::configure() {
   require_id(host_, reg::kId, reg::kIdValue);
   golden_work_ = {};
+  unreadable_lines_ = 0;
 }
 
 bool MorphologicalEnvironment::begin(std::size_t piece) {
@@ -326,6 +328,11 @@ void MorphologicalEnvironment::start() {
                               static_cast<std::uint32_t>(image.height) << 16);
   if (in_memory()) host_.write(reg::kPixelBase, setup_.pixel_base);
   if (source_) source_->start(frames_[current_]);
+  taken_before_ = pixels.pops();
+}
+
+void MorphologicalEnvironment::watch() {
+  if (pixels.pops() == taken_before_ + 1) first_taken_ = pixels.last_pop();
 }
 
 void MorphologicalEnvironment::restart() {
@@ -360,6 +367,9 @@ void MorphologicalEnvironment::finish() {
   std::vector<std::pair<std::uint32_t, std::uint64_t>> expected;
   for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
     expected.emplace_back(each.offset, golden_work_.*each.count);
+  expected.emplace_back(reg::kFrameCycles, blended_.last_push() + 1 - first_taken_);
+  // What cannot be read could not be written before.
+  expected.emplace_back(reg::kMemoryErrors, 2 * unreadable_lines_);
   register_board_.judge(host_, expected);
 }
 
@@ -459,6 +469,7 @@ void MorphologicalEnvironment::judge_records() {
   if (!golden()) return;
   for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
     golden_work_.*each.count += golden_.work().*each.count;
+  unreadable_lines_ += golden_.memory_errors();
   if (!setup_.records) return;
   std::vector<spec::morphological::RunRecord> runs;
   std::vector<spec::morphological::LineRecord> lines;

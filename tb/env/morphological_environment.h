@@ -55,6 +55,7 @@ class MorphologicalEnvironment final : public Environment {
 
   void configure() override;
   bool begin(std::size_t piece) override;
+  void watch() override;
   bool done() const override;
   void end() override;
   void restart() override;
@@ -121,6 +122,7 @@ class MorphologicalEnvironment final : public Environment {
 
   golden::morphological::MorphologicalGolden golden_;
   spec::morphological::Work golden_work_;  // of all frames since the last reset
+  std::uint64_t unreadable_lines_ = 0;     // of these frames, by the golden model
   RasterScoreboard<spec::morphological::Rgba8> pixel_board_;
   RasterScoreboard<spec::morphological::BlendTap> tap_board_;
   Scoreboard<spec::morphological::RunRecord> run_board_;
@@ -135,6 +137,8 @@ class MorphologicalEnvironment final : public Environment {
   std::vector<spec::morphological::BlendTap> taps_;
   std::size_t position_ = 0;  // of the next pixel in the frame
   std::uint64_t all_delivered_ = 0;
+  std::uint64_t taken_before_ = 0;  // beats that were taken before this frame's
+  rtl::Cycle first_taken_ = 0;      // when the engine took the first of this frame
   OutputHash hash_;
   std::size_t writes_judged_ = 0, reads_judged_ = 0;
 };

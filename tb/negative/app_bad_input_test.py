@@ -285,7 +285,7 @@ class Configuration(CommandTest):
 
     def test_errors_that_nobody_meets(self):
         self.run_texture(2, "--set", "memory.error_address=2147483584",
-                         says=["memory.error_address", "no access failed"])
+                         says=["memory.error_address", "from 0x7fffffc0 to 0x7fffffff, so no access failed"])
         self.expect(2, "run", "morphological", "--size", "32x32", "--storage", "memory", "--set",
                     "memory.error_address=4000000", "--out", self.path("out"),
                     says="no access failed")

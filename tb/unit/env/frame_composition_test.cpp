@@ -82,7 +82,7 @@ FrameSetup setup_of(Smoothing smoothing) {
 
 TEST(FrameComposition, IsJudgedAtBothEnginesAndTheirRegisters) {
   const Outcome o = run({}, {});
-  constexpr std::uint64_t kRegisters = 7 + 13;
+  constexpr std::uint64_t kRegisters = 7 + 15;
   EXPECT_EQ(o.pixels, 48u * 32u);
   EXPECT_GT(o.colours, 0u);
   EXPECT_EQ(o.comparisons, o.colours + 2 * o.pixels + kRegisters);

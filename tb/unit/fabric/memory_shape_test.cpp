@@ -5,6 +5,7 @@
 
 #include <array>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -481,6 +482,24 @@ TEST(Memory, SeparateBanksAreChecked) {
   EXPECT_NO_THROW(below.read(1, 20));
 }
 
+// Words that lie a multiple of the banks apart share one, all others do not.
+TEST(Memory, NeighboursLieInDifferentBanks) {
+  for (const std::uint32_t banks : {2u, 3u, 4u, 8u}) {
+    Memory<int> memory(
+        "memory",
+        {.words = 64, .word_bits = 4, .read_ports = 2, .banks = banks, .separate_banks = true});
+    ReadPort<int> first(memory, "first"), second(memory, "second");
+    Cycle cycle = 0;
+    for (std::uint64_t a = 0; a < 32; ++a) {
+      first.read(++cycle, 16);
+      if (a % banks == 16 % banks)
+        EXPECT_THROW(second.read(cycle, a), spec::CheckFailed) << a << " in " << banks;
+      else
+        EXPECT_NO_THROW(second.read(cycle, a)) << a << " in " << banks;
+    }
+  }
+}
+
 TEST(Memory, SeparateBanksOfSharedPortsHaveOnePort) {
   Memory<int> memory("memory", {.words = 8,
                                 .word_bits = 4,
@@ -754,6 +773,26 @@ TEST(MemoryCost, WhatNobodySellsIsRefusedWithAWayOut) {
               HasSubstr("a write mask of 5 bits does not divide words of 16"));
 }
 
+// Each by itself, the others being as they must.
+TEST(MemoryCost, AShapeThatIsNoneIsABug) {
+  const auto make = [](MemoryShape shape) { const MemoryBase memory("memory", shape); };
+  const MemoryShape right{.words = 16, .word_bits = 8, .kind = MemoryKind::kFlops, .banks = 16};
+  EXPECT_NO_THROW(make(right));
+  const std::function<void(MemoryShape&)> wrongs[] = {
+      [](MemoryShape& s) { s.words = 0; },
+      [](MemoryShape& s) { s.word_bits = 0; },
+      [](MemoryShape& s) { s.banks = 0; },
+      [](MemoryShape& s) { s.banks = 17; },
+      [](MemoryShape& s) { s.span = 0; },
+      [](MemoryShape& s) { s.latency = 8; },
+      [](MemoryShape& s) { s.content = "two\nlines"; }};
+  for (const auto& wrong : wrongs) {
+    MemoryShape shape = right;
+    wrong(shape);
+    EXPECT_THROW(make(shape), spec::CheckFailed) << (&wrong - wrongs);
+  }
+}
+
 TEST(MemoryCost, IdealisedSaysSoAndWhy) {
   const MemoryBase wide("wide", {.words = 1920,
                                  .word_bits = 288,
@@ -784,11 +823,13 @@ TEST(MemoryCost, AMemoryPortBuffersWhatMayComeBack) {
   EXPECT_EQ(few.response_buffer.memory_kind(), MemoryKind::kFlops);
   EXPECT_EQ(many.response_buffer.logical_bits(), 128U * 258);
   EXPECT_EQ(many.response_buffer.memory_kind(), MemoryKind::kSram);
+  EXPECT_EQ(many.response_buffer.shape().latency, 1u);
   EXPECT_EQ(many.gather_buffer, nullptr);
   const rtl::MemoryPort bursts("bursts", clock, {.max_burst_lines = 8, .max_write_lines = 4});
   ASSERT_NE(bursts.gather_buffer, nullptr);
   EXPECT_EQ(bursts.gather_buffer->logical_bits(), 4U * 512);
   EXPECT_EQ(bursts.gather_buffer->memory_kind(), MemoryKind::kFlops);
+  EXPECT_EQ(bursts.gather_buffer->shape().latency, 1u);
   EXPECT_THROW(rtl::MemoryPort("wrong", clock, {.max_burst_lines = 2, .max_write_lines = 4}),
                spec::CheckFailed);
 }

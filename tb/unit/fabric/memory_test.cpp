@@ -307,12 +307,31 @@ TEST(MemoryPort, MisalignedRequestIsABug) {
   EXPECT_THROW(s.clock.run(10), spec::CheckFailed);
 }
 
-TEST(MemoryPort, TooLongBurstIsABug) {
-  System s({}, with_latency(1));
-  MemoryRequest request = read_of(1);
-  request.lines = 2;
-  s.driver.send(request);
-  EXPECT_THROW(s.clock.run(10), spec::CheckFailed);
+TEST(MemoryPort, BurstOfNoLinesOrTooManyIsABug) {
+  for (const std::uint16_t lines : {std::uint16_t{0}, std::uint16_t{2}}) {
+    EXPECT_EQ(in_child([&] {
+                System s({}, with_latency(1));
+                MemoryRequest request = read_of(1);
+                request.lines = lines;
+                s.driver.send(request);
+                try {
+                  s.clock.run(10);
+                } catch (const spec::CheckFailed&) {
+                  return std::string("refused");
+                }
+                return std::string("taken");
+              }),
+              "refused")
+        << lines;
+  }
+}
+
+TEST(MemoryPort, LinesHaveFourBytesAtLeastAndNoMoreThanABeat) {
+  rtl::ClockDomain clock("clock", kPeriod);
+  for (const std::uint32_t bytes : {4u, kLineBytes})
+    EXPECT_NO_THROW(rtl::MemoryPort("port", clock, {.line_bytes = bytes}));
+  for (const std::uint32_t bytes : {3u, kLineBytes + 1})
+    EXPECT_THROW(rtl::MemoryPort("port", clock, {.line_bytes = bytes}), spec::CheckFailed);
 }
 
 TEST(MemoryPort, ErrorResponsesComeBackWithTheirTag) {

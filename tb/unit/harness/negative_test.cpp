@@ -25,6 +25,7 @@ using rtl::Cycle;
 using spec::ExitCode;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 template <class F>
 std::string text_of(F&& action, ExitCode code) {
@@ -73,7 +74,8 @@ TEST(Negative, DroppedBeatIsSeenByTheScoreboard) {
 }
 TEST(Negative, DroppedBeatIsSeenByTheLinkChecker) {
   const std::string text = text_of([] { run({"drop:link_2:100"}, true); }, ExitCode::kSimulation);
-  EXPECT_THAT(text, AllOf(HasSubstr("link_2"), HasSubstr("vanished"), HasSubstr("adder_1")));
+  EXPECT_THAT(text, AllOf(HasSubstr("link_2"), HasSubstr("vanished"), HasSubstr("adder_1"),
+                          HasSubstr("101 beats have gone in, 102 were pushed")));
 }
 TEST(Negative, DuplicatedBeatIsSeenByTheScoreboard) {
   const std::string text = text_of([] { run({"duplicate:link_0:7"}, false); }, ExitCode::kMismatch);
@@ -278,6 +280,20 @@ TEST(LinkChecker, SeesAPushIntoAFullLink) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) { link.push(cycle, {}); }),
               HasSubstr("rogue: cycle 2: a push into a link that was full"));
 }
+// As if its beat had come, or gone, in a clock that is over.
+TEST(LinkChecker, SeesABeatThatAppearsWhileALinkRests) {
+  EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) {
+                if (cycle == 5) link.push(4, {});
+              }),
+              HasSubstr("rogue: cycle 5: 1 beats have gone in, 0 were pushed"));
+}
+TEST(LinkChecker, SeesABeatThatVanishesWhileALinkRests) {
+  EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) {
+                if (cycle == 3) link.push(3, {});
+                if (cycle == 5) link.pop(4);
+              }),
+              HasSubstr("rogue: cycle 5: 1 beats have gone out, 0 were popped"));
+}
 TEST(LinkChecker, SeesTwoPopsInAClock) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) {
                 if (cycle < 2) link.push(cycle, {});
@@ -313,6 +329,20 @@ TEST(Negative, ScoreboardLooksAtTheLastItemToo) {
   lost.expect(1);
   EXPECT_THAT(text_of([&] { lost.check(); }, ExitCode::kMismatch),
               HasSubstr("1 expected but never came"));
+}
+TEST(Negative, ScoreboardShowsTenAndCountsTheRest) {
+  for (const int wrong : {10, 11}) {
+    Scoreboard<int> board("board", static_cast<std::uint64_t>(wrong));
+    for (int i = 0; i < wrong; ++i) {
+      board.expect(i);
+      board.got(100 + i);
+    }
+    EXPECT_EQ(board.differences().size(), 10u);
+    const std::string text = text_of([&] { board.check(); }, ExitCode::kMismatch);
+    EXPECT_THAT(text, AllOf(HasSubstr(fmt::format("{0} mismatches in {0} comparisons\n", wrong)),
+                            HasSubstr("item 9: "), Not(HasSubstr("item 10: "))));
+    EXPECT_EQ(text.ends_with("\n  and 1 more"), wrong == 11) << text;
+  }
 }
 TEST(Negative, ScoreboardThatNeedsMoreThanItWasBuiltWith) {
   Scoreboard<int> board("board", 0);

@@ -205,6 +205,13 @@ TEST(StallInjector, OnTheOtherSideOfOneLink) {
   EXPECT_NEAR(static_cast<double>(p.adders[2]->idle_cycles()), 1000, 150);
 }
 
+TEST(StallInjector, LeavesOneClockOfAThousandAtLeast) {
+  Pipeline p(1);
+  EXPECT_NO_THROW(StallInjector(p.clock, {999, 999, 1, "*"}));
+  EXPECT_THROW(StallInjector(p.clock, {1000, 0, 1, "*"}), spec::ConfigError);
+  EXPECT_THROW(StallInjector(p.clock, {0, 1000, 1, "*"}), spec::ConfigError);
+}
+
 // Clocks in which an end that is always willing did nothing, although the other one let it.
 struct Held final : rtl::Clocked {
   Held(rtl::ClockDomain& clock, Pipeline& p) : pipeline(p) { clock.add_after(*this); }

@@ -17,6 +17,9 @@ project(tiny LANGUAGES CXX)
 enable_testing()
 add_executable(tiny_test tiny_test.cpp)
 add_test(NAME tiny_test.all COMMAND tiny_test)
+add_executable(tiny tb/results/tiny.cpp)
+add_test(NAME figures COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/tiny_script.sh)
+set_tests_properties(figures PROPERTIES ENVIRONMENT "TINY=$<TARGET_FILE:tiny>")
 """,
     "rtl_model/tiny/tiny.h": """// a < b and 1 + 1 are no code here
 inline bool tested(int a) { return a < 7; }
@@ -25,6 +28,11 @@ inline int stalled(bool ready) { return ready ? 0 : -1; }
 """,
     "tiny_test.cpp": """#include "rtl_model/tiny/tiny.h"
 int main() { return tested(6) && !tested(7) ? 0 : 1; }
+""",
+    "tb/results/tiny.cpp": """int main(int argc, char**) { return argc < 2 ? 0 : 1; }
+""",
+    "tiny_script.sh": """#!/bin/sh
+"$TINY" && ! "$TINY" word
 """,
 }
 
@@ -58,6 +66,14 @@ class Mutate(unittest.TestCase):
         for name, text in FILES.items():
             self.assertEqual((self.root / name).read_text(encoding="utf-8"), text)
 
+    def test_a_script_judges_what_it_runs(self):
+        done = self.mutate("tb/results/tiny.cpp", "--count", "0")
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        *killed, survivor, _ = done.stdout.splitlines()
+        self.assertEqual([(line.split()[0], line.rpartition("    ")[2]) for line in killed],
+                         [("killed", "by figures")] * 5, done.stdout)
+        self.assertRegex(survivor, "survived .* return argc < 2 [?] 0 : 2; }")
+
     def test_tests_that_fail_by_themselves_judge_nothing(self):
         (self.root / "tiny_test.cpp").write_text("int main() { return 1; }\n", encoding="utf-8")
         done = self.mutate("rtl_model/tiny/tiny.h", "--tests", "tiny_test")
@@ -65,7 +81,8 @@ class Mutate(unittest.TestCase):
         self.assertIn("without any fault", done.stderr)
 
     def test_wrong_command_lines(self):
-        for arguments in (["tiny_test.cpp"], ["rtl_model/none.h"],
+        for arguments in (["tiny_test.cpp"], ["rtl_model/none.h"], ["tiny_script.sh"],
+                          ["rtl_model/tiny/tiny.h", "--tests", "none_test"],
                           ["rtl_model/tiny/tiny.h", "--work", self.root / "copy"]):
             self.assertEqual(self.mutate(*arguments).returncode, 2, arguments)
 
@@ -98,6 +115,9 @@ class Mutate(unittest.TestCase):
             self.assertEqual(found(file), {name for name in programs if name.startswith(start)},
                              file)
             self.assertTrue(found(file))
+        for room in module.ROOMS:
+            self.assertTrue(found(f"tb/{room}/file.cpp") or room == "oracle", room)
+        self.assertIn("results_result_test", found("tb/results/statistics.cpp"))
 
     def test_the_operators(self):
         module = self.module()

@@ -31,6 +31,9 @@ TEST(Verdict, IsRightToTheLastPrintedDigitAndNoFurther) {
 
 TEST(Verdict, TakesTheFigureAsItIsPrinted) {
   EXPECT_EQ(verdict("0.219", 0.218951, "wrong"), "right");
+  EXPECT_EQ(verdict("0.219", 0.2194, "wrong"), "right");
+  EXPECT_EQ(verdict("0.219", 0.2196, "wrong"), "wrong");
+  EXPECT_EQ(verdict("672", 672.4, "wrong"), "right");
   EXPECT_EQ(verdict("0.2190", 0.21894, "wrong"), "wrong") << "a digit more is asked";
   EXPECT_EQ(verdict("0.129", 0.218951, "wrong"), "wrong") << "misquoted";
   EXPECT_EQ(verdict("1/3", 1.0 / 3, "wrong"), "right");

@@ -124,6 +124,10 @@ TEST(Footprint, DerivativeSaturatesAtTheEndOfU15_16) {
   EXPECT_EQ(derivative_in_texels(-8 * kTexel, 4096), (Derivative{kLargest, true}));
   EXPECT_EQ(derivative_in_texels(0xFFFFFFFF, 4096), (Derivative{kLargest, true}));
   EXPECT_EQ(derivative_in_texels(-std::int64_t{0xFFFFFFFF}, 4096), (Derivative{kLargest, true}));
+  // The largest itself is not saturated.
+  constexpr std::int64_t kLast = ((std::int64_t{1} << 39) - 129) / 200;
+  EXPECT_EQ(derivative_in_texels(kLast, 200), (Derivative{kLargest, false}));
+  EXPECT_EQ(derivative_in_texels(kLast + 1, 200), (Derivative{kLargest, true}));
   // Size 1: the widest difference is 256 texels, far from the end.
   EXPECT_EQ(derivative_in_texels(0xFFFFFFFF, 1), (Derivative{1u << 24, false}));
 }

@@ -76,6 +76,19 @@ TEST(Log2, PowersOfTwoAreExactWhereTheRuleSaysSo) {
   EXPECT_EQ(log2_fixed(Log2Rule::kExact, 0), -16 * 4096);
 }
 
+// By hand from the contract: what is added at the first and at the last mantissa of each segment.
+TEST(Log2, SegmentsBeginAndEndWhereTheContractSaysSo) {
+  constexpr std::int32_t kFirst[] = {20, 305, 356, 243}, kLast[] = {306, 361, 244, 3};
+  for (std::int32_t segment = 0; segment < 4; ++segment) {
+    const std::int32_t first = 1024 * segment, last = first + 1023;
+    const auto log2 = [](std::int32_t y) {
+      return log2_fixed(Log2Rule::kSegments, 65536u + (static_cast<std::uint32_t>(y) << 4));
+    };
+    EXPECT_EQ(log2(first), first + kFirst[segment]);
+    EXPECT_EQ(log2(last), last + kLast[segment]);
+  }
+}
+
 // Largest step down from one mantissa to the next over all exponents.
 int largest_fall(Log2Rule rule) {
   int fall = 0;

@@ -533,5 +533,23 @@ INSTANTIATE_TEST_SUITE_P(
                       Planted{"drop:engine.frames_done:0"},  // the frame never ends
                       Planted{"stuck_ready:engine.beats:3000"}));
 
+// ---- links of memory ----------------------------------------------------------------------------
+
+// A frame may lie anywhere in 32 bits of address, and every answer finds its request.
+TEST(MemoryLinks, CarryWholeAddressesAndTags) {
+  Parameters p = preset(Preset::kDeburr);
+  p.storage = spec::morphological::Storage::kMemory;
+  const EngineBench bench(p);
+  std::size_t found = 0;
+  rtl::for_each<rtl::LinkBase>([&](const rtl::LinkBase& link) {
+    const std::string name = link.name();
+    if (!name.ends_with(".requests") && !name.ends_with(".responses")) return;
+    ++found;
+    EXPECT_EQ(link.payload().find("address")->bits, 32u) << name;
+    EXPECT_EQ(link.payload().find("tag")->bits, rtl::morphological::PixelStore::kTagBits) << name;
+  });
+  EXPECT_EQ(found, 2u);
+}
+
 }  // namespace
 }  // namespace deburr::tb::morphological_rtl

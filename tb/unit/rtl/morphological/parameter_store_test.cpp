@@ -682,6 +682,9 @@ TEST(CounterRegisters, ShowTheirCounters) {
     const auto [first, fresh] = met.emplace(value, offset);
     EXPECT_TRUE(fresh) << offset << " shows the same as " << first->second << ": " << value;
   }
+  const spec::morphological::Work work = e.work();
+  for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
+    EXPECT_EQ(work.*each.count, bench.bus.read(each.offset)) << each.offset;
   // Two causes in one number.
   EXPECT_GT(e.extractor.interlock_stalls.value(), 0u);
   EXPECT_GT(e.extractor.record_stalls.value(), e.extractor.interlock_stalls.value());

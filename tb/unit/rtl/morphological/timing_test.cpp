@@ -309,6 +309,9 @@ TEST(FramesBackToBack, BeginTheClockAfterTheLast) {
   for (std::size_t frame = 1; frame < 3; ++frame)
     EXPECT_EQ(times.popped[frame * 4800], times.pushed[frame * 4800 - 1] + 1) << frame;
   EXPECT_EQ(bench.engine.sequencer.frames.value(), 3u);
+  EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(),
+            times.pushed[3 * 4800 - 1] + 1 - times.popped[2 * 4800])
+      << "of the last frame";
   for (std::size_t i = 0; i < 4800; ++i) {
     ASSERT_EQ(bench.sink.beats()[i], bench.sink.beats()[4800 + i]);
     ASSERT_EQ(bench.sink.beats()[i], bench.sink.beats()[9600 + i]);

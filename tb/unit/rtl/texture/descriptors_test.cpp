@@ -2,6 +2,8 @@
 // The Descriptors: they follow the registers, and each block reads through its own port.
 #include "rtl_model/texture/descriptors.h"
 
+#include <array>
+
 #include "spec/error.h"
 #include "tb/unit/rtl/texture/support.h"
 
@@ -47,6 +49,55 @@ TEST(TextureRtlDescriptors, ClampsHaveAllTheirBits) {
     const rtl::texture::TextureState& t = read.read(++cycle, 3);
     EXPECT_EQ(t.min_lod, 1 << (bit + 4));
     EXPECT_EQ(t.max_lod, 1 << (15 - bit + 4));
+  }
+}
+
+// Levels end at 1 x 1, whichever side is longer; tiles that a side fills exactly count once.
+TEST(TextureRtlDescriptors, EveryLevelHasItsSizeAndItsTiles) {
+  ClockDomain clock("clock", period());
+  Store store(clock);
+  auto read = store.descriptors.for_levels;
+  rtl::Cycle cycle = 0;
+  for (const bool high : {false, true}) {
+    spec::texture::Descriptor d = some_texture();
+    d.width = high ? 64 : 128;
+    d.height = high ? 128 : 64;
+    d.levels = 8;
+    write_descriptor(store.bus, 3, d);
+    const rtl::texture::TextureState& t = read.read(++cycle, 3);
+    ASSERT_TRUE(t.valid);
+    // RGBA8 in tiles of 4 x 4.
+    const std::array<int, 8> shorter = {64, 32, 16, 8, 4, 2, 1, 1},
+                             lb_tiles = {4, 3, 2, 1, 0, 0, 0, 0};
+    for (std::size_t k = 0; k < 8; ++k) {
+      EXPECT_EQ(high ? t.level[k].width : t.level[k].height, shorter[k]) << k;
+      EXPECT_EQ(high ? t.level[k].height : t.level[k].width, 128 >> k) << k;
+      EXPECT_EQ(t.level[k].mixed_log2, lb_tiles[k]) << k;
+    }
+  }
+}
+
+// What MODE has no name for changes nothing.
+TEST(TextureRtlDescriptors, OtherBitsOfModeDoNotMatter) {
+  namespace reg = spec::texture::reg;
+  ClockDomain clock("clock", period());
+  Store store(clock);
+  auto read = store.descriptors.for_levels;
+  rtl::Cycle cycle = 0;
+  const std::uint32_t mode = reg::kTextureBase + 3 * reg::kTextureStride + reg::kMode;
+  for (const auto layout : {spec::texture::Layout::kLinear, spec::texture::Layout::kTiled}) {
+    spec::texture::Descriptor d = some_texture();
+    d.layout = layout;
+    write_descriptor(store.bus, 3, d);
+    store.bus.write(mode, store.bus.read(mode) | 0xF80E80E8);
+    const rtl::texture::TextureState& t = read.read(++cycle, 3);
+    EXPECT_TRUE(t.valid);
+    EXPECT_EQ(t.layout, layout);
+    EXPECT_EQ(t.levels, 3);
+    EXPECT_EQ(t.format, d.format);
+    EXPECT_EQ(t.wrap_s, d.wrap_s);
+    EXPECT_EQ(t.mag_filter, d.mag_filter);
+    EXPECT_EQ(t.max_count_log2, d.max_anisotropy_log2);
   }
 }
 
