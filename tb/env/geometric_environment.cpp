@@ -256,15 +256,14 @@ std::optional<std::uint32_t> GeometricEnvironment::face_of_a_fault() const {
 std::optional<std::size_t> GeometricEnvironment::block_that_takes_from_above() const {
   constexpr int kInside = 16;  // blocks in the stages of the resolve
   if (frames_.empty() || setup_.geometric.frame_copy) return std::nullopt;
-  const auto ahead =
-      static_cast<std::size_t>(kInside + setup_.geometric.resolve_lines / 4 +
-                               std::max(setup_.memory.latency, setup_.memory.latency_max));
+  const std::int32_t ahead = kInside + setup_.geometric.resolve_lines / 4 +
+                             std::max(setup_.memory.latency, setup_.memory.latency_max);
   const geometric::Frame& frame = frames_.front();
   golden::geometric::GeometricGolden golden(setup_.geometric);
   const std::vector<Rgba8>& after = golden.process(frame.input());
-  std::map<std::pair<int, int>, std::size_t> numbers;  // of the blocks, by row and column
-  for (std::size_t i = 0; i < golden.blocks().size(); ++i) {
-    const BlockRecord& block = golden.blocks()[i];
+  std::map<std::pair<int, int>, int> numbers;  // of the blocks, by row and column
+  for (int i = 0; i < static_cast<int>(golden.blocks().size()); ++i) {
+    const BlockRecord& block = golden.blocks()[static_cast<std::size_t>(i)];
     numbers[{block.y, block.x}] = i;
     const auto above = numbers.find({block.y - 1, block.x});
     if (above == numbers.end() || above->second + ahead > i) continue;
@@ -277,7 +276,7 @@ std::optional<std::size_t> GeometricEnvironment::block_that_takes_from_above() c
       const Rgba8& stale = after[frame.image.index(x, y - 1)];
       if (golden::geometric::resolve(setup_.geometric, tap, pixel, stale, below) !=
           after[frame.image.index(x, y)])
-        return i;
+        return static_cast<std::size_t>(i);
     }
   }
   return std::nullopt;
@@ -385,8 +384,9 @@ GeometricEnvironment::GeometricEnvironment(Simulation& simulation,
   plant_in_table();
   let_blind({&line_board_, &candidate_board_, &block_board_, &pixel_board_, &traffic_board_,
              &register_board_.board()});
-  std::vector<std::uint32_t> judged;
-  for (const spec::RegisterInfo& info : spec::geometric::kRegisters) judged.push_back(info.offset);
+  std::array<std::uint32_t, spec::geometric::kRegisters.size()> judged{};
+  std::transform(spec::geometric::kRegisters.begin(), spec::geometric::kRegisters.end(),
+                 judged.begin(), [](const spec::RegisterInfo& info) { return info.offset; });
   let_miscount(register_board_, judged);
   candidate_board_.call_items(
       [](const Candidate& c) { return fmt::format("pixel ({}, {})", c.x, c.y); });

@@ -165,8 +165,7 @@ class Registers(CommandTest):
 
     TEXTURE = ["fragments", "bilinears", "line-fills", "clamped", "saturated", "memory-errors", "invalid-fragments"]
     MORPHOLOGICAL = ["pixels", "edge-pixels", "horizontal-runs", "vertical-runs", "long-runs", "z-runs",
-                     "extended-runs", "steps", "probes", "divides", "blended-pixels", "diagonals",
-                     "left-pixels"]
+                     "extended-runs", "steps", "probes", "divides", "blended-pixels", "diagonals", "left-pixels"]
 
     GEOMETRIC = ["id", "control", "status", "size", "rules", "edge-count", "vertex-count", "face-count", "edge-base",
                  "vertex-base", "face-base", "depth-base", "colour-base", "weight-base", "copy-base", "refusal", "edges",

@@ -10,3 +10,7 @@ foreach(suite system stress coverage)
   target_compile_definitions(geometric_${suite}_test
                              PRIVATE DEBURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 endforeach()
+add_test(NAME geometric_clocks
+         COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/geometric_clocks_test.py" $<TARGET_FILE:geometric_rtl_bench>)
+set_tests_properties(geometric_clocks PROPERTIES LABELS system TIMEOUT 300
+                     ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")

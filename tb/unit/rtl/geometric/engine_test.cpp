@@ -4,18 +4,15 @@
 #include <map>
 
 #include "spec/error.h"
+#include "tb/unit/rtl/geometric/bounds.h"
 #include "tb/unit/rtl/geometric/parts.h"
 
 namespace deburr::tb::geometric_rtl {
 namespace {
 
-using spec::geometric::CacheLines;
-using spec::geometric::Edge;
-using spec::geometric::Lanes;
 using spec::geometric::Refusal;
 using spec::geometric::Vertex;
 using testing::HasSubstr;
-namespace flag = spec::geometric::flag;
 
 Scene blank(int width, int height) {
   Scene scene;
@@ -166,6 +163,69 @@ TEST(Memories, NoneIsIdealised) {
   }
 }
 
+// The table of the page, with the memories of the port left out.
+TEST(Memories, AreThoseOfThePage) {
+  struct Row {
+    const char* name;
+    std::uint64_t words, bits, physical;
+  };
+  const std::vector<Row> rows = {{"facing_store.facing", 1024, 32, 131'072},
+                                 {"edge_reader.edge_buffer", 64, 512, 32'768},
+                                 {"vertex_fetch.vertex_tags", 64, 23, 2'944},
+                                 {"vertex_fetch.vertex_data", 64, 284, 36'352},
+                                 {"vertex_fetch.vertex_fills", 64, 284, 18'176},
+                                 {"depth_test.depth_tags", 128, 23, 5'888},
+                                 {"depth_test.depth_data", 128, 384, 98'304},
+                                 {"depth_test.depth_fills", 64, 384, 24'576},
+                                 {"weight_combiner.weight_tags", 128, 23, 2'944},
+                                 {"weight_combiner.weight_data", 128, 512, 65'536},
+                                 {"weight_combiner.weight_fills", 64, 512, 32'768},
+                                 {"weight_combiner.spill", 64, 23, 1'472},
+                                 {"weight_combiner.touched", 1088, 128, 139'264},
+                                 {"block_scanner.touched_above", 4, 128, 512},
+                                 {"resolver.originals", 512, 100, 51'200},
+                                 {"block_fetch.resolve_weights", 32, 512, 16'384},
+                                 {"block_fetch.resolve_colours", 32, 512, 16'384},
+                                 {"block_fifo", 16, 586, 9'376},
+                                 {"frame_copier.copy_buffer", 16, 512, 8'192},
+                                 {"resolver.linear_rom", 256, 12, 27'648},
+                                 {"resolver.encode_rom", 4096, 8, 98'304},
+                                 {"line_fifo", 16, 172, 2'752},
+                                 {"vertex_fetch.latency_fifo", 128, 28, 3'584},
+                                 {"depth_test.latency_fifo", 128, 324, 41'472},
+                                 {"weight_combiner.latency_fifo", 128, 123, 15'744},
+                                 {"block_fetch.latency_fifo", 32, 35, 1'120}};
+  EngineBench b;
+  std::map<std::string, const rtl::MemoryBase*> built;
+  for (const rtl::MemoryBase* memory : b.engine.memories()) {
+    const std::string name = std::string(memory->name()).substr(std::string("engine.").size());
+    if (name.rfind("memory_port.", 0) != 0) built[name] = memory;
+  }
+  for (const Row& row : rows) {
+    ASSERT_TRUE(built.contains(row.name)) << row.name;
+    const rtl::MemoryBase& memory = *built.at(row.name);
+    EXPECT_EQ(memory.words(), row.words) << row.name;
+    EXPECT_EQ(memory.word_bits(), row.bits) << row.name;
+    EXPECT_EQ(memory.physical_bits(), row.physical) << row.name;
+    built.erase(row.name);
+  }
+  for (const auto& [name, memory] : built) ADD_FAILURE() << name << " is not on the page";
+}
+TEST(Memories, TheTableHasHalfItsLengthsInWords) {
+  Parameters p;
+  p.pipelined = false;
+  p.reciprocal_table = 10;
+  EngineBench b(p);
+  std::uint64_t words = 0, bits = 0;
+  for (const rtl::MemoryBase* memory : b.engine.memories())
+    if (std::string(memory->basename()) == "reciprocal_rom") {
+      words = memory->words();
+      bits = memory->word_bits();
+    }
+  EXPECT_EQ(words, 512u);
+  EXPECT_EQ(bits, 25u);
+}
+
 // ---- frames with little in them
 
 TEST(Frames, WithoutEdgesReadFacingBitsAndCopyAlone) {
@@ -234,130 +294,14 @@ TEST(MemoryErrors, ReadAsZerosAndAreCounted) {
 
 // ---- clocks
 
-// The bounds of the page, from what was drawn and what went over the port.
-class Bounds {
- public:
-  explicit Bounds(const EngineBench& b) : b_(b), w_(b.engine.work()) {
-    for (const spec::geometric::LineRecord& line : b.lines) walk(line);
-  }
-  std::uint64_t begin() const {
-    const std::uint64_t words =
-        static_cast<std::uint64_t>(((b_.width + 3) / 4 + 127) / 128 * ((b_.height + 3) / 4));
-    const std::uint64_t tags =
-        std::max({lines(b_.p.vertex_lines), lines(b_.p.depth_lines), lines(b_.p.weight_blocks)});
-    const std::uint64_t faces = b_.reads(b_.bases.faces).size();
-    return std::max({words, tags, faces ? faces + 20 : 0});
-  }
-  std::uint64_t edges() const {
-    const std::uint64_t lanes =
-        spec::geometric::kLaneCount[static_cast<std::size_t>(b_.p.edge_lanes)];
-    const std::uint64_t port =
-        b_.reads(b_.bases.edges).size() + b_.reads(b_.bases.vertices).size() +
-        b_.reads(b_.bases.depth).size() + b_.engine.weight_combiner.blocks_read.value() +
-        b_.writes(b_.bases.weights).size() + 2 * b_.writes(b_.bases.copy).size();
-    const std::uint64_t setup = b_.p.pipelined
-                                    ? w_.lines
-                                    : 13 * (w_.lines - b_.engine.line_setup.table_lines.value()) /
-                                          static_cast<std::uint64_t>(b_.p.dividers);
-    return std::max(
-        {(w_.edges + lanes - 1) / lanes, w_.kept_edges, setup, w_.groups, depth_, port});
-  }
-  std::uint64_t resolve() const {
-    std::map<std::pair<int, int>, std::uint64_t> in_word;
-    std::uint64_t blend = 0;
-    for (const spec::geometric::BlockRecord& block : b_.blocks) {
-      ++in_word[{block.x / 128, block.y}];
-      blend += static_cast<std::uint64_t>(
-          std::max(1, (std::popcount(block.blended) + 1) / 2));  // two lanes
-    }
-    std::uint64_t scan =
-        static_cast<std::uint64_t>(((b_.width + 3) / 4 + 127) / 128 * ((b_.height + 3) / 4));
-    for (const auto& word : in_word) scan += word.second - 1;
-    const std::uint64_t port = b_.engine.block_fetch.weights_read.value() +
-                               b_.engine.block_fetch.lines_read.value() +
-                               b_.engine.resolver.lines_written.value();
-    return std::max({scan, blend, port});
-  }
-  // What the page allows above a bound.
-  static std::uint64_t most(std::uint64_t bound) { return bound + bound / 20 + 8 * 20 + 150; }
-
- private:
-  static std::uint64_t lines(CacheLines code) {
-    return spec::geometric::kCacheLineCount[static_cast<std::size_t>(code)];
-  }
-  // Groups, their lines of depth in pairs, and which of these miss.
-  void walk(const spec::geometric::LineRecord& l) {
-    const bool vertical = l.axis == spec::geometric::Axis::kVertical;
-    const int walkers = spec::geometric::kLaneCount[static_cast<std::size_t>(b_.p.walkers)];
-    const int rows = vertical ? b_.width : b_.height;
-    for (int i = 0; i < l.count;) {
-      const auto at = [&](int k) { return (l.position + k * std::int64_t{l.slope}) >> 8; };
-      const auto block = [&](int k) { return std::pair{(l.first + k) >> 2, at(k) >> 18}; };
-      int n = 1;
-      while (n < walkers && i + n < l.count && block(i + n) == block(i)) ++n;
-      std::vector<std::pair<int, int>> wanted;
-      for (int k = i; k < i + n; ++k) {
-        const int row = static_cast<int>(at(k) >> 16),
-                  distance = static_cast<int>(at(k) & 65535) - 32768;
-        const int other = distance > 0 || (distance == 0 && l.tie_forward) ? row + 1 : row - 1;
-        if (row < 0 || row >= rows || other < 0 || other >= rows || std::abs(distance) > 32640)
-          continue;
-        for (const int m : {row, other}) {
-          const int x = vertical ? m : l.first + k, y = vertical ? l.first + k : m;
-          const std::pair place = b_.tiled() ? std::pair{x / 4, y / 4} : std::pair{x / 16, y};
-          if (std::find(wanted.begin(), wanted.end(), place) == wanted.end())
-            wanted.push_back(place);
-        }
-      }
-      for (std::size_t pair = 0; pair < wanted.size(); pair += 2) {
-        std::uint64_t misses = 0;
-        for (std::size_t k = pair; k < std::min(pair + 2, wanted.size()); ++k)
-          misses += look_up(wanted[k]);
-        depth_ += std::max<std::uint64_t>(1, misses);
-      }
-      i += n;
-    }
-  }
-  std::uint64_t look_up(std::pair<int, int> place) {
-    const int bits = spec::geometric::kCacheLineBits[static_cast<std::size_t>(b_.p.depth_lines)];
-    const int low = b_.tiled() ? (bits + 1) / 2 : std::max(1, (bits + 1) / 2 - 2);
-    const int index = place.first % (1 << low) + (place.second % (1 << (bits - low)) << low);
-    const auto found = cache_.find(index);
-    if (found != cache_.end() && found->second == place) return 0;
-    cache_[index] = place;
-    return 1;
-  }
-
-  const EngineBench& b_;
-  const spec::geometric::Work w_;
-  std::uint64_t depth_ = 0;
-  std::map<int, std::pair<int, int>> cache_;
-};
-
-void expect_bounds(const EngineBench& b, bool edges_too = true) {
-  const Bounds bounds(b);
-  const std::uint64_t edge_cycles = b.engine.frame_sequencer.edge_cycles.value(),
-                      resolve_cycles = b.engine.frame_sequencer.resolve_cycles.value();
-  const std::uint64_t least = bounds.begin() + bounds.edges();
-  EXPECT_GE(edge_cycles, least);
-  if (edges_too) {
-    EXPECT_LE(edge_cycles, Bounds::most(least));
-  }
-  EXPECT_GE(resolve_cycles, bounds.resolve());
-  EXPECT_LE(resolve_cycles, Bounds::most(bounds.resolve()));
-  std::printf("edges: %lu, %lu at least; resolve: %lu, %lu at least\n",
-              static_cast<unsigned long>(edge_cycles), static_cast<unsigned long>(least),
-              static_cast<unsigned long>(resolve_cycles),
-              static_cast<unsigned long>(bounds.resolve()));
-}
-
 // Blocks that spill wait for the answers of their writes: no bound from above for their edges.
 class PageClocks : public ::testing::TestWithParam<char> {};
 TEST_P(PageClocks, LieAboveTheBounds) {
   EngineBench b(configuration(GetParam()).p);
-  b.load(contract_scene());
+  const Scene scene = contract_scene();
+  b.load(scene);
   b.run();
-  expect_bounds(b, false);
+  expect_bounds(b, scene, false);
 }
 INSTANTIATE_TEST_SUITE_P(Page, PageClocks,
                          ::testing::Values('a', 'b', 'c', 'd', 'e', 'f', 'g', 'h'));
@@ -382,13 +326,50 @@ TEST_P(Clocks, OfShortLinesAreNearTheBound) {
   p.walkers = GetParam();
   p.weight_blocks = CacheLines::k1024;
   EngineBench b(p);
-  b.load(short_lines(120, 100, 800, 3000));
+  const Scene scene = short_lines(120, 100, 800, 3000);
+  b.load(scene);
   b.run();
   EXPECT_EQ(b.engine.weight_combiner.blocks_written.value(), 0u);
-  expect_bounds(b);
+  expect_bounds(b, scene);
 }
 INSTANTIATE_TEST_SUITE_P(Walkers, Clocks,
                          ::testing::Values(Lanes::kOne, Lanes::kTwo, Lanes::kFour));
+
+// Any edges and builds; blocks that spill and few places for lines have no bound from above.
+class RandomClocks : public ::testing::TestWithParam<int> {};
+TEST_P(RandomClocks, LieBetweenTheBounds) {
+  std::uint32_t s = static_cast<std::uint32_t>(GetParam()) * 2654435761u + 1;
+  const auto below = [&s](int bound) {
+    s = 1664525u * s + 1013904223u;
+    return static_cast<int>((s >> 16) % static_cast<std::uint32_t>(bound));
+  };
+  Scene scene = short_lines(60 + below(400), 20 + below(120), 100 + below(900), 100 << below(6));
+  scene.facing.assign(static_cast<std::size_t>(1 + below(5000)), false);
+  for (std::size_t f = 0; f < scene.facing.size(); ++f) scene.facing[f] = below(3) != 0;
+  for (Edge& e : scene.edges) {
+    e.f0 = static_cast<std::uint32_t>(below(static_cast<int>(scene.facing.size())));
+    e.f1 = static_cast<std::uint32_t>(below(static_cast<int>(scene.facing.size())));
+    e.flags = static_cast<std::uint8_t>(below(16));
+    if (below(4) == 0) e.v1 = static_cast<std::uint32_t>(below(static_cast<int>(e.v1) + 1));
+  }
+  Parameters p;
+  p.edge_lanes = static_cast<Lanes>(below(3));
+  p.walkers = static_cast<Lanes>(below(3));
+  p.resolve_lanes = static_cast<Lanes>(below(3));
+  p.layout = static_cast<spec::geometric::Layout>(below(2));
+  p.weight_blocks = below(4) == 0 ? CacheLines::k64 : CacheLines::k1024;
+  p.depth_lines = p.vertex_lines = CacheLines::k256;
+  p.pipelined = below(3) != 0;
+  p.dividers = 1 + below(8);
+  p.reciprocal_table = p.pipelined ? 0 : below(12);
+  p.crease = static_cast<spec::geometric::Crease>(below(3));
+  EngineBench b(p, {.memory_bytes = 1u << 20});
+  b.load(scene);
+  b.run();
+  EXPECT_GT(b.engine.work().lines, 10u);
+  expect_bounds(b, scene, b.engine.weight_combiner.blocks_written.value() == 0);
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomClocks, ::testing::Range(0, 40));
 
 TEST(ClocksOf, FlatEdges) {
   for (const auto& [lanes, count] :
@@ -406,6 +387,24 @@ TEST(ClocksOf, FlatEdges) {
       return std::to_string(b.bus.read(reg::kEdgeCycles) - 4000 / count);
     });
     EXPECT_EQ(got, "176") << count;
+  }
+}
+// The begin clears a word of touched bits a clock, or waits for the last facing bits.
+TEST(ClocksOf, TheBegin) {
+  for (const auto& [height, faces, clocks] :
+       {std::tuple{512, 1, 128}, {516, 1, 129}, {1200, 1, 300}, {64, 512 * 64, 128}}) {
+    const std::string got = in_child([height = height, faces = faces] {
+      Parameters p;
+      p.face_limit = 1 << 18;
+      EngineBench b(p);
+      Scene scene = blank(64, 64);
+      scene.height = height;
+      scene.facing.assign(static_cast<std::size_t>(faces), true);
+      b.load(scene);
+      b.run();
+      return std::to_string(b.bus.read(reg::kEdgeCycles));
+    });
+    EXPECT_EQ(got, std::to_string(clocks + 48)) << height << " " << faces;
   }
 }
 TEST(ClocksOf, OneLongLine) {
@@ -436,7 +435,7 @@ TEST(ClocksOf, Dividers) {
         add_line(scene, 1000, 1000 + 9 * i % 700, 1600, 1100);
       b.load(scene);
       b.run();
-      expect_bounds(b);
+      expect_bounds(b, scene);
       return std::to_string(b.bus.read(reg::kLines));
     });
     EXPECT_EQ(got, std::to_string(130 * dividers));

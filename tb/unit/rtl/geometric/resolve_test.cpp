@@ -207,6 +207,18 @@ TEST(Resolve, WeightsOfMemoryMayBeAnything) {
     }
 }
 
+TEST(Resolve, WeightsOfMemoryComeALatencyLater) {
+  Parameters p;
+  p.weight_blocks = CacheLines::k16;
+  ResolveBench b(p);
+  b.touch(0, 0, 1u << 5);
+  b.touch(4, 0, 1u << 5);  // takes its place
+  b.run();
+  EXPECT_EQ(b.fetch.weights_read.value(), 1u);
+  // Stage 2 asks, arbiter, port, M + 1, port, arbiter, its place; then stages 3 to 5.
+  EXPECT_EQ(b.at["blocks"][0] + 1 - b.at["fetched"][0], 5u + 20 + 6);
+}
+
 // Clocks a block, of many: one is max(lines, beats, lines to write) in the Resolver, and lines +
 // lines to write at the port. The first reads are ahead of the first write.
 Cycle per_block(const Parameters& p, std::uint16_t pixels, bool vertical) {
@@ -219,10 +231,13 @@ Cycle per_block(const Parameters& p, std::uint16_t pixels, bool vertical) {
   return (writes.back() - writes.front() + kBlocks / 2) / kBlocks;
 }
 TEST(Resolve, IntervalOfABlock) {
-  const auto of = [](Layout layout, std::uint16_t pixels, bool vertical) {
+  using spec::geometric::Lanes;
+  const auto of = [](Layout layout, std::uint16_t pixels, bool vertical,
+                     Lanes lanes = Lanes::kTwo) {
     return in_child([&] {
       Parameters p;
       p.layout = layout;
+      p.resolve_lanes = lanes;
       p.weight_blocks = CacheLines::k1024;
       return std::to_string(per_block(p, pixels, vertical));
     });
@@ -233,6 +248,10 @@ TEST(Resolve, IntervalOfABlock) {
   EXPECT_EQ(of(Layout::kTiled, 0x000F, false), "3");
   // All pixels: eight beats.
   EXPECT_EQ(of(Layout::kTiled, 0xFFFF, false), "8");
+  EXPECT_EQ(of(Layout::kTiled, 0xFFFF, false, Lanes::kOne), "16");
+  EXPECT_EQ(of(Layout::kTiled, 0xFFFF, false, Lanes::kFour), "4");
+  EXPECT_EQ(of(Layout::kTiled, 0x1FFF, false, Lanes::kFour), "4");
+  EXPECT_EQ(of(Layout::kTiled, 0x0FFF, false, Lanes::kFour), "3");
   // Raster: four rows and the one above, four writes.
   EXPECT_EQ(of(Layout::kRaster, 0x1111, false), "9");
   EXPECT_EQ(of(Layout::kRaster, 0x2222, true), "8");
@@ -284,6 +303,48 @@ TEST(EdgeReader, EdgeLanesAClock) {
     EXPECT_EQ(got, "403 0") << code;
   }
 }
+// The first line comes when the begin is long over: its answer is taken, written and read.
+TEST(EdgeReader, LatencyFromAnAnswerIsTwo) {
+  ReaderBench b({}, 4, 0);
+  Cycle answered = 0;
+  while (b.taker.taken.empty()) {
+    b.clock.run(1);
+    rtl::for_each<rtl::LinkBase>(b.arbiter, [&](rtl::LinkBase& link) {
+      if (std::string(link.basename()) == "edges_responses" && link.pops() == 1 && answered == 0)
+        answered = b.clock.cycle() - 1;
+    });
+  }
+  EXPECT_EQ(b.taker.taken[0].cycle - answered, 2u + 1);
+}
+
+// ---- FrameCopier
+Cycle copy_clocks(std::uint32_t latency, int width, int height) {
+  Parameters p;
+  p.frame_copy = true;
+  Frame b(p, latency);
+  FrameCopier copier("copier", b.clock, b.store, b.sequencer);
+  b.arbiter.connect(Client::kCopy, copier.memory);
+  b.bus.write(reg::kCopyBase, 0x40000);
+  b.begin(width, height);
+  const Cycle from = b.clock.cycle();
+  b.clock.run_until([&] { return copier.done(b.clock.cycle()); }, 100'000);
+  EXPECT_EQ(copier.lines_copied.value(), static_cast<std::uint64_t>(width * height / 16));
+  return b.clock.cycle() - from;
+}
+TEST(FrameCopier, TwoClocksALineUntilSixteenLinesAreTooFew) {
+  const auto a_line = [](std::uint32_t latency) {  // in eighths of a clock
+    return in_child([latency] {
+      const Cycle few = forked<Cycle>([&] { return copy_clocks(latency, 64, 64); }),
+                  many = forked<Cycle>([&] { return copy_clocks(latency, 64, 192); });
+      return std::to_string((8 * (many - few) + 256) / 512);
+    });
+  };
+  EXPECT_EQ(a_line(4), "16");
+  EXPECT_EQ(a_line(24), "16");
+  EXPECT_EQ(a_line(25), "17");
+  EXPECT_EQ(a_line(40), "24");  // sixteen lines in M + 8 clocks
+}
+
 TEST(FacingStore, ALineAClock) {
   for (const std::uint32_t faces : {512u, 512u * 33}) {
     const std::string got = in_child([faces] {

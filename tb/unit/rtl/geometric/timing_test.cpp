@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Latency and initiation interval of each unit of the edges' pipe by itself, as
 // docs/geometric_hardware.md has them; memory answers 20 clocks after a request.
+#include <algorithm>
+#include <deque>
 #include <numeric>
 
 #include "rtl_model/geometric/edges/edge_classifier.h"
@@ -138,6 +140,59 @@ TEST(VertexFetch, TwoLinesOfOneIndexAreFetchedAnew) {
   }
 }
 
+// ---- MemoryArbiter
+struct Asker final : rtl::Unit {
+  MemoryClient memory;
+  Asker(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
+  rtl::Activity tick(Cycle cycle) override {
+    if (memory.responses_in.can_pop(cycle)) {
+      answered.push_back(cycle);
+      memory.responses_in.pop(cycle);
+    }
+    if (asked.size() < wanted && memory.requests_out.can_push(cycle)) {
+      memory.read(cycle, 64 * static_cast<std::uint32_t>(asked.size()),
+                  static_cast<std::uint32_t>(asked.size()));
+      asked.push_back(cycle);
+    }
+    return rtl::kBusy;
+  }
+  void reset() override {}
+  std::size_t wanted = 0;
+  std::vector<Cycle> asked, answered;
+};
+TEST(MemoryArbiter, LatencyIsOneEachWay) {
+  Frame b({});
+  Asker asker("asker", b.clock);
+  b.arbiter.connect(Client::kDepth, asker.memory);
+  asker.wanted = 1;
+  b.clock.run(60);
+  // Arbiter, port, M + 1, port, arbiter.
+  ASSERT_EQ(asker.answered.size(), 1u);
+  EXPECT_EQ(asker.answered[0] - asker.asked[0], 1u + 1 + (20 + 1) + 1 + 1);
+  EXPECT_EQ(b.arbiter.read_latency(Client::kDepth).min(), asker.answered[0] - asker.asked[0] - 2);
+}
+TEST(MemoryArbiter, ServesEachOfEightAfterSevenOthers) {
+  Frame b({});
+  std::deque<Asker> askers;
+  for (std::size_t i = 0; i < kClients; ++i) {
+    askers.emplace_back((std::string("asker") + std::to_string(i)).c_str(), b.clock);
+    askers.back().wanted = 40;
+    b.arbiter.connect(static_cast<Client>(i), askers.back().memory);
+  }
+  b.clock.run(600);
+  std::vector<Cycle> answers;
+  for (const Asker& asker : askers) {
+    ASSERT_EQ(asker.answered.size(), 40u);
+    for (std::size_t i = 3; i < 40; ++i) {
+      EXPECT_EQ(asker.asked[i] - asker.asked[i - 1], 8u);
+      EXPECT_EQ(asker.answered[i] - asker.answered[i - 1], 8u);
+    }
+    answers.insert(answers.end(), asker.answered.begin(), asker.answered.end());
+  }
+  const auto [first, last] = std::minmax_element(answers.begin(), answers.end());
+  EXPECT_EQ(*last - *first, 8u * 40 - 1) << "one a clock";
+}
+
 // ---- LineWalker
 struct WalkerBench : Frame {
   explicit WalkerBench(Lanes walkers, const Parameters& p = {})
@@ -234,6 +289,14 @@ TEST(CoverageUnit, AGroupAClock) {
   finish(b, b.ends, 50);
   EXPECT_EQ(spread(b.ends), 49u);
 }
+TEST(CoverageUnit, AGroupWithoutACandidateTakesAClockAndLeavesNothing) {
+  CoverageBench b;
+  b.ends.source.add(CoverageBench::group(false, 7, 9));
+  for (int i = 0; i < 30; ++i) b.ends.source.add(CoverageBench::group(false, 7, -32768));
+  b.ends.source.add(CoverageBench::group(false, 7, 9));
+  finish(b, b.ends, 2);
+  EXPECT_EQ(spread(b.ends), 31u);
+}
 TEST(CoverageUnit, EveryDistance) {
   CoverageBench b;
   for (int distance = -32768; distance < 32768; ++distance)
@@ -328,6 +391,29 @@ TEST(DepthTest, EightLinesTakeFourClocksOrEightMisses) {
   finish(b, b.ends, 7);
   EXPECT_EQ(spread(b.ends), 6u * 4);
   EXPECT_EQ(b.unit.misses.value(), 56u);
+}
+TEST(DepthTest, APairTakesAClockWithAMiss) {
+  // Two lines each, the pixel's and that of the block to its left, which the group before brought.
+  DepthBench b;
+  for (int i = 1; i < 60; ++i) {
+    CandidateToken token = DepthBench::column(i, 4);
+    token.candidates = 1;
+    b.ends.source.add(token);
+  }
+  finish(b, b.ends, 59);
+  EXPECT_EQ(b.unit.misses.value(), 60u);
+  EXPECT_EQ(b.unit.lookups.value(), 2u * 59);
+  // The first pair misses twice, a clock more.
+  EXPECT_EQ(spread(b.ends), 58u);
+  b.clock.run(10);
+  b.ends.sink.taken.clear();
+  for (int i = 1; i < 30; ++i) {
+    CandidateToken token = DepthBench::column(2 * i, 20);
+    token.candidates = 1;
+    b.ends.source.add(token);
+  }
+  finish(b, b.ends, 29);
+  EXPECT_EQ(spread(b.ends), 2u * 28) << "both miss";
 }
 // As few places for lines as can be built: a group that orders eight holds all of them.
 TEST(DepthTest, EightLinesFitIntoTheFewestFills) {
