@@ -37,7 +37,7 @@ inline Frame random_frame(int width, int height, std::uint64_t seed, int edges =
   }
   constexpr std::uint32_t kDepths[] = {0, 4'000'000, 4'001'000, 8'000'000};
   for (std::size_t i = 0; i < frame.image.pixels.size(); ++i)
-    frame.depths.push_back(kDepths[random.below(4)]);
+    frame.depths.push_back(kDepths[random.below(4)] | random.word() << 24);  // that counts nowhere
   ScreenEdges& screen = frame.screen;
   screen.faces = 1 + random.below(1500);
   screen.facing.resize((screen.faces + 7) / 8);
@@ -64,7 +64,7 @@ inline Frame random_frame(int width, int height, std::uint64_t seed, int edges =
     };
     screen.edges.push_back({vertex(v), vertex(v + 1), random.below(screen.faces + 2),
                             random.below(screen.faces + 2),
-                            static_cast<std::uint8_t>(random.below(16))});
+                            static_cast<std::uint8_t>(random.below(256))});
   }
   return frame;
 }

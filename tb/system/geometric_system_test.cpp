@@ -108,7 +108,7 @@ TEST_P(EveryMix, IsIdenticalToGolden) {
   p.fills = spec::geometric::kMinFills + below(below(2) ? 60 : 4);
   p.latency_fifo = 4 + below(200);
   p.resolve_lanes = lanes();
-  p.resolve_lines = 16 + 2 * below(50);
+  p.resolve_lines = 16 + below(100);
   p.memory_outstanding = p.fills + below(80);
   options.memory.latency = 1 + below(60);
   options.memory.latency_max = below(2) ? 0 : options.memory.latency + below(120);

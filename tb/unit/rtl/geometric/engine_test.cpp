@@ -110,6 +110,28 @@ TEST(Registers, CodesThatNoChoiceHasCountAsTheFirst) {
   EXPECT_EQ(b.engine.work().passed, b.engine.work().candidates);
   EXPECT_EQ(b.reads(b.bases.depth).size(), 0u);
 }
+// One engine, told the rules of each configuration between frames.
+TEST(Registers, RulesAreThoseOfTheNextFrame) {
+  EngineBench b;
+  const std::uint32_t built = b.bus.read(reg::kRules);
+  for (const char name : {'f', 'a', 'g', 'e', 'b', 'h', 'a'}) {
+    const Configuration c = configuration(name);
+    const auto code = [](auto value, int shift) {
+      return static_cast<std::uint32_t>(value) << shift;
+    };
+    b.bus.write(reg::kRules, code(c.p.select, 0) | code(c.p.crease, 2) | code(c.p.depth_test, 4) |
+                                 code(c.p.combine, 6) | code(c.p.linear_light, 7) |
+                                 code(c.p.depth_bias, 8) | code(c.p.mark, 13) |
+                                 code(c.p.layout, 14) | code(c.p.frame_copy, 15));
+    b.layout = c.p.layout;
+    b.load(contract_scene());
+    b.run();
+    EXPECT_EQ(b.pixel_hash(), c.pixels) << name;
+    EXPECT_EQ(b.weight_hash(), c.weights) << name;
+    EXPECT_EQ(b.writes(b.bases.copy).empty(), !c.p.frame_copy) << name;
+  }
+  EXPECT_EQ(b.bus.read(reg::kRules), built) << "the reset value is that of the parameters";
+}
 TEST(Registers, CountersAddUpUntilCleared) {
   EngineBench b;
   b.load(contract_scene());

@@ -197,7 +197,7 @@ class EngineBench {
         }
       }
   }
-  bool tiled() const { return p.layout == spec::geometric::Layout::kTiled; }
+  bool tiled() const { return layout == spec::geometric::Layout::kTiled; }
   void start() { bus.write(reg::kControl, reg::kControlEnable | reg::kControlStart); }
   // A whole frame; gives its clocks.
   Cycle run(Cycle limit = 2'000'000) {
@@ -271,6 +271,7 @@ class EngineBench {
   }
 
   const Parameters p;
+  spec::geometric::Layout layout = p.layout;  // that RULES says
   const Bases bases;
   int width = 0, height = 0;
   ClockDomain clock{"clock", period()};
