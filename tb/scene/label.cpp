@@ -88,7 +88,8 @@ Image label(std::string_view text, int scale, const Rgba8& ink, const Rgba8& pap
     const Letter& letter = letter_of(text[i]);
     for (int y = 0; y < kDotsDown * scale; ++y) {
       for (int x = 0; x < kDotsAcross * scale; ++x) {
-        if (letter.dots[static_cast<std::size_t>(y / scale * kDotsAcross + x / scale)] == '#')
+        const int dot = y / scale * kDotsAcross + x / scale;
+        if (letter.dots[static_cast<std::size_t>(dot)] == '#')
           image.at(static_cast<int>(i) * (kDotsAcross + 1) * scale + x, y) = ink;
       }
     }
