@@ -226,7 +226,7 @@ class Blind(CommandTest):
         self.assertEqual(self.known("morphological"), boards - {"blind-memory-lines"})
         needed = {board: self.blind("morphological", board, *memory) for board in boards}
         self.assertEqual(needed, {"blind-pixels": 32 * 32, "blind-taps": 32 * 32,
-                                  "blind-memory-lines": 2 * 2 * 32, "blind-status-registers": 13})
+                                  "blind-memory-lines": 2 * 2 * 32, "blind-status-registers": 15})
 
     def test_geometric(self):
         boards = {f"blind-{board}" for board in self.GEOMETRIC}

@@ -37,9 +37,9 @@ Activity SlotSequencer::tick(Cycle cycle) {
       frames_done_in.pop(cycle);
       store_.leave();
       ++frames;
-      // The token was pushed with the last beat, in the clock before.
+      // The token was pushed with the last beat; how long it waited here does not count.
       frame_cycles.reset();
-      frame_cycles += cycle - first_cycle_;
+      frame_cycles += frames_done_in.link().last_push() + 1 - first_cycle_;
     }
     if (store_.frame_inside()) return kIdle;  // what is left is on its way out
     if (!pixels_in.can_pop(cycle) || !store_.enabled()) return kIdle;
