@@ -59,7 +59,8 @@ class FrameCommand final : public Engine {
     if (sampler_.format == spec::texture::Format::kSrgb8A8)
       throw spec::ConfigError(
           "sampler.format: the frame buffer keeps codes; srgb8_a8 delivers linear light");
-    const TextureScene scene(scene_, sampler_, static_cast<std::uint32_t>(run.seed));
+    const std::shared_ptr<const TextureScene> shared = load(run, context);
+    const TextureScene& scene = *shared;
     refuse_nothing_drawn(scene);
     for (const auto& input : scene.inputs()) context.add_input(input);
     context.set_title(
@@ -76,6 +77,11 @@ class FrameCommand final : public Engine {
              [&] { add_pictures(run, context, scene, frame, result); });
   }
 
+  void prepare(const RunParameters& run, RunContext& context) override {
+    const std::shared_ptr<const TextureScene> scene = load(run, context);
+    if (run.truth) scene_truth(*scene, truth_options(), context);
+  }
+
   void describe_statistics(Result& result) override {
     const TextureScene scene = smallest(scene_, sampler_);
     Simulation simulation({});
@@ -84,6 +90,20 @@ class FrameCommand final : public Engine {
   }
 
  private:
+  std::shared_ptr<const TextureScene> load(const RunParameters& run,
+                                           const RunContext& context) const {
+    return context.shared<TextureScene>("texture scene", {"scene.", "sampler."}, [&] {
+      return TextureScene(scene_, sampler_, static_cast<std::uint32_t>(run.seed));
+    });
+  }
+
+  RenderOptions truth_options() const {
+    RenderOptions options;
+    // Coverage is averaged in the light in which the engine blends.
+    options.averaging = morphological_.linear_light ? Averaging::kLinear : Averaging::kStored;
+    return options;
+  }
+
   FrameSetup setup() const { return {{texture_, memory_}, {morphological_, frame_memory_}}; }
 
   void add_pictures(const RunParameters& run, RunContext& context, const TextureScene& scene,
@@ -95,13 +115,8 @@ class FrameCommand final : public Engine {
     if (after.pixels.size() != before.pixels.size()) return;  // nothing was begun
     const bool golden = run.check == CheckMode::kGolden;
     if (golden) expected.pixels = frame.smoothing.golden_model().pixels();
-    if (run.truth && whole) {
-      RenderOptions truth_options;
-      // Coverage is averaged in the light in which the engine blends.
-      truth_options.averaging =
-          morphological_.linear_light ? Averaging::kLinear : Averaging::kStored;
-      truth = judge_by_scene(scene, truth_options, before, after, result, context);
-    }
+    if (run.truth && whole)
+      truth = judge_by_scene(scene, truth_options(), before, after, result, context);
     add_smoothing_pictures(
         context, {before, after, frame.smoothing.taps(), frame.smoothing.delivered(),
                   golden ? &expected : nullptr, truth.empty() ? nullptr : &truth,
