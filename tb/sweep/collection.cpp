@@ -181,21 +181,24 @@ class Collector {
       }
       return better;
     };
-    // In this order nobody is dominated by one that comes later, so the front only grows.
+    // In this order nobody is dominated by one that comes later, so each front only grows.
     std::stable_sort(order.begin(), order.end(), [&](const auto* a, const auto* b) {
       for (std::size_t g = 0; g < goals.size(); ++g)
         if (cost(*a, g) != cost(*b, g)) return cost(*a, g) < cost(*b, g);
       return false;
     });
-    std::vector<const CollectedPoint*> front;
+    std::map<Sample, std::vector<const CollectedPoint*>> fronts;
     for (CollectedPoint* point : order) {
+      Sample circumstances;
+      for (const std::size_t axis : sweep_.front_axes) circumstances.push_back(point->sample[axis]);
+      std::vector<const CollectedPoint*>& front = fronts[circumstances];
       if (std::any_of(front.begin(), front.end(),
                       [&](const CollectedPoint* other) { return dominates(*other, *point); }))
         continue;
       point->front = true;
       front.push_back(point);
+      ++all_.front;
     }
-    all_.front = front.size();
   }
 
   // ---- effects ----------------------------------------------------------------------------------
@@ -317,6 +320,8 @@ Json json_of(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& p
   json["objectives"] = Json::array();
   for (const Objective& objective : sweep.objectives)
     json["objectives"].push_back({{"metric", objective.metric}, {"maximise", objective.maximise}});
+  json["for_each"] = Json::array();
+  for (const std::size_t axis : sweep.front_axes) json["for_each"].push_back(sweep.axes[axis].name);
   json["effects"] = Json::array();
   for (const MainEffect& effect : all.effects) {
     Json means = Json::array();

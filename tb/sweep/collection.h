@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a sweep's points show together: a table, the Pareto front over the objectives, and what each
+// What a sweep's points show together: a table, the Pareto front over the objectives (one for each
+// value of the axes that are no choice of the design), and what each
 // axis does to each metric on average. Written as CSV, as JSON and as one self-contained page.
 #pragma once
 

@@ -421,24 +421,36 @@ class Reader {
     if (!objectives.IsMap())
       fail(objectives,
            fmt::format("'objectives' wants minimise and maximise, got {}", kind(objectives)));
-    std::vector<std::string> names;
-    for (const Metric& metric : sweep_.metrics) names.push_back(metric.name);
+    std::vector<std::string> metrics, axes;
+    for (const Metric& metric : sweep_.metrics) metrics.push_back(metric.name);
+    for (const Axis& axis : sweep_.axes) axes.push_back(axis.name);
     for (const auto& entry : objectives) {
-      const std::string way = entry.first.Scalar();
-      if (way != "minimise" && way != "maximise")
-        fail(entry.first, fmt::format("'objectives': '{}' wants to be minimise or maximise", way));
-      if (!entry.second.IsSequence())
-        fail(entry.first, fmt::format("'{}' wants a list of metrics", way));
+      const std::string key = entry.first.Scalar();
+      if (key != "minimise" && key != "maximise" && key != "for_each")
+        fail(entry.first,
+             fmt::format("'objectives': unknown '{}' (known: minimise, maximise, for_each)", key));
+      if (!entry.second.IsSequence()) fail(entry.first, fmt::format("'{}' wants a list", key));
       for (const auto& node : entry.second) {
-        const std::string name = scalar(node, way);
-        if (std::find(names.begin(), names.end(), name) == names.end())
-          fail(node, fmt::format("no metric '{}'{} (known: {})", name,
-                                 did_you_mean(near_matches(name, names)), fmt::join(names, ", ")));
+        if (key == "for_each") {
+          sweep_.front_axes.push_back(one_of(axes, node, "axis"));
+          continue;
+        }
+        const std::string& name = metrics[one_of(metrics, node, "metric")];
         for (const Objective& other : sweep_.objectives)
           if (other.metric == name) fail(node, fmt::format("objective '{}' is given twice", name));
-        sweep_.objectives.push_back({name, way == "maximise"});
+        sweep_.objectives.push_back({name, key == "maximise"});
       }
     }
+  }
+
+  std::size_t one_of(const std::vector<std::string>& names, const YAML::Node& node,
+                     std::string_view what) const {
+    const std::string name = scalar(node, what);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      fail(node, fmt::format("no {} '{}'{} (known: {})", what, name,
+                             did_you_mean(near_matches(name, names)), fmt::join(names, ", ")));
+    return static_cast<std::size_t>(found - names.begin());
   }
 
   std::string file_;

@@ -3,6 +3,7 @@
 // what is varied, how it is sampled, what is left out, and what is looked at afterwards.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -62,6 +63,7 @@ struct SweepDefinition {
   bool skip_refused = false;  // points that the engine refuses are left out, not an error
   std::vector<Metric> metrics;
   std::vector<Objective> objectives;
+  std::vector<std::size_t> front_axes;  // only points that agree in these are compared
   bool reports = true;
   std::uint64_t chunk = 0;  // points a worker; 0: chosen by the number of points
 };

@@ -66,8 +66,7 @@ fs::path point_directory(const fs::path& points, std::string_view name) {
 PointState state_of(const fs::path& directory) {
   std::error_code error;
   if (!fs::is_directory(directory, error)) return PointState::kMissing;
-  if (fs::exists(directory / ".deburr_run", error))
-    return is_taken(directory) ? PointState::kRunning : PointState::kMissing;
+  if (is_taken(directory)) return PointState::kRunning;
   if (fs::exists(directory / kFailure, error)) return PointState::kFailed;
   return has_result(directory) ? PointState::kDone : PointState::kMissing;
 }

@@ -28,7 +28,8 @@
     if (value === null || value === undefined) return '';
     if (typeof value === 'string') return value;
     if (Number.isInteger(value)) return value.toLocaleString('en-US');
-    return String(Number(value.toPrecision(4)));
+    return Math.abs(value) >= 1000 ? Math.round(value).toLocaleString('en-US')
+                                   : String(Number(value.toPrecision(4)));
   }
   const titled = (c) => c.unit ? `${c.name} (${c.unit})` : c.name;
   const done = data.points.filter((p) => p.state === 'done');
@@ -86,7 +87,8 @@
   fill(byId('up'), columns, goals[1] ?? (metrics[1] ?? metrics[0]).name);
   fill(byId('colour'), columns.filter((c) => c.axis !== undefined), columns[0].name);
   byId('objectives').textContent = data.objectives.length === 0 ? '' : 'Objectives: ' +
-    data.objectives.map((o) => `${o.maximise ? 'most' : 'least'} ${o.metric}`).join(', ');
+    data.objectives.map((o) => `${o.maximise ? 'most' : 'least'} ${o.metric}`).join(', ') +
+    (data.for_each.length > 0 ? `, a front for each ${data.for_each.join(', ')}` : '');
   Chart.defaults.color = muted;
   Chart.defaults.borderColor = rule;
   Chart.defaults.animation = false;
@@ -147,6 +149,7 @@
     // One scale, so that axes can be compared.
     const all = effects.flatMap((e) => e.means.map((m) => m[1]));
     const low = Math.min(...all), high = Math.max(...all), margin = (high - low) * 0.08 || 1;
+    const inside = (v) => v >= low - margin / 2 && v <= high + margin / 2;
     for (const effect of effects) {
       const box = element('div', undefined, byId('effects'));
       const means = effect.means.map((m) => m[1]);
@@ -160,7 +163,7 @@
                datasets: [{data: means, borderColor: accent, backgroundColor: accent, pointRadius: 3}]},
         options: {maintainAspectRatio: false, plugins: {legend: {display: false}},
                   scales: {y: {min: low - margin, max: high + margin,
-                               ticks: {maxTicksLimit: 5, callback: (v) => shown(v)}}}},
+                               ticks: {maxTicksLimit: 5, callback: (v) => inside(v) ? shown(v) : ''}}}},
       }));
     }
   }
@@ -243,7 +246,9 @@
     const context = canvas.getContext('2d');
     context.scale(ratio, ratio);
     context.clearRect(0, 0, width, height);
-    const used = columns.filter((c) => c.metric !== undefined || c.labels.length > 1);
+    // What never changes says nothing.
+    const used = columns.filter((c) => c.axis !== undefined ? c.labels.length > 1
+                                                            : new Set(done.map(c.value)).size > 1);
     const top = 40, bottom = height - 26, left = 50, right = width - 50;
     const at = (i) => used.length > 1 ? left + (right - left) * i / (used.length - 1) : (left + right) / 2;
     const ranges = used.map((c) => {

@@ -12,3 +12,9 @@ set_tests_properties(terminal PROPERTIES LABELS system TIMEOUT 300
 add_test(NAME figures COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/figures_test.py" $<TARGET_FILE:deburr>)
 set_tests_properties(figures PROPERTIES LABELS system TIMEOUT 300
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+foreach(class Points Killed)
+  add_test(NAME sweep.${class}
+           COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/sweep_test.py" $<TARGET_FILE:deburr> ${class})
+  set_tests_properties(sweep.${class} PROPERTIES LABELS system TIMEOUT 600
+                       ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+endforeach()
