@@ -27,6 +27,7 @@ namespace mustache = kainjow::mustache;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMaxResultBytes = 64u << 20;
+constexpr const char* kUnitOfThroughput = "see throughput.unit";  // statistics()
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::string_view name_of(PointState state) {
@@ -141,6 +142,8 @@ class Collector {
     const nlohmann::json meanings = result.value("meaning", nlohmann::json::object());
     const nlohmann::json entry = meanings.value(key, nlohmann::json::object());
     all_.metrics[metric].unit = entry.value("unit", "");
+    if (key.starts_with("throughput.") && all_.metrics[metric].unit == kUnitOfThroughput)
+      all_.metrics[metric].unit = result["throughput"].value("unit", "");
     all_.metrics[metric].meaning = entry.value("meaning", "");
   }
 

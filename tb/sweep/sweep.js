@@ -149,7 +149,6 @@
     // One scale, so that axes can be compared.
     const all = effects.flatMap((e) => e.means.map((m) => m[1]));
     const low = Math.min(...all), high = Math.max(...all), margin = (high - low) * 0.08 || 1;
-    const inside = (v) => v >= low - margin / 2 && v <= high + margin / 2;
     for (const effect of effects) {
       const box = element('div', undefined, byId('effects'));
       const means = effect.means.map((m) => m[1]);
@@ -163,7 +162,7 @@
                datasets: [{data: means, borderColor: accent, backgroundColor: accent, pointRadius: 3}]},
         options: {maintainAspectRatio: false, plugins: {legend: {display: false}},
                   scales: {y: {min: low - margin, max: high + margin,
-                               ticks: {maxTicksLimit: 5, callback: (v) => inside(v) ? shown(v) : ''}}}},
+                               ticks: {maxTicksLimit: 6, includeBounds: false, callback: (v) => shown(v)}}}},
       }));
     }
   }
