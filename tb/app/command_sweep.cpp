@@ -19,6 +19,7 @@
 #include "tb/sweep/definition.h"
 #include "tb/sweep/local_engine.h"
 #include "tb/sweep/plan.h"
+#include "tb/sweep/slurm.h"
 #include "tb/sweep/status.h"
 #include "tb/sweep/worker.h"
 
@@ -29,7 +30,7 @@ namespace fs = std::filesystem;
 using spec::ExitCode;
 
 struct SweepOptions {
-  std::string file, action;
+  std::string file, action, slurm;
   fs::path out = "out";
   unsigned jobs = 0;
   bool retry = false, quiet = false;
@@ -58,11 +59,24 @@ Outcome plan_sweep(const SweepOptions& options, const SweepDefinition& sweep,
                          grouped(status.done), place.directory.string())};
 }
 
+// What is queued would be run twice.
+void refuse_while_submitted(const SweepPlace& place) {
+  const auto job = submitted_job(place);
+  if (!job) return;
+  const SlurmStatus slurm = ask_slurm(*job);
+  if (slurm.queued + slurm.running > 0)
+    throw spec::FileError(fmt::format(
+        "job {0} still has {1} tasks of this sweep: wait for it, or end it with 'scancel {0}'",
+        job->id, grouped(slurm.queued + slurm.running)));
+  forget_job(place);
+}
+
 Outcome run_sweep(const SweepOptions& options, const SweepDefinition& sweep,
                   const SweepPlace& place) {
   catch_interrupts();
   const Plan plan = planned(options, sweep, place);
   const SweepLock lock(place.directory);
+  refuse_while_submitted(place);
   const Pending pending = find_pending(plan, place, options.retry);
   int code = 0;
   if (!pending.points.empty()) {
@@ -71,7 +85,17 @@ Outcome run_sweep(const SweepOptions& options, const SweepDefinition& sweep,
     settings.jobs =
         options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
     settings.quiet = options.quiet;
-    write_chunks(plan, place, pending.points, settings);
+    if (!options.slurm.empty()) {
+      const SlurmJob job =
+          submit(plan, place, pending.points, read_profile(options.slurm), settings);
+      note_start(place, pending.points.size());
+      return {0,
+              fmt::format("PASS sweep {}: {} submitted as {} task{} of job {}; 'status' shows how "
+                          "far it is",
+                          sweep.name, points_of(pending.points.size()), grouped(job.tasks),
+                          job.tasks == 1 ? "" : "s", job.id)};
+    }
+    write_tasks(plan, place, place.directory, pending.points, settings, 1);
     note_start(place, pending.points.size());
     code = run_ninja(place, pending.points.size(), settings);
   }
@@ -103,6 +127,12 @@ Outcome show_status(const SweepOptions&, const SweepDefinition& sweep, const Swe
   fmt::print("points      {}\ndone        {}\nrunning     {}\nfailed      {}\nqueued      {}\n",
              grouped(plan.points), grouped(status.done), grouped(status.running),
              grouped(status.failed), grouped(status.missing));
+  if (const auto job = submitted_job(place)) {
+    const SlurmStatus slurm = ask_slurm(*job);
+    fmt::print("slurm       job {}: {} tasks queued, {} running\n", job->id, grouped(slurm.queued),
+               grouped(slurm.running));
+    for (const std::string& advice : slurm.advice) fmt::print("slurm       {}\n", advice);
+  }
   if (!status.time_left.empty()) fmt::print("time left   {}\n", status.time_left);
   for (const std::string& failure : status.failures) fmt::print("failed      {}\n", failure);
   return {0, fmt::format("PASS sweep {}: {} of {} done", sweep.name, grouped(status.done),
@@ -148,6 +178,10 @@ void add_sweep(CLI::App& app, CommandLine& line) {
       ->capture_default_str();
   command->add_option("-j,--jobs", options->jobs, "Points at a time (the number of processors)")
       ->check(CLI::Range(1u, 4096u));
+  command
+      ->add_option("--slurm", options->slurm,
+                   "run: submit to Slurm as this YAML profile says, instead of running here")
+      ->type_name("PROFILE");
   command->add_flag("--retry", options->retry, "Run again what failed, too");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors and the line RESULT: ...");
   command->callback([options, &line] { line.action = [options] { return sweep(*options); }; });
@@ -156,6 +190,7 @@ void add_sweep(CLI::App& app, CommandLine& line) {
   const auto chunk = std::make_shared<WorkerOptions>();
   worker->add_option("OUT", chunk->out)->required();
   worker->add_option("SWEEP", chunk->sweep)->required();
+  worker->add_option("POINTS", chunk->points)->required();
   worker->add_option("OFFSET", chunk->lines.offset)->required();
   worker->add_option("COUNT", chunk->lines.count)->required();
   worker->callback([chunk, &line] {

@@ -33,8 +33,6 @@ constexpr std::uint64_t kMostInChunk = 64;
 constexpr std::uint64_t kChunksPerJob = 4;  // so that nobody waits long for the last one
 constexpr int kNoSuchProgram = 127;
 
-fs::path ninja_file(const fs::path& sweep) { return sweep / "all.ninja"; }
-
 // As Ninja reads a path.
 std::string ninja_path(const fs::path& path) {
   std::string text;
@@ -94,37 +92,47 @@ SweepLock::SweepLock(const fs::path& sweep) {
 
 SweepLock::~SweepLock() { ::close(descriptor_); }
 
-std::uint64_t write_chunks(const Plan& plan, const SweepPlace& place,
-                           const std::vector<PlannedPoint>& points, const RunSettings& settings) {
+std::uint64_t write_tasks(const Plan& plan, const SweepPlace& place, const fs::path& folder,
+                          const std::vector<PlannedPoint>& points, const RunSettings& settings,
+                          std::uint64_t most) {
   std::error_code ignored;
   fs::remove(progress_file(place.directory), ignored);
-  const std::uint64_t jobs = std::max(1u, settings.jobs);
+  const fs::path pending = folder / "pending.jsonl";
+  const std::uint64_t jobs = most * std::max(1u, settings.jobs);
   const std::uint64_t size =
       plan.chunk > 0
           ? plan.chunk
           : std::clamp<std::uint64_t>(points.size() / (kChunksPerJob * jobs), 1, kMostInChunk);
-  std::string ninja = fmt::format(
-      "# Written by deburr sweep: the targets are never made, so that all of them are run.\n"
-      "ninja_required_version = 1.8\n"
-      "builddir = {}\n"
-      "rule chunk\n"
-      "  command = exec {} sweep-worker {} {} $lines\n"
-      "  description = chunk $lines\n",
-      ninja_path(place.directory / "ninja"), ninja_value(shell_quoted(settings.program)),
-      ninja_value(shell_quoted(place.out.string())),
-      ninja_value(shell_quoted(place.directory.string())));
-  const std::string target = ninja_path(place.directory / "ninja" / "chunk_");
+  const std::uint64_t chunks = (points.size() + size - 1) / size;
+  const std::uint64_t tasks = std::min(most, chunks);
+  std::vector<std::string> ninja(
+      tasks,
+      fmt::format("# Written by deburr sweep: the targets are never made, so that all are run.\n"
+                  "ninja_required_version = 1.8\n"
+                  "rule chunk\n"
+                  "  command = exec {} sweep-worker {} {} {} $lines\n"
+                  "  description = chunk $lines\n",
+                  ninja_value(shell_quoted(settings.program)),
+                  ninja_value(shell_quoted(place.out.string())),
+                  ninja_value(shell_quoted(place.directory.string())),
+                  ninja_value(shell_quoted(pending.string()))));
+  for (std::uint64_t task = 0; task < tasks; ++task)
+    ninja[task] +=
+        fmt::format("builddir = {}\n", ninja_path(folder / fmt::format("ninja_{}", task)));
   std::string lines;
-  std::uint64_t chunks = 0;
-  for (std::size_t from = 0; from < points.size(); from += size, ++chunks) {
+  for (std::uint64_t chunk = 0; chunk < chunks; ++chunk) {
+    const std::size_t from = chunk * size;
     const std::size_t to = std::min<std::size_t>(points.size(), from + size);
-    ninja += fmt::format("build {}{:05}: chunk\n  lines = {} {}\n", target, chunks, lines.size(),
-                         to - from);
+    // Neighbours, which have their input in common, stay in one task.
+    ninja[chunk * tasks / chunks] +=
+        fmt::format("build {}: chunk\n  lines = {} {}\n",
+                    ninja_path(folder / fmt::format("chunk_{}", chunk)), lines.size(), to - from);
     for (std::size_t i = from; i < to; ++i) lines += line_of(points[i]) + "\n";
   }
-  write_file_atomically(pending_file(place.directory), lines);
-  write_file_atomically(ninja_file(place.directory), ninja);
-  return chunks;
+  write_file_atomically(pending, lines);
+  for (std::uint64_t task = 0; task < tasks; ++task)
+    write_file_atomically(folder / fmt::format("task_{}.ninja", task), ninja[task]);
+  return tasks;
 }
 
 int run_ninja(const SweepPlace& place, std::uint64_t points, const RunSettings& settings) {
@@ -136,7 +144,7 @@ int run_ninja(const SweepPlace& place, std::uint64_t points, const RunSettings& 
     if (::getppid() != parent) ::_exit(kInterruptedExit);
     ::dup2(STDERR_FILENO, STDOUT_FILENO);  // the standard output is the command's own
     const std::string jobs = std::to_string(std::max(1u, settings.jobs));
-    const std::string file = ninja_file(place.directory).string();
+    const std::string file = (place.directory / "task_0.ninja").string();
     ::execlp("ninja", "ninja", "--quiet", "-k", "0", "-j", jobs.c_str(), "-f", file.c_str(),
              static_cast<char*>(nullptr));
     ::_exit(kNoSuchProgram);

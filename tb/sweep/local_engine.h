@@ -38,11 +38,14 @@ struct RunSettings {
   bool quiet = false;
 };
 
-// Writes pending.jsonl and all.ninja for the points; returns the number of chunks.
-std::uint64_t write_chunks(const Plan& plan, const SweepPlace& place,
-                           const std::vector<PlannedPoint>& points, const RunSettings& settings);
-// Starts Ninja on all.ninja and shows how far it is. Returns Ninja's exit code, or
-// kInterruptedExit. FileError when Ninja is not installed.
+// Writes the points as FOLDER/pending.jsonl and their chunks as FOLDER/task_N.ninja, at most `most`
+// such files; returns how many. `settings.jobs` is for each file.
+std::uint64_t write_tasks(const Plan& plan, const SweepPlace& place,
+                          const std::filesystem::path& folder,
+                          const std::vector<PlannedPoint>& points, const RunSettings& settings,
+                          std::uint64_t most);
+// Starts Ninja on task_0.ninja of the sweep's directory and shows how far it is. Returns Ninja's
+// exit code, or kInterruptedExit. FileError when Ninja is not installed.
 int run_ninja(const SweepPlace& place, std::uint64_t points, const RunSettings& settings);
 
 }  // namespace deburr::tb

@@ -53,7 +53,7 @@ class Worker {
 
   int run() {
     for_each_point(
-        pending_file(options_.sweep),
+        options_.points,
         [&](const PlannedPoint& point) {
           if (!interrupted()) run(point);
         },
@@ -191,7 +191,6 @@ class Worker {
 
 }  // namespace
 
-fs::path pending_file(const fs::path& sweep) { return sweep / "pending.jsonl"; }
 fs::path progress_file(const fs::path& sweep) { return sweep / "progress"; }
 
 int run_chunk(const WorkerOptions& options) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A chunk of a sweep in one process: `deburr sweep-worker OUT SWEEP OFFSET COUNT`, started by
-// Ninja.
+// A chunk of a sweep in one process: `deburr sweep-worker OUT SWEEP POINTS OFFSET COUNT`, started
+// by Ninja.
 //
 // Scene, mip chain and truth are made once; for each point a child is forked before anything of
 // SystemC is made, inherits them, simulates and leaves its results. So a point pays for no start of
@@ -15,7 +15,8 @@ namespace deburr::tb {
 
 struct WorkerOptions {
   std::filesystem::path out, sweep;
-  PointLines lines;  // of pending.jsonl
+  std::filesystem::path points;  // a file like points.jsonl
+  PointLines lines;              // of it
 };
 
 // Runs every point of the chunk that has no result yet. A point that fails leaves failure.json and
@@ -23,8 +24,6 @@ struct WorkerOptions {
 // results cannot be written. Returns the exit code: 0, or kInterruptedExit.
 int run_chunk(const WorkerOptions& options);
 
-// The lines of points.jsonl that a run has to do.
-std::filesystem::path pending_file(const std::filesystem::path& sweep);
 // One byte a point that has come to its end, by any worker.
 std::filesystem::path progress_file(const std::filesystem::path& sweep);
 inline constexpr char kPointDone = '.', kPointFailed = 'x';
