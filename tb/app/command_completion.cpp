@@ -41,8 +41,7 @@ void add_words(Words& words, const CLI::App& command, const std::string& path) {
       // What takes a value that nobody knows is left to the shell, which knows files.
       if (option->get_items_expected_min() > 0) words[fmt::format("{}:--{}", path, name)];
     }
-  for (const CLI::App* sub : subcommands)
-    add_words(words, *sub, path + " " + sub->get_name());
+  for (const CLI::App* sub : subcommands) add_words(words, *sub, path + " " + sub->get_name());
 }
 
 void add_parameters(Words& words) {

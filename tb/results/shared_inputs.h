@@ -34,9 +34,7 @@ class SharedInputs {
   std::string bytes(const std::string& key, const std::function<std::string()>& make) const;
   // A file's fingerprint, taken once.
   const std::string& sha256_of(const std::filesystem::path& file);
-  const std::map<std::filesystem::path, std::string>& fingerprints() const {
-    return fingerprints_;
-  }
+  const std::map<std::filesystem::path, std::string>& fingerprints() const { return fingerprints_; }
   // Lets go of what the next group of runs has no use for.
   void forget() { kept_.clear(); }
 
