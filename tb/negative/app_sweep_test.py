@@ -6,7 +6,7 @@ import os
 import resource
 import unittest
 
-from app_support import DEBURR, CommandTest
+from app_support import CommandTest, png
 
 AXES = "axes: {texture.cache.ways: [1, 2], memory.latency: [50, 60]}\n"
 BASE = "engine: texture\nbase: {scene: {width: 16, height: 16}, run.images: false}\n"
@@ -122,6 +122,16 @@ class Surroundings(Sweeps):
         self.expect(0, "sweep", "s.yaml", "run")
         self.expect(2, "sweep", "s.yaml", "collect",
                     says="metric 'clocks': no result has the key 'cicles': did you mean 'cycles'")
+
+    def test_an_input_that_cannot_be_read(self):
+        """It fails its own points, and only them; once it can be read they are done."""
+        self.write("good.png", png(16, 8))
+        self.write("bad.png", png(16, 8)[:60])
+        self.write("s.yaml", "engine: morphological\nbase: {run.images: false}\n"
+                   "axes: {frame.source: [bad.png, good.png], morphological.lanes: [1, 2]}\n")
+        self.expect(1, "sweep", "s.yaml", "run", says=("2 done", "2 failed", "'bad.png'"))
+        self.write("bad.png", png(16, 8))
+        self.expect(0, "sweep", "s.yaml", "run", says="4 points, 4 done (2 in this run)")
 
     def test_no_ninja(self):
         self.write("s.yaml", BASE + AXES)

@@ -77,9 +77,9 @@ class Worker {
       context.set_quiet(true);
       context.set_report(plan_.reports);
       context.share(shared_);
-      point.bound.engine.prepare(point.bound.run, context);
-      const Ended ended = in_child([&] { return simulate(point.bound, context); });
-      failure = judge(ended, directory);
+      failure = prepare(point.bound, context);
+      if (!failure)
+        failure = judge(in_child([&] { return simulate(point.bound, context); }), directory);
     } catch (const Interrupted&) {
       return;
     } catch (const spec::ConfigError& error) {
@@ -91,6 +91,16 @@ class Worker {
     else
       remove_failure(directory);
     tick(failure ? kPointFailed : kPointDone);
+  }
+
+  // An input that cannot be read is a matter of the points that want it.
+  static std::optional<Failure> prepare(BoundEngine& bound, RunContext& context) {
+    try {
+      bound.engine.prepare(bound.run, context);
+      return std::nullopt;
+    } catch (const spec::FileError& error) {
+      return Failure{"file", headline(error.what()), true};
+    }
   }
 
   // In the child: what it says is the reason of a failure.
