@@ -148,7 +148,7 @@ class Parser {
   }
 
   Operand comparison() {
-    const Operand left = sum();
+    Operand left = sum();
     const std::string op = token_;
     if (op != "==" && op != "!=" && op != "<" && op != "<=" && op != ">" && op != ">=") return left;
     next();
@@ -216,7 +216,7 @@ class Parser {
               parameter};
     const Value constant = value_of(token);
     if (!std::holds_alternative<std::string>(constant))
-      return {[constant](const ParameterSet&) { return constant; }};
+      return {[constant](const ParameterSet&) -> Value { return constant; }};
     return {nullptr, nullptr, token};
   }
 

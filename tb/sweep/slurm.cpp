@@ -63,6 +63,7 @@ Answer ask(const std::vector<std::string>& words, const std::string& conf) {
     ::dup2(ends[1], STDERR_FILENO);
     if (!conf.empty()) ::setenv("SLURM_CONF", conf.c_str(), 1);
     std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
     ::execvp(arguments[0], arguments.data());
@@ -240,7 +241,7 @@ SlurmJob submit(const Plan& plan, const SweepPlace& place, const std::vector<Pla
   if (answer.late) throw FileError("sbatch did not answer; the controller may be busy: try again");
   if (answer.code != 0)
     throw ConfigError(fmt::format("sbatch refuses '{}': {}", file.string(), headline(answer.text)));
-  const SlurmJob job{answer.text.substr(0, answer.text.find(';')), profile.conf, tasks};
+  SlurmJob job{answer.text.substr(0, answer.text.find(';')), profile.conf, tasks};
   write_file_atomically(
       job_file(place),
       Json{{"id", job.id}, {"conf", job.conf}, {"tasks", job.tasks}}.dump(1) + "\n");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -26,7 +27,7 @@ constexpr std::size_t kFailuresShown = 10;
 fs::path start_file(const SweepPlace& place) { return place.directory / "start.json"; }
 
 std::string in_words(double time) {
-  const auto whole = static_cast<std::uint64_t>(time + 0.5);
+  const auto whole = static_cast<std::uint64_t>(std::llround(time));
   if (whole < 120) return fmt::format("{} s", whole);
   if (whole < 7200) return fmt::format("{} min", whole / 60);
   return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
