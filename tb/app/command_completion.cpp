@@ -32,15 +32,16 @@ using Words = std::map<std::string, std::string>;
 
 void add_words(Words& words, const CLI::App& command, const std::string& path) {
   std::string& here = words[path];
-  for (const CLI::App* sub : command.get_subcommands(nullptr)) here += sub->get_name() + " ";
+  std::vector<const CLI::App*> subcommands = command.get_subcommands(nullptr);
+  std::erase_if(subcommands, [](const CLI::App* sub) { return sub->get_group().empty(); });
+  for (const CLI::App* sub : subcommands) here += sub->get_name() + " ";
   for (const CLI::Option* option : command.get_options())
     for (const std::string& name : option->get_lnames()) {
       here += "--" + name + " ";
       // What takes a value that nobody knows is left to the shell, which knows files.
       if (option->get_items_expected_min() > 0) words[fmt::format("{}:--{}", path, name)];
     }
-  for (const CLI::App* sub : command.get_subcommands(nullptr))
-    add_words(words, *sub, path + " " + sub->get_name());
+  for (const CLI::App* sub : subcommands) add_words(words, *sub, path + " " + sub->get_name());
 }
 
 void add_parameters(Words& words) {

@@ -15,17 +15,16 @@
 #include "spec/error.h"
 #include "tb/app/commands.h"
 #include "tb/app/engine.h"
+#include "tb/app/run_once.h"
 #include "tb/app/shorthands.h"
 #include "tb/results/headline.h"
 #include "tb/results/interrupt.h"
 #include "tb/results/report.h"
-#include "tb/scene/truth.h"
 
 namespace deburr::tb {
 namespace {
 
 using spec::ConfigError;
-using spec::ExitCode;
 
 // An option or a --set, in the words of the user.
 struct Assignment {
@@ -124,96 +123,44 @@ std::string figures_of(const Result& r) {
   return text;
 }
 
-// A failed check names its file as the compiler saw it; users know it from the root of the
-// repository.
-std::string from_repository(const std::string& text) {
-  for (const char* layer : {"layers/spec/", "layers/golden/", "layers/rtl_model/", "layers/tb/"})
-    if (const std::size_t at = text.find(layer); at != std::string::npos)
-      return text.substr(at + std::string_view(layer).size());
-  return text;
-}
-
 Outcome run_engine(Engine& engine, const RunOptions& options, const CommandLine& line) {
-  ParameterSet set;
-  RunParameters run = engine.run_parameters();
-  set.add("run", ParameterKind::kRun, run);
-  engine.add_parameters(set);
-  apply(options, set);
-  engine.resolve(set);
-  if (!run.trace.empty() && run.trace_from >= run.trace_to)
-    throw ConfigError(fmt::format(
-        "run.trace_from = {} and run.trace_to = {} leave no cycle to trace: --trace-to is the "
-        "cycle after the last one, give one above {}",
-        run.trace_from, run.trace_to, run.trace_from));
-  if (run.trace.empty())
-    for (const char* name : {"run.trace_from", "run.trace_to"})
-      set.refuse(name, "nothing is traced without run.trace (--trace)");
-  RunContext context(options.out.value_or(fmt::format("out/{}", engine.name())), set, line.text,
-                     static_cast<std::uint64_t>(run.seed));
+  BoundEngine bound(engine);
+  apply(options, bound.set);
+  bound.resolve();
+  RunContext context(options.out.value_or(fmt::format("out/{}", engine.name())), bound.set,
+                     line.text, static_cast<std::uint64_t>(bound.run.seed));
   context.set_quiet(options.quiet || line.json);
-  Result result;
   if (options.resolve_only) {
     context.set_judging_only();
-    engine.run(run, context, result);
-    fmt::print("{}", set.yaml());
+    Result result;
+    engine.run(bound.run, context, result);
+    fmt::print("{}", bound.set.yaml());
     return {};
   }
   catch_interrupts();
-  result.unit = engine.name();
-  result.clock_mhz = run.clock_mhz;
-  std::string kind;
-  int code = 0;
-  try {
-    context.claim(options.wait ? IfTaken::kWait : IfTaken::kRefuse);
-    if (options.config) context.protect(*options.config);
-    engine.run(run, context, result);
-    if (result.mismatches + result.traffic_mismatches > 0) {
-      code = static_cast<int>(ExitCode::kMismatch);
-      kind = "mismatch";
-      result.reason =
-          fmt::format("{} of {} outputs and {} of {} memory accesses differ from the golden model",
-                      result.mismatches, result.comparisons, result.traffic_mismatches,
-                      result.traffic_comparisons);
-    }
-  } catch (const Interrupted&) {
+  const RunEnd end =
+      run_once(bound, context, options.wait ? IfTaken::kWait : IfTaken::kRefuse, [&] {
+        if (options.config) context.protect(*options.config);
+        return true;
+      });
+  const Result& result = end.result;
+  if (!end.begun) {
     fmt::print(stderr,
                "deburr: interrupted before the simulation began; no results were written\n");
     return {kInterruptedExit,
             fmt::format("INTERRUPTED {}: before the simulation began, no results were written",
                         result.unit)};
-  } catch (const spec::Error& error) {
-    // What was wrong before the simulation has no result; what went wrong in it has a partial one.
-    code = static_cast<int>(error.code());
-    if (error.code() == ExitCode::kUsage || error.code() == ExitCode::kFile) throw;
-    kind = error.code() == ExitCode::kDeadlock   ? "deadlock"
-           : error.code() == ExitCode::kMismatch ? "mismatch"
-                                                 : "simulation";
-    result.reason = error.what();
-    fmt::print(stderr, "deburr: {}\n", error.what());
-  } catch (const spec::CheckFailed& error) {
-    code = static_cast<int>(ExitCode::kSimulation);
-    kind = "simulation";
-    result.reason = from_repository(error.what());
-    fmt::print(stderr, "deburr: {}\n", result.reason);
   }
   for (const MemoryFigures& memory : result.memories)
     if (!memory.idealised.empty() && !context.quiet())
       fmt::print(stderr, "deburr: warning: this hardware cannot be built: memory {}: {}\n",
                  memory.name, memory.idealised);
-  if (code != 0)
-    result.verdict = Verdict::kFail;
-  else
-    result.verdict = run.check == CheckMode::kGolden ? Verdict::kPass : Verdict::kUnchecked;
-  if (result.interrupted && code == 0) {
-    result.verdict = Verdict::kUnchecked;
-    result.reason = "interrupted: the results cover what was done until then";
-  }
   context.finish(result);
   if (!context.quiet()) fmt::print("{}", figures_of(result));
   const std::filesystem::path& directory = context.directory();
   const std::string summary = summary_of(result, directory);
-  if (code != 0)
-    return {code, fmt::format("FAIL {}: {} ({})", kind, headline(result.reason), summary),
+  if (end.code != 0)
+    return {end.code, fmt::format("FAIL {}: {} ({})", end.kind, headline(result.reason), summary),
             directory};
   if (result.interrupted) {
     fmt::print(stderr,
@@ -293,12 +240,9 @@ void add_run(CLI::App& app, CommandLine& line) {
     command->add_flag("--show-config", options->resolve_only,
                       "Judge the configuration as a run would, print it and stop");
     // To know which shorthands are switches, the parameters are asked.
-    ParameterSet probe;
-    RunParameters defaults = engine->run_parameters();
-    probe.add("run", ParameterKind::kRun, defaults);
-    engine->add_parameters(probe);
+    const BoundEngine probe(*engine);
     for (const Shorthand& shorthand : shorthands_of(*engine)) {
-      const Parameter* parameter = probe.find(shorthand.parameter);
+      const Parameter* parameter = probe.set.find(shorthand.parameter);
       DEBURR_CHECK(parameter, shorthand.option + " stands for an unknown parameter");
       add_shorthand(*command, shorthand, *options, *parameter);
     }

@@ -31,6 +31,7 @@ void add_papers(CLI::App& app, CommandLine& line);
 void add_params(CLI::App& app, CommandLine& line);
 void add_compare(CLI::App& app, CommandLine& line);
 void add_report(CLI::App& app, CommandLine& line);
+void add_sweep(CLI::App& app, CommandLine& line);
 void add_completion(CLI::App& app, CommandLine& line);
 
 }  // namespace deburr::tb

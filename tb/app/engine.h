@@ -95,6 +95,9 @@ class Engine {
   // Simulates and fills the context's images. Errors of the run are exceptions (spec/error.h);
   // what was measured until then is in `result`.
   virtual void run(const RunParameters& run, RunContext& context, Result& result) = 0;
+  // Makes what run() will take from context.shared(), for all runs that are to share it. It makes
+  // nothing of SystemC, so that a process can run() behind it as often as it forks.
+  virtual void prepare(const RunParameters&, RunContext&) {}
   // Every counter and stall cause that a run of this engine reports, for docs/statistics.md. It
   // elaborates the model, so it is called at most once a process, and not in one that runs.
   virtual void describe_statistics(Result& result) = 0;

@@ -79,7 +79,8 @@ class FrameCommand final : public Engine {
     if (sampler_.format == spec::texture::Format::kSrgb8A8)
       throw spec::ConfigError(
           "sampler.format: the frame buffer keeps codes; srgb8_a8 delivers linear light");
-    const TextureScene scene(scene_, sampler_, static_cast<std::uint32_t>(run.seed));
+    const std::shared_ptr<const TextureScene> shared = load(run, context);
+    const TextureScene& scene = *shared;
     refuse_nothing_drawn(scene);
     for (const auto& input : scene.inputs()) context.add_input(input);
     context.set_title("Frame: " + std::filesystem::path(scene_.source).filename().string(),
@@ -95,6 +96,11 @@ class FrameCommand final : public Engine {
     FrameComposition frame(simulation, scene, setup(choice_.smoothing));
     simulate(simulation, frame, context, result,
              [&] { add_pictures(run, context, scene, frame, result); });
+  }
+
+  void prepare(const RunParameters& run, RunContext& context) override {
+    const std::shared_ptr<const TextureScene> scene = load(run, context);
+    if (run.truth) scene_truth(*scene, truth_options(), context);
   }
 
   // Of all engines at once.
@@ -178,6 +184,20 @@ class FrameCommand final : public Engine {
                                                 : geometric_.linear_light;
   }
 
+  std::shared_ptr<const TextureScene> load(const RunParameters& run,
+                                           const RunContext& context) const {
+    return context.shared<TextureScene>("texture scene", {"scene.", "sampler."}, [&] {
+      return TextureScene(scene_, sampler_, static_cast<std::uint32_t>(run.seed));
+    });
+  }
+
+  RenderOptions truth_options() const {
+    RenderOptions options;
+    // Coverage is averaged in the light in which the engine blends.
+    options.averaging = blends_in_linear_light() ? Averaging::kLinear : Averaging::kStored;
+    return options;
+  }
+
   void add_pictures(const RunParameters& run, RunContext& context, const TextureScene& scene,
                     const FrameComposition& frame, Result& result) const {
     const Image& before = frame.buffer.frame();
@@ -187,12 +207,8 @@ class FrameCommand final : public Engine {
     if (after.pixels.size() != before.pixels.size()) return;  // nothing was begun
     const bool golden = run.check == CheckMode::kGolden;
     if (golden) expected = frame.golden_frame();
-    if (run.truth && whole) {
-      RenderOptions truth_options;
-      // Coverage is averaged in the light in which the engine blends.
-      truth_options.averaging = blends_in_linear_light() ? Averaging::kLinear : Averaging::kStored;
-      truth = judge_by_scene(scene, truth_options, before, after, result, context);
-    }
+    if (run.truth && whole)
+      truth = judge_by_scene(scene, truth_options(), before, after, result, context);
     const SmoothedFrame smoothed{before,
                                  after,
                                  frame.delivered(),

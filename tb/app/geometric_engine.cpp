@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,14 +66,8 @@ class GeometricCommand final : public Engine {
   }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
-    const LoadedGeometricFrame loaded = [&] {
-      const bool truth = run.truth && !context.judging_only();
-      Waiting waiting(truth ? "rendering frame and truth" : "rendering the frame", context.quiet());
-      return load_geometric_frame(scene_, static_cast<std::uint32_t>(run.seed), truth, [&] {
-        waiting.update();
-        return interrupted();
-      });
-    }();
+    const std::shared_ptr<const LoadedGeometricFrame> shared = load(run, context);
+    const LoadedGeometricFrame& loaded = *shared;
     refuse_nothing_drawn(loaded.scene, loaded.frame.depth);
     const geometric::Frame& frame = loaded.frame;
     golden::geometric::check_frame(
@@ -91,6 +86,8 @@ class GeometricCommand final : public Engine {
              [&] { add_pictures(run, context, loaded, environment, result); });
   }
 
+  void prepare(const RunParameters& run, RunContext& context) override { load(run, context); }
+
   void describe_statistics(Result& result) override {
     geometric::Frame smallest;
     smallest.image = Image(2, 2);
@@ -102,6 +99,18 @@ class GeometricCommand final : public Engine {
   }
 
  private:
+  std::shared_ptr<const LoadedGeometricFrame> load(const RunParameters& run,
+                                                   const RunContext& context) const {
+    const bool truth = run.truth && !context.judging_only();
+    return context.shared<LoadedGeometricFrame>("geometric frame", {"scene.", "run.truth"}, [&] {
+      Waiting waiting(truth ? "rendering frame and truth" : "rendering the frame", context.quiet());
+      return load_geometric_frame(scene_, static_cast<std::uint32_t>(run.seed), truth, [&] {
+        waiting.update();
+        return interrupted();
+      });
+    });
+  }
+
   std::string summary_line(const geometric::Frame& frame) const {
     const spec::geometric::Parameters& p = parameters_;
     std::string clipped, crease;

@@ -24,6 +24,7 @@
 #include "tb/results/headline.h"
 #include "tb/results/interrupt.h"
 #include "tb/results/parameter_set.h"
+#include "tb/results/shell.h"
 
 namespace {
 
@@ -32,22 +33,9 @@ using deburr::tb::Outcome;
 
 constexpr std::size_t kMaxResultBytes = std::size_t{64} << 20;
 
-// The command line as a shell takes it back.
 std::string quoted_command(int argc, char** argv) {
-  constexpr const char* kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:+@%";
   std::string command;
-  for (int i = 0; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (i > 0) command += ' ';
-    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
-      command += word;
-      continue;
-    }
-    command += '\'';
-    for (const char c : word) command += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    command += '\'';
-  }
+  for (int i = 0; i < argc; ++i) command += (i > 0 ? " " : "") + deburr::tb::shell_quoted(argv[i]);
   return command;
 }
 
@@ -85,6 +73,13 @@ Outcome failure(int code, const char* kind, const std::string& text) {
   return {code, fmt::format("FAIL {}: {}", kind, deburr::tb::headline(text))};
 }
 
+// Those without a group are started by the program itself, and nobody is told of them.
+std::vector<const CLI::App*> commands_of(const CLI::App& app) {
+  std::vector<const CLI::App*> commands = app.get_subcommands(nullptr);
+  std::erase_if(commands, [](const CLI::App* command) { return command->get_group().empty(); });
+  return commands;
+}
+
 std::string quoted_names(const std::vector<const CLI::App*>& commands) {
   std::string names;
   for (const CLI::App* command : commands)
@@ -102,7 +97,7 @@ std::string explain(const CLI::App& app, int argc, char** argv, const std::strin
   };
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
-    const auto commands = command->get_subcommands(nullptr);
+    const auto commands = commands_of(*command);
     if (word.starts_with("--") && word.size() > 2) {
       const std::string name = word.substr(0, word.find('='));
       const CLI::Option* option = command->get_option_no_throw(name);
@@ -130,7 +125,7 @@ std::string explain(const CLI::App& app, int argc, char** argv, const std::strin
       path += " " + word;
     }
   }
-  if (const auto commands = command->get_subcommands(nullptr); !commands.empty())
+  if (const auto commands = commands_of(*command); !commands.empty())
     return see(fmt::format("{} what? Known are {}", path, quoted_names(commands)));
   return see(complaint);
 }
@@ -158,6 +153,7 @@ int run(int argc, char** argv) {
   deburr::tb::add_params(app, line);
   deburr::tb::add_compare(app, line);
   deburr::tb::add_report(app, line);
+  deburr::tb::add_sweep(app, line);
   deburr::tb::add_completion(app, line);
   try {
     app.parse(argc, argv);

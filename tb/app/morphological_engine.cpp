@@ -19,6 +19,7 @@
 #include "tb/env/morphological_frames.h"
 #include "tb/results/interrupt.h"
 #include "tb/results/progress.h"
+#include "tb/scene/image_bytes.h"
 #include "tb/scene/truth.h"
 
 namespace deburr::tb {
@@ -67,15 +68,8 @@ class MorphologicalCommand final : public Engine {
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
     golden::morphological::check_parameters(parameters_);
-    FrameParameters wanted = frame_;
-    if (context.judging_only()) wanted.truth_samples = std::min(1, wanted.truth_samples);
-    const LoadedFrame loaded = [&] {
-      Waiting waiting("rendering scene and truth", context.quiet());
-      return load_frame(wanted, static_cast<std::uint32_t>(run.seed), [&] {
-        waiting.update();
-        return interrupted();
-      });
-    }();
+    const std::shared_ptr<const LoadedFrame> shared = load(run, context);
+    const LoadedFrame& loaded = *shared;
     if (is_rendered(frame_)) refuse_nothing_drawn(*loaded.depth, frame_.source);
     if (run.truth && !loaded.truth)
       throw spec::ConfigError(
@@ -96,6 +90,8 @@ class MorphologicalCommand final : public Engine {
              [&] { add_pictures(run, context, loaded, environment, result); });
   }
 
+  void prepare(const RunParameters& run, RunContext& context) override { load(run, context); }
+
   void describe_statistics(Result& result) override {
     const std::vector<MorphologicalInput> frames = {{Image(2, 2), {}}};
     Simulation simulation({});
@@ -104,6 +100,38 @@ class MorphologicalCommand final : public Engine {
   }
 
  private:
+  std::shared_ptr<const LoadedFrame> load(const RunParameters& run,
+                                          const RunContext& context) const {
+    FrameParameters wanted = frame_;
+    if (context.judging_only()) wanted.truth_samples = std::min(1, wanted.truth_samples);
+    const auto render = [&](const std::function<LitFrames()>& make) {
+      const std::string bytes = context.shared_bytes("lit frames", {"frame."}, [&] {
+        const LitFrames frames = make();
+        std::string made;
+        append_bytes(made, frames.noaa);
+        append_bytes(made, frames.truth);
+        append_bytes(made, frames.depth);
+        return made;
+      });
+      std::string_view rest = bytes;
+      LitFrames frames;
+      frames.noaa = take_image<Rgba8>(rest);
+      frames.truth = take_image<Rgba8>(rest);
+      frames.depth = take_image<float>(rest);
+      return frames;
+    };
+    return context.shared<LoadedFrame>("loaded frame", {"frame."}, [&] {
+      Waiting waiting("rendering scene and truth", context.quiet());
+      return load_frame(
+          wanted, static_cast<std::uint32_t>(run.seed),
+          [&] {
+            waiting.update();
+            return interrupted();
+          },
+          render);
+    });
+  }
+
   void refuse_unused_frame(const ParameterSet& set) const {
     const bool depth_used = parameters_.edge_source != spec::morphological::EdgeSource::kLuma;
     // load_frame() has its own words for a truth beside a scene, and for a file that is not there.

@@ -13,6 +13,7 @@
 #include "tb/results/progress.h"
 #include "tb/results/report.h"
 #include "tb/scene/compose.h"
+#include "tb/scene/image_bytes.h"
 #include "tb/scene/quality.h"
 
 namespace deburr::tb {
@@ -30,18 +31,35 @@ std::string truth_caption() {
   return fmt::format("{} samples a pixel", kTruthSamples * kTruthSamples);
 }
 
-Image judge_by_scene(const TextureScene& scene, RenderOptions options, const Image& before,
-                     const Image& after, Result& result, const RunContext& context) {
-  options.width = after.width;
-  options.height = after.height;
+std::shared_ptr<const Image> scene_truth(const TextureScene& scene, RenderOptions options,
+                                         const RunContext& context) {
+  options.width = scene.stream().width;
+  options.height = scene.stream().height;
   options.samples = kTruthSamples;
   Waiting waiting("rendering the truth", context.quiet());
   options.interrupted = [&] {
     waiting.update();
     return interrupted();
   };
+  const std::string what =
+      fmt::format("truth of {}, sampling {}, averaging {}", kTruthSamples,
+                  static_cast<int>(options.sampling), static_cast<int>(options.averaging));
+  const std::initializer_list<std::string_view> depends = {"scene.", "sampler.wrap"};
+  return context.shared<Image>(what, depends, [&] {
+    const std::string bytes = context.shared_bytes(what, depends, [&] {
+      std::string made;
+      append_bytes(made, render(scene.scene(), options));
+      return made;
+    });
+    std::string_view rest = bytes;
+    return take_image<Rgba8>(rest);
+  });
+}
+
+Image judge_by_scene(const TextureScene& scene, RenderOptions options, const Image& before,
+                     const Image& after, Result& result, const RunContext& context) {
   try {
-    Image truth = render(scene.scene(), options);
+    Image truth = *scene_truth(scene, std::move(options), context);
     result.quality = judge_quality(fmt::format("supersampled-{}", kTruthSamples * kTruthSamples),
                                    before, after, truth, &scene.stream().depth);
     return truth;

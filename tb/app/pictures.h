@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ inline constexpr int kDifferenceGain = 4;
 // the way ends it: the result is marked, the picture empty, and what was measured before stays.
 inline constexpr int kTruthSamples = 16;
 std::string truth_caption();
+// Shared by runs of the same scene (RunContext::shared). Throws Interrupted.
+std::shared_ptr<const Image> scene_truth(const TextureScene& scene, RenderOptions options,
+                                         const RunContext& context);
 Image judge_by_scene(const TextureScene& scene, RenderOptions options, const Image& before,
                      const Image& after, Result& result, const RunContext& context);
 

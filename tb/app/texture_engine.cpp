@@ -56,7 +56,8 @@ class TextureEngine final : public Engine {
   }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
-    const TextureScene scene(scene_, sampler_, static_cast<std::uint32_t>(run.seed));
+    const std::shared_ptr<const TextureScene> shared = load(run, context);
+    const TextureScene& scene = *shared;
     refuse_nothing_drawn(scene);
     for (const auto& input : scene.inputs()) context.add_input(input);
     context.set_title(title(), summary_line(scene));
@@ -67,6 +68,11 @@ class TextureEngine final : public Engine {
              [&] { add_pictures(run, context, scene, environment, result); });
   }
 
+  void prepare(const RunParameters& run, RunContext& context) override {
+    const std::shared_ptr<const TextureScene> scene = load(run, context);
+    if (run.truth) scene_truth(*scene, truth_options(), context);
+  }
+
   void describe_statistics(Result& result) override {
     const TextureScene scene = smallest(scene_, sampler_);
     Simulation simulation({});
@@ -75,6 +81,20 @@ class TextureEngine final : public Engine {
   }
 
  private:
+  std::shared_ptr<const TextureScene> load(const RunParameters& run,
+                                           const RunContext& context) const {
+    return context.shared<TextureScene>("texture scene", {"scene.", "sampler."}, [&] {
+      return TextureScene(scene_, sampler_, static_cast<std::uint32_t>(run.seed));
+    });
+  }
+
+  RenderOptions truth_options() const {
+    RenderOptions options;
+    options.sampling = Sampling::kBilinear;
+    options.averaging = linear_light() ? Averaging::kLinear : Averaging::kStored;
+    return options;
+  }
+
   std::string title() const {
     return "Texture unit: " + std::filesystem::path(scene_.source).filename().string();
   }
@@ -147,10 +167,7 @@ class TextureEngine final : public Engine {
                             (over || lost == 0 ? "" : "; black where nothing was delivered"));
     }
     if (run.truth && !result.interrupted) {
-      RenderOptions truth_options;
-      truth_options.sampling = Sampling::kBilinear;
-      truth_options.averaging = linear_light() ? Averaging::kLinear : Averaging::kStored;
-      const Image truth = judge_by_scene(scene, truth_options, before, after, result, context);
+      const Image truth = judge_by_scene(scene, truth_options(), before, after, result, context);
       if (truth.empty()) return;
       context.add_image("truth", truth, "Truth", truth_caption());
       context.add_image("error", difference(after, truth, kDifferenceGain), "Error",

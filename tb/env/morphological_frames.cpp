@@ -33,14 +33,16 @@ void require_size(const char* what, const std::string& file, int width, int heig
 }
 
 LoadedFrame rendered(const FrameParameters& p, std::uint32_t seed,
-                     const std::function<bool()>& interrupted) {
+                     const std::function<bool()>& interrupted, const KeptFrames& kept) {
   SceneOptions options;
   options.seed = seed;
   const Scene scene = load_scene(p.source, options);
   LoadedFrame frame;
   frame.conversions = scene.mesh.notes;
-  const LitFrames lit =
-      render_lit_frames(scene, p.width, p.height, std::max(1, p.truth_samples), interrupted);
+  const auto make = [&] {
+    return render_lit_frames(scene, p.width, p.height, std::max(1, p.truth_samples), interrupted);
+  };
+  const LitFrames lit = kept ? kept(make) : make();
   frame.input.image = lit.noaa;
   frame.depth = lit.depth;
   if (p.truth_samples > 0) {
@@ -83,13 +85,13 @@ bool looks_like_a_picture(const DepthImage& depth) {
 }
 
 LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed,
-                       const std::function<bool()>& interrupted) {
+                       const std::function<bool()>& interrupted, const KeptFrames& kept) {
   LoadedFrame frame;
   if (is_scene(p.source)) {
     if (!p.truth.empty() || !p.depth.empty())
       throw spec::ConfigError(
           "frame.truth and frame.depth go with an image file; a scene has its own");
-    frame = rendered(p, seed, interrupted);
+    frame = rendered(p, seed, interrupted, kept);
   } else {
     if (std::filesystem::path(p.source).extension().empty() && !std::filesystem::exists(p.source)) {
       std::string known;

@@ -15,6 +15,7 @@
 
 #include "tb/env/frame_source.h"
 #include "tb/scene/image.h"
+#include "tb/scene/truth.h"
 
 namespace deburr::tb {
 
@@ -55,8 +56,11 @@ struct LoadedFrame {
 
 // FileError for files that cannot be read; ConfigError for sizes that do not agree; Interrupted
 // once `interrupted` says so.
+// Pictures of a scene pass through `kept`, which may know them already.
+using KeptFrames = std::function<LitFrames(const std::function<LitFrames()>& make)>;
 LoadedFrame load_frame(const FrameParameters& parameters, std::uint32_t seed,
-                       const std::function<bool()>& interrupted = nullptr);
+                       const std::function<bool()>& interrupted = nullptr,
+                       const KeptFrames& kept = nullptr);
 
 // Whether 24-bit depths, taken apart into R, G and B, change from pixel to pixel as a picture does:
 // two of them alike. Of depth, G and B are the lower digits of R: they fall as it rises.

@@ -11,6 +11,11 @@ foreach(class Faults Registers Blind)
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_faults_test.py" -v ${class})
   list(APPEND APP_NEGATIVE_TESTS app_faults.${class})
 endforeach()
+foreach(class Definitions Surroundings)
+  add_test(NAME app_sweep.${class}
+           COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_sweep_test.py" -v ${class})
+  list(APPEND APP_NEGATIVE_TESTS app_sweep.${class})
+endforeach()
 add_test(NAME app_images COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_images_test.py" -v)
 set_tests_properties(${APP_NEGATIVE_TESTS} app_images PROPERTIES
   LABELS negative TIMEOUT 300 ENVIRONMENT "DEBURR=$<TARGET_FILE:deburr>;PYTHONDONTWRITEBYTECODE=1")

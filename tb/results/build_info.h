@@ -13,6 +13,9 @@ struct BuildInfo {
   std::string compiler;  // "GNU 12.2.0"
   std::string build;     // "Release"
   std::string systemc;   // "2.3.4"
+  // Of every source that a result depends on: two programs with the same one, compiler and SystemC
+  // give the same results.
+  std::string model;  // SHA-256, the first 16 digits
 };
 const BuildInfo& build_info();
 

@@ -10,6 +10,8 @@ std::string_view chart_js();         // Chart.js (MIT), from Debian's libjs-char
 std::string_view style_css();        // report_style.css
 std::string_view report_template();  // report.mustache
 std::string_view report_js();        // report.js
+std::string_view sweep_template();   // sweep.mustache
+std::string_view sweep_js();         // sweep.js
 std::string_view papers_template();  // papers.mustache
 
 }  // namespace deburr::tb::embedded

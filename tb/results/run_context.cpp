@@ -98,6 +98,19 @@ std::string RunContext::golden_key() const {
   return sha256(key.dump());
 }
 
+std::string RunContext::key_of(std::string_view what,
+                               std::initializer_list<std::string_view> prefixes) const {
+  Json key = {{"what", what}, {"seed", seed_}};
+  for (const Parameter& p : parameters_.all()) {
+    if (std::none_of(prefixes.begin(), prefixes.end(),
+                     [&](std::string_view prefix) { return p.name.starts_with(prefix); }))
+      continue;
+    key[p.name] = p.json();
+    if (names_a_file(p)) key[p.name + " content"] = shared_->sha256_of(p.text());
+  }
+  return key.dump();
+}
+
 Json RunContext::manifest(const Result& result) const {
   const BuildInfo& build = build_info();
   Json json;
@@ -110,6 +123,7 @@ Json RunContext::manifest(const Result& result) const {
   json["seed"] = seed_;
   json["version"] = build.version;
   json["commit"] = build.commit;
+  json["model"] = build.model;
   json["compiler"] = build.compiler;
   json["build_type"] = build.build;
   json["systemc"] = build.systemc;
@@ -141,7 +155,8 @@ void RunContext::finish(const Result& result) {
   const fs::path draft = directory_.draft();
   write_file_atomically(draft / kResult, text);
   // From the text, so that it is the page that `deburr report` makes of the file.
-  write_file_atomically(draft / kReport, build_report(draft, Json::parse(text), origin));
+  if (report_)
+    write_file_atomically(draft / kReport, build_report(draft, Json::parse(text), origin));
   directory_.publish(origin, kResult);
 }
 

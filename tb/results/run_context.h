@@ -11,14 +11,19 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <initializer_list>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tb/results/parameter_set.h"
 #include "tb/results/result.h"
 #include "tb/results/run_directory.h"
+#include "tb/results/shared_inputs.h"
 #include "tb/scene/image.h"
 
 namespace deburr::tb {
@@ -39,6 +44,24 @@ class RunContext {
   // A run that ends where it would begin: everything that was given has been judged.
   void set_judging_only() { judging_only_ = true; }
   bool judging_only() const { return judging_only_; }
+  // Without: no report.html, which `deburr report` makes of what is left.
+  void set_report(bool wanted) { report_ = wanted; }
+  // Runs that are given the same one make what they have in common once.
+  void share(std::shared_ptr<SharedInputs> inputs) { shared_ = std::move(inputs); }
+  // What `make` gives, kept for runs that agree in the seed and in the parameters whose names begin
+  // with one of `prefixes` (files by their content). `what` tells one such thing from another.
+  template <class T>
+  std::shared_ptr<const T> shared(std::string_view what,
+                                  std::initializer_list<std::string_view> prefixes,
+                                  const std::function<T()>& make) const {
+    if (!shared_) return std::make_shared<const T>(make());
+    return shared_->get<T>(key_of(what, prefixes), make);
+  }
+  // The same of bytes, which processes can share too.
+  std::string shared_bytes(std::string_view what, std::initializer_list<std::string_view> prefixes,
+                           const std::function<std::string()>& make) const {
+    return shared_ ? shared_->bytes(key_of(what, prefixes), make) : make();
+  }
   void set_title(std::string title, std::string summary);
   // What had to be decided about an input (a mesh without normals): on the error stream, in result
   // and report.
@@ -64,13 +87,15 @@ class RunContext {
 
  private:
   std::string golden_key() const;
+  std::string key_of(std::string_view what, std::initializer_list<std::string_view> prefixes) const;
   nlohmann::ordered_json manifest(const Result& result) const;
 
   RunDirectory directory_;
   const ParameterSet& parameters_;
   std::string command_, title_, summary_, started_;
   std::uint64_t seed_;
-  bool quiet_ = false, judging_only_ = false;
+  bool quiet_ = false, judging_only_ = false, report_ = true;
+  std::shared_ptr<SharedInputs> shared_;
   std::vector<std::string> notes_;
   nlohmann::ordered_json inputs_ = nlohmann::ordered_json::array();
   nlohmann::ordered_json images_ = nlohmann::ordered_json::array();

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// `deburr sweep FILE.yaml plan | run | status | collect`, and the worker behind `run`.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "spec/error.h"
+#include "tb/app/commands.h"
+#include "tb/results/interrupt.h"
+#include "tb/results/report.h"
+#include "tb/sweep/collection.h"
+#include "tb/sweep/definition.h"
+#include "tb/sweep/local_engine.h"
+#include "tb/sweep/plan.h"
+#include "tb/sweep/slurm.h"
+#include "tb/sweep/status.h"
+#include "tb/sweep/worker.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace fs = std::filesystem;
+using spec::ExitCode;
+
+struct SweepOptions {
+  std::string file, action, slurm;
+  fs::path out = "out";
+  unsigned jobs = 0;
+  bool retry = false, quiet = false;
+};
+
+std::string points_of(std::uint64_t number) {
+  return fmt::format("{} point{}", grouped(number), number == 1 ? "" : "s");
+}
+
+void say(const SweepOptions& options, const std::string& text) {
+  if (!options.quiet) fmt::print("{}\n", text);
+}
+
+Plan planned(const SweepOptions& options, const SweepDefinition& sweep, const SweepPlace& place) {
+  Plan plan = make_plan(sweep, place);
+  for (const std::string& left_out : plan.left_out) say(options, "left out    " + left_out);
+  return plan;
+}
+
+Outcome plan_sweep(const SweepOptions& options, const SweepDefinition& sweep,
+                   const SweepPlace& place) {
+  const Plan plan = planned(options, sweep, place);
+  const Status status = look(place);
+  return {0, fmt::format("PASS sweep {}: {} over {} input{}, {} of them done; {}", sweep.name,
+                         points_of(plan.points), grouped(plan.inputs), plan.inputs == 1 ? "" : "s",
+                         grouped(status.done), place.directory.string())};
+}
+
+// What is queued would be run twice.
+void refuse_while_submitted(const SweepPlace& place) {
+  const auto job = submitted_job(place);
+  if (!job) return;
+  const SlurmStatus slurm = ask_slurm(*job);
+  if (slurm.queued + slurm.running > 0)
+    throw spec::FileError(fmt::format(
+        "job {0} still has {1} tasks of this sweep: wait for it, or end it with 'scancel {0}'",
+        job->id, grouped(slurm.queued + slurm.running)));
+  forget_job(place);
+}
+
+Outcome run_sweep(const SweepOptions& options, const SweepDefinition& sweep,
+                  const SweepPlace& place) {
+  catch_interrupts();
+  const Plan plan = planned(options, sweep, place);
+  const SweepLock lock(place.directory);
+  refuse_while_submitted(place);
+  const Pending pending = find_pending(plan, place, options.retry);
+  int code = 0;
+  if (!pending.points.empty()) {
+    RunSettings settings;
+    settings.program = fs::read_symlink("/proc/self/exe").string();
+    settings.jobs =
+        options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
+    settings.quiet = options.quiet;
+    if (!options.slurm.empty()) {
+      const SlurmJob job =
+          submit(plan, place, pending.points, read_profile(options.slurm), settings);
+      note_start(place, pending.points.size());
+      return {0,
+              fmt::format("PASS sweep {}: {} submitted as {} task{} of job {}; 'status' shows how "
+                          "far it is",
+                          sweep.name, points_of(pending.points.size()), grouped(job.tasks),
+                          job.tasks == 1 ? "" : "s", job.id)};
+    }
+    write_tasks(plan, place, place.directory, pending.points, settings, 1);
+    note_start(place, pending.points.size());
+    code = run_ninja(place, pending.points.size(), settings);
+  }
+  const Status status = look(place);
+  const std::string figures =
+      fmt::format("{}, {} done ({} in this run), {} failed, {} missing; {}", points_of(plan.points),
+                  grouped(status.done), grouped(status.done - std::min(status.done, pending.done)),
+                  grouped(status.failed), grouped(plan.points - status.done - status.failed),
+                  place.directory.string());
+  if (code == kInterruptedExit) {
+    fmt::print(stderr, "deburr: interrupted; run the same command again for what is missing\n");
+    return {kInterruptedExit, fmt::format("INTERRUPTED sweep {}: {}", sweep.name, figures)};
+  }
+  for (const std::string& failure : status.failures) say(options, "failed      " + failure);
+  if (status.done + status.failed < plan.points)
+    return {static_cast<int>(code == static_cast<int>(ExitCode::kFile) ? ExitCode::kFile
+                                                                       : ExitCode::kSimulation),
+            fmt::format("FAIL sweep {}: {}: run the same command again for what is missing",
+                        sweep.name, figures)};
+  if (status.failed > 0)
+    return {static_cast<int>(ExitCode::kMismatch),
+            fmt::format("FAIL sweep {}: {}", sweep.name, figures)};
+  return {0, fmt::format("PASS sweep {}: {}", sweep.name, figures)};
+}
+
+Outcome show_status(const SweepOptions&, const SweepDefinition& sweep, const SweepPlace& place) {
+  const Plan plan = read_plan(place.directory);
+  const Status status = look(place);
+  fmt::print("points      {}\ndone        {}\nrunning     {}\nfailed      {}\nqueued      {}\n",
+             grouped(plan.points), grouped(status.done), grouped(status.running),
+             grouped(status.failed), grouped(status.missing));
+  if (const auto job = submitted_job(place)) {
+    const SlurmStatus slurm = ask_slurm(*job);
+    fmt::print("slurm       job {}: {} tasks queued, {} running\n", job->id, grouped(slurm.queued),
+               grouped(slurm.running));
+    for (const std::string& advice : slurm.advice) fmt::print("slurm       {}\n", advice);
+  }
+  if (!status.time_left.empty()) fmt::print("time left   {}\n", status.time_left);
+  for (const std::string& failure : status.failures) fmt::print("failed      {}\n", failure);
+  return {0, fmt::format("PASS sweep {}: {} of {} done", sweep.name, grouped(status.done),
+                         points_of(plan.points))};
+}
+
+Outcome collect_sweep(const SweepOptions&, const SweepDefinition& sweep, const SweepPlace& place) {
+  const Plan plan = make_plan(sweep, place);
+  const Collection collection = collect(sweep, plan, place);
+  write_collection(sweep, plan, place, collection);
+  return {0, fmt::format("PASS sweep {}: {} of {} collected, {} failed, {} missing{}; {}",
+                         sweep.name, grouped(collection.done), points_of(plan.points),
+                         grouped(collection.failed), grouped(collection.missing),
+                         sweep.objectives.empty()
+                             ? ""
+                             : fmt::format(", {} on the front", grouped(collection.front)),
+                         (place.directory / "index.html").string())};
+}
+
+Outcome sweep(const SweepOptions& options) {
+  const SweepDefinition definition = read_sweep(options.file);
+  const SweepPlace place = place_of(options.out, definition.name);
+  if (options.action == "plan") return plan_sweep(options, definition, place);
+  if (options.action == "run") return run_sweep(options, definition, place);
+  if (options.action == "status") return show_status(options, definition, place);
+  return collect_sweep(options, definition, place);
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app, CommandLine& line) {
+  CLI::App* command = app.add_subcommand("sweep", "Many runs of an engine over axes of parameters");
+  const auto options = std::make_shared<SweepOptions>();
+  command->add_option("FILE", options->file, "YAML file of the sweep")->required();
+  command
+      ->add_option("ACTION", options->action,
+                   "plan: name every point; run: simulate those without a result; status: how far "
+                   "it is; collect: table, front and effects as CSV, JSON and a page")
+      ->required()
+      ->check(CLI::IsMember({"plan", "run", "status", "collect"}));
+  command->add_option("--out", options->out, "Directory of points, cache and sweeps")
+      ->type_name("DIR")
+      ->capture_default_str();
+  command->add_option("-j,--jobs", options->jobs, "Points at a time (the number of processors)")
+      ->check(CLI::Range(1u, 4096u));
+  command
+      ->add_option("--slurm", options->slurm,
+                   "run: submit to Slurm as this YAML profile says, instead of running here")
+      ->type_name("PROFILE");
+  command->add_flag("--retry", options->retry, "Run again what failed, too");
+  command->add_flag("--quiet", options->quiet, "Print nothing but errors and the line RESULT: ...");
+  command->callback([options, &line] { line.action = [options] { return sweep(*options); }; });
+
+  CLI::App* worker = app.add_subcommand("sweep-worker", "Runs a chunk of a sweep")->group("");
+  const auto chunk = std::make_shared<WorkerOptions>();
+  worker->add_option("OUT", chunk->out)->required();
+  worker->add_option("SWEEP", chunk->sweep)->required();
+  worker->add_option("POINTS", chunk->points)->required();
+  worker->add_option("OFFSET", chunk->lines.offset)->required();
+  worker->add_option("COUNT", chunk->lines.count)->required();
+  worker->callback([chunk, &line] {
+    line.action = [chunk] { return Outcome{run_chunk(*chunk), ""}; };
+  });
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "tb/app/run_once.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <vector>
+
+#include "spec/error.h"
+#include "tb/scene/truth.h"
+
+namespace deburr::tb {
+namespace {
+
+using spec::ConfigError;
+using spec::ExitCode;
+
+// A failed check names its file as the compiler saw it; users know it from the root of the
+// repository.
+std::string from_repository(const std::string& text) {
+  for (const char* layer :
+       {"/layers/spec/", "/layers/golden/", "/layers/rtl_model/", "/layers/tb/"})
+    if (const std::size_t at = text.find(layer); at != std::string::npos)
+      return text.substr(at + std::string_view(layer).size());
+  return text;
+}
+
+}  // namespace
+
+BoundEngine::BoundEngine(Engine& bound) : engine(bound), run(bound.run_parameters()) {
+  set.add("run", ParameterKind::kRun, run);
+  engine.add_parameters(set);
+}
+
+void BoundEngine::resolve() {
+  engine.resolve(set);
+  if (!run.trace.empty() && run.trace_from >= run.trace_to)
+    throw ConfigError(fmt::format(
+        "run.trace_from = {} and run.trace_to = {} leave no cycle to trace: --trace-to is the "
+        "cycle after the last one, give one above {}",
+        run.trace_from, run.trace_to, run.trace_from));
+  if (run.trace.empty())
+    for (const char* name : {"run.trace_from", "run.trace_to"})
+      set.refuse(name, "nothing is traced without run.trace (--trace)");
+}
+
+std::unique_ptr<Engine> engine_named(const std::string& name) {
+  std::vector<std::string> known;
+  for (std::unique_ptr<Engine>& engine : engines()) {
+    if (engine->name() == name) return std::move(engine);
+    known.emplace_back(engine->name());
+  }
+  throw ConfigError(fmt::format("no engine '{}'{} (known: {})", name,
+                                did_you_mean(near_matches(name, known)), fmt::join(known, ", ")));
+}
+
+RunEnd run_once(BoundEngine& bound, RunContext& context, IfTaken if_taken,
+                const std::function<bool()>& claimed) {
+  RunEnd end;
+  Result& result = end.result;
+  result.unit = bound.engine.name();
+  result.clock_mhz = bound.run.clock_mhz;
+  try {
+    context.claim(if_taken);
+    if (claimed && !claimed()) {
+      end.begun = false;
+      return end;
+    }
+    bound.engine.run(bound.run, context, result);
+    if (result.mismatches + result.traffic_mismatches > 0) {
+      end.code = static_cast<int>(ExitCode::kMismatch);
+      end.kind = "mismatch";
+      result.reason =
+          fmt::format("{} of {} outputs and {} of {} memory accesses differ from the golden model",
+                      result.mismatches, result.comparisons, result.traffic_mismatches,
+                      result.traffic_comparisons);
+    }
+  } catch (const Interrupted&) {
+    result.interrupted = true;
+    end.begun = false;
+    return end;
+  } catch (const spec::Error& error) {
+    // What was wrong before the simulation has no result; what went wrong in it has a partial one.
+    end.code = static_cast<int>(error.code());
+    if (error.code() == ExitCode::kUsage || error.code() == ExitCode::kFile) throw;
+    end.kind = error.code() == ExitCode::kDeadlock   ? "deadlock"
+               : error.code() == ExitCode::kMismatch ? "mismatch"
+                                                     : "simulation";
+    result.reason = error.what();
+    fmt::print(stderr, "deburr: {}\n", error.what());
+  } catch (const spec::CheckFailed& error) {
+    end.code = static_cast<int>(ExitCode::kSimulation);
+    end.kind = "simulation";
+    result.reason = from_repository(error.what());
+    fmt::print(stderr, "deburr: {}\n", result.reason);
+  }
+  if (end.code != 0)
+    result.verdict = Verdict::kFail;
+  else
+    result.verdict = bound.run.check == CheckMode::kGolden ? Verdict::kPass : Verdict::kUnchecked;
+  if (result.interrupted && end.code == 0) {
+    result.verdict = Verdict::kUnchecked;
+    result.reason = "interrupted: the results cover what was done until then";
+  }
+  return end;
+}
+
+}  // namespace deburr::tb

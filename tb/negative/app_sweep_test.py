@@ -1,0 +1,160 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Sweeps that cannot be meant or cannot be run: each is a clear error that names its place. See
+--help."""
+import os
+import resource
+import unittest
+
+from app_support import CommandTest, png
+
+AXES = "axes: {texture.cache.ways: [1, 2], memory.latency: [50, 60]}\n"
+BASE = "engine: texture\nbase: {scene: {width: 16, height: 16}, run.images: false}\n"
+
+
+class Sweeps(CommandTest):
+    def refuse(self, text, *says, action="plan", code=2, **options):
+        self.write("s.yaml", text)
+        done = self.expect(code, "sweep", "s.yaml", action, says=says, **options)
+        self.assertFalse(os.path.exists(self.path("out/sweeps/s/plan.json")), done.stdout)
+
+
+class Definitions(Sweeps):
+    def test_unknown_names(self):
+        self.refuse(BASE + "axes: {texture.cache.weighs: [1]}\n",
+                    "s.yaml:3: unknown parameter 'texture.cache.weighs'", "did you mean 'texture.cache.ways'")
+        self.refuse(BASE.replace("height", "hight") + AXES,
+                    "s.yaml:2: unknown parameter 'scene.hight'", "did you mean 'scene.height'")
+        self.refuse(BASE.replace("texture\n", "textur\n", 1) + AXES,
+                    "s.yaml:1: no engine 'textur': did you mean 'texture'?")
+        self.refuse(BASE + AXES + "constrains: []\n", "unknown key 'constrains'", "'constraints'?")
+        self.refuse(BASE + AXES + "objectives: {minimise: [cicles]}\n",
+                    "s.yaml:4: no metric 'cicles': did you mean 'cycles'?")
+        self.refuse(BASE + AXES + "objectives: {for_each: [memory.latencies]}\n",
+                    "no axis 'memory.latencies': did you mean 'memory.latency'?")
+
+    def test_values_that_are_none(self):
+        self.refuse(BASE + "axes: {texture.cache.ways: [1, 17]}\n",
+                    "'texture.cache.ways' = '17' is outside 1..16")
+        self.refuse(BASE + "axes: {texture.footprint: [half, hafl]}\n",
+                    "s.yaml:3: 'texture.footprint' = 'hafl' wants one of", "'half'?")
+        self.refuse(BASE + "axes: {texture.cache.ways: [1, 2, 1]}\n", "has the value '1' twice")
+
+    def test_empty_axes(self):
+        self.refuse(BASE + "axes: {texture.cache.ways: []}\n",
+                    "s.yaml:3: axis 'texture.cache.ways' is empty")
+        self.refuse(BASE + "axes: {memory.latency: {from: 60, to: 50}}\n",
+                    "axis 'memory.latency' is empty: from 60 to 50")
+        self.refuse(BASE + "axes: {memory.latency: {from: 1, to: 9, step: 0}}\n", "never gets from")
+        self.refuse(BASE + "axes: {}\n", "'axes' wants a map of parameters to values")
+        self.refuse(BASE + "points: []\n", "'points' wants a list of maps, got an empty one")
+        self.refuse(BASE, "nothing is varied")
+        self.refuse(BASE + "axes: {run.stalls: {from: 0, to: 0.5}}\n", "has no end of values")
+
+    def test_twice(self):
+        self.refuse(BASE + "axes: {scene.width: [8, 16]}\n",
+                    "'scene.width' is varied, and fixed at s.yaml:2")
+        self.refuse(BASE + AXES + "points: [{texture.cache.bytes: 4096}]\n", "exclude each other")
+        self.refuse(BASE + "points: [{memory.latency: 50}, {texture.cache.ways: 1}]\n",
+                    "the first point does not give 'texture.cache.ways'")
+
+    def test_constraints(self):
+        def constraint(text, *says):
+            self.refuse(BASE + AXES + f"constraints: ['{text}']\n", f"constraint '{text}'", *says)
+
+        constraint("texture.cache.bites > 1", "'texture.cache.bites' is neither a parameter nor",
+                   "did you mean 'texture.cache.bytes'")
+        constraint("texture.cache.ways", "it is a number, not true or false")
+        constraint("texture.footprint == hafl", "is no value of texture.footprint", "'half'?")
+        constraint("texture.footprint > 1", "expected a number, got a word")
+        constraint("texture.cache.ways > 1 memory.latency", "'memory.latency' was not expected")
+        constraint("(texture.cache.ways > 1", "a ')' is missing")
+        constraint("texture.cache.ways >", "it ends too early")
+        constraint("texture.cache.ways / 0 > 1", "division by zero")
+        self.refuse(BASE + AXES + "constraints: [texture.cache.ways > 2, memory.latency < 10]\n",
+                    "no point is left of 4: 'texture.cache.ways > 2' excludes 4")
+
+    def test_a_constraint_is_not_only_syntax(self):
+        """Precedence, words and logic, by how many of 4 points are left."""
+        for text, left in (("texture.cache.ways * 2 + 1 == 5", 2),
+                           ("1 + texture.cache.ways * 2 == 5", 2),
+                           ("(1 + texture.cache.ways) * 2 == 4", 2),
+                           ("texture.cache.ways == 1 or texture.cache.ways == 2 and memory.latency > 50", 3),
+                           ("not texture.cache.ways == 1 and memory.latency == 60", 1),
+                           ("not (texture.cache.ways == 1 and memory.latency == 60)", 3),
+                           ("-texture.cache.ways < -1", 2),
+                           ("texture.cache.bytes / 64 / texture.cache.ways % 256 == 0", 2),
+                           ("texture.footprint == half and texture.kernel != tent", 4),
+                           ("run.shuffle or memory.latency <= 50", 2),
+                           ("sampler.anisotropy >= 16 and memory.latency - 10 - 40 != 0", 2)):
+            self.write("s.yaml", BASE + AXES + f"constraints: ['{text}']\n")
+            self.expect(0, "sweep", "s.yaml", "plan", says=f"{left} point" + "s" * (left > 1) + " over")
+
+    def test_too_many(self):
+        steps = "{from: 1, to: 1000}"
+        self.refuse("engine: texture\naxes:\n"
+                    f"  memory.latency: {steps}\n  run.seed: {steps}\n  run.stall_seed: {steps}\n",
+                    "1000 x 1000 x 1000 points = 1,000,000,000", "at most 1,000,000 can be planned",
+                    "sample: {random: 1000}")
+        self.refuse("engine: texture\naxes: {run.seed: {from: 0, to: 4294967295}}\n",
+                    "has 4294967296 values")
+
+    def test_points_that_the_engine_refuses(self):
+        text = ("engine: morphological\nbase: {frame: {width: 16, height: 16, truth_samples: 1}}\n"
+                "axes: {morphological.predictor: [none, fit], morphological.steps: [4, 8]}\n")
+        self.refuse(text, "the engine refuses the point morphological.predictor = none",
+                    "has no effect", "refused: skip")
+        self.write("s.yaml", text + "refused: skip\n")
+        self.expect(0, "sweep", "s.yaml", "plan", says=("2 that the engine refuses", "2 points"))
+
+    def test_files(self):
+        self.expect(5, "sweep", "nothing.yaml", "plan", says="cannot open 'nothing.yaml'")
+        self.refuse("engine: [\n", "s.yaml:", "not valid YAML")
+        self.refuse("- engine\n", "expected a map, got a list")
+        self.write("s.yaml", BASE + AXES)
+        self.expect(5, "sweep", "s.yaml", "status", says="there is no plan in 'out/sweeps/s'")
+        self.expect(2, "sweep", "s.yaml", "polish", says="polish")
+
+
+class Surroundings(Sweeps):
+    def test_unknown_metric(self):
+        self.write("s.yaml", BASE + AXES + "metrics: {clocks: cicles}\n")
+        self.expect(0, "sweep", "s.yaml", "run")
+        self.expect(2, "sweep", "s.yaml", "collect",
+                    says="metric 'clocks': no result has the key 'cicles': did you mean 'cycles'")
+
+    def test_an_input_that_cannot_be_read(self):
+        """It fails its own points, and only them; once it can be read they are done."""
+        self.write("good.png", png(16, 8))
+        self.write("bad.png", png(16, 8)[:60])
+        self.write("s.yaml", "engine: morphological\nbase: {run.images: false}\n"
+                   "axes: {frame.source: [bad.png, good.png], morphological.lanes: [1, 2]}\n")
+        self.expect(1, "sweep", "s.yaml", "run", says=("2 done", "2 failed", "'bad.png'"))
+        self.write("bad.png", png(16, 8))
+        self.expect(0, "sweep", "s.yaml", "run", says="4 points, 4 done (2 in this run)")
+
+    def test_no_ninja(self):
+        self.write("s.yaml", BASE + AXES)
+        self.expect(5, "sweep", "s.yaml", "run", says="ninja was not found",
+                    env={"PATH": "/nonexistent"})
+
+    def limited(self, size):
+        return {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))}
+
+    def test_full_disk(self):
+        self.write("s.yaml", BASE + AXES)
+        done = self.expect(3, "sweep", "s.yaml", "run", "-j1", says=("0 done", "4 missing"),
+                           **self.limited(20_000))
+        self.assertIn("cannot write", done.stderr)
+        self.assertIn("raise the limit of file sizes", done.stderr)
+        self.expect(0, "sweep", "s.yaml", "run", says="4 done (4 in this run)")
+        self.expect(5, "sweep", "s.yaml", "collect", says="cannot write", **self.limited(20_000))
+        self.assertFalse(os.path.exists(self.path("out/sweeps/s/index.html")))
+
+    def test_full_disk_while_planning(self):
+        self.refuse(BASE + "axes: {memory.latency: {from: 1, to: 1000}}\n", "points.jsonl",
+                    code=5, **self.limited(20_000))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: MIT
+#include "tb/sweep/collection.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <kainjow/mustache.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+
+#include "spec/error.h"
+#include "tb/results/build_info.h"
+#include "tb/results/embedded.h"
+#include "tb/results/file.h"
+#include "tb/results/report.h"
+#include "tb/results/result.h"
+#include "tb/scene/image_io.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace fs = std::filesystem;
+namespace mustache = kainjow::mustache;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMaxResultBytes = 64u << 20;
+constexpr const char* kUnitOfThroughput = "see throughput.unit";  // statistics()
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+std::string_view name_of(PointState state) {
+  constexpr std::string_view kNames[] = {"missing", "running", "done", "failed"};
+  return kNames[static_cast<std::size_t>(state)];
+}
+
+// Keys may have dots in their names: of all ways to read a dotted key the first that is there.
+const nlohmann::json* find(const nlohmann::json& node, std::string_view key) {
+  if (!node.is_object()) return nullptr;
+  if (const auto whole = node.find(key); whole != node.end()) return &*whole;
+  for (std::size_t dot = key.find('.'); dot != std::string_view::npos; dot = key.find('.', dot + 1))
+    if (const auto part = node.find(key.substr(0, dot)); part != node.end())
+      if (const nlohmann::json* found = find(*part, key.substr(dot + 1))) return found;
+  return nullptr;
+}
+
+const nlohmann::json* value_of(const nlohmann::json& result, const std::string& key) {
+  if (!key.starts_with('/')) return find(result, key);
+  try {
+    const nlohmann::json::json_pointer pointer(key);
+    return result.contains(pointer) ? &result.at(pointer) : nullptr;
+  } catch (const nlohmann::json::exception&) {
+    return nullptr;
+  }
+}
+
+double number_of(const nlohmann::json* value) {
+  if (!value) return kNone;
+  if (value->is_number()) return value->get<double>();
+  if (value->is_boolean()) return value->get<bool>() ? 1 : 0;
+  return value->is_string() && *value == "inf" ? std::numeric_limits<double>::infinity() : kNone;
+}
+
+void add_keys(const nlohmann::json& node, const std::string& path, std::vector<std::string>& keys) {
+  if (path == "meaning" || path == "latency.histogram") return;
+  if (!node.is_object()) {
+    keys.push_back(path);
+    return;
+  }
+  for (const auto& [key, value] : node.items())
+    add_keys(value, path.empty() ? key : fmt::format("{}.{}", path, key), keys);
+}
+
+class Collector {
+ public:
+  Collector(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place)
+      : sweep_(sweep), plan_(plan), place_(place) {}
+
+  Collection run() {
+    for (const Metric& metric : sweep_.metrics)
+      all_.metrics.push_back({metric.name, metric.key, "", ""});
+    found_.assign(sweep_.metrics.size(), false);
+    for_each_point(points_file(place_.directory), [&](const PlannedPoint& point) { add(point); });
+    refuse_unknown_metrics();
+    find_front();
+    find_effects();
+    return std::move(all_);
+  }
+
+ private:
+  void add(const PlannedPoint& planned) {
+    const fs::path directory = point_directory(place_.points(), planned.name);
+    CollectedPoint point{planned.name, planned.sample, state_of(directory), "", {}, false};
+    point.values.assign(sweep_.metrics.size(), kNone);
+    switch (point.state) {
+      case PointState::kDone:
+        read(directory, point);
+        break;
+      case PointState::kFailed: {
+        const Failure failure = read_failure(directory);
+        point.failure = fmt::format("{}: {}", failure.kind, failure.reason);
+        break;
+      }
+      default:
+        break;
+    }
+    ++(point.state == PointState::kDone     ? all_.done
+       : point.state == PointState::kFailed ? all_.failed
+                                            : all_.missing);
+    all_.points.push_back(std::move(point));
+  }
+
+  void read(const fs::path& directory, CollectedPoint& point) {
+    const fs::path file = directory / "result.json";
+    const auto result =
+        nlohmann::json::parse(read_file(file, kMaxResultBytes), nullptr, /*exceptions=*/false);
+    if (!result.is_object() || result.value("schema", 0) != kResultSchema)
+      throw spec::FileError(fmt::format(
+          "'{}' is not a result of this version: remove its directory, and run the sweep again",
+          file.string()));
+    if (result.value("verdict", "") == "fail") {
+      point.state = PointState::kFailed;
+      point.failure = result.value("reason", "");
+      return;
+    }
+    for (std::size_t i = 0; i < sweep_.metrics.size(); ++i) {
+      const nlohmann::json* value = value_of(result, sweep_.metrics[i].key);
+      point.values[i] = number_of(value);
+      if (value && !found_[i]) learn(result, i);
+    }
+    if (keys_.empty()) add_keys(result, "", keys_);
+  }
+
+  void learn(const nlohmann::json& result, std::size_t metric) {
+    found_[metric] = true;
+    std::string key = sweep_.metrics[metric].key;
+    if (key.starts_with('/')) {
+      key.erase(0, 1);
+      std::replace(key.begin(), key.end(), '/', '.');
+    }
+    const nlohmann::json meanings = result.value("meaning", nlohmann::json::object());
+    const nlohmann::json entry = meanings.value(key, nlohmann::json::object());
+    all_.metrics[metric].unit = entry.value("unit", "");
+    if (key.starts_with("throughput.") && all_.metrics[metric].unit == kUnitOfThroughput)
+      all_.metrics[metric].unit = result["throughput"].value("unit", "");
+    all_.metrics[metric].meaning = entry.value("meaning", "");
+  }
+
+  void refuse_unknown_metrics() const {
+    if (all_.done == 0) return;
+    for (std::size_t i = 0; i < found_.size(); ++i)
+      if (!found_[i])
+        throw spec::ConfigError(
+            fmt::format("{}: metric '{}': no result has the key '{}'{}", sweep_.file.string(),
+                        sweep_.metrics[i].name, sweep_.metrics[i].key,
+                        did_you_mean(near_matches(sweep_.metrics[i].key, keys_))));
+  }
+
+  // ---- front ------------------------------------------------------------------------------------
+
+  void find_front() {
+    if (sweep_.objectives.empty()) return;
+    std::vector<std::pair<std::size_t, double>>
+        goals;  // metric, and the sign that makes less better
+    for (const Objective& objective : sweep_.objectives)
+      for (std::size_t i = 0; i < sweep_.metrics.size(); ++i)
+        if (sweep_.metrics[i].name == objective.metric)
+          goals.emplace_back(i, objective.maximise ? -1.0 : 1.0);
+    const auto cost = [&](const CollectedPoint& p, std::size_t g) {
+      return goals[g].second * p.values[goals[g].first];
+    };
+    std::vector<CollectedPoint*> order;
+    for (CollectedPoint& point : all_.points)
+      if (point.state == PointState::kDone &&
+          std::none_of(goals.begin(), goals.end(),
+                       [&](const auto& goal) { return std::isnan(point.values[goal.first]); }))
+        order.push_back(&point);
+    const auto dominates = [&](const CollectedPoint& a, const CollectedPoint& b) {
+      bool better = false;
+      for (std::size_t g = 0; g < goals.size(); ++g) {
+        if (cost(a, g) > cost(b, g)) return false;
+        better = better || cost(a, g) < cost(b, g);
+      }
+      return better;
+    };
+    // In this order nobody is dominated by one that comes later, so each front only grows.
+    std::stable_sort(order.begin(), order.end(), [&](const auto* a, const auto* b) {
+      for (std::size_t g = 0; g < goals.size(); ++g)
+        if (cost(*a, g) != cost(*b, g)) return cost(*a, g) < cost(*b, g);
+      return false;
+    });
+    std::map<Sample, std::vector<const CollectedPoint*>> fronts;
+    for (CollectedPoint* point : order) {
+      Sample circumstances;
+      for (const std::size_t axis : sweep_.front_axes) circumstances.push_back(point->sample[axis]);
+      std::vector<const CollectedPoint*>& front = fronts[circumstances];
+      if (std::any_of(front.begin(), front.end(),
+                      [&](const CollectedPoint* other) { return dominates(*other, *point); }))
+        continue;
+      point->front = true;
+      front.push_back(point);
+      ++all_.front;
+    }
+  }
+
+  // ---- effects ----------------------------------------------------------------------------------
+
+  // In the order of the file; of a span that was sampled, by value.
+  std::vector<std::string> labels_of(std::size_t axis) const {
+    std::vector<std::string> labels;
+    for (const Choice& choice : sweep_.axes[axis].choices)
+      if (std::find(labels.begin(), labels.end(), choice.label) == labels.end())
+        labels.push_back(choice.label);
+    return labels;
+  }
+
+  void find_effects() {
+    for (std::size_t axis = 0; axis < sweep_.axes.size(); ++axis) {
+      const std::vector<std::string> labels = labels_of(axis);
+      if (labels.size() < 2) continue;
+      std::map<std::string, std::size_t> index;
+      for (std::size_t i = 0; i < labels.size(); ++i) index[labels[i]] = i;
+      for (std::size_t metric = 0; metric < sweep_.metrics.size(); ++metric) {
+        std::vector<std::pair<double, std::uint64_t>> sums(labels.size());
+        for (const CollectedPoint& point : all_.points)
+          if (std::isfinite(point.values[metric])) {
+            auto& [sum, count] = sums[index.at(point.sample[axis])];
+            sum += point.values[metric];
+            ++count;
+          }
+        MainEffect effect{axis, metric, {}};
+        for (std::size_t i = 0; i < labels.size(); ++i)
+          if (sums[i].second > 0)
+            effect.means.emplace_back(labels[i],
+                                      sums[i].first / static_cast<double>(sums[i].second));
+        if (effect.means.size() > 1) all_.effects.push_back(std::move(effect));
+      }
+    }
+  }
+
+  const SweepDefinition& sweep_;
+  const Plan& plan_;
+  const SweepPlace& place_;
+  Collection all_;
+  std::vector<bool> found_;
+  std::vector<std::string> keys_;  // of the first result
+};
+
+// ---- writing ------------------------------------------------------------------------------------
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+std::string csv_number(double value) {
+  return std::isnan(value) ? "" : std::isinf(value) ? "inf" : fmt::format("{}", value);
+}
+
+Json json_number(double value) {
+  if (std::isnan(value)) return nullptr;
+  if (std::isinf(value)) return "inf";
+  if (value == std::round(value) && std::fabs(value) < 1e15)
+    return static_cast<std::int64_t>(value);
+  return value;
+}
+
+std::string csv_of(const SweepDefinition& sweep, const SweepPlace& place, const Collection& all) {
+  std::string text = "point,state";
+  for (const Axis& axis : sweep.axes) text += fmt::format(",{}", csv_cell(axis.name));
+  for (const MetricInfo& metric : all.metrics) text += fmt::format(",{}", csv_cell(metric.name));
+  text += ",front,failure,directory\n";
+  for (const CollectedPoint& point : all.points) {
+    text += fmt::format("{},{}", point.name, name_of(point.state));
+    for (const std::string& label : point.sample) text += fmt::format(",{}", csv_cell(label));
+    for (const double value : point.values) text += fmt::format(",{}", csv_number(value));
+    text += fmt::format(",{},{},{}\n", point.front ? 1 : 0, csv_cell(point.failure),
+                        csv_cell(point_directory(place.points(), point.name).string()));
+  }
+  return text;
+}
+
+Json json_of(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place,
+             const Collection& all) {
+  Json json;
+  json["schema"] = 1;
+  json["sweep"] = sweep.name;
+  json["title"] = plan.title;
+  json["engine"] = sweep.engine;
+  json["version"] = build_info().version;
+  json["commit"] = build_info().commit;
+  json["model"] = build_info().model;
+  json["counts"] = {{"points", plan.points},
+                    {"done", all.done},
+                    {"failed", all.failed},
+                    {"missing", all.missing},
+                    {"front", all.front}};
+  json["left_out"] = plan.left_out;
+  // As seen from the sweep's directory, where the page is.
+  json["points_directory"] =
+      fs::proximate(fs::absolute(place.points()), fs::absolute(place.directory)).string();
+  json["base"] = Json::array();
+  for (const Setting& setting : plan.base) json["base"].push_back({setting.name, setting.value});
+  json["axes"] = Json::array();
+  for (std::size_t i = 0; i < plan.axes.size(); ++i) {
+    Json labels = Json::array();
+    if (sweep.sampling != SweepSampling::kListed)
+      for (const Choice& choice : sweep.axes[i].choices) labels.push_back(choice.label);
+    json["axes"].push_back({{"name", plan.axes[i].name},
+                            {"parameters", plan.axes[i].parameters},
+                            {"labels", labels},
+                            {"choices", plan.axes[i].choices}});
+  }
+  json["metrics"] = Json::array();
+  for (const MetricInfo& metric : all.metrics)
+    json["metrics"].push_back({{"name", metric.name},
+                               {"key", metric.key},
+                               {"unit", metric.unit},
+                               {"meaning", metric.meaning}});
+  json["objectives"] = Json::array();
+  for (const Objective& objective : sweep.objectives)
+    json["objectives"].push_back({{"metric", objective.metric}, {"maximise", objective.maximise}});
+  json["for_each"] = Json::array();
+  for (const std::size_t axis : sweep.front_axes) json["for_each"].push_back(sweep.axes[axis].name);
+  json["effects"] = Json::array();
+  for (const MainEffect& effect : all.effects) {
+    Json means = Json::array();
+    for (const auto& [label, mean] : effect.means) means.push_back({label, json_number(mean)});
+    json["effects"].push_back({{"axis", sweep.axes[effect.axis].name},
+                               {"metric", sweep.metrics[effect.metric].name},
+                               {"means", means}});
+  }
+  json["points"] = Json::array();
+  for (const CollectedPoint& point : all.points) {
+    Json values = Json::array();
+    for (const double value : point.values) values.push_back(json_number(value));
+    Json entry = {{"name", point.name},
+                  {"state", name_of(point.state)},
+                  {"at", point.sample},
+                  {"values", values}};
+    if (point.front) entry["front"] = true;
+    if (!point.failure.empty()) entry["failure"] = point.failure;
+    json["points"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+std::string page_of(const Json& json) {
+  mustache::data page;
+  page.set("style", std::string(embedded::style_css()));
+  page.set("chart_js", std::string(embedded::chart_js()));
+  page.set("sweep_js", std::string(embedded::sweep_js()));
+  page.set("title", json.at("title").get<std::string>());
+  page.set("engine", json.at("engine").get<std::string>());
+  page.set("version", json.at("version").get<std::string>());
+  page.set("commit", json.at("commit").get<std::string>());
+  page.set("data", json_for_script(json));
+  const auto count = [&](const char* key) {
+    return grouped(json.at("counts").at(key).get<std::uint64_t>());
+  };
+  for (const char* key : {"points", "done", "failed", "missing", "front"})
+    page.set(key, count(key));
+  page.set("is_partial", json.at("counts").at("done") != json.at("counts").at("points"));
+  page.set("has_objectives", !json.at("objectives").empty());
+  mustache::data notes{mustache::data::type::list};
+  for (const Json& note : json.at("left_out")) {
+    mustache::data entry;
+    entry.set("note", note.get<std::string>());
+    notes << entry;
+  }
+  page.set("left_out", notes);
+  mustache::mustache text{std::string(embedded::sweep_template())};
+  DEBURR_CHECK(text.is_valid(), "sweep.mustache: " + text.error_message());
+  return text.render(page);
+}
+
+}  // namespace
+
+Collection collect(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place) {
+  return Collector(sweep, plan, place).run();
+}
+
+void write_collection(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place,
+                      const Collection& collection) {
+  const Json json = json_of(sweep, plan, place, collection);
+  write_file_atomically(place.directory / "collected.csv", csv_of(sweep, place, collection));
+  write_file_atomically(place.directory / "collected.json",
+                        json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file_atomically(place.directory / "index.html", page_of(json));
+}
+
+}  // namespace deburr::tb

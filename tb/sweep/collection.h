@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// What a sweep's points show together: a table, the Pareto front over the objectives (one for each
+// value of the axes that are no choice of the design), and what each
+// axis does to each metric on average. Written as CSV, as JSON and as one self-contained page.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tb/sweep/definition.h"
+#include "tb/sweep/plan.h"
+
+namespace deburr::tb {
+
+struct CollectedPoint {
+  std::string name;
+  Sample sample;
+  PointState state = PointState::kMissing;
+  std::string failure;         // "deadlock: nothing has moved ..."
+  std::vector<double> values;  // one a metric; NaN: it has none, infinity: identical pictures
+  bool front = false;
+};
+
+struct MetricInfo {
+  std::string name, key, unit, meaning;
+};
+
+// Mean of a metric over all points with a value of an axis.
+struct MainEffect {
+  std::size_t axis = 0, metric = 0;
+  std::vector<std::pair<std::string, double>> means;  // by label, in the order of the axis
+};
+
+struct Collection {
+  std::vector<MetricInfo> metrics;
+  std::vector<CollectedPoint> points;
+  std::vector<MainEffect> effects;
+  std::uint64_t done = 0, failed = 0, missing = 0, front = 0;
+};
+
+// FileError when a result cannot be read; ConfigError for a metric that no result has.
+Collection collect(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place);
+
+// collected.csv, collected.json and index.html in the sweep's directory.
+void write_collection(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place,
+                      const Collection& collection);
+
+}  // namespace deburr::tb

@@ -1,0 +1,475 @@
+// SPDX-License-Identifier: MIT
+#include "tb/sweep/definition.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <string_view>
+
+#include "spec/error.h"
+#include "tb/app/run_once.h"
+#include "tb/results/file.h"
+
+namespace deburr::tb {
+namespace {
+
+using spec::ConfigError;
+
+constexpr std::size_t kMaxBytes = 64u << 20;   // listed points may be many
+constexpr std::size_t kMaxValues = 1'000'000;  // of an axis
+constexpr int kMaxNesting = 16;
+
+const char* kind(const YAML::Node& node) {
+  switch (node.Type()) {
+    case YAML::NodeType::Sequence:
+      return "a list";
+    case YAML::NodeType::Map:
+      return "a map";
+    case YAML::NodeType::Scalar:
+      return "a single value";
+    default:
+      return "nothing";
+  }
+}
+
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& file) : file_(file.string()) {
+    sweep_.file = file;
+    sweep_.name = file.stem().string();
+  }
+
+  SweepDefinition read(const YAML::Node& root) {
+    if (!root.IsMap()) fail(root, fmt::format("expected a map, got {}", kind(root)));
+    const std::vector<std::string> known = {"engine",  "title",      "base",        "axes",
+                                            "points",  "sample",     "constraints", "refused",
+                                            "metrics", "objectives", "reports",     "chunk"};
+    std::set<std::string> seen;
+    for (const auto& entry : root) {
+      const std::string key = entry.first.Scalar();
+      if (std::find(known.begin(), known.end(), key) == known.end())
+        fail(entry.first,
+             fmt::format("unknown key '{}'{} (known: {})", key,
+                         did_you_mean(near_matches(key, known)), fmt::join(known, ", ")));
+      if (!seen.insert(key).second) fail(entry.first, fmt::format("'{}' is given twice", key));
+    }
+    if (!root["engine"]) fail(root, "which engine? Say so: 'engine: texture'");
+    sweep_.engine = scalar(root["engine"], "engine");
+    try {
+      engine_ = engine_named(sweep_.engine);
+    } catch (const ConfigError& error) {
+      fail(root["engine"], error.what());
+    }
+    bound_ = std::make_unique<BoundEngine>(*engine_);
+    if (root["title"]) sweep_.title = scalar(root["title"], "title");
+    read_base(root["base"]);
+    read_points(root);
+    read_sampling(root["sample"]);
+    read_constraints(root["constraints"]);
+    read_metrics(root["metrics"]);
+    read_objectives(root["objectives"]);
+    if (const YAML::Node node = root["refused"]) {
+      const std::string text = scalar(node, "refused");
+      if (text != "error" && text != "skip")
+        fail(node, fmt::format("'refused' = '{}' wants error or skip", text));
+      sweep_.skip_refused = text == "skip";
+    }
+    if (const YAML::Node node = root["reports"]) {
+      const std::string text = scalar(node, "reports");
+      if (text != "true" && text != "false")
+        fail(node, fmt::format("'reports' = '{}' wants true or false", text));
+      sweep_.reports = text == "true";
+    }
+    if (root["chunk"]) sweep_.chunk = count(root["chunk"], "chunk", 100'000);
+    return std::move(sweep_);
+  }
+
+ private:
+  std::string where(const YAML::Node& node) const {
+    const YAML::Mark mark = node.Mark();
+    return mark.is_null() ? file_ : fmt::format("{}:{}", file_, mark.line + 1);
+  }
+  [[noreturn]] void fail(const YAML::Node& node, const std::string& what) const {
+    throw ConfigError(fmt::format("{}: {}", where(node), what));
+  }
+
+  std::string scalar(const YAML::Node& node, std::string_view what) const {
+    if (!node.IsScalar())
+      fail(node, fmt::format("'{}' wants a single value, got {}", what, kind(node)));
+    return node.Scalar();
+  }
+
+  template <class Number>
+  Number number(const YAML::Node& node, std::string_view what) const {
+    const std::string text = scalar(node, what);
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size())
+      fail(node, fmt::format("'{}' = '{}' wants a number", what, text));
+    return value;
+  }
+
+  std::uint64_t count(const YAML::Node& node, std::string_view what, std::uint64_t most) const {
+    const auto value = number<std::int64_t>(node, what);
+    if (value < 1 || static_cast<std::uint64_t>(value) > most)
+      fail(node, fmt::format("'{}' = '{}' is outside 1..{}", what, value, most));
+    return static_cast<std::uint64_t>(value);
+  }
+
+  // Throws where the parameter is unknown or refuses the value.
+  void try_value(const std::string& name, const std::string& value, const YAML::Node& node) const {
+    BoundEngine scratch(*engine_);
+    scratch.set.set(name, value, where(node));
+  }
+
+  // ---- base -------------------------------------------------------------------------------------
+
+  void read_base(const YAML::Node& base) {
+    if (!base) return;
+    if (!base.IsMap()) fail(base, fmt::format("'base' wants a map, got {}", kind(base)));
+    walk_base(base, "", 0);
+  }
+
+  void walk_base(const YAML::Node& map, const std::string& prefix, int depth) {
+    if (depth > kMaxNesting) fail(map, "maps are nested too deeply");
+    for (const auto& entry : map) {
+      const std::string name = prefix + entry.first.Scalar();
+      if (entry.second.IsMap()) {
+        walk_base(entry.second, name + ".", depth + 1);
+        continue;
+      }
+      const std::string value = scalar(entry.second, name);
+      try_value(name, value, entry.first);
+      for (const Setting& other : sweep_.base)
+        if (other.name == name)
+          fail(entry.first, fmt::format("'{}' is given twice (first at {})", name, other.where));
+      sweep_.base.push_back({name, value, where(entry.first)});
+    }
+  }
+
+  // ---- axes and listed points -------------------------------------------------------------------
+
+  void read_points(const YAML::Node& root) {
+    const YAML::Node axes = root["axes"], points = root["points"];
+    if (axes && points)
+      fail(points, "'axes' and 'points' exclude each other: list every point, or give axes");
+    if (!axes && !points) fail(root, "nothing is varied: give 'axes', or list 'points'");
+    if (points) {
+      read_listed(points);
+      return;
+    }
+    if (!axes.IsMap() || axes.size() == 0)
+      fail(axes, fmt::format("'axes' wants a map of parameters to values, got {}", kind(axes)));
+    for (const auto& entry : axes) add_axis(entry.first.Scalar(), entry.first, entry.second);
+  }
+
+  void add_axis(const std::string& name, const YAML::Node& key, const YAML::Node& values) {
+    Axis axis;
+    axis.name = name;
+    axis.where = where(key);
+    const bool named = values.IsMap() && values.size() > 0 && values.begin()->second.IsMap();
+    if (named) {
+      read_named(axis, values);
+    } else {
+      if (!bound_->set.find(name)) bound_->set.set(name, "", where(key));  // with near matches
+      axis.parameters = {name};
+      if (values.IsMap())
+        read_range(axis, values);
+      else if (values.IsSequence())
+        for (const auto& value : values) add_choice(axis, scalar(value, name), value);
+      else
+        fail(key, fmt::format("axis '{}' wants a list of values or {{from: .., to: ..}}, got {}",
+                              name, kind(values)));
+    }
+    if (axis.choices.empty() && !axis.span)
+      fail(key, fmt::format("axis '{}' is empty: give it a value, or leave it out", name));
+    claim_parameters(axis, key);
+    sweep_.axes.push_back(std::move(axis));
+  }
+
+  // What an axis varies is nobody else's.
+  void claim_parameters(const Axis& axis, const YAML::Node& key) {
+    for (const std::string& parameter : axis.parameters) {
+      for (const Axis& other : sweep_.axes)
+        if (std::find(other.parameters.begin(), other.parameters.end(), parameter) !=
+            other.parameters.end())
+          fail(key, fmt::format("'{}' is varied twice (first at {})", parameter, other.where));
+      for (const Setting& setting : sweep_.base)
+        if (setting.name == parameter)
+          fail(key, fmt::format("'{}' is varied, and fixed at {}", parameter, setting.where));
+    }
+  }
+
+  void add_choice(Axis& axis, const std::string& value, const YAML::Node& node) const {
+    try_value(axis.name, value, node);
+    for (const Choice& other : axis.choices)
+      if (other.label == value)
+        fail(node, fmt::format("axis '{}' has the value '{}' twice", axis.name, value));
+    axis.choices.push_back({value, {value}});
+  }
+
+  void read_named(Axis& axis, const YAML::Node& values) const {
+    for (const auto& entry : values) {
+      const std::string label = entry.first.Scalar();
+      if (!entry.second.IsMap() || entry.second.size() == 0)
+        fail(entry.first, fmt::format("axis '{}': '{}' wants a map of parameters to values, as its "
+                                      "neighbours have",
+                                      axis.name, label));
+      std::vector<std::pair<std::string, std::string>> settings;
+      for (const auto& setting : entry.second) {
+        const std::string name = setting.first.Scalar();
+        const std::string value = scalar(setting.second, name);
+        try_value(name, value, setting.first);
+        settings.emplace_back(name, value);
+      }
+      std::sort(settings.begin(), settings.end());
+      Choice choice{label, {}};
+      std::vector<std::string> names;
+      for (auto& [name, value] : settings) {
+        names.push_back(name);
+        choice.values.push_back(value);
+      }
+      if (axis.parameters.empty()) axis.parameters = names;
+      if (axis.parameters != names)
+        fail(entry.first,
+             fmt::format("axis '{}': '{}' gives {}, the first one {}", axis.name, label,
+                         fmt::join(names, ", "), fmt::join(axis.parameters, ", ")));
+      axis.choices.push_back(std::move(choice));
+    }
+  }
+
+  void read_range(Axis& axis, const YAML::Node& range) const {
+    for (const auto& entry : range)
+      if (const std::string key = entry.first.Scalar();
+          key != "from" && key != "to" && key != "step" && key != "times")
+        fail(entry.first,
+             fmt::format("axis '{}': unknown '{}' (known: from, to, step, times)", axis.name, key));
+    if (!range["from"] || !range["to"])
+      fail(range, fmt::format("axis '{}': a range wants 'from' and 'to'", axis.name));
+    if (range["step"] && range["times"])
+      fail(range, fmt::format("axis '{}': 'step' and 'times' exclude each other", axis.name));
+    const auto from = number<double>(range["from"], "from");
+    const auto to = number<double>(range["to"], "to");
+    const std::string& limits = bound_->set.find(axis.name)->range;
+    if (limits.find("..") == std::string::npos)
+      fail(range, fmt::format("axis '{}' takes {}: list the values", axis.name, limits));
+    const bool integer = bound_->set.find(axis.name)->json().is_number_integer() &&
+                         from == std::floor(from) && to == std::floor(to);
+    if (from > to)
+      fail(range, fmt::format("axis '{}' is empty: from {} to {}", axis.name, from, to));
+    if (!range["step"] && !range["times"]) {
+      axis.span = Span{from, to, integer};
+      try_value(axis.name, shown(from), range);
+      try_value(axis.name, shown(to), range);
+      return;
+    }
+    const bool adds = static_cast<bool>(range["step"]);
+    const auto by =
+        adds ? number<double>(range["step"], "step") : number<double>(range["times"], "times");
+    if (adds ? by <= 0 : by <= 1 || from <= 0)
+      fail(range, fmt::format("axis '{}' never gets from {} to {}: '{}' = {}", axis.name, from, to,
+                              adds ? "step" : "times", by));
+    const double slack = 1e-9 * std::max(std::fabs(from), std::fabs(to));
+    for (std::size_t i = 0;; ++i) {
+      const double value =
+          adds ? from + static_cast<double>(i) * by : from * std::pow(by, static_cast<double>(i));
+      if (value > to + slack) break;
+      if (i >= kMaxValues)
+        fail(range, fmt::format("axis '{}' has more than {} values", axis.name, kMaxValues));
+      const std::string text = shown(
+          integer || std::fabs(value - std::round(value)) < slack ? std::round(value) : value);
+      if (i == 0 || axis.choices.back().label != text) axis.choices.push_back({text, {text}});
+    }
+    try_value(axis.name, axis.choices.front().label, range);
+    try_value(axis.name, axis.choices.back().label, range);
+    if (axis.choices.size() > 1) try_value(axis.name, axis.choices[1].label, range);
+  }
+
+  static std::string shown(double value) {
+    return value == std::round(value) && std::fabs(value) < 1e15
+               ? fmt::format("{}", static_cast<std::int64_t>(value))
+               : fmt::format("{:.9g}", value);
+  }
+
+  // One axis a parameter; its values are those of the points in order.
+  void read_listed(const YAML::Node& points) {
+    sweep_.sampling = SweepSampling::kListed;
+    if (!points.IsSequence() || points.size() == 0)
+      fail(points, fmt::format("'points' wants a list of maps, got {}",
+                               points.IsSequence() ? "an empty one" : kind(points)));
+    for (const auto& point : points) {
+      if (!point.IsMap()) fail(point, fmt::format("a point wants a map, got {}", kind(point)));
+      const bool first = sweep_.axes.empty();
+      for (const auto& entry : point) {
+        const std::string name = entry.first.Scalar();
+        const std::string value = scalar(entry.second, name);
+        try_value(name, value, entry.first);
+        if (first) {
+          Axis axis;
+          axis.name = name;
+          axis.parameters = {name};
+          axis.where = where(entry.first);
+          claim_parameters(axis, entry.first);
+          sweep_.axes.push_back(std::move(axis));
+        }
+        const auto axis = std::find_if(sweep_.axes.begin(), sweep_.axes.end(),
+                                       [&](const Axis& a) { return a.name == name; });
+        if (axis == sweep_.axes.end())
+          fail(entry.first, fmt::format("the first point does not give '{}': every point gives the "
+                                        "same parameters",
+                                        name));
+        axis->choices.push_back({value, {value}});
+      }
+      for (const Axis& axis : sweep_.axes)
+        if (axis.choices.size() != sweep_.axes.front().choices.size() ||
+            point.size() != sweep_.axes.size())
+          fail(point, fmt::format("every point gives the same parameters, once; this one does not "
+                                  "({} are wanted)",
+                                  sweep_.axes.size()));
+    }
+  }
+
+  // ---- the rest ---------------------------------------------------------------------------------
+
+  void read_sampling(const YAML::Node& sample) {
+    if (!sample) return require_values();
+    if (sweep_.sampling == SweepSampling::kListed)
+      fail(sample, "'sample' chooses among 'axes'; 'points' are all taken");
+    if (sample.IsScalar()) {
+      if (sample.Scalar() != "cartesian")
+        fail(sample, fmt::format("'sample' = '{}' wants cartesian, {{random: N, seed: S}} or "
+                                 "{{latin: N, seed: S}}",
+                                 sample.Scalar()));
+      return require_values();
+    }
+    if (!sample.IsMap())
+      fail(sample, fmt::format("'sample' wants a name or a map, got {}", kind(sample)));
+    for (const auto& entry : sample) {
+      const std::string key = entry.first.Scalar();
+      if (key == "seed") {
+        sweep_.sample_seed = number<std::uint64_t>(entry.second, "seed");
+      } else if ((key == "random" || key == "latin") && sweep_.samples == 0) {
+        sweep_.sampling = key == "random" ? SweepSampling::kRandom : SweepSampling::kLatin;
+        sweep_.samples = count(entry.second, key, 1'000'000);
+      } else {
+        fail(entry.first,
+             fmt::format("'sample': '{}' was not expected (random or latin, and seed)", key));
+      }
+    }
+    if (sweep_.samples == 0) fail(sample, "'sample' wants random or latin with a number");
+  }
+
+  void require_values() {
+    if (sweep_.sampling != SweepSampling::kCartesian) return;
+    for (Axis& axis : sweep_.axes) {
+      if (!axis.span) continue;
+      const double size = axis.span->to - axis.span->from + 1;
+      if (!axis.span->integer)
+        throw ConfigError(fmt::format(
+            "{}: axis '{}' has no end of values: give 'step' or 'times', or take a sample of it "
+            "('sample: {{random: 100}}')",
+            axis.where, axis.name));
+      if (size > static_cast<double>(kMaxValues))
+        throw ConfigError(fmt::format("{}: axis '{}' has {:.0f} values: give 'step' or 'times'",
+                                      axis.where, axis.name, size));
+      for (double value = axis.span->from; value <= axis.span->to; ++value)
+        axis.choices.push_back({shown(value), {shown(value)}});
+      axis.span.reset();
+    }
+  }
+
+  void read_constraints(const YAML::Node& constraints) {
+    if (!constraints) return;
+    if (!constraints.IsSequence())
+      fail(constraints, fmt::format("'constraints' wants a list, got {}", kind(constraints)));
+    for (const auto& node : constraints)
+      sweep_.constraints.emplace_back(scalar(node, "constraints"), where(node), bound_->set);
+  }
+
+  void read_metrics(const YAML::Node& metrics) {
+    if (!metrics) {
+      sweep_.metrics = {{"cycles", "cycles"},
+                        {"rate", "throughput.value"},
+                        {"latency_p95", "latency.p95"},
+                        {"bytes_read", "memory.bytes_read"},
+                        {"memory_bits", "memory_bits.total.physical"}};
+      return;
+    }
+    if (!metrics.IsMap() || metrics.size() == 0)
+      fail(metrics, fmt::format("'metrics' wants a map of names to keys of result.json, got {}",
+                                kind(metrics)));
+    for (const auto& entry : metrics) {
+      const std::string name = entry.first.Scalar();
+      for (const Metric& other : sweep_.metrics)
+        if (other.name == name) fail(entry.first, fmt::format("metric '{}' is given twice", name));
+      for (const Axis& axis : sweep_.axes)
+        if (axis.name == name)
+          fail(entry.first, fmt::format("metric '{}' has the name of an axis", name));
+      sweep_.metrics.push_back({name, scalar(entry.second, name)});
+      if (sweep_.metrics.back().key.empty())
+        fail(entry.first, fmt::format("metric '{}' wants a key of result.json", name));
+    }
+  }
+
+  void read_objectives(const YAML::Node& objectives) {
+    if (!objectives) return;
+    if (!objectives.IsMap())
+      fail(objectives,
+           fmt::format("'objectives' wants minimise and maximise, got {}", kind(objectives)));
+    std::vector<std::string> metrics, axes;
+    for (const Metric& metric : sweep_.metrics) metrics.push_back(metric.name);
+    for (const Axis& axis : sweep_.axes) axes.push_back(axis.name);
+    for (const auto& entry : objectives) {
+      const std::string key = entry.first.Scalar();
+      if (key != "minimise" && key != "maximise" && key != "for_each")
+        fail(entry.first,
+             fmt::format("'objectives': unknown '{}' (known: minimise, maximise, for_each)", key));
+      if (!entry.second.IsSequence()) fail(entry.first, fmt::format("'{}' wants a list", key));
+      for (const auto& node : entry.second) {
+        if (key == "for_each") {
+          sweep_.front_axes.push_back(one_of(axes, node, "axis"));
+          continue;
+        }
+        const std::string& name = metrics[one_of(metrics, node, "metric")];
+        for (const Objective& other : sweep_.objectives)
+          if (other.metric == name) fail(node, fmt::format("objective '{}' is given twice", name));
+        sweep_.objectives.push_back({name, key == "maximise"});
+      }
+    }
+  }
+
+  std::size_t one_of(const std::vector<std::string>& names, const YAML::Node& node,
+                     std::string_view what) const {
+    const std::string name = scalar(node, what);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      fail(node, fmt::format("no {} '{}'{} (known: {})", what, name,
+                             did_you_mean(near_matches(name, names)), fmt::join(names, ", ")));
+    return static_cast<std::size_t>(found - names.begin());
+  }
+
+  std::string file_;
+  SweepDefinition sweep_;
+  std::unique_ptr<Engine> engine_;
+  std::unique_ptr<BoundEngine> bound_;
+};
+
+}  // namespace
+
+SweepDefinition read_sweep(const std::filesystem::path& file) {
+  const std::string text = read_file(file, kMaxBytes);
+  try {
+    return Reader(file).read(YAML::Load(text));
+  } catch (const YAML::Exception& e) {
+    const std::string line =
+        e.mark.is_null() ? "" : fmt::format(":{}:{}", e.mark.line + 1, e.mark.column + 1);
+    throw ConfigError(fmt::format("{}{}: not valid YAML: {}", file.string(), line, e.msg));
+  }
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT
+#include "tb/sweep/plan.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <system_error>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "spec/error.h"
+#include "tb/results/build_info.h"
+#include "tb/results/file.h"
+#include "tb/results/headline.h"
+#include "tb/results/progress.h"
+#include "tb/results/report.h"
+#include "tb/scene/image_io.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using spec::ConfigError;
+using spec::FileError;
+
+constexpr std::size_t kMaxPlanBytes = 64u << 20;
+constexpr int kPlanSchema = 1;
+
+fs::path plan_file(const fs::path& directory) { return directory / "plan.json"; }
+
+// A file that grows line by line and takes its name when it is complete.
+class LineFile {
+ public:
+  explicit LineFile(fs::path file) : file_(std::move(file)), draft_(file_.string() + ".tmp") {
+    stream_ = std::fopen(draft_.c_str(), "w");
+    if (!stream_) fail("create");
+  }
+  ~LineFile() {
+    if (!stream_) return;
+    std::fclose(stream_);
+    ::unlink(draft_.c_str());
+  }
+  LineFile(const LineFile&) = delete;
+  LineFile& operator=(const LineFile&) = delete;
+
+  void add(const std::string& line) {
+    if (std::fwrite(line.data(), 1, line.size(), stream_) != line.size() ||
+        std::fputc('\n', stream_) == EOF)
+      fail("write");
+  }
+  void finish() {
+    if (std::fflush(stream_) != 0 || ::fsync(::fileno(stream_)) != 0) fail("write");
+    FILE* stream = std::exchange(stream_, nullptr);
+    if (std::fclose(stream) != 0 || std::rename(draft_.c_str(), file_.c_str()) != 0) fail("write");
+  }
+
+ private:
+  [[noreturn]] void fail(const char* action) {
+    const int reason = errno;
+    if (stream_) std::fclose(std::exchange(stream_, nullptr));
+    ::unlink(draft_.c_str());
+    throw FileError(
+        fmt::format("cannot {} '{}': {}; make room there, or choose another directory with --out",
+                    action, file_.string(), std::strerror(reason)));
+  }
+  fs::path file_, draft_;
+  FILE* stream_ = nullptr;
+};
+
+std::string in_words(const Plan& plan, const Sample& sample) {
+  std::string text;
+  for (std::size_t i = 0; i < sample.size(); ++i)
+    text += fmt::format("{}{} = {}", i > 0 ? ", " : "", plan.axes[i].name, sample[i]);
+  return text;
+}
+
+Json to_json(const Plan& plan) {
+  Json json = {{"schema", kPlanSchema}, {"engine", plan.engine},   {"title", plan.title},
+               {"file", plan.file},     {"key", plan.key},         {"model", build_info().model},
+               {"points", plan.points}, {"inputs", plan.inputs},   {"left_out", plan.left_out},
+               {"files", plan.files},   {"reports", plan.reports}, {"chunk", plan.chunk}};
+  json["base"] = Json::array();
+  for (const Setting& s : plan.base) json["base"].push_back({s.name, s.value, s.where});
+  json["axes"] = Json::array();
+  for (const PlanAxis& axis : plan.axes)
+    json["axes"].push_back(
+        {{"name", axis.name}, {"parameters", axis.parameters}, {"choices", axis.choices}});
+  return json;
+}
+
+Plan skeleton(const SweepDefinition& sweep) {
+  Plan plan;
+  plan.engine = sweep.engine;
+  plan.title = sweep.title.empty() ? sweep.name : sweep.title;
+  plan.file = sweep.file.string();
+  plan.base = sweep.base;
+  plan.reports = sweep.reports;
+  plan.chunk = sweep.chunk;
+  for (const Axis& axis : sweep.axes) {
+    PlanAxis planned{axis.name, axis.parameters, {}};
+    if (axis.parameters != std::vector<std::string>{axis.name})
+      for (const Choice& choice : axis.choices) planned.choices[choice.label] = choice.values;
+    plan.axes.push_back(std::move(planned));
+  }
+  return plan;
+}
+
+// Expands and judges every sample.
+class Planner {
+ public:
+  Planner(const SweepDefinition& sweep, Plan& plan, LineFile& lines)
+      : sweep_(sweep), plan_(plan), lines_(lines), excluded_(sweep.constraints.size(), 0) {}
+
+  void run() {
+    Progress progress("planning", sample_bound(sweep_), "point");
+    for_each_sample(sweep_, [&](const Sample& sample) {
+      progress.update(++seen_);
+      return take(sample);
+    });
+    if (plan_.points == 0) refuse_nothing_left();
+    plan_.inputs = inputs_.size();
+    say_what_is_left_out();
+    for (const auto& [file, digest] : files_.fingerprints()) plan_.files[file.string()] = digest;
+  }
+
+ private:
+  bool take(const Sample& sample) {
+    PointEngine point(plan_.engine, plan_.settings_of(sample));
+    std::optional<std::string> refusal;
+    try {
+      point.bound.resolve();
+    } catch (const ConfigError& error) {
+      refusal = error.what();
+    }
+    // What a constraint leaves out need not make sense.
+    for (std::size_t i = 0; i < sweep_.constraints.size(); ++i)
+      if (!sweep_.constraints[i].holds(point.bound.set)) {
+        ++excluded_[i];
+        return false;
+      }
+    if (refusal) {
+      if (!sweep_.skip_refused)
+        throw ConfigError(fmt::format(
+            "{}: the engine refuses the point {}: {}; leave such points out with a constraint, or "
+            "all that are refused with 'refused: skip'",
+            plan_.file, in_words(plan_, sample), headline(*refusal)));
+      if (refused_++ == 0) first_refusal_ = in_words(plan_, sample) + ": " + headline(*refusal);
+      return false;
+    }
+    PlannedPoint planned{point_name(point.bound, files_), 0, sample};
+    if (!names_.insert(planned.name).second) {
+      ++twice_;
+      return false;
+    }
+    planned.input = inputs_.emplace(sha256(input_name(point.bound)), inputs_.size()).first->second;
+    lines_.add(line_of(planned));
+    ++plan_.points;
+    return true;
+  }
+
+  [[noreturn]] void refuse_nothing_left() const {
+    std::string why;
+    for (std::size_t i = 0; i < excluded_.size(); ++i)
+      if (excluded_[i] > 0)
+        why += fmt::format("{}'{}' excludes {}", why.empty() ? "" : ", of the rest ",
+                           sweep_.constraints[i].text(), grouped(excluded_[i]));
+    if (refused_ > 0)
+      why += fmt::format("{}the engine refuses {}, the first {}", why.empty() ? "" : "; ",
+                         grouped(refused_), first_refusal_);
+    throw ConfigError(
+        fmt::format("{}: no point is left of {}: {}", plan_.file, grouped(seen_), why));
+  }
+
+  void say_what_is_left_out() {
+    for (std::size_t i = 0; i < excluded_.size(); ++i)
+      if (excluded_[i] > 0)
+        plan_.left_out.push_back(fmt::format("{} by the constraint '{}'", grouped(excluded_[i]),
+                                             sweep_.constraints[i].text()));
+    if (refused_ > 0)
+      plan_.left_out.push_back(fmt::format("{} that the engine refuses, the first: {}",
+                                           grouped(refused_), first_refusal_));
+    if (twice_ > 0)
+      plan_.left_out.push_back(fmt::format("{} that are the same as another one", grouped(twice_)));
+    if (sweep_.sampling == SweepSampling::kRandom && plan_.points < sweep_.samples)
+      plan_.left_out.push_back(fmt::format("{} of {} random points that were not found in {} draws",
+                                           grouped(sweep_.samples - plan_.points),
+                                           grouped(sweep_.samples), grouped(seen_)));
+  }
+
+  const SweepDefinition& sweep_;
+  Plan& plan_;
+  LineFile& lines_;
+  SharedInputs files_;
+  std::uint64_t seen_ = 0, refused_ = 0, twice_ = 0;
+  std::vector<std::uint64_t> excluded_;
+  std::string first_refusal_;
+  std::unordered_set<std::string> names_;
+  std::unordered_map<std::string, std::uint64_t> inputs_;
+};
+
+// Of the sweep's file, the model, and the files that the plan before said are read.
+std::string key_of(const SweepDefinition& sweep, const std::map<std::string, std::string>& files) {
+  std::string key =
+      fmt::format("{}\n{}\n{}\n", kPlanSchema, build_info().model, sha256_of_file(sweep.file));
+  for (const auto& [file, digest] : files) {
+    std::error_code error;
+    key += fmt::format("{} {}\n", file,
+                       fs::is_regular_file(file, error) ? sha256_of_file(file) : "missing");
+  }
+  return sha256(key);
+}
+
+}  // namespace
+
+SweepPlace place_of(const fs::path& out, const std::string& name) {
+  return {out, out / "sweeps" / name};
+}
+
+fs::path points_file(const fs::path& directory) { return directory / "points.jsonl"; }
+
+std::vector<Setting> Plan::settings_of(const Sample& sample) const {
+  std::vector<Setting> settings = base;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const PlanAxis& axis = axes[i];
+    const std::string where = fmt::format("{}: axis '{}'", file, axis.name);
+    if (axis.choices.empty()) {
+      settings.push_back({axis.name, sample.at(i), where});
+      continue;
+    }
+    const std::vector<std::string>& values = axis.choices.at(sample.at(i));
+    for (std::size_t k = 0; k < values.size(); ++k)
+      settings.push_back({axis.parameters.at(k), values[k], where});
+  }
+  return settings;
+}
+
+Plan make_plan(const SweepDefinition& sweep, const SweepPlace& place) {
+  std::error_code error;
+  if (fs::exists(plan_file(place.directory), error)) {
+    try {
+      Plan before = read_plan(place.directory);
+      if (before.key == key_of(sweep, before.files)) return before;
+    } catch (const FileError&) {  // made anew
+    }
+  }
+  if (sample_bound(sweep) > kMostPoints)
+    throw ConfigError(fmt::format(
+        "{}: the axes make {} points{}, at most {} can be planned: give fewer values, or take a "
+        "sample of them ('sample: {{random: 1000}}' or '{{latin: 1000}}')",
+        sweep.file.string(), sizes_of(sweep),
+        sample_bound(sweep) == std::numeric_limits<std::uint64_t>::max()
+            ? ""
+            : " = " + grouped(sample_bound(sweep)),
+        grouped(kMostPoints)));
+  fs::create_directories(place.directory, error);
+  if (error)
+    throw FileError(fmt::format("cannot make the folder '{}': {}; choose another with --out",
+                                place.directory.string(), error.message()));
+  Plan plan = skeleton(sweep);
+  fs::remove(plan_file(place.directory), error);  // it would name points of another
+  LineFile lines(points_file(place.directory));
+  Planner(sweep, plan, lines).run();
+  lines.finish();
+  plan.key = key_of(sweep, plan.files);
+  write_file_atomically(plan_file(place.directory), to_json(plan).dump(1) + "\n");
+  return plan;
+}
+
+Plan read_plan(const fs::path& directory) {
+  const fs::path file = plan_file(directory);
+  std::error_code error;
+  if (!fs::exists(file, error))
+    throw FileError(
+        fmt::format("there is no plan in '{}': run or plan the sweep first", directory.string()));
+  try {
+    const Json json = Json::parse(read_file(file, kMaxPlanBytes));
+    if (json.at("schema") != kPlanSchema) throw FileError("of another version");
+    Plan plan;
+    plan.engine = json.at("engine");
+    plan.title = json.at("title");
+    plan.file = json.at("file");
+    plan.key = json.at("key");
+    plan.points = json.at("points");
+    plan.inputs = json.at("inputs");
+    plan.left_out = json.at("left_out").get<std::vector<std::string>>();
+    plan.files = json.at("files").get<std::map<std::string, std::string>>();
+    plan.reports = json.at("reports");
+    plan.chunk = json.at("chunk");
+    for (const Json& s : json.at("base")) plan.base.push_back({s.at(0), s.at(1), s.at(2)});
+    for (const Json& axis : json.at("axes"))
+      plan.axes.push_back(
+          {axis.at("name"), axis.at("parameters").get<std::vector<std::string>>(),
+           axis.at("choices").get<std::map<std::string, std::vector<std::string>>>()});
+    return plan;
+  } catch (const std::exception& problem) {
+    throw FileError(fmt::format("'{}' is not a plan of this version ({}): plan the sweep again",
+                                file.string(), problem.what()));
+  }
+}
+
+std::string line_of(const PlannedPoint& point) {
+  Json line = {point.name, point.input};
+  for (const std::string& text : point.sample) line.push_back(text);
+  return line.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+void for_each_point(const fs::path& file, const std::function<void(const PlannedPoint&)>& take,
+                    PointLines lines) {
+  std::ifstream in(file);
+  if (!in)
+    throw FileError(fmt::format("cannot open '{}': {}", file.string(), std::strerror(errno)));
+  std::string line;
+  in.seekg(static_cast<std::streamoff>(lines.offset));
+  for (std::uint64_t taken = 0; taken < lines.count && std::getline(in, line); ++taken) {
+    const Json json = Json::parse(line, nullptr, false);
+    if (!json.is_array() || json.size() < 2)
+      throw FileError(fmt::format("'{}' is damaged: plan the sweep again", file.string()));
+    PlannedPoint point{json[0], json[1], {}};
+    for (std::size_t i = 2; i < json.size(); ++i) point.sample.push_back(json[i]);
+    take(point);
+  }
+  if (in.bad()) throw FileError(fmt::format("cannot read '{}'", file.string()));
+}
+
+}  // namespace deburr::tb

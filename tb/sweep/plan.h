@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// A sweep's points, expanded and named: what its workers, `status` and `collect` go by.
+//
+//   OUT/sweeps/NAME/plan.json      engine, base, axes, how many points, what was left out
+//   OUT/sweeps/NAME/points.jsonl   a line a point: its name, the number of its input, a text an
+//   axis OUT/points/, OUT/cache/        shared by all sweeps under OUT
+//
+// A point is never held: the file is written and read line by line.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tb/sweep/definition.h"
+#include "tb/sweep/point.h"
+#include "tb/sweep/sampling.h"
+
+namespace deburr::tb {
+
+inline constexpr std::uint64_t kMostPoints = 1'000'000;
+
+// Where everything of a sweep is.
+struct SweepPlace {
+  std::filesystem::path out, directory;
+  std::filesystem::path points() const { return out / "points"; }
+  std::filesystem::path cache() const { return out / "cache"; }
+};
+SweepPlace place_of(const std::filesystem::path& out, const std::string& name);
+
+struct PlanAxis {
+  std::string name;
+  std::vector<std::string> parameters;
+  std::map<std::string, std::vector<std::string>> choices;  // by label; of a named axis only
+};
+
+struct PlannedPoint {
+  std::string name;
+  std::uint64_t input = 0;  // points with the same number have the same input
+  Sample sample;
+};
+
+struct Plan {
+  std::string engine, title, file;
+  std::string key;  // of everything that the plan was made from
+  std::vector<Setting> base;
+  std::vector<PlanAxis> axes;
+  std::uint64_t points = 0, inputs = 0;
+  std::vector<std::string> left_out;         // in words, with how many
+  std::map<std::string, std::string> files;  // that the points read, and their SHA-256
+  bool reports = true;
+  std::uint64_t chunk = 0;
+
+  // What a point is given: the base, and its own.
+  std::vector<Setting> settings_of(const Sample& sample) const;
+};
+
+// Expands the definition into the place, unless the plan there was made from the same. ConfigError
+// for too many points, for none, and for points that the engine refuses.
+Plan make_plan(const SweepDefinition& sweep, const SweepPlace& place);
+// FileError where there is none.
+Plan read_plan(const std::filesystem::path& directory);
+
+std::filesystem::path points_file(const std::filesystem::path& directory);
+std::string line_of(const PlannedPoint& point);
+// Some lines of such a file: from a byte on, so many.
+struct PointLines {
+  std::uint64_t offset = 0, count = ~std::uint64_t{0};
+};
+void for_each_point(const std::filesystem::path& file,
+                    const std::function<void(const PlannedPoint&)>& take, PointLines lines = {});
+
+}  // namespace deburr::tb

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "tb/sweep/point.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "spec/error.h"
+#include "tb/results/build_info.h"
+#include "tb/results/file.h"
+#include "tb/results/shell.h"
+#include "tb/scene/image_io.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kFailure = "failure.json";
+constexpr std::size_t kMaxBytes = 1 << 20;
+constexpr std::size_t kDigits = 24;
+
+// Whether a living run has the directory.
+bool is_taken(const fs::path& directory) {
+  const fs::path claim = directory / ".deburr_run" / "claim.json";
+  const int descriptor = ::open(claim.c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool taken = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0;
+  ::close(descriptor);
+  return taken;
+}
+
+}  // namespace
+
+PointEngine::PointEngine(const std::string& name, const std::vector<Setting>& settings)
+    : engine(engine_named(name)), bound(*engine) {
+  for (const Setting& setting : settings) bound.set.set(setting.name, setting.value, setting.where);
+}
+
+std::string point_name(const BoundEngine& bound, SharedInputs& files) {
+  std::string key = fmt::format("{}\n{}\n", bound.engine.name(), build_info().model);
+  for (const Parameter& p : bound.set.all()) {
+    key += fmt::format("{}={}\n", p.name, p.text());
+    if (names_a_file(p)) key += fmt::format("  {}\n", files.sha256_of(p.text()));
+  }
+  return sha256(key).substr(0, kDigits);
+}
+
+std::string input_name(const BoundEngine& bound) {
+  std::string key;
+  for (const Parameter& p : bound.set.all())
+    if (p.kind == ParameterKind::kInput || p.name == "run.seed")
+      key += fmt::format("{}={}\n", p.name, p.text());
+  return key;
+}
+
+fs::path point_directory(const fs::path& points, std::string_view name) {
+  return points / name.substr(0, 2) / name;
+}
+
+PointState state_of(const fs::path& directory) {
+  std::error_code error;
+  if (!fs::is_directory(directory, error)) return PointState::kMissing;
+  if (is_taken(directory)) return PointState::kRunning;
+  if (fs::exists(directory / kFailure, error)) return PointState::kFailed;
+  return has_result(directory) ? PointState::kDone : PointState::kMissing;
+}
+
+bool has_result(const fs::path& directory) {
+  std::error_code error;
+  return fs::exists(directory / "result.json", error) &&
+         fs::exists(directory / "manifest.json", error);
+}
+
+Failure read_failure(const fs::path& directory) {
+  const Json json =
+      Json::parse(read_file(directory / kFailure, kMaxBytes), nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object()) return {"unknown", "failure.json cannot be read", true};
+  return {json.value("kind", "unknown"), json.value("reason", ""), json.value("again", true)};
+}
+
+void write_failure(const fs::path& directory, const Failure& failure) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  const Json json = {{"kind", failure.kind}, {"reason", failure.reason}, {"again", failure.again}};
+  // A reason may hold bytes of a file that was not understood.
+  write_file_atomically(directory / kFailure,
+                        json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void remove_failure(const fs::path& directory) {
+  std::error_code ignored;
+  fs::remove(directory / kFailure, ignored);
+}
+
+std::string command_of(const std::string& engine, const std::vector<Setting>& settings) {
+  std::string command = "deburr run " + engine;
+  for (const Setting& setting : settings)
+    command += " --set " + shell_quoted(fmt::format("{}={}", setting.name, setting.value));
+  return command;
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// A point of a sweep: a directory whose name says everything that its result depends on, so that
+// whoever asks for the same point finds it, from any sweep.
+//
+//   OUT/points/3f/3f09.../   result.json, manifest.json, report.html: as every run leaves them
+//                            failure.json: why there is no result that counts
+//
+// What counts is what is there: result.json and manifest.json, which a run puts in place when they
+// are complete. No scheduler's word does.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tb/app/run_once.h"
+#include "tb/results/shared_inputs.h"
+#include "tb/sweep/definition.h"
+
+namespace deburr::tb {
+
+// An engine with the parameters of one point. It is made anew for each, since engines remember.
+class PointEngine {
+ public:
+  PointEngine(const std::string& engine, const std::vector<Setting>& settings);
+
+  std::unique_ptr<Engine> engine;
+  BoundEngine bound;
+};
+
+// The directory's name: a hash of the resolved configuration, of the content of the files that it
+// names and of the model version. Call it behind resolve().
+std::string point_name(const BoundEngine& bound, SharedInputs& files);
+// Of what points have in common before they are simulated: points with the same one are run in
+// turn.
+std::string input_name(const BoundEngine& bound);
+
+std::filesystem::path point_directory(const std::filesystem::path& points, std::string_view name);
+
+enum class PointState : std::uint8_t { kMissing, kRunning, kDone, kFailed };
+PointState state_of(const std::filesystem::path& directory);
+// Whether a complete result is in place. For who has claimed the directory, or does not mind that
+// another one is at it.
+bool has_result(const std::filesystem::path& directory);
+
+// Why a point has no result that counts. `again`: running it again may well help (it was killed).
+struct Failure {
+  std::string kind, reason;
+  bool again = false;
+};
+Failure read_failure(const std::filesystem::path& directory);
+void write_failure(const std::filesystem::path& directory, const Failure& failure);
+void remove_failure(const std::filesystem::path& directory);
+
+// `deburr run ENGINE --set ...`, without --out.
+std::string command_of(const std::string& engine, const std::vector<Setting>& settings);
+
+}  // namespace deburr::tb

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// How far a sweep is, by what is in its points' directories.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tb/sweep/plan.h"
+
+namespace deburr::tb {
+
+struct Status {
+  std::uint64_t done = 0, running = 0, failed = 0, missing = 0;
+  std::vector<std::string> failures;  // the first ones: directory, and why
+  std::string time_left;              // of a run under way; empty: none is
+};
+Status look(const SweepPlace& place);
+
+// Says when a run of so many points began, for the time left.
+void note_start(const SweepPlace& place, std::uint64_t points);
+
+}  // namespace deburr::tb

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: MIT
+'use strict';
+(() => {
+  const data = JSON.parse(document.getElementById('data').textContent);
+  const byId = (id) => document.getElementById(id);
+  const style = getComputedStyle(document.documentElement);
+  const ink = style.getPropertyValue('--ink').trim(), muted = style.getPropertyValue('--muted').trim();
+  const rule = style.getPropertyValue('--rule').trim(), accent = style.getPropertyValue('--accent').trim();
+  const kMostRows = 200, kMostLines = 3000;
+
+  // A column is an axis or a metric of all points.
+  const isNumber = (text) => text !== '' && Number.isFinite(Number(text));
+  const columns = [
+    ...data.axes.map((axis, i) => {
+      const labels = [...new Set([...axis.labels, ...data.points.map((p) => p.at[i])])];
+      const numeric = labels.every(isNumber);
+      return {name: axis.name, axis: i, numeric, labels, text: (p) => p.at[i], unit: '',
+              value: (p) => numeric ? Number(p.at[i]) : labels.indexOf(p.at[i])};
+    }),
+    ...data.metrics.map((metric, i) => ({
+      name: metric.name, metric: i, numeric: true, unit: metric.unit, meaning: metric.meaning,
+      value: (p) => p.values[i] === 'inf' ? Infinity : p.values[i] ?? NaN,
+      text: (p) => shown(p.values[i]),
+    })),
+  ];
+  const columnOf = (name) => columns.find((c) => c.name === name);
+  function shown(value) {
+    if (value === null || value === undefined) return '';
+    if (typeof value === 'string') return value;
+    if (Number.isInteger(value)) return value.toLocaleString('en-US');
+    return Math.abs(value) >= 1000 ? Math.round(value).toLocaleString('en-US')
+                                   : String(Number(value.toPrecision(4)));
+  }
+  const titled = (c) => c.unit ? `${c.name} (${c.unit})` : c.name;
+  const done = data.points.filter((p) => p.state === 'done');
+  const element = (tag, text, parent, className) => {
+    const made = document.createElement(tag);
+    if (text !== undefined) made.textContent = text;
+    if (className) made.className = className;
+    if (parent) parent.append(made);
+    return made;
+  };
+
+  // ---- one point ----
+  const quoted = (word) =>
+    /^[A-Za-z0-9_\-./=,:+@%]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
+  function commandOf(p) {
+    const settings = [...data.base];
+    data.axes.forEach((axis, i) => {
+      const values = Object.keys(axis.choices).length > 0 ? axis.choices[p.at[i]] : [p.at[i]];
+      axis.parameters.forEach((name, k) => settings.push([name, values[k]]));
+    });
+    return `deburr run ${data.engine}` + settings.map(([n, v]) => ' --set ' + quoted(`${n}=${v}`)).join('');
+  }
+  const directoryOf = (p) => `${data.points_directory}/${p.name.slice(0, 2)}/${p.name}`;
+  let chosen = null;
+  function choose(p) {
+    chosen = p;
+    const box = byId('chosen');
+    box.replaceChildren();
+    box.className = '';
+    element('p', data.axes.map((a, i) => `${a.name} = ${p.at[i]}`).join(', '), box);
+    element('p', p.state === 'done'
+      ? data.metrics.map((m, i) => `${m.name} ${shown(p.values[i])} ${m.unit}`.trim()).join(', ')
+      : `${p.state}${p.failure ? ': ' + p.failure : ''}`, box);
+    const pre = element('pre', commandOf(p), box, 'code');
+    pre.style.whiteSpace = 'pre-wrap';
+    const links = element('p', '', box);
+    for (const name of ['report.html', 'result.json', 'manifest.json']) {
+      const link = element('a', name, links);
+      link.href = `${directoryOf(p)}/${name}`;
+      links.append(' ');
+    }
+    drawTable();
+  }
+
+  // ---- scatter ----
+  const palette = ['#2b7a8f', '#b3362b', '#96650f', '#1f7a4d', '#7a4d9f', '#26588a', '#8f5a2b', '#5c6b2b'];
+  function fill(select, options, value) {
+    for (const column of options) select.add(new Option(titled(column), column.name));
+    select.value = value;
+    select.addEventListener('change', drawScatter);
+  }
+  const goals = data.objectives.map((o) => o.metric);
+  const metrics = columns.filter((c) => c.metric !== undefined);
+  fill(byId('across'), columns, goals[0] ?? metrics[0].name);
+  fill(byId('up'), columns, goals[1] ?? (metrics[1] ?? metrics[0]).name);
+  fill(byId('colour'), columns.filter((c) => c.axis !== undefined), columns[0].name);
+  byId('objectives').textContent = data.objectives.length === 0 ? '' : 'Objectives: ' +
+    data.objectives.map((o) => `${o.maximise ? 'most' : 'least'} ${o.metric}`).join(', ') +
+    (data.for_each.length > 0 ? `, a front for each ${data.for_each.join(', ')}` : '');
+  Chart.defaults.color = muted;
+  Chart.defaults.borderColor = rule;
+  Chart.defaults.animation = false;
+  let scatter = null;
+  function drawScatter() {
+    const x = columnOf(byId('across').value), y = columnOf(byId('up').value);
+    const colour = columnOf(byId('colour').value);
+    const groups = colour.labels.length <= palette.length ? colour.labels : [];
+    const sets = (groups.length > 0 ? groups : [null]).map((label, i) => {
+      const points = done.filter((p) => label === null || p.at[colour.axis] === label)
+        .filter((p) => Number.isFinite(x.value(p)) && Number.isFinite(y.value(p)));
+      return {
+        label: label === null ? 'all points' : `${colour.name} = ${label}`,
+        data: points.map((p) => ({x: x.value(p), y: y.value(p), point: p})),
+        backgroundColor: points.map((p) => palette[i] + (p.front || goals.length === 0 ? '' : '70')),
+        borderColor: ink,
+        borderWidth: points.map((p) => p.front ? 1 : 0),
+        pointRadius: points.map((p) => p.front ? 6 : 3),
+      };
+    });
+    scatter?.destroy();
+    const scale = (column) => ({
+      title: {display: true, text: titled(column), color: ink},
+      ticks: {callback: (v) => column.numeric ? shown(v) : column.labels[v] ?? ''},
+    });
+    scatter = new Chart(byId('scatter'), {
+      type: 'scatter',
+      data: {datasets: sets},
+      options: {
+        maintainAspectRatio: false,
+        scales: {x: scale(x), y: scale(y)},
+        onClick: (_, items) => {
+          if (items.length > 0) choose(sets[items[0].datasetIndex].data[items[0].index].point);
+        },
+        plugins: {
+          legend: {display: groups.length > 1, labels: {boxWidth: 12}},
+          tooltip: {callbacks: {label: (item) => {
+            const p = item.raw.point;
+            return [`${x.name} ${x.text(p)}, ${y.name} ${y.text(p)}`,
+                    ...data.axes.map((a, i) => `${a.name} = ${p.at[i]}`)];
+          }}},
+        },
+      },
+    });
+  }
+
+  // ---- main effects ----
+  const effectSelect = byId('effect-metric');
+  for (const metric of metrics) effectSelect.add(new Option(titled(metric), metric.name));
+  let effectCharts = [];
+  function drawEffects() {
+    const name = effectSelect.value;
+    byId('effect-meaning').textContent = columnOf(name).meaning ?? '';
+    effectCharts.forEach((c) => c.destroy());
+    effectCharts = [];
+    byId('effects').replaceChildren();
+    const effects = data.effects.filter((e) => e.metric === name);
+    // One scale, so that axes can be compared.
+    const all = effects.flatMap((e) => e.means.map((m) => m[1]));
+    const low = Math.min(...all), high = Math.max(...all), margin = (high - low) * 0.08 || 1;
+    for (const effect of effects) {
+      const box = element('div', undefined, byId('effects'));
+      const means = effect.means.map((m) => m[1]);
+      const span = Math.max(...means) - Math.min(...means);
+      element('h3', `${effect.axis} (moves it by ${shown(span)})`, box);
+      const frame = element('div', undefined, box, 'chart');
+      frame.style.height = '150px';
+      effectCharts.push(new Chart(element('canvas', undefined, frame), {
+        type: 'line',
+        data: {labels: effect.means.map((m) => m[0]),
+               datasets: [{data: means, borderColor: accent, backgroundColor: accent, pointRadius: 3}]},
+        options: {maintainAspectRatio: false, plugins: {legend: {display: false}},
+                  scales: {y: {min: low - margin, max: high + margin,
+                               ticks: {maxTicksLimit: 6, includeBounds: false, callback: (v) => shown(v)}}}},
+      }));
+    }
+  }
+  effectSelect.addEventListener('change', drawEffects);
+
+  // ---- filters and table ----
+  const filters = new Map();  // axis -> label
+  let onlyFront = false, states = new Set(['done', 'failed', 'missing', 'running']);
+  let sortBy = null, descending = false;
+  const bar = byId('filters');
+  for (const column of columns.filter((c) => c.axis !== undefined && c.labels.length > 1 && c.labels.length <= 100)) {
+    const label = element('label', column.name + ' ', bar);
+    const select = element('select', undefined, label);
+    select.add(new Option('all', ''));
+    for (const value of column.labels) select.add(new Option(value, value));
+    select.addEventListener('change', () => {
+      if (select.value === '') filters.delete(column.axis); else filters.set(column.axis, select.value);
+      drawTable();
+      drawParallel();
+    });
+  }
+  const stateSelect = element('select', undefined, element('label', 'state ', bar));
+  for (const state of ['all', 'done', 'failed', 'missing', 'running']) stateSelect.add(new Option(state, state));
+  stateSelect.addEventListener('change', () => {
+    states = new Set(stateSelect.value === 'all' ? ['done', 'failed', 'missing', 'running'] : [stateSelect.value]);
+    drawTable();
+    drawParallel();
+  });
+  if (goals.length > 0) {
+    const label = element('label', undefined, bar);
+    const box = element('input', undefined, label);
+    box.type = 'checkbox';
+    label.append(' front only');
+    box.addEventListener('change', () => { onlyFront = box.checked; drawTable(); drawParallel(); });
+  }
+  const passing = () => data.points.filter((p) => states.has(p.state) && (!onlyFront || p.front) &&
+    [...filters].every(([axis, label]) => p.at[axis] === label));
+
+  function drawTable() {
+    const head = byId('table').tHead, body = byId('table').tBodies[0];
+    head.replaceChildren();
+    body.replaceChildren();
+    const titles = element('tr', undefined, head);
+    for (const column of columns) {
+      const cell = element('th', titled(column) + (sortBy === column ? (descending ? ' ▾' : ' ▴') : ''), titles,
+                           'sort' + (column.metric !== undefined ? ' n' : ''));
+      cell.title = column.meaning ?? '';
+      cell.addEventListener('click', () => {
+        descending = sortBy === column && !descending;
+        sortBy = column;
+        drawTable();
+      });
+    }
+    element('th', 'Point', titles);
+    const points = passing();
+    if (sortBy) points.sort((a, b) => {
+      const x = sortBy.value(a), y = sortBy.value(b);
+      if (Number.isNaN(x) || Number.isNaN(y)) return Number.isNaN(x) - Number.isNaN(y);
+      return (x < y ? -1 : x > y ? 1 : 0) * (descending ? -1 : 1);
+    });
+    for (const p of points.slice(0, kMostRows)) {
+      const row = element('tr', undefined, body,
+                          (p.front ? 'front ' : '') + (p.state === 'failed' ? 'failed ' : '') + (p === chosen ? 'chosen' : ''));
+      for (const column of columns) element('td', column.text(p), row, column.metric !== undefined ? 'n' : '');
+      const last = element('td', undefined, row);
+      if (p.state === 'done') element('a', p.name.slice(0, 8), last).href = `${directoryOf(p)}/report.html`;
+      else element('span', p.failure ? `${p.state}: ${p.failure}` : p.state, last);
+      row.addEventListener('click', () => choose(p));
+    }
+    byId('shown').textContent = `${points.length} of ${data.points.length} points` +
+      (points.length > kMostRows ? `, the first ${kMostRows} are shown` : '') + '; a click on a row shows its command.';
+  }
+
+  // ---- parallel coordinates ----
+  function drawParallel() {
+    const canvas = byId('parallel'), ratio = window.devicePixelRatio || 1;
+    const width = canvas.clientWidth, height = canvas.clientHeight;
+    canvas.width = width * ratio;
+    canvas.height = height * ratio;
+    const context = canvas.getContext('2d');
+    context.scale(ratio, ratio);
+    context.clearRect(0, 0, width, height);
+    // What never changes says nothing.
+    const used = columns.filter((c) => c.axis !== undefined ? c.labels.length > 1
+                                                            : new Set(done.map(c.value)).size > 1);
+    const top = 40, bottom = height - 26, left = 50, right = width - 50;
+    const at = (i) => used.length > 1 ? left + (right - left) * i / (used.length - 1) : (left + right) / 2;
+    const ranges = used.map((c) => {
+      let low = Infinity, high = -Infinity;
+      for (const p of done) {
+        const v = c.value(p);
+        if (Number.isFinite(v)) { low = Math.min(low, v); high = Math.max(high, v); }
+      }
+      return [low, high > low ? high : low + 1];
+    });
+    const level = (i, p) => {
+      const v = used[i].value(p), [low, high] = ranges[i];
+      if (Number.isNaN(v)) return null;
+      // Values of an axis at even distances, whatever they are.
+      if (used[i].axis !== undefined && used[i].labels.length <= 30) {
+        const order = used[i].numeric ? [...used[i].labels].sort((a, b) => a - b) : used[i].labels;
+        return bottom - (bottom - top) * order.indexOf(p.at[used[i].axis]) / (order.length - 1);
+      }
+      return bottom - (bottom - top) * Math.min(1, (v - low) / (high - low));
+    };
+    const points = passing().filter((p) => p.state === 'done');
+    const step = Math.max(1, Math.ceil(points.length / kMostLines));
+    const some = points.filter((p, i) => p.front || i % step === 0);
+    for (const front of [false, true]) {
+      context.strokeStyle = front ? accent : muted;
+      context.globalAlpha = front ? 0.9 : Math.max(0.06, Math.min(0.5, 30 / some.length));
+      context.lineWidth = front ? 1.4 : 1;
+      for (const p of some.filter((q) => Boolean(q.front) === front)) {
+        context.beginPath();
+        let begun = false;
+        used.forEach((_, i) => {
+          const y = level(i, p);
+          if (y === null) { begun = false; return; }
+          if (begun) context.lineTo(at(i), y); else context.moveTo(at(i), y);
+          begun = true;
+        });
+        context.stroke();
+      }
+    }
+    context.globalAlpha = 1;
+    context.font = '11px system-ui, sans-serif';
+    used.forEach((column, i) => {
+      context.strokeStyle = rule;
+      context.beginPath();
+      context.moveTo(at(i), top);
+      context.lineTo(at(i), bottom);
+      context.stroke();
+      context.fillStyle = ink;
+      context.textAlign = i === 0 ? 'left' : i === used.length - 1 ? 'right' : 'center';
+      const x = i === 0 ? 2 : i === used.length - 1 ? width - 2 : at(i);
+      const short = column.name.split('.').slice(-2).join('.');
+      context.fillText(short, x, i % 2 === 0 ? 12 : 25);
+      context.fillStyle = muted;
+      const ends = column.axis !== undefined && !column.numeric
+        ? [column.labels[0], column.labels[column.labels.length - 1]] : ranges[i].map(shown);
+      context.fillText(ends[0], x, bottom + 14);
+      context.fillText(ends[1], x, top - 2);
+    });
+  }
+
+  drawScatter();
+  drawEffects();
+  drawTable();
+  drawParallel();
+  window.addEventListener('resize', drawParallel);
+})();

@@ -1,0 +1,315 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Sweeps: points are named by what they depend on, run once, survive kill -9, and are collected.
+
+usage: sweep_test.py DEBURR [CLASS]
+"""
+import csv
+import glob
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+POINTS = 12
+SWEEP = """
+engine: texture
+base:
+  scene: {source: tunnel, width: 48, height: 48, texture_size: 64}
+  run.images: false
+axes:
+  texture.cache.bytes: [1024, 2048, 4096]
+  texture.cache.ways: [1, 2]
+  memory.latency: {from: 50, to: 100, times: 2}
+metrics: {cycles: cycles, bits: memory_bits.total.physical, lines: /memory/lines_filled}
+objectives: {minimise: [cycles, bits]}
+"""
+
+
+class SweepTest(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="deburr_sweep_")
+        self.addCleanup(scratch.cleanup)
+        self.directory = scratch.name
+
+    def write(self, name, text):
+        with open(os.path.join(self.directory, name), "w") as file:
+            file.write(text)
+
+    def run_sweep(self, name, *arguments, code=0):
+        done = subprocess.run([DEBURR, "sweep", name, *arguments], cwd=self.directory, text=True,
+                              capture_output=True, timeout=300)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout.strip().splitlines()[-1]
+
+    def start_sweep(self, name, *arguments):
+        process = subprocess.Popen([DEBURR, "sweep", name, "run", *arguments], cwd=self.directory,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def rows(self, name):
+        self.run_sweep(f"{name}.yaml", "collect")
+        with open(os.path.join(self.directory, f"out/sweeps/{name}/collected.csv")) as file:
+            return list(csv.DictReader(file))
+
+    def results(self):
+        """Inode and content of every result: what was simulated again has another inode."""
+        found = {}
+        for path in glob.glob(os.path.join(self.directory, "out/points/*/*/result.json")):
+            with open(path) as file:
+                content = json.load(file)
+            del content["host"]
+            found[os.path.basename(os.path.dirname(path))] = (os.stat(path).st_ino, content)
+        return found
+
+
+class Points(SweepTest):
+    def test_plan_run_status_collect(self):
+        self.write("cache.yaml", SWEEP)
+        self.assertIn("12 points over 1 input, 0 of them done", self.run_sweep("cache.yaml", "plan"))
+        self.assertIn("12 done (12 in this run), 0 failed", self.run_sweep("cache.yaml", "run", "-j2"))
+        self.assertIn("12 of 12 points done", self.run_sweep("cache.yaml", "status"))
+        rows = self.rows("cache")
+        self.assertEqual(len(rows), POINTS)
+        for row in rows:
+            with open(os.path.join(self.directory, row["directory"], "result.json")) as file:
+                result = json.load(file)
+            self.assertEqual(result["verdict"], "pass")
+            self.assertEqual(int(row["cycles"]), result["cycles"])
+            self.assertEqual(int(row["bits"]), result["memory_bits"]["total"]["physical"])
+            self.assertEqual(int(row["lines"]), result["memory"]["lines_filled"])
+        # The front by its definition.
+        cost = [(int(r["cycles"]), int(r["bits"])) for r in rows]
+        for row, mine in zip(rows, cost):
+            dominated = any(o[0] <= mine[0] and o[1] <= mine[1] and o != mine for o in cost)
+            self.assertEqual(row["front"], "0" if dominated else "1")
+
+    def test_a_point_is_what_its_command_runs(self):
+        self.write("cache.yaml", SWEEP)
+        self.run_sweep("cache.yaml", "run")
+        row = self.rows("cache")[5]
+        with open(os.path.join(self.directory, row["directory"], "manifest.json")) as file:
+            command = json.load(file)["command"]
+        again = subprocess.run(["bash", "-c", command.replace("deburr", f"'{DEBURR}'", 1)],
+                               cwd=self.directory, text=True, capture_output=True)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        with open(os.path.join(self.directory, "out/texture/result.json")) as file:
+            alone = json.load(file)
+        with open(os.path.join(self.directory, row["directory"], "result.json")) as file:
+            point = json.load(file)
+        del alone["host"], point["host"]
+        self.assertEqual(alone, point)
+
+    def test_nothing_is_run_twice_across_sweeps_too(self):
+        self.write("cache.yaml", SWEEP)
+        self.run_sweep("cache.yaml", "run")
+        before = self.results()
+        self.assertIn("(0 in this run)", self.run_sweep("cache.yaml", "run"))
+        self.write("wider.yaml", SWEEP.replace("ways: [1, 2]", "ways: [1, 2, 4]"))
+        self.assertIn("18 points, 18 done (6 in this run)", self.run_sweep("wider.yaml", "run"))
+        after = self.results()
+        self.assertEqual({name: after[name] for name in before}, before)
+        self.assertEqual(len(after), 18)
+
+    def test_other_engines_named_choices_and_seeds(self):
+        for engine, base in (("morphological", "frame.truth_samples: 2"), ("frame", "run.check: none")):
+            source = "frame" if engine == "morphological" else "scene"
+            self.write(f"{engine}.yaml", f"""
+engine: {engine}
+base: {{{base}, run.images: false}}
+axes:
+  picture:
+    small: {{{source}.width: 24, {source}.height: 16}}
+    wide: {{{source}.width: 32, {source}.height: 8}}
+  morphological.lanes: [1, 2]
+  run.seed: {{from: 1, to: 2}}
+constraints: [morphological.lanes == 1 or {source}.width > 24]
+""")
+            self.assertIn("6 points, 6 done", self.run_sweep(f"{engine}.yaml", "run"))
+            rows = self.rows(engine)
+            self.assertEqual({row["picture"] for row in rows}, {"small", "wide"})
+            self.assertEqual(rows[0]["state"], "done")
+
+    def test_samples(self):
+        """A Latin hypercube hits each stratum once; samples are the same every time."""
+        text = SWEEP.split("axes:")[0] + """
+axes:
+  memory.latency: {from: 1, to: 80}
+  texture.cache.fifo_depth: {from: 2, to: 401, step: 1}
+sample: {SAMPLE: 8, seed: 3}
+"""
+        self.write("latin.yaml", text.replace("SAMPLE", "latin"))
+        self.run_sweep("latin.yaml", "plan")
+        rows = self.rows("latin")
+        self.assertEqual(sorted((int(r["memory.latency"]) - 1) // 10 for r in rows), list(range(8)))
+        self.assertEqual(sorted((int(r["texture.cache.fifo_depth"]) - 2) // 50 for r in rows),
+                         list(range(8)))
+        os.remove(os.path.join(self.directory, "out/sweeps/latin/plan.json"))
+        self.run_sweep("latin.yaml", "plan")
+        self.assertEqual(self.rows("latin"), rows)
+        self.write("random.yaml", text.replace("SAMPLE", "random") +
+                   "constraints: [memory.latency <= 40 and not memory.latency % 2 == 1]\n")
+        self.run_sweep("random.yaml", "plan")
+        latencies = [int(r["memory.latency"]) for r in self.rows("random")]
+        self.assertEqual(len(latencies), 8)
+        self.assertTrue(all(x <= 40 and x % 2 == 0 for x in latencies), latencies)
+
+    def test_an_input_that_changes_makes_other_points(self):
+        triangle = "v 0 0 0\nv {} 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"
+        self.write("mesh.obj", triangle.format(1))
+        self.write("mesh.yaml", "engine: texture\n"
+                   "base: {scene: {source: mesh.obj, width: 16, height: 16}, run.images: false}\n"
+                   "axes: {memory.latency: [50, 60]}\n")
+        self.run_sweep("mesh.yaml", "run")
+        first = self.results()
+        self.write("mesh.obj", triangle.format(2))
+        self.assertIn("(2 in this run)", self.run_sweep("mesh.yaml", "run"))
+        self.assertEqual(len(self.results()), 4)
+        self.write("mesh.obj", triangle.format(1))
+        self.assertIn("(0 in this run)", self.run_sweep("mesh.yaml", "run"))
+        self.assertEqual({n: e for n, e in self.results().items() if n in first}, first)
+
+    def test_a_damaged_cache_is_made_again(self):
+        text = SWEEP.replace("run.images: false", "run.images: false\n  run.truth: true")
+        self.write("truth.yaml", text.replace("metrics: {", "metrics: {psnr: quality.psnr_db, "))
+        self.run_sweep("truth.yaml", "run")
+        before = self.results()
+        kept = [f for f in glob.glob(os.path.join(self.directory, "out/cache/*/*"))
+                if not f.endswith(".lock")]
+        self.assertEqual(len(kept), 1)
+        with open(kept[0], "r+b") as file:
+            file.seek(200)
+            file.write(b"damage")
+        shutil.rmtree(os.path.join(self.directory, "out/points"))
+        self.run_sweep("truth.yaml", "run")
+        after = self.results()
+        self.assertEqual({n: e[1] for n, e in after.items()}, {n: e[1] for n, e in before.items()})
+
+    def test_failed_points_are_listed_and_stop_no_other(self):
+        self.write("fault.yaml", SWEEP.replace("axes:", "  run.fault: flip-bit\naxes:")
+                   .replace("width: 48", "width: 24"))
+        self.assertIn("0 done (0 in this run), 12 failed",
+                      self.run_sweep("fault.yaml", "run", code=1))
+        rows = self.rows("fault")
+        self.assertEqual({row["state"] for row in rows}, {"failed"})
+        self.assertIn("mismatch: colours: 1 mismatches", rows[0]["failure"])
+        before = {n: e[0] for n, e in self.results().items()}
+        self.run_sweep("fault.yaml", "run", code=1)
+        self.assertEqual({n: e[0] for n, e in self.results().items()}, before, "not run again")
+        self.run_sweep("fault.yaml", "run", "--retry", code=1)
+        self.assertNotEqual({n: e[0] for n, e in self.results().items()}, before)
+
+
+class Killed(SweepTest):
+    """kill -9 of a point, a worker, Ninja and the command: nothing is lost, no half point counts."""
+
+    def setUp(self):
+        super().setUp()
+        # Points of half a second each, so that every victim is met alive.
+        self.write("slow.yaml", SWEEP.replace("width: 48, height: 48", "width: 160, height: 160"))
+
+    def victims(self, process, name):
+        """Living processes below the command: 'ninja', 'worker' or 'point'."""
+        deadline = time.monotonic() + 60
+        while time.monotonic() < deadline and process.poll() is None:
+            listing = subprocess.run(["ps", "-eo", "pid=,ppid=,args="], text=True,
+                                     capture_output=True).stdout
+            table = {int(l.split()[0]): (int(l.split()[1]), l.split(None, 2)[2])
+                     for l in listing.splitlines() if len(l.split()) > 2}
+            ninjas = [p for p, (parent, _) in table.items() if parent == process.pid]
+            workers = [p for p, (parent, args) in table.items()
+                       if parent in ninjas and "sweep-worker" in args]
+            points = [p for p, (parent, _) in table.items() if parent in workers]
+            found = {"ninja": ninjas, "worker": workers, "point": points}[name]
+            if found and points:
+                return found
+            time.sleep(0.005)
+        self.fail(f"no living {name}")
+
+    def check_resumed(self, kept):
+        """A further run does what is missing, and only that."""
+        self.run_sweep("slow.yaml", "run", "-j2")
+        after = self.results()
+        self.assertEqual(len(after), POINTS)
+        self.assertEqual({name: after[name] for name in kept}, kept)
+        for path in glob.glob(os.path.join(self.directory, "out/points/*/*")):
+            self.assertEqual(sorted(os.listdir(path)),
+                             ["manifest.json", "report.html", "result.json"])
+        reference = tempfile.mkdtemp(dir=self.directory)
+        self.run_sweep("slow.yaml", "run", "-j2", "--out", reference)
+        for path in glob.glob(os.path.join(reference, "points/*/*/result.json")):
+            with open(path) as file:
+                content = json.load(file)
+            del content["host"]
+            self.assertEqual(content, after[os.path.basename(os.path.dirname(path))][1])
+
+    def kill(self, victim, *arguments):
+        process = self.start_sweep("slow.yaml", *arguments)
+        for pid in self.victims(process, victim):
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        return process
+
+    def test_a_point(self):
+        process = self.kill("point", "-j1")
+        self.assertEqual(process.wait(), 1)
+        self.assertIn("11 of 12 points done", self.run_sweep("slow.yaml", "status"))
+        self.check_resumed(self.results())
+
+    def test_a_worker(self):
+        process = self.kill("worker", "-j1")
+        self.assertIn(process.wait(), (0, 3))
+        self.check_resumed(self.results())
+
+    def test_ninja(self):
+        process = self.kill("ninja", "-j2")
+        self.assertEqual(process.wait(), 3)
+        time.sleep(1)  # the workers go with it
+        self.check_resumed(self.results())
+
+    def test_the_command(self):
+        process = self.start_sweep("slow.yaml", "-j2")
+        self.victims(process, "point")
+        process.kill()
+        process.wait()
+        time.sleep(1)
+        kept = self.results()
+        self.assertLess(len(kept), POINTS)
+        self.check_resumed(kept)
+
+    def test_interrupted(self):
+        process = self.start_sweep("slow.yaml", "-j2")
+        self.victims(process, "point")
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(), 130)
+        kept = self.results()
+        self.assertLess(len(kept), POINTS)
+        for _, content in kept.values():
+            self.assertNotIn("interrupted", content)
+        self.check_resumed(kept)
+
+    def test_a_second_run_is_refused(self):
+        process = self.start_sweep("slow.yaml", "-j1")
+        self.victims(process, "point")
+        self.assertIn("is being run by another process", self.run_sweep("slow.yaml", "run", code=5))
+        status = self.run_sweep("slow.yaml", "status")
+        self.assertNotIn("12 of 12", status)
+        process.wait()
+        self.assertEqual(len(self.results()), POINTS)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
+        print(__doc__)
+        sys.exit(0 if len(sys.argv) >= 2 else 2)
+    DEBURR = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
