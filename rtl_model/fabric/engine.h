@@ -27,6 +27,7 @@
 
 #include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/fabric/control_registers.h"
+#include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/unit.h"
@@ -85,6 +86,7 @@ class Engine : public sc_core::sc_module {
   std::vector<const Unit*> units() const;
   std::vector<const Counter*> counters() const;
   std::vector<const MemoryBase*> memories() const;
+  std::vector<const Histogram*> histograms() const;
 
  protected:
   Engine(const sc_core::sc_module_name& name, ClockDomain& clock,

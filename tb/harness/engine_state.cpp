@@ -5,20 +5,8 @@
 
 #include <algorithm>
 
-#include "rtl_model/fabric/histogram.h"
-#include "rtl_model/fabric/memory.h"
-#include "rtl_model/fabric/unit.h"
-
 namespace deburr::tb {
 namespace {
-
-template <class T>
-void collect(const sc_core::sc_object& root, std::vector<const T*>& found) {
-  for (const sc_core::sc_object* child : root.get_child_objects()) {
-    if (const auto* wanted = dynamic_cast<const T*>(child)) found.push_back(wanted);
-    collect(*child, found);
-  }
-}
 
 // Without the name of the engine.
 std::string inner_name(const rtl::Engine& engine, const sc_core::sc_object& object) {
@@ -39,9 +27,7 @@ std::vector<std::string> engine_state(const rtl::Engine& engine, RegisterHost& h
     add(fmt::format("register {:#x}", offset), host.read(offset));
   for (const rtl::Counter* counter : engine.counters())
     add(inner_name(engine, *counter), counter->value());
-  std::vector<const rtl::Histogram*> histograms;
-  collect(engine, histograms);
-  for (const rtl::Histogram* histogram : histograms) {
+  for (const rtl::Histogram* histogram : engine.histograms()) {
     const std::string name = inner_name(engine, *histogram);
     add(name + ".count", histogram->count());
     add(name + ".sum", histogram->sum());

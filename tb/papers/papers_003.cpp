@@ -269,7 +269,7 @@ PaperTable matrix_of_lines(const PaperOptions& options) {
   if (options.quick) fan.lines = 8, fan.seeds = 1;
   std::vector<Method> all = methods();
   std::vector<std::vector<double>> figures;
-  Progress progress("paper 003", all.size(), "row");
+  Progress progress("paper 003", all.size(), "row", options.quiet);
   for (Method& method : all) {
     method.parameters.linear_light = false;
     const morphological::Smoothing smoothing = [&](const Image& image) {
@@ -317,7 +317,7 @@ PaperTable matrix_of_frames(const PaperOptions& options) {
   };
   std::vector<Sum> sums(all.size() + 1);
   std::vector<const char*> scenes = {"cylinders", "object", "road", "quad", "tunnel", "plane"};
-  Progress progress("paper 003", scenes.size(), "scene");
+  Progress progress("paper 003", scenes.size(), "scene", options.quiet);
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     table.columns.emplace_back(scenes[s]);
     const Scene scene = make_scene(scenes[s]);
@@ -407,7 +407,7 @@ PaperTable matrix_of_costs(const PaperOptions& options) {
               paper = stimuli::random_edges(256, 144, 370);
   std::vector<Method> all = methods();
   std::erase_if(all, [](const Method& method) { return !method.smoothed; });
-  Progress progress("paper 003", all.size(), "row");
+  Progress progress("paper 003", all.size(), "row", options.quiet);
   for (const Method& method : all) {
     options.go_on();
     const auto slowdown = [&](const Image& image) {

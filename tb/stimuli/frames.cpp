@@ -71,6 +71,36 @@ Image diagonals(int width, int height, int thickness) {
               [=](int x, int y) { return grey((x + y) / thickness % 2 != 0 ? 255 : 0); });
 }
 
+Image bands(int width, int height, Random& random) {
+  Image image(width, height);
+  std::vector<bool> above(static_cast<std::size_t>(width)), cuts = above;
+  for (int y0 = 0; y0 < height; y0 += 3) {
+    const std::uint32_t rare = 1 + random.below(60);
+    int code = 0;
+    for (int x = 0; x < width; ++x) {
+      const auto i = static_cast<std::size_t>(x);
+      cuts[i] = (above[i] && random.chance(500)) || random.below(rare) == 0;
+      if (x == 0 || cuts[i]) code = (code + 1 + static_cast<int>(random.below(2))) % 3;
+      for (int y = y0; y < std::min(y0 + 3, height); ++y)
+        image.at(x, y) = grey(40 * code + (y0 / 3 % 2 == 0 ? 0 : 135));
+    }
+    above = cuts;
+  }
+  return image;
+}
+
+Image long_step(int length) {
+  return draw(length + 2, 4, [length](int x, int y) {
+    return grey(y == 3 || (y == 2 && x > 0) || (y == 1 && x > length) ? 255 : 0);
+  });
+}
+
+Image long_bar(int length) {
+  return draw(length + 2, 3, [length](int x, int y) {
+    return grey(y == 2 || (y == 1 && x > 0 && x <= length) ? 255 : 0);
+  });
+}
+
 Image rendered_like(int width, int height, int shapes) {
   struct Shape {
     std::int64_t x, y, radius, nx, ny;

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "tb/scene/image.h"
+#include "tb/stimuli/random.h"
 
 namespace deburr::tb::stimuli {
 
@@ -54,6 +55,15 @@ Image random_edges(int width, int height, int permille, std::uint64_t seed = 1);
 // and above, and every run is a pixel long and extended to the full N. Of two pixels, the worst
 // that predictors can meet; of one it would be a checkerboard, which no run follows.
 Image diagonals(int width, int height, int thickness = 2);
+
+// Bands of three rows, of darker and of brighter greys in turn, cut at random and often where the
+// band above is cut as well: runs end at every crossing code, at any distance.
+Image bands(int width, int height, Random& random);
+
+// A horizontal run of `length` pixels between two steps of a stair; the same between both ends of a
+// bar on a floor.
+Image long_step(int length);
+Image long_bar(int length);
 
 // Like a rendered picture: pieces of discs of flat colours over a gradient.
 Image rendered_like(int width, int height, int shapes);

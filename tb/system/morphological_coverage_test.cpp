@@ -168,26 +168,6 @@ TEST(MorphologicalCoverage, AHoleIsReported) {
 
 // ---- SMAA's blocks ------------------------------------------------------------------------------
 
-// Bands of three rows, of darker and of brighter greys in turn, cut at random and often where the
-// band above is cut as well: runs end at every crossing code, at any distance.
-MorphologicalInput bands(int width, int height, Random& random) {
-  MorphologicalInput frame = flat(width, height, 0);
-  std::vector<bool> above(static_cast<std::size_t>(width)), cuts = above;
-  for (int y0 = 0; y0 < height; y0 += 3) {
-    const std::uint32_t rare = 1 + random.below(60);
-    int code = 0;
-    for (int x = 0; x < width; ++x) {
-      const auto i = static_cast<std::size_t>(x);
-      cuts[i] = (above[i] && random.chance(500)) || random.below(rare) == 0;
-      if (x == 0 || cuts[i]) code = (code + 1 + static_cast<int>(random.below(2))) % 3;
-      for (int y = y0; y < std::min(y0 + 3, height); ++y)
-        frame.image.at(x, y) = grey(40 * code + (y0 / 3 % 2 == 0 ? 0 : 135));
-    }
-    above = cuts;
-  }
-  return frame;
-}
-
 // A stair of one pixel over the frame, either way.
 MorphologicalInput stair(int size, bool rises) {
   return draw(size, size,
@@ -228,22 +208,17 @@ std::vector<SmaaCase> smaa_cases() {
 
 std::vector<MorphologicalInput> smaa_frames(Random& random, int round) {
   if (round == 0) {
-    // A step, and a bar on a floor, of which the middle is far from both ends.
-    return {
-        draw(422, 4,
-             [](int x, int y) {
-               return grey(y == 3 || (y == 2 && x > 0) || (y == 1 && x > 420) ? 255 : 0);
-             }),
-        draw(422, 3,
-             [](int x, int y) { return grey(y == 2 || (y == 1 && x > 0 && x < 421) ? 255 : 0); }),
-        stair(60, true),
-        stair(60, false),
-        MorphologicalInput{stimuli::shades_image(90, 80), {}},
-        rectangles(random)};
+    // First runs of which the middle is far from both ends.
+    return {{stimuli::long_step(420), {}},
+            {stimuli::long_bar(420), {}},
+            stair(60, true),
+            stair(60, false),
+            MorphologicalInput{stimuli::shades_image(90, 80), {}},
+            rectangles(random)};
   }
   std::vector<MorphologicalInput> frames = {noise(120, 120, random.next())};
   for (const int width : {1, 2, 3, 6, 15, 40, 160}) {
-    frames.push_back(bands(width, 150, random));
+    frames.push_back({stimuli::bands(width, 150, random), {}});
     frames.push_back(transposed(frames.back()));
   }
   return frames;

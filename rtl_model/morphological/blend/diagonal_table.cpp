@@ -7,74 +7,64 @@
 namespace deburr::rtl::morphological {
 namespace {
 
-struct Point {
-  int x, y;
-};
-struct Line {
-  Point from, to;
-};
-struct Lines {
-  int count;
-  std::array<Line, 2> line;
-};
-
-constexpr Point k00{0, 0}, k10{1, 0}, k11{1, 1};
-
-// By 4 e1 + e2: where the lines of a pair of ends begin, and where they end less (n, n).
-constexpr std::array<Lines, 16> kLines = {{
-    {2, {{{k11, k11}, {k10, k10}}}},
-    {2, {{{k00, k11}, {k10, k11}}}},
-    {2, {{{k00, k10}, {k10, k10}}}},
-    {2, {{{k00, k11}, {k10, k10}}}},
-    {2, {{{k10, k00}, {k10, k10}}}},
-    {1, {{{k10, k11}, {}}}},
-    {1, {{{k10, k10}, {}}}},
-    {2, {{{k10, k11}, {k10, k10}}}},
-    {2, {{{k11, k00}, {k11, k10}}}},
-    {1, {{{k11, k11}, {}}}},
-    {1, {{{k11, k10}, {}}}},
-    {2, {{{k11, k11}, {k11, k10}}}},
-    {2, {{{k11, k00}, {k10, k10}}}},
-    {2, {{{k11, k11}, {k10, k11}}}},
-    {2, {{{k11, k10}, {k10, k10}}}},
-    {2, {{{k11, k11}, {k10, k10}}}},
+// The two lines of each pair of ends, by 4 e1 + e2: a digit is a corner, 2 x + y, the first where
+// the line begins, the second where it ends less (n, n). A pair with one line has it twice, which
+// leaves its mean.
+constexpr std::uint8_t line(int from, int to) { return static_cast<std::uint8_t>(4 * from + to); }
+constexpr std::array<std::array<std::uint8_t, 2>, 16> kLines = {{
+    {line(3, 3), line(2, 2)},
+    {line(0, 3), line(2, 3)},
+    {line(0, 2), line(2, 2)},
+    {line(0, 3), line(2, 2)},
+    {line(2, 0), line(2, 2)},
+    {line(2, 3), line(2, 3)},
+    {line(2, 2), line(2, 2)},
+    {line(2, 3), line(2, 2)},
+    {line(3, 0), line(3, 2)},
+    {line(3, 3), line(3, 3)},
+    {line(3, 2), line(3, 2)},
+    {line(3, 3), line(3, 2)},
+    {line(3, 0), line(2, 2)},
+    {line(3, 3), line(2, 3)},
+    {line(3, 2), line(2, 2)},
+    {line(3, 3), line(2, 2)},
 }};
 
-constexpr int kSide = 30, kPoints = kSide * kSide;
+constexpr int kSide = 30, kPoints = kSide * kSide;  // sampled of a pixel
+constexpr int kGrid = 29;                           // steps from its one side to the other
 
-// Points of pixel (x, y) below a line.
-int below(Point p, Point q, int x, int y) {
-  if (p.x == q.x && p.y == q.y) return kPoints;
+// Points of pixel (x, y) below the line between two corners n pixels apart: in each column of
+// points the first ones, up to where the line passes.
+int below(unsigned ends, int n, int x, int y) {
+  const int x1 = static_cast<int>(ends >> 3), y1 = static_cast<int>(ends >> 2 & 1),
+            width = n + static_cast<int>(ends >> 1 & 1) - x1,
+            height = n + static_cast<int>(ends & 1) - y1;
+  if (width == 0 && height == 0) return kPoints;
   int count = 0;
-  for (int i = 0; i < kSide; ++i)
-    for (int j = 0; j < kSide; ++j)
-      count += (q.y - p.y) * (58 * x + 2 * i - 29 * (p.x + q.x)) +
-                   (p.x - q.x) * (58 * y + 2 * j - 29 * (p.y + q.y)) >
-               0;
+  for (int i = 0; i < kSide; ++i) {
+    // How far the line is behind the column's first point, in points, as a fraction of `width`.
+    const int passes = height * (kGrid * (x - x1) + i) - width * kGrid * (y - y1);
+    if (passes > 0) count += width == 0 ? kSide : std::min(kSide, (passes + width - 1) / width);
+  }
   return count;
 }
 
-int share(int points, int lines) {
-  const int all = kPoints * lines;
-  return std::min(255, (2 * 256 * points + all) / (2 * all));
+// Of both lines' points, U0.8, to nearest.
+unsigned share(int points) {
+  return static_cast<unsigned>(std::min(255, (256 * points + kPoints) / (2 * kPoints)));
 }
 
 std::vector<std::uint16_t> computed_words() {
   std::vector<std::uint16_t> words;
   words.reserve(kDiagonalWords);
-  for (const Lines& lines : kLines)
+  for (const auto& lines : kLines)
     for (int d1 = 0; d1 < spec::morphological::kDiagonalDistances; ++d1)
       for (int d2 = 0; d2 < spec::morphological::kDiagonalDistances; ++d2) {
-        const int n = d1 + d2 + 1;
-        int upper = 0, lower = 0;
-        for (int k = 0; k < lines.count; ++k) {
-          const Line& line = lines.line[static_cast<std::size_t>(k)];
-          const Point end{line.to.x + n, line.to.y + n};
-          upper += below(line.from, end, 1 + d1, d1);
-          lower += below(line.from, end, 1 + d1, 1 + d1);
-        }
-        words.push_back(static_cast<std::uint16_t>(
-            share(kPoints * lines.count - upper, lines.count) | share(lower, lines.count) << 8));
+        const auto of_both = [&, n = d1 + d2 + 1, x = 1 + d1](int y) {
+          return below(lines[0], n, x, y) + below(lines[1], n, x, y);
+        };
+        words.push_back(static_cast<std::uint16_t>(share(2 * kPoints - of_both(d1)) |
+                                                   share(of_both(1 + d1)) << 8));
       }
   return words;
 }

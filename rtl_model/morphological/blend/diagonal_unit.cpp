@@ -2,6 +2,7 @@
 #include "rtl_model/morphological/blend/diagonal_unit.h"
 
 #include <algorithm>
+#include <bit>
 #include <string>
 
 #include "rtl_model/morphological/blend/diagonal_table.h"
@@ -77,55 +78,43 @@ void DiagonalUnit::search(Cycle cycle, Beat& beat) {
   }
 }
 
-namespace {
-
-// The first step that is not good, of at most `most`.
+// All steps that are built at once, bit i - 1 of a word for step i; then the first gap in it.
 template <class Good>
-auto followed(int most, Good&& good) {
-  struct {
-    int distance;
-    bool open;
-    int looked;  // the last step that was looked at
-  } end{};
-  int count = 0;
-  while (count < most && good(count + 1)) ++count;
-  end.distance = std::min(count, most - 1);
-  end.open = count == most;
-  end.looked = end.distance + 1;
-  return end;
+DiagonalUnit::End DiagonalUnit::first_gap(Good&& good) const {
+  std::uint32_t steps = 0;
+  for (int i = 1; i <= steps_; ++i) steps |= std::uint32_t{good(i)} << (i - 1);
+  const int most = store_.rules().diagonal_steps;
+  const int found = std::min(std::countr_one(steps), most);
+  return {std::min(found, most - 1), found == most};
 }
 
-}  // namespace
-
 DiagonalUnit::Diagonal DiagonalUnit::rising(const Around& at) const {
-  const int most = store_.rules().diagonal_steps;
-  End down, up;
+  End down;
   if (at.left(0, 0)) {
-    const auto end = followed(most, [&](int i) { return at.left(-i, i) && at.top(-i, i); });
-    down = {end.distance + at.top(-end.looked, end.looked), end.open};
+    down = first_gap([&](int i) { return at.left(-i, i) && at.top(-i, i); });
+    const int next = down.distance + 1;
+    down.distance += at.top(-next, next);
   }
-  const auto end = followed(most, [&](int i) { return at.left(i, -i) && at.top(i, -i); });
-  up = {end.distance, end.open};
-  Diagonal diagonal{down.distance + up.distance > 2, down.distance, up.distance, 0, 0};
+  const End up = first_gap([&](int i) { return at.left(i, -i) && at.top(i, -i); });
+  const int d1 = down.distance, d2 = up.distance;
+  Diagonal diagonal{d1 + d2 > 2, d1, d2, 0, 0};
   if (!diagonal.counts) return diagonal;
-  const int d1 = diagonal.d1, d2 = diagonal.d2;
   if (!down.open) diagonal.e1 = 2 * at.top(-d1 - 1, d1) + at.left(-d1, d1);
   if (!up.open) diagonal.e2 = 2 * at.top(d2 + 1, -d2) + at.left(d2 + 1, -d2 - 1);
   return diagonal;
 }
 
 DiagonalUnit::Diagonal DiagonalUnit::falling(const Around& at) const {
-  const int most = store_.rules().diagonal_steps;
-  End up, down;
-  const auto end = followed(most, [&](int i) { return at.top(-i, -i) && at.left(1 - i, -i); });
-  up = {end.distance, end.open};
+  const End up = first_gap([&](int i) { return at.top(-i, -i) && at.left(1 - i, -i); });
+  End down;
   if (at.left(1, 0)) {
-    const auto other = followed(most, [&](int i) { return at.top(i, i) && at.left(i + 1, i); });
-    down = {other.distance + at.top(other.looked, other.looked), other.open};
+    down = first_gap([&](int i) { return at.top(i, i) && at.left(i + 1, i); });
+    const int next = down.distance + 1;
+    down.distance += at.top(next, next);
   }
-  Diagonal diagonal{up.distance + down.distance > 2, up.distance, down.distance, 0, 0};
+  const int d1 = up.distance, d2 = down.distance;
+  Diagonal diagonal{d1 + d2 > 2, d1, d2, 0, 0};
   if (!diagonal.counts) return diagonal;
-  const int d1 = diagonal.d1, d2 = diagonal.d2;
   if (!up.open) diagonal.e1 = 2 * at.top(-d1 - 1, -d1) + at.left(-d1, -d1 - 1);
   if (!down.open) diagonal.e2 = 2 * at.top(d2 + 1, d2) + at.left(d2 + 1, d2);
   return diagonal;

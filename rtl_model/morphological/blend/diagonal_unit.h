@@ -95,6 +95,8 @@ class DiagonalUnit final : public Unit {
   void search(Cycle cycle, Beat& beat);
   void address(Cycle cycle, const Beat& beat);
   void deliver(Cycle cycle, const Beat& beat);
+  template <class Good>  // bool good(i), of step i
+  End first_gap(Good&& good) const;
   Diagonal rising(const Around& at) const;
   Diagonal falling(const Around& at) const;
 

@@ -109,26 +109,6 @@ TEST(RunCoverage, AnEmptyFrameLeavesHoles) {
   EXPECT_EQ(hit, 1u);  // decision/none
 }
 
-// Bands of three rows, of darker and of brighter greys in turn, cut at random and often where the
-// band above is cut as well: runs end at every crossing code, at any distance.
-Frame bands(int width, int height, Random& random) {
-  Frame frame(width, height);
-  std::vector<bool> cuts(static_cast<std::size_t>(width)), above = cuts;
-  for (int y0 = 0; y0 < height; y0 += 3) {
-    const std::uint32_t rare = 1 + random.below(60);
-    int code = 0;
-    for (int x = 0; x < width; ++x) {
-      const auto i = static_cast<std::size_t>(x);
-      cuts[i] = (above[i] && random.chance(500)) || random.below(rare) == 0;
-      if (x == 0 || cuts[i]) code = (code + 1 + static_cast<int>(random.below(2))) % 3;
-      for (int y = y0; y < std::min(y0 + 3, height); ++y)
-        frame.at(x, y) = grey(40 * code + (y0 / 3 % 2 == 0 ? 0 : 135));
-    }
-    above = cuts;
-  }
-  return frame;
-}
-
 TEST(SmaaCoverage, EveryBinCanBeReached) {
   using spec::morphological::DynamicLuma;
   using spec::morphological::Quality;
@@ -150,11 +130,7 @@ TEST(SmaaCoverage, EveryBinCanBeReached) {
   far.search_steps = 112;
   far.reach_columns = 1000;
   goldens.emplace_back(far);
-  const Frame step(422, 4, [](int x, int y) {
-    return grey(y == 3 || (y == 2 && x > 0) || (y == 1 && x > 420) ? 255 : 0);
-  });
-  const Frame bar(
-      422, 3, [](int x, int y) { return grey(y == 2 || (y == 1 && x > 0 && x < 421) ? 255 : 0); });
+  const Frame step = tb::stimuli::long_step(420), bar = tb::stimuli::long_bar(420);
   const Frame stairs = tb::stimuli::diagonals(60, 60, 3),
               other_way = tb::morphological::mirrored_x(stairs);
   const Frame noise = tb::morphological::noise_image(300, 300),
@@ -165,7 +141,7 @@ TEST(SmaaCoverage, EveryBinCanBeReached) {
   std::map<std::string, std::uint64_t> hits;
   for (int round = 0; round < 40; ++round) {
     for (const int width : {1, 2, 3, 6, 15, 40, 160}) {
-      const Frame frame = bands(width, 150, random);
+      const Frame frame = tb::stimuli::bands(width, 150, random);
       for (MorphologicalGolden& golden : goldens) {
         golden.process(frame.view());
         golden.process(Frame(tb::morphological::transposed(frame)).view());

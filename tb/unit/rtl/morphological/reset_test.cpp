@@ -171,29 +171,45 @@ INSTANTIATE_TEST_SUITE_P(
                       Variant{1, spec::morphological::Storage::kMemory, 9, 9, 20, true}));
 
 // Frames of ordinary size, with a reset in mid-run.
-class ResetAt : public ::testing::TestWithParam<int> {};
+class ResetAt : public ::testing::TestWithParam<int> {
+ protected:
+  // Noise until the reset, and what is to be seen of it.
+  void interrupt(EngineBench& bench) {
+    bench.engine.set_frame_size(97, 61);
+    bench.driver.send([this](std::uint64_t i, spec::morphological::PixelBeat& beat) {
+      const auto& beats = before_ ? dense_ : wanted_;
+      if (i >= beats.size()) return false;
+      beat = beats[i];
+      return true;
+    });
+    bench.clock.run(static_cast<Cycle>(GetParam()));
+    EXPECT_FALSE(bench.engine.idle());
+    bench.clock.set_reset_n(false);
+    before_ = false;
+    bench.clock.run(2);
+    bench.clock.set_reset_n(true);
+    EXPECT_EQ(bench.bus.read(reg::kSize), 0u);
+    EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle);
+    EXPECT_EQ(bench.engine.work(), spec::morphological::Work{});
+  }
+  // A frame of the contract's vectors, from its first beat on.
+  std::uint64_t next_frame(EngineBench& bench) {
+    bench.engine.set_frame_size(200, 150);
+    bench.bench->run([&] { return bench.sink.received() == 200 * 150 && bench.engine.idle(); },
+                     1'000'000);
+    return hash(bench.last(200, 150));
+  }
+
+ private:
+  bool before_ = true;
+  std::vector<spec::morphological::PixelBeat> dense_ = beats_of(noise(), 1),
+                                              wanted_ = beats_of(line(), 1);
+};
 
 TEST_P(ResetAt, AnyClockOfSmaaLeavesNothingBehind) {
   EngineBench bench(smaa());
-  bench.engine.set_frame_size(97, 61);
-  bool first = true;
-  const auto dense = beats_of(noise(), 1), wanted = beats_of(line(), 1);
-  bench.driver.send([&](std::uint64_t i, spec::morphological::PixelBeat& beat) {
-    const auto& beats = first ? dense : wanted;
-    if (i >= beats.size()) return false;
-    beat = beats[i];
-    return true;
-  });
-  bench.clock.run(static_cast<Cycle>(GetParam()));
-  bench.clock.set_reset_n(false);
-  first = false;
-  bench.clock.run(2);
-  bench.clock.set_reset_n(true);
-  EXPECT_EQ(bench.engine.work(), spec::morphological::Work{});
-  bench.engine.set_frame_size(200, 150);
-  bench.bench->run([&] { return bench.sink.received() == 200 * 150 && bench.engine.idle(); },
-                   1'000'000);
-  EXPECT_EQ(hash(bench.last(200, 150)), 0x1038e74b0d3dfd71u);  // of the contract's vector
+  interrupt(bench);
+  EXPECT_EQ(next_frame(bench), 0x1038e74b0d3dfd71u);
   EXPECT_EQ(bench.engine.work().diagonal_pixels, 44u);
 }
 
@@ -204,28 +220,8 @@ TEST_P(ResetAt, AnyClockLeavesNothingBehind) {
   EngineBench::Options options;
   options.memory_latency = 90;
   EngineBench bench(p, options);
-  bench.engine.set_frame_size(97, 61);
-  bool first = true;
-  const auto dense = beats_of(noise(), 1), wanted = beats_of(line(), 1);
-  bench.driver.send([&](std::uint64_t i, spec::morphological::PixelBeat& beat) {
-    const auto& beats = first ? dense : wanted;
-    if (i >= beats.size()) return false;
-    beat = beats[i];
-    return true;
-  });
-  bench.clock.run(static_cast<Cycle>(GetParam()));
-  EXPECT_FALSE(bench.engine.idle());
-  bench.clock.set_reset_n(false);
-  first = false;
-  bench.clock.run(2);
-  bench.clock.set_reset_n(true);
-  EXPECT_EQ(bench.bus.read(reg::kSize), 0u);
-  EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle);
-  EXPECT_EQ(bench.engine.work(), spec::morphological::Work{});
-  bench.engine.set_frame_size(200, 150);
-  bench.bench->run([&] { return bench.sink.received() == 200 * 150 && bench.engine.idle(); },
-                   1'000'000);
-  EXPECT_EQ(hash(bench.last(200, 150)), 0x75ccf871d174feafu);
+  interrupt(bench);
+  EXPECT_EQ(next_frame(bench), 0x75ccf871d174feafu);
   EXPECT_EQ(bench.engine.work().probes, 2560u);
 }
 INSTANTIATE_TEST_SUITE_P(Clocks, ResetAt,
