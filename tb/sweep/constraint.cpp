@@ -214,7 +214,7 @@ class Parser {
     if (const Parameter* parameter = known_.find(token))
       return {[name = token](const ParameterSet& s) { return value_of(s.find(name)->text()); },
               parameter};
-    const Value constant = value_of(token);
+    Value constant = value_of(token);
     if (!std::holds_alternative<std::string>(constant))
       return {[constant](const ParameterSet&) -> Value { return constant; }};
     return {nullptr, nullptr, token};
