@@ -5,33 +5,11 @@
 
 #include "spec/error.h"
 #include "spec/geometric/records.h"
+#include "spec/range_check.h"
 
 namespace deburr::golden::geometric {
-namespace {
 
 using spec::geometric::Refusal;
-
-// Checks each value against its declared range.
-struct RangeCheck {
-  void integer(std::string_view name, std::int32_t value, std::int32_t min, std::int32_t max,
-               std::string_view unit, std::string_view) const {
-    if (value >= min && value <= max) return;
-    throw spec::ConfigError("geometric " + std::string(name) + " = " + std::to_string(value) +
-                            " is outside " + std::to_string(min) + ".." + std::to_string(max) +
-                            " " + std::string(unit));
-  }
-  template <class Enum, std::size_t N>
-  void choice(std::string_view name, Enum value, const std::array<std::string_view, N>&,
-              std::string_view) const {
-    if (static_cast<std::size_t>(value) >= N) {
-      throw spec::ConfigError("geometric " + std::string(name) + " is none of its " +
-                              std::to_string(N) + " choices");
-    }
-  }
-  void boolean(std::string_view, bool, std::string_view) const {}
-};
-
-}  // namespace
 
 spec::geometric::Parameters preset_parameters(spec::geometric::Preset preset) {
   spec::geometric::Parameters p;
@@ -48,7 +26,7 @@ spec::geometric::Parameters preset_parameters(spec::geometric::Preset preset) {
 
 void check_parameters(const spec::geometric::Parameters& parameters) {
   spec::geometric::Parameters p = parameters;
-  const RangeCheck ranges;
+  const spec::RangeCheck ranges{"geometric"};
   describe(p, ranges);
   if (p.pipelined && p.reciprocal_table != 0) {
     throw spec::ConfigError("geometric reciprocal_table = " + std::to_string(p.reciprocal_table) +

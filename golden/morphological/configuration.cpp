@@ -4,29 +4,10 @@
 #include <string>
 
 #include "spec/error.h"
+#include "spec/range_check.h"
 
 namespace deburr::golden::morphological {
 namespace {
-
-// Checks each value against its declared range.
-struct RangeCheck {
-  void integer(std::string_view name, std::int32_t value, std::int32_t min, std::int32_t max,
-               std::string_view unit, std::string_view) const {
-    if (value >= min && value <= max) return;
-    throw spec::ConfigError("morphological " + std::string(name) + " = " + std::to_string(value) +
-                            " is outside " + std::to_string(min) + ".." + std::to_string(max) +
-                            " " + std::string(unit));
-  }
-  template <class Enum, std::size_t N>
-  void choice(std::string_view name, Enum value, const std::array<std::string_view, N>&,
-              std::string_view) const {
-    if (static_cast<std::size_t>(value) >= N) {
-      throw spec::ConfigError("morphological " + std::string(name) + " is none of its " +
-                              std::to_string(N) + " choices");
-    }
-  }
-  void boolean(std::string_view, bool, std::string_view) const {}
-};
 
 // The row of kQualities that p names.
 void apply_quality(spec::morphological::Parameters& p) {
@@ -80,7 +61,7 @@ spec::morphological::Parameters following_geometric(spec::morphological::Paramet
 
 void check_parameters(const spec::morphological::Parameters& parameters) {
   spec::morphological::Parameters p = parameters;
-  const RangeCheck ranges;
+  const spec::RangeCheck ranges{"morphological"};
   describe(p, ranges);
   if (p.window_rows % 2 != 0) {
     throw spec::ConfigError("morphological window_rows = " + std::to_string(p.window_rows) +
