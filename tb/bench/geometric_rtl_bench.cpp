@@ -6,12 +6,16 @@
 //       the same places so many times; cycles, then clocks of both phases, work, stalls, memories
 //   geometric_rtl_bench --idle <n>      n clocks of an engine that waits for a frame
 //   geometric_rtl_bench --dividers      clocks of the edges over dividers, with and without table
+//   geometric_rtl_bench --ratio <n>     how many times as fast the golden model draws the same
+//   frame,
+//       turn and turn about with the hardware model, so that it means something on a busy machine
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <ctime>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -19,6 +23,7 @@
 #include <string_view>
 #include <vector>
 
+#include "golden/geometric/geometric_golden.h"
 #include "rtl_model/geometric/geometric_engine.h"
 #include "tb/harness/forked.h"
 #include "tb/harness/memory_model.h"
@@ -37,39 +42,62 @@ constexpr std::uint32_t kEdgeBase = 0, kVertexBase = 0x100000, kFaceBase = 0x180
                         kDepthBase = 0x200000, kColourBase = 0x600000, kWeightBase = 0xA00000,
                         kCopyBase = 0xE00000, kBytes = 0x1200000;
 
-void put(std::vector<std::uint8_t>& bytes, std::uint32_t word) {
-  for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
-}
+using spec::geometric::Edge;
+using spec::geometric::Rgba8;
+using spec::geometric::Vertex;
+
+struct Scene {
+  std::vector<Edge> edges;
+  std::vector<Vertex> vertices;
+  std::vector<std::uint8_t> facing = std::vector<std::uint8_t>(kFaces / 8, 0xFF);
+  std::vector<Rgba8> image = std::vector<Rgba8>(std::size_t{kWidth} * kHeight);
+  std::vector<std::uint32_t> depth = std::vector<std::uint32_t>(std::size_t{kWidth} * kHeight);
+};
 
 // Every fifth edge is a step on a curve that winds over the frame; the others are flat.
 // `passes`: so many rings lie on each other.
-void load(MemoryModel& memory, std::uint32_t passes) {
-  std::vector<std::uint8_t> edges, vertices;
-  for (std::uint32_t i = 0; i < kEdges; ++i) {
-    const std::uint32_t step = i / 5;
-    put(edges, step);
-    put(edges, step + 1);
-    put(edges, i % kFaces | std::uint32_t{i % 5 == 0 ? flag::kBoundary : 0U}
-                                << spec::geometric::kFlagShift);
-    put(edges, (i + 1) % kFaces);
-  }
+Scene rings(std::uint32_t passes) {
+  Scene scene;
+  for (std::uint32_t i = 0; i < kEdges; ++i)
+    scene.edges.push_back({i / 5, i / 5 + 1, i % kFaces, (i + 1) % kFaces,
+                           static_cast<std::uint8_t>(i % 5 == 0 ? flag::kBoundary : 0)});
   for (std::uint32_t i = 0; i <= kKept; ++i) {
     // Rings of 60 to 220 steps of some 4 pixels, side by side.
     const std::uint32_t ring = i / 220 / passes;
     const double angle = (i % 220) * 2 * 3.14159265358979 / 220, radius = 60 + ring % 5 * 20;
     const double x = 200 + ring % 6 * 170 + radius * std::cos(angle + ring),
                  y = 160 + ring / 6 * 90 + radius * std::sin(angle + ring);
-    put(vertices, static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(256 * x))));
-    put(vertices, static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(256 * y))));
-    put(vertices, 9'000'000);
-    put(vertices, 1);
+    scene.vertices.push_back({static_cast<std::int32_t>(std::floor(256 * x)),
+                              static_cast<std::int32_t>(std::floor(256 * y)), 9'000'000, true});
   }
+  for (std::size_t i = 0; i < scene.image.size(); ++i)
+    for (std::size_t c = 0; c < 4; ++c)
+      scene.image[i][c] = static_cast<std::uint8_t>((4 * i + c) * 2654435761u >> 16);
+  return scene;
+}
+
+void put(std::vector<std::uint8_t>& bytes, std::uint32_t word) {
+  for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
+}
+
+void load(MemoryModel& memory, const Scene& scene) {
+  std::vector<std::uint8_t> edges, vertices, colours;
+  for (const Edge& edge : scene.edges) {
+    put(edges, edge.v0);
+    put(edges, edge.v1);
+    put(edges, edge.f0 | std::uint32_t{edge.flags} << spec::geometric::kFlagShift);
+    put(edges, edge.f1);
+  }
+  for (const Vertex& vertex : scene.vertices) {
+    put(vertices, static_cast<std::uint32_t>(vertex.x));
+    put(vertices, static_cast<std::uint32_t>(vertex.y));
+    put(vertices, vertex.depth);
+    put(vertices, vertex.usable);
+  }
+  for (const Rgba8& pixel : scene.image) colours.insert(colours.end(), pixel.begin(), pixel.end());
   memory.preload(kEdgeBase, edges);
   memory.preload(kVertexBase, vertices);
-  memory.preload(kFaceBase, std::vector<std::uint8_t>(kFaces / 8, 0xFF));
-  std::vector<std::uint8_t> colours(std::size_t{kWidth} * kHeight * 4);
-  for (std::size_t i = 0; i < colours.size(); ++i)
-    colours[i] = static_cast<std::uint8_t>(i * 2654435761u >> 16);
+  memory.preload(kFaceBase, scene.facing);
   memory.preload(kColourBase, colours);
 }
 
@@ -78,7 +106,7 @@ struct Frames {
       : engine("engine", clock, p), memory("memory", {4, sc_core::SC_NS}, memory_parameters()) {
     engine.memory()->bind(memory.ports);
     bus.bus.bind(engine.registers);
-    load(memory, passes);
+    load(memory, rings(passes));
     const std::pair<std::uint32_t, std::uint32_t> values[] = {
         {reg::kSize, kWidth | kHeight << 16}, {reg::kEdgeCount, kEdges},
         {reg::kVertexCount, kKept + 1},       {reg::kFaceCount, kFaces},
@@ -178,6 +206,37 @@ void dividers() {
   std::cout << fmt::format("pipelined {:>13}\n", clocks(1, 0, true));
 }
 
+void ratio(int count) {
+  using golden::geometric::GeometricGolden;
+  const Parameters p;
+  const Scene scene = rings(3);
+  const golden::geometric::FrameInput input{{scene.image, kWidth, kHeight},
+                                            {scene.depth, kWidth, kHeight},
+                                            scene.edges,
+                                            scene.vertices,
+                                            {scene.facing, kFaces}};
+  Frames hardware(p, 3);
+  GeometricGolden pixels(p, GeometricGolden::Detail::kPixels), everything(p);
+  std::array<std::clock_t, 3> spent{};
+  const auto timed = [&](std::size_t which, auto&& work) {
+    const std::clock_t begin = std::clock();
+    work();
+    spent[which] += std::clock() - begin;
+  };
+  for (int i = 0; i < count; ++i) {
+    timed(0, [&] { hardware.run(); });
+    timed(1, [&] { pixels.process(input); });
+    timed(2, [&] { everything.process(input); });
+  }
+  const auto seconds = [&](std::size_t which) {
+    return static_cast<double>(spent[which]) / CLOCKS_PER_SEC;
+  };
+  std::cout << fmt::format("hardware: {:.2f} Mcycle/s\n",
+                           static_cast<double>(hardware.clock.cycle()) / seconds(0) / 1e6);
+  std::cout << fmt::format("golden/rtl: {:.1f} with pixels alone, {:.1f} with everything\n",
+                           seconds(0) / seconds(1), seconds(0) / seconds(2));
+}
+
 }  // namespace
 }  // namespace deburr::tb
 
@@ -189,6 +248,8 @@ int main(int argc, char** argv) {
     deburr::tb::Frames({}).clock.run(std::stoull(arguments[1]));
   else if (arguments.size() == 1 && arguments[0] == "--dividers")
     deburr::tb::dividers();
+  else if (arguments.size() == 2 && arguments[0] == "--ratio")
+    deburr::tb::ratio(std::atoi(arguments[1].c_str()));
   else
     return 2;
   return 0;
