@@ -28,9 +28,12 @@ class Counter : public sc_core::sc_object {
   }
   // Keeps the larger of the two: for high-water marks.
   void raise_to(std::uint64_t value) {
-    if (value > value_) value_ = value;
+    if (value <= value_) return;
+    value_ = value;
+    largest_ = true;
   }
   std::uint64_t value() const { return value_; }
+  bool is_largest() const { return largest_; }  // a high-water mark: no sum of anything
   void reset() { value_ = 0; }
 
   const std::string& unit() const { return unit_; }  // "lines", "bytes", "clk", ...
@@ -38,6 +41,7 @@ class Counter : public sc_core::sc_object {
 
  private:
   std::uint64_t value_ = 0;
+  bool largest_ = false;
   std::string unit_, meaning_;
 };
 

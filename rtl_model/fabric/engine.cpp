@@ -53,5 +53,6 @@ std::vector<const Unit*> Engine::units() const { return below<Unit>(*this); }
 std::vector<const Counter*> Engine::counters() const { return below<Counter>(*this); }
 std::vector<const MemoryBase*> Engine::memories() const { return below<MemoryBase>(*this); }
 std::vector<const Histogram*> Engine::histograms() const { return below<Histogram>(*this); }
+std::vector<const LinkBase*> Engine::links() const { return below<LinkBase>(*this); }
 
 }  // namespace deburr::rtl

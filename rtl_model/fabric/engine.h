@@ -28,6 +28,7 @@
 #include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/fabric/control_registers.h"
 #include "rtl_model/fabric/histogram.h"
+#include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/unit.h"
@@ -87,6 +88,7 @@ class Engine : public sc_core::sc_module {
   std::vector<const Counter*> counters() const;
   std::vector<const MemoryBase*> memories() const;
   std::vector<const Histogram*> histograms() const;
+  std::vector<const LinkBase*> links() const;
 
  protected:
   Engine(const sc_core::sc_module_name& name, ClockDomain& clock,

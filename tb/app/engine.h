@@ -32,6 +32,10 @@ struct RunParameters {
   bool poison = false;
   std::string trace;
   std::int64_t trace_from = 0, trace_to = 2000;
+  std::int64_t window_cycles = 0;
+  bool maps = false;
+  bool timeline = false;
+  std::int64_t timeline_from = 0, timeline_to = 2000;
   std::string fault;
   bool truth = false;
   bool images = true;
@@ -62,6 +66,19 @@ void describe(RunParameters& p, Visitor& v) {
   v.integer("trace_from", p.trace_from, 0, std::int64_t{1} << 40, "clk", "First cycle traced.");
   v.integer("trace_to", p.trace_to, 0, std::int64_t{1} << 40, "clk",
             "Cycle after the last traced.");
+  v.integer("window_cycles", p.window_cycles, 0, std::int64_t{1} << 40, "clk",
+            "Cuts the run into windows of so many cycles and keeps what each unit, link and port "
+            "did in them: windows.json, result.json's links, the report's curves; 0: none.");
+  v.boolean("maps", p.maps,
+            "Leave maps over the picture, in false colours and as values: what the hardware did "
+            "for each pixel.");
+  v.boolean("timeline", p.timeline,
+            "Leave timeline.json for trace viewers (Perfetto, chrome://tracing): what each unit "
+            "did in each cycle, and transactions of memory.");
+  v.integer("timeline_from", p.timeline_from, 0, std::int64_t{1} << 40, "clk",
+            "First cycle of the timeline.");
+  v.integer("timeline_to", p.timeline_to, 0, std::int64_t{1} << 40, "clk",
+            "Cycle after the last of the timeline, at most 100000 behind the first.");
   v.text("fault", p.fault, "name",
          "Plants a fault that the checks must catch (docs/verification.md).");
   v.boolean("truth", p.truth, "Compare the picture with the scene's supersampled truth.");

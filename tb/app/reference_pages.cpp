@@ -13,6 +13,7 @@
 #include "spec/morphological/registers.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/registers.h"
+#include "tb/results/windows.h"
 
 namespace deburr::tb {
 namespace {
@@ -106,6 +107,13 @@ std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines)
       "## Every engine\n\n| key | unit | meaning |\n|---|---|---|\n",
       kResultSchema);
   for (const Statistic& s : statistics())
+    page += fmt::format("| `{}` | {} | {} |\n", s.name, cell(s.unit), cell(s.meaning));
+  page +=
+      "\n## windows.json\n\nOf a run with `run.window_cycles` (`--windows N`), beside "
+      "`result.json`, schema 1. Each list has an entry a window. A\nseries stands under "
+      "its key of `result.json`, and sums up to what stands there: every run checks it.\n\n"
+      "| key | unit | meaning |\n|---|---|---|\n";
+  for (const Statistic& s : window_statistics())
     page += fmt::format("| `{}` | {} | {} |\n", s.name, cell(s.unit), cell(s.meaning));
   for (const auto& engine : engines) {
     Result result;

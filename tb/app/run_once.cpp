@@ -15,6 +15,8 @@ namespace {
 using spec::ConfigError;
 using spec::ExitCode;
 
+constexpr std::int64_t kMostTimelineCycles = 100'000;
+
 // A failed check names its file as the compiler saw it; users know it from the root of the
 // repository.
 std::string from_repository(const std::string& text) {
@@ -39,6 +41,20 @@ void BoundEngine::resolve() {
         "run.trace_from = {} and run.trace_to = {} leave no cycle to trace: --trace-to is the "
         "cycle after the last one, give one above {}",
         run.trace_from, run.trace_to, run.trace_from));
+  if (run.timeline && run.timeline_from >= run.timeline_to)
+    throw ConfigError(fmt::format(
+        "run.timeline_from = {} and run.timeline_to = {} leave no cycle: --timeline-to is the "
+        "cycle after the last one, give one above {}",
+        run.timeline_from, run.timeline_to, run.timeline_from));
+  if (run.timeline && run.timeline_to - run.timeline_from > kMostTimelineCycles)
+    throw ConfigError(fmt::format(
+        "run.timeline_from = {} and run.timeline_to = {}: {} cycles are more than a viewer opens, "
+        "at most {}: choose some of them",
+        run.timeline_from, run.timeline_to, run.timeline_to - run.timeline_from,
+        kMostTimelineCycles));
+  if (!run.timeline)
+    for (const char* name : {"run.timeline_from", "run.timeline_to"})
+      set.refuse(name, "there is no timeline without run.timeline (--timeline)");
   if (run.trace.empty())
     for (const char* name : {"run.trace_from", "run.trace_to"})
       set.refuse(name, "nothing is traced without run.trace (--trace)");

@@ -9,6 +9,7 @@
 #include "spec/error.h"
 #include "tb/results/interrupt.h"
 #include "tb/results/progress.h"
+#include "tb/results/windows.h"
 #include "tb/scene/truth.h"
 
 namespace deburr::tb {
@@ -33,6 +34,11 @@ SimulationOptions simulation_options(const RunParameters& run, const RunContext&
   o.trace_file = context.trace_file().string();
   o.trace_from = static_cast<rtl::Cycle>(run.trace_from);
   o.trace_to = static_cast<rtl::Cycle>(run.trace_to);
+  o.window_cycles = static_cast<rtl::Cycle>(run.window_cycles);
+  o.maps = run.maps;
+  if (run.timeline)
+    o.timeline = {static_cast<rtl::Cycle>(run.timeline_from),
+                  static_cast<rtl::Cycle>(run.timeline_to)};
   return o;
 }
 
@@ -41,11 +47,40 @@ namespace {
 void refuse_empty_trace(Simulation& simulation) {
   const SimulationOptions& o = simulation.options();
   const rtl::Cycle end = simulation.clock().cycle();
+  if (o.timeline && o.timeline->from >= end)
+    throw spec::ConfigError(
+        fmt::format("run.timeline_from = {}: the run was over after cycle {}, so the timeline is "
+                    "empty: give a --timeline-from below it",
+                    o.timeline->from, end));
   if (!o.trace_scope.empty() && o.trace_from >= end)
     throw spec::ConfigError(
         fmt::format("run.trace_from = {}: the run was over after cycle {}, so nothing was traced: "
                     "give a --trace-from below it",
                     o.trace_from, end));
+}
+
+// What was watched over time, whatever ended the run; only where no cycle was broken off does it
+// add up.
+void leave_windows(const Simulation& simulation, RunContext& context, const Result& result,
+                   bool whole_cycles) {
+  if (simulation.timeline())
+    context.add_record("timeline", kTimelineFile, simulation.timeline()->json());
+  if (!simulation.windows()) return;
+  const nlohmann::ordered_json windows = simulation.windows()->json();
+  context.add_record("windows", kWindowsFile, windows.dump() + "\n");
+  if (whole_cycles) check_windows(windows, to_json(result));
+}
+
+// Where something differs from the golden model, or is missing, counts differ too.
+void leave_maps(const Simulation& simulation, const Environment& environment, RunContext& context,
+                Result& result) {
+  const bool right =
+      simulation.complete() && result.mismatches == 0 && result.traffic_mismatches == 0;
+  for (const PictureMap& map : environment.maps()) {
+    context.add_map(map);
+    result.maps.push_back(figures_of(map));
+    if (right) check_map(map);
+  }
 }
 
 // Copies are counted wherever bits are, but so many of a large memory are seldom meant.
@@ -80,12 +115,16 @@ void simulate(Simulation& simulation, Environment& environment, RunContext& cont
   } catch (...) {
     simulation.collect(result);
     add_pictures();
+    leave_windows(simulation, context, result, false);
+    leave_maps(simulation, environment, context, result);
     throw;
   }
   simulation.collect(result);
   result.interrupted = !simulation.complete();
   if (result.interrupted && result.cycles == 0) throw Interrupted();  // while golden worked
   add_pictures();
+  leave_windows(simulation, context, result, true);
+  leave_maps(simulation, environment, context, result);
   if (!simulation.complete()) return;
   environment.check();
   environment.refuse_unused_errors();

@@ -3,6 +3,7 @@
 
 #include <cctype>
 #include <cstdint>
+#include <string_view>
 #include <utility>
 
 #include "rtl_model/fabric/memory_port.h"
@@ -12,9 +13,9 @@ namespace {
 
 // Answers of memory are on their way and there is nothing else to do: latency that is hidden. It
 // costs nothing, so it counts as idle; what it costs is the stall of the unit that needs the line.
-bool only_waits(const rtl::Unit& unit, const rtl::Unit::StallCause& cause) {
-  return cause.name == "wait_memory" ||
-         (cause.name == "memory" && dynamic_cast<const rtl::MemoryPort*>(&unit) != nullptr);
+bool only_waits(const rtl::Unit& unit, std::string_view cause) {
+  return cause == "wait_memory" ||
+         (cause == "memory" && dynamic_cast<const rtl::MemoryPort*>(&unit) != nullptr);
 }
 
 }  // namespace
@@ -35,12 +36,19 @@ std::string name_within(const sc_core::sc_object& engine, const sc_core::sc_obje
 UnitCycles unit_cycles(std::string name, const rtl::Unit& unit) {
   UnitCycles cycles{std::move(name), unit.busy_cycles(), unit.idle_cycles(), {}};
   for (const rtl::Unit::StallCause& cause : unit.stalls()) {
-    if (only_waits(unit, cause))
+    if (only_waits(unit, cause.name))
       cycles.idle += cause.cycles;
     else
       cycles.stalls.push_back({cause.name, sentence(cause.meaning), cause.cycles});
   }
   return cycles;
+}
+
+std::vector<std::string> activity_keys(const rtl::Unit& unit) {
+  std::vector<std::string> keys = {"idle", "busy"};
+  for (const rtl::Unit::StallCause& cause : unit.stalls())
+    keys.push_back(only_waits(unit, cause.name) ? "idle" : "stalls." + cause.name);
+  return keys;
 }
 
 MemoryFigures memory_figures(std::string name, const rtl::MemoryBase& memory, int width) {

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <systemc>
+#include <vector>
 
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/memory.h"
@@ -21,6 +22,8 @@ std::string sentence(std::string text);
 std::string name_within(const sc_core::sc_object& engine, const sc_core::sc_object& object);
 
 UnitCycles unit_cycles(std::string name, const rtl::Unit& unit);
+// By activity code, where unit_cycles() puts it: "busy", "idle" or "stalls.CAUSE".
+std::vector<std::string> activity_keys(const rtl::Unit& unit);
 
 // For frames of this width; 0: nothing goes with a width.
 MemoryFigures memory_figures(std::string name, const rtl::MemoryBase& memory, int width);

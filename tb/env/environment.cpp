@@ -116,6 +116,28 @@ void Environment::add(Result& result, std::string_view name, const rtl::MemoryBa
   result.memories.push_back(memory_figures(figure(name), memory, width));
 }
 
+void Environment::show(Observer& observer, const rtl::Engine& engine) const {
+  const auto name = [&](const sc_core::sc_object& object) {
+    return figure(name_within(engine, object));
+  };
+  for (const rtl::Unit* unit : engine.units()) {
+    observer.see(name(*unit), *unit, activity_keys(*unit));
+    if (const auto* port = dynamic_cast<const rtl::MemoryPort*>(unit))
+      observer.see(name(*port), *port);
+  }
+  for (const rtl::Counter* counter : engine.counters()) observer.see(name(*counter), *counter);
+  for (const rtl::LinkBase* link : engine.links()) observer.see(name(*link), *link);
+}
+
+std::vector<PictureMap> Environment::named(std::vector<PictureMap> maps) const {
+  for (PictureMap& map : maps) map.name = figure(map.name);
+  return maps;
+}
+
+void Environment::show(Observer& observer, const rtl::LinkBase& link) const {
+  observer.see(figure(link.basename()), link);
+}
+
 void Environment::add(Result& result, const MemoryModel& memory) {
   result.bytes_read += memory.bytes_read();
   result.bytes_written += memory.bytes_written();

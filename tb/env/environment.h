@@ -19,14 +19,17 @@
 #include <vector>
 
 #include "rtl_model/fabric/counters.h"
+#include "rtl_model/fabric/engine.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
 #include "spec/registers.h"
 #include "tb/env/memory_parameters.h"
 #include "tb/env/simulation.h"
 #include "tb/harness/memory_model.h"
+#include "tb/harness/observer.h"
 #include "tb/harness/register_host.h"
 #include "tb/harness/scoreboard.h"
+#include "tb/results/picture_map.h"
 #include "tb/results/result.h"
 
 namespace deburr::tb {
@@ -82,6 +85,10 @@ class Environment {
   // ---- results, also of a run that was broken off
   // Units, memories, bytes and counters, with this environment's name in front.
   virtual void collect(Result& result) const = 0;
+  // Every part that a run can be watched by, under the names of collect().
+  virtual void show_parts(Observer& observer) const = 0;
+  // What was done for each pixel, with SimulationOptions::maps; of the last frame.
+  virtual std::vector<PictureMap> maps() const = 0;
   // Throughput, latency, figures and bottleneck: of the one environment that the run is about.
   virtual void collect_headline(Result& result) const = 0;
 
@@ -122,6 +129,11 @@ class Environment {
   void add(Result& result, std::string_view name, const rtl::Unit& unit) const;
   void add(Result& result, std::string_view name, const rtl::MemoryBase& memory, int width) const;
   static void add(Result& result, const MemoryModel& memory);
+  // Units, counters, links and memory ports below it.
+  void show(Observer& observer, const rtl::Engine& engine) const;
+  std::vector<PictureMap> named(std::vector<PictureMap> maps) const;
+  // A link outside of every engine.
+  void show(Observer& observer, const rtl::LinkBase& link) const;
 
  private:
   Simulation& simulation_;

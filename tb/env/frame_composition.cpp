@@ -247,6 +247,21 @@ void FrameComposition::collect(Result& result) const {
       "the morphological engine reads of it is not modelled in time.");
 }
 
+void FrameComposition::show_parts(Observer& observer) const {
+  each_part(*this, [&](const Environment& part) { part.show_parts(observer); });
+  observer.see("frame_buffer", buffer, activity_keys(buffer));
+  observer.see("frame_buffer_bytes_written", buffer.bytes_written);
+  observer.see("frame_buffer_bytes_read", buffer.bytes_read);
+}
+
+std::vector<PictureMap> FrameComposition::maps() const {
+  std::vector<PictureMap> all;
+  each_part(*this, [&](const Environment& part) {
+    for (PictureMap& map : part.maps()) all.push_back(std::move(map));
+  });
+  return all;
+}
+
 FrameComposition::Clocks FrameComposition::clocks(const Result& result) const {
   const auto since_begin = [&](rtl::Cycle cycle) {
     return cycle - std::min(cycle, simulation().begun());

@@ -62,6 +62,8 @@ class FrameComposition final : public Environment {
   Boards traffic() const override;
   Boards counters() const override;
   void collect(Result& result) const override;
+  void show_parts(Observer& observer) const override;
+  std::vector<PictureMap> maps() const override;
   void collect_headline(Result& result) const override;
 
   // What was smoothed so far, how many pixels of it were delivered, and what it should be.

@@ -398,6 +398,7 @@ GeometricEnvironment::GeometricEnvironment(Simulation& simulation,
   if (const auto range = error_range(setup.memory))
     golden_.set_memory_errors(
         [range = *range](std::uint32_t line) { return range.touches(line, kLine); });
+  if (simulation.options().maps) maps_.emplace();
   observe();
 }
 
@@ -405,14 +406,17 @@ void GeometricEnvironment::observe() {
   const auto where = [this] { return fmt::format("cycle {}", simulation().clock().cycle()); };
   engine_.resolver.observer = [this, where](const BlockRecord& block) {
     blocks_.push_back(block);
+    if (maps_) maps_->see(block);
     if (golden()) block_board_.got(block, where());
   };
+  if (maps_ || golden())
+    engine_.depth_test.observer = [this, where](const Candidate& candidate) {
+      if (maps_) maps_->see(candidate);
+      if (golden()) candidate_board_.got(candidate, where());
+    };
   if (!golden()) return;
   engine_.line_setup.observer = [this, where](const LineRecord& line) {
     line_board_.got(line, where());
-  };
-  engine_.depth_test.observer = [this, where](const Candidate& candidate) {
-    candidate_board_.got(candidate, where());
   };
 }
 
@@ -429,6 +433,8 @@ bool GeometricEnvironment::begin(std::size_t piece) {
   current_ = piece;
   started_ = false;
   blocks_.clear();
+  if (maps_) maps_->begin(current().image.width, current().image.height);
+  reads_before_ = memory_.lines_read().size();
   load();
   expect();
   if (name().empty()) draw();
@@ -732,6 +738,26 @@ void GeometricEnvironment::collect(Result& result) const {
                   edge_clocks_ + resolve_clocks_),
       "%", "Requests to memory over clocks; at 100 % the port is the limit.");
   for (const rtl::Counter* counter : e.counters()) add(result, name_within(e, *counter), *counter);
+}
+
+void GeometricEnvironment::show_parts(Observer& observer) const {
+  show(observer, engine_);
+  observer.see({"Edges read", figure("edge_classifier_edges"), "edge/clk",
+                number(count_of(setup_.geometric.edge_lanes))});
+  observer.see({"Pixels blended", figure("resolver_blended_pixels"), "pixel/clk",
+                number(count_of(setup_.geometric.resolve_lanes))});
+}
+
+std::vector<PictureMap> GeometricEnvironment::maps() const {
+  if (!maps_) return {};
+  const FrameLayout where = layout();
+  const auto line_of = [&](int x, int y) {
+    return std::uint64_t{regions_.base(Region::kDepth)} + where.offset_of(where.line_of(x, y));
+  };
+  const std::vector<std::uint64_t>& reads = memory_.lines_read();
+  return named(maps_->maps(engine_, line_of,
+                           std::span(reads).subspan(std::min(reads_before_, reads.size())),
+                           frames_.size() == 1));
 }
 
 std::vector<Figure> GeometricEnvironment::work_figures() const {

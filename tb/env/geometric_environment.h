@@ -24,6 +24,7 @@
 #include "spec/geometric/packets.h"
 #include "spec/geometric/parameters.h"
 #include "tb/env/environment.h"
+#include "tb/env/geometric_maps.h"
 #include "tb/env/memory_parameters.h"
 #include "tb/env/raster_scoreboard.h"
 #include "tb/stimuli/geometric_frames.h"
@@ -77,6 +78,8 @@ class GeometricEnvironment final : public Environment {
   Boards traffic() const override { return {&traffic_board_}; }
   Boards counters() const override { return {&register_board_.board()}; }
   void collect(Result& result) const override;
+  void show_parts(Observer& observer) const override;
+  std::vector<PictureMap> maps() const override;
   void collect_headline(Result& result) const override;
 
   // ---- the frame in memory, without time; for a composition
@@ -149,6 +152,8 @@ class GeometricEnvironment final : public Environment {
   std::size_t reads_judged_ = 0, writes_judged_ = 0;
   std::uint64_t frames_done_ = 0, edges_done_ = 0, edge_clocks_ = 0, resolve_clocks_ = 0;
   OutputHash hash_;
+  std::optional<GeometricMaps> maps_;
+  std::size_t reads_before_ = 0;  // lines that memory had read when the frame began
 };
 
 }  // namespace deburr::tb

@@ -282,12 +282,17 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
   sink_.on_beat = [this](rtl::Cycle cycle, const spec::morphological::BlendedBeat& beat) {
     judge(cycle, beat);
   };
-  if (golden() && setup.records) {
-    engine_.observe_runs(
-        [this](const spec::morphological::RunRecord& run) { runs_.push_back(run); });
-    engine_.observe_lines(
-        [this](const spec::morphological::LineRecord& line) { lines_.push_back(line); });
-  }
+  if (simulation.options().maps) maps_.emplace();
+  const bool records = golden() && setup.records;
+  if (!records && !maps_) return;
+  engine_.observe_runs([this, records](const spec::morphological::RunRecord& run) {
+    if (records) runs_.push_back(run);
+    if (maps_) maps_->see(run);
+  });
+  engine_.observe_lines([this, records](const spec::morphological::LineRecord& line) {
+    if (records) lines_.push_back(line);
+    if (maps_) maps_->see(line);
+  });
 }
 
 // ---- running ------------------------------------------------------------------------------------
@@ -328,6 +333,7 @@ void MorphologicalEnvironment::start() {
                               static_cast<std::uint32_t>(image.height) << 16);
   if (in_memory()) host_.write(reg::kPixelBase, setup_.pixel_base);
   if (source_) source_->start(frames_[current_]);
+  if (maps_) maps_->begin(image.width, image.height);
   taken_before_ = pixels.pops();
 }
 
@@ -452,6 +458,7 @@ void MorphologicalEnvironment::judge(rtl::Cycle cycle,
       frame_.pixels[position_] = p;
       taps_[position_] = t;
     }
+    if (maps_) maps_->see(position_, t);
     ++position_;
     ++all_delivered_;
   }
@@ -540,6 +547,18 @@ void MorphologicalEnvironment::collect(Result& result) const {
   }
   for (const rtl::Counter* counter : engine.counters())
     add(result, name_within(engine, *counter), *counter);
+}
+
+void MorphologicalEnvironment::show_parts(Observer& observer) const {
+  show(observer, pixels);
+  show(observer, engine_);
+  show(observer, blended_);
+  observer.see(
+      {"Pixels delivered", figure("blender_pixels"), "pixel/clk", static_cast<double>(lanes())});
+}
+
+std::vector<PictureMap> MorphologicalEnvironment::maps() const {
+  return maps_ ? named(maps_->maps(engine_, frames_.size() == 1)) : std::vector<PictureMap>();
 }
 
 std::vector<Figure> MorphologicalEnvironment::work_figures() const {

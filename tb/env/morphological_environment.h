@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <systemc>
@@ -24,6 +25,7 @@
 #include "tb/env/environment.h"
 #include "tb/env/frame_source.h"
 #include "tb/env/memory_parameters.h"
+#include "tb/env/morphological_maps.h"
 #include "tb/env/raster_scoreboard.h"
 #include "tb/harness/driver.h"
 
@@ -70,6 +72,8 @@ class MorphologicalEnvironment final : public Environment {
   Boards traffic() const override;
   Boards counters() const override { return {&register_board_.board()}; }
   void collect(Result& result) const override;
+  void show_parts(Observer& observer) const override;
+  std::vector<PictureMap> maps() const override;
   void collect_headline(Result& result) const override;
 
   rtl::Link<spec::morphological::PixelBeat> pixels;
@@ -140,6 +144,7 @@ class MorphologicalEnvironment final : public Environment {
   std::uint64_t taken_before_ = 0;  // beats that were taken before this frame's
   rtl::Cycle first_taken_ = 0;      // when the engine took the first of this frame
   OutputHash hash_;
+  std::optional<MorphologicalMaps> maps_;
   std::size_t writes_judged_ = 0, reads_judged_ = 0;
 };
 

@@ -15,6 +15,7 @@ namespace {
 
 constexpr rtl::Cycle kResetCycles = 4;
 constexpr rtl::Cycle kReportPeriod = 4096;
+constexpr std::size_t kLostWindow = 2;  // of the fault lose-window, counted from 0
 constexpr rtl::Cycle kNoLimit = rtl::Cycle{1} << 50;
 
 sc_core::sc_time clock_period(double mhz) {  // rounded to picoseconds
@@ -61,9 +62,10 @@ class HostClock {
 }  // namespace
 
 Simulation::Simulation(const SimulationOptions& options)
-    : options_(options),
-      clock_("clock", clock_period(options.clock_mhz)),
-      faults_(options.faults) {}
+    : options_(options), clock_("clock", clock_period(options.clock_mhz)), faults_(options.faults) {
+  faults_.know("", {{"lose-window", "Forgets what the third window counted.", "",
+                     options.window_cycles > 0 ? "" : "run.window_cycles"}});
+}
 
 Simulation::~Simulation() = default;
 
@@ -76,6 +78,17 @@ void Simulation::elaborate(Environment& environment) {
     return out_of_cycles(options_.max_cycles, amount.delivered, amount.total, amount.unit);
   };
   bench_ = std::make_unique<Bench>(clock_, bench);
+  if (options_.window_cycles > 0) {
+    WindowOptions windows;
+    windows.cycles = options_.window_cycles;
+    if (faults_.planted("", "lose-window")) windows.lose = kLostWindow;
+    windows_ = std::make_unique<WindowRecorder>(clock_, windows);
+    environment.show_parts(*windows_);
+  }
+  if (options_.timeline) {
+    timeline_ = std::make_unique<Timeline>(clock_, *options_.timeline);
+    environment.show_parts(*timeline_);
+  }
 }
 
 void Simulation::reset() {
@@ -86,6 +99,21 @@ void Simulation::reset() {
 }
 
 void Simulation::run(const GoOn& go_on) {
+  try {
+    run_pieces(go_on);
+  } catch (...) {
+    finish_records();
+    throw;
+  }
+  finish_records();
+}
+
+void Simulation::finish_records() {
+  if (windows_) windows_->finish();
+  if (timeline_) timeline_->finish();
+}
+
+void Simulation::run_pieces(const GoOn& go_on) {
   reset();
   for (std::size_t piece = 0; environment_->begin(piece); ++piece)
     if (!run_piece(piece, go_on)) return;
@@ -161,6 +189,10 @@ void Simulation::collect(Result& result) const {
   sum(environment_->counters(), result.comparisons, result.mismatches);
   sum(environment_->traffic(), result.traffic_comparisons, result.traffic_mismatches);
   environment_->collect(result);
+  if (windows_)
+    for (WindowRecorder::Occupancy& link : windows_->occupancy())
+      result.links.push_back(
+          {std::move(link.name), std::move(link.full_name), link.beats, std::move(link.clocks)});
   environment_->collect_headline(result);
 }
 

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <systemc>
 #include <vector>
@@ -20,6 +21,8 @@
 #include "rtl_model/fabric/clock_domain.h"
 #include "tb/env/planted_faults.h"
 #include "tb/harness/bench.h"
+#include "tb/harness/timeline.h"
+#include "tb/harness/window_recorder.h"
 #include "tb/results/result.h"
 
 namespace deburr::tb {
@@ -42,6 +45,9 @@ struct SimulationOptions {
   rtl::Cycle reset_after = 0;  // resets once, so many cycles into the first piece; 0: never
   std::string trace_file, trace_scope;  // empty: none
   rtl::Cycle trace_from = 0, trace_to = 2000;
+  rtl::Cycle window_cycles = 0;  // 0: no windows
+  bool maps = false;             // pixel by pixel, what was done
+  std::optional<TimelineOptions> timeline;
 };
 
 // One a process: SystemC elaborates once.
@@ -71,11 +77,16 @@ class Simulation {
   rtl::Cycle cycles() const;
   rtl::Cycle begun() const { return begun_; }  // the clock in which the last piece began
   std::uint64_t activations() const { return clock_.activations(); }
+  // nullptr unless asked for. Complete once run() is over, however it ended.
+  const WindowRecorder* windows() const { return windows_.get(); }
+  const Timeline* timeline() const { return timeline_.get(); }
   // Everything measured so far, also after an exception from run().
   void collect(Result& result) const;
 
  private:
   void reset();
+  void run_pieces(const GoOn& go_on);
+  void finish_records();
   bool run_piece(std::size_t piece, const GoOn& go_on);
   bool asks_to_stop(const GoOn& go_on);
 
@@ -84,6 +95,8 @@ class Simulation {
   FaultPlan faults_;
   Environment* environment_ = nullptr;
   std::unique_ptr<Bench> bench_;
+  std::unique_ptr<WindowRecorder> windows_;
+  std::unique_ptr<Timeline> timeline_;
   rtl::Cycle cycles_ = 0, begun_ = 0, next_report_ = 0;
   double host_seconds_ = 0, cpu_seconds_ = 0;
   bool running_ = false, stopped_ = false, complete_ = false;

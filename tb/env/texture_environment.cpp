@@ -90,6 +90,9 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
       judge(cycle, colour);
     };
   }
+  if (simulation.options().maps)
+    maps_ =
+        std::make_unique<TextureMaps>(simulation.clock(), unit_, quads_, colours, scene.stream());
   plant_in(memory_, setup.memory);
   fetch_again_ = planted("duplicate-fetch");
   std::vector<std::uint8_t> contents = scene.memory().bytes();
@@ -129,6 +132,7 @@ void TextureEnvironment::clear_outputs() {
   fills_judged_ = 0;
   delivered_ = 0;
   hash_ = {};
+  if (maps_) maps_->clear();
   came_.assign(frame_->frame().pixels.size(), 0);
 }
 
@@ -275,6 +279,17 @@ void TextureEnvironment::collect(Result& result) const {
       "texel/fragment", "Texels of all lines fetched over fragments.");
   for (const rtl::Counter* counter : unit_.counters())
     add(result, name_within(unit_, *counter), *counter);
+}
+
+void TextureEnvironment::show_parts(Observer& observer) const {
+  show(observer, quads_);
+  show(observer, unit_);
+  show(observer, colours);
+  observer.see({"Bilinear requests", figure("addresser_bilinears"), "bilinear/clk", 1});
+}
+
+std::vector<PictureMap> TextureEnvironment::maps() const {
+  return maps_ ? named(maps_->maps()) : std::vector<PictureMap>();
 }
 
 void TextureEnvironment::collect_headline(Result& result) const {

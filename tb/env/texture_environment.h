@@ -24,6 +24,7 @@
 #include "spec/texture/parameters.h"
 #include "tb/env/environment.h"
 #include "tb/env/memory_parameters.h"
+#include "tb/env/texture_maps.h"
 #include "tb/env/texture_scene.h"
 #include "tb/harness/driver.h"
 #include "tb/scene/rasteriser.h"
@@ -57,6 +58,8 @@ class TextureEnvironment final : public Environment {
   Boards traffic() const override { return {&fill_board_}; }
   Boards counters() const override { return {&register_board_.board()}; }
   void collect(Result& result) const override;
+  void show_parts(Observer& observer) const override;
+  std::vector<PictureMap> maps() const override;
   void collect_headline(Result& result) const override;
 
   rtl::Link<spec::texture::Colour> colours{"colours"};
@@ -112,6 +115,7 @@ class TextureEnvironment final : public Environment {
   RegisterScoreboard register_board_;
   std::unique_ptr<FrameAssembler> frame_, golden_frame_;
   std::vector<std::uint8_t> came_;
+  std::unique_ptr<TextureMaps> maps_;
   std::size_t fills_judged_ = 0;
   std::uint64_t delivered_ = 0;
   OutputHash hash_;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <utility>
 
 #include "spec/error.h"
@@ -24,7 +25,7 @@ namespace mustache = kainjow::mustache;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMaxImageBytes = 256u << 20;
-constexpr std::size_t kMaxManifestBytes = 64u << 20;
+constexpr std::size_t kMaxManifestBytes = 64u << 20, kMaxWindowsBytes = 64u << 20;
 
 // Numbers as a reader wants them: counts grouped, rates with four significant digits.
 std::string shown(const Json& value) {
@@ -79,6 +80,7 @@ class ReportBuilder {
       : result_(std::move(result)), manifest_(std::move(manifest)) {
     fill_head();
     fill_images(directory);
+    fill_windows(directory);
     fill_tables();
     fill_origin();
   }
@@ -87,7 +89,7 @@ class ReportBuilder {
     page_.set("style", std::string(embedded::style_css()));
     page_.set("chart_js", std::string(embedded::chart_js()));
     page_.set("report_js", std::string(embedded::report_js()));
-    page_.set("data", json_for_script({{"result", result_}}));
+    page_.set("data", json_for_script({{"result", result_}, {"windows", windows_}}));
     mustache::mustache page{std::string(embedded::report_template())};
     if (!page.is_valid()) throw spec::CheckFailed("report.mustache: " + page.error_message());
     return page.render(page_);
@@ -285,10 +287,7 @@ class ReportBuilder {
     bool any = false;
     for (const Json& image : manifest_.value("images", Json::array())) {
       const fs::path file = image.value("file", "");
-      // Only names inside the directory: a manifest from elsewhere must not pull other files in.
-      if (file.empty() || file.has_parent_path())
-        throw spec::FileError(fmt::format("'{}': image '{}' is not a file name",
-                                          (directory / "manifest.json").string(), file.string()));
+      refuse_path(directory, file);
       images << row({{"title", image.value("title", file.string())},
                      {"caption", image.value("caption", "")},
                      {"role", image.value("role", "")},
@@ -297,6 +296,109 @@ class ReportBuilder {
     }
     page_.set("has_images", any);
     page_.set("images", images);
+    mustache::data maps{mustache::data::type::list};
+    const Json of_maps = result_.value("maps", Json::object());
+    for (const auto& [name, map] : of_maps.items()) {
+      const auto text = [&of = map](const char* key) { return amount(number(of, key)); };
+      maps << row({{"name", name},
+                   {"min", text("min")},
+                   {"mean", text("mean")},
+                   {"max", text("max")},
+                   {"unit", map.value("unit", "")},
+                   {"sum", text("sum")},
+                   {"pixels", shown(map["pixels"])},
+                   {"file", map.value("values", "")},
+                   {"meaning", map.value("meaning", "")}});
+    }
+    page_.set("has_maps", maps.is_non_empty_list());
+    page_.set("maps", maps);
+  }
+
+  // Runs with windows: what the page draws over time, and the table of them.
+  void fill_windows(const fs::path& directory) {
+    const std::string name = manifest_.value("records", Json::object()).value("windows", "");
+    page_.set("has_windows", !name.empty());
+    if (name.empty()) return;
+    refuse_path(directory, name);
+    const fs::path file = directory / name;
+    windows_ = Json::parse(read_file(file, kMaxWindowsBytes), nullptr, false);
+    if (!windows_.is_object() || !windows_.contains("series"))
+      throw spec::FileError(fmt::format("'{}' is not a valid file of windows", file.string()));
+    Json& series = windows_["series"];
+    const std::vector<std::uint64_t> from = windows_["from"], cycles = windows_["cycles"];
+    page_.set("windows_note",
+              fmt::format("{} windows of {} cycles{}.", grouped(from.size()),
+                          shown(windows_["window_cycles"]),
+                          windows_["window_cycles"] == windows_["asked_cycles"]
+                              ? ""
+                              : fmt::format("; {} were asked for, which would be too many windows",
+                                            shown(windows_["asked_cycles"]))));
+    windows_["command"] = without_trace(manifest_.value("command", ""));
+    page_.set("windows_command", windows_["command"].get<std::string>());
+
+    // A rate is a series over cycles.
+    std::vector<std::vector<std::uint64_t>> columns;
+    mustache::data rates{mustache::data::type::list}, ports{mustache::data::type::list};
+    Json kept = Json::object();
+    for (const Json& rate : windows_["throughput"]) {
+      const std::string key = rate.value("key", "");
+      const std::string counter = key.substr(key.find('.') + 1);
+      if (!series["work"].contains(counter)) continue;
+      kept[counter] = series["work"][counter];
+      columns.push_back(kept[counter]);
+      rates << row({{"label", rate.value("label", "")}, {"unit", rate.value("unit", "")}});
+    }
+    const Json of_ports = series.value("ports", Json::object());
+    for (const auto& [port, values] : of_ports.items()) {
+      columns.push_back(values["outstanding"]);
+      ports << port;
+      for (const char* bytes : {"_bytes_read", "_bytes_written"})
+        if (series["work"].contains(port + bytes))
+          kept[port + bytes] = series["work"][port + bytes];
+    }
+    series["work"] = kept;  // the page needs no more of them
+    windows_.erase("units");
+    page_.set("window_rates", rates);
+    page_.set("window_ports", ports);
+    page_.set("has_ports", ports.is_non_empty_list());
+    mustache::data rows{mustache::data::type::list};
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      mustache::data line = row({{"index", std::to_string(i)},
+                                 {"from", grouped(from[i])},
+                                 {"to", grouped(from[i] + cycles[i])}});
+      mustache::data values{mustache::data::type::list};
+      for (const std::vector<std::uint64_t>& column : columns)
+        values << fmt::format("{:.3f}",
+                              static_cast<double>(column.at(i)) / static_cast<double>(cycles[i]));
+      line.set("values", values);
+      rows << line;
+    }
+    page_.set("windows", rows);
+
+    mustache::data links{mustache::data::type::list};
+    const Json of_links = result_.value("links", Json::object());
+    for (const auto& [link, figures] : of_links.items())
+      links << row({{"name", link},
+                    {"full", figures.value("link", "")},
+                    {"depth", shown(figures["depth"])},
+                    {"beats", shown(figures["beats"])},
+                    {"mean", fmt::format("{:.2f}", number(figures, "mean"))},
+                    {"most", shown(figures["most"])},
+                    {"full_percent", fmt::format("{:.1f}", number(figures, "full_percent"))}});
+    page_.set("links", links);
+  }
+
+  // The command of a run, so that other waves can be chosen behind it.
+  static std::string without_trace(const std::string& command) {
+    static const std::regex kTrace(R"( --trace(-from|-to)?[ =]('[^']*'|[^ ]+))");
+    return std::regex_replace(command, kTrace, "");
+  }
+
+  // Only names inside the directory: a manifest from elsewhere must not pull other files in.
+  static void refuse_path(const fs::path& directory, const fs::path& file) {
+    if (file.empty() || file.has_parent_path())
+      throw spec::FileError(fmt::format("'{}': '{}' is not a file name",
+                                        (directory / "manifest.json").string(), file.string()));
   }
 
   // Unit or meaning of a key, from the result itself.
@@ -491,7 +593,7 @@ class ReportBuilder {
     return value.is_string() ? value.get<std::string>() : value.dump();
   }
 
-  Json result_, manifest_;
+  Json result_, manifest_, windows_;
   mustache::data page_;
 };
 

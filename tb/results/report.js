@@ -5,22 +5,24 @@
   const byId = (id) => document.getElementById(id);
   const number = new Intl.NumberFormat('en-US');
 
-  // ---- copy button ----
-  byId('copy').addEventListener('click', async () => {
-    const pre = byId('command');
-    try {
-      await navigator.clipboard.writeText(pre.textContent);
-    } catch (_) {  // a page from file:// may not be allowed to
-      const range = document.createRange();
-      range.selectNodeContents(pre);
-      const selection = getSelection();
-      selection.removeAllRanges();
-      selection.addRange(range);
-      document.execCommand('copy');
-    }
-    byId('copy').textContent = 'Copied';
-    setTimeout(() => { byId('copy').textContent = 'Copy'; }, 1500);
-  });
+  // ---- copy buttons ----
+  function copies(button, pre) {
+    button.addEventListener('click', async () => {
+      try {
+        await navigator.clipboard.writeText(pre.textContent);
+      } catch (_) {  // a page from file:// may not be allowed to
+        const range = document.createRange();
+        range.selectNodeContents(pre);
+        const selection = getSelection();
+        selection.removeAllRanges();
+        selection.addRange(range);
+        document.execCommand('copy');
+      }
+      button.textContent = 'Copied';
+      setTimeout(() => { button.textContent = 'Copy'; }, 1500);
+    });
+  }
+  copies(byId('copy'), byId('command'));
 
   // ---- picture viewer: two pictures, one divider, shared zoom ----
   const stills = [...document.querySelectorAll('.strip img')];
@@ -183,6 +185,35 @@
   const stallColours = ['#d08a2c', '#b9503f', '#7c62a8', '#8b9138', '#b0608c', '#5c7fb5', '#9a7654',
                         '#4f8f6b', '#c9ab3a', '#72777e'];
   let charts = [];
+
+  // ---- windows ----
+  const windows = data.windows;
+  const links = Object.entries(data.result.links || {});
+  let chosen = -1;  // window
+  if (windows) {
+    copies(byId('copy-window'), byId('window-command'));
+    const units = byId('time-unit');
+    for (const name of Object.keys(windows.series.units)) units.add(new Option(name));
+    const worst = (data.result.bottleneck || {}).unit;
+    if (worst in windows.series.units) units.value = worst;
+    // FIFOs first, the fullest of them.
+    const order = [...links].sort(([, a], [, b]) => (b.depth > 2) - (a.depth > 2) ||
+        b.mean / b.depth - a.mean / a.depth);
+    for (const [name, link] of order) byId('link').add(new Option(`${name}, depth ${link.depth}`, name));
+    for (const select of [units, byId('link')]) select.addEventListener('change', drawCharts);
+    for (const anchor of document.querySelectorAll('a[data-window]'))
+      anchor.addEventListener('click', () => choose(Number(anchor.dataset.window)));
+    choose(0);
+  }
+  function choose(window) {
+    chosen = window;
+    const from = windows.from[window], to = from + windows.cycles[window];
+    byId('window-chosen').textContent = `Window ${window}: cycles ${number.format(from)} to ${number.format(to)}.`;
+    byId('window-command').textContent =
+        `${windows.command} --trace '*' --trace-from ${from} --trace-to ${to}`;
+    for (const chart of charts) if (chart.options.overTime) chart.draw();
+  }
+
   function drawCharts() {
     for (const chart of charts) chart.destroy();
     charts = [];
@@ -300,6 +331,8 @@
       }));
     }
 
+    if (windows) drawWindows(css);
+
     // Bits of the memories: for the width of this frame, beyond it what was built for wider ones,
     // and beyond that copies and filled-up banks.
     const memories = Object.entries(data.result.memories);
@@ -332,6 +365,111 @@
         }
       }));
     }
+  }
+
+  // Everything over the windows shares an axis, and a mark at the one that is chosen.
+  function drawWindows(css) {
+    const cycles = windows.cycles;
+    const labels = windows.from.map((from) => number.format(from));
+    const mark = {
+      id: 'chosen',
+      afterDatasetsDraw(chart) {
+        const {ctx, chartArea, scales} = chart;
+        const width = (chartArea.right - chartArea.left) / labels.length;
+        ctx.save();
+        ctx.strokeStyle = css('--ink');
+        ctx.lineWidth = 1.5;
+        ctx.strokeRect(scales.x.getPixelForValue(chosen) - Math.max(width, 3) / 2, chartArea.top,
+                       Math.max(width, 3), chartArea.bottom - chartArea.top);
+        ctx.restore();
+      }
+    };
+    const range = (i) => `cycles ${labels[i]} to ${number.format(windows.from[i] + cycles[i])}`;
+    const add = (id, type, datasets, y, more = {}) => charts.push(new Chart(byId(id), {
+      type,
+      data: {labels, datasets},
+      options: {
+        overTime: true,
+        interaction: {mode: 'index', intersect: false},
+        onClick(event, _, chart) {
+          const i = Math.round(chart.scales.x.getValueForPixel(event.x));
+          choose(Math.min(labels.length - 1, Math.max(0, i)));
+        },
+        scales: {
+          x: {offset: true, grid: {display: false}, stacked: more.stacked, title: {display: true, text: 'cycle'},
+              ticks: {maxRotation: 0, autoSkipPadding: 24}},
+          y: {beginAtZero: true, stacked: more.stacked, max: more.max, suggestedMax: more.suggestedMax,
+              title: {display: true, text: y}},
+          ...(more.scales || {})
+        },
+        plugins: {
+          legend: {display: more.legend !== false, position: 'bottom', labels: {boxWidth: 12}},
+          tooltip: {callbacks: {title: (items) => range(items[0].dataIndex)}}
+        }
+      },
+      plugins: [mark]
+    }));
+    const colours = [css('--busy'), ...stallColours];
+    const line = (label, colour, values, more = {}) => ({
+      label, data: values, borderColor: colour, backgroundColor: colour, borderWidth: 1.8,
+      pointRadius: labels.length > 60 ? 0 : 2, stepped: 'middle', ...more
+    });
+    const bars = (label, colour, values) =>
+        ({label, data: values, backgroundColor: colour, categoryPercentage: 1, barPercentage: 1});
+    const over = (values, by) => values.map((value, i) => value / by[i]);
+
+    const rates = windows.throughput.filter((rate) => rate.key.slice(5) in windows.series.work);
+    add('rate-time', 'line', rates.flatMap((rate, i) => [
+      line(`${rate.label}, ${rate.unit}`, colours[i], over(windows.series.work[rate.key.slice(5)], cycles)),
+      ...(rate.bound > 0 ? [line(`bound ${rate.bound} ${rate.unit}`, colours[i],
+          labels.map(() => rate.bound), {borderDash: [5, 4], borderWidth: 1, pointRadius: 0})] : [])
+    ]), 'throughput');
+
+    const unit = windows.series.units[byId('time-unit').value];
+    const share = (values) => over(values, cycles).map((value) => 100 * value);
+    const causes = Object.entries(unit.stalls || {}).filter(([, values]) => values.some((v) => v > 0));
+    add('unit-time', 'bar', [
+      bars('busy', css('--busy'), share(unit.busy)),
+      ...causes.map(([cause, values], i) => bars(`stalled: ${cause.replaceAll('_', ' ')}`,
+          stallColours[i % stallColours.length], share(values))),
+      bars('idle', css('--idle'), share(unit.idle))
+    ], '% of cycles', {stacked: true, max: 100});
+
+    const ports = Object.entries(windows.series.ports || {});
+    if (ports.length > 0)
+      add('port-time', 'line', ports.flatMap(([name, port], i) => [
+        line(`${name}: in flight, mean`, colours[3 * i % colours.length], over(port.outstanding, cycles)),
+        ...[['read', '_bytes_read'], ['written', '_bytes_written']]
+            .map(([what, key], k) => [what, windows.series.work[name + key], k])
+            .filter(([, bytes]) => bytes && bytes.some((b) => b > 0))
+            .map(([what, bytes, k]) => line(`${name}: ${what}, byte/clk`,
+                colours[(3 * i + 1 + k) % colours.length], over(bytes, cycles), {yAxisID: 'bytes'}))
+      ]), 'transactions', {scales: {bytes: {beginAtZero: true, position: 'right', grid: {display: false},
+                                            title: {display: true, text: 'byte/clk'}}}});
+
+    if (links.length === 0) return;
+    const name = byId('link').value, link = data.result.links[name], watched = windows.series.links[name];
+    add('link-time', 'line', [
+      line('mean', css('--busy'), over(watched.occupancy, cycles)),
+      line('most', css('--warn'), watched.most)
+    ], 'beats', {suggestedMax: link.depth});
+    const clocks = link.histogram.reduce((a, b) => a + b, 0);
+    charts.push(new Chart(byId('link-histogram'), {
+      type: 'bar',
+      data: {labels: link.histogram.map((_, i) => i),
+             datasets: [bars('clocks', css('--busy'), link.histogram.map((count) => 100 * count / clocks))]},
+      options: {
+        scales: {
+          x: {grid: {display: false}, title: {display: true, text: `beats inside, of ${link.depth}`},
+              ticks: {maxRotation: 0, autoSkipPadding: 14}},
+          y: {beginAtZero: true, title: {display: true, text: '% of clocks'}}
+        },
+        plugins: {
+          legend: {display: false},
+          tooltip: {callbacks: {label: (item) => `${number.format(link.histogram[item.dataIndex])} clk (${item.raw.toFixed(2)} %)`}}
+        }
+      }
+    }));
   }
   drawCharts();
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', drawCharts);

@@ -47,6 +47,26 @@ void collect_meanings(const Json& node, const std::string& path, Json& meanings)
     meanings[path] = {{"unit", s->unit}, {"meaning", s->meaning}};
 }
 
+Json to_json(const LinkFigures& link) {
+  std::uint64_t all = 0, occupancy = 0, most = 0;
+  for (std::size_t beats = 0; beats < link.clocks.size(); ++beats) {
+    all += link.clocks[beats];
+    occupancy += beats * link.clocks[beats];
+    if (link.clocks[beats] > 0) most = beats;
+  }
+  const auto mean = [&](std::uint64_t sum) {
+    return all > 0 ? static_cast<double>(sum) / static_cast<double>(all) : 0.0;
+  };
+  return {{"link", link.full_name},
+          {"depth", link.clocks.size() - 1},
+          {"beats", link.beats},
+          {"occupancy", occupancy},
+          {"mean", mean(occupancy)},
+          {"most", most},
+          {"full_percent", 100 * mean(link.clocks.back())},
+          {"histogram", link.clocks}};
+}
+
 }  // namespace
 
 Json to_json(const Result& r) {
@@ -112,6 +132,21 @@ Json to_json(const Result& r) {
         {"physical", bits.physical},
         {"logical_at_frame_width", bits.logical_at_frame_width}};
   if (!idealised.empty()) json["idealised"] = idealised;
+  if (!r.links.empty()) json["links"] = Json::object();
+  for (const LinkFigures& link : r.links) json["links"][link.name] = to_json(link);
+  if (!r.maps.empty()) json["maps"] = Json::object();
+  for (const MapFigures& m : r.maps)
+    json["maps"][m.name] = {{"title", m.title},
+                            {"meaning", m.meaning},
+                            {"unit", m.unit},
+                            {"picture", fmt::format("map_{}.png", m.name)},
+                            {"values", fmt::format("map_{}.pfm", m.name)},
+                            {"pixels", m.pixels},
+                            {"min", m.min},
+                            {"max", m.max},
+                            {"mean", m.pixels > 0 ? m.sum / static_cast<double>(m.pixels) : 0.0},
+                            {"sum", m.sum},
+                            {"checked_against", m.account}};
   json["work"] = Json::object();
   for (const WorkItem& item : r.work) json["work"][item.name] = item.value;
   if (!r.notes.empty()) json["notes"] = r.notes;

@@ -89,6 +89,21 @@ struct MemoryFigures {
   std::string idealised;                    // why no technology offers it; empty: it can be built
 };
 
+// A link or a FIFO: clocks by the number of beats inside, from 0 to its depth.
+struct LinkFigures {
+  std::string name, full_name;  // full_name: what waves are chosen by
+  std::uint64_t beats = 0;      // in all
+  std::vector<std::uint64_t> clocks;
+};
+
+// A map over the picture: its files are map_NAME.png and map_NAME.pfm.
+struct MapFigures {
+  std::string name, title, unit, meaning;
+  double min = 0, max = 0, sum = 0;
+  std::uint64_t pixels = 0;  // with a value
+  std::string account;       // what the values were checked against; empty: nothing
+};
+
 // Bits of all memories of a kind.
 struct MemoryBits {
   std::string_view kind;  // "total": of all kinds
@@ -128,6 +143,8 @@ struct Result {
   std::vector<UnitCycles> units;
   std::optional<Bottleneck> bottleneck;
   std::vector<MemoryFigures> memories;
+  std::vector<LinkFigures> links;  // of a run with windows
+  std::vector<MapFigures> maps;    // of a run with maps
   std::vector<WorkItem> work;
   std::vector<Figure> figures;
   std::optional<Quality> quality;

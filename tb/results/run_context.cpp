@@ -51,6 +51,17 @@ void RunContext::claim(IfTaken if_taken) {
   std::vector<std::string> names = {kResult, kReport};
   const Parameter* trace = parameters_.find("run.trace");
   if (trace != nullptr && !trace->text().empty()) names.emplace_back(kTrace);
+  const auto is_set = [this](std::string_view parameter, std::string_view off) {
+    const Parameter* found = parameters_.find(parameter);
+    return found != nullptr && found->text() != off;
+  };
+  if (is_set("run.window_cycles", "0")) names.emplace_back(kWindowsFile);
+  if (is_set("run.timeline", "false")) names.emplace_back(kTimelineFile);
+  if (is_set("run.maps", "false"))
+    for (const std::string_view name : kMapNames)
+      for (const char* part : {"", "texture_", "geometric_", "morphological_"})
+        for (const char* kind : {"png", "pfm"})
+          names.push_back(fmt::format("map_{}{}.{}", part, name, kind));
   for (const std::string_view name : kPictureNames) names.push_back(fmt::format("{}.png", name));
   directory_.claim(command_, std::move(names), if_taken);
 }
@@ -82,6 +93,22 @@ void RunContext::add_image(const std::string& name, const Image& image, std::str
                      {"role", name},
                      {"title", std::move(title)},
                      {"caption", std::move(caption)}});
+}
+
+void RunContext::add_map(const PictureMap& map) {
+  const std::string file = fmt::format("map_{}", map.name);
+  write_image(directory_.draft() / (file + ".png"), picture_of(map));
+  write_file_atomically(directory_.draft() / (file + ".pfm"), pfm_of(map));
+  images_.push_back({{"file", file + ".png"},
+                     {"role", file},
+                     {"title", "Map: " + map.title},
+                     {"caption", fmt::format("{} Values in {}.pfm.", map.meaning, file)}});
+}
+
+void RunContext::add_record(const std::string& kind, std::string_view file,
+                            std::string_view content) {
+  write_file_atomically(directory_.draft() / file, content);
+  records_[kind] = file;
 }
 
 // A hash of all that decides what the golden model computes: two runs with the same one have the
@@ -135,6 +162,7 @@ Json RunContext::manifest(const Result& result) const {
   json["inputs"] = inputs_;
   json["host"] = {{"seconds", result.host_seconds}, {"mcycles_per_s", result.mcycles_per_s()}};
   json["images"] = images_;
+  if (!records_.empty()) json["records"] = records_;
   json["parameters"] = Json::array();
   for (const Parameter& p : parameters_.all())
     json["parameters"].push_back({{"name", p.name},

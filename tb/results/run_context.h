@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "tb/results/parameter_set.h"
+#include "tb/results/picture_map.h"
 #include "tb/results/result.h"
 #include "tb/results/run_directory.h"
 #include "tb/results/shared_inputs.h"
@@ -32,6 +33,12 @@ namespace deburr::tb {
 inline constexpr std::array<std::string_view, 11> kPictureNames = {
     "before", "after", "golden",  "difference", "truth",       "error",
     "change", "edges", "weights", "classes",    "edge_weights"};
+
+inline constexpr std::string_view kWindowsFile = "windows.json", kTimelineFile = "timeline.json";
+// Every map, in front of which an engine in a composition puts its name.
+inline constexpr std::array<std::string_view, 11> kMapNames = {
+    "samples", "level", "misses", "latency", "edges",      "run_length",
+    "steps",   "lines", "passed", "weight",  "depth_reads"};
 
 class RunContext {
  public:
@@ -78,6 +85,10 @@ class RunContext {
   // kPictureNames.
   void add_image(const std::string& name, const Image& image, std::string title,
                  std::string caption);
+  // map_NAME.png, listed for the report, and map_NAME.pfm.
+  void add_map(const PictureMap& map);
+  // A file of the run beside its result: `kind` is what the manifest's "records" calls it.
+  void add_record(const std::string& kind, std::string_view file, std::string_view content);
   // Result, report and manifest; then all of it takes the place of an earlier run's results.
   void finish(const Result& result);
 
@@ -99,6 +110,7 @@ class RunContext {
   std::vector<std::string> notes_;
   nlohmann::ordered_json inputs_ = nlohmann::ordered_json::array();
   nlohmann::ordered_json images_ = nlohmann::ordered_json::array();
+  nlohmann::ordered_json records_ = nlohmann::ordered_json::object();
 };
 
 }  // namespace deburr::tb

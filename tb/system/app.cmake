@@ -15,6 +15,12 @@ set_tests_properties(figures PROPERTIES LABELS system TIMEOUT 300
 add_test(NAME smoothing COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/smoothing_test.py" $<TARGET_FILE:deburr>)
 set_tests_properties(smoothing PROPERTIES LABELS system TIMEOUT 300
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+foreach(class Windows Timeline Maps)
+  add_test(NAME observers.${class}
+           COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/observers_test.py" $<TARGET_FILE:deburr> ${class})
+  set_tests_properties(observers.${class} PROPERTIES LABELS system TIMEOUT 600
+                       ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+endforeach()
 foreach(class Points Killed)
   add_test(NAME sweep.${class}
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/sweep_test.py" $<TARGET_FILE:deburr> ${class})

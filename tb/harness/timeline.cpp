@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "tb/harness/timeline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace deburr::tb {
+namespace {
+
+constexpr int kProcess = 1;
+
+std::array<std::uint64_t, rtl::kActivities> counts_of(const rtl::Unit& unit) {
+  std::array<std::uint64_t, rtl::kActivities> counts{};
+  for (int i = 0; i < unit.activities(); ++i)
+    counts[static_cast<std::size_t>(i)] = unit.cycles_of({static_cast<std::uint8_t>(i)});
+  return counts;
+}
+
+std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
+
+}  // namespace
+
+Timeline::Timeline(rtl::ClockDomain& clock, const TimelineOptions& options) : options_(options) {
+  clock.add_after(*this);
+}
+
+void Timeline::see(const std::string& name, const rtl::Unit& unit,
+                   const std::vector<std::string>& activities) {
+  tracks_.push_back({name, &unit, activities, {}, {}, 0});
+}
+
+void Timeline::see(const std::string& name, const rtl::MemoryPort& port) {
+  ports_.push_back({name, &port, {}, 0});
+}
+
+// ---- running ------------------------------------------------------------------------------------
+
+// Transactions are followed from the first cycle on: those that are under way when the window
+// begins belong to it.
+rtl::Activity Timeline::tick(rtl::Cycle cycle) {
+  if (cycle >= options_.to) return rtl::kIdle;
+  end_ = cycle + 1;
+  for (std::size_t i = 0; i < ports_.size(); ++i) look_at(ports_[i], i, cycle);
+  if (cycle + 1 >= options_.from)
+    for (std::size_t i = 0; i < tracks_.size(); ++i) look_at(tracks_[i], i, cycle);
+  return rtl::kIdle;
+}
+
+// The count that went up since the cycle before is what the unit did.
+void Timeline::look_at(Track& track, std::size_t number, rtl::Cycle cycle) {
+  const std::array<std::uint64_t, rtl::kActivities> now = counts_of(*track.unit);
+  if (cycle >= options_.from) {
+    std::string activity;
+    for (std::size_t code = 0; code < track.activities.size(); ++code)
+      if (now[code] > track.before[code] && track.activities[code] != "idle")
+        activity = track.activities[code];
+    if (activity != track.open) {
+      end_slice(track, number, cycle);
+      track.open = activity;
+      track.since = cycle;
+    }
+  }
+  track.before = now;
+}
+
+void Timeline::end_slice(Track& track, std::size_t number, rtl::Cycle cycle) {
+  if (track.open.empty()) return;
+  const bool stalled = track.open != "busy";
+  slices_.push_back({number, track.open.substr(stalled ? track.open.find('.') + 1 : 0),
+                     stalled ? "stall" : "busy", track.since, cycle});
+  track.open.clear();
+}
+
+void Timeline::look_at(Port& port, std::size_t number, rtl::Cycle cycle) {
+  const rtl::Link<rtl::MemoryRequest>& requests = port.port->requests_in.link();
+  if (requests.last_pop() == cycle) {
+    const auto& request =
+        *reinterpret_cast<const rtl::MemoryRequest*>(requests.beat(requests.pops() - 1));
+    if (port.beats_left > 0) {
+      --port.beats_left;
+    } else {
+      if (request.write) port.beats_left = request.lines - 1U;
+      port.in_flight.push_back({number, ++transactions_, request, cycle, 0, false});
+    }
+  }
+  const rtl::Link<rtl::MemoryResponse>& responses = port.port->responses_out.link();
+  if (responses.last_push() != cycle) return;
+  const auto& response =
+      *reinterpret_cast<const rtl::MemoryResponse*>(responses.beat(responses.pushes() - 1));
+  if (!response.last) return;
+  // Tags are the unit's business and need not be unique; then the address tells.
+  const auto answers = [&](const Transaction& t, bool by_address) {
+    return t.request.tag == response.tag && t.request.write == response.write &&
+           (!by_address || t.request.address == response.address);
+  };
+  auto& list = port.in_flight;
+  for (const bool by_address : {true, false}) {
+    const auto found = std::find_if(list.begin(), list.end(),
+                                    [&](const Transaction& t) { return answers(t, by_address); });
+    if (found == list.end()) continue;
+    found->to = cycle;
+    found->answered = true;
+    keep(*found);
+    list.erase(found);
+    return;
+  }
+}
+
+void Timeline::keep(Transaction transaction) {
+  if (transaction.to <= options_.from || transaction.from >= options_.to) return;
+  kept_.push_back(transaction);
+}
+
+void Timeline::finish() {
+  for (std::size_t i = 0; i < tracks_.size(); ++i) end_slice(tracks_[i], i, end_);
+  for (Port& port : ports_) {
+    for (Transaction& transaction : port.in_flight) {
+      transaction.to = end_;
+      keep(transaction);
+    }
+    port.in_flight.clear();
+  }
+}
+
+void Timeline::reset() {
+  for (Track& track : tracks_) {
+    track.before = {};
+    track.open.clear();
+  }
+  for (Port& port : ports_) {
+    port.in_flight.clear();
+    port.beats_left = 0;
+  }
+  slices_.clear();
+  kept_.clear();
+  transactions_ = 0;
+  end_ = 0;
+}
+
+// ---- the file -----------------------------------------------------------------------------------
+
+std::string Timeline::json() const {
+  struct Event {
+    rtl::Cycle at;
+    int order;  // at the same time: ends before begins
+    std::string text;
+  };
+  std::vector<Event> events;
+  for (const Slice& s : slices_)
+    events.push_back({s.from, 1,
+                      fmt::format(R"({{"ph":"X","name":{},"cat":{},"pid":{},"tid":{},"ts":{},)"
+                                  R"("dur":{}}})",
+                                  quoted(s.name), quoted(s.category), kProcess, s.track + 1, s.from,
+                                  s.to - s.from)});
+  for (const Transaction& t : kept_) {
+    const std::string port = quoted(ports_[t.port].name);
+    const std::string name = quoted(t.request.write ? "write" : "read");
+    const rtl::Cycle from = std::max(t.from, options_.from), to = std::min(t.to, options_.to);
+    const auto event = [&](char phase, rtl::Cycle at, const std::string& arguments) {
+      return fmt::format(R"({{"ph":"{}","name":{},"cat":{},"id":{},"pid":{},"tid":0,"ts":{},)"
+                         R"("args":{{{}}}}})",
+                         phase, name, port, t.id, kProcess, at, arguments);
+    };
+    events.push_back(
+        {from, 2,
+         event('b', from,
+               fmt::format(R"("address":"{:#x}","lines":{},"tag":{},"since":{})", t.request.address,
+                           t.request.lines, t.request.tag, t.from))});
+    events.push_back(
+        {to, 0,
+         event('e', to, fmt::format(R"("answered":{})", t.answered && t.to <= options_.to))});
+  }
+  std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
+    return std::pair(a.at, a.order) < std::pair(b.at, b.order);
+  });
+  std::string text = fmt::format(
+      "{{\"displayTimeUnit\":\"ns\",\n\"otherData\":{{\"time\":\"a microsecond is a clock\","
+      "\"from\":{},\"to\":{}}},\n\"traceEvents\":[\n"
+      R"({{"ph":"M","name":"process_name","pid":{},"tid":0,"args":{{"name":"units"}}}})",
+      options_.from, std::min(options_.to, end_), kProcess);
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    text += fmt::format(
+        ",\n"
+        R"({{"ph":"M","name":"thread_name","pid":{0},"tid":{1},"args":{{"name":{2}}}}},)"
+        "\n"
+        R"({{"ph":"M","name":"thread_sort_index","pid":{0},"tid":{1},"args":{{"sort_index":{1}}}}})",
+        kProcess, i + 1, quoted(tracks_[i].name));
+  }
+  for (const Event& event : events) text += ",\n" + event.text;
+  return text + "\n]}\n";
+}
+
+}  // namespace deburr::tb

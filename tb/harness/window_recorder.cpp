@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "tb/harness/window_recorder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "spec/error.h"
+
+namespace deburr::tb {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+// Puts a value where its dotted key says: "units.filter.busy".
+void put(Json& root, const std::string& key, Json value) {
+  Json* node = &root;
+  std::size_t from = 0;
+  for (std::size_t dot; (dot = key.find('.', from)) != std::string::npos; from = dot + 1)
+    node = &(*node)[key.substr(from, dot - from)];
+  (*node)[key.substr(from)] = std::move(value);
+}
+
+}  // namespace
+
+WindowRecorder::WindowRecorder(rtl::ClockDomain& clock, const WindowOptions& options)
+    : options_(options), window_(options.cycles) {
+  DEBURR_CHECK(options.cycles > 0 && options.most >= 2 && options.most % 2 == 0,
+               "windows of no length, or an odd number of them");
+  clock.add_after(*this);
+}
+
+// ---- what is watched ----------------------------------------------------------------------------
+
+void WindowRecorder::add(std::string key, std::string unit, std::function<std::uint64_t()> total) {
+  counted_.push_back({{std::move(key), std::move(unit), false, {}}, std::move(total)});
+}
+
+void WindowRecorder::add_largest(std::string key, std::string unit, std::uint64_t& most) {
+  largest_.push_back({{std::move(key), std::move(unit), true, {}}, &most});
+}
+
+void WindowRecorder::see(const std::string& name, const rtl::Unit& unit,
+                         const std::vector<std::string>& activities) {
+  // Several codes may count as the same.
+  std::vector<std::string> keys;
+  for (const std::string& key : activities)
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+  for (const std::string& key : keys) {
+    std::vector<rtl::Activity> codes;
+    for (std::size_t code = 0; code < activities.size(); ++code)
+      if (activities[code] == key) codes.push_back({static_cast<std::uint8_t>(code)});
+    add(fmt::format("units.{}.{}", name, key), "clk", [&unit, codes] {
+      std::uint64_t cycles = 0;
+      for (const rtl::Activity code : codes) cycles += unit.cycles_of(code);
+      return cycles;
+    });
+  }
+}
+
+void WindowRecorder::see(const std::string& name, const rtl::Counter& counter) {
+  add(fmt::format("work.{}", name), counter.unit(), [&counter] { return counter.value(); });
+  counted_.back().counter = &counter;
+}
+
+void WindowRecorder::see(const std::string& name, const rtl::LinkBase& link) {
+  WatchedLink& watched = *links_.emplace_back(std::make_unique<WatchedLink>());
+  watched.link = &link;
+  watched.name = name;
+  watched.clocks.assign(link.depth() + 1, 0);
+  add(fmt::format("links.{}.beats", name), "beat", [&link] { return link.pushes(); });
+  add(fmt::format("links.{}.occupancy", name), "beat x clk",
+      [&watched] { return watched.occupied; });
+  add_largest(fmt::format("links.{}.most", name), "beat", watched.most);
+}
+
+void WindowRecorder::see(const std::string& name, const rtl::MemoryPort& port) {
+  WatchedPort& watched = *ports_.emplace_back(std::make_unique<WatchedPort>());
+  watched.port = &port;
+  add(fmt::format("ports.{}.outstanding", name), "transaction x clk",
+      [&watched] { return watched.outstanding; });
+  add_largest(fmt::format("ports.{}.most", name), "transaction", watched.most);
+}
+
+// ---- running ------------------------------------------------------------------------------------
+
+rtl::Activity WindowRecorder::tick(rtl::Cycle cycle) {
+  if (!begun_) {
+    begun_ = true;
+    begin_ = cycle;
+  }
+  end_ = cycle + 1;
+  for (const std::unique_ptr<WatchedLink>& watched : links_) {
+    const std::uint32_t inside = watched->link->occupancy();
+    ++watched->clocks[std::min(inside, watched->link->depth())];
+    watched->occupied += inside;
+    if (inside > watched->most) watched->most = inside;
+  }
+  for (const std::unique_ptr<WatchedPort>& watched : ports_) {
+    const std::uint32_t outstanding = watched->port->in_flight();
+    watched->outstanding += outstanding;
+    if (outstanding > watched->most) watched->most = outstanding;
+  }
+  if (end_ - begin_ == window_) close();
+  return rtl::kIdle;
+}
+
+void WindowRecorder::close() {
+  const bool lost = options_.lose == from_.size();
+  for (Counted& counted : counted_) {
+    const std::uint64_t now = counted.total();
+    counted.restarts |= now < counted.before;
+    counted.series.values.push_back(lost ? 0 : now - counted.before);
+    counted.before = now;
+  }
+  for (Largest& largest : largest_) {
+    largest.series.values.push_back(*largest.most);
+    *largest.most = 0;
+  }
+  from_.push_back(begin_);
+  clocks_.push_back(end_ - begin_);
+  begin_ = end_;
+  if (from_.size() == options_.most) merge();
+}
+
+void WindowRecorder::merge() {
+  const std::size_t half = from_.size() / 2;
+  const auto pairwise = [half](std::vector<std::uint64_t>& values, const auto& together) {
+    for (std::size_t i = 0; i < half; ++i) values[i] = together(values[2 * i], values[2 * i + 1]);
+    values.resize(half);
+  };
+  const auto sum = [](std::uint64_t a, std::uint64_t b) { return a + b; };
+  const auto first = [](std::uint64_t a, std::uint64_t) { return a; };
+  const auto larger = [](std::uint64_t a, std::uint64_t b) { return std::max(a, b); };
+  for (Counted& counted : counted_) pairwise(counted.series.values, sum);
+  for (Largest& largest : largest_) pairwise(largest.series.values, larger);
+  pairwise(from_, first);
+  pairwise(clocks_, sum);
+  window_ *= 2;
+}
+
+void WindowRecorder::finish() {
+  if (end_ > begin_) close();
+}
+
+void WindowRecorder::reset() {
+  for (Counted& counted : counted_) {
+    counted.series.values.clear();
+    counted.before = 0;
+    counted.restarts = false;
+  }
+  for (Largest& largest : largest_) {
+    largest.series.values.clear();
+    *largest.most = 0;
+  }
+  for (const std::unique_ptr<WatchedLink>& watched : links_) {
+    watched->occupied = 0;
+    std::fill(watched->clocks.begin(), watched->clocks.end(), 0);
+  }
+  for (const std::unique_ptr<WatchedPort>& watched : ports_) watched->outstanding = 0;
+  from_.clear();
+  clocks_.clear();
+  window_ = options_.cycles;
+  begun_ = false;
+  begin_ = end_ = 0;
+}
+
+// ---- what was seen ------------------------------------------------------------------------------
+
+std::vector<WindowRecorder::Series> WindowRecorder::series() const {
+  std::vector<Series> all;
+  for (const Counted& counted : counted_)
+    if (!counted.restarts && (!counted.counter || !counted.counter->is_largest()))
+      all.push_back(counted.series);
+  for (const Largest& largest : largest_) all.push_back(largest.series);
+  return all;
+}
+
+std::vector<WindowRecorder::Occupancy> WindowRecorder::occupancy() const {
+  std::vector<Occupancy> all;
+  for (const std::unique_ptr<WatchedLink>& watched : links_)
+    all.push_back({watched->name, watched->link->name(), watched->link->pushes(), watched->clocks});
+  return all;
+}
+
+Json WindowRecorder::json() const {
+  Json json{{"schema", 1},
+            {"asked_cycles", options_.cycles},
+            {"window_cycles", window_},
+            {"windows", from_.size()},
+            {"from", from_},
+            {"cycles", clocks_},
+            {"throughput", Json::array()},
+            {"series", Json::object()},
+            {"units", Json::object()}};
+  for (const ThroughputSeries& each : throughput_)
+    json["throughput"].push_back({{"label", each.label},
+                                  {"key", "work." + each.counter},
+                                  {"unit", each.unit},
+                                  {"bound", each.bound}});
+  for (Series& each : series()) {
+    put(json["series"], each.key, std::move(each.values));
+    json["units"][each.key] = each.unit;
+  }
+  return json;
+}
+
+}  // namespace deburr::tb
