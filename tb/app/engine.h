@@ -12,6 +12,7 @@
 #include "tb/results/parameter_set.h"
 #include "tb/results/result.h"
 #include "tb/results/run_context.h"
+#include "tb/traces/trace_file.h"
 
 namespace deburr::tb {
 
@@ -32,6 +33,7 @@ struct RunParameters {
   bool poison = false;
   std::string trace;
   std::int64_t trace_from = 0, trace_to = 2000;
+  TraceChoice line_trace = TraceChoice::kNone;
   std::string fault;
   bool truth = false;
   bool images = true;
@@ -62,6 +64,8 @@ void describe(RunParameters& p, Visitor& v) {
   v.integer("trace_from", p.trace_from, 0, std::int64_t{1} << 40, "clk", "First cycle traced.");
   v.integer("trace_to", p.trace_to, 0, std::int64_t{1} << 40, "clk",
             "Cycle after the last traced.");
+  v.choice("line_trace", p.line_trace, kTraceChoiceNames,
+           "Leaves lines.trace: every line that is asked of memory (docs/traces.md).");
   v.text("fault", p.fault, "name",
          "Plants a fault that the checks must catch (docs/verification.md).");
   v.boolean("truth", p.truth, "Compare the picture with the scene's supersampled truth.");

@@ -14,6 +14,7 @@ std::vector<Shorthand> common_shorthands() {
       {"--trace", "run.trace", "Write waves of these units and links (glob) to trace.vcd"},
       {"--trace-from", "run.trace_from", "First cycle traced"},
       {"--trace-to", "run.trace_to", "Cycle after the last one traced"},
+      {"--line-trace", "run.line_trace", "Leave every line asked of memory: text or binary"},
       {"--max-cycles", "run.max_cycles", "End with an error after so many cycles"},
       {"--stalls", "run.stalls", "Random stalls: probability in each cycle"},
       {"--shuffle", "run.shuffle", "Evaluate units in random order"},

@@ -23,7 +23,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr const char* kTrace = "trace.vcd";
 constexpr const char* kResult = "result.json";
 constexpr const char* kReport = "report.html";
 
@@ -43,14 +42,20 @@ RunContext::RunContext(fs::path directory, const ParameterSet& parameters, std::
       started_(now_utc()),
       seed_(seed) {}
 
-fs::path RunContext::trace_file() const {
-  return judging_only_ ? "/dev/null" : directory_.draft() / kTrace;
+fs::path RunContext::draft_file(const char* name) const {
+  return judging_only_ ? "/dev/null" : directory_.draft() / name;
 }
 
 void RunContext::claim(IfTaken if_taken) {
   std::vector<std::string> names = {kResult, kReport};
-  const Parameter* trace = parameters_.find("run.trace");
-  if (trace != nullptr && !trace->text().empty()) names.emplace_back(kTrace);
+  // What a parameter asks for: its value where it asks for nothing, and the file.
+  constexpr std::array<std::array<const char*, 3>, 3> kTraces = {
+      {{"run.trace", "", "trace.vcd"},
+       {"run.line_trace", "none", "lines.trace"},
+       {"run.fragment_trace", "none", "fragments.trace"}}};
+  for (const auto& [parameter, nothing, file] : kTraces)
+    if (const Parameter* trace = parameters_.find(parameter); trace && trace->text() != nothing)
+      names.emplace_back(file);
   for (const std::string_view name : kPictureNames) names.push_back(fmt::format("{}.png", name));
   directory_.claim(command_, std::move(names), if_taken);
 }
