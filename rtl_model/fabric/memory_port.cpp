@@ -179,6 +179,7 @@ void MemoryPort::send(Transaction& t, Cycle cycle) {
     ++reads;
     bytes_read += length;
   }
+  if (observer) observer(cycle, t);
 
   requesting_ = &t;
   tlm::tlm_phase phase = tlm::BEGIN_REQ;

@@ -22,6 +22,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <systemc>
 #include <tlm>
@@ -113,6 +114,9 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   const std::unique_ptr<const MemoryBase> gather_buffer;
 
   std::uint32_t in_flight() const;
+  const MemoryPortParameters& parameters() const { return parameters_; }
+  // Sees every transaction as it is sent.
+  std::function<void(Cycle, const tlm::tlm_generic_payload&)> observer;
   // Untimed access through transport_dbg, from the end of elaboration on; gives the number of bytes
   // that the target handled.
   unsigned debug_read(std::uint64_t address, void* data, unsigned bytes);

@@ -73,9 +73,14 @@ inline TagStage::Line TagStage::look_up_line(Cycle cycle, std::uint64_t released
   tags_.check(cycle, texel, line, request_.read_at);
   if (const std::uint32_t slot = tags_.find(line); slot != TagStore::kAbsent) {
     tags_.use(slot);
-    fill_number_[slot] > released ? ++merged : ++hits;
+    const bool under_way = fill_number_[slot] > released;
+    under_way ? ++merged : ++hits;
+    if (observer) [[unlikely]]
+      observer(cycle, line, under_way ? LookUp::kMerged : LookUp::kHit);
     return {slot << line_log2_ | (tags_.turned(slot) ? turn_ : 0), 0};
   }
+  if (observer) [[unlikely]]
+    observer(cycle, line, LookUp::kMiss);
   return order(line, texel, out, missed);
 }
 

@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <systemc>
 #include <vector>
 
@@ -24,6 +25,8 @@
 #include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
+
+enum class LookUp : std::uint8_t { kHit, kMerged, kMiss };
 
 class TagStage final : public Unit {
  public:
@@ -37,6 +40,8 @@ class TagStage final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override;
   void invalidate() { tags_.invalidate(); }
+  // Sees the number of every line that is looked up, in order, and what came of it.
+  std::function<void(Cycle, std::uint32_t line, LookUp)> observer;
 
   // lookups = hits + merged + misses
   Counter requests{"requests", "requests", "bilinear requests looked up"};

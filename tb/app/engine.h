@@ -12,6 +12,7 @@
 #include "tb/results/parameter_set.h"
 #include "tb/results/result.h"
 #include "tb/results/run_context.h"
+#include "tb/traces/trace_file.h"
 
 namespace deburr::tb {
 
@@ -36,6 +37,7 @@ struct RunParameters {
   bool maps = false;
   bool timeline = false;
   std::int64_t timeline_from = 0, timeline_to = 2000;
+  TraceChoice line_trace = TraceChoice::kNone;
   std::string fault;
   bool truth = false;
   bool images = true;
@@ -79,6 +81,8 @@ void describe(RunParameters& p, Visitor& v) {
             "First cycle of the timeline.");
   v.integer("timeline_to", p.timeline_to, 0, std::int64_t{1} << 40, "clk",
             "Cycle after the last of the timeline, at most 100000 behind the first.");
+  v.choice("line_trace", p.line_trace, kTraceChoiceNames,
+           "Leaves lines.trace: every line that is asked of memory (docs/traces.md).");
   v.text("fault", p.fault, "name",
          "Plants a fault that the checks must catch (docs/verification.md).");
   v.boolean("truth", p.truth, "Compare the picture with the scene's supersampled truth.");

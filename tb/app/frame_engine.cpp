@@ -18,6 +18,7 @@
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
 #include "tb/app/simulate.h"
+#include "tb/app/texture_traces.h"
 #include "tb/env/frame_composition.h"
 #include "tb/scene/truth.h"
 
@@ -45,6 +46,7 @@ class FrameCommand final : public Engine {
   }
 
   void add_parameters(ParameterSet& set) override {
+    set.add("run", ParameterKind::kRun, look_up_trace_);
     set.add("scene", ParameterKind::kInput, scene_);
     set.add("sampler", ParameterKind::kInput, sampler_);
     set.add("frame", ParameterKind::kRule, choice_);
@@ -61,6 +63,7 @@ class FrameCommand final : public Engine {
     if (choice_.smoothing == Smoothing::kGeometricMorphological) let_follow(set);
     resolve_geometric(set);
     resolve_morphological(set);
+    refuse_unused_look_ups(set);
     refuse_unused_memory(set, "memory", memory_);
     refuse_slow_memory(set, "memory", memory_);
     refuse_empty_lod_range(sampler_);
@@ -227,6 +230,7 @@ class FrameCommand final : public Engine {
                       frame.morphological ? "edge_weights" : "weights");
   }
 
+  LookUpTrace look_up_trace_;
   SceneParameters scene_;
   SamplerParameters sampler_;
   spec::texture::Parameters texture_;

@@ -19,6 +19,7 @@ std::vector<Shorthand> common_shorthands() {
       {"--timeline", "run.timeline", "Write timeline.json for trace viewers such as Perfetto"},
       {"--timeline-from", "run.timeline_from", "First cycle of the timeline"},
       {"--timeline-to", "run.timeline_to", "Cycle after the last one of the timeline"},
+      {"--line-trace", "run.line_trace", "Leave every line asked of memory: text or binary"},
       {"--max-cycles", "run.max_cycles", "End with an error after so many cycles"},
       {"--stalls", "run.stalls", "Random stalls: probability in each cycle"},
       {"--shuffle", "run.shuffle", "Evaluate units in random order"},

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
+#include <string>
 
 #include "rtl_model/fabric/memory.h"
 #include "spec/error.h"
@@ -11,6 +13,7 @@
 #include "tb/results/progress.h"
 #include "tb/results/windows.h"
 #include "tb/scene/truth.h"
+#include "tb/traces/line_trace.h"
 
 namespace deburr::tb {
 
@@ -83,6 +86,23 @@ void leave_maps(const Simulation& simulation, const Environment& environment, Ru
   }
 }
 
+// nullptr: none is wanted.
+std::unique_ptr<LineTrace> line_trace(const Simulation& simulation, const RunContext& context,
+                                      const Result& result) {
+  const auto value = [&](const char* name) {
+    const Parameter* parameter = context.parameters().find(name);
+    return parameter ? parameter->text() : std::string();
+  };
+  const std::string wanted = value("run.line_trace");
+  if (wanted == "none") return nullptr;
+  LineTraceOptions options;
+  options.engine = result.unit;
+  options.clock_mhz = simulation.options().clock_mhz;
+  options.format = wanted == "binary" ? TraceFormat::kBinary : TraceFormat::kText;
+  options.look_ups = value("run.line_trace_look_ups") == "true";
+  return std::make_unique<LineTrace>(context.line_trace_file(), options);
+}
+
 // Copies are counted wherever bits are, but so many of a large memory are seldom meant.
 void note_copies(RunContext& context) {
   constexpr std::uint32_t kMany = 8;
@@ -100,6 +120,7 @@ void note_copies(RunContext& context) {
 void simulate(Simulation& simulation, Environment& environment, RunContext& context, Result& result,
               const std::function<void()>& add_pictures) {
   simulation.elaborate(environment);
+  const std::unique_ptr<LineTrace> lines = line_trace(simulation, context, result);
   if (context.judging_only()) return;
   if (interrupted()) throw Interrupted();  // while the input was made: there is nothing to keep
   note_copies(context);
@@ -114,12 +135,14 @@ void simulate(Simulation& simulation, Environment& environment, RunContext& cont
     throw;
   } catch (...) {
     simulation.collect(result);
+    if (lines) lines->finish();
     add_pictures();
     leave_windows(simulation, context, result, false);
     leave_maps(simulation, environment, context, result);
     throw;
   }
   simulation.collect(result);
+  if (lines) lines->finish();
   result.interrupted = !simulation.complete();
   if (result.interrupted && result.cycles == 0) throw Interrupted();  // while golden worked
   add_pictures();

@@ -17,12 +17,15 @@
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
 #include "tb/app/simulate.h"
+#include "tb/app/texture_traces.h"
 #include "tb/env/texture_environment.h"
 #include "tb/results/report.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/textures.h"
 #include "tb/scene/truth.h"
+#include "tb/traces/fragment_reader.h"
+#include "tb/traces/fragment_writer.h"
 
 namespace deburr::tb {
 namespace {
@@ -35,7 +38,10 @@ class TextureEngine final : public Engine {
   }
 
   void add_parameters(ParameterSet& set) override {
+    set.add("run", ParameterKind::kRun, look_up_trace_);
+    set.add("run", ParameterKind::kRun, trace_out_);
     set.add("scene", ParameterKind::kInput, scene_);
+    set.add("scene", ParameterKind::kInput, trace_in_);
     set.add("sampler", ParameterKind::kInput, sampler_);
     set.add_engine("texture", texture_);
     add_memory(set, "memory", memory_);
@@ -46,26 +52,46 @@ class TextureEngine final : public Engine {
         scene_shorthands("plane"),
         {{"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene (default)"},
          {"--format", "sampler.format", "rgba8 (default), rgb565, rgba4444, l8, srgb8_a8"},
-         {"--layout", "sampler.layout", "tiled (default) or linear"}});
+         {"--layout", "sampler.layout", "tiled (default) or linear"},
+         {"--fragments", "scene.fragments",
+          "Fragments of another rasteriser: a trace, text or binary (docs/traces.md)"},
+         {"--fragment-trace", "run.fragment_trace",
+          "Leave the fragments as such a trace: text or binary"}});
   }
 
   void resolve(ParameterSet& set) override {
     refuse_unused_memory(set, "memory", memory_);
     refuse_slow_memory(set, "memory", memory_);
     refuse_empty_lod_range(sampler_);
+    refuse_unused_look_ups(set);
+    if (foreign()) refuse_unused_scene(set);
   }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
     const std::shared_ptr<const TextureScene> shared = load(run, context);
     const TextureScene& scene = *shared;
-    refuse_nothing_drawn(scene);
+    TextureSetup setup{texture_, memory_};
+    if (foreign())
+      setup.foreign = fragments_of_file(scene);
+    else
+      refuse_nothing_drawn(scene);
     for (const auto& input : scene.inputs()) context.add_input(input);
-    context.set_title(title(), summary_line(scene));
+    if (foreign()) context.add_input(trace_in_.file);
+    context.set_title(title(), summary_line(scene, setup));
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
     Simulation simulation(simulation_options(run, context));
-    TextureEnvironment environment(simulation, scene, {texture_, memory_});
-    simulate(simulation, environment, context, result,
-             [&] { add_pictures(run, context, scene, environment, result); });
+    std::unique_ptr<FragmentWriter> writer;
+    if (trace_out_.fragments != TraceChoice::kNone && !context.judging_only()) {
+      writer = std::make_unique<FragmentWriter>(context.fragment_trace_file(),
+                                                format_of(trace_out_.fragments),
+                                                scene.stream().width, scene.stream().height);
+      setup.observer = [&writer](const TracedQuad& quad) { writer->put(quad); };
+    }
+    TextureEnvironment environment(simulation, scene, setup);
+    simulate(simulation, environment, context, result, [&] {
+      if (writer) writer->finish();
+      add_pictures(run, context, scene, environment, result);
+    });
   }
 
   void prepare(const RunParameters& run, RunContext& context) override {
@@ -84,8 +110,30 @@ class TextureEngine final : public Engine {
   std::shared_ptr<const TextureScene> load(const RunParameters& run,
                                            const RunContext& context) const {
     return context.shared<TextureScene>("texture scene", {"scene.", "sampler."}, [&] {
-      return TextureScene(scene_, sampler_, static_cast<std::uint32_t>(run.seed));
+      const auto seed = static_cast<std::uint32_t>(run.seed);
+      if (!foreign()) return TextureScene(scene_, sampler_, seed);
+      // The picture's size stands at the beginning; the textures are counted when they are there.
+      const FragmentReader reader(trace_in_.file, spec::texture::kMaxTextures);
+      return TextureScene::without_fragments(scene_, sampler_, seed, reader.width(),
+                                             reader.height());
     });
+  }
+
+  bool foreign() const { return !trace_in_.file.empty(); }
+
+  // All of the file has been read and judged behind it.
+  ForeignFragments fragments_of_file(const TextureScene& scene) const {
+    const std::size_t textures = scene.memory().descriptors().size();
+    const FragmentSummary summary = examine_fragments(trace_in_.file, textures);
+    if (summary.fragments == 0)
+      throw spec::ConfigError(
+          fmt::format("the trace '{}' covers no fragment in {} quads: nothing would be filtered",
+                      trace_in_.file, summary.quads));
+    const auto open = [file = trace_in_.file, textures]() -> QuadSource {
+      const auto reader = std::make_shared<FragmentReader>(file, textures);
+      return [reader](TracedQuad& quad) { return reader->next(quad); };
+    };
+    return {open, summary.fragments};
   }
 
   RenderOptions truth_options() const {
@@ -96,18 +144,22 @@ class TextureEngine final : public Engine {
   }
 
   std::string title() const {
-    return "Texture unit: " + std::filesystem::path(scene_.source).filename().string();
+    return "Texture unit: " +
+           std::filesystem::path(foreign() ? trace_in_.file : scene_.source).filename().string();
   }
 
-  std::string summary_line(const TextureScene& scene) const {
+  std::string summary_line(const TextureScene& scene, const TextureSetup& setup) const {
     const auto name = [](auto value, const auto& names) {
       return names[static_cast<std::size_t>(value)];
     };
     return fmt::format(
-        "{} x {} pixels, {} fragments, {}, N_max {}, {} {}; footprint {}, log2 {}, count {}, "
+        "{}{} fragments, {}, N_max {}, {} {}; footprint {}, log2 {}, count {}, "
         "kernel {}; "
         "cache {} bytes, {} ways; memory latency {} clk",
-        scene.stream().width, scene.stream().height, scene.stream().counts.fragments,
+        scene.stream().width > 0
+            ? fmt::format("{} x {} pixels, ", scene.stream().width, scene.stream().height)
+            : "",
+        foreign() ? setup.foreign.fragments : scene.stream().counts.fragments,
         name(sampler_.mode, spec::texture::kMinFilterNames),
         name(sampler_.anisotropy, kAnisotropyNames),
         name(sampler_.format, spec::texture::kFormatNames),
@@ -122,11 +174,11 @@ class TextureEngine final : public Engine {
   bool linear_light() const { return sampler_.format == spec::texture::Format::kSrgb8A8; }
 
   // The unit delivers linear light for sRGB textures; pictures are stored as sRGB again.
-  Image stored(const Image& image, const TextureScene& scene) const {
+  Image stored(const Image& image, const std::vector<bool>& sky) const {
     if (!linear_light()) return image;
     Image out = image;
     for (std::size_t i = 0; i < out.pixels.size(); ++i) {
-      if (scene.stream().depth.pixels[i] == 0) continue;  // the sky is not from the unit
+      if (sky[i]) continue;  // it is not from the unit
       for (std::size_t c = 0; c < 3; ++c)
         out.pixels[i][c] =
             static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(out.pixels[i][c] / 255.0)));
@@ -134,28 +186,37 @@ class TextureEngine final : public Engine {
     return out;
   }
 
+  static Image unfiltered(const TextureScene& scene) {
+    RenderOptions options;
+    options.width = scene.stream().width;
+    options.height = scene.stream().height;
+    options.sampling = Sampling::kNearest;
+    return render(scene.scene(), options);
+  }
+
   void add_pictures(const RunParameters& run, RunContext& context, const TextureScene& scene,
                     const TextureEnvironment& unit, Result& result) const {
-    RenderOptions render_options;
-    render_options.width = scene.stream().width;
-    render_options.height = scene.stream().height;
-    render_options.sampling = Sampling::kNearest;
-    const Image before = render(scene.scene(), render_options);
+    if (unit.frame().empty()) return;
+    // Of a foreign picture nobody knows which pixels have no fragment before all have come.
+    std::vector<bool> sky(unit.came().size()), missing(sky.size());
+    for (std::size_t i = 0; i < sky.size(); ++i) {
+      sky[i] = foreign() ? unit.came()[i] == 0 : scene.stream().depth.pixels[i] == 0;
+      missing[i] = !sky[i] && unit.came()[i] == 0;
+    }
+    const Image before = foreign() ? Image() : unfiltered(scene);
     // What was under way when the run was ended came on one side only.
-    std::vector<bool> missing(before.pixels.size());
-    for (std::size_t i = 0; i < missing.size(); ++i)
-      missing[i] = scene.stream().depth.pixels[i] != 0 && unit.came()[i] == 0;
     const auto lost = static_cast<std::uint64_t>(std::count(missing.begin(), missing.end(), true));
     const std::string note =
         lost == 0 ? "" : fmt::format("; grey: {} pixels were not delivered", grouped(lost));
-    const Image after = without(stored(unit.frame(), scene), missing, kNotDelivered);
-    context.add_image("before", before, "Before", "nearest texel of level 0, no filter");
+    const Image after = without(stored(unit.frame(), sky), missing, kNotDelivered);
+    if (!foreign())
+      context.add_image("before", before, "Before", "nearest texel of level 0, no filter");
     context.add_image("after", after, "Hardware model",
                       "the colours that the unit delivered" + note);
     if (run.check == CheckMode::kGolden) {
       // Once the run is over, what did not come is lost, and differs.
       const bool over = unit.done();
-      Image expected = stored(unit.golden_frame(), scene);
+      Image expected = stored(unit.golden_frame(), sky);
       if (!over) expected = without(std::move(expected), missing, kNotDelivered);
       context.add_image("golden", expected, "Golden model",
                         over ? "the same fragments by the golden model"
@@ -175,6 +236,9 @@ class TextureEngine final : public Engine {
     }
   }
 
+  LookUpTrace look_up_trace_;
+  FragmentTraceOut trace_out_;
+  FragmentTraceIn trace_in_;
   SceneParameters scene_;
   SamplerParameters sampler_;
   spec::texture::Parameters texture_;

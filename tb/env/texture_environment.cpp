@@ -100,14 +100,29 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
     for (std::uint8_t& byte : contents) byte ^= 0x10;
   memory_.preload(0, contents);
 
-  const std::vector<spec::texture::Quad>& quads = scene.stream().quads;
-  driver_.send([&quads](std::uint64_t index, spec::texture::Quad& quad) {
-    if (index >= quads.size()) return false;
-    quad = quads[index];
+  driver_.send([this](std::uint64_t, spec::texture::Quad& quad) {
+    if (!source_(quad_)) return false;
+    quad = quad_.quad;
+    sent_.add(quad_);
+    if (setup_.observer) setup_.observer(quad_);
     return true;
   });
   clear_outputs();
   expect_from_golden();
+}
+
+QuadSource TextureEnvironment::open() const {
+  if (setup_.foreign.open) return setup_.foreign.open();
+  return [&stream = scene_.stream(), index = std::size_t{0}](TracedQuad& quad) mutable {
+    if (index == stream.quads.size()) return false;
+    quad = {stream.quads[index], stream.visible[index], true};
+    ++index;
+    return true;
+  };
+}
+
+std::uint64_t TextureEnvironment::fragments() const {
+  return setup_.foreign.open ? setup_.foreign.fragments : scene_.stream().counts.fragments;
 }
 
 void TextureEnvironment::expect_from_golden() {
@@ -121,19 +136,20 @@ void TextureEnvironment::expect_from_golden() {
   driver_.on_send = [this](rtl::Cycle, const spec::texture::Quad& quad) {
     golden_.process(quad, [this](const spec::texture::Colour& colour) {
       colour_board_.expect(colour);
-      golden_frame_->put(colour);
+      show(quad_, colour, golden_frame_);
     });
   };
 }
 
 void TextureEnvironment::clear_outputs() {
-  frame_ = std::make_unique<FrameAssembler>(scene_.stream(), scene_.scene());
-  golden_frame_ = std::make_unique<FrameAssembler>(scene_.stream(), scene_.scene());
+  frame_ = golden_frame_ = FrameAssembler(scene_.stream(), scene_.scene()).frame();
+  source_ = open();
+  sent_ = {};
   fills_judged_ = 0;
   delivered_ = 0;
   hash_ = {};
   if (maps_) maps_->clear();
-  came_.assign(frame_->frame().pixels.size(), 0);
+  came_.assign(frame_.pixels.size(), 0);
 }
 
 // ---- running ------------------------------------------------------------------------------------
@@ -170,7 +186,7 @@ void TextureEnvironment::restart() {
 void TextureEnvironment::finish() {
   if (!golden()) return;
   namespace reg = spec::texture::reg;
-  colour_board_.require(scene_.stream().counts.fragments);
+  colour_board_.require(fragments());
   fill_board_.require(std::max<std::uint64_t>(1, memory_.bytes_read() / kMemoryGrain));
   const golden::texture::TextureWork& work = golden_.work();
   const std::pair<std::uint32_t, std::uint64_t> expected[] = {
@@ -195,8 +211,7 @@ void TextureEnvironment::refuse_memory_errors() {
 void TextureEnvironment::refuse_unused_errors() const { refuse_untouched(memory_, setup_.memory); }
 
 Amount TextureEnvironment::amount() const {
-  return {delivered_, unit_.address.derivative.fragments.value(), scene_.stream().counts.fragments,
-          "fragment"};
+  return {delivered_, unit_.address.derivative.fragments.value(), fragments(), "fragment"};
 }
 
 // ---- judging ------------------------------------------------------------------------------------
@@ -208,24 +223,12 @@ void TextureEnvironment::judge(rtl::Cycle cycle, const spec::texture::Colour& co
   for (const std::uint8_t channel : colour.rgba) hash_.add(channel);
   const std::uint64_t before = colour_board_.mismatches();
   if (golden()) colour_board_.got(colour, fmt::format("cycle {}", cycle));
-  if (colour.tag < scene_.stream().quads.size() && colour.lane < 4) {
-    const FragmentStream::Pixel p = scene_.stream().pixel(colour.tag, colour.lane);
-    if (p.x >= 0 && p.y >= 0 && p.x < frame().width && p.y < frame().height)
-      came_[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(frame().width) +
-            static_cast<std::size_t>(p.x)] = 1;
-  }
   // After a mismatch tags and lanes may be anything; the picture then shows what can be placed.
   const bool trusted = !golden() || colour_board_.mismatches() == before;
-  const auto& quads = scene_.stream().quads;
-  if (trusted) {
-    frame_->put(colour);
-  } else if (colour.tag < quads.size() && colour.lane < 4 &&
-             (quads[colour.tag].coverage >> colour.lane & 1)) {
-    try {
-      frame_->put(colour);
-    } catch (const spec::CheckFailed&) {  // a second colour for the same pixel: counted already
-    }
-  }
+  const TracedQuad* quad = sent_.take(colour, trusted);
+  if (!quad || !quad->shows(colour.lane)) return;
+  show(*quad, colour, frame_);
+  came_[frame_.index(quad->x(colour.lane), quad->y(colour.lane))] = 1;
 }
 
 void TextureEnvironment::fetch_again() {
@@ -242,9 +245,9 @@ void TextureEnvironment::fetch_again() {
 }
 
 std::string TextureEnvironment::place(const spec::texture::Colour& c) const {
-  if (c.tag >= scene_.stream().quads.size() || c.lane >= 4) return "no pixel";
-  const FragmentStream::Pixel p = scene_.stream().pixel(c.tag, c.lane);
-  return fmt::format("pixel ({}, {})", p.x, p.y);
+  const TracedQuad* quad = sent_.find(c.tag);
+  if (!quad || !quad->placed || c.lane >= 4) return "no pixel";
+  return fmt::format("pixel ({}, {})", quad->x(c.lane), quad->y(c.lane));
 }
 
 std::string TextureEnvironment::describe(const spec::texture::Colour& c) const {

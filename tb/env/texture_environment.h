@@ -13,6 +13,7 @@
 #include <tlm_utils/simple_initiator_socket.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <systemc>
@@ -24,16 +25,27 @@
 #include "spec/texture/parameters.h"
 #include "tb/env/environment.h"
 #include "tb/env/memory_parameters.h"
+#include "tb/env/sent_quads.h"
 #include "tb/env/texture_maps.h"
 #include "tb/env/texture_scene.h"
 #include "tb/harness/driver.h"
 #include "tb/scene/rasteriser.h"
+#include "tb/traces/fragment_trace.h"
 
 namespace deburr::tb {
+
+// Where fragments come from, if not from the scene's rasteriser.
+struct ForeignFragments {
+  std::function<QuadSource()> open;  // from the first quad on, each time
+  std::uint64_t fragments = 0;       // covered lanes in all
+};
 
 struct TextureSetup {
   spec::texture::Parameters texture;
   MemoryParameters memory;
+  ForeignFragments foreign{};
+  // Sees every quad as it is sent.
+  std::function<void(const TracedQuad&)> observer{};
 };
 
 class TextureEnvironment final : public Environment {
@@ -66,11 +78,11 @@ class TextureEnvironment final : public Environment {
   void judge(rtl::Cycle cycle, const spec::texture::Colour& colour);
   bool sent() const { return driver_.done(); }  // every quad
 
-  const Image& frame() const { return frame_->frame(); }
+  const Image& frame() const { return frame_; }
   // By pixel, whether a colour came for it.
   const std::vector<std::uint8_t>& came() const { return came_; }
   // The golden model's picture of the same fragments (empty without golden).
-  const Image& golden_frame() const { return golden_frame_->frame(); }
+  const Image& golden_frame() const { return golden_frame_; }
   const golden::texture::TextureWork& golden_work() const { return golden_.work(); }
   std::uint64_t delivered() const { return delivered_; }
   // Over all colours and tags in order.
@@ -92,6 +104,8 @@ class TextureEnvironment final : public Environment {
   };
 
   static std::vector<PlantedFault> faults();
+  QuadSource open() const;
+  std::uint64_t fragments() const;
   spec::texture::Parameters as_built() const;
   void expect_from_golden();
   void clear_outputs();
@@ -113,7 +127,10 @@ class TextureEnvironment final : public Environment {
   Scoreboard<spec::texture::Colour> colour_board_;
   Scoreboard<Fill> fill_board_;
   RegisterScoreboard register_board_;
-  std::unique_ptr<FrameAssembler> frame_, golden_frame_;
+  QuadSource source_;
+  TracedQuad quad_;  // the one that is being sent
+  SentQuads sent_;
+  Image frame_, golden_frame_;
   std::vector<std::uint8_t> came_;
   std::unique_ptr<TextureMaps> maps_;
   std::size_t fills_judged_ = 0;

@@ -59,11 +59,25 @@ Scene load(const SceneParameters& p, WrapChoice wrap, std::uint32_t seed) {
 
 TextureScene::TextureScene(const SceneParameters& scene, const SamplerParameters& sampler,
                            std::uint32_t seed)
+    : TextureScene(scene, sampler, seed, Fragments::kRasterise) {}
+
+TextureScene TextureScene::without_fragments(const SceneParameters& scene,
+                                             const SamplerParameters& sampler, std::uint32_t seed,
+                                             int width, int height) {
+  TextureScene made(scene, sampler, seed, Fragments::kNone);
+  made.stream_.width = width;
+  made.stream_.height = height;
+  return made;
+}
+
+TextureScene::TextureScene(const SceneParameters& scene, const SamplerParameters& sampler,
+                           std::uint32_t seed, Fragments fragments)
     : scene_(load(scene, sampler.wrap, seed)) {
   if (!is_scene_name(scene.source)) inputs_.emplace_back(scene.source);
   if (!scene.texture.empty() && !is_texture_name(scene.texture))
     inputs_.emplace_back(scene.texture);
   lay_out(sampler);
+  if (fragments == Fragments::kNone) return;
   RasterOptions options;
   options.width = scene.width;
   options.height = scene.height;

@@ -90,6 +90,10 @@ class TextureScene {
  public:
   // Loads, rasterises and lays out. ConfigError and FileError as of tb/scene.
   TextureScene(const SceneParameters& scene, const SamplerParameters& sampler, std::uint32_t seed);
+  // Its textures and sampler alone, for fragments that come from elsewhere: an empty stream.
+  static TextureScene without_fragments(const SceneParameters& scene,
+                                        const SamplerParameters& sampler, std::uint32_t seed,
+                                        int width, int height);
 
   // With the wrap modes of the sampler, so that its truth is what the unit is asked for.
   const Scene& scene() const { return scene_; }
@@ -99,6 +103,9 @@ class TextureScene {
   const std::vector<std::filesystem::path>& inputs() const { return inputs_; }
 
  private:
+  enum class Fragments { kRasterise, kNone };
+  TextureScene(const SceneParameters& scene, const SamplerParameters& sampler, std::uint32_t seed,
+               Fragments fragments);
   void lay_out(const SamplerParameters& sampler);
 
   Scene scene_;

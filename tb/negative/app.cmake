@@ -16,6 +16,11 @@ foreach(class Definitions Surroundings)
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_sweep_test.py" -v ${class})
   list(APPEND APP_NEGATIVE_TESTS app_sweep.${class})
 endforeach()
+foreach(class Fragments Lines)
+  add_test(NAME app_traces.${class}
+           COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_traces_test.py" -v ${class})
+  list(APPEND APP_NEGATIVE_TESTS app_traces.${class})
+endforeach()
 add_test(NAME app_images COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_images_test.py" -v)
 set_tests_properties(${APP_NEGATIVE_TESTS} app_images PROPERTIES
   LABELS negative TIMEOUT 300 ENVIRONMENT "DEBURR=$<TARGET_FILE:deburr>;PYTHONDONTWRITEBYTECODE=1")

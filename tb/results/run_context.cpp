@@ -23,7 +23,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr const char* kTrace = "trace.vcd";
 constexpr const char* kResult = "result.json";
 constexpr const char* kReport = "report.html";
 
@@ -43,20 +42,25 @@ RunContext::RunContext(fs::path directory, const ParameterSet& parameters, std::
       started_(now_utc()),
       seed_(seed) {}
 
-fs::path RunContext::trace_file() const {
-  return judging_only_ ? "/dev/null" : directory_.draft() / kTrace;
+fs::path RunContext::draft_file(const char* name) const {
+  return judging_only_ ? "/dev/null" : directory_.draft() / name;
 }
 
 void RunContext::claim(IfTaken if_taken) {
   std::vector<std::string> names = {kResult, kReport};
-  const Parameter* trace = parameters_.find("run.trace");
-  if (trace != nullptr && !trace->text().empty()) names.emplace_back(kTrace);
-  const auto is_set = [this](std::string_view parameter, std::string_view off) {
+  // What a parameter asks for: its value where it asks for nothing, and the file.
+  constexpr std::array<std::array<std::string_view, 3>, 5> kAsked = {
+      {{"run.trace", "", "trace.vcd"},
+       {"run.line_trace", "none", "lines.trace"},
+       {"run.fragment_trace", "none", "fragments.trace"},
+       {"run.window_cycles", "0", kWindowsFile},
+       {"run.timeline", "false", kTimelineFile}}};
+  const auto is_set = [this](std::string_view parameter, std::string_view nothing) {
     const Parameter* found = parameters_.find(parameter);
-    return found != nullptr && found->text() != off;
+    return found != nullptr && found->text() != nothing;
   };
-  if (is_set("run.window_cycles", "0")) names.emplace_back(kWindowsFile);
-  if (is_set("run.timeline", "false")) names.emplace_back(kTimelineFile);
+  for (const auto& [parameter, nothing, file] : kAsked)
+    if (is_set(parameter, nothing)) names.emplace_back(file);
   if (is_set("run.maps", "false"))
     for (const std::string_view name : kMapNames)
       for (const char* part : {"", "texture_", "geometric_", "morphological_"})

@@ -79,8 +79,11 @@ class RunContext {
   void add_input(const std::filesystem::path& file);
   // A file that was read and must not be replaced, without being listed.
   void protect(const std::filesystem::path& file) const { directory_.refuse_to_replace(file); }
-  // Where waves go until the run is over.
-  std::filesystem::path trace_file() const;
+  // Where what is written while the run goes is until the run is over: waves, lines asked of
+  // memory, fragments.
+  std::filesystem::path trace_file() const { return draft_file("trace.vcd"); }
+  std::filesystem::path line_trace_file() const { return draft_file("lines.trace"); }
+  std::filesystem::path fragment_trace_file() const { return draft_file("fragments.trace"); }
   // Writes NAME.png and lists it for the report. NAME, which is the role too, is one of
   // kPictureNames.
   void add_image(const std::string& name, const Image& image, std::string title,
@@ -97,6 +100,7 @@ class RunContext {
   const std::string& command() const { return command_; }
 
  private:
+  std::filesystem::path draft_file(const char* name) const;
   std::string golden_key() const;
   std::string key_of(std::string_view what, std::initializer_list<std::string_view> prefixes) const;
   nlohmann::ordered_json manifest(const Result& result) const;

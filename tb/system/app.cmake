@@ -27,6 +27,12 @@ foreach(class Points Killed)
   set_tests_properties(sweep.${class} PROPERTIES LABELS system TIMEOUT 600
                        ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 endforeach()
+foreach(class Lines Fragments)
+  add_test(NAME traces.${class}
+           COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/traces_test.py" $<TARGET_FILE:deburr> ${class})
+  set_tests_properties(traces.${class} PROPERTIES LABELS system TIMEOUT 600
+                       ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+endforeach()
 add_test(NAME slurm COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/slurm_test.py" $<TARGET_FILE:deburr>)
 set_tests_properties(slurm PROPERTIES LABELS slurm TIMEOUT 900 SKIP_REGULAR_EXPRESSION "^skipped"
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")

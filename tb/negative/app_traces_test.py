@@ -1,0 +1,178 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Traces that are wrong, and traces that cannot be written: an error says where, what and what to do."""
+import json
+import os
+import resource
+import struct
+import unittest
+
+from app_support import CommandTest
+
+TITLE = "deburr-fragments 1\n"
+QUAD = "quad 0 f f 0 0 0 0 0 .1 0 0 .1 .1 .1\n"
+FRAGMENT = "fragment 0 - - .5 .5 .01 0 0 .01\n"
+NONE = 2**32 - 1
+
+
+def header(version=1, begin=64, size=80, width=0, height=0, count=1, magic=b"DEBURRFT"):
+    return magic + struct.pack("<IIIIIIQ24x", version, begin, size, width, height, 0, count)
+
+
+def record(x=NONE, y=NONE, kind=0, texture=0, coverage=15, visible=15, clamped=0, tail=b"\0\0\0",
+           values=(0, 0, .1, 0, 0, .1, .1, .1)):
+    return struct.pack("<IIBBBBB3s8d", x, y, kind, texture, coverage, visible, clamped, tail, *values)
+
+
+class Fragments(CommandTest):
+    def refused(self, content, *says, code=5):
+        self.write("trace", content)
+        for more in ((), ("--show-config",)):  # judged before anything is simulated
+            done = self.run_command("run", "texture", "--fragments", "trace", "--out", "out", *more)
+            context = f"{content[:200]}\n{done.stdout}\n{done.stderr}"
+            self.assertEqual(done.returncode, code, context)
+            for word in says:
+                self.assertIn(word, done.stdout + done.stderr, context)
+        self.assertFalse(os.path.exists(self.path("out")))
+
+    def test_text_with_its_line(self):
+        sized = TITLE + "size 8 8\n"
+        for content, *says in (
+                ("", "trace:1", "the file is empty", "begins with 'deburr-fragments 1'"),
+                ("hello\n", "trace:1", "something else", "docs/traces.md"),
+                ("deburr-fragments\n", "trace:1", "1 fields, expected 2"),
+                ("deburr-fragments 2\n", "trace:1", "version 2", "reads version 1"),
+                (TITLE, "trace:2", "cut short"),
+                (TITLE + "size 8\n", "trace:2", "2 fields, expected 3", "size WIDTH HEIGHT"),
+                (TITLE + "size 0 8\n", "trace:2", "0 x 8", "1 to 8192"),
+                (TITLE + "size 8 8193\n", "trace:2", "8 x 8193"),
+                (TITLE + "triangle 1\n", "trace:2", "'triangle'", "'quad', 'fragment' or 'end'"),
+                (TITLE + "quad 0 f\n", "trace:2", "3 fields, expected 15", "s0 t0 s1 t1"),
+                (TITLE + "\n# a\n" + FRAGMENT.replace("0 -", "x -", 1), "trace:4", "texture = 'x'", "whole number"),
+                (TITLE + FRAGMENT.replace("0 -", "1 -", 1), "trace:2", "texture 1", "is given 1", "--in FILE.gltf"),
+                (TITLE + FRAGMENT.replace(".5", "nan", 1), "trace:2", "s = nan", "-128 to below 128"),
+                (TITLE + FRAGMENT.replace(".5", "inf", 1), "trace:2", "s = inf"),
+                (TITLE + FRAGMENT.replace(".5", "1e999", 1), "trace:2", "s = inf"),
+                (TITLE + FRAGMENT.replace(".5", "128", 1), "trace:2", "s = 128", "subtract whole repeats"),
+                (TITLE + FRAGMENT.replace(".5", "-128.1", 1), "trace:2", "s = -128.1"),
+                (TITLE + FRAGMENT.replace(".01", "nan", 1), "trace:2", "ds/dx = nan"),
+                (TITLE + FRAGMENT.replace(".5 .5", "127.999 .5"), "trace:2", "neighbour by the derivatives"),
+                (TITLE + FRAGMENT.replace(".5", "0.5f", 1), "trace:2", "s = '0.5f'", "expected a number"),
+                (TITLE + FRAGMENT + FRAGMENT.replace("- -", "- 3"), "trace:3", "x = '-'"),
+                (TITLE + FRAGMENT.replace("- -", "3 3"), "trace:2", "whose size is not said", "size WIDTH HEIGHT"),
+                (sized + FRAGMENT.replace("- -", "8 3"), "trace:3", "(8, 3) is outside", "8 x 8"),
+                (sized + QUAD.replace("0 0 0 0", "0 1 0 0", 1), "trace:3", "(1, 0)", "even x and y"),
+                (TITLE + "size 7 7\n" + QUAD.replace("0 0 0 0", "0 6 6 0", 1), "trace:3", "lane 1", "outside"),
+                (TITLE + QUAD.replace("f f", "1f f").replace("0 0 0 0", "0 - - 0", 1), "trace:2", "coverage = '1f'", "0 to f"),
+                (TITLE + FRAGMENT, "trace:3", "no line 'end 1'", "cut short"),
+                (TITLE + FRAGMENT + "end 2\n", "trace:3", "'end 2' behind 1 records"),
+                (TITLE + FRAGMENT + "end 1", "trace:3", "in the middle of a line", "cut short"),
+                (TITLE + FRAGMENT + "end 1\n" + FRAGMENT, "trace:4", "more behind the line 'end'"),
+                (TITLE + "x" * 2000 + "\n", "trace:2", "more than 1000 characters")):
+            with self.subTest(content=content[:120]):
+                self.refused(content, *says)
+
+    def test_binary_with_its_record(self):
+        good = record()
+        for content, *says in (
+                (header()[:40], "within its header of 64 bytes", "cut short"),
+                (header(version=7) + good, "version 7", "reads version 1"),
+                (header(size=72) + good, "records of 72, expected 64 and 80"),
+                (header() + good[:-1], "143 bytes", "says 144", "cut short"),
+                (header(count=2) + good, "cut short"),
+                (header() + good + b"x", "too long"),
+                (header(count=2**63) + good, f"{2**63} records", "cut it into several runs"),
+                (header(width=9000, height=1) + good, "9000 x 1"),
+                (header(count=2) + good + record(kind=2), "record 1", "kind 2"),
+                (header() + record(texture=3), "record 0", "texture 3"),
+                (header() + record(coverage=16), "record 0", "coverage = 0x10"),
+                (header() + record(clamped=255), "clamped = 0xff"),
+                (header() + record(tail=b"\0\1\0"), "bytes 13 to 15"),
+                (header() + record(values=[float("nan")] * 8), "record 0", "s0 = nan"),
+                (header() + record(values=[0] * 7 + [float("-inf")]), "t3 = -inf"),
+                (header() + record(values=[200] * 8), "s0 = 200", "subtract whole repeats"),
+                (header() + record(x=0, y=0), "whose size is not said"),
+                (header(width=8, height=8) + record(x=0, y=NONE), "outside of the picture"),
+                (header(magic=b"DEBURRFX") + good, "something else")):
+            with self.subTest(says=says):
+                self.refused(content, *says)
+
+    def test_nothing_to_filter(self):
+        self.refused(TITLE + "end 0\n", "covers no fragment", code=2)
+        self.refused(TITLE + QUAD.replace("f f", "0 f").replace("0 0 0 0", "0 - - 0", 1) + "end 1\n",
+                     "covers no fragment in 1 quads", code=2)
+
+    def test_files_that_are_none(self):
+        for name, says in (("missing", "no such file"), (".", "not a regular file")):
+            self.expect(5, "run", "texture", "--fragments", name, "--out", "out", says=says)
+
+    def test_what_has_no_effect(self):
+        self.write("trace", TITLE + FRAGMENT + "end 1\n")
+        for arguments in (["--size", "8x8"], ["--set", "scene.fov=1"], ["--truth"],
+                          ["--set", "scene.visibility=overdraw"]):
+            self.expect(2, "run", "texture", "--fragments", "trace", "--out", "out", *arguments)
+        for engine in ("morphological", "geometric", "frame"):
+            done = self.run_command("run", engine, "--set", "scene.fragments=trace", "--out", "out")
+            self.assertEqual(done.returncode, 2, done.stderr)
+
+    def test_the_results_do_not_replace_what_is_read(self):
+        os.mkdir(self.path("out"))
+        self.run_texture(0, "--fragment-trace", "text")
+        before = open(self.path("out/fragments.trace"), "rb").read()
+        self.expect(2, "run", "texture", "--fragments", "out/fragments.trace", "--fragment-trace", "text",
+                    "--out", "out", says="would replace it")
+        self.assertEqual(open(self.path("out/fragments.trace"), "rb").read(), before)
+
+
+class Lines(CommandTest):
+    def test_what_has_no_effect(self):
+        self.run_texture(2, "--set", "run.line_trace_look_ups=true", says="no trace without run.line_trace")
+        for more in ((), ("--show-config",)):
+            self.expect(2, "run", "morphological", "--size", "32x32", "--line-trace", "text", "--out", "out",
+                        *more, says="morphological.storage = memory")
+        self.run_texture(2, "--line-trace", "yaml", says="none, text, binary")
+
+    def test_a_file_of_somebody_else_stays(self):
+        os.mkdir(self.path("out"))
+        self.write("out/lines.trace", "mine")
+        self.run_texture(2, "--line-trace", "text", says="lines.trace")
+        with open(self.path("out/lines.trace")) as file:
+            self.assertEqual(file.read(), "mine")
+        self.run_texture(0)
+
+    def test_an_earlier_trace_goes_with_its_run(self):
+        self.run_texture(0, "--line-trace", "text", "--fragment-trace", "binary")
+        self.assertTrue(os.path.exists(self.path("out/lines.trace")))
+        with open(self.path("out/manifest.json")) as file:
+            self.assertIn("fragments.trace", json.load(file)["files"])
+        self.run_texture(0)
+        self.assertFalse(os.path.exists(self.path("out/lines.trace")))
+        self.assertFalse(os.path.exists(self.path("out/fragments.trace")))
+
+    def test_a_full_disk_leaves_the_earlier_results(self):
+        self.run_texture(0, "--no-images")
+        before = sorted(os.listdir(self.path("out")))
+        with open(self.path("out/result.json")) as file:
+            result = file.read()
+        for what in ("--line-trace", "--fragment-trace"):
+            for form in ("text", "binary"):
+                done = self.run_texture(
+                    5, "--no-images", what, form, "--scene", "tunnel", "--set", "scene.texture_size=64",
+                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000)),
+                    says=["File too large", ".trace", "make room there"])
+                self.assertNotIn("Traceback", done.stderr)
+                self.assertEqual(sorted(os.listdir(self.path("out"))), before)
+                with open(self.path("out/result.json")) as file:
+                    self.assertEqual(file.read(), result)
+
+    def test_a_run_that_is_broken_off_leaves_whole_traces(self):
+        self.run_texture(3, "--max-cycles", "1000", "--line-trace", "text", "--fragment-trace", "text",
+                         says="1,000 cycles")
+        for name, end in (("lines", "# end "), ("fragments", "end ")):
+            with open(self.path(f"out/{name}.trace")) as file:
+                last = file.read().splitlines()[-1]
+            self.assertTrue(last.startswith(end), last)
+
+
+if __name__ == "__main__":
+    unittest.main()

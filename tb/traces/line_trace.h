@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Every line that the memory ports of a simulation ask for and, if wanted, every look-up of its
+// texture caches, written for simulators of memories and caches (docs/traces.md).
+//
+//   LineTrace trace(file, options);   // after elaboration
+//   ...                               // clocks
+//   trace.finish();
+//
+// Bounded memory. Costs nothing where there is none.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "rtl_model/fabric/clock_domain.h"
+#include "tb/traces/trace_file.h"
+
+namespace deburr::tb {
+
+struct LineTraceOptions {
+  std::string engine;  // as `deburr run` calls it
+  double clock_mhz = 0;
+  TraceFormat format = TraceFormat::kText;
+  bool look_ups = false;
+};
+
+enum class LineEvent : std::uint8_t { kRead, kWrite, kHit, kMerged, kMiss };
+inline constexpr std::array<std::string_view, 5> kLineEventNames = {"read", "write", "hit",
+                                                                    "merged", "miss"};
+
+class LineTrace {
+ public:
+  static constexpr std::uint32_t kVersion = 1;
+  static constexpr std::string_view kMagic = "DEBURRLT";
+  static constexpr std::size_t kHeaderBytes = 64, kPortBytes = 64, kRecordBytes = 24;
+
+  // Attaches to everything that there is to see. ConfigError where no port asks memory for
+  // anything, or there is no cache whose look-ups are wanted; FileError.
+  LineTrace(const std::filesystem::path& file, const LineTraceOptions& options);
+  // Detaches; without finish() the file goes.
+  ~LineTrace();
+  LineTrace(const LineTrace&) = delete;
+  LineTrace& operator=(const LineTrace&) = delete;
+
+  // The file is complete, or this is a FileError.
+  void finish();
+  std::uint64_t records() const { return records_; }
+
+ private:
+  struct Port {
+    std::string name;
+    std::uint32_t line_bytes;  // of a cache that is looked up: of its lines
+    bool cache;
+  };
+  struct Record {
+    rtl::Cycle cycle;
+    std::uint64_t address;
+    std::uint32_t bytes;
+    LineEvent event;
+    std::uint8_t port;
+  };
+
+  void attach_ports();
+  void attach_caches();
+  void detach();
+  void begin();
+  std::string binary_header() const;
+  void add(const Record& record);
+  void write_clock();
+
+  LineTraceOptions options_;
+  TraceOutput output_;
+  std::vector<Port> ports_;
+  std::vector<Record> clock_;  // of the clock that is under way
+  std::uint64_t records_ = 0;
+};
+
+}  // namespace deburr::tb

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Lines that a memory port asks for, as records: the clock of the request, a record a line of a
+// burst, the bytes that are enabled.
+#include "tb/traces/line_trace.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "rtl_model/fabric/link.h"
+#include "rtl_model/fabric/memory_port.h"
+#include "spec/error.h"
+#include "tb/harness/driver.h"
+#include "tb/harness/memory_model.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace fs = std::filesystem;
+using rtl::MemoryRequest;
+
+const sc_core::sc_time kPeriod(10, sc_core::SC_NS);
+
+class Lines : public testing::Test {
+ protected:
+  Lines() : file_(fs::temp_directory_path() / ("deburr_lines_" + std::to_string(::getpid()))) {}
+  ~Lines() override { fs::remove(file_); }
+  std::string bytes() const {
+    std::ifstream in(file_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  fs::path file_;
+};
+
+struct Bench {
+  rtl::ClockDomain clock{"clock", kPeriod};
+  Driver<MemoryRequest> driver{"driver", clock};
+  rtl::MemoryPort port;
+  Sink<rtl::MemoryResponse> sink{"sink", clock};
+  rtl::Link<MemoryRequest> requests;
+  rtl::Link<rtl::MemoryResponse> responses;
+  MemoryModel memory{"memory", kPeriod};
+
+  explicit Bench(const rtl::MemoryPortParameters& p)
+      : port("port", clock, p),
+        requests("requests", 2, rtl::request_shape(p, 64, 32)),
+        responses("responses", 2, rtl::response_shape(p, 64, 32)) {
+    driver.beats_out(requests);
+    port.requests_in(requests);
+    port.responses_out(responses);
+    sink.beats_in(responses);
+    port.memory.bind(memory.ports);
+  }
+};
+
+rtl::MemoryPortParameters bursts() {
+  rtl::MemoryPortParameters p;
+  p.max_burst_lines = 2;
+  return p;
+}
+
+void send(Bench& bench) {
+  MemoryRequest read;
+  read.address = 0x1000;
+  read.lines = 2;
+  MemoryRequest write;
+  write.address = 0x40;
+  write.write = true;
+  write.byte_mask = 0xFF;
+  bench.driver.send(read);
+  bench.driver.send(write);
+}
+
+TEST_F(Lines, AreRecordsWithTheClockOfTheirRequest) {
+  Bench bench(bursts());
+  send(bench);
+  LineTrace trace(file_, {"geometric", 148.5, TraceFormat::kText, false});
+  bench.clock.run(100);
+  trace.finish();
+  EXPECT_EQ(trace.records(), 3u);
+  // Pushed in 0 and 1, so sent in 1 and 2.
+  EXPECT_EQ(bytes(),
+            "# deburr-lines 1\n# engine geometric\n# clock_mhz 148.5\n# port 0 memory 64 port\n"
+            "# clock event address bytes port\n"
+            "1 read 0x00001000 64 0\n1 read 0x00001040 64 0\n2 write 0x00000040 8 0\n# end 3\n");
+}
+
+TEST_F(Lines, AreBytesAsDocumented) {
+  Bench bench(bursts());
+  send(bench);
+  {
+    LineTrace trace(file_, {"geometric", 148.5, TraceFormat::kBinary, false});
+    bench.clock.run(100);
+    trace.finish();
+  }
+  const std::string all = bytes();
+  ASSERT_EQ(all.size(), 64u + 64u + 3 * 24u);
+  EXPECT_EQ(all.substr(0, 8), "DEBURRLT");
+  const auto u32 = [&](std::size_t at) { return get_little_endian<std::uint32_t>(all, at); };
+  EXPECT_EQ(u32(8), 1u);
+  EXPECT_EQ(u32(12), 128u);
+  EXPECT_EQ(u32(16), 24u);
+  EXPECT_EQ(u32(20), 1u);
+  EXPECT_EQ(get_little_endian<std::uint64_t>(all, 24), 3u);
+  EXPECT_EQ(get_double(all, 32), 148.5);
+  EXPECT_STREQ(all.substr(40, 24).c_str(), "geometric");
+  EXPECT_EQ(u32(64), 64u);
+  EXPECT_EQ(u32(68), 0u);
+  EXPECT_STREQ(all.substr(72, 56).c_str(), "port");
+  const std::size_t last = 128 + 2 * 24;
+  EXPECT_EQ(get_little_endian<std::uint64_t>(all, last), 2u);
+  EXPECT_EQ(get_little_endian<std::uint64_t>(all, last + 8), 0x40u);
+  EXPECT_EQ(u32(last + 16), 8u);
+  EXPECT_EQ(all[last + 20], 1);
+  EXPECT_EQ(all.substr(last + 21), std::string(3, '\0'));
+}
+
+TEST_F(Lines, OfNobodyAreRefused) {
+  EXPECT_THROW(LineTrace(file_, {}), spec::ConfigError);
+  EXPECT_FALSE(fs::exists(file_));
+  Bench bench(bursts());
+  EXPECT_THROW(LineTrace(file_, {"geometric", 100, TraceFormat::kText, true}), spec::ConfigError)
+      << "no cache";
+  send(bench);
+  { const LineTrace dropped(file_, {}); }
+  bench.clock.run(100);
+  EXPECT_FALSE(fs::exists(file_));
+}
+
+}  // namespace
+}  // namespace deburr::tb
