@@ -274,6 +274,8 @@ void add_sweep(CLI::App& app, CommandLine& line) {
                    : fmt::format("'{}' is no multiple of {} in {}..4096", text, Evolution::kGroup,
                                  Evolution::kLeast);
       });
+  searching->add_flag("!--no-guess", sought->search.guess,
+                      "Evaluate every generation of NSGA-II, instead of guessing most of them");
   searching->add_option("--seed", sought->search.seed, "The same one asks for the same points")
       ->capture_default_str();
   searching

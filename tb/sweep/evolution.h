@@ -35,8 +35,9 @@ class Evolution {
   virtual std::vector<Genes> children(const std::vector<Individual>& parents,
                                       const std::vector<std::uint32_t>& sizes,
                                       std::uint32_t seed) = 0;
-  // The indices of the best so many: by rank, then by crowding.
-  virtual std::vector<std::size_t> best(const std::vector<Individual>& all, std::size_t number) = 0;
+  // The indices of the best so many, all of them where there are no more: by rank, of the last rank
+  // by crowding. Empty where pagmo refuses.
+  virtual std::vector<std::size_t> best(const std::vector<Costs>& all, std::size_t number) = 0;
   virtual std::string error() const = 0;
 };
 

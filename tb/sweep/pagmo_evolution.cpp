@@ -76,12 +76,9 @@ class PagmoEvolution final : public Evolution {
     }
   }
 
-  std::vector<std::size_t> best(const std::vector<Individual>& all, std::size_t number) override {
+  std::vector<std::size_t> best(const std::vector<Costs>& all, std::size_t number) override {
     try {
-      std::vector<pagmo::vector_double> costs;
-      costs.reserve(all.size());
-      for (const Individual& each : all) costs.push_back(each.costs);
-      return pagmo::select_best_N_mo(costs, number);
+      return pagmo::select_best_N_mo(all, number);
     } catch (const std::exception& problem) {
       error_ = problem.what();
       return {};

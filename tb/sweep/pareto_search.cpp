@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <unordered_set>
 #include <utility>
 
@@ -16,6 +17,10 @@ namespace {
 
 constexpr std::size_t kTriesOfAChild = 32;    // mutations until it is new
 constexpr std::size_t kTriesAtRandom = 1000;  // draws until one is new
+constexpr std::size_t kGuessedPopulation = 64;
+constexpr int kGuessedGenerations = 20;
+constexpr std::size_t kMostKnown = 1000;  // that a guess is made from: the best ones
+constexpr double kNoPoint = 1e3;          // guessed cost of what is no point
 
 class Search {
  public:
@@ -24,13 +29,13 @@ class Search {
         settings_(settings),
         evaluate_(evaluate),
         random_(settings.seed, "pareto search") {
-    for (const SearchSpace::Axis& axis : space.axes) sizes_.push_back(axis.size);
+    for (const SearchAxis& axis : space.axes) sizes_.push_back(axis.size);
   }
 
   std::vector<Individual> run() {
     ask(drawn());
     while (all_.size() < settings_.runs)
-      if (ask(bred()) == 0 && ask(drawn()) == 0) break;
+      if (ask(settings_.guess ? guessed() : bred()) == 0 && ask(drawn()) == 0) break;
     return std::move(all_);
   }
 
@@ -57,15 +62,7 @@ class Search {
 
   std::vector<Candidate> bred() {
     std::vector<Candidate> generation;
-    std::vector<Individual> parents = best(std::min(settings_.population, all_.size()));
-    // NSGA-II wants whole groups; where there are too few points, the first ones fill up.
-    for (std::size_t i = 0;
-         parents.size() < Evolution::kLeast || parents.size() % Evolution::kGroup != 0; ++i)
-      parents.push_back(Individual(parents[i]));
-    const std::vector<Genes> children =
-        evolution().children(parents, sizes_, static_cast<std::uint32_t>(random_.next() >> 32));
-    if (children.empty()) throw spec::ConfigError("pagmo: " + evolution().error());
-    for (Genes genes : children) {
+    for (Genes genes : children_of(best(all_, settings_.population))) {
       bool taken = take(generation, genes);
       for (std::size_t i = 0; i < kTriesOfAChild && !taken; ++i) {
         mutate(genes);
@@ -75,11 +72,62 @@ class Search {
     return generation;
   }
 
-  std::vector<Individual> best(std::size_t number) {
-    std::vector<Individual> parents;
-    for (const std::size_t i : evolution().best(all_, number)) parents.push_back(all_[i]);
-    if (parents.empty()) throw spec::ConfigError("pagmo: " + evolution().error());
-    return parents;
+  std::vector<Candidate> guessed() {
+    const std::vector<Individual> known = best(all_, kMostKnown);
+    const Surrogate surrogate(space_.axes, known);
+    std::vector<Individual> pool = known;
+    for (std::size_t i = 0; i < known.size(); ++i) pool[i].costs = surrogate.known()[i];
+    std::set<Genes> seen;
+    for (const Individual& each : all_) seen.insert(each.genes);
+    std::vector<Individual> parents = best(pool, kGuessedPopulation);
+    for (int i = 0; i < kGuessedGenerations; ++i) {
+      for (const Genes& genes : children_of(parents)) {
+        if (!seen.insert(genes).second) continue;
+        const std::optional<std::string> name = space_.name(genes);
+        Individual child{genes, Costs(known.front().costs.size(), kNoPoint)};
+        if (name && !names_.contains(*name)) child.costs = surrogate.predict(genes);
+        parents.push_back(child);
+        pool.push_back(std::move(child));
+      }
+      parents = best(parents, kGuessedPopulation);
+    }
+    // Those that nobody has evaluated come behind `known` in the pool.
+    std::vector<Candidate> generation;
+    for (std::size_t number = settings_.population; generation.size() < settings_.population;
+         number *= 2) {
+      for (const std::size_t i : evolution().best(costs_of(pool), number))
+        if (generation.size() < settings_.population && i >= known.size() &&
+            pool[i].costs.front() < kNoPoint)
+          take(generation, pool[i].genes);
+      if (number >= pool.size()) break;
+    }
+    return generation;
+  }
+
+  // NSGA-II wants whole groups; where there are too few parents, the first ones fill up.
+  std::vector<Genes> children_of(std::vector<Individual> parents) {
+    for (std::size_t i = 0;
+         parents.size() < Evolution::kLeast || parents.size() % Evolution::kGroup != 0; ++i)
+      parents.push_back(Individual(parents[i]));
+    std::vector<Genes> children =
+        evolution().children(parents, sizes_, static_cast<std::uint32_t>(random_.next() >> 32));
+    if (children.empty()) throw spec::ConfigError("pagmo: " + evolution().error());
+    return children;
+  }
+
+  static std::vector<Costs> costs_of(const std::vector<Individual>& all) {
+    std::vector<Costs> costs;
+    costs.reserve(all.size());
+    for (const Individual& each : all) costs.push_back(each.costs);
+    return costs;
+  }
+
+  static std::vector<Individual> best(const std::vector<Individual>& all, std::size_t number) {
+    if (number >= all.size()) return all;
+    std::vector<Individual> chosen;
+    for (const std::size_t i : evolution().best(costs_of(all), number)) chosen.push_back(all[i]);
+    if (chosen.empty()) throw spec::ConfigError("pagmo: " + evolution().error());
+    return chosen;
   }
 
   // One axis: a step where its values are ordered, any other value where not.

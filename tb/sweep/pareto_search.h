@@ -2,9 +2,11 @@
 // Multi-objective search with a budget of evaluations: which points of a discrete space are asked
 // for next. It knows nothing of what a point is.
 //
-// NSGA-II breeds each generation from the best of all points so far, not of the last generation:
-// where every evaluation is a simulation, none is forgotten. What it breeds again is mutated until
-// it is new, since asking twice tells nothing.
+// After a first generation drawn at random, NSGA-II breeds on a guess of the costs (surrogate.h)
+// for many generations, from the best of all points so far; of what it comes upon the best points
+// that are new are evaluated, and the guess is made again. Without the guess each generation of
+// NSGA-II is evaluated, and what it breeds again is mutated until it is new, since asking twice
+// tells nothing.
 #pragma once
 
 #include <cstddef>
@@ -15,23 +17,21 @@
 #include <vector>
 
 #include "tb/sweep/evolution.h"
+#include "tb/sweep/surrogate.h"
 
 namespace deburr::tb {
 
 struct SearchSpace {
-  struct Axis {
-    std::uint32_t size = 1;
-    bool ordered = false;  // neighbours are alike: numbers
-  };
-  std::vector<Axis> axes;
+  std::vector<SearchAxis> axes;
   // What a point is called; none: it is no point (a constraint). Points of one name are the same.
   std::function<std::optional<std::string>(const Genes&)> name;
 };
 
 struct SearchSettings {
-  std::uint64_t runs = 100;  // points that are evaluated, at most
-  std::size_t population = 16;
+  std::uint64_t runs = 100;     // points that are evaluated, at most
+  std::size_t population = 12;  // points that are evaluated at a time
   std::uint64_t seed = 1;
+  bool guess = true;
 };
 
 struct Candidate {

@@ -132,7 +132,7 @@ class SweepSearch {
       if (!known->second) return std::nullopt;
       return known->second->name;
     };
-    search_pareto(space, {runs, settings_.population, seed},
+    search_pareto(space, {runs, settings_.population, seed, settings_.guess},
                   [&](const std::vector<Candidate>& generation) {
                     std::vector<PlannedPoint> points;
                     for (const Candidate& candidate : generation)
