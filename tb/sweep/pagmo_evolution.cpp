@@ -28,7 +28,8 @@ struct Axes {
   }
   std::pair<pagmo::vector_double, pagmo::vector_double> get_bounds() const {
     pagmo::vector_double most;
-    for (const std::uint32_t size : sizes) most.push_back(size - 1.0);
+    // It refuses bounds that leave one value.
+    for (const std::uint32_t size : sizes) most.push_back(std::max(size, 2u) - 1.0);
     return {pagmo::vector_double(sizes.size(), 0.0), most};
   }
   pagmo::vector_double::size_type get_nobj() const { return objectives; }
@@ -66,7 +67,7 @@ class PagmoEvolution final : public Evolution {
       for (std::size_t at = 0; at + sizes.size() <= caught.size(); at += sizes.size()) {
         Genes genes;
         for (std::size_t i = 0; i < sizes.size(); ++i)
-          genes.push_back(static_cast<std::uint32_t>(caught[at + i]));
+          genes.push_back(std::min(static_cast<std::uint32_t>(caught[at + i]), sizes[i] - 1));
         children.push_back(std::move(genes));
       }
       return children;
