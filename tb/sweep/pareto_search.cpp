@@ -33,7 +33,7 @@ class Search {
   }
 
   std::vector<Individual> run() {
-    ask(drawn());
+    if (ask(drawn()) == 0) return {};
     while (all_.size() < settings_.runs)
       if (ask(settings_.guess ? guessed() : bred()) == 0 && ask(drawn()) == 0) break;
     return std::move(all_);

@@ -15,7 +15,7 @@ set_tests_properties(figures PROPERTIES LABELS system TIMEOUT 300
 add_test(NAME smoothing COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/smoothing_test.py" $<TARGET_FILE:deburr>)
 set_tests_properties(smoothing PROPERTIES LABELS system TIMEOUT 300
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
-foreach(class Points Killed)
+foreach(class Points Searched Killed)
   add_test(NAME sweep.${class}
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/sweep_test.py" $<TARGET_FILE:deburr> ${class})
   set_tests_properties(sweep.${class} PROPERTIES LABELS system TIMEOUT 600

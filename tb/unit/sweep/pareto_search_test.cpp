@@ -158,6 +158,13 @@ TEST_P(Ways, EndWhereTheSpaceHasNoMore) {
   EXPECT_THAT(search.asked, SizeIs(12));
 }
 
+TEST_P(Ways, EndAtOnceWhereNothingIsAPoint) {
+  Searched search;
+  search.space.name = [](const Genes&) { return std::optional<std::string>(); };
+  search.run({100, 8, 1, GetParam()});
+  EXPECT_TRUE(search.asked.empty());
+}
+
 TEST_P(Ways, FindMoreOfAFrontThanChance) {
   const std::set<Costs> all = Searched::everything();
   const std::set<Costs> front = front_of(all);
