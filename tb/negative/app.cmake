@@ -11,7 +11,7 @@ foreach(class Faults Registers Blind)
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_faults_test.py" -v ${class})
   list(APPEND APP_NEGATIVE_TESTS app_faults.${class})
 endforeach()
-foreach(class Definitions Surroundings)
+foreach(class Definitions Searches Surroundings)
   add_test(NAME app_sweep.${class}
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_sweep_test.py" -v ${class})
   list(APPEND APP_NEGATIVE_TESTS app_sweep.${class})

@@ -116,6 +116,56 @@ class Definitions(Sweeps):
         self.expect(2, "sweep", "s.yaml", "polish", says="polish")
 
 
+class Searches(Sweeps):
+    GOALS = "objectives: {minimise: [cycles, memory_bits]}\n"
+
+    def refuse_search(self, text, *says, options=()):
+        self.write("s.yaml", text)
+        self.expect(2, "search", "s.yaml", *options, says=says)
+        self.assertFalse(os.path.exists(self.path("out/points")))
+
+    def test_what_cannot_be_searched(self):
+        self.refuse_search(BASE + AXES, "a search wants two objectives at least (0 given)")
+        self.refuse_search(BASE + AXES + "objectives: {minimise: [cycles]}\n", "(1 given)")
+        self.refuse_search(BASE + AXES + self.GOALS + "sample: {random: 3}\n", "leave out 'sample'")
+        self.refuse_search(BASE + "points: [{memory.latency: 50}]\n" + self.GOALS,
+                           "a search chooses among 'axes'")
+        self.refuse_search(BASE + AXES + self.GOALS + "constraints: [memory.latency > 60]\n",
+                           "no point was found", "'memory.latency > 60' excludes")
+        self.refuse_search(BASE + AXES + self.GOALS.replace(
+            "]}", "], for_each: [memory.latency, texture.cache.ways]}"), "nothing is left to search")
+
+    def test_budgets(self):
+        text = BASE + AXES + self.GOALS.replace("]}", "], for_each: [memory.latency]}")
+        self.refuse_search(text, "--runs 12 leave 6 for each of 2 fronts", "population of 8",
+                           options=("--runs", "12", "--population", "8"))
+        self.write("s.yaml", text)
+        for option, value in (("--runs", "7"), ("--runs", "many"), ("--population", "10"),
+                              ("--population", "4")):
+            self.expect(2, "search", "s.yaml", option, value, says=option)
+
+    def test_unknown_metric(self):
+        self.write("s.yaml", BASE + AXES + "metrics: {clocks: cicles, bits: memory_bits.total.physical}\n"
+                   "objectives: {minimise: [clocks, bits]}\n")
+        self.expect(2, "search", "s.yaml", "--runs", "8",
+                    says="metric 'clocks': no result has the key 'cicles': did you mean 'cycles'")
+
+    def test_nothing_there_and_something_else(self):
+        self.write("s.yaml", BASE + AXES + self.GOALS)
+        self.expect(5, "search", "s.yaml", "status", says="there is no plan in 'out/searches/s'")
+        self.expect(0, "search", "s.yaml", "--runs", "8")
+        self.write("s.yaml", BASE + AXES.replace("60", "70") + self.GOALS)
+        self.expect(2, "search", "s.yaml", "collect", says="search again")
+
+    def test_full_disk(self):
+        self.write("s.yaml", BASE + AXES + self.GOALS)
+        limit = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))}
+        done = self.expect(3, "search", "s.yaml", "--runs", "8", "-j1", says=("0 done", "missing"),
+                           **limit)
+        self.assertIn("cannot write", done.stderr)
+        self.expect(0, "search", "s.yaml", "--runs", "8", says="4 done (4 in this run)")
+
+
 class Surroundings(Sweeps):
     def test_unknown_metric(self):
         self.write("s.yaml", BASE + AXES + "metrics: {clocks: cicles}\n")

@@ -62,6 +62,17 @@ double number_of(const nlohmann::json* value) {
   return value->is_string() && *value == "inf" ? std::numeric_limits<double>::infinity() : kNone;
 }
 
+nlohmann::json result_in(const fs::path& directory) {
+  const fs::path file = directory / "result.json";
+  auto result =
+      nlohmann::json::parse(read_file(file, kMaxResultBytes), nullptr, /*exceptions=*/false);
+  if (!result.is_object() || result.value("schema", 0) != kResultSchema)
+    throw spec::FileError(fmt::format(
+        "'{}' is not a result of this version: remove its directory, and run the sweep again",
+        file.string()));
+  return result;
+}
+
 void add_keys(const nlohmann::json& node, const std::string& path, std::vector<std::string>& keys) {
   if (path == "meaning" || path == "latency.histogram") return;
   if (!node.is_object()) {
@@ -112,13 +123,7 @@ class Collector {
   }
 
   void read(const fs::path& directory, CollectedPoint& point) {
-    const fs::path file = directory / "result.json";
-    const auto result =
-        nlohmann::json::parse(read_file(file, kMaxResultBytes), nullptr, /*exceptions=*/false);
-    if (!result.is_object() || result.value("schema", 0) != kResultSchema)
-      throw spec::FileError(fmt::format(
-          "'{}' is not a result of this version: remove its directory, and run the sweep again",
-          file.string()));
+    const nlohmann::json result = result_in(directory);
     if (result.value("verdict", "") == "fail") {
       point.state = PointState::kFailed;
       point.failure = result.value("reason", "");
@@ -381,6 +386,15 @@ std::string page_of(const Json& json) {
 
 Collection collect(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place) {
   return Collector(sweep, plan, place).run();
+}
+
+std::vector<double> values_of(const SweepDefinition& sweep, const fs::path& directory) {
+  const nlohmann::json result = result_in(directory);
+  std::vector<double> values;
+  if (result.value("verdict", "") == "fail") return values;
+  for (const Metric& metric : sweep.metrics)
+    values.push_back(number_of(value_of(result, metric.key)));
+  return values;
 }
 
 void write_collection(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place,

@@ -45,6 +45,10 @@ struct Collection {
 // FileError when a result cannot be read; ConfigError for a metric that no result has.
 Collection collect(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place);
 
+// The metrics of one point that is done, as CollectedPoint::values; empty where it failed.
+// FileError as collect().
+std::vector<double> values_of(const SweepDefinition& sweep, const std::filesystem::path& directory);
+
 // collected.csv, collected.json and index.html in the sweep's directory.
 void write_collection(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place,
                       const Collection& collection);

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "spec/error.h"
 #include "tb/results/interrupt.h"
@@ -52,17 +53,17 @@ std::string ninja_value(const std::string& value) {
   return text;
 }
 
-}  // namespace
+class Sorter {
+ public:
+  Sorter(const SweepPlace& place, bool retry) : place_(place), retry_(retry) {}
 
-Pending find_pending(const Plan&, const SweepPlace& place, bool retry) {
-  Pending pending;
-  for_each_point(points_file(place.directory), [&](const PlannedPoint& point) {
-    const fs::path directory = point_directory(place.points(), point.name);
+  void take(const PlannedPoint& point) {
+    const fs::path directory = point_directory(place_.points(), point.name);
     const PointState state = state_of(directory);
     if (state == PointState::kDone) {
-      ++pending.done;
-    } else if (state == PointState::kFailed && !retry && !read_failure(directory).again) {
-      ++pending.failed;
+      ++pending_.done;
+    } else if (state == PointState::kFailed && !retry_ && !read_failure(directory).again) {
+      ++pending_.failed;
     } else {
       if (state == PointState::kFailed) {
         // Its result, if it has one, does not count.
@@ -70,12 +71,36 @@ Pending find_pending(const Plan&, const SweepPlace& place, bool retry) {
         fs::remove(directory / "result.json", error);
         remove_failure(directory);
       }
-      pending.points.push_back(point);
+      pending_.points.push_back(point);
     }
-  });
-  std::stable_sort(pending.points.begin(), pending.points.end(),
-                   [](const PlannedPoint& a, const PlannedPoint& b) { return a.input < b.input; });
-  return pending;
+  }
+
+  Pending sorted() {
+    std::stable_sort(
+        pending_.points.begin(), pending_.points.end(),
+        [](const PlannedPoint& a, const PlannedPoint& b) { return a.input < b.input; });
+    return std::move(pending_);
+  }
+
+ private:
+  const SweepPlace& place_;
+  bool retry_;
+  Pending pending_;
+};
+
+}  // namespace
+
+Pending find_pending(const SweepPlace& place, bool retry) {
+  Sorter sorter(place, retry);
+  for_each_point(points_file(place.directory),
+                 [&](const PlannedPoint& point) { sorter.take(point); });
+  return sorter.sorted();
+}
+
+Pending find_pending(const SweepPlace& place, const std::vector<PlannedPoint>& points, bool retry) {
+  Sorter sorter(place, retry);
+  for (const PlannedPoint& point : points) sorter.take(point);
+  return sorter.sorted();
 }
 
 SweepLock::SweepLock(const fs::path& sweep) {
@@ -149,7 +174,7 @@ int run_ninja(const SweepPlace& place, std::uint64_t points, const RunSettings& 
              static_cast<char*>(nullptr));
     ::_exit(kNoSuchProgram);
   }
-  Progress progress("sweep", points, "point", settings.quiet);
+  Progress progress("sweep", points, "point", settings.quiet || settings.watch != nullptr);
   int status = 0;
   for (bool told = false;;) {
     const pid_t ended = ::waitpid(ninja, &status, WNOHANG);
@@ -163,6 +188,7 @@ int run_ninja(const SweepPlace& place, std::uint64_t points, const RunSettings& 
     std::error_code ignored;
     const auto done = fs::file_size(progress_file(place.directory), ignored);
     if (!ignored) progress.update(done);
+    if (!ignored && settings.watch) settings.watch(done);
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   if (interrupted()) return kInterruptedExit;

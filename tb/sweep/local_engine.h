@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,9 @@ struct Pending {
   std::vector<PlannedPoint> points;    // to be run, those with the same input side by side
 };
 // `retry`: what failed is run again whatever the reason.
-Pending find_pending(const Plan& plan, const SweepPlace& place, bool retry);
+Pending find_pending(const SweepPlace& place, bool retry);
+// The same of these points.
+Pending find_pending(const SweepPlace& place, const std::vector<PlannedPoint>& points, bool retry);
 
 // Holds a sweep's directory while it is run. FileError when another process does.
 class SweepLock {
@@ -36,6 +39,8 @@ struct RunSettings {
   std::string program;  // deburr, as a path
   unsigned jobs = 1;
   bool quiet = false;
+  // Called now and then with how many points have ended, instead of a progress bar.
+  std::function<void(std::uint64_t)> watch = nullptr;
 };
 
 // Writes the points as FOLDER/pending.jsonl and their chunks as FOLDER/task_N.ninja, at most `most`

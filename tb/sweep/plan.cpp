@@ -12,7 +12,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
-#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -97,28 +96,11 @@ Json to_json(const Plan& plan) {
   return json;
 }
 
-Plan skeleton(const SweepDefinition& sweep) {
-  Plan plan;
-  plan.engine = sweep.engine;
-  plan.title = sweep.title.empty() ? sweep.name : sweep.title;
-  plan.file = sweep.file.string();
-  plan.base = sweep.base;
-  plan.reports = sweep.reports;
-  plan.chunk = sweep.chunk;
-  for (const Axis& axis : sweep.axes) {
-    PlanAxis planned{axis.name, axis.parameters, {}};
-    if (axis.parameters != std::vector<std::string>{axis.name})
-      for (const Choice& choice : axis.choices) planned.choices[choice.label] = choice.values;
-    plan.axes.push_back(std::move(planned));
-  }
-  return plan;
-}
-
 // Expands and judges every sample.
 class Planner {
  public:
   Planner(const SweepDefinition& sweep, Plan& plan, LineFile& lines)
-      : sweep_(sweep), plan_(plan), lines_(lines), excluded_(sweep.constraints.size(), 0) {}
+      : sweep_(sweep), plan_(plan), lines_(lines), judge_(sweep, plan) {}
 
   void run() {
     Progress progress("planning", sample_bound(sweep_), "point");
@@ -126,68 +108,10 @@ class Planner {
       progress.update(++seen_);
       return take(sample);
     });
-    if (plan_.points == 0) refuse_nothing_left();
-    plan_.inputs = inputs_.size();
-    say_what_is_left_out();
-    for (const auto& [file, digest] : files_.fingerprints()) plan_.files[file.string()] = digest;
-  }
-
- private:
-  bool take(const Sample& sample) {
-    PointEngine point(plan_.engine, plan_.settings_of(sample));
-    std::optional<std::string> refusal;
-    try {
-      point.bound.resolve();
-    } catch (const ConfigError& error) {
-      refusal = error.what();
-    }
-    // What a constraint leaves out need not make sense.
-    for (std::size_t i = 0; i < sweep_.constraints.size(); ++i)
-      if (!sweep_.constraints[i].holds(point.bound.set)) {
-        ++excluded_[i];
-        return false;
-      }
-    if (refusal) {
-      if (!sweep_.skip_refused)
-        throw ConfigError(fmt::format(
-            "{}: the engine refuses the point {}: {}; leave such points out with a constraint, or "
-            "all that are refused with 'refused: skip'",
-            plan_.file, in_words(plan_, sample), headline(*refusal)));
-      if (refused_++ == 0) first_refusal_ = in_words(plan_, sample) + ": " + headline(*refusal);
-      return false;
-    }
-    PlannedPoint planned{point_name(point.bound, files_), 0, sample};
-    if (!names_.insert(planned.name).second) {
-      ++twice_;
-      return false;
-    }
-    planned.input = inputs_.emplace(sha256(input_name(point.bound)), inputs_.size()).first->second;
-    lines_.add(line_of(planned));
-    ++plan_.points;
-    return true;
-  }
-
-  [[noreturn]] void refuse_nothing_left() const {
-    std::string why;
-    for (std::size_t i = 0; i < excluded_.size(); ++i)
-      if (excluded_[i] > 0)
-        why += fmt::format("{}'{}' excludes {}", why.empty() ? "" : ", of the rest ",
-                           sweep_.constraints[i].text(), grouped(excluded_[i]));
-    if (refused_ > 0)
-      why += fmt::format("{}the engine refuses {}, the first {}", why.empty() ? "" : "; ",
-                         grouped(refused_), first_refusal_);
-    throw ConfigError(
-        fmt::format("{}: no point is left of {}: {}", plan_.file, grouped(seen_), why));
-  }
-
-  void say_what_is_left_out() {
-    for (std::size_t i = 0; i < excluded_.size(); ++i)
-      if (excluded_[i] > 0)
-        plan_.left_out.push_back(fmt::format("{} by the constraint '{}'", grouped(excluded_[i]),
-                                             sweep_.constraints[i].text()));
-    if (refused_ > 0)
-      plan_.left_out.push_back(fmt::format("{} that the engine refuses, the first: {}",
-                                           grouped(refused_), first_refusal_));
+    if (plan_.points == 0)
+      throw ConfigError(fmt::format("{}: no point is left of {}: {}", plan_.file, grouped(seen_),
+                                    judge_.reasons()));
+    judge_.tell(plan_);
     if (twice_ > 0)
       plan_.left_out.push_back(fmt::format("{} that are the same as another one", grouped(twice_)));
     if (sweep_.sampling == SweepSampling::kRandom && plan_.points < sweep_.samples)
@@ -196,15 +120,25 @@ class Planner {
                                            grouped(sweep_.samples), grouped(seen_)));
   }
 
+ private:
+  bool take(const Sample& sample) {
+    const std::optional<PlannedPoint> point = judge_.judge(sample);
+    if (!point) return false;
+    if (!names_.insert(point->name).second) {
+      ++twice_;
+      return false;
+    }
+    lines_.add(line_of(*point));
+    ++plan_.points;
+    return true;
+  }
+
   const SweepDefinition& sweep_;
   Plan& plan_;
   LineFile& lines_;
-  SharedInputs files_;
-  std::uint64_t seen_ = 0, refused_ = 0, twice_ = 0;
-  std::vector<std::uint64_t> excluded_;
-  std::string first_refusal_;
+  PointJudge judge_;
+  std::uint64_t seen_ = 0, twice_ = 0;
   std::unordered_set<std::string> names_;
-  std::unordered_map<std::string, std::uint64_t> inputs_;
 };
 
 // Of the sweep's file, the model, and the files that the plan before said are read.
@@ -243,12 +177,94 @@ std::vector<Setting> Plan::settings_of(const Sample& sample) const {
   return settings;
 }
 
+PointJudge::PointJudge(const SweepDefinition& sweep, const Plan& plan)
+    : sweep_(sweep), plan_(plan), excluded_(sweep.constraints.size(), 0) {}
+
+std::optional<PlannedPoint> PointJudge::judge(const Sample& sample) {
+  PointEngine point(plan_.engine, plan_.settings_of(sample));
+  std::optional<std::string> refusal;
+  try {
+    point.bound.resolve();
+  } catch (const ConfigError& error) {
+    refusal = error.what();
+  }
+  // What a constraint leaves out need not make sense.
+  for (std::size_t i = 0; i < sweep_.constraints.size(); ++i)
+    if (!sweep_.constraints[i].holds(point.bound.set)) {
+      ++excluded_[i];
+      return std::nullopt;
+    }
+  if (refusal) {
+    if (!sweep_.skip_refused)
+      throw ConfigError(fmt::format(
+          "{}: the engine refuses the point {}: {}; leave such points out with a constraint, or "
+          "all that are refused with 'refused: skip'",
+          plan_.file, in_words(plan_, sample), headline(*refusal)));
+    if (refused_++ == 0) first_refusal_ = in_words(plan_, sample) + ": " + headline(*refusal);
+    return std::nullopt;
+  }
+  PlannedPoint planned{point_name(point.bound, files_), 0, sample};
+  planned.input = inputs_.emplace(sha256(input_name(point.bound)), inputs_.size()).first->second;
+  return planned;
+}
+
+void PointJudge::tell(Plan& plan) const {
+  plan.inputs = inputs_.size();
+  for (const auto& [file, digest] : files_.fingerprints()) plan.files[file.string()] = digest;
+  plan.left_out.clear();
+  for (std::size_t i = 0; i < excluded_.size(); ++i)
+    if (excluded_[i] > 0)
+      plan.left_out.push_back(fmt::format("{} by the constraint '{}'", grouped(excluded_[i]),
+                                          sweep_.constraints[i].text()));
+  if (refused_ > 0)
+    plan.left_out.push_back(fmt::format("{} that the engine refuses, the first: {}",
+                                        grouped(refused_), first_refusal_));
+}
+
+std::string PointJudge::reasons() const {
+  std::string why;
+  for (std::size_t i = 0; i < excluded_.size(); ++i)
+    if (excluded_[i] > 0)
+      why += fmt::format("{}'{}' excludes {}", why.empty() ? "" : ", of the rest ",
+                         sweep_.constraints[i].text(), grouped(excluded_[i]));
+  if (refused_ > 0)
+    why += fmt::format("{}the engine refuses {}, the first {}", why.empty() ? "" : "; ",
+                       grouped(refused_), first_refusal_);
+  return why;
+}
+
+Plan plan_without_points(const SweepDefinition& sweep) {
+  Plan plan;
+  plan.engine = sweep.engine;
+  plan.title = sweep.title.empty() ? sweep.name : sweep.title;
+  plan.file = sweep.file.string();
+  plan.base = sweep.base;
+  plan.reports = sweep.reports;
+  plan.chunk = sweep.chunk;
+  for (const Axis& axis : sweep.axes) {
+    PlanAxis planned{axis.name, axis.parameters, {}};
+    if (axis.parameters != std::vector<std::string>{axis.name})
+      for (const Choice& choice : axis.choices) planned.choices[choice.label] = choice.values;
+    plan.axes.push_back(std::move(planned));
+  }
+  return plan;
+}
+
+bool is_current(const Plan& plan, const SweepDefinition& sweep) {
+  return plan.key == key_of(sweep, plan.files);
+}
+
+void write_plan(Plan& plan, const SweepDefinition& sweep, const SweepPlace& place) {
+  plan.key = key_of(sweep, plan.files);
+  write_file_atomically(plan_file(place.directory), to_json(plan).dump(1) + "\n");
+}
+
 Plan make_plan(const SweepDefinition& sweep, const SweepPlace& place) {
   std::error_code error;
   if (fs::exists(plan_file(place.directory), error)) {
     try {
       Plan before = read_plan(place.directory);
-      if (before.key == key_of(sweep, before.files)) return before;
+      if (is_current(before, sweep)) return before;
     } catch (const FileError&) {  // made anew
     }
   }
@@ -265,13 +281,12 @@ Plan make_plan(const SweepDefinition& sweep, const SweepPlace& place) {
   if (error)
     throw FileError(fmt::format("cannot make the folder '{}': {}; choose another with --out",
                                 place.directory.string(), error.message()));
-  Plan plan = skeleton(sweep);
+  Plan plan = plan_without_points(sweep);
   fs::remove(plan_file(place.directory), error);  // it would name points of another
   LineFile lines(points_file(place.directory));
   Planner(sweep, plan, lines).run();
   lines.finish();
-  plan.key = key_of(sweep, plan.files);
-  write_file_atomically(plan_file(place.directory), to_json(plan).dump(1) + "\n");
+  write_plan(plan, sweep, place);
   return plan;
 }
 

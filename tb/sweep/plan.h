@@ -12,9 +12,12 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
+#include "tb/results/shared_inputs.h"
 #include "tb/sweep/definition.h"
 #include "tb/sweep/point.h"
 #include "tb/sweep/sampling.h"
@@ -61,8 +64,37 @@ struct Plan {
 // Expands the definition into the place, unless the plan there was made from the same. ConfigError
 // for too many points, for none, and for points that the engine refuses.
 Plan make_plan(const SweepDefinition& sweep, const SweepPlace& place);
+// A plan of the definition without its points.
+Plan plan_without_points(const SweepDefinition& sweep);
+// Says what the plan was made from, and puts it into its place, where its points are already.
+void write_plan(Plan& plan, const SweepDefinition& sweep, const SweepPlace& place);
+// Whether it was made from this definition, this model and the same content of files.
+bool is_current(const Plan& plan, const SweepDefinition& sweep);
 // FileError where there is none.
 Plan read_plan(const std::filesystem::path& directory);
+
+// Tells which samples are points, names these, and counts the others.
+class PointJudge {
+ public:
+  // Both must outlive it.
+  PointJudge(const SweepDefinition& sweep, const Plan& plan);
+  // None for what a constraint or the engine leaves out. ConfigError for what the engine refuses
+  // where the sweep does not say `refused: skip`.
+  std::optional<PlannedPoint> judge(const Sample& sample);
+  // For the plan: files that the points so far read, how many inputs, what was left out.
+  void tell(Plan& plan) const;
+  // Why no sample was a point.
+  std::string reasons() const;
+
+ private:
+  const SweepDefinition& sweep_;
+  const Plan& plan_;
+  SharedInputs files_;
+  std::uint64_t refused_ = 0;
+  std::vector<std::uint64_t> excluded_;  // by each constraint
+  std::string first_refusal_;
+  std::unordered_map<std::string, std::uint64_t> inputs_;
+};
 
 std::filesystem::path points_file(const std::filesystem::path& directory);
 std::string line_of(const PlannedPoint& point);

@@ -20,12 +20,15 @@
 #include <set>
 #include <sstream>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "spec/error.h"
 #include "tb/results/file.h"
 #include "tb/results/headline.h"
+#include "tb/results/interrupt.h"
 #include "tb/results/parameter_set.h"
+#include "tb/results/report.h"
 #include "tb/results/shell.h"
 #include "tb/scene/image_io.h"
 
@@ -42,6 +45,7 @@ constexpr std::size_t kMaxBytes = 1 << 20;
 constexpr auto kPatience = std::chrono::seconds(20);
 constexpr int kNoSuchProgram = 127;
 constexpr std::uint64_t kMostTasks = 1000;
+constexpr int kLooksASecond = 10;  // for Ctrl-C, while a job is waited for
 
 fs::path folder_of(const SweepPlace& place) { return place.directory / "slurm"; }
 fs::path job_file(const SweepPlace& place) { return folder_of(place) / "job.json"; }
@@ -273,6 +277,27 @@ SlurmStatus ask_slurm(const SlurmJob& job) {
           "node {0} is {1}: scontrol update NodeName={0} State=RESUME", row[0], row[1]));
   }
   return status;
+}
+
+void refuse_while_submitted(const SweepPlace& place) {
+  const auto job = submitted_job(place);
+  if (!job) return;
+  const SlurmStatus slurm = ask_slurm(*job);
+  if (slurm.queued + slurm.running > 0)
+    throw FileError(fmt::format(
+        "job {0} still has {1} tasks of this sweep: wait for it, or end it with 'scancel {0}'",
+        job->id, grouped(slurm.queued + slurm.running)));
+  forget_job(place);
+}
+
+int wait_for(const SlurmJob& job) {
+  for (;;) {
+    const SlurmStatus slurm = ask_slurm(job);
+    if (slurm.queued + slurm.running == 0) return 0;
+    for (int i = 0; i < kLooksASecond && !interrupted(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1000 / kLooksASecond));
+    if (interrupted()) return kInterruptedExit;
+  }
 }
 
 }  // namespace deburr::tb

@@ -50,5 +50,10 @@ struct SlurmStatus {
 };
 // FileError as submit().
 SlurmStatus ask_slurm(const SlurmJob& job);
+// What is queued would be run twice: FileError while the job that was submitted last has tasks; one
+// that is over is forgotten.
+void refuse_while_submitted(const SweepPlace& place);
+// Returns when none of its tasks is queued or running any more, or kInterruptedExit.
+int wait_for(const SlurmJob& job);
 
 }  // namespace deburr::tb

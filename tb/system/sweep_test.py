@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Sweeps: points are named by what they depend on, run once, survive kill -9, and are collected.
+"""Sweeps and searches: points are named by what they depend on, run once, survive kill -9, and are
+collected.
 
 usage: sweep_test.py DEBURR [CLASS]
 """
@@ -41,22 +42,26 @@ class SweepTest(unittest.TestCase):
         with open(os.path.join(self.directory, name), "w") as file:
             file.write(text)
 
-    def run_sweep(self, name, *arguments, code=0):
-        done = subprocess.run([DEBURR, "sweep", name, *arguments], cwd=self.directory, text=True,
+    def run_sweep(self, name, *arguments, code=0, command="sweep"):
+        done = subprocess.run([DEBURR, command, name, *arguments], cwd=self.directory, text=True,
                               capture_output=True, timeout=300)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done.stdout.strip().splitlines()[-1]
 
-    def start_sweep(self, name, *arguments):
-        process = subprocess.Popen([DEBURR, "sweep", name, "run", *arguments], cwd=self.directory,
+    def search(self, name, *arguments, code=0):
+        return self.run_sweep(name, *arguments, code=code, command="search")
+
+    def start_sweep(self, name, *arguments, command="sweep"):
+        process = subprocess.Popen([DEBURR, command, name, "run", *arguments], cwd=self.directory,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         return process
 
-    def rows(self, name):
-        self.run_sweep(f"{name}.yaml", "collect")
-        with open(os.path.join(self.directory, f"out/sweeps/{name}/collected.csv")) as file:
+    def rows(self, name, command="sweep"):
+        self.run_sweep(f"{name}.yaml", "collect", command=command)
+        kind = {"sweep": "sweeps", "search": "searches"}[command]
+        with open(os.path.join(self.directory, f"out/{kind}/{name}/collected.csv")) as file:
             return list(csv.DictReader(file))
 
     def results(self):
@@ -205,6 +210,98 @@ sample: {SAMPLE: 8, seed: 3}
         self.assertEqual({n: e[0] for n, e in self.results().items()}, before, "not run again")
         self.run_sweep("fault.yaml", "run", "--retry", code=1)
         self.assertNotEqual({n: e[0] for n, e in self.results().items()}, before)
+
+
+SEARCH = SWEEP.replace("bytes: [1024, 2048, 4096]", "bytes: [1024, 2048, 4096, 8192]").replace(
+    "width: 48, height: 48", "width: 24, height: 24").replace(
+        "  memory.latency:", "  texture.cache.fifo_depth: [4, 16, 64]\n  memory.latency:")
+
+
+class Searched(SweepTest):
+    """48 points, of which a search asks for some."""
+
+    def test_results_are_those_of_the_sweep(self):
+        self.write("wide.yaml", SEARCH)
+        self.assertIn("20 points, 20 done (20 in this run)",
+                      self.search("wide.yaml", "--runs", "20", "-j2"))
+        before = self.results()
+        self.assertEqual(len(before), 20)
+        self.assertIn("20 of 20 points done", self.search("wide.yaml", "status"))
+        self.assertTrue(os.path.exists(os.path.join(self.directory,
+                                                    "out/searches/wide/index.html")))
+        found = self.rows("wide", "search")
+        self.assertEqual({row["point"] for row in found}, set(before))
+        self.assertIn("20 points, 20 done (0 in this run)",
+                      self.search("wide.yaml", "--runs", "20", "-j1"))
+        self.assertEqual(self.rows("wide", "search"), found, "the same points in the same order")
+        self.assertIn("48 done (28 in this run)", self.run_sweep("wide.yaml", "run", "-j2"))
+        self.assertEqual({n: e for n, e in self.results().items() if n in before}, before)
+        # A search of all points finds the whole front; one of less stays on its own points.
+        everything = self.rows("wide")
+        self.assertIn("48 points, 48 done (0 in this run)",
+                      self.search("wide.yaml", "--runs", "90", "--no-guess", "--population", "8"))
+
+        def front(rows):
+            return {row["point"] for row in rows if row["front"] == "1"}
+        self.assertEqual(front(self.rows("wide", "search")), front(everything))
+        values = {row["point"]: (row["cycles"], row["bits"]) for row in everything}
+        self.assertEqual({r["point"]: (r["cycles"], r["bits"]) for r in found},
+                         {r["point"]: values[r["point"]] for r in found})
+
+    def test_it_depends_on_the_seed_alone(self):
+        self.write("wide.yaml", SEARCH)
+        asked = {}
+        for seed, out in (("1", "a"), ("1", "b"), ("2", "a")):
+            self.search("wide.yaml", "--runs", "16", "--seed", seed, "--out", out,
+                        "-j1" if out == "a" else "-j2")
+            with open(os.path.join(self.directory, out, "searches/wide/points.jsonl")) as file:
+                asked[seed + out] = file.read()
+        self.assertEqual(asked["1a"], asked["1b"])
+        self.assertNotEqual(asked["1a"], asked["2a"])
+
+    def test_constraints_and_fronts_of_their_own(self):
+        self.write("wide.yaml", SEARCH.replace(
+            "minimise: [cycles, bits]", "minimise: [cycles, bits], for_each: [memory.latency]")
+            + "constraints: [texture.cache.ways == 1 or texture.cache.bytes > 1024]\n")
+        self.assertIn("17 points, 17 done", self.search("wide.yaml", "--runs", "17"))
+        rows = self.rows("wide", "search")
+        latencies = [row["memory.latency"] for row in rows]
+        self.assertEqual((latencies.count("50"), latencies.count("100")), (9, 8))
+        for row in rows:
+            self.assertTrue(row["texture.cache.ways"] == "1"
+                            or int(row["texture.cache.bytes"]) > 1024)
+
+    def test_failed_points_count_as_the_worst(self):
+        self.write("wide.yaml", SEARCH.replace("axes:", "  run.max_cycles: 700\naxes:"))
+        text = self.search("wide.yaml", "--runs", "16", code=1)
+        self.assertIn("0 missing", text)
+        states = [row["state"] for row in self.rows("wide", "search")]
+        self.assertEqual(len(states), 16)
+        self.assertIn("failed", states)
+
+    def test_stopped_and_gone_on_with(self):
+        self.write("wide.yaml", SEARCH.replace("width: 24, height: 24", "width: 160, height: 160"))
+        for victim in (signal.SIGTERM, signal.SIGKILL):
+            before = len(self.results())
+            process = self.start_sweep("wide.yaml", "--runs", "20", "-j2", command="search")
+            deadline = time.monotonic() + 120
+            while len(self.results()) < before + 3 and time.monotonic() < deadline:
+                time.sleep(0.02)
+            process.send_signal(victim)
+            self.assertEqual(process.wait(), 130 if victim == signal.SIGTERM else -victim)
+            time.sleep(1)  # the workers go with it
+        kept = self.results()
+        self.assertGreaterEqual(len(kept), 6)
+        self.assertIn("points done", self.search("wide.yaml", "status"))
+        self.assertIn("20 points, 20 done", self.search("wide.yaml", "--runs", "20", "-j2"))
+        after = self.results()
+        self.assertEqual(len(after), 20)
+        self.assertEqual({name: after[name] for name in kept}, kept)
+        self.search("wide.yaml", "--runs", "20", "-j2", "--out", "whole")
+        with open(os.path.join(self.directory, "whole/searches/wide/points.jsonl")) as file:
+            whole = file.read()
+        with open(os.path.join(self.directory, "out/searches/wide/points.jsonl")) as file:
+            self.assertEqual(file.read(), whole)
 
 
 class Killed(SweepTest):
