@@ -67,6 +67,13 @@ std::int64_t rounded_in_coordinates(std::int64_t d) {
   return d < 0 ? -((-d + kHalf) >> kAxisFractionBits) : (d + kHalf) >> kAxisFractionBits;
 }
 
+// |P_x x P_y| of components cut to 8 fraction bits.
+std::uint64_t area(const Step& p_x, const Step& p_y) {
+  const auto cut = [](std::int64_t p) { return p < 0 ? -(-p >> 8) : p >> 8; };
+  const std::int64_t product = cut(p_x.s) * cut(p_y.t) - cut(p_x.t) * cut(p_y.s);
+  return static_cast<std::uint64_t>(product < 0 ? -product : product);
+}
+
 std::uint64_t square_of_length(const Magnitudes& u) {
   return std::uint64_t{u.s} * u.s + std::uint64_t{u.t} * u.t;
 }
@@ -106,7 +113,7 @@ Footprint footprint(spec::texture::Axes axes, spec::texture::FootprintRule rule,
     const Magnitudes& each = u[static_cast<std::size_t>(k)];
     return footprint_side(rule, each.s, each.t);
   };
-  return {major, length(major), length((major + count / 2) % count)};
+  return {major, length(major), length((major + count / 2) % count), area(p_x, p_y)};
 }
 
 namespace {
@@ -135,10 +142,10 @@ std::uint32_t interpolated_log2(std::uint32_t y) {
 
 }  // namespace
 
-std::int32_t log2_fixed(spec::texture::Log2Rule rule, std::uint32_t d) {
+std::int32_t log2_fixed(spec::texture::Log2Rule rule, std::uint64_t d) {
   if (d == 0) d = 1;
   const int p = static_cast<int>(std::bit_width(d)) - 1;
-  const auto y = static_cast<std::uint32_t>((std::uint64_t{d} << 12) >> p) - 4096;
+  const auto y = static_cast<std::uint32_t>((d << 12) >> p) - 4096;
   std::uint32_t mantissa = y;
   switch (rule) {
     case spec::texture::Log2Rule::kMitchell:
@@ -154,6 +161,13 @@ std::int32_t log2_fixed(spec::texture::Log2Rule rule, std::uint32_t d) {
       break;
   }
   return (p - 16) * 4096 + static_cast<std::int32_t>(mantissa);
+}
+
+AxisLogarithms axis_logarithms(spec::texture::Axes axes, spec::texture::Log2Rule rule,
+                               const Footprint& footprint) {
+  const std::int32_t d_max = log2_fixed(rule, footprint.d_max);
+  if (axes == spec::texture::Axes::kTwo) return {d_max, log2_fixed(rule, footprint.d_min)};
+  return {d_max, log2_fixed(rule, footprint.area) - d_max};
 }
 
 }  // namespace deburr::golden::texture

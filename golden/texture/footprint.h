@@ -51,8 +51,10 @@ Step candidate_in_coordinates(spec::texture::Axes axes, int k, const Step& d_x, 
 // The axes of the pixel's ellipse as far as K directions show them; lengths in texels of level 0,
 // U16.16.
 struct Footprint {
-  int major = 0;                       // candidate; of equally long ones the first
-  std::uint32_t d_max = 0, d_min = 0;  // its length, and that of the candidate at right angles
+  int major = 0;            // candidate; of equally long ones the first
+  std::uint32_t d_max = 0;  // its length
+  std::uint32_t d_min = 0;  // of two axes: the length of the other
+  std::uint64_t area = 0;   // of the pixel's parallelogram, U30.16: d_max times the minor axis
   friend bool operator==(const Footprint&, const Footprint&) = default;
 };
 
@@ -60,8 +62,15 @@ struct Footprint {
 Footprint footprint(spec::texture::Axes axes, spec::texture::FootprintRule rule, const Step& p_x,
                     const Step& p_y);
 
-// lb d for d in U16.16; S5.12. d = 0 counts as 2^-16. Equation 13.
-std::int32_t log2_fixed(spec::texture::Log2Rule rule, std::uint32_t d);
+// lb d for d with 16 fraction bits, below 2^47; S5.12. d = 0 counts as 2^-16. Equation 13.
+std::int32_t log2_fixed(spec::texture::Log2Rule rule, std::uint64_t d);
+
+// Logarithms of the major and of the minor axis, S5.12 and S6.12.
+struct AxisLogarithms {
+  std::int32_t d_max = 0, d_min = 0;
+};
+AxisLogarithms axis_logarithms(spec::texture::Axes axes, spec::texture::Log2Rule rule,
+                               const Footprint& footprint);
 
 // floor(sqrt(x)), exact for every x.
 std::uint32_t integer_square_root(std::uint64_t x);

@@ -14,7 +14,7 @@
 namespace deburr::golden::texture {
 
 struct LevelOfDetail {
-  std::int32_t lb_d_max = 0, lb_d_min = 0;  // S5.12
+  std::int32_t lb_d_max = 0, lb_d_min = 0;  // S5.12, S6.12
   std::int32_t anisotropy = 0;              // L, U6.12: lb(d_max / d_min), not below 0
   std::int32_t sampled = 0;                 // E, U3.12: as much of L as samples stand for
   int samples = 1;                          // N, 1..16
@@ -28,7 +28,7 @@ struct LevelOfDetail {
   friend bool operator==(const LevelOfDetail&, const LevelOfDetail&) = default;
 };
 
-// lb_d_max and lb_d_min as log2_fixed() gives them. The descriptor must be valid.
+// lb_d_max and lb_d_min as axis_logarithms() gives them. The descriptor must be valid.
 LevelOfDetail select_level(const spec::texture::Parameters& parameters,
                            const spec::texture::Descriptor& descriptor, std::int32_t lb_d_max,
                            std::int32_t lb_d_min);

@@ -127,9 +127,8 @@ FragmentAnalysis TextureGolden::analyse(const spec::texture::Quad& quad, int lan
   result.footprint = footprint(parameters_.axes, parameters_.footprint, result.p_x, result.p_y);
   result.axis =
       candidate_in_coordinates(parameters_.axes, result.footprint.major, result.d_x, result.d_y);
-  result.lod = select_level(parameters_, texture.descriptor,
-                            log2_fixed(parameters_.log2, result.footprint.d_max),
-                            log2_fixed(parameters_.log2, result.footprint.d_min));
+  const AxisLogarithms lb = axis_logarithms(parameters_.axes, parameters_.log2, result.footprint);
+  result.lod = select_level(parameters_, texture.descriptor, lb.d_max, lb.d_min);
   return result;
 }
 
