@@ -20,7 +20,8 @@ Derivative derivative_in_texels(std::int64_t difference, std::uint32_t size) {
 
 std::uint32_t integer_square_root(std::uint64_t x) {
   std::uint64_t root = 0;
-  for (std::uint64_t bit = std::uint64_t{1} << 31; bit != 0; bit >>= 1) {
+  const int bits = (static_cast<int>(std::bit_width(x)) + 1) / 2;  // of the root
+  for (std::uint64_t bit = (std::uint64_t{1} << bits) >> 1; bit != 0; bit >>= 1) {
     const std::uint64_t candidate = root | bit;
     if (candidate * candidate <= x) root = candidate;
   }
@@ -113,7 +114,8 @@ Footprint footprint(spec::texture::Axes axes, spec::texture::FootprintRule rule,
     const Magnitudes& each = u[static_cast<std::size_t>(k)];
     return footprint_side(rule, each.s, each.t);
   };
-  return {major, length(major), length((major + count / 2) % count), area(p_x, p_y)};
+  if (axes == spec::texture::Axes::kTwo) return {major, length(major), length(1 - major), 0};
+  return {major, length(major), 0, area(p_x, p_y)};
 }
 
 namespace {
