@@ -99,42 +99,52 @@ void TextureGolden::reset() {
   clear_fills();
 }
 
-FragmentAnalysis TextureGolden::analyse(const spec::texture::Quad& quad, int lane) const {
+TextureGolden::Differences TextureGolden::differences(const Texture& texture,
+                                                      const spec::texture::Quad& quad) {
+  const auto between = [&](std::size_t to, std::size_t from) {
+    Difference result;
+    result.d = {std::int64_t{quad.s[to]} - quad.s[from], std::int64_t{quad.t[to]} - quad.t[from]};
+    const Derivative s = derivative_in_texels(result.d.s, texture.descriptor.width);
+    const Derivative t = derivative_in_texels(result.d.t, texture.descriptor.height);
+    result.p = {s.texels, t.texels};
+    result.saturated = s.saturated || t.saturated;
+    return result;
+  };
+  return {{between(1, 0), between(3, 2)}, {between(2, 0), between(3, 1)}};
+}
+
+FragmentAnalysis TextureGolden::analyse(const Texture& texture, const Differences& differences,
+                                        int lane) const {
+  const Difference& row = differences.rows[static_cast<std::size_t>(lane >> 1)];
+  const Difference& column = differences.columns[static_cast<std::size_t>(lane & 1)];
   FragmentAnalysis result;
-  if (quad.texture >= spec::texture::kMaxTextures) return result;
-  const Texture& texture = textures_[quad.texture];
-  result.valid = texture.valid;
-  if (!texture.valid) return result;
-
-  const auto difference = [](const std::array<std::int32_t, 4>& c, int to, int from) {
-    return std::int64_t{c[static_cast<std::size_t>(to)]} - c[static_cast<std::size_t>(from)];
-  };
-  const int left = lane & 2, upper = lane & 1;  // first lane of the own row, of the own column
-  result.s_x = difference(quad.s, left + 1, left);
-  result.t_x = difference(quad.t, left + 1, left);
-  result.s_y = difference(quad.s, upper + 2, upper);
-  result.t_y = difference(quad.t, upper + 2, upper);
-
-  const auto scale = [&](std::int64_t d, std::uint32_t size) {
-    const Derivative derivative = derivative_in_texels(d, size);
-    result.saturated |= derivative.saturated;
-    return derivative.texels;
-  };
-  result.abs_s_x = scale(result.s_x, texture.descriptor.width);
-  result.abs_t_x = scale(result.t_x, texture.descriptor.height);
-  result.abs_s_y = scale(result.s_y, texture.descriptor.width);
-  result.abs_t_y = scale(result.t_y, texture.descriptor.height);
-
-  result.footprint = footprint(parameters_.footprint, result.abs_s_x, result.abs_t_x,
-                               result.abs_s_y, result.abs_t_y);
-  result.lod = select_level(parameters_, texture.descriptor,
-                            log2_fixed(parameters_.log2, result.footprint.d_max),
-                            log2_fixed(parameters_.log2, result.footprint.d_min));
+  result.valid = true;
+  result.saturated = row.saturated || column.saturated;
+  result.d_x = row.d;
+  result.d_y = column.d;
+  result.p_x = row.p;
+  result.p_y = column.p;
+  result.footprint = footprint(parameters_.axes, parameters_.footprint, result.p_x, result.p_y);
+  result.axis =
+      candidate_in_coordinates(parameters_.axes, result.footprint.major, result.d_x, result.d_y);
+  const AxisLogarithms lb = axis_logarithms(parameters_.axes, parameters_.log2, result.footprint);
+  result.lod = select_level(parameters_, texture.descriptor, lb.d_max, lb.d_min);
   return result;
+}
+
+FragmentAnalysis TextureGolden::analyse(const spec::texture::Quad& quad, int lane) const {
+  if (quad.texture >= spec::texture::kMaxTextures) return {};
+  const Texture& texture = textures_[quad.texture];
+  if (!texture.valid) return {};
+  return analyse(texture, differences(texture, quad), lane);
 }
 
 QuadColours TextureGolden::process(const spec::texture::Quad& quad) {
   QuadColours result;
+  const Texture* texture =
+      quad.texture < spec::texture::kMaxTextures ? &textures_[quad.texture] : nullptr;
+  if (texture && !texture->valid) texture = nullptr;
+  const Differences shared = texture ? differences(*texture, quad) : Differences{};
   for (int lane = 0; lane < 4; ++lane) {
     if ((quad.coverage >> lane & 1) == 0) continue;
     spec::texture::Colour& colour = result.colours[static_cast<std::size_t>(result.count++)];
@@ -144,17 +154,17 @@ QuadColours TextureGolden::process(const spec::texture::Quad& quad) {
 
     ++work_.fragments;
     if ((quad.clamped >> lane & 1) != 0) ++work_.clamped;
-    const FragmentAnalysis fragment = analyse(quad, lane);
-    if (!fragment.valid) {
+    if (!texture) {
       ++work_.invalid_fragments;
       continue;
     }
+    const FragmentAnalysis fragment = analyse(*texture, shared, lane);
     if (fragment.saturated) ++work_.saturated;
     if (fragment.lod.magnified) ++work_.magnified;
-    ++work_.by_lb_n[static_cast<std::size_t>(fragment.lod.lb_n)];
-    work_.samples += static_cast<std::uint64_t>(fragment.lod.samples());
+    ++work_.by_samples[static_cast<std::size_t>(fragment.lod.samples)];
+    work_.samples += static_cast<std::uint64_t>(fragment.lod.samples);
     const auto i = static_cast<std::size_t>(lane);
-    colour.rgba = filter_fragment(textures_[quad.texture], fragment, quad.s[i], quad.t[i]);
+    colour.rgba = filter_fragment(*texture, fragment, quad.s[i], quad.t[i]);
   }
   return result;
 }
@@ -163,25 +173,28 @@ std::array<std::uint8_t, 4> TextureGolden::filter_fragment(const Texture& textur
                                                            const FragmentAnalysis& fragment,
                                                            std::int32_t s, std::int32_t t) {
   const LevelOfDetail& lod = fragment.lod;
-  const std::int64_t major_s = fragment.major_s(), major_t = fragment.major_t();
-  Channels accumulator;  // U15.12
-  for (int i = 0; i < lod.samples(); ++i) {
-    const std::int64_t sample_s = s + sample_offset(i, lod.lb_n, parameters_.spread, major_s);
-    const std::int64_t sample_t = t + sample_offset(i, lod.lb_n, parameters_.spread, major_t);
+  const int n = lod.samples;
+  const std::int32_t spread = spread_of(parameters_.kernel, n, parameters_.spread);
+  Channels accumulator;  // U8.20
+  for (int i = 0; i < n; ++i) {
+    const std::int64_t sample_s = s + sample_offset(i, n, spread, fragment.axis.s);
+    const std::int64_t sample_t = t + sample_offset(i, n, spread, fragment.axis.t);
     Channels value = bilinear(texture, lod.level, lod.linear, sample_s, sample_t);
     if (lod.fraction != 0) {
       const Channels next = bilinear(texture, lod.level + 1, lod.linear, sample_s, sample_t);
       value.rb = level_lerp(value.rb, next.rb, lod.fraction);
       value.ga = level_lerp(value.ga, next.ga, lod.fraction);
     }
-    const Lanes weight = sample_weight(parameters_.kernel, i, lod.lb_n);
+    const Lanes weight = sample_weight(parameters_.kernel, i, n);
     accumulator.rb += weight * value.rb;
     accumulator.ga += weight * value.ga;
   }
-  const int lb_sum = kernel_log2_sum(parameters_.kernel, lod.lb_n);
+  const bool encode = texture.descriptor.format == spec::texture::Format::kSrgb8A8 &&
+                      parameters_.srgb_output == spec::texture::SrgbOutput::kEncoded;
   const std::array<std::uint32_t, 4> sums = to_texel(accumulator);
   std::array<std::uint8_t, 4> rgba{};
-  for (std::size_t c = 0; c < 4; ++c) rgba[c] = round_result(sums[c], lb_sum);
+  for (std::size_t c = 0; c < 4; ++c)
+    rgba[c] = encode && c < 3 ? encode_result(sums[c]) : round_result(sums[c]);
   return rgba;
 }
 

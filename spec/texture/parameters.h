@@ -11,14 +11,20 @@
 
 namespace deburr::spec::texture {
 
+enum class Preset : std::uint8_t { kPaper, kDeburr };
+inline constexpr std::array<std::string_view, 2> kPresetNames = {"paper", "deburr"};
 enum class FootprintRule : std::uint8_t { kHalf, kQuarter, kTwoSegment, kExact, kMax };
 inline constexpr std::array<std::string_view, 5> kFootprintNames = {"half", "quarter",
                                                                     "two_segment", "exact", "max"};
 enum class Log2Rule : std::uint8_t { kMitchell, kCorrected, kSegments, kExact };
 inline constexpr std::array<std::string_view, 4> kLog2Names = {"mitchell", "corrected", "segments",
                                                                "exact"};
-enum class CountRule : std::uint8_t { kFloor, kCeil };
-inline constexpr std::array<std::string_view, 2> kCountNames = {"floor", "ceil"};
+enum class CountRule : std::uint8_t { kFloor, kCeil, kAny };
+inline constexpr std::array<std::string_view, 3> kCountNames = {"floor", "ceil", "any"};
+enum class Axes : std::uint8_t { kTwo, kFour, kEight };
+inline constexpr std::array<std::string_view, 3> kAxesNames = {"two", "four", "eight"};
+enum class SrgbOutput : std::uint8_t { kLinear, kEncoded };
+inline constexpr std::array<std::string_view, 2> kSrgbOutputNames = {"linear", "encoded"};
 enum class CountCap : std::uint8_t { kNone, kTexel };
 inline constexpr std::array<std::string_view, 2> kCountCapNames = {"none", "texel"};
 enum class Kernel : std::uint8_t { kBox, kTent };
@@ -26,14 +32,17 @@ inline constexpr std::array<std::string_view, 2> kKernelNames = {"box", "tent"};
 enum class Replacement : std::uint8_t { kLru, kFifo, kRandom };
 inline constexpr std::array<std::string_view, 3> kReplacementNames = {"lru", "fifo", "random"};
 
-// Rules: what changes pixels. Golden and hardware obey them.
+// Rules: what changes pixels. Golden and hardware obey them. The defaults are the preset `deburr`.
 struct Rules {
-  FootprintRule footprint = FootprintRule::kHalf;
-  Log2Rule log2 = Log2Rule::kMitchell;
-  CountRule count = CountRule::kFloor;
+  Preset preset = Preset::kDeburr;
+  Axes axes = Axes::kEight;
+  FootprintRule footprint = FootprintRule::kExact;
+  Log2Rule log2 = Log2Rule::kSegments;
+  CountRule count = CountRule::kAny;
   CountCap count_cap = CountCap::kNone;
   Kernel kernel = Kernel::kBox;
   std::int32_t spread = 64;
+  SrgbOutput srgb_output = SrgbOutput::kLinear;
 };
 
 // Build choices: what changes clocks and cost, and no pixel. Runs that differ in these alone share
@@ -44,24 +53,34 @@ struct Build {
   std::int32_t cache_ways = 2;
   Replacement cache_replacement = Replacement::kLru;
   std::int32_t cache_outstanding = 64;
-  std::int32_t cache_fifo_depth = 160;
+  std::int32_t cache_fifo_depth = 0;  // 0: sized from the latency of memory
+  std::int32_t axis_clocks = 1;
 };
 
 struct Parameters : Rules, Build {};
 
 template <class Visitor>
 void describe(Rules& p, Visitor& v) {
+  v.choice("preset", p.preset, kPresetNames,
+           "Named set of the rules below; rules given beside it override it.");
+  v.choice(
+      "axes", p.axes, kAxesNames,
+      "Directions tried for the major axis: the pixel's row and column (the paper), or four or "
+      "eight, every 45 or 22.5 degrees.");
   v.choice("footprint", p.footprint, kFootprintNames,
            "Rule for the length of a footprint side from its two components.");
   v.choice("log2", p.log2, kLog2Names, "Rule for the binary logarithm of a footprint side.");
   v.choice("count", p.count, kCountNames,
-           "Rounding of L when the sample count N = 2^L is formed: floor is the paper.");
+           "Sample count from L: N = 2^L with L rounded (floor is the paper), or any N of 1 to 16, "
+           "which has no steps.");
   v.choice("count_cap", p.count_cap, kCountCapNames,
            "texel: never place samples closer together than a texel of level 0.");
   v.choice("kernel", p.kernel, kKernelNames,
            "Weights of the N samples: equal (the paper) or an integer tent.");
   v.integer("spread", p.spread, 0, 128, "1/64 axis",
             "Length over which the samples are spread, U1.6 of the major axis.");
+  v.choice("srgb_output", p.srgb_output, kSrgbOutputNames,
+           "What leaves of an sRGB texture: linear light in 8 bits, or sRGB codes again.");
 }
 
 template <class Visitor>
@@ -76,8 +95,12 @@ void describe(Build& p, Visitor& v) {
            "Which way of a full set is replaced.");
   v.integer("cache.outstanding", p.cache_outstanding, 4, 256, "line",
             "Line fills in flight: entries of the miss queue and of the fill buffer.");
-  v.integer("cache.fifo_depth", p.cache_fifo_depth, 2, 4096, "request",
-            "Depth of the latency FIFO between tag check and data read.");
+  v.integer("cache.fifo_depth", p.cache_fifo_depth, 0, 4096, "request",
+            "Depth of the latency FIFO between tag check and data read, 2 or more; 0 sizes it from "
+            "the latency of memory.");
+  v.integer("axis_clocks", p.axis_clocks, 1, 4, "clk",
+            "Clocks in which the candidates of axes = four or eight are measured, fewer operators "
+            "at a time; a power of two, at most half the candidates.");
 }
 
 template <class Visitor>
@@ -85,5 +108,18 @@ void describe(Parameters& p, Visitor& v) {
   describe(static_cast<Rules&>(p), v);
   describe(static_cast<Build&>(p), v);
 }
+
+// What a preset sets; every other parameter keeps its default.
+struct PresetRow {
+  Preset preset;
+  Axes axes;
+  FootprintRule footprint;
+  Log2Rule log2;
+  CountRule count;
+};
+inline constexpr std::array<PresetRow, 2> kPresets = {{
+    {Preset::kPaper, Axes::kTwo, FootprintRule::kHalf, Log2Rule::kMitchell, CountRule::kFloor},
+    {Preset::kDeburr, Axes::kEight, FootprintRule::kExact, Log2Rule::kSegments, CountRule::kAny},
+}};
 
 }  // namespace deburr::spec::texture
