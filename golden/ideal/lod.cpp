@@ -5,31 +5,52 @@
 #include <cmath>
 #include <numbers>
 
+#include "golden/ideal/ellipse.h"
 #include "golden/ideal/integrate.h"
 
 namespace deburr::golden::ideal {
 
 LevelOfDetail level_of_detail(const spec::texture::Parameters& parameters,
-                              const spec::texture::Descriptor& descriptor,
-                              const PixelFootprint& footprint) {
+                              const spec::texture::Descriptor& descriptor, const Lengths& lengths) {
   constexpr double kSmallest = 1.0 / 65536;
-  const Sides d = sides(footprint);
   LevelOfDetail result;
-  result.lb_d_max = std::log2(std::max(d.d_max, kSmallest));
-  result.lb_d_min = std::log2(std::max(d.d_min, kSmallest));
-  result.anisotropy = result.lb_d_max - result.lb_d_min;
+  result.lb_d_max = std::log2(std::max(lengths.d_max, kSmallest));
+  result.lb_d_min = std::log2(std::max(lengths.d_min, kSmallest));
+  result.anisotropy = std::max(result.lb_d_max - result.lb_d_min, 0.0);
   if (result.lb_d_max > 0) {
-    const double rounded = parameters.count == spec::texture::CountRule::kCeil
-                               ? std::ceil(result.anisotropy)
-                               : std::floor(result.anisotropy);
-    result.lb_n = std::min(static_cast<int>(rounded), int{descriptor.max_anisotropy_log2});
-    if (parameters.count_cap == spec::texture::CountCap::kTexel) {
-      result.lb_n = std::min(result.lb_n, static_cast<int>(std::ceil(result.lb_d_max)));
+    double texels = std::ceil(result.lb_d_max);
+    switch (parameters.count) {
+      case spec::texture::CountRule::kFloor:
+        result.sampled = std::floor(result.anisotropy);
+        break;
+      case spec::texture::CountRule::kCeil:
+        result.sampled = std::ceil(result.anisotropy);
+        break;
+      case spec::texture::CountRule::kAny:
+        result.sampled = result.anisotropy;
+        texels = result.lb_d_max;
+        break;
     }
+    result.sampled = std::min(result.sampled, static_cast<double>(descriptor.max_anisotropy_log2));
+    if (parameters.count_cap == spec::texture::CountCap::kTexel)
+      result.sampled = std::min(result.sampled, texels);
+    // What log2 and exp2 round must not make another sample.
+    result.samples = static_cast<int>(std::ceil(std::exp2(result.sampled) - 1e-9));
   }
-  const double biased = result.lb_d_max - result.lb_n + descriptor.lod_bias / 256.0;
+  const double biased = result.lb_d_max - result.sampled + descriptor.lod_bias / 256.0;
   result.l = std::min(std::max(biased, descriptor.min_lod / 256.0), descriptor.max_lod / 256.0);
   return result;
+}
+
+LevelOfDetail level_of_detail(const spec::texture::Parameters& parameters,
+                              const spec::texture::Descriptor& descriptor,
+                              const PixelFootprint& footprint) {
+  if (parameters.axes == spec::texture::Axes::kTwo) {
+    const Sides d = sides(footprint);
+    return level_of_detail(parameters, descriptor, Lengths{d.d_max, d.d_min});
+  }
+  const Ellipse d = ellipse(footprint);
+  return level_of_detail(parameters, descriptor, Lengths{d.d_max, d.d_min});
 }
 
 LogarithmError logarithm_error() {

@@ -16,13 +16,23 @@ namespace deburr::golden::ideal {
 struct LevelOfDetail {
   double lb_d_max = 0, lb_d_min = 0;
   double anisotropy = 0;  // L = lb(d_max / d_min), equation 12
-  int lb_n = 0;           // N = 2^lb_n
+  double sampled = 0;     // E: as much of it as samples stand for
+  int samples = 1;        // N
   double l = 0;           // equation 3, with bias, clamped to [min_lod, max_lod]
 };
 
-// The unit's rules (docs/number_formats.md, "Level and count") with exact sides and logarithms.
-// Uses count and count_cap of the parameters, and N_max, bias and limits of the descriptor. A side
-// of zero counts as 2^-16 texel.
+// Lengths of a footprint's axes in texels.
+struct Lengths {
+  double d_max = 0, d_min = 0;
+};
+
+// The unit's rules (docs/number_formats.md, "Level and count") with exact logarithms. Uses count
+// and count_cap of the parameters, and N_max, bias and limits of the descriptor. A length of zero
+// counts as 2^-16 texel.
+LevelOfDetail level_of_detail(const spec::texture::Parameters& parameters,
+                              const spec::texture::Descriptor& descriptor, const Lengths& lengths);
+// The same of a footprint: with `axes = two` of its exact sides, which the paper takes for the
+// axes, otherwise of its ellipse.
 LevelOfDetail level_of_detail(const spec::texture::Parameters& parameters,
                               const spec::texture::Descriptor& descriptor,
                               const PixelFootprint& footprint);

@@ -94,10 +94,14 @@ inline Lanes level_lerp(Lanes level, Lanes next_level, std::uint32_t f) {
   return vertical_lerp(level, next_level, f);
 }
 
-// Sum of kernel weight x level result, U15.12, divided by 2^lb_sum of the weights and rounded to 8
-// bits.
-inline std::uint8_t round_result(std::uint32_t accumulator, int lb_sum) {
-  return static_cast<std::uint8_t>((accumulator + (1u << (11 + lb_sum))) >> (12 + lb_sum));
+// Sum of kernel weight x level result, U8.20, rounded to 8 bits.
+inline std::uint8_t round_result(std::uint32_t accumulator) {
+  return static_cast<std::uint8_t>((accumulator + (1u << 19)) >> 20);
+}
+
+// The same of linear light, as an sRGB code.
+inline std::uint8_t encode_result(std::uint32_t accumulator) {
+  return spec::texture::kLinearToSrgb[(accumulator + (1u << 15)) >> 16];
 }
 
 }  // namespace deburr::golden::texture

@@ -2,6 +2,7 @@
 #include "golden/texture/footprint.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "spec/texture/parameters.h"
@@ -13,7 +14,8 @@ Derivative derivative_in_texels(std::int64_t difference, std::uint32_t size) {
   constexpr std::uint64_t kLargest = 0x7FFFFFFF;
   const auto magnitude = static_cast<std::uint64_t>(difference < 0 ? -difference : difference);
   const std::uint64_t texels = (magnitude * size + 128) >> 8;
-  return {static_cast<std::uint32_t>(std::min(texels, kLargest)), texels > kLargest};
+  const auto kept = static_cast<std::int32_t>(std::min(texels, kLargest));
+  return {difference < 0 ? -kept : kept, texels > kLargest};
 }
 
 std::uint32_t integer_square_root(std::uint64_t x) {
@@ -42,15 +44,76 @@ std::uint32_t footprint_side(spec::texture::FootprintRule rule, std::uint32_t s,
   return a;
 }
 
-Footprint footprint(spec::texture::FootprintRule rule, std::uint32_t s_x, std::uint32_t t_x,
-                    std::uint32_t s_y, std::uint32_t t_y) {
-  Footprint result;
-  result.d_x = footprint_side(rule, s_x, t_x);
-  result.d_y = footprint_side(rule, s_y, t_y);
-  result.d_max = std::max(result.d_x, result.d_y);
-  result.d_min = std::min(result.d_x, result.d_y);
-  result.major_is_x = result.d_x >= result.d_y;
-  return result;
+namespace {
+
+constexpr int kAxisFractionBits = 7;
+
+const spec::texture::Axis& direction(spec::texture::Axes axes, int k) {
+  return spec::texture::kAxes[static_cast<std::size_t>(
+      k * (static_cast<int>(spec::texture::kAxes.size()) / candidates(axes)))];
+}
+
+std::int64_t along(const spec::texture::Axis& axis, std::int64_t x, std::int64_t y) {
+  return axis.cosine * x + axis.sine * y;
+}
+
+std::uint32_t magnitude_in_texels(std::int64_t u) {
+  constexpr std::int64_t kLargest = 0x7FFFFFFF;
+  return static_cast<std::uint32_t>(std::min((u < 0 ? -u : u) >> kAxisFractionBits, kLargest));
+}
+
+std::int64_t rounded_in_coordinates(std::int64_t d) {
+  constexpr std::int64_t kHalf = 1 << (kAxisFractionBits - 1);
+  return d < 0 ? -((-d + kHalf) >> kAxisFractionBits) : (d + kHalf) >> kAxisFractionBits;
+}
+
+// |P_x x P_y| of components cut to 8 fraction bits.
+std::uint64_t area(const Step& p_x, const Step& p_y) {
+  const auto cut = [](std::int64_t p) { return p < 0 ? -(-p >> 8) : p >> 8; };
+  const std::int64_t product = cut(p_x.s) * cut(p_y.t) - cut(p_x.t) * cut(p_y.s);
+  return static_cast<std::uint64_t>(product < 0 ? -product : product);
+}
+
+std::uint64_t square_of_length(const Magnitudes& u) {
+  return std::uint64_t{u.s} * u.s + std::uint64_t{u.t} * u.t;
+}
+
+}  // namespace
+
+Magnitudes candidate_in_texels(spec::texture::Axes axes, int k, const Step& p_x, const Step& p_y) {
+  const spec::texture::Axis& axis = direction(axes, k);
+  return {magnitude_in_texels(along(axis, p_x.s, p_y.s)),
+          magnitude_in_texels(along(axis, p_x.t, p_y.t))};
+}
+
+Step candidate_in_coordinates(spec::texture::Axes axes, int k, const Step& d_x, const Step& d_y) {
+  const spec::texture::Axis& axis = direction(axes, k);
+  return {rounded_in_coordinates(along(axis, d_x.s, d_y.s)),
+          rounded_in_coordinates(along(axis, d_x.t, d_y.t))};
+}
+
+Footprint footprint(spec::texture::Axes axes, spec::texture::FootprintRule rule, const Step& p_x,
+                    const Step& p_y) {
+  const bool exact = rule == spec::texture::FootprintRule::kExact;
+  const int count = candidates(axes);
+  std::array<Magnitudes, spec::texture::kAxes.size()> u;
+  std::uint64_t longest = 0;
+  int major = 0;
+  for (int k = 0; k < count; ++k) {
+    const Magnitudes& each = u[static_cast<std::size_t>(k)] =
+        candidate_in_texels(axes, k, p_x, p_y);
+    const std::uint64_t measure =
+        exact ? square_of_length(each) : footprint_side(rule, each.s, each.t);
+    if (measure > longest) {
+      longest = measure;
+      major = k;
+    }
+  }
+  const auto length = [&](int k) {
+    const Magnitudes& each = u[static_cast<std::size_t>(k)];
+    return footprint_side(rule, each.s, each.t);
+  };
+  return {major, length(major), length((major + count / 2) % count), area(p_x, p_y)};
 }
 
 namespace {
@@ -79,10 +142,10 @@ std::uint32_t interpolated_log2(std::uint32_t y) {
 
 }  // namespace
 
-std::int32_t log2_fixed(spec::texture::Log2Rule rule, std::uint32_t d) {
+std::int32_t log2_fixed(spec::texture::Log2Rule rule, std::uint64_t d) {
   if (d == 0) d = 1;
   const int p = static_cast<int>(std::bit_width(d)) - 1;
-  const auto y = static_cast<std::uint32_t>((std::uint64_t{d} << 12) >> p) - 4096;
+  const auto y = static_cast<std::uint32_t>((d << 12) >> p) - 4096;
   std::uint32_t mantissa = y;
   switch (rule) {
     case spec::texture::Log2Rule::kMitchell:
@@ -98,6 +161,13 @@ std::int32_t log2_fixed(spec::texture::Log2Rule rule, std::uint32_t d) {
       break;
   }
   return (p - 16) * 4096 + static_cast<std::int32_t>(mantissa);
+}
+
+AxisLogarithms axis_logarithms(spec::texture::Axes axes, spec::texture::Log2Rule rule,
+                               const Footprint& footprint) {
+  const std::int32_t d_max = log2_fixed(rule, footprint.d_max);
+  if (axes == spec::texture::Axes::kTwo) return {d_max, log2_fixed(rule, footprint.d_min)};
+  return {d_max, log2_fixed(rule, footprint.area) - d_max};
 }
 
 }  // namespace deburr::golden::texture

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// How large is a pixel in texels: derivatives, footprint sides, binary logarithm.
+// How large is a pixel in texels, and which way is it long: derivatives, candidate axes, footprint
+// sides, binary logarithm.
 //
-// First three blocks of the texture golden (paper 004, sections 1.2 and 1.4). Pure functions of
-// integers; formats and rounding: docs/number_formats.md, "Footprint" and "Logarithm". Error
-// against exact arithmetic: tb/unit/golden/texture/footprint_test.cpp and
-// log2_test.cpp.
+// First blocks of the texture golden (paper 004, sections 1.2 and 1.4; more than two axes are the
+// project's own). Pure functions of integers; formats and rounding: docs/number_formats.md, "Axes",
+// "Footprint" and "Logarithm". Error against exact arithmetic:
+// tb/unit/golden/texture/footprint_test.cpp and log2_test.cpp.
 #pragma once
 
 #include <cstdint>
@@ -13,35 +14,63 @@
 
 namespace deburr::golden::texture {
 
-// |difference| x size. `texels` is U15.16, at most 2^31 - 1; `saturated` says that more was wanted.
+// A step over the texture, or a difference of two: in texels S15.16 (P) or in coordinates (D).
+struct Step {
+  std::int64_t s = 0, t = 0;
+  friend bool operator==(const Step&, const Step&) = default;
+};
+
+// difference x size. `texels` is S15.16, at most 2^31 - 1 either way; `saturated` says that more
+// was wanted.
 struct Derivative {
-  std::uint32_t texels = 0;
+  std::int32_t texels = 0;
   bool saturated = false;
   friend bool operator==(const Derivative&, const Derivative&) = default;
 };
 
 // difference: S8.24, coordinate of one lane minus that of its neighbour; size: width or height of
-// level 0. The 24 fraction bits are rounded to 16.
+// level 0. The 24 fraction bits of the magnitude are rounded to 16.
 Derivative derivative_in_texels(std::int64_t difference, std::uint32_t size);
 
 // Length of the vector (s, t), both U15.16 and >= 0, by one of the rules; U16.16. Equations 5,
 // 10, 11.
 std::uint32_t footprint_side(spec::texture::FootprintRule rule, std::uint32_t s, std::uint32_t t);
 
-// The two sides of the pixel's parallelogram in texels of level 0, U16.16.
+// K, the number of directions tried.
+inline int candidates(spec::texture::Axes axes) { return 2 << static_cast<int>(axes); }
+
+// Candidate k of K: the step at k 180 / K degrees between the steps along the pixel row and the
+// pixel column. In texels: magnitudes of its components, U15.16. In coordinates: S8.24 to S9.24.
+struct Magnitudes {
+  std::uint32_t s = 0, t = 0;
+  friend bool operator==(const Magnitudes&, const Magnitudes&) = default;
+};
+Magnitudes candidate_in_texels(spec::texture::Axes axes, int k, const Step& p_x, const Step& p_y);
+Step candidate_in_coordinates(spec::texture::Axes axes, int k, const Step& d_x, const Step& d_y);
+
+// The axes of the pixel's ellipse as far as K directions show them; lengths in texels of level 0,
+// U16.16.
 struct Footprint {
-  std::uint32_t d_x = 0, d_y = 0;      // along the pixel row, along the pixel column
-  std::uint32_t d_max = 0, d_min = 0;  // the same, sorted
-  bool major_is_x = true;              // the row is the longer one, or both are equal
+  int major = 0;            // candidate; of equally long ones the first
+  std::uint32_t d_max = 0;  // its length
+  std::uint32_t d_min = 0;  // of two axes: the length of the other
+  std::uint64_t area = 0;   // of the pixel's parallelogram, U30.16: d_max times the minor axis
   friend bool operator==(const Footprint&, const Footprint&) = default;
 };
 
-// Equation 1 with the sides of `rule`; the arguments are |s_x|, |t_x|, |s_y|, |t_y| in U15.16.
-Footprint footprint(spec::texture::FootprintRule rule, std::uint32_t s_x, std::uint32_t t_x,
-                    std::uint32_t s_y, std::uint32_t t_y);
+// Equation 1 with the sides of `rule`; p_x and p_y are the steps along row and column in texels.
+Footprint footprint(spec::texture::Axes axes, spec::texture::FootprintRule rule, const Step& p_x,
+                    const Step& p_y);
 
-// lb d for d in U16.16; S5.12. d = 0 counts as 2^-16. Equation 13.
-std::int32_t log2_fixed(spec::texture::Log2Rule rule, std::uint32_t d);
+// lb d for d with 16 fraction bits, below 2^47; S5.12. d = 0 counts as 2^-16. Equation 13.
+std::int32_t log2_fixed(spec::texture::Log2Rule rule, std::uint64_t d);
+
+// Logarithms of the major and of the minor axis, S5.12 and S6.12.
+struct AxisLogarithms {
+  std::int32_t d_max = 0, d_min = 0;
+};
+AxisLogarithms axis_logarithms(spec::texture::Axes axes, spec::texture::Log2Rule rule,
+                               const Footprint& footprint);
 
 // floor(sqrt(x)), exact for every x.
 std::uint32_t integer_square_root(std::uint64_t x);

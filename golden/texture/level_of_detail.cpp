@@ -3,22 +3,44 @@
 
 #include <algorithm>
 
+#include "spec/texture/tables.h"
+
 namespace deburr::golden::texture {
 namespace {
 
 constexpr std::int32_t kOne = 1 << 12;  // one level, in the 12 fraction bits of l
 
-int log2_of_count(const spec::texture::Parameters& parameters,
-                  const spec::texture::Descriptor& descriptor, std::int32_t lb_d_max,
-                  std::int32_t anisotropy) {
+std::int32_t whole_levels_up(std::int32_t x) { return (x + kOne - 1) >> 12 << 12; }
+
+// E, how much of L is taken as samples.
+std::int32_t sampled_part(const spec::texture::Parameters& parameters,
+                          const spec::texture::Descriptor& descriptor, std::int32_t lb_d_max,
+                          std::int32_t anisotropy) {
   if (lb_d_max <= 0) return 0;
-  const std::int32_t up = parameters.count == spec::texture::CountRule::kCeil ? kOne - 1 : 0;
-  std::int32_t lb_n = (anisotropy + up) >> 12;
-  lb_n = std::min<std::int32_t>(lb_n, descriptor.max_anisotropy_log2);
-  if (parameters.count_cap == spec::texture::CountCap::kTexel) {
-    lb_n = std::min(lb_n, (lb_d_max + kOne - 1) >> 12);
+  std::int32_t wanted = anisotropy;
+  std::int32_t texels = lb_d_max;  // what `count_cap = texel` leaves
+  switch (parameters.count) {
+    case spec::texture::CountRule::kFloor:
+      wanted = anisotropy >> 12 << 12;
+      texels = whole_levels_up(lb_d_max);
+      break;
+    case spec::texture::CountRule::kCeil:
+      wanted = whole_levels_up(anisotropy);
+      texels = whole_levels_up(lb_d_max);
+      break;
+    case spec::texture::CountRule::kAny:
+      break;
   }
-  return lb_n;
+  wanted = std::min(wanted, descriptor.max_anisotropy_log2 * kOne);
+  if (parameters.count_cap == spec::texture::CountCap::kTexel) wanted = std::min(wanted, texels);
+  return wanted;
+}
+
+// The smallest N with lb N >= E.
+int samples_for(std::int32_t sampled) {
+  int n = 1;
+  while (n < 16 && sampled > spec::texture::kLog2Count[static_cast<std::size_t>(n)]) ++n;
+  return n;
 }
 
 bool filters_linearly(spec::texture::MinFilter filter) {
@@ -36,10 +58,11 @@ LevelOfDetail select_level(const spec::texture::Parameters& parameters,
   result.lb_d_max = lb_d_max;
   result.lb_d_min = lb_d_min;
   result.anisotropy = std::max(lb_d_max - lb_d_min, 0);
-  result.lb_n = log2_of_count(parameters, descriptor, lb_d_max, result.anisotropy);
+  result.sampled = sampled_part(parameters, descriptor, lb_d_max, result.anisotropy);
+  result.samples = samples_for(result.sampled);
 
   const std::int32_t low = descriptor.min_lod * 16, high = descriptor.max_lod * 16;
-  result.l = lb_d_max - result.lb_n * kOne + descriptor.lod_bias * 16;
+  result.l = lb_d_max - result.sampled + descriptor.lod_bias * 16;
   result.l = std::min(std::max(result.l, low), high);
 
   result.magnified = result.l <= 0;

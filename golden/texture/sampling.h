@@ -12,6 +12,7 @@
 #include "spec/texture/descriptor.h"
 #include "spec/texture/packets.h"
 #include "spec/texture/parameters.h"
+#include "spec/texture/tables.h"
 
 namespace deburr::golden::texture {
 
@@ -20,25 +21,25 @@ inline std::int64_t round_shift(std::int64_t x, int drop) {
   return (x + (std::int64_t{1} << (drop - 1))) >> drop;
 }
 
-// Offset of sample i of N = 2^lb_n from the pixel centre, S9.24, along one coordinate of the major
-// axis. difference: S8.24 of that coordinate; spread: U1.6.
-inline std::int64_t sample_offset(int i, int lb_n, std::int32_t spread, std::int64_t difference) {
-  const std::int64_t places = 2 * i + 1 - (1 << lb_n);  // in halves of the distance of two samples
-  return round_shift(places * spread * difference, 7 + lb_n);
+// The length over which N samples are spread, U1.6 of the major axis: a tent of few samples has no
+// shape that a longer one would suit.
+inline std::int32_t spread_of(spec::texture::Kernel kernel, int n, std::int32_t spread) {
+  const bool shapeless = kernel == spec::texture::Kernel::kTent && n < 4;
+  return shapeless ? std::min(spread, 64) : spread;
 }
 
-// Weight of sample i of N.
-inline std::uint32_t sample_weight(spec::texture::Kernel kernel, int i, int lb_n) {
-  const int n = 1 << lb_n;
-  const int weight =
-      kernel == spec::texture::Kernel::kBox ? 1 : std::min(2 * i + 1, 2 * (n - i) - 1);
-  return static_cast<std::uint32_t>(weight);
+// Offset of sample i of N from the pixel centre, S9.24, along one coordinate of the major axis.
+// axis: S9.24 of that coordinate; spread: U1.6, as spread_of() gives it.
+inline std::int64_t sample_offset(int i, int n, std::int32_t spread, std::int64_t axis) {
+  const std::int64_t places = 2 * i + 1 - n;  // in halves of the distance of two samples
+  const std::int64_t reciprocal = spec::texture::kReciprocal[static_cast<std::size_t>(n)];
+  return round_shift(places * spread * axis * reciprocal, 23);
 }
 
-// lb of the sum of the N weights: N for the box, N^2 / 2 for the tent (1 for N = 1).
-inline int kernel_log2_sum(spec::texture::Kernel kernel, int lb_n) {
-  if (kernel == spec::texture::Kernel::kBox || lb_n == 0) return lb_n;
-  return 2 * lb_n - 1;
+// Weight of sample i of N, U1.8; they sum to 256.
+inline std::uint32_t sample_weight(spec::texture::Kernel kernel, int i, int n) {
+  return spec::texture::kKernelWeights[static_cast<std::size_t>(kernel)]
+                                      [static_cast<std::size_t>(n)][static_cast<std::size_t>(i)];
 }
 
 // Side of mip level k of a side of level 0: max(1, size >> k).

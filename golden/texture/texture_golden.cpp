@@ -110,26 +110,25 @@ FragmentAnalysis TextureGolden::analyse(const spec::texture::Quad& quad, int lan
     return std::int64_t{c[static_cast<std::size_t>(to)]} - c[static_cast<std::size_t>(from)];
   };
   const int left = lane & 2, upper = lane & 1;  // first lane of the own row, of the own column
-  result.s_x = difference(quad.s, left + 1, left);
-  result.t_x = difference(quad.t, left + 1, left);
-  result.s_y = difference(quad.s, upper + 2, upper);
-  result.t_y = difference(quad.t, upper + 2, upper);
+  result.d_x = {difference(quad.s, left + 1, left), difference(quad.t, left + 1, left)};
+  result.d_y = {difference(quad.s, upper + 2, upper), difference(quad.t, upper + 2, upper)};
 
   const auto scale = [&](std::int64_t d, std::uint32_t size) {
     const Derivative derivative = derivative_in_texels(d, size);
     result.saturated |= derivative.saturated;
     return derivative.texels;
   };
-  result.abs_s_x = scale(result.s_x, texture.descriptor.width);
-  result.abs_t_x = scale(result.t_x, texture.descriptor.height);
-  result.abs_s_y = scale(result.s_y, texture.descriptor.width);
-  result.abs_t_y = scale(result.t_y, texture.descriptor.height);
+  const auto in_texels = [&](const Step& d) {
+    return Step{scale(d.s, texture.descriptor.width), scale(d.t, texture.descriptor.height)};
+  };
+  result.p_x = in_texels(result.d_x);
+  result.p_y = in_texels(result.d_y);
 
-  result.footprint = footprint(parameters_.footprint, result.abs_s_x, result.abs_t_x,
-                               result.abs_s_y, result.abs_t_y);
-  result.lod = select_level(parameters_, texture.descriptor,
-                            log2_fixed(parameters_.log2, result.footprint.d_max),
-                            log2_fixed(parameters_.log2, result.footprint.d_min));
+  result.footprint = footprint(parameters_.axes, parameters_.footprint, result.p_x, result.p_y);
+  result.axis =
+      candidate_in_coordinates(parameters_.axes, result.footprint.major, result.d_x, result.d_y);
+  const AxisLogarithms lb = axis_logarithms(parameters_.axes, parameters_.log2, result.footprint);
+  result.lod = select_level(parameters_, texture.descriptor, lb.d_max, lb.d_min);
   return result;
 }
 
@@ -151,8 +150,8 @@ QuadColours TextureGolden::process(const spec::texture::Quad& quad) {
     }
     if (fragment.saturated) ++work_.saturated;
     if (fragment.lod.magnified) ++work_.magnified;
-    ++work_.by_lb_n[static_cast<std::size_t>(fragment.lod.lb_n)];
-    work_.samples += static_cast<std::uint64_t>(fragment.lod.samples());
+    ++work_.by_samples[static_cast<std::size_t>(fragment.lod.samples)];
+    work_.samples += static_cast<std::uint64_t>(fragment.lod.samples);
     const auto i = static_cast<std::size_t>(lane);
     colour.rgba = filter_fragment(textures_[quad.texture], fragment, quad.s[i], quad.t[i]);
   }
@@ -163,25 +162,28 @@ std::array<std::uint8_t, 4> TextureGolden::filter_fragment(const Texture& textur
                                                            const FragmentAnalysis& fragment,
                                                            std::int32_t s, std::int32_t t) {
   const LevelOfDetail& lod = fragment.lod;
-  const std::int64_t major_s = fragment.major_s(), major_t = fragment.major_t();
-  Channels accumulator;  // U15.12
-  for (int i = 0; i < lod.samples(); ++i) {
-    const std::int64_t sample_s = s + sample_offset(i, lod.lb_n, parameters_.spread, major_s);
-    const std::int64_t sample_t = t + sample_offset(i, lod.lb_n, parameters_.spread, major_t);
+  const int n = lod.samples;
+  const std::int32_t spread = spread_of(parameters_.kernel, n, parameters_.spread);
+  Channels accumulator;  // U8.20
+  for (int i = 0; i < n; ++i) {
+    const std::int64_t sample_s = s + sample_offset(i, n, spread, fragment.axis.s);
+    const std::int64_t sample_t = t + sample_offset(i, n, spread, fragment.axis.t);
     Channels value = bilinear(texture, lod.level, lod.linear, sample_s, sample_t);
     if (lod.fraction != 0) {
       const Channels next = bilinear(texture, lod.level + 1, lod.linear, sample_s, sample_t);
       value.rb = level_lerp(value.rb, next.rb, lod.fraction);
       value.ga = level_lerp(value.ga, next.ga, lod.fraction);
     }
-    const Lanes weight = sample_weight(parameters_.kernel, i, lod.lb_n);
+    const Lanes weight = sample_weight(parameters_.kernel, i, n);
     accumulator.rb += weight * value.rb;
     accumulator.ga += weight * value.ga;
   }
-  const int lb_sum = kernel_log2_sum(parameters_.kernel, lod.lb_n);
+  const bool encode = texture.descriptor.format == spec::texture::Format::kSrgb8A8 &&
+                      parameters_.srgb_output == spec::texture::SrgbOutput::kEncoded;
   const std::array<std::uint32_t, 4> sums = to_texel(accumulator);
   std::array<std::uint8_t, 4> rgba{};
-  for (std::size_t c = 0; c < 4; ++c) rgba[c] = round_result(sums[c], lb_sum);
+  for (std::size_t c = 0; c < 4; ++c)
+    rgba[c] = encode && c < 3 ? encode_result(sums[c]) : round_result(sums[c]);
   return rgba;
 }
 

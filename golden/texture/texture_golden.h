@@ -29,13 +29,11 @@ namespace deburr::golden::texture {
 struct FragmentAnalysis {
   bool valid = false;      // the descriptor is; otherwise nothing below is meant
   bool saturated = false;  // a derivative is beyond U15.16 texels
-  std::int64_t s_x = 0, t_x = 0, s_y = 0, t_y = 0;  // S8.24: row and column difference
-  std::uint32_t abs_s_x = 0, abs_t_x = 0, abs_s_y = 0, abs_t_y = 0;  // U15.16 texels of level 0
+  Step d_x, d_y;           // row and column difference of the coordinates, S8.24
+  Step p_x, p_y;           // the same in texels of level 0, S15.16
   Footprint footprint;
+  Step axis;  // the major one in coordinates, S9.24
   LevelOfDetail lod;
-
-  std::int64_t major_s() const { return footprint.major_is_x ? s_x : s_y; }  // S8.24
-  std::int64_t major_t() const { return footprint.major_is_x ? t_x : t_y; }
 };
 
 // What was done so far, by the names of the status registers. line_fills and memory_errors stay 0
@@ -49,8 +47,8 @@ struct TextureWork {
   std::uint64_t samples = 0;            // sum of N
   std::uint64_t bilinears = 0;          // requests to the cache: samples x (1 or 2)
   std::uint64_t line_fills = 0;
-  std::uint64_t memory_errors = 0;         // line fills answered with an error
-  std::array<std::uint64_t, 5> by_lb_n{};  // valid fragments with N = 2^i
+  std::uint64_t memory_errors = 0;             // line fills answered with an error
+  std::array<std::uint64_t, 17> by_samples{};  // valid fragments with N = i
   std::array<std::uint64_t, spec::texture::kMaxLevels> by_level{};  // bilinear requests to level i
   friend bool operator==(const TextureWork&, const TextureWork&) = default;
 };

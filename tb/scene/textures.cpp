@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "spec/error.h"
 #include "tb/scene/exact_math.h"
@@ -52,8 +53,8 @@ Image fill(int width, int height, Function&& colour_at) {
   return image;
 }
 
-constexpr std::array<std::string_view, 6> kTextureNames = {"checker",    "road",     "brick",
-                                                           "zone_plate", "gradient", "noise"};
+constexpr std::array<std::string_view, 7> kTextureNames = {
+    "checker", "road", "brick", "stones", "zone_plate", "gradient", "noise"};
 
 // ---- mip levels ---------------------------------------------------------------------------------
 
@@ -175,6 +176,36 @@ Image brick(int width, int height, std::uint32_t seed) {
   });
 }
 
+Image stones(int width, int height, std::uint32_t seed) {
+  constexpr int kCell = 32;  // a stone each, its middle anywhere in the cell
+  const int columns = std::max(1, width / kCell), rows = std::max(1, height / kCell);
+  return fill(width, height, [&](int x, int y) -> Rgba8 {
+    int nearest = std::numeric_limits<int>::max(), second = nearest, tone = 0;
+    for (int j = y / kCell - 1; j <= y / kCell + 1; ++j) {
+      for (int i = x / kCell - 1; i <= x / kCell + 1; ++i) {
+        const int column = (i + columns) % columns, row = (j + rows) % rows;
+        const int dx = x - i * kCell - hash_range(column, row, seed + 1, 0, kCell - 1);
+        const int dy = y - j * kCell - hash_range(column, row, seed + 2, 0, kCell - 1);
+        const int distance = dx * dx + dy * dy;
+        if (distance < nearest) {
+          second = nearest;
+          nearest = distance;
+          tone = hash_range(column, row, seed + 3, -36, 36);
+        } else {
+          second = std::min(second, distance);
+        }
+      }
+    }
+    // The difference of squared distances is 2 x the distance to the border x that of the middles.
+    const int gap = second - nearest < 80 ? -70 : 0;
+    int shade = hash_range(x, y, seed + 4, -14, 14);
+    for (int cell = 2; cell <= 128; cell *= 2)
+      shade += smooth_noise(x, y, width, height, cell, 9, seed + 4 + static_cast<unsigned>(cell));
+    const int level = 128 + tone + gap + shade;
+    return {to_byte(level + 6), to_byte(level), to_byte(level - 10 + tone / 4), 255};
+  });
+}
+
 Image zone_plate(int width, int height) {
   const std::int64_t size = std::max(width, height);
   return fill(width, height, [&](int x, int y) -> Rgba8 {
@@ -215,6 +246,7 @@ Image make_texture(std::string_view name, int width, int height, std::uint32_t s
   if (name == "checker") return checkerboard(width, height);
   if (name == "road") return road(width, height, seed);
   if (name == "brick") return brick(width, height, seed);
+  if (name == "stones") return stones(width, height, seed);
   if (name == "zone_plate") return zone_plate(width, height);
   if (name == "gradient") return gradient(width, height);
   if (name == "noise") return noise(width, height, seed);

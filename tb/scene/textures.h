@@ -22,12 +22,15 @@ Image checkerboard(int width, int height, int cells = 8, const Rgba8& a = {255, 
 Image road(int width, int height, std::uint32_t seed = 1);
 Image brick(int width, int height, std::uint32_t seed = 1);  // running bond, eight courses
 // cos(pi r^2 / size) rings: frequency grows to Nyquist at the middle of each border.
+// What photographs of ground have: stones with edges of every direction, shades from 1/f noise,
+// grain down to the texel. Repeats with the texture where its sides are multiples of 128.
+Image stones(int width, int height, std::uint32_t seed = 1);
 Image zone_plate(int width, int height);
 Image gradient(int width, int height);                       // R = s, G = t, B = 255 - s
 Image noise(int width, int height, std::uint32_t seed = 1);  // white noise in R, G, B
 
-// The names accepted by make_texture: "checker", "road", "brick", "zone_plate", "gradient",
-// "noise".
+// The names accepted by make_texture: "checker", "road", "brick", "stones", "zone_plate",
+// "gradient", "noise".
 std::span<const std::string_view> texture_names();
 // Throws ConfigError for an unknown name (listing the known) or a side
 // outside 1..spec::texture::kMaxTextureSize.

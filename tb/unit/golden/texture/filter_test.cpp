@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "golden/texture/sampling.h"
 #include "tb/stimuli/random.h"
@@ -80,12 +81,10 @@ TEST(Filter, EqualTexelsComeThroughUnchanged) {
 TEST(Filter, EqualSamplesComeThroughUnchangedForEveryKernelAndCount) {
   for (std::uint32_t c = 0; c < 256; ++c) {
     for (const auto kernel : {spec::texture::Kernel::kBox, spec::texture::Kernel::kTent}) {
-      for (int lb_n = 0; lb_n <= 4; ++lb_n) {
+      for (int n = 1; n <= 16; ++n) {
         std::uint32_t accumulator = 0;
-        for (int i = 0; i < 1 << lb_n; ++i) {
-          accumulator += sample_weight(kernel, i, lb_n) * (c << 12);
-        }
-        ASSERT_EQ(round_result(accumulator, kernel_log2_sum(kernel, lb_n)), c);
+        for (int i = 0; i < n; ++i) accumulator += sample_weight(kernel, i, n) * (c << 12);
+        ASSERT_EQ(round_result(accumulator), c);
       }
     }
   }
@@ -104,11 +103,25 @@ TEST(Filter, LerpsAreTheRoundedRealOnes) {
 }
 
 TEST(Filter, ResultRoundsTheTieUpwards) {
-  EXPECT_EQ(round_result((7u << 12) + 2047, 0), 7);
-  EXPECT_EQ(round_result((7u << 12) + 2048, 0), 8);
-  EXPECT_EQ(round_result(((7u << 12) + 2048) * 128 - 1, 7), 7);
-  EXPECT_EQ(round_result(((7u << 12) + 2048) * 128, 7), 8);
-  EXPECT_EQ(round_result((255u << 12) * 128, 7), 255);
+  EXPECT_EQ(round_result(((7u << 12) + 2048) * 256 - 1), 7);
+  EXPECT_EQ(round_result(((7u << 12) + 2048) * 256), 8);
+  EXPECT_EQ(round_result((255u << 12) * 256), 255);
+}
+
+// An unfiltered sRGB texel leaves with the code it came with; as 8 bits of linear light 73 codes
+// are lost.
+TEST(Filter, EncodedOutputKeepsEveryCode) {
+  std::set<int> linear, encoded;
+  for (std::uint32_t c = 0; c < 256; ++c) {
+    const Texel texel = decode_texel(spec::texture::Format::kSrgb8A8, c);
+    const std::uint32_t accumulator = (texel[0] << 8) * 256;
+    EXPECT_EQ(encode_result(accumulator), c);
+    encoded.insert(encode_result(accumulator));
+    linear.insert(round_result(accumulator));
+  }
+  EXPECT_EQ(encoded.size(), 256u);
+  EXPECT_EQ(linear.size(), 183u);
+  EXPECT_EQ(encode_result((4080u << 16) - (1u << 15) - 1), spec::texture::kLinearToSrgb[4079]);
 }
 
 // Two channels in one word never disturb each other, extreme values included.

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <map>
+#include <numbers>
 
 #include "golden/ideal/lod.h"
 #include "golden/texture/footprint.h"
@@ -17,12 +19,8 @@
 namespace deburr {
 namespace {
 
-using golden::texture::Derivative;
-using golden::texture::derivative_in_texels;
-using golden::texture::footprint;
-using golden::texture::footprint_side;
-using golden::texture::integer_square_root;
-using golden::texture::log2_fixed;
+using namespace golden::texture;
+using spec::texture::Axes;
 using spec::texture::FootprintRule;
 using spec::texture::Log2Rule;
 
@@ -110,37 +108,190 @@ TEST(Footprint, SquareRootIsExact) {
 TEST(Footprint, DerivativeIsRoundedToSixteenBits) {
   for (const std::uint32_t size : {1u, 2u, 3u, 7u, 100u, 255u, 1023u, 1024u, 4095u, 4096u}) {
     for (std::int64_t difference = -4000; difference <= 4000; ++difference) {
-      const double exact = std::abs(static_cast<double>(difference)) * size / 256;
+      const double magnitude = std::abs(static_cast<double>(difference)) * size / 256;
+      const auto rounded = static_cast<std::int32_t>(std::floor(magnitude + 0.5));
       ASSERT_EQ(derivative_in_texels(difference, size),
-                (Derivative{static_cast<std::uint32_t>(std::floor(exact + 0.5)), false}));
+                (Derivative{difference < 0 ? -rounded : rounded, false}));
     }
   }
 }
 
-TEST(Footprint, DerivativeSaturatesAtTheEndOfU15_16) {
+TEST(Footprint, DerivativeSaturatesAtTheEndOfS15_16) {
+  constexpr std::int32_t kMost = kLargest;
   constexpr std::int64_t kTexel = 1 << 24;  // of a texture one texel wide
-  EXPECT_EQ(derivative_in_texels(8 * kTexel, 4096), (Derivative{kLargest, true}));
-  EXPECT_EQ(derivative_in_texels(8 * kTexel - 1, 4096), (Derivative{kLargest - 15, false}));
-  EXPECT_EQ(derivative_in_texels(-8 * kTexel, 4096), (Derivative{kLargest, true}));
-  EXPECT_EQ(derivative_in_texels(0xFFFFFFFF, 4096), (Derivative{kLargest, true}));
-  EXPECT_EQ(derivative_in_texels(-std::int64_t{0xFFFFFFFF}, 4096), (Derivative{kLargest, true}));
+  EXPECT_EQ(derivative_in_texels(8 * kTexel, 4096), (Derivative{kMost, true}));
+  EXPECT_EQ(derivative_in_texels(8 * kTexel - 1, 4096), (Derivative{kMost - 15, false}));
+  EXPECT_EQ(derivative_in_texels(-8 * kTexel, 4096), (Derivative{-kMost, true}));
+  EXPECT_EQ(derivative_in_texels(0xFFFFFFFF, 4096), (Derivative{kMost, true}));
+  EXPECT_EQ(derivative_in_texels(-std::int64_t{0xFFFFFFFF}, 4096), (Derivative{-kMost, true}));
   // The largest itself is not saturated.
   constexpr std::int64_t kLast = ((std::int64_t{1} << 39) - 129) / 200;
-  EXPECT_EQ(derivative_in_texels(kLast, 200), (Derivative{kLargest, false}));
-  EXPECT_EQ(derivative_in_texels(kLast + 1, 200), (Derivative{kLargest, true}));
+  EXPECT_EQ(derivative_in_texels(kLast, 200), (Derivative{kMost, false}));
+  EXPECT_EQ(derivative_in_texels(kLast + 1, 200), (Derivative{kMost, true}));
   // Size 1: the widest difference is 256 texels, far from the end.
-  EXPECT_EQ(derivative_in_texels(0xFFFFFFFF, 1), (Derivative{1u << 24, false}));
+  EXPECT_EQ(derivative_in_texels(0xFFFFFFFF, 1), (Derivative{1 << 24, false}));
 }
 
-TEST(Footprint, SortsSidesAndPrefersXOnATie) {
-  const auto f = footprint(FootprintRule::kHalf, 10, 4, 3, 12);
-  EXPECT_EQ(f.d_x, 12u);
-  EXPECT_EQ(f.d_y, 13u);
+Step step(double s, double t) {
+  return {std::llround(s * 65536), std::llround(t * 65536)};  // texels
+}
+
+// The paper's rule to the letter: the longer side is the major axis, of equal ones the row.
+TEST(Footprint, OfTwoAxesSortsSidesAndPrefersXOnATie) {
+  const auto two = [](const Step& p_x, const Step& p_y) {
+    return footprint(Axes::kTwo, FootprintRule::kHalf, p_x, p_y);
+  };
+  const Footprint f = two({10, -4}, {-3, 12});
   EXPECT_EQ(f.d_max, 13u);
   EXPECT_EQ(f.d_min, 12u);
-  EXPECT_FALSE(f.major_is_x);
-  EXPECT_TRUE(footprint(FootprintRule::kHalf, 10, 4, 4, 10).major_is_x);
-  EXPECT_TRUE(footprint(FootprintRule::kHalf, 0, 0, 0, 0).major_is_x);
+  EXPECT_EQ(f.major, 1);
+  EXPECT_EQ(two({10, 4}, {4, 10}).major, 0);
+  EXPECT_EQ(two({0, 0}, {0, 0}).major, 0);
+}
+
+// What a table of directions gives at candidate k, against cosine and sine in real arithmetic.
+using Direction = std::function<Magnitudes(Axes, int, const Step&, const Step&)>;
+
+double largest_direction_error(const Direction& candidate) {
+  tb::Random random(7);
+  double largest = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const double length = std::exp2(random.uniform(0, 13)), turn = random.uniform(0, 6.28318);
+    const Step p_x = step(length * std::cos(turn), length * std::sin(turn));
+    const Step p_y = step(-length * std::sin(turn), length * std::cos(turn));
+    for (const Axes axes : {Axes::kTwo, Axes::kFour, Axes::kEight}) {
+      for (int k = 0; k < candidates(axes); ++k) {
+        const double angle = std::numbers::pi * k / candidates(axes);
+        const auto real = [&](std::int64_t x, std::int64_t y) {
+          return std::abs(std::cos(angle) * static_cast<double>(x) +
+                          std::sin(angle) * static_cast<double>(y));
+        };
+        const Magnitudes u = candidate(axes, k, p_x, p_y);
+        largest = std::max({largest, std::abs(u.s - real(p_x.s, p_y.s)) / (65536 * length),
+                            std::abs(u.t - real(p_x.t, p_y.t)) / (65536 * length)});
+      }
+    }
+  }
+  return largest;
+}
+
+// Rotated by (118, 49) / 128 a step is 0.0024 too short across, by (90, 90) / 128 0.0057.
+TEST(Axes, CandidatesAreTheStepsTurnedWithinTheErrorOfTheConstants) {
+  const double error = largest_direction_error(candidate_in_texels);
+  EXPECT_LE(error, 0.0058);
+  EXPECT_GE(error, 0.0040);
+}
+
+TEST(Axes, CheckFindsASwappedSineAndALostSign) {
+  const Direction swapped = [](Axes axes, int k, const Step& p_x, const Step& p_y) {
+    return candidate_in_texels(axes, k, p_y, p_x);
+  };
+  EXPECT_GT(largest_direction_error(swapped), 0.3);
+  const Direction unsigned_cosine = [](Axes axes, int k, const Step& p_x, const Step& p_y) {
+    const int mirrored = k > candidates(axes) / 2 ? candidates(axes) - k : k;
+    return candidate_in_texels(axes, mirrored, p_x, p_y);
+  };
+  EXPECT_GT(largest_direction_error(unsigned_cosine), 0.3);
+}
+
+TEST(Axes, TwoOfEveryChoiceAreTheStepsThemselves) {
+  tb::Random random(8);
+  const auto any = [&] { return static_cast<std::int64_t>(random.next() >> 33) - (1 << 30); };
+  for (int trial = 0; trial < 10000; ++trial) {
+    const Step x{any(), any()}, y{any(), any()};
+    const auto sizes = [](const Step& p) {
+      return Magnitudes{static_cast<std::uint32_t>(std::abs(p.s)),
+                        static_cast<std::uint32_t>(std::abs(p.t))};
+    };
+    for (const Axes axes : {Axes::kTwo, Axes::kFour, Axes::kEight}) {
+      const int half = candidates(axes) / 2;
+      ASSERT_EQ(candidate_in_texels(axes, 0, x, y), sizes(x));
+      ASSERT_EQ(candidate_in_texels(axes, half, x, y), sizes(y));
+      ASSERT_EQ(candidate_in_coordinates(axes, 0, x, y), x);
+      ASSERT_EQ(candidate_in_coordinates(axes, half, x, y), y);
+      // Mirrored coordinates give mirrored steps.
+      for (int k = 0; k < candidates(axes); ++k) {
+        const Step there = candidate_in_coordinates(axes, k, x, y);
+        const Step back = candidate_in_coordinates(axes, k, {-x.s, -x.t}, {-y.s, -y.t});
+        ASSERT_EQ(back, (Step{-there.s, -there.t}));
+      }
+    }
+  }
+  // Beyond S15.16 a turned step saturates like a derivative.
+  const Step far{kLargest, kLargest};
+  EXPECT_EQ(candidate_in_texels(Axes::kFour, 1, far, far), (Magnitudes{kLargest, kLargest}));
+}
+
+// How far K axes with the area are from the true ellipse, in levels, over every direction.
+struct EllipseError {
+  double d_max = 0, d_min = 0;
+};
+using Lengths = std::function<AxisLogarithms(const Step&, const Step&)>;
+EllipseError ellipse_error(const Lengths& lengths) {
+  EllipseError largest;
+  for (const double ratio : {1.0, 1.5, 3.0, 6.0, 16.0, 40.0}) {
+    for (int i = 0; i < 720; ++i) {
+      const double camera = std::numbers::pi * i / 720, surface = 0.31;
+      const auto at = [&](double x, double y) {
+        const double u = ratio * (std::cos(camera) * x - std::sin(camera) * y);
+        const double v = std::sin(camera) * x + std::cos(camera) * y;
+        return step(8 * (std::cos(surface) * u - std::sin(surface) * v),
+                    8 * (std::sin(surface) * u + std::cos(surface) * v));
+      };
+      const AxisLogarithms lb = lengths(at(1, 0), at(0, 1));
+      largest.d_max = std::max(largest.d_max, std::abs(lb.d_max / 4096.0 - std::log2(8 * ratio)));
+      largest.d_min = std::max(largest.d_min, std::abs(lb.d_min / 4096.0 - 3));
+    }
+  }
+  return largest;
+}
+AxisLogarithms exact_lengths(Axes axes, const Step& p_x, const Step& p_y) {
+  return axis_logarithms(axes, Log2Rule::kExact, footprint(axes, FootprintRule::kExact, p_x, p_y));
+}
+
+// -lb cos of half the angle between candidates: 45, 22.5 and 11.25 degrees.
+TEST(Axes, LengthsAreThoseOfTheEllipseWithinHalfTheAngleBetweenCandidates) {
+  const auto error = [](Axes axes) {
+    return ellipse_error(
+        [axes](const Step& p_x, const Step& p_y) { return exact_lengths(axes, p_x, p_y); });
+  };
+  const EllipseError two = error(Axes::kTwo), four = error(Axes::kFour),
+                     eight = error(Axes::kEight);
+  std::printf("lb d_max, lb d_min off by at most: two %.3f %.3f, four %.3f %.3f, eight %.3f %.3f\n",
+              two.d_max, two.d_min, four.d_max, four.d_min, eight.d_max, eight.d_min);
+  EXPECT_LE(eight.d_max, 0.034);
+  EXPECT_LE(eight.d_min, 0.034);
+  EXPECT_LE(four.d_max, 0.125);
+  EXPECT_LE(four.d_min, 0.127);
+  EXPECT_NEAR(two.d_max, 0.5, 0.002);
+  EXPECT_GT(two.d_min, 4.5);  // 45 degrees beside the axes 40 : 1 looks like 1 : 1
+}
+
+TEST(Axes, CheckFindsAWrongPartnerAndALostProduct) {
+  const auto partner = ellipse_error([](const Step& p_x, const Step& p_y) {
+    const Footprint f = footprint(Axes::kEight, FootprintRule::kExact, p_x, p_y);
+    return AxisLogarithms{log2_fixed(Log2Rule::kExact, f.d_max),
+                          log2_fixed(Log2Rule::kExact, f.d_min)};
+  });
+  EXPECT_GT(partner.d_min, 2);
+  const auto lost = ellipse_error([](const Step& p_x, const Step& p_y) {
+    Footprint f = footprint(Axes::kEight, FootprintRule::kExact, p_x, p_y);
+    f.area = footprint(Axes::kEight, FootprintRule::kExact, {p_x.s, 0}, {0, p_y.t}).area;
+    return axis_logarithms(Axes::kEight, Log2Rule::kExact, f);
+  });
+  EXPECT_GT(lost.d_min, 1);
+}
+
+TEST(Axes, AreaIsTheExactProductOfTheCutComponents) {
+  const auto area = [](const Step& p_x, const Step& p_y) {
+    return footprint(Axes::kEight, FootprintRule::kHalf, p_x, p_y).area;
+  };
+  EXPECT_EQ(area(step(6, 0), step(0, 1)), 6u << 16);
+  EXPECT_EQ(area(step(0, -1), step(6, 0)), 6u << 16);
+  EXPECT_EQ(area(step(2, 3), step(-4, -6)), 0u);
+  EXPECT_EQ(area({511, 0}, {0, -256}), 1u);  // 511 / 65536 is cut to 1 / 256
+  const std::int64_t far = kLargest;
+  EXPECT_EQ(area({far, far}, {-far, far}), std::uint64_t{2} * 0x7FFFFF * 0x7FFFFF);
 }
 
 // Paper 004, Tables 1 and 2: the printed percentages are mean squares times 100.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "golden/ideal/box.h"
+#include "golden/ideal/ellipse.h"
 #include "golden/ideal/ewa.h"
 #include "golden/ideal/footprint.h"
 #include "golden/ideal/lod.h"
@@ -58,7 +59,68 @@ TEST(IdealFootprint, FigureOneOfThePaper) {
   EXPECT_DOUBLE_EQ(d.d_min, std::sqrt(5.0));
   spec::texture::Descriptor descriptor;
   descriptor.max_anisotropy_log2 = 4;
-  EXPECT_EQ(level_of_detail({}, descriptor, f).lb_n, 1);  // N = 2 by the rule of section 1.3
+  spec::texture::Parameters paper;
+  paper.axes = spec::texture::Axes::kTwo;
+  paper.count = spec::texture::CountRule::kFloor;
+  EXPECT_EQ(level_of_detail(paper, descriptor, f).samples, 2);  // by the rule of section 1.3
+}
+
+// ---- ellipse ------------------------------------------------------------------------------------
+
+// The farthest and the nearest point of the circle's picture, by walking around it.
+TEST(Ellipse, AxesAreTheExtremesOfTheTurnedStep) {
+  tb::Random random(4);
+  const auto any = [&] { return random.uniform(-20, 20); };
+  for (int trial = 0; trial < 500; ++trial) {
+    const PixelFootprint f{0, 0, any(), any(), any(), any()};
+    double longest = 0, shortest = 1e9, along_s = 0, along_t = 0;
+    constexpr int kSteps = 20000;
+    for (int i = 0; i < kSteps; ++i) {
+      const double angle = 3.14159265358979 * i / kSteps;
+      const double s = std::cos(angle) * f.s_x + std::sin(angle) * f.s_y;
+      const double t = std::cos(angle) * f.t_x + std::sin(angle) * f.t_y;
+      const double length = std::hypot(s, t);
+      shortest = std::min(shortest, length);
+      if (length > longest) {
+        longest = length;
+        along_s = s;
+        along_t = t;
+      }
+    }
+    const Ellipse e = ellipse(f);
+    ASSERT_NEAR(e.d_max, longest, 1e-5 * longest);
+    ASSERT_NEAR(e.d_min, shortest, 2e-3 * longest);
+    ASSERT_NEAR(std::hypot(e.major_s, e.major_t), e.d_max, 1e-9 * longest);
+    // Parallel, either way.
+    ASSERT_NEAR(e.major_s * along_t - e.major_t * along_s, 0, 4e-3 * longest * longest);
+  }
+}
+
+TEST(Ellipse, OfUprightFootprintsIsTheirSides) {
+  const Ellipse e = ellipse({0, 0, 6, 0, 0, 1});
+  EXPECT_DOUBLE_EQ(e.d_max, 6);
+  EXPECT_DOUBLE_EQ(e.d_min, 1);
+  EXPECT_DOUBLE_EQ(e.major_s, 6);
+  EXPECT_NEAR(e.major_t, 0, 1e-12);
+  const Ellipse line = ellipse({0, 0, 3, 4, 6, 8});
+  EXPECT_DOUBLE_EQ(line.d_min, 0);
+  EXPECT_NEAR(line.d_max, std::sqrt(125.0), 1e-12);
+  EXPECT_EQ(ellipse({}).d_max, 0);
+}
+
+TEST(Ellipse, FilteringALinearRampGivesItsCentre) {
+  const TextureImage texture = image(ramp(64));
+  spec::texture::Descriptor descriptor;
+  descriptor.max_anisotropy_log2 = 4;
+  descriptor.levels = 7;
+  for (const auto count : {spec::texture::CountRule::kFloor, spec::texture::CountRule::kCeil,
+                           spec::texture::CountRule::kAny}) {
+    spec::texture::Parameters parameters;
+    parameters.count = count;
+    const Colour c = along_ellipse(texture, parameters, descriptor, {32.3, 30.1, 5, 2, -0.3, 0.7});
+    EXPECT_NEAR(c[0], 2 * (32.3 - 0.5), 0.6);  // mip levels of the ramp are rounded
+    EXPECT_NEAR(c[1], 3 * (30.1 - 0.5), 0.6);
+  }
 }
 
 // ---- box ----------------------------------------------------------------------------------------

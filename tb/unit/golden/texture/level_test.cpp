@@ -8,8 +8,10 @@
 #include <functional>
 
 #include "golden/ideal/lod.h"
+#include "golden/texture/configuration.h"
 #include "golden/texture/footprint.h"
 #include "golden/texture/level_of_detail.h"
+#include "spec/texture/tables.h"
 #include "tb/stimuli/random.h"
 
 namespace deburr {
@@ -43,15 +45,21 @@ LevelOfDetail by_formula(const spec::texture::Parameters& p, const spec::texture
   r.lb_d_min = lb_min;
   r.anisotropy = std::max(0, lb_max - lb_min);
   const double big_l = r.anisotropy / 4096.0, lb_d_max = lb_max / 4096.0;
-  double lb_n = p.count == spec::texture::CountRule::kCeil ? std::ceil(big_l) : std::floor(big_l);
-  lb_n = std::min(lb_n, static_cast<double>(d.max_anisotropy_log2));
+  const bool any = p.count == spec::texture::CountRule::kAny;
+  double e = any                                          ? big_l
+             : p.count == spec::texture::CountRule::kCeil ? std::ceil(big_l)
+                                                          : std::floor(big_l);
+  e = std::min(e, static_cast<double>(d.max_anisotropy_log2));
   if (p.count_cap == spec::texture::CountCap::kTexel) {
-    lb_n = std::min(lb_n, std::max(0.0, std::ceil(lb_d_max)));
+    e = std::min(e, std::max(0.0, any ? lb_d_max : std::ceil(lb_d_max)));
   }
-  if (lb_d_max <= 0) lb_n = 0;
-  r.lb_n = static_cast<int>(lb_n);
-  const double l = std::min(std::max(lb_d_max - lb_n + d.lod_bias / 256.0, d.min_lod / 256.0),
-                            d.max_lod / 256.0);
+  if (lb_d_max <= 0) e = 0;
+  r.sampled = static_cast<std::int32_t>(4096 * e);
+  // The ratio that samples stand for, rounded up; its logarithm is known to half of its last place.
+  r.samples = 1;
+  while (4096 * std::log2(r.samples) + 0.5 < r.sampled) ++r.samples;
+  const double l =
+      std::min(std::max(lb_d_max - e + d.lod_bias / 256.0, d.min_lod / 256.0), d.max_lod / 256.0);
   r.l = static_cast<std::int32_t>(4096 * l);
   if (l <= 0) {
     r.magnified = true;
@@ -84,6 +92,12 @@ using Select =
     std::function<LevelOfDetail(const spec::texture::Parameters&, const spec::texture::Descriptor&,
                                 std::int32_t, std::int32_t)>;
 
+// Within two places of the logarithm of a whole number.
+bool near_a_count(std::int32_t anisotropy) {
+  const double ratio = std::exp2(anisotropy / 4096.0);
+  return std::abs(anisotropy - 4096 * std::log2(std::round(ratio))) < 2;
+}
+
 // Number of differences to the formula over every l from -3 to 14 and a fan of parameters.
 int differences(const Select& select) {
   int count = 0;
@@ -96,12 +110,15 @@ int differences(const Select& select) {
       }
     }
   }
-  for (const auto rule : {spec::texture::CountRule::kFloor, spec::texture::CountRule::kCeil}) {
+  for (const auto rule : {spec::texture::CountRule::kFloor, spec::texture::CountRule::kCeil,
+                          spec::texture::CountRule::kAny}) {
     for (const auto cap : {spec::texture::CountCap::kNone, spec::texture::CountCap::kTexel}) {
       for (int n = 0; n <= 4; ++n) {
         for (std::int32_t lb_max = -2 * 4096; lb_max <= 6 * 4096; lb_max += 1024) {
           for (std::int32_t anisotropy = -130; anisotropy <= 6 * 4096; anisotropy += 1) {
-            if (anisotropy % 4096 > 3 && anisotropy % 4096 < 4093 && anisotropy % 97 != 0) continue;
+            if (anisotropy % 4096 > 3 && anisotropy % 4096 < 4093 && anisotropy % 97 != 0 &&
+                !near_a_count(anisotropy))
+              continue;
             p.count = rule;
             p.count_cap = cap;
             auto d = descriptor(MinFilter::kLinearMipmapLinear);
@@ -117,6 +134,25 @@ int differences(const Select& select) {
 }
 
 TEST(Level, IsGlsFormulaForEveryLevelModeAndCount) { EXPECT_EQ(differences(select_level), 0); }
+
+// Vulkan's rule: N follows the ratio without a step, and so does the level.
+TEST(Level, AnyCountHasNoSteps) {
+  spec::texture::Parameters p;
+  p.count = spec::texture::CountRule::kAny;
+  auto d = descriptor(MinFilter::kLinearMipmapLinear);
+  d.max_anisotropy_log2 = 4;
+  LevelOfDetail last = select_level(p, d, 6 << 12, 6 << 12);
+  for (std::int32_t anisotropy = 1; anisotropy <= 4 << 12; ++anisotropy) {
+    const LevelOfDetail now = select_level(p, d, 6 << 12, (6 << 12) - anisotropy);
+    ASSERT_GE(now.samples, last.samples);
+    ASSERT_LE(now.samples, last.samples + 1);
+    ASSERT_EQ(now.l, last.l - 1);
+    ASSERT_GE(now.samples, std::exp2(anisotropy / 4096.0) - 0.002);
+    ASSERT_LE(now.samples, std::exp2(anisotropy / 4096.0) + 1.002);
+    last = now;
+  }
+  EXPECT_EQ(last.samples, 16);
+}
 
 TEST(Level, CheckFindsPlantedFaults) {
   // Rounding of l at 8 bits truncated, GL's rounding to the nearest level off by one step, N_max
@@ -136,6 +172,13 @@ TEST(Level, CheckFindsPlantedFaults) {
               return select_level(p, d, a, b);
             }),
             0);
+  // A threshold of the count that is one place too high.
+  EXPECT_GT(differences([](const auto& p, const auto& d, std::int32_t a, std::int32_t b) {
+              LevelOfDetail r = select_level(p, d, a, b);
+              if (r.sampled == spec::texture::kLog2Count[11] + 1) r.samples = 11;
+              return r;
+            }),
+            0);
 }
 
 TEST(Level, BiasAndClampsAsInTheContract) {
@@ -151,7 +194,7 @@ TEST(Level, BiasAndClampsAsInTheContract) {
     d.lod_bias = static_cast<std::int16_t>(pick(0, 1) == 0 ? pick(-32768, 32767) : pick(-900, 900));
     d.min_lod = static_cast<std::uint16_t>(pick(0, 2) == 0 ? pick(0, 65535) : 0);
     d.max_lod = static_cast<std::uint16_t>(pick(0, 2) == 0 ? pick(0, 65535) : 12 << 8);
-    p.count = pick(0, 1) == 0 ? spec::texture::CountRule::kFloor : spec::texture::CountRule::kCeil;
+    p.count = static_cast<spec::texture::CountRule>(pick(0, 2));
     const std::int32_t lb_max = pick(-16 * 4096, 16 * 4096), lb_min = lb_max - pick(-118, 70000);
     ASSERT_EQ(select_level(p, d, lb_max, lb_min), by_formula(p, d, lb_max, lb_min)) << i;
   }
@@ -177,16 +220,17 @@ TEST(Level, SwitchesOverAtZero) {
 
 // Paper 004, Fig. 1: s_x = 6, t_x = 3, sides 3 sqrt 5 and sqrt 5.
 TEST(Level, FigureOneOfThePaperTakesTwoSamples) {
-  const auto f = golden::texture::footprint(spec::texture::FootprintRule::kHalf, 6 << 16, 3 << 16,
-                                            1 << 16, 2 << 16);
+  const auto paper = golden::texture::preset_parameters(spec::texture::Preset::kPaper);
+  const auto f = golden::texture::footprint(paper.axes, paper.footprint, {6 << 16, 3 << 16},
+                                            {1 << 16, 2 << 16});
   auto d = descriptor(MinFilter::kLinearMipmapLinear);
   d.max_anisotropy_log2 = 4;
   const auto log2 = [](std::uint32_t x) {
     return golden::texture::log2_fixed(spec::texture::Log2Rule::kMitchell, x);
   };
-  const LevelOfDetail r = select_level({}, d, log2(f.d_max), log2(f.d_min));
+  const LevelOfDetail r = select_level(paper, d, log2(f.d_max), log2(f.d_min));
   EXPECT_EQ(r.anisotropy, 1.625 * 4096);
-  EXPECT_EQ(r.samples(), 2);
+  EXPECT_EQ(r.samples, 2);
   EXPECT_EQ(r.l, 1.875 * 4096);
 }
 
@@ -198,6 +242,8 @@ TEST(Level, ExactRulesComeCloseToRealArithmetic) {
   spec::texture::Parameters p;
   p.footprint = spec::texture::FootprintRule::kExact;
   p.log2 = spec::texture::Log2Rule::kExact;
+  p.axes = spec::texture::Axes::kTwo;
+  p.count = spec::texture::CountRule::kFloor;
   auto d = descriptor(MinFilter::kLinearMipmapLinear);
   d.max_anisotropy_log2 = 4;
   int flips = 0;
@@ -210,15 +256,13 @@ TEST(Level, ExactRulesComeCloseToRealArithmetic) {
     f.t_x = dx * std::sin(ax);
     f.s_y = dy * std::cos(ay);
     f.t_y = dy * std::sin(ay);
-    const auto fixed = [](double x) {
-      return static_cast<std::uint32_t>(std::lround(std::abs(x) * 65536));
-    };
-    const auto footprint = golden::texture::footprint(p.footprint, fixed(f.s_x), fixed(f.t_x),
-                                                      fixed(f.s_y), fixed(f.t_y));
-    const auto r = select_level(p, d, golden::texture::log2_fixed(p.log2, footprint.d_max),
-                                golden::texture::log2_fixed(p.log2, footprint.d_min));
+    const auto fixed = [](double x) { return std::int64_t{std::lround(x * 65536)}; };
+    const auto footprint = golden::texture::footprint(
+        p.axes, p.footprint, {fixed(f.s_x), fixed(f.t_x)}, {fixed(f.s_y), fixed(f.t_y)});
+    const auto lb = golden::texture::axis_logarithms(p.axes, p.log2, footprint);
+    const auto r = select_level(p, d, lb.d_max, lb.d_min);
     const auto ideal = golden::ideal::level_of_detail(p, d, f);
-    if (r.lb_n != ideal.lb_n) {
+    if (r.samples != ideal.samples) {
       ++flips;
       continue;
     }

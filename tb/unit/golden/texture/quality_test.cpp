@@ -15,6 +15,7 @@
 #include "golden/ideal/box.h"
 #include "golden/ideal/ewa.h"
 #include "golden/ideal/texture_image.h"
+#include "golden/texture/configuration.h"
 #include "golden/texture/texture_golden.h"
 #include "tb/unit/golden/texture/support.h"
 
@@ -36,7 +37,8 @@ struct Rule {
 
 Rule rule(const char* name, FootprintRule footprint, Log2Rule log2, CountRule count, Kernel kernel,
           int spread, int max_anisotropy_log2 = 4) {
-  Rule r{name, {}, max_anisotropy_log2};
+  Rule r{name, golden::texture::preset_parameters(spec::texture::Preset::kPaper),
+         max_anisotropy_log2};
   r.parameters.footprint = footprint;
   r.parameters.log2 = log2;
   r.parameters.count = count;

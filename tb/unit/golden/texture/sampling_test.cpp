@@ -22,33 +22,48 @@ constexpr Wrap kWraps[] = {Wrap::kRepeat, Wrap::kMirroredRepeat, Wrap::kClampToE
 
 // ---- walker -------------------------------------------------------------------------------------
 
-TEST(Walker, OffsetsAreTheRoundedFractionsOfTheAxis) {
+// Largest distance of an offset from ((2 i + 1) / 2 N - 1/2) x spread / 64 x axis, in places of the
+// axis: rounding, and what is lost of 1 / N in 16 bits.
+using Offset = std::function<std::int64_t(int i, int n, std::int32_t spread, std::int64_t axis)>;
+int wrong_offsets(const Offset& offset) {
   tb::Random random(1);
-  for (int lb_n = 0; lb_n <= 4; ++lb_n) {
-    const int n = 1 << lb_n;
-    for (int trial = 0; trial < 20000; ++trial) {
-      const auto difference =
+  int wrong = 0;
+  for (int n = 1; n <= 16; ++n) {
+    const bool exact = (n & (n - 1)) == 0;
+    for (int trial = 0; trial < 10000; ++trial) {
+      const auto axis =
           static_cast<std::int64_t>(random.next() >> (31 + trial % 24)) * (trial % 2 == 0 ? 1 : -1);
       const auto spread = static_cast<std::int32_t>(trial % 129);
       for (int i = 0; i < n; ++i) {
-        // ((2 i + 1) / 2 N - 1/2) x spread / 64 x difference: every product is below 2^53.
-        const double exact =
-            (2.0 * i + 1 - n) * spread * static_cast<double>(difference) / (128.0 * n);
-        ASSERT_EQ(sample_offset(i, lb_n, spread, difference), std::floor(exact + 0.5))
-            << n << ' ' << i << ' ' << spread << ' ' << difference;
+        // Every product is below 2^53.
+        const double real = (2.0 * i + 1 - n) * spread * static_cast<double>(axis) / (128.0 * n);
+        const auto got = static_cast<double>(offset(i, n, spread, axis));
+        const double lost = std::abs(real) * n / (2 * 65536.0);
+        wrong += exact ? got != std::floor(real + 0.5) : std::abs(got - real) > 0.5001 + lost;
       }
     }
   }
+  return wrong;
+}
+
+TEST(Walker, OffsetsAreTheRoundedFractionsOfTheAxis) { EXPECT_EQ(wrong_offsets(sample_offset), 0); }
+
+TEST(Walker, CheckFindsAWrongReciprocal) {
+  EXPECT_GT(wrong_offsets([](int i, int n, std::int32_t spread, std::int64_t axis) {
+              const std::int64_t reciprocal =
+                  n == 11 ? 5957 : spec::texture::kReciprocal.at(static_cast<std::size_t>(n));
+              return round_shift((2 * i + 1 - n) * spread * axis * reciprocal, 23);
+            }),
+            0);
 }
 
 TEST(Walker, SamplesAreSymmetricAndOneSampleIsTheCentre) {
-  EXPECT_EQ(sample_offset(0, 0, 128, 0xFFFFFFFF), 0);
-  for (const std::int64_t difference : {std::int64_t{1}, std::int64_t{-12345}, kOne * 200}) {
-    for (int lb_n = 1; lb_n <= 4; ++lb_n) {
-      const int n = 1 << lb_n;
+  EXPECT_EQ(sample_offset(0, 1, 128, 0xFFFFFFFF), 0);
+  for (const std::int64_t axis : {std::int64_t{1}, std::int64_t{-12345}, kOne * 200}) {
+    for (int n = 2; n <= 16; ++n) {
       for (int i = 0; i < n; ++i) {
         const std::int64_t sum =
-            sample_offset(i, lb_n, 64, difference) + sample_offset(n - 1 - i, lb_n, 64, difference);
+            sample_offset(i, n, 64, axis) + sample_offset(n - 1 - i, n, 64, axis);
         EXPECT_GE(sum, 0);  // a tie rounds up on both sides
         EXPECT_LE(sum, 1);
       }
@@ -56,18 +71,45 @@ TEST(Walker, SamplesAreSymmetricAndOneSampleIsTheCentre) {
   }
 }
 
-TEST(Walker, WeightsSumToTheirPowerOfTwo) {
+// The longest axis, the widest spread: the exact product stays within 60 bits.
+TEST(Walker, TheLargestProductFitsItsWidth) {
+  constexpr std::int64_t kLongest = (118 + 49) * ((std::int64_t{1} << 32) - 1) / 128;
+  for (int n = 1; n <= 16; ++n) {
+    const auto reciprocal =
+        std::int64_t{spec::texture::kReciprocal.at(static_cast<std::size_t>(n))};
+    EXPECT_LT(
+        static_cast<long double>(n - 1) * 128 * kLongest * static_cast<long double>(reciprocal),
+        std::exp2l(60));
+    EXPECT_NEAR(static_cast<double>(sample_offset(n - 1, n, 128, kLongest)),
+                (n - 1.0) / n * static_cast<double>(kLongest),
+                1e-4 * static_cast<double>(kLongest));
+  }
+}
+
+TEST(Walker, WeightsAreSymmetricAndSumToOne) {
   for (const auto kernel : {spec::texture::Kernel::kBox, spec::texture::Kernel::kTent}) {
-    for (int lb_n = 0; lb_n <= 4; ++lb_n) {
+    for (int n = 1; n <= 16; ++n) {
       std::uint32_t sum = 0;
-      for (int i = 0; i < 1 << lb_n; ++i) {
-        sum += sample_weight(kernel, i, lb_n);
-        EXPECT_EQ(sample_weight(kernel, i, lb_n), sample_weight(kernel, (1 << lb_n) - 1 - i, lb_n));
+      for (int i = 0; i < n; ++i) {
+        sum += sample_weight(kernel, i, n);
+        EXPECT_EQ(sample_weight(kernel, i, n), sample_weight(kernel, n - 1 - i, n));
       }
-      EXPECT_EQ(sum, 1u << kernel_log2_sum(kernel, lb_n));
+      EXPECT_EQ(sum, 256u);
     }
   }
-  EXPECT_EQ(sample_weight(spec::texture::Kernel::kTent, 3, 3), 7u);  // 1 3 5 7 7 5 3 1
+  EXPECT_EQ(sample_weight(spec::texture::Kernel::kTent, 3, 8), 7u * 8);  // 1 3 5 7 7 5 3 1
+}
+
+TEST(Walker, ATentOfFewSamplesIsABox) {
+  using spec::texture::Kernel;
+  for (int n = 1; n < 4; ++n) {
+    EXPECT_EQ(spread_of(Kernel::kTent, n, 102), 64);
+    EXPECT_EQ(spread_of(Kernel::kTent, n, 50), 50);
+    for (int i = 0; i < n; ++i)
+      EXPECT_EQ(sample_weight(Kernel::kTent, i, n), sample_weight(Kernel::kBox, i, n));
+  }
+  EXPECT_EQ(spread_of(Kernel::kTent, 4, 102), 102);
+  EXPECT_EQ(spread_of(Kernel::kBox, 2, 102), 102);
 }
 
 // ---- wrapping -----------------------------------------------------------------------------------

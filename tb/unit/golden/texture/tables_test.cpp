@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "spec/texture/descriptor.h"
 
@@ -39,10 +41,58 @@ double srgb_entry(int i) {
   return 4080 * (c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
 }
 
+double srgb_code(int i) {
+  const double linear = std::min(i / 4080.0, 1.0);
+  return 255 * (linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
+}
+
+double count_entry(int n) { return n == 0 ? 0 : 4096 * std::log2(n); }
+double reciprocal_entry(int n) { return n == 0 ? 0 : 65536.0 / n; }
+
+// The weights of one kernel and N are what docs/number_formats.md, "Sample walker", says.
+bool right_weights(std::size_t kernel, int n, const std::array<std::uint16_t, 16>& weights) {
+  const auto shape = [&](int i) {
+    return kernel == 1 && n >= 4 ? std::min(2 * i + 1, 2 * (n - i) - 1) : 1;
+  };
+  int total = 0;
+  for (int i = 0; i < n; ++i) total += shape(i);
+  const auto running = [&](int j) {
+    int first = 0;
+    for (int i = 0; i < std::min(j, n - j); ++i) first += shape(i);
+    const auto rounded = static_cast<int>(std::lround(256.0 * first / total));
+    return 2 * j <= n ? rounded : 256 - rounded;
+  };
+  for (int i = 0; i < 16; ++i) {
+    const int wanted = i < n ? running(i + 1) - running(i) : 0;
+    if (weights[static_cast<std::size_t>(i)] != wanted) return false;
+  }
+  return true;
+}
+
 TEST(TextureTables, AreWhatTheirFormulasGive) {
+  EXPECT_EQ(first_wrong(spec::texture::kLinearToSrgb, srgb_code), -1);
+  EXPECT_EQ(first_wrong(spec::texture::kLog2Count, count_entry), -1);
+  EXPECT_EQ(first_wrong(spec::texture::kReciprocal, reciprocal_entry), -1);
+  for (std::size_t kernel = 0; kernel < 2; ++kernel)
+    for (std::size_t n = 1; n <= 16; ++n)
+      EXPECT_TRUE(
+          right_weights(kernel, static_cast<int>(n), spec::texture::kKernelWeights[kernel][n]))
+          << kernel << " " << n;
   EXPECT_EQ(first_wrong(spec::texture::kLog2Table, log2_entry), -1);
   EXPECT_EQ(first_wrong(spec::texture::kLog2Correction, correction_entry), -1);
   EXPECT_EQ(first_wrong(spec::texture::kSrgbToLinear, srgb_entry), -1);
+}
+
+// How far each choice of cosine and sine is from the angle and the length that it stands for: the
+// table of docs/texture_unit.md.
+TEST(TextureTables, AxesAreWithinTheirErrors) {
+  for (std::size_t i = 0; i < spec::texture::kAxes.size(); ++i) {
+    const spec::texture::Axis& axis = spec::texture::kAxes[i];
+    const double cosine = axis.cosine / 128.0, sine = axis.sine / 128.0;
+    const double wanted = 22.5 * static_cast<double>(i);
+    EXPECT_NEAR(std::atan2(sine, cosine) * 180 / std::numbers::pi, wanted, 0.06) << i;
+    EXPECT_NEAR(std::hypot(cosine, sine), 1, 0.006) << i;
+  }
 }
 
 TEST(TextureTables, TilesAre64Bytes) {
@@ -58,6 +108,30 @@ TEST(TextureTables, CheckFindsOneWrongBitAnywhere) {
     auto table = spec::texture::kLog2Table;
     table[i] ^= 1;
     EXPECT_EQ(first_wrong(table, log2_entry), static_cast<int>(i));
+  }
+  for (std::size_t kernel = 0; kernel < 2; ++kernel) {
+    for (std::size_t n = 1; n <= 16; ++n) {
+      for (std::size_t i = 0; i < 16; ++i) {
+        auto weights = spec::texture::kKernelWeights[kernel][n];
+        weights[i] ^= 1;
+        EXPECT_FALSE(right_weights(kernel, static_cast<int>(n), weights));
+      }
+    }
+  }
+  for (std::size_t i = 0; i < spec::texture::kLog2Count.size(); ++i) {
+    auto table = spec::texture::kLog2Count;
+    table[i] ^= 1;
+    EXPECT_EQ(first_wrong(table, count_entry), static_cast<int>(i));
+  }
+  for (std::size_t i = 0; i < spec::texture::kReciprocal.size(); ++i) {
+    auto table = spec::texture::kReciprocal;
+    table[i] ^= 1;
+    EXPECT_EQ(first_wrong(table, reciprocal_entry), static_cast<int>(i));
+  }
+  for (std::size_t i = 0; i < spec::texture::kLinearToSrgb.size(); i += 61) {
+    auto table = spec::texture::kLinearToSrgb;
+    table[i] ^= 1;
+    EXPECT_EQ(first_wrong(table, srgb_code), static_cast<int>(i));
   }
   for (std::size_t i = 0; i < spec::texture::kLog2Correction.size(); ++i) {
     auto table = spec::texture::kLog2Correction;

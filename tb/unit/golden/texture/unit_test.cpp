@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "golden/texture/configuration.h"
 #include "golden/texture/texture_golden.h"
 #include "spec/error.h"
 #include "tb/stimuli/random.h"
@@ -43,19 +44,19 @@ PlainResult plain(const spec::texture::Parameters& p, const spec::texture::Descr
   const std::int64_t t_x = difference(at(t, row + 1), at(t, row));
   const std::int64_t s_y = difference(at(s, column + 2), at(s, column));
   const std::int64_t t_y = difference(at(t, column + 2), at(t, column));
-  const Footprint f = footprint(p.footprint, derivative_in_texels(s_x, d.width).texels,
-                                derivative_in_texels(t_x, d.height).texels,
-                                derivative_in_texels(s_y, d.width).texels,
-                                derivative_in_texels(t_y, d.height).texels);
-  const LevelOfDetail lod =
-      select_level(p, d, log2_fixed(p.log2, f.d_max), log2_fixed(p.log2, f.d_min));
+  const Footprint f = footprint(
+      p.axes, p.footprint,
+      {derivative_in_texels(s_x, d.width).texels, derivative_in_texels(t_x, d.height).texels},
+      {derivative_in_texels(s_y, d.width).texels, derivative_in_texels(t_y, d.height).texels});
+  const Step axis = candidate_in_coordinates(p.axes, f.major, {s_x, t_x}, {s_y, t_y});
+  const AxisLogarithms lb = axis_logarithms(p.axes, p.log2, f);
+  const LevelOfDetail lod = select_level(p, d, lb.d_max, lb.d_min);
+  const std::int32_t spread = spread_of(p.kernel, lod.samples, p.spread);
   PlainResult result;
   std::array<std::uint32_t, 4> accumulator{};
-  for (int i = 0; i < lod.samples(); ++i) {
-    const std::int64_t ps =
-        at(s, lane) + sample_offset(i, lod.lb_n, p.spread, f.major_is_x ? s_x : s_y);
-    const std::int64_t pt =
-        at(t, lane) + sample_offset(i, lod.lb_n, p.spread, f.major_is_x ? t_x : t_y);
+  for (int i = 0; i < lod.samples; ++i) {
+    const std::int64_t ps = at(s, lane) + sample_offset(i, lod.samples, spread, axis.s);
+    const std::int64_t pt = at(t, lane) + sample_offset(i, lod.samples, spread, axis.t);
     std::array<std::array<std::uint32_t, 4>, 2> filtered{};
     for (int request = 0; request < lod.requests_per_sample(); ++request) {
       const int level = lod.level + request;
@@ -82,12 +83,14 @@ PlainResult plain(const spec::texture::Parameters& p, const spec::texture::Descr
       }
     }
     for (std::size_t c = 0; c < 4; ++c) {
-      accumulator[c] += sample_weight(p.kernel, i, lod.lb_n) *
+      accumulator[c] += sample_weight(p.kernel, i, lod.samples) *
                         level_lerp(filtered[0][c], filtered[1][c], lod.fraction);
     }
   }
   for (std::size_t c = 0; c < 4; ++c) {
-    result.rgba[c] = round_result(accumulator[c], kernel_log2_sum(p.kernel, lod.lb_n));
+    const bool encode = c < 3 && d.format == spec::texture::Format::kSrgb8A8 &&
+                        p.srgb_output == spec::texture::SrgbOutput::kEncoded;
+    result.rgba[c] = encode ? encode_result(accumulator[c]) : round_result(accumulator[c]);
   }
   return result;
 }
@@ -126,7 +129,9 @@ class RandomWork {
     spec::texture::Parameters p;
     p.footprint = static_cast<spec::texture::FootprintRule>(pick(0, 4));
     p.log2 = static_cast<spec::texture::Log2Rule>(pick(0, 3));
-    p.count = static_cast<spec::texture::CountRule>(pick(0, 1));
+    p.axes = static_cast<spec::texture::Axes>(pick(0, 2));
+    p.count = static_cast<spec::texture::CountRule>(pick(0, 2));
+    p.srgb_output = static_cast<spec::texture::SrgbOutput>(pick(0, 1));
     p.count_cap = static_cast<spec::texture::CountCap>(pick(0, 1));
     p.kernel = static_cast<spec::texture::Kernel>(pick(0, 1));
     p.spread = pick(0, 2) == 0 ? pick(0, 128) : 64;
@@ -295,7 +300,7 @@ TEST(TextureGolden, TrafficDoesNotChangeColours) {
 TEST(TextureGolden, FillsOfATrilinearSampleAreLevelThenNextLevel) {
   spec::texture::Descriptor sampler;  // repeat, trilinear, RGBA8, tiles of 4 x 4
   const EncodedTexture texture(tb::texture::noise(64, 64, 1), sampler);
-  TextureGolden golden({}, texture.memory);
+  TextureGolden golden(preset_parameters(spec::texture::Preset::kPaper), texture.memory);
   golden.set_texture(0, texture.descriptor);
   std::vector<std::uint32_t> sunk;
   golden.set_fill_sink([&](std::uint32_t line) { sunk.push_back(line); });
@@ -358,7 +363,7 @@ TEST(TextureGolden, CountsClampedSaturatedMagnifiedAndN) {
   spec::texture::Descriptor sampler;
   sampler.max_anisotropy_log2 = 4;
   const EncodedTexture texture(tb::texture::checkerboard(1024, 8), sampler);
-  TextureGolden golden({}, texture.memory);
+  TextureGolden golden(preset_parameters(spec::texture::Preset::kPaper), texture.memory);
   golden.set_texture(0, texture.descriptor);
 
   spec::texture::Quad quad = flat_quad(0, 0, 8.0 / 1024, 1.0 / 1024);  // 8 x 1 texels: N = 8, l = 0
@@ -367,7 +372,7 @@ TEST(TextureGolden, CountsClampedSaturatedMagnifiedAndN) {
   golden.process(quad);
   EXPECT_EQ(golden.work().fragments, 3u);
   EXPECT_EQ(golden.work().clamped, 2u);
-  EXPECT_EQ(golden.work().by_lb_n[3], 3u);
+  EXPECT_EQ(golden.work().by_samples[8], 3u);
   EXPECT_EQ(golden.work().samples, 24u);
   EXPECT_EQ(golden.work().bilinears, 24u);
   EXPECT_EQ(golden.work().magnified, 3u);
@@ -378,10 +383,11 @@ TEST(TextureGolden, CountsClampedSaturatedMagnifiedAndN) {
   golden.process(quad);
   EXPECT_EQ(golden.work().saturated, 4u);
   const FragmentAnalysis fragment = golden.analyse(quad, 0);
-  EXPECT_EQ(fragment.abs_s_x, 0x7FFFFFFFu);
-  EXPECT_EQ(fragment.abs_s_y, 0u);
-  EXPECT_TRUE(fragment.footprint.major_is_x);
-  EXPECT_EQ(fragment.lod.lb_n, 4);
+  EXPECT_EQ(fragment.p_x.s, 0x7FFFFFFF);
+  EXPECT_EQ(fragment.p_y.s, 0);
+  EXPECT_EQ(fragment.footprint.major, 0);
+  EXPECT_EQ(fragment.axis, fragment.d_x);
+  EXPECT_EQ(fragment.lod.samples, 16);
 }
 
 TEST(TextureGolden, DerivativesAreThoseOfTheOwnRowAndColumn) {
@@ -393,7 +399,7 @@ TEST(TextureGolden, DerivativesAreThoseOfTheOwnRowAndColumn) {
   quad.t = {0, 1000, 7000, 9000};
   const auto row_and_column = [&](int lane) {
     const FragmentAnalysis f = golden.analyse(quad, lane);
-    return std::array<std::int64_t, 4>{f.s_x, f.t_x, f.s_y, f.t_y};
+    return std::array<std::int64_t, 4>{f.d_x.s, f.d_x.t, f.d_y.s, f.d_y.t};
   };
   EXPECT_THAT(row_and_column(0), ElementsAre(10, 1000, 100, 7000));
   EXPECT_THAT(row_and_column(1), ElementsAre(10, 1000, 120, 8000));
@@ -499,6 +505,22 @@ TEST(TextureGolden, LinesPastTheEndOfMemoryAreErrors) {
   texture.descriptor.base[0] = 0xFFFFFFC0;
   empty.set_texture(0, texture.descriptor);
   EXPECT_EQ(empty.process(quad).colours[3].rgba, (std::array<std::uint8_t, 4>{}));
+}
+
+TEST(TextureGolden, PresetsAreTheirRows) {
+  const spec::texture::Parameters paper = preset_parameters(spec::texture::Preset::kPaper);
+  EXPECT_EQ(paper.axes, spec::texture::Axes::kTwo);
+  EXPECT_EQ(paper.footprint, spec::texture::FootprintRule::kHalf);
+  EXPECT_EQ(paper.log2, spec::texture::Log2Rule::kMitchell);
+  EXPECT_EQ(paper.count, spec::texture::CountRule::kFloor);
+  // The defaults are the project's own preset.
+  const spec::texture::Parameters defaults, own = preset_parameters(defaults.preset);
+  EXPECT_EQ(defaults.preset, spec::texture::Preset::kDeburr);
+  EXPECT_EQ(own.axes, defaults.axes);
+  EXPECT_EQ(own.footprint, defaults.footprint);
+  EXPECT_EQ(own.log2, defaults.log2);
+  EXPECT_EQ(own.count, defaults.count);
+  EXPECT_THROW(preset_parameters(static_cast<spec::texture::Preset>(9)), spec::ConfigError);
 }
 
 TEST(TextureGolden, AGeometryThatCannotBeIsAConfigError) {

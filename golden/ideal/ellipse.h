@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// The ellipse that a round pixel is in the texture, and filtering along it in real arithmetic: what
+// candidate axes, shift-add lengths and table logarithms stand in for.
+//
+// Its axes are the singular vectors of the Jacobian whose columns are the steps along row and
+// column (P. Heckbert, Fundamentals of Texture Mapping and Image Warping, 1989). Double precision.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "golden/ideal/footprint.h"
+#include "golden/ideal/lod.h"
+#include "golden/ideal/texture_image.h"
+
+namespace deburr::golden::ideal {
+
+struct Ellipse {
+  double d_max = 0, d_min = 0;  // lengths of the axes in texels, as a pixel's sides are measured
+  double major_s = 0, major_t = 0;  // the major axis, of length d_max
+};
+Ellipse ellipse(const PixelFootprint& footprint);
+
+// A point of the texture at level l: bilinear of two levels, linear between them. l <= 0: level 0.
+Colour trilinear(const TextureImage& texture, double s, double t, double l);
+
+// The unit's rules (docs/number_formats.md) with the true ellipse instead of candidate axes, exact
+// logarithms and unrounded weights: N trilinear samples of equal weight along the major axis.
+Colour along_ellipse(const TextureImage& texture, const spec::texture::Parameters& parameters,
+                     const spec::texture::Descriptor& descriptor, const PixelFootprint& footprint);
+
+// One colour a footprint, in order.
+std::vector<Colour> ellipse_image(const TextureImage& texture,
+                                  const spec::texture::Parameters& parameters,
+                                  const spec::texture::Descriptor& descriptor,
+                                  std::span<const PixelFootprint> footprints);
+
+}  // namespace deburr::golden::ideal

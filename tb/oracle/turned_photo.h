@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// A photograph on a surface that a turned camera sees at a shallow angle: every pixel has the same
+// footprint, ratio : 1 texels, with the camera turned about its own axis. What anisotropic
+// filtering is worth in every direction, which a camera that stands upright does not show.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "golden/ideal/footprint.h"
+#include "golden/ideal/texture_image.h"
+#include "golden/texture/texture_golden.h"
+#include "spec/texture/packets.h"
+#include "spec/texture/parameters.h"
+#include "tb/env/texture_memory.h"
+#include "tb/scene/image.h"
+
+namespace deburr::tb {
+
+// A photograph with its mip levels, for the unit and for the ideal filters.
+class PhotoTexture {
+ public:
+  explicit PhotoTexture(Image image);
+  const Image& image() const { return image_; }
+  const golden::ideal::TextureImage& ideal() const { return ideal_; }
+  std::span<const std::uint8_t> memory() const { return memory_.bytes(); }
+  spec::texture::Descriptor descriptor(int lb_n_max) const;
+
+ private:
+  Image image_;
+  golden::ideal::TextureImage ideal_;
+  TextureMemory memory_;
+};
+
+struct Turn {
+  double degrees = 0;  // of the camera
+  double ratio = 6;    // length of the footprint in texels
+  double width = 1;    // across it
+  int size = 96;       // pixels each way, even
+};
+
+struct FilterFigures {
+  double psnr = 0;     // dB against the supersampled parallelogram, R, G and B
+  double detail = 0;   // share of the truth's detail that the picture has, 1: all of it
+  double samples = 0;  // a fragment
+  double bilinears = 0;
+};
+
+class TurnedPhoto {
+ public:
+  TurnedPhoto(const PhotoTexture& photo, const Turn& turn);
+
+  FilterFigures golden(const spec::texture::Parameters& parameters, int lb_n_max = 4) const;
+  FilterFigures ellipse(const spec::texture::Parameters& parameters, int lb_n_max = 4) const;
+  // Of colours one a pixel in the order of the quads.
+  FilterFigures judge(std::span<const std::uint8_t> rgba) const;
+  const std::vector<spec::texture::Quad>& quads() const { return quads_; }
+  const std::vector<golden::ideal::Colour>& truth() const { return truth_; }
+
+ private:
+  const PhotoTexture& photo_;
+  std::vector<spec::texture::Quad> quads_;
+  std::vector<golden::ideal::PixelFootprint> footprints_;
+  std::vector<golden::ideal::Colour> truth_, blurred_;  // blurred: without any detail
+};
+
+}  // namespace deburr::tb
