@@ -15,10 +15,10 @@ AddressUnit::AddressUnit(const sc_core::sc_module_name& name, ClockDomain& clock
                ? nullptr
                : std::make_unique<AxisUnit>("axis", clock, p.axes, p.footprint, p.axis_clocks)),
       log2("log2", clock, p.log2),
-      level("level", clock, descriptors.for_levels, p.count, p.count_cap),
+      level("level", clock, descriptors.for_levels, p.axes, p.count, p.count_cap),
       walker("walker", clock, p.count, p.kernel, p.spread),
       addresser("addresser", clock, descriptors.for_texels),
-      footprints_("footprints", 2, axis_shape(p)),
+      footprints_("footprints", 2, footprint_shape(p)),
       logs_("logs", 2, axis_shape(p)),
       levels_("levels", 2, axis_shape(p)) {
   const auto between = [&](auto& unit) {

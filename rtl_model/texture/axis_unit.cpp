@@ -58,8 +58,8 @@ Activity AxisUnit::tick(Cycle cycle) {
 
 template <class Stages>
 Activity AxisUnit::advance(Cycle cycle, Stages& stages) {
-  const bool arrives = pairs_left_ == 0 && derivatives_in.can_pop(cycle);
-  if (stages.empty() && pairs_left_ == 0 && !arrives) return kIdle;
+  const bool arrives = clocks_left_ == 0 && derivatives_in.can_pop(cycle);
+  if (stages.empty() && clocks_left_ == 0 && !arrives) return kIdle;
   if (stages.leaves() && !footprints_out.can_push(cycle)) return kStalledDownstream;
   stages.move();
   if (const FootprintToken* done = stages.at(Stages::kLength)) footprints_out.push(cycle, *done);
@@ -68,50 +68,40 @@ Activity AxisUnit::advance(Cycle cycle, Stages& stages) {
       turn(derivatives_in.front(cycle), stages.enter());
     } else {
       turn(derivatives_in.front(cycle), in_hand_);
-      pairs_left_ = more_clocks_;
+      clocks_left_ = more_clocks_;
     }
     derivatives_in.pop(cycle);
-  } else if (pairs_left_ != 0 && --pairs_left_ == 0) {
+  } else if (clocks_left_ != 0 && --clocks_left_ == 0) {
     stages.enter() = in_hand_;
   }
   return kBusy;
 }
 
 void AxisUnit::turn(const DerivativeToken& in, FootprintToken& out) const {
-  const Pair found = longest(in);
+  const Candidate major = longest(in);
   out.ticket = in.ticket;
   out.s = in.s;
   out.t = in.t;
-  if (rule_ == spec::texture::FootprintRule::kExact) {
-    out.d_max = RootPipeline::root(found.major);
-    out.d_min = RootPipeline::root(found.minor);
-  } else {
-    out.d_max = static_cast<std::uint32_t>(found.major);
-    out.d_min = static_cast<std::uint32_t>(found.minor);
-  }
+  out.d_max = rule_ == spec::texture::FootprintRule::kExact
+                  ? RootPipeline::root(major.measure)
+                  : static_cast<std::uint32_t>(major.measure);
+  out.minor = area(in);
   // Stages 7 and 8.
-  out.axis_s = coordinate(rotated(multiples(in.s_x), multiples(in.s_y), found.direction));
-  out.axis_t = coordinate(rotated(multiples(in.t_x), multiples(in.t_y), found.direction));
+  out.axis_s = coordinate(rotated(multiples(in.s_x), multiples(in.s_y), major.direction));
+  out.axis_t = coordinate(rotated(multiples(in.t_x), multiples(in.t_y), major.direction));
 }
 
-// Stages 1 to 6.
-AxisUnit::Pair AxisUnit::longest(const DerivativeToken& in) const {
+// Stages 1 to 6. Of equals the first stays, in a clock and from one to the next.
+AxisUnit::Candidate AxisUnit::longest(const DerivativeToken& in) const {
   const Multiples row_s = multiples(with_sign(in.size_s_x, in.s_x)),
                   row_t = multiples(with_sign(in.size_t_x, in.t_x)),
                   column_s = multiples(with_sign(in.size_s_y, in.s_y)),
                   column_t = multiples(with_sign(in.size_t_y, in.t_y));
-  const auto measured = [&](unsigned direction) {
-    return measure(magnitude(rotated(row_s, column_s, direction)),
-                   magnitude(rotated(row_t, column_t, direction)));
-  };
-  Pair best{};
-  for (unsigned first = 0; first < kDirections / 2; first += step_) {
-    const unsigned partner = first + kDirections / 2;
-    const std::uint64_t along = measured(first), across = measured(partner);
-    const Pair pair = along >= across ? Pair{along, across, first} : Pair{across, along, partner};
-    if (first == 0 || pair.major > best.major ||
-        (pair.major == best.major && pair.direction < best.direction))
-      best = pair;
+  Candidate best{};
+  for (unsigned direction = 0; direction < kDirections; direction += step_) {
+    const std::uint64_t length = measure(magnitude(rotated(row_s, column_s, direction)),
+                                         magnitude(rotated(row_t, column_t, direction)));
+    if (direction == 0 || length > best.measure) best = {length, direction};
   }
   return best;
 }
@@ -122,9 +112,21 @@ std::uint64_t AxisUnit::measure(std::uint64_t s, std::uint64_t t) const {
 }
 
 void AxisUnit::reset() {
-  pairs_left_ = 0;
+  clocks_left_ = 0;
   stages_.reset();
   root_stages_.reset();
+}
+
+// Stages 1 and 2: U15.8 each, U30.16.
+std::uint64_t AxisUnit::area(const DerivativeToken& in) {
+  const auto product = [](std::uint32_t s, std::uint32_t t) {
+    return std::uint64_t{s >> 8} * (t >> 8);
+  };
+  const std::uint64_t falling = product(in.size_s_x, in.size_t_y),
+                      rising = product(in.size_t_x, in.size_s_y);
+  const bool falls = (in.s_x < 0) != (in.t_y < 0), rises = (in.t_x < 0) != (in.s_y < 0);
+  if (falls != rises) return falling + rising;
+  return falling > rising ? falling - rising : rising - falling;
 }
 
 }  // namespace deburr::rtl::texture

@@ -21,14 +21,19 @@ bool is_linear(spec::texture::MinFilter filter) {
 }  // namespace
 
 LevelUnit::LevelUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                     const Descriptors::Reader& descriptors, spec::texture::CountRule count,
-                     spec::texture::CountCap cap)
-    : Unit(name, clock), descriptors_(descriptors), count_(count), cap_(cap) {}
+                     const Descriptors::Reader& descriptors, spec::texture::Axes axes,
+                     spec::texture::CountRule count, spec::texture::CountCap cap)
+    : Unit(name, clock),
+      descriptors_(descriptors),
+      area_(axes != spec::texture::Axes::kTwo),
+      count_(count),
+      cap_(cap) {}
 
 // How much of L becomes samples instead of a coarser level: U3.12.
-std::int32_t LevelUnit::as_samples(std::int32_t lb_max, std::int32_t lb_min, int limit) const {
-  if (lb_max <= 0) return 0;                                // the footprint is within a texel
-  const std::int32_t ratio = std::max(lb_max - lb_min, 0);  // U6.12
+std::int32_t LevelUnit::as_samples(std::int32_t lb_max, std::int32_t lb_minor, int limit) const {
+  if (lb_max <= 0) return 0;  // the footprint is within a texel
+  // Of d_max / d_min, which is d_max^2 / area: U6.12.
+  const std::int32_t ratio = std::max((area_ ? lb_max << 1 : lb_max) - lb_minor, 0);
   const auto rounded_up = [](std::int32_t lb) { return (lb + kAlmostOne) & ~kAlmostOne; };
   const bool any = count_ == spec::texture::CountRule::kAny;
   std::int32_t taken = any                                          ? ratio
@@ -75,7 +80,7 @@ void LevelUnit::choose(Cycle cycle, const Log2Token& in, LevelToken& out) {
   out.last_index = out.level = out.fraction = 0;
   out.linear = false;
   if (!out.ticket.valid) return;
-  const std::int32_t taken = as_samples(in.lb_max, in.lb_min, texture.max_count_log2);
+  const std::int32_t taken = as_samples(in.lb_max, in.lb_minor, texture.max_count_log2);
   // Stage 2.
   out.last_index = static_cast<std::uint8_t>(last_index(taken));
   std::int32_t l = in.lb_max - taken + texture.bias;  // S8.12

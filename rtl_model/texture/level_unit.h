@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Number of samples, mip level and level fraction of a fragment, and which filter is in force.
 //
-// Where: after the Log2Unit. Three stages: 1 difference of the logarithms, how much of it is taken
+// Where: after the Log2Unit. Three stages: 1 difference of the logarithms (of an area:
+// from twice that of the axis), how much of it is taken
 // as samples, and the choice of the descriptor; 2 level of detail with bias, clamped to its range;
 // number of samples (`any`: 15 comparisons side by side, whose ones are counted); 3 level and
 // fraction by mode, filter. The model does all in stage 1, then delays. Latency 3, initiation
@@ -31,8 +32,8 @@ class LevelUnit final : public Unit {
   Out<LevelToken> levels_out{"levels_out"};
 
   LevelUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-            const Descriptors::Reader& descriptors, spec::texture::CountRule count,
-            spec::texture::CountCap cap);
+            const Descriptors::Reader& descriptors, spec::texture::Axes axes,
+            spec::texture::CountRule count, spec::texture::CountCap cap);
   Activity tick(Cycle cycle) override;
   void reset() override { pipe_.reset(); }
 
@@ -42,10 +43,11 @@ class LevelUnit final : public Unit {
  private:
   static constexpr int kStages = 3;
   void choose(Cycle cycle, const Log2Token& in, LevelToken& out);
-  std::int32_t as_samples(std::int32_t lb_max, std::int32_t lb_min, int limit) const;
+  std::int32_t as_samples(std::int32_t lb_max, std::int32_t lb_minor, int limit) const;
   int last_index(std::int32_t as_samples) const;
 
   Descriptors::Reader descriptors_;
+  bool area_;  // the logarithm beside that of the major axis is the area's
   spec::texture::CountRule count_;
   spec::texture::CountCap cap_;
   Pipe<LevelToken, kStages> pipe_;

@@ -34,12 +34,11 @@ spec::texture::Parameters checked(spec::texture::Parameters p) {
                             "places; 0 sizes it from the latency of memory, which only who knows "
                             "the memory can do");
   check_power_of_two("axis_clocks", p.axis_clocks);
-  if (const std::int32_t pairs = 1 << static_cast<std::int32_t>(p.axes); p.axis_clocks > pairs)
-    throw spec::ConfigError(
-        "texture.axis_clocks: " + std::to_string(p.axis_clocks) + " clocks for " +
-        std::to_string(2 * pairs) +
-        " directions: a direction is measured beside the one across, so at most " +
-        std::to_string(pairs));
+  if (const std::int32_t most = 1 << static_cast<std::int32_t>(p.axes); p.axis_clocks > most)
+    throw spec::ConfigError("texture.axis_clocks: " + std::to_string(p.axis_clocks) +
+                            " clocks for " + std::to_string(2 * most) +
+                            " directions: at least two are measured in a clock, so at most " +
+                            std::to_string(most));
   if (p.cache_ways > TagStore::kMostWays)
     throw spec::ConfigError("texture.cache.ways: " + std::to_string(p.cache_ways) +
                             " ways cannot be built: four lines are looked up one behind the other "

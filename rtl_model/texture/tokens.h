@@ -61,7 +61,8 @@ struct FootprintToken {
   Ticket ticket;
   std::int32_t s, t;
   std::int64_t axis_s, axis_t;
-  std::uint32_t d_max, d_min;
+  std::uint32_t d_max;
+  std::uint64_t minor;  // d_min; of the AxisUnit the area of the footprint
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("ticket", self.ticket);
@@ -70,7 +71,7 @@ struct FootprintToken {
     visit("axis_s", self.axis_s, 34, "S9.24");
     visit("axis_t", self.axis_t, 34, "S9.24");
     visit("d_max", self.d_max, 32, "U16.16");
-    visit("d_min", self.d_min, 32, "U16.16");
+    visit("minor", self.minor, 47, "U30.16");
   }
 };
 
@@ -79,7 +80,7 @@ struct Log2Token {
   Ticket ticket;
   std::int32_t s, t;
   std::int64_t axis_s, axis_t;
-  std::int32_t lb_max, lb_min;
+  std::int32_t lb_max, lb_minor;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("ticket", self.ticket);
@@ -88,7 +89,7 @@ struct Log2Token {
     visit("axis_s", self.axis_s, 34, "S9.24");
     visit("axis_t", self.axis_t, 34, "S9.24");
     visit("lb_max", self.lb_max, 18, "S5.12");
-    visit("lb_min", self.lb_min, 18, "S5.12");
+    visit("lb_minor", self.lb_minor, 18, "S5.12");
   }
 };
 
@@ -227,11 +228,16 @@ inline std::uint32_t turn_bytes(std::uint32_t line_bytes) {
   return std::min(line_bytes / 2, std::uint32_t{spec::texture::kTileBytes} / 2);
 }
 
-// What of the tokens from the footprint to the walker is built: without a turned axis an axis is a
-// difference of coordinates, S8.24.
+// What of the tokens from the footprint to the walker is built. Without a turned axis an axis is a
+// difference of coordinates, S8.24, and the minor side a length, U16.16.
 inline PayloadShape axis_shape(const spec::texture::Rules& p) {
   if (p.axes != spec::texture::Axes::kTwo) return {};
   return {.widths = {{"axis_s", 33}, {"axis_t", 33}}};
+}
+inline PayloadShape footprint_shape(const spec::texture::Rules& p) {
+  PayloadShape shape = axis_shape(p);
+  if (p.axes == spec::texture::Axes::kTwo) shape.widths.emplace_back("minor", 32);
+  return shape;
 }
 
 // What of the cache's tokens is built for a cache of this size.
