@@ -134,10 +134,6 @@ std::vector<PictureMap> Environment::named(std::vector<PictureMap> maps) const {
   return maps;
 }
 
-void Environment::show(Observer& observer, const rtl::LinkBase& link) const {
-  observer.see(figure(link.basename()), link);
-}
-
 void Environment::add(Result& result, const MemoryModel& memory) {
   result.bytes_read += memory.bytes_read();
   result.bytes_written += memory.bytes_written();

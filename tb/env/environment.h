@@ -132,8 +132,10 @@ class Environment {
   // Units, counters, links and memory ports below it.
   void show(Observer& observer, const rtl::Engine& engine) const;
   std::vector<PictureMap> named(std::vector<PictureMap> maps) const;
-  // A link outside of every engine.
-  void show(Observer& observer, const rtl::LinkBase& link) const;
+  // A link outside of every engine, by the port that it is bound to.
+  void show(Observer& observer, std::string_view port, const rtl::LinkBase& link) const {
+    observer.see(figure(port), link);
+  }
 
  private:
   Simulation& simulation_;

@@ -550,9 +550,9 @@ void MorphologicalEnvironment::collect(Result& result) const {
 }
 
 void MorphologicalEnvironment::show_parts(Observer& observer) const {
-  show(observer, pixels);
+  show(observer, "pixels_in", pixels);
   show(observer, engine_);
-  show(observer, blended_);
+  show(observer, "pixels_out", blended_);
   observer.see(
       {"Pixels delivered", figure("blender_pixels"), "pixel/clk", static_cast<double>(lanes())});
 }

@@ -70,7 +70,7 @@ std::vector<PictureMap> MorphologicalMaps::maps(
   std::vector<PictureMap> all = maps_;
   if (all.empty() || !only_frame) return all;
   const auto edge_pixels = static_cast<double>(engine.work().edge_pixels);
-  all[kEdges].account = {"work.extractor_edge_pixels", edge_pixels,
+  all[kEdges].account = {"work.edges_edge_pixels", edge_pixels,
                          static_cast<double>(all[kEdges].pixels_above_zero())};
   // In the middle of a run beyond the reach there is no record.
   if (engine.extractor.long_runs.value() == 0)

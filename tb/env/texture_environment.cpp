@@ -285,9 +285,9 @@ void TextureEnvironment::collect(Result& result) const {
 }
 
 void TextureEnvironment::show_parts(Observer& observer) const {
-  show(observer, quads_);
+  show(observer, "quads_in", quads_);
   show(observer, unit_);
-  show(observer, colours);
+  show(observer, "colours_out", colours);
   observer.see({"Bilinear requests", figure("addresser_bilinears"), "bilinear/clk", 1});
 }
 

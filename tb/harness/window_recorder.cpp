@@ -20,7 +20,9 @@ void put(Json& root, const std::string& key, Json value) {
   std::size_t from = 0;
   for (std::size_t dot; (dot = key.find('.', from)) != std::string::npos; from = dot + 1)
     node = &(*node)[key.substr(from, dot - from)];
-  (*node)[key.substr(from)] = std::move(value);
+  const std::string last = key.substr(from);
+  DEBURR_CHECK(!node->contains(last), "two parts of the design are called " + key);
+  (*node)[last] = std::move(value);
 }
 
 }  // namespace

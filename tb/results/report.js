@@ -201,9 +201,13 @@
         b.mean / b.depth - a.mean / a.depth);
     for (const [name, link] of order) byId('link').add(new Option(`${name}, depth ${link.depth}`, name));
     for (const select of [units, byId('link')]) select.addEventListener('change', drawCharts);
-    for (const anchor of document.querySelectorAll('a[data-window]'))
-      anchor.addEventListener('click', () => choose(Number(anchor.dataset.window)));
-    choose(0);
+    const linked = () => Number((location.hash.match(/^#window-(\d+)$/) || [])[1]);
+    choose(linked() < windows.from.length ? linked() : 0);
+    addEventListener('hashchange', () => {
+      if (!(linked() < windows.from.length)) return;
+      choose(linked());
+      byId('window-chosen').scrollIntoView({block: 'nearest'});
+    });
   }
   function choose(window) {
     chosen = window;

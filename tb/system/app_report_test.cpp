@@ -2,6 +2,7 @@
 // Opens report.html from disk in headless Chromium, without a network, and looks at the picture:
 // the page obeys the colour scheme, charts and images are there, no script has failed. Skipped with
 // a message where there is no Chromium. DEBURR_KEEP_SCREENSHOTS=DIR leaves the pictures in DIR.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -102,6 +103,52 @@ TEST_P(Report, OpensFromDiskAndShowsChartsAndPictures) {
   EXPECT_GT(share(page, {0, 0, 0, 255}, 0, page.height / 3), 0.02) << "no picture in the viewer";
   EXPECT_GT(share(page, {255, 255, 255, 255}, 0, page.height / 3), 0.02)
       << "no picture in the viewer";
+}
+
+// A run that was watched: curves over time, histograms of links, maps with their pictures; the link
+// of a window gives the command that writes its waves.
+TEST_P(Report, ShowsARunOverTimeAndOverThePicture) {
+  const std::string chromium = browser();
+  if (chromium.empty()) GTEST_SKIP() << "no Chromium here (Debian package chromium)";
+  const fs::path run = directory_ / "run", picture = directory_ / "page.png";
+  ASSERT_EQ(
+      shell(std::string(DEBURR_COMMAND) +
+                " run texture --size 128x128 --windows 1000 --maps --trace 'colours' --trace-to "
+                "9 --out " +
+                run.string(),
+            "run.log"),
+      0)
+      << log("run.log");
+  const auto browse = [&](const std::string& what, const char* log) {
+    shell(chromium +
+              " --headless --no-sandbox --disable-gpu --disable-background-networking "
+              "--no-first-run --hide-scrollbars --host-resolver-rules='MAP * ~NOTFOUND' "
+              "--enable-logging=stderr " +
+              GetParam().option + " --user-data-dir=" + (directory_ / "profile").string() +
+              " --window-size=1280,5200 " + what + " 'file://" + (run / "report.html").string() +
+              "#window-3'",
+          log);
+  };
+  browse("--screenshot=" + picture.string(), "browser.log");
+  ASSERT_TRUE(fs::exists(picture)) << log("browser.log");
+  EXPECT_EQ(log("browser.log").find("CONSOLE"), std::string::npos) << log("browser.log");
+  if (const char* keep = std::getenv("DEBURR_KEEP_SCREENSHOTS"))
+    fs::copy_file(picture, fs::path(keep) / (std::string("windows_") + GetParam().name + ".png"),
+                  fs::copy_options::overwrite_existing);
+  browse("--dump-dom", "dom.log");
+  const std::string dom = log("dom.log");
+  EXPECT_THAT(dom, testing::HasSubstr("Window 3: cycles 3,004 to 4,004."));
+  EXPECT_THAT(dom, testing::ContainsRegex("--out [^ ]*run --trace '\\*' --trace-from 3004 "
+                                          "--trace-to 4004</pre>"));
+  for (const char* const text :
+       {"data-role=\"map_samples\"", "map_latency.pfm", "latency_fifo_entries_entries",
+        "<option value=\"tag_stage\">", "href=\"#window-3\">3,004 to 4,004</a>"})
+    EXPECT_THAT(dom, testing::HasSubstr(text));
+  // Chart.js has given the canvas the size of its box.
+  for (const char* const canvas :
+       {"rate-time", "unit-time", "port-time", "link-time", "link-histogram"})
+    EXPECT_THAT(dom, testing::ContainsRegex(std::string("<canvas id=\"") + canvas +
+                                            "\"[^>]*style=\"[^\"]*height: 2[0-9]+px"));
 }
 
 // The checks above can fail: a page whose script is broken draws no chart.

@@ -326,7 +326,7 @@ class Maps(unittest.TestCase):
                 result = load(out)
                 found, work = self.sums(out) if "mlaa" not in more else (None, result["work"])
                 edges = [v > 0 for v in values(out, "edges")[2]]
-                self.assertEqual(sum(edges), work["extractor_edge_pixels"])
+                self.assertEqual(sum(edges), work["edges_edge_pixels"])
                 self.assertEqual(edges, [v > 0 for v in values(out, "run_length")[2]])
                 if found:
                     self.assertAlmostEqual(found["steps"][0], work["predictor_h_steps"] + work["predictor_v_steps"],
@@ -348,7 +348,7 @@ class Maps(unittest.TestCase):
             maps, work = self.sums(out)
             self.assertEqual(maps["texture_samples"][0], work["texture_walker_samples"])
             self.assertEqual(maps["geometric_lines"][0], work["geometric_coverage_unit_candidates"])
-            self.assertEqual(maps["morphological_edges"][1], work["morphological_extractor_edge_pixels"])
+            self.assertEqual(maps["morphological_edges"][1], work["morphological_edges_edge_pixels"])
 
 
 if __name__ == "__main__":

@@ -60,8 +60,7 @@ TEST(WindowRecorder, AddsUpToWhatTheUnitsCount) {
   EXPECT_GT(unit.cycles_of(rtl::kStalledDownstream), 300U);
   EXPECT_EQ(sum(all.at("units.second.busy")), unit.busy_cycles());
   EXPECT_EQ(sum(all.at("units.second.idle")), unit.idle_cycles());
-  EXPECT_EQ(sum(all.at("units.second.stalls.downstream")),
-            unit.cycles_of(rtl::kStalledDownstream));
+  EXPECT_EQ(sum(all.at("units.second.stalls.downstream")), unit.cycles_of(rtl::kStalledDownstream));
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_EQ(all.at("units.second.busy")[i] + all.at("units.second.idle")[i] +
                   all.at("units.second.stalls.downstream")[i],

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Maps over the picture: values as they are, colours by a scale that is printed, and an account
+// that can be wrong.
+#include "tb/results/picture_map.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "spec/error.h"
+
+namespace deburr::tb {
+namespace {
+
+constexpr Rgba8 kDark = {68, 1, 84, 255}, kBright = {253, 231, 37, 255}, kGrey = {58, 60, 64, 255};
+
+// 0, 1, 2, ... in rows from the top, the last pixel empty.
+PictureMap ramp(int width, int height) {
+  PictureMap map("ramp", "Ramp", "clk", "Rises.", width, height);
+  for (int i = 0; i + 1 < width * height; ++i) map.set(i % width, i / width, i);
+  return map;
+}
+
+TEST(PictureMap, KnowsRangeAndSumOfWhatIsThere) {
+  const MapFigures f = figures_of(ramp(4, 3));
+  EXPECT_EQ(f.pixels, 11U);
+  EXPECT_EQ(f.min, 0);
+  EXPECT_EQ(f.max, 10);
+  EXPECT_EQ(f.sum, 55);
+  EXPECT_EQ(figures_of(PictureMap("none", "None", "", "", 2, 2)).pixels, 0U);
+}
+
+TEST(PictureMap, AddsFromNothing) {
+  PictureMap map("m", "M", "", "", 2, 1);
+  map.add(1, 0, 2.5);
+  map.add(1, 0, 2.5);
+  map.add(2, 0, 9);  // outside
+  EXPECT_TRUE(std::isnan(map.values[0]));
+  EXPECT_EQ(map.values[1], 5.0F);
+  EXPECT_EQ(map.pixels_above_zero(), 1U);
+}
+
+TEST(PictureMap, IsCheckedAgainstACount) {
+  PictureMap map = ramp(4, 3);
+  EXPECT_NO_THROW(check_map(map));  // nothing to check
+  map.account = {"work.clocks", 55, map.sum()};
+  EXPECT_NO_THROW(check_map(map));
+  map.add(0, 0, 1);
+  map.account = {"work.clocks", 55, map.sum()};
+  EXPECT_THROW(check_map(map), spec::CheckFailed);
+}
+
+TEST(PictureMap, LeavesFloatsFromTheBottom) {
+  const std::string bytes = pfm_of(ramp(4, 3)), head = "Pf\n4 3\n-1.0\n";
+  ASSERT_EQ(bytes.substr(0, head.size()), head);
+  ASSERT_EQ(bytes.size(), head.size() + 4 * 12);
+  const auto value = [&](std::size_t i) {
+    std::uint32_t word = 0;
+    for (std::size_t b = 0; b < 4; ++b)
+      word |= std::uint32_t{static_cast<unsigned char>(bytes[head.size() + 4 * i + b])} << (8 * b);
+    return std::bit_cast<float>(word);
+  };
+  EXPECT_EQ(value(0), 8.0F);
+  EXPECT_TRUE(std::isnan(value(3)));
+  EXPECT_EQ(value(11), 3.0F);
+}
+
+TEST(PictureMap, IsColouredFromDarkToBright) {
+  const Image picture = picture_of(ramp(40, 30));
+  EXPECT_GT(picture.height, 30);
+  EXPECT_EQ(picture.at(0, 0), kDark);
+  EXPECT_EQ(picture.at(38, 29), kBright);
+  EXPECT_EQ(picture.at(39, 29), kGrey);
+  // The scale, over the whole width.
+  EXPECT_EQ(picture.at(4, 34), kDark);
+  EXPECT_EQ(picture.at(picture.width - 5, 34), kBright);
+}
+
+TEST(PictureMap, AFewLargeValuesDoNotHideTheRest) {
+  PictureMap map("m", "M", "", "", 100, 100);
+  for (int i = 0; i < 10'000; ++i) map.set(i % 100, i / 100, i % 10);
+  map.set(0, 0, 5000);
+  const Image picture = picture_of(map);
+  EXPECT_EQ(picture.at(0, 0), kBright);
+  EXPECT_EQ(picture.at(9, 0), kBright);
+  EXPECT_EQ(picture.at(0, 1), kDark);
+  EXPECT_EQ(figures_of(map).max, 5000);
+}
+
+TEST(PictureMap, OfOneValueHasColours) {
+  PictureMap map("m", "M", "", "", 3, 3);
+  EXPECT_EQ(picture_of(map).at(1, 1), kGrey);
+  map.set(1, 1, 7);
+  EXPECT_NE(picture_of(map).at(1, 1), kGrey);
+}
+
+}  // namespace
+}  // namespace deburr::tb
