@@ -18,6 +18,7 @@ struct Outcome {
   std::string text;                    // after "RESULT: "; empty: a command that only prints
   std::filesystem::path directory{};   // of the results
   std::string result = "result.json";  // in it: what --json shows
+  std::string comparison{};            // JSON that --json shows
 };
 
 struct CommandLine {

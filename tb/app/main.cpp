@@ -49,6 +49,8 @@ int finish(const Outcome& outcome, const std::string& command, bool json) {
       object["result"] = nlohmann::ordered_json::parse(
           deburr::tb::read_file(outcome.directory / outcome.result, kMaxResultBytes));
     }
+    if (!outcome.comparison.empty())
+      object["comparison"] = nlohmann::ordered_json::parse(outcome.comparison);
     fmt::print("{}\n", object.dump(2));
     return outcome.code;
   }

@@ -156,9 +156,11 @@ class Lines(CommandTest):
             result = file.read()
         for what in ("--line-trace", "--fragment-trace"):
             for form in ("text", "binary"):
-                done = self.run_texture(
-                    5, "--no-images", what, form, "--scene", "tunnel", "--set", "scene.texture_size=64",
-                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000)),
+                look_ups = ["--set", "run.line_trace_look_ups=true"] if "line" in what else []
+                done = self.expect(
+                    5, "run", "texture", "--size", "128x128", "--no-images", what, form, *look_ups,
+                    "--out", self.path("out"),
+                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (260_000, 260_000)),
                     says=["File too large", ".trace", "make room there"])
                 self.assertNotIn("Traceback", done.stderr)
                 self.assertEqual(sorted(os.listdir(self.path("out"))), before)

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-enum class Judge { kNone, kLessIsBetter, kMoreIsBetter, kDecibel, kMustBeZero };
+enum class Judge { kNone, kLessIsBetter, kMoreIsBetter, kDecibel, kMustBeZero, kBits };
 
 struct Rule {
   std::string_view key;
@@ -41,6 +41,8 @@ constexpr Rule kRules[] = {
 Judge judge_of(const std::string& key) {
   for (const Rule& rule : kRules)
     if (rule.key == key) return rule.judge;
+  if (key.starts_with("memory_bits.") && (key.ends_with(".logical") || key.ends_with(".physical")))
+    return Judge::kBits;
   return Judge::kNone;
 }
 
@@ -48,7 +50,8 @@ using Values = std::vector<std::pair<std::string, Json>>;
 
 void flatten(const Json& node, const std::string& path, Values& values) {
   // The host's speed says nothing about the hardware, and the histogram has its percentiles.
-  if (path == "host" || path == "meaning" || path == "latency.histogram" || path == "schema")
+  if (path == "host" || path.ends_with("meaning") || path == "latency.histogram" ||
+      path == "schema")
     return;
   if (node.is_object()) {
     for (const auto& [key, value] : node.items())
@@ -64,46 +67,84 @@ const Json* find(const Values& values, const std::string& key) {
   return nullptr;
 }
 
-// "inf" stands for identical pictures.
-std::optional<double> as_number(const Json* value) {
-  if (!value) return std::nullopt;
-  if (value->is_number()) return value->get<double>();
-  if (value->is_string() && *value == "inf") return INFINITY;
-  return std::nullopt;
+std::optional<double> number_of(const Json* value) {
+  return value ? as_number(*value) : std::nullopt;
 }
+std::string shown(const Json* value) { return value ? value_text(*value) : "-"; }
 
-std::string shown(const Json* value) {
-  if (!value || value->is_null()) return "-";
-  if (value->is_string()) return value->get<std::string>();
-  if (value->is_number_float()) return fmt::format("{:.6g}", value->get<double>());
-  return value->dump();
-}
-
-bool is_worse(Judge judge, std::optional<double> a, std::optional<double> b, const Tolerances& t) {
-  if (judge == Judge::kNone) return false;
-  if (judge == Judge::kMustBeZero) return b.value_or(1) != 0;
-  if (!a) return false;  // nothing to compare with
-  if (!b) return true;
-  if (*a == *b) return false;
+// Of values that both are there.
+Judgement judge_numbers(Judge judge, double a, double b, const Tolerances& t) {
+  const auto less = [&](double percent) {
+    if (b > a * (1 + percent / 100)) return Judgement::kWorse;
+    return b < a * (1 - percent / 100) ? Judgement::kBetter : Judgement::kEqual;
+  };
+  if (a == b) return Judgement::kEqual;
   switch (judge) {
     case Judge::kLessIsBetter:
-      return *b > *a * (1 + t.cycles_percent / 100);
+      return less(t.cycles_percent);
+    case Judge::kBits:
+      return less(t.memory_percent.value_or(0));
     case Judge::kMoreIsBetter:
-      return *b < *a * (1 - t.throughput_percent / 100);
+      if (b < a * (1 - t.throughput_percent / 100)) return Judgement::kWorse;
+      return b > a * (1 + t.throughput_percent / 100) ? Judgement::kBetter : Judgement::kEqual;
     case Judge::kDecibel:
-      return *b < *a - t.psnr_db;
+      if (b < a - t.psnr_db) return Judgement::kWorse;
+      return b > a + t.psnr_db ? Judgement::kBetter : Judgement::kEqual;
     default:
-      return false;
+      return Judgement::kNone;
   }
 }
 
-std::string change_of(Judge judge, std::optional<double> a, std::optional<double> b) {
-  if (!a || !b || *a == *b || std::isinf(*a) || std::isinf(*b)) return "";
-  if (judge == Judge::kDecibel) return fmt::format("{:+.2f} dB", *b - *a);
-  return *a == 0 ? "" : fmt::format("{:+.2f} %", 100 * (*b - *a) / std::fabs(*a));
+}  // namespace
+
+std::optional<double> as_number(const Json& value) {
+  if (value.is_number()) return value.get<double>();
+  if (value.is_string() && value == "inf") return INFINITY;
+  return std::nullopt;
 }
 
-}  // namespace
+std::string value_text(const Json& value) {
+  if (value.is_null()) return "-";
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+  return value.dump();
+}
+
+// Parts of a key may have dots themselves.
+Json value_at(const Json& result, const std::string& key) {
+  if (!result.is_object()) return nullptr;
+  if (const auto whole = result.find(key); whole != result.end()) return *whole;
+  for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', dot + 1))
+    if (const auto part = result.find(key.substr(0, dot)); part != result.end())
+      if (Json found = value_at(*part, key.substr(dot + 1)); !found.is_null()) return found;
+  return nullptr;
+}
+
+Judgement judge(const std::string& key, std::optional<double> a, std::optional<double> b,
+                const Tolerances& tolerances, std::optional<bool> maximise) {
+  Judge rule = judge_of(key);
+  if (rule == Judge::kMustBeZero)
+    return b.value_or(1) != 0           ? Judgement::kWorse
+           : a.value_or(0) != b.value() ? Judgement::kBetter
+                                        : Judgement::kEqual;
+  if (rule == Judge::kBits) a = a.value_or(0), b = b.value_or(0);  // none of a kind
+  if (rule == Judge::kNone && maximise)
+    rule = *maximise ? Judge::kMoreIsBetter : Judge::kLessIsBetter;
+  if (rule == Judge::kNone || !a) return Judgement::kNone;  // nothing to compare with
+  return b ? judge_numbers(rule, *a, *b, tolerances) : Judgement::kWorse;
+}
+
+bool counts(const std::string& key, const Tolerances& tolerances) {
+  return judge_of(key) != Judge::kBits || tolerances.memory_percent;
+}
+
+bool in_decibels(const std::string& key) { return judge_of(key) == Judge::kDecibel; }
+
+std::string change_of(const std::string& key, std::optional<double> a, std::optional<double> b) {
+  if (!a || !b || *a == *b || std::isinf(*a) || std::isinf(*b)) return "";
+  if (in_decibels(key)) return fmt::format("{:+.2f} dB", *b - *a);
+  return *a == 0 ? "" : fmt::format("{:+.2f} %", 100 * (*b - *a) / std::fabs(*a));
+}
 
 Comparison compare(const Json& a, const Json& b, const Tolerances& tolerances) {
   if (a.at("unit") != b.at("unit"))
@@ -121,14 +162,15 @@ Comparison compare(const Json& a, const Json& b, const Tolerances& tolerances) {
   for (const auto& [key, unused] : keys) {
     const Json* left = find(values_a, key);
     const Json* right = find(values_b, key);
-    const Judge judge = judge_of(key);
-    const auto x = as_number(left), y = as_number(right);
-    ComparedValue value{key, shown(left), shown(right), change_of(judge, x, y),
-                        is_worse(judge, x, y, tolerances)};
+    const auto x = number_of(left), y = number_of(right);
+    ComparedValue value{
+        key, shown(left), shown(right), change_of(key, x, y), judge(key, x, y, tolerances), false};
+    value.worse = value.judgement == Judgement::kWorse && counts(key, tolerances);
     if (key == "verdict") value.worse = left && *left == "pass" && (!right || *right != "pass");
     if (key == "verdict" && right && *right == "fail") value.worse = true;
     // What B counts is not what could be built.
     if (key.starts_with("idealised.")) value.worse = right != nullptr && left == nullptr;
+    if (value.worse) value.judgement = Judgement::kWorse;
     if (left && right && *left == *right && !value.worse) continue;
     comparison.worse = comparison.worse || value.worse;
     comparison.values.push_back(std::move(value));

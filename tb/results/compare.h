@@ -2,8 +2,12 @@
 // Two results side by side: what changed, and whether it became worse by more than a tolerance.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <array>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace deburr::tb {
@@ -12,12 +16,21 @@ struct Tolerances {
   double cycles_percent = 2;      // cycles, latency and memory traffic may grow by this much
   double throughput_percent = 2;  // throughput may fall by this much
   double psnr_db = 0.05;          // quality may fall by this much
+  // Bits of memory may grow by this much; without it they are judged, but fail nothing: what a
+  // choice costs is not a fault of it.
+  std::optional<double> memory_percent{};
 };
+
+// By the value's own direction: fewer cycles, more decibels. kEqual within the tolerance too,
+// kNone: nobody can say.
+enum class Judgement : std::uint8_t { kNone, kEqual, kBetter, kWorse };
+inline constexpr std::array<std::string_view, 4> kJudgementNames = {"", "equal", "better", "worse"};
 
 struct ComparedValue {
   std::string key;
   std::string a, b, change;  // change in percent or dB, "" where neither says something
-  bool worse = false;
+  Judgement judgement = Judgement::kNone;
+  bool worse = false;  // and it counts
 };
 
 struct Comparison {
@@ -29,6 +42,23 @@ struct Comparison {
 // ConfigError for results of different engines.
 Comparison compare(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b,
                    const Tolerances& tolerances);
+
+// One number against another, by the key of a result; nothing: it has no direction, unless
+// `maximise` says one. Empty optionals: there is no value.
+Judgement judge(const std::string& key, std::optional<double> a, std::optional<double> b,
+                const Tolerances& tolerances, std::optional<bool> maximise = std::nullopt);
+// Whether a worse value of this key fails a comparison.
+bool counts(const std::string& key, const Tolerances& tolerances);
+// Changes of it are differences, not percents.
+bool in_decibels(const std::string& key);
+// "+3.20 %", "-0.31 dB", or "".
+std::string change_of(const std::string& key, std::optional<double> a, std::optional<double> b);
+// The value of a result under a dotted key, as a reader wants it; "-" for none.
+std::string value_text(const nlohmann::ordered_json& value);
+// "inf" stands for identical pictures.
+std::optional<double> as_number(const nlohmann::ordered_json& value);
+// null where there is none.
+nlohmann::ordered_json value_at(const nlohmann::ordered_json& result, const std::string& key);
 
 // Two manifests: what makes their runs different work, so that a difference of the results says
 // little about the hardware: inputs (by content), scene, size, clock. A line each.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Opens report.html from disk in headless Chromium, without a network, and looks at the picture:
-// the page obeys the colour scheme, charts and images are there, no script has failed. Skipped with
-// a message where there is no Chromium. DEBURR_KEEP_SCREENSHOTS=DIR leaves the pictures in DIR.
+// Opens report.html and pages of `deburr compare` from disk in headless Chromium, without a
+// network, and looks at the picture: the page obeys the colour scheme, charts and images are there,
+// no script has failed. Skipped with a message where there is no Chromium.
+// DEBURR_KEEP_SCREENSHOTS=DIR leaves the pictures in DIR.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -11,6 +13,7 @@
 #include <ostream>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "tb/results/file.h"
 #include "tb/scene/image.h"
@@ -23,15 +26,19 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxLog = 1 << 24;
 
-// Of report_style.css: --page and --busy.
+// Of report_style.css: --page, --busy and --accent.
 struct Scheme {
   const char *name, *option;
-  Rgba8 page, busy;
+  Rgba8 page, busy, accent;
   friend void PrintTo(const Scheme& scheme, std::ostream* stream) { *stream << scheme.name; }
 };
 constexpr Scheme kSchemes[] = {
-    {"light", "", {0xF6, 0xF5, 0xF2, 255}, {0x2B, 0x7A, 0x8F, 255}},
-    {"dark", "--force-dark-mode", {0x13, 0x15, 0x18, 255}, {0x4F, 0xA3, 0xB8, 255}}};
+    {"light", "", {0xF6, 0xF5, 0xF2, 255}, {0x2B, 0x7A, 0x8F, 255}, {0x26, 0x58, 0x8A, 255}},
+    {"dark",
+     "--force-dark-mode",
+     {0x13, 0x15, 0x18, 255},
+     {0x4F, 0xA3, 0xB8, 255},
+     {0x7F, 0xB2, 0xE5, 255}}};
 
 std::string browser() {
   for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
@@ -169,6 +176,85 @@ TEST_P(Report, ABrokenPageIsNoticed) {
   EXPECT_LT(std::set<Rgba8>(page.pixels.begin(), page.pixels.end()).size(), 200u);
   EXPECT_LT(share(page, GetParam().busy, 0, page.height), 0.01);
 }
+
+// Runs side by side, and sweeps with their fronts over each other.
+class ComparisonPage : public Report {
+ protected:
+  // Exit code 0 or 1 of the command, which writes its page.
+  void compare(const std::string& a, const std::string& b) const {
+    const int code =
+        shell(std::string(DEBURR_COMMAND) + " compare " + (directory_ / a).string() + " " +
+                  (directory_ / b).string() + " --html " + (directory_ / "page.html").string(),
+              "compare.log");
+    ASSERT_TRUE(WIFEXITED(code) && WEXITSTATUS(code) <= 1) << log("compare.log");
+  }
+  Image screenshot(const std::string& name, int height) const {
+    const fs::path picture = directory_ / "page.png";
+    shell(browser() +
+              " --headless --no-sandbox --disable-gpu --disable-background-networking"
+              " --no-first-run --hide-scrollbars --host-resolver-rules='MAP * ~NOTFOUND'"
+              " --enable-logging=stderr " +
+              GetParam().option + " --user-data-dir=" + (directory_ / "profile").string() +
+              " --window-size=1280," + std::to_string(height) + " --screenshot=" +
+              picture.string() + " file://" + (directory_ / "page.html").string(),
+          "browser.log");
+    EXPECT_TRUE(fs::exists(picture)) << log("browser.log");
+    EXPECT_EQ(log("browser.log").find("CONSOLE"), std::string::npos) << log("browser.log");
+    if (const char* keep = std::getenv("DEBURR_KEEP_SCREENSHOTS"))
+      fs::copy_file(picture, fs::path(keep) / (name + "_" + GetParam().name + ".png"),
+                    fs::copy_options::overwrite_existing);
+    return read_image(picture);
+  }
+};
+
+TEST_P(ComparisonPage, ShowsFiguresAndPicturesOfRuns) {
+  if (browser().empty()) GTEST_SKIP() << "no Chromium here (Debian package chromium)";
+  for (const auto& [name, more] : {std::pair("small", " --set texture.cache.bytes=1024"),
+                                   std::pair("large", " --set texture.cache.ways=4")})
+    ASSERT_EQ(shell(std::string(DEBURR_COMMAND) + " run texture --size 128x128 --truth --out " +
+                        (directory_ / name).string() + more,
+                    "run.log"),
+              0)
+        << log("run.log");
+  compare("small", "large");
+  const Image page = screenshot("compare_runs", 2200);
+  EXPECT_GT(share(page, GetParam().page, 0, page.height), 0.02);
+  EXPECT_GT(share(page, GetParam().busy, 0, page.height), 0.0002) << "no bars";
+  // Two checkerboards side by side.
+  for (const Rgba8& colour : {Rgba8{0, 0, 0, 255}, Rgba8{255, 255, 255, 255}})
+    EXPECT_GT(share(page, colour, page.height / 3, page.height), 0.02) << "no pictures";
+}
+
+TEST_P(ComparisonPage, ShowsTheFrontsOfSweeps) {
+  if (browser().empty()) GTEST_SKIP() << "no Chromium here (Debian package chromium)";
+  for (const auto& [name, latency] : {std::pair("before", "100"), std::pair("after", "30")}) {
+    const std::string file = (directory_ / name).string() + ".yaml";
+    write_file_atomically(
+        file,
+        std::string("engine: texture\nbase:\n  scene: {source: tunnel, width: 48, height: 48, "
+                    "texture_size: 64}\n  run.images: false\n  memory.latency: ") +
+            latency +
+            "\naxes:\n  texture.cache.bytes: [1024, 2048, 4096]\n  texture.cache.ways: "
+            "[1, 2, 4]\nmetrics: {cycles: cycles, bits: memory_bits.total.physical}\n"
+            "objectives: {minimise: [cycles, bits]}\n");
+    for (const char* action : {"run", "collect"})
+      ASSERT_EQ(shell("cd " + directory_.string() + " && " + DEBURR_COMMAND + " sweep " + file +
+                          " " + action,
+                      "run.log"),
+                0)
+          << log("run.log");
+  }
+  compare("out/sweeps/before", "out/sweeps/after");
+  const Image page = screenshot("compare_sweeps", 1800);
+  EXPECT_GT(share(page, GetParam().page, 0, page.height), 0.02);
+  EXPECT_GT(share(page, GetParam().accent, page.height / 4, page.height), 0.0005)
+      << "no points of A";
+  EXPECT_GT(share(page, {0xC2, 0x57, 0x1A, 255}, page.height / 4, page.height), 0.0003)
+      << "no points of B";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scheme, ComparisonPage, testing::ValuesIn(kSchemes),
+                         [](const auto& scheme) { return std::string(scheme.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(Scheme, Report, testing::ValuesIn(kSchemes),
                          [](const auto& scheme) { return std::string(scheme.param.name); });

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+// Pictures that are zoomed together, or fronts and points of sweeps.
+'use strict';
+(() => {
+  const data = JSON.parse(document.getElementById('data').textContent);
+  const byId = (id) => document.getElementById(id);
+  function element(tag, text, parent, className) {
+    const made = document.createElement(tag);
+    if (text !== undefined) made.textContent = text;
+    if (className) made.className = className;
+    parent?.append(made);
+    return made;
+  }
+  if (data.kind === 'runs') showPictures(); else showSweeps();
+
+  // ---- runs ----
+  function showPictures() {
+    const select = byId('role');
+    if (!select) return;
+    const roles = [...document.querySelectorAll('.role')];
+    const all = () => [...document.querySelectorAll('.window img')];
+    let zoom = 1, x = 0, y = 0;  // x, y: shares of the picture at the left and upper edge
+    function place() {
+      for (const image of all()) image.style.transform = `scale(${zoom}) translate(${-100 * x}%, ${-100 * y}%)`;
+    }
+    function choose() {
+      for (const role of roles) role.classList.toggle('chosen', role.dataset.role === select.value);
+      showDifferences();
+    }
+    select.addEventListener('change', choose);
+    for (const frame of document.querySelectorAll('.window')) {
+      frame.addEventListener('wheel', (event) => {
+        event.preventDefault();
+        const box = frame.getBoundingClientRect();
+        const px = (event.clientX - box.left) / box.width, py = (event.clientY - box.top) / box.height;
+        const at = [x + px / zoom, y + py / zoom];
+        zoom = Math.min(32, Math.max(1, zoom * (event.deltaY < 0 ? 1.25 : 0.8)));
+        x = Math.min(1 - 1 / zoom, Math.max(0, at[0] - px / zoom));
+        y = Math.min(1 - 1 / zoom, Math.max(0, at[1] - py / zoom));
+        place();
+      }, {passive: false});
+      frame.addEventListener('dblclick', () => { zoom = 1; x = y = 0; place(); });
+    }
+
+    // Every picture but the first of its role, as its difference from that one.
+    const kGain = 8;
+    function pixels(image) {
+      const canvas = document.createElement('canvas');
+      canvas.width = image.naturalWidth;
+      canvas.height = image.naturalHeight;
+      const context = canvas.getContext('2d');
+      context.drawImage(image, 0, 0);
+      return context.getImageData(0, 0, canvas.width, canvas.height);
+    }
+    async function showDifferences() {
+      const role = roles.find((r) => r.dataset.role === select.value);
+      const images = [...role.querySelectorAll('img')];
+      for (const image of images) {
+        image.dataset.own ??= image.src;
+        image.src = image.dataset.own;
+      }
+      if (!byId('against').checked || images.length < 2) return;
+      await Promise.all(images.map((image) => image.decode()));
+      const base = pixels(images[0]);
+      for (const image of images.slice(1)) {
+        const other = pixels(image);
+        if (other.width !== base.width || other.height !== base.height) continue;
+        for (let i = 0; i < base.data.length; ++i)
+          if (i % 4 !== 3) other.data[i] = Math.min(255, kGain * Math.abs(other.data[i] - base.data[i]));
+        const canvas = document.createElement('canvas');
+        canvas.width = base.width;
+        canvas.height = base.height;
+        canvas.getContext('2d').putImageData(other, 0, 0);
+        image.src = canvas.toDataURL();
+      }
+    }
+    byId('against').addEventListener('change', showDifferences);
+    choose();
+  }
+
+  // ---- sweeps ----
+  function showSweeps() {
+    const kMostRows = 1000;
+    const style = getComputedStyle(document.documentElement);
+    const colour = (name) => style.getPropertyValue(name).trim();
+    const ink = colour('--ink'), muted = colour('--muted'), rule = colour('--rule');
+    const palette = [colour('--accent'), '#c2571a', '#3a8f5c', '#8a5fb0', '#b08a1e', '#b33a6b', '#4a7f8f', '#7a6a58'];
+    const names = data.sweeps.map((s) => s.name);
+    const metrics = data.metrics;
+    const finite = (v) => typeof v === 'number';
+    const shown = (v) => v === null || v === undefined ? '-' : v === 'inf' ? 'identical'
+      : Number.isInteger(v) ? v.toLocaleString('en-US') : v.toPrecision(5).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '');
+    const titled = (m) => m.unit ? `${m.name} [${m.unit}]` : m.name;
+    const decibels = (m) => m.unit === 'dB';
+    const every = [...data.points, ...data.only];
+    // An axis that never changes says nothing.
+    const axes = data.axes.map((name, i) => ({name, i}))
+      .filter((axis) => new Set(every.map((p) => p.at[axis.i])).size > 1);
+    const numeric = new Intl.Collator('en', {numeric: true});
+    for (const points of [data.points, data.only])
+      points.sort((p, q) => axes.reduce((order, axis) => order || numeric.compare(p.at[axis.i], q.at[axis.i]), 0));
+    const short = (name) => name.split('.').slice(-2).join('.');
+    const place = (p) => axes.map((axis) => `${axis.name} = ${p.at[axis.i]}`);
+
+    const goals = data.objectives.map((name) => metrics.findIndex((m) => m.name === name));
+    for (const [id, first] of [['across', goals[0] ?? 0], ['up', goals[1] ?? Math.min(1, metrics.length - 1)]]) {
+      metrics.forEach((m, i) => byId(id).add(new Option(titled(m), i)));
+      byId(id).value = first;
+      byId(id).addEventListener('change', drawScatter);
+    }
+    byId('front-only').addEventListener('change', drawScatter);
+    Chart.defaults.color = muted;
+    Chart.defaults.borderColor = rule;
+    Chart.defaults.animation = false;
+    let scatter = null;
+
+    // Those that no other one beats in the two metrics that are shown, from left to right.
+    function staircase(points, mx, my) {
+      const sign = (m) => m.maximise === true ? -1 : 1;
+      if (mx.maximise === null || my.maximise === null) return [];
+      const order = [...points].sort((a, b) => sign(mx) * (a.x - b.x) || sign(my) * (a.y - b.y));
+      const best = [];
+      for (const p of order)
+        if (best.length === 0 || sign(my) * p.y < sign(my) * best[best.length - 1].y) best.push(p);
+      return best;
+    }
+    function drawScatter() {
+      const ix = Number(byId('across').value), iy = Number(byId('up').value);
+      const only = byId('front-only').checked, sets = [];
+      names.forEach((name, s) => {
+        const points = every.filter((p) => p.values[s] && finite(p.values[s][ix]) && finite(p.values[s][iy]))
+          .map((p) => ({x: p.values[s][ix], y: p.values[s][iy], point: p, front: p.front[s]}));
+        const drawn = only ? points.filter((p) => p.front) : points;
+        const tint = palette[s % palette.length];
+        sets.push({
+          type: 'line', data: staircase(points, metrics[ix], metrics[iy]), borderColor: tint, borderWidth: 1.5,
+          pointRadius: 0, pointHitRadius: 0, label: '', stepped: false,
+        });
+        sets.push({
+          label: `${name}: ${data.sweeps[s].sweep}`, data: drawn,
+          backgroundColor: drawn.map((p) => tint + (p.front ? '' : '60')), borderColor: ink,
+          borderWidth: drawn.map((p) => p.front ? 1 : 0), pointRadius: drawn.map((p) => p.front ? 6 : 3),
+          pointStyle: ['circle', 'rect', 'triangle', 'rectRot'][s % 4],
+        });
+      });
+      scatter?.destroy();
+      const scale = (m) => ({title: {display: true, text: titled(m), color: ink}, ticks: {callback: shown}});
+      scatter = new Chart(byId('scatter'), {
+        type: 'scatter',
+        data: {datasets: sets},
+        options: {
+          maintainAspectRatio: false,
+          scales: {x: scale(metrics[ix]), y: scale(metrics[iy])},
+          plugins: {
+            legend: {labels: {boxWidth: 12, usePointStyle: true, filter: (item) => item.text !== '',
+                              generateLabels: (chart) => Chart.defaults.plugins.legend.labels.generateLabels(chart)
+                                .map((l) => ({...l, fillStyle: palette[((l.datasetIndex - 1) / 2) % palette.length]}))}},
+            tooltip: {callbacks: {label: (item) => item.raw.point
+              ? [item.dataset.label, `${metrics[ix].name} ${shown(item.raw.x)}, ${metrics[iy].name} ${shown(item.raw.y)}`,
+                 ...place(item.raw.point)] : ''}},
+          },
+        },
+      });
+    }
+
+    // ---- tables ----
+    const change = (m, a, b) => {
+      if (!finite(a) || !finite(b) || a === b) return '';
+      const by = decibels(m) ? b - a : a === 0 ? NaN : 100 * (b - a) / Math.abs(a);
+      return Number.isFinite(by) ? `${by < 0 ? '−' : '+'}${Math.abs(by).toFixed(2)} ${decibels(m) ? 'dB' : '%'}` : '';
+    };
+    function drawMatched() {
+      const head = byId('matched').tHead, body = byId('matched').tBodies[0];
+      head.replaceChildren();
+      body.replaceChildren();
+      const titles = element('tr', undefined, head);
+      for (const axis of axes) element('th', short(axis.name), titles).title = axis.name;
+      for (const m of metrics)
+        for (const name of names) element('th', name === names[0] ? `${titled(m)}: ${name}` : name, titles, 'n').title = m.meaning;
+      const which = byId('which').value;
+      const points = data.points.filter((p) => which === 'all' || (which === 'worse' && p.worse) ||
+        (which === 'front' && p.front.some(Boolean)) ||
+        (which === 'different' && p.values.some((v) => JSON.stringify(v) !== JSON.stringify(p.values[0]))));
+      for (const p of points.slice(0, kMostRows)) {
+        const row = element('tr', undefined, body);
+        for (const axis of axes) element('td', p.at[axis.i], row);
+        metrics.forEach((m, i) => names.forEach((_, s) => {
+          const judged = s === 0 ? '' : p.judgements[s - 1][i];
+          const cell = element('td', shown(p.values[s][i]), row, `n ${judged}${judged === 'worse' && m.counts ? ' fails' : ''}`);
+          if (s > 0) element('small', change(m, p.values[0][i], p.values[s][i]), cell);
+        }));
+      }
+      byId('matched-shown').textContent = `${points.length} of ${data.points.length} points` +
+        (points.length > kMostRows ? `, the first ${kMostRows} are shown` : '') +
+        '. Green is better and red is worse than A, bold where it counts.';
+    }
+    function drawOnly() {
+      if (!byId('only')) return;
+      const head = element('tr', undefined, byId('only').tHead), body = byId('only').tBodies[0];
+      for (const axis of axes) element('th', short(axis.name), head).title = axis.name;
+      element('th', 'Sweep', head);
+      for (const m of metrics) element('th', titled(m), head, 'n');
+      element('th', 'Elsewhere', head);
+      let count = 0;
+      for (const p of data.only) {
+        const there = names.map((_, s) => s).filter((s) => p.values[s]);
+        const missing = names.map((name, s) => p.states[s] === 'done' ? '' : `${name}: ${p.states[s] === 'none' ? 'not in it' : p.states[s]}`)
+          .filter(Boolean).join('; ');
+        for (const s of there.length > 0 ? there : [null]) {
+          if (++count > kMostRows) break;
+          const row = element('tr', undefined, body);
+          for (const axis of axes) element('td', p.at[axis.i], row);
+          element('td', s === null ? '-' : names[s] + (p.front[s] ? ', on its front' : ''), row);
+          metrics.forEach((_, i) => element('td', s === null ? '-' : shown(p.values[s][i]), row, 'n'));
+          element('td', missing, row, p.worse ? 'worse' : 'muted');
+        }
+      }
+      if (count > kMostRows) byId('only-shown').textContent = `The first ${kMostRows} are shown.`;
+    }
+    byId('which').addEventListener('change', drawMatched);
+    drawScatter();
+    drawMatched();
+    drawOnly();
+  }
+})();

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// One self-contained page of a comparison (compare_runs.h, compare_sweeps.h): what differs, judged,
+// with the pictures of runs side by side, or the fronts of sweeps over each other. It opens from
+// disk, without a network; of runs it is readable without JavaScript.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace deburr::tb {
+
+// FileError for a picture that cannot be read.
+std::string comparison_page(const nlohmann::ordered_json& comparison);
+
+}  // namespace deburr::tb

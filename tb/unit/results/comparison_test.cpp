@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: MIT
+// Several runs or sweeps side by side: what is listed, what is matched, and how it is judged.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "spec/error.h"
+#include "tb/results/compare_runs.h"
+#include "tb/results/compare_sweeps.h"
+#include "tb/results/comparison_page.h"
+#include "tb/results/result.h"
+#include "tb/scene/image_io.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(Judge, ByTheValuesOwnDirectionAndTolerance) {
+  const Tolerances t;
+  const auto of = [&](const char* key, std::optional<double> a, std::optional<double> b,
+                      std::optional<bool> maximise = std::nullopt) {
+    return judge(key, a, b, t, maximise);
+  };
+  EXPECT_EQ(of("cycles", 100, 102), Judgement::kEqual) << "2 %";
+  EXPECT_EQ(of("cycles", 100, 102.1), Judgement::kWorse);
+  EXPECT_EQ(of("cycles", 100, 98), Judgement::kEqual);
+  EXPECT_EQ(of("cycles", 100, 97.9), Judgement::kBetter);
+  EXPECT_EQ(of("throughput.value", 1, 0.9), Judgement::kWorse);
+  EXPECT_EQ(of("throughput.value", 1, 1.1), Judgement::kBetter);
+  EXPECT_EQ(of("quality.psnr_db", 40, 39.9), Judgement::kWorse);
+  EXPECT_EQ(of("quality.psnr_db", 40, 40.04), Judgement::kEqual);
+  EXPECT_EQ(of("quality.psnr_db", 40, kInfinity), Judgement::kBetter);
+  EXPECT_EQ(of("quality.psnr_db", kInfinity, kInfinity), Judgement::kEqual);
+  EXPECT_EQ(of("checks.mismatches", 0, 1), Judgement::kWorse);
+  EXPECT_EQ(of("checks.mismatches", 1, 1), Judgement::kWorse) << "wrong on both sides";
+  EXPECT_EQ(of("checks.mismatches", 1, 0), Judgement::kBetter);
+  EXPECT_EQ(of("memory_bits.total.physical", 100, 101), Judgement::kWorse) << "no tolerance";
+  EXPECT_EQ(of("memory_bits.rom.physical", std::nullopt, 8), Judgement::kWorse);
+  EXPECT_EQ(of("memory_bits.rom.physical", 8, std::nullopt), Judgement::kBetter);
+  EXPECT_EQ(of("memory_bits.total.memories", 1, 2), Judgement::kNone);
+  EXPECT_EQ(of("work.fragments", 1, 2), Judgement::kNone);
+  EXPECT_EQ(of("work.fragments", 1, 2, true), Judgement::kBetter);
+  EXPECT_EQ(of("work.fragments", 1, 2, false), Judgement::kWorse);
+  EXPECT_EQ(of("cycles", 100, 200, true), Judgement::kWorse) << "a key knows better";
+  EXPECT_EQ(of("cycles", std::nullopt, 200), Judgement::kNone);
+  EXPECT_EQ(of("cycles", 100, std::nullopt), Judgement::kWorse);
+  EXPECT_FALSE(counts("memory_bits.total.physical", t));
+  EXPECT_TRUE(counts("memory_bits.total.physical", {.memory_percent = 5}));
+  EXPECT_TRUE(counts("cycles", t));
+  EXPECT_EQ(change_of("cycles", 200, 150), "-25.00 %");
+  EXPECT_EQ(change_of("quality.psnr_db", 30, 31.5), "+1.50 dB");
+}
+
+class Directory : public testing::Test {
+ protected:
+  Directory()
+      : path_(fs::temp_directory_path() / ("deburr_comparison_" + std::to_string(::getpid()))) {
+    fs::create_directories(path_);
+  }
+  ~Directory() override { fs::remove_all(path_); }
+
+  void put(const fs::path& file, const std::string& text) const {
+    fs::create_directories((path_ / file).parent_path());
+    std::ofstream(path_ / file) << text;
+  }
+  std::vector<fs::path> paths(std::initializer_list<const char*> names) const {
+    std::vector<fs::path> all;
+    for (const char* name : names) all.push_back(path_ / name);
+    return all;
+  }
+
+  fs::path path_;
+};
+
+// ---- runs ---------------------------------------------------------------------------------------
+
+class Runs : public Directory {
+ protected:
+  Json leave(const char* name, std::uint64_t cycles, const char* ways, std::uint64_t bits = 512) {
+    Result r;
+    r.unit = "texture";
+    r.verdict = Verdict::kPass;
+    r.cycles = cycles;
+    r.throughput_unit = "bilinear/clk";
+    r.throughput = 1;
+    MemoryFigures memory;
+    memory.name = "cache";
+    memory.kind = "sram";
+    memory.logical_bits = memory.physical_bits = bits;
+    r.memories = {memory};
+    r.work = {{"hits", cycles / 2, "line", "Hits <b>."}};
+    r.figures = {{"Hits", "work.hits"}};
+    put(fs::path(name) / "result.json", to_json(r).dump());
+    const auto parameter = [](const char* key, const char* value) {
+      return Json{{"name", key},  {"kind", "build"}, {"value", value},    {"default", "2"},
+                  {"range", "1"}, {"unit", "way"},   {"meaning", "Ways."}};
+    };
+    const Json manifest = {
+        {"title", name},
+        {"summary", "s"},
+        {"command", "deburr run texture"},
+        {"inputs", Json::array()},
+        {"configuration", {{"scene.width", 8}}},
+        {"images", Json::array({{{"file", "after.png"}, {"role", "after"}, {"title", "After"}}})},
+        {"parameters",
+         Json::array({parameter("texture.cache.ways", ways), parameter("scene.width", "8")})}};
+    put(fs::path(name) / "manifest.json", manifest.dump());
+    write_image(path_ / name / "after.png", Image(4, 4));
+    return manifest;
+  }
+};
+
+TEST_F(Runs, ListWhatDiffersJudgedByTheFirst) {
+  leave("a", 1000, "2");
+  leave("b", 900, "4", 1024);
+  leave("c", 1100, "2");
+  const Json all = compare_runs(paths({"a", "b/result.json", "c"}), {});
+  EXPECT_TRUE(all["worse"]);
+  EXPECT_TRUE(all["warnings"].empty());
+  ASSERT_EQ(all["runs"].size(), 3u);
+  EXPECT_EQ(all["runs"][2]["name"], "C");
+  ASSERT_EQ(all["parameters"].size(), 1u);
+  EXPECT_EQ(all["parameters"][0]["name"], "texture.cache.ways");
+  EXPECT_EQ(all["parameters"][0]["values"], (Json{"2", "4", "2"}));
+  const auto row = [&](const char* list, const std::string& key) -> Json {
+    for (const Json& entry : all[list])
+      if (entry["key"] == key) return entry;
+    return nullptr;
+  };
+  const Json cycles = row("values", "cycles");
+  EXPECT_EQ(cycles["unit"], "clk");
+  EXPECT_EQ(cycles["cells"][1]["judgement"], "better");
+  EXPECT_EQ(cycles["cells"][1]["change"], "-10.00 %");
+  EXPECT_EQ(cycles["cells"][2]["judgement"], "worse");
+  EXPECT_TRUE(cycles["cells"][2]["worse"]);
+  const Json bits = row("figures", "memory_bits.total.physical");
+  EXPECT_EQ(bits["cells"][1]["judgement"], "worse");
+  EXPECT_FALSE(bits["cells"][1]["worse"]) << "what it costs is no fault";
+  EXPECT_EQ(bits["cells"][2]["judgement"], "equal");
+  EXPECT_EQ(row("figures", "throughput.value")["unit"], "bilinear/clk");
+  EXPECT_EQ(row("figures", "work.hits")["cells"][1]["judgement"], "") << "no direction";
+  EXPECT_TRUE(row("values", "throughput.value").is_null()) << "equal everywhere";
+  EXPECT_FALSE(compare_runs(paths({"a", "b"}), {})["worse"]);
+  EXPECT_TRUE(compare_runs(paths({"a", "b"}), {.memory_percent = 50})["worse"]);
+  EXPECT_FALSE(compare_runs(paths({"a", "b"}), {.memory_percent = 100})["worse"]);
+}
+
+TEST_F(Runs, ThePageIsSelfContainedAndEscapes) {
+  leave("a", 1000, "2");
+  leave("b", 900, "<4>");
+  const std::string page = comparison_page(compare_runs(paths({"a", "b"}), {}));
+  EXPECT_THAT(page, HasSubstr("&lt;4&gt;"));
+  EXPECT_THAT(page, HasSubstr("Hits &lt;b&gt;."));
+  EXPECT_THAT(page, HasSubstr("<b>Better:</b> Cycles -10.00 %"));
+  EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
+  EXPECT_THAT(page, HasSubstr("nothing is worse"));
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+  EXPECT_THAT(page, Not(HasSubstr("{{")));
+  for (const char* reference : {"src=\"http", "href=\"http", "@import", "<link"})
+    EXPECT_THAT(page, Not(HasSubstr(reference)));
+}
+
+TEST_F(Runs, ThatAreNotWholeAreRefused) {
+  Json manifest = leave("a", 1000, "2");
+  const auto refused = [&](const char* name, const char* says) {
+    try {
+      compare_runs(paths({"a", name}), {});
+      ADD_FAILURE() << name;
+    } catch (const spec::FileError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(says));
+      EXPECT_THAT(error.what(), HasSubstr(name));
+    }
+  };
+  refused("none", "is not there");
+  put("empty/x", "");
+  refused("empty", "name the directory of a run");
+  put("running/.deburr_run/claim.json", "{}");
+  refused("running", "is not over, or was killed");
+  put("point/failure.json", "{}");
+  refused("point", "point that failed");
+  put("planned/plan.json", "{}");
+  refused("planned", "collect");
+  put("torn/result.json", "{");
+  refused("torn", "not valid JSON");
+  leave("b", 1000, "2");
+  put("b/manifest.json", "[");
+  refused("b", "damaged");
+  manifest["images"][0]["file"] = "../a/after.png";
+  put("a/manifest.json", manifest.dump());
+  leave("b", 1000, "2");
+  EXPECT_THROW(comparison_page(compare_runs(paths({"a", "b"}), {})), spec::FileError)
+      << "a picture from elsewhere";
+}
+
+// ---- sweeps -------------------------------------------------------------------------------------
+
+class Sweeps : public Directory {
+ protected:
+  static Json axis(const char* name) {
+    return {{"name", name},
+            {"parameters", {name}},
+            {"labels", Json::array()},
+            {"choices", Json::object()}};
+  }
+  static Json metric(const char* name, const char* key, const char* unit) {
+    return {{"name", name}, {"key", key}, {"unit", unit}, {"meaning", "m"}};
+  }
+  static Json point(std::vector<std::string> at, Json values, bool front = false) {
+    Json p = {{"name", "p"}, {"state", "done"}, {"at", at}, {"values", std::move(values)}};
+    if (front) p["front"] = true;
+    return p;
+  }
+  static Json sweep(Json base, Json axes, Json points) {
+    return {{"schema", 1},
+            {"sweep", "cache"},
+            {"title", "Cache"},
+            {"engine", "texture"},
+            {"commit", "abc"},
+            {"counts", {{"points", points.size()}, {"done", points.size()}, {"front", 1}}},
+            {"base", std::move(base)},
+            {"axes", std::move(axes)},
+            {"metrics", Json::array({metric("cycles", "cycles", "clk"),
+                                     metric("psnr", "quality.psnr_db", "dB"),
+                                     metric("lines", "/work/lines", "line")})},
+            {"objectives", Json::array({{{"metric", "cycles"}, {"maximise", false}},
+                                        {{"metric", "lines"}, {"maximise", false}}})},
+            {"points", std::move(points)}};
+  }
+  void leave(const char* name, const Json& json) const {
+    put(fs::path(name) / "collected.json", json.dump());
+  }
+  Json compared(std::initializer_list<const char*> names) const {
+    const auto unsaid = [](const std::string&, const auto&, const std::string& parameter) {
+      return parameter == "ways" ? std::string("2") : std::string("?");
+    };
+    return compare_sweeps(paths(names), {}, unsaid);
+  }
+};
+
+TEST_F(Sweeps, PointsAreMatchedByTheirConfiguration) {
+  leave("a", sweep(Json::array({Json{"latency", "100"}}), Json::array({axis("bytes")}),
+                   Json::array({point({"1024"}, {100, 30.0, 5}, true),
+                                point({"2048"}, {90, 31.0, 4}), point({"4096"}, {80, "inf", 3})})));
+  // Another axis, whose default is what the first sweep has; another base.
+  leave("b",
+        sweep(Json::array({Json{"latency", "200"}}), Json::array({axis("ways"), axis("bytes")}),
+              Json::array({point({"2", "2048"}, {99, 31.02, 4}),
+                           point({"2", "1024"}, {50, 30.0, 6}, true),
+                           point({"4", "1024"}, {40, 30.0, 5}),
+                           point({"2", "4096"}, {80, "inf", nullptr})})));
+  const Json all = compared({"a", "b"});
+  EXPECT_EQ(all["axes"], (Json{"bytes", "ways"}));
+  ASSERT_EQ(all["parameters"].size(), 1u);
+  EXPECT_EQ(all["parameters"][0]["values"], (Json{"100", "200"}));
+  ASSERT_EQ(all["points"].size(), 3u);
+  EXPECT_EQ(all["points"][0]["at"], (Json{"1024", "2"}));
+  EXPECT_EQ(all["points"][0]["values"], (Json{{100, 30, 5}, {50, 30, 6}}));
+  EXPECT_EQ(all["points"][0]["judgements"][0], (Json{"better", "equal", "worse"}));
+  EXPECT_EQ(all["points"][0]["front"], (Json{true, true}));
+  EXPECT_EQ(all["points"][1]["judgements"][0], (Json{"worse", "equal", "equal"}));
+  EXPECT_EQ(all["points"][2]["judgements"][0], (Json{"equal", "equal", "worse"})) << "lost";
+  ASSERT_EQ(all["only"].size(), 1u);
+  EXPECT_EQ(all["only"][0]["at"], (Json{"1024", "4"}));
+  EXPECT_EQ(all["only"][0]["states"], (Json{"none", "done"}));
+  EXPECT_FALSE(all["only"][0]["worse"]);
+  EXPECT_TRUE(all["worse"]);
+  EXPECT_EQ(all["summary"][0][0]["better"], 1);
+  EXPECT_EQ(all["summary"][0][0]["worse"], 1);
+  EXPECT_NEAR(all["summary"][0][0]["mean"].get<double>(), (-50 + 10 + 0) / 3.0, 1e-9);
+  EXPECT_EQ(all["summary"][0][1]["unit"], "dB");
+  EXPECT_NEAR(all["summary"][0][1]["most"].get<double>(), 0.02, 1e-9);
+  // (80, 3) of A and (40, 5) of B: nobody is better in both.
+  EXPECT_EQ(all["sweeps"][0]["joint_front"], 1);
+  EXPECT_EQ(all["sweeps"][1]["joint_front"], 1);
+  EXPECT_EQ(all["metrics"][0]["maximise"], false);
+  EXPECT_EQ(all["metrics"][1]["maximise"], true);
+  EXPECT_FALSE(compared({"a", "a"})["worse"]);
+  EXPECT_THAT(comparison_page(all), HasSubstr("1 on the front of all together"));
+}
+
+TEST_F(Sweeps, NamedChoicesAreTheirValues) {
+  const auto points = [](const char* label) { return Json::array({point({label}, {1, 30.0, 1})}); };
+  Json named = axis("shape");
+  named["parameters"] = {"bytes", "ways"};
+  named["choices"] = {{"small", {"1024", "2"}}};
+  leave("a", sweep(Json::array(), Json::array({named}), points("small")));
+  leave("b", sweep(Json::array(), Json::array({axis("bytes")}), points("1024")));
+  EXPECT_EQ(compared({"a", "b"})["points"].size(), 1u);
+}
+
+TEST_F(Sweeps, APointThatFailedIsWorse) {
+  leave("a", sweep(Json::array(), Json::array({axis("bytes")}),
+                   Json::array({point({"1"}, {1, 1.0, 1}), point({"2"}, {1, 1.0, 1})})));
+  Json failed = point({"1"}, {nullptr, nullptr, nullptr});
+  failed["state"] = "failed";
+  failed["failure"] = "deadlock: nothing moves";
+  Json missing = point({"2"}, {nullptr, nullptr, nullptr});
+  missing["state"] = "missing";
+  Json b = sweep(Json::array(), Json::array({axis("bytes")}), Json::array({failed, missing}));
+  b["counts"]["failed"] = b["counts"]["missing"] = 1;
+  leave("b", b);
+  const Json all = compared({"a", "b"});
+  EXPECT_TRUE(all["worse"]);
+  EXPECT_THAT(all["warnings"][0].get<std::string>(), HasSubstr("1 points failed, 1 are missing"));
+  EXPECT_EQ(all["only"][0]["states"], (Json{"done", "failed: deadlock: nothing moves"}));
+  EXPECT_TRUE(all["only"][0]["worse"]);
+  EXPECT_FALSE(all["only"][1]["worse"]) << "it may still come";
+  EXPECT_FALSE(compared({"b", "a"})["worse"]);
+}
+
+TEST_F(Sweeps, ThatAreNotWholeOrDoNotFitAreRefused) {
+  const Json good =
+      sweep(Json::array(), Json::array({axis("bytes")}), Json::array({point({"1"}, {1, 1.0, 1})}));
+  leave("a", good);
+  EXPECT_TRUE(is_sweep(path_ / "a"));
+  EXPECT_TRUE(is_sweep(path_ / "a/collected.json"));
+  put("planned/plan.json", "{}");
+  EXPECT_TRUE(is_sweep(path_ / "planned"));
+  put("run/result.json", "{}");
+  EXPECT_FALSE(is_sweep(path_ / "run"));
+  EXPECT_THROW(compared({"a", "planned"}), spec::FileError);
+  const auto spoiled = [&](auto spoil) {
+    Json bad = good;
+    spoil(bad);
+    leave("b", bad);
+    return compared({"a", "b"});
+  };
+  EXPECT_THROW(spoiled([](Json& j) { j = "x"; }), spec::FileError);
+  EXPECT_THROW(spoiled([](Json& j) { j["schema"] = 2; }), spec::FileError);
+  EXPECT_THROW(spoiled([](Json& j) { j.erase("points"); }), spec::FileError);
+  EXPECT_THROW(spoiled([](Json& j) { j["points"][0]["values"].push_back(1); }), spec::FileError);
+  EXPECT_THROW(spoiled([](Json& j) { j["axes"][0]["parameters"] = Json::array(); }),
+               spec::FileError);
+  EXPECT_THROW(spoiled([](Json& j) { j["base"].push_back("x"); }), spec::FileError);
+  EXPECT_THROW(spoiled([](Json& j) { j["engine"] = "frame"; }), spec::ConfigError);
+  EXPECT_THROW(spoiled([](Json& j) {
+                 for (Json& m : j["metrics"]) m["key"] = "other";
+               }),
+               spec::ConfigError);
+}
+
+}  // namespace
+}  // namespace deburr::tb
