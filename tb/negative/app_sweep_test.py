@@ -107,6 +107,20 @@ class Definitions(Sweeps):
         self.write("s.yaml", text + "refused: skip\n")
         self.expect(0, "sweep", "s.yaml", "plan", says=("2 that the engine refuses", "2 points"))
 
+    def test_axes_under_a_condition(self):
+        def axis(text):
+            return ("engine: morphological\nbase: {frame: {width: 16, height: 16, truth_samples: 1}}\n"
+                    "axes:\n  morphological.predictor: [none, fit]\n"
+                    f"  morphological.steps: {text}\n")
+
+        self.refuse(axis("{values: [4], when: morphological.predicter != none}"),
+                    "s.yaml:5: constraint 'morphological.predicter != none'", "did you mean 'morphological.predictor'")
+        self.refuse(axis("{values: [4], when: morphological.steps}"), "not true or false")
+        self.refuse(axis("{values: [4], where: true}"), "unknown 'where' (known: values, when)")
+        self.refuse(axis("{values: [], when: true}"), "axis 'morphological.steps' is empty")
+        self.refuse(axis("{when: true}"), "a range wants 'from' and 'to'")
+        self.refuse(axis("{values: [4], when: true}"), "the engine refuses the point")
+
     def test_files(self):
         self.expect(5, "sweep", "nothing.yaml", "plan", says="cannot open 'nothing.yaml'")
         self.refuse("engine: [\n", "s.yaml:", "not valid YAML")

@@ -217,6 +217,7 @@ class Collector {
     for (const Choice& choice : sweep_.axes[axis].choices)
       if (std::find(labels.begin(), labels.end(), choice.label) == labels.end())
         labels.push_back(choice.label);
+    if (sweep_.axes[axis].when) labels.emplace_back(kNotGiven);
     return labels;
   }
 
@@ -314,10 +315,12 @@ Json json_of(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& p
     Json labels = Json::array();
     if (sweep.sampling != SweepSampling::kListed)
       for (const Choice& choice : sweep.axes[i].choices) labels.push_back(choice.label);
+    if (plan.axes[i].conditional) labels.push_back(kNotGiven);
     json["axes"].push_back({{"name", plan.axes[i].name},
                             {"parameters", plan.axes[i].parameters},
                             {"labels", labels},
-                            {"choices", plan.axes[i].choices}});
+                            {"choices", plan.axes[i].choices},
+                            {"conditional", plan.axes[i].conditional}});
   }
   json["metrics"] = Json::array();
   for (const MetricInfo& metric : all.metrics)

@@ -178,13 +178,21 @@ class Reader {
     } else {
       if (!bound_->set.find(name)) bound_->set.set(name, "", where(key));  // with near matches
       axis.parameters = {name};
-      if (values.IsMap())
-        read_range(axis, values);
-      else if (values.IsSequence())
-        for (const auto& value : values) add_choice(axis, scalar(value, name), value);
+      if (values.IsMap() && values["when"])
+        axis.when.emplace(scalar(values["when"], "when"), where(values["when"]), bound_->set);
+      const YAML::Node list = values.IsMap() && values["values"] ? values["values"] : values;
+      if (values.IsMap() && values["values"])
+        for (const auto& entry : values)
+          if (const std::string known = entry.first.Scalar(); known != "values" && known != "when")
+            fail(entry.first,
+                 fmt::format("axis '{}': unknown '{}' (known: values, when)", name, known));
+      if (list.IsMap())
+        read_range(axis, list);
+      else if (list.IsSequence())
+        for (const auto& value : list) add_choice(axis, scalar(value, name), value);
       else
         fail(key, fmt::format("axis '{}' wants a list of values or {{from: .., to: ..}}, got {}",
-                              name, kind(values)));
+                              name, kind(list)));
     }
     if (axis.choices.empty() && !axis.span)
       fail(key, fmt::format("axis '{}' is empty: give it a value, or leave it out", name));
@@ -246,9 +254,10 @@ class Reader {
   void read_range(Axis& axis, const YAML::Node& range) const {
     for (const auto& entry : range)
       if (const std::string key = entry.first.Scalar();
-          key != "from" && key != "to" && key != "step" && key != "times")
+          key != "from" && key != "to" && key != "step" && key != "times" && key != "when")
         fail(entry.first,
-             fmt::format("axis '{}': unknown '{}' (known: from, to, step, times)", axis.name, key));
+             fmt::format("axis '{}': unknown '{}' (known: from, to, step, times, when)", axis.name,
+                         key));
     if (!range["from"] || !range["to"])
       fail(range, fmt::format("axis '{}': a range wants 'from' and 'to'", axis.name));
     if (range["step"] && range["times"])

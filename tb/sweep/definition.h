@@ -38,8 +38,10 @@ struct Axis {
   std::vector<std::string> parameters;  // `name` itself where it is one parameter
   std::vector<Choice> choices;          // empty where there is a span
   std::optional<Span> span;
+  std::optional<Constraint> when;  // it is given only where this holds of the point without it
   std::string where;
 };
+inline constexpr const char* kNotGiven = "-";  // the label where it does not
 
 struct Metric {
   std::string name, key;  // key: dotted, or a JSON pointer, into result.json

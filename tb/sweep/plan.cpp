@@ -32,7 +32,7 @@ using spec::ConfigError;
 using spec::FileError;
 
 constexpr std::size_t kMaxPlanBytes = 64u << 20;
-constexpr int kPlanSchema = 1;
+constexpr int kPlanSchema = 2;
 
 fs::path plan_file(const fs::path& directory) { return directory / "plan.json"; }
 
@@ -91,8 +91,10 @@ Json to_json(const Plan& plan) {
   for (const Setting& s : plan.base) json["base"].push_back({s.name, s.value, s.where});
   json["axes"] = Json::array();
   for (const PlanAxis& axis : plan.axes)
-    json["axes"].push_back(
-        {{"name", axis.name}, {"parameters", axis.parameters}, {"choices", axis.choices}});
+    json["axes"].push_back({{"name", axis.name},
+                            {"parameters", axis.parameters},
+                            {"choices", axis.choices},
+                            {"conditional", axis.conditional}});
   return json;
 }
 
@@ -125,7 +127,7 @@ class Planner {
     const std::optional<PlannedPoint> point = judge_.judge(sample);
     if (!point) return false;
     if (!names_.insert(point->name).second) {
-      ++twice_;
+      if (point->sample == sample) ++twice_;  // else it is told by an axis that is not given
       return false;
     }
     lines_.add(line_of(*point));
@@ -165,6 +167,7 @@ std::vector<Setting> Plan::settings_of(const Sample& sample) const {
   std::vector<Setting> settings = base;
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const PlanAxis& axis = axes[i];
+    if (axis.conditional && sample.at(i) == kNotGiven) continue;
     const std::string where = fmt::format("{}: axis '{}'", file, axis.name);
     if (axis.choices.empty()) {
       settings.push_back({axis.name, sample.at(i), where});
@@ -180,7 +183,24 @@ std::vector<Setting> Plan::settings_of(const Sample& sample) const {
 PointJudge::PointJudge(const SweepDefinition& sweep, const Plan& plan)
     : sweep_(sweep), plan_(plan), excluded_(sweep.constraints.size(), 0) {}
 
-std::optional<PlannedPoint> PointJudge::judge(const Sample& sample) {
+// Axes that have no effect on this point are not given.
+Sample PointJudge::without_idle_axes(const Sample& sample) const {
+  Sample bare = sample, given = sample;
+  for (std::size_t i = 0; i < sample.size(); ++i)
+    if (sweep_.axes[i].when) bare[i] = kNotGiven;
+  if (bare == sample) return sample;
+  PointEngine point(plan_.engine, plan_.settings_of(bare));
+  try {
+    point.bound.resolve();
+  } catch (const ConfigError&) {  // what is given may mend it
+  }
+  for (std::size_t i = 0; i < sample.size(); ++i)
+    if (sweep_.axes[i].when && !sweep_.axes[i].when->holds(point.bound.set)) given[i] = kNotGiven;
+  return given;
+}
+
+std::optional<PlannedPoint> PointJudge::judge(const Sample& all) {
+  const Sample sample = without_idle_axes(all);
   PointEngine point(plan_.engine, plan_.settings_of(sample));
   std::optional<std::string> refusal;
   try {
@@ -242,7 +262,7 @@ Plan plan_without_points(const SweepDefinition& sweep) {
   plan.reports = sweep.reports;
   plan.chunk = sweep.chunk;
   for (const Axis& axis : sweep.axes) {
-    PlanAxis planned{axis.name, axis.parameters, {}};
+    PlanAxis planned{axis.name, axis.parameters, {}, axis.when.has_value()};
     if (axis.parameters != std::vector<std::string>{axis.name})
       for (const Choice& choice : axis.choices) planned.choices[choice.label] = choice.values;
     plan.axes.push_back(std::move(planned));
@@ -314,7 +334,8 @@ Plan read_plan(const fs::path& directory) {
     for (const Json& axis : json.at("axes"))
       plan.axes.push_back(
           {axis.at("name"), axis.at("parameters").get<std::vector<std::string>>(),
-           axis.at("choices").get<std::map<std::string, std::vector<std::string>>>()});
+           axis.at("choices").get<std::map<std::string, std::vector<std::string>>>(),
+           axis.at("conditional")});
     return plan;
   } catch (const std::exception& problem) {
     throw FileError(fmt::format("'{}' is not a plan of this version ({}): plan the sweep again",

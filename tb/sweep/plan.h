@@ -38,6 +38,7 @@ struct PlanAxis {
   std::string name;
   std::vector<std::string> parameters;
   std::map<std::string, std::vector<std::string>> choices;  // by label; of a named axis only
+  bool conditional = false;  // points with the label kNotGiven are not given it
 };
 
 struct PlannedPoint {
@@ -87,6 +88,8 @@ class PointJudge {
   std::string reasons() const;
 
  private:
+  Sample without_idle_axes(const Sample& sample) const;
+
   const SweepDefinition& sweep_;
   const Plan& plan_;
   SharedInputs files_;

@@ -47,6 +47,7 @@
   function commandOf(p) {
     const settings = [...data.base];
     data.axes.forEach((axis, i) => {
+      if (axis.conditional && p.at[i] === '-') return;
       const values = Object.keys(axis.choices).length > 0 ? axis.choices[p.at[i]] : [p.at[i]];
       axis.parameters.forEach((name, k) => settings.push([name, values[k]]));
     });

@@ -166,6 +166,31 @@ sample: {SAMPLE: 8, seed: 3}
         self.assertEqual(len(latencies), 8)
         self.assertTrue(all(x <= 40 and x % 2 == 0 for x in latencies), latencies)
 
+    def test_an_axis_is_given_where_it_has_an_effect(self):
+        self.write("when.yaml", """
+engine: morphological
+base: {frame: {width: 24, height: 16, truth_samples: 1}, run.images: false}
+axes:
+  morphological.steps: {from: 4, to: 8, times: 2, when: morphological.predictor != none}
+  morphological.predictor: [none, fit]
+  morphological.lanes: [1, 2]
+""")
+        self.assertIn("6 points, 6 done", self.run_sweep("when.yaml", "run"))
+        rows = self.rows("when")
+        self.assertEqual({(r["morphological.predictor"], r["morphological.steps"]) for r in rows},
+                         {("none", "-"), ("fit", "4"), ("fit", "8")})
+        with open(os.path.join(self.directory, "out/sweeps/when/collected.json")) as file:
+            collected = json.load(file)
+        self.assertEqual(collected["left_out"], [])
+        self.assertEqual(collected["axes"][0]["labels"], ["4", "8", "-"])
+        for row in rows:
+            with open(os.path.join(self.directory, row["directory"], "manifest.json")) as file:
+                manifest = json.load(file)
+            given = row["morphological.steps"]
+            self.assertEqual("steps" in manifest["command"], given != "-")
+            if given != "-":
+                self.assertEqual(str(manifest["configuration"]["morphological.steps"]), given)
+
     def test_an_input_that_changes_makes_other_points(self):
         triangle = "v 0 0 0\nv {} 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"
         self.write("mesh.obj", triangle.format(1))
