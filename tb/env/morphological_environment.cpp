@@ -123,7 +123,8 @@ std::vector<PlantedFault> MorphologicalEnvironment::smaa_faults() const {
   const bool dynamic = p.threshold_mode == spec::morphological::ThresholdMode::kDynamic;
   const bool contrast = p.local_contrast == spec::morphological::LocalContrast::kSmaa ||
                         p.local_contrast == spec::morphological::LocalContrast::kPaper;
-  const bool table = p.area != spec::morphological::AreaSource::kAnalytic;
+  const bool table = p.area != spec::morphological::AreaSource::kAnalytic &&
+                     p.area != spec::morphological::AreaSource::kLearned;
   const std::string for_table = unless(table, "area = table_full, table_merged or table_minimal"),
                     for_diagonals = unless(p.diagonals, "diagonals = true");
   return {
