@@ -86,6 +86,7 @@ inline constexpr int kInverseFractionBits = 12;
 inline constexpr int kMaxWeight = 128;  // U0.8: a half, the largest share that a run gives
 // Of a diagonal with blend = strongest, which normalises shares.
 inline constexpr int kMaxDiagonalWeight = 255;
+inline constexpr int kLongZ = 16;  // pixels of a clean Z that keeps its line with area = learned
 inline constexpr int kRowLag = 5;  // rows of delay beyond the reach
 inline constexpr int kLeastDividerLatency = 14;
 
