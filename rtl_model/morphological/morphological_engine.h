@@ -103,7 +103,7 @@ class MorphologicalEngine final : public Engine {
   Link<BeatToken> beats_{"beats", 2, built_lanes_};
   Link<LumaToken> lumas_{"lumas", 2, built_lanes_};
   Link<EdgeToken> edge_bits_{"edge_bits", 2, built_lanes_};
-  Link<AreaSlotToken> area_slots_{"area_slots", 2, built_lanes_};
+  Link<AreaSlotToken> area_slots_{"area_slots", 2, area_slot_shape(parameters_, store.lanes())};
   Link<FetchToken> fetches_{"fetches"};
   Link<ShareToken> shares_{"shares", 2, built_lanes_};
   // The pixels of a slot wait here for its shares.
