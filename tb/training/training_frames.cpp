@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+#include "tb/training/training_frames.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <fstream>
+#include <numbers>
+#include <utility>
+
+#include "tb/oracle/stand_ins.h"
+#include "tb/scene/image_io.h"
+#include "tb/scene/truth.h"
+#include "tb/stimuli/random.h"
+
+namespace deburr::tb::training {
+namespace {
+
+template <class Pixel>
+void put(std::ofstream& file, const ImageOf<Pixel>& image) {
+  file.write(reinterpret_cast<const char*>(image.pixels.data()),
+             static_cast<std::streamsize>(image.pixels.size() * sizeof(Pixel)));
+}
+template <class Pixel>
+bool get(std::ifstream& file, ImageOf<Pixel>& image) {
+  return static_cast<bool>(
+      file.read(reinterpret_cast<char*>(image.pixels.data()),
+                static_cast<std::streamsize>(image.pixels.size() * sizeof(Pixel))));
+}
+
+class Renderer {
+ public:
+  explicit Renderer(const FrameOptions& options) : options_(options) {}
+
+  // The same scene from `views` sides, the first one its own.
+  template <class MakeScene>
+  void add(std::vector<TruthFrame>& frames, const std::string& group, int views, int width,
+           int height, const MakeScene& make) const {
+    for (int view = 0; view < views; ++view) {
+      TruthFrame frame;
+      frame.name = fmt::format("{}_{}x{}{}", group, width, height,
+                               view == 0 ? std::string() : fmt::format("_{}", view));
+      frame.group = group;
+      if (options_.progress) options_.progress(frame.name);
+      const std::filesystem::path kept =
+          options_.cache / fmt::format("{}_{}.frames", frame.name, options_.samples);
+      frame.frame = frame.truth = Image(width, height);
+      frame.depth = DepthImage(width, height);
+      if (!read(kept, frame)) {
+        Scene scene = make();
+        turn(scene.camera, view);
+        LitFrames lit = render_lit_frames(scene, width, height, options_.samples);
+        frame.frame = std::move(lit.noaa);
+        frame.truth = std::move(lit.truth);
+        frame.depth = std::move(lit.depth);
+        write(kept, frame);
+      }
+      frames.push_back(std::move(frame));
+    }
+  }
+
+ private:
+  // About the upright axis through the target, and a little nearer.
+  static void turn(Camera& camera, int view) {
+    if (view == 0) return;
+    const double angle = 1.1 * view, near = view % 2 != 0 ? 0.7 : 0.9;
+    const Imath::V3d from = (camera.eye - camera.target) * near;
+    camera.eye =
+        camera.target + Imath::V3d(from.x * std::cos(angle) + from.z * std::sin(angle), from.y,
+                                   from.z * std::cos(angle) - from.x * std::sin(angle));
+  }
+  bool read(const std::filesystem::path& kept, TruthFrame& frame) const {
+    if (options_.cache.empty()) return false;
+    std::ifstream file(kept, std::ios::binary);
+    return file && get(file, frame.frame) && get(file, frame.truth) && get(file, frame.depth);
+  }
+  void write(const std::filesystem::path& kept, const TruthFrame& frame) const {
+    if (options_.cache.empty()) return;
+    std::filesystem::create_directories(options_.cache);
+    std::ofstream file(kept, std::ios::binary);
+    put(file, frame.frame);
+    put(file, frame.truth);
+    put(file, frame.depth);
+  }
+
+  const FrameOptions& options_;
+};
+
+// Adds those of the meshes that the data folder has.
+void add_meshes(std::vector<TruthFrame>& frames, const FrameOptions& options,
+                const std::vector<std::string>& meshes, int views) {
+  const Renderer renderer(options);
+  for (const std::string& mesh : meshes) {
+    const std::filesystem::path path = options.data / mesh;
+    if (options.data.empty() || !std::filesystem::exists(path)) continue;
+    renderer.add(frames, path.stem().string(), views, options.size, options.size,
+                 [&] { return import_scene(path); });
+  }
+}
+
+struct Shape {
+  enum class Kind : std::uint8_t { kDisc, kBar, kTriangle } kind;
+  double x, y, size, width, cosine, sine;
+  Rgba8 colour;
+  bool covers(double px, double py) const {
+    const double u = (px - x) * cosine + (py - y) * sine, v = (py - y) * cosine - (px - x) * sine;
+    switch (kind) {
+      case Kind::kDisc:
+        return u * u + v * v < size * size;
+      case Kind::kBar:
+        return std::abs(u) < size && std::abs(v) < width;
+      case Kind::kTriangle:
+        break;
+    }
+    return u > -size && std::abs(v) < (size - u) * width / size;
+  }
+};
+
+double decoded(std::uint8_t code) {
+  const double v = code / 255.0;
+  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+std::uint8_t encoded(double l) {
+  const double v = l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::floor(255 * v + 0.5));
+}
+
+}  // namespace
+
+TruthFrame shapes_frame(int width, int height, int samples, std::uint64_t seed) {
+  Random random(seed, "shapes");
+  const auto colour = [&] {
+    Rgba8 c{0, 0, 0, 255};
+    for (std::size_t i = 0; i < 3; ++i) c[i] = static_cast<std::uint8_t>(random.below(256));
+    return c;
+  };
+  const Rgba8 ground = colour();
+  std::vector<Shape> shapes;
+  for (int i = 0; i < 60; ++i) {
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    const double size = std::exp(random.uniform(std::log(3.0), std::log(0.3 * width)));
+    const auto kind = static_cast<Shape::Kind>(random.below(3));
+    const double x = random.uniform(0, width), y = random.uniform(0, height);
+    const double thin = random.uniform(0.02, 1);
+    shapes.push_back(
+        {kind, x, y, size, std::max(0.6, size * thin), std::cos(angle), std::sin(angle), colour()});
+  }
+  const auto at = [&](double x, double y) -> const Rgba8& {
+    for (auto shape = shapes.rbegin(); shape != shapes.rend(); ++shape)
+      if (shape->covers(x, y)) return shape->colour;
+    return ground;
+  };
+  TruthFrame result;
+  result.group = result.name = fmt::format("shapes{}", seed);
+  result.frame = result.truth = Image(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      result.frame.at(x, y) = at(x + 0.5, y + 0.5);
+      std::array<double, 3> sum{};
+      for (int j = 0; j < samples; ++j) {
+        for (int i = 0; i < samples; ++i) {
+          const Rgba8& c = at(x + (i + 0.5) / samples, y + (j + 0.5) / samples);
+          for (std::size_t k = 0; k < 3; ++k) sum[k] += decoded(c[k]);
+        }
+      }
+      for (std::size_t k = 0; k < 3; ++k)
+        result.truth.at(x, y)[k] = encoded(sum[k] / (samples * samples));
+      result.truth.at(x, y)[3] = 255;
+    }
+  }
+  return result;
+}
+
+std::vector<TruthFrame> own_frames(const FrameOptions& options) {
+  const Renderer renderer(options);
+  std::vector<TruthFrame> frames;
+  const int size = options.size;
+  for (const SceneName& scene : scene_names()) {
+    const std::string name(scene.name);
+    // Those of the quality matrix, in its size; the others from two sides.
+    renderer.add(frames, name, 1, size, size, [&] { return make_scene(name); });
+  }
+  for (const char* kind : {"street", "vehicle", "forest"}) {
+    for (const std::uint64_t seed : {11, 12}) {
+      const std::string group = fmt::format("{}{}", kind, seed);
+      renderer.add(frames, group, 2, size, size, [&] {
+        const std::filesystem::path folder =
+            std::filesystem::temp_directory_path() / fmt::format("deburr_training_{}", group);
+        std::filesystem::create_directories(folder);
+        Scene made = import_scene(write_stand_in(folder, kind, seed));
+        std::filesystem::remove_all(folder);
+        return made;
+      });
+    }
+  }
+  for (int i = 0; i < options.shapes; ++i)
+    frames.push_back(
+        shapes_frame(size, size, options.samples, 100 + static_cast<std::uint64_t>(i)));
+  return frames;
+}
+
+std::vector<TruthFrame> mesh_frames(const FrameOptions& options) {
+  std::vector<TruthFrame> frames;
+  add_meshes(
+      frames, options,
+      {"meshes/teapot.obj", "meshes/spot.obj", "meshes/kenney_truck.obj", "meshes/WusonOBJ.obj",
+       "meshes/wing.obj", "meshes/wheelcover.obj", "meshes/canopy_open.obj",
+       "meshes/terrain_open.obj", "kenney/city/models/building-garage.glb",
+       "kenney/city/models/building-small-a.glb", "kenney/city/models/building-small-c.glb",
+       "kenney/city/models/road-straight-lightposts.glb",
+       "kenney/city/models/pavement-fountain.glb", "kenney/city/models/grass-trees-tall.glb",
+       "kenney/racing/models/vehicle-truck-red.glb", "kenney/racing/models/vehicle-motorcycle.glb",
+       "kenney/racing/models/track-finish.glb", "kenney/racing/models/decoration-tents.glb",
+       "kenney/racing/models/decoration-forest.glb"},
+      2);
+  return frames;
+}
+
+std::vector<TruthFrame> held_out_frames(const FrameOptions& options) {
+  std::vector<TruthFrame> frames;
+  const std::filesystem::path folder = options.data / "frames";
+  if (!options.data.empty() && std::filesystem::exists(folder / "track_720p_noaa.png")) {
+    frames.push_back({"track_720p", "track", read_image(folder / "track_720p_noaa.png"),
+                      read_image(folder / "track_720p_ssaa256.png"),
+                      read_depth(folder / "track_720p_depth24.png")});
+    frames.push_back({"track_1080p",
+                      "track",
+                      read_image(folder / "track_1080p_noaa.png"),
+                      read_image(folder / "track_1080p_ssaa64.png"),
+                      {}});
+  }
+  add_meshes(
+      frames, options,
+      {"kenney/city/models/building-small-b.glb", "kenney/city/models/building-small-d.glb",
+       "kenney/city/models/grass-trees.glb", "kenney/city/models/grass.glb",
+       "kenney/city/models/pavement.glb", "kenney/city/models/road-split.glb",
+       "kenney/city/models/road-straight.glb", "kenney/city/models/road-corner.glb",
+       "kenney/city/models/road-intersection.glb", "kenney/racing/models/track-corner.glb",
+       "kenney/racing/models/track-bump.glb", "kenney/racing/models/track-straight.glb",
+       "kenney/racing/models/track-tents.glb", "kenney/racing/models/vehicle-truck-purple.glb",
+       "kenney/racing/models/vehicle-truck-yellow.glb",
+       "kenney/racing/models/vehicle-truck-green.glb", "kenney/racing/models/decoration-empty.glb"},
+      1);
+  return frames;
+}
+
+}  // namespace deburr::tb::training
