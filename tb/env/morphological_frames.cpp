@@ -126,6 +126,19 @@ LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed,
       frame.inputs.emplace_back(p.truth);
     }
   }
+  if (!p.mask.empty()) {
+    ReadReport report;
+    const Image mask = read_image(p.mask, &report);
+    for (const std::string& conversion : report.conversions)
+      frame.conversions.push_back(fmt::format("'{}': {}", p.mask, conversion));
+    Image& image = frame.input.image;
+    require_size("mask", p.mask, mask.width, mask.height, image);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+      std::uint8_t& alpha = image.pixels[i][3];
+      alpha = static_cast<std::uint8_t>((alpha & ~1) | (mask.pixels[i][0] >= 128 ? 0 : 1));
+    }
+    frame.inputs.emplace_back(p.mask);
+  }
   if (frame.depth) frame.input.depth = depth_codes(*frame.depth);
   return frame;
 }

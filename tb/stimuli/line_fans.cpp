@@ -125,17 +125,17 @@ std::vector<FanRow> fan_rows() {
     add(fmt::format("chord N = {}", n), spec::morphological::Preset::kMlaaSlope, n);
   }
   for (const int n : {2, 4}) {
-    add(fmt::format("fit N = {}", n), spec::morphological::Preset::kDeburr, n);
+    add(fmt::format("fit N = {}", n), spec::morphological::Preset::kDeburrLine, n);
   }
-  add("deburr", spec::morphological::Preset::kDeburr, 8);
-  add("fit N = 16", spec::morphological::Preset::kDeburr, 16);
+  add("deburr", spec::morphological::Preset::kDeburrLine, 8);
+  add("fit N = 16", spec::morphological::Preset::kDeburrLine, 16);
   return rows;
 }
 
 std::vector<FanRow> rule_rows() {
   using golden::morphological::preset_parameters;
   using P = spec::morphological::Parameters;
-  const P deburr = preset_parameters(spec::morphological::Preset::kDeburr);
+  const P deburr = preset_parameters(spec::morphological::Preset::kDeburrLine);
   std::vector<FanRow> rows;
   const auto add = [&](const char* name, const P& p) { rows.push_back({name, true, p}); };
   P p = preset_parameters(spec::morphological::Preset::kMlaa);

@@ -61,7 +61,7 @@ void PrintTo(const Build& b, std::ostream* out) {
        << ", interval " << b.interval;
 }
 Parameters build(const Build& b) {
-  Parameters p = preset(b.steps ? Preset::kDeburr : Preset::kMlaa);
+  Parameters p = preset(b.steps ? Preset::kDeburrLine : Preset::kMlaa);
   p.lanes = static_cast<spec::morphological::Lanes>(b.lanes_code);
   p.steps = b.steps;
   p.predictor_units = b.units;
@@ -138,7 +138,7 @@ constexpr int depth_for(int records) {
 }
 class FifoDepth : public ::testing::TestWithParam<Depth> {};
 TEST_P(FifoDepth, HoldsBothBursts) {
-  Parameters p = preset(Preset::kDeburr);
+  Parameters p = preset(Preset::kDeburrLine);
   const int width = GetParam().beats, records = GetParam().records;
   p.line_pixels = width;
   p.record_fifo = GetParam().fifo;

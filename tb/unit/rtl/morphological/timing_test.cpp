@@ -48,7 +48,7 @@ class LatencyFormula : public ::testing::TestWithParam<Case> {};
 // (docs/morphological_hardware.md).
 TEST_P(LatencyFormula, HoldsForEveryBeat) {
   const Case c = GetParam();
-  Parameters p = preset(Preset::kDeburr, c.reach_rows);
+  Parameters p = preset(Preset::kDeburrLine, c.reach_rows);
   p.steps = std::min(8, c.reach_rows - 1);
   p.lanes = static_cast<spec::morphological::Lanes>(c.lanes_code);
   p.line_pixels = c.width;
@@ -150,7 +150,7 @@ class Throughput : public ::testing::TestWithParam<Load> {};
 // other, that the predictors have the time that each of them takes.
 TEST_P(Throughput, IsOneBeatAClock) {
   const Load load = GetParam();
-  Parameters p = preset(Preset::kDeburr);
+  Parameters p = preset(Preset::kDeburrLine);
   p.line_pixels = 640;
   p.lanes = static_cast<spec::morphological::Lanes>(load.lanes_code);
   EngineBench bench(p);
@@ -183,7 +183,7 @@ class FullWidth : public ::testing::TestWithParam<int> {};
 // The defaults at the width of 1080p: a pixel is taken in every clock, and none waits on its way.
 TEST_P(FullWidth, TakesRandomEdgesAtAPixelAClock) {
   const int permille = GetParam();
-  Parameters p = preset(Preset::kDeburr);
+  Parameters p = preset(Preset::kDeburrLine);
   const Parameters defaults;
   p.line_pixels = defaults.line_pixels;
   ASSERT_EQ(defaults.preset, p.preset);
@@ -210,7 +210,7 @@ INSTANTIATE_TEST_SUITE_P(EdgePermille, FullWidth, ::testing::Values(50, 100, 200
 
 // Beyond that the slots wait, are counted, and nothing else changes.
 TEST(BackPressure, StallsAreCountedAndNothingIsLost) {
-  Parameters p = preset(Preset::kDeburr);
+  Parameters p = preset(Preset::kDeburrLine);
   p.predictor_units = 1;
   p.record_fifo = 2;
   p.divider_interval = 4;
@@ -280,7 +280,7 @@ TEST(EvaluationOrder, DoesNotMatter) {
     EngineBench::Options options;
     options.bench.shuffle = order;
     options.bench.stall_permille = 80;
-    Parameters p = preset(Preset::kDeburr);
+    Parameters p = preset(Preset::kDeburrLine);
     p.lanes = spec::morphological::Lanes::kTwo;
     p.record_fifo = 4;
     EngineBench bench(p, options);
@@ -297,7 +297,7 @@ TEST(EvaluationOrder, DoesNotMatter) {
 
 // The next frame is taken in the clock after the last beat of this one has been pushed.
 TEST(FramesBackToBack, BeginTheClockAfterTheLast) {
-  Parameters p = preset(Preset::kDeburr);
+  Parameters p = preset(Preset::kDeburrLine);
   EngineBench bench(p);
   Times times(bench);
   const Frame a = line(120, 40), b = line(120, 40);
@@ -322,7 +322,7 @@ TEST(FramesBackToBack, BeginTheClockAfterTheLast) {
 TEST(Stalls, UpstreamAndDownstreamAreSeenAndCostWhatTheyLast) {
   EngineBench::Options options;
   options.driver = {250, 3};
-  EngineBench bench(preset(Preset::kDeburr), options);
+  EngineBench bench(preset(Preset::kDeburrLine), options);
   bench.run(line());
   const auto& units = bench.engine.sequencer;
   std::uint64_t upstream = 0;
@@ -335,14 +335,14 @@ TEST(Stalls, UpstreamAndDownstreamAreSeenAndCostWhatTheyLast) {
 TEST(Stalls, ASlowSinkStallsTheBlenderAndNothingIsLost) {
   EngineBench::Options options;
   options.sink = {500, 3};
-  EngineBench bench(preset(Preset::kDeburr), options);
+  EngineBench bench(preset(Preset::kDeburrLine), options);
   EXPECT_EQ(hash(bench.run(line())), 0x736d3ffd8a940ba4u);
   EXPECT_GT(bench.engine.blender.stalled_cycles(), 10'000u);
 }
 
 // Memory that answers in time costs nothing; slow memory stalls the pixel store alone.
 TEST(MemoryTime, FastMemoryCostsNothing) {
-  Parameters p = preset(Preset::kDeburr);
+  Parameters p = preset(Preset::kDeburrLine);
   p.storage = spec::morphological::Storage::kMemory;
   EngineBench::Options options;
   options.memory_latency = 40;
@@ -352,7 +352,7 @@ TEST(MemoryTime, FastMemoryCostsNothing) {
 }
 
 TEST(MemoryTime, SlowMemoryStallsAndNothingIsLost) {
-  Parameters p = preset(Preset::kDeburr);
+  Parameters p = preset(Preset::kDeburrLine);
   p.storage = spec::morphological::Storage::kMemory;
   p.memory_outstanding = 1;
   EngineBench::Options options;
