@@ -69,7 +69,7 @@ std::string_view name_of(Preset preset) {
 
 // A table with a row a frame: the other methods, then deburr with these tables.
 void report(const std::string& title, const std::vector<const TruthFrame*>& frames,
-            const std::function<const ShareTables&(const TruthFrame&)>& tables_of) {
+            const std::function<const ShareTables&(const TruthFrame&)>& tables_of, bool brief) {
   std::string head = fmt::format("\n{}\n\n| frame | none |", title), line = "|---|---|";
   for (const Preset preset : kOthers) {
     head += fmt::format(" {} |", name_of(preset));
@@ -101,7 +101,7 @@ void report(const std::string& title, const std::vector<const TruthFrame*>& fram
              !(row[i].silhouettes > row.back().silhouettes);
     }
     if (!best) ++behind;
-    std::cout << text << (best ? "" : " behind") << '\n' << std::flush;
+    if (!brief || !best) std::cout << text << (best ? "" : " behind") << '\n' << std::flush;
   }
   std::string text = "| mean |";
   for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -192,7 +192,7 @@ int run(int argc, char** argv) {
   Recipe recipe;
   std::string write;
   int folds = 4;
-  bool quiet = false;
+  bool quiet = false, brief = false;
   CLI::App app("Trains the ROMs of learned shares and judges them");
   app.add_option("--data", options.data, "folder of meshes, kenney and frames");
   app.add_option("--cache", options.cache, "folder where rendered frames are kept");
@@ -203,6 +203,7 @@ int run(int argc, char** argv) {
   app.add_option("--decay", recipe.decay, "");
   app.add_option("--seed", recipe.seed, "");
   app.add_option("--shapes", options.shapes, "frames of plain shapes");
+  app.add_flag("--brief", brief, "of the training frames, only means and where deburr is behind");
   app.add_flag("--quiet", quiet, "no progress");
   CLI11_PARSE(app, argc, argv);
   if (!quiet) options.progress = [](const std::string& name) { std::cerr << "\r\x1b[K" << name; };
@@ -229,12 +230,14 @@ int run(int argc, char** argv) {
   const ShareTables tables = trained(all, samples, recipe);
   if (!write.empty()) std::ofstream(write) << header_of(tables, text);
 
-  report("Trained on (in sample)", all,
-         [&](const TruthFrame&) -> const ShareTables& { return tables; });
+  report(
+      "Trained on (in sample)", all,
+      [&](const TruthFrame&) -> const ShareTables& { return tables; }, brief);
   if (!held_out.empty()) {
     std::vector<const TruthFrame*> others;
     for (const TruthFrame& frame : held_out) others.push_back(&frame);
-    report("Held out", others, [&](const TruthFrame&) -> const ShareTables& { return tables; });
+    report(
+        "Held out", others, [&](const TruthFrame&) -> const ShareTables& { return tables; }, false);
   }
   if (folds < 2) return 0;
   // Every group is judged by tables that were trained on the groups of the other folds.
@@ -249,10 +252,12 @@ int run(int argc, char** argv) {
       if (fold_of(*frame) != fold) others.push_back(frame);
     by_fold.push_back(trained(others, samples, recipe));
   }
-  report(fmt::format("The same frames, by tables trained without their meshes ({} folds)", folds),
-         all, [&](const TruthFrame& frame) -> const ShareTables& {
-           return by_fold[static_cast<std::size_t>(fold_of(frame))];
-         });
+  report(
+      fmt::format("The same frames, by tables trained without their meshes ({} folds)", folds), all,
+      [&](const TruthFrame& frame) -> const ShareTables& {
+        return by_fold[static_cast<std::size_t>(fold_of(frame))];
+      },
+      brief);
   return 0;
 }
 

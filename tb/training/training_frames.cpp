@@ -49,7 +49,7 @@ class Renderer {
       frame.frame = frame.truth = Image(width, height);
       frame.depth = DepthImage(width, height);
       if (!read(kept, frame)) {
-        Scene scene = make();
+        Scene scene = make(view);
         turn(scene.camera, view);
         LitFrames lit = render_lit_frames(scene, width, height, options_.samples);
         frame.frame = std::move(lit.noaa);
@@ -95,8 +95,13 @@ void add_meshes(std::vector<TruthFrame>& frames, const FrameOptions& options,
   for (const std::string& mesh : meshes) {
     const std::filesystem::path path = options.data / mesh;
     if (options.data.empty() || !std::filesystem::exists(path)) continue;
-    renderer.add(frames, path.stem().string(), views, options.size, options.size,
-                 [&] { return import_scene(path); });
+    // The first one as other tables show it, with a checkerboard where the mesh has no texture.
+    renderer.add(frames, path.filename().string(), views, options.size, options.size,
+                 [&](int view) {
+                   SceneOptions plain;
+                   plain.plain = view != 0;
+                   return import_scene(path, plain);
+                 });
   }
 }
 
@@ -180,16 +185,18 @@ std::vector<TruthFrame> own_frames(const FrameOptions& options) {
   for (const SceneName& scene : scene_names()) {
     const std::string name(scene.name);
     // Those of the quality matrix, in its size; the others from two sides.
-    renderer.add(frames, name, 1, size, size, [&] { return make_scene(name); });
+    renderer.add(frames, name, 1, size, size, [&](int) { return make_scene(name); });
   }
   for (const char* kind : {"street", "vehicle", "forest"}) {
     for (const std::uint64_t seed : {11, 12}) {
       const std::string group = fmt::format("{}{}", kind, seed);
-      renderer.add(frames, group, 2, size, size, [&] {
+      renderer.add(frames, group, 2, size, size, [&](int view) {
         const std::filesystem::path folder =
             std::filesystem::temp_directory_path() / fmt::format("deburr_training_{}", group);
         std::filesystem::create_directories(folder);
-        Scene made = import_scene(write_stand_in(folder, kind, seed));
+        SceneOptions plain;
+        plain.plain = view != 0;
+        Scene made = import_scene(write_stand_in(folder, kind, seed), plain);
         std::filesystem::remove_all(folder);
         return made;
       });

@@ -4,10 +4,14 @@
 extension of runs (predictor = none), slow and without a thought for speed.
 
     shares_reference.py            the small frames of that page, and the indices of their edges
+    shares_reference.py WIDTH HEIGHT COLUMNS ROWS IN OUT
+                                   smooths raw R, G, B, A with reaches of so many columns and rows
+                                   and leave = masked; writes R, G, B
 """
 
 import pathlib
 import re
+import sys
 
 SPEC = pathlib.Path(__file__).resolve().parents[4] / "spec" / "morphological"
 C_REACH, R_REACH = 256, 32  # of the preset
@@ -145,7 +149,7 @@ def planes(frame, masked=()):
     return Edges(top, left), Edges(swap(left), swap(top))
 
 
-def smooth(frame, masked=()):
+def smooth(frame, masked=(), reaches=(C_REACH, R_REACH)):
     """The frame as `deburr` with predictor = none gives it, R, G, B."""
     a, b, c = (table("learned_shares.h", name)
                for name in ("kSharesOfCodes", "kSharesOfNear", "kSharesOfFar"))
@@ -156,7 +160,7 @@ def smooth(frame, masked=()):
         return {edge: [of_sum[min(127, max(-128, a[i] + b[j] + c[k])) + 128] for i, j, k in both]
                 for edge, both in indices(edges, reach).items()}
 
-    h, v = shares(horizontal, C_REACH), shares(vertical, R_REACH)
+    h, v = shares(horizontal, reaches[0]), shares(vertical, reaches[1])
     none = [0, 0]
     result = []
     for y, row in enumerate(frame):
@@ -225,7 +229,19 @@ def frame_of(name):
     return [[PALETTE[c] for c in row] for row in FRAMES[name].split()]
 
 
+def smooth_file(width, height, columns, rows, source, target):
+    raw = pathlib.Path(source).read_bytes()
+    frame = [[tuple(raw[4 * (y * width + x):][:3]) for x in range(width)] for y in range(height)]
+    masked = {(x, y) for y in range(height) for x in range(width)
+              if raw[4 * (y * width + x) + 3] % 2 == 0}
+    result = smooth(frame, masked, (columns, rows))
+    pathlib.Path(target).write_bytes(bytes(c for row in result for pixel in row for c in pixel))
+
+
 def main():
+    if len(sys.argv) == 7:
+        smooth_file(*map(int, sys.argv[1:5]), *sys.argv[5:])
+        return
     for name in FRAMES:
         print(f"{name}")
         for axis, edges, reach in zip("hv", planes(frame_of(name)), (C_REACH, R_REACH)):
