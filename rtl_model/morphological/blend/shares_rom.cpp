@@ -117,6 +117,7 @@ SharesRom::Query SharesRom::ask_gap() {
 }
 
 void SharesRom::address(Cycle cycle, std::size_t reader, const Query& query) {
+  if (observer) observer(query);
   for (std::size_t side = 0; side < kSides; ++side) {
     const std::size_t port = kSides * reader + side;
     words_[0][port].read(cycle, query.a[side]);

@@ -20,6 +20,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "rtl_model/fabric/memory.h"
@@ -62,6 +63,9 @@ class SharesRom {
   std::uint8_t entry(std::size_t index) const;
   void load(std::size_t index, std::uint8_t entry);
   std::uint32_t sum() const { return sum_; }
+
+  // For checks: the addresses of every edge.
+  std::function<void(const Query&)> observer;
 
  private:
   static constexpr std::size_t kTables = 3, kSides = 2;
