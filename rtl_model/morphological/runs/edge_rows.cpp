@@ -101,7 +101,7 @@ EdgeRows::EdgeRows(const spec::morphological::Parameters& p, const ParameterStor
 // its class.
 inline void EdgeRows::find_columns(Trial& trial) const {
   const std::int32_t most = trial.tries ? std::min(trial.length + 1, trial.room) : 0;
-  const std::int32_t least = store_.rules().contiguous || trial.looks != 0 ? 0 : trial.length - 1;
+  const std::int32_t least = store_.rules().contiguous || trial.classes ? 0 : trial.length - 1;
   const std::int32_t first = trial.to_the_right
                                  ? trial.at(least) - 1
                                  : std::min(trial.at(most) - 1, trial.at(trial.looks));

@@ -44,12 +44,14 @@ void Predictor::take(Cycle cycle, Cycle reset, const RunToken& token) {
   join_at_ = cycle;
   step_ = 0;
   const int start_code = run.shape & 3, end_code = run.shape >> 2;
-  right_.looks = left_.looks = false;
-  right_.trial.looks = left_.trial.looks = 0;
+  for (End* const side : {&right_, &left_}) {
+    side->trial.classes = false;
+    side->trial.looks = 0;
+  }
   if (store_.rules().learned) {
     look_at(right_, end_code);
     look_at(left_, start_code);
-    if (right_.looks || left_.looks) state_ = State::kLooks;
+    if (right_.trial.classes || left_.trial.classes) state_ = State::kLooks;
   }
   if (extends) state_ = State::kTrials;
   if (state_ == State::kJoins) return;
@@ -82,11 +84,11 @@ void Predictor::look_at(End& end, int code) {
   const spec::morphological::RunRecord& run = run_.run;
   end.crossing_class = 0;
   if (code != kFirstSide && code != kSecondSide) return;
-  end.looks = true;
   const bool whole = run.part == spec::morphological::RunPart::kWhole;
   end.trial.to_the_right = end.to_the_right;
   end.trial.line = run.line + (code == kFirstSide ? -1 : 1);
   end.trial.crossing = code == kFirstSide ? kFirstBit : kSecondBit;
+  end.trial.classes = true;
   end.trial.looks = whole ? std::min(kMostLooks, reach_ - length_) : 0;
 }
 
@@ -138,11 +140,11 @@ void Predictor::read(Cycle cycle, End& end) {
   trial.tries = end.open && trial.line >= 0 &&
                 trial.line <= (vertical_ ? rules.width : rules.height) &&
                 trial.room >= std::max(1, length_ - 1);
-  if (step_ != 0 && end.looks) {
-    end.looks = false;
+  if (step_ != 0 && trial.classes) {
+    trial.classes = false;
     trial.looks = 0;
   }
-  end.reads = trial.tries || end.looks;
+  end.reads = trial.tries || trial.classes;
   if (end.reads) end.port.read(cycle, trial);
 }
 
@@ -150,7 +152,7 @@ void Predictor::see(Cycle cycle, End& end) {
   end.hits = 0;
   if (!end.reads) return;
   if (end.trial.tries) end.hits = end.port.hits(cycle, end.trial);
-  if (end.looks) end.crossing_class = end.port.crossing_class(cycle, end.trial);
+  if (end.trial.classes) end.crossing_class = end.port.crossing_class(cycle, end.trial);
 }
 
 bool Predictor::decide() {

@@ -96,7 +96,6 @@ class Predictor {
     bool open = false;
     bool reads = false;  // in this trial
     std::uint8_t hits = 0;
-    bool looks = false;  // for the class of its crossing, in the first trial
     std::uint8_t crossing_class = 0;
     Keep keep = kAll;
     std::int32_t other = 0;     // L', 0 while unknown; the same at both ends if safe

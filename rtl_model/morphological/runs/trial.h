@@ -18,7 +18,8 @@ struct Trial {
   std::uint8_t origin, corner;       // codes of the corners at its beginning and its end
   bool tries = true;                 // candidates are asked for
   std::uint8_t crossing = 0;         // of the corner `from`: bit of the edge beyond its crossing
-  std::int32_t looks = 0;            // edges from there on that its class asks for, 0: none does
+  bool classes = false;              // its class is asked for ..
+  std::int32_t looks = 0;            // .. and so many edges from there on
   std::int32_t first = 0, last = 0;  // columns that are read for it, in rows
 
   std::int32_t at(std::int32_t step) const { return to_the_right ? from + step : from - step; }
@@ -61,7 +62,7 @@ std::uint8_t class_of(const Trial& trial, const Edges& edges) {
   const std::uint8_t code = edges.code(trial.from);
   if (code & trial.crossing) return 2;
   if (code & (trial.to_the_right ? kBeforeBit : kAfterBit)) return 1;
-  if ((code & (trial.to_the_right ? kAfterBit : kBeforeBit)) == 0) return 0;
+  if (trial.looks == 0 || (code & (trial.to_the_right ? kAfterBit : kBeforeBit)) == 0) return 0;
   const auto along = [&](std::int32_t k) {
     return edges.along(trial.to_the_right ? trial.from + k : trial.from - 1 - k);
   };
