@@ -91,7 +91,8 @@ class MorphologicalEngine final : public Engine {
   const Histogram& beat_latency = blender.beat_latency;
 
   // For checks: every run as it is found, every line as it is stored (canonical order is the
-  // receiver's business). Costs nothing when not set. A line is made for records with a side only.
+  // receiver's business). Costs nothing when not set. A line is made for records with a side
+  // only, and for learned ones.
   void observe_runs(std::function<void(const spec::morphological::RunRecord&)> observer);
   void observe_lines(std::function<void(const spec::morphological::LineRecord&)> observer);
 

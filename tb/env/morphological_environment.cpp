@@ -524,7 +524,7 @@ void MorphologicalEnvironment::judge_records() {
     runs.push_back(run.line.run);
     const spec::morphological::RunShape& shape =
         spec::morphological::kRunShapes[run.line.run.shape];
-    if (shape.before != spec::morphological::Side::kNone ||
+    if (run.line.learned || shape.before != spec::morphological::Side::kNone ||
         shape.after != spec::morphological::Side::kNone)
       lines.push_back(run.line);
   }

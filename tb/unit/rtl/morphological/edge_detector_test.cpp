@@ -155,27 +155,36 @@ TEST(EdgeDetectorBlock, LocalContrastComparesColours) {
 }
 
 // A masked pixel has no edge, and its steps weigh on no other, of any source.
-TEST(EdgeDetectorBlock, MaskedPixelsMakeNoStep) {
-  for (const auto source :
-       {spec::morphological::EdgeSource::kColour, spec::morphological::EdgeSource::kLuma}) {
-    Parameters p = preset(spec::morphological::Preset::kDeburr);
-    p.edge_source = source;
-    p.leave = spec::morphological::Leave::kMasked;
-    Front front(p);
-    Frame steps = row({0, 30, 30, 200, 0, 0, 80, 0});
-    for (Rgba8& pixel : steps.pixel) pixel[3] = 1;
-    // The step of 30 stands beside one of 170 two pixels on, that of 80 between two alike.
-    EXPECT_EQ(left_bits(front.detect(steps)), "01011011");
-    steps.at(3, 0)[3] = 254;
-    steps.at(7, 0)[3] = 0;
-    EXPECT_EQ(left_bits(front.detect(steps)), "01000010");
-    EXPECT_EQ(top_bits(front.detect(transposed(steps))), "01000010");
-    Frame pair = row({0, 30, 90, 90});
-    for (Rgba8& pixel : pair.pixel) pixel[3] = 1;
-    EXPECT_EQ(left_bits(front.detect(pair)), "0010") << "dropped beside 60";
-    pair.at(2, 0)[3] = 0;
-    EXPECT_EQ(left_bits(front.detect(pair)), "0100") << "and kept beside what is masked";
-  }
+class Masked : public ::testing::TestWithParam<spec::morphological::EdgeSource> {};
+
+TEST_P(Masked, PixelsMakeNoStep) {
+  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  p.edge_source = GetParam();
+  p.leave = spec::morphological::Leave::kMasked;
+  Front front(p);
+  Frame steps = row({0, 30, 30, 200, 0, 0, 80, 0});
+  for (Rgba8& pixel : steps.pixel) pixel[3] = 1;
+  EXPECT_EQ(left_bits(front.detect(steps)), "01011011");
+  steps.at(3, 0)[3] = 254;
+  steps.at(7, 0)[3] = 0;
+  EXPECT_EQ(left_bits(front.detect(steps)), "01000010");
+  EXPECT_EQ(top_bits(front.detect(transposed(steps))), "01000010");
+  Frame pair = row({0, 30, 90, 90});
+  for (Rgba8& pixel : pair.pixel) pixel[3] = 1;
+  EXPECT_EQ(left_bits(front.detect(pair)), "0010") << "dropped beside 60";
+  pair.at(2, 0)[3] = 0;
+  EXPECT_EQ(left_bits(front.detect(pair)), "0100") << "and kept beside what is masked";
+}
+INSTANTIATE_TEST_SUITE_P(
+    Sources, Masked,
+    ::testing::Values(spec::morphological::EdgeSource::kColour,
+                      spec::morphological::EdgeSource::kLuma),
+    [](const auto& source) {
+      return std::string(
+          spec::morphological::kEdgeSourceNames[static_cast<std::size_t>(source.param)]);
+    });
+
+TEST(MaskedDepth, MakesNoStepEither) {
   Parameters p = preset(spec::morphological::Preset::kMlaa);
   p.edge_source = spec::morphological::EdgeSource::kDepth;
   p.leave = spec::morphological::Leave::kMasked;
