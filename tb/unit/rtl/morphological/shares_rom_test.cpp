@@ -33,7 +33,7 @@ const Row kRows[] = {
     {"Z", 2, 1, 6, 6, 0, 3, RunPart::kWhole, {579, 546, 270}, {387, 258, 558}},
     {"middle of five", 2, 1, 5, 6, 2, 2, RunPart::kWhole, {594, 522, 266}, {594, 554, 234}},
     {"single pixel", 2, 2, 1, 1, 0, 0, RunPart::kWhole, {640, 384, 384}, {320, 96, 96}},
-    {"T at the other end", 3, 1, 0, 2, 4, 0, RunPart::kWhole, {476, 130, 50}, {732, 418, 50}},
+    {"T at the other end", 3, 1, 0, 2, 4, 0, RunPart::kWhole, {452, 130, 50}, {708, 418, 50}},
     // The end of a head is farther than any other, however far its pixel is from the start.
     {"head", 1, 0, 2, 0, 5, 0, RunPart::kHead, {295, 147, 31}, {551, 435, 31}},
     {"head, far out", 1, 0, 2, 0, 100, 27, RunPart::kHead, {319, 159, 31}, {575, 447, 31}},
