@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "spec/morphological/shapes.h"
+
 namespace deburr::golden::morphological {
 namespace {
 
@@ -48,6 +50,10 @@ ReachableEntries find_reachable() {
   ReachableEntries result;
   LineRecord record;
   const auto visit = [&] {
+    const bool line = record.run.part == RunPart::kWhole &&
+                      record.run.length >= spec::morphological::kLongZ &&
+                      spec::morphological::kRunShapes[record.run.shape].clean_z;
+    if (line) return;
     const LearnedEnds ends(record, Side::kFirst);
     for (int k = 0; k < record.run.length; ++k) {
       const ShareIndices i = ends.of_pixel(k);

@@ -201,8 +201,11 @@ void MorphologicalGolden::process_record(AxisShares& axis,
 bool MorphologicalGolden::is_learned(const spec::morphological::RunRecord& run,
                                      const Prediction& prediction) const {
   if (parameters_.area != spec::morphological::AreaSource::kLearned) return false;
-  return run.part != spec::morphological::RunPart::kWhole ||
-         prediction.left.steps + prediction.right.steps == 0;
+  if (run.part != spec::morphological::RunPart::kWhole ||
+      !spec::morphological::kRunShapes[run.shape].clean_z)
+    return true;
+  return prediction.left.steps + prediction.right.steps == 0 &&
+         run.length < spec::morphological::kLongZ;
 }
 
 void MorphologicalGolden::share_learned(AxisShares& axis,

@@ -48,8 +48,8 @@ inline constexpr std::array<std::string_view, 2> kEndsNames = {"gaps", "crossing
 enum class Predictor : std::uint8_t { kNone, kChord, kFit };
 inline constexpr std::array<std::string_view, 3> kPredictorNames = {"none", "chord", "fit"};
 
-// The three tables are layouts of one: they give the same pixels. Learned: the line of a run that
-// was extended, ROMs elsewhere (docs/morphological_shares.md).
+// The three tables are layouts of one: they give the same pixels. Learned: the line of a clean Z
+// that was extended or is long, ROMs elsewhere (docs/morphological_shares.md).
 enum class AreaSource : std::uint8_t {
   kAnalytic,
   kTableFull,
@@ -86,6 +86,7 @@ inline constexpr int kInverseFractionBits = 12;
 inline constexpr int kMaxWeight = 128;  // U0.8: a half, the largest share that a run gives
 // Of a diagonal with blend = strongest, which normalises shares.
 inline constexpr int kMaxDiagonalWeight = 255;
+inline constexpr int kLongZ = 16;  // pixels of a clean Z that keeps its line with area = learned
 inline constexpr int kRowLag = 5;  // rows of delay beyond the reach
 inline constexpr int kLeastDividerLatency = 14;
 
@@ -209,7 +210,7 @@ void describe(Rules& p, Visitor& v) {
       "area", p.area, kAreaSourceNames,
       "Where areas come from: the line itself, or SMAA's table as it is published, as paper "
       "003 merges it, or as small as it gets; the tables give the same pixels. learned: the line "
-      "of a run that was extended, learned ROMs elsewhere.");
+      "of a clean Z that was extended or is long, learned ROMs elsewhere.");
   v.integer("search_steps", p.search_steps, 1, kMaxSearchSteps, "step",
             "N: a table sees 2 N - 1 pixels to the left (up) and 2 N to the right (down).");
   v.boolean("diagonals", p.diagonals, "Diagonal patterns of SMAA, before the others.");

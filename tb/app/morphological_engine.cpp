@@ -46,8 +46,12 @@ class MorphologicalCommand final : public Engine {
   }
 
   void resolve(ParameterSet& set) override {
-    if (!frame_.mask.empty()) apply_mask(set);
     apply_preset(set, parameters_);
+    if (!frame_.mask.empty()) {
+      set.imply("morphological.leave", "masked", "frame.mask");
+      if (parameters_.leave == spec::morphological::Leave::kNone)
+        set.refuse("frame.mask", "morphological.leave = none looks at no mask");
+    }
     refuse_unused_rules(set, parameters_, "memory");
     refuse_unused_memory(set, "memory", memory_);
     if (parameters_.storage == spec::morphological::Storage::kMemory)
@@ -62,9 +66,8 @@ class MorphologicalCommand final : public Engine {
           "Image file of any format that OpenImageIO reads, or a mesh file"},
          {"--scene", "frame.source", "Scene instead of a file: cylinders (default), road, ..."},
          {"--truth", "frame.truth", "Anti-aliased picture to judge by"},
-         {"--mask", "frame.mask",
-          "Pixels that stay as they are and make no edge: red of 128 or more in this image"},
          {"--depth", "frame.depth", "Depth of the image: silhouettes are judged too"},
+         {"--mask", "frame.mask", "Picture of what to leave as it is: white is masked"},
          {"--size", "frame.width", "Size of a rendered scene, WxH (640x480)", "frame.height"}},
         smoothing_shorthands());
   }
@@ -135,20 +138,9 @@ class MorphologicalCommand final : public Engine {
     });
   }
 
-  // The mask comes with the frame, as marks.
-  static void apply_mask(ParameterSet& set) {
-    constexpr const char* kLeave = "morphological.leave";
-    set.imply(kLeave, "masked", "--mask");
-    if (set.find(kLeave)->text() != "masked")
-      throw spec::ConfigError(fmt::format(
-          "{} = {} does not go with frame.mask (--mask), which sets it to masked; give one of them",
-          kLeave, set.find(kLeave)->text()));
-  }
-
   void refuse_unused_frame(const ParameterSet& set) const {
-    const bool depth_used =
-        parameters_.edge_source == spec::morphological::EdgeSource::kDepth ||
-        parameters_.edge_source == spec::morphological::EdgeSource::kPredicated;
+    const bool depth_used = parameters_.edge_source == spec::morphological::EdgeSource::kDepth ||
+                            parameters_.edge_source == spec::morphological::EdgeSource::kPredicated;
     // load_frame() has its own words for a truth beside a scene, and for a file that is not there.
     if (is_rendered(frame_) || !std::filesystem::exists(frame_.source)) return;
     for (const char* name : {"frame.width", "frame.height"})
@@ -160,7 +152,7 @@ class MorphologicalCommand final : public Engine {
           name_of(parameters_.edge_source, spec::morphological::kEdgeSourceNames)));
     if (!depth_used && frame_.truth.empty())
       set.refuse("frame.depth",
-                 "edges come from luma or colour, and silhouettes are judged only against a --truth FILE");
+                 "edges come from colours, and silhouettes are judged only against a --truth FILE");
   }
 
   std::string summary_line(const LoadedFrame& loaded) const {

@@ -36,8 +36,9 @@ void describe(FrameParameters& p, Visitor& v) {
          "Depth of an image: 24 bits in R, G, B, or one float channel; grows towards the eye.");
   v.text("truth", p.truth, "file", "Anti-aliased picture that an image is judged by.");
   v.text("mask", p.mask, "file",
-         "Image of the frame's size: where its red code is 128 or more, the frame stays as it is "
-         "and has no edge (bit 0 of alpha is 0 there, 1 elsewhere).");
+         "Pixels to leave as they are, where red is 128 or more: bit 0 of their alpha becomes 0, "
+         "that of "
+         "all others 1, and the rule leave becomes masked.");
   v.integer("width", p.width, 1, 8192, "pixel", "Width of a rendered scene.");
   v.integer("height", p.height, 1, 8192, "pixel", "Height of a rendered scene.");
   v.integer("truth_samples", p.truth_samples, 0, 32, "",

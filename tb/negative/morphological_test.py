@@ -500,7 +500,7 @@ class SharesFaults(BlockFaults):
         for rules, says in (({"edges__threshold_mode": "dynamic"}, "dynamic"),
                             ({"diagonals": "true"}, "learned"), ({"round_corners": "true"}, "learned")):
             self.run_engine(2, *self.SMALL, *self.rules(**rules), says=says)
-        self.run_engine(2, *self.SMALL, *self.rules(search_steps=4), says="searches nothing")
+        self.run_engine(2, *self.SMALL, *self.rules(search_steps=4), says="learned search nothing")
         self.run_engine(2, *self.SMALL, *self.rules(edges__depth_threshold=4), says="source = depth")
 
     def mask(self, marks):
@@ -523,8 +523,8 @@ class SharesFaults(BlockFaults):
         self.run_engine(2, *noise, "--mask", self.write("small.png", noisy_png(20, 20)),
                         says=["mask", "20 x 20", "48 x 40"])
         self.run_engine(5, *noise, "--mask", self.path("missing.png"), says="missing.png")
-        self.run_engine(2, *noise, "--mask", self.mask([0] * 1920), *self.rules(leave="half"),
-                        says=["leave = half", "frame.mask"])
+        self.run_engine(2, *noise, "--mask", self.mask([0] * 1920), *self.rules(leave="none"),
+                        says=["frame.mask", "leave = none"])
 
 
 class SmaaFaults(BlockFaults):

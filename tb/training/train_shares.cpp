@@ -203,6 +203,8 @@ int run(int argc, char** argv) {
   app.add_option("--decay", recipe.decay, "");
   app.add_option("--seed", recipe.seed, "");
   app.add_option("--shapes", options.shapes, "frames of plain shapes");
+  app.add_option("--views", options.views, "of each mesh to be trained on");
+  app.add_option("--axis", recipe.axis_slope, "");
   app.add_flag("--brief", brief, "of the training frames, only means and where deburr is behind");
   app.add_flag("--quiet", quiet, "no progress");
   CLI11_PARSE(app, argc, argv);

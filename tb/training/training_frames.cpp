@@ -221,7 +221,7 @@ std::vector<TruthFrame> mesh_frames(const FrameOptions& options) {
        "kenney/racing/models/vehicle-truck-red.glb", "kenney/racing/models/vehicle-motorcycle.glb",
        "kenney/racing/models/track-finish.glb", "kenney/racing/models/decoration-tents.glb",
        "kenney/racing/models/decoration-forest.glb"},
-      2);
+      options.views);
   return frames;
 }
 

@@ -21,6 +21,7 @@ struct FrameOptions {
   int samples = 8;              // of a pixel's truth, each way
   int size = 512;               // pixels a side of the rendered ones
   int shapes = 6;               // frames of plain shapes
+  int views = 5;                // of each mesh to be trained on
   std::function<void(const std::string&)> progress = {};
 };
 

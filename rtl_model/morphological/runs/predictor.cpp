@@ -34,9 +34,10 @@ void Predictor::take(Cycle cycle, Cycle reset, const RunToken& token) {
   const spec::morphological::RunRecord& run = token.run;
   run_ = token;
   length_ = run.length;
-  const bool extends = run.part == spec::morphological::RunPart::kWhole &&
-                       spec::morphological::kRunShapes[run.shape].clean_z &&
-                       store_.rules().steps > 0;
+  const bool whole_z = run.part == spec::morphological::RunPart::kWhole &&
+                       spec::morphological::kRunShapes[run.shape].clean_z;
+  const bool extends = whole_z && store_.rules().steps > 0;
+  long_z_ = whole_z && length_ >= spec::morphological::kLongZ;
   right_.keep = left_.keep = kAll;
   right_.reached[kAll] = {0, length_, 0, 0};
   left_.reached[kAll] = {0, 0, 0, 0};
@@ -48,7 +49,7 @@ void Predictor::take(Cycle cycle, Cycle reset, const RunToken& token) {
     side->trial.classes = false;
     side->trial.looks = 0;
   }
-  if (store_.rules().learned) {
+  if (store_.rules().learned && !long_z_) {
     look_at(right_, end_code);
     look_at(left_, start_code);
     if (right_.trial.classes || left_.trial.classes) state_ = State::kLooks;
@@ -254,7 +255,7 @@ SumsToken Predictor::join() {
   counters_.steps += static_cast<std::uint64_t>(kept);
   if (kept != 0) ++counters_.extended_runs;
   state_ = State::kFree;
-  const bool learned = store_.rules().learned && kept == 0;
+  const bool learned = store_.rules().learned && kept == 0 && !long_z_;
   return {run_,
           learned,
           learned ? left_.crossing_class : std::uint8_t{0},

@@ -23,10 +23,10 @@
 // ten edges behind it, so that trial's reads give them. Any other record with a crossing makes
 // these two reads alone: it leaves in clock T - 1, with the words of both sides chosen (T below 3:
 // when they have come), and their classes are known as its result is sent. So it takes T clocks,
-// and the wait for its phase if the predictor was idle. Any other record leaves in the clock that
-// takes it. One that is extended, takes from its pop to the clock that may take the next one 1
-// clock, the wait for its phase, T clocks a trial, and 1 clock; one behind the other T x trials + T
-// clocks, if T >= 3 (else T x trials + 4 or 3).
+// and the wait for its phase if the predictor was idle. A long clean Z keeps its line and has none.
+// Any other record leaves in the clock that takes it. One that is extended, takes from its pop to
+// the clock that may take the next one 1 clock, the wait for its phase, T clocks a trial, and 1
+// clock; one behind the other T x trials + T clocks, if T >= 3 (else T x trials + 4 or 3).
 //
 // Trim takes no clock of its own: beside the sums of all its steps a side keeps those without its
 // last step and those of the first half of its steps. The former are what the sums were before;
@@ -131,6 +131,7 @@ class Predictor {
   Cycle trial_at_ = 0, join_at_ = 0;  // clock of the trial's first read; of the join
   RunToken run_{};
   std::int32_t length_ = 0;
+  bool long_z_ = false;     // keeps its line without a step too
   std::int32_t drift_ = 0;  // lattice lines a step to the right: -1 or +1
   std::int32_t step_ = 0;   // k
   End right_, left_;

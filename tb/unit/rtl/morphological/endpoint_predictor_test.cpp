@@ -777,14 +777,30 @@ TEST_P(CrossingClasses, EndWithTheReach) {
                              {{12, 29}, {12 + length, 30}}};
     const int room = 32 - length;
     const int expected = room == 0 ? 0 : room < 4 ? 2 + room : room < 6 ? 6 : room < 10 ? 7 : 8;
-    const SumsToken sums = bench.classes(bench.record(shown, 30, 12, length, 1, 2));
-    EXPECT_EQ(sums.start_class, expected) << length;
-    EXPECT_EQ(sums.end_class, expected) << length;
+    EXPECT_EQ(bench.classes(bench.record(shown, 30, 12, length, 1, 0)).start_class, expected)
+        << length;
+    EXPECT_EQ(bench.classes(bench.record(shown, 30, 12, length, 0, 2)).end_class, expected)
+        << length;
   }
   const Crossings shown = {{{30, 12, 50}, {29, 0, 12}}, {{12, 29}}};
   EXPECT_EQ(bench.classes(bench.record(shown, 30, 12, 16, 1, 0, RunPart::kHead)).start_class, 0);
   const Crossings on = {{{30, 12, 50}, {29, 0, 13}}, {{12, 29}}};
   EXPECT_EQ(bench.classes(bench.record(on, 30, 12, 16, 1, 0, RunPart::kHead)).start_class, 1);
+}
+
+// A long clean Z keeps its line without a step; no other shape does.
+TEST_P(CrossingClasses, ALongZHasNone) {
+  Looking bench(deburr(), GetParam());
+  for (const int length : {15, 16}) {
+    const Crossings shown = {{{30, 12, 12 + length}, {29, 10, 12}, {31, 12 + length, 45}},
+                             {{12, 29}, {12 + length, 30}}};
+    const SumsToken z = bench.classes(bench.record(shown, 30, 12, length, 1, 2));
+    EXPECT_EQ(z.left + z.right, 0);
+    EXPECT_EQ(z.learned, length < 16);
+    EXPECT_EQ(z.start_class, length < 16 ? 4 : 0);
+    EXPECT_TRUE(bench.classes(bench.record(shown, 30, 12, length, 1, 0)).learned);
+    EXPECT_TRUE(bench.classes(bench.record(shown, 30, 12, length, 3, 2)).learned);
+  }
 }
 
 // A record that was extended carries none; one of an engine whose rule is off neither.
