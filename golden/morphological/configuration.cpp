@@ -33,6 +33,7 @@ spec::morphological::Parameters preset_parameters(spec::morphological::Preset pr
     if (row.preset != preset) continue;
     if (row.has_qualities) apply_quality(p);
     p.preset = row.preset;
+    p.edge_source = row.edge_source;
     p.threshold_mode = row.threshold_mode;
     p.dynamic_luma = row.dynamic_luma;
     if (row.threshold != 0) p.threshold = row.threshold;
@@ -79,11 +80,22 @@ void check_parameters(const spec::morphological::Parameters& parameters) {
                             " rows; they need window_rows of at least " +
                             std::to_string(2 * p.diagonal_steps + 2));
   }
-  if (p.edge_source == spec::morphological::EdgeSource::kPredicated &&
-      p.threshold_mode == spec::morphological::ThresholdMode::kDynamic) {
+  if (p.threshold_mode == spec::morphological::ThresholdMode::kDynamic) {
+    if (p.edge_source == spec::morphological::EdgeSource::kPredicated) {
+      throw spec::ConfigError(
+          "morphological edges.source = predicated has thresholds of its own; "
+          "use edges.threshold_mode = fixed");
+    }
+    if (p.edge_source == spec::morphological::EdgeSource::kColour) {
+      throw spec::ConfigError(
+          "morphological edges.source = colour has no luma for a dynamic threshold; "
+          "use edges.threshold_mode = fixed, or edges.source = luma");
+    }
+  }
+  if (p.area == spec::morphological::AreaSource::kLearned && (p.diagonals || p.round_corners)) {
     throw spec::ConfigError(
-        "morphological edges.source = predicated has thresholds of its own; "
-        "use edges.threshold_mode = fixed");
+        "morphological area = learned goes with neither diagonals nor round_corners, without which "
+        "its shares were learned");
   }
 }
 

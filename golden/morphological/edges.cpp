@@ -5,7 +5,10 @@
 #include <array>
 #include <bit>
 #include <cstdlib>
-#include <cstring>
+#include <vector>
+
+#include "golden/morphological/colour.h"
+#include "golden/morphological/leave.h"
 
 namespace deburr::golden::morphological {
 namespace {
@@ -70,6 +73,7 @@ decltype(auto) with_rule(const Parameters& p, Use&& use) {
     case spec::morphological::EdgeSource::kPredicated:
       return use(PredicatedRule(p));
     case spec::morphological::EdgeSource::kLuma:
+    case spec::morphological::EdgeSource::kColour:  // colour.h
       break;
   }
   if (p.threshold_mode == spec::morphological::ThresholdMode::kFixed) return use(FixedRule(p));
@@ -87,18 +91,6 @@ decltype(auto) with_rule(const Parameters& p, Use&& use) {
   return use(DynamicRule<DynamicLuma::kMax>(p));
 }
 
-// Eight flags of 0 or 1 become eight bits: the product moves flag i to bit 56 + i.
-static_assert(std::endian::native == std::endian::little, "the first flag must be the lowest byte");
-std::uint64_t pack(const std::uint8_t* flags) {
-  std::uint64_t word = 0;
-  for (std::ptrdiff_t i = 0; i < 8; ++i) {
-    std::uint64_t eight;
-    std::memcpy(&eight, flags + 8 * i, sizeof eight);
-    word |= (eight * 0x0102040810204080u >> 56) << (8 * i);
-  }
-  return word;
-}
-
 struct Row {
   const std::int32_t* luma;
   const std::uint32_t* depth;
@@ -110,14 +102,15 @@ void raw_row(const Rule& rule, Row p, Row q, int width, std::uint8_t* flags, std
   for (int x = 0; x < width; ++x) {
     flags[x] = rule(PixelPair{p.luma[x], q.luma[x], p.depth[x], q.depth[x]}) ? 1 : 0;
   }
-  for (std::ptrdiff_t i = 0; i < width / 64 + 1; ++i) bits[i] = pack(flags + 64 * i);
+  for (std::ptrdiff_t i = 0; i < width / 64 + 1; ++i) bits[i] = packed_flags(flags + 64 * i);
 }
 
 // Luma steps of rows y - 1, y, y + 1; 0 outside the frame. across(dy, x) = c((x, y+dy), its left
 // neighbour), down(dy, x) = c((x, y+dy), its upper neighbour), x from -1 to width.
 class StepRows {
  public:
-  explicit StepRows(const LumaPlane& luma) : luma_(luma) {
+  // `mask`: pixels without steps, or empty.
+  StepRows(const LumaPlane& luma, const BitPlane& mask) : luma_(luma), mask_(mask) {
     for (auto* rows : {&across_, &down_}) {
       for (auto& row : *rows) row.assign(static_cast<std::size_t>(luma.width) + 2, 0);
     }
@@ -147,14 +140,25 @@ class StepRows {
     for (int x = 1; x < luma_.width; ++x) {
       across[static_cast<std::size_t>(x) + 1] = std::abs(row[x] - row[x - 1]);
     }
-    if (y == 0) return;
+    if (y == 0) return clear_masked(y);
     const std::int32_t* above = luma_.row(y - 1);
     for (int x = 0; x < luma_.width; ++x) {
       down[static_cast<std::size_t>(x) + 1] = std::abs(row[x] - above[x]);
     }
+    clear_masked(y);
+  }
+
+  void clear_masked(int y) {
+    if (mask_.height() == 0) return;
+    for (int x = 0; x < luma_.width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(x) + 1;
+      if (mask_.at(x, y) || mask_.at(x - 1, y)) across_[slot(y)][i] = 0;
+      if (mask_.at(x, y) || mask_.at(x, y - 1)) down_[slot(y)][i] = 0;
+    }
   }
 
   const LumaPlane& luma_;
+  const BitPlane& mask_;
   int y_ = 0;
   Rows across_, down_;
 };
@@ -191,9 +195,9 @@ void filter(std::uint64_t* bits, int words, Keep&& keep) {
 }
 
 void apply_local_contrast(spec::morphological::LocalContrast mode, const LumaPlane& luma,
-                          EdgePlanes& edges) {
+                          const BitPlane& mask, EdgePlanes& edges) {
   using spec::morphological::LocalContrast;
-  StepRows c(luma);
+  StepRows c(luma, mask);
   // A bit stays if keeps(its own step, the largest around it).
   const auto apply = [&](const auto& around_left, const auto& around_top, const auto& keeps) {
     for (int y = 0; y < luma.height; ++y) {
@@ -244,6 +248,27 @@ void raw_edges(const Rule& rule, const LumaPlane& luma, const DepthView& depth, 
   }
 }
 
+BitPlane marked(const ImageView& image) {
+  BitPlane result(image.width, image.height);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (is_marked(image.at(x, y))) result.set(x, y);
+  return result;
+}
+
+// No edge touches a pixel of the mask.
+void clear_beside(const BitPlane& mask, EdgePlanes& edges) {
+  for (int y = 0; y < mask.height(); ++y) {
+    std::uint64_t carry = 0;
+    for (int i = 0; i < mask.words(); ++i) {
+      const std::uint64_t own = mask.row(y)[i];
+      edges.left.row(y)[i] &= ~(own | own << 1 | carry);
+      edges.top.row(y)[i] &= ~(own | (y > 0 ? mask.row(y - 1)[i] : 0));
+      carry = own >> 63;
+    }
+  }
+}
+
 }  // namespace
 
 bool floor_decides(const Parameters& p, const PixelPair& pair) {
@@ -274,11 +299,18 @@ bool raw_edge(const Parameters& parameters, const PixelPair& pair) {
 
 EdgePlanes find_edges(const Parameters& parameters, const ImageView& image,
                       const DepthView& depth) {
+  if (parameters.edge_source == spec::morphological::EdgeSource::kColour)
+    return colour_edges(parameters, image);
   const LumaPlane y = luma(image);
   EdgePlanes edges{BitPlane(image.width, image.height), BitPlane(image.width, image.height)};
   with_rule(parameters, [&](const auto& rule) { raw_edges(rule, y, depth, edges); });
+  BitPlane mask;
+  if (parameters.leave == spec::morphological::Leave::kMasked) {
+    mask = marked(image);
+    clear_beside(mask, edges);
+  }
   if (parameters.edge_source != spec::morphological::EdgeSource::kDepth) {
-    apply_local_contrast(parameters.local_contrast, y, edges);
+    apply_local_contrast(parameters.local_contrast, y, mask, edges);
   }
   return edges;
 }

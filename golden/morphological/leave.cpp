@@ -27,7 +27,7 @@ bool has(Marks marks, std::size_t place) { return (marks >> place & 1) != 0; }
 }  // namespace
 
 Marks marks_of(Leave leave, const ImageView& image, int x, int y) {
-  if (leave == Leave::kNone) return 0;
+  if (leave == Leave::kNone || leave == Leave::kMasked) return 0;
   Marks marks = 0;
   const std::size_t places = leave == Leave::kMarked ? 1 : kPlaces.size();
   for (std::size_t i = 0; i < places; ++i) {
@@ -39,7 +39,7 @@ Marks marks_of(Leave leave, const ImageView& image, int x, int y) {
 }
 
 bool is_left(Leave leave, Marks marks) {
-  return leave == Leave::kBeside ? marks != 0 : leave != Leave::kNone && has(marks, 0);
+  return leave == Leave::kBeside ? marks != 0 : has(marks, 0);
 }
 
 spec::morphological::BlendTap remaining(Leave leave, Marks marks,
@@ -57,7 +57,7 @@ spec::morphological::BlendTap remaining(Leave leave, Marks marks,
 
 void LeaveCoverage::count_pixel(Leave leave, Marks marks, const spec::morphological::BlendTap& tap,
                                 const ImageView& image, int x, int y) {
-  if (leave == Leave::kNone) return;
+  if (leave == Leave::kNone || leave == Leave::kMasked) return;
   const bool left = is_left(leave, marks);
   if (leave == Leave::kBeside) {
     if (left) {

@@ -22,6 +22,27 @@ std::uint64_t bits_of(std::uint64_t word) {
   return static_cast<std::uint64_t>(std::popcount(word));
 }
 
+bool from_table(const spec::morphological::Parameters& parameters) {
+  return parameters.area != spec::morphological::AreaSource::kAnalytic &&
+         parameters.area != spec::morphological::AreaSource::kLearned;
+}
+
+// A record whose shares come from the ROMs.
+spec::morphological::LineRecord without_line(const AxisEdges& edges,
+                                             const spec::morphological::RunRecord& run, int reach) {
+  using spec::morphological::RunPart;
+  spec::morphological::LineRecord record;
+  record.run = run;
+  record.learned = true;
+  record.scale = 0;
+  const int room = run.part == RunPart::kWhole ? reach - run.length : 0;
+  if (run.part != RunPart::kTail)
+    record.start_class = static_cast<std::uint8_t>(crossing_class(edges, run, false, room));
+  if (run.part != RunPart::kHead)
+    record.end_class = static_cast<std::uint8_t>(crossing_class(edges, run, true, room));
+  return record;
+}
+
 template <class Pixel>
 void check_view(const ViewOf<Pixel>& view, const char* what) {
   const auto width = static_cast<std::size_t>(view.width);
@@ -137,7 +158,7 @@ void MorphologicalGolden::process_axis(AxisShares& axis) {
       ++work_.long_runs;
       const spec::morphological::RunRecord& tail = parts.record[1];
       const int between = tail.start - (first + parts.record[0].length);
-      axis.shares.resize(axis.shares.size() + static_cast<std::size_t>(between));
+      share_gap(axis, between);
       process_record(axis, tail);
     });
   }
@@ -146,7 +167,10 @@ void MorphologicalGolden::process_axis(AxisShares& axis) {
 void MorphologicalGolden::process_record(AxisShares& axis,
                                          const spec::morphological::RunRecord& run) {
   const Prediction prediction = predict(parameters_, axis.edges, run);
-  const spec::morphological::LineRecord line = line_through(parameters_, run, prediction);
+  const bool learned = is_learned(run, prediction);
+  const spec::morphological::LineRecord line =
+      learned ? without_line(axis.edges, run, reach(parameters_, run.axis))
+              : line_through(parameters_, run, prediction);
   const int steps = prediction.left.steps + prediction.right.steps;
   if (run.part == spec::morphological::RunPart::kWhole &&
       spec::morphological::kRunShapes[run.shape].clean_z)
@@ -154,14 +178,17 @@ void MorphologicalGolden::process_record(AxisShares& axis,
   if (steps > 0) ++work_.extended_runs;
   work_.steps += static_cast<std::uint64_t>(steps);
   work_.probes += static_cast<std::uint64_t>(prediction.probes);
-  if (line.before != spec::morphological::Side::kNone ||
-      line.after != spec::morphological::Side::kNone) {
+  if (learned) {
+    share_learned(axis, line);
+  } else if (line.before != spec::morphological::Side::kNone ||
+             line.after != spec::morphological::Side::kNone) {
     ++work_.divides;
     share(axis, line);
   } else {
     axis.shares.resize(axis.shares.size() + run.length);
   }
   if (!everything_) return;
+  if (learned) learned_coverage_.count_record(line);
   count_searches(line);
   coverage_.count_run(run, prediction, axis.edges.along.width(), axis.edges.along.height());
   runs_.push_back({line, static_cast<std::int16_t>(prediction.left.end),
@@ -169,6 +196,38 @@ void MorphologicalGolden::process_record(AxisShares& axis,
                    static_cast<std::uint16_t>(prediction.probes),
                    static_cast<std::uint8_t>(prediction.iterations), prediction.left.outcome,
                    prediction.right.outcome, prediction.left.why, prediction.right.why});
+}
+
+bool MorphologicalGolden::is_learned(const spec::morphological::RunRecord& run,
+                                     const Prediction& prediction) const {
+  if (parameters_.area != spec::morphological::AreaSource::kLearned) return false;
+  if (run.part != spec::morphological::RunPart::kWhole ||
+      !spec::morphological::kRunShapes[run.shape].clean_z)
+    return true;
+  return prediction.left.steps + prediction.right.steps == 0 &&
+         run.length < spec::morphological::kLongZ;
+}
+
+void MorphologicalGolden::share_learned(AxisShares& axis,
+                                        const spec::morphological::LineRecord& line) {
+  const LearnedEnds first(line, spec::morphological::Side::kFirst);
+  const LearnedEnds second(line, spec::morphological::Side::kSecond);
+  const auto look_up = [&](const ShareIndices& i) {
+    if (everything_) learned_coverage_.count_share(i);
+    return static_cast<std::uint8_t>(learned_share(tables_, i));
+  };
+  for (int k = 0; k < line.run.length; ++k)
+    axis.shares.push_back({look_up(first.of_pixel(k)), look_up(second.of_pixel(k)), 0});
+}
+
+// Edges between the head and the tail of a long run.
+void MorphologicalGolden::share_gap(AxisShares& axis, int edges) {
+  Share share;
+  if (parameters_.area == spec::morphological::AreaSource::kLearned) {
+    share.first = share.second = static_cast<std::uint8_t>(learned_share(tables_, kGapIndices));
+    if (everything_ && edges != 0) learned_coverage_.count_share(kGapIndices);
+  }
+  axis.shares.resize(axis.shares.size() + static_cast<std::size_t>(edges), share);
 }
 
 void MorphologicalGolden::share(AxisShares& axis,
@@ -183,7 +242,7 @@ void MorphologicalGolden::share(AxisShares& axis,
                             : rounded_at_corners(of(k), line.run, parameters_.corner_rounding, k));
     }
   };
-  if (parameters_.area == spec::morphological::AreaSource::kAnalytic) {
+  if (!from_table(parameters_)) {
     each([&](int k) { return shares(line, k); });
   } else {
     const LineEnds ends = line_ends(line);
@@ -195,7 +254,7 @@ void MorphologicalGolden::share(AxisShares& axis,
 
 // Of every record, with sides or without.
 void MorphologicalGolden::count_searches(const spec::morphological::LineRecord& line) {
-  if (parameters_.area == spec::morphological::AreaSource::kAnalytic) return;
+  if (!from_table(parameters_)) return;
   const LineEnds ends = line_ends(line);
   for (int k = 0; k < line.run.length; ++k)
     smaa_coverage_.count_pixel(line.run.axis,
@@ -205,7 +264,7 @@ void MorphologicalGolden::count_searches(const spec::morphological::LineRecord& 
 void MorphologicalGolden::count_thresholds(const ImageView& image) {
   if (parameters_.edge_source != spec::morphological::EdgeSource::kLuma) return;
   if (parameters_.threshold_mode == spec::morphological::ThresholdMode::kFixed) {
-    if (parameters_.area != spec::morphological::AreaSource::kAnalytic || parameters_.diagonals)
+    if (from_table(parameters_) || parameters_.diagonals)
       smaa_coverage_.count_fixed(edges_.left.count() + edges_.top.count());
     return;
   }

@@ -4,10 +4,10 @@
 //
 // No time, no SystemC, integers only (docs/morphological_engine.md, docs/morphological_smaa.md,
 // docs/number_formats_morphological.md; papers 000, 001 and 003). The blocks are pure functions:
-// luma.h, edges.h, runs.h, predictor.h, line.h, area.h or area_table.h, corners.h, diagonals.h,
-// blend.h, leave.h, traffic.h; conversion of other images to codes: convert.h. MorphologicalGolden
-// strings them together over a frame. Edges are found for all pixels, row by row; after that only
-// edges and the pixels beside them cost time.
+// luma.h or colour.h, edges.h, runs.h, predictor.h, line.h, area.h or area_table.h or
+// learned_shares.h, corners.h, diagonals.h, blend.h, leave.h, traffic.h; conversion of other images
+// to codes: convert.h. MorphologicalGolden strings them together over a frame. Edges are found for
+// all pixels, row by row; after that only edges and the pixels beside them cost time.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +17,7 @@
 #include "golden/morphological/area.h"
 #include "golden/morphological/blend.h"
 #include "golden/morphological/configuration.h"
+#include "golden/morphological/learned_shares.h"
 #include "golden/morphological/leave.h"
 #include "golden/morphological/planes.h"
 #include "golden/morphological/predictor.h"
@@ -80,10 +81,12 @@ class MorphologicalGolden {
   const RunCoverage& coverage() const { return coverage_; }
   const SmaaCoverage& smaa_coverage() const { return smaa_coverage_; }
   const LeaveCoverage& leave_coverage() const { return leave_coverage_; }
+  const LearnedCoverage& learned_coverage() const { return learned_coverage_; }
   void clear_coverage() {
     coverage_ = {};
     leave_coverage_ = {};
     smaa_coverage_ = {};
+    learned_coverage_ = {};
   }
 
   // storage = memory: line addresses whose reads memory answers with an error; their pixels read as
@@ -91,6 +94,9 @@ class MorphologicalGolden {
   using LinePredicate = std::function<bool(std::uint32_t address)>;
   void set_read_errors(LinePredicate error, std::uint32_t pixel_base = 0);
   std::uint64_t memory_errors() const { return memory_errors_; }  // of the last frame
+
+  // From the next frame on, as if written to the registers.
+  void set_share_tables(const ShareTables& tables) { tables_ = tables; }
 
   const spec::morphological::Parameters& parameters() const { return parameters_; }
 
@@ -114,6 +120,9 @@ class MorphologicalGolden {
   void process_axis(AxisShares& axis);
   void process_record(AxisShares& axis, const spec::morphological::RunRecord& run);
   void share(AxisShares& axis, const spec::morphological::LineRecord& line) const;
+  void share_learned(AxisShares& axis, const spec::morphological::LineRecord& line);
+  void share_gap(AxisShares& axis, int edges);
+  bool is_learned(const spec::morphological::RunRecord& run, const Prediction& prediction) const;
   void count_searches(const spec::morphological::LineRecord& line);
   void count_thresholds(const ImageView& image);
   void process_diagonals();
@@ -137,6 +146,8 @@ class MorphologicalGolden {
   RunCoverage coverage_;
   SmaaCoverage smaa_coverage_;
   LeaveCoverage leave_coverage_;
+  LearnedCoverage learned_coverage_;
+  ShareTables tables_;
   LinePredicate error_;
   std::uint32_t pixel_base_ = 0;
   std::uint64_t memory_errors_ = 0;

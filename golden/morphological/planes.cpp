@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 
 namespace deburr::golden::morphological {
 namespace {
+
+static_assert(std::endian::native == std::endian::little, "the first flag must be the lowest byte");
 
 // Transposes 64 x 64 bits in place: swaps the off-diagonal quarters, then those of every quarter.
 void transpose(std::array<std::uint64_t, 64>& block) {
@@ -21,6 +24,17 @@ void transpose(std::array<std::uint64_t, 64>& block) {
 }
 
 }  // namespace
+
+// Product moves flag i of eight to bit 56 + i.
+std::uint64_t packed_flags(const std::uint8_t* flags) {
+  std::uint64_t word = 0;
+  for (std::ptrdiff_t i = 0; i < 8; ++i) {
+    std::uint64_t eight;
+    std::memcpy(&eight, flags + 8 * i, sizeof eight);
+    word |= (eight * 0x0102040810204080u >> 56) << (8 * i);
+  }
+  return word;
+}
 
 void BitPlane::resize(int width, int height) {
   width_ = width;

@@ -87,6 +87,9 @@ class BitPlane {
   std::vector<std::uint64_t> bits_;
 };
 
+// 64 flags of 0 or 1 as bits, the first one lowest.
+std::uint64_t packed_flags(const std::uint8_t* flags);
+
 // left(x, y): edge between (x - 1, y) and (x, y). top(x, y): between (x, y - 1) and (x, y).
 struct EdgePlanes {
   BitPlane left, top;

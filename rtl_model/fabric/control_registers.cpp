@@ -15,7 +15,8 @@ ControlRegisters::ControlRegisters(const char* name, std::span<const spec::Regis
     : registers(name, table),
       layout_(layout),
       masks_(table.size(), ~std::uint32_t{0}),
-      kept_(table.size()) {
+      kept_(table.size()),
+      taken_(table.size()) {
   for (std::size_t i = 0; i < registers.table().size(); ++i) {
     resets_.push_back(registers.table()[i].reset);
     kept_[i] = resets_[i];
@@ -64,7 +65,18 @@ void ControlRegisters::written(std::size_t i, std::uint32_t value) {
   }
   kept_[i] = value & masks_[i];
   registers.set(i, kept_[i]);
+  if (taken_[i]) taken_[i](kept_[i]);
   changed_(offset);
+}
+
+void ControlRegisters::on_taken(std::uint32_t offset, std::function<void(std::uint32_t)> action) {
+  taken_[index(offset)] = action;
+  registers.on_debug_write(index(offset), std::move(action));
+}
+
+void ControlRegisters::set(std::uint32_t offset, std::uint32_t value) {
+  kept_[index(offset)] = value;
+  registers.set(index(offset), value);
 }
 
 void ControlRegisters::write_control(std::uint32_t value) {

@@ -53,6 +53,14 @@ class ControlRegisters {
   void on_change(std::function<void(std::uint32_t offset)> changed) {
     changed_ = std::move(changed);
   }
+  // After a write to a register that was taken; after a debug write, which nothing refuses, too.
+  void on_taken(std::uint32_t offset, std::function<void(std::uint32_t)> action);
+  // What a read of a register gives instead of its value.
+  void on_read(std::uint32_t offset, std::function<std::uint32_t()> value) {
+    registers.on_read(index(offset), std::move(value));
+  }
+  // A value that the hardware changes.
+  void set(std::uint32_t offset, std::uint32_t value);
   // The bits of a register that exist; the others read as 0.
   void set_mask(std::uint32_t offset, std::uint32_t mask) { masks_[index(offset)] = mask; }
   // A reset value that a parameter gives.
@@ -82,6 +90,7 @@ class ControlRegisters {
   std::function<bool()> busy_ = [] { return false; };
   std::function<void()> clear_counters_ = [] {};
   std::function<void(std::uint32_t)> changed_ = [](std::uint32_t) {};
+  std::vector<std::function<void(std::uint32_t)>> taken_;  // by register
   bool enabled_ = true;
   std::uint32_t sticky_ = 0;
 };

@@ -77,6 +77,7 @@ std::string MemoryBase::find_build() {
         "{} accesses of a kind cannot lie in {} separate banks in a clock: use {} banks, or fewer "
         "ports",
         most, s.banks, most);
+  if (s.loaded && s.kind != MemoryKind::kSram) return "only sram is loaded";
   if (s.kind == MemoryKind::kFlops) {
     if (logical_bits() > kMostFlopBits)
       return fmt::format(
@@ -101,6 +102,12 @@ std::string MemoryBase::find_build() {
     if (writes + shared != 0) return "a rom is not written: use sram or flops";
     copies_ = (reads + 1) / 2;
     macro_ = reads == 1 ? "1R" : "2R";
+    return {};
+  }
+  if (s.loaded) {
+    if (writes + shared != 0) return "what is loaded has no port that writes";
+    copies_ = (reads + 1) / 2;
+    macro_ = reads == 1 ? "1RW" : "2RW";
     return {};
   }
   if (writes + shared == 0) return "nobody writes it: use rom";
@@ -192,11 +199,12 @@ PortedMemory::PortedMemory(const char* name, MemoryShape shape)
 void PortedMemory::check_content(std::size_t words) const {
   const MemoryKind kind = shape().kind;
   DEBURR_CHECK(
-      kind == MemoryKind::kRom ? words == words_
-                               : words == 0 || (kind == MemoryKind::kFlops && words <= words_),
+      kind == MemoryKind::kRom || shape().loaded
+          ? words == words_
+          : words == 0 || (kind == MemoryKind::kFlops && words <= words_),
       fmt::format(
-          "{}: {} words of content for {} of {}: a rom has all of its words, flip-flops may "
-          "have some when they are switched on, sram has none",
+          "{}: {} words of content for {} of {}: a rom and what is loaded have all of their words, "
+          "flip-flops may have some when they are switched on, other sram has none",
           name(), words, words_, name_of(kind)));
 }
 

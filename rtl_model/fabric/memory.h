@@ -10,11 +10,11 @@
 // whether the reading or the writing unit is ticked first does not matter. One access too many, an
 // address that is not there, a word that has not come, or a collision that the memory forbids stops
 // the simulation with the name of memory and port, the clock and what was expected.
-// Cost: physical_bits(), from what can be bought: SRAM with 1RW, 1R1W or 2RW, ROM with 1R or 2R,
-// flip-flops up to kMostFlopBits with any ports. More read ports are copies, `banks` divide the
-// words, and more than kFewBanks of them have kLeastBankWords at least: smaller ones are
-// registers under another name. What cannot be had so is refused, unless the shape says that it is
-// idealised and why.
+// Cost: physical_bits(), from what can be bought: SRAM with 1RW, 1R1W or 2RW, ROM with 1R or 2R (a
+// ROM that can be loaded is SRAM with as many RW), flip-flops up to kMostFlopBits with any ports.
+// More read ports are copies, `banks` divide the words, and more than kFewBanks of them have
+// kLeastBankWords at least: smaller ones are registers under another name. What cannot be had so is
+// refused, unless the shape says that it is idealised and why.
 //
 //   Memory<Entry> table_{"table", {.words = 512, .word_bits = 37, .content = "edges of two rows"}};
 //   ReadPort<Entry> lookup_{table_, "lookup"};
@@ -79,6 +79,10 @@ struct MemoryShape {
   std::string content = {};  // one line
   // Columns of a frame that the words are for: bits_at(). 0: they do not go with the frame's width.
   std::uint64_t columns = 0;
+  // Of sram: written from outside of time only, while nobody reads, so that its writes go through
+  // the ports that read, in every copy. Its words are there from the beginning, as the memories of
+  // an FPGA have theirs; elsewhere they are loaded before the first access.
+  bool loaded = false;
   // Why the memory may be one that nobody sells; of no account if it can be built.
   std::string idealised = {};
 };
@@ -303,11 +307,12 @@ template <class Word>
 class Memory final : public PortedMemory {
  public:
   Memory(const char* name, MemoryShape shape) : Memory(name, std::move(shape), Words{}) {}
-  // With content: a ROM, all of it, or what flip-flops hold when they are switched on.
+  // With content: a ROM or what is `loaded`, all of it, or what flip-flops hold when they are
+  // switched on.
   Memory(const char* name, MemoryShape shape, std::span<const Word> content)
       : Memory(name, std::move(shape), Words{content}) {}
 
-  // Without a port and without time: for tests, preloads and dumps only.
+  // Without a port and without time: for tests, preloads, dumps and what is `loaded` only.
   Word& backdoor(std::uint64_t address) { return kept_.at(address); }
   const Word& backdoor(std::uint64_t address) const { return kept_.at(address); }
   // Every word at once, as the reset line of flip-flops does.

@@ -42,6 +42,7 @@ RegisterBlock::RegisterBlock(const sc_core::sc_module_name& name,
     : sc_module(name),
       table_(table),
       actions_(table.size()),
+      debug_actions_(table.size()),
       values_read_(table.size()),
       shown_(table.size()) {
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -60,6 +61,10 @@ RegisterBlock::RegisterBlock(const sc_core::sc_module_name& name,
 
 void RegisterBlock::on_write(std::size_t index, std::function<void(std::uint32_t)> action) {
   actions_.at(index) = std::move(action);
+}
+
+void RegisterBlock::on_debug_write(std::size_t index, std::function<void(std::uint32_t)> action) {
+  debug_actions_.at(index) = std::move(action);
 }
 
 void RegisterBlock::on_read(std::size_t index, std::function<std::uint32_t()> value) {
@@ -128,10 +133,12 @@ unsigned RegisterBlock::transport_dbg(tlm::tlm_generic_payload& payload) {
       const int found = find(payload.get_address() + done);
       if (found < 0) break;
       const auto index = static_cast<std::size_t>(found);
-      if (write)
+      if (write) {
         values_[index] = load(payload.get_data_ptr() + done);
-      else
+        if (debug_actions_[index]) debug_actions_[index](values_[index]);
+      } else {
         store(payload.get_data_ptr() + done, read(index));
+      }
     }
   payload.set_response_status(done ? tlm::TLM_OK_RESPONSE : tlm::TLM_ADDRESS_ERROR_RESPONSE);
   return done;

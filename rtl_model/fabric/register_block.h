@@ -6,9 +6,9 @@
 // address
 // -> ADDRESS_ERROR; other length or streaming width -> BURST_ERROR; byte enables ->
 // BYTE_ENABLE_ERROR; write to a read-only or read of a write-only register -> COMMAND_ERROR.
-// transport_dbg reads and writes any span of whole registers without side effects and stops at the
-// first hole. A write at the time of a clock edge counts for that edge. Cost: 32 flip-flops a
-// writable register.
+// transport_dbg reads and writes any span of whole registers, without side effects but those of
+// on_debug_write(), and stops at the first hole. A write at the time of a clock edge counts for
+// that edge. Cost: 32 flip-flops a writable register.
 #pragma once
 
 #include <tlm_utils/simple_target_socket.h>
@@ -40,6 +40,8 @@ class RegisterBlock final : public sc_core::sc_module {
   void set(std::size_t index, std::uint32_t value) { values_[index] = value; }
   // Called after a bus write with the value that was written (a command register, for instance).
   void on_write(std::size_t index, std::function<void(std::uint32_t)> action);
+  // The same after transport_dbg, for a register whose writes do something.
+  void on_debug_write(std::size_t index, std::function<void(std::uint32_t)> action);
   // Gives the value that a read sees, instead of the stored one (a status that follows the
   // hardware).
   void on_read(std::size_t index, std::function<std::uint32_t()> value);
@@ -63,7 +65,7 @@ class RegisterBlock final : public sc_core::sc_module {
   std::span<const spec::RegisterInfo> table_;
   std::vector<std::uint32_t> values_;
   std::vector<int> index_by_word_;
-  std::vector<std::function<void(std::uint32_t)>> actions_;
+  std::vector<std::function<void(std::uint32_t)>> actions_, debug_actions_;
   std::vector<std::function<std::uint32_t()>> values_read_;
   std::vector<Shown> shown_;
 };

@@ -28,6 +28,13 @@ spec::morphological::Parameters checked(const spec::morphological::Parameters& p
   if (p.edge_source == spec::morphological::EdgeSource::kPredicated &&
       p.threshold_mode == spec::morphological::ThresholdMode::kDynamic)
     refuse("edges.threshold_mode: dynamic does not go with edges.source = predicated; use fixed");
+  if (p.edge_source == spec::morphological::EdgeSource::kColour &&
+      p.threshold_mode == spec::morphological::ThresholdMode::kDynamic)
+    refuse("edges.threshold_mode: dynamic does not go with edges.source = colour; use fixed");
+  if (p.area == spec::morphological::AreaSource::kLearned && (p.diagonals || p.round_corners))
+    refuse(
+        "area: learned does not go with diagonals or round_corners, without which shares were "
+        "learned");
   if (p.diagonals && p.diagonal_steps > p.window_rows / 2 - 1)
     refuse("diagonal_steps: " + std::to_string(p.diagonal_steps) +
            " steps need window_rows of at least " + std::to_string(2 * p.diagonal_steps + 2) +
@@ -58,8 +65,8 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
                     : nullptr),
       pixel_store("pixel_store", clock, parameters_, store),
       blender("blender", clock, store, probe_),
-      sums_h_("sums_h", store.lanes(), record_shape(parameters_, "run.", "run.run.")),
-      sums_v_("sums_v", store.lanes(), record_shape(parameters_, "run.", "run.run.")),
+      sums_h_("sums_h", store.lanes(), sums_shape(parameters_)),
+      sums_v_("sums_v", store.lanes(), sums_shape(parameters_)),
       lines_h_("lines_h", store.lanes(), line_shape(parameters_)),
       lines_v_("lines_v", store.lanes(), line_shape(parameters_)) {
   sequencer.pixels_in(pixels_in);
@@ -96,6 +103,7 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
   blender.pixels_out(pixels_out);
   blender.frames_done_out(frames_done_);
   sequencer.frames_done_in(frames_done_);
+  if (SharesRom* const rom = area.shares_rom()) store.connect(*rom);
   if (diagonals) {
     columns_ = std::make_unique<Link<DiagonalColumnsToken>>(
         "diagonal_columns", 2, diagonal_columns_shape(parameters_, store.lanes()));

@@ -91,7 +91,8 @@ class MorphologicalEngine final : public Engine {
   const Histogram& beat_latency = blender.beat_latency;
 
   // For checks: every run as it is found, every line as it is stored (canonical order is the
-  // receiver's business). Costs nothing when not set. A line is made for records with a side only.
+  // receiver's business). Costs nothing when not set. A line is made for records with a side
+  // only, and for learned ones.
   void observe_runs(std::function<void(const spec::morphological::RunRecord&)> observer);
   void observe_lines(std::function<void(const spec::morphological::LineRecord&)> observer);
 
@@ -103,7 +104,7 @@ class MorphologicalEngine final : public Engine {
   Link<BeatToken> beats_{"beats", 2, built_lanes_};
   Link<LumaToken> lumas_{"lumas", 2, built_lanes_};
   Link<EdgeToken> edge_bits_{"edge_bits", 2, built_lanes_};
-  Link<AreaSlotToken> area_slots_{"area_slots", 2, built_lanes_};
+  Link<AreaSlotToken> area_slots_{"area_slots", 2, area_slot_shape(parameters_, store.lanes())};
   Link<FetchToken> fetches_{"fetches"};
   Link<ShareToken> shares_{"shares", 2, built_lanes_};
   // The pixels of a slot wait here for its shares.

@@ -3,15 +3,24 @@
 
 #include <algorithm>
 
+#include "rtl_model/morphological/blend/shares_rom.h"
+
 namespace deburr::rtl::morphological {
 namespace {
 
 namespace reg = spec::morphological::reg;
 
 constexpr std::uint32_t kCoordinateMask = 0x3FFF;
+constexpr std::uint32_t kSharesAddressMask = 0xFFF;
 
 int lanes_of(const spec::morphological::Parameters& p) {
   return spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
+}
+bool is_learned(const spec::morphological::Parameters& p) {
+  return p.area == spec::morphological::AreaSource::kLearned;
+}
+bool is_table(const spec::morphological::Parameters& p) {
+  return p.area != spec::morphological::AreaSource::kAnalytic && !is_learned(p);
 }
 int reach_rows_of(const spec::morphological::Parameters& p) { return p.window_rows / 2 - 1; }
 
@@ -21,14 +30,18 @@ constexpr std::uint32_t bits(std::uint32_t value, int high, int low) {
 }
 
 // The bits of each register that exist.
-constexpr std::uint32_t writable(std::uint32_t offset) {
+std::uint32_t writable(std::uint32_t offset, const spec::morphological::Parameters& p) {
   switch (offset) {
     case reg::kSize:
       return 0x3FFF3FFF;
     case reg::kRules:
-      return 0x1FFFFFF;
+      return 0x7FFFFFF;
     case reg::kSmaa:
       return 0x01FF1F7F;
+    case reg::kSharesAddress:
+      return is_learned(p) ? kSharesAddressMask : 0;
+    case reg::kSharesData:
+      return is_learned(p) ? 0xFF : 0;
     case reg::kPixelBase:
       return ~(static_cast<std::uint32_t>(spec::morphological::kFrameLineBytes) - 1);
     default:
@@ -46,11 +59,13 @@ std::uint32_t encode_rules(const spec::morphological::Parameters& p) {
          static_cast<std::uint32_t>(p.linear_light) << 15 |
          static_cast<std::uint32_t>(p.trim) << 16 |
          static_cast<std::uint32_t>(p.dynamic_luma) >> 1 << 17 |
-         static_cast<std::uint32_t>(p.ends) << 18 |
-         static_cast<std::uint32_t>(p.area != spec::morphological::AreaSource::kAnalytic) << 19 |
+         static_cast<std::uint32_t>(p.ends) << 18 | static_cast<std::uint32_t>(is_table(p)) << 19 |
          static_cast<std::uint32_t>(p.diagonals) << 20 |
          static_cast<std::uint32_t>(p.round_corners) << 21 |
-         static_cast<std::uint32_t>(p.blend) << 22 | static_cast<std::uint32_t>(p.leave) << 23;
+         static_cast<std::uint32_t>(p.blend) << 22 |
+         (static_cast<std::uint32_t>(p.leave) & 3) << 23 |
+         static_cast<std::uint32_t>(is_learned(p)) << 25 |
+         static_cast<std::uint32_t>(p.leave) >> 2 << 26;
 }
 
 std::uint32_t encode_smaa(const spec::morphological::Parameters& p) {
@@ -113,14 +128,16 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
     return static_cast<std::int32_t>(bits(smaa, high, low));
   };
   f.crossings = bits(rules, 18, 18) != 0 && p.ends == spec::morphological::Ends::kCrossings;
-  f.table = bits(rules, 19, 19) != 0 && p.area != spec::morphological::AreaSource::kAnalytic;
+  f.table = bits(rules, 19, 19) != 0 && is_table(p);
+  f.learned = bits(rules, 25, 25) != 0 && is_learned(p);
   f.search_steps = std::clamp(field(6, 0), 1, spec::morphological::kMaxSearchSteps);
   if (bits(rules, 20, 20) != 0 && p.diagonals)
     f.diagonal_steps = std::min({field(12, 8), p.diagonal_steps, reach_rows});
   f.corners = bits(rules, 21, 21) != 0 && p.round_corners;
   f.corner_loss = std::max(spec::morphological::kMaxCornerRounding - field(24, 16), 0);
   f.strongest = bits(rules, 22, 22) != 0;
-  f.leave = static_cast<spec::morphological::Leave>(bits(rules, 24, 23));
+  f.leave = choice<spec::morphological::Leave>(bits(rules, 24, 23) | bits(rules, 26, 26) << 2,
+                                               spec::morphological::kLeaveNames.size());
 
   f.threshold = 255 * registers.value(reg::kThreshold);
   f.threshold_on = 255 * registers.value(reg::kThresholdOn);
@@ -137,7 +154,7 @@ ParameterStore::ParameterStore(ControlRegisters& registers,
     : registers_(registers), parameters_(p), lanes_(lanes_of(p)), reach_rows_(reach_rows_of(p)) {
   for (const spec::RegisterInfo& info : spec::morphological::kRegisters)
     if (info.access == spec::Access::kReadWrite && info.offset != reg::kControl)
-      registers.set_mask(info.offset, writable(info.offset));
+      registers.set_mask(info.offset, writable(info.offset, p));
   registers.set_reset(reg::kRules, encode_rules(p));
   registers.set_reset(reg::kThreshold, static_cast<std::uint32_t>(p.threshold));
   registers.set_reset(reg::kThresholdOn, static_cast<std::uint32_t>(p.threshold_on_depth_edge));
@@ -147,6 +164,26 @@ ParameterStore::ParameterStore(ControlRegisters& registers,
   registers.set_reset(reg::kDepthThreshold, static_cast<std::uint32_t>(p.depth_threshold));
   registers.set_reset(reg::kSmaa, encode_smaa(p));
   registers.on_busy([this] { return inside_; });
+  for (const std::uint32_t offset : {reg::kSharesAddress, reg::kSharesData, reg::kSharesSum})
+    registers.on_read(offset, [] { return 0u; });
+}
+
+void ParameterStore::connect(SharesRom& rom) {
+  shares_ = &rom;
+  registers_.on_read(reg::kSharesAddress, [this] { return shares_address(); });
+  registers_.on_read(reg::kSharesData, [this] { return shares_->entry(shares_address()); });
+  registers_.on_read(reg::kSharesSum, [this] { return shares_->sum(); });
+  registers_.on_taken(reg::kSharesData, [this](std::uint32_t value) { load_share(value); });
+}
+
+std::uint32_t ParameterStore::shares_address() const {
+  return registers_.value(reg::kSharesAddress) & kSharesAddressMask;
+}
+
+void ParameterStore::load_share(std::uint32_t value) {
+  const std::uint32_t address = shares_address();
+  shares_->load(address, static_cast<std::uint8_t>(value));
+  registers_.set(reg::kSharesAddress, (address + 1) & kSharesAddressMask);
 }
 
 void ParameterStore::write_size(int width, int height) {

@@ -7,8 +7,9 @@
 // sets a sticky bit. Codes of RULES that no choice has count as code 0; steps are limited to
 // window_rows / 2 - 2, those of SMAA's searches to their ranges; what was not built (depth lines
 // with source = luma) reads as 0, and `contiguous`, crossings, tables, diagonals and corners count
-// as off in an engine that was built without them. A reset gives every register its reset value;
-// SIZE is 0 then and must be written again. Cost: 13 x 32 flip-flops twice (registers, decoded
+// as off in an engine that was built without them, and so do learned shares. The tables of these are
+// loaded here, a word a write. A reset gives every register its reset value; SIZE is 0 then and must
+// be written again. The tables stay as they are. Cost: 15 x 32 flip-flops twice (registers, decoded
 // products of the frame inside). Made for 300 MHz; longest path: 16-bit multiply by 255.
 #pragma once
 
@@ -36,12 +37,13 @@ struct FrameRules {
   spec::morphological::Predictor predictor{};
   std::int32_t steps = 0;  // U5
   bool contiguous = false, safe = false, trim = false, linear_light = false;
-  bool crossings = false, table = false;  // where runs end, where areas come from
-  std::int32_t search_steps = 0;          // U7, 1..112
-  std::int32_t diagonal_steps = 0;        // U5, 0: none
-  bool corners = false;                   // are rounded
-  std::int32_t corner_loss = 0;           // U9, 256 - corner_rounding
-  bool strongest = false;                 // blend
+  bool crossings = false;               // where runs end
+  bool table = false, learned = false;  // where areas come from
+  std::int32_t search_steps = 0;        // U7, 1..112
+  std::int32_t diagonal_steps = 0;      // U5, 0: none
+  bool corners = false;                 // are rounded
+  std::int32_t corner_loss = 0;         // U9, 256 - corner_rounding
+  bool strongest = false;               // blend
   spec::morphological::Leave leave{};
   std::uint32_t pixel_base = 0;  // bytes
 };
@@ -56,10 +58,15 @@ struct Decoded {
 };
 Decoded decode(const ControlRegisters& registers, const spec::morphological::Parameters& p);
 
+class SharesRom;
+
 class ParameterStore {
  public:
   // Gives the registers their masks and the reset values that parameters set.
   ParameterStore(ControlRegisters& registers, const spec::morphological::Parameters& parameters);
+
+  // The tables that SHARES_ADDRESS and SHARES_DATA load; without them the registers read 0.
+  void connect(SharesRom& rom);
 
   // --- Wires to the blocks ---
   // Of the frame inside.
@@ -80,7 +87,11 @@ class ParameterStore {
   void write_size(int width, int height);
 
  private:
+  std::uint32_t shares_address() const;
+  void load_share(std::uint32_t value);
+
   ControlRegisters& registers_;
+  SharesRom* shares_ = nullptr;
   const spec::morphological::Parameters parameters_;
   const int lanes_, reach_rows_;
   FrameRules rules_;

@@ -57,14 +57,15 @@ struct BeatToken {
 };
 
 // LumaUnit -> EdgeDetector.
+inline constexpr std::uint32_t kMarkedLuma = 1u << 24;
 struct LumaToken {
   Slot slot;
-  Lanes32 luma;   // U8.16
+  Lanes32 luma;   // U8.16, or for edges from colour R, G and B, U0.8 each; kMarkedLuma: no edge
   Lanes32 depth;  // U24
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("slot", self.slot);
-    visit.lanes("luma", self.luma, 24, "U8.16");
+    visit.lanes("luma", self.luma, 25, "U8.16 or R, G, B; bit 24 marked");
     visit.lanes("depth", self.depth, 24, "U24");
   }
 };
@@ -81,17 +82,28 @@ struct EdgeToken {
   }
 };
 
-// RunExtractor -> AreaUnit: edges of row slot.row - R - 5, which is being blended.
+// RunExtractor -> AreaUnit: edges of row slot.row - R - 5, which is being blended, and with learned
+// shares of the row below, whose shares are being found.
 struct AreaSlotToken {
   Slot slot;
   std::uint8_t left, top;
+  std::uint8_t next_left, next_top;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("slot", self.slot);
     visit.lane_bits("left", self.left, spec::morphological::kMaxLanes);
     visit.lane_bits("top", self.top, spec::morphological::kMaxLanes);
+    visit.lane_bits("next_left", self.next_left, spec::morphological::kMaxLanes);
+    visit.lane_bits("next_top", self.next_top, spec::morphological::kMaxLanes);
   }
 };
+
+inline PayloadShape area_slot_shape(const spec::morphological::Parameters& p, int lanes) {
+  PayloadShape shape{.lanes = static_cast<std::uint32_t>(lanes)};
+  if (p.area != spec::morphological::AreaSource::kLearned)
+    for (const char* const field : {"next_left", "next_top"}) shape.widths.emplace_back(field, 0);
+  return shape;
+}
 
 // RunExtractor -> PixelStore: the slot blends a row of the frame, so it needs pixels.
 struct FetchToken {
@@ -198,8 +210,23 @@ inline PayloadShape record_shape(const spec::morphological::Parameters& p, const
   return shape;
 }
 
+// Fields of learned shares, by where in its token they are.
+inline void leave_out_shares(PayloadShape& shape, const spec::morphological::Parameters& p,
+                             const std::string& line) {
+  if (p.area != spec::morphological::AreaSource::kLearned)
+    for (const char* const field : {"learned", "start_class", "end_class"})
+      shape.widths.emplace_back(line + field, 0);
+}
+
+inline PayloadShape sums_shape(const spec::morphological::Parameters& p) {
+  PayloadShape shape = record_shape(p, "run.", "run.run.");
+  leave_out_shares(shape, p, "");
+  return shape;
+}
+
 inline PayloadShape line_shape(const spec::morphological::Parameters& p) {
   PayloadShape shape;
+  leave_out_shares(shape, p, "line.");
   if (!p.round_corners) shape.widths.emplace_back("line.run.far", 0);
   if (p.ends != spec::morphological::Ends::kCrossings) shape.widths.emplace_back("entry", 0);
   return shape;
@@ -224,12 +251,17 @@ struct RunToken {
 // EndpointPredictor -> LineUnit: corners -left..right + 1 of the line, as sums.
 struct SumsToken {
   RunToken run;
-  std::uint8_t left, right;       // steps kept
-  std::int16_t first, last;       // positions of the outermost corners
-  std::int32_t sum, indexed_sum;  // of X_i, of i X_i
+  bool learned;                         // no line
+  std::uint8_t start_class, end_class;  // of its crossings, if learned
+  std::uint8_t left, right;             // steps kept
+  std::int16_t first, last;             // positions of the outermost corners
+  std::int32_t sum, indexed_sum;        // of X_i, of i X_i
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("run", self.run);
+    visit("learned", self.learned);
+    visit("start_class", self.start_class, 4, "0..8");
+    visit("end_class", self.end_class, 4, "0..8");
     visit("left", self.left, 5, "U5");
     visit("right", self.right, 5, "U5");
     visit("first", self.first, 13, "S13");

@@ -102,6 +102,8 @@ struct RunRecord {
 // from the record's start; t < 0 belongs to `before`, t > 0 to `after`.
 struct LineRecord {
   RunRecord run{};
+  bool learned = false;  // its shares come from the ROMs; then it has no line and no sides
+  std::uint8_t start_class = 0, end_class = 0;  // of its crossings, 0..8; 0 if not learned
   Side before = Side::kNone, after = Side::kNone;
   std::uint8_t left_steps = 0, right_steps = 0;  // extensions kept: up or left, down or right
   std::int32_t scale = 2;
@@ -114,6 +116,9 @@ struct LineRecord {
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("run", self.run);
+    visit("learned", self.learned);
+    visit("start_class", self.start_class, 4, "0..8");
+    visit("end_class", self.end_class, 4, "0..8");
     visit("before", self.before, 2, "0 none, 1 first, 2 second");
     visit("after", self.after, 2, "0 none, 1 first, 2 second");
     visit("left_steps", self.left_steps, 5, "U5");
@@ -145,7 +150,7 @@ struct Work {
   std::uint64_t extended_runs = 0;
   std::uint64_t steps = 0;            // extensions kept
   std::uint64_t probes = 0;           // corners tested
-  std::uint64_t divides = 0;          // records that have a side
+  std::uint64_t divides = 0;          // records that have a line and a side
   std::uint64_t blended_pixels = 0;   // pixels with a share of a neighbour
   std::uint64_t diagonal_pixels = 0;  // pixels whose top edge took its shares from a diagonal
   std::uint64_t left_pixels = 0;      // would have taken a share, took none by `leave`

@@ -13,9 +13,9 @@
 
 namespace deburr::spec::morphological {
 
-enum class Preset : std::uint8_t { kMlaa, kMlaaSlope, kSmaa, kSmaaDynamic, kDeburr };
-inline constexpr std::array<std::string_view, 5> kPresetNames = {"mlaa", "mlaa-slope", "smaa",
-                                                                 "smaa-dynamic", "deburr"};
+enum class Preset : std::uint8_t { kMlaa, kMlaaSlope, kSmaa, kSmaaDynamic, kDeburrLine, kDeburr };
+inline constexpr std::array<std::string_view, 6> kPresetNames = {
+    "mlaa", "mlaa-slope", "smaa", "smaa-dynamic", "deburr-line", "deburr"};
 
 // Of the two SMAA presets; a row of kQualities.
 enum class Quality : std::uint8_t { kLow, kMedium, kHigh, kUltra };
@@ -26,8 +26,9 @@ inline constexpr std::array<std::string_view, 3> kLanesNames = {"1", "2", "4"};
 inline constexpr std::array<std::uint8_t, 3> kLaneCount = {1, 2, 4};
 inline constexpr int kMaxLanes = 4;
 
-enum class EdgeSource : std::uint8_t { kLuma, kDepth, kPredicated };
-inline constexpr std::array<std::string_view, 3> kEdgeSourceNames = {"luma", "depth", "predicated"};
+enum class EdgeSource : std::uint8_t { kLuma, kDepth, kPredicated, kColour };
+inline constexpr std::array<std::string_view, 4> kEdgeSourceNames = {"luma", "depth", "predicated",
+                                                                     "colour"};
 
 enum class ThresholdMode : std::uint8_t { kFixed, kDynamic };
 inline constexpr std::array<std::string_view, 2> kThresholdModeNames = {"fixed", "dynamic"};
@@ -47,19 +48,27 @@ inline constexpr std::array<std::string_view, 2> kEndsNames = {"gaps", "crossing
 enum class Predictor : std::uint8_t { kNone, kChord, kFit };
 inline constexpr std::array<std::string_view, 3> kPredictorNames = {"none", "chord", "fit"};
 
-// The three tables are layouts of one: they give the same pixels.
-enum class AreaSource : std::uint8_t { kAnalytic, kTableFull, kTableMerged, kTableMinimal };
-inline constexpr std::array<std::string_view, 4> kAreaSourceNames = {
-    "analytic", "table_full", "table_merged", "table_minimal"};
+// The three tables are layouts of one: they give the same pixels. Learned: the line of a clean Z
+// that was extended or is long, ROMs elsewhere (docs/morphological_shares.md).
+enum class AreaSource : std::uint8_t {
+  kAnalytic,
+  kTableFull,
+  kTableMerged,
+  kTableMinimal,
+  kLearned
+};
+inline constexpr std::array<std::string_view, 5> kAreaSourceNames = {
+    "analytic", "table_full", "table_merged", "table_minimal", "learned"};
 
 enum class BlendRule : std::uint8_t { kLongest, kStrongest };
 inline constexpr std::array<std::string_view, 2> kBlendRuleNames = {"longest", "strongest"};
 
 // Whose pixels are left as they are: none, marked ones, or those beside a marked one too; or marked
-// ones, and others take half of what they would take of a marked one. A pixel is marked if bit 0 of
-// its alpha is 0.
-enum class Leave : std::uint8_t { kNone, kMarked, kBeside, kHalf };
-inline constexpr std::array<std::string_view, 4> kLeaveNames = {"none", "marked", "beside", "half"};
+// ones, and others take half of what they would take of a marked one; or marked ones, which make no
+// edge (a mask). A pixel is marked if bit 0 of its alpha is 0.
+enum class Leave : std::uint8_t { kNone, kMarked, kBeside, kHalf, kMasked };
+inline constexpr std::array<std::string_view, 5> kLeaveNames = {"none", "marked", "beside", "half",
+                                                                "masked"};
 
 enum class Storage : std::uint8_t { kLineBuffers, kMemory };
 inline constexpr std::array<std::string_view, 2> kStorageNames = {"line_buffers", "memory"};
@@ -77,6 +86,7 @@ inline constexpr int kInverseFractionBits = 12;
 inline constexpr int kMaxWeight = 128;  // U0.8: a half, the largest share that a run gives
 // Of a diagonal with blend = strongest, which normalises shares.
 inline constexpr int kMaxDiagonalWeight = 255;
+inline constexpr int kLongZ = 16;  // pixels of a clean Z that keeps its line with area = learned
 inline constexpr int kRowLag = 5;  // rows of delay beyond the reach
 inline constexpr int kLeastDividerLatency = 14;
 
@@ -101,10 +111,10 @@ inline constexpr std::array<std::uint32_t, 3> kLumaWeights = {13933, 46871, 4732
 struct Rules {
   Preset preset = Preset::kDeburr;
   Quality quality = Quality::kHigh;
-  EdgeSource edge_source = EdgeSource::kLuma;
+  EdgeSource edge_source = EdgeSource::kColour;
   ThresholdMode threshold_mode = ThresholdMode::kFixed;
   DynamicLuma dynamic_luma = DynamicLuma::kMax;
-  std::int32_t threshold = 1966;                 // U0.16: 0.03
+  std::int32_t threshold = 3341;                 // U0.16: 13 codes
   std::int32_t threshold_on_depth_edge = 655;    // U0.16: 0.01
   std::int32_t threshold_off_depth_edge = 3277;  // U0.16: 0.05
   std::int32_t alpha = 6554;                     // U0.16: 0.1
@@ -117,7 +127,7 @@ struct Rules {
   bool contiguous = true;
   bool safe = true;
   bool trim = true;
-  AreaSource area = AreaSource::kAnalytic;
+  AreaSource area = AreaSource::kLearned;
   std::int32_t search_steps = 16;
   bool diagonals = false;
   std::int32_t diagonal_steps = 8;
@@ -162,8 +172,10 @@ void describe(Rules& p, Visitor& v) {
   v.choice("quality", p.quality, kQualityNames,
            "Named set of rules of the presets smaa and smaa-dynamic, which the preset and rules "
            "given beside it override.");
-  v.choice("edges.source", p.edge_source, kEdgeSourceNames,
-           "What makes an edge: luma, depth, or luma with a threshold that depth moves.");
+  v.choice(
+      "edges.source", p.edge_source, kEdgeSourceNames,
+      "What makes an edge: luma, depth, luma with a threshold that depth moves, or the largest "
+      "step of the three colours.");
   v.choice("edges.threshold_mode", p.threshold_mode, kThresholdModeNames,
            "fixed: T. dynamic: alpha times luma (paper 003), above a floor.");
   v.choice("edges.dynamic_luma", p.dynamic_luma, kDynamicLumaNames,
@@ -194,9 +206,11 @@ void describe(Rules& p, Visitor& v) {
   v.boolean("trim", p.trim,
             "A side that lost its line before N steps and the end of the reach gives back its last "
             "step; one that no line fits, half of its steps.");
-  v.choice("area", p.area, kAreaSourceNames,
-           "Where areas come from: the line itself, or SMAA's table as it is published, as paper "
-           "003 merges it, or as small as it gets; the tables give the same pixels.");
+  v.choice(
+      "area", p.area, kAreaSourceNames,
+      "Where areas come from: the line itself, or SMAA's table as it is published, as paper "
+      "003 merges it, or as small as it gets; the tables give the same pixels. learned: the line "
+      "of a clean Z that was extended or is long, learned ROMs elsewhere.");
   v.integer("search_steps", p.search_steps, 1, kMaxSearchSteps, "step",
             "N: a table sees 2 N - 1 pixels to the left (up) and 2 N to the right (down).");
   v.boolean("diagonals", p.diagonals, "Diagonal patterns of SMAA, before the others.");
@@ -214,7 +228,8 @@ void describe(Rules& p, Visitor& v) {
       "leave", p.leave, kLeaveNames,
       "Pixels that take no share: none, those that the geometric engine marked (bit 0 of alpha "
       "is 0), or these and the four beside each; half: marked ones, and others take half of "
-      "a marked one's share. Other than none, it ends the mark.");
+      "a marked one's share; masked: marked ones, which make no edge either. Other than none, it "
+      "ends the mark.");
   v.boolean("linear_light", p.linear_light, "Blend in linear light (sRGB) instead of codes.");
   v.integer("window_rows", p.window_rows, 10, 258, "row",
             "Rows of edges held; even. A pixel depends on window_rows / 2 - 1 rows each way.");
@@ -274,6 +289,7 @@ inline constexpr std::array<QualityRow, 4> kQualities = {{
 // What a preset sets; every other parameter keeps its default.
 struct PresetRow {
   Preset preset;
+  EdgeSource edge_source;
   ThresholdMode threshold_mode;
   DynamicLuma dynamic_luma;
   std::int32_t threshold;  // 0: that of the quality
@@ -288,22 +304,25 @@ struct PresetRow {
   BlendRule blend;
   bool has_qualities;  // a row of kQualities goes before
 };
-inline constexpr std::array<PresetRow, 5> kPresets = {{
-    {Preset::kMlaa, ThresholdMode::kFixed, DynamicLuma::kMax, 6554, LocalContrast::kOff,
-     Predictor::kNone, 0, false, false, false, AreaSource::kAnalytic, Ends::kGaps,
-     BlendRule::kLongest, false},
-    {Preset::kMlaaSlope, ThresholdMode::kFixed, DynamicLuma::kMax, 6554, LocalContrast::kOff,
-     Predictor::kChord, 4, false, false, false, AreaSource::kAnalytic, Ends::kGaps,
-     BlendRule::kLongest, false},
-    {Preset::kSmaa, ThresholdMode::kFixed, DynamicLuma::kMax, 0, LocalContrast::kSmaa,
-     Predictor::kNone, 0, false, false, false, AreaSource::kTableFull, Ends::kCrossings,
-     BlendRule::kStrongest, true},
-    {Preset::kSmaaDynamic, ThresholdMode::kDynamic, DynamicLuma::kCurrent, 1966,
+inline constexpr std::array<PresetRow, 6> kPresets = {{
+    {Preset::kMlaa, EdgeSource::kLuma, ThresholdMode::kFixed, DynamicLuma::kMax, 6554,
+     LocalContrast::kOff, Predictor::kNone, 0, false, false, false, AreaSource::kAnalytic,
+     Ends::kGaps, BlendRule::kLongest, false},
+    {Preset::kMlaaSlope, EdgeSource::kLuma, ThresholdMode::kFixed, DynamicLuma::kMax, 6554,
+     LocalContrast::kOff, Predictor::kChord, 4, false, false, false, AreaSource::kAnalytic,
+     Ends::kGaps, BlendRule::kLongest, false},
+    {Preset::kSmaa, EdgeSource::kLuma, ThresholdMode::kFixed, DynamicLuma::kMax, 0,
+     LocalContrast::kSmaa, Predictor::kNone, 0, false, false, false, AreaSource::kTableFull,
+     Ends::kCrossings, BlendRule::kStrongest, true},
+    {Preset::kSmaaDynamic, EdgeSource::kLuma, ThresholdMode::kDynamic, DynamicLuma::kCurrent, 1966,
      LocalContrast::kPaper, Predictor::kNone, 0, false, false, false, AreaSource::kTableMerged,
      Ends::kCrossings, BlendRule::kStrongest, true},
-    {Preset::kDeburr, ThresholdMode::kFixed, DynamicLuma::kMax, 1966, LocalContrast::kSymmetric,
-     Predictor::kFit, 8, true, true, true, AreaSource::kAnalytic, Ends::kGaps, BlendRule::kLongest,
-     false},
+    {Preset::kDeburrLine, EdgeSource::kLuma, ThresholdMode::kFixed, DynamicLuma::kMax, 1966,
+     LocalContrast::kSymmetric, Predictor::kFit, 8, true, true, true, AreaSource::kAnalytic,
+     Ends::kGaps, BlendRule::kLongest, false},
+    {Preset::kDeburr, EdgeSource::kColour, ThresholdMode::kFixed, DynamicLuma::kMax, 3341,
+     LocalContrast::kSymmetric, Predictor::kFit, 8, true, true, true, AreaSource::kLearned,
+     Ends::kGaps, BlendRule::kLongest, false},
 }};
 
 }  // namespace deburr::spec::morphological

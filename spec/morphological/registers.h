@@ -39,6 +39,9 @@ inline constexpr std::uint32_t kRecordStalls = 0x70;
 inline constexpr std::uint32_t kMemoryErrors = 0x74;
 inline constexpr std::uint32_t kDiagonals = 0x78;
 inline constexpr std::uint32_t kLeftPixels = 0x7C;
+inline constexpr std::uint32_t kSharesAddress = 0x80;
+inline constexpr std::uint32_t kSharesData = 0x84;
+inline constexpr std::uint32_t kSharesSum = 0x88;
 inline constexpr std::uint32_t kIdValue = 0xDEB00002;
 inline constexpr std::uint32_t kControlEnable = 1u << 0;
 inline constexpr std::uint32_t kControlClearCounters = 1u << 1;
@@ -50,7 +53,7 @@ inline constexpr std::uint32_t kStatusWrittenWhileBusy = 1u << 4;
 }  // namespace reg
 
 // Reset values marked 0 with the access kReadWrite are loaded from the parameters at construction.
-inline constexpr std::array<RegisterInfo, 29> kRegisters = {{
+inline constexpr std::array<RegisterInfo, 32> kRegisters = {{
     {reg::kId, "ID", Access::kReadOnly, reg::kIdValue,
      "Identifies the unit and the version of its register map."},
     {reg::kControl, "CONTROL", Access::kReadWrite, 1,
@@ -65,7 +68,8 @@ inline constexpr std::array<RegisterInfo, 29> kRegisters = {{
      "edges.source [1:0], threshold_mode [2], dynamic_luma [17, 3], local_contrast [5:4], "
      "predictor [7:6], steps [12:8], contiguous [13], safe [14], linear_light [15], trim [16], "
      "ends = crossings [18], area from the table [19], diagonals [20], round_corners [21], blend = "
-     "strongest [22], leave [24:23]. Blocks that are not built read as off."},
+     "strongest [22], leave [26, 24:23], area learned [25]. Blocks that are not built read as "
+     "off."},
     {reg::kThreshold, "THRESHOLD", Access::kReadWrite, 0, "T, U0.16 [15:0]."},
     {reg::kThresholdOn, "THRESHOLD_ON", Access::kReadWrite, 0,
      "T of predicated edges where depth has an edge, U0.16 [15:0]."},
@@ -103,6 +107,15 @@ inline constexpr std::array<RegisterInfo, 29> kRegisters = {{
      "Pixels whose top edge took its shares from a diagonal."},
     {reg::kLeftPixels, "LEFT_PIXELS", Access::kReadOnly, 0,
      "Pixels that would have taken a share and took none, by the rule leave."},
+    {reg::kSharesAddress, "SHARES_ADDRESS", Access::kReadWrite, 0,
+     "Entry [11:0] of the learned shares that SHARES_DATA names: A 0..1023, B 1024..1663, C "
+     "1664..2303."},
+    {reg::kSharesData, "SHARES_DATA", Access::kReadWrite, 0,
+     "The entry, S3.4 [7:0]; a write moves SHARES_ADDRESS on by one. The reset value is that of "
+     "the "
+     "first entry."},
+    {reg::kSharesSum, "SHARES_SUM", Access::kReadOnly, 0,
+     "Sum over all entries of (index + 1) x the entry as an unsigned byte, mod 2^32."},
 }};
 
 }  // namespace deburr::spec::morphological

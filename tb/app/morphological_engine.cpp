@@ -47,6 +47,11 @@ class MorphologicalCommand final : public Engine {
 
   void resolve(ParameterSet& set) override {
     apply_preset(set, parameters_);
+    if (!frame_.mask.empty()) {
+      set.imply("morphological.leave", "masked", "frame.mask");
+      if (parameters_.leave == spec::morphological::Leave::kNone)
+        set.refuse("frame.mask", "morphological.leave = none looks at no mask");
+    }
     refuse_unused_rules(set, parameters_, "memory");
     refuse_unused_memory(set, "memory", memory_);
     if (parameters_.storage == spec::morphological::Storage::kMemory)
@@ -62,6 +67,7 @@ class MorphologicalCommand final : public Engine {
          {"--scene", "frame.source", "Scene instead of a file: cylinders (default), road, ..."},
          {"--truth", "frame.truth", "Anti-aliased picture to judge by"},
          {"--depth", "frame.depth", "Depth of the image: silhouettes are judged too"},
+         {"--mask", "frame.mask", "Picture of what to leave as it is: white is masked"},
          {"--size", "frame.width", "Size of a rendered scene, WxH (640x480)", "frame.height"}},
         smoothing_shorthands());
   }
@@ -133,7 +139,8 @@ class MorphologicalCommand final : public Engine {
   }
 
   void refuse_unused_frame(const ParameterSet& set) const {
-    const bool depth_used = parameters_.edge_source != spec::morphological::EdgeSource::kLuma;
+    const bool depth_used = parameters_.edge_source == spec::morphological::EdgeSource::kDepth ||
+                            parameters_.edge_source == spec::morphological::EdgeSource::kPredicated;
     // load_frame() has its own words for a truth beside a scene, and for a file that is not there.
     if (is_rendered(frame_) || !std::filesystem::exists(frame_.source)) return;
     for (const char* name : {"frame.width", "frame.height"})
@@ -145,7 +152,7 @@ class MorphologicalCommand final : public Engine {
           name_of(parameters_.edge_source, spec::morphological::kEdgeSourceNames)));
     if (!depth_used && frame_.truth.empty())
       set.refuse("frame.depth",
-                 "edges come from luma, and silhouettes are judged only against a --truth FILE");
+                 "edges come from colours, and silhouettes are judged only against a --truth FILE");
   }
 
   std::string summary_line(const LoadedFrame& loaded) const {

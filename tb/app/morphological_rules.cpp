@@ -47,9 +47,9 @@ void apply_preset(ParameterSet& set, const spec::morphological::Parameters& valu
       set.imply(full, preset.find(full)->text(), by);
     }
   };
-  imply({"edges.threshold_mode", "edges.dynamic_luma", "edges.threshold", "edges.local_contrast",
-         "ends", "predictor", "steps", "contiguous", "safe", "trim", "area", "diagonals",
-         "round_corners", "blend"});
+  imply({"edges.source", "edges.threshold_mode", "edges.dynamic_luma", "edges.threshold",
+         "edges.local_contrast", "ends", "predictor", "steps", "contiguous", "safe", "trim", "area",
+         "diagonals", "round_corners", "blend"});
   if (has_qualities(values))
     imply({"search_steps", "diagonal_steps", "corner_rounding", "window_rows"});
 }
@@ -77,7 +77,7 @@ void refuse_unused_rules(const ParameterSet& set, const spec::morphological::Par
     refuse("morphological.edges.source = depth compares depths, by edges.depth_threshold",
            {"edges.threshold_mode", "edges.local_contrast"});
   if (depth || predicated)
-    refuse("morphological.edges.source is not luma and has thresholds of its own",
+    refuse("morphological.edges.source is neither luma nor colour and has thresholds of its own",
            {"edges.threshold"});
   if (depth || p.threshold_mode == spec::morphological::ThresholdMode::kFixed)
     refuse("it belongs to morphological.edges.threshold_mode = dynamic",
@@ -85,7 +85,7 @@ void refuse_unused_rules(const ParameterSet& set, const spec::morphological::Par
   else
     refuse("morphological.edges.threshold_mode = dynamic computes the threshold",
            {"edges.threshold"});
-  if (p.edge_source == spec::morphological::EdgeSource::kLuma)
+  if (!depth && !predicated)
     refuse("it belongs to morphological.edges.source = depth or predicated",
            {"edges.depth_threshold"});
   if (!predicated)
@@ -96,8 +96,9 @@ void refuse_unused_rules(const ParameterSet& set, const spec::morphological::Par
            {"steps", "contiguous", "safe", "trim"});
   if (!has_qualities(p))
     refuse("it belongs to morphological.preset = smaa or smaa-dynamic", {"quality"});
-  if (p.area == spec::morphological::AreaSource::kAnalytic)
-    refuse("morphological.area = analytic searches nothing", {"search_steps"});
+  if (p.area == spec::morphological::AreaSource::kAnalytic ||
+      p.area == spec::morphological::AreaSource::kLearned)
+    refuse("morphological.area = analytic and learned search nothing", {"search_steps"});
   if (!p.diagonals) refuse("it belongs to morphological.diagonals = true", {"diagonal_steps"});
   if (!p.round_corners)
     refuse("it belongs to morphological.round_corners = true", {"corner_rounding"});

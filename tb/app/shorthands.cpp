@@ -55,7 +55,7 @@ std::vector<Shorthand> scene_shorthands(const std::string& default_scene) {
 
 std::vector<Shorthand> smoothing_shorthands() {
   return {{"--preset", "morphological.preset",
-           "mlaa, mlaa-slope, smaa, smaa-dynamic or deburr (default)"},
+           "mlaa, mlaa-slope, smaa, smaa-dynamic, deburr-line or deburr (default)"},
           {"--lanes", "morphological.lanes",
            "Pixels a clock of the morphological engine: 1 (default), 2 or 4"},
           {"--storage", "morphological.storage",

@@ -32,22 +32,29 @@ RUNS = [
     # A fifth and half of all pixels on edges, and the worst pattern.
     *(f"morphological --in @{frame}-256x144 --preset {preset} --lanes {lanes}"
       for frame in ("random_edges-200", "random_edges-500", "diagonals-2")
-      for preset in ("deburr", "mlaa") for lanes in (1, 4)),
+      for preset in ("deburr", "deburr-line", "mlaa") for lanes in (1, 4)),
     "morphological --in @random_edges-200-256x144 --preset smaa",
     "morphological --in @random_edges-500-256x144 --preset smaa-dynamic",
     "morphological --in @diagonals-2-256x144 --preset smaa --set morphological.quality=ultra --lanes 4",
     # Records in every column, all of them extended.
-    "morphological --in @diagonals-2-256x144 --set morphological.ends=crossings"
+    "morphological --in @diagonals-2-256x144 --preset deburr-line --set morphological.ends=crossings"
     " --set morphological.area=table_minimal --set morphological.round_corners=true",
-    "morphological --in @random_edges-10-256x144",
-    "morphological --in @random_edges-500-256x144 --storage memory",
-    "morphological --size 256x256",
+    # Learned shares of records in every column; long runs; a mask that is nowhere.
+    "morphological --in @diagonals-2-256x144 --set morphological.ends=crossings",
+    "morphological --in @random_edges-200-256x144 --set morphological.reach_columns=6"
+    " --set morphological.window_rows=22",
+    "morphological --in @random_edges-500-256x144 --set morphological.leave=masked",
+    *(f"morphological {given}{preset}"
+      for given in ("--in @random_edges-10-256x144", "--in @random_edges-500-256x144 --storage memory",
+                    "--size 256x256")
+      for preset in (" --preset deburr-line", "")),
     # Presets; rows instead of tiles with a walker; more lines than caches hold, far from memory.
     *(f"geometric --scene wheelcover --size 256x192 --preset {preset}"
       for preset in ("gpaa", "gpaa-optimised", "deburr")),
     "geometric --scene wing --size 256x192 --layout raster --walkers 1",
     "geometric --scene terrain --size 256x192 --set geometric.pipelined=false --set memory.latency=200"
     " --set geometric.depth_lines=16 --set geometric.weight_blocks=16 --set geometric.vertex_lines=16",
+    "frame --scene object --size 128x128 --preset deburr-line",
     "frame --scene object --size 128x128",
 ]
 

@@ -141,7 +141,7 @@ struct Setup {
 
 // SystemC elaborates once in a process, so all benchmarks share the engine.
 Setup& setup_of(const std::string& image) {
-  static Setup setup(parameters("deburr", 1));
+  static Setup setup(parameters("deburr-line", 1));
   setup.frame = beats(image, 1);
   return setup;
 }
@@ -173,7 +173,7 @@ void bm_golden_over_rtl(benchmark::State& state, MorphologicalGolden::Detail det
   Setup& setup = setup_of("facets");
   std::vector<spec::morphological::Rgba8> pixels;
   for (const spec::morphological::PixelBeat& beat : setup.frame) pixels.push_back(beat.pixel[0]);
-  MorphologicalGolden golden(parameters("deburr", 1), detail);
+  MorphologicalGolden golden(parameters("deburr-line", 1), detail);
   std::clock_t rtl_time = 0, golden_time = 0;
   for (auto _ : state) {
     const std::clock_t begin = std::clock();
@@ -224,7 +224,7 @@ int count_instructions(const std::string& image, const std::string& preset, int 
 // A row of the trade: what the edge memories are built of, and the clocks of frames over those of
 // the formula. In a process of its own.
 std::string trade(int predictors, int trial_clocks) {
-  Parameters p = parameters("deburr", 1);
+  Parameters p = parameters("deburr-line", 1);
   p.predictor_units = predictors;
   p.trial_clocks = trial_clocks;
   Setup setup(p);

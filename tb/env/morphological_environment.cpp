@@ -110,7 +110,35 @@ std::vector<PlantedFault> MorphologicalEnvironment::faults() const {
        fmt::format("duplicate:morphological.requests:{}", kFaultyRequest), memory}};
   for (PlantedFault& fault : memory_faults(memory)) list.push_back(std::move(fault));
   for (PlantedFault& fault : smaa_faults()) list.push_back(std::move(fault));
+  for (PlantedFault& fault : shares_faults()) list.push_back(std::move(fault));
   return list;
+}
+
+// Of edges from colour and learned shares.
+std::vector<PlantedFault> MorphologicalEnvironment::shares_faults() const {
+  const spec::morphological::Parameters& p = setup_.morphological;
+  const std::string needs = p.area == spec::morphological::AreaSource::kLearned
+                                ? ""
+                                : "morphological.area = learned";
+  return {{"wrong-colour", "Edges come from luma.", "",
+           p.edge_source == spec::morphological::EdgeSource::kColour
+               ? ""
+               : "morphological.edges.source = colour"},
+          {"wrong-share",
+           "Flips a bit of the word of shares_a for a single pixel between crossings on its side.",
+           "", needs},
+          {"wrong-near", "Flips a bit of the words of shares_b for crossings that go on.", "",
+           needs},
+          {"wrong-far", "Flips a bit of the words of shares_c for crossings that go on.", "", needs},
+          {"wrong-sum", "Flips a bit of the word of share_rom for a sum of -2.0.", "", needs},
+          {"wrong-class", "Flips a bit of the class of the crossing at the end of a vertical run.",
+           "flip:morphological.lines_v0:20:line.end_class.1", needs},
+          {"wrong-code", "Flips a bit of the codes of the ends of a horizontal run.",
+           "flip:morphological.lines_h0:20:line.run.shape.0", needs},
+          {"wrong-axis", "The line of a horizontal run that has none counts as the longest one.",
+           "flip:morphological.lines_h0:20:line.span.11", needs},
+          {"drop-line", "Drops a record behind the dividers of horizontal runs.",
+           "drop:morphological.lines_h0:20", needs}};
 }
 
 // Of SMAA's blocks. Those without a link are planted by as_built() and plant_in_roms().
@@ -123,7 +151,8 @@ std::vector<PlantedFault> MorphologicalEnvironment::smaa_faults() const {
   const bool dynamic = p.threshold_mode == spec::morphological::ThresholdMode::kDynamic;
   const bool contrast = p.local_contrast == spec::morphological::LocalContrast::kSmaa ||
                         p.local_contrast == spec::morphological::LocalContrast::kPaper;
-  const bool table = p.area != spec::morphological::AreaSource::kAnalytic;
+  const bool table = p.area != spec::morphological::AreaSource::kAnalytic &&
+                     p.area != spec::morphological::AreaSource::kLearned;
   const std::string for_table = unless(table, "area = table_full, table_merged or table_minimal"),
                     for_diagonals = unless(p.diagonals, "diagonals = true");
   return {
@@ -179,6 +208,7 @@ spec::morphological::Parameters MorphologicalEnvironment::as_built() const {
                            : spec::morphological::LocalContrast::kSmaa;
   if (planted("wrong-search")) p.search_steps = std::max(1, p.search_steps - 1);
   if (planted("wrong-diagonal")) p.diagonal_steps = std::max(1, p.diagonal_steps - 1);
+  if (planted("wrong-colour")) p.edge_source = spec::morphological::EdgeSource::kLuma;
   if (planted("wrong-corner")) p.corner_rounding = std::max(0, p.corner_rounding - 1);
   return p;
 }
@@ -217,6 +247,23 @@ void MorphologicalEnvironment::plant_in_roms() {
       for (std::uint64_t codes = 0; codes < 16; ++codes)
         rom.backdoor((codes * kDistances + 2) * kDistances + 2) ^= 1u << 4;
     });
+  constexpr std::int8_t kEntry = 0;
+  constexpr std::uint8_t kShare = 0;
+  if (planted("wrong-share"))
+    in_rom("shares_a", kEntry, [](auto& rom) {
+      // Codes 1 and 1, at distances 0 and 0.
+      rom.backdoor(5 * 64) = static_cast<std::int8_t>(rom.backdoor(5 * 64) ^ 1 << 4);
+    });
+  for (const auto& [fault, name] :
+       {std::pair{"wrong-near", "shares_b"}, std::pair{"wrong-far", "shares_c"}})
+    if (planted(fault))
+      in_rom(name, kEntry, [](auto& rom) {
+        constexpr std::uint64_t kGoesOn = 4, kWords = 32;  // class 2 of code 1
+        for (std::uint64_t i = kGoesOn * kWords; i < (kGoesOn + 1) * kWords; ++i)
+          rom.backdoor(i) = static_cast<std::int8_t>(rom.backdoor(i) ^ 1 << 4);
+      });
+  if (planted("wrong-sum"))
+    in_rom("share_rom", kShare, [](auto& rom) { rom.backdoor(128 - 32) ^= 1u << 2; });
   if (planted("wrong-mix"))
     in_rom("mix_rom", kWord, [](auto& rom) { rom.backdoor(64) ^= 1u << 9; });
 }
@@ -484,7 +531,7 @@ void MorphologicalEnvironment::judge_records() {
     runs.push_back(run.line.run);
     const spec::morphological::RunShape& shape =
         spec::morphological::kRunShapes[run.line.run.shape];
-    if (shape.before != spec::morphological::Side::kNone ||
+    if (run.line.learned || shape.before != spec::morphological::Side::kNone ||
         shape.after != spec::morphological::Side::kNone)
       lines.push_back(run.line);
   }

@@ -98,6 +98,7 @@ class MorphologicalEnvironment final : public Environment {
  private:
   std::vector<PlantedFault> faults() const;
   std::vector<PlantedFault> smaa_faults() const;
+  std::vector<PlantedFault> shares_faults() const;
   spec::morphological::Parameters as_built() const;
   void plant_in_roms();
   int lanes() const { return lanes_of(setup_.morphological); }

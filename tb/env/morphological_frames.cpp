@@ -53,6 +53,21 @@ LoadedFrame rendered(const FrameParameters& p, std::uint32_t seed,
   return frame;
 }
 
+// Bit 0 of alpha: 0 where the mask is set, else 1.
+void apply_mask(const std::string& file, LoadedFrame& frame) {
+  ReadReport report;
+  const Image mask = read_image(file, &report);
+  for (const std::string& conversion : report.conversions)
+    frame.conversions.push_back(fmt::format("'{}': {}", file, conversion));
+  Image& image = frame.input.image;
+  require_size("mask", file, mask.width, mask.height, image);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    std::uint8_t& alpha = image.pixels[i][3];
+    alpha = static_cast<std::uint8_t>(mask.pixels[i][0] >= 128 ? alpha & ~1 : alpha | 1);
+  }
+  frame.inputs.emplace_back(file);
+}
+
 }  // namespace
 
 bool is_rendered(const FrameParameters& parameters) { return is_scene(parameters.source); }
@@ -127,6 +142,7 @@ LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed,
     }
   }
   if (frame.depth) frame.input.depth = depth_codes(*frame.depth);
+  if (!p.mask.empty()) apply_mask(p.mask, frame);
   return frame;
 }
 

@@ -21,7 +21,7 @@ namespace deburr::tb {
 
 struct FrameParameters {
   std::string source = "cylinders";
-  std::string depth, truth;
+  std::string depth, truth, mask;
   std::int32_t width = 640, height = 480;
   std::int32_t truth_samples = 8;
   std::int32_t count = 1;
@@ -35,6 +35,10 @@ void describe(FrameParameters& p, Visitor& v) {
   v.text("depth", p.depth, "file",
          "Depth of an image: 24 bits in R, G, B, or one float channel; grows towards the eye.");
   v.text("truth", p.truth, "file", "Anti-aliased picture that an image is judged by.");
+  v.text("mask", p.mask, "file",
+         "Pixels to leave as they are, where red is 128 or more: bit 0 of their alpha becomes 0, "
+         "that of "
+         "all others 1, and the rule leave becomes masked.");
   v.integer("width", p.width, 1, 8192, "pixel", "Width of a rendered scene.");
   v.integer("height", p.height, 1, 8192, "pixel", "Height of a rendered scene.");
   v.integer("truth_samples", p.truth_samples, 0, 32, "",

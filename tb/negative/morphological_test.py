@@ -444,8 +444,8 @@ def columns_png(height, colours):
     return rgb_png(len(colours), [bytes(colour) for _ in range(height) for colour in colours])
 
 
-class SmaaFaults(Base):
-    """Faults in SMAA's blocks. Scoreboards find them, so the link checkers change nothing but for faults of links."""
+class BlockFaults(Base):
+    """Scoreboards find faults in blocks, so the link checkers change nothing but for faults of links."""
     SMALL = ("--size", "64x48", "--set", "run.watchdog_cycles=2000")
 
     def fault(self, name, *arguments, code=1, says="mismatch", unchecked=None, **options):
@@ -464,6 +464,71 @@ class SmaaFaults(Base):
 
     def picture(self, name, content):
         return ("--in", self.write(name, content), "--set", "run.watchdog_cycles=2000")
+
+
+class SharesFaults(BlockFaults):
+    """Faults in edges from colour and in learned shares, and what a mask does."""
+
+    def noise(self):
+        return self.picture("noise.png", noisy_png(48, 40))
+
+    def test_a_bit_of_each_table(self):
+        for name in ("wrong-share", "wrong-near", "wrong-far", "wrong-sum"):
+            with self.subTest(name):
+                self.fault(name, *self.noise())
+
+    def test_edges_from_luma(self):
+        # Hues of one luma, as nearly as codes allow.
+        hues = self.picture("hues.png", columns_png(8, [(128, 40, 70)] * 6 + [(10, 76, 64)] * 6))
+        self.fault("wrong-colour", *hues)
+
+    def test_faults_of_links(self):
+        for name in ("wrong-class", "wrong-code", "wrong-axis"):
+            with self.subTest(name):
+                self.fault(name, *self.noise(), code=3, unchecked=1, says="changed while it waited")
+        self.fault("drop-line", *self.noise(), code=3, unchecked=4, says="vanished")
+
+    def test_what_is_not_there_cannot_fail(self):
+        for name in ("wrong-share", "wrong-near", "wrong-far", "wrong-sum", "wrong-class", "wrong-code",
+                     "wrong-axis", "drop-line"):
+            self.run_engine(2, *self.SMALL, "--preset", "deburr-line", "--fault", name,
+                            says=[name, "needs", "area = learned"])
+        self.run_engine(2, *self.SMALL, "--preset", "deburr-line", "--fault", "wrong-colour",
+                        says=["wrong-colour", "needs", "edges.source = colour"])
+
+    def test_rules_that_do_not_go_together(self):
+        for rules, says in (({"edges__threshold_mode": "dynamic"}, "dynamic"),
+                            ({"diagonals": "true"}, "learned"), ({"round_corners": "true"}, "learned")):
+            self.run_engine(2, *self.SMALL, *self.rules(**rules), says=says)
+        self.run_engine(2, *self.SMALL, *self.rules(search_steps=4), says="learned search nothing")
+        self.run_engine(2, *self.SMALL, *self.rules(edges__depth_threshold=4), says="source = depth")
+
+    def mask(self, marks):
+        """Red where a pixel is marked, the other codes the other way round."""
+        return self.write("mask.png", rgb_png(48, [bytes((red, 255 - red, 255)) for red in marks]))
+
+    def test_a_mask(self):
+        noise = self.noise()
+        for preset in ("deburr", "deburr-line", "mlaa", "smaa"):
+            for marks, blends in (([255] * 1920, False), ([128] * 1920, False), ([127] * 1920, True),
+                                  ([255 * (i % 48 < 24) for i in range(1920)], True)):
+                self.run_engine(0, *noise, "--preset", preset, "--mask", self.mask(marks))
+                work = self.result()["work"]
+                self.assertEqual(work["blender_blended_pixels"] > 0, blends, preset)
+                self.assertEqual(work["blender_left_pixels"], 0)
+                self.assertEqual(work["edge_pixels_percent"] > 0, blends, preset)
+
+    def test_a_mask_that_does_not_fit(self):
+        noise = self.noise()
+        self.run_engine(2, *noise, "--mask", self.write("small.png", noisy_png(20, 20)),
+                        says=["mask", "20 x 20", "48 x 40"])
+        self.run_engine(5, *noise, "--mask", self.path("missing.png"), says="missing.png")
+        self.run_engine(2, *noise, "--mask", self.mask([0] * 1920), *self.rules(leave="none"),
+                        says=["frame.mask", "leave = none"])
+
+
+class SmaaFaults(BlockFaults):
+    """Faults in SMAA's blocks."""
 
     def test_a_bit_of_the_table_in_each_layout(self):
         for area in ("table_full", "table_merged", "table_minimal"):

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Does deburr come nearer to supersampled truth than mlaa and mlaa-slope, on edges and on
-// silhouettes? On frames and meshes that others made (DEBURR_DATA, or data beside the repository)
-// and on the scenes that every clone has.
+// Does deburr come nearer to supersampled truth than every other preset and than no filter, on
+// edges and on silhouettes, on every frame? On frames and meshes that others made (DEBURR_DATA, or
+// data beside the repository) and on the scenes that every clone has. Where it does not, is that
+// said (docs/morphological_quality.md, "Learned shares")?
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -14,12 +16,13 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "golden/morphological/configuration.h"
 #include "golden/morphological/morphological_golden.h"
-#include "tb/oracle/stand_ins.h"
+#include "tb/training/stand_ins.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/truth.h"
@@ -51,7 +54,7 @@ class Judge {
   }
   Figures judge(const std::string& method, const Image& image) const {
     const Figures f{psnr(image, truth_, edges_),
-                    silhouettes_ ? psnr(image, truth_, *silhouettes_) : 0};
+                    silhouettes_ ? psnr(image, truth_, *silhouettes_) : std::nan("")};
     std::cout << fmt::format("{:<12} {:<17} edges {:.2f} dB, silhouettes {:.2f} dB\n", name_,
                              method, f.edges, f.silhouettes);
     return f;
@@ -63,7 +66,8 @@ class Judge {
   Figures judge(const std::string& method, const spec::morphological::Parameters& rules) const {
     return judge(method, smoothed(frame_, rules));
   }
-  bool has_silhouettes() const { return silhouettes_.has_value(); }
+  const std::string& name() const { return name_; }
+  const Image& frame() const { return frame_; }
 
  private:
   std::string name_;
@@ -91,12 +95,12 @@ std::vector<std::pair<std::string, spec::morphological::Parameters>> smaa_rules(
   return all;
 }
 
-// SMAA's blocks in deburr.
+// SMAA's blocks in deburr-line.
 std::vector<std::pair<std::string, spec::morphological::Parameters>> mixed_rules() {
-  const spec::morphological::Parameters deburr = preset_parameters(Preset::kDeburr);
+  const spec::morphological::Parameters line = preset_parameters(Preset::kDeburrLine);
   std::vector<std::pair<std::string, spec::morphological::Parameters>> all;
   const auto add = [&](const char* name, auto&&... changes) {
-    all.emplace_back(name, deburr);
+    all.emplace_back(name, line);
     (changes(all.back().second), ...);
   };
   using Parameters = spec::morphological::Parameters;
@@ -115,25 +119,44 @@ std::vector<std::pair<std::string, spec::morphological::Parameters>> mixed_rules
   return all;
 }
 
-// Above both other presets by more than `margin` dB, on edges and on silhouettes; if that is much,
-// above SMAA too.
-void expect_deburr_best(const Judge& judge, double margin) {
-  const Figures mlaa = judge.judge(Preset::kMlaa), slope = judge.judge(Preset::kMlaaSlope),
-                deburr = judge.judge(Preset::kDeburr);
-  EXPECT_GT(deburr.edges, mlaa.edges + margin);
-  EXPECT_GT(deburr.edges, slope.edges + margin);
-  for (const auto& [name, rules] : smaa_rules()) {
-    const Figures smaa = judge.judge(name, rules);
-    if (margin < 0.75) continue;
-    EXPECT_GT(deburr.edges, smaa.edges) << name;
-    if (judge.has_silhouettes()) {
-      EXPECT_GT(deburr.silhouettes, smaa.silhouettes) << name;
+// Where another method is ahead of deburr, by how much at most, in dB. The quality page has the
+// same list.
+struct Behind {
+  std::string_view frame, method;
+  double edges, silhouettes;
+};
+constexpr std::array<Behind, 1> kBehind = {{{"vehicle 2", "smaa medium", 0, 0.3}}};
+
+// Deburr is ahead of a method, or that it is not was said. NaN: not judged.
+void expect_ahead(const std::string& frame, const std::string& method, const Figures& deburr,
+                  const Figures& other) {
+  Behind said{frame, method, 0, 0};
+  for (const Behind& b : kBehind)
+    if (b.frame == frame && b.method == method) said = b;
+  const auto expect = [&](double ours, double theirs, double slack, const char* where) {
+    if (!std::isfinite(theirs)) return;
+    EXPECT_GT(ours, theirs - slack) << frame << ", " << method << ", " << where;
+    if (slack > 0) {
+      EXPECT_LT(ours, theirs) << frame << ", " << method << ", " << where << ": better than said";
     }
-  }
+  };
+  expect(deburr.edges, other.edges, said.edges, "edges");
+  expect(deburr.silhouettes, other.silhouettes, said.silhouettes, "silhouettes");
+}
+
+// Above no filter and above every other preset; above mlaa by more than `margin` dB.
+void expect_deburr_best(const Judge& judge, double margin) {
+  const Figures deburr = judge.judge(Preset::kDeburr), mlaa = judge.judge(Preset::kMlaa);
+  EXPECT_GT(deburr.edges, mlaa.edges + margin);
+  const auto ahead = [&](const std::string& method, const Figures& other) {
+    expect_ahead(judge.name(), method, deburr, other);
+  };
+  ahead("none", judge.judge("none", judge.frame()));
+  ahead("mlaa", mlaa);
+  ahead("mlaa-slope", judge.judge(Preset::kMlaaSlope));
+  ahead("deburr-line", judge.judge(Preset::kDeburrLine));
+  for (const auto& [name, rules] : smaa_rules()) ahead(name, judge.judge(name, rules));
   for (const auto& [name, rules] : mixed_rules()) judge.judge(name, rules);
-  if (!judge.has_silhouettes()) return;
-  EXPECT_GT(deburr.silhouettes, mlaa.silhouettes + margin);
-  EXPECT_GT(deburr.silhouettes, slope.silhouettes + margin);
 }
 
 std::filesystem::path data(const char* name) {
@@ -179,7 +202,6 @@ TEST(MorphologicalFrames, DeburrIsBestOnTrackFromOtherSides) {
     options.camera->fov_y = view.fov;
     const LitFrames lit = render_lit_frames(import_scene(mesh, options), 960, 540, 8);
     const Judge judge("track", lit.noaa, lit.truth, lit.depth);
-    judge.judge("none", lit.noaa);
     expect_deburr_best(judge, 0.2);
   }
 }
@@ -202,7 +224,6 @@ class RenderedFrames : public testing::TestWithParam<Rendered> {
     lit_ = render_lit_frames(scene, r.width, r.height, 8);
     judge_.emplace(std::filesystem::path(r.source).stem().string(), lit_.noaa, lit_.truth,
                    lit_.depth);
-    judge_->judge("none", lit_.noaa);
     judge_->judge("MSAA 4x", render_msaa4(scene, r.width, r.height));
   }
   LitFrames lit_;
@@ -218,7 +239,7 @@ std::string name_of(const testing::TestParamInfo<Rendered>& info) {
   return name + "_" + std::to_string(info.param.width);
 }
 
-// Every clone has these. The threshold and the trim were chosen on frames like them.
+// Every clone has these. The shares were learned on them too.
 INSTANTIATE_TEST_SUITE_P(
     Scenes, DeburrIsBest,
     testing::Values(Rendered{"cylinders", 640, 480, 3}, Rendered{"cylinders", 512, 512, 3},
@@ -227,7 +248,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Rendered{"quad", 512, 512, 0}),
     name_of);
 
-// Meshes that others made, from the camera that frames them.
+// Meshes that others made, from the camera that frames them. The shares were learned on them too.
 INSTANTIATE_TEST_SUITE_P(
     Meshes, DeburrIsBest,
     testing::Values(Rendered{"meshes/teapot.obj", 512, 512, 0.2},
@@ -250,7 +271,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Rendered{"kenney/racing/models/decoration-forest.glb", 512, 512, 1}),
     name_of);
 
-// Not looked at before the rules were settled.
+// Not looked at before the rules were settled, and never learned from.
 INSTANTIATE_TEST_SUITE_P(
     HeldOut, DeburrIsBest,
     testing::Values(Rendered{"kenney/city/models/building-small-b.glb", 512, 512, 1},
@@ -290,9 +311,6 @@ TEST_P(StandIns, DeburrIsBestToo) {
   const LitFrames lit = render_lit_frames(scene, 512, 512, 8);
   const Judge judge(fmt::format("{} {}", GetParam().kind, GetParam().seed), lit.noaa, lit.truth,
                     lit.depth);
-  const Figures none = judge.judge("none", lit.noaa), deburr = judge.judge(Preset::kDeburr);
-  EXPECT_GT(deburr.edges, none.edges + 1.5);
-  EXPECT_GT(deburr.silhouettes, none.silhouettes + 4);
   expect_deburr_best(judge, 0.2);
 }
 INSTANTIATE_TEST_SUITE_P(
@@ -302,28 +320,36 @@ INSTANTIATE_TEST_SUITE_P(
                     StandIn{"forest", 1}, StandIn{"forest", 2}, StandIn{"forest", 3}),
     [](const auto& p) { return fmt::format("{}_{}", p.param.kind, p.param.seed); });
 
-// Where nearly all edges are texture, blending them gains nothing, and deburr, which sees more of
-// them, is behind mlaa: by how much at most, docs/results.md says.
-class TextureOnly : public RenderedFrames {};
-TEST_P(TextureOnly, CostsNoMoreThanIsSaid) {
-  const Figures mlaa = judge_->judge(Preset::kMlaa), deburr = judge_->judge(Preset::kDeburr);
-  EXPECT_GT(deburr.edges, mlaa.edges - GetParam().margin);
-  EXPECT_LT(deburr.edges, mlaa.edges + 0.1) << "better than said: say so";
-  if (std::isfinite(mlaa.silhouettes)) {
-    EXPECT_GT(deburr.silhouettes, mlaa.silhouettes - GetParam().margin);
-  }
-}
-INSTANTIATE_TEST_SUITE_P(Scenes, TextureOnly,
-                         testing::Values(Rendered{"tunnel", 512, 512, 0.6},
-                                         Rendered{"plane", 512, 512, 0.6},
-                                         Rendered{"meshes/terrain_open.obj", 512, 512, 0.6}),
+// Nearly all edges are texture, which every analytic preset blends to its loss.
+INSTANTIATE_TEST_SUITE_P(Texture, DeburrIsBest,
+                         testing::Values(Rendered{"tunnel", 512, 512, 1},
+                                         Rendered{"plane", 512, 512, 4},
+                                         Rendered{"meshes/terrain_open.obj", 512, 512, 2}),
                          name_of);
+
+// What is asked of shares that were learned without these frames.
+TEST(MorphologicalFrames, LearnedSharesKeepTheirFiguresOutOfSample) {
+  if (!std::filesystem::exists(data("frames/track_720p_noaa.png")))
+    GTEST_SKIP() << "no " << data("frames/track_720p_noaa.png")
+                 << ": set DEBURR_DATA to the folder that holds frames/";
+  const Image small = read_image(data("frames/track_720p_noaa.png")),
+              small_truth = read_image(data("frames/track_720p_ssaa256.png"));
+  const Judge track("track 720p", small, small_truth,
+                    read_depth(data("frames/track_720p_depth24.png")));
+  const Figures figures = track.judge(Preset::kDeburr);
+  EXPECT_GT(figures.edges, 30.55);
+  EXPECT_GT(figures.silhouettes, 27.95);
+  const Image large = read_image(data("frames/track_1080p_noaa.png")),
+              large_truth = read_image(data("frames/track_1080p_ssaa64.png"));
+  EXPECT_GT(Judge("track 1080p", large, large_truth, std::nullopt).judge(Preset::kDeburr).edges,
+            31.5);
+}
 
 // The check can fail: without the line fit and its edges there is nothing to be better by.
 TEST(MorphologicalFrames, AWorseFilterIsCaught) {
   const LitFrames lit = render_lit_frames(make_scene("cylinders"), 320, 240, 8);
   const Judge judge("cylinders", lit.noaa, lit.truth, lit.depth);
-  spec::morphological::Parameters worse = preset_parameters(Preset::kDeburr);
+  spec::morphological::Parameters worse = preset_parameters(Preset::kDeburrLine);
   worse.predictor = spec::morphological::Predictor::kNone;  // the planted fault
   worse.threshold = preset_parameters(Preset::kMlaa).threshold;
   EXPECT_LT(judge.judge("worse", smoothed(lit.noaa, worse)).edges,

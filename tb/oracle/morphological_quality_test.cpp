@@ -38,7 +38,7 @@ std::map<std::string, FanFigures, std::less<>> table(const char* title, const Fa
 TEST(MorphologicalQuality, NoRowIsWorseThanTheContracts) {
   using tb::morphological::asked_of_ours;
   const auto figures = table("u in [0.05, 0.95]", {});
-  for (const char* ours : {"deburr", "fit N = 16"})
+  for (const char* ours : {"deburr-line", "deburr", "fit N = 16"})
     EXPECT_THAT(exceeded(asked_of_ours(), figures.find(ours)->second), testing::IsEmpty()) << ours;
   // Four steps a side: the jump is 4.0 where the contract's program found 3.7.
   EXPECT_THAT(exceeded(asked_of_ours(), figures.at("fit N = 4")), testing::ElementsAre("jump"));
@@ -58,7 +58,7 @@ TEST(MorphologicalQuality, TheMeasureIsTheContracts) {
   }
   // Lines near 1 / n are included: the fit has nothing to hold on to there. It stays better than
   // chord and plain runs in every class; with N = 16 it keeps what the contract asks even so.
-  const FanFigures &deburr = figures.at("deburr"), &chord = figures.at("chord N = 4"),
+  const FanFigures &deburr = figures.at("deburr-line"), &chord = figures.at("chord N = 4"),
                    &mlaa = figures.at("mlaa");
   for (std::size_t c = 0; c < deburr.by_class.size(); ++c) {
     EXPECT_LT(deburr.by_class[c], chord.by_class[c]);
@@ -96,7 +96,8 @@ TEST(MorphologicalQuality, CurvesLoseNothingByTheFit) {
   std::cout << "radius =      ";
   for (const int radius : tb::morphological::kDiscRadii) std::cout << "     " << radius;
   std::cout << "   all\n";
-  for (const char* name : {"mlaa", "mlaa-slope", "+ N = 8", "+ trim"}) {
+  for (const char* name : {"mlaa", "mlaa-slope", "+ N = 8", "+ trim", "+ T = 0.03 = deburr-line",
+                           "+ learned shares = deburr"}) {
     figures[name] = measure_discs(smoothing_of(rule_row(name)));
     std::cout << to_text(name, figures[name]) << '\n';
   }
@@ -104,6 +105,8 @@ TEST(MorphologicalQuality, CurvesLoseNothingByTheFit) {
                     &untrimmed = figures["+ N = 8"], &deburr = figures["+ trim"];
   EXPECT_LT(deburr.all, mlaa.all);
   EXPECT_LT(deburr.all, untrimmed.all);
+  // Learned shares leave curves no worse.
+  EXPECT_LT(figures["+ learned shares = deburr"].all, figures["+ T = 0.03 = deburr-line"].all);
   for (std::size_t i = 0; i < deburr.by_radius.size(); ++i) {
     EXPECT_LT(deburr.by_radius[i], paper.by_radius[i]);
     EXPECT_LT(deburr.by_radius[i], 1.08 * mlaa.by_radius[i]);  // small discs: 6 %

@@ -125,17 +125,18 @@ std::vector<FanRow> fan_rows() {
     add(fmt::format("chord N = {}", n), spec::morphological::Preset::kMlaaSlope, n);
   }
   for (const int n : {2, 4}) {
-    add(fmt::format("fit N = {}", n), spec::morphological::Preset::kDeburr, n);
+    add(fmt::format("fit N = {}", n), spec::morphological::Preset::kDeburrLine, n);
   }
+  add("deburr-line", spec::morphological::Preset::kDeburrLine, 8);
   add("deburr", spec::morphological::Preset::kDeburr, 8);
-  add("fit N = 16", spec::morphological::Preset::kDeburr, 16);
+  add("fit N = 16", spec::morphological::Preset::kDeburrLine, 16);
   return rows;
 }
 
 std::vector<FanRow> rule_rows() {
   using golden::morphological::preset_parameters;
   using P = spec::morphological::Parameters;
-  const P deburr = preset_parameters(spec::morphological::Preset::kDeburr);
+  const P line = preset_parameters(spec::morphological::Preset::kDeburrLine);
   std::vector<FanRow> rows;
   const auto add = [&](const char* name, const P& p) { rows.push_back({name, true, p}); };
   P p = preset_parameters(spec::morphological::Preset::kMlaa);
@@ -148,26 +149,31 @@ std::vector<FanRow> rule_rows() {
   add("+ contiguous", p);
   p.safe = true;
   add("+ safe", p);
-  p.steps = deburr.steps;
+  p.steps = line.steps;
   add("+ N = 8", p);
   p.trim = true;
   add("+ trim", p);
-  p.local_contrast = deburr.local_contrast;
+  p.local_contrast = line.local_contrast;
   add("+ symmetric contrast", p);
+  p.threshold = line.threshold;
+  add("+ T = 0.03 = deburr-line", p);
+  const P deburr = preset_parameters(spec::morphological::Preset::kDeburr);
+  p.edge_source = deburr.edge_source;
   p.threshold = deburr.threshold;
-  add("+ T = 0.03 = deburr", p);
+  add("+ edges of colour", p);
+  add("+ learned shares = deburr", deburr);
   for (const auto preset :
        {spec::morphological::Preset::kMlaa, spec::morphological::Preset::kMlaaSlope}) {
     p = preset_parameters(preset);
-    p.threshold = deburr.threshold;
-    p.local_contrast = deburr.local_contrast;
-    add(preset == spec::morphological::Preset::kMlaa ? "mlaa, deburr's edges"
-                                                     : "mlaa-slope, deburr's edges",
+    p.threshold = line.threshold;
+    p.local_contrast = line.local_contrast;
+    add(preset == spec::morphological::Preset::kMlaa ? "mlaa, deburr-line's edges"
+                                                     : "mlaa-slope, deburr-line's edges",
         p);
   }
-  p = deburr;
+  p = line;
   p.steps = spec::morphological::kMaxSteps;
-  add("deburr, N = 16", p);
+  add("deburr-line, N = 16", p);
   return rows;
 }
 

@@ -51,13 +51,13 @@ struct FanRow {
   bool smoothed = true;
   spec::morphological::Parameters parameters;
 };
-// none, mlaa, chord N = 1, 2, 4, 8, fit N = 2, 4, deburr (N = 8), fit N = 16; linear_light off,
-// reach_columns 256.
+// none, mlaa, chord N = 1, 2, 4, 8, fit N = 2, 4, deburr-line (N = 8), deburr, fit N = 16;
+// linear_light off, reach_columns 256.
 std::vector<FanRow> fan_rows();
 Smoothing smoothing_of(const FanRow& row);
 
 // What each rule of `deburr` adds: from the paper's rules with a fitted line to the preset itself,
-// one rule a row, then the other two presets with deburr's edges, and deburr with N = 16.
+// one rule a row, then mlaa and mlaa-slope with deburr-line's edges, and deburr-line with N = 16.
 // linear_light as the presets have it.
 std::vector<FanRow> rule_rows();
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-foreach(suite system stress coverage records)
+foreach(suite system stress coverage records shares)
   if(suite STREQUAL stress)
     set(label stress)
   elseif(suite STREQUAL records)

@@ -67,7 +67,7 @@ MorphologicalInput disc(Random& random) {
 }
 
 spec::morphological::Parameters wide() {
-  spec::morphological::Parameters p = preset(Preset::kDeburr);
+  spec::morphological::Parameters p = preset(Preset::kDeburrLine);
   p.window_rows = 258;
   p.line_pixels = 512;
   return p;
@@ -277,7 +277,7 @@ TEST(LeaveCoverage, EveryBinIsHit) {
   using spec::morphological::Leave;
   Coverage coverage;
   for (const Leave leave : {Leave::kMarked, Leave::kBeside, Leave::kHalf}) {
-    spec::morphological::Parameters p = preset(Preset::kDeburr);
+    spec::morphological::Parameters p = preset(Preset::kDeburrLine);
     p.line_pixels = 512;
     p.leave = leave;
     add(coverage, leave_bins, met(p, leave_bins, marked_frames()));

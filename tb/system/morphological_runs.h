@@ -21,8 +21,8 @@ namespace deburr::tb::morphological_system {
 using spec::morphological::Parameters;
 using spec::morphological::Preset;
 
-inline constexpr Preset kBuilt[] = {Preset::kMlaa, Preset::kMlaaSlope, Preset::kSmaa,
-                                    Preset::kSmaaDynamic, Preset::kDeburr};
+inline constexpr Preset kBuilt[] = {Preset::kMlaa,        Preset::kMlaaSlope,  Preset::kSmaa,
+                                    Preset::kSmaaDynamic, Preset::kDeburrLine, Preset::kDeburr};
 
 inline Rgba8 grey(int code) {
   const auto c = static_cast<std::uint8_t>(code);

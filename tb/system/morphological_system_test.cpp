@@ -108,6 +108,7 @@ TEST_P(DataFrame, IsIdenticalToGolden) {
 INSTANTIATE_TEST_SUITE_P(Morphological, DataFrame,
                          testing::Values(std::tuple{Preset::kMlaa, "track_720p_noaa.png"},
                                          std::tuple{Preset::kMlaaSlope, "track_720p_noaa.png"},
+                                         std::tuple{Preset::kDeburrLine, "track_720p_noaa.png"},
                                          std::tuple{Preset::kDeburr, "track_720p_noaa.png"},
                                          std::tuple{Preset::kDeburr, "track_1080p_noaa.png"}),
                          name_of<Named>);
@@ -193,12 +194,14 @@ TEST_P(EveryRule, IsIdenticalToGolden) {
   MorphologicalRunOptions options;
   Parameters& p = options.morphological;
   constexpr spec::morphological::EdgeSource kSources[] = {
-      spec::morphological::EdgeSource::kLuma, spec::morphological::EdgeSource::kDepth,
+      spec::morphological::EdgeSource::kLuma,       spec::morphological::EdgeSource::kDepth,
       spec::morphological::EdgeSource::kPredicated, spec::morphological::EdgeSource::kLuma,
-      spec::morphological::EdgeSource::kLuma};
+      spec::morphological::EdgeSource::kLuma,       spec::morphological::EdgeSource::kColour};
   p.edge_source = kSources[edges];
-  p.threshold_mode = edges >= 3 ? spec::morphological::ThresholdMode::kDynamic
-                                : spec::morphological::ThresholdMode::kFixed;
+  p.area = (edges + line) % 2 != 0 ? spec::morphological::AreaSource::kLearned
+                                   : spec::morphological::AreaSource::kAnalytic;
+  p.threshold_mode = edges == 3 || edges == 4 ? spec::morphological::ThresholdMode::kDynamic
+                                              : spec::morphological::ThresholdMode::kFixed;
   p.dynamic_luma = edges == 3 ? spec::morphological::DynamicLuma::kCurrent
                               : spec::morphological::DynamicLuma::kMax;
   p.local_contrast = static_cast<spec::morphological::LocalContrast>((edges + line) % 3);
@@ -217,7 +220,7 @@ TEST_P(EveryRule, IsIdenticalToGolden) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Morphological, EveryRule,
-                         testing::Combine(testing::Range(0, 5), testing::Range(0, 6)));
+                         testing::Combine(testing::Range(0, 6), testing::Range(0, 6)));
 
 // ---- SMAA: qualities, and its blocks mixed with those of other presets
 // ---------------------------
@@ -256,14 +259,14 @@ TEST_P(EveryMix, IsIdenticalToGolden) {
   };
   MorphologicalRunOptions options;
   Parameters& p = options.morphological;
-  p = preset(kBuilt[below(5)], static_cast<spec::morphological::Lanes>(below(3)));
+  p = preset(kBuilt[below(6)], static_cast<spec::morphological::Lanes>(below(3)));
   p.threshold_mode = static_cast<spec::morphological::ThresholdMode>(below(2));
   p.dynamic_luma = static_cast<spec::morphological::DynamicLuma>(below(4));
   p.floor = 1 + below(900);
   p.local_contrast = static_cast<spec::morphological::LocalContrast>(below(4));
   p.ends = static_cast<spec::morphological::Ends>(below(2));
   p.predictor = static_cast<spec::morphological::Predictor>(below(3));
-  p.area = static_cast<spec::morphological::AreaSource>(below(4));
+  p.area = static_cast<spec::morphological::AreaSource>(below(5));
   p.search_steps = 1 + below(below(2) ? 112 : 6);
   p.diagonals = below(3) != 0;
   p.diagonal_steps = 1 + below(16);
@@ -277,7 +280,10 @@ TEST_P(EveryMix, IsIdenticalToGolden) {
   p.reach_columns = 4 + below(80);
   p.line_pixels = 400;
   p.storage = static_cast<spec::morphological::Storage>(below(2));
-  p.leave = static_cast<spec::morphological::Leave>(below(4));
+  p.leave = static_cast<spec::morphological::Leave>(below(5));
+  if (p.edge_source == spec::morphological::EdgeSource::kColour)
+    p.threshold_mode = spec::morphological::ThresholdMode::kFixed;
+  if (p.area == spec::morphological::AreaSource::kLearned) p.diagonals = p.round_corners = false;
   options.records = true;
   const auto seed = static_cast<std::uint64_t>(GetParam());
   expect_identical({blocks(97, 80, seed + 1), fans(13, seed), noise(60, 50, seed),
@@ -328,7 +334,8 @@ INSTANTIATE_TEST_SUITE_P(Morphological, MarkedFrames,
                                                           spec::morphological::Lanes::kFour),
                                           testing::Values(spec::morphological::Leave::kMarked,
                                                           spec::morphological::Leave::kBeside,
-                                                          spec::morphological::Leave::kHalf)),
+                                                          spec::morphological::Leave::kHalf,
+                                                          spec::morphological::Leave::kMasked)),
                          name_of<Marks>);
 
 TEST(Morphological, AddressesBeginAtPixelBase) {
@@ -374,10 +381,13 @@ TEST_P(LateRecords, SeeTheRowsThatTheyWereFoundIn) {
 }
 INSTANTIATE_TEST_SUITE_P(
     Morphological, LateRecords,
-    testing::Values(Late{"mlaa_slope", Preset::kMlaaSlope, false, spec::morphological::Lanes::kOne},
-                    Late{"contiguous", Preset::kMlaaSlope, true, spec::morphological::Lanes::kOne},
-                    Late{"deburr", Preset::kDeburr, true, spec::morphological::Lanes::kOne},
-                    Late{"two_lanes", Preset::kMlaaSlope, true, spec::morphological::Lanes::kTwo}),
+    testing::Values(
+        Late{"mlaa_slope", Preset::kMlaaSlope, false, spec::morphological::Lanes::kOne},
+        Late{"contiguous", Preset::kMlaaSlope, true, spec::morphological::Lanes::kOne},
+        Late{"deburr_line", Preset::kDeburrLine, true, spec::morphological::Lanes::kOne},
+        Late{"deburr", Preset::kDeburr, true, spec::morphological::Lanes::kOne},
+        Late{"deburr_two_lanes", Preset::kDeburr, false, spec::morphological::Lanes::kTwo},
+        Late{"two_lanes", Preset::kMlaaSlope, true, spec::morphological::Lanes::kTwo}),
     [](const auto& late) { return late.param.name; });
 
 // ---- throughput ---------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 #include "rtl_model/morphological/blend/area_unit.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <string>
 
@@ -12,6 +13,7 @@ constexpr std::uint32_t kSpanBits = 12, kShareBits = 8, kCoordinateBits = 13, kL
 // t S4.24 and growth U2.24, inverse, span, two sides.
 constexpr std::uint32_t kWalkBits = 29 + 26 + 24 + kSpanBits + 4;
 constexpr std::uint32_t kCornerBits = 4 + 2;  // far bits, part
+constexpr std::uint32_t kLearnedBits = 1;     // has no line: part, shape, classes in its place
 
 // Is slot a before slot b? Low bits of both, at most 2^14 apart.
 bool before(std::uint32_t a, std::uint32_t b) { return (a - b) & ((kSlotMask + 1) / 2); }
@@ -48,8 +50,13 @@ MemoryShape marks_shape(std::size_t words, std::size_t columns, std::size_t bank
           .columns = columns};
 }
 
-MemoryShape records_shape(MemoryShape shape, bool corners) {
-  shape.word_bits = kWalkBits + (corners ? kCornerBits : 0);
+std::uint32_t record_bits(const spec::morphological::Parameters& p) {
+  return kWalkBits + (p.round_corners ? kCornerBits : 0) +
+         (p.area == spec::morphological::AreaSource::kLearned ? kLearnedBits : 0);
+}
+
+MemoryShape records_shape(MemoryShape shape, std::uint32_t bits) {
+  shape.word_bits = bits;
   shape.read_ports = shape.banks;
   shape.span = 1;
   return shape;
@@ -58,7 +65,7 @@ MemoryShape records_shape(MemoryShape shape, bool corners) {
 }  // namespace
 
 AreaUnit::AxisRecords::AxisRecords(const std::string& axis, const MemoryShape& shape,
-                                   std::uint32_t mark_bits, bool corners)
+                                   std::uint32_t mark_bits, std::uint32_t record_bits)
     : banks(shape.banks),
       marks((axis + "_marks").c_str(),
             [&] {
@@ -66,7 +73,7 @@ AreaUnit::AxisRecords::AxisRecords(const std::string& axis, const MemoryShape& s
               marked.word_bits = mark_bits;
               return marked;
             }()),
-      records((axis + "_records").c_str(), records_shape(shape, corners)),
+      records((axis + "_records").c_str(), records_shape(shape, record_bits)),
       mark(shape.words + 2 * kLanes) {
   for (std::size_t bank = 0; bank < banks; ++bank) {
     const std::string user = "bank " + std::to_string(bank);
@@ -90,7 +97,8 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
       crossings_(p.ends == spec::morphological::Ends::kCrossings),
       corners_(p.round_corners),
       smaa_(crossings_ || corners_ || p.diagonals ||
-            p.area != spec::morphological::AreaSource::kAnalytic),
+            (p.area != spec::morphological::AreaSource::kAnalytic &&
+             p.area != spec::morphological::AreaSource::kLearned)),
       pair_bits_(crossings_ ? 0 : 1),
       entry_bits_(crossings_ ? 1 : 0),
       pairs_(columns_ >> pair_bits_),
@@ -108,15 +116,18 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
                        crossings_ ? "a horizontal record a column, two rows"
                                   : "a horizontal record a pair of columns, two rows"),
            // Row, odd column, length.
-           kCoordinateBits + 1 + kLengthBits, corners_),
+           kCoordinateBits + 1 + kLengthBits, record_bits(p)),
       column_(
           "column",
           marks_shape(columns_ << entry_bits_, static_cast<std::size_t>(p.line_pixels),
                       lanes_ << entry_bits_,
                       crossings_ ? "two vertical records a column" : "a vertical record a column"),
           // Start, length up to R.
-          kCoordinateBits + 8, corners_) {
-  if (p.area != spec::morphological::AreaSource::kAnalytic) table_.emplace(p.area, store.lanes());
+          kCoordinateBits + 8, record_bits(p)) {
+  if (p.area == spec::morphological::AreaSource::kLearned)
+    shares_.emplace(store.lanes());
+  else if (p.area != spec::morphological::AreaSource::kAnalytic)
+    table_.emplace(p.area, store.lanes());
   if (!p.diagonals) return;
   diagonals_in.emplace("diagonals_in");
   diagonals_ = declare_stall("diagonals", "the diagonals of a beat have not come");
@@ -195,11 +206,14 @@ void AreaUnit::store(Cycle cycle, AxisRecords& side, const LineToken& token) {
   walk.growth = static_cast<std::uint32_t>(line.scale) * line.slope;
   walk.inverse = line.inverse;
   if (store_.rules().table) set_ends(walk);
-  if (table_ || corners_) {
+  if (table_ || corners_ || line.learned) {
     walk.shape = line.run.shape;
     walk.far = line.run.far;
     walk.part = line.run.part;
   }
+  walk.learned = line.learned;
+  walk.start_class = line.start_class;
+  walk.end_class = line.end_class;
   walk.span = line.span;
   walk.before = line.before;
   walk.after = line.after;
@@ -214,6 +228,9 @@ void AreaUnit::address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat
   beat.slot = token.slot;
   beat.left = token.left;
   beat.top = token.top;
+  beat.next_left = token.next_left;
+  beat.next_top = token.next_top;
+  beat.asks = 0;
   beat.any = false;
   beat.weights = {};
   const std::int32_t row = evaluated_row(token.slot);
@@ -235,7 +252,7 @@ void AreaUnit::address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat
 }
 
 // Stage 2.
-template <bool kSmaa>
+template <bool kSmaa, bool kLearned>
 void AreaUnit::match(Cycle cycle, Beat& beat) {
   const Slot& slot = beat.slot;
   if (slot.beat == 0) {
@@ -249,7 +266,11 @@ void AreaUnit::match(Cycle cycle, Beat& beat) {
   const std::int32_t row = evaluated_row(slot);
   row_.read_marks.check(cycle, beat.pair);
   column_.read_marks.check(cycle, std::size_t{beat.x} << (kSmaa ? entry_bits_ : 0));
-  if constexpr (kSmaa) return smaa_match(cycle, beat, row);
+  if constexpr (kSmaa) {
+    smaa_match(cycle, beat, row);
+    if (kLearned && store_.rules().learned) beat.any |= (beat.next_left | beat.next_top) != 0;
+    return;
+  }
   std::uint8_t hand = 1, any = 0;
   for (std::size_t i = 0; i < beat.count; ++i) {
     const std::size_t x = beat.x + i;
@@ -263,16 +284,19 @@ void AreaUnit::match(Cycle cycle, Beat& beat) {
     Edge& along = beat.horizontal[i];
     along.k = static_cast<std::uint16_t>(x - hand_.start);
     along.from = along.k < hand_.length ? hand : 0;
+    if (kLearned) along.after = static_cast<std::uint16_t>(hand_.length - 1 - along.k);
 
     const Mark& column = beat.column_mark[i];
     Edge& down = beat.vertical[i];
     // U13: a line may have been stored before its first row.
     down.k = static_cast<std::uint16_t>((row - column.start) & 0x1FFF);
     down.from = down.k < column.length;
+    if (kLearned) down.after = static_cast<std::uint16_t>(column.length - 1 - down.k);
     if (down.from) column_.read[i].read(cycle, x);
     any |= along.from | down.from;
   }
   beat.any = any != 0;
+  if (kLearned && store_.rules().learned) beat.any |= (beat.next_left | beat.next_top) != 0;
 }
 
 void AreaUnit::clear_marks(Cycle cycle, const Slot& slot) {
@@ -291,6 +315,7 @@ void AreaUnit::clear_marks(Cycle cycle, const Slot& slot) {
 }
 
 // Stage 3, and what follows from it.
+template <bool kLearned>
 void AreaUnit::evaluate(Cycle cycle, Beat& beat) {
   const std::int32_t row = evaluated_row(beat.slot);
   for (std::size_t i = 0; i < beat.count; ++i) {
@@ -298,14 +323,76 @@ void AreaUnit::evaluate(Cycle cycle, Beat& beat) {
     if (along.from) {
       if (along.from >= 2 && along.k == 0)
         hand_walk_ = row_.read[along.from - 2u].at(cycle, pair_of(row, beat.x + i));
-      beat.weights[i].top = area(hand_walk_, along.k);
+      if (kLearned && hand_walk_.learned)
+        ask(beat, i, false, hand_walk_, along);
+      else
+        beat.weights[i].top = area(hand_walk_, along.k);
       ++horizontal_edges;
     }
     if (down.from) {
-      beat.weights[i].left = area(column_.read[i].at(cycle, beat.x + i), down.k);
+      const Walk& walk = column_.read[i].at(cycle, beat.x + i);
+      if (kLearned && walk.learned)
+        ask(beat, i, true, walk, down);
+      else
+        beat.weights[i].left = area(walk, down.k);
       ++vertical_edges;
     }
   }
+  if (kLearned && store_.rules().learned) ask_gaps(beat);
+}
+
+// ---- Learned shares -----------------------------------------------------------------------------
+
+// Stage 4: by the ends of its record.
+void AreaUnit::ask(Beat& beat, std::size_t lane, bool vertical, const Walk& walk,
+                   const Edge& edge) {
+  const std::size_t reader = 2 * lane + vertical;
+  beat.asks = static_cast<std::uint8_t>(beat.asks | 1u << reader);
+  beat.query[reader] =
+      SharesRom::ask({walk.shape, walk.start_class, walk.end_class, walk.part}, edge.k, edge.after);
+}
+
+// The edges that no record covers.
+void AreaUnit::ask_gaps(Beat& beat) {
+  for (std::size_t i = 0; i < beat.count; ++i)
+    for (const bool vertical : {false, true}) {
+      const unsigned edges = vertical ? beat.next_left : beat.next_top;
+      if ((edges >> i & 1) == 0 || (vertical ? beat.vertical : beat.horizontal)[i].from != 0)
+        continue;
+      const std::size_t reader = 2 * i + vertical;
+      beat.asks = static_cast<std::uint8_t>(beat.asks | 1u << reader);
+      beat.query[reader] = SharesRom::ask_gap();
+    }
+}
+
+template <class Visit>
+void AreaUnit::for_each_query(Beat& beat, Visit&& visit) {
+  for (unsigned left = beat.asks; left != 0; left &= left - 1) {
+    const auto reader = static_cast<std::size_t>(std::countr_zero(left));
+    visit(reader, beat.query[reader]);
+  }
+}
+
+// Stages 7 to 4.
+void AreaUnit::learn(Cycle cycle) {
+  if (Beat* beat = pipe_.at(7); beat && beat->asks)
+    for_each_query(*beat, [&](std::size_t reader, const SharesRom::Query& query) {
+      const SharesRom::Shares shares = shares_->shares(cycle, reader, query);
+      WeightWord& word = beat->weights[reader / 2];
+      (reader % 2 ? word.left : word.top) = {shares.first, shares.second, 0};
+    });
+  if (Beat* beat = pipe_.at(6); beat && beat->asks)
+    for_each_query(*beat, [&](std::size_t reader, SharesRom::Query& query) {
+      shares_->address_shares(cycle, reader, query);
+    });
+  if (Beat* beat = pipe_.at(5); beat && beat->asks)
+    for_each_query(*beat, [&](std::size_t reader, SharesRom::Query& query) {
+      shares_->add(cycle, reader, query);
+    });
+  if (Beat* beat = pipe_.at(4); beat && beat->asks)
+    for_each_query(*beat, [&](std::size_t reader, const SharesRom::Query& query) {
+      shares_->address(cycle, reader, query);
+    });
 }
 
 // ---- With crossings, corners or a table ---------------------------------------------------------
@@ -343,6 +430,7 @@ void AreaUnit::smaa_match(Cycle cycle, Beat& beat, std::int32_t row) {
     along.k = static_cast<std::uint16_t>(x - hand_.start);
     along.from = along.k < hand_.length ? hand : 0;
     along.near = near(along, hand_);
+    along.after = static_cast<std::uint16_t>(hand_.length - 1 - along.k);
 
     Edge& down = beat.vertical[i];
     down.from = 0;
@@ -355,6 +443,7 @@ void AreaUnit::smaa_match(Cycle cycle, Beat& beat, std::int32_t row) {
       down.k = k;
       down.from = static_cast<std::uint8_t>(2 + entries * i + entry);
       down.near = near(down, column);
+      down.after = static_cast<std::uint16_t>(column.length - 1 - k);
       column_.read[entries * i + entry].read(cycle, entries * x + entry);
     }
     any |= along.from | down.from;
@@ -381,10 +470,12 @@ void AreaUnit::smaa_evaluate(Cycle cycle, Beat& beat) {
       ++vertical_edges;
     }
   }
+  if (shares_ && store_.rules().learned) ask_gaps(beat);
 }
 
 void AreaUnit::smaa_edge(Beat& beat, std::size_t lane, bool vertical, const Walk& walk,
                          const Edge& edge) {
+  if (walk.learned) return ask(beat, lane, vertical, walk, edge);
   const std::uint8_t near = walk.part == spec::morphological::RunPart::kHead   ? 0
                             : walk.part == spec::morphological::RunPart::kTail ? 1
                                                                                : edge.near;
@@ -525,7 +616,7 @@ void AreaUnit::share(Cycle cycle, const Beat& beat) {
   }
 }
 
-template <bool kSmaa>
+template <bool kSmaa, bool kLearned>
 Activity AreaUnit::work(Cycle cycle) {
   bool did = false, blocked = false, waits = false;
   const bool arrives = slots_in.can_pop(cycle);
@@ -543,6 +634,7 @@ Activity AreaUnit::work(Cycle cycle) {
         address_weights(cycle, *beat);
       }
       // Stages 4 to 7 are of the arithmetic that stage 3 begins.
+      if (kLearned) learn(cycle);
       if (kSmaa && table_) {
         if (Beat* beat = pipe_.at(6); beat && beat->any) interpolate(cycle, *beat);
         if (Beat* beat = pipe_.at(5); beat && beat->any) address_entries(cycle, *beat);
@@ -552,9 +644,9 @@ Activity AreaUnit::work(Cycle cycle) {
         if constexpr (kSmaa)
           smaa_evaluate(cycle, *beat);
         else
-          evaluate(cycle, *beat);
+          evaluate<kLearned>(cycle, *beat);
       }
-      if (Beat* beat = pipe_.at(2)) match<kSmaa>(cycle, *beat);
+      if (Beat* beat = pipe_.at(2)) match<kSmaa, kLearned>(cycle, *beat);
       if (arrives) address_marks<kSmaa>(cycle, slots_in.take(cycle), pipe_.enter());
     }
   }
@@ -573,7 +665,10 @@ Activity AreaUnit::work(Cycle cycle) {
   return blocked ? kStalledDownstream : waits ? *diagonals_ : kIdle;
 }
 
-Activity AreaUnit::tick(Cycle cycle) { return smaa_ ? work<true>(cycle) : work<false>(cycle); }
+Activity AreaUnit::tick(Cycle cycle) {
+  if (shares_) return smaa_ ? work<true, true>(cycle) : work<false, true>(cycle);
+  return smaa_ ? work<true, false>(cycle) : work<false, false>(cycle);
+}
 
 void AreaUnit::reset() {
   pipe_.reset();

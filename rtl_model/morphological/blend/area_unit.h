@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The area that a record's line cuts off at each of its edges, as shares of the pixels across: a
 // trapezoid, or two triangles where the line crosses the edge; or SMAA's table of areas, by the
-// distances to both ends. Shares at sharp corners are reduced; a diagonal gives its own instead.
+// distances to both ends; or learned shares, of an edge whose record has no line. Shares at sharp
+// corners are reduced; a diagonal gives its own instead.
 //
 // Where: between the LineUnits and the Blender. In slot row s it evaluates row y = s - R - 4 as the
 // raster passes: of each axis one edge a lane and clock. A record is written once and read at each
@@ -17,22 +18,25 @@
 // hand; 4 k x growth; 5 t at both ends of the edge, quantised; 6 squares, trapezoid; 7 triangles; 8
 // limits, sides, weight_lines: address; 9 weight_lines, write back. With a table: 4 k - a, b - 1 -
 // k, limits of the searches, shape that is left, sqrt_rom: address; 5 roots, area_rom: address; 6
-// entries, differences; 7, 8 interpolation. Stage 8 takes a beat of diagonals, 9 the corner factor
-// and the choice between them. The model compares the marks in stage 2, to read those records only
-// that matter, and does the arithmetic of an edge at once, in stage 3 or behind the table's words.
-// A line that arrives is popped behind its slot (stage 2), multiplied in that clock and stored in
-// the next, which finishes the record; with a table a clock later, since its ends a and b are two
-// more multiplies. Marks and records have a bank a lane (a pair of columns a
-// bank: horizontal) with one write port each; a line whose bank a lower lane takes in its clock
-// waits, which `bank_conflicts` counts. Slot rows 0 and 1 clear the marks.
+// entries, differences; 7, 8 interpolation. With learned shares: 4 distances to both ends, the
+// nearer one, addresses of three tables; 5 words; 6 their sum, address of share_rom; 7 shares,
+// chosen in 8 in place of the line's. An edge of no record (between head and tail of a long run)
+// takes that of two ends out of sight: so the slot brings the edges of row y. Stage 8 takes a beat
+// of diagonals, 9 the corner factor and the choice between them. The model compares the marks in
+// stage 2, to read those records only that matter, and does the arithmetic of an edge at once, in
+// stage 3 or behind the table's words. A line that arrives is popped behind its slot (stage 2),
+// multiplied in that clock and stored in the next, which finishes the record; with a table a clock
+// later, since its ends a and b are two more multiplies. Marks and records have a bank a lane (a
+// pair of columns a bank: horizontal) with one write port each; a line whose bank a lower lane
+// takes in its clock waits, which `bank_conflicts` counts. Slot rows 0 and 1 clear the marks.
 // Stalls: `downstream`; `diagonals` (those of a beat have not come: not in an engine whose rows
 // begin as the RunExtractor lets them). Formats: t S4.24, q U1.12, a, b S13, shares U0.8. Cost an
 // axis and lane: a multiplier 26 x 12, two 12 x 12 and two 24 x 24 (triangles); at the entrance two
-// multipliers 24 x 24; with a table two 18 x 24 more there, and AreaTable's; with corners two 10
-// x 8. Memory: weight_lines a column (first, second and span of its left edge, second and span of
-// its top edge); row_marks and row_records, two rows of pairs of columns; column_marks and
-// column_records, a column each (with crossings a column and two a column); all 1R1W a bank.
-// Made for 250 MHz; longest path: 24 x 24 multiply.
+// multipliers 24 x 24; with a table two 18 x 24 more there, and AreaTable's; with learned shares a
+// 12-bit subtract and SharesRom's; with corners two 10 x 8. Memory: weight_lines a column (first,
+// second and span of its left edge, second and span of its top edge); row_marks and row_records,
+// two rows of pairs of columns; column_marks and column_records, a column each (with crossings a
+// column and two a column); all 1R1W a bank. Made for 250 MHz; longest path: 24 x 24 multiply.
 // Source: Reshetov 2009; paper 000, section 2; SMAA (Jimenez et al. 2012); paper 003.
 #pragma once
 
@@ -47,6 +51,7 @@
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/morphological/blend/area_table.h"
+#include "rtl_model/morphological/blend/shares_rom.h"
 #include "rtl_model/morphological/parameter_store.h"
 #include "rtl_model/morphological/tokens.h"
 
@@ -72,6 +77,9 @@ class AreaUnit final : public Unit {
   Counter bank_conflicts{"bank_conflicts", "clk", "lines waited for the write port of their bank"};
 
   std::function<void(const spec::morphological::LineRecord&)> observer;
+
+  // The tables of learned shares, for the registers; nullptr in an engine without.
+  SharesRom* shares_rom() { return shares_ ? &*shares_ : nullptr; }
 
  private:
   static constexpr std::size_t kLanes = spec::morphological::kMaxLanes;
@@ -99,6 +107,9 @@ class AreaUnit final : public Unit {
     // Of the engines with a table or corners.
     std::uint8_t shape = 0, far = 0;
     spec::morphological::RunPart part{};
+    // Of a record without a line, in the bits of t.
+    bool learned = false;
+    std::uint8_t start_class = 0, end_class = 0;
   };
   struct Weights {
     std::uint8_t first = 0, second = 0;
@@ -111,7 +122,7 @@ class AreaUnit final : public Unit {
   // The records of an axis, in banks.
   struct AxisRecords {
     AxisRecords(const std::string& axis, const MemoryShape& marks, std::uint32_t mark_bits,
-                bool corners);
+                std::uint32_t record_bits);
     const std::size_t banks;
     Memory<void> marks;
     ReadPort<void> read_marks{marks, "raster"};
@@ -130,9 +141,10 @@ class AreaUnit final : public Unit {
   };
   // An edge of the raster and the record that it lies in.
   struct Edge {
-    std::uint16_t k = 0;    // pixel of the record
-    std::uint8_t from = 0;  // 0 none, 1 in hand, 2 + b: read from bank b in this beat
-    std::uint8_t near = 0;  // which end, if corners are rounded: 0 start, 1 end, 2 none
+    std::uint16_t k = 0;      // pixel of the record
+    std::uint8_t from = 0;    // 0 none, 1 in hand, 2 + b: read from bank b in this beat
+    std::uint8_t near = 0;    // which end, if corners are rounded: 0 start, 1 end, 2 none
+    std::uint16_t after = 0;  // pixels of the record behind it, with learned shares
   };
   // An edge on its way through the table.
   struct Search {
@@ -144,7 +156,7 @@ class AreaUnit final : public Unit {
   };
   struct Beat {
     Slot slot;
-    std::uint8_t left, top;
+    std::uint8_t left, top, next_left, next_top;
     bool works, evaluates;         // has shares of a row, finds those of the next
     bool any;                      // one of the edges below lies in a record
     std::uint32_t x, count, pair;  // its columns: the first one, how many; the first mark
@@ -154,10 +166,14 @@ class AreaUnit final : public Unit {
     std::array<Edge, kLanes> horizontal, vertical;
     WeightWords weights;
     std::array<Search, 2 * kLanes> search;  // by lane, horizontal first
+    // The same of learned shares; bit: one that asks.
+    std::array<SharesRom::Query, 2 * kLanes> query;
+    std::uint8_t asks;
   };
 
-  // kSmaa: of an engine with crossings, corners, diagonals or a table; others do not pay for them.
-  template <bool kSmaa>
+  // kSmaa: of an engine with crossings, corners, diagonals or a table; kLearned: with learned
+  // shares. Others do not pay for them.
+  template <bool kSmaa, bool kLearned>
   Activity work(Cycle cycle);
   // Once a clock each, from one place: inline.
   template <bool kSmaa>
@@ -174,9 +190,15 @@ class AreaUnit final : public Unit {
   inline void address_weights(Cycle cycle, const Beat& beat);
   inline void send(Cycle cycle, const Beat& beat);
   inline void share(Cycle cycle, const Beat& beat);
-  template <bool kSmaa>
+  template <bool kSmaa, bool kLearned>
   [[gnu::noinline]] void match(Cycle cycle, Beat& beat);  // inline it costs the others registers
+  template <bool kLearned>
   void evaluate(Cycle cycle, Beat& beat);
+  void ask(Beat& beat, std::size_t lane, bool vertical, const Walk& walk, const Edge& edge);
+  void ask_gaps(Beat& beat);
+  template <class Visit>
+  static void for_each_query(Beat& beat, Visit&& visit);
+  void learn(Cycle cycle);
   void smaa_match(Cycle cycle, Beat& beat, std::int32_t row);
   void smaa_evaluate(Cycle cycle, Beat& beat);
   void smaa_edge(Beat& beat, std::size_t lane, bool vertical, const Walk& walk, const Edge& edge);
@@ -214,6 +236,7 @@ class AreaUnit final : public Unit {
   std::vector<WeightWords> weights_;  // the words of weight_lines
   AxisRecords row_, column_;
   std::optional<AreaTable> table_;
+  std::optional<SharesRom> shares_;
   std::optional<Activity> diagonals_;  // waits for their shares
   Pipe<Beat, spec::morphological::kAreaLatency> pipe_;
   Mark hand_;       // the horizontal record in hand, stage 2

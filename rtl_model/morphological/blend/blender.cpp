@@ -120,7 +120,7 @@ void Blender::choose_axes(Cycle cycle, const ShareToken& token, const PixelToken
     const Shares& s = token.shares[i];
     const int vertical_sum = s.up + s.down, horizontal_sum = s.left + s.right;
     if (vertical_sum + horizontal_sum == 0) continue;
-    if (leave != Leave::kNone && is_left(token.slot, around, i, count)) {
+    if (leave != Leave::kNone && leave != Leave::kMasked && is_left(token.slot, around, i, count)) {
       beat.left = static_cast<std::uint8_t>(beat.left | 1u << i);
       continue;
     }

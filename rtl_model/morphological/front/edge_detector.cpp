@@ -10,6 +10,13 @@ namespace {
 
 constexpr std::uint32_t distance(std::uint32_t a, std::uint32_t b) { return a > b ? a - b : b - a; }
 
+// The largest step of the three codes, U8.16.
+constexpr std::uint32_t colour_distance(std::uint32_t a, std::uint32_t b) {
+  if (a == b) return 0;  // in most of a frame
+  const auto of = [&](int shift) { return distance(a >> shift & 0xFF, b >> shift & 0xFF); };
+  return std::max({of(0), of(8), of(16)}) << 16;
+}
+
 std::uint64_t words_for(std::int32_t columns, std::uint32_t lanes) {
   return (static_cast<std::uint64_t>(columns) + lanes - 1) / lanes * lanes;
 }
@@ -38,14 +45,16 @@ EdgeDetector::EdgeDetector(const sc_core::sc_module_name& name, ClockDomain& clo
       luma_("luma_lines",
             {.words = std::max<std::uint64_t>(words_for(p.line_pixels, lanes_),
                                               std::uint64_t{2} * lanes_),
-             .word_bits = 3 * 24,
+             .word_bits = 3 * 25,
              .read_during_write = ReadDuringWrite::kNewWord,
              .banks = 2 * lanes_,
              .span = lanes_ + 1,
-             .content = "a column of the last three rows of luma",
+             .content = "a column of the last three rows of luma or colour, and marks",
              .columns = static_cast<std::uint64_t>(p.line_pixels)},
             lanes_) {
-  if (p.edge_source == spec::morphological::EdgeSource::kLuma) return;
+  if (p.edge_source == spec::morphological::EdgeSource::kLuma ||
+      p.edge_source == spec::morphological::EdgeSource::kColour)
+    return;
   depth_.emplace("depth_lines",
                  MemoryShape{.words = words_for(p.line_pixels, lanes_),
                              .word_bits = 2 * 24,
@@ -58,9 +67,10 @@ EdgeDetector::EdgeDetector(const sc_core::sc_module_name& name, ClockDomain& clo
 }
 
 // Those that are large enough, of `count` pixels of row y, where there is a neighbour at all. By
-// the plain rule, a fixed threshold for luma; by the others.
+// the plain rules, a fixed threshold for luma or colour, no mask; by the others.
+template <class Distance>
 inline EdgeDetector::Edges EdgeDetector::plain_steps(std::int32_t first, std::int32_t count,
-                                                     std::int32_t y) const {
+                                                     std::int32_t y, Distance&& distance) const {
   const std::uint32_t *const here = luma_.row(y) + first, *const above = luma_.row(y - 1) + first;
   const std::uint32_t threshold = store_.rules().threshold;
   std::uint32_t before = first == 0 ? 0 : here[-1];
@@ -78,10 +88,14 @@ inline EdgeDetector::Edges EdgeDetector::plain_steps(std::int32_t first, std::in
 
 inline void EdgeDetector::decide(EdgeToken& out) {
   const FrameRules& rules = store_.rules();
-  const bool plain = rules.source == spec::morphological::EdgeSource::kLuma && !rules.dynamic;
+  const bool colour = rules.source == spec::morphological::EdgeSource::kColour;
+  const bool plain = (rules.source == spec::morphological::EdgeSource::kLuma || colour) &&
+                     !rules.dynamic && rules.leave != spec::morphological::Leave::kMasked;
   const std::int32_t y = out.slot.row - 1, first = out.slot.beat * store_.lanes();
   const std::int32_t count = std::min(store_.lanes(), rules.width - first);
-  Edges edges = plain ? plain_steps(first, count, y) : steps(first, count, y);
+  Edges edges = !plain   ? steps(first, count, y)
+                : colour ? plain_steps(first, count, y, colour_distance)
+                         : plain_steps(first, count, y, distance);
   if (first == 0) edges.left &= ~1u;
   if (y == 0) edges.top = 0;
   if ((edges.left | edges.top) == 0) return;
@@ -140,14 +154,15 @@ void EdgeDetector::keep_strong(Edges& edges, std::int32_t first, std::int32_t y)
 // Both pixels are inside.
 bool EdgeDetector::is_edge(Position p, Position q) const {
   const FrameRules& rules = store_.rules();
-  const std::uint32_t c = distance(luma_[p], luma_[q]);
+  const std::uint32_t c = contrast(p, q);
   switch (rules.source) {
     case spec::morphological::EdgeSource::kDepth:
       return depth_edge(p, q);
     case spec::morphological::EdgeSource::kPredicated:
       return c >= (depth_edge(p, q) ? rules.threshold_on : rules.threshold_off);
-    case spec::morphological::EdgeSource::kLuma:  // dynamic: fixed ones are plain
-      break;
+    case spec::morphological::EdgeSource::kLuma:
+    case spec::morphological::EdgeSource::kColour:
+      if (!rules.dynamic) return c >= rules.threshold;
   }
   // U9.32: both sides are products with U0.16, of twice the luma.
   return (std::uint64_t{c} << 17) > std::uint64_t{rules.alpha} * doubled_luma(p, q) &&
@@ -172,13 +187,21 @@ std::uint32_t EdgeDetector::doubled_luma(Position p, Position q) const {
 
 bool EdgeDetector::depth_edge(Position p, Position q) const {
   if (!depth_) return false;  // not built: all of it is 0
+  if ((luma_[p] | luma_[q]) & kMarkedLuma) return false;
   const std::uint32_t a = (*depth_)[p], b = (*depth_)[q];
   return a != b && (std::uint64_t{distance(a, b)} << 16) >=
                        std::uint64_t{store_.rules().depth_threshold} * std::max(a, b);
 }
 
+std::uint32_t EdgeDetector::contrast(Position p, Position q) const {
+  const std::uint32_t a = luma_[p], b = luma_[q];
+  if ((a | b) & kMarkedLuma) return 0;
+  return store_.rules().source == spec::morphological::EdgeSource::kColour ? colour_distance(a, b)
+                                                                           : distance(a, b);
+}
+
 std::uint32_t EdgeDetector::step(Position p, Position q) const {
-  return inside(p) && inside(q) ? distance(luma_[p], luma_[q]) : 0;
+  return inside(p) && inside(q) ? contrast(p, q) : 0;
 }
 
 // Is the step from p to its neighbour `across` (left or top) more than half of the largest step

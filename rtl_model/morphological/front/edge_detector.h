@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Left and top edge bits of each pixel from steps of luma, of depth, or of luma with a threshold
-// that depth moves; drops edges beside a step of twice the contrast.
+// Left and top edge bits of each pixel from steps of luma, of colour, of depth, or of luma with a
+// threshold that depth moves; drops edges beside a step of twice the contrast. A pixel that is
+// masked makes no step.
 //
 // Where: between LumaUnit and RunExtractor. In slot row s it stores row s and decides row s - 1,
 // which needs one row below and two above. A word of luma_lines holds a column of the last three
@@ -8,12 +9,13 @@
 // that rows of any length read what was written. Registers hold the two columns to the left.
 // Latency 4, initiation interval 1; stalled by `downstream` only. Stages: 1 address, 2 words, 3
 // differences, maxima of two pairs, products with the thresholds, 4 the last maxima and the
-// decision. Formats: U8.16 luma, U24 depth, U0.16 thresholds. Cost a lane: two differences and
-// compares (fixed), two multipliers 25 x 16 more (dynamic, depth), nine differences and an 8-input
-// maximum a bit (local contrast). Memory: luma_lines a column 3 rows x 24 bits, depth_lines 2 rows
-// x 24 bits if built for depth; 1R1W, a read sees what is written in its clock.
-// Made for 250 MHz; longest path: 25 x 16 multiply, or three 24-bit compares with their choices.
-// Source: paper 003, eq (1) to (3); SMAA 1x; the symmetric form, minimum and mean are ours.
+// decision. Formats: U8.16 luma or three codes U0.8, U24 depth, U0.16 thresholds. Cost a lane: two
+// differences and compares (fixed), six differences of 8 bits and two maxima (colour), two
+// multipliers 25 x 16 more (dynamic, depth), nine differences and an 8-input maximum a bit (local
+// contrast). Memory: luma_lines a column 3 rows x 25 bits (the mark), depth_lines 2 rows x 24 bits
+// if built for depth; 1R1W, a read sees what is written in its clock. Made for 250 MHz; longest
+// path: 25 x 16 multiply, or three 24-bit compares with their choices. Source: paper 003, eq (1) to
+// (3); SMAA 1x; the symmetric form, minimum and mean are ours.
 #pragma once
 
 #include <array>
@@ -78,7 +80,9 @@ class EdgeDetector final : public Unit {
   };
 
   void decide(EdgeToken& out);
-  Edges plain_steps(std::int32_t first, std::int32_t count, std::int32_t y) const;
+  template <class Distance>
+  Edges plain_steps(std::int32_t first, std::int32_t count, std::int32_t y,
+                    Distance&& distance) const;
   Edges steps(std::int32_t first, std::int32_t count, std::int32_t y) const;
   void keep_strong(Edges& edges, std::int32_t first, std::int32_t y) const;
   bool is_edge(Position p, Position q) const;
@@ -89,7 +93,9 @@ class EdgeDetector final : public Unit {
   bool inside(Position p) const {
     return p.x >= 0 && p.y >= 0 && p.x < store_.rules().width && p.y < store_.rules().height;
   }
-  // Luma step between two pixels, 0 if one is outside.
+  // c of two pixels, U8.16: their step of luma or colour; 0 if one is masked.
+  std::uint32_t contrast(Position p, Position q) const;
+  // The same, 0 if one is outside.
   std::uint32_t step(Position p, Position q) const;
 
   const ParameterStore& store_;

@@ -13,12 +13,17 @@ Activity LumaUnit::tick(Cycle cycle) {
   const SlotToken& token = slots_in.take(cycle);
   LumaToken& out = pipe_.enter();
   out.slot = token.slot;
-  if (token.slot.row < store_.rules().height) {
+  const FrameRules& rules = store_.rules();
+  if (token.slot.row < rules.height) {
+    const bool colour = rules.source == spec::morphological::EdgeSource::kColour;
+    const bool masked = rules.leave == spec::morphological::Leave::kMasked;
     for (std::size_t i = 0; i < static_cast<std::size_t>(store_.lanes()); ++i) {
       const spec::morphological::Rgba8& p = token.pixel[i];
-      out.luma[i] = spec::morphological::kLumaWeights[0] * p[0] +
-                    spec::morphological::kLumaWeights[1] * p[1] +
-                    spec::morphological::kLumaWeights[2] * p[2];
+      out.luma[i] = colour ? p[0] | std::uint32_t{p[1]} << 8 | std::uint32_t{p[2]} << 16
+                           : spec::morphological::kLumaWeights[0] * p[0] +
+                                 spec::morphological::kLumaWeights[1] * p[1] +
+                                 spec::morphological::kLumaWeights[2] * p[2];
+      if (masked && (p[3] & 1) == 0) out.luma[i] |= kMarkedLuma;
       out.depth[i] = token.depth[i];
     }
   }

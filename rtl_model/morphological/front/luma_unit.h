@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Luma of each pixel: 13933 R + 46871 G + 4732 B, U8.16, exact.
+// Luma of each pixel: 13933 R + 46871 G + 4732 B, U8.16, exact; or, for edges from colour, its
+// three codes as they are. Beside it its mark, if the rule `leave` masks.
 //
 // Where: between SlotSequencer and EdgeDetector. Latency 2, initiation interval 1; stalled by
 // `downstream` only. Stages: 1 three products, 2 their sum. Cost a lane: three constant multipliers
-// 8 x 16, two adders. Made for 300 MHz; longest path: 8 x 16 multiply.
+// 8 x 16, two adders, a choice of two. Made for 300 MHz; longest path: 8 x 16 multiply.
 #pragma once
 
 #include <systemc>

@@ -26,6 +26,10 @@ class EdgePort {
     return window_ != nullptr ? window_->hits(cycle, port_, trial)
                               : rows_->hits(cycle, port_, trial);
   }
+  std::uint8_t crossing_class(Cycle cycle, const Trial& trial) const {
+    return window_ != nullptr ? window_->crossing_class(cycle, port_, trial)
+                              : rows_->crossing_class(cycle, port_, trial);
+  }
 
  private:
   EdgeWindow* window_ = nullptr;

@@ -22,7 +22,9 @@ std::int32_t words_of_a_row(const spec::morphological::Parameters& p) {
 }
 
 MemoryShape shape(const spec::morphological::Parameters& p) {
-  const std::int32_t columns = p.contiguous ? (p.reach_columns + 1) / 2 + 2 : 4;
+  std::int32_t columns = p.contiguous ? (p.reach_columns + 1) / 2 + 2 : 4;
+  if (p.area == spec::morphological::AreaSource::kLearned)
+    columns = std::max((p.reach_columns + 1) / 2 + 2, kMostLooks + 1);
   const auto words = static_cast<std::uint32_t>((columns + kWordColumns - 2) / kWordColumns + 1);
   MemoryShape shape;
   shape.banks = std::bit_ceil(words);
@@ -65,6 +67,9 @@ struct StepEdges {
     if (above != nullptr) code |= bit(above[word(x)].left, x) << 2;
     return static_cast<std::uint8_t>(code);
   }
+  bool along(std::int32_t x) const {
+    return row != nullptr && x >= 0 && x < width && bit(row[word(x)].top, x) != 0;
+  }
   // Between two corners with an edge in this row each.
   bool unbroken(std::int32_t from, std::int32_t end) const {
     for (std::int32_t next; from < end; from = next) {
@@ -92,12 +97,16 @@ EdgeRows::EdgeRows(const spec::morphological::Parameters& p, const ParameterStor
       steps_of_[parity].emplace_back(memory[parity], "predictors " + std::to_string(i));
 }
 
-// From the corner before the step to the one behind its longest candidate.
+// From the corner before the step to the one behind its longest candidate, and to the last edge of
+// its class.
 inline void EdgeRows::find_columns(Trial& trial) const {
-  const std::int32_t most = std::min(trial.length + 1, trial.room);
-  const std::int32_t least = store_.rules().contiguous ? 0 : trial.length - 1;
-  const std::int32_t first = trial.to_the_right ? trial.at(least) - 1 : trial.at(most) - 1;
-  const std::int32_t last = trial.to_the_right ? trial.at(most) : trial.at(least);
+  const std::int32_t most = trial.tries ? std::min(trial.length + 1, trial.room) : 0;
+  const std::int32_t least = store_.rules().contiguous || trial.classes ? 0 : trial.length - 1;
+  const std::int32_t first = trial.to_the_right
+                                 ? trial.at(least) - 1
+                                 : std::min(trial.at(most) - 1, trial.at(trial.looks));
+  const std::int32_t last =
+      trial.to_the_right ? std::max(trial.at(most), trial.at(trial.looks) - 1) : trial.at(least);
   trial.first = std::max(first, 0);
   trial.last = std::min(last, store_.rules().width - 1);
 }
@@ -111,14 +120,24 @@ void EdgeRows::read(Cycle cycle, std::size_t port, Trial& trial) {
     if (in_frame(y)) steps_of_[parity(y)][port].read(cycle, address(y, trial.first), words);
 }
 
-std::uint8_t EdgeRows::hits(Cycle cycle, std::size_t port, const Trial& trial) const {
+template <class Ask>
+std::uint8_t EdgeRows::ask(Cycle cycle, std::size_t port, const Trial& trial, Ask&& ask) const {
   if (trial.first > trial.last) return 0;
   const auto words_of = [&](std::int32_t y) {
     return in_frame(y) ? &steps_of_[parity(y)][port].at(cycle, address(y, trial.first)) : nullptr;
   };
-  const StepEdges edges{words_of(trial.line), words_of(trial.line - 1), trial.first, trial.last,
-                        store_.rules().width};
-  return hits_of(trial, edges, store_.rules().contiguous);
+  return ask(StepEdges{words_of(trial.line), words_of(trial.line - 1), trial.first, trial.last,
+                       store_.rules().width});
+}
+
+std::uint8_t EdgeRows::hits(Cycle cycle, std::size_t port, const Trial& trial) const {
+  return ask(cycle, port, trial, [&](const StepEdges& edges) {
+    return hits_of(trial, edges, store_.rules().contiguous);
+  });
+}
+
+std::uint8_t EdgeRows::crossing_class(Cycle cycle, std::size_t port, const Trial& trial) const {
+  return ask(cycle, port, trial, [&](const StepEdges& edges) { return class_of(trial, edges); });
 }
 
 }  // namespace deburr::rtl::morphological

@@ -6,7 +6,8 @@
 // above. Words are 64 columns of a row, both planes; even and odd rows are memories of their own,
 // so that a read shows both rows at once, and neighbouring words lie in banks, so that it shows all
 // columns of a step: up to (reach_columns + 1) / 2 + 2 if the engine is built with `contiguous`
-// (a side has reach - L columns, and its step is L + 1 at most), else the four at its end. Holds
+// or learned shares (a side has reach - L columns, and its step is L + 1 at most; a class asks for
+// eleven), else the four at its end. Holds
 // the rows that predictors look at: with N = min(16, R - 1) steps N + 1 above and N below the row
 // in hand, one for the records that are still under way when the next slot row has begun, one ahead
 // for those of the next one, and the row being written: 2 N + 4.
@@ -56,12 +57,16 @@ class EdgeRows {
   void read(Cycle cycle, std::size_t port, Trial& trial);
   // In the clock after.
   std::uint8_t hits(Cycle cycle, std::size_t port, const Trial& trial) const;
+  std::uint8_t crossing_class(Cycle cycle, std::size_t port, const Trial& trial) const;
 
   std::array<Memory<EdgeWord>, 2> memory;  // even and odd rows
 
  private:
   static constexpr std::int32_t kWordColumns = 64;
   void find_columns(Trial& trial) const;
+  // `ask` gets what has been read.
+  template <class Ask>
+  std::uint8_t ask(Cycle cycle, std::size_t port, const Trial& trial, Ask&& ask) const;
   bool in_frame(std::int32_t y) const { return y >= 0 && y < store_.rules().height; }
   static std::size_t parity(std::int32_t y) { return static_cast<std::size_t>(y & 1); }
   // In the memory of the row's parity.

@@ -38,6 +38,10 @@ struct BesideLine {
                                      int{window.left(line, y)} << 1 | first |
                                      int{window.top(line, y)} << 3);
   }
+  bool along(std::int32_t y) const {
+    check(newest_after, y);
+    return !border && window.left(line, y);
+  }
   bool unbroken(std::int32_t from, std::int32_t end) const {
     check(newest_after, end - 1);
     check(newest_after, from);
@@ -101,6 +105,13 @@ std::uint8_t EdgeWindow::hits(Cycle cycle, std::size_t port, const Trial& trial)
   const BesideLine edges{
       *this, line, line == store_.rules().width, newest_row(line - 1), newest_row(line), rows_};
   return hits_of(trial, edges, store_.rules().contiguous);
+}
+
+std::uint8_t EdgeWindow::crossing_class(Cycle cycle, std::size_t port, const Trial& trial) const {
+  const std::int32_t line = trial.line;
+  lines_[port].check(cycle, at(std::max(line - 1, 0)));
+  return class_of(trial, BesideLine{*this, line, line == store_.rules().width, newest_row(line - 1),
+                                    newest_row(line), rows_});
 }
 
 }  // namespace deburr::rtl::morphological

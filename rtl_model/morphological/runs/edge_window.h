@@ -75,6 +75,7 @@ class EdgeWindow {
   void read(Cycle cycle, std::size_t port, const Trial& trial);
   // In the clock after.
   std::uint8_t hits(Cycle cycle, std::size_t port, const Trial& trial) const;
+  std::uint8_t crossing_class(Cycle cycle, std::size_t port, const Trial& trial) const;
 
   Memory<void> memory;
 

@@ -77,6 +77,7 @@ Activity LineUnit::work(Cycle cycle) {
     In<SumsToken>& in = sums_in[lane];
     if (Division* fresh = std::exchange(divider.fresh, nullptr); fresh && fresh->pixels != 0)
       fresh->result.line.inverse = inverse(fresh->pixels, inverse_[lane].at(cycle, fresh->word));
+    bool sent = false;
     if (divider.count != 0) {
       const Division& oldest = divider.flight[divider.oldest];
       if (oldest.ready <= cycle) {
@@ -85,7 +86,7 @@ Activity LineUnit::work(Cycle cycle) {
           divider.oldest = divider.oldest + 1 == divider.flight.size() ? 0 : divider.oldest + 1;
           --divider.count;
           --in_flight_;
-          did = true;
+          sent = did = true;
         } else {
           blocked = true;
         }
@@ -94,6 +95,16 @@ Activity LineUnit::work(Cycle cycle) {
       }
     }
     if (!in.can_pop(cycle)) continue;
+    if (in.front(cycle).learned) {
+      if (sent || !lines_out[lane].can_push(cycle)) {
+        blocked = true;
+      } else {
+        lines_out[lane].push(cycle, begun(in.front(cycle)));
+        in.pop(cycle);
+        did = true;
+      }
+      continue;
+    }
     if (divider.count == divider.flight.size()) continue;  // blocked
     if (divider.start_from > cycle) {
       waits = true;
@@ -119,17 +130,28 @@ Activity LineUnit::work(Cycle cycle) {
   return blocked ? kStalledDownstream : waits ? interval_stall_ : kIdle;
 }
 
+// What goes through as it is.
+LineToken LineUnit::begun(const SumsToken& sums) {
+  LineToken token{};
+  token.slot = sums.run.slot;
+  token.entry = sums.run.entry;
+  spec::morphological::LineRecord& line = token.line;
+  line.run = sums.run.run;
+  line.learned = sums.learned;
+  line.start_class = sums.start_class;
+  line.end_class = sums.end_class;
+  if (sums.learned) line.scale = 0;
+  return token;
+}
+
 // Stage 1, and the quotient that comes of it.
 void LineUnit::begin(Cycle cycle, std::size_t lane, const SumsToken& sums, Division& division) {
   const spec::morphological::RunRecord& run = sums.run.run;
   const spec::morphological::RunShape& shape = spec::morphological::kRunShapes[run.shape];
   division.pixels = 0;
   LineToken& token = division.result;
-  token = {};
-  token.slot = sums.run.slot;
-  token.entry = sums.run.entry;
+  token = begun(sums);
   spec::morphological::LineRecord& line = token.line;
-  line.run = run;
   line.before = shape.before;
   line.after = shape.after;
   if (run.part != spec::morphological::RunPart::kWhole) {

@@ -9,12 +9,12 @@
 // a clock (radix 4), beside it P x table in two stages and its rounding. So divider.latency is at
 // least kLeastLatency; a longer one takes fewer bits a clock. Stalls: `interval` (the divider
 // cannot start again yet), `downstream` (its pipe of latency / interval places, rounded up, is
-// full). Formats: slope U0.24 = rdiv(a 2^24, b), inverse U12.12 from U1.26. Cost a lane: a divider
-// 36 / 27 bits, pipelined with interval 1, two multipliers 18 x 6 and 24 x 27, a read of
-// inverse_rom (2 x 34 x 27 bits).
-// Made for 250 MHz; longest path: choice of 4 multiples + 29-bit add (a quotient digit), and half
-// of a 24 x 27 multiply.
-// Source: least-squares line with equidistant heights; paper 000 for the chord.
+// full; a result leaves in its clock). A learned record has no line: it passes the divider, in the
+// clock that pops it, if no quotient leaves in that clock (else `downstream`). Formats: slope U0.24
+// = rdiv(a 2^24, b), inverse U12.12 from U1.26. Cost a lane: a divider 36 / 27 bits, pipelined with
+// interval 1, two multipliers 18 x 6 and 24 x 27, a read of inverse_rom (2 x 34 x 27 bits). Made
+// for 250 MHz; longest path: choice of 4 multiples + 29-bit add (a quotient digit), and half of a
+// 24 x 27 multiply. Source: least-squares line with equidistant heights; paper 000 for the chord.
 #pragma once
 
 #include <cstdint>
@@ -67,6 +67,7 @@ class LineUnit final : public Unit {
   };
 
   Activity work(Cycle cycle);
+  static LineToken begun(const SumsToken& sums);
   void begin(Cycle cycle, std::size_t lane, const SumsToken& sums, Division& division);
 
   const ParameterStore& store_;

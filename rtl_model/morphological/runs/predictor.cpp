@@ -6,12 +6,10 @@
 namespace deburr::rtl::morphological {
 namespace {
 
-// Bits of a corner's code: edges along the axis before and after the corner, edges across it on the
-// first and on the second side.
-constexpr std::uint8_t kBefore = 1, kAfter = 2;
-constexpr int kCrossing = 2;  // of a crossing code
+constexpr int kCrossing = 2;  // of a crossing code, in that of a corner
 
-constexpr int kFirstSide = 1;  // crossing code of a single edge on the first side
+// Crossing codes of a single edge.
+constexpr int kFirstSide = 1, kSecondSide = 2;
 
 // From the last trial's bounds to the sums and their join.
 constexpr Cycle kJoinAfter = 2;
@@ -36,24 +34,38 @@ void Predictor::take(Cycle cycle, Cycle reset, const RunToken& token) {
   const spec::morphological::RunRecord& run = token.run;
   run_ = token;
   length_ = run.length;
-  const bool extends = run.part == spec::morphological::RunPart::kWhole &&
-                       spec::morphological::kRunShapes[run.shape].clean_z &&
-                       store_.rules().steps > 0;
+  const bool whole_z = run.part == spec::morphological::RunPart::kWhole &&
+                       spec::morphological::kRunShapes[run.shape].clean_z;
+  const bool extends = whole_z && store_.rules().steps > 0;
+  long_z_ = whole_z && length_ >= spec::morphological::kLongZ;
   right_.keep = left_.keep = kAll;
   right_.reached[kAll] = {0, length_, 0, 0};
   left_.reached[kAll] = {0, 0, 0, 0};
   state_ = State::kJoins;
   join_at_ = cycle;
-  if (!extends) return;
-  state_ = State::kTrials;
-  trial_at_ = cycle + 1 + schedule_.wait(cycle + 1 - reset, phase_);
   step_ = 0;
   const int start_code = run.shape & 3, end_code = run.shape >> 2;
+  for (End* const side : {&right_, &left_}) {
+    side->trial.classes = false;
+    side->trial.looks = 0;
+  }
+  if (store_.rules().learned && !long_z_) {
+    look_at(right_, end_code);
+    look_at(left_, start_code);
+    if (right_.trial.classes || left_.trial.classes) state_ = State::kLooks;
+  }
+  if (extends) state_ = State::kTrials;
+  if (state_ == State::kJoins) return;
+  trial_at_ = cycle + 1 + schedule_.wait(cycle + 1 - reset, phase_);
+  if (!extends) {
+    right_.open = left_.open = false;
+    return;
+  }
   drift_ = end_code == kFirstSide ? -1 : 1;
-  const auto start = static_cast<std::uint8_t>(kAfter | (token.beyond & 1 ? kBefore : 0) |
+  const auto start = static_cast<std::uint8_t>(kAfterBit | (token.beyond & 1 ? kBeforeBit : 0) |
                                                start_code << kCrossing);
-  const auto end =
-      static_cast<std::uint8_t>(kBefore | (token.beyond & 2 ? kAfter : 0) | end_code << kCrossing);
+  const auto end = static_cast<std::uint8_t>(kBeforeBit | (token.beyond & 2 ? kAfterBit : 0) |
+                                             end_code << kCrossing);
   for (End* const side : {&right_, &left_}) {
     side->open = true;
     side->other = 0;
@@ -66,6 +78,31 @@ void Predictor::take(Cycle cycle, Cycle reset, const RunToken& token) {
     side->trial.corner = side->to_the_right ? end : start;
   }
   bounds_.begin();
+}
+
+// The class of an end's crossing, if it has a single one.
+void Predictor::look_at(End& end, int code) {
+  const spec::morphological::RunRecord& run = run_.run;
+  end.crossing_class = 0;
+  if (code != kFirstSide && code != kSecondSide) return;
+  const bool whole = run.part == spec::morphological::RunPart::kWhole;
+  end.trial.to_the_right = end.to_the_right;
+  end.trial.line = run.line + (code == kFirstSide ? -1 : 1);
+  end.trial.crossing = code == kFirstSide ? kFirstBit : kSecondBit;
+  end.trial.classes = true;
+  end.trial.looks = whole ? std::min(kMostLooks, reach_ - length_) : 0;
+}
+
+// The reads of a record's classes alone.
+void Predictor::look(Cycle cycle) {
+  const Cycle clock = cycle - trial_at_;
+  if (clock == 1) see(cycle, right_);
+  if (clock == left_after_ + 1) see(cycle, left_);
+  if (clock == 0) read(cycle, right_);
+  if (clock == left_after_) read(cycle, left_);
+  if (clock < std::max(clocks_ - 1, left_after_ + 1)) return;
+  state_ = State::kJoins;
+  join_at_ = cycle;
 }
 
 // What was read comes in before what is decided by it, and that before the next read.
@@ -94,15 +131,29 @@ std::int32_t Predictor::room(const End& end) const {
 
 void Predictor::read(Cycle cycle, End& end) {
   const FrameRules& rules = store_.rules();
-  const std::int32_t lines = (step_ + 1) * drift_;
   Trial& trial = end.trial;
-  trial.line = run_.run.line + (end.to_the_right ? lines : -lines);
+  if (end.open) {
+    const std::int32_t lines = (step_ + 1) * drift_;
+    trial.line = run_.run.line + (end.to_the_right ? lines : -lines);
+  }
   trial.from = run_.run.start + end.reached[kAll].position;
   trial.room = room(end);
-  end.reads = end.open && trial.line >= 0 &&
-              trial.line <= (vertical_ ? rules.width : rules.height) &&
-              trial.room >= std::max(1, length_ - 1);
+  trial.tries = end.open && trial.line >= 0 &&
+                trial.line <= (vertical_ ? rules.width : rules.height) &&
+                trial.room >= std::max(1, length_ - 1);
+  if (step_ != 0 && trial.classes) {
+    trial.classes = false;
+    trial.looks = 0;
+  }
+  end.reads = trial.tries || trial.classes;
   if (end.reads) end.port.read(cycle, trial);
+}
+
+void Predictor::see(Cycle cycle, End& end) {
+  end.hits = 0;
+  if (!end.reads) return;
+  if (end.trial.tries) end.hits = end.port.hits(cycle, end.trial);
+  if (end.trial.classes) end.crossing_class = end.port.crossing_class(cycle, end.trial);
 }
 
 bool Predictor::decide() {
@@ -204,7 +255,11 @@ SumsToken Predictor::join() {
   counters_.steps += static_cast<std::uint64_t>(kept);
   if (kept != 0) ++counters_.extended_runs;
   state_ = State::kFree;
+  const bool learned = store_.rules().learned && kept == 0 && !long_z_;
   return {run_,
+          learned,
+          learned ? left_.crossing_class : std::uint8_t{0},
+          learned ? right_.crossing_class : std::uint8_t{0},
           static_cast<std::uint8_t>(left.steps),
           static_cast<std::uint8_t>(right.steps),
           static_cast<std::int16_t>(left.position),

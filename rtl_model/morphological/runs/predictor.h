@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Extends one clean Z run to both sides, a step of both sides a trial, and sums up its corners.
+// Extends one clean Z run to both sides, a step of both sides a trial, and sums up its corners;
+// with learned shares, finds the classes of a record's crossings.
 //
 // Where: predictor_units of these a lane in an EndpointPredictor. Holds a record at a time. A trial
 // every trial_clocks clocks T, from the clock on that the schedule of the ports gives it:
@@ -18,10 +19,14 @@
 // if it reads a clock later (an odd number of ports). 2: so are both sides'. 1: besides, bounds and
 // the next address follow in the same clock. LineBounds needs four clocks a trial too: with 3, two
 // of its steps share a clock, with 1 all of them. So 3 and below are for slow clocks.
-// A record that is not extended leaves in the clock that takes it. One that is extended, takes from
-// its pop to the clock that may take the next one 1 clock, the wait for its phase, T clocks a
-// trial, and 1 clock; one behind the other T x trials + T clocks, if T >= 3 (else T x trials + 4 or
-// 3).
+// Classes (docs/morphological_shares.md) ask for the corner at which the first trial begins and for
+// ten edges behind it, so that trial's reads give them. Any other record with a crossing makes
+// these two reads alone: it leaves in clock T - 1, with the words of both sides chosen (T below 3:
+// when they have come), and their classes are known as its result is sent. So it takes T clocks,
+// and the wait for its phase if the predictor was idle. A long clean Z keeps its line and has none.
+// Any other record leaves in the clock that takes it. One that is extended, takes from its pop to
+// the clock that may take the next one 1 clock, the wait for its phase, T clocks a trial, and 1
+// clock; one behind the other T x trials + T clocks, if T >= 3 (else T x trials + 4 or 3).
 //
 // Trim takes no clock of its own: beside the sums of all its steps a side keeps those without its
 // last step and those of the first half of its steps. The former are what the sums were before;
@@ -31,9 +36,9 @@
 // Formats: positions S13 from the start of the run, sums of a side S18 and S24. Cost: LineBounds
 // (safe); a side 16 flip-flops of letters, 3 x 60 of sums (trim; else 60), five comparators of 4
 // bits, three adders and a multiplier of 13 x 5 bits for its sums, trim another one of 13 x 4 and
-// two adders, a selector 3 : 1 of 60 bits. Made for 250 MHz; longest path: 13 x 5 multiply, 24-bit
-// add, with trial_clocks of 4 and more. Source: paper 000, sections 3 and 4; `safe`, `trim` and the
-// sums are ours.
+// two adders, a selector 3 : 1 of 60 bits; classes the first gap of ten edges a side. Made for 250
+// MHz; longest path: 13 x 5 multiply, 24-bit add, with trial_clocks of 4 and more. Source: paper
+// 000, sections 3 and 4; `safe`, `trim` and the sums are ours.
 #pragma once
 
 #include <array>
@@ -67,6 +72,7 @@ class Predictor {
   // The clocks of the record's trials.
   void tick(Cycle cycle) {
     if (state_ == State::kTrials && cycle >= trial_at_) run_trial(cycle);
+    if (state_ == State::kLooks && cycle >= trial_at_) look(cycle);
   }
   // Its sums may be passed on in this clock, and the next record taken.
   bool joins(Cycle cycle) const { return state_ == State::kJoins && cycle >= join_at_; }
@@ -74,7 +80,7 @@ class Predictor {
   void reset() { state_ = State::kFree; }
 
  private:
-  enum class State : std::uint8_t { kFree, kTrials, kJoins };
+  enum class State : std::uint8_t { kFree, kTrials, kLooks, kJoins };
   // The first steps of a side: their number, the X that they reach, the sums of their corners.
   struct Stretch {
     std::int32_t steps;             // U5
@@ -90,6 +96,7 @@ class Predictor {
     bool open = false;
     bool reads = false;  // in this trial
     std::uint8_t hits = 0;
+    std::uint8_t crossing_class = 0;
     Keep keep = kAll;
     std::int32_t other = 0;     // L', 0 while unknown; the same at both ends if safe
     std::uint32_t letters = 0;  // bit k: step k is L'
@@ -98,8 +105,10 @@ class Predictor {
   };
 
   void run_trial(Cycle cycle);
+  void look(Cycle cycle);
+  void look_at(End& end, int code);
   void read(Cycle cycle, End& end);
-  void see(Cycle cycle, End& end) { end.hits = end.reads ? end.port.hits(cycle, end.trial) : 0; }
+  void see(Cycle cycle, End& end);
   bool decide();  // false after the last trial
   void decide_apart();
   void decide_together();
@@ -122,6 +131,7 @@ class Predictor {
   Cycle trial_at_ = 0, join_at_ = 0;  // clock of the trial's first read; of the join
   RunToken run_{};
   std::int32_t length_ = 0;
+  bool long_z_ = false;     // keeps its line without a step too
   std::int32_t drift_ = 0;  // lattice lines a step to the right: -1 or +1
   std::int32_t step_ = 0;   // k
   End right_, left_;

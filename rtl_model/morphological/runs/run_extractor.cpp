@@ -33,7 +33,7 @@ RunExtractor::RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clo
       crossings_(p.ends == spec::morphological::Ends::kCrossings),
       corners_(p.round_corners),
       smaa_(crossings_ || corners_ || p.diagonals),
-      spare_(crossings_ || corners_ ? 1 : 0),
+      spare_(crossings_ || corners_ || p.area == spec::morphological::AreaSource::kLearned ? 1 : 0),
       diagonal_delay_(static_cast<Cycle>(diagonal_delay(p.diagonal_steps, store.lanes()))),
       diagonal_rows_(p.diagonal_steps),
       records_(declare_stall("records",
@@ -87,7 +87,7 @@ Activity RunExtractor::work(Cycle cycle) {
   if (v_.count) drain(v_, cycle);
   const bool arrives = edges_in.can_pop(cycle);
   // Records without room in their FIFOs hold all that is behind them.
-  if (kSmaa ? std::max(h_.count, v_.count) > spare_ : h_.count + v_.count != 0) {
+  if (std::max(h_.count, v_.count) > spare_) {
     if (arrives) ++record_stalls;
     return records_;
   }
@@ -119,6 +119,7 @@ void RunExtractor::begin_row() {
   row_ = token_.slot.row - reach_rows_ - 2;
   constexpr std::int32_t kBlended = spec::morphological::kRowLag - 2;  // rows above row y
   blended_ = window_.beats(row_ - kBlended);
+  shared_ = window_.beats(row_ - kBlended + 1);
   const auto in_frame = [&](std::int32_t y) {
     return y >= 0 && y < store_.rules().height ? window_.beats(y) : nullptr;
   };
@@ -143,6 +144,9 @@ template <bool kSmaa>
   out.slot = slot;
   out.left = blended.left;
   out.top = blended.top;
+  const EdgeBits next = shared_[slot.beat];
+  out.next_left = next.left;
+  out.next_top = next.top;
   if constexpr (kSmaa) {
     passed_ = cycle;
     if (rules.diagonal_steps != 0) send_columns(cycle);
@@ -337,7 +341,7 @@ void RunExtractor::deliver(const Find& find) {
       if (run.part != RunPart::kWhole) ++long_runs;
     }
     if (run.part == RunPart::kWhole && shape.clean_z) ++z_runs;
-    if (shape.before == spec::morphological::Side::kNone &&
+    if (!store_.rules().learned && shape.before == spec::morphological::Side::kNone &&
         shape.after == spec::morphological::Side::kNone)
       continue;
     AxisSide& to = horizontal ? h_ : v_;

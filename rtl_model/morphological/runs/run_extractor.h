@@ -6,8 +6,9 @@
 //
 //   0      a slot is taken, the columns of its beat are read from the EdgeWindow
 //   1      they come, move on by row s - 1 and go back; at fixed bits of them: the edges of the row
-//          that is blended (the slot goes on to AreaUnit and PixelStore), a row for EdgeRows, the
-//          end of a horizontal run (a counter), the beginning of a vertical run or of its tail
+//          that is blended and the one below (the slot goes on to AreaUnit and PixelStore), a row
+//          for EdgeRows, the end of a horizontal run (a counter), the beginning of a vertical run
+//          or of its tail
 //   2, 3   length of a vertical run: first gap below row y, in groups of 16 rows; choice of a
 //          group, and of each group the code at its first gap
 //   4      code of its end: choice of a group; shape; side or none
@@ -21,17 +22,17 @@
 // diagonals clock 1 hands the columns of the beat on to the DiagonalUnit.
 //
 // Latency 2 of a slot, initiation interval 1; a record can be taken from its FIFO 6 clocks after
-// its slot was. Records without a side are counted and go nowhere. Rows of a single beat read a
-// word that is being written: it is taken from the register that it was written from.
-// Stalls: `records` (a FIFO is full, or the interlock: slot row s waits until all records found in
-// slot row s - 2 are finished, and those that are being looked for found), `diagonals` (a row of
-// fewer beats than a diagonal takes waits until those of the row before are there), `downstream`.
-// Cost a lane: a first-gap circuit of R + 1 bits, two choices of R + 1 : 1, two counters, 3 columns
-// of flip-flops (window_rows + 1 pairs of bits; with corners 5, and a circuit more); registers of
-// 12 records that are being looked for and of 4 that wait for their FIFOs. Memory: record_fifo
-// entries an axis and lane. Made for 250 MHz; longest path: choice of 1 in 9 groups (window_rows of
-// 258; 3 by default), 16 : 1 table of shapes. Source: paper 000, section 2; SMAA (Jimenez et al.
-// 2012).
+// its slot was. Records without a side are counted and, but with learned shares, go nowhere. Rows
+// of a single beat read a word that is being written: it is taken from the register that it was
+// written from. Stalls: `records` (a FIFO is full, or the interlock: slot row s waits until all
+// records found in slot row s - 2 are finished, and those that are being looked for found),
+// `diagonals` (a row of fewer beats than a diagonal takes waits until those of the row before are
+// there), `downstream`. Cost a lane: a first-gap circuit of R + 1 bits, two choices of R + 1 : 1,
+// two counters, 3 columns of flip-flops (window_rows + 1 pairs of bits; with corners 5, and a
+// circuit more); registers of 12 records that are being looked for and of 4 that wait for their
+// FIFOs. Memory: record_fifo entries an axis and lane. Made for 250 MHz; longest path: choice of 1
+// in 9 groups (window_rows of 258; 3 by default), 16 : 1 table of shapes. Source: paper 000,
+// section 2; SMAA (Jimenez et al. 2012).
 #pragma once
 
 #include <array>
@@ -137,8 +138,8 @@ class RunExtractor final : public Unit {
   EdgeRows& rows_;
   const std::int32_t lanes_, reach_rows_, reach_columns_;
   const bool crossings_, corners_, smaa_;  // built with; smaa_: with any of these, or diagonals
-  // Records of an axis that may wait another clock: with crossings the last slot of a row may find
-  // one more than there are lanes, the first of the next one fewer.
+  // Records of an axis that may wait another clock: with crossings or learned shares the last slot
+  // of a row may find one more than there are lanes, the first of the next one fewer.
   const std::size_t spare_;
   // Rows of a frame whose diagonals take more clocks to come than a row has beats begin when those
   // of the row before are there.
@@ -159,9 +160,9 @@ class RunExtractor final : public Unit {
   std::uint64_t step_ = 0;  // clocks in which clocks 2 to 4 went on
 
   std::int32_t row_ = 0;  // y
-  // Of the words of the window: the row that is blended, the one for EdgeRows and row y; the latter
-  // two nullptr outside the frame.
-  const EdgeBits *blended_ = nullptr, *ahead_ = nullptr, *searched_ = nullptr;
+  // Of the words of the window: the row that is blended, the one below, the one for EdgeRows and
+  // row y; the latter two nullptr outside the frame.
+  const EdgeBits *blended_ = nullptr, *shared_ = nullptr, *ahead_ = nullptr, *searched_ = nullptr;
   EdgeBits here_;      // of row y in the beat
   bool open_ = false;  // a horizontal run
   std::int32_t start_ = 0;

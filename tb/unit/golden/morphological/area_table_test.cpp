@@ -298,7 +298,7 @@ TEST(AreaTable, GoesWithEveryPredictor) {
     return all;
   };
   const Frame blocks = tb::morphological::blocks_image();
-  for (const auto preset : {Preset::kMlaaSlope, Preset::kDeburr}) {
+  for (const auto preset : {Preset::kMlaaSlope, Preset::kDeburrLine}) {
     Parameters p = preset_parameters(preset);
     p.area = spec::morphological::AreaSource::kTableFull;
     const auto table = shares(blocks, p);
@@ -331,7 +331,7 @@ TEST(AreaTable, GoesWithEveryPredictor) {
   };
   const auto [chord, without_chord] = off(preset_parameters(Preset::kMlaaSlope));
   EXPECT_LT(chord, without_chord);
-  const auto [fit, without_fit] = off(preset_parameters(Preset::kDeburr));
+  const auto [fit, without_fit] = off(preset_parameters(Preset::kDeburrLine));
   EXPECT_EQ(fit, without_fit);
 }
 

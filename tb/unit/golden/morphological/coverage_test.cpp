@@ -70,7 +70,7 @@ std::set<std::string> holes(const std::map<std::string, std::uint64_t>& hits) {
 
 TEST(RunCoverage, EveryBinCanBeReached) {
   Random random(7);
-  spec::morphological::Parameters wide = preset_parameters(Preset::kDeburr);
+  spec::morphological::Parameters wide = preset_parameters(Preset::kDeburrLine);
   wide.window_rows = 258;
   spec::morphological::Parameters narrow = preset_parameters(Preset::kMlaaSlope);
   narrow.window_rows = 50;
@@ -101,7 +101,7 @@ TEST(RunCoverage, EveryBinCanBeReached) {
 }
 
 TEST(RunCoverage, AnEmptyFrameLeavesHoles) {
-  MorphologicalGolden golden(spec::morphological::Parameters{});
+  MorphologicalGolden golden(preset_parameters(Preset::kDeburrLine));
   const Frame frame(8, 8, [](int, int) { return grey(3); });
   golden.process(frame.view());
   std::size_t hit = 0;
@@ -158,7 +158,7 @@ TEST(SmaaCoverage, EveryBinCanBeReached) {
 
 // Presets without SMAA's blocks hit nothing.
 TEST(SmaaCoverage, StaysEmptyWithoutItsBlocks) {
-  MorphologicalGolden golden(preset_parameters(Preset::kDeburr));
+  MorphologicalGolden golden(preset_parameters(Preset::kDeburrLine));
   golden.process(Frame(tb::morphological::noise_image()).view());
   for (const CoverageBin& bin : golden.smaa_coverage().bins()) EXPECT_EQ(bin.hits, 0u) << bin.name;
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "golden/morphological/configuration.h"
 #include "golden/morphological/luma.h"
 #include "tb/stimuli/random.h"
 #include "tb/unit/golden/morphological/support.h"
@@ -44,8 +45,10 @@ class PlainEdges {
     Pixel operator+(Pixel o) const { return {x + o.x, y + o.y}; }
     Pixel operator-(Pixel o) const { return {x - o.x, y - o.y}; }
   };
+  // Outside of the frame, or masked.
   bool outside(Pixel p) const {
-    return p.x < 0 || p.y < 0 || p.x >= frame_.width || p.y >= frame_.height;
+    if (p.x < 0 || p.y < 0 || p.x >= frame_.width || p.y >= frame_.height) return true;
+    return p_.leave == spec::morphological::Leave::kMasked && frame_.at(p.x, p.y)[3] % 2 == 0;
   }
   std::int64_t luma(Pixel p) const {
     const spec::morphological::Rgba8& rgba = frame_.at(p.x, p.y);
@@ -56,13 +59,19 @@ class PlainEdges {
     return depth_[static_cast<std::size_t>(p.y * frame_.width + p.x)];
   }
   std::int64_t c(Pixel p, Pixel q) const {
-    return outside(p) || outside(q) ? 0 : std::abs(luma(p) - luma(q));
+    if (outside(p) || outside(q)) return 0;
+    if (p_.edge_source != spec::morphological::EdgeSource::kColour)
+      return std::abs(luma(p) - luma(q));
+    const spec::morphological::Rgba8 &a = frame_.at(p.x, p.y), &b = frame_.at(q.x, q.y);
+    return std::int64_t{65536} *
+           std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
   }
   bool z(Pixel p, Pixel q) const {
     return depth(p) != depth(q) && 65536 * std::abs(depth(p) - depth(q)) >=
                                        p_.depth_threshold * std::max(depth(p), depth(q));
   }
   bool raw(Pixel p, Pixel q) const {
+    if (outside(p) || outside(q)) return false;
     switch (p_.edge_source) {
       case spec::morphological::EdgeSource::kDepth:
         return z(p, q);
@@ -70,6 +79,7 @@ class PlainEdges {
         return c(p, q) >=
                255 * (z(p, q) ? p_.threshold_on_depth_edge : p_.threshold_off_depth_edge);
       case spec::morphological::EdgeSource::kLuma:
+      case spec::morphological::EdgeSource::kColour:
         break;
     }
     if (p_.threshold_mode == spec::morphological::ThresholdMode::kFixed)
@@ -126,6 +136,7 @@ Frame random_frame(int width, int height, Random& random) {
     for (std::size_t i = 0; i < 4; ++i) {
       pixel[i] = static_cast<std::uint8_t>(base + static_cast<int>(r >> (6 * i) & 31));
     }
+    if (r >> 29 != 0) pixel[3] |= 1;  // else masked, at times
     return pixel;
   });
 }
@@ -156,6 +167,8 @@ struct Mode {
   spec::morphological::DynamicLuma luma;
 };
 constexpr Mode kModes[] = {
+    {spec::morphological::EdgeSource::kColour, spec::morphological::ThresholdMode::kFixed,
+     spec::morphological::DynamicLuma::kMax},
     {spec::morphological::EdgeSource::kLuma, spec::morphological::ThresholdMode::kFixed,
      spec::morphological::DynamicLuma::kMax},
     {spec::morphological::EdgeSource::kLuma, spec::morphological::ThresholdMode::kDynamic,
@@ -183,12 +196,13 @@ TEST(MorphologicalEdges, AreThoseOfTheFormulas) {
           spec::morphological::LocalContrast::kSmaa}) {
       std::uint64_t ones = 0, pixels = 0;
       for (const auto& size : kSizes) {
-        spec::morphological::Parameters p;
+        auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
         p.edge_source = mode.source;
         p.threshold_mode = mode.threshold;
         p.dynamic_luma = mode.luma;
         p.local_contrast = contrast;
         p.threshold = 3000;
+        if (size[0] % 2 != 0) p.leave = spec::morphological::Leave::kMasked;
         const Frame frame = random_frame(size[0], size[1], random);
         const std::vector<std::uint32_t> depth = random_depth(frame, random);
         const EdgePlanes edges = find_edges(p, frame.view(), DepthView(depth, size[0], size[1]));
@@ -205,7 +219,7 @@ TEST(MorphologicalEdges, AreThoseOfTheFormulas) {
 
 TEST(MorphologicalEdges, AWrongBitIsCaught) {
   Random random(2);
-  spec::morphological::Parameters p;
+  auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
   const Frame frame = random_frame(40, 30, random);
   EdgePlanes edges = find_edges(p, frame.view());
   edges.top.row(7)[0] ^= 1u << 11;  // the planted fault
@@ -214,7 +228,7 @@ TEST(MorphologicalEdges, AWrongBitIsCaught) {
 
 TEST(MorphologicalEdges, ThresholdsHoldToTheUnit) {
   // Blue steps of luma are 4732 units; 255 T is crossed between two codes.
-  spec::morphological::Parameters p;
+  auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
   p.local_contrast = spec::morphological::LocalContrast::kOff;
   for (const int step : {1, 2, 77, 255}) {
     const Frame frame(2, 1, [&](int x, int) {
@@ -227,8 +241,26 @@ TEST(MorphologicalEdges, ThresholdsHoldToTheUnit) {
   }
 }
 
+TEST(MorphologicalEdges, ThresholdsOfColourHoldToTheUnit) {
+  auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr);
+  for (const std::size_t channel : {0u, 1u, 2u}) {
+    for (const int step : {1, 2, 77, 254}) {
+      const Frame frame(2, 1, [&](int x, int) {
+        spec::morphological::Rgba8 pixel{};
+        pixel[channel] = static_cast<std::uint8_t>(x * step);
+        return pixel;
+      });
+      p.threshold = 65536 * step / 255;
+      EXPECT_TRUE(find_edges(p, frame.view()).left.at(1, 0));
+      p.threshold += 1;
+      EXPECT_FALSE(find_edges(p, frame.view()).left.at(1, 0));
+    }
+  }
+}
+
 TEST(MorphologicalEdges, ContrastOfExactlyTwiceTheStepDropsTheBit) {
-  spec::morphological::Parameters p;  // symmetric
+  auto p = golden::morphological::preset_parameters(
+      spec::morphological::Preset::kDeburrLine);  // symmetric
   const auto codes = [&](int a, int b, int c) {
     const std::array<int, 3> v = {a, b, c};
     return Frame(
@@ -242,7 +274,7 @@ TEST(MorphologicalEdges, ContrastOfExactlyTwiceTheStepDropsTheBit) {
 // brighter pixel first and last.
 TEST(MorphologicalEdges, DynamicThresholdsHoldToTheUnit) {
   using spec::morphological::DynamicLuma;
-  spec::morphological::Parameters p;
+  auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
   p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
   p.local_contrast = spec::morphological::LocalContrast::kOff;
   p.floor = 1;
@@ -280,7 +312,7 @@ TEST(MorphologicalEdges, DynamicThresholdsHoldToTheUnit) {
 }
 
 TEST(MorphologicalEdges, TheFloorIsNotStrict) {
-  spec::morphological::Parameters p;
+  auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
   p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
   p.local_contrast = spec::morphological::LocalContrast::kOff;
   p.alpha = 0;
@@ -323,7 +355,8 @@ TEST(MorphologicalEdges, LocalContrastOfThePaperAndOfSmaaDifferAtEqualityAlone) 
         at(n.x, n.y) = at(n.from_x, n.from_y) + step;
         const Frame frame(7, 7, [&](int x, int y) { return tb::morphological::grey(at(x, y)); });
         for (const auto contrast : {LocalContrast::kPaper, LocalContrast::kSmaa}) {
-          spec::morphological::Parameters p;
+          auto p =
+              golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
           p.threshold = 1;
           p.local_contrast = contrast;
           const EdgePlanes edges = find_edges(p, frame.view());
@@ -338,7 +371,7 @@ TEST(MorphologicalEdges, LocalContrastOfThePaperAndOfSmaaDifferAtEqualityAlone) 
 }
 
 TEST(MorphologicalEdges, WithoutDepthThereAreNoDepthEdges) {
-  spec::morphological::Parameters p;
+  auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
   p.edge_source = spec::morphological::EdgeSource::kDepth;
   EXPECT_EQ(find_edges(p, Frame(tb::morphological::noise_image()).view()),
             (EdgePlanes{BitPlane(97, 61), BitPlane(97, 61)}));

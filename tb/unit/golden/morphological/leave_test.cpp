@@ -27,7 +27,7 @@ using tb::morphological::Frame;
 using tb::morphological::grey;
 
 constexpr Preset kAll[] = {Preset::kMlaa, Preset::kMlaaSlope, Preset::kSmaa, Preset::kSmaaDynamic,
-                           Preset::kDeburr};
+                           Preset::kDeburrLine};
 
 // Marks one pixel in `rare`; other bits of alpha are random.
 Frame marked(Frame frame, Random& random, unsigned rare) {
@@ -257,7 +257,7 @@ TEST(Leave, LinesThatCannotBeReadAreMarked) {
 TEST(LeaveCoverage, EveryBinCanBeReached) {
   Random random(9);
   const auto with = [](Leave leave) {
-    Parameters p = preset_parameters(Preset::kDeburr);
+    Parameters p = preset_parameters(Preset::kDeburrLine);
     p.leave = leave;
     return MorphologicalGolden(p);
   };

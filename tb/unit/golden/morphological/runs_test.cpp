@@ -183,7 +183,7 @@ TEST(Runs, OfTheOtherAxisAreThoseOfTheTransposedFrame) {
   Random random(3);
   const EdgePlanes edges{random_plane(90, 70, 60, random), random_plane(90, 70, 60, random)};
   const EdgePlanes turned{edges.top.transposed(), edges.left.transposed()};
-  spec::morphological::Parameters p;
+  auto p = preset_parameters(spec::morphological::Preset::kDeburrLine);
   p.reach_columns = golden::morphological::reach_rows(p);
   auto vertical = find_runs(p, AxisEdges::vertical(edges));
   for (spec::morphological::RunRecord& run : vertical)
@@ -282,7 +282,7 @@ std::vector<PredictedRun> complete_runs(const MorphologicalGolden& golden) {
 
 TEST(Extension, FollowsAPureLineForAllStepsOnBothSides) {
   Random random(5);
-  spec::morphological::Parameters p = preset_parameters(Preset::kDeburr);
+  spec::morphological::Parameters p = preset_parameters(Preset::kDeburrLine);
   p.reach_columns = 2048;
   std::size_t inner = 0;
   for (int i = 0; i < 300; ++i) {
@@ -309,7 +309,7 @@ TEST(Extension, FollowsAPureLineForAllStepsOnBothSides) {
 }
 
 TEST(Extension, OutcomeNamesTheOtherStep) {
-  MorphologicalGolden golden(preset_parameters(Preset::kDeburr));
+  MorphologicalGolden golden(preset_parameters(Preset::kDeburrLine));
   const Frame frame = line_frame(1 / 4.5, 0.3, 300);
   golden.process(frame.view());
   std::map<Outcome, int> outcomes;
@@ -368,7 +368,7 @@ Frame staircase(const std::vector<int>& lengths) {
 TEST(Extension, StopsOnACurve) {
   // Steps 3, 4, 5 over rising rows: both sides of the middle run hit with different steps.
   const Frame frame = staircase({1, 2, 3, 4, 5, 6, 7});
-  MorphologicalGolden golden(preset_parameters(Preset::kDeburr));
+  MorphologicalGolden golden(preset_parameters(Preset::kDeburrLine));
   golden.process(frame.view());
   int curves = 0;
   for (const PredictedRun& run : complete_runs(golden)) {
@@ -418,7 +418,7 @@ void PrintTo(const Kept& k, std::ostream* out) { *out << k.left << " and " << k.
 TEST(Trim, GivesBackTheLastStepOfALostSide) {
   // Three steps of 3 before the run and two after it, then steps of 9.
   const Frame frame = staircase({9, 3, 3, 3, 3, 3, 3, 9, 2});
-  for (const auto preset : {Preset::kDeburr, Preset::kMlaaSlope}) {
+  for (const auto preset : {Preset::kDeburrLine, Preset::kMlaaSlope}) {
     const PredictedRun whole = run_at(frame, trimmed(preset, false), 18);
     EXPECT_EQ(kept(whole), (Kept{3, 2}));
     EXPECT_EQ(whole.left_end, SideEnd::kNoHit);
@@ -435,7 +435,7 @@ TEST(Trim, GivesBackTheLastStepOfALostSide) {
 
 TEST(Trim, KeepsAllWhereTheStepsOrTheReachEnd) {
   const Frame frame = staircase(std::vector<int>(25, 3));
-  spec::morphological::Parameters p = trimmed(Preset::kDeburr, true);
+  spec::morphological::Parameters p = trimmed(Preset::kDeburrLine, true);
   const PredictedRun all = run_at(frame, p, 36);
   EXPECT_EQ(kept(all), (Kept{8, 8}));
   EXPECT_EQ(all.left_end, SideEnd::kSteps);
@@ -460,10 +460,10 @@ TEST(Trim, KeepsAllWhereTheStepsOrTheReachEnd) {
 TEST(Trim, HalvesASideThatNoLineExplains) {
   // 5, 5, 5 and 6, 6 are no line: the second 6 is refused, one step is left, half of it is none.
   const Frame frame = staircase({9, 5, 5, 5, 6, 6, 6, 2});
-  const PredictedRun whole = run_at(frame, trimmed(Preset::kDeburr, false), 19);
+  const PredictedRun whole = run_at(frame, trimmed(Preset::kDeburrLine, false), 19);
   EXPECT_EQ(whole.right_end, SideEnd::kInconsistent);
   EXPECT_EQ(kept(whole), (Kept{2, 1}));
-  EXPECT_EQ(kept(run_at(frame, trimmed(Preset::kDeburr, true), 19)), (Kept{1, 0}));
+  EXPECT_EQ(kept(run_at(frame, trimmed(Preset::kDeburrLine, true), 19)), (Kept{1, 0}));
 }
 
 // A naive reading of the contract over many bends, against the runs without the trim.
@@ -487,7 +487,7 @@ TEST(Trim, LeavesWhatTheContractSays) {
       corner.push_back(corner.back() + lengths.back());
     }
     const Frame frame = staircase(lengths);
-    for (const auto preset : {Preset::kDeburr, Preset::kMlaaSlope}) {
+    for (const auto preset : {Preset::kDeburrLine, Preset::kMlaaSlope}) {
       spec::morphological::Parameters p = trimmed(preset, false);
       p.window_rows = 20;
       p.reach_columns = 30;

@@ -50,7 +50,7 @@ Frame image(const std::string& name) {
 
 constexpr auto kMlaa = Preset::kMlaa;
 constexpr auto kSlope = Preset::kMlaaSlope;
-constexpr auto kDeburr = Preset::kDeburr;
+constexpr auto kDeburrLine = Preset::kDeburrLine;
 
 template <int n>
 void steps(spec::morphological::Parameters& p) {
@@ -80,23 +80,28 @@ void safe_chord(spec::morphological::Parameters& p) {
 const Vector kVectors[] = {
     {"noise", kMlaa, as_it_is, 66, 256, 0x00b097db028f25fd, 2958, 0, 1390, 0, 0, 0, 3175},
     {"noise", kSlope, as_it_is, 66, 256, 0x6c40266cf03f3513, 2958, 0, 1390, 671, 1062, 9200, 3282},
-    {"noise", kDeburr, as_it_is, 66, 256, 0x2820122eb9f04a52, 2958, 0, 1390, 10, 10, 7378, 3178},
-    {"noise", kDeburr, gamma_space, 66, 256, 0x8a5e9cf3676d7e0d, 2958, 0, 1390, 10, 10, 7378, 3178},
+    {"noise", kDeburrLine, as_it_is, 66, 256, 0x2820122eb9f04a52, 2958, 0, 1390, 10, 10, 7378,
+     3178},
+    {"noise", kDeburrLine, gamma_space, 66, 256, 0x8a5e9cf3676d7e0d, 2958, 0, 1390, 10, 10, 7378,
+     3178},
     {"line", kMlaa, as_it_is, 66, 256, 0x5d62265609239471, 241, 0, 232, 0, 0, 0, 418},
     {"line", kSlope, as_it_is, 66, 256, 0x75ccf871d174feaf, 241, 0, 232, 162, 871, 2560, 457},
-    {"line", kDeburr, as_it_is, 66, 256, 0x736d3ffd8a940ba4, 241, 0, 232, 128, 584, 2832, 425},
-    {"line", kDeburr, paper_contrast_16, 66, 256, 0x460d3c72f9dd7681, 241, 0, 232, 128, 728, 3244,
-     425},
+    {"line", kDeburrLine, as_it_is, 66, 256, 0x736d3ffd8a940ba4, 241, 0, 232, 128, 584, 2832, 425},
+    {"line", kDeburrLine, paper_contrast_16, 66, 256, 0x460d3c72f9dd7681, 241, 0, 232, 128, 728,
+     3244, 425},
     {"line", kSlope, with_fit, 66, 256, 0x60fe73fcc1c70e9f, 241, 0, 232, 162, 871, 2560, 455},
     {"blocks", kMlaa, as_it_is, 20, 9, 0xfd1df0fe5908eab2, 1036, 19, 470, 0, 0, 0, 1186},
     {"blocks", kSlope, steps<4>, 20, 9, 0x5f03ca34a84ea782, 1036, 19, 470, 238, 626, 4119, 1193},
-    {"blocks", kDeburr, steps<4>, 20, 9, 0xbc2f9325b6057e5e, 1198, 24, 536, 204, 528, 4235, 1386},
+    {"blocks", kDeburrLine, steps<4>, 20, 9, 0xbc2f9325b6057e5e, 1198, 24, 536, 204, 528, 4235,
+     1386},
     {"blocks", kSlope, safe_chord, 20, 9, 0xdda27397e1d7e1a8, 1213, 15, 531, 262, 655, 4442, 1354},
-    {"blocks", kDeburr, steps<3>, 10, 7, 0xa765ccb0279eaaf0, 1198, 28, 536, 204, 314, 3587, 1364},
+    {"blocks", kDeburrLine, steps<3>, 10, 7, 0xa765ccb0279eaaf0, 1198, 28, 536, 204, 314, 3587,
+     1364},
     {"blocks", kSlope, steps<8>, 20, 30, 0xdc30d70a15925762, 1036, 14, 470, 239, 1315, 5984, 1268},
     {"blocks", kSlope, trimmed, 20, 30, 0x4a46970faa1de0ac, 1036, 14, 470, 180, 992, 5984, 1276},
-    {"blocks", kDeburr, as_it_is, 66, 256, 0xe86c7f9318eacf5e, 1198, 0, 538, 168, 660, 5382, 1552},
-    {"blocks", kDeburr, not_trimmed, 66, 256, 0x464376bac387fe0d, 1198, 0, 538, 222, 970, 5382,
+    {"blocks", kDeburrLine, as_it_is, 66, 256, 0xe86c7f9318eacf5e, 1198, 0, 538, 168, 660, 5382,
+     1552},
+    {"blocks", kDeburrLine, not_trimmed, 66, 256, 0x464376bac387fe0d, 1198, 0, 538, 222, 970, 5382,
      1552},
 };
 
@@ -178,7 +183,7 @@ TEST(LineAndArea, GiveTheContractsTable) {
     run.length = static_cast<std::uint16_t>(c.length);
     run.shape = 9;  // before: first, after: second
     const spec::morphological::LineRecord line =
-        line_through(preset_parameters(kDeburr), run, prediction_of(c));
+        line_through(preset_parameters(kDeburrLine), run, prediction_of(c));
     EXPECT_EQ(line.slope, c.slope);
     EXPECT_EQ(line.inverse, c.inverse);
     EXPECT_EQ(line.shift, c.shift);
@@ -199,7 +204,8 @@ TEST(LineAndArea, ChordAndFitAgreeOnARunByItself) {
     run.shape = 6;
     Prediction p;
     p.right.end = length;
-    const spec::morphological::LineRecord fit = line_through(preset_parameters(kDeburr), run, p);
+    const spec::morphological::LineRecord fit =
+        line_through(preset_parameters(kDeburrLine), run, p);
     EXPECT_EQ(fit, line_through(preset_parameters(kSlope), run, p));
     EXPECT_EQ(fit.scale, 2);
     EXPECT_EQ(fit.offset, length);

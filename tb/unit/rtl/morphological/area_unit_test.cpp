@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 // AreaUnit: latency and interval, where the shares of a record lie, when it is finished, and what
 // it waits for.
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "spec/morphological/learned_shares.h"
+#include "spec/morphological/tables.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
 namespace deburr::tb::morphological_rtl {
@@ -230,6 +235,103 @@ TEST(AreaUnitBlock, LinesWaitForRoomForTheirFinish) {
   ASSERT_EQ(bench.finished_gate.cycles.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(bench.finished_gate.cycles[i], 100 + i);
   EXPECT_EQ(bench.unit.records.value(), 4u);
+}
+
+// ---- with learned shares ------------------------------------------------------------------------
+
+Parameters with_shares(int lanes_code = 0) {
+  Parameters p = small(lanes_code);
+  p.area = AreaSource::kLearned;
+  return p;
+}
+
+LineToken learned(Axis axis, int line, int start, int length, std::uint32_t slot) {
+  LineToken token{};
+  token.line.run = {axis,
+                    RunPart::kWhole,
+                    static_cast<std::uint16_t>(line),
+                    static_cast<std::uint16_t>(start),
+                    static_cast<std::uint16_t>(length),
+                    1 + 4 * 2};
+  token.line.learned = true;
+  token.line.start_class = 2;
+  token.line.end_class = 6;
+  token.line.scale = 0;
+  token.slot = slot;
+  return token;
+}
+
+// Shares by side of a query, from the tables as they are shipped.
+std::array<int, 2> shipped(const SharesRom::Query& query) {
+  std::array<int, 2> shares{};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const int z = spec::morphological::kSharesOfCodes[query.a[side]] +
+                  spec::morphological::kSharesOfNear[query.b[side]] +
+                  spec::morphological::kSharesOfFar[query.c[side]];
+    shares[side] =
+        spec::morphological::kShareOfSum[static_cast<std::size_t>(std::clamp(z, -128, 127) + 128)];
+  }
+  return shares;
+}
+
+// Shares of a learned record of each axis and of edges without one, nine clocks behind their slots;
+// none has a span.
+TEST_P(AreaLanes, LearnedSharesLieWhereTheirEdgesLie) {
+  Area bench(with_shares(GetParam()), 11, 9);
+  const int lanes = bench.lanes;
+  const auto slot_of = [&](int row, int x) {
+    return bench.slots_before(row + kReach + 2) + static_cast<std::uint32_t>(x / lanes);
+  };
+  // Row 3: a record at 3..5, an edge of none at 8; column 7: a record in rows 5..7; column 10: an
+  // edge of none in row 1. Their edges come with the slots a row ahead of the row that is blended.
+  std::map<std::pair<int, int>, std::array<int, 2>> top, left;
+  for (int k = 0; k < 3; ++k) {
+    const auto shares = shipped(SharesRom::ask({1 + 4 * 2, 2, 6, RunPart::kWhole}, k, 2 - k));
+    top[{3 + k, 3}] = left[{7, 5 + k}] = shares;
+  }
+  top[{8, 3}] = left[{10, 1}] = shipped(SharesRom::ask_gap());
+  std::uint32_t number = 0;
+  for (int row = 0; row < bench.height + kLag; ++row)
+    for (int beat = 0; beat < bench.beats; ++beat) {
+      AreaSlotToken token{};
+      token.slot = {number, static_cast<std::uint16_t>(row), static_cast<std::uint16_t>(beat)};
+      for (int i = 0; i < lanes; ++i) {
+        const std::pair<int, int> next(beat * lanes + i, row - kLag + 1);
+        token.next_top = static_cast<std::uint8_t>(token.next_top | int{top.contains(next)} << i);
+        token.next_left =
+            static_cast<std::uint8_t>(token.next_left | int{left.contains(next)} << i);
+      }
+      bench.slot_driver.send(number++, token);
+    }
+  bench.drivers_h[0]->send(0, learned(Axis::kHorizontal, 3, 3, 3, slot_of(3, 6)));
+  bench.drivers_v[0]->send(0, learned(Axis::kVertical, 7, 5, 3, slot_of(5, 7)));
+  bench.clock.run(bench.slots_before(9 + kLag) + 20);
+  ASSERT_EQ(bench.shares_gate.beats.size(), static_cast<std::size_t>(9 * bench.beats));
+  const std::uint32_t first = bench.slots_before(kLag);
+  int seen = 0;
+  for (std::size_t at = 0; at < bench.shares_gate.beats.size(); ++at) {
+    const ShareToken& token = bench.shares_gate.beats[at];
+    ASSERT_EQ(bench.shares_gate.cycles[at], first + at + 10);
+    for (int i = 0; i < lanes && token.slot.beat * lanes + i < 11; ++i) {
+      const int x = token.slot.beat * lanes + i, y = token.slot.row - kLag;
+      const auto of = [](const auto& edges, int ex, int ey, std::size_t side) {
+        const auto found = edges.find({ex, ey});
+        return found == edges.end() ? 0 : found->second[side];
+      };
+      const std::array<int, 4> expected = {of(top, x, y, 1), of(top, x, y + 1, 0),
+                                           of(left, x, y, 1), of(left, x + 1, y, 0)};
+      const Shares s = token.any ? token.shares[static_cast<std::size_t>(i)] : Shares{};
+      EXPECT_THAT((std::array<int, 4>{s.up, s.down, s.left, s.right}),
+                  ::testing::ElementsAreArray(expected))
+          << x << ',' << y;
+      EXPECT_EQ(s.span_up + s.span_down + s.span_left + s.span_right, 0);
+      for (const int share : expected) seen += share != 0;
+    }
+  }
+  EXPECT_GE(seen, 6);
+  EXPECT_EQ(bench.unit.horizontal_edges.value(), 3u);
+  EXPECT_EQ(bench.unit.vertical_edges.value(), 3u);
+  EXPECT_EQ(bench.unit.stalled_cycles(), 0u);
 }
 
 // ---- with SMAA's blocks -------------------------------------------------------------------------

@@ -62,7 +62,7 @@ struct Blending {
 };
 
 TEST(BlenderBlock, ChoosesTheAxisAndRoundsTheMagnitude) {
-  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  Parameters p = preset(spec::morphological::Preset::kDeburrLine);
   p.linear_light = false;
   Blending bench(p);
   struct Row {
@@ -103,7 +103,7 @@ TEST(BlenderBlock, ChoosesTheAxisAndRoundsTheMagnitude) {
 }
 
 TEST(BlenderBlock, BlendsInLinearLight) {
-  Blending bench(preset(spec::morphological::Preset::kDeburr));
+  Blending bench(preset(spec::morphological::Preset::kDeburrLine));
   bench.send({128, 0, 0, 0, 3, 0, 0, 0}, 0, 255, 0, 0, 0);  // half of white: 2048 of 4095
   bench.send({0, 0, 0, 0, 0, 0, 0, 0}, 1, 0, 0, 0, 0);
   bench.clock.run(10);
@@ -114,7 +114,7 @@ TEST(BlenderBlock, BlendsInLinearLight) {
 
 // The axis of the largest share; squares of the shares over their sum.
 TEST(BlenderBlock, TheStrongestShareChoosesAndSquaresMix) {
-  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  Parameters p = preset(spec::morphological::Preset::kDeburrLine);
   p.linear_light = false;
   p.blend = spec::morphological::BlendRule::kStrongest;
   Blending bench(p);
@@ -147,7 +147,7 @@ TEST(BlenderBlock, TheStrongestShareChoosesAndSquaresMix) {
 }
 
 TEST(BlenderBlock, MixesAllPairsOfShares) {
-  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  Parameters p = preset(spec::morphological::Preset::kDeburrLine);
   p.linear_light = false;
   p.blend = spec::morphological::BlendRule::kStrongest;
   Blending bench(p);
@@ -381,7 +381,7 @@ TEST(BlenderBlock, ALeftPixelWithoutAShareCountsNowhere) {
 // ---- what a memory does not do ------------------------------------------------------------------
 
 TEST(BlenderMemory, AWordIsNotThereInTheClockOfItsAddress) {
-  Blending bench(preset(spec::morphological::Preset::kDeburr));
+  Blending bench(preset(spec::morphological::Preset::kDeburrLine));
   bench.send({128, 0, 0, 0, 3, 0, 0, 0}, 0, 255, 0, 0, 0);
   bench.clock.run(3);  // popped in 1, asked for in 2
   EXPECT_THAT(
@@ -390,7 +390,7 @@ TEST(BlenderMemory, AWordIsNotThereInTheClockOfItsAddress) {
 }
 
 TEST(BlenderMemory, AWordOfMixRomIsNotThereInTheClockOfItsAddress) {
-  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  Parameters p = preset(spec::morphological::Preset::kDeburrLine);
   p.linear_light = false;
   p.blend = spec::morphological::BlendRule::kStrongest;
   Blending bench(p);
@@ -401,7 +401,7 @@ TEST(BlenderMemory, AWordOfMixRomIsNotThereInTheClockOfItsAddress) {
 }
 
 TEST(BlenderMemory, HasNoCodeForMoreThanWhite) {
-  Blending bench(preset(spec::morphological::Preset::kDeburr));
+  Blending bench(preset(spec::morphological::Preset::kDeburrLine));
   bench.send({255, 255, 0, 0, 3, 3, 0, 0}, 0, 255, 255, 0, 0);
   EXPECT_THAT([&] { bench.clock.run(10); },
               ::testing::ThrowsMessage<spec::CheckFailed>(::testing::HasSubstr("encode_rom")));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <tuple>
 
 #include "tb/unit/rtl/morphological/support.h"
 
@@ -61,7 +62,7 @@ void PrintTo(const Build& b, std::ostream* out) {
        << ", interval " << b.interval;
 }
 Parameters build(const Build& b) {
-  Parameters p = preset(b.steps ? Preset::kDeburr : Preset::kMlaa);
+  Parameters p = preset(b.steps ? Preset::kDeburrLine : Preset::kMlaa);
   p.lanes = static_cast<spec::morphological::Lanes>(b.lanes_code);
   p.steps = b.steps;
   p.predictor_units = b.units;
@@ -116,6 +117,48 @@ INSTANTIATE_TEST_SUITE_P(Builds, LongBursts,
                                            Build{0, 8, 2, 3, 1, 24}, Build{0, 8, 4, 8, 1, 24},
                                            Build{0, 8, 2, 4, 20, 24}));
 
+// Records of which only classes are found: vertical runs of a pixel, a record a clock at the end of
+// a row.
+class Classes : public ::testing::TestWithParam<std::tuple<int, int, int>> {
+ protected:
+  static constexpr int kRecords = 120;
+  static Parameters built(int beats) {
+    const auto [lanes_code, units, trial_clocks] = GetParam();
+    Parameters p = preset(Preset::kDeburr);
+    p.lanes = static_cast<spec::morphological::Lanes>(lanes_code);
+    p.predictor_units = units;
+    p.trial_clocks = trial_clocks;
+    p.line_pixels = beats * lanes_of(p);
+    return p;
+  }
+  static std::uint64_t stalls(int beats) {
+    const Parameters p = built(beats);
+    EngineBench bench(p);
+    const Frame in = combs(p.line_pixels, 60, kRecords * lanes_of(p));
+    bench.run(in);
+    EXPECT_GT(bench.engine.extractor.records_sent.value(), 500u);
+    const std::uint64_t stalls = bench.engine.extractor.record_stalls.value();
+    EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), unstalled(in, p) + stalls);
+    return stalls;
+  }
+  static int bound() {
+    const auto [lanes_code, units, clocks] = GetParam();
+    const int held = clocks >= 3 ? clocks : clocks == 2 ? 4 : 2;
+    return std::max(kRecords, kRecords * (held - units) / units + 2 * held + 12);
+  }
+};
+TEST_P(Classes, PassWithoutAStallAtTheBound) { EXPECT_EQ(stalls(bound()), 0u); }
+INSTANTIATE_TEST_SUITE_P(Builds, Classes,
+                         ::testing::Values(std::tuple{0, 2, 4}, std::tuple{0, 1, 4},
+                                           std::tuple{0, 1, 8}, std::tuple{1, 2, 4},
+                                           std::tuple{2, 2, 4}, std::tuple{0, 1, 1},
+                                           std::tuple{0, 1, 2}, std::tuple{0, 1, 3}));
+class LongClasses : public Classes {};
+TEST_P(LongClasses, StallInRowsATenthShorter) { EXPECT_GT(stalls(bound() * 9 / 10), 0u); }
+INSTANTIATE_TEST_SUITE_P(Builds, LongClasses,
+                         ::testing::Values(std::tuple{0, 1, 4}, std::tuple{0, 1, 8},
+                                           std::tuple{0, 1, 2}));
+
 TEST(Bursts, TheBoundsOfTheDefaults) {
   const Parameters deburr = build({0, 8, 2, 4, 1, 24}), mlaa = build({0, 0, 2, 4, 1, 24});
   EXPECT_EQ(least_beats(deburr, 1, false), 16 + 36 + 24 + 2 + 12);
@@ -138,7 +181,7 @@ constexpr int depth_for(int records) {
 }
 class FifoDepth : public ::testing::TestWithParam<Depth> {};
 TEST_P(FifoDepth, HoldsBothBursts) {
-  Parameters p = preset(Preset::kDeburr);
+  Parameters p = preset(Preset::kDeburrLine);
   const int width = GetParam().beats, records = GetParam().records;
   p.line_pixels = width;
   p.record_fifo = GetParam().fifo;

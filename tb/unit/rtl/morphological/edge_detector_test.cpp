@@ -127,6 +127,76 @@ TEST(EdgeDetectorBlock, DepthAndPredicatedSources) {
   EXPECT_EQ(left_bits(front.detect(steps, {{reg::kRules, 2}})), "00101");
 }
 
+// The largest of three steps; luma would not see the first two.
+TEST(EdgeDetectorBlock, ColourComparesEachCode) {
+  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  p.local_contrast = spec::morphological::LocalContrast::kOff;
+  Front front(p);
+  Frame steps(8, 1);
+  steps.pixel = {{100, 50, 80, 0}, {113, 50, 80, 0}, {113, 50, 67, 0}, {113, 50, 67, 9},
+                 {101, 38, 79, 0}, {101, 51, 79, 0}, {88, 64, 66, 0},  {100, 64, 66, 0}};
+  EXPECT_EQ(left_bits(front.detect(steps)), "01100110");
+  EXPECT_EQ(top_bits(front.detect(transposed(steps))), "01100110");
+  // T = 1: any step at all; 3341 is met by 13 codes, 3342 is not.
+  EXPECT_EQ(left_bits(front.detect(steps, {{reg::kThreshold, 1}})), "01101111");
+  EXPECT_EQ(left_bits(front.detect(steps, {{reg::kThreshold, 3342}})), "00000000");
+}
+
+TEST(EdgeDetectorBlock, LocalContrastComparesColours) {
+  Front front(preset(spec::morphological::Preset::kDeburr));
+  Frame steps(4, 1);
+  // 20 of green beside 40 of blue is dropped, beside 39 kept.
+  for (const int more : {40, 39}) {
+    steps.pixel = {{0, 0, 0, 0}, {0, 20, 0, 0}, {0, 20, static_cast<std::uint8_t>(more), 0}, {}};
+    steps.pixel[3] = steps.pixel[2];
+    EXPECT_EQ(left_bits(front.detect(steps)), more == 40 ? "0010" : "0110");
+    EXPECT_EQ(top_bits(front.detect(transposed(steps))), more == 40 ? "0010" : "0110");
+  }
+}
+
+// A masked pixel has no edge, and its steps weigh on no other, of any source.
+class Masked : public ::testing::TestWithParam<spec::morphological::EdgeSource> {};
+
+TEST_P(Masked, PixelsMakeNoStep) {
+  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  p.edge_source = GetParam();
+  p.leave = spec::morphological::Leave::kMasked;
+  Front front(p);
+  Frame steps = row({0, 30, 30, 200, 0, 0, 80, 0});
+  for (Rgba8& pixel : steps.pixel) pixel[3] = 1;
+  EXPECT_EQ(left_bits(front.detect(steps)), "01011011");
+  steps.at(3, 0)[3] = 254;
+  steps.at(7, 0)[3] = 0;
+  EXPECT_EQ(left_bits(front.detect(steps)), "01000010");
+  EXPECT_EQ(top_bits(front.detect(transposed(steps))), "01000010");
+  Frame pair = row({0, 30, 90, 90});
+  for (Rgba8& pixel : pair.pixel) pixel[3] = 1;
+  EXPECT_EQ(left_bits(front.detect(pair)), "0010") << "dropped beside 60";
+  pair.at(2, 0)[3] = 0;
+  EXPECT_EQ(left_bits(front.detect(pair)), "0100") << "and kept beside what is masked";
+}
+INSTANTIATE_TEST_SUITE_P(
+    Sources, Masked,
+    ::testing::Values(spec::morphological::EdgeSource::kColour,
+                      spec::morphological::EdgeSource::kLuma),
+    [](const auto& source) {
+      return std::string(
+          spec::morphological::kEdgeSourceNames[static_cast<std::size_t>(source.param)]);
+    });
+
+TEST(MaskedDepth, MakesNoStepEither) {
+  Parameters p = preset(spec::morphological::Preset::kMlaa);
+  p.edge_source = spec::morphological::EdgeSource::kDepth;
+  p.leave = spec::morphological::Leave::kMasked;
+  Front front(p);
+  Frame frame = row({0, 0, 0, 0, 0});
+  frame.depth = {1000, 950, 949, 1000, 0};
+  for (Rgba8& pixel : frame.pixel) pixel[3] = 1;
+  EXPECT_EQ(left_bits(front.detect(frame)), "00011");
+  frame.at(4, 0)[3] = 0;
+  EXPECT_EQ(left_bits(front.detect(frame)), "00010");
+}
+
 TEST(EdgeDetectorBlock, WithoutDepthLinesDepthReadsZero) {
   Front front(preset(spec::morphological::Preset::kMlaa));
   Frame frame = row({0, 255, 0});

@@ -23,7 +23,7 @@ using spec::morphological::Lanes;
 using spec::morphological::Preset;
 
 Parameters built(bool contiguous, int reach_rows = 32, int reach_columns = 256) {
-  Parameters p = preset(Preset::kDeburr, reach_rows, reach_columns);
+  Parameters p = preset(Preset::kDeburrLine, reach_rows, reach_columns);
   p.contiguous = contiguous;
   return p;
 }
@@ -270,7 +270,7 @@ class LongestStep : public ::testing::TestWithParam<int> {
   static constexpr int kFrom = 90;
   static Parameters parameters() {
     // A side that the window ends keeps what it has.
-    Parameters p = preset(Preset::kDeburr, 32, GetParam());
+    Parameters p = preset(Preset::kDeburrLine, 32, GetParam());
     p.trim = false;
     return p;
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // EndpointPredictor: trials, `safe` and `trim` by hand from the contract, its clocks, its order,
 // and where it waits.
+#include <algorithm>
+#include <array>
 #include <functional>
 #include <map>
 #include <numeric>
@@ -200,7 +202,7 @@ TEST(EndpointPredictorBlock, ARecordHoldsAPredictorForItsIterations) {
 
 TEST(EndpointPredictorBlock, TrialsOfOneRecordBehindTheOther) {
   // A long stair of steps of two pixels: N = 8 to both sides.
-  Prediction bench(preset(spec::morphological::Preset::kDeburr), Axis::kHorizontal, 90, 60,
+  Prediction bench(preset(spec::morphological::Preset::kDeburrLine), Axis::kHorizontal, 90, 60,
                    stair(10, std::vector<int>(30, 2), 10));
   for (int i = 0; i < 12; ++i) bench.ends.source.send(bench.z(26, 40, 2, true));
   bench.clock.run(300);
@@ -334,7 +336,7 @@ int kept_by_contract(int taken, Ended ended) {
 struct Trimming : Prediction {
   static constexpr int kWidth = 2 * kTrimReach + 2, kHeight = 40, kLine = 20, kStart = 31;
   static Parameters parameters(spec::morphological::Predictor line) {
-    Parameters p = preset(spec::morphological::Preset::kDeburr, kTrimReach, kTrimReach);
+    Parameters p = preset(spec::morphological::Preset::kDeburrLine, kTrimReach, kTrimReach);
     p.predictor = line;
     return p;
   }
@@ -574,7 +576,7 @@ class TrialClocks : public ::testing::TestWithParam<int> {};
 
 // A record that comes in any clock of the schedule: early for its phase, or late.
 TEST_P(TrialClocks, ARecordWaitsForItsPhaseAndTakesThatLong) {
-  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  Parameters p = preset(spec::morphological::Preset::kDeburrLine);
   p.line_pixels = 64;
   p.trial_clocks = GetParam();
   Predicting bench(p);
@@ -652,6 +654,210 @@ TEST(EndpointPredictorBlock, AResetTakesBackTheTurn) {
     EXPECT_EQ(bench.gate.cycles[1], bench.gate.cycles[0] + 1);
   }
 }
+
+// ---- Classes of crossings -----------------------------------------------------------------------
+
+// A run of top edges (transposed: of left ones) and its crossings, edge by edge.
+struct Crossings {
+  std::vector<std::array<int, 3>> along, across;  // line, from, to; position, line, 0
+  bool has_along(int p, int q) const {
+    return std::any_of(along.begin(), along.end(),
+                       [&](const auto& a) { return a[0] == q && p >= a[1] && p < a[2]; });
+  }
+  bool has_across(int p, int q) const {
+    return std::any_of(across.begin(), across.end(),
+                       [&](const auto& a) { return a[0] == p && a[1] == q; });
+  }
+};
+
+struct Looking {
+  Looking(const Parameters& p, Axis axis_)
+      : axis(axis_),
+        registers(p, 60, 60),
+        edges(p, registers.store),
+        predictor(axis_ == Axis::kHorizontal
+                      ? EndpointPredictor("predictor", clock, p, registers.store, edges.rows)
+                      : EndpointPredictor("predictor", clock, p, registers.store, edges.window)),
+        ends(clock) {
+    predictor.records_in[0](ends.in);
+    predictor.sums_out[0](ends.out);
+  }
+  RunToken record(const Crossings& shown, int line, int start, int length, int start_code,
+                  int end_code, RunPart part = RunPart::kWhole) {
+    const bool vertical = axis == Axis::kVertical;
+    edges.show(
+        vertical ? start : line,
+        [&](int x, int y) { return vertical ? shown.has_along(y, x) : shown.has_across(x, y); },
+        [&](int x, int y) { return vertical ? shown.has_across(y, x) : shown.has_along(x, y); });
+    RunToken token{};
+    token.run = {axis,
+                 part,
+                 static_cast<std::uint16_t>(line),
+                 static_cast<std::uint16_t>(start),
+                 static_cast<std::uint16_t>(length),
+                 static_cast<std::uint8_t>(start_code + 4 * end_code)};
+    return token;
+  }
+  SumsToken classes(const RunToken& token) {
+    ends.source.send(token);
+    clock.run(40);
+    return ends.sink.beats().back();
+  }
+  ClockDomain clock{"clock", period()};
+  Axis axis;
+  Registers registers;
+  EdgeMemories edges;
+  EndpointPredictor predictor;
+  Ends<RunToken, SumsToken> ends;
+};
+
+class CrossingClasses : public ::testing::TestWithParam<Axis> {};
+
+// Run 20..24 of line 30. A start on the first side: the far corner is (20, 29); an end on the
+// second one: (25, 31).
+TEST_P(CrossingClasses, FollowTheOrderOfTheContract) {
+  Looking bench(deburr(), GetParam());
+  const Crossings run = {{{30, 20, 25}}, {{20, 29}, {25, 30}}};
+  const auto classes = [&](Crossings more) {
+    more.along.insert(more.along.end(), run.along.begin(), run.along.end());
+    more.across.insert(more.across.end(), run.across.begin(), run.across.end());
+    // An L at each end, so that no trial is made.
+    const SumsToken start = bench.classes(bench.record(more, 30, 20, 5, 1, 0));
+    const SumsToken end = bench.classes(bench.record(more, 30, 20, 5, 0, 2));
+    EXPECT_TRUE(start.learned && end.learned);
+    EXPECT_EQ(start.end_class, 0);
+    EXPECT_EQ(end.start_class, 0);
+    // Both at once; it is a clean Z, whose trial finds nothing.
+    const SumsToken both = bench.classes(bench.record(more, 30, 20, 5, 1, 2));
+    EXPECT_TRUE(both.learned);
+    EXPECT_EQ(both.start_class, start.start_class);
+    EXPECT_EQ(both.end_class, end.end_class);
+    EXPECT_EQ(both.left + both.right, 0);
+    return std::pair<int, int>(start.start_class, end.end_class);
+  };
+  using Pair = std::pair<int, int>;
+  EXPECT_EQ(classes({}), Pair(0, 0));
+  // It turns back towards the run; an edge away is not looked at then.
+  EXPECT_EQ(classes({{{29, 20, 21}}, {}}), Pair(1, 0));
+  EXPECT_EQ(classes({{{29, 15, 21}, {31, 24, 30}}, {}}), Pair(1, 1));
+  // It goes on, whatever else there is.
+  EXPECT_EQ(classes({{}, {{20, 28}}}), Pair(2, 0));
+  EXPECT_EQ(classes({{{29, 15, 21}, {31, 24, 30}}, {{20, 28}, {25, 31}}}), Pair(2, 2));
+  // Edges away from the run.
+  const int expected[] = {0, 3, 4, 5, 6, 6, 7, 7, 7, 7, 8, 8, 8};
+  for (int n = 0; n <= 12; ++n)
+    EXPECT_EQ(classes({{{29, 20 - n, 20}, {31, 25, 25 + n}}, {}}), Pair(expected[n], expected[n]))
+        << n;
+  // A gap ends them.
+  EXPECT_EQ(classes({{{29, 16, 18}, {29, 19, 20}, {31, 25, 26}, {31, 27, 33}}, {}}), Pair(3, 3));
+}
+
+// Crossings on the other sides.
+TEST_P(CrossingClasses, LookOnTheSideOfTheCrossing) {
+  Looking bench(deburr(), GetParam());
+  const Crossings shown = {{{30, 20, 25}, {29, 18, 20}, {29, 25, 28}, {31, 14, 20}, {31, 25, 26}},
+                           {{20, 29}, {20, 30}, {25, 29}, {25, 30}}};
+  EXPECT_EQ(bench.classes(bench.record(shown, 30, 20, 5, 1, 0)).start_class, 4);
+  EXPECT_EQ(bench.classes(bench.record(shown, 30, 20, 5, 2, 0)).start_class, 7);
+  EXPECT_EQ(bench.classes(bench.record(shown, 30, 20, 5, 0, 1)).end_class, 5);
+  EXPECT_EQ(bench.classes(bench.record(shown, 30, 20, 5, 0, 2)).end_class, 3);
+  // Both edges, or none: no class.
+  const SumsToken t = bench.classes(bench.record(shown, 30, 20, 5, 3, 0));
+  EXPECT_TRUE(t.learned);
+  EXPECT_EQ(t.start_class + t.end_class, 0);
+}
+
+// No more than reach - L edges, of either end; none of a head or a tail.
+TEST_P(CrossingClasses, EndWithTheReach) {
+  Parameters p = deburr();
+  p.reach_columns = 32;
+  Looking bench(p, GetParam());
+  for (const int length : {22, 23, 28, 29, 30, 31, 32}) {
+    const Crossings shown = {{{30, 12, 12 + length}, {29, 0, 12}, {31, 12 + length, 60}},
+                             {{12, 29}, {12 + length, 30}}};
+    const int room = 32 - length;
+    const int expected = room == 0 ? 0 : room < 4 ? 2 + room : room < 6 ? 6 : room < 10 ? 7 : 8;
+    EXPECT_EQ(bench.classes(bench.record(shown, 30, 12, length, 1, 0)).start_class, expected)
+        << length;
+    EXPECT_EQ(bench.classes(bench.record(shown, 30, 12, length, 0, 2)).end_class, expected)
+        << length;
+  }
+  const Crossings shown = {{{30, 12, 50}, {29, 0, 12}}, {{12, 29}}};
+  EXPECT_EQ(bench.classes(bench.record(shown, 30, 12, 16, 1, 0, RunPart::kHead)).start_class, 0);
+  const Crossings on = {{{30, 12, 50}, {29, 0, 13}}, {{12, 29}}};
+  EXPECT_EQ(bench.classes(bench.record(on, 30, 12, 16, 1, 0, RunPart::kHead)).start_class, 1);
+}
+
+// A long clean Z keeps its line without a step; no other shape does.
+TEST_P(CrossingClasses, ALongZHasNone) {
+  Looking bench(deburr(), GetParam());
+  for (const int length : {15, 16}) {
+    const Crossings shown = {{{30, 12, 12 + length}, {29, 10, 12}, {31, 12 + length, 45}},
+                             {{12, 29}, {12 + length, 30}}};
+    const SumsToken z = bench.classes(bench.record(shown, 30, 12, length, 1, 2));
+    EXPECT_EQ(z.left + z.right, 0);
+    EXPECT_EQ(z.learned, length < 16);
+    EXPECT_EQ(z.start_class, length < 16 ? 4 : 0);
+    EXPECT_TRUE(bench.classes(bench.record(shown, 30, 12, length, 1, 0)).learned);
+    EXPECT_TRUE(bench.classes(bench.record(shown, 30, 12, length, 3, 2)).learned);
+  }
+}
+
+// A record that was extended carries none; one of an engine whose rule is off neither.
+TEST_P(CrossingClasses, AreOfLearnedRecordsOnly) {
+  Looking bench(deburr(), GetParam());
+  Crossings stair;
+  for (int k = 0; k < 6; ++k) {
+    stair.along.push_back({10 + k, 10 + 3 * k, 13 + 3 * k});
+    stair.across.push_back({10 + 3 * k, 9 + k, 0});
+  }
+  const RunToken z = bench.record(stair, 12, 16, 3, 1, 2);
+  const SumsToken extended = bench.classes(z);
+  EXPECT_FALSE(extended.learned);
+  EXPECT_GT(extended.left + extended.right, 0);
+  EXPECT_EQ(extended.start_class + extended.end_class, 0);
+  bench.registers.store.leave();
+  bench.registers.bus.write(reg::kRules, bench.registers.bus.read(reg::kRules) & ~(1u << 25));
+  ASSERT_TRUE(bench.registers.store.latch());
+  const RunToken l = bench.record(stair, 12, 16, 3, 1, 0);
+  EXPECT_FALSE(bench.classes(l).learned);
+  EXPECT_EQ(bench.classes(l).start_class, 0);
+}
+
+// Pushed in 0, popped in 1; reads in 4 and 5, let go in 7, sent in 8, taken in 9. One behind the
+// other: a predictor takes one each four clocks, the other two clocks later.
+TEST_P(CrossingClasses, TakeTheClocksOfATrialButOne) {
+  Looking bench(deburr(), GetParam());
+  const RunToken token = bench.record({{{30, 20, 25}}, {{20, 29}}}, 30, 20, 5, 1, 0);
+  for (int i = 0; i < 9; ++i) bench.ends.source.send(token);
+  bench.clock.run(60);
+  EXPECT_THAT(bench.ends.sink.cycles(), ::testing::ElementsAre(9, 11, 13, 15, 17, 19, 21, 23, 25));
+}
+
+class CrossingClassesTrialClocks : public ::testing::TestWithParam<int> {};
+
+// T clocks a record with one predictor, if T is 3 or more.
+TEST_P(CrossingClassesTrialClocks, AreOneRecordEach) {
+  Parameters p = deburr();
+  p.predictor_units = 1;
+  p.trial_clocks = GetParam();
+  Looking bench(p, Axis::kHorizontal);
+  const RunToken token = bench.record({{{30, 20, 25}}, {{20, 29}}}, 30, 20, 5, 1, 0);
+  for (int i = 0; i < 4; ++i) bench.ends.source.send(token);
+  bench.clock.run(80);
+  ASSERT_EQ(bench.ends.sink.cycles().size(), 4u);
+  const Cycle each = GetParam() >= 3 ? static_cast<Cycle>(GetParam()) : GetParam() == 2 ? 4 : 2;
+  for (std::size_t i = 1; i < 4; ++i)
+    EXPECT_EQ(bench.ends.sink.cycles()[i] - bench.ends.sink.cycles()[i - 1], each);
+  for (const SumsToken& sums : bench.ends.sink.beats()) EXPECT_EQ(sums.start_class, 0);
+}
+INSTANTIATE_TEST_SUITE_P(Clocks, CrossingClassesTrialClocks, ::testing::Range(1, 9));
+
+INSTANTIATE_TEST_SUITE_P(Both, CrossingClasses,
+                         ::testing::Values(Axis::kHorizontal, Axis::kVertical),
+                         [](const auto& param) {
+                           return param.param == Axis::kHorizontal ? "horizontal" : "vertical";
+                         });
 
 }  // namespace
 }  // namespace deburr::tb::morphological_rtl

@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(Any, Sizes,
 
 // A frame of one row or one column has no corner with a crossing: it passes unchanged.
 TEST(SizesBlock, OneColumnPassesUnchanged) {
-  EngineBench bench(deburr());
+  EngineBench bench(deburr_line());
   const Frame column = noise(1, 50);
   EXPECT_EQ(hash(bench.run(column)), hash(column));
   const Frame line_of_noise = noise(200, 1);
@@ -235,8 +235,8 @@ TEST_P(LeftPixels, AreAsTheyCameAndNothingElseChanges) {
 INSTANTIATE_TEST_SUITE_P(
     Any, LeftPixels,
     ::testing::Values(
-        Leaving{"deburr_1", [] { return deburr(); }, 0, false},
-        Leaving{"deburr_4", [] { return deburr(); }, 2, false},
+        Leaving{"deburr_1", [] { return deburr_line(); }, 0, false},
+        Leaving{"deburr_4", [] { return deburr_line(); }, 2, false},
         Leaving{"mlaa_2", [] { return preset(Preset::kMlaa); }, 1, false},
         Leaving{"mlaa_memory_4", [] { return preset(Preset::kMlaa); }, 2, true},
         Leaving{"slope_memory_1", [] { return preset(Preset::kMlaaSlope); }, 0, true},
@@ -249,7 +249,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // Mirroring the frame mirrors the output, whatever its size.
 TEST(Symmetry, MirroredFramesGiveMirroredOutput) {
-  Parameters p = preset(Preset::kDeburr, 9, 9);
+  Parameters p = preset(Preset::kDeburrLine, 9, 9);
   p.lanes = spec::morphological::Lanes::kTwo;
   p.steps = 5;
   EngineBench bench(p);
@@ -266,7 +266,7 @@ TEST(Symmetry, MirroredFramesGiveMirroredOutput) {
 }
 
 TEST(Symmetry, InvertedCodesGiveInvertedOutput) {
-  Parameters p = deburr();
+  Parameters p = deburr_line();
   p.linear_light = false;
   EngineBench bench(p);
   const Frame frame = blocks();
@@ -284,7 +284,7 @@ TEST(Symmetry, InvertedCodesGiveInvertedOutput) {
 // Records carry fifteen bits of their slot's number: two rows of 8192 beats, exactly.
 TEST(SlotNumbers, WrapInTheWidestRows) {
   constexpr int kWidth = spec::morphological::kMaxFrameSize, kPart = 90, kHeight = 12;
-  Parameters p = preset(Preset::kDeburr, 9);
+  Parameters p = preset(Preset::kDeburrLine, 9);
   p.steps = 7;
   p.line_pixels = kWidth;
   EngineBench bench(p);
@@ -312,7 +312,7 @@ TEST(SlotNumbers, WrapInTheWidestRows) {
 // ---- accounts, waves, memories ------------------------------------------------------------------
 
 TEST(Accounts, EveryUnitHasItsNameAndEveryClockItsClass) {
-  EngineBench bench(deburr());
+  EngineBench bench(deburr_line());
   bench.run(blocks());
   std::vector<std::string> names;
   for (const rtl::Unit* unit : bench.engine.units()) {
@@ -330,7 +330,7 @@ TEST(Accounts, EveryUnitHasItsNameAndEveryClockItsClass) {
 }
 
 TEST(Accounts, MemoriesAreThoseOfTheContract) {
-  Parameters p;  // defaults
+  Parameters p = deburr_line();
   p.line_pixels = 1920;
   p.edge_source = spec::morphological::EdgeSource::kPredicated;
   EngineBench bench(p);
@@ -341,7 +341,7 @@ TEST(Accounts, MemoriesAreThoseOfTheContract) {
     ports[memory->basename()] = memory->ports();
     EXPECT_EQ(memory->idealised(), "") << memory->name();
   }
-  EXPECT_EQ(bits["luma_lines"], 138'240u);
+  EXPECT_EQ(bits["luma_lines"], 144'000u);
   EXPECT_EQ(ports["luma_lines"], "1R1W of 2 words");  // a beat's column and the one beside it
   EXPECT_EQ(ports["depth_lines"], "1R1W");
   EXPECT_EQ(bits["depth_lines"], 92'160u);
@@ -359,6 +359,35 @@ TEST(Accounts, MemoriesAreThoseOfTheContract) {
   EXPECT_EQ(bits["edge_rows_even"] + bits["edge_rows_odd"], 138'240u);
   EXPECT_EQ(bits["record_fifo_h0"], 256u * 60u);
   EXPECT_EQ(bench.engine.window.memory.bits_at(960), 257'280u / 2);
+}
+
+TEST(Accounts, LearnedSharesAddThreeTablesAndABitARecord) {
+  Parameters p = deburr();
+  p.line_pixels = 1920;
+  p.lanes = spec::morphological::Lanes::kTwo;
+  EngineBench bench(p);
+  std::map<std::string, const rtl::MemoryBase*> all;
+  for (const rtl::MemoryBase* memory : bench.engine.memories()) {
+    all[memory->basename()] = memory;
+    EXPECT_EQ(memory->idealised(), "") << memory->name();
+  }
+  EXPECT_EQ(all.count("depth_lines"), 0u);
+  EXPECT_EQ(all["row_records"]->logical_bits(), 1920u * 96u);
+  EXPECT_EQ(all["column_records"]->logical_bits(), 1920u * 96u);
+  EXPECT_EQ(all["record_fifo_h0"]->logical_bits(), 256u * 60u);
+  struct Table {
+    const char* name;
+    std::uint64_t words;
+    const char* built_as;
+  };
+  for (const Table& table :
+       {Table{"shares_a", 1024, "4 copies of 2RW"}, Table{"shares_b", 640, "4 copies of 2RW"},
+        Table{"shares_c", 640, "4 copies of 2RW"}, Table{"share_rom", 256, "4 copies of 2R"}}) {
+    EXPECT_EQ(all[table.name]->logical_bits(), 8 * table.words) << table.name;
+    EXPECT_EQ(all[table.name]->ports(), "8R");
+    EXPECT_EQ(all[table.name]->built_as(), table.built_as);
+    EXPECT_EQ(all[table.name]->physical_bits(), 4 * 8 * table.words);
+  }
 }
 
 // A row of one pixel still has a column beside it.
@@ -398,7 +427,7 @@ TEST(Waves, ShowTheLinksOfTheEngine) {
     options.bench.trace = rtl::TraceOptions{};
     options.bench.trace->file = file;
     options.bench.trace->scopes = {"engine*"};
-    EngineBench bench(deburr(), options);
+    EngineBench bench(deburr_line(), options);
     EXPECT_EQ(hash(bench.run(blocks())), 0xe86c7f9318eacf5eu);
   }
   std::stringstream text;
@@ -409,7 +438,7 @@ TEST(Waves, ShowTheLinksOfTheEngine) {
 }
 
 TEST(Observers, SeeEveryRunAndEveryLine) {
-  EngineBench bench(deburr());
+  EngineBench bench(deburr_line());
   std::uint64_t runs = 0, lines = 0;
   bench.engine.observe_runs([&](const spec::morphological::RunRecord&) { ++runs; });
   bench.engine.observe_lines([&](const spec::morphological::LineRecord& line) {
@@ -431,7 +460,7 @@ void PrintTo(const BadParameter& b, std::ostream* out) { *out << b.says; }
 class BadParameters : public ::testing::TestWithParam<BadParameter> {};
 TEST_P(BadParameters, AreNamed) {
   ClockDomain clock("clock", period());
-  Parameters p = deburr();
+  Parameters p = deburr_line();
   GetParam().change(p);
   try {
     rtl::morphological::MorphologicalEngine engine("engine", clock, p);
@@ -484,7 +513,7 @@ TEST(GoodParameters, OfDiagonalsAsFarAsTheWindowReaches) {
 }
 
 TEST(BadFrames, AreNamed) {
-  EngineBench bench(deburr());
+  EngineBench bench(deburr_line());
   EXPECT_THROW(bench.engine.set_frame_size(0, 5), spec::ConfigError);
   EXPECT_THROW(bench.engine.set_frame_size(5, 8193), spec::ConfigError);
   EXPECT_THROW(bench.engine.set_frame_size(257, 5), spec::ConfigError);
@@ -537,7 +566,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // A frame may lie anywhere in 32 bits of address, and every answer finds its request.
 TEST(MemoryLinks, CarryWholeAddressesAndTags) {
-  Parameters p = preset(Preset::kDeburr);
+  Parameters p = preset(Preset::kDeburrLine);
   p.storage = spec::morphological::Storage::kMemory;
   const EngineBench bench(p);
   std::size_t found = 0;

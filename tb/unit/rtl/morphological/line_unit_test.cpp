@@ -43,7 +43,7 @@ struct Lines {
 };
 
 TEST(LineUnitBlock, FitOfTheContractsTable) {
-  Lines bench(preset(spec::morphological::Preset::kDeburr));
+  Lines bench(preset(spec::morphological::Preset::kDeburrLine));
   struct Row {
     SumsToken in;
     int scale, offset, shift;
@@ -110,7 +110,7 @@ class Divider : public ::testing::TestWithParam<DividerTime> {};
 
 TEST_P(Divider, HasItsLatencyAndInterval) {
   const DividerTime time = GetParam();
-  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  Parameters p = preset(spec::morphological::Preset::kDeburrLine);
   p.divider_latency = time.latency;
   p.divider_interval = time.interval;
   Lines bench(p);
@@ -167,6 +167,38 @@ struct Dividing {
   TimedDriver<SumsToken> driver{"driver", clock};
   Gate<LineToken> gate;
 };
+
+// A record without a line passes the divider in the clock that pops it, also one that waits for its
+// interval; it gives way to a quotient.
+TEST(LineUnitBlock, ALearnedRecordPassesTheDivider) {
+  Dividing bench(14, 20);
+  SumsToken learned = sums_of(1);
+  learned.learned = true;
+  learned.start_class = 7;
+  learned.end_class = 3;
+  bench.driver.send(0, learned);     // popped in 1
+  bench.driver.send(1, sums_of(2));  // begins in 2, goes in 16
+  bench.driver.send(2, learned);     // popped in 3
+  bench.driver.send(15, learned);    // would be popped in 16: a quotient leaves
+  bench.clock.run(60);
+  ASSERT_EQ(bench.gate.cycles.size(), 4u);
+  EXPECT_THAT(bench.gate.cycles, ::testing::ElementsAre(2, 4, 17, 18));
+  for (const std::size_t i : {0u, 1u, 3u}) {
+    const spec::morphological::LineRecord& line = bench.gate.beats[i].line;
+    EXPECT_TRUE(line.learned);
+    EXPECT_EQ(line.start_class, 7);
+    EXPECT_EQ(line.end_class, 3);
+    EXPECT_EQ(line.scale, 0);
+    EXPECT_EQ(line.offset, 0);
+    EXPECT_EQ(line.slope, 0u);
+    EXPECT_EQ(line.inverse, 0u);
+    EXPECT_EQ(line.span, 0);
+    EXPECT_EQ(line.before, spec::morphological::Side::kNone);
+    EXPECT_EQ(line.after, spec::morphological::Side::kNone);
+  }
+  EXPECT_FALSE(bench.gate.beats[2].line.learned);
+  EXPECT_EQ(bench.unit.divides.value(), 1u);
+}
 
 TEST(LineUnitBlock, WaitsForTheIntervalOfTheDivider) {
   Dividing bench(14, 20);
@@ -225,7 +257,7 @@ TEST(LineUnitBlock, AResetLetsTheDividerStartAtOnce) {
 // ---- what a memory does not do ------------------------------------------------------------------
 
 TEST(LineUnitMemory, AWordIsNotThereInTheClockOfItsAddress) {
-  Lines bench(preset(spec::morphological::Preset::kDeburr));
+  Lines bench(preset(spec::morphological::Preset::kDeburrLine));
   bench.ends.source.send(sums_of({0, 3}, 0, 3));
   bench.clock.run(2);
   EXPECT_THAT(
@@ -234,7 +266,7 @@ TEST(LineUnitMemory, AWordIsNotThereInTheClockOfItsAddress) {
 }
 
 TEST(LineUnitMemory, HasNoWordForMoreCornersThanThereAre) {
-  Lines bench(preset(spec::morphological::Preset::kDeburr));
+  Lines bench(preset(spec::morphological::Preset::kDeburrLine));
   SumsToken sums = sums_of({0, 3}, 0, 3);
   sums.left = sums.right = 17;
   sums.indexed_sum = 10'000;

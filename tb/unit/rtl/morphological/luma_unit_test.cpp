@@ -9,7 +9,7 @@ using namespace rtl::morphological;  // NOLINT: a test of these
 
 TEST(LumaUnitBlock, AddsTheWeightsExactlyTwoClocksLater) {
   ClockDomain clock("clock", period());
-  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  Parameters p = preset(spec::morphological::Preset::kDeburrLine);
   p.lanes = spec::morphological::Lanes::kTwo;
   Registers store(p);
   store.frame(4, 4);

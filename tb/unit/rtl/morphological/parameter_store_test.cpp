@@ -7,8 +7,10 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "spec/morphological/learned_shares.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
 namespace deburr::tb::morphological_rtl {
@@ -19,7 +21,7 @@ namespace reg = spec::morphological::reg;
 using P = Parameters;
 
 TEST(ParameterStoreBlock, TrimIsABitOfRulesLatchedWithTheFrame) {
-  Registers on(preset(spec::morphological::Preset::kDeburr));
+  Registers on(preset(spec::morphological::Preset::kDeburrLine));
   const std::uint32_t reset_value = on.bus.read(reg::kRules);
   EXPECT_EQ(reset_value,
             1u << 3 | 2u << 4 | 2u << 6 | 8u << 8 | 1u << 13 | 1u << 14 | 1u << 15 | kTrimBit);
@@ -36,7 +38,7 @@ TEST(ParameterStoreBlock, TrimIsABitOfRulesLatchedWithTheFrame) {
   EXPECT_TRUE(on.store.rules().safe);
   on.store.leave();
   on.bus.write(reg::kRules, ~0u);
-  EXPECT_EQ(on.bus.read(reg::kRules), 0x1FFFFFFu) << "no bits beyond";
+  EXPECT_EQ(on.bus.read(reg::kRules), 0x7FFFFFFu) << "no bits beyond";
   on.reset();
   EXPECT_EQ(on.bus.read(reg::kRules), reset_value);
 }
@@ -123,7 +125,7 @@ TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
 TEST(Contiguous, IsOffInAnEngineBuiltWithoutIt) {
   namespace reg = spec::morphological::reg;
   constexpr std::uint32_t kContiguous = 1u << 13;
-  Parameters built = deburr();
+  Parameters built = deburr_line();
   built.contiguous = false;
   EngineBench bench(built);
   const Frame without = bench.run(blocks());
@@ -137,7 +139,7 @@ TEST(Contiguous, IsOffInAnEngineBuiltWithoutIt) {
 // ---- the register map ---------------------------------------------------------------------------
 
 TEST(Registers, ResetValuesAreTheParameters) {
-  Parameters p = deburr();
+  Parameters p = deburr_line();
   p.alpha = 1234;
   EngineBench bench(p);
   EXPECT_EQ(bench.bus.read(reg::kId), reg::kIdValue);
@@ -211,7 +213,7 @@ TEST(Registers, DiagonalsAreCountedShownAndCleared) {
 }
 
 TEST(Registers, DiagonalsReadZeroWhereNotBuilt) {
-  EngineBench bench(deburr());
+  EngineBench bench(deburr_line());
   bench.run(noise());
   EXPECT_EQ(bench.bus.read(reg::kDiagonals), 0u);
 }
@@ -235,7 +237,7 @@ TEST(Registers, SmaaCountsFromTheNextFrame) {
 }
 
 TEST(Registers, RulesCountFromTheNextFrame) {
-  EngineBench bench(deburr());
+  EngineBench bench(deburr_line());
   EXPECT_EQ(hash(bench.run(blocks())), 0xe86c7f9318eacf5eu);
   // Without trim the same trials, but every step is kept.
   EXPECT_EQ(bench.bus.read(reg::kSteps), 660u);
@@ -256,7 +258,7 @@ TEST(Registers, RulesCountFromTheNextFrame) {
 }
 
 TEST(Registers, WritesWhileAFrameIsInsideAreIgnoredAndSaidSo) {
-  EngineBench bench(deburr());
+  EngineBench bench(deburr_line());
   bench.engine.set_frame_size(200, 150);
   bench.driver.send(beats_of(line(), 1));
   bench.clock.run(500);
@@ -300,7 +302,7 @@ TEST(Registers, CountersShowTheWorkAddUpAndAreCleared) {
 }
 
 TEST(Registers, ClearingEnableLetsTheFrameInsideFinish) {
-  EngineBench bench(deburr());
+  EngineBench bench(deburr_line());
   bench.engine.set_frame_size(97, 61);
   bench.driver.send(beats_of(noise(), 1));
   bench.driver.send(beats_of(noise(), 1));
@@ -378,9 +380,11 @@ Frame motley() {
 
 P plain() {
   P p;  // luma, fixed, no local contrast, chord of 4 steps, no further rule, linear light
+  p.edge_source = spec::morphological::EdgeSource::kLuma;
   p.threshold_mode = spec::morphological::ThresholdMode::kFixed;
   p.dynamic_luma = spec::morphological::DynamicLuma::kCurrent;
   p.threshold = 3000;
+  p.area = spec::morphological::AreaSource::kAnalytic;
   p.local_contrast = spec::morphological::LocalContrast::kOff;
   p.predictor = spec::morphological::Predictor::kChord;
   p.steps = 4;
@@ -430,6 +434,10 @@ void as_it_is(P&) {}
 void depth(P& p) { p.edge_source = spec::morphological::EdgeSource::kDepth; }
 void predicated(P& p) { p.edge_source = spec::morphological::EdgeSource::kPredicated; }
 void luma(P& p) { p.edge_source = spec::morphological::EdgeSource::kLuma; }
+void colour(P& p) { p.edge_source = spec::morphological::EdgeSource::kColour; }
+void learned(P& p) { p.area = spec::morphological::AreaSource::kLearned; }
+void as_analytic(P& p) { p.area = spec::morphological::AreaSource::kAnalytic; }
+void masked(P& p) { p.leave = spec::morphological::Leave::kMasked; }
 void dynamic(P& p) {
   p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
   p.alpha = 9000;
@@ -458,7 +466,15 @@ INSTANTIATE_TEST_SUITE_P(
         Field{"source_luma", depth, reg::kRules, 0, 1, 0, luma},
         Field{"source_depth", predicated, reg::kRules, 0, 1, 1, depth},
         Field{"source_predicated", depth, reg::kRules, 0, 1, 2, predicated},
-        Field{"source_3_is_luma", depth, reg::kRules, 0, 1, 3, luma},
+        Field{"source_colour", depth, reg::kRules, 0, 1, 3, colour},
+        Field{"source_colour_where_no_depth_is", as_it_is, reg::kRules, 0, 1, 3, colour},
+        Field{"dynamic_does_not_go_with_colour", colour, reg::kRules, 2, 2, 1, as_it_is, false},
+        Field{"area_from_lines", learned, reg::kRules, 25, 25, 0, as_analytic},
+        Field{"learned_is_off_where_not_built", as_it_is, reg::kRules, 25, 25, 1, as_it_is, false},
+        Field{"tables_are_off_beside_learned", learned, reg::kRules, 19, 21, 7, as_it_is, false},
+        Field{"leave_masked", as_it_is, reg::kRules, 26, 26, 1, masked},
+        Field{"leave_5_is_none", marked, reg::kRules, 26, 26, 1, as_before},
+        Field{"leave_7_is_none", half, reg::kRules, 26, 26, 1, as_before},
         Field{"mode_dynamic", as_it_is, reg::kRules, 2, 2, 1,
               [](P& p) { p.threshold_mode = spec::morphological::ThresholdMode::kDynamic; }},
         Field{"mode_fixed", dynamic, reg::kRules, 2, 2, 0,
@@ -615,16 +631,100 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(RegisterBits, ThatDoNotExistReadAsZero) {
   EngineBench bench(plain());
   const std::map<std::uint32_t, std::uint32_t> bits = {
-      {reg::kSize, 0x3FFF3FFF},    {reg::kRules, 0x1FFFFFF},       {reg::kThreshold, 0xFFFF},
+      {reg::kSize, 0x3FFF3FFF},    {reg::kRules, 0x7FFFFFF},       {reg::kThreshold, 0xFFFF},
       {reg::kThresholdOn, 0xFFFF}, {reg::kThresholdOff, 0xFFFF},   {reg::kAlpha, 0xFFFF},
       {reg::kFloor, 0xFFFF},       {reg::kDepthThreshold, 0xFFFF}, {reg::kPixelBase, 0xFFFFFFC0},
-      {reg::kSmaa, 0x01FF1F7F}};
+      {reg::kSmaa, 0x01FF1F7F},    {reg::kSharesAddress, 0},       {reg::kSharesData, 0}};
   for (const auto& [offset, mask] : bits) {
     bench.bus.write(offset, 0xFFFFFFFF);
     EXPECT_EQ(bench.bus.read(offset), mask) << offset;
     bench.bus.write(offset, 0);
     EXPECT_EQ(bench.bus.read(offset), 0u) << offset;
   }
+}
+
+// ---- the tables of learned shares ---------------------------------------------------------------
+
+TEST(SharesRegisters, LoadAnEntryAfterTheOther) {
+  EngineBench bench(deburr());
+  EXPECT_EQ(bench.bus.read(reg::kSharesAddress), 0u);
+  EXPECT_EQ(bench.bus.read(reg::kSharesSum), spec::morphological::kSharesSum);
+  const auto shipped = [](std::int8_t entry) {
+    return std::uint32_t{static_cast<std::uint8_t>(entry)};
+  };
+  EXPECT_EQ(bench.bus.read(reg::kSharesData), shipped(spec::morphological::kSharesOfCodes[0]));
+  for (const auto& [address, entry] : {std::pair{1023u, spec::morphological::kSharesOfCodes[1023]},
+                                       {1024u, spec::morphological::kSharesOfNear[0]},
+                                       {1664u, spec::morphological::kSharesOfFar[0]},
+                                       {2303u, spec::morphological::kSharesOfFar[639]}}) {
+    bench.bus.write(reg::kSharesAddress, address);
+    EXPECT_EQ(bench.bus.read(reg::kSharesData), shipped(entry)) << address;
+  }
+  // A read moves nothing, a write moves on.
+  EXPECT_EQ(bench.bus.read(reg::kSharesAddress), 2303u);
+  bench.bus.write(reg::kSharesAddress, 1023);
+  std::uint32_t sum = spec::morphological::kSharesSum;
+  sum += 1024 * (0x5Au - shipped(spec::morphological::kSharesOfCodes[1023]));
+  bench.bus.write(reg::kSharesData, 0xFFFFFF5A);
+  EXPECT_EQ(bench.bus.read(reg::kSharesAddress), 1024u);
+  EXPECT_EQ(bench.bus.read(reg::kSharesSum), sum);
+  sum += 1025 * (0xA5u - shipped(spec::morphological::kSharesOfNear[0]));
+  bench.bus.write(reg::kSharesData, 0xA5);
+  EXPECT_EQ(bench.bus.read(reg::kSharesSum), sum);
+  bench.bus.write(reg::kSharesAddress, 1023);
+  EXPECT_EQ(bench.bus.read(reg::kSharesData), 0x5Au);
+  // Beyond the tables nothing is kept; the address goes round.
+  bench.bus.write(reg::kSharesAddress, 0xFFFFFFFF);
+  EXPECT_EQ(bench.bus.read(reg::kSharesAddress), 4095u);
+  bench.bus.write(reg::kSharesData, 77);
+  EXPECT_EQ(bench.bus.read(reg::kSharesAddress), 0u);
+  bench.bus.write(reg::kSharesAddress, 2304);
+  bench.bus.write(reg::kSharesData, 77);
+  bench.bus.write(reg::kSharesAddress, 2304);
+  EXPECT_EQ(bench.bus.read(reg::kSharesData), 0u);
+  EXPECT_EQ(bench.bus.read(reg::kSharesSum), sum);
+  EXPECT_EQ(bench.bus.try_write(reg::kSharesSum, 1), tlm::TLM_COMMAND_ERROR_RESPONSE);
+}
+
+// What is loaded counts, to the pixel, and a reset leaves it as it is.
+TEST(SharesRegisters, CountFromTheNextFrameAndStayInAReset) {
+  EngineBench bench(deburr());
+  const Frame frame = blocks();
+  const Frame before = bench.run(frame);
+  for (std::uint32_t i = 0; i < 2304; ++i) bench.bus.write(reg::kSharesData, 0x80);
+  const std::uint32_t sum = bench.bus.read(reg::kSharesSum);
+  EXPECT_EQ(sum, 0x80u * (2304u * 2305u / 2));
+  // All shares 0: only runs that extend are blended.
+  const Frame after = bench.run(frame);
+  EXPECT_NE(after.pixel, before.pixel);
+  bench.clock.set_reset_n(false);
+  bench.clock.run(2);
+  bench.clock.set_reset_n(true);
+  EXPECT_EQ(bench.bus.read(reg::kSharesSum), sum);
+  EXPECT_EQ(bench.bus.read(reg::kSharesAddress), 0u);
+  EXPECT_EQ(bench.bus.read(reg::kSharesData), 0x80u);
+}
+
+TEST(SharesRegisters, AreIgnoredWhileAFrameIsInside) {
+  EngineBench bench(deburr());
+  bench.bus.write(reg::kSharesAddress, 7);
+  const std::uint32_t entry = bench.bus.read(reg::kSharesData);
+  const Frame frame = noise(40, 30);
+  bench.engine.set_frame_size(frame.width, frame.height);
+  bench.driver.send(beats_of(frame, 1));
+  bench.clock.run(100);
+  ASSERT_FALSE(bench.engine.idle());
+  bench.bus.write(reg::kSharesData, entry ^ 1);
+  bench.bus.write(reg::kSharesAddress, 9);
+  EXPECT_EQ(bench.bus.read(reg::kSharesAddress), 7u);
+  EXPECT_EQ(bench.bus.read(reg::kSharesData), entry);
+  EXPECT_EQ(bench.bus.read(reg::kSharesSum), spec::morphological::kSharesSum);
+  EXPECT_TRUE(bench.bus.read(reg::kStatus) & reg::kStatusWrittenWhileBusy);
+  // A debug write is not refused.
+  bench.bus.debug_write(reg::kSharesData, entry ^ 1);
+  EXPECT_EQ(bench.bus.read(reg::kSharesAddress), 8u);
+  EXPECT_EQ(bench.bus.read(reg::kSharesSum),
+            spec::morphological::kSharesSum + 8 * ((entry ^ 1) - entry));
 }
 
 // A beat's depth has 24 bits; what lies above them is not looked at.

@@ -128,7 +128,7 @@ inline Parameters small(int lanes_code = 0) {
 }
 
 inline Parameters deburr_without_trim() {
-  Parameters p = preset(spec::morphological::Preset::kDeburr);
+  Parameters p = preset(spec::morphological::Preset::kDeburrLine);
   p.trim = false;
   return p;
 }

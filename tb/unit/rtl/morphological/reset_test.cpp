@@ -22,12 +22,14 @@ struct Variant {
   int divider_interval;
   int width;  // of the frame after the reset
   std::uint32_t memory_latency;
-  bool smaa = false;  // with all of its blocks
+  bool smaa = false;     // with all of its blocks
+  bool learned = false;  // shares
 };
 void PrintTo(const Variant& v, std::ostream* out) {
   *out << int{spec::morphological::kLaneCount[static_cast<std::size_t>(v.lanes_code)]} << " lanes, "
        << spec::morphological::kStorageNames[static_cast<std::size_t>(v.storage)] << ", interval "
-       << v.divider_interval << ", width " << v.width << (v.smaa ? ", smaa" : "");
+       << v.divider_interval << ", width " << v.width << (v.smaa ? ", smaa" : "")
+       << (v.learned ? ", learned" : "");
 }
 
 // All that a frame leaves behind.
@@ -54,6 +56,10 @@ class EveryClock : public ::testing::TestWithParam<Variant> {
     p.predictor_units = 1;
     p.record_fifo = 2;
     p.line_pixels = 32;
+    if (v.learned) {
+      p.edge_source = spec::morphological::EdgeSource::kColour;
+      p.area = spec::morphological::AreaSource::kLearned;
+    }
     if (v.smaa) {
       p.predictor = spec::morphological::Predictor::kNone;
       p.steps = 0;
@@ -155,20 +161,25 @@ TEST_P(EveryClock, OfAFrameMayBeTheLast) {
 // answered in the clock in which another is written, its read waits.
 INSTANTIATE_TEST_SUITE_P(
     Engines, EveryClock,
-    ::testing::Values(Variant{0, spec::morphological::Storage::kLineBuffers, 16, 9, 20},
-                      Variant{1, spec::morphological::Storage::kLineBuffers, 8, 9, 20},
-                      Variant{2, spec::morphological::Storage::kLineBuffers, 5, 9, 20},
-                      Variant{2, spec::morphological::Storage::kLineBuffers, 16, 4, 20},
-                      Variant{0, spec::morphological::Storage::kMemory, 4, 9, 20},
-                      Variant{1, spec::morphological::Storage::kMemory, 9, 9, 20},
-                      Variant{2, spec::morphological::Storage::kMemory, 5, 9, 20},
-                      Variant{2, spec::morphological::Storage::kMemory, 5, 9, 21},
-                      Variant{2, spec::morphological::Storage::kMemory, 5, 9, 22},
-                      Variant{2, spec::morphological::Storage::kMemory, 5, 9, 23},
-                      Variant{0, spec::morphological::Storage::kLineBuffers, 16, 9, 20, true},
-                      Variant{1, spec::morphological::Storage::kLineBuffers, 8, 9, 20, true},
-                      Variant{2, spec::morphological::Storage::kLineBuffers, 16, 4, 20, true},
-                      Variant{1, spec::morphological::Storage::kMemory, 9, 9, 20, true}));
+    ::testing::Values(
+        Variant{0, spec::morphological::Storage::kLineBuffers, 16, 9, 20},
+        Variant{1, spec::morphological::Storage::kLineBuffers, 8, 9, 20},
+        Variant{2, spec::morphological::Storage::kLineBuffers, 5, 9, 20},
+        Variant{2, spec::morphological::Storage::kLineBuffers, 16, 4, 20},
+        Variant{0, spec::morphological::Storage::kMemory, 4, 9, 20},
+        Variant{1, spec::morphological::Storage::kMemory, 9, 9, 20},
+        Variant{2, spec::morphological::Storage::kMemory, 5, 9, 20},
+        Variant{2, spec::morphological::Storage::kMemory, 5, 9, 21},
+        Variant{2, spec::morphological::Storage::kMemory, 5, 9, 22},
+        Variant{2, spec::morphological::Storage::kMemory, 5, 9, 23},
+        Variant{0, spec::morphological::Storage::kLineBuffers, 16, 9, 20, true},
+        Variant{1, spec::morphological::Storage::kLineBuffers, 8, 9, 20, true},
+        Variant{2, spec::morphological::Storage::kLineBuffers, 16, 4, 20, true},
+        Variant{1, spec::morphological::Storage::kMemory, 9, 9, 20, true},
+        Variant{0, spec::morphological::Storage::kLineBuffers, 16, 9, 20, false, true},
+        Variant{1, spec::morphological::Storage::kLineBuffers, 8, 9, 20, false, true},
+        Variant{2, spec::morphological::Storage::kLineBuffers, 16, 4, 20, false, true},
+        Variant{2, spec::morphological::Storage::kMemory, 5, 9, 21, false, true}));
 
 // Frames of ordinary size, with a reset in mid-run.
 class ResetAt : public ::testing::TestWithParam<int> {
@@ -229,12 +240,22 @@ INSTANTIATE_TEST_SUITE_P(Clocks, ResetAt,
 
 // ---- whatever sticks ----------------------------------------------------------------------------
 
-class AfterReset : public ::testing::TestWithParam<spec::morphological::Storage> {
+struct Sticky {
+  spec::morphological::Storage storage;
+  bool learned;
+};
+void PrintTo(const Sticky& s, std::ostream* out) {
+  *out << spec::morphological::kStorageNames[static_cast<std::size_t>(s.storage)]
+       << (s.learned ? ", learned" : "");
+}
+
+class AfterReset : public ::testing::TestWithParam<Sticky> {
  protected:
   using State = std::vector<std::string>;
   static Parameters parameters() {
-    Parameters p = preset(Preset::kMlaaSlope, 6);
-    p.storage = GetParam();
+    Parameters p = preset(GetParam().learned ? Preset::kDeburr : Preset::kMlaaSlope, 6);
+    p.steps = 4;
+    p.storage = GetParam().storage;
     return p;
   }
   State state() { return engine_state(bench.engine, bench.bus); }
@@ -283,9 +304,12 @@ class AfterReset : public ::testing::TestWithParam<spec::morphological::Storage>
     if (bench.memory) sticky |= reg::kStatusMemoryError;
     EXPECT_EQ(bench.bus.read(reg::kStatus), sticky);
     // Every writable register has another value, and counters have counted.
+    // The tables that SHARES_DATA writes stay in a reset: it writes what is there.
     for (const spec::RegisterInfo& info : spec::morphological::kRegisters)
-      if (info.access == spec::Access::kReadWrite && info.offset != reg::kControl)
-        bench.bus.write(info.offset, ~bench.bus.read(info.offset));
+      if (info.access == spec::Access::kReadWrite && info.offset != reg::kControl) {
+        const std::uint32_t value = bench.bus.read(info.offset);
+        bench.bus.write(info.offset, info.offset == reg::kSharesData ? value : ~value);
+      }
     for (const std::uint32_t counter : {reg::kPixels, reg::kEdgePixels, reg::kFrameCycles})
       EXPECT_GT(bench.bus.read(counter), 0u) << counter;
     EXPECT_GT(bench.engine.beat_latency.max(), 0u);
@@ -316,8 +340,11 @@ TEST_P(AfterReset, TheNextFrameIsThatOfANewEngine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Morphological, AfterReset,
-                         ::testing::Values(spec::morphological::Storage::kLineBuffers,
-                                           spec::morphological::Storage::kMemory));
+                         ::testing::Values(Sticky{spec::morphological::Storage::kLineBuffers,
+                                                  false},
+                                           Sticky{spec::morphological::Storage::kMemory, false},
+                                           Sticky{spec::morphological::Storage::kLineBuffers, true},
+                                           Sticky{spec::morphological::Storage::kMemory, true}));
 
 }  // namespace
 }  // namespace deburr::tb::morphological_rtl

@@ -193,7 +193,7 @@ void PrintTo(const Extract& e, std::ostream* out) {
 }
 class RunExtraction : public ::testing::TestWithParam<Extract> {};
 
-void extract(const Extract& e, spec::morphological::Ends ends, bool corners);
+void extract(const Extract& e, spec::morphological::Ends ends, bool corners, bool learned = false);
 
 // Planes that no image gives: every code at both ends, runs of all lengths, long runs.
 TEST_P(RunExtraction, FindsEveryRunOnce) {
@@ -202,6 +202,12 @@ TEST_P(RunExtraction, FindsEveryRunOnce) {
 TEST_P(RunExtraction, EndsRunsAtCrossings) {
   extract(GetParam(), spec::morphological::Ends::kCrossings, false);
 }
+TEST_P(RunExtraction, KeepsRecordsWithoutASideForLearnedShares) {
+  extract(GetParam(), spec::morphological::Ends::kGaps, false, true);
+}
+TEST_P(RunExtraction, KeepsThemAtCrossings) {
+  extract(GetParam(), spec::morphological::Ends::kCrossings, false, true);
+}
 TEST_P(RunExtraction, SeesSharpCorners) {
   extract(GetParam(), spec::morphological::Ends::kGaps, true);
 }
@@ -209,12 +215,13 @@ TEST_P(RunExtraction, SeesSharpCornersAtCrossings) {
   extract(GetParam(), spec::morphological::Ends::kCrossings, true);
 }
 
-void extract(const Extract& e, spec::morphological::Ends ends, bool corners) {
+void extract(const Extract& e, spec::morphological::Ends ends, bool corners, bool learned) {
   Parameters p = preset(spec::morphological::Preset::kMlaa, e.reach_rows, e.reach_columns);
   p.lanes = static_cast<spec::morphological::Lanes>(e.lanes_code);
   p.record_fifo = 3;
   p.ends = ends;
   p.round_corners = corners;
+  if (learned) p.area = spec::morphological::AreaSource::kLearned;
   Extraction bench(p);
   bench.finisher.wait_permille = e.wait_permille;
   Random random(e.permille * 7u + static_cast<std::uint32_t>(e.width));
@@ -239,7 +246,7 @@ void extract(const Extract& e, spec::morphological::Ends ends, bool corners) {
     horizontal += expected[i].axis == Axis::kHorizontal && expected[i].part != RunPart::kTail;
     heads += expected[i].part == RunPart::kHead;
     const spec::morphological::RunShape& shape = spec::morphological::kRunShapes[expected[i].shape];
-    records += shape.before != spec::morphological::Side::kNone ||
+    records += learned || shape.before != spec::morphological::Side::kNone ||
                shape.after != spec::morphological::Side::kNone;
   }
   EXPECT_EQ(bench.extractor.horizontal_runs.value(), horizontal);
@@ -330,7 +337,7 @@ TEST(RunExtractorBlock, ARecordInEveryColumnDoesNotStall) {
 
 // RECORD_STALLS: clocks in which a slot waits, not those in which none has come.
 TEST(RecordStalls, CountOnlyWhereASlotWaits) {
-  Parameters p = preset(Preset::kDeburr);
+  Parameters p = preset(Preset::kDeburrLine);
   p.lanes = spec::morphological::Lanes::kFour;
   p.record_fifo = 2;
   p.predictor_units = 1;

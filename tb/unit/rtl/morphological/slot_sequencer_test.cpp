@@ -34,7 +34,7 @@ TEST(SlotSequencerBlock, SaysWhatDisagreesWithSize) {
 
 // A frame is inside when its first beat has been taken, and not before.
 TEST(FirstBeat, TakesTheFrameInTheClockThatTakesIt) {
-  EngineBench bench(preset(Preset::kDeburr));
+  EngineBench bench(preset(Preset::kDeburrLine));
   bench.engine.set_frame_size(97, 61);
   bench.driver.send(beats_of(noise(), 1));
   for (int i = 0; i < 28; ++i) {
@@ -63,7 +63,7 @@ struct BadSize {
 void PrintTo(const BadSize& s, std::ostream* out) { *out << s.width << 'x' << s.height; }
 class BadSizes : public ::testing::TestWithParam<BadSize> {};
 TEST_P(BadSizes, TakeNoFrameAndSetTheFramingBit) {
-  EngineBench bench(deburr());
+  EngineBench bench(deburr_line());
   bench.bus.write(reg::kSize, GetParam().width | GetParam().height << 16);
   bench.driver.send(beats_of(noise(10, 10), 1));
   bench.clock.run(200);
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Bad, BadSizes,
                                            BadSize{257, 10}, BadSize{8193, 10}, BadSize{10, 8193}));
 
 TEST(Framing, SizeWinsAndDataGoOn) {
-  EngineBench bench(deburr());
+  EngineBench bench(deburr_line());
   bench.engine.set_frame_size(20, 10);
   // Beats of a frame of 25 x 8: the same number. They are pixels of 20 x 10 now.
   const Frame sent = noise(25, 8);

@@ -82,6 +82,7 @@ inline Parameters preset(spec::morphological::Preset which, int reach_rows = 32,
   const spec::morphological::PresetRow& row =
       spec::morphological::kPresets[static_cast<std::size_t>(which)];
   p.preset = which;
+  p.edge_source = row.edge_source;
   p.threshold_mode = row.threshold_mode;
   p.dynamic_luma = row.dynamic_luma;
   p.threshold = row.threshold;
@@ -116,6 +117,7 @@ inline Parameters smaa(spec::morphological::Quality quality = spec::morphologica
   return p;
 }
 
+inline Parameters deburr_line() { return preset(spec::morphological::Preset::kDeburrLine); }
 inline Parameters deburr() { return preset(spec::morphological::Preset::kDeburr); }
 inline Parameters in_memory() {
   Parameters p = preset(spec::morphological::Preset::kMlaa);

@@ -2,6 +2,8 @@
 // Clocks of the whole engine against the contract: latency by formula, throughput, back-pressure,
 // the interlock, and that time may change but data may not.
 #include <optional>
+#include <string>
+#include <tuple>
 
 #include "tb/harness/forked.h"
 #include "tb/harness/monitor.h"
@@ -48,7 +50,7 @@ class LatencyFormula : public ::testing::TestWithParam<Case> {};
 // (docs/morphological_hardware.md).
 TEST_P(LatencyFormula, HoldsForEveryBeat) {
   const Case c = GetParam();
-  Parameters p = preset(Preset::kDeburr, c.reach_rows);
+  Parameters p = preset(Preset::kDeburrLine, c.reach_rows);
   p.steps = std::min(8, c.reach_rows - 1);
   p.lanes = static_cast<spec::morphological::Lanes>(c.lanes_code);
   p.line_pixels = c.width;
@@ -146,11 +148,17 @@ Frame random_75() { return random_pixels(500); }
 
 class Throughput : public ::testing::TestWithParam<Load> {};
 
+void expect_a_beat_a_clock(Preset which, const Load& load);
+
 // One beat a clock on random patterns, and on lines whose steps are so long, or so far from each
 // other, that the predictors have the time that each of them takes.
-TEST_P(Throughput, IsOneBeatAClock) {
-  const Load load = GetParam();
-  Parameters p = preset(Preset::kDeburr);
+TEST_P(Throughput, IsOneBeatAClock) { expect_a_beat_a_clock(Preset::kDeburrLine, GetParam()); }
+TEST_P(Throughput, IsOneBeatAClockWithLearnedShares) {
+  expect_a_beat_a_clock(Preset::kDeburr, GetParam());
+}
+
+void expect_a_beat_a_clock(Preset which, const Load& load) {
+  Parameters p = preset(which);
   p.line_pixels = 640;
   p.lanes = static_cast<spec::morphological::Lanes>(load.lanes_code);
   EngineBench bench(p);
@@ -178,15 +186,15 @@ INSTANTIATE_TEST_SUITE_P(
                       Load{"stairs_7_four_lanes", 2, stairs_7, 200}),
     [](const auto& param) { return param.param.name; });
 
-class FullWidth : public ::testing::TestWithParam<int> {};
+class FullWidth : public ::testing::TestWithParam<std::tuple<int, Preset>> {};
 
 // The defaults at the width of 1080p: a pixel is taken in every clock, and none waits on its way.
 TEST_P(FullWidth, TakesRandomEdgesAtAPixelAClock) {
-  const int permille = GetParam();
-  Parameters p = preset(Preset::kDeburr);
+  const auto [permille, which] = GetParam();
+  Parameters p = preset(which);
   const Parameters defaults;
   p.line_pixels = defaults.line_pixels;
-  ASSERT_EQ(defaults.preset, p.preset);
+  ASSERT_EQ(defaults.preset, Preset::kDeburr);
   ASSERT_EQ(defaults.window_rows, p.window_rows);
   ASSERT_EQ(defaults.reach_columns, p.reach_columns);
   EngineBench bench(p);
@@ -205,12 +213,19 @@ TEST_P(FullWidth, TakesRandomEdgesAtAPixelAClock) {
   EXPECT_EQ(bench.engine.extractor.record_stalls.value(), 0u);
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), kPixels + kLatency);
 }
-INSTANTIATE_TEST_SUITE_P(EdgePermille, FullWidth, ::testing::Values(50, 100, 200),
-                         [](const auto& param) { return std::to_string(param.param); });
+INSTANTIATE_TEST_SUITE_P(EdgePermille, FullWidth,
+                         ::testing::Combine(::testing::Values(50, 100, 200),
+                                            ::testing::Values(Preset::kDeburrLine,
+                                                              Preset::kDeburr)),
+                         [](const auto& param) {
+                           const auto [permille, which] = param.param;
+                           return std::to_string(permille) +
+                                  (which == Preset::kDeburr ? "_learned" : "_line");
+                         });
 
 // Beyond that the slots wait, are counted, and nothing else changes.
 TEST(BackPressure, StallsAreCountedAndNothingIsLost) {
-  Parameters p = preset(Preset::kDeburr);
+  Parameters p = preset(Preset::kDeburrLine);
   p.predictor_units = 1;
   p.record_fifo = 2;
   p.divider_interval = 4;
@@ -280,7 +295,7 @@ TEST(EvaluationOrder, DoesNotMatter) {
     EngineBench::Options options;
     options.bench.shuffle = order;
     options.bench.stall_permille = 80;
-    Parameters p = preset(Preset::kDeburr);
+    Parameters p = preset(Preset::kDeburrLine);
     p.lanes = spec::morphological::Lanes::kTwo;
     p.record_fifo = 4;
     EngineBench bench(p, options);
@@ -297,7 +312,7 @@ TEST(EvaluationOrder, DoesNotMatter) {
 
 // The next frame is taken in the clock after the last beat of this one has been pushed.
 TEST(FramesBackToBack, BeginTheClockAfterTheLast) {
-  Parameters p = preset(Preset::kDeburr);
+  Parameters p = preset(Preset::kDeburrLine);
   EngineBench bench(p);
   Times times(bench);
   const Frame a = line(120, 40), b = line(120, 40);
@@ -322,7 +337,7 @@ TEST(FramesBackToBack, BeginTheClockAfterTheLast) {
 TEST(Stalls, UpstreamAndDownstreamAreSeenAndCostWhatTheyLast) {
   EngineBench::Options options;
   options.driver = {250, 3};
-  EngineBench bench(preset(Preset::kDeburr), options);
+  EngineBench bench(preset(Preset::kDeburrLine), options);
   bench.run(line());
   const auto& units = bench.engine.sequencer;
   std::uint64_t upstream = 0;
@@ -335,14 +350,14 @@ TEST(Stalls, UpstreamAndDownstreamAreSeenAndCostWhatTheyLast) {
 TEST(Stalls, ASlowSinkStallsTheBlenderAndNothingIsLost) {
   EngineBench::Options options;
   options.sink = {500, 3};
-  EngineBench bench(preset(Preset::kDeburr), options);
+  EngineBench bench(preset(Preset::kDeburrLine), options);
   EXPECT_EQ(hash(bench.run(line())), 0x736d3ffd8a940ba4u);
   EXPECT_GT(bench.engine.blender.stalled_cycles(), 10'000u);
 }
 
 // Memory that answers in time costs nothing; slow memory stalls the pixel store alone.
 TEST(MemoryTime, FastMemoryCostsNothing) {
-  Parameters p = preset(Preset::kDeburr);
+  Parameters p = preset(Preset::kDeburrLine);
   p.storage = spec::morphological::Storage::kMemory;
   EngineBench::Options options;
   options.memory_latency = 40;
@@ -352,7 +367,7 @@ TEST(MemoryTime, FastMemoryCostsNothing) {
 }
 
 TEST(MemoryTime, SlowMemoryStallsAndNothingIsLost) {
-  Parameters p = preset(Preset::kDeburr);
+  Parameters p = preset(Preset::kDeburrLine);
   p.storage = spec::morphological::Storage::kMemory;
   p.memory_outstanding = 1;
   EngineBench::Options options;
@@ -425,6 +440,23 @@ TEST_P(WayOfARecord, TakesTheLatencyOfTheDividerAndFive) {
   ASSERT_EQ(bench.finished_gate.cycles.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_EQ(bench.finished_gate.cycles[i], kLetGo + i + static_cast<Cycle>(GetParam()) + 5);
+}
+// A learned record passes the divider: 5 clocks, whatever the divider takes.
+TEST_P(WayOfARecord, OfALearnedOneTakesFive) {
+  Parameters p = small();
+  p.area = spec::morphological::AreaSource::kLearned;
+  p.divider_latency = GetParam();
+  p.divider_interval = 9;
+  Path bench(p);
+  bench.slot_driver.send(0, {});
+  // No crossing to look at: let go in the clock of the pop.
+  constexpr Cycle kSent = 40, kLetGo = kSent + 1;
+  RunToken token = run_of(3, 2);
+  token.run.shape = 0;
+  for (int i = 0; i < 3; ++i) bench.driver.send(kSent, token);
+  bench.clock.run(kLetGo + 100);
+  ASSERT_EQ(bench.finished_gate.cycles.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(bench.finished_gate.cycles[i], kLetGo + i + 5);
 }
 INSTANTIATE_TEST_SUITE_P(Latencies, WayOfARecord, ::testing::Values(14, 24, 64));
 

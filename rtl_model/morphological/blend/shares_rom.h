@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Learned shares: those of an edge whose line no staircase tells, by what both ends of its run look
+// like, from three tables whose words add up.
+//
+// Where: in the AreaUnit, which asks in four of its stages: 4 distances, classes and codes of the
+// nearer and the farther end, addresses; 5 words of A and B, their sum, beside it the word of C; 6
+// their sum, limit, address of share_rom; 7 shares. A reader is a lane and axis; each has two
+// sides, the pixels across its edge.
+// The three tables can be loaded through the registers while no frame is inside, when nobody reads:
+// so the ports that read are written. They keep their words in a reset. The sum that the registers
+// show is kept up with each word: the old word is on the output register when the new one comes.
+// Formats: words and z S3.4, shares U0.8. Cost a reader: two 12-bit comparators with a choice (the
+// nearer end), two encoders of a distance, for each side an E comparator of 5 bits, two adders of 9
+// and 10 bits with a limit; reads of A, B, C and share_rom for each side; for the sum a multiplier
+// 12 x 9 and an adder of 32 bits once. Made for 250 MHz; longest path: 12-bit subtract and compare,
+// choice of two, or SRAM read + 9-bit add.
+// Source: ours (docs/morphological_shares.md).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "rtl_model/fabric/memory.h"
+#include "spec/morphological/packets.h"
+
+namespace deburr::rtl::morphological {
+
+class SharesRom {
+ public:
+  // What a record says of its ends.
+  struct Record {
+    std::uint8_t shape = 0;  // index of kRunShapes
+    std::uint8_t start_class = 0, end_class = 0;
+    spec::morphological::RunPart part{};
+  };
+  // An edge on its way.
+  struct Query {
+    std::array<std::uint16_t, 2> a{}, b{}, c{};  // addresses, by side
+    std::array<std::int16_t, 2> z{};
+  };
+  struct Shares {
+    std::uint8_t first = 0, second = 0;
+  };
+  static constexpr std::size_t kEntries = 1024 + 640 + 640;  // A, B, C
+
+  explicit SharesRom(int lanes);
+
+  // --- Stages of the AreaUnit ---
+  // The pixel `before` pixels behind the record's start, `after` before its end.
+  static Query ask(const Record& record, std::int32_t before, std::int32_t after);
+  // An edge of no record.
+  static Query ask_gap();
+  void address(Cycle cycle, std::size_t reader, const Query& query);
+  void add(Cycle cycle, std::size_t reader, Query& query);
+  void address_shares(Cycle cycle, std::size_t reader, Query& query);
+  Shares shares(Cycle cycle, std::size_t reader, const Query& query);
+
+  // --- Registers: through a bus that knows no clocks ---
+  // Entries of A, B, C, one behind the other; beyond them 0, and nothing is kept.
+  std::uint8_t entry(std::size_t index) const;
+  void load(std::size_t index, std::uint8_t entry);
+  std::uint32_t sum() const { return sum_; }
+
+  // For checks: the addresses of every edge.
+  std::function<void(const Query&)> observer;
+
+ private:
+  static constexpr std::size_t kTables = 3, kSides = 2;
+  const Memory<std::int8_t>* find(std::size_t& index) const;
+
+  std::array<Memory<std::int8_t>, kTables> tables_;
+  std::array<std::vector<ReadPort<std::int8_t>>, kTables> words_;  // by reader and side
+  Memory<std::uint8_t> share_rom_;
+  std::vector<ReadPort<std::uint8_t>> shares_;
+  std::uint32_t sum_ = 0;
+};
+
+}  // namespace deburr::rtl::morphological

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// What a frame teaches about learned shares: for each pixel beside an edge its colours, its truth,
+// and where its four shares come from.
+//
+// From the golden model's own records, so that the features are the engine's
+// (docs/morphological_shares.md, "Indices").
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "golden/morphological/learned_shares.h"
+#include "tb/scene/image.h"
+
+namespace deburr::tb::training {
+
+// A frame without anti-aliasing, and what it should have been.
+struct TruthFrame {
+  std::string name;   // unique
+  std::string group;  // frames of one mesh or scene are trained on or judged, never both
+  Image frame, truth;
+  DepthImage depth;  // empty: no silhouettes
+};
+
+enum class Source : std::uint8_t {
+  kNone,     // no edge
+  kLine,     // an extended record: the share is what it is
+  kLearned,  // the tables
+};
+
+// Neighbours in the order up, down, left, right.
+struct ShareSample {
+  std::array<golden::morphological::ShareIndices, 4> indices{};
+  std::array<Source, 4> source{};
+  std::array<std::uint8_t, 4> share{};  // U0.8, of kLine
+  std::int8_t longer = 0;               // 1: the pair up and down has the longer line, -1 the other
+  std::array<std::uint8_t, 3> own{}, truth{};
+  std::array<std::array<std::uint8_t, 3>, 4> neighbour{};
+};
+
+std::vector<ShareSample> samples_of(const TruthFrame& frame);
+
+}  // namespace deburr::tb::training
