@@ -15,4 +15,4 @@ set_tests_properties(comparison_page.cube_is_current comparison_page.picture_is_
                      PROPERTIES LABELS oracle TIMEOUT 600)
 add_test(NAME comparison_page.all_is_current
          COMMAND comparison_page check "${PROJECT_SOURCE_DIR}/docs/comparison.md")
-set_tests_properties(comparison_page.all_is_current PROPERTIES LABELS perf TIMEOUT 1800)
+set_tests_properties(comparison_page.all_is_current PROPERTIES LABELS "perf;long" TIMEOUT 1800)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 deburr_test(morphological_frames_test LABELS oracle
+  LONG MorphologicalFrames[.]DeburrIsBestOnTrackFromOtherSides
   SOURCES "${CMAKE_CURRENT_LIST_DIR}/morphological_frames_test.cpp"
           "${CMAKE_CURRENT_LIST_DIR}/stand_ins.cpp"
   LINK deburr::golden_morphological deburr::scene deburr::stimuli)

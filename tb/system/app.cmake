@@ -21,6 +21,7 @@ foreach(class Points Killed)
   set_tests_properties(sweep.${class} PROPERTIES LABELS system TIMEOUT 600
                        ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 endforeach()
+set_property(TEST sweep.Killed APPEND PROPERTY LABELS long)
 add_test(NAME slurm COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/slurm_test.py" $<TARGET_FILE:deburr>)
 set_tests_properties(slurm PROPERTIES LABELS slurm TIMEOUT 900 SKIP_REGULAR_EXPRESSION "^skipped"
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
