@@ -3,7 +3,7 @@ deburr_library(comparison LAYER tb
   SOURCES "${CMAKE_CURRENT_LIST_DIR}/comparison.cpp"
   LINK deburr::scene
   PRIVATE_LINK deburr::geometric_environment deburr::morphological_environment
-               deburr::geometric_frames fmt::fmt)
+               deburr::geometric_frames deburr::ideal fmt::fmt)
 add_executable(comparison_page "${CMAKE_CURRENT_LIST_DIR}/comparison_page.cpp")
 target_link_libraries(comparison_page PRIVATE deburr::comparison fmt::fmt deburr_options)
 # A scene of the table, and the picture; the whole table with the label perf.

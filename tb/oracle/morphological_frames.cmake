@@ -3,5 +3,5 @@ deburr_test(morphological_frames_test LABELS oracle
   LONG MorphologicalFrames[.]DeburrIsBestOnTrackFromOtherSides
   SOURCES "${CMAKE_CURRENT_LIST_DIR}/morphological_frames_test.cpp"
           "${CMAKE_CURRENT_LIST_DIR}/stand_ins.cpp"
-  LINK deburr::golden_morphological deburr::scene deburr::stimuli)
+  LINK deburr::golden_morphological deburr::ideal deburr::scene deburr::stimuli)
 target_compile_definitions(morphological_frames_test PRIVATE DEBURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
