@@ -33,12 +33,12 @@ function(deburr_library name)
   add_library(deburr::${name} ALIAS deburr_${name})
 endfunction()
 
-# deburr_test(<name> LABELS ... SOURCES ... LINK ... [TIMING regex ...] [TIMEOUT s]): a GoogleTest
-# program. Every TEST becomes a ctest entry of its own and so a process of its own: SystemC
-# elaborates once a process. Tests whose name matches a regex of TIMING have the label `timing` too;
-# a regex that matches none is an error of ctest.
+# deburr_test(<name> LABELS ... SOURCES ... LINK ... [TIMING regex ...] [LONG regex ...] [TIMEOUT s]):
+# a GoogleTest program. Every TEST becomes a ctest entry of its own and so a process of its own:
+# SystemC elaborates once a process. Tests whose name matches a regex of TIMING or LONG have the
+# label `timing` or `long` too; a regex that matches none is an error of ctest.
 function(deburr_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;SOURCES;LINK;TIMING" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;SOURCES;LINK;TIMING;LONG" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
@@ -50,18 +50,22 @@ function(deburr_test name)
                        NO_PRETTY_VALUES PROPERTIES TIMEOUT ${ARG_TIMEOUT})
   # gtest_discover_tests() flattens a list in PROPERTIES, so more than one label goes this way.
   set(labels "${CMAKE_CURRENT_BINARY_DIR}/${name}_labels.cmake")
-  file(WRITE "${labels}" "if(${name}_tests)
+  set(text "if(${name}_tests)
   set_tests_properties(\${${name}_tests} PROPERTIES LABELS \"${ARG_LABELS}\")
-  foreach(timing IN ITEMS ${ARG_TIMING})
+")
+  foreach(label timing long)
+    string(TOUPPER ${label} regexes)
+    string(APPEND text "  foreach(regex IN ITEMS ${ARG_${regexes}})
     set(matching \${${name}_tests})
-    list(FILTER matching INCLUDE REGEX \"^${name}[.](.*/)?\${timing}\")
+    list(FILTER matching INCLUDE REGEX \"^${name}[.](.*/)?\${regex}\")
     if(NOT matching)
-      message(SEND_ERROR \"${name} has no test '\${timing}' for the label timing\")
+      message(SEND_ERROR \"${name} has no test '\${regex}' for the label ${label}\")
     else()
-      set_tests_properties(\${matching} PROPERTIES LABELS \"${ARG_LABELS};timing\")
+      set_tests_properties(\${matching} PROPERTIES LABELS \"${ARG_LABELS};${label}\")
     endif()
   endforeach()
-endif()
 ")
+  endforeach()
+  file(WRITE "${labels}" "${text}endif()\n")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${labels}")
 endfunction()

@@ -30,3 +30,5 @@ foreach(class Killed SideBySide FullDisk Papers)
   set_tests_properties(app_survival.${class} PROPERTIES LABELS stress TIMEOUT 900
     ENVIRONMENT "DEBURR=$<TARGET_FILE:deburr>;PYTHONDONTWRITEBYTECODE=1")
 endforeach()
+set_property(TEST app_survival.Killed app_survival.FullDisk app_survival.Papers
+             APPEND PROPERTY LABELS long)

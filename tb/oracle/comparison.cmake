@@ -3,7 +3,7 @@ deburr_library(comparison LAYER tb
   SOURCES "${CMAKE_CURRENT_LIST_DIR}/comparison.cpp"
   LINK deburr::scene
   PRIVATE_LINK deburr::geometric_environment deburr::morphological_environment
-               deburr::geometric_frames fmt::fmt)
+               deburr::geometric_frames deburr::ideal fmt::fmt)
 add_executable(comparison_page "${CMAKE_CURRENT_LIST_DIR}/comparison_page.cpp")
 target_link_libraries(comparison_page PRIVATE deburr::comparison fmt::fmt deburr_options)
 # A scene of the table, and the picture; the whole table with the label perf.
@@ -15,4 +15,4 @@ set_tests_properties(comparison_page.cube_is_current comparison_page.picture_is_
                      PROPERTIES LABELS oracle TIMEOUT 600)
 add_test(NAME comparison_page.all_is_current
          COMMAND comparison_page check "${PROJECT_SOURCE_DIR}/docs/comparison.md")
-set_tests_properties(comparison_page.all_is_current PROPERTIES LABELS perf TIMEOUT 1800)
+set_tests_properties(comparison_page.all_is_current PROPERTIES LABELS "perf;long" TIMEOUT 1800)

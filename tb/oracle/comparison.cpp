@@ -21,6 +21,7 @@
 #include "tb/scene/quality.h"
 #include "tb/scene/scenes.h"
 #include "tb/stimuli/geometric_frames.h"
+#include "tb/stimuli/reference_filters.h"
 
 namespace deburr::tb {
 namespace {
@@ -198,6 +199,8 @@ std::vector<ComparisonRow> compare_methods(const std::string& scene) {
   };
   add("none", judge.frame.image);
   add("MSAA 4x", judge.msaa);
+  for (const stimuli::ReferenceFilter& reference : stimuli::kReferenceFilters)
+    add(reference.name, reference.filter(judge.frame.image, true));
   for (const Method& method : engines())
     add(method.name, picture_of(method, judge.frame)).cost = cost_of(method, judge.frame);
   add("supersampled, 256 samples", judge.truth);
@@ -259,7 +262,7 @@ struct Place {
   int x, y;  // of the crop's corner
 };
 constexpr Place kPlaces[] = {{"object", 264, 116}, {"cylinders", 414, 136}};
-constexpr int kCrop = 28, kZoom = 6, kColumns = 6, kGap = 8, kLetters = 2, kLeading = 4;
+constexpr int kCrop = 28, kZoom = 6, kColumns = 7, kGap = 8, kLetters = 2, kLeading = 4;
 
 // The picture with lines of text over it.
 Image captioned(const Image& picture, std::span<const std::string> lines) {
@@ -294,6 +297,8 @@ Image comparison_sheet() {
     };
     add("none", judge.frame.image);
     add("MSAA 4x", judge.msaa);
+    for (const stimuli::ReferenceFilter& reference : stimuli::kReferenceFilters)
+      add(reference.name, reference.filter(judge.frame.image, true));
     for (const Method& method : engines()) add(method.label, picture_of(method, judge.frame));
     add("truth", judge.truth);
   }

@@ -12,6 +12,7 @@ deburr_test(filtering_criterion_test LABELS oracle
   SOURCES "${CMAKE_CURRENT_LIST_DIR}/filtering_criterion_test.cpp"
   LINK deburr::conformance)
 deburr_test(filtering_conformance_test LABELS oracle TIMEOUT 600  # with sanitizers; 10 s without
+  LONG Rules[.]TheLogarithmDecidesTheVerdict
   SOURCES "${CMAKE_CURRENT_LIST_DIR}/filtering_conformance_test.cpp"
   LINK deburr::conformance)
 deburr_test(filtering_faults_test LABELS negative
@@ -26,4 +27,4 @@ target_link_libraries(conformance_page PRIVATE deburr::conformance deburr_option
 add_test(NAME conformance_page.is_current
          COMMAND conformance_page check "${PROJECT_SOURCE_DIR}/docs/filtering_conformance.md"
                  "${CMAKE_CURRENT_LIST_DIR}/stale_page.md")
-set_tests_properties(conformance_page.is_current PROPERTIES LABELS oracle TIMEOUT 600)
+set_tests_properties(conformance_page.is_current PROPERTIES LABELS "oracle;long" TIMEOUT 600)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 deburr_test(morphological_frames_test LABELS oracle
+  LONG MorphologicalFrames[.]DeburrIsBestOnTrackFromOtherSides
   SOURCES "${CMAKE_CURRENT_LIST_DIR}/morphological_frames_test.cpp"
-  LINK deburr::golden_morphological deburr::scene deburr::stimuli deburr::share_training)
+  LINK deburr::golden_morphological deburr::ideal deburr::scene deburr::stimuli deburr::share_training)
 target_compile_definitions(morphological_frames_test PRIVATE DEBURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

@@ -26,6 +26,7 @@
 #include "tb/scene/image_io.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/truth.h"
+#include "tb/stimuli/reference_filters.h"
 
 namespace deburr::tb {
 namespace {
@@ -68,6 +69,9 @@ class Judge {
   }
   const std::string& name() const { return name_; }
   const Image& frame() const { return frame_; }
+  Figures judge(const stimuli::ReferenceFilter& reference) const {
+    return judge(reference.name, reference.filter(frame_, true));
+  }
 
  private:
   std::string name_;
@@ -156,6 +160,8 @@ void expect_deburr_best(const Judge& judge, double margin) {
   ahead("mlaa-slope", judge.judge(Preset::kMlaaSlope));
   ahead("deburr-line", judge.judge(Preset::kDeburrLine));
   for (const auto& [name, rules] : smaa_rules()) ahead(name, judge.judge(name, rules));
+  for (const stimuli::ReferenceFilter& reference : stimuli::kReferenceFilters)
+    ahead(reference.name, judge.judge(reference));
   for (const auto& [name, rules] : mixed_rules()) judge.judge(name, rules);
 }
 

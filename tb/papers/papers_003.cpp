@@ -30,6 +30,7 @@
 #include "tb/stimuli/discs.h"
 #include "tb/stimuli/frames.h"
 #include "tb/stimuli/line_fans.h"
+#include "tb/stimuli/reference_filters.h"
 
 namespace deburr::tb {
 namespace {
@@ -216,6 +217,8 @@ struct Method {
   std::string name;
   bool smoothed = true;
   Parameters parameters;
+  const stimuli::ReferenceFilter* reference = nullptr;  // instead of the engine: has no hardware
+  bool by_engine() const { return smoothed && reference == nullptr; }
 };
 
 std::vector<Method> methods() {
@@ -233,6 +236,8 @@ std::vector<Method> methods() {
     method.parameters.alpha = share.code;
     all.push_back(method);
   }
+  for (const stimuli::ReferenceFilter& reference : stimuli::kReferenceFilters)
+    all.push_back({reference.name, true, {}, &reference});
   all.push_back({"deburr", true, preset_parameters(Preset::kDeburr)});
   all.push_back({"deburr-line", true, preset_parameters(Preset::kDeburrLine)});
   const auto with = [&](const char* name, void (*change)(Parameters&)) {
@@ -249,6 +254,7 @@ std::vector<Method> methods() {
 
 Image smoothed(const Image& frame, const Method& method) {
   if (!method.smoothed) return frame;
+  if (method.reference) return method.reference->filter(frame, method.parameters.linear_light);
   MorphologicalGolden golden(method.parameters, MorphologicalGolden::Detail::kPixels);
   Image out(frame.width, frame.height);
   out.pixels = golden.process({frame.pixels, frame.width, frame.height});
@@ -335,7 +341,7 @@ PaperTable matrix_of_frames(const PaperOptions& options) {
     };
     for (std::size_t i = 0; i < all.size(); ++i) {
       judge(sums[i], smoothed(lit.noaa, all[i]));
-      if (all[i].smoothed)
+      if (all[i].by_engine())
         sums[i].density += edge_pixels_percent(lit.noaa, edges_of(lit.noaa, all[i].parameters));
     }
     judge(sums.back(), render_msaa4(scene, options.size, options.size));
@@ -353,7 +359,7 @@ PaperTable matrix_of_frames(const PaperOptions& options) {
     cells.insert(cells.end(), sum.cells.begin(), sum.cells.end());
     cells.push_back(decimals(sum.edges / n, 2));
     cells.push_back(decimals(sum.silhouettes / std::max(1, sum.with_silhouettes), 2));
-    cells.push_back(all[i].smoothed ? decimals(sum.density / n, 2) : "-");
+    cells.push_back(all[i].by_engine() ? decimals(sum.density / n, 2) : "-");
     cells.push_back(i == deburr ? "ours"
                                 : at_most(sum.edges, sums[deburr].edges, "behind", "ahead"));
     table.rows.push_back(cells);
@@ -407,7 +413,7 @@ PaperTable matrix_of_costs(const PaperOptions& options) {
   const Image fifth = stimuli::random_edges(256, 144, 200),
               paper = stimuli::random_edges(256, 144, 370);
   std::vector<Method> all = methods();
-  std::erase_if(all, [](const Method& method) { return !method.smoothed; });
+  std::erase_if(all, [](const Method& method) { return !method.by_engine(); });
   Progress progress("paper 003", all.size(), "row", options.quiet);
   for (const Method& method : all) {
     options.go_on();

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// Is the reference filter CMAA2 as its header says? Edges, corners and steps worked out by hand,
+// and what every frame must keep.
+#include "golden/ideal/cmaa2.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <initializer_list>
+
+#include "tb/unit/golden/ideal/support.h"
+
+namespace deburr::golden::ideal {
+namespace {
+
+Cmaa2Settings in_codes() {
+  Cmaa2Settings settings;
+  settings.linear_light = false;
+  return settings;
+}
+
+TEST(Cmaa2, LeavesFlatFramesAndEdgesAlongAnAxisAlone) {
+  const ColourFrame flat = drawn(9, 7, [](int, int) { return 93; }),
+                    edge = drawn(9, 8, [](int, int y) { return y < 3 ? 255 : 0; }),
+                    line = drawn(9, 8, [](int, int y) { return y == 3 ? 255 : 0; });
+  for (const ColourFrame& frame : {flat, edge, line})
+    for (const ColourFrame& either : {frame, turned(frame)})
+      EXPECT_EQ(cmaa2(either), either.pixels);
+}
+
+TEST(Cmaa2, FindsStepsAboveItsThreshold) {
+  // 0.05 of full scale are 12.75 codes of grey, or of a colour's luma.
+  const auto edge = [](Rgba8 left, Rgba8 right) {
+    return cmaa2_edges({{left, right}, 2, 1}).has_right(0, 0);
+  };
+  EXPECT_FALSE(edge({100, 100, 100, 255}, {112, 112, 112, 255}));
+  EXPECT_TRUE(edge({100, 100, 100, 255}, {113, 113, 113, 255}));
+  EXPECT_FALSE(edge({142, 0, 0, 255}, {100, 0, 0, 255}));
+  EXPECT_TRUE(edge({143, 0, 0, 255}, {100, 0, 0, 255}));
+  // Colours of equal luma differ too.
+  EXPECT_TRUE(edge({100, 100, 0, 255}, {159, 70, 0, 255}));
+}
+
+// A step of 16 codes, 0.0627, is weakened by a tenth of what crosses its end.
+TEST(Cmaa2, AWeakEdgeIsHiddenByAStrongOneThatCrossesIt) {
+  const auto edge = [](int crossing, bool turn) {
+    const ColourFrame frame = drawn(2, 2, [=](int x, int y) {
+      return y == 0 ? 100 + crossing : x == 0 ? 100 : 116;
+    });
+    return turn ? cmaa2_edges(turned(frame)).has_below(1, 0) : cmaa2_edges(frame).has_right(0, 1);
+  };
+  for (const bool turn : {false, true}) {
+    EXPECT_TRUE(edge(32, turn));   // 0.0627 - 0.0125
+    EXPECT_FALSE(edge(34, turn));  // 0.0627 - 0.0133
+  }
+}
+
+TEST(Cmaa2, TakesATenthOfEachNeighbourAtSimpleShapes) {
+  const auto middle = [](const ColourFrame& frame) { return cmaa2(frame, in_codes())[4][0]; };
+  const auto over = [](std::initializer_list<int> white) {
+    return drawn(3, 3, [=](int x, int y) {
+      return std::find(white.begin(), white.end(), 3 * y + x) != white.end() ? 255 : 0;
+    });
+  };
+  EXPECT_EQ(middle(over({4})), 153);             // a dot: 1 - 4/10
+  EXPECT_EQ(middle(over({1, 4})), 179);          // a tip: 1 - 3/10, 178.5
+  EXPECT_EQ(middle(over({0, 1, 3, 4})), 204);    // a corner: 1 - 2/10
+  EXPECT_EQ(middle(over({1, 4, 7})), 255);       // a line
+  EXPECT_EQ(middle(over({0, 1, 2, 3, 5})), 77);  // black among three, 76.5
+}
+
+// White over black, arms of 8 and 12 pixels. Of the left arm 4 pixels lie on the step's side of its
+// middle; the n-th from the step, from 0 on, takes (3.28 - n) / 3.78 / 2 of white. Of the right one
+// 6 pixels give (5.28 - n) / 5.78 / 2.
+bool step_is_right(const Cmaa2Settings& settings) {
+  const ColourFrame frame = one_step(20, 10, 8, 4);
+  ColourFrame expected = frame;
+  const int left[] = {111, 77, 43, 9}, right[] = {139, 161, 183, 205, 227, 249};
+  const auto set = [&](int x, int code) {
+    const auto stored = static_cast<std::uint8_t>(code);
+    expected.pixels[expected.index(x, 4)] = {stored, stored, stored, 255};
+  };
+  for (int i = 0; i < 4; ++i) set(7 - i, left[i]);
+  for (int i = 0; i < 6; ++i) set(8 + i, right[i]);
+  return cmaa2(frame, settings) == expected.pixels;
+}
+
+TEST(Cmaa2, BlendsALongStepBetweenTheMiddlesOfItsArms) {
+  EXPECT_TRUE(step_is_right(in_codes()));
+  // Wrong rules are seen: a line that meets the arms' middles, arms that end early, linear light.
+  Cmaa2Settings wrong = in_codes();
+  wrong.symmetry = 0;
+  EXPECT_FALSE(step_is_right(wrong));
+  wrong = in_codes();
+  wrong.longest_arm = 10;
+  EXPECT_FALSE(step_is_right(wrong));
+  EXPECT_FALSE(step_is_right({}));
+}
+
+TEST(Cmaa2, AStepWithShortArmsIsTwoCorners) {
+  const ColourFrame frame = one_step(4, 6, 2, 2);
+  ColourFrame expected = frame;
+  expected.pixels[expected.index(1, 2)] = {51, 51, 51, 255};
+  expected.pixels[expected.index(2, 2)] = {204, 204, 204, 255};
+  EXPECT_EQ(cmaa2(frame, in_codes()), expected.pixels);
+}
+
+// Of a run of three, halves are two pixels: above the middle column and below it a pixel is
+// blended.
+TEST(Cmaa2, AStaircaseIsBlendedStepByStep) {
+  const ColourFrame frame = drawn(12, 8, [](int x, int y) { return y < 2 + x / 3 ? 255 : 0; });
+  const ColourFrame result{cmaa2(frame, in_codes()), 12, 8};
+  // 1.28 / 1.78 / 2 and 0.28 / 1.78 / 2 of 255 are 91.7 and 20.1.
+  EXPECT_EQ(result.at(5, 3)[0], 92);
+  EXPECT_EQ(result.at(4, 3)[0], 20);
+  EXPECT_EQ(result.at(3, 3)[0], 0);
+  EXPECT_EQ(result.at(3, 2)[0], 255 - 92);
+  EXPECT_EQ(result.at(4, 2)[0], 255 - 20);
+  EXPECT_EQ(result.at(5, 2)[0], 255);
+}
+
+TEST(Cmaa2, MirroredFramesGiveMirroredOutput) {
+  const auto filter = [](const ColourFrame& frame) { return cmaa2(frame); };
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    // A few colours: long edges, and edges at the borders.
+    ColourFrame frame = noise(37, 29, seed);
+    for (Rgba8& pixel : frame.pixels)
+      for (std::size_t i = 0; i < 3; ++i) pixel[i] = pixel[i] > 190 ? 200 : 30;
+    const ColourFrame result = filtered(frame, filter);
+    EXPECT_NE(result.pixels, frame.pixels);
+    for (const bool left_right : {false, true})
+      EXPECT_EQ(filtered(mirrored(frame, left_right), filter).pixels,
+                mirrored(result, left_right).pixels);
+    EXPECT_EQ(filtered(turned(frame), filter).pixels, turned(result).pixels);
+  }
+}
+
+TEST(Cmaa2, KeepsAlpha) {
+  const ColourFrame frame = noise(16, 16, 4);
+  const std::vector<Rgba8> result = cmaa2(frame);
+  for (std::size_t i = 0; i < result.size(); ++i) EXPECT_EQ(result[i][3], frame.pixels[i][3]);
+}
+
+}  // namespace
+}  // namespace deburr::golden::ideal

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// Is the reference filter FXAA as its description says? Steps worked out by hand, and what every
+// frame must keep.
+#include "golden/ideal/fxaa.h"
+
+#include <gtest/gtest.h>
+
+#include "tb/unit/golden/ideal/support.h"
+
+namespace deburr::golden::ideal {
+namespace {
+
+// By the ends of edges alone, in codes: shares can be read off black and white.
+FxaaSettings ends_only() {
+  FxaaSettings settings;
+  settings.subpixel = 0;
+  settings.steps = kFxaaSteps39;
+  settings.linear_light = false;
+  return settings;
+}
+
+TEST(Fxaa, LeavesAFlatFrameAlone) {
+  const ColourFrame frame = drawn(9, 7, [](int, int) { return 93; });
+  EXPECT_EQ(fxaa(frame), frame.pixels);
+  const ColourFrame pixel = drawn(1, 1, [](int, int) { return 255; });
+  EXPECT_EQ(fxaa(pixel), pixel.pixels);
+}
+
+TEST(Fxaa, LeavesContrastBelowItsThresholdsAlone) {
+  FxaaSettings settings;
+  settings.least_threshold = 0.0312;  // 7.96 codes
+  const auto dot = [](int ground, int code) {
+    return drawn(5, 5, [=](int x, int y) { return x == 2 && y == 2 ? code : ground; });
+  };
+  EXPECT_EQ(fxaa(dot(40, 47), settings), dot(40, 47).pixels);
+  EXPECT_NE(fxaa(dot(40, 48), settings), dot(40, 48).pixels);
+  // 0.063 of 200 are 12.6 codes.
+  EXPECT_EQ(fxaa(dot(188, 200), settings), dot(188, 200).pixels);
+  EXPECT_NE(fxaa(dot(187, 200), settings), dot(187, 200).pixels);
+}
+
+// An edge along an axis has no end, up to the border and beyond: only the sub-pixel term is left,
+// 1/3 of the range, eased to 7/27, squared, times 3/4: 0.0504 of 255 are 12.85.
+TEST(Fxaa, LeavesAnEdgeAlongAnAxisToTheSubpixelTerm) {
+  const ColourFrame edge = drawn(24, 12, [](int, int y) { return y < 6 ? 255 : 0; });
+  for (const ColourFrame& frame : {edge, turned(edge)}) {
+    FxaaSettings settings = ends_only();
+    EXPECT_EQ(fxaa(frame, settings), frame.pixels);
+    settings.subpixel = 0.75;
+    const ColourFrame result{fxaa(frame, settings), frame.width, frame.height};
+    for (int i = 0; i < 24; ++i) {
+      const auto at = [&](int across) {
+        return frame.width == 24 ? result.at(i, across)[0] : result.at(across, i)[0];
+      };
+      EXPECT_EQ(at(4), 255);
+      EXPECT_EQ(at(5), 242);
+      EXPECT_EQ(at(6), 13);
+      EXPECT_EQ(at(7), 0);
+    }
+  }
+}
+
+// One step in an edge that goes on beyond the reach of 26.5 pixels. The n-th pixel from the step
+// sees the end n + 1 pixels on, and the side that ends there takes 1/2 - (n + 1) / (n + 27.5) of
+// the other; the side that goes on takes nothing.
+bool step_is_right(const FxaaSettings& settings) {
+  const ColourFrame frame = one_step(80, 12, 40, 5);
+  const ColourFrame result{fxaa(frame, settings), frame.width, frame.height};
+  bool right = true;
+  const auto expect = [&](int x, int y, int code) { right &= result.at(x, y)[0] == code; };
+  expect(41, 5, 145);  // n = 1: 0.4298
+  expect(42, 5, 153);  // n = 2: 0.3983
+  expect(38, 5, 110);
+  expect(37, 5, 102);
+  expect(41, 6, 0);
+  expect(38, 4, 255);
+  return right;
+}
+
+TEST(Fxaa, SmoothsAStepTowardsItsEnds) {
+  EXPECT_TRUE(step_is_right(ends_only()));
+  // A list that ends a pixel too early is seen.
+  FxaaSettings wrong = ends_only();
+  static constexpr double kShort[] = {1, 1, 1, 1, 1, 1.5, 2, 2, 2, 2, 4, 7};
+  wrong.steps = kShort;
+  EXPECT_FALSE(step_is_right(wrong));
+  wrong = ends_only();
+  wrong.linear_light = true;
+  EXPECT_FALSE(step_is_right(wrong));
+}
+
+// Half the light of white is stored as 188, not as 128.
+TEST(Fxaa, BlendsInLinearLightOrInCodes) {
+  const ColourFrame dot = drawn(5, 5, [](int x, int y) { return x == 2 && y == 2 ? 255 : 0; });
+  FxaaSettings settings;
+  settings.subpixel = 0.5;  // the dot differs from all of its neighbours: the whole of it
+  EXPECT_EQ(fxaa(dot, settings)[12][0], 188);
+  settings.linear_light = false;
+  EXPECT_EQ(fxaa(dot, settings)[12][0], 128);
+}
+
+TEST(Fxaa, MirroredFramesGiveMirroredOutput) {
+  const auto filter = [](const ColourFrame& frame) { return fxaa(frame); };
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const ColourFrame frame = noise(37, 29, seed), result = filtered(frame, filter);
+    EXPECT_NE(result.pixels, frame.pixels);
+    for (const bool left_right : {false, true})
+      EXPECT_EQ(filtered(mirrored(frame, left_right), filter).pixels,
+                mirrored(result, left_right).pixels);
+  }
+  // Frames of noise have ties of axes at their corners.
+  const ColourFrame step = one_step(40, 12, 17, 5);
+  EXPECT_EQ(filtered(turned(step), filter).pixels, turned(filtered(step, filter)).pixels);
+}
+
+TEST(Fxaa, KeepsAlpha) {
+  const ColourFrame frame = noise(16, 16, 4);
+  const std::vector<Rgba8> result = fxaa(frame);
+  for (std::size_t i = 0; i < result.size(); ++i) EXPECT_EQ(result[i][3], frame.pixels[i][3]);
+}
+
+}  // namespace
+}  // namespace deburr::golden::ideal
