@@ -29,15 +29,16 @@ TEST(TextureRtlAddressUnit, LatencyByRule) {
   // directions 8 in place of 2, or 22 in place of 19, and axis_clocks - 1; any count one.
   const auto kHalf = FootprintRule::kHalf, kExact = FootprintRule::kExact;
   const std::vector<Row> rows = {
+      // the earliest first
       {"half", kHalf, Log2Rule::kMitchell, Axes::kTwo, 1, CountRule::kFloor, 17},
       {"ceil", kHalf, Log2Rule::kMitchell, Axes::kTwo, 1, CountRule::kCeil, 17},
+      {"any", kHalf, Log2Rule::kMitchell, Axes::kTwo, 1, CountRule::kAny, 18},
       {"corrected", kHalf, Log2Rule::kCorrected, Axes::kTwo, 1, CountRule::kFloor, 19},
       {"exact_log2", kHalf, Log2Rule::kExact, Axes::kTwo, 1, CountRule::kFloor, 19},
-      {"exact", kExact, Log2Rule::kMitchell, Axes::kTwo, 1, CountRule::kFloor, 34},
-      {"any", kHalf, Log2Rule::kMitchell, Axes::kTwo, 1, CountRule::kAny, 18},
       {"four", kHalf, Log2Rule::kMitchell, Axes::kFour, 1, CountRule::kFloor, 23},
       {"four_in_two", kHalf, Log2Rule::kMitchell, Axes::kFour, 2, CountRule::kFloor, 24},
       {"eight_in_four", kHalf, Log2Rule::kMitchell, Axes::kEight, 4, CountRule::kFloor, 26},
+      {"exact", kExact, Log2Rule::kMitchell, Axes::kTwo, 1, CountRule::kFloor, 34},
       {"deburr", kExact, Log2Rule::kSegments, Axes::kEight, 1, CountRule::kAny, 40}};
   struct Bench {
     Bench(ClockDomain& domain, const Row& row, rtl::LatencyProbe& latency)

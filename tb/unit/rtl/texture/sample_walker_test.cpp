@@ -73,7 +73,7 @@ TEST(TextureRtlWalker, SpreadByKernel) {
   }
 }
 
-// Every N of 1 to 16, against the contract's formula in 128 bits.
+// Every N of 1 to 16, against the contract's formula.
 TEST(TextureRtlWalker, AnyCountByTheFormula) {
   ClockDomain clock("clock", period());
   using spec::texture::Kernel;
@@ -94,9 +94,8 @@ TEST(TextureRtlWalker, AnyCountByTheFormula) {
           const auto offset = [&](std::int64_t d) {
             const int reciprocal = (2 * 65536 + count) / (2 * count);  // rounded
             const int length = kernel == Kernel::kTent && count < 4 ? std::min(spread, 64) : spread;
-            const __int128 exact =
-                static_cast<__int128>(d) * (2 * i + 1 - count) * length * reciprocal;
-            return static_cast<std::int64_t>((exact + (1 << 22)) >> 23);
+            const std::int64_t exact = d * (2 * i + 1 - count) * length * reciprocal;
+            return (exact + (1 << 22)) >> 23;
           };
           EXPECT_EQ(s.s, 7 + offset(axis)) << "N " << count << " i " << i;
           EXPECT_EQ(s.t, -9 + offset(-axis / 3)) << "N " << count << " i " << i;
