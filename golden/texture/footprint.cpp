@@ -19,10 +19,16 @@ Derivative derivative_in_texels(std::int64_t difference, std::uint32_t size) {
 }
 
 std::uint32_t integer_square_root(std::uint64_t x) {
-  std::uint64_t root = 0;
-  for (std::uint64_t bit = std::uint64_t{1} << 31; bit != 0; bit >>= 1) {
-    const std::uint64_t candidate = root | bit;
-    if (candidate * candidate <= x) root = candidate;
+  // Bit by bit as on paper: what remains of x, and twice the root, aligned to the place in work.
+  std::uint64_t rest = x, root = 0;
+  if (x == 0) return 0;
+  std::uint64_t place = std::uint64_t{1} << ((std::bit_width(x) - 1) & ~1);
+  for (; place != 0; place >>= 2) {
+    const std::uint64_t taken = root + place;
+    const std::uint64_t one =
+        rest >= taken ? ~std::uint64_t{0} : 0;  // no branch: nobody could guess
+    rest -= taken & one;
+    root = (root >> 1) + (place & one);
   }
   return static_cast<std::uint32_t>(root);
 }
@@ -50,7 +56,7 @@ constexpr int kAxisFractionBits = 7;
 
 const spec::texture::Axis& direction(spec::texture::Axes axes, int k) {
   return spec::texture::kAxes[static_cast<std::size_t>(
-      k * (static_cast<int>(spec::texture::kAxes.size()) / candidates(axes)))];
+      k << (static_cast<int>(spec::texture::Axes::kEight) - static_cast<int>(axes)))];
 }
 
 std::int64_t along(const spec::texture::Axis& axis, std::int64_t x, std::int64_t y) {
@@ -96,24 +102,25 @@ Footprint footprint(spec::texture::Axes axes, spec::texture::FootprintRule rule,
                     const Step& p_y) {
   const bool exact = rule == spec::texture::FootprintRule::kExact;
   const int count = candidates(axes);
-  std::array<Magnitudes, spec::texture::kAxes.size()> u;
-  std::uint64_t longest = 0;
-  int major = 0;
+  Footprint result;
+  Magnitudes longest;
+  std::uint64_t most = 0;
   for (int k = 0; k < count; ++k) {
-    const Magnitudes& each = u[static_cast<std::size_t>(k)] =
-        candidate_in_texels(axes, k, p_x, p_y);
-    const std::uint64_t measure =
-        exact ? square_of_length(each) : footprint_side(rule, each.s, each.t);
-    if (measure > longest) {
-      longest = measure;
-      major = k;
-    }
+    const Magnitudes u = candidate_in_texels(axes, k, p_x, p_y);
+    const std::uint64_t measure = exact ? square_of_length(u) : footprint_side(rule, u.s, u.t);
+    const bool longer = measure > most || k == 0;
+    most = longer ? measure : most;
+    longest = longer ? u : longest;
+    result.major = longer ? k : result.major;
   }
-  const auto length = [&](int k) {
-    const Magnitudes& each = u[static_cast<std::size_t>(k)];
-    return footprint_side(rule, each.s, each.t);
-  };
-  return {major, length(major), length((major + count / 2) % count), area(p_x, p_y)};
+  result.d_max = footprint_side(rule, longest.s, longest.t);
+  if (axes == spec::texture::Axes::kTwo) {
+    const Magnitudes other = candidate_in_texels(axes, 1 - result.major, p_x, p_y);
+    result.d_min = footprint_side(rule, other.s, other.t);
+  } else {
+    result.area = area(p_x, p_y);
+  }
+  return result;
 }
 
 namespace {

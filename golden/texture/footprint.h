@@ -53,8 +53,10 @@ Step candidate_in_coordinates(spec::texture::Axes axes, int k, const Step& d_x, 
 struct Footprint {
   int major = 0;            // candidate; of equally long ones the first
   std::uint32_t d_max = 0;  // its length
-  std::uint32_t d_min = 0;  // of two axes: the length of the other
-  std::uint64_t area = 0;   // of the pixel's parallelogram, U30.16: d_max times the minor axis
+  // What tells the minor axis. Of two axes: the length of the other; of more: the area of the
+  // pixel's parallelogram, U30.16, which is d_max times the minor axis.
+  std::uint32_t d_min = 0;
+  std::uint64_t area = 0;
   friend bool operator==(const Footprint&, const Footprint&) = default;
 };
 

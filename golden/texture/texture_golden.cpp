@@ -99,31 +99,31 @@ void TextureGolden::reset() {
   clear_fills();
 }
 
-FragmentAnalysis TextureGolden::analyse(const spec::texture::Quad& quad, int lane) const {
+TextureGolden::Differences TextureGolden::differences(const Texture& texture,
+                                                      const spec::texture::Quad& quad) {
+  const auto between = [&](std::size_t to, std::size_t from) {
+    Difference result;
+    result.d = {std::int64_t{quad.s[to]} - quad.s[from], std::int64_t{quad.t[to]} - quad.t[from]};
+    const Derivative s = derivative_in_texels(result.d.s, texture.descriptor.width);
+    const Derivative t = derivative_in_texels(result.d.t, texture.descriptor.height);
+    result.p = {s.texels, t.texels};
+    result.saturated = s.saturated || t.saturated;
+    return result;
+  };
+  return {{between(1, 0), between(3, 2)}, {between(2, 0), between(3, 1)}};
+}
+
+FragmentAnalysis TextureGolden::analyse(const Texture& texture, const Differences& differences,
+                                        int lane) const {
+  const Difference& row = differences.rows[static_cast<std::size_t>(lane >> 1)];
+  const Difference& column = differences.columns[static_cast<std::size_t>(lane & 1)];
   FragmentAnalysis result;
-  if (quad.texture >= spec::texture::kMaxTextures) return result;
-  const Texture& texture = textures_[quad.texture];
-  result.valid = texture.valid;
-  if (!texture.valid) return result;
-
-  const auto difference = [](const std::array<std::int32_t, 4>& c, int to, int from) {
-    return std::int64_t{c[static_cast<std::size_t>(to)]} - c[static_cast<std::size_t>(from)];
-  };
-  const int left = lane & 2, upper = lane & 1;  // first lane of the own row, of the own column
-  result.d_x = {difference(quad.s, left + 1, left), difference(quad.t, left + 1, left)};
-  result.d_y = {difference(quad.s, upper + 2, upper), difference(quad.t, upper + 2, upper)};
-
-  const auto scale = [&](std::int64_t d, std::uint32_t size) {
-    const Derivative derivative = derivative_in_texels(d, size);
-    result.saturated |= derivative.saturated;
-    return derivative.texels;
-  };
-  const auto in_texels = [&](const Step& d) {
-    return Step{scale(d.s, texture.descriptor.width), scale(d.t, texture.descriptor.height)};
-  };
-  result.p_x = in_texels(result.d_x);
-  result.p_y = in_texels(result.d_y);
-
+  result.valid = true;
+  result.saturated = row.saturated || column.saturated;
+  result.d_x = row.d;
+  result.d_y = column.d;
+  result.p_x = row.p;
+  result.p_y = column.p;
   result.footprint = footprint(parameters_.axes, parameters_.footprint, result.p_x, result.p_y);
   result.axis =
       candidate_in_coordinates(parameters_.axes, result.footprint.major, result.d_x, result.d_y);
@@ -132,8 +132,19 @@ FragmentAnalysis TextureGolden::analyse(const spec::texture::Quad& quad, int lan
   return result;
 }
 
+FragmentAnalysis TextureGolden::analyse(const spec::texture::Quad& quad, int lane) const {
+  if (quad.texture >= spec::texture::kMaxTextures) return {};
+  const Texture& texture = textures_[quad.texture];
+  if (!texture.valid) return {};
+  return analyse(texture, differences(texture, quad), lane);
+}
+
 QuadColours TextureGolden::process(const spec::texture::Quad& quad) {
   QuadColours result;
+  const Texture* texture =
+      quad.texture < spec::texture::kMaxTextures ? &textures_[quad.texture] : nullptr;
+  if (texture && !texture->valid) texture = nullptr;
+  const Differences shared = texture ? differences(*texture, quad) : Differences{};
   for (int lane = 0; lane < 4; ++lane) {
     if ((quad.coverage >> lane & 1) == 0) continue;
     spec::texture::Colour& colour = result.colours[static_cast<std::size_t>(result.count++)];
@@ -143,17 +154,17 @@ QuadColours TextureGolden::process(const spec::texture::Quad& quad) {
 
     ++work_.fragments;
     if ((quad.clamped >> lane & 1) != 0) ++work_.clamped;
-    const FragmentAnalysis fragment = analyse(quad, lane);
-    if (!fragment.valid) {
+    if (!texture) {
       ++work_.invalid_fragments;
       continue;
     }
+    const FragmentAnalysis fragment = analyse(*texture, shared, lane);
     if (fragment.saturated) ++work_.saturated;
     if (fragment.lod.magnified) ++work_.magnified;
     ++work_.by_samples[static_cast<std::size_t>(fragment.lod.samples)];
     work_.samples += static_cast<std::uint64_t>(fragment.lod.samples);
     const auto i = static_cast<std::size_t>(lane);
-    colour.rgba = filter_fragment(textures_[quad.texture], fragment, quad.s[i], quad.t[i]);
+    colour.rgba = filter_fragment(*texture, fragment, quad.s[i], quad.t[i]);
   }
   return result;
 }

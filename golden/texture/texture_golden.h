@@ -115,11 +115,21 @@ class TextureGolden {
     std::vector<std::uint32_t> column, row;  // row holds the base
     bool plain = false;                      // wholly in memory, no line of it can fail
   };
+  // What the lanes of a quad share: a difference each of two rows and of two columns.
+  struct Difference {
+    Step d, p;
+    bool saturated = false;
+  };
+  struct Differences {
+    std::array<Difference, 2> rows, columns;
+  };
   struct Texture {
     spec::texture::Descriptor descriptor;
     bool valid = false;
     std::vector<LevelTable> levels;
   };
+  static Differences differences(const Texture& texture, const spec::texture::Quad& quad);
+  FragmentAnalysis analyse(const Texture& texture, const Differences& differences, int lane) const;
   std::array<std::uint8_t, 4> filter_fragment(const Texture& texture,
                                               const FragmentAnalysis& fragment, std::int32_t s,
                                               std::int32_t t);

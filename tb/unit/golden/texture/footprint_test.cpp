@@ -270,8 +270,11 @@ TEST(Axes, LengthsAreThoseOfTheEllipseWithinHalfTheAngleBetweenCandidates) {
 TEST(Axes, CheckFindsAWrongPartnerAndALostProduct) {
   const auto partner = ellipse_error([](const Step& p_x, const Step& p_y) {
     const Footprint f = footprint(Axes::kEight, FootprintRule::kExact, p_x, p_y);
-    return AxisLogarithms{log2_fixed(Log2Rule::kExact, f.d_max),
-                          log2_fixed(Log2Rule::kExact, f.d_min)};
+    const Magnitudes u =
+        candidate_in_texels(Axes::kEight, (f.major + 4) % 8, p_x, p_y);  // at right angles
+    return AxisLogarithms{
+        log2_fixed(Log2Rule::kExact, f.d_max),
+        log2_fixed(Log2Rule::kExact, footprint_side(FootprintRule::kExact, u.s, u.t))};
   });
   EXPECT_GT(partner.d_min, 2);
   const auto lost = ellipse_error([](const Step& p_x, const Step& p_y) {
