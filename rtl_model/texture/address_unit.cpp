@@ -8,15 +8,29 @@ AddressUnit::AddressUnit(const sc_core::sc_module_name& name, ClockDomain& clock
                          const Descriptors& descriptors, LatencyProbe& probe)
     : sc_module(name),
       derivative("derivative", clock, registers, descriptors.for_derivatives, probe),
-      footprint("footprint", clock, p.footprint),
+      footprint(p.axes == spec::texture::Axes::kTwo
+                    ? std::make_unique<FootprintUnit>("footprint", clock, p.footprint)
+                    : nullptr),
+      axis(footprint
+               ? nullptr
+               : std::make_unique<AxisUnit>("axis", clock, p.axes, p.footprint, p.axis_clocks)),
       log2("log2", clock, p.log2),
-      level("level", clock, descriptors.for_levels, p.count, p.count_cap),
-      walker("walker", clock, p.kernel, p.spread),
-      addresser("addresser", clock, descriptors.for_texels) {
+      level("level", clock, descriptors.for_levels, p.axes, p.count, p.count_cap),
+      walker("walker", clock, p.count, p.kernel, p.spread),
+      addresser("addresser", clock, descriptors.for_texels),
+      footprints_("footprints", 2, footprint_shape(p)),
+      logs_("logs", 2, axis_shape(p)),
+      levels_("levels", 2, axis_shape(p)) {
+  const auto between = [&](auto& unit) {
+    unit->derivatives_in(derivatives_);
+    unit->footprints_out(footprints_);
+  };
   derivative.quads_in(quads_in);
   derivative.derivatives_out(derivatives_);
-  footprint.derivatives_in(derivatives_);
-  footprint.footprints_out(footprints_);
+  if (footprint)
+    between(footprint);
+  else
+    between(axis);
   log2.footprints_in(footprints_);
   log2.logs_out(logs_);
   level.logs_in(logs_);

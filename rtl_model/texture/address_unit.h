@@ -3,18 +3,21 @@
 // paper (2.2, figure 4).
 //
 //   quads_in -> DerivativeUnit -> FootprintUnit -> Log2Unit -> LevelUnit -> SampleWalker
-//            -> TexelAddresser -> texels_out
+//                               or AxisUnit      -> TexelAddresser -> texels_out
 //
-// Latency 17 to the first request (17 more with `footprint = exact`, 2 more with a `log2` other
-// than `mitchell`): 3 + 2 + 1 + 3 + 3 + 5 in the order above. Initiation interval N x (1 or 2)
-// clocks a fragment; every block is stalled by `downstream` only, and links of two places stand
-// between them. Made for 250 MHz; longest path: 34 x 13 bit multiply (TexelAddresser). Formats and
-// cost: in the header of each block. Source: paper 2.2, figure 4.
+// The AxisUnit stands there with `axes = four | eight`. Latency 17 to the first request: 3 + 2 + 1
+// + 3 + 3 + 5 in the order above; with other rules than the paper's that of the blocks is added
+// (docs/ texture_unit.md). Initiation interval N x (1 or 2) clocks a fragment, or `axis_clocks` if
+// that is more; every block is stalled by `downstream` only, and links of two places stand between
+// them. Made for 250 MHz; longest path: 34 x 13 bit multiply (TexelAddresser). Formats and cost: in
+// the header of each block. Source: paper 2.2, figure 4.
 #pragma once
 
+#include <memory>
 #include <systemc>
 
 #include "rtl_model/fabric/link.h"
+#include "rtl_model/texture/axis_unit.h"
 #include "rtl_model/texture/derivative_unit.h"
 #include "rtl_model/texture/descriptors.h"
 #include "rtl_model/texture/footprint_unit.h"
@@ -35,7 +38,9 @@ class AddressUnit final : public sc_core::sc_module {
               const Descriptors& descriptors, LatencyProbe& probe);
 
   DerivativeUnit derivative;
-  FootprintUnit footprint;
+  // One of the two.
+  std::unique_ptr<FootprintUnit> footprint;
+  std::unique_ptr<AxisUnit> axis;
   Log2Unit log2;
   LevelUnit level;
   SampleWalker walker;
@@ -43,9 +48,9 @@ class AddressUnit final : public sc_core::sc_module {
 
  private:
   Link<DerivativeToken> derivatives_{"derivatives"};
-  Link<FootprintToken> footprints_{"footprints"};
-  Link<Log2Token> logs_{"logs"};
-  Link<LevelToken> levels_{"levels"};
+  Link<FootprintToken> footprints_;
+  Link<Log2Token> logs_;
+  Link<LevelToken> levels_;
   Link<SampleToken> samples_{"samples"};
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/texture/filter_pipeline.h"
 
+#include <bit>
 #include <string>
 
 #include "spec/texture/descriptor.h"
@@ -23,10 +24,25 @@ constexpr std::uint32_t unorm5(std::uint32_t v) { return unorm8((v & 31) << 3 | 
 constexpr std::uint32_t unorm4(std::uint32_t v) { return unorm8((v & 15) << 4 | (v & 15)); }
 constexpr std::uint32_t kOpaque = unorm8(255);
 
+constexpr std::size_t kMostSamples = 16;
+std::size_t weight_address(std::size_t last_index, std::size_t index) {
+  return kMostSamples * last_index + index;
+}
+std::vector<std::uint16_t> weight_words(spec::texture::Kernel kernel) {
+  const auto& by_count = spec::texture::kKernelWeights[static_cast<std::size_t>(kernel)];
+  std::vector<std::uint16_t> words(kMostSamples * kMostSamples);
+  for (std::size_t last = 0; last < kMostSamples; ++last)
+    for (std::size_t i = 0; i <= last; ++i) words[weight_address(last, i)] = by_count[last + 1][i];
+  return words;
+}
+
+// What of the U8.20 sum is dropped for a channel as it leaves, and for one that is encoded, U8.4.
+constexpr unsigned kToByte = 20, kToLight = 16;
+
 }  // namespace
 
 FilterPipeline::FilterPipeline(const sc_core::sc_module_name& name, ClockDomain& clock,
-                               LatencyProbe& probe)
+                               const spec::texture::Rules& rules, LatencyProbe& probe)
     : Unit(name, clock),
       occupancy{Counter{"stage_1", "clk", "clocks in which stage 1, fields, had a request"},
                 Counter{"stage_2", "clk", "clocks in which stage 2, unpack, had a request"},
@@ -35,7 +51,8 @@ FilterPipeline::FilterPipeline(const sc_core::sc_module_name& name, ClockDomain&
                 Counter{"stage_5", "clk", "clocks in which stage 5, vertical lerp, had a request"},
                 Counter{"stage_6", "clk", "clocks in which stage 6, level lerp, had a request"},
                 Counter{"stage_7", "clk", "clocks in which stage 7, accumulate, had a sample"},
-                Counter{"stage_8", "clk", "clocks in which stage 8, pack, had a fragment"}},
+                Counter{"stage_8", "clk", "clocks in which stage 8, round, had a fragment"},
+                Counter{"stage_9", "clk", "clocks in which stage 9, encode, had a fragment"}},
       probe_(probe),
       srgb_("srgb",
             {.words = spec::texture::kSrgbToLinear.size(),
@@ -48,16 +65,45 @@ FilterPipeline::FilterPipeline(const sc_core::sc_module_name& name, ClockDomain&
             spec::texture::kSrgbToLinear) {
   for (std::uint32_t i = 0; i < kCodedChannels; ++i)
     linear_.emplace_back(srgb_, "texel_" + std::to_string(i / 3) + "_" + "rgb"[i % 3]);
+  if (rules.kernel != spec::texture::Kernel::kBox ||
+      rules.count == spec::texture::CountRule::kAny) {
+    weights_ =
+        std::make_unique<Memory<std::uint16_t>>("weights",
+                                                MemoryShape{.words = kMostSamples * kMostSamples,
+                                                            .word_bits = 9,
+                                                            .kind = MemoryKind::kRom,
+                                                            .read_ports = 1,
+                                                            .write_ports = 0,
+                                                            .latency = 1,
+                                                            .content = "weight of sample i of N"},
+                                                weight_words(rules.kernel));
+    weight_read_.emplace(*weights_, "sample");
+  }
+  if (rules.srgb_output == spec::texture::SrgbOutput::kEncoded) {
+    codes_ = std::make_unique<Memory<std::uint8_t>>(
+        "codes",
+        MemoryShape{.words = spec::texture::kLinearToSrgb.size(),
+                    .word_bits = 8,
+                    .kind = MemoryKind::kRom,
+                    .read_ports = 3,
+                    .write_ports = 0,
+                    .latency = 1,
+                    .content = "code of a channel of linear light"},
+        spec::texture::kLinearToSrgb);
+    for (const char* user : {"r", "g", "b"}) code_reads_.emplace_back(*codes_, user);
+  }
 }
 
 // From the last stage to the first, so that each reads its predecessor's registers of the last
 // clock.
 Activity FilterPipeline::tick(Cycle cycle) {
   const bool arrives = texels_in.can_pop(cycle);
-  if (requests_.empty() && !has_sample_ && !has_total_ && !arrives) return kIdle;
+  if (requests_.empty() && !has_sample_ && !has_total_ && !has_rounded_ && !arrives) return kIdle;
   count_stages(arrives);
-  if (has_total_ && !colours_out.can_push(cycle)) return kStalledDownstream;
-  if (has_total_) deliver(cycle);
+  if ((codes_ ? has_rounded_ : has_total_) && !colours_out.can_push(cycle))
+    return kStalledDownstream;
+  if (has_rounded_) encode(cycle);
+  if (has_total_) round(cycle);
   if (has_sample_) accumulate();
   requests_.move();
   if (const Request* request = requests_.at(6)) lerp_levels(*request);
@@ -75,6 +121,7 @@ Activity FilterPipeline::tick(Cycle cycle) {
 inline void FilterPipeline::count_stages(bool arrives) {
   occupancy[6] += has_sample_;
   occupancy[7] += has_total_;
+  occupancy[8] += has_rounded_;
   if (arrives && requests_.full()) [[likely]] {
     for (std::size_t i = 0; i < kRequestStages; ++i) ++occupancy[i];
     return;
@@ -84,8 +131,10 @@ inline void FilterPipeline::count_stages(bool arrives) {
     occupancy[stage - 1] += requests_.at(stage - 1) != nullptr;
 }
 
-// Stage 1: the coded channels go into the ROM.
+// Stage 1: the coded channels go into their ROM, and the sample into its own.
 inline void FilterPipeline::look_up(Cycle cycle, const TexelQuadToken& token) {
+  if (weight_read_ && token.control.last_of_sample)
+    weight_read_->read(cycle, weight_address(token.control.last_index, token.control.index));
   if (!token.ticket.valid || format_of(token) != spec::texture::Format::kSrgb8A8) return;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t c = 0; c < 3; ++c)
@@ -105,9 +154,17 @@ inline void FilterPipeline::lerp(Request& request, Unpack&& unpack) {
   request.row = (upper * up + lower * down).rounded(8);
 }
 
+// Stage 2. A fragment of an invalid descriptor has one sample of no weight.
+inline std::uint32_t FilterPipeline::weight(Cycle cycle, const TexelQuadToken& token) const {
+  if (!token.ticket.valid) return 0;
+  if (!weight_read_) return 256U >> std::bit_width(unsigned{token.control.last_index});
+  return weight_read_->at(cycle, weight_address(token.control.last_index, token.control.index));
+}
+
 // Stages 2 to 5.
 inline void FilterPipeline::filter(Cycle cycle, Request& request) const {
   const TexelQuadToken& token = request.token;
+  if (token.control.last_of_sample) request.weight = weight(cycle, token);
   if (format_of(token) != spec::texture::Format::kRgba8) return filter_other(cycle, request);
   lerp(request, [&](std::size_t i) { return Channels::of_bytes(token.texel[i]); });
 }
@@ -152,31 +209,54 @@ void FilterPipeline::lerp_levels(const Request& request) {
   const FilterControl& control = request.token.control;
   level_sum_ = level_sum_ + request.row * control.level_weight;
   if (!control.last_of_sample) return;
-  sample_ = {request.token.ticket, control.kernel_weight, control.sum_log2,
-             control.last_of_fragment, level_sum_.rounded(8)};
+  sample_ = {request.token.ticket, request.weight, control.format, control.last_of_fragment,
+             level_sum_.rounded(8)};
   has_sample_ = true;
   level_sum_ = {};
 }
 
-// Stage 7: U15.12; on with the last sample of the fragment.
+// Stage 7: U8.20; on with the last sample of the fragment.
 void FilterPipeline::accumulate() {
   has_sample_ = false;
-  kernel_sum_ = kernel_sum_ + sample_.value * sample_.kernel_weight;
+  kernel_sum_ = kernel_sum_ + sample_.value * sample_.weight;
   if (!sample_.last_of_fragment) return;
-  total_ = {sample_.ticket, sample_.sum_log2, kernel_sum_};
+  total_ = {sample_.ticket, sample_.format, kernel_sum_};
   has_total_ = true;
   kernel_sum_ = {};
 }
 
-// Stage 8: the sum of the weights is a power of two, so the division is a shift.
-inline void FilterPipeline::deliver(Cycle cycle) {
+bool FilterPipeline::coded(const Total& total) const {
+  return codes_ && total.ticket.valid &&
+         total.format == static_cast<std::uint8_t>(spec::texture::Format::kSrgb8A8);
+}
+
+// Stage 8: the weights sum to 1. With `encoded` light goes into the ROM.
+inline void FilterPipeline::round(Cycle cycle) {
   has_total_ = false;
+  if (!codes_) return deliver(cycle, total_.ticket, total_.value.rounded(kToByte).each());
+  rounded_ = {total_.ticket, total_.format, total_.value.rounded(kToByte)};
+  has_rounded_ = true;
+  if (!coded(total_)) return;
+  const auto light = total_.value.rounded(kToLight).each();
+  for (std::size_t c = 0; c < code_reads_.size(); ++c) code_reads_[c].read(cycle, light[c]);
+}
+
+// Stage 9.
+void FilterPipeline::encode(Cycle cycle) {
+  has_rounded_ = false;
+  auto rgba = rounded_.value.each();
+  if (coded(rounded_))
+    for (std::size_t c = 0; c < code_reads_.size(); ++c) rgba[c] = code_reads_[c].word(cycle);
+  deliver(cycle, rounded_.ticket, rgba);
+}
+
+inline void FilterPipeline::deliver(Cycle cycle, const Ticket& ticket,
+                                    const std::array<std::uint32_t, 4>& rgba) {
   spec::texture::Colour& colour = colours_out.emplace(cycle);
-  colour.tag = total_.ticket.tag;
-  colour.lane = total_.ticket.lane;
-  colour.last = total_.ticket.last;
-  const auto value = total_.value.rounded(12U + total_.sum_log2).each();
-  for (std::size_t c = 0; c < 4; ++c) colour.rgba[c] = static_cast<std::uint8_t>(value[c]);
+  colour.tag = ticket.tag;
+  colour.lane = ticket.lane;
+  colour.last = ticket.last;
+  for (std::size_t c = 0; c < 4; ++c) colour.rgba[c] = static_cast<std::uint8_t>(rgba[c]);
   ++fragments;
   fragment_latency.record(probe_.leaves(cycle + 1));
 }
@@ -186,7 +266,7 @@ void FilterPipeline::reset() {
   level_sum_ = {};
   has_sample_ = false;
   kernel_sum_ = {};
-  has_total_ = false;
+  has_total_ = has_rounded_ = false;
 }
 
 }  // namespace deburr::rtl::texture

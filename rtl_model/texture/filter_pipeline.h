@@ -1,21 +1,28 @@
 // SPDX-License-Identifier: MIT
 // Filters four texels a clock to the colour of a fragment, in eight stages:
 // 1 fields, 2 unpack, 3 horizontal products, 4 horizontal sums, 5 vertical lerp, 6 level lerp,
-// 7 accumulate, 8 divide, round, pack.
+// 7 accumulate, 8 round, pack; with `srgb_output = encoded` 9 encode.
 //
-// Where: after the TextureCache. Latency 8, initiation interval 1 a bilinear request; stages 6 and
-// 7 wait for the requests that belong together, so a colour leaves after the last request of its
-// fragment. Stage 1 cuts a texel into its fields, which are the addresses of the ROM `srgb`; its
-// words are there in stage 2. The model does stages 2 to 5 in stage 2, then delays. When a colour
-// cannot leave (`downstream`), the whole pipeline holds still. Made for 250 MHz; longest path: two
-// 20 x 9 bit multiplies and their sum, 18 rows of partial products where a 24 x 24 multiply has 24.
-// Formats: U8.4 after stage 2, U8.12 after 4, 5 and 6, U15.12 in 7, U8.0 out; rounded in 5, 6 and
-// 8. Cost, four channels: 16 + 8 + 4 + 4 multipliers (12 x 9, 20 x 9, 20 x 9, 20 x 5 bits), 24
-// adders, the ROM `srgb`, 256 x 12 bits, 12R, one word a coded channel. Source: paper 2.3.
+// Where: after the TextureCache. Latency 8, or 9, initiation interval 1 a bilinear request; stages
+// 6 and 7 wait for the requests that belong together, so a colour leaves after the last request of
+// its fragment. Stage 1 cuts a texel into its fields, which are the addresses of the ROM `srgb`;
+// its words are there in stage 2, and so is the weight of the sample, from the ROM `weights` by N
+// and i (`box` with N a power of two: 256 shifted by lb N, no ROM). The weights sum to 256, so
+// nothing is divided. The model does stages 2 to 5 in stage 2, then delays. When a colour cannot
+// leave
+// (`downstream`), the whole pipeline holds still. Made for 250 MHz; longest path: two 20 x 9 bit
+// multiplies and their sum, 18 rows of partial products where a 24 x 24 multiply has 24. Formats:
+// U8.4 after stage 2, U8.12 after 4, 5 and 6, U8.20 in 7, U8.0 out (`encoded`: U8.4 after 8);
+// rounded in 5, 6 and 8. Cost, four channels: 16 + 8 + 4 + 4 multipliers (12 x 9, and three times
+// 20 x 9 bits), 24 adders, the ROM `srgb`, 256 x 12 bits, 12R, one word a coded channel; `weights`,
+// 256 x 9 bits, 1R; `encoded`: the ROM `codes`, 4096 x 8 bits, 3R, three adders. Source: paper 2.3;
+// weights and codes are ours.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <systemc>
 #include <vector>
 
@@ -26,17 +33,19 @@
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/packets.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
 class FilterPipeline final : public Unit {
  public:
-  static constexpr int kStages = 8;
+  static constexpr int kStages = 9;  // the last with `encoded` alone
 
   In<TexelQuadToken> texels_in{"texels_in"};
   Out<spec::texture::Colour> colours_out{"colours_out"};
 
-  FilterPipeline(const sc_core::sc_module_name& name, ClockDomain& clock, LatencyProbe& probe);
+  FilterPipeline(const sc_core::sc_module_name& name, ClockDomain& clock,
+                 const spec::texture::Rules& rules, LatencyProbe& probe);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -81,22 +90,25 @@ class FilterPipeline final : public Unit {
   // A request in stages 1 to 6.
   struct Request {
     TexelQuadToken token;
-    Channels row;  // U8.12, after stage 5
+    std::uint32_t weight;  // U1.8, of its sample, from stage 2 on
+    Channels row;          // U8.12, after stage 5
   };
   struct Sample {
     Ticket ticket;
-    std::uint8_t kernel_weight, sum_log2;
+    std::uint32_t weight;  // U1.8
+    std::uint8_t format;
     bool last_of_fragment;
     Channels value;  // U8.12
   };
   struct Total {
     Ticket ticket;
-    std::uint8_t sum_log2;
-    Channels value;  // U15.12
+    std::uint8_t format;
+    Channels value;  // U8.20
   };
   static constexpr int kRequestStages = 6;
 
   void look_up(Cycle cycle, const TexelQuadToken& token);
+  std::uint32_t weight(Cycle cycle, const TexelQuadToken& token) const;
   void filter(Cycle cycle, Request& request) const;
   [[gnu::noinline]] void filter_other(Cycle cycle, Request& request) const;
   template <class Unpack>
@@ -104,20 +116,30 @@ class FilterPipeline final : public Unit {
   Channels unpack_srgb(Cycle cycle, const TexelQuadToken& token, std::size_t texel) const;
   void lerp_levels(const Request& request);
   void accumulate();
-  void deliver(Cycle cycle);
+  void round(Cycle cycle);
+  void encode(Cycle cycle);
+  void deliver(Cycle cycle, const Ticket& ticket, const std::array<std::uint32_t, 4>& rgba);
+  bool coded(const Total& total) const;
   void count_stages(bool arrives);
 
   LatencyProbe& probe_;
   Memory<std::uint16_t> srgb_;
   std::vector<ReadPort<std::uint16_t>> linear_;  // 3 x texel + channel
-  // The registers after each stage; stage 8 writes the output link.
+  // Tables that not every rule needs: weights by 16 (N - 1) + i, and codes by U8.4 light.
+  std::unique_ptr<Memory<std::uint16_t>> weights_;
+  std::unique_ptr<Memory<std::uint8_t>> codes_;
+  std::optional<ReadPort<std::uint16_t>> weight_read_;
+  std::vector<ReadPort<std::uint8_t>> code_reads_;  // R, G, B
+  // The registers after each stage; stage 8 writes the output link, or with `encoded` stage 9.
   Pipe<Request, kRequestStages> requests_;
   Channels level_sum_{};  // U8.20, of the levels of the sample in hand
   Sample sample_{};
   bool has_sample_ = false;
-  Channels kernel_sum_{};  // U15.12, of the samples of the fragment in hand
+  Channels kernel_sum_{};  // U8.20, of the samples of the fragment in hand
   Total total_{};
   bool has_total_ = false;
+  Total rounded_{};  // U8.0, what leaves as codes U8.4
+  bool has_rounded_ = false;
 };
 
 }  // namespace deburr::rtl::texture

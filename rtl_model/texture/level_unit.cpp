@@ -2,6 +2,9 @@
 #include "rtl_model/texture/level_unit.h"
 
 #include <algorithm>
+#include <cstddef>
+
+#include "spec/texture/tables.h"
 
 namespace deburr::rtl::texture {
 namespace {
@@ -18,18 +21,37 @@ bool is_linear(spec::texture::MinFilter filter) {
 }  // namespace
 
 LevelUnit::LevelUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                     const Descriptors::Reader& descriptors, spec::texture::CountRule count,
-                     spec::texture::CountCap cap)
-    : Unit(name, clock), descriptors_(descriptors), count_(count), cap_(cap) {}
+                     const Descriptors::Reader& descriptors, spec::texture::Axes axes,
+                     spec::texture::CountRule count, spec::texture::CountCap cap)
+    : Unit(name, clock),
+      descriptors_(descriptors),
+      area_(axes != spec::texture::Axes::kTwo),
+      count_(count),
+      cap_(cap) {}
 
-int LevelUnit::count_log2(std::int32_t lb_max, std::int32_t lb_min, int limit) const {
-  if (lb_max <= 0) return 0;                                // the footprint is within a texel
-  const std::int32_t ratio = std::max(lb_max - lb_min, 0);  // U6.12
-  const bool up = count_ == spec::texture::CountRule::kCeil;
-  int count = std::min((ratio + (up ? kAlmostOne : 0)) >> kFractionBits, limit);
+// How much of L becomes samples instead of a coarser level: U3.12.
+std::int32_t LevelUnit::as_samples(std::int32_t lb_max, std::int32_t lb_minor, int limit) const {
+  if (lb_max <= 0) return 0;  // the footprint is within a texel
+  // Of d_max / d_min, which is d_max^2 / area: U6.12.
+  const std::int32_t ratio = std::max((area_ ? lb_max << 1 : lb_max) - lb_minor, 0);
+  const auto rounded_up = [](std::int32_t lb) { return (lb + kAlmostOne) & ~kAlmostOne; };
+  const bool any = count_ == spec::texture::CountRule::kAny;
+  std::int32_t taken = any                                          ? ratio
+                       : count_ == spec::texture::CountRule::kFloor ? ratio & ~kAlmostOne
+                                                                    : rounded_up(ratio);
+  taken = std::min(taken, limit << kFractionBits);
   if (cap_ == spec::texture::CountCap::kTexel)
-    count = std::min(count, (lb_max + kAlmostOne) >> kFractionBits);
-  return count;
+    taken = std::min(taken, any ? lb_max : rounded_up(lb_max));
+  return taken;
+}
+
+// N - 1.
+int LevelUnit::last_index(std::int32_t as_samples) const {
+  if (count_ != spec::texture::CountRule::kAny) return (1 << (as_samples >> kFractionBits)) - 1;
+  int last = 0;
+  for (std::size_t n = 1; n < spec::texture::kLog2Count.size(); ++n)
+    last += as_samples > std::int32_t{spec::texture::kLog2Count[n]} ? 1 : 0;
+  return last;
 }
 
 Activity LevelUnit::tick(Cycle cycle) {
@@ -55,13 +77,13 @@ void LevelUnit::choose(Cycle cycle, const Log2Token& in, LevelToken& out) {
   out.t = in.t;
   out.axis_s = in.axis_s;
   out.axis_t = in.axis_t;
-  out.count_log2 = out.level = out.fraction = 0;
+  out.last_index = out.level = out.fraction = 0;
   out.linear = false;
   if (!out.ticket.valid) return;
-  const int count = count_log2(in.lb_max, in.lb_min, texture.max_count_log2);
-  out.count_log2 = static_cast<std::uint8_t>(count);
+  const std::int32_t taken = as_samples(in.lb_max, in.lb_minor, texture.max_count_log2);
   // Stage 2.
-  std::int32_t l = in.lb_max - (count << kFractionBits) + texture.bias;  // S8.12
+  out.last_index = static_cast<std::uint8_t>(last_index(taken));
+  std::int32_t l = in.lb_max - taken + texture.bias;  // S8.12
   l = std::min(std::max(l, texture.min_lod), texture.max_lod);
   // Stage 3.
   if (l <= 0) {

@@ -60,11 +60,11 @@ Log2Unit::Log2Unit(const sc_core::sc_module_name& name, ClockDomain& clock,
 }
 
 // Stage 1.
-Log2Unit::Normal Log2Unit::normalise(std::uint32_t d) {
-  const std::uint32_t at_least_one = d | (d == 0 ? 1u : 0u);
+Log2Unit::Normal Log2Unit::normalise(std::uint64_t d) {
+  const std::uint64_t at_least_one = d | (d == 0 ? 1u : 0u);
   const int zeros = std::countl_zero(at_least_one);  // leading-one detector
-  const std::uint32_t normal = at_least_one << zeros;
-  return {15 - zeros, (normal >> 19) & 0xFFF};
+  const std::uint64_t normal = at_least_one << zeros;
+  return {47 - zeros, static_cast<std::uint32_t>(normal >> 51) & 0xFFF};
 }
 
 // Stage 3.
@@ -86,7 +86,7 @@ std::int32_t Log2Unit::correct(spec::texture::Log2Rule rule, Normal d, Chord cho
   return d.n * 4096 + static_cast<std::int32_t>(fraction);
 }
 
-std::int32_t Log2Unit::log2(spec::texture::Log2Rule rule, std::uint32_t d) {
+std::int32_t Log2Unit::log2(spec::texture::Log2Rule rule, std::uint64_t d) {
   const Normal normal = normalise(d);
   const std::size_t i = normal.y >> 6;
   return correct(rule, normal, {spec::texture::kLog2Table[i], spec::texture::kLog2Table[i + 1]});
@@ -104,7 +104,7 @@ Activity Log2Unit::tick(Cycle cycle) {
     Entry& entry = pipe_.enter();
     entry.token = footprints_in.take(cycle);
     entry.longer = normalise(entry.token.d_max);
-    entry.shorter = normalise(entry.token.d_min);
+    entry.shorter = normalise(entry.token.minor);
     if (table_) look_up(cycle, entry);
   }
   return kBusy;
@@ -115,7 +115,7 @@ inline Activity Log2Unit::tick_mitchell(Cycle cycle) {
   if (!logs_out.can_push(cycle)) return kStalledDownstream;
   const FootprintToken& in = footprints_in.front(cycle);
   logs_out.emplace(cycle) = {
-      in.ticket, in.s, in.t, in.axis_s, in.axis_t, log2(rule_, in.d_max), log2(rule_, in.d_min)};
+      in.ticket, in.s, in.t, in.axis_s, in.axis_t, log2(rule_, in.d_max), log2(rule_, in.minor)};
   footprints_in.pop(cycle);
   return kBusy;
 }

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Binary logarithms of the two sides of the footprint: leading one plus the bits below it, and a
-// correction by rule.
+// Binary logarithms of the two sides of the footprint, or of the longer one and of the area:
+// leading one plus the bits below it, and a correction by rule.
 //
-// Where: after the FootprintUnit. `mitchell` is one stage; the other rules have three: 1 leading
-// one and shift, 2 table, 3 correction. Latency 1 or 3, initiation interval 1; stalled by
-// `downstream`, and then holds still as a whole. Made for 250 MHz; longest path: 32-bit leading-one
-// detector, then a shifter of five levels; `exact`: 7 x 6 bit multiply, then two 13-bit additions.
-// Formats: U16.16 in, S5.12 out; the fraction is truncated. Cost, each of two sides: a 32-bit
-// leading-one detector and a shifter (`mitchell`: nothing else, n and y only stand side by side);
-// `corrected` a choice of eight constants and a 13-bit adder; `segments` three adders; `exact` a 7
-// x 6 bit multiplier and two adders, and for both sides the ROM `table`, 65 x 13 bits, 4R. Largest
-// error: 0.0864, 0.0228, 0.0057, 0.0006 (TextureRtlLog2.ErrorIsAsDocumented). Source: paper 1.4,
-// equation 13.
+// Where: after the FootprintUnit or the AxisUnit. `mitchell` is one stage; the other rules have
+// three: 1 leading one and shift, 2 table, 3 correction. Latency 1 or 3, initiation interval 1;
+// stalled by `downstream`, and then holds still as a whole. Made for 250 MHz; longest path: 32-bit
+// leading-one detector (area: 47-bit), then a shifter of five levels (six); `exact`: 7 x 6 bit
+// multiply, then two 13-bit additions. Formats: U16.16 and U30.16 in, S5.12 out; the fraction is
+// truncated. Cost, each of two sides: a 32-bit leading-one detector and a shifter (`mitchell`:
+// nothing else, n and y only stand side by side); `corrected` a choice of eight constants and a
+// 13-bit adder; `segments` three adders; `exact` a 7 x 6 bit multiplier and two adders, and for
+// both sides the ROM `table`, 65 x 13 bits, 4R. Largest error: 0.0864, 0.0228, 0.0057, 0.0006
+// (TextureRtlLog2.ErrorIsAsDocumented). Source: paper 1.4, equation 13.
 #pragma once
 
 #include <array>
@@ -37,8 +37,8 @@ class Log2Unit final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override { pipe_.reset(); }
 
-  // All stages at once: lb d in S5.12 of d in U16.16.
-  static std::int32_t log2(spec::texture::Log2Rule rule, std::uint32_t d);
+  // All stages at once: lb d in S5.12 of d in U30.16.
+  static std::int32_t log2(spec::texture::Log2Rule rule, std::uint64_t d);
 
  private:
   static constexpr int kStages = 3;
@@ -56,7 +56,7 @@ class Log2Unit final : public Unit {
     Normal longer, shorter;
     Chord longer_chord, shorter_chord;  // `exact` alone
   };
-  static Normal normalise(std::uint32_t d);
+  static Normal normalise(std::uint64_t d);
   static std::int32_t correct(spec::texture::Log2Rule rule, Normal d, Chord chord);
   Activity tick_mitchell(Cycle cycle);
   void look_up(Cycle cycle, const Entry& entry);

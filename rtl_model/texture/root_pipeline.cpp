@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/texture/root_pipeline.h"
 
-#include <algorithm>
-
 namespace deburr::rtl::texture {
 
 RootPipeline::Root RootPipeline::squares(std::uint32_t s, std::uint32_t t) {
@@ -25,20 +23,27 @@ void RootPipeline::two_digits(Root& r) {
   }
 }
 
+std::uint32_t RootPipeline::root(std::uint64_t radicand) {
+  Root r = {radicand, 0, 0};
+  for (int stage = 0; stage < kDigitStages; ++stage) two_digits(r);
+  return r.root;
+}
+
 bool RootPipeline::step(const DerivativeToken* next, FootprintToken* result) {
   pipe_.move();
   const Entry* done = pipe_.at(kStages);
   if (done) {
-    const bool x_is_major = done->x.root >= done->y.root;
     const DerivativeToken& token = done->token;
+    const bool x_is_major = done->x_is_major;
     *result = {token.ticket,
                token.s,
                token.t,
                x_is_major ? token.s_x : token.s_y,
                x_is_major ? token.t_x : token.t_y,
-               std::max(done->x.root, done->y.root),
-               std::min(done->x.root, done->y.root)};
+               x_is_major ? done->x.root : done->y.root,
+               x_is_major ? done->y.root : done->x.root};
   }
+  if (Entry* entry = pipe_.at(3)) entry->x_is_major = entry->x.radicand >= entry->y.radicand;
   for (std::size_t stage = 3; stage < 3 + kDigitStages; ++stage)
     if (Entry* entry = pipe_.at(stage)) {
       two_digits(entry->x);
@@ -50,7 +55,7 @@ bool RootPipeline::step(const DerivativeToken* next, FootprintToken* result) {
   }
   if (next)
     pipe_.enter() = {*next, squares(next->size_s_x, next->size_t_x),
-                     squares(next->size_s_y, next->size_t_y)};
+                     squares(next->size_s_y, next->size_t_y), false};
   return done != nullptr;
 }
 

@@ -2,13 +2,14 @@
 // Two integer square roots side by side, sqrt(s^2 + t^2) for the x and the y side of a footprint.
 //
 // Where: inside the FootprintUnit when `footprint = exact`. 19 stages: 1 squares, 2 sums, 3 to 18
-// two root bits each, 19 which side is longer. Latency 19, initiation interval 1; the whole
+// two root bits each, beside the first of them which sum is larger, 19 order of the sides. Latency
+// 19, initiation interval 1; the whole
 // pipeline holds still while its last stage cannot leave. Made for 250 MHz; longest path: 31-bit
 // squarer (half the partial products of a 31 x 31 multiply, fewer than those of 24 x 24), or two
 // 34-bit subtractors in a row. Formats: U15.16 in; squares and sum exact (U31.32); root U16.16,
 // truncated. Method: digit by digit. A stage brings down two bits of the radicand at a time, tries
 // to subtract (root << 2 | 1), and appends the digit: no multiplier. Cost: four 31-bit squarers,
-// two 62-bit adders, 2 x 16 x two 34-bit subtractors, a comparator.
+// two 62-bit adders, 2 x 16 x two 34-bit subtractors, a 62-bit comparator.
 #pragma once
 
 #include <cstdint>
@@ -32,6 +33,9 @@ class RootPipeline {
   bool step(const DerivativeToken* next, FootprintToken* result);
   void reset() { pipe_.reset(); }
 
+  // The digit stages at once: floor(sqrt(radicand)).
+  static std::uint32_t root(std::uint64_t radicand);
+
  private:
   struct Root {
     std::uint64_t radicand;   // U62, what has not been brought down yet, at the top; first s^2
@@ -41,6 +45,7 @@ class RootPipeline {
   struct Entry {
     DerivativeToken token;
     Root x, y;
+    bool x_is_major;  // found beside the first digits, of the sums: roots may be equal
   };
   static Root squares(std::uint32_t s, std::uint32_t t);
   static void sum(Root& root);

@@ -2,74 +2,109 @@
 #include "rtl_model/texture/sample_walker.h"
 
 #include <algorithm>
+#include <bit>
+#include <span>
+
+#include "spec/texture/tables.h"
 
 namespace deburr::rtl::texture {
+namespace {
+
+constexpr int kReciprocalBits = 16;  // below the point
+constexpr int kRoundedBits = 23;     // half an axis, S10.46, to a coordinate, S9.24
+constexpr std::int64_t kHalf = std::int64_t{1} << (kRoundedBits - 1);
+constexpr std::uint8_t kLastOfFour = 3;
+constexpr std::int32_t kWholeAxis = 64;  // U1.6
+
+}  // namespace
 
 SampleWalker::SampleWalker(const sc_core::sc_module_name& name, ClockDomain& clock,
-                           spec::texture::Kernel kernel, std::int32_t spread)
-    : Unit(name, clock), kernel_(kernel), spread_(spread) {}
+                           spec::texture::CountRule count, spec::texture::Kernel kernel,
+                           std::int32_t spread)
+    : Unit(name, clock),
+      spread_(spread),
+      narrow_spread_(kernel == spec::texture::Kernel::kTent ? std::min(spread, kWholeAxis)
+                                                            : spread) {
+  if (count != spec::texture::CountRule::kAny) return;
+  constexpr std::size_t kMostSamples = spec::texture::kReciprocal.size() - 1;
+  reciprocal_ =
+      std::make_unique<Memory<std::uint32_t>>("reciprocal",
+                                              MemoryShape{.words = kMostSamples,
+                                                          .word_bits = kReciprocalBits + 1,
+                                                          .kind = MemoryKind::kRom,
+                                                          .read_ports = 1,
+                                                          .write_ports = 0,
+                                                          .latency = 1,
+                                                          .content = "1/N, N from 1 to 16"},
+                                              std::span(spec::texture::kReciprocal).subspan<1>());
+  read_.emplace(*reciprocal_, "walker");
+}
 
 // From the last stage to the first: each takes what its predecessor left in the clock before.
 Activity SampleWalker::tick(Cycle cycle) {
   const bool arrives = levels_in.can_pop(cycle);
-  if (!walking_ && !scaled_.occupied && !arrives) return kIdle;
+  if (!walking_ && !scaled_.occupied && !divided_.occupied && !arrives) return kIdle;
   const bool stalled = walking_ && !samples_out.can_push(cycle);
   if (walking_ && !stalled) emit(cycle);
-  if (scaled_.occupied && !walking_) start();
+  Prepared& next = reciprocal_ ? divided_ : scaled_;
+  if (next.occupied && !walking_) start(next);
+  if (reciprocal_ && scaled_.occupied && !divided_.occupied) divide(cycle);
   if (arrives && !scaled_.occupied) {
-    scale(levels_in.front(cycle));
+    scale(cycle, levels_in.front(cycle));
     levels_in.pop(cycle);
   }
   return stalled ? kStalledDownstream : kBusy;
 }
 
 // Stage 1.
-void SampleWalker::scale(const LevelToken& fragment) {
+void SampleWalker::scale(Cycle cycle, const LevelToken& fragment) {
+  const std::int32_t spread = fragment.last_index < kLastOfFour ? narrow_spread_ : spread_;
   scaled_.occupied = true;
   scaled_.fragment = fragment;
-  scaled_.step_s = fragment.axis_s * spread_;
-  scaled_.step_t = fragment.axis_t * spread_;
+  scaled_.step_s = fragment.axis_s * spread;
+  scaled_.step_t = fragment.axis_t * spread;
+  if (read_) read_->read(cycle, fragment.last_index);
 }
 
-// Stage 2.
-void SampleWalker::start() {
+// `any`: stage 2.
+void SampleWalker::divide(Cycle cycle) {
+  const std::int64_t reciprocal = read_->at(cycle, scaled_.fragment.last_index);
+  divided_.occupied = true;
+  divided_.fragment = scaled_.fragment;
+  divided_.step_s = scaled_.step_s * reciprocal;
+  divided_.step_t = scaled_.step_t * reciprocal;
   scaled_.occupied = false;
-  fragment_ = scaled_.fragment;
+}
+
+// The last stage but one.
+void SampleWalker::start(Prepared& next) {
+  next.occupied = false;
+  fragment_ = next.fragment;
   walking_ = true;
   second_level_ = false;
   index_ = 0;
-  step_s_ = scaled_.step_s;
-  step_t_ = scaled_.step_t;
-  walk_s_ = step_s_ - (step_s_ << fragment_.count_log2);  // (1 - N) x spread x axis
-  walk_t_ = step_t_ - (step_t_ << fragment_.count_log2);
+  // N - 1 is ones up to lb N where N is a power of two.
+  const int up = reciprocal_ ? 0 : kReciprocalBits - std::bit_width(unsigned{fragment_.last_index});
+  step_s_ = next.step_s << up;
+  step_t_ = next.step_t << up;
+  walk_s_ = -(step_s_ * fragment_.last_index);  // (1 - N) x spread x axis / N
+  walk_t_ = -(step_t_ * fragment_.last_index);
 }
 
-// Weights of the tent: 1, 3, 5, ... and back.
-unsigned SampleWalker::kernel_weight() const {
-  if (!fragment_.ticket.valid) return 0;
-  if (kernel_ == spec::texture::Kernel::kBox) return 1;
-  const unsigned mirrored = (1u << fragment_.count_log2) - 1 - index_;
-  return 2 * std::min(index_, mirrored) + 1;
-}
-
-// Stage 3.
+// The last stage.
 void SampleWalker::emit(Cycle cycle) {
-  const unsigned n = fragment_.count_log2;
-  const unsigned drop = 7 + n;
-  const std::int64_t half = std::int64_t{1} << (drop - 1);
   const bool blends = fragment_.fraction != 0;
   const bool last_of_sample = second_level_ || !blends;
-  const bool last = last_of_sample && (index_ + 1) >> n != 0;
+  const bool last = last_of_sample && index_ == fragment_.last_index;
 
   SampleToken& out = samples_out.emplace(cycle);
   out.ticket = fragment_.ticket;
-  out.s = fragment_.s + ((walk_s_ + half) >> drop);
-  out.t = fragment_.t + ((walk_t_ + half) >> drop);
+  out.s = fragment_.s + ((walk_s_ + kHalf) >> kRoundedBits);
+  out.t = fragment_.t + ((walk_t_ + kHalf) >> kRoundedBits);
   out.level_weight =
       static_cast<std::uint16_t>(second_level_ ? fragment_.fraction : 256 - fragment_.fraction);
-  out.kernel_weight = static_cast<std::uint8_t>(kernel_weight());
-  out.sum_log2 =
-      static_cast<std::uint8_t>(kernel_ == spec::texture::Kernel::kBox || n == 0 ? n : 2 * n - 1);
+  out.index = index_;
+  out.last_index = fragment_.last_index;
   out.level = static_cast<std::uint8_t>(fragment_.level + (second_level_ ? 1 : 0));
   out.linear = fragment_.linear;
   out.last_of_sample = last_of_sample;

@@ -50,8 +50,8 @@ inline void TexelAddresser::request(Cycle cycle, const SampleToken& sample, Texe
   control = {0,
              0,
              sample.level_weight,
-             sample.kernel_weight,
-             sample.sum_log2,
+             sample.index,
+             sample.last_index,
              static_cast<std::uint8_t>(texture.format),
              sample.last_of_sample,
              sample.last_of_fragment};

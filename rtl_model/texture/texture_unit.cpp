@@ -9,6 +9,8 @@
 namespace deburr::rtl::texture {
 namespace {
 
+constexpr std::int32_t kLeastFifo = 2;
+
 void check_power_of_two(const char* name, std::int32_t value) {
   if (!std::has_single_bit(static_cast<std::uint32_t>(value)))
     throw spec::ConfigError(std::string("texture.") + name + ": expected a power of two, got " +
@@ -25,6 +27,18 @@ spec::texture::Parameters checked(spec::texture::Parameters p) {
                             " bytes do not hold one set of " + std::to_string(p.cache_ways) +
                             " ways x " + std::to_string(p.cache_line_bytes) +
                             " bytes: make it larger, or lines or ways fewer");
+  if (p.cache_fifo_depth < kLeastFifo)
+    throw spec::ConfigError("texture.cache.fifo_depth: a FIFO of " +
+                            std::to_string(p.cache_fifo_depth) +
+                            " cannot be built: reads and writes of every clock need at least 2 "
+                            "places; 0 sizes it from the latency of memory, which only who knows "
+                            "the memory can do");
+  check_power_of_two("axis_clocks", p.axis_clocks);
+  if (const std::int32_t most = 1 << static_cast<std::int32_t>(p.axes); p.axis_clocks > most)
+    throw spec::ConfigError("texture.axis_clocks: " + std::to_string(p.axis_clocks) +
+                            " clocks for " + std::to_string(2 * most) +
+                            " directions: at least two are measured in a clock, so at most " +
+                            std::to_string(most));
   if (p.cache_ways > TagStore::kMostWays)
     throw spec::ConfigError("texture.cache.ways: " + std::to_string(p.cache_ways) +
                             " ways cannot be built: four lines are looked up one behind the other "
@@ -42,9 +56,10 @@ spec::texture::Parameters checked(spec::texture::Parameters p) {
 }
 
 std::uint32_t rules(const spec::texture::Rules& p) {
-  return static_cast<std::uint32_t>(p.footprint) | static_cast<std::uint32_t>(p.log2) << 4 |
-         static_cast<std::uint32_t>(p.count) << 8 | static_cast<std::uint32_t>(p.count_cap) << 9 |
-         static_cast<std::uint32_t>(p.kernel) << 10 | static_cast<std::uint32_t>(p.spread) << 16;
+  const auto code = [](auto choice) { return static_cast<std::uint32_t>(choice); };
+  return code(p.footprint) | code(p.log2) << 4 | code(p.axes) << 6 | code(p.count) << 8 |
+         code(p.count_cap) << 10 | code(p.kernel) << 11 | code(p.srgb_output) << 12 |
+         code(p.spread) << 16;
 }
 
 }  // namespace
@@ -55,7 +70,7 @@ TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock
       parameters_(checked(parameters)),
       address("address", clock, parameters_, control, descriptors_, probe_),
       cache("cache", clock, parameters_, control),
-      filter("filter", clock, probe_) {
+      filter("filter", clock, parameters_, probe_) {
   uses(cache.memory_port);
   address.quads_in(quads_in);
   address.texels_out(texels_);

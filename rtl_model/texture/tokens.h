@@ -32,12 +32,13 @@ struct Ticket {
   }
 };
 
-// DerivativeUnit -> FootprintUnit.
+// DerivativeUnit -> FootprintUnit or AxisUnit. A derivative in texels has the sign of its
+// difference.
 struct DerivativeToken {
   Ticket ticket;
   std::int32_t s, t;
   std::int64_t s_x, t_x, s_y, t_y;                       // differences along row and column
-  std::uint32_t size_s_x, size_t_x, size_s_y, size_t_y;  // their sizes in texels of level 0
+  std::uint32_t size_s_x, size_t_x, size_s_y, size_t_y;  // their magnitudes in texels of level 0
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("ticket", self.ticket);
@@ -54,21 +55,23 @@ struct DerivativeToken {
   }
 };
 
-// FootprintUnit -> Log2Unit. From here on only the difference along the major axis is of interest.
+// FootprintUnit or AxisUnit -> Log2Unit. From here on only the difference along the major axis is
+// of interest.
 struct FootprintToken {
   Ticket ticket;
   std::int32_t s, t;
   std::int64_t axis_s, axis_t;
-  std::uint32_t d_max, d_min;
+  std::uint32_t d_max;
+  std::uint64_t minor;  // d_min; of the AxisUnit the area of the footprint
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("ticket", self.ticket);
     visit("s", self.s, 32, "S7.24");
     visit("t", self.t, 32, "S7.24");
-    visit("axis_s", self.axis_s, 33, "S8.24");
-    visit("axis_t", self.axis_t, 33, "S8.24");
+    visit("axis_s", self.axis_s, 34, "S9.24");
+    visit("axis_t", self.axis_t, 34, "S9.24");
     visit("d_max", self.d_max, 32, "U16.16");
-    visit("d_min", self.d_min, 32, "U16.16");
+    visit("minor", self.minor, 47, "U30.16");
   }
 };
 
@@ -77,16 +80,16 @@ struct Log2Token {
   Ticket ticket;
   std::int32_t s, t;
   std::int64_t axis_s, axis_t;
-  std::int32_t lb_max, lb_min;
+  std::int32_t lb_max, lb_minor;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("ticket", self.ticket);
     visit("s", self.s, 32, "S7.24");
     visit("t", self.t, 32, "S7.24");
-    visit("axis_s", self.axis_s, 33, "S8.24");
-    visit("axis_t", self.axis_t, 33, "S8.24");
+    visit("axis_s", self.axis_s, 34, "S9.24");
+    visit("axis_t", self.axis_t, 34, "S9.24");
     visit("lb_max", self.lb_max, 18, "S5.12");
-    visit("lb_min", self.lb_min, 18, "S5.12");
+    visit("lb_minor", self.lb_minor, 18, "S5.12");
   }
 };
 
@@ -95,7 +98,7 @@ struct LevelToken {
   Ticket ticket;
   std::int32_t s, t;
   std::int64_t axis_s, axis_t;
-  std::uint8_t count_log2;  // lb N
+  std::uint8_t last_index;  // N - 1
   std::uint8_t level;       // the finer of the levels used
   std::uint8_t fraction;    // not 0: level + 1 is used as well
   bool linear;              // filter within a level: nearest or linear
@@ -104,9 +107,9 @@ struct LevelToken {
     visit("ticket", self.ticket);
     visit("s", self.s, 32, "S7.24");
     visit("t", self.t, 32, "S7.24");
-    visit("axis_s", self.axis_s, 33, "S8.24");
-    visit("axis_t", self.axis_t, 33, "S8.24");
-    visit("count_log2", self.count_log2, 3);
+    visit("axis_s", self.axis_s, 34, "S9.24");
+    visit("axis_t", self.axis_t, 34, "S9.24");
+    visit("last_index", self.last_index, 4);
     visit("level", self.level, 4);
     visit("fraction", self.fraction, 8, "U0.8");
     visit("linear", self.linear);
@@ -117,8 +120,8 @@ struct LevelToken {
 struct FilterControl {
   std::uint8_t fraction_u, fraction_v;
   std::uint16_t level_weight;  // 1..256
-  std::uint8_t kernel_weight;  // 0 for a fragment with an invalid descriptor
-  std::uint8_t sum_log2;       // lb of the sum of kernel weights
+  std::uint8_t index;          // of the sample
+  std::uint8_t last_index;     // of the fragment, N - 1
   std::uint8_t format;         // spec::texture::Format
   bool last_of_sample;         // completes a sample (second level, or the only one)
   bool last_of_fragment;       // completes a fragment
@@ -127,8 +130,8 @@ struct FilterControl {
     visit("fraction_u", self.fraction_u, 8, "U0.8");
     visit("fraction_v", self.fraction_v, 8, "U0.8");
     visit("level_weight", self.level_weight, 9, "U1.8");
-    visit("kernel_weight", self.kernel_weight, 5);
-    visit("sum_log2", self.sum_log2, 3);
+    visit("index", self.index, 4);
+    visit("last_index", self.last_index, 4);
     visit("format", self.format, 3);
     visit("last_of_sample", self.last_of_sample);
     visit("last_of_fragment", self.last_of_fragment);
@@ -140,7 +143,7 @@ struct SampleToken {
   Ticket ticket;
   std::int64_t s, t;
   std::uint16_t level_weight;
-  std::uint8_t kernel_weight, sum_log2;
+  std::uint8_t index, last_index;  // of N samples: i and N - 1
   std::uint8_t level;
   bool linear;
   bool last_of_sample, last_of_fragment;
@@ -150,8 +153,8 @@ struct SampleToken {
     visit("s", self.s, 34, "S9.24");
     visit("t", self.t, 34, "S9.24");
     visit("level_weight", self.level_weight, 9, "U1.8");
-    visit("kernel_weight", self.kernel_weight, 5);
-    visit("sum_log2", self.sum_log2, 3);
+    visit("index", self.index, 4);
+    visit("last_index", self.last_index, 4);
     visit("level", self.level, 4);
     visit("linear", self.linear);
     visit("last_of_sample", self.last_of_sample);
@@ -223,6 +226,18 @@ struct TexelQuadToken {
 // Half a tile: by so much the words of a turned line change places.
 inline std::uint32_t turn_bytes(std::uint32_t line_bytes) {
   return std::min(line_bytes / 2, std::uint32_t{spec::texture::kTileBytes} / 2);
+}
+
+// What of the tokens from the footprint to the walker is built. Without a turned axis an axis is a
+// difference of coordinates, S8.24, and the minor side a length, U16.16.
+inline PayloadShape axis_shape(const spec::texture::Rules& p) {
+  if (p.axes != spec::texture::Axes::kTwo) return {};
+  return {.widths = {{"axis_s", 33}, {"axis_t", 33}}};
+}
+inline PayloadShape footprint_shape(const spec::texture::Rules& p) {
+  PayloadShape shape = axis_shape(p);
+  if (p.axes == spec::texture::Axes::kTwo) shape.widths.emplace_back("minor", 32);
+  return shape;
 }
 
 // What of the cache's tokens is built for a cache of this size.

@@ -51,9 +51,8 @@ inline constexpr std::array<RegisterInfo, 11> kRegisters = {{
      "Bit 0 idle (read only). Sticky: bit 1 memory error response, bit 2 quad with an invalid "
      "descriptor, bit 3 descriptor written while busy."},
     {reg::kRules, "RULES", Access::kReadOnly, 0,
-     "The variant built: footprint [2:0], log2 [5:4], count [8], count_cap [9], kernel [10], "
-     "spread "
-     "[23:16]."},
+     "The variant built: footprint [2:0], log2 [5:4], axes [7:6], count [9:8], count_cap [10], "
+     "kernel [11], srgb_output [12], spread [23:16]."},
     {reg::kFragments, "FRAGMENTS", Access::kReadOnly, 0, "Colours delivered."},
     {reg::kBilinears, "BILINEARS", Access::kReadOnly, 0, "Bilinear requests sent to the cache."},
     {reg::kLineFills, "LINE_FILLS", Access::kReadOnly, 0, "Cache lines requested."},

@@ -34,6 +34,8 @@ struct TextureSetup {
   spec::texture::Parameters texture;
   MemoryParameters memory;
 };
+// The depth of the latency FIFO: as ordered, or for 0 what hides this memory's latency.
+std::int32_t fifo_depth(const TextureSetup& setup);
 
 class TextureEnvironment final : public Environment {
  public:

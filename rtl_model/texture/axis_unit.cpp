@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/texture/axis_unit.h"
+
+#include <algorithm>
+#include <array>
+
+#include "rtl_model/texture/footprint_unit.h"
+#include "rtl_model/texture/root_pipeline.h"
+
+namespace deburr::rtl::texture {
+namespace {
+
+constexpr unsigned kDirections = 8;                               // in half a turn
+constexpr std::uint64_t kLargest = (std::uint64_t{1} << 31) - 1;  // U15.16
+
+// 0, 49, 90, 118 and 128 times a value: what sine and cosine of 0, 22.5, 45, 67.5 and 90 degrees
+// are in 1/128.
+using Multiples = std::array<std::int64_t, 5>;
+Multiples multiples(std::int64_t v) {
+  return {0, (v << 5) + (v << 4) + v, (v << 6) + (v << 4) + (v << 3) + (v << 1),
+          (v << 7) - (v << 3) - (v << 1), v << 7};
+}
+
+// cos x along the row + sin x along the column, with 7 bits below the point. The sine is the
+// multiple of the angle's distance from 0 or 180 degrees, the cosine that from 90.
+std::int64_t rotated(const Multiples& row, const Multiples& column, unsigned direction) {
+  constexpr unsigned kUpright = kDirections / 2;
+  return direction <= kUpright ? column[direction] + row[kUpright - direction]
+                               : column[kDirections - direction] - row[direction - kUpright];
+}
+
+// In texels: truncated magnitude, saturated.
+std::uint64_t magnitude(std::int64_t v) {
+  return std::min(static_cast<std::uint64_t>(v < 0 ? -v : v) >> 7, kLargest);
+}
+// In coordinates: the magnitude is rounded, so halves of negative numbers go down.
+std::int64_t coordinate(std::int64_t v) { return (v + (v < 0 ? 63 : 64)) >> 7; }
+
+// The derivative in texels with the sign of its difference.
+std::int64_t with_sign(std::uint32_t size, std::int64_t difference) {
+  return difference < 0 ? -std::int64_t{size} : std::int64_t{size};
+}
+
+}  // namespace
+
+AxisUnit::AxisUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
+                   spec::texture::Axes axes, spec::texture::FootprintRule rule,
+                   std::int32_t axis_clocks)
+    : Unit(name, clock),
+      rule_(rule),
+      step_(axes == spec::texture::Axes::kEight ? 1 : 2),
+      more_clocks_(axis_clocks - 1) {}
+
+Activity AxisUnit::tick(Cycle cycle) {
+  return rule_ == spec::texture::FootprintRule::kExact ? advance(cycle, root_stages_)
+                                                       : advance(cycle, stages_);
+}
+
+template <class Stages>
+Activity AxisUnit::advance(Cycle cycle, Stages& stages) {
+  const bool arrives = clocks_left_ == 0 && derivatives_in.can_pop(cycle);
+  if (stages.empty() && clocks_left_ == 0 && !arrives) return kIdle;
+  if (stages.leaves() && !footprints_out.can_push(cycle)) return kStalledDownstream;
+  stages.move();
+  if (const FootprintToken* done = stages.at(Stages::kLength)) footprints_out.push(cycle, *done);
+  if (arrives) {
+    if (more_clocks_ == 0) {
+      turn(derivatives_in.front(cycle), stages.enter());
+    } else {
+      turn(derivatives_in.front(cycle), in_hand_);
+      clocks_left_ = more_clocks_;
+    }
+    derivatives_in.pop(cycle);
+  } else if (clocks_left_ != 0 && --clocks_left_ == 0) {
+    stages.enter() = in_hand_;
+  }
+  return kBusy;
+}
+
+void AxisUnit::turn(const DerivativeToken& in, FootprintToken& out) const {
+  const Candidate major = longest(in);
+  out.ticket = in.ticket;
+  out.s = in.s;
+  out.t = in.t;
+  out.d_max = rule_ == spec::texture::FootprintRule::kExact
+                  ? RootPipeline::root(major.measure)
+                  : static_cast<std::uint32_t>(major.measure);
+  out.minor = area(in);
+  // Stages 7 and 8.
+  out.axis_s = coordinate(rotated(multiples(in.s_x), multiples(in.s_y), major.direction));
+  out.axis_t = coordinate(rotated(multiples(in.t_x), multiples(in.t_y), major.direction));
+}
+
+// Stages 1 to 6. Of equals the first stays, in a clock and from one to the next.
+AxisUnit::Candidate AxisUnit::longest(const DerivativeToken& in) const {
+  const Multiples row_s = multiples(with_sign(in.size_s_x, in.s_x)),
+                  row_t = multiples(with_sign(in.size_t_x, in.t_x)),
+                  column_s = multiples(with_sign(in.size_s_y, in.s_y)),
+                  column_t = multiples(with_sign(in.size_t_y, in.t_y));
+  Candidate best{};
+  for (unsigned direction = 0; direction < kDirections; direction += step_) {
+    const std::uint64_t length = measure(magnitude(rotated(row_s, column_s, direction)),
+                                         magnitude(rotated(row_t, column_t, direction)));
+    if (direction == 0 || length > best.measure) best = {length, direction};
+  }
+  return best;
+}
+
+std::uint64_t AxisUnit::measure(std::uint64_t s, std::uint64_t t) const {
+  if (rule_ == spec::texture::FootprintRule::kExact) return s * s + t * t;
+  return FootprintUnit::side(rule_, static_cast<std::uint32_t>(s), static_cast<std::uint32_t>(t));
+}
+
+void AxisUnit::reset() {
+  clocks_left_ = 0;
+  stages_.reset();
+  root_stages_.reset();
+}
+
+// Stages 1 and 2: U15.8 each, U30.16.
+std::uint64_t AxisUnit::area(const DerivativeToken& in) {
+  const auto product = [](std::uint32_t s, std::uint32_t t) {
+    return std::uint64_t{s >> 8} * (t >> 8);
+  };
+  const std::uint64_t falling = product(in.size_s_x, in.size_t_y),
+                      rising = product(in.size_t_x, in.size_s_y);
+  const bool falls = (in.s_x < 0) != (in.t_y < 0), rises = (in.t_x < 0) != (in.s_y < 0);
+  if (falls != rises) return falling + rising;
+  return falling > rising ? falling - rising : rising - falling;
+}
+
+}  // namespace deburr::rtl::texture
