@@ -35,7 +35,7 @@ inline constexpr std::array<std::string_view, 3> kReplacementNames = {"lru", "fi
 // Rules: what changes pixels. Golden and hardware obey them. The defaults are the preset `deburr`.
 struct Rules {
   Preset preset = Preset::kDeburr;
-  Axes axes = Axes::kEight;
+  Axes axes = Axes::kFour;
   FootprintRule footprint = FootprintRule::kExact;
   Log2Rule log2 = Log2Rule::kSegments;
   CountRule count = CountRule::kAny;
@@ -119,7 +119,7 @@ struct PresetRow {
 };
 inline constexpr std::array<PresetRow, 2> kPresets = {{
     {Preset::kPaper, Axes::kTwo, FootprintRule::kHalf, Log2Rule::kMitchell, CountRule::kFloor},
-    {Preset::kDeburr, Axes::kEight, FootprintRule::kExact, Log2Rule::kSegments, CountRule::kAny},
+    {Preset::kDeburr, Axes::kFour, FootprintRule::kExact, Log2Rule::kSegments, CountRule::kAny},
 }};
 
 }  // namespace deburr::spec::texture

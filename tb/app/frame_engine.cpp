@@ -18,6 +18,7 @@
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
 #include "tb/app/simulate.h"
+#include "tb/app/texture_rules.h"
 #include "tb/app/texture_traces.h"
 #include "tb/env/frame_composition.h"
 #include "tb/scene/truth.h"
@@ -58,6 +59,7 @@ class FrameCommand final : public Engine {
     add_memory(set, "frame_memory", frame_memory_);
   }
   void resolve(ParameterSet& set) override {
+    apply_preset(set, texture_);
     apply_preset(set, geometric_);
     apply_preset(set, morphological_);
     if (choice_.smoothing == Smoothing::kGeometricMorphological) let_follow(set);

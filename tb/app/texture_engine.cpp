@@ -17,6 +17,7 @@
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
 #include "tb/app/simulate.h"
+#include "tb/app/texture_rules.h"
 #include "tb/app/texture_traces.h"
 #include "tb/env/texture_environment.h"
 #include "tb/results/report.h"
@@ -50,7 +51,8 @@ class TextureEngine final : public Engine {
   std::vector<Shorthand> shorthands() const override {
     return joined(
         scene_shorthands("plane"),
-        {{"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene (default)"},
+        {{"--preset", "texture.preset", "paper or deburr (default)"},
+         {"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene (default)"},
          {"--format", "sampler.format", "rgba8 (default), rgb565, rgba4444, l8, srgb8_a8"},
          {"--layout", "sampler.layout", "tiled (default) or linear"},
          {"--fragments", "scene.fragments",
@@ -60,6 +62,8 @@ class TextureEngine final : public Engine {
   }
 
   void resolve(ParameterSet& set) override {
+    apply_preset(set, texture_);
+    preset_label_ = preset_label(set, texture_);
     refuse_unused_memory(set, "memory", memory_);
     refuse_slow_memory(set, "memory", memory_);
     refuse_empty_lod_range(sampler_);
@@ -139,7 +143,8 @@ class TextureEngine final : public Engine {
   RenderOptions truth_options() const {
     RenderOptions options;
     options.sampling = Sampling::kBilinear;
-    options.averaging = linear_light() ? Averaging::kLinear : Averaging::kStored;
+    options.averaging = sampler_.format == spec::texture::Format::kSrgb8A8 ? Averaging::kLinear
+                                                                           : Averaging::kStored;
     return options;
   }
 
@@ -153,9 +158,8 @@ class TextureEngine final : public Engine {
       return names[static_cast<std::size_t>(value)];
     };
     return fmt::format(
-        "{}{} fragments, {}, N_max {}, {} {}; footprint {}, log2 {}, count {}, "
-        "kernel {}; "
-        "cache {} bytes, {} ways; memory latency {} clk",
+        "{}{} fragments, {}, N_max {}, {} {}; {}; axes {}, footprint {}, log2 {}, count {}, "
+        "kernel {}; cache {} bytes, {} ways; memory latency {} clk",
         scene.stream().width > 0
             ? fmt::format("{} x {} pixels, ", scene.stream().width, scene.stream().height)
             : "",
@@ -163,7 +167,8 @@ class TextureEngine final : public Engine {
         name(sampler_.mode, spec::texture::kMinFilterNames),
         name(sampler_.anisotropy, kAnisotropyNames),
         name(sampler_.format, spec::texture::kFormatNames),
-        name(sampler_.layout, spec::texture::kLayoutNames),
+        name(sampler_.layout, spec::texture::kLayoutNames), preset_label_,
+        name(texture_.axes, spec::texture::kAxesNames),
         name(texture_.footprint, spec::texture::kFootprintNames),
         name(texture_.log2, spec::texture::kLog2Names),
         name(texture_.count, spec::texture::kCountNames),
@@ -171,9 +176,12 @@ class TextureEngine final : public Engine {
         texture_.cache_ways, memory_.latency);
   }
 
-  bool linear_light() const { return sampler_.format == spec::texture::Format::kSrgb8A8; }
+  bool linear_light() const {
+    return sampler_.format == spec::texture::Format::kSrgb8A8 &&
+           texture_.srgb_output == spec::texture::SrgbOutput::kLinear;
+  }
 
-  // The unit delivers linear light for sRGB textures; pictures are stored as sRGB again.
+  // Pictures are stored as sRGB, whatever the unit delivers of sRGB textures.
   Image stored(const Image& image, const std::vector<bool>& sky) const {
     if (!linear_light()) return image;
     Image out = image;
@@ -243,6 +251,7 @@ class TextureEngine final : public Engine {
   SamplerParameters sampler_;
   spec::texture::Parameters texture_;
   MemoryParameters memory_;
+  std::string preset_label_;
 };
 
 }  // namespace

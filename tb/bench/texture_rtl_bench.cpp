@@ -6,7 +6,8 @@
 //   counters
 //       may be read, and how many times as fast the golden model filters the same fragments
 //   texture_rtl_bench --cycles <workload> <n>    n cycles of one workload and nothing else, for
-//       counting instructions with callgrind; workloads: nearest trilinear anisotropic warm
+//       counting instructions with callgrind; workloads: nearest trilinear anisotropic warm, by the
+//       paper's rules; with deburr_ before the name by the preset deburr
 #include <benchmark/benchmark.h>
 #include <linux/perf_event.h>
 #include <sys/ioctl.h>
@@ -20,6 +21,7 @@
 #include <ctime>
 #include <iostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "golden/texture/texture_golden.h"
@@ -32,6 +34,7 @@
 #include "tb/env/texture_memory.h"
 #include "tb/harness/memory_model.h"
 #include "tb/harness/register_host.h"
+#include "tb/stimuli/texture_quads.h"
 
 namespace deburr::tb {
 namespace {
@@ -134,16 +137,8 @@ MemoryModelParameters memory_parameters() {
 
 // SystemC elaborates once in a process, so all benchmarks share the unit.
 struct System {
-  rtl::ClockDomain clock{"clock", sc_core::sc_time(6, sc_core::SC_NS)};
-  rtl::Link<spec::texture::Quad> quads{"quads"};
-  rtl::Link<spec::texture::Colour> colours{"colours"};
-  Fragments fragments{"fragments", clock};
-  rtl::texture::TextureUnit unit{"texture", clock, {}};
-  Picture picture{"picture", clock};
-  MemoryModel memory{"memory", clock.period(), memory_parameters()};
-  RegisterHost host{"host"};
-
-  System() {
+  explicit System(const spec::texture::Parameters& parameters)
+      : unit("texture", clock, with_fifo(parameters)) {
     fragments.quads_out(quads);
     unit.quads_in(quads);
     unit.colours_out(colours);
@@ -152,8 +147,22 @@ struct System {
     host.bus.bind(unit.registers);
     memory.preload(0, noise());
   }
-  static System& only() {
-    static System system;
+  static spec::texture::Parameters with_fifo(spec::texture::Parameters p) {
+    p.cache_fifo_depth = 160;
+    return p;
+  }
+  rtl::ClockDomain clock{"clock", sc_core::sc_time(6, sc_core::SC_NS)};
+  rtl::Link<spec::texture::Quad> quads{"quads"};
+  rtl::Link<spec::texture::Colour> colours{"colours"};
+  Fragments fragments{"fragments", clock};
+  rtl::texture::TextureUnit unit;
+  Picture picture{"picture", clock};
+  MemoryModel memory{"memory", clock.period(), memory_parameters()};
+  RegisterHost host{"host"};
+
+  // The first call says by which rules.
+  static System& only(const spec::texture::Parameters& parameters = paper_rules()) {
+    static System system(parameters);
     return system;
   }
 
@@ -220,7 +229,7 @@ void bm_golden_over_rtl(benchmark::State& state, Workload workload,
   System& system = System::only();
   system.start(workload);
   const std::vector<std::uint8_t> memory = noise();
-  golden::texture::TextureGolden golden({}, memory, traffic);
+  golden::texture::TextureGolden golden(paper_rules(), memory, traffic);
   golden.set_texture(static_cast<int>(workload), texture_of(workload));
   std::clock_t rtl_time = 0, golden_time = 0;
   std::uint32_t count = 0;
@@ -253,9 +262,13 @@ BENCHMARK_CAPTURE(bm_texture_rtl, warm, Workload::kWarm);
 int main(int argc, char** argv) {
   using namespace deburr::tb;
   if (argc == 4 && std::string(argv[1]) == "--cycles") {
-    System& system = System::only();
+    constexpr std::string_view kPreset = "deburr_";
+    std::string name = argv[2];
+    const bool deburr = name.starts_with(kPreset);
+    if (deburr) name.erase(0, kPreset.size());
+    System& system = System::only(deburr ? spec::texture::Parameters{} : paper_rules());
     for (std::size_t i = 0; i < kWorkloads.size(); ++i)
-      if (std::string(argv[2]) == kWorkloads[i]) system.start(static_cast<Workload>(i));
+      if (name == kWorkloads[i]) system.start(static_cast<Workload>(i));
     const std::uint64_t before = system.bilinears();
     system.clock.run(std::strtoull(argv[3], nullptr, 10));
     std::cout << system.bilinears() - before << " bilinears\n";

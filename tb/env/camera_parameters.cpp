@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "spec/error.h"
+#include "tb/scene/motion.h"
 
 namespace deburr::tb {
 namespace {
@@ -32,7 +33,7 @@ Imath::V3d parse_vector(std::string_view name, std::string_view text) {
 }  // namespace
 
 void look(Scene& scene, const CameraParameters& p) {
-  if (p.eye.empty() && p.target.empty() && p.fov == 0) return;
+  if (p.eye.empty() && p.target.empty() && p.fov == 0 && p.roll == 0) return;
   Camera camera = scene.camera;
   if (!p.eye.empty()) {
     camera.eye = parse_vector("scene.eye", p.eye);
@@ -42,7 +43,7 @@ void look(Scene& scene, const CameraParameters& p) {
   if (p.fov > 0) camera.fov_y = p.fov;
   if (!((camera.target - camera.eye).length() > 0))
     throw spec::ConfigError("'scene.eye' and 'scene.target' are the same point");
-  scene.camera = camera;
+  scene.camera = rolled(camera, p.roll);
 }
 
 }  // namespace deburr::tb

@@ -10,7 +10,7 @@ namespace deburr::tb {
 
 struct CameraParameters {
   std::string eye, target;
-  double fov = 0;
+  double fov = 0, roll = 0;
 };
 
 template <class Visitor>
@@ -18,6 +18,8 @@ void describe(CameraParameters& p, Visitor& v) {
   v.text("eye", p.eye, "x,y,z", "Position of the camera instead of the scene's own.");
   v.text("target", p.target, "x,y,z", "What the camera looks at instead of the scene's own.");
   v.real("fov", p.fov, 0, 3.1, "radian", "Vertical field of view; 0: the scene's own.");
+  v.real("roll", p.roll, -180, 180, "degree",
+         "Turns the camera clockwise about its view direction.");
 }
 
 // The scene seen by that camera. ConfigError for what is no position, or nothing to look at.

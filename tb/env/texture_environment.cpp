@@ -26,6 +26,15 @@ TextureGolden golden_model(const TextureScene& scene, const TextureSetup& setup,
 
 }  // namespace
 
+std::int32_t fifo_depth(const TextureSetup& setup) {
+  if (setup.texture.cache_fifo_depth != 0) return setup.texture.cache_fifo_depth;
+  constexpr std::int32_t kMost = 4096;
+  const std::int32_t bytes = setup.memory.bytes_per_clock, line = setup.texture.cache_line_bytes;
+  const std::int32_t transfer = bytes == 0 ? 1 : std::max(1, line / bytes);
+  const std::int32_t latency = std::max(setup.memory.latency, setup.memory.latency_max);
+  return std::min(rtl::texture::LatencyFifo::depth_for(latency + transfer), kMost);
+}
+
 // ---- building -----------------------------------------------------------------------------------
 
 std::vector<PlantedFault> TextureEnvironment::faults() {
@@ -40,6 +49,14 @@ std::vector<PlantedFault> TextureEnvironment::faults() {
       {"stuck-ready", "Holds back the texel addresses from cycle 500 on.",
        "stuck_ready:texture.texels:500"},
       {"wrong-texel", "The texture in memory is not what the golden model reads."},
+      {"wrong-axis", "Flips a bit of fragment 100's major axis.",
+       "flip:texture.address.footprints:100:axis_s.14"},
+      {"wrong-ratio", "Flips a bit of what gives fragment 100's ratio of sides.",
+       "flip:texture.address.footprints:100:minor.17"},
+      {"wrong-count", "Flips a bit of fragment 100's number of samples.",
+       "flip:texture.address.levels:100:last_index.0"},
+      {"wrong-sample", "Gives request 400 the weight of its neighbour.",
+       "flip:texture.texel_quads:400:control.index.0"},
       {"wrong-replacement", "The cache replaces by FIFO where LRU was ordered."}};
   for (PlantedFault& fault : memory_faults()) list.push_back(std::move(fault));
   return list;
@@ -48,6 +65,7 @@ std::vector<PlantedFault> TextureEnvironment::faults() {
 // The golden model always gets what was ordered.
 spec::texture::Parameters TextureEnvironment::as_built() const {
   spec::texture::Parameters p = setup_.texture;
+  p.cache_fifo_depth = fifo_depth(setup_);
   if (planted("wrong-replacement")) p.cache_replacement = spec::texture::Replacement::kFifo;
   return p;
 }
@@ -280,6 +298,8 @@ void TextureEnvironment::collect(Result& result) const {
   add(result, "texels_fetched_per_fragment",
       ratio(number(lines) * setup_.texture.cache_line_bytes / texel_bytes, number(fragments)),
       "texel/fragment", "Texels of all lines fetched over fragments.");
+  add(result, "fifo_depth", static_cast<std::uint64_t>(unit_.parameters().cache_fifo_depth),
+      "request", "Entries of the latency FIFO, as ordered or as the latency of memory asks for.");
   for (const rtl::Counter* counter : unit_.counters())
     add(result, name_within(unit_, *counter), *counter);
 }

@@ -47,6 +47,8 @@ struct TextureSetup {
   // Sees every quad as it is sent.
   std::function<void(const TracedQuad&)> observer{};
 };
+// The depth of the latency FIFO: as ordered, or for 0 what hides this memory's latency.
+std::int32_t fifo_depth(const TextureSetup& setup);
 
 class TextureEnvironment final : public Environment {
  public:

@@ -39,7 +39,7 @@ spec::texture::Wrap chosen(WrapChoice choice, spec::texture::Wrap own) {
   return own;
 }
 
-Scene load(const SceneParameters& p, WrapChoice wrap, std::uint32_t seed) {
+Scene load(const SceneParameters& p, WrapChoice wrap, std::uint32_t seed, const CameraMove& move) {
   SceneOptions options;
   options.texture = p.texture;
   options.texture_size = p.texture_size;
@@ -52,27 +52,29 @@ Scene load(const SceneParameters& p, WrapChoice wrap, std::uint32_t seed) {
     texture.wrap_t = chosen(wrap, texture.wrap_t);
   }
   look(scene, p);
+  scene.camera = moved(scene.camera, move.motion, move.frame);
   return scene;
 }
 
 }  // namespace
 
 TextureScene::TextureScene(const SceneParameters& scene, const SamplerParameters& sampler,
-                           std::uint32_t seed)
-    : TextureScene(scene, sampler, seed, Fragments::kRasterise) {}
+                           std::uint32_t seed, const CameraMove& move)
+    : TextureScene(scene, sampler, seed, move, Fragments::kRasterise) {}
 
 TextureScene TextureScene::without_fragments(const SceneParameters& scene,
                                              const SamplerParameters& sampler, std::uint32_t seed,
                                              int width, int height) {
-  TextureScene made(scene, sampler, seed, Fragments::kNone);
+  TextureScene made(scene, sampler, seed, {}, Fragments::kNone);
   made.stream_.width = width;
   made.stream_.height = height;
   return made;
 }
 
 TextureScene::TextureScene(const SceneParameters& scene, const SamplerParameters& sampler,
-                           std::uint32_t seed, Fragments fragments)
-    : scene_(load(scene, sampler.wrap, seed)) {
+                           std::uint32_t seed, const CameraMove& move,
+                           Fragments fragments)
+    : scene_(load(scene, sampler.wrap, seed, move)) {
   if (!is_scene_name(scene.source)) inputs_.emplace_back(scene.source);
   if (!scene.texture.empty() && !is_texture_name(scene.texture))
     inputs_.emplace_back(scene.texture);

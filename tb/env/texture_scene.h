@@ -16,6 +16,7 @@
 #include "tb/env/memory_parameters.h"
 #include "tb/env/texture_memory.h"
 #include "tb/scene/image.h"
+#include "tb/scene/motion.h"
 #include "tb/scene/rasteriser.h"
 #include "tb/scene/scenes.h"
 
@@ -38,10 +39,9 @@ void describe(SceneParameters& p, Visitor& v) {
   v.text("source", p.source, "name | file",
          "A scene made by formula (plane, quad, tunnel, object, road, cylinders) or a mesh file "
          "(.obj, .gltf, .glb).");
-  v.text(
-      "texture", p.texture, "name | file",
-      "Texture instead of the scene's own: checker, road, brick, zone_plate, gradient, noise, or "
-      "an image file.");
+  v.text("texture", p.texture, "name | file",
+         "Texture instead of the scene's own: checker, road, brick, stones, zone_plate, gradient, "
+         "noise, or an image file.");
   v.integer("texture_size", p.texture_size, 1, spec::texture::kMaxTextureSize, "texel",
             "Side of a texture made by formula.");
   v.integer("width", p.width, 1, 8192, "pixel", "Width of the picture.");
@@ -86,10 +86,17 @@ void describe(SamplerParameters& p, Visitor& v) {
   v.integer("max_lod", p.max_lod, 0, 65535, "1/256 level", "Upper limit of the level of detail.");
 }
 
+// Which frame of which motion of the camera.
+struct CameraMove {
+  Motion motion = Motion::kRoll;
+  int frame = 0;
+};
+
 class TextureScene {
  public:
   // Loads, rasterises and lays out. ConfigError and FileError as of tb/scene.
-  TextureScene(const SceneParameters& scene, const SamplerParameters& sampler, std::uint32_t seed);
+  TextureScene(const SceneParameters& scene, const SamplerParameters& sampler, std::uint32_t seed,
+               const CameraMove& move = {});
   // Its textures and sampler alone, for fragments that come from elsewhere: an empty stream.
   static TextureScene without_fragments(const SceneParameters& scene,
                                         const SamplerParameters& sampler, std::uint32_t seed,
@@ -105,7 +112,7 @@ class TextureScene {
  private:
   enum class Fragments { kRasterise, kNone };
   TextureScene(const SceneParameters& scene, const SamplerParameters& sampler, std::uint32_t seed,
-               Fragments fragments);
+               const CameraMove& move, Fragments fragments);
   void lay_out(const SamplerParameters& sampler);
 
   Scene scene_;

@@ -1,5 +1,14 @@
 # SPDX-License-Identifier: MIT
-# What the texture unit's rules are worth on a photograph, seen by a turned camera.
+# What the texture unit's rules are worth on a photograph, seen by a turned and by a moving camera.
 deburr_library(turned_photo LAYER tb
   SOURCES "${CMAKE_CURRENT_LIST_DIR}/turned_photo.cpp"
   LINK deburr::golden_texture deburr::ideal deburr::scene deburr::texture_memory)
+deburr_test(texture_direction_test LABELS oracle TIMEOUT 600
+  SOURCES "${CMAKE_CURRENT_LIST_DIR}/texture_direction_test.cpp"
+  LINK deburr::turned_photo)
+deburr_test(texture_flicker_test LABELS oracle TIMEOUT 600
+  SOURCES "${CMAKE_CURRENT_LIST_DIR}/texture_flicker_test.cpp"
+  LINK deburr::texture_scene)
+foreach(test texture_direction_test texture_flicker_test)
+  target_compile_definitions(${test} PRIVATE DEBURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+endforeach()

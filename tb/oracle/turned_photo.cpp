@@ -66,7 +66,7 @@ TurnedPhoto::TurnedPhoto(const PhotoTexture& photo, const Turn& turn) : photo_(p
   truth_ = golden::ideal::box_image(photo.ideal(), footprints_, kBox);
   for (const golden::ideal::PixelFootprint& f : footprints_)
     blurred_.push_back(
-        golden::ideal::trilinear(photo.ideal(), f.s, f.t, std::log2(turn.ratio * turn.width) + 1));
+        golden::ideal::trilinear(photo.ideal(), f.s, f.t, std::log2(turn.ratio * turn.width)));
 }
 
 FilterFigures TurnedPhoto::golden(const spec::texture::Parameters& parameters, int lb_n_max) const {

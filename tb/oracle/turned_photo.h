@@ -42,8 +42,9 @@ struct Turn {
 };
 
 struct FilterFigures {
-  double psnr = 0;     // dB against the supersampled parallelogram, R, G and B
-  double detail = 0;   // share of the truth's detail that the picture has, 1: all of it
+  double psnr = 0;  // dB against the supersampled parallelogram, R, G and B
+  // Share of the detail that a trilinear filter loses and this one keeps; 1: as much as the truth.
+  double detail = 0;
   double samples = 0;  // a fragment
   double bilinears = 0;
 };
@@ -63,7 +64,7 @@ class TurnedPhoto {
   const PhotoTexture& photo_;
   std::vector<spec::texture::Quad> quads_;
   std::vector<golden::ideal::PixelFootprint> footprints_;
-  std::vector<golden::ideal::Colour> truth_, blurred_;  // blurred: without any detail
+  std::vector<golden::ideal::Colour> truth_, blurred_;  // blurred: trilinear
 };
 
 }  // namespace deburr::tb

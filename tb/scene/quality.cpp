@@ -65,6 +65,25 @@ double mean_squared_error(const Image& a, const Image& b, const Mask& mask) {
                        : static_cast<double>(sum) / (3.0 * static_cast<double>(selected));
 }
 
+double flicker_square(const Image& before, const Image& after, const Image& truth_before,
+                      const Image& truth_after, const Mask& mask) {
+  for (const Image* image : {&after, &truth_before, &truth_after})
+    require_same_size(before, *image);
+  require_same_size(before, mask);
+  std::int64_t sum = 0, selected = 0;
+  for (std::size_t i = 0; i < before.pixels.size(); ++i) {
+    if (mask.pixels[i] == 0) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int error = (after.pixels[i][c] - before.pixels[i][c]) -
+                        (truth_after.pixels[i][c] - truth_before.pixels[i][c]);
+      sum += error * error;
+    }
+    ++selected;
+  }
+  return selected == 0 ? std::numeric_limits<double>::quiet_NaN()
+                       : static_cast<double>(sum) / (3.0 * static_cast<double>(selected));
+}
+
 double psnr_from_mse(double mse) {
   return mse == 0.0 ? std::numeric_limits<double>::infinity()
                     : 10.0 * std::log10(255.0 * 255.0 / mse);

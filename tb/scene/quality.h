@@ -18,6 +18,11 @@ double psnr(const Image& a, const Image& b);
 double psnr(const Image& a, const Image& b, const Mask& mask);
 double psnr_from_mse(double mse);
 
+// Mean square over R, G and B of what two pictures in a row change more or less than their truths
+// do, in units of 1/255; NaN: mask is empty.
+double flicker_square(const Image& before, const Image& after, const Image& truth_before,
+                      const Image& truth_after, const Mask& mask);
+
 std::int64_t count(const Mask& mask);
 // Pixels that differ by more than `tolerance` in R, G or B, and the largest difference.
 std::int64_t count_different(const Image& a, const Image& b, int tolerance = 0);

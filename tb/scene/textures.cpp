@@ -197,10 +197,12 @@ Image stones(int width, int height, std::uint32_t seed) {
       }
     }
     // The difference of squared distances is 2 x the distance to the border x that of the middles.
-    const int gap = second - nearest < 80 ? -70 : 0;
-    int shade = hash_range(x, y, seed + 4, -14, 14);
+    constexpr int kGap = 360;
+    const int gap = -60 * std::max(0, kGap - (second - nearest)) / kGap;
+    int shade = hash_range(x, y, seed + 4, -3, 3);
     for (int cell = 2; cell <= 128; cell *= 2)
-      shade += smooth_noise(x, y, width, height, cell, 9, seed + 4 + static_cast<unsigned>(cell));
+      shade += smooth_noise(x, y, width, height, cell, std::min(cell + 1, 11),
+                            seed + 4 + static_cast<unsigned>(cell));
     const int level = 128 + tone + gap + shade;
     return {to_byte(level + 6), to_byte(level), to_byte(level - 10 + tone / 4), 255};
   });

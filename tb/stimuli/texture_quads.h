@@ -26,9 +26,25 @@ Enum any_code(Random& random, const std::array<std::string_view, N>&) {
   return static_cast<Enum>(random.below(static_cast<std::uint32_t>(N)));
 }
 
+// The defaults with the rules of the paper.
+inline spec::texture::Parameters paper_rules() {
+  spec::texture::Parameters p;
+  const auto& row =
+      spec::texture::kPresets[static_cast<std::size_t>(spec::texture::Preset::kPaper)];
+  p.preset = row.preset;
+  p.axes = row.axes;
+  p.footprint = row.footprint;
+  p.log2 = row.log2;
+  p.count = row.count;
+  return p;
+}
+
 // Every rule and kernel; the cache stays as it is.
 inline spec::texture::Parameters random_rules(Random& random) {
   spec::texture::Parameters p;
+  p.axes = any_code<spec::texture::Axes>(random, spec::texture::kAxesNames);
+  p.axis_clocks = 1 << random.below(1 + static_cast<std::uint32_t>(p.axes));
+  p.srgb_output = any_code<spec::texture::SrgbOutput>(random, spec::texture::kSrgbOutputNames);
   p.footprint = any_code<spec::texture::FootprintRule>(random, spec::texture::kFootprintNames);
   p.log2 = any_code<spec::texture::Log2Rule>(random, spec::texture::kLog2Names);
   p.count = any_code<spec::texture::CountRule>(random, spec::texture::kCountNames);

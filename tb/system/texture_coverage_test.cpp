@@ -16,7 +16,7 @@
 namespace deburr::tb {
 namespace {
 
-constexpr std::array<std::string_view, 2> kAxes = {"x", "y"};
+constexpr std::size_t kDirections = 8;
 constexpr std::array<std::string_view, 4> kCacheBins = {"hit", "miss", "merged", "queue_full"};
 
 Coverage declared() {
@@ -25,8 +25,12 @@ Coverage declared() {
     for (const auto wrap : spec::texture::kWrapNames)
       for (const auto layout : spec::texture::kLayoutNames)
         coverage.declare(fmt::format("mode.{}.{}.{}", mode, wrap, layout));
-  for (int n = 1; n <= 16; n *= 2)
-    for (const auto axis : kAxes) coverage.declare(fmt::format("samples.{}.major_{}", n, axis));
+  for (std::size_t n = 1; n <= 16; ++n) coverage.declare(fmt::format("samples.{}", n));
+  for (const int axes : {2, 4, 8})
+    for (int k = 0; k < axes; ++k) coverage.declare(fmt::format("major.{}.{}", axes, k));
+  for (const auto bin : kTentBins) coverage.declare(std::string(bin));
+  for (const auto output : spec::texture::kSrgbOutputNames)
+    coverage.declare(fmt::format("output.{}", output));
   for (const auto filter : spec::texture::kMagFilterNames)
     coverage.declare(fmt::format("magnified.{}", filter));
   for (const auto format : spec::texture::kFormatNames)
@@ -35,9 +39,13 @@ Coverage declared() {
   return coverage;
 }
 
+constexpr std::array<std::string_view, 2> kTentBins = {"tent.narrow", "tent.wide"};
+
 // What one run met; plain numbers, because it comes from another process.
 struct Met {
-  std::array<std::array<std::uint64_t, 2>, 5> samples{};  // [lb N][axis]
+  std::array<std::uint64_t, 17> samples{};         // by N
+  std::array<std::uint64_t, kDirections> major{};  // by direction
+  std::array<std::uint64_t, 2> tent{};             // of fewer than four samples, of more
   std::uint64_t magnified = 0, fragments = 0;
   std::array<std::uint64_t, 4> cache{};
 };
@@ -57,7 +65,11 @@ Met run(const SceneParameters& scene, const SamplerParameters& sampler,
       for (int lane = 0; lane < 4; ++lane) {
         if (!(quad.coverage >> lane & 1)) continue;
         const golden::texture::FragmentAnalysis a = golden.analyse(quad, lane);
-        ++met.samples[static_cast<std::size_t>(a.lod.lb_n)][a.footprint.major_is_x ? 0 : 1];
+        if (!a.valid) continue;
+        const bool tent = options.texture.kernel == spec::texture::Kernel::kTent;
+        ++met.samples[static_cast<std::size_t>(a.lod.samples)];
+        ++met.major[static_cast<std::size_t>(a.footprint.major)];
+        if (tent) ++met.tent[a.lod.samples < 4 ? 0 : 1];
         met.magnified += a.lod.magnified;
         ++met.fragments;
       }
@@ -70,7 +82,8 @@ Met run(const SceneParameters& scene, const SamplerParameters& sampler,
   });
 }
 
-void record(Coverage& coverage, const Met& met, const SamplerParameters& sampler) {
+void record(Coverage& coverage, const Met& met, const SamplerParameters& sampler,
+            const spec::texture::Rules& rules) {
   const auto index = [](auto e) { return static_cast<std::size_t>(e); };
   coverage.hit(fmt::format("mode.{}.{}.{}", spec::texture::kMinFilterNames[index(sampler.mode)],
                            kWrapChoiceNames[index(sampler.wrap)],
@@ -81,9 +94,15 @@ void record(Coverage& coverage, const Met& met, const SamplerParameters& sampler
   coverage.hit(
       fmt::format("magnified.{}", spec::texture::kMagFilterNames[index(sampler.magnification)]),
       met.magnified);
-  for (std::size_t n = 0; n < met.samples.size(); ++n)
-    for (std::size_t axis = 0; axis < 2; ++axis)
-      coverage.hit(fmt::format("samples.{}.major_{}", 1 << n, kAxes[axis]), met.samples[n][axis]);
+  for (std::size_t n = 1; n < met.samples.size(); ++n)
+    coverage.hit(fmt::format("samples.{}", n), met.samples[n]);
+  const int axes = 2 << static_cast<int>(rules.axes);
+  for (int k = 0; k < axes; ++k)
+    coverage.hit(fmt::format("major.{}.{}", axes, k), met.major[static_cast<std::size_t>(k)]);
+  for (std::size_t i = 0; i < kTentBins.size(); ++i)
+    coverage.hit(std::string(kTentBins[i]), met.tent[i]);
+  coverage.hit(fmt::format("output.{}", spec::texture::kSrgbOutputNames[index(rules.srgb_output)]),
+               sampler.format == spec::texture::Format::kSrgb8A8 ? met.fragments : 0);
   for (std::size_t i = 0; i < kCacheBins.size(); ++i)
     coverage.hit(fmt::format("cache.{}", kCacheBins[i]), met.cache[i]);
 }
@@ -103,13 +122,16 @@ TEST(TextureCoverage, EveryBinIsHit) {
         TextureRunOptions options;
         options.texture.cache_bytes = 2048;
         options.texture.cache_outstanding = 4;  // so that the miss queue runs full
+        options.texture.axes = static_cast<spec::texture::Axes>(number % 3);
+        options.texture.kernel = static_cast<spec::texture::Kernel>(number / 3 % 2);
+        options.texture.srgb_output = static_cast<spec::texture::SrgbOutput>(number / 5 % 2);
         // The tunnel's walls have their long axis across on two sides and upright on the others.
-        record(coverage, run(picture(number % 3 ? "tunnel" : "plane", 48), sampler, options),
-               sampler);
+        record(coverage, run(picture(number % 4 ? "tunnel" : "plane", 48), sampler, options),
+               sampler, options.texture);
         if (mode > 0) continue;
         SceneParameters near = picture("quad", 48);
         near.texture_size = 8;
-        record(coverage, run(near, sampler, options), sampler);
+        record(coverage, run(near, sampler, options), sampler, options.texture);
       }
     }
   }
@@ -121,7 +143,7 @@ TEST(TextureCoverage, AHoleIsReported) {
   Coverage coverage = declared();
   SamplerParameters sampler;
   sampler.wrap = WrapChoice::kRepeat;
-  record(coverage, run(picture("quad", 32), sampler, {}), sampler);
+  record(coverage, run(picture("quad", 32), sampler, {}), sampler, spec::texture::Rules{});
   EXPECT_GT(coverage.holes().size(), 30u);
   EXPECT_THROW(coverage.hit("mode.cubic"), spec::CheckFailed);
 }

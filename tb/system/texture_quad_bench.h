@@ -4,6 +4,7 @@
 // takes any input the links and registers can carry, and can be reset in mid-run.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -49,7 +50,7 @@ class QuadBench {
   QuadBench(const QuadInput& input, const spec::texture::Parameters& parameters,
             MemoryModelParameters memory = {}, const BenchOptions& options = {})
       : input_(input),
-        unit_("texture", clock_, parameters),
+        unit_("texture", clock_, sized(parameters, memory)),
         memory_("memory", clock_.period(), sized(memory, input)),
         parameters_(parameters) {
     driver_.beats_out(quads_);
@@ -79,6 +80,8 @@ class QuadBench {
   void repeat() { driver_.send(input_.quads); }
   // The first `cycles` clocks of a run.
   void run_for(rtl::Cycle cycles) { clock_.run(cycles); }
+  // From now on judges by other parameters than were built.
+  void order(const spec::texture::Parameters& parameters) { parameters_ = parameters; }
   std::uint64_t received() const { return sink_.received(); }
   // To the end. DeadlockError, or what broke on a link.
   QuadOutcome run(rtl::Cycle limit = 50'000'000) {
@@ -124,7 +127,18 @@ class QuadBench {
     return differences;
   }
 
+  rtl::texture::TextureUnit& unit() { return unit_; }
+
  private:
+  // With a FIFO for this memory's latency, unless one is ordered.
+  static spec::texture::Parameters sized(spec::texture::Parameters p,
+                                         const MemoryModelParameters& memory) {
+    const std::uint32_t latency = std::max(memory.latency_min, memory.latency_max);
+    if (p.cache_fifo_depth == 0)
+      p.cache_fifo_depth =
+          rtl::texture::LatencyFifo::depth_for(static_cast<std::int32_t>(latency) + 1);
+    return p;
+  }
   static MemoryModelParameters sized(MemoryModelParameters memory, const QuadInput& input) {
     memory.bytes = input.memory.size();
     return memory;

@@ -46,7 +46,7 @@ spec::texture::Parameters random_parameters(Random& random) {
   p.cache_replacement =
       any_code<spec::texture::Replacement>(random, spec::texture::kReplacementNames);
   p.cache_outstanding = any_of(random, std::array{4, 17, 64});
-  p.cache_fifo_depth = any_of(random, std::array{2, 33, 160});
+  p.cache_fifo_depth = any_of(random, std::array{0, 2, 33, 160});
   return p;
 }
 
@@ -93,12 +93,75 @@ TEST_P(RandomQuads, AreIdenticalToGolden) {
   EXPECT_GT(work.line_fills, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Texture, RandomQuads, testing::Range<std::uint64_t>(1, 13));
+INSTANTIATE_TEST_SUITE_P(Texture, RandomQuads, testing::Range<std::uint64_t>(1, 37));
 
 // Planted: what the golden model is told differs from what the hardware gets.
 enum class Wrong { kNothing, kByte, kBias, kWrap, kBase, kInvalid, kCoverage };
 constexpr std::array kWrongNames = {"nothing", "byte",    "bias",    "wrap",
                                     "base",    "invalid", "coverage"};
+// What else is built than is ordered.
+struct WrongBuild {
+  const char* name;
+  void (*change)(spec::texture::Parameters&);
+};
+constexpr std::array kWrongBuilds = {
+    WrongBuild{"axes", [](auto& p) { p.axes = spec::texture::Axes::kFour; }},
+    WrongBuild{"measure", [](auto& p) { p.footprint = spec::texture::FootprintRule::kTwoSegment; }},
+    WrongBuild{"count", [](auto& p) { p.count = spec::texture::CountRule::kCeil; }},
+    WrongBuild{"kernel", [](auto& p) { p.kernel = spec::texture::Kernel::kTent; }},
+    WrongBuild{"output", [](auto& p) { p.srgb_output = spec::texture::SrgbOutput::kEncoded; }}};
+
+class RandomQuadsNoticeBuild : public testing::TestWithParam<int> {};
+
+TEST_P(RandomQuadsNoticeBuild, WhatIsNotAsOrdered) {
+  const auto& wrong = kWrongBuilds[static_cast<std::size_t>(GetParam())];
+  Random random(1, "random quads");
+  const QuadInput input = random_input(random);
+  spec::texture::Parameters built;
+  wrong.change(built);
+  QuadBench bench(input, built);
+  bench.reset();
+  const QuadOutcome outcome = bench.run();
+  EXPECT_EQ(bench.judge(input, outcome), "");
+  bench.order({});
+  EXPECT_NE(bench.judge(input, outcome), "");
+}
+INSTANTIATE_TEST_SUITE_P(Texture, RandomQuadsNoticeBuild, testing::Range(0, 5), [](const auto& p) {
+  return std::string(kWrongBuilds[static_cast<std::size_t>(p.param)].name);
+});
+
+// One wrong word in a table.
+struct WrongWord {
+  const char* table;
+  std::uint64_t address;
+};
+class RandomQuadsNoticeTable : public testing::TestWithParam<WrongWord> {};
+
+TEST_P(RandomQuadsNoticeTable, AWrongWord) {
+  const WrongWord& wrong = GetParam();
+  Random random(1, "random quads");
+  const QuadInput input = random_input(random);
+  spec::texture::Parameters p;
+  p.srgb_output = spec::texture::SrgbOutput::kEncoded;
+  QuadBench bench(input, p);
+  int changed = 0;
+  const auto spoil_words = [&](auto& memory) {
+    if (std::string(memory.basename()) != wrong.table) return;
+    memory.backdoor(wrong.address) ^= 4;
+    ++changed;
+  };
+  rtl::for_each<rtl::Memory<std::uint8_t>>(bench.unit(), spoil_words);
+  rtl::for_each<rtl::Memory<std::uint16_t>>(bench.unit(), spoil_words);
+  rtl::for_each<rtl::Memory<std::uint32_t>>(bench.unit(), spoil_words);
+  ASSERT_EQ(changed, 1);
+  bench.reset();
+  EXPECT_NE(bench.judge(input, bench.run()), "");
+}
+INSTANTIATE_TEST_SUITE_P(Texture, RandomQuadsNoticeTable,
+                         testing::Values(WrongWord{"weights", 16 * 2 + 1},
+                                         WrongWord{"reciprocal", 2}, WrongWord{"codes", 881},
+                                         WrongWord{"srgb", 128}),
+                         [](const auto& p) { return std::string(p.param.table); });
 
 class RandomQuadsNotice : public testing::TestWithParam<int> {};
 

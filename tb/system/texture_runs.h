@@ -8,6 +8,7 @@
 #include "golden/texture/texture_golden.h"
 #include "tb/env/texture_environment.h"
 #include "tb/env/texture_scene.h"
+#include "tb/stimuli/texture_quads.h"
 
 namespace deburr::tb {
 
@@ -28,6 +29,13 @@ inline SceneParameters picture(const std::string& source, int side) {
 
 // Of the simulation and of the texture unit in it.
 struct TextureRunOptions : SimulationOptions, TextureSetup {};
+
+// By the paper's rules.
+inline TextureRunOptions paper_options() {
+  TextureRunOptions options;
+  options.texture = paper_rules();
+  return options;
+}
 
 // Simulates and judges: throws what Simulation::run() throws, and a Mismatch.
 inline TextureOutcome simulate(const SceneParameters& scene, const SamplerParameters& sampler,

@@ -79,41 +79,52 @@ INSTANTIATE_TEST_SUITE_P(Texture, EveryFormat,
                                               kWrapChoiceNames[i(std::get<2>(p.param))]);
                          });
 
-// ---- footprint x log x count x kernel x cap x spread, every pair of choices
-// ----------------------
+// ---- axes x count x kernel x footprint x log x output -------------------------------------------
 
-using Rules = std::tuple<int, int>;
+// Axes, count and footprint in all 45 combinations with both kernels; the logarithm, the cap, the
+// spread, the output and the clocks of the directions go round them.
+using Rules = std::tuple<int, int, int, int>;
 class EveryRule : public testing::TestWithParam<Rules> {};
 
-// The four two-way choices in all 16 combinations with each footprint; the logarithm goes round
-// them, so that it meets each footprint and each combination.
-int log_of(const Rules& rules) { return (std::get<0>(rules) + std::get<1>(rules)) % 4; }
-
-TEST_P(EveryRule, IsIdenticalToGolden) {
-  const auto [footprint, bits] = GetParam();
-  TextureRunOptions options;
-  options.texture.footprint = static_cast<spec::texture::FootprintRule>(footprint);
-  options.texture.log2 = static_cast<spec::texture::Log2Rule>(log_of(GetParam()));
-  options.texture.count = static_cast<spec::texture::CountRule>(bits & 1);
-  options.texture.kernel = static_cast<spec::texture::Kernel>(bits >> 1 & 1);
-  options.texture.count_cap = static_cast<spec::texture::CountCap>(bits >> 2 & 1);
-  options.texture.spread = bits >> 3 & 1 ? 102 : 64;
-  expect_identical(simulate(picture("tunnel", 64), {}, options));
+spec::texture::Parameters rules_of(const Rules& rules) {
+  const auto [axes, count, footprint, kernel] = rules;
+  const int round = axes + 2 * count + footprint + 3 * kernel;
+  spec::texture::Parameters p;
+  p.axes = static_cast<spec::texture::Axes>(axes);
+  p.count = static_cast<spec::texture::CountRule>(count);
+  p.footprint = static_cast<spec::texture::FootprintRule>(footprint);
+  p.kernel = static_cast<spec::texture::Kernel>(kernel);
+  p.log2 = static_cast<spec::texture::Log2Rule>(round % 4);
+  p.count_cap = static_cast<spec::texture::CountCap>(round / 2 % 2);
+  p.spread = round % 3 == 0 ? 102 : 64;
+  p.srgb_output = static_cast<spec::texture::SrgbOutput>(round % 2);
+  p.axis_clocks = 1 << round % (axes + 1);
+  return p;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Texture, EveryRule, testing::Combine(testing::Range(0, 5), testing::Range(0, 16)),
-    [](const auto& p) {
-      const auto bit = [&](int n) {
-        return static_cast<std::size_t>(std::get<1>(p.param) >> n & 1);
-      };
-      return fmt::format(
-          "{}_{}_{}_{}_cap_{}_{}",
-          spec::texture::kFootprintNames[static_cast<std::size_t>(std::get<0>(p.param))],
-          spec::texture::kLog2Names[static_cast<std::size_t>(log_of(p.param))],
-          spec::texture::kCountNames[bit(0)], spec::texture::kKernelNames[bit(1)],
-          spec::texture::kCountCapNames[bit(2)], bit(3) ? "wide" : "axis");
-    });
+TEST_P(EveryRule, IsIdenticalToGolden) {
+  TextureRunOptions options;
+  options.texture = rules_of(GetParam());
+  SamplerParameters sampler;
+  sampler.format = spec::texture::Format::kSrgb8A8;
+  expect_identical(simulate(picture("tunnel", 64), sampler, options));
+}
+
+INSTANTIATE_TEST_SUITE_P(Texture, EveryRule,
+                         testing::Combine(testing::Range(0, 3), testing::Range(0, 3),
+                                          testing::Range(0, 5), testing::Range(0, 2)),
+                         [](const auto& p) {
+                           const auto i = [](auto e) { return static_cast<std::size_t>(e); };
+                           const spec::texture::Parameters r = rules_of(p.param);
+                           return fmt::format("{}_{}_{}_{}_{}_cap_{}_{}",
+                                              spec::texture::kAxesNames[i(r.axes)],
+                                              spec::texture::kCountNames[i(r.count)],
+                                              spec::texture::kFootprintNames[i(r.footprint)],
+                                              spec::texture::kKernelNames[i(r.kernel)],
+                                              spec::texture::kLog2Names[i(r.log2)],
+                                              spec::texture::kCountCapNames[i(r.count_cap)],
+                                              spec::texture::kSrgbOutputNames[i(r.srgb_output)]);
+                         });
 
 // ---- cache geometries ---------------------------------------------------------------------------
 
@@ -198,7 +209,7 @@ class CacheTraffic : public testing::TestWithParam<Traffic> {};
 TEST_P(CacheTraffic, IsAsAnIndependentSimulationFound) {
   const Traffic& wanted = GetParam();
   const TextureOutcome got =
-      simulate(picture(wanted.source, 512), {}, {});  // 16 KB, 2 ways, 64 bytes
+      simulate(picture(wanted.source, 512), {}, paper_options());  // 16 KB, 2 ways, 64 bytes
   expect_identical(got);
   const auto fills = static_cast<double>(got.fills), bilinears = static_cast<double>(got.bilinears),
              fragments = static_cast<double>(got.colours);

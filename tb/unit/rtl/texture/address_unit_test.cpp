@@ -12,18 +12,34 @@ using namespace rtl::texture;
 TEST(TextureRtlAddressUnit, LatencyByRule) {
   ClockDomain clock("clock", period());
   rtl::LatencyProbe probe;
+  using spec::texture::Axes;
+  using spec::texture::CountRule;
+  using spec::texture::FootprintRule;
+  using spec::texture::Log2Rule;
   struct Row {
     std::string name;
-    spec::texture::FootprintRule footprint;
-    spec::texture::Log2Rule log2;
+    FootprintRule footprint;
+    Log2Rule log2;
+    Axes axes;
+    std::int32_t axis_clocks;
+    CountRule count;
     Cycle latency;
   };
-  // 3 + 2 + 1 + 3 + 3 + 5; the root takes 17 more than a shift and an addition, a correction two.
+  // 3 + 2 + 1 + 3 + 3 + 5; the root takes 17 more than a shift and an addition, a correction two;
+  // directions 8 in place of 2, or 22 in place of 19, and axis_clocks - 1; any count one.
+  const auto kHalf = FootprintRule::kHalf, kExact = FootprintRule::kExact;
   const std::vector<Row> rows = {
-      {"half", spec::texture::FootprintRule::kHalf, spec::texture::Log2Rule::kMitchell, 17},
-      {"corrected", spec::texture::FootprintRule::kHalf, spec::texture::Log2Rule::kCorrected, 19},
-      {"exact_log2", spec::texture::FootprintRule::kHalf, spec::texture::Log2Rule::kExact, 19},
-      {"exact", spec::texture::FootprintRule::kExact, spec::texture::Log2Rule::kMitchell, 34}};
+      // the earliest first
+      {"half", kHalf, Log2Rule::kMitchell, Axes::kTwo, 1, CountRule::kFloor, 17},
+      {"ceil", kHalf, Log2Rule::kMitchell, Axes::kTwo, 1, CountRule::kCeil, 17},
+      {"any", kHalf, Log2Rule::kMitchell, Axes::kTwo, 1, CountRule::kAny, 18},
+      {"corrected", kHalf, Log2Rule::kCorrected, Axes::kTwo, 1, CountRule::kFloor, 19},
+      {"exact_log2", kHalf, Log2Rule::kExact, Axes::kTwo, 1, CountRule::kFloor, 19},
+      {"four", kHalf, Log2Rule::kMitchell, Axes::kFour, 1, CountRule::kFloor, 23},
+      {"four_in_two", kHalf, Log2Rule::kMitchell, Axes::kFour, 2, CountRule::kFloor, 24},
+      {"eight_in_four", kHalf, Log2Rule::kMitchell, Axes::kEight, 4, CountRule::kFloor, 26},
+      {"exact", kExact, Log2Rule::kMitchell, Axes::kTwo, 1, CountRule::kFloor, 34},
+      {"deburr", kExact, Log2Rule::kSegments, Axes::kEight, 1, CountRule::kAny, 40}};
   struct Bench {
     Bench(ClockDomain& domain, const Row& row, rtl::LatencyProbe& latency)
         : quads((row.name + "_quads").c_str()),
@@ -38,6 +54,9 @@ TEST(TextureRtlAddressUnit, LatencyByRule) {
       spec::texture::Parameters p;
       p.footprint = row.footprint;
       p.log2 = row.log2;
+      p.axes = row.axes;
+      p.axis_clocks = row.axis_clocks;
+      p.count = row.count;
       return p;
     }
     Link<spec::texture::Quad> quads;

@@ -33,7 +33,7 @@ inline rtl::texture::TexelToken request(std::array<std::uint32_t, 4> address,
                                         std::uint32_t tag = 0) {
   rtl::texture::TexelToken t{};
   t.ticket = {tag, 0, true, true, 0};
-  t.control = {0,    0,   256, 1, 0, static_cast<std::uint8_t>(spec::texture::Format::kRgba8),
+  t.control = {0,    0,   256, 0, 0, static_cast<std::uint8_t>(spec::texture::Format::kRgba8),
                true, true};
   t.address = address;
   return t;

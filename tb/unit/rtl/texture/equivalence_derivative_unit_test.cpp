@@ -70,13 +70,17 @@ Verdict compare_derivative(bool fault) {
                                  size_t_y = gold::derivative_in_texels(t_y, t.height);
           saturated +=
               size_s_x.saturated || size_t_x.saturated || size_s_y.saturated || size_t_y.saturated;
+          const auto size = [](std::uint32_t magnitude, std::int64_t difference) {
+            return difference < 0 ? -std::int64_t{magnitude} : std::int64_t{magnitude};
+          };
           return got.ticket.tag == q.tag && got.ticket.lane == at.lane &&
                  got.ticket.last == at.last && got.ticket.valid &&
                  got.ticket.texture == q.texture && got.s == q.s[at.lane] &&
                  got.t == q.t[at.lane] && got.s_x == s_x && got.t_x == t_x && got.s_y == s_y &&
-                 got.t_y == t_y && got.size_s_x == size_s_x.texels &&
-                 got.size_t_x == size_t_x.texels && got.size_s_y == size_s_y.texels &&
-                 got.size_t_y == size_t_y.texels;
+                 got.t_y == t_y && size(got.size_s_x, s_x) == size_s_x.texels &&
+                 size(got.size_t_x, t_x) == size_t_x.texels &&
+                 size(got.size_s_y, s_y) == size_s_y.texels &&
+                 size(got.size_t_y, t_y) == size_t_y.texels;
         });
     EXPECT_EQ(unit.saturated.value(), saturated);
     EXPECT_EQ(unit.clamped.value(), clamped);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The FilterPipeline against the functions of the golden model.
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -20,28 +22,28 @@ struct FilterWork {
   std::vector<spec::texture::Colour> colours;
 
   using Requests = std::vector<std::array<std::uint32_t, 4>>;  // texels as stored
-  // N = 2^lb_n samples of one or, with a level fraction, two requests each.
-  void fragment(spec::texture::Format format, spec::texture::Kernel kernel, int lb_n,
-                std::uint32_t fraction, const std::function<hw::TexelQuadToken()>& request) {
+  const spec::texture::Rules rules;
+  // N samples of one or, with a level fraction, two requests each.
+  void fragment(spec::texture::Format format, int samples, std::uint32_t fraction,
+                const std::function<hw::TexelQuadToken()>& request) {
     spec::texture::Colour colour;
     colour.tag = static_cast<std::uint32_t>(colours.size());
     colour.lane = static_cast<std::uint8_t>(colour.tag & 3);
     colour.last = (colour.tag & 5) != 0;
-    const int lb_sum = gold::kernel_log2_sum(kernel, lb_n);
     std::array<std::uint32_t, 4> sum{};
-    for (int sample = 0; sample < 1 << lb_n; ++sample) {
-      const std::uint32_t weight = gold::sample_weight(kernel, sample, lb_n);
+    for (int sample = 0; sample < samples; ++sample) {
+      const std::uint32_t weight = gold::sample_weight(rules.kernel, sample, samples);
       std::array<std::array<std::uint32_t, 4>, 2> level{};
       for (std::uint32_t k = 0; k < (fraction ? 2u : 1u); ++k) {
         hw::TexelQuadToken token = request();
         const bool last_of_sample = k == 1 || fraction == 0;
         token.ticket = {colour.tag, colour.lane, colour.last, true, 0};
         token.control.level_weight = static_cast<std::uint16_t>(k ? fraction : 256 - fraction);
-        token.control.kernel_weight = static_cast<std::uint8_t>(weight);
-        token.control.sum_log2 = static_cast<std::uint8_t>(lb_sum);
+        token.control.index = static_cast<std::uint8_t>(sample);
+        token.control.last_index = static_cast<std::uint8_t>(samples - 1);
         token.control.format = static_cast<std::uint8_t>(format);
         token.control.last_of_sample = last_of_sample;
-        token.control.last_of_fragment = last_of_sample && sample == (1 << lb_n) - 1;
+        token.control.last_of_fragment = last_of_sample && sample == samples - 1;
         const std::uint32_t u = token.control.fraction_u, v = token.control.fraction_v;
         std::array<gold::Texel, 4> texel;
         for (std::size_t i = 0; i < 4; ++i) texel[i] = gold::decode_texel(format, token.texel[i]);
@@ -54,16 +56,19 @@ struct FilterWork {
         sum[c] += weight *
                   (fraction ? gold::level_lerp(level[0][c], level[1][c], fraction) : level[0][c]);
     }
-    for (std::size_t c = 0; c < 4; ++c) colour.rgba[c] = gold::round_result(sum[c], lb_sum);
+    const bool codes = format == spec::texture::Format::kSrgb8A8 &&
+                       rules.srgb_output == spec::texture::SrgbOutput::kEncoded;
+    for (std::size_t c = 0; c < 4; ++c)
+      colour.rgba[c] = codes && c < 3 ? gold::encode_result(sum[c]) : gold::round_result(sum[c]);
     colours.push_back(colour);
   }
 };
 
-FilterWork filter_work() {
-  FilterWork work;
+FilterWork filter_work(const spec::texture::Rules& rules) {
+  FilterWork work{.tokens = {}, .colours = {}, .rules = rules};
   // Every value of every format, unfiltered.
   const auto plain = [&](spec::texture::Format format, std::uint32_t word) {
-    work.fragment(format, spec::texture::Kernel::kBox, 0, 0, [word] {
+    work.fragment(format, 1, 0, [word] {
       hw::TexelQuadToken t{};
       t.texel.fill(word);
       return t;
@@ -80,7 +85,7 @@ FilterWork filter_work() {
   // Every combination of fractions at full contrast, both signs.
   for (std::uint32_t u = 0; u < 256; ++u)
     for (std::uint32_t v = 0; v < 256; v += 3)
-      work.fragment(spec::texture::Format::kRgba8, spec::texture::Kernel::kBox, 0, 0, [u, v] {
+      work.fragment(spec::texture::Format::kRgba8, 1, 0, [u, v] {
         hw::TexelQuadToken t{};
         t.texel = {0xFF00FF01, 0x00FF02FF, 0x7F80FF00, 0xFFFF00FF};
         t.control.fraction_u = static_cast<std::uint8_t>(u);
@@ -102,9 +107,10 @@ FilterWork filter_work() {
     const auto fraction = [&] {
       return extreme ? any_of(random, kFractions) : static_cast<std::uint8_t>(random.below(256));
     };
-    const int lb_n = static_cast<int>(random.below(5));
-    const auto kernel = any_code<spec::texture::Kernel>(random, spec::texture::kKernelNames);
-    work.fragment(format, kernel, lb_n, fraction(), [&] {
+    const int samples = rules.count == spec::texture::CountRule::kAny
+                            ? 1 + static_cast<int>(random.below(16))
+                            : 1 << random.below(5);
+    work.fragment(format, samples, fraction(), [&] {
       hw::TexelQuadToken t{};
       for (std::uint32_t& texel : t.texel)
         texel = mask &
@@ -117,11 +123,11 @@ FilterWork filter_work() {
   return work;
 }
 
-Verdict compare_filter(bool fault) {
-  const FilterWork work = filter_work();
+Verdict compare_filter(const spec::texture::Rules& rules, bool fault) {
+  const FilterWork work = filter_work(rules);
   Pair<hw::TexelQuadToken, spec::texture::Colour> bench;
   rtl::LatencyProbe probe;
-  hw::FilterPipeline unit("unit", bench.clock, probe);
+  hw::FilterPipeline unit("unit", bench.clock, rules, probe);
   unit.texels_in(bench.in);
   unit.colours_out(bench.out);
   bench.run(
@@ -137,8 +143,28 @@ Verdict compare_filter(bool fault) {
   return bench.verdict;
 }
 
-TEST(FilterEquivalence, UnitIsTheArithmetic) { expect_equal(compare_filter(false), 160'000); }
-TEST(FilterEquivalence, NoticesAWrongBit) { expect_noticed(compare_filter(true)); }
+class FilterEquivalence : public testing::TestWithParam<std::tuple<int, int, int>> {};
+
+TEST_P(FilterEquivalence, UnitIsTheArithmetic) {
+  const auto [count, kernel, output] = GetParam();
+  spec::texture::Rules rules;
+  rules.count = static_cast<spec::texture::CountRule>(count);
+  rules.kernel = static_cast<spec::texture::Kernel>(kernel);
+  rules.srgb_output = static_cast<spec::texture::SrgbOutput>(output);
+  expect_equal(compare_filter(rules, false), 160'000);
+}
+INSTANTIATE_TEST_SUITE_P(Texture, FilterEquivalence,
+                         testing::Combine(testing::Values(0, 2), testing::Range(0, 2),
+                                          testing::Range(0, 2)),
+                         [](const auto& p) {
+                           const auto i = [](int v) { return static_cast<std::size_t>(v); };
+                           return fmt::format(
+                               "{}_{}_{}", spec::texture::kCountNames[i(std::get<0>(p.param))],
+                               spec::texture::kKernelNames[i(std::get<1>(p.param))],
+                               spec::texture::kSrgbOutputNames[i(std::get<2>(p.param))]);
+                         });
+
+TEST(FilterEquivalence, NoticesAWrongBit) { expect_noticed(compare_filter({}, true)); }
 
 }  // namespace
 }  // namespace deburr::tb

@@ -94,10 +94,11 @@ Verdict compare_footprint(spec::texture::FootprintRule rule, bool fault) {
       [&](std::uint64_t i, const hw::FootprintToken& got) {
         const hw::DerivativeToken& in = tokens[i];
         const gold::Footprint f =
-            gold::footprint(rule, in.size_s_x, in.size_t_x, in.size_s_y, in.size_t_y);
-        return got.d_max == f.d_max && got.d_min == f.d_min &&
-               got.axis_s == (f.major_is_x ? in.s_x : in.s_y) &&
-               got.axis_t == (f.major_is_x ? in.t_x : in.t_y) && got.s == in.s && got.t == in.t;
+            gold::footprint(spec::texture::Axes::kTwo, rule, {in.size_s_x, in.size_t_x},
+                            {in.size_s_y, in.size_t_y});
+        return got.d_max == f.d_max && got.minor == f.d_min &&
+               got.axis_s == (f.major == 0 ? in.s_x : in.s_y) &&
+               got.axis_t == (f.major == 0 ? in.t_x : in.t_y) && got.s == in.s && got.t == in.t;
       });
   return bench.verdict;
 }

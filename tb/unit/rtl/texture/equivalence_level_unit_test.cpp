@@ -46,16 +46,19 @@ spec::texture::Descriptor level_texture(Random& random, int number) {
   return d;
 }
 
-Verdict compare_level(spec::texture::CountRule count, spec::texture::CountCap cap, bool fault) {
+Verdict compare_level(spec::texture::Axes axes, spec::texture::CountRule count,
+                      spec::texture::CountCap cap, bool fault) {
   Pair<hw::Log2Token, hw::LevelToken> bench;
   Store store(bench.clock);
-  hw::LevelUnit unit("unit", bench.clock, store.descriptors.for_levels, count, cap);
+  hw::LevelUnit unit("unit", bench.clock, store.descriptors.for_levels, axes, count, cap);
   unit.logs_in(bench.in);
   unit.levels_out(bench.out);
   spec::texture::Parameters rules;
+  rules.axes = axes;
   rules.count = count;
   rules.count_cap = cap;
 
+  const bool with_area = axes != spec::texture::Axes::kTwo;  // lb A is the sum of both
   const std::vector<std::int32_t> corners = log_corners();
   Random random(5);
   int number = 0;
@@ -74,7 +77,7 @@ Verdict compare_level(spec::texture::CountRule count, spec::texture::CountCap ca
         for (const std::int32_t lb_min :
              {lb_max, near, any_of(random, std::array{-65536, 0, 4096}),
               lb_max - 4096 * static_cast<std::int32_t>(random.below(6))})
-          tokens.push_back({ticket, 1, 2, 3, 4, lb_max, lb_min});
+          tokens.push_back({ticket, 1, 2, 3, 4, lb_max, with_area ? lb_max + lb_min : lb_min});
       }
     }
     std::uint64_t magnified = 0, two_levels = 0;
@@ -89,10 +92,11 @@ Verdict compare_level(spec::texture::CountRule count, spec::texture::CountCap ca
         [&](std::uint64_t i, const hw::LevelToken& got) {
           const hw::Log2Token& in = tokens[i];
           const gold::LevelOfDetail want =
-              gold::select_level(rules, d[in.ticket.texture], in.lb_max, in.lb_min);
+              gold::select_level(rules, d[in.ticket.texture], in.lb_max,
+                                 with_area ? in.lb_minor - in.lb_max : in.lb_minor);
           magnified += want.magnified;
           two_levels += want.fraction != 0;
-          return got.count_log2 == want.lb_n && got.level == want.level &&
+          return got.last_index + 1 == want.samples && got.level == want.level &&
                  got.fraction == want.fraction && got.linear == want.linear && got.s == in.s &&
                  got.t == in.t && got.axis_s == in.axis_s && got.axis_t == in.axis_t &&
                  got.ticket.tag == in.ticket.tag && got.ticket.texture == in.ticket.texture;
@@ -103,27 +107,30 @@ Verdict compare_level(spec::texture::CountRule count, spec::texture::CountCap ca
   return bench.verdict;
 }
 
-class LevelEquivalence : public testing::TestWithParam<std::tuple<int, int>> {};
+class LevelEquivalence : public testing::TestWithParam<std::tuple<int, int, int>> {};
 
 TEST_P(LevelEquivalence, UnitIsTheFunction) {
-  const auto [count, cap] = GetParam();
-  expect_equal(compare_level(static_cast<spec::texture::CountRule>(count),
+  const auto [axes, count, cap] = GetParam();
+  expect_equal(compare_level(static_cast<spec::texture::Axes>(axes),
+                             static_cast<spec::texture::CountRule>(count),
                              static_cast<spec::texture::CountCap>(cap), false),
                800'000);
 }
 
 INSTANTIATE_TEST_SUITE_P(Texture, LevelEquivalence,
-                         testing::Combine(testing::Range(0, 2), testing::Range(0, 2)),
+                         testing::Combine(testing::Values(0, 2), testing::Range(0, 3),
+                                          testing::Range(0, 2)),
                          [](const auto& p) {
                            const auto i = [](int v) { return static_cast<std::size_t>(v); };
                            return fmt::format(
-                               "{}_{}", spec::texture::kCountNames[i(std::get<0>(p.param))],
-                               spec::texture::kCountCapNames[i(std::get<1>(p.param))]);
+                               "{}_{}_{}", spec::texture::kAxesNames[i(std::get<0>(p.param))],
+                               spec::texture::kCountNames[i(std::get<1>(p.param))],
+                               spec::texture::kCountCapNames[i(std::get<2>(p.param))]);
                          });
 
 TEST(LevelEquivalence, NoticesAWrongBit) {
-  expect_noticed(
-      compare_level(spec::texture::CountRule::kFloor, spec::texture::CountCap::kNone, true));
+  expect_noticed(compare_level(spec::texture::Axes::kTwo, spec::texture::CountRule::kFloor,
+                               spec::texture::CountCap::kNone, true));
 }
 
 }  // namespace

@@ -20,19 +20,19 @@ class Log2Equivalence : public testing::TestWithParam<int> {};
 TEST_P(Log2Equivalence, EveryLeadingOneEveryMantissa) {
   const auto rule = static_cast<spec::texture::Log2Rule>(GetParam());
   Verdict v;
-  const auto compare = [&](std::uint32_t d) {
+  const auto compare = [&](std::uint64_t d) {
     ++v.compared;
     if (hw::Log2Unit::log2(rule, d) != gold::log2_fixed(rule, d) && v.mismatches++ == 0)
       v.first = d;
   };
   for (std::uint32_t d = 0; d < 1u << 21; ++d) compare(d);  // below it everything
   Random random(1);
-  for (int p = 12; p < 32; ++p) {
-    const std::uint32_t below = (1u << (p - 12)) - 1;  // bits that are cut off
+  for (int p = 12; p < 47; ++p) {                                    // an area has 47 bits
+    const std::uint64_t below = (std::uint64_t{1} << (p - 12)) - 1;  // bits that are cut off
     for (std::uint32_t y = 0; y < 4096; ++y) {
-      const std::uint32_t d = (4096u | y) << (p - 12);
-      for (const std::uint32_t low : {0u, 1u & below, below, below >> 1, below ^ (below >> 1),
-                                      static_cast<std::uint32_t>(random.next()) & below}) {
+      const std::uint64_t d = std::uint64_t{4096u | y} << (p - 12);
+      for (const std::uint64_t low : {std::uint64_t{0}, 1u & below, below, below >> 1,
+                                      below ^ (below >> 1), random.next() & below}) {
         compare(d | low);
       }
     }

@@ -59,7 +59,7 @@ Verdict compare_addresser(bool fault) {
         tokens.size(),
         [&](std::uint64_t i) {
           hw::SampleToken token = tokens[i];
-          if (fault && batch == 0 && i == kFaultyToken) token.kernel_weight ^= 1;
+          if (fault && batch == 0 && i == kFaultyToken) token.index ^= 1;
           return token;
         },
         tokens.size(),
@@ -76,8 +76,8 @@ Verdict compare_addresser(bool fault) {
           return got.address == std::array{address(x.i0, y.i0), address(x.i1, y.i0),
                                            address(x.i0, y.i1), address(x.i1, y.i1)} &&
                  c.fraction_u == x.fraction && c.fraction_v == y.fraction &&
-                 c.level_weight == in.level_weight && c.kernel_weight == in.kernel_weight &&
-                 c.sum_log2 == in.sum_log2 && c.format == static_cast<std::uint8_t>(t.format) &&
+                 c.level_weight == in.level_weight && c.index == in.index &&
+                 c.last_index == in.last_index && c.format == static_cast<std::uint8_t>(t.format) &&
                  c.last_of_sample == in.last_of_sample && c.last_of_fragment == in.last_of_fragment;
         });
   }

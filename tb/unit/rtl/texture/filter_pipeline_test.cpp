@@ -2,6 +2,8 @@
 // The FilterPipeline alone. Expected colours are worked out by hand from docs/number_formats.md.
 #include "rtl_model/texture/filter_pipeline.h"
 
+#include <cmath>
+
 #include "tb/unit/rtl/texture/support.h"
 
 namespace deburr::tb::texture_rtl {
@@ -11,8 +13,19 @@ using namespace rtl::texture;
 using spec::texture::Format;
 using testing::ElementsAre;
 
+spec::texture::Rules rules(spec::texture::Kernel kernel = spec::texture::Kernel::kBox,
+                           spec::texture::CountRule count = spec::texture::CountRule::kFloor,
+                           spec::texture::SrgbOutput output = spec::texture::SrgbOutput::kLinear) {
+  spec::texture::Rules r;
+  r.kernel = kernel;
+  r.count = count;
+  r.srgb_output = output;
+  return r;
+}
+
 struct FilterBench {
-  FilterBench() {
+  explicit FilterBench(const spec::texture::Rules& built = rules())
+      : unit("unit", clock, built, probe) {
     unit.texels_in(ends.in);
     unit.colours_out(ends.out);
   }
@@ -22,7 +35,7 @@ struct FilterBench {
   }
   ClockDomain clock{"clock", period()};
   rtl::LatencyProbe probe;
-  FilterPipeline unit{"unit", clock, probe};
+  FilterPipeline unit;
   Ends<TexelQuadToken, spec::texture::Colour> ends{clock};
 };
 
@@ -31,7 +44,7 @@ TexelQuadToken request(Format format, std::array<std::uint32_t, 4> texel, std::u
                        std::uint8_t v = 0) {
   TexelQuadToken token{};
   token.ticket = {42, 3, true, true, 0};
-  token.control = {u, v, 256, 1, 0, static_cast<std::uint8_t>(format), true, true};
+  token.control = {u, v, 256, 0, 0, static_cast<std::uint8_t>(format), true, true};
   token.texel = texel;
   return token;
 }
@@ -81,43 +94,95 @@ TEST(TextureRtlFilter, BilinearByHand) {
     EXPECT_EQ(b.ends.sink.taken[i].token.rgba[2], expected[i]) << i;
 }
 
-// (0, 1) at 1/256 is 16 / 4096. At 8/256 towards zero: 16 x 248 + 128 = 4096, >> 8 = 16; at 9/256:
-// 16 x 247 + 128 = 4080, >> 8 = 15. Eight samples of weight 16 bring that to either side of a half.
+// (0, 1) at 182/256 is 16 x 182 of 4096. At 76/256 towards zero: 16 x 182 x 180 = 524160, and 128
+// more is 2048 x 256: a half, though the exact product is below it. 16 x 183 x 179 = 524112 is not.
+constexpr std::array<std::array<std::uint8_t, 2>, 2> kNextToHalf = {{{182, 180}, {183, 179}}};
+
 TEST(TextureRtlFilter, VerticalLerpRoundsTo12Bits) {
   FilterBench b;
-  for (const std::uint8_t v : std::to_array<std::uint8_t>({8, 9}))
-    for (int i = 0; i < 8; ++i) {
-      TexelQuadToken token = request(Format::kRgba8, grey(0, 1, 0, 0), 1, v);
-      token.control.kernel_weight = 16;
-      token.control.last_of_fragment = i == 7;
-      b.add(token);
-    }
-  b.clock.run(100);
-  ASSERT_EQ(b.ends.sink.taken.size(), 2u);
-  EXPECT_EQ(b.ends.sink.taken[0].token.rgba[0], 1);  // 8 x 16 x 16 = 2048 of 4096
-  EXPECT_EQ(b.ends.sink.taken[1].token.rgba[0], 0);  // 8 x 16 x 15 = 1920
-}
-
-// The same for the blend of two levels: 16 x 248 and 0 x 8, 16 x 247 and 0 x 9.
-TEST(TextureRtlFilter, LevelLerpRoundsTo12Bits) {
-  FilterBench b;
-  for (const std::uint16_t weight : std::to_array<std::uint16_t>({8, 9}))
-    for (int i = 0; i < 8; ++i) {
-      TexelQuadToken finer = request(Format::kRgba8, grey(0, 1, 0, 1), 1, 0);
-      finer.control.kernel_weight = 16;
-      finer.control.level_weight = static_cast<std::uint16_t>(256 - weight);
-      finer.control.last_of_sample = finer.control.last_of_fragment = false;
-      b.add(finer);
-      TexelQuadToken coarser = request(Format::kRgba8, {});
-      coarser.control.kernel_weight = 16;
-      coarser.control.level_weight = weight;
-      coarser.control.last_of_fragment = i == 7;
-      b.add(coarser);
-    }
-  b.clock.run(100);
+  for (const auto& [u, up] : kNextToHalf)
+    b.add(request(Format::kRgba8, grey(0, 1, 0, 0), u, static_cast<std::uint8_t>(256 - up)));
+  b.clock.run(30);
   ASSERT_EQ(b.ends.sink.taken.size(), 2u);
   EXPECT_EQ(b.ends.sink.taken[0].token.rgba[0], 1);
   EXPECT_EQ(b.ends.sink.taken[1].token.rgba[0], 0);
+}
+
+// The same for the blend of two levels.
+TEST(TextureRtlFilter, LevelLerpRoundsTo12Bits) {
+  FilterBench b;
+  for (const auto& [u, weight] : kNextToHalf) {
+    TexelQuadToken finer = request(Format::kRgba8, grey(0, 1, 0, 1), u, 0);
+    finer.control.level_weight = weight;
+    finer.control.last_of_sample = finer.control.last_of_fragment = false;
+    b.add(finer);
+    TexelQuadToken coarser = request(Format::kRgba8, {});
+    coarser.control.level_weight = static_cast<std::uint16_t>(256 - weight);
+    b.add(coarser);
+  }
+  b.clock.run(30);
+  ASSERT_EQ(b.ends.sink.taken.size(), 2u);
+  EXPECT_EQ(b.ends.sink.taken[0].token.rgba[0], 1);
+  EXPECT_EQ(b.ends.sink.taken[1].token.rgba[0], 0);
+}
+
+// A fragment of N samples of these values, L8.
+void add_fragment(FilterBench& b, const std::vector<std::uint32_t>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    TexelQuadToken sample = request(Format::kRgba8, grey(values[i], 0, 0, 0));
+    sample.control.index = static_cast<std::uint8_t>(i);
+    sample.control.last_index = static_cast<std::uint8_t>(values.size() - 1);
+    sample.control.last_of_fragment = i + 1 == values.size();
+    b.add(sample);
+  }
+}
+
+// Each weight of each N alone, times 255: round(255 w / 256). Together they are 1: 255 stays 255.
+void check_weights(const spec::texture::Rules& built, int kernel, std::vector<std::size_t> counts) {
+  FilterBench b(built);
+  std::vector<int> expected;
+  for (const std::size_t n : counts) {
+    for (std::size_t one = 0; one < n; ++one) {
+      std::vector<std::uint32_t> values(n, 0);
+      values[one] = 255;
+      add_fragment(b, values);
+      // By the contract's formula, from the middle outwards on both sides.
+      const auto shape = [&](std::size_t i) -> double {
+        return kernel == 0 || n < 4 ? 1 : static_cast<double>(std::min(2 * i + 1, 2 * (n - i) - 1));
+      };
+      double all = 0;
+      for (std::size_t i = 0; i < n; ++i) all += shape(i);
+      const auto rounded = [&](std::size_t j) {
+        const bool far = 2 * j > n;
+        double sum = 0;
+        for (std::size_t i = 0; i < (far ? n - j : j); ++i) sum += shape(i);
+        const int r = static_cast<int>(std::floor(256 * sum / all + 0.5));
+        return far ? 256 - r : r;
+      };
+      const int weight = rounded(one + 1) - rounded(one);
+      expected.push_back((255 * weight + 128) / 256);
+    }
+    add_fragment(b, std::vector<std::uint32_t>(n, 255));
+    expected.push_back(255);
+  }
+  b.clock.run(6000);
+  ASSERT_EQ(b.ends.sink.taken.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_EQ(b.ends.sink.taken[i].token.rgba[1], expected[i]) << i;
+}
+const std::vector<std::size_t> kEveryCount = {1, 2,  3,  4,  5,  6,  7,  8,
+                                              9, 10, 11, 12, 13, 14, 15, 16};
+
+TEST(TextureRtlFilter, BoxOfAPowerOfTwo) { check_weights(rules(), 0, {1, 2, 4, 8, 16}); }
+TEST(TextureRtlFilter, BoxOfAnyCount) {
+  check_weights(rules(spec::texture::Kernel::kBox, spec::texture::CountRule::kAny), 0, kEveryCount);
+}
+TEST(TextureRtlFilter, TentOfAnyCount) {
+  check_weights(rules(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny), 1,
+                kEveryCount);
+}
+TEST(TextureRtlFilter, TentOfAPowerOfTwo) {
+  check_weights(rules(spec::texture::Kernel::kTent), 1, {1, 2, 4, 8, 16});
 }
 
 TEST(TextureRtlFilter, LevelsAndSamples) {
@@ -130,53 +195,64 @@ TEST(TextureRtlFilter, LevelsAndSamples) {
   coarser.control.level_weight = 64;
   b.add(finer);
   b.add(coarser);
-  // A tent of four: (0 + 3 x 80 + 3 x 160 + 240) / 8 = 120.
-  for (const auto& [value, weight] :
-       {std::pair<std::uint32_t, std::uint8_t>{0, 1}, {80, 3}, {160, 3}, {240, 1}}) {
-    TexelQuadToken sample = request(Format::kRgba8, grey(value, 0, 0, 0));
-    sample.control.kernel_weight = weight;
-    sample.control.sum_log2 = 3;
-    sample.control.last_of_fragment = value == 240;
-    b.add(sample);
-  }
-  // Sixteen samples of 255 in a box, and in the tent whose weights sum to 128.
-  for (const bool tent : {false, true})
-    for (unsigned i = 0; i < 16; ++i) {
-      TexelQuadToken sample = request(Format::kRgba8, grey(255, 0, 0, 0));
-      sample.control.kernel_weight =
-          static_cast<std::uint8_t>(tent ? 2 * std::min(i, 15 - i) + 1 : 1);
-      sample.control.sum_log2 = tent ? 7 : 4;
-      sample.control.last_of_fragment = i == 15;
-      b.add(sample);
-    }
+  // A box of four: (0 + 80 + 161 + 240) / 4 = 120.25.
+  add_fragment(b, {0, 80, 161, 240});
   // A fragment of an invalid descriptor: weight 0.
   TexelQuadToken invalid = request(Format::kRgb565, {~0u, ~0u, ~0u, ~0u});
-  invalid.control.kernel_weight = 0;
+  invalid.ticket.valid = false;
   b.add(invalid);
   b.clock.run(80);
-  ASSERT_EQ(b.ends.sink.taken.size(), 5u);
+  ASSERT_EQ(b.ends.sink.taken.size(), 3u);
   EXPECT_THAT(b.ends.sink.taken[0].token.rgba, ElementsAre(125, 125, 125, 125));
   EXPECT_EQ(b.ends.sink.taken[1].token.rgba[0], 120);
-  EXPECT_EQ(b.ends.sink.taken[2].token.rgba[0], 255);
-  EXPECT_EQ(b.ends.sink.taken[3].token.rgba[0], 255);
-  EXPECT_THAT(b.ends.sink.taken[4].token.rgba, ElementsAre(0, 0, 0, 0));
+  EXPECT_THAT(b.ends.sink.taken[2].token.rgba, ElementsAre(0, 0, 0, 0));
 }
 
-TEST(TextureRtlFilter, LatencyIsEight) {
-  FilterBench b;
+// Every code of an unfiltered texel leaves as it came; other formats and alpha are not touched.
+TEST(TextureRtlFilter, EncodedCodesComeBack) {
+  FilterBench b(rules(spec::texture::Kernel::kBox, spec::texture::CountRule::kFloor,
+                      spec::texture::SrgbOutput::kEncoded));
+  for (std::uint32_t code = 0; code < 256; ++code) {
+    b.add(request(Format::kSrgb8A8, {code * 0x01010101, 0, 0, 0}));
+    b.add(request(Format::kRgba8, {code * 0x01010101, 0, 0, 0}));
+  }
+  TexelQuadToken invalid = request(Format::kSrgb8A8, {~0u, ~0u, ~0u, ~0u});
+  invalid.ticket.valid = false;
+  b.add(invalid);
+  // Half way from 0 to 1 in linear light is code 188, where the codes' mean would be 128.
+  b.add(request(Format::kSrgb8A8, {0, ~0u, 0, ~0u}, 128, 0));
+  b.clock.run(600);
+  ASSERT_EQ(b.ends.sink.taken.size(), 514u);
+  for (std::uint32_t i = 0; i < 512; ++i)
+    EXPECT_THAT(b.ends.sink.taken[i].token.rgba, testing::Each(i / 2)) << i;
+  EXPECT_THAT(b.ends.sink.taken[512].token.rgba, testing::Each(0));
+  EXPECT_THAT(b.ends.sink.taken[513].token.rgba, ElementsAre(188, 188, 188, 128));
+}
+
+void check_latency(const spec::texture::Rules& built, Cycle latency) {
+  FilterBench b(built);
   b.ends.sink.hold_to = 1000;
   b.probe.enters(0);
   b.ends.in.push(0, request(Format::kRgba8, grey(1, 0, 0, 0)));
   b.clock.run(1);
   const Cycle taken = 1;
-  b.clock.run(7);
-  EXPECT_FALSE(b.ends.out.can_pop(taken + 7));
+  b.clock.run(latency - 1);
+  EXPECT_FALSE(b.ends.out.can_pop(taken + latency - 1));
   b.clock.run(1);
-  EXPECT_TRUE(b.ends.out.can_pop(taken + 8));
+  EXPECT_TRUE(b.ends.out.can_pop(taken + latency));
+}
+TEST(TextureRtlFilter, LatencyIsEight) { check_latency(rules(), 8); }
+TEST(TextureRtlFilter, LatencyOfAWeightFromTheRomIsEight) {
+  check_latency(rules(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny), 8);
+}
+TEST(TextureRtlFilter, LatencyIsNineEncoded) {
+  check_latency(rules(spec::texture::Kernel::kBox, spec::texture::CountRule::kFloor,
+                      spec::texture::SrgbOutput::kEncoded),
+                9);
 }
 
-TEST(TextureRtlFilter, OneRequestAClockAndNothingLostInStalls) {
-  FilterBench b;
+void check_stalls(const spec::texture::Rules& built, Cycle latency) {
+  FilterBench b(built);
   for (std::uint32_t i = 0; i < 100; ++i) {
     TexelQuadToken token = request(Format::kL8, {i, 0, 0, 0});
     token.ticket.tag = i;
@@ -187,7 +263,7 @@ TEST(TextureRtlFilter, OneRequestAClockAndNothingLostInStalls) {
   b.clock.run(150);
   ASSERT_EQ(b.ends.sink.taken.size(), 100u);
   for (std::size_t i = 0; i < 100; ++i) {
-    const Cycle alone = i + 1 + 8;
+    const Cycle alone = i + 1 + latency;
     EXPECT_EQ(b.ends.sink.taken[i].cycle, alone < 40 ? alone : alone + 17);
     EXPECT_EQ(b.ends.sink.taken[i].token.tag, i);
     EXPECT_EQ(b.ends.sink.taken[i].token.rgba[0], i);
@@ -195,8 +271,18 @@ TEST(TextureRtlFilter, OneRequestAClockAndNothingLostInStalls) {
   // The link takes one colour more, and is free again a clock after its consumer goes on: the
   // pipeline stands still as long as the consumer does, with a token in every stage.
   EXPECT_EQ(b.unit.cycles_of(rtl::kStalledDownstream), 17u);
-  for (const rtl::Counter& stage : b.unit.occupancy) EXPECT_EQ(stage.value(), 100u + 17);
+  for (std::size_t stage = 0; stage < latency; ++stage)
+    EXPECT_EQ(b.unit.occupancy[stage].value(), 100u + 17);
+  if (latency == 8) {
+    EXPECT_EQ(b.unit.occupancy[8].value(), 0u);
+  }
   EXPECT_EQ(b.unit.fragments.value(), 100u);
+}
+TEST(TextureRtlFilter, OneRequestAClockAndNothingLostInStalls) { check_stalls(rules(), 8); }
+TEST(TextureRtlFilter, OneRequestAClockEncoded) {
+  check_stalls(rules(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny,
+                     spec::texture::SrgbOutput::kEncoded),
+               9);
 }
 
 TEST(TextureRtlFilter, ResetForgetsPartialSums) {
@@ -233,6 +319,32 @@ TEST(TextureRtlFilterSrgb, AWordIsNotThereInTheClockOfItsRead) {
 TEST(TextureRtlFilterSrgb, OneQuadAClock) {
   CodedBench b;
   EXPECT_THAT(of_a_second_token(b.unit, b.ends.in, b.token, b.clock), Refuses("srgb", kTooMany));
+}
+
+// The other tables: as many ports as are used, and none before its clock.
+struct WeightBench : FilterBench {
+  WeightBench()
+      : FilterBench(rules(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny,
+                          spec::texture::SrgbOutput::kEncoded)) {
+    add(token);
+    clock.run(2);
+  }
+  const TexelQuadToken token = request(Format::kRgba8, grey(1, 2, 3, 4));
+};
+TEST(TextureRtlFilterWeights, AWordIsNotThereInTheClockOfItsRead) {
+  WeightBench b;
+  EXPECT_THAT(of_a_stage_less(b.unit, b.clock), Refuses("weights", kEarly));
+}
+TEST(TextureRtlFilterWeights, OneSampleAClock) {
+  WeightBench b;
+  EXPECT_THAT(of_a_second_token(b.unit, b.ends.in, b.token, b.clock), Refuses("weights", kTooMany));
+}
+TEST(TextureRtlFilterWeights, HasNoPortForAnybodyElse) {
+  WeightBench b;
+  EXPECT_THAT((of_one_port_more<rtl::ReadPort<std::uint16_t>, std::uint16_t>(b.unit, "weights")),
+              Refuses("weights", "one port more than 1R"));
+  EXPECT_THAT((of_one_port_more<rtl::ReadPort<std::uint8_t>, std::uint8_t>(b.unit, "codes")),
+              Refuses("codes", "one port more than 3R"));
 }
 
 TEST(TextureRtlFilterSrgb, HasNoPortForAnybodyElse) {

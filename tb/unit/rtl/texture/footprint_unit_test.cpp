@@ -55,7 +55,7 @@ TEST(TextureRtlFootprint, EveryRuleByHand) {
     const auto& taken = benches[i]->ends.sink.taken;
     ASSERT_EQ(taken.size(), 3u);
     EXPECT_EQ(taken[0].token.d_max, rows[i].y);
-    EXPECT_EQ(taken[0].token.d_min, rows[i].x);
+    EXPECT_EQ(taken[0].token.minor, rows[i].x);
     EXPECT_EQ(taken[0].token.axis_s, 30);
     EXPECT_EQ(taken[0].token.axis_t, 40);
     EXPECT_EQ(taken[1].token.d_max, rows[i].y);
@@ -131,11 +131,27 @@ TEST(TextureRtlFootprint, RootIsTheIntegerSquareRoot) {
                         y = square(t.size_s_y) + square(t.size_t_y);
     EXPECT_LE(square(r.d_max), std::max(x, y));
     EXPECT_GT(square(std::uint64_t{r.d_max} + 1), std::max(x, y));
-    EXPECT_LE(square(r.d_min), std::min(x, y));
-    EXPECT_GT(square(std::uint64_t{r.d_min} + 1), std::min(x, y));
+    EXPECT_LE(square(r.minor), std::min(x, y));
+    EXPECT_GT(square(std::uint64_t{r.minor} + 1), std::min(x, y));
   }
   EXPECT_EQ(b.ends.sink.taken.back().token.d_max, 13u << 16);
-  EXPECT_EQ(b.ends.sink.taken.back().token.d_min, 5u << 16);
+  EXPECT_EQ(b.ends.sink.taken.back().token.minor, 5u << 16);
+}
+
+// floor(sqrt) is 5 of both, but the column's square is larger: the root does not order them.
+TEST(TextureRtlFootprint, EqualRootsAreOrderedByTheirSquares) {
+  ClockDomain clock("clock", period());
+  FootprintBench b(clock, "", spec::texture::FootprintRule::kExact);
+  b.ends.source.add({ticket(), 0, 0, 10, 20, 30, 40, 3, 4, 5, 1});  // 25 and 26
+  b.ends.source.add({ticket(), 0, 0, 10, 20, 30, 40, 3, 4, 4, 3});  // a tie: the row
+  b.ends.source.add({ticket(), 0, 0, 10, 20, 30, 40, 5, 1, 3, 4});
+  clock.run(40);
+  ASSERT_EQ(b.ends.sink.taken.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(b.ends.sink.taken[i].token.d_max, 5u);
+    EXPECT_EQ(b.ends.sink.taken[i].token.minor, 5u);
+    EXPECT_EQ(b.ends.sink.taken[i].token.axis_s, i == 0 ? 30 : 10);
+  }
 }
 
 }  // namespace

@@ -24,14 +24,22 @@ std::vector<std::uint32_t> descriptor_registers() {
   return offsets;
 }
 
-class AfterReset : public testing::TestWithParam<spec::texture::Replacement> {
+using Variant = std::tuple<spec::texture::Replacement, spec::texture::Preset>;
+
+class AfterReset : public testing::TestWithParam<Variant> {
  protected:
   static spec::texture::Parameters parameters() {
     spec::texture::Parameters p;
+    if (std::get<1>(GetParam()) == spec::texture::Preset::kPaper) {
+      p = paper_rules();
+    } else {
+      p.axis_clocks = 4;
+      p.srgb_output = spec::texture::SrgbOutput::kEncoded;
+    }
     p.cache_bytes = 512;
     p.cache_outstanding = 4;
     p.cache_fifo_depth = 8;
-    p.cache_replacement = GetParam();
+    p.cache_replacement = std::get<0>(GetParam());
     return p;
   }
   State state() { return engine_state(bench.unit, bench.bus, descriptor_registers()); }
@@ -120,9 +128,11 @@ TEST_P(AfterReset, TheNextJobIsThatOfANewUnit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Texture, AfterReset,
-                         testing::Values(spec::texture::Replacement::kLru,
-                                         spec::texture::Replacement::kFifo,
-                                         spec::texture::Replacement::kRandom));
+                         testing::Combine(testing::Values(spec::texture::Replacement::kLru,
+                                                          spec::texture::Replacement::kFifo,
+                                                          spec::texture::Replacement::kRandom),
+                                          testing::Values(spec::texture::Preset::kPaper,
+                                                          spec::texture::Preset::kDeburr)));
 
 }  // namespace
 }  // namespace deburr::tb::texture_rtl

@@ -4,6 +4,7 @@
 // colour says where it was taken.
 #include "rtl_model/texture/texture_unit.h"
 
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -59,9 +60,7 @@ TEST(TextureRtlUnit, NearestGivesTheTexelsInOrder) {
   EXPECT_EQ(b.bus.read(reg::kBilinears), at);
 }
 
-void check_latency(spec::texture::FootprintRule rule, Cycle expected) {
-  spec::texture::Parameters p;
-  p.footprint = rule;
+void check_latency(const spec::texture::Parameters& p, Cycle expected) {
   UnitBench b(p);
   write_descriptor(b.bus, 0, nearest_texture(b.memory));
   b.source.add(quad_of(3, 5));
@@ -83,11 +82,17 @@ void check_latency(spec::texture::FootprintRule rule, Cycle expected) {
   EXPECT_EQ(b.unit.fragment_latency.count(), 8u);
   EXPECT_EQ(b.unit.fragment_latency.min(), expected);
 }
-TEST(TextureRtlUnit, LatencyOfANearestFragment) {
-  check_latency(spec::texture::FootprintRule::kHalf, 30);
-}
+TEST(TextureRtlUnit, LatencyOfANearestFragment) { check_latency(paper_rules(), 30); }
 TEST(TextureRtlUnit, LatencyWithExactFootprint) {
-  check_latency(spec::texture::FootprintRule::kExact, 47);
+  spec::texture::Parameters p = paper_rules();
+  p.footprint = spec::texture::FootprintRule::kExact;
+  check_latency(p, 47);
+}
+TEST(TextureRtlUnit, LatencyOfThePresetDeburr) { check_latency({}, 53); }
+TEST(TextureRtlUnit, LatencyEncoded) {
+  spec::texture::Parameters p = paper_rules();
+  p.srgb_output = spec::texture::SrgbOutput::kEncoded;
+  check_latency(p, 31);
 }
 
 TEST(TextureRtlUnit, LatencyHistogramCountsEveryFragment) {
@@ -129,6 +134,33 @@ TEST(TextureRtlUnit, WarmCacheGivesOneBilinearAClock) {
   for (std::size_t i = warm + 1; i < b.sink.taken.size(); ++i)
     EXPECT_EQ(b.sink.taken[i].cycle - b.sink.taken[i - 1].cycle, 8u);
 }
+
+// By the project's own rules: ratio 12 : 3 is 5 samples when it is a bit above 4, each of two
+// levels; the rate is a bilinear a clock just the same. Directions measured in several clocks end
+// at a fragment in so many.
+void check_warm(std::int32_t axis_clocks, std::int32_t long_side, Cycle clocks) {
+  spec::texture::Parameters p;
+  p.axis_clocks = axis_clocks;
+  UnitBench b(p);
+  spec::texture::Descriptor d = linear_texture(b.memory, 64);
+  d.max_anisotropy_log2 = 4;
+  write_descriptor(b.bus, 0, d);
+  const auto quad = [&](std::uint32_t tag) {
+    return quad_at(kOne / 2, kOne / 2, long_side * kTexel, 3 * kTexel, tag);
+  };
+  b.source.add(quad(0));
+  b.finish();
+  const std::size_t warm = b.sink.taken.size();
+  for (std::uint32_t i = 0; i < 50; ++i) b.source.add(quad(i));
+  ASSERT_TRUE(b.finish());
+  ASSERT_EQ(b.sink.taken.size(), warm + 200);
+  for (std::size_t i = warm + 1; i < b.sink.taken.size(); ++i)
+    EXPECT_EQ(b.sink.taken[i].cycle - b.sink.taken[i - 1].cycle, clocks);
+}
+TEST(TextureRtlUnit, WarmCacheOfThePresetDeburr) { check_warm(1, 13, 10); }
+TEST(TextureRtlUnit, WarmCacheWithDirectionsInTime) { check_warm(4, 13, 10); }
+TEST(TextureRtlUnit, FragmentCostsAxisClocksAtLeast) { check_warm(4, 3, 4); }
+TEST(TextureRtlUnit, FragmentCostsTwoLevelsAtLeast) { check_warm(2, 3, 2); }
 
 // Fragments of every cost in one stream: the distance of two colours is the cost of the second.
 TEST(TextureRtlUnit, FragmentCostsNTimesLevels) {
@@ -211,9 +243,12 @@ TEST(TextureRtlUnit, Registers) {
   p.count_cap = spec::texture::CountCap::kTexel;
   p.kernel = spec::texture::Kernel::kTent;
   p.spread = 102;
+  p.axes = spec::texture::Axes::kFour;
+  p.srgb_output = spec::texture::SrgbOutput::kEncoded;
   UnitBench b(p);
   EXPECT_EQ(b.bus.read(reg::kId), 0xDEB00001u);
-  EXPECT_EQ(b.bus.read(reg::kRules), 4u | 2u << 4 | 1u << 8 | 1u << 9 | 1u << 10 | 102u << 16);
+  EXPECT_EQ(b.bus.read(reg::kRules),
+            4u | 2u << 4 | 1u << 6 | 1u << 8 | 1u << 10 | 1u << 11 | 1u << 12 | 102u << 16);
   EXPECT_EQ(b.bus.read(reg::kControl), 1u);
   EXPECT_EQ(b.bus.read(reg::kStatus), 1u);
   EXPECT_EQ(b.bus.try_write(reg::kId, 0), tlm::TLM_COMMAND_ERROR_RESPONSE);
@@ -503,14 +538,32 @@ TEST(TextureRtlUnit, AccountsForItsMemories) {
   EXPECT_EQ(find("cache.miss_queue.failed").logical_bits(), 64u);
   // Ticket, control, four times (place, source, slot, turned), number of fills.
   EXPECT_EQ(find("cache.latency_fifo.entries").logical_bits(),
-            160u * (40 + 38 + 4 * (14 + 3 + 8 + 1) + 3));
+            22u * (40 + 38 + 4 * (14 + 3 + 8 + 1) + 3));
   EXPECT_EQ(find("filter.srgb").physical_bits(), 6u * 256 * 12);  // copies of 2R
+}
+
+// The tables of the rules that are not the paper's.
+TEST(TextureRtlUnit, AccountsForTheTablesOfItsRules) {
+  spec::texture::Parameters p;
+  p.srgb_output = spec::texture::SrgbOutput::kEncoded;
+  UnitBench b(p);
+  std::map<std::string, std::pair<std::uint64_t, std::string>> found;
+  for (const rtl::MemoryBase* memory : b.unit.memories()) {
+    EXPECT_EQ(memory->idealised(), "") << memory->name();
+    if (memory->memory_kind() == rtl::MemoryKind::kRom)
+      found[memory->name()] = {memory->physical_bits(), memory->built_as()};
+  }
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_EQ(found["unit.filter.weights"].first, 256u * 9);
+  EXPECT_EQ(found["unit.filter.codes"].first, 2u * 4096 * 8);
+  EXPECT_EQ(found["unit.filter.codes"].second, "2 copies of 2R");
+  EXPECT_EQ(found["unit.address.walker.reciprocal"].first, 16u * 17);
 }
 
 TEST(TextureRtlUnit, RefusesImpossibleParameters) {
   ClockDomain clock("clock", period());
   const auto error = [&](const char* name, auto change) -> std::string {
-    spec::texture::Parameters p;
+    spec::texture::Parameters p = sized({}, kMemoryLatency);
     change(p);
     try {
       rtl::texture::TextureUnit unit(name, clock, p);
@@ -531,6 +584,21 @@ TEST(TextureRtlUnit, RefusesImpossibleParameters) {
               HasSubstr("do not hold one set"));
   EXPECT_THAT(error("g", [](auto& p) { p.cache_ways = 16; }), HasSubstr("choose among at most 8"));
   EXPECT_THAT(error("h", [](auto& p) { p.cache_bytes = 65536; }), HasSubstr("at most 32768"));
+  EXPECT_THAT(error("i", [](auto& p) { p.cache_fifo_depth = 1; }), HasSubstr("at least 2 places"));
+  EXPECT_THAT(error("j", [](auto& p) { p.cache_fifo_depth = 0; }), HasSubstr("sizes it from"));
+  EXPECT_THAT(error("k", [](auto& p) { p.axis_clocks = 3; }), HasSubstr("power of two"));
+  EXPECT_THAT(error("l",
+                    [](auto& p) {
+                      p.axes = spec::texture::Axes::kFour;
+                      p.axis_clocks = 4;
+                    }),
+              HasSubstr("4 directions"));
+  EXPECT_THAT(error("m",
+                    [](auto& p) {
+                      p.axes = spec::texture::Axes::kTwo;
+                      p.axis_clocks = 2;
+                    }),
+              HasSubstr("so at most 1"));
   EXPECT_EQ(error("f",
                   [](auto& p) {
                     p.cache_bytes = 256;
