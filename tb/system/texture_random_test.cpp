@@ -105,7 +105,7 @@ struct WrongBuild {
   void (*change)(spec::texture::Parameters&);
 };
 constexpr std::array kWrongBuilds = {
-    WrongBuild{"axes", [](auto& p) { p.axes = spec::texture::Axes::kFour; }},
+    WrongBuild{"axes", [](auto& p) { p.axes = spec::texture::Axes::kEight; }},
     WrongBuild{"measure", [](auto& p) { p.footprint = spec::texture::FootprintRule::kTwoSegment; }},
     WrongBuild{"count", [](auto& p) { p.count = spec::texture::CountRule::kCeil; }},
     WrongBuild{"kernel", [](auto& p) { p.kernel = spec::texture::Kernel::kTent; }},

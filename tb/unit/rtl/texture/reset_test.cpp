@@ -33,6 +33,7 @@ class AfterReset : public testing::TestWithParam<Variant> {
     if (std::get<1>(GetParam()) == spec::texture::Preset::kPaper) {
       p = paper_rules();
     } else {
+      p.axes = spec::texture::Axes::kEight;
       p.axis_clocks = 4;
       p.srgb_output = spec::texture::SrgbOutput::kEncoded;
     }

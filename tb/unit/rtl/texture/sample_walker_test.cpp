@@ -77,9 +77,11 @@ TEST(TextureRtlWalker, SpreadByKernel) {
 TEST(TextureRtlWalker, AnyCountByTheFormula) {
   ClockDomain clock("clock", period());
   using spec::texture::Kernel;
-  for (const auto& [name, kernel, spread] :
-       {std::tuple{"box_", Kernel::kBox, 64}, {"tent_", Kernel::kTent, 102}}) {
-    WalkerBench b(clock, name, kernel, spread, spec::texture::CountRule::kAny);
+  WalkerBench box(clock, "box_", Kernel::kBox, 64, spec::texture::CountRule::kAny),
+      tent(clock, "tent_", Kernel::kTent, 102, spec::texture::CountRule::kAny);
+  for (const auto& [bench, kernel, spread] :
+       {std::tuple{&box, Kernel::kBox, 64}, {&tent, Kernel::kTent, 102}}) {
+    WalkerBench& b = *bench;
     const std::int64_t axes[] = {1 << 20, -(1 << 20), 3, -5, 1234567891, -6074000999};
     for (const std::int64_t axis : axes)
       for (std::uint8_t last = 0; last < 16; ++last)
