@@ -54,7 +54,7 @@ TextureMaps::TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& uni
       [this, at](rtl::Cycle, const LevelToken& token) {
         at(token.ticket.tag, token.ticket.lane, [&](int x, int y) {
           constexpr double kFraction = 1.0 / 256;
-          samples_.add(x, y, token.count);
+          samples_.add(x, y, token.last_index + 1U);
           level_.set(x, y, token.level + kFraction * token.fraction);
           misses_.add(x, y, 0);
         });
