@@ -73,7 +73,8 @@ TextureMaps::TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& uni
   monitors_.push_back(std::make_unique<Monitor<spec::texture::Colour>>(
       clock, colours, [this, at](rtl::Cycle cycle, const spec::texture::Colour& colour) {
         at(colour.tag, colour.lane, [&](int x, int y) {
-          latency_.add(x, y, static_cast<double>(cycle - taken_[colour.tag]));
+          // It can be taken in the clock behind.
+          latency_.add(x, y, static_cast<double>(cycle + 1 - taken_[colour.tag]));
         });
       }));
 }

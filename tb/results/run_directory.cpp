@@ -44,8 +44,8 @@ Json read_json(const fs::path& file) {
 // What a manifest says its run left, in the order in which it got there. Only what a run can have
 // written there: a manifest from elsewhere must not make others' files go.
 std::vector<std::string> files_of(const fs::path& manifest) {
-  constexpr std::array<std::string_view, 5> kExtensions = {".png", ".json", ".html", ".vcd",
-                                                           ".trace"};
+  constexpr std::array<std::string_view, 6> kExtensions = {".png",  ".pfm", ".json",
+                                                           ".html", ".vcd", ".trace"};
   std::vector<std::string> names;
   const Json json = read_json(manifest);
   if (!json.is_object() || !json.contains("files") || !json["files"].is_array()) return names;
