@@ -154,7 +154,7 @@ void TextureEnvironment::expect_from_golden() {
   driver_.on_send = [this](rtl::Cycle, const spec::texture::Quad& quad) {
     golden_.process(quad, [this](const spec::texture::Colour& colour) {
       colour_board_.expect(colour);
-      show(quad_, colour, golden_frame_);
+      tb::show(quad_, colour, golden_frame_);
     });
   };
 }
@@ -245,7 +245,7 @@ void TextureEnvironment::judge(rtl::Cycle cycle, const spec::texture::Colour& co
   const bool trusted = !golden() || colour_board_.mismatches() == before;
   const TracedQuad* quad = sent_.take(colour, trusted);
   if (!quad || !quad->shows(colour.lane)) return;
-  show(*quad, colour, frame_);
+  tb::show(*quad, colour, frame_);
   came_[frame_.index(quad->x(colour.lane), quad->y(colour.lane))] = 1;
 }
 

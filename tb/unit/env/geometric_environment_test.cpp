@@ -187,6 +187,8 @@ class Painted final : public Environment {
   Boards traffic() const override { return part.traffic(); }
   Boards counters() const override { return part.counters(); }
   void collect(Result& result) const override { part.collect(result); }
+  void show_parts(Observer& observer) const override { part.show_parts(observer); }
+  std::vector<PictureMap> maps() const override { return part.maps(); }
   void collect_headline(Result& result) const override { part.collect_headline(result); }
 
   GeometricEnvironment part;
