@@ -116,6 +116,18 @@ void Environment::add(Result& result, std::string_view name, const rtl::MemoryBa
   result.memories.push_back(memory_figures(figure(name), memory, width));
 }
 
+namespace {
+
+// What is inside a FIFO is shown under the FIFO's name, which its memory has.
+const sc_core::sc_object& fifo_or_link(const rtl::Engine& engine, const rtl::LinkBase& link) {
+  for (const rtl::MemoryBase* memory : engine.memories())
+    if (memory->high_water() && link.name() == std::string(memory->name()) + "_entries")
+      return *memory;
+  return link;
+}
+
+}  // namespace
+
 void Environment::show(Observer& observer, const rtl::Engine& engine) const {
   const auto name = [&](const sc_core::sc_object& object) {
     return figure(name_within(engine, object));
@@ -126,7 +138,8 @@ void Environment::show(Observer& observer, const rtl::Engine& engine) const {
       observer.see(name(*port), *port);
   }
   for (const rtl::Counter* counter : engine.counters()) observer.see(name(*counter), *counter);
-  for (const rtl::LinkBase* link : engine.links()) observer.see(name(*link), *link);
+  for (const rtl::LinkBase* link : engine.links())
+    observer.see(name(fifo_or_link(engine, *link)), *link);
 }
 
 std::vector<PictureMap> Environment::named(std::vector<PictureMap> maps) const {

@@ -426,7 +426,8 @@
     add('rate-time', 'line', rates.flatMap((rate, i) => [
       line(`${rate.label}, ${rate.unit}`, colours[i], over(windows.series.work[rate.key.slice(5)], cycles)),
       ...(rate.bound > 0 ? [line(`bound ${rate.bound} ${rate.unit}`, colours[i],
-          labels.map(() => rate.bound), {borderDash: [5, 4], borderWidth: 1, pointRadius: 0})] : [])
+          labels.map(() => rate.bound),
+          {borderDash: [5, 4], borderWidth: 1, pointRadius: 0, backgroundColor: 'transparent'})] : [])
     ]), 'throughput');
 
     const unit = windows.series.units[byId('time-unit').value];

@@ -88,7 +88,7 @@ class Windows(unittest.TestCase):
         with tempfile.TemporaryDirectory() as out:
             run(out, *ENGINES["texture"], "--windows", "300")
             result = load(out)
-            fifo = result["links"]["latency_fifo_entries_entries"]
+            fifo = result["links"]["latency_fifo_entries"]
             self.assertEqual(fifo["most"], result["memories"]["latency_fifo_entries"]["high_water"])
             for name, link in result["links"].items():
                 with self.subTest(name):
