@@ -86,6 +86,8 @@
     const ink = colour('--ink'), muted = colour('--muted'), rule = colour('--rule');
     const palette = [colour('--accent'), '#c2571a', '#3a8f5c', '#8a5fb0', '#b08a1e', '#b33a6b', '#4a7f8f', '#7a6a58'];
     const names = data.sweeps.map((s) => s.name);
+    for (const badge of document.querySelectorAll('.letter'))
+      badge.style.background = palette[names.indexOf(badge.textContent) % palette.length];
     const metrics = data.metrics;
     const finite = (v) => typeof v === 'number';
     const shown = (v) => v === null || v === undefined ? '-' : v === 'inf' ? 'identical'

@@ -90,7 +90,6 @@ class ComparisonPage {
       list << data;
     }
     page_.set("inputs", list);
-    page_.set("columns", std::to_string(inputs.size()));
     std::string title;
     for (const Json& input : inputs)
       title +=
@@ -150,6 +149,7 @@ class ComparisonPage {
       tiles << tile;
     }
     page_.set("tiles", tiles);
+    page_.set("tile_columns", runs.size() > 2 ? "2" : "1");
   }
 
   static mustache::data rows_of(const Json& figures, bool bars) {

@@ -249,7 +249,7 @@ TEST_P(ComparisonPage, ShowsTheFrontsOfSweeps) {
   EXPECT_GT(share(page, GetParam().page, 0, page.height), 0.02);
   EXPECT_GT(share(page, GetParam().accent, page.height / 4, page.height), 0.0005)
       << "no points of A";
-  EXPECT_GT(share(page, {0xC2, 0x57, 0x1A, 255}, page.height / 4, page.height), 0.0003)
+  EXPECT_GT(share(page, {0xC2, 0x57, 0x1A, 255}, page.height / 4, page.height), 0.0001)
       << "no points of B";
 }
 

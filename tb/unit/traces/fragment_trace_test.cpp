@@ -75,7 +75,8 @@ void expect_same(const std::vector<TracedQuad>& a, const std::vector<TracedQuad>
 }
 
 TEST_P(FragmentTrace, IsReadBackToTheBit) {
-  expect_same(write_random(1, 5000), read());
+  const std::vector<TracedQuad> written = write_random(1, 5000);
+  expect_same(written, read());
   const FragmentReader reader(file_, kTextures);
   EXPECT_EQ(reader.format(), GetParam());
   EXPECT_EQ(reader.width(), 64);
