@@ -20,6 +20,9 @@
 #include "tb/app/texture_rules.h"
 #include "tb/app/texture_traces.h"
 #include "tb/env/texture_environment.h"
+#include "tb/env/texture_sequence.h"
+#include "tb/results/interrupt.h"
+#include "tb/results/progress.h"
 #include "tb/results/report.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
@@ -44,6 +47,7 @@ class TextureEngine final : public Engine {
     set.add("scene", ParameterKind::kInput, scene_);
     set.add("scene", ParameterKind::kInput, trace_in_);
     set.add("sampler", ParameterKind::kInput, sampler_);
+    set.add("sequence", ParameterKind::kInput, sequence_);
     set.add_engine("texture", texture_);
     add_memory(set, "memory", memory_);
   }
@@ -52,6 +56,9 @@ class TextureEngine final : public Engine {
     return joined(
         scene_shorthands("plane"),
         {{"--preset", "texture.preset", "paper or deburr (default)"},
+         {"--roll", "scene.roll", "Degrees by which the camera is turned"},
+         {"--frames", "sequence.frames", "Measures flicker over so many frames of a moving camera"},
+         {"--motion", "sequence.motion", "zoom, roll (default) or pan"},
          {"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene (default)"},
          {"--format", "sampler.format", "rgba8 (default), rgb565, rgba4444, l8, srgb8_a8"},
          {"--layout", "sampler.layout", "tiled (default) or linear"},
@@ -69,6 +76,7 @@ class TextureEngine final : public Engine {
     refuse_empty_lod_range(sampler_);
     refuse_unused_look_ups(set);
     if (foreign()) refuse_unused_scene(set);
+    if (sequence_.frames == 1) set.refuse("sequence.motion", "sequence.frames = 1 does not move");
   }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
@@ -96,6 +104,8 @@ class TextureEngine final : public Engine {
       if (writer) writer->finish();
       add_pictures(run, context, scene, environment, result);
     });
+    if (sequence_.frames > 1 && !result.interrupted && !context.judging_only())
+      measure_flicker(run, context, result);
   }
 
   void prepare(const RunParameters& run, RunContext& context) override {
@@ -108,6 +118,7 @@ class TextureEngine final : public Engine {
     Simulation simulation({});
     TextureEnvironment environment(simulation, scene, {});
     describe(simulation, environment, result);
+    add_flicker(result, {});
   }
 
  private:
@@ -244,11 +255,45 @@ class TextureEngine final : public Engine {
     }
   }
 
+  // Of the golden model's frames, which are the hardware's: the first was compared.
+  void measure_flicker(const RunParameters& run, const RunContext& context, Result& result) const {
+    Progress progress("flicker", static_cast<std::uint64_t>(sequence_.frames), "frame",
+                      context.quiet());
+    SequenceOptions options;
+    options.truth_samples = kTruthSamples;
+    options.truth = truth_options();
+    options.truth.interrupted = [] { return interrupted(); };
+    options.shown = [this](const Image& image, const TextureScene& scene) {
+      std::vector<bool> sky(image.pixels.size());
+      for (std::size_t i = 0; i < sky.size(); ++i) sky[i] = scene.stream().depth.pixels[i] == 0;
+      return stored(image, sky);
+    };
+    options.progress = [&](int frame) { progress.update(static_cast<std::uint64_t>(frame)); };
+    try {
+      add_flicker(result, flicker_of(scene_, sampler_, static_cast<std::uint32_t>(run.seed),
+                                     sequence_, {&texture_, 1}, options)
+                              .front());
+      result.figures.push_back({"Flicker over the frames", "work.flicker", "worst pair of frames",
+                                "work.flicker_worst"});
+    } catch (const Interrupted&) {
+      result.interrupted = true;
+    }
+  }
+
+  static void add_flicker(Result& result, const Flicker& flicker) {
+    result.work.push_back({"flicker", flicker.mean, "1/255",
+                           "Root mean square of what a pixel changes from frame to frame more or "
+                           "less than its truth, where sequence.frames is above 1."});
+    result.work.push_back(
+        {"flicker_worst", flicker.worst, "1/255", "The same of the pair of frames with the most."});
+  }
+
   LookUpTrace look_up_trace_;
   FragmentTraceOut trace_out_;
   FragmentTraceIn trace_in_;
   SceneParameters scene_;
   SamplerParameters sampler_;
+  SequenceParameters sequence_;
   spec::texture::Parameters texture_;
   MemoryParameters memory_;
   std::string preset_label_;

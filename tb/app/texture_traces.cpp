@@ -12,8 +12,9 @@ void refuse_unused_look_ups(const ParameterSet& set) {
 }
 
 void refuse_unused_scene(const ParameterSet& set) {
-  for (const char* name : {"scene.width", "scene.height", "scene.traversal", "scene.visibility",
-                           "scene.eye", "scene.target", "scene.fov"})
+  for (const char* name :
+       {"scene.width", "scene.height", "scene.traversal", "scene.visibility", "scene.eye",
+        "scene.target", "scene.fov", "scene.roll", "sequence.frames", "sequence.motion"})
     set.refuse(name, "the fragments come from the file scene.fragments (--fragments)");
   if (set.find("run.truth")->text() == "true")
     throw spec::ConfigError(

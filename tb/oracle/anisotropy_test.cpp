@@ -64,7 +64,8 @@ TEST(Anisotropy, ErrorFallsWithMipLevelsForEveryRule) {
       parameters.footprint = static_cast<spec::texture::FootprintRule>(footprint);
       parameters.log2 = static_cast<spec::texture::Log2Rule>(log2);
       for (const spec::texture::CountRule count :
-           {spec::texture::CountRule::kFloor, spec::texture::CountRule::kCeil}) {
+           {spec::texture::CountRule::kFloor, spec::texture::CountRule::kCeil,
+            spec::texture::CountRule::kAny}) {
         parameters.count = count;
         const Errors e = golden_errors(parameters, spec::texture::MinFilter::kLinearMipmapLinear);
         EXPECT_TRUE(falls_strictly(e))

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "golden/texture/configuration.h"
 #include "tb/oracle/conformance.h"
 #include "tb/stimuli/random.h"
 
@@ -13,7 +14,8 @@ namespace {
 using golden::ideal::Verdict;
 
 spec::texture::Parameters segments() {
-  spec::texture::Parameters parameters;
+  spec::texture::Parameters parameters =
+      golden::texture::preset_parameters(spec::texture::Preset::kPaper);
   parameters.log2 = spec::texture::Log2Rule::kSegments;
   return parameters;
 }
@@ -55,6 +57,26 @@ TEST_P(EveryFormat, IsHighInEveryModeWrapLayoutAndSize) {
   RecordProperty("largest_deviation", std::to_string(worst));
   std::printf("%lld fragments, largest deviation %.2f of 255 (%s)\n",
               static_cast<long long>(fragments), worst, where.c_str());
+}
+
+// The project's own rules: the ellipse's axis is longer than row and column, and still legal.
+TEST(DefaultRules, AreHighInEveryModeAndSize) {
+  for (const spec::texture::Axes axes :
+       {spec::texture::Axes::kTwo, spec::texture::Axes::kFour, spec::texture::Axes::kEight}) {
+    spec::texture::Parameters parameters;
+    parameters.axes = axes;
+    const FilterFactory filter = golden_filter(parameters);
+    std::uint32_t seed = 70000;
+    for (const Size& size : kFilteringSizes)
+      for (const Pattern pattern : {Pattern::kComposite, Pattern::kLevels, Pattern::kPyramid})
+        for (std::uint8_t mode = 0; mode < 6; ++mode) {
+          FilteringCase c{pattern, size, {}, 48, ++seed};
+          c.descriptor.min_filter = static_cast<spec::texture::MinFilter>(mode);
+          const CaseResult r = judge(c, filter);
+          ASSERT_EQ(r.verdict, Verdict::kHigh) << r.worst;
+          ASSERT_EQ(r.undecided, 0) << case_name(c);
+        }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(
