@@ -30,7 +30,6 @@ class Pipe {
   static_assert(kStages >= 2 && kStages <= 31);
 
  public:
-  static constexpr std::size_t kLength = kStages;
   // Nothing is on its way; what was in the last stage has left.
   bool empty() const { return (full_ & (kLast - 1)) == 0; }
   // No bubble between the stages.

@@ -56,13 +56,13 @@ Activity AxisUnit::tick(Cycle cycle) {
                                                        : advance(cycle, stages_);
 }
 
-template <class Stages>
-Activity AxisUnit::advance(Cycle cycle, Stages& stages) {
+template <std::size_t kLength>
+Activity AxisUnit::advance(Cycle cycle, Pipe<FootprintToken, kLength>& stages) {
   const bool arrives = clocks_left_ == 0 && derivatives_in.can_pop(cycle);
   if (stages.empty() && clocks_left_ == 0 && !arrives) return kIdle;
   if (stages.leaves() && !footprints_out.can_push(cycle)) return kStalledDownstream;
   stages.move();
-  if (const FootprintToken* done = stages.at(Stages::kLength)) footprints_out.push(cycle, *done);
+  if (const FootprintToken* done = stages.at(kLength)) footprints_out.push(cycle, *done);
   if (arrives) {
     if (more_clocks_ == 0) {
       turn(derivatives_in.front(cycle), stages.enter());

@@ -51,8 +51,8 @@ class AxisUnit final : public Unit {
     std::uint64_t measure;  // U16.16; `exact`: the square of its length, U31.32
     unsigned direction;     // U3, x 22.5 degrees
   };
-  template <class Stages>
-  Activity advance(Cycle cycle, Stages& stages);
+  template <std::size_t kLength>
+  Activity advance(Cycle cycle, Pipe<FootprintToken, kLength>& stages);
   void turn(const DerivativeToken& in, FootprintToken& out) const;
   Candidate longest(const DerivativeToken& in) const;
   std::uint64_t measure(std::uint64_t s, std::uint64_t t) const;

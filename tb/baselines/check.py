@@ -25,10 +25,14 @@ SHOWN = 12  # differences of a run
 
 RUNS = [
     # Anisotropic; a cache that stays warm; one that never is, far from memory; trilinear in between.
-    "texture --scene plane --size 256x256",
-    "texture --scene quad --size 256x256",
-    "texture --scene tunnel --size 256x256 --set texture.cache.bytes=4096 --set memory.latency=200",
-    "texture --scene tunnel --size 256x256",
+    # By the paper's rules and by the project's own, and with directions measured in turn.
+    *(f"texture --scene {scene} --preset {preset}"
+      for preset in ("paper", "deburr")
+      for scene in ("plane --size 256x256", "quad --size 256x256",
+                    "tunnel --size 256x256 --set texture.cache.bytes=4096 --set memory.latency=200",
+                    "tunnel --size 256x256")),
+    "texture --scene quad --size 256x256 --set texture.axes=eight --set texture.axis_clocks=4"
+    " --set texture.kernel=tent --set texture.srgb_output=encoded --format srgb8_a8",
     # A fifth and half of all pixels on edges, and the worst pattern.
     *(f"morphological --in @{frame}-256x144 --preset {preset} --lanes {lanes}"
       for frame in ("random_edges-200", "random_edges-500", "diagonals-2")

@@ -115,6 +115,11 @@ class Faults(CommandTest):
         self.assertEqual(result["checks"]["traffic_mismatches"], 0,
                          "addresses do not depend on texels")
 
+    def test_wrong_directions_and_samples(self):
+        for name in ("wrong-axis", "wrong-ratio", "wrong-count", "wrong-sample"):
+            with self.subTest(name):
+                self.fault(name, 1, "mismatch", *self.UNCHECKED)
+
     def test_wrong_replacement(self):
         _, result = self.fault("wrong-replacement", 1, "line fills", *self.CHECKED, "--set",
                                "texture.cache.bytes=1024")

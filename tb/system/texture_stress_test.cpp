@@ -75,6 +75,15 @@ TEST_P(EveryModeInAStorm, IsIdenticalToGolden) {
   options.memory.latency_max = 250;
   options.memory.banks = 2;
   options.memory.bank_busy = 5;
+  // The paper's rules and the project's own in turn, directions in time and encoded output too.
+  if ((mode + lb_n) % 2 == 0) {
+    options.texture = paper_rules();
+  } else {
+    options.texture.axes = spec::texture::Axes::kEight;
+    options.texture.axis_clocks = 1 << lb_n % 3;
+    options.texture.srgb_output = spec::texture::SrgbOutput::kEncoded;
+    sampler.format = spec::texture::Format::kSrgb8A8;
+  }
   options.texture.cache_bytes = 2048;
   options.texture.cache_outstanding = 8;
   options.texture.cache_fifo_depth = 24;

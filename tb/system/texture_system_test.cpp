@@ -11,6 +11,7 @@
 #include <string>
 #include <tuple>
 
+#include "tb/harness/forked.h"
 #include "tb/system/texture_runs.h"
 
 namespace deburr::tb {
@@ -37,7 +38,9 @@ TEST_P(EveryMode, IsIdenticalToGolden) {
   SamplerParameters sampler;
   sampler.mode = static_cast<spec::texture::MinFilter>(mode);
   sampler.anisotropy = static_cast<std::uint8_t>(lb_n);
-  expect_identical(simulate(picture(source, 128), sampler, {}));
+  for (const TextureRunOptions& options : {paper_options(), TextureRunOptions{}})
+    expect_identical(forked<TextureOutcome>(
+        [&] { return simulate(picture(source, 128), sampler, options); }));
 }
 
 INSTANTIATE_TEST_SUITE_P(
