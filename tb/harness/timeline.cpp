@@ -149,6 +149,7 @@ std::string Timeline::json() const {
     std::string text;
   };
   std::vector<Event> events;
+  events.reserve(slices_.size() + 2 * kept_.size());
   for (const Slice& s : slices_)
     events.push_back({s.from, 1,
                       fmt::format(R"({{"ph":"X","name":{},"cat":{},"pid":{},"tid":{},"ts":{},)"

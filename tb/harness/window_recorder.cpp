@@ -182,6 +182,7 @@ std::vector<WindowRecorder::Series> WindowRecorder::series() const {
 
 std::vector<WindowRecorder::Occupancy> WindowRecorder::occupancy() const {
   std::vector<Occupancy> all;
+  all.reserve(links_.size());
   for (const std::unique_ptr<WatchedLink>& watched : links_)
     all.push_back({watched->name, watched->link->name(), watched->link->pushes(), watched->clocks});
   return all;
