@@ -234,14 +234,15 @@ std::vector<Method> methods() {
     all.push_back(method);
   }
   all.push_back({"deburr", true, preset_parameters(Preset::kDeburr)});
+  all.push_back({"deburr-line", true, preset_parameters(Preset::kDeburrLine)});
   const auto with = [&](const char* name, void (*change)(Parameters&)) {
-    Method method{name, true, preset_parameters(Preset::kDeburr)};
+    Method method{name, true, preset_parameters(Preset::kDeburrLine)};
     change(method.parameters);
     all.push_back(method);
   };
-  with("deburr + diagonals", [](Parameters& p) { p.diagonals = true; });
-  with("deburr + corners", [](Parameters& p) { p.round_corners = true; });
-  with("deburr + strongest",
+  with("deburr-line + diagonals", [](Parameters& p) { p.diagonals = true; });
+  with("deburr-line + corners", [](Parameters& p) { p.round_corners = true; });
+  with("deburr-line + strongest",
        [](Parameters& p) { p.blend = spec::morphological::BlendRule::kStrongest; });
   return all;
 }

@@ -10,10 +10,11 @@
 #include <numbers>
 #include <utility>
 
-#include "tb/oracle/stand_ins.h"
 #include "tb/scene/image_io.h"
+#include "tb/scene/label.h"
 #include "tb/scene/truth.h"
 #include "tb/stimuli/random.h"
+#include "tb/training/stand_ins.h"
 
 namespace deburr::tb::training {
 namespace {
@@ -105,6 +106,27 @@ void add_meshes(std::vector<TruthFrame>& frames, const FrameOptions& options,
   }
 }
 
+// Meshes made by formula, seen with a checkerboard first and then in their own colours.
+void add_stand_ins(std::vector<TruthFrame>& frames, const FrameOptions& options,
+                   const std::vector<std::uint64_t>& seeds, int views) {
+  const Renderer renderer(options);
+  for (const char* kind : {"street", "vehicle", "forest"}) {
+    for (const std::uint64_t seed : seeds) {
+      const std::string group = fmt::format("{}{}", kind, seed);
+      renderer.add(frames, group, views, options.size, options.size, [&](int view) {
+        const std::filesystem::path folder =
+            std::filesystem::temp_directory_path() / fmt::format("deburr_training_{}", group);
+        std::filesystem::create_directories(folder);
+        SceneOptions plain;
+        plain.plain = view != 0;
+        Scene made = import_scene(write_stand_in(folder, kind, seed), plain);
+        std::filesystem::remove_all(folder);
+        return made;
+      });
+    }
+  }
+}
+
 struct Shape {
   enum class Kind : std::uint8_t { kDisc, kBar, kTriangle } kind;
   double x, y, size, width, cosine, sine;
@@ -178,6 +200,30 @@ TruthFrame shapes_frame(int width, int height, int samples, std::uint64_t seed) 
   return result;
 }
 
+Overlaid overlaid(const TruthFrame& frame) {
+  Overlaid result{frame, Mask(frame.frame.width, frame.frame.height)};
+  result.frame.name += "_text";
+  Random random(3, frame.name);
+  constexpr Rgba8 kInk{255, 255, 255, 255}, kPaper{0, 0, 0, 0};
+  for (int y = 6; y < frame.frame.height;) {
+    const int scale = random.between(1, 3);
+    const Image line =
+        label("speed 184.5 lap 3 of 12 - fuel 62 - frame time 16.7 ms", scale, kInk, kPaper);
+    const int x0 = random.between(0, 40);
+    const auto code = [&] { return static_cast<std::uint8_t>(random.below(256)); };
+    const Rgba8 colour = random.chance(500) ? kInk : Rgba8{code(), code(), code(), 255};
+    for (int j = 0; j < line.height && y + j < frame.frame.height; ++j) {
+      for (int i = 0; i < line.width && x0 + i < frame.frame.width; ++i) {
+        if (line.at(i, j) != kInk) continue;
+        result.frame.frame.at(x0 + i, y + j) = result.frame.truth.at(x0 + i, y + j) = colour;
+        result.ink.at(x0 + i, y + j) = 1;
+      }
+    }
+    y += line.height + 30;
+  }
+  return result;
+}
+
 std::vector<TruthFrame> own_frames(const FrameOptions& options) {
   const Renderer renderer(options);
   std::vector<TruthFrame> frames;
@@ -187,21 +233,7 @@ std::vector<TruthFrame> own_frames(const FrameOptions& options) {
     // Those of the quality matrix, in its size; the others from two sides.
     renderer.add(frames, name, 1, size, size, [&](int) { return make_scene(name); });
   }
-  for (const char* kind : {"street", "vehicle", "forest"}) {
-    for (const std::uint64_t seed : {11, 12}) {
-      const std::string group = fmt::format("{}{}", kind, seed);
-      renderer.add(frames, group, 2, size, size, [&](int view) {
-        const std::filesystem::path folder =
-            std::filesystem::temp_directory_path() / fmt::format("deburr_training_{}", group);
-        std::filesystem::create_directories(folder);
-        SceneOptions plain;
-        plain.plain = view != 0;
-        Scene made = import_scene(write_stand_in(folder, kind, seed), plain);
-        std::filesystem::remove_all(folder);
-        return made;
-      });
-    }
-  }
+  add_stand_ins(frames, options, {11, 12}, 2);
   for (int i = 0; i < options.shapes; ++i)
     frames.push_back(
         shapes_frame(size, size, options.samples, 100 + static_cast<std::uint64_t>(i)));
@@ -227,6 +259,9 @@ std::vector<TruthFrame> mesh_frames(const FrameOptions& options) {
 
 std::vector<TruthFrame> held_out_frames(const FrameOptions& options) {
   std::vector<TruthFrame> frames;
+  add_stand_ins(frames, options, {1}, 1);
+  for (const std::uint64_t seed : {1, 2, 3})
+    frames.push_back(shapes_frame(options.size, options.size, options.samples, seed));
   const std::filesystem::path folder = options.data / "frames";
   if (!options.data.empty() && std::filesystem::exists(folder / "track_720p_noaa.png")) {
     frames.push_back({"track_720p", "track", read_image(folder / "track_720p_noaa.png"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/oracle/stand_ins.h"
+#include "tb/training/stand_ins.h"
 
 #include <fmt/format.h>
 
