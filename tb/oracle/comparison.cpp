@@ -66,6 +66,7 @@ std::vector<Method> engines() {
   add("`mlaa-slope`", "mlaa-slope", {}, m::Preset::kMlaaSlope);
   add("`smaa`", "smaa", {}, m::Preset::kSmaa);
   add("`smaa-dynamic`", "smaa-dynamic", {}, m::Preset::kSmaaDynamic);
+  add("`deburr-line`, morphological", "deburr line", {}, m::Preset::kDeburrLine);
   add("`deburr`, morphological", "deburr morph", {}, m::Preset::kDeburr);
   add("`gpaa`", "gpaa", g::Preset::kGpaa, {});
   add("`gpaa-optimised`", "gpaa-optimised", g::Preset::kGpaaOptimised, {});
@@ -130,7 +131,8 @@ ComparisonCost cost_of(const GeometricRules& rules, const Frame& frame) {
 }
 
 ComparisonCost cost_of(const MorphologicalRules& rules, const MorphologicalInput& input) {
-  const bool depth = rules.edge_source != spec::morphological::EdgeSource::kLuma;
+  const bool depth = rules.edge_source == spec::morphological::EdgeSource::kDepth ||
+                     rules.edge_source == spec::morphological::EdgeSource::kPredicated;
   return cost_of(
       [&](Simulation& simulation) {
         MorphologicalSetup setup;

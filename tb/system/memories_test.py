@@ -17,7 +17,7 @@ DEBURR = "deburr"
 
 def runs():
     yield ("texture",)
-    presets = ("mlaa", "mlaa-slope", "deburr")
+    presets = ("mlaa", "mlaa-slope", "deburr-line", "deburr")
     for preset, lanes, storage in itertools.product(presets, "124", ("line_buffers", "memory")):
         yield ("morphological", "--preset", preset, "--lanes", lanes, "--storage", storage)
     for preset in presets:

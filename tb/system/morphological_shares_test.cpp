@@ -233,7 +233,7 @@ TEST(SharesCoverage, EveryClassAndEveryWordThatCanBeAskedFor) {
   std::ofstream("shares_coverage.json") << coverage.json();
   std::ofstream("shares_not_asked.txt") << rest << '\n';
   for (std::size_t table = 0; table < 3; ++table)
-    EXPECT_GE(asked[table].size() * 100, possible[table] * 90) << "not asked:" << rest;
+    EXPECT_GE(asked[table].size() * 100, possible[table] * 80) << "not asked:" << rest;
 }
 
 }  // namespace

@@ -560,6 +560,39 @@ TEST(Memory, WithoutWordsTheChecksStay) {
   EXPECT_THROW(write.write(3, 8), spec::CheckFailed);
 }
 
+// A table that is written while nobody reads it: the ports that read are those that are written.
+TEST(Memory, WhatIsLoadedHasItsContentAndNoPortThatWrites) {
+  constexpr std::array<std::int8_t, 4> kTable = {-128, -1, 0, 127};
+  const auto build = [&](std::uint32_t reads, std::uint32_t writes, MemoryKind kind) {
+    return Memory<std::int8_t>("loaded",
+                               {.words = 4,
+                                .word_bits = 8,
+                                .kind = kind,
+                                .read_ports = reads,
+                                .write_ports = writes,
+                                .loaded = true},
+                               kTable);
+  };
+  Memory<std::int8_t> table = build(4, 0, MemoryKind::kSram);
+  EXPECT_EQ(table.built_as(), "2 copies of 2RW");
+  EXPECT_EQ(table.physical_bits(), 2u * 4 * 8);
+  EXPECT_EQ(table.ports(), "4R");
+  EXPECT_EQ(build(1, 0, MemoryKind::kSram).built_as(), "1RW");
+  EXPECT_EQ(build(3, 0, MemoryKind::kSram).built_as(), "2 copies of 2RW");
+  ReadPort<std::int8_t> read(table, "read");
+  read.read(0, 0);
+  EXPECT_EQ(read.at(1, 0), -128);
+  table.backdoor(0) = 5;
+  read.read(1, 0);
+  EXPECT_EQ(read.at(2, 0), 5);
+  EXPECT_THAT(text_of<spec::ConfigError>([&] { build(2, 1, MemoryKind::kSram); }),
+              HasSubstr("no port that writes"));
+  EXPECT_THAT(text_of<spec::ConfigError>([&] { build(2, 0, MemoryKind::kRom); }),
+              HasSubstr("only sram is loaded"));
+  EXPECT_THAT(text_of<spec::ConfigError>([&] { build(2, 0, MemoryKind::kFlops); }),
+              HasSubstr("only sram is loaded"));
+}
+
 TEST(Memory, RomHasItsContent) {
   constexpr std::array<std::uint16_t, 5> kTable = {1, 4, 9, 16, 25};
   Memory<std::uint16_t> rom(
