@@ -218,9 +218,9 @@ INSTANTIATE_TEST_SUITE_P(EdgePermille, FullWidth,
                                             ::testing::Values(Preset::kDeburrLine,
                                                               Preset::kDeburr)),
                          [](const auto& param) {
-                           const auto [permille, which] = param.param;
-                           return std::to_string(permille) +
-                                  (which == Preset::kDeburr ? "_learned" : "_line");
+                           return std::to_string(std::get<0>(param.param)) +
+                                  (std::get<1>(param.param) == Preset::kDeburr ? "_learned"
+                                                                               : "_line");
                          });
 
 // Beyond that the slots wait, are counted, and nothing else changes.

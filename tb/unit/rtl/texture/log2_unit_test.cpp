@@ -82,9 +82,9 @@ TEST(TextureRtlLog2, LatencyOneAndThree) {
       return Log2Unit::log2(static_cast<Log2Rule>(rule), d);
     };
     EXPECT_EQ(taken[0].token.lb_max, log2(6u << 16));
-    EXPECT_EQ(taken[0].token.lb_min, log2(1u << 16));
+    EXPECT_EQ(taken[0].token.lb_minor, log2(1u << 16));
     EXPECT_EQ(taken[2].token.lb_max, log2(7u << 16));
-    EXPECT_EQ(taken[2].token.lb_min, log2(5));
+    EXPECT_EQ(taken[2].token.lb_minor, log2(5));
     EXPECT_EQ(taken[0].token.axis_s, 3);
     EXPECT_EQ(taken[0].token.axis_t, 4);
     EXPECT_EQ(taken[0].token.ticket.tag, 9u);
