@@ -123,10 +123,10 @@ Json value_at(const Json& result, const std::string& key) {
 Judgement judge(const std::string& key, std::optional<double> a, std::optional<double> b,
                 const Tolerances& tolerances, std::optional<bool> maximise) {
   Judge rule = judge_of(key);
-  if (rule == Judge::kMustBeZero)
-    return b.value_or(1) != 0           ? Judgement::kWorse
-           : a.value_or(0) != b.value() ? Judgement::kBetter
-                                        : Judgement::kEqual;
+  if (rule == Judge::kMustBeZero) {
+    if (b.value_or(1) != 0) return Judgement::kWorse;
+    return a.value_or(0) != 0 ? Judgement::kBetter : Judgement::kEqual;
+  }
   if (rule == Judge::kBits) a = a.value_or(0), b = b.value_or(0);  // none of a kind
   if (rule == Judge::kNone && maximise)
     rule = *maximise ? Judge::kMoreIsBetter : Judge::kLessIsBetter;

@@ -353,7 +353,8 @@ class SweepComparison {
   void count_joint_front(const std::vector<JointPoint>& points, Json& json) const {
     std::vector<std::pair<std::size_t, double>> goals;
     for (std::size_t m = 0; m < metrics_.size(); ++m)
-      if (metrics_[m].maximise) goals.emplace_back(m, *metrics_[m].maximise ? -1.0 : 1.0);
+      if (const std::optional<bool> maximise = metrics_[m].maximise)
+        goals.emplace_back(m, *maximise ? -1.0 : 1.0);
     if (goals.empty()) return;
     struct Cost {
       std::vector<double> goals;
