@@ -236,6 +236,23 @@ class Slurm(unittest.TestCase):
             self.wait_until_over(self.submit())
         self.check_complete(kept)
 
+    def test_killed_controller(self):
+        """Tasks go on without it; once it is back, nothing was lost or is run again."""
+        self.profile(tasks=2)
+        job = self.submit()
+        self.cluster.wait_for(lambda: self.done() > 0, "a first point")
+        self.cluster.processes["slurmctld"].kill()
+        self.cluster.processes["slurmctld"].wait()
+        kept = self.results()
+        self.assertLess(len(kept), POINTS)
+        self.assertIn("Slurm's controller does not answer", self.sweep("status", code=5))
+        self.cluster.start("slurmctld", "-D", "-f", self.cluster.conf)
+        self.cluster.wait_for(lambda: "UP" in self.cluster.ask("scontrol", "ping"), "the controller")
+        self.wait_until_over(job)
+        if len(self.results()) < POINTS:
+            self.wait_until_over(self.submit())
+        self.check_complete(kept)
+
     def test_held_and_drained(self):
         self.profile(options="[--hold]")
         job = self.submit()
