@@ -236,6 +236,23 @@ class Slurm(unittest.TestCase):
             self.wait_until_over(self.submit())
         self.check_complete(kept)
 
+    def test_killed_controller(self):
+        """Tasks go on without it; once it is back, nothing was lost or is run again."""
+        self.profile(tasks=2)
+        job = self.submit()
+        self.cluster.wait_for(lambda: self.done() > 0, "a first point")
+        self.cluster.processes["slurmctld"].kill()
+        self.cluster.processes["slurmctld"].wait()
+        kept = self.results()
+        self.assertLess(len(kept), POINTS)
+        self.assertIn("Slurm's controller does not answer", self.sweep("status", code=5))
+        self.cluster.start("slurmctld", "-D", "-f", self.cluster.conf)
+        self.cluster.wait_for(lambda: "UP" in self.cluster.ask("scontrol", "ping"), "the controller")
+        self.wait_until_over(job)
+        if len(self.results()) < POINTS:
+            self.wait_until_over(self.submit())
+        self.check_complete(kept)
+
     def test_held_and_drained(self):
         self.profile(options="[--hold]")
         job = self.submit()
@@ -248,6 +265,22 @@ class Slurm(unittest.TestCase):
         self.cluster.ask("scontrol", "release", job)
         self.wait_until_over(job)
         self.check_complete({})
+
+    def test_search(self):
+        """Each generation is a job that the search waits for; it asks for what a local one does."""
+        self.write("sweep.yaml", SWEEP.replace("160", "32") +
+                   "objectives: {minimise: [cycles, memory_bits]}\n")
+        search = [DEBURR, "search", "sweep.yaml", "--runs", "12", "--population", "8"]
+        asked = []
+        for more in (["--slurm", "profile.yaml"], ["--out", "local"]):
+            done = subprocess.run(search + more, cwd=self.directory, text=True, capture_output=True,
+                                  timeout=300)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertIn("12 points, 12 done (12 in this run)", done.stdout)
+            out = more[1] if more[0] == "--out" else "out"
+            with open(os.path.join(self.directory, out, "searches/sweep/points.jsonl")) as file:
+                asked.append(file.read())
+        self.assertEqual(*asked)
 
     def test_wrong_profile(self):
         def refused(*says, code=2, **settings):
