@@ -30,7 +30,6 @@ TEST(Textures, BytesAreRecorded) {
   EXPECT_EQ(fnv(make_texture("checker", 256, 256)), 0x1638216043702325u);
   EXPECT_EQ(fnv(make_texture("road", 256, 256)), 0x92BFFD600DB611FAu);
   EXPECT_EQ(fnv(make_texture("brick", 256, 256)), 0x745EF200A0983A91u);
-  EXPECT_EQ(fnv(make_texture("stones", 256, 256)), 0x0u);
   EXPECT_EQ(fnv(make_texture("zone_plate", 256, 256)), 0x8C3B57B520BCD7B5u);
   EXPECT_EQ(fnv(make_texture("gradient", 256, 256)), 0x32B8C7088B65CB25u);
   EXPECT_EQ(fnv(make_texture("noise", 256, 256)), 0x12F83692F78AA84u);
