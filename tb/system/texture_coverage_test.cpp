@@ -17,6 +17,7 @@ namespace deburr::tb {
 namespace {
 
 constexpr std::size_t kDirections = 8;
+constexpr std::array<std::string_view, 2> kTentBins = {"tent.narrow", "tent.wide"};
 constexpr std::array<std::string_view, 4> kCacheBins = {"hit", "miss", "merged", "queue_full"};
 
 Coverage declared() {
@@ -39,7 +40,6 @@ Coverage declared() {
   return coverage;
 }
 
-constexpr std::array<std::string_view, 2> kTentBins = {"tent.narrow", "tent.wide"};
 
 // What one run met; plain numbers, because it comes from another process.
 struct Met {
