@@ -17,19 +17,25 @@ namespace deburr::tb {
 TraceOutput::TraceOutput(std::filesystem::path file) : file_(std::move(file)) {
   descriptor_ = ::open(file_.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail("create", errno);
+  struct stat status {};
+  removable_ = ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
   buffer_.reserve(2 * kChunk);
 }
 
 TraceOutput::~TraceOutput() {
   if (descriptor_ < 0) return;
   ::close(descriptor_);
-  ::unlink(file_.c_str());
+  remove();
+}
+
+void TraceOutput::remove() const {
+  if (removable_) ::unlink(file_.c_str());
 }
 
 void TraceOutput::fail(std::string_view action, int reason) {
   if (descriptor_ >= 0) {
     ::close(descriptor_);
-    ::unlink(file_.c_str());
+    remove();
     descriptor_ = -1;
   }
   throw spec::FileError(fmt::format(
@@ -67,7 +73,7 @@ void TraceOutput::finish(std::string_view beginning) {
   const int descriptor = std::exchange(descriptor_, -1);
   if (::close(descriptor) != 0) {
     const int reason = errno;
-    ::unlink(file_.c_str());
+    remove();
     fail("close", reason);
   }
 }

@@ -69,10 +69,12 @@ class TraceOutput {
  private:
   static constexpr std::size_t kChunk = std::size_t{1} << 18;
   void flush();
+  void remove() const;
   [[noreturn]] void fail(std::string_view action, int reason);
 
   std::filesystem::path file_;
   int descriptor_ = -1;
+  bool removable_ = false;  // a regular file: not /dev/null, where a run that only judges writes
   std::uint64_t size_ = 0;
   std::string buffer_;
 };

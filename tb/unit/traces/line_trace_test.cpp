@@ -3,8 +3,10 @@
 // burst, the bytes that are enabled.
 #include "tb/traces/line_trace.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -129,6 +131,17 @@ TEST_F(Lines, OfNobodyAreRefused) {
   { const LineTrace dropped(file_, {}); }
   bench.clock.run(100);
   EXPECT_FALSE(fs::exists(file_));
+}
+
+// What is no file stays: a run that only judges writes to the null device.
+TEST(TraceOutput, RemovesOnlyFiles) {
+  const fs::path pipe = fs::temp_directory_path() / ("deburr_pipe_" + std::to_string(::getpid()));
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  { const TraceOutput output(pipe); }
+  EXPECT_TRUE(fs::exists(pipe));
+  ::close(reader);
+  fs::remove(pipe);
 }
 
 }  // namespace
