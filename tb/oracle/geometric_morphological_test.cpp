@@ -36,7 +36,7 @@ using tb::geometric::Judge;
 constexpr int kWidth = 640, kHeight = 480;
 
 Parameters rules(Leave leave = Leave::kNone) {
-  Parameters p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr);
+  Parameters p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
   p.leave = leave;
   return p;
 }

@@ -34,7 +34,7 @@ constexpr int kWidth = 640, kHeight = 480;
 // geometric_morphological_test.cpp.
 Image morphological_after(const Image& geometric, Leave leave) {
   spec::morphological::Parameters rules =
-      golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr);
+      golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
   rules.leave = leave;
   golden::morphological::MorphologicalGolden golden(
       rules, golden::morphological::MorphologicalGolden::Detail::kPixels);
