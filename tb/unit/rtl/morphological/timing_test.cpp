@@ -217,10 +217,10 @@ INSTANTIATE_TEST_SUITE_P(EdgePermille, FullWidth,
                          ::testing::Combine(::testing::Values(50, 100, 200),
                                             ::testing::Values(Preset::kDeburrLine,
                                                               Preset::kDeburr)),
-                         [](const auto& param) {
-                           return std::to_string(std::get<0>(param.param)) +
-                                  (std::get<1>(param.param) == Preset::kDeburr ? "_learned"
-                                                                               : "_line");
+                         [](const auto& each) {
+                           const char* const shares =
+                               std::get<1>(each.param) == Preset::kDeburr ? "_learned" : "_line";
+                           return std::to_string(std::get<0>(each.param)) + shares;
                          });
 
 // Beyond that the slots wait, are counted, and nothing else changes.
