@@ -264,9 +264,9 @@ int main(int argc, char** argv) {
   if (argc == 4 && std::string(argv[1]) == "--cycles") {
     constexpr std::string_view kPreset = "deburr_";
     std::string name = argv[2];
-    const bool deburr = name.starts_with(kPreset);
-    if (deburr) name.erase(0, kPreset.size());
-    System& system = System::only(deburr ? spec::texture::Parameters{} : paper_rules());
+    const bool own_rules = name.starts_with(kPreset);
+    if (own_rules) name.erase(0, kPreset.size());
+    System& system = System::only(own_rules ? deburr::spec::texture::Parameters{} : paper_rules());
     for (std::size_t i = 0; i < kWorkloads.size(); ++i)
       if (name == kWorkloads[i]) system.start(static_cast<Workload>(i));
     const std::uint64_t before = system.bilinears();
