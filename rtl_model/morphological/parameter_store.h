@@ -7,10 +7,10 @@
 // sets a sticky bit. Codes of RULES that no choice has count as code 0; steps are limited to
 // window_rows / 2 - 2, those of SMAA's searches to their ranges; what was not built (depth lines
 // with source = luma) reads as 0, and `contiguous`, crossings, tables, diagonals and corners count
-// as off in an engine that was built without them, and so do learned shares. The tables of these are
-// loaded here, a word a write. A reset gives every register its reset value; SIZE is 0 then and must
-// be written again. The tables stay as they are. Cost: 15 x 32 flip-flops twice (registers, decoded
-// products of the frame inside). Made for 300 MHz; longest path: 16-bit multiply by 255.
+// as off in an engine that was built without them, and so do learned shares. The tables of these
+// are loaded here, a word a write. A reset gives every register its reset value; SIZE is 0 then and
+// must be written again. The tables stay as they are. Cost: 15 x 32 flip-flops twice (registers,
+// decoded products of the frame inside). Made for 300 MHz; longest path: 16-bit multiply by 255.
 #pragma once
 
 #include <cstdint>

@@ -7,10 +7,11 @@
 //                    |
 //                registers (TLM-2.0 target)
 //
-// Latency 30 clocks from a quad taken to its first colour by the paper's rules (one sample, nearest,
-// warm cache), 53 by the preset deburr, others in docs/texture_unit.md; one bilinear request a clock
-// with a warm cache, so N x (1 or 2) clocks a fragment, or `axis_clocks` if that is more. Made for
-// 250 MHz; the longest path of each block stands in its header. Source: paper 2.1, figure 3.
+// Latency 30 clocks from a quad taken to its first colour by the paper's rules (one sample,
+// nearest, warm cache), 53 by the preset deburr, others in docs/texture_unit.md; one bilinear
+// request a clock with a warm cache, so N x (1 or 2) clocks a fragment, or `axis_clocks` if that is
+// more. Made for 250 MHz; the longest path of each block stands in its header. Source: paper 2.1,
+// figure 3.
 #pragma once
 
 #include <systemc>

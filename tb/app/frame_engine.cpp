@@ -37,6 +37,9 @@ void describe(FrameChoice& p, Visitor& v) {
            "first behind the second.");
 }
 
+// Why a parameter is what it is.
+constexpr std::string_view kFollows = "frame.smoothing = geometric-morphological";
+
 class FrameCommand final : public Engine {
  public:
   FrameCommand() { scene_.source = "object"; }
@@ -61,8 +64,14 @@ class FrameCommand final : public Engine {
   void resolve(ParameterSet& set) override {
     apply_preset(set, texture_);
     apply_preset(set, geometric_);
+    const bool follows = choice_.smoothing == Smoothing::kGeometricMorphological;
+    if (follows)
+      set.imply("morphological.preset",
+                spec::morphological::kPresetNames[static_cast<std::size_t>(
+                    spec::morphological::FollowingRules().preset)],
+                kFollows);
     apply_preset(set, morphological_);
-    if (choice_.smoothing == Smoothing::kGeometricMorphological) let_follow(set);
+    if (follows) let_follow(set);
     resolve_geometric(set);
     resolve_morphological(set);
     refuse_unused_look_ups(set);
@@ -126,8 +135,7 @@ class FrameCommand final : public Engine {
 
   // What the one engine does for the other, unless something else is given.
   void let_follow(ParameterSet& set) const {
-    const std::string by = "frame.smoothing = geometric-morphological";
-    set.imply("geometric.mark", "true", by);
+    set.imply("geometric.mark", "true", kFollows);
     spec::morphological::Parameters rules =
         golden::morphological::following_geometric(morphological_);
     ParameterSet following;
@@ -140,7 +148,7 @@ class FrameCommand final : public Engine {
                    {"edges.threshold_on_depth_edge", "edges.threshold_off_depth_edge"});
     for (const std::string& name : names) {
       const std::string full = "morphological." + name;
-      set.imply(full, following.find(full)->text(), by);
+      set.imply(full, following.find(full)->text(), kFollows);
     }
   }
 

@@ -117,28 +117,27 @@ std::vector<PlantedFault> MorphologicalEnvironment::faults() const {
 // Of edges from colour and learned shares.
 std::vector<PlantedFault> MorphologicalEnvironment::shares_faults() const {
   const spec::morphological::Parameters& p = setup_.morphological;
-  const std::string needs = p.area == spec::morphological::AreaSource::kLearned
-                                ? ""
-                                : "morphological.area = learned";
-  return {{"wrong-colour", "Edges come from luma.", "",
-           p.edge_source == spec::morphological::EdgeSource::kColour
-               ? ""
-               : "morphological.edges.source = colour"},
-          {"wrong-share",
-           "Flips a bit of the word of shares_a for a single pixel between crossings on its side.",
-           "", needs},
-          {"wrong-near", "Flips a bit of the words of shares_b for crossings that go on.", "",
-           needs},
-          {"wrong-far", "Flips a bit of the words of shares_c for crossings that go on.", "", needs},
-          {"wrong-sum", "Flips a bit of the word of share_rom for a sum of -2.0.", "", needs},
-          {"wrong-class", "Flips a bit of the class of the crossing at the end of a vertical run.",
-           "flip:morphological.lines_v0:20:line.end_class.1", needs},
-          {"wrong-code", "Flips a bit of the codes of the ends of a horizontal run.",
-           "flip:morphological.lines_h0:20:line.run.shape.0", needs},
-          {"wrong-axis", "The line of a horizontal run that has none counts as the longest one.",
-           "flip:morphological.lines_h0:20:line.span.11", needs},
-          {"drop-line", "Drops a record behind the dividers of horizontal runs.",
-           "drop:morphological.lines_h0:20", needs}};
+  const std::string needs =
+      p.area == spec::morphological::AreaSource::kLearned ? "" : "morphological.area = learned";
+  return {
+      {"wrong-colour", "Edges come from luma.", "",
+       p.edge_source == spec::morphological::EdgeSource::kColour
+           ? ""
+           : "morphological.edges.source = colour"},
+      {"wrong-share",
+       "Flips a bit of the word of shares_a for a single pixel between crossings on its side.", "",
+       needs},
+      {"wrong-near", "Flips a bit of the words of shares_b for crossings that go on.", "", needs},
+      {"wrong-far", "Flips a bit of the words of shares_c for crossings that go on.", "", needs},
+      {"wrong-sum", "Flips a bit of the word of share_rom for a sum of -2.0.", "", needs},
+      {"wrong-class", "Flips a bit of the class of the crossing at the end of a vertical run.",
+       "flip:morphological.lines_v0:20:line.end_class.1", needs},
+      {"wrong-code", "Flips a bit of the codes of the ends of a horizontal run.",
+       "flip:morphological.lines_h0:20:line.run.shape.0", needs},
+      {"wrong-axis", "The line of a horizontal run that has none counts as the longest one.",
+       "flip:morphological.lines_h0:20:line.span.11", needs},
+      {"drop-line", "Drops a record behind the dividers of horizontal runs.",
+       "drop:morphological.lines_h0:20", needs}};
 }
 
 // Of SMAA's blocks. Those without a link are planted by as_built() and plant_in_roms().

@@ -50,13 +50,13 @@ std::vector<PlantedFault> TextureEnvironment::faults() {
        "stuck_ready:texture.texels:500"},
       {"wrong-texel", "The texture in memory is not what the golden model reads."},
       {"wrong-axis", "Flips a bit of fragment 100's major axis.",
-       "flip:texture.address.footprints:100:axis_s.14"},
+       "flip:texture.address.footprints:100:axis_s.22"},
       {"wrong-ratio", "Flips a bit of what gives fragment 100's ratio of sides.",
-       "flip:texture.address.footprints:100:minor.17"},
+       "flip:texture.address.footprints:100:minor.24"},
       {"wrong-count", "Flips a bit of fragment 100's number of samples.",
        "flip:texture.address.levels:100:last_index.0"},
-      {"wrong-sample", "Gives request 400 the weight of its neighbour.",
-       "flip:texture.texel_quads:400:control.index.0"},
+      {"wrong-sample", "Gives request 401 the weight of another number of samples.",
+       "flip:texture.texel_quads:401:control.last_index.2"},
       {"wrong-replacement", "The cache replaces by FIFO where LRU was ordered."}};
   for (PlantedFault& fault : memory_faults()) list.push_back(std::move(fault));
   return list;

@@ -72,8 +72,7 @@ TextureScene TextureScene::without_fragments(const SceneParameters& scene,
 }
 
 TextureScene::TextureScene(const SceneParameters& scene, const SamplerParameters& sampler,
-                           std::uint32_t seed, const CameraMove& move,
-                           Fragments fragments)
+                           std::uint32_t seed, const CameraMove& move, Fragments fragments)
     : scene_(load(scene, sampler.wrap, seed, move)) {
   if (!is_scene_name(scene.source)) inputs_.emplace_back(scene.source);
   if (!scene.texture.empty() && !is_texture_name(scene.texture))

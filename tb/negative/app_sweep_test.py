@@ -84,7 +84,7 @@ class Definitions(Sweeps):
                            ("not (texture.cache.ways == 1 and memory.latency == 60)", 3),
                            ("-texture.cache.ways < -1", 2),
                            ("texture.cache.bytes / 64 / texture.cache.ways % 256 == 0", 2),
-                           ("texture.footprint == half and texture.kernel != tent", 4),
+                           ("texture.footprint == exact and texture.kernel != tent", 4),
                            ("run.shuffle or memory.latency <= 50", 2),
                            ("sampler.anisotropy >= 16 and memory.latency - 10 - 40 != 0", 2)):
             self.write("s.yaml", BASE + AXES + f"constraints: ['{text}']\n")

@@ -71,7 +71,8 @@ std::vector<Method> engines() {
   add("`gpaa`", "gpaa", g::Preset::kGpaa, {});
   add("`gpaa-optimised`", "gpaa-optimised", g::Preset::kGpaaOptimised, {});
   add("`deburr`, geometric", "deburr geo", g::Preset::kDeburr, {});
-  add("geometric, then morphological", "deburr both", g::Preset::kDeburr, m::Preset::kDeburr);
+  add("geometric, then morphological", "deburr both", g::Preset::kDeburr,
+      m::FollowingRules().preset);
   return all;
 }
 

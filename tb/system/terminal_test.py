@@ -120,7 +120,7 @@ class Completion(unittest.TestCase):
         self.assertEqual(self.complete("run", "texture", "--trace-f"), ["--trace-from"])
         self.assertEqual(self.complete("run", "morphological", "--size", "8x8", "--pre"),
                          ["--preset"])
-        self.assertEqual(self.complete("run", "texture", "--pre"), [])
+        self.assertEqual(self.complete("run", "texture", "--smoo"), [])
 
     def test_values(self):
         self.assertIn("linear_mipmap_linear", self.complete("run", "texture", "--mode", "linear"))

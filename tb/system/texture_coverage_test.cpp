@@ -40,7 +40,6 @@ Coverage declared() {
   return coverage;
 }
 
-
 // What one run met; plain numbers, because it comes from another process.
 struct Met {
   std::array<std::uint64_t, 17> samples{};         // by N

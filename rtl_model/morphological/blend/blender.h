@@ -8,15 +8,14 @@
 // `downstream`. Rule `longest`: the axis that has shares at all; else the longer line; else the
 // larger sum, ties to up and down. Rule `strongest`: the axis of the largest share, ties to up and
 // down; each share w of the pair becomes w^2 / (w1 + w2). Rule `leave`: a pixel that is marked (bit
-// 0 of its alpha is 0), or beside one that is, takes no share; or it takes half of a marked one's. A
-// mask is the EdgeDetector's.
-// The mark ends here.
-// Formats: shares U0.8, linear light U0.12, result rounded by magnitude. Cost a lane: nine reads of
-// linear_rom, 256 x 12 bits (three a channel, behind the choice of the axis), three of encode_rom,
-// 4096 x 8 bits (two reads a copy), two multipliers 8 x 13 a channel, one of mix_rom, 511 x 17
-// bits, two multipliers 8 x 8 and two 17 x 16, nine comparators, five bits of marks, two shifts.
-// Made for 250 MHz; longest path: 17 x 16 multiply + 33-bit add. Source: paper 000, section 2 (D
-// sums), SMAA 1x (strongest); the tie rules are ours.
+// 0 of its alpha is 0), or beside one that is, takes no share; or it takes half of a marked one's.
+// A mask is the EdgeDetector's. The mark ends here. Formats: shares U0.8, linear light U0.12,
+// result rounded by magnitude. Cost a lane: nine reads of linear_rom, 256 x 12 bits (three a
+// channel, behind the choice of the axis), three of encode_rom, 4096 x 8 bits (two reads a copy),
+// two multipliers 8 x 13 a channel, one of mix_rom, 511 x 17 bits, two multipliers 8 x 8 and two 17
+// x 16, nine comparators, five bits of marks, two shifts. Made for 250 MHz; longest path: 17 x 16
+// multiply + 33-bit add. Source: paper 000, section 2 (D sums), SMAA 1x (strongest); the tie rules
+// are ours.
 #pragma once
 
 #include <array>
