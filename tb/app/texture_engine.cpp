@@ -63,7 +63,8 @@ class TextureEngine final : public Engine {
     context.set_title(title(), summary_line(scene));
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
     Simulation simulation(simulation_options(run, context));
-    TextureEnvironment environment(simulation, scene, {texture_, memory_});
+    TextureEnvironment environment(simulation, scene,
+                                   {texture_, memory_, expectation(scene, context)});
     simulate(simulation, environment, context, result,
              [&] { add_pictures(run, context, scene, environment, result); });
   }
@@ -71,6 +72,12 @@ class TextureEngine final : public Engine {
   void prepare(const RunParameters& run, RunContext& context) override {
     const std::shared_ptr<const TextureScene> scene = load(run, context);
     if (run.truth) scene_truth(*scene, truth_options(), context);
+    expectation(*scene, context);
+  }
+
+  std::vector<std::string_view> built_for_golden() const override {
+    return {"texture.cache.bytes", "texture.cache.line_bytes", "texture.cache.ways",
+            "texture.cache.replacement"};
   }
 
   void describe_statistics(Result& result) override {
@@ -86,6 +93,12 @@ class TextureEngine final : public Engine {
     return context.shared<TextureScene>("texture scene", {"scene.", "sampler."}, [&] {
       return TextureScene(scene_, sampler_, static_cast<std::uint32_t>(run.seed));
     });
+  }
+
+  std::shared_ptr<const TextureExpectation> expectation(const TextureScene& scene,
+                                                        const RunContext& context) const {
+    return context.shared_golden<TextureExpectation>(built_for_golden(),
+                                                     [&] { return expected_of(scene, texture_); });
   }
 
   RenderOptions truth_options() const {

@@ -24,6 +24,7 @@
 #include "spec/texture/parameters.h"
 #include "tb/env/environment.h"
 #include "tb/env/memory_parameters.h"
+#include "tb/env/texture_expectation.h"
 #include "tb/env/texture_scene.h"
 #include "tb/harness/driver.h"
 #include "tb/scene/rasteriser.h"
@@ -33,6 +34,9 @@ namespace deburr::tb {
 struct TextureSetup {
   spec::texture::Parameters texture;
   MemoryParameters memory;
+  // What the golden model found already; null: it works beside the hardware. Never with errors of
+  // memory.
+  std::shared_ptr<const TextureExpectation> expectation = nullptr;
 };
 
 class TextureEnvironment final : public Environment {
@@ -68,7 +72,9 @@ class TextureEnvironment final : public Environment {
   const std::vector<std::uint8_t>& came() const { return came_; }
   // The golden model's picture of the same fragments (empty without golden).
   const Image& golden_frame() const { return golden_frame_->frame(); }
-  const golden::texture::TextureWork& golden_work() const { return golden_.work(); }
+  const golden::texture::TextureWork& golden_work() const {
+    return setup_.expectation ? setup_.expectation->work : golden_.work();
+  }
   std::uint64_t delivered() const { return delivered_; }
   // Over all colours and tags in order.
   std::uint64_t colour_hash() const { return hash_.value(); }
@@ -91,6 +97,7 @@ class TextureEnvironment final : public Environment {
   static std::vector<PlantedFault> faults();
   spec::texture::Parameters as_built() const;
   void expect_from_golden();
+  void expect_line(std::uint32_t line);
   void clear_outputs();
   void fetch_again();
   std::string place(const spec::texture::Colour& colour) const;

@@ -33,6 +33,10 @@ inline constexpr std::array<std::string_view, 11> kPictureNames = {
     "before", "after", "golden",  "difference", "truth",       "error",
     "change", "edges", "weights", "classes",    "edge_weights"};
 
+// What a golden result depends on, by name and value; files by their names.
+nlohmann::ordered_json golden_dependencies(const ParameterSet& parameters, std::uint64_t seed,
+                                           const std::vector<std::string_view>& built);
+
 class RunContext {
  public:
   // `command` is the line that repeats the run.
@@ -62,6 +66,15 @@ class RunContext {
                            const std::function<std::string()>& make) const {
     return shared_ ? shared_->bytes(key_of(what, prefixes), make) : make();
   }
+  // The golden result that `make` gives, kept for the next runs that agree in what it depends on:
+  // seed, inputs, rules, and `built`, names of what is built. Null where the run shares nothing, is
+  // not checked, or reads lines of memory that fail, which only its own golden model knows.
+  template <class T>
+  std::shared_ptr<const T> shared_golden(const std::vector<std::string_view>& built,
+                                         const std::function<T()>& make) const {
+    if (!shared_ || !may_share_golden()) return nullptr;
+    return shared_->last<T>("golden", key_of_golden(built), make);
+  }
   void set_title(std::string title, std::string summary);
   // What had to be decided about an input (a mesh without normals): on the error stream, in result
   // and report.
@@ -86,6 +99,8 @@ class RunContext {
   const std::string& command() const { return command_; }
 
  private:
+  bool may_share_golden() const;
+  std::string key_of_golden(const std::vector<std::string_view>& built) const;
   std::string golden_key() const;
   std::string key_of(std::string_view what, std::initializer_list<std::string_view> prefixes) const;
   nlohmann::ordered_json manifest(const Result& result) const;
