@@ -119,6 +119,10 @@ class Engine {
   // Makes what run() will take from context.shared(), for all runs that are to share it. It makes
   // nothing of SystemC, so that a process can run() behind it as often as it forks.
   virtual void prepare(const RunParameters&, RunContext&) {}
+  // Names of what is built and yet decides what the golden model says, as a cache's size decides
+  // its misses. Runs that agree in these, in rules and in inputs are checked with one golden
+  // result.
+  virtual std::vector<std::string_view> built_for_golden() const { return {}; }
   // Every counter and stall cause that a run of this engine reports, for docs/statistics.md. It
   // elaborates the model, so it is called at most once a process, and not in one that runs.
   virtual void describe_statistics(Result& result) = 0;

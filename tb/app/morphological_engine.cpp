@@ -91,12 +91,17 @@ class MorphologicalCommand final : public Engine {
     const std::vector<MorphologicalInput> frames(static_cast<std::size_t>(frame_.count),
                                                  loaded.input);
     Simulation simulation(simulation_options(run, context));
-    MorphologicalEnvironment environment(simulation, frames, {parameters_, memory_});
+    MorphologicalEnvironment environment(simulation, frames,
+                                         {.morphological = parameters_,
+                                          .memory = memory_,
+                                          .expectation = golden_of(loaded, context)});
     simulate(simulation, environment, context, result,
              [&] { add_pictures(run, context, loaded, environment, result); });
   }
 
-  void prepare(const RunParameters& run, RunContext& context) override { load(run, context); }
+  void prepare(const RunParameters& run, RunContext& context) override {
+    golden_of(*load(run, context), context);
+  }
 
   void describe_statistics(Result& result) override {
     const std::vector<MorphologicalInput> frames = {{Image(2, 2), {}}};
@@ -135,6 +140,21 @@ class MorphologicalCommand final : public Engine {
             return interrupted();
           },
           render);
+    });
+  }
+
+  std::shared_ptr<const golden::morphological::MorphologicalGolden> golden_of(
+      const LoadedFrame& loaded, const RunContext& context) const {
+    using golden::morphological::MorphologicalGolden;
+    return context.shared_golden<MorphologicalGolden>(built_for_golden(), [&] {
+      const Image& image = loaded.input.image;
+      MorphologicalGolden golden(parameters_);
+      golden.process(
+          {image.pixels, image.width, image.height},
+          loaded.input.depth.empty()
+              ? golden::morphological::DepthView()
+              : golden::morphological::DepthView(loaded.input.depth, image.width, image.height));
+      return golden;
     });
   }
 

@@ -92,6 +92,7 @@ class TextureEngine final : public Engine {
     context.set_title(title(), summary_line(scene, setup));
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
     Simulation simulation(simulation_options(run, context));
+    if (!foreign()) setup.expectation = expectation(scene, context);
     std::unique_ptr<FragmentWriter> writer;
     if (trace_out_.fragments != TraceChoice::kNone && !context.judging_only()) {
       writer = std::make_unique<FragmentWriter>(context.fragment_trace_file(),
@@ -111,6 +112,12 @@ class TextureEngine final : public Engine {
   void prepare(const RunParameters& run, RunContext& context) override {
     const std::shared_ptr<const TextureScene> scene = load(run, context);
     if (run.truth) scene_truth(*scene, truth_options(), context);
+    expectation(*scene, context);
+  }
+
+  std::vector<std::string_view> built_for_golden() const override {
+    return {"texture.cache.bytes", "texture.cache.line_bytes", "texture.cache.ways",
+            "texture.cache.replacement"};
   }
 
   void describe_statistics(Result& result) override {
@@ -149,6 +156,12 @@ class TextureEngine final : public Engine {
       return [reader](TracedQuad& quad) { return reader->next(quad); };
     };
     return {open, summary.fragments};
+  }
+
+  std::shared_ptr<const TextureExpectation> expectation(const TextureScene& scene,
+                                                        const RunContext& context) const {
+    return context.shared_golden<TextureExpectation>(built_for_golden(),
+                                                     [&] { return expected_of(scene, texture_); });
   }
 
   RenderOptions truth_options() const {

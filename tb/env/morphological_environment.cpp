@@ -368,9 +368,10 @@ void MorphologicalEnvironment::expect() {
   if (!golden()) return;
   const DepthView depth =
       frame.depth.empty() ? DepthView() : DepthView(frame.depth, image.width, image.height);
-  golden_.process(ImageView(image.pixels, image.width, image.height), depth);
-  pixel_board_.expect(golden_.pixels(), image.width);
-  tap_board_.expect(golden_.taps(), image.width);
+  if (!setup_.expectation)
+    golden_.process(ImageView(image.pixels, image.width, image.height), depth);
+  pixel_board_.expect(golden_model().pixels(), image.width);
+  tap_board_.expect(golden_model().taps(), image.width);
 }
 
 void MorphologicalEnvironment::start() {
@@ -521,12 +522,12 @@ void MorphologicalEnvironment::go_on_at_row(std::size_t row) {
 void MorphologicalEnvironment::judge_records() {
   if (!golden()) return;
   for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
-    golden_work_.*each.count += golden_.work().*each.count;
-  unreadable_lines_ += golden_.memory_errors();
+    golden_work_.*each.count += golden_model().work().*each.count;
+  unreadable_lines_ += golden_model().memory_errors();
   if (!setup_.records) return;
   std::vector<spec::morphological::RunRecord> runs;
   std::vector<spec::morphological::LineRecord> lines;
-  for (const golden::morphological::PredictedRun& run : golden_.runs()) {
+  for (const golden::morphological::PredictedRun& run : golden_model().runs()) {
     runs.push_back(run.line.run);
     const spec::morphological::RunShape& shape =
         spec::morphological::kRunShapes[run.line.run.shape];
@@ -554,7 +555,8 @@ void MorphologicalEnvironment::judge_records() {
 // All writes ascending, all reads ascending; how they interleave is timing.
 void MorphologicalEnvironment::judge_traffic() {
   if (!golden() || !in_memory()) return;
-  for (const spec::morphological::FrameAccess& access : golden_.traffic(setup_.pixel_base))
+  for (const spec::morphological::FrameAccess& access :
+       golden::morphological::frame_traffic(setup_.pixel_base, frame_.width, frame_.height))
     traffic_board_.expect(access);
   const std::string where = fmt::format("frame {}", current_);
   const auto judge_lines = [&](const std::vector<std::uint64_t>& lines, std::size_t& judged,

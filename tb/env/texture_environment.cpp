@@ -143,19 +143,32 @@ std::uint64_t TextureEnvironment::fragments() const {
   return setup_.foreign.open ? setup_.foreign.fragments : scene_.stream().counts.fragments;
 }
 
+void TextureEnvironment::expect_line(std::uint32_t line) {
+  const std::uint64_t line_bytes = golden_.cache().line_bytes(), begin = line * line_bytes;
+  for (std::uint64_t a = begin; a < begin + line_bytes; a += kMemoryGrain) fill_board_.expect({a});
+}
+
 void TextureEnvironment::expect_from_golden() {
   if (!golden()) return;
-  const std::uint64_t line_bytes = golden_.cache().line_bytes();
-  golden_.set_fill_sink([this, line_bytes](std::uint32_t line) {
-    const std::uint64_t begin = line * line_bytes;
-    for (std::uint64_t a = begin; a < begin + line_bytes; a += kMemoryGrain)
-      fill_board_.expect({a});
-  });
-  driver_.on_send = [this](rtl::Cycle, const spec::texture::Quad& quad) {
-    golden_.process(quad, [this](const spec::texture::Colour& colour) {
-      colour_board_.expect(colour);
-      tb::show(quad_, colour, golden_frame_);
-    });
+  const auto expect_colour = [this](const spec::texture::Colour& colour) {
+    colour_board_.expect(colour);
+    tb::show(quad_, colour, golden_frame_);
+  };
+  if (setup_.expectation) {
+    driver_.on_send = [this, expect_colour](rtl::Cycle, const spec::texture::Quad&) {
+      const TextureExpectation& all = *setup_.expectation;
+      const std::uint64_t quad = driver_.sent() - 1;
+      const TextureExpectation::Behind from = quad > 0 ? all.behind[quad - 1]
+                                                       : TextureExpectation::Behind(),
+                                       to = all.behind[quad];
+      for (std::size_t i = from.fills; i < to.fills; ++i) expect_line(all.fills[i]);
+      for (std::size_t i = from.colours; i < to.colours; ++i) expect_colour(all.colours[i]);
+    };
+    return;
+  }
+  golden_.set_fill_sink([this](std::uint32_t line) { expect_line(line); });
+  driver_.on_send = [this, expect_colour](rtl::Cycle, const spec::texture::Quad& quad) {
+    golden_.process(quad, expect_colour);
   };
 }
 
@@ -206,7 +219,7 @@ void TextureEnvironment::finish() {
   namespace reg = spec::texture::reg;
   colour_board_.require(fragments());
   fill_board_.require(std::max<std::uint64_t>(1, memory_.bytes_read() / kMemoryGrain));
-  const golden::texture::TextureWork& work = golden_.work();
+  const golden::texture::TextureWork& work = golden_work();
   const std::pair<std::uint32_t, std::uint64_t> expected[] = {
       {reg::kFragments, work.fragments},
       {reg::kBilinears, work.bilinears},

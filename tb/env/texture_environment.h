@@ -26,6 +26,7 @@
 #include "tb/env/environment.h"
 #include "tb/env/memory_parameters.h"
 #include "tb/env/sent_quads.h"
+#include "tb/env/texture_expectation.h"
 #include "tb/env/texture_maps.h"
 #include "tb/env/texture_scene.h"
 #include "tb/harness/driver.h"
@@ -46,6 +47,9 @@ struct TextureSetup {
   ForeignFragments foreign{};
   // Sees every quad as it is sent.
   std::function<void(const TracedQuad&)> observer{};
+  // What the golden model found already; null: it works beside the hardware. Never with errors of
+  // memory.
+  std::shared_ptr<const TextureExpectation> expectation = nullptr;
 };
 // The depth of the latency FIFO: as ordered, or for 0 what hides this memory's latency.
 std::int32_t fifo_depth(const TextureSetup& setup);
@@ -85,7 +89,9 @@ class TextureEnvironment final : public Environment {
   const std::vector<std::uint8_t>& came() const { return came_; }
   // The golden model's picture of the same fragments (empty without golden).
   const Image& golden_frame() const { return golden_frame_; }
-  const golden::texture::TextureWork& golden_work() const { return golden_.work(); }
+  const golden::texture::TextureWork& golden_work() const {
+    return setup_.expectation ? setup_.expectation->work : golden_.work();
+  }
   std::uint64_t delivered() const { return delivered_; }
   // Over all colours and tags in order.
   std::uint64_t colour_hash() const { return hash_.value(); }
@@ -110,6 +116,7 @@ class TextureEnvironment final : public Environment {
   std::uint64_t fragments() const;
   spec::texture::Parameters as_built() const;
   void expect_from_golden();
+  void expect_line(std::uint32_t line);
   void clear_outputs();
   void fetch_again();
   std::string place(const spec::texture::Colour& colour) const;

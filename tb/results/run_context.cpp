@@ -34,6 +34,16 @@ std::string now_utc() {
 
 }  // namespace
 
+Json golden_dependencies(const ParameterSet& parameters, std::uint64_t seed,
+                         const std::vector<std::string_view>& built) {
+  Json key = {{"seed", seed}};
+  for (const Parameter& p : parameters.all())
+    if (p.kind == ParameterKind::kInput || p.kind == ParameterKind::kRule ||
+        std::find(built.begin(), built.end(), p.name) != built.end())
+      key[p.name] = p.json();
+  return key;
+}
+
 RunContext::RunContext(fs::path directory, const ParameterSet& parameters, std::string command,
                        std::uint64_t seed)
     : directory_(std::move(directory)),
@@ -127,6 +137,21 @@ std::string RunContext::golden_key() const {
       key["build"] = parameters_.resolved(ParameterKind::kBuild);
   for (const Json& input : inputs_) key["files"].push_back(input["sha256"]);
   return sha256(key.dump());
+}
+
+bool RunContext::may_share_golden() const {
+  const Parameter* check = parameters_.find("run.check");
+  return check != nullptr && check->text() == "golden" &&
+         std::none_of(parameters_.all().begin(), parameters_.all().end(), [](const Parameter& p) {
+           return p.name.ends_with("error_address") && p.text() != p.default_value;
+         });
+}
+
+std::string RunContext::key_of_golden(const std::vector<std::string_view>& built) const {
+  Json key = golden_dependencies(parameters_, seed_, built);
+  for (const Parameter& p : parameters_.all())
+    if (names_a_file(p)) key[p.name + " content"] = shared_->sha256_of(p.text());
+  return key.dump();
 }
 
 std::string RunContext::key_of(std::string_view what,

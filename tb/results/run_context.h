@@ -39,6 +39,9 @@ inline constexpr std::string_view kWindowsFile = "windows.json", kTimelineFile =
 inline constexpr std::array<std::string_view, 11> kMapNames = {
     "samples", "level", "misses", "latency", "edges",      "run_length",
     "steps",   "lines", "passed", "weight",  "depth_reads"};
+// What a golden result depends on, by name and value; files by their names.
+nlohmann::ordered_json golden_dependencies(const ParameterSet& parameters, std::uint64_t seed,
+                                           const std::vector<std::string_view>& built);
 
 class RunContext {
  public:
@@ -68,6 +71,15 @@ class RunContext {
   std::string shared_bytes(std::string_view what, std::initializer_list<std::string_view> prefixes,
                            const std::function<std::string()>& make) const {
     return shared_ ? shared_->bytes(key_of(what, prefixes), make) : make();
+  }
+  // The golden result that `make` gives, kept for the next runs that agree in what it depends on:
+  // seed, inputs, rules, and `built`, names of what is built. Null where the run shares nothing, is
+  // not checked, or reads lines of memory that fail, which only its own golden model knows.
+  template <class T>
+  std::shared_ptr<const T> shared_golden(const std::vector<std::string_view>& built,
+                                         const std::function<T()>& make) const {
+    if (!shared_ || !may_share_golden()) return nullptr;
+    return shared_->last<T>("golden", key_of_golden(built), make);
   }
   void set_title(std::string title, std::string summary);
   // What had to be decided about an input (a mesh without normals): on the error stream, in result
@@ -101,6 +113,8 @@ class RunContext {
 
  private:
   std::filesystem::path draft_file(const char* name) const;
+  bool may_share_golden() const;
+  std::string key_of_golden(const std::vector<std::string_view>& built) const;
   std::string golden_key() const;
   std::string key_of(std::string_view what, std::initializer_list<std::string_view> prefixes) const;
   nlohmann::ordered_json manifest(const Result& result) const;

@@ -29,6 +29,19 @@ class SharedInputs {
     if (!slot) slot = std::make_shared<const T>(make());
     return std::static_pointer_cast<const T>(slot);
   }
+  // The same of what is large and wanted by runs that follow each other: of each `what` the last
+  // one is kept.
+  template <class T>
+  std::shared_ptr<const T> last(const std::string& what, const std::string& key,
+                                const std::function<T()>& make) {
+    auto& [kept_key, slot] = last_[what];
+    if (!slot || kept_key != key) {
+      slot.reset();
+      slot = std::make_shared<const T>(make());
+      kept_key = key;
+    }
+    return std::static_pointer_cast<const T>(slot);
+  }
   // The bytes that `make` gives, from the folder if they are there. FileError when the folder
   // cannot be written.
   std::string bytes(const std::string& key, const std::function<std::string()>& make) const;
@@ -41,6 +54,7 @@ class SharedInputs {
  private:
   std::filesystem::path folder_;
   std::map<std::string, std::shared_ptr<const void>> kept_;
+  std::map<std::string, std::pair<std::string, std::shared_ptr<const void>>> last_;
   std::map<std::filesystem::path, std::string> fingerprints_;
 };
 

@@ -76,9 +76,10 @@ class Sorter {
   }
 
   Pending sorted() {
-    std::stable_sort(
-        pending_.points.begin(), pending_.points.end(),
-        [](const PlannedPoint& a, const PlannedPoint& b) { return a.input < b.input; });
+    std::stable_sort(pending_.points.begin(), pending_.points.end(),
+                     [](const PlannedPoint& a, const PlannedPoint& b) {
+                       return std::pair(a.input, a.golden) < std::pair(b.input, b.golden);
+                     });
     return std::move(pending_);
   }
 

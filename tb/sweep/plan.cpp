@@ -223,8 +223,10 @@ std::optional<PlannedPoint> PointJudge::judge(const Sample& all) {
     if (refused_++ == 0) first_refusal_ = in_words(plan_, sample) + ": " + headline(*refusal);
     return std::nullopt;
   }
-  PlannedPoint planned{point_name(point.bound, files_), 0, sample};
+  PlannedPoint planned{point_name(point.bound, files_), 0, 0, sample};
   planned.input = inputs_.emplace(sha256(input_name(point.bound)), inputs_.size()).first->second;
+  planned.golden =
+      goldens_.emplace(sha256(golden_name(point.bound)), goldens_.size()).first->second;
   return planned;
 }
 
@@ -344,7 +346,7 @@ Plan read_plan(const fs::path& directory) {
 }
 
 std::string line_of(const PlannedPoint& point) {
-  Json line = {point.name, point.input};
+  Json line = {point.name, point.input, point.golden};
   for (const std::string& text : point.sample) line.push_back(text);
   return line.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -358,10 +360,10 @@ void for_each_point(const fs::path& file, const std::function<void(const Planned
   in.seekg(static_cast<std::streamoff>(lines.offset));
   for (std::uint64_t taken = 0; taken < lines.count && std::getline(in, line); ++taken) {
     const Json json = Json::parse(line, nullptr, false);
-    if (!json.is_array() || json.size() < 2)
+    if (!json.is_array() || json.size() < 3)
       throw FileError(fmt::format("'{}' is damaged: plan the sweep again", file.string()));
-    PlannedPoint point{json[0], json[1], {}};
-    for (std::size_t i = 2; i < json.size(); ++i) point.sample.push_back(json[i]);
+    PlannedPoint point{json[0], json[1], json[2], {}};
+    for (std::size_t i = 3; i < json.size(); ++i) point.sample.push_back(json[i]);
     take(point);
   }
   if (in.bad()) throw FileError(fmt::format("cannot read '{}'", file.string()));

@@ -2,8 +2,9 @@
 // A sweep's points, expanded and named: what its workers, `status` and `collect` go by.
 //
 //   OUT/sweeps/NAME/plan.json      engine, base, axes, how many points, what was left out
-//   OUT/sweeps/NAME/points.jsonl   a line a point: its name, the number of its input, a text an
-//   axis OUT/points/, OUT/cache/        shared by all sweeps under OUT
+//   OUT/sweeps/NAME/points.jsonl   a line a point: its name, the numbers of its input and of its
+//                                  golden result, a text an axis
+//   OUT/points/, OUT/cache/        shared by all sweeps under OUT
 //
 // A point is never held: the file is written and read line by line.
 #pragma once
@@ -43,7 +44,8 @@ struct PlanAxis {
 
 struct PlannedPoint {
   std::string name;
-  std::uint64_t input = 0;  // points with the same number have the same input
+  std::uint64_t input = 0;   // points with the same number have the same input
+  std::uint64_t golden = 0;  // and the same golden result
   Sample sample;
 };
 
@@ -96,7 +98,7 @@ class PointJudge {
   std::uint64_t refused_ = 0;
   std::vector<std::uint64_t> excluded_;  // by each constraint
   std::string first_refusal_;
-  std::unordered_map<std::string, std::uint64_t> inputs_;
+  std::unordered_map<std::string, std::uint64_t> inputs_, goldens_;
 };
 
 std::filesystem::path points_file(const std::filesystem::path& directory);

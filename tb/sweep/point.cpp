@@ -59,6 +59,12 @@ std::string input_name(const BoundEngine& bound) {
   return key;
 }
 
+std::string golden_name(const BoundEngine& bound) {
+  return golden_dependencies(bound.set, static_cast<std::uint64_t>(bound.run.seed),
+                             bound.engine.built_for_golden())
+      .dump();
+}
+
 fs::path point_directory(const fs::path& points, std::string_view name) {
   return points / name.substr(0, 2) / name;
 }

@@ -37,6 +37,8 @@ std::string point_name(const BoundEngine& bound, SharedInputs& files);
 // Of what points have in common before they are simulated: points with the same one are run in
 // turn.
 std::string input_name(const BoundEngine& bound);
+// The same of what their golden results depend on.
+std::string golden_name(const BoundEngine& bound);
 
 std::filesystem::path point_directory(const std::filesystem::path& points, std::string_view name);
 

@@ -610,7 +610,7 @@ TEST(Memory, RomHasItsContent) {
                                  kTable);
   };
   EXPECT_THAT(refusal([&] { build(4, 5, MemoryKind::kRom); }), HasSubstr("5 words of content"));
-  EXPECT_THAT(refusal([&] { build(6, 5, MemoryKind::kRom); }), HasSubstr("all of its words"));
+  EXPECT_THAT(refusal([&] { build(6, 5, MemoryKind::kRom); }), HasSubstr("all of their words"));
   EXPECT_THAT(refusal([&] { build(5, 4, MemoryKind::kRom); }),
               HasSubstr("0x10 at address 3 has more than 4 bits"));
   EXPECT_THAT(refusal([&] { build(5, 5, MemoryKind::kSram); }), HasSubstr("sram has none"));

@@ -115,7 +115,7 @@ TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
   EXPECT_EQ(bench.bus.read(reg::kPixelBase), 0x12340u);
   EXPECT_EQ(bench.bus.read(reg::kSize), 97u | 61u << 16);
   EXPECT_EQ(bench.bus.read(reg::kThreshold), 6554u);
-  EXPECT_EQ(bench.bus.read(reg::kRules), 1u << 15);
+  EXPECT_EQ(bench.bus.read(reg::kRules), 3u << 25 | 1u << 15);
   ASSERT_FALSE(bench.memory->lines_read().empty());
   EXPECT_EQ(bench.memory->lines_read()[0], 0x12340u);
   EXPECT_EQ(bench.bus.read(reg::kMemoryErrors), 0u);
