@@ -49,10 +49,12 @@ struct Axis {
 inline constexpr std::array<Axis, 8> kAxes = {
     {{128, 0}, {118, 49}, {90, 90}, {49, 118}, {0, 128}, {-49, 118}, {-90, 90}, {-118, 49}}};
 
-// CountRule::kAny: entry n = round(4096 lb n), U3.12; entry 0 is not used.
+// CountRule::kAny: entry n = round(4096 lb n) + 72, U3.12; entry 0 is not used. 72 is more than
+// three logarithms of `segments` are wrong together, so that a square takes one sample and 8 : 1
+// eight.
 inline constexpr std::array<std::uint16_t, 16> kLog2Count = {
-    0,     0,     4096,  6492,  8192,  9511,  10588, 11499,
-    12288, 12984, 13607, 14170, 14684, 15157, 15595, 16003};
+    0,     72,    4168,  6564,  8264,  9583,  10660, 11571,
+    12360, 13056, 13679, 14242, 14756, 15229, 15667, 16075};
 
 // Entry N = round(2^16 / N), U1.16; entry 0 is not used.
 inline constexpr std::array<std::uint32_t, 17> kReciprocal = {

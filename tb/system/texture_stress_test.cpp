@@ -6,6 +6,7 @@
 
 #include <tuple>
 
+#include "golden/texture/configuration.h"
 #include "tb/harness/forked.h"
 #include "tb/system/texture_quad_bench.h"
 #include "tb/system/texture_runs.h"
@@ -165,7 +166,8 @@ TEST(FrameReset, IsMissedWhenThereIsNone) {
   const TextureScene scene(picture("plane", 64), {}, 1);
   const QuadInput input = {scene.memory().descriptors(), scene.memory().bytes(),
                            scene.stream().quads};
-  QuadBench bench(input, {});
+  // By rules whose lines fit into the cache.
+  QuadBench bench(input, golden::texture::preset_parameters(spec::texture::Preset::kPaper));
   bench.reset();
   const QuadOutcome fresh = bench.run();
   EXPECT_EQ(bench.judge(input, fresh), "");

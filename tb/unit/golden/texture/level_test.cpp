@@ -55,9 +55,10 @@ LevelOfDetail by_formula(const spec::texture::Parameters& p, const spec::texture
   }
   if (lb_d_max <= 0) e = 0;
   r.sampled = static_cast<std::int32_t>(4096 * e);
-  // The ratio that samples stand for, rounded up; its logarithm is known to half of its last place.
+  // The ratio that samples stand for, rounded up; its logarithm is known to half of its last place,
+  // and 72 places too many count for nothing.
   r.samples = 1;
-  while (4096 * std::log2(r.samples) + 0.5 < r.sampled) ++r.samples;
+  while (4096 * std::log2(r.samples) + 72.5 < r.sampled) ++r.samples;
   const double l =
       std::min(std::max(lb_d_max - e + d.lod_bias / 256.0, d.min_lod / 256.0), d.max_lod / 256.0);
   r.l = static_cast<std::int32_t>(4096 * l);
@@ -94,8 +95,8 @@ using Select =
 
 // Within two places of the logarithm of a whole number.
 bool near_a_count(std::int32_t anisotropy) {
-  const double ratio = std::exp2(anisotropy / 4096.0);
-  return std::abs(anisotropy - 4096 * std::log2(std::round(ratio))) < 2;
+  const double ratio = std::exp2((anisotropy - 72) / 4096.0);
+  return std::abs(anisotropy - 72 - 4096 * std::log2(std::round(ratio))) < 2;
 }
 
 // Number of differences to the formula over every l from -3 to 14 and a fan of parameters.
@@ -147,8 +148,8 @@ TEST(Level, AnyCountHasNoSteps) {
     ASSERT_GE(now.samples, last.samples);
     ASSERT_LE(now.samples, last.samples + 1);
     ASSERT_EQ(now.l, last.l - 1);
-    ASSERT_GE(now.samples, std::exp2(anisotropy / 4096.0) - 0.002);
-    ASSERT_LE(now.samples, std::exp2(anisotropy / 4096.0) + 1.002);
+    ASSERT_GE(now.samples, std::exp2((anisotropy - 72) / 4096.0) - 0.002);
+    ASSERT_LE(now.samples, std::exp2((anisotropy - 72) / 4096.0) + 1.002);
     last = now;
   }
   EXPECT_EQ(last.samples, 16);

@@ -46,7 +46,7 @@ double srgb_code(int i) {
   return 255 * (linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
 }
 
-double count_entry(int n) { return n == 0 ? 0 : 4096 * std::log2(n); }
+double count_entry(int n) { return n == 0 ? 0 : 4096 * std::log2(n) + 72; }
 double reciprocal_entry(int n) { return n == 0 ? 0 : 65536.0 / n; }
 
 // The weights of one kernel and N are what docs/number_formats.md, "Sample walker", says.

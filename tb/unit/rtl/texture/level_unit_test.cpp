@@ -109,13 +109,14 @@ TEST(TextureRtlLevel, CeilAndTexelCap) {
       spec::texture::CountRule::kCeil, spec::texture::CountCap::kTexel);
 }
 
-// Each threshold from both sides: N is the ratio rounded up, l the part that samples do not take.
+// Each threshold from both sides: N is the ratio rounded up, 72 places aside, l the part that
+// samples do not take.
 TEST(TextureRtlLevel, AnyCountIsTheRatioRoundedUp) {
   std::vector<LevelCase> cases;
   const int thresholds[] = {0,     4096,  6492,  8192,  9511,  10588, 11499, 12288,
                             12984, 13607, 14170, 14684, 15157, 15595, 16003};  // 4096 lb n
   for (int n = 1; n <= 15; ++n) {
-    const int ratio = thresholds[n - 1];
+    const int ratio = thresholds[n - 1] + 72;
     cases.push_back({"at", 4096 + ratio, 4096, kTri, 4, 0, 0, kTop, n, 1, 0, true});
     cases.push_back({"above", 4096 + ratio + 1, 4096, kTri, 4, 0, 0, kTop, n + 1, 1, 0, true});
   }
@@ -127,8 +128,8 @@ TEST(TextureRtlLevel, AnyCountIsTheRatioRoundedUp) {
 }
 
 TEST(TextureRtlLevel, AnyCountWithTexelCap) {
-  check_levels({{"as many as texels", 6492, -16 * 4096, kTri, 4, 0, 0, kTop, 3, 0, 0, false},
-                {"one more", 6493, -16 * 4096, kTri, 4, 0, 0, kTop, 4, 0, 0, false},
+  check_levels({{"as many as texels", 6492 + 72, -16 * 4096, kTri, 4, 0, 0, kTop, 3, 0, 0, false},
+                {"one more", 6493 + 72, -16 * 4096, kTri, 4, 0, 0, kTop, 4, 0, 0, false},
                 {"the ratio is less", 3 * 4096, 2 * 4096, kTri, 4, 0, 0, kTop, 2, 2, 0, true}},
                spec::texture::CountRule::kAny, spec::texture::CountCap::kTexel);
 }
