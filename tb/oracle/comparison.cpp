@@ -265,7 +265,7 @@ struct Place {
   int x, y;  // of the crop's corner
 };
 constexpr Place kPlaces[] = {{"object", 264, 116}, {"cylinders", 414, 136}};
-constexpr int kCrop = 28, kZoom = 6, kColumns = 7, kGap = 8, kLetters = 2, kLeading = 4;
+constexpr int kCrop = 28, kZoom = 6, kColumns = 8, kGap = 8, kLetters = 2, kLeading = 4;
 
 // The picture with lines of text over it.
 Image captioned(const Image& picture, std::span<const std::string> lines) {
@@ -304,6 +304,9 @@ Image comparison_sheet() {
       add(reference.name, reference.filter(judge.frame.image, true));
     for (const Method& method : engines()) add(method.label, picture_of(method, judge.frame));
     add("truth", judge.truth);
+    // The next place begins a row.
+    while (cells.size() % kColumns != 0)
+      cells.emplace_back(cells.front().width, cells.front().height, Rgba8{255, 255, 255, 255});
   }
   const Image inner = sheet(cells, kColumns, kGap);
   Image result(inner.width + 2 * kGap, inner.height + 2 * kGap, {255, 255, 255, 255});
