@@ -59,7 +59,8 @@ class LearnedEnds {
 
 inline int learned_share(const ShareTables& tables, const ShareIndices& i) {
   const int z = tables.of_codes[i.codes] + tables.of_near[i.near] + tables.of_far[i.far];
-  return spec::morphological::kShareOfSum[static_cast<std::size_t>(std::clamp(z, -128, 127) + 128)];
+  const auto entry = static_cast<std::uint8_t>(std::clamp(z, -128, 127) + 128);
+  return spec::morphological::kShareOfSum[entry];
 }
 
 // Which entries of the tables frames named so far, as bins `A/<index>`, `B/<index>`, `C/<index>`

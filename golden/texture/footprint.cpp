@@ -55,8 +55,8 @@ namespace {
 constexpr int kAxisFractionBits = 7;
 
 const spec::texture::Axis& direction(spec::texture::Axes axes, int k) {
-  return spec::texture::kAxes[static_cast<std::size_t>(
-      k << (static_cast<int>(spec::texture::Axes::kEight) - static_cast<int>(axes)))];
+  const int step = 1 << (static_cast<int>(spec::texture::Axes::kEight) - static_cast<int>(axes));
+  return spec::texture::kAxes.at(static_cast<std::uint32_t>(k * step));
 }
 
 std::int64_t along(const spec::texture::Axis& axis, std::int64_t x, std::int64_t y) {

@@ -199,7 +199,7 @@ class Rows {
     for (const Json* result : results_) {
       const auto meanings = result->find("meaning");
       if (meanings == result->end() || !meanings->contains(key)) continue;
-      const std::string text = (*meanings)[key].value(what, "");
+      std::string text = (*meanings)[key].value(what, "");
       if (key == "throughput.value" && std::string_view(what) == "unit")
         return result->at("throughput").value("unit", text);
       return text;
@@ -246,6 +246,7 @@ std::string letter(std::size_t index) {
 
 Json compare_runs(const std::vector<fs::path>& paths, const Tolerances& tolerances) {
   std::vector<Run> runs;
+  runs.reserve(paths.size());
   for (const fs::path& path : paths) runs.push_back(read_run(path, runs.size()));
   refuse_different_engines(runs);
   const Rows rows(runs, tolerances);

@@ -446,6 +446,7 @@ bool is_sweep(const fs::path& path) {
 Json compare_sweeps(const std::vector<fs::path>& paths, const Tolerances& tolerances,
                     const UnsaidValue& unsaid) {
   std::vector<Sweep> sweeps;
+  sweeps.reserve(paths.size());
   for (const fs::path& path : paths) sweeps.push_back(read_sweep(path));
   return SweepComparison(std::move(sweeps), tolerances, unsaid).run();
 }

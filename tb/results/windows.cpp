@@ -25,7 +25,7 @@ void collect(const Json& node, const std::string& key, Series& all) {
     return;
   }
   for (const auto& [name, value] : node.items())
-    collect(value, key.empty() ? name : key + "." + name, all);
+    collect(value, key.empty() ? name : fmt::format("{}.{}", key, name), all);
 }
 
 const Json* find(const Json& root, const std::string& key) {

@@ -74,8 +74,8 @@ double flicker_square(const Image& before, const Image& after, const Image& trut
   for (std::size_t i = 0; i < before.pixels.size(); ++i) {
     if (mask.pixels[i] == 0) continue;
     for (std::size_t c = 0; c < 3; ++c) {
-      const int error = (after.pixels[i][c] - before.pixels[i][c]) -
-                        (truth_after.pixels[i][c] - truth_before.pixels[i][c]);
+      const std::int64_t error = (after.pixels[i][c] - before.pixels[i][c]) -
+                                 (truth_after.pixels[i][c] - truth_before.pixels[i][c]);
       sum += error * error;
     }
     ++selected;

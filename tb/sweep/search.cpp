@@ -135,6 +135,7 @@ class SweepSearch {
     search_pareto(space, {runs, settings_.population, seed, settings_.guess},
                   [&](const std::vector<Candidate>& generation) {
                     std::vector<PlannedPoint> points;
+                    points.reserve(generation.size());
                     for (const Candidate& candidate : generation)
                       points.push_back(*named_.at(sample_of(front, candidate.genes)));
                     return evaluate(points);
@@ -158,6 +159,7 @@ class SweepSearch {
     watch_(points_.size());
     if (first) collect(sweep_, plan_, place_);  // refuses metrics that no result has
     std::vector<Costs> costs;
+    costs.reserve(generation.size());
     for (const PlannedPoint& point : generation) costs.push_back(costs_of(point));
     return costs;
   }

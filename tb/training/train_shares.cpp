@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <fstream>
+#include <exception>
 #include <functional>
 #include <iostream>
 #include <iterator>
@@ -23,6 +23,8 @@
 
 #include "golden/morphological/configuration.h"
 #include "golden/morphological/morphological_golden.h"
+#include "spec/error.h"
+#include "tb/scene/image_io.h"
 #include "tb/scene/quality.h"
 #include "tb/training/share_trainer.h"
 #include "tb/training/training_frames.h"
@@ -227,6 +229,7 @@ using Samples = std::map<std::string, std::vector<ShareSample>>;
 ShareTables trained(const std::vector<const TruthFrame*>& frames, const Samples& samples,
                     const Recipe& recipe) {
   std::vector<std::vector<ShareSample>> chosen;
+  chosen.reserve(frames.size());
   for (const TruthFrame* frame : frames) chosen.push_back(samples.at(frame->name));
   return train(chosen, recipe);
 }
@@ -277,13 +280,14 @@ int run(int argc, char** argv) {
   const std::string text = recipe.text() + " frames:" + names;
   std::cout << text << '\n';
   const ShareTables tables = trained(all, samples, recipe);
-  if (!write.empty()) std::ofstream(write) << header_of(tables, text);
+  if (!write.empty()) write_file_atomically(write, header_of(tables, text));
 
   report(
       "Trained on (in sample)", all,
       [&](const TruthFrame&) -> const ShareTables& { return tables; }, brief);
   if (!held_out.empty()) {
     std::vector<const TruthFrame*> others;
+    others.reserve(held_out.size());
     for (const TruthFrame& frame : held_out) others.push_back(&frame);
     report_text({others.begin(), others.begin() + std::min<std::ptrdiff_t>(8, std::ssize(others))},
                 tables);
@@ -315,4 +319,14 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace deburr::tb::training
 
-int main(int argc, char** argv) { return deburr::tb::training::run(argc, argv); }
+int main(int argc, char** argv) {
+  try {
+    return deburr::tb::training::run(argc, argv);
+  } catch (const deburr::spec::Error& error) {
+    std::cerr << error.what() << '\n';
+    return static_cast<int>(error.code());
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return static_cast<int>(deburr::spec::ExitCode::kSimulation);
+  }
+}
