@@ -215,8 +215,9 @@ TEST(SharesCoverage, EveryClassAndEveryWordThatCanBeAskedFor) {
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
   EXPECT_EQ(coverage.size(), 72u + 8 + 16 + 1);
 
-  // No word is asked for that cannot be; of those that can be, most are. The rest is listed.
-  std::array<std::size_t, 3> possible{};
+  // No word is asked for that cannot be; of those that can be named, by the page, most are. The
+  // rest is listed, with some that only look possible here.
+  constexpr std::array<std::size_t, 3> kNamed = {532, 300, 220};
   std::string rest;
   for (std::size_t table = 0; table < 3; ++table)
     for (std::size_t word = 0; word < kWords[table]; ++word) {
@@ -227,13 +228,15 @@ TEST(SharesCoverage, EveryClassAndEveryWordThatCanBeAskedFor) {
       const bool was = asked[table].contains(word);
       EXPECT_TRUE(can || !was) << "shares_"
                                << "abc"[table] << ' ' << word;
-      possible[table] += can;
       if (can && !was) rest += fmt::format(" {}{}", "abc"[table], word);
     }
   std::ofstream("shares_coverage.json") << coverage.json();
   std::ofstream("shares_not_asked.txt") << rest << '\n';
-  for (std::size_t table = 0; table < 3; ++table)
-    EXPECT_GE(asked[table].size() * 100, possible[table] * 80) << "not asked:" << rest;
+  for (std::size_t table = 0; table < 3; ++table) {
+    EXPECT_LE(asked[table].size(), kNamed[table]);
+    EXPECT_GE(asked[table].size() * 100, kNamed[table] * 92)
+        << asked[table].size() << " of table " << table << ", not asked:" << rest;
+  }
 }
 
 }  // namespace
