@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 // How fast the bit-exact reference of the texture unit is. items_per_second counts samples (a
 // trilinear sample is two bilinear requests); goal: 10 M/s trilinear without traffic prediction.
+// --samples NAME N filters about N samples and prints how many, for tb/speed.
 #include <benchmark/benchmark.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <string>
 
 #include "golden/texture/texture_golden.h"
 #include "tb/unit/golden/texture/support.h"
@@ -58,7 +63,32 @@ BENCHMARK(trilinear_colours_and_traffic);
 BENCHMARK(anisotropic_colours);
 BENCHMARK(anisotropic_colours_and_traffic);
 
+// Whole planes until `wanted` samples are filtered; how many they were.
+std::uint64_t filter(bool anisotropic, TextureGolden::Traffic traffic, std::uint64_t wanted) {
+  const tb::texture::EncodedTexture texture(picture(), trilinear(anisotropic ? 4 : 0));
+  const std::vector<spec::texture::Quad> quads = GroundPlane{.size = 128, .height = 0.3}.quads();
+  TextureGolden golden(spec::texture::Parameters{}, texture.memory, traffic);
+  golden.set_texture(0, texture.descriptor);
+  while (golden.work().samples < wanted) {
+    for (const spec::texture::Quad& quad : quads) benchmark::DoNotOptimize(golden.process(quad));
+  }
+  return golden.work().samples;
+}
+
 }  // namespace
 }  // namespace deburr
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  using Traffic = deburr::golden::texture::TextureGolden::Traffic;
+  if (argc == 4 && std::string(argv[1]) == "--samples") {
+    const std::string name = argv[2];
+    const Traffic traffic = name.ends_with("_traffic") ? Traffic::kPredict : Traffic::kIgnore;
+    const std::uint64_t wanted = std::strtoull(argv[3], nullptr, 10);
+    std::cout << deburr::filter(name.starts_with("anisotropic"), traffic, wanted) << " samples\n";
+    return 0;
+  }
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
