@@ -4,33 +4,21 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <utility>
 
 #include "spec/texture/parameters.h"
 #include "spec/texture/tables.h"
 
 namespace deburr::golden::texture {
 
-Derivative derivative_in_texels(std::int64_t difference, std::uint32_t size) {
-  constexpr std::uint64_t kLargest = 0x7FFFFFFF;
-  const auto magnitude = static_cast<std::uint64_t>(difference < 0 ? -difference : difference);
-  const std::uint64_t texels = (magnitude * size + 128) >> 8;
-  const auto kept = static_cast<std::int32_t>(std::min(texels, kLargest));
-  return {difference < 0 ? -kept : kept, texels > kLargest};
-}
-
 std::uint32_t integer_square_root(std::uint64_t x) {
-  // Bit by bit as on paper: what remains of x, and twice the root, aligned to the place in work.
-  std::uint64_t rest = x, root = 0;
-  if (x == 0) return 0;
-  std::uint64_t place = std::uint64_t{1} << ((std::bit_width(x) - 1) & ~1);
-  for (; place != 0; place >>= 2) {
-    const std::uint64_t taken = root + place;
-    const std::uint64_t one =
-        rest >= taken ? ~std::uint64_t{0} : 0;  // no branch: nobody could guess
-    rest -= taken & one;
-    root = (root >> 1) + (place & one);
-  }
-  return static_cast<std::uint32_t>(root);
+  constexpr std::uint64_t kLargest = 0xFFFFFFFF;
+  // x and its root are rounded to the nearest double, so the root of a square comes out exact and
+  // any other at most one too large, never too small.
+  const auto root = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(x)));
+  const std::uint64_t kept = std::min(root, kLargest);
+  return static_cast<std::uint32_t>(kept - (kept * kept > x ? 1 : 0));
 }
 
 std::uint32_t footprint_side(spec::texture::FootprintRule rule, std::uint32_t s, std::uint32_t t) {
@@ -98,22 +86,65 @@ Step candidate_in_coordinates(spec::texture::Axes axes, int k, const Step& d_x, 
           rounded_in_coordinates(along(axis, d_x.t, d_y.t))};
 }
 
+namespace {
+
+struct Longest {
+  int k = 0;
+  std::uint64_t measure = 0;
+};
+
+// The candidate with the largest measure, of equals the first. kStep directions lie from
+// one to the next: constants, since that leaves little of the products.
+template <std::size_t kStep, class Measure>
+Longest longest_candidate(const Step& p_x, const Step& p_y, Measure&& measure) {
+  Longest result;
+  const auto look_at = [&]<std::size_t kIndex>() {
+    constexpr spec::texture::Axis kAxis = spec::texture::kAxes[kIndex * kStep];
+    const Magnitudes u = {magnitude_in_texels(along(kAxis, p_x.s, p_y.s)),
+                          magnitude_in_texels(along(kAxis, p_x.t, p_y.t))};
+    const std::uint64_t length = measure(u);
+    const bool longer = length > result.measure;
+    result.measure = longer ? length : result.measure;
+    result.k = longer ? static_cast<int>(kIndex) : result.k;
+  };
+  [&]<std::size_t... kIndices>(std::index_sequence<kIndices...>) {
+    (look_at.template operator()<kIndices>(), ...);
+  }
+  (std::make_index_sequence<spec::texture::kAxes.size() / kStep>{});
+  return result;
+}
+
+template <class Measure>
+Longest longest_candidate(spec::texture::Axes axes, const Step& p_x, const Step& p_y,
+                          Measure&& measure) {
+  switch (axes) {
+    case spec::texture::Axes::kTwo:
+      return longest_candidate<4>(p_x, p_y, measure);
+    case spec::texture::Axes::kFour:
+      return longest_candidate<2>(p_x, p_y, measure);
+    case spec::texture::Axes::kEight:
+      break;
+  }
+  return longest_candidate<1>(p_x, p_y, measure);
+}
+
+}  // namespace
+
 Footprint footprint(spec::texture::Axes axes, spec::texture::FootprintRule rule, const Step& p_x,
                     const Step& p_y) {
-  const bool exact = rule == spec::texture::FootprintRule::kExact;
-  const int count = candidates(axes);
   Footprint result;
-  Magnitudes longest;
-  std::uint64_t most = 0;
-  for (int k = 0; k < count; ++k) {
-    const Magnitudes u = candidate_in_texels(axes, k, p_x, p_y);
-    const std::uint64_t measure = exact ? square_of_length(u) : footprint_side(rule, u.s, u.t);
-    const bool longer = measure > most || k == 0;
-    most = longer ? measure : most;
-    longest = longer ? u : longest;
-    result.major = longer ? k : result.major;
+  if (rule == spec::texture::FootprintRule::kExact) {  // the longest root is of the largest square
+    const Longest longest =
+        longest_candidate(axes, p_x, p_y, [](const Magnitudes& u) { return square_of_length(u); });
+    result.major = longest.k;
+    result.d_max = integer_square_root(longest.measure);
+  } else {
+    const Longest longest = longest_candidate(
+        axes, p_x, p_y,
+        [rule](const Magnitudes& u) -> std::uint64_t { return footprint_side(rule, u.s, u.t); });
+    result.major = longest.k;
+    result.d_max = static_cast<std::uint32_t>(longest.measure);
   }
-  result.d_max = footprint_side(rule, longest.s, longest.t);
   if (axes == spec::texture::Axes::kTwo) {
     const Magnitudes other = candidate_in_texels(axes, 1 - result.major, p_x, p_y);
     result.d_min = footprint_side(rule, other.s, other.t);

@@ -8,6 +8,7 @@
 // tb/unit/golden/texture/footprint_test.cpp and log2_test.cpp.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "spec/texture/parameters.h"
@@ -30,7 +31,13 @@ struct Derivative {
 
 // difference: S8.24, coordinate of one lane minus that of its neighbour; size: width or height of
 // level 0. The 24 fraction bits of the magnitude are rounded to 16.
-Derivative derivative_in_texels(std::int64_t difference, std::uint32_t size);
+inline Derivative derivative_in_texels(std::int64_t difference, std::uint32_t size) {
+  constexpr std::uint64_t kLargest = 0x7FFFFFFF;
+  const auto magnitude = static_cast<std::uint64_t>(difference < 0 ? -difference : difference);
+  const std::uint64_t texels = (magnitude * size + 128) >> 8;
+  const auto kept = static_cast<std::int32_t>(std::min(texels, kLargest));
+  return {difference < 0 ? -kept : kept, texels > kLargest};
+}
 
 // Length of the vector (s, t), both U15.16 and >= 0, by one of the rules; U16.16. Equations 5,
 // 10, 11.

@@ -28,12 +28,18 @@ inline std::int32_t spread_of(spec::texture::Kernel kernel, int n, std::int32_t 
   return shapeless ? std::min(spread, 64) : spread;
 }
 
+// Half the distance of two of N samples, exact: what sample_offset() has in every sample alike.
+inline std::int64_t half_distance(int n, std::int32_t spread, std::int64_t axis) {
+  return spread * axis * spec::texture::kReciprocal[static_cast<std::size_t>(n)];
+}
+inline std::int64_t offset_at(int i, int n, std::int64_t half_distance) {
+  return round_shift((2 * i + 1 - n) * half_distance, 23);
+}
+
 // Offset of sample i of N from the pixel centre, S9.24, along one coordinate of the major axis.
 // axis: S9.24 of that coordinate; spread: U1.6, as spread_of() gives it.
 inline std::int64_t sample_offset(int i, int n, std::int32_t spread, std::int64_t axis) {
-  const std::int64_t places = 2 * i + 1 - n;  // in halves of the distance of two samples
-  const std::int64_t reciprocal = spec::texture::kReciprocal[static_cast<std::size_t>(n)];
-  return round_shift(places * spread * axis * reciprocal, 23);
+  return offset_at(i, n, half_distance(n, spread, axis));
 }
 
 // Weight of sample i of N, U1.8; they sum to 256.
@@ -79,22 +85,35 @@ inline std::int32_t texel_in_range(spec::texture::Wrap wrap, std::int64_t i, std
   return static_cast<std::int32_t>(std::clamp<std::int64_t>(i, 0, size - 1));
 }
 
-// The two texels around a sample coordinate S9.24 on a side of `size` texels.
-inline TexelPosition linear_position(spec::texture::Wrap wrap, std::int64_t p, std::int32_t size) {
+// The two texels around a coordinate on a side of `size` texels, after wrap_coordinate().
+inline TexelPosition linear_texels(spec::texture::Wrap wrap, std::int64_t wrapped,
+                                   std::int32_t size) {
   const std::int64_t half_texel = spec::texture::kCoordinateOne / 2;
-  const std::int64_t u = round_shift(wrap_coordinate(wrap, p) * size - half_texel,
+  const std::int64_t u = round_shift(wrapped * size - half_texel,
                                      spec::texture::kCoordinateFractionBits - 8);  // S.8
   const std::int64_t i0 = u >> 8;
-  return {texel_in_range(wrap, i0, size), texel_in_range(wrap, i0 + 1, size),
-          static_cast<std::uint32_t>(u & 255)};
+  const auto fraction = static_cast<std::uint32_t>(u & 255);
+  if (i0 >= 0 && i0 + 1 < size) {  // nearly always
+    const auto inside = static_cast<std::int32_t>(i0);
+    return {inside, inside + 1, fraction};
+  }
+  return {texel_in_range(wrap, i0, size), texel_in_range(wrap, i0 + 1, size), fraction};
 }
 
-// The texel that holds a sample coordinate S9.24.
-inline TexelPosition nearest_position(spec::texture::Wrap wrap, std::int64_t p, std::int32_t size) {
-  const std::int64_t i =
-      (wrap_coordinate(wrap, p) * size) >> spec::texture::kCoordinateFractionBits;
+// The texel that holds it.
+inline TexelPosition nearest_texel(spec::texture::Wrap wrap, std::int64_t wrapped,
+                                   std::int32_t size) {
+  const std::int64_t i = (wrapped * size) >> spec::texture::kCoordinateFractionBits;
   const std::int32_t in_range = texel_in_range(wrap, i, size);
   return {in_range, in_range, 0};
+}
+
+// The same of a sample coordinate S9.24.
+inline TexelPosition linear_position(spec::texture::Wrap wrap, std::int64_t p, std::int32_t size) {
+  return linear_texels(wrap, wrap_coordinate(wrap, p), size);
+}
+inline TexelPosition nearest_position(spec::texture::Wrap wrap, std::int64_t p, std::int32_t size) {
+  return nearest_texel(wrap, wrap_coordinate(wrap, p), size);
 }
 
 // Byte address of texel (x, y) of a level, modulo 2^32. 0 <= x < level_size(width, level), y alike.

@@ -25,6 +25,15 @@ std::uint32_t word_of(spec::texture::Format format, const std::uint8_t* bytes) {
   }
 }
 
+// The nearly only format, from memory that does not fail, without decisions.
+std::array<Channels, 4> read_rgba8(const std::uint8_t* bytes,
+                                   const std::array<std::uint32_t, 4>& addresses) {
+  const auto texel = [bytes](std::uint32_t address) {
+    return decode_channels(spec::texture::Format::kRgba8, word_of_four(bytes + address));
+  };
+  return {texel(addresses[0]), texel(addresses[1]), texel(addresses[2]), texel(addresses[3])};
+}
+
 }  // namespace
 
 TextureGolden::TextureGolden(const spec::texture::Parameters& parameters,
@@ -117,18 +126,21 @@ FragmentAnalysis TextureGolden::analyse(const Texture& texture, const Difference
                                         int lane) const {
   const Difference& row = differences.rows[static_cast<std::size_t>(lane >> 1)];
   const Difference& column = differences.columns[static_cast<std::size_t>(lane & 1)];
-  FragmentAnalysis result;
-  result.valid = true;
-  result.saturated = row.saturated || column.saturated;
-  result.d_x = row.d;
-  result.d_y = column.d;
-  result.p_x = row.p;
-  result.p_y = column.p;
-  result.footprint = footprint(parameters_.axes, parameters_.footprint, result.p_x, result.p_y);
-  result.axis =
-      candidate_in_coordinates(parameters_.axes, result.footprint.major, result.d_x, result.d_y);
-  const AxisLogarithms lb = axis_logarithms(parameters_.axes, parameters_.log2, result.footprint);
-  result.lod = select_level(parameters_, texture.descriptor, lb.d_max, lb.d_min);
+  const auto level = [&](const Footprint& of) {
+    const AxisLogarithms lb = axis_logarithms(parameters_.axes, parameters_.log2, of);
+    return select_level(parameters_, texture.descriptor, lb.d_max, lb.d_min);
+  };
+  // In place, member by member: clearing and copying took a sixth of a trilinear sample's time.
+  const FragmentAnalysis result = {
+      .valid = true,
+      .saturated = row.saturated || column.saturated,
+      .d_x = row.d,
+      .d_y = column.d,
+      .p_x = row.p,
+      .p_y = column.p,
+      .footprint = footprint(parameters_.axes, parameters_.footprint, row.p, column.p),
+      .axis = candidate_in_coordinates(parameters_.axes, result.footprint.major, row.d, column.d),
+      .lod = level(result.footprint)};
   return result;
 }
 
@@ -175,10 +187,14 @@ std::array<std::uint8_t, 4> TextureGolden::filter_fragment(const Texture& textur
   const LevelOfDetail& lod = fragment.lod;
   const int n = lod.samples;
   const std::int32_t spread = spread_of(parameters_.kernel, n, parameters_.spread);
+  const std::int64_t distance_s = half_distance(n, spread, fragment.axis.s);
+  const std::int64_t distance_t = half_distance(n, spread, fragment.axis.t);
   Channels accumulator;  // U8.20
   for (int i = 0; i < n; ++i) {
-    const std::int64_t sample_s = s + sample_offset(i, n, spread, fragment.axis.s);
-    const std::int64_t sample_t = t + sample_offset(i, n, spread, fragment.axis.t);
+    const std::int64_t sample_s =
+        wrap_coordinate(texture.descriptor.wrap_s, s + offset_at(i, n, distance_s));
+    const std::int64_t sample_t =
+        wrap_coordinate(texture.descriptor.wrap_t, t + offset_at(i, n, distance_t));
     Channels value = bilinear(texture, lod.level, lod.linear, sample_s, sample_t);
     if (lod.fraction != 0) {
       const Channels next = bilinear(texture, lod.level + 1, lod.linear, sample_s, sample_t);
@@ -203,7 +219,7 @@ Channels TextureGolden::bilinear(const Texture& texture, int level, bool linear,
   const spec::texture::Descriptor& descriptor = texture.descriptor;
   const LevelTable& table = texture.levels[static_cast<std::size_t>(level)];
   const auto position = [linear](spec::texture::Wrap wrap, std::int64_t p, std::int32_t size) {
-    return linear ? linear_position(wrap, p, size) : nearest_position(wrap, p, size);
+    return linear ? linear_texels(wrap, p, size) : nearest_texel(wrap, p, size);
   };
   const TexelPosition x = position(descriptor.wrap_s, s, table.width);
   const TexelPosition y = position(descriptor.wrap_t, t, table.height);
@@ -211,12 +227,16 @@ Channels TextureGolden::bilinear(const Texture& texture, int level, bool linear,
   const std::uint32_t x1 = table.column[static_cast<std::size_t>(x.i1)];
   const std::uint32_t y0 = table.row[static_cast<std::size_t>(y.i0)];
   const std::uint32_t y1 = table.row[static_cast<std::size_t>(y.i1)];
-  const std::array<std::uint32_t, 4> addresses = {x0 + y0, x1 + y0, x0 + y1, x1 + y1};
+  const auto addresses = [&] {
+    return std::array<std::uint32_t, 4>{x0 + y0, x1 + y0, x0 + y1, x1 + y1};
+  };
   ++work_.bilinears;
   ++work_.by_level[static_cast<std::size_t>(level)];
-  if (predict_) predict(addresses);
+  if (predict_) predict(addresses());
 
-  const std::array<Channels, 4> texel = read(table, descriptor.format, addresses);
+  const bool common = table.plain && descriptor.format == spec::texture::Format::kRgba8;
+  const std::array<Channels, 4> texel = common ? read_rgba8(memory_.data(), addresses())
+                                               : read(table, descriptor.format, addresses());
   const auto filter = [&](Lanes a, Lanes b, Lanes c, Lanes d) {
     return vertical_lerp(horizontal_lerp(a, b, x.fraction), horizontal_lerp(c, d, x.fraction),
                          y.fraction);
@@ -228,18 +248,9 @@ Channels TextureGolden::bilinear(const Texture& texture, int level, bool linear,
 std::array<Channels, 4> TextureGolden::read(const LevelTable& table, spec::texture::Format format,
                                             const std::array<std::uint32_t, 4>& addresses) const {
   std::array<Channels, 4> texels;
-  const std::uint8_t* bytes = memory_.data();
-  if (table.plain &&
-      format == spec::texture::Format::kRgba8) {  // the common case without decisions
-    for (std::size_t i = 0; i < 4; ++i) {
-      texels[i] =
-          decode_channels(spec::texture::Format::kRgba8, word_of_four(bytes + addresses[i]));
-    }
-    return texels;
-  }
   for (std::size_t i = 0; i < 4; ++i) {
     const bool readable = table.plain || !fails(cache_.line_of(addresses[i]));
-    const std::uint32_t word = readable ? word_of(format, bytes + addresses[i]) : 0;
+    const std::uint32_t word = readable ? word_of(format, memory_.data() + addresses[i]) : 0;
     texels[i] = decode_channels(format, word);
   }
   return texels;

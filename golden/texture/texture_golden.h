@@ -133,7 +133,7 @@ class TextureGolden {
   std::array<std::uint8_t, 4> filter_fragment(const Texture& texture,
                                               const FragmentAnalysis& fragment, std::int32_t s,
                                               std::int32_t t);
-  // U8.12.
+  // U8.12. s and t are wrapped.
   Channels bilinear(const Texture& texture, int level, bool linear, std::int64_t s, std::int64_t t);
   std::array<Channels, 4> read(const LevelTable& table, spec::texture::Format format,
                                const std::array<std::uint32_t, 4>& addresses) const;
