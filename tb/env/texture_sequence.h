@@ -43,7 +43,16 @@ struct SequenceOptions {
   std::function<void(int frame)> progress = nullptr;  // may throw
 };
 
-// Of the scene's own camera, moved, by each set of rules.
+// A picture of a scene by any filter.
+using FrameFilter = std::function<Image(const TextureScene&)>;
+
+// Of the scene's own camera, moved, by each filter.
+std::vector<Flicker> flicker_of(const SceneParameters& scene, const SamplerParameters& sampler,
+                                std::uint32_t seed, const SequenceParameters& sequence,
+                                std::span<const FrameFilter> filters,
+                                const SequenceOptions& options = {});
+
+// The same of the golden model by each set of rules.
 std::vector<Flicker> flicker_of(const SceneParameters& scene, const SamplerParameters& sampler,
                                 std::uint32_t seed, const SequenceParameters& sequence,
                                 std::span<const spec::texture::Parameters> rules,

@@ -8,7 +8,7 @@ deburr_test(texture_direction_test LABELS oracle TIMEOUT 600
   LINK deburr::turned_photo)
 deburr_test(texture_flicker_test LABELS oracle TIMEOUT 600
   SOURCES "${CMAKE_CURRENT_LIST_DIR}/texture_flicker_test.cpp"
-  LINK deburr::texture_scene)
+  LINK deburr::ideal deburr::texture_scene)
 foreach(test texture_direction_test texture_flicker_test)
   target_compile_definitions(${test} PRIVATE DEBURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 endforeach()
