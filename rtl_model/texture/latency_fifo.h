@@ -27,11 +27,12 @@ class LatencyFifo final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override { entries.reset(); }
 
-  // The least depth at which misses cost no time, of a memory that answers this long after a
-  // request: a request stays for the time of a miss, without the stages around the FIFO.
-  static constexpr std::int32_t depth_for(std::int32_t memory_clocks) {
-    constexpr std::int32_t kAroundMemory = 11;
-    return memory_clocks + kAroundMemory;
+  // The least depth at which misses cost no time, of a memory with this latency that takes
+  // `transfer` clocks for a line: a request stays for the time of a miss, without the stages around
+  // the FIFO, and may miss four lines, which come one behind the other.
+  static constexpr std::int32_t depth_for(std::int32_t latency, std::int32_t transfer) {
+    constexpr std::int32_t kAroundMemory = 3;
+    return latency + 4 * transfer + kAroundMemory;
   }
 
   Fifo<CacheToken> entries;  // read by the DataStage

@@ -90,9 +90,11 @@ class FrameCommand final : public Engine {
     if (has_geometric(choice_.smoothing)) golden::geometric::check_parameters(geometric_);
     if (has_morphological(choice_.smoothing))
       golden::morphological::check_parameters(morphological_);
-    if (sampler_.format == spec::texture::Format::kSrgb8A8)
+    if (sampler_.format == spec::texture::Format::kSrgb8A8 &&
+        texture_.srgb_output == spec::texture::SrgbOutput::kLinear)
       throw spec::ConfigError(
-          "sampler.format: the frame buffer keeps codes; srgb8_a8 delivers linear light");
+          "sampler.format: the frame buffer keeps codes, and srgb8_a8 delivers linear light: set "
+          "texture.srgb_output = encoded");
     const std::shared_ptr<const TextureScene> shared = load(run, context);
     const TextureScene& scene = *shared;
     refuse_nothing_drawn(scene);

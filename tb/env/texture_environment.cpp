@@ -32,7 +32,7 @@ std::int32_t fifo_depth(const TextureSetup& setup) {
   const std::int32_t bytes = setup.memory.bytes_per_clock, line = setup.texture.cache_line_bytes;
   const std::int32_t transfer = bytes == 0 ? 1 : std::max(1, line / bytes);
   const std::int32_t latency = std::max(setup.memory.latency, setup.memory.latency_max);
-  return std::min(rtl::texture::LatencyFifo::depth_for(latency + transfer), kMost);
+  return std::min(rtl::texture::LatencyFifo::depth_for(latency, transfer), kMost);
 }
 
 // ---- building -----------------------------------------------------------------------------------

@@ -306,7 +306,14 @@ class Configuration(Base):
         return super().expect(code, *arguments, says=says, **options)
 
     def test_frame_keeps_codes(self):
-        self.run_engine(2, *self.SMALL, "--set", "sampler.format=srgb8_a8", engine="frame", says="srgb8_a8")
+        srgb = ("--set", "sampler.format=srgb8_a8", "--set")
+        self.run_engine(2, *self.SMALL, *srgb, "texture.srgb_output=linear", engine="frame",
+                        says="texture.srgb_output = encoded")
+        self.run_engine(0, *self.SMALL, *srgb, "texture.srgb_output=encoded", "--truth", engine="frame", says="PASS")
+        self.assertEqual(self.result()["memories"]["texture_filter_codes"]["words"], 4096)
+        encoded = self.result()["quality"]["psnr_db"]
+        self.run_engine(0, *self.SMALL, "--truth", engine="frame", says="PASS")
+        self.assertGreater(encoded, self.result()["quality"]["psnr_db"] + 0.5)  # filtered in linear light
 
     def test_frame(self):
         self.run_engine(0, *self.SMALL, engine="frame", says="PASS")

@@ -136,7 +136,7 @@ class QuadBench {
     const std::uint32_t latency = std::max(memory.latency_min, memory.latency_max);
     if (p.cache_fifo_depth == 0)
       p.cache_fifo_depth =
-          rtl::texture::LatencyFifo::depth_for(static_cast<std::int32_t>(latency) + 1);
+          rtl::texture::LatencyFifo::depth_for(static_cast<std::int32_t>(latency), 1);
     return p;
   }
   static MemoryModelParameters sized(MemoryModelParameters memory, const QuadInput& input) {

@@ -214,7 +214,7 @@ struct Store {
 inline spec::texture::Parameters sized(spec::texture::Parameters p, std::uint32_t latency) {
   if (p.cache_fifo_depth == 0)
     p.cache_fifo_depth =
-        rtl::texture::LatencyFifo::depth_for(static_cast<std::int32_t>(latency) + 1);
+        rtl::texture::LatencyFifo::depth_for(static_cast<std::int32_t>(latency), 1);
   return p;
 }
 
