@@ -10,3 +10,5 @@ target_compile_definitions(texture_coverage_test PRIVATE
   DEBURR_COVERAGE_FILE="${CMAKE_CURRENT_BINARY_DIR}/texture_coverage.json")
 deburr_test(texture_random_test LABELS system SOURCES texture_random_test.cpp
             LINK deburr::texture_memory deburr::golden_texture deburr::harness deburr::rtl_texture)
+deburr_test(texture_limits_test LABELS system SOURCES texture_limits_test.cpp
+            LINK deburr::texture_memory deburr::golden_texture deburr::harness deburr::rtl_texture)

@@ -163,6 +163,28 @@ INSTANTIATE_TEST_SUITE_P(Texture, RandomQuadsNoticeTable,
                                          WrongWord{"srgb", 128}),
                          [](const auto& p) { return std::string(p.param.table); });
 
+// The weight of the first of N samples.
+class RandomQuadsNoticeWeights : public testing::TestWithParam<int> {};
+
+TEST_P(RandomQuadsNoticeWeights, OfOneCount) {
+  const int n = GetParam();
+  Random random(1, "random quads");
+  const QuadInput input = random_input(random);
+  spec::texture::Parameters p;
+  p.kernel = spec::texture::Kernel::kTent;
+  QuadBench bench(input, p);
+  int changed = 0;
+  rtl::for_each<rtl::Memory<std::uint16_t>>(bench.unit(), [&](auto& memory) {
+    if (std::string(memory.basename()) != "weights") return;
+    memory.backdoor(static_cast<std::uint64_t>(16 * (n - 1))) ^= 8;
+    ++changed;
+  });
+  ASSERT_EQ(changed, 1);
+  bench.reset();
+  EXPECT_NE(bench.judge(input, bench.run()), "");
+}
+INSTANTIATE_TEST_SUITE_P(Texture, RandomQuadsNoticeWeights, testing::Range(1, 17));
+
 class RandomQuadsNotice : public testing::TestWithParam<int> {};
 
 TEST_P(RandomQuadsNotice, WhatIsWrong) {

@@ -161,6 +161,45 @@ INSTANTIATE_TEST_SUITE_P(
           spec::texture::kReplacementNames[static_cast<std::size_t>(std::get<1>(p.param))]);
     });
 
+// ---- depth of the latency FIFO
+
+std::uint64_t cycles_with(TextureRunOptions options, std::int32_t fifo_depth) {
+  options.texture.cache_fifo_depth = fifo_depth;
+  return forked<std::uint64_t>([&] { return simulate(picture("plane", 64), {}, options).cycles; });
+}
+
+// The default is the knee: more entries save no clock, fewer cost some.
+class FifoDepth : public testing::TestWithParam<std::tuple<bool, int>> {};
+
+TEST_P(FifoDepth, TheDefaultIsTheKnee) {
+  const auto [paper, latency] = GetParam();
+  TextureRunOptions options = paper ? paper_options() : TextureRunOptions{};
+  options.memory.latency = latency;
+  const std::int32_t depth = fifo_depth(options);
+  EXPECT_EQ(depth, latency + 7);
+  const std::uint64_t cycles = cycles_with(options, 0);
+  EXPECT_EQ(cycles_with(options, 2 * depth), cycles);
+  EXPECT_GT(cycles_with(options, depth - 1), cycles);
+}
+
+INSTANTIATE_TEST_SUITE_P(Texture, FifoDepth,
+                         testing::Combine(testing::Bool(), testing::Values(40, 108, 200)),
+                         [](const auto& p) {
+                           return fmt::format("{}_{}", std::get<0>(p.param) ? "paper" : "deburr",
+                                              std::get<1>(p.param));
+                         });
+
+// A line that takes several clocks has no knee but a bend: what is lost is below half a percent.
+TEST(FifoDepthOfANarrowMemory, LosesLittle) {
+  TextureRunOptions options;
+  options.memory.bytes_per_clock = 16;
+  const std::int32_t depth = fifo_depth(options);
+  EXPECT_EQ(depth, options.memory.latency + 4 * 4 + 3);
+  const auto most = static_cast<double>(cycles_with(options, 4 * depth));
+  EXPECT_LE(static_cast<double>(cycles_with(options, 0)), 1.005 * most);
+  EXPECT_GT(static_cast<double>(cycles_with(options, depth - 12)), 1.01 * most);
+}
+
 // ---- magnification, bias and clamps
 // ---------------------------------------------------------------
 

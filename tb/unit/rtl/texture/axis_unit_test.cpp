@@ -40,8 +40,17 @@ std::int64_t root(std::int64_t x) {
   return r;
 }
 
+// What a wrong unit would do.
+enum class Wrong {
+  kNothing,
+  kSwapped,      // sine and cosine of 22.5 degrees
+  kSwappedFlat,  // the same in coordinates alone: lengths are right, samples lie elsewhere
+  kLargest       // k of equally long candidates
+};
+
 // The contract, line by line.
-Expected expected(const DerivativeToken& d, Axes axes, FootprintRule rule) {
+Expected expected(const DerivativeToken& d, Axes axes, FootprintRule rule,
+                  Wrong wrong = Wrong::kNothing) {
   const int candidates = 2 << static_cast<int>(axes);
   const auto sign = [](std::int64_t difference, std::int64_t size) {
     return difference < 0 ? -size : size;
@@ -51,12 +60,19 @@ Expected expected(const DerivativeToken& d, Axes axes, FootprintRule rule) {
   Expected best{};
   std::int64_t longest = -1;
   for (int k = 0; k < candidates; ++k) {
-    const auto [cosine, sine] = spec::texture::kAxes[static_cast<std::size_t>(8 * k / candidates)];
-    const auto texels = [c = cosine, s = sine](std::int64_t x, std::int64_t y) {
-      return std::min(std::abs(c * x + s * y) / 128, std::int64_t{0x7FFFFFFF});
+    const int direction = 8 * k / candidates;
+    const auto axis = [&](bool swapped) {
+      const auto [cosine, sine] = spec::texture::kAxes[static_cast<std::size_t>(direction)];
+      return swapped && direction == 1 ? spec::texture::Axis{sine, cosine}
+                                       : spec::texture::Axis{cosine, sine};
     };
-    const auto coordinate = [c = cosine, s = sine](std::int64_t x, std::int64_t y) {
-      const std::int64_t exact = c * x + s * y, magnitude = (std::abs(exact) + 64) / 128;
+    const auto texels = [a = axis(wrong == Wrong::kSwapped)](std::int64_t x, std::int64_t y) {
+      return std::min(std::abs(a.cosine * x + a.sine * y) / 128, std::int64_t{0x7FFFFFFF});
+    };
+    const auto coordinate = [c = axis(wrong == Wrong::kSwapped || wrong == Wrong::kSwappedFlat)](
+                                std::int64_t x, std::int64_t y) {
+      const std::int64_t exact = c.cosine * x + c.sine * y,
+                         magnitude = (std::abs(exact) + 64) / 128;
       return exact < 0 ? -magnitude : magnitude;
     };
     const std::int64_t s = texels(s_x, s_y), t = texels(t_x, t_y);
@@ -66,7 +82,7 @@ Expected expected(const DerivativeToken& d, Axes axes, FootprintRule rule) {
     if (rule == FootprintRule::kQuarter) measure = a + b / 4;
     if (rule == FootprintRule::kTwoSegment) measure = std::max(a + b / 8, a - a / 8 + b / 2);
     if (rule == FootprintRule::kExact) measure = a * a + b * b;
-    if (measure <= longest) continue;
+    if (measure < longest || (measure == longest && wrong != Wrong::kLargest)) continue;
     longest = measure;
     best = {rule == FootprintRule::kExact ? root(measure) : measure, coordinate(d.s_x, d.s_y),
             coordinate(d.t_x, d.t_y), 0, k};
@@ -86,12 +102,7 @@ DerivativeToken token(std::int64_t s_x, std::int64_t t_x, std::int64_t s_y, std:
   return {ticket(tag), 11, -12, s_x, t_x, s_y, t_y, size(s_x), size(t_x), size(s_y), size(t_y)};
 }
 
-class AxisRules : public testing::TestWithParam<std::tuple<Axes, FootprintRule>> {};
-
-TEST_P(AxisRules, AreTheContract) {
-  const auto [axes, rule] = GetParam();
-  ClockDomain clock("clock", period());
-  AxisBench b(clock, "", axes, rule);
+std::vector<DerivativeToken> tokens_of_all_kinds() {
   Random random(3);
   std::vector<DerivativeToken> tokens;
   constexpr std::int64_t kLimit = 0xFFFFFFFF;  // of a difference
@@ -117,6 +128,16 @@ TEST_P(AxisRules, AreTheContract) {
     const std::int64_t s_x = any(), t_x = any(), s_y = any();
     tokens.push_back(token(s_x, t_x, s_y, any()));
   }
+  return tokens;
+}
+
+class AxisRules : public testing::TestWithParam<std::tuple<Axes, FootprintRule>> {};
+
+TEST_P(AxisRules, AreTheContract) {
+  const auto [axes, rule] = GetParam();
+  ClockDomain clock("clock", period());
+  AxisBench b(clock, "", axes, rule);
+  const std::vector<DerivativeToken> tokens = tokens_of_all_kinds();
   for (const DerivativeToken& t : tokens) b.ends.source.add(t);
   b.ends.sink.hold_from = 100;  // nothing may get lost or be worked on twice
   b.ends.sink.hold_to = 140;
@@ -136,6 +157,25 @@ TEST_P(AxisRules, AreTheContract) {
   }
   for (int k = 0; k < 2 << static_cast<int>(axes); ++k)
     EXPECT_GT(major[static_cast<std::size_t>(k)], 20) << "direction " << k << " never was major";
+}
+
+// A unit that turned the wrong way, or took the last of equals, would be seen above.
+TEST_P(AxisRules, NoticeAWrongUnit) {
+  const auto [axes, rule] = GetParam();
+  const auto differ = [axes = axes, rule = rule](Wrong wrong) {
+    int count = 0;
+    for (const DerivativeToken& t : tokens_of_all_kinds()) {
+      const Expected right = expected(t, axes, rule), other = expected(t, axes, rule, wrong);
+      count += right.d_max != other.d_max || right.axis_s != other.axis_s ||
+               right.axis_t != other.axis_t;
+    }
+    return count;
+  };
+  EXPECT_EQ(differ(Wrong::kNothing), 0);
+  EXPECT_GT(differ(Wrong::kLargest), 10);
+  const bool has_22_degrees = axes == Axes::kEight;
+  EXPECT_EQ(differ(Wrong::kSwapped) > 50, has_22_degrees);
+  EXPECT_EQ(differ(Wrong::kSwappedFlat) > 50, has_22_degrees);
 }
 
 INSTANTIATE_TEST_SUITE_P(
