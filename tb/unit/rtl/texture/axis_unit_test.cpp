@@ -45,6 +45,7 @@ enum class Wrong {
   kNothing,
   kSwapped,      // sine and cosine of 22.5 degrees
   kSwappedFlat,  // the same in coordinates alone: lengths are right, samples lie elsewhere
+  kExchanged,    // 49 and 118 everywhere: the same candidates in another order, so ties alone tell
   kLargest       // k of equally long candidates
 };
 
@@ -60,7 +61,9 @@ Expected expected(const DerivativeToken& d, Axes axes, FootprintRule rule,
   Expected best{};
   std::int64_t longest = -1;
   for (int k = 0; k < candidates; ++k) {
-    const int direction = 8 * k / candidates;
+    const int straight = 8 * k / candidates;
+    const bool exchanged = wrong == Wrong::kExchanged && straight % 2 == 1;
+    const int direction = exchanged ? straight ^ 2 : straight;
     const auto axis = [&](bool swapped) {
       const auto [cosine, sine] = spec::texture::kAxes[static_cast<std::size_t>(direction)];
       return swapped && direction == 1 ? spec::texture::Axis{sine, cosine}
@@ -112,6 +115,9 @@ std::vector<DerivativeToken> tokens_of_all_kinds() {
       for (const std::int64_t s_y : {-kLimit, std::int64_t{-65}, std::int64_t{0}, kLimit})
         for (const std::int64_t t_y : {-kLimit, std::int64_t{0}, std::int64_t{63}, kLimit})
           tokens.push_back(token(s_x, t_x, s_y, t_y));
+  // Nearly a circle, long at 45 degrees: 22.5 and 67.5 are equal, 45 itself is measured shorter.
+  for (const std::int64_t sign : {-1, 1})
+    tokens.push_back(token(100'000, 700 * sign, 700 * sign, 100'000));
   // Every degree of roll at a few ratios, and anything.
   for (int degree = 0; degree < 360; ++degree)
     for (const double ratio : {1.0, 1.5, 6.0, 40.0}) {
@@ -176,6 +182,7 @@ TEST_P(AxisRules, NoticeAWrongUnit) {
   const bool has_22_degrees = axes == Axes::kEight;
   EXPECT_EQ(differ(Wrong::kSwapped) > 50, has_22_degrees);
   EXPECT_EQ(differ(Wrong::kSwappedFlat) > 50, has_22_degrees);
+  EXPECT_EQ(differ(Wrong::kExchanged) > 0, has_22_degrees);
 }
 
 INSTANTIATE_TEST_SUITE_P(
