@@ -21,7 +21,7 @@ inline std::int64_t round_shift(std::int64_t x, int drop) {
   return (x + (std::int64_t{1} << (drop - 1))) >> drop;
 }
 
-// The length over which N samples are spread, U1.6 of the major axis: a tent of few samples has no
+// The length over which N samples are spread, U2.6 of the major axis: a tent of few samples has no
 // shape that a longer one would suit.
 inline std::int32_t spread_of(spec::texture::Kernel kernel, int n, std::int32_t spread) {
   const bool shapeless = kernel == spec::texture::Kernel::kTent && n < 4;
@@ -29,7 +29,7 @@ inline std::int32_t spread_of(spec::texture::Kernel kernel, int n, std::int32_t 
 }
 
 // Offset of sample i of N from the pixel centre, S9.24, along one coordinate of the major axis.
-// axis: S9.24 of that coordinate; spread: U1.6, as spread_of() gives it.
+// axis: S9.24 of that coordinate; spread: U2.6, as spread_of() gives it.
 inline std::int64_t sample_offset(int i, int n, std::int32_t spread, std::int64_t axis) {
   const std::int64_t places = 2 * i + 1 - n;  // in halves of the distance of two samples
   const std::int64_t reciprocal = spec::texture::kReciprocal[static_cast<std::size_t>(n)];
