@@ -376,7 +376,7 @@ TEST(Payload, PackageDeclaresWhatIsInIt) {
             "    logic [1:0] colour;\n"
             "    logic [1:0] edges;  // a bit a lane\n"
             "    logic signed [32:0] wide;  // S8.24\n"
-            "    logic signed [12:0] slope;  // S1.12\n"
+            "    logic signed [12:0] slope;  // S0.12\n"
             "    place_t [1:0] corner;\n"
             "    logic [1:0][3:0][7:0] pixel;  // U0.8\n"
             "    place_t place;\n"
