@@ -27,8 +27,8 @@ class LatencyFifo final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override { entries.reset(); }
 
-  // The least depth at which misses cost no time, of a memory that answers this long after a
-  // request: a request stays for the time of a miss, without the stages around the FIFO.
+  // A depth at which misses cost no time, of a memory that answers this long after a request: a
+  // request stays for the time of a miss. By measure five entries less would do.
   static constexpr std::int32_t depth_for(std::int32_t memory_clocks) {
     constexpr std::int32_t kAroundMemory = 11;
     return memory_clocks + kAroundMemory;

@@ -161,6 +161,40 @@ INSTANTIATE_TEST_SUITE_P(
           spec::texture::kReplacementNames[static_cast<std::size_t>(std::get<1>(p.param))]);
     });
 
+// ---- depth of the latency FIFO
+// -------------------------------------------------------------------
+
+// The depth that memory gives is enough, and six entries less are not.
+class FifoDepth : public testing::TestWithParam<std::tuple<const char*, bool, int>> {};
+
+TEST_P(FifoDepth, IsAtTheKnee) {
+  const auto [source, paper, latency] = GetParam();
+  TextureRunOptions options = paper ? paper_options() : TextureRunOptions{};
+  options.memory.latency = latency;
+  const auto cycles = [&](std::int32_t depth) {
+    options.texture.cache_fifo_depth = depth;
+    return forked<std::uint64_t>(
+        [&] { return simulate(picture(source, 48), SamplerParameters{}, options).cycles; });
+  };
+  options.texture.cache_fifo_depth = 0;
+  const std::int32_t sized = fifo_depth(options);
+  EXPECT_EQ(sized, latency + 12);
+  const std::uint64_t enough = cycles(0);
+  EXPECT_EQ(cycles(sized), enough);
+  EXPECT_EQ(cycles(2 * sized), enough);
+  EXPECT_EQ(cycles(sized - 5), enough);
+  EXPECT_GT(cycles(sized - 6), enough);
+}
+
+INSTANTIATE_TEST_SUITE_P(Texture, FifoDepth,
+                         testing::Combine(testing::Values("plane", "tunnel"), testing::Bool(),
+                                          testing::Values(60, 200)),
+                         [](const auto& p) {
+                           return fmt::format("{}_{}_{}", std::get<0>(p.param),
+                                              std::get<1>(p.param) ? "paper" : "deburr",
+                                              std::get<2>(p.param));
+                         });
+
 // ---- magnification, bias and clamps
 // ---------------------------------------------------------------
 
