@@ -21,7 +21,7 @@ inline std::int64_t round_shift(std::int64_t x, int drop) {
   return (x + (std::int64_t{1} << (drop - 1))) >> drop;
 }
 
-// The length over which N samples are spread, U1.6 of the major axis: a tent of few samples has no
+// The length over which N samples are spread, U2.6 of the major axis: a tent of few samples has no
 // shape that a longer one would suit.
 inline std::int32_t spread_of(spec::texture::Kernel kernel, int n, std::int32_t spread) {
   const bool shapeless = kernel == spec::texture::Kernel::kTent && n < 4;
@@ -37,7 +37,7 @@ inline std::int64_t offset_at(int i, int n, std::int64_t half_distance) {
 }
 
 // Offset of sample i of N from the pixel centre, S9.24, along one coordinate of the major axis.
-// axis: S9.24 of that coordinate; spread: U1.6, as spread_of() gives it.
+// axis: S9.24 of that coordinate; spread: U2.6, as spread_of() gives it.
 inline std::int64_t sample_offset(int i, int n, std::int32_t spread, std::int64_t axis) {
   return offset_at(i, n, half_distance(n, spread, axis));
 }

@@ -28,6 +28,18 @@ void store_as(std::byte* to, std::uint64_t value) {
   std::memcpy(to, &narrow, sizeof narrow);
 }
 
+// Bits of a format Ua.b or Sa.b; 0: another text.
+std::uint32_t format_bits(std::string_view format) {
+  if (format.empty() || (format[0] != 'U' && format[0] != 'S')) return 0;
+  const char* const end = format.data() + format.size();
+  std::uint32_t whole = 0, fraction = 0;
+  const auto point = std::from_chars(format.data() + 1, end, whole);
+  if (point.ec != std::errc{} || point.ptr == end || *point.ptr != '.') return 0;
+  const auto rest = std::from_chars(point.ptr + 1, end, fraction);
+  if (rest.ec != std::errc{} || rest.ptr != end) return 0;
+  return whole + fraction + (format[0] == 'S' ? 1 : 0);
+}
+
 // The whole C++ integer, whatever the host's byte order is.
 std::uint64_t load(const std::byte* from, std::uint32_t bytes) {
   switch (bytes) {
@@ -98,6 +110,9 @@ PayloadNode PayloadBuilder::field(std::string name, std::ptrdiff_t offset, std::
     if (full == what || full.starts_with(what + ".")) bits = narrower;
   DEBURR_CHECK(bits <= listed && listed != 0,
                fmt::format("{}: {} bits, its list allows 0..{}", full, bits, listed));
+  const std::uint32_t written = format_bits(format);
+  DEBURR_CHECK(written == 0 || written == listed,
+               fmt::format("{}: {} has {} bits, the list says {}", full, format, written, listed));
   PayloadNode node;
   node.name = std::move(name);
   node.field = {full,

@@ -14,7 +14,7 @@ constexpr int kReciprocalBits = 16;  // below the point
 constexpr int kRoundedBits = 23;     // half an axis, S10.46, to a coordinate, S9.24
 constexpr std::int64_t kHalf = std::int64_t{1} << (kRoundedBits - 1);
 constexpr std::uint8_t kLastOfFour = 3;
-constexpr std::int32_t kWholeAxis = 64;  // U1.6
+constexpr std::int32_t kWholeAxis = 64;  // U2.6
 
 }  // namespace
 

@@ -7,11 +7,11 @@
 // it is a shift here); then a request a clock. Latency 3 to the first request, 4 with `any`;
 // initiation interval N x (1 or 2) clocks a fragment (1 for an invalid descriptor), no clock
 // between two fragments: the next ones are prepared meanwhile. Stalled by `downstream`. Made for
-// 250 MHz; longest path: 41 x 16 bit multiply (16 rows of partial products where 24 x 24 has 24),
+// 250 MHz; longest path: 41 x 17 bit multiply (17 rows of partial products where 24 x 24 has 24),
 // or 1 in 5 shifts, then a 57-bit subtraction (`any`: 57 x 4 bit multiply), or a 57-bit rounding
-// addition, then a 34-bit one. Formats: axis S9.24, spread U1.6, 1/N U0.16, step S10.46, offset
+// addition, then a 34-bit one. Formats: axis S9.24, spread U2.6, 1/N U1.16, step S10.46, offset
 // rounded to S9.24, position exact in S9.24. Cost: two 34 x 8 bit multipliers, two shifters and two
-// subtractors (`any`: two 41 x 16 bit multipliers, two 57 x 4 bit ones, and the ROM `reciprocal`,
+// subtractors (`any`: two 41 x 17 bit multipliers, two 57 x 4 bit ones, and the ROM `reciprocal`,
 // 16 x 17 bits), two 61-bit accumulators that step by twice the product, four adders, registers of
 // three fragments (`any`: four). Source: paper 2.2 (4); kernels, spread and `any` are ours.
 #pragma once
@@ -52,7 +52,7 @@ class SampleWalker final : public Unit {
   void start(Prepared& next);
   void emit(Cycle cycle);
 
-  std::int32_t spread_, narrow_spread_;  // U1.6; narrow: of a tent with too few samples for one
+  std::int32_t spread_, narrow_spread_;  // U2.6; narrow: of a tent with too few samples for one
   // `any` alone: entry N - 1 is 1/N, U1.16.
   std::unique_ptr<Memory<std::uint32_t>> reciprocal_;
   std::optional<ReadPort<std::uint32_t>> read_;

@@ -78,7 +78,7 @@ void describe(Rules& p, Visitor& v) {
   v.choice("kernel", p.kernel, kKernelNames,
            "Weights of the N samples: equal (the paper) or an integer tent.");
   v.integer("spread", p.spread, 0, 128, "1/64 axis",
-            "Length over which the samples are spread, U1.6 of the major axis.");
+            "Length over which the samples are spread, U2.6 of the major axis.");
   v.choice("srgb_output", p.srgb_output, kSrgbOutputNames,
            "What leaves of an sRGB texture: linear light in 8 bits, or sRGB codes again.");
 }

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -24,6 +25,18 @@ namespace deburr::tb {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// A number that something can be more than: with NaN nothing ever would be worse.
+CLI::Validator tolerance() {
+  return CLI::Validator(
+      [](std::string& given) -> std::string {
+        double value = 0;
+        if (CLI::detail::lexical_cast(given, value) && std::isfinite(value) && value >= 0)
+          return "";
+        return fmt::format("'{}' is no tolerance: expected a number from 0 on", given);
+      },
+      "FLOAT >= 0");
+}
 
 struct CompareOptions {
   std::vector<std::filesystem::path> paths;
@@ -189,7 +202,23 @@ Json comparison_of(const CompareOptions& options) {
   return compare_sweeps(options.paths, options.tolerances, unsaid_value);
 }
 
+// A page in a folder that is compared might take the place of what is read, or of its report.
+void check_page(const CompareOptions& options) {
+  if (options.page.empty()) return;
+  const std::filesystem::path folder = std::filesystem::absolute(options.page).parent_path();
+  for (const std::filesystem::path& path : options.paths) {
+    const std::filesystem::path read =
+        std::filesystem::is_directory(path) ? path : std::filesystem::absolute(path).parent_path();
+    std::error_code none;  // what is not there is said by who reads it
+    if (std::filesystem::equivalent(folder, read, none))
+      throw spec::ConfigError(
+          fmt::format("--html {}: '{}' holds results that are compared: choose another folder",
+                      options.page.string(), path.string()));
+  }
+}
+
 Outcome compare_results(const CompareOptions& options, bool json) {
+  check_page(options);
   const Json comparison = comparison_of(options);
   std::string idealised;
   for (const Json& warning : comparison.at("warnings")) {
@@ -238,20 +267,20 @@ void add_compare(CLI::App& app, CommandLine& line) {
       ->add_option("--cycles-percent", tolerances.cycles_percent,
                    "Cycles, latency and traffic may grow by this much")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(tolerance());
   command
       ->add_option("--throughput-percent", tolerances.throughput_percent,
                    "Throughput may fall by this much")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(tolerance());
   command->add_option("--psnr-db", tolerances.psnr_db, "PSNR may fall by this much")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(tolerance());
   command
       ->add_option("--memory-percent", tolerances.memory_percent,
                    "Bits of memory may grow by this much; without it they are judged and fail "
                    "nothing")
-      ->check(CLI::NonNegativeNumber);
+      ->check(tolerance());
   command->add_option("--html", options->page, "Write all of it as one self-contained page")
       ->type_name("FILE");
   command->add_flag("--json", line.json, "Print one JSON object: exit code, outcome, comparison");

@@ -575,6 +575,22 @@ class Results(CommandTest):
         self.expect(0, "compare", self.path("b"), self.path("a"))
         self.expect(0, "compare", self.path("a"), self.path("b"), "--cycles-percent", "1e12")
 
+    def test_no_tolerance(self):
+        self.change(cycles=10**9)
+        for given in ("nan", "inf", "-1", "two"):
+            self.expect(2, "compare", self.path("a"), self.path("b"), "--cycles-percent", given,
+                        says=["--cycles-percent", given, "tolerance"])
+
+    def test_a_page_among_what_is_compared(self):
+        before = {name: os.stat(self.path("a/" + name)).st_mtime_ns for name in os.listdir(self.path("a"))}
+        for page in ("a/report.html", "b/result.json", "a/new.html"):
+            for one in ("a", "a/result.json"):
+                self.expect(2, "compare", self.path(one), self.path("b"), "--html", self.path(page),
+                            says=["--html", "another folder"])
+        self.assertEqual(before, {name: os.stat(self.path("a/" + name)).st_mtime_ns
+                                  for name in os.listdir(self.path("a"))})
+        self.expect(0, "compare", self.path("a"), self.path("b"), "--html", self.path("page.html"))
+
     def test_failed(self):
         self.change(verdict="fail")
         self.expect(1, "compare", self.path("a"), self.path("b"), says="verdict")

@@ -121,6 +121,8 @@ class Fragments(CommandTest):
         before = open(self.path("out/fragments.trace"), "rb").read()
         self.expect(2, "run", "texture", "--fragments", "out/fragments.trace", "--fragment-trace", "text",
                     "--out", "out", says="would replace it")
+        # Nor does it go with the results of the run that made it.
+        self.expect(2, "run", "texture", "--fragments", "out/fragments.trace", "--out", "out", says="would replace it")
         self.assertEqual(open(self.path("out/fragments.trace"), "rb").read(), before)
 
 

@@ -209,8 +209,11 @@ std::set<std::string> RunDirectory::earlier() const {
 }
 
 void RunDirectory::refuse_to_replace(const fs::path& file) const {
+  // An earlier run's files go as well, those that this run does not make anew.
+  std::set<std::string> going = earlier();
+  going.insert(names_.begin(), names_.end());
   std::error_code error;
-  for (const std::string& name : names_)
+  for (const std::string& name : going)
     if (fs::exists(path_ / name, error) && fs::equivalent(path_ / name, file, error))
       throw spec::ConfigError(
           fmt::format("the run reads '{}', and its results would replace it: choose another "

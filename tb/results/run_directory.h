@@ -39,7 +39,7 @@ class RunDirectory {
   // it (IfTaken::kRefuse) or nothing can be written; ConfigError where one of the names is a file
   // that no earlier run left; Interrupted by Ctrl-C while it waits.
   void claim(const std::string& command, std::vector<std::string> names, IfTaken if_taken);
-  // ConfigError if `file`, which is read, would be replaced. After claim().
+  // ConfigError if `file`, which is read, would be replaced or removed. After claim().
   void refuse_to_replace(const std::filesystem::path& file) const;
   // Everything in draft() takes the place of the earlier results; `manifest` lists it. `head` is
   // the file without which nothing is a result. FileError leaves the earlier results whole.

@@ -3,7 +3,8 @@ deburr_test(app_report_test LABELS system SOURCES app_report_test.cpp
             LINK deburr::results TIMEOUT 300)
 target_compile_definitions(app_report_test PRIVATE "DEBURR_COMMAND=\"$<TARGET_FILE:deburr>\"")
 add_dependencies(app_report_test deburr)
-add_test(NAME memories COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/memories_test.py" $<TARGET_FILE:deburr>)
+add_test(NAME memories COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/memories_test.py" $<TARGET_FILE:deburr>
+                               "${PROJECT_SOURCE_DIR}/docs")
 set_tests_properties(memories PROPERTIES LABELS system TIMEOUT 300
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 add_test(NAME terminal COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/terminal_test.py" $<TARGET_FILE:deburr>)

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """What runs say of the memories that the hardware is built from: no default and no preset of any engine has one
-that no technology offers, and the totals are the sums.
+that no technology offers, the totals are the sums, and the texture unit's page names what there is.
 
-usage: memories_test.py DEBURR"""
+usage: memories_test.py DEBURR DOCS"""
 import itertools
 import json
 import os
@@ -12,7 +12,7 @@ import sys
 import tempfile
 import unittest
 
-DEBURR = "deburr"
+DEBURR = DOCS = ""
 
 
 def runs():
@@ -58,9 +58,29 @@ class Memories(unittest.TestCase):
                 self.assertEqual(bits["logical"], sum(m["logical_bits"] for m in of_kind))
                 self.assertEqual(bits["physical"], sum(m["physical_bits"] for m in of_kind))
 
+    def test_the_page_of_the_texture_unit_names_what_there_is(self):
+        with open(os.path.join(DOCS, "texture_unit.md"), encoding="utf-8") as file:
+            table = file.read().split("\n## Memories\n")[1].split("\n## ")[0]
+        page = {}
+        for line in table.splitlines():
+            cells = [cell.strip() for cell in line.strip("|").split("|")]
+            if not cells[0].startswith("`"):
+                continue
+            name = cells[0].split("`")[1].removeprefix("cache.").removeprefix("address.").replace(".", "_")
+            page[name] = (cells[2], cells[3].split(",")[0], cells[5], int(cells[6].replace(" ", "")))
+
+        def found(*rules):
+            _, result = self.result("texture", *rules)
+            return {name: (f"{m['words']} x {m['word_bits']}", m["ports"], m["built_as"], m["physical_bits"])
+                    for name, m in result["memories"].items() if name != "memory_port_response_buffer"}
+
+        every_rule = found("--set", "texture.srgb_output=encoded", "--set", "texture.log2=exact")
+        self.assertEqual(page, every_rule)
+        self.assertEqual(set(page) - set(found()), {"filter_codes", "log2_table"})
+
 
 if __name__ == "__main__":
-    if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
+    if len(sys.argv) < 3 or sys.argv[1] in ("-h", "--help"):
         sys.exit(__doc__)
-    DEBURR = sys.argv.pop(1)
+    DEBURR, DOCS = sys.argv.pop(1), sys.argv.pop(1)
     unittest.main()

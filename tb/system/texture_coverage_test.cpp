@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Functional coverage of the texture unit over a set of directed runs on the hardware model: each
-// mode with each wrap and layout, each N with each major axis, magnification by each filter, and
-// what can happen to a request in the cache. Every bin must be hit.
+// mode with each wrap and layout, each N with each major axis, magnification by each filter, what
+// can happen to a request in the cache, and by random quads what pictures seldom have: ties,
+// saturation, flat footprints, levels at their limits. Every bin must be hit.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +12,8 @@
 
 #include "tb/harness/coverage.h"
 #include "tb/harness/forked.h"
+#include "tb/stimuli/texture_quads.h"
+#include "tb/system/texture_quad_bench.h"
 #include "tb/system/texture_runs.h"
 
 namespace deburr::tb {
@@ -18,6 +21,9 @@ namespace {
 
 constexpr std::size_t kDirections = 8;
 constexpr std::array<std::string_view, 2> kTentBins = {"tent.narrow", "tent.wide"};
+// Of each number of axes: two candidates are equally long, and no other longer; a derivative is
+// saturated; the minor axis is 0, the major one not; the level of detail ends at a clamp.
+constexpr std::array<std::string_view, 5> kLimitBins = {"tie", "saturated", "flat", "low", "high"};
 constexpr std::array<std::string_view, 4> kCacheBins = {"hit", "miss", "merged", "queue_full"};
 
 Coverage declared() {
@@ -29,6 +35,8 @@ Coverage declared() {
   for (std::size_t n = 1; n <= 16; ++n) coverage.declare(fmt::format("samples.{}", n));
   for (const int axes : {2, 4, 8})
     for (int k = 0; k < axes; ++k) coverage.declare(fmt::format("major.{}.{}", axes, k));
+  for (const auto bin : kLimitBins)
+    for (const int axes : {2, 4, 8}) coverage.declare(fmt::format("limit.{}.{}", bin, axes));
   for (const auto bin : kTentBins) coverage.declare(std::string(bin));
   for (const auto output : spec::texture::kSrgbOutputNames)
     coverage.declare(fmt::format("output.{}", output));
@@ -106,6 +114,59 @@ void record(Coverage& coverage, const Met& met, const SamplerParameters& sampler
     coverage.hit(fmt::format("cache.{}", kCacheBins[i]), met.cache[i]);
 }
 
+// Random quads over random descriptors; every fourth quad is a square turned by 45 degrees, of
+// which row and column (or, by the measure `max`, the two diagonals) are equally long.
+using Limits = std::array<std::uint64_t, kLimitBins.size()>;
+Limits run_limits(const spec::texture::Parameters& parameters) {
+  return forked<Limits>([&] {
+    namespace gold = golden::texture;
+    constexpr std::uint32_t kMemoryBytes = 1u << 16, kQuads = 400;
+    Random random(1, "limits");
+    QuadInput input;
+    input.memory.resize(kMemoryBytes);
+    for (std::uint8_t& byte : input.memory) byte = static_cast<std::uint8_t>(random.next());
+    for (int handle = 0; handle < spec::texture::kMaxTextures; ++handle)
+      input.textures.push_back(random_texture(random, kMemoryBytes));
+    input.textures[0].width = input.textures[0].height = 64;
+    input.textures[0].levels = 7;
+    for (std::uint32_t tag = 0; tag < kQuads; ++tag) {
+      const bool square = tag % 4 == 0;
+      input.quads.push_back(random_quad(
+          random, tag, square ? std::uint8_t{0} : static_cast<std::uint8_t>(random.below(16))));
+      if (!square) continue;
+      const std::int32_t a = 1 << (10 + tag % 12);
+      input.quads.back().s = {0, a, a, 2 * a};
+      input.quads.back().t = {0, a, -a, 0};
+    }
+    QuadBench bench(input, parameters);
+    bench.reset();
+    const std::string differences = bench.judge(input, bench.run());
+    if (!differences.empty()) throw spec::CheckFailed(differences);
+    gold::TextureGolden golden(parameters, input.memory);
+    for (int handle = 0; handle < spec::texture::kMaxTextures; ++handle)
+      golden.set_texture(handle, input.textures[static_cast<std::size_t>(handle)]);
+    Limits met{};
+    for (const spec::texture::Quad& quad : input.quads)
+      for (int lane = 0; lane < 4; ++lane) {
+        const gold::FragmentAnalysis a = golden.analyse(quad, lane);
+        if (!a.valid || !(quad.coverage >> lane & 1)) continue;
+        int longest = 0;
+        for (int k = 0; k < gold::candidates(parameters.axes); ++k) {
+          const gold::Magnitudes u = gold::candidate_in_texels(parameters.axes, k, a.p_x, a.p_y);
+          longest += gold::footprint_side(parameters.footprint, u.s, u.t) == a.footprint.d_max;
+        }
+        const spec::texture::Descriptor& d = golden.texture(quad.texture);
+        const std::int32_t free = a.lod.lb_d_max - a.lod.sampled + d.lod_bias * 16;
+        met[0] += longest > 1 && a.footprint.d_max != 0;
+        met[1] += a.saturated;
+        met[2] += a.footprint.d_max != 0 && a.footprint.d_min == 0 && a.footprint.area == 0;
+        met[3] += free < d.min_lod * 16;
+        met[4] += free > d.max_lod * 16;
+      }
+    return met;
+  });
+}
+
 TEST(TextureCoverage, EveryBinIsHit) {
   Coverage coverage = declared();
   int number = 0;
@@ -134,6 +195,15 @@ TEST(TextureCoverage, EveryBinIsHit) {
       }
     }
   }
+  for (int axes = 0; axes < 3; ++axes)
+    for (std::size_t rule = 0; rule < spec::texture::kFootprintNames.size(); ++rule) {
+      spec::texture::Parameters parameters;
+      parameters.axes = static_cast<spec::texture::Axes>(axes);
+      parameters.footprint = static_cast<spec::texture::FootprintRule>(rule);
+      const Limits met = run_limits(parameters);
+      for (std::size_t i = 0; i < kLimitBins.size(); ++i)
+        coverage.hit(fmt::format("limit.{}.{}", kLimitBins[i], 2 << axes), met[i]);
+    }
   std::ofstream(DEBURR_COVERAGE_FILE) << coverage.json();
   EXPECT_TRUE(coverage.holes().empty()) << coverage.json();
 }

@@ -18,10 +18,15 @@ EndpointPredictor::EndpointPredictor(const sc_core::sc_module_name& name, ClockD
       units_(static_cast<std::size_t>(p.predictor_units)),
       turn_(lanes_) {
   const Predictor::Counters counters{extended_runs, steps, probes, iterations};
-  for (int i = 0; i < p.predictor_units * store.lanes(); ++i)
-    places_.push_back(
-        {Predictor(store, schedule_, i, EdgePort(edges, schedule_.port(i, 0)),
-                   EdgePort(edges, schedule_.port(i, 1)), reach, vertical, counters)});
+  // Those of a lane do not follow each other in the schedule: they begin in different clocks, so
+  // that a FIFO that gives a record a clock serves all of them in time.
+  for (int lane = 0; lane < store.lanes(); ++lane)
+    for (int unit = 0; unit < p.predictor_units; ++unit) {
+      const int number = unit * store.lanes() + lane;
+      places_.push_back(
+          {Predictor(store, schedule_, number, EdgePort(edges, schedule_.port(number, 0)),
+                     EdgePort(edges, schedule_.port(number, 1)), reach, vertical, counters)});
+    }
 }
 
 EndpointPredictor::EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,

@@ -4,7 +4,8 @@
 //
 // A predictor makes a trial every trial_clocks clocks, and a trial reads once for each side. These
 // reads have fixed places in a table of trial_clocks x ports that goes round with the clock: the
-// two of the first predictor come first, then those of the second, and so on, each port in turn. So
+// two of the first predictor come first, then those of the second, and so on, each port in turn.
+// Numbers count the lanes first, so that the predictors of a lane begin in different clocks. So
 // nobody waits for a port but for the clock in which a record's first trial may begin, there is
 // nothing to arbitrate, and no memory has more ports than reads a clock. The left side reads in the
 // clock of the right one or, if the table says so, in the next.

@@ -1,12 +1,25 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""docs/parameters.md, docs/statistics.md and docs/registers.md are what the program prints today.
+"""docs/parameters.md, docs/statistics.md and docs/registers.md are what the program prints today, and
+docs/exploration.md names every option of a run.
 
 usage: pages_test.py DEBURR SOURCE [--write]     --write brings the pages up to date
 """
 import difflib
+import re
 import subprocess
 import sys
+
+
+def options_left_out(deburr, source):
+    """Options of `deburr run` that docs/exploration.md does not name."""
+    with open(f"{source}/docs/exploration.md") as file:
+        named = set(re.findall(r"--[a-z][a-z-]+", file.read()))
+    options = set()
+    for engine in ("texture", "morphological", "geometric", "frame"):
+        text = subprocess.run([deburr, "run", engine, "--help"], check=True, capture_output=True, text=True).stdout
+        options |= set(re.findall(r"^  (--[a-z-]+)", text, re.MULTILINE))
+    return sorted(options - named) if options else ["every option: the help has none"]
 
 
 def main():
@@ -37,7 +50,10 @@ def main():
                 "deburr params --markdown " + page))
     if stale:
         print(f"Bring the pages up to date: {sys.argv[0]} {deburr} {source} --write")
-    return 1 if stale else 0
+    left_out = options_left_out(deburr, source)
+    if left_out:
+        print(f"docs/exploration.md does not name {', '.join(left_out)}")
+    return 1 if stale or left_out else 0
 
 
 if __name__ == "__main__":

@@ -47,7 +47,7 @@ struct Beat {
     visit("place", self.place);
     visit.lanes("pixel", self.pixel, 8, "U0.8", "rgba");
     visit("corner", self.corner);
-    visit("slope", self.slope, 13, "S1.12");
+    visit("slope", self.slope, 13, "S0.12");
     visit("wide", self.wide, 33, "S8.24");
     visit.lane_bits("edges", self.edges, 4);
     visit("colour", self.colour, 2);
@@ -191,6 +191,19 @@ struct OnePlace {
     visit("b", self.a, 8);
   }
 };
+
+struct OneBitMore {
+  std::uint32_t area = 0;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("area", self.area, 31, "U14.16");
+  }
+};
+
+TEST(Payload, AFormatHasAsManyBitsAsTheField) {
+  EXPECT_THAT(text_of<spec::CheckFailed>([] { Payload::of<OneBitMore>(); }),
+              HasSubstr("area: U14.16 has 30 bits, the list says 31"));
+}
 
 TEST(Payload, EachFieldHasANameAndAPlaceOfItsOwn) {
   EXPECT_THAT(text_of<spec::CheckFailed>([] { Payload::of<OneName>(); }),
@@ -363,7 +376,7 @@ TEST(Payload, PackageDeclaresWhatIsInIt) {
             "    logic [1:0] colour;\n"
             "    logic [1:0] edges;  // a bit a lane\n"
             "    logic signed [32:0] wide;  // S8.24\n"
-            "    logic signed [12:0] slope;  // S1.12\n"
+            "    logic signed [12:0] slope;  // S0.12\n"
             "    place_t [1:0] corner;\n"
             "    logic [1:0][3:0][7:0] pixel;  // U0.8\n"
             "    place_t place;\n"

@@ -238,6 +238,16 @@ TEST_F(Life, ARunDoesNotReplaceWhatItReads) {
   directory.refuse_to_replace(path_ / "mine.png");
 }
 
+// An earlier run's file that this run has none of would be removed.
+TEST_F(Life, ARunDoesNotRemoveWhatItReads) {
+  leave(old_);
+  RunDirectory directory(path_);
+  directory.claim("deburr run", {"after.png", kHead}, IfTaken::kRefuse);
+  EXPECT_THAT(
+      text_of<spec::ConfigError>([&] { directory.refuse_to_replace(path_ / "golden.png"); }),
+      HasSubstr("golden.png"));
+}
+
 TEST_F(Life, WhatIsInTheWayIsAnError) {
   put(root_ / "runs", "a file");
   RunDirectory below_a_file(path_);

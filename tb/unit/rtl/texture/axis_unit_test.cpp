@@ -257,14 +257,15 @@ TEST(TextureRtlAxis, LatencyByRuleAndClocks) {
 
 // A fragment every axis_clocks clocks, through a stall as well.
 TEST(TextureRtlAxis, IntervalIsAxisClocks) {
+  constexpr Cycle kHeld = 30, kStall = 13;  // every row is in the middle of its tokens then
   ClockDomain clock("clock", period());
   std::vector<std::unique_ptr<AxisBench>> benches;
   for (const Timed& row : kTimed) {
     benches.push_back(std::make_unique<AxisBench>(clock, row.name, row.axes, row.rule, row.clocks));
     for (std::uint32_t i = 0; i < 40; ++i)
       benches.back()->ends.source.add(token(10 * i, 2, 3, 400, i));
-    benches.back()->ends.sink.hold_from = 80;
-    benches.back()->ends.sink.hold_to = 93;
+    benches.back()->ends.sink.hold_from = kHeld;
+    benches.back()->ends.sink.hold_to = kHeld + kStall;
   }
   clock.run(400);
   for (std::size_t i = 0; i < benches.size(); ++i) {
@@ -272,18 +273,20 @@ TEST(TextureRtlAxis, IntervalIsAxisClocks) {
     const auto& got = benches[i]->ends.sink.taken;
     ASSERT_EQ(got.size(), 40u);
     const auto clocks = static_cast<Cycle>(kTimed[i].clocks);
+    const auto alone = [&](Cycle n) { return 1 + n * clocks + kTimed[i].latency; };
     for (std::size_t n = 0; n < 40; ++n) {
-      const Cycle alone = 1 + n * clocks + kTimed[i].latency;
-      if (alone < 80) {
-        EXPECT_EQ(got[n].cycle, alone);
+      if (alone(n) < kHeld) {
+        EXPECT_EQ(got[n].cycle, alone(n));
       }
       EXPECT_EQ(got[n].token.ticket.tag, n);
       EXPECT_EQ(got[n].token.axis_s, expected(token(10 * static_cast<std::int64_t>(n), 2, 3, 400),
                                               kTimed[i].axes, kTimed[i].rule)
                                          .axis_s);
     }
-    // Twice the link's places may be used up meanwhile; the unit is late by the rest of the stall.
-    EXPECT_GE(got.back().cycle + 2 * clocks, 1 + 39 * clocks + kTimed[i].latency);
+    // The link's two places are used up meanwhile; the unit is late by the rest of the stall.
+    const Cycle late = got.back().cycle - alone(39);
+    EXPECT_LE(late, kStall);
+    EXPECT_GE(late + 3 * (clocks - 1), kStall);
   }
 }
 
