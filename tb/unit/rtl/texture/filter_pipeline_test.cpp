@@ -303,6 +303,41 @@ TEST(TextureRtlFilter, ResetForgetsPartialSums) {
   EXPECT_EQ(b.ends.sink.taken[0].token.rgba[0], 3);
 }
 
+// A single request in whichever stage it is.
+void check_reset_of_every_stage(const spec::texture::Rules& built, Cycle latency) {
+  FilterBench b(built);
+  for (Cycle clocks = 1; clocks <= latency; ++clocks) {
+    b.add(request(Format::kSrgb8A8, grey(200, 0, 0, 0)));
+    b.clock.run(clocks);
+    b.clock.set_reset_n(false);
+    b.clock.run(1);
+    b.clock.set_reset_n(true);
+    b.probe.reset();
+    b.clock.run(20);
+    EXPECT_TRUE(b.ends.sink.taken.empty()) << clocks;
+  }
+}
+TEST(TextureRtlFilter, ResetForgetsEveryStage) { check_reset_of_every_stage(rules(), 8); }
+TEST(TextureRtlFilter, ResetForgetsEveryStageEncoded) {
+  check_reset_of_every_stage(rules(spec::texture::Kernel::kBox, spec::texture::CountRule::kFloor,
+                                   spec::texture::SrgbOutput::kEncoded),
+                             9);
+}
+
+// The last colour alone in the pipeline, with no place in the link.
+void check_last_colour(const spec::texture::Rules& built) {
+  FilterBench b(built);
+  for (std::uint32_t i = 0; i < 4; ++i) b.add(request(Format::kSrgb8A8, grey(i, 0, 0, 0)));
+  b.ends.sink.hold_to = 40;
+  b.clock.run(60);
+  EXPECT_EQ(b.ends.sink.taken.size(), 4u);
+}
+TEST(TextureRtlFilter, TheLastColourWaits) { check_last_colour(rules()); }
+TEST(TextureRtlFilter, TheLastColourWaitsEncoded) {
+  check_last_colour(rules(spec::texture::Kernel::kBox, spec::texture::CountRule::kFloor,
+                          spec::texture::SrgbOutput::kEncoded));
+}
+
 struct CodedBench : FilterBench {
   CodedBench() {
     add(token);
