@@ -33,7 +33,8 @@ class RootPipeline {
   bool step(const DerivativeToken* next, FootprintToken* result);
   void reset() { pipe_.reset(); }
 
-  // The digit stages at once: floor(sqrt(radicand)).
+  // What the digit stages find, at once: floor(sqrt(radicand)), for a unit that has no use for the
+  // digits in between.
   static std::uint32_t root(std::uint64_t radicand);
 
  private:

@@ -77,62 +77,73 @@ void print(const char* name, const std::vector<FilterFigures>& all) {
               worst.detail);
 }
 
-TEST(TextureDirection, EveryDirectionIsAsGoodAsTheEllipse) {
-  for (const auto& [name, photo] : photos()) {
-    std::vector<TurnedPhoto> views;
-    for (const double degrees : kDegrees) views.emplace_back(photo, Turn{.degrees = degrees});
-    const auto over = [&](auto&& filter) {
-      std::vector<FilterFigures> all;
-      for (const TurnedPhoto& view : views) all.push_back(filter(view));
-      return all;
-    };
-    std::printf("%s, 6 : 1, dB at", name.c_str());
-    for (const double degrees : kDegrees) std::printf(" %g", degrees);
-    std::printf(" degrees\n");
-    const auto show = [&](const std::string& label, const Parameters& p, int lb_n_max = 4) {
-      const auto all = over([&](const TurnedPhoto& view) { return view.golden(p, lb_n_max); });
-      print(label.c_str(), all);
-      return worst_of(all);
-    };
-    const Parameters paper = preset_parameters(Preset::kPaper);
-    const Worst trilinear = show("trilinear", paper, 0), blind = show("the paper", paper);
-    // It can fail: turned by 45 degrees the paper's unit is a trilinear one.
-    EXPECT_LT(blind.psnr, 36) << name;
-    EXPECT_LT(blind.psnr, trilinear.psnr + 2) << name;
-    EXPECT_LT(blind.detail, 0.25) << name;
-    for (const Axes axes : {Axes::kFour, Axes::kEight}) {
-      for (const CountRule count : {CountRule::kFloor, CountRule::kCeil, CountRule::kAny}) {
-        const Parameters p = rules(axes, count);
-        const std::string label =
-            std::string(spec::texture::kAxesNames[static_cast<std::size_t>(axes)]) + " " +
-            std::string(spec::texture::kCountNames[static_cast<std::size_t>(count)]);
-        const Worst worst = show(label, p);
-        const auto ideal = over([&](const TurnedPhoto& view) { return view.ellipse(p); });
-        print("  true ellipse", ideal);
-        const bool floor = count == CountRule::kFloor;
-        EXPECT_GE(worst.psnr, floor ? 36 : 40) << name << " " << label;
-        EXPECT_GE(worst.detail, floor ? 0.64 : 0.9) << name << " " << label;
-        EXPECT_GE(worst.psnr, worst_of(ideal).psnr - 0.7) << name << " " << label;
-      }
+// By the name of a photograph.
+class TextureDirection : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    if (!photos().contains(GetParam()))
+      GTEST_SKIP() << "no data folder: DEBURR_DATA, or ../shared/data beside the repository";
+  }
+  const std::string name = GetParam();
+};
+INSTANTIATE_TEST_SUITE_P(Photographs, TextureDirection,
+                         testing::Values("stones", "brick", "grass", "gravel"),
+                         [](const auto& photo) { return std::string(photo.param); });
+
+TEST_P(TextureDirection, EveryDirectionIsAsGoodAsTheEllipse) {
+  const PhotoTexture& photo = photos().at(name);
+  std::vector<TurnedPhoto> views;
+  for (const double degrees : kDegrees) views.emplace_back(photo, Turn{.degrees = degrees});
+  const auto over = [&](auto&& filter) {
+    std::vector<FilterFigures> all;
+    for (const TurnedPhoto& view : views) all.push_back(filter(view));
+    return all;
+  };
+  std::printf("%s, 6 : 1, dB at", name.c_str());
+  for (const double degrees : kDegrees) std::printf(" %g", degrees);
+  std::printf(" degrees\n");
+  const auto show = [&](const std::string& label, const Parameters& p, int lb_n_max = 4) {
+    const auto all = over([&](const TurnedPhoto& view) { return view.golden(p, lb_n_max); });
+    print(label.c_str(), all);
+    return worst_of(all);
+  };
+  const Parameters paper = preset_parameters(Preset::kPaper);
+  const Worst trilinear = show("trilinear", paper, 0), blind = show("the paper", paper);
+  // It can fail: turned by 45 degrees the paper's unit is a trilinear one.
+  EXPECT_LT(blind.psnr, 36) << name;
+  EXPECT_LT(blind.psnr, trilinear.psnr + 2) << name;
+  EXPECT_LT(blind.detail, 0.25) << name;
+  for (const Axes axes : {Axes::kFour, Axes::kEight}) {
+    for (const CountRule count : {CountRule::kFloor, CountRule::kCeil, CountRule::kAny}) {
+      const Parameters p = rules(axes, count);
+      const std::string label =
+          std::string(spec::texture::kAxesNames[static_cast<std::size_t>(axes)]) + " " +
+          std::string(spec::texture::kCountNames[static_cast<std::size_t>(count)]);
+      const Worst worst = show(label, p);
+      const auto ideal = over([&](const TurnedPhoto& view) { return view.ellipse(p); });
+      print("  true ellipse", ideal);
+      const bool floor = count == CountRule::kFloor;
+      EXPECT_GE(worst.psnr, floor ? 36 : 40) << name << " " << label;
+      EXPECT_GE(worst.detail, floor ? 0.64 : 0.9) << name << " " << label;
+      EXPECT_GE(worst.psnr, worst_of(ideal).psnr - 0.7) << name << " " << label;
     }
   }
 }
 
 // Vulkan's count follows the ratio; the paper's jumps by a level at powers of two.
-TEST(TextureDirection, AnyCountHasNoStepInTheRatio) {
-  for (const auto& [name, photo] : photos()) {
-    for (const auto& [below, above] : {std::pair{3.9, 4.1}, std::pair{7.9, 8.1}}) {
-      for (const double degrees : {0.0, 11.25, 22.5, 45.0, 70.0}) {
-        const TurnedPhoto low(photo, {.degrees = degrees, .ratio = below});
-        const TurnedPhoto high(photo, {.degrees = degrees, .ratio = above});
-        const auto step = [&](const Parameters& p) {
-          return std::abs(high.golden(p).psnr - low.golden(p).psnr);
-        };
-        EXPECT_LE(step(rules(Axes::kFour, CountRule::kAny)), 1) << name << " " << below;
-        EXPECT_LE(step(rules(Axes::kEight, CountRule::kAny)), 1) << name << " " << below;
-        if (degrees == 0) {
-          EXPECT_GT(step(preset_parameters(Preset::kPaper)), 5) << name;
-        }
+TEST_P(TextureDirection, AnyCountHasNoStepInTheRatio) {
+  const PhotoTexture& photo = photos().at(name);
+  for (const auto& [below, above] : {std::pair{3.9, 4.1}, std::pair{7.9, 8.1}}) {
+    for (const double degrees : {0.0, 11.25, 22.5, 45.0, 70.0}) {
+      const TurnedPhoto low(photo, {.degrees = degrees, .ratio = below});
+      const TurnedPhoto high(photo, {.degrees = degrees, .ratio = above});
+      const auto step = [&](const Parameters& p) {
+        return std::abs(high.golden(p).psnr - low.golden(p).psnr);
+      };
+      EXPECT_LE(step(rules(Axes::kFour, CountRule::kAny)), 1) << name << " " << below;
+      EXPECT_LE(step(rules(Axes::kEight, CountRule::kAny)), 1) << name << " " << below;
+      if (degrees == 0) {
+        EXPECT_GT(step(preset_parameters(Preset::kPaper)), 5) << name;
       }
     }
   }
@@ -144,25 +155,22 @@ bool falls_strictly(const std::array<double, 5>& psnr) {
   return true;
 }
 
-TEST(TextureDirection, AliasingFallsWithEverySampleMoreAtEveryRoll) {
-  for (const auto& [name, photo] : photos()) {
-    bool paper_falls = true;
-    for (const double degrees : kDegrees) {
-      const TurnedPhoto view(photo, {.degrees = degrees, .ratio = 20});
-      const auto by_n_max = [&](const Parameters& p) {
-        std::array<double, 5> psnr{};
-        for (int lb = 0; lb <= 4; ++lb)
-          psnr[static_cast<std::size_t>(lb)] = view.golden(p, lb).psnr;
-        return psnr;
-      };
-      const auto ours = by_n_max(preset_parameters(Preset::kDeburr));
-      EXPECT_TRUE(falls_strictly(ours))
-          << name << " " << degrees << ": " << ours[0] << " " << ours[1] << " " << ours[2] << " "
-          << ours[3] << " " << ours[4];
-      paper_falls = paper_falls && falls_strictly(by_n_max(preset_parameters(Preset::kPaper)));
-    }
-    EXPECT_FALSE(paper_falls) << name;
+TEST_P(TextureDirection, AliasingFallsWithEverySampleMoreAtEveryRoll) {
+  const PhotoTexture& photo = photos().at(name);
+  bool paper_falls = true;
+  for (const double degrees : kDegrees) {
+    const TurnedPhoto view(photo, {.degrees = degrees, .ratio = 20});
+    const auto by_n_max = [&](const Parameters& p) {
+      std::array<double, 5> psnr{};
+      for (int lb = 0; lb <= 4; ++lb) psnr[static_cast<std::size_t>(lb)] = view.golden(p, lb).psnr;
+      return psnr;
+    };
+    const auto ours = by_n_max(preset_parameters(Preset::kDeburr));
+    EXPECT_TRUE(falls_strictly(ours)) << name << " " << degrees << ": " << ours[0] << " " << ours[1]
+                                      << " " << ours[2] << " " << ours[3] << " " << ours[4];
+    paper_falls = paper_falls && falls_strictly(by_n_max(preset_parameters(Preset::kPaper)));
   }
+  EXPECT_FALSE(paper_falls) << name;
 }
 
 // ---- planted faults -----------------------------------------------------------------------------

@@ -114,7 +114,7 @@ std::vector<Flicker> flicker(const std::string& texture, Motion motion, int fram
 }
 
 TEST(TextureFlicker, OnRollIsThatOfTheOtherMotions) {
-  const auto roll = flicker("stones", Motion::kRoll, 31),
+  const auto roll = flicker("stones", Motion::kRoll, 16),
              zoom = flicker("stones", Motion::kZoom, 8), pan = flicker("stones", Motion::kPan, 8);
   for (const std::size_t ours : {kFourCeil, kFourAny, kEightAny, kEightCeil}) {
     EXPECT_LE(roll[ours].mean, 2.5) << rows()[ours].name;
