@@ -10,8 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -83,13 +83,13 @@ spec::morphological::Parameters narrow() {
 }
 
 // The bins of some groups; all of these together have every bin (EveryBinIsInOneOfTheParts).
-using Groups = std::initializer_list<std::string_view>;
-constexpr Groups kRuns = {"shape",          "long-end", "prediction",
-                          "prediction-end", "border",   "decision"};
-constexpr Groups kSmaa = {"table",         "table-entry",     "search",   "diagonal",
-                          "diagonal-ends", "diagonal-length", "threshold"};
-constexpr Groups kLeave = {"left", "leave-border", "half"};
-constexpr Groups kShares = {"class"};
+using Groups = std::span<const std::string_view>;
+constexpr std::string_view kRuns[] = {"shape",          "long-end", "prediction",
+                                      "prediction-end", "border",   "decision"};
+constexpr std::string_view kSmaa[] = {"table",         "table-entry",     "search",   "diagonal",
+                                      "diagonal-ends", "diagonal-length", "threshold"};
+constexpr std::string_view kLeave[] = {"left", "leave-border", "half"};
+constexpr std::string_view kShares[] = {"class"};
 
 Coverage part_of(const Coverage& all, Groups groups) {
   Coverage part;
@@ -150,7 +150,7 @@ void run(Coverage& coverage, const spec::morphological::Parameters& parameters,
 
 TEST(MorphologicalCoverage, EveryBinIsInOneOfTheParts) {
   std::size_t bins = 0;
-  for (const Groups groups : {kRuns, kSmaa, kLeave, kShares})
+  for (const Groups groups : {Groups(kRuns), Groups(kSmaa), Groups(kLeave), Groups(kShares)})
     bins += part_of(declared(), groups).size();
   EXPECT_EQ(bins, declared().size());
 }
