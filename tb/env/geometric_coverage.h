@@ -16,11 +16,11 @@ namespace deburr::tb {
 Coverage geometric_coverage(const rtl::geometric::GeometricEngine& engine,
                             const golden::geometric::EdgeCoverage& golden,
                             const spec::geometric::Parameters& parameters);
-// Every bin, without hits.
+// Every bin of a run, without hits.
 Coverage declared_geometric_coverage();
-// geometric/refusal/<why>, of a start that the engine does not take. No run has these, since it
-// never asks for one.
-void declare_refusals(Coverage& coverage);
+// What only directed tests meet: starts that the engine does not take, and edges that name vertices
+// or faces which are not there. A run has none of these bins.
+void declare_directed_geometric_coverage(Coverage& coverage);
 std::span<const CoverageGroup> geometric_coverage_groups();
 
 }  // namespace deburr::tb

@@ -26,7 +26,7 @@ namespace reg = spec::geometric::reg;
 
 Coverage declared() {
   Coverage coverage = declared_geometric_coverage();
-  declare_refusals(coverage);
+  declare_directed_geometric_coverage(coverage);
   return coverage;
 }
 

@@ -110,7 +110,8 @@ bool tells(MorphologicalGolden& golden, Groups groups, const MorphologicalInput&
   golden.clear_coverage();
   golden.process({frame.image.pixels, frame.image.width, frame.image.height});
   bool news = false;
-  for (const auto& [bin, hits] : part_of(morphological_coverage(golden), groups).bins())
+  const Coverage now = part_of(morphological_coverage(golden), groups);
+  for (const auto& [bin, hits] : now.bins())
     if (hits > 0) news |= met.insert(bin).second;
   return news;
 }
