@@ -14,10 +14,9 @@ namespace deburr::tb {
 namespace {
 
 constexpr std::array kGroups = {
-    CoverageGroup{
-        "geometric/class",
-        "Edges by the rules (select, crease) and their class; invalid ones, which name what is "
-        "not there, in tests alone."},
+    CoverageGroup{"geometric/class",
+                  "Edges by the rules (select, crease) and their class. In tests alone: invalid "
+                  "ones, which name what is not there, and all with off, which no run asks for."},
     CoverageGroup{"geometric/line", "Lines by octant and length."},
     CoverageGroup{"geometric/fate", "Kept edges by what becomes of them."},
     CoverageGroup{"geometric/columns", "Lines by the ends that the frame cuts off."},
@@ -38,7 +37,8 @@ constexpr std::array kGroups = {
     CoverageGroup{"geometric/lines", "Blocks by layout and the lines of colours that they read."},
     CoverageGroup{"geometric/stall", "Clocks that a unit lost, by cause."},
     CoverageGroup{"geometric/error",
-                  "Lines that memory answered with an error, by region (memory.error_address)."},
+                  "Lines that memory answered with an error, by region (memory.error_address). "
+                  "Such a run fails, so that only tests ask for all of them."},
     CoverageGroup{"geometric/refusal",
                   "Starts that are refused, in tests alone: a run is judged before it starts."}};
 
@@ -86,8 +86,6 @@ Coverage declared_geometric_coverage() {
       coverage.declare(fmt::format("geometric/look-up/{}/{}", cache, outcome));
   for (const char* const what : {"fresh", "cached", "replaced", "read-back", "waited-for"})
     coverage.declare(fmt::format("geometric/block/{}", what));
-  for (const std::string_view region : spec::geometric::kRegionNames)
-    coverage.declare(fmt::format("geometric/error/{}", region));
   for (const auto& [unit, causes] : stalls())
     for (const std::string& cause : causes)
       coverage.declare(fmt::format("geometric/stall/{}/{}", unit, cause));
@@ -97,6 +95,8 @@ Coverage declared_geometric_coverage() {
 void declare_directed_geometric_coverage(Coverage& coverage) {
   for (const auto& bin : golden::geometric::EdgeCoverage().bins())
     if (is_directed(bin.name)) coverage.declare("geometric/" + bin.name);
+  for (const std::string_view region : spec::geometric::kRegionNames)
+    coverage.declare(fmt::format("geometric/error/{}", region));
   for (std::size_t i = 1; i < spec::geometric::kRefusalNames.size(); ++i)
     coverage.declare(fmt::format("geometric/refusal/{}", spec::geometric::kRefusalNames[i]));
 }

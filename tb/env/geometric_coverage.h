@@ -12,14 +12,15 @@
 
 namespace deburr::tb {
 
-// Every bin of a run, with its hits but for those of geometric/error, which memory knows.
+// Every bin of a run with its hits; memory knows of those of geometric/error.
 Coverage geometric_coverage(const rtl::geometric::GeometricEngine& engine,
                             const golden::geometric::EdgeCoverage& golden,
                             const spec::geometric::Parameters& parameters);
 // Every bin of a run, without hits.
 Coverage declared_geometric_coverage();
-// What only directed tests meet: starts that the engine does not take, and edges that name vertices
-// or faces which are not there. A run has none of these bins.
+// What only directed tests meet: starts that the engine does not take, edges that name vertices or
+// faces which are not there, lines of every region that memory answers with an error. A run that
+// passes has none of these bins.
 void declare_directed_geometric_coverage(Coverage& coverage);
 std::span<const CoverageGroup> geometric_coverage_groups();
 

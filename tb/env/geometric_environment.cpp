@@ -754,9 +754,12 @@ Coverage GeometricEnvironment::coverage() const {
   if (const auto range = error_range(setup_.memory))
     for (const auto* const lines : {&memory_.lines_read(), &memory_.lines_written()})
       for (const std::uint64_t line : *lines)
-        if (range->touches(line, kLine))
-          coverage.hit(fmt::format("geometric/error/{}",
-                                   spec::geometric::kRegionNames[regions_.region_of(line)]));
+        if (range->touches(line, kLine)) {
+          const std::string bin = fmt::format(
+              "geometric/error/{}", spec::geometric::kRegionNames[regions_.region_of(line)]);
+          coverage.declare(bin);
+          coverage.hit(bin);
+        }
   return coverage;
 }
 
