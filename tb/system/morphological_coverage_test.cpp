@@ -303,7 +303,11 @@ TEST(SharesCoverage, EveryClassIsMet) {
   Coverage all = declared();
   Random random(17);
   std::vector<MorphologicalInput> frames;
-  for (int i = 0; i < 12; ++i) frames.push_back(rectangles(random));
+  for (int i = 0; i < 60; ++i)
+    frames.push_back(i % 4 == 0   ? rectangles(random)
+                     : i % 4 == 1 ? line(random, false)
+                     : i % 4 == 2 ? line(random, true)
+                                  : disc(random));
   spec::morphological::Parameters p = preset(Preset::kDeburr);
   p.line_pixels = 512;
   run(all, p, frames);
