@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""docs/parameters.md, docs/statistics.md and docs/registers.md are what the program prints today, and
-docs/exploration.md names every option of a run.
+"""The reference pages of docs are what the program prints today, and docs/exploration.md names every
+option of a run.
 
 usage: pages_test.py DEBURR SOURCE [--write]     --write brings the pages up to date
 """
@@ -28,7 +28,7 @@ def main():
         return 0 if len(sys.argv) >= 2 else 2
     deburr, source = sys.argv[1:3]
     stale = 0
-    for page in ("parameters", "statistics", "registers"):
+    for page in ("parameters", "statistics", "registers", "coverage"):
         done = subprocess.run([deburr, "params", "--markdown", page], check=True,
                               capture_output=True, text=True)
         printed = done.stdout
