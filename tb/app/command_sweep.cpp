@@ -210,7 +210,7 @@ Outcome search(const SweepOptions& options) {
   if (options.action == "run") return run_search(options, definition, place);
   if (options.action == "status") return show_status(options, definition, place);
   const Plan plan = read_plan(place.directory);
-  if (!is_current(plan, definition))
+  if (!is_current(plan, definition.file))
     throw spec::ConfigError(
         fmt::format("'{}' is of another state of '{}', of its inputs or of the model: search again",
                     place.directory.string(), options.file));
