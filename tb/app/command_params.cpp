@@ -35,6 +35,10 @@ Outcome print_params(const ParamsCommand& command) {
     fmt::print("{}", registers_page());
     return {};
   }
+  if (command.markdown == "coverage") {
+    fmt::print("{}", coverage_page());
+    return {};
+  }
   std::vector<std::string> groups;
   std::vector<Parameter> shown;
   for (const auto& engine : all) {
@@ -78,10 +82,11 @@ void add_params(CLI::App& app, CommandLine& line) {
                       "Only these: run, scene, sampler, texture, memory, ...");
   command
       ->add_option("--markdown", options->markdown,
-                   "Print a page of the docs instead: parameters, statistics, registers")
+                   "Print a page of the docs instead: parameters, statistics, registers, "
+                   "coverage")
       ->expected(0, 1)
       ->default_str("parameters")
-      ->check(CLI::IsMember({"parameters", "statistics", "registers"}));
+      ->check(CLI::IsMember({"parameters", "statistics", "registers", "coverage"}));
   command->callback(
       [options, &line] { line.action = [options] { return print_params(*options); }; });
 }

@@ -36,6 +36,7 @@ struct RunParameters {
   std::int64_t trace_from = 0, trace_to = 2000;
   std::int64_t window_cycles = 0;
   bool maps = false;
+  bool coverage = false;
   bool timeline = false;
   std::int64_t timeline_from = 0, timeline_to = 2000;
   TraceChoice line_trace = TraceChoice::kNone;
@@ -79,6 +80,9 @@ void describe(RunParameters& p, Visitor& v) {
   v.boolean("maps", p.maps,
             "Leave maps over the picture, in false colours and as values: what the hardware did "
             "for each pixel.");
+  v.boolean("coverage", p.coverage,
+            "Functional coverage: leave how often each bin of docs/coverage.md was met, as "
+            "coverage.bins of result.json; with the golden model, which knows what was met.");
   v.boolean("timeline", p.timeline,
             "Leave timeline.json for trace viewers (Perfetto, chrome://tracing): what each unit "
             "did in each cycle, and transactions of memory.");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// docs/parameters.md, docs/statistics.md and docs/registers.md, made from the declarations that the
+// docs/parameters.md, statistics.md, registers.md and coverage.md, made from the declarations that the
 // program uses.
 #pragma once
 
@@ -15,5 +15,6 @@ std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines)
 // Elaborates every engine's model: at most once a process, and not in one that simulates.
 std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines);
 std::string registers_page();
+std::string coverage_page();
 
 }  // namespace deburr::tb

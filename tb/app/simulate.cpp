@@ -40,6 +40,10 @@ SimulationOptions simulation_options(const RunParameters& run, const RunContext&
   o.trace_to = static_cast<rtl::Cycle>(run.trace_to);
   o.window_cycles = static_cast<rtl::Cycle>(run.window_cycles);
   o.maps = run.maps;
+  if (run.coverage && !o.golden)
+    throw spec::ConfigError(
+        "run.coverage: what was met is known to the golden model: leave out run.check=none");
+  o.coverage = run.coverage;
   if (run.timeline)
     o.timeline = {static_cast<rtl::Cycle>(run.timeline_from),
                   static_cast<rtl::Cycle>(run.timeline_to)};

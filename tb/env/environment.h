@@ -25,6 +25,7 @@
 #include "spec/registers.h"
 #include "tb/env/memory_parameters.h"
 #include "tb/env/simulation.h"
+#include "tb/harness/coverage.h"
 #include "tb/harness/memory_model.h"
 #include "tb/harness/observer.h"
 #include "tb/harness/register_host.h"
@@ -89,6 +90,9 @@ class Environment {
   virtual void show_parts(Observer& observer) const = 0;
   // What was done for each pixel, with SimulationOptions::maps; of the last frame.
   virtual std::vector<PictureMap> maps() const = 0;
+  // Functional coverage: every bin of its engines, with what was met so far. With
+  // SimulationOptions::coverage and a golden model.
+  virtual Coverage coverage() const = 0;
   // Throughput, latency, figures and bottleneck: of the one environment that the run is about.
   virtual void collect_headline(Result& result) const = 0;
 

@@ -262,6 +262,12 @@ std::vector<PictureMap> FrameComposition::maps() const {
   return all;
 }
 
+Coverage FrameComposition::coverage() const {
+  Coverage all;
+  each_part(*this, [&](const Environment& part) { all.merge(part.coverage()); });
+  return all;
+}
+
 FrameComposition::Clocks FrameComposition::clocks(const Result& result) const {
   const auto since_begin = [&](rtl::Cycle cycle) {
     return cycle - std::min(cycle, simulation().begun());

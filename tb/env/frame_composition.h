@@ -64,6 +64,7 @@ class FrameComposition final : public Environment {
   void collect(Result& result) const override;
   void show_parts(Observer& observer) const override;
   std::vector<PictureMap> maps() const override;
+  Coverage coverage() const override;
   void collect_headline(Result& result) const override;
 
   // What was smoothed so far, how many pixels of it were delivered, and what it should be.

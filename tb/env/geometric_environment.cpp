@@ -14,6 +14,7 @@
 #include "spec/error.h"
 #include "spec/geometric/registers.h"
 #include "tb/env/collect.h"
+#include "tb/env/geometric_coverage.h"
 #include "tb/stimuli/random.h"
 
 namespace deburr::tb {
@@ -746,6 +747,17 @@ void GeometricEnvironment::show_parts(Observer& observer) const {
                 number(count_of(setup_.geometric.edge_lanes))});
   observer.see({"Pixels blended", figure("resolver_blended_pixels"), "pixel/clk",
                 number(count_of(setup_.geometric.resolve_lanes))});
+}
+
+Coverage GeometricEnvironment::coverage() const {
+  Coverage coverage = geometric_coverage(engine_, golden_.coverage(), setup_.geometric);
+  if (const auto range = error_range(setup_.memory))
+    for (const auto* const lines : {&memory_.lines_read(), &memory_.lines_written()})
+      for (const std::uint64_t line : *lines)
+        if (range->touches(line, kLine))
+          coverage.hit(fmt::format("geometric/error/{}",
+                                   spec::geometric::kRegionNames[regions_.region_of(line)]));
+  return coverage;
 }
 
 std::vector<PictureMap> GeometricEnvironment::maps() const {

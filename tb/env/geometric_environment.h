@@ -80,6 +80,7 @@ class GeometricEnvironment final : public Environment {
   void collect(Result& result) const override;
   void show_parts(Observer& observer) const override;
   std::vector<PictureMap> maps() const override;
+  Coverage coverage() const override;
   void collect_headline(Result& result) const override;
 
   // ---- the frame in memory, without time; for a composition

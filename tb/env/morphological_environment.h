@@ -25,6 +25,7 @@
 #include "tb/env/environment.h"
 #include "tb/env/frame_source.h"
 #include "tb/env/memory_parameters.h"
+#include "tb/env/morphological_coverage.h"
 #include "tb/env/morphological_maps.h"
 #include "tb/env/raster_scoreboard.h"
 #include "tb/harness/driver.h"
@@ -77,6 +78,7 @@ class MorphologicalEnvironment final : public Environment {
   void collect(Result& result) const override;
   void show_parts(Observer& observer) const override;
   std::vector<PictureMap> maps() const override;
+  Coverage coverage() const override { return morphological_coverage(golden_model()); }
   void collect_headline(Result& result) const override;
 
   rtl::Link<spec::morphological::PixelBeat> pixels;

@@ -47,6 +47,7 @@ struct SimulationOptions {
   rtl::Cycle trace_from = 0, trace_to = 2000;
   rtl::Cycle window_cycles = 0;  // 0: no windows
   bool maps = false;             // pixel by pixel, what was done
+  bool coverage = false;         // bins of functional coverage, with their hits
   std::optional<TimelineOptions> timeline;
 };
 

@@ -108,6 +108,7 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
       judge(cycle, colour);
     };
   }
+  if (simulation.options().coverage) coverage_.emplace(setup.texture);
   if (simulation.options().maps)
     maps_ =
         std::make_unique<TextureMaps>(simulation.clock(), unit_, quads_, colours, scene.stream());
@@ -123,6 +124,7 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
     quad = quad_.quad;
     sent_.add(quad_);
     if (setup_.observer) setup_.observer(quad_);
+    if (coverage_) coverage_->see(golden_, quad);
     return true;
   });
   clear_outputs();
@@ -180,6 +182,7 @@ void TextureEnvironment::clear_outputs() {
   delivered_ = 0;
   hash_ = {};
   if (maps_) maps_->clear();
+  if (coverage_) coverage_->clear();
   came_.assign(frame_.pixels.size(), 0);
 }
 
@@ -326,6 +329,10 @@ void TextureEnvironment::show_parts(Observer& observer) const {
 
 std::vector<PictureMap> TextureEnvironment::maps() const {
   return maps_ ? named(maps_->maps()) : std::vector<PictureMap>();
+}
+
+Coverage TextureEnvironment::coverage() const {
+  return coverage_ ? coverage_->bins(unit_) : TextureCoverage::declared();
 }
 
 void TextureEnvironment::collect_headline(Result& result) const {

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <systemc>
 #include <vector>
@@ -26,6 +27,7 @@
 #include "tb/env/environment.h"
 #include "tb/env/memory_parameters.h"
 #include "tb/env/sent_quads.h"
+#include "tb/env/texture_coverage.h"
 #include "tb/env/texture_expectation.h"
 #include "tb/env/texture_maps.h"
 #include "tb/env/texture_scene.h"
@@ -78,6 +80,7 @@ class TextureEnvironment final : public Environment {
   void collect(Result& result) const override;
   void show_parts(Observer& observer) const override;
   std::vector<PictureMap> maps() const override;
+  Coverage coverage() const override;
   void collect_headline(Result& result) const override;
 
   rtl::Link<spec::texture::Colour> colours{"colours"};
@@ -142,6 +145,7 @@ class TextureEnvironment final : public Environment {
   Image frame_, golden_frame_;
   std::vector<std::uint8_t> came_;
   std::unique_ptr<TextureMaps> maps_;
+  std::optional<TextureCoverage> coverage_;
   std::size_t fills_judged_ = 0;
   std::uint64_t delivered_ = 0;
   OutputHash hash_;

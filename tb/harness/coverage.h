@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: MIT
 // Functional coverage: named bins that are declared before they are hit, so that a hole is a bin
-// with no hits and not a bin that nobody thought of. Runs are merged; the report lists the holes.
+// with no hits and not a bin that nobody thought of. A merge of runs is a sum.
+//
+// Names are paths, "texture/cache/miss": the engine, a group of bins that look at the same thing,
+// and the bin.
 #pragma once
-
-#include <fmt/format.h>
 
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "spec/error.h"
 
 namespace deburr::tb {
+
+// The beginning that names of bins share, "texture/cache", and what they look at.
+struct CoverageGroup {
+  std::string_view name, meaning;
+};
 
 class Coverage {
  public:
@@ -29,20 +36,12 @@ class Coverage {
   }
 
   std::size_t size() const { return bins_.size(); }
+  const std::map<std::string, std::uint64_t>& bins() const { return bins_; }
   std::vector<std::string> holes() const {
     std::vector<std::string> empty;
     for (const auto& [bin, hits] : bins_)
       if (hits == 0) empty.push_back(bin);
     return empty;
-  }
-  // {"bins": {"name": hits, ...}, "holes": ["name", ...]}; bin names need no escaping.
-  std::string json() const {
-    std::string bins, empty;
-    for (const auto& [bin, hits] : bins_) {
-      bins += fmt::format("{}\n    \"{}\": {}", bins.empty() ? "" : ",", bin, hits);
-      if (hits == 0) empty += fmt::format("{}\"{}\"", empty.empty() ? "" : ", ", bin);
-    }
-    return fmt::format("{{\n  \"bins\": {{{}\n  }},\n  \"holes\": [{}]\n}}\n", bins, empty);
   }
 
  private:

@@ -190,6 +190,11 @@ Json to_json(const Result& r) {
           {"unit", "clk"}, {"meaning", stall.meaning}};
   for (const WorkItem& item : r.work)
     meanings["work." + item.name] = {{"unit", item.unit}, {"meaning", item.meaning}};
+  if (r.coverage) {
+    json["coverage"] = {{"bins", *r.coverage}};
+    const Statistic* s = find_statistic("coverage.bins");  // one for all bins, which are many
+    meanings["coverage.bins"] = {{"unit", s->unit}, {"meaning", s->meaning}};
+  }
   json["meaning"] = meanings;
   return json;
 }

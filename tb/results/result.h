@@ -152,6 +152,7 @@ struct Result {
   std::vector<MemoryFigures> memories;
   std::vector<LinkFigures> links;  // of a run with windows
   std::vector<MapFigures> maps;    // of a run with maps
+  std::optional<std::map<std::string, std::uint64_t>> coverage;  // hits by bin; run.coverage
   std::vector<WorkItem> work;
   std::vector<Figure> figures;
   std::optional<Quality> quality;

@@ -99,6 +99,9 @@ constexpr std::array kStatistics = {
     Statistic{"notes", "", "What had to be decided about an input, such as 16 bits made 8."},
     Statistic{"first_mismatches", "",
               "The first mismatches of each check: where, which item and field, expected and got."},
+    Statistic{"coverage.bins", "hit",
+              "Functional coverage, in runs with run.coverage: every bin of the run's engines "
+              "(docs/coverage.md) with how often it was met; 0: a hole. A merge of runs is a sum."},
     Statistic{"figures", "", "Keys of this file that a reader looks for first."},
     Statistic{"quality.reference", "", "What the picture is compared with."},
     Statistic{"quality.psnr_db", "dB", "PSNR over the frame; inf: identical."},

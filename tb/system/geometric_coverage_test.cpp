@@ -3,18 +3,17 @@
 // golden's bins (golden/geometric/edge_coverage.h), and those that the hardware alone can tell:
 // look-ups, blocks, refusals, errors of memory, stalls. Every bin must be hit, with every frame
 // identical to golden.
+#include "tb/env/geometric_coverage.h"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <map>
 #include <set>
-#include <sstream>
 #include <string>
 
 #include "spec/error.h"
-#include "tb/harness/coverage.h"
 #include "tb/harness/forked.h"
+#include "tb/system/coverage_text.h"
 #include "tb/system/geometric_runs.h"
 
 namespace deburr::tb::geometric_system {
@@ -25,93 +24,10 @@ using spec::geometric::Region;
 using spec::geometric::Select;
 namespace reg = spec::geometric::reg;
 
-// Causes that a unit can lose a clock to, as docs/geometric_hardware.md has them.
-const std::map<std::string, std::vector<std::string>> kStalls = {
-    {"facing_store", {"downstream", "memory"}},
-    {"edge_reader", {"downstream", "facing", "edges"}},
-    {"edge_classifier", {"downstream"}},
-    {"vertex_fetch", {"downstream", "vertices", "fills"}},
-    {"line_setup", {"downstream", "divider"}},
-    {"line_walker", {"downstream"}},
-    {"coverage_unit", {"downstream"}},
-    {"depth_test", {"downstream", "depth", "fills"}},
-    {"weight_combiner", {"downstream", "weights", "fills", "spill"}},
-    {"block_scanner", {"downstream"}},
-    {"block_fetch", {"downstream", "weights", "colours"}},
-    {"resolver", {"downstream", "colours"}},
-    {"frame_copier", {"downstream", "memory"}},
-    {"memory_arbiter", {"downstream"}}};
-
 Coverage declared() {
-  Coverage coverage;
-  for (const auto& bin : golden::geometric::EdgeCoverage().bins()) coverage.declare(bin.name);
-  for (int lines = 1; lines <= 8; ++lines)
-    coverage.declare(fmt::format("group-lines/raster/{}", lines));
-  for (int lines = 1; lines <= 2; ++lines)
-    coverage.declare(fmt::format("group-lines/tiled/{}", lines));
-  for (const char* const cache : {"vertex", "depth", "weight"})
-    for (const char* const outcome : {"hit", "miss"})
-      coverage.declare(fmt::format("look-up/{}/{}", cache, outcome));
-  for (const char* const what : {"fresh", "cached", "replaced", "read-back", "waited-for"})
-    coverage.declare(fmt::format("block/{}", what));
-  for (std::size_t i = 1; i < spec::geometric::kRefusalNames.size(); ++i)
-    coverage.declare(fmt::format("refusal/{}", spec::geometric::kRefusalNames[i]));
-  for (const std::string_view region : spec::geometric::kRegionNames)
-    coverage.declare(fmt::format("error/{}", region));
-  for (const auto& [unit, causes] : kStalls)
-    for (const std::string& cause : causes)
-      coverage.declare(fmt::format("stall/{}/{}", unit, cause));
+  Coverage coverage = declared_geometric_coverage();
+  declare_refusals(coverage);
   return coverage;
-}
-
-// "bin hits" a line: it comes from another process.
-class Hits {
- public:
-  void hit(const std::string& bin, std::uint64_t times) {
-    if (times != 0) text_ += fmt::format("{} {}\n", bin, times);
-  }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
-
-void record(Coverage& coverage, const std::string& hits) {
-  std::istringstream lines(hits);
-  std::string bin;
-  std::uint64_t times = 0;
-  while (lines >> bin >> times) coverage.hit(bin, times);
-}
-
-std::string met(const rtl::geometric::GeometricEngine& e,
-                const golden::geometric::EdgeCoverage& golden, const Parameters& p) {
-  Hits hits;
-  for (const auto& bin : golden.bins()) hits.hit(bin.name, bin.hits);
-  const bool tiled = p.layout == Layout::kTiled;
-  for (const auto& bin : e.depth_test.group_lines.bins())
-    hits.hit(fmt::format("group-lines/{}/{}", tiled ? "tiled" : "raster", bin.low), bin.count);
-  const auto looked = [&](const char* cache, const rtl::Counter& lookups,
-                          const rtl::Counter& misses) {
-    hits.hit(fmt::format("look-up/{}/hit", cache), lookups.value() - misses.value());
-    hits.hit(fmt::format("look-up/{}/miss", cache), misses.value());
-  };
-  const auto& weights = e.weight_combiner;
-  looked("vertex", e.vertex_fetch.lookups, e.vertex_fetch.misses);
-  looked("depth", e.depth_test.lookups, e.depth_test.misses);
-  looked("weight", weights.lookups, weights.misses);
-  hits.hit("block/fresh", weights.misses.value() - weights.blocks_read.value());
-  hits.hit("block/cached", weights.lookups.value() - weights.misses.value());
-  hits.hit("block/replaced", weights.blocks_written.value());
-  hits.hit("block/read-back", weights.blocks_read.value());
-  for (const rtl::Unit* unit : e.units()) {
-    const auto known = kStalls.find(unit->basename());
-    if (known == kStalls.end()) continue;  // the sequencer never stalls; the port is the fabric's
-    for (const auto& cause : unit->stalls()) {
-      hits.hit(fmt::format("stall/{}/{}", unit->basename(), cause.name), cause.cycles);
-      if (unit == &weights && cause.name == "spill") hits.hit("block/waited-for", cause.cycles);
-    }
-  }
-  return hits.text();
 }
 
 std::string run(const std::vector<Frame>& frames, const GeometricRunOptions& options) {
@@ -121,7 +37,7 @@ std::string run(const std::vector<Frame>& frames, const GeometricRunOptions& opt
     simulation.elaborate(environment);
     simulation.run();
     environment.check();
-    return met(environment.engine(), environment.golden_model().coverage(), options.geometric);
+    return text_of(environment.coverage());
   });
 }
 
@@ -155,7 +71,7 @@ Frame columns() {
 void run_frames(Coverage& coverage) {
   GeometricRunOptions raster;
   raster.geometric.layout = Layout::kRaster;
-  record(coverage, run({columns()}, raster));
+  add_text(coverage, run({columns()}, raster));
   for (std::uint64_t seed = 0; seed < 12; ++seed)
     for (const Select select : {Select::kAll, Select::kEdges}) {
       std::size_t number = 2 * seed + (select == Select::kAll);
@@ -178,7 +94,7 @@ void run_frames(Coverage& coverage) {
         options.memory.latency_max = number % 3 == 0 ? 150 : 0;
         options.memory.bytes_per_clock = number % 2 == 0 ? 64 : 16;
         options.stall_permille = number % 3 == 1 ? 250 : 0;
-        record(coverage, run({random_frame(70, 50, seed)}, options));
+        add_text(coverage, run({random_frame(70, 50, seed)}, options));
         ++number;
       }
     }
@@ -186,24 +102,21 @@ void run_frames(Coverage& coverage) {
 
 void run_errors(Coverage& coverage) {
   for (std::size_t region = 0; region < RegionMap::kRegions; ++region)
-    record(coverage, forked_text([&] {
-             GeometricRunOptions options;
-             options.geometric.weight_blocks = CacheLines::k16;
-             options.geometric.frame_copy = static_cast<Region>(region) == Region::kCopy;
-             const std::vector<Frame> frames = {random_frame(90, 50, 20)};
-             options.memory.error_address =
-                 RegionMap(frames, options.geometric).base(static_cast<Region>(region));
-             options.memory.error_bytes = 4096;
-             Simulation simulation(options);
-             GeometricEnvironment environment(simulation, frames, options);
-             simulation.elaborate(environment);
-             EXPECT_THROW(simulation.run(), spec::SimulationError);
-             environment.check();
-             Hits hits;
-             hits.hit(fmt::format("error/{}", spec::geometric::kRegionNames[region]),
-                      environment.host().read(reg::kMemoryErrors));
-             return hits.text();
-           }));
+    add_text(coverage, forked_text([&] {
+               GeometricRunOptions options;
+               options.geometric.weight_blocks = CacheLines::k16;
+               options.geometric.frame_copy = static_cast<Region>(region) == Region::kCopy;
+               const std::vector<Frame> frames = {random_frame(90, 50, 20)};
+               options.memory.error_address =
+                   RegionMap(frames, options.geometric).base(static_cast<Region>(region));
+               options.memory.error_bytes = 4096;
+               Simulation simulation(options);
+               GeometricEnvironment environment(simulation, frames, options);
+               simulation.elaborate(environment);
+               EXPECT_THROW(simulation.run(), spec::SimulationError);
+               environment.check();
+               return text_of(environment.coverage());
+             }));
 }
 
 // A start with one value that the engine does not take.
@@ -215,25 +128,23 @@ void run_refusals(Coverage& coverage) {
        {Row{reg::kControl, reg::kControlStart}, Row{reg::kSize, 61}, Row{reg::kSize, 700 | 9 << 16},
         Row{reg::kSize, 500 | 401 << 16}, Row{reg::kEdgeCount, (1 << 24) + 1},
         Row{reg::kVertexCount, (1 << 24) + 1}, Row{reg::kFaceCount, 32769}})
-    record(coverage, forked_text([&] {
-             GeometricRunOptions options;
-             options.geometric.line_pixels = 512;
-             options.geometric.touched_words = 100;
-             Simulation simulation(options);
-             const std::vector<Frame> frames = {random_frame(61, 45, 2)};
-             GeometricEnvironment environment(simulation, frames, options);
-             simulation.elaborate(environment);
-             simulation.run();
-             environment.host().write(row.offset, row.value);
-             if (row.offset != reg::kControl)
-               environment.host().write(reg::kControl, reg::kControlEnable | reg::kControlStart);
-             simulation.clock().run(2);
-             Hits hits;
-             hits.hit(fmt::format("refusal/{}", spec::geometric::kRefusalNames.at(
-                                                    environment.host().read(reg::kRefusal))),
-                      1);
-             return hits.text();
-           }));
+    add_text(coverage, forked_text([&] {
+               GeometricRunOptions options;
+               options.geometric.line_pixels = 512;
+               options.geometric.touched_words = 100;
+               Simulation simulation(options);
+               const std::vector<Frame> frames = {random_frame(61, 45, 2)};
+               GeometricEnvironment environment(simulation, frames, options);
+               simulation.elaborate(environment);
+               simulation.run();
+               environment.host().write(row.offset, row.value);
+               if (row.offset != reg::kControl)
+                 environment.host().write(reg::kControl, reg::kControlEnable | reg::kControlStart);
+               simulation.clock().run(2);
+               return fmt::format(
+                   "geometric/refusal/{} 1",
+                   spec::geometric::kRefusalNames.at(environment.host().read(reg::kRefusal)));
+             }));
 }
 
 TEST(GeometricCoverage, EveryBinIsHit) {
@@ -241,7 +152,6 @@ TEST(GeometricCoverage, EveryBinIsHit) {
   run_frames(coverage);
   run_errors(coverage);
   run_refusals(coverage);
-  std::ofstream("geometric_coverage.json") << coverage.json();
   EXPECT_GT(coverage.size(), 150u);
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
 }
@@ -249,17 +159,19 @@ TEST(GeometricCoverage, EveryBinIsHit) {
 // A frame alone, in tiles: what it cannot show is listed by name.
 TEST(GeometricCoverage, HolesAreListed) {
   Coverage coverage = declared();
-  record(coverage, run({columns()}, {}));
+  add_text(coverage, run({columns()}, {}));
   const std::vector<std::string> holes = coverage.holes();
   const std::set<std::string> empty(holes.begin(), holes.end());
   for (const char* const bin :
-       {"group-lines/raster/8", "lines/raster/10", "refusal/width", "error/copy", "block/replaced",
-        "stall/line_setup/divider", "class/all/off/unclassified", "line/left-up/below-pixel"})
+       {"geometric/group-lines/raster/8", "geometric/lines/raster/10", "geometric/refusal/width",
+        "geometric/error/copy", "geometric/block/replaced", "geometric/stall/line_setup/divider",
+        "geometric/class/all/off/unclassified", "geometric/line/left-up/below-pixel"})
     EXPECT_TRUE(empty.contains(bin)) << bin;
-  for (const char* const bin : {"group-lines/tiled/1", "group-lines/tiled/2", "block/fresh",
-                                "class/edges/shading/boundary", "look-up/depth/hit"})
+  for (const char* const bin :
+       {"geometric/group-lines/tiled/1", "geometric/group-lines/tiled/2", "geometric/block/fresh",
+        "geometric/class/edges/shading/boundary", "geometric/look-up/depth/hit"})
     EXPECT_FALSE(empty.contains(bin)) << bin;
-  EXPECT_THROW(coverage.hit("group-lines/tiled/3"), spec::CheckFailed);
+  EXPECT_THROW(coverage.hit("geometric/group-lines/tiled/3"), spec::CheckFailed);
 }
 
 }  // namespace

@@ -4,23 +4,25 @@
 // long runs, frame borders, decisions of the blender; and of SMAA's blocks: shapes x distances,
 // limits, table entries, diagonals, thresholds; and of what marks do. Every bin must be hit, with
 // every frame identical to golden, runs and lines included.
+#include "tb/env/morphological_coverage.h"
+
 #include <gtest/gtest.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
+#include <span>
 #include <string>
+#include <string_view>
 
-#include "tb/harness/coverage.h"
 #include "tb/harness/forked.h"
 #include "tb/stimuli/frames.h"
+#include "tb/system/coverage_text.h"
 #include "tb/system/morphological_runs.h"
 
 namespace deburr::tb::morphological_system {
 namespace {
 
-using golden::morphological::CoverageBin;
 using golden::morphological::MorphologicalGolden;
 
 MorphologicalInput transposed(const MorphologicalInput& f) {
@@ -80,39 +82,36 @@ spec::morphological::Parameters narrow() {
   return p;
 }
 
-// Hits in the order of bins(); plain numbers, because they come from another process.
-struct Hits {
-  std::array<std::uint64_t, 1024> count{};
-};
+// The bins of some groups; all of these together have every bin (EveryBinIsInOneOfTheParts).
+using Groups = std::span<const std::string_view>;
+constexpr std::string_view kRuns[] = {"shape",          "long-end", "prediction",
+                                      "prediction-end", "border",   "decision"};
+constexpr std::string_view kSmaa[] = {"table",         "table-entry",     "search",   "diagonal",
+                                      "diagonal-ends", "diagonal-length", "threshold"};
+constexpr std::string_view kLeave[] = {"left", "leave-border", "half"};
+constexpr std::string_view kShares[] = {"class"};
 
-using Bins = std::vector<CoverageBin> (*)(const MorphologicalGolden&);
-std::vector<CoverageBin> run_bins(const MorphologicalGolden& golden) {
-  return golden.coverage().bins();
-}
-std::vector<CoverageBin> smaa_bins(const MorphologicalGolden& golden) {
-  return golden.smaa_coverage().bins();
-}
-std::vector<CoverageBin> leave_bins(const MorphologicalGolden& golden) {
-  return golden.leave_coverage().bins();
+Coverage part_of(const Coverage& all, Groups groups) {
+  Coverage part;
+  for (const auto& [bin, hits] : all.bins())
+    for (const std::string_view group : groups)
+      if (bin.starts_with("morphological/" + std::string(group) + "/")) {
+        part.declare(bin);
+        part.hit(bin, hits);
+      }
+  return part;
 }
 
-void add(Coverage& coverage, Bins bins_of, const Hits& hits) {
-  const std::vector<CoverageBin> bins = bins_of(MorphologicalGolden({}));
-  ASSERT_LE(bins.size(), hits.count.size());
-  for (std::size_t i = 0; i < bins.size(); ++i) {
-    coverage.declare(bins[i].name);
-    coverage.hit(bins[i].name, hits.count[i]);
-  }
-}
+Coverage declared() { return morphological_coverage(MorphologicalGolden({})); }
 
 // Does golden meet a bin in this frame that nobody met before?
-bool tells(MorphologicalGolden& golden, Bins bins_of, const MorphologicalInput& frame,
+bool tells(MorphologicalGolden& golden, Groups groups, const MorphologicalInput& frame,
            std::set<std::string>& met) {
   golden.clear_coverage();
   golden.process({frame.image.pixels, frame.image.width, frame.image.height});
   bool news = false;
-  for (const CoverageBin& bin : bins_of(golden))
-    if (bin.hits > 0) news |= met.insert(bin.name).second;
+  for (const auto& [bin, hits] : part_of(morphological_coverage(golden), groups).bins())
+    if (hits > 0) news |= met.insert(bin).second;
   return news;
 }
 
@@ -128,45 +127,48 @@ std::vector<MorphologicalInput> telling_frames(const spec::morphological::Parame
                                : round % 6 == 4 ? line(random, true)
                                                 : disc(random);
     if (round % 120 == 119) frame = noise(100, 100, static_cast<std::uint64_t>(round));
-    if (tells(golden, run_bins, frame, met)) kept.push_back(std::move(frame));
+    if (tells(golden, kRuns, frame, met)) kept.push_back(std::move(frame));
   }
   return kept;
 }
 
 // What frames met, each of them identical to golden in the hardware model.
-Hits met(const spec::morphological::Parameters& parameters, Bins bins_of,
+void run(Coverage& coverage, const spec::morphological::Parameters& parameters,
          const std::vector<MorphologicalInput>& frames) {
-  return forked<Hits>([&] {
-    MorphologicalRunOptions options;
-    options.morphological = parameters;
-    options.records = true;
-    Simulation simulation(options);
-    MorphologicalEnvironment environment(simulation, frames, options);
-    simulation.elaborate(environment);
-    simulation.run();
-    environment.check();
-    Hits hits;
-    std::size_t i = 0;
-    for (const CoverageBin& bin : bins_of(environment.golden_model()))
-      hits.count.at(i++) = bin.hits;
-    return hits;
-  });
+  add_text(coverage, forked_text([&] {
+             MorphologicalRunOptions options;
+             options.morphological = parameters;
+             options.records = true;
+             Simulation simulation(options);
+             MorphologicalEnvironment environment(simulation, frames, options);
+             simulation.elaborate(environment);
+             simulation.run();
+             environment.check();
+             return text_of(environment.coverage());
+           }));
+}
+
+TEST(MorphologicalCoverage, EveryBinIsInOneOfTheParts) {
+  std::size_t bins = 0;
+  for (const Groups groups : {Groups(kRuns), Groups(kSmaa), Groups(kLeave), Groups(kShares)})
+    bins += part_of(declared(), groups).size();
+  EXPECT_EQ(bins, declared().size());
 }
 
 TEST(MorphologicalCoverage, EveryBinIsHit) {
-  Coverage coverage;
+  Coverage all = declared();
   for (const auto& parameters : {wide(), narrow()})
-    add(coverage, run_bins, met(parameters, run_bins, telling_frames(parameters)));
-  std::ofstream("morphological_coverage.json") << coverage.json();
+    run(all, parameters, telling_frames(parameters));
+  const Coverage coverage = part_of(all, kRuns);
   EXPECT_GT(coverage.size(), 200u);
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
 }
 
 TEST(MorphologicalCoverage, AHoleIsReported) {
-  Coverage coverage;
-  add(coverage, run_bins, met(wide(), run_bins, {flat(8, 8, 3)}));
+  Coverage coverage = declared();
+  run(coverage, wide(), {flat(8, 8, 3)});
   EXPECT_EQ(coverage.size() - coverage.holes().size(), 1u);  // decision/none
-  EXPECT_THROW(coverage.hit("shape/diagonal"), spec::CheckFailed);
+  EXPECT_THROW(coverage.hit("morphological/shape/diagonal"), spec::CheckFailed);
 }
 
 // ---- SMAA's blocks ------------------------------------------------------------------------------
@@ -230,7 +232,7 @@ std::vector<MorphologicalInput> smaa_frames(Random& random, int round) {
 // Of each case the frames that tell what none before has told, golden alone.
 std::vector<std::vector<MorphologicalInput>> telling_smaa_frames(
     const std::vector<SmaaCase>& cases) {
-  const std::size_t bins = smaa_bins(MorphologicalGolden({})).size();
+  const std::size_t bins = part_of(declared(), kSmaa).size();
   Random random(11);
   std::vector<MorphologicalGolden> goldens;
   for (const SmaaCase& each : cases) goldens.emplace_back(each.parameters);
@@ -239,19 +241,19 @@ std::vector<std::vector<MorphologicalInput>> telling_smaa_frames(
   for (int round = 0; round < 40 && met.size() < bins; ++round)
     for (const MorphologicalInput& frame : smaa_frames(random, round))
       for (std::size_t i = 0; i < cases.size(); ++i)
-        if (tells(goldens[i], smaa_bins, frame, met)) kept[i].push_back(frame);
+        if (tells(goldens[i], kSmaa, frame, met)) kept[i].push_back(frame);
   return kept;
 }
 
 TEST(SmaaCoverage, EveryBinIsHit) {
   const std::vector<SmaaCase> cases = smaa_cases();
   const auto frames = telling_smaa_frames(cases);
-  Coverage coverage;
+  Coverage all = declared();
   for (std::size_t i = 0; i < cases.size(); ++i) {
     EXPECT_FALSE(frames[i].empty()) << cases[i].name << ' ' << i << " tells nothing";
-    add(coverage, smaa_bins, met(cases[i].parameters, smaa_bins, frames[i]));
+    run(all, cases[i].parameters, frames[i]);
   }
-  std::ofstream("smaa_coverage.json") << coverage.json();
+  const Coverage coverage = part_of(all, kSmaa);
   // Shapes x distances of both axes, limits, table entries, diagonals both ways, thresholds.
   EXPECT_EQ(coverage.size(), 2u * 16 * 5 + 2 * 2 * 2 + 2 * 2 + 2 * (16 + 4 + 3) + 1 + 4 * 2);
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
@@ -275,53 +277,69 @@ std::vector<MorphologicalInput> marked_frames() {
 
 TEST(LeaveCoverage, EveryBinIsHit) {
   using spec::morphological::Leave;
-  Coverage coverage;
+  Coverage all = declared();
   for (const Leave leave : {Leave::kMarked, Leave::kBeside, Leave::kHalf}) {
     spec::morphological::Parameters p = preset(Preset::kDeburrLine);
     p.line_pixels = 512;
     p.leave = leave;
-    add(coverage, leave_bins, met(p, leave_bins, marked_frames()));
+    run(all, p, marked_frames());
   }
-  std::ofstream("leave_coverage.json") << coverage.json();
+  const Coverage coverage = part_of(all, kLeave);
   EXPECT_EQ(coverage.size(), 2u + 6 + 4 * 2 + 5);
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
 }
 
 TEST(LeaveCoverage, WithoutTheRuleNothingIsHit) {
-  Coverage coverage;
-  add(coverage, leave_bins, met(narrow(), leave_bins, marked_frames()));
+  Coverage all = declared();
+  run(all, narrow(), marked_frames());
+  const Coverage coverage = part_of(all, kLeave);
   EXPECT_EQ(coverage.holes().size(), coverage.size());
+}
+
+// ---- learned shares -----------------------------------------------------------------------------
+
+TEST(SharesCoverage, EveryClassIsMet) {
+  Coverage all = declared();
+  Random random(17);
+  std::vector<MorphologicalInput> frames;
+  for (int i = 0; i < 12; ++i) frames.push_back(rectangles(random));
+  spec::morphological::Parameters p = preset(Preset::kDeburr);
+  p.line_pixels = 512;
+  run(all, p, frames);
+  const Coverage coverage = part_of(all, kShares);
+  EXPECT_EQ(coverage.size(), 2u * 2 * 9);
+  EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
 }
 
 // What no frame meets is listed by name: with a flat frame everything, with one stair all but its
 // own few bins.
 TEST(SmaaCoverage, HolesAreListed) {
-  Coverage flat_alone;
-  add(flat_alone, smaa_bins, met(smaa_cases()[0].parameters, smaa_bins, {flat(9, 9, 3)}));
+  Coverage flat_alone = declared();
+  run(flat_alone, smaa_cases()[0].parameters, {flat(9, 9, 3)});
+  flat_alone = part_of(flat_alone, kSmaa);
   EXPECT_EQ(flat_alone.holes().size(), flat_alone.size());
 
-  Coverage rising;
-  add(rising, smaa_bins, met(preset(Preset::kSmaa), smaa_bins, {stair(40, true)}));
+  Coverage rising = declared();
+  run(rising, preset(Preset::kSmaa), {stair(40, true)});
+  rising = part_of(rising, kSmaa);
   std::set<std::string> hit;
-  for (const CoverageBin& bin : smaa_bins(MorphologicalGolden({}))) hit.insert(bin.name);
+  for (const auto& [bin, hits] : rising.bins()) hit.insert(bin);
   for (const std::string& hole : rising.holes()) hit.erase(hole);
-  EXPECT_TRUE(hit.contains("diagonal/rising/0-0"));
-  EXPECT_TRUE(hit.contains("diagonal-ends/rising/open-both"));
-  EXPECT_TRUE(hit.contains("threshold/fixed"));
+  EXPECT_TRUE(hit.contains("morphological/diagonal/rising/0-0"));
+  EXPECT_TRUE(hit.contains("morphological/diagonal-ends/rising/open-both"));
+  EXPECT_TRUE(hit.contains("morphological/threshold/fixed"));
   for (const std::string& bin : hit) {
     EXPECT_EQ(bin.find("falling"), std::string::npos) << bin;
-    EXPECT_FALSE(bin.starts_with("threshold/m")) << bin;
+    EXPECT_FALSE(bin.starts_with("morphological/threshold/m")) << bin;
   }
-  const std::string json = rising.json();
-  EXPECT_NE(json.find("\"diagonal/falling/0-0\": 0"), std::string::npos);
-  EXPECT_NE(json.substr(json.find("holes")).find("diagonal/falling/0-0"), std::string::npos);
+  const std::vector<std::string> holes = rising.holes();
+  EXPECT_EQ(std::count(holes.begin(), holes.end(), "morphological/diagonal/falling/0-0"), 1);
 }
 
 TEST(SmaaCoverage, NoBinIsHitThatWasNotDeclared) {
-  Coverage coverage;
-  add(coverage, smaa_bins, {});
+  Coverage coverage = declared();
   EXPECT_EQ(coverage.holes().size(), coverage.size());
-  EXPECT_THROW(coverage.hit("diagonal/level/0-0"), spec::CheckFailed);
+  EXPECT_THROW(add_text(coverage, "morphological/diagonal/level/0-0 1"), spec::CheckFailed);
 }
 
 }  // namespace

@@ -6,7 +6,5 @@ deburr_test(texture_stress_test LABELS stress SOURCES texture_stress_test.cpp
             LINK deburr::texture_environment TIMEOUT 300)
 deburr_test(texture_coverage_test LABELS system SOURCES texture_coverage_test.cpp
             LINK deburr::texture_environment)
-target_compile_definitions(texture_coverage_test PRIVATE
-  DEBURR_COVERAGE_FILE="${CMAKE_CURRENT_BINARY_DIR}/texture_coverage.json")
 deburr_test(texture_random_test LABELS system SOURCES texture_random_test.cpp
             LINK deburr::texture_memory deburr::golden_texture deburr::harness deburr::rtl_texture)

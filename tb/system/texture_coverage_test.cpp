@@ -2,112 +2,35 @@
 // Functional coverage of the texture unit over a set of directed runs on the hardware model: each
 // mode with each wrap and layout, each N with each major axis, magnification by each filter, and
 // what can happen to a request in the cache. Every bin must be hit.
-#include <fmt/format.h>
+#include "tb/env/texture_coverage.h"
+
 #include <gtest/gtest.h>
 
-#include <array>
-#include <fstream>
 #include <string>
 
-#include "tb/harness/coverage.h"
 #include "tb/harness/forked.h"
+#include "tb/system/coverage_text.h"
 #include "tb/system/texture_runs.h"
 
 namespace deburr::tb {
 namespace {
 
-constexpr std::size_t kDirections = 8;
-constexpr std::array<std::string_view, 2> kTentBins = {"tent.narrow", "tent.wide"};
-constexpr std::array<std::string_view, 4> kCacheBins = {"hit", "miss", "merged", "queue_full"};
-
-Coverage declared() {
-  Coverage coverage;
-  for (const auto mode : spec::texture::kMinFilterNames)
-    for (const auto wrap : spec::texture::kWrapNames)
-      for (const auto layout : spec::texture::kLayoutNames)
-        coverage.declare(fmt::format("mode.{}.{}.{}", mode, wrap, layout));
-  for (std::size_t n = 1; n <= 16; ++n) coverage.declare(fmt::format("samples.{}", n));
-  for (const int axes : {2, 4, 8})
-    for (int k = 0; k < axes; ++k) coverage.declare(fmt::format("major.{}.{}", axes, k));
-  for (const auto bin : kTentBins) coverage.declare(std::string(bin));
-  for (const auto output : spec::texture::kSrgbOutputNames)
-    coverage.declare(fmt::format("output.{}", output));
-  for (const auto filter : spec::texture::kMagFilterNames)
-    coverage.declare(fmt::format("magnified.{}", filter));
-  for (const auto format : spec::texture::kFormatNames)
-    coverage.declare(fmt::format("format.{}", format));
-  for (const auto bin : kCacheBins) coverage.declare(fmt::format("cache.{}", bin));
-  return coverage;
-}
-
-// What one run met; plain numbers, because it comes from another process.
-struct Met {
-  std::array<std::uint64_t, 17> samples{};         // by N
-  std::array<std::uint64_t, kDirections> major{};  // by direction
-  std::array<std::uint64_t, 2> tent{};             // of fewer than four samples, of more
-  std::uint64_t magnified = 0, fragments = 0;
-  std::array<std::uint64_t, 4> cache{};
-};
-
-Met run(const SceneParameters& scene, const SamplerParameters& sampler,
-        const TextureRunOptions& options) {
-  return forked<Met>([&] {
-    const TextureScene built(scene, sampler, 1);
-    Simulation simulation(options);
-    TextureEnvironment environment(simulation, built, options);
-    simulation.elaborate(environment);
-    simulation.run();
-    environment.check();
-    Met met;
-    const golden::texture::TextureGolden golden = make_golden(built, options.texture);
-    for (const spec::texture::Quad& quad : built.stream().quads) {
-      for (int lane = 0; lane < 4; ++lane) {
-        if (!(quad.coverage >> lane & 1)) continue;
-        const golden::texture::FragmentAnalysis a = golden.analyse(quad, lane);
-        if (!a.valid) continue;
-        const bool tent = options.texture.kernel == spec::texture::Kernel::kTent;
-        ++met.samples[static_cast<std::size_t>(a.lod.samples)];
-        ++met.major[static_cast<std::size_t>(a.footprint.major)];
-        if (tent) ++met.tent[a.lod.samples < 4 ? 0 : 1];
-        met.magnified += a.lod.magnified;
-        ++met.fragments;
-      }
-    }
-    const auto& tags = environment.unit().cache.tag_stage;
-    met.cache = {tags.hits.value(), tags.misses.value(), tags.merged.value(), 0};
-    for (const rtl::Unit::StallCause& cause : tags.stalls())
-      if (cause.name == "miss_queue_full") met.cache[3] = cause.cycles;
-    return met;
-  });
-}
-
-void record(Coverage& coverage, const Met& met, const SamplerParameters& sampler,
-            const spec::texture::Rules& rules) {
-  const auto index = [](auto e) { return static_cast<std::size_t>(e); };
-  coverage.hit(fmt::format("mode.{}.{}.{}", spec::texture::kMinFilterNames[index(sampler.mode)],
-                           kWrapChoiceNames[index(sampler.wrap)],
-                           spec::texture::kLayoutNames[index(sampler.layout)]),
-               met.fragments - met.magnified);
-  coverage.hit(fmt::format("format.{}", spec::texture::kFormatNames[index(sampler.format)]),
-               met.fragments);
-  coverage.hit(
-      fmt::format("magnified.{}", spec::texture::kMagFilterNames[index(sampler.magnification)]),
-      met.magnified);
-  for (std::size_t n = 1; n < met.samples.size(); ++n)
-    coverage.hit(fmt::format("samples.{}", n), met.samples[n]);
-  const int axes = 2 << static_cast<int>(rules.axes);
-  for (int k = 0; k < axes; ++k)
-    coverage.hit(fmt::format("major.{}.{}", axes, k), met.major[static_cast<std::size_t>(k)]);
-  for (std::size_t i = 0; i < kTentBins.size(); ++i)
-    coverage.hit(std::string(kTentBins[i]), met.tent[i]);
-  coverage.hit(fmt::format("output.{}", spec::texture::kSrgbOutputNames[index(rules.srgb_output)]),
-               sampler.format == spec::texture::Format::kSrgb8A8 ? met.fragments : 0);
-  for (std::size_t i = 0; i < kCacheBins.size(); ++i)
-    coverage.hit(fmt::format("cache.{}", kCacheBins[i]), met.cache[i]);
+void run(Coverage& coverage, const SceneParameters& scene, const SamplerParameters& sampler,
+         TextureRunOptions options) {
+  options.coverage = true;
+  add_text(coverage, forked_text([&] {
+             const TextureScene built(scene, sampler, 1);
+             Simulation simulation(options);
+             TextureEnvironment environment(simulation, built, options);
+             simulation.elaborate(environment);
+             simulation.run();
+             environment.check();
+             return text_of(environment.coverage());
+           }));
 }
 
 TEST(TextureCoverage, EveryBinIsHit) {
-  Coverage coverage = declared();
+  Coverage coverage = TextureCoverage::declared();
   int number = 0;
   for (int mode = 0; mode < 6; ++mode) {
     for (int wrap = 1; wrap < 4; ++wrap) {
@@ -125,26 +48,25 @@ TEST(TextureCoverage, EveryBinIsHit) {
         options.texture.kernel = static_cast<spec::texture::Kernel>(number / 3 % 2);
         options.texture.srgb_output = static_cast<spec::texture::SrgbOutput>(number / 5 % 2);
         // The tunnel's walls have their long axis across on two sides and upright on the others.
-        record(coverage, run(picture(number % 4 ? "tunnel" : "plane", 48), sampler, options),
-               sampler, options.texture);
+        run(coverage, picture(number % 4 ? "tunnel" : "plane", 48), sampler, options);
         if (mode > 0) continue;
         SceneParameters near = picture("quad", 48);
         near.texture_size = 8;
-        record(coverage, run(near, sampler, options), sampler, options.texture);
+        run(coverage, near, sampler, options);
       }
     }
   }
-  std::ofstream(DEBURR_COVERAGE_FILE) << coverage.json();
-  EXPECT_TRUE(coverage.holes().empty()) << coverage.json();
+  EXPECT_GT(coverage.size(), 80u);
+  EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
 }
 
 TEST(TextureCoverage, AHoleIsReported) {
-  Coverage coverage = declared();
+  Coverage coverage = TextureCoverage::declared();
   SamplerParameters sampler;
   sampler.wrap = WrapChoice::kRepeat;
-  record(coverage, run(picture("quad", 32), sampler, {}), sampler, spec::texture::Rules{});
+  run(coverage, picture("quad", 32), sampler, {});
   EXPECT_GT(coverage.holes().size(), 30u);
-  EXPECT_THROW(coverage.hit("mode.cubic"), spec::CheckFailed);
+  EXPECT_THROW(coverage.hit("texture/mode/cubic"), spec::CheckFailed);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""docs/parameters.md, docs/statistics.md and docs/registers.md are what the program prints today.
+"""The reference pages of docs are what the program prints today.
 
 usage: pages_test.py DEBURR SOURCE [--write]     --write brings the pages up to date
 """
@@ -15,7 +15,7 @@ def main():
         return 0 if len(sys.argv) >= 2 else 2
     deburr, source = sys.argv[1:3]
     stale = 0
-    for page in ("parameters", "statistics", "registers"):
+    for page in ("parameters", "statistics", "registers", "coverage"):
         done = subprocess.run([deburr, "params", "--markdown", page], check=True,
                               capture_output=True, text=True)
         printed = done.stdout

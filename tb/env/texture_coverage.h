@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Functional coverage of the texture unit: what the fragments of a run asked of it, as the golden
+// model analyses them, and what its cache met.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "golden/texture/texture_golden.h"
+#include "rtl_model/texture/texture_unit.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/packets.h"
+#include "spec/texture/parameters.h"
+#include "tb/harness/coverage.h"
+
+namespace deburr::tb {
+
+class TextureCoverage {
+ public:
+  explicit TextureCoverage(const spec::texture::Rules& rules) : rules_(rules) {}
+
+  // A quad that the unit is given.
+  void see(const golden::texture::TextureGolden& golden, const spec::texture::Quad& quad);
+  void clear() { *this = TextureCoverage(rules_); }
+  // With what the unit counted itself.
+  Coverage bins(const rtl::texture::TextureUnit& unit) const;
+
+  // Every bin, without hits.
+  static Coverage declared();
+  static std::span<const CoverageGroup> groups();
+
+ private:
+  template <class Names>
+  using Counts = std::array<std::uint64_t, std::tuple_size_v<Names>>;
+  using ByWrap = Counts<decltype(spec::texture::kWrapNames)>;
+  using ByMode = std::array<ByWrap, spec::texture::kMinFilterNames.size()>;
+
+  spec::texture::Rules rules_;
+  std::array<ByMode, spec::texture::kLayoutNames.size()> modes_{};
+  Counts<decltype(spec::texture::kFormatNames)> formats_{};
+  Counts<decltype(spec::texture::kMagFilterNames)> magnified_{};
+  std::array<std::uint64_t, 17> samples_{};
+  std::array<std::uint64_t, 8> major_{};
+};
+
+}  // namespace deburr::tb
