@@ -217,12 +217,17 @@ class Soak {
 
   // Many frames where an engine takes several, else a large picture: a process that works long.
   static void lengthen(const std::string& engine, Settings& settings) {
-    if (engine == "morphological")
+    if (engine == "morphological") {
       settings.insert(settings.end(), {{"frame.count", "300"}});
-    else if (engine == "geometric")
+    } else if (engine == "geometric") {
       settings.insert(settings.end(), {{"scene.count", "60"}});
-    else
+    } else {
+      // What is built for small pictures alone stays as it is by default.
+      std::erase_if(settings, [](const auto& setting) {
+        return setting.first.ends_with(".line_pixels") || setting.first.ends_with(".touched_words");
+      });
       settings.insert(settings.end(), {{"scene.width", "321"}, {"scene.height", "243"}});
+    }
   }
 
   void one(const std::string& engine, std::uint64_t seed, bool is_long) {
