@@ -207,6 +207,10 @@ bool is_buildable_and_quick(const ParameterSet& set) {
     const std::string axes = set.find("texture.axes")->text();
     if (value("texture.axis_clocks") > (axes == "two" ? 1 : axes == "four" ? 2 : 4)) return false;
   }
+  const Parameter* const storage = set.find("morphological.storage");
+  if (set.find("frame.count") && storage->text() != "memory" &&
+      set.find("run.line_trace")->text() != "none")
+    return false;  // the morphological engine alone asks memory for nothing
   constexpr std::int64_t kMostClocks = 60, kMostBusy = 10;  // of a transaction
   for (const char* const memory : {"memory", "geometric_memory", "frame_memory"}) {
     const auto of = [&](const char* name) { return value(fmt::format("{}.{}", memory, name)); };
