@@ -46,8 +46,8 @@ std::string without_particulars(const std::string& message) {
 
 std::uint64_t failing_cycle(const nlohmann::json& result) {
   const std::string reason = result.value("reason", "");
-  // The state of every link ends with "; cycle of its last push, of its last pop; ends".
-  static const std::regex kLastMoves(R"(; (?:([0-9]+)|never), (?:([0-9]+)|never); )");
+  // The state of every link ends with "; cycle of its last push, of its last pop; from -> to".
+  static const std::regex kLastMoves(R"(; (?:([0-9]+)|never), (?:([0-9]+)|never); [^;\n]* -> )");
   if (const auto cycle = chosen(reason, kLastMoves, larger)) return *cycle;
   static const std::regex kCycle(R"(\bcycle ([0-9]+))");
   std::string places;
