@@ -97,7 +97,7 @@ class RegressionPlanner {
   void add(const PointOrigin& origin, const Stimulus& stimulus, std::vector<Setting> settings) {
     const std::string name = origin.name();
     auto give = [&, given = names_of(settings)](const std::string& parameter,
-                                                      std::string value) mutable {
+                                                std::string value) mutable {
       if (given.insert(parameter).second) settings.push_back({parameter, std::move(value), name});
     };
     const std::string& engine = stimulus.configurations.engine;

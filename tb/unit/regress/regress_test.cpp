@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a regression makes of names, seeds and messages; whole regressions: tb/system/regress_test.py.
+// What a regression makes of names, seeds and messages; whole regressions:
+// tb/system/regress_test.py.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,14 +31,16 @@ TEST(FailureMessage, IsTheSameWhateverItsNumbersAndPaths) {
 
 TEST(FailureMessage, DiffersWhereNamesDo) {
   EXPECT_EQ(without_particulars("predictor_h0 of expected/got"), "predictor_h0 of expected/got");
-  EXPECT_NE(without_particulars("colours: 1 mismatches"), without_particulars("pixels: 1 mismatches"));
+  EXPECT_NE(without_particulars("colours: 1 mismatches"),
+            without_particulars("pixels: 1 mismatches"));
   EXPECT_EQ(without_particulars("facade decade deadbeef"), "facade decade deadbeef");
 }
 
 TEST(FailingCycle, IsThatOfTheFirstMismatch) {
   const nlohmann::json result = {
       {"reason", "colours: 2 mismatches\n\n  cycle 812: pixel (3, 4)"},
-      {"first_mismatches", {{{"where", "cycle 901"}}, {{"where", "cycle 812"}}, {{"where", "STATUS"}}}},
+      {"first_mismatches",
+       {{{"where", "cycle 901"}}, {{"where", "cycle 812"}}, {{"where", "STATUS"}}}},
       {"cycles", 5000}};
   EXPECT_EQ(failing_cycle(result), 812u);
 }
