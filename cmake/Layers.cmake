@@ -43,6 +43,13 @@ function(deburr_test name)
     set(ARG_TIMEOUT 120)
   endif()
   add_executable(${name} ${ARG_SOURCES})
+  # What one label needs, so that a build for it alone builds no more.
+  foreach(label ${ARG_LABELS})
+    if(NOT TARGET deburr_${label}_tests)
+      add_custom_target(deburr_${label}_tests)
+    endif()
+    add_dependencies(deburr_${label}_tests ${name})
+  endforeach()
   # The main() comes first: SystemC's library has one as well.
   target_link_libraries(${name} PRIVATE GTest::gmock_main ${ARG_LINK} deburr_options)
   # Values of parameters stay out of the names: some are addresses, or bytes of the compiler's choice.
@@ -68,4 +75,12 @@ function(deburr_test name)
   endforeach()
   file(WRITE "${labels}" "${text}endif()\n")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${labels}")
+endfunction()
+
+# deburr_noise_for_minutes(<engine>): its register noise with new seeds for two minutes, label fuzz.
+function(deburr_noise_for_minutes engine)
+  add_test(NAME fuzz_registers_${engine}
+           COMMAND rtl_${engine}_register_noise_test --gtest_filter=RegisterNoise.*)
+  set_tests_properties(fuzz_registers_${engine} PROPERTIES LABELS fuzz TIMEOUT 600
+                       ENVIRONMENT DEBURR_FUZZ_SECONDS=120)
 endfunction()

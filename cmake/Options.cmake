@@ -2,6 +2,7 @@
 # Compiler options shared by every target of the project.
 option(DEBURR_WERROR "Treat warnings as errors (on in CI)" OFF)
 option(DEBURR_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
+option(DEBURR_FUZZ "Build the fuzzers (clang with libFuzzer)" OFF)
 option(DEBURR_COVERAGE "Build with gcov line coverage" OFF)
 
 add_library(deburr_options INTERFACE)
@@ -13,6 +14,11 @@ target_compile_options(deburr_options INTERFACE
 if(DEBURR_SANITIZE)
   target_compile_options(deburr_options INTERFACE
     -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(deburr_options INTERFACE -fsanitize=address,undefined)
+endif()
+if(DEBURR_FUZZ)
+  target_compile_options(deburr_options INTERFACE
+    -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(deburr_options INTERFACE -fsanitize=address,undefined)
 endif()
 if(DEBURR_COVERAGE)

@@ -33,6 +33,7 @@ void add_params(CLI::App& app, CommandLine& line);
 void add_compare(CLI::App& app, CommandLine& line);
 void add_report(CLI::App& app, CommandLine& line);
 void add_sweep(CLI::App& app, CommandLine& line);
+void add_regress(CLI::App& app, CommandLine& line);
 void add_completion(CLI::App& app, CommandLine& line);
 
 }  // namespace deburr::tb

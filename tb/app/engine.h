@@ -27,6 +27,7 @@ struct RunParameters {
   std::int64_t max_cycles = 0;
   std::int32_t watchdog_cycles = 20000;
   double stalls = 0;
+  std::int64_t reset_after = 0;
   bool shuffle = false;
   bool fast_path = true;
   bool check_links = true;
@@ -58,6 +59,10 @@ void describe(RunParameters& p, Visitor& v) {
             "Cycles without any progress that count as a deadlock.");
   v.real("stalls", p.stalls, 0, 0.9, "probability",
          "Random stalls: chance that a side of a link is held back in a cycle, on every link.");
+  v.integer(
+      "reset_after", p.reset_after, 0, std::int64_t{1} << 40, "clk",
+      "Resets the hardware once in mid-run, so many cycles into the first frame, which begins "
+      "again; must change nothing. 0: never.");
   v.boolean("shuffle", p.shuffle, "Evaluate the units in a random order; must change nothing.");
   v.boolean("fast_path", p.fast_path, "Let the clock domain run on; must change nothing.");
   v.boolean("check_links", p.check_links,
@@ -117,6 +122,9 @@ class Engine {
   // After everything that was given has been set: fills in what follows from it (presets), and
   // refuses what was given and has no effect.
   virtual void resolve(ParameterSet&) {}
+  // What run() would refuse of its input, a scene that draws nothing or a frame too wide for what
+  // is built, without a simulation. After resolve().
+  virtual void judge(const RunParameters& run, RunContext& context) = 0;
   // Simulates and fills the context's images. Errors of the run are exceptions (spec/error.h);
   // what was measured until then is in `result`.
   virtual void run(const RunParameters& run, RunContext& context, Result& result) = 0;

@@ -78,6 +78,11 @@ class FrameCommand final : public Engine {
     refuse_unused_memory(set, "memory", memory_);
     refuse_slow_memory(set, "memory", memory_);
     refuse_empty_lod_range(sampler_);
+    if (sampler_.format == spec::texture::Format::kSrgb8A8 &&
+        texture_.srgb_output == spec::texture::SrgbOutput::kLinear)
+      throw spec::ConfigError(
+          "sampler.format: the frame buffer keeps codes, and srgb8_a8 delivers linear light: set "
+          "texture.srgb_output = encoded");
   }
 
   std::vector<Shorthand> shorthands() const override {
@@ -86,18 +91,12 @@ class FrameCommand final : public Engine {
                     "morphological (default), geometric or geometric-morphological"}});
   }
 
+  void judge(const RunParameters& run, RunContext& context) override { judge(*load(run, context)); }
+
   void run(const RunParameters& run, RunContext& context, Result& result) override {
-    if (has_geometric(choice_.smoothing)) golden::geometric::check_parameters(geometric_);
-    if (has_morphological(choice_.smoothing))
-      golden::morphological::check_parameters(morphological_);
-    if (sampler_.format == spec::texture::Format::kSrgb8A8 &&
-        texture_.srgb_output == spec::texture::SrgbOutput::kLinear)
-      throw spec::ConfigError(
-          "sampler.format: the frame buffer keeps codes, and srgb8_a8 delivers linear light: set "
-          "texture.srgb_output = encoded");
     const std::shared_ptr<const TextureScene> shared = load(run, context);
     const TextureScene& scene = *shared;
-    refuse_nothing_drawn(scene);
+    judge(scene);
     for (const auto& input : scene.inputs()) context.add_input(input);
     context.set_title("Frame: " + std::filesystem::path(scene_.source).filename().string(),
                       fmt::format("{} x {} pixels, {} fragments; texture unit, frame buffer and {}",
@@ -135,6 +134,13 @@ class FrameCommand final : public Engine {
             smoothing};
   }
 
+  void judge(const TextureScene& scene) const {
+    refuse_nothing_drawn(scene);
+    if (has_morphological(choice_.smoothing))
+      golden::morphological::check_frame(morphological_, scene.stream().width,
+                                         scene.stream().height);
+  }
+
   // What the one engine does for the other, unless something else is given.
   void let_follow(ParameterSet& set) const {
     set.imply("geometric.mark", "true", kFollows);
@@ -161,6 +167,7 @@ class FrameCommand final : public Engine {
       return;
     }
     refuse_unused_rules(set, geometric_);
+    golden::geometric::check_parameters(geometric_);
     refuse_unused_memory(set, "geometric_memory", geometric_memory_);
     refuse_slow_memory(set, "geometric_memory", geometric_memory_);
     geometric_label_ = preset_label(set, geometric_);
@@ -173,6 +180,7 @@ class FrameCommand final : public Engine {
       return;
     }
     refuse_unused_rules(set, morphological_, "frame_memory");
+    golden::morphological::check_parameters(morphological_);
     refuse_unused_memory(set, "frame_memory", frame_memory_);
     if (morphological_.storage == spec::morphological::Storage::kMemory)
       refuse_slow_memory(set, "frame_memory", frame_memory_);

@@ -65,14 +65,13 @@ class GeometricCommand final : public Engine {
                   edge_shorthands());
   }
 
+  void judge(const RunParameters& run, RunContext& context) override { judge(*load(run, context)); }
+
   void run(const RunParameters& run, RunContext& context, Result& result) override {
     const std::shared_ptr<const LoadedGeometricFrame> shared = load(run, context);
     const LoadedGeometricFrame& loaded = *shared;
-    refuse_nothing_drawn(loaded.scene, loaded.frame.depth);
+    judge(loaded);
     const geometric::Frame& frame = loaded.frame;
-    golden::geometric::check_frame(
-        parameters_, {frame.image.width, frame.image.height, frame.screen.edges.size(),
-                      frame.screen.vertices.size(), frame.screen.faces});
     for (const auto& input : loaded.inputs) context.add_input(input);
     context.set_title(
         "Geometric engine: " + std::filesystem::path(scene_.source).filename().string(),
@@ -99,6 +98,14 @@ class GeometricCommand final : public Engine {
   }
 
  private:
+  void judge(const LoadedGeometricFrame& loaded) const {
+    refuse_nothing_drawn(loaded.scene, loaded.frame.depth);
+    const geometric::Frame& frame = loaded.frame;
+    golden::geometric::check_frame(
+        parameters_, {frame.image.width, frame.image.height, frame.screen.edges.size(),
+                      frame.screen.vertices.size(), frame.screen.faces});
+  }
+
   std::shared_ptr<const LoadedGeometricFrame> load(const RunParameters& run,
                                                    const RunContext& context) const {
     const bool truth = run.truth && !context.judging_only();

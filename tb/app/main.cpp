@@ -156,6 +156,7 @@ int run(int argc, char** argv) {
   deburr::tb::add_compare(app, line);
   deburr::tb::add_report(app, line);
   deburr::tb::add_sweep(app, line);
+  deburr::tb::add_regress(app, line);
   deburr::tb::add_completion(app, line);
   try {
     app.parse(argc, argv);

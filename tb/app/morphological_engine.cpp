@@ -53,6 +53,7 @@ class MorphologicalCommand final : public Engine {
         set.refuse("frame.mask", "morphological.leave = none looks at no mask");
     }
     refuse_unused_rules(set, parameters_, "memory");
+    golden::morphological::check_parameters(parameters_);
     refuse_unused_memory(set, "memory", memory_);
     if (parameters_.storage == spec::morphological::Storage::kMemory)
       refuse_slow_memory(set, "memory", memory_);
@@ -72,16 +73,14 @@ class MorphologicalCommand final : public Engine {
         smoothing_shorthands());
   }
 
+  void judge(const RunParameters& run, RunContext& context) override {
+    judge(run, *load(run, context));
+  }
+
   void run(const RunParameters& run, RunContext& context, Result& result) override {
-    golden::morphological::check_parameters(parameters_);
     const std::shared_ptr<const LoadedFrame> shared = load(run, context);
     const LoadedFrame& loaded = *shared;
-    if (is_rendered(frame_)) refuse_nothing_drawn(*loaded.depth, frame_.source);
-    if (run.truth && !loaded.truth)
-      throw spec::ConfigError(
-          "run.truth: this image comes without a truth; name one with --truth FILE");
-    const Image& before = loaded.input.image;
-    golden::morphological::check_frame(parameters_, before.width, before.height);
+    judge(run, loaded);
     for (const auto& input : loaded.inputs) context.add_input(input);
     context.set_title(
         "Morphological engine: " + std::filesystem::path(frame_.source).filename().string(),
@@ -111,6 +110,15 @@ class MorphologicalCommand final : public Engine {
   }
 
  private:
+  void judge(const RunParameters& run, const LoadedFrame& loaded) const {
+    if (is_rendered(frame_)) refuse_nothing_drawn(*loaded.depth, frame_.source);
+    if (run.truth && !loaded.truth)
+      throw spec::ConfigError(
+          "run.truth: this image comes without a truth; name one with --truth FILE");
+    const Image& image = loaded.input.image;
+    golden::morphological::check_frame(parameters_, image.width, image.height);
+  }
+
   std::shared_ptr<const LoadedFrame> load(const RunParameters& run,
                                           const RunContext& context) const {
     FrameParameters wanted = frame_;

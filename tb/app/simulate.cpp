@@ -23,6 +23,7 @@ SimulationOptions simulation_options(const RunParameters& run, const RunContext&
   o.seed = static_cast<std::uint64_t>(run.stall_seed);
   o.stall_permille = static_cast<std::uint32_t>(std::lround(run.stalls * 1000));
   o.golden = run.check == CheckMode::kGolden;
+  o.reset_after = static_cast<rtl::Cycle>(run.reset_after);
   o.shuffle = run.shuffle;
   o.fast_path = run.fast_path;
   o.check_links = run.check_links;

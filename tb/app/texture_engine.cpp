@@ -79,6 +79,14 @@ class TextureEngine final : public Engine {
     if (sequence_.frames == 1) set.refuse("sequence.motion", "sequence.frames = 1 does not move");
   }
 
+  void judge(const RunParameters& run, RunContext& context) override {
+    const std::shared_ptr<const TextureScene> scene = load(run, context);
+    if (foreign())
+      fragments_of_file(*scene);
+    else
+      refuse_nothing_drawn(*scene);
+  }
+
   void run(const RunParameters& run, RunContext& context, Result& result) override {
     const std::shared_ptr<const TextureScene> shared = load(run, context);
     const TextureScene& scene = *shared;

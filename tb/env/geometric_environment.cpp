@@ -435,7 +435,9 @@ bool GeometricEnvironment::begin(std::size_t piece) {
   started_ = false;
   blocks_.clear();
   if (maps_) maps_->begin(current().image.width, current().image.height);
-  reads_before_ = memory_.lines_read().size();
+  watch();
+  memory_.forget_lines();
+  reads_judged_ = writes_judged_ = 0;
   load();
   expect();
   if (name().empty()) draw();
@@ -769,10 +771,7 @@ std::vector<PictureMap> GeometricEnvironment::maps() const {
   const auto line_of = [&](int x, int y) {
     return std::uint64_t{regions_.base(Region::kDepth)} + where.offset_of(where.line_of(x, y));
   };
-  const std::vector<std::uint64_t>& reads = memory_.lines_read();
-  return named(maps_->maps(engine_, line_of,
-                           std::span(reads).subspan(std::min(reads_before_, reads.size())),
-                           frames_.size() == 1));
+  return named(maps_->maps(engine_, line_of, memory_.lines_read(), frames_.size() == 1));
 }
 
 std::vector<Figure> GeometricEnvironment::work_figures() const {

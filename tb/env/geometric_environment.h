@@ -154,7 +154,6 @@ class GeometricEnvironment final : public Environment {
   std::uint64_t frames_done_ = 0, edges_done_ = 0, edge_clocks_ = 0, resolve_clocks_ = 0;
   OutputHash hash_;
   std::optional<GeometricMaps> maps_;
-  std::size_t reads_before_ = 0;  // lines that memory had read when the frame began
 };
 
 }  // namespace deburr::tb

@@ -554,18 +554,19 @@ void MorphologicalEnvironment::judge_records() {
 
 // All writes ascending, all reads ascending; how they interleave is timing.
 void MorphologicalEnvironment::judge_traffic() {
-  if (!golden() || !in_memory()) return;
+  if (!in_memory()) return;
+  if (!golden()) return memory_->forget_lines();
   for (const spec::morphological::FrameAccess& access :
        golden::morphological::frame_traffic(setup_.pixel_base, frame_.width, frame_.height))
     traffic_board_.expect(access);
   const std::string where = fmt::format("frame {}", current_);
-  const auto judge_lines = [&](const std::vector<std::uint64_t>& lines, std::size_t& judged,
-                               bool write) {
-    for (; judged < lines.size(); ++judged)
-      traffic_board_.got({static_cast<std::uint32_t>(lines[judged]), write}, where);
+  const auto judge_lines = [&](const std::vector<std::uint64_t>& lines, bool write) {
+    for (const std::uint64_t line : lines)
+      traffic_board_.got({static_cast<std::uint32_t>(line), write}, where);
   };
-  judge_lines(memory_->lines_written(), writes_judged_, true);
-  judge_lines(memory_->lines_read(), reads_judged_, false);
+  judge_lines(memory_->lines_written(), true);
+  judge_lines(memory_->lines_read(), false);
+  memory_->forget_lines();
 }
 
 // ---- results ------------------------------------------------------------------------------------

@@ -153,7 +153,6 @@ class MorphologicalEnvironment final : public Environment {
   rtl::Cycle first_taken_ = 0;      // when the engine took the first of this frame
   OutputHash hash_;
   std::optional<MorphologicalMaps> maps_;
-  std::size_t writes_judged_ = 0, reads_judged_ = 0;
 };
 
 }  // namespace deburr::tb

@@ -42,6 +42,12 @@ BenchOptions bench_options(const SimulationOptions& options) {
   return bench;
 }
 
+ScoreboardFigures& figures_named(const std::string& name, std::vector<ScoreboardFigures>& all) {
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const auto& board) { return board.name == name; });
+  return found != all.end() ? *found : all.emplace_back(ScoreboardFigures{name});
+}
+
 // Adds the host's time between its construction and its end, however that comes.
 class HostClock {
  public:
@@ -174,13 +180,18 @@ void Simulation::collect(Result& result) const {
   result.host_cpu_seconds = cpu_seconds_;
   result.comparisons = result.mismatches = 0;
   result.first_mismatches.clear();
+  result.scoreboards.clear();
   result.traffic_comparisons = result.traffic_mismatches = 0;
   const auto sum = [&](const Environment::Boards& boards, std::uint64_t& comparisons,
                        std::uint64_t& mismatches) {
     for (const ScoreboardBase* board : boards) {
-      comparisons += board->comparisons();
       // What never came differs too, once all of it could have come.
-      mismatches += board->mismatches() + (complete_ ? board->leftovers() : 0);
+      const std::uint64_t wrong = board->mismatches() + (complete_ ? board->leftovers() : 0);
+      comparisons += board->comparisons();
+      mismatches += wrong;
+      ScoreboardFigures& figures = figures_named(board->name(), result.scoreboards);
+      figures.comparisons += board->comparisons();
+      figures.mismatches += wrong;
       for (const Difference& d : board->differences())
         result.first_mismatches.push_back({d.check, d.where, d.item, d.field, d.expected, d.got});
     }

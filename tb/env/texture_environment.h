@@ -146,7 +146,8 @@ class TextureEnvironment final : public Environment {
   std::vector<std::uint8_t> came_;
   std::unique_ptr<TextureMaps> maps_;
   std::optional<TextureCoverage> coverage_;
-  std::size_t fills_judged_ = 0;
+  // Of the lines that memory still knows, and of those before.
+  std::size_t fills_judged_ = 0, fills_forgotten_ = 0;
   std::uint64_t delivered_ = 0;
   OutputHash hash_;
   bool fetch_again_ = false;

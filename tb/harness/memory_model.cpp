@@ -60,11 +60,16 @@ void MemoryModel::fail_request(std::uint64_t number, tlm::tlm_response_status st
 }
 void MemoryModel::lose_request(std::uint64_t number) { lost_requests_[number] = true; }
 
+void MemoryModel::forget_lines() {
+  lines_read_.clear();
+  lines_written_.clear();
+}
+
 void MemoryModel::clear_statistics() {
   reads_ = writes_ = bytes_read_ = bytes_written_ = errors_ = 0;
   most_outstanding_ = outstanding_;
-  lines_read_.clear();
-  lines_written_.clear();
+  uncounted_ = held_.size();
+  forget_lines();
 }
 
 MemoryModel::Port& MemoryModel::port_at(int port) {
@@ -84,31 +89,36 @@ std::uint32_t MemoryModel::draw_latency() {
   return parameters_.latency_min + (span ? random_.below(span + 1) : 0);
 }
 
-bool MemoryModel::admit(tlm::tlm_generic_payload& payload, std::uint64_t number) {
+void MemoryModel::count(const tlm::tlm_generic_payload& payload) {
+  const std::uint64_t address = payload.get_address(), length = payload.get_data_length();
+  const auto record = [&](std::vector<std::uint64_t>& lines) {
+    for (std::uint64_t line = address; line < address + length; line += kLine)
+      lines.push_back(line);
+  };
+  if (payload.is_read()) {
+    ++reads_;
+    bytes_read_ += length;
+    if (parameters_.record_reads) record(lines_read_);
+  } else {
+    ++writes_;
+    if (parameters_.record_writes) record(lines_written_);
+  }
+}
+
+bool MemoryModel::admit(tlm::tlm_generic_payload& payload, std::uint64_t number, bool counted) {
   const std::uint64_t address = payload.get_address();
   const std::uint64_t length = payload.get_data_length();
   const std::uint64_t width = payload.get_streaming_width();
   const auto fail = [&](tlm::tlm_response_status status) {
     payload.set_response_status(status);
-    ++errors_;
+    if (counted) ++errors_;
     return false;
   };
   if (payload.get_command() == tlm::TLM_IGNORE_COMMAND) {
     payload.set_response_status(tlm::TLM_OK_RESPONSE);
     return false;
   }
-  if (payload.is_read()) {
-    ++reads_;
-    bytes_read_ += length;
-    if (parameters_.record_reads)
-      for (std::uint64_t line = address; line < address + length; line += kLine)
-        lines_read_.push_back(line);
-  } else {
-    ++writes_;
-    if (parameters_.record_writes)
-      for (std::uint64_t line = address; line < address + length; line += kLine)
-        lines_written_.push_back(line);
-  }
+  if (counted) count(payload);
   if (const auto found = failing_requests_.find(number); found != failing_requests_.end())
     return fail(found->second);
   for (const Range& range : failing_ranges_)
@@ -168,7 +178,7 @@ tlm::tlm_sync_enum MemoryModel::nb_transport_fw(int port, tlm::tlm_generic_paylo
     held_.push_back(port);
     return tlm::TLM_ACCEPTED;
   }
-  accept({&payload, port, 0, false, false}, time);
+  accept({&payload, port, 0, false, false, true}, time);
   phase = tlm::END_REQ;
   return tlm::TLM_UPDATED;
 }
@@ -180,7 +190,7 @@ void MemoryModel::accept(Request request, std::uint64_t time) {
   ++outstanding_;
   most_outstanding_ = std::max(most_outstanding_, outstanding_);
   tlm::tlm_generic_payload& payload = *request.payload;
-  if (admit(payload, request.number)) {
+  if (admit(payload, request.number, request.counted)) {
     request.writes_late = payload.is_write() && parameters_.write_at_response;
     if (!request.writes_late) transfer(payload);
   }
@@ -243,14 +253,16 @@ void MemoryModel::finished() {
   const int port = held_.front();
   held_.pop_front();
   tlm::tlm_generic_payload* payload = std::exchange(port_at(port).held, nullptr);
-  accept({payload, port, 0, false, false}, sc_core::sc_time_stamp().value());
+  const bool counted = uncounted_ == 0;
+  if (!counted) --uncounted_;
+  accept({payload, port, 0, false, false, counted}, sc_core::sc_time_stamp().value());
   tlm::tlm_phase phase = tlm::END_REQ;
   sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
   ports[port]->nb_transport_bw(*payload, phase, delay);
 }
 
 void MemoryModel::b_transport(int, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
-  if (admit(payload, requests_++)) transfer(payload);
+  if (admit(payload, requests_++, true)) transfer(payload);
   const std::uint64_t clocks = draw_latency() + transfer_clocks(payload.get_data_length()) - 1;
   delay += sc_core::sc_time::from_value(clocks * period_);
 }

@@ -72,6 +72,9 @@ class MemoryModel final : public sc_core::sc_module {
   // Addresses in the order of requests; of a burst, one for each 64 bytes.
   const std::vector<std::uint64_t>& lines_read() const { return lines_read_; }
   const std::vector<std::uint64_t>& lines_written() const { return lines_written_; }
+  // Addresses that have been judged.
+  void forget_lines();
+  // Everything from here on; what is still withheld was asked before, and is not counted.
   void clear_statistics();
 
  private:
@@ -81,6 +84,7 @@ class MemoryModel final : public sc_core::sc_module {
     std::uint64_t number;
     bool lost;
     bool writes_late;  // the data go to the contents when its last byte is there
+    bool counted;
   };
   enum class Step { kReady, kRespond };
   struct Event {
@@ -111,7 +115,8 @@ class MemoryModel final : public sc_core::sc_module {
   void finished();
   Port& port_at(int port);
   // Counts it and sets the response status; false if no data may go.
-  bool admit(tlm::tlm_generic_payload& payload, std::uint64_t number);
+  void count(const tlm::tlm_generic_payload& payload);
+  bool admit(tlm::tlm_generic_payload& payload, std::uint64_t number, bool counted);
   // Reads or writes the contents.
   void transfer(tlm::tlm_generic_payload& payload);
   std::uint64_t transfer_clocks(std::uint64_t bytes) const;
@@ -134,7 +139,8 @@ class MemoryModel final : public sc_core::sc_module {
   std::vector<std::uint64_t> bank_free_;
   std::uint64_t bus_free_ = 0;
   std::deque<Port> ports_;
-  std::deque<int> held_;  // ports in the order in which their requests are withheld
+  std::deque<int> held_;       // ports in the order in which their requests are withheld
+  std::size_t uncounted_ = 0;  // of these, the first ones
   std::uint32_t outstanding_ = 0, most_outstanding_ = 0;
   sc_core::sc_event wake_;
 

@@ -21,8 +21,9 @@ foreach(class Fragments Lines)
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_traces_test.py" -v ${class})
   list(APPEND APP_NEGATIVE_TESTS app_traces.${class})
 endforeach()
+add_test(NAME app_regress COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_regress_test.py" -v)
 add_test(NAME app_images COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_images_test.py" -v)
-set_tests_properties(${APP_NEGATIVE_TESTS} app_images PROPERTIES
+set_tests_properties(${APP_NEGATIVE_TESTS} app_images app_regress PROPERTIES
   LABELS negative TIMEOUT 300 ENVIRONMENT "DEBURR=$<TARGET_FILE:deburr>;PYTHONDONTWRITEBYTECODE=1")
 foreach(class Killed SideBySide FullDisk Papers)
   add_test(NAME app_survival.${class}

@@ -105,8 +105,9 @@ void Waiting::update() {
 void Progress::show(std::uint64_t done, Clock::time_point now) {
   last_ = now;
   shown_ = true;
-  const std::string text =
+  std::string text =
       line(label_, unit_, done, total_, std::chrono::duration<double>(now - start_).count());
+  if (!note_.empty()) text += "  " + note_;
   if (!terminal_) {
     fmt::print(stderr, "{}\n", text);
     return;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace deburr::tb {
 
@@ -23,6 +24,9 @@ class Progress {
   void update(std::uint64_t done) { update(done, done); }
   void update(std::uint64_t delivered, std::uint64_t taken);
 
+  // Shown behind the line.
+  void note(std::string text) { note_ = std::move(text); }
+
   // What counts as done: the mean of what was delivered and what was taken.
   static std::uint64_t done(std::uint64_t delivered, std::uint64_t taken) {
     return delivered + (taken > delivered ? (taken - delivered) / 2 : 0);
@@ -35,7 +39,7 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   void show(std::uint64_t done, Clock::time_point now);
 
-  std::string label_, unit_;
+  std::string label_, unit_, note_;
   std::uint64_t total_;
   std::uint64_t done_ = 0;
   bool quiet_, terminal_;

@@ -88,6 +88,7 @@ class ReportBuilder {
   std::string render() {
     page_.set("style", std::string(embedded::style_css()));
     page_.set("chart_js", std::string(embedded::chart_js()));
+    page_.set("copy_js", std::string(embedded::copy_js()));
     page_.set("report_js", std::string(embedded::report_js()));
     page_.set("data", json_for_script({{"result", result_}, {"windows", windows_}}));
     mustache::mustache page{std::string(embedded::report_template())};

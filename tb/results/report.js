@@ -5,23 +5,6 @@
   const byId = (id) => document.getElementById(id);
   const number = new Intl.NumberFormat('en-US');
 
-  // ---- copy buttons ----
-  function copies(button, pre) {
-    button.addEventListener('click', async () => {
-      try {
-        await navigator.clipboard.writeText(pre.textContent);
-      } catch (_) {  // a page from file:// may not be allowed to
-        const range = document.createRange();
-        range.selectNodeContents(pre);
-        const selection = getSelection();
-        selection.removeAllRanges();
-        selection.addRange(range);
-        document.execCommand('copy');
-      }
-      button.textContent = 'Copied';
-      setTimeout(() => { button.textContent = 'Copy'; }, 1500);
-    });
-  }
   copies(byId('copy'), byId('command'));
 
   // ---- picture viewer: two pictures, one divider, shared zoom ----

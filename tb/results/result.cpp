@@ -80,6 +80,10 @@ Json to_json(const Result& r) {
                     {"mismatches", r.mismatches},
                     {"traffic_comparisons", r.traffic_comparisons},
                     {"traffic_mismatches", r.traffic_mismatches}};
+  json["scoreboards"] = Json::object();
+  for (const ScoreboardFigures& board : r.scoreboards)
+    json["scoreboards"][board.name] = {{"comparisons", board.comparisons},
+                                       {"mismatches", board.mismatches}};
   json["cycles"] = r.cycles;
   json["clock_mhz"] = r.clock_mhz;
   json["throughput"] = {{"value", r.throughput},

@@ -120,6 +120,12 @@ struct Figure {
   bool tile = false;  // among the large numbers at the top
 };
 
+// What one scoreboard compared, or all of that name in a composition.
+struct ScoreboardFigures {
+  std::string name;
+  std::uint64_t comparisons = 0, mismatches = 0;
+};
+
 // One mismatch: which check, where in the run ("cycle 812"), which item ("pixel (3, 4)").
 struct MismatchLine {
   std::string check, where, item, field, expected, got;
@@ -132,6 +138,7 @@ struct Result {
   bool interrupted = false;
   std::vector<std::string> notes;              // what had to be decided about an input
   std::vector<MismatchLine> first_mismatches;  // of each check
+  std::vector<ScoreboardFigures> scoreboards;
   std::uint64_t comparisons = 0, mismatches = 0;
   std::uint64_t traffic_comparisons = 0, traffic_mismatches = 0;
   std::uint64_t cycles = 0;

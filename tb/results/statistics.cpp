@@ -18,6 +18,8 @@ constexpr std::array kStatistics = {
               "Memory accesses compared with the golden model's prediction, in order."},
     Statistic{"checks.traffic_mismatches", "line",
               "Memory accesses that differ from the prediction."},
+    Statistic{"scoreboards.*.comparisons", "value", "What one scoreboard compared with golden."},
+    Statistic{"scoreboards.*.mismatches", "value", "What of it differs, or never came."},
     Statistic{"cycles", "clk", "From the end of reset to the last output."},
     Statistic{"clock_mhz", "MHz", "Clock that rates and times are quoted for."},
     Statistic{"throughput.value", "see throughput.unit", "Work over cycles of the whole run."},

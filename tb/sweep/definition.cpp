@@ -2,62 +2,65 @@
 #include "tb/sweep/definition.h"
 
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <memory>
-#include <set>
 #include <string_view>
 
 #include "spec/error.h"
 #include "tb/app/run_once.h"
-#include "tb/results/file.h"
+#include "tb/sweep/yaml_file.h"
 
 namespace deburr::tb {
 namespace {
 
 using spec::ConfigError;
 
-constexpr std::size_t kMaxBytes = 64u << 20;   // listed points may be many
 constexpr std::size_t kMaxValues = 1'000'000;  // of an axis
 constexpr int kMaxNesting = 16;
 
-const char* kind(const YAML::Node& node) {
-  switch (node.Type()) {
-    case YAML::NodeType::Sequence:
-      return "a list";
-    case YAML::NodeType::Map:
-      return "a map";
-    case YAML::NodeType::Scalar:
-      return "a single value";
-    default:
-      return "nothing";
-  }
-}
-
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file) : file_(file.string()) {
-    sweep_.file = file;
-    sweep_.name = file.stem().string();
+  explicit Reader(const YamlFile& yaml) : yaml_(yaml) {
+    sweep_.file = yaml.path();
+    sweep_.name = yaml.path().stem().string();
   }
 
-  SweepDefinition read(const YAML::Node& root) {
-    if (!root.IsMap()) fail(root, fmt::format("expected a map, got {}", kind(root)));
-    const std::vector<std::string> known = {"engine",  "title",      "base",        "axes",
-                                            "points",  "sample",     "constraints", "refused",
-                                            "metrics", "objectives", "reports",     "chunk"};
-    std::set<std::string> seen;
-    for (const auto& entry : root) {
-      const std::string key = entry.first.Scalar();
-      if (std::find(known.begin(), known.end(), key) == known.end())
-        fail(entry.first,
-             fmt::format("unknown key '{}'{} (known: {})", key,
-                         did_you_mean(near_matches(key, known)), fmt::join(known, ", ")));
-      if (!seen.insert(key).second) fail(entry.first, fmt::format("'{}' is given twice", key));
-    }
+  SweepDefinition read() {
+    const YAML::Node& root = yaml_.root();
+    std::vector<std::string> known = stimulus_keys();
+    known.insert(known.end(), {"title", "metrics", "objectives", "reports", "chunk"});
+    yaml_.require_keys(root, known);
+    read_engine(root);
+    if (!root["axes"] && !root["points"])
+      fail(root, "nothing is varied: give 'axes', or list 'points'");
+    if (root["title"]) sweep_.title = scalar(root["title"], "title");
+    read_stimuli(root);
+    read_metrics(root["metrics"]);
+    read_objectives(root["objectives"]);
+    if (root["reports"]) sweep_.reports = yaml_.boolean(root["reports"], "reports");
+    if (root["chunk"]) sweep_.chunk = yaml_.count(root["chunk"], "chunk", 100'000);
+    return std::move(sweep_);
+  }
+
+  SweepDefinition read_part(const YAML::Node& part) {
+    read_engine(part);
+    read_stimuli(part);
+    return std::move(sweep_);
+  }
+
+ private:
+  static const char* kind(const YAML::Node& node) { return YamlFile::kind(node); }
+  std::string where(const YAML::Node& node) const { return yaml_.where(node); }
+  [[noreturn]] void fail(const YAML::Node& node, const std::string& what) const {
+    yaml_.fail(node, what);
+  }
+  std::string scalar(const YAML::Node& node, std::string_view what) const {
+    return yaml_.scalar(node, what);
+  }
+
+  void read_engine(const YAML::Node& root) {
     if (!root["engine"]) fail(root, "which engine? Say so: 'engine: texture'");
     sweep_.engine = scalar(root["engine"], "engine");
     try {
@@ -66,59 +69,20 @@ class Reader {
       fail(root["engine"], error.what());
     }
     bound_ = std::make_unique<BoundEngine>(*engine_);
-    if (root["title"]) sweep_.title = scalar(root["title"], "title");
+  }
+
+  // What is run, without what is looked at.
+  void read_stimuli(const YAML::Node& root) {
     read_base(root["base"]);
     read_points(root);
     read_sampling(root["sample"]);
     read_constraints(root["constraints"]);
-    read_metrics(root["metrics"]);
-    read_objectives(root["objectives"]);
     if (const YAML::Node node = root["refused"]) {
       const std::string text = scalar(node, "refused");
       if (text != "error" && text != "skip")
         fail(node, fmt::format("'refused' = '{}' wants error or skip", text));
       sweep_.skip_refused = text == "skip";
     }
-    if (const YAML::Node node = root["reports"]) {
-      const std::string text = scalar(node, "reports");
-      if (text != "true" && text != "false")
-        fail(node, fmt::format("'reports' = '{}' wants true or false", text));
-      sweep_.reports = text == "true";
-    }
-    if (root["chunk"]) sweep_.chunk = count(root["chunk"], "chunk", 100'000);
-    return std::move(sweep_);
-  }
-
- private:
-  std::string where(const YAML::Node& node) const {
-    const YAML::Mark mark = node.Mark();
-    return mark.is_null() ? file_ : fmt::format("{}:{}", file_, mark.line + 1);
-  }
-  [[noreturn]] void fail(const YAML::Node& node, const std::string& what) const {
-    throw ConfigError(fmt::format("{}: {}", where(node), what));
-  }
-
-  std::string scalar(const YAML::Node& node, std::string_view what) const {
-    if (!node.IsScalar())
-      fail(node, fmt::format("'{}' wants a single value, got {}", what, kind(node)));
-    return node.Scalar();
-  }
-
-  template <class Number>
-  Number number(const YAML::Node& node, std::string_view what) const {
-    const std::string text = scalar(node, what);
-    Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size())
-      fail(node, fmt::format("'{}' = '{}' wants a number", what, text));
-    return value;
-  }
-
-  std::uint64_t count(const YAML::Node& node, std::string_view what, std::uint64_t most) const {
-    const auto value = number<std::int64_t>(node, what);
-    if (value < 1 || static_cast<std::uint64_t>(value) > most)
-      fail(node, fmt::format("'{}' = '{}' is outside 1..{}", what, value, most));
-    return static_cast<std::uint64_t>(value);
   }
 
   // Throws where the parameter is unknown or refuses the value.
@@ -158,11 +122,11 @@ class Reader {
     const YAML::Node axes = root["axes"], points = root["points"];
     if (axes && points)
       fail(points, "'axes' and 'points' exclude each other: list every point, or give axes");
-    if (!axes && !points) fail(root, "nothing is varied: give 'axes', or list 'points'");
     if (points) {
       read_listed(points);
       return;
     }
+    if (!axes) return;
     if (!axes.IsMap() || axes.size() == 0)
       fail(axes, fmt::format("'axes' wants a map of parameters to values, got {}", kind(axes)));
     for (const auto& entry : axes) add_axis(entry.first.Scalar(), entry.first, entry.second);
@@ -262,8 +226,8 @@ class Reader {
       fail(range, fmt::format("axis '{}': a range wants 'from' and 'to'", axis.name));
     if (range["step"] && range["times"])
       fail(range, fmt::format("axis '{}': 'step' and 'times' exclude each other", axis.name));
-    const auto from = number<double>(range["from"], "from");
-    const auto to = number<double>(range["to"], "to");
+    const auto from = yaml_.number<double>(range["from"], "from");
+    const auto to = yaml_.number<double>(range["to"], "to");
     const std::string& limits = bound_->set.find(axis.name)->range;
     if (limits.find("..") == std::string::npos)
       fail(range, fmt::format("axis '{}' takes {}: list the values", axis.name, limits));
@@ -278,8 +242,8 @@ class Reader {
       return;
     }
     const bool adds = static_cast<bool>(range["step"]);
-    const auto by =
-        adds ? number<double>(range["step"], "step") : number<double>(range["times"], "times");
+    const auto by = adds ? yaml_.number<double>(range["step"], "step")
+                         : yaml_.number<double>(range["times"], "times");
     if (adds ? by <= 0 : by <= 1 || from <= 0)
       fail(range, fmt::format("axis '{}' never gets from {} to {}: '{}' = {}", axis.name, from, to,
                               adds ? "step" : "times", by));
@@ -361,10 +325,10 @@ class Reader {
     for (const auto& entry : sample) {
       const std::string key = entry.first.Scalar();
       if (key == "seed") {
-        sweep_.sample_seed = number<std::uint64_t>(entry.second, "seed");
+        sweep_.sample_seed = yaml_.number<std::uint64_t>(entry.second, "seed");
       } else if ((key == "random" || key == "latin") && sweep_.samples == 0) {
         sweep_.sampling = key == "random" ? SweepSampling::kRandom : SweepSampling::kLatin;
-        sweep_.samples = count(entry.second, key, 1'000'000);
+        sweep_.samples = yaml_.count(entry.second, key, 1'000'000);
       } else {
         fail(entry.first,
              fmt::format("'sample': '{}' was not expected (random or latin, and seed)", key));
@@ -462,7 +426,7 @@ class Reader {
     return static_cast<std::size_t>(found - names.begin());
   }
 
-  std::string file_;
+  const YamlFile& yaml_;
   SweepDefinition sweep_;
   std::unique_ptr<Engine> engine_;
   std::unique_ptr<BoundEngine> bound_;
@@ -470,15 +434,18 @@ class Reader {
 
 }  // namespace
 
+const std::vector<std::string>& stimulus_keys() {
+  static const std::vector<std::string> kKeys = {"engine", "base",        "axes",   "points",
+                                                 "sample", "constraints", "refused"};
+  return kKeys;
+}
+
 SweepDefinition read_sweep(const std::filesystem::path& file) {
-  const std::string text = read_file(file, kMaxBytes);
-  try {
-    return Reader(file).read(YAML::Load(text));
-  } catch (const YAML::Exception& e) {
-    const std::string line =
-        e.mark.is_null() ? "" : fmt::format(":{}:{}", e.mark.line + 1, e.mark.column + 1);
-    throw ConfigError(fmt::format("{}{}: not valid YAML: {}", file.string(), line, e.msg));
-  }
+  return Reader(YamlFile(file)).read();
+}
+
+SweepDefinition read_stimuli(const YamlFile& file, const YAML::Node& part) {
+  return Reader(file).read_part(part);
 }
 
 }  // namespace deburr::tb

@@ -14,7 +14,13 @@
 #include "tb/results/parameter_set.h"
 #include "tb/sweep/constraint.h"
 
+namespace YAML {
+class Node;
+}
+
 namespace deburr::tb {
+
+class YamlFile;
 
 // What is given to a parameter, and where that was said.
 struct Setting {
@@ -73,5 +79,10 @@ struct SweepDefinition {
 // ConfigError with file and line for everything that cannot be meant: unknown keys, engines,
 // parameters and metrics, values out of range, empty axes, constraints that are none.
 SweepDefinition read_sweep(const std::filesystem::path& file);
+
+// The part of it that says what is run: its keys, and how another file with such parts reads one.
+// Without axes and points it is one point, its base. The caller judges the keys of the part.
+const std::vector<std::string>& stimulus_keys();
+SweepDefinition read_stimuli(const YamlFile& file, const YAML::Node& part);
 
 }  // namespace deburr::tb

@@ -53,6 +53,12 @@ std::string ninja_value(const std::string& value) {
   return text;
 }
 
+std::string in_words(const PointCounts& counts, std::uint64_t points) {
+  const auto rest = [](std::uint64_t all, std::uint64_t some) { return all - std::min(all, some); };
+  return fmt::format("{} queued, {} running, {} passed, {} failed", rest(points, counts.begun),
+                     rest(counts.begun, counts.ended()), counts.done, counts.failed);
+}
+
 class Sorter {
  public:
   Sorter(const SweepPlace& place, bool retry) : place_(place), retry_(retry) {}
@@ -175,7 +181,7 @@ int run_ninja(const SweepPlace& place, std::uint64_t points, const RunSettings& 
              static_cast<char*>(nullptr));
     ::_exit(kNoSuchProgram);
   }
-  Progress progress("sweep", points, "point", settings.quiet || settings.watch != nullptr);
+  Progress progress(settings.what, points, "point", settings.quiet || settings.watch != nullptr);
   int status = 0;
   for (bool told = false;;) {
     const pid_t ended = ::waitpid(ninja, &status, WNOHANG);
@@ -186,10 +192,10 @@ int run_ninja(const SweepPlace& place, std::uint64_t points, const RunSettings& 
       ::kill(ninja, SIGTERM);
       told = true;
     }
-    std::error_code ignored;
-    const auto done = fs::file_size(progress_file(place.directory), ignored);
-    if (!ignored) progress.update(done);
-    if (!ignored && settings.watch) settings.watch(done);
+    const PointCounts counts = read_progress(place.directory);
+    progress.note(in_words(counts, points));
+    progress.update(counts.ended());
+    if (settings.watch) settings.watch(counts.ended());
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   if (interrupted()) return kInterruptedExit;

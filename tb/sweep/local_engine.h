@@ -39,6 +39,7 @@ struct RunSettings {
   std::string program;  // deburr, as a path
   unsigned jobs = 1;
   bool quiet = false;
+  std::string what = "sweep";  // what the progress bar calls it
   // Called now and then with how many points have ended, instead of a progress bar.
   std::function<void(std::uint64_t)> watch = nullptr;
 };

@@ -36,6 +36,14 @@ constexpr int kPlanSchema = 2;
 
 fs::path plan_file(const fs::path& directory) { return directory / "plan.json"; }
 
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw FileError(fmt::format("cannot make the folder '{}': {}; choose another with --out",
+                                folder.string(), error.message()));
+}
+
 // A file that grows line by line and takes its name when it is complete.
 class LineFile {
  public:
@@ -143,10 +151,10 @@ class Planner {
   std::unordered_set<std::string> names_;
 };
 
-// Of the sweep's file, the model, and the files that the plan before said are read.
-std::string key_of(const SweepDefinition& sweep, const std::map<std::string, std::string>& files) {
+// Of the file that was expanded, the model, and the files that the plan before said are read.
+std::string key_of(const fs::path& from, const std::map<std::string, std::string>& files) {
   std::string key =
-      fmt::format("{}\n{}\n{}\n", kPlanSchema, build_info().model, sha256_of_file(sweep.file));
+      fmt::format("{}\n{}\n{}\n", kPlanSchema, build_info().model, sha256_of_file(from));
   for (const auto& [file, digest] : files) {
     std::error_code error;
     key += fmt::format("{} {}\n", file,
@@ -178,6 +186,18 @@ std::vector<Setting> Plan::settings_of(const Sample& sample) const {
       settings.push_back({axis.parameters.at(k), values[k], where});
   }
   return settings;
+}
+
+PlannedPoint PointNamer::name(const BoundEngine& bound, Sample sample) {
+  PlannedPoint planned{point_name(bound, files_), 0, 0, std::move(sample)};
+  planned.input = inputs_.emplace(sha256(input_name(bound)), inputs_.size()).first->second;
+  planned.golden = goldens_.emplace(sha256(golden_name(bound)), goldens_.size()).first->second;
+  return planned;
+}
+
+void PointNamer::tell(Plan& plan) const {
+  plan.inputs = inputs_.size();
+  for (const auto& [file, digest] : files_.fingerprints()) plan.files[file.string()] = digest;
 }
 
 PointJudge::PointJudge(const SweepDefinition& sweep, const Plan& plan)
@@ -223,16 +243,11 @@ std::optional<PlannedPoint> PointJudge::judge(const Sample& all) {
     if (refused_++ == 0) first_refusal_ = in_words(plan_, sample) + ": " + headline(*refusal);
     return std::nullopt;
   }
-  PlannedPoint planned{point_name(point.bound, files_), 0, 0, sample};
-  planned.input = inputs_.emplace(sha256(input_name(point.bound)), inputs_.size()).first->second;
-  planned.golden =
-      goldens_.emplace(sha256(golden_name(point.bound)), goldens_.size()).first->second;
-  return planned;
+  return namer_.name(point.bound, sample);
 }
 
 void PointJudge::tell(Plan& plan) const {
-  plan.inputs = inputs_.size();
-  for (const auto& [file, digest] : files_.fingerprints()) plan.files[file.string()] = digest;
+  namer_.tell(plan);
   plan.left_out.clear();
   for (std::size_t i = 0; i < excluded_.size(); ++i)
     if (excluded_[i] > 0)
@@ -272,24 +287,25 @@ Plan plan_without_points(const SweepDefinition& sweep) {
   return plan;
 }
 
-bool is_current(const Plan& plan, const SweepDefinition& sweep) {
-  return plan.key == key_of(sweep, plan.files);
+bool is_current(const Plan& plan, const fs::path& file) {
+  return plan.key == key_of(file, plan.files);
 }
 
-void write_plan(Plan& plan, const SweepDefinition& sweep, const SweepPlace& place) {
-  plan.key = key_of(sweep, plan.files);
+void write_points(const std::vector<PlannedPoint>& points, const SweepPlace& place) {
+  make_folder(place.directory);
+  std::string lines;
+  for (const PlannedPoint& point : points) lines += line_of(point) + "\n";
+  write_file_atomically(points_file(place.directory), lines);
+}
+
+void write_plan(Plan& plan, const SweepPlace& place) {
+  plan.key = key_of(plan.file, plan.files);
   write_file_atomically(plan_file(place.directory), to_json(plan).dump(1) + "\n");
 }
 
 Plan make_plan(const SweepDefinition& sweep, const SweepPlace& place) {
-  std::error_code error;
-  if (fs::exists(plan_file(place.directory), error)) {
-    try {
-      Plan before = read_plan(place.directory);
-      if (is_current(before, sweep)) return before;
-    } catch (const FileError&) {  // made anew
-    }
-  }
+  if (const auto before = find_plan(place.directory); before && is_current(*before, sweep.file))
+    return *before;
   if (sample_bound(sweep) > kMostPoints)
     throw ConfigError(fmt::format(
         "{}: the axes make {} points{}, at most {} can be planned: give fewer values, or take a "
@@ -299,17 +315,25 @@ Plan make_plan(const SweepDefinition& sweep, const SweepPlace& place) {
             ? ""
             : " = " + grouped(sample_bound(sweep)),
         grouped(kMostPoints)));
-  fs::create_directories(place.directory, error);
-  if (error)
-    throw FileError(fmt::format("cannot make the folder '{}': {}; choose another with --out",
-                                place.directory.string(), error.message()));
+  make_folder(place.directory);
   Plan plan = plan_without_points(sweep);
-  fs::remove(plan_file(place.directory), error);  // it would name points of another
+  std::error_code ignored;
+  fs::remove(plan_file(place.directory), ignored);  // it would name points of another
   LineFile lines(points_file(place.directory));
   Planner(sweep, plan, lines).run();
   lines.finish();
-  write_plan(plan, sweep, place);
+  write_plan(plan, place);
   return plan;
+}
+
+std::optional<Plan> find_plan(const fs::path& directory) {
+  std::error_code error;
+  if (!fs::exists(plan_file(directory), error)) return std::nullopt;
+  try {
+    return read_plan(directory);
+  } catch (const FileError&) {
+    return std::nullopt;
+  }
 }
 
 Plan read_plan(const fs::path& directory) {
@@ -348,6 +372,11 @@ Plan read_plan(const fs::path& directory) {
 std::string line_of(const PlannedPoint& point) {
   Json line = {point.name, point.input, point.golden};
   for (const std::string& text : point.sample) line.push_back(text);
+  if (!point.engine.empty()) {
+    Json settings = Json::array();
+    for (const Setting& s : point.settings) settings.push_back({s.name, s.value, s.where});
+    line.push_back({{"engine", point.engine}, {"settings", std::move(settings)}});
+  }
   return line.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -363,7 +392,15 @@ void for_each_point(const fs::path& file, const std::function<void(const Planned
     if (!json.is_array() || json.size() < 3)
       throw FileError(fmt::format("'{}' is damaged: plan the sweep again", file.string()));
     PlannedPoint point{json[0], json[1], json[2], {}};
-    for (std::size_t i = 3; i < json.size(); ++i) point.sample.push_back(json[i]);
+    for (std::size_t i = 3; i < json.size(); ++i) {
+      if (json[i].is_string()) {
+        point.sample.push_back(json[i]);
+        continue;
+      }
+      point.engine = json[i].at("engine");
+      for (const Json& s : json[i].at("settings"))
+        point.settings.push_back({s.at(0), s.at(1), s.at(2)});
+    }
     take(point);
   }
   if (in.bad()) throw FileError(fmt::format("cannot read '{}'", file.string()));

@@ -47,6 +47,10 @@ struct PlannedPoint {
   std::uint64_t input = 0;   // points with the same number have the same input
   std::uint64_t golden = 0;  // and the same golden result
   Sample sample;
+  // Of a point that has neither the plan's engine nor its axes (a run of a regression), and whose
+  // sample is only what it is called: its own.
+  std::string engine{};
+  std::vector<Setting> settings{};
 };
 
 struct Plan {
@@ -60,8 +64,14 @@ struct Plan {
   bool reports = true;
   std::uint64_t chunk = 0;
 
-  // What a point is given: the base, and its own.
+  // What a sample is given: the base, and its own.
   std::vector<Setting> settings_of(const Sample& sample) const;
+  const std::string& engine_of(const PlannedPoint& point) const {
+    return point.engine.empty() ? engine : point.engine;
+  }
+  std::vector<Setting> settings_of(const PlannedPoint& point) const {
+    return point.engine.empty() ? settings_of(point.sample) : point.settings;
+  }
 };
 
 // Expands the definition into the place, unless the plan there was made from the same. ConfigError
@@ -69,12 +79,29 @@ struct Plan {
 Plan make_plan(const SweepDefinition& sweep, const SweepPlace& place);
 // A plan of the definition without its points.
 Plan plan_without_points(const SweepDefinition& sweep);
+// Puts the points of a plan that expands nothing into its place. FileError where that cannot be.
+void write_points(const std::vector<PlannedPoint>& points, const SweepPlace& place);
 // Says what the plan was made from, and puts it into its place, where its points are already.
-void write_plan(Plan& plan, const SweepDefinition& sweep, const SweepPlace& place);
-// Whether it was made from this definition, this model and the same content of files.
-bool is_current(const Plan& plan, const SweepDefinition& sweep);
+void write_plan(Plan& plan, const SweepPlace& place);
+// Whether it was made from this file, this model and the same content of files.
+bool is_current(const Plan& plan, const std::filesystem::path& file);
 // FileError where there is none.
 Plan read_plan(const std::filesystem::path& directory);
+// None where there is no plan, or none of this version.
+std::optional<Plan> find_plan(const std::filesystem::path& directory);
+
+// Names points, and numbers what they have in common.
+class PointNamer {
+ public:
+  // Behind resolve().
+  PlannedPoint name(const BoundEngine& bound, Sample sample);
+  // For the plan: files that the points so far read, and how many inputs.
+  void tell(Plan& plan) const;
+
+ private:
+  SharedInputs files_;
+  std::unordered_map<std::string, std::uint64_t> inputs_, goldens_;
+};
 
 // Tells which samples are points, names these, and counts the others.
 class PointJudge {
@@ -94,11 +121,10 @@ class PointJudge {
 
   const SweepDefinition& sweep_;
   const Plan& plan_;
-  SharedInputs files_;
+  PointNamer namer_;
   std::uint64_t refused_ = 0;
   std::vector<std::uint64_t> excluded_;  // by each constraint
   std::string first_refusal_;
-  std::unordered_map<std::string, std::uint64_t> inputs_, goldens_;
 };
 
 std::filesystem::path points_file(const std::filesystem::path& directory);

@@ -35,18 +35,17 @@ void for_each_combination(const SweepDefinition& sweep,
   std::vector<std::size_t> index(sweep.axes.size(), 0);
   Sample sample;
   for (const Axis& axis : sweep.axes) sample.push_back(axis.choices.front().label);
-  for (;;) {
+  std::size_t axis = 0;
+  do {
     take(sample);
-    std::size_t axis = sweep.axes.size();
-    while (axis > 0) {
-      --axis;
-      const std::vector<Choice>& choices = sweep.axes[axis].choices;
-      index[axis] = (index[axis] + 1) % choices.size();
-      sample[axis] = choices[index[axis]].label;
-      if (index[axis] != 0) break;
-      if (axis == 0) return;
+    for (axis = sweep.axes.size(); axis > 0; --axis) {
+      const std::vector<Choice>& choices = sweep.axes[axis - 1].choices;
+      std::size_t& at = index[axis - 1];
+      at = (at + 1) % choices.size();
+      sample[axis - 1] = choices[at].label;
+      if (at != 0) break;
     }
-  }
+  } while (axis > 0);
 }
 
 void for_each_random(const SweepDefinition& sweep, const std::function<bool(const Sample&)>& take) {

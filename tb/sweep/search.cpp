@@ -188,15 +188,8 @@ class SweepSearch {
     plan_.left_out.push_back(
         fmt::format("all but {} of {} combinations, by a search (NSGA-II, population {}, seed {})",
                     grouped(points_.size()), grouped(all), settings_.population, settings_.seed));
-    std::error_code error;
-    fs::create_directories(place_.directory, error);
-    if (error)
-      throw FileError(fmt::format("cannot make the folder '{}': {}; choose another with --out",
-                                  place_.directory.string(), error.message()));
-    std::string lines;
-    for (const PlannedPoint& point : points_) lines += line_of(point) + "\n";
-    write_file_atomically(points_file(place_.directory), lines);
-    write_plan(plan_, sweep_, place_);
+    write_points(points_, place_);
+    write_plan(plan_, place_);
   }
 
   struct SampleHash {

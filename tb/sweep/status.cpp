@@ -36,8 +36,8 @@ std::string in_words(double time) {
 // At the pace of the run that began last.
 std::string time_left(const SweepPlace& place) {
   std::error_code error;
-  const auto ended = static_cast<double>(fs::file_size(progress_file(place.directory), error));
-  if (error || ended == 0 || !fs::exists(start_file(place), error)) return "";
+  const auto ended = static_cast<double>(read_progress(place.directory).ended());
+  if (ended == 0 || !fs::exists(start_file(place), error)) return "";
   const auto start =
       nlohmann::json::parse(read_file(start_file(place), 1 << 16), nullptr, /*exceptions=*/false);
   if (!start.is_object()) return "";

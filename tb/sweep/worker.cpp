@@ -14,8 +14,10 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <fstream>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -64,15 +66,20 @@ class Worker {
  private:
   void run(const PlannedPoint& planned) {
     const fs::path directory = point_directory(place_.points(), planned.name);
-    if (state_of(directory) == PointState::kDone) return tick(kPointDone);
+    if (state_of(directory) == PointState::kDone) {
+      tick(kPointBegun);
+      return tick(kPointDone);
+    }
     if (planned.input != input_) shared_->forget();
     input_ = planned.input;
-    const std::vector<Setting> settings = plan_.settings_of(planned.sample);
+    tick(kPointBegun);
+    const std::string& engine = plan_.engine_of(planned);
+    const std::vector<Setting> settings = plan_.settings_of(planned);
     std::optional<Failure> failure;
     try {
-      PointEngine point(plan_.engine, settings);
+      PointEngine point(engine, settings);
       point.bound.resolve();
-      RunContext context(directory, point.bound.set, command_of(plan_.engine, settings),
+      RunContext context(directory, point.bound.set, command_of(engine, settings),
                          static_cast<std::uint64_t>(point.bound.run.seed));
       context.set_quiet(true);
       context.set_report(plan_.reports);
@@ -202,6 +209,16 @@ class Worker {
 }  // namespace
 
 fs::path progress_file(const fs::path& sweep) { return sweep / "progress"; }
+
+PointCounts read_progress(const fs::path& sweep) {
+  std::ifstream file(progress_file(sweep));
+  std::ostringstream marks;
+  marks << file.rdbuf();
+  const auto count = [text = marks.str()](char mark) {
+    return static_cast<std::uint64_t>(std::count(text.begin(), text.end(), mark));
+  };
+  return {count(kPointBegun), count(kPointDone), count(kPointFailed)};
+}
 
 int run_chunk(const WorkerOptions& options) {
   catch_interrupts();

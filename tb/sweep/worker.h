@@ -7,6 +7,7 @@
 // a program and no input.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "tb/sweep/plan.h"
@@ -24,8 +25,14 @@ struct WorkerOptions {
 // results cannot be written. Returns the exit code: 0, or kInterruptedExit.
 int run_chunk(const WorkerOptions& options);
 
-// One byte a point that has come to its end, by any worker.
+// A byte for each point that any worker begins, and another one for how it ends.
 std::filesystem::path progress_file(const std::filesystem::path& sweep);
-inline constexpr char kPointDone = '.', kPointFailed = 'x';
+inline constexpr char kPointBegun = '>', kPointDone = '.', kPointFailed = 'x';
+struct PointCounts {
+  std::uint64_t begun = 0, done = 0, failed = 0;
+  std::uint64_t ended() const { return done + failed; }
+};
+// Nothing where nobody has begun.
+PointCounts read_progress(const std::filesystem::path& sweep);
 
 }  // namespace deburr::tb

@@ -46,3 +46,9 @@ set_property(TEST sweep.Killed APPEND PROPERTY LABELS long)
 add_test(NAME slurm COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/slurm_test.py" $<TARGET_FILE:deburr>)
 set_tests_properties(slurm PROPERTIES LABELS slurm TIMEOUT 900 SKIP_REGULAR_EXPRESSION "^skipped"
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+foreach(class Passing Failing Killed)
+  add_test(NAME regress.${class}
+           COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/regress_test.py" $<TARGET_FILE:deburr> ${class})
+  set_tests_properties(regress.${class} PROPERTIES LABELS system TIMEOUT 600
+                       ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+endforeach()

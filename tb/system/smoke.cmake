@@ -6,3 +6,7 @@ foreach(engine texture morphological geometric frame)
   set_tests_properties(smoke_${engine} PROPERTIES LABELS smoke TIMEOUT 60
                        PASS_REGULAR_EXPRESSION "RESULT: PASS" FAIL_REGULAR_EXPRESSION " 0 cycles")
 endforeach()
+add_test(NAME smoke_testplan
+         COMMAND deburr regress tb/testplan/smoke.yaml run --seed 1 --out ${CMAKE_CURRENT_BINARY_DIR}/smoke_testplan
+         WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+set_tests_properties(smoke_testplan PROPERTIES LABELS smoke TIMEOUT 600)

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Settings of an engine's run, drawn from its own parameters: for soaks, regressions and fuzzing.
+//
+// Frames are small and odd, memories slow and uneven, links stall; each setting has an effect, and
+// the engine takes all of them. What asks for files, spends time on pictures or ends a run by
+// design stays as it is: fixed_parameters().
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace deburr::tb {
+
+// Names and values for ParameterSet::set(), in an order in which it takes them. The same on every
+// machine. ConfigError for an unknown engine.
+std::vector<std::pair<std::string, std::string>> random_configuration(const std::string& engine,
+                                                                      std::uint64_t seed);
+
+// Parameters that it never changes; in front of a dot, of every memory.
+std::span<const std::string_view> fixed_parameters();
+bool is_fixed(std::string_view parameter);
+
+}  // namespace deburr::tb

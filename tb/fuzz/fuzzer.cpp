@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// A program of libFuzzer for the target that it is compiled for; its main() is libFuzzer's.
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "tb/fuzz/targets.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const deburr::tb::FuzzTarget& target = deburr::tb::fuzz_target(DEBURR_FUZZ_TARGET);
+  target.run({reinterpret_cast<const char*>(data), size});
+  return 0;
+}

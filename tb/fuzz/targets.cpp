@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#include "tb/fuzz/targets.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "spec/error.h"
+#include "spec/geometric/parameters.h"
+#include "spec/morphological/parameters.h"
+#include "spec/texture/parameters.h"
+#include "tb/results/parameter_set.h"
+#include "tb/scene/image_io.h"
+#include "tb/scene/mesh.h"
+#include "tb/scene/png.h"
+#include "tb/traces/fragment_reader.h"
+#include "tb/traces/fragment_writer.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The input as a file, since that is what the readers are given; gone with this object.
+class InputFile {
+ public:
+  InputFile(std::string_view bytes, std::string_view extension)
+      : file_(fs::temp_directory_path() /
+              ("deburr-fuzz-" + std::to_string(::getpid()) + std::string(extension))) {
+    std::ofstream(file_, std::ios::binary) << bytes;
+  }
+  ~InputFile() {
+    std::error_code ignored;
+    fs::remove(file_, ignored);
+  }
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+  const fs::path& path() const { return file_; }
+
+ private:
+  fs::path file_;
+};
+
+// Refused by a named error is as good as taken.
+template <class Read>
+void taken_or_refused(Read&& read) {
+  try {
+    read();
+  } catch (const spec::Error&) {
+  }
+}
+
+void require(bool condition, const char* what) {
+  if (!condition) throw std::logic_error(what);
+}
+
+void pictures(std::string_view bytes) {
+  taken_or_refused([&] {
+    const Image image = read_image_memory("input", bytes);
+    require(image.width > 0 && image.height > 0 &&
+                image.pixels.size() ==
+                    static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
+            "a picture without its pixels");
+  });
+}
+
+void depths(std::string_view bytes) {
+  const InputFile file(bytes, ".png");
+  taken_or_refused([&] {
+    const DepthImage image = read_depth(file.path());
+    require(image.pixels.size() ==
+                static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
+            "a depth without its pixels");
+  });
+}
+
+void mesh(std::string_view bytes, std::string_view extension) {
+  const InputFile file(bytes, extension);
+  taken_or_refused([&] {
+    const Mesh read = import_mesh(file.path());
+    for (const Triangle& triangle : read.triangles)
+      for (const std::uint32_t corner : triangle.vertex)
+        require(corner < read.vertices.size(), "a triangle of a vertex that is not there");
+  });
+}
+void obj(std::string_view bytes) { mesh(bytes, ".obj"); }
+void gltf(std::string_view bytes) { mesh(bytes, bytes.starts_with("glTF") ? ".glb" : ".gltf"); }
+
+void traces(std::string_view bytes) {
+  const InputFile file(bytes, ".trace");
+  constexpr std::size_t kTextures = 2;
+  taken_or_refused([&] {
+    FragmentReader reader(file.path(), kTextures);
+    TracedQuad quad;
+    while (reader.next(quad)) require(quad.quad.texture < kTextures, "a texture that is not there");
+  });
+}
+
+void configurations(std::string_view bytes) {
+  const InputFile file(bytes, ".yaml");
+  spec::texture::Parameters texture;
+  spec::morphological::Parameters morphological;
+  spec::geometric::Parameters geometric;
+  ParameterSet set;
+  set.add_engine("texture", texture);
+  set.add_engine("morphological", morphological);
+  set.add_engine("geometric", geometric);
+  taken_or_refused([&] {
+    set.load(file.path());
+    // What was taken is written as what is taken again.
+    const std::string resolved = set.resolved().dump(), yaml = set.yaml();
+    const InputFile again(yaml, ".again.yaml");
+    set.load(again.path());
+    require(set.resolved().dump() == resolved, "another configuration than was written");
+  });
+}
+
+constexpr std::string_view kPpm = "P3\n2 1\n255\n255 0 0 0 255 0\n";
+constexpr std::string_view kObj =
+    "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\n"
+    "f 1/1/1 2/2/1 3/1/1\nf 2//1 4//1 3//1\n";
+constexpr std::string_view kGltf =
+    R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,)"
+    R"("scale":[1,2,3]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,)"
+    R"("mode":4}]}],"buffers":[{"byteLength":42,"uri":"data:application/octet-stream;base64,)"
+    R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA"}],"bufferViews":[)"
+    R"({"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],"accessors":[)"
+    R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},)"
+    R"({"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}]})";
+constexpr std::string_view kTrace =
+    "deburr-fragments 1\nsize 640 480\n# comment\n"
+    "quad 0 f f 0 10 20 0.5 0.25 0.51 0.25 0.5 0.26 0.51 0.26\n"
+    "fragment 0 13 21 0.53 0.26 0.01 0 0 0.01\nfragment 1 - - 0.25 0.75 0.001 0 0 0.004\nend 3\n";
+constexpr std::string_view kYaml =
+    "texture:\n  cache: {bytes: 4096, ways: 4}\ngeometric.walkers: 2\nmorphological.safe: no\n";
+
+std::string made_of(std::string_view text) { return std::string(text); }
+
+Image small_picture(int width, int height, std::uint8_t alpha) {
+  Image image(width, height);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const auto code = static_cast<std::uint8_t>(37 * i);
+    image.pixels[i] = {code, static_cast<std::uint8_t>(255 - code), 7, alpha};
+  }
+  return image;
+}
+
+std::vector<std::string> pictures_seeds() {
+  return {made_of(kPpm), encode_png(small_picture(5, 3, 255)), encode_png(small_picture(2, 7, 9))};
+}
+std::vector<std::string> depths_seeds() { return {encode_png(small_picture(5, 3, 255))}; }
+std::vector<std::string> obj_seeds() { return {made_of(kObj)}; }
+
+// The same as .gltf and as .glb.
+std::vector<std::string> gltf_seeds() {
+  std::string json = made_of(kGltf);
+  const std::string text = json;
+  while (json.size() % 4 != 0) json += ' ';
+  std::string glb = "glTF";
+  const auto put = [&glb](std::size_t value) {
+    put_little_endian(glb, static_cast<std::uint32_t>(value));
+  };
+  put(2);
+  put(20 + json.size());
+  put(json.size());
+  glb += "JSON";
+  glb += json;
+  return {text, glb};
+}
+
+std::vector<std::string> traces_seeds() {
+  std::vector<std::string> seeds = {made_of(kTrace)};
+  for (const TraceFormat format : {TraceFormat::kText, TraceFormat::kBinary}) {
+    const InputFile file("", ".seed");
+    FragmentWriter writer(file.path(), format, 8, 6);
+    TracedQuad quad;
+    quad.placed = true;
+    quad.quad.coverage = 0xF;
+    for (int i = 0; i < 3; ++i) {
+      quad.quad.x = static_cast<decltype(quad.quad.x)>(2 * i);
+      writer.put(quad);
+    }
+    writer.finish();
+    std::ostringstream bytes;
+    bytes << std::ifstream(file.path(), std::ios::binary).rdbuf();
+    seeds.push_back(bytes.str());
+  }
+  return seeds;
+}
+
+std::vector<std::string> configurations_seeds() { return {made_of(kYaml)}; }
+
+constexpr std::array<FuzzTarget, 6> kTargets{
+    {{"pictures", pictures, pictures_seeds},
+     {"depths", depths, depths_seeds},
+     {"obj", obj, obj_seeds},
+     {"gltf", gltf, gltf_seeds},
+     {"traces", traces, traces_seeds},
+     {"configurations", configurations, configurations_seeds}}};
+
+}  // namespace
+
+std::span<const FuzzTarget> fuzz_targets() { return kTargets; }
+
+const FuzzTarget& fuzz_target(std::string_view name) {
+  const auto found = std::find_if(kTargets.begin(), kTargets.end(),
+                                  [&](const FuzzTarget& target) { return target.name == name; });
+  if (found == kTargets.end())
+    throw std::invalid_argument("no fuzz target '" + std::string(name) + "'");
+  return *found;
+}
+
+}  // namespace deburr::tb

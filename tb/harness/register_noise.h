@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// A host gone wild: writes and reads of any registers with any values, in any clock. What an engine
+// does with them is its own affair, but it must not crash, nor break a protocol, and a reset must
+// bring it back.
+#pragma once
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "rtl_model/fabric/clock_domain.h"
+#include "spec/error.h"
+#include "spec/registers.h"
+#include "tb/harness/forked.h"
+#include "tb/harness/register_host.h"
+#include "tb/stimuli/random.h"
+
+namespace deburr::tb {
+
+class RegisterNoise {
+ public:
+  RegisterNoise(std::uint64_t seed, std::span<const spec::RegisterInfo> table,
+                std::uint32_t most_offset)
+      : random_(seed), table_(table), most_offset_(most_offset) {}
+
+  // One access. Most go to registers that exist.
+  void access(RegisterHost& host) {
+    const std::uint32_t at = offset();
+    if (random_.chance(150)) {
+      try {
+        host.read(at);
+      } catch (const spec::SimulationError&) {  // no such register: refused, as it should be
+      }
+      return;
+    }
+    host.try_write(at, value());
+  }
+
+  Random& random() { return random_; }
+
+ private:
+  std::uint32_t offset() {
+    if (random_.chance(700))
+      return table_[random_.below(static_cast<std::uint32_t>(table_.size()))].offset;
+    if (random_.chance(900)) return random_.below(most_offset_) & ~3u;
+    return random_.word();
+  }
+  std::uint32_t value() {
+    switch (random_.below(6)) {
+      case 0:
+        return random_.below(4);
+      case 1:
+        return ~0u;
+      case 2:
+        return random_.below(40) | random_.below(40) << 16;  // a small frame
+      case 3:
+        return 1u << random_.below(32);
+      case 4:
+        return random_.below(1u << 20) & ~63u;  // an address
+      default:
+        return random_.word();
+    }
+  }
+
+  Random random_;
+  std::span<const spec::RegisterInfo> table_;
+  std::uint32_t most_offset_;
+};
+
+// `work` for one seed after another, each in a process of its own, until it says something: at
+// least `seeds`, and on until DEBURR_FUZZ_SECONDS are over where that is set. Returns the first
+// complaint with its seed; a crash and a hang are complaints.
+inline std::string first_complaint(std::uint64_t seeds,
+                                   const std::function<std::string(std::uint64_t)>& work) {
+  using Clock = std::chrono::steady_clock;
+  const char* const wanted = std::getenv("DEBURR_FUZZ_SECONDS");
+  const Clock::time_point end = Clock::now() + std::chrono::seconds(wanted ? std::atoi(wanted) : 0);
+  constexpr unsigned kHangSeconds = 100;
+  for (std::uint64_t seed = 1; seed <= seeds || Clock::now() < end; ++seed) {
+    std::string said;
+    try {
+      said = forked_text([&] {
+        ::alarm(kHangSeconds);
+        return work(seed);
+      });
+    } catch (const std::runtime_error& error) {
+      said = error.what();
+    }
+    if (!said.empty()) return "seed " + std::to_string(seed) + ": " + said;
+  }
+  return "";
+}
+
+}  // namespace deburr::tb

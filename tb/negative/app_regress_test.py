@@ -1,0 +1,87 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Testplans that cannot be meant: each is a clear error that names its file and line. See --help."""
+import os
+import unittest
+
+from app_support import CommandTest
+
+HEAD = """title: Small
+features:
+  - id: filtering
+    title: Filtering
+    traces: [{page: unit.md, says: It filters.}]
+    stimuli:
+      - {name: base, engine: texture, base: {scene: {width: 8, height: 8}}}
+    checks: {colours: 1}
+"""
+
+
+class Testplans(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.write("unit.md", "# Unit\n\nIt\nfilters. It stalls.\n")
+
+    def refuse(self, text, *says, action="plan", code=2):
+        self.write("t.yaml", text)
+        done = self.expect(code, "regress", "t.yaml", action, "--seed", "1", says=says)
+        if action == "plan":
+            self.assertFalse(os.path.exists(self.path("out/regressions/t-1/plan.json")), done.stdout)
+
+    def test_what_is_meant_is_planned(self):
+        self.write("t.yaml", HEAD)
+        self.expect(0, "regress", "t.yaml", "plan", "--seed", "1",
+                    says="PASS regression t --seed 1: 1 point over 1 input, 0 of them done")
+
+    def test_unknown_names(self):
+        self.refuse(HEAD.replace("checks:", "check:"),
+                    "t.yaml:8: unknown key 'check': did you mean 'checks'?")
+        self.refuse(HEAD.replace("engine: texture", "engine: textur"),
+                    "t.yaml:7: no engine 'textur': did you mean 'texture'?")
+        self.refuse(HEAD.replace("{width: 8", "{widht: 8"),
+                    "t.yaml:7: unknown parameter 'scene.widht'", "did you mean 'scene.width'")
+        self.refuse(HEAD.replace("{name: base,", "{name: base, sedes: 3,"),
+                    "t.yaml:7: unknown key 'sedes': did you mean 'seeds'?")
+        self.refuse(HEAD.replace("says:", "say:"), "t.yaml:5: unknown key 'say': did you mean 'says'?")
+
+    def test_what_is_missing_or_twice(self):
+        self.refuse("title: Small\n", "t.yaml:1: 'features' is missing")
+        self.refuse("features: []\n", "t.yaml:1: 'features' wants a list, got an empty one")
+        self.refuse(HEAD.replace("    checks: {colours: 1}\n", ""), "t.yaml:3: 'checks' is missing")
+        self.refuse(HEAD + HEAD[HEAD.index("  - id"):], "t.yaml:9: there are two features 'filtering'")
+        self.refuse(HEAD.replace("    checks", "      - {name: base, engine: texture}\n    checks"),
+                    "t.yaml:8: there are two stimuli 'base'")
+        self.refuse(HEAD.replace("colours: 1", "colours: 0"), "t.yaml:8: 'colours' = '0' is outside 1..")
+        self.refuse(HEAD.replace("id: filtering", "id: Filter it"), "t.yaml:3: 'id' = 'Filter it' wants")
+
+    def test_a_page_that_has_changed(self):
+        self.refuse(HEAD.replace("It filters.", "It filtered."), "t.yaml:5: 'unit.md' does not say 'It filtered.'")
+        self.refuse(HEAD.replace("page: unit.md", "page: units.md"), "t.yaml:5: there is no page 'units.md'")
+        self.write("unit.md", "# Unit\n\nIt copies.\n")
+        self.refuse(HEAD, "t.yaml:5: 'unit.md' does not say 'It filters.'")
+
+    def test_globs(self):
+        self.refuse(HEAD + "    coverage: ['texture/[ab]']\n", "t.yaml:9: 'texture/[ab]' is no glob")
+        self.refuse(HEAD + "    coverage: ['texture/cash/hit']\n",
+                    "t.yaml:9: no run has bins 'texture/cash/hit'", "did you mean 'texture/cache/hit'",
+                    action="run")
+        self.refuse(HEAD.replace("colours: 1", "colors: 1"),
+                    "t.yaml:8: no run has the scoreboard 'colors'", "did you mean 'colours'?", action="run")
+
+    def test_what_the_engine_refuses(self):
+        text = HEAD.replace("engine: texture, base: {scene: {width: 8, height: 8}}",
+                            "engine: morphological, base: {morphological.preset: mlaa, morphological.quality: low}")
+        self.refuse(text, "the engine refuses the point")
+
+    def test_surroundings(self):
+        self.expect(5, "regress", "nothing.yaml", "plan", says="cannot open 'nothing.yaml'")
+        self.write("t.yaml", HEAD)
+        self.expect(5, "regress", "t.yaml", "status", "--seed", "1",
+                    says="there is no plan in 'out/regressions/t-1'")
+        self.expect(2, "regress", "t.yaml", "polish", says="polish")
+        self.write("t.yaml", "features: [")
+        self.expect(2, "regress", "t.yaml", "plan", says="not valid YAML")
+
+
+if __name__ == "__main__":
+    unittest.main()

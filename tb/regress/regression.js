@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+'use strict';
+(() => {
+  const features = JSON.parse(document.getElementById('data').textContent);
+  const style = getComputedStyle(document.documentElement);
+  const colour = (name) => style.getPropertyValue(name).trim();
+
+  for (const command of document.querySelectorAll('.command'))
+    copies(command.querySelector('button'), command.querySelector('pre'));
+
+  document.getElementById('rates-frame').style.height = `${60 + 22 * features.length}px`;
+  const bars = (key, label, fill) =>
+    ({label, data: features.map((feature) => feature[key]), backgroundColor: fill});
+  new Chart(document.getElementById('rates'), {
+    type: 'bar',
+    data: {
+      labels: features.map((feature) => feature.id),
+      datasets: [bars('passed', 'passed', colour('--good')), bars('failed', 'failed', colour('--bad')),
+                 bars('missing', 'missing', colour('--track'))],
+    },
+    options: {
+      indexAxis: 'y', animation: false, maintainAspectRatio: false,
+      scales: {x: {stacked: true, beginAtZero: true}, y: {stacked: true}},
+    },
+  });
+})();

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: MIT
+// junit.xml, collected.json and index.html of a regression.
+#include <fmt/format.h>
+
+#include <kainjow/mustache.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "spec/error.h"
+#include "tb/regress/junit.h"
+#include "tb/regress/regression_result.h"
+#include "tb/results/build_info.h"
+#include "tb/results/embedded.h"
+#include "tb/results/report.h"
+#include "tb/scene/image_io.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace fs = std::filesystem;
+namespace mustache = kainjow::mustache;
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view name_of(PointState state) {
+  return state == PointState::kDone     ? "passed"
+         : state == PointState::kFailed ? "failed"
+                                        : "missing";
+}
+
+// As seen from the regression's directory, where the page is.
+std::string seen_from(const SweepPlace& place, const fs::path& path) {
+  return fs::proximate(fs::absolute(path), fs::absolute(place.directory)).string();
+}
+
+std::string command_of(const PlannedPoint& point) {
+  return command_of(point.engine, point.settings);
+}
+
+Json to_json(const FeatureResult& result) {
+  const Feature& feature = *result.feature;
+  Json json = {{"id", feature.id},          {"title", feature.title},  {"holds", result.holds()},
+               {"runs", result.runs()},     {"passed", result.passed}, {"failed", result.failed},
+               {"missing", result.missing}, {"traces", Json::array()}, {"checks", Json::array()},
+               {"coverage", Json::array()}};
+  for (const TracedSentence& trace : feature.traces)
+    json["traces"].push_back({{"page", trace.page.string()}, {"says", trace.says}});
+  for (const CheckResult& check : result.checks)
+    json["checks"].push_back({{"scoreboard", check.required.scoreboard},
+                              {"minimum", check.required.minimum},
+                              {"comparisons", check.comparisons},
+                              {"met", check.met()}});
+  for (const CoverageResult& covered : result.coverage)
+    json["coverage"].push_back({{"glob", covered.required.glob},
+                                {"bins", covered.bins},
+                                {"hit", covered.bins - covered.holes.size()},
+                                {"holes", covered.holes}});
+  return json;
+}
+
+Json to_json(const FailureBucket& bucket, const RegressionResult& result, const SweepPlace& place) {
+  const RegressionRun& example = result.runs[bucket.runs.front()];
+  Json json = {
+      {"engine", bucket.engine},
+      {"kind", bucket.kind},
+      {"message", bucket.message},
+      {"runs", bucket.runs.size()},
+      {"example",
+       {{"name", origin_of(example.point).name()},
+        {"reason", example.failure.reason},
+        {"directory", seen_from(place, point_directory(place.points(), example.point.name))},
+        {"command", command_of(example.point)}}}};
+  if (!bucket.directory.empty())
+    json["waves"] = {{"file", seen_from(place, bucket.directory / "trace.vcd")},
+                     {"report", seen_from(place, bucket.directory / "report.html")}};
+  return json;
+}
+
+Json to_json(const Bins& bins) {
+  Json holes = Json::array();
+  for (const auto& [bin, hits] : bins)
+    if (hits == 0) holes.push_back(bin);
+  return {
+      {"bins", bins.size()}, {"hit", bins.size() - holes.size()}, {"holes", holes}, {"hits", bins}};
+}
+
+Json json_of(const Testplan& testplan, std::uint64_t base_seed, const Plan& plan,
+             const SweepPlace& place, const RegressionResult& result) {
+  Json json = {{"schema", 1},
+               {"testplan", testplan.name},
+               {"title", testplan.title},
+               {"base_seed", base_seed},
+               {"version", build_info().version},
+               {"commit", build_info().commit},
+               {"model", build_info().model},
+               {"holds", result.holds()},
+               {"counts",
+                {{"runs", result.runs.size()},
+                 {"passed", result.passed},
+                 {"failed", result.failed},
+                 {"missing", result.missing}}},
+               {"left_out", plan.left_out},
+               {"features", Json::array()},
+               {"buckets", Json::array()},
+               {"coverage", Json::object()},
+               {"runs", Json::array()}};
+  for (const FeatureResult& feature : result.features) json["features"].push_back(to_json(feature));
+  for (const FailureBucket& bucket : result.buckets)
+    json["buckets"].push_back(to_json(bucket, result, place));
+  for (const auto& [engine, bins] : result.coverage) json["coverage"][engine] = to_json(bins);
+  double seconds = 0;
+  for (const RegressionRun& run : result.runs) {
+    seconds += run.seconds;
+    Json entry = {{"name", origin_of(run.point).name()},
+                  {"engine", run.point.engine},
+                  {"point", run.point.name},
+                  {"state", name_of(run.state)},
+                  {"seconds", run.seconds}};
+    if (run.state == PointState::kFailed)
+      entry["failure"] = fmt::format("{}: {}", run.failure.kind, run.failure.reason);
+    json["runs"].push_back(std::move(entry));
+  }
+  json["counts"]["simulated_seconds"] = seconds;
+  return json;
+}
+
+std::string junit_of(const Testplan& testplan, const RegressionResult& result) {
+  JunitReport report(testplan.name);
+  for (const FeatureResult& feature : result.features) {
+    const std::string& id = feature.feature->id;
+    report.begin_suite(id);
+    for (const RegressionRun& run : result.runs) {
+      const PointOrigin origin = origin_of(run.point);
+      if (origin.feature != id) continue;
+      JunitCase test{
+          origin.name().substr(id.size() + 1), run.seconds, JunitOutcome::kPassed, {}, {}, {}};
+      if (run.state == PointState::kFailed)
+        test = {test.name,        run.seconds,        JunitOutcome::kFailed,
+                run.failure.kind, run.failure.reason, command_of(run.point)};
+      else if (run.state != PointState::kDone)
+        test = {test.name,
+                0,
+                JunitOutcome::kError,
+                "missing",
+                "there is no result",
+                command_of(run.point)};
+      report.add(test);
+    }
+    for (const CheckResult& check : feature.checks)
+      report.add(
+          {"checks: " + check.required.scoreboard, 0,
+           check.met() ? JunitOutcome::kPassed : JunitOutcome::kFailed, "checks",
+           fmt::format("{} comparisons, {} are wanted", check.comparisons, check.required.minimum),
+           check.required.where});
+    for (const CoverageResult& covered : feature.coverage)
+      report.add({"coverage: " + covered.required.glob, 0,
+                  covered.bins > 0 && covered.holes.empty() ? JunitOutcome::kPassed
+                                                            : JunitOutcome::kFailed,
+                  "coverage",
+                  fmt::format("{} of {} bins were not met", covered.holes.size(), covered.bins),
+                  fmt::format("{}\n{}", covered.required.where, fmt::join(covered.holes, "\n"))});
+    report.end_suite();
+  }
+  return report.text();
+}
+
+// ---- the page -----------------------------------------------------------------------------------
+
+std::string percent(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? "-"
+                    : fmt::format("{:.1f} %",
+                                  100.0 * static_cast<double>(part) / static_cast<double>(whole));
+}
+
+mustache::data list_of(const Json& texts) {
+  mustache::data list{mustache::data::type::list};
+  for (const Json& text : texts) list << mustache::data("text", text.get<std::string>());
+  return list;
+}
+
+mustache::data row_of(const Json& feature) {
+  const auto count = [&](const char* key) { return feature.at(key).get<std::uint64_t>(); };
+  mustache::data row;
+  row.set("id", feature.at("id").get<std::string>());
+  row.set("title", feature.at("title").get<std::string>());
+  row.set("holds", feature.at("holds").get<bool>());
+  for (const char* key : {"runs", "passed", "failed", "missing"}) row.set(key, grouped(count(key)));
+  row.set("rate", percent(count("passed"), count("runs")));
+  std::uint64_t bins = 0, hit = 0;
+  mustache::data traces{mustache::data::type::list}, checks{mustache::data::type::list},
+      coverage{mustache::data::type::list};
+  for (const Json& trace : feature.at("traces")) {
+    mustache::data entry;
+    entry.set("page", trace.at("page").get<std::string>());
+    entry.set("says", trace.at("says").get<std::string>());
+    traces << entry;
+  }
+  for (const Json& check : feature.at("checks")) {
+    mustache::data entry;
+    entry.set("scoreboard", check.at("scoreboard").get<std::string>());
+    entry.set("comparisons", grouped(check.at("comparisons").get<std::uint64_t>()));
+    entry.set("minimum", grouped(check.at("minimum").get<std::uint64_t>()));
+    entry.set("short", !check.at("met").get<bool>());
+    checks << entry;
+  }
+  for (const Json& covered : feature.at("coverage")) {
+    mustache::data entry;
+    bins += covered.at("bins").get<std::uint64_t>();
+    hit += covered.at("hit").get<std::uint64_t>();
+    entry.set("glob", covered.at("glob").get<std::string>());
+    entry.set("bins", grouped(covered.at("bins").get<std::uint64_t>()));
+    entry.set("hit", grouped(covered.at("hit").get<std::uint64_t>()));
+    entry.set("has_holes", !covered.at("holes").empty());
+    entry.set("holes", list_of(covered.at("holes")));
+    coverage << entry;
+  }
+  row.set("covered", bins == 0 ? "-" : fmt::format("{} of {}", grouped(hit), grouped(bins)));
+  row.set("traces", traces);
+  row.set("checks", checks);
+  row.set("coverage", coverage);
+  return row;
+}
+
+mustache::data card_of(const Json& bucket) {
+  mustache::data card;
+  for (const char* key : {"engine", "kind", "message"})
+    card.set(key, bucket.at(key).get<std::string>());
+  card.set("runs", grouped(bucket.at("runs").get<std::uint64_t>()));
+  const Json& example = bucket.at("example");
+  for (const char* key : {"name", "reason", "directory", "command"})
+    card.set(std::string("example_") + key, example.at(key).get<std::string>());
+  card.set("has_waves", bucket.contains("waves"));
+  if (bucket.contains("waves")) {
+    card.set("waves", bucket.at("waves").at("file").get<std::string>());
+    card.set("waves_report", bucket.at("waves").at("report").get<std::string>());
+  }
+  return card;
+}
+
+std::string page_of(const Json& json) {
+  mustache::data page;
+  page.set("style", std::string(embedded::style_css()));
+  page.set("chart_js", std::string(embedded::chart_js()));
+  page.set("copy_js", std::string(embedded::copy_js()));
+  page.set("regression_js", std::string(embedded::regression_js()));
+  for (const char* key : {"title", "version", "commit"})
+    page.set(key, json.at(key).get<std::string>());
+  page.set("base_seed", fmt::format("{}", json.at("base_seed").get<std::uint64_t>()));
+  const auto count = [&](const char* key) {
+    return json.at("counts").at(key).get<std::uint64_t>();
+  };
+  for (const char* key : {"runs", "passed", "failed", "missing"})
+    page.set(key, grouped(count(key)));
+  page.set("rate", percent(count("passed"), count("runs")));
+  page.set("left_out", list_of(json.at("left_out")));
+  // The page draws the features' rates; what it lists, it has as text.
+  Json drawn = Json::array();
+  mustache::data features{mustache::data::type::list}, buckets{mustache::data::type::list},
+      coverage{mustache::data::type::list};
+  for (const Json& feature : json.at("features")) {
+    features << row_of(feature);
+    drawn.push_back({{"id", feature.at("id")},
+                     {"passed", feature.at("passed")},
+                     {"failed", feature.at("failed")},
+                     {"missing", feature.at("missing")}});
+  }
+  for (const Json& bucket : json.at("buckets")) buckets << card_of(bucket);
+  for (const auto& [engine, bins] : json.at("coverage").items()) {
+    mustache::data entry;
+    entry.set("engine", engine);
+    entry.set("bins", grouped(bins.at("bins").get<std::uint64_t>()));
+    entry.set("hit", grouped(bins.at("hit").get<std::uint64_t>()));
+    entry.set("rate", percent(bins.at("hit"), bins.at("bins")));
+    entry.set("has_holes", !bins.at("holes").empty());
+    entry.set("holes", list_of(bins.at("holes")));
+    coverage << entry;
+  }
+  page.set("features", features);
+  page.set("has_buckets", !json.at("buckets").empty());
+  page.set("buckets", buckets);
+  page.set("coverage", coverage);
+  page.set("data", json_for_script(drawn));
+  mustache::mustache text{std::string(embedded::regression_template())};
+  DEBURR_CHECK(text.is_valid(), "regression.mustache: " + text.error_message());
+  return text.render(page);
+}
+
+}  // namespace
+
+void write_regression(const Testplan& testplan, std::uint64_t base_seed, const Plan& plan,
+                      const SweepPlace& place, const RegressionResult& result) {
+  const Json json = json_of(testplan, base_seed, plan, place, result);
+  write_file_atomically(place.directory / "junit.xml", junit_of(testplan, result));
+  write_file_atomically(place.directory / "collected.json",
+                        json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file_atomically(place.directory / "index.html", page_of(json));
+}
+
+}  // namespace deburr::tb

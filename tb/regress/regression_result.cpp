@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "tb/regress/regression_result.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+#include "spec/error.h"
+#include "tb/regress/failure_message.h"
+#include "tb/results/file.h"
+#include "tb/results/parameter_set.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using spec::ConfigError;
+
+constexpr std::size_t kMaxResultBytes = 64u << 20;
+
+// Null where the run has left none.
+Json result_in(const fs::path& directory) {
+  const fs::path file = directory / "result.json";
+  std::error_code error;
+  if (!fs::exists(file, error)) return nullptr;
+  return Json::parse(read_file(file, kMaxResultBytes), nullptr, /*exceptions=*/false);
+}
+
+void add(const Bins& some, Bins& all) {
+  for (const auto& [bin, hits] : some) all[bin] += hits;
+}
+
+template <class Map>
+std::vector<std::string> keys_of(const Map& map) {
+  std::vector<std::string> keys;
+  for (const auto& entry : map) keys.push_back(entry.first);
+  return keys;
+}
+
+class Collector {
+ public:
+  Collector(const Testplan& testplan, const SweepPlace& place)
+      : testplan_(testplan), place_(place) {}
+
+  RegressionResult run() {
+    for (const Feature& feature : testplan_.features) {
+      index_[feature.id] = all_.features.size();
+      all_.features.push_back({&feature, 0, 0, 0, {}, {}});
+      seen_.emplace_back();
+    }
+    for_each_point(points_file(place_.directory), [&](const PlannedPoint& point) { add(point); });
+    for (std::size_t i = 0; i < all_.features.size(); ++i) judge(all_.features[i], seen_[i]);
+    fill_buckets();
+    return std::move(all_);
+  }
+
+ private:
+  // What the runs of a feature have compared and met.
+  struct Seen {
+    std::map<std::string, std::uint64_t> comparisons;
+    Bins bins;
+  };
+
+  void add(const PlannedPoint& point) {
+    const std::size_t feature = index_.at(origin_of(point).feature);
+    const fs::path directory = point_directory(place_.points(), point.name);
+    RegressionRun run{point, state_of(directory), {}, 0};
+    FeatureResult& figures = all_.features[feature];
+    switch (run.state) {
+      case PointState::kDone:
+        ++figures.passed;
+        ++all_.passed;
+        break;
+      case PointState::kFailed:
+        run.failure = read_failure(directory);
+        ++figures.failed;
+        ++all_.failed;
+        break;
+      default:
+        ++figures.missing;
+        ++all_.missing;
+    }
+    if (run.state == PointState::kDone || run.state == PointState::kFailed)
+      read(result_in(directory), seen_[feature], run);
+    all_.runs.push_back(std::move(run));
+  }
+
+  // What a failed run has compared and met counts for nothing.
+  void read(const Json& result, Seen& seen, RegressionRun& run) {
+    if (!result.is_object()) return;
+    run.seconds = result.value("/host/seconds"_json_pointer, 0.0);
+    if (run.state != PointState::kDone) return;
+    const Json boards = result.value("scoreboards", Json::object());
+    for (const auto& [name, board] : boards.items())
+      seen.comparisons[name] += board.value("comparisons", std::uint64_t{0});
+    const Bins bins = result.value("/coverage/bins"_json_pointer, Bins());
+    tb::add(bins, seen.bins);
+    tb::add(bins, all_.coverage[run.point.engine]);
+  }
+
+  static void judge(FeatureResult& feature, const Seen& seen) {
+    for (const RequiredCheck& check : feature.feature->checks) {
+      const auto found = seen.comparisons.find(check.scoreboard);
+      if (found == seen.comparisons.end() && feature.passed > 0)
+        refuse(check.where, "no run has the scoreboard", check.scoreboard,
+               keys_of(seen.comparisons));
+      feature.checks.push_back({check, found == seen.comparisons.end() ? 0 : found->second});
+    }
+    for (const RequiredBins& bins : feature.feature->coverage) {
+      CoverageResult covered{bins, 0, {}};
+      for (const auto& [bin, hits] : seen.bins) {
+        if (!matches_glob(bins.glob, bin)) continue;
+        ++covered.bins;
+        if (hits == 0) covered.holes.push_back(bin);
+      }
+      if (covered.bins == 0 && feature.passed > 0)
+        refuse(bins.where, "no run has bins", bins.glob, keys_of(seen.bins));
+      feature.coverage.push_back(std::move(covered));
+    }
+  }
+
+  [[noreturn]] static void refuse(const std::string& where, std::string_view what,
+                                  const std::string& name, const std::vector<std::string>& known) {
+    throw ConfigError(fmt::format("{}: {} '{}' of this feature{}", where, what, name,
+                                  did_you_mean(near_matches(name, known))));
+  }
+
+  // The most frequent first.
+  void fill_buckets() {
+    std::map<std::tuple<std::string, std::string, std::string>, FailureBucket> buckets;
+    for (std::size_t i = 0; i < all_.runs.size(); ++i) {
+      const RegressionRun& run = all_.runs[i];
+      if (run.state != PointState::kFailed) continue;
+      const std::string message = without_particulars(run.failure.reason);
+      FailureBucket& bucket = buckets[{run.point.engine, run.failure.kind, message}];
+      bucket.engine = run.point.engine;
+      bucket.kind = run.failure.kind;
+      bucket.message = message;
+      bucket.runs.push_back(i);
+    }
+    for (auto& [key, bucket] : buckets) all_.buckets.push_back(std::move(bucket));
+    std::stable_sort(all_.buckets.begin(), all_.buckets.end(),
+                     [](const FailureBucket& a, const FailureBucket& b) {
+                       return a.runs.size() > b.runs.size();
+                     });
+  }
+
+  const Testplan& testplan_;
+  const SweepPlace& place_;
+  RegressionResult all_;
+  std::map<std::string, std::size_t> index_;  // of the features
+  std::vector<Seen> seen_;                    // by feature
+};
+
+}  // namespace
+
+bool FeatureResult::holds() const {
+  return failed + missing == 0 &&
+         std::all_of(checks.begin(), checks.end(), [](const auto& check) { return check.met(); }) &&
+         std::all_of(coverage.begin(), coverage.end(),
+                     [](const auto& covered) { return covered.bins > 0 && covered.holes.empty(); });
+}
+
+bool RegressionResult::holds() const {
+  return std::all_of(features.begin(), features.end(),
+                     [](const FeatureResult& feature) { return feature.holds(); });
+}
+
+RegressionResult collect_regression(const Testplan& testplan, const SweepPlace& place) {
+  return Collector(testplan, place).run();
+}
+
+std::vector<PlannedPoint> runs_with_waves(const RegressionResult& result, const SweepPlace& place) {
+  std::vector<PlannedPoint> runs;
+  PointNamer namer;
+  for (const FailureBucket& bucket : result.buckets) {
+    const PlannedPoint& failed = result.runs[bucket.runs.front()].point;
+    const Json found = result_in(point_directory(place.points(), failed.name));
+    if (!found.is_object()) continue;  // it was refused or killed: there is nothing to watch
+    const WaveWindow window = wave_window(failing_cycle(found));
+    std::vector<Setting> settings = failed.settings;
+    std::erase_if(settings, [](const Setting& s) { return s.name.starts_with("run.trace"); });
+    const std::string where = origin_of(failed).name();
+    settings.push_back({"run.trace", "*", where});
+    settings.push_back({"run.trace_from", std::to_string(window.from), where});
+    settings.push_back({"run.trace_to", std::to_string(window.to), where});
+    PointEngine point(failed.engine, settings);
+    point.bound.resolve();
+    PlannedPoint planned = namer.name(point.bound, failed.sample);
+    planned.engine = failed.engine;
+    planned.settings = std::move(settings);
+    runs.push_back(std::move(planned));
+  }
+  return runs;
+}
+
+void add_waves(RegressionResult& result, const std::vector<PlannedPoint>& runs,
+               const SweepPlace& place) {
+  for (const PlannedPoint& run : runs) {
+    const fs::path directory = point_directory(place.points(), run.name);
+    std::error_code error;
+    if (!fs::exists(directory / "trace.vcd", error)) continue;
+    for (FailureBucket& bucket : result.buckets)
+      if (result.runs[bucket.runs.front()].point.sample == run.sample) bucket.directory = directory;
+  }
+}
+
+}  // namespace deburr::tb

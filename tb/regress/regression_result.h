@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// What a regression's runs show together: which features hold, which failures are the same one,
+// what was covered. Written as JUnit XML, as JSON and as one self-contained page.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tb/regress/regression_plan.h"
+#include "tb/regress/testplan.h"
+#include "tb/sweep/plan.h"
+#include "tb/sweep/point.h"
+
+namespace deburr::tb {
+
+// Hits by bin.
+using Bins = std::map<std::string, std::uint64_t>;
+
+struct RegressionRun {
+  PlannedPoint point;
+  PointState state = PointState::kMissing;
+  Failure failure;     // of one that failed
+  double seconds = 0;  // of the host
+};
+
+struct CheckResult {
+  RequiredCheck required;
+  std::uint64_t comparisons = 0;
+  bool met() const { return comparisons >= required.minimum; }
+};
+
+// The bins that a glob of a feature names, as its own runs met them.
+struct CoverageResult {
+  RequiredBins required;
+  std::uint64_t bins = 0;
+  std::vector<std::string> holes;
+};
+
+struct FeatureResult {
+  const Feature* feature = nullptr;
+  std::uint64_t passed = 0, failed = 0, missing = 0;
+  std::vector<CheckResult> checks;
+  std::vector<CoverageResult> coverage;
+  std::uint64_t runs() const { return passed + failed + missing; }
+  bool holds() const;
+};
+
+// Failures of one engine with the same message, numbers aside.
+struct FailureBucket {
+  std::string engine, kind, message;
+  std::vector<std::size_t> runs;    // indices; the first one is the example
+  std::filesystem::path directory;  // of the example run again with waves; empty: there are none
+};
+
+struct RegressionResult {
+  std::vector<RegressionRun> runs;
+  std::vector<FeatureResult> features;
+  std::vector<FailureBucket> buckets;
+  std::map<std::string, Bins> coverage;  // by engine
+  std::uint64_t passed = 0, failed = 0, missing = 0;
+  // Every run passed, and every feature was checked and covered as it says.
+  bool holds() const;
+};
+
+// Reads what is there. ConfigError for checks and coverage that no run of their feature knows.
+// `testplan` must outlive the result.
+RegressionResult collect_regression(const Testplan& testplan, const SweepPlace& place);
+
+// The first run of each bucket once more, with waves around the cycle in which it failed.
+std::vector<PlannedPoint> runs_with_waves(const RegressionResult& result, const SweepPlace& place);
+// Finds the waves that these runs have left.
+void add_waves(RegressionResult& result, const std::vector<PlannedPoint>& runs,
+               const SweepPlace& place);
+
+// junit.xml, collected.json and index.html in the regression's directory.
+void write_regression(const Testplan& testplan, std::uint64_t base_seed, const Plan& plan,
+                      const SweepPlace& place, const RegressionResult& result);
+
+}  // namespace deburr::tb

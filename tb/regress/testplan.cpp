@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "tb/regress/testplan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "spec/error.h"
+#include "tb/results/file.h"
+#include "tb/results/parameter_set.h"
+#include "tb/sweep/yaml_file.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxPageBytes = 16u << 20;
+constexpr std::uint64_t kMostSeeds = 100'000;
+constexpr std::uint64_t kMostComparisons = std::uint64_t{1} << 60;
+
+// Lines may be wrapped anywhere.
+std::string with_single_blanks(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const bool blank = std::isspace(static_cast<unsigned char>(c)) != 0;
+    if (!blank)
+      out += c;
+    else if (!out.empty() && out.back() != ' ')
+      out += ' ';
+  }
+  if (!out.empty() && out.back() == ' ') out.pop_back();
+  return out;
+}
+
+class Pages {
+ public:
+  explicit Pages(const fs::path& testplan) : folder_(fs::absolute(testplan).parent_path()) {}
+
+  // nullptr where there is no such page.
+  const std::string* text_of(const fs::path& page) {
+    const auto [entry, is_new] = texts_.try_emplace(page.string());
+    if (is_new) entry->second = read(page);
+    return entry->second ? &*entry->second : nullptr;
+  }
+
+ private:
+  std::optional<std::string> read(const fs::path& page) const {
+    for (fs::path folder = folder_;; folder = folder.parent_path()) {
+      std::error_code error;
+      if (fs::is_regular_file(folder / page, error))
+        return with_single_blanks(read_file(folder / page, kMaxPageBytes));
+      if (folder == folder.parent_path()) return std::nullopt;
+    }
+  }
+
+  fs::path folder_;
+  std::map<std::string, std::optional<std::string>> texts_;
+};
+
+class TestplanReader {
+ public:
+  explicit TestplanReader(const YamlFile& yaml) : yaml_(yaml), pages_(yaml.path()) {}
+
+  Testplan read() {
+    const YAML::Node& root = yaml_.root();
+    yaml_.require_keys(root, {"title", "features"});
+    Testplan plan;
+    plan.file = yaml_.path();
+    plan.name = plan.title = plan.file.stem().string();
+    if (root["title"]) plan.title = yaml_.scalar(root["title"], "title");
+    for (const YAML::Node& node : list_of(root, "features")) {
+      Feature feature = read_feature(node);
+      for (const Feature& other : plan.features)
+        if (other.id == feature.id)
+          yaml_.fail(node["id"], fmt::format("there are two features '{}'", feature.id));
+      plan.features.push_back(std::move(feature));
+    }
+    return plan;
+  }
+
+ private:
+  // Of at least one entry.
+  YAML::Node list_of(const YAML::Node& map, const char* key) const {
+    const YAML::Node list = map[key];
+    if (!list) yaml_.fail(map, fmt::format("'{}' is missing", key));
+    if (!list.IsSequence() || list.size() == 0)
+      yaml_.fail(list, fmt::format("'{}' wants a list, got {}", key,
+                                   list.IsSequence() ? "an empty one" : YamlFile::kind(list)));
+    return list;
+  }
+
+  std::string text_of(const YAML::Node& map, const char* key) const {
+    if (!map[key]) yaml_.fail(map, fmt::format("'{}' is missing", key));
+    return yaml_.scalar(map[key], key);
+  }
+
+  // It becomes a part of the names of points.
+  std::string name_of(const YAML::Node& map, const char* key) const {
+    std::string name = text_of(map, key);
+    if (name.empty() ||
+        name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != std::string::npos)
+      yaml_.fail(map[key],
+                 fmt::format("'{}' = '{}' wants lower-case letters, digits and -", key, name));
+    return name;
+  }
+
+  Feature read_feature(const YAML::Node& node) {
+    yaml_.require_keys(node, {"id", "title", "traces", "stimuli", "checks", "coverage"});
+    Feature feature;
+    feature.id = name_of(node, "id");
+    feature.title = text_of(node, "title");
+    for (const YAML::Node& trace : list_of(node, "traces")) feature.traces.push_back(read(trace));
+    for (const YAML::Node& entry : list_of(node, "stimuli")) {
+      Stimulus stimulus = read_stimulus(entry);
+      for (const Stimulus& other : feature.stimuli)
+        if (other.name == stimulus.name)
+          yaml_.fail(entry["name"], fmt::format("there are two stimuli '{}'", stimulus.name));
+      feature.stimuli.push_back(std::move(stimulus));
+    }
+    read_checks(node, feature);
+    if (node["coverage"])
+      for (const YAML::Node& glob : list_of(node, "coverage"))
+        feature.coverage.push_back({read_glob(glob), yaml_.where(glob)});
+    return feature;
+  }
+
+  TracedSentence read(const YAML::Node& node) {
+    yaml_.require_keys(node, {"page", "says"});
+    TracedSentence trace{text_of(node, "page"), with_single_blanks(text_of(node, "says"))};
+    const std::string* page = pages_.text_of(trace.page);
+    if (!page)
+      yaml_.fail(node["page"], fmt::format("there is no page '{}' in the folders around this file",
+                                           trace.page.string()));
+    if (trace.says.empty()) yaml_.fail(node["says"], "'says' wants a sentence of the page");
+    if (page->find(trace.says) == std::string::npos)
+      yaml_.fail(node["says"],
+                 fmt::format("'{}' does not say '{}': if the page has changed, look whether the "
+                             "feature is still checked, and quote what it says now",
+                             trace.page.string(), trace.says));
+    return trace;
+  }
+
+  Stimulus read_stimulus(const YAML::Node& node) const {
+    std::vector<std::string> keys = stimulus_keys();
+    keys.insert(keys.end(), {"name", "seeds", "random"});
+    yaml_.require_keys(node, keys);
+    Stimulus stimulus;
+    stimulus.name = name_of(node, "name");
+    stimulus.configurations = read_stimuli(yaml_, node);
+    if (node["seeds"]) stimulus.seeds = yaml_.count(node["seeds"], "seeds", kMostSeeds);
+    if (node["random"]) stimulus.random = yaml_.boolean(node["random"], "random");
+    return stimulus;
+  }
+
+  // Scoreboards are known only to the runs: collect() judges their names.
+  void read_checks(const YAML::Node& node, Feature& feature) const {
+    const YAML::Node checks = node["checks"];
+    if (!checks) yaml_.fail(node, "'checks' is missing: which scoreboards must have compared?");
+    if (!checks.IsMap() || checks.size() == 0)
+      yaml_.fail(checks, fmt::format("'checks' wants a map of scoreboards to numbers, got {}",
+                                     YamlFile::kind(checks)));
+    for (const auto& entry : checks) {
+      const std::string name = entry.first.Scalar();
+      for (const RequiredCheck& other : feature.checks)
+        if (other.scoreboard == name)
+          yaml_.fail(entry.first, fmt::format("'{}' is given twice", name));
+      feature.checks.push_back(
+          {name, yaml_.count(entry.second, name, kMostComparisons), yaml_.where(entry.first)});
+    }
+  }
+
+  std::string read_glob(const YAML::Node& node) const {
+    std::string glob = yaml_.scalar(node, "coverage");
+    if (glob.empty() || glob.find_first_of("[]{}!\\") != std::string::npos)
+      yaml_.fail(node, fmt::format("'{}' is no glob: * stands for any text, ? for any character, "
+                                   "and [, {{, ! and \\ for nothing",
+                                   glob));
+    return glob;
+  }
+
+  const YamlFile& yaml_;
+  Pages pages_;
+};
+
+}  // namespace
+
+bool matches_glob(std::string_view glob, std::string_view name) {
+  // On a mismatch the last star takes a character more.
+  std::size_t g = 0, n = 0, star = std::string_view::npos, taken = 0;
+  while (n < name.size()) {
+    if (g < glob.size() && glob[g] == '*') {
+      star = g++;
+      taken = n;
+    } else if (g < glob.size() && (glob[g] == '?' || glob[g] == name[n])) {
+      ++g;
+      ++n;
+    } else if (star != std::string_view::npos) {
+      g = star + 1;
+      n = ++taken;
+    } else {
+      return false;
+    }
+  }
+  while (g < glob.size() && glob[g] == '*') ++g;
+  return g == glob.size();
+}
+
+Testplan read_testplan(const fs::path& file) { return TestplanReader(YamlFile(file)).read(); }
+
+}  // namespace deburr::tb

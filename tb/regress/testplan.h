@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// What a testplan's YAML file says (docs/regression.md): features, the sentences of the pages that
+// each of them is about, what is run for it, and what these runs must have checked and covered.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tb/sweep/definition.h"
+
+namespace deburr::tb {
+
+// A sentence of a page that a feature is traced to.
+struct TracedSentence {
+  std::filesystem::path page;  // as the testplan names it
+  std::string says;
+};
+
+// Configurations of one engine, each with so many seeds; or so many random configurations.
+struct Stimulus {
+  std::string name;
+  SweepDefinition configurations;
+  std::uint64_t seeds = 1;
+  bool random = false;
+};
+
+// What the runs of a feature must have compared together.
+struct RequiredCheck {
+  std::string scoreboard;
+  std::uint64_t minimum = 0;
+  std::string where;
+};
+
+struct RequiredBins {
+  std::string glob, where;
+};
+
+struct Feature {
+  std::string id, title;
+  std::vector<TracedSentence> traces;
+  std::vector<Stimulus> stimuli;
+  std::vector<RequiredCheck> checks;
+  std::vector<RequiredBins> coverage;
+};
+
+struct Testplan {
+  std::filesystem::path file;
+  std::string name, title;
+  std::vector<Feature> features;
+};
+
+// ConfigError with file and line for everything that cannot be meant: unknown keys and parameters,
+// features and stimuli of one name, sentences that no page has. Pages are looked for in the folder
+// of the testplan and in those around it.
+Testplan read_testplan(const std::filesystem::path& file);
+
+// Whether a name has the form of a glob, in which * stands for any text and ? for any character.
+bool matches_glob(std::string_view glob, std::string_view name);
+
+}  // namespace deburr::tb

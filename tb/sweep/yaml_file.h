@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// A YAML file that a user wrote. What cannot be meant is a ConfigError with file and line.
+#pragma once
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace deburr::tb {
+
+class YamlFile {
+ public:
+  static constexpr std::size_t kMaxBytes = 64u << 20;
+
+  // FileError for a file that cannot be read; ConfigError for what is no YAML.
+  explicit YamlFile(const std::filesystem::path& file);
+
+  const YAML::Node& root() const { return root_; }
+  const std::filesystem::path& path() const { return path_; }
+
+  // "sweep.yaml:12"
+  std::string where(const YAML::Node& node) const;
+  [[noreturn]] void fail(const YAML::Node& node, const std::string& what) const;
+  // "a list"
+  static const char* kind(const YAML::Node& node);
+
+  // Each key of a map is one of these, once.
+  void require_keys(const YAML::Node& map, const std::vector<std::string>& known) const;
+  std::string scalar(const YAML::Node& node, std::string_view what) const;
+  bool boolean(const YAML::Node& node, std::string_view what) const;
+  template <class Number>
+  Number number(const YAML::Node& node, std::string_view what) const {
+    const std::string text = scalar(node, what);
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size())
+      fail(node, fmt::format("'{}' = '{}' wants a number", what, text));
+    return value;
+  }
+  // 1..most
+  std::uint64_t count(const YAML::Node& node, std::string_view what, std::uint64_t most) const;
+
+ private:
+  std::filesystem::path path_;
+  YAML::Node root_;
+};
+
+}  // namespace deburr::tb

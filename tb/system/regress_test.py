@@ -1,0 +1,233 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Regressions: a planted fault is found, put into a bucket, reproduced and waved; seeds follow from
+names; kill -9 loses nothing.
+
+usage: regress_test.py DEBURR [CLASS]
+"""
+import glob
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import xml.etree.ElementTree
+
+PAGE = """# The unit
+
+It gives every pixel once,
+in order. Stalls change nothing.
+"""
+TESTPLAN = """
+title: Small
+features:
+  - id: filtering
+    title: Filtering
+    traces: [{page: docs/unit.md, says: "It gives every pixel once, in order."}]
+    stimuli:
+      - name: scenes
+        engine: texture
+        base: {scene: {width: 24, height: 16, texture_size: 32}}
+        axes: {scene.source: [plane, tunnel]}
+        seeds: 3
+    checks: {colours: 1000, status registers: 10}
+    coverage: [texture/cache/hit, texture/cache/miss]
+  - id: anything
+    title: Random configurations
+    traces: [{page: docs/unit.md, says: Stalls change nothing.}]
+    stimuli: [{name: texture, engine: texture, random: true, seeds: 3}]
+    checks: {colours: 1}
+"""
+POINTS = 9
+FAULT = """  - id: broken
+    title: A planted fault
+    traces: [{page: docs/unit.md, says: Stalls change nothing.}]
+    stimuli:
+      - name: fault
+        engine: texture
+        base: {scene: {width: 24, height: 16, texture_size: 32}, run.fault: flip-bit}
+        seeds: 2
+      - name: deadlock
+        engine: texture
+        base: {scene: {width: 24, height: 16, texture_size: 32}, run.fault: stuck-ready}
+    checks: {colours: 1}
+"""
+
+
+class RegressTest(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="deburr_regress_")
+        self.addCleanup(scratch.cleanup)
+        self.directory = scratch.name
+        os.makedirs(self.path("docs"))
+        os.makedirs(self.path("plans"))
+        self.write("docs/unit.md", PAGE)
+        self.write("plans/small.yaml", TESTPLAN)
+
+    def path(self, name):
+        return os.path.join(self.directory, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w") as file:
+            file.write(text)
+
+    def regress(self, *arguments, code=0, name="small", seed="7"):
+        done = subprocess.run([DEBURR, "regress", f"plans/{name}.yaml", *arguments, "--seed", seed],
+                              cwd=self.directory, text=True, capture_output=True, timeout=600)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout
+
+    def collected(self, name="small", seed="7"):
+        with open(self.path(f"out/regressions/{name}-{seed}/collected.json")) as file:
+            return json.load(file)
+
+    def points(self, name="small", seed="7", out="out"):
+        with open(self.path(f"{out}/regressions/{name}-{seed}/points.jsonl")) as file:
+            return [json.loads(line) for line in file]
+
+    def inodes(self):
+        return {path: os.stat(path).st_ino
+                for path in glob.glob(self.path("out/points/*/*/result.json"))}
+
+
+class Passing(RegressTest):
+    def test_everything_is_run_checked_and_covered(self):
+        self.assertIn(f"{POINTS} points", self.regress("plan"))
+        self.assertIn(f"{POINTS} points, {POINTS} passed, 0 failed", self.regress("-j2"))
+        self.assertIn(f"{POINTS} of {POINTS} points done", self.regress("status"))
+        before = self.inodes()
+        self.regress("run")
+        self.assertEqual(self.inodes(), before, "nothing is run twice")
+        collected = self.collected()
+        self.assertTrue(collected["holds"])
+        filtering = collected["features"][0]
+        self.assertEqual([filtering[k] for k in ("runs", "passed")], [6, 6])
+        self.assertEqual([c["hit"] for c in filtering["coverage"]], [1, 1])
+        bins = collected["coverage"]["texture"]
+        hits = compared = 0
+        for run in collected["runs"]:
+            with open(self.path(f"out/points/{run['point'][:2]}/{run['point']}/result.json")) as file:
+                result = json.load(file)
+            hits += result["coverage"]["bins"]["texture/cache/hit"]
+            if run["name"].startswith("filtering/"):
+                compared += result["scoreboards"]["colours"]["comparisons"]
+        self.assertEqual(bins["hits"]["texture/cache/hit"], hits)
+        self.assertEqual(filtering["checks"][0]["comparisons"], compared)
+        self.assertEqual(bins["hit"], bins["bins"] - len(bins["holes"]))
+        with open(self.path("out/regressions/small-7/index.html")) as file:
+            page = file.read()
+        self.assertIn("It gives every pixel once, in order.", page)
+        self.assertNotRegex(page, r"(src|href)=\"http")
+        for hole in bins["holes"][:3]:
+            self.assertIn(hole, page)
+        suites = xml.etree.ElementTree.parse(self.path("out/regressions/small-7/junit.xml")).getroot()
+        self.assertEqual(suites.get("failures"), "0")
+        self.assertEqual(len(suites.findall(".//testcase")), POINTS + 5)
+
+    def test_seeds_follow_from_base_seed_and_name(self):
+        self.regress("plan")
+        self.regress("plan", "--out", "again")
+        self.regress("plan", seed="8")
+        self.assertEqual(self.points(), self.points(out="again"))
+        other = self.points(seed="8")
+        self.assertEqual([p[3:7] for p in self.points()], [p[3:7] for p in other])
+        self.assertFalse({p[0] for p in self.points()} & {p[0] for p in other})
+        # A feature in front moves no seed.
+        alone = TESTPLAN[:TESTPLAN.index("  - id: filtering")] + TESTPLAN[TESTPLAN.index("  - id: anything"):]
+        self.write("plans/alone.yaml", alone)
+        self.regress("plan", name="alone")
+        self.assertEqual([p[0] for p in self.points(name="alone")],
+                         [p[0] for p in self.points() if p[3] == "anything"])
+
+    def test_too_little_is_no_pass(self):
+        self.write("plans/small.yaml", TESTPLAN.replace("colours: 1000", "colours: 1000000"))
+        self.assertRegex(self.regress(code=1), r"colours: 2,\d\d\d comparisons of 1,000,000")
+        self.write("plans/small.yaml", TESTPLAN.replace("texture/cache/hit,", "texture/tent/*,"))
+        self.assertIn("bins were not met", self.regress(code=1))
+        root = xml.etree.ElementTree.parse(self.path("out/regressions/small-7/junit.xml")).getroot()
+        self.assertEqual([case.get("name") for case in root.iter("testcase")
+                          if case.find("failure") is not None], ["coverage: texture/tent/*"])
+
+
+class Failing(RegressTest):
+    def test_a_fault_is_found_sorted_reproduced_and_waved(self):
+        self.write("plans/small.yaml", TESTPLAN + FAULT)
+        out = self.regress("-j2", code=1)
+        self.assertIn("9 passed, 3 failed in 2 buckets, 0 missing", out)
+        collected = self.collected()
+        buckets = {b["kind"]: b for b in collected["buckets"]}
+        self.assertEqual({kind: b["runs"] for kind, b in buckets.items()}, {"mismatch": 2, "deadlock": 1})
+        self.assertEqual(buckets["mismatch"]["message"], "colours: N mismatches in N comparisons")
+        for kind, bucket in buckets.items():
+            # One line, as the page's button copies it.
+            command = bucket["example"]["command"]
+            self.assertNotIn("\n", command)
+            again = subprocess.run(["bash", "-c", command.replace("deburr", f"'{DEBURR}'", 1)],
+                                   cwd=self.directory, text=True, capture_output=True)
+            self.assertEqual(again.returncode, {"mismatch": 1, "deadlock": 4}[kind], again.stdout)
+            self.assertIn(bucket["example"]["reason"], again.stdout)
+            with open(self.path("out/texture/result.json")) as file:
+                alone = json.load(file)
+            place = self.path("out/regressions/small-7")
+            with open(os.path.join(place, bucket["example"]["directory"], "result.json")) as file:
+                self.assertEqual(alone["first_mismatches" if kind == "mismatch" else "cycles"],
+                                 json.load(file)["first_mismatches" if kind == "mismatch" else "cycles"])
+            self.check_waves(os.path.join(place, bucket["waves"]["file"]), kind, alone)
+        with open(self.path("out/regressions/small-7/index.html")) as file:
+            page = file.read()
+        self.assertIn(buckets["mismatch"]["waves"]["file"], page)
+        root = xml.etree.ElementTree.parse(self.path("out/regressions/small-7/junit.xml")).getroot()
+        self.assertEqual(root.get("failures"), "4", "three runs, and colours of the feature")
+        before = self.inodes()
+        self.regress("run", code=1)
+        self.assertEqual(self.inodes(), before, "neither failures nor waves are made again")
+
+    def check_waves(self, file, kind, result):
+        """Something changes in the window, and the window holds the failure."""
+        period = round(1e6 / result["clock_mhz"])
+        scale, times, changes = 1, [], 0
+        with open(file) as vcd:
+            for line in vcd:
+                if line.startswith("#"):
+                    times.append(int(line[1:]))
+                elif times and line[0] in "01b":
+                    changes += 1
+        self.assertGreater(changes, 100)
+        if kind == "mismatch":
+            cycle = int(result["first_mismatches"][0]["where"].split()[1])
+            self.assertLess(times[0] * scale, cycle * period)
+            self.assertGreater(times[-1] * scale, cycle * period)
+
+
+class Killed(RegressTest):
+    def test_kill_9_loses_nothing(self):
+        text = TESTPLAN.replace("seeds: 3\n    checks: {colours: 1000", "seeds: 12\n    checks: {colours: 1000")
+        self.write("plans/small.yaml", text)
+        self.write("plans/whole.yaml", text)
+        for moment in (0.3, 0.8):
+            process = subprocess.Popen([DEBURR, "regress", "plans/small.yaml", "--seed", "7", "-j2"],
+                                       cwd=self.directory, stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.DEVNULL)
+            time.sleep(moment)
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+            time.sleep(0.5)  # its children end
+        before = self.inodes()
+        self.assertIn("27 passed", self.regress("-j2"))
+        after = self.inodes()
+        self.assertEqual({path: after[path] for path in before}, before, "what was there stayed")
+        self.regress("--out", "other", name="whole", seed="7")
+        names = {os.path.basename(os.path.dirname(p)) for p in after}
+        self.assertEqual(names, {os.path.basename(os.path.dirname(p))
+                                 for p in glob.glob(self.path("other/points/*/*/result.json"))})
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
+        print(__doc__)
+        sys.exit(0 if len(sys.argv) >= 2 else 2)
+    DEBURR = os.path.abspath(sys.argv.pop(1))
+    unittest.main()

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "tb/app/random_configuration.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "spec/error.h"
+#include "tb/app/run_once.h"
+#include "tb/harness/forked.h"
+
+namespace deburr::tb {
+namespace {
+
+class RandomConfiguration : public testing::TestWithParam<const char*> {};
+
+constexpr std::uint64_t kSeeds = 500;
+
+// Accepted: every setting is taken, and the engine resolves all of them together.
+TEST_P(RandomConfiguration, IsAcceptedAndVariesEveryParameterThatIsNotFixed) {
+  const std::string engine = GetParam();
+  std::map<std::string, std::set<std::string>> values;
+  std::size_t odd_sizes = 0;
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const std::unique_ptr<Engine> made = engine_named(engine);
+    BoundEngine bound(*made);
+    for (const auto& [name, value] : random_configuration(engine, seed))
+      bound.set.set(name, value, std::to_string(seed));
+    ASSERT_NO_THROW(bound.resolve()) << engine << ", seed " << seed;
+    for (const Parameter& parameter : bound.set.all())
+      values[parameter.name].insert(parameter.text());
+    const std::string width = engine == "morphological" ? "frame.width" : "scene.width";
+    const int pixels = std::stoi(bound.set.find(width)->text());
+    EXPECT_LE(pixels, 97);
+    if (pixels % 2 == 1) ++odd_sizes;
+  }
+  EXPECT_GT(odd_sizes, kSeeds / 2);
+  std::vector<std::string> constant;
+  for (const auto& [name, seen] : values) {
+    if (is_fixed(name))
+      EXPECT_EQ(seen.size(), 1u) << name;
+    else if (seen.size() < 2)
+      constant.push_back(name);
+  }
+  EXPECT_THAT(constant, testing::IsEmpty());
+}
+
+TEST_P(RandomConfiguration, IsTheSameForTheSameSeed) {
+  EXPECT_EQ(random_configuration(GetParam(), 7), random_configuration(GetParam(), 7));
+  EXPECT_NE(random_configuration(GetParam(), 7), random_configuration(GetParam(), 8));
+}
+
+// What only the model can tell when it is built.
+TEST_P(RandomConfiguration, CanBeBuilt) {
+  const std::string engine = GetParam();
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const std::string refused = forked_text([&]() -> std::string {
+      const std::unique_ptr<Engine> made = engine_named(engine);
+      BoundEngine bound(*made);
+      for (const auto& [name, value] : random_configuration(engine, seed))
+        bound.set.set(name, value, "");
+      bound.resolve();
+      RunContext context("", bound.set, "", seed);
+      context.set_quiet(true);
+      context.set_judging_only();
+      Result result;
+      made->run(bound.run, context, result);
+      return "";
+    });
+    EXPECT_EQ(refused, "") << engine << ", seed " << seed;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, RandomConfiguration,
+                         testing::Values("texture", "morphological", "geometric", "frame"),
+                         [](const auto& p) { return std::string(p.param); });
+
+TEST(RandomConfigurations, KnowEveryEngineAndNoOther) {
+  EXPECT_THROW(random_configuration("textur", 1), spec::ConfigError);
+  for (const std::string_view name : fixed_parameters()) EXPECT_TRUE(is_fixed(name));
+  EXPECT_TRUE(is_fixed("geometric_memory.error_bytes"));
+  EXPECT_FALSE(is_fixed("geometric_memory.latency"));
+}
+
+}  // namespace
+}  // namespace deburr::tb

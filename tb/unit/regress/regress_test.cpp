@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// What a regression makes of names, seeds and messages; whole regressions:
+// tb/system/regress_test.py.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "tb/regress/failure_message.h"
+#include "tb/regress/junit.h"
+#include "tb/regress/regression_plan.h"
+#include "tb/regress/testplan.h"
+
+namespace deburr::tb {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(FailureMessage, IsTheSameWhateverItsNumbersAndPaths) {
+  EXPECT_EQ(without_particulars("colours: 1 mismatches in 1,536 comparisons"),
+            without_particulars("colours: 27 mismatches in 98 comparisons"));
+  EXPECT_EQ(without_particulars("address 0x1f40, depth -3.5"), "address N, depth N");
+  EXPECT_EQ(without_particulars("cannot read 'out/a/b.obj': no"), "cannot read 'PATH': no");
+  EXPECT_EQ(without_particulars("at /tmp/x/y.cpp and ../z"), "at PATH and PATH");
+  EXPECT_EQ(without_particulars("point 3f09ab12cd34ef56 failed"), "point N failed");
+  EXPECT_EQ(without_particulars("fifo.cpp:12: full"), "fifo.cpp:N: full");
+}
+
+TEST(FailureMessage, DiffersWhereNamesDo) {
+  EXPECT_EQ(without_particulars("predictor_h0 of expected/got"), "predictor_h0 of expected/got");
+  EXPECT_NE(without_particulars("colours: 1 mismatches"),
+            without_particulars("pixels: 1 mismatches"));
+  EXPECT_EQ(without_particulars("facade decade deadbeef"), "facade decade deadbeef");
+}
+
+TEST(FailingCycle, IsThatOfTheFirstMismatch) {
+  const nlohmann::json result = {
+      {"reason", "colours: 2 mismatches\n\n  cycle 812: pixel (3, 4)"},
+      {"first_mismatches",
+       {{{"where", "cycle 901"}}, {{"where", "cycle 812"}}, {{"where", "STATUS"}}}},
+      {"cycles", 5000}};
+  EXPECT_EQ(failing_cycle(result), 812u);
+}
+
+TEST(FailingCycle, OfADeadlockIsThatOfTheLastMove) {
+  const nlohmann::json result = {
+      {"reason",
+       "clock: no link has moved a beat for 20000 cycles, now cycle 25000\n\n"
+       "links (beats of depth; beats in, out; cycle of last push, pop; ends):\n"
+       "  quads    2 of 2 FULL; 15, 13; 395, 394; driver -> texture\n"
+       "  colours  0 of 2; 14, 14; 611, 612; filter -> sink\n"
+       "  others   0 of 2; 0, 0; never, never; a -> b\n"},
+      {"first_mismatches", nlohmann::json::array()},
+      {"cycles", 24996}};
+  EXPECT_EQ(failing_cycle(result), 612u);
+}
+
+TEST(FailingCycle, IsOneThatTheReasonNamesOrTheLast) {
+  EXPECT_EQ(failing_cycle({{"reason", "quads: cycle 77: payload changed"}, {"cycles", 90}}), 77u);
+  EXPECT_EQ(failing_cycle({{"reason", "status registers: 1 mismatches"}, {"cycles", 90}}), 90u);
+}
+
+TEST(WaveWindow, SurroundsTheFailure) {
+  EXPECT_LT(wave_window(5000).from, 5000u);
+  EXPECT_GT(wave_window(5000).to, 5000u);
+  EXPECT_EQ(wave_window(3).from, 0u);
+}
+
+TEST(Glob, StarsAndQuestionMarks) {
+  EXPECT_TRUE(matches_glob("a/*/c", "a/b/c"));
+  EXPECT_TRUE(matches_glob("a/*/c", "a/b/b/c"));
+  EXPECT_TRUE(matches_glob("*a*b*", "xxaxxabxb"));
+  EXPECT_TRUE(matches_glob("major/2/?", "major/2/1"));
+  EXPECT_FALSE(matches_glob("major/2/?", "major/2/10"));
+  EXPECT_FALSE(matches_glob("a/*/c", "a/b/d"));
+  EXPECT_FALSE(matches_glob("a", "ab"));
+  EXPECT_TRUE(matches_glob("a*", "a"));
+}
+
+TEST(DerivedSeed, FollowsFromBaseSeedPointAndPurpose) {
+  const std::uint64_t seed = derived_seed(20261122, "feature/presets/base/0", "run.seed");
+  EXPECT_EQ(derived_seed(20261122, "feature/presets/base/0", "run.seed"), seed);
+  const std::set<std::uint64_t> all = {
+      seed, derived_seed(20261123, "feature/presets/base/0", "run.seed"),
+      derived_seed(20261122, "feature/presets/base/1", "run.seed"),
+      derived_seed(20261122, "feature/presets/base/0", "run.stall_seed")};
+  EXPECT_EQ(all.size(), 4u);
+}
+
+TEST(SeedOfToday, IsADay) {
+  const std::uint64_t seed = seed_of_today();
+  EXPECT_GT(seed, 20240000u);
+  EXPECT_LE(seed % 10000 / 100, 12u);
+  EXPECT_LE(seed % 100, 31u);
+}
+
+TEST(Junit, CountsAndEscapes) {
+  JunitReport report("night<ly>");
+  report.begin_suite("a&b");
+  report.add({"passes", 0.5, JunitOutcome::kPassed, "", "", ""});
+  report.add({"fails", 0.25, JunitOutcome::kFailed, "mismatch", "\"x\" < 3\x01", "deburr run"});
+  report.add({"is missing", 0, JunitOutcome::kError, "missing", "none", ""});
+  report.end_suite();
+  report.begin_suite("c");
+  report.end_suite();
+  const std::string text = report.text();
+  EXPECT_THAT(text, HasSubstr("<testsuites name=\"night&lt;ly&gt;\" tests=\"3\" failures=\"1\" "
+                              "errors=\"1\" time=\"0.750\">"));
+  EXPECT_THAT(text, HasSubstr("<testsuite name=\"a&amp;b\" tests=\"3\""));
+  EXPECT_THAT(text, HasSubstr("message=\"&quot;x&quot; &lt; 3?\">deburr run</failure>"));
+  EXPECT_THAT(text, HasSubstr("<testsuite name=\"c\" tests=\"0\""));
+  EXPECT_THAT(text, Not(HasSubstr("\x01")));
+}
+
+}  // namespace
+}  // namespace deburr::tb

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "tb/soak/flat_memory.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace deburr::tb {
+namespace {
+
+constexpr Allowance kNone{0, 0};
+
+std::vector<std::uint64_t> steps(std::size_t count, std::uint64_t from, std::uint64_t each) {
+  std::vector<std::uint64_t> samples(count, from);
+  for (std::size_t i = 0; i < count; ++i) samples[i] += i * each;
+  return samples;
+}
+
+TEST(FlatMemory, GrowsWhereTheEndHasMoreThanTheBeginning) {
+  EXPECT_EQ(growth(steps(100, 1000, 0), kNone), "");
+  // Of 100 samples the second fifth ends with number 39, the fourth one with number 79.
+  EXPECT_EQ(growth(steps(100, 1000, 1), kNone), "from 1039 to 1079 bytes, 1039 are allowed");
+  EXPECT_EQ(growth(steps(100, 1000, 1), {0, 40}), "");
+  EXPECT_NE(growth(steps(100, 1000, 1), {0, 39}), "");
+  EXPECT_EQ(growth(steps(100, 1000, 1), {0.04, 0}), "");
+  EXPECT_NE(growth(steps(100, 1000, 1), {0.03, 0}), "");
+}
+
+TEST(FlatMemory, MayGrowAtItsBeginningAndItsEnd) {
+  std::vector<std::uint64_t> samples(100, 5000);
+  for (std::size_t i = 0; i < 20; ++i) samples[i] = 10 * i;
+  for (std::size_t i = 80; i < 100; ++i) samples[i] = 9000;
+  EXPECT_EQ(growth(samples, kNone), "");
+}
+
+TEST(FlatMemory, TooFewSamplesSayNothing) { EXPECT_EQ(growth(steps(49, 0, 100), kNone), ""); }
+
+TEST(FlatMemory, TenthsAreTheLargestOfEach) {
+  EXPECT_THAT(tenths(steps(20, 0, 1)), testing::ElementsAre(1, 3, 5, 7, 9, 11, 13, 15, 17, 19));
+}
+
+TEST(FlatMemory, AProcessIsMeasured) {
+  EXPECT_GT(resident_bytes(::getpid()), 1'000'000u);
+  EXPECT_EQ(resident_bytes(-1), 0u);
+}
+
+#ifndef __SANITIZE_ADDRESS__  // which has a heap of its own
+TEST(FlatMemory, WhatIsNotGivenBackIsOnTheHeap) {
+  constexpr std::size_t kBytes = 50'000;
+  const std::uint64_t before = heap_bytes();
+  auto bytes = std::make_unique<std::byte[]>(kBytes);
+  EXPECT_GE(heap_bytes(), before + kBytes);
+  bytes.reset();
+  EXPECT_LT(heap_bytes(), before + kBytes);
+}
+#endif
+
+}  // namespace
+}  // namespace deburr::tb
