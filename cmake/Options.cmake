@@ -15,6 +15,10 @@ if(DEBURR_SANITIZE)
   target_compile_options(deburr_options INTERFACE
     -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(deburr_options INTERFACE -fsanitize=address,undefined)
+  # ctest reads this before it starts a test.
+  set(DEBURR_LSAN_OPTIONS "suppressions=${PROJECT_SOURCE_DIR}/cmake/lsan.supp:print_suppressions=0")
+  file(WRITE "${PROJECT_BINARY_DIR}/sanitizers.cmake" "set(ENV{LSAN_OPTIONS} \"${DEBURR_LSAN_OPTIONS}\")\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${PROJECT_BINARY_DIR}/sanitizers.cmake")
 endif()
 if(DEBURR_FUZZ)
   target_compile_options(deburr_options INTERFACE

@@ -2,6 +2,7 @@
 #include "tb/results/parameter_set.h"
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -34,6 +35,28 @@ std::string join(const std::vector<std::string_view>& names, std::string_view se
 // A configuration has a few dozen keys; anything far beyond is not a configuration.
 constexpr std::size_t kMaxConfigurationBytes = 1 << 20;
 constexpr int kMaxNesting = 16;
+
+// Counts no further than two: before a ',' that belongs to nothing yaml-cpp begins one empty
+// document after another, and YAML::LoadAll() never comes back.
+bool has_several_documents(const std::string& text) {
+  struct Ignore : YAML::EventHandler {
+    void OnDocumentStart(const YAML::Mark&) override {}
+    void OnDocumentEnd() override {}
+    void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+    void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+    void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  const std::string&) override {}
+    void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                         YAML::EmitterStyle::value) override {}
+    void OnSequenceEnd() override {}
+    void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                    YAML::EmitterStyle::value) override {}
+    void OnMapEnd() override {}
+  } ignore;
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  return parser.HandleNextDocument(ignore) && parser.HandleNextDocument(ignore);
+}
 
 class YamlLoader {
  public:
@@ -344,11 +367,12 @@ void ParameterSet::set_assignment(std::string_view assignment, std::string_view 
 void ParameterSet::load(const std::filesystem::path& file) {
   const std::string text = read_file(file, kMaxConfigurationBytes);
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1)
-      throw ConfigError(fmt::format("{}: holds {} YAML documents, expected one", file.string(),
-                                    documents.size()));
-    if (!documents.empty()) YamlLoader(*this, file.string()).load(documents.front());
+    if (has_several_documents(text))
+      throw ConfigError(fmt::format(
+          "{}: holds more than one YAML document, or begins with what belongs to none, such as ','; "
+          "expected one map of parameters",
+          file.string()));
+    YamlLoader(*this, file.string()).load(YAML::Load(text));
   } catch (const YAML::Exception& e) {
     const std::string line =
         e.mark.is_null() ? "" : fmt::format(":{}:{}", e.mark.line + 1, e.mark.column + 1);

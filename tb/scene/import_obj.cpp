@@ -36,13 +36,14 @@ class ObjChecker {
   ObjChecker(const fs::path& path, std::string_view text) : path_(path) {
     while (!text.empty()) {
       ++line_;
-      const std::size_t end = text.find('\n');
+      // tinyobjloader takes a carriage return for the end of a line, whatever comes behind it.
+      const std::size_t end = text.find_first_of("\r\n");
       check_line(text.substr(0, end));
       if (end == std::string_view::npos) {
         no_final_newline_ = true;
         break;
       }
-      text.remove_prefix(end + 1);
+      text.remove_prefix(end + (text.substr(end).starts_with("\r\n") ? 2 : 1));
     }
     check_highest(highest_[0], count_[0], "vertex");
     check_highest(highest_[1], count_[1], "texture coordinate");
@@ -149,24 +150,35 @@ std::string one_line(std::string text) {
 // tinyobjloader's numbers are flat arrays; -1 is "not given".
 class Attributes {
  public:
-  explicit Attributes(const tinyobj::attrib_t& attributes) : attributes_(attributes) {}
+  Attributes(const fs::path& path, const tinyobj::attrib_t& attributes)
+      : path_(path), attributes_(attributes) {}
 
   MeshBuilder::Corner corner(const tinyobj::index_t& index) const {
     MeshBuilder::Corner corner;
     corner.position = three(attributes_.vertices, index.vertex_index);
     if (index.normal_index >= 0) corner.normal = three(attributes_.normals, index.normal_index);
     if (index.texcoord_index >= 0) {
-      const auto at = 2 * static_cast<std::size_t>(index.texcoord_index);
+      const std::size_t at = place(attributes_.texcoords, index.texcoord_index, 2);
       corner.uv = V2d(attributes_.texcoords[at], 1.0 - double{attributes_.texcoords[at + 1]});
     }
     return corner;
   }
 
  private:
-  static V3d three(const std::vector<tinyobj::real_t>& values, int index) {
-    const auto at = 3 * static_cast<std::size_t>(index);
+  // The checker has seen to it, if it reads the file as tinyobjloader does.
+  std::size_t place(const std::vector<tinyobj::real_t>& values, int index, std::size_t each) const {
+    const std::size_t at = each * static_cast<std::size_t>(index);
+    if (index < 0 || at + each > values.size())
+      fail_mesh(path_, fmt::format("a face uses number {} of {} vertices, texture coordinates or "
+                                   "normals; the file is damaged, export it again",
+                                   std::int64_t{index} + 1, values.size() / each));
+    return at;
+  }
+  V3d three(const std::vector<tinyobj::real_t>& values, int index) const {
+    const std::size_t at = place(values, index, 3);
     return {values[at], values[at + 1], values[at + 2]};
   }
+  const fs::path& path_;
   const tinyobj::attrib_t& attributes_;
 };
 
@@ -205,7 +217,7 @@ Mesh import_obj(const fs::path& path, const ImportOptions& options) {
   const auto plain = static_cast<std::uint32_t>(materials.size());
   builder.add_material({"default", V3d(0.8, 0.8, 0.8), -1});
 
-  const Attributes corners(attributes);
+  const Attributes corners(path, attributes);
   for (const tinyobj::shape_t& shape : shapes) {
     const tinyobj::mesh_t& mesh = shape.mesh;
     for (std::size_t face = 0; 3 * face + 2 < mesh.indices.size(); ++face) {

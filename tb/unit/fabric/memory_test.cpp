@@ -229,6 +229,33 @@ TEST(MemoryPort, BurstsOfReadsAndWrites) {
   EXPECT_EQ(s.memory.lines_read().size(), 8U);
 }
 
+// A request that a full memory withholds while the engine is reset comes in later, and is none of
+// those that the engine asks for afterwards.
+TEST(MemoryModel, CountsNoRequestThatWasWithheldBefore) {
+  MemoryModelParameters parameters = with_latency(50);
+  parameters.outstanding = 1;
+  System s({}, parameters);
+  s.driver.send(read_of(3));
+  s.driver.send(read_of(4));
+  s.clock.run(20);  // 3 is under way, 4 is withheld
+  ASSERT_EQ(s.memory.lines_read(), (std::vector<std::uint64_t>{3 * 64}));
+  s.memory.clear_statistics();
+  s.driver.send(read_of(5));
+  ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 3; }, 1000));
+  EXPECT_EQ(s.memory.lines_read(), (std::vector<std::uint64_t>{5 * 64}));
+  EXPECT_EQ(s.memory.reads(), 1U);
+  EXPECT_EQ(s.memory.bytes_read(), 64U);
+}
+
+TEST(MemoryModel, ForgetsLinesAndGoesOnCounting) {
+  System s({}, with_latency(5));
+  s.driver.send(read_of(3));
+  ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 1; }, 1000));
+  s.memory.forget_lines();
+  EXPECT_TRUE(s.memory.lines_read().empty());
+  EXPECT_EQ(s.memory.reads(), 1U);
+}
+
 // Who does not wait for the answer to a write reads what was there before; who waits reads what was
 // written. A memory that takes requests one by one hides that.
 TEST(MemoryModel, AReadBehindAWriteIsARace) {

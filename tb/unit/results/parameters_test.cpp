@@ -154,6 +154,13 @@ TEST_F(Parameters, YamlErrorsNameFileAndLine) {
   EXPECT_THAT(refused("[1, 2]: 3\n"), HasSubstr("a key must be a name"));
 }
 
+// yaml-cpp finds one empty document after another before the comma.
+TEST_F(Parameters, AFileThatBeginsWithACommaEnds) {
+  EXPECT_THROW(set_.load(file(",a: b\n")), spec::ConfigError);
+  EXPECT_THROW(set_.load(file("unit.stalls: 0.5\n---\nunit.stalls: 0.25\n")), spec::ConfigError);
+  EXPECT_NO_THROW(set_.load(file("---\nunit.stalls: 0.5\n...\n")));
+}
+
 TEST_F(Parameters, AMissingConfigurationIsAFileError) {
   EXPECT_THROW(set_.load("/nonexistent/run.yaml"), spec::FileError);
   EXPECT_THROW(set_.load("/"), spec::FileError);

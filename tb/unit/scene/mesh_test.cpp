@@ -127,6 +127,9 @@ TEST(Obj, BrokenFilesAreNamedWithTheirLine) {
   EXPECT_THAT(error(three + "f 1 2 4\n"),
               AllOf(HasSubstr("line 4"), HasSubstr("vertex 4, but there are 3")));
   EXPECT_THAT(error(three + "f 1 2 -4\n"), HasSubstr("out of range"));
+  // To tinyobjloader a line ends here, and another one begins.
+  EXPECT_THAT(error(three + "# \rf 1 2 4\n"),
+              AllOf(HasSubstr("line 5"), HasSubstr("vertex 4, but there are 3")));
   EXPECT_THAT(error(three + "f 1/1 2/1 3/1\n"), HasSubstr("texture coordinate 1, but there are 0"));
   EXPECT_THAT(error(three + "f 1//9 2//9 3//9\n"), HasSubstr("normal 9"));
   EXPECT_THAT(error(three + "f 0 1 2\n"), HasSubstr("not a face corner"));

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+// Text that a user gives, spoilt: configuration files, definitions of sweeps, planted faults. It is
+// taken, or refused by a named error; what is taken runs to a named end. In the worst case a fault
+// that is planted breaks the run, never the program.
+//
+// No libFuzzer here: all of the command stands behind these texts, and SystemC elaborates once a
+// process, so inputs are made by what such texts look like, from seeds.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "spec/error.h"
+#include "tb/app/random_configuration.h"
+#include "tb/app/run_once.h"
+#include "tb/harness/register_noise.h"
+#include "tb/stimuli/random.h"
+#include "tb/sweep/definition.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kEngines = {"texture", "morphological", "geometric", "frame"};
+const std::vector<std::string> kOddities = {"0",      "-1",    "99999999999999999999",
+                                            "1e999",  "nan",   "",
+                                            "true",   "~",     "[1, 2]",
+                                            "{a: b}", "&a *a", "<<:",
+                                            "\"",     "'",     "|",
+                                            "!!x",    "\t",    "a.b.",
+                                            "? x",    "- - -", "%",
+                                            "0x10",   "1.5.2", "..",
+                                            "golden", "#",     ":",
+                                            "*",      "\xff",  "\xc3\x28"};
+
+std::string odd(Random& random) {
+  return kOddities[random.below(static_cast<std::uint32_t>(kOddities.size()))];
+}
+
+// Lines doubled, lost, exchanged, with odd values, with bytes of anything.
+std::string spoilt(std::string text, Random& random) {
+  std::vector<std::string> lines;
+  std::istringstream input(text);
+  for (std::string line; std::getline(input, line);) lines.push_back(line);
+  for (int change = random.between(1, 4); change > 0 && !lines.empty(); --change) {
+    std::string& line = lines[random.below(static_cast<std::uint32_t>(lines.size()))];
+    const std::size_t colon = line.find(':');
+    switch (random.below(7)) {
+      case 0:
+        line = line.substr(0, colon) + ": " + odd(random);
+        break;
+      case 1:
+        line = odd(random) + line;
+        break;
+      case 2:
+        lines.push_back(line);
+        break;
+      case 3:
+        line.clear();
+        break;
+      case 4:
+        line = "  " + line;
+        break;
+      case 5:
+        std::swap(line, lines[random.below(static_cast<std::uint32_t>(lines.size()))]);
+        break;
+      default:
+        if (!line.empty())
+          line[random.below(static_cast<std::uint32_t>(line.size()))] =
+              static_cast<char>(random.below(256));
+    }
+  }
+  text.clear();
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+
+class TextNoise : public testing::Test {
+ protected:
+  ~TextNoise() override {
+    std::error_code ignored;
+    fs::remove_all(directory_, ignored);
+  }
+  fs::path written(const std::string& text) const {
+    fs::create_directories(directory_);
+    const fs::path file = directory_ / "noise.yaml";
+    std::ofstream(file, std::ios::binary) << text;
+    return file;
+  }
+  fs::path directory() const { return directory_; }
+
+ private:
+  fs::path directory_ =
+      fs::temp_directory_path() / ("deburr-text-noise-" + std::to_string(::getpid()));
+};
+
+// Many in a child, since none elaborates.
+constexpr std::uint64_t kTextsAChild = 40;
+
+TEST_F(TextNoise, Configurations) {
+  EXPECT_EQ(first_complaint(12,
+                            [&](std::uint64_t seed) -> std::string {
+                              Random random(seed, "configurations");
+                              const std::string engine = kEngines[seed % 4];
+                              std::string whole;
+                              for (const auto& [name, value] : random_configuration(engine, seed))
+                                whole += name + ": " + value + "\n";
+                              for (std::uint64_t i = 0; i < kTextsAChild; ++i) {
+                                const std::string text = spoilt(whole, random);
+                                const std::unique_ptr<Engine> made = engine_named(engine);
+                                BoundEngine bound(*made);
+                                try {
+                                  bound.set.load(written(text));
+                                  bound.resolve();
+                                } catch (const spec::Error&) {
+                                } catch (const std::exception& error) {
+                                  return std::string(error.what()) + " of\n" + text;
+                                }
+                              }
+                              return "";
+                            }),
+            "");
+}
+
+TEST_F(TextNoise, Sweeps) {
+  std::vector<std::string> sweeps;
+  for (const fs::directory_entry& entry : fs::directory_iterator(DEBURR_SWEEPS)) {
+    std::ostringstream text;
+    text << std::ifstream(entry.path()).rdbuf();
+    sweeps.push_back(text.str());
+  }
+  ASSERT_FALSE(sweeps.empty());
+  std::sort(sweeps.begin(), sweeps.end());
+  EXPECT_EQ(first_complaint(12,
+                            [&](std::uint64_t seed) -> std::string {
+                              Random random(seed, "sweeps");
+                              for (std::uint64_t i = 0; i < kTextsAChild; ++i) {
+                                const std::string text = spoilt(
+                                    sweeps[random.below(static_cast<std::uint32_t>(sweeps.size()))],
+                                    random);
+                                try {
+                                  read_sweep(written(text));
+                                } catch (const spec::Error&) {
+                                } catch (const std::exception& error) {
+                                  return std::string(error.what()) + " of\n" + text;
+                                }
+                              }
+                              return "";
+                            }),
+            "");
+}
+
+// ---- planted faults -----------------------------------------------------------------------------
+
+// What comes of a run with this fault: what it said, if it ended by no name.
+std::string run_with(const std::string& engine, const std::string& fault, const fs::path& directory,
+                     std::string* said = nullptr) {
+  const std::unique_ptr<Engine> made = engine_named(engine);
+  BoundEngine bound(*made);
+  const std::string size = engine == "morphological" ? "frame." : "scene.";
+  for (const auto& [name, value] :
+       std::vector<std::pair<std::string, std::string>>{{size + "width", "19"},
+                                                        {size + "height", "17"},
+                                                        {"run.images", "false"},
+                                                        {"run.max_cycles", "60000"},
+                                                        {"run.watchdog_cycles", "3000"},
+                                                        {"run.fault", fault}})
+    bound.set.set(name, value, "--set");
+  if (bound.set.find("frame.truth_samples")) bound.set.set("frame.truth_samples", "0", "--set");
+  try {
+    bound.resolve();
+    RunContext context(directory, bound.set, "", 1);
+    context.set_quiet(true);
+    context.set_report(false);
+    const RunEnd end = run_once(bound, context, IfTaken::kWait);
+    if (said) *said = end.result.reason;
+  } catch (const spec::Error& error) {
+    if (said) *said = error.what();
+  } catch (const std::exception& error) {
+    return std::string(error.what()) + " by the fault " + fault;
+  }
+  return "";
+}
+
+// As the refusal of an unknown one lists them.
+std::vector<std::string> links_of(const std::string& engine, const fs::path& directory) {
+  std::istringstream lines(forked_text([&] {
+    std::string said;
+    run_with(engine, "drop:none:1", directory, &said);
+    return said;
+  }));
+  std::vector<std::string> links;
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("  ")) links.push_back(line.substr(2));
+  return links;
+}
+
+TEST_F(TextNoise, Faults) {
+  std::vector<std::vector<std::string>> links;
+  for (const std::string& engine : kEngines) {
+    links.push_back(links_of(engine, directory()));
+    ASSERT_GT(links.back().size(), 10u) << engine;
+  }
+  EXPECT_EQ(
+      first_complaint(
+          60,
+          [&](std::uint64_t seed) -> std::string {
+            Random random(seed, "faults");
+            const std::size_t engine = random.below(4);
+            const auto& known = links[engine];
+            const auto either = [&](const std::string& right) {
+              return random.chance(100) ? odd(random) : right;
+            };
+            const std::vector<std::string> kinds = {"drop", "duplicate", "flip", "stuck_ready"};
+            std::string fault = kinds[random.below(4)];
+            const bool flip = fault == "flip";
+            fault = either(fault) + ":" +
+                    either(known[random.below(static_cast<std::uint32_t>(known.size()))]) + ":" +
+                    either(std::to_string(random.below(300)));
+            if (flip) fault += ":" + either(std::to_string(random.below(60)));
+            return run_with(kEngines[engine], fault, directory());
+          }),
+      "");
+}
+
+}  // namespace
+}  // namespace deburr::tb
