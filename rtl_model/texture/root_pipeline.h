@@ -8,7 +8,7 @@
 // than those of 24 x 24), or two 34-bit subtractors in a row. Formats: U15.16 in; squares and sum
 // exact (U31.32); root U16.16, truncated. Method: digit by digit. A stage brings down two bits of
 // the radicand at a time, tries to subtract (root << 2 | 1), and appends the digit: no multiplier.
-// Cost: four 31-bit squarers, two 62-bit adders, 2 x 16 x two 34-bit subtractors, a 62-bit
+// Cost: four 31-bit squarers, two 62-bit adders, 2 x 16 x two 34-bit subtractors, a 63-bit
 // comparator.
 #pragma once
 
@@ -39,7 +39,7 @@ class RootPipeline {
 
  private:
   struct Root {
-    std::uint64_t radicand;   // U62, what has not been brought down yet, at the top; first s^2
+    std::uint64_t radicand;   // U63, what has not been brought down yet, at the top; first s^2
     std::uint64_t remainder;  // U34; first t^2
     std::uint32_t root;       // U32, digits found
   };

@@ -189,6 +189,17 @@ INSTANTIATE_TEST_SUITE_P(Texture, FifoDepth,
                                               std::get<1>(p.param));
                          });
 
+TEST(FifoDepthOfAMemoryThatVaries, IsThatOfTheSlowestAnswer) {
+  TextureRunOptions options;
+  options.memory.latency = 20;
+  options.memory.latency_max = 300;
+  EXPECT_EQ(fifo_depth(options), 300 + 7);
+  options.memory.latency_max = 9000;
+  EXPECT_EQ(fifo_depth(options), 4096);
+  options.texture.cache_fifo_depth = 33;
+  EXPECT_EQ(fifo_depth(options), 33);
+}
+
 // A line that takes several clocks has no knee but a bend: what is lost is below half a percent.
 TEST(FifoDepthOfANarrowMemory, LosesLittle) {
   TextureRunOptions options;
