@@ -539,7 +539,7 @@ TEST(TextureRtlUnit, AccountsForItsMemories) {
   EXPECT_EQ(find("cache.miss_queue.failed").logical_bits(), 64u);
   // Ticket, control, four times (place, source, slot, turned), number of fills.
   EXPECT_EQ(find("cache.latency_fifo.entries").logical_bits(),
-            22u * (40 + 38 + 4 * (14 + 3 + 8 + 1) + 3));
+            17u * (40 + 38 + 4 * (14 + 3 + 8 + 1) + 3));
   EXPECT_EQ(find("filter.srgb").physical_bits(), 6u * 256 * 12);  // copies of 2R
 }
 
