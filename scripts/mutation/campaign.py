@@ -45,10 +45,11 @@ class Campaign:
         return [(file, place) for turn in range(rounds) for file, places in self.chosen.items()
                 for place in sorted(places[turn * ROUND:(turn + 1) * ROUND])]
 
-    def run(self, jobs, alone, name="local", part=0, parts=1):
-        """Judges what is not judged yet: behind switches first, then, if `alone`, one by one what
-        must be compiled. `part` of `parts` of them all."""
-        done = {key_of(entry) for entry in read_results(self.tree.work)}
+    def run(self, jobs, alone, again, name="local", part=0, parts=1):
+        """Judges what is not judged yet, or if `again` survived: behind switches first, then, if
+        `alone`, one by one what must be compiled. `part` of `parts` of them all."""
+        done = {key_of(entry) for entry in read_results(self.tree.work)
+                if not again or entry["verdict"] != "survived"}
         wanted = [item for n, item in enumerate(self.in_rounds())
                   if n % parts == part and self.key(*item) not in done]
         folder = self.tree.work / "results"
@@ -70,10 +71,11 @@ class Campaign:
             with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
                 for future in [pool.submit(judged, *pair) for pair in enumerate(wanted)]:
                     future.result()
-            for number, item in enumerate(sorted(later, key=wanted.index) if alone else ()):
+            # A header costs a build of nearly everything.
+            later.sort(key=lambda item: (item[0].suffix == ".h", wanted.index(item)))
+            for number, item in enumerate(later if alone else ()):
                 self.put(out, item, self.judge.alone(*item), "alone")
                 self.say(f"{number + 1} of {len(later)} mutants compiled alone")
-        return later
 
     def put(self, out, item, verdict, way):
         file, place = item
@@ -90,13 +92,14 @@ def key_of(entry):
 
 
 def read_results(work):
-    """Every whole line of every writer; the last word counts."""
+    """Every whole line of every writer; what a test has killed once is killed."""
     found = {}
     for path in sorted((work / "results").glob("*.jsonl")):
         for line in path.read_text(encoding="utf-8").splitlines():
             try:
                 entry = json.loads(line)
-                found[key_of(entry)] = entry
+                if found.get(key_of(entry), {}).get("verdict") != "killed":
+                    found[key_of(entry)] = entry
             except ValueError:  # its writer was killed
                 continue
     return list(found.values())

@@ -3,6 +3,7 @@
 import collections
 import hashlib
 import json
+import uuid
 
 from mutation.tree import MOST_SWITCHES, Problem, passes
 
@@ -28,7 +29,7 @@ class Judge:
                 kept[entry["test"]] = entry
         self.tests, self.seconds, self.reach = tests, {}, collections.defaultdict(list)
         self.impossible, failed = set(), []
-        asked = self.tree.work / "reached"
+        asked = self.tree.work / f"reached_{uuid.uuid4().hex}"
         programs = {path.name: hashlib.sha256(path.read_bytes()).hexdigest()[:16]
                     for path in self.tree.build.rglob("*") if path.name in self.tree.targets}
         everything = hashlib.sha256(json.dumps(programs, sort_keys=True).encode()).hexdigest()[:16]
@@ -62,6 +63,7 @@ class Judge:
                         self.reach[n].append(test.name)
                 self.impossible |= {n for begin, end in entry["impossible"]
                                     for n in range(begin, end)}
+        asked.unlink(missing_ok=True)
         self.impossible -= set(self.reach)
         if failed:
             raise Problem("the tests fail without any fault; mend them first: "

@@ -116,6 +116,10 @@ class Mutate(unittest.TestCase):
         self.assertEqual(again[:3], lines[:3])
         self.assertEqual(set(again), set(lines))
 
+        self.assertEqual(self.campaign("--again").returncode, 1)
+        again = whole(found.read_text(encoding="utf-8"))
+        self.assertEqual((len(again), set(again)), (7 + 4, set(lines)))
+
         page = (self.root / "docs/mutation.md").read_text(encoding="utf-8")
         self.assertIn("| `rtl_model/tiny` | 1 | 7 | 7 | 0 | 3 | 0 | 4 | 42.8 | 42.8 |", page)
         self.assertEqual(self.mutate("--check").returncode, 0)
