@@ -15,7 +15,7 @@ OTHER = {"+": "-", "-": "+", "+=": "-=", "-=": "+=", "&&": "||", "||": "&&"}
 RULES = [
     ("comparison", re.compile(r"(?<= )(<=|>=|==|!=|<|>)(?=\s)"), lambda text: [COMPARISONS[text]]),
     ("operator", re.compile(r"(?<= )(\+=|-=|\+|-|&&|\|\|)(?=\s)"), lambda text: [OTHER[text]]),
-    ("constant", re.compile(r"(?<![\w.'])\d+(?![\w.'])"),
+    ("constant", re.compile(r"(?<![\w.'])(?<!\d[eE][-+])\d+(?![\w.'])"),
      lambda text: [str(int(text) + 1)] + ([str(int(text) - 1)] if int(text) else [])),
     ("stall", re.compile(r"!?(?<![\w.>)\]])(?:\w+(?:\[[^][]*\])?(?:\.|->))+can_(?:push|pop)\(\w+\)"),
      lambda text: ["false" if text[0] == "!" else "true"]),
@@ -27,13 +27,15 @@ INFIX = {"<": ">=", "<=": ">=", ">": ">=", "!=": "=="}
 Mutant = collections.namedtuple("Mutant", "kind begin end text")
 
 
-def without_comments(source):
-    return NO_CODE.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), source)
+def code_of(source):
+    """The source with blanks for what is no code, and quotes for texts and characters."""
+    return NO_CODE.sub(lambda m: re.sub(r"[^\n]", '"' if m.group()[0] in "\"'" else " ", m.group()),
+                       source)
 
 
 def mutants_of(source):
     """Every mutant of a source text, in order."""
-    code = without_comments(source)
+    code = code_of(source)
     found = [Mutant(kind, m.start(), m.end(), text) for kind, pattern, variants in RULES
              for m in pattern.finditer(code) for text in variants(m.group())]
     # A constant's mutants stand one after the other, one more first: switch.h counts on it.
@@ -75,7 +77,7 @@ def operands(code, begin, end):
 def schema_of(source, first, dropped=frozenset(), plain=None):
     """The source with its mutants behind the switches `first`, `first` + 1, ... but for those whose
     places in the list of mutants are `dropped`; `plain` stands in it as it is. Lines stay lines."""
-    code = without_comments(source)
+    code = code_of(source)
     mutants = mutants_of(source)
     # (position, what ends there before what begins there, outer before inner or reverse, text)
     inserts, replaced = [], {}
@@ -103,7 +105,7 @@ def schema_of(source, first, dropped=frozenset(), plain=None):
             left, right = operands(code, mutant.begin, mutant.end)
             enclose(left[0], right[1], 1, "((", f") != {switch})")
             for operand in (left, right):
-                enclose(*operand, 0, "(bool(", f") != {switch})")
+                enclose(*operand, 0, "(!!(", f") != {switch})")
         else:
             infix = INFIX.get(was, was)
             replaced[mutant.begin] = (
@@ -118,7 +120,7 @@ def schema_of(source, first, dropped=frozenset(), plain=None):
 
 def lines_of(source):
     """The numbers of the lines on which each mutant's schema stands, in the order of mutants_of."""
-    code = without_comments(source)
+    code = code_of(source)
     starts = [0] + [m.end() for m in re.finditer("\n", source)]
     number = lambda position: bisect.bisect_right(starts, position)
     found = []

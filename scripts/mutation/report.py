@@ -27,10 +27,12 @@ def record_of(results, sources):
     record = {}
     for file, source in sources.items():
         content = digest(source)
-        own = [r for r in results if r["file"] == str(file) and r["hash"] == content]
+        known = {(m.begin, m.kind, m.text) for m in mutants.mutants_of(source)}
+        own = [r for r in results if r["file"] == str(file) and r["hash"] == content
+               and (r["begin"], r["kind"], r["text"]) in known]
         counts = collections.Counter(r["verdict"] for r in own)
         record[str(file)] = {
-            "hash": content, "mutants": len(mutants.mutants_of(source)),
+            "hash": content, "mutants": len(known),
             "alone": sum(r["way"] == "alone" for r in own),
             "killed": counts["killed"], "invalid": counts["invalid"],
             "survived": sorted([r["was"], r["is"]] for r in own if r["verdict"] == "survived")}

@@ -159,10 +159,13 @@ inline int sums(int a, int b) { int s = 4; s += a - 2; s -= b + 1 - a * 2; retur
 inline std::string texts(int a) { std::string t = "x"; t += "y"; return a + 1 > 1 ? t + "z" : t; }
 struct Three { unsigned a : 3; };
 inline int odd(int a) { Three t{static_cast<unsigned>(a & 3)}; const int n = a + 2; constexpr int k = 1 + 2; return (t.a == 2) + n + k; }
+template <bool is> int chosen(char c) { return is && c != 'b' || c == '"' && c ? 1 : 0; }
+inline int both(char c) { return chosen<true>(c) + chosen<false>(c); }
 inline bool lambda(int a) { return [&] { return a > 1 && a < 3; }() || (a ? a == 1 && true : false); }
 """
         call = """for (int a = 0; a < 4; ++a) for (int b = 0; b < 4; ++b) {
-  out << asked(a, b) << sums(a, b) << texts(a) << odd(a) << lambda(a);
+  out << asked(a, b) << sums(a, b) << texts(a) << odd(a) << lambda(a)
+      << both("ab\\""[a]) << 1e-9;
   for (int c = 0; c < 4; ++c) out << pure(a, b, c); }
 """
         all_of = module.mutants.mutants_of(source)
@@ -241,7 +244,7 @@ inline bool lambda(int a) { return [&] { return a > 1 && a < 3; }() || (a ? a ==
         self.assertEqual(texts("if (!out.can_push(cycle)) return;"), ["if (false) return;"])
         self.assertEqual(texts("a && b"), ["a || b"])
         self.assertEqual(texts("a - 1"), ["a + 1", "a - 2", "a - 0"])
-        no_code = '#if 1 < 2\n/* 1 + 2 */ f("1 == 2", \'1\', 0x10, 1\'000, T<3u>)'
+        no_code = '#if 1 < 2\n/* 1 + 2 */ f("1 == 2", \'1\', 0x10, 1\'000, 1e-9, T<3u>)'
         self.assertEqual(texts(no_code), [])
 
 
