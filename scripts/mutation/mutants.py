@@ -24,6 +24,12 @@ NAMES = {"<": "Less", "<=": "LessEqual", ">": "Greater", ">=": "GreaterEqual", "
          "!=": "NotEqual", "+": "Plus", "-": "Minus", "+=": "Add", "-=": "Subtract"}
 INFIX = {"<": ">=", "<=": ">=", ">": ">=", "!=": "=="}
 
+# Values that members have before they are given others: nobody reads most of them, so that their
+# mutants are no faults. What a reset leaves is written where it is done.
+DEFAULTS = re.compile(r"^ {2}(?: {2})?(?!static|const|return|using|for|if)[\w:<>,* ]+? \w+(?: = \d+)?"
+                      r"(?:, \w+(?: = \d+)?)*;", re.M)
+HEADER = re.compile(r"^#(?:ifndef \w+_H|pragma once)", re.M)
+
 Mutant = collections.namedtuple("Mutant", "kind begin end text")
 
 
@@ -36,8 +42,11 @@ def code_of(source):
 def mutants_of(source):
     """Every mutant of a source text, in order."""
     code = code_of(source)
+    unread = {at for m in (DEFAULTS.finditer(code) if HEADER.search(source) else ())
+              for at in range(m.start(), m.end())}
     found = [Mutant(kind, m.start(), m.end(), text) for kind, pattern, variants in RULES
-             for m in pattern.finditer(code) for text in variants(m.group())]
+             for m in pattern.finditer(code) if kind != "constant" or m.start() not in unread
+             for text in variants(m.group())]
     # A constant's mutants stand one after the other, one more first: switch.h counts on it.
     return sorted(found, key=lambda m: (m.begin, m.kind, -int(m.text) if m.text.isdigit() else 0))
 

@@ -110,17 +110,25 @@ class Tree:
 
     def drop(self, errors):
         """Takes schemata away from the lines that the compiler complains of."""
+        # A compiler may name a file by any path that ends in the name.
+        ends = {}
+        for file in self.sources:
+            for place in range(len(file.parts)):
+                ends["/".join(file.parts[place:])] = file
+
+        def source_of(path):
+            parts = path.split("/")
+            return next((ends[end] for end in ("/".join(parts[place:]) for place in
+                                               range(len(parts))) if end in ends), None)
+
         lines = collections.defaultdict(set)
         for text in re.split(r"^FAILED: ", errors, flags=re.M)[1:]:
             for pattern in (r":(\d+):\d+: (?:fatal )?error:", r":(\d+):\d+: +required from",
                             r":(\d+)[:,]"):
-                found = {(pathlib.Path(name), int(number)) for name, number in
-                         re.findall(rf"{re.escape(str(self.copy))}/([\w/.]+){pattern}", text)}
-                found |= {(pathlib.Path(name), int(number)) for name, number in
-                          re.findall(rf"build/layers/\w+/([\w/.]+){pattern}", text)}
-                found = {(name, number) for name, number in found if name in self.sources}
-                for name, number in found:
-                    lines[name].add(number)
+                found = {(source_of(path), int(number)) for path, number in
+                         re.findall(r"([\w/.+-]+)" + pattern, text) if source_of(path)}
+                for file, number in found:
+                    lines[file].add(number)
                 if found:
                     break
         dropped = 0

@@ -244,6 +244,8 @@ inline bool lambda(int a) { return [&] { return a > 1 && a < 3; }() || (a ? a ==
         self.assertEqual(texts("if (!out.can_push(cycle)) return;"), ["if (false) return;"])
         self.assertEqual(texts("a && b"), ["a || b"])
         self.assertEqual(texts("a - 1"), ["a + 1", "a - 2", "a - 0"])
+        header = "#ifndef A_H\nstruct A {\n  int a = 0, b = 1;\n  static constexpr int kC = 2;\n};\n"
+        self.assertEqual(len(texts(header)), 2, "what members are before they are set is no fault")
         no_code = '#if 1 < 2\n/* 1 + 2 */ f("1 == 2", \'1\', 0x10, 1\'000, 1e-9, T<3u>)'
         self.assertEqual(texts(no_code), [])
 

@@ -3,6 +3,8 @@
 // known in closed form, and the drivers over quads.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -156,6 +158,91 @@ TEST(Box, HonoursWrapModes) {
               1e-4);
   EXPECT_NEAR(box(image(picture, spec::texture::Wrap::kMirroredRepeat), outside, 1)[1], 3 * 8,
               1e-4);
+}
+
+// Every texel and every channel of its own value, and positions on both sides of the origin.
+tb::texture::Pyramid all_different(int size) {
+  return tb::texture::Pyramid(size, size, [](int x, int y) {
+    const auto value = [&](int by) { return static_cast<std::uint8_t>((x * 37 + y * 101) * by); };
+    return tb::texture::Rgba{value(1), value(3), value(7), value(13)};
+  });
+}
+
+// A texel of a level where the texture repeats, by its definition.
+std::array<double, 4> texel_of(const TextureImage& texture, int k, int x, int y) {
+  const TextureImage::Level& level = texture.level(k);
+  const auto within = [](int i, int size) { return ((i % size) + size) % size; };
+  const TextureImage::Texel& t = level.texels[static_cast<std::size_t>(
+      within(y, level.height) * level.width + within(x, level.width))];
+  return {t.r, t.g, t.b, t.a};
+}
+
+Colour bilinear_of(const TextureImage& texture, int k, double s, double t) {
+  const double size = texture.level(k).width / static_cast<double>(texture.width());
+  const double u = s * size - 0.5, v = t * size - 0.5;
+  const auto x = static_cast<int>(std::floor(u)), y = static_cast<int>(std::floor(v));
+  Colour sum{};
+  for (std::size_t c = 0; c < 4; ++c) {
+    const auto along = [&](int row) {
+      return std::lerp(texel_of(texture, k, x, row)[c], texel_of(texture, k, x + 1, row)[c], u - x);
+    };
+    sum[c] = std::lerp(along(y), along(y + 1), v - y);
+  }
+  return sum;
+}
+
+void expect_near(const Colour& a, const Colour& b, double error) {
+  for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(a[c], b[c], error) << "channel " << c;
+}
+
+TEST(Box, IsTheMeanOfItsPointsInEveryChannel) {
+  const TextureImage texture = image(all_different(8));
+  // No point falls on the border of a texel, where rounding would choose.
+  const PixelFootprint f{-1.2171, 0.3317, 2.5, 1.25, -0.75, 3.5};
+  constexpr int kSide = 5;
+  Colour bilinear{}, point{};
+  for (int j = 0; j < kSide; ++j) {
+    for (int i = 0; i < kSide; ++i) {
+      const double p = (i - 2) / 5.0, q = (j - 2) / 5.0;
+      const double s = f.s + p * f.s_x + q * f.s_y, t = f.t + p * f.t_x + q * f.t_y;
+      const Colour smooth = bilinear_of(texture, 0, s, t);
+      const auto nearest =
+          texel_of(texture, 0, static_cast<int>(std::floor(s)), static_cast<int>(std::floor(t)));
+      for (std::size_t c = 0; c < 4; ++c) {
+        bilinear[c] += smooth[c] / (kSide * kSide);
+        point[c] += nearest[c] / (kSide * kSide);
+      }
+    }
+  }
+  expect_near(box(texture, f, kSide), bilinear, 1e-3);
+  expect_near(box(texture, f, kSide, Tap::kPoint), point, 1e-3);
+}
+
+// A whole position is in the texel that begins there, on both sides of the origin.
+TEST(Box, APointOnABorderBelongsToTheTexelThatBegins) {
+  const TextureImage texture = image(all_different(8));
+  for (const int at : {-9, -8, -1, 0, 1, 7, 8}) {
+    const double place = at;
+    expect_near(box(texture, {place, 3, 0, 0, 0, 0}, 1, Tap::kPoint), texel_of(texture, 0, at, 3),
+                0);
+  }
+}
+
+TEST(Ellipse, TrilinearMixesTwoLevelsInEveryChannel) {
+  const TextureImage texture = image(all_different(8));
+  for (const double s : {-2.3, 0.0, 0.5, 3.7, 9.1}) {
+    for (const double t : {-1.1, 0.2, 6.9}) {
+      for (const double l : {-1.0, 0.0, 0.25, 1.0, 1.5, 2.75, 3.0, 8.0}) {
+        const double level = std::clamp(l, 0.0, 3.0);
+        const int k = static_cast<int>(level);
+        const Colour sharp = bilinear_of(texture, k, s, t),
+                     smooth = bilinear_of(texture, std::min(k + 1, 3), s, t);
+        Colour mixed{};
+        for (std::size_t c = 0; c < 4; ++c) mixed[c] = std::lerp(sharp[c], smooth[c], level - k);
+        expect_near(trilinear(texture, s, t, l), mixed, 1e-9);
+      }
+    }
+  }
 }
 
 // ---- EWA ----------------------------------------------------------------------------------------
