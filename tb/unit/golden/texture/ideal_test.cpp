@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "golden/ideal/box.h"
 #include "golden/ideal/ellipse.h"
@@ -52,6 +53,10 @@ TEST(IdealFootprint, OfALaneIsItsOwnRowAndColumn) {
   quad.coverage = 0b1010;
   const spec::texture::Quad quads[] = {quad, quad};
   EXPECT_EQ(pixel_footprints(quads, 64, 32).size(), 4u);
+  quad.coverage = 0b0100;
+  const auto only = pixel_footprints(std::span(&quad, 1), 64, 32);
+  ASSERT_EQ(only.size(), 1u);
+  EXPECT_DOUBLE_EQ(only[0].s, pixel_footprint(quad, 2, 64, 32).s);
 }
 
 TEST(IdealFootprint, FigureOneOfThePaper) {
@@ -321,6 +326,20 @@ TEST(Ewa, AnEllipseWithoutTexelsReadsThePoint) {
 
 // ---- texture image ------------------------------------------------------------------------------
 
+// Every wrap by walking: repeat starts again, mirrored repeat turns round, a clamp stays.
+TEST(IdealTexture, WrapModesAreWhatAWalkFinds) {
+  using spec::texture::Wrap;
+  for (const int size : {1, 5, 8}) {
+    for (int i = -3 * size; i < 3 * size; ++i) {
+      const int cell = i + 3 * size, turn = cell / size, rest = cell % size;
+      EXPECT_EQ(TextureImage::wrapped(Wrap::kRepeat, i, size), rest);
+      EXPECT_EQ(TextureImage::wrapped(Wrap::kMirroredRepeat, i, size),
+                turn % 2 == 1 ? rest : size - 1 - rest);
+      EXPECT_EQ(TextureImage::wrapped(Wrap::kClampToEdge, i, size), std::clamp(i, 0, size - 1));
+    }
+  }
+}
+
 TEST(IdealTexture, LevelsAreExactAreaMeans) {
   const tb::texture::Pyramid picture = tb::texture::noise(7, 5, 3);
   const TextureImage texture = image(picture);
@@ -344,6 +363,9 @@ TEST(IdealTexture, WrongSizesAreConfigErrors) {
   const std::uint8_t bytes[16] = {};
   EXPECT_THROW(TextureImage(2, 3, bytes), spec::ConfigError);
   EXPECT_THROW(TextureImage(0, 0, {}), spec::ConfigError);
+  EXPECT_THROW(TextureImage(0, 4, {}), spec::ConfigError);
+  EXPECT_THROW(TextureImage(4, 0, {}), spec::ConfigError);
+  EXPECT_EQ(TextureImage(2, 2, bytes).level(0).texels.size(), 4u);
   EXPECT_THROW(psnr(std::vector<Colour>(3), bytes), spec::ConfigError);
 }
 
