@@ -54,7 +54,7 @@ struct Footprint {
   int major = 0;            // candidate; of equally long ones the first
   std::uint32_t d_max = 0;  // its length
   // What tells the minor axis. Of two axes: the length of the other; of more: the area of the
-  // pixel's parallelogram, U30.16, which is d_max times the minor axis.
+  // pixel's parallelogram, U31.16, which is d_max times the minor axis.
   std::uint32_t d_min = 0;
   std::uint64_t area = 0;
   friend bool operator==(const Footprint&, const Footprint&) = default;

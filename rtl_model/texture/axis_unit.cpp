@@ -117,7 +117,7 @@ void AxisUnit::reset() {
   root_stages_.reset();
 }
 
-// Stages 1 and 2: U15.8 each, U30.16.
+// Stages 1 and 2: U15.8 each, U31.16.
 std::uint64_t AxisUnit::area(const DerivativeToken& in) {
   const auto product = [](std::uint32_t s, std::uint32_t t) {
     return std::uint64_t{s >> 8} * (t >> 8);

@@ -14,7 +14,7 @@
 // 22, and axis_clocks - 1; initiation interval axis_clocks; stalled by `downstream`, and then holds
 // still as a whole. Made for 250 MHz; longest path: 38-bit addition of four operands, or two 41-bit
 // additions, or two comparisons with a choice (32 bits; `exact` 62), or 23 x 23 bit multiply;
-// `exact`: 31-bit squarer. Formats: U15.16 with the signs of the differences in; U16.16, U30.16 and
+// `exact`: 31-bit squarer. Formats: U15.16 with the signs of the differences in; U16.16, U31.16 and
 // S9.24 out; candidates truncated, axis rounded. Cost: two 23 x 23 multipliers, a 47-bit subtractor
 // and a negation; 28 adders of 38 bits for the multiples of the derivatives (`four`: 12) and as
 // many of 40 bits for those of the differences; two 41-bit adders and two roundings; a candidate

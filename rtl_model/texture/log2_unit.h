@@ -6,7 +6,7 @@
 // three: 1 leading one and shift, 2 table, 3 correction. Latency 1 or 3, initiation interval 1;
 // stalled by `downstream`, and then holds still as a whole. Made for 250 MHz; longest path: 32-bit
 // leading-one detector (area: 47-bit), then a shifter of five levels (six); `exact`: 7 x 6 bit
-// multiply, then two 13-bit additions. Formats: U16.16 and U30.16 in, S5.12 out; the fraction is
+// multiply, then two 13-bit additions. Formats: U16.16 and U31.16 in, S5.12 out; the fraction is
 // truncated. Cost, each of two sides: a 32-bit leading-one detector and a shifter (`mitchell`:
 // nothing else, n and y only stand side by side); `corrected` a choice of eight constants and a
 // 13-bit adder; `segments` three adders; `exact` a 7 x 6 bit multiplier and two adders, and for
@@ -37,7 +37,7 @@ class Log2Unit final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override { pipe_.reset(); }
 
-  // All stages at once: lb d in S5.12 of d in U30.16.
+  // All stages at once: lb d in S5.12 of d in U31.16.
   static std::int32_t log2(spec::texture::Log2Rule rule, std::uint64_t d);
 
  private:

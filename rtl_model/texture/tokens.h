@@ -71,7 +71,7 @@ struct FootprintToken {
     visit("axis_s", self.axis_s, 34, "S9.24");
     visit("axis_t", self.axis_t, 34, "S9.24");
     visit("d_max", self.d_max, 32, "U16.16");
-    visit("minor", self.minor, 47, "U30.16");
+    visit("minor", self.minor, 47, "U31.16");
   }
 };
 

@@ -22,7 +22,7 @@ inline std::uint32_t bits_of_format(const std::string& format) {
   return *end == '\0' ? static_cast<std::uint32_t>(bits) : 0;
 }
 
-// How many fields have a number format; each of them has its width.
+// Every field that has a number format has its width; the number of such fields.
 template <class... Tokens>
 int expect_widths_of_formats() {
   int checked = 0;
