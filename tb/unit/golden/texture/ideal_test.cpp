@@ -53,10 +53,41 @@ TEST(IdealFootprint, OfALaneIsItsOwnRowAndColumn) {
   quad.coverage = 0b1010;
   const spec::texture::Quad quads[] = {quad, quad};
   EXPECT_EQ(pixel_footprints(quads, 64, 32).size(), 4u);
-  quad.coverage = 0b0100;
-  const auto only = pixel_footprints(std::span(&quad, 1), 64, 32);
-  ASSERT_EQ(only.size(), 1u);
-  EXPECT_DOUBLE_EQ(only[0].s, pixel_footprint(quad, 2, 64, 32).s);
+  for (const int lane : {0, 2, 3}) {
+    quad.coverage = static_cast<std::uint8_t>(1 << lane);
+    const auto only = pixel_footprints(std::span(&quad, 1), 64, 32);
+    ASSERT_EQ(only.size(), 1u);
+    EXPECT_DOUBLE_EQ(only[0].s, pixel_footprint(quad, lane, 64, 32).s);
+  }
+}
+
+// Of coordinates that all differ: along the row of the lane, and along its column.
+TEST(IdealFootprint, DifferencesAreThoseOfTheLanesNeighbours) {
+  spec::texture::Quad quad;
+  constexpr std::int32_t kUnit = spec::texture::kCoordinateOne / 256;
+  quad.s = {1 * kUnit, 3 * kUnit, 8 * kUnit, 21 * kUnit};
+  quad.t = {2 * kUnit, 7 * kUnit, 19 * kUnit, 53 * kUnit};
+  for (int lane = 0; lane < 4; ++lane) {
+    const PixelFootprint f = pixel_footprint(quad, lane, 256, 256);
+    const bool low = lane >= 2, right = lane % 2 == 1;
+    EXPECT_DOUBLE_EQ(f.s_x, low ? 13 : 2);
+    EXPECT_DOUBLE_EQ(f.t_x, low ? 34 : 5);
+    EXPECT_DOUBLE_EQ(f.s_y, right ? 18 : 7);
+    EXPECT_DOUBLE_EQ(f.t_y, right ? 46 : 17);
+  }
+}
+
+TEST(IdealLevel, TheBiasIsAddedIn256ths) {
+  spec::texture::Descriptor descriptor;
+  descriptor.levels = 9;
+  const spec::texture::Parameters parameters;
+  const PixelFootprint f{.s_x = 6, .t_x = 3, .s_y = -1, .t_y = 2};
+  const double without = level_of_detail(parameters, descriptor, f).l;
+  EXPECT_GT(without, 1);
+  descriptor.lod_bias = 128;
+  EXPECT_NEAR(level_of_detail(parameters, descriptor, f).l, without + 0.5, 1e-12);
+  descriptor.lod_bias = -128;
+  EXPECT_NEAR(level_of_detail(parameters, descriptor, f).l, without - 0.5, 1e-12);
 }
 
 TEST(IdealFootprint, FigureOneOfThePaper) {
@@ -344,6 +375,9 @@ TEST(IdealTexture, LevelsAreExactAreaMeans) {
   const tb::texture::Pyramid picture = tb::texture::noise(7, 5, 3);
   const TextureImage texture = image(picture);
   ASSERT_EQ(texture.levels(), 3);  // 7x5, 3x2, 1x1
+  const std::uint8_t bytes[8] = {};
+  EXPECT_EQ(TextureImage(2, 1, bytes).levels(), 2);
+  EXPECT_EQ(TextureImage(1, 2, bytes).levels(), 2);
   double mean = 0;
   for (const auto& texel : picture.levels.front().texels) mean += texel[1];
   EXPECT_NEAR(texture.level(2).texels[0].g, mean / 35, 1e-3);
