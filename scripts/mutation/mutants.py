@@ -27,7 +27,7 @@ INFIX = {"<": ">=", "<=": ">=", ">": ">=", "!=": "=="}
 # Values that members have before they are given others: nobody reads most of them, so that their
 # mutants are no faults. What a reset leaves is written where it is done.
 DEFAULTS = re.compile(r"^ {2}(?: {2})?(?!static|const|return|using|for|if)[\w:<>,* ]+? \w+(?: = \d+)?"
-                      r"(?:, \w+(?: = \d+)?)*;", re.M)
+                      r"(?:,\s+\w+(?: = \d+)?)*;", re.M)
 HEADER = re.compile(r"^#(?:ifndef \w+_H|pragma once)", re.M)
 
 Mutant = collections.namedtuple("Mutant", "kind begin end text")
