@@ -97,8 +97,9 @@ def page_of(root, record):
     text = HEAD + "\n".join(lines) + "\n\n"
     text += wrapped(
         f"Of {total['mutants']} mutants {run} were tried, {total['alone']} of them compiled alone; "
-        f"{total['mutants'] - run} were not: most are constants that the compiler works out, and "
-        "each of those needs a build. `not compiled` are no programs, and count nowhere. The goal "
+        f"{total['mutants'] - run} were not, since the campaign was ended before them, or since they "
+        "wait to be compiled alone: what the compiler works out costs a build each. `not compiled` "
+        "are no programs, and count nowhere. The goal "
         f"is {GOAL} % of those that are not explained; "
         + ("every folder reaches it." if not below else
            "below it: " + ", ".join(f"`{name}`" for name in below) + ".")) + "\n"
