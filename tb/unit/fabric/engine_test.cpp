@@ -209,6 +209,26 @@ TEST(Engine, ResetGivesEveryRegisterItsResetValue) {
   EXPECT_EQ(bed.host.read(kControl), 1U);
 }
 
+// One thing at a time: each leaves before the next one enters, at ever other differences.
+TEST(LatencyProbe, OfSingleItemsIsTheirTime) {
+  rtl::LatencyProbe probe;
+  Cycle c = 0;
+  for (Cycle stay = 1; stay < 200; ++stay) {
+    probe.enters(c += 3);
+    ASSERT_EQ(probe.leaves(c += stay), stay);
+  }
+  // Two inside, of two differences; then of three, of which the middle one ends first.
+  for (Cycle gap = 1; gap < 20; ++gap) {
+    probe.enters(c);
+    probe.enters(c + gap);
+    probe.enters(c + 5 * gap);
+    c += 6 * gap;
+    ASSERT_EQ(probe.leaves(c), 6 * gap);
+    ASSERT_EQ(probe.leaves(c), 5 * gap);
+    ASSERT_EQ(probe.leaves(c), gap);
+  }
+}
+
 TEST(LatencyProbe, AgreesWithAQueueOfTimes) {
   rtl::LatencyProbe probe;
   std::deque<Cycle> queue;

@@ -136,6 +136,7 @@ TEST(Link, MisuseSaysWhereAndWho) {
   link.push(17, 1);
   EXPECT_THROW(link.push(18, 2), spec::CheckFailed);
   EXPECT_THROW(Link<int>("none", 0), spec::CheckFailed);
+  EXPECT_THROW(Link<int>("endless", (1U << 24) + 1), spec::CheckFailed);
 }
 
 TEST(Link, ResetEmptiesIt) {
@@ -179,6 +180,29 @@ TEST(Ports, TwoProducersOrTwoBindingsAreRefused) {
   In<int> c("c"), d("d");
   c(link);
   EXPECT_THROW(d(link), spec::CheckFailed);
+  // A port that has a port, but no link yet, is bound as well.
+  Link<int> third("third");
+  Out<int> outer("outer"), inner("inner");
+  inner(outer);
+  EXPECT_THROW(inner(third), spec::CheckFailed);
+  EXPECT_THROW(inner(a), spec::CheckFailed);
+}
+
+TEST(Ports, ASecondOwnerIsNamedAsWhatItIs) {
+  Link<int> link("link");
+  const auto refused = [&](auto& first, auto& second) -> std::string {
+    first(link);
+    try {
+      second(link);
+    } catch (const spec::CheckFailed& error) {
+      return error.what();
+    }
+    return "";
+  };
+  Out<int> a("a"), b("b");
+  In<int> c("c"), d("d");
+  EXPECT_THAT(refused(a, b), testing::HasSubstr("link has two producers: a and b"));
+  EXPECT_THAT(refused(c, d), testing::HasSubstr("link has two consumers: c and d"));
 }
 
 TEST(Ports, UnboundPortIsFoundAtElaboration) {

@@ -353,6 +353,14 @@ TEST(MemoryPort, BurstOfNoLinesOrTooManyIsABug) {
   }
 }
 
+TEST(MemoryPort, OneToOneThousandMayBeOutstanding) {
+  rtl::ClockDomain clock("clock", kPeriod);
+  for (const std::uint32_t outstanding : {1u, 1024u})
+    EXPECT_NO_THROW(rtl::MemoryPort("port", clock, {.outstanding = outstanding}));
+  for (const std::uint32_t outstanding : {0u, 1025u})
+    EXPECT_THROW(rtl::MemoryPort("port", clock, {.outstanding = outstanding}), spec::CheckFailed);
+}
+
 TEST(MemoryPort, LinesHaveFourBytesAtLeastAndNoMoreThanABeat) {
   rtl::ClockDomain clock("clock", kPeriod);
   for (const std::uint32_t bytes : {4u, kLineBytes})

@@ -202,6 +202,8 @@ TEST(Counter, NeedsUnitAndMeaning) {
 TEST(Histogram, PercentilesAreExact) {
   rtl::Histogram histogram("latency", "clk", "test");
   EXPECT_EQ(histogram.percentile(50), 0U);
+  EXPECT_EQ(histogram.min(), 0U);
+  EXPECT_EQ(histogram.max(), 0U);
   for (std::uint64_t i = 1; i <= 1000; ++i) histogram.record(i);
   EXPECT_EQ(histogram.min(), 1U);
   EXPECT_EQ(histogram.max(), 1000U);
@@ -211,6 +213,13 @@ TEST(Histogram, PercentilesAreExact) {
   EXPECT_EQ(histogram.percentile(99), 990U);
   EXPECT_EQ(histogram.percentile(100), 1000U);
   EXPECT_EQ(histogram.sum(), 500'500U);
+  EXPECT_THROW(histogram.percentile(101), spec::CheckFailed);
+  rtl::Histogram zeros("zeros", "clk", "test");
+  zeros.record(0);
+  EXPECT_EQ(zeros.max(), 0U);
+  rtl::Histogram largest("largest", "clk", "test");
+  largest.record(~std::uint64_t{0});
+  EXPECT_EQ(largest.min(), ~std::uint64_t{0});
 }
 
 TEST(Histogram, LargeValuesAreExactToo) {

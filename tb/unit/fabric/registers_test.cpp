@@ -131,6 +131,15 @@ TEST_F(Registers, DebugTransportCoversSpansUpToAHole) {
   payload.set_command(tlm::TLM_READ_COMMAND);
   EXPECT_EQ(bus.socket->transport_dbg(payload), 12U);
   EXPECT_EQ(words[2], 3U);
+  // One word, and no byte beyond it; less than one is nothing.
+  words[0] = words[1] = 0x55555555;
+  payload.set_address(4);
+  payload.set_data_length(4);
+  EXPECT_EQ(bus.socket->transport_dbg(payload), 4U);
+  EXPECT_EQ(words[0], 2U);
+  EXPECT_EQ(words[1], 0x55555555U);
+  payload.set_data_length(3);
+  EXPECT_EQ(bus.socket->transport_dbg(payload), 0U);
   payload.set_address(0x100);
   EXPECT_EQ(bus.socket->transport_dbg(payload), 0U);
 }

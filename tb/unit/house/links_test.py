@@ -71,7 +71,9 @@ def code_problems(tree, text, where):
 
 
 def script_problems(tree, root):
-    for script in sorted((root / "scripts").glob("*")):
+    scripts = (path for path in (root / "scripts").rglob("*")
+               if path.is_file() and path.suffix not in (".pyc", ".h"))
+    for script in sorted(scripts):
         for number, line in enumerate(script.read_text(encoding="utf-8").splitlines(), 1):
             for path in PATH.findall(line):
                 if not tree.has_path(path):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """scripts/mutate on a tree of one file: what the test looks at is killed, what it does not look at
 survives, and the tree itself stays as it was. usage: mutate_test.py SOURCE [unittest options]"""
+import json
 import pathlib
 import re
 import subprocess
@@ -57,8 +58,8 @@ class Mutate(unittest.TestCase):
                     for line in done.stdout.splitlines()[:-1]]
         tested = "inline bool tested(int a) {{ return a {} }}"
         self.assertEqual([v for v in verdicts if "tested(int a)" in v[1]],
-                         [("killed", tested.format("<= 7;")), ("killed", tested.format("< 6;")),
-                          ("killed", tested.format("< 8;"))])
+                         [("killed", tested.format("<= 7;")), ("killed", tested.format("< 8;")),
+                          ("killed", tested.format("< 6;"))])
         rest = [v for v in verdicts if "tested(int a)" not in v[1]]
         self.assertEqual([verdict for verdict, _ in rest], ["survived"] * len(rest))
         self.assertIn('a != b ? "a < b"', rest[0][1])
@@ -69,10 +70,13 @@ class Mutate(unittest.TestCase):
     def test_a_script_judges_what_it_runs(self):
         done = self.mutate("tb/results/tiny.cpp", "--count", "0")
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
-        *killed, survivor, _ = done.stdout.splitlines()
-        self.assertEqual([(line.split()[0], line.rpartition("    ")[2]) for line in killed],
-                         [("killed", "by figures")] * 5, done.stdout)
-        self.assertRegex(survivor, "survived .* return argc < 2 [?] 0 : 2; }")
+        *verdicts, _ = done.stdout.splitlines()
+        killed = [line for line in verdicts if line.startswith("killed ")]
+        self.assertEqual([line.rpartition("    ")[2] for line in killed], ["by figures"] * 5,
+                         done.stdout)
+        survivors = [line for line in verdicts if line not in killed]
+        self.assertEqual(len(survivors), 1, done.stdout)
+        self.assertRegex(survivors[0], "survived .* return argc < 2 [?] 0 : 2; }")
 
     def test_tests_that_fail_by_themselves_judge_nothing(self):
         (self.root / "tiny_test.cpp").write_text("int main() { return 1; }\n", encoding="utf-8")
@@ -85,6 +89,118 @@ class Mutate(unittest.TestCase):
                           ["rtl_model/tiny/tiny.h", "--tests", "none_test"],
                           ["rtl_model/tiny/tiny.h", "--work", self.root / "copy"]):
             self.assertEqual(self.mutate(*arguments).returncode, 2, arguments)
+
+    def campaign(self, *arguments):
+        return self.mutate("--all", "--tests", "tiny_test", "--count", "0", "--work", self.work,
+                           *arguments)
+
+    def test_a_campaign_resumes_and_its_survivors_are_explained(self):
+        scratch = tempfile.TemporaryDirectory(prefix="deburr_tiny_work_")
+        self.addCleanup(scratch.cleanup)
+        self.work = pathlib.Path(scratch.name)
+        (self.root / "docs").mkdir()
+        done = self.campaign()
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        found = self.work / "results/local.jsonl"
+
+        def whole(text):
+            return [line for line in text.splitlines() if line.endswith("}")]
+
+        lines = whole(found.read_text(encoding="utf-8"))
+        self.assertEqual(len(set(lines)), 7, lines)
+
+        # Of a campaign that was killed while it wrote, all but the last line counts.
+        found.write_text("\n".join(lines[:3]) + "\n" + lines[3][:20], encoding="utf-8")
+        self.assertEqual(self.campaign().returncode, 1)
+        again = whole(found.read_text(encoding="utf-8"))
+        self.assertEqual(again[:3], lines[:3])
+        self.assertEqual(set(again), set(lines))
+
+        self.assertEqual(self.campaign("--again").returncode, 1)
+        again = whole(found.read_text(encoding="utf-8"))
+        self.assertEqual((len(again), set(again)), (7 + 4, set(lines)))
+
+        page = (self.root / "docs/mutation.md").read_text(encoding="utf-8")
+        self.assertIn("| `rtl_model/tiny` | 1 | 7 | 7 | 0 | 3 | 0 | 4 | 42.8 | 42.8 |", page)
+        self.assertEqual(self.mutate("--check").returncode, 0)
+
+        survivors = [entry for entry in map(json.loads, lines) if entry["verdict"] == "survived"]
+        explained = [{"file": e["file"], "was": e["was"], "is": e["is"], "reason": "tiny"}
+                     for e in survivors]
+        file = self.root / "tb/mutation/survivors.json"
+        file.write_text(json.dumps(explained), encoding="utf-8")
+        self.assertEqual(self.mutate("--check").returncode, 1)
+        self.assertEqual(self.mutate("--report", "--work", self.work).returncode, 0)
+        self.assertEqual(self.mutate("--check").returncode, 0)
+
+        killed = next(e for e in map(json.loads, lines) if e["verdict"] == "killed")
+        for wrong, what in (({**explained[0], "is": killed["is"], "was": killed["was"]}, "is killed"),
+                            ({**explained[0], "reason": " "}, "by nothing")):
+            file.write_text(json.dumps(explained[1:] + [wrong]), encoding="utf-8")
+            done = self.mutate("--report", "--work", self.work)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(what, done.stderr)
+        file.write_text(json.dumps(explained), encoding="utf-8")
+        header = self.root / "rtl_model/tiny/tiny.h"
+        header.write_text(header.read_text(encoding="utf-8").replace("ready ?", "!ready ?"),
+                          encoding="utf-8")
+        done = self.mutate("--check")
+        self.assertIn("its line is gone", done.stderr)
+        self.assertIn("1 files have changed", done.stdout)
+
+    def test_a_switch_does_what_the_text_would(self):
+        """Every mutant of functions over small numbers, behind its switch and as it stands."""
+        module = self.module()
+        source = """#include <string>
+inline int pure(int a, int b, int c) { return a < b && b <= c || !(a > c) && (b >= c || a == b); }
+inline bool seen(int& n, bool is) { n += 5; return is; }
+inline int asked(int a, int b) { int n = 3; const bool is = seen(n, a > 1) && seen(n, a != b) || seen(n, b == 2); return is ? n : b - 1 - n + 2; }
+inline int sums(int a, int b) { int s = 4; s += a - 2; s -= b + 1 - a * 2; return s << 1; }
+inline std::string texts(int a) { std::string t = "x"; t += "y"; return a + 1 > 1 ? t + "z" : t; }
+struct Three { unsigned a : 3; };
+inline int odd(int a) { Three t{static_cast<unsigned>(a & 3)}; const int n = a + 2; constexpr int k = 1 + 2; return (t.a == 2) + n + k; }
+template <bool is> int chosen(char c) { return is && c != 'b' || c == '"' && c ? 1 : 0; }
+inline int both(char c) { return chosen<true>(c) + chosen<false>(c); }
+inline bool lambda(int a) { return [&] { return a > 1 && a < 3; }() || (a ? a == 1 && true : false); }
+"""
+        call = """for (int a = 0; a < 4; ++a) for (int b = 0; b < 4; ++b) {
+  out << asked(a, b) << sums(a, b) << texts(a) << odd(a) << lambda(a)
+      << both("ab\\""[a]) << 1e-9;
+  for (int c = 0; c < 4; ++c) out << pure(a, b, c); }
+"""
+        all_of = module.mutants.mutants_of(source)
+        plain = ["#include <iostream>\n#include <sstream>\n#include <string>\n"]
+        texts = [source[:m.begin] + m.text + source[m.end:] for m in all_of]
+        # A mutant that is no program is left out on both sides: - between texts, -= to one.
+        possible = [n for n, text in enumerate(texts) if '- "z"' not in text
+                    and '-= "y"' not in text]
+        for n in possible:
+            plain.append(f"namespace m{n} {{\n{texts[n].partition(chr(10))[2]}}}\n"
+                         f"void f{n}(std::ostream& out) {{ using namespace m{n}; {call} }}\n")
+        plain.append("int main() {" + "".join(f"f{n}(std::cout); std::cout << '\\n';"
+                                               for n in possible) + "}\n")
+        schema = (module.mutants.schema_of(source, 0)
+                  + "#include <iostream>\nint main() { std::ostream& out = std::cout; "
+                  + call + "}\n")
+        for name, text, flags in (("plain", "".join(plain), []), ("schema", schema, [
+                "-include", str(SOURCE / "scripts/mutation/switch.h")])):
+            (self.root / f"{name}.cpp").write_text(text, encoding="utf-8")
+            subprocess.run(["g++", "-std=c++20", "-w", "-Wno-narrowing", *flags, "-o",
+                            self.root / name, self.root / f"{name}.cpp"], check=True)
+        wanted = subprocess.run([self.root / "plain"], capture_output=True, text=True,
+                                check=True).stdout.splitlines()
+        without = subprocess.run([self.root / "schema"], capture_output=True, text=True,
+                                 check=True).stdout
+        seen = {}
+        for n, line in zip(possible, wanted, strict=True):
+            seen[n] = subprocess.run([self.root / "schema"], capture_output=True, text=True,
+                                     check=True, env={"DEBURR_MUTANT": str(n)}).stdout
+            if "constexpr int k" in source[source.rfind(";", 0, all_of[n].begin):all_of[n].begin]:
+                self.assertEqual(seen[n], without, texts[n])
+            else:
+                self.assertEqual(seen[n], line, texts[n])
+        self.assertGreater(len(possible), 60)
+        self.assertGreater(sum(text != without for text in seen.values()), 50)
 
     @staticmethod
     def module():
@@ -111,7 +227,7 @@ class Mutate(unittest.TestCase):
                             ("golden/texture/filter.h",
                              ("golden_texture_", "rtl_texture_equivalence_")),
                             ("golden/morphological/line.cpp", ("golden_morphological_",)),
-                            ("golden/ideal/ewa.cpp", ("golden_texture_ideal_",))):
+                            ("golden/ideal/ewa.cpp", ("golden_texture_ideal_", "golden_ideal_"))):
             self.assertEqual(found(file), {name for name in programs if name.startswith(start)},
                              file)
             self.assertTrue(found(file))
@@ -123,12 +239,14 @@ class Mutate(unittest.TestCase):
         module = self.module()
 
         def texts(source):
-            return [source[:m.begin] + m.text + source[m.end:] for m in module.mutants_of(source)]
+            return [source[:m.begin] + m.text + source[m.end:] for m in module.mutants.mutants_of(source)]
 
         self.assertEqual(texts("if (!out.can_push(cycle)) return;"), ["if (false) return;"])
         self.assertEqual(texts("a && b"), ["a || b"])
-        self.assertEqual(texts("a - 1"), ["a + 1", "a - 0", "a - 2"])
-        no_code = '#if 1 < 2\n/* 1 + 2 */ f("1 == 2", \'1\', 0x10, 1\'000, T<3u>)'
+        self.assertEqual(texts("a - 1"), ["a + 1", "a - 2", "a - 0"])
+        header = "#ifndef A_H\nstruct A {\n  int a = 0, b = 1;\n  static constexpr int kC = 2;\n};\n"
+        self.assertEqual(len(texts(header)), 2, "what members are before they are set is no fault")
+        no_code = '#if 1 < 2\n/* 1 + 2 */ f("1 == 2", \'1\', 0x10, 1\'000, 1e-9, T<3u>)'
         self.assertEqual(texts(no_code), [])
 
 

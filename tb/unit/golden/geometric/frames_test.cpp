@@ -193,6 +193,10 @@ TEST(Layouts, EveryPixelHasAPlaceOfItsOwn) {
         tiled_places.insert(tiled.offset_of(x, y));
       }
     }
+    for (const FrameLayout* layout : {&raster, &tiled}) {
+      EXPECT_EQ(layout->block_columns(), (width - 1) / 4 + 1);
+      EXPECT_EQ(layout->block_rows(), (height - 1) / 4 + 1);
+    }
     EXPECT_EQ(raster_places.size(), static_cast<std::size_t>(width * height));
     EXPECT_EQ(tiled_places.size(), static_cast<std::size_t>(width * height));
     EXPECT_EQ(raster.bytes(), static_cast<std::uint32_t>(height * stride));

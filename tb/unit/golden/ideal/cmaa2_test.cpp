@@ -69,6 +69,38 @@ TEST(Cmaa2, TakesATenthOfEachNeighbourAtSimpleShapes) {
   EXPECT_EQ(middle(over({0, 1, 2, 3, 5})), 77);  // black among three, 76.5
 }
 
+// Each share has its count of edges: two, three and four.
+TEST(Cmaa2, TakesTheShareOfItsCount) {
+  Cmaa2Settings settings = in_codes();
+  settings.corner = 0.05;
+  settings.tip = 0.125;
+  settings.dot = 0.2;
+  const auto middle = [&](auto white) {
+    return cmaa2(drawn(3, 3, [=](int x, int y) { return white(3 * y + x) ? 255 : 0; }),
+                 settings)[4][0];
+  };
+  EXPECT_EQ(middle([](int i) { return i == 4; }), 51);             // 1 - 4/5
+  EXPECT_EQ(middle([](int i) { return i == 1 || i == 4; }), 159);  // 1 - 3/8, 159.4
+  // 1 - 2/20, 229.5
+  EXPECT_NEAR(middle([](int i) { return i < 2 || i == 3 || i == 4; }), 229.5, 0.5);
+}
+
+// A corner in the first row or column of the frame is one, too; beyond the last there is nothing.
+TEST(Cmaa2, BlendsAtTheBordersOfTheFrame) {
+  const ColourFrame frame = drawn(3, 3, [](int x, int y) { return x == 1 && y == 0 ? 255 : 0; });
+  for (const bool turn : {false, true}) {
+    const ColourFrame one = turn ? turned(frame) : frame;
+    const std::size_t place = turn ? one.index(0, 1) : one.index(1, 0);
+    EXPECT_EQ(cmaa2(one, in_codes())[place][0], 179);  // a tip: 178.5
+  }
+  const Cmaa2Edges edges{std::vector<bool>(9, true), std::vector<bool>(9, true), 2, 2};
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_TRUE(edges.has_right(i, 1) && edges.has_below(1, i));
+    EXPECT_FALSE(edges.has_right(2, i) || edges.has_right(i, 2) || edges.has_right(-1, i));
+    EXPECT_FALSE(edges.has_below(2, i) || edges.has_below(i, 2) || edges.has_below(i, -1));
+  }
+}
+
 // White over black, arms of 8 and 12 pixels. Of the left arm 4 pixels lie on the step's side of its
 // middle; the n-th from the step, from 0 on, takes (3.28 - n) / 3.78 / 2 of white. Of the right one
 // 6 pixels give (5.28 - n) / 5.78 / 2.

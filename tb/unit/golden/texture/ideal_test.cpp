@@ -3,8 +3,11 @@
 // known in closed form, and the drivers over quads.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "golden/ideal/box.h"
 #include "golden/ideal/ellipse.h"
@@ -50,6 +53,41 @@ TEST(IdealFootprint, OfALaneIsItsOwnRowAndColumn) {
   quad.coverage = 0b1010;
   const spec::texture::Quad quads[] = {quad, quad};
   EXPECT_EQ(pixel_footprints(quads, 64, 32).size(), 4u);
+  for (const int lane : {0, 2, 3}) {
+    quad.coverage = static_cast<std::uint8_t>(1 << lane);
+    const auto only = pixel_footprints(std::span(&quad, 1), 64, 32);
+    ASSERT_EQ(only.size(), 1u);
+    EXPECT_DOUBLE_EQ(only[0].s, pixel_footprint(quad, lane, 64, 32).s);
+  }
+}
+
+// Of coordinates that all differ: along the row of the lane, and along its column.
+TEST(IdealFootprint, DifferencesAreThoseOfTheLanesNeighbours) {
+  spec::texture::Quad quad;
+  constexpr std::int32_t kUnit = spec::texture::kCoordinateOne / 256;
+  quad.s = {1 * kUnit, 3 * kUnit, 8 * kUnit, 21 * kUnit};
+  quad.t = {2 * kUnit, 7 * kUnit, 19 * kUnit, 53 * kUnit};
+  for (int lane = 0; lane < 4; ++lane) {
+    const PixelFootprint f = pixel_footprint(quad, lane, 256, 256);
+    const bool low = lane >= 2, right = lane % 2 == 1;
+    EXPECT_DOUBLE_EQ(f.s_x, low ? 13 : 2);
+    EXPECT_DOUBLE_EQ(f.t_x, low ? 34 : 5);
+    EXPECT_DOUBLE_EQ(f.s_y, right ? 18 : 7);
+    EXPECT_DOUBLE_EQ(f.t_y, right ? 46 : 17);
+  }
+}
+
+TEST(IdealLevel, TheBiasIsAddedIn256ths) {
+  spec::texture::Descriptor descriptor;
+  descriptor.levels = 9;
+  const spec::texture::Parameters parameters;
+  const PixelFootprint f{.s_x = 6, .t_x = 3, .s_y = -1, .t_y = 2};
+  const double without = level_of_detail(parameters, descriptor, f).l;
+  EXPECT_GT(without, 1);
+  descriptor.lod_bias = 128;
+  EXPECT_NEAR(level_of_detail(parameters, descriptor, f).l, without + 0.5, 1e-12);
+  descriptor.lod_bias = -128;
+  EXPECT_NEAR(level_of_detail(parameters, descriptor, f).l, without - 0.5, 1e-12);
 }
 
 TEST(IdealFootprint, FigureOneOfThePaper) {
@@ -158,6 +196,91 @@ TEST(Box, HonoursWrapModes) {
               1e-4);
 }
 
+// Every texel and every channel of its own value, and positions on both sides of the origin.
+tb::texture::Pyramid all_different(int size) {
+  return tb::texture::Pyramid(size, size, [](int x, int y) {
+    const auto value = [&](int by) { return static_cast<std::uint8_t>((x * 37 + y * 101) * by); };
+    return tb::texture::Rgba{value(1), value(3), value(7), value(13)};
+  });
+}
+
+// A texel of a level where the texture repeats, by its definition.
+std::array<double, 4> texel_of(const TextureImage& texture, int k, int x, int y) {
+  const TextureImage::Level& level = texture.level(k);
+  const auto within = [](int i, int size) { return ((i % size) + size) % size; };
+  const TextureImage::Texel& t = level.texels[static_cast<std::size_t>(
+      within(y, level.height) * level.width + within(x, level.width))];
+  return {t.r, t.g, t.b, t.a};
+}
+
+Colour bilinear_of(const TextureImage& texture, int k, double s, double t) {
+  const double size = texture.level(k).width / static_cast<double>(texture.width());
+  const double u = s * size - 0.5, v = t * size - 0.5;
+  const auto x = static_cast<int>(std::floor(u)), y = static_cast<int>(std::floor(v));
+  Colour sum{};
+  for (std::size_t c = 0; c < 4; ++c) {
+    const auto along = [&](int row) {
+      return std::lerp(texel_of(texture, k, x, row)[c], texel_of(texture, k, x + 1, row)[c], u - x);
+    };
+    sum[c] = std::lerp(along(y), along(y + 1), v - y);
+  }
+  return sum;
+}
+
+void expect_near(const Colour& a, const Colour& b, double error) {
+  for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(a[c], b[c], error) << "channel " << c;
+}
+
+TEST(Box, IsTheMeanOfItsPointsInEveryChannel) {
+  const TextureImage texture = image(all_different(8));
+  // No point falls on the border of a texel, where rounding would choose.
+  const PixelFootprint f{-1.2171, 0.3317, 2.5, 1.25, -0.75, 3.5};
+  constexpr int kSide = 5;
+  Colour bilinear{}, point{};
+  for (int j = 0; j < kSide; ++j) {
+    for (int i = 0; i < kSide; ++i) {
+      const double p = (i - 2) / 5.0, q = (j - 2) / 5.0;
+      const double s = f.s + p * f.s_x + q * f.s_y, t = f.t + p * f.t_x + q * f.t_y;
+      const Colour smooth = bilinear_of(texture, 0, s, t);
+      const auto nearest =
+          texel_of(texture, 0, static_cast<int>(std::floor(s)), static_cast<int>(std::floor(t)));
+      for (std::size_t c = 0; c < 4; ++c) {
+        bilinear[c] += smooth[c] / (kSide * kSide);
+        point[c] += nearest[c] / (kSide * kSide);
+      }
+    }
+  }
+  expect_near(box(texture, f, kSide), bilinear, 1e-3);
+  expect_near(box(texture, f, kSide, Tap::kPoint), point, 1e-3);
+}
+
+// A whole position is in the texel that begins there, on both sides of the origin.
+TEST(Box, APointOnABorderBelongsToTheTexelThatBegins) {
+  const TextureImage texture = image(all_different(8));
+  for (const int at : {-9, -8, -1, 0, 1, 7, 8}) {
+    const double place = at;
+    expect_near(box(texture, {place, 3, 0, 0, 0, 0}, 1, Tap::kPoint), texel_of(texture, 0, at, 3),
+                0);
+  }
+}
+
+TEST(Ellipse, TrilinearMixesTwoLevelsInEveryChannel) {
+  const TextureImage texture = image(all_different(8));
+  for (const double s : {-2.3, 0.0, 0.5, 3.7, 9.1}) {
+    for (const double t : {-1.1, 0.2, 6.9}) {
+      for (const double l : {-1.0, 0.0, 0.25, 1.0, 1.5, 2.75, 3.0, 8.0}) {
+        const double level = std::clamp(l, 0.0, 3.0);
+        const int k = static_cast<int>(level);
+        const Colour sharp = bilinear_of(texture, k, s, t),
+                     smooth = bilinear_of(texture, std::min(k + 1, 3), s, t);
+        Colour mixed{};
+        for (std::size_t c = 0; c < 4; ++c) mixed[c] = std::lerp(sharp[c], smooth[c], level - k);
+        expect_near(trilinear(texture, s, t, l), mixed, 1e-9);
+      }
+    }
+  }
+}
+
 // ---- EWA ----------------------------------------------------------------------------------------
 
 // The definition without any trick: every texel of a large window, the conic from the inverse of
@@ -234,10 +357,27 @@ TEST(Ewa, AnEllipseWithoutTexelsReadsThePoint) {
 
 // ---- texture image ------------------------------------------------------------------------------
 
+// Every wrap by walking: repeat starts again, mirrored repeat turns round, a clamp stays.
+TEST(IdealTexture, WrapModesAreWhatAWalkFinds) {
+  using spec::texture::Wrap;
+  for (const int size : {1, 5, 8}) {
+    for (int i = -3 * size; i < 3 * size; ++i) {
+      const int cell = i + 3 * size, turn = cell / size, rest = cell % size;
+      EXPECT_EQ(TextureImage::wrapped(Wrap::kRepeat, i, size), rest);
+      EXPECT_EQ(TextureImage::wrapped(Wrap::kMirroredRepeat, i, size),
+                turn % 2 == 1 ? rest : size - 1 - rest);
+      EXPECT_EQ(TextureImage::wrapped(Wrap::kClampToEdge, i, size), std::clamp(i, 0, size - 1));
+    }
+  }
+}
+
 TEST(IdealTexture, LevelsAreExactAreaMeans) {
   const tb::texture::Pyramid picture = tb::texture::noise(7, 5, 3);
   const TextureImage texture = image(picture);
   ASSERT_EQ(texture.levels(), 3);  // 7x5, 3x2, 1x1
+  const std::uint8_t bytes[8] = {};
+  EXPECT_EQ(TextureImage(2, 1, bytes).levels(), 2);
+  EXPECT_EQ(TextureImage(1, 2, bytes).levels(), 2);
   double mean = 0;
   for (const auto& texel : picture.levels.front().texels) mean += texel[1];
   EXPECT_NEAR(texture.level(2).texels[0].g, mean / 35, 1e-3);
@@ -257,6 +397,9 @@ TEST(IdealTexture, WrongSizesAreConfigErrors) {
   const std::uint8_t bytes[16] = {};
   EXPECT_THROW(TextureImage(2, 3, bytes), spec::ConfigError);
   EXPECT_THROW(TextureImage(0, 0, {}), spec::ConfigError);
+  EXPECT_THROW(TextureImage(0, 4, {}), spec::ConfigError);
+  EXPECT_THROW(TextureImage(4, 0, {}), spec::ConfigError);
+  EXPECT_EQ(TextureImage(2, 2, bytes).level(0).texels.size(), 4u);
   EXPECT_THROW(psnr(std::vector<Colour>(3), bytes), spec::ConfigError);
 }
 

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: MIT
+"""Many mutants of many files: which of them, in which order, and what became of them."""
+import concurrent.futures
+import json
+import os
+import pathlib
+import random
+import re
+import shlex
+import subprocess
+import threading
+
+import yaml
+
+from mutation.mutants import shown
+from mutation.tree import Problem, digest
+
+ROUND = 8  # mutants of a file before it is the next file's turn
+PROFILE = ("conf", "partition", "time", "memory", "cpus", "tasks", "options", "setup")
+
+
+def sample(mutants, count, seed):
+    """The places of the mutants that are chosen, in the order of the choice."""
+    places = list(range(len(mutants)))
+    random.Random(seed).shuffle(places)
+    return places[:count] if count else places
+
+
+class Campaign:
+    """Results are lines of JSON in `work`/results, a file for each who writes: what is there is not
+    done again, and a file that has changed begins anew."""
+
+    def __init__(self, tree, judge, count, seed, say):
+        self.tree, self.judge, self.say = tree, judge, say
+        self.chosen = {file: sample(all_of, count, seed) for file, all_of in tree.mutants.items()}
+        self.lock = threading.Lock()
+
+    def key(self, file, place):
+        mutant = self.tree.mutants[file][place]
+        return (str(file), digest(self.tree.sources[file]), mutant.begin, mutant.kind, mutant.text)
+
+    def in_rounds(self):
+        """(file, place) such that an interrupted campaign has seen something of every file."""
+        rounds = max((len(places) for places in self.chosen.values()), default=0) // ROUND + 1
+        return [(file, place) for turn in range(rounds) for file, places in self.chosen.items()
+                for place in sorted(places[turn * ROUND:(turn + 1) * ROUND])]
+
+    def run(self, jobs, alone, again, name="local", part=0, parts=1):
+        """Judges what is not judged yet, or if `again` survived: behind switches first, then, if
+        `alone`, one by one what must be compiled. `part` of `parts` of them all."""
+        done = {key_of(entry) for entry in read_results(self.tree.work)
+                if not again or entry["verdict"] != "survived"}
+        wanted = [item for n, item in enumerate(self.in_rounds())
+                  if n % parts == part and self.key(*item) not in done]
+        folder = self.tree.work / "results"
+        folder.mkdir(exist_ok=True)
+        later = []
+        with (folder / f"{name}.jsonl").open("a+", encoding="utf-8") as out:
+            # The last line may be half of one, of a writer that was killed.
+            if out.tell():
+                out.write("\n")
+            def judged(number, item):
+                verdict = self.judge.by_switch(*item)
+                if verdict is None:
+                    later.append(item)
+                else:
+                    self.put(out, item, verdict, "switch")
+                if number % 200 == 0:
+                    self.say(f"{number} of {len(wanted)} mutants")
+
+            with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+                for future in [pool.submit(judged, *pair) for pair in enumerate(wanted)]:
+                    future.result()
+            # A header costs a build of nearly everything.
+            later.sort(key=lambda item: (item[0].suffix == ".h", wanted.index(item)))
+            for number, item in enumerate(later if alone else ()):
+                self.put(out, item, self.judge.alone(*item), "alone")
+                self.say(f"{number + 1} of {len(later)} mutants compiled alone")
+
+    def put(self, out, item, verdict, way):
+        file, place = item
+        line, before, after = shown(self.tree.sources[file], self.tree.mutants[file][place])
+        keys = dict(zip(("file", "hash", "begin", "kind", "text"), self.key(file, place)))
+        with self.lock:
+            out.write(json.dumps({**keys, "line": line, "was": before, "is": after, "way": way,
+                                  **verdict._asdict()}) + "\n")
+            out.flush()
+
+
+def key_of(entry):
+    return tuple(entry[name] for name in ("file", "hash", "begin", "kind", "text"))
+
+
+def read_results(work):
+    """Every whole line of every writer; what a test has killed once is killed."""
+    found = {}
+    for path in sorted((work / "results").glob("*.jsonl")):
+        for line in path.read_text(encoding="utf-8").splitlines():
+            try:
+                entry = json.loads(line)
+                if found.get(key_of(entry), {}).get("verdict") != "killed":
+                    found[key_of(entry)] = entry
+            except ValueError:  # its writer was killed
+                continue
+    return list(found.values())
+
+
+def read_profile(path):
+    try:
+        profile = yaml.safe_load(path.read_text(encoding="utf-8")) or {}
+    except (OSError, yaml.YAMLError) as error:
+        raise Problem(f"{path}: {error}") from error
+    if not isinstance(profile, dict) or set(profile) - set(PROFILE):
+        raise Problem(f"{path}: known keys are {', '.join(PROFILE)}")
+    return profile
+
+
+def submit(profile, work, command):
+    """A job array, each task of which judges its share; the number of the job."""
+    cpus, tasks = int(profile.get("cpus", 1)), int(profile.get("tasks", 16))
+    folder = work / "slurm"
+    folder.mkdir(exist_ok=True)
+    options = ["--job-name=deburr-mutants", f"--array=0-{tasks - 1}", "--ntasks=1",
+               f"--cpus-per-task={cpus}", "--requeue", "--open-mode=append",
+               f"--output={folder}/task_%a.log"]
+    options += [f"--{name}={profile[key]}" for key, name in
+                (("partition", "partition"), ("time", "time"), ("memory", "mem"))
+                if key in profile]
+    options += profile.get("options", [])
+    words = " ".join(shlex.quote(str(word)) for word in command)
+    script = "\n".join(["#!/bin/sh"] + [f"#SBATCH {option}" for option in options]
+                       + profile.get("setup", [])
+                       + [f"exec {words} --jobs {cpus} --part $SLURM_ARRAY_TASK_ID/{tasks}", ""])
+    (folder / "submit.sh").write_text(script, encoding="utf-8")
+    environment = dict(os.environ)
+    if "conf" in profile:
+        environment["SLURM_CONF"] = profile["conf"]
+    try:
+        done = subprocess.run(["sbatch", "--parsable", folder / "submit.sh"], env=environment,
+                              capture_output=True, text=True, check=False, timeout=60)
+    except (OSError, subprocess.TimeoutExpired) as error:
+        raise Problem(f"sbatch: {error}") from error
+    if done.returncode:
+        raise Problem(f"sbatch refuses: {done.stderr.strip()}")
+    return done.stdout.strip().partition(";")[0]

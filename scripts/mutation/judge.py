@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: MIT
+"""Which test finds which mutant."""
+import collections
+import hashlib
+import json
+import uuid
+
+from mutation.tree import MOST_SWITCHES, Problem, passes
+
+REACHED, NO_SUCH_OPERATOR = 1, 2
+Verdict = collections.namedtuple("Verdict", "verdict by")
+
+
+class Judge:
+    """Runs the tests of a tree once without any mutant, and then those that can find one."""
+
+    def __init__(self, tree, budget):
+        self.tree, self.budget = tree, budget
+        self.kills = collections.defaultdict(collections.Counter)
+        self.last = collections.defaultdict(list)
+
+    def baseline(self, say=None):
+        """What each test takes and reaches; tests that were asked before are not asked again."""
+        known, kept = self.tree.work / "baseline.jsonl", {}
+        tests = self.tree.tests_here()
+        if known.exists():
+            for line in known.read_text(encoding="utf-8").splitlines():
+                entry = json.loads(line)
+                kept[entry["test"]] = entry
+        self.tests, self.seconds, self.reach = tests, {}, collections.defaultdict(list)
+        self.impossible, failed = set(), []
+        asked = self.tree.work / f"reached_{uuid.uuid4().hex}"
+        programs = {path.name: hashlib.sha256(path.read_bytes()).hexdigest()[:16]
+                    for path in self.tree.build.rglob("*") if path.name in self.tree.targets}
+        everything = hashlib.sha256(json.dumps(programs, sort_keys=True).encode()).hexdigest()[:16]
+
+        def built_of(test):
+            return programs.get(test.program, everything)
+
+        with known.open("a", encoding="utf-8") as out:
+            for number, test in enumerate(tests.values()):
+                built = built_of(test)
+                entry = kept.get(test.name)
+                if not entry or entry["built"] != built:
+                    asked.write_bytes(bytes(MOST_SWITCHES))
+                    passed, took, _ = passes(test, test.limit * 4,
+                                             DEBURR_MUTANTS_REACHED=str(asked))
+                    answers = asked.read_bytes()
+                    entry = {"test": test.name, "built": built, "passed": passed,
+                             "seconds": round(took, 4),
+                             "reached": spans(n for n, a in enumerate(answers) if a & REACHED),
+                             "impossible": spans(n for n, a in enumerate(answers)
+                                                 if a == NO_SUCH_OPERATOR)}
+                    out.write(json.dumps(entry) + "\n")
+                    out.flush()
+                    if say and number % 100 == 0:
+                        say(f"baseline: {number} of {len(tests)} tests")
+                if not entry["passed"]:
+                    failed.append(test.name)
+                self.seconds[test.name] = entry["seconds"]
+                for begin, end in entry["reached"]:
+                    for n in range(begin, end):
+                        self.reach[n].append(test.name)
+                self.impossible |= {n for begin, end in entry["impossible"]
+                                    for n in range(begin, end)}
+        asked.unlink(missing_ok=True)
+        self.impossible -= set(self.reach)
+        if failed:
+            raise Problem("the tests fail without any fault; mend them first: "
+                          + ", ".join(failed[:8]))
+
+    def ordered(self, file, names):
+        """First what found the last mutants of the file, then the file's own tests, then by what a
+        test takes for what it finds."""
+        stem = file.stem
+        kills, last = self.kills[file], self.last[file]
+
+        def order(name):
+            program = self.tests[name].program
+            return (last.index(name) if name in last else 9, not program.endswith(f"_{stem}_test"),
+                    self.seconds[name] / (1 + kills[name]), name)
+
+        return sorted(names, key=order)
+
+    def judged_by(self, file, names, **environment):
+        spent = 0
+        for name in self.ordered(file, names):
+            seconds = self.seconds[name]
+            if spent and spent + seconds > self.budget:
+                continue
+            spent += seconds
+            passed, took, _ = passes(self.tests[name], 1 + 10 * seconds, **environment)
+            if not passed:
+                self.kills[file][name] += 1
+                self.last[file] = ([name] + [n for n in self.last[file] if n != name])[:3]
+                return Verdict("killed", name)
+        return Verdict("survived", "")
+
+    def by_switch(self, file, place):
+        """The verdict on a mutant that is behind a switch; None where it must be compiled alone."""
+        number = self.tree.first[file] + place
+        if place in self.tree.dropped[file]:
+            return None
+        if number in self.impossible:
+            return Verdict("invalid", "")
+        if number not in self.reach:
+            return None
+        return self.judged_by(file, self.reach[number], DEBURR_MUTANT=str(number))
+
+    def alone(self, file, place):
+        """The verdict on a mutant that is compiled as it stands."""
+        tree = self.tree
+        numbers = range(tree.first[file], tree.first[file] + len(tree.mutants[file]))
+        names = {name for number in numbers for name in self.reach.get(number, ())} or set(self.tests)
+        tree.put(file, plain=place)
+        try:
+            # The programs of the file's own tests first: most mutants need no other.
+            own = {self.tests[n].program for n in names
+                   if self.tests[n].program.endswith(f"_{file.stem}_test")} & tree.programs
+            groups = [own] if own else []
+            for programs in groups + [set(tree.targets) - own]:
+                if not programs:
+                    continue
+                if tree.run("ninja", "-C", tree.build, "-j", tree.jobs,
+                            *sorted(programs)).returncode != 0:
+                    return Verdict("invalid", "")
+                verdict = self.judged_by(file, {n for n in names
+                                                if (self.tests[n].program in own)
+                                                == (programs is own)})
+                if verdict.verdict == "killed":
+                    return verdict
+            return verdict
+        finally:
+            tree.put(file)
+
+
+def spans(numbers):
+    """Ascending numbers as [begin, end) of what follows one upon the other."""
+    found = []
+    for number in numbers:
+        if found and found[-1][1] == number:
+            found[-1][1] += 1
+        else:
+            found.append([number, number + 1])
+    return found

@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: MIT
+"""Which mutants a source text has, and the text that holds them all behind switches."""
+import bisect
+import collections
+import re
+
+# Code whose text may look like an operator or a number: comments, texts, characters, directives.
+NO_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|(?<!\w)\'(?:\\.|[^\'\\\n])+\''
+                     r'|^[ \t]*#[^\n]*|\bstatic_assert\b[^;]*;|\bvirtual\b[^;{}]* = 0;', re.S | re.M)
+COMPARISONS = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "=="}
+OTHER = {"+": "-", "-": "+", "+=": "-=", "-=": "+=", "&&": "||", "||": "&&"}
+
+# Kind, what it looks for, and what that may become. clang-format puts blanks around binary
+# operators, and none around the brackets of templates and the signs of numbers.
+RULES = [
+    ("comparison", re.compile(r"(?<= )(<=|>=|==|!=|<|>)(?=\s)"), lambda text: [COMPARISONS[text]]),
+    ("operator", re.compile(r"(?<= )(\+=|-=|\+|-|&&|\|\|)(?=\s)"), lambda text: [OTHER[text]]),
+    ("constant", re.compile(r"(?<![\w.'])(?<!\d[eE][-+])\d+(?![\w.'])"),
+     lambda text: [str(int(text) + 1)] + ([str(int(text) - 1)] if int(text) else [])),
+    ("stall", re.compile(r"!?(?<![\w.>)\]])(?:\w+(?:\[[^][]*\])?(?:\.|->))+can_(?:push|pop)\(\w+\)"),
+     lambda text: ["false" if text[0] == "!" else "true"]),
+]
+NAMES = {"<": "Less", "<=": "LessEqual", ">": "Greater", ">=": "GreaterEqual", "==": "Equal",
+         "!=": "NotEqual", "+": "Plus", "-": "Minus", "+=": "Add", "-=": "Subtract"}
+INFIX = {"<": ">=", "<=": ">=", ">": ">=", "!=": "=="}
+
+# Values that members have before they are given others: nobody reads most of them, so that their
+# mutants are no faults. What a reset leaves is written where it is done.
+DEFAULTS = re.compile(r"^ {2}(?: {2})?(?!static|const|return|using|for|if)[\w:<>,* ]+? \w+(?: = \d+)?"
+                      r"(?:,\s+\w+(?: = \d+)?)*;", re.M)
+HEADER = re.compile(r"^#(?:ifndef \w+_H|pragma once)", re.M)
+
+Mutant = collections.namedtuple("Mutant", "kind begin end text")
+
+
+def code_of(source):
+    """The source with blanks for what is no code, and quotes for texts and characters."""
+    return NO_CODE.sub(lambda m: re.sub(r"[^\n]", '"' if m.group()[0] in "\"'" else " ", m.group()),
+                       source)
+
+
+def mutants_of(source):
+    """Every mutant of a source text, in order."""
+    code = code_of(source)
+    unread = {at for m in (DEFAULTS.finditer(code) if HEADER.search(source) else ())
+              for at in range(m.start(), m.end())}
+    found = [Mutant(kind, m.start(), m.end(), text) for kind, pattern, variants in RULES
+             for m in pattern.finditer(code) if kind != "constant" or m.start() not in unread
+             for text in variants(m.group())]
+    # A constant's mutants stand one after the other, one more first: switch.h counts on it.
+    return sorted(found, key=lambda m: (m.begin, m.kind, -int(m.text) if m.text.isdigit() else 0))
+
+
+def operands(code, begin, end):
+    """The extents of what `&&` or `||` between two positions joins."""
+    ends = {"||", "?", ",", ";", "="} | ({"&&"} if code[begin:end] == "&&" else set())
+
+    def token(at):
+        if code[at:at + 2] in ("&&", "||"):
+            return code[at:at + 2]
+        if code[at] == ":":
+            return "" if ":" in (code[at - 1], code[at + 1]) else ";"
+        if code[at] == "=":
+            return "" if code[at - 1] in "=<>!" or code[at + 1] == "=" else "="
+        return code[at]
+
+    depth, at = 0, end
+    while at < len(code) - 1 and (depth or code[at] not in ")]}" and token(at) not in ends):
+        depth += (code[at] in "([{") - (code[at] in ")]}")
+        at += 1
+    right = end + len(code[end:at]) - len(code[end:at].lstrip()), end + len(code[end:at].rstrip())
+    # Towards the left `&&` binds what another `&&` joined.
+    ends.discard("&&")
+    if code[begin:end] == "||":
+        ends.discard("||")
+    depth, at = 0, begin
+    while at > 1 and (depth or code[at - 1] not in "([{" and token(at - 1) not in ends
+                      and code[at - 2:at] not in ends and not code[max(0, at - 6):at] == "return"
+                      and not re.match(r"}\s*\n", code[at - 1:begin])):
+        depth += (code[at - 1] in ")]}") - (code[at - 1] in "([{")
+        at -= 1
+    text = code[at:begin]
+    return (at + len(text) - len(text.lstrip()), at + len(text.rstrip())), right
+
+
+def schema_of(source, first, dropped=frozenset(), plain=None):
+    """The source with its mutants behind the switches `first`, `first` + 1, ... but for those whose
+    places in the list of mutants are `dropped`; `plain` stands in it as it is. Lines stay lines."""
+    code = code_of(source)
+    mutants = mutants_of(source)
+    # (position, what ends there before what begins there, outer before inner or reverse, text)
+    inserts, replaced = [], {}
+
+    def enclose(begin, end, level, before, after):
+        inserts.append((begin, 1, -end, level, before))
+        inserts.append((end, 0, -begin, -level, after))
+
+    for place, mutant in enumerate(mutants):
+        number, was = first + place, source[mutant.begin:mutant.end]
+        switch = f"::deburr_mutant::on<{number}>()"
+        if plain == place:
+            replaced[mutant.begin] = (mutant.end, mutant.text)
+        elif place in dropped:
+            continue
+        elif mutant.kind == "constant":
+            if mutant.begin not in replaced and int(mutant.text) > int(was):
+                replaced[mutant.begin] = (mutant.end,
+                                          f"::deburr_mutant::constant<{number}>({was})")
+        elif mutant.kind == "stall":
+            if plain is None or not mutant.begin <= mutants[plain].begin < mutant.end:
+                enclose(mutant.begin, mutant.end, 2,
+                        f"(!{switch} && " if was[0] == "!" else f"({switch} || ", ")")
+        elif was in ("&&", "||"):
+            left, right = operands(code, mutant.begin, mutant.end)
+            enclose(left[0], right[1], 1, "((", f") != {switch})")
+            for operand in (left, right):
+                enclose(*operand, 0, "(!!(", f") != {switch})")
+        else:
+            infix = INFIX.get(was, was)
+            replaced[mutant.begin] = (
+                mutant.end, f"{infix} ::deburr_mutant::{NAMES[was]}<{number}>{{}} {infix}")
+    inserts += [(begin, 2, 0, 0, text) for begin, (_, text) in replaced.items()]
+    pieces, at = [], 0
+    for position, kind, _, _, text in sorted(inserts):
+        pieces += [source[at:position], text]
+        at = replaced[position][0] if kind == 2 else max(at, position)
+    return "".join(pieces + [source[at:]])
+
+
+def lines_of(source):
+    """The numbers of the lines on which each mutant's schema stands, in the order of mutants_of."""
+    code = code_of(source)
+    starts = [0] + [m.end() for m in re.finditer("\n", source)]
+    number = lambda position: bisect.bisect_right(starts, position)
+    found = []
+    for mutant in mutants_of(source):
+        positions = [mutant.begin]
+        if mutant.text in ("&&", "||"):
+            positions += [p for extent in operands(code, mutant.begin, mutant.end) for p in extent]
+        found.append({number(position) for position in positions})
+    return found
+
+
+def shown(source, mutant):
+    """Number of the changed line, and the line before and after."""
+    begin = source.rfind("\n", 0, mutant.begin) + 1
+    end = source.find("\n", mutant.end)
+    line = source[begin:end if end >= 0 else None]
+    after = source[begin:mutant.begin] + mutant.text + source[mutant.end:begin + len(line)]
+    return source.count("\n", 0, begin) + 1, line.strip(), after.strip()

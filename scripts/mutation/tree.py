@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: MIT
+"""A copy of the tree in which files hold all of their mutants, its build and its tests."""
+import collections
+import hashlib
+import json
+import os
+import pathlib
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+from mutation import mutants
+
+LEFT_OUT = {".git", "build", "out", "__pycache__"}
+MOST_SWITCHES = 1 << 16  # as in switch.h
+HEADER = pathlib.Path("scripts/mutation/switch.h")
+# As much optimisation as makes the switches cheap; the tests are built once and run often.
+FLAGS = "-std=c++20 -w -Wno-narrowing -O1 -finline-small-functions -findirect-inlining -DNDEBUG"
+
+Test = collections.namedtuple("Test", "name program command folder environment limit")
+
+
+class Problem(Exception):
+    """Something that ends the work; the text says what."""
+
+
+def digest(text):
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def files_of(root):
+    return {path.relative_to(root) for path in root.rglob("*")
+            if path.is_file() and not LEFT_OUT & set(path.relative_to(root).parts)}
+
+
+def write(path, data):
+    """What is equal keeps its time, and so is not built again."""
+    if not path.exists() or path.read_bytes() != data:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data)
+
+
+class Tree:
+    """`files` are those whose mutants are of interest; a program is built for each test that
+    `tests` (a regular expression) chooses."""
+
+    def __init__(self, root, work, files, tests, jobs):
+        self.root, self.copy, self.work, self.jobs = root, work / "tree", work, jobs
+        self.build = self.copy / "build"
+        self.sources = {file: (root / file).read_text(encoding="utf-8") for file in files}
+        self.mutants = {file: mutants.mutants_of(text) for file, text in self.sources.items()}
+        self.first, number = {}, 0
+        for file in files:
+            self.first[file] = number
+            number += len(self.mutants[file])
+        if number > MOST_SWITCHES:
+            raise Problem(f"{number} mutants are more than switch.h has room for")
+        self.dropped = {file: set() for file in files}
+        self.remembered = work / "dropped.json"
+        if self.remembered.exists():
+            for file, (content, places) in json.loads(self.remembered.read_text()).items():
+                path = pathlib.Path(file)
+                if path in self.sources and digest(self.sources[path]) == content:
+                    self.dropped[path] = set(places)
+        self.tests = tests
+
+    def run(self, *command, needed=False):
+        done = subprocess.run([str(word) for word in command], capture_output=True, text=True,
+                              errors="replace", check=False)
+        if needed and done.returncode != 0:
+            raise Problem(f"{command[0]} failed\n{done.stdout[-4000:]}\n{done.stderr[-4000:]}")
+        return done
+
+    def put(self, file, plain=None):
+        """Writes a file with its schema, and the mutant `plain` as it is."""
+        text = mutants.schema_of(self.sources[file], self.first[file], self.dropped[file], plain)
+        write(self.copy / file, text.encode())
+
+    def prepare(self):
+        """Copies the tree, and builds it without the schemata that do not compile."""
+        wanted = files_of(self.root)
+        for name in wanted - set(self.sources):
+            write(self.copy / name, (self.root / name).read_bytes())
+            shutil.copymode(self.root / name, self.copy / name)
+        for name in files_of(self.copy) - wanted:
+            (self.copy / name).unlink()
+        here = pathlib.Path(__file__).resolve().parent / HEADER.name
+        header = self.work / HEADER.name
+        write(header, here.read_bytes())
+        for file in self.sources:
+            self.put(file)
+        self.run("cmake", "-S", self.copy, "-B", self.build, "-G", "Ninja",
+                 "-DCMAKE_BUILD_TYPE=None", f"-DCMAKE_CXX_FLAGS={FLAGS} -include {header}",
+                 needed=True)
+        self.choose()
+        while True:
+            done = self.run("ninja", "-C", self.build, "-j", self.jobs, "-k", "0", *self.targets)
+            if done.returncode == 0:
+                break
+            if not self.drop(done.stdout):
+                raise Problem(f"the tests do not build\n{done.stdout[-4000:]}")
+        self.remembered.write_text(json.dumps({
+            str(file): [digest(self.sources[file]), sorted(places)]
+            for file, places in self.dropped.items() if places}))
+
+    def drop(self, errors):
+        """Takes schemata away from the lines that the compiler complains of."""
+        # A compiler may name a file by any path that ends in the name.
+        ends = {}
+        for file in self.sources:
+            for place in range(len(file.parts)):
+                ends["/".join(file.parts[place:])] = file
+
+        def source_of(path):
+            parts = path.split("/")
+            return next((ends[end] for end in ("/".join(parts[place:]) for place in
+                                               range(len(parts))) if end in ends), None)
+
+        lines = collections.defaultdict(set)
+        for text in re.split(r"^FAILED: ", errors, flags=re.M)[1:]:
+            for pattern in (r":(\d+):\d+: (?:fatal )?error:", r":(\d+):\d+: +required from",
+                            r":(\d+)[:,]"):
+                found = {(source_of(path), int(number)) for path, number in
+                         re.findall(r"([\w/.+-]+)" + pattern, text) if source_of(path)}
+                for file, number in found:
+                    lines[file].add(number)
+                if found:
+                    break
+        dropped = 0
+        for file, numbers in lines.items():
+            new = {place for place, own in enumerate(mutants.lines_of(self.sources[file]))
+                   if own & numbers} - self.dropped[file]
+            for line in sorted(numbers):
+                print(f"no schema: {file}:{line}", file=sys.stderr)
+            dropped += len(new)
+            self.dropped[file] |= new
+            self.put(file)
+        return dropped
+
+    def choose(self):
+        """Which programs are built, and which tests they hold."""
+        listed = self.run("ninja", "-C", self.build, "-t", "targets", "all", needed=True).stdout
+        self.programs = set(re.findall(r"^(?:\S*/)?(\w+): CXX_EXECUTABLE_LINKER", listed, re.M))
+        chosen = {name for name in self.programs if re.fullmatch(self.tests, name)}
+        scripts = [test for test in self.listed()
+                   if re.fullmatch(self.tests, test["name"])
+                   and test["name"].partition(".")[0] not in self.programs]
+        if not chosen and not scripts:
+            raise Problem(f"no test matches {self.tests}: choose with --tests")
+        # A script is given the path of what it runs, as a word or in its environment.
+        runs = {path.rpartition("/")[2] for path in
+                re.findall(rf"{re.escape(str(self.build))}/[\w/.-]+", json.dumps(scripts))}
+        self.targets = sorted(chosen | runs & self.programs)
+        self.scripts = {test["name"] for test in scripts}
+        self.chosen = chosen
+
+    def listed(self):
+        done = self.run("ctest", "--test-dir", self.build, "--show-only=json-v1", needed=True)
+        return json.loads(done.stdout)["tests"]
+
+    def tests_here(self):
+        """The chosen tests that are built, by name."""
+        found = {}
+        for test in self.listed():
+            program = test["name"].partition(".")[0]
+            if "command" not in test or not (
+                    test["name"] in self.scripts
+                    or program in self.chosen and program in self.programs):
+                continue
+            properties = {p["name"]: p["value"] for p in test.get("properties", [])}
+            found[test["name"]] = Test(
+                test["name"], program, test["command"],
+                properties.get("WORKING_DIRECTORY", str(self.build)),
+                dict(word.split("=", 1) for word in properties.get("ENVIRONMENT", [])),
+                float(properties.get("TIMEOUT", 1500)))
+        return found
+
+
+def limits(seconds):
+    """What a test may take, whatever a mutant makes of it."""
+    def set_limits():
+        resource.setrlimit(resource.RLIMIT_CPU, (int(seconds) + 1, int(seconds) + 2))
+        resource.setrlimit(resource.RLIMIT_AS, (6 << 30, 6 << 30))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 28, 1 << 28))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    return set_limits
+
+
+def passes(test, cpu, **environment):
+    """Whether a test passes within `cpu` seconds of a processor, and how many it took."""
+    with tempfile.TemporaryDirectory(prefix="deburr_mutant_") as scratch:
+        before, began = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
+        process = subprocess.Popen(
+            test.command, cwd=test.folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL, start_new_session=True, preexec_fn=limits(cpu),
+            env=dict(os.environ, TMPDIR=scratch, **test.environment, **environment))
+        try:
+            # On a busy machine a second of a processor may take many; asleep it takes none.
+            passed = process.wait(timeout=20 + 10 * cpu) == 0
+        except subprocess.TimeoutExpired:
+            passed = False
+        finally:
+            try:
+                os.killpg(process.pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+            process.wait()
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    took = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return passed, took, time.monotonic() - began
