@@ -47,7 +47,7 @@ class Testplans(CommandTest):
     def test_what_is_missing_or_twice(self):
         self.refuse("title: Small\n", "t.yaml:1: 'features' is missing")
         self.refuse("features: []\n", "t.yaml:1: 'features' wants a list, got an empty one")
-        self.refuse(HEAD.replace("    checks: {colours: 1}\n", ""), "t.yaml:3: 'checks' is missing")
+        self.refuse(HEAD.replace("    checks: {colours: 1}\n", ""), "t.yaml:3: 'checks' is missing, and so is 'coverage'")
         self.refuse(HEAD + HEAD[HEAD.index("  - id"):], "t.yaml:9: there are two features 'filtering'")
         self.refuse(HEAD.replace("    checks", "      - {name: base, engine: texture}\n    checks"),
                     "t.yaml:8: there are two stimuli 'base'")

@@ -102,7 +102,7 @@ class Collector {
       seen.comparisons[name] += board.value("comparisons", std::uint64_t{0});
     const Bins bins = result.value("/coverage/bins"_json_pointer, Bins());
     tb::add(bins, seen.bins);
-    tb::add(bins, all_.coverage[run.point.engine]);
+    if (!bins.empty()) tb::add(bins, all_.coverage[run.point.engine]);
   }
 
   static void judge(FeatureResult& feature, const Seen& seen) {

@@ -150,8 +150,8 @@ struct Result {
   std::vector<UnitCycles> units;
   std::optional<Bottleneck> bottleneck;
   std::vector<MemoryFigures> memories;
-  std::vector<LinkFigures> links;  // of a run with windows
-  std::vector<MapFigures> maps;    // of a run with maps
+  std::vector<LinkFigures> links;                                // of a run with windows
+  std::vector<MapFigures> maps;                                  // of a run with maps
   std::optional<std::map<std::string, std::uint64_t>> coverage;  // hits by bin; run.coverage
   std::vector<WorkItem> work;
   std::vector<Figure> figures;
