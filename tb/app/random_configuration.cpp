@@ -131,7 +131,7 @@ const std::map<std::string_view, Draw>& draws() {
       {"morphological.line_pixels", evenly<96, 1100>},
       {"morphological.memory.outstanding", magnitude<4, 256>},
       {"geometric.line_pixels", evenly<96, 1100>},
-      {"geometric.touched_words", magnitude<24, 4000>},
+      {"geometric.touched_words", magnitude<25, 4000>},
       {"geometric.face_limit", [](Random& r) { return std::to_string(r.between(32, 100) * 1024); }},
       {"geometric.memory.outstanding", magnitude<8, 1024>},
       {"memory.latency", magnitude<1, 300>},

@@ -368,10 +368,11 @@ void ParameterSet::load(const std::filesystem::path& file) {
   const std::string text = read_file(file, kMaxConfigurationBytes);
   try {
     if (has_several_documents(text))
-      throw ConfigError(fmt::format(
-          "{}: holds more than one YAML document, or begins with what belongs to none, such as ','; "
-          "expected one map of parameters",
-          file.string()));
+      throw ConfigError(
+          fmt::format("{}: holds more than one YAML document, or begins with what belongs to none, "
+                      "such as ','; "
+                      "expected one map of parameters",
+                      file.string()));
     YamlLoader(*this, file.string()).load(YAML::Load(text));
   } catch (const YAML::Exception& e) {
     const std::string line =

@@ -58,7 +58,7 @@ TEST_P(RandomConfiguration, IsTheSameForTheSameSeed) {
 // What only the model can tell when it is built.
 TEST_P(RandomConfiguration, CanBeBuilt) {
   const std::string engine = GetParam();
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const std::string refused = forked_text([&]() -> std::string {
       const std::unique_ptr<Engine> made = engine_named(engine);
       BoundEngine bound(*made);
