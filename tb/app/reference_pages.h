@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// docs/parameters.md, statistics.md, registers.md and coverage.md, made from the declarations that the
-// program uses.
+// docs/parameters.md, statistics.md, registers.md and coverage.md, made from the declarations that
+// the program uses.
 #pragma once
 
 #include <memory>

@@ -230,7 +230,6 @@ TEST(SharesCoverage, EveryClassAndEveryWordThatCanBeAskedFor) {
                                << "abc"[table] << ' ' << word;
       if (can && !was) rest += fmt::format(" {}{}", "abc"[table], word);
     }
-  std::ofstream("shares_coverage.json") << coverage.json();
   std::ofstream("shares_not_asked.txt") << rest << '\n';
   for (std::size_t table = 0; table < 3; ++table) {
     EXPECT_LE(asked[table].size(), kNamed[table]);
