@@ -52,6 +52,9 @@ function(deburr_test name)
   endforeach()
   # The main() comes first: SystemC's library has one as well.
   target_link_libraries(${name} PRIVATE GTest::gmock_main ${ARG_LINK} deburr_options)
+  if("unit" IN_LIST ARG_LABELS)
+    target_link_libraries(${name} PRIVATE deburr_unit_options)
+  endif()
   # Values of parameters stay out of the names: some are addresses, or bytes of the compiler's choice.
   gtest_discover_tests(${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 TEST_LIST ${name}_tests
                        NO_PRETTY_VALUES PROPERTIES TIMEOUT ${ARG_TIMEOUT})

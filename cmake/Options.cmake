@@ -31,6 +31,10 @@ if(DEBURR_COVERAGE)
   target_link_options(deburr_options INTERFACE --coverage -Wl,--undefined=__gcov_dump)
 endif()
 
+# Unit tests are compiled to be run once: -O1 takes two thirds of the time of -O3.
+add_library(deburr_unit_options INTERFACE)
+target_compile_options(deburr_unit_options INTERFACE $<$<CONFIG:Release>:-O1>)
+
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
