@@ -189,6 +189,7 @@ class Painted final : public Environment {
   void collect(Result& result) const override { part.collect(result); }
   void show_parts(Observer& observer) const override { part.show_parts(observer); }
   std::vector<PictureMap> maps() const override { return part.maps(); }
+  Coverage coverage() const override { return part.coverage(); }
   void collect_headline(Result& result) const override { part.collect_headline(result); }
 
   GeometricEnvironment part;
