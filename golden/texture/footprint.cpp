@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <utility>
 
 #include "spec/texture/parameters.h"
@@ -12,13 +11,52 @@
 
 namespace deburr::golden::texture {
 
+namespace {
+
+// A root and what is left of its square: x = root^2 + rest, 0 <= rest <= 2 root.
+struct Root {
+  std::uint64_t root, rest;
+};
+
+// Of a number of which the upper half has the given root and whose lower half is `high` and `low`,
+// of `bits` bits each: a division by twice the root gives the lower half of the root, or one more
+// where the root fills its bits from the top (Zimmermann, "Karatsuba Square Root", 1999).
+constexpr Root lengthened(Root upper, int bits, std::uint64_t high, std::uint64_t low) {
+  const std::uint64_t dividend = upper.rest << bits | high;
+  const std::uint64_t digits = dividend / (2 * upper.root);
+  Root whole = {(upper.root << bits) + digits,
+                (dividend % (2 * upper.root) << bits | low) - digits * digits};
+  if (static_cast<std::int64_t>(whole.rest) < 0) {
+    --whole.root;
+    whole.rest += 2 * whole.root + 1;
+  }
+  return whole;
+}
+
+constexpr std::array<std::uint8_t, 256> kRootsOfBytes = [] {
+  std::array<std::uint8_t, 256> roots{};
+  for (unsigned x = 1, root = 0; x < roots.size(); ++x) {
+    if ((root + 1) * (root + 1) <= x) ++root;
+    roots[x] = static_cast<std::uint8_t>(root);
+  }
+  return roots;
+}();
+
+}  // namespace
+
 std::uint32_t integer_square_root(std::uint64_t x) {
-  constexpr std::uint64_t kLargest = 0xFFFFFFFF;
-  // x and its root are rounded to the nearest double, so the root of a square comes out exact and
-  // any other at most one too large, never too small.
-  const auto root = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(x)));
-  const std::uint64_t kept = std::min(root, kLargest);
-  return static_cast<std::uint32_t>(kept - (kept * kept > x ? 1 : 0));
+  if (x == 0) return 0;
+  const int shift = std::countl_zero(x) & ~1;  // by an even count, so that the root moves by half
+  const std::uint64_t n = x << shift;
+  const auto bits = [n](int from, int count) {
+    return n >> from & ((std::uint64_t{1} << count) - 1);
+  };
+  const std::uint64_t byte = kRootsOfBytes[bits(56, 8)];
+  Root root = {byte, bits(56, 8) - byte * byte};
+  root = lengthened(root, 4, bits(52, 4), bits(48, 4));
+  root = lengthened(root, 8, bits(40, 8), bits(32, 8));
+  root = lengthened(root, 16, bits(16, 16), bits(0, 16));
+  return static_cast<std::uint32_t>(root.root >> shift / 2);
 }
 
 std::uint32_t footprint_side(spec::texture::FootprintRule rule, std::uint32_t s, std::uint32_t t) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/texture/root_pipeline.h"
 
-#include <cmath>
+#include <bit>
 
 namespace deburr::rtl::texture {
 
@@ -26,11 +26,12 @@ void RootPipeline::two_digits(Root& r) {
 }
 
 std::uint32_t RootPipeline::root(std::uint64_t radicand) {
-  // The processor's root, put right by squares: digits took a twentieth of a simulated clock.
-  auto root = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(radicand)));
-  while (root * root > radicand) --root;
-  while ((root + 1) * (root + 1) <= radicand) ++root;
-  return static_cast<std::uint32_t>(root);
+  if (radicand == 0) return 0;
+  // Digits of which nothing has been brought down yet are 0, so the model leaves these stages out.
+  const int first = std::countl_zero(radicand) / 4;
+  Root r = {radicand << 4 * first, 0, 0};
+  for (int stage = first; stage < kDigitStages; ++stage) two_digits(r);
+  return r.root;
 }
 
 bool RootPipeline::step(const DerivativeToken* next, FootprintToken* result) {

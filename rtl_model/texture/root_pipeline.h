@@ -33,8 +33,7 @@ class RootPipeline {
   bool step(const DerivativeToken* next, FootprintToken* result);
   void reset() { pipe_.reset(); }
 
-  // What the digit stages find, at once: floor(sqrt(radicand)), for a unit that has no use for the
-  // digits in between.
+  // The digit stages at once: floor(sqrt(radicand)).
   static std::uint32_t root(std::uint64_t radicand);
 
  private:

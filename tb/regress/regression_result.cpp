@@ -102,7 +102,7 @@ class Collector {
       seen.comparisons[name] += board.value("comparisons", std::uint64_t{0});
     const Bins bins = result.value("/coverage/bins"_json_pointer, Bins());
     tb::add(bins, seen.bins);
-    if (!bins.empty()) tb::add(bins, all_.coverage[run.point.engine]);
+    for (const auto& [bin, hits] : bins) all_.coverage[bin.substr(0, bin.find('/'))][bin] += hits;
   }
 
   static void judge(FeatureResult& feature, const Seen& seen) {

@@ -59,7 +59,7 @@ struct RegressionResult {
   std::vector<RegressionRun> runs;
   std::vector<FeatureResult> features;
   std::vector<FailureBucket> buckets;
-  std::map<std::string, Bins> coverage;  // by engine
+  std::map<std::string, Bins> coverage;  // by the engine that bins are of, whatever ran it
   std::uint64_t passed = 0, failed = 0, missing = 0;
   // Every run passed, and every feature was checked and covered as it says.
   bool holds() const;
