@@ -142,6 +142,16 @@ TEST(RoundRobin, WhoWasGrantedWaitsForAllOthers) {
   EXPECT_THROW(rtl::RoundRobin(65), spec::CheckFailed);
 }
 
+TEST(RoundRobin, ServesOneAloneAndBeginsWithTheFirstAfterReset) {
+  EXPECT_EQ(rtl::RoundRobin(1).choose(1), 0);
+  rtl::RoundRobin arbiter(4);
+  EXPECT_EQ(arbiter.choose(0b1111), 0);
+  arbiter.grant(2);
+  EXPECT_EQ(arbiter.choose(0b1111), 3);
+  arbiter.reset();
+  EXPECT_EQ(arbiter.choose(0b1111), 0);
+}
+
 TEST(RoundRobin, NobodyWaitsLongerThanTheOthersTakeTurns) {
   constexpr int kRequesters = 64;
   rtl::RoundRobin arbiter(kRequesters);

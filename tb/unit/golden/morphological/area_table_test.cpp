@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "golden/ideal/smaa_area.h"
+#include "golden/morphological/arithmetic.h"
 #include "golden/morphological/corners.h"
 #include "golden/morphological/line.h"
 #include "spec/morphological/shapes.h"
@@ -50,6 +51,16 @@ void each_entry(Visit&& visit) {
   for (int pattern = 0; pattern < 16; ++pattern)
     for (int i = 0; i < 16; ++i)
       for (int j = 0; j < 16; ++j) visit(pattern, i, j);
+}
+
+TEST(SquareRoot, IsRoundedDownUpToTheLargest) {
+  using golden::morphological::isqrt;
+  constexpr std::uint64_t kLargest = (std::uint64_t{1} << 31) - 1;
+  for (const std::uint64_t root :
+       {std::uint64_t{1}, std::uint64_t{2}, kLargest / 2 + 1, kLargest}) {
+    EXPECT_EQ(isqrt(root * root), root);
+    EXPECT_EQ(isqrt(root * root - 1), root - 1);
+  }
 }
 
 TEST(AreaTable, HoldsTheRoundedAreas) {

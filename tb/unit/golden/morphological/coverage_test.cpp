@@ -18,6 +18,7 @@ using golden::morphological::CoverageBin;
 using golden::morphological::MorphologicalGolden;
 using golden::morphological::preset_parameters;
 using golden::morphological::RunCoverage;
+using golden::morphological::SmaaCoverage;
 using spec::morphological::Preset;
 using tb::Random;
 using tb::morphological::Frame;
@@ -161,6 +162,72 @@ TEST(SmaaCoverage, StaysEmptyWithoutItsBlocks) {
   MorphologicalGolden golden(preset_parameters(Preset::kDeburrLine));
   golden.process(Frame(tb::morphological::noise_image()).view());
   for (const CoverageBin& bin : golden.smaa_coverage().bins()) EXPECT_EQ(bin.hits, 0u) << bin.name;
+}
+
+// Holes in the list of bins itself would not show as bins that nobody hits.
+std::map<std::string, std::size_t> groups_of(const std::vector<CoverageBin>& bins) {
+  std::map<std::string, std::size_t> sizes;
+  for (const CoverageBin& bin : bins) ++sizes[bin.name.substr(0, bin.name.find('/'))];
+  return sizes;
+}
+
+std::map<std::string, std::uint64_t> hits_of(const std::vector<CoverageBin>& bins) {
+  std::map<std::string, std::uint64_t> hits;
+  for (const CoverageBin& bin : bins)
+    if (bin.hits != 0) hits[bin.name] = bin.hits;
+  return hits;
+}
+
+TEST(RunCoverage, ListsEveryBinOfEveryGroup) {
+  const std::map<std::string, std::size_t> expected = {
+      {"shape", 2 * 16 * 6},     {"long-end", 2 * 4}, {"prediction", 2 * 2 * (4 * 6 - 1)},
+      {"prediction-end", 2 * 5}, {"border", 2 * 4},   {"decision", 8}};
+  EXPECT_EQ(groups_of(RunCoverage().bins()), expected);
+}
+
+TEST(SmaaCoverage, ListsEveryBinOfEveryGroup) {
+  const std::map<std::string, std::size_t> expected = {
+      {"table", 2 * 16 * 5},   {"table-entry", 2 * 2},   {"search", 2 * 2 * 2},
+      {"diagonal", 2 * 16},    {"diagonal-ends", 2 * 4}, {"diagonal-length", 2 * 3},
+      {"threshold", 1 + 4 * 2}};
+  EXPECT_EQ(groups_of(SmaaCoverage().bins()), expected);
+}
+
+TEST(RunCoverage, CountsDecisionsAndBordersOnce) {
+  using spec::morphological::RunPart;
+  RunCoverage coverage;
+  coverage.count_pixel(golden::morphological::Decision::kNone);
+  coverage.count_pixels(golden::morphological::Decision::kNone, 4);
+  EXPECT_THAT(hits_of(coverage.bins()), testing::ElementsAre(testing::Pair("decision/none", 5)));
+
+  spec::morphological::RunRecord run;
+  run.part = RunPart::kTail;
+  run.start = 3, run.length = 5, run.line = 4;
+  RunCoverage inside, at_end;
+  inside.count_run(run, {}, 9, 9);
+  at_end.count_run(run, {}, 8, 9);
+  EXPECT_EQ(hits_of(inside.bins()).size(), 1u);  // the long end alone
+  EXPECT_EQ(hits_of(at_end.bins()).size(), 2u);
+}
+
+TEST(SmaaCoverage, EntriesOfTheTableAreTheFirstAndTheLast) {
+  using golden::morphological::TableAddress;
+  const auto entries = [](int before, int after) {
+    SmaaCoverage coverage;
+    TableAddress address;
+    while (spec::morphological::kRunShapes[static_cast<std::size_t>(address.shape)].before ==
+           spec::morphological::kRunShapes[static_cast<std::size_t>(address.shape)].after)
+      ++address.shape;
+    address.before = before, address.after = after;
+    coverage.count_pixel(spec::morphological::Axis::kHorizontal, address);
+    const auto hits = hits_of(coverage.bins());
+    return std::pair(hits.contains("table-entry/half/first"),
+                     hits.contains("table-entry/half/last"));
+  };
+  EXPECT_EQ(entries(0, 0), std::pair(true, false));
+  EXPECT_EQ(entries(0, 1), std::pair(false, false));
+  EXPECT_EQ(entries(14 * 14 - 1, 14 * 14), std::pair(false, false));
+  EXPECT_EQ(entries(14 * 14, 14 * 14), std::pair(false, true));
 }
 
 TEST(RunCoverage, LengthBinsAreThoseOfTheirNames) {
