@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 // `deburr_soak --seconds 3600`: docs/verification.md, "Soak".
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include "spec/error.h"
 #include "tb/app/run_once.h"
 #include "tb/soak/soak.h"
 
-int main(int argc, char** argv) {
-  using namespace deburr;
-  using namespace deburr::tb;
+namespace deburr::tb {
+namespace {
+
+int run(int argc, char** argv) {
   SoakOptions options;
   std::vector<std::string> sets;
   CLI::App app("Random configurations of all engines against their golden models");
@@ -28,16 +29,23 @@ int main(int argc, char** argv) {
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   CLI11_PARSE(app, argc, argv);
+  for (const std::string& engine : options.engines) engine_named(engine);
+  for (const std::string& text : sets) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) throw spec::ConfigError("--set: expected name=value");
+    options.settings.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+  }
+  return soak(options);
+}
+
+}  // namespace
+}  // namespace deburr::tb
+
+int main(int argc, char** argv) {
   try {
-    for (const std::string& engine : options.engines) engine_named(engine);
-    for (const std::string& text : sets) {
-      const std::size_t equals = text.find('=');
-      if (equals == std::string::npos) throw spec::ConfigError("--set: expected name=value");
-      options.settings.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-    }
-    return soak(options);
+    return deburr::tb::run(argc, argv);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "deburr_soak: {}\n", error.what());
+    std::fprintf(stderr, "deburr_soak: %s\n", error.what());
     return 2;
   }
 }
