@@ -28,7 +28,8 @@
 //
 // Bit 0 of a payload is bit 0 of its first field. An integer without list has its own width, a bool
 // one bit. An enumeration has no sign. The elements of an array are built alike, the names are
-// unique, a width is its format's (Ua.b, Sa.b), no bit of the C++ type is listed twice: all checked.
+// unique, a width is its format's (Ua.b, Sa.b), no bit of the C++ type is listed twice: all
+// checked.
 #pragma once
 
 #include <array>

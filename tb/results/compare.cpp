@@ -51,8 +51,8 @@ using Values = std::vector<std::pair<std::string, Json>>;
 void flatten(const Json& node, const std::string& path, Values& values) {
   // The host's speed says nothing about the hardware, nor do bins of coverage say what is better,
   // and the histogram has its percentiles.
-  if (path == "host" || path == "coverage" || path.ends_with("meaning") || path == "latency.histogram" ||
-      path == "schema")
+  if (path == "host" || path == "coverage" || path.ends_with("meaning") ||
+      path == "latency.histogram" || path == "schema")
     return;
   if (node.is_object()) {
     for (const auto& [key, value] : node.items())
