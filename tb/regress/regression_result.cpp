@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "rtl_model/fabric/trace.h"
 #include "spec/error.h"
 #include "tb/regress/failure_message.h"
 #include "tb/results/file.h"
@@ -117,7 +118,7 @@ class Collector {
     for (const RequiredBins& bins : feature.feature->coverage) {
       CoverageResult covered{bins, 0, {}};
       for (const auto& [bin, hits] : seen.bins) {
-        if (!matches_glob(bins.glob, bin)) continue;
+        if (!rtl::glob_match(bins.glob, bin)) continue;
         ++covered.bins;
         if (hits == 0) covered.holes.push_back(bin);
       }

@@ -193,27 +193,6 @@ class TestplanReader {
 
 }  // namespace
 
-bool matches_glob(std::string_view glob, std::string_view name) {
-  // On a mismatch the last star takes a character more.
-  std::size_t g = 0, n = 0, star = std::string_view::npos, taken = 0;
-  while (n < name.size()) {
-    if (g < glob.size() && glob[g] == '*') {
-      star = g++;
-      taken = n;
-    } else if (g < glob.size() && (glob[g] == '?' || glob[g] == name[n])) {
-      ++g;
-      ++n;
-    } else if (star != std::string_view::npos) {
-      g = star + 1;
-      n = ++taken;
-    } else {
-      return false;
-    }
-  }
-  while (g < glob.size() && glob[g] == '*') ++g;
-  return g == glob.size();
-}
-
 Testplan read_testplan(const fs::path& file) { return TestplanReader(YamlFile(file)).read(); }
 
 }  // namespace deburr::tb

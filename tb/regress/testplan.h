@@ -56,7 +56,4 @@ struct Testplan {
 // of the testplan and in those around it.
 Testplan read_testplan(const std::filesystem::path& file);
 
-// Whether a name has the form of a glob, in which * stands for any text and ? for any character.
-bool matches_glob(std::string_view glob, std::string_view name);
-
 }  // namespace deburr::tb

@@ -69,17 +69,6 @@ TEST(WaveWindow, SurroundsTheFailure) {
   EXPECT_EQ(wave_window(3).from, 0u);
 }
 
-TEST(Glob, StarsAndQuestionMarks) {
-  EXPECT_TRUE(matches_glob("a/*/c", "a/b/c"));
-  EXPECT_TRUE(matches_glob("a/*/c", "a/b/b/c"));
-  EXPECT_TRUE(matches_glob("*a*b*", "xxaxxabxb"));
-  EXPECT_TRUE(matches_glob("major/2/?", "major/2/1"));
-  EXPECT_FALSE(matches_glob("major/2/?", "major/2/10"));
-  EXPECT_FALSE(matches_glob("a/*/c", "a/b/d"));
-  EXPECT_FALSE(matches_glob("a", "ab"));
-  EXPECT_TRUE(matches_glob("a*", "a"));
-}
-
 TEST(DerivedSeed, FollowsFromBaseSeedPointAndPurpose) {
   const std::uint64_t seed = derived_seed(20261122, "feature/presets/base/0", "run.seed");
   EXPECT_EQ(derived_seed(20261122, "feature/presets/base/0", "run.seed"), seed);
