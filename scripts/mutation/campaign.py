@@ -45,11 +45,13 @@ class Campaign:
         return [(file, place) for turn in range(rounds) for file, places in self.chosen.items()
                 for place in sorted(places[turn * ROUND:(turn + 1) * ROUND])]
 
-    def run(self, jobs, alone, again, name="local", part=0, parts=1):
-        """Judges what is not judged yet, or if `again` survived: behind switches first, then, if
-        `alone`, one by one what must be compiled. `part` of `parts` of them all."""
+    def run(self, jobs, alone, again, explained=(), name="local", part=0, parts=1):
+        """Judges what is not judged yet, or if `again` survived and is not `explained`: behind
+        switches first, then, if `alone`, one by one what must be compiled. `part` of `parts` of
+        them all."""
         done = {key_of(entry) for entry in read_results(self.tree.work)
-                if not again or entry["verdict"] != "survived"}
+                if not again or entry["verdict"] != "survived"
+                or (entry["file"], entry["was"], entry["is"]) in explained}
         wanted = [item for n, item in enumerate(self.in_rounds())
                   if n % parts == part and self.key(*item) not in done]
         folder = self.tree.work / "results"

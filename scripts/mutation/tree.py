@@ -18,6 +18,9 @@ from mutation import mutants
 
 LEFT_OUT = {".git", "build", "out", "__pycache__"}
 MOST_SWITCHES = 1 << 16  # as in switch.h
+# The numbers of a file begin at a multiple of it, with room for what the file may grow by, so that
+# a file that changes does not renumber, and so rebuild, all that come behind it.
+STEP, ROOM = 64, 16
 HEADER = pathlib.Path("scripts/mutation/switch.h")
 # As much optimisation as makes the switches cheap; the tests are built once and run often.
 FLAGS = "-std=c++20 -w -Wno-narrowing -O1 -finline-small-functions -findirect-inlining -DNDEBUG"
@@ -57,7 +60,7 @@ class Tree:
         self.first, number = {}, 0
         for file in files:
             self.first[file] = number
-            number += len(self.mutants[file])
+            number = -(-(number + len(self.mutants[file]) + ROOM) // STEP) * STEP
         if number > MOST_SWITCHES:
             raise Problem(f"{number} mutants are more than switch.h has room for")
         self.dropped = {file: set() for file in files}
