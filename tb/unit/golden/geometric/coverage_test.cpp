@@ -2,6 +2,9 @@
 // Can every bin of the functional coverage be reached, and does a bin count what it says?
 #include <gmock/gmock.h>
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string>
 
@@ -127,6 +130,247 @@ TEST(Coverage, BinsCountWhatTheWorkCounts) {
       work.passed);
   golden.clear_coverage();
   for (const CoverageBin& bin : golden.coverage().bins()) EXPECT_EQ(bin.hits, 0u);
+}
+
+// ---- what each bin counts, one thing at a time --------------------------------------------------
+
+std::map<std::string, std::uint64_t> hits_of(const EdgeCoverage& coverage) {
+  std::map<std::string, std::uint64_t> hits;
+  for (const CoverageBin& bin : coverage.bins())
+    if (bin.hits != 0) hits[bin.name] = bin.hits;
+  return hits;
+}
+
+template <class... Names>
+std::map<std::string, std::uint64_t> once(Names... names) {
+  return {{names, 1}...};
+}
+
+// In a frame of 20 x 10.
+std::map<std::string, std::uint64_t> line_hits(int x0, int y0, int x1, int y1) {
+  EdgeCoverage coverage;
+  coverage.count_line({x0, y0, 0, true}, {x1, y1, 0, true}, 20, 10);
+  return hits_of(coverage);
+}
+
+TEST(Coverage, LinesHaveTheOctantOfTheirDirection) {
+  const auto octant = [](int dx, int dy) { return line_hits(1000, 1000, 1000 + dx, 1000 + dy); };
+  const auto is = [](const std::string& name) {
+    return once("line/" + name + "/below-four", std::string("columns/none"),
+                std::string("rows/inside"));
+  };
+  EXPECT_EQ(octant(300, 299), is("right-down"));
+  EXPECT_EQ(octant(300, 0), is("right-down"));
+  EXPECT_EQ(octant(300, -1), is("right-up"));
+  EXPECT_EQ(octant(300, -299), is("right-up"));
+  EXPECT_EQ(octant(-300, 299), is("left-down"));
+  EXPECT_EQ(octant(-300, 0), is("left-down"));
+  EXPECT_EQ(octant(-300, -1), is("left-up"));
+  // A diagonal goes along the rows.
+  EXPECT_EQ(octant(300, 300), is("down-right"));
+  EXPECT_EQ(octant(0, 300), is("down-right"));
+  EXPECT_EQ(octant(-1, 300), is("down-left"));
+  EXPECT_EQ(octant(-300, 300), is("down-left"));
+  EXPECT_EQ(octant(300, -300), is("up-right"));
+  EXPECT_EQ(octant(0, -300), is("up-right"));
+  EXPECT_EQ(octant(-1, -300), is("up-left"));
+}
+
+TEST(Coverage, LinesEndBelowAPixelAndBelowFour) {
+  const auto length = [](int dx) { return line_hits(100, 1000, 100 + dx, 1000); };
+  const auto is = [](const std::string& name) {
+    return once("line/right-down/" + name, std::string("columns/none"), std::string("rows/inside"));
+  };
+  EXPECT_EQ(length(1), is("below-pixel"));
+  EXPECT_EQ(length(255), is("below-pixel"));
+  EXPECT_EQ(length(256), is("below-four"));
+  EXPECT_EQ(length(1023), is("below-four"));
+  EXPECT_EQ(length(1024), is("longer"));
+}
+
+// The frame cuts off the columns whose centres it does not have: that at -1/2 and that half a pixel
+// behind the last one's end.
+TEST(Coverage, ColumnsAreCutAtTheCentresBesideTheFrame) {
+  const auto cut = [](int from, int to, bool horizontal) {
+    const auto hits = horizontal ? line_hits(from, 300, to, 300) : line_hits(300, from, 300, to);
+    EXPECT_EQ(hits.size(), 3u);
+    return hits.begin()->first;  // "columns/" is the first of them
+  };
+  for (const bool horizontal : {true, false}) {
+    const int end = horizontal ? 20 * 256 : 10 * 256;
+    EXPECT_EQ(cut(-127, end + 128, horizontal), "columns/none");
+    EXPECT_EQ(cut(-128, end + 128, horizontal), "columns/start");
+    EXPECT_EQ(cut(-127, end + 129, horizontal), "columns/end");
+    EXPECT_EQ(cut(-128, end + 129, horizontal), "columns/both");
+    EXPECT_EQ(cut(end + 128, -128, horizontal), "columns/start");
+    EXPECT_EQ(cut(end + 129, -127, horizontal), "columns/end");
+  }
+}
+
+TEST(Coverage, RowsAreEnteredAndLeftAtTheFramesBorders) {
+  const auto rows = [](int from, int to, bool swapped) {
+    auto hits = swapped ? line_hits(5000, to, 128, from) : line_hits(128, from, 5000, to);
+    EXPECT_EQ(std::erase_if(hits, [](const auto& bin) { return bin.first[0] != 'r'; }), 2u);
+    return hits;
+  };
+  constexpr int kEnd = 10 * 256;
+  for (const bool swapped : {false, true}) {
+    EXPECT_EQ(rows(0, kEnd - 1, swapped), once("rows/inside"));
+    EXPECT_EQ(rows(kEnd - 1, 0, swapped), once("rows/inside"));
+    EXPECT_EQ(rows(-1, 0, swapped), once("rows/enters-before"));
+    EXPECT_EQ(rows(0, -1, swapped), once("rows/leaves-before"));
+    EXPECT_EQ(rows(kEnd, 0, swapped), once("rows/enters-behind"));
+    EXPECT_EQ(rows(0, kEnd, swapped), once("rows/leaves-behind"));
+    EXPECT_EQ(rows(-1, kEnd, swapped), once("rows/enters-before", "rows/leaves-behind"));
+  }
+}
+
+TEST(Coverage, TiesAreOfTheAxisAndTheSlope) {
+  const auto tie = [](spec::geometric::Axis axis, int slope) {
+    EdgeCoverage coverage;
+    spec::geometric::LineRecord line;
+    line.axis = axis;
+    line.slope = slope;
+    coverage.count_tie(line);
+    return hits_of(coverage);
+  };
+  using spec::geometric::Axis;
+  EXPECT_EQ(tie(Axis::kHorizontal, -1), once("tie/horizontal-rising"));
+  EXPECT_EQ(tie(Axis::kHorizontal, 0), once("tie/horizontal-level"));
+  EXPECT_EQ(tie(Axis::kHorizontal, 1), once("tie/horizontal-falling"));
+  for (const int slope : {-1, 0, 1}) EXPECT_EQ(tie(Axis::kVertical, slope), once("tie/vertical"));
+}
+
+TEST(Coverage, DepthIsThatOfTheFartherPixel) {
+  const auto depth = [](std::uint32_t own, std::uint32_t other, bool passed) {
+    EdgeCoverage coverage;
+    coverage.count_depth(own, other, passed);
+    return hits_of(coverage);
+  };
+  EXPECT_EQ(depth(1, 2, false), once("depth/own/behind"));
+  EXPECT_EQ(depth(1, 2, true), once("depth/own/passed"));
+  EXPECT_EQ(depth(2, 1, false), once("depth/other/behind"));
+  EXPECT_EQ(depth(2, 1, true), once("depth/other/passed"));
+  EXPECT_EQ(depth(2, 2, false), once("depth/equal/behind"));
+  EXPECT_EQ(depth(2, 2, true), once("depth/equal/passed"));
+  EXPECT_EQ(depth(0, 2, true), once("depth/background/passed"));
+  EXPECT_EQ(depth(2, 0, true), once("depth/background/passed"));
+  EXPECT_EQ(depth(0, 0, true), once("depth/background/passed"));
+}
+
+TEST(Coverage, WeightsAreRaisedKeptOrOverwritten) {
+  using spec::geometric::Direction;
+  using spec::geometric::Weights;
+  const auto weight = [](Combine rule, const Weights& before, Direction to, int coverage) {
+    EdgeCoverage result;
+    result.count_weight(rule, before, to, coverage);
+    return hits_of(result);
+  };
+  const Weights before = {10, 20, 30, 40};
+  const std::array<std::string, 4> names = {"top", "bottom", "left", "right"};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto to = static_cast<Direction>(i);
+    const std::string name = "weight/" + names[i];
+    EXPECT_EQ(weight(Combine::kMax, before, to, before[i] + 1), once(name + "/raised"));
+    EXPECT_EQ(weight(Combine::kMax, before, to, before[i] - 1), once(name + "/kept"));
+    EXPECT_EQ(weight(Combine::kMax, before, to, before[i]), once(name + "/equal"));
+    // The last line overwrites all four, so that any of them counts.
+    Weights one = {};
+    one[(i + 1) % 4] = 1;
+    EXPECT_EQ(weight(Combine::kLast, one, to, 5), once(name + "/overwritten"));
+    EXPECT_TRUE(weight(Combine::kLast, {}, to, 5).empty());
+  }
+}
+
+TEST(Coverage, TapsAreOfTheHeavierAxis) {
+  const auto tap = [](const spec::geometric::Weights& weights) {
+    EdgeCoverage coverage;
+    coverage.count_tap(weights);
+    return hits_of(coverage);
+  };
+  for (const bool swapped : {false, true}) {
+    const auto w = [&](int a, int b, int c, int d) {
+      const auto byte = [](int value) { return static_cast<std::uint8_t>(value); };
+      return swapped ? spec::geometric::Weights{byte(b), byte(a), byte(d), byte(c)}
+                     : spec::geometric::Weights{byte(a), byte(b), byte(c), byte(d)};
+    };
+    EXPECT_EQ(tap(w(10, 20, 15, 14)), once("resolve/up-down"));
+    EXPECT_EQ(tap(w(10, 20, 15, 15)), once("resolve/tie"));
+    EXPECT_EQ(tap(w(10, 20, 15, 16)), once("resolve/left-right"));
+    EXPECT_EQ(tap(w(1, 0, 0, 0)), once("resolve/up-down"));
+    EXPECT_EQ(tap(w(0, 0, 1, 0)), once("resolve/left-right"));
+  }
+}
+
+// Each counter by itself: the bin's name, and no other bin.
+TEST(Coverage, EnumerationsHaveABinEach) {
+  using golden::geometric::CacheKind;
+  using golden::geometric::Fetch;
+  using golden::geometric::GroupEnd;
+  using golden::geometric::LineFate;
+  using golden::geometric::Original;
+  const auto after = [](auto&& count) {
+    EdgeCoverage coverage;
+    count(coverage);
+    return hits_of(coverage);
+  };
+  const auto fate = [&](LineFate f) { return after([&](EdgeCoverage& c) { c.count_fate(f); }); };
+  EXPECT_TRUE(fate(LineFate::kLine).empty());
+  EXPECT_EQ(fate(LineFate::kOutside), once("fate/outside"));
+  EXPECT_EQ(fate(LineFate::kDegenerate), once("fate/degenerate"));
+  EXPECT_EQ(fate(LineFate::kEmptyColumns), once("fate/empty-columns"));
+  EXPECT_EQ(fate(LineFate::kEmptyBefore), once("fate/empty-before"));
+  EXPECT_EQ(fate(LineFate::kEmptyBehind), once("fate/empty-behind"));
+  const auto group = [&](GroupEnd end) {
+    return after([&](EdgeCoverage& c) { c.count_group(end); });
+  };
+  EXPECT_EQ(group(GroupEnd::kLength), once("group/length"));
+  EXPECT_EQ(group(GroupEnd::kAcross), once("group/across"));
+  EXPECT_EQ(group(GroupEnd::kAlong), once("group/along"));
+  EXPECT_EQ(group(GroupEnd::kLine), once("group/line"));
+  const auto original = [&](Original where) {
+    return after([&](EdgeCoverage& c) { c.count_original(where); });
+  };
+  EXPECT_EQ(original(Original::kNone), once("original/none"));
+  EXPECT_EQ(original(Original::kAbove), once("original/above"));
+  EXPECT_EQ(original(Original::kLeft), once("original/left"));
+  const std::array<std::string, 3> caches = {"vertex", "depth", "block"};
+  const std::array<std::string, 4> fetches = {"hit", "miss", "replaced", "read-back"};
+  for (std::size_t cache = 0; cache < caches.size(); ++cache) {
+    for (std::size_t fetch = 0; fetch < fetches.size(); ++fetch) {
+      if (fetches[fetch] == "read-back" && caches[cache] != "block") continue;
+      EXPECT_EQ(after([&](EdgeCoverage& c) {
+                  c.count_fetch(static_cast<CacheKind>(cache), static_cast<Fetch>(fetch));
+                }),
+                once("fetch/" + caches[cache] + '/' + fetches[fetch]));
+    }
+  }
+  for (std::size_t lines = 1; lines <= 10; ++lines) {
+    const std::string n = std::to_string(lines);
+    const auto block = [&](Layout layout) {
+      return after([&](EdgeCoverage& c) { c.count_block_lines(layout, lines); });
+    };
+    EXPECT_EQ(block(Layout::kRaster), once("lines/raster/" + n));
+    if (lines <= 5) {
+      EXPECT_EQ(block(Layout::kTiled), once("lines/tiled/" + n));
+    }
+  }
+}
+
+// What one engine counted is added to what another did, bin by bin.
+TEST(Coverage, MergesAreSums) {
+  GeometricGolden a(Parameters{}), b(Parameters{});
+  a.process(tb::geometric::vector_drawing().input());
+  b.process(random_drawing(1).input());
+  EdgeCoverage sum = a.coverage();
+  sum.merge(b.coverage());
+  const auto bins = sum.bins(), first = a.coverage().bins(), second = b.coverage().bins();
+  std::size_t both = 0;
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    EXPECT_EQ(bins[i].hits, first[i].hits + second[i].hits) << bins[i].name;
+    both += first[i].hits != 0 && second[i].hits != 0;
+  }
+  EXPECT_GT(both, 40u);
 }
 
 }  // namespace
