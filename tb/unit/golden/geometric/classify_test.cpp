@@ -128,7 +128,7 @@ void refused(void (*change)(Parameters&), const char* name) {
 
 TEST(Configuration, RefusesByName) {
   refused([](Parameters& p) { p.depth_bias = 0; }, "depth_bias = 0 is outside 1..24");
-  refused([](Parameters& p) { p.depth_bias = 25; }, "depth_bias");
+  refused([](Parameters& p) { p.depth_bias = 25; }, "depth_bias = 25 is outside 1..24");
   refused([](Parameters& p) { p.select = static_cast<Select>(2); }, "select");
   refused([](Parameters& p) { p.reciprocal_table = 10; }, "reciprocal_table");
   refused([](Parameters& p) { p.fills = 129; }, "memory.outstanding");
@@ -160,11 +160,37 @@ TEST(Configuration, FramesEndWhereTheBuildEnds) {
   p.select = Select::kAll;
   EXPECT_EQ(why({8, 8, 0, 0, 32769}), Refusal::kNone);
   p.select = Select::kEdges;
-  for (const FrameCounts& counts :
-       {FrameCounts{2048, 1089, 1, 1, 1}, FrameCounts{2049, 1080, 1, 1, 1},
-        FrameCounts{0, 10, 0, 0, 0}, FrameCounts{8, 8, (1u << 24) + 1, 0, 0},
-        FrameCounts{8, 8, 0, (1u << 24) + 1, 0}, FrameCounts{8, 8, 0, 0, 32769}})
-    EXPECT_THROW(check_frame(p, counts), spec::ConfigError);
+  p.line_pixels = 8192;
+  p.touched_words = 1 << 20;
+  EXPECT_EQ(why({1, 1, 0, 0, 0}), Refusal::kNone);
+  EXPECT_EQ(why({8192, 1, 0, 0, 0}), Refusal::kNone);
+  EXPECT_EQ(why({1, 8192, 0, 0, 0}), Refusal::kNone);
+  EXPECT_EQ(why({8193, 1, 0, 0, 0}), Refusal::kSize);
+  EXPECT_EQ(why({-1, 1, 0, 0, 0}), Refusal::kSize);
+}
+
+// What is wrong and what would be possible, in words.
+TEST(Configuration, SaysWhatWouldFit) {
+  const auto text = [](const FrameCounts& counts) -> std::string {
+    try {
+      check_frame(Parameters{}, counts);
+    } catch (const spec::ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(text({1920, 1080, 1, 1, 1}), "");
+  EXPECT_EQ(text({0, 10, 0, 0, 0}), "a frame of 0 x 10 pixels; 1..8192 each way are possible");
+  EXPECT_EQ(text({2049, 1080, 1, 1, 1}),
+            "a frame of 2049 x 1080 pixels does not fit rows of 2048 pixels; raise line_pixels");
+  // Words of 512 x 4 pixels: 4 across and 273 down.
+  EXPECT_EQ(text({2048, 1089, 1, 1, 1}),
+            "a frame of 2048 x 1089 pixels needs 1092 touched words, the build has 1088; "
+            "raise touched_words");
+  EXPECT_EQ(text({8, 8, (1u << 24) + 1, 0, 0}), "16777217 edges; at most 2^24 are possible");
+  EXPECT_EQ(text({8, 8, 0, (1u << 24) + 1, 0}), "16777217 vertices; at most 2^24 are possible");
+  EXPECT_EQ(text({8, 8, 0, 0, 32769}),
+            "32769 faces, the build holds the facing bits of 32768; raise face_limit");
 }
 
 }  // namespace

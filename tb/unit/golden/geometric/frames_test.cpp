@@ -3,8 +3,13 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <set>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "spec/error.h"
 #include "tb/stimuli/random.h"
@@ -137,6 +142,48 @@ TEST(Frame, CountsAddUp) {
   }
 }
 
+// Of a line over columns 1 to 12 that enters the next row of blocks at column 5, 6 or 7: the group
+// before ends there, those before columns 4 and 8 with their block, and 8 to 11 are four.
+TEST(Frame, GroupsEndWithBlocksAndWalkers) {
+  for (const int crossing : {5, 6, 7}) {
+    const int rise = 128 * (crossing - 1);  // half a row a column
+    Parameters p;
+    p.walkers = Lanes::kFour;
+    GeometricGolden golden(p);
+    golden.process(one_line(256, 1024 - rise, 13 * 256, 1024 - rise + 12 * 128).input());
+    std::map<std::string, std::uint64_t> groups;
+    for (const auto& bin : golden.coverage().bins())
+      if (bin.name.starts_with("group/")) groups[bin.name] = bin.hits;
+    EXPECT_EQ(groups,
+              (std::map<std::string, std::uint64_t>{
+                  {"group/across", 1}, {"group/along", 2}, {"group/length", 1}, {"group/line", 1}}))
+        << crossing;
+    EXPECT_EQ(golden.work().groups, 5u);
+  }
+}
+
+// Whose colour as it was a pixel is given: that of the pixel above or to the left, if that one is
+// blended too. Counted again from the weights.
+TEST(Frame, OriginalsAreNeighboursThatAreBlendedToo) {
+  GeometricGolden golden(Parameters{});
+  golden.process(vector_drawing().input());
+  const auto& weights = golden.weights();
+  std::map<std::string, std::uint64_t> expected;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const Weights& w = weights[i];
+    if (w == Weights{}) continue;
+    const bool sideways = w[2] + w[3] > w[0] + w[1];
+    const bool takes = w[sideways ? 2 : 0] != 0;
+    const bool original = takes && weights[i - (sideways ? 1 : 61)] != Weights{};
+    ++expected[!original ? "original/none" : sideways ? "original/left" : "original/above"];
+  }
+  for (const auto& bin : golden.coverage().bins()) {
+    if (!bin.name.starts_with("original/")) continue;
+    EXPECT_EQ(bin.hits, expected[bin.name]) << bin.name;
+    EXPECT_GT(bin.hits, 20u);
+  }
+}
+
 TEST(Frame, WithoutEdgesNothingChanges) {
   Drawing d = vector_drawing();
   d.edges.clear();
@@ -161,6 +208,44 @@ TEST(Frame, RefusesViewsThatAreTooSmall) {
   EXPECT_THROW(golden.process(input), spec::CheckFailed);
   input = d.input();
   input.facing.count = 1000;
+  EXPECT_THROW(golden.process(input), spec::CheckFailed);
+  for (const std::uint32_t faces : {1u, 7u, 8u, 9u, 16u, 17u}) {  // a bit each
+    const std::uint32_t bytes = faces <= 8 ? 1 : faces <= 16 ? 2 : 3;
+    input = d.input();
+    input.facing.count = faces;
+    input.facing.bytes = input.facing.bytes.first(bytes);
+    EXPECT_NO_THROW(golden.process(input)) << faces;
+    input.facing.bytes = input.facing.bytes.first(bytes - 1);
+    EXPECT_THROW(golden.process(input), spec::CheckFailed) << faces;
+  }
+  // Rows of 61 pixels at a distance of 64: the last one may end before its gap, not earlier.
+  std::vector<Rgba8> wide(64 * 45);
+  std::vector<std::uint32_t> wide_depths(64 * 45);
+  for (const std::size_t missing : {0u, 3u, 4u}) {
+    input = d.input();
+    input.image = {std::span(wide).first(wide.size() - missing), 61, 45, 64};
+    const auto both = [&] { golden.process(input); };
+    if (missing < 4) {
+      EXPECT_NO_THROW(both());
+    } else {
+      EXPECT_THROW(both(), spec::CheckFailed);
+    }
+    input = d.input();
+    input.depth = {std::span(wide_depths).first(wide_depths.size() - missing), 61, 45, 64};
+    if (missing < 4) {
+      EXPECT_NO_THROW(both());
+    } else {
+      EXPECT_THROW(both(), spec::CheckFailed);
+    }
+  }
+  input = d.input();
+  input.depth.width = 60;
+  EXPECT_THROW(golden.process(input), spec::CheckFailed);
+  input = d.input();
+  input.depth.height = 44;
+  EXPECT_THROW(golden.process(input), spec::CheckFailed);
+  input = d.input();
+  input.image.stride = 60;
   EXPECT_THROW(golden.process(input), spec::CheckFailed);
   input = d.input();
   input.bases.copy = 32;
@@ -317,6 +402,39 @@ TEST(MemoryErrors, ReadAsZeros) {
     ASSERT_NE(found, golden.blocks().end());
     EXPECT_EQ(found->blended, 0);
   });
+}
+
+// Whenever a block's weights are lost, those of all other blocks stay, and it has no larger ones.
+TEST(MemoryErrors, LoseTheWeightsOfOneBlock) {
+  const Drawing d = vector_drawing();
+  Parameters p;
+  p.weight_blocks = CacheLines::k16;
+  GeometricGolden clean(p);
+  clean.process(d.input(kVectorBases));
+  const auto& reads = clean.traffic().read(Region::kWeights);
+  const std::set<std::uint32_t> addresses(reads.begin(), reads.end());
+  int changed = 0;
+  for (const std::uint32_t lost : addresses) {
+    GeometricGolden golden(p, GeometricGolden::Detail::kPixels);
+    golden.set_memory_errors([=](std::uint32_t a) { return a == lost; });
+    golden.process(d.input(kVectorBases));
+    const int block = static_cast<int>((lost - kVectorBases.weights) / 64);
+    for (int y = 0; y < 45; ++y) {
+      for (int x = 0; x < 61; ++x) {
+        const auto i = static_cast<std::size_t>(61 * y + x);
+        const Weights& all = clean.weights()[i];
+        const Weights& left = golden.weights()[i];
+        if (y / 4 * 16 + x / 4 != block) {
+          ASSERT_EQ(left, all) << x << ' ' << y << " of block " << block;
+        } else {
+          for (std::size_t k = 0; k < 4; ++k) EXPECT_LE(left[k], all[k]);
+          changed += left != all;
+        }
+      }
+    }
+  }
+  EXPECT_GT(addresses.size(), 50u);
+  EXPECT_GT(changed, 100);
 }
 
 TEST(MemoryErrors, AreCountedOnceAResponse) {
