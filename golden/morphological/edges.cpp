@@ -289,14 +289,6 @@ bool floor_decides(const Parameters& p, const PixelPair& pair) {
   return of(twice_reference<DynamicLuma::kMean>(pair));
 }
 
-bool depth_edge(const Parameters& parameters, const PixelPair& pair) {
-  return DepthRule(parameters)(pair);
-}
-
-bool raw_edge(const Parameters& parameters, const PixelPair& pair) {
-  return with_rule(parameters, [&](const auto& rule) { return rule(pair); });
-}
-
 EdgePlanes find_edges(const Parameters& parameters, const ImageView& image,
                       const DepthView& depth) {
   if (parameters.edge_source == spec::morphological::EdgeSource::kColour)

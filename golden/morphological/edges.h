@@ -19,11 +19,6 @@ struct PixelPair {
   std::uint32_t depth_p = 0, depth_q = 0;  // U24
 };
 
-// A pair has a depth edge: the relative step of depth is large enough.
-bool depth_edge(const spec::morphological::Parameters& parameters, const PixelPair& pair);
-// The raw bit of an edge, local contrast not yet applied.
-bool raw_edge(const spec::morphological::Parameters& parameters, const PixelPair& pair);
-
 // Whether the floor is what a dynamic threshold compares the pair with.
 bool floor_decides(const spec::morphological::Parameters& parameters, const PixelPair& pair);
 

@@ -220,12 +220,12 @@ void MorphologicalGolden::share_learned(AxisShares& axis,
     axis.shares.push_back({look_up(first.of_pixel(k)), look_up(second.of_pixel(k)), 0});
 }
 
-// Edges between the head and the tail of a long run.
+// Edges between the head and the tail of a long run, one at least.
 void MorphologicalGolden::share_gap(AxisShares& axis, int edges) {
   Share share;
   if (parameters_.area == spec::morphological::AreaSource::kLearned) {
     share.first = share.second = static_cast<std::uint8_t>(learned_share(tables_, kGapIndices));
-    if (everything_ && edges != 0) learned_coverage_.count_share(kGapIndices);
+    if (everything_) learned_coverage_.count_share(kGapIndices);
   }
   axis.shares.resize(axis.shares.size() + static_cast<std::size_t>(edges), share);
 }
@@ -270,7 +270,7 @@ void MorphologicalGolden::count_thresholds(const ImageView& image) {
   }
   const auto count = [&](bool edge, int x, int y, int from_x, int from_y) {
     if (!edge) return;
-    const PixelPair pair{luma(image.at(x, y)), luma(image.at(from_x, from_y)), 0, 0};
+    const PixelPair pair{luma(image.at(x, y)), luma(image.at(from_x, from_y))};
     smaa_coverage_.count_threshold(parameters_.dynamic_luma, floor_decides(parameters_, pair));
   };
   for (int y = 0; y < image.height; ++y) {

@@ -247,6 +247,33 @@ TEST(LineEnds, FollowTheLineOfAnExtendedRun) {
   EXPECT_EQ(ends.last, 4);
 }
 
+// Steps above the lower end are rounded to 1/4096, pixels to whole ones, halves up; what leaves
+// S12 ends at its limits.
+TEST(LineEnds, AreRoundedAndLimited) {
+  // t = above - 2^23, which is `above` over the lower end; 2^12 of it are a step of 1/4096.
+  const auto ends = [](std::int32_t above, std::uint32_t inverse) {
+    LineRecord line;
+    line.scale = 0;
+    line.slope = 1;
+    line.offset = (1 << 23) - above;
+    line.inverse = inverse;
+    const LineEnds e = line_ends(line);
+    return std::pair(e.first, e.last);
+  };
+  constexpr std::uint32_t kPixelAStep = 1u << 24;  // 4096 pixels for a whole one
+  EXPECT_EQ(ends(4096 * 2, kPixelAStep), std::pair(-2, 4094));
+  EXPECT_EQ(ends(4096 * 2 + 2047, kPixelAStep), std::pair(-2, 4094));
+  EXPECT_EQ(ends(4096 * 2 + 2048, kPixelAStep), std::pair(-3, 4093));
+  EXPECT_EQ(ends(4096, kPixelAStep / 2), std::pair(-1, 2048));  // 1/2, 2047 1/2
+  EXPECT_EQ(ends(4096, kPixelAStep / 2 - 1), std::pair(0, 2047));
+  EXPECT_EQ(ends(0, kPixelAStep), std::pair(0, 4095));
+  EXPECT_EQ(ends(4096, kPixelAStep), std::pair(-1, 4095));
+  EXPECT_EQ(ends(-4096 * 3, kPixelAStep), std::pair(3, 4095));
+  EXPECT_EQ(ends(4096 * 4095, kPixelAStep), std::pair(-4095, 1));
+  EXPECT_EQ(ends(4096 * 4096, kPixelAStep), std::pair(-4096, 0));
+  EXPECT_EQ(ends(4096 * 4097, kPixelAStep), std::pair(-4096, -1));
+}
+
 // 2N - 1 pixels before and 2N behind are seen, one more is not: the distance stays and the code
 // goes.
 TEST(Searches, EndAtTheirLimits) {
@@ -398,6 +425,22 @@ TEST(Corners, KeepTheirShareOfTheWeightBesideASharpCorner) {
   for (int k = 0; k < 5; ++k) EXPECT_EQ(at(1, 64, k), std::pair(25, 60));
   run.part = RunPart::kTail;
   for (int k = 0; k < 5; ++k) EXPECT_EQ(at(4, 64, k), std::pair(25, 60));
+}
+
+// Seven at 329 / 512 are 4.498, one at 257 / 512 is 0.502, a hundred and 64 at a half are whole.
+TEST(Corners, RoundToTheNearestShare) {
+  RunRecord run;
+  run.length = 3;
+  run.far = 1;
+  const auto middle = [&](int share, int stays) {
+    const EdgeShares shares{static_cast<std::uint8_t>(share), 0};
+    return int{golden::morphological::rounded_at_corners(shares, run, stays, 1).first};
+  };
+  EXPECT_EQ(middle(7, 73), 4);  // 2303 / 512
+  EXPECT_EQ(middle(1, 1), 1);   // 257 / 512
+  EXPECT_EQ(middle(1, 0), 1);   // 256 / 512: halves up
+  EXPECT_EQ(middle(3, 0), 2);
+  EXPECT_EQ(middle(64, 0), 32);
 }
 
 // A run of an even number of pixels has no middle.

@@ -4,9 +4,14 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "tb/stimuli/random.h"
 #include "tb/unit/golden/morphological/support.h"
@@ -193,41 +198,296 @@ TEST(SmaaCoverage, ListsEveryBinOfEveryGroup) {
   EXPECT_EQ(groups_of(SmaaCoverage().bins()), expected);
 }
 
-TEST(RunCoverage, CountsDecisionsAndBordersOnce) {
-  using spec::morphological::RunPart;
-  RunCoverage coverage;
-  coverage.count_pixel(golden::morphological::Decision::kNone);
-  coverage.count_pixels(golden::morphological::Decision::kNone, 4);
-  EXPECT_THAT(hits_of(coverage.bins()), testing::ElementsAre(testing::Pair("decision/none", 5)));
+// ---- what each bin counts, one thing at a time --------------------------------------------------
 
-  spec::morphological::RunRecord run;
-  run.part = RunPart::kTail;
-  run.start = 3, run.length = 5, run.line = 4;
-  RunCoverage inside, at_end;
-  inside.count_run(run, {}, 9, 9);
-  at_end.count_run(run, {}, 8, 9);
-  EXPECT_EQ(hits_of(inside.bins()).size(), 1u);  // the long end alone
-  EXPECT_EQ(hits_of(at_end.bins()).size(), 2u);
+using Hits = std::map<std::string, std::uint64_t>;
+template <class... Names>
+Hits once(Names... names) {
+  return {{names, 1}...};
 }
 
+using spec::morphological::Axis;
+using spec::morphological::RunPart;
+using spec::morphological::RunRecord;
+
+constexpr std::array<const char*, 2> kAxisNames = {"horizontal", "vertical"};
+
+std::string shape_name(int shape) {
+  return std::string(spec::morphological::kRunShapes[static_cast<std::size_t>(shape)].name);
+}
+
+// A run that touches no border of a frame of 40 x 40.
+RunRecord inner_run(std::size_t axis, int length, int shape, RunPart part = RunPart::kWhole) {
+  RunRecord run;
+  run.axis = static_cast<Axis>(axis);
+  run.part = part;
+  run.start = 3, run.line = 4;
+  run.length = static_cast<std::uint16_t>(length);
+  run.shape = static_cast<std::uint8_t>(shape);
+  return run;
+}
+
+Hits hits_of_run(const RunRecord& run, const golden::morphological::Prediction& prediction = {},
+                 int extent = 40, int lines = 40) {
+  RunCoverage coverage;
+  coverage.count_run(run, prediction, extent, lines);
+  return hits_of(coverage.bins());
+}
+
+const std::map<int, std::string> kLengthsByName = {{1, "1"},    {2, "2"},     {3, "3-4"},
+                                                   {4, "3-4"},  {5, "5-8"},   {8, "5-8"},
+                                                   {9, "9-16"}, {16, "9-16"}, {17, "17+"}};
+
+TEST(RunCoverage, WholeRunsHaveAShapeAndALength) {
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    for (int shape = 0; shape < 16; ++shape)
+      for (const auto& [length, name] : kLengthsByName)
+        EXPECT_EQ(
+            hits_of_run(inner_run(axis, length, shape)),
+            once(std::string("shape/") + kAxisNames[axis] + '/' + shape_name(shape) + '/' + name));
+}
+
+TEST(RunCoverage, PartsOfLongRunsHaveTheCrossingOfTheirEnd) {
+  const std::array<std::string, 4> names = {"none", "first", "second", "T"};
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    for (int code = 0; code < 4; ++code) {
+      const Hits expected = once(std::string("long-end/") + kAxisNames[axis] + '/' +
+                                 names[static_cast<std::size_t>(code)]);
+      EXPECT_EQ(hits_of_run(inner_run(axis, 5, code, RunPart::kHead)), expected);
+      EXPECT_EQ(hits_of_run(inner_run(axis, 5, 4 * code, RunPart::kTail)), expected);
+    }
+  }
+}
+
+TEST(RunCoverage, SidesThatWereTriedHaveAnOutcomeAndAReason) {
+  using golden::morphological::Extension;
+  using golden::morphological::Outcome;
+  using golden::morphological::Prediction;
+  using golden::morphological::SideEnd;
+  const std::map<Outcome, std::string> outcomes = {{Outcome::kNone, "none"},
+                                                   {Outcome::kExact, "exact"},
+                                                   {Outcome::kEarly, "early"},
+                                                   {Outcome::kLate, "late"}};
+  const std::map<SideEnd, std::string> reasons = {{SideEnd::kSteps, "all-steps"},
+                                                  {SideEnd::kNoHit, "no-hit"},
+                                                  {SideEnd::kReach, "out-of-reach"},
+                                                  {SideEnd::kInconsistent, "inconsistent"},
+                                                  {SideEnd::kCurve, "curve"}};
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const std::string of_axis = std::string(kAxisNames[axis]) + '/';
+    for (const auto& [length, length_name] : kLengthsByName) {
+      for (const bool right : {false, true}) {
+        for (const auto& [outcome, outcome_name] : outcomes) {
+          if (outcome == Outcome::kEarly && length == 1) continue;  // a step of 0 is none
+          for (const auto& [why, reason] : reasons) {
+            Prediction prediction;
+            Extension& side = right ? prediction.right : prediction.left;
+            side.outcome = outcome;
+            side.why = why;
+            EXPECT_EQ(hits_of_run(inner_run(axis, length, 9), prediction),
+                      once("shape/" + of_axis + "Z-first-second/" + length_name,
+                           "prediction/" + of_axis + (right ? "right/" : "left/") + outcome_name +
+                               '/' + length_name,
+                           "prediction-end/" + of_axis + reason));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(RunCoverage, RunsTouchTheFramesBorders) {
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const auto borders = [&](int start, int line) {
+      RunRecord run = inner_run(axis, 5, 0);
+      run.start = static_cast<std::uint16_t>(start);
+      run.line = static_cast<std::uint16_t>(line);
+      Hits hits = hits_of_run(run, {}, 12, 9);
+      hits.erase(std::string("shape/") + kAxisNames[axis] + "/none-none/5-8");
+      return hits;
+    };
+    const std::string of_axis = std::string("border/") + kAxisNames[axis] + '/';
+    EXPECT_EQ(borders(1, 2), Hits{});
+    EXPECT_EQ(borders(0, 2), once(of_axis + "start-on-border"));
+    EXPECT_EQ(borders(6, 2), Hits{});
+    EXPECT_EQ(borders(7, 2), once(of_axis + "end-on-border"));
+    EXPECT_EQ(borders(1, 1), once(of_axis + "first-line"));
+    EXPECT_EQ(borders(1, 7), Hits{});
+    EXPECT_EQ(borders(1, 8), once(of_axis + "last-line"));
+    EXPECT_EQ(borders(0, 8), once(of_axis + "start-on-border", of_axis + "last-line"));
+  }
+}
+
+TEST(RunCoverage, DecisionsAreCountedByThePixel) {
+  using golden::morphological::Decision;
+  const std::map<Decision, std::string> names = {
+      {Decision::kNone, "none"},
+      {Decision::kOnlyUpDown, "only-up-down"},
+      {Decision::kOnlyLeftRight, "only-left-right"},
+      {Decision::kLongerUpDown, "longer-up-down"},
+      {Decision::kLongerLeftRight, "longer-left-right"},
+      {Decision::kStrongerUpDown, "stronger-up-down"},
+      {Decision::kStrongerLeftRight, "stronger-left-right"},
+      {Decision::kTie, "tie"}};
+  for (const auto& [decision, name] : names) {
+    RunCoverage coverage;
+    coverage.count_pixel(decision);
+    EXPECT_EQ(hits_of(coverage.bins()), once("decision/" + name));
+    coverage.count_pixels(decision, 4);
+    EXPECT_EQ(hits_of(coverage.bins()), (Hits{{"decision/" + name, 5}}));
+  }
+}
+
+// ---- SMAA's -------------------------------------------------------------------------------------
+
+using golden::morphological::SearchEnd;
+using golden::morphological::TableAddress;
+
+Hits hits_of_pixel(std::size_t axis, const TableAddress& address) {
+  SmaaCoverage coverage;
+  coverage.count_pixel(static_cast<Axis>(axis), address);
+  return hits_of(coverage.bins());
+}
+
+TEST(SmaaCoverage, PixelsHaveAShapeAndTheLongerDistance) {
+  const std::map<int, std::string> names = {{1, "1-3"},  {3, "1-3"},   {4, "4-8"}, {8, "4-8"},
+                                            {9, "9-24"}, {24, "9-24"}, {25, "25+"}};
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    for (int shape = 0; shape < 16; ++shape) {
+      for (const auto& [distance, name] : names) {
+        const Hits expected =
+            once(std::string("table/") + kAxisNames[axis] + '/' + shape_name(shape) + '/' + name);
+        EXPECT_EQ(hits_of_pixel(axis, {shape, distance, 0}), expected);
+        EXPECT_EQ(hits_of_pixel(axis, {shape, distance - 1, distance}), expected);
+      }
+    }
+  }
+}
+
+TEST(SmaaCoverage, SearchesEndAtTheLimitOrBeyondIt) {
+  constexpr int kNothing = 0;  // a shape without sides
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const std::string of_axis = kAxisNames[axis];
+    const std::string table = "table/" + of_axis + "/none-none/1-3";
+    const auto search = [&](SearchEnd start, SearchEnd end) {
+      return hits_of_pixel(axis, {kNothing, 1, 1, start, end});
+    };
+    using enum SearchEnd;
+    EXPECT_EQ(search(kWithin, kWithin), once(table));
+    EXPECT_EQ(search(kAtLimit, kWithin), once(table, "search/" + of_axis + "/start/at"));
+    EXPECT_EQ(search(kBeyond, kWithin), once(table, "search/" + of_axis + "/start/beyond"));
+    EXPECT_EQ(search(kWithin, kAtLimit), once(table, "search/" + of_axis + "/end/at"));
+    EXPECT_EQ(search(kWithin, kBeyond), once(table, "search/" + of_axis + "/end/beyond"));
+  }
+}
+
+// Of the half tile by shapes with one side or with two, of the dip tile by those that dip; a shape
+// that reads nothing has no entry.
 TEST(SmaaCoverage, EntriesOfTheTableAreTheFirstAndTheLast) {
-  using golden::morphological::TableAddress;
-  const auto entries = [](int before, int after) {
-    SmaaCoverage coverage;
-    TableAddress address;
-    while (spec::morphological::kRunShapes[static_cast<std::size_t>(address.shape)].before ==
-           spec::morphological::kRunShapes[static_cast<std::size_t>(address.shape)].after)
-      ++address.shape;
-    address.before = before, address.after = after;
-    coverage.count_pixel(spec::morphological::Axis::kHorizontal, address);
-    const auto hits = hits_of(coverage.bins());
-    return std::pair(hits.contains("table-entry/half/first"),
-                     hits.contains("table-entry/half/last"));
+  const auto entries = [](int shape, int before, int after) {
+    std::set<std::string> names;
+    for (const auto& [name, count] : hits_of_pixel(0, {shape, before, after}))
+      if (name.starts_with("table-entry/")) names.insert(name.substr(12));
+    return names;
   };
-  EXPECT_EQ(entries(0, 0), std::pair(true, false));
-  EXPECT_EQ(entries(0, 1), std::pair(false, false));
-  EXPECT_EQ(entries(14 * 14 - 1, 14 * 14), std::pair(false, false));
-  EXPECT_EQ(entries(14 * 14, 14 * 14), std::pair(false, true));
+  using Names = std::set<std::string>;
+  for (int shape = 0; shape < 16; ++shape) {
+    const std::string name = shape_name(shape);
+    const bool dips = name.starts_with("U-");
+    const bool nothing =
+        std::set<std::string>{"none-none", "T-none", "none-T", "T-T"}.contains(name);
+    const std::string tile = dips ? "dip/" : "half/";
+    const auto only = [&](const std::string& entry) {
+      return nothing ? Names{} : Names{tile + entry};
+    };
+    EXPECT_EQ(entries(shape, 0, 0), only("first")) << name;
+    EXPECT_EQ(entries(shape, 0, 1), Names{});
+    EXPECT_EQ(entries(shape, 1, 0), Names{});
+    EXPECT_EQ(entries(shape, 14 * 14 - 1, 14 * 14), Names{});
+    EXPECT_EQ(entries(shape, 14 * 14, 14 * 14 - 1), Names{});
+    EXPECT_EQ(entries(shape, 14 * 14, 14 * 14), only("last")) << name;
+  }
+}
+
+TEST(SmaaCoverage, DiagonalsHaveCodesEndsAndALength) {
+  using golden::morphological::DiagonalEnds;
+  const auto diagonal = [](bool rising, const DiagonalEnds& ends) {
+    SmaaCoverage coverage;
+    coverage.count_diagonal(rising, ends);
+    return hits_of(coverage.bins());
+  };
+  const std::array<std::string, 4> ends = {"closed", "open-1", "open-2", "open-both"};
+  for (const bool rising : {false, true}) {
+    const std::string direction = rising ? "rising/" : "falling/";
+    for (int e1 = 0; e1 < 4; ++e1) {
+      for (int e2 = 0; e2 < 4; ++e2) {
+        for (std::size_t open = 0; open < 4; ++open) {
+          EXPECT_EQ(diagonal(rising, {1, 2, e1, e2, open % 2 != 0, open / 2 != 0}),
+                    once("diagonal/" + direction + std::to_string(e1) + '-' + std::to_string(e2),
+                         "diagonal-ends/" + direction + ends[open],
+                         "diagonal-length/" + direction + '3'));
+        }
+      }
+    }
+    EXPECT_EQ(diagonal(rising, {2, 0}), Hits{});  // too short to count
+    for (const auto& [pixels, name] : std::map<int, std::string>{{4, "4-7"}, {7, "4-7"}, {8, "8+"}})
+      EXPECT_TRUE(
+          diagonal(rising, {pixels - 1, 1}).contains("diagonal-length/" + direction + name));
+  }
+}
+
+TEST(SmaaCoverage, ThresholdsAreFixedOrOfTheFloorOrAlpha) {
+  using spec::morphological::DynamicLuma;
+  const std::map<DynamicLuma, std::string> names = {{DynamicLuma::kCurrent, "current"},
+                                                    {DynamicLuma::kMax, "max"},
+                                                    {DynamicLuma::kMin, "min"},
+                                                    {DynamicLuma::kMean, "mean"}};
+  for (const auto& [luma, name] : names) {
+    SmaaCoverage floor, alpha;
+    floor.count_threshold(luma, true);
+    alpha.count_threshold(luma, false);
+    EXPECT_EQ(hits_of(floor.bins()), once("threshold/" + name + "/floor"));
+    EXPECT_EQ(hits_of(alpha.bins()), once("threshold/" + name + "/alpha"));
+  }
+  SmaaCoverage fixed;
+  fixed.count_fixed(7);
+  fixed.count_fixed(2);
+  EXPECT_EQ(hits_of(fixed.bins()), (Hits{{"threshold/fixed", 9}}));
+}
+
+// The darker of a pair is black, then 150: a tenth of 0 lies below the floor of 10 codes, of 150 it
+// does not.
+TEST(SmaaCoverage, EdgesOfAFrameAreOfTheFloorOrAlpha) {
+  using spec::morphological::AreaSource;
+  using spec::morphological::DynamicLuma;
+  const auto code = [](int i) { return grey(i == 0 ? 0 : i == 1 ? 150 : 220); };
+  const Frame across(3, 1, [&](int x, int) { return code(x); });
+  const Frame down(1, 3, [&](int, int y) { return code(y); });
+  const auto hits = [](const spec::morphological::Parameters& p, const Frame& frame) {
+    MorphologicalGolden golden(p);
+    golden.process(frame.view());
+    Hits result = hits_of(golden.smaa_coverage().bins());
+    std::erase_if(result, [](const auto& bin) { return !bin.first.starts_with("threshold/"); });
+    return result;
+  };
+  spec::morphological::Parameters p = preset_parameters(Preset::kSmaaDynamic);
+  p.local_contrast = spec::morphological::LocalContrast::kOff;
+  p.dynamic_luma = DynamicLuma::kMin;
+  p.alpha = 6554;
+  p.floor = 2570;
+  for (const Frame& frame : {across, down})
+    EXPECT_EQ(hits(p, frame), once("threshold/min/floor", "threshold/min/alpha"));
+  // A fixed one is counted with SMAA's blocks: tables, or diagonals.
+  p.threshold_mode = spec::morphological::ThresholdMode::kFixed;
+  for (const bool diagonals : {false, true}) {
+    for (const AreaSource area : {AreaSource::kAnalytic, AreaSource::kTableFull}) {
+      p.diagonals = diagonals;
+      p.area = area;
+      const bool counted = diagonals || area == AreaSource::kTableFull;
+      for (const Frame& frame : {across, down})
+        EXPECT_EQ(hits(p, frame), (counted ? Hits{{"threshold/fixed", 2}} : Hits{}));
+    }
+  }
 }
 
 TEST(RunCoverage, LengthBinsAreThoseOfTheirNames) {

@@ -258,6 +258,16 @@ TEST(MorphologicalEdges, ThresholdsOfColourHoldToTheUnit) {
   }
 }
 
+// 255 T / 65536 lies a 65536th above 254 codes: the least step is 255.
+TEST(MorphologicalEdges, ThresholdsOfColourAreRoundedUp) {
+  auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr);
+  p.threshold = 65279;
+  for (const int step : {253, 254, 255}) {
+    const Frame frame(2, 1, [&](int x, int) { return tb::morphological::grey(x * step); });
+    EXPECT_EQ(find_edges(p, frame.view()).left.at(1, 0), step == 255);
+  }
+}
+
 TEST(MorphologicalEdges, ContrastOfExactlyTwiceTheStepDropsTheBit) {
   auto p = golden::morphological::preset_parameters(
       spec::morphological::Preset::kDeburrLine);  // symmetric

@@ -411,6 +411,7 @@ TEST(FrameMemory, TrafficBelongsToStorageInMemoryOnly) {
   EXPECT_EQ(memory.process(frame.view()), lines.pixels());
   EXPECT_EQ(memory.traffic(256).size(), 2u * 6 * 80);  // 90 pixels: 6 lines a row
   EXPECT_EQ(memory.traffic(256).front().address, 256u);
+  EXPECT_EQ(memory.traffic(), memory.traffic(0));
 }
 
 TEST(FrameMemory, LinesThatCannotBeReadAreZeros) {
@@ -453,8 +454,16 @@ TEST(NamedErrors, OfParameters) {
   using P = spec::morphological::Parameters;
   using testing::HasSubstr;
   EXPECT_EQ(error_of([](P&) {}), "");
-  EXPECT_THAT(error_of([](P& p) { p.window_rows = 65; }), HasSubstr("odd"));
-  EXPECT_THAT(error_of([](P& p) { p.window_rows = 18; }), HasSubstr("at most"));  // R - 1 = 7
+  EXPECT_EQ(error_of([](P& p) { p.window_rows = 65; }),
+            "morphological window_rows = 65 is odd; use an even number of rows");
+  EXPECT_EQ(error_of([](P& p) { p.window_rows = 18; }),
+            "morphological steps = 8 reach beyond a window of 18 rows; at most "
+            "window_rows / 2 - 2 = 7 fit");
+  EXPECT_EQ(error_of([](P& p) {
+              p.window_rows = 18;
+              p.steps = 7;
+            }),
+            "");
   EXPECT_EQ(error_of([](P& p) { p.window_rows = 20; }), "");
   EXPECT_THAT(error_of([](P& p) { p.reach_columns = 3; }), HasSubstr("outside 4..2048"));
   EXPECT_THAT(error_of([](P& p) { p.threshold = 0; }), HasSubstr("edges.threshold"));
@@ -480,8 +489,9 @@ TEST(NamedErrors, OfParameters) {
     p.diagonal_steps = 10;
     p.window_rows = 20;
   };
-  EXPECT_THAT(error_of(too_far), HasSubstr("diagonal_steps"));
-  EXPECT_THAT(error_of(too_far), HasSubstr("window_rows of at least 22"));
+  EXPECT_EQ(error_of(too_far),
+            "morphological diagonal_steps = 10 reach beyond a window of 20 rows; they need "
+            "window_rows of at least 22");
   EXPECT_EQ(error_of([](P& p) {
               p.steps = 4;
               p.diagonals = true;
@@ -542,6 +552,31 @@ TEST(NamedErrors, OfFrames) {
   EXPECT_THROW(golden.process(ImageView(pixels, 101, 1)), spec::ConfigError);
   EXPECT_THROW(golden.process(ImageView(pixels, 100, 82)), spec::CheckFailed);
   EXPECT_NO_THROW(golden.process(ImageView(pixels, 100, 81)));
+}
+
+TEST(NamedErrors, OfFramesSayWhatWouldFit) {
+  auto p = preset_parameters(spec::morphological::Preset::kDeburrLine);
+  const auto text = [&](int width, int height) -> std::string {
+    try {
+      golden::morphological::check_frame(p, width, height);
+    } catch (const spec::ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto none = [](const std::string& size) {
+    return "a frame of " + size + " pixels; 1..8192 each way are possible";
+  };
+  for (const auto& [width, height] : {std::pair{1, 1}, {8192, 1}, {1, 8192}, {8192, 8192}})
+    EXPECT_EQ(text(width, height), "");
+  EXPECT_EQ(text(0, 5), none("0 x 5"));
+  EXPECT_EQ(text(5, 0), none("5 x 0"));
+  EXPECT_EQ(text(8193, 5), none("8193 x 5"));
+  EXPECT_EQ(text(5, 8193), none("5 x 8193"));
+  p.line_pixels = 100;
+  EXPECT_EQ(text(100, 5), "");
+  EXPECT_EQ(text(101, 5),
+            "a frame of 101 x 5 pixels does not fit line buffers of 100 pixels; raise line_pixels");
 }
 
 }  // namespace

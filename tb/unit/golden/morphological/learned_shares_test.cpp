@@ -456,5 +456,66 @@ TEST(LearnedCoverage, StaysEmptyWithoutLearnedShares) {
     EXPECT_EQ(bin.hits, 0u) << bin.name;
 }
 
+std::map<std::string, std::uint64_t> hits_of(const std::vector<CoverageBin>& bins) {
+  std::map<std::string, std::uint64_t> hits;
+  for (const CoverageBin& bin : bins)
+    if (bin.hits != 0) hits[bin.name] = bin.hits;
+  return hits;
+}
+
+// A record has the classes of its ends, a part of a long run that of the one end it has.
+TEST(LearnedCoverage, NamesTheClassesOfARecordsEnds) {
+  using spec::morphological::RunPart;
+  const auto classes = [](Axis axis, RunPart part, int start, int end) {
+    golden::morphological::LearnedCoverage coverage;
+    spec::morphological::LineRecord record;
+    record.run.axis = axis;
+    record.run.part = part;
+    record.start_class = static_cast<std::uint8_t>(start);
+    record.end_class = static_cast<std::uint8_t>(end);
+    coverage.count_record(record);
+    std::set<std::string> names;
+    for (const auto& [name, count] : hits_of(coverage.bins())) names.insert(name);
+    return names;
+  };
+  for (const Axis axis : {Axis::kHorizontal, Axis::kVertical}) {
+    const std::string group = axis == Axis::kHorizontal ? "class/horizontal/" : "class/vertical/";
+    for (int start = 0; start < 9; ++start) {
+      for (int end = 0; end < 9; ++end) {
+        const std::string first = group + "start/" + std::to_string(start),
+                          last = group + "end/" + std::to_string(end);
+        EXPECT_THAT(classes(axis, RunPart::kWhole, start, end),
+                    testing::UnorderedElementsAre(first, last));
+        EXPECT_THAT(classes(axis, RunPart::kHead, start, end), testing::ElementsAre(first));
+        EXPECT_THAT(classes(axis, RunPart::kTail, start, end), testing::ElementsAre(last));
+      }
+    }
+  }
+}
+
+TEST(LearnedCoverage, NamesTheEntriesOfAShare) {
+  golden::morphological::LearnedCoverage coverage;
+  coverage.count_share({645, 419, 439});  // of the page's corner
+  coverage.count_share({645, 419, 439});
+  coverage.count_share({325, 131, 151});
+  EXPECT_EQ(
+      hits_of(coverage.bins()),
+      (std::map<std::string, std::uint64_t>{
+          {"A/645", 2}, {"B/419", 2}, {"C/439", 2}, {"A/325", 1}, {"B/131", 1}, {"C/151", 1}}));
+}
+
+// However many edges lie between the ends of a long run, they have one share; a run of the reach
+// has no gap.
+TEST(LearnedCoverage, CountsTheGapOfALongRunOnce) {
+  for (const int length : {6, 7, 8, 15}) {
+    Parameters p = without_extension();
+    p.reach_columns = 6;
+    MorphologicalGolden golden(p);
+    golden.process(Frame(length, 8, [](int, int y) { return grey(y < 4 ? 20 : 220); }).view());
+    EXPECT_EQ(golden.work().long_runs, length > 6 ? 1u : 0u);
+    EXPECT_EQ(hits_of(golden.learned_coverage().bins())["A/63"], golden.work().long_runs);
+  }
+}
+
 }  // namespace
 }  // namespace deburr

@@ -285,5 +285,86 @@ TEST(LeaveCoverage, EveryBinCanBeReached) {
   EXPECT_THAT(hit(beside), testing::IsEmpty());
 }
 
+// One pixel of a frame of 5 x 4 with these marks; (2, 1) lies on no border.
+std::set<std::string> counted(Leave leave, unsigned marks, const BlendTap& tap, int x = 2,
+                              int y = 1) {
+  const Frame frame(5, 4, [](int, int) { return grey(1); });
+  golden::morphological::LeaveCoverage coverage;
+  coverage.count_pixel(leave, static_cast<golden::morphological::Marks>(marks), tap, frame.view(),
+                       x, y);
+  std::set<std::string> names;
+  for (const CoverageBin& bin : coverage.bins()) {
+    EXPECT_LE(bin.hits, 1u);
+    if (bin.hits != 0) names.insert(bin.name);
+  }
+  return names;
+}
+using Names = std::set<std::string>;
+constexpr unsigned kOwn = 1, kUp = 2, kBesideLeft = 4, kBesideRight = 8, kDown = 16;
+
+TEST(LeaveCoverage, WithoutARuleNothingCounts) {
+  for (const Leave leave : {Leave::kNone, Leave::kMasked})
+    for (const unsigned marks : {0u, kOwn, kUp, 31u})
+      EXPECT_EQ(counted(leave, marks, {false, 60, 100}), Names{});
+}
+
+TEST(LeaveCoverage, OwnMarksAreOfTheirRule) {
+  EXPECT_EQ(counted(Leave::kMarked, kOwn, {false, 60, 100}), Names{"left/marked/own"});
+  EXPECT_EQ(counted(Leave::kMarked, 0, {false, 60, 100}), Names{});
+  EXPECT_EQ(counted(Leave::kHalf, kOwn, {false, 60, 100}), Names{"left/half/own"});
+  EXPECT_EQ(counted(Leave::kHalf, kOwn | kUp, {false, 60, 100}), Names{"left/half/own"});
+}
+
+TEST(LeaveCoverage, NeighboursThatGiveHalfAreThoseOfTheTap) {
+  const BlendTap vertical{false, 60, 100}, horizontal{true, 60, 100};
+  EXPECT_EQ(counted(Leave::kHalf, 0, vertical), Names{});
+  EXPECT_EQ(counted(Leave::kHalf, kUp, vertical), Names{"half/up"});
+  EXPECT_EQ(counted(Leave::kHalf, kDown, vertical), Names{"half/down"});
+  EXPECT_EQ(counted(Leave::kHalf, kUp | kDown, vertical), (Names{"half/up", "half/down"}));
+  EXPECT_EQ(counted(Leave::kHalf, kBesideLeft | kBesideRight, vertical), Names{});
+  EXPECT_EQ(counted(Leave::kHalf, kBesideLeft, horizontal), Names{"half/left"});
+  EXPECT_EQ(counted(Leave::kHalf, kBesideRight, horizontal), Names{"half/right"});
+  EXPECT_EQ(counted(Leave::kHalf, kUp | kDown, horizontal), Names{});
+  // What takes no share cannot give half of it.
+  EXPECT_EQ(counted(Leave::kHalf, kUp, {false, 0, 100}), Names{});
+  EXPECT_EQ(counted(Leave::kHalf, kDown, {false, 60, 0}), Names{});
+  // Half of one is nothing, half of two is one.
+  EXPECT_EQ(counted(Leave::kHalf, kUp, {false, 1, 0}), (Names{"half/up", "half/nothing"}));
+  EXPECT_EQ(counted(Leave::kHalf, kDown, {false, 0, 1}), (Names{"half/down", "half/nothing"}));
+  EXPECT_EQ(counted(Leave::kHalf, kUp, {false, 2, 0}), Names{"half/up"});
+  EXPECT_EQ(counted(Leave::kHalf, kUp, {false, 1, 1}), Names{"half/up"});
+}
+
+TEST(LeaveCoverage, BesideNamesTheOnePlaceOrSeveral) {
+  const BlendTap tap{false, 60, 100};
+  EXPECT_EQ(counted(Leave::kBeside, 0, tap), Names{});
+  EXPECT_EQ(counted(Leave::kBeside, kOwn, tap), Names{"left/beside/own"});
+  EXPECT_EQ(counted(Leave::kBeside, kUp, tap), Names{"left/beside/up"});
+  EXPECT_EQ(counted(Leave::kBeside, kBesideLeft, tap), Names{"left/beside/left"});
+  EXPECT_EQ(counted(Leave::kBeside, kBesideRight, tap), Names{"left/beside/right"});
+  EXPECT_EQ(counted(Leave::kBeside, kDown, tap), Names{"left/beside/down"});
+  EXPECT_EQ(counted(Leave::kBeside, kOwn | kUp, tap), Names{"left/beside/several"});
+  EXPECT_EQ(counted(Leave::kBeside, 31, tap), Names{"left/beside/several"});
+}
+
+TEST(LeaveCoverage, BordersAreThoseThatThePixelLiesOn) {
+  const auto borders = [](int x, int y, bool left) {
+    Names names = counted(Leave::kBeside, left ? kOwn : 0, {false, 60, 100}, x, y);
+    EXPECT_EQ(names.erase("left/beside/own"), left ? 1u : 0u);
+    return names;
+  };
+  for (const bool left : {false, true}) {
+    const std::string what = left ? "/left" : "/blended";
+    EXPECT_EQ(borders(1, 1, left), Names{});
+    EXPECT_EQ(borders(3, 2, left), Names{});
+    EXPECT_EQ(borders(2, 0, left), Names{"border/top" + what});
+    EXPECT_EQ(borders(0, 2, left), Names{"border/left" + what});
+    EXPECT_EQ(borders(4, 2, left), Names{"border/right" + what});
+    EXPECT_EQ(borders(2, 3, left), Names{"border/bottom" + what});
+    EXPECT_EQ(borders(4, 3, left), (Names{"border/right" + what, "border/bottom" + what}));
+    EXPECT_EQ(borders(0, 0, left), (Names{"border/left" + what, "border/top" + what}));
+  }
+}
+
 }  // namespace
 }  // namespace deburr

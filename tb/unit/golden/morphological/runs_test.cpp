@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <iostream>
 #include <map>
 #include <numeric>
@@ -243,6 +244,18 @@ TEST(ConsistentSets, AreThoseForWhichALineExists) {
   }
   EXPECT_GT(consistent, 1000);
   EXPECT_LT(consistent, 19000);
+}
+
+// Steps of any length, not only those that the predictor tries: of 5, a line has 4 to 6 beside it.
+TEST(ConsistentSets, AreBoundByTheRunItself) {
+  for (int length = 1; length < 12; ++length) {
+    for (int step = 1; step < 2 * length + 4; ++step) {
+      const ConsistentSet set(length);
+      EXPECT_EQ(set.consistent_with({2, length + step}), std::abs(step - length) <= 1);
+      EXPECT_EQ(set.consistent_with({-1, -step}), std::abs(step - length) <= 1);
+      EXPECT_TRUE(set.consistent());
+    }
+  }
 }
 
 TEST(ConsistentSets, TwoCornersMoreAreThoseOneByOne) {

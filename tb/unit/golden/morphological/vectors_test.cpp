@@ -214,6 +214,62 @@ TEST(LineAndArea, ChordAndFitAgreeOnARunByItself) {
   }
 }
 
+// The rounded sums of the page at halves and one below, which side a pixel belongs to at 0, and the
+// limits of heights and shares.
+TEST(LineAndArea, IsRoundedToTheUnit) {
+  using golden::morphological::areas;
+  using golden::morphological::height_magnitude;
+  EXPECT_EQ(height_magnitude(2047), 0);
+  EXPECT_EQ(height_magnitude(2048), 1);
+  EXPECT_EQ(height_magnitude(-2047), 0);
+  EXPECT_EQ(height_magnitude(-2048), 1);
+  EXPECT_EQ(height_magnitude(4095 << 12), 4095);
+  EXPECT_EQ(height_magnitude(4096 << 12), 4096);
+  EXPECT_EQ(height_magnitude(4097 << 12), 4096);
+  const auto pair = [](std::int64_t q0, std::int64_t q1, std::uint32_t inverse = 0) {
+    const auto a = areas(q0 * 4096, q1 * 4096, inverse);
+    return std::pair(a.before, a.after);
+  };
+  EXPECT_EQ(pair(-8, -7), std::pair(0, 0));
+  EXPECT_EQ(pair(-8, -8), std::pair(1, 0));
+  EXPECT_EQ(pair(8, 7), std::pair(0, 0));
+  EXPECT_EQ(pair(8, 8), std::pair(0, 1));
+  EXPECT_EQ(pair(2048, 2048), std::pair(0, 128));
+  EXPECT_EQ(pair(2047, 2033), std::pair(0, 128));
+  EXPECT_EQ(pair(2047, 2032), std::pair(0, 127));
+  EXPECT_EQ(pair(4096, 4096), std::pair(0, 128));
+  EXPECT_EQ(pair(-4096, -4096), std::pair(128, 0));
+  // A line that begins or ends on the edge crosses it nowhere: one trapezoid.
+  EXPECT_EQ(pair(-32, 0), std::pair(1, 0));
+  EXPECT_EQ(pair(0, 32), std::pair(0, 1));
+  EXPECT_EQ(std::pair(areas(-32 * 4096, 1, 0).before, areas(-32 * 4096, 1, 0).after),
+            std::pair(0, 0));
+  EXPECT_EQ(std::pair(areas(-1, 32 * 4096, 0).before, areas(-1, 32 * 4096, 0).after),
+            std::pair(0, 0));
+  // Two triangles, q q inverse / 2^29 each.
+  EXPECT_EQ(pair(-1, 2, 1u << 28), std::pair(1, 2));
+  EXPECT_EQ(pair(-1, 2, (1u << 28) - 1), std::pair(0, 2));
+  EXPECT_EQ(pair(-2, 1, 1u << 28), std::pair(2, 1));
+  EXPECT_EQ(pair(-1, 1, (1u << 29) + (1u << 28) - 1), std::pair(1, 1));
+  EXPECT_EQ(pair(-4096, 4096, 127u << 5), std::pair(127, 127));
+  EXPECT_EQ(pair(-4096, 4096, 129u << 5), std::pair(128, 128));
+}
+
+// 2048 pixels in nine steps are 227 5/9 pixels a step: in 1/4096, by the table's 1/9, 932067 1/2,
+// rounded up; of 2047 in three it is 2794837 1/3.
+TEST(LineAndArea, InversesAreRoundedToTheUnit) {
+  const auto chord = [](int steps, int pixels) {
+    LineCase c{{}, {}, 100, 0, 0, 0, {}};
+    for (int i = 1; i < steps; ++i) c.right.push_back(100 + (pixels - 100) * i / (steps - 1));
+    spec::morphological::RunRecord run;
+    run.length = 100;
+    run.shape = 9;
+    return line_through(preset_parameters(Preset::kMlaaSlope), run, prediction_of(c)).inverse;
+  };
+  EXPECT_EQ(chord(9, 2048), 932068u);
+  EXPECT_EQ(chord(3, 2047), 2794837u);
+}
+
 TEST(LineAndArea, EveryShapeGivesItsSharesToItsSides) {
   for (std::size_t shape = 0; shape < 16; ++shape) {
     const spec::morphological::RunShape& s = spec::morphological::kRunShapes[shape];
