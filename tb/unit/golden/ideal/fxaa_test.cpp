@@ -60,6 +60,28 @@ TEST(Fxaa, LeavesAnEdgeAlongAnAxisToTheSubpixelTerm) {
   }
 }
 
+// A line of one pixel bends across its axis and not along it: it takes from the two beside it and
+// they from it. It differs from its neighbours by 2/3 of the range, eased to 20/27, squared, times
+// 3/4: 0.4115; they by 1/3, as above.
+TEST(Fxaa, TakesAcrossALineOfOnePixel) {
+  const ColourFrame line = drawn(24, 11, [](int, int y) { return y == 5 ? 255 : 0; });
+  for (const ColourFrame& frame : {line, turned(line)}) {
+    FxaaSettings settings = ends_only();
+    settings.subpixel = 0.75;
+    const ColourFrame result{fxaa(frame, settings), frame.width, frame.height};
+    for (int i = 0; i < 24; ++i) {
+      const auto at = [&](int across) {
+        return frame.width == 24 ? result.at(i, across)[0] : result.at(across, i)[0];
+      };
+      EXPECT_EQ(at(3), 0);
+      EXPECT_EQ(at(4), 13);
+      EXPECT_EQ(at(5), 150);
+      EXPECT_EQ(at(6), 13);
+      EXPECT_EQ(at(7), 0);
+    }
+  }
+}
+
 // One step in an edge that goes on beyond the reach of 26.5 pixels. The n-th pixel from the step
 // sees the end n + 1 pixels on, and the side that ends there takes 1/2 - (n + 1) / (n + 27.5) of
 // the other; the side that goes on takes nothing.

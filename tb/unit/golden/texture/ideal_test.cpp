@@ -350,6 +350,21 @@ TEST(Ewa, HugeEllipsesReadASmallerLevelWithAboutTheSameResult) {
               1);
 }
 
+// An ellipse of pi texels on every level has too many for a limit of one, so that the last level is
+// read, of one texel.
+TEST(Ewa, ALimitThatNothingMeetsReadsTheLastLevel) {
+  const TextureImage texture = image(all_different(8));
+  ASSERT_EQ(texture.levels(), 4);
+  const PixelFootprint point{2.1, 1.7, 0, 0, 0, 0};
+  const auto near = [&](const Colour& colour) {
+    expect_near(colour, texel_of(texture, 3, 0, 0), 1e-6);
+  };
+  near(ewa(texture, point, {.most_texels = 1}));
+  near(ewa(texture, point, {.most_texels = 3.1}));
+  EXPECT_LT(largest_difference(ewa(texture, point, {.most_texels = 3.2}), ewa(texture, point)),
+            1e-12);
+}
+
 TEST(Ewa, AnEllipseWithoutTexelsReadsThePoint) {
   const Colour c = ewa(image(ramp(64)), {20, 20, 0.01, 0, 0, 0.01}, {.reconstruction = 0});
   EXPECT_NEAR(c[0], 2 * 19.5, 1e-3);

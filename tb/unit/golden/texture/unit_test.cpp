@@ -481,6 +481,57 @@ TEST(TextureGolden, ErrorLinesReadAsZeroBytesAndEachFillCounts) {
   }
 }
 
+// A range ends before its second address: of a line from `first` on, its bytes are first to
+// first + 63.
+TEST(TextureGolden, ErrorRangesSpoilTheLinesThatTheyMeet) {
+  spec::texture::Descriptor sampler;
+  sampler.min_filter = spec::texture::MinFilter::kNearest;
+  sampler.mag_filter = spec::texture::MagFilter::kNearest;
+  const tb::texture::Pyramid white(32, 32, [](int, int) {
+    return tb::texture::Rgba{255, 255, 255, 255};
+  });
+  const EncodedTexture texture(white, sampler);
+  const auto errors = [&](std::uint32_t low, std::uint32_t high) {
+    TextureGolden golden({}, texture.memory);
+    golden.set_texture(0, texture.descriptor);
+    golden.set_error_ranges({{low, high}});
+    // All lanes read texel (16, 16).
+    golden.process(flat_quad(16.5 / 32, 16.5 / 32, 0, 0));
+    return golden.work().memory_errors;
+  };
+  const std::uint32_t first = texel_address(texture.descriptor, 0, 16, 16) / 64 * 64;
+  ASSERT_GT(first, 64u);
+  EXPECT_EQ(errors(first - 64, first), 0u);
+  EXPECT_EQ(errors(first - 64, first + 1), 1u);
+  EXPECT_EQ(errors(first, first + 1), 1u);
+  EXPECT_EQ(errors(first + 63, first + 64), 1u);
+  EXPECT_EQ(errors(first + 63, first + 200), 1u);
+  EXPECT_EQ(errors(first + 64, first + 128), 0u);
+}
+
+// The last line of memory is no error, whoever asks for it, and the one behind it is.
+TEST(TextureGolden, MemoryEndsWithItsLastLine) {
+  spec::texture::Descriptor sampler;
+  sampler.layout = spec::texture::Layout::kLinear;
+  sampler.min_filter = spec::texture::MinFilter::kNearest;
+  sampler.mag_filter = spec::texture::MagFilter::kNearest;
+  EncodedTexture texture(tb::texture::Pyramid(16, 4,
+                                              [](int, int) {
+                                                return tb::texture::Rgba{9, 9, 9, 9};
+                                              }),
+                         sampler);
+  texture.descriptor.levels = 1;
+  for (const std::size_t bytes : {3 * 64 + 63, 4 * 64}) {
+    texture.memory.resize(bytes);
+    TextureGolden golden({}, texture.memory);
+    golden.set_texture(0, texture.descriptor);
+    golden.set_error_ranges({{0, 1}});  // so that each line is asked for
+    const QuadColours colours = golden.process(flat_quad(0.1, 0.6, 0.001, 0.25));  // rows 2, 3
+    EXPECT_EQ(colours.colours[0].rgba[0], 9);
+    EXPECT_EQ(colours.colours[2].rgba[0], bytes == 4 * 64 ? 9 : 0);
+  }
+}
+
 TEST(TextureGolden, LinesPastTheEndOfMemoryAreErrors) {
   spec::texture::Descriptor sampler;
   sampler.layout = spec::texture::Layout::kLinear;
