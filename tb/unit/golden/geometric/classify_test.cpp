@@ -135,6 +135,9 @@ TEST(Configuration, RefusesByName) {
   refused([](Parameters& p) { p.face_limit = 8193; }, "face_limit");
   refused([](Parameters& p) { p.touched_words = 15; }, "touched_words");
   refused([](Parameters& p) { p.fills = 7; }, "fills = 7 is outside 8..256");
+  Parameters fills;
+  fills.fills = fills.memory_outstanding = 64;  // as many as memory answers at once
+  EXPECT_NO_THROW(check_parameters(fills));
   Parameters table;
   table.pipelined = false;
   table.reciprocal_table = 10;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <set>
 #include <span>
@@ -413,6 +414,9 @@ TEST(MemoryErrors, LoseTheWeightsOfOneBlock) {
   clean.process(d.input(kVectorBases));
   const auto& reads = clean.traffic().read(Region::kWeights);
   const std::set<std::uint32_t> addresses(reads.begin(), reads.end());
+  // The resolve reads last, in ascending order.
+  const std::set<std::uint32_t> resolved(
+      std::is_sorted_until(reads.rbegin(), reads.rend(), std::greater<>()).base(), reads.end());
   int changed = 0;
   for (const std::uint32_t lost : addresses) {
     GeometricGolden golden(p, GeometricGolden::Detail::kPixels);
@@ -429,12 +433,41 @@ TEST(MemoryErrors, LoseTheWeightsOfOneBlock) {
         } else {
           for (std::size_t k = 0; k < 4; ++k) EXPECT_LE(left[k], all[k]);
           changed += left != all;
+          if (resolved.contains(lost)) {
+            EXPECT_EQ(left, Weights{});
+          }
         }
       }
     }
   }
   EXPECT_GT(addresses.size(), 50u);
+  EXPECT_GT(resolved.size(), 50u);
   EXPECT_GT(changed, 100);
+}
+
+// What cannot be read is as far as can be, so that a line behind everything else is seen there, in
+// every row and column of it.
+TEST(MemoryErrors, DepthThatCannotBeReadHidesNothing) {
+  for (const Layout layout : {Layout::kRaster, Layout::kTiled}) {
+    Drawing d = one_line(192, 0, 192, 16 * 256);  // 3/4 of column 0
+    std::fill(d.depths.begin(), d.depths.end(), 8000000);
+    d.vertices[0].depth = d.vertices[1].depth = 1;
+    Parameters p;
+    p.layout = layout;
+    GeometricGolden golden(p);
+    golden.process(d.input(kVectorBases));
+    EXPECT_EQ(golden.work().candidates, 16u);
+    EXPECT_EQ(golden.work().passed, 0u);
+    const FrameLayout frame(layout, 16, 16);
+    const std::uint32_t lost = frame.offset_of(frame.line_of(0, 5));
+    golden.set_memory_errors([=](std::uint32_t a) { return a == kVectorBases.depth + lost; });
+    golden.process(d.input(kVectorBases));
+    for (int y = 0; y < 16; ++y) {
+      const bool there = frame.offset_of(frame.line_of(0, y)) == lost;
+      EXPECT_EQ(golden.weights()[static_cast<std::size_t>(16 * y)] != Weights{}, there) << y;
+    }
+    EXPECT_EQ(golden.work().passed, layout == Layout::kTiled ? 4u : 1u);
+  }
 }
 
 TEST(MemoryErrors, AreCountedOnceAResponse) {

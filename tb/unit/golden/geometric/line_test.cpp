@@ -182,6 +182,18 @@ TEST(Line, StaysWithinItsBounds) {
   EXPECT_GT(worst_position, 0.3);
 }
 
+// A line shorter than a pixel has one column, so that its depth makes no step.
+TEST(Line, ShorterThanAPixelHasNoDepthStep) {
+  LineRecord line;
+  for (const int length : {1, 128, 255, 256}) {
+    ASSERT_EQ(set_up_line(vertex(128, 300, true, 0), vertex(128 + length, 300, true, 1u << 23), 16,
+                          16, line),
+              LineFate::kLine);
+    // 2^23 over 256 / 256 columns, in 1/4096.
+    EXPECT_EQ(line.depth_step, length == 256 ? std::int64_t{1} << 35 : 0) << length;
+  }
+}
+
 TEST(Line, EvenSlopesMeetCentresExactly) {
   for (const int rise : {0, 1, 2, -1, -2}) {  // slopes 0, 1/2, 1
     const bool tie_axis = std::abs(rise) == 2;

@@ -386,8 +386,10 @@ TEST(SmaaCoverage, SearchesEndAtTheLimitOrBeyondIt) {
 TEST(SmaaCoverage, EntriesOfTheTableAreTheFirstAndTheLast) {
   const auto entries = [](int shape, int before, int after) {
     std::set<std::string> names;
-    for (const auto& [name, count] : hits_of_pixel(0, {shape, before, after}))
+    for (const auto& [name, count] : hits_of_pixel(0, {shape, before, after})) {
+      EXPECT_EQ(count, 1u);
       if (name.starts_with("table-entry/")) names.insert(name.substr(12));
+    }
     return names;
   };
   using Names = std::set<std::string>;

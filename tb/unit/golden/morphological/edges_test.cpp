@@ -268,6 +268,29 @@ TEST(MorphologicalEdges, ThresholdsOfColourAreRoundedUp) {
   }
 }
 
+// Not even with the least threshold has a masked pixel an edge.
+TEST(MorphologicalEdges, AMaskHidesAStepOfOneCode) {
+  for (const auto preset :
+       {spec::morphological::Preset::kDeburr, spec::morphological::Preset::kDeburrLine}) {
+    auto p = golden::morphological::preset_parameters(preset);
+    p.threshold = 1;
+    for (const int masked : {-1, 0, 1}) {
+      for (const int step : {1, 255}) {
+        p.leave = spec::morphological::Leave::kMasked;
+        const auto pixel = [&](int i) {
+          auto result = tb::morphological::grey(i * step);
+          result[3] = i == masked ? 254 : 255;
+          return result;
+        };
+        const Frame across(2, 1, [&](int x, int) { return pixel(x); });
+        const Frame down(1, 2, [&](int, int y) { return pixel(y); });
+        EXPECT_EQ(find_edges(p, across.view()).left.at(1, 0), masked < 0);
+        EXPECT_EQ(find_edges(p, down.view()).top.at(0, 1), masked < 0);
+      }
+    }
+  }
+}
+
 TEST(MorphologicalEdges, ContrastOfExactlyTwiceTheStepDropsTheBit) {
   auto p = golden::morphological::preset_parameters(
       spec::morphological::Preset::kDeburrLine);  // symmetric

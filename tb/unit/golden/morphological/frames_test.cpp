@@ -4,7 +4,13 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "golden/morphological/area.h"
 #include "golden/morphological/runs.h"
@@ -435,6 +441,36 @@ TEST(FrameMemory, LinesThatCannotBeReadAreZeros) {
       EXPECT_EQ(bad[i], good[i]);
     }
   }
+}
+
+TEST(FrameViews, ThatAreTooSmallOrOfAnotherSizeAreBugs) {
+  const Frame frame = tb::morphological::line_image();
+  const int width = frame.width, height = frame.height;
+  const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
+  auto p = preset_parameters(spec::morphological::Preset::kDeburrLine);
+  p.edge_source = spec::morphological::EdgeSource::kDepth;
+  MorphologicalGolden golden(p);
+  const std::vector<std::uint32_t> depth(w * h + h);
+  const auto with = [&](const DepthView& view) { golden.process(frame.view(), view); };
+  EXPECT_NO_THROW(with(DepthView(depth, width, height)));
+  EXPECT_THROW(with(DepthView(depth, width - 1, height)), spec::CheckFailed);
+  EXPECT_THROW(with(DepthView(depth, width, height - 1)), spec::CheckFailed);
+  EXPECT_THROW(with(DepthView(depth, width, height, w - 1)), spec::CheckFailed);
+  // The last row may end before its gap.
+  const std::span all(depth);
+  EXPECT_NO_THROW(with(DepthView(all.first(w * h + h - 1), width, height, w + 1)));
+  EXPECT_THROW(with(DepthView(all.first(w * h + h - 2), width, height, w + 1)), spec::CheckFailed);
+  using golden::morphological::BitPlane;
+  const auto edges = [&](int left_width, int left_height, int top_width, int top_height) {
+    golden.process(frame.view(),
+                   golden::morphological::EdgePlanes{BitPlane(left_width, left_height),
+                                                     BitPlane(top_width, top_height)});
+  };
+  EXPECT_NO_THROW(edges(width, height, width, height));
+  EXPECT_THROW(edges(width - 1, height, width, height), spec::CheckFailed);
+  EXPECT_THROW(edges(width, height - 1, width, height), spec::CheckFailed);
+  EXPECT_THROW(edges(width, height, width - 1, height), spec::CheckFailed);
+  EXPECT_THROW(edges(width, height, width, height - 1), spec::CheckFailed);
 }
 
 // ---- named errors -------------------------------------------------------------------------------

@@ -359,6 +359,47 @@ TEST(LearnedShares, TheGapOfALongRunReadsItsOwnEntries) {
   }
 }
 
+// Learned edges have no span, in a gap or not: of the two edges of a pixel, the larger share
+// decides. A border crosses a long one in the middle.
+TEST(LearnedShares, HaveNoSpan) {
+  Parameters p = without_extension();
+  p.reach_columns = 6;
+  MorphologicalGolden golden(p);
+  const Frame frame(16, 12, [](int x, int y) { return grey(y < 4 ? 20 : x < 8 ? 120 : 250); });
+  for (const bool gap : {false, true}) {
+    ShareTables tables;
+    tables.of_codes.fill(gap ? -40 : 0);
+    tables.of_codes[63] = gap ? 0 : -40;
+    tables.of_near.fill(0);
+    tables.of_far.fill(0);
+    golden.set_share_tables(tables);
+    golden.process(frame.view());
+    ASSERT_TRUE(golden.edges().top.at(8, 4) && golden.edges().left.at(8, 4));
+    using golden::morphological::Decision;
+    EXPECT_EQ(golden.decisions()[4 * 16 + 8],
+              gap ? Decision::kStrongerUpDown : Decision::kStrongerLeftRight);
+  }
+}
+
+// An end that nothing crosses, or that is crossed on both sides, has class 0.
+TEST(LearnedShares, ClassesAreOfSingleCrossings) {
+  using golden::morphological::AxisEdges;
+  using golden::morphological::crossing_class;
+  golden::morphological::EdgePlanes edges{golden::morphological::BitPlane(9, 9),
+                                          golden::morphological::BitPlane(9, 9)};
+  for (int x = 2; x < 6; ++x) edges.top.set(x, 4);
+  spec::morphological::RunRecord run;
+  run.line = 4, run.start = 2, run.length = 4;
+  for (const bool both : {false, true}) {
+    if (both)
+      for (const int x : {2, 6})
+        for (const int y : {2, 3, 4, 5}) edges.left.set(x, y);
+    run.shape = both ? 15 : 0;
+    for (const bool at_end : {false, true})
+      EXPECT_EQ(crossing_class(AxisEdges::horizontal(edges), run, at_end, 20), 0);
+  }
+}
+
 TEST(LearnedShares, MirroredFramesGiveMirroredOutput) {
   Random random(31);
   for (int i = 0; i < 6; ++i) {

@@ -64,6 +64,15 @@ TEST(BitPlanes, TransposeAndReadZeroOutside) {
   }
 }
 
+// Of the widest frame too.
+TEST(BitPlanes, TransposeEveryWordOfARow) {
+  BitPlane plane(8192, 2);
+  for (int x = 0; x < 8192; x += 64) plane.set(x + x / 64 % 64, x / 64 % 2);
+  const BitPlane turned = plane.transposed();
+  EXPECT_EQ(turned.count(), 128u);
+  for (int x = 0; x < 8192; x += 64) EXPECT_TRUE(turned.at(x / 64 % 2, x + x / 64 % 64)) << x;
+}
+
 TEST(Runs, AreThoseOfAWalkOverSingleBits) {
   Random random(2);
   for (const int width : {1, 63, 64, 65, 128, 129, 400}) {
