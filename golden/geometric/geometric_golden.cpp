@@ -240,10 +240,9 @@ void GeometricGolden::fetch_vertices(const Edge& edge) {
       traffic_.read(Region::kVertices)
           .push_back(input_.bases.vertices + line * spec::geometric::kLineBytes);
     }
-    coverage_.count_fetch(CacheKind::kVertex, hit ? Fetch::kHit
-                                              : replaced == DirectMapped::kNothing
-                                                  ? Fetch::kMiss
-                                                  : Fetch::kReplaced);
+    count_fetch(CacheKind::kVertex, hit                                  ? Fetch::kHit
+                                    : replaced == DirectMapped::kNothing ? Fetch::kMiss
+                                                                         : Fetch::kReplaced);
   };
   const std::uint32_t first = edge.v0 / spec::geometric::kVerticesInLine;
   const std::uint32_t second = edge.v1 / spec::geometric::kVerticesInLine;
@@ -320,10 +319,9 @@ void GeometricGolden::fetch_depth(int x, int y, int nx, int ny) {
     std::uint64_t replaced = 0;
     const bool hit = depth_cache_.look_up(line.u, line.v, replaced);
     if (!hit) traffic_.read(Region::kDepth).push_back(input_.bases.depth + layout_.offset_of(line));
-    coverage_.count_fetch(CacheKind::kDepth, hit ? Fetch::kHit
-                                             : replaced == DirectMapped::kNothing
-                                                 ? Fetch::kMiss
-                                                 : Fetch::kReplaced);
+    count_fetch(CacheKind::kDepth, hit                                  ? Fetch::kHit
+                                   : replaced == DirectMapped::kNothing ? Fetch::kMiss
+                                                                        : Fetch::kReplaced);
   };
   const LineOfPixels own = layout_.line_of(x, y);
   fetch(own);
@@ -340,20 +338,20 @@ std::uint32_t GeometricGolden::block_address(std::uint32_t bx, std::uint32_t by)
 void GeometricGolden::look_up_block(std::uint32_t bx, std::uint32_t by) {
   std::uint64_t replaced = 0;
   if (block_cache_.look_up(bx, by, replaced)) {
-    coverage_.count_fetch(CacheKind::kBlock, Fetch::kHit);
+    count_fetch(CacheKind::kBlock, Fetch::kHit);
     return;
   }
   if (replaced != DirectMapped::kNothing) {
     traffic_.write(Region::kWeights)
         .push_back(block_address(DirectMapped::u_of(replaced), DirectMapped::v_of(replaced)));
-    coverage_.count_fetch(CacheKind::kBlock, Fetch::kReplaced);
+    count_fetch(CacheKind::kBlock, Fetch::kReplaced);
   }
   const std::size_t block = by * static_cast<std::size_t>(layout_.block_columns()) + bx;
   if (touched_[block] == 0) {
-    coverage_.count_fetch(CacheKind::kBlock, Fetch::kMiss);
+    count_fetch(CacheKind::kBlock, Fetch::kMiss);
     return;
   }
-  coverage_.count_fetch(CacheKind::kBlock, Fetch::kReadBack);
+  count_fetch(CacheKind::kBlock, Fetch::kReadBack);
   const std::uint32_t address = block_address(bx, by);
   traffic_.read(Region::kWeights).push_back(address);
   if (bad(address)) forget_block(static_cast<int>(bx), static_cast<int>(by));

@@ -84,6 +84,9 @@ class GeometricGolden {
   void read_with_errors();
   void draw_edge(const spec::geometric::Edge& edge);
   void fetch_vertices(const spec::geometric::Edge& edge);
+  void count_fetch(CacheKind cache, Fetch outcome) {
+    if (everything_) coverage_.count_fetch(cache, outcome);
+  }
   template <bool kFollow>
   void walk(const spec::geometric::LineRecord& line);
   void fetch_depth(int x, int y, int nx, int ny);

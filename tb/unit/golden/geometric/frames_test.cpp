@@ -405,6 +405,49 @@ TEST(MemoryErrors, ReadAsZeros) {
   });
 }
 
+// Faces of the second line of facing bits, 512 and on, apart from those of the first.
+TEST(MemoryErrors, FacingBitsReadAsZerosALineAtATime) {
+  Drawing d = vector_drawing();
+  tb::Random random(6);
+  for (std::uint32_t face = 0; face < 1200; ++face) d.set_facing(face, random.chance(500));
+  for (auto& edge : d.edges) {
+    edge.f0 = random.below(1200);
+    edge.f1 = random.below(1200);
+  }
+  GeometricGolden clean(Parameters{});
+  std::set<std::uint64_t> outcomes;
+  for (const std::uint32_t line : {0u, 1u, 2u}) {
+    GeometricGolden golden(Parameters{});
+    golden.set_memory_errors([=](std::uint32_t a) { return a == kVectorBases.facing + 64 * line; });
+    golden.process(d.input(kVectorBases));
+    EXPECT_EQ(golden.memory_errors(), 1u);
+    Drawing changed = d;
+    for (std::size_t i = 64 * line; i < 64 * (line + 1) && i < changed.facing.size(); ++i)
+      changed.facing[i] = 0;
+    clean.process(changed.input(kVectorBases));
+    EXPECT_EQ(golden.classes(), clean.classes());
+    EXPECT_EQ(golden.pixels(), clean.pixels());
+    outcomes.insert(golden.work().silhouette_edges);
+  }
+  EXPECT_EQ(outcomes.size(), 3u);
+}
+
+// Lost lines must be followed without any detail, too; nothing else comes of it.
+TEST(MemoryErrors, NeedNoDetail) {
+  GeometricGolden golden(Parameters{}, GeometricGolden::Detail::kPixels), all(Parameters{});
+  for (GeometricGolden* g : {&golden, &all}) {
+    g->set_memory_errors([](std::uint32_t a) { return a % 1024 == 64; });
+    g->process(vector_drawing().input(kVectorBases));
+  }
+  EXPECT_EQ(golden.pixels(), all.pixels());
+  EXPECT_EQ(golden.work(), all.work());
+  EXPECT_GT(golden.memory_errors(), 10u);
+  EXPECT_EQ(golden.memory_errors(), all.memory_errors());
+  EXPECT_TRUE(golden.classes().empty() && golden.lines().empty());
+  EXPECT_TRUE(golden.candidates().empty() && golden.blocks().empty());
+  for (const auto& bin : golden.coverage().bins()) EXPECT_EQ(bin.hits, 0u) << bin.name;
+}
+
 // Whenever a block's weights are lost, those of all other blocks stay, and it has no larger ones.
 TEST(MemoryErrors, LoseTheWeightsOfOneBlock) {
   const Drawing d = vector_drawing();

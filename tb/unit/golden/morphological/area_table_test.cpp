@@ -224,6 +224,7 @@ TEST(LineEnds, AreTheRunsOwnAtEveryLength) {
   for (int length = 1; length <= 2048; ++length) {
     EXPECT_EQ(ends(whole_run(length, 9)), std::pair(0, length));
     if (length < 4) continue;
+    EXPECT_EQ(part_of_long_run(RunPart::kHead, length, 1).span, length + 1);
     EXPECT_EQ(ends(part_of_long_run(RunPart::kHead, length, 1)), std::pair(0, length));
     EXPECT_EQ(ends(part_of_long_run(RunPart::kTail, length, 8)),
               std::pair(length / 2 - length, length / 2));

@@ -185,6 +185,7 @@ TEST(Conversion, OfChannelsAddsAndDropsWhatIsNeeded) {
   EXPECT_EQ(first(3), (spec::morphological::Rgba8{10, 20, 30, 255}));
   EXPECT_EQ(first(6), (spec::morphological::Rgba8{10, 20, 30, 40}));
   EXPECT_THROW(codes_from(Samples{values, 7, 1, 1}), spec::CheckFailed);
+  EXPECT_THROW(codes_from(Samples{{}, 7, 1, 0}), spec::CheckFailed);
   EXPECT_EQ(golden::morphological::depth_from_codes({1, 2, 3, 4}), 0x010203u);
 }
 

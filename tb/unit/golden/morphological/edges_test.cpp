@@ -258,6 +258,25 @@ TEST(MorphologicalEdges, ThresholdsOfColourHoldToTheUnit) {
   }
 }
 
+// Predicated by a depth edge or by none: a blue step of 255 codes is 255 T of 4732, and an edge.
+TEST(MorphologicalEdges, PredicatedThresholdsHoldToTheUnit) {
+  auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
+  p.edge_source = spec::morphological::EdgeSource::kPredicated;
+  p.local_contrast = spec::morphological::LocalContrast::kOff;
+  const Frame frame(2, 1, [](int x, int) {
+    return spec::morphological::Rgba8{0, 0, static_cast<std::uint8_t>(255 * x), 255};
+  });
+  for (const bool on : {false, true}) {
+    const std::vector<std::uint32_t> depth = {1000000, on ? 2000000u : 1000000u};
+    for (const int threshold : {4731, 4732, 4733}) {
+      p.threshold_on_depth_edge = on ? threshold : 1;
+      p.threshold_off_depth_edge = on ? 65535 : threshold;
+      EXPECT_EQ(find_edges(p, frame.view(), DepthView(depth, 2, 1)).left.at(1, 0),
+                threshold <= 4732);
+    }
+  }
+}
+
 // 255 T / 65536 lies a 65536th above 254 codes: the least step is 255.
 TEST(MorphologicalEdges, ThresholdsOfColourAreRoundedUp) {
   auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr);

@@ -254,6 +254,20 @@ TEST(Leave, LinesThatCannotBeReadAreMarked) {
   EXPECT_GT(golden.work().blended_pixels, 0u);
 }
 
+// Pixels that are left have had their decision; those without one are the rest of the frame.
+TEST(LeaveCoverage, DecisionsAreOfEveryPixelOnce) {
+  Random random(3);
+  Parameters p = preset_parameters(Preset::kDeburrLine);
+  p.leave = Leave::kBeside;
+  MorphologicalGolden golden(p);
+  golden.process(marked(tb::morphological::rendered_like(120, 90, 80), random, 20).view());
+  EXPECT_GT(golden.work().left_pixels, 10u);
+  std::uint64_t sum = 0;
+  for (const CoverageBin& bin : golden.coverage().bins())
+    if (bin.name.starts_with("decision/")) sum += bin.hits;
+  EXPECT_EQ(sum, golden.work().pixels);
+}
+
 TEST(LeaveCoverage, EveryBinCanBeReached) {
   Random random(9);
   const auto with = [](Leave leave) {

@@ -256,11 +256,13 @@ TEST(LineAndArea, IsRoundedToTheUnit) {
 }
 
 // 2048 pixels in nine steps are 227 5/9 pixels a step: in 1/4096, by the table's 1/9, 932067 1/2,
-// rounded up; of 2047 in three it is 2794837 1/3.
+// rounded up; of 2047 in three it is 2794837 1/3; of 1167 in 23 a 16384th less than 207827 1/2.
 TEST(LineAndArea, InversesAreRoundedToTheUnit) {
   const auto chord = [](int steps, int pixels) {
+    const int left = (steps - 1) / 2, right = steps - 1 - left, beyond = pixels - 20 * left - 100;
     LineCase c{{}, {}, 100, 0, 0, 0, {}};
-    for (int i = 1; i < steps; ++i) c.right.push_back(100 + (pixels - 100) * i / (steps - 1));
+    for (int i = 1; i <= left; ++i) c.left.push_back(-20 * i);
+    for (int i = 1; i <= right; ++i) c.right.push_back(100 + beyond * i / right);
     spec::morphological::RunRecord run;
     run.length = 100;
     run.shape = 9;
@@ -268,6 +270,7 @@ TEST(LineAndArea, InversesAreRoundedToTheUnit) {
   };
   EXPECT_EQ(chord(9, 2048), 932068u);
   EXPECT_EQ(chord(3, 2047), 2794837u);
+  EXPECT_EQ(chord(23, 1167), 207827u);
 }
 
 TEST(LineAndArea, EveryShapeGivesItsSharesToItsSides) {
