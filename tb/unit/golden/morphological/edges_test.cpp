@@ -363,6 +363,28 @@ TEST(MorphologicalEdges, DynamicThresholdsHoldToTheUnit) {
   }
 }
 
+// The floor of 514 and alpha are equal at 255 x 514 = 30 x 4369: 30 codes, of the luma that counts.
+TEST(MorphologicalEdges, TheFloorDecidesUpToEquality) {
+  using golden::morphological::PixelPair;
+  using spec::morphological::DynamicLuma;
+  auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
+  p.floor = 514;
+  const auto codes = [](int own, int other) { return PixelPair{own << 16, other << 16}; };
+  for (const int alpha : {4368, 4369, 4370}) {
+    p.alpha = alpha;
+    const auto decides = [&](DynamicLuma luma, const PixelPair& pair) {
+      p.dynamic_luma = luma;
+      EXPECT_EQ(floor_decides(p, pair), alpha <= 4369);
+    };
+    decides(DynamicLuma::kCurrent, codes(30, 90));
+    decides(DynamicLuma::kMax, codes(30, 20));
+    decides(DynamicLuma::kMax, codes(20, 30));
+    decides(DynamicLuma::kMin, codes(30, 40));
+    decides(DynamicLuma::kMin, codes(40, 30));
+    decides(DynamicLuma::kMean, codes(10, 50));
+  }
+}
+
 TEST(MorphologicalEdges, TheFloorIsNotStrict) {
   auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
   p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
