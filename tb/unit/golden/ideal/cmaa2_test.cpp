@@ -129,6 +129,81 @@ TEST(Cmaa2, BlendsALongStepBetweenTheMiddlesOfItsArms) {
   EXPECT_FALSE(step_is_right({}));
 }
 
+// The same shares between 200 and 100, where nothing ends at black or white.
+TEST(Cmaa2, BlendsAStepOfGreysAndNoPixelMore) {
+  ColourFrame frame = one_step(20, 10, 8, 4);
+  for (Rgba8& pixel : frame.pixels)
+    for (std::size_t i = 0; i < 3; ++i) pixel[i] = pixel[i] != 0 ? 200 : 100;
+  const ColourFrame result{cmaa2(frame, in_codes()), 20, 10};
+  const int expected[] = {100, 100, 100, 100, 104, 117, 130, 143, 154, 163,
+                          172, 180, 189, 198, 200, 200, 200, 200, 200, 200};
+  for (int x = 0; x < 20; ++x) {
+    EXPECT_EQ(result.at(x, 3)[0], 200);
+    EXPECT_EQ(result.at(x, 4)[0], expected[x]) << x;
+    EXPECT_EQ(result.at(x, 5)[0], 100);
+  }
+}
+
+// The left arm is one pixel at the frame's border: it takes 0.28 / 0.78 / 2 of white, and the right
+// one of eleven what it takes of one of twelve.
+TEST(Cmaa2, BlendsAStepAtTheFirstColumn) {
+  const ColourFrame frame = one_step(12, 8, 1, 4);
+  const int expected[] = {46, 139, 161, 183, 205, 227, 249, 255, 255, 255, 255, 255};
+  for (const bool turn : {false, true}) {
+    const ColourFrame one = turn ? turned(frame) : frame;
+    const ColourFrame result{cmaa2(one, in_codes()), one.width, one.height};
+    for (int x = 0; x < 12; ++x)
+      EXPECT_EQ((turn ? result.at(4, x) : result.at(x, 4))[0], expected[x]) << x;
+  }
+}
+
+// Arms of two and three pixels are just long enough: 0.28 / 0.78 / 2 on the left, 1.28 and 0.28 /
+// 1.78 / 2 on the right.
+TEST(Cmaa2, AStepWithArmsOfFivePixelsIsLong) {
+  const ColourFrame result{cmaa2(one_step(5, 8, 2, 4), in_codes()), 5, 8};
+  const int expected[] = {0, 46, 163, 235, 255};
+  for (int x = 0; x < 5; ++x) EXPECT_EQ(result.at(x, 4)[0], expected[x]) << x;
+}
+
+// What crosses an edge on one side ends an arm: of the right one six pixels are left, of which
+// three take (2.28 - n) / 2.78 / 2 of black. The crossing itself makes two corners.
+TEST(Cmaa2, AnArmEndsAtACrossingOnEitherSide) {
+  for (const bool above : {true, false}) {
+    ColourFrame frame = one_step(20, 10, 8, 4);
+    for (int y = 0; y < 10; ++y) {
+      for (int x = 14; x < 20; ++x) {
+        Rgba8& pixel = frame.pixels[frame.index(x, y)];
+        if (above && y < 5) pixel = {180, 180, 180, 255};
+        if (!above && y >= 5) pixel = {75, 75, 75, 255};
+      }
+    }
+    const ColourFrame result{cmaa2(frame, in_codes()), 20, 10};
+    const int near[] = {111, 150, 196, 242, 255, 255};
+    for (int i = 0; i < 6; ++i) EXPECT_EQ(result.at(7 + i, 4)[0], near[i]) << above << i;
+    if (above) {
+      EXPECT_EQ(result.at(13, 4)[0], 222);  // 8/10 of 255, 1/10 of 180
+      EXPECT_NEAR(result.at(14, 4)[0], 169.5, 0.5);
+    } else {
+      EXPECT_NEAR(result.at(13, 5)[0], 33, 0.5);  // 1/10 of 255 and of 75
+      EXPECT_NEAR(result.at(14, 5)[0], 85.5, 0.5);
+    }
+  }
+}
+
+// 51 codes are 0.2 of full scale, whatever their sum is rounded to.
+TEST(Cmaa2, AStepAtTheThresholdIsAnEdge) {
+  Cmaa2Settings settings;
+  settings.threshold = 0.2;
+  for (const int first : {0, 7, 100, 204}) {
+    const auto edge = [&](int step) {
+      return cmaa2_edges(drawn(2, 1, [=](int x, int) { return first + x * step; }), settings)
+          .has_right(0, 0);
+    };
+    EXPECT_TRUE(edge(51));
+    EXPECT_FALSE(edge(50));
+  }
+}
+
 TEST(Cmaa2, AStepWithShortArmsIsTwoCorners) {
   const ColourFrame frame = one_step(4, 6, 2, 2);
   ColourFrame expected = frame;

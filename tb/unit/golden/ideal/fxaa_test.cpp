@@ -82,6 +82,69 @@ TEST(Fxaa, TakesAcrossALineOfOnePixel) {
   }
 }
 
+// A grey line on white bends across its axis as well.
+TEST(Fxaa, TakesAcrossAGreyLineOnWhite) {
+  const ColourFrame line = drawn(24, 11, [](int, int y) { return y == 5 ? 128 : 255; });
+  FxaaSettings settings = ends_only();
+  settings.subpixel = 0.75;
+  // 2/3 of the range of 127 codes, as above.
+  EXPECT_NEAR(fxaa(line, settings)[line.index(9, 5)][0], 128 + 0.4115 * 127, 0.6);
+  EXPECT_EQ(fxaa(turned(line), settings),
+            turned(filtered(line, [&](const ColourFrame& f) { return fxaa(f, settings); })).pixels);
+}
+
+// Of two sides of the same step the upper and the left one are taken. Both have a luma of 18970.
+TEST(Fxaa, TakesTheUpperAndTheLeftSideOfTwo) {
+  const Rgba8 first{40, 10, 10, 255}, second{3, 17, 71, 255};
+  ASSERT_EQ(luma_of(first), luma_of(second));
+  ColourFrame frame = drawn(24, 11, [](int, int) { return 255; });
+  for (int y = 0; y < 11; ++y)
+    for (int x = 0; x < 24; ++x)
+      if (y != 5) frame.pixels[frame.index(x, y)] = y < 5 ? first : second;
+  FxaaSettings settings = ends_only();
+  settings.subpixel = 0.75;
+  for (const ColourFrame& either : {frame, turned(frame)}) {
+    const std::size_t place = either.width == 24 ? either.index(12, 5) : either.index(5, 12);
+    const Rgba8 result = fxaa(either, settings)[place];
+    // 0.4115 of the way from white to the first.
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(result[i], 255 - 0.4115 * (255 - first[i]), 0.6) << i;
+  }
+}
+
+// A step of exactly the threshold is looked at.
+TEST(Fxaa, TheThresholdIsNotStrict) {
+  FxaaSettings settings;
+  settings.threshold = 0.5;
+  settings.least_threshold = 0;
+  const auto changes = [&](int code) {
+    const ColourFrame dot =
+        drawn(5, 5, [=](int x, int y) { return x == 2 && y == 2 ? 200 : code; });
+    return fxaa(dot, settings) != dot.pixels;
+  };
+  EXPECT_TRUE(changes(99));
+  EXPECT_TRUE(changes(100));
+  EXPECT_FALSE(changes(101));
+  settings.threshold = 0;
+  settings.least_threshold = 100.0 / 255;
+  EXPECT_TRUE(changes(99));
+  EXPECT_FALSE(changes(101));
+}
+
+// The shares of a step, below, between 200 and 100: 0.4298 and 0.3983.
+TEST(Fxaa, SmoothsAStepOfGreysToo) {
+  ColourFrame frame = one_step(80, 12, 40, 5);
+  for (Rgba8& pixel : frame.pixels)
+    for (std::size_t i = 0; i < 3; ++i) pixel[i] = pixel[i] != 0 ? 200 : 100;
+  const ColourFrame result{fxaa(frame, ends_only()), frame.width, frame.height};
+  EXPECT_EQ(result.at(41, 5)[0], 157);
+  EXPECT_EQ(result.at(42, 5)[0], 160);
+  EXPECT_EQ(result.at(38, 5)[0], 143);
+  EXPECT_EQ(result.at(37, 5)[0], 140);
+  EXPECT_EQ(result.at(41, 6)[0], 100);
+  EXPECT_EQ(result.at(38, 4)[0], 200);
+}
+
 // One step in an edge that goes on beyond the reach of 26.5 pixels. The n-th pixel from the step
 // sees the end n + 1 pixels on, and the side that ends there takes 1/2 - (n + 1) / (n + 27.5) of
 // the other; the side that goes on takes nothing.

@@ -32,6 +32,15 @@ TEST(EllipseOfAFootprint, OfNothingIsAPoint) {
   EXPECT_EQ(point.d_min, 0.0);
 }
 
+TEST(EllipseOfAFootprint, OfASmallRectangleHasItsSides) {
+  PixelFootprint footprint{};
+  footprint.s_x = 0.5;
+  footprint.t_y = 0.25;
+  const Ellipse small = golden::ideal::ellipse(footprint);
+  EXPECT_DOUBLE_EQ(small.d_max, 0.5);
+  EXPECT_DOUBLE_EQ(small.d_min, 0.25);
+}
+
 TEST(EllipseOfAFootprint, OfARectangleHasItsSides) {
   PixelFootprint footprint{};
   footprint.s_x = 2;

@@ -281,6 +281,27 @@ TEST(Ellipse, TrilinearMixesTwoLevelsInEveryChannel) {
   }
 }
 
+// N samples in the middles of N parts of the major axis.
+TEST(Ellipse, FilteringIsTheMeanOfItsSamplesInEveryChannel) {
+  const TextureImage texture = image(all_different(32));
+  spec::texture::Descriptor descriptor;
+  descriptor.max_anisotropy_log2 = 4;
+  descriptor.levels = 6;
+  const spec::texture::Parameters parameters;
+  const PixelFootprint f{12.3, 10.1, 5, 2, -0.3, 0.7};
+  const Ellipse axes = ellipse(f);
+  const LevelOfDetail lod = level_of_detail(parameters, descriptor, f);
+  ASSERT_GT(lod.samples, 2);
+  Colour mean{};
+  for (int i = 0; i < lod.samples; ++i) {
+    const double place = (2 * i + 1 - lod.samples) / (2.0 * lod.samples);
+    const Colour sample =
+        trilinear(texture, f.s + place * axes.major_s, f.t + place * axes.major_t, lod.l);
+    for (std::size_t c = 0; c < 4; ++c) mean[c] += sample[c] / lod.samples;
+  }
+  expect_near(along_ellipse(texture, parameters, descriptor, f), mean, 1e-9);
+}
+
 // ---- EWA ----------------------------------------------------------------------------------------
 
 // The definition without any trick: every texel of a large window, the conic from the inverse of
@@ -363,6 +384,20 @@ TEST(Ewa, ALimitThatNothingMeetsReadsTheLastLevel) {
   near(ewa(texture, point, {.most_texels = 3.1}));
   EXPECT_LT(largest_difference(ewa(texture, point, {.most_texels = 3.2}), ewa(texture, point)),
             1e-12);
+}
+
+// Without reconstruction the ellipse of a slanted footprint has pi times its area of 23 texels: a
+// limit just above that changes nothing, one just below it reads the next level.
+TEST(Ewa, TheLimitIsOfTheEllipsesArea) {
+  const TextureImage texture = image(all_different(32));
+  const PixelFootprint f{12.3, 10.1, 4, 3, -1, 5};
+  const double area = 3.14159265 * 23;
+  const Colour all = ewa(texture, f, {.reconstruction = 0});
+  const auto limited = [&](double most) {
+    return largest_difference(ewa(texture, f, {.reconstruction = 0, .most_texels = most}), all);
+  };
+  EXPECT_EQ(limited(area + 0.1), 0);
+  EXPECT_GT(limited(area - 0.1), 0.1);
 }
 
 TEST(Ewa, AnEllipseWithoutTexelsReadsThePoint) {

@@ -521,14 +521,20 @@ TEST(TextureGolden, MemoryEndsWithItsLastLine) {
                                               }),
                          sampler);
   texture.descriptor.levels = 1;
-  for (const std::size_t bytes : {3 * 64 + 63, 4 * 64}) {
-    texture.memory.resize(bytes);
-    TextureGolden golden({}, texture.memory);
-    golden.set_texture(0, texture.descriptor);
-    golden.set_error_ranges({{0, 1}});  // so that each line is asked for
-    const QuadColours colours = golden.process(flat_quad(0.1, 0.6, 0.001, 0.25));  // rows 2, 3
-    EXPECT_EQ(colours.colours[0].rgba[0], 9);
-    EXPECT_EQ(colours.colours[2].rgba[0], bytes == 4 * 64 ? 9 : 0);
+  for (const std::uint32_t base : {0u, 4096u}) {
+    for (const std::size_t bytes : {3 * 64 + 63, 4 * 64}) {
+      for (const bool ask : {false, true}) {
+        std::vector<std::uint8_t> memory(base + bytes, 9);
+        texture.descriptor.base[0] = base;
+        TextureGolden golden({}, memory);
+        golden.set_texture(0, texture.descriptor);
+        if (ask) golden.set_error_ranges({{0, 1}});  // each line is asked for
+        const QuadColours colours = golden.process(flat_quad(0.1, 0.6, 0.001, 0.25));  // rows 2, 3
+        EXPECT_EQ(colours.colours[0].rgba[0], 9);
+        EXPECT_EQ(colours.colours[2].rgba[0], bytes == 4 * 64 ? 9 : 0);
+        EXPECT_EQ(golden.work().memory_errors, bytes == 4 * 64 ? 0u : 1u);
+      }
+    }
   }
 }
 
