@@ -220,8 +220,8 @@ TEST(Frame, RefusesViewsThatAreTooSmall) {
     EXPECT_THROW(golden.process(input), spec::CheckFailed) << faces;
   }
   // Rows of 61 pixels at a distance of 64: the last one may end before its gap, not earlier.
-  std::vector<Rgba8> wide(64 * 45);
-  std::vector<std::uint32_t> wide_depths(64 * 45);
+  std::vector<Rgba8> wide(std::size_t{64} * 45);
+  std::vector<std::uint32_t> wide_depths(std::size_t{64} * 45);
   for (const std::size_t missing : {0u, 3u, 4u}) {
     input = d.input();
     input.image = {std::span(wide).first(wide.size() - missing), 61, 45, 64};
@@ -422,7 +422,8 @@ TEST(MemoryErrors, FacingBitsReadAsZerosALineAtATime) {
     golden.process(d.input(kVectorBases));
     EXPECT_EQ(golden.memory_errors(), 1u);
     Drawing changed = d;
-    for (std::size_t i = 64 * line; i < 64 * (line + 1) && i < changed.facing.size(); ++i)
+    const std::size_t first = std::size_t{64} * line;
+    for (std::size_t i = first; i < first + 64 && i < changed.facing.size(); ++i)
       changed.facing[i] = 0;
     clean.process(changed.input(kVectorBases));
     EXPECT_EQ(golden.classes(), clean.classes());

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <set>
 #include <string>
@@ -212,6 +213,15 @@ using spec::morphological::RunRecord;
 
 constexpr std::array<const char*, 2> kAxisNames = {"horizontal", "vertical"};
 
+std::string path(std::initializer_list<std::string> parts) {
+  std::string name;
+  for (const std::string& part : parts) {
+    if (!name.empty()) name += '/';
+    name += part;
+  }
+  return name;
+}
+
 std::string shape_name(int shape) {
   return std::string(spec::morphological::kRunShapes[static_cast<std::size_t>(shape)].name);
 }
@@ -274,7 +284,7 @@ TEST(RunCoverage, SidesThatWereTriedHaveAnOutcomeAndAReason) {
                                                   {SideEnd::kInconsistent, "inconsistent"},
                                                   {SideEnd::kCurve, "curve"}};
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const std::string of_axis = std::string(kAxisNames[axis]) + '/';
+    const std::string of_axis = kAxisNames[axis];
     for (const auto& [length, length_name] : kLengthsByName) {
       for (const bool right : {false, true}) {
         for (const auto& [outcome, outcome_name] : outcomes) {
@@ -285,10 +295,10 @@ TEST(RunCoverage, SidesThatWereTriedHaveAnOutcomeAndAReason) {
             side.outcome = outcome;
             side.why = why;
             EXPECT_EQ(hits_of_run(inner_run(axis, length, 9), prediction),
-                      once("shape/" + of_axis + "Z-first-second/" + length_name,
-                           "prediction/" + of_axis + (right ? "right/" : "left/") + outcome_name +
-                               '/' + length_name,
-                           "prediction-end/" + of_axis + reason));
+                      once(path({"shape", of_axis, "Z-first-second", length_name}),
+                           path({"prediction", of_axis, right ? "right" : "left", outcome_name,
+                                 length_name}),
+                           path({"prediction-end", of_axis, reason})));
           }
         }
       }
@@ -420,21 +430,22 @@ TEST(SmaaCoverage, DiagonalsHaveCodesEndsAndALength) {
   };
   const std::array<std::string, 4> ends = {"closed", "open-1", "open-2", "open-both"};
   for (const bool rising : {false, true}) {
-    const std::string direction = rising ? "rising/" : "falling/";
+    const std::string direction = rising ? "rising" : "falling";
     for (int e1 = 0; e1 < 4; ++e1) {
       for (int e2 = 0; e2 < 4; ++e2) {
         for (std::size_t open = 0; open < 4; ++open) {
-          EXPECT_EQ(diagonal(rising, {1, 2, e1, e2, open % 2 != 0, open / 2 != 0}),
-                    once("diagonal/" + direction + std::to_string(e1) + '-' + std::to_string(e2),
-                         "diagonal-ends/" + direction + ends[open],
-                         "diagonal-length/" + direction + '3'));
+          EXPECT_EQ(
+              diagonal(rising, {1, 2, e1, e2, open % 2 != 0, open / 2 != 0}),
+              once(path({"diagonal", direction, std::to_string(e1) + '-' + std::to_string(e2)}),
+                   path({"diagonal-ends", direction, ends[open]}),
+                   path({"diagonal-length", direction, "3"})));
         }
       }
     }
     EXPECT_EQ(diagonal(rising, {2, 0}), Hits{});  // too short to count
     for (const auto& [pixels, name] : std::map<int, std::string>{{4, "4-7"}, {7, "4-7"}, {8, "8+"}})
       EXPECT_TRUE(
-          diagonal(rising, {pixels - 1, 1}).contains("diagonal-length/" + direction + name));
+          diagonal(rising, {pixels - 1, 1}).contains(path({"diagonal-length", direction, name})));
   }
 }
 
