@@ -500,6 +500,27 @@ TEST(Memory, NeighboursLieInDifferentBanks) {
   }
 }
 
+// Of an access to several words each uses its bank.
+TEST(Memory, EveryWordOfAnAccessUsesItsBank) {
+  for (const std::uint64_t count : {1u, 2u, 3u}) {
+    Memory<int> memory("memory", {.words = 64,
+                                  .word_bits = 4,
+                                  .read_ports = 2,
+                                  .banks = 4,
+                                  .span = 3,
+                                  .separate_banks = true});
+    ReadPort<int> first(memory, "first"), second(memory, "second");
+    Cycle cycle = 0;
+    for (std::uint64_t a = 0; a < 8; ++a) {
+      first.read(++cycle, 16, count);
+      if (a % 4 < count)
+        EXPECT_THROW(second.read(cycle, a), spec::CheckFailed) << a << " beside " << count;
+      else
+        EXPECT_NO_THROW(second.read(cycle, a)) << a << " beside " << count;
+    }
+  }
+}
+
 TEST(Memory, SeparateBanksOfSharedPortsHaveOnePort) {
   Memory<int> memory("memory", {.words = 8,
                                 .word_bits = 4,
@@ -719,6 +740,11 @@ TEST(MemoryCost, IsThatOfRealMemories) {
        9216,
        3,
        "3 copies of 2R"},
+      {{.words = 256, .word_bits = 12, .kind = MemoryKind::kRom, .write_ports = 0},
+       3072,
+       3072,
+       1,
+       "1R"},
       {{.words = 256, .word_bits = 12, .kind = MemoryKind::kRom, .read_ports = 2, .write_ports = 0},
        3072,
        3072,
@@ -846,6 +872,8 @@ TEST(MemoryCost, GoesWithTheWidthOfTheFrame) {
   EXPECT_EQ(pairs.bits_at(1), 100U);
   const MemoryBase fixed("fixed", {.words = 2048, .word_bits = 100});
   EXPECT_EQ(fixed.bits_at(640), 204'800U);
+  EXPECT_FALSE(fixed.follows_width());
+  EXPECT_TRUE(MemoryBase("column", {.words = 2, .word_bits = 1, .columns = 1}).follows_width());
 }
 
 TEST(MemoryCost, AMemoryPortBuffersWhatMayComeBack) {

@@ -471,6 +471,59 @@ TEST(MemoryPort, ResetWithTransactionsInFlight) {
   EXPECT_EQ(s.port.latency.count(), 0U);
 }
 
+// Answers that overtook each other, some of them given and some not, when the reset comes.
+TEST(MemoryPort, ResetWithAnswersThatWaitForTheirTurn) {
+  MemoryPortParameters parameters;
+  parameters.in_order = true;
+  System s(parameters, with_latency(5, 60), 300);
+  for (std::uint32_t i = 0; i < 200; ++i) s.driver.send(read_of(i));
+  for (Cycle round = 0; round < 30; ++round) {
+    s.clock.run(20 + 3 * round);
+    s.clock.set_reset_n(false);
+    s.clock.run(1);
+    s.clock.set_reset_n(true);
+  }
+  ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 200; }, 20'000));
+  s.clock.run(100);
+  ASSERT_EQ(s.sink.received(), 200U);
+  EXPECT_EQ(s.port.in_flight(), 0U);
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    EXPECT_TRUE(right(s.sink.beats()[i])) << i;
+    EXPECT_EQ(s.sink.beats()[i].tag, i);
+  }
+}
+
+// One read: a clock to send it, and one to push its answer, after the memory has had its time.
+TEST(MemoryPort, AccountsForEveryClockOfARead) {
+  System s({}, with_latency(10));
+  s.driver.send(read_of(3));
+  s.clock.run(50);
+  EXPECT_EQ(s.port.busy_cycles(), 2U);
+  std::uint64_t memory = 0;
+  for (const auto& cause : s.port.stalls())
+    if (cause.name == "memory") memory = cause.cycles;
+  EXPECT_EQ(memory, 10U);
+  EXPECT_EQ(s.port.stalled_cycles(), 10U);
+  EXPECT_EQ(s.port.idle_cycles(), 38U);
+}
+
+// The first beat of a burst that writes is taken, and waits inside for the others.
+TEST(MemoryPort, WaitsForTheBeatsOfABurst) {
+  MemoryPortParameters parameters;
+  parameters.max_burst_lines = parameters.max_write_lines = 2;
+  System s(parameters, with_latency(10));
+  MemoryRequest request = read_of(0);
+  request.write = true;
+  request.lines = 2;
+  request.byte_mask = ~std::uint64_t{0};
+  s.driver.send(request);
+  s.clock.run(21);
+  EXPECT_EQ(s.port.in_flight(), 1U);
+  EXPECT_EQ(s.port.busy_cycles(), 1U);
+  EXPECT_EQ(s.port.idle_cycles(), 1U);
+  EXPECT_EQ(s.port.stalled_cycles(), 19U);
+}
+
 TEST(MemoryPort, DebugAccessTakesNoTime) {
   System s({}, with_latency(30));
   s.clock.run(1);  // sockets are connected at elaboration

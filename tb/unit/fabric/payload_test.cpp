@@ -12,6 +12,7 @@
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "tb/unit/fabric/support.h"
+#include "tb/unit/rtl/formats.h"
 
 namespace deburr::tb {
 namespace {
@@ -234,6 +235,10 @@ TEST(Payload, MemoryBeatsHaveTheWidthOfTheirPort) {
   EXPECT_EQ(Payload::of<rtl::MemoryRequest>(rtl::request_shape(port, 32, 5)).bits(), 333U);
   EXPECT_EQ(Payload::of<rtl::MemoryResponse>(rtl::response_shape(port, 32, 5)).bits(), 303U);
   EXPECT_EQ(rtl::kPayloadBits<rtl::MemoryRequest>, 64U + 32 + 7 + 1 + 64 + 512);
+}
+
+TEST(Payload, MemoryBeatsHaveTheBitsOfTheirFormats) {
+  EXPECT_GE((expect_widths_of_formats<rtl::MemoryRequest, rtl::MemoryResponse>()), 7);
 }
 
 TEST(Payload, FieldsHaveTheirPlaces) {

@@ -9,6 +9,7 @@
 #include <map>
 #include <sstream>
 
+#include "rtl_model/fabric/register_block.h"
 #include "tb/harness/memory_model.h"
 #include "tb/unit/fabric/support.h"
 
@@ -21,6 +22,7 @@ using rtl::Cycle;
 struct Vcd {
   std::map<std::string, std::string> ids;  // full name -> id
   std::map<std::string, std::vector<std::pair<std::uint64_t, std::string>>> changes;  // by id
+  std::map<std::string, std::string> widths;  // "64 [63:0]", by full name
   std::string timescale;
 
   explicit Vcd(const std::string& file) {
@@ -45,8 +47,8 @@ struct Vcd {
         std::string full;
         for (const std::string& s : scopes) full += s + ".";
         ids[full + name] = id;
-        while (stream >> word && word != "$end") {
-        }
+        widths[full + name] = bits;
+        while (stream >> word && word != "$end") widths[full + name] += " " + word;
       } else if (word[0] == '#') {
         const std::uint64_t next = std::stoull(word.substr(1));
         EXPECT_GE(next, time);
@@ -223,6 +225,74 @@ TEST(Trace, ScopeAndWindow) {
     EXPECT_LT(list.back().first, 600'000U);
     for (const auto& [time, value] : list) EXPECT_NE(value, "reset");
   }
+}
+
+// The first clock of a window shows what was done in it, not all that was done before.
+TEST(Trace, AWindowBeginsWithItsOwnClock) {
+  for (const Cycle from : {Cycle{0}, Cycle{1}, Cycle{2}, Cycle{37}, Cycle{120}})
+    EXPECT_EQ(in_child([&] {
+                const std::string file = testing::TempDir() + fmt::format("begin_{}.vcd", from);
+                Pipeline p(100);
+                std::vector<std::string> did;
+                {
+                  rtl::Trace trace(p.clock, {file, {"adder_*"}, from, from + 40, false});
+                  std::uint64_t busy = 0, idle = 0;
+                  for (Cycle c = 0; c < from + 40; ++c) {
+                    p.clock.run(1);
+                    const rtl::Unit& unit = *p.adders[2];
+                    did.push_back(unit.busy_cycles() > busy   ? "busy"
+                                  : unit.idle_cycles() > idle ? "idle"
+                                                              : "stalled");
+                    busy = unit.busy_cycles();
+                    idle = unit.idle_cycles();
+                  }
+                }
+                const Vcd vcd(file);
+                for (Cycle c = from; c < from + 40; ++c) {
+                  const std::string said = vcd.value("deburr.adder_2.activity", c * 10'000);
+                  if ((said == "busy" || said == "idle" ? said : "stalled") != did[c])
+                    return fmt::format("{} in {}, which was {}", said, c, did[c]);
+                }
+                return vcd.changes.at(vcd.ids.at("deburr.adder_2.activity")).front().first ==
+                               from * 10'000
+                           ? std::string("right")
+                           : std::string("begins elsewhere");
+              }),
+              "right")
+        << from;
+}
+
+// By VCD's own rules: a range for what has more than one bit, and no two signals of one name.
+TEST(Trace, DeclaresEachSignalWithItsWidthAndAnIdentifierOfItsOwn) {
+  static constexpr spec::RegisterInfo kTable[] = {
+      {0x00, "CONTROL", spec::Access::kReadWrite, 5, "a register"}};
+  const std::string file = testing::TempDir() + "widths.vcd";
+  Pipeline p(1);
+  const rtl::RegisterBlock block("block", kTable);
+  {
+    rtl::Trace trace(p.clock, {.file = file});
+    for (int i = 0; i < 200; ++i) trace.add(fmt::format("more.signal_{}", i), 2, [] { return 1; });
+    p.clock.run(2);
+  }
+  const Vcd vcd(file);
+  EXPECT_EQ(vcd.widths.at("deburr.clk"), "1");
+  EXPECT_EQ(vcd.widths.at("deburr.cycle"), "64 [63:0]");
+  EXPECT_EQ(vcd.widths.at("deburr.link_0.push"), "1");
+  EXPECT_EQ(vcd.widths.at("deburr.link_0.occupancy"), "2 [1:0]");
+  EXPECT_EQ(vcd.widths.at("deburr.link_0.number"), "32 [31:0]");
+  EXPECT_EQ(vcd.widths.at("deburr.block.CONTROL"), "32 [31:0]");
+  EXPECT_EQ(vcd.value("deburr.block.CONTROL", 0), std::string(29, '0') + "101");
+  EXPECT_EQ(vcd.widths.at("deburr.more.signal_7"), "2 [1:0]");
+  // As short as 94 characters allow.
+  std::map<std::string, int> names;
+  int of_one_character = 0;
+  for (const auto& [name, id] : vcd.ids) {
+    EXPECT_EQ(++names[id], 1) << name;
+    EXPECT_LE(id.size(), 2U) << name;
+    of_one_character += id.size() == 1;
+    for (const char c : id) EXPECT_TRUE(c >= '!' && c <= '~') << name;
+  }
+  EXPECT_EQ(of_one_character, 94);
 }
 
 TEST(Trace, UnwritableFileIsAnError) {

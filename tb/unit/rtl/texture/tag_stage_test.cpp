@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The TagStage in the cache: merged misses, the order of fills, hits behind misses.
+#include <set>
+
 #include "tb/unit/rtl/texture/cache_bench.h"
 
 namespace deburr::tb::texture_rtl {
@@ -37,6 +39,33 @@ TEST(TextureRtlTagStage, OrderOfFills) {
   b.check_data(asked);
   EXPECT_THAT(b.memory.lines_read(),
               ElementsAre(576, 192, 1280, 320, 256, 1984, 1920, 1856, 1792, 448));
+}
+
+// Whichever of the four texels share a line, each line is fetched once and each texel is its own.
+TEST(TextureRtlTagStage, AnyOfTheTexelsMayShareALine) {
+  spec::texture::Parameters p = small_cache();
+  p.cache_bytes = 16384;
+  p.cache_ways = 4;
+  p.cache_outstanding = 64;
+  p.cache_fifo_depth = 64;
+  CacheBench b(p);
+  std::vector<TexelToken> asked;
+  std::uint64_t lines = 0;
+  for (std::uint32_t second = 0; second < 2; ++second)
+    for (std::uint32_t third = 0; third < 3; ++third)
+      for (std::uint32_t fourth = 0; fourth < 4; ++fourth) {
+        const std::uint32_t base = 4 * static_cast<std::uint32_t>(asked.size());
+        const std::array<std::uint32_t, 4> of = {0, second, third, fourth};
+        std::array<std::uint32_t, 4> address{};
+        for (std::uint32_t i = 0; i < 4; ++i) address[i] = 64 * (base + of[i]) + 4 * i;
+        asked.push_back(request(address));
+        lines += std::set<std::uint32_t>(of.begin(), of.end()).size();
+      }
+  for (const auto& t : asked) b.ends.source.add(t);
+  b.clock.run(2000);
+  b.check_data(asked);
+  EXPECT_EQ(b.cache.tag_stage.misses.value(), lines);
+  EXPECT_EQ(b.memory.lines_read().size(), lines);
 }
 
 // A hit passes the tag stage while the miss queue is full.
