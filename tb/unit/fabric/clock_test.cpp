@@ -107,6 +107,39 @@ TEST(ClockDomain, AShuffledOrderSaysNothingOfTheNext) {
     for (const int times : row) EXPECT_NEAR(times, kClocks / kMembers, kClocks / kMembers / 10);
 }
 
+TEST(ClockDomain, RunUntilGivesUpAfterItsLimit) {
+  for (const bool fast : {false, true})
+    EXPECT_EQ(in_child([fast] {
+                Pipeline p(5);
+                p.clock.set_fast_path(fast);
+                std::string ends;
+                for (const Cycle limit : {0u, 1u, 2u, 255u, 256u, 1000u}) {
+                  const bool done = p.clock.run_until([] { return false; }, limit);
+                  ends += fmt::format("{}{} ", done ? "done at " : "", p.clock.cycle());
+                  if (sc_core::sc_time_stamp() != p.clock.time_of(p.clock.cycle()))
+                    ends += "at another time ";
+                }
+                return ends;
+              }),
+              "0 1 3 258 514 1514 ");
+}
+
+TEST(ClockDomain, EveryEdgeInResetResetsOnce) {
+  Pipeline p(5);
+  int resets = 0;
+  p.clock.on_reset([&] { ++resets; });
+  p.clock.run(10);
+  p.clock.set_reset_n(false);
+  p.clock.run(7);
+  EXPECT_EQ(resets, 7);
+  EXPECT_EQ(p.clock.cycle(), 17U);
+  EXPECT_EQ(p.clock.cycles_since_reset(), 0U);
+  p.clock.set_reset_n(true);
+  p.clock.run(3);
+  EXPECT_EQ(resets, 7);
+  EXPECT_EQ(p.clock.cycles_since_reset(), 3U);
+}
+
 TEST(ClockDomain, WithoutShuffleTheOrderIsThatOfAdditionAgain) {
   Order order;
   for (int i = 0; i < 5; ++i) order.add();
@@ -471,16 +504,17 @@ TEST(Unit, HasAsManyCausesAsItCanCount) {
     }
     rtl::Activity tick(Cycle) override { return last; }
     void reset() override {}
+    using Unit::declare_stall;
     rtl::Activity last{};
   };
   rtl::ClockDomain clock("clock", ns(1));
   constexpr int kMost = rtl::kActivities - 3;
   Many many("many", clock, kMost);
+  EXPECT_THROW(many.declare_stall("one_more", "a cause"), spec::CheckFailed);
   clock.run(7);
   EXPECT_EQ(many.stalled_cycles(), 7U);
   EXPECT_EQ(many.stalls().back().name, "cause_" + std::to_string(kMost - 1));
   EXPECT_EQ(many.stalls().back().cycles, 7U);
-  EXPECT_THROW(Many("more", clock, kMost + 1), spec::CheckFailed);
 }
 
 TEST(Unit, NamesWhatItHasDeclaredAndNothingElse) {

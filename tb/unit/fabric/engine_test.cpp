@@ -124,6 +124,7 @@ std::string refusal(const Parameters& p) {
 
 TEST(Engine, RangesAreCheckedFromTheirDeclaration) {
   EXPECT_EQ(refusal({}), "taken");
+  EXPECT_EQ(refusal({.steps = 1}), "taken");
   EXPECT_EQ(refusal({.steps = 8}), "taken");
   EXPECT_EQ(refusal({.steps = 9}), "toy.steps: expected 1..8 step, got 9");
   EXPECT_EQ(refusal({.steps = 0}), "toy.steps: expected 1..8 step, got 0");

@@ -74,6 +74,11 @@ TEST(Link, DepthTwoSustainsOneABeatAClock) {
   }
 }
 
+TEST(Link, HasTwoPlacesUnlessMoreAreAskedFor) {
+  EXPECT_EQ(Link<int>("two").depth(), 2U);
+  EXPECT_EQ(Link<int>("three", 3).depth(), 3U);
+}
+
 TEST(Link, DepthOneTakesEveryOtherClock) {
   const std::vector<Cycle> expected{1, 3, 5, 7, 9};
   EXPECT_EQ(arrivals(1, true, 10), expected);

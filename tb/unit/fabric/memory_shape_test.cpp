@@ -521,6 +521,21 @@ TEST(Memory, EveryWordOfAnAccessUsesItsBank) {
   }
 }
 
+// Both rules at once: in one bank a read and a write do not meet in a word.
+TEST(Memory, SeparateBanksForbidAsOthersDo) {
+  Memory<int> memory("memory", {.words = 16,
+                                .word_bits = 4,
+                                .read_during_write = ReadDuringWrite::kForbidden,
+                                .banks = 4,
+                                .separate_banks = true});
+  ReadPort<int> read(memory, "read");
+  WritePort<int> write(memory, "write");
+  write.write(1, 5, 1);
+  EXPECT_THAT(refusal([&] { read.read(1, 5); }), HasSubstr("forbidden"));
+  write.write(2, 5, 1);
+  EXPECT_NO_THROW(read.read(2, 9));
+}
+
 TEST(Memory, SeparateBanksOfSharedPortsHaveOnePort) {
   Memory<int> memory("memory", {.words = 8,
                                 .word_bits = 4,
@@ -578,7 +593,8 @@ TEST(Memory, WithoutWordsTheChecksStay) {
   EXPECT_THROW(read.check(2, 6), spec::CheckFailed);
   EXPECT_NO_THROW(read.check(3, 6));
   EXPECT_THROW(read.read(1, 6), spec::CheckFailed);
-  EXPECT_THROW(write.write(3, 8), spec::CheckFailed);
+  EXPECT_THAT(refusal([&] { write.write(3, 8); }), HasSubstr("1 words from address 8 on"));
+  EXPECT_NO_THROW(write.write(4, 7));
 }
 
 // A table that is written while nobody reads it: the ports that read are those that are written.
@@ -607,6 +623,14 @@ TEST(Memory, WhatIsLoadedHasItsContentAndNoPortThatWrites) {
   read.read(1, 0);
   EXPECT_EQ(read.at(2, 0), 5);
   EXPECT_THAT(text_of<spec::ConfigError>([&] { build(2, 1, MemoryKind::kSram); }),
+              HasSubstr("no port that writes"));
+  EXPECT_THAT(text_of<spec::ConfigError>([] {
+                MemoryBase("loaded", {.words = 4,
+                                      .word_bits = 8,
+                                      .write_ports = 1,
+                                      .shared_ports = 1,
+                                      .loaded = true});
+              }),
               HasSubstr("no port that writes"));
   EXPECT_THAT(text_of<spec::ConfigError>([&] { build(2, 0, MemoryKind::kRom); }),
               HasSubstr("only sram is loaded"));
@@ -653,6 +677,18 @@ TEST(Memory, ContentWithASignFitsItsBits) {
   };
   for (const int word : {-16, -1, 0, 15, 31}) EXPECT_NO_THROW(build(word)) << word;
   for (const int word : {-17, 32}) EXPECT_THROW(build(word), spec::CheckFailed) << word;
+}
+
+TEST(Memory, ContentOfNearlyAWholeWordFitsItsBits) {
+  const auto build = [](std::uint32_t bits, std::uint64_t word) {
+    const std::array<std::uint64_t, 1> content = {word};
+    Memory<std::uint64_t>(
+        "rom", {.words = 1, .word_bits = bits, .kind = MemoryKind::kRom, .write_ports = 0},
+        content);
+  };
+  EXPECT_NO_THROW(build(64, ~std::uint64_t{0}));
+  EXPECT_NO_THROW(build(63, ~std::uint64_t{0} >> 1));
+  EXPECT_THROW(build(63, std::uint64_t{1} << 63), spec::CheckFailed);
 }
 
 TEST(Memory, ResetClearsTheBookkeepingAndNotTheWords) {

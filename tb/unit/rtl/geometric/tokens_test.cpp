@@ -4,7 +4,7 @@
 
 #include "tb/unit/rtl/formats.h"
 #include "tb/unit/rtl/geometric/support.h"
-#include "tb/unit/rtl/wires.h"
+#include "tb/unit/rtl/page_table.h"
 
 namespace deburr::rtl::geometric {
 namespace {
@@ -17,7 +17,7 @@ TEST(GeometricTokens, FieldsHaveTheBitsOfTheirFormat) {
 }
 
 TEST(GeometricTokens, LinksAreThoseOfThePage) {
-  const tb::WireTable table("geometric_hardware.md");
+  const tb::PageTable table("geometric_hardware.md", "link");
   ClockDomain clock("clock", tb::geometric_rtl::period());
   spec::geometric::Parameters one;
   one.edge_lanes = one.walkers = spec::geometric::Lanes::kOne;

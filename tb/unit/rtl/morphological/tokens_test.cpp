@@ -4,7 +4,7 @@
 
 #include "tb/unit/rtl/formats.h"
 #include "tb/unit/rtl/morphological/support.h"
-#include "tb/unit/rtl/wires.h"
+#include "tb/unit/rtl/page_table.h"
 
 namespace deburr::rtl::morphological {
 namespace {
@@ -20,7 +20,7 @@ TEST(Tokens, FieldsHaveTheBitsOfTheirFormat) {
 
 TEST(Tokens, LinksAreThoseOfThePage) {
   using tb::morphological_rtl::preset;
-  const tb::WireTable table("morphological_hardware.md");
+  const tb::PageTable table("morphological_hardware.md", "link");
   ClockDomain clock("clock", tb::morphological_rtl::period());
   spec::morphological::Parameters memory = tb::morphological_rtl::in_memory();
   memory.lanes = spec::morphological::Lanes::kFour;

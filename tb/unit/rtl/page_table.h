@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Are the links of an engine those of the table in its page: every one there, with its places and
-// the bits of a beat in each build that the table has a column for?
+// Are the links and memories of an engine those of the tables in its page?
 #pragma once
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <fstream>
 #include <sstream>
@@ -19,13 +19,13 @@
 
 namespace deburr::tb {
 
-class WireTable {
+class PageTable {
  public:
-  // The table of a page whose first column is "link".
-  explicit WireTable(const std::string& page) {
+  // The table of a page whose first column has this title.
+  PageTable(const std::string& page, const std::string& first) {
     std::ifstream file(std::string(DEBURR_DOCS "/") + page);
     for (std::string line; std::getline(file, line);) {
-      if (line.starts_with("| link |"))
+      if (line.starts_with("| " + first + " |"))
         titles_ = cells_of(line);
       else if (titles_.empty() || line.starts_with("|---"))
         continue;
@@ -34,10 +34,11 @@ class WireTable {
       else
         break;
     }
-    if (rows_.empty()) throw std::runtime_error(page + " has no table of links");
+    if (rows_.empty()) throw std::runtime_error(page + " has no table of a " + first);
   }
 
-  // `build` is the title of the column with the bits of a beat; "-" there: no such link.
+  // A row a link, or several (*, ?): its places, and in the column `build` the bits of a beat; "-"
+  // there: no such link.
   void expect_links(const std::string& build, const rtl::Engine& engine) const {
     const std::size_t places = column("places"), bits = column(build);
     std::vector<bool> met(rows_.size());
@@ -57,6 +58,43 @@ class WireTable {
     }
     for (std::size_t i = 0; i < rows_.size(); ++i)
       EXPECT_TRUE(met[i] || rows_[i][bits] == "-") << build << " has no link " << rows_[i][0];
+  }
+
+  // A row a memory, its name before anything else; those of the memory port have a page of their
+  // own.
+  void expect_memories(const rtl::Engine& engine) const {
+    std::vector<bool> met(rows_.size());
+    for (const rtl::MemoryBase* memory : engine.memories()) {
+      const std::string name =
+          std::string(memory->name()).substr(std::string(engine.name()).size() + 1);
+      if (name.find("memory_port.") != std::string::npos) continue;
+      const auto row = std::find_if(rows_.begin(), rows_.end(), [&](const auto& cells) {
+        return cells[0].substr(0, cells[0].find(' ')) == name;
+      });
+      if (row == rows_.end()) {
+        ADD_FAILURE() << "not in the table: " << name;
+        continue;
+      }
+      met[static_cast<std::size_t>(row - rows_.begin())] = true;
+      const bool flops = memory->memory_kind() == rtl::MemoryKind::kFlops;
+      std::string kind = rtl::name_of(memory->memory_kind());
+      std::transform(kind.begin(), kind.end(), kind.begin(),
+                     [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+      EXPECT_EQ((*row)[column("kind")], flops ? "flip-flops" : kind) << name;
+      EXPECT_EQ((*row)[column("words x bits")],
+                fmt::format("{} x {}", memory->words(), memory->word_bits()))
+          << name;
+      const std::string& ports = (*row)[column("ports")];
+      EXPECT_EQ(ports.substr(0, ports.find(',')), memory->ports()) << name;
+      EXPECT_TRUE((*row)[column("read clock")].starts_with(
+          memory->shape().latency == 0 ? "same clock" : "next clock"))
+          << name << ": " << memory->shape().latency;
+      EXPECT_EQ((*row)[column("built as")], memory->built_as()) << name;
+      std::string bits = (*row)[column("physical bits")];
+      std::erase(bits, ' ');
+      EXPECT_EQ(bits, std::to_string(memory->physical_bits())) << name;
+    }
+    for (std::size_t i = 0; i < rows_.size(); ++i) EXPECT_TRUE(met[i]) << "no " << rows_[i][0];
   }
 
  private:
