@@ -624,14 +624,13 @@ TEST(Memory, WhatIsLoadedHasItsContentAndNoPortThatWrites) {
   EXPECT_EQ(read.at(2, 0), 5);
   EXPECT_THAT(text_of<spec::ConfigError>([&] { build(2, 1, MemoryKind::kSram); }),
               HasSubstr("no port that writes"));
-  EXPECT_THAT(text_of<spec::ConfigError>([] {
-                MemoryBase("loaded", {.words = 4,
-                                      .word_bits = 8,
-                                      .write_ports = 1,
-                                      .shared_ports = 1,
-                                      .loaded = true});
-              }),
-              HasSubstr("no port that writes"));
+  EXPECT_THAT(
+      text_of<spec::ConfigError>([] {
+        MemoryBase(
+            "loaded",
+            {.words = 4, .word_bits = 8, .write_ports = 1, .shared_ports = 1, .loaded = true});
+      }),
+      HasSubstr("no port that writes"));
   EXPECT_THAT(text_of<spec::ConfigError>([&] { build(2, 0, MemoryKind::kRom); }),
               HasSubstr("only sram is loaded"));
   EXPECT_THAT(text_of<spec::ConfigError>([&] { build(2, 0, MemoryKind::kFlops); }),

@@ -569,6 +569,28 @@ TEST(MemoryPort, AccountsForEveryClockOfARead) {
   EXPECT_EQ(s.port.idle_cycles(), 38U);
 }
 
+// Nobody takes the answers: two stand in the link, and the third waits for room.
+TEST(MemoryPort, WaitsWhileNobodyTakesItsAnswers) {
+  rtl::ClockDomain clock("clock", kPeriod);
+  Driver<MemoryRequest> driver("driver", clock);
+  rtl::MemoryPort port("port", clock);
+  rtl::Link<MemoryRequest> requests("requests");
+  rtl::Link<MemoryResponse> responses("responses");
+  MemoryModel memory("memory", kPeriod, with_latency(10));
+  driver.beats_out(requests);
+  port.requests_in(requests);
+  port.responses_out(responses);
+  port.memory.bind(memory.ports);
+  for (std::uint32_t i = 0; i < 5; ++i) driver.send(read_of(i));
+  clock.run(40);  // sent in 1 to 5, the first answers pushed in 12 and 13
+  EXPECT_EQ(responses.occupancy(), 2U);
+  EXPECT_EQ(port.in_flight(), 3U);
+  EXPECT_EQ(port.idle_cycles(), 1U);
+  EXPECT_EQ(port.busy_cycles(), 5U + 2);
+  EXPECT_EQ(port.cycles_of(rtl::kStalledDownstream), 26U);
+  EXPECT_EQ(port.stalled_cycles(), 26U + 6);  // six in which it waits for memory
+}
+
 // The first beat of a burst that writes is taken, and waits inside for the others.
 TEST(MemoryPort, WaitsForTheBeatsOfABurst) {
   MemoryPortParameters parameters;

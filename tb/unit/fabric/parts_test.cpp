@@ -297,6 +297,12 @@ TEST(Histogram, BinsAreNoWiderThanTheyMustBe) {
     EXPECT_EQ(bins.front().low, first) << limit;
     for (const auto& bin : bins) EXPECT_EQ(bin.high, bin.low + width - 1) << limit;
   }
+  // Few enough values stay as they are, however far apart.
+  rtl::Histogram two("two", "clk", "test");
+  two.record(0);
+  two.record(1000);
+  EXPECT_EQ(two.bins(2).back().low, 1000U);
+  EXPECT_EQ(two.bins(1).size(), 1U);
 }
 
 // Every percentile against a sorted list, across the seam of table and pages.

@@ -112,8 +112,10 @@ TEST_F(Registers, EachMisuseHasItsError) {
   bus.length = 2;
   EXPECT_EQ(bus.write(0, 9), tlm::TLM_BURST_ERROR_RESPONSE);
   bus.length = 4;
-  bus.width = 1;
-  EXPECT_EQ(bus.write(0, 9), tlm::TLM_BURST_ERROR_RESPONSE);
+  for (const unsigned width : {1U, 3U}) {
+    bus.width = width;
+    EXPECT_EQ(bus.write(0, 9), tlm::TLM_BURST_ERROR_RESPONSE) << width;
+  }
   EXPECT_EQ(bus.block.get(kControl), 5U);  // nothing of all that was written
   bus.width = 4;
   EXPECT_EQ(bus.access(tlm::TLM_IGNORE_COMMAND, 0), tlm::TLM_OK_RESPONSE);

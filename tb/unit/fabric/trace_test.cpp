@@ -47,6 +47,7 @@ struct Vcd {
       } else if (word == "$var") {
         std::string type, bits, id, name;
         stream >> type >> bits >> id >> name;
+        EXPECT_EQ(name.find('.'), std::string::npos) << name << " has scopes";
         std::string full;
         for (const std::string& s : scopes) full += s + ".";
         ids[full + name] = id;
@@ -318,6 +319,27 @@ TEST(Trace, DeclaresEachSignalWithItsWidthAndAnIdentifierOfItsOwn) {
     for (const char c : id) EXPECT_TRUE(c >= '!' && c <= '~') << name;
   }
   EXPECT_EQ(of_one_character, 94);
+}
+
+// A period of two units of time has a half, of one has none: there the clock stays up.
+TEST(Trace, TheClockFallsAfterHalfAPeriodIfThereIsOne) {
+  for (const std::uint64_t period : {1U, 2U, 3U})
+    EXPECT_EQ(in_child([period] {
+                const std::string file = testing::TempDir() + fmt::format("half_{}.vcd", period);
+                Pipeline p(3, 0, sc_core::sc_time::from_value(period));
+                {
+                  const rtl::Trace trace(p.clock, {.file = file});
+                  p.clock.run(20);
+                }
+                std::string wave;
+                const Vcd vcd(file);
+                for (const auto& [time, value] : vcd.changes.at(vcd.ids.at("deburr.clk")))
+                  if (time < 2 * period) wave += fmt::format("{}@{} ", value, time);
+                return wave + vcd.value("deburr.cycle", period).substr(56) + "/" +
+                       std::to_string(vcd.value("deburr.cycle", 0).size());
+              }),
+              std::array{"1@0 1@1 00000001/64", "1@0 0@1 1@2 0@3 00000001/64",
+                         "1@0 0@1 1@3 0@4 00000001/64"}[period - 1]);
 }
 
 // The simulation goes on, and the file can be read already.

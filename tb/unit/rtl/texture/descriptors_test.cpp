@@ -113,6 +113,28 @@ TEST(TextureRtlDescriptors, TilesAreRoundedUp) {
     }
 }
 
+// Rows of a linear level begin at multiples of 64 bytes.
+TEST(TextureRtlDescriptors, RowsBeginAtMultiplesOf64Bytes) {
+  ClockDomain clock("clock", period());
+  Store store(clock);
+  auto read = store.descriptors.for_levels;
+  rtl::Cycle cycle = 0;
+  for (const auto& [width, pitch] : {std::array<std::uint16_t, 2>{1, 64},
+                                     {63, 64},
+                                     {64, 64},
+                                     {65, 128},
+                                     {128, 128},
+                                     {129, 192}}) {
+    spec::texture::Descriptor d = some_texture();
+    d.format = spec::texture::Format::kL8;
+    d.layout = spec::texture::Layout::kLinear;
+    d.width = width;
+    d.levels = 1;
+    write_descriptor(store.bus, 3, d);
+    EXPECT_EQ(read.read(++cycle, 3).level[0].pitch, pitch) << width;
+  }
+}
+
 // Each register by itself, that of the first texture's SIZE too.
 TEST(TextureRtlDescriptors, FollowEveryRegister) {
   namespace reg = spec::texture::reg;
@@ -120,17 +142,17 @@ TEST(TextureRtlDescriptors, FollowEveryRegister) {
   Store store(clock);
   auto read = store.descriptors.for_levels;
   rtl::Cycle cycle = 0;
-  for (const std::uint32_t handle : {0u, 15u}) {
+  for (const std::uint8_t handle : {std::uint8_t{0}, std::uint8_t{15}}) {
     write_descriptor(store.bus, handle, some_texture());
     const std::uint32_t at = reg::kTextureBase + handle * reg::kTextureStride;
     store.bus.write(at + reg::kSize, 32 | 8 << 16);
-    EXPECT_EQ(read.read(++cycle, handle).width, 32) << handle;
-    EXPECT_EQ(read.read(++cycle, handle).height, 8) << handle;
+    EXPECT_EQ(read.read(++cycle, handle).width, 32) << +handle;
+    EXPECT_EQ(read.read(++cycle, handle).height, 8) << +handle;
     store.bus.write(at + reg::kLodBias, 3);
-    EXPECT_EQ(read.read(++cycle, handle).bias, 3 * 16) << handle;
+    EXPECT_EQ(read.read(++cycle, handle).bias, 3 * 16) << +handle;
     store.bus.write(at + reg::kLevelBase + 4 * (spec::texture::kMaxLevels - 1), 64);
     store.bus.write(at + reg::kLevelBase + 8, 128);
-    EXPECT_EQ(read.read(++cycle, handle).level[2].base, 128u) << handle;
+    EXPECT_EQ(read.read(++cycle, handle).level[2].base, 128u) << +handle;
   }
 }
 

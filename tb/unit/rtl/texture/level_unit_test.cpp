@@ -81,6 +81,7 @@ TEST(TextureRtlLevel, PaperRule) {
           {"half a level behind it", 5 * 4096 + 2048, 6 * 4096, kTri, 4, 0, 0, kTop, 1, 5, 0, true},
           {"beyond the coarsest", 7 * 4096 + 9, 7 * 4096, kTri, 4, 0, 0, kTop, 1, 5, 0, true},
           {"L not below 0", 4096, 8192, kTri, 4, 0, 0, kTop, 1, 1, 0, true},
+          {"within a texel, biased to a level", -8, -8, kTri, 4, 256, 0, kTop, 1, 1, 0, true},
           {"bias +1.5", 4096, 4096, kTri, 4, 384, 0, kTop, 1, 2, 128, true},
           {"bias -1", 4096, 4096, kTri, 4, -256, 0, kTop, 1, 0, 0, false},
           {"min_lod 2.25", 4096, 4096, kTri, 4, 0, 576, kTop, 1, 2, 64, true},

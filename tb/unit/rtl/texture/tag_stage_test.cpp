@@ -82,7 +82,7 @@ TEST(TextureRtlTagStage, HitsGoOnWhileTheMissQueueIsFull) {
   EXPECT_EQ(b.cache.tag_stage.requests.value(), 1u + 4 + 5);
 }
 
-// A request that misses does not, whichever of its texels it is that misses.
+// A request that misses does not, whichever of its texels it is that misses, or all of them.
 class OneMiss : public testing::TestWithParam<std::size_t> {};
 TEST_P(OneMiss, WaitsForTheMissQueue) {
   CacheBench b(small_cache(), 200);
@@ -92,8 +92,8 @@ TEST_P(OneMiss, WaitsForTheMissQueue) {
     asked.push_back(request({0x1000 + 512 * i, 0x1080 + 512 * i, 0x1100 + 512 * i,
                              0x1180 + 512 * i}));  // 4 x 4 lines of set 0
   std::array<std::uint32_t, 4> address = {64, 68, 80, 84};
-  address[GetParam()] = 0x40C0;  // of set 1, as the others
-  asked.push_back(request(address));
+  address[GetParam() % 4] = 0x40C0;  // of set 1, as the others
+  asked.push_back(GetParam() < 4 ? request(address) : in_line(0x103));
   for (std::size_t i = 1; i < asked.size(); ++i) b.ends.source.add(asked[i]);
   b.clock.run(30);
   EXPECT_EQ(b.cache.tag_stage.requests.value(), 1u + 4);
@@ -101,7 +101,7 @@ TEST_P(OneMiss, WaitsForTheMissQueue) {
   b.clock.run(2000);
   b.check_data(asked);
 }
-INSTANTIATE_TEST_SUITE_P(TextureRtlTagStage, OneMiss, testing::Values(0, 1, 2, 3));
+INSTANTIATE_TEST_SUITE_P(TextureRtlTagStage, OneMiss, testing::Values(0, 1, 2, 3, 4));
 
 }  // namespace
 }  // namespace deburr::tb::texture_rtl

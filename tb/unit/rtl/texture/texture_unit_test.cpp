@@ -256,6 +256,8 @@ TEST(TextureRtlUnit, Registers) {
   EXPECT_EQ(b.bus.try_write(0x10, 0), tlm::TLM_ADDRESS_ERROR_RESPONSE);
   EXPECT_EQ(b.bus.try_write(reg::kTextureBase + 16 * reg::kTextureStride, 0),
             tlm::TLM_ADDRESS_ERROR_RESPONSE);
+  EXPECT_EQ(b.bus.try_write(reg::kTextureBase + reg::kLevelBase + 4 * 13, 0),
+            tlm::TLM_ADDRESS_ERROR_RESPONSE);  // levels 0 to 12
   // A descriptor reads back.
   const spec::texture::Descriptor d = nearest_texture(b.memory);
   write_descriptor(b.bus, 15, d);

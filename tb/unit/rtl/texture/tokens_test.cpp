@@ -38,6 +38,24 @@ TEST(TextureRtlTokens, MemoriesAreThoseOfThePage) {
   tb::PageTable("texture_unit.md", "memory").expect_memories(TextureUnit("unit", clock, p));
 }
 
+// Without an order of the ways a set is its tags and two bits a way.
+TEST(TextureRtlTokens, RandomReplacementKeepsNoOrder) {
+  ClockDomain clock("clock", tb::texture_rtl::period());
+  spec::texture::Parameters p;
+  p.cache_fifo_depth = 16;
+  p.cache_replacement = spec::texture::Replacement::kRandom;
+  const TextureUnit unit("unit", clock, p);
+  for (const MemoryBase* memory : unit.memories())
+    if (std::string(memory->basename()) == "tags") EXPECT_EQ(memory->word_bits(), 2U * (19 + 2));
+}
+
+// By half a tile of 64 bytes, or half of a line that is shorter.
+TEST(TextureRtlTokens, LinesTurnByHalfATile) {
+  EXPECT_EQ(turn_bytes(32), 16U);
+  EXPECT_EQ(turn_bytes(64), 32U);
+  EXPECT_EQ(turn_bytes(128), 32U);
+}
+
 // As many bits of a tag as the entries of the fill buffer need, and no more.
 TEST(TextureRtlTokens, TagsNumberTheEntries) {
   ClockDomain clock("clock", tb::texture_rtl::period());
