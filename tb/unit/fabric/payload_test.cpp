@@ -12,6 +12,7 @@
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "tb/unit/fabric/support.h"
+#include "tb/unit/rtl/formats.h"
 
 namespace deburr::tb {
 namespace {
@@ -200,9 +201,131 @@ struct OneBitMore {
   }
 };
 
+struct NoSign {
+  std::int32_t area = 0;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("area", self.area, 30, "S14.16");
+  }
+};
+
 TEST(Payload, AFormatHasAsManyBitsAsTheField) {
   EXPECT_THAT(text_of<spec::CheckFailed>([] { Payload::of<OneBitMore>(); }),
               HasSubstr("area: U14.16 has 30 bits, the list says 31"));
+  EXPECT_THAT(text_of<spec::CheckFailed>([] { Payload::of<NoSign>(); }),
+              HasSubstr("area: S14.16 has 31 bits, the list says 30"));
+}
+
+// Formats are Ua.b and Sa.b; what only looks like one is another text.
+struct OtherTexts {
+  std::uint8_t a = 0, b = 0, c = 0, d = 0, e = 0, f = 0;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("a", self.a, 5, "U.8");
+    visit("b", self.b, 5, "U8");
+    visit("c", self.c, 5, "U0.8 or so");
+    visit("d", self.d, 5, "S");
+    visit("e", self.e, 5, "");
+    visit("f", self.f, 5, "U8x5");
+  }
+};
+
+TEST(Payload, ATextThatIsNoFormatSaysNothingOfBits) {
+  EXPECT_EQ(Payload::of<OtherTexts>().bits(), 30U);
+}
+
+// The name of a type as others write it, whatever letters it has.
+struct AZaz09 {
+  std::uint8_t a = 0;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("a", self.a, 8);
+  }
+};
+struct Zero0Z9 {
+  std::uint8_t a = 0;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("a", self.a, 8);
+  }
+};
+
+template <int kNumber>
+struct Numbered {
+  std::uint8_t a = 0;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("a", self.a, 8);
+  }
+};
+
+TEST(Payload, TypesAreNamedInLowerCase) {
+  EXPECT_EQ(Payload::of<Numbered<7>>().node().type, "numbered_7__t");
+  EXPECT_EQ(Payload::of<AZaz09>().node().type, "a_zaz09_t");
+  EXPECT_EQ(Payload::of<Zero0Z9>().node().type, "zero0_z9_t");
+}
+
+// Five bits of every type that C++ has for them.
+struct FiveBits {
+  std::int8_t s8 = 0;
+  std::int16_t s16 = 0;
+  std::int32_t s32 = 0;
+  std::int64_t s64 = 0;
+  std::uint8_t u8 = 0;
+  std::uint64_t u64 = 0;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("s8", self.s8, 5);
+    visit("s16", self.s16, 5);
+    visit("s32", self.s32, 5);
+    visit("s64", self.s64, 5);
+    visit("u8", self.u8, 5);
+    visit("u64", self.u64, 5);
+  }
+};
+
+TEST(Payload, AValueFitsOrDoesNotWhateverItsTypeIs) {
+  const Payload payload = Payload::of<FiveBits>();
+  const auto misfits = [&](int value) {
+    std::string names;
+    for (const rtl::Field& field : payload.fields()) {
+      FiveBits beat;
+      if (field.name == "s8") beat.s8 = static_cast<std::int8_t>(value);
+      if (field.name == "s16") beat.s16 = static_cast<std::int16_t>(value);
+      if (field.name == "s32") beat.s32 = value;
+      if (field.name == "s64") beat.s64 = value;
+      if (field.name == "u8") beat.u8 = static_cast<std::uint8_t>(value);
+      if (field.name == "u64") beat.u64 = static_cast<std::uint64_t>(value);
+      if (payload.misfit(bytes(beat)) != nullptr) names += field.name + " ";
+    }
+    return names;
+  };
+  for (const int value : {0, 1, 15}) EXPECT_EQ(misfits(value), "") << value;
+  for (const int value : {16, 31}) EXPECT_EQ(misfits(value), "s8 s16 s32 s64 ") << value;
+  for (const int value : {-1, -16}) EXPECT_EQ(misfits(value), "u8 u64 ") << value;
+  for (const int value : {-17, -32, -128, 32, 64, 127})
+    EXPECT_EQ(misfits(value), "s8 s16 s32 s64 u8 u64 ") << value;
+}
+
+TEST(Payload, ANumberHasItsSign) {
+  const Payload payload = Payload::of<FiveBits>();
+  for (const int value : {-16, -9, -8, -1, 0, 7, 8, 15}) {
+    FiveBits beat;
+    beat.s8 = static_cast<std::int8_t>(value);
+    beat.s64 = value;
+    beat.u8 = static_cast<std::uint8_t>(value & 31);
+    EXPECT_EQ(payload.find("s8")->text(bytes(beat)), std::to_string(value));
+    EXPECT_EQ(payload.find("s64")->text(bytes(beat)), std::to_string(value));
+    EXPECT_EQ(payload.find("u8")->text(bytes(beat)), std::to_string(value & 31));
+  }
+}
+
+TEST(Payload, ABitIsAWholeNumber) {
+  const Payload payload = Payload::of<FiveBits>();
+  EXPECT_EQ(payload.bit("7").field->name, "s16");
+  EXPECT_EQ(payload.bit("s16.2").bit, 2U);
+  for (const char* const text : {"7x", "s16.2x", "s16.", "", "-1", "s16.5", "30"})
+    EXPECT_THROW(payload.bit(text), spec::ConfigError) << text;
 }
 
 TEST(Payload, EachFieldHasANameAndAPlaceOfItsOwn) {
@@ -234,6 +357,10 @@ TEST(Payload, MemoryBeatsHaveTheWidthOfTheirPort) {
   EXPECT_EQ(Payload::of<rtl::MemoryRequest>(rtl::request_shape(port, 32, 5)).bits(), 333U);
   EXPECT_EQ(Payload::of<rtl::MemoryResponse>(rtl::response_shape(port, 32, 5)).bits(), 303U);
   EXPECT_EQ(rtl::kPayloadBits<rtl::MemoryRequest>, 64U + 32 + 7 + 1 + 64 + 512);
+}
+
+TEST(Payload, MemoryBeatsHaveTheBitsOfTheirFormats) {
+  EXPECT_GE((expect_widths_of_formats<rtl::MemoryRequest, rtl::MemoryResponse>()), 7);
 }
 
 TEST(Payload, FieldsHaveTheirPlaces) {

@@ -249,6 +249,21 @@ TEST(TextureRtlDataStage, TwoWordsOfABankTakeTwoPasses) {
   EXPECT_EQ(clocks_of(StageBench::hit({0, 64, 1, 65})), (Clocks{2, 0, 0, 1}));
 }
 
+// A line that has come waits for its own request, while those before it take their passes.
+TEST(TextureRtlDataStage, AFillWaitsForItsRequestBehindBankConflicts) {
+  CacheBench b(small_cache(), 5);
+  std::vector<TexelToken> asked = {in_line(0), in_line(1)};
+  for (std::uint32_t line = 2; line < 6; ++line) {
+    for (int i = 0; i < 8; ++i) asked.push_back(request({64, 0, 68, 4}));
+    asked.push_back(in_line(2 * line));
+    asked.push_back(in_line(0));
+  }
+  for (const auto& t : asked) b.ends.source.add(t);
+  b.clock.run(1000);
+  b.check_data(asked);
+  EXPECT_GE(b.cache.data_stage.conflicts.value(), 32u);
+}
+
 // ---- what the banks do not do -------------------------------------------------------------------
 
 TEST(TextureRtlDataBanks, AWordIsNotThereInTheClockOfItsRead) {

@@ -256,6 +256,8 @@ TEST(TextureRtlUnit, Registers) {
   EXPECT_EQ(b.bus.try_write(0x10, 0), tlm::TLM_ADDRESS_ERROR_RESPONSE);
   EXPECT_EQ(b.bus.try_write(reg::kTextureBase + 16 * reg::kTextureStride, 0),
             tlm::TLM_ADDRESS_ERROR_RESPONSE);
+  EXPECT_EQ(b.bus.try_write(reg::kTextureBase + reg::kLevelBase + 4 * 13, 0),
+            tlm::TLM_ADDRESS_ERROR_RESPONSE);  // levels 0 to 12
   // A descriptor reads back.
   const spec::texture::Descriptor d = nearest_texture(b.memory);
   write_descriptor(b.bus, 15, d);
@@ -604,6 +606,16 @@ TEST(TextureRtlUnit, RefusesImpossibleParameters) {
                   [](auto& p) {
                     p.cache_bytes = 256;
                     p.cache_ways = 4;
+                  }),
+            "none");
+  EXPECT_EQ(error("n",
+                  [](auto& p) {
+                    p.cache_bytes = 512 * 32;
+                    p.cache_line_bytes = 32;
+                    p.cache_ways = 8;
+                    p.cache_fifo_depth = 2;
+                    p.axes = spec::texture::Axes::kEight;
+                    p.axis_clocks = 4;
                   }),
             "none");
 }
