@@ -393,6 +393,9 @@ TEST(FacingStore, ALineAClock) {
     const std::string got = in_child([faces] {
       ReaderBench b({}, 0, faces);
       EXPECT_EQ(b.facing.lines_read.value(), faces / 512);
+      std::vector<std::uint64_t> wanted;
+      for (std::uint32_t i = 0; i < faces / 512; ++i) wanted.push_back(0x40000 + 64 * i);
+      EXPECT_EQ(b.memory.lines_read(), wanted);
       return std::to_string(b.facing.busy_cycles() + b.facing.stalled_cycles() - faces / 512);
     });
     EXPECT_EQ(got, "25") << faces;

@@ -154,6 +154,25 @@ TEST(VertexFetch, TwoClocksWhereBothMiss) {
   finish(b, b.ends, 30);
   EXPECT_EQ(spread(b.ends), 58u);
 }
+// Both vertices of a line are one look-up; a frame's end is none, and reads nothing.
+TEST(VertexFetch, CountsLookUpsOfLines) {
+  VertexBench b;
+  KeptEdge end{};
+  end.end = true;
+  b.ends.source.add(end);
+  finish(b, b.ends, 1);
+  rtl::for_each<rtl::PortedMemory>(b.unit, [](rtl::PortedMemory& memory) {
+    if (std::string(memory.basename()) != "vertex_tags") {
+      EXPECT_EQ(memory.reads(), 0u) << memory.name();
+    }
+  });
+  b.ends.source.add({0, 3, false});
+  b.ends.source.add({3, 4, false});
+  b.ends.source.add({5, 5, false});
+  finish(b, b.ends, 4);
+  EXPECT_EQ(b.unit.lookups.value(), 1u + 2 + 1);
+  EXPECT_EQ(b.unit.misses.value(), 2u);
+}
 TEST(VertexFetch, TwoLinesOfOneIndexAreFetchedAnew) {
   VertexBench b;
   std::vector<std::uint8_t> bytes(64 * 65);
