@@ -87,6 +87,16 @@ TEST(FrameRules, EachBitOfRulesIsItsFields) {
   }
 }
 
+// Bits of no field count nowhere, whatever holds the registers.
+TEST(FrameRules, OtherBitsOfRulesAreNotLookedAt) {
+  rtl::ControlRegisters raw("raw", spec::geometric::kRegisters, rtl::geometric::control_layout());
+  raw.write(reg::kRules, 0xFFFF0002);
+  EXPECT_EQ(text_of(decode(raw)), "0 0 0 0 0 1 0 0 0 ");
+  raw.write(reg::kSize, 0xC000C000 | size_of(40, 30));
+  EXPECT_EQ(decode(raw).width, 40);
+  EXPECT_EQ(decode(raw).height, 30);
+}
+
 // A build's parameters are the reset value: each of them alone against that of none.
 TEST(FrameRules, ResetValuesAreTheParameters) {
   struct Row {

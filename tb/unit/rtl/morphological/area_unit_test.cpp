@@ -336,11 +336,15 @@ TEST_P(AreaLanes, LearnedSharesLieWhereTheirEdgesLie) {
   EXPECT_EQ(bench.unit.stalled_cycles(), 0u);
 }
 
-// What each edge of a record of either axis asks by: its pixels before it, and behind it.
+// What each edge of a record of either axis asks by: its pixels before it, and behind it; with
+// crossings, too.
 TEST_P(AreaLanes, EdgesOfALearnedRecordAskByBothOfItsEnds) {
-  for (const int length : {1, 2, 5, 9}) {
-    const std::string got = forked_text([&, length = length] {
-      Area bench(with_shares(GetParam()), 20, 16);
+  for (const auto& [length, crossings] :
+       {std::pair{1, false}, {5, false}, {9, false}, {2, true}, {9, true}}) {
+    const std::string got = forked_text([&, length = length, crossings = crossings] {
+      Parameters p = with_shares(GetParam());
+      if (crossings) p.ends = spec::morphological::Ends::kCrossings;
+      Area bench(p, 20, 16);
       std::multiset<std::array<std::array<std::uint16_t, 2>, 3>> asked, wanted;
       bench.unit.shares_rom()->observer = [&](const SharesRom::Query& q) {
         asked.insert({q.a, q.b, q.c});
@@ -359,7 +363,7 @@ TEST_P(AreaLanes, EdgesOfALearnedRecordAskByBothOfItsEnds) {
       bench.clock.run(bench.slots_before(16 + kLag) + 20);
       return std::string(asked == wanted ? "the same" : "others");
     });
-    EXPECT_EQ(got, "the same") << length;
+    EXPECT_EQ(got, "the same") << length << crossings;
   }
 }
 

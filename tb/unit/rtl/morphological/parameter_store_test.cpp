@@ -186,6 +186,22 @@ TEST(FrameRules, EachBitOfRulesIsItsFields) {
                    {1u << 25, ""},
                    {0xF8000000, ""}});
 }
+// Bits of no field count nowhere, whatever holds the registers.
+TEST(FrameRules, OtherBitsAreNotLookedAt) {
+  rtl::ControlRegisters raw("raw", spec::morphological::kRegisters,
+                            rtl::morphological::control_layout());
+  const auto decoded = [&] { return rtl::morphological::decode(raw, smaa()); };
+  raw.write(reg::kRules, 0xF8000000);
+  EXPECT_EQ(text_of(decoded().rules), "");
+  raw.write(reg::kSize, 0xC000C000 | 40 | 30 << 16);
+  EXPECT_EQ(decoded().rules.width, 40);
+  EXPECT_EQ(decoded().rules.height, 30);
+  raw.write(reg::kSmaa, 0xFE00E080);
+  raw.write(reg::kRules, 1u << 20);
+  EXPECT_EQ(decoded().rules.search_steps, 1);
+  EXPECT_EQ(decoded().rules.diagonal_steps, 0);
+  EXPECT_EQ(decoded().rules.corner_loss, 256);
+}
 TEST(FrameRules, OfAnEngineWithLearnedShares) {
   expect_rules(deburr(), {{1u << 25, "learned 1"},
                           {0x7FFFFFFu & ~(1u << 25) & ~(7u << 13) & ~0x3FFFu & ~(1u << 26),
