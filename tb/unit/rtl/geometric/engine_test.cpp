@@ -174,6 +174,13 @@ TEST(Parameters, ThatCannotBeBuiltAreRefused) {
   EXPECT_THAT(refusal([](Parameters& p) { p.memory_outstanding = 16; }), HasSubstr("fills"));
   EXPECT_THAT(refusal([](Parameters& p) { p.line_pixels = 63; }), HasSubstr("line_pixels"));
   EXPECT_EQ(refusal([](Parameters& p) { p.pipelined = false; }), "built");
+  EXPECT_EQ(refusal([](Parameters& p) {
+              p.pipelined = false;
+              p.reciprocal_table = 8;
+            }),
+            "built");
+  EXPECT_EQ(refusal([](Parameters& p) { p.face_limit = 8192 + 512; }), "built");
+  EXPECT_EQ(refusal([](Parameters& p) { p.memory_outstanding = p.fills; }), "built");
 }
 
 // ---- what a default build is made of
