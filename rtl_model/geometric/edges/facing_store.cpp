@@ -32,14 +32,15 @@ Activity FacingStore::tick(Cycle cycle) {
   if (memory.responses_in.can_pop(cycle)) {
     const MemoryResponse& response = memory.responses_in.take(cycle);
     std::array<std::uint32_t, kWordsInLine> line;
-    for (std::size_t i = 0; i < kWordsInLine; ++i) line[i] = word_of(response.data, i);
+    std::size_t i = 0;
+    for (std::uint32_t& word : line) word = word_of(response.data, i++);
     write_.write(cycle, response.tag * kWordsInLine, std::span<const std::uint32_t>(line));
     ++answered_;
     did = true;
   }
   const Phase phase = sequencer_.phase(cycle);
   if (phase != Phase::kBegin) {
-    if (phase == Phase::kEdges && loaded_.get(cycle)) {
+    if (loaded_.get(cycle)) {
       loaded_.set(cycle, false);
       asked_ = answered_ = 0;
     }

@@ -182,7 +182,8 @@ Activity VertexFetch::tick(Cycle cycle) {
   if (memory.responses_in.can_pop(cycle)) {
     const MemoryResponse& response = memory.responses_in.take(cycle);
     VertexLine line;
-    for (std::size_t i = 0; i < line.size(); ++i) line[i] = decode_vertex(response.data, i);
+    std::size_t i = 0;
+    for (VertexFields& vertex : line) vertex = decode_vertex(response.data, i++);
     fills_.fill(cycle, response.tag, line);
     did = true;
   }

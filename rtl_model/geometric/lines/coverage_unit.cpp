@@ -2,6 +2,7 @@
 #include "rtl_model/geometric/lines/coverage_unit.h"
 
 #include <bit>
+#include <cstdlib>
 
 namespace deburr::rtl::geometric {
 namespace {
@@ -30,7 +31,7 @@ void CoverageUnit::find(const GroupToken& group, CandidateToken& out) {
     const std::int32_t distance = (group.position[lane] & kFractionMask) - kHalf;
     const bool forward = distance > 0 || (distance == 0 && group.tie_forward);
     const std::int32_t neighbour = forward ? row + 1 : row - 1;
-    const std::int32_t coverage = (kHalf - (distance < 0 ? -distance : distance) + 128) >> 8;
+    const std::int32_t coverage = (kHalf - std::abs(distance) + 128) >> 8;
     if (row < 0 || row >= rows || neighbour < 0 || neighbour >= rows || coverage == 0) continue;
     const std::uint32_t column = (group.column + lane) & 3,
                         in_block = static_cast<std::uint32_t>(row) & 3;

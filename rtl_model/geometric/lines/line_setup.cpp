@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -73,8 +74,8 @@ void LineSetup::find_axis(Beat& beat) {
   if (!a->usable || !b->usable) return drop(outside_edges);
   const std::int32_t dx = b->x - a->x, dy = b->y - a->y;
   if (dx == 0 && dy == 0) return drop(degenerate_edges);
-  const std::uint32_t across = static_cast<std::uint32_t>(dx < 0 ? -dx : dx),
-                      down = static_cast<std::uint32_t>(dy < 0 ? -dy : dy);
+  const std::uint32_t across = static_cast<std::uint32_t>(std::abs(dx)),
+                      down = static_cast<std::uint32_t>(std::abs(dy));
   const bool horizontal = across > down;
   if ((horizontal ? dx : dy) < 0) std::swap(a, b);
   const FrameRules& rules = store_.rules();

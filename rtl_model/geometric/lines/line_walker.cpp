@@ -21,7 +21,6 @@ Activity LineWalker::tick(Cycle cycle) {
     const LineToken& token = lines_in.take(cycle);
     if (token.end) {
       group.end = true;
-      group.count = 0;
       return kBusy;
     }
     line_ = token.line;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 
@@ -21,7 +22,7 @@ bool before(std::uint32_t a, std::uint32_t b) { return (a - b) & ((kSlotMask + 1
 // |t|, S.24, to U1.12: rounded, saturated.
 std::uint32_t quantise(std::int64_t t) {
   constexpr int kDrop = 12;
-  const auto magnitude = static_cast<std::uint64_t>(t < 0 ? -t : t);
+  const auto magnitude = static_cast<std::uint64_t>(std::abs(t));
   return static_cast<std::uint32_t>(
       std::min<std::uint64_t>(4096, (magnitude + (1u << (kDrop - 1))) >> kDrop));
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
 #include <string>
 
 #include "spec/morphological/packets.h"
@@ -217,7 +218,7 @@ void Blender::round(Cycle cycle, Beat& beat) {
   for_each_lane(beat.blend, [&](std::size_t lane) {
     Operands& o = beat.operands[lane];
     for (std::size_t c = 0; c < 3; ++c) {
-      const std::int32_t v = o.sum[c], moved = ((v < 0 ? -v : v) + 128) >> 8;
+      const std::int32_t v = o.sum[c], moved = (std::abs(v) + 128) >> 8;
       o.value[c] = static_cast<std::uint16_t>(v < 0 ? o.centre[c] - moved : o.centre[c] + moved);
       if (linear) codes_[lane * 3 + c].read(cycle, o.value[c]);
     }

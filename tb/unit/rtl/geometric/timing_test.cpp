@@ -86,6 +86,39 @@ TEST(EdgeClassifier, KeptEdgesLeaveOneAClock) {
   for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(b.ends.sink.taken[i].token.v0, i % 4);
 }
 
+// The last index of each table is one, the count itself is none; a boundary has no second face.
+TEST(EdgeClassifier, IndicesEndBeforeTheirCounts) {
+  Parameters p;
+  p.edge_lanes = Lanes::kFour;
+  ClassifierBench b(p);
+  b.bus.write(reg::kFaceCount, 40);
+  ASSERT_EQ(b.store.latch(true), spec::geometric::Refusal::kNone);
+  struct Row {
+    EdgeFields edge;
+    bool valid;
+  };
+  using spec::geometric::flag::kBoundary;
+  EdgeBeat beat{};
+  int valid = 0, edges = 0;
+  for (const Row& row :
+       {Row{{99, 99, 39, 39, 0}, true}, Row{{100, 99, 39, 39, 0}, false},
+        Row{{99, 100, 39, 39, 0}, false}, Row{{99, 99, 40, 39, 0}, false},
+        Row{{99, 99, 39, 40, 0}, false}, Row{{99, 99, 39, 40, kBoundary}, true},
+        Row{{99, 99, 40, 39, kBoundary}, false}, Row{{100, 0, 0, 0, kBoundary}, false}}) {
+    beat.edge[beat.count++] = row.edge;
+    valid += row.valid;
+    ++edges;
+    if (beat.count < 4) continue;
+    b.ends.source.add(beat);
+    beat = {};
+  }
+  b.clock.run(20);
+  EXPECT_EQ(b.unit.edges.value(), static_cast<std::uint64_t>(edges));
+  EXPECT_EQ(b.unit.invalid_edges.value(), static_cast<std::uint64_t>(edges - valid));
+  EXPECT_EQ(b.unit.back_edges.value(), 1u);
+  EXPECT_EQ(b.unit.boundary_edges.value(), 1u);
+}
+
 // ---- VertexFetch
 struct VertexBench : Frame {
   VertexBench() : Frame({}), unit("unit", clock, {}, store, sequencer), ends(clock) {
@@ -120,6 +153,25 @@ TEST(VertexFetch, TwoClocksWhereBothMiss) {
   for (std::uint32_t i = 0; i < 30; ++i) b.ends.source.add({8 * i, 8 * i + 4, false});
   finish(b, b.ends, 30);
   EXPECT_EQ(spread(b.ends), 58u);
+}
+// Both vertices of a line are one look-up; a frame's end is none, and reads nothing.
+TEST(VertexFetch, CountsLookUpsOfLines) {
+  VertexBench b;
+  KeptEdge end{};
+  end.end = true;
+  b.ends.source.add(end);
+  finish(b, b.ends, 1);
+  rtl::for_each<rtl::PortedMemory>(b.unit, [](rtl::PortedMemory& memory) {
+    if (std::string(memory.basename()) != "vertex_tags") {
+      EXPECT_EQ(memory.reads(), 0u) << memory.name();
+    }
+  });
+  b.ends.source.add({0, 3, false});
+  b.ends.source.add({3, 4, false});
+  b.ends.source.add({5, 5, false});
+  finish(b, b.ends, 4);
+  EXPECT_EQ(b.unit.lookups.value(), 1u + 2 + 1);
+  EXPECT_EQ(b.unit.misses.value(), 2u);
 }
 TEST(VertexFetch, TwoLinesOfOneIndexAreFetchedAnew) {
   VertexBench b;
@@ -191,6 +243,22 @@ TEST(MemoryArbiter, ServesEachOfEightAfterSevenOthers) {
   }
   const auto [first, last] = std::minmax_element(answers.begin(), answers.end());
   EXPECT_EQ(*last - *first, 8u * 40 - 1) << "one a clock";
+}
+
+TEST(MemoryArbiter, LinksCarryWholeAddressesAndTags) {
+  const EngineBench b;
+  std::size_t clients = 0, port = 0;
+  rtl::for_each<rtl::LinkBase>([&](const rtl::LinkBase& link) {
+    const std::string name = link.basename();
+    if (!name.ends_with("requests") && !name.ends_with("responses")) return;
+    const bool of_port = name == "requests" || name == "responses";
+    ++(of_port ? port : clients);
+    EXPECT_EQ(link.payload().find("address")->bits, 32u) << name;
+    // The client beside its own number.
+    EXPECT_EQ(link.payload().find("tag")->bits, of_port ? 15u : 12u) << name;
+  });
+  EXPECT_EQ(port, 2u);
+  EXPECT_EQ(clients, 2 * kClients);
 }
 
 // ---- LineWalker
@@ -449,6 +517,32 @@ TEST(DepthTest, PassesAtEqualityForEachBias) {
     });
     EXPECT_EQ(got, "right") << bias;
   }
+}
+
+// What it tells the scoreboard of a candidate, of every pixel of a block and every direction.
+TEST(DepthTest, ShowsEachCandidate) {
+  DepthBench b;
+  std::vector<spec::geometric::Candidate> shown, wanted;
+  b.unit.observer = [&](const spec::geometric::Candidate& c) { shown.push_back(c); };
+  for (int direction = 0; direction < 4; ++direction)
+    for (int place = 0; place < 16; ++place) {
+      CandidateToken token{};
+      token.block_x = 7;
+      token.block_y = 9;
+      token.vertical = direction >= 2;
+      token.candidates = 4;
+      token.forward = direction % 2 ? 4 : 0;
+      token.place[2] = static_cast<std::uint8_t>(place);
+      token.coverage[2] = static_cast<std::uint8_t>(1 + place);
+      token.depth[2] = static_cast<std::uint32_t>(1000 + place);
+      b.ends.source.add(token);
+      wanted.push_back({static_cast<std::uint16_t>(28 + place % 4),
+                        static_cast<std::uint16_t>(36 + place / 4),
+                        static_cast<spec::geometric::Direction>(direction), token.coverage[2],
+                        token.depth[2], true});
+    }
+  finish(b, b.ends, wanted.size());
+  EXPECT_EQ(shown, wanted);
 }
 
 // ---- WeightCombiner: nothing comes out of it

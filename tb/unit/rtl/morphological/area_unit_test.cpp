@@ -7,12 +7,14 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "spec/morphological/learned_shares.h"
 #include "spec/morphological/tables.h"
+#include "tb/harness/forked.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
 namespace deburr::tb::morphological_rtl {
@@ -332,6 +334,72 @@ TEST_P(AreaLanes, LearnedSharesLieWhereTheirEdgesLie) {
   EXPECT_EQ(bench.unit.horizontal_edges.value(), 3u);
   EXPECT_EQ(bench.unit.vertical_edges.value(), 3u);
   EXPECT_EQ(bench.unit.stalled_cycles(), 0u);
+}
+
+// What each edge of a record of either axis asks by: its pixels before it, and behind it; with
+// crossings, too.
+TEST_P(AreaLanes, EdgesOfALearnedRecordAskByBothOfItsEnds) {
+  for (const auto& [length, crossings] :
+       {std::pair{1, false}, {5, false}, {9, false}, {2, true}, {9, true}}) {
+    const std::string got = forked_text([&, length = length, crossings = crossings] {
+      Parameters p = with_shares(GetParam());
+      if (crossings) p.ends = spec::morphological::Ends::kCrossings;
+      Area bench(p, 20, 16);
+      std::multiset<std::array<std::array<std::uint16_t, 2>, 3>> asked, wanted;
+      bench.unit.shares_rom()->observer = [&](const SharesRom::Query& q) {
+        asked.insert({q.a, q.b, q.c});
+      };
+      bench.send_slots(0);
+      const auto slot_of = [&](int row, int x) {
+        return bench.slots_before(row + kReach + 2) + static_cast<std::uint32_t>(x / bench.lanes);
+      };
+      bench.drivers_h[0]->send(0, learned(Axis::kHorizontal, 2, 3, length, slot_of(2, 3 + length)));
+      bench.drivers_v[0]->send(0, learned(Axis::kVertical, 15, 4, length, slot_of(4, 15)));
+      for (int k = 0; k < length; ++k) {
+        const SharesRom::Query q =
+            SharesRom::ask({1 + 4 * 2, 2, 6, RunPart::kWhole}, k, length - 1 - k);
+        for (int axis = 0; axis < 2; ++axis) wanted.insert({q.a, q.b, q.c});
+      }
+      bench.clock.run(bench.slots_before(16 + kLag) + 20);
+      return std::string(asked == wanted ? "the same" : "others");
+    });
+    EXPECT_EQ(got, "the same") << length << crossings;
+  }
+}
+
+// ---- after a reset ------------------------------------------------------------------------------
+
+// The shares of a row stay in their memory, where a narrower frame has none: beside its last column
+// is nothing.
+TEST_P(AreaLanes, BesideANarrowerFrameIsNothing) {
+  constexpr int kWide = 16, kNarrow = 8;
+  Area bench(small(GetParam()), kWide, 9);
+  bench.send_slots(0);
+  for (int x = kNarrow; x < kWide; ++x)
+    bench.drivers_v[0]->send(
+        0, three(Axis::kVertical, x, 0,
+                 bench.slots_before(kReach + 2) + static_cast<std::uint32_t>(x / bench.lanes)));
+  // Both of the rows that are left have shares there.
+  bench.clock.run(bench.slots_before(kLag + 1) + 12);
+  EXPECT_GT(bench.unit.vertical_edges.value(), 7u);
+  bench.clock.set_reset_n(false);
+  bench.clock.run(2);
+  bench.clock.set_reset_n(true);
+  bench.registers.reset();
+  bench.registers.frame(kNarrow, 9);
+  const int beats = kNarrow / bench.lanes;
+  const Cycle from = bench.clock.cycle() + 1;
+  std::uint32_t number = 0;
+  for (int row = 0; row < 9 + kLag; ++row)
+    for (int beat = 0; beat < beats; ++beat, ++number) {
+      AreaSlotToken token{};
+      token.slot = {number, static_cast<std::uint16_t>(row), static_cast<std::uint16_t>(beat)};
+      bench.slot_driver.send(from + number, token);
+    }
+  bench.clock.run(number + 40);
+  ASSERT_EQ(bench.shares_gate.beats.size(), static_cast<std::size_t>(9 * beats));
+  // Above the first row of a frame are the shares of none.
+  for (const ShareToken& token : bench.shares_gate.beats) EXPECT_FALSE(token.any);
 }
 
 // ---- with SMAA's blocks -------------------------------------------------------------------------

@@ -255,6 +255,60 @@ TEST(EdgeMemory, AWordIsThereAClockAfterItsReadAndNotBefore) {
   EXPECT_NO_THROW(rows.hits(10, 0, next_along));
 }
 
+// The window has the last window_rows + 1 rows of a column, of which one is a row ahead where the
+// beats of a row have been; any other row is a mistake of who asks.
+TEST(EdgeMemory, TheWindowKnowsWhichRowsItHolds) {
+  constexpr int kRows = 2 * 8 + 3;
+  Shown shown(built(false, 8, 60), 150, 70, 30, 500);
+  EdgeWindow& window = shown.memories.window;
+  // All columns have rows up to 30 + 8 + 1; in the next row the first 40 have come.
+  const int newest = 30 + 8 + 1;
+  Cycle cycle = Cycle{1} << 50;
+  for (int x = 0; x < 40; ++x) {
+    window.read_beat(cycle++, x);
+    window.write_beat(cycle++, x, newest + 2, {});
+  }
+  // The corner of row y looks at rows y and y - 1. Both columns of line 39 have come, and of line
+  // 40 the one before it.
+  for (const auto& [line, latest] :
+       {std::pair{1, newest + 1}, {39, newest + 1}, {40, newest}, {41, newest}, {150, newest}}) {
+    const auto ask = [&, line = line](int y) {
+      Trial trial{line, y - 3, 3, 20, true, 0, 0};
+      // L alone is tried, whose corner is row y.
+      trial.length = 2;
+      trial.room = 1;
+      trial.from = y - 1;
+      window.read(++cycle, 0, trial);
+      return window.hits(++cycle, 0, trial);
+    };
+    EXPECT_NO_THROW(ask(latest)) << line;
+    EXPECT_NO_THROW(ask(latest - kRows + 2)) << line;
+    expect_stop([&] { ask(latest + 1); }, "is not among the " + std::to_string(kRows) +
+                                              " up to row " + std::to_string(latest));
+    expect_stop([&] { ask(latest - kRows + 1); },
+                "row " + std::to_string(latest - kRows) + " is not among");
+  }
+}
+
+// A port shows as many words as the longest step can lie in, and a class with them: 65 columns from
+// the last one of a word on.
+TEST(EdgeMemory, TheLongestStepLiesInTheWordsOfAPort) {
+  for (const bool right : {false, true}) {
+    Parameters p = built(true, 32, 125);
+    p.line_pixels = 256;
+    Shown shown(p, 256, 70, 30, 1000);
+    EdgeRows& rows = shown.memories.rows;
+    // A side of 125 columns, its steps of 62 and 63: with the corner's own column 65.
+    for (int from = 62 + 65; from < 62 + 65 + 64; ++from) {
+      Trial trial{31, right ? from - 62 : from, 62, 63, right, 3, 3};
+      const Cycle cycle = (Cycle{1} << 50) + 2 * static_cast<Cycle>(from) + (right ? 1000 : 0);
+      rows.read(cycle, 0, trial);
+      EXPECT_NO_THROW(rows.hits(cycle + 1, 0, trial)) << from;
+      EXPECT_LE(trial.last - trial.first + 1, 65);
+    }
+  }
+}
+
 TEST(EdgeMemory, ABeatIsWrittenAClockAfterItWasReadAndNotBefore) {
   Shown shown(built(true), 150, 70, 30, 500);
   EdgeWindow& window = shown.memories.window;

@@ -471,41 +471,84 @@ TEST_P(BadParameters, AreNamed) {
 }
 INSTANTIATE_TEST_SUITE_P(
     Bad, BadParameters,
-    ::testing::Values(BadParameter{"window_rows", [](auto& p) { p.window_rows = 67; }},
-                      BadParameter{"window_rows", [](auto& p) { p.window_rows = 8; }},
-                      BadParameter{"steps need window_rows of at least 20",
-                                   [](auto& p) { p.window_rows = 18; }},
-                      BadParameter{"reach_columns", [](auto& p) { p.reach_columns = 3; }},
-                      BadParameter{"predicated",
-                                   [](auto& p) {
-                                     p.edge_source = spec::morphological::EdgeSource::kPredicated;
-                                     p.threshold_mode =
-                                         spec::morphological::ThresholdMode::kDynamic;
-                                   }},
-                      BadParameter{"diagonal_steps: 10 steps need window_rows of at least 22",
-                                   [](auto& p) {
-                                     p.window_rows = 20;
-                                     p.diagonals = true;
-                                     p.diagonal_steps = 10;
-                                   }},
-                      BadParameter{"threshold", [](auto& p) { p.threshold = 0; }},
-                      BadParameter{"edges.threshold", [](auto& p) { p.threshold = 65536; }},
-                      BadParameter{"edges.alpha", [](auto& p) { p.alpha = -1; }},
-                      BadParameter{"edges.alpha", [](auto& p) { p.alpha = 65536; }},
-                      BadParameter{"edges.floor", [](auto& p) { p.floor = 0; }},
-                      BadParameter{"edges.floor", [](auto& p) { p.floor = 65536; }},
-                      BadParameter{"search_steps", [](auto& p) { p.search_steps = 0; }},
-                      BadParameter{"1..112", [](auto& p) { p.search_steps = 113; }},
-                      BadParameter{"diagonal_steps", [](auto& p) { p.diagonal_steps = 0; }},
-                      BadParameter{"1..16", [](auto& p) { p.diagonal_steps = 17; }},
-                      BadParameter{"corner_rounding", [](auto& p) { p.corner_rounding = -1; }},
-                      BadParameter{"0..256", [](auto& p) { p.corner_rounding = 257; }},
-                      BadParameter{"no more than two of 24 quotient bits",
-                                   [](auto& p) { p.divider_latency = 13; }},
-                      BadParameter{"line_pixels", [](auto& p) { p.line_pixels = 8193; }}));
+    ::testing::Values(
+        BadParameter{"window_rows", [](auto& p) { p.window_rows = 67; }},
+        BadParameter{"window_rows", [](auto& p) { p.window_rows = 8; }},
+        BadParameter{"steps need window_rows of at least 20", [](auto& p) { p.window_rows = 18; }},
+        BadParameter{"reach_columns", [](auto& p) { p.reach_columns = 3; }},
+        BadParameter{"predicated",
+                     [](auto& p) {
+                       p.edge_source = spec::morphological::EdgeSource::kPredicated;
+                       p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
+                     }},
+        BadParameter{"diagonal_steps: 10 steps need window_rows of at least 22",
+                     [](auto& p) {
+                       p.window_rows = 20;
+                       p.diagonals = true;
+                       p.diagonal_steps = 10;
+                     }},
+        BadParameter{"threshold", [](auto& p) { p.threshold = 0; }},
+        BadParameter{"edges.threshold", [](auto& p) { p.threshold = 65536; }},
+        BadParameter{"edges.alpha", [](auto& p) { p.alpha = -1; }},
+        BadParameter{"edges.alpha", [](auto& p) { p.alpha = 65536; }},
+        BadParameter{"edges.floor", [](auto& p) { p.floor = 0; }},
+        BadParameter{"edges.floor", [](auto& p) { p.floor = 65536; }},
+        BadParameter{"search_steps", [](auto& p) { p.search_steps = 0; }},
+        BadParameter{"1..112", [](auto& p) { p.search_steps = 113; }},
+        BadParameter{"diagonal_steps", [](auto& p) { p.diagonal_steps = 0; }},
+        BadParameter{"1..16", [](auto& p) { p.diagonal_steps = 17; }},
+        BadParameter{"corner_rounding", [](auto& p) { p.corner_rounding = -1; }},
+        BadParameter{"0..256", [](auto& p) { p.corner_rounding = 257; }},
+        BadParameter{"no more than two of 24 quotient bits",
+                     [](auto& p) { p.divider_latency = 13; }},
+        BadParameter{"dynamic does not go with edges.source = colour",
+                     [](auto& p) {
+                       p.edge_source = spec::morphological::EdgeSource::kColour;
+                       p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
+                     }},
+        BadParameter{"learned does not go with",
+                     [](auto& p) {
+                       p.area = spec::morphological::AreaSource::kLearned;
+                       p.diagonals = true;
+                     }},
+        BadParameter{"learned does not go with",
+                     [](auto& p) {
+                       p.area = spec::morphological::AreaSource::kLearned;
+                       p.round_corners = true;
+                     }},
+        BadParameter{"expected at least 14 clocks, got 1", [](auto& p) { p.divider_latency = 1; }},
+        BadParameter{"8 steps need window_rows of at least 20, got 18",
+                     [](auto& p) { p.window_rows = 18; }},
+        BadParameter{"line_pixels", [](auto& p) { p.line_pixels = 8193; }}));
+
+// What the refused ones would be with a row, a clock or a rule changed.
+class GoodParameters : public ::testing::TestWithParam<BadParameter> {};
+TEST_P(GoodParameters, AreBuilt) {
+  ClockDomain clock("clock", period());
+  Parameters p = deburr_line();
+  GetParam().change(p);
+  EXPECT_NO_THROW(rtl::morphological::MorphologicalEngine("engine", clock, p));
+}
+INSTANTIATE_TEST_SUITE_P(
+    AtTheirLimits, GoodParameters,
+    ::testing::Values(
+        BadParameter{"steps", [](auto& p) { p.window_rows = 20; }},
+        BadParameter{"divider", [](auto& p) { p.divider_latency = 14; }},
+        BadParameter{"predicated, fixed",
+                     [](auto& p) { p.edge_source = spec::morphological::EdgeSource::kPredicated; }},
+        BadParameter{
+            "luma, dynamic",
+            [](auto& p) { p.threshold_mode = spec::morphological::ThresholdMode::kDynamic; }},
+        BadParameter{"colour, fixed",
+                     [](auto& p) { p.edge_source = spec::morphological::EdgeSource::kColour; }},
+        BadParameter{"corners, not learned", [](auto& p) { p.round_corners = true; }},
+        BadParameter{"diagonal steps that are not built", [](auto& p) {
+                       p.window_rows = 20;
+                       p.diagonal_steps = 10;
+                     }}));
 
 // One row less would not do.
-TEST(GoodParameters, OfDiagonalsAsFarAsTheWindowReaches) {
+TEST(DiagonalParameters, ReachAsFarAsTheWindow) {
   Parameters p = smaa();
   p.diagonal_steps = spec::morphological::kMaxDiagonalSteps;
   p.window_rows = 2 * p.diagonal_steps + 2;
@@ -517,7 +560,11 @@ TEST(BadFrames, AreNamed) {
   EXPECT_THROW(bench.engine.set_frame_size(0, 5), spec::ConfigError);
   EXPECT_THROW(bench.engine.set_frame_size(5, 8193), spec::ConfigError);
   EXPECT_THROW(bench.engine.set_frame_size(257, 5), spec::ConfigError);
+  EXPECT_THROW(bench.engine.set_frame_size(5, 0), spec::ConfigError);
   EXPECT_NO_THROW(bench.engine.set_frame_size(256, 5));
+  EXPECT_NO_THROW(bench.engine.set_frame_size(1, 1));
+  EXPECT_NO_THROW(bench.engine.set_frame_size(256, 8192));
+  EXPECT_EQ(bench.bus.read(reg::kSize), 256u | 8192u << 16);
 }
 
 // ---- faults -------------------------------------------------------------------------------------

@@ -101,6 +101,180 @@ TEST(ParameterStoreBlock, DiagonalStepsAreAtMostTheReach) {
   EXPECT_EQ(store.store.rules().diagonal_steps, 4);
 }
 
+// ---- what is decoded, bit by bit
+// ------------------------------------------------------------------
+
+// The fields of RULES that are not 0.
+std::string text_of(const rtl::morphological::FrameRules& f) {
+  std::string text;
+  const auto add = [&](const char* name, auto value) {
+    if (const int number = static_cast<int>(value); number != 0)
+      text += (text.empty() ? "" : ", ") + std::string(name) + ' ' + std::to_string(number);
+  };
+  add("source", f.source);
+  add("dynamic", f.dynamic);
+  add("dynamic_luma", f.dynamic_luma);
+  add("local_contrast", f.local_contrast);
+  add("predictor", f.predictor);
+  add("steps", f.steps);
+  add("contiguous", f.contiguous);
+  add("safe", f.safe);
+  add("linear_light", f.linear_light);
+  add("trim", f.trim);
+  add("crossings", f.crossings);
+  add("table", f.table);
+  add("diagonal_steps", f.diagonal_steps);
+  add("corners", f.corners);
+  add("strongest", f.strongest);
+  add("leave", f.leave);
+  add("learned", f.learned);
+  return text;
+}
+using RulesRow = std::pair<std::uint32_t, const char*>;
+void expect_rules(const Parameters& p, const std::vector<RulesRow>& rows) {
+  Registers registers(p);
+  registers.bus.write(reg::kSmaa, 5u << 8);
+  for (const auto& [value, fields] : rows) {
+    registers.bus.write(reg::kRules, value);
+    registers.frame(8, 8);
+    EXPECT_EQ(text_of(registers.store.rules()), fields) << value;
+    registers.store.leave();
+  }
+}
+
+TEST(FrameRules, EachBitOfRulesIsItsFields) {
+  Parameters p = smaa();
+  p.window_rows = 42;
+  p.diagonal_steps = 8;
+  p.contiguous = true;
+  expect_rules(p, {{0, ""},
+                   {1, "source 1"},
+                   {2, "source 2"},
+                   {3, "source 3"},
+                   {1u << 2, "dynamic 1"},
+                   {1u << 3, "dynamic_luma 1"},
+                   {1u << 17, "dynamic_luma 2"},
+                   {1u << 3 | 1u << 17, "dynamic_luma 3"},
+                   {1u << 4, "local_contrast 1"},
+                   {2u << 4, "local_contrast 2"},
+                   {3u << 4, "local_contrast 3"},
+                   {1u << 6, "predictor 1"},
+                   {2u << 6, "predictor 2"},
+                   {3u << 6, ""},
+                   {31u << 8, ""},
+                   {1u << 6 | 1u << 8, "predictor 1, steps 1"},
+                   {1u << 6 | 2u << 8, "predictor 1, steps 2"},
+                   {1u << 6 | 4u << 8, "predictor 1, steps 4"},
+                   {1u << 6 | 8u << 8, "predictor 1, steps 8"},
+                   {2u << 6 | 16u << 8, "predictor 2, steps 16"},
+                   {1u << 13, "contiguous 1"},
+                   {1u << 14, "safe 1"},
+                   {1u << 15, "linear_light 1"},
+                   {1u << 16, "trim 1"},
+                   {1u << 18, "crossings 1"},
+                   {1u << 19, "table 1"},
+                   {1u << 20, "diagonal_steps 5"},
+                   {1u << 21, "corners 1"},
+                   {1u << 22, "strongest 1"},
+                   {1u << 23, "leave 1"},
+                   {2u << 23, "leave 2"},
+                   {3u << 23, "leave 3"},
+                   {1u << 26, "leave 4"},
+                   {1u << 26 | 1u << 23, ""},
+                   {1u << 26 | 2u << 23, ""},
+                   {1u << 26 | 3u << 23, ""},
+                   {1u << 25, ""},
+                   {0xF8000000, ""}});
+}
+// Bits of no field count nowhere, whatever holds the registers.
+TEST(FrameRules, OtherBitsAreNotLookedAt) {
+  rtl::ControlRegisters raw("raw", spec::morphological::kRegisters,
+                            rtl::morphological::control_layout());
+  const auto decoded = [&] { return rtl::morphological::decode(raw, smaa()); };
+  raw.write(reg::kRules, 0xF8000000);
+  EXPECT_EQ(text_of(decoded().rules), "");
+  raw.write(reg::kSize, 0xC000C000 | 40 | 30 << 16);
+  EXPECT_EQ(decoded().rules.width, 40);
+  EXPECT_EQ(decoded().rules.height, 30);
+  raw.write(reg::kSmaa, 0xFE00E080);
+  raw.write(reg::kRules, 1u << 20);
+  EXPECT_EQ(decoded().rules.search_steps, 1);
+  EXPECT_EQ(decoded().rules.diagonal_steps, 0);
+  EXPECT_EQ(decoded().rules.corner_loss, 256);
+}
+TEST(FrameRules, OfAnEngineWithLearnedShares) {
+  expect_rules(deburr(), {{1u << 25, "learned 1"},
+                          {0x7FFFFFFu & ~(1u << 25) & ~(7u << 13) & ~0x3FFFu & ~(1u << 26),
+                           "dynamic_luma 2, trim 1, strongest 1, leave 3"},
+                          {1u << 13, "contiguous 1"}});
+}
+
+// 255 times the register, U8.16; the others as they are.
+TEST(FrameRules, ThresholdsAreThoseOfTheirRegisters) {
+  Registers r(preset(Preset::kMlaa));
+  std::uint32_t value = 100;
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>> registers = {
+      {reg::kThreshold, 255}, {reg::kThresholdOn, 255}, {reg::kThresholdOff, 255},
+      {reg::kFloor, 255},     {reg::kAlpha, 1},         {reg::kDepthThreshold, 1},
+      {reg::kPixelBase, 1}};
+  std::vector<std::uint32_t> wanted;
+  for (const auto& [offset, factor] : registers) {
+    r.bus.write(offset, value += 64 * 3 + (offset == reg::kPixelBase ? 64 - value % 64 : 0));
+    wanted.push_back(factor * r.bus.read(offset));
+  }
+  r.frame(8, 8);
+  const rtl::morphological::FrameRules& f = r.store.rules();
+  EXPECT_EQ((std::vector<std::uint32_t>{f.threshold, f.threshold_on, f.threshold_off, f.floor,
+                                        f.alpha, f.depth_threshold, f.pixel_base}),
+            wanted);
+  r.store.leave();
+  r.bus.write(reg::kThreshold, 0xFFFF);
+  r.frame(8, 8);
+  EXPECT_EQ(r.store.rules().threshold, 255u * 65535);
+}
+
+TEST(FrameRules, SizesInBeatsAndRows) {
+  struct Row {
+    int lanes_code, width, height;
+    std::uint32_t beats, rows;
+    int last_count;
+  };
+  for (const Row& row : {Row{0, 1, 1, 1, 10, 1}, Row{0, 9, 7, 9, 16, 1}, Row{1, 1, 1, 1, 10, 1},
+                         Row{1, 8, 7, 4, 16, 2}, Row{1, 9, 7, 5, 16, 1}, Row{2, 1, 1, 1, 10, 1},
+                         Row{2, 8, 7, 2, 16, 4}, Row{2, 9, 7, 3, 16, 1}, Row{2, 11, 7, 3, 16, 3},
+                         Row{2, 12, 7, 3, 16, 4}, Row{2, 13, 7, 4, 16, 1}}) {
+    Registers r(small(row.lanes_code), row.width, row.height);
+    const rtl::morphological::FrameRules& f = r.store.rules();
+    EXPECT_EQ(f.width, row.width);
+    EXPECT_EQ(f.height, row.height);
+    EXPECT_EQ(f.beats, row.beats) << row.width;
+    EXPECT_EQ(f.rows, row.rows) << "height + R + 5, R = 4";
+    EXPECT_EQ(f.last_count, row.last_count) << row.width;
+  }
+}
+
+// Out of them a frame is refused, and says so; one that was inside before is not touched.
+TEST(FrameRules, LimitsOfASize) {
+  Parameters p = small();
+  p.line_pixels = 100;
+  Registers r(p);
+  const auto takes = [&](std::uint32_t width, std::uint32_t height) {
+    r.bus.write(reg::kSize, width | height << 16);
+    r.bus.write(reg::kStatus, ~0u);
+    const bool taken = r.store.latch();
+    EXPECT_EQ((r.bus.read(reg::kStatus) & reg::kStatusFraming) == 0, taken);
+    EXPECT_EQ(r.store.frame_inside(), taken);
+    if (taken) r.store.leave();
+    return taken;
+  };
+  EXPECT_TRUE(takes(1, 1));
+  EXPECT_FALSE(takes(0, 1));
+  EXPECT_FALSE(takes(1, 0));
+  EXPECT_TRUE(takes(100, 8192));
+  EXPECT_FALSE(takes(101, 8192));
+  EXPECT_FALSE(takes(100, 8193));
+}
+
 // Bits that a register does not have stay 0 on this way as well.
 TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
   EngineBench bench(in_memory());

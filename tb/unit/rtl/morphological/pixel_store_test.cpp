@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "tb/harness/forked.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
 namespace deburr::tb::morphological_rtl {
@@ -471,6 +472,33 @@ TEST(Memory, OutstandingIsKept) {
   EngineBench bench(p, options);
   bench.run(noise());
   EXPECT_EQ(bench.memory->most_outstanding(), 6u);
+}
+
+// ---- how large it is --------------------------------------------------------------------------
+
+// R + 7 rows, rounded up to fours, of whole lines of memory.
+TEST(PixelStoreLines, HoldTheRowsOfThePage) {
+  struct Row {
+    int reach, line_pixels, lanes_code;
+    std::uint64_t words;  // of each of the four
+  };
+  for (const Row& row : {Row{4, 64, 0, 3 * 64}, Row{5, 64, 0, 3 * 64}, Row{6, 64, 0, 4 * 64},
+                         Row{9, 64, 0, 4 * 64}, Row{10, 64, 0, 5 * 64}, Row{4, 65, 0, 3 * 80},
+                         Row{4, 80, 1, 3 * 40}, Row{4, 81, 2, 3 * 24}}) {
+    const std::string got = forked_text([&] {
+      Parameters p = preset(spec::morphological::Preset::kMlaa, row.reach, 8);
+      p.line_pixels = row.line_pixels;
+      p.lanes = static_cast<spec::morphological::Lanes>(row.lanes_code);
+      EngineBench bench(p);
+      std::string words;
+      for (const rtl::MemoryBase* memory : bench.engine.memories())
+        if (std::string(memory->basename()).starts_with("pixel_lines"))
+          words += std::to_string(memory->words()) + ' ';
+      return words;
+    });
+    const std::string each = std::to_string(row.words) + ' ';
+    EXPECT_EQ(got, each + each + each + each) << row.reach << ' ' << row.line_pixels;
+  }
 }
 
 // ---- what a memory does not do ------------------------------------------------------------------

@@ -56,6 +56,24 @@ TEST(SharesRomAddresses, AreThoseOfTheContract) {
   }
 }
 
+// Eight classes of distances, four of lengths, each at both of its ends: bits 5:3 of the first
+// address are those of the nearer end, 2:0 of the farther one, 1:0 of the others the length.
+TEST(SharesRomAddresses, ClassesOfDistancesAndLengths) {
+  constexpr std::array<int, 19> kClass = {0, 1, 2, 3, 4, 4, 5, 5, 5, 6, 6, 6, 6, 6, 6, 6, 7, 7, 7};
+  constexpr std::array<int, 10> kLength = {0, 0, 1, 1, 2, 2, 2, 2, 3, 3};
+  for (int near = 0; near < 19; ++near)
+    for (int far = near; far < 19; ++far)
+      for (const bool turned : {false, true}) {
+        const SharesRom::Query query = SharesRom::ask({2 + 4 * 2, 2, 2, RunPart::kWhole},
+                                                      turned ? far : near, turned ? near : far);
+        const auto of = [&](int i) { return kClass[static_cast<std::size_t>(i)]; };
+        ASSERT_EQ(query.a[0] & 63, of(near) << 3 | of(far)) << near << ' ' << far;
+        const int length = kLength[static_cast<std::size_t>(std::min(near + far + 1, 9))];
+        ASSERT_EQ(query.b[0] & 31, of(near) << 2 | length);
+        ASSERT_EQ(query.c[0] & 31, of(far) << 2 | length);
+      }
+}
+
 TEST(SharesRomAddresses, OfAGapAreTheLastOfNoCrossing) {
   const SharesRom::Query query = SharesRom::ask_gap();
   for (const std::size_t side : {0u, 1u}) {
