@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "tb/unit/fabric/support.h"
 
 namespace deburr::tb {
@@ -156,6 +158,21 @@ TEST(Link, EmplaceIsPushInPlace) {
   token.number = 9;
   EXPECT_FALSE(link.can_pop(3));
   EXPECT_EQ(link.front(4).number, 9U);
+}
+
+TEST(Link, APackageHasTheBeatsOfAllLinksBelow) {
+  struct Top : sc_core::sc_module {
+    Link<Token> first{"first"}, second{"second"};
+    explicit Top(const sc_core::sc_module_name& name) : sc_module(name) {}
+  } top("top");
+  Link<int> link("link");
+  const rtl::LinkBase& elsewhere = link;
+  const std::string package = rtl::link_package("top_pkg", top);
+  EXPECT_THAT(package, testing::HasSubstr("package top_pkg;"));
+  EXPECT_THAT(package, testing::HasSubstr("} token_t;"));
+  EXPECT_THAT(package, testing::Not(testing::HasSubstr("s32_t")));
+  EXPECT_THAT(rtl::payload_package("all_pkg", std::array{&elsewhere.payload()}),
+              testing::HasSubstr("s32_t"));
 }
 
 TEST(Ports, BindInAnyOrderThroughTheHierarchy) {

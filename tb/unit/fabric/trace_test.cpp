@@ -9,6 +9,7 @@
 #include <map>
 #include <sstream>
 
+#include "rtl_model/fabric/register_block.h"
 #include "tb/harness/memory_model.h"
 #include "tb/unit/fabric/support.h"
 
@@ -223,6 +224,27 @@ TEST(Trace, ScopeAndWindow) {
     EXPECT_LT(list.back().first, 600'000U);
     for (const auto& [time, value] : list) EXPECT_NE(value, "reset");
   }
+}
+
+TEST(Trace, ShowsRegistersByTheNamesThatAScopeCanChoose) {
+  static constexpr spec::RegisterInfo table[] = {
+      {0, "MODE", spec::Access::kReadWrite, 5, "a mode"},
+      {4, "COUNT", spec::Access::kReadOnly, 0, "a count"}};
+  const std::string file = testing::TempDir() + "registers.vcd";
+  rtl::RegisterBlock block("block", table);
+  Pipeline p(100);
+  EXPECT_THAT(rtl::Trace::names(),
+              testing::IsSupersetOf({"link_0", "adder_3", "block.MODE", "block.COUNT"}));
+  {
+    rtl::Trace trace(p.clock, {.file = file, .scopes = {"block.M*"}});
+    p.clock.run(2);
+    block.set(0, 9);
+    p.clock.run(2);
+    EXPECT_EQ(trace.signals(), 1U);
+  }
+  const Vcd vcd(file);
+  EXPECT_EQ(number(vcd.value("deburr.block.MODE", 10'000)), 5U);
+  EXPECT_EQ(number(vcd.value("deburr.block.MODE", 20'000)), 9U);
 }
 
 TEST(Trace, UnwritableFileIsAnError) {
