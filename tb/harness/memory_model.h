@@ -54,6 +54,7 @@ class MemoryModel final : public sc_core::sc_module {
   void preload(std::uint64_t address,
                std::span<const std::uint8_t> data);  // ConfigError if outside
   std::vector<std::uint8_t> dump(std::uint64_t address, std::uint64_t bytes) const;
+  using sc_module::dump;  // SystemC's, into a stream
 
   // --- Errors on purpose; request numbers count from 0 in the order of arrival ---
   void fail_range(std::uint64_t from, std::uint64_t to,
