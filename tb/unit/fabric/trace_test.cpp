@@ -11,6 +11,7 @@
 
 #include "rtl_model/fabric/register_block.h"
 #include "tb/harness/memory_model.h"
+#include "tb/harness/register_host.h"
 #include "tb/unit/fabric/support.h"
 
 namespace deburr::tb {
@@ -232,6 +233,8 @@ TEST(Trace, ShowsRegistersByTheNamesThatAScopeCanChoose) {
       {4, "COUNT", spec::Access::kReadOnly, 0, "a count"}};
   const std::string file = testing::TempDir() + "registers.vcd";
   rtl::RegisterBlock block("block", table);
+  RegisterHost host("host");
+  host.bus.bind(block.bus);
   Pipeline p(100);
   EXPECT_THAT(rtl::Trace::names(),
               testing::IsSupersetOf({"link_0", "adder_3", "block.MODE", "block.COUNT"}));
