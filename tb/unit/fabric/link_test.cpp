@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "tb/unit/fabric/support.h"
 
 namespace deburr::tb {
@@ -225,6 +227,21 @@ TEST(Link, HasUpTo2To24Places) {
   EXPECT_NO_THROW(Bare(1));
   EXPECT_NO_THROW(Bare(1U << 24));
   EXPECT_THROW(Bare((1U << 24) + 1), spec::CheckFailed);
+}
+
+TEST(Link, APackageHasTheBeatsOfAllLinksBelow) {
+  struct Top : sc_core::sc_module {
+    Link<Token> first{"first"}, second{"second"};
+    explicit Top(const sc_core::sc_module_name& name) : sc_module(name) {}
+  } top("top");
+  Link<int> link("link");
+  const rtl::LinkBase& elsewhere = link;
+  const std::string package = rtl::link_package("top_pkg", top);
+  EXPECT_THAT(package, testing::HasSubstr("package top_pkg;"));
+  EXPECT_THAT(package, testing::HasSubstr("} token_t;"));
+  EXPECT_THAT(package, testing::Not(testing::HasSubstr("s32_t")));
+  EXPECT_THAT(rtl::payload_package("all_pkg", std::array{&elsewhere.payload()}),
+              testing::HasSubstr("s32_t"));
 }
 
 TEST(Ports, BindInAnyOrderThroughTheHierarchy) {

@@ -5,6 +5,7 @@
 #include <tlm_utils/simple_initiator_socket.h>
 
 #include <cstring>
+#include <vector>
 
 #include "rtl_model/fabric/register_block.h"
 #include "spec/error.h"
@@ -145,6 +146,24 @@ TEST_F(Registers, DebugTransportCoversSpansUpToAHole) {
   EXPECT_EQ(bus.socket->transport_dbg(payload), 0U);
   payload.set_address(0x100);
   EXPECT_EQ(bus.socket->transport_dbg(payload), 0U);
+}
+
+TEST_F(Registers, ADebugWriteHasAnActionOfItsOwn) {
+  std::vector<std::uint32_t> by_bus, by_debug;
+  bus.block.on_write(kCommand, [&](std::uint32_t value) { by_bus.push_back(value); });
+  bus.block.on_debug_write(kCommand, [&](std::uint32_t value) { by_debug.push_back(value); });
+  std::uint32_t word = 6;
+  tlm::tlm_generic_payload payload;
+  payload.set_command(tlm::TLM_WRITE_COMMAND);
+  payload.set_address(8);
+  payload.set_data_ptr(reinterpret_cast<unsigned char*>(&word));
+  payload.set_data_length(4);
+  EXPECT_EQ(bus.socket->transport_dbg(payload), 4U);
+  payload.set_command(tlm::TLM_READ_COMMAND);
+  EXPECT_EQ(bus.socket->transport_dbg(payload), 4U);
+  EXPECT_EQ(bus.write(8, 7), tlm::TLM_OK_RESPONSE);
+  EXPECT_THAT(by_debug, testing::ElementsAre(6));
+  EXPECT_THAT(by_bus, testing::ElementsAre(7));
 }
 
 TEST_F(Registers, NamesAndTexts) {

@@ -353,6 +353,29 @@ TEST(Trace, AWindowThatHasEndedIsInTheFile) {
   EXPECT_EQ(vcd.changes.at(vcd.ids.at("deburr.clk")).back().first, 75'000U);
 }
 
+TEST(Trace, ShowsRegistersByTheNamesThatAScopeCanChoose) {
+  static constexpr spec::RegisterInfo table[] = {
+      {0, "MODE", spec::Access::kReadWrite, 5, "a mode"},
+      {4, "COUNT", spec::Access::kReadOnly, 0, "a count"}};
+  const std::string file = testing::TempDir() + "registers.vcd";
+  rtl::RegisterBlock block("block", table);
+  RegisterHost host("host");
+  host.bus.bind(block.bus);
+  Pipeline p(100);
+  EXPECT_THAT(rtl::Trace::names(),
+              testing::IsSupersetOf({"link_0", "adder_3", "block.MODE", "block.COUNT"}));
+  {
+    rtl::Trace trace(p.clock, {.file = file, .scopes = {"block.M*"}});
+    p.clock.run(2);
+    block.set(0, 9);
+    p.clock.run(2);
+    EXPECT_EQ(trace.signals(), 1U);
+  }
+  const Vcd vcd(file);
+  EXPECT_EQ(number(vcd.value("deburr.block.MODE", 10'000)), 5U);
+  EXPECT_EQ(number(vcd.value("deburr.block.MODE", 20'000)), 9U);
+}
+
 TEST(Trace, UnwritableFileIsAnError) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(1, sc_core::SC_NS));
   EXPECT_THROW(rtl::Trace(clock, {"/nowhere/at/all.vcd", {"*"}, 0, rtl::kNever, true}),
