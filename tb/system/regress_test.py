@@ -80,8 +80,8 @@ class RegressTest(unittest.TestCase):
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done.stdout
 
-    def collected(self, name="small", seed="7"):
-        with open(self.path(f"out/regressions/{name}-{seed}/collected.json")) as file:
+    def collected(self, name="small", seed="7", out="out"):
+        with open(self.path(f"{out}/regressions/{name}-{seed}/collected.json")) as file:
             return json.load(file)
 
     def points(self, name="small", seed="7", out="out"):
@@ -91,6 +91,49 @@ class RegressTest(unittest.TestCase):
     def inodes(self):
         return {path: os.stat(path).st_ino
                 for path in glob.glob(self.path("out/points/*/*/result.json"))}
+
+    def check_fault(self):
+        """Buckets, the line that reproduces each, its waves, the page and JUnit of FAULT."""
+        collected = self.collected()
+        buckets = {b["kind"]: b for b in collected["buckets"]}
+        self.assertEqual({kind: b["runs"] for kind, b in buckets.items()}, {"mismatch": 2, "deadlock": 1})
+        self.assertEqual(buckets["mismatch"]["message"], "colours: N mismatches in N comparisons")
+        for kind, bucket in buckets.items():
+            # One line, as the page's button copies it.
+            command = bucket["example"]["command"]
+            self.assertNotIn("\n", command)
+            again = subprocess.run(["bash", "-c", command.replace("deburr", f"'{DEBURR}'", 1)],
+                                   cwd=self.directory, text=True, capture_output=True)
+            self.assertEqual(again.returncode, {"mismatch": 1, "deadlock": 4}[kind], again.stdout)
+            self.assertIn(bucket["example"]["reason"], again.stdout)
+            with open(self.path("out/texture/result.json")) as file:
+                alone = json.load(file)
+            place = self.path("out/regressions/small-7")
+            with open(os.path.join(place, bucket["example"]["directory"], "result.json")) as file:
+                self.assertEqual(alone["first_mismatches" if kind == "mismatch" else "cycles"],
+                                 json.load(file)["first_mismatches" if kind == "mismatch" else "cycles"])
+            self.check_waves(os.path.join(place, bucket["waves"]["file"]), kind, alone)
+        with open(self.path("out/regressions/small-7/index.html")) as file:
+            page = file.read()
+        self.assertIn(buckets["mismatch"]["waves"]["file"], page)
+        root = xml.etree.ElementTree.parse(self.path("out/regressions/small-7/junit.xml")).getroot()
+        self.assertEqual(root.get("failures"), "4", "three runs, and colours of the feature")
+
+    def check_waves(self, file, kind, result):
+        """Something changes in the window, and the window holds the failure."""
+        period = round(1e6 / result["clock_mhz"])
+        times, changes = [], 0
+        with open(file) as vcd:
+            for line in vcd:
+                if line.startswith("#"):
+                    times.append(int(line[1:]))
+                elif times and line[0] in "01b":
+                    changes += 1
+        self.assertGreater(changes, 100)
+        if kind == "mismatch":
+            cycle = int(result["first_mismatches"][0]["where"].split()[1])
+            self.assertLess(times[0], cycle * period)
+            self.assertGreater(times[-1], cycle * period)
 
 
 class Passing(RegressTest):
@@ -157,49 +200,10 @@ class Failing(RegressTest):
         self.write("plans/small.yaml", TESTPLAN + FAULT)
         out = self.regress("-j2", code=1)
         self.assertIn("9 passed, 3 failed in 2 buckets, 0 missing", out)
-        collected = self.collected()
-        buckets = {b["kind"]: b for b in collected["buckets"]}
-        self.assertEqual({kind: b["runs"] for kind, b in buckets.items()}, {"mismatch": 2, "deadlock": 1})
-        self.assertEqual(buckets["mismatch"]["message"], "colours: N mismatches in N comparisons")
-        for kind, bucket in buckets.items():
-            # One line, as the page's button copies it.
-            command = bucket["example"]["command"]
-            self.assertNotIn("\n", command)
-            again = subprocess.run(["bash", "-c", command.replace("deburr", f"'{DEBURR}'", 1)],
-                                   cwd=self.directory, text=True, capture_output=True)
-            self.assertEqual(again.returncode, {"mismatch": 1, "deadlock": 4}[kind], again.stdout)
-            self.assertIn(bucket["example"]["reason"], again.stdout)
-            with open(self.path("out/texture/result.json")) as file:
-                alone = json.load(file)
-            place = self.path("out/regressions/small-7")
-            with open(os.path.join(place, bucket["example"]["directory"], "result.json")) as file:
-                self.assertEqual(alone["first_mismatches" if kind == "mismatch" else "cycles"],
-                                 json.load(file)["first_mismatches" if kind == "mismatch" else "cycles"])
-            self.check_waves(os.path.join(place, bucket["waves"]["file"]), kind, alone)
-        with open(self.path("out/regressions/small-7/index.html")) as file:
-            page = file.read()
-        self.assertIn(buckets["mismatch"]["waves"]["file"], page)
-        root = xml.etree.ElementTree.parse(self.path("out/regressions/small-7/junit.xml")).getroot()
-        self.assertEqual(root.get("failures"), "4", "three runs, and colours of the feature")
+        self.check_fault()
         before = self.inodes()
         self.regress("run", code=1)
         self.assertEqual(self.inodes(), before, "neither failures nor waves are made again")
-
-    def check_waves(self, file, kind, result):
-        """Something changes in the window, and the window holds the failure."""
-        period = round(1e6 / result["clock_mhz"])
-        scale, times, changes = 1, [], 0
-        with open(file) as vcd:
-            for line in vcd:
-                if line.startswith("#"):
-                    times.append(int(line[1:]))
-                elif times and line[0] in "01b":
-                    changes += 1
-        self.assertGreater(changes, 100)
-        if kind == "mismatch":
-            cycle = int(result["first_mismatches"][0]["where"].split()[1])
-            self.assertLess(times[0] * scale, cycle * period)
-            self.assertGreater(times[-1] * scale, cycle * period)
 
 
 class Killed(RegressTest):
