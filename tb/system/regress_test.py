@@ -74,10 +74,11 @@ class RegressTest(unittest.TestCase):
         with open(self.path(name), "w") as file:
             file.write(text)
 
-    def regress(self, *arguments, code=0, name="small", seed="7"):
+    def regress(self, *arguments, code=0, name="small", seed="7", says=""):
         done = subprocess.run([DEBURR, "regress", f"plans/{name}.yaml", *arguments, "--seed", seed],
                               cwd=self.directory, text=True, capture_output=True, timeout=600)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        self.assertIn(says, done.stdout + done.stderr)
         return done.stdout
 
     def collected(self, name="small", seed="7", out="out"):
@@ -184,6 +185,53 @@ class Passing(RegressTest):
         self.regress("plan", name="alone")
         self.assertEqual([p[0] for p in self.points(name="alone")],
                          [p[0] for p in self.points() if p[3] == "anything"])
+
+    def test_a_part_is_of_the_whole(self):
+        """One of two seeds: their runs are the whole plan's, and less must be compared."""
+        self.write("plans/small.yaml", TESTPLAN.replace("colours: 1000", "colours: 2000"))
+        said = self.regress("-j2", "--divide", "2")
+        self.assertIn("regression small-of-2 --seed 7: 6 points, 6 passed", said)
+        part = self.points(name="small-of-2")
+        before = self.inodes()
+        self.regress("-j2")
+        self.assertLess({point[0] for point in part}, {point[0] for point in self.points()})
+        after = self.inodes()
+        self.assertEqual({path: after[path] for path in before}, before, "no run of the part again")
+        for name, divisor, minimum in (("small-of-2", 2, 1000), ("small", 1, 2000)):
+            collected = self.collected(name=name)
+            self.assertEqual(collected["divisor"], divisor)
+            self.assertEqual(collected["features"][0]["checks"][0]["minimum"], minimum)
+
+    def test_a_changed_plan_keeps_what_is_as_before(self):
+        self.regress("-j2")
+        before = self.inodes()
+        self.write("plans/small.yaml", TESTPLAN.replace("seeds: 3", "seeds: 4"))
+        changed = "changed     'plans/small.yaml' since the plan was made: "
+        status = self.regress("status")
+        self.assertIn(changed + "these figures are of what it was before", status)
+        self.assertIn(f"{POINTS} of {POINTS} points done", status)
+        collected = self.regress("collect", code=3)
+        self.assertIn(changed + "points that are as before keep their results", collected)
+        self.assertIn(f"{POINTS + 3} points, {POINTS} passed, 0 failed in 0 buckets, 3 missing", collected)
+        self.assertNotIn("changed  ", self.regress("status"))
+        self.regress("run")
+        after = self.inodes()
+        self.assertEqual(len(after), POINTS + 3)
+        self.assertEqual({path: after[path] for path in before}, before, "what was there stayed")
+
+    def test_another_model_leaves_the_report_of_the_last_one(self):
+        self.regress("-j2")
+        report = self.collected()
+        path = self.path("out/regressions/small-7/plan.json")
+        with open(path) as file:
+            plan = json.load(file)
+        with open(path, "w") as file:
+            json.dump({**plan, "model": "another"}, file)
+        self.assertIn("changed     the model since", self.regress("status"))
+        self.regress("collect", code=2, says="are of another state of the model")
+        self.assertEqual(self.collected(), report)
+        self.assertIn("no result of before counts", self.regress("run"))
+        self.regress("collect")
 
     def test_too_little_is_no_pass(self):
         self.write("plans/small.yaml", TESTPLAN.replace("colours: 1000", "colours: 1000000"))

@@ -346,7 +346,9 @@ class Slurm(OnCluster, unittest.TestCase):
                 self.assertIn(word, text)
 
         refused("profile.yaml:6: unknown key 'partitions': did you mean 'partition'?", partitions="test")
-        refused("'cpus' wants a number 1..4096", cpus="many")
+        refused("profile.yaml:4: 'cpus' = 'many' wants a number", cpus="many")
+        refused("profile.yaml:5: 'tasks' = '0' is outside 1..1000", tasks=0)
+        refused("profile.yaml:6: 'setup' wants a list of lines, got a single value", setup="make")
         refused("sbatch refuses", "nowhere", partition="nowhere")
         begin = time.monotonic()
         refused("there is no Slurm configuration '/nonexistent/slurm.conf'", code=5,
