@@ -16,6 +16,7 @@
 #include "tb/app/random_configuration.h"
 #include "tb/results/file.h"
 #include "tb/results/headline.h"
+#include "tb/results/progress.h"
 #include "tb/sweep/sampling.h"
 
 namespace deburr::tb {
@@ -30,7 +31,9 @@ constexpr std::uint64_t kRunSeeds = 0xFFFFFFFF;
 class RegressionPlanner {
  public:
   RegressionPlanner(const Testplan& testplan, std::uint64_t base_seed)
-      : testplan_(testplan), base_seed_(base_seed) {
+      : testplan_(testplan),
+        base_seed_(base_seed),
+        progress_("planning", most_points(testplan), "point") {
     plan_.title = testplan.title;
     plan_.file = testplan.file.string();
     plan_.reports = false;
@@ -80,6 +83,14 @@ class RegressionPlanner {
       plan_.left_out.push_back(fmt::format("{}/{}: {}", feature.id, stimulus.name, what));
   }
 
+  static std::uint64_t most_points(const Testplan& testplan) {
+    std::uint64_t points = 0;
+    for (const Feature& feature : testplan.features)
+      for (const Stimulus& stimulus : feature.stimuli)
+        points += std::min(sample_bound(stimulus.configurations), kMostPoints) * stimulus.seeds;
+    return points;
+  }
+
   static std::string in_words(const Plan& samples, const Sample& sample) {
     if (sample.empty()) return "base";
     std::string words;
@@ -95,6 +106,7 @@ class RegressionPlanner {
   }
 
   void add(const PointOrigin& origin, const Stimulus& stimulus, std::vector<Setting> settings) {
+    progress_.update(++seen_);
     const std::string name = origin.name();
     auto give = [&, given = names_of(settings)](const std::string& parameter,
                                                 std::string value) mutable {
@@ -134,6 +146,8 @@ class RegressionPlanner {
 
   const Testplan& testplan_;
   std::uint64_t base_seed_;
+  Progress progress_;
+  std::uint64_t seen_ = 0;
   Plan plan_;
   PointNamer namer_;
   std::vector<PlannedPoint> points_;
@@ -174,7 +188,8 @@ PointOrigin origin_of(const PlannedPoint& point) {
 
 Plan make_regression_plan(const Testplan& testplan, std::uint64_t base_seed,
                           const SweepPlace& place) {
-  if (const auto before = find_plan(place.directory); before && is_current(*before, testplan.file))
+  if (const auto before = find_plan(place.directory);
+      before && changes_since(*before, testplan.file).empty())
     return *before;
   auto [plan, points] = RegressionPlanner(testplan, base_seed).run();
   write_points(points, place);
