@@ -94,9 +94,6 @@ void ControlRegisters::write_control(std::uint32_t value) {
 
 void ControlRegisters::mask_values() {
   for (std::size_t i = 0; i < registers.table().size(); ++i) {
-    if (registers.table()[i].access != spec::Access::kReadWrite ||
-        registers.table()[i].offset == layout_.control)
-      continue;
     kept_[i] = registers.get(i) & masks_[i];
     registers.set(i, kept_[i]);
   }

@@ -42,9 +42,8 @@ const char* name_of(MemoryKind kind) {
 MemoryBase::MemoryBase(const char* name, MemoryShape shape)
     : sc_object(name), shape_(std::move(shape)), ports_(port_text(shape_)) {
   const MemoryShape& s = shape_;
-  DEBURR_CHECK(s.words > 0 && s.word_bits > 0 && s.banks >= 1 && s.banks <= s.words &&
-                   s.span >= 1 && s.latency <= kMostLatency &&
-                   s.content.find('\n') == std::string::npos,
+  DEBURR_CHECK(s.word_bits > 0 && s.banks >= 1 && s.banks <= s.words && s.span >= 1 &&
+                   s.latency <= kMostLatency && s.content.find('\n') == std::string::npos,
                fmt::format("{}: {} words in {} banks, span {}, latency {}, content '{}'",
                            this->name(), s.words, s.banks, s.span, s.latency, s.content));
   DEBURR_CHECK(s.latency > 0 || s.read_during_write != ReadDuringWrite::kNewWord,

@@ -232,7 +232,7 @@ void Trace::write(const std::string& value, int bits, const std::string& id) {
 Activity Trace::tick(Cycle cycle) {
   if (!started_) {
     // One cycle early, so that the units' activities have something to be compared with.
-    if (options_.from != 0 && cycle + 1 < options_.from) return kIdle;
+    if (cycle + 1 < options_.from) return kIdle;
     started_ = true;
     collect(cycle);
     write_header();

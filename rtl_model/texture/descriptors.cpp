@@ -71,8 +71,8 @@ TextureState decode(const ControlRegisters& registers, std::uint32_t handle) {
                       wrap_t = bits(mode, 11, 10), min_filter = bits(mode, 14, 12),
                       levels = bits(mode, 23, 20), max_count_log2 = bits(mode, 26, 24);
   TextureState t;
-  t.width = static_cast<std::uint16_t>(bits(size, 15, 0));
-  t.height = static_cast<std::uint16_t>(bits(size, 31, 16));
+  t.width = static_cast<std::uint16_t>(size);
+  t.height = static_cast<std::uint16_t>(size >> 16);
   const std::uint32_t longest = std::max(t.width, t.height);
   bool valid = t.width >= 1 && t.height >= 1 && longest <= spec::texture::kMaxTextureSize &&
                levels >= 1 && levels <= static_cast<std::uint32_t>(std::bit_width(longest)) &&
@@ -90,9 +90,9 @@ TextureState decode(const ControlRegisters& registers, std::uint32_t handle) {
   t.min_filter = static_cast<spec::texture::MinFilter>(min_filter);
   t.mag_filter = static_cast<spec::texture::MagFilter>(bits(mode, 16, 16));
   t.max_count_log2 = static_cast<std::uint8_t>(max_count_log2);
-  t.bias = static_cast<std::int16_t>(bits(field(reg::kLodBias), 15, 0)) * 16;
+  t.bias = static_cast<std::int16_t>(field(reg::kLodBias)) * 16;
   t.min_lod = static_cast<std::int32_t>(bits(clamp, 15, 0) << 4);
-  t.max_lod = static_cast<std::int32_t>(bits(clamp, 31, 16) << 4);
+  t.max_lod = static_cast<std::int32_t>(clamp >> 16 << 4);
   const std::uint32_t bytes = spec::texture::kFormatBytes[format];
   t.texel_log2 = ceil_log2(bytes);
   const std::uint32_t tile_width = spec::texture::kTileWidth[bytes],

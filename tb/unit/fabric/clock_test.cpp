@@ -3,9 +3,14 @@
 // simulation with and without it and compares every beat, cycle and counter.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
+#include <optional>
+#include <vector>
 
 #include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/fabric/trace.h"
@@ -52,6 +57,104 @@ TEST(ClockDomain, OrderOfEvaluationDoesNotMatter) {
   const std::string reference = run(std::nullopt);
   EXPECT_GT(reference.size(), 1000U);
   for (std::uint64_t seed = 0; seed < 8; ++seed) EXPECT_EQ(run(seed), reference) << seed;
+}
+
+// Which of several is ticked when, by clock.
+struct Order {
+  struct Member final : rtl::Clocked {
+    Order& order;
+    int number;
+    Member(Order& all, int own) : order(all), number(own) {}
+    rtl::Activity tick(Cycle) override {
+      order.ticked.push_back(number);
+      return rtl::kIdle;
+    }
+    void reset() override {}
+  };
+  rtl::ClockDomain clock{"clock", ns(1)};
+  std::vector<std::unique_ptr<Member>> members;
+  std::vector<int> ticked;
+  void add() {
+    members.push_back(std::make_unique<Member>(*this, static_cast<int>(members.size())));
+    clock.add(*members.back());
+  }
+  std::vector<int> of_a_clock() {
+    ticked.clear();
+    clock.run(1);
+    return ticked;
+  }
+};
+
+// Each order comes as often as any other, whatever the one before was.
+TEST(ClockDomain, AShuffledOrderSaysNothingOfTheNext) {
+  constexpr int kMembers = 4, kClocks = 8000;
+  Order order;
+  for (int i = 0; i < kMembers; ++i) order.add();
+  order.clock.shuffle(3);
+  std::array<std::array<int, kMembers>, kMembers> met{};  // by place before and place after
+  std::vector<int> before = order.of_a_clock();
+  for (int i = 0; i < kClocks; ++i) {
+    const std::vector<int> now = order.of_a_clock();
+    ASSERT_EQ(now.size(), std::size_t{kMembers});
+    for (std::size_t place = 0; place < kMembers; ++place) {
+      const auto found = std::find(now.begin(), now.end(), before[place]);
+      ASSERT_NE(found, now.end());
+      ++met[place][static_cast<std::size_t>(found - now.begin())];
+    }
+    before = now;
+  }
+  for (const auto& row : met)
+    for (const int times : row) EXPECT_NEAR(times, kClocks / kMembers, kClocks / kMembers / 10);
+}
+
+TEST(ClockDomain, RunUntilGivesUpAfterItsLimit) {
+  for (const bool fast : {false, true})
+    EXPECT_EQ(in_child([fast] {
+                Pipeline p(5);
+                p.clock.set_fast_path(fast);
+                std::string ends;
+                for (const Cycle limit : {0u, 1u, 2u, 255u, 256u, 1000u}) {
+                  const bool done = p.clock.run_until([] { return false; }, limit);
+                  ends += fmt::format("{}{} ", done ? "done at " : "", p.clock.cycle());
+                  if (sc_core::sc_time_stamp() != p.clock.time_of(p.clock.cycle()))
+                    ends += "at another time ";
+                }
+                return ends;
+              }),
+              "0 1 3 258 514 1514 ");
+}
+
+TEST(ClockDomain, EveryEdgeInResetResetsOnce) {
+  Pipeline p(5);
+  int resets = 0;
+  p.clock.on_reset([&] { ++resets; });
+  p.clock.run(10);
+  p.clock.set_reset_n(false);
+  p.clock.run(7);
+  EXPECT_EQ(resets, 7);
+  EXPECT_EQ(p.clock.cycle(), 17U);
+  EXPECT_EQ(p.clock.cycles_since_reset(), 0U);
+  p.clock.set_reset_n(true);
+  p.clock.run(3);
+  EXPECT_EQ(resets, 7);
+  EXPECT_EQ(p.clock.cycles_since_reset(), 3U);
+}
+
+TEST(ClockDomain, WithoutShuffleTheOrderIsThatOfAdditionAgain) {
+  Order order;
+  for (int i = 0; i < 5; ++i) order.add();
+  order.clock.shuffle(7);
+  order.clock.run(9);
+  order.clock.shuffle(std::nullopt);
+  EXPECT_EQ(order.of_a_clock(), (std::vector<int>{0, 1, 2, 3, 4}));
+  // Who comes while it is shuffled stays.
+  order.clock.shuffle(7);
+  order.add();
+  order.clock.run(9);
+  order.clock.shuffle(std::nullopt);
+  std::vector<int> all = order.of_a_clock();
+  std::sort(all.begin(), all.end());
+  EXPECT_EQ(all, (std::vector<int>{0, 1, 2, 3, 4, 5}));
 }
 
 // What an observer sees at its time: everything up to the last edge, in both modes.
@@ -389,6 +492,38 @@ TEST(ClockDomain, WrongAccountsAreCaught) {
   rtl::ClockDomain clock("clock", ns(1));
   Liar liar("liar", clock);
   EXPECT_THROW(clock.run(3), spec::CheckFailed);
+}
+
+// Its own, beside idle, busy and downstream.
+TEST(Unit, HasAsManyCausesAsItCanCount) {
+  struct Many final : rtl::Unit {
+    Many(const sc_core::sc_module_name& name, rtl::ClockDomain& domain, int causes)
+        : Unit(name, domain) {
+      for (int i = 0; i < causes; ++i)
+        last = declare_stall(("cause_" + std::to_string(i)).c_str(), "a cause");
+    }
+    rtl::Activity tick(Cycle) override { return last; }
+    void reset() override {}
+    using Unit::declare_stall;
+    rtl::Activity last{};
+  };
+  rtl::ClockDomain clock("clock", ns(1));
+  constexpr int kMost = rtl::kActivities - 3;
+  Many many("many", clock, kMost);
+  EXPECT_THROW(many.declare_stall("one_more", "a cause"), spec::CheckFailed);
+  clock.run(7);
+  EXPECT_EQ(many.stalled_cycles(), 7U);
+  EXPECT_EQ(many.stalls().back().name, "cause_" + std::to_string(kMost - 1));
+  EXPECT_EQ(many.stalls().back().cycles, 7U);
+}
+
+TEST(Unit, NamesWhatItHasDeclaredAndNothingElse) {
+  Pipeline p(1);
+  const Adder& adder = *p.adders[0];
+  EXPECT_EQ(adder.activity_name(rtl::kBusy), "busy");
+  EXPECT_EQ(adder.activity_name({static_cast<std::uint8_t>(adder.activities() - 1)}), "random");
+  EXPECT_THROW(adder.activity_name({static_cast<std::uint8_t>(adder.activities())}),
+               spec::CheckFailed);
 }
 
 TEST(ClockDomain, UnitTickedTwiceIsCaught) {

@@ -64,6 +64,7 @@ class Engine final : public rtl::Engine {
  public:
   Counting a, b;
   int flushed = 0, changed = 0;
+  std::vector<std::uint32_t> offsets;  // of what changed
   bool busy = false;
 
   Engine(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, bool ignores,
@@ -83,7 +84,10 @@ class Engine final : public rtl::Engine {
     control.show(kTokens, a.tokens);
     control.show_sum(kBoth, {&a.tokens, &b.tokens});
     control.on_command(4, [this] { ++flushed; });
-    control.on_change([this](std::uint32_t) { ++changed; });
+    control.on_change([this](std::uint32_t offset) {
+      ++changed;
+      offsets.push_back(offset);
+    });
     if (!with_memory) return;
     port_ = std::make_unique<rtl::MemoryPort>("port", clock);
     port_->requests_in(requests_);
@@ -120,6 +124,7 @@ std::string refusal(const Parameters& p) {
 
 TEST(Engine, RangesAreCheckedFromTheirDeclaration) {
   EXPECT_EQ(refusal({}), "taken");
+  EXPECT_EQ(refusal({.steps = 1}), "taken");
   EXPECT_EQ(refusal({.steps = 8}), "taken");
   EXPECT_EQ(refusal({.steps = 9}), "toy.steps: expected 1..8 step, got 9");
   EXPECT_EQ(refusal({.steps = 0}), "toy.steps: expected 1..8 step, got 0");
@@ -207,6 +212,26 @@ TEST(Engine, ResetGivesEveryRegisterItsResetValue) {
   EXPECT_EQ(bed.host.read(kSize), 640U);
   EXPECT_EQ(bed.host.read(kStatus), 1U);
   EXPECT_EQ(bed.host.read(kControl), 1U);
+  bed.engine.busy = true;
+  EXPECT_EQ(bed.host.read(kStatus), 0U);  // no bit of errors is left
+}
+
+// After a reset an engine decodes what a host can set, and CONTROL is not among it.
+TEST(Engine, AResetTellsOfEachRegisterOfTheHost) {
+  Bed bed(true);
+  bed.engine.offsets.clear();
+  bed.clock.set_reset_n(false);
+  bed.clock.run(1);
+  bed.clock.set_reset_n(true);
+  EXPECT_THAT(bed.engine.offsets, testing::UnorderedElementsAre(kSize, kLimit));
+}
+
+TEST(Engine, AWriteTellsOfItsRegisterAndControlOfNone) {
+  Bed bed(true);
+  bed.engine.offsets.clear();
+  bed.host.write(kLimit, 3);
+  bed.host.write(kControl, 1);
+  EXPECT_THAT(bed.engine.offsets, testing::ElementsAre(kLimit));
 }
 
 // One thing at a time: each leaves before the next one enters, at ever other differences.

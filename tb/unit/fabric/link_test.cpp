@@ -74,6 +74,11 @@ TEST(Link, DepthTwoSustainsOneABeatAClock) {
   }
 }
 
+TEST(Link, HasTwoPlacesUnlessMoreAreAskedFor) {
+  EXPECT_EQ(Link<int>("two").depth(), 2U);
+  EXPECT_EQ(Link<int>("three", 3).depth(), 3U);
+}
+
 TEST(Link, DepthOneTakesEveryOtherClock) {
   const std::vector<Cycle> expected{1, 3, 5, 7, 9};
   EXPECT_EQ(arrivals(1, true, 10), expected);
@@ -156,6 +161,70 @@ TEST(Link, EmplaceIsPushInPlace) {
   token.number = 9;
   EXPECT_FALSE(link.can_pop(3));
   EXPECT_EQ(link.front(4).number, 9U);
+}
+
+// What a testbench does to a link lasts for the clock that it names, and no longer.
+TEST(Link, HeldSidesWaitForOneClock) {
+  Link<int> link("link", 4);
+  link.push(3, 1);
+  link.hold_push(5);
+  link.hold_pop(5);
+  EXPECT_FALSE(link.can_push(5));
+  EXPECT_FALSE(link.can_pop(5));
+  EXPECT_TRUE(link.can_push(6));
+  EXPECT_TRUE(link.can_pop(6));
+  // A side that has to wait longer anyway does.
+  link.push(6, 2);
+  link.hold_push(4);
+  EXPECT_FALSE(link.can_push(6));
+  EXPECT_TRUE(link.can_push(7));
+}
+
+TEST(Link, ADroppedBeatLeavesItsSlotFromTheNextClockOn) {
+  Link<int> link("link", 2);
+  EXPECT_FALSE(link.drop_newest());
+  link.push(4, 1);
+  link.push(5, 2);
+  ASSERT_TRUE(link.drop_newest());
+  EXPECT_EQ(link.occupancy(), 1U);
+  EXPECT_FALSE(link.can_push(5));
+  ASSERT_TRUE(link.can_push(6));
+  EXPECT_EQ(link.take(6), 1);
+  EXPECT_FALSE(link.can_pop(7));  // the dropped one never comes
+  link.push(7, 3);
+  EXPECT_EQ(link.take(8), 3);
+  EXPECT_TRUE(link.empty());
+}
+
+TEST(Link, ADuplicateIsTheNewestBeatOnceMore) {
+  Link<int> link("link", 4);
+  EXPECT_FALSE(link.duplicate_newest(0));
+  for (int i = 1; i <= 3; ++i) link.push(static_cast<Cycle>(i), i);
+  ASSERT_TRUE(link.duplicate_newest(5));
+  EXPECT_EQ(link.occupancy(), 4U);
+  EXPECT_EQ(link.pushes(), 4U);
+  EXPECT_FALSE(link.duplicate_newest(6));  // no room
+  EXPECT_FALSE(link.can_push(6));
+  std::vector<int> beats;
+  for (Cycle c = 6; c < 10; ++c) beats.push_back(link.take(c));
+  EXPECT_EQ(beats, (std::vector<int>{1, 2, 3, 3}));
+  // One alone is there in its clock.
+  link.push(10, 9);
+  link.pop(11);
+  link.push(12, 7);
+  ASSERT_TRUE(link.duplicate_newest(13));
+  EXPECT_EQ(link.take(13), 7);
+  EXPECT_EQ(link.take(14), 7);
+}
+
+// The check alone, without so many slots.
+TEST(Link, HasUpTo2To24Places) {
+  struct Bare : rtl::LinkBase {
+    explicit Bare(std::uint32_t depth) : LinkBase("bare", depth, 4, rtl::Payload::of<int>()) {}
+  };
+  EXPECT_NO_THROW(Bare(1));
+  EXPECT_NO_THROW(Bare(1U << 24));
+  EXPECT_THROW(Bare((1U << 24) + 1), spec::CheckFailed);
 }
 
 TEST(Ports, BindInAnyOrderThroughTheHierarchy) {

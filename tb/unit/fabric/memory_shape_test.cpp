@@ -500,6 +500,42 @@ TEST(Memory, NeighboursLieInDifferentBanks) {
   }
 }
 
+// Of an access to several words each uses its bank.
+TEST(Memory, EveryWordOfAnAccessUsesItsBank) {
+  for (const std::uint64_t count : {1u, 2u, 3u}) {
+    Memory<int> memory("memory", {.words = 64,
+                                  .word_bits = 4,
+                                  .read_ports = 2,
+                                  .banks = 4,
+                                  .span = 3,
+                                  .separate_banks = true});
+    ReadPort<int> first(memory, "first"), second(memory, "second");
+    Cycle cycle = 0;
+    for (std::uint64_t a = 0; a < 8; ++a) {
+      first.read(++cycle, 16, count);
+      if (a % 4 < count)
+        EXPECT_THROW(second.read(cycle, a), spec::CheckFailed) << a << " beside " << count;
+      else
+        EXPECT_NO_THROW(second.read(cycle, a)) << a << " beside " << count;
+    }
+  }
+}
+
+// Both rules at once: in one bank a read and a write do not meet in a word.
+TEST(Memory, SeparateBanksForbidAsOthersDo) {
+  Memory<int> memory("memory", {.words = 16,
+                                .word_bits = 4,
+                                .read_during_write = ReadDuringWrite::kForbidden,
+                                .banks = 4,
+                                .separate_banks = true});
+  ReadPort<int> read(memory, "read");
+  WritePort<int> write(memory, "write");
+  write.write(1, 5, 1);
+  EXPECT_THAT(refusal([&] { read.read(1, 5); }), HasSubstr("forbidden"));
+  write.write(2, 5, 1);
+  EXPECT_NO_THROW(read.read(2, 9));
+}
+
 TEST(Memory, SeparateBanksOfSharedPortsHaveOnePort) {
   Memory<int> memory("memory", {.words = 8,
                                 .word_bits = 4,
@@ -557,7 +593,8 @@ TEST(Memory, WithoutWordsTheChecksStay) {
   EXPECT_THROW(read.check(2, 6), spec::CheckFailed);
   EXPECT_NO_THROW(read.check(3, 6));
   EXPECT_THROW(read.read(1, 6), spec::CheckFailed);
-  EXPECT_THROW(write.write(3, 8), spec::CheckFailed);
+  EXPECT_THAT(refusal([&] { write.write(3, 8); }), HasSubstr("1 words from address 8 on"));
+  EXPECT_NO_THROW(write.write(4, 7));
 }
 
 // A table that is written while nobody reads it: the ports that read are those that are written.
@@ -586,6 +623,14 @@ TEST(Memory, WhatIsLoadedHasItsContentAndNoPortThatWrites) {
   read.read(1, 0);
   EXPECT_EQ(read.at(2, 0), 5);
   EXPECT_THAT(text_of<spec::ConfigError>([&] { build(2, 1, MemoryKind::kSram); }),
+              HasSubstr("no port that writes"));
+  EXPECT_THAT(text_of<spec::ConfigError>([] {
+                MemoryBase("loaded", {.words = 4,
+                                      .word_bits = 8,
+                                      .write_ports = 1,
+                                      .shared_ports = 1,
+                                      .loaded = true});
+              }),
               HasSubstr("no port that writes"));
   EXPECT_THAT(text_of<spec::ConfigError>([&] { build(2, 0, MemoryKind::kRom); }),
               HasSubstr("only sram is loaded"));
@@ -632,6 +677,18 @@ TEST(Memory, ContentWithASignFitsItsBits) {
   };
   for (const int word : {-16, -1, 0, 15, 31}) EXPECT_NO_THROW(build(word)) << word;
   for (const int word : {-17, 32}) EXPECT_THROW(build(word), spec::CheckFailed) << word;
+}
+
+TEST(Memory, ContentOfNearlyAWholeWordFitsItsBits) {
+  const auto build = [](std::uint32_t bits, std::uint64_t word) {
+    const std::array<std::uint64_t, 1> content = {word};
+    Memory<std::uint64_t>(
+        "rom", {.words = 1, .word_bits = bits, .kind = MemoryKind::kRom, .write_ports = 0},
+        content);
+  };
+  EXPECT_NO_THROW(build(64, ~std::uint64_t{0}));
+  EXPECT_NO_THROW(build(63, ~std::uint64_t{0} >> 1));
+  EXPECT_THROW(build(63, std::uint64_t{1} << 63), spec::CheckFailed);
 }
 
 TEST(Memory, ResetClearsTheBookkeepingAndNotTheWords) {
@@ -719,6 +776,11 @@ TEST(MemoryCost, IsThatOfRealMemories) {
        9216,
        3,
        "3 copies of 2R"},
+      {{.words = 256, .word_bits = 12, .kind = MemoryKind::kRom, .write_ports = 0},
+       3072,
+       3072,
+       1,
+       "1R"},
       {{.words = 256, .word_bits = 12, .kind = MemoryKind::kRom, .read_ports = 2, .write_ports = 0},
        3072,
        3072,
@@ -846,6 +908,8 @@ TEST(MemoryCost, GoesWithTheWidthOfTheFrame) {
   EXPECT_EQ(pairs.bits_at(1), 100U);
   const MemoryBase fixed("fixed", {.words = 2048, .word_bits = 100});
   EXPECT_EQ(fixed.bits_at(640), 204'800U);
+  EXPECT_FALSE(fixed.follows_width());
+  EXPECT_TRUE(MemoryBase("column", {.words = 2, .word_bits = 1, .columns = 1}).follows_width());
 }
 
 TEST(MemoryCost, AMemoryPortBuffersWhatMayComeBack) {

@@ -361,6 +361,68 @@ TEST(MemoryPort, OneToOneThousandMayBeOutstanding) {
     EXPECT_THROW(rtl::MemoryPort("port", clock, {.outstanding = outstanding}), spec::CheckFailed);
 }
 
+TEST(MemoryPort, BurstsHaveUpTo64Lines) {
+  rtl::ClockDomain clock("clock", kPeriod);
+  for (const std::uint32_t lines : {1u, 64u}) {
+    EXPECT_NO_THROW(rtl::MemoryPort("port", clock, {.max_burst_lines = lines}));
+    EXPECT_NO_THROW(
+        rtl::MemoryPort("port", clock, {.max_burst_lines = lines, .max_write_lines = lines}));
+    EXPECT_THROW(
+        rtl::MemoryPort("port", clock, {.max_burst_lines = lines, .max_write_lines = lines + 1}),
+        spec::CheckFailed);
+  }
+  for (const std::uint32_t lines : {0u, 65u})
+    EXPECT_THROW(rtl::MemoryPort("port", clock, {.max_burst_lines = lines}), spec::CheckFailed);
+}
+
+// The mask is of the first line of a burst: a byte of it that is left out stays, and the first byte
+// of the line behind it is written all the same.
+TEST(MemoryPort, AByteThatIsNotEnabledStays) {
+  for (const std::uint32_t line_bytes : {32u, kLineBytes})
+    EXPECT_EQ(in_child([line_bytes] {
+                MemoryPortParameters parameters;
+                parameters.line_bytes = line_bytes;
+                parameters.max_burst_lines = parameters.max_write_lines = 2;
+                System s(parameters, with_latency(5));
+                MemoryRequest write;
+                write.write = true;
+                write.lines = 2;
+                write.byte_mask = (~std::uint64_t{0} >> (64 - line_bytes)) & ~std::uint64_t{0b101};
+                write.data.fill(0xEE);
+                s.driver.send(write);
+                s.driver.send(write);
+                if (!s.clock.run_until([&] { return s.sink.received() == 1; }, 1000))
+                  return std::string("not done");
+                std::vector<std::uint8_t> bytes(2 * line_bytes);
+                s.port.debug_read(0, bytes.data(), 2 * line_bytes);
+                std::string kept;
+                for (std::uint32_t i = 0; i < bytes.size(); ++i) {
+                  if (bytes[i] == 0xEE) continue;
+                  kept += fmt::format("{}{} ", i, bytes[i] == pattern(i) ? "" : "!");
+                }
+                return kept + fmt::format("of {}", s.port.bytes_written.value());
+              }),
+              fmt::format("0 2 of {}", 2 * line_bytes - 2));
+}
+
+// Whatever the transaction that failed had carried before.
+TEST(MemoryPort, AnErrorBringsNoData) {
+  System s({}, with_latency(7));
+  s.memory.fail_range(64 * 10, 64 * 12);
+  for (const std::uint32_t line : {1U, 2U, 10U, 3U, 11U}) {
+    s.driver.send(read_of(line));
+    s.clock.run(30);
+  }
+  ASSERT_EQ(s.sink.received(), 5U);
+  for (const MemoryResponse& response : s.sink.beats()) {
+    if (response.status == MemoryStatus::kOk)
+      EXPECT_TRUE(right(response)) << response.tag;
+    else
+      EXPECT_EQ(response.data, rtl::Line{}) << response.tag;
+  }
+  EXPECT_EQ(s.port.errors.value(), 2U);
+}
+
 TEST(MemoryPort, LinesHaveFourBytesAtLeastAndNoMoreThanABeat) {
   rtl::ClockDomain clock("clock", kPeriod);
   for (const std::uint32_t bytes : {4u, kLineBytes})
@@ -469,6 +531,59 @@ TEST(MemoryPort, ResetWithTransactionsInFlight) {
   s.clock.set_reset_n(false);
   s.clock.run(1);
   EXPECT_EQ(s.port.latency.count(), 0U);
+}
+
+// Answers that overtook each other, some of them given and some not, when the reset comes.
+TEST(MemoryPort, ResetWithAnswersThatWaitForTheirTurn) {
+  MemoryPortParameters parameters;
+  parameters.in_order = true;
+  System s(parameters, with_latency(5, 60), 300);
+  for (std::uint32_t i = 0; i < 200; ++i) s.driver.send(read_of(i));
+  for (Cycle round = 0; round < 30; ++round) {
+    s.clock.run(20 + 3 * round);
+    s.clock.set_reset_n(false);
+    s.clock.run(1);
+    s.clock.set_reset_n(true);
+  }
+  ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 200; }, 20'000));
+  s.clock.run(100);
+  ASSERT_EQ(s.sink.received(), 200U);
+  EXPECT_EQ(s.port.in_flight(), 0U);
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    EXPECT_TRUE(right(s.sink.beats()[i])) << i;
+    EXPECT_EQ(s.sink.beats()[i].tag, i);
+  }
+}
+
+// One read: a clock to send it, and one to push its answer, after the memory has had its time.
+TEST(MemoryPort, AccountsForEveryClockOfARead) {
+  System s({}, with_latency(10));
+  s.driver.send(read_of(3));
+  s.clock.run(50);
+  EXPECT_EQ(s.port.busy_cycles(), 2U);
+  std::uint64_t memory = 0;
+  for (const auto& cause : s.port.stalls())
+    if (cause.name == "memory") memory = cause.cycles;
+  EXPECT_EQ(memory, 10U);
+  EXPECT_EQ(s.port.stalled_cycles(), 10U);
+  EXPECT_EQ(s.port.idle_cycles(), 38U);
+}
+
+// The first beat of a burst that writes is taken, and waits inside for the others.
+TEST(MemoryPort, WaitsForTheBeatsOfABurst) {
+  MemoryPortParameters parameters;
+  parameters.max_burst_lines = parameters.max_write_lines = 2;
+  System s(parameters, with_latency(10));
+  MemoryRequest request = read_of(0);
+  request.write = true;
+  request.lines = 2;
+  request.byte_mask = ~std::uint64_t{0};
+  s.driver.send(request);
+  s.clock.run(21);
+  EXPECT_EQ(s.port.in_flight(), 1U);
+  EXPECT_EQ(s.port.busy_cycles(), 1U);
+  EXPECT_EQ(s.port.idle_cycles(), 1U);
+  EXPECT_EQ(s.port.stalled_cycles(), 19U);
 }
 
 TEST(MemoryPort, DebugAccessTakesNoTime) {

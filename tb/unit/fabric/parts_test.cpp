@@ -197,6 +197,23 @@ TEST(Merge, IsFairAndFull) {
   }
 }
 
+TEST(Merge, WaitsForItsOutput) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(1, sc_core::SC_NS));
+  Driver<Token> driver("driver", clock);
+  rtl::Merge<Token> merge("merge", clock, 1);
+  rtl::Link<Token> in("in"), out("out");
+  driver.beats_out(in);
+  (*merge.beats_in[0])(in);
+  merge.beats_out(out);
+  for (std::uint32_t i = 0; i < 9; ++i) driver.send(Token{i, i});
+  clock.run(20);  // nobody takes: two beats in the link behind, two in that before
+  EXPECT_EQ(out.occupancy(), 2U);
+  EXPECT_EQ(in.occupancy(), 2U);
+  EXPECT_EQ(merge.idle_cycles(), 1U);
+  EXPECT_EQ(merge.busy_cycles(), 2U);
+  EXPECT_EQ(merge.cycles_of(rtl::kStalledDownstream), 17U);
+}
+
 TEST(Counter, NeedsUnitAndMeaning) {
   rtl::Counter counter("lines", "lines", "cache lines requested");
   ++counter;
@@ -242,6 +259,43 @@ TEST(Histogram, LargeValuesAreExactToo) {
     EXPECT_EQ(histogram.percentile(50), value);
     EXPECT_EQ(histogram.percentile(51), ~std::uint64_t{0});
     EXPECT_EQ(histogram.bins().size(), value == ~std::uint64_t{0} ? 1U : 2U);
+  }
+}
+
+TEST(Histogram, NeedsUnitAndMeaning) {
+  EXPECT_THROW(rtl::Histogram("bare", "", "no unit"), spec::CheckFailed);
+  EXPECT_THROW(rtl::Histogram("mute", "clk", ""), spec::CheckFailed);
+}
+
+// Of so many values the least one that so many percent do not exceed.
+TEST(Histogram, PercentilesAreOfTheNearestRank) {
+  for (const std::uint64_t count : {1u, 2u, 3u, 7u, 99u, 100u, 101u, 250u, 1234u}) {
+    rtl::Histogram histogram("latency", "clk", "test");
+    for (std::uint64_t i = 0; i < count; ++i) histogram.record(10 * i);
+    for (unsigned percent = 0; percent <= 100; ++percent) {
+      std::uint64_t rank = 1;
+      while (100 * rank < percent * count) ++rank;
+      EXPECT_EQ(histogram.percentile(percent), 10 * (rank - 1)) << percent << " of " << count;
+    }
+  }
+}
+
+// 100 values from 1001 on need bins of two to be at most 64, and of four to be at most 32.
+TEST(Histogram, BinsAreNoWiderThanTheyMustBe) {
+  rtl::Histogram histogram("latency", "clk", "test");
+  for (std::uint64_t i = 0; i < 100; ++i) histogram.record(1001 + i);
+  for (const auto& [limit, width, first] : {std::array<std::uint64_t, 3>{100, 1, 1001},
+                                            {99, 2, 1000},
+                                            {64, 2, 1000},
+                                            {51, 2, 1000},
+                                            {50, 4, 1000},
+                                            {26, 4, 1000},
+                                            {25, 8, 1000},
+                                            {1, 2048, 0}}) {
+    const auto bins = histogram.bins(limit);
+    EXPECT_LE(bins.size(), limit);
+    EXPECT_EQ(bins.front().low, first) << limit;
+    for (const auto& bin : bins) EXPECT_EQ(bin.high, bin.low + width - 1) << limit;
   }
 }
 

@@ -12,6 +12,7 @@
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "tb/unit/fabric/support.h"
+#include "tb/unit/rtl/formats.h"
 
 namespace deburr::tb {
 namespace {
@@ -205,6 +206,44 @@ TEST(Payload, AFormatHasAsManyBitsAsTheField) {
               HasSubstr("area: U14.16 has 30 bits, the list says 31"));
 }
 
+// Formats are Ua.b and Sa.b; what only looks like one is another text.
+struct OtherTexts {
+  std::uint8_t a = 0, b = 0, c = 0, d = 0, e = 0;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("a", self.a, 5, "U.8");
+    visit("b", self.b, 5, "U8");
+    visit("c", self.c, 5, "U0.8 or so");
+    visit("d", self.d, 5, "S");
+    visit("e", self.e, 5, "");
+  }
+};
+
+TEST(Payload, ATextThatIsNoFormatSaysNothingOfBits) {
+  EXPECT_EQ(Payload::of<OtherTexts>().bits(), 25U);
+}
+
+// The name of a type as others write it, whatever letters it has.
+struct AZaz09 {
+  std::uint8_t a = 0;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("a", self.a, 8);
+  }
+};
+struct Zero0Z9 {
+  std::uint8_t a = 0;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("a", self.a, 8);
+  }
+};
+
+TEST(Payload, TypesAreNamedInLowerCase) {
+  EXPECT_EQ(Payload::of<AZaz09>().node().type, "a_zaz09_t");
+  EXPECT_EQ(Payload::of<Zero0Z9>().node().type, "zero0_z9_t");
+}
+
 TEST(Payload, EachFieldHasANameAndAPlaceOfItsOwn) {
   EXPECT_THAT(text_of<spec::CheckFailed>([] { Payload::of<OneName>(); }),
               HasSubstr("a and a: one name"));
@@ -234,6 +273,10 @@ TEST(Payload, MemoryBeatsHaveTheWidthOfTheirPort) {
   EXPECT_EQ(Payload::of<rtl::MemoryRequest>(rtl::request_shape(port, 32, 5)).bits(), 333U);
   EXPECT_EQ(Payload::of<rtl::MemoryResponse>(rtl::response_shape(port, 32, 5)).bits(), 303U);
   EXPECT_EQ(rtl::kPayloadBits<rtl::MemoryRequest>, 64U + 32 + 7 + 1 + 64 + 512);
+}
+
+TEST(Payload, MemoryBeatsHaveTheBitsOfTheirFormats) {
+  EXPECT_GE((expect_widths_of_formats<rtl::MemoryRequest, rtl::MemoryResponse>()), 7);
 }
 
 TEST(Payload, FieldsHaveTheirPlaces) {

@@ -8,6 +8,7 @@
 
 #include "rtl_model/fabric/register_block.h"
 #include "spec/error.h"
+#include "tb/harness/register_host.h"
 
 namespace deburr::tb {
 namespace {
@@ -145,13 +146,30 @@ TEST_F(Registers, DebugTransportCoversSpansUpToAHole) {
 }
 
 TEST_F(Registers, NamesAndTexts) {
+  EXPECT_EQ(bus.block.index_of("CONTROL"), std::size_t{kControl});
   EXPECT_EQ(bus.block.index_of("FLAGS"), std::size_t{kFlags});
+  EXPECT_EQ(bus.block.index_of("COUNT"), std::size_t{kCount});
   EXPECT_THROW(bus.block.index_of("FLAG"), spec::ConfigError);
   EXPECT_THAT(
       rtl::register_table_markdown(kTable),
       testing::HasSubstr("| 0x010 | `FLAGS` | W1C | 0x00000000 | bit i: error i was seen |"));
   EXPECT_THAT(rtl::register_header(kTable, "deburr::regs"),
               testing::HasSubstr("inline constexpr std::uint32_t COUNT = 0x014;  // RO: lines"));
+}
+
+// A table may be in any order.
+TEST(RegisterTable, FindsEachRegisterWhereverItStands) {
+  static constexpr spec::RegisterInfo table[] = {{300, "LAST", Access::kReadWrite, 1, "a"},
+                                                 {240, "MIDDLE", Access::kReadWrite, 2, "b"},
+                                                 {0, "FIRST", Access::kReadWrite, 3, "c"},
+                                                 {304, "BEHIND", Access::kReadWrite, 4, "d"}};
+  rtl::RegisterBlock block("block", table);
+  RegisterHost host("host");
+  host.bus.bind(block.bus);
+  sc_core::sc_start(sc_core::SC_ZERO_TIME);
+  for (const spec::RegisterInfo& r : table) EXPECT_EQ(host.read(r.offset), r.reset) << r.name;
+  for (const std::uint32_t hole : {4u, 236u, 244u, 296u, 308u})
+    EXPECT_EQ(host.try_write(hole, 0), tlm::TLM_ADDRESS_ERROR_RESPONSE) << hole;
 }
 
 TEST(RegisterTable, MistakesAreCaught) {

@@ -7,9 +7,12 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <set>
 #include <sstream>
 
+#include "rtl_model/fabric/register_block.h"
 #include "tb/harness/memory_model.h"
+#include "tb/harness/register_host.h"
 #include "tb/unit/fabric/support.h"
 
 namespace deburr::tb {
@@ -21,6 +24,8 @@ using rtl::Cycle;
 struct Vcd {
   std::map<std::string, std::string> ids;  // full name -> id
   std::map<std::string, std::vector<std::pair<std::uint64_t, std::string>>> changes;  // by id
+  std::map<std::string, std::string> widths;    // "wire 64 [63:0]", by full name
+  std::map<std::string, std::set<char>> kinds;  // how its values are written: 0 for a bit; by id
   std::string timescale;
 
   explicit Vcd(const std::string& file) {
@@ -45,8 +50,8 @@ struct Vcd {
         std::string full;
         for (const std::string& s : scopes) full += s + ".";
         ids[full + name] = id;
-        while (stream >> word && word != "$end") {
-        }
+        widths[full + name] = type + " " + bits;
+        while (stream >> word && word != "$end") widths[full + name] += " " + word;
       } else if (word[0] == '#') {
         const std::uint64_t next = std::stoull(word.substr(1));
         EXPECT_GE(next, time);
@@ -54,8 +59,10 @@ struct Vcd {
       } else if (word[0] == 'b' || word[0] == 's') {
         std::string id;
         stream >> id;
+        kinds[id].insert(word[0]);
         changes[id].emplace_back(time, word.substr(1));
       } else if (word[0] == '0' || word[0] == '1' || word[0] == 'x') {
+        kinds[word.substr(1)].insert('0');
         changes[word.substr(1)].emplace_back(time, word.substr(0, 1));
       }
     }
@@ -105,6 +112,16 @@ TEST(Trace, ShowsWhatHappened) {
         << c;
   }
   EXPECT_EQ(number(vcd.value("deburr.top.answer", 0)), 42U);
+  // Every hand-shake in its clock.
+  std::uint64_t pushes = 0, pops = 0;
+  for (Cycle c = 0; c < 300; ++c) {
+    const bool push = vcd.value("deburr.link_1.push", c * 10'000) == "1",
+               pop = vcd.value("deburr.link_1.pop", c * 10'000) == "1";
+    pushes += push;
+    pops += pop;
+    EXPECT_EQ(occupancy[c], pushes - pops) << c;
+  }
+  EXPECT_EQ(pushes, 100U);
   // The head of the last link is the token that the sink takes next.
   for (std::size_t i = 0; i < 100; ++i) {
     const std::uint64_t before = (p.sink.cycles()[i] - 1) * 10'000;
@@ -223,6 +240,95 @@ TEST(Trace, ScopeAndWindow) {
     EXPECT_LT(list.back().first, 600'000U);
     for (const auto& [time, value] : list) EXPECT_NE(value, "reset");
   }
+}
+
+// The first clock of a window shows what was done in it, not all that was done before.
+TEST(Trace, AWindowBeginsWithItsOwnClock) {
+  for (const Cycle from : {Cycle{0}, Cycle{1}, Cycle{2}, Cycle{37}, Cycle{120}})
+    EXPECT_EQ(in_child([&] {
+                const std::string file = testing::TempDir() + fmt::format("begin_{}.vcd", from);
+                Pipeline p(100);
+                std::vector<std::string> did;
+                {
+                  rtl::Trace trace(p.clock, {file, {"adder_*"}, from, from + 40, false});
+                  std::uint64_t busy = 0, idle = 0;
+                  for (Cycle c = 0; c < from + 40; ++c) {
+                    p.clock.run(1);
+                    const rtl::Unit& unit = *p.adders[2];
+                    did.push_back(unit.busy_cycles() > busy   ? "busy"
+                                  : unit.idle_cycles() > idle ? "idle"
+                                                              : "stalled");
+                    busy = unit.busy_cycles();
+                    idle = unit.idle_cycles();
+                  }
+                }
+                const Vcd vcd(file);
+                for (Cycle c = from; c < from + 40; ++c) {
+                  const std::string said = vcd.value("deburr.adder_2.activity", c * 10'000);
+                  if ((said == "busy" || said == "idle" ? said : "stalled") != did[c])
+                    return fmt::format("{} in {}, which was {}", said, c, did[c]);
+                }
+                return vcd.changes.at(vcd.ids.at("deburr.adder_2.activity")).front().first ==
+                               from * 10'000
+                           ? std::string("right")
+                           : std::string("begins elsewhere");
+              }),
+              "right")
+        << from;
+}
+
+// By VCD's own rules: a range for what has more than one bit, and no two signals of one name.
+TEST(Trace, DeclaresEachSignalWithItsWidthAndAnIdentifierOfItsOwn) {
+  static constexpr spec::RegisterInfo kTable[] = {
+      {0x00, "CONTROL", spec::Access::kReadWrite, 5, "a register"}};
+  const std::string file = testing::TempDir() + "widths.vcd";
+  Pipeline p(1);
+  rtl::RegisterBlock block("block", kTable);
+  RegisterHost host("host");
+  host.bus.bind(block.bus);
+  {
+    rtl::Trace trace(p.clock, {.file = file});
+    for (int i = 0; i < 200; ++i) trace.add(fmt::format("more.signal_{}", i), 2, [] { return 1; });
+    trace.add("outer.inner.deep.signal", 3, [] { return 5; });
+    p.clock.run(2);
+  }
+  const Vcd vcd(file);
+  EXPECT_EQ(vcd.widths.at("deburr.clk"), "wire 1");
+  EXPECT_EQ(vcd.widths.at("deburr.cycle"), "wire 64 [63:0]");
+  EXPECT_EQ(vcd.widths.at("deburr.link_0.push"), "wire 1");
+  EXPECT_EQ(vcd.widths.at("deburr.link_0.occupancy"), "wire 2 [1:0]");
+  EXPECT_EQ(vcd.widths.at("deburr.link_0.number"), "wire 32 [31:0]");
+  EXPECT_EQ(vcd.widths.at("deburr.block.CONTROL"), "wire 32 [31:0]");
+  EXPECT_EQ(vcd.value("deburr.block.CONTROL", 0), std::string(29, '0') + "101");
+  EXPECT_EQ(vcd.widths.at("deburr.more.signal_7"), "wire 2 [1:0]");
+  EXPECT_EQ(vcd.widths.at("deburr.adder_1.activity"), "string 1");
+  EXPECT_EQ(vcd.widths.at("deburr.outer.inner.deep.signal"), "wire 3 [2:0]");
+  for (const auto& [name, id] : vcd.ids) {
+    const std::string& width = vcd.widths.at(name);
+    const char kind = width == "string 1" ? 's' : width == "wire 1" ? '0' : 'b';
+    EXPECT_EQ(vcd.kinds.at(id), std::set<char>{kind}) << name;
+  }
+  // As short as 94 characters allow.
+  std::map<std::string, int> names;
+  int of_one_character = 0;
+  for (const auto& [name, id] : vcd.ids) {
+    EXPECT_EQ(++names[id], 1) << name;
+    EXPECT_LE(id.size(), 2U) << name;
+    of_one_character += id.size() == 1;
+    for (const char c : id) EXPECT_TRUE(c >= '!' && c <= '~') << name;
+  }
+  EXPECT_EQ(of_one_character, 94);
+}
+
+// The simulation goes on, and the file can be read already.
+TEST(Trace, AWindowThatHasEndedIsInTheFile) {
+  const std::string file = testing::TempDir() + "ended.vcd";
+  Pipeline p(100);
+  const rtl::Trace trace(p.clock, {.file = file, .scopes = {"link_1"}, .from = 5, .to = 8});
+  p.clock.run(20);
+  const Vcd vcd(file);
+  EXPECT_EQ(number(vcd.value("deburr.cycle", 7 * 10'000)), 7U);
+  EXPECT_EQ(vcd.changes.at(vcd.ids.at("deburr.clk")).back().first, 75'000U);
 }
 
 TEST(Trace, UnwritableFileIsAnError) {

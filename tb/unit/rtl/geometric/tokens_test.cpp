@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What links carry, by number format.
+// What links carry, by number format and by the table of the page.
 #include "rtl_model/geometric/tokens.h"
 
 #include "tb/unit/rtl/formats.h"
+#include "tb/unit/rtl/geometric/support.h"
+#include "tb/unit/rtl/page_table.h"
 
 namespace deburr::rtl::geometric {
 namespace {
@@ -12,6 +14,15 @@ TEST(GeometricTokens, FieldsHaveTheBitsOfTheirFormat) {
                                                    EdgeEnds, LineToken, GroupToken, CandidateToken,
                                                    WeightToken, TouchedBlock, BlockToken>();
   EXPECT_GE(checked, 29);
+}
+
+TEST(GeometricTokens, LinksAreThoseOfThePage) {
+  const tb::PageTable table("geometric_hardware.md", "link");
+  ClockDomain clock("clock", tb::geometric_rtl::period());
+  spec::geometric::Parameters one;
+  one.edge_lanes = one.walkers = spec::geometric::Lanes::kOne;
+  table.expect_links("bits", GeometricEngine("default", clock, {}));
+  table.expect_links("one lane", GeometricEngine("one", clock, one));
 }
 
 }  // namespace

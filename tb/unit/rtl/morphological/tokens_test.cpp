@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What links carry, by number format.
+// What links carry, by number format and by the table of the page.
 #include "rtl_model/morphological/tokens.h"
 
 #include "tb/unit/rtl/formats.h"
+#include "tb/unit/rtl/morphological/support.h"
+#include "tb/unit/rtl/page_table.h"
 
 namespace deburr::rtl::morphological {
 namespace {
@@ -14,6 +16,20 @@ TEST(Tokens, FieldsHaveTheBitsOfTheirFormat) {
                                    ShareToken, PixelToken, RunToken, SumsToken, LineToken,
                                    FinishToken, FrameDoneToken>();
   EXPECT_GE(checked, 35);
+}
+
+TEST(Tokens, LinksAreThoseOfThePage) {
+  using tb::morphological_rtl::preset;
+  const tb::PageTable table("morphological_hardware.md", "link");
+  ClockDomain clock("clock", tb::morphological_rtl::period());
+  spec::morphological::Parameters memory = tb::morphological_rtl::in_memory();
+  memory.lanes = spec::morphological::Lanes::kFour;
+  table.expect_links("deburr-line",
+                     MorphologicalEngine("line", clock, tb::morphological_rtl::deburr_line()));
+  table.expect_links("deburr",
+                     MorphologicalEngine("deburr", clock, tb::morphological_rtl::deburr()));
+  table.expect_links("smaa", MorphologicalEngine("smaa", clock, tb::morphological_rtl::smaa()));
+  table.expect_links("mlaa, 4 lanes, memory", MorphologicalEngine("memory", clock, memory));
 }
 
 }  // namespace

@@ -77,6 +77,63 @@ TEST(TextureRtlDescriptors, EveryLevelHasItsSizeAndItsTiles) {
   }
 }
 
+// A row or a column of texels is a texture.
+TEST(TextureRtlDescriptors, OneTexelIsEnoughOfASide) {
+  ClockDomain clock("clock", period());
+  Store store(clock);
+  auto read = store.descriptors.for_levels;
+  rtl::Cycle cycle = 0;
+  for (const auto& [width, height, levels] :
+       {std::array<std::uint8_t, 3>{64, 1, 7}, {1, 64, 7}, {1, 1, 1}}) {
+    spec::texture::Descriptor d = some_texture();
+    d.width = width;
+    d.height = height;
+    d.levels = levels;
+    write_descriptor(store.bus, 3, d);
+    EXPECT_TRUE(read.read(++cycle, 3).valid) << d.width << " x " << d.height;
+  }
+}
+
+// A tile that a side fills in part counts as a whole one.
+TEST(TextureRtlDescriptors, TilesAreRoundedUp) {
+  ClockDomain clock("clock", period());
+  Store store(clock);
+  auto read = store.descriptors.for_levels;
+  rtl::Cycle cycle = 0;
+  const std::array<std::uint16_t, 7> sides = {1, 4, 5, 8, 9, 16, 17};
+  const std::array<int, 7> lb_tiles = {0, 0, 1, 1, 2, 2, 3};  // of 4 x 4 texels
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    for (const bool high : {false, true}) {
+      spec::texture::Descriptor d = some_texture();
+      d.width = high ? sides[i] : std::uint16_t{256};
+      d.height = high ? std::uint16_t{256} : sides[i];
+      d.levels = 1;
+      write_descriptor(store.bus, 3, d);
+      EXPECT_EQ(read.read(++cycle, 3).level[0].mixed_log2, lb_tiles[i]) << sides[i] << high;
+    }
+}
+
+// Each register by itself, that of the first texture's SIZE too.
+TEST(TextureRtlDescriptors, FollowEveryRegister) {
+  namespace reg = spec::texture::reg;
+  ClockDomain clock("clock", period());
+  Store store(clock);
+  auto read = store.descriptors.for_levels;
+  rtl::Cycle cycle = 0;
+  for (const std::uint32_t handle : {0u, 15u}) {
+    write_descriptor(store.bus, handle, some_texture());
+    const std::uint32_t at = reg::kTextureBase + handle * reg::kTextureStride;
+    store.bus.write(at + reg::kSize, 32 | 8 << 16);
+    EXPECT_EQ(read.read(++cycle, handle).width, 32) << handle;
+    EXPECT_EQ(read.read(++cycle, handle).height, 8) << handle;
+    store.bus.write(at + reg::kLodBias, 3);
+    EXPECT_EQ(read.read(++cycle, handle).bias, 3 * 16) << handle;
+    store.bus.write(at + reg::kLevelBase + 4 * (spec::texture::kMaxLevels - 1), 64);
+    store.bus.write(at + reg::kLevelBase + 8, 128);
+    EXPECT_EQ(read.read(++cycle, handle).level[2].base, 128u) << handle;
+  }
+}
+
 // What MODE has no name for changes nothing.
 TEST(TextureRtlDescriptors, OtherBitsOfModeDoNotMatter) {
   namespace reg = spec::texture::reg;

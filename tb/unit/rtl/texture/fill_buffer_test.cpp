@@ -85,6 +85,39 @@ TEST(TextureRtlFillBuffer, TheLineBeforeInTheSameEntryIsStale) {
   EXPECT_EQ(refusal([&] { buffer.line(22); }), "nothing");
 }
 
+// Flip-flops up to 16 kbit, SRAM above; a line of two beats needs a write mask of one.
+TEST(TextureRtlFillBuffer, IsBuiltAsItsBitsSay) {
+  const auto built = [](std::uint32_t entries, std::uint32_t line_bytes) -> std::string {
+    const FillBuffer buffer("buffer", entries, line_bytes);
+    std::string text;
+    rtl::for_each<rtl::MemoryBase>([&](const rtl::MemoryBase& memory) {
+      if (std::string(memory.name()) == "buffer")
+        text = std::to_string(memory.words()) + " x " + std::to_string(memory.word_bits()) + " " +
+               memory.built_as();
+    });
+    return text;
+  };
+  EXPECT_EQ(built(32, 64), "32 x 512 flip-flops");
+  EXPECT_EQ(built(33, 64), "33 x 512 1R1W");
+  EXPECT_EQ(built(64, 32), "64 x 256 flip-flops");
+  EXPECT_EQ(built(16, 128), "16 x 1024 flip-flops, write mask of 512 bits");
+  EXPECT_EQ(built(17, 128), "17 x 1024 1R1W, write mask of 512 bits");
+}
+
+TEST(TextureRtlFillBuffer, HasNoMoreEntriesThanItSays) {
+  FillBuffer buffer("buffer", 2, 64);
+  EXPECT_EQ(buffer.reserve(1), 0u);
+  EXPECT_TRUE(buffer.can_reserve(2));
+  EXPECT_EQ(buffer.reserve(2), 1u);
+  EXPECT_FALSE(buffer.can_reserve(3));
+  EXPECT_THAT(refusal([&] { buffer.reserve(3); }), Refuses("buffer", "no entry is free"));
+  buffer.fill(4, 0, 0, kBeat, true);
+  buffer.read_ahead(5);
+  buffer.release(6);
+  EXPECT_FALSE(buffer.can_reserve(6));  // from the next clock on
+  EXPECT_EQ(buffer.reserve(7), 0u);
+}
+
 TEST(TextureRtlFillBuffer, EachBeatComesOnce) {
   FillBuffer buffer("buffer", 4, 64);
   buffer.reserve(1);

@@ -79,6 +79,24 @@ TEST(TextureRtlFilter, UnpacksEveryFormat) {
   EXPECT_TRUE(t[0].token.last);
 }
 
+// Codes of 4, 5 and 6 bits are made longer by their own first bits.
+TEST(TextureRtlFilter, ShortCodesReachBothEnds) {
+  FilterBench b;
+  for (std::uint32_t v = 0; v < 64; ++v)
+    b.add(request(Format::kRgb565, {(v & 31) << 11 | v << 5 | (v & 31), 0, 0, 0}));
+  for (std::uint32_t v = 0; v < 16; ++v) b.add(request(Format::kRgba4444, {v * 0x1111, 0, 0, 0}));
+  b.clock.run(120);
+  const auto& t = b.ends.sink.taken;
+  ASSERT_EQ(t.size(), 80u);
+  for (std::uint32_t v = 0; v < 64; ++v) {
+    const auto five = static_cast<std::uint8_t>((v % 32) * 8 + v % 32 / 4),
+               six = static_cast<std::uint8_t>(v * 4 + v / 16);
+    EXPECT_THAT(t[v].token.rgba, ElementsAre(five, six, five, 255)) << v;
+  }
+  for (std::uint32_t v = 0; v < 16; ++v)
+    EXPECT_THAT(t[64 + v].token.rgba, testing::Each(v * 17)) << v;
+}
+
 TEST(TextureRtlFilter, BilinearByHand) {
   FilterBench b;
   b.add(request(Format::kRgba8, grey(10, 20, 30, 40), 128, 128));   // the mean, 25

@@ -72,10 +72,13 @@ TEST(TextureRtlLevel, PaperRule) {
           {"just above a texel: N = 16", 1, -16 * 4096, kTri, 4, 0, 0, kTop, 16, 0, 0, false},
           {"l = 1/4096 minifies, rounds to level 0, f = 0", 1, 1, kTri, 4, 0, 0, kTop, 1, 0, 0,
            true},
+          {"l = 7/4096 rounds down", 7, 7, kTri, 4, 0, 0, kTop, 1, 0, 0, true},
           {"l = 8/4096 rounds up to 1/256", 8, 8, kTri, 4, 0, 0, kTop, 1, 0, 1, true},
           {"f rounds up to the next level", 8191, 8191, kTri, 4, 0, 0, kTop, 1, 2, 0, true},
           {"just below the coarsest", 5 * 4096 - 16, 5 * 4096, kTri, 4, 0, 0, kTop, 1, 4, 255,
            true},
+          {"the coarsest", 5 * 4096, 5 * 4096, kTri, 4, 0, 0, kTop, 1, 5, 0, true},
+          {"half a level behind it", 5 * 4096 + 2048, 6 * 4096, kTri, 4, 0, 0, kTop, 1, 5, 0, true},
           {"beyond the coarsest", 7 * 4096 + 9, 7 * 4096, kTri, 4, 0, 0, kTop, 1, 5, 0, true},
           {"L not below 0", 4096, 8192, kTri, 4, 0, 0, kTop, 1, 1, 0, true},
           {"bias +1.5", 4096, 4096, kTri, 4, 384, 0, kTop, 1, 2, 128, true},
@@ -123,6 +126,8 @@ TEST(TextureRtlLevel, AnyCountIsTheRatioRoundedUp) {
   cases.push_back({"N_max 4", 5 * 4096 + 16, 4096, kTri, 2, 0, 0, kTop, 4, 3, 1, true});
   cases.push_back({"N_max 1: trilinear", 3 * 4096, 0, kTri, 0, 0, 0, kTop, 1, 3, 0, true});
   cases.push_back({"L not below 0", 4096, 8192, kTri, 4, 0, 0, kTop, 1, 1, 0, true});
+  cases.push_back(
+      {"a square gives all to the level", 4104, 4104, kTri, 4, 0, 0, kTop, 1, 1, 1, true});
   cases.push_back({"within a texel", 0, -8192, kTri, 4, 0, 0, kTop, 1, 0, 0, false});
   check_levels(cases, spec::texture::CountRule::kAny, spec::texture::CountCap::kNone);
 }
@@ -132,6 +137,30 @@ TEST(TextureRtlLevel, AnyCountWithTexelCap) {
                 {"one more", 6493 + 72, -16 * 4096, kTri, 4, 0, 0, kTop, 4, 0, 0, false},
                 {"the ratio is less", 3 * 4096, 2 * 4096, kTri, 4, 0, 0, kTop, 2, 2, 0, true}},
                spec::texture::CountRule::kAny, spec::texture::CountCap::kTexel);
+}
+
+// Fragments between two levels, and those that are magnified.
+TEST(TextureRtlLevel, CountsWhatItDecides) {
+  ClockDomain clock("clock", period());
+  Store store(clock);
+  LevelUnit unit("unit", clock, store.descriptors.for_levels, spec::texture::Axes::kTwo,
+                 spec::texture::CountRule::kFloor, spec::texture::CountCap::kNone);
+  Ends<Log2Token, LevelToken> ends(clock);
+  unit.logs_in(ends.in);
+  unit.levels_out(ends.out);
+  spec::texture::Descriptor d;
+  d.width = d.height = 256;
+  d.levels = 6;
+  d.min_filter = kTri;
+  d.max_lod = kTop;
+  write_descriptor(store.bus, 0, d);
+  // l = 0, 1/256, 1, 1 + 1/256, 1.5, 2, 5, 9: three of them lie between two levels.
+  for (const int lb : {0, 16, 4096, 4112, 6144, 8192, 20480, 36864})
+    ends.source.add({ticket(), 0, 0, 0, 0, lb, lb});
+  clock.run(20);
+  EXPECT_EQ(ends.sink.taken.size(), 8u);
+  EXPECT_EQ(unit.two_levels.value(), 3u);
+  EXPECT_EQ(unit.magnified.value(), 1u);
 }
 
 // Beside the major axis the area: d_max = 8, area 16, so the minor axis is 2.

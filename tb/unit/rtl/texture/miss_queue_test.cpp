@@ -135,6 +135,23 @@ TEST(TextureRtlMissQueue, SendsOneLineAClock) {
   EXPECT_THAT(of_a_stage_less(b.queue, b.clock), Refuses("lines", kTooMany));
 }
 
+// Memory takes nothing: two lines stand in the link, the third waits, and so it is counted.
+TEST(TextureRtlMissQueue, WaitsWhileMemoryTakesNothing) {
+  QueueBench b;
+  b.misses.push(0, {{1, 2, 3}, 3});
+  b.clock.run(10);  // taken in 1, sent in 2 and 3
+  EXPECT_EQ(b.requests.occupancy(), 2u);
+  EXPECT_EQ(b.queue.idle_cycles(), 1u);
+  EXPECT_EQ(b.queue.busy_cycles(), 3u);
+  EXPECT_EQ(b.queue.cycles_of(rtl::kStalledDownstream), 6u);
+  EXPECT_EQ(b.queue.line_fills.value(), 2u);
+  b.requests.pop(b.clock.cycle());
+  b.clock.run(2);
+  EXPECT_EQ(b.queue.line_fills.value(), 3u);
+  EXPECT_EQ(b.queue.fill_bytes.value(), 3u * 64);
+  EXPECT_EQ(b.queue.cycles_of(rtl::kStalledDownstream), 7u);
+}
+
 TEST(TextureRtlMissQueue, HasNoPortForAnybodyElse) {
   QueueBench b;
   EXPECT_THAT((of_one_port_more<rtl::ReadPort<std::uint32_t>, std::uint32_t>(b.queue, "lines")),

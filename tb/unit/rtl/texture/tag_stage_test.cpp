@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The TagStage in the cache: merged misses, the order of fills, hits behind misses.
+#include <set>
+
 #include "tb/unit/rtl/texture/cache_bench.h"
 
 namespace deburr::tb::texture_rtl {
@@ -39,6 +41,33 @@ TEST(TextureRtlTagStage, OrderOfFills) {
               ElementsAre(576, 192, 1280, 320, 256, 1984, 1920, 1856, 1792, 448));
 }
 
+// Whichever of the four texels share a line, each line is fetched once and each texel is its own.
+TEST(TextureRtlTagStage, AnyOfTheTexelsMayShareALine) {
+  spec::texture::Parameters p = small_cache();
+  p.cache_bytes = 16384;
+  p.cache_ways = 4;
+  p.cache_outstanding = 64;
+  p.cache_fifo_depth = 64;
+  CacheBench b(p);
+  std::vector<TexelToken> asked;
+  std::uint64_t lines = 0;
+  for (std::uint32_t second = 0; second < 2; ++second)
+    for (std::uint32_t third = 0; third < 3; ++third)
+      for (std::uint32_t fourth = 0; fourth < 4; ++fourth) {
+        const std::uint32_t base = 4 * static_cast<std::uint32_t>(asked.size());
+        const std::array<std::uint32_t, 4> of = {0, second, third, fourth};
+        std::array<std::uint32_t, 4> address{};
+        for (std::uint32_t i = 0; i < 4; ++i) address[i] = 64 * (base + of[i]) + 4 * i;
+        asked.push_back(request(address));
+        lines += std::set<std::uint32_t>(of.begin(), of.end()).size();
+      }
+  for (const auto& t : asked) b.ends.source.add(t);
+  b.clock.run(2000);
+  b.check_data(asked);
+  EXPECT_EQ(b.cache.tag_stage.misses.value(), lines);
+  EXPECT_EQ(b.memory.lines_read().size(), lines);
+}
+
 // A hit passes the tag stage while the miss queue is full.
 TEST(TextureRtlTagStage, HitsGoOnWhileTheMissQueueIsFull) {
   CacheBench b(small_cache(), 200);
@@ -52,6 +81,27 @@ TEST(TextureRtlTagStage, HitsGoOnWhileTheMissQueueIsFull) {
   EXPECT_LT(b.clock.cycle() - start, 200u);
   EXPECT_EQ(b.cache.tag_stage.requests.value(), 1u + 4 + 5);
 }
+
+// A request that misses does not, whichever of its texels it is that misses.
+class OneMiss : public testing::TestWithParam<std::size_t> {};
+TEST_P(OneMiss, WaitsForTheMissQueue) {
+  CacheBench b(small_cache(), 200);
+  b.time_of(in_line(1));
+  std::vector<TexelToken> asked = {in_line(1)};
+  for (std::uint32_t i = 0; i < 4; ++i)
+    asked.push_back(request({0x1000 + 512 * i, 0x1080 + 512 * i, 0x1100 + 512 * i,
+                             0x1180 + 512 * i}));  // 4 x 4 lines of set 0
+  std::array<std::uint32_t, 4> address = {64, 68, 80, 84};
+  address[GetParam()] = 0x40C0;  // of set 1, as the others
+  asked.push_back(request(address));
+  for (std::size_t i = 1; i < asked.size(); ++i) b.ends.source.add(asked[i]);
+  b.clock.run(30);
+  EXPECT_EQ(b.cache.tag_stage.requests.value(), 1u + 4);
+  EXPECT_GT(b.cache.tag_stage.stalls()[1].cycles, 10u);
+  b.clock.run(2000);
+  b.check_data(asked);
+}
+INSTANTIATE_TEST_SUITE_P(TextureRtlTagStage, OneMiss, testing::Values(0, 1, 2, 3));
 
 }  // namespace
 }  // namespace deburr::tb::texture_rtl

@@ -606,6 +606,16 @@ TEST(TextureRtlUnit, RefusesImpossibleParameters) {
                     p.cache_ways = 4;
                   }),
             "none");
+  EXPECT_EQ(error("n",
+                  [](auto& p) {
+                    p.cache_bytes = 512 * 32;
+                    p.cache_line_bytes = 32;
+                    p.cache_ways = 8;
+                    p.cache_fifo_depth = 2;
+                    p.axes = spec::texture::Axes::kEight;
+                    p.axis_clocks = 4;
+                  }),
+            "none");
 }
 
 }  // namespace

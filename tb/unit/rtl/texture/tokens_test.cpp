@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What links carry, by number format.
+// What links carry, by number format and by the tables of the page.
 #include "rtl_model/texture/tokens.h"
 
 #include "tb/unit/rtl/formats.h"
+#include "tb/unit/rtl/page_table.h"
+#include "tb/unit/rtl/texture/support.h"
 
 namespace deburr::rtl::texture {
 namespace {
@@ -12,6 +14,57 @@ TEST(TextureRtlTokens, FieldsHaveTheBitsOfTheirFormat) {
                                                    LevelToken, SampleToken, TexelToken, MissToken,
                                                    CacheToken, TexelQuadToken>();
   EXPECT_GE(checked, 33);
+}
+
+TEST(TextureRtlTokens, LinksAreThoseOfThePage) {
+  const tb::PageTable table("texture_unit.md", "link");
+  ClockDomain clock("clock", tb::texture_rtl::period());
+  spec::texture::Parameters paper = tb::paper_rules(), deburr, largest;
+  paper.cache_fifo_depth = deburr.cache_fifo_depth = largest.cache_fifo_depth = 107;
+  largest.cache_line_bytes = 128;
+  largest.cache_bytes = TagStore::kMostLines * largest.cache_line_bytes;
+  largest.cache_outstanding = 256;
+  table.expect_links("paper", TextureUnit("paper", clock, paper));
+  table.expect_links("deburr", TextureUnit("deburr", clock, deburr));
+  table.expect_links("largest cache", TextureUnit("largest", clock, largest));
+}
+
+TEST(TextureRtlTokens, MemoriesAreThoseOfThePage) {
+  ClockDomain clock("clock", tb::texture_rtl::period());
+  spec::texture::Parameters p;
+  p.cache_fifo_depth = 107;
+  p.log2 = spec::texture::Log2Rule::kExact;
+  p.srgb_output = spec::texture::SrgbOutput::kEncoded;
+  tb::PageTable("texture_unit.md", "memory").expect_memories(TextureUnit("unit", clock, p));
+}
+
+// As many bits of a tag as the entries of the fill buffer need, and no more.
+TEST(TextureRtlTokens, TagsNumberTheEntries) {
+  ClockDomain clock("clock", tb::texture_rtl::period());
+  for (const auto& [outstanding, bits] :
+       {std::array<std::uint32_t, 2>{4, 2}, {5, 3}, {8, 3}, {9, 4}, {64, 6}, {65, 7}, {256, 8}}) {
+    spec::texture::Parameters p;
+    p.cache_fifo_depth = 16;
+    p.cache_outstanding = static_cast<std::int32_t>(outstanding);
+    const TextureUnit unit(("unit_" + std::to_string(outstanding)).c_str(), clock, p);
+    int found = 0;
+    for (const LinkBase* link : unit.links())
+      if (const Field* tag = link->payload().find("tag")) {
+        EXPECT_EQ(tag->bits, bits) << link->name();
+        ++found;
+      }
+    EXPECT_EQ(found, 2);
+  }
+}
+
+// What the largest caches need is what the tokens list.
+TEST(TextureRtlTokens, ListNoMoreThanTheLargestCacheNeeds) {
+  spec::texture::Build large, many;
+  large.cache_line_bytes = 128;
+  large.cache_bytes = 512 * 128;
+  many.cache_line_bytes = 32;
+  EXPECT_EQ(Payload::of<CacheToken>(cache_shape(large)).bits(), Payload::of<CacheToken>().bits());
+  EXPECT_EQ(Payload::of<MissToken>(miss_shape(many)).bits(), Payload::of<MissToken>().bits());
 }
 
 }  // namespace
