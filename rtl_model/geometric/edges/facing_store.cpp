@@ -39,7 +39,7 @@ Activity FacingStore::tick(Cycle cycle) {
   }
   const Phase phase = sequencer_.phase(cycle);
   if (phase != Phase::kBegin) {
-    if (phase == Phase::kEdges && loaded_.get(cycle)) {
+    if (loaded_.get(cycle)) {
       loaded_.set(cycle, false);
       asked_ = answered_ = 0;
     }

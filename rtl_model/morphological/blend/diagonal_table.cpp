@@ -51,7 +51,7 @@ int below(unsigned ends, int n, int x, int y) {
 
 // Of both lines' points, U0.8, to nearest.
 unsigned share(int points) {
-  return static_cast<unsigned>(std::min(255, (256 * points + kPoints) / (2 * kPoints)));
+  return static_cast<unsigned>((256 * points + kPoints) / (2 * kPoints));
 }
 
 std::vector<std::uint16_t> computed_words() {

@@ -177,7 +177,6 @@ Activity PixelStore::tick(Cycle cycle) {
 void PixelStore::begin_frame() {
   around_row_ = -1;
   asked_row_ = 0;
-  asked_beat_ = 0;
   if (!memory_) return;
   memory_->row_lines =
       static_cast<std::uint32_t>((store_.rules().width + kLinePixels - 1) / kLinePixels);
@@ -278,11 +277,9 @@ void PixelStore::reset() {
   fetched_ = false;
   around_row_ = -1;
   asked_row_ = 0;
-  asked_beat_ = 0;
   if (!memory_) return;
   memory_->gathered.fill(0);
   memory_->half = false;
-  memory_->row_lines = 0;
   memory_->sent = memory_->answered = memory_->asked = memory_->loaded = {};
   memory_->writes.reset();
   memory_->reads.reset();

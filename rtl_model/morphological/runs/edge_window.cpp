@@ -11,27 +11,27 @@
 namespace deburr::rtl::morphological {
 namespace {
 
-// The two columns beside vertical lattice line `line`, and their newest rows.
+// The two columns beside vertical lattice line `line`. The one before it has the rows of the one
+// behind it, `newest`, or is a row ahead.
 struct BesideLine {
   const EdgeWindow& window;
   std::int32_t line;
   bool border;  // the line is the frame's right border
-  std::int32_t newest_before, newest_after, rows;
+  std::int32_t newest, rows;
 
-  void check(std::int32_t newest, std::int32_t y) const {
+  void check(std::int32_t y) const {
     const std::int32_t age = newest - y;
     if (age < 0 || age >= rows) [[unlikely]]
-      fail(newest, y);
+      fail(y);
   }
   // Out of line, so that a check costs a comparison.
-  [[noreturn, gnu::cold, gnu::noinline]] void fail(std::int32_t newest, std::int32_t y) const {
+  [[noreturn, gnu::cold, gnu::noinline]] void fail(std::int32_t y) const {
     throw spec::CheckFailed("edge_window: row " + std::to_string(y) + " is not among the " +
                             std::to_string(rows) + " up to row " + std::to_string(newest));
   }
   std::uint8_t code(std::int32_t y) const {
-    check(newest_after, y);
-    check(newest_after, y - 1);
-    check(newest_before, y);
+    check(y);
+    check(y - 1);
     const int first = int{window.top(line - 1, y)} << 2;
     if (border) return static_cast<std::uint8_t>(first);
     return static_cast<std::uint8_t>(int{window.left(line, y - 1)} |
@@ -39,12 +39,12 @@ struct BesideLine {
                                      int{window.top(line, y)} << 3);
   }
   bool along(std::int32_t y) const {
-    check(newest_after, y);
+    check(y);
     return !border && window.left(line, y);
   }
   bool unbroken(std::int32_t from, std::int32_t end) const {
-    check(newest_after, end - 1);
-    check(newest_after, from);
+    check(end - 1);
+    check(from);
     if (border) return from == end;
     while (from < end && window.left(line, from)) ++from;
     return from == end;
@@ -102,16 +102,15 @@ void EdgeWindow::read(Cycle cycle, std::size_t port, const Trial& trial) {
 std::uint8_t EdgeWindow::hits(Cycle cycle, std::size_t port, const Trial& trial) const {
   const std::int32_t line = trial.line;
   lines_[port].check(cycle, at(std::max(line - 1, 0)));
-  const BesideLine edges{
-      *this, line, line == store_.rules().width, newest_row(line - 1), newest_row(line), rows_};
+  const BesideLine edges{*this, line, line == store_.rules().width, newest_row(line), rows_};
   return hits_of(trial, edges, store_.rules().contiguous);
 }
 
 std::uint8_t EdgeWindow::crossing_class(Cycle cycle, std::size_t port, const Trial& trial) const {
   const std::int32_t line = trial.line;
   lines_[port].check(cycle, at(std::max(line - 1, 0)));
-  return class_of(trial, BesideLine{*this, line, line == store_.rules().width, newest_row(line - 1),
-                                    newest_row(line), rows_});
+  return class_of(trial,
+                  BesideLine{*this, line, line == store_.rules().width, newest_row(line), rows_});
 }
 
 }  // namespace deburr::rtl::morphological

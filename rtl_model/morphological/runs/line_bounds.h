@@ -116,7 +116,8 @@ class LineBounds {
   std::int32_t front_ = 0, back_ = 0;              // U6, remainders of the first and last corner
   Corner first_{0, 0}, last_{1, 0};
   // The outermost corners on either border of the band.
-  Corner above_first_{0, 0}, above_last_{1, 0}, below_first_{0, 0}, below_last_{1, 0};
+  // The line has turned before above_last_ or below_first_ is looked at.
+  Corner above_first_{0, 0}, above_last_, below_first_, below_last_{1, 0};
 };
 
 }  // namespace deburr::rtl::morphological

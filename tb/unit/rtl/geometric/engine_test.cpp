@@ -4,6 +4,7 @@
 #include <map>
 
 #include "spec/error.h"
+#include "tb/harness/statistics.h"
 #include "tb/unit/rtl/geometric/bounds.h"
 #include "tb/unit/rtl/geometric/parts.h"
 
@@ -28,6 +29,21 @@ void add_line(Scene& scene, int x0, int y0, int x1, int y1) {
   scene.vertices.push_back({x0, y0, 5, true});
   scene.vertices.push_back({x1, y1, 5, true});
   scene.edges.push_back({v, v + 1, 0, 0, flag::kBoundary});
+}
+
+// Short lines everywhere.
+Scene short_lines(int width, int height, int lines, int length) {
+  Scene scene = blank(width, height);
+  std::uint32_t s = 7;
+  const auto below = [&s](int bound) {
+    s = 1664525u * s + 1013904223u;
+    return static_cast<int>((s >> 16) % static_cast<std::uint32_t>(bound));
+  };
+  for (int i = 0; i < lines; ++i) {
+    const int x = below(256 * width), y = below(256 * height);
+    add_line(scene, x, y, x + below(2 * length) - length, y + below(2 * length) - length);
+  }
+  return scene;
 }
 
 // ---- registers
@@ -233,6 +249,26 @@ TEST(Memories, AreThoseOfThePage) {
   }
   for (const auto& [name, memory] : built) ADD_FAILURE() << name << " is not on the page";
 }
+// What the page's formulas say of other builds: rows of any length are rounded up.
+TEST(Memories, RowsOfAnyLengthFit) {
+  for (const auto& [pixels, above, originals] : {std::tuple{64, 1u, 16u},
+                                                 {512, 1u, 128u},
+                                                 {513, 2u, 129u},
+                                                 {1023, 2u, 256u},
+                                                 {1025, 3u, 257u},
+                                                 {8190, 16u, 2048u}}) {
+    const std::string got = in_child([pixels = pixels] {
+      Parameters p;
+      p.line_pixels = pixels;
+      EngineBench b(p);
+      std::map<std::string, std::uint64_t> words;
+      for (const rtl::MemoryBase* memory : b.engine.memories())
+        words[memory->basename()] = memory->words();
+      return std::to_string(words["touched_above"]) + " " + std::to_string(words["originals"]);
+    });
+    EXPECT_EQ(got, std::to_string(above) + " " + std::to_string(originals)) << pixels;
+  }
+}
 TEST(Memories, TheTableHasHalfItsLengthsInWords) {
   Parameters p;
   p.pipelined = false;
@@ -314,6 +350,124 @@ TEST(MemoryErrors, ReadAsZerosAndAreCounted) {
   }
 }
 
+// ---- what each unit did
+
+// "busy 3, depth 20, idle 5" by unit; what is 0 is left out.
+std::map<std::string, std::string> accounts_of(const EngineBench& b) {
+  std::map<std::string, std::string> accounts;
+  const nlohmann::ordered_json units = statistics(b.clock, "engine")["units"];
+  for (const auto& [name, unit] : units.items()) {
+    std::string& text = accounts[name];
+    const auto add = [&](const std::string& what, std::uint64_t clocks) {
+      if (clocks != 0) text += (text.empty() ? "" : ", ") + what + " " + std::to_string(clocks);
+    };
+    add("busy", unit["busy"]);
+    for (const auto& [cause, clocks] : unit["stalls"].items()) add(cause, clocks);
+    add("idle", unit["idle"]);
+  }
+  return accounts;
+}
+// A line of eight pixels, M = 20; 301 clocks in all.
+TEST(Accounts, OfOneLine) {
+  Parameters p;
+  p.frame_copy = true;
+  EngineBench b(p);
+  Scene scene = blank(16, 8);
+  add_line(scene, 0, 512 + 100, 8 * 256, 512 + 100);
+  b.load(scene);
+  EXPECT_EQ(b.run(), 301u);
+  const std::map<std::string, std::string> wanted = {
+      // The caches' tags take the begin: 128 of depth and weights, 64 of vertices. Then the edge
+      // and the end, or two groups and the end, clock by clock through the stages.
+      {"frame_sequencer", "busy 301"},
+      {"facing_store", "busy 2, memory 24, idle 275"},  // a line asked for, a line that comes
+      {"edge_reader", "busy 4, facing 127, idle 170"},  // the same of edges; a beat, the end
+      {"edge_classifier", "busy 4, idle 297"},
+      {"vertex_fetch", "busy 71, vertices 25, idle 205"},
+      {"line_setup", "busy 23, idle 278"},
+      {"line_walker", "busy 3, idle 298"},
+      {"coverage_unit", "busy 4, idle 297"},
+      {"depth_test", "busy 140, depth 22, idle 139"},
+      {"weight_combiner", "busy 135, idle 166"},
+      // Eight lines there and back: 32 beats, of which six meet another one in their clock.
+      {"frame_copier", "busy 26, downstream 2, memory 34, idle 239"},
+      // Both blocks, each a line to read and to write.
+      {"block_scanner", "busy 5, idle 296"},
+      {"block_fetch", "busy 9, idle 292"},
+      {"resolver", "busy 14, colours 25, idle 262"},
+      {"memory_arbiter", "busy 46, idle 255"},
+      {"memory_port", "busy 48, memory 102, idle 151"}};
+  EXPECT_EQ(accounts_of(b), wanted);
+  // Latencies of 3, 31, 22, 1, 2, 32 and 5 from unit to unit, and a clock for the second group.
+  EXPECT_EQ(b.engine.edge_latency.count(), 1u);
+  EXPECT_EQ(b.engine.edge_latency.sum(), 97u);
+}
+// The same line among edges of every other kind: none of them is counted.
+TEST(Accounts, LatencyIsThatOfLinesWithAPixelThatPasses) {
+  EngineBench b;
+  Scene scene = blank(16, 8);
+  const auto add = [&](int y, std::uint32_t depth) {
+    add_line(scene, 0, y, 8 * 256, y);
+    for (std::size_t i = scene.vertices.size() - 2; i < scene.vertices.size(); ++i)
+      scene.vertices[i].depth = depth;
+  };
+  scene.depths.assign(scene.depths.size(), 1000);
+  scene.edges.push_back({0, 1, 0, 0, 0});                 // flat
+  scene.edges.push_back({0, 99, 0, 0, flag::kBoundary});  // invalid
+  add(100, 2000);                                         // no neighbour above
+  add(512 + 100, 2000);
+  scene.edges.push_back({2, 2, 0, 0, flag::kBoundary});  // degenerate
+  add(512 + 100, 10);                                    // behind
+  add(20 * 256, 2000);                                   // empty
+  add(3 * 256 + 180, 2000);
+  b.load(scene);
+  b.run();
+  EXPECT_EQ(b.engine.work().kept_edges, 6u);
+  EXPECT_EQ(b.engine.work().lines, 4u);
+  EXPECT_EQ(b.engine.work().passed, 16u);
+  // As above, behind one or two edges more.
+  EXPECT_EQ(b.engine.edge_latency.count(), 2u);
+  EXPECT_EQ(b.engine.edge_latency.min(), 99u);
+  EXPECT_EQ(b.engine.edge_latency.max(), 101u);
+}
+// Few places everywhere and a single divider, so that units wait for each other, for every cause
+// that there is but `fills`.
+TEST(Accounts, OfAFrameThatWaits) {
+  Parameters p;
+  p.layout = spec::geometric::Layout::kRaster;
+  p.pipelined = false;
+  p.vertex_lines = p.depth_lines = p.weight_blocks = CacheLines::k16;
+  p.fills = p.memory_outstanding = 8;
+  p.latency_fifo = 4;
+  p.line_fifo = 2;
+  p.resolve_lines = 16;
+  p.resolve_lanes = Lanes::kOne;
+  EngineBench b(p);
+  const Scene scene = short_lines(90, 40, 40, 3000);
+  b.load(scene);
+  b.run();
+  const std::map<std::string, std::string> wanted = {
+      {"frame_sequencer", "busy 2538"},
+      {"facing_store", "busy 2, memory 24, idle 2512"},
+      {"edge_reader", "busy 36, downstream 231, facing 16, idle 2255"},
+      {"edge_classifier", "busy 57, downstream 430, idle 2051"},
+      {"vertex_fetch", "busy 103, downstream 630, vertices 42, idle 1763"},
+      {"line_setup", "busy 62, downstream 365, divider 468, idle 1643"},
+      {"line_walker", "busy 122, downstream 754, idle 1662"},
+      {"coverage_unit", "busy 125, downstream 809, idle 1604"},
+      {"depth_test", "busy 605, downstream 38, depth 380, idle 1515"},
+      {"weight_combiner", "busy 413, downstream 27, weights 337, spill 36, idle 1725"},
+      {"frame_copier", "idle 2538"},
+      {"block_scanner", "busy 88, downstream 1094, idle 1356"},
+      {"block_fetch", "busy 456, downstream 666, weights 17, colours 171, idle 1228"},
+      {"resolver", "busy 936, downstream 165, colours 224, idle 1213"},
+      {"memory_arbiter", "busy 1080, downstream 983, idle 475"},
+      {"memory_port", "busy 1020, outstanding 1173, memory 321, idle 24"}};
+  EXPECT_EQ(accounts_of(b), wanted);
+  EXPECT_EQ(b.engine.edge_latency.count(), 40u);
+  EXPECT_EQ(b.engine.edge_latency.sum(), 20720u);
+}
+
 // ---- clocks
 
 // Blocks that spill wait for the answers of their writes: no bound from above for their edges.
@@ -328,20 +482,6 @@ TEST_P(PageClocks, LieAboveTheBounds) {
 INSTANTIATE_TEST_SUITE_P(Page, PageClocks,
                          ::testing::Values('a', 'b', 'c', 'd', 'e', 'f', 'g', 'h'));
 
-// Short lines everywhere, all blocks in the cache.
-Scene short_lines(int width, int height, int lines, int length) {
-  Scene scene = blank(width, height);
-  std::uint32_t s = 7;
-  const auto below = [&s](int bound) {
-    s = 1664525u * s + 1013904223u;
-    return static_cast<int>((s >> 16) % static_cast<std::uint32_t>(bound));
-  };
-  for (int i = 0; i < lines; ++i) {
-    const int x = below(256 * width), y = below(256 * height);
-    add_line(scene, x, y, x + below(2 * length) - length, y + below(2 * length) - length);
-  }
-  return scene;
-}
 class Clocks : public ::testing::TestWithParam<Lanes> {};
 TEST_P(Clocks, OfShortLinesAreNearTheBound) {
   Parameters p;

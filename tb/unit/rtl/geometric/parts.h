@@ -15,10 +15,14 @@
 
 namespace deburr::tb::geometric_rtl {
 
-// The text that a simulation in a process of its own gives back, its exceptions included.
+// The text that a simulation in a process of its own gives back, its exceptions included, and
+// whether an expectation of its own failed, which nobody would hear of else.
 inline std::string in_child(const std::function<std::string()>& simulation) {
   try {
-    return forked_text(simulation);
+    return forked_text([&] {
+      const std::string text = simulation();
+      return testing::Test::HasFailure() ? text + ", and expectations failed" : text;
+    });
   } catch (const std::exception& error) {
     return std::string("exception: ") + error.what();
   }

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+// What the registers say of a frame, field by field: bits, reset values, sizes, limits; and where
+// the pixels of a frame lie.
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "tb/unit/rtl/geometric/parts.h"
+
+namespace deburr::tb::geometric_rtl {
+namespace {
+
+using rtl::geometric::decode;
+using rtl::geometric::FrameRules;
+using spec::geometric::Combine;
+using spec::geometric::Crease;
+using spec::geometric::DepthTest;
+using spec::geometric::Layout;
+using spec::geometric::Refusal;
+using spec::geometric::Select;
+
+constexpr std::uint32_t size_of(std::uint32_t w, std::uint32_t h) { return w | h << 16; }
+
+// ---- bits
+
+TEST(RegisterBits, ThatDoNotExistReadAsZero) {
+  EngineBench b;
+  std::map<std::uint32_t, std::uint32_t> masks = {{reg::kControl, reg::kControlEnable},
+                                                  {reg::kSize, 0x3FFF3FFF},
+                                                  {reg::kRules, 0xFFFD},
+                                                  {reg::kEdgeCount, 0xFFFFFFFF},
+                                                  {reg::kVertexCount, 0xFFFFFFFF},
+                                                  {reg::kFaceCount, 0xFFFFFFFF}};
+  for (const std::uint32_t base :
+       {reg::kEdgeBase, reg::kVertexBase, reg::kFaceBase, reg::kDepthBase, reg::kColourBase,
+        reg::kWeightBase, reg::kCopyBase})
+    masks[base] = 0xFFFFFFC0;
+  for (const spec::RegisterInfo& info : spec::geometric::kRegisters) {
+    if (info.access != spec::Access::kReadWrite) continue;
+    ASSERT_TRUE(masks.contains(info.offset)) << info.name;
+    b.bus.write(info.offset, info.offset == reg::kControl ? ~reg::kControlStart : 0xFFFFFFFF);
+    EXPECT_EQ(b.bus.read(info.offset), masks[info.offset]) << info.name;
+    b.bus.write(info.offset, 0);
+    EXPECT_EQ(b.bus.read(info.offset), 0u) << info.name;
+  }
+}
+TEST(RegisterBits, CounterRegistersAreNotWritten) {
+  EngineBench b;
+  for (const spec::RegisterInfo& info : spec::geometric::kRegisters) {
+    if (info.access != spec::Access::kReadOnly) continue;
+    EXPECT_EQ(b.bus.try_write(info.offset, 0xFFFFFFFF), tlm::TLM_COMMAND_ERROR_RESPONSE)
+        << info.name;
+    EXPECT_EQ(b.bus.read(info.offset), info.offset == reg::kId ? reg::kIdValue : 0u) << info.name;
+  }
+}
+
+// ---- RULES
+
+// Every field as text, of what is decoded.
+std::string text_of(const FrameRules& f) {
+  const auto number = [](auto value) { return std::to_string(static_cast<int>(value)) + " "; };
+  return number(f.select) + number(f.crease) + number(f.depth_test) + number(f.combine) +
+         number(f.linear_light) + number(f.depth_bias) + number(f.mark) + number(f.tiled) +
+         number(f.frame_copy);
+}
+
+// Bit by bit, from the contract's table: select, crease, depth test, combine, linear light, bias,
+// mark, layout, copy.
+TEST(FrameRules, EachBitOfRulesIsItsFields) {
+  Frame b({});
+  const std::vector<std::pair<std::uint32_t, std::string>> rows = {
+      {0, "0 0 0 0 0 1 0 0 0 "},         {1u << 0, "1 0 0 0 0 1 0 0 0 "},
+      {1u << 1, "0 0 0 0 0 1 0 0 0 "},   {1u << 2, "0 1 0 0 0 1 0 0 0 "},
+      {2u << 2, "0 2 0 0 0 1 0 0 0 "},   {3u << 2, "0 0 0 0 0 1 0 0 0 "},  // no such choice
+      {1u << 4, "0 0 1 0 0 1 0 0 0 "},   {2u << 4, "0 0 2 0 0 1 0 0 0 "},
+      {3u << 4, "0 0 0 0 0 1 0 0 0 "},   {1u << 6, "0 0 0 1 0 1 0 0 0 "},
+      {1u << 7, "0 0 0 0 1 1 0 0 0 "},   {1u << 8, "0 0 0 0 0 1 0 0 0 "},
+      {2u << 8, "0 0 0 0 0 2 0 0 0 "},   {4u << 8, "0 0 0 0 0 4 0 0 0 "},
+      {8u << 8, "0 0 0 0 0 8 0 0 0 "},   {16u << 8, "0 0 0 0 0 16 0 0 0 "},
+      {23u << 8, "0 0 0 0 0 23 0 0 0 "}, {24u << 8, "0 0 0 0 0 24 0 0 0 "},
+      {25u << 8, "0 0 0 0 0 24 0 0 0 "}, {31u << 8, "0 0 0 0 0 24 0 0 0 "},
+      {1u << 13, "0 0 0 0 0 1 1 0 0 "},  {1u << 14, "0 0 0 0 0 1 0 1 0 "},
+      {1u << 15, "0 0 0 0 0 1 0 0 1 "},  {0xFFFF0000, "0 0 0 0 0 1 0 0 0 "}};
+  for (const auto& [rules, fields] : rows) {
+    b.bus.write(reg::kRules, rules);
+    EXPECT_EQ(text_of(decode(b.control)), fields) << rules;
+  }
+}
+
+// A build's parameters are the reset value: each of them alone against that of none.
+TEST(FrameRules, ResetValuesAreTheParameters) {
+  struct Row {
+    void (*set)(Parameters&);
+    std::uint32_t value;
+  };
+  for (const Row& row : {Row{[](Parameters&) {}, 0},
+                         Row{[](Parameters& p) { p.select = static_cast<Select>(1); }, 1},
+                         Row{[](Parameters& p) { p.crease = static_cast<Crease>(1); }, 1u << 2},
+                         Row{[](Parameters& p) { p.crease = static_cast<Crease>(2); }, 2u << 2},
+                         Row{[](Parameters& p) { p.depth_test = DepthTest::kOwn; }, 1u << 4},
+                         Row{[](Parameters& p) { p.depth_test = DepthTest::kFarther; }, 2u << 4},
+                         Row{[](Parameters& p) { p.combine = static_cast<Combine>(1); }, 1u << 6},
+                         Row{[](Parameters& p) { p.linear_light = true; }, 1u << 7},
+                         Row{[](Parameters& p) { p.depth_bias = 24; }, 25u << 8},
+                         Row{[](Parameters& p) { p.mark = true; }, 1u << 13},
+                         Row{[](Parameters& p) { p.layout = static_cast<Layout>(1); }, 1u << 14},
+                         Row{[](Parameters& p) { p.frame_copy = true; }, 1u << 15}}) {
+    const std::string got = in_child([&row] {
+      Parameters p;
+      p.select = static_cast<Select>(0);
+      p.crease = static_cast<Crease>(0);
+      p.depth_test = static_cast<DepthTest>(0);
+      p.combine = static_cast<Combine>(0);
+      p.layout = static_cast<Layout>(0);
+      p.linear_light = p.mark = p.frame_copy = false;
+      p.depth_bias = 1;
+      row.set(p);
+      Frame b(p);
+      const std::uint32_t built = b.bus.read(reg::kRules);
+      b.bus.write(reg::kRules, ~built);
+      b.control.reset();
+      return std::to_string(built) + " " + std::to_string(b.bus.read(reg::kRules) == built);
+    });
+    EXPECT_EQ(got, std::to_string(1u << 8 ^ row.value) + " 1");
+  }
+}
+
+// ---- sizes, counts and bases
+
+struct Size {
+  std::uint32_t width, height;
+  bool tiled;
+  std::uint32_t blocks_across, blocks_down, words_across, touched_words, lines_across, frame_lines;
+};
+TEST(FrameRules, SizesAreRoundedUp) {
+  Frame b({});
+  for (const Size& s :
+       {Size{1, 1, true, 1, 1, 1, 1, 1, 4}, Size{4, 4, true, 1, 1, 1, 1, 1, 4},
+        Size{5, 5, true, 2, 2, 1, 2, 1, 4}, Size{8, 8, true, 2, 2, 1, 2, 1, 4},
+        Size{9, 8, true, 3, 2, 1, 2, 2, 8}, Size{8, 9, true, 2, 3, 1, 3, 1, 8},
+        Size{16, 16, true, 4, 4, 1, 4, 2, 16}, Size{17, 17, true, 5, 5, 1, 5, 3, 36},
+        Size{1, 1, false, 1, 1, 1, 1, 1, 1}, Size{16, 9, false, 4, 3, 1, 3, 1, 9},
+        Size{17, 9, false, 5, 3, 1, 3, 2, 18}, Size{33, 10, false, 9, 3, 1, 3, 3, 30},
+        Size{512, 12, false, 128, 3, 1, 3, 32, 384}, Size{513, 13, false, 129, 4, 2, 8, 33, 429},
+        Size{8192, 8192, true, 2048, 2048, 16, 32768, 1024, 4u << 20},
+        Size{8192, 8192, false, 2048, 2048, 16, 32768, 512, 4u << 20}}) {
+    b.bus.write(reg::kSize, size_of(s.width, s.height));
+    b.bus.write(reg::kRules, s.tiled ? 1u << 14 : 0);
+    const FrameRules f = decode(b.control);
+    SCOPED_TRACE(std::to_string(s.width) + " x " + std::to_string(s.height));
+    EXPECT_EQ(f.width, static_cast<std::int32_t>(s.width));
+    EXPECT_EQ(f.height, static_cast<std::int32_t>(s.height));
+    EXPECT_EQ(f.blocks_across, s.blocks_across);
+    EXPECT_EQ(f.blocks_down, s.blocks_down);
+    EXPECT_EQ(f.words_across, s.words_across);
+    EXPECT_EQ(f.touched_words, s.touched_words);
+    EXPECT_EQ(f.lines_across, s.lines_across);
+    EXPECT_EQ(f.frame_lines(), s.frame_lines);
+  }
+}
+TEST(FrameRules, LinesLieAsTheContractHasThem) {
+  Frame b({});
+  for (const std::uint32_t width : {61u, 64u, 129u})
+    for (const bool tiled : {false, true}) {
+      b.bus.write(reg::kSize, size_of(width, 40));
+      b.bus.write(reg::kRules, tiled ? 1u << 14 : 0);
+      const FrameRules f = decode(b.control);
+      for (int y = 0; y < 40; ++y)
+        for (int x = 0; x < static_cast<int>(width); ++x) {
+          const auto u = static_cast<std::uint32_t>(tiled ? x / 4 : x / 16),
+                     v = static_cast<std::uint32_t>(tiled ? y / 4 : y);
+          ASSERT_EQ(f.line_offset(u, v),
+                    pixel_offset(tiled, static_cast<int>(width), x, y) / 64 * 64)
+              << x << " " << y << " of " << width;
+        }
+    }
+}
+TEST(FrameRules, CountsAndBasesAreThoseOfTheirRegisters) {
+  Frame b({});
+  const std::vector<std::pair<std::uint32_t, std::uint32_t FrameRules::*>> registers = {
+      {reg::kEdgeCount, &FrameRules::edge_count},   {reg::kVertexCount, &FrameRules::vertex_count},
+      {reg::kFaceCount, &FrameRules::face_count},   {reg::kEdgeBase, &FrameRules::edge_base},
+      {reg::kVertexBase, &FrameRules::vertex_base}, {reg::kFaceBase, &FrameRules::face_base},
+      {reg::kDepthBase, &FrameRules::depth_base},   {reg::kColourBase, &FrameRules::colour_base},
+      {reg::kWeightBase, &FrameRules::weight_base}, {reg::kCopyBase, &FrameRules::copy_base}};
+  std::uint32_t value = 0;
+  for (const auto& [offset, field] : registers) b.bus.write(offset, value += 64);
+  const FrameRules f = decode(b.control);
+  value = 0;
+  for (const auto& [offset, field] : registers) EXPECT_EQ(f.*field, value += 64) << offset;
+}
+
+// ---- refusals: at each limit, and one beyond
+
+TEST(Refusals, BeginBeyondTheLimit) {
+  Parameters p;
+  p.line_pixels = 1000;
+  p.touched_words = 40;
+  p.face_limit = 8192;
+  FrameRules most;
+  most.width = 1000;
+  most.height = 8192;
+  most.touched_words = 40;
+  most.edge_count = most.vertex_count = 1u << 24;
+  most.face_count = 8192;
+  most.select = Select::kEdges;
+  EXPECT_EQ(refusal(most, true, p), Refusal::kNone);
+  EXPECT_EQ(refusal(most, false, p), Refusal::kDisabled);
+  const auto with = [&](const auto& change) {
+    FrameRules f = most;
+    change(f);
+    return refusal(f, true, p);
+  };
+  EXPECT_EQ(with([](FrameRules& f) { f.width = f.height = 1; }), Refusal::kNone);
+  EXPECT_EQ(with([](FrameRules& f) { f.width = 0; }), Refusal::kSize);
+  EXPECT_EQ(with([](FrameRules& f) { f.height = 0; }), Refusal::kSize);
+  EXPECT_EQ(with([](FrameRules& f) { f.width = 8193; }), Refusal::kSize);
+  EXPECT_EQ(with([](FrameRules& f) { f.width = 8192; }), Refusal::kWidth);
+  EXPECT_EQ(with([](FrameRules& f) { f.height = 8193; }), Refusal::kSize);
+  EXPECT_EQ(with([](FrameRules& f) { ++f.width; }), Refusal::kWidth);
+  EXPECT_EQ(with([](FrameRules& f) { ++f.touched_words; }), Refusal::kTouchedWords);
+  EXPECT_EQ(with([](FrameRules& f) { ++f.edge_count; }), Refusal::kEdgeCount);
+  EXPECT_EQ(with([](FrameRules& f) { ++f.vertex_count; }), Refusal::kVertexCount);
+  EXPECT_EQ(with([](FrameRules& f) { ++f.face_count; }), Refusal::kFaceCount);
+  EXPECT_EQ(with([](FrameRules& f) {
+              ++f.face_count;
+              f.select = Select::kAll;
+            }),
+            Refusal::kNone)
+      << "no facing bits are read";
+  p.line_pixels = 8192;
+  EXPECT_EQ(with([](FrameRules& f) { f.width = 8192; }), Refusal::kNone);
+}
+// What was refused leaves the rules of the frame before.
+TEST(Refusals, LeaveTheRulesAsTheyWere) {
+  Frame b({});
+  b.bus.write(reg::kSize, size_of(40, 30));
+  ASSERT_EQ(b.store.latch(true), Refusal::kNone);
+  b.bus.write(reg::kSize, size_of(0, 30));
+  EXPECT_EQ(b.store.latch(true), Refusal::kSize);
+  EXPECT_EQ(b.store.rules().width, 40);
+  b.bus.write(reg::kSize, size_of(50, 30));
+  EXPECT_EQ(b.store.rules().width, 40) << "until the next frame begins";
+  EXPECT_EQ(b.store.latch(true), Refusal::kNone);
+  EXPECT_EQ(b.store.rules().width, 50);
+}
+
+// ---- what registers show
+
+// A count of its own in each register: all differ, so that none can stand for another.
+TEST(CounterRegisters, ShowTheirCounters) {
+  EngineBench b;
+  Scene scene = contract_scene();
+  scene.edges.push_back({1000, 0, 0, 0, 0});  // one more that is invalid
+  b.load(scene);
+  b.memory.fail_range(b.bases.depth, b.bases.depth + 64 * 5);
+  b.run();
+  const auto& e = b.engine;
+  const std::map<std::uint32_t, std::uint64_t> shown = {
+      {reg::kEdges, e.edge_classifier.edges.value()},
+      {reg::kBoundaryEdges, e.edge_classifier.boundary_edges.value()},
+      {reg::kSilhouetteEdges, e.edge_classifier.silhouette_edges.value()},
+      {reg::kBackEdges, e.edge_classifier.back_edges.value()},
+      {reg::kCreaseEdges, e.edge_classifier.crease_edges.value()},
+      {reg::kFlatEdges, e.edge_classifier.flat_edges.value()},
+      {reg::kInvalidEdges, e.edge_classifier.invalid_edges.value()},
+      {reg::kKeptEdges, e.edge_classifier.kept_edges.value()},
+      {reg::kOutsideEdges, e.line_setup.outside_edges.value()},
+      {reg::kDegenerateEdges, e.line_setup.degenerate_edges.value()},
+      {reg::kEmptyEdges, e.line_setup.empty_edges.value()},
+      {reg::kLines, e.line_setup.lines.value()},
+      {reg::kColumns, e.line_walker.columns.value()},
+      {reg::kGroups, e.line_walker.groups.value()},
+      {reg::kCandidates, e.coverage_unit.candidates.value()},
+      {reg::kPassed, e.depth_test.passed.value()},
+      {reg::kBlocks, e.resolver.blocks.value()},
+      {reg::kBlendedPixels, e.resolver.blended_pixels.value()},
+      {reg::kMemoryErrors, e.memory_arbiter.memory_errors.value()},
+      {reg::kFrameCycles, e.frame_sequencer.frame_cycles.value()},
+      {reg::kEdgeCycles, e.frame_sequencer.edge_cycles.value()},
+      {reg::kResolveCycles, e.frame_sequencer.resolve_cycles.value()}};
+  std::map<std::uint64_t, std::uint32_t> met;
+  for (const auto& [offset, value] : shown) {
+    EXPECT_EQ(b.bus.read(offset), value) << offset;
+    const auto [first, fresh] = met.emplace(value, offset);
+    EXPECT_TRUE(fresh) << offset << " shows the same as " << first->second << ": " << value;
+  }
+  const spec::geometric::Work work = e.work();
+  for (const spec::geometric::WorkCount& each : spec::geometric::kWorkCounts)
+    EXPECT_EQ(work.*each.count, b.bus.read(each.offset)) << each.offset;
+}
+
+}  // namespace
+}  // namespace deburr::tb::geometric_rtl
