@@ -28,18 +28,20 @@ using spec::ExitCode;
 struct RegressOptions : PointOptions {
   std::string file = "tb/testplan/smoke.yaml", action = "run";
   std::optional<std::uint64_t> seed;
+  std::uint64_t divide = 1;
 };
 
 class Regression {
  public:
   explicit Regression(const RegressOptions& options)
       : options_(options),
-        testplan_(read_testplan(options.file)),
+        testplan_(part_of(read_testplan(options.file), options.divide)),
         base_seed_(options.seed.value_or(seed_of_today())),
         place_(regression_place_of(options.out, testplan_.name, base_seed_)),
         what_(fmt::format("regression {} --seed {}", testplan_.name, base_seed_)) {}
 
   Outcome act() {
+    say_changes(options_, options_.action, place_, testplan_.file);
     if (options_.action == "status") return show_status(what_, place_);
     plan_ = make_regression_plan(testplan_, base_seed_, place_);
     say_left_out(options_, plan_);
@@ -101,7 +103,7 @@ class Regression {
     if (interrupted()) return {kInterruptedExit, "INTERRUPTED " + figures};
     if (result.missing > 0)
       return {static_cast<int>(ExitCode::kSimulation),
-              fmt::format("FAIL {}: run the same command again for what is missing", figures)};
+              fmt::format("FAIL {}: 'run' it again for what is missing", figures)};
     if (!result.holds()) return {static_cast<int>(ExitCode::kMismatch), "FAIL " + figures};
     return {0, "PASS " + figures};
   }
@@ -146,6 +148,12 @@ void add_regress(CLI::App& app, CommandLine& line) {
       ->check(CLI::IsMember({"plan", "run", "status", "collect"}))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Base seed of all points (the day, as 20261231)");
+  command
+      ->add_option(
+          "--divide", options->divide,
+          "Of each configuration one of N seeds, at least one, and of what must be compared")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000}));
   add_point_options(*command, *options);
   command->callback(
       [options, &line] { line.action = [options] { return Regression(*options).act(); }; });

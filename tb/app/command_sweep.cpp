@@ -54,7 +54,7 @@ Outcome run_sweep(const SweepOptions& options, const SweepDefinition& sweep,
     if (!options.slurm.empty()) return run_on_slurm(options, what, plan, place, pending.points);
     code = run_here(plan, place, pending.points, run_settings(options));
   }
-  return ended(options, what, place, pending.done, code);
+  return ended(options, "search " + sweep.name, place, pending.done, code);
 }
 
 // A generation is small: what its points share is made once a job.
@@ -98,11 +98,12 @@ Outcome run_search(const SweepOptions& options, const SweepDefinition& sweep,
                end.interrupted ? kInterruptedExit : 0);
 }
 
-Outcome collect_points(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place) {
+Outcome collect_points(const std::string& what, const SweepDefinition& sweep, const Plan& plan,
+                       const SweepPlace& place) {
   const Collection collection = collect(sweep, plan, place);
   write_collection(sweep, plan, place, collection);
-  return {0, fmt::format("PASS sweep {}: {} of {} collected, {} failed, {} missing{}; {}",
-                         sweep.name, grouped(collection.done), points_of(plan.points),
+  return {0, fmt::format("PASS {}: {} of {} collected, {} failed, {} missing{}; {}", what,
+                         grouped(collection.done), points_of(plan.points),
                          grouped(collection.failed), grouped(collection.missing),
                          sweep.objectives.empty()
                              ? ""
@@ -114,24 +115,29 @@ Outcome sweep(const SweepOptions& options) {
   const SweepDefinition definition = read_sweep(options.file);
   const SweepPlace place = place_of(options.out, definition.name);
   const std::string what = "sweep " + definition.name;
+  say_changes(options, options.action, place, definition.file);
   if (options.action == "plan")
     return planned_outcome(what, planned(options, definition, place), place);
   if (options.action == "run") return run_sweep(options, definition, place);
   if (options.action == "status") return show_status(what, place);
-  return collect_points(definition, make_plan(definition, place), place);
+  return collect_points(what, definition, make_plan(definition, place), place);
 }
 
 Outcome search(const SweepOptions& options) {
   const SweepDefinition definition = read_sweep(options.file);
   const SweepPlace place = search_place_of(options.out, definition.name);
+  const std::string what = "search " + definition.name;
   if (options.action == "run") return run_search(options, definition, place);
-  if (options.action == "status") return show_status("sweep " + definition.name, place);
+  if (options.action == "status") {
+    say_changes(options, options.action, place, definition.file);
+    return show_status(what, place);
+  }
   const Plan plan = read_plan(place.directory);
-  if (!is_current(plan, definition.file))
+  if (!changes_since(plan, definition.file).empty())
     throw spec::ConfigError(
         fmt::format("'{}' is of another state of '{}', of its inputs or of the model: search again",
                     place.directory.string(), options.file));
-  return collect_points(definition, plan, place);
+  return collect_points(what, definition, plan, place);
 }
 
 }  // namespace

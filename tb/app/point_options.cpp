@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <optional>
 #include <thread>
 
 #include "spec/error.h"
@@ -93,6 +94,24 @@ Outcome ended(const PointOptions& options, const std::string& what, const SweepP
   if (status.failed > 0)
     return {static_cast<int>(ExitCode::kMismatch), fmt::format("FAIL {}: {}", what, figures)};
   return {0, fmt::format("PASS {}: {}", what, figures)};
+}
+
+void say_changes(const PointOptions& options, const std::string& action, const SweepPlace& place,
+                 const fs::path& file) {
+  const std::optional<Plan> plan = find_plan(place.directory);
+  if (!plan) return;
+  const std::string changes = fmt::format("{}", fmt::join(changes_since(*plan, file), ", "));
+  if (changes.empty()) return;
+  const bool keeps_results = is_of_this_model(*plan);
+  if (action == "collect" && !keeps_results)
+    throw spec::ConfigError(
+        fmt::format("the results in '{}' are of another state of the model, and count for nothing "
+                    "in this one: 'run' them again",
+                    place.directory.string()));
+  say(options, fmt::format("changed     {} since the plan was made: {}", changes,
+                           action == "status" ? "these figures are of what it was before"
+                           : keeps_results    ? "points that are as before keep their results"
+                                              : "no result of before counts"));
 }
 
 Outcome planned_outcome(const std::string& what, const Plan& plan, const SweepPlace& place) {

@@ -39,6 +39,10 @@ Outcome run_on_slurm(const PointOptions& options, const std::string& what, const
 // What a run leaves; `before` of its points were done when it began.
 Outcome ended(const PointOptions& options, const std::string& what, const SweepPlace& place,
               std::uint64_t before, int code);
+// What has changed since the place was planned, and what that means. A report of another model's
+// results stays as it is: ConfigError for `collect`.
+void say_changes(const PointOptions& options, const std::string& action, const SweepPlace& place,
+                 const std::filesystem::path& file);
 Outcome planned_outcome(const std::string& what, const Plan& plan, const SweepPlace& place);
 Outcome show_status(const std::string& what, const SweepPlace& place);
 

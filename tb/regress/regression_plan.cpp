@@ -174,7 +174,8 @@ PointOrigin origin_of(const PlannedPoint& point) {
 
 Plan make_regression_plan(const Testplan& testplan, std::uint64_t base_seed,
                           const SweepPlace& place) {
-  if (const auto before = find_plan(place.directory); before && is_current(*before, testplan.file))
+  if (const auto before = find_plan(place.directory);
+      before && changes_since(*before, testplan.file).empty())
     return *before;
   auto [plan, points] = RegressionPlanner(testplan, base_seed).run();
   write_points(points, place);

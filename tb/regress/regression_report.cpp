@@ -89,6 +89,7 @@ Json json_of(const Testplan& testplan, std::uint64_t base_seed, const Plan& plan
                {"testplan", testplan.name},
                {"title", testplan.title},
                {"base_seed", base_seed},
+               {"divisor", testplan.divisor},
                {"version", build_info().version},
                {"commit", build_info().commit},
                {"model", build_info().model},

@@ -14,7 +14,7 @@
 #include "spec/error.h"
 #include "tb/results/file.h"
 #include "tb/results/parameter_set.h"
-#include "tb/sweep/yaml_file.h"
+#include "tb/results/yaml_file.h"
 
 namespace deburr::tb {
 namespace {
@@ -191,8 +191,24 @@ class TestplanReader {
   Pages pages_;
 };
 
+std::uint64_t share_of(std::uint64_t number, std::uint64_t divisor) {
+  return (number + divisor - 1) / divisor;
+}
+
 }  // namespace
 
 Testplan read_testplan(const fs::path& file) { return TestplanReader(YamlFile(file)).read(); }
+
+Testplan part_of(Testplan testplan, std::uint64_t divisor) {
+  if (divisor == 1) return testplan;
+  testplan.divisor = divisor;
+  testplan.name += fmt::format("-of-{}", divisor);
+  testplan.title += fmt::format(", one seed of {}", divisor);
+  for (Feature& feature : testplan.features) {
+    for (Stimulus& stimulus : feature.stimuli) stimulus.seeds = share_of(stimulus.seeds, divisor);
+    for (RequiredCheck& check : feature.checks) check.minimum = share_of(check.minimum, divisor);
+  }
+  return testplan;
+}
 
 }  // namespace deburr::tb

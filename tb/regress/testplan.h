@@ -48,6 +48,7 @@ struct Feature {
 struct Testplan {
   std::filesystem::path file;
   std::string name, title;
+  std::uint64_t divisor = 1;  // of N seeds there are N / divisor
   std::vector<Feature> features;
 };
 
@@ -55,5 +56,9 @@ struct Testplan {
 // features and stimuli of one name, sentences that no page has. Pages are looked for in the folder
 // of the testplan and in those around it.
 Testplan read_testplan(const std::filesystem::path& file);
+
+// Of each configuration one of so many seeds, at least one, and as much less of what must be
+// compared: runs that the whole plan has too. Its name says so.
+Testplan part_of(Testplan testplan, std::uint64_t divisor);
 
 }  // namespace deburr::tb

@@ -2,7 +2,6 @@
 #include "tb/results/parameter_set.h"
 
 #include <fmt/format.h>
-#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -11,11 +10,10 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <utility>
 
 #include "spec/error.h"
-#include "tb/results/file.h"
+#include "tb/results/yaml_file.h"
 
 namespace deburr::tb {
 namespace {
@@ -36,83 +34,45 @@ std::string join(const std::vector<std::string_view>& names, std::string_view se
 constexpr std::size_t kMaxConfigurationBytes = 1 << 20;
 constexpr int kMaxNesting = 16;
 
-// Counts no further than two: before a ',' that belongs to nothing yaml-cpp begins one empty
-// document after another, and YAML::LoadAll() never comes back.
-bool has_several_documents(const std::string& text) {
-  struct Ignore : YAML::EventHandler {
-    void OnDocumentStart(const YAML::Mark&) override {}
-    void OnDocumentEnd() override {}
-    void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
-    void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
-    void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                  const std::string&) override {}
-    void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                         YAML::EmitterStyle::value) override {}
-    void OnSequenceEnd() override {}
-    void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                    YAML::EmitterStyle::value) override {}
-    void OnMapEnd() override {}
-  } ignore;
-  std::istringstream stream(text);
-  YAML::Parser parser(stream);
-  return parser.HandleNextDocument(ignore) && parser.HandleNextDocument(ignore);
-}
-
 class YamlLoader {
  public:
-  YamlLoader(ParameterSet& set, std::string file) : set_(set), file_(std::move(file)) {}
+  YamlLoader(ParameterSet& set, const YamlFile& yaml) : set_(set), yaml_(yaml) {}
 
-  void load(const YAML::Node& root) {
+  void load() {
+    const YAML::Node& root = yaml_.root();
     if (root.IsNull()) return;
     if (!root.IsMap())
-      throw ConfigError(where(root) + ": expected a map of parameters, got " + kind(root));
+      yaml_.fail(root, fmt::format("expected a map of parameters, got {}", YamlFile::kind(root)));
     walk(root, "", 0);
   }
 
  private:
-  static const char* kind(const YAML::Node& node) {
-    switch (node.Type()) {
-      case YAML::NodeType::Sequence:
-        return "a list";
-      case YAML::NodeType::Map:
-        return "a map";
-      case YAML::NodeType::Scalar:
-        return "a single value";
-      default:
-        return "nothing";
-    }
-  }
-
-  std::string where(const YAML::Node& node) const {
-    const YAML::Mark mark = node.Mark();
-    return mark.is_null() ? file_ : fmt::format("{}:{}", file_, mark.line + 1);
-  }
-
   void walk(const YAML::Node& map, const std::string& prefix, int depth) {
-    if (depth > kMaxNesting) throw ConfigError(where(map) + ": maps are nested too deeply");
+    if (depth > kMaxNesting) yaml_.fail(map, "maps are nested too deeply");
     for (const auto& entry : map) {
       if (!entry.first.IsScalar())
-        throw ConfigError(where(entry.first) + ": a key must be a name, got " + kind(entry.first));
+        yaml_.fail(entry.first,
+                   fmt::format("a key must be a name, got {}", YamlFile::kind(entry.first)));
       const std::string name = prefix + entry.first.Scalar();
       if (entry.second.IsMap()) {
         walk(entry.second, name + ".", depth + 1);
         continue;
       }
-      const std::string here = where(entry.first);
+      const std::string here = yaml_.where(entry.first);
       const auto [first, inserted] = seen_.emplace(name, here);
       if (!inserted)
-        throw ConfigError(
-            fmt::format("{}: '{}' is given twice (first at {})", here, name, first->second));
+        yaml_.fail(entry.first,
+                   fmt::format("'{}' is given twice (first at {})", name, first->second));
       if (!set_.find(name)) set_.set(name, "", here);  // throws with near matches
       if (!entry.second.IsScalar())
-        throw ConfigError(
-            fmt::format("{}: '{}' wants a single value, got {}", here, name, kind(entry.second)));
+        yaml_.fail(entry.first, fmt::format("'{}' wants a single value, got {}", name,
+                                            YamlFile::kind(entry.second)));
       set_.set(name, entry.second.Scalar(), here, ParameterSet::Origin::kFile);
     }
   }
 
   ParameterSet& set_;
-  std::string file_;
+  const YamlFile& yaml_;
   std::map<std::string, std::string> seen_;
 };
 
@@ -365,20 +325,7 @@ void ParameterSet::set_assignment(std::string_view assignment, std::string_view 
 }
 
 void ParameterSet::load(const std::filesystem::path& file) {
-  const std::string text = read_file(file, kMaxConfigurationBytes);
-  try {
-    if (has_several_documents(text))
-      throw ConfigError(
-          fmt::format("{}: holds more than one YAML document, or begins with what belongs to none, "
-                      "such as ','; "
-                      "expected one map of parameters",
-                      file.string()));
-    YamlLoader(*this, file.string()).load(YAML::Load(text));
-  } catch (const YAML::Exception& e) {
-    const std::string line =
-        e.mark.is_null() ? "" : fmt::format(":{}:{}", e.mark.line + 1, e.mark.column + 1);
-    throw ConfigError(fmt::format("{}{}: not valid YAML: {}", file.string(), line, e.msg));
-  }
+  YamlLoader(*this, YamlFile(file, kMaxConfigurationBytes)).load();
 }
 
 nlohmann::ordered_json ParameterSet::resolved() const {

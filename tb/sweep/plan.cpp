@@ -32,7 +32,7 @@ using spec::ConfigError;
 using spec::FileError;
 
 constexpr std::size_t kMaxPlanBytes = 64u << 20;
-constexpr int kPlanSchema = 2;
+constexpr int kPlanSchema = 3;
 
 fs::path plan_file(const fs::path& directory) { return directory / "plan.json"; }
 
@@ -92,7 +92,7 @@ std::string in_words(const Plan& plan, const Sample& sample) {
 
 Json to_json(const Plan& plan) {
   Json json = {{"schema", kPlanSchema}, {"engine", plan.engine},   {"title", plan.title},
-               {"file", plan.file},     {"key", plan.key},         {"model", build_info().model},
+               {"file", plan.file},     {"digest", plan.digest},   {"model", plan.model},
                {"points", plan.points}, {"inputs", plan.inputs},   {"left_out", plan.left_out},
                {"files", plan.files},   {"reports", plan.reports}, {"chunk", plan.chunk}};
   json["base"] = Json::array();
@@ -151,16 +151,9 @@ class Planner {
   std::unordered_set<std::string> names_;
 };
 
-// Of the file that was expanded, the model, and the files that the plan before said are read.
-std::string key_of(const fs::path& from, const std::map<std::string, std::string>& files) {
-  std::string key =
-      fmt::format("{}\n{}\n{}\n", kPlanSchema, build_info().model, sha256_of_file(from));
-  for (const auto& [file, digest] : files) {
-    std::error_code error;
-    key += fmt::format("{} {}\n", file,
-                       fs::is_regular_file(file, error) ? sha256_of_file(file) : "missing");
-  }
-  return sha256(key);
+bool is_as_before(const fs::path& file, const std::string& digest) {
+  std::error_code error;
+  return fs::is_regular_file(file, error) && sha256_of_file(file) == digest;
 }
 
 }  // namespace
@@ -287,9 +280,16 @@ Plan plan_without_points(const SweepDefinition& sweep) {
   return plan;
 }
 
-bool is_current(const Plan& plan, const fs::path& file) {
-  return plan.key == key_of(file, plan.files);
+std::vector<std::string> changes_since(const Plan& plan, const fs::path& file) {
+  std::vector<std::string> changes;
+  if (!is_of_this_model(plan)) changes.emplace_back("the model");
+  if (!is_as_before(file, plan.digest)) changes.push_back(fmt::format("'{}'", file.string()));
+  for (const auto& [input, digest] : plan.files)
+    if (!is_as_before(input, digest)) changes.push_back(fmt::format("'{}'", input));
+  return changes;
 }
+
+bool is_of_this_model(const Plan& plan) { return plan.model == build_info().model; }
 
 void write_points(const std::vector<PlannedPoint>& points, const SweepPlace& place) {
   make_folder(place.directory);
@@ -299,12 +299,14 @@ void write_points(const std::vector<PlannedPoint>& points, const SweepPlace& pla
 }
 
 void write_plan(Plan& plan, const SweepPlace& place) {
-  plan.key = key_of(plan.file, plan.files);
+  plan.digest = sha256_of_file(plan.file);
+  plan.model = build_info().model;
   write_file_atomically(plan_file(place.directory), to_json(plan).dump(1) + "\n");
 }
 
 Plan make_plan(const SweepDefinition& sweep, const SweepPlace& place) {
-  if (const auto before = find_plan(place.directory); before && is_current(*before, sweep.file))
+  if (const auto before = find_plan(place.directory);
+      before && changes_since(*before, sweep.file).empty())
     return *before;
   if (sample_bound(sweep) > kMostPoints)
     throw ConfigError(fmt::format(
@@ -341,7 +343,7 @@ Plan read_plan(const fs::path& directory) {
   std::error_code error;
   if (!fs::exists(file, error))
     throw FileError(
-        fmt::format("there is no plan in '{}': run or plan the sweep first", directory.string()));
+        fmt::format("there is no plan in '{}': run or plan it first", directory.string()));
   try {
     const Json json = Json::parse(read_file(file, kMaxPlanBytes));
     if (json.at("schema") != kPlanSchema) throw FileError("of another version");
@@ -349,7 +351,8 @@ Plan read_plan(const fs::path& directory) {
     plan.engine = json.at("engine");
     plan.title = json.at("title");
     plan.file = json.at("file");
-    plan.key = json.at("key");
+    plan.digest = json.at("digest");
+    plan.model = json.at("model");
     plan.points = json.at("points");
     plan.inputs = json.at("inputs");
     plan.left_out = json.at("left_out").get<std::vector<std::string>>();
@@ -364,7 +367,7 @@ Plan read_plan(const fs::path& directory) {
            axis.at("conditional")});
     return plan;
   } catch (const std::exception& problem) {
-    throw FileError(fmt::format("'{}' is not a plan of this version ({}): plan the sweep again",
+    throw FileError(fmt::format("'{}' is not a plan of this version ({}): plan it again",
                                 file.string(), problem.what()));
   }
 }
@@ -390,7 +393,7 @@ void for_each_point(const fs::path& file, const std::function<void(const Planned
   for (std::uint64_t taken = 0; taken < lines.count && std::getline(in, line); ++taken) {
     const Json json = Json::parse(line, nullptr, false);
     if (!json.is_array() || json.size() < 3)
-      throw FileError(fmt::format("'{}' is damaged: plan the sweep again", file.string()));
+      throw FileError(fmt::format("'{}' is damaged: plan it again", file.string()));
     PlannedPoint point{json[0], json[1], json[2], {}};
     for (std::size_t i = 3; i < json.size(); ++i) {
       if (json[i].is_string()) {

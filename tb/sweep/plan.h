@@ -55,7 +55,7 @@ struct PlannedPoint {
 
 struct Plan {
   std::string engine, title, file;
-  std::string key;  // of everything that the plan was made from
+  std::string digest, model;  // of the file, SHA-256, and of the program that it was made by
   std::vector<Setting> base;
   std::vector<PlanAxis> axes;
   std::uint64_t points = 0, inputs = 0;
@@ -83,8 +83,11 @@ Plan plan_without_points(const SweepDefinition& sweep);
 void write_points(const std::vector<PlannedPoint>& points, const SweepPlace& place);
 // Says what the plan was made from, and puts it into its place, where its points are already.
 void write_plan(Plan& plan, const SweepPlace& place);
-// Whether it was made from this file, this model and the same content of files.
-bool is_current(const Plan& plan, const std::filesystem::path& file);
+// What is not any more as it was when the plan was made, in words: the file, the model, files that
+// points read. Nothing where the plan is current.
+std::vector<std::string> changes_since(const Plan& plan, const std::filesystem::path& file);
+// Results of another one count for nothing.
+bool is_of_this_model(const Plan& plan);
 // FileError where there is none.
 Plan read_plan(const std::filesystem::path& directory);
 // None where there is no plan, or none of this version.

@@ -6,12 +6,10 @@
 #include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -27,9 +25,9 @@
 #include "tb/results/file.h"
 #include "tb/results/headline.h"
 #include "tb/results/interrupt.h"
-#include "tb/results/parameter_set.h"
 #include "tb/results/report.h"
 #include "tb/results/shell.h"
+#include "tb/results/yaml_file.h"
 #include "tb/scene/image_io.h"
 
 namespace deburr::tb {
@@ -44,7 +42,7 @@ using std::chrono::steady_clock;
 constexpr std::size_t kMaxBytes = 1 << 20;
 constexpr auto kPatience = std::chrono::seconds(20);
 constexpr int kNoSuchProgram = 127;
-constexpr std::uint64_t kMostTasks = 1000;
+constexpr std::uint64_t kMostProcessors = 4096, kMostTasks = 1000;
 constexpr int kLooksASecond = 10;  // for Ctrl-C, while a job is waited for
 
 fs::path folder_of(const SweepPlace& place) { return place.directory / "slurm"; }
@@ -135,64 +133,38 @@ std::vector<std::vector<std::string>> table_of(const std::string& text) {
 }  // namespace
 
 SlurmProfile read_profile(const fs::path& file) {
+  const YamlFile yaml(file, kMaxBytes);
+  const YAML::Node& root = yaml.root();
+  yaml.require_keys(root,
+                    {"conf", "partition", "time", "memory", "cpus", "tasks", "options", "setup"});
+  const auto line = [&](const YAML::Node& node, const char* key) {
+    std::string text = yaml.scalar(node, key);
+    if (text.find('\n') != std::string::npos)
+      yaml.fail(node, fmt::format("'{}' wants a single line", key));
+    return text;
+  };
   SlurmProfile profile;
-  const auto fail = [&](const YAML::Node& node, const std::string& what) {
-    const YAML::Mark mark = node.Mark();
-    throw ConfigError(mark.is_null()
-                          ? fmt::format("{}: {}", file.string(), what)
-                          : fmt::format("{}:{}: {}", file.string(), mark.line + 1, what));
+  const auto read_line = [&](const char* key, std::string& text) {
+    if (root[key]) text = line(root[key], key);
   };
-  const auto number = [&](const YAML::Node& node, const std::string& key, std::uint64_t most) {
-    std::uint64_t value = 0;
-    const std::string text = node.IsScalar() ? node.Scalar() : "";
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || value < 1 || value > most)
-      fail(node, fmt::format("'{}' wants a number 1..{}", key, most));
-    return value;
+  const auto read_lines = [&](const char* key, std::vector<std::string>& lines) {
+    const YAML::Node list = root[key];
+    if (!list) return;
+    if (!list.IsSequence())
+      yaml.fail(list, fmt::format("'{}' wants a list of lines, got {}", key, YamlFile::kind(list)));
+    for (const auto& entry : list) lines.push_back(line(entry, key));
   };
-  const auto line = [&](const YAML::Node& node, const std::string& key) {
-    if (!node.IsScalar() || node.Scalar().find('\n') != std::string::npos)
-      fail(node, fmt::format("'{}' wants a single line", key));
-    return node.Scalar();
+  const auto read_count = [&](const char* key, std::uint64_t& count, std::uint64_t most) {
+    if (root[key]) count = yaml.count(root[key], key, most);
   };
-  const auto lines = [&](const YAML::Node& node, const std::string& key) {
-    if (!node.IsSequence()) fail(node, fmt::format("'{}' wants a list of lines", key));
-    std::vector<std::string> all;
-    for (const auto& entry : node) all.push_back(line(entry, key));
-    return all;
-  };
-  const std::vector<std::string> known = {"conf", "partition", "time",    "memory",
-                                          "cpus", "tasks",     "options", "setup"};
-  try {
-    const YAML::Node root = YAML::Load(read_file(file, kMaxBytes));
-    if (!root.IsMap()) fail(root, "expected a map: partition, time, memory, cpus, ...");
-    for (const auto& entry : root) {
-      const std::string key = entry.first.Scalar();
-      const YAML::Node& value = entry.second;
-      if (key == "conf")
-        profile.conf = line(value, key);
-      else if (key == "partition")
-        profile.partition = line(value, key);
-      else if (key == "time")
-        profile.time = line(value, key);
-      else if (key == "memory")
-        profile.memory = line(value, key);
-      else if (key == "cpus")
-        profile.cpus = number(value, key, 4096);
-      else if (key == "tasks")
-        profile.tasks = number(value, key, kMostTasks);
-      else if (key == "options")
-        profile.options = lines(value, key);
-      else if (key == "setup")
-        profile.setup = lines(value, key);
-      else
-        fail(entry.first,
-             fmt::format("unknown key '{}'{} (known: {})", key,
-                         did_you_mean(near_matches(key, known)), fmt::join(known, ", ")));
-    }
-  } catch (const YAML::Exception& e) {
-    throw ConfigError(fmt::format("{}: not valid YAML: {}", file.string(), e.what()));
-  }
+  read_line("conf", profile.conf);
+  read_line("partition", profile.partition);
+  read_line("time", profile.time);
+  read_line("memory", profile.memory);
+  read_count("cpus", profile.cpus, kMostProcessors);
+  read_count("tasks", profile.tasks, kMostTasks);
+  read_lines("options", profile.options);
+  read_lines("setup", profile.setup);
   return profile;
 }
 
@@ -221,7 +193,7 @@ SlurmJob submit(const Plan& plan, const SweepPlace& place, const std::vector<Pla
   RunSettings each = settings;
   each.jobs = static_cast<unsigned>(profile.cpus);
   const std::uint64_t tasks = write_tasks(plan, place, folder, points, each, profile.tasks);
-  std::string script = "#!/bin/sh\n# Written by deburr sweep.\n";
+  std::string script = "#!/bin/sh\n# Written by deburr.\n";
   const auto option = [&](const std::string& text) { script += "#SBATCH " + text + "\n"; };
   option(fmt::format("--job-name=deburr-{}", place.directory.filename().string()));
   option(fmt::format("--array=0-{}", tasks - 1));
@@ -284,9 +256,9 @@ void refuse_while_submitted(const SweepPlace& place) {
   if (!job) return;
   const SlurmStatus slurm = ask_slurm(*job);
   if (slurm.queued + slurm.running > 0)
-    throw FileError(fmt::format(
-        "job {0} still has {1} tasks of this sweep: wait for it, or end it with 'scancel {0}'",
-        job->id, grouped(slurm.queued + slurm.running)));
+    throw FileError(
+        fmt::format("job {0} still has {1} tasks of it: wait for it, or end it with 'scancel {0}'",
+                    job->id, grouped(slurm.queued + slurm.running)));
   forget_job(place);
 }
 

@@ -74,14 +74,15 @@ class RegressTest(unittest.TestCase):
         with open(self.path(name), "w") as file:
             file.write(text)
 
-    def regress(self, *arguments, code=0, name="small", seed="7"):
+    def regress(self, *arguments, code=0, name="small", seed="7", says=""):
         done = subprocess.run([DEBURR, "regress", f"plans/{name}.yaml", *arguments, "--seed", seed],
                               cwd=self.directory, text=True, capture_output=True, timeout=600)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        self.assertIn(says, done.stdout + done.stderr)
         return done.stdout
 
-    def collected(self, name="small", seed="7"):
-        with open(self.path(f"out/regressions/{name}-{seed}/collected.json")) as file:
+    def collected(self, name="small", seed="7", out="out"):
+        with open(self.path(f"{out}/regressions/{name}-{seed}/collected.json")) as file:
             return json.load(file)
 
     def points(self, name="small", seed="7", out="out"):
@@ -91,6 +92,49 @@ class RegressTest(unittest.TestCase):
     def inodes(self):
         return {path: os.stat(path).st_ino
                 for path in glob.glob(self.path("out/points/*/*/result.json"))}
+
+    def check_fault(self):
+        """Buckets, the line that reproduces each, its waves, the page and JUnit of FAULT."""
+        collected = self.collected()
+        buckets = {b["kind"]: b for b in collected["buckets"]}
+        self.assertEqual({kind: b["runs"] for kind, b in buckets.items()}, {"mismatch": 2, "deadlock": 1})
+        self.assertEqual(buckets["mismatch"]["message"], "colours: N mismatches in N comparisons")
+        for kind, bucket in buckets.items():
+            # One line, as the page's button copies it.
+            command = bucket["example"]["command"]
+            self.assertNotIn("\n", command)
+            again = subprocess.run(["bash", "-c", command.replace("deburr", f"'{DEBURR}'", 1)],
+                                   cwd=self.directory, text=True, capture_output=True)
+            self.assertEqual(again.returncode, {"mismatch": 1, "deadlock": 4}[kind], again.stdout)
+            self.assertIn(bucket["example"]["reason"], again.stdout)
+            with open(self.path("out/texture/result.json")) as file:
+                alone = json.load(file)
+            place = self.path("out/regressions/small-7")
+            with open(os.path.join(place, bucket["example"]["directory"], "result.json")) as file:
+                self.assertEqual(alone["first_mismatches" if kind == "mismatch" else "cycles"],
+                                 json.load(file)["first_mismatches" if kind == "mismatch" else "cycles"])
+            self.check_waves(os.path.join(place, bucket["waves"]["file"]), kind, alone)
+        with open(self.path("out/regressions/small-7/index.html")) as file:
+            page = file.read()
+        self.assertIn(buckets["mismatch"]["waves"]["file"], page)
+        root = xml.etree.ElementTree.parse(self.path("out/regressions/small-7/junit.xml")).getroot()
+        self.assertEqual(root.get("failures"), "4", "three runs, and colours of the feature")
+
+    def check_waves(self, file, kind, result):
+        """Something changes in the window, and the window holds the failure."""
+        period = round(1e6 / result["clock_mhz"])
+        times, changes = [], 0
+        with open(file) as vcd:
+            for line in vcd:
+                if line.startswith("#"):
+                    times.append(int(line[1:]))
+                elif times and line[0] in "01b":
+                    changes += 1
+        self.assertGreater(changes, 100)
+        if kind == "mismatch":
+            cycle = int(result["first_mismatches"][0]["where"].split()[1])
+            self.assertLess(times[0], cycle * period)
+            self.assertGreater(times[-1], cycle * period)
 
 
 class Passing(RegressTest):
@@ -142,6 +186,53 @@ class Passing(RegressTest):
         self.assertEqual([p[0] for p in self.points(name="alone")],
                          [p[0] for p in self.points() if p[3] == "anything"])
 
+    def test_a_part_is_of_the_whole(self):
+        """One of two seeds: their runs are the whole plan's, and less must be compared."""
+        self.write("plans/small.yaml", TESTPLAN.replace("colours: 1000", "colours: 2000"))
+        said = self.regress("-j2", "--divide", "2")
+        self.assertIn("regression small-of-2 --seed 7: 6 points, 6 passed", said)
+        part = self.points(name="small-of-2")
+        before = self.inodes()
+        self.regress("-j2")
+        self.assertLess({point[0] for point in part}, {point[0] for point in self.points()})
+        after = self.inodes()
+        self.assertEqual({path: after[path] for path in before}, before, "no run of the part again")
+        for name, divisor, minimum in (("small-of-2", 2, 1000), ("small", 1, 2000)):
+            collected = self.collected(name=name)
+            self.assertEqual(collected["divisor"], divisor)
+            self.assertEqual(collected["features"][0]["checks"][0]["minimum"], minimum)
+
+    def test_a_changed_plan_keeps_what_is_as_before(self):
+        self.regress("-j2")
+        before = self.inodes()
+        self.write("plans/small.yaml", TESTPLAN.replace("seeds: 3", "seeds: 4"))
+        changed = "changed     'plans/small.yaml' since the plan was made: "
+        status = self.regress("status")
+        self.assertIn(changed + "these figures are of what it was before", status)
+        self.assertIn(f"{POINTS} of {POINTS} points done", status)
+        collected = self.regress("collect", code=3)
+        self.assertIn(changed + "points that are as before keep their results", collected)
+        self.assertIn(f"{POINTS + 3} points, {POINTS} passed, 0 failed in 0 buckets, 3 missing", collected)
+        self.assertNotIn("changed  ", self.regress("status"))
+        self.regress("run")
+        after = self.inodes()
+        self.assertEqual(len(after), POINTS + 3)
+        self.assertEqual({path: after[path] for path in before}, before, "what was there stayed")
+
+    def test_another_model_leaves_the_report_of_the_last_one(self):
+        self.regress("-j2")
+        report = self.collected()
+        path = self.path("out/regressions/small-7/plan.json")
+        with open(path) as file:
+            plan = json.load(file)
+        with open(path, "w") as file:
+            json.dump({**plan, "model": "another"}, file)
+        self.assertIn("changed     the model since", self.regress("status"))
+        self.regress("collect", code=2, says="are of another state of the model")
+        self.assertEqual(self.collected(), report)
+        self.assertIn("no result of before counts", self.regress("run"))
+        self.regress("collect")
+
     def test_too_little_is_no_pass(self):
         self.write("plans/small.yaml", TESTPLAN.replace("colours: 1000", "colours: 1000000"))
         self.assertRegex(self.regress(code=1), r"colours: 2,\d\d\d comparisons of 1,000,000")
@@ -157,49 +248,10 @@ class Failing(RegressTest):
         self.write("plans/small.yaml", TESTPLAN + FAULT)
         out = self.regress("-j2", code=1)
         self.assertIn("9 passed, 3 failed in 2 buckets, 0 missing", out)
-        collected = self.collected()
-        buckets = {b["kind"]: b for b in collected["buckets"]}
-        self.assertEqual({kind: b["runs"] for kind, b in buckets.items()}, {"mismatch": 2, "deadlock": 1})
-        self.assertEqual(buckets["mismatch"]["message"], "colours: N mismatches in N comparisons")
-        for kind, bucket in buckets.items():
-            # One line, as the page's button copies it.
-            command = bucket["example"]["command"]
-            self.assertNotIn("\n", command)
-            again = subprocess.run(["bash", "-c", command.replace("deburr", f"'{DEBURR}'", 1)],
-                                   cwd=self.directory, text=True, capture_output=True)
-            self.assertEqual(again.returncode, {"mismatch": 1, "deadlock": 4}[kind], again.stdout)
-            self.assertIn(bucket["example"]["reason"], again.stdout)
-            with open(self.path("out/texture/result.json")) as file:
-                alone = json.load(file)
-            place = self.path("out/regressions/small-7")
-            with open(os.path.join(place, bucket["example"]["directory"], "result.json")) as file:
-                self.assertEqual(alone["first_mismatches" if kind == "mismatch" else "cycles"],
-                                 json.load(file)["first_mismatches" if kind == "mismatch" else "cycles"])
-            self.check_waves(os.path.join(place, bucket["waves"]["file"]), kind, alone)
-        with open(self.path("out/regressions/small-7/index.html")) as file:
-            page = file.read()
-        self.assertIn(buckets["mismatch"]["waves"]["file"], page)
-        root = xml.etree.ElementTree.parse(self.path("out/regressions/small-7/junit.xml")).getroot()
-        self.assertEqual(root.get("failures"), "4", "three runs, and colours of the feature")
+        self.check_fault()
         before = self.inodes()
         self.regress("run", code=1)
         self.assertEqual(self.inodes(), before, "neither failures nor waves are made again")
-
-    def check_waves(self, file, kind, result):
-        """Something changes in the window, and the window holds the failure."""
-        period = round(1e6 / result["clock_mhz"])
-        scale, times, changes = 1, [], 0
-        with open(file) as vcd:
-            for line in vcd:
-                if line.startswith("#"):
-                    times.append(int(line[1:]))
-                elif times and line[0] in "01b":
-                    changes += 1
-        self.assertGreater(changes, 100)
-        if kind == "mismatch":
-            cycle = int(result["first_mismatches"][0]["where"].split()[1])
-            self.assertLess(times[0] * scale, cycle * period)
-            self.assertGreater(times[-1] * scale, cycle * period)
 
 
 class Killed(RegressTest):

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """Sweeps on a Slurm of two nodes that this test starts on this machine and stops again: an array, a
-killed task, a killed node, resume, and errors; and mutants as an array. Needs root, Debian's
-slurm-wlm and munge; no systemd.
+killed task, a killed node, resume, and errors; a regression; and mutants as an array. Needs root,
+Debian's slurm-wlm and munge; no systemd.
 
 usage: slurm_test.py DEBURR
 """
@@ -16,6 +16,8 @@ import sys
 import tempfile
 import time
 import unittest
+
+import regress_test
 
 PROGRAMS = ("munged", "mungekey", "slurmctld", "slurmd", "sbatch", "squeue", "scontrol", "ninja")
 POINTS = 16
@@ -155,27 +157,36 @@ PartitionName=test Nodes=n1,n2 Default=YES MaxTime=INFINITE State=UP
                 process.wait()
 
 
-class Slurm(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.scratch = tempfile.TemporaryDirectory(prefix="deburr_slurm_")
-        cls.addClassCleanup(cls.scratch.cleanup)
-        cls.cluster = Cluster(cls.scratch.name)
-        cls.addClassCleanup(cls.cluster.stop)
+def setUpModule():
+    scratch = tempfile.TemporaryDirectory(prefix="deburr_slurm_")
+    unittest.addModuleCleanup(scratch.cleanup)
+    OnCluster.scratch = scratch.name
+    OnCluster.cluster = Cluster(scratch.name)
+    unittest.addModuleCleanup(OnCluster.cluster.stop)
 
+
+class OnCluster:
+    """What tests of one cluster have in common; `write` and `directory` are theirs."""
+
+    def profile(self, **more):
+        settings = {"conf": self.cluster.conf, "partition": "test", "time": '"00:10:00"', "cpus": 1,
+                    "tasks": 4, **more}
+        self.write("profile.yaml", "".join(f"{k}: {v}\n" for k, v in settings.items()))
+
+    def wait_until_over(self, job):
+        self.cluster.wait_for(lambda: not self.cluster.ask("squeue", "-h", "-j", job).strip(),
+                              f"job {job}", 240)
+
+
+class Slurm(OnCluster, unittest.TestCase):
     def setUp(self):
-        self.directory = tempfile.mkdtemp(dir=self.scratch.name)
+        self.directory = tempfile.mkdtemp(dir=self.scratch)
         self.write("sweep.yaml", SWEEP)
         self.profile()
 
     def write(self, name, text):
         with open(os.path.join(self.directory, name), "w") as file:
             file.write(text)
-
-    def profile(self, **more):
-        settings = {"conf": self.cluster.conf, "partition": "test", "time": '"00:10:00"', "cpus": 1,
-                    "tasks": 4, **more}
-        self.write("profile.yaml", "".join(f"{k}: {v}\n" for k, v in settings.items()))
 
     def sweep(self, *arguments, code=0):
         done = subprocess.run([DEBURR, "sweep", "sweep.yaml", *arguments], cwd=self.directory,
@@ -189,10 +200,6 @@ class Slurm(unittest.TestCase):
 
     def done(self):
         return int(self.sweep("status").split("done")[1].split()[0])
-
-    def wait_until_over(self, job):
-        self.cluster.wait_for(lambda: not self.cluster.ask("squeue", "-h", "-j", job).strip(),
-                              f"job {job}", 240)
 
     def results(self):
         found = {}
@@ -339,7 +346,9 @@ class Slurm(unittest.TestCase):
                 self.assertIn(word, text)
 
         refused("profile.yaml:6: unknown key 'partitions': did you mean 'partition'?", partitions="test")
-        refused("'cpus' wants a number 1..4096", cpus="many")
+        refused("profile.yaml:4: 'cpus' = 'many' wants a number", cpus="many")
+        refused("profile.yaml:5: 'tasks' = '0' is outside 1..1000", tasks=0)
+        refused("profile.yaml:6: 'setup' wants a list of lines, got a single value", setup="make")
         refused("sbatch refuses", "nowhere", partition="nowhere")
         begin = time.monotonic()
         refused("there is no Slurm configuration '/nonexistent/slurm.conf'", code=5,
@@ -355,6 +364,41 @@ class Slurm(unittest.TestCase):
                       self.sweep("run", "--slurm", "profile.yaml", code=5))
 
 
+class Regress(OnCluster, regress_test.RegressTest):
+    def test_a_fault_is_found_on_nodes(self):
+        """Runs of a killed task are submitted again, and only they; buckets, waves and the page are
+        those of a run on this machine."""
+        self.write("plans/small.yaml",
+                   regress_test.TESTPLAN.replace("seeds: 3", "seeds: 40", 1) + regress_test.FAULT)
+        self.profile(tasks=2)
+        job = self.submit()
+        self.assertIn(f"job {job}", self.regress("status"))
+        self.cluster.wait_for(self.inodes, "a first run")
+        self.cluster.ask("scancel", f"{job}_1")
+        self.wait_until_over(job)
+        before = self.inodes()
+        out = self.regress("collect", code=3)
+        self.assertNotIn(" 0 missing", out)
+        self.wait_until_over(self.submit())
+        after = self.inodes()
+        self.assertEqual({path: after[path] for path in before}, before, "what was there stayed")
+        self.assertIn("83 passed, 3 failed in 2 buckets, 0 missing",
+                      self.regress("collect", code=1))
+        self.check_fault()
+        on_nodes, after = self.collected(), self.inodes()
+        self.regress("-j2", "--out", "local", code=1)
+        self.assertEqual(self.points(), self.points(out="local"))
+        here = self.collected(out="local")
+        for part in ("coverage", "features"):
+            self.assertEqual(on_nodes[part], here[part])
+        self.regress("run", "--slurm", "profile.yaml", code=1)
+        self.assertEqual(self.inodes(), after, "nothing is left to submit")
+
+    def submit(self):
+        out = self.regress("run", "--slurm", "profile.yaml")
+        return out.split(" of job ")[1].split(";")[0]
+
+
 if __name__ == "__main__":
     if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
         print(__doc__)
@@ -363,6 +407,6 @@ if __name__ == "__main__":
     if missing or os.geteuid() != 0:
         print(f"skipped: {'needs root' if not missing else 'not installed: ' + ', '.join(missing)}")
         sys.exit(0)
-    DEBURR = os.path.abspath(sys.argv.pop(1))
+    DEBURR = regress_test.DEBURR = os.path.abspath(sys.argv.pop(1))
     SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
     unittest.main()

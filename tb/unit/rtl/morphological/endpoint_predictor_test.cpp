@@ -851,6 +851,19 @@ TEST_P(CrossingClassesTrialClocks, AreOneRecordEach) {
     EXPECT_EQ(bench.ends.sink.cycles()[i] - bench.ends.sink.cycles()[i - 1], each);
   for (const SumsToken& sums : bench.ends.sink.beats()) EXPECT_EQ(sums.start_class, 0);
 }
+// Two ports: both sides of a predictor read in one clock, and it takes two instead of four.
+TEST(CrossingClassesOfTwoClocks, AreTwoWhereNoSideReadsLater) {
+  Parameters p = deburr();
+  p.predictor_units = 2;
+  p.trial_clocks = 2;
+  Looking bench(p, Axis::kHorizontal);
+  const RunToken token = bench.record({{{30, 20, 25}}, {{20, 29}}}, 30, 20, 5, 1, 0);
+  for (int i = 0; i < 8; ++i) bench.ends.source.send(token);
+  bench.clock.run(80);
+  ASSERT_EQ(bench.ends.sink.cycles().size(), 8u);
+  for (std::size_t i = 1; i < 8; ++i)
+    EXPECT_EQ(bench.ends.sink.cycles()[i] - bench.ends.sink.cycles()[i - 1], 1u);
+}
 INSTANTIATE_TEST_SUITE_P(Clocks, CrossingClassesTrialClocks, ::testing::Range(1, 9));
 
 INSTANTIATE_TEST_SUITE_P(Both, CrossingClasses,

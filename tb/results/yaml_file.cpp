@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "tb/sweep/yaml_file.h"
+#include "tb/results/yaml_file.h"
+
+#include <yaml-cpp/eventhandler.h>
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 
 #include "spec/error.h"
 #include "tb/results/file.h"
@@ -12,9 +15,40 @@ namespace deburr::tb {
 
 using spec::ConfigError;
 
-YamlFile::YamlFile(const std::filesystem::path& file) : path_(file) {
-  const std::string text = read_file(file, kMaxBytes);
+namespace {
+
+// Counts no further than two: before a ',' that belongs to nothing yaml-cpp begins one empty
+// document after another, and YAML::LoadAll() never comes back.
+bool has_several_documents(const std::string& text) {
+  struct Ignore : YAML::EventHandler {
+    void OnDocumentStart(const YAML::Mark&) override {}
+    void OnDocumentEnd() override {}
+    void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+    void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+    void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  const std::string&) override {}
+    void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                         YAML::EmitterStyle::value) override {}
+    void OnSequenceEnd() override {}
+    void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                    YAML::EmitterStyle::value) override {}
+    void OnMapEnd() override {}
+  } ignore;
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  return parser.HandleNextDocument(ignore) && parser.HandleNextDocument(ignore);
+}
+
+}  // namespace
+
+YamlFile::YamlFile(const std::filesystem::path& file, std::size_t most) : path_(file) {
+  const std::string text = read_file(file, most);
   try {
+    if (has_several_documents(text))
+      throw ConfigError(
+          fmt::format("{}: holds more than one YAML document, or begins with what belongs to none, "
+                      "such as ','; one is expected",
+                      file.string()));
     root_ = YAML::Load(text);
   } catch (const YAML::Exception& e) {
     const std::string line =

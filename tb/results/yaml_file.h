@@ -20,8 +20,9 @@ class YamlFile {
  public:
   static constexpr std::size_t kMaxBytes = 64u << 20;
 
-  // FileError for a file that cannot be read; ConfigError for what is no YAML.
-  explicit YamlFile(const std::filesystem::path& file);
+  // FileError for a file that cannot be read, or has more bytes; ConfigError for what is no YAML,
+  // or more than one document.
+  explicit YamlFile(const std::filesystem::path& file, std::size_t most = kMaxBytes);
 
   const YAML::Node& root() const { return root_; }
   const std::filesystem::path& path() const { return path_; }
