@@ -17,6 +17,12 @@ void Environment::check() const {
     for (const ScoreboardBase* board : boards) board->check();
 }
 
+void Environment::drain_memory() const {
+  constexpr rtl::Cycle kStep = 100;
+  do simulation().clock().run(kStep);
+  while (!memory_at_rest());
+}
+
 // ---- faults -------------------------------------------------------------------------------------
 
 std::vector<PlantedFault> Environment::memory_faults(const std::string& needs) {

@@ -71,8 +71,8 @@ class Environment {
   // ConfigError if a range of memory was to answer with errors and nobody asked for it.
   virtual void refuse_unused_errors() const = 0;
   virtual Amount amount() const = 0;
-  // Clocks until memory has answered everything that it was asked.
-  virtual rtl::Cycle clocks_to_drain() const = 0;
+  // Memory has answered, and written, everything that it was asked.
+  virtual bool memory_at_rest() const = 0;
 
   // ---- judging
   using Boards = std::vector<const ScoreboardBase*>;
@@ -101,6 +101,9 @@ class Environment {
       : simulation_(simulation), name_(std::move(name)) {}
 
   Simulation& simulation() const { return simulation_; }
+  // After a reset, runs until memory is at rest: a write of before that came later would spoil what
+  // is loaded next.
+  void drain_memory() const;
   bool golden() const { return simulation_.options().golden; }
 
   // ---- faults

@@ -157,7 +157,7 @@ void FrameComposition::end() {
 // The engines begin by themselves, so answers of memory that are on their way go by during reset.
 void FrameComposition::restart() {
   simulation().clock().set_reset_n(false);
-  simulation().clock().run(clocks_to_drain());
+  drain_memory();
   simulation().clock().set_reset_n(true);
   configure();
   texture.restart();
@@ -185,11 +185,10 @@ Amount FrameComposition::amount() const {
   return morphological ? morphological->amount() : geometric->amount();
 }
 
-rtl::Cycle FrameComposition::clocks_to_drain() const {
-  rtl::Cycle clocks = 0;
-  each_part(*this,
-            [&](const Environment& part) { clocks = std::max(clocks, part.clocks_to_drain()); });
-  return clocks;
+bool FrameComposition::memory_at_rest() const {
+  bool at_rest = true;
+  each_part(*this, [&](const Environment& part) { at_rest = at_rest && part.memory_at_rest(); });
+  return at_rest;
 }
 
 // ---- judging ------------------------------------------------------------------------------------

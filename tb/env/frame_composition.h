@@ -57,7 +57,7 @@ class FrameComposition final : public Environment {
   void refuse_memory_errors() override;
   void refuse_unused_errors() const override;
   Amount amount() const override;
-  rtl::Cycle clocks_to_drain() const override;
+  bool memory_at_rest() const override;
   Boards outputs() const override;
   Boards traffic() const override;
   Boards counters() const override;

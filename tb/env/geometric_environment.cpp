@@ -527,7 +527,7 @@ void GeometricEnvironment::draw() {
 void GeometricEnvironment::restart() {
   // What was asked of memory before is still on its way; it goes by before the frame begins. In a
   // composition frames begin by themselves, so it has seen to that during reset.
-  if (name().empty()) simulation().clock().run(clocks_to_drain());
+  if (name().empty()) drain_memory();
   memory_.clear_statistics();
   reads_judged_ = writes_judged_ = 0;
   line_board_.restart();

@@ -73,7 +73,7 @@ class GeometricEnvironment final : public Environment {
   void refuse_memory_errors() override;
   void refuse_unused_errors() const override;
   Amount amount() const override;
-  rtl::Cycle clocks_to_drain() const override { return tb::clocks_to_drain(setup_.memory); }
+  bool memory_at_rest() const override { return memory_.at_rest(); }
   Boards outputs() const override;
   Boards traffic() const override { return {&traffic_board_}; }
   Boards counters() const override { return {&register_board_.board()}; }

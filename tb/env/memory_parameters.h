@@ -82,10 +82,5 @@ inline std::optional<ErrorRange> error_range(const MemoryParameters& p) {
   const auto from = static_cast<std::uint64_t>(p.error_address);
   return ErrorRange{from, from + static_cast<std::uint64_t>(p.error_bytes)};
 }
-// For what memory has done so far and may still do after a reset: clocks until all of it is over.
-inline std::uint64_t clocks_to_drain(const MemoryParameters& p) {
-  constexpr std::uint64_t kMargin = 100;
-  return 2 * static_cast<std::uint64_t>(std::max(p.latency, p.latency_max)) + kMargin;
-}
 
 }  // namespace deburr::tb

@@ -392,7 +392,7 @@ void MorphologicalEnvironment::restart() {
   if (memory_) {
     // What was asked of memory before is still on its way; it goes by before the frame begins. In a
     // composition frames begin by themselves, so it has seen to that during reset.
-    if (source_) simulation().clock().run(clocks_to_drain());
+    if (source_) drain_memory();
     memory_->clear_statistics();
   }
   position_ = 0;

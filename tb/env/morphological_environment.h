@@ -69,9 +69,7 @@ class MorphologicalEnvironment final : public Environment {
   void refuse_memory_errors() override;
   void refuse_unused_errors() const override;
   Amount amount() const override;
-  rtl::Cycle clocks_to_drain() const override {
-    return memory_ ? tb::clocks_to_drain(setup_.memory) : 0;
-  }
+  bool memory_at_rest() const override { return !memory_ || memory_->at_rest(); }
   Boards outputs() const override;
   Boards traffic() const override;
   Boards counters() const override { return {&register_board_.board()}; }

@@ -65,6 +65,12 @@ void MemoryModel::forget_lines() {
   lines_written_.clear();
 }
 
+bool MemoryModel::at_rest() const {
+  return events_.empty() && std::all_of(ports_.begin(), ports_.end(), [](const Port& port) {
+           return port.responses.empty() && !port.responding;
+         });
+}
+
 void MemoryModel::clear_statistics() {
   reads_ = writes_ = bytes_read_ = bytes_written_ = errors_ = 0;
   most_outstanding_ = outstanding_;

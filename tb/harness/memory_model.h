@@ -75,6 +75,8 @@ class MemoryModel final : public sc_core::sc_module {
   const std::vector<std::uint64_t>& lines_written() const { return lines_written_; }
   // Addresses that have been judged.
   void forget_lines();
+  // Nothing that was asked is still to be answered or written; what is lost never is.
+  bool at_rest() const;
   // Everything from here on; what is still withheld was asked before, and is not counted.
   void clear_statistics();
 

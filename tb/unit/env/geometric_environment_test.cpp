@@ -171,7 +171,7 @@ class Painted final : public Environment {
   void end() override { part.end(); }
   void restart() override {
     simulation().clock().set_reset_n(false);
-    simulation().clock().run(clocks_to_drain());
+    drain_memory();
     simulation().clock().set_reset_n(true);
     configure();
     row_ = 0;
@@ -182,7 +182,7 @@ class Painted final : public Environment {
   void refuse_memory_errors() override { part.refuse_memory_errors(); }
   void refuse_unused_errors() const override { part.refuse_unused_errors(); }
   Amount amount() const override { return part.amount(); }
-  rtl::Cycle clocks_to_drain() const override { return part.clocks_to_drain(); }
+  bool memory_at_rest() const override { return part.memory_at_rest(); }
   Boards outputs() const override { return part.outputs(); }
   Boards traffic() const override { return part.traffic(); }
   Boards counters() const override { return part.counters(); }

@@ -247,6 +247,29 @@ TEST(MemoryModel, CountsNoRequestThatWasWithheldBefore) {
   EXPECT_EQ(s.memory.bytes_read(), 64U);
 }
 
+// The last of what a narrow bus still has to carry is written long after its latency.
+TEST(MemoryModel, IsAtRestWhenTheLastWriteIsDone) {
+  MemoryModelParameters parameters = with_latency(10);
+  parameters.write_at_response = true;
+  parameters.bytes_per_clock = 1;
+  parameters.outstanding = 2;
+  System s({}, parameters);
+  EXPECT_TRUE(s.memory.at_rest());
+  for (std::uint32_t line = 3; line < 6; ++line) {
+    MemoryRequest write = read_of(line);
+    write.write = true;
+    write.byte_mask = ~std::uint64_t{0};
+    write.data.fill(0xEE);
+    s.driver.send(write);
+  }
+  const auto written = [&] { return s.memory.dump(5 * 64, 1)[0] == 0xEE; };
+  s.clock.run(100);
+  ASSERT_FALSE(written());
+  ASSERT_TRUE(s.clock.run_until([&] { return s.memory.at_rest(); }, 1000));
+  EXPECT_TRUE(written());
+  EXPECT_GT(s.clock.cycle(), Cycle{3 * 64});
+}
+
 TEST(MemoryModel, ForgetsLinesAndGoesOnCounting) {
   System s({}, with_latency(5));
   s.driver.send(read_of(3));
