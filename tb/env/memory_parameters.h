@@ -82,10 +82,15 @@ inline std::optional<ErrorRange> error_range(const MemoryParameters& p) {
   const auto from = static_cast<std::uint64_t>(p.error_address);
   return ErrorRange{from, from + static_cast<std::uint64_t>(p.error_bytes)};
 }
-// For what memory has done so far and may still do after a reset: clocks until all of it is over.
+// For what memory has done so far and may still do after a reset: clocks until all of it is over,
+// even if all of it waits for one bank and then for the bus.
 inline std::uint64_t clocks_to_drain(const MemoryParameters& p) {
-  constexpr std::uint64_t kMargin = 100;
-  return 2 * static_cast<std::uint64_t>(std::max(p.latency, p.latency_max)) + kMargin;
+  constexpr std::uint64_t kMargin = 100, kMostBytes = 256;  // of a transaction
+  const auto width = static_cast<std::uint64_t>(p.bytes_per_clock);
+  const std::uint64_t transfer = width == 0 ? 1 : (kMostBytes + width - 1) / width;
+  const std::uint64_t each = transfer + static_cast<std::uint64_t>(p.bank_busy);
+  return 2 * static_cast<std::uint64_t>(std::max(p.latency, p.latency_max)) + kMargin +
+         static_cast<std::uint64_t>(p.outstanding) * each;
 }
 
 }  // namespace deburr::tb

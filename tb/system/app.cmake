@@ -26,6 +26,12 @@ foreach(class Windows Timeline Maps)
   set_tests_properties(observers.${class} PROPERTIES LABELS system TIMEOUT 600
                        ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 endforeach()
+# What a reset leaves on its way to memory must be there before the frame is drawn anew.
+add_test(NAME reset_behind_a_narrow_bus
+         COMMAND deburr run geometric --scene cube --size 43x29 --set geometric.preset=deburr
+                 --set memory.latency=1 --set memory.bytes_per_clock=4 --set run.images=false
+                 --set run.reset_after=1500 --out ${CMAKE_CURRENT_BINARY_DIR}/narrow_bus)
+set_tests_properties(reset_behind_a_narrow_bus PROPERTIES LABELS stress TIMEOUT 120)
 foreach(class Points Searched Failing Killed)
   add_test(NAME sweep.${class}
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/sweep_test.py" $<TARGET_FILE:deburr> ${class})
