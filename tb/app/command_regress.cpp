@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -25,10 +27,22 @@ namespace {
 
 using spec::ExitCode;
 
+constexpr std::array kActions = {"plan", "run", "status", "collect"};
+constexpr const char* kDefaultTestplan = "tb/testplan/smoke.yaml";
+
 struct RegressOptions : PointOptions {
-  std::string file = "tb/testplan/smoke.yaml", action = "run";
+  std::string file = kDefaultTestplan, action = "run";
   std::optional<std::uint64_t> seed;
   std::uint64_t divide = 1;
+
+  // `deburr regress status` is about the default testplan.
+  void take_lone_action() {
+    if (std::find(kActions.begin(), kActions.end(), file) == kActions.end() ||
+        std::filesystem::exists(file))
+      return;
+    action = file;
+    file = kDefaultTestplan;
+  }
 };
 
 class Regression {
@@ -140,14 +154,17 @@ void add_regress(CLI::App& app, CommandLine& line) {
   const auto options = std::make_shared<RegressOptions>();
   command->add_option("TESTPLAN", options->file, "YAML file of the testplan")
       ->capture_default_str();
-  command
-      ->add_option("ACTION", options->action,
-                   "plan: name every point; run: simulate those without a result, and collect; "
-                   "status: how far it is; collect: failures again with waves, and JUnit, JSON and "
-                   "a page of what is there")
-      ->check(CLI::IsMember({"plan", "run", "status", "collect"}))
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Base seed of all points (the day, as 20261231)");
+  const CLI::Option* action =
+      command
+          ->add_option(
+              "ACTION", options->action,
+              "plan: name every point; run: simulate those without a result, and collect; "
+              "status: how far it is; collect: failures again with waves, and JUnit, JSON and "
+              "a page of what is there")
+          ->check(CLI::IsMember(std::vector<std::string>(kActions.begin(), kActions.end())))
+          ->capture_default_str();
+  add_seed(*command, "Base seed of all points (the day, as 20261231)",
+           [seed = &options->seed](std::uint64_t given) { *seed = given; });
   command
       ->add_option(
           "--divide", options->divide,
@@ -155,8 +172,10 @@ void add_regress(CLI::App& app, CommandLine& line) {
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000}));
   add_point_options(*command, *options);
-  command->callback(
-      [options, &line] { line.action = [options] { return Regression(*options).act(); }; });
+  command->callback([options, action, &line] {
+    if (action->count() == 0) options->take_lone_action();
+    line.action = [options] { return Regression(*options).act(); };
+  });
 }
 
 }  // namespace deburr::tb

@@ -185,8 +185,8 @@ void add_sweep(CLI::App& app, CommandLine& line) {
       });
   searching->add_flag("!--no-guess", sought->search.guess,
                       "Evaluate every generation of NSGA-II, instead of guessing most of them");
-  searching->add_option("--seed", sought->search.seed, "The same one asks for the same points")
-      ->capture_default_str();
+  add_seed(*searching, "The same one asks for the same points (1)",
+           [seed = &sought->search.seed](std::uint64_t given) { *seed = given; });
   add_point_options(*searching, *sought);
   searching->callback([sought, &line] { line.action = [sought] { return search(*sought); }; });
 

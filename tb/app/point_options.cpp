@@ -5,7 +5,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
+#include <limits>
 #include <optional>
+#include <system_error>
 #include <thread>
 
 #include "spec/error.h"
@@ -31,6 +34,22 @@ void add_point_options(CLI::App& command, PointOptions& options) {
       ->check(CLI::Range(1u, 4096u));
   command.add_flag("--retry", options.retry, "Run again what failed, too");
   command.add_flag("--quiet", options.quiet, "Print nothing but errors and the line RESULT: ...");
+}
+
+// By itself CLI11 takes -1, and all that is too large, for the largest number, and nothing for
+// none.
+void add_seed(CLI::App& command, const std::string& meaning,
+              const std::function<void(std::uint64_t)>& take) {
+  const auto read = [take](const std::string& text) {
+    std::uint64_t seed = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, seed);
+    if (error != std::errc() || rest != end)
+      throw CLI::ValidationError("--seed", fmt::format("'{}' is no integer 0..{}", text,
+                                                       std::numeric_limits<std::uint64_t>::max()));
+    take(seed);
+  };
+  command.add_option_function<std::string>("--seed", read, meaning)->type_name("UINT");
 }
 
 std::string points_of(std::uint64_t number) {

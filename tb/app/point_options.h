@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct PointOptions {
   bool retry = false, quiet = false;
 };
 void add_point_options(CLI::App& command, PointOptions& options);
+// --seed; `take` is given what it says.
+void add_seed(CLI::App& command, const std::string& meaning,
+              const std::function<void(std::uint64_t)>& take);
 
 // "1 point", "1,000 points"
 std::string points_of(std::uint64_t number);

@@ -73,6 +73,23 @@ class Testplans(CommandTest):
                             "engine: morphological, base: {morphological.preset: mlaa, morphological.quality: low}")
         self.refuse(text, "the engine refuses the point")
 
+    def test_an_action_alone_is_about_the_default_testplan(self):
+        self.expect(5, "regress", "plan", says="cannot open 'tb/testplan/smoke.yaml'")
+        os.makedirs(self.path("tb/testplan"))
+        self.write("tb/testplan/smoke.yaml", HEAD)
+        self.write("tb/testplan/unit.md", "It filters.\n")
+        self.expect(0, "regress", "plan", "--seed", "1", says="PASS regression smoke --seed 1: 1 point")
+        self.write("plan", HEAD)  # a file of this name is one
+        self.expect(0, "regress", "plan", "plan", "--seed", "1", says="PASS regression plan --seed 1: 1 point")
+
+    def test_seeds(self):
+        self.write("t.yaml", HEAD)
+        for seed in ("-1", "18446744073709551616", "1.5", "0x10", "today", " 1", ""):
+            for command in (("regress", "t.yaml", "plan"), ("search", "t.yaml")):
+                self.expect(2, *command, "--seed", seed, says=f"--seed: '{seed}' is no integer 0..18446744073709551615")
+        for seed in ("0", "18446744073709551615"):
+            self.expect(0, "regress", "t.yaml", "plan", "--seed", seed, says=f"PASS regression t --seed {seed}: 1 point")
+
     def test_surroundings(self):
         self.expect(5, "regress", "nothing.yaml", "plan", says="cannot open 'nothing.yaml'")
         self.write("t.yaml", HEAD)

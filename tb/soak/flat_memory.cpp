@@ -44,7 +44,6 @@ std::vector<std::uint64_t> tenths(std::span<const std::uint64_t> samples) {
 
 std::string growth(std::span<const std::uint64_t> samples, const Allowance& allowance) {
   constexpr std::size_t kParts = 5;
-  constexpr std::size_t kLeastSamples = 50;
   if (samples.size() < kLeastSamples) return "";
   const std::uint64_t before = largest(part(samples, 1, kParts));
   const std::uint64_t after = largest(part(samples, kParts - 2, kParts));

@@ -5,6 +5,7 @@
 
 #include <sys/types.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -27,9 +28,11 @@ struct Allowance {
 // Pages come and go with the allocator's pools, objects on the heap do not.
 inline constexpr Allowance kResidentAllowance{0.05, 2'000'000}, kHeapAllowance{0.01, 64'000};
 
+// Fewer samples say nothing.
+inline constexpr std::size_t kLeastSamples = 50;
 // Flat: the fourth fifth of the samples has no more than the second, but for the allowance; in the
 // first one a process begins, and in the last one it may write what it found. Empty, or what grew
-// from how much to how much. Fewer than 50 samples say nothing.
+// from how much to how much.
 std::string growth(std::span<const std::uint64_t> samples, const Allowance& allowance);
 
 }  // namespace deburr::tb

@@ -26,6 +26,7 @@
 #include "tb/app/random_configuration.h"
 #include "tb/app/run_once.h"
 #include "tb/results/interrupt.h"
+#include "tb/scene/truth.h"
 #include "tb/soak/flat_memory.h"
 
 namespace deburr::tb {
@@ -189,7 +190,11 @@ class Soak {
           i % options_.long_every >=
               options_.long_every -
                   std::min<std::uint64_t>(options_.engines.size(), options_.long_every);
-      one(engine, options_.seed + round, is_long);
+      try {
+        one(engine, options_.seed + round, is_long);
+      } catch (const Interrupted&) {
+        break;
+      }
       progress(i + 1);
     }
     return verdict();
@@ -239,13 +244,15 @@ class Soak {
     totals_[engine].add(ended.said);
     if (ended.said.code != 0) complain(engine, settings, ended.said.reason);
     if (!is_long) return;
-    const std::string grown = kJudgeMemory ? growth(ended.resident, kResidentAllowance) : "";
+    const std::string grown =
+        is_judged(ended.resident) ? growth(ended.resident, kResidentAllowance) : "";
     std::string tenth;
     for (const std::uint64_t bytes : tenths(ended.resident))
       tenth += fmt::format(" {}", megabytes(bytes));
     fmt::print("long run  {}, seed {}: {} frames, {} clocks, MB in each tenth{}{}\n", engine, seed,
                ended.said.frames, ended.said.cycles, tenth, grown.empty() ? "" : " GREW");
     ++long_runs_;
+    if (is_judged(ended.resident)) ++judged_;
     if (grown.empty()) return;
     ++grown_;
     complain(engine, settings, "memory grew " + grown);
@@ -309,21 +316,30 @@ class Soak {
                  t.cycles, t.comparisons, t.mismatches, t.failures);
     const Totals t = all();
     std::string grown;
-    if (kJudgeMemory) {
+    if (is_judged(heap_)) {
       if (const std::string heap = growth(heap_, kHeapAllowance); !heap.empty())
         grown += "; this process's heap grew " + heap;
       if (const std::string pages = growth(resident_, kResidentAllowance); !pages.empty())
         grown += "; this process's resident memory grew " + pages;
     }
-    if (grown_ > 0) grown += fmt::format("; memory grew in {} of {} long runs", grown_, long_runs_);
+    if (grown_ > 0) grown += fmt::format("; memory grew in {} of {} long runs", grown_, judged_);
     const bool good = t.mismatches + t.failures == 0 && grown.empty() && t.comparisons > 0;
     fmt::print(
-        "RESULT: {} soak: {} runs in {:.0f} s, {} of them long, {} comparisons, {} "
-        "mismatches, {} failures, memory {}{}\n",
-        good ? "PASS" : "FAIL", t.runs, seconds_since(start_), long_runs_, t.comparisons,
-        t.mismatches, t.failures,
-        kJudgeMemory ? (grown.empty() ? "flat" : "not flat") : "not judged", grown);
-    return good ? 0 : 1;
+        "RESULT: {} soak: {} runs in {:.0f} s, {} of them long, {} of these long enough to judge "
+        "their memory; {} comparisons, {} mismatches, {} failures, memory {}{}\n",
+        !good           ? "FAIL"
+        : interrupted() ? "INTERRUPTED"
+                        : "PASS",
+        t.runs, seconds_since(start_), long_runs_, judged_, t.comparisons, t.mismatches, t.failures,
+        !grown.empty()     ? "not flat"
+        : is_judged(heap_) ? "flat"
+                           : "not judged",
+        grown);
+    return !good ? 1 : interrupted() ? kInterruptedExit : 0;
+  }
+
+  static bool is_judged(const std::vector<std::uint64_t>& samples) {
+    return kJudgeMemory && samples.size() >= kLeastSamples;
   }
 
   static constexpr std::size_t kSamples = 101;
@@ -334,7 +350,7 @@ class Soak {
   double next_ = 0.1, next_sample_ = 0;
   std::map<std::string, Totals> totals_;
   std::vector<std::uint64_t> heap_, resident_;
-  std::uint64_t long_runs_ = 0, grown_ = 0;
+  std::uint64_t long_runs_ = 0, judged_ = 0, grown_ = 0;
 };
 
 }  // namespace

@@ -6,7 +6,8 @@
 //                            failure.json: why there is no result that counts
 //
 // What counts is what is there: result.json and manifest.json, which a run puts in place when they
-// are complete. No scheduler's word does.
+// are complete. No scheduler's word does. A result that failed counts for nothing without
+// failure.json: the point is run again.
 #pragma once
 
 #include <cstdint>
@@ -44,9 +45,11 @@ std::filesystem::path point_directory(const std::filesystem::path& points, std::
 
 enum class PointState : std::uint8_t { kMissing, kRunning, kDone, kFailed };
 PointState state_of(const std::filesystem::path& directory);
-// Whether a complete result is in place. For who has claimed the directory, or does not mind that
-// another one is at it.
+// Whether a complete result that did not fail is in place. For who has claimed the directory, or
+// does not mind that another one is at it.
 bool has_result(const std::filesystem::path& directory);
+// Whether one that failed is, and the reason beside it.
+bool has_failed_result(const std::filesystem::path& directory);
 
 // Why a point has no result that counts. `again`: running it again may well help (it was killed).
 struct Failure {

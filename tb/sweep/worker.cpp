@@ -113,11 +113,18 @@ class Worker {
   // In the child: what it says is the reason of a failure.
   static std::pair<int, std::string> simulate(BoundEngine& bound, RunContext& context) {
     try {
-      const RunEnd end = run_once(bound, context, IfTaken::kWait,
-                                  [&] { return !has_result(context.directory()); });
+      const fs::path& directory = context.directory();
+      const RunEnd end = run_once(bound, context, IfTaken::kWait, [&] {
+        return !has_result(directory) && !has_failed_result(directory);
+      });
       // Part of a run is no point of a sweep.
       if (end.result.interrupted) return {kInterruptedExit, "interrupted"};
       if (!end.begun) return {0, ""};  // someone else has done it meanwhile
+      // Before the directory is free, so that no failed result is ever there without a reason.
+      if (end.code != 0)
+        write_failure(directory, {end.kind, headline(end.result.reason), true});
+      else
+        remove_failure(directory);
       context.finish(end.result);
       return {end.code, headline(end.result.reason)};
     } catch (const spec::Error& error) {
@@ -163,6 +170,13 @@ class Worker {
     return ended;
   }
 
+  static std::optional<Failure> left_by_another(const fs::path& directory) {
+    if (!has_failed_result(directory)) return std::nullopt;
+    Failure failure = read_failure(directory);
+    failure.again = false;
+    return failure;
+  }
+
   static std::optional<Failure> judge(const Ended& ended, const fs::path& directory) {
     if (WIFSIGNALED(ended.status))
       return Failure{"killed",
@@ -171,7 +185,7 @@ class Worker {
                      true};
     switch (WEXITSTATUS(ended.status)) {
       case 0:
-        return std::nullopt;
+        return left_by_another(directory);
       case kInterruptedExit:
         return Failure{"interrupted", "interrupted", true};
       case static_cast<int>(ExitCode::kMismatch):

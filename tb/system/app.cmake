@@ -26,7 +26,7 @@ foreach(class Windows Timeline Maps)
   set_tests_properties(observers.${class} PROPERTIES LABELS system TIMEOUT 600
                        ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 endforeach()
-foreach(class Points Searched Killed)
+foreach(class Points Searched Failing Killed)
   add_test(NAME sweep.${class}
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/sweep_test.py" $<TARGET_FILE:deburr> ${class})
   set_tests_properties(sweep.${class} PROPERTIES LABELS system TIMEOUT 600

@@ -329,6 +329,32 @@ class Searched(SweepTest):
             self.assertEqual(file.read(), whole)
 
 
+class Failing(SweepTest):
+    """A failure stays one, whoever else was at the point and whoever died over it."""
+
+    def setUp(self):
+        super().setUp()
+        self.faulty = SWEEP.replace("  run.images: false", "  run: {images: false, fault: flip-bit}")
+        self.write("faulty.yaml", self.faulty)
+
+    def test_killed_before_it_could_say_why(self):
+        self.assertIn("0 done (0 in this run), 12 failed", self.run_sweep("faulty.yaml", "run", "-j2", code=1))
+        reasons = glob.glob(os.path.join(self.directory, "out/points/*/*/failure.json"))
+        self.assertEqual(len(reasons), POINTS)
+        for reason in reasons:
+            os.remove(reason)
+        self.assertIn("0 of 12 points done", self.run_sweep("faulty.yaml", "status"))
+        self.assertIn("0 done (0 in this run), 12 failed", self.run_sweep("faulty.yaml", "run", "-j2", code=1))
+        for reason in reasons:
+            self.assertTrue(os.path.exists(reason))
+
+    def test_two_at_the_same_points(self):
+        self.write("other.yaml", self.faulty)
+        for process in [self.start_sweep(name, "-j2") for name in ("faulty.yaml", "other.yaml")]:
+            self.assertEqual(process.wait(), 1)
+        self.assertEqual(len(glob.glob(os.path.join(self.directory, "out/points/*/*/failure.json"))), POINTS)
+
+
 class Killed(SweepTest):
     """kill -9 of a point, a worker, Ninja and the command: nothing is lost, no half point counts."""
 

@@ -410,7 +410,7 @@ TEST(Ewa, AnEllipseWithoutTexelsReadsThePoint) {
 // Every wrap by walking: repeat starts again, mirrored repeat turns round, a clamp stays.
 TEST(IdealTexture, WrapModesAreWhatAWalkFinds) {
   using spec::texture::Wrap;
-  for (const int size : {1, 5, 8}) {
+  for (const int size : {1, 3, 5, 7, 8}) {
     for (int i = -3 * size; i < 3 * size; ++i) {
       const int cell = i + 3 * size, turn = cell / size, rest = cell % size;
       EXPECT_EQ(TextureImage::wrapped(Wrap::kRepeat, i, size), rest);
