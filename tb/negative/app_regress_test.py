@@ -73,6 +73,11 @@ class Testplans(CommandTest):
                             "engine: morphological, base: {morphological.preset: mlaa, morphological.quality: low}")
         self.refuse(text, "the engine refuses the point")
 
+    def test_what_nobody_checks(self):
+        for run in ("run: {check: none, coverage: false}", "run.check: none"):
+            self.refuse(HEAD.replace("height: 8}}", "height: 8}, " + run + "}"),
+                        "has run.check = none: what nobody checks would pass")
+
     def test_an_action_alone_is_about_the_default_testplan(self):
         self.expect(5, "regress", "plan", says="cannot open 'tb/testplan/smoke.yaml'")
         os.makedirs(self.path("tb/testplan"))

@@ -113,6 +113,10 @@ class RegressionPlanner {
       if (given.insert(parameter).second) settings.push_back({parameter, std::move(value), name});
     };
     const std::string& engine = stimulus.configurations.engine;
+    for (const Setting& each : settings)
+      if (each.name == "run.check" && each.value == "none")
+        throw ConfigError(fmt::format("{}: {} has run.check = none: what nobody checks would pass",
+                                      testplan_.file.string(), name));
     give("run.images", "false");
     give("run.coverage", "true");
     if (stimulus.random)
