@@ -42,7 +42,7 @@ function(deburr_test name)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
-  add_executable(${name} ${ARG_SOURCES})
+  add_executable(${name} ${ARG_SOURCES} $<TARGET_OBJECTS:deburr_forked_expectations>)
   # What one label needs, so that a build for it alone builds no more.
   foreach(label ${ARG_LABELS})
     if(NOT TARGET deburr_${label}_tests)

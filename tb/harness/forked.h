@@ -19,11 +19,17 @@ extern "C" [[gnu::weak]] void __gcov_dump();
 
 namespace deburr::tb {
 
-// The text that `work` returns; what it throws comes back as a runtime_error with its text.
+// Whether an expectation of the test has failed; null where no test calls. In a child it would be
+// forgotten with the child (forked_expectations.cpp).
+inline bool (*expectation_failed)() = nullptr;
+
+// The text that `work` returns; what it throws comes back as a runtime_error with its text, and so
+// does an expectation that failed.
 inline std::string forked_text(const std::function<std::string()>& work) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("pipe() failed");
   std::fflush(nullptr);
+  const bool failed_before = expectation_failed && expectation_failed();
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("fork() failed");
   if (child == 0) {
@@ -32,6 +38,8 @@ inline std::string forked_text(const std::function<std::string()>& work) {
     int status = 0;
     try {
       text = work();
+      if (expectation_failed && expectation_failed() && !failed_before)
+        throw std::runtime_error("an expectation failed in the child process: " + text);
     } catch (const std::exception& error) {
       text = error.what();
       status = 1;

@@ -9,9 +9,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "tb/harness/bench.h"
+#include "tb/harness/forked.h"
 #include "tb/harness/monitor.h"
 #include "tb/harness/scoreboard.h"
 #include "tb/unit/fabric/support.h"
@@ -28,6 +31,20 @@ TEST(Random, IsReproducibleAndEven) {
   for (int i = 0; i < 100'000; ++i) hits += random.chance(250);
   EXPECT_NEAR(hits, 25'000, 700);
   EXPECT_NE(Random(1, "a").next(), Random(1, "b").next());
+}
+
+// What fails in a child would be forgotten with it.
+TEST(Forked, AnExpectationThatFailsInTheChildIsAnErrorHere) {
+  const auto equal = [](int a, int b) {
+    return [=] {
+      EXPECT_EQ(a, b) << "as it should be, if this is 2 and 3";
+      return std::string("text");
+    };
+  };
+  EXPECT_EQ(forked_text(equal(2, 2)), "text");
+  EXPECT_THAT([&] { forked_text(equal(2, 3)); },
+              testing::ThrowsMessage<std::runtime_error>(
+                  testing::HasSubstr("an expectation failed in the child process: text")));
 }
 
 TEST(Scoreboard, InOrder) {

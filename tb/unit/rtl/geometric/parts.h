@@ -15,14 +15,10 @@
 
 namespace deburr::tb::geometric_rtl {
 
-// The text that a simulation in a process of its own gives back, its exceptions included, and
-// whether an expectation of its own failed, which nobody would hear of else.
+// The text that a simulation in a process of its own gives back, its exceptions included.
 inline std::string in_child(const std::function<std::string()>& simulation) {
   try {
-    return forked_text([&] {
-      const std::string text = simulation();
-      return testing::Test::HasFailure() ? text + ", and expectations failed" : text;
-    });
+    return forked_text(simulation);
   } catch (const std::exception& error) {
     return std::string("exception: ") + error.what();
   }
