@@ -899,12 +899,32 @@ TEST(MemoryCost, IdealisedSaysSoAndWhy) {
   EXPECT_TRUE(small.idealised().empty());
 }
 
+TEST(MemoryCost, TwoNeighboursAreNamedToo) {
+  const MemoryBase pairs("pairs", {.words = 64, .word_bits = 4, .banks = 2, .span = 2});
+  EXPECT_EQ(pairs.ports(), "1R1W of 2 words");
+}
+
+TEST(MemoryCost, ARomHasNoPortThatWritesOfEitherKind) {
+  EXPECT_THAT(text_of<spec::ConfigError>([] {
+                MemoryBase("rom", {.words = 4,
+                                   .word_bits = 8,
+                                   .kind = MemoryKind::kRom,
+                                   .write_ports = 1,
+                                   .shared_ports = 1});
+              }),
+              HasSubstr("a rom is not written"));
+}
+
 TEST(MemoryCost, GoesWithTheWidthOfTheFrame) {
   // Two rows of an entry a pair of columns.
   const MemoryBase pairs("pairs", {.words = 2048, .word_bits = 100, .columns = 2048});
   EXPECT_TRUE(pairs.follows_width());
   EXPECT_EQ(pairs.bits_at(1920), 192'000U);
   EXPECT_EQ(pairs.bits_at(1), 100U);
+  // Part of a word is a whole one: of 3 words for 8 columns, 3 columns need 9 / 8.
+  const MemoryBase three("three", {.words = 3, .word_bits = 10, .columns = 8});
+  EXPECT_EQ(three.bits_at(3), 20U);
+  EXPECT_EQ(three.bits_at(8), 30U);
   const MemoryBase fixed("fixed", {.words = 2048, .word_bits = 100});
   EXPECT_EQ(fixed.bits_at(640), 204'800U);
   EXPECT_FALSE(fixed.follows_width());
