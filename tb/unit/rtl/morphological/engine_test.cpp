@@ -482,6 +482,22 @@ INSTANTIATE_TEST_SUITE_P(
                                      p.threshold_mode =
                                          spec::morphological::ThresholdMode::kDynamic;
                                    }},
+                      BadParameter{"dynamic does not go with edges.source = colour",
+                                   [](auto& p) {
+                                     p.edge_source = spec::morphological::EdgeSource::kColour;
+                                     p.threshold_mode =
+                                         spec::morphological::ThresholdMode::kDynamic;
+                                   }},
+                      BadParameter{"area: learned does not go with diagonals",
+                                   [](auto& p) {
+                                     p.area = spec::morphological::AreaSource::kLearned;
+                                     p.diagonals = true;
+                                   }},
+                      BadParameter{"area: learned does not go with diagonals or round_corners",
+                                   [](auto& p) {
+                                     p.area = spec::morphological::AreaSource::kLearned;
+                                     p.round_corners = true;
+                                   }},
                       BadParameter{"diagonal_steps: 10 steps need window_rows of at least 22",
                                    [](auto& p) {
                                      p.window_rows = 20;
