@@ -501,6 +501,16 @@ INSTANTIATE_TEST_SUITE_P(
         BadParameter{"0..256", [](auto& p) { p.corner_rounding = 257; }},
         BadParameter{"no more than two of 24 quotient bits",
                      [](auto& p) { p.divider_latency = 13; }},
+        BadParameter{"area: learned does not go with diagonals",
+                     [](auto& p) {
+                       p.area = spec::morphological::AreaSource::kLearned;
+                       p.diagonals = true;
+                     }},
+        BadParameter{"area: learned does not go with diagonals or round_corners",
+                     [](auto& p) {
+                       p.area = spec::morphological::AreaSource::kLearned;
+                       p.round_corners = true;
+                     }},
         BadParameter{"dynamic does not go with edges.source = colour",
                      [](auto& p) {
                        p.edge_source = spec::morphological::EdgeSource::kColour;
