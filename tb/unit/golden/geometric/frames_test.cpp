@@ -498,6 +498,7 @@ TEST(MemoryErrors, DepthThatCannotBeReadHidesNothing) {
     d.vertices[0].depth = d.vertices[1].depth = 1;
     Parameters p;
     p.layout = layout;
+    p.depth_test = spec::geometric::DepthTest::kOwn;  // the neighbour is lost with the pixel
     GeometricGolden golden(p);
     golden.process(d.input(kVectorBases));
     EXPECT_EQ(golden.work().candidates, 16u);

@@ -190,6 +190,18 @@ TEST(Cmaa2, AnArmEndsAtACrossingOnEitherSide) {
   }
 }
 
+// Right at the step too: an arm of one pixel, of which 0.28 / 0.78 / 2 are black.
+TEST(Cmaa2, AnArmOfOnePixelEndsThere) {
+  ColourFrame frame = one_step(20, 10, 8, 4);
+  for (int y = 0; y < 5; ++y)
+    for (int x = 9; x < 20; ++x) frame.pixels[frame.index(x, y)] = {180, 180, 180, 255};
+  const ColourFrame result{cmaa2(frame, in_codes()), 20, 10};
+  EXPECT_EQ(result.at(7, 4)[0], 111);
+  EXPECT_EQ(result.at(8, 4)[0], 209);
+  EXPECT_NEAR(result.at(9, 4)[0], 169.5, 0.5);
+  EXPECT_EQ(result.at(10, 4)[0], 180);
+}
+
 // 51 codes are 0.2 of full scale, whatever their sum is rounded to.
 TEST(Cmaa2, AStepAtTheThresholdIsAnEdge) {
   Cmaa2Settings settings;

@@ -112,6 +112,19 @@ TEST(Fxaa, TakesTheUpperAndTheLeftSideOfTwo) {
   }
 }
 
+// Of two axes that bend alike the horizontal one is taken: a white pixel takes what lies above it.
+TEST(Fxaa, TakesTheHorizontalAxisOfTwo) {
+  const Rgba8 above{40, 10, 10, 255}, beside{3, 17, 71, 255};  // of one luma
+  ColourFrame frame = drawn(5, 5, [](int, int) { return 255; });
+  for (int y = 0; y < 5; ++y)
+    for (int x = 0; x < 5; ++x)
+      if (x != 2 || y != 2) frame.pixels[frame.index(x, y)] = y == 2 ? beside : above;
+  FxaaSettings settings = ends_only();
+  settings.subpixel = 0.75;  // the dot differs from all of its neighbours: the whole of it
+  const Rgba8 result = fxaa(frame, settings)[frame.index(2, 2)];
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(result[i], 255 - 0.75 * (255 - above[i]), 0.6);
+}
+
 // A step of exactly the threshold is looked at.
 TEST(Fxaa, TheThresholdIsNotStrict) {
   FxaaSettings settings;
