@@ -251,7 +251,7 @@ class Searched(SweepTest):
                       self.search("wide.yaml", "--runs", "20", "-j2"))
         before = self.results()
         self.assertEqual(len(before), 20)
-        self.assertIn("20 of 20 points done", self.search("wide.yaml", "status"))
+        self.assertIn("PASS search wide: 20 of 20 points done", self.search("wide.yaml", "status"))
         self.assertTrue(os.path.exists(os.path.join(self.directory,
                                                     "out/searches/wide/index.html")))
         found = self.rows("wide", "search")
