@@ -93,14 +93,14 @@ Outcome run_search(const SweepOptions& options, const SweepDefinition& sweep,
       [&](std::uint64_t points) { progress.update(points); });
   say_left_out(options, end.plan);
   if (!end.interrupted && !end.missing)
-    write_collection(sweep, end.plan, place, collect(sweep, end.plan, place));
+    write_collection(sweep, end.plan, place, collect(sweep, place));
   return ended(options, "search " + sweep.name, place, before,
                end.interrupted ? kInterruptedExit : 0);
 }
 
 Outcome collect_points(const std::string& what, const SweepDefinition& sweep, const Plan& plan,
                        const SweepPlace& place) {
-  const Collection collection = collect(sweep, plan, place);
+  const Collection collection = collect(sweep, place);
   write_collection(sweep, plan, place, collection);
   return {0, fmt::format("PASS {}: {} of {} collected, {} failed, {} missing{}; {}", what,
                          grouped(collection.done), points_of(plan.points),

@@ -85,8 +85,7 @@ void add_keys(const nlohmann::json& node, const std::string& path, std::vector<s
 
 class Collector {
  public:
-  Collector(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place)
-      : sweep_(sweep), plan_(plan), place_(place) {}
+  Collector(const SweepDefinition& sweep, const SweepPlace& place) : sweep_(sweep), place_(place) {}
 
   Collection run() {
     for (const Metric& metric : sweep_.metrics)
@@ -246,7 +245,6 @@ class Collector {
   }
 
   const SweepDefinition& sweep_;
-  const Plan& plan_;
   const SweepPlace& place_;
   Collection all_;
   std::vector<bool> found_;
@@ -387,8 +385,8 @@ std::string page_of(const Json& json) {
 
 }  // namespace
 
-Collection collect(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place) {
-  return Collector(sweep, plan, place).run();
+Collection collect(const SweepDefinition& sweep, const SweepPlace& place) {
+  return Collector(sweep, place).run();
 }
 
 std::vector<double> values_of(const SweepDefinition& sweep, const fs::path& directory) {

@@ -43,7 +43,7 @@ struct Collection {
 };
 
 // FileError when a result cannot be read; ConfigError for a metric that no result has.
-Collection collect(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place);
+Collection collect(const SweepDefinition& sweep, const SweepPlace& place);
 
 // The metrics of one point that is done, as CollectedPoint::values; empty where it failed.
 // FileError as collect().

@@ -157,7 +157,7 @@ class SweepSearch {
     if (interrupted() || run_generation_(plan_, generation) == kInterruptedExit)
       throw Interrupted();
     watch_(points_.size());
-    if (first) collect(sweep_, plan_, place_);  // refuses metrics that no result has
+    if (first) collect(sweep_, place_);  // refuses metrics that no result has
     std::vector<Costs> costs;
     costs.reserve(generation.size());
     for (const PlannedPoint& point : generation) costs.push_back(costs_of(point));

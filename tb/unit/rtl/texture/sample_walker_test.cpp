@@ -93,9 +93,9 @@ TEST(TextureRtlWalker, AnyCountByTheFormula) {
       for (int count = 1; count <= 16; ++count)
         for (int i = 0; i < count; ++i) {
           const SampleToken& s = b.ends.sink.taken[at++].token;
+          const int length = kernel == Kernel::kTent && count < 4 ? std::min(spread, 64) : spread;
           const auto offset = [&](std::int64_t d) {
             const int reciprocal = (2 * 65536 + count) / (2 * count);  // rounded
-            const int length = kernel == Kernel::kTent && count < 4 ? std::min(spread, 64) : spread;
             const std::int64_t exact = d * (2 * i + 1 - count) * length * reciprocal;
             return (exact + (1 << 22)) >> 23;
           };
