@@ -15,6 +15,8 @@ namespace deburr::tb {
 
 // Of the process: resident memory in bytes; 0 where it is gone.
 std::uint64_t resident_bytes(pid_t process);
+// Seconds of a processor that it has used; 0 where it is gone.
+double cpu_seconds(pid_t process);
 // Of this process: bytes on the heap that were not given back.
 std::uint64_t heap_bytes();
 

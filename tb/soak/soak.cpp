@@ -139,6 +139,7 @@ Ended run_in_child(const std::string& engine, const Settings& settings, const fs
   Ended ended;
   std::string text;
   const Clock::time_point start = Clock::now();
+  double next_sample = 0;  // seconds of the child's processor
   for (bool open = true; open;) {
     pollfd readable{ends[0], POLLIN, 0};
     if (::poll(&readable, 1, kSamplePeriod) > 0) {
@@ -147,7 +148,11 @@ Ended run_in_child(const std::string& engine, const Settings& settings, const fs
       if (n <= 0) open = false;
       text.append(bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
     } else {
-      ended.resident.push_back(resident_bytes(child));
+      // By its processor's time: one that waits for a processor does not work.
+      if (const double worked = cpu_seconds(child); worked >= next_sample) {
+        ended.resident.push_back(resident_bytes(child));
+        next_sample = worked + kSamplePeriod * 1e-3;
+      }
       if (interrupted() || seconds_since(start) > kLongestSeconds) ::kill(child, SIGKILL);
     }
   }

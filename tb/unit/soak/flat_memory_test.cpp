@@ -37,6 +37,16 @@ TEST(FlatMemory, MayGrowAtItsBeginningAndItsEnd) {
   EXPECT_EQ(growth(samples, kNone), "");
 }
 
+TEST(FlatMemory, TimeOfAProcessorIsThatOfWork) {
+  const double before = cpu_seconds(::getpid());
+  EXPECT_GT(before, 0);
+  ::usleep(100'000);
+  EXPECT_LT(cpu_seconds(::getpid()) - before, 0.05);
+  while (cpu_seconds(::getpid()) < before + 0.05) {
+  }
+  EXPECT_EQ(cpu_seconds(-1), 0);
+}
+
 TEST(FlatMemory, TooFewSamplesSayNothing) { EXPECT_EQ(growth(steps(49, 0, 100), kNone), ""); }
 
 TEST(FlatMemory, TenthsAreTheLargestOfEach) {
