@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstddef>
@@ -44,7 +45,13 @@ TEST(FlatMemory, TimeOfAProcessorIsThatOfWork) {
   EXPECT_LT(cpu_seconds(::getpid()) - before, 0.05);
   while (cpu_seconds(::getpid()) < before + 0.05) {
   }
-  EXPECT_EQ(cpu_seconds(-1), 0);
+}
+
+TEST(FlatMemory, AProcessThatIsGoneHasNoTime) {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+  EXPECT_EQ(cpu_seconds(child), 0);
 }
 
 TEST(FlatMemory, TooFewSamplesSayNothing) { EXPECT_EQ(growth(steps(49, 0, 100), kNone), ""); }
