@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """scripts/coverage on a tree of three files: it lists the lines that no test runs, leaves out the
-texts of checks, and fails where too few lines are run. usage: coverage_test.py SOURCE [unittest options]"""
+texts of checks, and fails where too few lines are run. usage: line_coverage_test.py SOURCE [unittest options]"""
 import pathlib
 import shutil
 import subprocess
