@@ -509,8 +509,8 @@ TEST(TextureGolden, ErrorRangesSpoilTheLinesThatTheyMeet) {
   EXPECT_EQ(errors(first + 64, first + 128), 0u);
 }
 
-// The last line of memory is no error, whoever asks for it, and the one behind it is.
-TEST(TextureGolden, MemoryEndsWithItsLastLine) {
+// 16 x 4 texels of 9, row by row: each row is a line of memory.
+EncodedTexture four_lines() {
   spec::texture::Descriptor sampler;
   sampler.layout = spec::texture::Layout::kLinear;
   sampler.min_filter = spec::texture::MinFilter::kNearest;
@@ -521,6 +521,12 @@ TEST(TextureGolden, MemoryEndsWithItsLastLine) {
                                               }),
                          sampler);
   texture.descriptor.levels = 1;
+  return texture;
+}
+
+// The last line of memory is no error, whoever asks for it, and the one behind it is.
+TEST(TextureGolden, MemoryEndsWithItsLastLine) {
+  EncodedTexture texture = four_lines();
   for (const std::uint32_t base : {0u, 4096u}) {
     for (const std::size_t bytes : {3 * 64 + 63, 4 * 64}) {
       for (const bool ask : {false, true}) {
@@ -539,16 +545,7 @@ TEST(TextureGolden, MemoryEndsWithItsLastLine) {
 }
 
 TEST(TextureGolden, LinesPastTheEndOfMemoryAreErrors) {
-  spec::texture::Descriptor sampler;
-  sampler.layout = spec::texture::Layout::kLinear;
-  sampler.min_filter = spec::texture::MinFilter::kNearest;
-  sampler.mag_filter = spec::texture::MagFilter::kNearest;
-  EncodedTexture texture(tb::texture::Pyramid(16, 4,
-                                              [](int, int) {
-                                                return tb::texture::Rgba{9, 9, 9, 9};
-                                              }),
-                         sampler);
-  texture.descriptor.levels = 1;
+  EncodedTexture texture = four_lines();
   texture.memory.resize(3 * 64 + 63);  // the last row's line is a byte short
   TextureGolden golden({}, texture.memory);
   golden.set_texture(0, texture.descriptor);
