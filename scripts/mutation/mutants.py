@@ -52,7 +52,8 @@ def mutants_of(source):
 
 
 def operands(code, begin, end):
-    """The extents of what `&&` or `||` between two positions joins."""
+    """The extents of what `&&` or `||` between two positions joins. It joins the same when it has
+    become the other: the first of `a && b && c` gives `(a || b) && c`."""
     ends = {"||", "?", ",", ";", "="} | ({"&&"} if code[begin:end] == "&&" else set())
 
     def token(at):
@@ -100,6 +101,11 @@ def schema_of(source, first, dropped=frozenset(), plain=None):
         switch = f"::deburr_mutant::on<{number}>()"
         if plain == place:
             replaced[mutant.begin] = (mutant.end, mutant.text)
+            if was in ("&&", "||"):
+                left, right = operands(code, mutant.begin, mutant.end)
+                enclose(left[0], right[1], 1, "(", ")")
+                for operand in (left, right):
+                    enclose(*operand, 0, "(", ")")
         elif place in dropped:
             continue
         elif mutant.kind == "constant":

@@ -41,7 +41,7 @@ constexpr std::array<spec::RegisterInfo, 7> kTable = {{
     {kControl, "CONTROL", Access::kReadWrite, 1, "Bit 0 enable, 1 clear, 2 flush."},
     {kStatus, "STATUS", Access::kWriteOneToClear, 1, "Bit 0 idle, 1 framing, 2 written."},
     {kSize, "SIZE", Access::kReadWrite, 0, "Width [13:0]."},
-    {kLimit, "LIMIT", Access::kReadWrite, 0, "All of its bits."},
+    {kLimit, "LIMIT", Access::kReadWrite, 70, "All of its bits."},
     {kTokens, "TOKENS", Access::kReadOnly, 0, "Tokens."},
     {kBoth, "BOTH", Access::kReadOnly, 0, "Tokens of both."},
 }};
@@ -201,7 +201,9 @@ TEST(Engine, ABusyEngineIgnoresWritesOrTakesThem) {
 
 TEST(Engine, ResetGivesEveryRegisterItsResetValue) {
   Bed bed(true);
+  EXPECT_EQ(bed.host.read(kLimit), 70U);
   bed.host.write(kSize, 5);
+  bed.host.write(kLimit, 6);
   bed.host.write(kControl, 0);
   bed.engine.control.set_sticky(2);
   EXPECT_FALSE(bed.engine.control.enabled());
@@ -210,6 +212,7 @@ TEST(Engine, ResetGivesEveryRegisterItsResetValue) {
   bed.clock.set_reset_n(true);
   EXPECT_TRUE(bed.engine.control.enabled());
   EXPECT_EQ(bed.host.read(kSize), 640U);
+  EXPECT_EQ(bed.host.read(kLimit), 70U);
   EXPECT_EQ(bed.host.read(kStatus), 1U);
   EXPECT_EQ(bed.host.read(kControl), 1U);
   bed.engine.busy = true;

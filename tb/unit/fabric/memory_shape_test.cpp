@@ -7,6 +7,7 @@
 #include <deque>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -405,6 +406,9 @@ TEST(Memory, AddressesThatAreNotThere) {
   EXPECT_THAT(refusal([&] { p.read.read(0, 16); }), HasSubstr("16 words"));
   EXPECT_THAT(refusal([&] { p.write.write(0, ~std::uint64_t{0}, 1); }), HasSubstr("16 words"));
   EXPECT_THAT(refusal([&] { p.read.read(1, 3, 2); }), HasSubstr("at most 1"));
+  EXPECT_THAT(refusal([&] { p.read.read(2, 3, 0); }), HasSubstr("0 words from address 3"));
+  EXPECT_THAT(refusal([&] { p.write.write(2, 3, std::span<const int>{}); }),
+              HasSubstr("0 words from address 3"));
 }
 
 TEST(Memory, PortsAreWhatTheShapeSays) {

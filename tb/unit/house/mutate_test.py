@@ -161,16 +161,18 @@ struct Three { unsigned a : 3; };
 inline int odd(int a) { Three t{static_cast<unsigned>(a & 3)}; const int n = a + 2; constexpr int k = 1 + 2; return (t.a == 2) + n + k; }
 template <bool is> int chosen(char c) { return is && c != 'b' || c == '"' && c ? 1 : 0; }
 inline int both(char c) { return chosen<true>(c) + chosen<false>(c); }
+inline bool row(int a, int b, int c) { return a > 1 && b > 1 && c > 1 && a != b || a == 0 || b == 0 && c > 2 || c == 1; }
 inline bool lambda(int a) { return [&] { return a > 1 && a < 3; }() || (a ? a == 1 && true : false); }
 """
         call = """for (int a = 0; a < 4; ++a) for (int b = 0; b < 4; ++b) {
   out << asked(a, b) << sums(a, b) << texts(a) << odd(a) << lambda(a)
       << both("ab\\""[a]) << 1e-9;
-  for (int c = 0; c < 4; ++c) out << pure(a, b, c); }
+  for (int c = 0; c < 4; ++c) out << pure(a, b, c) << row(a, b, c); }
 """
         all_of = module.mutants.mutants_of(source)
         plain = ["#include <iostream>\n#include <sstream>\n#include <string>\n"]
-        texts = [source[:m.begin] + m.text + source[m.end:] for m in all_of]
+        places = frozenset(range(len(all_of)))
+        texts = [module.mutants.schema_of(source, 0, places, place) for place in sorted(places)]
         # A mutant that is no program is left out on both sides: - between texts, -= to one.
         possible = [n for n, text in enumerate(texts) if '- "z"' not in text
                     and '-= "y"' not in text]
@@ -191,6 +193,7 @@ inline bool lambda(int a) { return [&] { return a > 1 && a < 3; }() || (a ? a ==
                                 check=True).stdout.splitlines()
         without = subprocess.run([self.root / "schema"], capture_output=True, text=True,
                                  check=True).stdout
+        self.assertTrue(any("((a > 1) || (b > 1)) && c > 1" in text for text in texts))
         seen = {}
         for n, line in zip(possible, wanted, strict=True):
             seen[n] = subprocess.run([self.root / "schema"], capture_output=True, text=True,

@@ -197,6 +197,40 @@ TEST(Fxaa, BlendsInLinearLightOrInCodes) {
   EXPECT_EQ(fxaa(dot, settings)[12][0], 128);
 }
 
+// With the whole weight a dot is what lies above it.
+TEST(Fxaa, AWholePixelIsTaken) {
+  const ColourFrame dot = drawn(5, 5, [](int x, int y) { return x == 2 && y == 2 ? 255 : 0; });
+  FxaaSettings settings;
+  settings.subpixel = 1;
+  EXPECT_EQ(fxaa(dot, settings)[12], (Rgba8{0, 0, 0, 255}));
+}
+
+// The middle of a frame of three pixels a side, which bends most from row to row, differs from the
+// one above it in colour, and by a thousandth of a code in luma: the edge's luma lies half a
+// thousandth above its own. On the right the edge ends after a pixel, half a thousandth brighter,
+// on the left it never does.
+TEST(Fxaa, AnEndMayBeAThousandthOfACodeAway) {
+  const auto grey = [](std::uint8_t code) { return Rgba8{code, code, code, 255}; };
+  const ColourFrame frame{{{151, 0, 218, 255},
+                           {237, 4, 235, 255},
+                           {246, 48, 248, 255},  //
+                           grey(130),
+                           grey(100),
+                           grey(70),  //
+                           grey(70),
+                           grey(100),
+                           grey(130)},
+                          3,
+                          3};
+  EXPECT_EQ(luma_of(frame.at(0, 0)), 70001);
+  EXPECT_EQ(luma_of(frame.at(1, 0)), 100001);
+  EXPECT_EQ(luma_of(frame.at(2, 0)), 130002);
+  const Rgba8 result = fxaa(frame, ends_only())[4];
+  const double share = 0.5 - 1 / 27.5;
+  EXPECT_NEAR(result[0], 100 + share * (237 - 100), 0.6);
+  EXPECT_NEAR(result[1], 100 + share * (4 - 100), 0.6);
+}
+
 TEST(Fxaa, MirroredFramesGiveMirroredOutput) {
   const auto filter = [](const ColourFrame& frame) { return fxaa(frame); };
   for (const std::uint64_t seed : {1, 2, 3}) {

@@ -287,6 +287,23 @@ TEST(MorphologicalEdges, ThresholdsOfColourAreRoundedUp) {
   }
 }
 
+// What lies outside of the frame is no step, of which a code would be enough.
+TEST(MorphologicalEdges, AFlatFrameHasNoneAtItsBorder) {
+  using spec::morphological::LocalContrast;
+  const Frame frame(5, 4, [](int, int) { return tb::morphological::grey(93); });
+  for (const auto preset :
+       {spec::morphological::Preset::kDeburr, spec::morphological::Preset::kDeburrLine}) {
+    auto p = golden::morphological::preset_parameters(preset);
+    p.threshold = 1;
+    for (const auto contrast : {LocalContrast::kOff, LocalContrast::kPaper,
+                                LocalContrast::kSymmetric, LocalContrast::kSmaa}) {
+      p.local_contrast = contrast;
+      const EdgePlanes edges = find_edges(p, frame.view());
+      EXPECT_EQ(edges.left.count() + edges.top.count(), 0u);
+    }
+  }
+}
+
 // Not even with the least threshold has a masked pixel an edge.
 TEST(MorphologicalEdges, AMaskHidesAStepOfOneCode) {
   for (const auto preset :

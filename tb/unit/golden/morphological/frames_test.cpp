@@ -443,6 +443,16 @@ TEST(FrameMemory, LinesThatCannotBeReadAreZeros) {
   }
 }
 
+TEST(FrameMemory, NoLineIsReadBehindTheLastRow) {
+  const Frame frame(40, 8, [](int x, int y) { return grey(10 * x / 4 + 20 * y); });
+  auto p = preset_parameters(spec::morphological::Preset::kDeburrLine);
+  p.storage = spec::morphological::Storage::kMemory;
+  MorphologicalGolden golden(p);
+  golden.set_read_errors([](std::uint32_t) { return true; }, 1024);
+  golden.process(frame.view());
+  EXPECT_EQ(golden.memory_errors(), 8u * 3);  // 40 pixels: 3 lines a row
+}
+
 TEST(FrameViews, ThatAreTooSmallOrOfAnotherSizeAreBugs) {
   const Frame frame = tb::morphological::line_image();
   const int width = frame.width, height = frame.height;

@@ -536,6 +536,7 @@ TEST(LearnedCoverage, NamesTheClassesOfARecordsEnds) {
 
 TEST(LearnedCoverage, NamesTheEntriesOfAShare) {
   golden::morphological::LearnedCoverage coverage;
+  EXPECT_EQ(coverage.bins().size(), 532u + 300 + 220 + 2 * 2 * 9);
   coverage.count_share({645, 419, 439});  // of the page's corner
   coverage.count_share({645, 419, 439});
   coverage.count_share({325, 131, 151});

@@ -405,6 +405,14 @@ TEST(Ewa, AnEllipseWithoutTexelsReadsThePoint) {
   EXPECT_NEAR(c[0], 2 * 19.5, 1e-3);
 }
 
+// However long it is: between two rows of texels it is the mean of the four at its middle.
+TEST(Ewa, ALongEllipseWithoutTexelsReadsThePointToo) {
+  const TextureImage texture = image(all_different(32));
+  const PixelFootprint between{20, 20, 12, 0, 0, 0.1};
+  expect_near(ewa(texture, between, {.reconstruction = 0.01}), bilinear_of(texture, 0, 20, 20),
+              1e-3);
+}
+
 // ---- texture image ------------------------------------------------------------------------------
 
 // Every wrap by walking: repeat starts again, mirrored repeat turns round, a clamp stays.

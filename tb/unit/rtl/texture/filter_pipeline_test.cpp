@@ -375,6 +375,27 @@ TEST(TextureRtlFilterSrgb, OneQuadAClock) {
   EXPECT_THAT(of_a_second_token(b.unit, b.ends.in, b.token, b.clock), Refuses("srgb", kTooMany));
 }
 
+// Nobody else's texels are looked up.
+TEST(TextureRtlFilterSrgb, IsReadForCodedTexelsOnly) {
+  FilterBench b;
+  const auto reads = [&] {
+    std::uint64_t sum = 0;
+    rtl::for_each<rtl::PortedMemory>(
+        b.unit, [&](const rtl::PortedMemory& memory) { sum += memory.reads(); });
+    return sum;
+  };
+  b.add(request(Format::kRgba8, grey(1, 2, 3, 4)));
+  TexelQuadToken invalid = request(Format::kSrgb8A8, {});
+  invalid.ticket.valid = false;
+  b.add(invalid);
+  b.clock.run(20);
+  EXPECT_EQ(b.ends.sink.taken.size(), 2u);
+  EXPECT_EQ(reads(), 0u);
+  b.add(request(Format::kSrgb8A8, grey(1, 2, 3, 4)));
+  b.clock.run(20);
+  EXPECT_EQ(reads(), 12u);
+}
+
 // The other tables: as many ports as are used, and none before its clock.
 struct WeightBench : FilterBench {
   WeightBench()

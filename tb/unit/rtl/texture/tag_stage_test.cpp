@@ -82,6 +82,19 @@ TEST(TextureRtlTagStage, HitsGoOnWhileTheMissQueueIsFull) {
   EXPECT_EQ(b.cache.tag_stage.requests.value(), 1u + 4 + 5);
 }
 
+// So does a request of several lines that are all there.
+TEST(TextureRtlTagStage, HitsInTwoLinesGoOnToo) {
+  CacheBench b(small_cache(), 200);
+  const TexelToken two_lines = request({64, 68, 192, 196});  // of set 1
+  b.time_of(two_lines);
+  for (std::uint32_t i = 0; i < 4; ++i)
+    b.ends.source.add(request({0x1000 + 512 * i, 0x1080 + 512 * i, 0x1100 + 512 * i,
+                               0x1180 + 512 * i}));  // 4 x 4 lines of set 0
+  for (int i = 0; i < 5; ++i) b.ends.source.add(two_lines);
+  b.clock.run(30);
+  EXPECT_EQ(b.cache.tag_stage.requests.value(), 1u + 4 + 5);
+}
+
 // A request that misses does not, whichever of its texels it is that misses, or all of them.
 class OneMiss : public testing::TestWithParam<std::size_t> {};
 TEST_P(OneMiss, WaitsForTheMissQueue) {

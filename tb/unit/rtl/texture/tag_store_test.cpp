@@ -101,5 +101,19 @@ TEST(TextureRtlTagStore, ASetIsWrittenOnceAClock) {
   EXPECT_THROW(tags.commit(3), spec::CheckFailed);
 }
 
+// Whichever set the request before has changed.
+TEST(TextureRtlTagStore, EverySetThatChangesIsWritten) {
+  TagStore tags("tags", small_cache());
+  std::uint64_t writes = 0;
+  Cycle cycle = 0;
+  for (const std::uint32_t line : {0u, 2u, 1u, 3u, 4u, 6u}) {
+    tags.allocate(line, false);
+    tags.commit(++cycle);
+    ++writes;
+    rtl::for_each<rtl::PortedMemory>(
+        [&](const rtl::PortedMemory& memory) { EXPECT_EQ(memory.writes(), writes); });
+  }
+}
+
 }  // namespace
 }  // namespace deburr::tb::texture_rtl
