@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """What the scripts make of their command lines, with tools that only say how they were called.
 usage: command_lines_test.py SOURCE [unittest options]"""
+import json
 import os
 import pathlib
 import shutil
@@ -98,30 +99,54 @@ class CommandLines(unittest.TestCase):
             self.assertEqual(calls[-1], f"deburr run texture --scene plane --out {out}")
             self.assertEqual(said, f"Open {out}/report.html\n")
 
+    def interrupted(self, script, *arguments):
+        """The tools that were called before and after Ctrl-C, which comes while the first one runs."""
+        self.calls.write_text("", encoding="utf-8")
+        with subprocess.Popen([self.root / "tree" / script, *arguments], env=self.environment(),
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                              start_new_session=True) as process:
+            deadline = time.monotonic() + 60
+            while "waits" not in self.calls.read_text() and time.monotonic() < deadline:
+                time.sleep(0.05)
+            os.killpg(process.pid, signal.SIGINT)
+            try:
+                self.assertEqual(process.wait(timeout=20), 130)
+            finally:
+                if process.poll() is None:
+                    os.killpg(process.pid, signal.SIGKILL)
+        return self.calls.read_text()
+
+    def program(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+        path.chmod(0o755)
+
     def test_ctrl_c_ends_all_fuzzers(self):
         """A fuzzer that is interrupted ends as one that has found something."""
-        for name in ("write_seeds", "fuzz_obj", "fuzz_gltf"):
-            path = self.root / "tree/build/fuzz/tb/fuzz" / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(SAYS + ("" if name == "write_seeds" else
-                                    "trap 'exit 72' INT\nwhile :; do sleep 0.1; done\n"), encoding="utf-8")
-            path.chmod(0o755)
-        self.calls.write_text("", encoding="utf-8")
-        with subprocess.Popen([self.root / "tree/scripts/fuzz", "obj", "gltf"], env=self.environment(),
-                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                              start_new_session=True) as fuzz:
-            deadline = time.monotonic() + 60
-            while "fuzz_obj" not in self.calls.read_text() and time.monotonic() < deadline:
-                time.sleep(0.05)
-            time.sleep(0.2)
-            os.killpg(fuzz.pid, signal.SIGINT)
-            try:
-                self.assertEqual(fuzz.wait(timeout=20), 130)
-            finally:
-                if fuzz.poll() is None:
-                    os.killpg(fuzz.pid, signal.SIGKILL)
-        self.assertIn("fuzz_obj", self.calls.read_text())
-        self.assertNotIn("fuzz_gltf", self.calls.read_text())
+        folder = "tree/build/fuzz/tb/fuzz/"
+        self.program(folder + "write_seeds", SAYS)
+        for name in ("obj", "gltf"):
+            self.program(f"{folder}fuzz_{name}", "#!/bin/sh\ntrap 'exit 72' INT\n"
+                         f"echo 'waits {name}' >>\"$CALLS\"\nwhile :; do sleep 0.1; done\n")
+        calls = self.interrupted("scripts/fuzz", "obj", "gltf")
+        self.assertIn("waits obj", calls)
+        self.assertNotIn("waits gltf", calls)
+
+    def test_ctrl_c_ends_clang_tidy(self):
+        """With flags of its own each file is looked at alone."""
+        (self.root / "tree/.clang-tidy").write_text("", encoding="utf-8")
+        (self.root / "tree/golden").mkdir()
+        commands = []
+        for n in range(8):
+            (self.root / f"tree/golden/{n}.cpp").write_text("\n", encoding="utf-8")
+            commands.append({"directory": str(self.root / "tree"), "file": f"golden/{n}.cpp",
+                             "command": f"c++ -DN={n} -c golden/{n}.cpp"})
+        (self.root / "tree/build/release/compile_commands.json").write_text(json.dumps(commands),
+                                                                            encoding="utf-8")
+        self.program("bin/clang-tidy", '#!/bin/sh\n[ "$1" = --version ] && exit 0\n'
+                     'echo "waits" >>"$CALLS"\nexec sleep 5\n')
+        self.assertEqual(self.interrupted("scripts/tidy", "--jobs", "1"), "waits\n")
 
 
 if __name__ == "__main__":
