@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -14,6 +15,7 @@
 #include "tb/harness/memory_model.h"
 #include "tb/harness/register_host.h"
 #include "tb/unit/fabric/support.h"
+#include "tb/unit/full_disk.h"
 
 namespace deburr::tb {
 namespace {
@@ -380,6 +382,21 @@ TEST(Trace, UnwritableFileIsAnError) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(1, sc_core::SC_NS));
   EXPECT_THROW(rtl::Trace(clock, {"/nowhere/at/all.vcd", {"*"}, 0, rtl::kNever, true}),
                spec::FileError);
+}
+
+TEST(Trace, AFullDiskIsAnErrorThatLeavesNoFile) {
+  const std::string file = testing::TempDir() + "trace_full_disk.vcd";
+  {
+    rtl::ClockDomain clock("clock", sc_core::sc_time(1, sc_core::SC_NS));
+    rtl::Trace trace(clock, {file, {"*"}, 0, rtl::kNever, true});
+    clock.run(10);
+    trace.flush();
+    EXPECT_TRUE(std::filesystem::exists(file));
+    const FullDisk disk(std::filesystem::file_size(file) + 100);
+    clock.run(20);
+    EXPECT_THROW(trace.flush(), spec::FileError);
+  }
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 TEST(Glob, Matches) {
