@@ -125,11 +125,7 @@ DataStage::Schedule DataStage::schedule(const CacheToken& request) const {
 // then nothing has been read.
 inline bool DataStage::read_at_once(Cycle cycle, const CacheToken& request) {
   std::array<std::uint32_t, 4> word;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::uint32_t place = request.place[i];
-    waiting_.texel[i] = load(&bytes_[place]);
-    word[i] = place >> 2;
-  }
+  for (std::size_t i = 0; i < 4; ++i) word[i] = request.place[i] >> 2;
   const auto apart = [&](std::size_t i, std::size_t j) { return word[i] ^ word[j]; };
   const auto meet = [&](std::uint32_t difference) {
     return difference != 0 && (difference & (words_a_line_ - 1)) == 0;
@@ -144,14 +140,16 @@ inline bool DataStage::read_at_once(Cycle cycle, const CacheToken& request) {
   if (a != 0) reads_[1].read(cycle, word[1]);
   if (b != 0 && d != 0) reads_[2].read(cycle, word[2]);
   if (c != 0 && e != 0 && f != 0) reads_[3].read(cycle, word[3]);
+  // The ports know which words there are, so they are asked first.
+  for (std::size_t i = 0; i < 4; ++i) waiting_.texel[i] = load(&bytes_[request.place[i]]);
   return true;
 }
 
 void DataStage::read(Cycle cycle, const CacheToken& request, int pass) {
   for (std::size_t i = 0; i < 4; ++i) {
     if (schedule_.pass[i] != pass) continue;
-    waiting_.texel[i] = load(&bytes_[request.place[i]]);
     if (!schedule_.again[i]) issue(cycle, i, request.place[i] >> 2);
+    waiting_.texel[i] = load(&bytes_[request.place[i]]);
   }
 }
 

@@ -59,7 +59,8 @@ DigitalLine digital_line(double slope, double phase, int count) {
 
 // Slopes below 1 only: the steps are at least a pixel long.
 DigitalLine random_line(Random& random, int count) {
-  return digital_line(1 / random.uniform(1, 40), random.uniform(0, 1), count);
+  const double phase = random.uniform(0, 1);
+  return digital_line(1 / random.uniform(1, 40), phase, count);
 }
 
 // ---- Theorem 1 ----------------------------------------------------------------------------------

@@ -36,13 +36,6 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-#ifdef __SANITIZE_ADDRESS__
-// What is freed stays in AddressSanitizer's quarantine: leaks are its own to find.
-constexpr bool kJudgeMemory = false;
-#else
-constexpr bool kJudgeMemory = true;
-#endif
-
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }

@@ -115,10 +115,13 @@ TEST_P(EveryMix, IsIdenticalToGolden) {
   options.memory.banks = 1 << below(4);
   options.memory.bank_busy = below(6);
   options.seed = seed + 1;
-  expect_identical({random_frame(1 + below(300), 1 + below(60), seed + 100, 1 + below(500)),
-                    random_frame(1 + below(70), 1 + below(60), seed + 200, 1 + below(500)),
-                    random_frame(1 + below(24), 1 + below(60), seed + 300, 1 + below(80))},
-                   options);
+  const auto frame = [&](int most_width, int most_lines, auto frame_seed) {
+    const int lines = 1 + below(most_lines), height = 1 + below(60);
+    return random_frame(1 + below(most_width), height, frame_seed, lines);
+  };
+  expect_identical(
+      {frame(300, 500, seed + 100), frame(70, 500, seed + 200), frame(24, 80, seed + 300)},
+      options);
 }
 
 INSTANTIATE_TEST_SUITE_P(Geometric, EveryMix, testing::Range(0, 80));

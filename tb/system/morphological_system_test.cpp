@@ -259,7 +259,8 @@ TEST_P(EveryMix, IsIdenticalToGolden) {
   };
   MorphologicalRunOptions options;
   Parameters& p = options.morphological;
-  p = preset(kBuilt[below(6)], static_cast<spec::morphological::Lanes>(below(3)));
+  const auto lanes = static_cast<spec::morphological::Lanes>(below(3));
+  p = preset(kBuilt[below(6)], lanes);
   p.threshold_mode = static_cast<spec::morphological::ThresholdMode>(below(2));
   p.dynamic_luma = static_cast<spec::morphological::DynamicLuma>(below(4));
   p.floor = 1 + below(900);

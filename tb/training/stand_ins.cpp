@@ -103,8 +103,8 @@ void street(Writer& out, Random& random) {
     out.use(any_colour(random));
     const double height = random.uniform(1.5, 5), x = -9 + 2.2 * i;
     const double side = i % 2 != 0 ? 4.0 : -4.0;
-    out.box({x, height / 2, side}, {random.uniform(1.4, 2.1), height, 2.4},
-            random.uniform(-0.1, 0.1));
+    const double turn = random.uniform(-0.1, 0.1), width = random.uniform(1.4, 2.1);
+    out.box({x, height / 2, side}, {width, height, 2.4}, turn);
     out.use(any_colour(random));
     out.box({x, height + 0.2, side}, {2.4, 0.4, 2.8}, 0);
   }
@@ -115,7 +115,8 @@ void vehicle(Writer& out, Random& random) {
   out.use(any_colour(random));
   out.box({0, 1.1, 0}, {length, 0.9, 2}, 0);
   out.use(any_colour(random));
-  out.box({random.uniform(-1, 1), 2.1, 0}, {random.uniform(1.5, 2.5), 1.2, 1.8}, 0);
+  const double cabin = random.uniform(1.5, 2.5), at = random.uniform(-1, 1);
+  out.box({at, 2.1, 0}, {cabin, 1.2, 1.8}, 0);
   out.use(kBrown);
   const int sides = 10 + static_cast<int>(random.below(14));
   for (const double x : {-0.35 * length, 0.35 * length})
@@ -131,8 +132,8 @@ void forest(Writer& out, Random& random) {
     out.use(kBrown);
     out.prism(foot, 0.8, 0.15, 0.15, 6);
     out.use(kGreen);
-    out.prism({foot.x, 0.7, foot.z}, height, random.uniform(0.6, 1.2), 0,
-              5 + static_cast<int>(random.below(8)));
+    const int sides = 5 + static_cast<int>(random.below(8));
+    out.prism({foot.x, 0.7, foot.z}, height, random.uniform(0.6, 1.2), 0, sides);
   }
 }
 

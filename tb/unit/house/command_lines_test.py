@@ -48,7 +48,7 @@ class CommandLines(unittest.TestCase):
                 ("scripts/test", ["-L"], 2, "-L needs a regular expression"),
                 ("scripts/test", ["unit"], 2, 'what is "unit"'),
                 ("scripts/test", ["-L", "unit", "more"], 2, 'what is "more"'),
-                (".ci/run", ["unit"], 2, 'what is "unit"'),
+                (".ci/run", ["-L", "unit"], 2, "takes no arguments"),
                 ("scripts/demo", ["--out", "x"], 2, "unknown option --out"),
                 ("scripts/demo", ["x", "y"], 2, "one folder, and no y"),
                 ("scripts/install", ["--odd"], 2, "takes no arguments"),
@@ -85,7 +85,7 @@ class CommandLines(unittest.TestCase):
         old.write_text("<testsuite/>", encoding="utf-8")
         for arguments, targets in ((["-L", "unit"], " --target deburr_unit_tests deburr"),
                                    (["-L", "unit", "--timeout", "9", "-V"], "")):
-            done, said, calls = self.call(".ci/run", *arguments)
+            done, said, calls = self.call("scripts/test", *arguments)
             self.assertEqual((done, said), (0, ""))
             self.assertEqual([c.split()[0] for c in calls], ["cmake", "cmake", "ctest"])
             self.assertEqual(calls[1], f"cmake --build build/release{targets}")

@@ -187,7 +187,8 @@ TEST(Level, BiasAndClampsAsInTheContract) {
   const auto pick = [&](int low, int high) { return random.between(low, high); };
   spec::texture::Parameters p;
   for (int i = 0; i < 300000; ++i) {
-    auto d = descriptor(kMinFilters[pick(0, 5)], pick(1, 13));
+    const int levels = pick(1, 13);
+    auto d = descriptor(kMinFilters[pick(0, 5)], levels);
     d.max_anisotropy_log2 = static_cast<std::uint8_t>(pick(0, 4));
     d.mag_filter =
         pick(0, 1) == 0 ? spec::texture::MagFilter::kNearest : spec::texture::MagFilter::kLinear;

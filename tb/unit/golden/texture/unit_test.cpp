@@ -184,8 +184,9 @@ class RandomWork {
 int differences(unsigned seed, const std::function<void(spec::texture::Colour&)>& spoil) {
   RandomWork work(seed);
   const spec::texture::Parameters p = work.parameters();
-  const EncodedTexture texture(tb::texture::noise(work.pick(1, 90), work.pick(1, 90), seed),
-                               work.sampler());
+  const auto sampler = work.sampler();
+  const auto height = work.pick(1, 90), width = work.pick(1, 90);
+  const EncodedTexture texture(tb::texture::noise(width, height, seed), sampler);
   TextureGolden golden(p, texture.memory);
   golden.set_texture(5, texture.descriptor);
   golden.record_fills(true);

@@ -41,7 +41,8 @@ Scene short_lines(int width, int height, int lines, int length) {
   };
   for (int i = 0; i < lines; ++i) {
     const int x = below(256 * width), y = below(256 * height);
-    add_line(scene, x, y, x + below(2 * length) - length, y + below(2 * length) - length);
+    const int down = below(2 * length) - length, right = below(2 * length) - length;
+    add_line(scene, x, y, x + right, y + down);
   }
   return scene;
 }
@@ -512,7 +513,8 @@ TEST_P(RandomClocks, LieBetweenTheBounds) {
     s = 1664525u * s + 1013904223u;
     return static_cast<int>((s >> 16) % static_cast<std::uint32_t>(bound));
   };
-  Scene scene = short_lines(60 + below(400), 20 + below(120), 100 + below(900), 100 << below(6));
+  const int length = 100 << below(6), lines = 100 + below(900), height = 20 + below(120);
+  Scene scene = short_lines(60 + below(400), height, lines, length);
   scene.facing.assign(static_cast<std::size_t>(1 + below(5000)), false);
   for (std::size_t f = 0; f < scene.facing.size(); ++f) scene.facing[f] = below(3) != 0;
   for (Edge& e : scene.edges) {

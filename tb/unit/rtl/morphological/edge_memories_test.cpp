@@ -283,10 +283,11 @@ TEST(EdgeMemory, TheWindowKnowsWhichRowsItHolds) {
     };
     EXPECT_NO_THROW(ask(latest)) << line;
     EXPECT_NO_THROW(ask(latest - kRows + 2)) << line;
-    expect_stop([&] { ask(latest + 1); }, "is not among the " + std::to_string(kRows) +
-                                              " up to row " + std::to_string(latest));
-    expect_stop([&] { ask(latest - kRows + 1); },
-                "row " + std::to_string(latest - kRows) + " is not among");
+    const int above = latest + 1;
+    const int below = latest - kRows + 1;
+    expect_stop([&] { ask(above); }, "is not among the " + std::to_string(kRows) + " up to row " +
+                                         std::to_string(latest));
+    expect_stop([&] { ask(below); }, "row " + std::to_string(below - 1) + " is not among");
   }
 }
 
