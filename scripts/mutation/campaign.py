@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Many mutants of many files: which of them, in which order, and what became of them."""
 import concurrent.futures
+import contextlib
 import json
 import os
 import pathlib
@@ -17,6 +18,16 @@ from mutation.tree import Problem, digest
 
 ROUND = 8  # mutants of a file before it is the next file's turn
 PROFILE = ("conf", "partition", "time", "memory", "cpus", "tasks", "options", "setup")
+
+
+@contextlib.contextmanager
+def threads(jobs):
+    """A pool in which nothing more is begun once its user gives up (Ctrl-C, a Problem)."""
+    pool = concurrent.futures.ThreadPoolExecutor(jobs)
+    try:
+        yield pool
+    finally:
+        pool.shutdown(cancel_futures=True)
 
 
 def sample(mutants, count, seed):
@@ -70,7 +81,7 @@ class Campaign:
                 if number % 200 == 0:
                     self.say(f"{number} of {len(wanted)} mutants")
 
-            with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+            with threads(jobs) as pool:
                 for future in [pool.submit(judged, *pair) for pair in enumerate(wanted)]:
                     future.result()
             # A header costs a build of nearly everything.

@@ -18,6 +18,7 @@ import time
 import unittest
 
 import regress_test
+import sweep_test
 
 PROGRAMS = ("munged", "mungekey", "slurmctld", "slurmd", "sbatch", "squeue", "scontrol", "ninja")
 POINTS = 16
@@ -202,13 +203,7 @@ class Slurm(OnCluster, unittest.TestCase):
         return int(self.sweep("status").split("done")[1].split()[0])
 
     def results(self):
-        found = {}
-        for path in glob.glob(os.path.join(self.directory, "out/points/*/*/result.json")):
-            with open(path) as file:
-                content = json.load(file)
-            del content["host"]
-            found[os.path.basename(os.path.dirname(path))] = (os.stat(path).st_ino, content)
-        return found
+        return sweep_test.results_in(self.directory)
 
     def check_complete(self, kept):
         """All is there, what was there before was not run again, and it is what a local run gives."""

@@ -32,6 +32,17 @@ objectives: {minimise: [cycles, bits]}
 """
 
 
+def results_in(directory):
+    """Inode and content of every result: what was simulated again has another inode."""
+    found = {}
+    for path in glob.glob(os.path.join(directory, "out/points/*/*/result.json")):
+        with open(path) as file:
+            content = json.load(file)
+        del content["host"]
+        found[os.path.basename(os.path.dirname(path))] = (os.stat(path).st_ino, content)
+    return found
+
+
 class SweepTest(unittest.TestCase):
     def setUp(self):
         scratch = tempfile.TemporaryDirectory(prefix="deburr_sweep_")
@@ -65,14 +76,7 @@ class SweepTest(unittest.TestCase):
             return list(csv.DictReader(file))
 
     def results(self):
-        """Inode and content of every result: what was simulated again has another inode."""
-        found = {}
-        for path in glob.glob(os.path.join(self.directory, "out/points/*/*/result.json")):
-            with open(path) as file:
-                content = json.load(file)
-            del content["host"]
-            found[os.path.basename(os.path.dirname(path))] = (os.stat(path).st_ino, content)
-        return found
+        return results_in(self.directory)
 
 
 class Points(SweepTest):

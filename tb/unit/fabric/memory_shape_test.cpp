@@ -33,16 +33,6 @@ using rtl::WritePort;
 using testing::AllOf;
 using testing::HasSubstr;
 
-template <class Error, class F>
-std::string text_of(F&& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "no error";
-  return {};
-}
 template <class F>
 std::string refusal(F&& action) {
   return text_of<spec::CheckFailed>(action);

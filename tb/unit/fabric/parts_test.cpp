@@ -197,6 +197,38 @@ TEST(Merge, IsFairAndFull) {
   }
 }
 
+TEST(Merge, BeginsWithTheFirstAfterAReset) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(1, sc_core::SC_NS));
+  rtl::Merge<Token> merge("merge", clock, 2);
+  rtl::Link<Token> a("a"), b("b"), out("out");
+  (*merge.beats_in[0])(a);
+  (*merge.beats_in[1])(b);
+  merge.beats_out(out);
+  const auto next = [&] {
+    const std::uint32_t value = out.front(clock.cycle()).value;
+    out.pop(clock.cycle());
+    clock.run(1);
+    return value;
+  };
+  const auto first_of_both = [&] {
+    a.push(clock.cycle(), {0, 0});
+    b.push(clock.cycle(), {0, 1});
+    clock.run(4);
+    const std::uint32_t first = next();
+    EXPECT_EQ(next(), 1 - first);
+    return first;
+  };
+  a.push(clock.cycle(), {0, 0});
+  clock.run(3);
+  EXPECT_EQ(next(), 0U);
+  EXPECT_EQ(first_of_both(), 1U);
+  EXPECT_EQ(first_of_both(), 1U);
+  clock.set_reset_n(false);
+  clock.run(1);
+  clock.set_reset_n(true);
+  EXPECT_EQ(first_of_both(), 0U);
+}
+
 TEST(Merge, WaitsForItsOutput) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(1, sc_core::SC_NS));
   Driver<Token> driver("driver", clock);

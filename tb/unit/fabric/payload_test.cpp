@@ -68,17 +68,6 @@ std::byte* bytes(T& value) {
   return reinterpret_cast<std::byte*>(&value);
 }
 
-template <class Error, class F>
-std::string text_of(F&& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "no error";
-  return {};
-}
-
 TEST(Payload, WidthIsTheSumOfWhatIsBuilt) {
   EXPECT_EQ(Payload::of<Beat>().bits(), 262U);
   EXPECT_EQ(Payload::of<Beat>({.lanes = 2}).bits(), 262U - 64 - 2);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A small pipeline with random stalls, and a way to run several simulations in one test.
+// A small pipeline with random stalls, a way to run several simulations in one test, and what is
+// said of a refusal.
 #pragma once
 
 #include <fmt/format.h>
@@ -31,6 +32,18 @@ inline std::string in_child(const std::function<std::string()>& simulation) {
   } catch (const std::exception& error) {
     return std::string("exception: ") + error.what();
   }
+}
+
+// What the error says that an action ends with.
+template <class Error, class F>
+std::string text_of(F&& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "no error";
+  return {};
 }
 
 struct Token {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -14,6 +15,7 @@
 #include "tb/harness/memory_model.h"
 #include "tb/harness/register_host.h"
 #include "tb/unit/fabric/support.h"
+#include "tb/unit/full_disk.h"
 
 namespace deburr::tb {
 namespace {
@@ -243,6 +245,28 @@ TEST(Trace, ScopeAndWindow) {
   }
 }
 
+TEST(Trace, GoesOnThroughAReset) {
+  const std::string file = testing::TempDir() + "reset.vcd";
+  Pipeline p(100);
+  {
+    rtl::Trace trace(p.clock, {file, {"adder_0"}, 0, rtl::kNever, false});
+    p.clock.run(20);
+    p.clock.set_reset_n(false);
+    p.clock.run(5);
+    p.clock.set_reset_n(true);
+    p.clock.run(20);
+  }
+  const Vcd vcd(file);
+  std::vector<std::uint64_t> resets;
+  const auto& changes = vcd.changes.at(vcd.ids.at("deburr.adder_0.activity"));
+  for (const auto& [time, value] : changes)
+    if (value == "reset") resets.push_back(time);
+  ASSERT_EQ(resets.size(), 1U);
+  EXPECT_GE(resets.front(), 200'000U);
+  EXPECT_LE(resets.front(), 250'000U);
+  EXPECT_GT(changes.back().first, 250'000U);
+}
+
 // The first clock of a window shows what was done in it, not all that was done before.
 TEST(Trace, AWindowBeginsWithItsOwnClock) {
   for (const Cycle from : {Cycle{0}, Cycle{1}, Cycle{2}, Cycle{37}, Cycle{120}})
@@ -380,6 +404,21 @@ TEST(Trace, UnwritableFileIsAnError) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(1, sc_core::SC_NS));
   EXPECT_THROW(rtl::Trace(clock, {"/nowhere/at/all.vcd", {"*"}, 0, rtl::kNever, true}),
                spec::FileError);
+}
+
+TEST(Trace, AFullDiskIsAnErrorThatLeavesNoFile) {
+  const std::string file = testing::TempDir() + "trace_full_disk.vcd";
+  {
+    rtl::ClockDomain clock("clock", sc_core::sc_time(1, sc_core::SC_NS));
+    rtl::Trace trace(clock, {file, {"*"}, 0, rtl::kNever, true});
+    clock.run(10);
+    trace.flush();
+    EXPECT_TRUE(std::filesystem::exists(file));
+    const FullDisk disk(std::filesystem::file_size(file) + 100);
+    clock.run(20);
+    EXPECT_THROW(trace.flush(), spec::FileError);
+  }
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 TEST(Glob, Matches) {

@@ -6,8 +6,10 @@ import pathlib
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
+
+sys.dont_write_bytecode = True
+from tiny_tree import tiny_tree  # noqa: E402
 
 SOURCE = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else ".").resolve()
 
@@ -72,12 +74,7 @@ int main() { return third(3) == 1 ? 0 : 1; }
 
 class Coverage(unittest.TestCase):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory(prefix="deburr_tiny_")
-        self.addCleanup(scratch.cleanup)
-        self.root = pathlib.Path(scratch.name)
-        for name, text in FILES.items():
-            (self.root / name).parent.mkdir(parents=True, exist_ok=True)
-            (self.root / name).write_text(text, encoding="utf-8")
+        self.root = tiny_tree(self, FILES)
 
     def coverage(self, *arguments):
         return subprocess.run([SOURCE / "scripts/coverage", "--root", self.root, "-j1", *arguments],
@@ -99,8 +96,8 @@ class Coverage(unittest.TestCase):
         self.assertEqual((again.returncode, again.stderr), (1, "rtl_model: below 45 %\n"))
         self.assertEqual(again.stdout.splitlines()[1:], report)
 
-        self.assertEqual(self.coverage("--no-build", "--only", "none").stderr.splitlines(),
-                         ["golden: below 95 %", "rtl_model: below 95 %"])
+        self.assertEqual(self.coverage("--no-build", "--only", "none").stderr,
+                         "no test program matches none\n")
 
     def test_a_layer_without_lines_and_a_test_that_fails(self):
         shutil.rmtree(self.root / "golden")
@@ -110,6 +107,19 @@ class Coverage(unittest.TestCase):
         done = self.coverage("--limit", "0")
         self.assertEqual((done.returncode, done.stderr.splitlines()[-2:]),
                          (1, ["tests failed", "golden: no lines were counted"]), done.stdout)
+
+    def test_what_cannot_be_measured_is_said_in_a_line(self):
+        for code, arguments, text in ((2, ["--only", "("], "--only (: missing )"),
+                                      (2, ["-j", "0"], "-j 0: expected a number from 1"),
+                                      (2, ["--odd"], "unrecognized arguments: --odd"),
+                                      (1, ["--root", self.root / "none"], "none: No such file")):
+            done = self.coverage(*arguments)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertIn(text, done.stderr.splitlines()[-1])
+        (self.root / "fabric_tiny_test.cpp").write_text("no C++\n", encoding="utf-8")
+        done = self.coverage()
+        self.assertEqual((done.returncode, done.stderr.splitlines()[-1]),
+                         (1, "cmake --build build/coverage failed"))
 
 
 if __name__ == "__main__":

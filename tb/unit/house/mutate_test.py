@@ -10,6 +10,9 @@ import sys
 import tempfile
 import unittest
 
+sys.dont_write_bytecode = True
+from tiny_tree import tiny_tree  # noqa: E402
+
 SOURCE = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else ".").resolve()
 
 FILES = {
@@ -40,12 +43,7 @@ int main() { return tested(6) && !tested(7) ? 0 : 1; }
 
 class Mutate(unittest.TestCase):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory(prefix="deburr_tiny_")
-        self.addCleanup(scratch.cleanup)
-        self.root = pathlib.Path(scratch.name)
-        for name, text in FILES.items():
-            (self.root / name).parent.mkdir(parents=True, exist_ok=True)
-            (self.root / name).write_text(text, encoding="utf-8")
+        self.root = tiny_tree(self, FILES)
 
     def mutate(self, *arguments):
         return subprocess.run([SOURCE / "scripts/mutate", "--root", self.root, *arguments],

@@ -37,9 +37,9 @@ class Tidy(unittest.TestCase):
     def header(self, text):
         (self.root / "golden/a.h").write_text(text, encoding="utf-8")
 
-    def tidy(self):
-        done = subprocess.run([self.root / "scripts/tidy"], capture_output=True, text=True,
-                              check=False)
+    def tidy(self, *arguments):
+        done = subprocess.run([self.root / "scripts/tidy", *arguments], capture_output=True,
+                              text=True, check=False)
         clean = len(list((self.root / "build/tidy").glob("*")))
         return done.returncode, clean, done.stdout + done.stderr
 
@@ -73,6 +73,12 @@ class Tidy(unittest.TestCase):
         code, clean, text = self.tidy()
         self.assertEqual((code, clean), (1, 1))
         self.assertIn("[clang-diagnostic-error]", text)
+
+    def test_takes_no_other_folders_and_no_files_that_are_not_built(self):
+        self.header(PLANTED)
+        for place, expected in (("golden/a.cpp", 1), ("golden/b.cpp", 0), ("golden", 1),
+                                ("golden/c.cpp", 2), ("scripts", 2)):
+            self.assertEqual(self.tidy(self.root / place)[0], expected, place)
 
     def test_says_what_is_missing(self):
         (self.root / "build/release/compile_commands.json").unlink()

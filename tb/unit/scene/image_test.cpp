@@ -3,14 +3,13 @@
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <cmath>
-#include <csignal>
 #include <limits>
 
 #include "tb/scene/image_io.h"
 #include "tb/scene/textures.h"
+#include "tb/unit/full_disk.h"
 #include "tb/unit/scene/fixtures.h"
 
 // OpenImageIO's PNG reader makes its error text inside a libpng callback that leaves by longjmp.
@@ -213,25 +212,6 @@ TEST(ImageIo, BadTargetsAreNamedAndNothingIsLeft) {
   EXPECT_THAT(file_error([&] { write_image(folder / "empty.png", Image()); }), HasSubstr("0 x 0"));
   EXPECT_EQ(folder.files(), 0u);
 }
-
-// A limit on the size of files fails in write(), as a full disk does.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FullDisk() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  rlimit before_{};
-  void (*handler_)(int);
-};
 
 TEST(ImageIo, FullDiskIsReportedAndTheOldFileStays) {
   const TemporaryFolder folder;

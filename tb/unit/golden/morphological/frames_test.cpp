@@ -21,6 +21,7 @@
 namespace deburr {
 namespace {
 
+using golden::morphological::BitPlane;
 using golden::morphological::Decision;
 using golden::morphological::DepthView;
 using golden::morphological::ImageView;
@@ -598,6 +599,42 @@ TEST(NamedErrors, OfFrames) {
   EXPECT_THROW(golden.process(ImageView(pixels, 101, 1)), spec::ConfigError);
   EXPECT_THROW(golden.process(ImageView(pixels, 100, 82)), spec::CheckFailed);
   EXPECT_NO_THROW(golden.process(ImageView(pixels, 100, 81)));
+}
+
+// ---- behind others ------------------------------------------------------------------------------
+
+TEST(GivenEdges, GiveWhatTheyGaveWhereTheyWereFound) {
+  for (const Frame& frame : frames()) {
+    for (const auto& p : rules()) {
+      MorphologicalGolden found(p), given(p);
+      found.process(frame.view());
+      EXPECT_NE(found.pixels(), frame.pixels);
+      EXPECT_EQ(given.process(frame.view(), found.edges()), found.pixels());
+      EXPECT_EQ(given.edges(), found.edges());
+      const BitPlane none(frame.width, frame.height);
+      EXPECT_EQ(given.process(frame.view(), {none, none}), frame.pixels);
+      const BitPlane lower(frame.width, frame.height - 1);
+      EXPECT_THROW(given.process(frame.view(), {none, lower}), spec::CheckFailed);
+    }
+  }
+}
+
+TEST(FollowingGeometric, KeepsADynamicThresholdAndItsEdges) {
+  const spec::morphological::FollowingRules rules;
+  spec::morphological::Parameters p = preset_parameters(Preset::kDeburrLine);
+  const spec::morphological::Parameters fixed = golden::morphological::following_geometric(p);
+  EXPECT_EQ(fixed.leave, rules.leave);
+  EXPECT_EQ(fixed.edge_source, rules.edge_source);
+  EXPECT_EQ(fixed.threshold_on_depth_edge, rules.threshold_on_depth_edge);
+  EXPECT_EQ(fixed.threshold_off_depth_edge, rules.threshold_off_depth_edge);
+  p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
+  p.threshold_on_depth_edge = rules.threshold_on_depth_edge + 1;
+  const spec::morphological::Parameters dynamic = golden::morphological::following_geometric(p);
+  EXPECT_NE(p.leave, rules.leave);
+  EXPECT_EQ(dynamic.leave, rules.leave);
+  EXPECT_NE(p.edge_source, rules.edge_source);
+  EXPECT_EQ(dynamic.edge_source, p.edge_source);
+  EXPECT_EQ(dynamic.threshold_on_depth_edge, p.threshold_on_depth_edge);
 }
 
 TEST(NamedErrors, OfFramesSayWhatWouldFit) {

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "tb/unit/rtl/morphological/support.h"
+#include "tb/unit/rtl/morphological/placed_engine.h"
 
 namespace deburr::tb::morphological_rtl {
 namespace {
@@ -32,42 +32,15 @@ TEST_P(Sizes, GiveTheSamePixelsInEveryEngine) {
   const Kind kinds[] = {{0, spec::morphological::Storage::kLineBuffers},
                         {1, spec::morphological::Storage::kMemory},
                         {2, spec::morphological::Storage::kLineBuffers}};
-  struct One {
-    One(const std::string& prefix, ClockDomain& clock, const Parameters& p)
-        : driver((prefix + "driver").c_str(), clock),
-          engine((prefix + "engine").c_str(), clock, p),
-          sink((prefix + "sink").c_str(), clock),
-          bus((prefix + "bus").c_str()),
-          in((prefix + "in").c_str()),
-          out((prefix + "out").c_str()) {
-      driver.beats_out(in);
-      engine.pixels_in(in);
-      engine.pixels_out(out);
-      sink.beats_in(out);
-      bus.bus.bind(engine.registers);
-      if (engine.memory()) {
-        MemoryModelParameters m;
-        m.latency_max = 50;
-        memory = std::make_unique<MemoryModel>((prefix + "memory").c_str(), period(), m);
-        engine.memory()->bind(memory->ports);
-      }
-    }
-    Driver<spec::morphological::PixelBeat> driver;
-    rtl::morphological::MorphologicalEngine engine;
-    Sink<spec::morphological::BlendedBeat> sink;
-    RegisterHost bus;
-    Link<spec::morphological::PixelBeat> in;
-    Link<spec::morphological::BlendedBeat> out;
-    std::unique_ptr<MemoryModel> memory;
-  };
-  std::vector<std::unique_ptr<One>> engines;
+  std::vector<std::unique_ptr<PlacedEngine>> engines;
   std::uint64_t wanted = 0;
   for (const Kind& kind : kinds) {
     Parameters p = preset(Preset::kMlaaSlope, 6, 9);
     p.lanes = static_cast<spec::morphological::Lanes>(kind.lanes_code);
     p.storage = kind.storage;
     p.line_pixels = size.width;
-    engines.push_back(std::make_unique<One>("k" + std::to_string(kind.lanes_code) + "_", clock, p));
+    engines.push_back(
+        std::make_unique<PlacedEngine>("k" + std::to_string(kind.lanes_code), clock, p));
   }
   for (auto& one : engines) {
     one->engine.set_frame_size(size.width, size.height);

@@ -12,6 +12,7 @@
 
 #include "spec/morphological/learned_shares.h"
 #include "tb/unit/rtl/morphological/parts.h"
+#include "tb/unit/rtl/morphological/placed_engine.h"
 
 namespace deburr::tb::morphological_rtl {
 namespace {
@@ -491,21 +492,9 @@ TEST(Registers, ClearingEnableLetsTheFrameInsideFinish) {
 
 // ---- fields -------------------------------------------------------------------------------------
 
-// One engine of several on a clock.
-struct Engine {
-  Engine(const std::string& prefix, ClockDomain& clock, const P& p)
-      : driver((prefix + "_driver").c_str(), clock),
-        engine((prefix + "_engine").c_str(), clock, p),
-        sink((prefix + "_sink").c_str(), clock),
-        bus((prefix + "_bus").c_str()),
-        in((prefix + "_in").c_str()),
-        out((prefix + "_out").c_str()) {
-    driver.beats_out(in);
-    engine.pixels_in(in);
-    engine.pixels_out(out);
-    sink.beats_in(out);
-    bus.bus.bind(engine.registers);
-  }
+// Engines beside each other, each with the frames of its own.
+struct Engine : PlacedEngine {
+  using PlacedEngine::PlacedEngine;
   // Pixels and taps of the frame.
   std::vector<spec::morphological::BlendedBeat> run(ClockDomain& clock, const Frame& frame) {
     engine.set_frame_size(frame.width, frame.height);
@@ -517,12 +506,6 @@ struct Engine {
         clock.run_until([&] { return sink.beats().size() == wanted && engine.idle(); }, 500'000));
     return {sink.beats().begin() + static_cast<std::ptrdiff_t>(before), sink.beats().end()};
   }
-  Driver<spec::morphological::PixelBeat> driver;
-  rtl::morphological::MorphologicalEngine engine;
-  Sink<spec::morphological::BlendedBeat> sink;
-  RegisterHost bus;
-  Link<spec::morphological::PixelBeat> in;
-  Link<spec::morphological::BlendedBeat> out;
 };
 
 // Something for every rule: long stairs, steps of many heights side by side, bends, depth, marks.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The TagStage in the cache: merged misses, the order of fills, hits behind misses.
 #include <set>
+#include <tuple>
 
 #include "tb/unit/rtl/texture/cache_bench.h"
 
@@ -26,6 +27,28 @@ TEST(TextureRtlTagStage, SecondRequestForALineInFlightIsMerged) {
   EXPECT_EQ(b.ends.sink.taken[1].cycle, first + 1);
   EXPECT_EQ(b.ends.sink.taken[2].cycle, first + 2);
   EXPECT_EQ(b.ends.sink.taken[3].cycle, first + 3);
+}
+
+// The observer sees each line once a request, in the clock of its look-up.
+TEST(TextureRtlTagStage, ShowsWhatBecameOfEachLine) {
+  CacheBench b;
+  using Seen = std::tuple<Cycle, std::uint32_t, LookUp>;
+  std::vector<Seen> seen;
+  b.cache.tag_stage.observer = [&](Cycle cycle, std::uint32_t line, LookUp outcome) {
+    seen.emplace_back(cycle, line, outcome);
+  };
+  for (const auto& t : {in_line(0), in_line(0), request({64 * 3, 4, 64 * 3 + 4, 8})})
+    b.ends.source.add(t);
+  b.clock.run(60);
+  ASSERT_EQ(seen.size(), 4u);
+  const Cycle first = std::get<Cycle>(seen.front());
+  EXPECT_THAT(seen,
+              ElementsAre(Seen{first, 0, LookUp::kMiss}, Seen{first + 1, 0, LookUp::kMerged},
+                          Seen{first + 2, 3, LookUp::kMiss}, Seen{first + 2, 0, LookUp::kMerged}));
+  seen.clear();
+  const Cycle asked = b.clock.cycle();
+  b.time_of(in_line(3));
+  EXPECT_THAT(seen, ElementsAre(Seen{asked + 2, 3, LookUp::kHit}));
 }
 
 // The order of fills is the order of misses, whatever order memory answers in.
