@@ -46,8 +46,10 @@ class Testplans(CommandTest):
 
     def test_what_is_missing_or_twice(self):
         self.refuse("title: Small\n", "t.yaml:1: 'features' is missing")
-        self.refuse("features: []\n", "t.yaml:1: 'features' wants a list, got an empty one")
+        self.refuse(HEAD + "    coverage: []\n", "t.yaml:9: 'coverage' wants a list, got an empty list")
+        self.refuse("features: []\n", "t.yaml:1: 'features' wants a list, got an empty list")
         self.refuse(HEAD.replace("    checks: {colours: 1}\n", ""), "t.yaml:3: 'checks' is missing, and so is 'coverage'")
+        self.refuse(HEAD.replace("{colours: 1}", "{}"), "t.yaml:8: 'checks' wants a map of scoreboards to numbers, got an empty map")
         self.refuse(HEAD + HEAD[HEAD.index("  - id"):], "t.yaml:9: there are two features 'filtering'")
         self.refuse(HEAD.replace("    checks", "      - {name: base, engine: texture}\n    checks"),
                     "t.yaml:8: there are two stimuli 'base'")
@@ -103,6 +105,12 @@ class Testplans(CommandTest):
         self.expect(2, "regress", "t.yaml", "polish", says="polish")
         self.write("t.yaml", "features: [")
         self.expect(2, "regress", "t.yaml", "plan", says="not valid YAML")
+
+    def test_a_pipe_is_not_waited_for(self):
+        os.mkfifo(self.path("pipe.yaml"))
+        self.expect(5, "regress", "pipe.yaml", "plan", says="cannot read 'pipe.yaml': it is not a regular file")
+        self.expect(5, "sweep", "pipe.yaml", "plan", says="cannot read 'pipe.yaml': it is not a regular file")
+        self.expect(5, "run", "texture", "--config", "pipe.yaml", says="it is not a regular file")
 
 
 if __name__ == "__main__":

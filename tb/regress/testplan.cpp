@@ -91,8 +91,7 @@ class TestplanReader {
     const YAML::Node list = map[key];
     if (!list) yaml_.fail(map, fmt::format("'{}' is missing", key));
     if (!list.IsSequence() || list.size() == 0)
-      yaml_.fail(list, fmt::format("'{}' wants a list, got {}", key,
-                                   list.IsSequence() ? "an empty one" : YamlFile::kind(list)));
+      yaml_.fail(list, fmt::format("'{}' wants a list, got {}", key, YamlFile::kind(list)));
     return list;
   }
 
