@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "tb/scene/atomic_file.h"
+
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <sys/stat.h>

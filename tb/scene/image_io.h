@@ -6,7 +6,6 @@
 #pragma once
 
 #include <filesystem>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -62,12 +61,5 @@ void write_mask(const std::filesystem::path& path, const Mask& mask);  // 0 and 
 // renames it to `path`. Every step is checked: a full disk is reported here and the old file stays
 // as it was.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
-
-struct FileContent {
-  std::filesystem::path path;
-  std::string_view bytes;
-};
-// The same of files that belong together: none is replaced before all have been written.
-void write_files_atomically(std::initializer_list<FileContent> contents);
 
 }  // namespace deburr::tb

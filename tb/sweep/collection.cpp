@@ -17,7 +17,7 @@
 #include "tb/results/file.h"
 #include "tb/results/report.h"
 #include "tb/results/result.h"
-#include "tb/scene/image_io.h"
+#include "tb/scene/atomic_file.h"
 
 namespace deburr::tb {
 namespace {

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <limits>
 
+#include "tb/scene/atomic_file.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/textures.h"
 #include "tb/unit/scene/fixtures.h"
