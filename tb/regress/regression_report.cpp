@@ -212,7 +212,13 @@ mustache::data row_of(const Json& feature) {
   row.set("holds", feature.at("holds").get<bool>());
   for (const char* key : {"runs", "passed", "failed", "missing"}) row.set(key, grouped(count(key)));
   row.set("rate", percent(count("passed"), count("runs")));
-  std::uint64_t bins = 0, hit = 0;
+  std::uint64_t bins = 0, hit = 0, all_checks = 0, met = 0;
+  for (const char* list : {"checks", "coverage"})
+    for (const Json& check : feature.at(list)) {
+      ++all_checks;
+      met += check.at("met").get<bool>() ? 1 : 0;
+    }
+  row.set("checks_met", fmt::format("{} of {}", met, all_checks));
   mustache::data traces{mustache::data::type::list}, checks{mustache::data::type::list},
       coverage{mustache::data::type::list};
   for (const Json& trace : feature.at("traces")) {
