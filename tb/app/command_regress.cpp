@@ -32,7 +32,7 @@ constexpr const char* kDefaultTestplan = "tb/testplan/smoke.yaml";
 
 struct RegressOptions : PointOptions {
   std::string file = kDefaultTestplan, action = "run";
-  std::optional<std::uint64_t> seed;
+  std::optional<std::uint64_t> seed;  // given, or the day
   std::uint64_t divide = 1;
 
   // `deburr regress status` is about the default testplan.
@@ -50,7 +50,7 @@ class Regression {
   explicit Regression(const RegressOptions& options)
       : options_(options),
         testplan_(part_of(read_testplan(options.file), options.divide)),
-        base_seed_(options.seed.value_or(seed_of_today())),
+        base_seed_(options.seed.value()),
         place_(regression_place_of(options.out, testplan_.name, base_seed_)),
         what_(fmt::format("regression {} --seed {}", testplan_.name, base_seed_)) {}
 
@@ -129,12 +129,16 @@ class Regression {
           fmt::format("{} of {} runs passed", grouped(feature.passed), grouped(feature.runs())));
     for (const CheckResult& check : feature.checks)
       if (!check.met())
-        why.push_back(fmt::format("{}: {} comparisons of {}", check.required.scoreboard,
-                                  grouped(check.comparisons), grouped(check.required.minimum)));
+        why.push_back(check.unknown.empty()
+                          ? fmt::format("{}: {} comparisons of {}", check.required.scoreboard,
+                                        grouped(check.comparisons), grouped(check.required.minimum))
+                          : check.unknown);
     for (const CoverageResult& covered : feature.coverage)
-      if (!covered.holes.empty() || covered.bins == 0)
-        why.push_back(fmt::format("{}: {} of {} bins were not met", covered.required.glob,
-                                  grouped(covered.holes.size()), grouped(covered.bins)));
+      if (!covered.met())
+        why.push_back(covered.unknown.empty()
+                          ? fmt::format("{}: {} of {} bins were not met", covered.required.glob,
+                                        grouped(covered.holes.size()), grouped(covered.bins))
+                          : covered.unknown);
     return fmt::format("{}: {}", feature.feature->id, fmt::join(why, "; "));
   }
 
@@ -174,6 +178,10 @@ void add_regress(CLI::App& app, CommandLine& line) {
   add_point_options(*command, *options);
   command->callback([options, action, &line] {
     if (action->count() == 0) options->take_lone_action();
+    if (!options->seed) {
+      options->seed = seed_of_today();
+      line.text += fmt::format(" --seed {}", *options->seed);  // the same tomorrow
+    }
     line.action = [options] { return Regression(*options).act(); };
   });
 }

@@ -22,7 +22,7 @@ struct Outcome {
 };
 
 struct CommandLine {
-  std::string text;   // as typed
+  std::string text;   // as typed, and what does the same on another day
   bool json = false;  // the standard output is one JSON object
   std::function<Outcome()> action;
 };

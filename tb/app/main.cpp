@@ -146,10 +146,8 @@ int run(int argc, char** argv) {
       "--max-cycles reached, 4 deadlock, 5 file, 130 interrupted. The last line is RESULT: ..., "
       "on\n"
       "failure after REPRO: ...");
-  const std::string command = quoted_command(argc, argv);
-
-  deburr::tb::CommandLine line{command, false, nullptr};
-  const auto ended = [&](const Outcome& outcome) { return finish(outcome, command, line.json); };
+  deburr::tb::CommandLine line{quoted_command(argc, argv), false, nullptr};
+  const auto ended = [&](const Outcome& outcome) { return finish(outcome, line.text, line.json); };
   deburr::tb::add_run(app, line);
   deburr::tb::add_papers(app, line);
   deburr::tb::add_params(app, line);

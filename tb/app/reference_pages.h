@@ -4,7 +4,9 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tb/app/engine.h"
@@ -16,5 +18,7 @@ std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines)
 std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines);
 std::string registers_page();
 std::string coverage_page();
+// Names of all bins that runs of an engine may have.
+std::set<std::string> coverage_bins(std::string_view engine);
 
 }  // namespace deburr::tb

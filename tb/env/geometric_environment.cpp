@@ -596,7 +596,7 @@ void GeometricEnvironment::judge_traffic() {
   const auto judge = [&](const std::vector<std::uint64_t>& lines, std::size_t& judged, bool write) {
     for (; judged < lines.size(); ++judged)
       traffic_board_.got({static_cast<std::uint32_t>(lines[judged]), write},
-                         fmt::format("frame {}", current_));
+                         fmt::format("cycle {}", simulation().clock().cycle()));
   };
   judge(memory_.lines_read(), reads_judged_, false);
   judge(memory_.lines_written(), writes_judged_, true);

@@ -287,11 +287,12 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
       tap_board_("taps", describe_tap),
       run_board_("runs", 0, describe_run),
       line_board_("lines", 0, describe_line),
-      traffic_board_("memory lines", 0,
-                     [](const spec::morphological::FrameAccess& a) {
-                       return fmt::format("{} of address {:#x}", a.write ? "write" : "read",
-                                          a.address);
-                     }),
+      traffic_board_(
+          "memory lines", 0,
+          [](const spec::morphological::FrameAccess& a) {
+            return fmt::format("{} of address {:#x}", a.write ? "write" : "read", a.address);
+          },
+          [](const spec::morphological::FrameAccess& a) { return a.write ? 1u : 0u; }),
       register_board_(spec::morphological::kRegisters) {
   for (const MorphologicalInput& frame : frames)
     golden::morphological::check_frame(setup.morphological, frame.image.width, frame.image.height);
@@ -366,6 +367,7 @@ void MorphologicalEnvironment::expect() {
   runs_.clear();
   lines_.clear();
   if (!golden()) return;
+  expect_traffic();
   const DepthView depth =
       frame.depth.empty() ? DepthView() : DepthView(frame.depth, image.width, image.height);
   if (!setup_.expectation)
@@ -384,8 +386,18 @@ void MorphologicalEnvironment::start() {
   taken_before_ = pixels.pops();
 }
 
+// All writes ascending, all reads ascending; how they interleave is timing.
+void MorphologicalEnvironment::expect_traffic() {
+  if (!in_memory()) return;
+  const Image& image = frames_[current_].image;
+  for (const spec::morphological::FrameAccess& access :
+       golden::morphological::frame_traffic(setup_.pixel_base, image.width, image.height))
+    traffic_board_.expect(access);
+}
+
 void MorphologicalEnvironment::watch() {
   if (pixels.pops() == taken_before_ + 1) first_taken_ = pixels.last_pop();
+  if (in_memory()) judge_traffic();
 }
 
 void MorphologicalEnvironment::restart() {
@@ -401,6 +413,8 @@ void MorphologicalEnvironment::restart() {
   all_delivered_ = 0;
   pixel_board_.restart();
   tap_board_.restart();
+  traffic_board_.restart();
+  if (golden()) expect_traffic();
   hash_ = {};
   start();
 }
@@ -410,8 +424,8 @@ bool MorphologicalEnvironment::done() const {
 }
 
 void MorphologicalEnvironment::end() {
+  watch();
   judge_records();
-  judge_traffic();
 }
 
 void MorphologicalEnvironment::finish() {
@@ -547,25 +561,23 @@ void MorphologicalEnvironment::judge_records() {
   for (auto* list : {&lines, &lines_}) std::sort(list->begin(), list->end(), by_line);
   for (const spec::morphological::RunRecord& run : runs) run_board_.expect(run);
   for (const spec::morphological::LineRecord& line : lines) line_board_.expect(line);
-  const std::string where = fmt::format("frame {}", current_);
+  // In the order of the frame, which is not that of clocks.
+  const std::string where =
+      fmt::format("cycle {}, the end of frame {}", simulation().clock().cycle(), current_);
   for (const spec::morphological::RunRecord& run : runs_) run_board_.got(run, where);
   for (const spec::morphological::LineRecord& line : lines_) line_board_.got(line, where);
 }
 
-// All writes ascending, all reads ascending; how they interleave is timing.
 void MorphologicalEnvironment::judge_traffic() {
-  if (!in_memory()) return;
-  if (!golden()) return memory_->forget_lines();
-  for (const spec::morphological::FrameAccess& access :
-       golden::morphological::frame_traffic(setup_.pixel_base, frame_.width, frame_.height))
-    traffic_board_.expect(access);
-  const std::string where = fmt::format("frame {}", current_);
-  const auto judge_lines = [&](const std::vector<std::uint64_t>& lines, bool write) {
-    for (const std::uint64_t line : lines)
-      traffic_board_.got({static_cast<std::uint32_t>(line), write}, where);
-  };
-  judge_lines(memory_->lines_written(), true);
-  judge_lines(memory_->lines_read(), false);
+  if (golden()) {
+    const auto judge_lines = [&](const std::vector<std::uint64_t>& lines, bool write) {
+      for (const std::uint64_t line : lines)
+        traffic_board_.got({static_cast<std::uint32_t>(line), write},
+                           fmt::format("cycle {}", simulation().clock().cycle()));
+    };
+    judge_lines(memory_->lines_written(), true);
+    judge_lines(memory_->lines_read(), false);
+  }
   memory_->forget_lines();
 }
 

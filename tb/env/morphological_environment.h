@@ -115,6 +115,7 @@ class MorphologicalEnvironment final : public Environment {
   std::string memory_name() const { return name().empty() ? "memory" : "frame_memory"; }
   void start();
   void expect();
+  void expect_traffic();
   void judge(rtl::Cycle cycle, const spec::morphological::BlendedBeat& beat);
   void go_on_at_row(std::size_t row);
   void judge_records();

@@ -178,7 +178,7 @@ void TextureEnvironment::clear_outputs() {
   frame_ = golden_frame_ = FrameAssembler(scene_.stream(), scene_.scene()).frame();
   source_ = open();
   sent_ = {};
-  fills_judged_ = fills_forgotten_ = 0;
+  fills_judged_ = 0;
   delivered_ = 0;
   hash_ = {};
   if (maps_) maps_->clear();
@@ -201,10 +201,10 @@ void TextureEnvironment::watch() {
   if (golden())
     for (; fills_judged_ < memory_.lines_read().size(); ++fills_judged_)
       fill_board_.got({memory_.lines_read()[fills_judged_]},
-                      fmt::format("fill {}", fills_forgotten_ + fills_judged_));
+                      fmt::format("cycle {}", simulation().clock().cycle()));
   if (fetch_again_) return;
   memory_.forget_lines();
-  fills_forgotten_ += std::exchange(fills_judged_, 0);
+  fills_judged_ = 0;
 }
 
 bool TextureEnvironment::done() const {

@@ -147,7 +147,7 @@ class TextureEnvironment final : public Environment {
   std::unique_ptr<TextureMaps> maps_;
   std::optional<TextureCoverage> coverage_;
   // Of the lines that memory still knows, and of those before.
-  std::size_t fills_judged_ = 0, fills_forgotten_ = 0;
+  std::size_t fills_judged_ = 0;
   std::uint64_t delivered_ = 0;
   OutputHash hash_;
   bool fetch_again_ = false;

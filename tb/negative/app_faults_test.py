@@ -74,6 +74,9 @@ class Faults(CommandTest):
         _, result = self.fault("duplicate-fetch", 1, "line fills", *self.UNCHECKED)
         self.assertEqual(result["checks"]["mismatches"], 0, "the picture is perfect")
         self.assertGreater(result["checks"]["traffic_mismatches"], 0)
+        cycles = [int(re.fullmatch(r"cycle (\d+)", line["where"])[1]) for line in result["first_mismatches"]]
+        self.assertEqual(cycles, sorted(cycles))
+        self.assertLess(cycles[0], result["cycles"] // 2, "when it was seen, not when it was over")
 
     def test_duplicated_request(self):
         self.fault("duplicate-request", 3, "fill_buffer", *self.UNCHECKED)

@@ -1,7 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """Testplans that cannot be meant: each is a clear error that names its file and line. See --help."""
+import html
+import json
 import os
+import re
+import resource
 import unittest
 
 from app_support import CommandTest
@@ -10,17 +14,38 @@ HEAD = """title: Small
 features:
   - id: filtering
     title: Filtering
-    traces: [{page: unit.md, says: It filters.}]
+    traces: [{page: docs/unit.md, says: It filters.}]
     stimuli:
       - {name: base, engine: texture, base: {scene: {width: 8, height: 8}}}
     checks: {colours: 1}
+"""
+UNIT = """# Unit
+
+It
+filters. It stalls (a clock, e.g. here.) Is it *done?*
+
+So it has
+
+* two sides
+- one end
+
+| a | Rows have cells. And more |
+
+What follows: it
+
+What follows:
+
+```
+It is code.
+```
 """
 
 
 class Testplans(CommandTest):
     def setUp(self):
         super().setUp()
-        self.write("unit.md", "# Unit\n\nIt\nfilters. It stalls.\n")
+        os.makedirs(self.path("docs"))
+        self.write("docs/unit.md", UNIT)
 
     def refuse(self, text, *says, action="plan", code=2):
         self.write("t.yaml", text)
@@ -46,27 +71,64 @@ class Testplans(CommandTest):
 
     def test_what_is_missing_or_twice(self):
         self.refuse("title: Small\n", "t.yaml:1: 'features' is missing")
-        self.refuse("features: []\n", "t.yaml:1: 'features' wants a list, got an empty one")
+        self.refuse(HEAD + "    coverage: []\n", "t.yaml:9: 'coverage' wants a list, got an empty list")
+        self.refuse("features: []\n", "t.yaml:1: 'features' wants a list, got an empty list")
         self.refuse(HEAD.replace("    checks: {colours: 1}\n", ""), "t.yaml:3: 'checks' is missing, and so is 'coverage'")
+        self.refuse(HEAD.replace("{colours: 1}", "{}"),
+                    "t.yaml:8: 'checks' wants a map of scoreboards to numbers, got an empty map")
         self.refuse(HEAD + HEAD[HEAD.index("  - id"):], "t.yaml:9: there are two features 'filtering'")
         self.refuse(HEAD.replace("    checks", "      - {name: base, engine: texture}\n    checks"),
                     "t.yaml:8: there are two stimuli 'base'")
         self.refuse(HEAD.replace("colours: 1", "colours: 0"), "t.yaml:8: 'colours' = '0' is outside 1..")
         self.refuse(HEAD.replace("id: filtering", "id: Filter it"), "t.yaml:3: 'id' = 'Filter it' wants")
 
+    def says(self, text):
+        return HEAD.replace("says: It filters.", f"says: '{text}'")
+
     def test_a_page_that_has_changed(self):
-        self.refuse(HEAD.replace("It filters.", "It filtered."), "t.yaml:5: 'unit.md' does not say 'It filtered.'")
-        self.refuse(HEAD.replace("page: unit.md", "page: units.md"), "t.yaml:5: there is no page 'units.md'")
-        self.write("unit.md", "# Unit\n\nIt copies.\n")
-        self.refuse(HEAD, "t.yaml:5: 'unit.md' does not say 'It filters.'")
+        self.refuse(self.says("It filtered."), "t.yaml:5: 'docs/unit.md' does not say 'It filtered.'")
+        self.refuse(HEAD.replace("docs/unit.md", "docs/units.md"), "t.yaml:5: there is no page 'docs/units.md'")
+        self.write("docs/unit.md", "# Unit\n\nIt copies.\n")
+        self.refuse(HEAD, "t.yaml:5: 'docs/unit.md' does not say 'It filters.'")
+
+    def test_whole_sentences(self):
+        for text in ("I", "It", "filters.", "It filters. It", "It stalls", "here.)", "done?*", "So it has", "two",
+                     "sides", "And more", "have cells.", "Rows have cells. And more", "a", "What follows: it"):
+            self.refuse(self.says(text), f"t.yaml:5: '{text}' is no whole sentence of 'docs/unit.md'")
+        for text in ("Unit", "# Unit", "code."):
+            self.refuse(self.says(text), "t.yaml:5: 'docs/unit.md' does not say")
+        for text in ("It filters.", "It stalls (a clock, e.g. here.)", "It filters. It stalls (a clock, e.g. here.)",
+                     "Is it *done?*", "two sides", "Rows have cells.", "| a | Rows have cells. And more |",
+                     "What follows:"):
+            self.write("t.yaml", self.says(text))
+            self.expect(0, "regress", "t.yaml", "plan", "--seed", "1")
+
+    def test_pages_of_the_documentation_alone(self):
+        self.write("other.md", UNIT)
+        for page in ("/etc/passwd", "etc/passwd", "other.md", "docs/../other.md", "docs/unit.txt", "docs",
+                     self.path("docs/unit.md")):
+            self.refuse(HEAD.replace("docs/unit.md", page),
+                        f"t.yaml:5: 'page' = '{page}' wants a page of the documentation")
 
     def test_globs(self):
         self.refuse(HEAD + "    coverage: ['texture/[ab]']\n", "t.yaml:9: 'texture/[ab]' is no glob")
         self.refuse(HEAD + "    coverage: ['texture/cash/hit']\n",
-                    "t.yaml:9: no run has bins 'texture/cash/hit'", "did you mean 'texture/cache/hit'",
-                    action="run")
-        self.refuse(HEAD.replace("colours: 1", "colors: 1"),
-                    "t.yaml:8: no run has the scoreboard 'colors'", "did you mean 'colours'?", action="run")
+                    "t.yaml:9: no bin of the feature's engines is called 'texture/cash/hit'",
+                    "did you mean 'texture/cache/hit'")
+        self.refuse(HEAD + "    coverage: ['morphological/*']\n",
+                    "t.yaml:9: no bin of the feature's engines is called 'morphological/*'")
+
+    def test_a_scoreboard_that_no_run_has_is_a_check_that_failed(self):
+        self.write("t.yaml", HEAD.replace("colours: 1", "colors: 1"))
+        why = ("t.yaml:8: no run of this feature has a scoreboard 'colors' (there are colours, line fills, "
+               "status registers): did you mean 'colours'?")
+        self.expect(1, "regress", "t.yaml", "--seed", "1", says=("1 passed, 0 failed", why))
+        with open(self.path("out/regressions/t-1/collected.json")) as file:
+            collected = json.load(file)
+        self.assertIn(why, collected["features"][0]["checks"][0]["unknown"])
+        for name in ("junit.xml", "index.html"):
+            with open(self.path("out/regressions/t-1/" + name)) as file:
+                self.assertIn(why, html.unescape(file.read()))
 
     def test_what_the_engine_refuses(self):
         text = HEAD.replace("engine: texture, base: {scene: {width: 8, height: 8}}",
@@ -82,10 +144,38 @@ class Testplans(CommandTest):
         self.expect(5, "regress", "plan", says="cannot open 'tb/testplan/smoke.yaml'")
         os.makedirs(self.path("tb/testplan"))
         self.write("tb/testplan/smoke.yaml", HEAD)
-        self.write("tb/testplan/unit.md", "It filters.\n")
         self.expect(0, "regress", "plan", "--seed", "1", says="PASS regression smoke --seed 1: 1 point")
         self.write("plan", HEAD)  # a file of this name is one
         self.expect(0, "regress", "plan", "plan", "--seed", "1", says="PASS regression plan --seed 1: 1 point")
+
+    def test_what_reproduces_it_on_another_day(self):
+        self.write("t.yaml", HEAD.replace("colours: 1", "colours: 1000000"))
+        done = self.expect(1, "regress", "t.yaml", "--quiet")
+        seed = re.search(r"RESULT: FAIL regression t --seed (\d+):", done.stdout)[1]
+        self.assertRegex(done.stdout, rf"(?m)^REPRO: \S+ regress t.yaml --quiet --seed {seed}$")
+        done = self.expect(1, "regress", "t.yaml", "--seed", "5")
+        self.assertRegex(done.stdout, r"(?m)^REPRO: \S+ regress t.yaml --seed 5$")
+
+    def test_a_full_disk_leaves_the_report_of_before(self):
+        self.write("t.yaml", HEAD)
+        self.expect(0, "regress", "t.yaml", "--seed", "1")
+        place = self.path("out/regressions/t-1")
+
+        def report():
+            files = {}
+            for name in os.listdir(place):
+                if name in ("junit.xml", "collected.json", "index.html") or name.endswith(".tmp"):
+                    with open(os.path.join(place, name)) as file:
+                        files[name] = file.read()
+            return files
+        before = report()
+        self.assertEqual(len(before), 3)
+        self.write("t.yaml", HEAD.replace("Filtering", "Filtered"))
+        self.expect(5, "regress", "t.yaml", "collect", "--seed", "1", says=("cannot write", "index.html"),
+                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000)))
+        self.assertEqual(report(), before)
+        self.expect(0, "regress", "t.yaml", "collect", "--seed", "1")
+        self.assertTrue(all(report()[name] != before[name] for name in ("collected.json", "index.html")))
 
     def test_seeds(self):
         self.write("t.yaml", HEAD)
@@ -103,6 +193,12 @@ class Testplans(CommandTest):
         self.expect(2, "regress", "t.yaml", "polish", says="polish")
         self.write("t.yaml", "features: [")
         self.expect(2, "regress", "t.yaml", "plan", says="not valid YAML")
+
+    def test_a_pipe_is_not_waited_for(self):
+        os.mkfifo(self.path("pipe.yaml"))
+        self.expect(5, "regress", "pipe.yaml", "plan", says="cannot read 'pipe.yaml': it is not a regular file")
+        self.expect(5, "sweep", "pipe.yaml", "plan", says="cannot read 'pipe.yaml': it is not a regular file")
+        self.expect(5, "run", "texture", "--config", "pipe.yaml", says="it is not a regular file")
 
 
 if __name__ == "__main__":

@@ -46,8 +46,8 @@ class Definitions(Sweeps):
         self.refuse(BASE + "axes: {memory.latency: {from: 60, to: 50}}\n",
                     "axis 'memory.latency' is empty: from 60 to 50")
         self.refuse(BASE + "axes: {memory.latency: {from: 1, to: 9, step: 0}}\n", "never gets from")
-        self.refuse(BASE + "axes: {}\n", "'axes' wants a map of parameters to values")
-        self.refuse(BASE + "points: []\n", "'points' wants a list of maps, got an empty one")
+        self.refuse(BASE + "axes: {}\n", "'axes' wants a map of parameters to values, got an empty map")
+        self.refuse(BASE + "points: []\n", "'points' wants a list of maps, got an empty list")
         self.refuse(BASE, "nothing is varied")
         self.refuse(BASE + "axes: {run.stalls: {from: 0, to: 0.5}}\n", "has no end of values")
 

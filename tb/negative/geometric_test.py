@@ -193,6 +193,8 @@ class Faults(Base):
 
     def test_caches(self):
         result = self.fault("wrong-replacement", 1, 1, board="memory lines")
+        cycles = [int(line["where"].split()[1]) for line in result["first_mismatches"]]
+        self.assertLess(cycles[0], cycles[-1], "each as it went by")
         self.assertEqual(result["checks"]["mismatches"], 0, "the picture stays")
 
     def test_originals(self):

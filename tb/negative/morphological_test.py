@@ -370,6 +370,9 @@ class Faults(Base):
 
     def test_duplicated_request(self):
         self.fault("duplicate-fetch", 1, "memory lines", *self.UNCHECKED, *self.MEMORY)
+        result = self.result()
+        self.assertRegex(result["first_mismatches"][0]["where"], r"^cycle \d+$")
+        self.assertLess(int(result["first_mismatches"][0]["where"].split()[1]), result["cycles"] // 2, "request 20")
         self.fault("duplicate-fetch", 3, "appeared", *self.CHECKED, *self.MEMORY)
 
     def test_lost_response(self):

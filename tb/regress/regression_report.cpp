@@ -12,7 +12,7 @@
 #include "tb/results/build_info.h"
 #include "tb/results/embedded.h"
 #include "tb/results/report.h"
-#include "tb/scene/image_io.h"
+#include "tb/scene/atomic_file.h"
 
 namespace deburr::tb {
 namespace {
@@ -44,16 +44,25 @@ Json to_json(const FeatureResult& result) {
                {"coverage", Json::array()}};
   for (const TracedSentence& trace : feature.traces)
     json["traces"].push_back({{"page", trace.page.string()}, {"says", trace.says}});
+  const auto add = [&](const char* list, Json entry, const std::string& unknown) {
+    if (!unknown.empty()) entry["unknown"] = unknown;
+    json[list].push_back(std::move(entry));
+  };
   for (const CheckResult& check : result.checks)
-    json["checks"].push_back({{"scoreboard", check.required.scoreboard},
-                              {"minimum", check.required.minimum},
-                              {"comparisons", check.comparisons},
-                              {"met", check.met()}});
+    add("checks",
+        {{"scoreboard", check.required.scoreboard},
+         {"minimum", check.required.minimum},
+         {"comparisons", check.comparisons},
+         {"met", check.met()}},
+        check.unknown);
   for (const CoverageResult& covered : result.coverage)
-    json["coverage"].push_back({{"glob", covered.required.glob},
-                                {"bins", covered.bins},
-                                {"hit", covered.bins - covered.holes.size()},
-                                {"holes", covered.holes}});
+    add("coverage",
+        {{"glob", covered.required.glob},
+         {"bins", covered.bins},
+         {"hit", covered.bins - covered.holes.size()},
+         {"met", covered.met()},
+         {"holes", covered.holes}},
+        covered.unknown);
   return json;
 }
 
@@ -108,6 +117,18 @@ Json json_of(const Testplan& testplan, std::uint64_t base_seed, const Plan& plan
   for (const FailureBucket& bucket : result.buckets)
     json["buckets"].push_back(to_json(bucket, result, place));
   for (const auto& [engine, bins] : result.coverage) json["coverage"][engine] = to_json(bins);
+  // A glob of bins is a check too, as in JUnit.
+  std::uint64_t checks = 0, failed_checks = 0, holes = 0;
+  for (const Json& feature : json["features"])
+    for (const char* list : {"checks", "coverage"})
+      for (const Json& check : feature[list]) {
+        ++checks;
+        failed_checks += check["met"].get<bool>() ? 0 : 1;
+        if (check.contains("holes")) holes += check["holes"].size();
+      }
+  json["counts"]["checks"] = checks;
+  json["counts"]["failed_checks"] = failed_checks;
+  json["counts"]["holes"] = holes;
   double seconds = 0;
   for (const RegressionRun& run : result.runs) {
     seconds += run.seconds;
@@ -147,17 +168,18 @@ std::string junit_of(const Testplan& testplan, const RegressionResult& result) {
       report.add(test);
     }
     for (const CheckResult& check : feature.checks)
-      report.add(
-          {"checks: " + check.required.scoreboard, 0,
-           check.met() ? JunitOutcome::kPassed : JunitOutcome::kFailed, "checks",
-           fmt::format("{} comparisons, {} are wanted", check.comparisons, check.required.minimum),
-           check.required.where});
+      report.add({"checks: " + check.required.scoreboard, 0,
+                  check.met() ? JunitOutcome::kPassed : JunitOutcome::kFailed, "checks",
+                  check.unknown.empty() ? fmt::format("{} comparisons, {} are wanted",
+                                                      check.comparisons, check.required.minimum)
+                                        : check.unknown,
+                  check.required.where});
     for (const CoverageResult& covered : feature.coverage)
       report.add({"coverage: " + covered.required.glob, 0,
-                  covered.bins > 0 && covered.holes.empty() ? JunitOutcome::kPassed
-                                                            : JunitOutcome::kFailed,
-                  "coverage",
-                  fmt::format("{} of {} bins were not met", covered.holes.size(), covered.bins),
+                  covered.met() ? JunitOutcome::kPassed : JunitOutcome::kFailed, "coverage",
+                  covered.unknown.empty() ? fmt::format("{} of {} bins were not met",
+                                                        covered.holes.size(), covered.bins)
+                                          : covered.unknown,
                   fmt::format("{}\n{}", covered.required.where, fmt::join(covered.holes, "\n"))});
     report.end_suite();
   }
@@ -178,6 +200,10 @@ mustache::data list_of(const Json& texts) {
   return list;
 }
 
+void tell_unknown(const Json& check, mustache::data& entry) {
+  if (check.contains("unknown")) entry.set("unknown", check.at("unknown").get<std::string>());
+}
+
 mustache::data row_of(const Json& feature) {
   const auto count = [&](const char* key) { return feature.at(key).get<std::uint64_t>(); };
   mustache::data row;
@@ -186,7 +212,13 @@ mustache::data row_of(const Json& feature) {
   row.set("holds", feature.at("holds").get<bool>());
   for (const char* key : {"runs", "passed", "failed", "missing"}) row.set(key, grouped(count(key)));
   row.set("rate", percent(count("passed"), count("runs")));
-  std::uint64_t bins = 0, hit = 0;
+  std::uint64_t bins = 0, hit = 0, all_checks = 0, met = 0;
+  for (const char* list : {"checks", "coverage"})
+    for (const Json& check : feature.at(list)) {
+      ++all_checks;
+      met += check.at("met").get<bool>() ? 1 : 0;
+    }
+  row.set("checks_met", fmt::format("{} of {}", met, all_checks));
   mustache::data traces{mustache::data::type::list}, checks{mustache::data::type::list},
       coverage{mustache::data::type::list};
   for (const Json& trace : feature.at("traces")) {
@@ -201,6 +233,7 @@ mustache::data row_of(const Json& feature) {
     entry.set("comparisons", grouped(check.at("comparisons").get<std::uint64_t>()));
     entry.set("minimum", grouped(check.at("minimum").get<std::uint64_t>()));
     entry.set("short", !check.at("met").get<bool>());
+    tell_unknown(check, entry);
     checks << entry;
   }
   for (const Json& covered : feature.at("coverage")) {
@@ -212,6 +245,7 @@ mustache::data row_of(const Json& feature) {
     entry.set("hit", grouped(covered.at("hit").get<std::uint64_t>()));
     entry.set("has_holes", !covered.at("holes").empty());
     entry.set("holes", list_of(covered.at("holes")));
+    tell_unknown(covered, entry);
     coverage << entry;
   }
   row.set("covered", bins == 0 ? "-" : fmt::format("{} of {}", grouped(hit), grouped(bins)));
@@ -219,6 +253,21 @@ mustache::data row_of(const Json& feature) {
   row.set("checks", checks);
   row.set("coverage", coverage);
   return row;
+}
+
+// "9 of 12 runs passed, 3 failed; 1 of 5 checks failed; 2 bins of their coverage were not met"
+std::string figures_of(const Json& json) {
+  const auto count = [&](const char* key) {
+    return json.at("counts").at(key).get<std::uint64_t>();
+  };
+  std::string text =
+      fmt::format("{} of {} runs passed", grouped(count("passed")), grouped(count("runs")));
+  for (const char* key : {"failed", "missing"})
+    if (count(key) > 0) text += fmt::format(", {} {}", grouped(count(key)), key);
+  text += fmt::format("; {} of {} checks failed; {} bins of their coverage were not met",
+                      grouped(count("failed_checks")), grouped(count("checks")),
+                      grouped(count("holes")));
+  return text;
 }
 
 mustache::data card_of(const Json& bucket) {
@@ -252,6 +301,10 @@ std::string page_of(const Json& json) {
   for (const char* key : {"runs", "passed", "failed", "missing"})
     page.set(key, grouped(count(key)));
   page.set("rate", percent(count("passed"), count("runs")));
+  const bool holds = json.at("holds").get<bool>();
+  page.set("verdict", std::string(holds ? "PASSED" : "FAILED"));
+  page.set("badge", std::string(holds ? "pass" : "fail"));
+  page.set("figures", figures_of(json));
   page.set("left_out", list_of(json.at("left_out")));
   // The page draws the features' rates; what it lists, it has as text.
   Json drawn = Json::array();
@@ -290,10 +343,12 @@ std::string page_of(const Json& json) {
 void write_regression(const Testplan& testplan, std::uint64_t base_seed, const Plan& plan,
                       const SweepPlace& place, const RegressionResult& result) {
   const Json json = json_of(testplan, base_seed, plan, place, result);
-  write_file_atomically(place.directory / "junit.xml", junit_of(testplan, result));
-  write_file_atomically(place.directory / "collected.json",
-                        json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-  write_file_atomically(place.directory / "index.html", page_of(json));
+  const std::string junit = junit_of(testplan, result),
+                    collected = json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n",
+                    page = page_of(json);
+  write_files_atomically({{place.directory / "junit.xml", junit},
+                          {place.directory / "collected.json", collected},
+                          {place.directory / "index.html", page}});
 }
 
 }  // namespace deburr::tb

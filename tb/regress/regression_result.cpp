@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "rtl_model/fabric/trace.h"
-#include "spec/error.h"
 #include "tb/regress/failure_message.h"
 #include "tb/results/file.h"
 #include "tb/results/parameter_set.h"
@@ -22,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using spec::ConfigError;
 
 constexpr std::size_t kMaxResultBytes = 64u << 20;
 
@@ -110,10 +108,11 @@ class Collector {
   static void judge(FeatureResult& feature, const Seen& seen) {
     for (const RequiredCheck& check : feature.feature->checks) {
       const auto found = seen.comparisons.find(check.scoreboard);
+      CheckResult result{check, found == seen.comparisons.end() ? 0 : found->second};
       if (found == seen.comparisons.end() && feature.passed > 0)
-        refuse(check.where, "no run has the scoreboard", check.scoreboard,
-               keys_of(seen.comparisons));
-      feature.checks.push_back({check, found == seen.comparisons.end() ? 0 : found->second});
+        result.unknown =
+            unknown(check.where, "scoreboard", check.scoreboard, keys_of(seen.comparisons));
+      feature.checks.push_back(std::move(result));
     }
     for (const RequiredBins& bins : feature.feature->coverage) {
       CoverageResult covered{bins, 0, {}};
@@ -123,15 +122,22 @@ class Collector {
         if (hits == 0) covered.holes.push_back(bin);
       }
       if (covered.bins == 0 && feature.passed > 0)
-        refuse(bins.where, "no run has bins", bins.glob, keys_of(seen.bins));
+        covered.unknown = unknown(bins.where, "bin", bins.glob, groups_of(seen.bins));
       feature.coverage.push_back(std::move(covered));
     }
   }
 
-  [[noreturn]] static void refuse(const std::string& where, std::string_view what,
-                                  const std::string& name, const std::vector<std::string>& known) {
-    throw ConfigError(fmt::format("{}: {} '{}' of this feature{}", where, what, name,
-                                  did_you_mean(near_matches(name, known))));
+  static std::string unknown(const std::string& where, std::string_view what,
+                             const std::string& name, const std::vector<std::string>& known) {
+    return fmt::format("{}: no run of this feature has a {} '{}' (there are {}){}", where, what,
+                       name, fmt::join(known, ", "), did_you_mean(near_matches(name, known)));
+  }
+
+  // Bins are too many to be listed: "texture/cache/*".
+  static std::vector<std::string> groups_of(const Bins& bins) {
+    std::set<std::string> groups;
+    for (const auto& [bin, hits] : bins) groups.insert(bin.substr(0, bin.rfind('/') + 1) + "*");
+    return {groups.begin(), groups.end()};
   }
 
   // The most frequent first.
@@ -167,7 +173,7 @@ bool FeatureResult::holds() const {
   return failed + missing == 0 &&
          std::all_of(checks.begin(), checks.end(), [](const auto& check) { return check.met(); }) &&
          std::all_of(coverage.begin(), coverage.end(),
-                     [](const auto& covered) { return covered.bins > 0 && covered.holes.empty(); });
+                     [](const auto& covered) { return covered.met(); });
 }
 
 bool RegressionResult::holds() const {

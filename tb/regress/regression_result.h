@@ -29,6 +29,7 @@ struct RegressionRun {
 struct CheckResult {
   RequiredCheck required;
   std::uint64_t comparisons = 0;
+  std::string unknown{};  // none of its runs has this scoreboard: where that is said, and what is
   bool met() const { return comparisons >= required.minimum; }
 };
 
@@ -37,6 +38,8 @@ struct CoverageResult {
   RequiredBins required;
   std::uint64_t bins = 0;
   std::vector<std::string> holes;
+  std::string unknown{};  // none of its runs has such a bin
+  bool met() const { return bins > 0 && holes.empty(); }
 };
 
 struct FeatureResult {
@@ -65,8 +68,7 @@ struct RegressionResult {
   bool holds() const;
 };
 
-// Reads what is there. ConfigError for checks and coverage that no run of their feature knows.
-// `testplan` must outlive the result.
+// Reads what is there. `testplan` must outlive the result.
 RegressionResult collect_regression(const Testplan& testplan, const SweepPlace& place);
 
 // The first run of each bucket once more, with waves around the cycle in which it failed.
@@ -75,7 +77,8 @@ std::vector<PlannedPoint> runs_with_waves(const RegressionResult& result, const 
 void add_waves(RegressionResult& result, const std::vector<PlannedPoint>& runs,
                const SweepPlace& place);
 
-// junit.xml, collected.json and index.html in the regression's directory.
+// junit.xml, collected.json and index.html in the regression's directory: all of them, or FileError
+// and those of before.
 void write_regression(const Testplan& testplan, std::uint64_t base_seed, const Plan& plan,
                       const SweepPlace& place, const RegressionResult& result);
 

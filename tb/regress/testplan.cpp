@@ -7,11 +7,15 @@
 #include <cctype>
 #include <map>
 #include <optional>
+#include <set>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "rtl_model/fabric/trace.h"
 #include "spec/error.h"
+#include "tb/app/reference_pages.h"
 #include "tb/results/file.h"
 #include "tb/results/parameter_set.h"
 #include "tb/results/yaml_file.h"
@@ -39,29 +43,123 @@ std::string with_single_blanks(std::string_view text) {
   return out;
 }
 
+// What a page of Markdown says: sentences, in paragraphs, items of lists and tables. Headings and
+// code say nothing.
+class Page {
+ public:
+  explicit Page(const std::string& markdown) {
+    std::istringstream lines(markdown);
+    for (std::string line; std::getline(lines, line);) read(with_single_blanks(line));
+    end_block();
+  }
+
+  // Whole sentences of one block, or all of an item or row.
+  bool says(const std::string& text) const {
+    return any_of_places(text, [&](const Block& block, std::size_t from) {
+      return begins_at(block.text, from) && ends_at(block, from + text.size());
+    });
+  }
+  bool has(const std::string& text) const {
+    return any_of_places(text, [](const Block&, std::size_t) { return true; });
+  }
+
+ private:
+  struct Block {
+    std::string text;
+    bool whole;  // its end is one of a sentence, whatever it ends with
+  };
+
+  void read(const std::string& line) {
+    if (line.starts_with("```")) in_code_ = !in_code_;
+    if (in_code_ || line.empty() || line.starts_with("```") || line.starts_with("#")) {
+      end_block();
+    } else if (line.starts_with("|")) {
+      end_block();
+      read_row(line);
+    } else if (const std::size_t marker = list_marker(line); marker > 0) {
+      end_block();
+      open_ = {line.substr(marker), true};
+    } else {
+      open_.text += (open_.text.empty() ? "" : " ") + line;
+    }
+  }
+
+  void read_row(const std::string& row) {
+    blocks_.push_back({row, true});
+    std::istringstream cells(row);
+    for (std::string cell; std::getline(cells, cell, '|');) {
+      open_ = {with_single_blanks(cell), false};
+      end_block();
+    }
+  }
+
+  void end_block() {
+    if (!open_.text.empty()) blocks_.push_back(std::move(open_));
+    open_ = {"", false};
+  }
+
+  // "* ", "- ", "12. "
+  static std::size_t list_marker(const std::string& line) {
+    const std::size_t digits = line.find_first_not_of("0123456789");
+    if (digits == std::string::npos) return 0;
+    const bool numbered = digits > 0 && line.substr(digits, 2) == ". ";
+    const bool plain = line.starts_with("* ") || line.starts_with("- ");
+    return numbered ? digits + 2 : plain ? 2 : 0;
+  }
+
+  // Behind a full stop, and what closes behind it.
+  static bool is_over_at(const std::string& text, std::size_t at) {
+    while (at > 0 && std::string_view(")]*_`'\"").find(text[at - 1]) != std::string_view::npos)
+      --at;
+    return at > 0 && std::string_view(".?!").find(text[at - 1]) != std::string_view::npos;
+  }
+  // "e.g. this" is no beginning.
+  static bool begins_at(const std::string& text, std::size_t at) {
+    return at == 0 || (text[at - 1] == ' ' && is_over_at(text, at - 1) &&
+                       std::islower(static_cast<unsigned char>(text[at])) == 0);
+  }
+  static bool ends_at(const Block& block, std::size_t at) {
+    if (at < block.text.size()) return block.text[at] == ' ' && begins_at(block.text, at + 1);
+    return block.whole || block.text.back() == ':' || is_over_at(block.text, at);
+  }
+
+  template <class Fits>
+  bool any_of_places(const std::string& text, Fits fits) const {
+    for (const Block& block : blocks_)
+      for (std::size_t at = block.text.find(text); at != std::string::npos;
+           at = block.text.find(text, at + 1))
+        if (fits(block, at)) return true;
+    return false;
+  }
+
+  std::vector<Block> blocks_;
+  Block open_{"", false};
+  bool in_code_ = false;
+};
+
 class Pages {
  public:
   explicit Pages(const fs::path& testplan) : folder_(fs::absolute(testplan).parent_path()) {}
 
   // nullptr where there is no such page.
-  const std::string* text_of(const fs::path& page) {
-    const auto [entry, is_new] = texts_.try_emplace(page.string());
+  const Page* find(const fs::path& page) {
+    const auto [entry, is_new] = pages_.try_emplace(page.string());
     if (is_new) entry->second = read(page);
     return entry->second ? &*entry->second : nullptr;
   }
 
  private:
-  std::optional<std::string> read(const fs::path& page) const {
+  std::optional<Page> read(const fs::path& page) const {
     for (fs::path folder = folder_;; folder = folder.parent_path()) {
       std::error_code error;
       if (fs::is_regular_file(folder / page, error))
-        return with_single_blanks(read_file(folder / page, kMaxPageBytes));
+        return Page(read_file(folder / page, kMaxPageBytes));
       if (folder == folder.parent_path()) return std::nullopt;
     }
   }
 
   fs::path folder_;
-  std::map<std::string, std::optional<std::string>> texts_;
+  std::map<std::string, std::optional<Page>> pages_;
 };
 
 class TestplanReader {
@@ -91,8 +189,7 @@ class TestplanReader {
     const YAML::Node list = map[key];
     if (!list) yaml_.fail(map, fmt::format("'{}' is missing", key));
     if (!list.IsSequence() || list.size() == 0)
-      yaml_.fail(list, fmt::format("'{}' wants a list, got {}", key,
-                                   list.IsSequence() ? "an empty one" : YamlFile::kind(list)));
+      yaml_.fail(list, fmt::format("'{}' wants a list, got {}", key, YamlFile::kind(list)));
     return list;
   }
 
@@ -125,25 +222,42 @@ class TestplanReader {
       feature.stimuli.push_back(std::move(stimulus));
     }
     read_checks(node, feature);
-    if (node["coverage"])
+    if (node["coverage"]) {
+      const std::vector<std::string> bins = bins_of(feature);
       for (const YAML::Node& glob : list_of(node, "coverage"))
-        feature.coverage.push_back({read_glob(glob), yaml_.where(glob)});
+        feature.coverage.push_back({read_glob(glob, bins), yaml_.where(glob)});
+    }
     return feature;
+  }
+
+  // Wherever it is looked for, it leads nowhere else.
+  static bool is_in_docs(const fs::path& page) {
+    return page.begin() != page.end() && *page.begin() == "docs" && page.extension() == ".md" &&
+           std::find(page.begin(), page.end(), "..") == page.end();
   }
 
   TracedSentence read(const YAML::Node& node) {
     yaml_.require_keys(node, {"page", "says"});
     TracedSentence trace{text_of(node, "page"), with_single_blanks(text_of(node, "says"))};
-    const std::string* page = pages_.text_of(trace.page);
+    if (!is_in_docs(trace.page))
+      yaml_.fail(node["page"],
+                 fmt::format("'page' = '{}' wants a page of the documentation, docs/....md",
+                             trace.page.string()));
+    const Page* page = pages_.find(trace.page);
     if (!page)
       yaml_.fail(node["page"], fmt::format("there is no page '{}' in the folders around this file",
                                            trace.page.string()));
     if (trace.says.empty()) yaml_.fail(node["says"], "'says' wants a sentence of the page");
-    if (page->find(trace.says) == std::string::npos)
-      yaml_.fail(node["says"],
-                 fmt::format("'{}' does not say '{}': if the page has changed, look whether the "
-                             "feature is still checked, and quote what it says now",
-                             trace.page.string(), trace.says));
+    if (!page->says(trace.says))
+      yaml_.fail(
+          node["says"],
+          page->has(trace.says)
+              ? fmt::format("'{}' is no whole sentence of '{}': quote it from its beginning to its "
+                            "full stop, or a whole item of a list or row of a table",
+                            trace.says, trace.page.string())
+              : fmt::format("'{}' does not say '{}': if the page has changed, look whether the "
+                            "feature is still checked, and quote what it says now",
+                            trace.page.string(), trace.says));
     return trace;
   }
 
@@ -159,7 +273,7 @@ class TestplanReader {
     return stimulus;
   }
 
-  // Scoreboards are known only to the runs: collect() judges their names.
+  // Scoreboards are known only to the runs: one that none of them has is a check that failed.
   void read_checks(const YAML::Node& node, Feature& feature) const {
     const YAML::Node checks = node["checks"];
     if (!checks && !node["coverage"])
@@ -178,12 +292,25 @@ class TestplanReader {
     }
   }
 
-  std::string read_glob(const YAML::Node& node) const {
+  static std::vector<std::string> bins_of(const Feature& feature) {
+    std::set<std::string> engines, bins;
+    for (const Stimulus& stimulus : feature.stimuli) engines.insert(stimulus.configurations.engine);
+    for (const std::string& engine : engines) bins.merge(coverage_bins(engine));
+    return {bins.begin(), bins.end()};
+  }
+
+  // Of bins that the engines may have; whether the feature's own runs have them, they show.
+  std::string read_glob(const YAML::Node& node, const std::vector<std::string>& bins) const {
     std::string glob = yaml_.scalar(node, "coverage");
     if (glob.empty() || glob.find_first_of("[]{}!\\") != std::string::npos)
       yaml_.fail(node, fmt::format("'{}' is no glob: * stands for any text, ? for any character, "
                                    "and [, {{, ! and \\ for nothing",
                                    glob));
+    if (std::none_of(bins.begin(), bins.end(),
+                     [&](const std::string& bin) { return rtl::glob_match(glob, bin); }))
+      yaml_.fail(node, fmt::format("no bin of the feature's engines is called '{}'{} "
+                                   "(docs/coverage.md)",
+                                   glob, did_you_mean(near_matches(glob, bins))));
     return glob;
   }
 

@@ -12,7 +12,7 @@
 
 namespace deburr::tb {
 
-// A sentence of a page that a feature is traced to.
+// What a page says that a feature is traced to: whole sentences, or an item or row.
 struct TracedSentence {
   std::filesystem::path page;  // as the testplan names it
   std::string says;
@@ -53,8 +53,8 @@ struct Testplan {
 };
 
 // ConfigError with file and line for everything that cannot be meant: unknown keys and parameters,
-// features and stimuli of one name, sentences that no page has. Pages are looked for in the folder
-// of the testplan and in those around it.
+// features and stimuli of one name, sentences that no page has, bins that no engine has. Pages are
+// looked for in the folder of the testplan and in those around it.
 Testplan read_testplan(const std::filesystem::path& file);
 
 // Of each configuration one of so many seeds, at least one, and as much less of what must be

@@ -67,7 +67,8 @@ class Sha256 {
 // Calls take(bytes, size) over the content of a regular file.
 template <class Take>
 void read_chunks(const fs::path& file, Take take) {
-  const Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  // Without O_NONBLOCK a pipe would be waited for until someone writes into it.
+  const Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (in.value() < 0) fail(file, "open", errno);
   struct stat info {};
   if (::fstat(in.value(), &info) != 0) fail(file, "examine", errno);

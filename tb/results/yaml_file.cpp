@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "tb/results/yaml_file.h"
 
+#include <yaml-cpp/anchor.h>
 #include <yaml-cpp/eventhandler.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -17,26 +19,80 @@ using spec::ConfigError;
 
 namespace {
 
-// Counts no further than two: before a ',' that belongs to nothing yaml-cpp begins one empty
-// document after another, and YAML::LoadAll() never comes back.
-bool has_several_documents(const std::string& text) {
-  struct Ignore : YAML::EventHandler {
-    void OnDocumentStart(const YAML::Mark&) override {}
-    void OnDocumentEnd() override {}
-    void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
-    void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
-    void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                  const std::string&) override {}
-    void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                         YAML::EmitterStyle::value) override {}
-    void OnSequenceEnd() override {}
-    void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                    YAML::EmitterStyle::value) override {}
-    void OnMapEnd() override {}
-  } ignore;
+// Reads a text once without keeping it: what YAML::Load() and those who walk its nodes would never
+// come back from is known then.
+class Surveyor final : public YAML::EventHandler {
+ public:
+  explicit Surveyor(const std::filesystem::path& file) : file_(file) {}
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t anchor) override { leaf(anchor); }
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t anchor,
+                const std::string&) override {
+    leaf(anchor);
+  }
+  // yaml-cpp refuses aliases of what no anchor has named before.
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const auto named = nodes_behind_.find(anchor);
+    if (named == nodes_behind_.end()) fail(mark, "an alias of what it is a part of");
+    const std::uint64_t nodes = named->second;
+    aliased_ += nodes;
+    if (aliased_ > YamlFile::kMostAliasedNodes)
+      fail(mark, fmt::format("aliases stand for more than {} values up to here",
+                             YamlFile::kMostAliasedNodes));
+    add(nodes);
+  }
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open_.push_back({anchor, 1});
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open_.push_back({anchor, 1});
+  }
+  void OnMapEnd() override { close(); }
+
+ private:
+  struct Collection {
+    YAML::anchor_t anchor;
+    std::uint64_t nodes;  // so far, with itself and what its aliases stand for
+  };
+
+  void add(std::uint64_t nodes) {
+    if (!open_.empty()) open_.back().nodes += nodes;
+  }
+  void leaf(YAML::anchor_t anchor) {
+    name(anchor, 1);
+    add(1);
+  }
+  void close() {
+    const Collection closed = open_.back();
+    open_.pop_back();
+    name(closed.anchor, closed.nodes);
+    add(closed.nodes);
+  }
+  void name(YAML::anchor_t anchor, std::uint64_t nodes) {
+    if (anchor != YAML::NullAnchor) nodes_behind_[anchor] = nodes;
+  }
+  [[noreturn]] void fail(const YAML::Mark& mark, const std::string& what) const {
+    throw ConfigError(
+        fmt::format("{}:{}:{}: {}", file_.string(), mark.line + 1, mark.column + 1, what));
+  }
+
+  const std::filesystem::path& file_;
+  std::vector<Collection> open_;
+  std::map<YAML::anchor_t, std::uint64_t> nodes_behind_;
+  std::uint64_t aliased_ = 0;
+};
+
+// Reads no further than the second one: before a ',' that belongs to nothing yaml-cpp begins one
+// empty document after another, and YAML::LoadAll() never comes back.
+bool has_several_documents(const std::string& text, Surveyor& surveyor) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
-  return parser.HandleNextDocument(ignore) && parser.HandleNextDocument(ignore);
+  return parser.HandleNextDocument(surveyor) && parser.HandleNextDocument(surveyor);
 }
 
 }  // namespace
@@ -44,7 +100,8 @@ bool has_several_documents(const std::string& text) {
 YamlFile::YamlFile(const std::filesystem::path& file, std::size_t most) : path_(file) {
   const std::string text = read_file(file, most);
   try {
-    if (has_several_documents(text))
+    Surveyor surveyor(path_);
+    if (has_several_documents(text, surveyor))
       throw ConfigError(
           fmt::format("{}: holds more than one YAML document, or begins with what belongs to none, "
                       "such as ','; one is expected",
@@ -69,9 +126,9 @@ void YamlFile::fail(const YAML::Node& node, const std::string& what) const {
 const char* YamlFile::kind(const YAML::Node& node) {
   switch (node.Type()) {
     case YAML::NodeType::Sequence:
-      return "a list";
+      return node.size() == 0 ? "an empty list" : "a list";
     case YAML::NodeType::Map:
-      return "a map";
+      return node.size() == 0 ? "an empty map" : "a map";
     case YAML::NodeType::Scalar:
       return "a single value";
     default:

@@ -20,8 +20,11 @@ class YamlFile {
  public:
   static constexpr std::size_t kMaxBytes = 64u << 20;
 
+  // A few lines of aliases of aliases stand for more than anyone can walk through.
+  static constexpr std::uint64_t kMostAliasedNodes = 1'000'000;
+
   // FileError for a file that cannot be read, or has more bytes; ConfigError for what is no YAML,
-  // or more than one document.
+  // for more than one document, and for aliases without an end.
   explicit YamlFile(const std::filesystem::path& file, std::size_t most = kMaxBytes);
 
   const YAML::Node& root() const { return root_; }
@@ -30,7 +33,7 @@ class YamlFile {
   // "sweep.yaml:12"
   std::string where(const YAML::Node& node) const;
   [[noreturn]] void fail(const YAML::Node& node, const std::string& what) const;
-  // "a list"
+  // "a list", "an empty map"
   static const char* kind(const YAML::Node& node);
 
   // Each key of a map is one of these, once.

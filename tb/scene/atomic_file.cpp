@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "tb/scene/atomic_file.h"
+
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <sys/stat.h>
@@ -7,6 +9,8 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <memory>
+#include <vector>
 
 #include "spec/error.h"
 #include "tb/scene/image_io.h"
@@ -93,17 +97,24 @@ class TemporaryFile {
 }  // namespace
 
 void write_file_atomically(const fs::path& path, std::string_view bytes) {
-  std::error_code ignored;
-  const fs::file_status status = fs::status(path, ignored);
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw spec::FileError(
-        fmt::format("cannot write '{}': it exists and is not a regular file; give another name",
-                    path.string()));
+  write_files_atomically({{path, bytes}});
+}
+
+void write_files_atomically(std::initializer_list<FileContent> contents) {
+  std::vector<std::unique_ptr<TemporaryFile>> files;
+  for (const auto& [path, bytes] : contents) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    if (fs::exists(status) && !fs::is_regular_file(status)) {
+      throw spec::FileError(
+          fmt::format("cannot write '{}': it exists and is not a regular file; give another name",
+                      path.string()));
+    }
+    files.push_back(std::make_unique<TemporaryFile>(path));
+    files.back()->write(bytes);
+    files.back()->finish(bytes.size());
   }
-  TemporaryFile file(path);
-  file.write(bytes);
-  file.finish(bytes.size());
-  file.rename();
+  for (const auto& file : files) file->rename();
 }
 
 }  // namespace deburr::tb

@@ -17,7 +17,7 @@
 #include "tb/results/file.h"
 #include "tb/results/report.h"
 #include "tb/results/result.h"
-#include "tb/scene/image_io.h"
+#include "tb/scene/atomic_file.h"
 
 namespace deburr::tb {
 namespace {
@@ -401,10 +401,12 @@ std::vector<double> values_of(const SweepDefinition& sweep, const fs::path& dire
 void write_collection(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place,
                       const Collection& collection) {
   const Json json = json_of(sweep, plan, place, collection);
-  write_file_atomically(place.directory / "collected.csv", csv_of(sweep, place, collection));
-  write_file_atomically(place.directory / "collected.json",
-                        json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
-  write_file_atomically(place.directory / "index.html", page_of(json));
+  const std::string csv = csv_of(sweep, place, collection),
+                    collected = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n",
+                    page = page_of(json);
+  write_files_atomically({{place.directory / "collected.csv", csv},
+                          {place.directory / "collected.json", collected},
+                          {place.directory / "index.html", page}});
 }
 
 }  // namespace deburr::tb

@@ -273,8 +273,7 @@ class Reader {
   void read_listed(const YAML::Node& points) {
     sweep_.sampling = SweepSampling::kListed;
     if (!points.IsSequence() || points.size() == 0)
-      fail(points, fmt::format("'points' wants a list of maps, got {}",
-                               points.IsSequence() ? "an empty one" : kind(points)));
+      fail(points, fmt::format("'points' wants a list of maps, got {}", kind(points)));
     for (const auto& point : points) {
       if (!point.IsMap()) fail(point, fmt::format("a point wants a map, got {}", kind(point)));
       const bool first = sweep_.axes.empty();

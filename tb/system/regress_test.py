@@ -117,6 +117,8 @@ class RegressTest(unittest.TestCase):
         with open(self.path("out/regressions/small-7/index.html")) as file:
             page = file.read()
         self.assertIn(buckets["mismatch"]["waves"]["file"], page)
+        self.assertIn(">FAILED</span>", page)
+        self.assertIn("9 of 12 runs passed, 3 failed; 1 of 6 checks failed;", page)
         root = xml.etree.ElementTree.parse(self.path("out/regressions/small-7/junit.xml")).getroot()
         self.assertEqual(root.get("failures"), "4", "three runs, and colours of the feature")
 
@@ -164,6 +166,8 @@ class Passing(RegressTest):
         with open(self.path("out/regressions/small-7/index.html")) as file:
             page = file.read()
         self.assertIn("It gives every pixel once, in order.", page)
+        self.assertIn(">PASSED</span>", page)
+        self.assertIn("9 of 9 runs passed; 0 of 5 checks failed; 0 bins of their coverage were not met.", page)
         self.assertNotRegex(page, r"(src|href)=\"http")
         for hole in bins["holes"][:3]:
             self.assertIn(hole, page)

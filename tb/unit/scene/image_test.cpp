@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tb/scene/atomic_file.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/textures.h"
 #include "tb/unit/full_disk.h"
@@ -227,6 +228,24 @@ TEST(ImageIo, FullDiskIsReportedAndTheOldFileStays) {
   }
   EXPECT_EQ(read_image(folder / "out.png"), old);
   EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(ImageIo, OfFilesThatBelongTogetherAllAreReplacedOrNone) {
+  const TemporaryFolder folder;
+  write_files_atomically({{folder / "a.json", "old"}, {folder / "b.html", "older"}});
+  const std::string big(10000, ' ');
+  {
+    const FullDisk full(4096);
+    EXPECT_THAT(file_error([&] {
+                  write_files_atomically({{folder / "a.json", "new"}, {folder / "b.html", big}});
+                }),
+                AllOf(HasSubstr("b.html"), HasSubstr("cannot write")));
+  }
+  EXPECT_EQ(test::read_bytes(folder / "a.json"), "old");
+  EXPECT_EQ(folder.files(), 2u);
+  write_files_atomically({{folder / "a.json", "new"}, {folder / "b.html", big}});
+  EXPECT_EQ(test::read_bytes(folder / "a.json"), "new");
+  EXPECT_EQ(test::read_bytes(folder / "b.html"), big);
 }
 
 }  // namespace
