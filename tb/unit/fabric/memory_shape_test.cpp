@@ -484,14 +484,35 @@ TEST(Memory, NeighboursLieInDifferentBanks) {
         {.words = 64, .word_bits = 4, .read_ports = 2, .banks = banks, .separate_banks = true});
     ReadPort<int> first(memory, "first"), second(memory, "second");
     Cycle cycle = 0;
-    for (std::uint64_t a = 0; a < 32; ++a) {
-      first.read(++cycle, 16);
-      if (a % banks == 16 % banks)
-        EXPECT_THROW(second.read(cycle, a), spec::CheckFailed) << a << " in " << banks;
-      else
-        EXPECT_NO_THROW(second.read(cycle, a)) << a << " in " << banks;
-    }
+    for (const std::uint64_t other : {16u, 17u})
+      for (std::uint64_t a = 0; a < 32; ++a) {
+        first.read(++cycle, other);
+        if (a % banks == other % banks)
+          EXPECT_THROW(second.read(cycle, a), spec::CheckFailed) << a << " in " << banks;
+        else
+          EXPECT_NO_THROW(second.read(cycle, a)) << a << " in " << banks;
+      }
   }
+}
+
+// 41 words in 4 banks of 11, of which the last has 8.
+TEST(Memory, ABlockIsRoundedUp) {
+  Memory<int> memory("memory", {.words = 41,
+                                .word_bits = 4,
+                                .read_ports = 2,
+                                .banks = 4,
+                                .order = BankOrder::kBlocks,
+                                .separate_banks = true});
+  ReadPort<int> first(memory, "first"), second(memory, "second");
+  Cycle cycle = 0;
+  for (std::uint64_t a = 0; a < 41; ++a)
+    for (std::uint64_t b = 0; b < 41; ++b) {
+      first.read(++cycle, a);
+      if (a / 11 == b / 11)
+        EXPECT_THROW(second.read(cycle, b), spec::CheckFailed) << a << ' ' << b;
+      else
+        EXPECT_NO_THROW(second.read(cycle, b)) << a << ' ' << b;
+    }
 }
 
 // Of an access to several words each uses its bank.
@@ -653,6 +674,7 @@ TEST(Memory, RomHasItsContent) {
               HasSubstr("0x10 at address 3 has more than 4 bits"));
   EXPECT_THAT(refusal([&] { build(5, 5, MemoryKind::kSram); }), HasSubstr("sram has none"));
   EXPECT_THAT(refusal([&] { build(4, 5, MemoryKind::kFlops); }), HasSubstr("5 words of content"));
+  EXPECT_NO_THROW(build(5, 5, MemoryKind::kFlops));
   EXPECT_NO_THROW(build(6, 5, MemoryKind::kFlops));
   EXPECT_THAT(refusal([&] {
                 Memory<int>(
@@ -822,6 +844,9 @@ TEST(MemoryCost, WhatNobodySellsIsRefusedWithAWayOut) {
   EXPECT_THAT(
       refused({.words = 8, .word_bits = 8, .read_ports = 1, .write_ports = 1, .shared_ports = 1}),
       HasSubstr("no port left to read"));
+  EXPECT_THAT(
+      refused({.words = 8, .word_bits = 8, .read_ports = 0, .write_ports = 1, .shared_ports = 2}),
+      HasSubstr("no more writes"));
   EXPECT_THAT(refused({.words = 8, .word_bits = 8, .write_ports = 0}), HasSubstr("use rom"));
   EXPECT_THAT(refused({.words = 8, .word_bits = 8, .read_ports = 0}), HasSubstr("nobody reads"));
   EXPECT_THAT(refused({.words = 8, .word_bits = 8, .kind = MemoryKind::kRom}),
@@ -857,6 +882,14 @@ TEST(MemoryCost, WhatNobodySellsIsRefusedWithAWayOut) {
                        .banks = 4,
                        .separate_banks = true}),
               HasSubstr("use 5 banks"));
+  EXPECT_THAT(refusal([] {
+                MemoryBase("memory", {.words = 8,
+                                      .word_bits = 8,
+                                      .kind = MemoryKind::kFlops,
+                                      .latency = 0,
+                                      .read_during_write = ReadDuringWrite::kNewWord});
+              }),
+              HasSubstr("cannot be read in it without latency"));
   EXPECT_THAT(refusal([] { MemoryBase("memory", {.words = 8, .word_bits = 16, .mask_bits = 5}); }),
               HasSubstr("a write mask of 5 bits does not divide words of 16"));
 }

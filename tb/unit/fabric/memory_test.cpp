@@ -614,6 +614,18 @@ TEST(MemoryPort, WaitsWhileNobodyTakesItsAnswers) {
   EXPECT_EQ(port.stalled_cycles(), 26U + 6);  // six in which it waits for memory
 }
 
+// Answers that overtake the one whose turn it is wait for memory, as it does: there is room.
+TEST(MemoryPort, InOrderItWaitsForTheOldestAnswer) {
+  MemoryPortParameters parameters;
+  parameters.in_order = true;
+  System s(parameters, with_latency(5, 60));
+  for (std::uint32_t i = 0; i < 200; ++i) s.driver.send(read_of(i));
+  s.clock.run(5000);
+  EXPECT_EQ(s.sink.received(), 200U);
+  EXPECT_EQ(s.port.cycles_of(rtl::kStalledDownstream), 0U);
+  EXPECT_GT(s.port.stalled_cycles(), 200U);
+}
+
 // The first beat of a burst that writes is taken, and waits inside for the others.
 TEST(MemoryPort, WaitsForTheBeatsOfABurst) {
   MemoryPortParameters parameters;

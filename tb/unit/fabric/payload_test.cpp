@@ -207,7 +207,7 @@ TEST(Payload, AFormatHasAsManyBitsAsTheField) {
 
 // Formats are Ua.b and Sa.b; what only looks like one is another text.
 struct OtherTexts {
-  std::uint8_t a = 0, b = 0, c = 0, d = 0, e = 0, f = 0;
+  std::uint8_t a = 0, b = 0, c = 0, d = 0, e = 0, f = 0, g = 0;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("a", self.a, 5, "U.8");
@@ -216,11 +216,12 @@ struct OtherTexts {
     visit("d", self.d, 5, "S");
     visit("e", self.e, 5, "");
     visit("f", self.f, 5, "U8x5");
+    visit("g", self.g, 5, "Q0.8");
   }
 };
 
 TEST(Payload, ATextThatIsNoFormatSaysNothingOfBits) {
-  EXPECT_EQ(Payload::of<OtherTexts>().bits(), 30U);
+  EXPECT_EQ(Payload::of<OtherTexts>().bits(), 35U);
 }
 
 // The name of a type as others write it, whatever letters it has.

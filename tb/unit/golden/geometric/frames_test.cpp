@@ -367,9 +367,11 @@ TEST(MemoryErrors, ReadAsZeros) {
   Drawing changed = d;
   for (std::size_t i = 4; i < 8; ++i) changed.edges[i] = {};
   with_error(kVectorBases.edges + 64, expect_same_as(changed));
-  changed = d;
-  for (std::size_t i = 8; i < 12; ++i) changed.vertices[i] = {};
-  with_error(kVectorBases.vertices + 128, expect_same_as(changed));
+  for (const std::uint32_t line : {0u, 2u}) {
+    changed = d;
+    for (std::size_t i = 4 * line; i < 4 * line + 4; ++i) changed.vertices[i] = {};
+    with_error(kVectorBases.vertices + 64 * line, expect_same_as(changed));
+  }
   changed = d;
   std::fill(changed.facing.begin(), changed.facing.end(), 0);
   with_error(kVectorBases.facing, expect_same_as(changed));

@@ -125,6 +125,36 @@ TEST(Fxaa, TakesTheHorizontalAxisOfTwo) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(result[i], 255 - 0.75 * (255 - above[i]), 0.6);
 }
 
+// Where the axes tie because the middle counts twice, the horizontal one is taken; if it counted
+// once or three times, it would be the vertical one.
+TEST(Fxaa, TheMiddleOfARowCountsTwice) {
+  FxaaSettings settings = ends_only();
+  settings.subpixel = 0.75;
+  // Dots above and below, 100 codes brighter: rows bend by 2 x 200, columns by 200 + 200. A third
+  // of the range, as above, times 100 codes.
+  const ColourFrame dots =
+      drawn(5, 5, [](int x, int y) { return x == 2 && (y == 1 || y == 3) ? 200 : 100; });
+  EXPECT_EQ(fxaa(dots, settings)[dots.index(2, 2)][0], 105);
+  // Black between two of 200, all others 100: rows bend by 200 + 2 x 200 + 200, columns by 2 x 400.
+  // Two thirds of the range, as above, of the 100 above it.
+  const ColourFrame hole = drawn(3, 3, [](int x, int y) {
+    return y != 1 ? 100 : x == 1 ? 0 : 200;
+  });
+  EXPECT_EQ(fxaa(hole, settings)[hole.index(1, 1)][0], 41);
+}
+
+// From column 40 on the edge between 200 and 100 is one between 200 and 150: on it luma differs by
+// 25 codes, a quarter of the step, and so ends it.
+TEST(Fxaa, AnEdgeEndsAtExactlyAQuarterOfTheStep) {
+  const ColourFrame frame = drawn(80, 12, [](int x, int y) {
+    return y < 5 ? 200 : x < 40 ? 100 : 150;
+  });
+  for (const ColourFrame& either : {frame, turned(frame)}) {
+    const std::size_t place = either.width == 80 ? either.index(38, 5) : either.index(5, 38);
+    EXPECT_EQ(fxaa(either, ends_only())[place][0], 143);  // 1/2 - 2 / 28.5 of 100 codes
+  }
+}
+
 // A step of exactly the threshold is looked at.
 TEST(Fxaa, TheThresholdIsNotStrict) {
   FxaaSettings settings;

@@ -432,6 +432,7 @@ TEST(TextureGolden, FragmentsOfAnInvalidDescriptorAreZeroAndCounted) {
     expected.fragments = expected.invalid_fragments = 4;
     expected.clamped = 1;
     EXPECT_EQ(golden.work(), expected) << handle;
+    EXPECT_FALSE(golden.analyse(quad, 0).valid) << handle;
   }
   EXPECT_THROW(golden.set_texture(16, texture.descriptor), spec::ConfigError);
   EXPECT_THROW(golden.set_texture(-1, texture.descriptor), spec::ConfigError);

@@ -197,7 +197,7 @@ struct Asker final : rtl::Unit {
   MemoryClient memory;
   Asker(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
   rtl::Activity tick(Cycle cycle) override {
-    if (memory.responses_in.can_pop(cycle)) {
+    if (cycle >= takes_from && memory.responses_in.can_pop(cycle)) {
       answered.push_back(cycle);
       memory.responses_in.pop(cycle);
     }
@@ -210,6 +210,7 @@ struct Asker final : rtl::Unit {
   }
   void reset() override {}
   std::size_t wanted = 0;
+  Cycle takes_from = 0;
   std::vector<Cycle> asked, answered;
 };
 TEST(MemoryArbiter, LatencyIsOneEachWay) {
@@ -222,6 +223,18 @@ TEST(MemoryArbiter, LatencyIsOneEachWay) {
   ASSERT_EQ(asker.answered.size(), 1u);
   EXPECT_EQ(asker.answered[0] - asker.asked[0], 1u + 1 + (20 + 1) + 1 + 1);
   EXPECT_EQ(b.arbiter.read_latency(Client::kDepth).min(), asker.answered[0] - asker.asked[0] - 2);
+}
+// Two answers lie in the link of a client that takes none, and the third waits in front of it.
+TEST(MemoryArbiter, AnAnswerWaitsForItsClient) {
+  Frame b({});
+  Asker asker("asker", b.clock);
+  b.arbiter.connect(Client::kDepth, asker.memory);
+  asker.wanted = 5;
+  asker.takes_from = 100;
+  b.clock.run(100);
+  EXPECT_TRUE(asker.answered.empty());
+  b.clock.run(20);
+  EXPECT_THAT(asker.answered, ::testing::ElementsAre(100, 101, 102, 103, 104));
 }
 TEST(MemoryArbiter, ServesEachOfEightAfterSevenOthers) {
   Frame b({});

@@ -538,6 +538,21 @@ TEST(AreaUnitMemory, HasNoColumnBeyondTheLongestRow) {
               ::testing::ThrowsMessage<spec::CheckFailed>(::testing::HasSubstr("column_marks")));
 }
 
+// Room for the longest row in pairs of beats, and for no pair more.
+TEST_P(AreaLanes, HasTheColumnsOfTheLongestRow) {
+  const int pair = 2 << GetParam();
+  for (const int pixels : {4 * pair - 1, 4 * pair, 4 * pair + 1}) {
+    Parameters p = small(GetParam());
+    p.line_pixels = pixels;
+    const Area bench(p, 5, 3);
+    std::uint64_t words = 0;
+    rtl::for_each<rtl::MemoryBase>([&](const rtl::MemoryBase& memory) {
+      if (std::string(memory.basename()) == "weight_lines") words = memory.words();
+    });
+    EXPECT_EQ(words, static_cast<std::uint64_t>(pixels > 4 * pair ? 5 * pair : 4 * pair)) << pixels;
+  }
+}
+
 // Two lines for a bank need two clocks: with one port too few the memory would say so.
 TEST(AreaUnitMemory, ABankTakesALineAClock) {
   Area bench(small(2), 32, 7);

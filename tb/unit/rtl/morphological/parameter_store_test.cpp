@@ -194,6 +194,8 @@ TEST(FrameRules, OtherBitsAreNotLookedAt) {
   const auto decoded = [&] { return rtl::morphological::decode(raw, smaa()); };
   raw.write(reg::kRules, 0xF8000000);
   EXPECT_EQ(text_of(decoded().rules), "");
+  raw.write(reg::kRules, 0xF8000000 | 1u << 23);
+  EXPECT_EQ(text_of(decoded().rules), "leave 1");
   raw.write(reg::kSize, 0xC000C000 | 40 | 30 << 16);
   EXPECT_EQ(decoded().rules.width, 40);
   EXPECT_EQ(decoded().rules.height, 30);
@@ -797,6 +799,15 @@ TEST(RegisterBits, ThatDoNotExistReadAsZero) {
     EXPECT_EQ(bench.bus.read(offset), mask) << offset;
     bench.bus.write(offset, 0);
     EXPECT_EQ(bench.bus.read(offset), 0u) << offset;
+  }
+}
+
+// What always reads as 0 is not kept either.
+TEST(RegisterBits, OfLearnedSharesAreNotBuiltWithoutThem) {
+  Registers without(plain());
+  for (const std::uint32_t offset : {reg::kSharesAddress, reg::kSharesData}) {
+    without.bus.write(offset, 0xFFFFFFFF);
+    EXPECT_EQ(without.control.value(offset), 0u) << offset;
   }
 }
 

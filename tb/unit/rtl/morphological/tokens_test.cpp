@@ -18,6 +18,13 @@ TEST(Tokens, FieldsHaveTheBitsOfTheirFormat) {
   EXPECT_GE(checked, 35);
 }
 
+// 16 steps either way and the row between them; no engine is built with more of them.
+TEST(Tokens, ColumnsOfDiagonalsHaveABitOfEachRow) {
+  const Payload columns = Payload::of<DiagonalColumnsToken>();
+  EXPECT_EQ(columns.find("left.0")->bits, 33u);
+  EXPECT_EQ(columns.find("top.0")->bits, 33u);
+}
+
 TEST(Tokens, LinksAreThoseOfThePage) {
   using tb::morphological_rtl::preset;
   const tb::PageTable table("morphological_hardware.md", "link");

@@ -32,6 +32,9 @@ TEST(TextureRtlLog2, PowersOfTwoAndByHand) {
   EXPECT_EQ(Log2Unit::log2(Log2Rule::kSegments, (4096u + 3071) << 4), 3071 + 356 - 127 + 15);
   EXPECT_EQ(Log2Unit::log2(Log2Rule::kSegments, (4096u + 4095) << 4), 4095 + 243 - 255 + 15);
   EXPECT_EQ(Log2Unit::log2(Log2Rule::kExact, (4096u + 4095) << 4), 4050 + ((46 * 63 + 32) >> 6));
+  // Between entries 0 and 92, 182 and 271 of the table: 11.5 and 76.48 are rounded to the nearest.
+  EXPECT_EQ(Log2Unit::log2(Log2Rule::kExact, (4096u + 8) << 4), 12);
+  EXPECT_EQ(Log2Unit::log2(Log2Rule::kExact, (4096u + 183) << 4), 182 + 76);
 }
 
 // Exhaustive over y: every octave has the same fraction.
