@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "spec/error.h"
 #include "tb/app/run_once.h"
@@ -256,9 +257,10 @@ class Candidate {
   BoundEngine bound_;
 };
 
-// A setting that goes with none of those before it may go with those behind it.
-Settings accepted(const std::string& engine, Settings wanted) {
-  Settings settings;
+// Those that go with what is given and with each other: one that goes with none of those before it
+// may go with those behind it.
+Settings accepted(const std::string& engine, const Settings& given, Settings wanted) {
+  Settings settings = given;
   constexpr int kPasses = 2;
   for (int pass = 0; pass < kPasses; ++pass) {
     Settings refused;
@@ -281,11 +283,13 @@ bool is_fixed(std::string_view parameter) {
   return std::find(kFixed.begin(), kFixed.end(), common_name(parameter)) != kFixed.end();
 }
 
-std::vector<std::pair<std::string, std::string>> random_configuration(const std::string& engine,
-                                                                      std::uint64_t seed) {
+Settings random_configuration(const std::string& engine, std::uint64_t seed,
+                              const Settings& given) {
   Random random(seed, engine);
   const std::unique_ptr<Engine> asked = engine_named(engine);
   const BoundEngine bound(*asked);
+  std::set<std::string_view> stays;
+  for (const auto& [name, value] : given) stays.insert(name);
   constexpr int kTries = 100;
   for (int i = 0; i < kTries; ++i) {
     Settings wanted = {{"run.images", "false"}, {"run.watchdog_cycles", "200000"}};
@@ -293,12 +297,19 @@ std::vector<std::pair<std::string, std::string>> random_configuration(const std:
     for (const Parameter& parameter : bound.set.all())
       if (!is_fixed(parameter.name) && random.chance(how_often(parameter.name)))
         wanted.emplace_back(parameter.name, drawn(parameter, random));
-    Settings settings = accepted(engine, std::move(wanted));
+    std::erase_if(wanted, [&](const auto& setting) { return stays.contains(setting.first); });
+    Settings settings = accepted(engine, given, std::move(wanted));
     Candidate candidate(engine, settings);
-    if (candidate.is_resolved() && candidate.is_accepted()) return settings;
+    if (candidate.is_resolved() && candidate.is_accepted()) {
+      settings.erase(settings.begin(),
+                     settings.begin() + static_cast<std::ptrdiff_t>(given.size()));
+      return settings;
+    }
   }
-  throw spec::CheckFailed(fmt::format("no configuration of '{}' was found for seed {} in {} tries",
-                                      engine, seed, kTries));
+  // Of nothing but draws one is always found, so that it is for what is given that none is.
+  throw spec::ConfigError(
+      fmt::format("of {} random configurations of '{}' for seed {} none goes with what is given",
+                  kTries, engine, seed));
 }
 
 }  // namespace deburr::tb

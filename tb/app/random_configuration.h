@@ -15,10 +15,12 @@
 
 namespace deburr::tb {
 
-// Names and values for ParameterSet::set(), in an order in which it takes them. The same on every
-// machine. ConfigError for an unknown engine.
-std::vector<std::pair<std::string, std::string>> random_configuration(const std::string& engine,
-                                                                      std::uint64_t seed);
+// Names and values for ParameterSet::set(), in an order in which it takes them behind those that
+// are `given`, which stay as they are. The same on every machine. ConfigError for an unknown
+// engine, and where nothing goes with what is given.
+std::vector<std::pair<std::string, std::string>> random_configuration(
+    const std::string& engine, std::uint64_t seed,
+    const std::vector<std::pair<std::string, std::string>>& given = {});
 
 // Parameters that it never changes; in front of a dot, of every memory.
 std::span<const std::string_view> fixed_parameters();

@@ -119,13 +119,13 @@ class RegressionPlanner {
                                       testplan_.file.string(), name));
     give("run.images", "false");
     give("run.coverage", "true");
-    if (stimulus.random)
-      for (auto& [parameter, value] :
-           random_configuration(engine, derived_seed(base_seed_, name, "configuration")))
-        give(parameter, std::move(value));
-    for (const char* parameter : {"run.seed", "run.stall_seed"})
-      give(parameter, std::to_string(derived_seed(base_seed_, name, parameter) & kRunSeeds));
     try {
+      if (stimulus.random)
+        for (auto& [parameter, value] : random_configuration(
+                 engine, derived_seed(base_seed_, name, "configuration"), values_of(settings)))
+          give(parameter, std::move(value));
+      for (const char* parameter : {"run.seed", "run.stall_seed"})
+        give(parameter, std::to_string(derived_seed(base_seed_, name, parameter) & kRunSeeds));
       PointEngine point(engine, settings);
       point.bound.resolve();
       PlannedPoint planned = namer_.name(
@@ -146,6 +146,13 @@ class RegressionPlanner {
     std::set<std::string> names;
     for (const Setting& setting : settings) names.insert(setting.name);
     return names;
+  }
+
+  static std::vector<std::pair<std::string, std::string>> values_of(
+      const std::vector<Setting>& settings) {
+    std::vector<std::pair<std::string, std::string>> values;
+    for (const Setting& setting : settings) values.emplace_back(setting.name, setting.value);
+    return values;
   }
 
   const Testplan& testplan_;

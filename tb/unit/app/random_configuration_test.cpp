@@ -80,6 +80,29 @@ INSTANTIATE_TEST_SUITE_P(Engines, RandomConfiguration,
                          testing::Values("texture", "morphological", "geometric", "frame"),
                          [](const auto& p) { return std::string(p.param); });
 
+// The preset's two directions leave one clock for them, which only the model of the hardware says.
+TEST(RandomConfigurations, GoWithWhatIsGiven) {
+  const std::vector<std::pair<std::string, std::string>> given = {{"texture.preset", "paper"}};
+  std::set<std::string> axes;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const std::unique_ptr<Engine> made = engine_named("texture");
+    BoundEngine bound(*made);
+    for (const auto& [name, value] : given) bound.set.set(name, value, "given");
+    for (const auto& [name, value] : random_configuration("texture", seed, given)) {
+      EXPECT_NE(name, "texture.preset");
+      bound.set.set(name, value, std::to_string(seed));
+    }
+    bound.resolve();
+    const std::string drawn = bound.set.find("texture.axes")->text();
+    axes.insert(drawn);
+    if (drawn == "two") EXPECT_EQ(bound.set.find("texture.axis_clocks")->text(), "1") << seed;
+  }
+  EXPECT_GT(axes.size(), 1u);
+  EXPECT_THROW(
+      random_configuration("texture", 1, {{"texture.axes", "two"}, {"texture.axis_clocks", "4"}}),
+      spec::ConfigError);
+}
+
 TEST(RandomConfigurations, KnowEveryEngineAndNoOther) {
   EXPECT_THROW(random_configuration("textur", 1), spec::ConfigError);
   for (const std::string_view name : fixed_parameters()) EXPECT_TRUE(is_fixed(name));
