@@ -95,7 +95,9 @@ TEST(RandomConfigurations, GoWithWhatIsGiven) {
     bound.resolve();
     const std::string drawn = bound.set.find("texture.axes")->text();
     axes.insert(drawn);
-    if (drawn == "two") EXPECT_EQ(bound.set.find("texture.axis_clocks")->text(), "1") << seed;
+    if (drawn == "two") {
+      EXPECT_EQ(bound.set.find("texture.axis_clocks")->text(), "1") << seed;
+    }
   }
   EXPECT_GT(axes.size(), 1u);
   EXPECT_THROW(
