@@ -48,7 +48,6 @@ class CommandLines(unittest.TestCase):
                 ("scripts/test", ["-L"], 2, "-L needs a regular expression"),
                 ("scripts/test", ["unit"], 2, 'what is "unit"'),
                 ("scripts/test", ["-L", "unit", "more"], 2, 'what is "more"'),
-                (".ci/run", ["-L", "unit"], 2, "takes no arguments"),
                 ("scripts/demo", ["--out", "x"], 2, "unknown option --out"),
                 ("scripts/demo", ["x", "y"], 2, "one folder, and no y"),
                 ("scripts/install", ["--odd"], 2, "takes no arguments"),
