@@ -151,6 +151,7 @@ class RegressionPlanner {
   static std::vector<std::pair<std::string, std::string>> values_of(
       const std::vector<Setting>& settings) {
     std::vector<std::pair<std::string, std::string>> values;
+    values.reserve(settings.size());
     for (const Setting& setting : settings) values.emplace_back(setting.name, setting.value);
     return values;
   }
