@@ -489,16 +489,6 @@ INSTANTIATE_TEST_SUITE_P(
                        p.edge_source = spec::morphological::EdgeSource::kColour;
                        p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
                      }},
-        BadParameter{"learned does not go with",
-                     [](auto& p) {
-                       p.area = spec::morphological::AreaSource::kLearned;
-                       p.diagonals = true;
-                     }},
-        BadParameter{"learned does not go with",
-                     [](auto& p) {
-                       p.area = spec::morphological::AreaSource::kLearned;
-                       p.round_corners = true;
-                     }},
         BadParameter{"expected at least 14 clocks, got 1", [](auto& p) { p.divider_latency = 1; }},
         BadParameter{"8 steps need window_rows of at least 20, got 18",
                      [](auto& p) { p.window_rows = 18; }},
