@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tb/app/engine.h"
-#include "tb/app/frame_engine.h"
-#include "tb/app/geometric_engine.h"
-#include "tb/app/morphological_engine.h"
-#include "tb/app/texture_engine.h"
+#include "tb/engines/frame/frame_engine.h"
+#include "tb/engines/geometric/geometric_engine.h"
+#include "tb/engines/morphological/morphological_engine.h"
+#include "tb/engines/texture/texture_engine.h"
 
 namespace deburr::tb {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "tb/app/geometric_pictures.h"
+#include "tb/engines/geometric/geometric_pictures.h"
 #include "tb/results/file.h"
 #include "tb/results/report.h"
 #include "tb/scene/image_io.h"

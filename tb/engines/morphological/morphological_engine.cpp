@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/app/morphological_engine.h"
+#include "tb/engines/morphological/morphological_engine.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
 #include "tb/app/input_rules.h"
-#include "tb/app/morphological_rules.h"
+#include "tb/engines/morphological/morphological_rules.h"
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
 #include "tb/app/simulate.h"

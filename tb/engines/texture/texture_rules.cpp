@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/app/texture_rules.h"
+#include "tb/engines/texture/texture_rules.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/app/geometric_rules.h"
+#include "tb/engines/geometric/geometric_rules.h"
 
 #include <fmt/format.h>
 

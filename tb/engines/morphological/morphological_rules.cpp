@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/app/morphological_rules.h"
+#include "tb/engines/morphological/morphological_rules.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/app/geometric_engine.h"
+#include "tb/engines/geometric/geometric_engine.h"
 
 #include <fmt/format.h>
 
@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "golden/geometric/configuration.h"
-#include "tb/app/geometric_pictures.h"
-#include "tb/app/geometric_rules.h"
+#include "tb/engines/geometric/geometric_pictures.h"
+#include "tb/engines/geometric/geometric_rules.h"
 #include "tb/app/input_rules.h"
-#include "tb/app/morphological_rules.h"
+#include "tb/engines/morphological/morphological_rules.h"
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
 #include "tb/app/simulate.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/app/frame_engine.h"
+#include "tb/engines/frame/frame_engine.h"
 
 #include <fmt/format.h>
 
@@ -10,16 +10,16 @@
 #include "golden/geometric/configuration.h"
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
-#include "tb/app/geometric_pictures.h"
-#include "tb/app/geometric_rules.h"
+#include "tb/engines/geometric/geometric_pictures.h"
+#include "tb/engines/geometric/geometric_rules.h"
 #include "tb/app/input_rules.h"
-#include "tb/app/morphological_engine.h"
-#include "tb/app/morphological_rules.h"
+#include "tb/engines/morphological/morphological_engine.h"
+#include "tb/engines/morphological/morphological_rules.h"
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
 #include "tb/app/simulate.h"
-#include "tb/app/texture_rules.h"
-#include "tb/app/texture_traces.h"
+#include "tb/engines/texture/texture_rules.h"
+#include "tb/engines/texture/texture_traces.h"
 #include "tb/env/frame_composition.h"
 #include "tb/scene/truth.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/app/texture_engine.h"
+#include "tb/engines/texture/texture_engine.h"
 
 #include <fmt/format.h>
 
@@ -13,12 +13,12 @@
 
 #include "spec/error.h"
 #include "tb/app/input_rules.h"
-#include "tb/app/morphological_rules.h"
+#include "tb/engines/morphological/morphological_rules.h"
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
 #include "tb/app/simulate.h"
-#include "tb/app/texture_rules.h"
-#include "tb/app/texture_traces.h"
+#include "tb/engines/texture/texture_rules.h"
+#include "tb/engines/texture/texture_traces.h"
 #include "tb/env/texture_environment.h"
 #include "tb/env/texture_sequence.h"
 #include "tb/results/interrupt.h"

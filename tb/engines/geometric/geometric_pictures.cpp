@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/app/geometric_pictures.h"
+#include "tb/engines/geometric/geometric_pictures.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/app/texture_traces.h"
+#include "tb/engines/texture/texture_traces.h"
 
 #include "spec/error.h"
 
