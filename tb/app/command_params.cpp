@@ -32,11 +32,11 @@ Outcome print_params(const ParamsCommand& command) {
     return {};
   }
   if (command.markdown == "registers") {
-    fmt::print("{}", registers_page());
+    fmt::print("{}", registers_page(all));
     return {};
   }
   if (command.markdown == "coverage") {
-    fmt::print("{}", coverage_page());
+    fmt::print("{}", coverage_page(all));
     return {};
   }
   std::vector<std::string> groups;

@@ -6,7 +6,6 @@
 #include <memory>
 #include <set>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "tb/app/engine.h"
@@ -16,9 +15,9 @@ namespace deburr::tb {
 std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines);
 // Elaborates every engine's model: at most once a process, and not in one that simulates.
 std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines);
-std::string registers_page();
-std::string coverage_page();
+std::string registers_page(const std::vector<std::unique_ptr<Engine>>& engines);
+std::string coverage_page(const std::vector<std::unique_ptr<Engine>>& engines);
 // Names of all bins that runs of an engine may have.
-std::set<std::string> coverage_bins(std::string_view engine);
+std::set<std::string> coverage_bins(const std::string& engine);
 
 }  // namespace deburr::tb

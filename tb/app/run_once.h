@@ -29,9 +29,6 @@ class BoundEngine {
   ParameterSet set;
 };
 
-// ConfigError with near matches for a name that no engine has.
-std::unique_ptr<Engine> engine_named(const std::string& name);
-
 struct RunEnd {
   int code = 0;
   std::string kind;   // of what failed: "mismatch"

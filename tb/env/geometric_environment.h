@@ -23,11 +23,11 @@
 #include "rtl_model/geometric/geometric_engine.h"
 #include "spec/geometric/packets.h"
 #include "spec/geometric/parameters.h"
+#include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/env/environment.h"
 #include "tb/env/geometric_maps.h"
 #include "tb/env/memory_parameters.h"
 #include "tb/env/raster_scoreboard.h"
-#include "tb/stimuli/geometric_frames.h"
 
 namespace deburr::tb {
 

@@ -12,10 +12,10 @@
 #include <string_view>
 #include <vector>
 
+#include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/env/camera_parameters.h"
 #include "tb/scene/image.h"
 #include "tb/scene/scenes.h"
-#include "tb/stimuli/geometric_frames.h"
 
 namespace deburr::tb {
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "spec/error.h"
-#include "tb/scene/edge_table.h"
+#include "tb/scene/depth_codes.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/scenes.h"
 #include "tb/scene/truth.h"

@@ -7,7 +7,7 @@ import os
 import shutil
 import unittest
 
-from app_support import DEBURR, CommandTest, png
+from app_support import DEBURR, CommandTest, engines, png
 
 MODULE = "libdeburr_images.so"
 
@@ -40,7 +40,7 @@ class Images(CommandTest):
         picture = self.write("in.png", png(32, 24))
         self.assert_loads(False, "--version")
         self.assert_loads(False, "params")
-        for engine in ("texture", "morphological", "geometric", "frame"):
+        for engine in engines():
             self.assert_loads(False, "run", engine, "--size", "32x24", "--out", self.path(engine))
             self.assertGreater(os.path.getsize(self.path(f"{engine}/after.png")), 50)
         self.assert_loads(True, "run", "morphological", "--in", picture, "--out", self.path("read"))

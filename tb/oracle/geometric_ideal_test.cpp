@@ -14,7 +14,7 @@
 #include "golden/ideal/coverage.h"
 #include "golden/ideal/geometric.h"
 #include "spec/geometric/tables.h"
-#include "tb/stimuli/geometric_frames.h"
+#include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/stimuli/random.h"
 
 namespace deburr {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <utility>
@@ -30,6 +31,13 @@ std::string now_utc() {
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
                      fmt::gmtime(std::chrono::system_clock::to_time_t(now)));
+}
+
+// What a run leaves without having declared it could replace a file of somebody else.
+void check_declared(const std::string& name, const std::vector<std::string>& declared,
+                    std::string_view what) {
+  DEBURR_CHECK(std::find(declared.begin(), declared.end(), name) != declared.end(),
+               fmt::format("the engine declares no {} '{}'", what, name));
 }
 
 }  // namespace
@@ -72,11 +80,9 @@ void RunContext::claim(IfTaken if_taken) {
   for (const auto& [parameter, nothing, file] : kAsked)
     if (is_set(parameter, nothing)) names.emplace_back(file);
   if (is_set("run.maps", "false"))
-    for (const std::string_view name : kMapNames)
-      for (const char* part : {"", "texture_", "geometric_", "morphological_"})
-        for (const char* kind : {"png", "pfm"})
-          names.push_back(fmt::format("map_{}{}.{}", part, name, kind));
-  for (const std::string_view name : kPictureNames) names.push_back(fmt::format("{}.png", name));
+    for (const std::string& name : leaves_.maps)
+      for (const char* kind : {"png", "pfm"}) names.push_back(fmt::format("map_{}.{}", name, kind));
+  for (const std::string& name : leaves_.pictures) names.push_back(fmt::format("{}.png", name));
   directory_.claim(command_, std::move(names), if_taken);
 }
 
@@ -98,8 +104,7 @@ void RunContext::add_input(const fs::path& file) {
 
 void RunContext::add_image(const std::string& name, const Image& image, std::string title,
                            std::string caption) {
-  DEBURR_CHECK(std::find(kPictureNames.begin(), kPictureNames.end(), name) != kPictureNames.end(),
-               "kPictureNames lacks " + name);
+  check_declared(name, leaves_.pictures, "picture");
   const Parameter* wanted = parameters_.find("run.images");
   if (wanted != nullptr && wanted->text() == "false") return;
   write_image(directory_.draft() / (name + ".png"), image);
@@ -110,6 +115,7 @@ void RunContext::add_image(const std::string& name, const Image& image, std::str
 }
 
 void RunContext::add_map(const PictureMap& map) {
+  check_declared(map.name, leaves_.maps, "map");
   const std::string file = fmt::format("map_{}", map.name);
   write_image(directory_.draft() / (file + ".png"), picture_of(map));
   write_file_atomically(directory_.draft() / (file + ".pfm"), pfm_of(map));

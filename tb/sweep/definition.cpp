@@ -61,7 +61,8 @@ class Reader {
   }
 
   void read_engine(const YAML::Node& root) {
-    if (!root["engine"]) fail(root, "which engine? Say so: 'engine: texture'");
+    if (!root["engine"])
+      fail(root, fmt::format("which engine? Say so: 'engine: {}'", engines().front()->name()));
     sweep_.engine = scalar(root["engine"], "engine");
     try {
       engine_ = engine_named(sweep_.engine);

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "golden/geometric/configuration.h"
+#include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/env/geometric_environment.h"
-#include "tb/stimuli/geometric_frames.h"
 #include "tb/stimuli/random.h"
 
 namespace deburr::tb::geometric_system {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/engines/frame/frame_engine.h"
-
+// `deburr run frame`: a scene through the texture unit and the engines that smooth.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -10,17 +9,18 @@
 #include "golden/geometric/configuration.h"
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
-#include "tb/engines/geometric/geometric_pictures.h"
-#include "tb/engines/geometric/geometric_rules.h"
 #include "tb/app/input_rules.h"
-#include "tb/engines/morphological/morphological_engine.h"
-#include "tb/engines/morphological/morphological_rules.h"
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
 #include "tb/app/simulate.h"
+#include "tb/engines/frame/frame_composition.h"
+#include "tb/engines/geometric/geometric_pictures.h"
+#include "tb/engines/geometric/geometric_rules.h"
+#include "tb/engines/morphological/morphological_pictures.h"
+#include "tb/engines/morphological/morphological_rules.h"
 #include "tb/engines/texture/texture_rules.h"
 #include "tb/engines/texture/texture_traces.h"
-#include "tb/env/frame_composition.h"
+#include "tb/engines/texture/texture_truth.h"
 #include "tb/scene/truth.h"
 
 namespace deburr::tb {
@@ -124,6 +124,23 @@ class FrameCommand final : public Engine {
     Simulation simulation({});
     FrameComposition frame(simulation, scene, setup(Smoothing::kGeometricMorphological));
     describe(simulation, frame, result);
+  }
+
+  std::vector<std::string_view> parts() const override {
+    return {"texture", "geometric", "morphological"};
+  }
+  std::vector<std::string_view> pictures() const override {
+    return {"before", "after", "golden",  "difference", "truth",       "error",
+            "change", "edges", "weights", "classes",    "edge_weights"};
+  }
+
+  RandomDraws random_draws() const override {
+    RandomDraws own;
+    own.frequent = {"frame.smoothing"};
+    return own;
+  }
+  LongRun long_run() const override {
+    return {{{"scene.width", "321"}, {"scene.height", "243"}}, {".line_pixels", ".touched_words"}};
   }
 
  private:

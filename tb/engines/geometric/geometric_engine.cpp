@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/engines/geometric/geometric_engine.h"
-
+// `deburr run geometric`: a lit scene and the edges of its mesh through the geometric engine.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -10,13 +9,15 @@
 #include <vector>
 
 #include "golden/geometric/configuration.h"
-#include "tb/engines/geometric/geometric_pictures.h"
-#include "tb/engines/geometric/geometric_rules.h"
+#include "spec/geometric/registers.h"
 #include "tb/app/input_rules.h"
-#include "tb/engines/morphological/morphological_rules.h"
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
 #include "tb/app/simulate.h"
+#include "tb/engines/geometric/geometric_draws.h"
+#include "tb/engines/geometric/geometric_pictures.h"
+#include "tb/engines/geometric/geometric_rules.h"
+#include "tb/env/geometric_coverage.h"
 #include "tb/env/geometric_environment.h"
 #include "tb/env/geometric_frames.h"
 #include "tb/results/interrupt.h"
@@ -96,6 +97,28 @@ class GeometricCommand final : public Engine {
     GeometricEnvironment environment(simulation, frames, {});
     describe(simulation, environment, result);
   }
+
+  std::vector<std::string_view> pictures() const override {
+    return {"before", "after",  "golden",  "difference", "truth",
+            "error",  "change", "weights", "classes"};
+  }
+  std::vector<std::string_view> maps() const override {
+    return {"lines", "passed", "weight", "depth_reads"};
+  }
+
+  RegisterSection registers() const override {
+    return {"GeometricEngine",
+            {spec::geometric::kRegisters.begin(), spec::geometric::kRegisters.end()}};
+  }
+  CoverageSection coverage() const override {
+    CoverageSection section{"Geometric engine", declared_geometric_coverage(),
+                            geometric_coverage_groups()};
+    declare_directed_geometric_coverage(section.bins);
+    return section;
+  }
+
+  RandomDraws random_draws() const override { return geometric_draws(); }
+  LongRun long_run() const override { return {{{"scene.count", "60"}}}; }
 
  private:
   void judge(const LoadedGeometricFrame& loaded) const {

@@ -8,7 +8,6 @@
 #include "golden/geometric/classify.h"
 #include "golden/geometric/line.h"
 #include "golden/geometric/resolve.h"
-#include "spec/morphological/packets.h"
 #include "tb/app/pictures.h"
 
 namespace deburr::tb {
@@ -64,20 +63,18 @@ void walk(const LineRecord& line, int rows, Visit&& visit) {
 }  // namespace
 
 Image weight_picture(int width, int height, std::span<const spec::geometric::BlockRecord> blocks) {
-  Image shape(width, height);
-  std::vector<spec::morphological::BlendTap> taps(shape.pixels.size());
+  const Image shape(width, height);
+  std::vector<Shares> shares(shape.pixels.size());
   for (const spec::geometric::BlockRecord& block : blocks)
     for (std::size_t i = 0; i < block.weights.size(); ++i) {
       const int x = 4 * block.x + static_cast<int>(i % 4),
                 y = 4 * block.y + static_cast<int>(i / 4);
       if (!(block.blended >> i & 1) || x >= width || y >= height) continue;
       const golden::geometric::Tap tap = golden::geometric::tap_of(block.weights[i]);
-      spec::morphological::BlendTap& out = taps[shape.index(x, y)];
-      out.first = static_cast<std::uint8_t>(tap.first);
-      out.second = static_cast<std::uint8_t>(tap.second);
-      out.horizontal = tap.left_right;
+      shares[shape.index(x, y)] = {static_cast<std::uint8_t>(tap.first),
+                                   static_cast<std::uint8_t>(tap.second), tap.left_right};
     }
-  return weight_picture(width, height, taps);
+  return shares_picture(width, height, shares);
 }
 
 Image class_picture(const geometric::Frame& frame, const spec::geometric::Parameters& parameters) {

@@ -7,9 +7,9 @@
 
 #include "spec/geometric/packets.h"
 #include "spec/geometric/parameters.h"
+#include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/results/run_context.h"
 #include "tb/scene/image.h"
-#include "tb/stimuli/geometric_frames.h"
 
 namespace deburr::tb {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "tb/engines/morphological/morphological_engine.h"
-
+// `deburr run morphological`: an image, or a scene without anti-aliasing, through the morphological
+// engine.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,11 +10,15 @@
 
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
+#include "spec/morphological/registers.h"
 #include "tb/app/input_rules.h"
-#include "tb/engines/morphological/morphological_rules.h"
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
 #include "tb/app/simulate.h"
+#include "tb/engines/morphological/morphological_draws.h"
+#include "tb/engines/morphological/morphological_pictures.h"
+#include "tb/engines/morphological/morphological_rules.h"
+#include "tb/env/morphological_coverage.h"
 #include "tb/env/morphological_environment.h"
 #include "tb/env/morphological_frames.h"
 #include "tb/results/interrupt.h"
@@ -108,6 +112,25 @@ class MorphologicalCommand final : public Engine {
     MorphologicalEnvironment environment(simulation, frames, {});
     describe(simulation, environment, result);
   }
+
+  std::vector<std::string_view> pictures() const override {
+    return {"before", "after",  "golden", "difference", "truth",
+            "error",  "change", "edges",  "weights"};
+  }
+  std::vector<std::string_view> maps() const override { return {"edges", "run_length", "steps"}; }
+
+  RegisterSection registers() const override {
+    return {"MorphologicalEngine",
+            {spec::morphological::kRegisters.begin(), spec::morphological::kRegisters.end()}};
+  }
+  CoverageSection coverage() const override {
+    return {"Morphological engine",
+            morphological_coverage(golden::morphological::MorphologicalGolden({})),
+            morphological_coverage_groups()};
+  }
+
+  RandomDraws random_draws() const override { return morphological_draws(); }
+  LongRun long_run() const override { return {{{"frame.count", "300"}}}; }
 
  private:
   void judge(const RunParameters& run, const LoadedFrame& loaded) const {

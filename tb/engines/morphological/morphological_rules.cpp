@@ -109,24 +109,21 @@ void refuse_unused_rules(const ParameterSet& set, const spec::morphological::Par
   }
 }
 
-void refuse_unused_memory(const ParameterSet& set, std::string_view prefix,
-                          const MemoryParameters& memory) {
-  const auto refuse = [&](std::string_view name, std::string_view why) {
-    set.refuse(fmt::format("{}.{}", prefix, name), why);
-  };
-  if (memory.latency_max > 0 && memory.latency_max <= memory.latency)
-    refuse("latency_max", fmt::format("it is not above {}.latency = {}", prefix, memory.latency));
-  if (memory.banks == 1) refuse("interleave_bytes", fmt::format("{}.banks = 1", prefix));
-  if (memory.error_address < 0)
-    refuse("error_bytes", fmt::format("{}.error_address names no address", prefix));
-}
-
 std::vector<std::string> build_notes(const spec::morphological::Parameters& values) {
   if (values.trial_clocks >= 4) return {};
   return {fmt::format(
       "morphological.trial_clocks = {}: steps of a trial share a clock, so the engine is not made "
       "for 250 MHz (docs/morphological_hardware.md, Trials)",
       values.trial_clocks)};
+}
+
+std::vector<Shorthand> smoothing_shorthands() {
+  return {{"--preset", "morphological.preset",
+           "mlaa, mlaa-slope, smaa, smaa-dynamic, deburr-line or deburr (default)"},
+          {"--lanes", "morphological.lanes",
+           "Pixels a clock of the morphological engine: 1 (default), 2 or 4"},
+          {"--storage", "morphological.storage",
+           "Of the pixels that the morphological engine delays: line_buffers (default) or memory"}};
 }
 
 }  // namespace deburr::tb

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "spec/morphological/parameters.h"
-#include "tb/env/memory_parameters.h"
+#include "tb/app/engine.h"
 #include "tb/results/parameter_set.h"
 
 namespace deburr::tb {
@@ -23,11 +23,11 @@ std::string preset_label(const ParameterSet& set, const spec::morphological::Par
 // effect. After apply_preset().
 void refuse_unused_rules(const ParameterSet& set, const spec::morphological::Parameters& values,
                          std::string_view memory);
-// The same for a memory that is used.
-void refuse_unused_memory(const ParameterSet& set, std::string_view prefix,
-                          const MemoryParameters& memory);
 
 // What the result says of a build that no clock of 250 MHz holds, although it can be simulated.
 std::vector<std::string> build_notes(const spec::morphological::Parameters& values);
+
+// Of what smooths: --preset, --lanes, --storage.
+std::vector<Shorthand> smoothing_shorthands();
 
 }  // namespace deburr::tb

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/engines/texture/texture_engine.h"
-
+// `deburr run texture`: a scene through the texture unit.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,14 +10,19 @@
 #include <utility>
 #include <vector>
 
+#include "rtl_model/texture/descriptors.h"
 #include "spec/error.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/registers.h"
 #include "tb/app/input_rules.h"
-#include "tb/engines/morphological/morphological_rules.h"
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
 #include "tb/app/simulate.h"
+#include "tb/engines/texture/texture_draws.h"
 #include "tb/engines/texture/texture_rules.h"
 #include "tb/engines/texture/texture_traces.h"
+#include "tb/engines/texture/texture_truth.h"
+#include "tb/env/texture_coverage.h"
 #include "tb/env/texture_environment.h"
 #include "tb/env/texture_sequence.h"
 #include "tb/results/interrupt.h"
@@ -135,6 +139,32 @@ class TextureEngine final : public Engine {
     describe(simulation, environment, result);
     add_flicker(result, {});
   }
+
+  std::vector<std::string_view> pictures() const override {
+    return {"before", "after", "golden", "difference", "truth", "error"};
+  }
+  std::vector<std::string_view> maps() const override {
+    return {"samples", "level", "misses", "latency"};
+  }
+
+  RegisterSection registers() const override {
+    namespace reg = spec::texture::reg;
+    // One descriptor stands for all.
+    constexpr std::uint32_t kSecond = reg::kTextureBase + reg::kTextureStride;
+    RegisterSection section{"TextureUnit", {}};
+    for (const spec::RegisterInfo& r : rtl::texture::register_table())
+      if (r.offset < kSecond) section.rows.push_back(r);
+    section.note = fmt::format(
+        "Textures 1..{} follow with the same registers, each 0x{:X} bytes after the one before.",
+        spec::texture::kMaxTextures - 1, reg::kTextureStride);
+    return section;
+  }
+  CoverageSection coverage() const override {
+    return {"Texture unit", TextureCoverage::declared(), TextureCoverage::groups()};
+  }
+
+  RandomDraws random_draws() const override { return texture_draws(); }
+  LongRun long_run() const override { return {{{"scene.width", "321"}, {"scene.height", "243"}}}; }
 
  private:
   std::shared_ptr<const TextureScene> load(const RunParameters& run,

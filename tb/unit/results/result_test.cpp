@@ -230,6 +230,7 @@ TEST_F(Directory, TheReportIsSelfContainedAndEscapes) {
   ParameterSet parameters;
   RunContext context(path_, parameters, "deburr run texture --set a='<b>'", 7);
   context.set_title("A <title> & more", "summary");
+  context.set_leaves({{"before", "after"}, {}});
   context.claim();
   context.add_image("before", Image(4, 3, {10, 20, 30, 255}), "Before", "");
   context.add_image("after", Image(4, 3, {11, 20, 30, 255}), "After", "");
