@@ -48,7 +48,7 @@ std::string texture(Random& random) {
 }
 
 // Of every engine: what runs, scenes and memories are given.
-const std::map<std::string_view, Draw>& draws() {
+const std::map<std::string_view, Draw>& common_draws() {
   static const std::map<std::string_view, Draw> all = {
       {"run.seed", word},
       {"run.stall_seed", word},
@@ -140,7 +140,7 @@ std::int64_t number(std::string_view text) {
 // By its range: "2..4096", "true | false", "lru | fifo | random"; empty for text.
 std::string drawn(const RandomDraws& engine, const Parameter& parameter, Random& random) {
   const std::string_view name = common_name(parameter.name);
-  for (const auto* const all : {&engine.draws, &draws()})
+  for (const auto* const all : {&engine.draws, &common_draws()})
     if (const auto found = all->find(name); found != all->end()) return found->second(random);
   const std::string_view range = parameter.range;
   if (const std::size_t dots = range.find(".."); dots != std::string_view::npos)

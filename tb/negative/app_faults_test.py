@@ -9,7 +9,7 @@ import os
 import re
 import unittest
 
-from app_support import DEBURR, CommandTest
+from app_support import CommandTest
 
 
 class Faults(CommandTest):

@@ -128,7 +128,7 @@ class CommandTest(unittest.TestCase):
         for fault in faults:
             name = fault.split("miscount-")[1].upper().replace("-", "_")
             self.expect(1, "run", engine, "--size", "24x24", "--out", self.path("out"), "--fault", fault,
-                        says=[f"status registers: 1 mismatches in", f"{name}: "])
+                        says=["status registers: 1 mismatches in", f"{name}: "])
             self.assertEqual(self.result()["checks"]["mismatches"], 1)
 
     def blind(self, engine, board, *arguments):
