@@ -75,7 +75,7 @@ class Tidy(unittest.TestCase):
                          encoding="utf-8")
         (self.root / "build/release/compile_commands.json").write_text(json.dumps(
             [{"directory": str(self.root), "file": str(batch),
-              "command": f"c++ -std=c++20 -I. -o x.o -c {batch}"}]), encoding="utf-8")
+              "command": f"c++ -std=c++20 -Werror --param=large-unit-insns=9 -I. -o x.o -c {batch}"}]), encoding="utf-8")
         self.assertEqual(self.tidy()[:2], (0, 2))
         self.header(PLANTED)
         code, clean, text = self.tidy(self.root / "golden/a.cpp")
