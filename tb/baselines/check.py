@@ -4,8 +4,8 @@
 idle clocks, latencies, traffic, work, and how full FIFOs were. A model gives the same counts on every
 machine, so any difference fails, a better one too until it is recorded.
 
-  tb/baselines/check.py build/release/tb/app/deburr            every baseline of every engine
-  tb/baselines/check.py build/release/tb/app/deburr --record   writes those that pass as the record
+  tb/baselines/check.py build/release/deburr            every baseline of every engine
+  tb/baselines/check.py build/release/deburr --record   writes those that pass as the record
 
 An engine's baselines stand in its folder, tb/engines/NAME: a `deburr run NAME` a line in baselines.txt,
 and what they counted in baselines.json. @PATTERN-NUMBER-WIDTHxHEIGHT in one is a picture of write_frame,
@@ -54,7 +54,7 @@ def command_line(run, folder, program):
     """The words of a run; its pictures are written to `folder`."""
     def picture(match):
         file = pathlib.Path(folder) / (match[0][1:] + ".png")
-        writer = program.parent.parent / "baselines/write_frame"
+        writer = program.parent / "tb/baselines/write_frame"
         subprocess.run([writer, *match.groups(), file], check=True)
         return shlex.quote(str(file))
     return shlex.split(FRAME.sub(picture, run))
