@@ -208,8 +208,8 @@ TEST_P(LeftPixels, AreAsTheyCameAndNothingElseChanges) {
 INSTANTIATE_TEST_SUITE_P(
     Any, LeftPixels,
     ::testing::Values(
-        Leaving{"deburr_1", [] { return deburr_line(); }, 0, false},
-        Leaving{"deburr_4", [] { return deburr_line(); }, 2, false},
+        Leaving{"deburr_line_1", [] { return deburr_line(); }, 0, false},
+        Leaving{"deburr_line_4", [] { return deburr_line(); }, 2, false},
         Leaving{"mlaa_2", [] { return preset(Preset::kMlaa); }, 1, false},
         Leaving{"mlaa_memory_4", [] { return preset(Preset::kMlaa); }, 2, true},
         Leaving{"slope_memory_1", [] { return preset(Preset::kMlaaSlope); }, 0, true},
