@@ -112,7 +112,7 @@ class Sources:
         def make():
             out = self.scratch / "run"
             self._call(f"deburr run {line}",
-                       [self.build / "tb/app/deburr", "run", *shlex.split(line), "--set",
+                       [self.build / "deburr", "run", *shlex.split(line), "--set",
                         "run.images=false", "--quiet", "--out", out])
             return json.loads((out / "result.json").read_text(encoding="utf-8"))
         return self._once(f"deburr run {line}", make)
@@ -122,7 +122,7 @@ class Sources:
         def make():
             out = self.scratch / f"papers_{number}"
             self._call(f"deburr papers {number}",
-                       [self.build / "tb/app/deburr", "papers", number, "--quiet", "--out", out],
+                       [self.build / "deburr", "papers", number, "--quiet", "--out", out],
                        {"DEBURR_DATA": str(self.data)} if self.data else {})
             papers = json.loads((out / "papers.json").read_text(encoding="utf-8"))["papers"]
             return {table["title"]: table["rows"] for table in papers[0]["tables"]}

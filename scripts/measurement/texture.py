@@ -66,6 +66,8 @@ def anisotropy(f):
 
 def mesa(f):
     """What the tests of Mesa print, by test; None where Mesa is absent."""
+    if not (f.build / MESA).exists():
+        return None
     lines, test = {}, None
     for line in f.test(MESA, "*Mesa*").splitlines():
         run = re.match(r"\[ RUN +\] (\S+)", line)
