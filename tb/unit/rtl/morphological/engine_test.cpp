@@ -141,7 +141,7 @@ TEST_P(LeftPixels, AreAsTheyCameAndNothingElseChanges) {
   for (std::size_t i = 0; i < frame.pixel.size(); ++i)
     if ((random.next() >> 16) % 12 == 0) frame.pixel[i][3] &= 0xFE;
   const auto run = [&](std::uint32_t leave) {
-    bench.bus.write(reg::kRules, (bench.bus.read(reg::kRules) & ~(3u << 23)) | leave << 23);
+    bench.bus.write(reg::kRules, (bench.bus.read(reg::kRules) & ~(7u << 24)) | leave << 24);
     bench.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
     const std::size_t before = bench.sink.beats().size();
     bench.run(frame);
