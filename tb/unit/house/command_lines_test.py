@@ -131,6 +131,7 @@ class CommandLines(unittest.TestCase):
                 # These may be parts of names behind that of the program.
                 (["-L", "^unit$", "-R", "rtl_"], "deburr_unit_tests"),
                 (["-L", "^unit$", "-R", "^rtl_a_test[.]Suite"], "deburr_unit_tests"),
+                (["-L", "^unit$", "-R", "^rtl_a_test_of"], "deburr_unit_tests"),
                 (["-L", "^unit$", "-R", "^rtl_", "-E", "^rtl_a"], "deburr_unit_tests")):
             with self.subTest(arguments=arguments):
                 calls = [call for call in self.call("scripts/test", *arguments)[2] if "--build" in call]
