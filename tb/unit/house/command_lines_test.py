@@ -19,7 +19,7 @@ from tiny_tree import tiny_tree  # noqa: E402
 
 SOURCE = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else ".").resolve()
 SAYS = '#!/bin/sh\necho "$(basename "$0") $*" >>"$CALLS"\n'
-DEBURR = "build/release/tb/app/deburr"
+DEBURR = "build/release/deburr"
 # What ninja says of a target: the programs that it builds.
 PROGRAMS = """case "$*" in *"-t query"*)
   echo 'deburr_unit_tests:

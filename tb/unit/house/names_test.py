@@ -62,7 +62,7 @@ def planted_faults_are_caught():
         source, built = pathlib.Path(folder), pathlib.Path("/build/tb/unit")
         (source / "rtl/texture").mkdir(parents=True)
         (source / "rtl/texture/log2_test.cpp").touch()
-        named = [built / "rtl/texture/rtl_texture_log2_test", pathlib.Path("/build/tb/app/deburr")]
+        named = [built / "rtl/texture/rtl_texture_log2_test", pathlib.Path("/build/deburr")]
         return not list(misnamed(named, built, source)) and all(
             len(list(misnamed([built / name], built, source))) == 1
             for name in ("rtl/texture/log2_test", "rtl/texture/rtl_texture_log2",
