@@ -44,6 +44,10 @@ add_test(NAME first_sweep COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/first_sweep_test.
                                   "${PROJECT_SOURCE_DIR}")
 set_tests_properties(first_sweep PROPERTIES LABELS system TIMEOUT 600
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+add_test(NAME testplans COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/testplans_test.py" $<TARGET_FILE:deburr>
+                                "${PROJECT_SOURCE_DIR}")
+set_tests_properties(testplans PROPERTIES LABELS system TIMEOUT 300
+                     ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 set_property(TEST sweep.Killed APPEND PROPERTY LABELS long)
 add_dependencies(deburr_long_tests deburr)
 add_test(NAME slurm COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/slurm_test.py" $<TARGET_FILE:deburr>)
