@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "spec/error.h"
+#include "tb/results/result.h"
 
 namespace deburr::tb {
 namespace {
@@ -50,9 +51,9 @@ using KeyValues = std::vector<std::pair<std::string, Json>>;
 
 void flatten(const Json& node, const std::string& path, KeyValues& values) {
   // The host's speed says nothing about the hardware, nor do bins of coverage say what is better,
-  // and the histogram has its percentiles.
-  if (path == "host" || path == "coverage" || path.ends_with("meaning") ||
-      path == "latency.histogram" || path == "schema")
+  // the histogram has its percentiles, and what is identical is infinite.
+  if (path == "host" || path == "quality.identical" || path == "coverage" ||
+      path.ends_with("meaning") || path == "latency.histogram" || path == "schema")
     return;
   if (node.is_object()) {
     for (const auto& [key, value] : node.items())
@@ -99,14 +100,13 @@ Judgement judge_numbers(Judge judge, double a, double b, const Tolerances& t) {
 }  // namespace
 
 std::optional<double> as_number(const Json& value) {
-  if (value.is_number()) return value.get<double>();
-  if (value.is_string() && value == "inf") return INFINITY;
-  return std::nullopt;
+  return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
 }
 
 std::string value_text(const Json& value) {
   if (value.is_null()) return "-";
   if (value.is_string()) return value.get<std::string>();
+  if (is_infinite(value)) return "identical";
   if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
   return value.dump();
 }

@@ -57,12 +57,13 @@ double number(const Json& json, const char* key) {
 }
 
 std::string decibels(const Json& value) {
-  if (value.is_number()) return fmt::format("{:.2f}", value.get<double>());
-  return value == "inf" ? "identical" : "-";
+  if (is_infinite(value)) return "identical";
+  return value.is_number() ? fmt::format("{:.2f}", value.get<double>()) : "-";
 }
 
 std::string gain_of(const Json& before, const Json& after) {
-  if (!before.is_number() || !after.is_number()) return "-";
+  if (!before.is_number() || !after.is_number() || is_infinite(before) || is_infinite(after))
+    return "-";
   return fmt::format("{:+.2f}", after.get<double>() - before.get<double>());
 }
 
@@ -260,6 +261,7 @@ class ReportBuilder {
 
   static std::string figure_text(const Json& value) {
     if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+    if (is_infinite(value)) return "identical";
     return value.is_number_float() ? amount(value.get<double>()) : report_text(value);
   }
 
@@ -632,7 +634,7 @@ std::string data_uri(const fs::path& image_file) {
 }
 
 std::string build_report(const fs::path& pictures, Json result, Json manifest) {
-  return ReportBuilder(pictures, std::move(result), std::move(manifest)).render();
+  return ReportBuilder(pictures, with_infinity(std::move(result)), std::move(manifest)).render();
 }
 
 std::string build_report(const fs::path& directory) {
