@@ -54,6 +54,12 @@ set_tests_properties(testplans PROPERTIES LABELS system TIMEOUT 300
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 set_property(TEST sweep.Killed APPEND PROPERTY LABELS long)
 add_dependencies(deburr_long_tests deburr)
+foreach(class Replaced Traced)
+  add_test(NAME inputs.${class}
+           COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/inputs_test.py" $<TARGET_FILE:deburr> ${class})
+  set_tests_properties(inputs.${class} PROPERTIES LABELS system TIMEOUT 600
+                       ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+endforeach()
 add_test(NAME slurm COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/slurm_test.py" $<TARGET_FILE:deburr>)
 set_tests_properties(slurm PROPERTIES LABELS slurm TIMEOUT 900 SKIP_REGULAR_EXPRESSION "^skipped"
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
