@@ -297,7 +297,7 @@ class SweepComparison {
   }
 
   // The metrics whose values would be infinite.
-  Json identical(const Values& values) const {
+  Json identical(const MetricValues& values) const {
     Json names = Json::array();
     for (std::size_t m = 0; m < values.size(); ++m)
       if (values[m] && std::isinf(*values[m])) names.push_back(metrics_[m].name);
