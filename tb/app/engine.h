@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -20,6 +21,7 @@
 #include "tb/results/parameter_set.h"
 #include "tb/results/result.h"
 #include "tb/results/run_context.h"
+#include "tb/scene/mesh.h"
 #include "tb/traces/trace_file.h"
 
 namespace deburr::tb {
@@ -113,11 +115,13 @@ struct Shorthand {
   std::string second_parameter{}, given = "true";
 };
 
-// Of docs/registers.md: an engine's registers, and what stands behind their table.
+// Of docs/registers.md and the C header: an engine's registers, and what stands behind their table
+// and their macros.
 struct RegisterSection {
   std::string module;  // as its page calls it; empty: the engine has no registers of its own
   std::vector<spec::RegisterInfo> rows;
-  std::string note{};
+  std::string note{}, c_text{};
+  std::string macros{};  // what the names of its macros begin with; follows from its name
 };
 
 // Of docs/coverage.md: every bin of an engine, those too that only directed tests meet.
@@ -160,6 +164,9 @@ class Engine {
   // Simulates and fills the context's images. Errors of the run are exceptions (spec/error.h);
   // what was measured until then is in `result`.
   virtual void run(const RunParameters& run, RunContext& context, Result& result) = 0;
+  // Every file that run() opens, or looks for in vain, named by a parameter or by another file:
+  // what they hold is in the keys of all that is kept of a run. After resolve().
+  virtual std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const = 0;
   // Makes what run() will take from context.shared(), for all runs that are to share it. It makes
   // nothing of SystemC, so that a process can run() behind it as often as it forks.
   virtual void prepare(const RunParameters&, RunContext&) {}

@@ -204,7 +204,7 @@ Plan make_regression_plan(const Testplan& testplan, std::uint64_t base_seed,
       before && changes_since(*before, testplan.file).empty())
     return *before;
   auto [plan, points] = RegressionPlanner(testplan, base_seed).run();
-  for (const fs::path& file : testplan.included) plan.files[file.string()] = sha256_of_file(file);
+  for (const fs::path& file : testplan.included) plan.parts[file.string()] = content_of(file);
   write_points(points, place);
   write_plan(plan, place);
   return std::move(plan);

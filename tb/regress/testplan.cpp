@@ -151,19 +151,23 @@ class Pages {
     if (is_new) entry->second = read(page);
     return entry->second ? &*entry->second : nullptr;
   }
+  const std::vector<fs::path>& found() const { return found_; }
 
  private:
-  std::optional<Page> read(const fs::path& page) const {
+  std::optional<Page> read(const fs::path& page) {
     for (fs::path folder = folder_;; folder = folder.parent_path()) {
       std::error_code error;
-      if (fs::is_regular_file(folder / page, error))
-        return Page(read_file(folder / page, kMaxPageBytes));
+      if (fs::is_regular_file(folder / page, error)) {
+        found_.push_back(folder / page);
+        return Page(read_file(found_.back(), kMaxPageBytes));
+      }
       if (folder == folder.parent_path()) return std::nullopt;
     }
   }
 
   fs::path folder_;
   std::map<std::string, std::optional<Page>> pages_;
+  std::vector<fs::path> found_;
 };
 
 // A coverage glob, which is judged when every file has named the engines of its feature.
@@ -216,6 +220,8 @@ class TestplanFile {
         included_.push_back(read_feature(node));
     }
   }
+
+  const std::vector<fs::path>& pages() const { return pages_.found(); }
 
   void read(const PendingGlob& glob) const {
     Feature& feature = *feature_named(glob.feature);
@@ -420,9 +426,18 @@ Testplan read_testplan(const fs::path& file) {
     files.emplace_back(name);
     return TestplanFile(files.back(), common, plan.features, globs);
   };
-  for (const fs::path& included : open(file).read_whole(plan)) {
-    open(included).read_part();
-    plan.included.push_back(included);
+  const auto note_pages = [&](const TestplanFile& read) {
+    for (const fs::path& page : read.pages())
+      if (std::find(plan.pages.begin(), plan.pages.end(), page) == plan.pages.end())
+        plan.pages.push_back(page);
+  };
+  TestplanFile whole = open(file);
+  plan.included = whole.read_whole(plan);
+  note_pages(whole);
+  for (const fs::path& included : plan.included) {
+    TestplanFile part = open(included);
+    part.read_part();
+    note_pages(part);
   }
   for (const PendingGlob& glob : globs)
     TestplanFile(*glob.yaml, common, plan.features, globs).read(glob);

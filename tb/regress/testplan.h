@@ -51,6 +51,7 @@ struct Testplan {
   std::string name, title;
   std::uint64_t divisor = 1;  // of N seeds there are N / divisor
   std::vector<Feature> features;
+  std::vector<std::filesystem::path> pages;  // that were found
 };
 
 // With the files that it includes: `include: ["../engines/*/smoke.yaml"]` stands for one of each

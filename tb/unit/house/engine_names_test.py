@@ -28,6 +28,8 @@ NAMED = {
             "rtl_model/morphological/blend/blender.cpp", "spec/morphological/parameters.h"],
         "methods are compared there, each by its name": ["tb/oracle/comparison.cpp"],
         "the paper whose method it is": ["tb/papers/papers_002.cpp"],
+        "tables of pages are measured, its own among them": [
+            "scripts/measurement/results.py", "tb/baselines/CMakeLists.txt"],
         "its environment still stands there": ["tb/env/CMakeLists.txt"],
     },
     "morphological": {
@@ -48,10 +50,12 @@ NAMED = {
             "tb/negative/app_bad_input_test.py", "tb/negative/app_faults_test.py", "tb/negative/app_images_test.py",
             "tb/negative/app_regress_test.py", "tb/negative/app_sweep_test.py", "tb/negative/app_traces_test.py",
             "tb/system/coverage_test.py", "tb/system/figures_test.py", "tb/system/observers_test.py", "tb/system/shared_golden_test.cpp",
-            "tb/system/sweep_test.py", "tb/system/terminal_test.py", "tb/unit/env/planted_faults_test.cpp",
+            "tb/system/inputs_test.py", "tb/system/sweep_test.py", "tb/system/terminal_test.py", "tb/unit/env/planted_faults_test.cpp",
             "tb/unit/house/mutate_test.py", "tb/unit/results/result_test.cpp", "tb/env/collect.h"],
         "the one choice by which an engine has no memory": ["tb/traces/line_trace.cpp"],
         "names of memories are cut in a chart": ["tb/results/report.js"],
+        "tables of pages are measured, its own among them": [
+            "scripts/measurement/geometric.py", "scripts/measurement/results.py", "tb/baselines/CMakeLists.txt"],
         "its environment still stands there": ["tb/env/CMakeLists.txt"],
     },
 }

@@ -29,12 +29,12 @@ std::uint32_t nearest(std::uint32_t value, std::uint32_t steps) {
 Activity LevelUnit::tick(Cycle cycle) {
   if (!tones_in.can_pop(cycle)) return kIdle;
   if (!tones_out.can_push(cycle)) return kStalledDownstream;
-  const std::uint32_t rules = control_.value(reg::kRules), bits = rules & 0xF;
+  const std::uint32_t rules = control_.value(reg::kRules), bits = reg::rules::kBits.of(rules);
   const std::uint32_t steps = (1u << bits) - 1;
   spec::posteriser::Tone tone = tones_in.take(cycle);
   const spec::posteriser::Tone before = tone;
   for (std::uint8_t& colour : tone.colour)
-    colour = static_cast<std::uint8_t>((rules & 0x10) != 0
+    colour = static_cast<std::uint8_t>(reg::rules::kRounding.of(rules) != 0
                                            ? nearest(colour, steps)
                                            : code(std::uint32_t{colour} >> (8 - bits), steps));
   ++pixels;
@@ -51,9 +51,9 @@ Posteriser::Posteriser(const sc_core::sc_module_name& name, ClockDomain& clock,
   const spec::posteriser::Parameters p = checked_ranges("posteriser", parameters);
   levels.tones_in(tones_in);
   levels.tones_out(tones_out);
-  control.set_mask(reg::kRules, reg::kRulesMask);
-  control.set_reset(reg::kRules, static_cast<std::uint32_t>(p.bits) |
-                                     static_cast<std::uint32_t>(p.rounding) << 4);
+  control.set_reset(reg::kRules,
+                    reg::rules::kBits.in(static_cast<std::uint32_t>(p.bits)) |
+                        reg::rules::kRounding.in(static_cast<std::uint32_t>(p.rounding)));
   control.show(reg::kPixels, levels.pixels);
   control.show(reg::kChanged, levels.changed);
   control.reset();

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "spec/posteriser/parameters.h"
 #include "spec/registers.h"
 
 namespace deburr::spec::posteriser {
@@ -17,7 +18,11 @@ inline constexpr std::uint32_t kRules = 0x0C;
 inline constexpr std::uint32_t kPixels = 0x10;
 inline constexpr std::uint32_t kChanged = 0x14;
 inline constexpr std::uint32_t kIdValue = 0xDEB000FF;
-inline constexpr std::uint32_t kRulesMask = 0x1F;
+namespace rules {
+inline constexpr Field kBits{"bits", 3, 0, {}};
+inline constexpr Field kRounding{"rounding", 4, 4, {}, kRoundingNames};
+inline constexpr std::array kFields = {kBits, kRounding};
+}  // namespace rules
 }  // namespace reg
 
 inline constexpr std::array<RegisterInfo, 6> kRegisters = {{
@@ -26,7 +31,8 @@ inline constexpr std::array<RegisterInfo, 6> kRegisters = {{
      "Bit 0 enable. Bit 1 clear the counters (command, reads 0)."},
     {reg::kStatus, "STATUS", Access::kWriteOneToClear, 1,
      "Bit 0 idle (read only). Sticky: bit 1 register written while busy (the write is ignored)."},
-    {reg::kRules, "RULES", Access::kReadWrite, 0, "bits [3:0], rounding [4]."},
+    {reg::kRules, "RULES", Access::kReadWrite, 0, "Loaded from the parameters.",
+     reg::rules::kFields},
     {reg::kPixels, "PIXELS", Access::kReadOnly, 0, "Pixels delivered."},
     {reg::kChanged, "CHANGED", Access::kReadOnly, 0, "Pixels that it changed."},
 }};

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -47,6 +48,7 @@ class PosteriserCommand final : public Engine {
             {"--bits", "posteriser.bits", "Levels of a colour, as a power of two"}};
   }
   void judge(const RunParameters&, RunContext&) override {}
+  std::vector<std::filesystem::path> input_files(MeshFiles&) const override { return {}; }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
     const Image picture = picture_of(static_cast<std::uint64_t>(run.seed));
