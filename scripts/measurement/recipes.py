@@ -1,13 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Which pages are measured; importing this fills RECIPES."""
-import importlib
-import pkgutil
-
-import measurement
-
-for _module in pkgutil.iter_modules(measurement.__path__):
-    if _module.name != "recipes":
-        importlib.import_module(f"measurement.{_module.name}")
+from measurement import results  # noqa: F401
 
 # Pages whose every table is measured, or says that it is not.
 MEASURED = ("results", "comparison", "geometric_quality", "morphological_quality",
