@@ -12,7 +12,7 @@
 #include "tb/harness/memory_model.h"
 #include "tb/unit/fabric/support.h"
 
-namespace deburr::tb {
+namespace deburr::tb::memory_test {
 namespace {
 
 using rtl::Cycle;
@@ -852,4 +852,4 @@ TEST(MemoryPort, WorksWithABlockingTarget) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::memory_test

@@ -12,7 +12,7 @@
 
 #include "spec/error.h"
 
-namespace deburr::tb {
+namespace deburr::tb::verdicts_test {
 namespace {
 
 using testing::ElementsAre;
@@ -122,4 +122,4 @@ TEST(Rules, BringWhatIsShown) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::verdicts_test

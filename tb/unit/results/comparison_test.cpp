@@ -18,7 +18,7 @@
 #include "tb/results/result.h"
 #include "tb/scene/image_io.h"
 
-namespace deburr::tb {
+namespace deburr::tb::comparison_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -354,4 +354,4 @@ TEST_F(Sweeps, ThatAreNotWholeOrDoNotFitAreRefused) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::comparison_test

@@ -13,7 +13,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/scene/fixtures.h"
 
-namespace deburr::tb {
+namespace deburr::tb::mesh_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -401,4 +401,4 @@ TEST(Data, EveryMeshOfTheDataFolderLoads) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::mesh_test

@@ -18,7 +18,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
-namespace deburr {
+namespace deburr::frames_test {
 namespace {
 
 using golden::morphological::BitPlane;
@@ -663,4 +663,4 @@ TEST(NamedErrors, OfFramesSayWhatWouldFit) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::frames_test

@@ -15,7 +15,7 @@
 #include "spec/morphological/tables.h"
 #include "tb/unit/golden/morphological/support.h"
 
-namespace deburr {
+namespace deburr::vectors_test {
 namespace {
 
 using golden::morphological::EdgeShares;
@@ -322,4 +322,4 @@ TEST(Roms, HoldTheRoundedReciprocals) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::vectors_test
