@@ -101,6 +101,12 @@ class Tidy(unittest.TestCase):
             self.assertEqual(self.tidy(self.root / place)[0], expected, place)
 
     def test_says_what_is_missing(self):
+        database = self.root / "build/release/compile_commands.json"
+        listed = json.loads(database.read_text(encoding="utf-8"))
+        database.write_text(json.dumps([{**entry, "file": "odd/a.cpp"} for entry in listed]), encoding="utf-8")
+        code, _, text = self.tidy()
+        self.assertEqual(code, 2)
+        self.assertIn("has no sources of this tree", text)
         (self.root / "build/release/compile_commands.json").unlink()
         code, _, text = self.tidy()
         self.assertEqual(code, 2)
