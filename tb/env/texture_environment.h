@@ -52,6 +52,8 @@ struct TextureSetup {
   // What the golden model found already; null: it works beside the hardware. Never with errors of
   // memory.
   std::shared_ptr<const TextureExpectation> expectation = nullptr;
+  // Connects the engine with its memory; null: directly.
+  std::function<void(rtl::Engine&, MemoryModel&)> connect{};
 };
 // The depth of the latency FIFO: as ordered, or for 0 what hides this memory's latency.
 std::int32_t fifo_depth(const TextureSetup& setup);
