@@ -14,7 +14,7 @@
 #include "tb/fuzz/targets.h"
 #include "tb/stimuli/random.h"
 
-namespace deburr::tb {
+namespace deburr::tb::replay_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -93,4 +93,4 @@ TEST(FuzzTargets, HaveSeeds) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::replay_test

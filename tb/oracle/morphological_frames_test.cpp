@@ -28,7 +28,7 @@
 #include "tb/stimuli/reference_filters.h"
 #include "tb/training/stand_ins.h"
 
-namespace deburr::tb {
+namespace deburr::tb::morphological_frames_test {
 namespace {
 
 using golden::morphological::MorphologicalGolden;
@@ -363,4 +363,4 @@ TEST(MorphologicalFrames, AWorseFilterIsCaught) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::morphological_frames_test

@@ -20,7 +20,7 @@
 #include "tb/scene/image_io.h"
 #include "tb/scene/textures.h"
 
-namespace deburr::tb {
+namespace deburr::tb::texture_direction_test {
 namespace {
 
 using golden::texture::preset_parameters;
@@ -213,4 +213,4 @@ TEST(TextureDirectionFault, AWrongSineAndMissingSpreadAreSeen) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::texture_direction_test

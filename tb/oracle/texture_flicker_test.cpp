@@ -15,7 +15,7 @@
 #include "golden/texture/configuration.h"
 #include "tb/env/texture_sequence.h"
 
-namespace deburr::tb {
+namespace deburr::tb::texture_flicker_test {
 namespace {
 
 using golden::texture::preset_parameters;
@@ -186,4 +186,4 @@ TEST(TextureFlicker, OfPicturesThatChangeAsTheirTruthDoesIsNone) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::texture_flicker_test

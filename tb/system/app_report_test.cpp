@@ -19,7 +19,7 @@
 #include "tb/scene/image.h"
 #include "tb/scene/image_io.h"
 
-namespace deburr::tb {
+namespace deburr::tb::app_report_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -260,4 +260,4 @@ INSTANTIATE_TEST_SUITE_P(Scheme, Report, testing::ValuesIn(kSchemes),
                          [](const auto& scheme) { return std::string(scheme.param.name); });
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::app_report_test

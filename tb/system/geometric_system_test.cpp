@@ -15,7 +15,7 @@
 #include "tb/harness/forked.h"
 #include "tb/system/geometric_runs.h"
 
-namespace deburr::tb::geometric_system {
+namespace deburr::tb::geometric_system::geometric_system_test {
 namespace {
 
 using Frames = std::vector<Frame>;
@@ -264,4 +264,4 @@ INSTANTIATE_TEST_SUITE_P(Geometric, BrokenMemory,
                          name_of<Broken>);
 
 }  // namespace
-}  // namespace deburr::tb::geometric_system
+}  // namespace deburr::tb::geometric_system::geometric_system_test

@@ -13,7 +13,7 @@
 #include "tb/harness/forked.h"
 #include "tb/system/morphological_runs.h"
 
-namespace deburr::tb::morphological_system {
+namespace deburr::tb::morphological_system::morphological_system_test {
 namespace {
 
 using Frames = std::vector<MorphologicalInput>;
@@ -510,4 +510,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace deburr::tb::morphological_system
+}  // namespace deburr::tb::morphological_system::morphological_system_test

@@ -14,7 +14,7 @@
 #include "tb/harness/forked.h"
 #include "tb/system/texture_runs.h"
 
-namespace deburr::tb {
+namespace deburr::tb::texture_system_test {
 namespace {
 
 // Everything covered was delivered and compared.
@@ -312,4 +312,4 @@ INSTANTIATE_TEST_SUITE_P(
                     std::tuple{"kenney/racing/models/vehicle-truck-red.glb", ""}));
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::texture_system_test

@@ -23,7 +23,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/sweep/definition.h"
 
-namespace deburr::tb {
+namespace deburr::tb::text_noise_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -231,4 +231,4 @@ TEST_F(TextNoise, Faults) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::text_noise_test

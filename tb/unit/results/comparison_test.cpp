@@ -18,7 +18,7 @@
 #include "tb/results/result.h"
 #include "tb/scene/image_io.h"
 
-namespace deburr::tb {
+namespace deburr::tb::comparison_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -413,4 +413,4 @@ TEST_F(Sweeps, ThatAreNotWholeOrDoNotFitAreRefused) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::comparison_test

@@ -20,7 +20,7 @@
 #include "tb/results/report.h"
 #include "tb/results/run_context.h"
 
-namespace deburr::tb {
+namespace deburr::tb::result_test {
 namespace {
 
 using testing::HasSubstr;
@@ -528,4 +528,4 @@ TEST(Statistics, TheMostSpecificDescriptionWins) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::result_test

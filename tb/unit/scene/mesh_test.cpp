@@ -14,7 +14,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/scene/fixtures.h"
 
-namespace deburr::tb {
+namespace deburr::tb::mesh_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -529,4 +529,4 @@ TEST(Data, EveryMeshOfTheDataFolderLoads) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::mesh_test

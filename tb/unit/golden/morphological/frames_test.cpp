@@ -18,7 +18,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
-namespace deburr {
+namespace deburr::frames_test {
 namespace {
 
 using golden::morphological::BitPlane;
@@ -717,4 +717,4 @@ TEST(NamedErrors, OfFramesSayWhatWouldFit) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::frames_test

@@ -24,7 +24,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
-namespace deburr {
+namespace deburr::learned_shares_test {
 namespace {
 
 using golden::morphological::CoverageBin;
@@ -560,4 +560,4 @@ TEST(LearnedCoverage, CountsTheGapOfALongRunOnce) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::learned_shares_test

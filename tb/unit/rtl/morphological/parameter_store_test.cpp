@@ -14,7 +14,7 @@
 #include "tb/unit/rtl/morphological/parts.h"
 #include "tb/unit/rtl/morphological/placed_engine.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::parameter_store_test {
 namespace {
 
 using spec::morphological::Preset;
@@ -961,4 +961,4 @@ TEST(CounterRegisters, ShowTheirCounters) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::parameter_store_test
