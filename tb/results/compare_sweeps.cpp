@@ -12,6 +12,7 @@
 #include "spec/error.h"
 #include "tb/results/compare_runs.h"
 #include "tb/results/file.h"
+#include "tb/results/input_files.h"
 
 namespace deburr::tb {
 namespace {
@@ -218,6 +219,8 @@ class SweepComparison {
       if (failed + missing > 0)
         json["warnings"].push_back(fmt::format(
             "{} is not complete: {} points failed, {} are missing", letter(i), failed, missing));
+      const std::string inputs = different_inputs_of(i);
+      if (!inputs.empty()) json["warnings"].push_back(inputs);
     }
     json["parameters"] = parameters();
     json["axes"] = axes_;
@@ -235,6 +238,15 @@ class SweepComparison {
                                  {"counts", counts(dotted(metric.key), tolerances_)}});
       if (metric.maximise) json["objectives"].push_back(metric.name);
     }
+  }
+
+  // From the first sweep's.
+  std::string different_inputs_of(std::size_t sweep) const {
+    const auto inputs = [](const Sweep& of) { return of.json.value("inputs", Json::array()); };
+    const std::string different = different_inputs(inputs(sweeps_[0]), inputs(sweeps_[sweep]));
+    if (different.empty()) return "";
+    return fmt::format("the inputs differ: {}{}", different,
+                       sweep > 1 ? fmt::format(" (B is {} here)", letter(sweep)) : "");
   }
 
   Json parameters() const {

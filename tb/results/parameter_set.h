@@ -55,9 +55,6 @@ inline std::string_view kind_name(const Parameter& parameter) {
   return kParameterKindNames[static_cast<std::size_t>(parameter.kind)];
 }
 
-// Whether its value is the name of a file that is there.
-bool names_a_file(const Parameter& parameter);
-
 class ParameterSet {
  public:
   // Binds every parameter of `values` under `prefix`. The values at this moment are the defaults.

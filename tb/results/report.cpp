@@ -14,6 +14,7 @@
 #include "spec/error.h"
 #include "tb/results/embedded.h"
 #include "tb/results/file.h"
+#include "tb/results/input_files.h"
 #include "tb/results/result.h"
 #include "tb/scene/image_io.h"
 
@@ -585,8 +586,10 @@ class ReportBuilder {
       if (manifest_.contains(key))
         origin << row({{"name", key}, {"value", shown_plain(manifest_[key])}});
     for (const Json& input : manifest_.value("inputs", Json::array()))
-      origin << row({{"name", "input"},
-                     {"value", input.value("file", "") + "  sha256 " + input.value("sha256", "")}});
+      origin << row({{"name", input.value("role", "input")},
+                     {"value", fmt::format("{}  {}{}", input.value("file", ""),
+                                           input.contains("sha256") ? "sha256 " : "",
+                                           listed_content(input))}});
     page_.set("origin", origin);
   }
 

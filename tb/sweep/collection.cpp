@@ -302,6 +302,7 @@ Json json_of(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& p
                     {"failed", all.failed},
                     {"missing", all.missing},
                     {"front", all.front}};
+  json["inputs"] = inputs_of(plan, "definition");
   json["left_out"] = plan.left_out;
   // As seen from the sweep's directory, where the page is.
   json["points_directory"] =

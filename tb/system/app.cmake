@@ -43,6 +43,12 @@ add_test(NAME first_sweep COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/first_sweep_test.
 set_tests_properties(first_sweep PROPERTIES LABELS system TIMEOUT 600
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 set_property(TEST sweep.Killed APPEND PROPERTY LABELS long)
+foreach(class Replaced Traced)
+  add_test(NAME inputs.${class}
+           COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/inputs_test.py" $<TARGET_FILE:deburr> ${class})
+  set_tests_properties(inputs.${class} PROPERTIES LABELS system TIMEOUT 600
+                       ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+endforeach()
 add_test(NAME slurm COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/slurm_test.py" $<TARGET_FILE:deburr>)
 set_tests_properties(slurm PROPERTIES LABELS slurm TIMEOUT 900 SKIP_REGULAR_EXPRESSION "^skipped"
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
