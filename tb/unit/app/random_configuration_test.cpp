@@ -14,7 +14,7 @@
 #include "tb/app/run_once.h"
 #include "tb/harness/forked.h"
 
-namespace deburr::tb {
+namespace deburr::tb::random_configuration_test {
 namespace {
 
 class RandomConfiguration : public testing::TestWithParam<std::string> {};
@@ -127,4 +127,4 @@ TEST(RandomConfigurations, OfACompositionFixWhatItsPartsFix) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::random_configuration_test

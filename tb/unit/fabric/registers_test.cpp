@@ -11,7 +11,7 @@
 #include "spec/error.h"
 #include "tb/harness/register_host.h"
 
-namespace deburr::tb {
+namespace deburr::tb::registers_test {
 namespace {
 
 using spec::Access;
@@ -270,4 +270,4 @@ TEST(RegisterTable, MistakesAreCaught) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::registers_test

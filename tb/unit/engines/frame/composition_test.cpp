@@ -11,7 +11,7 @@
 #include "tb/engines/frame/frame_composition.h"
 #include "tb/harness/forked.h"
 
-namespace deburr::tb {
+namespace deburr::tb::composition_test {
 namespace {
 
 constexpr Smoothing kAll[] = {Smoothing::kMorphological, Smoothing::kGeometric,
@@ -188,4 +188,4 @@ TEST_P(EveryFigure, HasANameOfItsOwn) {
 INSTANTIATE_TEST_SUITE_P(FrameComposition, EveryFigure, testing::ValuesIn(kAll));
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::composition_test

@@ -14,7 +14,7 @@
 #include "tb/scene/depth_codes.h"
 #include "tb/unit/scene/fixtures.h"
 
-namespace deburr::tb {
+namespace deburr::tb::edge_table_test {
 namespace {
 
 using Imath::V2d;
@@ -318,4 +318,4 @@ TEST(DepthCodes, RoundHalvesUpAndEndAtTheLimits) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::edge_table_test

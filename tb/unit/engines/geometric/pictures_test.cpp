@@ -6,7 +6,7 @@
 
 #include "tb/engines/geometric/geometric_pictures.h"
 
-namespace deburr::tb {
+namespace deburr::tb::pictures_test {
 namespace {
 
 // Two edges over a frame of 12 x 12: one through row 5, a silhouette that is seen, and one through
@@ -43,4 +43,4 @@ TEST(EdgePictures, ShowLinesByClassAndWeights) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::pictures_test

@@ -9,7 +9,7 @@
 #include "tb/engines/morphological/morphological_pictures.h"
 #include "tb/scene/image_io.h"
 
-namespace deburr::tb {
+namespace deburr::tb::pictures_test {
 namespace {
 
 std::vector<spec::morphological::BlendTap> taps_of_three() {
@@ -46,4 +46,4 @@ TEST(SmoothingPictures, AreThoseOfAFrameAndEdgesAndWeights) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::pictures_test
