@@ -29,7 +29,7 @@ NAMED = {
         "methods are compared there, each by its name": ["tb/oracle/comparison.cpp"],
         "the paper whose method it is": ["tb/papers/papers_002.cpp"],
         "tables of pages are measured, its own among them": [
-            "scripts/measurement/results.py", "tb/baselines/CMakeLists.txt"],
+            "scripts/measurement/results.py"],
         "its environment still stands there": ["tb/env/CMakeLists.txt"],
     },
     "morphological": {
@@ -55,7 +55,7 @@ NAMED = {
         "the one choice by which an engine has no memory": ["tb/traces/line_trace.cpp"],
         "names of memories are cut in a chart": ["tb/results/report.js"],
         "tables of pages are measured, its own among them": [
-            "scripts/measurement/geometric.py", "scripts/measurement/results.py", "tb/baselines/CMakeLists.txt"],
+            "scripts/measurement/recipes.py", "scripts/measurement/results.py"],
         "its environment still stands there": ["tb/env/CMakeLists.txt"],
     },
 }
@@ -96,7 +96,10 @@ def general_naming(engine, texts):
     code = re.compile(rf"\"{engine}[\"{'' if engine == 'frame' else '.'}]|\b(spec|golden|rtl|tb)(::|/|_){engine}\b|engines/{engine}\b|"
                       rf"\bdeburr::{engine}_|\b{camel}(Engine|Environment|Golden|Setup|Unit|Composition)\b|"
                       rf"engine: {engine}\b")
-    return {f"{name}: {code.search(text)[0]}" for name, text in texts if GENERAL.match(name) and code.search(text)}
+    # Comments of lists and scripts may take an example.
+    plain = [(name, text if name.endswith((".h", ".cpp")) else re.sub(r"(?m)^ *#.*", "", text))
+             for name, text in texts if GENERAL.match(name)]
+    return {f"{name}: {code.search(text)[0]}" for name, text in plain if code.search(text)}
 
 
 def complaints(root, named):
