@@ -214,7 +214,8 @@ std::string coverage_table(const Coverage& bins, std::span<const CoverageGroup> 
 }
 
 void add_bins(const Engine& engine, std::set<std::string>& names) {
-  for (const auto& [bin, hits] : engine.coverage().bins.bins()) names.insert(bin);
+  const CoverageSection section = engine.coverage();
+  for (const auto& [bin, hits] : section.bins.bins()) names.insert(bin);
   for (const std::string_view part : engine.parts())
     add_bins(*engine_named(std::string(part)), names);
 }
