@@ -153,6 +153,9 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   void send(Transaction& transaction, Cycle cycle);
   void arrived(Transaction& transaction, const sc_core::sc_time& when);
   void send_end_response();
+  void count(Transaction& transaction);
+  static void put_in_order(std::deque<Transaction*>& list, Transaction& transaction);
+  void take_coming(Cycle cycle);
   [[gnu::noinline]] Activity work(Cycle cycle);
   bool respond(Cycle cycle);
   bool busy() const { return gathering_ || !in_flight_.empty(); }
@@ -163,9 +166,13 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   std::vector<Transaction*> free_;
   std::deque<Transaction*> in_flight_;  // in the order of requests
   std::deque<Transaction*> arrived_;    // in the order of arrival
-  Transaction* requesting_ = nullptr;   // BEGIN_REQ sent, END_REQ not yet seen
-  Transaction* responding_ = nullptr;   // BEGIN_RESP seen, END_RESP to be sent by a call
-  Transaction* gathering_ = nullptr;    // burst write whose beats are still coming in
+  // Whose target has said already when they will arrive, in that order; and the first edge of which
+  // one of them has come.
+  std::deque<Transaction*> coming_;
+  Cycle next_comes_ = kNever;
+  Transaction* requesting_ = nullptr;  // BEGIN_REQ sent, END_REQ not yet seen
+  Transaction* responding_ = nullptr;  // BEGIN_RESP seen, END_RESP to be sent by a call
+  Transaction* gathering_ = nullptr;   // burst write whose beats are still coming in
   sc_core::sc_event end_response_;
   sc_core::sc_time channel_free_;  // end of the last request
   std::uint32_t epoch_ = 0;        // counts resets: late responses of older epochs are dropped

@@ -64,13 +64,13 @@ Activity AxisUnit::advance(Cycle cycle, Pipe<FootprintToken, kLength>& stages) {
   stages.move();
   if (const FootprintToken* done = stages.at(kLength)) footprints_out.push(cycle, *done);
   if (arrives) {
+    const DerivativeToken& in = derivatives_in.take(cycle);
     if (more_clocks_ == 0) {
-      turn(derivatives_in.front(cycle), stages.enter());
+      turn(in, stages.enter());
     } else {
-      turn(derivatives_in.front(cycle), in_hand_);
+      turn(in, in_hand_);
       clocks_left_ = more_clocks_;
     }
-    derivatives_in.pop(cycle);
   } else if (clocks_left_ != 0 && --clocks_left_ == 0) {
     stages.enter() = in_hand_;
   }

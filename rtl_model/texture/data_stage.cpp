@@ -128,7 +128,7 @@ inline bool DataStage::read_at_once(Cycle cycle, const CacheToken& request) {
   for (std::size_t i = 0; i < 4; ++i) word[i] = request.place[i] >> 2;
   const auto apart = [&](std::size_t i, std::size_t j) { return word[i] ^ word[j]; };
   const auto meet = [&](std::uint32_t difference) {
-    return difference != 0 && (difference & (words_a_line_ - 1)) == 0;
+    return (difference & (words_a_line_ - 1)) == 0 && difference != 0;
   };
   const std::uint32_t a = apart(0, 1), b = apart(0, 2), c = apart(0, 3), d = apart(1, 2),
                       e = apart(1, 3), f = apart(2, 3);

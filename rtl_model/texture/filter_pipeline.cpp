@@ -110,8 +110,7 @@ Activity FilterPipeline::tick(Cycle cycle) {
   if (Request* request = requests_.at(2)) filter(cycle, *request);
   if (arrives) {
     Request& request = requests_.enter();
-    request.token = texels_in.front(cycle);
-    texels_in.pop(cycle);
+    request.token = texels_in.take(cycle);
     look_up(cycle, request.token);
   }
   return kBusy;
@@ -141,8 +140,9 @@ inline void FilterPipeline::look_up(Cycle cycle, const TexelQuadToken& token) {
       linear_[3 * i + c].read(cycle, token.texel[i] >> (8 * c) & 255);
 }
 
-// Stages 3 to 5: what is between them cannot be seen from outside.
-template <class Unpack>
+// Stages 3 to 5: what is between them cannot be seen from outside. Texels come with so many bits
+// below the point: 4, or none where these are 0.
+template <unsigned kFractionBits, class Unpack>
 inline void FilterPipeline::lerp(Request& request, Unpack&& unpack) {
   const FilterControl& control = request.token.control;
   // Stages 3 and 4: U8.4 x U1.8.
@@ -151,7 +151,7 @@ inline void FilterPipeline::lerp(Request& request, Unpack&& unpack) {
                  lower = unpack(2) * left + unpack(3) * right;
   // Stage 5: U8.20, rounded to U8.12.
   const std::uint32_t down = control.fraction_v, up = 256 - down;
-  request.row = (upper * up + lower * down).rounded(8);
+  request.row = (upper * up + lower * down).rounded(kFractionBits + 4);
 }
 
 // Stage 2. A fragment of an invalid descriptor has one sample of no weight.
@@ -166,13 +166,13 @@ inline void FilterPipeline::filter(Cycle cycle, Request& request) const {
   const TexelQuadToken& token = request.token;
   if (token.control.last_of_sample) request.weight = weight(cycle, token);
   if (format_of(token) != spec::texture::Format::kRgba8) return filter_other(cycle, request);
-  lerp(request, [&](std::size_t i) { return Channels::of_bytes(token.texel[i]); });
+  lerp<0>(request, [&](std::size_t i) { return Channels::of_bytes(token.texel[i]); });
 }
 
 void FilterPipeline::filter_other(Cycle cycle, Request& request) const {
   const TexelQuadToken& token = request.token;
   const auto lerp_each = [&](auto&& unpack_one) {
-    lerp(request, [&](std::size_t i) { return unpack_one(token.texel[i]); });
+    lerp<4>(request, [&](std::size_t i) { return unpack_one(token.texel[i]); });
   };
   switch (format_of(token)) {
     case spec::texture::Format::kRgba8:
@@ -191,7 +191,7 @@ void FilterPipeline::filter_other(Cycle cycle, Request& request) const {
       });
     case spec::texture::Format::kSrgb8A8:
       if (!token.ticket.valid) return;  // its weight is 0
-      return lerp(request, [&](std::size_t i) { return unpack_srgb(cycle, token, i); });
+      return lerp<4>(request, [&](std::size_t i) { return unpack_srgb(cycle, token, i); });
   }
 }
 

@@ -66,10 +66,10 @@ class FilterPipeline final : public Unit {
                                  std::uint32_t a) {
       return {r | std::uint64_t{b} << 32, g | std::uint64_t{a} << 32};
     }
-    // `of` of the bytes of an RGBA8 texel as U8.4.
+    // `of` of the bytes of an RGBA8 texel.
     static constexpr Channels of_bytes(std::uint64_t rgba) {
       constexpr std::uint64_t kBytes = kBoth * 0xFF;
-      return {((rgba | rgba << 16) & kBytes) << 4, ((rgba >> 8 | rgba << 8) & kBytes) << 4};
+      return {(rgba | rgba << 16) & kBytes, (rgba >> 8 | rgba << 8) & kBytes};
     }
     constexpr std::array<std::uint32_t, 4> each() const {
       return {static_cast<std::uint32_t>(rb), static_cast<std::uint32_t>(ga),
@@ -111,7 +111,7 @@ class FilterPipeline final : public Unit {
   std::uint32_t weight(Cycle cycle, const TexelQuadToken& token) const;
   void filter(Cycle cycle, Request& request) const;
   [[gnu::noinline]] void filter_other(Cycle cycle, Request& request) const;
-  template <class Unpack>
+  template <unsigned kFractionBits, class Unpack>
   static void lerp(Request& request, Unpack&& unpack);
   Channels unpack_srgb(Cycle cycle, const TexelQuadToken& token, std::size_t texel) const;
   void lerp_levels(const Request& request);

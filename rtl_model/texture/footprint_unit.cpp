@@ -17,7 +17,7 @@ Activity FootprintUnit::tick(Cycle cycle) {
   pipe_.move();
   if (const FootprintToken* done = pipe_.at(kStages)) footprints_out.push(cycle, *done);
   if (arrives) {
-    const DerivativeToken& in = derivatives_in.front(cycle);
+    const DerivativeToken& in = derivatives_in.take(cycle);
     const std::uint32_t d_x = side(rule_, in.size_s_x, in.size_t_x),
                         d_y = side(rule_, in.size_s_y, in.size_t_y);
     const bool x_is_major = d_x >= d_y;
@@ -28,7 +28,6 @@ Activity FootprintUnit::tick(Cycle cycle) {
                      x_is_major ? in.t_x : in.t_y,
                      x_is_major ? d_x : d_y,
                      x_is_major ? d_y : d_x};
-    derivatives_in.pop(cycle);
   }
   return kBusy;
 }
@@ -56,9 +55,8 @@ Activity FootprintUnit::tick_exact(Cycle cycle) {
   if (roots_.empty() && !waiting) return kIdle;
   if (roots_.leaving() && !footprints_out.can_push(cycle)) return kStalledDownstream;
   FootprintToken result;
-  if (roots_.step(waiting ? &derivatives_in.front(cycle) : nullptr, &result))
+  if (roots_.step(waiting ? &derivatives_in.take(cycle) : nullptr, &result))
     footprints_out.push(cycle, result);
-  if (waiting) derivatives_in.pop(cycle);
   return kBusy;
 }
 

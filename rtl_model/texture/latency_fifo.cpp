@@ -11,8 +11,7 @@ LatencyFifo::LatencyFifo(const sc_core::sc_module_name& name, ClockDomain& clock
 Activity LatencyFifo::tick(Cycle cycle) {
   if (!requests_in.can_pop(cycle)) return kIdle;
   if (!entries.can_push(cycle)) return kStalledDownstream;
-  entries.push(cycle, requests_in.front(cycle));
-  requests_in.pop(cycle);
+  entries.push(cycle, requests_in.take(cycle));
   return kBusy;
 }
 

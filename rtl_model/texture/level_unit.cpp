@@ -60,10 +60,7 @@ Activity LevelUnit::tick(Cycle cycle) {
   if (pipe_.leaves() && !levels_out.can_push(cycle)) return kStalledDownstream;
   pipe_.move();
   if (const LevelToken* done = pipe_.at(kStages)) levels_out.push(cycle, *done);
-  if (arrives) {
-    choose(cycle, logs_in.front(cycle), pipe_.enter());
-    logs_in.pop(cycle);
-  }
+  if (arrives) choose(cycle, logs_in.take(cycle), pipe_.enter());
   return kBusy;
 }
 

@@ -113,10 +113,9 @@ Activity Log2Unit::tick(Cycle cycle) {
 inline Activity Log2Unit::tick_mitchell(Cycle cycle) {
   if (!footprints_in.can_pop(cycle)) return kIdle;
   if (!logs_out.can_push(cycle)) return kStalledDownstream;
-  const FootprintToken& in = footprints_in.front(cycle);
+  const FootprintToken& in = footprints_in.take(cycle);
   logs_out.emplace(cycle) = {
       in.ticket, in.s, in.t, in.axis_s, in.axis_t, log2(rule_, in.d_max), log2(rule_, in.minor)};
-  footprints_in.pop(cycle);
   return kBusy;
 }
 

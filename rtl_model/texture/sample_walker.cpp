@@ -49,10 +49,7 @@ Activity SampleWalker::tick(Cycle cycle) {
   Prepared& next = reciprocal_ ? divided_ : scaled_;
   if (next.occupied && !walking_) start(next);
   if (reciprocal_ && scaled_.occupied && !divided_.occupied) divide(cycle);
-  if (arrives && !scaled_.occupied) {
-    scale(cycle, levels_in.front(cycle));
-    levels_in.pop(cycle);
-  }
+  if (arrives && !scaled_.occupied) scale(cycle, levels_in.take(cycle));
   return stalled ? kStalledDownstream : kBusy;
 }
 

@@ -63,8 +63,8 @@ class TagStage final : public Unit {
   bool would_miss() const;
   void look_up(Cycle cycle, CacheToken& out);
   struct Line {
-    std::uint32_t place;   // of its slot, what its bytes change places by below it; 0: it missed
-    std::uint32_t source;  // as in CacheToken
+    std::uint32_t place;  // of its slot, what its bytes change places by below it; 0: it missed
+    std::uint8_t source;  // as in CacheToken
   };
   Line look_up_line(Cycle cycle, std::uint64_t released, std::size_t texel, CacheToken& out,
                     MissToken& missed);

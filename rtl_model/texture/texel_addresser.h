@@ -42,14 +42,14 @@ class TexelAddresser final : public Unit {
   static constexpr int kStages = 5;
   // Two neighbouring texels along one axis.
   struct Axis {
-    std::int32_t first, second;  // U12, in range
-    std::uint8_t fraction;       // U0.8
+    std::uint64_t texels;   // U12 each, in range; the first one in the low half
+    std::uint8_t fraction;  // U0.8
   };
   void request(Cycle cycle, const SampleToken& sample, TexelToken& texels);
   static Axis scale(std::int64_t position, std::int32_t size, spec::texture::Wrap wrap,
                     bool linear);
-  static void address(const TextureState& texture, const LevelGeometry& level, const Axis& x,
-                      const Axis& y, TexelToken& texels);
+  static void address(const TextureState& texture, const LevelGeometry& level, std::uint64_t x,
+                      std::uint64_t y, TexelToken& texels);
 
   Descriptors::Reader descriptors_;
   Pipe<TexelToken, kStages> pipe_;

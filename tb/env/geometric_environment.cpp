@@ -404,20 +404,20 @@ GeometricEnvironment::GeometricEnvironment(Simulation& simulation,
 }
 
 void GeometricEnvironment::observe() {
-  const auto where = [this] { return fmt::format("cycle {}", simulation().clock().cycle()); };
-  engine_.resolver.observer = [this, where](const BlockRecord& block) {
+  const rtl::ClockDomain& clock = simulation().clock();
+  engine_.resolver.observer = [this, &clock](const BlockRecord& block) {
     blocks_.push_back(block);
     if (maps_) maps_->see(block);
-    if (golden()) block_board_.got(block, where());
+    if (golden()) block_board_.got(block, clock.cycle());
   };
   if (maps_ || golden())
-    engine_.depth_test.observer = [this, where](const Candidate& candidate) {
+    engine_.depth_test.observer = [this, &clock](const Candidate& candidate) {
       if (maps_) maps_->see(candidate);
-      if (golden()) candidate_board_.got(candidate, where());
+      if (golden()) candidate_board_.got(candidate, clock.cycle());
     };
   if (!golden()) return;
-  engine_.line_setup.observer = [this, where](const LineRecord& line) {
-    line_board_.got(line, where());
+  engine_.line_setup.observer = [this, &clock](const LineRecord& line) {
+    line_board_.got(line, clock.cycle());
   };
 }
 
@@ -596,7 +596,7 @@ void GeometricEnvironment::judge_traffic() {
   const auto judge = [&](const std::vector<std::uint64_t>& lines, std::size_t& judged, bool write) {
     for (; judged < lines.size(); ++judged)
       traffic_board_.got({static_cast<std::uint32_t>(lines[judged]), write},
-                         fmt::format("cycle {}", simulation().clock().cycle()));
+                         simulation().clock().cycle());
   };
   judge(memory_.lines_read(), reads_judged_, false);
   judge(memory_.lines_written(), writes_judged_, true);

@@ -572,8 +572,7 @@ void MorphologicalEnvironment::judge_traffic() {
   if (golden()) {
     const auto judge_lines = [&](const std::vector<std::uint64_t>& lines, bool write) {
       for (const std::uint64_t line : lines)
-        traffic_board_.got({static_cast<std::uint32_t>(line), write},
-                           fmt::format("cycle {}", simulation().clock().cycle()));
+        traffic_board_.got({static_cast<std::uint32_t>(line), write}, simulation().clock().cycle());
     };
     judge_lines(memory_->lines_written(), true);
     judge_lines(memory_->lines_read(), false);

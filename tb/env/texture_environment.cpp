@@ -203,8 +203,7 @@ void TextureEnvironment::watch() {
   if (fetch_again_ && memory_.lines_read().size() > kFaultyRequest) fetch_again();
   if (golden())
     for (; fills_judged_ < memory_.lines_read().size(); ++fills_judged_)
-      fill_board_.got({memory_.lines_read()[fills_judged_]},
-                      fmt::format("cycle {}", simulation().clock().cycle()));
+      fill_board_.got({memory_.lines_read()[fills_judged_]}, simulation().clock().cycle());
   if (fetch_again_) return;
   memory_.forget_lines();
   fills_judged_ = 0;
@@ -262,7 +261,7 @@ void TextureEnvironment::judge(rtl::Cycle cycle, const spec::texture::Colour& co
   hash_.add(static_cast<std::uint64_t>(colour.lane) << 1 | (colour.last ? 1 : 0));
   for (const std::uint8_t channel : colour.rgba) hash_.add(channel);
   const std::uint64_t before = colour_board_.mismatches();
-  if (golden()) colour_board_.got(colour, fmt::format("cycle {}", cycle));
+  if (golden()) colour_board_.got(colour, cycle);
   // After a mismatch tags and lanes may be anything; the picture then shows what can be placed.
   const bool trusted = !golden() || colour_board_.mismatches() == before;
   const TracedQuad* quad = sent_.take(colour, trusted);

@@ -38,6 +38,21 @@ void check_chain(std::span<const Image> levels) {
   }
 }
 
+template <std::size_t kTexelBytes>
+void put(const Image& level, spec::texture::Format format,
+         const golden::texture::LevelAddresses& addresses, std::vector<std::uint8_t>& bytes) {
+  const Rgba8* texel = level.pixels.data();
+  for (const std::uint32_t row : addresses.row) {
+    for (const std::uint32_t column : addresses.column) {
+      const std::uint32_t code = encode_texel(format, *texel++);
+      std::uint8_t* const to = &bytes[row + column];
+      for (std::size_t i = 0; i < kTexelBytes; ++i) {
+        to[i] = static_cast<std::uint8_t>(code >> (8 * i));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::uint32_t encode_texel(spec::texture::Format format, const Rgba8& texel) {
@@ -67,20 +82,13 @@ int TextureMemory::add(std::span<const Image> levels, spec::texture::Descriptor 
   sampler.levels = static_cast<std::uint8_t>(levels.size());
   const std::size_t texel_bytes =
       spec::texture::kFormatBytes[static_cast<std::size_t>(sampler.format)];
+  const auto put_level = texel_bytes == 1 ? put<1> : texel_bytes == 2 ? put<2> : put<4>;
   for (std::size_t k = 0; k < levels.size(); ++k) {
     const int level = static_cast<int>(k);
     sampler.base[k] = static_cast<std::uint32_t>(bytes_.size());
     const std::size_t size = golden::texture::level_bytes(sampler, level);
     bytes_.resize((bytes_.size() + size + kAlignment - 1) / kAlignment * kAlignment);
-    for (int y = 0; y < levels[k].height; ++y) {
-      for (int x = 0; x < levels[k].width; ++x) {
-        const std::uint32_t texel = encode_texel(sampler.format, levels[k].at(x, y));
-        const std::size_t address = golden::texture::texel_address(sampler, level, x, y);
-        for (std::size_t i = 0; i < texel_bytes; ++i) {
-          bytes_[address + i] = static_cast<std::uint8_t>(texel >> (8 * i));
-        }
-      }
-    }
+    put_level(levels[k], sampler.format, golden::texture::level_addresses(sampler, level), bytes_);
   }
   descriptors_.push_back(sampler);
   return static_cast<int>(descriptors_.size()) - 1;

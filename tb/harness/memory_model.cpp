@@ -20,7 +20,9 @@ MemoryModel::MemoryModel(const sc_core::sc_module_name& name, const sc_core::sc_
       parameters_(parameters),
       period_(clock_period.value()),
       random_(parameters.seed),
-      contents_(parameters.bytes) {
+      contents_(parameters.bytes),
+      ordered_(parameters.latency_min == parameters.latency_max &&
+               (parameters.bank_busy == 0 || parameters.banks == 1)) {
   if (parameters.latency_max < parameters.latency_min || parameters.banks == 0 ||
       parameters.interleave_bytes == 0 || parameters.outstanding == 0)
     throw spec::ConfigError(fmt::format(
@@ -66,13 +68,15 @@ void MemoryModel::forget_lines() {
 }
 
 bool MemoryModel::at_rest() const {
-  return events_.empty() && std::all_of(ports_.begin(), ports_.end(), [](const Port& port) {
-           return port.responses.empty() && !port.responding;
-         });
+  const bool answered = ahead_.empty() || ahead_.back() <= sc_core::sc_time_stamp().value();
+  return answered && events_.empty() &&
+         std::all_of(ports_.begin(), ports_.end(),
+                     [](const Port& port) { return port.responses.empty() && !port.responding; });
 }
 
 void MemoryModel::clear_statistics() {
   reads_ = writes_ = bytes_read_ = bytes_written_ = errors_ = 0;
+  settle(sc_core::sc_time_stamp().value());
   most_outstanding_ = outstanding_;
   uncounted_ = held_.size();
   forget_lines();
@@ -150,8 +154,8 @@ void MemoryModel::transfer(tlm::tlm_generic_payload& payload) {
     payload.is_write() ? std::memcpy(here, there, length) : std::memcpy(there, here, length);
     if (payload.is_write()) bytes_written_ += length;
   } else {
-    for (std::uint64_t i = 0; i < length; ++i) {
-      if (enables[i % enables_length] != TLM_BYTE_ENABLED) continue;
+    for (std::uint64_t i = 0, e = 0; i < length; ++i, e = e + 1 == enables_length ? 0 : e + 1) {
+      if (enables[e] != TLM_BYTE_ENABLED) continue;
       if (payload.is_write()) {
         here[i] = there[i];
         ++bytes_written_;
@@ -179,18 +183,32 @@ tlm::tlm_sync_enum MemoryModel::nb_transport_fw(int port, tlm::tlm_generic_paylo
         fmt::format("{}: a request before the last one was ended (address {:#x})", name(),
                     payload.get_address()));
   payload.acquire();
+  settle(time);
   if (outstanding_ >= parameters_.outstanding) {
     here.held = &payload;
     held_.push_back(port);
-    return tlm::TLM_ACCEPTED;
+    wake_for_held();
+  } else {
+    begin(port, payload, true, delay);
   }
-  accept({&payload, port, 0, false, false, true}, time);
-  phase = tlm::END_REQ;
-  return tlm::TLM_UPDATED;
+  return tlm::TLM_ACCEPTED;
 }
 
-// A request enters at `time`.
-void MemoryModel::accept(Request request, std::uint64_t time) {
+// A request enters `delay` from now, and is ended.
+void MemoryModel::begin(int port, tlm::tlm_generic_payload& payload, bool counted,
+                        const sc_core::sc_time& delay) {
+  const sc_core::sc_time now = sc_core::sc_time_stamp();
+  const std::optional<std::uint64_t> response =
+      accept({&payload, port, 0, false, false, counted}, (now + delay).value());
+  tlm::tlm_phase phase = tlm::END_REQ;
+  sc_core::sc_time when = delay;
+  ports[port]->nb_transport_bw(payload, phase, when);
+  if (!response) return;
+  ahead_.push_back(*response);
+  send_response(port, payload, sc_core::sc_time::from_value(*response) - now);
+}
+
+std::optional<std::uint64_t> MemoryModel::accept(Request request, std::uint64_t time) {
   request.number = requests_++;
   request.lost = lost_requests_.count(request.number) != 0;
   ++outstanding_;
@@ -204,7 +222,30 @@ void MemoryModel::accept(Request request, std::uint64_t time) {
       bank_free_[payload.get_address() / parameters_.interleave_bytes % parameters_.banks];
   const std::uint64_t start = std::max(time, bank);
   bank = start + parameters_.bank_busy * period_;
-  schedule(start + draw_latency() * period_, Step::kReady, request);
+  const std::uint64_t ready = start + draw_latency() * period_;
+  if (!ordered_) {
+    schedule(ready, Step::kReady, request);
+    return std::nullopt;
+  }
+  const std::uint64_t response = take_bus(ready, payload);
+  const Port& here = port_at(request.port);
+  if (parameters_.answer_ahead && here.ends_at_once && payload.is_read() && !request.lost &&
+      here.responses.empty())
+    return response;
+  schedule(response, Step::kRespond, request);
+  return std::nullopt;
+}
+
+// When the last byte of a transaction is there whose first one may come at `ready`. The bus goes to
+// whoever is ready first.
+std::uint64_t MemoryModel::take_bus(std::uint64_t ready, const tlm::tlm_generic_payload& payload) {
+  const std::uint64_t clocks = transfer_clocks(payload.get_data_length());
+  std::uint64_t start = ready;
+  if (parameters_.bytes_per_clock != 0) {
+    start = std::max(start, bus_free_);
+    bus_free_ = start + clocks * period_;
+  }
+  return start + (clocks - 1) * period_;
 }
 
 void MemoryModel::schedule(std::uint64_t time, Step step, const Request& request) {
@@ -218,22 +259,18 @@ void MemoryModel::serve() {
     const Event event = events_.top();
     events_.pop();
     if (event.step == Step::kReady) {
-      // The bus goes to whoever is ready first.
-      const std::uint64_t clocks = transfer_clocks(event.request.payload->get_data_length());
-      std::uint64_t start = event.time;
-      if (parameters_.bytes_per_clock != 0) {
-        start = std::max(start, bus_free_);
-        bus_free_ = start + clocks * period_;
-      }
-      events_.push({start + (clocks - 1) * period_, order_++, Step::kRespond, event.request});
+      events_.push(
+          {take_bus(event.time, *event.request.payload), order_++, Step::kRespond, event.request});
     } else {
       if (event.request.writes_late) transfer(*event.request.payload);
       if (!event.request.lost) port_at(event.request.port).responses.push_back(event.request);
     }
   }
+  settle(now);
   for (std::size_t port = 0; port < ports_.size(); ++port) respond(static_cast<int>(port));
   if (!events_.empty())
     wake_.notify(sc_core::sc_time::from_value(events_.top().time) - sc_core::sc_time_stamp());
+  wake_for_held();
 }
 
 void MemoryModel::respond(int port) {
@@ -241,13 +278,27 @@ void MemoryModel::respond(int port) {
   while (!here.responding && !here.responses.empty()) {
     const Request request = here.responses.front();
     here.responses.pop_front();
-    here.responding = true;
-    tlm::tlm_phase phase = tlm::BEGIN_RESP;
-    sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
-    const tlm::tlm_sync_enum status = ports[port]->nb_transport_bw(*request.payload, phase, delay);
-    if (status == tlm::TLM_COMPLETED || (status == tlm::TLM_UPDATED && phase == tlm::END_RESP))
-      here.responding = false;
-    request.payload->release();
+    send_response(port, *request.payload, sc_core::SC_ZERO_TIME);
+    finished();
+  }
+}
+
+void MemoryModel::send_response(int port, tlm::tlm_generic_payload& payload,
+                                sc_core::sc_time delay) {
+  Port& here = port_at(port);
+  here.responding = true;
+  tlm::tlm_phase phase = tlm::BEGIN_RESP;
+  const tlm::tlm_sync_enum status = ports[port]->nb_transport_bw(payload, phase, delay);
+  here.ends_at_once =
+      status == tlm::TLM_COMPLETED || (status == tlm::TLM_UPDATED && phase == tlm::END_RESP);
+  if (here.ends_at_once) here.responding = false;
+  payload.release();
+}
+
+// Transactions whose response was sent ahead are gone when its time has come.
+void MemoryModel::settle(std::uint64_t time) {
+  while (!ahead_.empty() && ahead_.front() <= time) {
+    ahead_.pop_front();
     finished();
   }
 }
@@ -261,10 +312,13 @@ void MemoryModel::finished() {
   tlm::tlm_generic_payload* payload = std::exchange(port_at(port).held, nullptr);
   const bool counted = uncounted_ == 0;
   if (!counted) --uncounted_;
-  accept({payload, port, 0, false, false, counted}, sc_core::sc_time_stamp().value());
-  tlm::tlm_phase phase = tlm::END_REQ;
-  sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
-  ports[port]->nb_transport_bw(*payload, phase, delay);
+  begin(port, *payload, counted, sc_core::SC_ZERO_TIME);
+}
+
+// No event tells when a response that was sent ahead makes room.
+void MemoryModel::wake_for_held() {
+  if (held_.empty() || ahead_.empty()) return;
+  wake_.notify(sc_core::sc_time::from_value(ahead_.front()) - sc_core::sc_time_stamp());
 }
 
 void MemoryModel::b_transport(int, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {

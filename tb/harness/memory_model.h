@@ -9,6 +9,11 @@
 // later if its bank or the data bus is busy. With a random latency responses overtake each other.
 // A read takes its data when it begins, a write gives them up when its last byte is there: who
 // reads a line before its write was answered gets the old one. b_transport() does both at once.
+//
+// With a fixed latency transactions keep their order (banks that are busy change it), so the time
+// of a response is known when its request begins. That of a read is then sent at once, with this
+// time as its delay, which spares SystemC an event a line: to an initiator that ended the response
+// before it as it began, and so holds back no other.
 #pragma once
 
 #include <tlm_utils/multi_passthrough_target_socket.h>
@@ -16,6 +21,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <queue>
 #include <span>
 #include <string>
@@ -41,6 +47,7 @@ struct MemoryModelParameters {
   bool record_writes = false;           // keep the addresses of line writes
   // Off: contents change in the order of requests, so that a read never comes too early.
   bool write_at_response = true;
+  bool answer_ahead = true;  // off: every response is sent at its time
 };
 
 class MemoryModel final : public sc_core::sc_module {
@@ -101,6 +108,7 @@ class MemoryModel final : public sc_core::sc_module {
   };
   struct Port {
     bool responding = false;                   // BEGIN_RESP sent, END_RESP not yet seen
+    bool ends_at_once = false;                 // its initiator ended the last response at once
     std::deque<Request> responses;             // whose time has come
     tlm::tlm_generic_payload* held = nullptr;  // BEGIN_REQ seen, END_REQ withheld
   };
@@ -112,9 +120,16 @@ class MemoryModel final : public sc_core::sc_module {
   unsigned transport_dbg(int port, tlm::tlm_generic_payload& payload);
 
   void serve();
-  void accept(Request request, std::uint64_t time);
+  void begin(int port, tlm::tlm_generic_payload& payload, bool counted,
+             const sc_core::sc_time& delay);
+  // The time of its response, if that may be sent ahead.
+  std::optional<std::uint64_t> accept(Request request, std::uint64_t time);
+  std::uint64_t take_bus(std::uint64_t ready, const tlm::tlm_generic_payload& payload);
+  void settle(std::uint64_t time);
+  void wake_for_held();
   void schedule(std::uint64_t time, Step step, const Request& request);
   void respond(int port);
+  void send_response(int port, tlm::tlm_generic_payload& payload, sc_core::sc_time delay);
   void finished();
   Port& port_at(int port);
   // Counts it and sets the response status; false if no data may go.
@@ -141,6 +156,8 @@ class MemoryModel final : public sc_core::sc_module {
   std::uint64_t order_ = 0, requests_ = 0;
   std::vector<std::uint64_t> bank_free_;
   std::uint64_t bus_free_ = 0;
+  const bool ordered_;               // transactions keep their order
+  std::deque<std::uint64_t> ahead_;  // times of responses that were sent ahead, while to come
   std::deque<Port> ports_;
   std::deque<int> held_;       // ports in the order in which their requests are withheld
   std::size_t uncounted_ = 0;  // of these, the first ones

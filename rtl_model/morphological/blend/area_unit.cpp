@@ -566,11 +566,10 @@ AreaUnit::Weights AreaUnit::area(const Walk& walk, std::uint32_t k) {
 
 // Stage 8: a diagonal gives the top edge its shares and takes those of the left one.
 void AreaUnit::take_diagonals(Cycle cycle, Beat& beat) {
-  const DiagonalSharesToken& token = diagonals_in->front(cycle);
+  const DiagonalSharesToken& token = diagonals_in->take(cycle);
   for (std::size_t i = 0; i < lanes_; ++i)
     if (token.taken >> i & 1)
       beat.weights[i] = {{}, {token.first[i], token.second[i], token.span[i]}};
-  diagonals_in->pop(cycle);
 }
 
 // Stage 8.

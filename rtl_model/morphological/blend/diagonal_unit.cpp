@@ -174,13 +174,12 @@ Activity DiagonalUnit::tick(Cycle cycle) {
   if (const Beat* beat = pipe_.at(5); beat && beat->valid) deliver(cycle, *beat);
   if (const Beat* beat = pipe_.at(4); beat && beat->valid) address(cycle, *beat);
   if (arrives) {
-    const DiagonalColumnsToken& token = columns_in.front(cycle);
+    const DiagonalColumnsToken& token = columns_in.take(cycle);
     if (token.slot.row == store_.reach_rows() + spec::morphological::kRowLag - 2 &&
         token.slot.beat == 0)
       for (Column& column : window_) column.valid = false;
     shift(cycle, &token);
     drains_ = token.slot.beat + 1u == store_.rules().beats ? delay_ : 0;
-    columns_in.pop(cycle);
     search(cycle, pipe_.enter());
   } else if (drains_ != 0) {
     shift(cycle, nullptr);

@@ -91,8 +91,7 @@ Activity EndpointPredictor::work(Cycle cycle) {
       const bool takes = predictor.free() && !taken;
       if (takes) {
         taken = did = true;
-        predictor.take(cycle, reset_, in.front(cycle));
-        in.pop(cycle);
+        predictor.take(cycle, reset_, in.take(cycle));
         ++held_;
         join();
       }

@@ -78,10 +78,9 @@ bool RunExtractor::waits_for_diagonals(Cycle cycle) const {
 template <bool kSmaa>
 Activity RunExtractor::work(Cycle cycle) {
   if (finished_in.can_pop(cycle)) {
-    const FinishToken& token = finished_in.front(cycle);
+    const FinishToken& token = finished_in.take(cycle);
     unfinished_[0] -= token.count[0];
     unfinished_[1] -= token.count[1];
-    finished_in.pop(cycle);
   }
   if (h_.count) drain(h_, cycle);
   if (v_.count) drain(v_, cycle);

@@ -234,6 +234,58 @@ TEST(MemoryModel, AReadBehindAWriteIsARace) {
   }
 }
 
+// Nobody can tell a response that was sent ahead from one that is sent at its time: with any bus,
+// limits, errors, writes between the reads and a reset, every beat, clock and count is the same.
+TEST(MemoryModel, ResponsesSentAheadComeAtTheirTime) {
+  std::array<std::uint64_t, 2> activations{};
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const auto run = [&](bool ahead) {
+      const std::string text = in_child([&] {
+        Random random(seed, "parameters");
+        MemoryModelParameters memory = with_latency(random.below(40));
+        memory.bytes_per_clock = std::array{0U, 16U, 64U}[random.below(3)];
+        memory.banks = random.chance(500) ? 1 : 4;
+        memory.bank_busy = memory.banks == 1 ? random.below(4) : 0;
+        memory.outstanding = 1 + random.below(24);
+        memory.record_writes = true;
+        memory.answer_ahead = ahead;
+        MemoryPortParameters port;
+        port.outstanding = 1 + random.below(32);
+        port.in_order = random.chance(500);
+        System s(port, memory, random.chance(500) ? 300 : 0);
+        s.memory.fail_range(7 * 64, 9 * 64);
+        for (std::uint32_t i = 0; i < 600; ++i) {
+          MemoryRequest request = read_of(random.below(64));
+          request.write = random.chance(250);
+          request.byte_mask = random.chance(500) ? 0x0FF0 : ~std::uint64_t{0};
+          request.data.fill(static_cast<std::uint8_t>(i));
+          s.driver.send(request);
+        }
+        s.clock.run(100 + random.below(100));
+        s.clock.set_reset_n(false);
+        s.clock.run(2);
+        s.clock.set_reset_n(true);
+        s.memory.clear_statistics();
+        if (!s.clock.run_until([&] { return s.sink.received() == 600; }, 100'000))
+          return std::string("not done");
+        s.clock.run(100);
+        if (!s.memory.at_rest()) return std::string("not at rest");
+        return fmt::format(
+            "{}\n{} {} {} {} {} {} {} {} {} {}", s.clock.activations(), s.fingerprint(),
+            s.memory.reads(), s.memory.writes(), s.memory.bytes_read(), s.memory.bytes_written(),
+            s.memory.errors(), s.memory.most_outstanding(), fmt::join(s.memory.lines_read(), ","),
+            fmt::join(s.memory.lines_written(), ","), fmt::join(s.memory.dump(0, 64 * 64), ","));
+      });
+      const std::size_t line = text.find('\n');
+      EXPECT_NE(line, std::string::npos) << text;
+      activations[ahead] += std::stoull(text);
+      return text.substr(line);
+    };
+    EXPECT_EQ(run(true), run(false)) << "seed " << seed;
+  }
+  EXPECT_LT(activations[true], activations[false] / 2);
+}
+
 // Every beat of a read fits the links as they are built for narrow lines; a mask that does not is
 // noticed.
 TEST(MemoryPort, NarrowLinesHaveNarrowBeats) {
