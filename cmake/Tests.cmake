@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: MIT
 # Test programs: one a folder and kind, compiled in batches.
 
-# deburr_test(<name> SOURCE <file> LABELS ... LINK ... [PROGRAM <program>] [DEFINITIONS ...]
+# deburr_test(<name> SOURCE <file> LABELS ... LINK ... [PROGRAM <program>]
 #             [TIMING regex ...] [LONG regex ...] [TIMEOUT s]):
 # a source with GoogleTests. Every TEST becomes an entry of ctest, `<name>.Suite.Case`, and so a process
 # of its own: SystemC elaborates once a process. Tests whose name matches a regex of TIMING or LONG have
 # the label `timing` or `long` too; a regex that matches none is an error of the build.
 #
-# The sources of a folder are one program: those of the label `unit` are PATH_tests
-# (rtl_texture_tests of tb/unit/rtl/texture), those of others PATH_LABEL_tests, by their first label.
-# PROGRAM names another one, as for what loads a library that the others do not. Names of sources must
-# not meet: each is in a namespace of its own.
+# The sources of a folder are one program, named after it: rtl_texture_tests of tb/unit/rtl/texture;
+# there what is no unit test has a program of its own, by its first label: harness_negative_tests. PROGRAM
+# names another one, as for what loads a library that the others do not. Each source has a namespace of
+# its own (tb/unit/house/names_test.py).
 function(deburr_test name)
-  cmake_parse_arguments(ARG "" "SOURCE;PROGRAM;TIMEOUT" "LABELS;LINK;DEFINITIONS;TIMING;LONG" ${ARGN})
+  cmake_parse_arguments(ARG "" "SOURCE;PROGRAM;TIMEOUT" "LABELS;LINK;TIMING;LONG" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
@@ -20,23 +20,24 @@ function(deburr_test name)
   if(NOT ARG_PROGRAM)
     cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY "${PROJECT_SOURCE_DIR}/tb"
                OUTPUT_VARIABLE path)
-    string(REGEX REPLACE "^unit/" "" path "${path}")
-    if(NOT kind STREQUAL "unit")
-      string(APPEND path "/${kind}")
-    endif()
     string(REPLACE "/" "_" ARG_PROGRAM "${path}_tests")
+    if(ARG_PROGRAM MATCHES "^unit_(.*)_tests$")
+      set(ARG_PROGRAM "${CMAKE_MATCH_1}_tests")
+      if(NOT kind STREQUAL "unit")
+        set(ARG_PROGRAM "${CMAKE_MATCH_1}_${kind}_tests")
+      endif()
+    endif()
   endif()
   set(program ${ARG_PROGRAM})
   if(NOT TARGET ${program})
     # The main() comes first: SystemC's library has one as well.
-    add_executable(${program} $<TARGET_OBJECTS:deburr_forked_expectations>)
+    add_executable(${program} $<TARGET_OBJECTS:deburr_test_support>)
     target_link_libraries(${program} PRIVATE GTest::gmock_main)
     cmake_language(EVAL CODE "cmake_language(DEFER CALL deburr_finish_tests ${program})")
   endif()
   cmake_path(ABSOLUTE_PATH ARG_SOURCE NORMALIZE)
   target_sources(${program} PRIVATE "${ARG_SOURCE}")
   target_link_libraries(${program} PRIVATE ${ARG_LINK})
-  target_compile_definitions(${program} PRIVATE ${ARG_DEFINITIONS})
 
   set(labels ${ARG_LABELS})
   foreach(label timing long)
@@ -49,7 +50,7 @@ function(deburr_test name)
     add_dependencies(deburr_${label}_tests ${program})
   endforeach()
   foreach(list LABELS TIMING LONG)
-    list(TRANSFORM ARG_${list} REPLACE "^.*$" "\"\\0\"" OUTPUT_VARIABLE json_${list})
+    list(TRANSFORM ARG_${list} REPLACE "^.+$" "\"\\0\"" OUTPUT_VARIABLE json_${list})
     list(JOIN json_${list} ", " json_${list})
   endforeach()
   cmake_path(RELATIVE_PATH ARG_SOURCE BASE_DIRECTORY "${PROJECT_SOURCE_DIR}" OUTPUT_VARIABLE source)
@@ -61,6 +62,8 @@ function(deburr_test name)
     "  add_test(${name}_NOT_BUILT [=[${CMAKE_CURRENT_BINARY_DIR}/${program}]=])
   set_tests_properties(${name}_NOT_BUILT PROPERTIES LABELS \"${labels}\")\n")
   set_property(TARGET ${program} APPEND PROPERTY DEBURR_KINDS ${kind})
+  cmake_path(RELATIVE_PATH CMAKE_CURRENT_BINARY_DIR BASE_DIRECTORY "${PROJECT_BINARY_DIR}" OUTPUT_VARIABLE folder)
+  set_property(GLOBAL APPEND_STRING PROPERTY DEBURR_TEST_PROGRAMS "${name} ${source} ${folder}/${program}\n")
 endfunction()
 
 # At the end of a folder, when all its sources are known.
@@ -84,6 +87,13 @@ function(deburr_finish_tests program)
   file(CONFIGURE OUTPUT "${stem}_include.cmake" CONTENT
        "if(EXISTS [=[${stem}.cmake]=])\n  include([=[${stem}.cmake]=])\nelse()\n${not_built}endif()\n" @ONLY)
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${stem}_include.cmake")
+endfunction()
+
+# deburr_list_tests(): writes test_programs.txt, `<name> <source> <program>` a line, for scripts that build or
+# run tests by name. At the end of all lists.
+function(deburr_list_tests)
+  get_property(lines GLOBAL PROPERTY DEBURR_TEST_PROGRAMS)
+  file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/test_programs.txt" CONTENT "${lines}" @ONLY)
 endfunction()
 
 # deburr_noise_for_minutes(<engine>): its register noise with new seeds for two minutes, label fuzz.

@@ -5,8 +5,8 @@ import re
 
 from measurement.sources import absent, best, recipe, spaced
 
-QUALITY = "tb/oracle/geometric_quality_test"
-JOINED = "tb/oracle/geometric_morphological_test"
+QUALITY = "geometric_quality_test"
+JOINED = "geometric_morphological_test"
 SCENES = ("cube", "sphere", "wheelcover", "wing", "canopy", "cylinders", "object", "track", "road",
           "terrain")
 TEXTURED = {"object", "track", "road", "terrain"}

@@ -5,8 +5,8 @@ import statistics
 
 from measurement.sources import absent, best, pair, recipe, spaced
 
-FRAMES = "tb/oracle/morphological_frames_test"
-QUALITY = "tb/oracle/morphological_quality_test"
+FRAMES = "morphological_frames_test"
+QUALITY = "morphological_quality_test"
 METHODS = ("MSAA 4x", "none", "mlaa-slope", "mlaa", "deburr-line", "deburr", "smaa low",
            "smaa medium", "smaa high", "smaa ultra", "smaa-dynamic 0.05", "smaa-dynamic 0.10",
            "smaa-dynamic 0.20", "fxaa", "cmaa2", "+ diagonals", "+ corners", "+ crossings",

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Where figures come from: runs of the command, the tables of `deburr papers`, what tests print."""
+import fnmatch
 import json
 import os
 import pathlib
 import re
 import shlex
+import shutil
 import struct
 import subprocess
 import sys
@@ -135,13 +137,21 @@ class Sources:
             raise Problem(f"{len(found)} tables of paper {number} begin with {title!r}")
         return found[0]
 
-    def test(self, program, tests="*"):
-        """What a test program prints. It must pass; that a test was skipped is no failure."""
+    def test(self, source, tests="*"):
+        """What the tests of a source print (cmake/Tests.cmake), or those with names like `tests`. They
+        must pass; that one was skipped is no failure."""
         def make():
-            return self._call(f"{program} --gtest_filter={tests}",
-                              [self.build / program, f"--gtest_filter={tests}"],
+            listed = json.loads(self._call(
+                "ctest", [shutil.which("ctest") or "ctest", "--test-dir", self.build,
+                          "--show-only=json-v1", "-R", f"^{source}[.]"]))["tests"]
+            names = [test["name"].removeprefix(f"{source}.") for test in listed]
+            chosen = [name for name in names if fnmatch.fnmatchcase(name, tests)]
+            if not chosen:
+                raise Problem(f"no test {source}.{tests}: build it")
+            return self._call(f"{source} {tests}",
+                              [listed[0]["command"][0], f"--gtest_filter={':'.join(chosen)}"],
                               {"DEBURR_DATA": str(self.data)} if self.data else {})
-        return self._once(f"{program} --gtest_filter='{tests}'", make)
+        return self._once(f"{source} {tests}", make)
 
     def program(self, program, *words):
         def make():

@@ -4,9 +4,9 @@ import re
 
 from measurement.sources import absent, recipe
 
-FAULTS = "tb/oracle/filtering_faults_test"
-ANISOTROPY = "tb/oracle/anisotropy_test"
-MESA = "tb/oracle/mesa_test"
+FAULTS = "filtering_faults_test"
+ANISOTROPY = "anisotropy_test"
+MESA = "mesa_test"
 ERRORS = re.compile(r"RMS to the supersampled plane at .*: ([\d. ]+)")
 # The faults of the criterion's test, as the page names them.
 FAULT_NAMES = {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tb/fuzz/targets.h"
+#include "tb/harness/test_paths.h"
 #include "tb/stimuli/random.h"
 
 namespace deburr::tb::replay_test {
@@ -32,7 +33,8 @@ class Replay : public testing::TestWithParam<std::string> {
 
 TEST_P(Replay, WhatWasFound) {
   std::size_t found = 0;
-  for (const fs::directory_entry& entry : fs::directory_iterator(DEBURR_FUZZ_FOUND)) {
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(source_folder() / "tb/fuzz/found")) {
     if (!entry.path().filename().string().starts_with(std::string(target.name) + "-")) continue;
     ++found;
     EXPECT_NO_THROW(target.run(content(entry.path()))) << entry.path();

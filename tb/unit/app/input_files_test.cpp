@@ -12,7 +12,7 @@
 
 #include "tb/app/run_once.h"
 
-namespace deburr::tb {
+namespace deburr::tb::input_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -59,4 +59,4 @@ TEST_F(InputFilesOfEngines, AreAllThatParametersName) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::input_files_test

@@ -25,11 +25,15 @@ PROGRAMS = """case "$*" in *"-t query"*)
   echo 'deburr_unit_tests:
   input: phony
     deburr
-    tb/unit/golden/golden_test
-    tb/unit/rtl/rtl_a_test
-    tb/unit/rtl/rtl_b_test
+    tb/unit/golden/golden_tests
+    tb/unit/rtl/rtl_tests
   outputs:' ;;
 esac
+"""
+HELD = """golden_test tb/unit/golden/golden_test.cpp tb/unit/golden/golden_tests
+rtl_a_test tb/unit/rtl/a_test.cpp tb/unit/rtl/rtl_tests
+rtl_b_test tb/unit/rtl/b_test.cpp tb/unit/rtl/rtl_tests
+geometric_test tb/system/geometric_test.cpp tb/system/system_tests
 """
 # Every package but two is there.
 INSTALLED = '''#!/bin/sh
@@ -42,7 +46,7 @@ class CommandLines(unittest.TestCase):
     def setUp(self):
         tools = ("cmake", "ctest", "apt-get", "clang++")
         self.root = tiny_tree(self, {f"bin/{tool}": SAYS for tool in tools} |
-                              {DEBURR: SAYS, "bin/ninja": SAYS + PROGRAMS, "bin/dpkg-query": INSTALLED})
+                              {DEBURR: SAYS, "build/release/test_programs.txt": HELD, "bin/ninja": SAYS + PROGRAMS, "bin/dpkg-query": INSTALLED})
         for folder in ("scripts", ".ci", "cmake", "tb/testplan"):
             shutil.copytree(SOURCE / folder, self.root / "tree" / folder)
         shutil.copy(SOURCE / "CMakePresets.json", self.root / "tree")
@@ -125,9 +129,10 @@ class CommandLines(unittest.TestCase):
                 (["-LE", "^(unit|stress|oracle|negative|perf|tools|long|slurm|fuzz)$"],
                  "deburr_smoke_tests deburr_system_tests"),
                 (["-R", "^rtl_"], "all"),
-                (["-L", "^unit$", "-R", "^rtl_"], "deburr rtl_a_test rtl_b_test"),
-                (["-L", "^unit$", "-R", "^(golden_|rtl_b)"], "deburr golden_test rtl_b_test"),
-                (["-L", "^unit$", "-E", "^rtl_"], "deburr golden_test"),
+                (["-L", "^unit$", "-R", "^rtl_"], "deburr rtl_tests"),
+                (["-L", "^unit$", "-R", "^(golden_|rtl_b)"], "deburr golden_tests rtl_tests"),
+                (["-L", "^unit$", "-E", "^rtl_"], "deburr golden_tests"),
+                (["-L", "^unit$", "-E", "^rtl_a"], "deburr golden_tests rtl_tests"),
                 # These may be parts of names behind that of the program.
                 (["-L", "^unit$", "-R", "rtl_"], "deburr_unit_tests"),
                 (["-L", "^unit$", "-R", "^rtl_a_test[.]Suite"], "deburr_unit_tests"),

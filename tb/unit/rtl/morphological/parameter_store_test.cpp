@@ -300,7 +300,7 @@ TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
 }
 
 // A rule that the engine was not built for counts as off.
-TEST(Contiguous, IsOffInAnEngineBuiltWithoutIt) {
+TEST(ContiguousRegister, IsOffInAnEngineBuiltWithoutIt) {
   namespace reg = spec::morphological::reg;
   constexpr std::uint32_t kContiguous = 1u << 14;
   Parameters built = deburr_line();
