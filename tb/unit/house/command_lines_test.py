@@ -82,6 +82,7 @@ class CommandLines(unittest.TestCase):
                 ("scripts/stand_alone", ["5/4"], 2, "5/4 is no part as 2/4"),
                 ("scripts/stand_alone", ["1/4", "2/4"], 2, "one part, and no 2/4"),
                 ("scripts/nightly", ["odd"], 2, "no feature odd: texture-rules, "),
+                ("scripts/nightly", ["--divide", "0"], 2, "--divide 0: expected a number from 1"),
                 ("scripts/everything", ["odd"], 2, "no part odd: tests sanitizers"),
                 ("scripts/everything", ["--list", "tests"], 2, "parts go with no option"),
                 ("scripts/fuzz", ["--seconds"], 2, "--seconds needs a number from 1"),
@@ -171,6 +172,18 @@ class CommandLines(unittest.TestCase):
                                      f"deburr regress {part} --divide 100 --out {part.parent} --seed 7"])
             self.assertEqual(yaml.safe_load(part.read_text(encoding="utf-8")),
                              {**plan, "features": [f for f in plan["features"] if f["id"] in left]})
+
+    def test_few_configurations_of_the_nightly_plan_are_drawn_by_the_seed(self):
+        drawn = set()
+        for seed in ("1", "2", "3", "1"):
+            self.assertEqual(self.call("scripts/nightly", "--few", "--seed", seed)[0], 0)
+            text = (self.root / "tree/build/nightly/nightly.yaml").read_text(encoding="utf-8")
+            for feature in yaml.safe_load(text)["features"]:
+                for stimulus in feature["stimuli"]:
+                    values = list(stimulus.get("axes", {}).values())
+                    self.assertEqual([len(v) for v in values[:2]], [1] * len(values[:2]))
+            drawn.add(text)
+        self.assertEqual(len(drawn), 3)
 
     def test_the_demo_writes_to_its_callers_folder(self):
         for arguments, out in (([], f"{self.root}/tree/out/demo"), (["mine"], f"{self.root}/mine")):
