@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Where figures come from: runs of the command, the tables of `deburr papers`, what tests print."""
-import fnmatch
+"""Where figures come from: runs of the command, the tables of `deburr papers`, other programs."""
 import json
 import os
 import pathlib
-import re
 import shlex
 import shutil
 import struct
@@ -48,19 +46,6 @@ def absent(key):
 
 def spaced(number):
     return f"{number:,}".replace(",", " ")
-
-
-def pair(edges, silhouettes):
-    """PSNR on edges and on silhouettes, as `deburr` and the tests print them; some frames have none."""
-    return str(edges) if str(silhouettes) in ("nan", "-", "") else f"{edges} / {silhouettes}"
-
-
-def best(cells, choose=max):
-    """The cells, those in bold whose first number is the best."""
-    numbers = [re.match(r"[\d.]+", cell) for cell in cells]
-    found = choose(float(n[0]) for n in numbers if n)
-    return [f"**{cell}**" if n and float(n[0]) == found else cell
-            for cell, n in zip(cells, numbers)]
 
 
 # ---- pictures -----------------------------------------------------------------------------------
@@ -136,22 +121,6 @@ class Sources:
         if len(found) != 1:
             raise Problem(f"{len(found)} tables of paper {number} begin with {title!r}")
         return found[0]
-
-    def test(self, source, tests="*"):
-        """What the tests of a source print (cmake/Tests.cmake), or those with names like `tests`. They
-        must pass; that one was skipped is no failure."""
-        def make():
-            listed = json.loads(self._call(
-                "ctest", [shutil.which("ctest") or "ctest", "--test-dir", self.build,
-                          "--show-only=json-v1", "-R", f"^{source}[.]"]))["tests"]
-            names = [test["name"].removeprefix(f"{source}.") for test in listed]
-            chosen = [name for name in names if fnmatch.fnmatchcase(name, tests)]
-            if not chosen:
-                raise Problem(f"no test {source}.{tests}: build it")
-            return self._call(f"{source} {tests}",
-                              [listed[0]["command"][0], f"--gtest_filter={':'.join(chosen)}"],
-                              {"DEBURR_DATA": str(self.data)} if self.data else {})
-        return self._once(f"{source} {tests}", make)
 
     def program(self, program, *words):
         def make():

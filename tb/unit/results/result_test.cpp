@@ -400,10 +400,10 @@ TEST(Progress, FitsEveryTerminal) {
   EXPECT_EQ(fitted(119),
             "[........................] sweep    2 %  10 point/s  6 min 30 s left  3 899 queued, 1 "
             "running, 99 passed, 1 failed");
-  EXPECT_EQ(fitted(93),
+  EXPECT_EQ(fitted(98),
             "[........] sweep    2 %  10 point/s  6 min 30 s left  3 899 queued, 1 running, 99 "
             "passed, 1 failed");
-  EXPECT_EQ(fitted(92),
+  EXPECT_EQ(fitted(97),
             "sweep    2 %  10 point/s  6 min 30 s left  3 899 queued, 1 running, 99 passed, 1 "
             "failed");
   EXPECT_EQ(fitted(79),
