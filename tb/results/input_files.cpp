@@ -36,8 +36,9 @@ std::string only_in(const std::vector<std::pair<std::string, std::string>>& some
   constexpr std::size_t kDigits = 8;
   std::string text;
   for (const auto& [content, name] : some) {
-    const auto same = std::find_if(others.begin(), others.end(),
-                                   [&](const auto& other) { return other.first == content; });
+    const auto same =
+        std::find_if(others.begin(), others.end(),
+                     [&content = content](const auto& other) { return other.first == content; });
     if (same != others.end()) {
       others.erase(same);
       continue;

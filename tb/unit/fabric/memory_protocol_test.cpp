@@ -107,7 +107,8 @@ INSTANTIATE_TEST_SUITE_P(MemoryPort, EveryAnswer, testing::ValuesIn(kAnswers),
 class OneEnd : public testing::TestWithParam<std::tuple<ResponseEnd, Answer>> {};
 
 TEST_P(OneEnd, IsTheOneThatWorks) {
-  const auto [accepted, answer] = GetParam();
+  const ResponseEnd accepted = std::get<0>(GetParam());
+  const Answer answer = std::get<1>(GetParam());
   for (const ResponseEnd end : kEnds) {
     const std::string text = in_child(
         [&] { return ProtocolSystem({.answer = answer, .accepts = only(accepted)}, end).run(); });
