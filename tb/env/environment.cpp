@@ -104,9 +104,9 @@ std::string Environment::figure(std::string_view name) const {
   return name_.empty() ? std::string(name) : fmt::format("{}_{}", name_, name);
 }
 
-void Environment::add(Result& result, std::string_view name, nlohmann::ordered_json value,
-                      std::string unit, std::string meaning) const {
-  result.work.push_back({figure(name), std::move(value), std::move(unit), std::move(meaning)});
+void Environment::add(Result& result, std::string_view name, WorkValue value, std::string unit,
+                      std::string meaning) const {
+  result.work.push_back({figure(name), value, std::move(unit), std::move(meaning)});
 }
 
 void Environment::add(Result& result, std::string_view name, const rtl::Counter& counter) const {

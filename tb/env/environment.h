@@ -130,7 +130,7 @@ class Environment {
   // "fragments" -> "texture_fragments"
   std::string figure(std::string_view name) const;
   std::string key(std::string_view name) const { return "work." + figure(name); }
-  void add(Result& result, std::string_view name, nlohmann::ordered_json value, std::string unit,
+  void add(Result& result, std::string_view name, WorkValue value, std::string unit,
            std::string meaning) const;
   void add(Result& result, std::string_view name, const rtl::Counter& counter) const;
   void add(Result& result, std::string_view name, const rtl::Unit& unit) const;

@@ -809,12 +809,12 @@ void GeometricEnvironment::collect_headline(Result& result) const {
   add(result, "frame_clocks", frame_clocks, "clk", "Of the last frame, from its start to its end.");
   add(result, "frame_clocks_bound", frame_clocks_bound(), "clk",
       "The bound of the throughput, in clocks of a frame.");
-  using Json = nlohmann::ordered_json;
   add(result, "frame_rate",
       frame_clocks ? simulation().options().clock_mhz * 1e6 / number(frame_clocks) : 0.0, "frame/s",
       "Frames like this a second at the stated clock.");
-  add(result, "clock_for_60_frames", frame_clocks ? Json(clock_for_60(frame_clocks)) : Json(),
-      "MHz", "Clock that 60 frames like this a second need.");
+  add(result, "clock_for_60_frames",
+      frame_clocks ? WorkValue(clock_for_60(frame_clocks)) : WorkValue(), "MHz",
+      "Clock that 60 frames like this a second need.");
 
   result.figures.clear();
   if (frame_clocks)

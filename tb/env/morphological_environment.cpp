@@ -664,12 +664,11 @@ void MorphologicalEnvironment::collect_headline(Result& result) const {
   // the first frame is through.
   const double slowness = std::max(1.0, ratio(number(frame_clocks), number(by_formula)));
   const double hd = slowness * clock_for_60(frame_clocks_by_formula(p, 1920, 1080));
-  using Json = nlohmann::ordered_json;
-  add(result, "clock_for_1080p60", frame_clocks ? Json(hd) : Json(), "MHz",
+  add(result, "clock_for_1080p60", frame_clocks ? WorkValue(hd) : WorkValue(), "MHz",
       "Clock that 60 frames of 1920 x 1080 need, stalls of this run in proportion.");
   add(result, "pixel_clock_of_1080p60", kPixelClock1080p60, "MHz",
       "Of the standard, blanking included.");
-  add(result, "fits_1080p60", frame_clocks ? Json(hd <= kPixelClock1080p60) : Json(), "",
+  add(result, "fits_1080p60", frame_clocks ? WorkValue(hd <= kPixelClock1080p60) : WorkValue(), "",
       "Whether clock_for_1080p60 is at most the pixel clock of 1080p60, 148.5 MHz.");
 
   result.figures.clear();

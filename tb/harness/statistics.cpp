@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tb/harness/statistics.h"
 
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "rtl_model/fabric/counters.h"

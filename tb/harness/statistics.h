@@ -3,7 +3,7 @@
 // listed twice.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "rtl_model/fabric/clock_domain.h"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "spec/error.h"
 #include "tb/results/file.h"
@@ -46,6 +47,17 @@ Json to_json(const Quality& quality) {
   }
   json["identical"] = identical;
   return json;
+}
+
+Json json_of(const WorkValue& value) {
+  return std::visit(
+      [](auto known) {
+        if constexpr (std::is_same_v<decltype(known), std::monostate>)
+          return Json();
+        else
+          return Json(known);
+      },
+      value);
 }
 
 // Collects the paths of all numbers and texts below a node: "units.address.busy".
@@ -164,7 +176,7 @@ Json to_json(const Result& r) {
                             {"sum", m.sum},
                             {"checked_against", m.account}};
   json["work"] = Json::object();
-  for (const WorkItem& item : r.work) json["work"][item.name] = item.value;
+  for (const WorkItem& item : r.work) json["work"][item.name] = json_of(item.value);
   if (!r.notes.empty()) json["notes"] = r.notes;
   if (!r.first_mismatches.empty()) json["first_mismatches"] = Json::array();
   for (const MismatchLine& m : r.first_mismatches)

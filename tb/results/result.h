@@ -11,11 +11,12 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace deburr::tb {
@@ -36,10 +37,13 @@ struct UnitCycles {
   std::vector<StallCycles> stalls;
 };
 
+// null in the file: not known of this run.
+using WorkValue = std::variant<std::monostate, std::uint64_t, double, bool>;
+
 // A counter of one engine: "work.<name>".
 struct WorkItem {
   std::string name;
-  nlohmann::ordered_json value;
+  WorkValue value;
   std::string unit, meaning;
 };
 

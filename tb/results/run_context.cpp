@@ -8,6 +8,7 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
 
@@ -53,13 +54,19 @@ Json golden_dependencies(const ParameterSet& parameters, std::uint64_t seed,
   return key;
 }
 
+struct RunContext::Listed {
+  Json inputs = Json::array(), images = Json::array(), records = Json::object();
+};
+
 RunContext::RunContext(fs::path directory, const ParameterSet& parameters, std::string command,
                        std::uint64_t seed)
     : directory_(std::move(directory)),
       parameters_(parameters),
       command_(std::move(command)),
       started_(now_utc()),
-      seed_(seed) {}
+      seed_(seed),
+      listed_(std::make_unique<Listed>()) {}
+RunContext::~RunContext() = default;
 
 fs::path RunContext::draft_file(const char* name) const {
   return judging_only_ ? "/dev/null" : directory_.draft() / name;
@@ -132,7 +139,7 @@ void RunContext::list(const fs::path& file, std::string_view content, std::strin
   Json entry = input_entry(file, content, role);
   std::error_code error;
   if (entry.contains("sha256")) entry["bytes"] = fs::file_size(file, error);
-  inputs_.push_back(std::move(entry));
+  listed_->inputs.push_back(std::move(entry));
 }
 
 void RunContext::add_image(const std::string& name, const Image& image, std::string title,
@@ -141,10 +148,10 @@ void RunContext::add_image(const std::string& name, const Image& image, std::str
   const Parameter* wanted = parameters_.find("run.images");
   if (wanted != nullptr && wanted->text() == "false") return;
   write_image(directory_.draft() / (name + ".png"), image);
-  images_.push_back({{"file", name + ".png"},
-                     {"role", name},
-                     {"title", std::move(title)},
-                     {"caption", std::move(caption)}});
+  listed_->images.push_back({{"file", name + ".png"},
+                             {"role", name},
+                             {"title", std::move(title)},
+                             {"caption", std::move(caption)}});
 }
 
 void RunContext::add_map(const PictureMap& map) {
@@ -152,16 +159,16 @@ void RunContext::add_map(const PictureMap& map) {
   const std::string file = fmt::format("map_{}", map.name);
   write_image(directory_.draft() / (file + ".png"), picture_of(map));
   write_file_atomically(directory_.draft() / (file + ".pfm"), pfm_of(map));
-  images_.push_back({{"file", file + ".png"},
-                     {"role", file},
-                     {"title", "Map: " + map.title},
-                     {"caption", fmt::format("{} Values in {}.pfm.", map.meaning, file)}});
+  listed_->images.push_back({{"file", file + ".png"},
+                             {"role", file},
+                             {"title", "Map: " + map.title},
+                             {"caption", fmt::format("{} Values in {}.pfm.", map.meaning, file)}});
 }
 
 void RunContext::add_record(const std::string& kind, std::string_view file,
                             std::string_view content) {
   write_file_atomically(directory_.draft() / file, content);
-  records_[kind] = file;
+  listed_->records[kind] = file;
 }
 
 // A hash of all that decides what the golden model computes: two runs with the same one have the
@@ -174,7 +181,7 @@ std::string RunContext::golden_key() const {
   for (const Parameter& p : parameters_.all())
     if (p.name.ends_with("error_address") && p.text() != p.default_value)
       key["build"] = parameters_.resolved(ParameterKind::kBuild);
-  for (const Json& input : inputs_)
+  for (const Json& input : listed_->inputs)
     if (!input.contains("role")) key["files"].push_back(listed_content(input));
   return sha256(key.dump());
 }
@@ -226,10 +233,10 @@ Json RunContext::manifest(const Result& result) const {
   json["rules"] = parameters_.resolved(ParameterKind::kRule);
   json["build"] = parameters_.resolved(ParameterKind::kBuild);
   json["golden"] = golden_key();
-  json["inputs"] = inputs_;
+  json["inputs"] = listed_->inputs;
   json["host"] = {{"seconds", result.host_seconds}, {"mcycles_per_s", result.mcycles_per_s()}};
-  json["images"] = images_;
-  if (!records_.empty()) json["records"] = records_;
+  json["images"] = listed_->images;
+  if (!listed_->records.empty()) json["records"] = listed_->records;
   json["parameters"] = Json::array();
   for (const Parameter& p : parameters_.all())
     json["parameters"].push_back({{"name", p.name},

@@ -13,7 +13,7 @@
 #include <functional>
 #include <initializer_list>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -44,6 +44,7 @@ class RunContext {
   // `command` is the line that repeats the run.
   RunContext(std::filesystem::path directory, const ParameterSet& parameters, std::string command,
              std::uint64_t seed);
+  ~RunContext();
   // Nothing on the error stream but errors.
   void set_quiet(bool quiet) { quiet_ = quiet; }
   bool quiet() const { return quiet_; }
@@ -128,9 +129,8 @@ class RunContext {
   Leaves leaves_;
   std::vector<std::filesystem::path> shared_files_;
   std::vector<std::string> notes_;
-  nlohmann::ordered_json inputs_ = nlohmann::ordered_json::array();
-  nlohmann::ordered_json images_ = nlohmann::ordered_json::array();
-  nlohmann::ordered_json records_ = nlohmann::ordered_json::object();
+  struct Listed;  // of the manifest
+  std::unique_ptr<Listed> listed_;
 };
 
 }  // namespace deburr::tb

@@ -205,6 +205,11 @@ class CommandLines(unittest.TestCase):
         (build / "CMakeCache.txt").write_text("BUILD_TESTING:BOOL=ON\n", encoding="utf-8")
         self.assertIn("cmake --preset release -DBUILD_TESTING=ON", self.call("scripts/demo")[2])
 
+    def test_the_complete_demo_builds_all_that_the_command_starts_and_loads(self):
+        done, said, calls = self.call("scripts/demo", "--complete", "mine")
+        self.assertEqual((done, calls[1:]), (0, ["cmake --build build/release --target deburr_complete",
+                                                 f"deburr run texture --scene plane --out {self.root}/mine"]), said)
+
     def interrupted(self, script, *arguments):
         """The tools that were called before and after Ctrl-C, which comes while the first one runs."""
         self.calls.write_text("", encoding="utf-8")

@@ -63,10 +63,10 @@ Result sample_result() {
   r.bottleneck = find_bottleneck(r.units, "cache");
   r.memories = {memory("cache_data", "sram", 131072, 262144, 131072),
                 memory("cache_lines", "flops", 5120, 5120, 1280)};
-  r.work = {{"fragments", 1000, "fragment", "Colours </script><script>alert(1)</script>."}};
+  r.work = {{"fragments", 1000u, "fragment", "Colours </script><script>alert(1)</script>."}};
   r.figures = {{"Fragments", "work.fragments", "a remark"},
                {"Whole run", "cycles", "bound", "work.bound", true}};
-  r.work.push_back({"bound", 50000, "clk", "The least."});
+  r.work.push_back({"bound", 50000u, "clk", "The least."});
   r.quality = Quality{
       "supersampled-256", 41.25, std::numeric_limits<double>::infinity(), {}, 35.5, 30.25, {}};
   r.host_seconds = 0.05;

@@ -2,6 +2,7 @@
 // The geometric engine as a whole: refusals and registers, bad input, empty frames; the clocks of a
 // frame between the bounds of docs/geometric_hardware.md, and near the one that is the largest.
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "spec/error.h"
 #include "tb/harness/statistics.h"
