@@ -186,11 +186,6 @@ void ParameterStore::load_share(std::uint32_t value) {
   registers_.set(reg::kSharesAddress, (address + 1) & kSharesAddressMask);
 }
 
-void ParameterStore::write_size(int width, int height) {
-  registers_.write(reg::kSize,
-                   static_cast<std::uint32_t>(width) | static_cast<std::uint32_t>(height) << 16);
-}
-
 bool ParameterStore::latch() {
   registers_.mask_values();
   const Decoded decoded = decode(registers_, parameters_);

@@ -7,6 +7,6 @@ deburr_test(texture_stress_test LABELS stress SOURCES texture_stress_test.cpp
 deburr_test(texture_coverage_test LABELS system SOURCES texture_coverage_test.cpp
             LINK deburr::texture_environment)
 deburr_test(texture_random_test LABELS system SOURCES texture_random_test.cpp
-            LINK deburr::texture_memory deburr::golden_texture deburr::harness deburr::rtl_texture)
+            LINK deburr::golden_texture deburr::harness deburr::rtl_texture)
 deburr_test(texture_limits_test LABELS system SOURCES texture_limits_test.cpp
-            LINK deburr::texture_memory deburr::golden_texture deburr::harness deburr::rtl_texture)
+            LINK deburr::golden_texture deburr::harness deburr::rtl_texture)

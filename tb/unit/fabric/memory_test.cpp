@@ -8,8 +8,8 @@
 #include <set>
 
 #include "rtl_model/fabric/memory_port.h"
+#include "rtl_model/platform/memory_model.h"
 #include "tb/harness/link_checker.h"
-#include "tb/harness/memory_model.h"
 #include "tb/unit/fabric/support.h"
 
 namespace deburr::tb {
@@ -72,9 +72,9 @@ struct Side {
 };
 
 struct System : Side {
-  MemoryModel memory;
-  System(const MemoryPortParameters& port_parameters, const MemoryModelParameters& parameters,
-         std::uint32_t sink_stalls = 0)
+  platform::MemoryModel memory;
+  System(const MemoryPortParameters& port_parameters,
+         const platform::MemoryModelParameters& parameters, std::uint32_t sink_stalls = 0)
       : Side(port_parameters, sink_stalls), memory("memory", kPeriod, parameters) {
     port.memory.bind(memory.ports);
     std::vector<std::uint8_t> contents(parameters.bytes);
@@ -83,8 +83,8 @@ struct System : Side {
   }
 };
 
-MemoryModelParameters with_latency(std::uint32_t min, std::uint32_t max = 0) {
-  MemoryModelParameters parameters;
+platform::MemoryModelParameters with_latency(std::uint32_t min, std::uint32_t max = 0) {
+  platform::MemoryModelParameters parameters;
   parameters.latency_min = min;
   parameters.latency_max = max ? max : min;
   return parameters;
@@ -136,7 +136,7 @@ TEST(MemoryPort, RateIsLimitedByOutstanding) {
 }
 
 TEST(MemoryPort, BandwidthOfTheMemoryLimits) {
-  MemoryModelParameters parameters = with_latency(10);
+  platform::MemoryModelParameters parameters = with_latency(10);
   parameters.bytes_per_clock = 16;
   System s({}, parameters);
   for (std::uint32_t i = 0; i < 100; ++i) s.driver.send(read_of(i));
@@ -148,7 +148,7 @@ TEST(MemoryPort, BandwidthOfTheMemoryLimits) {
 TEST(MemoryPort, BusyBanksLimit) {
   for (const std::uint32_t banks : {1U, 4U, 8U}) {
     const std::string text = in_child([&] {
-      MemoryModelParameters parameters = with_latency(10);
+      platform::MemoryModelParameters parameters = with_latency(10);
       parameters.banks = banks;
       parameters.bank_busy = 8;
       MemoryPortParameters port;
@@ -231,8 +231,8 @@ TEST(MemoryPort, BurstsOfReadsAndWrites) {
 
 // A request that a full memory withholds while the engine is reset comes in later, and is none of
 // those that the engine asks for afterwards.
-TEST(MemoryModel, CountsNoRequestThatWasWithheldBefore) {
-  MemoryModelParameters parameters = with_latency(50);
+TEST(platform::MemoryModel, CountsNoRequestThatWasWithheldBefore) {
+  platform::MemoryModelParameters parameters = with_latency(50);
   parameters.outstanding = 1;
   System s({}, parameters);
   s.driver.send(read_of(3));
@@ -248,8 +248,8 @@ TEST(MemoryModel, CountsNoRequestThatWasWithheldBefore) {
 }
 
 // The last of what a narrow bus still has to carry is written long after its latency.
-TEST(MemoryModel, IsAtRestWhenTheLastWriteIsDone) {
-  MemoryModelParameters parameters = with_latency(10);
+TEST(platform::MemoryModel, IsAtRestWhenTheLastWriteIsDone) {
+  platform::MemoryModelParameters parameters = with_latency(10);
   parameters.write_at_response = true;
   parameters.bytes_per_clock = 1;
   parameters.outstanding = 2;
@@ -270,7 +270,7 @@ TEST(MemoryModel, IsAtRestWhenTheLastWriteIsDone) {
   EXPECT_GT(s.clock.cycle(), Cycle{3 * 64});
 }
 
-TEST(MemoryModel, ForgetsLinesAndGoesOnCounting) {
+TEST(platform::MemoryModel, ForgetsLinesAndGoesOnCounting) {
   System s({}, with_latency(5));
   s.driver.send(read_of(3));
   ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 1; }, 1000));
@@ -281,10 +281,10 @@ TEST(MemoryModel, ForgetsLinesAndGoesOnCounting) {
 
 // Who does not wait for the answer to a write reads what was there before; who waits reads what was
 // written. A memory that takes requests one by one hides that.
-TEST(MemoryModel, AReadBehindAWriteIsARace) {
+TEST(platform::MemoryModel, AReadBehindAWriteIsARace) {
   for (const bool late : {true, false}) {
     const std::string text = in_child([&] {
-      MemoryModelParameters parameters = with_latency(10);
+      platform::MemoryModelParameters parameters = with_latency(10);
       parameters.write_at_response = late;
       System s({}, parameters);
       MemoryRequest write = read_of(3);
@@ -495,7 +495,7 @@ TEST(MemoryPort, WritesFailLikeReads) {
 }
 
 TEST(MemoryPort, RequestsBeyondTheMemorysLimitAreHeldBack) {
-  MemoryModelParameters parameters = with_latency(20);
+  platform::MemoryModelParameters parameters = with_latency(20);
   parameters.outstanding = 3;
   System s({}, parameters);
   for (std::uint32_t i = 0; i < 60; ++i) s.driver.send(read_of(i));
@@ -511,7 +511,7 @@ TEST(MemoryPort, NobodyCanTellWhetherTheDomainRunsOn) {
     for (const std::uint32_t latency_max : {20U, 90U}) {
       const auto run = [&](bool fast, std::optional<std::uint64_t> shuffle) {
         return in_child([&] {
-          MemoryModelParameters parameters = with_latency(20, latency_max);
+          platform::MemoryModelParameters parameters = with_latency(20, latency_max);
           parameters.outstanding = limit;
           parameters.bytes_per_clock = 48;
           System s({}, parameters, 200);
@@ -599,7 +599,7 @@ TEST(MemoryPort, WaitsWhileNobodyTakesItsAnswers) {
   rtl::MemoryPort port("port", clock);
   rtl::Link<MemoryRequest> requests("requests");
   rtl::Link<MemoryResponse> responses("responses");
-  MemoryModel memory("memory", kPeriod, with_latency(10));
+  platform::MemoryModel memory("memory", kPeriod, with_latency(10));
   driver.beats_out(requests);
   port.requests_in(requests);
   port.responses_out(responses);
