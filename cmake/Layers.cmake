@@ -15,16 +15,43 @@ function(deburr_layer_root variable layer)
   set(${variable} "${root}" PARENT_SCOPE)
 endfunction()
 
-# deburr_library(<name> LAYER <layer> SOURCES ... LINK ...): a static library of one layer; linking
-# it makes its layer's headers visible, and those of what it links publicly.
+# deburr_batches(<target>): compiles the sources of a target in batches of at most twelve of about the
+# same size, one translation unit each (option DEBURR_UNITY). A source with flags of its own, and one
+# that is generated, stays a translation unit of its own.
+function(deburr_batches target)
+  if(NOT DEBURR_UNITY)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "[.]cpp$")
+  set(generated ${sources})
+  list(FILTER generated INCLUDE REGEX "^${PROJECT_BINARY_DIR}/")
+  set_source_files_properties(${generated} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  list(FILTER sources EXCLUDE REGEX "^${PROJECT_BINARY_DIR}/")
+  list(LENGTH sources count)
+  if(count LESS 2)
+    return()
+  endif()
+  math(EXPR batches "(${count} + 11) / 12")
+  math(EXPR size "(${count} + ${batches} - 1) / ${batches}")
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
+endfunction()
+
+# deburr_library(<name> LAYER <layer> SOURCES ... LINK ... [NOT_SIMULATED]): a static library of one
+# layer; linking it makes its layer's headers visible, and those of what it links publicly. What runs
+# beside a simulation, and not in each of its clocks, is NOT_SIMULATED: it is compiled faster.
 function(deburr_library name)
-  cmake_parse_arguments(ARG "" "LAYER" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  cmake_parse_arguments(ARG "NOT_SIMULATED" "LAYER" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
   deburr_layer_root(root ${ARG_LAYER})
   if(ARG_SOURCES)
     add_library(deburr_${name} STATIC ${ARG_SOURCES})
     target_include_directories(deburr_${name} PUBLIC "${root}")
     target_link_libraries(deburr_${name} PUBLIC ${ARG_LINK} PRIVATE deburr_options
                                                                     ${ARG_PRIVATE_LINK})
+    if(ARG_NOT_SIMULATED)
+      target_link_libraries(deburr_${name} PRIVATE deburr_light_options)
+    endif()
+    deburr_batches(deburr_${name})
   else()
     add_library(deburr_${name} INTERFACE)
     target_include_directories(deburr_${name} INTERFACE "${root}")
@@ -43,17 +70,19 @@ function(deburr_test name)
     set(ARG_TIMEOUT 120)
   endif()
   add_executable(${name} ${ARG_SOURCES} $<TARGET_OBJECTS:deburr_forked_expectations>)
-  # What one label needs, so that a build for it alone builds no more.
   foreach(label ${ARG_LABELS})
-    if(NOT TARGET deburr_${label}_tests)
-      add_custom_target(deburr_${label}_tests)
-    endif()
     add_dependencies(deburr_${label}_tests ${name})
+  endforeach()
+  foreach(label timing long)
+    string(TOUPPER ${label} regexes)
+    if(ARG_${regexes})
+      add_dependencies(deburr_${label}_tests ${name})
+    endif()
   endforeach()
   # The main() comes first: SystemC's library has one as well.
   target_link_libraries(${name} PRIVATE GTest::gmock_main ${ARG_LINK} deburr_options)
   if("unit" IN_LIST ARG_LABELS)
-    target_link_libraries(${name} PRIVATE deburr_unit_options)
+    target_link_libraries(${name} PRIVATE deburr_light_options)
   endif()
   # Values of parameters stay out of the names: some are addresses, or bytes of the compiler's choice.
   gtest_discover_tests(${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 TEST_LIST ${name}_tests
@@ -76,7 +105,11 @@ function(deburr_test name)
   endforeach()
 ")
   endforeach()
-  file(WRITE "${labels}" "${text}endif()\n")
+  # What is not built fails under its labels, and not under others.
+  file(WRITE "${labels}" "${text}else()
+  set_tests_properties(${name}_NOT_BUILT PROPERTIES LABELS \"${ARG_LABELS}\")
+endif()
+")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${labels}")
 endfunction()
 
@@ -86,4 +119,5 @@ function(deburr_noise_for_minutes engine)
            COMMAND rtl_${engine}_register_noise_test --gtest_filter=RegisterNoise.*)
   set_tests_properties(fuzz_registers_${engine} PROPERTIES LABELS fuzz TIMEOUT 600
                        ENVIRONMENT DEBURR_FUZZ_SECONDS=120)
+  add_dependencies(deburr_fuzz_tests rtl_${engine}_register_noise_test)
 endfunction()

@@ -11,7 +11,7 @@ namespace {
 // ---- edges --------------------------------------------------------------------------------------
 
 // Differences of the channels, weighted as in luma; nothing is seen of what lies outside.
-double step(const ColourFrame& frame, int x, int y, int to_x, int to_y) {
+double channel_step(const ColourFrame& frame, int x, int y, int to_x, int to_y) {
   const auto outside = [&](int px, int py) {
     return px < 0 || py < 0 || px >= frame.width || py >= frame.height;
   };
@@ -27,7 +27,7 @@ double step(const ColourFrame& frame, int x, int y, int to_x, int to_y) {
 
 // The edges of an axis: `along` lies below a pixel, `across` on its right. Turned, rows and columns
 // are exchanged.
-struct AxisView {
+struct Cmaa2Axis {
   const Cmaa2Edges& edges;
   bool turned;
   bool along(int x, int y) const { return turned ? edges.has_right(y, x) : edges.has_below(x, y); }
@@ -35,7 +35,7 @@ struct AxisView {
 };
 
 // Pixels from x on over which the edge below row y goes on until something crosses it.
-int arm(const AxisView& axis, int x, int y, int direction, int longest) {
+int arm(const Cmaa2Axis& axis, int x, int y, int direction, int longest) {
   int length = 0;
   while (length < longest && axis.along(x + direction * length, y)) {
     ++length;
@@ -49,20 +49,20 @@ int arm(const AxisView& axis, int x, int y, int direction, int longest) {
 class Samples {
  public:
   explicit Samples(std::size_t pixels) : simple_(pixels), steps_(pixels) {}
-  void add_simple(std::size_t pixel, const Colour& colour) { simple_[pixel].add(colour); }
-  void add_step(std::size_t pixel, const Colour& colour) { steps_[pixel].add(colour); }
+  void add_simple(std::size_t pixel, const Rgb& colour) { simple_[pixel].add(colour); }
+  void add_step(std::size_t pixel, const Rgb& colour) { steps_[pixel].add(colour); }
   bool any(std::size_t pixel) const { return chosen(pixel).count > 0; }
-  Colour mean(std::size_t pixel) const {
-    Colour result = chosen(pixel).sum;
+  Rgb mean(std::size_t pixel) const {
+    Rgb result = chosen(pixel).sum;
     for (double& channel : result) channel /= chosen(pixel).count;
     return result;
   }
 
  private:
   struct Sum {
-    Colour sum{};
+    Rgb sum{};
     int count = 0;
-    void add(const Colour& colour) {
+    void add(const Rgb& colour) {
       for (std::size_t i = 0; i < colour.size(); ++i) sum[i] += colour[i];
       ++count;
     }
@@ -86,7 +86,7 @@ class Filter {
     for (int y = 0; y < frame_.height; ++y)
       for (int x = 0; x < frame_.width; ++x) blend_corner(x, y);
     for (const bool turned : {false, true}) {
-      const AxisView axis{edges_, turned};
+      const Cmaa2Axis axis{edges_, turned};
       const int width = turned ? frame_.height : frame_.width,
                 height = turned ? frame_.width : frame_.height;
       for (int y = 0; y < height; ++y)
@@ -100,7 +100,7 @@ class Filter {
   }
 
  private:
-  Colour colour(int x, int y) const { return scale_.decoded(frame_.at(x, y)); }
+  Rgb colour(int x, int y) const { return scale_.decoded(frame_.at(x, y)); }
 
   // Two edges that meet, three or four; a straight edge and the two of a thin line are left alone.
   void blend_corner(int x, int y) {
@@ -111,8 +111,8 @@ class Filter {
       const double share = count == 2   ? settings_.corner
                            : count == 3 ? settings_.tip
                                         : settings_.dot;
-      Colour sum{};
-      const auto take = [&](const Colour& from, double weight) {
+      Rgb sum{};
+      const auto take = [&](const Rgb& from, double weight) {
         for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * from[i];
       };
       take(colour(x, y), 1 - count * share);
@@ -128,7 +128,7 @@ class Filter {
   // and the right arm on the other side. A line from the middle of the left arm through that of the
   // step to the middle of the right arm lies within the row: left of the step the row takes from
   // the side of the left arm, right of it from the other.
-  void blend_step(const AxisView& axis, int x, int y, int side) {
+  void blend_step(const Cmaa2Axis& axis, int x, int y, int side) {
     const int left_row = side > 0 ? y : y - 1, right_row = side > 0 ? y - 1 : y;
     if (!axis.across(x, y) || !axis.along(x, left_row) || !axis.along(x + 1, right_row)) return;
     const int left = arm(axis, x, left_row, -1, settings_.longest_arm),
@@ -138,13 +138,13 @@ class Filter {
     blend_arm(axis, x + 1, y, 1, -side, (right + 1) / 2);
   }
   // The half of an arm that lies at the step, from the step's pixel on.
-  void blend_arm(const AxisView& axis, int x, int y, int direction, int side, int half) {
+  void blend_arm(const Cmaa2Axis& axis, int x, int y, int direction, int side, int half) {
     for (int i = 0; i < half; ++i) {
       const double left = half - i - 0.5 - settings_.symmetry;  // to where the line meets the arm
       add_step(axis, x + direction * i, y, side, left / (half - settings_.symmetry) / 2);
     }
   }
-  void add_step(const AxisView& axis, int x, int y, int side, double share) {
+  void add_step(const Cmaa2Axis& axis, int x, int y, int side, double share) {
     const auto at = [&](int px, int py) { return axis.turned ? colour(py, px) : colour(px, py); };
     samples_.add_step(axis.turned ? frame_.index(y, x) : frame_.index(x, y),
                       mixed(at(x, y), at(x, y + side), share));
@@ -160,8 +160,8 @@ class Filter {
 }  // namespace
 
 Cmaa2Edges cmaa2_edges(const ColourFrame& frame, const Cmaa2Settings& settings) {
-  const auto right = [&](int x, int y) { return step(frame, x, y, x + 1, y); };
-  const auto below = [&](int x, int y) { return step(frame, x, y, x, y + 1); };
+  const auto right = [&](int x, int y) { return channel_step(frame, x, y, x + 1, y); };
+  const auto below = [&](int x, int y) { return channel_step(frame, x, y, x, y + 1); };
   Cmaa2Edges edges;
   edges.width = frame.width;
   edges.height = frame.height;

@@ -14,11 +14,11 @@ ColourScale::ColourScale(bool linear_light) : linear_light_(linear_light) {
   }
 }
 
-Colour ColourScale::decoded(const Rgba8& pixel) const {
+Rgb ColourScale::decoded(const Rgba8& pixel) const {
   return {values_[pixel[0]], values_[pixel[1]], values_[pixel[2]]};
 }
 
-Rgba8 ColourScale::encoded(const Colour& colour, std::uint8_t alpha) const {
+Rgba8 ColourScale::encoded(const Rgb& colour, std::uint8_t alpha) const {
   Rgba8 pixel{0, 0, 0, alpha};
   for (std::size_t i = 0; i < 3; ++i) {
     const double stored = !linear_light_           ? colour[i]
@@ -29,7 +29,7 @@ Rgba8 ColourScale::encoded(const Colour& colour, std::uint8_t alpha) const {
   return pixel;
 }
 
-Colour mixed(const Colour& a, const Colour& b, double share) {
+Rgb mixed(const Rgb& a, const Rgb& b, double share) {
   return {std::lerp(a[0], b[0], share), std::lerp(a[1], b[1], share), std::lerp(a[2], b[2], share)};
 }
 

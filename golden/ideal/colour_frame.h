@@ -12,7 +12,7 @@
 namespace deburr::golden::ideal {
 
 using Rgba8 = std::array<std::uint8_t, 4>;
-using Colour = std::array<double, 3>;  // 0..1
+using Rgb = std::array<double, 3>;  // 0..1
 
 struct ColourFrame {
   std::vector<Rgba8> pixels;  // row by row
@@ -36,8 +36,8 @@ inline int luma_of(const Rgba8& pixel) { return 299 * pixel[0] + 587 * pixel[1] 
 class ColourScale {
  public:
   explicit ColourScale(bool linear_light);
-  Colour decoded(const Rgba8& pixel) const;
-  Rgba8 encoded(const Colour& colour, std::uint8_t alpha) const;
+  Rgb decoded(const Rgba8& pixel) const;
+  Rgba8 encoded(const Rgb& colour, std::uint8_t alpha) const;
 
  private:
   bool linear_light_;
@@ -45,6 +45,6 @@ class ColourScale {
 };
 
 // (1 - share) a + share b.
-Colour mixed(const Colour& a, const Colour& b, double share);
+Rgb mixed(const Rgb& a, const Rgb& b, double share);
 
 }  // namespace deburr::golden::ideal

@@ -9,7 +9,7 @@
 namespace deburr::golden::ideal {
 namespace {
 
-struct Point {
+struct PolygonPoint {
   double x, y;
 };
 
@@ -19,11 +19,11 @@ struct Point {
 // pixel, so nothing cancels far from the origin.
 double coverage(const HalfPlane& h, double x, double y) {
   const HalfPlane local{h.a, h.b, h.at(x, y)};
-  constexpr std::array<Point, 4> kSquare = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
-  std::array<Point, 8> polygon{};
+  constexpr std::array<PolygonPoint, 4> kSquare = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+  std::array<PolygonPoint, 8> polygon{};
   std::size_t count = 0;
   for (std::size_t i = 0; i < kSquare.size(); ++i) {
-    const Point p = kSquare[i], q = kSquare[(i + 1) % kSquare.size()];
+    const PolygonPoint p = kSquare[i], q = kSquare[(i + 1) % kSquare.size()];
     const double at_p = local.at(p.x, p.y), at_q = local.at(q.x, q.y);
     if (at_p > 0) polygon[count++] = p;
     if ((at_p > 0) != (at_q > 0)) {
@@ -33,7 +33,7 @@ double coverage(const HalfPlane& h, double x, double y) {
   }
   double twice = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const Point p = polygon[i], q = polygon[(i + 1) % count];
+    const PolygonPoint p = polygon[i], q = polygon[(i + 1) % count];
     twice += p.x * q.y - q.x * p.y;
   }
   return std::clamp(std::abs(twice) / 2, 0.0, 1.0);

@@ -13,7 +13,7 @@ namespace {
 // ---- edges --------------------------------------------------------------------------------------
 
 // Step of luma between two pixels; nothing is seen of what lies outside.
-double step(const SmaaLuma& luma, int x, int y, int to_x, int to_y) {
+double luma_step(const SmaaLuma& luma, int x, int y, int to_x, int to_y) {
   const auto outside = [&](int px, int py) {
     return px < 0 || py < 0 || px >= luma.width || py >= luma.height;
   };
@@ -22,9 +22,10 @@ double step(const SmaaLuma& luma, int x, int y, int to_x, int to_y) {
 }
 
 SmaaMargins margins(const SmaaLuma& luma, double threshold, int x, int y, double own) {
-  const double largest = std::max({step(luma, x, y, x - 1, y), step(luma, x, y, x + 1, y),
-                                   step(luma, x, y, x, y - 1), step(luma, x, y, x, y + 1),
-                                   step(luma, x - 1, y, x - 2, y), step(luma, x, y - 1, x, y - 2)});
+  const double largest =
+      std::max({luma_step(luma, x, y, x - 1, y), luma_step(luma, x, y, x + 1, y),
+                luma_step(luma, x, y, x, y - 1), luma_step(luma, x, y, x, y + 1),
+                luma_step(luma, x - 1, y, x - 2, y), luma_step(luma, x, y - 1, x, y - 2)});
   return {own - threshold, 2 * own - largest};
 }
 
@@ -56,7 +57,7 @@ SmaaWeights fetched_area(Crossing start, Crossing end, int l, int r) {
 // ---- searches -----------------------------------------------------------------------------------
 
 // An axis as its edges see it: `along` makes lines, `across` crosses them.
-struct AxisView {
+struct SmaaAxis {
   std::function<bool(int, int)> along, across;
   bool crossed(int x, int y) const { return across(x, y) || across(x, y - 1); }
   Crossing crossing(int x, int y) const { return {across(x, y - 1), across(x, y)}; }
@@ -64,7 +65,7 @@ struct AxisView {
 
 // Pixels to the left over which the edge goes on. A fetch sees a pair of pixels, the right one
 // first, with the edges that cross the line at the left of either.
-int search_left(const AxisView& axis, int x, int y, int steps) {
+int search_left(const SmaaAxis& axis, int x, int y, int steps) {
   int distance = -1;
   for (int fetch = 0; fetch < steps; ++fetch) {
     const int right = x - 2 * fetch, left = right - 1;
@@ -77,7 +78,7 @@ int search_left(const AxisView& axis, int x, int y, int steps) {
 }
 
 // The same to the right, where a crossing comes before its pixel.
-int search_right(const AxisView& axis, int x, int y, int steps) {
+int search_right(const SmaaAxis& axis, int x, int y, int steps) {
   int distance = 0;
   for (int fetch = 0; fetch < steps; ++fetch) {
     const int left = x + 1 + 2 * fetch, right = left + 1;
@@ -89,7 +90,7 @@ int search_right(const AxisView& axis, int x, int y, int steps) {
   return distance;
 }
 
-SmaaWeights edge_weights(const AxisView& axis, const SmaaSettings& settings, int x, int y) {
+SmaaWeights edge_weights(const SmaaAxis& axis, const SmaaSettings& settings, int x, int y) {
   if (!axis.along(x, y)) return {};
   const int l = search_left(axis, x, y, settings.search_steps);
   const int r = search_right(axis, x, y, settings.search_steps);
@@ -111,14 +112,14 @@ SmaaWeights edge_weights(const AxisView& axis, const SmaaSettings& settings, int
 
 // ---- diagonals ----------------------------------------------------------------------------------
 
-struct Point {
+struct DiagonalPoint {
   double x = 0, y = 0;
 };
 
 constexpr int kSamples = 30;
 
 // Share of the samples of a pixel that lie below a line; all of them if the line is a point.
-double samples_below(Point from, Point to, double px, double py) {
+double samples_below(DiagonalPoint from, DiagonalPoint to, double px, double py) {
   int count = 0;
   for (int i = 0; i < kSamples; ++i) {
     for (int j = 0; j < kSamples; ++j) {
@@ -136,10 +137,11 @@ double samples_below(Point from, Point to, double px, double py) {
 // The sixteen patterns in the order of publication: where each lies in the texture, and its lines.
 struct DiagonalPattern {
   int e1, e2;
-  std::vector<std::pair<Point, Point>> lines;  // the second point moves with the length
+  std::vector<std::pair<DiagonalPoint, DiagonalPoint>>
+      lines;  // the second point moves with the length
 };
 const std::vector<DiagonalPattern>& diagonal_patterns() {
-  constexpr Point k00{0, 0}, k10{1, 0}, k11{1, 1};
+  constexpr DiagonalPoint k00{0, 0}, k10{1, 0}, k11{1, 1};
   static const std::vector<DiagonalPattern> patterns = {{0, 0, {{k11, k11}, {k10, k10}}},
                                                         {1, 0, {{k10, k00}, {k10, k10}}},
                                                         {0, 2, {{k00, k10}, {k10, k10}}},
@@ -168,7 +170,7 @@ DiagonalValue diagonal_area(int e1, int e2, int d1, int d2) {
     const double length = d1 + d2 + 1;
     DiagonalValue value;
     for (const auto& [from, moving] : pattern.lines) {
-      const Point to{moving.x + length, moving.y + length};
+      const DiagonalPoint to{moving.x + length, moving.y + length};
       value.a += 1 - samples_below(from, to, 1 + d1, d1);
       value.b += samples_below(from, to, 1 + d1, 1 + d1);
     }
@@ -247,11 +249,11 @@ std::optional<SmaaWeights> diagonal_weights(const SmaaEdges& edges, int steps, i
 }  // namespace
 
 SmaaMargins left_margins(const SmaaLuma& luma, double threshold, int x, int y) {
-  return margins(luma, threshold, x, y, step(luma, x, y, x - 1, y));
+  return margins(luma, threshold, x, y, luma_step(luma, x, y, x - 1, y));
 }
 
 SmaaMargins top_margins(const SmaaLuma& luma, double threshold, int x, int y) {
-  return margins(luma, threshold, x, y, step(luma, x, y, x, y - 1));
+  return margins(luma, threshold, x, y, luma_step(luma, x, y, x, y - 1));
 }
 
 SmaaEdges smaa_edges(const SmaaLuma& luma, double threshold) {

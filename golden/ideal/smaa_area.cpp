@@ -9,12 +9,12 @@
 namespace deburr::golden::ideal {
 namespace {
 
-struct Point {
+struct AreaPoint {
   double x = 0, y = 0;
 };
 
 // Area between the axis and a line, over pixel `l`. Heights above the axis are the first pixel's.
-SmaaWeights area_under(Point from, Point to, int l) {
+SmaaWeights area_under(AreaPoint from, AreaPoint to, int l) {
   const double slope = (to.y - from.y) / (to.x - from.x);
   const auto height = [&](double x) { return from.y + slope * (x - from.x); };
   const double begin = std::max<double>(l, from.x), end = std::min<double>(l + 1, to.x);
@@ -51,7 +51,7 @@ SmaaWeights smoothed(SmaaWeights a, int length) {
 SmaaWeights smaa_area(int pattern, int l, int r, double offset) {
   const int length = l + r + 1;
   const double first = 0.5 + offset, second = offset - 0.5;
-  const Point middle{length / 2.0, 0};
+  const AreaPoint middle{length / 2.0, 0};
   const double last = length;
   const auto start = [&](double height) { return area_under({0, height}, middle, l); };
   const auto end = [&](double height) { return area_under(middle, {last, height}, l); };

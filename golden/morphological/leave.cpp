@@ -16,7 +16,7 @@ struct Place {
 };
 constexpr std::array<Place, 5> kPlaces = {
     {{0, 0, "own"}, {0, -1, "up"}, {-1, 0, "left"}, {1, 0, "right"}, {0, 1, "down"}}};
-constexpr std::array<std::string_view, 4> kBorders = {"top", "left", "right", "bottom"};
+constexpr std::array<std::string_view, 4> kBorderNames = {"top", "left", "right", "bottom"};
 
 // Of kPlaces.
 constexpr std::size_t first_neighbour(bool horizontal) { return horizontal ? 2 : 1; }
@@ -89,7 +89,7 @@ std::vector<CoverageBin> LeaveCoverage::bins() const {
     result.push_back({"left/beside/" + std::string(which), beside_[i]});
   }
   for (std::size_t border = 0; border < 4; ++border) {
-    const std::string name = "border/" + std::string(kBorders[border]);
+    const std::string name = "border/" + std::string(kBorderNames[border]);
     result.push_back({name + "/blended", borders_[border][0]});
     result.push_back({name + "/left", borders_[border][1]});
   }

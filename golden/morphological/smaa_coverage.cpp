@@ -10,7 +10,7 @@
 namespace deburr::golden::morphological {
 namespace {
 
-constexpr std::array<std::string_view, 2> kAxes = {"horizontal", "vertical"};
+constexpr std::array<std::string_view, 2> kAxisNames = {"horizontal", "vertical"};
 constexpr std::array<std::string_view, SmaaCoverage::kDistances> kDistanceNames = {
     "0", "1-3", "4-8", "9-24", "25+"};
 constexpr std::array<std::string_view, 2> kTiles = {"half", "dip"};
@@ -76,11 +76,11 @@ std::vector<CoverageBin> SmaaCoverage::bins() const {
   for (std::size_t axis = 0; axis < 2; ++axis) {
     for (std::size_t shape = 0; shape < 16; ++shape)
       for (std::size_t d = 0; d < kDistances; ++d)
-        add(table_[axis][shape][d], "table", kAxes[axis],
+        add(table_[axis][shape][d], "table", kAxisNames[axis],
             spec::morphological::kRunShapes[shape].name, kDistanceNames[d]);
     for (std::size_t end = 0; end < 2; ++end)
       for (std::size_t limit = 0; limit < 2; ++limit)
-        add(searches_[axis][end][limit], "search", kAxes[axis], kEnds[end], kLimits[limit]);
+        add(searches_[axis][end][limit], "search", kAxisNames[axis], kEnds[end], kLimits[limit]);
   }
   for (std::size_t tile = 0; tile < 2; ++tile)
     for (std::size_t entry = 0; entry < 2; ++entry)

@@ -36,13 +36,6 @@ std::string binary(std::uint64_t value, int bits) {
   return text;
 }
 
-std::array<std::uint64_t, kActivities> counts_of(const Unit& unit) {
-  std::array<std::uint64_t, kActivities> counts{};
-  for (int i = 0; i < unit.activities(); ++i)
-    counts[static_cast<std::size_t>(i)] = unit.cycles_of({static_cast<std::uint8_t>(i)});
-  return counts;
-}
-
 // The path of modules of a hierarchical name, and the name itself.
 std::pair<std::vector<std::string>, std::string> split(const std::string& name) {
   std::vector<std::string> path;
@@ -80,7 +73,7 @@ Trace::Trace(ClockDomain& clock, const TraceOptions& options) : clock_(clock), o
   check_file();
   clock_.require_cycle_by_cycle();
   clock_.add_after(*this);
-  for_each<Unit>([&](Unit& unit) { initial_[&unit] = counts_of(unit); });
+  for_each<Unit>([&](Unit& unit) { initial_[&unit] = unit.counts(); });
 }
 
 Trace::~Trace() {
@@ -165,11 +158,11 @@ void Trace::collect(Cycle cycle) {
     if (!wanted(unit.name())) return;
     // The counter that went up since the last sample is what the unit did.
     const bool early = cycle < options_.from;
-    auto before = early ? counts_of(unit) : initial_[&unit];
+    auto before = early ? unit.counts() : initial_[&unit];
     signals_.push_back({std::string(unit.name()) + ".activity",
                         0,
                         [&unit, before](Cycle) mutable {
-                          const auto now = counts_of(unit);
+                          const auto now = unit.counts();
                           std::string text = "reset";
                           for (int i = 0; i < unit.activities(); ++i)
                             if (now[static_cast<std::size_t>(i)] >

@@ -45,6 +45,7 @@ class Unit : public Clocked, public sc_core::sc_module {
   std::uint64_t busy_cycles() const { return activity_[kBusy.code]; }
   std::uint64_t stalled_cycles() const;
   std::uint64_t cycles_of(Activity activity) const { return activity_[activity.code]; }
+  const std::array<std::uint64_t, kActivities>& counts() const { return activity_; }  // by code
   std::vector<StallCause> stalls() const;
   // "idle", "busy" or the name of the cause.
   const std::string& activity_name(Activity activity) const;

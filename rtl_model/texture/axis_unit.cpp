@@ -10,8 +10,7 @@
 namespace deburr::rtl::texture {
 namespace {
 
-constexpr unsigned kDirections = 8;                               // in half a turn
-constexpr std::uint64_t kLargest = (std::uint64_t{1} << 31) - 1;  // U15.16
+constexpr unsigned kDirections = 8;  // in half a turn
 
 // 0, 49, 90, 118 and 128 times a value: what sine and cosine of 0, 22.5, 45, 67.5 and 90 degrees
 // are in 1/128.
@@ -31,6 +30,7 @@ std::int64_t rotated(const Multiples& row, const Multiples& column, unsigned dir
 
 // In texels: truncated magnitude, saturated.
 std::uint64_t magnitude(std::int64_t v) {
+  constexpr std::uint64_t kLargest = (std::uint64_t{1} << 31) - 1;  // U15.16
   return std::min(static_cast<std::uint64_t>(v < 0 ? -v : v) >> 7, kLargest);
 }
 // In coordinates: the magnitude is rounded, so halves of negative numbers go down.

@@ -6,8 +6,6 @@
 namespace deburr::rtl::texture {
 namespace {
 
-constexpr std::uint64_t kLargest = (std::uint64_t{1} << 31) - 1;  // U15.16
-
 // Size of a difference in texels: S8.24 x U13 = U20.24, to U15.16 with one bit of overflow, which
 // is bit 31 or above.
 std::uint64_t in_texels(std::int64_t difference, std::uint16_t size) {
@@ -16,6 +14,7 @@ std::uint64_t in_texels(std::int64_t difference, std::uint16_t size) {
 }
 
 std::uint32_t saturate(std::uint64_t texels) {
+  constexpr std::uint64_t kLargest = (std::uint64_t{1} << 31) - 1;  // U15.16
   return static_cast<std::uint32_t>(texels > kLargest ? kLargest : texels);
 }
 

@@ -113,7 +113,7 @@ inline void TagStage::look_up(Cycle cycle, CacheToken& out) {
     const Line line = look_up_line(cycle, released, 0, out, missed);
     for (std::size_t i = 0; i < 4; ++i) place(i, line);
   } else {
-    std::array<Line, 4> line;
+    std::array<Line, 4> line{};  // to a compiler first[i] might be more than i
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t first = r.first[i];
       line[i] = first == i ? look_up_line(cycle, released, i, out, missed) : line[first];

@@ -26,11 +26,6 @@
 namespace deburr::tb {
 namespace {
 
-template <class Enum, std::size_t N>
-std::string_view name_of(Enum value, const std::array<std::string_view, N>& names) {
-  return names[static_cast<std::size_t>(value)];
-}
-
 class GeometricCommand final : public Engine {
  public:
   std::string_view name() const override { return "geometric"; }

@@ -10,7 +10,7 @@
 namespace deburr::tb {
 namespace {
 
-constexpr std::string_view kPrefix = "geometric.";
+constexpr std::string_view kGeometricPrefix = "geometric.";
 
 std::string source_of(const spec::geometric::Parameters& values) {
   return fmt::format("preset {}",
@@ -24,7 +24,7 @@ void apply_preset(ParameterSet& set, const spec::geometric::Parameters& values) 
   ParameterSet preset;
   preset.add_engine("geometric", rules);
   for (const char* const name : {"select", "crease", "combine", "frame_copy"}) {
-    const std::string full = fmt::format("{}{}", kPrefix, name);
+    const std::string full = fmt::format("{}{}", kGeometricPrefix, name);
     set.imply(full, preset.find(full)->text(), source_of(values));
   }
 }
@@ -33,9 +33,9 @@ std::string preset_label(const ParameterSet& set, const spec::geometric::Paramet
   std::string label = source_of(values);
   bool first = true;
   for (const Parameter* p : set.changed()) {
-    if (!p->name.starts_with(kPrefix)) continue;
+    if (!p->name.starts_with(kGeometricPrefix)) continue;
     label += first ? ", changed: " : ", ";
-    label += p->name.substr(kPrefix.size());
+    label += p->name.substr(kGeometricPrefix.size());
     first = false;
   }
   return label;
@@ -43,7 +43,7 @@ std::string preset_label(const ParameterSet& set, const spec::geometric::Paramet
 
 void refuse_unused_rules(const ParameterSet& set, const spec::geometric::Parameters& p) {
   const auto refuse = [&](std::string_view name, std::string_view why) {
-    set.refuse(fmt::format("{}{}", kPrefix, name), why);
+    set.refuse(fmt::format("{}{}", kGeometricPrefix, name), why);
   };
   if (p.select == spec::geometric::Select::kAll) {
     refuse("crease", "geometric.select = all draws every edge, crease or not");

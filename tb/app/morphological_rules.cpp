@@ -11,7 +11,7 @@
 namespace deburr::tb {
 namespace {
 
-constexpr std::string_view kPrefix = "morphological.";
+constexpr std::string_view kMorphologicalPrefix = "morphological.";
 
 std::string_view preset_name(const spec::morphological::Parameters& values) {
   return spec::morphological::kPresetNames[static_cast<std::size_t>(values.preset)];
@@ -43,7 +43,7 @@ void apply_preset(ParameterSet& set, const spec::morphological::Parameters& valu
   preset.add_engine("morphological", rules);
   const auto imply = [&](std::initializer_list<std::string_view> names) {
     for (const std::string_view name : names) {
-      const std::string full = fmt::format("{}{}", kPrefix, name);
+      const std::string full = fmt::format("{}{}", kMorphologicalPrefix, name);
       set.imply(full, preset.find(full)->text(), by);
     }
   };
@@ -58,9 +58,9 @@ std::string preset_label(const ParameterSet& set, const spec::morphological::Par
   std::string label = source_of(values);
   bool first = true;
   for (const Parameter* p : set.changed()) {
-    if (!p->name.starts_with(kPrefix)) continue;
+    if (!p->name.starts_with(kMorphologicalPrefix)) continue;
     label += first ? ", changed: " : ", ";
-    label += p->name.substr(kPrefix.size());
+    label += p->name.substr(kMorphologicalPrefix.size());
     first = false;
   }
   return label;
@@ -69,7 +69,8 @@ std::string preset_label(const ParameterSet& set, const spec::morphological::Par
 void refuse_unused_rules(const ParameterSet& set, const spec::morphological::Parameters& p,
                          std::string_view memory) {
   const auto refuse = [&](std::string_view why, std::initializer_list<std::string_view> names) {
-    for (const std::string_view name : names) set.refuse(fmt::format("{}{}", kPrefix, name), why);
+    for (const std::string_view name : names)
+      set.refuse(fmt::format("{}{}", kMorphologicalPrefix, name), why);
   };
   const bool depth = p.edge_source == spec::morphological::EdgeSource::kDepth;
   const bool predicated = p.edge_source == spec::morphological::EdgeSource::kPredicated;

@@ -10,7 +10,7 @@
 namespace deburr::tb {
 namespace {
 
-constexpr std::string_view kPrefix = "texture.";
+constexpr std::string_view kTexturePrefix = "texture.";
 
 std::string source_of(const spec::texture::Parameters& values) {
   return fmt::format("preset {}",
@@ -24,7 +24,7 @@ void apply_preset(ParameterSet& set, const spec::texture::Parameters& values) {
   ParameterSet preset;
   preset.add_engine("texture", rules);
   for (const char* const name : {"axes", "footprint", "log2", "count"}) {
-    const std::string full = fmt::format("{}{}", kPrefix, name);
+    const std::string full = fmt::format("{}{}", kTexturePrefix, name);
     set.imply(full, preset.find(full)->text(), source_of(values));
   }
 }
@@ -33,9 +33,9 @@ std::string preset_label(const ParameterSet& set, const spec::texture::Parameter
   std::string label = source_of(values);
   bool first = true;
   for (const Parameter* p : set.changed()) {
-    if (!p->name.starts_with(kPrefix) || p->name == "texture.preset") continue;
+    if (!p->name.starts_with(kTexturePrefix) || p->name == "texture.preset") continue;
     label += first ? ", changed: " : ", ";
-    label += p->name.substr(kPrefix.size());
+    label += p->name.substr(kTexturePrefix.size());
     first = false;
   }
   return label;

@@ -4,8 +4,8 @@
 idle clocks, latencies, traffic, work, and how full FIFOs were. A model gives the same counts on every
 machine, so any difference fails, a better one too until it is recorded.
 
-  tb/baselines/check.py build/release/tb/app/deburr            every baseline
-  tb/baselines/check.py build/release/tb/app/deburr --record   writes those that pass as the record
+  tb/baselines/check.py build/release/deburr            every baseline
+  tb/baselines/check.py build/release/deburr --record   writes those that pass as the record
 
 A baseline is a `deburr run` command line; @PATTERN-NUMBER-WIDTHxHEIGHT in it is a picture of
 write_frame, which is built beside this script's test."""

@@ -12,13 +12,6 @@ namespace {
 
 constexpr int kProcess = 1;
 
-std::array<std::uint64_t, rtl::kActivities> counts_of(const rtl::Unit& unit) {
-  std::array<std::uint64_t, rtl::kActivities> counts{};
-  for (int i = 0; i < unit.activities(); ++i)
-    counts[static_cast<std::size_t>(i)] = unit.cycles_of({static_cast<std::uint8_t>(i)});
-  return counts;
-}
-
 std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
 
 }  // namespace
@@ -51,7 +44,7 @@ rtl::Activity Timeline::tick(rtl::Cycle cycle) {
 
 // The count that went up since the cycle before is what the unit did.
 void Timeline::look_at(Track& track, std::size_t number, rtl::Cycle cycle) {
-  const std::array<std::uint64_t, rtl::kActivities> now = counts_of(*track.unit);
+  const std::array<std::uint64_t, rtl::kActivities> now = track.unit->counts();
   if (cycle >= options_.from) {
     std::string activity;
     for (std::size_t code = 0; code < track.activities.size(); ++code)

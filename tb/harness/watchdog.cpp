@@ -12,13 +12,6 @@
 namespace deburr::tb {
 namespace {
 
-std::array<std::uint64_t, rtl::kActivities> counts_of(const rtl::Unit& unit) {
-  std::array<std::uint64_t, rtl::kActivities> counts{};
-  for (int i = 0; i < unit.activities(); ++i)
-    counts[static_cast<std::size_t>(i)] = unit.cycles_of({static_cast<std::uint8_t>(i)});
-  return counts;
-}
-
 std::string when(rtl::Cycle cycle) {
   return cycle == rtl::kNever ? "never" : fmt::format("{}", cycle);
 }
@@ -33,7 +26,7 @@ Watchdog::Watchdog(rtl::ClockDomain& clock, rtl::Cycle patience)
 void Watchdog::sample(rtl::Cycle cycle) {
   moved_at_ = cycle;
   activity_.clear();
-  for (const rtl::Unit* unit : clock_.units()) activity_.push_back(counts_of(*unit));
+  for (const rtl::Unit* unit : clock_.units()) activity_.push_back(unit->counts());
 }
 
 rtl::Activity Watchdog::tick(rtl::Cycle cycle) {
@@ -71,7 +64,7 @@ std::string dump_state(const rtl::ClockDomain& clock,
   for (std::size_t u = 0; u < clock.units().size(); ++u) {
     const rtl::Unit& unit = *clock.units()[u];
     text += fmt::format("  {:<40}", unit.name());
-    const auto now = counts_of(unit);
+    const auto now = unit.counts();
     for (int i = 0; i < unit.activities(); ++i) {
       const auto n = static_cast<std::size_t>(i);
       const std::uint64_t cycles = now[n] - (u < before.size() ? before[u][n] : 0);

@@ -16,3 +16,6 @@ set_tests_properties(comparison_page.cube_is_current comparison_page.picture_is_
 add_test(NAME comparison_page.all_is_current
          COMMAND comparison_page check "${PROJECT_SOURCE_DIR}/docs/comparison.md")
 set_tests_properties(comparison_page.all_is_current PROPERTIES LABELS "perf;long" TIMEOUT 1800)
+foreach(label oracle perf long)
+  add_dependencies(deburr_${label}_tests comparison_page)
+endforeach()

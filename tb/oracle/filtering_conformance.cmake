@@ -28,3 +28,5 @@ add_test(NAME conformance_page.is_current
          COMMAND conformance_page check "${PROJECT_SOURCE_DIR}/docs/filtering_conformance.md"
                  "${CMAKE_CURRENT_LIST_DIR}/stale_page.md")
 set_tests_properties(conformance_page.is_current PROPERTIES LABELS "oracle;long" TIMEOUT 600)
+add_dependencies(deburr_oracle_tests conformance_page)
+add_dependencies(deburr_long_tests conformance_page)

@@ -80,8 +80,10 @@ mustache::data table_data(const PaperTable& table) {
 }  // namespace
 
 const std::vector<PaperEntry>& papers() {
-  static const std::vector<PaperEntry> entries = {
-      {"000", &paper_000}, {"002", &paper_002}, {"003", &paper_003}, {"004", &paper_004}};
+  static const std::vector<PaperEntry> entries = {{"000", &paper_000::build},
+                                                  {"002", &paper_002::build},
+                                                  {"003", &paper_003::build},
+                                                  {"004", &paper_004::build}};
   return entries;
 }
 

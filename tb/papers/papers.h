@@ -70,9 +70,17 @@ std::string to_text(const Paper& paper);
 nlohmann::ordered_json write_papers(const std::filesystem::path& directory,
                                     const std::vector<Paper>& papers);
 
-Paper paper_000(const PaperOptions& options);
-Paper paper_002(const PaperOptions& options);
-Paper paper_003(const PaperOptions& options);
-Paper paper_004(const PaperOptions& options);
+namespace paper_000 {
+Paper build(const PaperOptions& options);
+}
+namespace paper_002 {
+Paper build(const PaperOptions& options);
+}
+namespace paper_003 {
+Paper build(const PaperOptions& options);
+}
+namespace paper_004 {
+Paper build(const PaperOptions& options);
+}
 
 }  // namespace deburr::tb

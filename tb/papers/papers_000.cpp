@@ -26,7 +26,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/training/training_frames.h"
 
-namespace deburr::tb {
+namespace deburr::tb::paper_000 {
 namespace {
 
 using golden::morphological::MorphologicalGolden;
@@ -743,7 +743,7 @@ PaperTable cost_of_a_loop(const PaperOptions& options) {
 
 }  // namespace
 
-Paper paper_000(const PaperOptions& options) {
+Paper build(const PaperOptions& options) {
   Paper paper;
   paper.id = "000";
   paper.title = "Slope-based straight line predicting morphological antialiasing";
@@ -769,4 +769,4 @@ Paper paper_000(const PaperOptions& options) {
   return paper;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tb::paper_000

@@ -28,7 +28,7 @@
 #include "tb/stimuli/geometric_frames.h"
 #include "tb/stimuli/random.h"
 
-namespace deburr::tb {
+namespace deburr::tb::paper_002 {
 namespace {
 
 using geometric::Frame;
@@ -473,7 +473,7 @@ PaperTable order_of_edges(const PaperOptions& options) {
 
 }  // namespace
 
-Paper paper_002(const PaperOptions& options) {
+Paper build(const PaperOptions& options) {
   Paper paper;
   paper.id = "002";
   paper.title = "Geometric information anti-aliasing algorithm with edge optimization";
@@ -497,4 +497,4 @@ Paper paper_002(const PaperOptions& options) {
   return paper;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tb::paper_002

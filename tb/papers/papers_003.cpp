@@ -32,7 +32,7 @@
 #include "tb/stimuli/line_fans.h"
 #include "tb/stimuli/reference_filters.h"
 
-namespace deburr::tb {
+namespace deburr::tb::paper_003 {
 namespace {
 
 using golden::morphological::EdgePlanes;
@@ -472,7 +472,7 @@ PaperFigure smoothed_figure(const char* title, const NamedImage& frame) {
 
 }  // namespace
 
-Paper paper_003(const PaperOptions& options) {
+Paper build(const PaperOptions& options) {
   Paper paper;
   paper.id = "003";
   paper.title = "Improvement of sub-pixel morphological anti-aliasing algorithm";
@@ -494,4 +494,4 @@ Paper paper_003(const PaperOptions& options) {
   return paper;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tb::paper_003

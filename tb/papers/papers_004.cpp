@@ -26,7 +26,7 @@
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
 
-namespace deburr::tb {
+namespace deburr::tb::paper_004 {
 namespace {
 
 namespace ideal = golden::ideal;
@@ -625,7 +625,7 @@ std::vector<PaperFigure> figures(const PaperOptions& options) {
 
 }  // namespace
 
-Paper paper_004(const PaperOptions& options) {
+Paper build(const PaperOptions& options) {
   Paper paper{"004",
               "Hardware implementation of an anisotropic texture filter",
               "Xu, Du, Zeng and Wang, Journal of Computer-Aided Design & Computer Graphics, 2019",
@@ -649,4 +649,4 @@ Paper paper_004(const PaperOptions& options) {
   return paper;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tb::paper_004

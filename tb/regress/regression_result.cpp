@@ -20,16 +20,16 @@ namespace deburr::tb {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using SortedJson = nlohmann::json;
 
 constexpr std::size_t kMaxResultBytes = 64u << 20;
 
 // Null where the run has left none.
-Json result_in(const fs::path& directory) {
+SortedJson result_in(const fs::path& directory) {
   const fs::path file = directory / "result.json";
   std::error_code error;
   if (!fs::exists(file, error)) return nullptr;
-  return Json::parse(read_file(file, kMaxResultBytes), nullptr, /*exceptions=*/false);
+  return SortedJson::parse(read_file(file, kMaxResultBytes), nullptr, /*exceptions=*/false);
 }
 
 void add(const Bins& some, Bins& all) {
@@ -93,11 +93,11 @@ class Collector {
   }
 
   // What a failed run has compared and met counts for nothing.
-  void read(const Json& result, Seen& seen, RegressionRun& run) {
+  void read(const SortedJson& result, Seen& seen, RegressionRun& run) {
     if (!result.is_object()) return;
     run.seconds = result.value("/host/seconds"_json_pointer, 0.0);
     if (run.state != PointState::kDone) return;
-    const Json boards = result.value("scoreboards", Json::object());
+    const SortedJson boards = result.value("scoreboards", SortedJson::object());
     for (const auto& [name, board] : boards.items())
       seen.comparisons[name] += board.value("comparisons", std::uint64_t{0});
     const Bins bins = result.value("/coverage/bins"_json_pointer, Bins());
@@ -190,7 +190,7 @@ std::vector<PlannedPoint> runs_with_waves(const RegressionResult& result, const 
   PointNamer namer;
   for (const FailureBucket& bucket : result.buckets) {
     const PlannedPoint& failed = result.runs[bucket.runs.front()].point;
-    const Json found = result_in(point_directory(place.points(), failed.name));
+    const SortedJson found = result_in(point_directory(place.points(), failed.name));
     if (!found.is_object()) continue;  // it was refused or killed: there is nothing to watch
     const WaveWindow window = wave_window(failing_cycle(found));
     std::vector<Setting> settings = failed.settings;

@@ -46,9 +46,9 @@ Judge judge_of(const std::string& key) {
   return Judge::kNone;
 }
 
-using Values = std::vector<std::pair<std::string, Json>>;
+using KeyValues = std::vector<std::pair<std::string, Json>>;
 
-void flatten(const Json& node, const std::string& path, Values& values) {
+void flatten(const Json& node, const std::string& path, KeyValues& values) {
   // The host's speed says nothing about the hardware, nor do bins of coverage say what is better,
   // and the histogram has its percentiles.
   if (path == "host" || path == "coverage" || path.ends_with("meaning") ||
@@ -62,7 +62,7 @@ void flatten(const Json& node, const std::string& path, Values& values) {
   }
 }
 
-const Json* find(const Values& values, const std::string& key) {
+const Json* find(const KeyValues& values, const std::string& key) {
   for (const auto& [name, value] : values)
     if (name == key) return &value;
   return nullptr;
@@ -71,7 +71,7 @@ const Json* find(const Values& values, const std::string& key) {
 std::optional<double> number_of(const Json* value) {
   return value ? as_number(*value) : std::nullopt;
 }
-std::string shown(const Json* value) { return value ? value_text(*value) : "-"; }
+std::string shown_or_dash(const Json* value) { return value ? value_text(*value) : "-"; }
 
 // Of values that both are there.
 Judgement judge_numbers(Judge judge, double a, double b, const Tolerances& t) {
@@ -151,11 +151,11 @@ Comparison compare(const Json& a, const Json& b, const Tolerances& tolerances) {
   if (a.at("unit") != b.at("unit"))
     throw spec::ConfigError(fmt::format(
         "A is a run of '{}', B of '{}': results of different engines cannot be compared",
-        shown(&a.at("unit")), shown(&b.at("unit"))));
-  Values values_a, values_b;
+        shown_or_dash(&a.at("unit")), shown_or_dash(&b.at("unit"))));
+  KeyValues values_a, values_b;
   flatten(a, "", values_a);
   flatten(b, "", values_b);
-  Values keys = values_a;
+  KeyValues keys = values_a;
   for (const auto& entry : values_b)
     if (!find(values_a, entry.first)) keys.push_back(entry);
 
@@ -164,8 +164,12 @@ Comparison compare(const Json& a, const Json& b, const Tolerances& tolerances) {
     const Json* left = find(values_a, key);
     const Json* right = find(values_b, key);
     const auto x = number_of(left), y = number_of(right);
-    ComparedValue value{
-        key, shown(left), shown(right), change_of(key, x, y), judge(key, x, y, tolerances), false};
+    ComparedValue value{key,
+                        shown_or_dash(left),
+                        shown_or_dash(right),
+                        change_of(key, x, y),
+                        judge(key, x, y, tolerances),
+                        false};
     value.worse = value.judgement == Judgement::kWorse && counts(key, tolerances);
     if (key == "verdict") value.worse = left && *left == "pass" && (!right || *right != "pass");
     if (key == "verdict" && right && *right == "fail") value.worse = true;
@@ -206,7 +210,7 @@ std::vector<std::string> different_work(const Json& a, const Json& b) {
     const auto value = [&](const Json& manifest) {
       const auto found = manifest.find("configuration");
       return found != manifest.end() && found->is_object() && found->contains(key)
-                 ? shown(&found->at(key))
+                 ? shown_or_dash(&found->at(key))
                  : std::string("-");
     };
     if (value(a) != value(b))

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMaxBytes = 64u << 20;
+constexpr std::size_t kMaxRunManifestBytes = 64u << 20;
 
 struct Run {
   std::string letter;
@@ -57,7 +57,7 @@ Run read_run(const fs::path& path, std::size_t index) {
   Run run{letter(index), path, folder ? path : path.parent_path(), read_result(path), nullptr};
   const fs::path manifest = run.folder / "manifest.json";
   if (!fs::is_regular_file(manifest, error)) return run;
-  run.manifest = Json::parse(read_file(manifest, kMaxBytes), nullptr, false);
+  run.manifest = Json::parse(read_file(manifest, kMaxRunManifestBytes), nullptr, false);
   if (!run.manifest.is_object())
     throw spec::FileError(
         fmt::format("'{}' is damaged: run that again, or remove it", manifest.string()));

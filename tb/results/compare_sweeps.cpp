@@ -20,17 +20,17 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using spec::FileError;
 
-constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
+constexpr std::size_t kMaxSweepBytes = std::size_t{1} << 30;
 constexpr const char* kCollected = "collected.json";
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
-using Values = std::vector<std::optional<double>>;  // one a metric in common
-using At = std::vector<std::string>;                // one a matching parameter
+using MetricValues = std::vector<std::optional<double>>;  // one a metric in common
+using At = std::vector<std::string>;                      // one a matching parameter
 
 struct Point {
   std::string state;
   std::string failure;
-  Values values;
+  MetricValues values;
   bool front = false;
 };
 
@@ -55,7 +55,7 @@ Sweep read_sweep(const fs::path& path) {
         fmt::format("'{}' is a sweep that was not collected: run 'deburr sweep FILE "
                     "collect' first",
                     path.string()));
-  Sweep sweep{path, Json::parse(read_file(file, kMaxBytes), nullptr, false), {}, {}};
+  Sweep sweep{path, Json::parse(read_file(file, kMaxSweepBytes), nullptr, false), {}, {}};
   const Json& json = sweep.json;
   const auto damaged = [&](const std::string& what) {
     throw FileError(fmt::format("'{}' is damaged ({}): run 'deburr sweep FILE collect' again",
@@ -263,7 +263,7 @@ class SweepComparison {
 
   // ---- points
 
-  static Json numbers(const Values& values) {
+  static Json numbers(const MetricValues& values) {
     Json json = Json::array();
     for (const std::optional<double>& value : values)
       if (!value)
@@ -346,7 +346,7 @@ class SweepComparison {
 
   struct JointPoint {
     std::size_t sweep;
-    const Values* values;
+    const MetricValues* values;
   };
 
   // How many points of each sweep nobody beats in any sweep.

@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 std::string text_of(const Json& value) { return value.is_null() ? "" : value_text(value); }
 
 // Counts grouped, anything else as it is.
-std::string shown(const Json& value) {
+std::string figure_text(const Json& value) {
   if (value.is_number_unsigned()) return grouped(value.get<std::uint64_t>());
   if (value.is_number_integer() && value.get<std::int64_t>() >= 0)
     return grouped(value.get<std::uint64_t>());
@@ -168,7 +168,7 @@ class ComparisonPage {
       for (const Json& entry : figure.at("cells")) {
         const std::string judgement = entry.value("judgement", "");
         const bool worse = entry.value("worse", false);
-        mustache::data data = cell(shown(entry.at("value")), entry.value("change", ""),
+        mustache::data data = cell(figure_text(entry.at("value")), entry.value("change", ""),
                                    worse ? "worse fails" : judgement);
         const auto value = as_number(entry.at("value"));
         // A share of decibels says nothing.
@@ -235,11 +235,11 @@ class ComparisonPage {
     Json sweeps = comparison_.at("sweeps");
     for (Json& sweep : sweeps) {
       const Json& counts = sweep.at("counts");
-      std::string text =
-          fmt::format("{} points, {} done, {} on its front", shown(counts.value("points", Json(0))),
-                      shown(counts.value("done", Json(0))), shown(counts.value("front", Json(0))));
+      std::string text = fmt::format(
+          "{} points, {} done, {} on its front", figure_text(counts.value("points", Json(0))),
+          figure_text(counts.value("done", Json(0))), figure_text(counts.value("front", Json(0))));
       if (sweep.contains("joint_front"))
-        text += fmt::format(", {} on the front of all together", shown(sweep["joint_front"]));
+        text += fmt::format(", {} on the front of all together", figure_text(sweep["joint_front"]));
       sweep["summary"] = text;
     }
     fill_inputs(sweeps, "summary");
@@ -263,7 +263,7 @@ class ComparisonPage {
         row.set("meaning", text_of(metrics[m].at("meaning")));
         const bool judged = !metrics[m].at("maximise").is_null();
         for (const char* key : {"better", "equal", "worse"})
-          row.set(key, judged ? shown(sum.at(key)) : "-");
+          row.set(key, judged ? figure_text(sum.at(key)) : "-");
         row.set("state", sum.at("worse") != 0 ? "worse" : "");
         for (const char* key : {"mean", "least", "most"})
           row.set(key, sum.contains(key) ? fmt::format("{:+.2f} {}", sum[key].get<double>(),

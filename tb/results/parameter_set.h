@@ -58,6 +58,12 @@ inline std::string_view kind_name(const Parameter& parameter) {
 // Whether its value is the name of a file that is there.
 bool names_a_file(const Parameter& parameter);
 
+// The name of a choice, in the words of its parameter.
+template <class Enum, std::size_t N>
+std::string_view name_of(Enum value, const std::array<std::string_view, N>& names) {
+  return names[static_cast<std::size_t>(value)];
+}
+
 class ParameterSet {
  public:
   // Binds every parameter of `values` under `prefix`. The values at this moment are the defaults.

@@ -70,7 +70,7 @@ void paste(Image& on, const Image& what, int left, int top) {
       if (left + x >= 0 && left + x < on.width) on.at(left + x, top + y) = what.at(x, y);
 }
 
-std::string shown(double value) { return fmt::format("{:.4g}", value); }
+std::string scale_text(double value) { return fmt::format("{:.4g}", value); }
 
 }  // namespace
 
@@ -155,8 +155,8 @@ Image picture_of(const PictureMap& map) {
   for (int x = kGap; x < right; ++x)
     for (int y = top; y < top + kBar; ++y)
       picture.at(x, y) = colour_of(static_cast<double>(x - kGap) / (right - kGap - 1));
-  const Image low = label(shown(scale.low), 1),
-              high = label(shown(scale.high) + (scale.clipped ? "+" : "") + " " + map.unit, 1);
+  const Image low = label(scale_text(scale.low), 1),
+              high = label(scale_text(scale.high) + (scale.clipped ? "+" : "") + " " + map.unit, 1);
   paste(picture, low, kGap, top + kBar + kGap);
   paste(picture, high, right - high.width, top + kBar + kGap);
   return picture;

@@ -28,7 +28,7 @@ constexpr std::size_t kMaxImageBytes = 256u << 20;
 constexpr std::size_t kMaxManifestBytes = 64u << 20, kMaxWindowsBytes = 64u << 20;
 
 // Numbers as a reader wants them: counts grouped, rates with four significant digits.
-std::string shown(const Json& value) {
+std::string report_text(const Json& value) {
   if (value.is_number_unsigned()) return grouped(value.get<std::uint64_t>());
   if (value.is_number_integer()) return fmt::format("{}", value.get<std::int64_t>());
   if (value.is_number()) return fmt::format("{:.4g}", value.get<double>());
@@ -98,10 +98,10 @@ class ReportBuilder {
 
  private:
   void fill_head() {
-    page_.set("unit", shown(result_["unit"]));
+    page_.set("unit", report_text(result_["unit"]));
     page_.set("title", manifest_.value("title", "Run"));
     page_.set("summary", manifest_.value("summary", ""));
-    page_.set("verdict", shown(result_["verdict"]));
+    page_.set("verdict", report_text(result_["verdict"]));
     const std::string reason = result_.value("reason", "");
     if (!reason.empty()) {
       mustache::data list{mustache::data::type::list};
@@ -110,7 +110,7 @@ class ReportBuilder {
     }
     mustache::data notes{mustache::data::type::list};
     for (const Json& note : result_.value("notes", Json::array()))
-      notes << row({{"note", shown(note)}});
+      notes << row({{"note", report_text(note)}});
     page_.set("notes", notes);
     mustache::data mismatches_table{mustache::data::type::list};
     for (const Json& m : result_.value("first_mismatches", Json::array()))
@@ -123,7 +123,7 @@ class ReportBuilder {
     page_.set("has_mismatches", mismatches_table.is_non_empty_list());
     page_.set("mismatches", mismatches_table);
     page_.set("command", manifest_.value("command", ""));
-    page_.set("cycles", shown(result_["cycles"]));
+    page_.set("cycles", report_text(result_["cycles"]));
 
     const Json& checks = result_["checks"];
     const Json& throughput = result_["throughput"];
@@ -170,18 +170,18 @@ class ReportBuilder {
       if (time_shown) note += (note.empty() ? "" : "; ") + time(value_at(key).get<double>());
       tile(figure.value("label", ""), figure_text(value_at(key)), unit, note);
     }
-    if (!own_cycles) tile("Cycles", shown(result_["cycles"]), "clk", time(cycles));
+    if (!own_cycles) tile("Cycles", report_text(result_["cycles"]), "clk", time(cycles));
     tile("Throughput", fmt::format("{:.3f}", value), "",
-         shown(throughput.value("unit", Json(""))) +
+         report_text(throughput.value("unit", Json(""))) +
              (bound > 0 ? fmt::format(", {:.1f} % of the bound {:.4g}", 100 * value / bound, bound)
                         : ""));
     if (!own_latency)
-      tile("Latency p50", shown(latency.value("p50", Json())), "clk",
-           fmt::format("p99 {}, max {}", shown(latency.value("p99", Json())),
-                       shown(latency.value("max", Json()))));
+      tile("Latency p50", report_text(latency.value("p50", Json())), "clk",
+           fmt::format("p99 {}, max {}", report_text(latency.value("p99", Json())),
+                       report_text(latency.value("max", Json()))));
     if (const double read = number(result_["memory"], "bytes_read"); read > 0 && !own_memory)
       tile("Read from memory", fmt::format("{:.2f}", read / 1048576), "MiB",
-           fmt::format("{} reads", shown(result_["memory"].value("lines_filled", Json()))));
+           fmt::format("{} reads", report_text(result_["memory"].value("lines_filled", Json()))));
     if (const auto quality = result_.find("quality"); quality != result_.end()) {
       const bool edges = !quality->value("psnr_edge_db", Json()).is_null();
       const Json after = quality->value(edges ? "psnr_edge_db" : "psnr_db", Json());
@@ -209,14 +209,14 @@ class ReportBuilder {
                      {"percent", fmt::format("{:.2f}", std::clamp(percent, 0.0, 100.0))},
                      {"note", std::move(note)}});
     };
-    meter("Rate over the whole run", value, bound, shown(throughput.value("unit", Json(""))),
+    meter("Rate over the whole run", value, bound, report_text(throughput.value("unit", Json(""))),
           bound_note(throughput));
     fill_bottleneck(meter);
     page_.set("meters", meters);
     page_.set("throughput_note",
               mhz > 0 && value > 0
                   ? fmt::format("At {:.2f} MHz this is {:.1f} M{}.", mhz, value * mhz,
-                                per_second(shown(throughput.value("unit", Json("")))))
+                                per_second(report_text(throughput.value("unit", Json("")))))
                   : "");
   }
 
@@ -260,7 +260,7 @@ class ReportBuilder {
 
   static std::string figure_text(const Json& value) {
     if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-    return value.is_number_float() ? amount(value.get<double>()) : shown(value);
+    return value.is_number_float() ? amount(value.get<double>()) : report_text(value);
   }
 
   // "= formula", or "formula 281,094, +64.3 %".
@@ -307,7 +307,7 @@ class ReportBuilder {
                    {"max", text("max")},
                    {"unit", map.value("unit", "")},
                    {"sum", text("sum")},
-                   {"pixels", shown(map["pixels"])},
+                   {"pixels", report_text(map["pixels"])},
                    {"file", map.value("values", "")},
                    {"meaning", map.value("meaning", "")}});
     }
@@ -329,11 +329,11 @@ class ReportBuilder {
     const std::vector<std::uint64_t> from = windows_["from"], cycles = windows_["cycles"];
     page_.set("windows_note",
               fmt::format("{} windows of {} cycles{}.", grouped(from.size()),
-                          shown(windows_["window_cycles"]),
+                          report_text(windows_["window_cycles"]),
                           windows_["window_cycles"] == windows_["asked_cycles"]
                               ? ""
                               : fmt::format("; {} were asked for, which would be too many windows",
-                                            shown(windows_["asked_cycles"]))));
+                                            report_text(windows_["asked_cycles"]))));
     windows_["command"] = without_trace(manifest_.value("command", ""));
     page_.set("windows_command", windows_["command"].get<std::string>());
 
@@ -381,10 +381,10 @@ class ReportBuilder {
     for (const auto& [link, figures] : of_links.items())
       links << row({{"name", link},
                     {"full", figures.value("link", "")},
-                    {"depth", shown(figures["depth"])},
-                    {"beats", shown(figures["beats"])},
+                    {"depth", report_text(figures["depth"])},
+                    {"beats", report_text(figures["beats"])},
                     {"mean", fmt::format("{:.2f}", number(figures, "mean"))},
-                    {"most", shown(figures["most"])},
+                    {"most", report_text(figures["most"])},
                     {"full_percent", fmt::format("{:.1f}", number(figures, "full_percent"))}});
     page_.set("links", links);
   }
@@ -429,7 +429,7 @@ class ReportBuilder {
       std::string meaning = described("memory." + name, "meaning");
       if (meaning.ends_with('.')) meaning.pop_back();
       memory << row({{"name", meaning},
-                     {"value", shown(value)},
+                     {"value", report_text(value)},
                      {"unit", described("memory." + name, "unit")}});
       traffic = traffic || (value.is_number() && value.get<double>() > 0);
     }
@@ -447,10 +447,10 @@ class ReportBuilder {
       std::string stalls;
       for (const auto& [cause, count] : unit["stalls"].items())
         if (count != 0)
-          stalls += fmt::format("{}{} {}", stalls.empty() ? "" : ", ", cause, shown(count));
+          stalls += fmt::format("{}{} {}", stalls.empty() ? "" : ", ", cause, report_text(count));
       units << row({{"name", name},
-                    {"busy", shown(unit["busy"])},
-                    {"idle", shown(unit["idle"])},
+                    {"busy", report_text(unit["busy"])},
+                    {"idle", report_text(unit["idle"])},
                     {"stalls", stalls.empty() ? "-" : stalls}});
     }
     page_.set("units", units);
@@ -465,16 +465,16 @@ class ReportBuilder {
     const Json& latency = result_["latency"];
     mustache::data percentiles{mustache::data::type::list};
     for (const char* key : {"min", "p50", "p95", "p99", "max"})
-      percentiles << row({{"value", shown(latency.value(key, Json()))}});
+      percentiles << row({{"value", report_text(latency.value(key, Json()))}});
     page_.set("latency", percentiles);
-    page_.set("latency_unit", shown(latency.value("unit", Json("clk"))));
+    page_.set("latency_unit", report_text(latency.value("unit", Json("clk"))));
     // One value needs no histogram.
     const bool spread = latency.value("min", Json()) != latency.value("max", Json());
     page_.set("latency_spread", spread);
-    page_.set("latency_single", shown(latency.value("max", Json())));
+    page_.set("latency_single", report_text(latency.value("max", Json())));
     mustache::data histogram{mustache::data::type::list};
     for (const Json& bin : latency.value("histogram", Json::array()))
-      histogram << row({{"from", shown(bin["from"])}, {"count", shown(bin["count"])}});
+      histogram << row({{"from", report_text(bin["from"])}, {"count", report_text(bin["count"])}});
     page_.set("histogram", histogram);
 
     fill_memories();
@@ -482,7 +482,7 @@ class ReportBuilder {
     mustache::data work{mustache::data::type::list};
     for (const auto& [name, value] : result_["work"].items()) {
       work << row({{"name", name},
-                   {"value", shown(value)},
+                   {"value", report_text(value)},
                    {"unit", described("work." + name, "unit")},
                    {"meaning", described("work." + name, "meaning")}});
     }
@@ -493,7 +493,7 @@ class ReportBuilder {
       std::string label = name;
       std::replace(label.begin(), label.end(), '_', ' ');
       checks << row({{"name", label},
-                     {"value", shown(value)},
+                     {"value", report_text(value)},
                      {"meaning", described("checks." + name, "meaning")}});
     }
     page_.set("checks", checks);
@@ -521,12 +521,12 @@ class ReportBuilder {
     for (const Json& p : manifest_.value("parameters", Json::array())) {
       mustache::data line = row({{"name", p.value("name", "")},
                                  {"kind", p.value("kind", "")},
-                                 {"value", shown(p["value"])},
+                                 {"value", report_text(p["value"])},
                                  {"default", p.value("default", "")},
                                  {"range", p.value("range", "")},
                                  {"unit", p.value("unit", "")},
                                  {"meaning", p.value("meaning", "")}});
-      line.set("changed", shown(p["value"]) != p.value("default", ""));
+      line.set("changed", report_text(p["value"]) != p.value("default", ""));
       parameters << line;
     }
     page_.set("parameters", parameters);
@@ -541,7 +541,7 @@ class ReportBuilder {
     const std::uint64_t logical = total("logical"), at_width = total("logical_at_frame_width");
     mustache::data rows{mustache::data::type::list};
     for (const auto& [name, m] : memories.items()) {
-      const auto text = [&of = m](const char* key) { return shown(of.value(key, Json())); };
+      const auto text = [&of = m](const char* key) { return report_text(of.value(key, Json())); };
       rows << row({{"name", name},
                    {"content", text("content")},
                    {"kind", text("kind")},
@@ -556,7 +556,7 @@ class ReportBuilder {
     page_.set("memories", rows);
     mustache::data kinds{mustache::data::type::list};
     for (const auto& [kind, sum] : bits.items()) {
-      const auto text = [&of = sum](const char* key) { return shown(of.value(key, Json())); };
+      const auto text = [&of = sum](const char* key) { return report_text(of.value(key, Json())); };
       kinds << row({{"kind", kind},
                     {"number", text("memories")},
                     {"at_width", text("logical_at_frame_width")},

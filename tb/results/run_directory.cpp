@@ -33,12 +33,12 @@ namespace fs = std::filesystem;
 constexpr const char* kDraft = ".deburr_run";
 constexpr const char* kClaim = "claim.json";
 constexpr const char* kManifest = "manifest.json";
-constexpr std::size_t kMaxBytes = 64u << 20;
+constexpr std::size_t kMaxJsonBytes = 64u << 20;
 
 Json read_json(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return nullptr;
-  return Json::parse(read_file(file, kMaxBytes), nullptr, false);
+  return Json::parse(read_file(file, kMaxJsonBytes), nullptr, false);
 }
 
 // What a manifest says its run left, in the order in which it got there. Only what a run can have

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxBytes = std::size_t{4} << 30;
+constexpr std::size_t kMaxInputBytes = std::size_t{4} << 30;
 constexpr std::size_t kHash = 64;  // digits, and a line end behind them
 
 // The kernel opens the lock of a dead process.
@@ -52,7 +52,7 @@ class FileLock {
 std::optional<std::string> read_whole(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return std::nullopt;
-  std::string content = read_file(file, kMaxBytes);
+  std::string content = read_file(file, kMaxInputBytes);
   if (content.size() <= kHash || content[kHash] != '\n') return std::nullopt;
   const std::string_view payload = std::string_view(content).substr(kHash + 1);
   if (std::string_view(content).substr(0, kHash) != sha256(payload)) return std::nullopt;

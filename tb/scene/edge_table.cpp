@@ -29,8 +29,6 @@ constexpr double kSeamStep = 0x1p-20;         // repeats
 constexpr double kGuardBandPixels = 16383.0;  // a pixel less than the engine's
 constexpr double kDepthScale = 0xFFFFFF;
 
-bool finite(const V3d& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 [[noreturn]] void refuse(const Mesh& mesh, const std::string& what) {
   throw spec::ConfigError(fmt::format("the mesh '{}' has no edge table: {}", mesh.name, what));
 }

@@ -17,14 +17,14 @@ using Face = std::array<std::uint32_t, 3>;
 
 constexpr double kSmoothCosine = 0.766;  // 40 degrees
 
-struct Surface {
+struct ModelSurface {
   std::vector<V3d> points;
   std::vector<V2d> uv;  // of each point, or empty
   std::vector<Face> faces;
 };
 
 // Adds a surface; corners at a point whose faces are smooth there share a normal.
-void add_surface(Mesh& mesh, const Surface& surface, std::uint32_t material) {
+void add_surface(Mesh& mesh, const ModelSurface& surface, std::uint32_t material) {
   std::vector<V3d> normals;  // by face, as long as twice its area
   std::vector<std::vector<std::uint32_t>> around(surface.points.size());
   for (const Face& face : surface.faces) {
@@ -72,8 +72,8 @@ struct Loft {
   std::optional<V3d> first, last;
 };
 
-Surface skin_of(const Loft& loft) {
-  Surface surface;
+ModelSurface skin_of(const Loft& loft) {
+  ModelSurface surface;
   for (const std::vector<V3d>& ring : loft.rings)
     surface.points.insert(surface.points.end(), ring.begin(), ring.end());
   const auto size = static_cast<std::uint32_t>(loft.rings[0].size());
@@ -120,7 +120,7 @@ Section naca_2412(double x) {
 
 void add_cube(Mesh& mesh, std::uint32_t material) {
   constexpr double kHalf = 0.57735026918962576;
-  Surface cube;
+  ModelSurface cube;
   for (int i = 0; i < 8; ++i)
     cube.points.emplace_back((i & 1) != 0 ? kHalf : -kHalf, (i & 2) != 0 ? kHalf : -kHalf,
                              (i & 4) != 0 ? kHalf : -kHalf);
@@ -223,7 +223,7 @@ void add_terrain(Mesh& mesh, std::uint32_t material) {
       uv.emplace_back(4.0 * u, 4.0 * v);
     }
   }
-  Surface surface = skin_of(terrain);
+  ModelSurface surface = skin_of(terrain);
   surface.uv = std::move(uv);
   add_surface(mesh, surface, material);
 }

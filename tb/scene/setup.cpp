@@ -17,8 +17,6 @@ namespace {
 
 using Imath::V3d;
 
-bool finite(const V3d& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 struct ClipVertex {
   V3d position;  // x, y, w
   V3d weights;   // of the mesh triangle's corners, sum 1

@@ -10,6 +10,7 @@
 #include <Imath/ImathVec.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,11 @@ namespace deburr::tb {
 
 inline constexpr int kSubpixelOne = 256;
 inline constexpr int kGuardBand = 1 << 18;  // cells from the origin
+
+// Whether no coordinate is infinite or not a number.
+inline bool finite(const Imath::V3d& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 // Camera and picture; every pixel is divided into grid x grid sample cells.
 class View {

@@ -134,7 +134,7 @@ class TextureReader {
 };
 
 // Everything about a mesh triangle that its samples share.
-struct Surface {
+struct ShadedSurface {
   V3d s, t;                   // at the corners
   V3d light;                  // at the corners, relative to white
   std::array<V3d, 3> normal;  // at the corners, x of all three first
@@ -148,12 +148,12 @@ double light_on(const Lighting& lighting, const V3d& normal) {
   return lighting.ambient + lighting.key * key + lighting.fill * fill;
 }
 
-Surface make_surface(const Scene& scene, const Triangle& triangle) {
+ShadedSurface make_surface(const Scene& scene, const Triangle& triangle) {
   const Mesh& mesh = scene.mesh;
   const std::array<const Vertex*, 3> v{&mesh.vertices[triangle.vertex[0]],
                                        &mesh.vertices[triangle.vertex[1]],
                                        &mesh.vertices[triangle.vertex[2]]};
-  Surface surface;
+  ShadedSurface surface;
   surface.s = {v[0]->uv.x, v[1]->uv.x, v[2]->uv.x};
   surface.t = {v[0]->uv.y, v[1]->uv.y, v[2]->uv.y};
   surface.colour = mesh.materials[triangle.material].colour;
@@ -242,7 +242,7 @@ class Shader {
   void shade(std::int32_t owner, int x, int y, int cells, int count, ColourRow& row,
              std::size_t first = 0, NormalRow* normals = nullptr) const {
     const Primitive& primitive = primitives_[static_cast<std::size_t>(owner)];
-    const Surface& surface = surfaces_[primitive.triangle];
+    const ShadedSurface& surface = surfaces_[primitive.triangle];
     const auto samples = static_cast<std::size_t>(count);
     const Samples at = locate(primitive, x, y, count);
     const TextureReader* reader =
@@ -308,7 +308,7 @@ class Shader {
         value[k] = (x[k] * corners.x + y[k] * corners.y + z[k] * corners.z) * w[k];
     }
   };
-  static void normals_of(const Surface& surface, const Samples& at, std::size_t count,
+  static void normals_of(const ShadedSurface& surface, const Samples& at, std::size_t count,
                          NormalRow& normals, std::size_t first) {
     CellRow nx, ny, nz;
     at.interpolate(surface.normal[0], count, nx);
@@ -341,7 +341,8 @@ class Shader {
   // filter their textures alike and differ at edges only.
   class Footprint {
    public:
-    Footprint(const Primitive& p, const Surface& surface, const TextureReader& reader, int cells)
+    Footprint(const Primitive& p, const ShadedSurface& surface, const TextureReader& reader,
+              int cells)
         : width_(reader.width()), height_(reader.height()) {
       const double step = static_cast<double>(kSubpixelOne) * cells;
       V3d dx(0, 0, 0), dy(0, 0, 0);
@@ -372,7 +373,7 @@ class Shader {
   const View& view_;
   RenderOptions options_;
   Phong phong_;
-  std::vector<Surface> surfaces_;
+  std::vector<ShadedSurface> surfaces_;
   std::vector<TextureReader> readers_;
 };
 

@@ -32,7 +32,6 @@ using spec::FileError;
 
 constexpr std::uint64_t kMostInChunk = 64;
 constexpr std::uint64_t kChunksPerJob = 4;  // so that nobody waits long for the last one
-constexpr int kNoSuchProgram = 127;
 
 // As Ninja reads a path.
 std::string ninja_path(const fs::path& path) {

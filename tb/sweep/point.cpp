@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFailure = "failure.json";
-constexpr std::size_t kMaxBytes = 1 << 20;
+constexpr std::size_t kMaxFailureBytes = 1 << 20;
 constexpr std::size_t kDigits = 24;
 
 // Whether a living run has the directory.
@@ -101,8 +101,8 @@ bool has_failed_result(const fs::path& directory) {
 }
 
 Failure read_failure(const fs::path& directory) {
-  const Json json =
-      Json::parse(read_file(directory / kFailure, kMaxBytes), nullptr, /*allow_exceptions=*/false);
+  const Json json = Json::parse(read_file(directory / kFailure, kMaxFailureBytes), nullptr,
+                                /*allow_exceptions=*/false);
   if (!json.is_object()) return {"unknown", "failure.json cannot be read", true};
   return {json.value("kind", "unknown"), json.value("reason", ""), json.value("again", true)};
 }

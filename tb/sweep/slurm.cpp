@@ -39,9 +39,8 @@ using spec::ConfigError;
 using spec::FileError;
 using std::chrono::steady_clock;
 
-constexpr std::size_t kMaxBytes = 1 << 20;
+constexpr std::size_t kMaxProfileBytes = 1 << 20;
 constexpr auto kPatience = std::chrono::seconds(20);
-constexpr int kNoSuchProgram = 127;
 constexpr std::uint64_t kMostProcessors = 4096, kMostTasks = 1000;
 constexpr int kLooksASecond = 10;  // for Ctrl-C, while a job is waited for
 
@@ -133,7 +132,7 @@ std::vector<std::vector<std::string>> table_of(const std::string& text) {
 }  // namespace
 
 SlurmProfile read_profile(const fs::path& file) {
-  const YamlFile yaml(file, kMaxBytes);
+  const YamlFile yaml(file, kMaxProfileBytes);
   const YAML::Node& root = yaml.root();
   yaml.require_keys(root,
                     {"conf", "partition", "time", "memory", "cpus", "tasks", "options", "setup"});
@@ -171,7 +170,7 @@ SlurmProfile read_profile(const fs::path& file) {
 std::optional<SlurmJob> submitted_job(const SweepPlace& place) {
   std::error_code error;
   if (!fs::exists(job_file(place), error)) return std::nullopt;
-  const Json json = Json::parse(read_file(job_file(place), kMaxBytes), nullptr, false);
+  const Json json = Json::parse(read_file(job_file(place), kMaxProfileBytes), nullptr, false);
   if (!json.is_object()) return std::nullopt;
   return SlurmJob{json.value("id", ""), json.value("conf", ""), json.value("tasks", 0u)};
 }

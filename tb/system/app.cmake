@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: MIT
+add_dependencies(deburr_system_tests deburr)
+add_dependencies(deburr_slurm_tests deburr)
 deburr_test(app_report_test LABELS system SOURCES app_report_test.cpp
             LINK deburr::results TIMEOUT 300)
 target_compile_definitions(app_report_test PRIVATE "DEBURR_COMMAND=\"$<TARGET_FILE:deburr>\"")
@@ -43,6 +45,7 @@ add_test(NAME first_sweep COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/first_sweep_test.
 set_tests_properties(first_sweep PROPERTIES LABELS system TIMEOUT 600
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 set_property(TEST sweep.Killed APPEND PROPERTY LABELS long)
+add_dependencies(deburr_long_tests deburr)
 add_test(NAME slurm COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/slurm_test.py" $<TARGET_FILE:deburr>)
 set_tests_properties(slurm PROPERTIES LABELS slurm TIMEOUT 900 SKIP_REGULAR_EXPRESSION "^skipped"
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")

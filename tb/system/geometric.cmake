@@ -14,3 +14,4 @@ add_test(NAME geometric_clocks
          COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/geometric_clocks_test.py" $<TARGET_FILE:geometric_rtl_bench>)
 set_tests_properties(geometric_clocks PROPERTIES LABELS system TIMEOUT 300
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+add_dependencies(deburr_system_tests geometric_rtl_bench)

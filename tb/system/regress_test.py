@@ -93,8 +93,9 @@ class RegressTest(unittest.TestCase):
         return {path: os.stat(path).st_ino
                 for path in glob.glob(self.path("out/points/*/*/result.json"))}
 
-    def check_fault(self):
-        """Buckets, the line that reproduces each, its waves, the page and JUnit of FAULT."""
+    def check_fault(self, passed):
+        """Buckets, the line that reproduces each, its waves, the page and JUnit of FAULT, whose three
+        runs fail while `passed` others pass."""
         collected = self.collected()
         buckets = {b["kind"]: b for b in collected["buckets"]}
         self.assertEqual({kind: b["runs"] for kind, b in buckets.items()}, {"mismatch": 2, "deadlock": 1})
@@ -118,7 +119,7 @@ class RegressTest(unittest.TestCase):
             page = file.read()
         self.assertIn(buckets["mismatch"]["waves"]["file"], page)
         self.assertIn(">FAILED</span>", page)
-        self.assertIn("9 of 12 runs passed, 3 failed; 1 of 6 checks failed;", page)
+        self.assertIn(f"{passed} of {passed + 3} runs passed, 3 failed; 1 of 6 checks failed;", page)
         root = xml.etree.ElementTree.parse(self.path("out/regressions/small-7/junit.xml")).getroot()
         self.assertEqual(root.get("failures"), "4", "three runs, and colours of the feature")
 
@@ -251,8 +252,8 @@ class Failing(RegressTest):
     def test_a_fault_is_found_sorted_reproduced_and_waved(self):
         self.write("plans/small.yaml", TESTPLAN + FAULT)
         out = self.regress("-j2", code=1)
-        self.assertIn("9 passed, 3 failed in 2 buckets, 0 missing", out)
-        self.check_fault()
+        self.assertIn(f"{POINTS} passed, 3 failed in 2 buckets, 0 missing", out)
+        self.check_fault(POINTS)
         before = self.inodes()
         self.regress("run", code=1)
         self.assertEqual(self.inodes(), before, "neither failures nor waves are made again")

@@ -379,7 +379,7 @@ class Regress(OnCluster, regress_test.RegressTest):
         self.assertEqual({path: after[path] for path in before}, before, "what was there stayed")
         self.assertIn("83 passed, 3 failed in 2 buckets, 0 missing",
                       self.regress("collect", code=1))
-        self.check_fault()
+        self.check_fault(83)
         on_nodes, after = self.collected(), self.inodes()
         self.regress("-j2", "--out", "local", code=1)
         self.assertEqual(self.points(), self.points(out="local"))
@@ -400,7 +400,7 @@ if __name__ == "__main__":
         sys.exit(0 if len(sys.argv) >= 2 else 2)
     missing = [name for name in PROGRAMS if not shutil.which(name)]
     if missing or os.geteuid() != 0:
-        print(f"skipped: {'needs root' if not missing else 'not installed: ' + ', '.join(missing)}")
+        print(f"skipped: {'needs root' if not missing else 'not installed (scripts/install slurm): ' + ', '.join(missing)}")
         sys.exit(0)
     DEBURR = regress_test.DEBURR = os.path.abspath(sys.argv.pop(1))
     SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))

@@ -7,7 +7,7 @@
 namespace deburr::rtl::geometric {
 namespace {
 
-std::uint32_t lanes_of(const spec::geometric::Parameters& p) {
+std::uint32_t edge_lanes_of(const spec::geometric::Parameters& p) {
   return spec::geometric::kLaneCount[static_cast<std::size_t>(p.edge_lanes)];
 }
 
@@ -19,7 +19,7 @@ FacingStore::FacingStore(const sc_core::sc_module_name& name, ClockDomain& clock
     : Unit(name, clock),
       words("facing", {.words = static_cast<std::uint64_t>(p.face_limit) / 32,
                        .word_bits = 32,
-                       .read_ports = 2 * lanes_of(p),
+                       .read_ports = 2 * edge_lanes_of(p),
                        .banks = kWordsInLine,
                        .span = kWordsInLine,
                        .content = "facing bits"}),

@@ -8,8 +8,8 @@ namespace {
 
 using spec::geometric::kVerticesInLine;
 
-constexpr std::uint32_t kTagBits = 23, kVertexBits = 71;
-constexpr std::uint32_t kValid = 1u << (kTagBits - 1);
+constexpr std::uint32_t kVertexTagBits = 23, kVertexBits = 71;
+constexpr std::uint32_t kValid = 1u << (kVertexTagBits - 1);
 
 std::uint32_t lines_of(const spec::geometric::Parameters& p) {
   return spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.vertex_lines)];
@@ -36,7 +36,7 @@ VertexFetch::VertexFetch(const sc_core::sc_module_name& name, ClockDomain& clock
       sequencer_(sequencer),
       lines_(lines_of(p)),
       tags_("vertex_tags", {.words = lines_,
-                            .word_bits = kTagBits,
+                            .word_bits = kVertexTagBits,
                             .read_ports = 2,
                             .read_during_write = ReadDuringWrite::kNewWord,
                             .content = "line of vertices, valid"}),

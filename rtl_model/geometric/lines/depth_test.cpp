@@ -9,11 +9,11 @@
 namespace deburr::rtl::geometric {
 namespace {
 
-constexpr std::uint32_t kTagBits = 23;
+constexpr std::uint32_t kDepthTagBits = 23;
 
-std::uint32_t tag_of(std::uint32_t u, std::uint32_t v, bool tiled) {
+std::uint32_t depth_tag_of(std::uint32_t u, std::uint32_t v, bool tiled) {
   // The wider of both takes what the other leaves: 9 + 13 bits, or 11 + 11.
-  return 1u << (kTagBits - 1) | (tiled ? v << 11 | u : v << 9 | u);
+  return 1u << (kDepthTagBits - 1) | (tiled ? v << 11 | u : v << 9 | u);
 }
 
 template <class Visit>
@@ -32,7 +32,7 @@ DepthTest::DepthTest(const sc_core::sc_module_name& name, ClockDomain& clock,
       lines_(spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.depth_lines)]),
       index_bits_(spec::geometric::kCacheLineBits[static_cast<std::size_t>(p.depth_lines)]),
       tags_("depth_tags", {.words = lines_,
-                           .word_bits = kTagBits,
+                           .word_bits = kDepthTagBits,
                            .read_ports = 2,
                            .read_during_write = ReadDuringWrite::kNewWord,
                            .content = "u, v, valid"}),
@@ -109,7 +109,7 @@ Activity DepthTest::order(Cycle cycle, std::size_t which) {
   const FrameRules& rules = store_.rules();
   const Place line = looking_.line[which];
   memory.read(cycle, rules.depth_base + rules.line_offset(line.u, line.v), fills_.reserve());
-  tag_write_.write(cycle, looking_.lookup.index[which], tag_of(line.u, line.v, rules.tiled));
+  tag_write_.write(cycle, looking_.lookup.index[which], depth_tag_of(line.u, line.v, rules.tiled));
   looking_.lookup.missed |= static_cast<std::uint8_t>(1u << which);
   ++misses;
   return kBusy;
@@ -121,7 +121,7 @@ Activity DepthTest::look_up_pair(Cycle cycle) {
   const auto found = [&](std::size_t port) {
     const Place line = looking_.line[pair_ + port];
     return tag_ports_[port].at(cycle, l.index[pair_ + port], looked_) ==
-           tag_of(line.u, line.v, store_.rules().tiled);
+           depth_tag_of(line.u, line.v, store_.rules().tiled);
   };
   if (!first_done_) {
     const bool missed = !found(0), two = pair_ + 1 < l.count, other_missed = two && !found(1);

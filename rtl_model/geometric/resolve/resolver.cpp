@@ -12,7 +12,7 @@
 namespace deburr::rtl::geometric {
 namespace {
 
-std::uint32_t lanes_of(const spec::geometric::Parameters& p) {
+std::uint32_t resolve_lanes_of(const spec::geometric::Parameters& p) {
   return spec::geometric::kLaneCount[static_cast<std::size_t>(p.resolve_lanes)];
 }
 
@@ -31,7 +31,7 @@ Resolver::Resolver(const sc_core::sc_module_name& name, ClockDomain& clock,
       store_(store),
       sequencer_(sequencer),
       fetch_(fetch),
-      lanes_(lanes_of(p)),
+      lanes_(resolve_lanes_of(p)),
       originals_("originals", {.words = static_cast<std::uint64_t>((p.line_pixels + 3) / 4),
                                .word_bits = 100,
                                .read_during_write = ReadDuringWrite::kNewWord,

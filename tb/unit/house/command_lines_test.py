@@ -17,29 +17,47 @@ from tiny_tree import tiny_tree  # noqa: E402
 
 SOURCE = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else ".").resolve()
 SAYS = '#!/bin/sh\necho "$(basename "$0") $*" >>"$CALLS"\n'
-DEBURR = "build/release/tb/app/deburr"
+DEBURR = "build/release/deburr"
+# What ninja says of a target: the programs that it builds.
+PROGRAMS = """case "$*" in *"-t query"*)
+  echo 'deburr_unit_tests:
+  input: phony
+    deburr
+    tb/unit/golden/golden_test
+    tb/unit/rtl/rtl_a_test
+    tb/unit/rtl/rtl_b_test
+  outputs:' ;;
+esac
+"""
+# Every package but two is there.
+INSTALLED = '''#!/bin/sh
+case "$*" in *clang*|*slurm*) exit 1 ;; esac
+echo "install ok installed"
+'''
 
 
 class CommandLines(unittest.TestCase):
     def setUp(self):
         tools = ("cmake", "ctest", "apt-get", "clang++")
-        self.root = tiny_tree(self, {f"bin/{tool}": SAYS for tool in tools} | {DEBURR: SAYS})
-        shutil.copytree(SOURCE / "scripts", self.root / "tree/scripts")
-        shutil.copytree(SOURCE / ".ci", self.root / "tree/.ci")
+        self.root = tiny_tree(self, {f"bin/{tool}": SAYS for tool in tools} |
+                              {DEBURR: SAYS, "bin/ninja": SAYS + PROGRAMS, "bin/dpkg-query": INSTALLED})
+        for folder in ("scripts", ".ci", "cmake"):
+            shutil.copytree(SOURCE / folder, self.root / "tree" / folder)
+        shutil.copy(SOURCE / "CMakePresets.json", self.root / "tree")
         (self.root / "build").rename(self.root / "tree/build")
         self.calls = self.root / "calls"
         for file in (*(self.root / "bin").iterdir(), self.root / "tree" / DEBURR):
             file.chmod(0o755)
 
-    def environment(self):
+    def environment(self, **more):
         return {**os.environ, "PATH": f"{self.root}/bin:{os.environ['PATH']}",
-                "DEBURR_NO_INSTALL": "1", "CALLS": str(self.calls)}
+                "DEBURR_NO_INSTALL": "1", "CALLS": str(self.calls), **more}
 
-    def call(self, script, *arguments):
+    def call(self, script, *arguments, **more):
         """Exit code, what was said, and the tools that were called; from another folder."""
         self.calls.write_text("", encoding="utf-8")
         done = subprocess.run([self.root / "tree" / script, *arguments], capture_output=True,
-                              text=True, check=False, cwd=self.root, env=self.environment())
+                              text=True, check=False, cwd=self.root, env=self.environment(**more))
         return done.returncode, done.stdout + done.stderr, self.calls.read_text().splitlines()
 
     def test_what_is_wrong_is_said_before_anything_is_done(self):
@@ -48,9 +66,17 @@ class CommandLines(unittest.TestCase):
                 ("scripts/test", ["-L"], 2, "-L needs a regular expression"),
                 ("scripts/test", ["unit"], 2, 'what is "unit"'),
                 ("scripts/test", ["-L", "unit", "more"], 2, 'what is "more"'),
+                ("scripts/test", ["-L", "units"], 2, "no label matches units: smoke unit"),
+                ("scripts/test", ["-L", "unit", "-LE", "("], 2, "no label matches (: smoke unit"),
+                ("scripts/test", ["--preset", "base"], 2, "CMakePresets.json has no preset base"),
                 ("scripts/demo", ["--out", "x"], 2, "unknown option --out"),
                 ("scripts/demo", ["x", "y"], 2, "one folder, and no y"),
-                ("scripts/install", ["--odd"], 2, "takes no arguments"),
+                ("scripts/install", ["--odd"], 2, "no section --odd: build modules test"),
+                ("scripts/install", ["build", "odd"], 2, "no section odd: build modules test"),
+                ("scripts/stand_alone", ["5/4"], 2, "5/4 is no part as 2/4"),
+                ("scripts/stand_alone", ["1/4", "2/4"], 2, "one part, and no 2/4"),
+                ("scripts/everything", ["odd"], 2, "no part odd: tests sanitizers"),
+                ("scripts/everything", ["--list", "tests"], 2, "parts go with no option"),
                 ("scripts/fuzz", ["--seconds"], 2, "--seconds needs a number from 1"),
                 ("scripts/fuzz", ["--seconds", "gltf"], 2, "--seconds needs a number from 1"),
                 ("scripts/fuzz", ["gltf", "odd"], 2, "no target odd: pictures depths obj"),
@@ -82,21 +108,67 @@ class CommandLines(unittest.TestCase):
     def test_options_of_ctest_pass_and_the_record_of_another_run_does_not(self):
         old = self.root / "tree/build/release/tests.xml"
         old.write_text("<testsuite/>", encoding="utf-8")
-        for arguments, targets in ((["-L", "unit"], " --target deburr_unit_tests deburr"),
-                                   (["-L", "unit", "--timeout", "9", "-V"], "")):
+        for arguments in (["-L", "unit"], ["-L", "unit", "--timeout", "9", "-V"]):
             done, said, calls = self.call("scripts/test", *arguments)
             self.assertEqual((done, said), (0, ""))
             self.assertEqual([c.split()[0] for c in calls], ["cmake", "cmake", "ctest"])
-            self.assertEqual(calls[1], f"cmake --build build/release{targets}")
             self.assertTrue(calls[2].endswith(" " + " ".join(arguments)), calls[2])
             self.assertFalse(old.exists())
+
+    def test_a_choice_of_labels_builds_what_they_need(self):
+        for arguments, targets in (
+                (["-L", "unit"], "deburr_unit_tests"),
+                (["-L", "^(smoke|slurm)$"], "deburr_smoke_tests deburr_slurm_tests"),
+                (["-LE", "^(unit|stress|oracle|negative|perf|tools|long|slurm|fuzz)$"],
+                 "deburr_smoke_tests deburr_system_tests"),
+                (["-R", "^rtl_"], "all"),
+                (["-L", "^unit$", "-R", "^rtl_"], "deburr rtl_a_test rtl_b_test"),
+                (["-L", "^unit$", "-R", "^(golden_|rtl_b)"], "deburr golden_test rtl_b_test"),
+                (["-L", "^unit$", "-E", "^rtl_"], "deburr golden_test"),
+                # These may be parts of names behind that of the program.
+                (["-L", "^unit$", "-R", "rtl_"], "deburr_unit_tests"),
+                (["-L", "^unit$", "-R", "^rtl_a_test[.]Suite"], "deburr_unit_tests"),
+                (["-L", "^unit$", "-R", "^rtl_", "-E", "^rtl_a"], "deburr_unit_tests")):
+            with self.subTest(arguments=arguments):
+                calls = [call for call in self.call("scripts/test", *arguments)[2] if "--build" in call]
+                self.assertEqual(calls, [f"cmake --build build/release --target {targets}"])
+
+    def test_a_choice_of_labels_installs_what_they_need(self):
+        clang, slurm = ["clang", "libclang-rt-14-dev"], ["slurm-wlm"]
+        for arguments, packages in (
+                (["-L", "smoke"], []),
+                (["-L", "^unit$"], ["clang-format"]),
+                (["-L", "^unit$", "--preset", "asan"], ["clang-format", *clang]),
+                (["-L", "fuzz"], clang),
+                (["-L", "slurm"], slurm),
+                (["-L", "smoke", "--tidy"], ["clang-tidy"]),
+                (["-R", "slurm"], ["clang-format", "clang-tidy"]),
+                ([], ["clang-format", "clang-tidy"])):
+            with self.subTest(arguments=arguments):
+                calls = self.call("scripts/test", *arguments, DEBURR_NO_INSTALL="0")[2]
+                installed = [call.split("--no-install-recommends ")[1].split() for call in calls
+                             if "apt-get install" in call]
+                self.assertEqual(installed, [packages] if packages else [])
 
     def test_the_demo_writes_to_its_callers_folder(self):
         for arguments, out in (([], f"{self.root}/tree/out/demo"), (["mine"], f"{self.root}/mine")):
             done, said, calls = self.call("scripts/demo", *arguments)
             self.assertEqual(done, 0, said)
             self.assertEqual(calls[-1], f"deburr run texture --scene plane --out {out}")
-            self.assertEqual(said, f"Open {out}/report.html\n")
+            self.assertEqual(said.splitlines()[-1], f"Open {out}/report.html")
+
+    def test_the_demo_configures_and_installs_no_tests(self):
+        """It says how long each step takes, and leaves tests that are configured as they are."""
+        (self.root / "tree" / DEBURR).rename(self.root / "deburr")
+        calls = self.call("scripts/demo", DEBURR_NO_INSTALL="0")
+        self.assertEqual(calls[2], ["cmake --preset release -DBUILD_TESTING=OFF",
+                                    "cmake --build build/release --target deburr"])
+        for step in ("Configuring: 5 to 15 s", "Building: about ", "Running the texture unit"):
+            self.assertIn(step, calls[1])
+        build = self.root / "tree/build/release"
+        (build / "build.ninja").touch()
+        (build / "CMakeCache.txt").write_text("BUILD_TESTING:BOOL=ON\n", encoding="utf-8")
+        self.assertIn("cmake --preset release -DBUILD_TESTING=ON", self.call("scripts/demo")[2])
 
     def interrupted(self, script, *arguments):
         """The tools that were called before and after Ctrl-C, which comes while the first one runs."""
@@ -120,6 +192,16 @@ class CommandLines(unittest.TestCase):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
         path.chmod(0o755)
+
+    def test_ctrl_c_ends_the_tests_and_the_demo(self):
+        """cmake and ctest may end as they like when they are interrupted; nothing comes after them."""
+        waits = '#!/bin/sh\ntrap "exit 3" INT\necho "waits" >>"$CALLS"\nwhile :; do sleep 0.1; done\n'
+        self.program("bin/cmake", waits)
+        for script in ("scripts/test", "scripts/demo", ".ci/run", "scripts/stand_alone"):
+            self.assertEqual(self.interrupted(script), "waits\n", script)
+        self.program("bin/cmake", "#!/bin/sh\n")
+        self.program("bin/ctest", waits)
+        self.assertIn("waits\n", self.interrupted("scripts/test", "-L", "smoke"))
 
     def test_ctrl_c_ends_all_fuzzers(self):
         """A fuzzer that is interrupted ends as one that has found something."""

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """Checks that the names of all tests are the same on every build: no address, no bytes of a value that
-GoogleTest could not print, no path of the machine, and none twice; and that every program of tb/unit
-is named as the path of its source: tb/unit/fabric/link_test.cpp is fabric_link_test."""
+GoogleTest could not print, no path of the machine, and none twice; that every program of tb/unit is
+named as the path of its source: tb/unit/fabric/link_test.cpp is fabric_link_test; and that every test has
+labels, of those that cmake/Labels.cmake lists."""
 import argparse
 import collections
 import json
@@ -37,7 +38,20 @@ def misnamed(programs, built, source):
                 yield f"not named as the path of its source: {folder / program.name}"
 
 
+def mislabelled(tests, known):
+    """Yields what is wrong with the labels of each of these tests of ctest's listing."""
+    for test in tests:
+        labels = [label for entry in test.get("properties", []) if entry["name"] == "LABELS"
+                  for label in entry["value"]]
+        if not labels or not known.issuperset(labels):
+            yield f"labels of {test['name']}: {', '.join(labels) or 'none'}"
+
+
 def planted_faults_are_caught():
+    labelled = [{"name": name, "properties": [{"name": "LABELS", "value": value}]}
+                for name, value in (("a", ["unit"]), ("b", ["long", "unit"]), ("c", ["units"]), ("d", []))]
+    if len(list(mislabelled([*labelled, {"name": "e"}], {"unit", "long"}))) != 3:
+        return False
     good = ["a_test.Suite.Name/rgba8", "a_test.Each/Suite.Name/3"]
     bad = ["a_test.Suite.Name/0x55d0", "a_test.Suite/8-byte object <01-00>",
            "Suite/0  # GetParam() = 4", "smoke /tmp/x", "a_test.Suite.Name/rgba8"]
@@ -48,7 +62,7 @@ def planted_faults_are_caught():
         source, built = pathlib.Path(folder), pathlib.Path("/build/tb/unit")
         (source / "rtl/texture").mkdir(parents=True)
         (source / "rtl/texture/log2_test.cpp").touch()
-        named = [built / "rtl/texture/rtl_texture_log2_test", pathlib.Path("/build/tb/app/deburr")]
+        named = [built / "rtl/texture/rtl_texture_log2_test", pathlib.Path("/build/deburr")]
         return not list(misnamed(named, built, source)) and all(
             len(list(misnamed([built / name], built, source))) == 1
             for name in ("rtl/texture/log2_test", "rtl/texture/rtl_texture_log2",
@@ -67,7 +81,10 @@ def main():
         sys.exit(f"ctest does not list its tests:\n{listing.stderr}")
     tests = json.loads(listing.stdout)["tests"]
     programs = [pathlib.Path(test["command"][0]) for test in tests if "command" in test]
+    labels = re.search(r"set\(DEBURR_LABELS ([^)]*)\)",
+                       (options.source / "cmake/Labels.cmake").read_text(encoding="utf-8"))
     found = [*problems(test["name"] for test in tests),
+             *mislabelled(tests, set(labels[1].split())),
              *misnamed(programs, options.build / "tb/unit", options.source / "tb/unit")]
     for problem in found:
         print(problem)

@@ -68,6 +68,26 @@ class Tidy(unittest.TestCase):
         code, clean, text = self.tidy()
         self.assertEqual((code, clean, text.count("[modernize-use-nullptr")), (1, 2, 2))
 
+    def test_looks_at_the_files_of_a_batch_and_not_at_the_batch(self):
+        batch = self.root / "build/release/CMakeFiles/x.dir/Unity/unity_0_cxx.cxx"
+        batch.parent.mkdir(parents=True)
+        batch.write_text("".join(f'#include "{self.root}/golden/{name}.cpp"\n' for name in "ab"),
+                         encoding="utf-8")
+        (self.root / "build/release/compile_commands.json").write_text(json.dumps(
+            [{"directory": str(self.root), "file": str(batch),
+              "command": f"c++ -std=c++20 -Werror --param=large-unit-insns=9 -I. -o x.o -c {batch}"}]), encoding="utf-8")
+        self.assertEqual(self.tidy()[:2], (0, 2))
+        self.header(PLANTED)
+        code, clean, text = self.tidy(self.root / "golden/a.cpp")
+        self.assertEqual((code, clean, text.count("[modernize-use-nullptr")), (1, 2, 1))
+        self.assertIn("1 of 1 files looked at", text)
+        # Which batch a file is in does not matter to what is found in it.
+        self.header(CLEAN)
+        batch.rename(batch.with_name("unity_1_cxx.cxx"))
+        database = self.root / "build/release/compile_commands.json"
+        database.write_text(database.read_text().replace("unity_0", "unity_1"), encoding="utf-8")
+        self.assertIn("0 of 2 files looked at", self.tidy()[2])
+
     def test_does_not_take_for_clean_what_does_not_compile(self):
         (self.root / "golden/a.cpp").write_text('#include "golden/nowhere.h"\n', encoding="utf-8")
         code, clean, text = self.tidy()
@@ -81,6 +101,12 @@ class Tidy(unittest.TestCase):
             self.assertEqual(self.tidy(self.root / place)[0], expected, place)
 
     def test_says_what_is_missing(self):
+        database = self.root / "build/release/compile_commands.json"
+        listed = json.loads(database.read_text(encoding="utf-8"))
+        database.write_text(json.dumps([{**entry, "file": "odd/a.cpp"} for entry in listed]), encoding="utf-8")
+        code, _, text = self.tidy()
+        self.assertEqual(code, 2)
+        self.assertIn("has no sources of this tree", text)
         (self.root / "build/release/compile_commands.json").unlink()
         code, _, text = self.tidy()
         self.assertEqual(code, 2)

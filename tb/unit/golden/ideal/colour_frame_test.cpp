@@ -13,8 +13,7 @@ constexpr Rgba8 kPixel{10, 11, 200, 77};
 
 TEST(ColourFrame, CodesAreWhatTheSrgbCurveSays) {
   // IEC 61966-2-1: the straight part ends between codes 10 and 11.
-  const Colour light = ColourScale(true).decoded(kPixel),
-               codes = ColourScale(false).decoded(kPixel);
+  const Rgb light = ColourScale(true).decoded(kPixel), codes = ColourScale(false).decoded(kPixel);
   EXPECT_DOUBLE_EQ(light[0], 10 / 255.0 / 12.92);
   EXPECT_DOUBLE_EQ(light[1], std::pow((11 / 255.0 + 0.055) / 1.055, 2.4));
   EXPECT_DOUBLE_EQ(light[2], std::pow((200 / 255.0 + 0.055) / 1.055, 2.4));
@@ -34,7 +33,7 @@ TEST(ColourFrame, EncodingFindsEveryCodeAgain) {
 }
 
 TEST(ColourFrame, MixedTakesEachChannelOfBoth) {
-  const Colour mix = mixed({0.1, 0.5, 0.9}, {0.3, 0.1, 0.2}, 0.25);
+  const Rgb mix = mixed({0.1, 0.5, 0.9}, {0.3, 0.1, 0.2}, 0.25);
   EXPECT_DOUBLE_EQ(mix[0], 0.15);
   EXPECT_DOUBLE_EQ(mix[1], 0.4);
   EXPECT_DOUBLE_EQ(mix[2], 0.725);

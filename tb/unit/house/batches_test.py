@@ -1,0 +1,115 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Which sources this build compiles, and in which batches (cmake/Layers.cmake): no source of the tree
+is forgotten, none is compiled by two targets or twice by one, and sources of a batch are at most
+twelve. With DEBURR_UNITY off, as in the preset `dev`, every file stands alone.
+usage: batches_test.py SOURCE BUILD [unittest options]"""
+import collections
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SOURCE, BUILD = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(2))
+LAYERS = ("spec", "golden", "rtl_model", "tb")
+INCLUDE = re.compile(r'^#include "(.+)"$', re.M)
+MOST = 12
+# Compiled under a condition only: by the presets asan and fuzz, and where EGL's headers are.
+SOMETIMES = {"tb/unit/scene/leaks.cpp", "tb/fuzz/fuzzer.cpp", "tb/fuzz/write_seeds.cpp",
+             "tb/oracle/mesa_device.cpp", "tb/oracle/mesa_test.cpp"}
+# One source each, so that the others can be compiled as they are.
+TINY = """cmake_minimum_required(VERSION 3.25)
+project(tiny LANGUAGES CXX)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+include({source}/cmake/Options.cmake)
+include({source}/cmake/Layers.cmake)
+file(WRITE "${{PROJECT_BINARY_DIR}}/made.cpp" "")
+foreach(number RANGE 1 14)
+  file(WRITE "${{PROJECT_BINARY_DIR}}/../golden/s${{number}}.cpp" "")
+  list(APPEND sources "${{PROJECT_SOURCE_DIR}}/golden/s${{number}}.cpp")
+endforeach()
+set_source_files_properties("${{PROJECT_SOURCE_DIR}}/golden/s5.cpp" PROPERTIES COMPILE_OPTIONS -O2)
+deburr_library(many LAYER golden SOURCES ${{sources}} "${{PROJECT_BINARY_DIR}}/made.cpp")
+deburr_library(one LAYER golden SOURCES "${{PROJECT_SOURCE_DIR}}/golden/s1.cpp")
+"""
+
+
+def units_of(build):
+    """The sources of each translation unit of the tree's own, by its object file."""
+    units = {}
+    for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
+        path = pathlib.Path(entry["directory"], entry["file"])
+        # Each target has its own folder of objects.
+        unit = re.search(r" -o (\S+)", entry["command"])[1]
+        units[unit] = [path.resolve()]
+        if path.parent.name == "Unity":
+            units[unit] = [pathlib.Path(name).resolve() for name in
+                           INCLUDE.findall(path.read_text(encoding="utf-8"))]
+    return units
+
+
+def problems(units, source, built):
+    """Yields what is wrong with the units of a build of the tree `source`, whose files are `built`."""
+    times = collections.Counter(path.relative_to(source).as_posix() for unit in units.values()
+                                for path in unit if path.is_relative_to(source))
+    for name in sorted(set(built) - set(times)):
+        yield f"nothing compiles {name}"
+    for name, count in sorted(times.items()):
+        if count > 1 and name in built:
+            yield f"{name} is compiled {count} times"
+    for unit, sources in sorted(units.items()):
+        if len(sources) > MOST:
+            yield f"{unit}: {len(sources)} sources in a batch"
+
+
+class Batches(unittest.TestCase):
+    def tiny(self, *options):
+        scratch = tempfile.TemporaryDirectory(prefix="deburr_batches_")
+        self.addCleanup(scratch.cleanup)
+        root = pathlib.Path(scratch.name).resolve()
+        (root / "golden").mkdir()
+        (root / "CMakeLists.txt").write_text(TINY.format(source=SOURCE), encoding="utf-8")
+        subprocess.run(["cmake", "-G", "Ninja", "-S", root, "-B", root / "build", *options],
+                       check=True, capture_output=True)
+        return sorted([path.name for path in unit] for unit in units_of(root / "build").values())
+
+    def test_batches_are_of_one_size_and_leave_out_what_stands_alone(self):
+        units = self.tiny()
+        alone = [unit for unit in units if len(unit) == 1]
+        self.assertEqual(alone, [["made.cpp"], ["s1.cpp"], ["s5.cpp"]])
+        batches = [unit for unit in units if len(unit) > 1]
+        self.assertEqual([len(unit) for unit in batches], [7, 6])
+        self.assertEqual(sum(batches, []), [f"s{n}.cpp" for n in range(1, 15) if n != 5])
+
+    def test_without_unity_every_file_stands_alone(self):
+        self.assertEqual([len(unit) for unit in self.tiny("-DDEBURR_UNITY=OFF")], [1] * 16)
+
+    def test_dev_is_without_unity_and_the_other_presets_are_not(self):
+        presets = json.loads((SOURCE / "CMakePresets.json").read_text(encoding="utf-8"))
+        set_to = {p["name"]: p["cacheVariables"].get("DEBURR_UNITY", "ON")
+                  for p in presets["configurePresets"]}
+        self.assertEqual({name for name, value in set_to.items() if value == "OFF"}, {"dev"})
+
+    def test_this_build_compiles_every_source_once(self):
+        built = {path.relative_to(SOURCE).as_posix() for layer in LAYERS
+                 for path in (SOURCE / layer).rglob("*.cpp")} - SOMETIMES
+        units = units_of(BUILD)
+        self.assertEqual(list(problems(units, SOURCE, built)), [])
+        unity = "DEBURR_UNITY:BOOL=ON" in (BUILD / "CMakeCache.txt").read_text(encoding="utf-8")
+        self.assertEqual(any(len(unit) > 1 for unit in units.values()), unity)
+
+    def test_planted_faults_are_caught(self):
+        root, built = pathlib.Path("/tree"), {"tb/a.cpp", "tb/b.cpp"}
+        good = {"x.o": [root / "tb/a.cpp", root / "tb/b.cpp"], "y.o": [pathlib.Path("/made.cpp")]}
+        self.assertEqual(list(problems(good, root, built)), [])
+        for fault in ({"x.o": [root / "tb/a.cpp"]},
+                      {**good, "z.o": [root / "tb/a.cpp"]},
+                      {**good, "z.o": [pathlib.Path(f"/{n}.cpp") for n in range(MOST + 1)]}):
+            self.assertEqual(len(list(problems(fault, root, built))), 1, fault)
+
+
+if __name__ == "__main__":
+    unittest.main()
