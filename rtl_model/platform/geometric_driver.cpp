@@ -12,25 +12,23 @@
 namespace deburr::platform {
 namespace {
 
-using spec::geometric::Parameters;
-using spec::geometric::Region;
-using spec::geometric::Rgba8;
-namespace reg = spec::geometric::reg;
-
-constexpr std::uint64_t kLine = spec::geometric::kLineBytes;
-constexpr std::uint64_t kAlignment = 4096;
+constexpr std::uint64_t kMemoryLine = spec::geometric::kLineBytes;
+constexpr std::uint64_t kRegionAlignment = 4096;
 constexpr std::uint64_t kAddresses = std::uint64_t{1} << 32;
 
-constexpr DriverLayout kLayout = {.engine = "geometric engine",
-                                  .id = reg::kId,
-                                  .id_value = reg::kIdValue,
-                                  .control = reg::kControl,
-                                  .clear_counters = reg::kControlClearCounters,
-                                  .status = reg::kStatus,
-                                  .idle = reg::kStatusIdle,
-                                  .memory_errors = reg::kMemoryErrors};
+constexpr DriverLayout kGeometricLayout = {
+    .engine = "geometric engine",
+    .id = spec::geometric::reg::kId,
+    .id_value = spec::geometric::reg::kIdValue,
+    .control = spec::geometric::reg::kControl,
+    .clear_counters = spec::geometric::reg::kControlClearCounters,
+    .status = spec::geometric::reg::kStatus,
+    .idle = spec::geometric::reg::kStatusIdle,
+    .memory_errors = spec::geometric::reg::kMemoryErrors};
 
-constexpr std::size_t index_of(Region region) { return static_cast<std::size_t>(region); }
+constexpr std::size_t index_of(spec::geometric::Region region) {
+  return static_cast<std::size_t>(region);
+}
 
 constexpr std::uint64_t rounded_up(std::uint64_t value, std::uint64_t to) {
   return (value + to - 1) / to * to;
@@ -40,23 +38,26 @@ constexpr std::uint64_t rounded_up(std::uint64_t value, std::uint64_t to) {
 
 // ---- where things lie ---------------------------------------------------------------------------
 
-GeometricRegions::Bytes GeometricRegions::needed(const GeometricSizes& frame, const Parameters& p) {
+GeometricRegions::Bytes GeometricRegions::needed(const GeometricSizes& frame,
+                                                 const spec::geometric::Parameters& p) {
   const std::uint64_t pixels = PixelLayout(p.layout, frame.width, frame.height).bytes();
   const auto blocks = [](int size) { return static_cast<std::uint64_t>((size + 3) / 4); };
   Bytes bytes{};
-  bytes[index_of(Region::kFaces)] = rounded_up((frame.faces + 7) / 8, kLine);
-  bytes[index_of(Region::kEdges)] = rounded_up(frame.edges * spec::geometric::kEdgeBytes, kLine);
-  bytes[index_of(Region::kVertices)] =
-      rounded_up(frame.vertices * spec::geometric::kVertexBytes, kLine);
-  bytes[index_of(Region::kDepth)] = pixels;
-  bytes[index_of(Region::kWeights)] = kLine * blocks(frame.width) * blocks(frame.height);
-  bytes[index_of(Region::kColour)] = pixels;
-  bytes[index_of(Region::kCopy)] = p.frame_copy ? pixels : 0;
+  bytes[index_of(spec::geometric::Region::kFaces)] = rounded_up((frame.faces + 7) / 8, kMemoryLine);
+  bytes[index_of(spec::geometric::Region::kEdges)] =
+      rounded_up(frame.edges * spec::geometric::kEdgeBytes, kMemoryLine);
+  bytes[index_of(spec::geometric::Region::kVertices)] =
+      rounded_up(frame.vertices * spec::geometric::kVertexBytes, kMemoryLine);
+  bytes[index_of(spec::geometric::Region::kDepth)] = pixels;
+  bytes[index_of(spec::geometric::Region::kWeights)] =
+      kMemoryLine * blocks(frame.width) * blocks(frame.height);
+  bytes[index_of(spec::geometric::Region::kColour)] = pixels;
+  bytes[index_of(spec::geometric::Region::kCopy)] = p.frame_copy ? pixels : 0;
   return bytes;
 }
 
 GeometricRegions GeometricRegions::allocate(std::span<const GeometricSizes> frames,
-                                            const Parameters& p) {
+                                            const spec::geometric::Parameters& p) {
   Bytes most{};
   for (const GeometricSizes& frame : frames) {
     const Bytes bytes = needed(frame, p);
@@ -65,7 +66,7 @@ GeometricRegions GeometricRegions::allocate(std::span<const GeometricSizes> fram
   GeometricRegions regions;
   for (std::size_t i = 0; i < kCount; ++i) {
     regions.base_[i] = static_cast<std::uint32_t>(regions.end_);
-    regions.end_ += rounded_up(most[i], kAlignment);
+    regions.end_ += rounded_up(most[i], kRegionAlignment);
   }
   if (regions.end_ > kAddresses)
     throw spec::ConfigError(
@@ -89,12 +90,12 @@ std::uint64_t GeometricRegions::end_of(std::uint64_t address) const {
 // ---- a frame ------------------------------------------------------------------------------------
 
 GeometricDriver::GeometricDriver(RegisterBus& registers, HostMemory& memory,
-                                 const Parameters& rules)
-    : EngineDriver(registers, kLayout), memory_(memory), rules_(rules) {}
+                                 const spec::geometric::Parameters& rules)
+    : EngineDriver(registers, kGeometricLayout), memory_(memory), rules_(rules) {}
 
-void GeometricDriver::set_rules(const Parameters& rules) {
+void GeometricDriver::set_rules(const spec::geometric::Parameters& rules) {
   require_idle("new rules");
-  registers_.write(reg::kRules, rules_register(rules));
+  registers_.write(spec::geometric::reg::kRules, rules_register(rules));
   rules_ = rules;
 }
 
@@ -125,10 +126,10 @@ void GeometricDriver::check(const GeometricFrame& frame) const {
   const GeometricRegions::Bytes bytes = GeometricRegions::needed(sizes, rules_);
   std::array<NamedRegion, GeometricRegions::kCount> regions;
   for (std::size_t i = 0; i < regions.size(); ++i)
-    regions[i] = {spec::geometric::kRegionNames[i], regions_.base(static_cast<Region>(i)),
-                  bytes[i]};
+    regions[i] = {spec::geometric::kRegionNames[i],
+                  regions_.base(static_cast<spec::geometric::Region>(i)), bytes[i]};
   if (const std::string complaint =
-          region_complaint(regions, kLine, std::min(memory_.size(), kAddresses));
+          region_complaint(regions, kMemoryLine, std::min(memory_.size(), kAddresses));
       !complaint.empty())
     reject(complaint);
 }
@@ -136,44 +137,45 @@ void GeometricDriver::check(const GeometricFrame& frame) const {
 void GeometricDriver::load(const GeometricFrame& frame) {
   check(frame);
   sizes_ = frame.sizes();
-  fill(Region::kFaces, frame.facing.first((sizes_.faces + 7) / 8));
-  fill(Region::kEdges, edge_records(frame.edges));
-  fill(Region::kVertices, vertex_records(frame.vertices));
+  fill(spec::geometric::Region::kFaces, frame.facing.first((sizes_.faces + 7) / 8));
+  fill(spec::geometric::Region::kEdges, edge_records(frame.edges));
+  fill(spec::geometric::Region::kVertices, vertex_records(frame.vertices));
   if (!frame.depths.empty()) load_depths(frame.depths);
   if (!frame.colours.empty()) load_colours(frame.colours);
 }
 
 void GeometricDriver::load_depths(std::span<const std::uint32_t> depths) {
   require_pixels("depths", depths.size(), sizes_);
-  fill(Region::kDepth, depth_buffer(layout(), depths));
+  fill(spec::geometric::Region::kDepth, depth_buffer(layout(), depths));
 }
 
-void GeometricDriver::load_colours(std::span<const Rgba8> colours) {
+void GeometricDriver::load_colours(std::span<const spec::geometric::Rgba8> colours) {
   require_pixels("colours", colours.size(), sizes_);
-  fill(Region::kColour, colour_buffer(layout(), colours));
+  fill(spec::geometric::Region::kColour, colour_buffer(layout(), colours));
 }
 
 void GeometricDriver::program() {
   const std::pair<std::uint32_t, std::uint32_t> values[] = {
-      {reg::kSize, size_register(static_cast<std::uint32_t>(sizes_.width),
-                                 static_cast<std::uint32_t>(sizes_.height))},
-      {reg::kEdgeCount, static_cast<std::uint32_t>(sizes_.edges)},
-      {reg::kVertexCount, static_cast<std::uint32_t>(sizes_.vertices)},
-      {reg::kFaceCount, static_cast<std::uint32_t>(sizes_.faces)},
-      {reg::kEdgeBase, regions_.base(Region::kEdges)},
-      {reg::kVertexBase, regions_.base(Region::kVertices)},
-      {reg::kFaceBase, regions_.base(Region::kFaces)},
-      {reg::kDepthBase, regions_.base(Region::kDepth)},
-      {reg::kColourBase, regions_.base(Region::kColour)},
-      {reg::kWeightBase, regions_.base(Region::kWeights)},
-      {reg::kCopyBase, regions_.base(Region::kCopy)}};
+      {spec::geometric::reg::kSize, size_register(static_cast<std::uint32_t>(sizes_.width),
+                                                  static_cast<std::uint32_t>(sizes_.height))},
+      {spec::geometric::reg::kEdgeCount, static_cast<std::uint32_t>(sizes_.edges)},
+      {spec::geometric::reg::kVertexCount, static_cast<std::uint32_t>(sizes_.vertices)},
+      {spec::geometric::reg::kFaceCount, static_cast<std::uint32_t>(sizes_.faces)},
+      {spec::geometric::reg::kEdgeBase, regions_.base(spec::geometric::Region::kEdges)},
+      {spec::geometric::reg::kVertexBase, regions_.base(spec::geometric::Region::kVertices)},
+      {spec::geometric::reg::kFaceBase, regions_.base(spec::geometric::Region::kFaces)},
+      {spec::geometric::reg::kDepthBase, regions_.base(spec::geometric::Region::kDepth)},
+      {spec::geometric::reg::kColourBase, regions_.base(spec::geometric::Region::kColour)},
+      {spec::geometric::reg::kWeightBase, regions_.base(spec::geometric::Region::kWeights)},
+      {spec::geometric::reg::kCopyBase, regions_.base(spec::geometric::Region::kCopy)}};
   require_idle("sizes and bases");
   for (const auto& [offset, value] : values) registers_.write(offset, value);
 }
 
 void GeometricDriver::start() {
   require_idle("START");
-  registers_.write(reg::kControl, reg::kControlEnable | reg::kControlStart);
+  registers_.write(spec::geometric::reg::kControl,
+                   spec::geometric::reg::kControlEnable | spec::geometric::reg::kControlStart);
 }
 
 void GeometricDriver::require_accepted() {
@@ -195,27 +197,29 @@ spec::geometric::Work GeometricDriver::work() {
 }
 
 GeometricClocks GeometricDriver::clocks() {
-  return {registers_.read(reg::kFrameCycles), registers_.read(reg::kEdgeCycles),
-          registers_.read(reg::kResolveCycles)};
+  return {registers_.read(spec::geometric::reg::kFrameCycles),
+          registers_.read(spec::geometric::reg::kEdgeCycles),
+          registers_.read(spec::geometric::reg::kResolveCycles)};
 }
 
 std::uint32_t GeometricDriver::colour_address(int x, int y) const {
-  return regions_.base(Region::kColour) + layout().offset_of(x, y);
+  return regions_.base(spec::geometric::Region::kColour) + layout().offset_of(x, y);
 }
 
-void GeometricDriver::put(int x, int y, const Rgba8& colour) {
+void GeometricDriver::put(int x, int y, const spec::geometric::Rgba8& colour) {
   memory_.write(colour_address(x, y), colour);
 }
 
-Rgba8 GeometricDriver::pixel(int x, int y) const {
-  Rgba8 colour{};
+spec::geometric::Rgba8 GeometricDriver::pixel(int x, int y) const {
+  spec::geometric::Rgba8 colour{};
   const std::vector<std::uint8_t> bytes = memory_.read(colour_address(x, y), colour.size());
   std::copy(bytes.begin(), bytes.end(), colour.begin());
   return colour;
 }
 
-std::vector<Rgba8> GeometricDriver::picture() const {
-  return colours_of(layout(), memory_.read(regions_.base(Region::kColour), layout().bytes()));
+std::vector<spec::geometric::Rgba8> GeometricDriver::picture() const {
+  return colours_of(
+      layout(), memory_.read(regions_.base(spec::geometric::Region::kColour), layout().bytes()));
 }
 
 }  // namespace deburr::platform

@@ -7,8 +7,6 @@
 namespace deburr::platform {
 namespace {
 
-using spec::geometric::Rgba8;
-
 void put_words(std::vector<std::uint8_t>& bytes, std::initializer_list<std::uint32_t> words) {
   for (const std::uint32_t word : words)
     for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
@@ -84,7 +82,8 @@ std::vector<std::uint8_t> depth_buffer(const PixelLayout& layout,
   return bytes;
 }
 
-std::vector<std::uint8_t> colour_buffer(const PixelLayout& layout, std::span<const Rgba8> colours) {
+std::vector<std::uint8_t> colour_buffer(const PixelLayout& layout,
+                                        std::span<const spec::geometric::Rgba8> colours) {
   std::vector<std::uint8_t> bytes(layout.bytes());
   each_pixel(layout, [&](std::size_t index, std::uint32_t offset) {
     std::copy(colours[index].begin(), colours[index].end(),
@@ -93,9 +92,10 @@ std::vector<std::uint8_t> colour_buffer(const PixelLayout& layout, std::span<con
   return bytes;
 }
 
-std::vector<Rgba8> colours_of(const PixelLayout& layout, std::span<const std::uint8_t> buffer) {
-  std::vector<Rgba8> colours(static_cast<std::size_t>(layout.width()) *
-                             static_cast<std::size_t>(layout.height()));
+std::vector<spec::geometric::Rgba8> colours_of(const PixelLayout& layout,
+                                               std::span<const std::uint8_t> buffer) {
+  std::vector<spec::geometric::Rgba8> colours(static_cast<std::size_t>(layout.width()) *
+                                              static_cast<std::size_t>(layout.height()));
   each_pixel(layout, [&](std::size_t index, std::uint32_t offset) {
     std::copy_n(buffer.begin() + static_cast<std::ptrdiff_t>(offset), colours[index].size(),
                 colours[index].begin());

@@ -10,13 +10,13 @@
 namespace deburr::platform {
 namespace {
 
-constexpr std::uint64_t kLine = 64;
+constexpr std::uint64_t kBusLine = 64;
 
 // Calls access(offset, length) for each part of [address, address + bytes) that lies in one line.
 template <class Access>
 void by_line(std::uint64_t address, std::uint64_t bytes, Access&& access) {
   for (std::uint64_t done = 0; done < bytes;) {
-    const std::uint64_t length = std::min(bytes - done, kLine - (address + done) % kLine);
+    const std::uint64_t length = std::min(bytes - done, kBusLine - (address + done) % kBusLine);
     access(done, length);
     done += length;
   }

@@ -12,33 +12,30 @@
 
 namespace deburr::platform {
 
-namespace reg = spec::morphological::reg;
-using spec::morphological::Parameters;
-
 DriverLayout MorphologicalDriver::layout() {
   return {.engine = "morphological engine",
-          .id = reg::kId,
-          .id_value = reg::kIdValue,
-          .control = reg::kControl,
-          .clear_counters = reg::kControlClearCounters,
-          .status = reg::kStatus,
-          .idle = reg::kStatusIdle,
-          .memory_errors = reg::kMemoryErrors};
+          .id = spec::morphological::reg::kId,
+          .id_value = spec::morphological::reg::kIdValue,
+          .control = spec::morphological::reg::kControl,
+          .clear_counters = spec::morphological::reg::kControlClearCounters,
+          .status = spec::morphological::reg::kStatus,
+          .idle = spec::morphological::reg::kStatusIdle,
+          .memory_errors = spec::morphological::reg::kMemoryErrors};
 }
 
-void MorphologicalDriver::set_rules(const Parameters& p) {
+void MorphologicalDriver::set_rules(const spec::morphological::Parameters& p) {
   require_idle("new rules");
   const std::pair<std::uint32_t, std::int32_t> thresholds[] = {
-      {reg::kThreshold, p.threshold},
-      {reg::kThresholdOn, p.threshold_on_depth_edge},
-      {reg::kThresholdOff, p.threshold_off_depth_edge},
-      {reg::kAlpha, p.alpha},
-      {reg::kFloor, p.floor},
-      {reg::kDepthThreshold, p.depth_threshold}};
-  registers_.write(reg::kRules, rules_register(p));
+      {spec::morphological::reg::kThreshold, p.threshold},
+      {spec::morphological::reg::kThresholdOn, p.threshold_on_depth_edge},
+      {spec::morphological::reg::kThresholdOff, p.threshold_off_depth_edge},
+      {spec::morphological::reg::kAlpha, p.alpha},
+      {spec::morphological::reg::kFloor, p.floor},
+      {spec::morphological::reg::kDepthThreshold, p.depth_threshold}};
+  registers_.write(spec::morphological::reg::kRules, rules_register(p));
   for (const auto& [offset, value] : thresholds)
     registers_.write(offset, static_cast<std::uint32_t>(value));
-  registers_.write(reg::kSmaa, smaa_register(p));
+  registers_.write(spec::morphological::reg::kSmaa, smaa_register(p));
 }
 
 void MorphologicalDriver::place(std::uint32_t base) {
@@ -46,7 +43,7 @@ void MorphologicalDriver::place(std::uint32_t base) {
     reject(fmt::format("a frame begins at {:#x}, which is no multiple of {}", base,
                        spec::morphological::kFrameLineBytes));
   require_idle("PIXEL_BASE");
-  registers_.write(reg::kPixelBase, base);
+  registers_.write(spec::morphological::reg::kPixelBase, base);
   base_ = base;
 }
 
@@ -66,7 +63,7 @@ void MorphologicalDriver::set_size(int width, int height) {
       reject(complaint);
   }
   require_idle("SIZE");
-  registers_.write(reg::kSize,
+  registers_.write(spec::morphological::reg::kSize,
                    static_cast<std::uint32_t>(width) | static_cast<std::uint32_t>(height) << 16);
 }
 
@@ -76,10 +73,11 @@ void MorphologicalDriver::load_shares(std::span<const std::int8_t> entries) {
   if (entries.size() != kShareEntries)
     reject(fmt::format("{} learned shares, expected {}", entries.size(), kShareEntries));
   require_idle("learned shares");
-  registers_.write(reg::kSharesAddress, 0);
+  registers_.write(spec::morphological::reg::kSharesAddress, 0);
   for (const std::int8_t entry : entries)
-    registers_.write(reg::kSharesData, static_cast<std::uint8_t>(entry));
-  const std::uint32_t sum = registers_.read(reg::kSharesSum), expected = shares_sum(entries);
+    registers_.write(spec::morphological::reg::kSharesData, static_cast<std::uint8_t>(entry));
+  const std::uint32_t sum = registers_.read(spec::morphological::reg::kSharesSum),
+                      expected = shares_sum(entries);
   if (sum != expected)
     throw spec::SimulationError(fmt::format(
         "learned shares were loaded, and SHARES_SUM reads {:#x}, expected {:#x}", sum, expected));
@@ -92,6 +90,8 @@ spec::morphological::Work MorphologicalDriver::work() {
   return work;
 }
 
-std::uint32_t MorphologicalDriver::frame_clocks() { return registers_.read(reg::kFrameCycles); }
+std::uint32_t MorphologicalDriver::frame_clocks() {
+  return registers_.read(spec::morphological::reg::kFrameCycles);
+}
 
 }  // namespace deburr::platform

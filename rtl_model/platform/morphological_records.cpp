@@ -3,10 +3,7 @@
 
 namespace deburr::platform {
 
-using spec::morphological::AreaSource;
-using spec::morphological::Parameters;
-
-int lanes_of(const Parameters& p) {
+int lanes_of(const spec::morphological::Parameters& p) {
   return spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
 }
 
@@ -24,7 +21,8 @@ std::uint64_t frame_bytes(int width, int height) {
   return (row + kLine - 1) / kLine * kLine * static_cast<std::uint64_t>(height);
 }
 
-std::uint32_t rules_register(const Parameters& p) {
+std::uint32_t rules_register(const spec::morphological::Parameters& p) {
+  using spec::morphological::AreaSource;
   const bool learned = p.area == AreaSource::kLearned,
              table = p.area != AreaSource::kAnalytic && !learned;
   std::uint32_t value = 0;
@@ -56,7 +54,7 @@ std::uint32_t rules_register(const Parameters& p) {
   return value;
 }
 
-std::uint32_t smaa_register(const Parameters& p) {
+std::uint32_t smaa_register(const spec::morphological::Parameters& p) {
   return static_cast<std::uint32_t>(p.search_steps) |
          static_cast<std::uint32_t>(p.diagonal_steps) << 8 |
          static_cast<std::uint32_t>(p.corner_rounding) << 16;

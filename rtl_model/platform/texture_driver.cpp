@@ -13,17 +13,15 @@
 
 namespace deburr::platform {
 
-namespace reg = spec::texture::reg;
-
 DriverLayout TextureDriver::layout() {
   return {.engine = "texture unit",
-          .id = reg::kId,
-          .id_value = reg::kIdValue,
-          .control = reg::kControl,
-          .clear_counters = reg::kControlClearCounters,
-          .status = reg::kStatus,
-          .idle = reg::kStatusIdle,
-          .memory_errors = reg::kMemoryErrors};
+          .id = spec::texture::reg::kId,
+          .id_value = spec::texture::reg::kIdValue,
+          .control = spec::texture::reg::kControl,
+          .clear_counters = spec::texture::reg::kControlClearCounters,
+          .status = spec::texture::reg::kStatus,
+          .idle = spec::texture::reg::kStatusIdle,
+          .memory_errors = spec::texture::reg::kMemoryErrors};
 }
 
 void TextureDriver::load(std::span<const std::uint8_t> bytes) {
@@ -64,14 +62,18 @@ void TextureDriver::set_texture(int handle, const spec::texture::Descriptor& des
 
 void TextureDriver::invalidate() {
   require_idle("a command to invalidate the cache");
-  registers_.write(reg::kControl, registers_.read(reg::kControl) | reg::kControlInvalidate);
+  registers_.write(spec::texture::reg::kControl, registers_.read(spec::texture::reg::kControl) |
+                                                     spec::texture::reg::kControlInvalidate);
 }
 
 TextureWork TextureDriver::work() {
-  return {registers_.read(reg::kFragments),       registers_.read(reg::kBilinears),
-          registers_.read(reg::kLineFills),       registers_.read(reg::kClamped),
-          registers_.read(reg::kSaturated),       registers_.read(reg::kMemoryErrors),
-          registers_.read(reg::kInvalidFragments)};
+  return {registers_.read(spec::texture::reg::kFragments),
+          registers_.read(spec::texture::reg::kBilinears),
+          registers_.read(spec::texture::reg::kLineFills),
+          registers_.read(spec::texture::reg::kClamped),
+          registers_.read(spec::texture::reg::kSaturated),
+          registers_.read(spec::texture::reg::kMemoryErrors),
+          registers_.read(spec::texture::reg::kInvalidFragments)};
 }
 
 }  // namespace deburr::platform

@@ -13,7 +13,7 @@ namespace deburr::platform {
 namespace {
 
 // A boundary that every cache line size divides.
-constexpr std::size_t kAlignment = 128;
+constexpr std::size_t kTextureAlignment = 128;
 constexpr std::uint32_t kRowAlignment = 64;  // bytes, of layout linear
 
 std::uint32_t bytes_of(spec::texture::Format format) {
@@ -123,7 +123,8 @@ void TextureMemory::add_level(const TextureLevel& level, const spec::texture::De
                               int index) {
   const TexelLayout layout = texel_layout(d, index);
   const std::size_t base = bytes_.size(), texel_bytes = bytes_of(d.format);
-  bytes_.resize((base + layout.bytes() + kAlignment - 1) / kAlignment * kAlignment);
+  bytes_.resize((base + layout.bytes() + kTextureAlignment - 1) / kTextureAlignment *
+                kTextureAlignment);
   const Texel* next = level.texels.data();
   for (int y = 0; y < level.height; ++y)
     for (int x = 0; x < level.width; ++x) {

@@ -18,8 +18,6 @@ using spec::geometric::Region;
 using spec::geometric::WorkCount;
 namespace reg = spec::geometric::reg;
 
-constexpr std::uint64_t kLine = spec::geometric::kLineBytes;
-
 std::string describe_pixel(const Rgba8& p) {
   return fmt::format("RGBA ({}, {}, {}, {})", p[0], p[1], p[2], p[3]);
 }
@@ -56,8 +54,9 @@ GeometricChecks::GeometricChecks(const GeometricSetup& setup,
   candidates.call_items([](const Candidate& c) { return fmt::format("pixel ({}, {})", c.x, c.y); });
   blocks.call_items([](const BlockRecord& b) { return fmt::format("block ({}, {})", b.x, b.y); });
   if (const auto range = error_range(setup.memory))
-    golden_.set_memory_errors(
-        [range = *range](std::uint32_t line) { return range.touches(line, kLine); });
+    golden_.set_memory_errors([range = *range](std::uint32_t line) {
+      return range.touches(line, spec::geometric::kLineBytes);
+    });
 }
 
 void GeometricChecks::clear_counters() {
@@ -129,7 +128,8 @@ Image GeometricChecks::expected_frame() const {
     for (int x = 0; x < expected.width; ++x) {
       const std::size_t i = expected.index(x, y);
       const std::uint64_t line = std::uint64_t{regions_.base(Region::kColour)} + line_offset(x, y);
-      if (!range || !range->touches(line, kLine)) expected.pixels[i] = golden_.pixels()[i];
+      if (!range || !range->touches(line, spec::geometric::kLineBytes))
+        expected.pixels[i] = golden_.pixels()[i];
     }
   }
   return expected;
