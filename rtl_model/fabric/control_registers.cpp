@@ -20,6 +20,7 @@ ControlRegisters::ControlRegisters(const char* name, std::span<const spec::Regis
   for (std::size_t i = 0; i < registers.table().size(); ++i) {
     resets_.push_back(registers.table()[i].reset);
     kept_[i] = resets_[i];
+    if (registers.table()[i].offset != layout.control) masks_[i] = registers.table()[i].mask();
     if (registers.table()[i].access == spec::Access::kReadWrite)
       registers.on_write(i, [this, i](std::uint32_t value) { written(i, value); });
   }

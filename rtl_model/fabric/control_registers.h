@@ -6,8 +6,8 @@
 // CONTROL: enable; clear the counters (command); further commands, which wait for nobody: while the
 // engine is busy they are refused. STATUS: idle, and sticky bits that a one clears; one of them
 // says that a register was written while the engine was busy. Such a write is taken or ignored, as
-// the layout says. What the values mean is the engine's business: it decodes them in on_change().
-// Cost: 32 flip-flops a writable register.
+// the layout says. Bits that no field has read as 0. What the values mean is the engine's business:
+// it decodes them in on_change(). Cost: 32 flip-flops a writable register.
 #pragma once
 
 #include <cstdint>
@@ -61,7 +61,8 @@ class ControlRegisters {
   }
   // A value that the hardware changes.
   void set(std::uint32_t offset, std::uint32_t value);
-  // The bits of a register that exist; the others read as 0.
+  // The bits of a register that exist where a build has fewer than its fields; the others read as
+  // 0.
   void set_mask(std::uint32_t offset, std::uint32_t mask) { masks_[index(offset)] = mask; }
   // A reset value that a parameter gives.
   void set_reset(std::uint32_t offset, std::uint32_t value);

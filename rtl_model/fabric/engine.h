@@ -77,7 +77,11 @@ class Engine : public sc_core::sc_module {
   // --- Sockets, to be bound from outside ---
   tlm_utils::simple_target_socket<RegisterBlock>& registers = control.registers.bus;
   // nullptr: built without memory, and there is no such socket.
-  tlm::tlm_initiator_socket<>* memory() const { return memory_; }
+  tlm::tlm_initiator_socket<>* memory() const { return port_ ? &port_->memory : nullptr; }
+  // For a target that does not accept every end of a response. Before the first request.
+  void end_responses(ResponseEnd how) {
+    if (port_) port_->response_end = how;
+  }
 
   // Nothing is inside and nothing waits in front. Between edges.
   virtual bool idle() const = 0;
@@ -94,10 +98,10 @@ class Engine : public sc_core::sc_module {
   Engine(const sc_core::sc_module_name& name, ClockDomain& clock,
          std::span<const spec::RegisterInfo> table, const ControlLayout& layout);
   // The one port through which the engine reaches memory.
-  void uses(MemoryPort& port) { memory_ = &port.memory; }
+  void uses(MemoryPort& port) { port_ = &port; }
 
  private:
-  tlm::tlm_initiator_socket<>* memory_ = nullptr;
+  MemoryPort* port_ = nullptr;
 };
 
 }  // namespace deburr::rtl

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 namespace deburr::rtl {
 namespace {
@@ -83,6 +84,9 @@ MemoryPort::MemoryPort(const sc_core::sc_module_name& name, ClockDomain& clock,
                fmt::format("{}: lines of {} bytes, not in 4..{}", this->name(),
                            parameters.line_bytes, kLineBytes));
   memory.bind(*this);
+  SC_METHOD(send_end_response);
+  sensitive << end_response_;
+  dont_initialize();
 }
 
 MemoryPort::~MemoryPort() = default;
@@ -226,8 +230,35 @@ tlm::tlm_sync_enum MemoryPort::nb_transport_bw(tlm::tlm_generic_payload& payload
   if (t.arrived)
     throw spec::SimulationError(fmt::format("{}: the memory answered the {} of {:#x} twice", name(),
                                             t.write ? "write" : "read", t.get_address()));
+  if (responding_)
+    throw spec::SimulationError(
+        fmt::format("{}: the memory began the response for {:#x} before the one for {:#x} was "
+                    "ended",
+                    name(), t.get_address(), responding_->get_address()));
+  if (response_end == ResponseEnd::kCall) {
+    t.acquire();
+    responding_ = &t;
+    end_response_.notify(delay);
+  }
   arrived(t, when);
-  return tlm::TLM_COMPLETED;  // there is room for every outstanding response: END_RESP at once
+  switch (response_end) {
+    case ResponseEnd::kUpdated:
+      phase = tlm::END_RESP;
+      return tlm::TLM_UPDATED;
+    case ResponseEnd::kCompleted:
+      return tlm::TLM_COMPLETED;
+    case ResponseEnd::kCall:
+      break;
+  }
+  return tlm::TLM_ACCEPTED;
+}
+
+void MemoryPort::send_end_response() {
+  Transaction& t = *std::exchange(responding_, nullptr);
+  tlm::tlm_phase phase = tlm::END_RESP;
+  sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+  memory->nb_transport_fw(t, phase, delay);
+  t.release();
 }
 
 void MemoryPort::arrived(Transaction& t, const sc_core::sc_time& when) {

@@ -5,7 +5,8 @@
 //
 // Non-blocking, four phases, several outstanding, matched by transaction. One request a cycle while
 // the target ends requests at once. A target may also skip phases or complete early, or know only
-// b_transport (behind tlm_utils::simple_target_socket).
+// b_transport (behind tlm_utils::simple_target_socket). A response is ended when it begins, since
+// there is room for each that is outstanding; ResponseEnd says in which of the protocol's forms.
 // Latency: request popped in cycle c leaves in c; a response that arrives at a time before edge d
 // is pushed in d, so d is at the earliest c+1. It can be popped in d+1. Stalls: `outstanding`
 // (limit reached), `request_channel` (the target has not ended the last request), `downstream`
@@ -95,6 +96,15 @@ PayloadShape request_shape(const MemoryPortParameters& port, std::uint32_t addre
 PayloadShape response_shape(const MemoryPortParameters& port, std::uint32_t address_bits,
                             std::uint32_t tag_bits);
 
+// How the port ends a response that the target begins by a call; the time is the same. The base
+// protocol allows all three and a target must accept each, but not every target does. A response
+// that begins in the return from BEGIN_REQ can only be ended by a call.
+enum class ResponseEnd : std::uint8_t {
+  kUpdated,    // returns TLM_UPDATED with END_RESP
+  kCompleted,  // returns TLM_COMPLETED
+  kCall        // returns TLM_ACCEPTED and sends END_RESP forward
+};
+
 class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tlm_mm_interface {
  public:
   In<MemoryRequest> requests_in{"requests_in"};
@@ -115,6 +125,8 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
 
   std::uint32_t in_flight() const;
   const MemoryPortParameters& parameters() const { return parameters_; }
+  // May be changed until the first request.
+  ResponseEnd response_end = ResponseEnd::kUpdated;
   // Sees every transaction as it is sent.
   std::function<void(Cycle, const tlm::tlm_generic_payload&)> observer;
   // Untimed access through transport_dbg, from the end of elaboration on; gives the number of bytes
@@ -131,6 +143,7 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   Histogram latency{"latency", "clk", "from sending a request to having its response"};
 
  private:
+  SC_HAS_PROCESS(MemoryPort);
   struct Transaction;
   tlm::tlm_sync_enum nb_transport_bw(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
                                      sc_core::sc_time& delay) override;
@@ -139,6 +152,7 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   Transaction& allocate();
   void send(Transaction& transaction, Cycle cycle);
   void arrived(Transaction& transaction, const sc_core::sc_time& when);
+  void send_end_response();
   [[gnu::noinline]] Activity work(Cycle cycle);
   bool respond(Cycle cycle);
   bool busy() const { return gathering_ || !in_flight_.empty(); }
@@ -150,9 +164,11 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   std::deque<Transaction*> in_flight_;  // in the order of requests
   std::deque<Transaction*> arrived_;    // in the order of arrival
   Transaction* requesting_ = nullptr;   // BEGIN_REQ sent, END_REQ not yet seen
+  Transaction* responding_ = nullptr;   // BEGIN_RESP seen, END_RESP to be sent by a call
   Transaction* gathering_ = nullptr;    // burst write whose beats are still coming in
-  sc_core::sc_time channel_free_;       // end of the last request
-  std::uint32_t epoch_ = 0;             // counts resets: late responses of older epochs are dropped
+  sc_core::sc_event end_response_;
+  sc_core::sc_time channel_free_;  // end of the last request
+  std::uint32_t epoch_ = 0;        // counts resets: late responses of older epochs are dropped
 };
 
 }  // namespace deburr::rtl

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // 32-bit registers behind a TLM-2.0 target socket, from one table of descriptions that also gives
-// the docs table and a C++ header.
+// the tables of the docs and the C header for a user's software.
 //
 // Access: one aligned 32-bit word a transaction, no byte enables. Errors: unknown or unaligned
 // address
@@ -17,6 +17,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <systemc>
 #include <tlm>
 #include <vector>
@@ -70,9 +71,11 @@ class RegisterBlock final : public sc_core::sc_module {
   std::vector<Shown> shown_;
 };
 
-// | offset | name | access | reset | meaning | as Markdown.
+// As Markdown: | offset | name | access | reset | meaning |, and behind it a table of the fields,
+// | register | bits | field | meaning |.
 std::string register_table_markdown(std::span<const spec::RegisterInfo> table);
-// constexpr offsets for drivers, in the given namespace.
-std::string register_header(std::span<const spec::RegisterInfo> table, const std::string& space);
+// For a user's software, in C: PREFIX_NAME is an offset; PREFIX_NAME_RESET a reset value other than
+// 0; PREFIX_NAME_FIELD_MASK and _SHIFT a field, PREFIX_NAME_FIELD_CODE a choice of it.
+std::string register_c_macros(std::span<const spec::RegisterInfo> table, std::string_view prefix);
 
 }  // namespace deburr::rtl

@@ -3,50 +3,17 @@
 
 #include <algorithm>
 
-#include "spec/geometric/records.h"
-
 namespace deburr::rtl::geometric {
 namespace {
 
 namespace reg = spec::geometric::reg;
 using spec::geometric::Refusal;
 
-constexpr std::uint32_t kCoordinateMask = 0x3FFF;
-constexpr std::uint32_t kRulesMask = 0xFFFD;
-
-constexpr std::uint32_t bits(std::uint32_t value, int high, int low) {
-  return (value >> low) & ((1u << (high - low + 1)) - 1);
-}
-
-// The bits of each register that exist.
-constexpr std::uint32_t writable(std::uint32_t offset) {
-  switch (offset) {
-    case reg::kSize:
-      return kCoordinateMask << 16 | kCoordinateMask;
-    case reg::kRules:
-      return kRulesMask;
-    case reg::kEdgeCount:
-    case reg::kVertexCount:
-    case reg::kFaceCount:
-      return ~std::uint32_t{0};
-    default:
-      return ~(std::uint32_t{spec::geometric::kLineBytes} - 1);
-  }
-}
-
-std::uint32_t encode_rules(const spec::geometric::Parameters& p) {
-  return static_cast<std::uint32_t>(p.select) | static_cast<std::uint32_t>(p.crease) << 2 |
-         static_cast<std::uint32_t>(p.depth_test) << 4 |
-         static_cast<std::uint32_t>(p.combine) << 6 |
-         static_cast<std::uint32_t>(p.linear_light) << 7 |
-         static_cast<std::uint32_t>(p.depth_bias) << 8 | static_cast<std::uint32_t>(p.mark) << 13 |
-         static_cast<std::uint32_t>(p.layout) << 14 |
-         static_cast<std::uint32_t>(p.frame_copy) << 15;
-}
-
-template <class Choice, std::size_t N>
-Choice choice(std::uint32_t code, const std::array<std::string_view, N>&) {
-  return static_cast<Choice>(code < N ? code : 0);
+// A code that no choice has counts as code 0.
+template <class Choice>
+Choice choice(const spec::Field& field, std::uint32_t word) {
+  const std::uint32_t code = field.of(word);
+  return static_cast<Choice>(code < field.codes.size() ? code : 0);
 }
 
 }  // namespace
@@ -64,19 +31,20 @@ ControlLayout control_layout() {
 FrameRules decode(const ControlRegisters& registers) {
   const std::uint32_t size = registers.value(reg::kSize), rules = registers.value(reg::kRules);
   FrameRules f;
-  const std::uint32_t width = bits(size, 13, 0), height = bits(size, 29, 16);
+  const std::uint32_t width = reg::size::kWidth.of(size), height = reg::size::kHeight.of(size);
   f.width = static_cast<std::int32_t>(width);
   f.height = static_cast<std::int32_t>(height);
-  f.select = static_cast<spec::geometric::Select>(bits(rules, 0, 0));
-  f.crease = choice<spec::geometric::Crease>(bits(rules, 3, 2), spec::geometric::kCreaseNames);
-  f.depth_test =
-      choice<spec::geometric::DepthTest>(bits(rules, 5, 4), spec::geometric::kDepthTestNames);
-  f.combine = static_cast<spec::geometric::Combine>(bits(rules, 6, 6));
-  f.linear_light = bits(rules, 7, 7) != 0;
-  f.depth_bias = std::clamp(bits(rules, 12, 8), 1U, std::uint32_t{spec::geometric::kDepthBits});
-  f.mark = bits(rules, 13, 13) != 0;
-  f.tiled = bits(rules, 14, 14) != 0;
-  f.frame_copy = bits(rules, 15, 15) != 0;
+  namespace field = reg::rules;
+  f.select = choice<spec::geometric::Select>(field::kSelect, rules);
+  f.crease = choice<spec::geometric::Crease>(field::kCrease, rules);
+  f.depth_test = choice<spec::geometric::DepthTest>(field::kDepthTest, rules);
+  f.combine = choice<spec::geometric::Combine>(field::kCombine, rules);
+  f.linear_light = field::kLinearLight.of(rules) != 0;
+  f.depth_bias =
+      std::clamp(field::kDepthBias.of(rules), 1U, std::uint32_t{spec::geometric::kDepthBits});
+  f.mark = field::kMark.of(rules) != 0;
+  f.tiled = field::kLayout.of(rules) != 0;
+  f.frame_copy = field::kFrameCopy.of(rules) != 0;
   f.edge_count = registers.value(reg::kEdgeCount);
   f.vertex_count = registers.value(reg::kVertexCount);
   f.face_count = registers.value(reg::kFaceCount);
@@ -114,10 +82,7 @@ Refusal refusal(const FrameRules& f, bool enabled, const spec::geometric::Parame
 
 ParameterStore::ParameterStore(ControlRegisters& registers, const spec::geometric::Parameters& p)
     : registers_(registers), parameters_(p) {
-  for (const spec::RegisterInfo& info : spec::geometric::kRegisters)
-    if (info.access == spec::Access::kReadWrite && info.offset != reg::kControl)
-      registers.set_mask(info.offset, writable(info.offset));
-  registers.set_reset(reg::kRules, encode_rules(p));
+  registers.set_reset(reg::kRules, spec::geometric::rules_word(p));
 }
 
 Refusal ParameterStore::latch(bool enabled) {

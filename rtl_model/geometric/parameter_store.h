@@ -55,7 +55,7 @@ spec::geometric::Refusal refusal(const FrameRules& rules, bool enabled,
 
 class ParameterStore {
  public:
-  // Gives the registers their masks and the reset values that parameters set.
+  // Gives the registers the reset values that parameters set.
   ParameterStore(ControlRegisters& registers, const spec::geometric::Parameters& parameters);
 
   // --- Wires to the blocks ---

@@ -10,9 +10,6 @@ namespace {
 
 namespace reg = spec::morphological::reg;
 
-constexpr std::uint32_t kCoordinateMask = 0x3FFF;
-constexpr std::uint32_t kSharesAddressMask = 0xFFF;
-
 int lanes_of(const spec::morphological::Parameters& p) {
   return spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
 }
@@ -24,59 +21,11 @@ bool is_table(const spec::morphological::Parameters& p) {
 }
 int reach_rows_of(const spec::morphological::Parameters& p) { return p.window_rows / 2 - 1; }
 
-// Bits [high:low] of a register.
-constexpr std::uint32_t bits(std::uint32_t value, int high, int low) {
-  return (value >> low) & ((1u << (high - low + 1)) - 1);
-}
-
-// The bits of each register that exist.
-std::uint32_t writable(std::uint32_t offset, const spec::morphological::Parameters& p) {
-  switch (offset) {
-    case reg::kSize:
-      return 0x3FFF3FFF;
-    case reg::kRules:
-      return 0x7FFFFFF;
-    case reg::kSmaa:
-      return 0x01FF1F7F;
-    case reg::kSharesAddress:
-      return is_learned(p) ? kSharesAddressMask : 0;
-    case reg::kSharesData:
-      return is_learned(p) ? 0xFF : 0;
-    case reg::kPixelBase:
-      return ~(static_cast<std::uint32_t>(spec::morphological::kFrameLineBytes) - 1);
-    default:
-      return 0xFFFF;  // thresholds
-  }
-}
-
-std::uint32_t encode_rules(const spec::morphological::Parameters& p) {
-  return static_cast<std::uint32_t>(p.edge_source) |
-         static_cast<std::uint32_t>(p.threshold_mode) << 2 |
-         (static_cast<std::uint32_t>(p.dynamic_luma) & 1) << 3 |
-         static_cast<std::uint32_t>(p.local_contrast) << 4 |
-         static_cast<std::uint32_t>(p.predictor) << 6 | static_cast<std::uint32_t>(p.steps) << 8 |
-         static_cast<std::uint32_t>(p.contiguous) << 13 | static_cast<std::uint32_t>(p.safe) << 14 |
-         static_cast<std::uint32_t>(p.linear_light) << 15 |
-         static_cast<std::uint32_t>(p.trim) << 16 |
-         static_cast<std::uint32_t>(p.dynamic_luma) >> 1 << 17 |
-         static_cast<std::uint32_t>(p.ends) << 18 | static_cast<std::uint32_t>(is_table(p)) << 19 |
-         static_cast<std::uint32_t>(p.diagonals) << 20 |
-         static_cast<std::uint32_t>(p.round_corners) << 21 |
-         static_cast<std::uint32_t>(p.blend) << 22 |
-         (static_cast<std::uint32_t>(p.leave) & 3) << 23 |
-         static_cast<std::uint32_t>(is_learned(p)) << 25 |
-         static_cast<std::uint32_t>(p.leave) >> 2 << 26;
-}
-
-std::uint32_t encode_smaa(const spec::morphological::Parameters& p) {
-  return static_cast<std::uint32_t>(p.search_steps) |
-         static_cast<std::uint32_t>(p.diagonal_steps) << 8 |
-         static_cast<std::uint32_t>(p.corner_rounding) << 16;
-}
-
+// A code that no choice has counts as code 0.
 template <class Choice>
-Choice choice(std::uint32_t code, std::size_t choices) {
-  return static_cast<Choice>(code < choices ? code : 0);
+Choice choice(const spec::Field& field, std::uint32_t word) {
+  const std::uint32_t code = field.of(word);
+  return static_cast<Choice>(code < field.codes.size() ? code : 0);
 }
 
 }  // namespace
@@ -96,48 +45,47 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
   const std::int32_t lanes = lanes_of(p), reach_rows = reach_rows_of(p);
   Decoded decoded;
   FrameRules& f = decoded.rules;
-  f.width = static_cast<std::int32_t>(size & kCoordinateMask);
-  f.height = static_cast<std::int32_t>(size >> 16 & kCoordinateMask);
+  f.width = static_cast<std::int32_t>(reg::size::kWidth.of(size));
+  f.height = static_cast<std::int32_t>(reg::size::kHeight.of(size));
   decoded.valid = f.width >= 1 && f.height >= 1 && f.width <= spec::morphological::kMaxFrameSize &&
                   f.height <= spec::morphological::kMaxFrameSize && f.width <= p.line_pixels;
   f.beats = static_cast<std::uint32_t>((f.width + lanes - 1) / lanes);
   f.rows = static_cast<std::uint32_t>(f.height + reach_rows + spec::morphological::kRowLag);
   f.last_count = f.width - (static_cast<std::int32_t>(f.beats) - 1) * lanes;
 
-  f.source = choice<spec::morphological::EdgeSource>(bits(rules, 1, 0),
-                                                     spec::morphological::kEdgeSourceNames.size());
-  f.dynamic = bits(rules, 2, 2) != 0 && f.source == spec::morphological::EdgeSource::kLuma;
-  f.dynamic_luma =
-      static_cast<spec::morphological::DynamicLuma>(bits(rules, 3, 3) | bits(rules, 17, 17) << 1);
-  f.local_contrast = choice<spec::morphological::LocalContrast>(
-      bits(rules, 5, 4), spec::morphological::kLocalContrastNames.size());
+  namespace field = reg::rules;
+  const auto is_set = [&](const spec::Field& flag) { return flag.of(rules) != 0; };
+  f.source = choice<spec::morphological::EdgeSource>(field::kSource, rules);
+  f.dynamic = is_set(field::kThresholdMode) && f.source == spec::morphological::EdgeSource::kLuma;
+  f.dynamic_luma = choice<spec::morphological::DynamicLuma>(field::kDynamicLuma, rules);
+  f.local_contrast = choice<spec::morphological::LocalContrast>(field::kLocalContrast, rules);
   if (f.source == spec::morphological::EdgeSource::kDepth)
     f.local_contrast = spec::morphological::LocalContrast::kOff;
-  f.predictor = choice<spec::morphological::Predictor>(bits(rules, 7, 6),
-                                                       spec::morphological::kPredictorNames.size());
-  f.steps = std::min({static_cast<std::int32_t>(bits(rules, 12, 8)), spec::morphological::kMaxSteps,
-                      reach_rows - 1});
+  f.predictor = choice<spec::morphological::Predictor>(field::kPredictor, rules);
+  f.steps = std::min({static_cast<std::int32_t>(field::kSteps.of(rules)),
+                      spec::morphological::kMaxSteps, reach_rows - 1});
   if (f.predictor == spec::morphological::Predictor::kNone) f.steps = 0;
-  f.contiguous = bits(rules, 13, 13) != 0 && p.contiguous;
-  f.safe = bits(rules, 14, 14) != 0;
-  f.linear_light = bits(rules, 15, 15) != 0;
-  f.trim = bits(rules, 16, 16) != 0;
+  f.contiguous = is_set(field::kContiguous) && p.contiguous;
+  f.safe = is_set(field::kSafe);
+  f.linear_light = is_set(field::kLinearLight);
+  f.trim = is_set(field::kTrim);
 
   const std::uint32_t smaa = registers.value(reg::kSmaa);
-  const auto field = [&](int high, int low) {
-    return static_cast<std::int32_t>(bits(smaa, high, low));
+  const auto number = [&](const spec::Field& steps) {
+    return static_cast<std::int32_t>(steps.of(smaa));
   };
-  f.crossings = bits(rules, 18, 18) != 0 && p.ends == spec::morphological::Ends::kCrossings;
-  f.table = bits(rules, 19, 19) != 0 && is_table(p);
-  f.learned = bits(rules, 25, 25) != 0 && is_learned(p);
-  f.search_steps = std::clamp(field(6, 0), 1, spec::morphological::kMaxSearchSteps);
-  if (bits(rules, 20, 20) != 0 && p.diagonals)
-    f.diagonal_steps = std::min({field(12, 8), p.diagonal_steps, reach_rows});
-  f.corners = bits(rules, 21, 21) != 0 && p.round_corners;
-  f.corner_loss = std::max(spec::morphological::kMaxCornerRounding - field(24, 16), 0);
-  f.strongest = bits(rules, 22, 22) != 0;
-  f.leave = choice<spec::morphological::Leave>(bits(rules, 24, 23) | bits(rules, 26, 26) << 2,
-                                               spec::morphological::kLeaveNames.size());
+  f.crossings = is_set(field::kCrossings) && p.ends == spec::morphological::Ends::kCrossings;
+  f.table = is_set(field::kTable) && is_table(p);
+  f.learned = is_set(field::kLearned) && is_learned(p);
+  f.search_steps =
+      std::clamp(number(reg::smaa::kSearchSteps), 1, spec::morphological::kMaxSearchSteps);
+  if (is_set(field::kDiagonals) && p.diagonals)
+    f.diagonal_steps = std::min({number(reg::smaa::kDiagonalSteps), p.diagonal_steps, reach_rows});
+  f.corners = is_set(field::kRoundCorners) && p.round_corners;
+  f.corner_loss =
+      std::max(spec::morphological::kMaxCornerRounding - number(reg::smaa::kCornerRounding), 0);
+  f.strongest = is_set(field::kStrongest);
+  f.leave = choice<spec::morphological::Leave>(field::kLeave, rules);
 
   f.threshold = 255 * registers.value(reg::kThreshold);
   f.threshold_on = 255 * registers.value(reg::kThresholdOn);
@@ -152,17 +100,17 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
 ParameterStore::ParameterStore(ControlRegisters& registers,
                                const spec::morphological::Parameters& p)
     : registers_(registers), parameters_(p), lanes_(lanes_of(p)), reach_rows_(reach_rows_of(p)) {
-  for (const spec::RegisterInfo& info : spec::morphological::kRegisters)
-    if (info.access == spec::Access::kReadWrite && info.offset != reg::kControl)
-      registers.set_mask(info.offset, writable(info.offset, p));
-  registers.set_reset(reg::kRules, encode_rules(p));
+  if (!is_learned(p))
+    for (const std::uint32_t offset : {reg::kSharesAddress, reg::kSharesData})
+      registers.set_mask(offset, 0);
+  registers.set_reset(reg::kRules, spec::morphological::rules_word(p));
   registers.set_reset(reg::kThreshold, static_cast<std::uint32_t>(p.threshold));
   registers.set_reset(reg::kThresholdOn, static_cast<std::uint32_t>(p.threshold_on_depth_edge));
   registers.set_reset(reg::kThresholdOff, static_cast<std::uint32_t>(p.threshold_off_depth_edge));
   registers.set_reset(reg::kAlpha, static_cast<std::uint32_t>(p.alpha));
   registers.set_reset(reg::kFloor, static_cast<std::uint32_t>(p.floor));
   registers.set_reset(reg::kDepthThreshold, static_cast<std::uint32_t>(p.depth_threshold));
-  registers.set_reset(reg::kSmaa, encode_smaa(p));
+  registers.set_reset(reg::kSmaa, spec::morphological::smaa_word(p));
   registers.on_busy([this] { return inside_; });
   for (const std::uint32_t offset : {reg::kSharesAddress, reg::kSharesData, reg::kSharesSum})
     registers.on_read(offset, [] { return 0u; });
@@ -177,13 +125,13 @@ void ParameterStore::connect(SharesRom& rom) {
 }
 
 std::uint32_t ParameterStore::shares_address() const {
-  return registers_.value(reg::kSharesAddress) & kSharesAddressMask;
+  return reg::shares_address::kEntry.of(registers_.value(reg::kSharesAddress));
 }
 
 void ParameterStore::load_share(std::uint32_t value) {
   const std::uint32_t address = shares_address();
   shares_->load(address, static_cast<std::uint8_t>(value));
-  registers_.set(reg::kSharesAddress, (address + 1) & kSharesAddressMask);
+  registers_.set(reg::kSharesAddress, reg::shares_address::kEntry.in(address + 1));
 }
 
 bool ParameterStore::latch() {

@@ -62,7 +62,7 @@ class SharesRom;
 
 class ParameterStore {
  public:
-  // Gives the registers their masks and the reset values that parameters set.
+  // Gives the registers the reset values that parameters set.
   ParameterStore(ControlRegisters& registers, const spec::morphological::Parameters& parameters);
 
   // The tables that SHARES_ADDRESS and SHARES_DATA load; without them the registers read 0.

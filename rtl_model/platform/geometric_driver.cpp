@@ -95,7 +95,7 @@ GeometricDriver::GeometricDriver(RegisterBus& registers, HostMemory& memory,
 
 void GeometricDriver::set_rules(const spec::geometric::Parameters& rules) {
   require_idle("new rules");
-  registers_.write(spec::geometric::reg::kRules, rules_register(rules));
+  registers_.write(spec::geometric::reg::kRules, spec::geometric::rules_word(rules));
   rules_ = rules;
 }
 
@@ -156,8 +156,9 @@ void GeometricDriver::load_colours(std::span<const spec::geometric::Rgba8> colou
 
 void GeometricDriver::program() {
   const std::pair<std::uint32_t, std::uint32_t> values[] = {
-      {spec::geometric::reg::kSize, size_register(static_cast<std::uint32_t>(sizes_.width),
-                                                  static_cast<std::uint32_t>(sizes_.height))},
+      {spec::geometric::reg::kSize,
+       spec::geometric::size_word(static_cast<std::uint32_t>(sizes_.width),
+                                  static_cast<std::uint32_t>(sizes_.height))},
       {spec::geometric::reg::kEdgeCount, static_cast<std::uint32_t>(sizes_.edges)},
       {spec::geometric::reg::kVertexCount, static_cast<std::uint32_t>(sizes_.vertices)},
       {spec::geometric::reg::kFaceCount, static_cast<std::uint32_t>(sizes_.faces)},

@@ -103,17 +103,4 @@ std::vector<spec::geometric::Rgba8> colours_of(const PixelLayout& layout,
   return colours;
 }
 
-std::uint32_t size_register(std::uint32_t width, std::uint32_t height) {
-  return width | height << 16;
-}
-
-std::uint32_t rules_register(const spec::geometric::Parameters& p) {
-  const auto code = [](auto value, int shift) {
-    return static_cast<std::uint32_t>(value) << shift;
-  };
-  return code(p.select, 0) | code(p.crease, 2) | code(p.depth_test, 4) | code(p.combine, 6) |
-         code(p.linear_light, 7) | code(p.depth_bias, 8) | code(p.mark, 13) | code(p.layout, 14) |
-         code(p.frame_copy, 15);
-}
-
 }  // namespace deburr::platform

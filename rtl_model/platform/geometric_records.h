@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What software writes for the geometric engine, as bytes of memory and values of registers:
-// docs/geometric.md, "What is in memory".
+// What software puts into memory for the geometric engine, as bytes: docs/geometric.md, "What is in
+// memory".
 #pragma once
 
 #include <cstdint>
@@ -39,9 +39,5 @@ std::vector<std::uint8_t> colour_buffer(const PixelLayout& layout,
 // Back again.
 std::vector<spec::geometric::Rgba8> colours_of(const PixelLayout& layout,
                                                std::span<const std::uint8_t> buffer);
-
-std::uint32_t size_register(std::uint32_t width, std::uint32_t height);
-// Of Rules, and of what registers say of Build.
-std::uint32_t rules_register(const spec::geometric::Parameters& parameters);
 
 }  // namespace deburr::platform

@@ -32,10 +32,10 @@ void MorphologicalDriver::set_rules(const spec::morphological::Parameters& p) {
       {spec::morphological::reg::kAlpha, p.alpha},
       {spec::morphological::reg::kFloor, p.floor},
       {spec::morphological::reg::kDepthThreshold, p.depth_threshold}};
-  registers_.write(spec::morphological::reg::kRules, rules_register(p));
+  registers_.write(spec::morphological::reg::kRules, spec::morphological::rules_word(p));
   for (const auto& [offset, value] : thresholds)
     registers_.write(offset, static_cast<std::uint32_t>(value));
-  registers_.write(spec::morphological::reg::kSmaa, smaa_register(p));
+  registers_.write(spec::morphological::reg::kSmaa, spec::morphological::smaa_word(p));
 }
 
 void MorphologicalDriver::place(std::uint32_t base) {
@@ -64,7 +64,8 @@ void MorphologicalDriver::set_size(int width, int height) {
   }
   require_idle("SIZE");
   registers_.write(spec::morphological::reg::kSize,
-                   static_cast<std::uint32_t>(width) | static_cast<std::uint32_t>(height) << 16);
+                   spec::morphological::size_word(static_cast<std::uint32_t>(width),
+                                                  static_cast<std::uint32_t>(height)));
 }
 
 void MorphologicalDriver::load_shares(std::span<const std::int8_t> entries) {

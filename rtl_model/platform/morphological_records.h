@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What software gives to the morphological engine: beats of pixels, values of registers, learned
-// shares; and the room that a frame takes in memory.
+// What software gives to the morphological engine: beats of pixels, learned shares; and the room
+// that a frame takes in memory.
 #pragma once
 
 #include <algorithm>
@@ -47,9 +47,6 @@ std::vector<spec::morphological::PixelBeat> beats_of(const PixelFrame& frame, in
 
 // Of a frame with storage = memory: rows begin at multiples of 64 bytes.
 std::uint64_t frame_bytes(int width, int height);
-
-std::uint32_t rules_register(const spec::morphological::Parameters& parameters);
-std::uint32_t smaa_register(const spec::morphological::Parameters& parameters);
 
 // All entries, in the order of SHARES_ADDRESS: A, B, C.
 inline constexpr std::size_t kShareEntries = spec::morphological::kSharesOfCodes.size() +

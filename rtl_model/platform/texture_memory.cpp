@@ -140,17 +140,11 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> descriptor_registers(
   namespace reg = spec::texture::reg;
   const std::uint32_t start =
       reg::kTextureBase + static_cast<std::uint32_t>(handle) * reg::kTextureStride;
-  const auto field = [](auto value, int shift) {
-    return static_cast<std::uint32_t>(value) << shift;
-  };
   std::vector<std::pair<std::uint32_t, std::uint32_t>> writes = {
-      {start + reg::kSize, field(d.width, 0) | field(d.height, 16)},
-      {start + reg::kMode, field(d.format, 0) | field(d.layout, 4) | field(d.wrap_s, 8) |
-                               field(d.wrap_t, 10) | field(d.min_filter, 12) |
-                               field(d.mag_filter, 16) | field(d.levels, 20) |
-                               field(d.max_anisotropy_log2, 24)},
-      {start + reg::kLodBias, static_cast<std::uint16_t>(d.lod_bias)},
-      {start + reg::kLodClamp, field(d.min_lod, 0) | field(d.max_lod, 16)}};
+      {start + reg::kSize, spec::texture::size_word(d)},
+      {start + reg::kMode, spec::texture::mode_word(d)},
+      {start + reg::kLodBias, spec::texture::lod_bias_word(d)},
+      {start + reg::kLodClamp, spec::texture::lod_clamp_word(d)}};
   for (std::uint32_t k = 0; k < spec::texture::kMaxLevels; ++k) {
     writes.emplace_back(start + reg::kLevelBase + 4 * k, d.base[k]);
   }

@@ -16,11 +16,6 @@ namespace reg = spec::texture::reg;
 // a level without the six bits that are 0.
 constexpr std::uint32_t kWordBits = 26 + 19 + 16 + 32 + spec::texture::kMaxLevels * 26 + 1;
 
-// Bits [high:low] of a register.
-constexpr std::uint32_t bits(std::uint32_t value, int high, int low) {
-  return (value >> low) & ((1u << (high - low + 1)) - 1);
-}
-
 // Bits needed to number n things, n > 0: lb n, rounded up.
 std::uint8_t ceil_log2(std::uint32_t n) { return static_cast<std::uint8_t>(std::bit_width(n - 1)); }
 
@@ -32,19 +27,22 @@ std::span<const spec::RegisterInfo> register_table() {
     std::vector<spec::RegisterInfo> all(spec::texture::kRegisters.begin(),
                                         spec::texture::kRegisters.end());
     for (std::uint32_t h = 0; h < spec::texture::kMaxTextures; ++h) {
-      const auto add = [&](std::uint32_t offset, const std::string& name, const char* meaning) {
+      const std::uint32_t descriptor = reg::kTextureBase + h * reg::kTextureStride;
+      const auto add = [&](spec::RegisterInfo info, const std::string& name) {
         names.push_back("TEXTURE" + std::to_string(h) + "_" + name);
-        all.push_back({reg::kTextureBase + h * reg::kTextureStride + offset, names.back(),
-                       spec::Access::kReadWrite, 0, meaning});
+        info.name = names.back();
+        info.offset += descriptor;
+        all.push_back(info);
       };
-      add(reg::kSize, "SIZE", "Width [15:0], height [31:16], texels.");
-      add(reg::kMode, "MODE",
-          "Format [2:0], layout [4], wrap_s [9:8], wrap_t [11:10], min_filter [14:12], mag_filter "
-          "[16], levels [23:20], lb N_max [26:24].");
-      add(reg::kLodBias, "LOD_BIAS", "S7.8 [15:0].");
-      add(reg::kLodClamp, "LOD_CLAMP", "min_lod U8.8 [15:0], max_lod U8.8 [31:16].");
+      for (const spec::RegisterInfo& info : spec::texture::kDescriptorRegisters)
+        add(info, std::string(info.name));
       for (std::uint32_t k = 0; k < spec::texture::kMaxLevels; ++k)
-        add(reg::kLevelBase + 4 * k, "BASE_" + std::to_string(k), "Byte address of the level.");
+        add({reg::kLevelBase + 4 * k,
+             {},
+             spec::Access::kReadWrite,
+             0,
+             "Byte address of the level, a multiple of 64."},
+            "BASE_" + std::to_string(k));
     }
     return all;
   }();
@@ -67,12 +65,13 @@ TextureState decode(const ControlRegisters& registers, std::uint32_t handle) {
   };
   const std::uint32_t size = field(reg::kSize), mode = field(reg::kMode),
                       clamp = field(reg::kLodClamp);
-  const std::uint32_t format = bits(mode, 2, 0), wrap_s = bits(mode, 9, 8),
-                      wrap_t = bits(mode, 11, 10), min_filter = bits(mode, 14, 12),
-                      levels = bits(mode, 23, 20), max_count_log2 = bits(mode, 26, 24);
+  namespace f = reg::mode;
+  const std::uint32_t format = f::kFormat.of(mode), wrap_s = f::kWrapS.of(mode),
+                      wrap_t = f::kWrapT.of(mode), min_filter = f::kMinFilter.of(mode),
+                      levels = f::kLevels.of(mode), max_count_log2 = f::kMaxCount.of(mode);
   TextureState t;
-  t.width = static_cast<std::uint16_t>(size);
-  t.height = static_cast<std::uint16_t>(size >> 16);
+  t.width = static_cast<std::uint16_t>(reg::size::kWidth.of(size));
+  t.height = static_cast<std::uint16_t>(reg::size::kHeight.of(size));
   const std::uint32_t longest = std::max(t.width, t.height);
   bool valid = t.width >= 1 && t.height >= 1 && longest <= spec::texture::kMaxTextureSize &&
                levels >= 1 && levels <= static_cast<std::uint32_t>(std::bit_width(longest)) &&
@@ -84,15 +83,15 @@ TextureState decode(const ControlRegisters& registers, std::uint32_t handle) {
 
   t.levels = static_cast<std::uint8_t>(levels);
   t.format = static_cast<spec::texture::Format>(format);
-  t.layout = static_cast<spec::texture::Layout>(bits(mode, 4, 4));
+  t.layout = static_cast<spec::texture::Layout>(f::kLayout.of(mode));
   t.wrap_s = static_cast<spec::texture::Wrap>(wrap_s);
   t.wrap_t = static_cast<spec::texture::Wrap>(wrap_t);
   t.min_filter = static_cast<spec::texture::MinFilter>(min_filter);
-  t.mag_filter = static_cast<spec::texture::MagFilter>(bits(mode, 16, 16));
+  t.mag_filter = static_cast<spec::texture::MagFilter>(f::kMagFilter.of(mode));
   t.max_count_log2 = static_cast<std::uint8_t>(max_count_log2);
-  t.bias = static_cast<std::int16_t>(field(reg::kLodBias)) * 16;
-  t.min_lod = static_cast<std::int32_t>(bits(clamp, 15, 0) << 4);
-  t.max_lod = static_cast<std::int32_t>(clamp >> 16 << 4);
+  t.bias = static_cast<std::int16_t>(reg::lod_bias::kBias.of(field(reg::kLodBias))) * 16;
+  t.min_lod = static_cast<std::int32_t>(reg::lod_clamp::kMinLod.of(clamp) << 4);
+  t.max_lod = static_cast<std::int32_t>(reg::lod_clamp::kMaxLod.of(clamp) << 4);
   const std::uint32_t bytes = spec::texture::kFormatBytes[format];
   t.texel_log2 = ceil_log2(bytes);
   const std::uint32_t tile_width = spec::texture::kTileWidth[bytes],

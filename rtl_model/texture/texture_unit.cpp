@@ -55,13 +55,6 @@ spec::texture::Parameters checked(spec::texture::Parameters p) {
   return p;
 }
 
-std::uint32_t rules(const spec::texture::Rules& p) {
-  const auto code = [](auto choice) { return static_cast<std::uint32_t>(choice); };
-  return code(p.footprint) | code(p.log2) << 4 | code(p.axes) << 6 | code(p.count) << 8 |
-         code(p.count_cap) << 10 | code(p.kernel) << 11 | code(p.srgb_output) << 12 |
-         code(p.spread) << 16;
-}
-
 }  // namespace
 
 TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
@@ -80,7 +73,7 @@ TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock
   filter.colours_out(colours_out);
 
   namespace reg = spec::texture::reg;
-  control.set_reset(reg::kRules, rules(parameters_));
+  control.set_reset(reg::kRules, spec::texture::rules_word(parameters_));
   control.on_command(reg::kControlInvalidate, [this] { cache.tag_stage.invalidate(); });
   control.show(reg::kFragments, filter.fragments);
   control.show(reg::kBilinears, address.addresser.bilinears);

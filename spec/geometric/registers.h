@@ -6,9 +6,25 @@
 #include <cstdint>
 #include <string_view>
 
+#include "spec/geometric/parameters.h"
 #include "spec/registers.h"
 
 namespace deburr::spec::geometric {
+
+// Why the last start was refused: the first that holds. Nothing is read or written then.
+enum class Refusal : std::uint8_t {
+  kNone,
+  kDisabled,      // enable is 0 in the same write
+  kSize,          // a side of 0 or over 8192
+  kWidth,         // over line_pixels
+  kTouchedWords,  // the frame needs more than touched_words
+  kEdgeCount,     // over 2^24
+  kVertexCount,   // over 2^24
+  kFaceCount      // over face_limit, with select = edges
+};
+inline constexpr std::array<std::string_view, 8> kRefusalNames = {
+    "none",          "disabled",   "size",         "width",
+    "touched_words", "edge_count", "vertex_count", "face_count"};
 
 namespace reg {
 inline constexpr std::uint32_t kId = 0x00;
@@ -50,66 +66,97 @@ inline constexpr std::uint32_t kFrameCycles = 0x8C;
 inline constexpr std::uint32_t kEdgeCycles = 0x90;
 inline constexpr std::uint32_t kResolveCycles = 0x94;
 inline constexpr std::uint32_t kIdValue = 0xDEB00003;
-inline constexpr std::uint32_t kControlEnable = 1u << 0;
-inline constexpr std::uint32_t kControlClearCounters = 1u << 1;
-inline constexpr std::uint32_t kControlStart = 1u << 2;
-inline constexpr std::uint32_t kStatusIdle = 1u << 0;
-inline constexpr std::uint32_t kStatusFrameDone = 1u << 1;
-inline constexpr std::uint32_t kStatusRefused = 1u << 2;
-inline constexpr std::uint32_t kStatusMemoryError = 1u << 3;
-inline constexpr std::uint32_t kStatusWrittenWhileBusy = 1u << 4;
-inline constexpr std::uint32_t kStatusInvalidEdge = 1u << 5;
-}  // namespace reg
 
-// Why the last start was refused: the first that holds. Nothing is read or written then.
-enum class Refusal : std::uint8_t {
-  kNone,
-  kDisabled,      // enable is 0 in the same write
-  kSize,          // a side of 0 or over 8192
-  kWidth,         // over line_pixels
-  kTouchedWords,  // the frame needs more than touched_words
-  kEdgeCount,     // over 2^24
-  kVertexCount,   // over 2^24
-  kFaceCount      // over face_limit, with select = edges
-};
-inline constexpr std::array<std::string_view, 8> kRefusalNames = {
-    "none",          "disabled",   "size",         "width",
-    "touched_words", "edge_count", "vertex_count", "face_count"};
+// Fields, from the lowest bit on. Codes are those of the enumerations of spec/geometric/.
+namespace control {
+inline constexpr Field kEnable{"enable", 0, 0, "frames may start"};
+inline constexpr Field kClearCounters{"clear_counters", 1, 1, "command, reads 0"};
+inline constexpr Field kStart{"start", 2, 2, "command, reads 0: starts a frame; when idle only"};
+inline constexpr std::array kFields = {kEnable, kClearCounters, kStart};
+}  // namespace control
+namespace status {
+inline constexpr Field kIdle{"idle", 0, 0, "no frame under way; read only"};
+inline constexpr Field kFrameDone{"frame_done", 1, 1, "sticky"};
+inline constexpr Field kRefused{"refused", 2, 2, "sticky: a start was rejected, see REFUSAL"};
+inline constexpr Field kMemoryError{"memory_error", 3, 3, "sticky: memory answered with an error"};
+inline constexpr Field kWrittenWhileBusy{
+    "written_while_busy", 4, 4,
+    "sticky: a register was written while a frame was under way; the write is ignored"};
+inline constexpr Field kInvalidEdge{"invalid_edge", 5, 5,
+                                    "sticky: an edge has an index out of range"};
+inline constexpr std::array kFields = {kIdle,        kFrameDone,        kRefused,
+                                       kMemoryError, kWrittenWhileBusy, kInvalidEdge};
+}  // namespace status
+namespace size {
+inline constexpr Field kWidth{"width", 13, 0, "pixels, 1..8192"};
+inline constexpr Field kHeight{"height", 29, 16, "pixels, 1..8192"};
+inline constexpr std::array kFields = {kWidth, kHeight};
+}  // namespace size
+namespace rules {
+inline constexpr Field kSelect{"select", 0, 0, {}, kSelectNames};
+inline constexpr Field kCrease{"crease", 3, 2, {}, kCreaseNames};
+inline constexpr Field kDepthTest{"depth_test", 5, 4, {}, kDepthTestNames};
+inline constexpr Field kCombine{"combine", 6, 6, {}, kCombineNames};
+inline constexpr Field kLinearLight{"linear_light", 7, 7, "1: blend in linear light"};
+inline constexpr Field kDepthBias{"depth_bias", 12, 8, "1..24; 0 counts as 1, more as 24"};
+inline constexpr Field kMark{"mark", 13, 13, "1: clear bit 0 of alpha of blended pixels"};
+inline constexpr Field kLayout{"layout", 14, 14, {}, kLayoutNames};
+inline constexpr Field kFrameCopy{"frame_copy", 15, 15, "1: blend from a copy of the frame"};
+inline constexpr std::array kFields = {kSelect,    kCrease, kDepthTest, kCombine,  kLinearLight,
+                                       kDepthBias, kMark,   kLayout,    kFrameCopy};
+}  // namespace rules
+namespace line_base {
+inline constexpr Field kAddress{"address", 31, 6, "bits 31..6 of a multiple of 64"};
+inline constexpr std::array kFields = {kAddress};
+}  // namespace line_base
+namespace refusal {
+inline constexpr Field kReason{"reason", 3, 0, {}, kRefusalNames};
+inline constexpr std::array kFields = {kReason};
+}  // namespace refusal
+
+inline constexpr std::uint32_t kControlEnable = control::kEnable.mask();
+inline constexpr std::uint32_t kControlClearCounters = control::kClearCounters.mask();
+inline constexpr std::uint32_t kControlStart = control::kStart.mask();
+inline constexpr std::uint32_t kStatusIdle = status::kIdle.mask();
+inline constexpr std::uint32_t kStatusFrameDone = status::kFrameDone.mask();
+inline constexpr std::uint32_t kStatusRefused = status::kRefused.mask();
+inline constexpr std::uint32_t kStatusMemoryError = status::kMemoryError.mask();
+inline constexpr std::uint32_t kStatusWrittenWhileBusy = status::kWrittenWhileBusy.mask();
+inline constexpr std::uint32_t kStatusInvalidEdge = status::kInvalidEdge.mask();
+}  // namespace reg
 
 // Reset values marked 0 with the access kReadWrite of RULES are loaded from the parameters at
 // construction; bases read 0 in their low six bits.
 inline constexpr std::array<RegisterInfo, 38> kRegisters = {{
     {reg::kId, "ID", Access::kReadOnly, reg::kIdValue,
      "Identifies the unit and the version of its register map."},
-    {reg::kControl, "CONTROL", Access::kReadWrite, 1,
-     "Bit 0 enable: frames may start. Bit 1 clear the counters (command, reads 0). Bit 2 start a "
-     "frame (command, reads 0; when idle only)."},
-    {reg::kStatus, "STATUS", Access::kWriteOneToClear, 1,
-     "Bit 0 idle: no frame under way (read only). Sticky: bit 1 frame done, bit 2 start refused, "
-     "bit 3 memory error response, bit 4 register written while a frame was under way (the write "
-     "is ignored), bit 5 edge with an index out of range."},
-    {reg::kSize, "SIZE", Access::kReadWrite, 0,
-     "Width [13:0] and height [29:16] of the frame in pixels, 1..8192 each."},
-    {reg::kRules, "RULES", Access::kReadWrite, 0,
-     "select [0], crease [3:2], depth_test [5:4], combine [6], linear_light [7], depth_bias "
-     "[12:8], "
-     "mark [13], layout [14], frame_copy [15]."},
+    {reg::kControl, "CONTROL", Access::kReadWrite, 1, "Switch and commands.",
+     reg::control::kFields},
+    {reg::kStatus, "STATUS", Access::kWriteOneToClear, 1, "State, and what has happened.",
+     reg::status::kFields},
+    {reg::kSize, "SIZE", Access::kReadWrite, 0, "Size of the frame.", reg::size::kFields},
+    {reg::kRules, "RULES", Access::kReadWrite, 0, "The rules of the frame, and where it lies.",
+     reg::rules::kFields},
     {reg::kEdgeCount, "EDGE_COUNT", Access::kReadWrite, 0, "Records of the edge table, 0..2^24."},
     {reg::kVertexCount, "VERTEX_COUNT", Access::kReadWrite, 0, "Vertices, 0..2^24."},
     {reg::kFaceCount, "FACE_COUNT", Access::kReadWrite, 0, "Facing bits, 0..face_limit."},
-    {reg::kEdgeBase, "EDGE_BASE", Access::kReadWrite, 0, "Byte address of the edge table."},
-    {reg::kVertexBase, "VERTEX_BASE", Access::kReadWrite, 0, "Byte address of the vertices."},
-    {reg::kFaceBase, "FACE_BASE", Access::kReadWrite, 0, "Byte address of the facing bits."},
-    {reg::kDepthBase, "DEPTH_BASE", Access::kReadWrite, 0, "Byte address of the depth buffer."},
+    {reg::kEdgeBase, "EDGE_BASE", Access::kReadWrite, 0, "Byte address of the edge table.",
+     reg::line_base::kFields},
+    {reg::kVertexBase, "VERTEX_BASE", Access::kReadWrite, 0, "Byte address of the vertices.",
+     reg::line_base::kFields},
+    {reg::kFaceBase, "FACE_BASE", Access::kReadWrite, 0, "Byte address of the facing bits.",
+     reg::line_base::kFields},
+    {reg::kDepthBase, "DEPTH_BASE", Access::kReadWrite, 0, "Byte address of the depth buffer.",
+     reg::line_base::kFields},
     {reg::kColourBase, "COLOUR_BASE", Access::kReadWrite, 0,
-     "Byte address of the frame, which is blended in place."},
+     "Byte address of the frame, which is blended in place.", reg::line_base::kFields},
     {reg::kWeightBase, "WEIGHT_BASE", Access::kReadWrite, 0,
-     "Byte address of room for the weights, 64 bytes a block of 4 x 4 pixels."},
+     "Byte address of room for the weights, 64 bytes a block of 4 x 4 pixels.",
+     reg::line_base::kFields},
     {reg::kCopyBase, "COPY_BASE", Access::kReadWrite, 0,
-     "Byte address of room for a copy of the frame (frame_copy)."},
-    {reg::kRefusal, "REFUSAL", Access::kReadOnly, 0,
-     "Why the last start was refused [3:0]: 0 it was not, 1 disabled, 2 size, 3 width over "
-     "line_pixels, 4 more blocks than touched_words hold, 5 edge, 6 vertex, 7 face count."},
+     "Byte address of room for a copy of the frame (frame_copy).", reg::line_base::kFields},
+    {reg::kRefusal, "REFUSAL", Access::kReadOnly, 0, "Why the last start was rejected.",
+     reg::refusal::kFields},
     {reg::kEdges, "EDGES", Access::kReadOnly, 0, "Edges read."},
     {reg::kBoundaryEdges, "BOUNDARY_EDGES", Access::kReadOnly, 0, "Edges of a single face."},
     {reg::kSilhouetteEdges, "SILHOUETTE_EDGES", Access::kReadOnly, 0,
@@ -143,5 +190,20 @@ inline constexpr std::array<RegisterInfo, 38> kRegisters = {{
      "Of these until every edge was drawn and every weight written back."},
     {reg::kResolveCycles, "RESOLVE_CYCLES", Access::kReadOnly, 0, "Of these the rest."},
 }};
+static_assert(fields_are_in_order(kRegisters));
+
+// RULES of a build after a reset.
+constexpr std::uint32_t rules_word(const Parameters& p) {
+  const auto code = [](auto value) { return static_cast<std::uint32_t>(value); };
+  namespace rules = reg::rules;
+  return rules::kSelect.in(code(p.select)) | rules::kCrease.in(code(p.crease)) |
+         rules::kDepthTest.in(code(p.depth_test)) | rules::kCombine.in(code(p.combine)) |
+         rules::kLinearLight.in(code(p.linear_light)) | rules::kDepthBias.in(code(p.depth_bias)) |
+         rules::kMark.in(code(p.mark)) | rules::kLayout.in(code(p.layout)) |
+         rules::kFrameCopy.in(code(p.frame_copy));
+}
+constexpr std::uint32_t size_word(std::uint32_t width, std::uint32_t height) {
+  return reg::size::kWidth.in(width) | reg::size::kHeight.in(height);
+}
 
 }  // namespace deburr::spec::geometric

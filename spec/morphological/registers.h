@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "spec/morphological/parameters.h"
 #include "spec/registers.h"
 
 namespace deburr::spec::morphological {
@@ -42,48 +43,112 @@ inline constexpr std::uint32_t kLeftPixels = 0x7C;
 inline constexpr std::uint32_t kSharesAddress = 0x80;
 inline constexpr std::uint32_t kSharesData = 0x84;
 inline constexpr std::uint32_t kSharesSum = 0x88;
-inline constexpr std::uint32_t kIdValue = 0xDEB00002;
-inline constexpr std::uint32_t kControlEnable = 1u << 0;
-inline constexpr std::uint32_t kControlClearCounters = 1u << 1;
-inline constexpr std::uint32_t kStatusIdle = 1u << 0;
-inline constexpr std::uint32_t kStatusFrameDone = 1u << 1;
-inline constexpr std::uint32_t kStatusFraming = 1u << 2;
-inline constexpr std::uint32_t kStatusMemoryError = 1u << 3;
-inline constexpr std::uint32_t kStatusWrittenWhileBusy = 1u << 4;
+inline constexpr std::uint32_t kIdValue = 0xDEB00102;
+
+// Fields, from the lowest bit on. Codes are those of the enumerations of spec/morphological/.
+namespace control {
+inline constexpr Field kEnable{"enable", 0, 0, "frames are taken"};
+inline constexpr Field kClearCounters{"clear_counters", 1, 1, "command, reads 0"};
+inline constexpr std::array kFields = {kEnable, kClearCounters};
+}  // namespace control
+namespace status {
+inline constexpr Field kIdle{"idle", 0, 0, "no frame inside; read only"};
+inline constexpr Field kFrameDone{"frame_done", 1, 1, "sticky"};
+inline constexpr Field kFraming{
+    "framing", 2, 2, "sticky: start of frame, end of row or lane count are not as SIZE says"};
+inline constexpr Field kMemoryError{"memory_error", 3, 3, "sticky: memory answered with an error"};
+inline constexpr Field kWrittenWhileBusy{
+    "written_while_busy", 4, 4,
+    "sticky: a register was written while a frame was inside; the write is ignored"};
+inline constexpr std::array kFields = {kIdle, kFrameDone, kFraming, kMemoryError,
+                                       kWrittenWhileBusy};
+}  // namespace status
+namespace size {
+inline constexpr Field kWidth{"width", 13, 0, "pixels, 1..8192"};
+inline constexpr Field kHeight{"height", 29, 16, "pixels, 1..8192"};
+inline constexpr std::array kFields = {kWidth, kHeight};
+}  // namespace size
+namespace rules {
+inline constexpr Field kSource{"edges.source", 1, 0, {}, kEdgeSourceNames};
+inline constexpr Field kThresholdMode{"threshold_mode", 2, 2, {}, kThresholdModeNames};
+inline constexpr Field kDynamicLuma{"dynamic_luma", 4, 3, {}, kDynamicLumaNames};
+inline constexpr Field kLocalContrast{"local_contrast", 6, 5, {}, kLocalContrastNames};
+inline constexpr Field kPredictor{"predictor", 8, 7, {}, kPredictorNames};
+inline constexpr Field kSteps{"steps", 13, 9, "0..16"};
+inline constexpr Field kContiguous{"contiguous", 14, 14, "off where it is not built"};
+inline constexpr Field kSafe{"safe", 15, 15, "1: both sides grow in lockstep, while one line fits"};
+inline constexpr Field kLinearLight{"linear_light", 16, 16, "1: blend in linear light"};
+inline constexpr Field kTrim{"trim", 17, 17, "1: a side that lost its line gives back steps"};
+inline constexpr Field kCrossings{"ends", 18, 18, "gaps where crossings are not built", kEndsNames};
+inline constexpr Field kTable{"area_table", 19, 19, "1: areas from the table, where it is built"};
+inline constexpr Field kDiagonals{"diagonals", 20, 20, "off where they are not built"};
+inline constexpr Field kRoundCorners{"round_corners", 21, 21, "off where they are not built"};
+inline constexpr Field kStrongest{"blend", 22, 22, {}, kBlendRuleNames};
+inline constexpr Field kLearned{"area_learned", 23, 23,
+                                "1: areas are learned, where the ROMs are built"};
+inline constexpr Field kLeave{"leave", 26, 24, {}, kLeaveNames};
+inline constexpr std::array kFields = {
+    kSource,     kThresholdMode, kDynamicLuma, kLocalContrast, kPredictor, kSteps,
+    kContiguous, kSafe,          kLinearLight, kTrim,          kCrossings, kTable,
+    kDiagonals,  kRoundCorners,  kStrongest,   kLearned,       kLeave};
+}  // namespace rules
+namespace threshold {
+inline constexpr Field kValue{"value", 15, 0, "U0.16"};
+inline constexpr std::array kFields = {kValue};
+}  // namespace threshold
+namespace line_base {
+inline constexpr Field kAddress{"address", 31, 6, "bits 31..6 of a multiple of 64"};
+inline constexpr std::array kFields = {kAddress};
+}  // namespace line_base
+namespace smaa {
+inline constexpr Field kSearchSteps{"search_steps", 6, 0, "1..112"};
+inline constexpr Field kDiagonalSteps{"diagonal_steps", 12, 8, "0 for none, at most those built"};
+inline constexpr Field kCornerRounding{"corner_rounding", 24, 16, "in 1/256, 0..256"};
+inline constexpr std::array kFields = {kSearchSteps, kDiagonalSteps, kCornerRounding};
+}  // namespace smaa
+namespace shares_address {
+inline constexpr Field kEntry{"entry", 11, 0, "A 0..1023, B 1024..1663, C 1664..2303"};
+inline constexpr std::array kFields = {kEntry};
+}  // namespace shares_address
+namespace shares_data {
+inline constexpr Field kShare{"share", 7, 0, "S3.4"};
+inline constexpr std::array kFields = {kShare};
+}  // namespace shares_data
+
+inline constexpr std::uint32_t kControlEnable = control::kEnable.mask();
+inline constexpr std::uint32_t kControlClearCounters = control::kClearCounters.mask();
+inline constexpr std::uint32_t kStatusIdle = status::kIdle.mask();
+inline constexpr std::uint32_t kStatusFrameDone = status::kFrameDone.mask();
+inline constexpr std::uint32_t kStatusFraming = status::kFraming.mask();
+inline constexpr std::uint32_t kStatusMemoryError = status::kMemoryError.mask();
+inline constexpr std::uint32_t kStatusWrittenWhileBusy = status::kWrittenWhileBusy.mask();
 }  // namespace reg
 
 // Reset values marked 0 with the access kReadWrite are loaded from the parameters at construction.
 inline constexpr std::array<RegisterInfo, 32> kRegisters = {{
     {reg::kId, "ID", Access::kReadOnly, reg::kIdValue,
      "Identifies the unit and the version of its register map."},
-    {reg::kControl, "CONTROL", Access::kReadWrite, 1,
-     "Bit 0 enable: frames are taken. Bit 1 clear the counters (command, reads 0)."},
-    {reg::kStatus, "STATUS", Access::kWriteOneToClear, 1,
-     "Bit 0 idle: no frame inside (read only). Sticky: bit 1 frame done, bit 2 start of frame, end "
-     "of row or lane count not as SIZE says, bit 3 memory error response, bit 4 register written "
-     "while a frame was inside (the write is ignored)."},
-    {reg::kSize, "SIZE", Access::kReadWrite, 0,
-     "Width [13:0] and height [29:16] of the frame in pixels, 1..8192 each."},
+    {reg::kControl, "CONTROL", Access::kReadWrite, 1, "Switch and command.", reg::control::kFields},
+    {reg::kStatus, "STATUS", Access::kWriteOneToClear, 1, "State, and what has happened.",
+     reg::status::kFields},
+    {reg::kSize, "SIZE", Access::kReadWrite, 0, "Size of the frame.", reg::size::kFields},
     {reg::kRules, "RULES", Access::kReadWrite, 0,
-     "edges.source [1:0], threshold_mode [2], dynamic_luma [17, 3], local_contrast [5:4], "
-     "predictor [7:6], steps [12:8], contiguous [13], safe [14], linear_light [15], trim [16], "
-     "ends = crossings [18], area from the table [19], diagonals [20], round_corners [21], blend = "
-     "strongest [22], leave [26, 24:23], area learned [25]. Blocks that are not built read as "
-     "off."},
-    {reg::kThreshold, "THRESHOLD", Access::kReadWrite, 0, "T, U0.16 [15:0]."},
+     "The rules of the frame. Blocks that are not built count as off.", reg::rules::kFields},
+    {reg::kThreshold, "THRESHOLD", Access::kReadWrite, 0, "T.", reg::threshold::kFields},
     {reg::kThresholdOn, "THRESHOLD_ON", Access::kReadWrite, 0,
-     "T of predicated edges where depth has an edge, U0.16 [15:0]."},
+     "T of predicated edges where depth has an edge.", reg::threshold::kFields},
     {reg::kThresholdOff, "THRESHOLD_OFF", Access::kReadWrite, 0,
-     "T of predicated edges where depth has none, U0.16 [15:0]."},
-    {reg::kAlpha, "ALPHA", Access::kReadWrite, 0, "Factor of the dynamic threshold, U0.16 [15:0]."},
-    {reg::kFloor, "FLOOR", Access::kReadWrite, 0,
-     "Smallest luma step of a dynamic threshold, U0.16 [15:0]."},
+     "T of predicated edges where depth has none.", reg::threshold::kFields},
+    {reg::kAlpha, "ALPHA", Access::kReadWrite, 0, "Factor of the dynamic threshold.",
+     reg::threshold::kFields},
+    {reg::kFloor, "FLOOR", Access::kReadWrite, 0, "Smallest luma step of a dynamic threshold.",
+     reg::threshold::kFields},
     {reg::kDepthThreshold, "DEPTH_THRESHOLD", Access::kReadWrite, 0,
-     "Relative depth step that is an edge, U0.16 [15:0]."},
+     "Relative depth step that is an edge.", reg::threshold::kFields},
     {reg::kPixelBase, "PIXEL_BASE", Access::kReadWrite, 0,
-     "Byte address of the frame with storage = memory; a multiple of 64 (low bits read 0)."},
-    {reg::kSmaa, "SMAA", Access::kReadWrite, 0,
-     "search_steps [6:0], diagonal_steps [12:8], 0 for none, corner_rounding [24:16] in 1/256."},
+     "Byte address of the frame with storage = memory.", reg::line_base::kFields},
+    {reg::kSmaa, "SMAA", Access::kReadWrite, 0, "Searches and corners of SMAA.",
+     reg::smaa::kFields},
     {reg::kPixels, "PIXELS", Access::kReadOnly, 0, "Pixels delivered."},
     {reg::kEdgePixels, "EDGE_PIXELS", Access::kReadOnly, 0, "Pixels with a left or a top edge."},
     {reg::kHorizontalRuns, "HORIZONTAL_RUNS", Access::kReadOnly, 0, "Maximal runs of top edges."},
@@ -108,14 +173,41 @@ inline constexpr std::array<RegisterInfo, 32> kRegisters = {{
     {reg::kLeftPixels, "LEFT_PIXELS", Access::kReadOnly, 0,
      "Pixels that would have taken a share and took none, by the rule leave."},
     {reg::kSharesAddress, "SHARES_ADDRESS", Access::kReadWrite, 0,
-     "Entry [11:0] of the learned shares that SHARES_DATA names: A 0..1023, B 1024..1663, C "
-     "1664..2303."},
+     "Entry of the learned shares that SHARES_DATA names.", reg::shares_address::kFields},
     {reg::kSharesData, "SHARES_DATA", Access::kReadWrite, 0,
-     "The entry, S3.4 [7:0]; a write moves SHARES_ADDRESS on by one. The reset value is that of "
-     "the "
-     "first entry."},
+     "The entry; a write moves SHARES_ADDRESS on by one. The reset value is that of the first "
+     "entry.",
+     reg::shares_data::kFields},
     {reg::kSharesSum, "SHARES_SUM", Access::kReadOnly, 0,
      "Sum over all entries of (index + 1) x the entry as an unsigned byte, mod 2^32."},
 }};
+static_assert(fields_are_in_order(kRegisters));
+
+// RULES and SMAA of a build after a reset.
+constexpr std::uint32_t rules_word(const Parameters& p) {
+  const auto code = [](auto value) { return static_cast<std::uint32_t>(value); };
+  namespace rules = reg::rules;
+  const bool learned = p.area == AreaSource::kLearned;
+  const bool table = p.area != AreaSource::kAnalytic && !learned;
+  return rules::kSource.in(code(p.edge_source)) | rules::kThresholdMode.in(code(p.threshold_mode)) |
+         rules::kDynamicLuma.in(code(p.dynamic_luma)) |
+         rules::kLocalContrast.in(code(p.local_contrast)) |
+         rules::kPredictor.in(code(p.predictor)) | rules::kSteps.in(code(p.steps)) |
+         rules::kContiguous.in(code(p.contiguous)) | rules::kSafe.in(code(p.safe)) |
+         rules::kLinearLight.in(code(p.linear_light)) | rules::kTrim.in(code(p.trim)) |
+         rules::kCrossings.in(code(p.ends)) | rules::kTable.in(code(table)) |
+         rules::kLearned.in(code(learned)) | rules::kDiagonals.in(code(p.diagonals)) |
+         rules::kRoundCorners.in(code(p.round_corners)) | rules::kStrongest.in(code(p.blend)) |
+         rules::kLeave.in(code(p.leave));
+}
+constexpr std::uint32_t smaa_word(const Parameters& p) {
+  const auto code = [](auto value) { return static_cast<std::uint32_t>(value); };
+  return reg::smaa::kSearchSteps.in(code(p.search_steps)) |
+         reg::smaa::kDiagonalSteps.in(code(p.diagonal_steps)) |
+         reg::smaa::kCornerRounding.in(code(p.corner_rounding));
+}
+constexpr std::uint32_t size_word(std::uint32_t width, std::uint32_t height) {
+  return reg::size::kWidth.in(width) | reg::size::kHeight.in(height);
+}
 
 }  // namespace deburr::spec::morphological

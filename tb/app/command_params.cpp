@@ -19,10 +19,15 @@ namespace {
 
 struct ParamsCommand {
   std::string unit, markdown;
+  bool c_header = false;
 };
 
 Outcome print_params(const ParamsCommand& command) {
   const auto all = engines();
+  if (command.c_header) {
+    fmt::print("{}", registers_header());
+    return {};
+  }
   if (command.markdown == "parameters") {
     fmt::print("{}", parameters_page(all));
     return {};
@@ -80,13 +85,17 @@ void add_params(CLI::App& app, CommandLine& line) {
   const auto options = std::make_shared<ParamsCommand>();
   command->add_option("UNIT", options->unit,
                       "Only these: run, scene, sampler, texture, memory, ...");
-  command
-      ->add_option("--markdown", options->markdown,
-                   "Print a page of the docs instead: parameters, statistics, registers, "
-                   "coverage")
-      ->expected(0, 1)
+  CLI::Option* const markdown =
+      command->add_option("--markdown", options->markdown,
+                          "Print a page of the docs instead: parameters, statistics, registers, "
+                          "coverage");
+  markdown->expected(0, 1)
       ->default_str("parameters")
       ->check(CLI::IsMember({"parameters", "statistics", "registers", "coverage"}));
+  command
+      ->add_flag("--c-header", options->c_header,
+                 "Print the registers of every engine as a C header instead")
+      ->excludes(markdown);
   command->callback(
       [options, &line] { line.action = [options] { return print_params(*options); }; });
 }

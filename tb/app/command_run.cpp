@@ -140,7 +140,7 @@ Outcome run_engine(Engine& engine, const RunOptions& options, const CommandLine&
   catch_interrupts();
   const RunEnd end =
       run_once(bound, context, options.wait ? IfTaken::kWait : IfTaken::kRefuse, [&] {
-        if (options.config) context.protect(*options.config);
+        if (options.config) context.add_configuration(*options.config);
         return true;
       });
   const Result& result = end.result;

@@ -54,7 +54,7 @@ Outcome run_sweep(const SweepOptions& options, const SweepDefinition& sweep,
     if (!options.slurm.empty()) return run_on_slurm(options, what, plan, place, pending.points);
     code = run_here(plan, place, pending.points, run_settings(options));
   }
-  return ended(options, "search " + sweep.name, place, pending.done, code);
+  return ended(options, what, place, pending.done, code);
 }
 
 // A generation is small: what its points share is made once a job.

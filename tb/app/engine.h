@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "tb/results/parameter_set.h"
 #include "tb/results/result.h"
 #include "tb/results/run_context.h"
+#include "tb/scene/mesh.h"
 #include "tb/traces/trace_file.h"
 
 namespace deburr::tb {
@@ -128,6 +130,9 @@ class Engine {
   // Simulates and fills the context's images. Errors of the run are exceptions (spec/error.h);
   // what was measured until then is in `result`.
   virtual void run(const RunParameters& run, RunContext& context, Result& result) = 0;
+  // Every file that run() opens, or looks for in vain, named by a parameter or by another file:
+  // what they hold is in the keys of all that is kept of a run. After resolve().
+  virtual std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const = 0;
   // Makes what run() will take from context.shared(), for all runs that are to share it. It makes
   // nothing of SystemC, so that a process can run() behind it as often as it forks.
   virtual void prepare(const RunParameters&, RunContext&) {}

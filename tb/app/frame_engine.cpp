@@ -97,7 +97,7 @@ class FrameCommand final : public Engine {
     const std::shared_ptr<const TextureScene> shared = load(run, context);
     const TextureScene& scene = *shared;
     judge(scene);
-    for (const auto& input : scene.inputs()) context.add_input(input);
+    context.add_inputs(scene.inputs());
     context.set_title("Frame: " + std::filesystem::path(scene_.source).filename().string(),
                       fmt::format("{} x {} pixels, {} fragments; texture unit, frame buffer and {}",
                                   scene.stream().width, scene.stream().height,
@@ -111,6 +111,10 @@ class FrameCommand final : public Engine {
     FrameComposition frame(simulation, scene, setup(choice_.smoothing));
     simulate(simulation, frame, context, result,
              [&] { add_pictures(run, context, scene, frame, result); });
+  }
+
+  std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
+    return scene_files(scene_, meshes);
   }
 
   void prepare(const RunParameters& run, RunContext& context) override {

@@ -67,7 +67,7 @@ class GeometricCommand final : public Engine {
     const LoadedGeometricFrame& loaded = *shared;
     judge(loaded);
     const geometric::Frame& frame = loaded.frame;
-    for (const auto& input : loaded.inputs) context.add_input(input);
+    context.add_inputs(loaded.inputs);
     context.set_title(
         "Geometric engine: " + std::filesystem::path(scene_.source).filename().string(),
         summary_line(frame));
@@ -78,6 +78,10 @@ class GeometricCommand final : public Engine {
     GeometricEnvironment environment(simulation, frames, {parameters_, memory_});
     simulate(simulation, environment, context, result,
              [&] { add_pictures(run, context, loaded, environment, result); });
+  }
+
+  std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
+    return frame_files(scene_, meshes);
   }
 
   void prepare(const RunParameters& run, RunContext& context) override { load(run, context); }

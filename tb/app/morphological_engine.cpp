@@ -76,7 +76,7 @@ class MorphologicalCommand final : public Engine {
     const std::shared_ptr<const LoadedFrame> shared = load(run, context);
     const LoadedFrame& loaded = *shared;
     judge(run, loaded);
-    for (const auto& input : loaded.inputs) context.add_input(input);
+    context.add_inputs(loaded.inputs);
     context.set_title(
         "Morphological engine: " + std::filesystem::path(frame_.source).filename().string(),
         summary_line(loaded));
@@ -91,6 +91,10 @@ class MorphologicalCommand final : public Engine {
                                           .expectation = golden_of(loaded, context)});
     simulate(simulation, environment, context, result,
              [&] { add_pictures(run, context, loaded, environment, result); });
+  }
+
+  std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
+    return frame_files(frame_, meshes);
   }
 
   void prepare(const RunParameters& run, RunContext& context) override {

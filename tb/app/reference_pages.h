@@ -17,6 +17,8 @@ std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines)
 // Elaborates every engine's model: at most once a process, and not in one that simulates.
 std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines);
 std::string registers_page();
+// The registers of every engine as macros, for software in C or C++.
+std::string registers_header();
 std::string coverage_page();
 // Names of all bins that runs of an engine may have.
 std::set<std::string> coverage_bins(std::string_view engine);

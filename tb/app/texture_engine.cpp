@@ -95,8 +95,7 @@ class TextureEngine final : public Engine {
       setup.foreign = fragments_of_file(scene);
     else
       refuse_nothing_drawn(scene);
-    for (const auto& input : scene.inputs()) context.add_input(input);
-    if (foreign()) context.add_input(trace_in_.file);
+    context.add_inputs(with_trace(scene.inputs()));
     context.set_title(title(), summary_line(scene, setup));
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
     Simulation simulation(simulation_options(run, context));
@@ -115,6 +114,10 @@ class TextureEngine final : public Engine {
     });
     if (sequence_.frames > 1 && !result.interrupted && !context.judging_only())
       measure_flicker(run, context, result);
+  }
+
+  std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
+    return with_trace(scene_files(scene_, meshes));
   }
 
   void prepare(const RunParameters& run, RunContext& context) override {
@@ -150,6 +153,11 @@ class TextureEngine final : public Engine {
   }
 
   bool foreign() const { return !trace_in_.file.empty(); }
+
+  std::vector<std::filesystem::path> with_trace(std::vector<std::filesystem::path> files) const {
+    if (foreign()) add_once(files, trace_in_.file);
+    return files;
+  }
 
   // All of the file has been read and judged behind it.
   ForeignFragments fragments_of_file(const TextureScene& scene) const {

@@ -12,12 +12,6 @@
 namespace deburr::tb {
 namespace {
 
-bool is_scene_name(const std::string& source) {
-  const auto names = scene_names();
-  return std::any_of(names.begin(), names.end(),
-                     [&](const SceneName& scene) { return scene.name == source; });
-}
-
 void refuse_what_has_no_edges(const std::string& source) {
   const std::string extension = std::filesystem::path(source).extension().string();
   if (extension.empty() || extension == ".obj" || extension == ".gltf" || extension == ".glb")
@@ -71,25 +65,26 @@ void shuffle_edges(geometric::Frame& frame, std::uint64_t seed) {
 
 LoadedGeometricFrame load_geometric_frame(const GeometricSceneParameters& p, std::uint32_t seed,
                                           bool truth, const std::function<bool()>& interrupted) {
-  const bool named = is_scene_name(p.source);
-  if (!named) refuse_what_has_no_edges(p.source);
+  if (!is_scene_name(p.source)) refuse_what_has_no_edges(p.source);
   LoadedGeometricFrame loaded;
-  SceneOptions options;
-  options.seed = seed;
-  options.plain = true;
-  loaded.scene = load_scene(p.source, options);
+  loaded.scene = load_scene(p.source, {.seed = seed, .plain = true});
   look(loaded.scene, p);
   loaded.frame = geometric::make_frame(loaded.scene, p.width, p.height);
   refuse_empty(loaded.scene, loaded.frame.table);
   if (p.edge_order == EdgeOrder::kShuffled) shuffle_edges(loaded.frame, seed);
   loaded.notes = loaded.scene.mesh.notes;
   for (std::string& note : notes_of(loaded.frame.table)) loaded.notes.push_back(std::move(note));
-  if (!named) loaded.inputs.emplace_back(p.source);
+  loaded.inputs = loaded.scene.mesh.files;
   if (truth) {
     loaded.truth = geometric_truth(loaded.scene, p.width, p.height, p.truth_samples, interrupted);
     loaded.truth_name = fmt::format("supersampled-{}", p.truth_samples * p.truth_samples);
   }
   return loaded;
+}
+
+std::vector<std::filesystem::path> frame_files(const GeometricSceneParameters& p,
+                                               MeshFiles& meshes) {
+  return scene_files(p.source, {.plain = true}, meshes);
 }
 
 }  // namespace deburr::tb

@@ -52,7 +52,7 @@ struct LoadedGeometricFrame {
   std::optional<Image> truth;
   std::string truth_name;                     // "supersampled-256"
   std::vector<std::string> notes;             // what had to be decided about the mesh
-  std::vector<std::filesystem::path> inputs;  // files that the frame depends on
+  std::vector<std::filesystem::path> inputs;  // files that it was made of, or looked for in vain
 };
 
 // ConfigError for what is neither a scene nor a mesh, and for a mesh without edges; FileError as of
@@ -60,6 +60,10 @@ struct LoadedGeometricFrame {
 LoadedGeometricFrame load_geometric_frame(const GeometricSceneParameters& parameters,
                                           std::uint32_t seed, bool truth,
                                           const std::function<bool()>& interrupted = nullptr);
+
+// LoadedGeometricFrame::inputs, without loading.
+std::vector<std::filesystem::path> frame_files(const GeometricSceneParameters& parameters,
+                                               MeshFiles& meshes);
 
 // The picture that a frame of the scene is judged by: as it is lit, N x N samples a pixel, averaged
 // in linear light.

@@ -18,9 +18,7 @@ namespace deburr::tb {
 namespace {
 
 bool is_scene(const std::string& source) {
-  const auto names = scene_names();
-  if (std::any_of(names.begin(), names.end(), [&](const SceneName& s) { return s.name == source; }))
-    return true;
+  if (is_scene_name(source)) return true;
   const std::string extension = std::filesystem::path(source).extension().string();
   return extension == ".obj" || extension == ".gltf" || extension == ".glb";
 }
@@ -34,9 +32,7 @@ void require_size(const char* what, const std::string& file, int width, int heig
 
 LoadedFrame rendered(const FrameParameters& p, std::uint32_t seed,
                      const std::function<bool()>& interrupted, const KeptFrames& kept) {
-  SceneOptions options;
-  options.seed = seed;
-  const Scene scene = load_scene(p.source, options);
+  const Scene scene = load_scene(p.source, {.seed = seed});
   LoadedFrame frame;
   frame.conversions = scene.mesh.notes;
   const auto make = [&] {
@@ -49,7 +45,7 @@ LoadedFrame rendered(const FrameParameters& p, std::uint32_t seed,
     frame.truth = lit.truth;
     frame.truth_name = fmt::format("supersampled-{}", p.truth_samples * p.truth_samples);
   }
-  if (std::filesystem::exists(p.source)) frame.inputs.emplace_back(p.source);
+  frame.inputs = scene.mesh.files;
   return frame;
 }
 
@@ -65,7 +61,7 @@ void apply_mask(const std::string& file, LoadedFrame& frame) {
     std::uint8_t& alpha = image.pixels[i][3];
     alpha = static_cast<std::uint8_t>(mask.pixels[i][0] >= 128 ? alpha & ~1 : alpha | 1);
   }
-  frame.inputs.emplace_back(file);
+  add_once(frame.inputs, file);
 }
 
 }  // namespace
@@ -121,12 +117,13 @@ LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed,
         frame.conversions.push_back(fmt::format("'{}': {}", file, conversion));
     };
     note(p.source);
-    frame.inputs.emplace_back(p.source);
+    add_once(frame.inputs, p.source);
     const Image& image = frame.input.image;
     if (!p.depth.empty()) {
-      frame.depth = read_depth(p.depth);
+      frame.depth = read_depth(p.depth, &report);
+      note(p.depth);
       require_size("depth", p.depth, frame.depth->width, frame.depth->height, image);
-      frame.inputs.emplace_back(p.depth);
+      add_once(frame.inputs, p.depth);
       if (looks_like_a_picture(*frame.depth))
         frame.conversions.push_back(fmt::format(
             "'{}' looks like a picture, not like depth of 24 bits in R, G, B: its channels change "
@@ -138,12 +135,24 @@ LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed,
       note(p.truth);
       require_size("truth", p.truth, frame.truth->width, frame.truth->height, image);
       frame.truth_name = std::filesystem::path(p.truth).filename().string();
-      frame.inputs.emplace_back(p.truth);
+      add_once(frame.inputs, p.truth);
     }
   }
   if (frame.depth) frame.input.depth = depth_codes(*frame.depth);
   if (!p.mask.empty()) apply_mask(p.mask, frame);
   return frame;
+}
+
+std::vector<std::filesystem::path> frame_files(const FrameParameters& p, MeshFiles& meshes) {
+  std::vector<std::filesystem::path> files;
+  if (is_scene(p.source)) {
+    files = scene_files(p.source, {}, meshes);
+  } else {
+    for (const std::string& file : {p.source, p.depth, p.truth})
+      if (!file.empty()) add_once(files, file);
+  }
+  if (!p.mask.empty()) add_once(files, p.mask);
+  return files;
 }
 
 }  // namespace deburr::tb

@@ -55,7 +55,7 @@ struct LoadedFrame {
   std::optional<DepthImage> depth;
   std::string truth_name;                     // "supersampled-64", or the file's name
   std::vector<std::string> conversions;       // what the reader of images or meshes changed
-  std::vector<std::filesystem::path> inputs;  // files that the result depends on
+  std::vector<std::filesystem::path> inputs;  // files that it was made of, or looked for in vain
 };
 
 // FileError for files that cannot be read; ConfigError for sizes that do not agree; Interrupted
@@ -65,6 +65,10 @@ using KeptFrames = std::function<LitFrames(const std::function<LitFrames()>& mak
 LoadedFrame load_frame(const FrameParameters& parameters, std::uint32_t seed,
                        const std::function<bool()>& interrupted = nullptr,
                        const KeptFrames& kept = nullptr);
+
+// LoadedFrame::inputs, without loading.
+std::vector<std::filesystem::path> frame_files(const FrameParameters& parameters,
+                                               MeshFiles& meshes);
 
 // Whether 24-bit depths, taken apart into R, G and B, change from pixel to pixel as a picture does:
 // two of them alike. Of depth, G and B are the lower digits of R: they fall as it rises.

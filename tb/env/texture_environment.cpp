@@ -57,7 +57,10 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
   quad_driver_.beats_out(quads_);
   unit_.quads_in(quads_);
   unit_.colours_out(colours);
-  unit_.memory()->bind(memory_.ports);
+  if (setup_.connect)
+    setup_.connect(unit_, memory_);
+  else
+    unit_.memory()->bind(memory_.ports);
   host_.bus.bind(unit_.registers);
   stranger_.memory.bind(memory_.ports);
   if (this->name().empty()) {

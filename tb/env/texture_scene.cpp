@@ -15,17 +15,6 @@ namespace {
 
 using golden::texture::TextureGolden;
 
-bool is_scene_name(const std::string& name) {
-  const auto names = scene_names();
-  return std::any_of(names.begin(), names.end(),
-                     [&](const SceneName& s) { return s.name == name; });
-}
-
-bool is_texture_name(const std::string& name) {
-  const auto names = texture_names();
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 spec::texture::Wrap chosen(WrapChoice choice, spec::texture::Wrap own) {
   switch (choice) {
     case WrapChoice::kScene:
@@ -75,9 +64,6 @@ TextureScene TextureScene::without_fragments(const SceneParameters& scene,
 TextureScene::TextureScene(const SceneParameters& scene, const SamplerParameters& sampler,
                            std::uint32_t seed, const CameraMove& move, Fragments fragments)
     : scene_(load(scene, sampler.wrap, seed, move)) {
-  if (!is_scene_name(scene.source)) inputs_.emplace_back(scene.source);
-  if (!scene.texture.empty() && !is_texture_name(scene.texture))
-    inputs_.emplace_back(scene.texture);
   lay_out(sampler);
   if (fragments == Fragments::kNone) return;
   RasterOptions options;
@@ -86,6 +72,12 @@ TextureScene::TextureScene(const SceneParameters& scene, const SamplerParameters
   options.traversal = scene.traversal;
   options.visibility = scene.visibility;
   stream_ = rasterise(scene_, options);
+}
+
+std::vector<std::filesystem::path> scene_files(const SceneParameters& scene, MeshFiles& meshes) {
+  SceneOptions options;
+  options.texture = scene.texture;
+  return scene_files(scene.source, options, meshes);
 }
 
 void TextureScene::lay_out(const SamplerParameters& sampler) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -106,8 +107,8 @@ class TextureScene {
   const Scene& scene() const { return scene_; }
   const FragmentStream& stream() const { return stream_; }
   const platform::TextureMemory& memory() const { return memory_; }
-  // Files that the result depends on.
-  const std::vector<std::filesystem::path>& inputs() const { return inputs_; }
+  // Files that it was made of, and those that were looked for in vain.
+  const std::vector<std::filesystem::path>& inputs() const { return scene_.mesh.files; }
 
  private:
   enum class Fragments { kRasterise, kNone };
@@ -118,8 +119,10 @@ class TextureScene {
   Scene scene_;
   FragmentStream stream_;
   platform::TextureMemory memory_;
-  std::vector<std::filesystem::path> inputs_;
 };
+
+// TextureScene::inputs(), without loading.
+std::vector<std::filesystem::path> scene_files(const SceneParameters& scene, MeshFiles& meshes);
 
 // A golden model with the scene's textures, of a memory that answers with errors in `errors`. The
 // scene must outlive it.

@@ -5,6 +5,8 @@
 #include <functional>
 #include <memory>
 
+#include "rtl_model/fabric/engine.h"
+#include "rtl_model/platform/memory_model.h"
 #include "spec/texture/parameters.h"
 #include "tb/env/memory_parameters.h"
 #include "tb/env/texture_expectation.h"
@@ -27,6 +29,8 @@ struct TextureSetup {
   // What the golden model found already; null: it works beside the hardware. Never with errors of
   // memory.
   std::shared_ptr<const TextureExpectation> expectation = nullptr;
+  // Connects the engine with its memory; null: directly.
+  std::function<void(rtl::Engine&, platform::MemoryModel&)> connect{};
 };
 // The depth of the latency FIFO: as ordered, or for 0 what hides this memory's latency.
 std::int32_t fifo_depth(const TextureSetup& setup);

@@ -150,8 +150,17 @@ class Notes(CommandTest):
         self.of_image("grey.png", png(16, 16, channels=1), "grey copied")
 
     def test_not_a_number(self):
-        self.of_texture("nan.tif", float_tiff(16, 16, float("nan")), "NaN to 0")
-        self.of_image("nan.tif", float_tiff(16, 16, float("nan")), "NaN to 0")
+        says = "768 of 768 values NaN made 0, the first at (0, 0)"
+        self.of_texture("nan.tif", float_tiff(16, 16, float("nan")), says)
+        self.of_image("nan.tif", float_tiff(16, 16, float("nan")), says)
+
+    def test_clamped(self):
+        says = "768 of 768 values clamped to [0, 1], the first at (0, 0)"
+        self.of_texture("bright.tif", float_tiff(16, 16, 1.5), says)
+        self.of_image("bright.tif", float_tiff(16, 16, 1.5), says)
+        self.of_image("inside.tif", float_tiff(16, 16), "float values scaled to 8 bits")
+        self.assertNotIn("clamped", self.notes())
+        self.assertNotIn("NaN", self.notes())
 
     def test_first_of_several(self):
         self.of_texture("pages.tif", pages_tiff(16, 16, 3), "the first of several pictures")

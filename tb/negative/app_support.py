@@ -27,22 +27,18 @@ def png(width, height, bits=8, channels=3, declared=None):
             + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
-def float_tiff(width, height, value=0.5):
-    """A little-endian TIFF with three 32-bit float channels."""
-    data = struct.pack("<f", value) * 3 * width * height
-    entries = [(256, 4, 1, width), (257, 4, 1, height), (258, 3, 3, None), (259, 3, 1, 1),
-               (262, 3, 1, 2), (273, 4, 1, 8), (277, 3, 1, 3), (278, 4, 1, height),
-               (279, 4, 1, len(data)), (339, 3, 3, None)]
+def float_tiff(width, height, value=0.5, channels=3):
+    """A little-endian TIFF of 1 or 3 channels of 32-bit floats: this value, or all of these."""
+    values = value if isinstance(value, list) else [value] * (channels * width * height)
+    data = struct.pack(f"<{len(values)}f", *values)
+    colour = channels == 3  # then three numbers stand in tables of their own
     tables = 8 + len(data)
     ifd = tables + 12
+    entries = [(256, 4, 1, width), (257, 4, 1, height), (258, 3, channels, tables if colour else 32),
+               (259, 3, 1, 1), (262, 3, 1, 2 if colour else 1), (273, 4, 1, 8), (277, 3, 1, channels),
+               (278, 4, 1, height), (279, 4, 1, len(data)), (339, 3, channels, tables + 6 if colour else 3)]
     body = struct.pack("<HHH", 32, 32, 32) + struct.pack("<HHH", 3, 3, 3)
-    directory = struct.pack("<H", len(entries))
-    for tag, kind, count, number in entries:
-        if tag == 258:
-            number = tables
-        elif tag == 339:
-            number = tables + 6
-        directory += struct.pack("<HHII", tag, kind, count, number)
+    directory = struct.pack("<H", len(entries)) + b"".join(struct.pack("<HHII", *e) for e in entries)
     return b"II*\0" + struct.pack("<I", ifd) + data + body + directory + struct.pack("<I", 0)
 
 

@@ -142,6 +142,22 @@ class Frames(Base):
             done = self.run_engine(0, "--in", frame, *DEPTH_EDGES, "--depth", self.write("d.png", rgb_png(48, pixels)))
             self.assertEqual("looks like a picture" in done.stderr, noted)
 
+    def test_depth_that_is_no_number_is_refused(self):
+        """It is at no distance: silhouettes and edges would be found around it."""
+        depths = [0.25] * 256
+        depths[16 * 3 + 5] = depths[16 * 3 + 6] = float("nan")
+        depth = ("--depth", self.write("nan.tif", float_tiff(16, 16, depths, channels=1)))
+        says = ["nan.tif", "2 of 256 values are NaN", "the first at (5, 3)", "write 0, infinitely far"]
+        self.frame(5, "a.png", noisy_png(16, 16), *DEPTH_EDGES, *depth, says=says)
+        self.frame(5, "a.png", noisy_png(16, 16), "--truth", self.write("t.png", png(16, 16)), *depth, says=says)
+
+    def test_depth_that_is_clamped_is_noted(self):
+        for beyond, noted in ((1.0, False), (0.0, False), (1.5, True), (-0.1, True)):
+            depth = self.write("d.tif", float_tiff(16, 16, [0.25] * 100 + [beyond] * 2 + [0.5] * 154, channels=1))
+            done = self.frame(0, "a.png", noisy_png(16, 16), *DEPTH_EDGES, "--depth", depth)
+            self.assertEqual("2 of 256 values lie outside [0, 1], the first at (4, 6)" in done.stderr, noted,
+                             done.stderr)
+
     def test_a_scene_has_its_own_truth(self):
         self.run_engine(2, "--scene", "road", "--truth", self.write("t.png", png(4, 4)), says="scene has its own")
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
 
@@ -98,7 +99,9 @@ std::function<bool()> PaperOptions::watching(Waiting& waiting) const {
   };
 }
 
-std::string decimals(double value, int digits) { return fmt::format("{:.{}f}", value, digits); }
+std::string decimals(double value, int digits) {
+  return std::isinf(value) ? "identical" : fmt::format("{:.{}f}", value, digits);
+}
 
 std::string to_text(const Paper& paper) {
   std::string out = fmt::format("== {} {} ==\n", paper.id, paper.title);

@@ -61,7 +61,7 @@ struct PaperEntry {
 };
 const std::vector<PaperEntry>& papers();
 
-// A number for a table.
+// A number for a table: "identical" for the PSNR of identical pictures, which is infinite.
 std::string decimals(double value, int digits);
 
 // The tables as text, for the terminal.

@@ -53,7 +53,6 @@ constexpr std::array<Model, 4> kModels = {{{"cube", "Figure 3: cube"},
                                            {"wing", "Figure 5: wing"},
                                            {"canopy", "Figure 6: canopy"}}};
 
-std::string decimals(double value, int digits) { return fmt::format("{:.{}f}", value, digits); }
 std::string number(std::uint64_t value) { return fmt::format("{}", value); }
 
 // A cube whose side x = 1 is seen edge on.

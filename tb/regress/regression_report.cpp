@@ -108,11 +108,14 @@ Json json_of(const Testplan& testplan, std::uint64_t base_seed, const Plan& plan
                  {"passed", result.passed},
                  {"failed", result.failed},
                  {"missing", result.missing}}},
+               {"inputs", inputs_of(plan, "testplan")},
                {"left_out", plan.left_out},
                {"features", Json::array()},
                {"buckets", Json::array()},
                {"coverage", Json::object()},
                {"runs", Json::array()}};
+  for (const fs::path& page : testplan.pages)
+    json["inputs"].push_back(input_entry(fs::proximate(page), content_of(page), "page"));
   for (const FeatureResult& feature : result.features) json["features"].push_back(to_json(feature));
   for (const FailureBucket& bucket : result.buckets)
     json["buckets"].push_back(to_json(bucket, result, place));

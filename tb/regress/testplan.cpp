@@ -147,19 +147,23 @@ class Pages {
     if (is_new) entry->second = read(page);
     return entry->second ? &*entry->second : nullptr;
   }
+  const std::vector<fs::path>& found() const { return found_; }
 
  private:
-  std::optional<Page> read(const fs::path& page) const {
+  std::optional<Page> read(const fs::path& page) {
     for (fs::path folder = folder_;; folder = folder.parent_path()) {
       std::error_code error;
-      if (fs::is_regular_file(folder / page, error))
-        return Page(read_file(folder / page, kMaxPageBytes));
+      if (fs::is_regular_file(folder / page, error)) {
+        found_.push_back(folder / page);
+        return Page(read_file(found_.back(), kMaxPageBytes));
+      }
       if (folder == folder.parent_path()) return std::nullopt;
     }
   }
 
   fs::path folder_;
   std::map<std::string, std::optional<Page>> pages_;
+  std::vector<fs::path> found_;
 };
 
 class TestplanReader {
@@ -180,6 +184,7 @@ class TestplanReader {
           yaml_.fail(node["id"], fmt::format("there are two features '{}'", feature.id));
       plan.features.push_back(std::move(feature));
     }
+    plan.pages = pages_.found();
     return plan;
   }
 

@@ -50,6 +50,7 @@ struct Testplan {
   std::string name, title;
   std::uint64_t divisor = 1;  // of N seeds there are N / divisor
   std::vector<Feature> features;
+  std::vector<std::filesystem::path> pages;  // that were found
 };
 
 // ConfigError with file and line for everything that cannot be meant: unknown keys and parameters,

@@ -11,6 +11,8 @@
 #include <string_view>
 
 #include "spec/error.h"
+#include "tb/results/input_files.h"
+#include "tb/results/result.h"
 
 namespace deburr::tb {
 namespace {
@@ -50,9 +52,9 @@ using KeyValues = std::vector<std::pair<std::string, Json>>;
 
 void flatten(const Json& node, const std::string& path, KeyValues& values) {
   // The host's speed says nothing about the hardware, nor do bins of coverage say what is better,
-  // and the histogram has its percentiles.
-  if (path == "host" || path == "coverage" || path.ends_with("meaning") ||
-      path == "latency.histogram" || path == "schema")
+  // the histogram has its percentiles, and what is identical is infinite.
+  if (path == "host" || path == "quality.identical" || path == "coverage" ||
+      path.ends_with("meaning") || path == "latency.histogram" || path == "schema")
     return;
   if (node.is_object()) {
     for (const auto& [key, value] : node.items())
@@ -99,14 +101,13 @@ Judgement judge_numbers(Judge judge, double a, double b, const Tolerances& t) {
 }  // namespace
 
 std::optional<double> as_number(const Json& value) {
-  if (value.is_number()) return value.get<double>();
-  if (value.is_string() && value == "inf") return INFINITY;
-  return std::nullopt;
+  return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
 }
 
 std::string value_text(const Json& value) {
   if (value.is_null()) return "-";
   if (value.is_string()) return value.get<std::string>();
+  if (is_infinite(value)) return "identical";
   if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
   return value.dump();
 }
@@ -188,24 +189,10 @@ std::vector<std::string> different_work(const Json& a, const Json& b) {
   constexpr std::array kSize = {"frame.width",         "frame.height", "scene.width",
                                 "scene.height",        "frame.count",  "scene.texture_size",
                                 "frame.truth_samples", "run.clock_mhz"};
-  const auto hashes = [](const Json& manifest) {
-    std::vector<std::string> all;
-    if (manifest.contains("inputs") && manifest["inputs"].is_array())
-      for (const Json& input : manifest["inputs"])
-        if (input.is_object()) all.push_back(input.value("sha256", ""));
-    std::sort(all.begin(), all.end());
-    return all;
-  };
-  const auto names = [](const Json& manifest) {
-    std::string all;
-    if (manifest.contains("inputs") && manifest["inputs"].is_array())
-      for (const Json& input : manifest["inputs"])
-        if (input.is_object()) all += (all.empty() ? "" : ", ") + input.value("file", "");
-    return all.empty() ? std::string("no file") : all;
-  };
   std::vector<std::string> lines;
-  if (hashes(a) != hashes(b))
-    lines.push_back(fmt::format("the inputs differ: A reads {}, B reads {}", names(a), names(b)));
+  const auto inputs = [](const Json& manifest) { return manifest.value("inputs", Json::array()); };
+  const std::string different = different_inputs(inputs(a), inputs(b));
+  if (!different.empty()) lines.push_back("the inputs differ: " + different);
   const auto look = [&](const char* key) {
     const auto value = [&](const Json& manifest) {
       const auto found = manifest.find("configuration");
@@ -216,8 +203,13 @@ std::vector<std::string> different_work(const Json& a, const Json& b) {
     if (value(a) != value(b))
       lines.push_back(fmt::format("{} differs: A {}, B {}", key, value(a), value(b)));
   };
-  // A file is known by its content: it may have been moved.
-  if (hashes(a).empty() && hashes(b).empty())
+  const auto reads = [&](const Json& manifest) {
+    const Json all = inputs(manifest);
+    return std::any_of(all.begin(), all.end(),
+                       [](const Json& input) { return !input.contains("role"); });
+  };
+  // A file may have been moved.
+  if (!reads(a) && !reads(b))
     for (const char* key : kScene) look(key);
   for (const char* key : kSize) look(key);
   return lines;

@@ -38,8 +38,8 @@ struct Comparison {
   bool worse = false;
 };
 
-// `b` judged against `a`. A mismatch, a lost verdict, or a judged value that only `a` has is worse.
-// ConfigError for results of different engines.
+// `b` judged against `a`, both as read_result() gives them. A mismatch, a lost verdict, or a judged
+// value that only `a` has is worse. ConfigError for results of different engines.
 Comparison compare(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b,
                    const Tolerances& tolerances);
 
@@ -55,7 +55,6 @@ bool in_decibels(const std::string& key);
 std::string change_of(const std::string& key, std::optional<double> a, std::optional<double> b);
 // The value of a result under a dotted key, as a reader wants it; "-" for none.
 std::string value_text(const nlohmann::ordered_json& value);
-// "inf" stands for identical pictures.
 std::optional<double> as_number(const nlohmann::ordered_json& value);
 // null where there is none.
 nlohmann::ordered_json value_at(const nlohmann::ordered_json& result, const std::string& key);

@@ -174,7 +174,8 @@ class Rows {
     const Json base = value_at(*results_[0], key);
     for (std::size_t i = 0; i < results_.size(); ++i) {
       const Json value = value_at(*results_[i], key);
-      Json cell = {{"value", value}, {"text", value_text(value)}};
+      Json cell = {{"value", is_infinite(value) ? Json() : value}, {"text", value_text(value)}};
+      if (is_infinite(value)) cell["identical"] = true;
       if (i > 0) {
         const ComparedValue* found = find(comparisons_[i - 1], key);
         const Judgement equal = judge(key, as_number(base), as_number(value), tolerances);

@@ -12,6 +12,7 @@
 #include "spec/error.h"
 #include "tb/results/compare_runs.h"
 #include "tb/results/file.h"
+#include "tb/results/input_files.h"
 
 namespace deburr::tb {
 namespace {
@@ -62,7 +63,8 @@ Sweep read_sweep(const fs::path& path) {
                                 file.string(), what));
   };
   if (!json.is_object()) damaged("it is no JSON object");
-  if (json.value("schema", 0) != 1) damaged("it is not of schema 1");
+  if (json.value("schema", 0) != kCollectionSchema)
+    damaged(fmt::format("it is not of schema {}", kCollectionSchema));
   for (const char* key :
        {"sweep", "engine", "counts", "base", "axes", "metrics", "objectives", "points"})
     if (!json.contains(key)) damaged(fmt::format("'{}' is missing", key));
@@ -194,9 +196,17 @@ class SweepComparison {
       Point point{
           json.value("state", ""), json.value("failure", ""), {}, json.value("front", false)};
       for (const MetricInfo& metric : metrics_)
-        point.values.push_back(as_number(json["values"][metric.columns[index]]));
+        point.values.push_back(value_in(sweep.json, json, metric.columns[index]));
       sweep.points.emplace(std::move(at), std::move(point));
     }
+  }
+
+  static std::optional<double> value_in(const Json& sweep, const Json& point, std::size_t column) {
+    const Json identical = point.value("identical", Json::array());
+    if (std::find(identical.begin(), identical.end(), sweep["metrics"][column].value("name", "")) !=
+        identical.end())
+      return INFINITY;
+    return as_number(point["values"][column]);
   }
 
   // ---- what is compared
@@ -218,6 +228,8 @@ class SweepComparison {
       if (failed + missing > 0)
         json["warnings"].push_back(fmt::format(
             "{} is not complete: {} points failed, {} are missing", letter(i), failed, missing));
+      const std::string inputs = different_inputs_of(i);
+      if (!inputs.empty()) json["warnings"].push_back(inputs);
     }
     json["parameters"] = parameters();
     json["axes"] = axes_;
@@ -235,6 +247,15 @@ class SweepComparison {
                                  {"counts", counts(dotted(metric.key), tolerances_)}});
       if (metric.maximise) json["objectives"].push_back(metric.name);
     }
+  }
+
+  // From the first sweep's.
+  std::string different_inputs_of(std::size_t sweep) const {
+    const auto inputs = [](const Sweep& of) { return of.json.value("inputs", Json::array()); };
+    const std::string different = different_inputs(inputs(sweeps_[0]), inputs(sweeps_[sweep]));
+    if (different.empty()) return "";
+    return fmt::format("the inputs differ: {}{}", different,
+                       sweep > 1 ? fmt::format(" (B is {} here)", letter(sweep)) : "");
   }
 
   Json parameters() const {
@@ -266,15 +287,21 @@ class SweepComparison {
   static Json numbers(const MetricValues& values) {
     Json json = Json::array();
     for (const std::optional<double>& value : values)
-      if (!value)
+      if (!value || std::isinf(*value))
         json.push_back(nullptr);
-      else if (std::isinf(*value))
-        json.push_back("inf");
       else if (*value == std::round(*value) && std::fabs(*value) < 1e15)
         json.push_back(static_cast<std::int64_t>(*value));
       else
         json.push_back(*value);
     return json;
+  }
+
+  // The metrics whose values would be infinite.
+  Json identical(const MetricValues& values) const {
+    Json names = Json::array();
+    for (std::size_t m = 0; m < values.size(); ++m)
+      if (values[m] && std::isinf(*values[m])) names.push_back(metrics_[m].name);
+    return names;
   }
 
   void match(Json& json) {
@@ -296,10 +323,11 @@ class SweepComparison {
                           return p->state == "done";
                         });
       Json entry = {{"at", at}};
-      entry["values"] = entry["front"] = Json::array();
+      entry["values"] = entry["identical"] = entry["front"] = Json::array();
       for (const Point* point : row) {
-        entry["values"].push_back(point && point->state == "done" ? numbers(point->values)
-                                                                  : Json());
+        const bool has = point && point->state == "done";
+        entry["values"].push_back(has ? numbers(point->values) : Json());
+        entry["identical"].push_back(has ? identical(point->values) : Json::array());
         entry["front"].push_back(point && point->front);
       }
       if (done) {

@@ -89,12 +89,17 @@
     for (const badge of document.querySelectorAll('.letter'))
       badge.style.background = palette[names.indexOf(badge.textContent) % palette.length];
     const metrics = data.metrics;
-    const finite = (v) => typeof v === 'number';
-    const shown = (v) => v === null || v === undefined ? '-' : v === 'inf' ? 'identical'
+    const finite = (v) => Number.isFinite(v);
+    const shown = (v) => v === null || v === undefined ? '-' : v === Infinity ? 'identical'
       : Number.isInteger(v) ? v.toLocaleString('en-US') : v.toPrecision(5).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '');
     const titled = (m) => m.unit ? `${m.name} [${m.unit}]` : m.name;
     const decibels = (m) => m.unit === 'dB';
     const every = [...data.points, ...data.only];
+    // JSON has no infinity: that a picture is identical stands beside its values.
+    for (const p of every)
+      p.values.forEach((values, s) => metrics.forEach((m, i) => {
+        if (p.identical[s].includes(m.name)) values[i] = Infinity;
+      }));
     // An axis that never changes says nothing.
     const axes = data.axes.map((name, i) => ({name, i}))
       .filter((axis) => new Set(every.map((p) => p.at[axis.i])).size > 1);
@@ -116,6 +121,13 @@
     Chart.defaults.animation = false;
     let scatter = null;
 
+    // An identical picture is drawn beyond all that have a number.
+    function placer(i) {
+      const values = every.flatMap((p) => p.values.filter(Boolean).map((v) => v[i])).filter(finite);
+      const low = Math.min(...values), high = Math.max(...values);
+      const beyond = values.length > 0 ? high + ((high - low) * 0.08 || 1) : 1;
+      return (v) => v === Infinity ? beyond : v;
+    }
     // Those that no other one beats in the two metrics that are shown, from left to right.
     function staircase(points, mx, my) {
       const sign = (m) => m.maximise === true ? -1 : 1;
@@ -128,10 +140,10 @@
     }
     function drawScatter() {
       const ix = Number(byId('across').value), iy = Number(byId('up').value);
-      const only = byId('front-only').checked, sets = [];
+      const only = byId('front-only').checked, sets = [], across = placer(ix), up = placer(iy);
       names.forEach((name, s) => {
-        const points = every.filter((p) => p.values[s] && finite(p.values[s][ix]) && finite(p.values[s][iy]))
-          .map((p) => ({x: p.values[s][ix], y: p.values[s][iy], point: p, front: p.front[s]}));
+        const points = every.filter((p) => p.values[s] && p.values[s][ix] !== null && p.values[s][iy] !== null)
+          .map((p) => ({x: across(p.values[s][ix]), y: up(p.values[s][iy]), point: p, sweep: s, front: p.front[s]}));
         const drawn = only ? points.filter((p) => p.front) : points;
         const tint = palette[s % palette.length];
         sets.push({
@@ -158,7 +170,8 @@
                               generateLabels: (chart) => Chart.defaults.plugins.legend.labels.generateLabels(chart)
                                 .map((l) => ({...l, fillStyle: palette[((l.datasetIndex - 1) / 2) % palette.length]}))}},
             tooltip: {callbacks: {label: (item) => item.raw.point
-              ? [item.dataset.label, `${metrics[ix].name} ${shown(item.raw.x)}, ${metrics[iy].name} ${shown(item.raw.y)}`,
+              ? [item.dataset.label, `${metrics[ix].name} ${shown(item.raw.point.values[item.raw.sweep][ix])}, ` +
+                 `${metrics[iy].name} ${shown(item.raw.point.values[item.raw.sweep][iy])}`,
                  ...place(item.raw.point)] : ''}},
           },
         },
@@ -182,7 +195,7 @@
       const which = byId('which').value;
       const points = data.points.filter((p) => which === 'all' || (which === 'worse' && p.worse) ||
         (which === 'front' && p.front.some(Boolean)) ||
-        (which === 'different' && p.values.some((v) => JSON.stringify(v) !== JSON.stringify(p.values[0]))));
+        (which === 'different' && p.values.some((values) => values.some((v, i) => v !== p.values[0][i]))));
       for (const p of points.slice(0, kMostRows)) {
         const row = element('tr', undefined, body);
         for (const axis of axes) element('td', p.at[axis.i], row);

@@ -31,7 +31,6 @@ std::string figure_text(const Json& value) {
   if (value.is_number_integer() && value.get<std::int64_t>() >= 0)
     return grouped(value.get<std::uint64_t>());
   if (value.is_number_float()) return fmt::format("{:.5g}", value.get<double>());
-  if (value == "inf") return "identical";
   return value_text(value);
 }
 
@@ -168,8 +167,9 @@ class ComparisonPage {
       for (const Json& entry : figure.at("cells")) {
         const std::string judgement = entry.value("judgement", "");
         const bool worse = entry.value("worse", false);
-        mustache::data data = cell(figure_text(entry.at("value")), entry.value("change", ""),
-                                   worse ? "worse fails" : judgement);
+        mustache::data data = cell(entry.value("identical", false) ? entry.value("text", "")
+                                                                   : figure_text(entry.at("value")),
+                                   entry.value("change", ""), worse ? "worse fails" : judgement);
         const auto value = as_number(entry.at("value"));
         // A share of decibels says nothing.
         data.set("has_bar",

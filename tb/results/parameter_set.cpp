@@ -139,12 +139,6 @@ std::string did_you_mean(const std::vector<std::string>& candidates) {
   return text + "?";
 }
 
-bool names_a_file(const Parameter& parameter) {
-  std::error_code error;
-  return parameter.range.find("file") != std::string::npos && !parameter.text().empty() &&
-         std::filesystem::is_regular_file(parameter.text(), error);
-}
-
 // ---- Binder -------------------------------------------------------------------------------------
 
 void ParameterSet::Binder::add(std::string_view name, std::string_view unit, std::string range,

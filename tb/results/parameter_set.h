@@ -55,9 +55,6 @@ inline std::string_view kind_name(const Parameter& parameter) {
   return kParameterKindNames[static_cast<std::size_t>(parameter.kind)];
 }
 
-// Whether its value is the name of a file that is there.
-bool names_a_file(const Parameter& parameter);
-
 // The name of a choice, in the words of its parameter.
 template <class Enum, std::size_t N>
 std::string_view name_of(Enum value, const std::array<std::string_view, N>& names) {

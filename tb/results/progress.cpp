@@ -2,11 +2,15 @@
 #include "tb/results/progress.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <utility>
 
 #include "tb/results/report.h"
@@ -16,7 +20,7 @@ namespace {
 
 constexpr auto kTerminalPeriod = std::chrono::milliseconds(100);
 constexpr auto kPlainPeriod = std::chrono::seconds(5);
-constexpr int kBarWidth = 24;
+constexpr std::size_t kLeastBar = 8, kMostBar = 24, kUsualColumns = 80;
 
 std::string rate_text(double rate, std::string_view unit) {
   if (rate >= 1e6) return fmt::format("{:.2f} M{}/s", rate / 1e6, unit);
@@ -31,7 +35,54 @@ std::string time_text(double seconds) {
   return fmt::format("{} s", whole);
 }
 
+// A character is one column: labels are names.
+bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }
+std::size_t columns_of(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character));
+}
+std::string cut(std::string_view text, std::size_t columns) {
+  std::size_t end = 0;
+  for (std::size_t shown = 0; end < text.size(); ++end)
+    if (begins_character(text[end]) && shown++ == columns) break;
+  return std::string(text.substr(0, end));
+}
+
+// What can be said, a part each; empty parts say nothing.
+struct Parts {
+  std::string start, rate, left;
+};
+Parts parts_of(std::string_view label, std::string_view unit, std::uint64_t done,
+               std::uint64_t total, double seconds) {
+  const double fraction =
+      total ? std::min(1.0, static_cast<double>(done) / static_cast<double>(total)) : 1.0;
+  const double rate = seconds > 0 ? static_cast<double>(done) / seconds : 0;
+  Parts parts{fmt::format("{}  {:3.0f} %", label, std::floor(fraction * 100)),
+              rate_text(rate, unit), ""};
+  if (rate > 0 && done < total)
+    parts.left = fmt::format("{} left", time_text(static_cast<double>(total - done) / rate));
+  return parts;
+}
+
+std::string joined(std::initializer_list<std::string_view> parts) {
+  std::string text;
+  for (const std::string_view part : parts)
+    if (!part.empty()) text += (text.empty() ? "" : "  ") + std::string(part);
+  return text;
+}
+
+// The last column stays free: a terminal that has filled it may begin the next line.
+std::size_t room() { return std::max<std::size_t>(terminal_columns(STDERR_FILENO), 2) - 1; }
+
 }  // namespace
+
+std::size_t terminal_columns(int descriptor) {
+  winsize size{};
+  if (::ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  std::size_t columns = 0;
+  if (const char* const said = std::getenv("COLUMNS"))
+    std::from_chars(said, said + std::strlen(said), columns);
+  return columns > 0 ? columns : kUsualColumns;
+}
 
 std::string out_of_cycles(std::uint64_t cycles, std::uint64_t done, std::uint64_t total,
                           std::string_view unit) {
@@ -43,14 +94,28 @@ std::string out_of_cycles(std::uint64_t cycles, std::uint64_t done, std::uint64_
 
 std::string Progress::line(std::string_view label, std::string_view unit, std::uint64_t done,
                            std::uint64_t total, double seconds) {
-  const double fraction =
-      total ? std::min(1.0, static_cast<double>(done) / static_cast<double>(total)) : 1.0;
-  const double rate = seconds > 0 ? static_cast<double>(done) / seconds : 0;
-  std::string text =
-      fmt::format("{}  {:3.0f} %  {}", label, std::floor(fraction * 100), rate_text(rate, unit));
-  if (rate > 0 && done < total)
-    text += fmt::format("  {} left", time_text(static_cast<double>(total - done) / rate));
-  return text;
+  const Parts parts = parts_of(label, unit, done, total, seconds);
+  return joined({parts.start, parts.rate, parts.left});
+}
+
+std::string Progress::fitted(std::size_t columns, std::string_view label, std::string_view unit,
+                             std::uint64_t done, std::uint64_t total, double seconds,
+                             std::string_view note) {
+  const Parts parts = parts_of(label, unit, done, total, seconds);
+  const std::string whole = joined({parts.start, parts.rate, parts.left, note});
+  constexpr std::size_t kFrame = 3;  // "[] "
+  if (const std::size_t used = columns_of(whole) + kFrame; used + kLeastBar <= columns) {
+    const std::size_t width = std::min(kMostBar, columns - used);
+    const auto filled =
+        total ? static_cast<std::size_t>(std::min(done, total) * width / total) : width;
+    return fmt::format("[{}{}] {}", std::string(filled, '#'), std::string(width - filled, '.'),
+                       whole);
+  }
+  for (const std::string& text :
+       {whole, joined({parts.start, parts.left, note}), joined({parts.start, note}),
+        joined({parts.start, parts.rate, parts.left}), joined({parts.start, parts.left})})
+    if (columns_of(text) <= columns) return text;
+  return cut(parts.start, columns);
 }
 
 Progress::Progress(std::string_view label, std::uint64_t total, std::string_view unit, bool quiet)
@@ -96,7 +161,7 @@ void Waiting::update() {
   const std::string text =
       fmt::format("{}  {}", label_, time_text(std::chrono::duration<double>(now - start_).count()));
   if (terminal_)
-    fmt::print(stderr, "\r{}\033[K", text);
+    fmt::print(stderr, "\r{}\033[K", cut(text, room()));
   else
     fmt::print(stderr, "{}\n", text);
   std::fflush(stderr);
@@ -105,18 +170,13 @@ void Waiting::update() {
 void Progress::show(std::uint64_t done, Clock::time_point now) {
   last_ = now;
   shown_ = true;
-  std::string text =
-      line(label_, unit_, done, total_, std::chrono::duration<double>(now - start_).count());
-  if (!note_.empty()) text += "  " + note_;
-  if (!terminal_) {
-    fmt::print(stderr, "{}\n", text);
-    return;
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  if (terminal_) {
+    fmt::print(stderr, "\r{}\033[K", fitted(room(), label_, unit_, done, total_, seconds, note_));
+    std::fflush(stderr);
+  } else {
+    fmt::print(stderr, "{}\n", joined({line(label_, unit_, done, total_, seconds), note_}));
   }
-  const auto filled = total_ ? static_cast<std::size_t>(std::min(done, total_) * kBarWidth / total_)
-                             : std::size_t{kBarWidth};
-  fmt::print(stderr, "\r[{}{}] {}\033[K", std::string(filled, '#'),
-             std::string(kBarWidth - filled, '.'), text);
-  std::fflush(stderr);
 }
 
 }  // namespace deburr::tb

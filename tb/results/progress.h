@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Progress of long work on the error stream: a bar with rate and time left on a terminal, a plain
-// line every few seconds otherwise. What was taken counts half: a pipeline that holds a whole
-// window of its input delivers nothing for long.
+// Progress of long work on the error stream: a bar with rate and time left on a terminal, in one
+// line as wide as it is at the time, a plain line every few seconds otherwise. What was taken
+// counts half: a pipeline that holds a whole window of its input delivers nothing for long.
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -34,6 +35,11 @@ class Progress {
   // The line shown, for tests: "texture  42 %  1.2 Mfragment/s  3 s left".
   static std::string line(std::string_view label, std::string_view unit, std::uint64_t done,
                           std::uint64_t total, double seconds);
+  // That line in a terminal of so many columns, with a bar in front and a note behind. In a narrow
+  // one first the bar goes, then the rate, then the time left, then the note; at last it is cut.
+  static std::string fitted(std::size_t columns, std::string_view label, std::string_view unit,
+                            std::uint64_t done, std::uint64_t total, double seconds,
+                            std::string_view note);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -62,6 +68,9 @@ class Waiting {
   bool quiet_, terminal_, shown_ = false;
   Clock::time_point start_, last_;
 };
+
+// Columns of the terminal behind a descriptor now; if it does not say, $COLUMNS, or 80.
+std::size_t terminal_columns(int descriptor);
 
 // What the error says when --max-cycles is reached: how far the run came and what to raise.
 std::string out_of_cycles(std::uint64_t cycles, std::uint64_t done, std::uint64_t total,

@@ -14,6 +14,7 @@
 #include "spec/error.h"
 #include "tb/results/embedded.h"
 #include "tb/results/file.h"
+#include "tb/results/input_files.h"
 #include "tb/results/result.h"
 #include "tb/scene/image_io.h"
 
@@ -57,12 +58,13 @@ double number(const Json& json, const char* key) {
 }
 
 std::string decibels(const Json& value) {
-  if (value.is_number()) return fmt::format("{:.2f}", value.get<double>());
-  return value == "inf" ? "identical" : "-";
+  if (is_infinite(value)) return "identical";
+  return value.is_number() ? fmt::format("{:.2f}", value.get<double>()) : "-";
 }
 
 std::string gain_of(const Json& before, const Json& after) {
-  if (!before.is_number() || !after.is_number()) return "-";
+  if (!before.is_number() || !after.is_number() || is_infinite(before) || is_infinite(after))
+    return "-";
   return fmt::format("{:+.2f}", after.get<double>() - before.get<double>());
 }
 
@@ -260,6 +262,7 @@ class ReportBuilder {
 
   static std::string figure_text(const Json& value) {
     if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+    if (is_infinite(value)) return "identical";
     return value.is_number_float() ? amount(value.get<double>()) : report_text(value);
   }
 
@@ -585,8 +588,10 @@ class ReportBuilder {
       if (manifest_.contains(key))
         origin << row({{"name", key}, {"value", shown_plain(manifest_[key])}});
     for (const Json& input : manifest_.value("inputs", Json::array()))
-      origin << row({{"name", "input"},
-                     {"value", input.value("file", "") + "  sha256 " + input.value("sha256", "")}});
+      origin << row({{"name", input.value("role", "input")},
+                     {"value", fmt::format("{}  {}{}", input.value("file", ""),
+                                           input.contains("sha256") ? "sha256 " : "",
+                                           listed_content(input))}});
     page_.set("origin", origin);
   }
 
@@ -632,7 +637,7 @@ std::string data_uri(const fs::path& image_file) {
 }
 
 std::string build_report(const fs::path& pictures, Json result, Json manifest) {
-  return ReportBuilder(pictures, std::move(result), std::move(manifest)).render();
+  return ReportBuilder(pictures, with_infinity(std::move(result)), std::move(manifest)).render();
 }
 
 std::string build_report(const fs::path& directory) {

@@ -30,10 +30,22 @@ std::string_view name_of(Verdict verdict) {
   return "unchecked";
 }
 
-Json decibel(const std::optional<double>& value) {
-  if (!value || std::isnan(*value)) return nullptr;
-  if (std::isinf(*value)) return "inf";  // JSON has no infinity; equal pictures are not a number
-  return *value;
+// JSON has no infinity: a PSNR of identical pictures is null, and a flag of its name says why.
+Json to_json(const Quality& quality) {
+  Json json = {{"reference", quality.reference}}, identical = Json::object();
+  const std::pair<const char*, std::optional<double>> values[] = {
+      {"psnr_db", quality.psnr_db},
+      {"psnr_edge_db", quality.psnr_edge_db},
+      {"psnr_silhouette_db", quality.psnr_silhouette_db},
+      {"psnr_before_db", quality.psnr_before_db},
+      {"psnr_edge_before_db", quality.psnr_edge_before_db},
+      {"psnr_silhouette_before_db", quality.psnr_silhouette_before_db}};
+  for (const auto& [name, value] : values) {
+    json[name] = value && std::isfinite(*value) ? Json(*value) : Json();
+    identical[name] = value && std::isinf(*value);
+  }
+  json["identical"] = identical;
+  return json;
 }
 
 // Collects the paths of all numbers and texts below a node: "units.address.busy".
@@ -170,15 +182,7 @@ Json to_json(const Result& r) {
     if (figure.tile) entry["tile"] = true;
     json["figures"].push_back(entry);
   }
-  if (r.quality)
-    json["quality"] = {
-        {"reference", r.quality->reference},
-        {"psnr_db", decibel(r.quality->psnr_db)},
-        {"psnr_edge_db", decibel(r.quality->psnr_edge_db)},
-        {"psnr_silhouette_db", decibel(r.quality->psnr_silhouette_db)},
-        {"psnr_before_db", decibel(r.quality->psnr_before_db)},
-        {"psnr_edge_before_db", decibel(r.quality->psnr_edge_before_db)},
-        {"psnr_silhouette_before_db", decibel(r.quality->psnr_silhouette_before_db)}};
+  if (r.quality) json["quality"] = to_json(*r.quality);
   json["host"] = {{"seconds", r.host_seconds},
                   {"mcycles_per_s", r.mcycles_per_s()},
                   {"cpu_seconds", r.host_cpu_seconds}};
@@ -318,7 +322,7 @@ Json read_result(const std::filesystem::path& path) {
                           "units", "memories", "memory_bits", "work", "host"})
     if (!json.contains(key))
       throw FileError(fmt::format("'{}' is incomplete: '{}' is missing", file.string(), key));
-  return json;
+  return with_infinity(std::move(json));
 }
 
 const Statistic* find_statistic(std::string_view key) {

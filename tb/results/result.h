@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// What a run measured, and its file result.json (schema 2, docs/exploration.md).
+// What a run measured, and its file result.json (schema 3, docs/exploration.md).
 //
 // Written by an engine at the end of a run, read by `deburr report` and `deburr compare`. Unit and
 // meaning of each key travel with the file under "meaning": those of every engine come from
 // statistics(), those of an engine's counters and stall causes from their declaration in the model.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -18,7 +20,7 @@
 
 namespace deburr::tb {
 
-inline constexpr int kResultSchema = 2;
+inline constexpr int kResultSchema = 3;
 
 enum class Verdict { kPass, kFail, kUnchecked };
 
@@ -65,7 +67,7 @@ struct Latency {
 };
 
 // Against a picture taken as truth, with the picture that went in beside it; a value that does not
-// exist (no edge pixels) is absent.
+// exist (no edge pixels) is absent, and one of identical pictures is infinite.
 struct Quality {
   std::string reference;
   std::optional<double> psnr_db, psnr_edge_db, psnr_silhouette_db;
@@ -169,9 +171,26 @@ nlohmann::ordered_json to_json(const Result& result);
 std::vector<std::string> idealised_memories(const nlohmann::ordered_json& result);
 
 // Reads DIR/result.json (or the file itself) and checks that it is a complete result of this
-// schema:
-// FileError otherwise.
+// schema: FileError otherwise.
+// What is said of with_infinity() has been done.
 nlohmann::ordered_json read_result(const std::filesystem::path& path);
+
+// A result as readers work with it: a PSNR that is null in the file since the pictures are
+// identical is infinite.
+template <class Json>
+Json with_infinity(Json result) {
+  const auto quality = result.find("quality");
+  if (quality == result.end() || !quality->is_object()) return result;
+  const Json flags = quality->value("identical", Json::object());
+  if (flags.is_object())
+    for (const auto& [name, identical] : flags.items())
+      if (identical == true) (*quality)[name] = std::numeric_limits<double>::infinity();
+  return result;
+}
+template <class Json>
+bool is_infinite(const Json& value) {
+  return value.is_number_float() && std::isinf(value.template get<double>());
+}
 
 // Unit and meaning of the keys that every engine writes. "*" stands for one part of a key that a
 // run makes (units, memories).

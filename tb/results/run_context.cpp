@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <system_error>
 #include <utility>
 
 #include "spec/error.h"
@@ -90,10 +91,42 @@ void RunContext::add_note(const std::string& note) {
   notes_.push_back(note);
 }
 
-void RunContext::add_input(const fs::path& file) {
-  protect(file);
-  inputs_.push_back(
-      {{"file", file.string()}, {"bytes", fs::file_size(file)}, {"sha256", sha256_of_file(file)}});
+void RunContext::share(std::shared_ptr<SharedInputs> shared, std::vector<fs::path> files) {
+  shared_ = std::move(shared);
+  shared_files_ = std::move(files);
+}
+
+std::string RunContext::shared_bytes(std::string_view what,
+                                     std::initializer_list<std::string_view> prefixes,
+                                     const std::function<std::string()>& make) const {
+  if (!shared_) return make();
+  return shared_->bytes(key_of(what, prefixes), [&] {
+    std::string made = make();
+    shared_->files().refuse_changed(shared_files_);
+    return made;
+  });
+}
+
+void RunContext::add_inputs(const std::vector<fs::path>& files) {
+  for (const fs::path& file : files) {
+    DEBURR_CHECK(!shared_ || std::find(shared_files_.begin(), shared_files_.end(), file) !=
+                                 shared_files_.end(),
+                 fmt::format("'{}' was read, and is in no key", file.string()));
+    list(file, shared_ ? shared_->files().content(file) : content_of(file), "");
+  }
+  if (shared_) shared_->files().refuse_changed(files);
+}
+
+void RunContext::add_configuration(const fs::path& file) {
+  list(file, content_of(file), "configuration");
+}
+
+void RunContext::list(const fs::path& file, std::string_view content, std::string_view role) {
+  directory_.refuse_to_replace(file);
+  Json entry = input_entry(file, content, role);
+  std::error_code error;
+  if (entry.contains("sha256")) entry["bytes"] = fs::file_size(file, error);
+  inputs_.push_back(std::move(entry));
 }
 
 void RunContext::add_image(const std::string& name, const Image& image, std::string title,
@@ -135,7 +168,8 @@ std::string RunContext::golden_key() const {
   for (const Parameter& p : parameters_.all())
     if (p.name.ends_with("error_address") && p.text() != p.default_value)
       key["build"] = parameters_.resolved(ParameterKind::kBuild);
-  for (const Json& input : inputs_) key["files"].push_back(input["sha256"]);
+  for (const Json& input : inputs_)
+    if (!input.contains("role")) key["files"].push_back(listed_content(input));
   return sha256(key.dump());
 }
 
@@ -149,20 +183,18 @@ bool RunContext::may_share_golden() const {
 
 std::string RunContext::key_of_golden(const std::vector<std::string_view>& built) const {
   Json key = golden_dependencies(parameters_, seed_, built);
-  for (const Parameter& p : parameters_.all())
-    if (names_a_file(p)) key[p.name + " content"] = shared_->sha256_of(p.text());
+  key["files"] = shared_->files().contents(shared_files_);
   return key.dump();
 }
 
 std::string RunContext::key_of(std::string_view what,
                                std::initializer_list<std::string_view> prefixes) const {
-  Json key = {{"what", what}, {"seed", seed_}};
+  Json key = {{"what", what}, {"seed", seed_}, {"files", shared_->files().contents(shared_files_)}};
   for (const Parameter& p : parameters_.all()) {
     if (std::none_of(prefixes.begin(), prefixes.end(),
                      [&](std::string_view prefix) { return p.name.starts_with(prefix); }))
       continue;
     key[p.name] = p.json();
-    if (names_a_file(p)) key[p.name + " content"] = shared_->sha256_of(p.text());
   }
   return key.dump();
 }

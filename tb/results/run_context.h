@@ -3,7 +3,7 @@
 //
 //   RunContext context(...);        // touches nothing
 //   context.claim();                // may refuse; then waves may be written to trace_file()
-//   context.add_input(file);        // every file that was read
+//   context.add_inputs(files);      // every file that was read
 //   context.add_image(...);
 //   context.finish(result);         // without it, an earlier run's results stay as they were
 #pragma once
@@ -56,10 +56,11 @@ class RunContext {
   bool judging_only() const { return judging_only_; }
   // Without: no report.html, which `deburr report` makes of what is left.
   void set_report(bool wanted) { report_ = wanted; }
-  // Runs that are given the same one make what they have in common once.
-  void share(std::shared_ptr<SharedInputs> inputs) { shared_ = std::move(inputs); }
-  // What `make` gives, kept for runs that agree in the seed and in the parameters whose names begin
-  // with one of `prefixes` (files by their content). `what` tells one such thing from another.
+  // Runs that are given the same one make what they have in common once. `files` are all that this
+  // one reads (Engine::input_files): what they hold is part of every key.
+  void share(std::shared_ptr<SharedInputs> shared, std::vector<std::filesystem::path> files);
+  // What `make` gives, kept for runs that agree in the seed, in what the files hold and in the
+  // parameters whose names begin with one of `prefixes`. `what` tells one such thing from another.
   template <class T>
   std::shared_ptr<const T> shared(std::string_view what,
                                   std::initializer_list<std::string_view> prefixes,
@@ -67,11 +68,10 @@ class RunContext {
     if (!shared_) return std::make_shared<const T>(make());
     return shared_->get<T>(key_of(what, prefixes), make);
   }
-  // The same of bytes, which processes can share too.
+  // The same of bytes, which processes can share too. FileError where a file has become another one
+  // since its content went into the key.
   std::string shared_bytes(std::string_view what, std::initializer_list<std::string_view> prefixes,
-                           const std::function<std::string()>& make) const {
-    return shared_ ? shared_->bytes(key_of(what, prefixes), make) : make();
-  }
+                           const std::function<std::string()>& make) const;
   // The golden result that `make` gives, kept for the next runs that agree in what it depends on:
   // seed, inputs, rules, and `built`, names of what is built. Null where the run shares nothing, is
   // not checked, or reads lines of memory that fail, which only its own golden model knows.
@@ -87,10 +87,11 @@ class RunContext {
   void add_note(const std::string& note);
   // The directory is this run's from here on (RunDirectory::claim).
   void claim(IfTaken if_taken = IfTaken::kRefuse);
-  // Fingerprints a file that the result depends on. ConfigError if the results would replace it.
-  void add_input(const std::filesystem::path& file);
-  // A file that was read and must not be replaced, without being listed.
-  void protect(const std::filesystem::path& file) const { directory_.refuse_to_replace(file); }
+  // Lists files that the result depends on, those too that were looked for in vain. ConfigError if
+  // the results would replace one.
+  void add_inputs(const std::vector<std::filesystem::path>& files);
+  // The same of a file that said how to run, as the parameters do.
+  void add_configuration(const std::filesystem::path& file);
   // Where what is written while the run goes is until the run is over: waves, lines asked of
   // memory, fragments.
   std::filesystem::path trace_file() const { return draft_file("trace.vcd"); }
@@ -113,6 +114,7 @@ class RunContext {
 
  private:
   std::filesystem::path draft_file(const char* name) const;
+  void list(const std::filesystem::path& file, std::string_view content, std::string_view role);
   bool may_share_golden() const;
   std::string key_of_golden(const std::vector<std::string_view>& built) const;
   std::string golden_key() const;
@@ -125,6 +127,7 @@ class RunContext {
   std::uint64_t seed_;
   bool quiet_ = false, judging_only_ = false, report_ = true;
   std::shared_ptr<SharedInputs> shared_;
+  std::vector<std::filesystem::path> shared_files_;
   std::vector<std::string> notes_;
   nlohmann::ordered_json inputs_ = nlohmann::ordered_json::array();
   nlohmann::ordered_json images_ = nlohmann::ordered_json::array();

@@ -81,10 +81,4 @@ std::string SharedInputs::bytes(const std::string& key,
   return payload;
 }
 
-const std::string& SharedInputs::sha256_of(const fs::path& file) {
-  std::string& digest = fingerprints_[file];
-  if (digest.empty()) digest = sha256_of_file(file);
-  return digest;
-}
-
 }  // namespace deburr::tb

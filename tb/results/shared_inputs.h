@@ -16,6 +16,8 @@
 #include <string_view>
 #include <utility>
 
+#include "tb/results/input_files.h"
+
 namespace deburr::tb {
 
 class SharedInputs {
@@ -45,9 +47,8 @@ class SharedInputs {
   // The bytes that `make` gives, from the folder if they are there. FileError when the folder
   // cannot be written.
   std::string bytes(const std::string& key, const std::function<std::string()>& make) const;
-  // A file's fingerprint, taken once.
-  const std::string& sha256_of(const std::filesystem::path& file);
-  const std::map<std::filesystem::path, std::string>& fingerprints() const { return fingerprints_; }
+  // Of the runs that share.
+  InputFiles& files() { return files_; }
   // Lets go of what the next group of runs has no use for.
   void forget() { kept_.clear(); }
 
@@ -55,7 +56,7 @@ class SharedInputs {
   std::filesystem::path folder_;
   std::map<std::string, std::shared_ptr<const void>> kept_;
   std::map<std::string, std::pair<std::string, std::shared_ptr<const void>>> last_;
-  std::map<std::filesystem::path, std::string> fingerprints_;
+  InputFiles files_;
 };
 
 }  // namespace deburr::tb

@@ -165,6 +165,22 @@ ImageOf<Pixel> expand(const std::vector<Value>& values, int width, int height, i
   return image;
 }
 
+// How many of some numbers there are, and which is the first.
+struct Found {
+  std::size_t number = 0, first = 0;
+  void add(std::size_t index) {
+    if (number++ == 0) first = index;
+  }
+};
+
+// "12 of 300 values ..., the first at (3, 4)"
+std::string in_words(const Found& found, const Header& header, std::size_t values,
+                     std::size_t channels, std::string_view what) {
+  const std::size_t pixel = found.first / channels, width = static_cast<std::size_t>(header.width);
+  return fmt::format("{} of {} values {}, the first at ({}, {})", found.number, values, what,
+                     pixel % width, pixel / width);
+}
+
 // Clamped to [0, 1], NaN to 0; rounded half up.
 std::uint8_t code_of(float value, bool linear) {
   if (!(value > 0.0f)) return 0;
@@ -192,7 +208,6 @@ void describe_conversions(const Header& header, bool linear, ReadReport& report)
   auto note = [&](std::string text) { report.conversions.push_back(std::move(text)); };
   if (header.value_format != kBytes)
     note(fmt::format("{} values scaled to 8 bits", header.value_format));
-  if (header.floating_point) note("values clamped to [0, 1], NaN to 0");
   if (linear) note("linear light encoded with the sRGB curve");
   if (!linear && header.floating_point)
     note("the file does not say that it is linear light: taken as encoded");
@@ -200,6 +215,23 @@ void describe_conversions(const Header& header, bool linear, ReadReport& report)
   if (header.channels > 4) note(fmt::format("channels 5 to {} left out", header.channels));
   if (header.orientation != 1) note("orientation tag ignored");
   if (header.several) note("the first of several pictures");
+}
+
+void describe_values(const Header& header, const std::vector<float>& values, std::size_t channels,
+                     ReadReport& report) {
+  Found outside, nan;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i]))
+      nan.add(i);
+    else if (values[i] < 0.0f || values[i] > 1.0f)
+      outside.add(i);
+  }
+  const auto note = [&](const Found& found, std::string_view what) {
+    if (found.number > 0)
+      report.conversions.push_back(in_words(found, header, values.size(), channels, what));
+  };
+  note(outside, "clamped to [0, 1]");
+  note(nan, "NaN made 0");
 }
 
 Image decode(const std::string& name, ImageDecoder& decoder, ReadReport* report) {
@@ -210,13 +242,34 @@ Image decode(const std::string& name, ImageDecoder& decoder, ReadReport* report)
   if (header.value_format == kBytes)
     return expand<Rgba8>(read_pixels<std::uint8_t>(name, decoder, channels), header.width,
                          header.height, channels, std::uint8_t{255});
-  const FloatImage values = expand<Rgbaf>(read_pixels<float>(name, decoder, channels), header.width,
-                                          header.height, channels, 1.0f);
+  const std::vector<float> stored = read_pixels<float>(name, decoder, channels);
+  if (report != nullptr)
+    describe_values(header, stored, static_cast<std::size_t>(channels), *report);
+  const FloatImage values = expand<Rgbaf>(stored, header.width, header.height, channels, 1.0f);
   Image image(header.width, header.height);
   for (std::size_t i = 0; i < values.pixels.size(); ++i)
     for (std::size_t c = 0; c < 4; ++c)
       image.pixels[i][c] = code_of(values.pixels[i][c], linear && c < 3);
   return image;
+}
+
+// What is no number is at no distance, and silhouettes would be found around it.
+void check_depths(const std::string& name, const Header& header, const std::vector<float>& depths,
+                  ReadReport* report) {
+  Found nan, outside;
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    if (std::isnan(depths[i]))
+      nan.add(i);
+    else if (depths[i] < 0.0f || depths[i] > 1.0f)
+      outside.add(i);
+  }
+  if (nan.number > 0)
+    fail_read(name, in_words(nan, header, depths.size(), 1, "are NaN, which is no depth") +
+                        ": write 0, infinitely far, where nothing is, and render the rest again");
+  if (outside.number > 0 && report != nullptr)
+    report->conversions.push_back(
+        in_words(outside, header, depths.size(), 1, "lie outside [0, 1]") +
+        ": edges from depth see them clamped, and so steps among them are lost");
 }
 
 DecoderPointer open_checked(const fs::path& path) {
@@ -304,13 +357,15 @@ FloatImage read_float_image(const fs::path& path) {
                        header.height, channels, 1.0f);
 }
 
-DepthImage read_depth(const fs::path& path) {
+DepthImage read_depth(const fs::path& path, ReadReport* report) {
   const SilentLibraries silent;
   const DecoderPointer decoder = open_checked(path);
   const Header& header = decoder->header();
+  if (report != nullptr) report->conversions.clear();
   DepthImage depth(header.width, header.height);
   if (header.channels == 1 && header.floating_point) {
     depth.pixels = read_pixels<float>(path.string(), *decoder, 1);
+    check_depths(path.string(), header, depth.pixels, report);
     return depth;
   }
   if (header.channels < 3 || header.value_format != kBytes)

@@ -16,7 +16,8 @@ namespace deburr::tb {
 
 inline constexpr int kMaxImageSide = 8192;  // checked on the header, before anything is allocated
 
-// How a file became RGBA8; one line for each conversion that changed something, for the report.
+// How a file became RGBA8; one line for each conversion that changed something, for the report,
+// with how many values were changed where that is not all of them.
 struct ReadReport {
   int channels = 0;
   std::string format;  // the file's own pixel type: "uint8", "uint16", "half", "float"
@@ -45,8 +46,8 @@ FloatImage read_float_image(const std::filesystem::path& path);
 
 // A depth picture: either 24 bits in R, G, B (most significant first; 8-bit file with three or more
 // channels) as value / (2^24 - 1), or one float channel as it is. Throws FileError for anything
-// else.
-DepthImage read_depth(const std::filesystem::path& path);
+// else, and for a NaN. Values that become others where they are made 24 bits are reported.
+DepthImage read_depth(const std::filesystem::path& path, ReadReport* report = nullptr);
 
 // Encodes by extension (.png, .exr, .tif, ... whatever OpenImageIO writes to memory) and writes it
 // atomically. What OpenImageIO encoded is decoded first and compared pixel by pixel (lossy formats:

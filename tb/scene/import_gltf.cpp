@@ -10,6 +10,8 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <memory>
+#include <optional>
 #include <tuple>
 
 #include "spec/error.h"
@@ -63,13 +65,15 @@ struct MaterialUse {
   TextureTransform transform;
 };
 
-class GltfImport {
+class GltfImporter final : public Importer {
  public:
-  GltfImport(const fs::path& path, const ImportOptions& options)
-      : path_(path), options_(options), builder_(path) {}
+  GltfImporter(const fs::path& path, const ImportOptions& options)
+      : Importer(path, options), builder_(path) {}
 
-  Mesh run() {
-    parse();
+  // tinygltf reads buffers and images as it comes to them, those too that no material uses.
+  void open() override { parse(); }
+
+  Mesh build() override {
     for (const std::string& extension : model_.extensionsRequired)
       if (!is_supported(extension))
         fail(fmt::format("it requires the extension {}, which is not supported; export without it",
@@ -83,7 +87,7 @@ class GltfImport {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& reason) const { fail_mesh(path_, reason); }
+  [[noreturn]] void fail(const std::string& reason) const { fail_mesh(path(), reason); }
 
   template <class Container>
   const auto& item(const Container& container, int index, const char* what) const {
@@ -94,18 +98,20 @@ class GltfImport {
   }
 
   void parse() {
-    const std::string bytes = read_mesh_file(path_);
+    const std::string bytes = read_mesh();
     tinygltf::TinyGLTF loader;
+    loader.SetFsCallbacks({&file_exists, [](const std::string& name, void*) { return name; },
+                           &read_whole_file, nullptr, this});
     // Keep encoded images as they are: only those that a material uses are decoded, by OpenImageIO.
     loader.SetImageLoader(
         [](tinygltf::Image*, const int index, std::string*, std::string*, int, int,
            const unsigned char* data, int size, void* self) {
-          static_cast<GltfImport*>(self)->encoded_[index].assign(
+          static_cast<GltfImporter*>(self)->encoded_[index].assign(
               reinterpret_cast<const char*>(data), static_cast<std::size_t>(size));
           return true;
         },
         this);
-    const std::string folder = path_.has_parent_path() ? path_.parent_path().string() : ".";
+    const std::string folder = this->folder().string();
     std::string errors, warnings;
     bool good = false;
     try {
@@ -122,10 +128,32 @@ class GltfImport {
     } catch (const std::exception& error) {
       errors += error.what();
     }
+    if (!unreadable_.empty()) throw spec::FileError(unreadable_);
     if (!good) {
       for (char& c : errors) c = c == '\n' ? ' ' : c;
       fail(fmt::format("{}; the file is truncated or damaged, export it again",
                        errors.empty() ? "no glTF could be read" : errors));
+    }
+  }
+
+  // What tinygltf asks of files, which no exception may leave. It looks in the mesh's folder first,
+  // and in the current one where that has no such file.
+  static bool file_exists(const std::string& name, void* self) {
+    if (name.ends_with('/')) return false;  // an empty name
+    static_cast<GltfImporter*>(self)->add_file(name);
+    std::error_code error;
+    return fs::status(name, error).type() != fs::file_type::not_found;
+  }
+  static bool read_whole_file(std::vector<unsigned char>* bytes, std::string*,
+                              const std::string& name, void* self) {
+    auto& importer = *static_cast<GltfImporter*>(self);
+    try {
+      const std::optional<std::string> text = importer.read_named(name);
+      if (text) bytes->assign(text->begin(), text->end());
+      return text.has_value();
+    } catch (const spec::FileError& error) {
+      importer.unreadable_ = error.what();
+      return false;
     }
   }
 
@@ -150,7 +178,7 @@ class GltfImport {
       MaterialUse use;
       if (base.baseColorTexture.index >= 0) {
         use = material_use(base.baseColorTexture);
-        if (options_.textures) ours.texture = texture(base.baseColorTexture.index);
+        if (options().textures) ours.texture = texture(base.baseColorTexture.index);
       }
       uses_.push_back(use);
       builder_.add_material(ours);
@@ -190,7 +218,7 @@ class GltfImport {
           "its texture '{}' is missing; put it beside the file or give a texture of your own",
           ours.name));
     ReadReport report;
-    ours.image = read_image_memory(fmt::format("{}: {}", path_.string(), ours.name),
+    ours.image = read_image_memory(fmt::format("{}: {}", path().string(), ours.name),
                                    encoded->second, &report);
     for (const std::string& conversion : report.conversions)
       builder_.note(fmt::format("'{}': {}", ours.name, conversion));
@@ -384,11 +412,10 @@ class GltfImport {
     }
   }
 
-  fs::path path_;
-  ImportOptions options_;
   MeshBuilder builder_;
   tinygltf::Model model_;
   std::map<int, std::string> encoded_;
+  std::string unreadable_;         // why a file that is there could not be read
   std::vector<MaterialUse> uses_;  // by material, the default material last
   std::map<std::tuple<int, spec::texture::Wrap, spec::texture::Wrap>, int> textures_;
   int visits_ = 0;
@@ -397,8 +424,8 @@ class GltfImport {
 
 }  // namespace
 
-Mesh import_gltf(const fs::path& path, const ImportOptions& options) {
-  return GltfImport(path, options).run();
+std::unique_ptr<Importer> gltf_importer(const fs::path& path, const ImportOptions& options) {
+  return std::make_unique<GltfImporter>(path, options);
 }
 
 }  // namespace deburr::tb

@@ -5,8 +5,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
 #include <sstream>
+#include <utility>
 
+#include "spec/error.h"
 #include "tb/scene/import.h"
 #include "tb/scene/mesh_builder.h"
 
@@ -30,7 +36,8 @@ std::string_view next_word(std::string_view& line) {
 }
 
 // tinyobjloader reads "nan", "1e999" and "12x" as some number without a word, and does not check
-// face indices. This pass over the text finds them first, with the line to look at.
+// face indices. This pass over the text finds them first, with the line to look at, and the lines
+// that name materials.
 class ObjChecker {
  public:
   ObjChecker(const fs::path& path, std::string_view text) : path_(path) {
@@ -51,6 +58,7 @@ class ObjChecker {
   }
   bool no_final_newline() const { return no_final_newline_; }
   bool has_lines() const { return lines_; }
+  const std::string& material_lines() const { return material_lines_; }
 
  private:
   struct Highest {
@@ -64,12 +72,13 @@ class ObjChecker {
   }
 
   void check_line(std::string_view line) {
-    const std::string_view keyword = next_word(line);
+    const std::string_view whole = line, keyword = next_word(line);
     if (keyword == "v") check_numbers(line, 0, 3, "vertex");
     if (keyword == "vt") check_numbers(line, 1, 1, "texture coordinate");
     if (keyword == "vn") check_numbers(line, 2, 3, "normal");
     if (keyword == "f") check_face(line);
     if (keyword == "l" || keyword == "p") lines_ = true;
+    if (keyword == "mtllib") material_lines_.append(whole).append("\n");
   }
 
   void check_numbers(std::string_view line, std::size_t kind, int needed, const char* what) {
@@ -133,13 +142,8 @@ class ObjChecker {
   std::array<std::int64_t, 3> count_{};
   std::array<Highest, 3> highest_{};
   bool no_final_newline_ = false, lines_ = false;
+  std::string material_lines_;
 };
-
-fs::path texture_path(const fs::path& folder, std::string name) {
-  std::replace(name.begin(), name.end(), '\\', '/');
-  const fs::path path(name);
-  return path.is_absolute() ? path : folder / path;
-}
 
 std::string one_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -182,53 +186,131 @@ class Attributes {
   const tinyobj::attrib_t& attributes_;
 };
 
-}  // namespace
-
-Mesh import_obj(const fs::path& path, const ImportOptions& options) {
-  const std::string text = read_mesh_file(path);
-  const ObjChecker checked(path, text);
-
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+struct TinyObj {
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
   std::vector<tinyobj::material_t> materials;
-  std::string warnings, errors;
-  std::istringstream stream(text);
-  tinyobj::MaterialFileReader material_reader(folder.string() + "/");
-  if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warnings, &errors, &stream,
-                        &material_reader,
-                        /*triangulate=*/true, /*default_vcols_fallback=*/false))
-    fail_mesh(path, one_line(errors) + "; export it again");
+  std::string warnings;
+};
 
-  MeshBuilder builder(path);
-  if (!warnings.empty()) builder.note(one_line(warnings));
-  if (checked.no_final_newline())
-    builder.note("the last line has no end; the file may have been truncated there");
-  if (checked.has_lines()) builder.note("points and lines were left out");
-  for (const tinyobj::material_t& material : materials) {
-    Material ours;
-    ours.name = material.name;
-    ours.colour = {material.diffuse[0], material.diffuse[1], material.diffuse[2]};
-    if (options.textures && !material.diffuse_texname.empty())
-      ours.texture = builder.texture_from_file(texture_path(folder, material.diffuse_texname));
-    builder.add_material(ours);
+class ObjImporter final : public Importer {
+ public:
+  using Importer::Importer;
+
+  // The lines that name materials, by themselves, make tinyobjloader ask for the same files in the
+  // same order as all of them do.
+  void open() override {
+    text_ = read_mesh();
+    checked_.emplace(path(), text_);
+    materials_ = load(checked_->material_lines(), [this](const std::string& name) {
+                   return material_texts_[name] = read_material_file(name);
+                 }).materials;
+    if (!options().textures) return;
+    for (const tinyobj::material_t& material : materials_)
+      if (!material.diffuse_texname.empty()) add_file(texture_path(material));
   }
-  // Faces before the first usemtl, or of a material that no .mtl describes.
-  const auto plain = static_cast<std::uint32_t>(materials.size());
-  builder.add_material({"default", V3d(0.8, 0.8, 0.8), -1});
 
-  const Attributes corners(path, attributes);
-  for (const tinyobj::shape_t& shape : shapes) {
-    const tinyobj::mesh_t& mesh = shape.mesh;
-    for (std::size_t face = 0; 3 * face + 2 < mesh.indices.size(); ++face) {
-      const int material = face < mesh.material_ids.size() ? mesh.material_ids[face] : -1;
-      builder.add_triangle(
-          {corners.corner(mesh.indices[3 * face]), corners.corner(mesh.indices[3 * face + 1]),
-           corners.corner(mesh.indices[3 * face + 2])},
-          material < 0 ? plain : static_cast<std::uint32_t>(material));
+  Mesh build() override {
+    const TinyObj loaded = load(text_, [this](const std::string& name) {
+      const auto found = material_texts_.find(name);
+      DEBURR_CHECK(found != material_texts_.end(), "nobody has opened the materials " + name);
+      return found->second;
+    });
+    MeshBuilder builder(path());
+    add_notes(loaded, builder);
+    for (const tinyobj::material_t& material : materials_) {
+      Material ours;
+      ours.name = material.name;
+      ours.colour = {material.diffuse[0], material.diffuse[1], material.diffuse[2]};
+      if (options().textures && !material.diffuse_texname.empty())
+        ours.texture = builder.texture_from_file(texture_path(material));
+      builder.add_material(ours);
+    }
+    add_triangles(loaded, builder);
+    return builder.finish();
+  }
+
+ private:
+  using MaterialText = std::function<std::optional<std::string>(const std::string& name)>;
+
+  // Gives tinyobjloader materials from `text`, which says what stands in them.
+  class Materials final : public tinyobj::MaterialReader {
+   public:
+    explicit Materials(const MaterialText& text) : text_(text) {}
+    bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
+                    std::map<std::string, int>* indices, std::string* warnings,
+                    std::string* errors) override {
+      const std::optional<std::string> text = text_(name);
+      if (!text) {
+        *warnings += fmt::format("the materials '{}' are not there\n", name);
+        return false;
+      }
+      std::istringstream stream(*text);
+      tinyobj::LoadMtl(indices, materials, &stream, warnings, errors);
+      return true;
+    }
+
+   private:
+    const MaterialText& text_;
+  };
+
+  TinyObj load(const std::string& text, const MaterialText& material_text) const {
+    TinyObj loaded;
+    Materials materials(material_text);
+    std::istringstream stream(text);
+    std::string errors;
+    if (!tinyobj::LoadObj(&loaded.attributes, &loaded.shapes, &loaded.materials, &loaded.warnings,
+                          &errors, &stream, &materials, /*triangulate=*/true,
+                          /*default_vcols_fallback=*/false))
+      fail_mesh(path(), one_line(errors) + "; export it again");
+    return loaded;
+  }
+
+  // A blank at the end of the line is an empty name.
+  std::optional<std::string> read_material_file(const std::string& name) {
+    return name.empty() ? std::nullopt : read_named(folder() / name);
+  }
+
+  fs::path texture_path(const tinyobj::material_t& material) const {
+    std::string name = material.diffuse_texname;
+    std::replace(name.begin(), name.end(), '\\', '/');
+    return folder() / name;
+  }
+
+  void add_notes(const TinyObj& loaded, MeshBuilder& builder) const {
+    if (!loaded.warnings.empty()) builder.note(one_line(loaded.warnings));
+    if (checked_->no_final_newline())
+      builder.note("the last line has no end; the file may have been truncated there");
+    if (checked_->has_lines()) builder.note("points and lines were left out");
+  }
+
+  void add_triangles(const TinyObj& loaded, MeshBuilder& builder) const {
+    // Faces before the first usemtl, or of a material that no .mtl describes.
+    const auto plain = static_cast<std::uint32_t>(materials_.size());
+    builder.add_material({"default", V3d(0.8, 0.8, 0.8), -1});
+    const Attributes corners(path(), loaded.attributes);
+    for (const tinyobj::shape_t& shape : loaded.shapes) {
+      const tinyobj::mesh_t& mesh = shape.mesh;
+      for (std::size_t face = 0; 3 * face + 2 < mesh.indices.size(); ++face) {
+        const int material = face < mesh.material_ids.size() ? mesh.material_ids[face] : -1;
+        builder.add_triangle(
+            {corners.corner(mesh.indices[3 * face]), corners.corner(mesh.indices[3 * face + 1]),
+             corners.corner(mesh.indices[3 * face + 2])},
+            material < 0 ? plain : static_cast<std::uint32_t>(material));
+      }
     }
   }
-  return builder.finish();
+
+  std::string text_;
+  std::optional<ObjChecker> checked_;
+  std::vector<tinyobj::material_t> materials_;
+  std::map<std::string, std::optional<std::string>> material_texts_;  // by the name in the mesh
+};
+
+}  // namespace
+
+std::unique_ptr<Importer> obj_importer(const fs::path& path, const ImportOptions& options) {
+  return std::make_unique<ObjImporter>(path, options);
 }
 
 }  // namespace deburr::tb

@@ -25,25 +25,36 @@ void fail_mesh(const fs::path& path, const std::string& reason) {
   throw spec::FileError(fmt::format("cannot read the mesh '{}': {}", path.string(), reason));
 }
 
-std::string read_mesh_file(const fs::path& path) {
+namespace {
+
+// The whole of a regular file. `fail` is told why not.
+template <class Fail>
+std::string whole_file(const fs::path& path, const Fail& fail) {
   std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) fail_mesh(path, "no such file; check the path");
-  if (!fs::is_regular_file(status))
-    fail_mesh(path, "not a regular file; give an .obj, .gltf or .glb");
+  if (!fs::is_regular_file(path, error)) fail("not a regular file");
   const std::uintmax_t size = fs::file_size(path, error);
-  if (error) fail_mesh(path, error.message());
-  if (size == 0) fail_mesh(path, "the file is empty (0 bytes); export it again");
+  if (error) fail(error.message());
   if (size > kMaxMeshFileBytes)
-    fail_mesh(path,
-              fmt::format("the file has {} bytes, the limit is {}; split or simplify the mesh",
-                          size, kMaxMeshFileBytes));
+    fail(fmt::format("too large: it has {} bytes, the limit is {}; split or simplify the mesh",
+                     size, kMaxMeshFileBytes));
   std::string bytes(size, '\0');
   std::ifstream file(path, std::ios::binary);
-  if (!file.read(bytes.data(), static_cast<std::streamsize>(size)))
-    fail_mesh(path, "it cannot be opened or read to its end; check its permissions");
+  if (!file.is_open() || (size > 0 && !file.read(bytes.data(), static_cast<std::streamsize>(size))))
+    fail("it cannot be opened or read to its end; check its permissions");
   return bytes;
 }
+
+std::unique_ptr<Importer> importer_of(const fs::path& path, const ImportOptions& options) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".obj") return obj_importer(path, options);
+  if (extension == ".gltf" || extension == ".glb") return gltf_importer(path, options);
+  fail_mesh(path,
+            fmt::format("the extension '{}' is not .obj, .gltf or .glb; convert it", extension));
+}
+
+}  // namespace
 
 Bounds bounds(const Mesh& mesh) {
   if (mesh.vertices.empty()) return {V3d(0, 0, 0), V3d(0, 0, 0)};
@@ -58,13 +69,55 @@ Bounds bounds(const Mesh& mesh) {
 }
 
 Mesh import_mesh(const fs::path& path, const ImportOptions& options) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".obj") return import_obj(path, options);
-  if (extension == ".gltf" || extension == ".glb") return import_gltf(path, options);
-  fail_mesh(path,
-            fmt::format("the extension '{}' is not .obj, .gltf or .glb; convert it", extension));
+  const std::unique_ptr<Importer> importer = importer_of(path, options);
+  importer->open();
+  Mesh mesh = importer->build();
+  mesh.files = importer->files();
+  return mesh;
+}
+
+std::vector<fs::path> mesh_files(const fs::path& path, const ImportOptions& options) {
+  std::unique_ptr<Importer> importer;
+  try {
+    importer = importer_of(path, options);
+    importer->open();
+  } catch (const spec::FileError&) {  // import_mesh() says why
+  }
+  return importer ? importer->files() : std::vector<fs::path>();
+}
+
+const std::vector<fs::path>& MeshFiles::of(const fs::path& path, const ImportOptions& options) {
+  const auto [known, is_new] = known_.try_emplace({path, options.textures});
+  if (is_new) known->second = mesh_files(path, options);
+  return known->second;
+}
+
+void add_once(std::vector<fs::path>& files, const fs::path& file) {
+  const std::string name = file.string();
+  const fs::path plain =
+      name.starts_with("./") && name.size() > 2 ? fs::path(name.substr(2)) : file;
+  if (std::find(files.begin(), files.end(), plain) == files.end()) files.push_back(plain);
+}
+
+std::string Importer::read_mesh() {
+  add_file(path_);
+  std::error_code error;
+  if (!fs::exists(path_, error)) fail_mesh(path_, "no such file; check the path");
+  std::string bytes =
+      whole_file(path_, [&](const std::string& reason) { fail_mesh(path_, reason); });
+  if (bytes.empty()) fail_mesh(path_, "the file is empty (0 bytes); export it again");
+  return bytes;
+}
+
+std::optional<std::string> Importer::read_named(const fs::path& file) {
+  add_file(file);
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (status.type() == fs::file_type::not_found) return std::nullopt;
+  return whole_file(file, [&](const std::string& reason) {
+    fail_mesh(path_,
+              fmt::format("it names '{}', and that cannot be read: {}", file.string(), reason));
+  });
 }
 
 void texture_everything(Mesh& mesh, const Texture* fallback) {
@@ -244,8 +297,7 @@ int MeshBuilder::add_texture(Texture texture) {
 }
 
 int MeshBuilder::texture_from_file(const fs::path& file) {
-  const std::string key = file.lexically_normal().string();
-  if (const auto found = texture_files_.find(key); found != texture_files_.end())
+  if (const auto found = texture_files_.find(file); found != texture_files_.end())
     return found->second;
   Texture texture;
   texture.name = file.filename().string();
@@ -260,7 +312,7 @@ int MeshBuilder::texture_from_file(const fs::path& file) {
                           "of your own",
                           error.what()));
   }
-  return texture_files_[key] = add_texture(std::move(texture));
+  return texture_files_[file] = add_texture(std::move(texture));
 }
 
 // Materials and textures that no triangle uses: a texture unit has sixteen descriptors only.

@@ -9,7 +9,9 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "spec/texture/descriptor.h"
@@ -47,6 +49,7 @@ struct Mesh {
   std::vector<Material> materials;  // at least one
   std::vector<Texture> textures;
   std::vector<std::string> notes;  // what import had to decide: missing uv, missing normals, ...
+  std::vector<std::filesystem::path> files;  // mesh_files(), and textures from elsewhere
 };
 
 struct Bounds {
@@ -72,6 +75,26 @@ struct ImportOptions {
   bool textures = true;  // false: leave the file's textures unread (someone else's replaces them)
 };
 Mesh import_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
+
+// Every file that import_mesh() opens: the mesh, then all that it names (materials, textures,
+// buffers), each once. A name that no file has is listed too: when there is one, the mesh is
+// another one. It is the first half of import_mesh() itself that finds them, so that they are the
+// same; where that fails, what it had come to.
+std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path,
+                                              const ImportOptions& options = {});
+
+// The same, found once for each mesh.
+class MeshFiles {
+ public:
+  const std::vector<std::filesystem::path>& of(const std::filesystem::path& path,
+                                               const ImportOptions& options);
+
+ private:
+  std::map<std::pair<std::filesystem::path, bool>, std::vector<std::filesystem::path>> known_;
+};
+
+// Appends a file unless it is there. "./a" is "a", but "b/../a" may be another one.
+void add_once(std::vector<std::filesystem::path>& files, const std::filesystem::path& file);
 
 // Makes every material textured, for an engine that only knows textures. If none is and there is a
 // `fallback`, all get that. Else the colours of the plain ones become cells of one palette texture,

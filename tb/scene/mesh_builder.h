@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,10 +17,6 @@ namespace deburr::tb {
 
 // "cannot read the mesh 'file': reason"
 [[noreturn]] void fail_mesh(const std::filesystem::path& path, const std::string& reason);
-
-// The whole file. Throws FileError: missing, not a regular file, empty, larger than
-// kMaxMeshFileBytes.
-std::string read_mesh_file(const std::filesystem::path& path);
 
 class MeshBuilder {
  public:
@@ -54,7 +51,7 @@ class MeshBuilder {
   std::filesystem::path path_;
   Mesh mesh_;
   std::unordered_map<Vertex, std::uint32_t, Hash, Equal> indices_;
-  std::unordered_map<std::string, int> texture_files_;
+  std::map<std::filesystem::path, int> texture_files_;
   std::vector<std::array<Corner, 3>> unmapped_;  // triangles that wait for the mesh's size
   std::vector<std::uint32_t> unmapped_triangle_;
   std::uint64_t without_normals_ = 0;

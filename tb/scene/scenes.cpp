@@ -21,18 +21,18 @@ using Imath::V2d;
 using Imath::V3d;
 
 constexpr std::array<SceneName, 12> kSceneNames{{
-    {"plane", "checkerboard ground plane in perspective"},
-    {"quad", "one tilted square with a checkerboard"},
-    {"tunnel", "brick tunnel seen from inside"},
-    {"object", "torus knot, lit and textured"},
-    {"road", "street between two brick walls"},
+    {"plane", "checkerboard ground plane in perspective", true},
+    {"quad", "one tilted square with a checkerboard", true},
+    {"tunnel", "brick tunnel seen from inside", true},
+    {"object", "torus knot, lit and textured", true},
+    {"road", "street between two brick walls", true},
     {"cylinders", "five plain cylinders at different slopes"},
     {"cube", "plain cube (paper 002)"},
     {"wheelcover", "plain wheel cover, 48 segments (paper 002)"},
     {"wing", "plain wing with a NACA 2412 section (paper 002)"},
     {"canopy", "plain canopy, open below (paper 002)"},
     {"sphere", "plain sphere of 16 128 faces"},
-    {"terrain", "textured hills, open at their borders"},
+    {"terrain", "textured hills, open at their borders", true},
 }};
 
 // ---- surfaces -----------------------------------------------------------------------------------
@@ -91,26 +91,32 @@ void add_cylinder(Mesh& mesh, const V3d& bottom, const V3d& top, double radius, 
 
 // ---- the scenes ---------------------------------------------------------------------------------
 
-bool is_formula(std::string_view name) {
-  return std::find(texture_names().begin(), texture_names().end(), name) != texture_names().end();
+// No name of a scene or of a texture does.
+bool looks_like_file(std::string_view name) {
+  return name.find_first_of("./") != std::string_view::npos;
+}
+
+// The wanted one replaces those of the file, which are not read then.
+ImportOptions import_options(const SceneOptions& options) {
+  return {.textures = options.texture.empty()};
 }
 
 // A texture by name or from a file; `size` is the side of one made by formula.
 Texture choose_texture(const std::string& wanted, std::string_view otherwise,
-                       const SceneOptions& options, std::vector<std::string>& notes) {
+                       const SceneOptions& options, Mesh& mesh) {
   Texture texture;
   texture.name = wanted.empty() ? std::string(otherwise) : wanted;
   texture.wrap_s = texture.wrap_t = options.wrap;
-  const bool looks_like_file = texture.name.find_first_of("./") != std::string::npos;
-  if (is_formula(texture.name) || !looks_like_file) {
+  if (!looks_like_file(texture.name)) {
     texture.image =
         make_texture(texture.name, options.texture_size, options.texture_size, options.seed);
     return texture;
   }
+  add_once(mesh.files, texture.name);
   ReadReport report;
   texture.image = read_image(texture.name, &report);
   for (const std::string& conversion : report.conversions)
-    notes.push_back(fmt::format("'{}': {}", texture.name, conversion));
+    mesh.notes.push_back(fmt::format("'{}': {}", texture.name, conversion));
   if (texture.image.width > spec::texture::kMaxTextureSize ||
       texture.image.height > spec::texture::kMaxTextureSize)
     throw spec::FileError(fmt::format(
@@ -124,7 +130,7 @@ void add_texture(Scene& scene, const std::string& wanted, std::string_view other
                  const SceneOptions& options) {
   scene.mesh.materials.push_back(
       {std::string(otherwise), V3d(1, 1, 1), static_cast<int>(scene.mesh.textures.size())});
-  scene.mesh.textures.push_back(choose_texture(wanted, otherwise, options, scene.mesh.notes));
+  scene.mesh.textures.push_back(choose_texture(wanted, otherwise, options, scene.mesh));
 }
 
 void make_plane(Scene& scene, const SceneOptions& options) {
@@ -283,9 +289,9 @@ Scene make_scene(std::string_view name, const SceneOptions& options) {
 Scene import_scene(const std::filesystem::path& path, const SceneOptions& options) {
   Scene scene;
   const bool replace = !options.texture.empty();
-  scene.mesh = import_mesh(path, {.textures = !replace});
+  scene.mesh = import_mesh(path, import_options(options));
   scene.name = scene.mesh.name;
-  const Texture fallback = choose_texture(options.texture, "checker", options, scene.mesh.notes);
+  const Texture fallback = choose_texture(options.texture, "checker", options, scene.mesh);
   const bool plain = options.plain && !replace;
   if (!replace && !plain && scene.mesh.textures.empty())
     scene.mesh.notes.push_back(
@@ -302,10 +308,23 @@ Scene import_scene(const std::filesystem::path& path, const SceneOptions& option
 }
 
 Scene load_scene(const std::string& source, const SceneOptions& options) {
-  const bool named = std::any_of(kSceneNames.begin(), kSceneNames.end(),
-                                 [&](const SceneName& each) { return each.name == source; });
-  const bool looks_like_file = source.find_first_of("./") != std::string::npos;
-  return named || !looks_like_file ? make_scene(source, options) : import_scene(source, options);
+  return looks_like_file(source) ? import_scene(source, options) : make_scene(source, options);
+}
+
+bool is_scene_name(std::string_view source) {
+  return std::any_of(kSceneNames.begin(), kSceneNames.end(),
+                     [&](const SceneName& each) { return each.name == source; });
+}
+
+std::vector<std::filesystem::path> scene_files(const std::string& source,
+                                               const SceneOptions& options, MeshFiles& meshes) {
+  std::vector<std::filesystem::path> files;
+  bool textured = looks_like_file(source);
+  if (textured) files = meshes.of(source, import_options(options));
+  for (const SceneName& each : kSceneNames)
+    if (each.name == source) textured = each.textured;
+  if (textured && looks_like_file(options.texture)) add_once(files, options.texture);
+  return files;
 }
 
 }  // namespace deburr::tb

@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tb/scene/mesh.h"
 
@@ -51,6 +52,7 @@ struct SceneOptions {
 
 struct SceneName {
   std::string_view name, meaning;
+  bool textured = false;  // SceneOptions::texture is looked at
 };
 // plane, quad, tunnel, object, road, cylinders; cube, wheelcover, wing, canopy, sphere, terrain
 std::span<const SceneName> scene_names();
@@ -63,7 +65,13 @@ Scene make_scene(std::string_view name, const SceneOptions& options = {});
 // textures.
 Scene import_scene(const std::filesystem::path& path, const SceneOptions& options = {});
 
-// `source` is a name of scene_names(), or else a mesh file.
+// `source` is a name of scene_names(), or else a mesh file. Scene::mesh.files are those that it was
+// made of.
 Scene load_scene(const std::string& source, const SceneOptions& options = {});
+bool is_scene_name(std::string_view source);
+
+// The files that load_scene() opens, without loading: those of the mesh, and a texture's.
+std::vector<std::filesystem::path> scene_files(const std::string& source,
+                                               const SceneOptions& options, MeshFiles& meshes);
 
 }  // namespace deburr::tb

@@ -13,6 +13,7 @@
 
 #include "spec/error.h"
 #include "tb/results/build_info.h"
+#include "tb/results/compare_sweeps.h"
 #include "tb/results/embedded.h"
 #include "tb/results/file.h"
 #include "tb/results/report.h"
@@ -59,7 +60,7 @@ double number_of(const nlohmann::json* value) {
   if (!value) return kNone;
   if (value->is_number()) return value->get<double>();
   if (value->is_boolean()) return value->get<bool>() ? 1 : 0;
-  return value->is_string() && *value == "inf" ? std::numeric_limits<double>::infinity() : kNone;
+  return kNone;
 }
 
 nlohmann::json result_in(const fs::path& directory) {
@@ -70,7 +71,7 @@ nlohmann::json result_in(const fs::path& directory) {
     throw spec::FileError(fmt::format(
         "'{}' is not a result of this version: remove its directory, and run the sweep again",
         file.string()));
-  return result;
+  return with_infinity(std::move(result));
 }
 
 void add_keys(const nlohmann::json& node, const std::string& path, std::vector<std::string>& keys) {
@@ -265,8 +266,7 @@ std::string csv_number(double value) {
 }
 
 Json json_number(double value) {
-  if (std::isnan(value)) return nullptr;
-  if (std::isinf(value)) return "inf";
+  if (!std::isfinite(value)) return nullptr;
   if (value == std::round(value) && std::fabs(value) < 1e15)
     return static_cast<std::int64_t>(value);
   return value;
@@ -290,7 +290,7 @@ std::string csv_of(const SweepDefinition& sweep, const SweepPlace& place, const 
 Json json_of(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place,
              const Collection& all) {
   Json json;
-  json["schema"] = 1;
+  json["schema"] = kCollectionSchema;
   json["sweep"] = sweep.name;
   json["title"] = plan.title;
   json["engine"] = sweep.engine;
@@ -302,6 +302,7 @@ Json json_of(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& p
                     {"failed", all.failed},
                     {"missing", all.missing},
                     {"front", all.front}};
+  json["inputs"] = inputs_of(plan, "definition");
   json["left_out"] = plan.left_out;
   // As seen from the sweep's directory, where the page is.
   json["points_directory"] =
@@ -347,6 +348,8 @@ Json json_of(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& p
                   {"state", name_of(point.state)},
                   {"at", point.sample},
                   {"values", values}};
+    for (std::size_t i = 0; i < point.values.size(); ++i)
+      if (std::isinf(point.values[i])) entry["identical"].push_back(all.metrics[i].name);
     if (point.front) entry["front"] = true;
     if (!point.failure.empty()) entry["failure"] = point.failure;
     json["points"].push_back(std::move(entry));

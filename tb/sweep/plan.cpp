@@ -151,11 +151,6 @@ class Planner {
   std::unordered_set<std::string> names_;
 };
 
-bool is_as_before(const fs::path& file, const std::string& digest) {
-  std::error_code error;
-  return fs::is_regular_file(file, error) && sha256_of_file(file) == digest;
-}
-
 }  // namespace
 
 SweepPlace place_of(const fs::path& out, const std::string& name) {
@@ -190,7 +185,7 @@ PlannedPoint PointNamer::name(const BoundEngine& bound, Sample sample) {
 
 void PointNamer::tell(Plan& plan) const {
   plan.inputs = inputs_.size();
-  for (const auto& [file, digest] : files_.fingerprints()) plan.files[file.string()] = digest;
+  plan.files = files_.all();
 }
 
 PointJudge::PointJudge(const SweepDefinition& sweep, const Plan& plan)
@@ -283,10 +278,17 @@ Plan plan_without_points(const SweepDefinition& sweep) {
 std::vector<std::string> changes_since(const Plan& plan, const fs::path& file) {
   std::vector<std::string> changes;
   if (!is_of_this_model(plan)) changes.emplace_back("the model");
-  if (!is_as_before(file, plan.digest)) changes.push_back(fmt::format("'{}'", file.string()));
-  for (const auto& [input, digest] : plan.files)
-    if (!is_as_before(input, digest)) changes.push_back(fmt::format("'{}'", input));
+  if (content_of(file) != plan.digest) changes.push_back(fmt::format("'{}'", file.string()));
+  for (const auto& [input, content] : plan.files)
+    if (content_of(input) != content) changes.push_back(fmt::format("'{}'", input));
   return changes;
+}
+
+Json inputs_of(const Plan& plan, std::string_view role) {
+  Json inputs = Json::array();
+  inputs.push_back(input_entry(plan.file, plan.digest, role));
+  for (const auto& [file, content] : plan.files) inputs.push_back(input_entry(file, content));
+  return inputs;
 }
 
 bool is_of_this_model(const Plan& plan) { return plan.model == build_info().model; }

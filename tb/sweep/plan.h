@@ -13,12 +13,14 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
-#include "tb/results/shared_inputs.h"
+#include "tb/results/input_files.h"
 #include "tb/sweep/definition.h"
 #include "tb/sweep/point.h"
 #include "tb/sweep/sampling.h"
@@ -60,7 +62,7 @@ struct Plan {
   std::vector<PlanAxis> axes;
   std::uint64_t points = 0, inputs = 0;
   std::vector<std::string> left_out;         // in words, with how many
-  std::map<std::string, std::string> files;  // that the points read, and their SHA-256
+  std::map<std::string, std::string> files;  // that the points read, and what they hold
   bool reports = true;
   std::uint64_t chunk = 0;
 
@@ -86,6 +88,8 @@ void write_plan(Plan& plan, const SweepPlace& place);
 // What is not any more as it was when the plan was made, in words: the file, the model, files that
 // points read. Nothing where the plan is current.
 std::vector<std::string> changes_since(const Plan& plan, const std::filesystem::path& file);
+// What it was made from: the file as the `role` that it has, and what the points read.
+nlohmann::ordered_json inputs_of(const Plan& plan, std::string_view role);
 // Results of another one count for nothing.
 bool is_of_this_model(const Plan& plan);
 // FileError where there is none.
@@ -102,7 +106,7 @@ class PointNamer {
   void tell(Plan& plan) const;
 
  private:
-  SharedInputs files_;
+  InputFiles files_;
   std::unordered_map<std::string, std::uint64_t> inputs_, goldens_;
 };
 

@@ -54,12 +54,11 @@ PointEngine::PointEngine(const std::string& name, const std::vector<Setting>& se
   for (const Setting& setting : settings) bound.set.set(setting.name, setting.value, setting.where);
 }
 
-std::string point_name(const BoundEngine& bound, SharedInputs& files) {
+std::string point_name(const BoundEngine& bound, InputFiles& files) {
   std::string key = fmt::format("{}\n{}\n", bound.engine.name(), build_info().model);
-  for (const Parameter& p : bound.set.all()) {
-    key += fmt::format("{}={}\n", p.name, p.text());
-    if (names_a_file(p)) key += fmt::format("  {}\n", files.sha256_of(p.text()));
-  }
+  for (const Parameter& p : bound.set.all()) key += fmt::format("{}={}\n", p.name, p.text());
+  for (const std::string& content : files.contents(bound.engine.input_files(files.meshes())))
+    key += fmt::format("  {}\n", content);
   return sha256(key).substr(0, kDigits);
 }
 

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "tb/app/run_once.h"
-#include "tb/results/shared_inputs.h"
+#include "tb/results/input_files.h"
 #include "tb/sweep/definition.h"
 
 namespace deburr::tb {
@@ -32,9 +32,9 @@ class PointEngine {
   BoundEngine bound;
 };
 
-// The directory's name: a hash of the resolved configuration, of the content of the files that it
-// names and of the model version. Call it behind resolve().
-std::string point_name(const BoundEngine& bound, SharedInputs& files);
+// The directory's name: a hash of the resolved configuration, of what all files hold that the run
+// reads, and of the model version. Call it behind resolve().
+std::string point_name(const BoundEngine& bound, InputFiles& files);
 // Of what points have in common before they are simulated: points with the same one are run in
 // turn.
 std::string input_name(const BoundEngine& bound);

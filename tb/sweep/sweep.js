@@ -19,14 +19,19 @@
     }),
     ...data.metrics.map((metric, i) => ({
       name: metric.name, metric: i, numeric: true, unit: metric.unit, meaning: metric.meaning,
-      value: (p) => p.values[i] === 'inf' ? Infinity : p.values[i] ?? NaN,
-      text: (p) => shown(p.values[i]),
+      value: (p) => valueOf(p, i) ?? NaN,
+      text: (p) => shown(valueOf(p, i)),
     })),
   ];
+  // JSON has no infinity: that a picture is identical stands beside its values.
+  function valueOf(p, i) {
+    return p.identical?.includes(data.metrics[i].name) ? Infinity : p.values[i];
+  }
   const columnOf = (name) => columns.find((c) => c.name === name);
   function shown(value) {
     if (value === null || value === undefined) return '';
     if (typeof value === 'string') return value;
+    if (value === Infinity) return 'identical';
     if (Number.isInteger(value)) return value.toLocaleString('en-US');
     return Math.abs(value) >= 1000 ? Math.round(value).toLocaleString('en-US')
                                    : String(Number(value.toPrecision(4)));
@@ -62,7 +67,7 @@
     box.className = '';
     element('p', data.axes.map((a, i) => `${a.name} = ${p.at[i]}`).join(', '), box);
     element('p', p.state === 'done'
-      ? data.metrics.map((m, i) => `${m.name} ${shown(p.values[i])} ${m.unit}`.trim()).join(', ')
+      ? data.metrics.map((m, i) => `${m.name} ${shown(valueOf(p, i))} ${m.unit}`.trim()).join(', ')
       : `${p.state}${p.failure ? ': ' + p.failure : ''}`, box);
     const pre = element('pre', commandOf(p), box, 'code');
     pre.style.whiteSpace = 'pre-wrap';
@@ -94,16 +99,24 @@
   Chart.defaults.borderColor = rule;
   Chart.defaults.animation = false;
   let scatter = null;
+  // An identical picture is drawn beyond all that have a number.
+  function placer(column) {
+    const values = done.map(column.value).filter(Number.isFinite);
+    const low = Math.min(...values), high = Math.max(...values);
+    const beyond = values.length > 0 ? high + ((high - low) * 0.08 || 1) : 1;
+    return (p) => column.value(p) === Infinity ? beyond : column.value(p);
+  }
   function drawScatter() {
     const x = columnOf(byId('across').value), y = columnOf(byId('up').value);
     const colour = columnOf(byId('colour').value);
     const groups = colour.labels.length <= palette.length ? colour.labels : [];
+    const across = placer(x), up = placer(y);
     const sets = (groups.length > 0 ? groups : [null]).map((label, i) => {
       const points = done.filter((p) => label === null || p.at[colour.axis] === label)
-        .filter((p) => Number.isFinite(x.value(p)) && Number.isFinite(y.value(p)));
+        .filter((p) => !Number.isNaN(x.value(p)) && !Number.isNaN(y.value(p)));
       return {
         label: label === null ? 'all points' : `${colour.name} = ${label}`,
-        data: points.map((p) => ({x: x.value(p), y: y.value(p), point: p})),
+        data: points.map((p) => ({x: across(p), y: up(p), point: p})),
         backgroundColor: points.map((p) => palette[i] + (p.front || goals.length === 0 ? '' : '70')),
         borderColor: ink,
         borderWidth: points.map((p) => p.front ? 1 : 0),

@@ -47,8 +47,8 @@ class Worker {
         plan_(read_plan(options.sweep)),
         place_{options.out, options.sweep},
         shared_(std::make_shared<SharedInputs>(place_.cache())) {
-    for (const auto& [file, digest] : plan_.files)
-      if (shared_->sha256_of(file) != digest)
+    for (const auto& [file, content] : plan_.files)
+      if (shared_->files().content(file) != content)
         throw spec::ConfigError(
             fmt::format("'{}' has changed since the sweep was planned: run the sweep again", file));
   }
@@ -83,7 +83,7 @@ class Worker {
                          static_cast<std::uint64_t>(point.bound.run.seed));
       context.set_quiet(true);
       context.set_report(plan_.reports);
-      context.share(shared_);
+      context.share(shared_, point.bound.engine.input_files(shared_->files().meshes()));
       failure = prepare(point.bound, context);
       if (!failure)
         failure = judge(in_child([&] { return simulate(point.bound, context); }), directory);

@@ -9,9 +9,12 @@ add_test(NAME memories COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/memories_test.py" $<
                                "${PROJECT_SOURCE_DIR}/docs")
 set_tests_properties(memories PROPERTIES LABELS system TIMEOUT 300
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
-add_test(NAME terminal COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/terminal_test.py" $<TARGET_FILE:deburr>)
-set_tests_properties(terminal PROPERTIES LABELS system TIMEOUT 300
-                     ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+foreach(class Terminal LastLine Bar Completion)
+  add_test(NAME terminal.${class}
+           COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/terminal_test.py" $<TARGET_FILE:deburr> ${class})
+  set_tests_properties(terminal.${class} PROPERTIES LABELS system TIMEOUT 600
+                       ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+endforeach()
 add_test(NAME figures COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/figures_test.py" $<TARGET_FILE:deburr>)
 set_tests_properties(figures PROPERTIES LABELS system TIMEOUT 300
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
@@ -34,9 +37,10 @@ foreach(class Points Searched Failing Killed)
   set_tests_properties(sweep.${class} PROPERTIES LABELS system TIMEOUT 600
                        ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 endforeach()
-foreach(class Lines Fragments)
+foreach(class Lines Forms Fragments)
   add_test(NAME traces.${class}
-           COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/traces_test.py" $<TARGET_FILE:deburr> ${class})
+           COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/traces_test.py" $<TARGET_FILE:deburr>
+                   "${PROJECT_SOURCE_DIR}/docs/traces.md" ${class})
   set_tests_properties(traces.${class} PROPERTIES LABELS system TIMEOUT 600
                        ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 endforeach()
@@ -44,8 +48,18 @@ add_test(NAME first_sweep COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/first_sweep_test.
                                   "${PROJECT_SOURCE_DIR}")
 set_tests_properties(first_sweep PROPERTIES LABELS system TIMEOUT 600
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+add_test(NAME testplans COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/testplans_test.py" $<TARGET_FILE:deburr>
+                                "${PROJECT_SOURCE_DIR}")
+set_tests_properties(testplans PROPERTIES LABELS system TIMEOUT 300
+                     ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 set_property(TEST sweep.Killed APPEND PROPERTY LABELS long)
 add_dependencies(deburr_long_tests deburr)
+foreach(class Replaced Traced)
+  add_test(NAME inputs.${class}
+           COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/inputs_test.py" $<TARGET_FILE:deburr> ${class})
+  set_tests_properties(inputs.${class} PROPERTIES LABELS system TIMEOUT 600
+                       ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+endforeach()
 add_test(NAME slurm COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/slurm_test.py" $<TARGET_FILE:deburr>)
 set_tests_properties(slurm PROPERTIES LABELS slurm TIMEOUT 900 SKIP_REGULAR_EXPRESSION "^skipped"
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")

@@ -17,6 +17,7 @@ import tempfile
 import time
 import unittest
 
+FINDINGS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../scripts/findings")
 POINTS = 12
 SWEEP = """
 engine: texture
@@ -209,6 +210,70 @@ axes:
         self.write("mesh.obj", triangle.format(1))
         self.assertIn("(0 in this run)", self.run_sweep("mesh.yaml", "run"))
         self.assertEqual({n: e for n, e in self.results().items() if n in first}, first)
+
+    def identical_pictures(self):
+        """One colour everywhere is its own truth; a chessboard is not."""
+        for name, pixels in (("flat.pgm", [200] * 64),
+                             ("chess.pgm", [255 * ((i + i // 8) % 2) for i in range(64)])):
+            with open(os.path.join(self.directory, name), "wb") as file:
+                file.write(b"P5 8 8 255\n" + bytes(pixels))
+        self.write("picture.yaml", """
+engine: texture
+base:
+  scene: {source: tunnel, width: 32, height: 32}
+  run: {images: false, truth: true}
+axes:
+  scene.texture: [chess.pgm, flat.pgm]
+  texture.cache.bytes: [1024, 4096]
+metrics: {psnr: quality.psnr_db, edges: quality.psnr_edge_db, bits: memory_bits.total.physical}
+objectives: {maximise: [psnr], minimise: [bits]}
+""")
+
+    def test_an_identical_picture_is_the_best_and_not_missing(self):
+        self.identical_pictures()
+        self.run_sweep("picture.yaml", "run")
+        rows = self.rows("picture")
+        with open(os.path.join(self.directory, "out/sweeps/picture/collected.json")) as file:
+            collected = json.load(file, parse_constant=self.fail)  # no NaN, no Infinity
+        for row, point in zip(rows, collected["points"]):
+            flat = row["scene.texture"] == "flat.pgm"
+            with open(os.path.join(self.directory, row["directory"], "result.json")) as file:
+                quality = json.load(file, parse_constant=self.fail)["quality"]
+            self.assertEqual(quality["identical"]["psnr_db"], flat)
+            self.assertEqual(quality["psnr_db"] is None, flat)
+            self.assertEqual((row["psnr"] == "inf", point["values"][0] is None), (flat, flat))
+            # It has no edges: no value, and not an identical one.
+            self.assertEqual(point.get("identical", []), ["psnr"] if flat else [])
+            self.assertEqual(row["edges"] == "", flat)
+            # The smallest memory with the best picture beats all others.
+            best = flat and row["texture.cache.bytes"] == "1024"
+            self.assertEqual(row["front"], "1" if best else "0", row)
+        # A search takes it for the best as well, and a comparison for equal to itself.
+        self.search("picture.yaml", "--runs", "4")
+        for row in self.rows("picture", command="search"):
+            self.assertEqual(row["front"] == "1", row["psnr"] == "inf" and
+                             row["texture.cache.bytes"] == "1024")
+        self.run_compare("out/sweeps/picture", "out/sweeps/picture")
+        flat, chess = (next(r["directory"] for r in rows if r["scene.texture"] == name)
+                       for name in ("flat.pgm", "chess.pgm"))
+        self.assertIn("FAIL worse: ", self.run_compare(flat, chess, code=1))
+        self.assertNotIn("psnr_db", self.run_compare(chess, flat, "--cycles-percent", "1000",
+                                                     "--throughput-percent", "99"))
+
+    def test_pages_and_scripts_know_identical_pictures(self):
+        self.identical_pictures()
+        self.run_sweep("picture.yaml", "run")
+        self.run_sweep("picture.yaml", "collect")
+        done = subprocess.run([FINDINGS, "out/sweeps/picture/collected.json", "--out", "pages"],
+                              cwd=self.directory, text=True, capture_output=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(os.path.join(self.directory, "pages/picture.md")) as file:
+            page = file.read()
+        front = [line for line in page.splitlines() if "`flat.pgm`" in line and "identical" in line]
+        self.assertEqual(len(front), 1, page)
+
+    def run_compare(self, *arguments, code=0):
+        return self.run_sweep(*arguments, code=code, command="compare")
 
     def test_a_damaged_cache_is_made_again(self):
         text = SWEEP.replace("run.images: false", "run.images: false\n  run.truth: true")

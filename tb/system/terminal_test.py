@@ -2,15 +2,48 @@
 # SPDX-License-Identifier: MIT
 """What `deburr` says on a terminal and to programs, and what completes its command line.
 
-usage: terminal_test.py DEBURR
+usage: terminal_test.py DEBURR [CLASS]
 """
+import fcntl
 import json
 import os
+import pty
 import re
+import signal
+import struct
 import subprocess
 import sys
 import tempfile
+import termios
 import unittest
+
+SWEEP = """
+engine: texture
+base:
+  scene: {source: tunnel, width: 48, height: 48, texture_size: 64}
+  run.images: false
+axes:
+  texture.cache.bytes: [1024, 2048, 4096]
+  texture.cache.ways: [1, 2]
+  memory.latency: [50, 100]
+metrics: {cycles: cycles, bits: memory_bits.total.physical}
+objectives: {minimise: [cycles, bits]}
+"""
+PAGE = "# The unit\n\nIt gives every pixel once.\n"
+TESTPLAN = """
+title: Small
+features:
+  - id: filtering
+    title: Filtering
+    traces: [{page: unit.md, says: It gives every pixel once.}]
+    stimuli:
+      - name: scenes
+        engine: texture
+        base: {scene: {width: 48, height: 48, texture_size: 64}}
+        axes: {scene.source: [plane, tunnel]}
+        seeds: 6
+    checks: {colours: 1}
+"""
 
 
 class Terminal(unittest.TestCase):
@@ -97,6 +130,186 @@ class Terminal(unittest.TestCase):
         seeded = run("--seed", "2")
         self.assertNotEqual(seeded[1], first[1])
         self.assertNotEqual(seeded[2], first[2])
+
+
+class Many(unittest.TestCase):
+    """A place with a sweep and a testplan of twelve points each."""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="deburr_terminal_")
+        self.addCleanup(scratch.cleanup)
+        self.directory = scratch.name
+        for name, text in (("cache.yaml", SWEEP), ("unit.md", PAGE), ("small.yaml", TESTPLAN)):
+            with open(os.path.join(self.directory, name), "w") as file:
+                file.write(text)
+
+
+class LastLine(Many):
+    """It names the command that was given, and what it worked on."""
+
+    def last_line(self, *arguments, code=0):
+        done = subprocess.run([DEBURR, *arguments], cwd=self.directory, text=True,
+                              capture_output=True, timeout=300)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout.splitlines()[-1]
+
+    def test_of_every_command(self):
+        small = ("--size", "32x32", "--no-images")
+        commands = [(("run", engine, *small), f"PASS {engine}: ")
+                    for engine in ("texture", "morphological", "geometric", "frame")]
+        commands += [(("sweep", "cache.yaml", action), "PASS sweep cache: ")
+                     for action in ("plan", "run", "run", "status", "collect")]
+        commands += [(("search", "cache.yaml", action, "--runs", "8"), "PASS search cache: ")
+                     for action in ("run", "run", "status", "collect")]
+        commands += [(("regress", "small.yaml", action, "--seed", "3"),
+                      "PASS regression small --seed 3: ")
+                     for action in ("plan", "run", "run", "status", "collect")]
+        commands += [(("compare", "out/texture", "out/texture"), "PASS compare: "),
+                     (("compare", "out/sweeps/cache", "out/sweeps/cache"), "PASS compare: "),
+                     (("report", "out/texture"), "PASS report: "),
+                     (("papers", "002", "--quiet"), "PASS papers: ")]
+        for arguments, begin in commands:
+            line = self.last_line(*arguments)
+            self.assertTrue(line.startswith("RESULT: " + begin), f"{arguments}: {line}")
+
+    def test_of_what_fails(self):
+        with open(os.path.join(self.directory, "cache.yaml"), "a") as file:
+            file.write("retry: no such key\n")
+        for command in ("sweep", "search", "regress"):
+            self.assertRegex(self.last_line(command, "cache.yaml", "run", code=2),
+                             "^RESULT: FAIL configuration: cache.yaml")
+        self.assertRegex(self.last_line("run", "texture", "--size", "32x32", "--fault", "flip-bit",
+                                        code=1), "^RESULT: FAIL texture: ")
+        self.assertRegex(self.last_line("compare", "none", "none", code=5), "^RESULT: FAIL file: ")
+
+    def test_of_an_interrupted_sweep(self):
+        for command, name in (("sweep", "sweep cache"), ("search", "search cache")):
+            process = subprocess.Popen([DEBURR, command, "cache.yaml", "run", "--quiet", "-j1"],
+                                       cwd=self.directory, text=True, stdout=subprocess.PIPE,
+                                       stderr=subprocess.PIPE)
+            progress = os.path.join(self.directory, "out",
+                                    {"sweep": "sweeps", "search": "searches"}[command], "cache")
+            while process.poll() is None and not os.path.exists(os.path.join(progress, "run.lock")):
+                pass
+            process.send_signal(signal.SIGINT)
+            out, _ = process.communicate(timeout=300)
+            self.assertRegex(out.splitlines()[-1], f"^RESULT: (INTERRUPTED|PASS) {name}: ")
+
+    def test_what_only_prints_has_none(self):
+        for arguments in (["params", "texture"], ["completion", "bash"], ["--version"]):
+            self.assertNotIn("RESULT:", self.last_line(*arguments))
+
+
+class Screen:
+    """What a terminal of so many columns shows: its rows, and how often one was begun by itself."""
+
+    def __init__(self, columns):
+        self.columns, self.rows, self.column = columns, [""], 0
+        self.wraps, self.redraws = 0, []
+
+    def show(self, text):
+        for part in re.findall(r"\033\[K|\r|\n|[^\r\n\033]", text):
+            if part == "\r":
+                self.redraws.append(self.rows[-1])
+                self.column = 0
+            elif part == "\n":
+                self.rows.append("")
+                self.column = 0
+            elif part == "\033[K":
+                self.rows[-1] = self.rows[-1][:self.column]
+            else:
+                if self.column == self.columns:
+                    self.wraps += 1
+                    self.rows.append("")
+                    self.column = 0
+                self.rows[-1] = self.rows[-1][:self.column] + part + self.rows[-1][self.column + 1:]
+                self.column += 1
+
+
+class Bar(Many):
+    """Progress stays in one row of a terminal, however narrow."""
+
+    def resize(self, descriptor, columns):
+        fcntl.ioctl(descriptor, termios.TIOCSWINSZ, struct.pack("HHHH", 24 if columns else 0, columns, 0, 0))
+
+    def run_on(self, columns, *arguments, variables=None, resized=None):
+        """Everything that came to a terminal of so many columns; `resized` after the first bytes."""
+        mine, its = pty.openpty()
+        self.resize(its, columns)
+        environment = {k: v for k, v in os.environ.items() if k != "COLUMNS"} | (variables or {})
+        process = subprocess.Popen([DEBURR, *arguments], cwd=self.directory, env=environment,
+                                   stdin=its, stdout=subprocess.DEVNULL, stderr=its)
+        os.close(its)
+        parts = []
+        while True:
+            try:
+                data = os.read(mine, 65536)
+            except OSError:  # the other end is closed
+                break
+            if not data:
+                break
+            parts.append(data.decode())
+            if resized and len(parts) == 1:
+                self.resize(mine, resized)
+                process.send_signal(signal.SIGWINCH)
+        os.close(mine)
+        self.assertEqual(process.wait(timeout=300), 0, "".join(parts))
+        return parts
+
+    COMMANDS = [("sweep", ("sweep", "cache.yaml", "run", "-j1"), 12),
+                ("search", ("search", "cache.yaml", "run", "-j1", "--runs", "8"), 8),
+                ("regression", ("regress", "small.yaml", "run", "-j1", "--seed", "3"), 12)]
+
+    def check(self, columns, label, arguments, points):
+        # As wide as the terminal says: a tty makes \r\n of a line break.
+        text = "".join(self.run_on(columns, *arguments, "--out", f"out_{columns}")).replace("\r\n", "\n")
+        screen = Screen(columns)
+        screen.show(text)
+        self.assertEqual(screen.wraps, 0, screen.rows)
+        self.assertGreater(len(screen.redraws), 2, text)
+        # The bar, and the row behind it; on a slow machine the planning has a bar, too.
+        rows = [row for row in screen.rows if "planning" not in row]
+        self.assertEqual((len(rows), rows[1]), (2, ""), screen.rows)
+        last = rows[0]
+        self.assertIn(f"{label}  100 %", last)
+        if columns == 120:
+            self.assertRegex(last, rf"^\[#{{8,24}}\] {label}  100 %  \S+ k?point/s")
+        if columns >= 80 and label != "search":
+            self.assertTrue(last.endswith(f"0 queued, 0 running, {points} passed, 0 failed"), last)
+
+    def test_40_columns(self):
+        for command in self.COMMANDS:
+            self.check(40, *command)
+
+    def test_80_columns(self):
+        for command in self.COMMANDS:
+            self.check(80, *command)
+
+    def test_120_columns(self):
+        for command in self.COMMANDS:
+            self.check(120, *command)
+
+    def test_a_run_waits_in_one_row(self):
+        screen = Screen(40)
+        screen.show("".join(self.run_on(40, "run", "morphological", "--scene", "object", "--size",
+                                        "320x240", "--truth")).replace("\r\n", "\n"))
+        self.assertEqual(screen.wraps, 0, screen.rows)
+
+    def widths(self, parts):
+        return [len(line.rstrip("\r\n")) for line in re.split(r"\r(?!\n)", "".join(parts).replace("\033[K", ""))]
+
+    def test_a_terminal_that_becomes_narrow(self):
+        widths = self.widths(self.run_on(120, *self.COMMANDS[0][1], resized=40))
+        self.assertGreater(widths[1], 80)
+        self.assertLess(max(widths[-3:]), 40)
+
+    def test_a_terminal_that_does_not_say(self):
+        for number, (variables, most) in enumerate((({}, 79), ({"COLUMNS": "50"}, 49),
+                                                    ({"COLUMNS": "wide"}, 79), ({"COLUMNS": "0"}, 79))):
+            widths = self.widths(self.run_on(0, *self.COMMANDS[0][1], "--out", f"out_{number}",
+                                             variables=variables))
+            self.assertLessEqual(max(widths), most, variables)
+            self.assertGreater(max(widths), 25, variables)
 
 
 class Completion(unittest.TestCase):

@@ -10,3 +10,5 @@ deburr_test(texture_random_test LABELS system SOURCES texture_random_test.cpp
             LINK deburr::golden_texture deburr::harness deburr::rtl_texture)
 deburr_test(texture_limits_test LABELS system SOURCES texture_limits_test.cpp
             LINK deburr::golden_texture deburr::harness deburr::rtl_texture)
+deburr_test(texture_targets_test LABELS system SOURCES texture_targets_test.cpp
+            LINK deburr::texture_environment)

@@ -3,11 +3,14 @@
 """Traces join other tools: a cache written anew here gives the misses of the look-ups in a trace,
 and a run of the fragments that another one wrote is that run again.
 
-usage: traces_test.py DEBURR [CLASS]
+usage: traces_test.py DEBURR PAGE [CLASS]        PAGE: docs/traces.md
 """
 import collections
+import fractions
 import json
+import math
 import os
+import re
 import struct
 import subprocess
 import sys
@@ -173,6 +176,92 @@ class Lines(TracesTest):
             self.assertEqual(asked, [a + i for a in misses for i in range(0, line, grain)], what)
 
 
+class Forms(TracesTest):
+    """The commands of docs/traces.md give what simulators of DRAM read."""
+
+    # As their parsers read a line: DRAMsim3 common.cc, operator>>; DRAMSys StlPlayer.cpp,
+    # parseTraceFile; Ramulator 2 loadstore_trace.cpp, init_trace; Ramulator 1 Processor.cpp,
+    # get_dramtrace_request. Where a parser takes any word for a read, this takes the right one.
+    GRAMMARS = {
+        "dramsim3.trace": r"(?P<address>(0x)?[0-9a-f]+)\s+(?P<command>READ|WRITE)\s+(?P<clock>\d+)",
+        "dramsys.stl": r"(?P<clock>\d+):\s+(\(\d+\)\s+)?(?P<command>read|write)\s+(?P<address>(0x)?[0-9a-f]+)",
+        "ramulator2.trace": r"(?P<command>LD|ST) (?P<address>0x[0-9a-f]+)",
+        "ramulator1.trace": r"(?P<address>(0x)?[0-9a-f]+) +(?P<command>[RW])",
+    }
+    COMMANDS = {"READ": "read", "WRITE": "write", "read": "read", "write": "write",
+                "LD": "read", "ST": "write", "R": "read", "W": "write"}
+
+    def commands_of_the_page(self):
+        """The commands of the block by the file that each writes, and its clocks in ns."""
+        with open(PAGE) as file:
+            block = next(b for b in re.findall(r"^```\n(.*?)^```", file.read(), re.M | re.S)
+                         if "ramulator" in b)
+        commands = {c.rsplit("> ", 1)[1].strip(): c for c in re.split(r"^(?=awk)", block, flags=re.M) if c}
+        tck = {name: float(found[1]) for name, c in commands.items()
+               if (found := re.search(r"-v tck=([\d.]+)", c))}
+        return commands, tck
+
+    def check_forms(self, name, mhz):
+        commands, tck = self.commands_of_the_page()
+        self.assertEqual(set(commands), set(self.GRAMMARS))
+        self.assertEqual(set(tck), {"dramsim3.trace", "dramsys.stl"})
+        header, records = self.lines(name)
+        self.assertIn(["clock_mhz", mhz], header)
+        records = [r for r in records if r.event in ("read", "write")]
+        self.assertGreater(len(records), 100)
+        for file, command in commands.items():
+            done = subprocess.run(["bash", "-ec", command], cwd=self.path(name), text=True,
+                                  capture_output=True)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), command)
+            with open(self.path(f"{name}/{file}")) as converted:
+                lines = converted.read().splitlines()
+            self.assertEqual(len(lines), len(records), file)
+            for line, record in zip(lines, records):
+                found = re.fullmatch(self.GRAMMARS[file], line)
+                self.assertTrue(found, f"{file}: {line}")
+                self.assertEqual(int(found["address"], 16), record.address, file)
+                self.assertEqual(self.COMMANDS[found["command"]], record.event, file)
+                if file in tck:
+                    exact = (fractions.Fraction(record.clock * 1000) /
+                             (fractions.Fraction(str(tck[file])) * fractions.Fraction(mhz)))
+                    # awk's floating point may end on the other side of a whole number.
+                    self.assertIn(int(found["clock"]),
+                                  {math.floor(exact - fractions.Fraction(1, 10**6)),
+                                   math.floor(exact + fractions.Fraction(1, 10**6))}, line)
+
+    def test_reads_alone(self):
+        self.run_engine("texture", "lines", "--size", "48x48", "--no-images", "--line-trace", "text",
+                        "--set", "run.line_trace_look_ups=true")
+        self.check_forms("lines", "166.67")
+
+    def test_reads_and_writes_at_another_clock(self):
+        result = self.run_engine("geometric", "lines", "--size", "96x64", "--no-images",
+                                 "--line-trace", "text")
+        self.assertGreater(result["memory"]["bytes_written"], 0)
+        self.check_forms("lines", "250")
+
+    def test_the_example_of_the_page(self):
+        with open(PAGE) as file:
+            text = file.read()
+        trace = re.search(r"^# deburr-lines 1\n.*?^# end \d+\n", text, re.M | re.S)[0]
+        rows = re.findall(r"^\| (DRAM\S+|Ramulator \d).*?\| `([^`]*)`", text, re.M)
+        os.mkdir(self.path("page"))
+        with open(self.path("page/lines.trace"), "w") as file:
+            file.write(trace)
+        for command in self.commands_of_the_page()[0].values():
+            subprocess.run(["bash", "-ec", command], cwd=self.path("page"), check=True)
+        shown = {}
+        for file in self.GRAMMARS:
+            with open(self.path(f"page/{file}")) as converted:
+                shown[file] = converted.read().strip()
+        self.assertEqual([line for _, line in rows], list(shown.values()))
+
+    def test_the_grammars_refuse_what_the_page_said_before(self):
+        self.assertFalse(re.fullmatch(self.GRAMMARS["ramulator2.trace"], "R 0x0003f340"))
+        self.assertFalse(re.fullmatch(self.GRAMMARS["ramulator1.trace"], "R 0x0003f340"))
+        self.assertFalse(re.fullmatch(self.GRAMMARS["dramsys.stl"], "0x0003f340 READ 28"))
+
+
 class Fragments(TracesTest):
     def outcome(self, name):
         with open(self.path(f"{name}/result.json")) as file:
@@ -274,8 +363,8 @@ class Fragments(TracesTest):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
+    if len(sys.argv) < 3 or sys.argv[1] in ("-h", "--help"):
         print(__doc__)
-        sys.exit(0 if len(sys.argv) > 1 else 2)
-    DEBURR = os.path.abspath(sys.argv.pop(1))
+        sys.exit(0 if sys.argv[1:2] in (["-h"], ["--help"]) else 2)
+    DEBURR, PAGE = (os.path.abspath(sys.argv.pop(1)) for _ in range(2))
     unittest.main()

@@ -174,8 +174,76 @@ TEST_F(Registers, NamesAndTexts) {
   EXPECT_THAT(
       rtl::register_table_markdown(kTable),
       testing::HasSubstr("| 0x010 | `FLAGS` | W1C | 0x00000000 | bit i: error i was seen |"));
-  EXPECT_THAT(rtl::register_header(kTable, "deburr::regs"),
-              testing::HasSubstr("inline constexpr std::uint32_t COUNT = 0x014;  // RO: lines"));
+}
+
+// Values by hand: three fields, of which one is a choice, and two registers that share theirs.
+namespace fields {
+constexpr std::string_view kCodes[] = {"off", "own-way"};
+constexpr spec::Field kMode{"a.mode", 1, 0, "off where it is not built", kCodes},
+    kCount{"count", 12, 8, "U5"}, kTop{"top", 31, 31, {}, kCodes};
+constexpr spec::Field kAll[] = {kMode, kCount, kTop};
+constexpr spec::Field kLow[] = {{"address", 31, 6, "a multiple of 64"}};
+constexpr spec::RegisterInfo kTable[] = {{0x00, "ID", Access::kReadOnly, 0xDEB0, "which one"},
+                                         {0x10, "RULES", Access::kReadWrite, 0, "rules", kAll},
+                                         {0x14, "FROM", Access::kReadWrite, 0, "source", kLow},
+                                         {0x18, "TO", Access::kReadWrite, 0, "target", kLow}};
+}  // namespace fields
+
+TEST(RegisterFields, AreTakenOutAndPutInWhereTheyStand) {
+  EXPECT_EQ(fields::kMode.mask(), 0x3u);
+  EXPECT_EQ(fields::kCount.mask(), 0x1F00u);
+  EXPECT_EQ(fields::kTop.mask(), 0x80000000u);
+  EXPECT_EQ(fields::kLow[0].mask(), 0xFFFFFFC0u);
+  EXPECT_EQ((spec::Field{"all", 31, 0, {}}.mask()), 0xFFFFFFFFu);
+  EXPECT_EQ(fields::kCount.of(0xFFFF15FF), 0x15u);
+  EXPECT_EQ(fields::kTop.of(0x7FFFFFFF), 0u);
+  EXPECT_EQ(fields::kCount.in(0x15), 0x1500u);
+  EXPECT_EQ(fields::kCount.in(0xFFFFFFFF), 0x1F00u) << "what does not fit is dropped";
+  EXPECT_EQ(fields::kTable[0].mask(), 0xFFFFFFFFu) << "one number";
+  EXPECT_EQ(fields::kTable[1].mask(), 0x80001F03u);
+}
+
+TEST(RegisterFields, AreOrderedAndShareNoBit) {
+  EXPECT_TRUE(spec::fields_are_in_order(fields::kTable));
+  const auto ordered = [](std::initializer_list<spec::Field> list) {
+    const std::vector<spec::Field> all(list);
+    const spec::RegisterInfo info[] = {{0, "A", Access::kReadWrite, 0, "a", all}};
+    return spec::fields_are_in_order(info);
+  };
+  EXPECT_TRUE(ordered({{"a", 3, 0, {}}, {"b", 4, 4, {}}}));
+  EXPECT_FALSE(ordered({{"a", 3, 0, {}}, {"b", 4, 3, {}}}));
+  EXPECT_FALSE(ordered({{"b", 4, 4, {}}, {"a", 3, 0, {}}}));
+  EXPECT_FALSE(ordered({{"a", 0, 3, {}}}));
+  EXPECT_FALSE(ordered({{"a", 32, 32, {}}}));
+}
+
+TEST(RegisterFields, StandInATableOfTheirOwn) {
+  const std::string page = rtl::register_table_markdown(fields::kTable);
+  for (const char* const row :
+       {"| `RULES` | [1:0] | `a.mode` | 0 off, 1 own-way; off where it is not built |\n",
+        "| `RULES` | [12:8] | `count` | U5 |\n", "| `RULES` | [31] | `top` | 0 off, 1 own-way |\n",
+        "| `FROM`, `TO` | [31:6] | `address` | a multiple of 64 |\n"})
+    EXPECT_THAT(page, testing::HasSubstr(row));
+  EXPECT_THAT(rtl::register_table_markdown(kTable), testing::Not(testing::HasSubstr("| field |")));
+}
+
+TEST(RegisterFields, BecomeMacrosOfC) {
+  EXPECT_EQ(rtl::register_c_macros(std::span(fields::kTable).first(2), "DEBURR_X"),
+            "\n/* RO: which one */\n"
+            "#define DEBURR_X_ID 0x000u\n"
+            "#define DEBURR_X_ID_RESET 0x0000DEB0u\n"
+            "\n/* RW: rules */\n"
+            "#define DEBURR_X_RULES 0x010u\n"
+            "#define DEBURR_X_RULES_A_MODE_MASK 0x00000003u /* off where it is not built */\n"
+            "#define DEBURR_X_RULES_A_MODE_SHIFT 0u\n"
+            "#define DEBURR_X_RULES_A_MODE_OFF 0u\n"
+            "#define DEBURR_X_RULES_A_MODE_OWN_WAY 1u\n"
+            "#define DEBURR_X_RULES_COUNT_MASK 0x00001F00u /* U5 */\n"
+            "#define DEBURR_X_RULES_COUNT_SHIFT 8u\n"
+            "#define DEBURR_X_RULES_TOP_MASK 0x80000000u\n"
+            "#define DEBURR_X_RULES_TOP_SHIFT 31u\n"
+            "#define DEBURR_X_RULES_TOP_OFF 0u\n"
+            "#define DEBURR_X_RULES_TOP_OWN_WAY 1u\n");
 }
 
 // A table may be in any order.

@@ -12,6 +12,8 @@ import sys
 import time
 import unittest
 
+import yaml
+
 sys.dont_write_bytecode = True
 from tiny_tree import tiny_tree  # noqa: E402
 
@@ -41,7 +43,7 @@ class CommandLines(unittest.TestCase):
         tools = ("cmake", "ctest", "apt-get", "clang++")
         self.root = tiny_tree(self, {f"bin/{tool}": SAYS for tool in tools} |
                               {DEBURR: SAYS, "bin/ninja": SAYS + PROGRAMS, "bin/dpkg-query": INSTALLED})
-        for folder in ("scripts", ".ci", "cmake"):
+        for folder in ("scripts", ".ci", "cmake", "tb/testplan"):
             shutil.copytree(SOURCE / folder, self.root / "tree" / folder)
         shutil.copy(SOURCE / "CMakePresets.json", self.root / "tree")
         (self.root / "build").rename(self.root / "tree/build")
@@ -75,6 +77,7 @@ class CommandLines(unittest.TestCase):
                 ("scripts/install", ["build", "odd"], 2, "no section odd: build modules test"),
                 ("scripts/stand_alone", ["5/4"], 2, "5/4 is no part as 2/4"),
                 ("scripts/stand_alone", ["1/4", "2/4"], 2, "one part, and no 2/4"),
+                ("scripts/nightly", ["odd"], 2, "no feature odd: texture-rules, "),
                 ("scripts/everything", ["odd"], 2, "no part odd: tests sanitizers"),
                 ("scripts/everything", ["--list", "tests"], 2, "parts go with no option"),
                 ("scripts/fuzz", ["--seconds"], 2, "--seconds needs a number from 1"),
@@ -128,6 +131,7 @@ class CommandLines(unittest.TestCase):
                 # These may be parts of names behind that of the program.
                 (["-L", "^unit$", "-R", "rtl_"], "deburr_unit_tests"),
                 (["-L", "^unit$", "-R", "^rtl_a_test[.]Suite"], "deburr_unit_tests"),
+                (["-L", "^unit$", "-R", "^rtl_a_test_of"], "deburr_unit_tests"),
                 (["-L", "^unit$", "-R", "^rtl_", "-E", "^rtl_a"], "deburr_unit_tests")):
             with self.subTest(arguments=arguments):
                 calls = [call for call in self.call("scripts/test", *arguments)[2] if "--build" in call]
@@ -149,6 +153,19 @@ class CommandLines(unittest.TestCase):
                 installed = [call.split("--no-install-recommends ")[1].split() for call in calls
                              if "apt-get install" in call]
                 self.assertEqual(installed, [packages] if packages else [])
+
+    def test_a_part_of_the_nightly_plan_has_the_features_that_are_asked_for(self):
+        plan = yaml.safe_load((SOURCE / "tb/testplan/nightly.yaml").read_text(encoding="utf-8"))
+        names = [feature["id"] for feature in plan["features"]]
+        for arguments, left in ((["large-frames"], ["large-frames"]), ([], names),
+                                (["--but", names[0], names[2]], [names[1], *names[3:]])):
+            done, said, calls = self.call("scripts/nightly", *arguments, "--seed", "7")
+            self.assertEqual(done, 0, said)
+            part = self.root / "tree/build/nightly/nightly.yaml"
+            self.assertEqual(calls, ["cmake --build build/release --target deburr",
+                                     f"deburr regress {part} --divide 100 --out {part.parent} --seed 7"])
+            self.assertEqual(yaml.safe_load(part.read_text(encoding="utf-8")),
+                             {**plan, "features": [f for f in plan["features"] if f["id"] in left]})
 
     def test_the_demo_writes_to_its_callers_folder(self):
         for arguments, out in (([], f"{self.root}/tree/out/demo"), (["mine"], f"{self.root}/mine")):

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "spec/error.h"
+#include "tb/papers/papers.h"
 
 namespace deburr::tb {
 namespace {
@@ -27,6 +28,11 @@ TEST(Verdict, IsRightToTheLastPrintedDigitAndNoFurther) {
   EXPECT_EQ(verdict(1.16, 2, 1.1548, "wrong"), "wrong");
   EXPECT_EQ(verdict(672, 0, 672.4, "other"), "right");
   EXPECT_EQ(verdict(672, 0, 673, "other"), "other");
+}
+
+TEST(Papers, IdenticalPicturesAreCalledSo) {
+  EXPECT_EQ(decimals(41.256, 2), "41.26");
+  EXPECT_EQ(decimals(std::numeric_limits<double>::infinity(), 2), "identical");
 }
 
 TEST(Verdict, TakesTheFigureAsItIsPrinted) {

@@ -86,29 +86,6 @@ TEST(GeometricRecords, BuffersHoldEachPixelInItsPlaceAndZerosBetween) {
   }
 }
 
-TEST(GeometricRecords, RulesAreFieldsOfARegister) {
-  Parameters p;  // edges 1, shading 2, farther 2, max 0, linear light, bias 9, tiled
-  EXPECT_EQ(platform::rules_register(p), 0x49A9u);
-  p.select = spec::geometric::Select::kAll;
-  EXPECT_EQ(platform::rules_register(p), 0x49A8u);
-  p.crease = spec::geometric::Crease::kPaper;
-  EXPECT_EQ(platform::rules_register(p), 0x49A4u);
-  p.depth_test = spec::geometric::DepthTest::kOwn;
-  EXPECT_EQ(platform::rules_register(p), 0x4994u);
-  p.combine = spec::geometric::Combine::kLast;
-  EXPECT_EQ(platform::rules_register(p), 0x49D4u);
-  p.linear_light = false;
-  EXPECT_EQ(platform::rules_register(p), 0x4954u);
-  p.depth_bias = 24;
-  EXPECT_EQ(platform::rules_register(p), 0x5854u);
-  p.mark = true;
-  EXPECT_EQ(platform::rules_register(p), 0x7854u);
-  p.layout = Layout::kRaster;
-  EXPECT_EQ(platform::rules_register(p), 0x3854u);
-  p.frame_copy = true;
-  EXPECT_EQ(platform::rules_register(p), 0xB854u);
-}
-
 // ---- regions
 
 TEST(GeometricRegions, FollowEachOtherAtPages) {
@@ -206,6 +183,34 @@ TEST(GeometricDriver, ProgramsSizesAndBasesThenStarts) {
                           Write{0x20, 0x2000}, Write{0x24, 0x3000}, Write{0x28, 0x1000},
                           Write{0x2C, 0x4000}, Write{0x30, 0x6000}, Write{0x34, 0x5000},
                           Write{0x38, 0x7000}, Write{0x04, 5}));
+}
+
+TEST(GeometricDriver, WritesRulesAsFieldsOfARegister) {
+  Bed b;
+  const auto written = [&](const Parameters& rules) {
+    b.driver.set_rules(rules);
+    return b.registers.values[reg::kRules];
+  };
+  Parameters p;  // edges 1, shading 2, farther 2, max 0, linear light, bias 9, tiled
+  EXPECT_EQ(written(p), 0x49A9u);
+  p.select = spec::geometric::Select::kAll;
+  EXPECT_EQ(written(p), 0x49A8u);
+  p.crease = spec::geometric::Crease::kPaper;
+  EXPECT_EQ(written(p), 0x49A4u);
+  p.depth_test = spec::geometric::DepthTest::kOwn;
+  EXPECT_EQ(written(p), 0x4994u);
+  p.combine = spec::geometric::Combine::kLast;
+  EXPECT_EQ(written(p), 0x49D4u);
+  p.linear_light = false;
+  EXPECT_EQ(written(p), 0x4954u);
+  p.depth_bias = 24;
+  EXPECT_EQ(written(p), 0x5854u);
+  p.mark = true;
+  EXPECT_EQ(written(p), 0x7854u);
+  p.layout = Layout::kRaster;
+  EXPECT_EQ(written(p), 0x3854u);
+  p.frame_copy = true;
+  EXPECT_EQ(written(p), 0xB854u);
 }
 
 TEST(GeometricDriver, ReadsWhatTheEngineShows) {

@@ -57,6 +57,7 @@ TEST(FrameBytes, RowsBeginAtMultiplesOf64) {
 
 // ---- registers
 
+// Every rule 0.
 Parameters nothing() {
   Parameters p;
   p.edge_source = spec::morphological::EdgeSource::kLuma;
@@ -74,38 +75,6 @@ Parameters nothing() {
   return p;
 }
 
-// One field after the other, at the bits that docs/registers.md gives.
-TEST(MorphologicalRecords, EachRuleIsAField) {
-  const auto with = [](auto&& change) {
-    Parameters p = nothing();
-    change(p);
-    return platform::rules_register(p);
-  };
-  using namespace spec::morphological;  // NOLINT: the choices
-  EXPECT_EQ(with([](Parameters&) {}), 0u);
-  EXPECT_EQ(with([](Parameters& p) { p.edge_source = static_cast<EdgeSource>(3); }), 3u);
-  EXPECT_EQ(with([](Parameters& p) { p.threshold_mode = ThresholdMode::kDynamic; }), 1u << 2);
-  EXPECT_EQ(with([](Parameters& p) { p.dynamic_luma = static_cast<DynamicLuma>(1); }), 1u << 3);
-  EXPECT_EQ(with([](Parameters& p) { p.dynamic_luma = static_cast<DynamicLuma>(2); }), 1u << 17);
-  EXPECT_EQ(with([](Parameters& p) { p.local_contrast = static_cast<LocalContrast>(3); }), 3u << 4);
-  EXPECT_EQ(with([](Parameters& p) { p.predictor = static_cast<Predictor>(2); }), 2u << 6);
-  EXPECT_EQ(with([](Parameters& p) { p.steps = 31; }), 31u << 8);
-  EXPECT_EQ(with([](Parameters& p) { p.contiguous = true; }), 1u << 13);
-  EXPECT_EQ(with([](Parameters& p) { p.safe = true; }), 1u << 14);
-  EXPECT_EQ(with([](Parameters& p) { p.linear_light = true; }), 1u << 15);
-  EXPECT_EQ(with([](Parameters& p) { p.trim = true; }), 1u << 16);
-  EXPECT_EQ(with([](Parameters& p) { p.ends = Ends::kCrossings; }), 1u << 18);
-  for (const AreaSource table :
-       {AreaSource::kTableFull, AreaSource::kTableMerged, AreaSource::kTableMinimal})
-    EXPECT_EQ(with([table](Parameters& p) { p.area = table; }), 1u << 19);
-  EXPECT_EQ(with([](Parameters& p) { p.diagonals = true; }), 1u << 20);
-  EXPECT_EQ(with([](Parameters& p) { p.round_corners = true; }), 1u << 21);
-  EXPECT_EQ(with([](Parameters& p) { p.blend = BlendRule::kStrongest; }), 1u << 22);
-  EXPECT_EQ(with([](Parameters& p) { p.leave = static_cast<Leave>(3); }), 3u << 23);
-  EXPECT_EQ(with([](Parameters& p) { p.leave = static_cast<Leave>(4); }), 1u << 26);
-  EXPECT_EQ(with([](Parameters& p) { p.area = AreaSource::kLearned; }), 1u << 25);
-}
-
 struct Bed {
   explicit Bed(const Parameters& p = nothing()) : driver(registers, p, &memory) {
     registers.values[reg::kId] = 0xDEB00002;
@@ -116,6 +85,40 @@ struct Bed {
   MorphologicalDriver driver;
 };
 using Write = std::pair<std::uint32_t, std::uint32_t>;
+
+// One field after the other, at the bits that docs/registers.md gives.
+TEST(MorphologicalDriver, WritesEachRuleAsAField) {
+  Bed b;
+  const auto with = [&](auto&& change) {
+    Parameters p = nothing();
+    change(p);
+    b.driver.set_rules(p);
+    return b.registers.values[reg::kRules];
+  };
+  using namespace spec::morphological;  // NOLINT: the choices
+  EXPECT_EQ(with([](Parameters&) {}), 0u);
+  EXPECT_EQ(with([](Parameters& p) { p.edge_source = static_cast<EdgeSource>(3); }), 3u);
+  EXPECT_EQ(with([](Parameters& p) { p.threshold_mode = ThresholdMode::kDynamic; }), 1u << 2);
+  EXPECT_EQ(with([](Parameters& p) { p.dynamic_luma = static_cast<DynamicLuma>(1); }), 1u << 3);
+  EXPECT_EQ(with([](Parameters& p) { p.dynamic_luma = static_cast<DynamicLuma>(2); }), 2u << 3);
+  EXPECT_EQ(with([](Parameters& p) { p.local_contrast = static_cast<LocalContrast>(3); }), 3u << 5);
+  EXPECT_EQ(with([](Parameters& p) { p.predictor = static_cast<Predictor>(2); }), 2u << 7);
+  EXPECT_EQ(with([](Parameters& p) { p.steps = 31; }), 31u << 9);
+  EXPECT_EQ(with([](Parameters& p) { p.contiguous = true; }), 1u << 14);
+  EXPECT_EQ(with([](Parameters& p) { p.safe = true; }), 1u << 15);
+  EXPECT_EQ(with([](Parameters& p) { p.linear_light = true; }), 1u << 16);
+  EXPECT_EQ(with([](Parameters& p) { p.trim = true; }), 1u << 17);
+  EXPECT_EQ(with([](Parameters& p) { p.ends = Ends::kCrossings; }), 1u << 18);
+  for (const AreaSource table :
+       {AreaSource::kTableFull, AreaSource::kTableMerged, AreaSource::kTableMinimal})
+    EXPECT_EQ(with([table](Parameters& p) { p.area = table; }), 1u << 19);
+  EXPECT_EQ(with([](Parameters& p) { p.diagonals = true; }), 1u << 20);
+  EXPECT_EQ(with([](Parameters& p) { p.round_corners = true; }), 1u << 21);
+  EXPECT_EQ(with([](Parameters& p) { p.blend = BlendRule::kStrongest; }), 1u << 22);
+  EXPECT_EQ(with([](Parameters& p) { p.leave = static_cast<Leave>(3); }), 3u << 24);
+  EXPECT_EQ(with([](Parameters& p) { p.leave = static_cast<Leave>(4); }), 4u << 24);
+  EXPECT_EQ(with([](Parameters& p) { p.area = AreaSource::kLearned; }), 1u << 23);
+}
 
 TEST(MorphologicalDriver, WritesRulesAndThresholds) {
   Bed b;
@@ -132,7 +135,7 @@ TEST(MorphologicalDriver, WritesRulesAndThresholds) {
   p.corner_rounding = 0x100;
   b.driver.set_rules(p);
   EXPECT_THAT(b.registers.written,
-              ElementsAre(Write{0x10, 1u << 16}, Write{0x14, 1}, Write{0x18, 2}, Write{0x1C, 3},
+              ElementsAre(Write{0x10, 1u << 17}, Write{0x14, 1}, Write{0x18, 2}, Write{0x1C, 3},
                           Write{0x20, 4}, Write{0x24, 5}, Write{0x28, 6}, Write{0x30, 0x1001F70}));
 }
 

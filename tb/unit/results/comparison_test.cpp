@@ -159,6 +159,35 @@ TEST_F(Runs, ListWhatDiffersJudgedByTheFirst) {
   EXPECT_FALSE(compare_runs(paths({"a", "b"}), {.memory_percent = 100})["worse"]);
 }
 
+TEST_F(Runs, AnIdenticalPictureIsSaidToBeOne) {
+  for (const auto& [name, psnr] :
+       {std::pair{"a", 40.0}, std::pair{"b", kInfinity}, std::pair{"c", kInfinity}}) {
+    leave(name, 1000, "2");
+    Json result = read_result(path_ / name);
+    result["quality"] = {{"psnr_db", psnr}, {"identical", {{"psnr_db", psnr > 100}}}};
+    put(fs::path(name) / "result.json", result.dump());
+  }
+  const Json all = compare_runs(paths({"a", "b", "c"}), {});
+  EXPECT_FALSE(all["worse"]);
+  ASSERT_EQ(all["values"].size(), 1u);
+  const Json cells = all["values"][0]["cells"];
+  EXPECT_EQ(all["values"][0]["key"], "quality.psnr_db");
+  EXPECT_EQ(cells[0]["value"], 40.0);
+  EXPECT_FALSE(cells[0].contains("identical"));
+  for (const int better : {1, 2}) {
+    EXPECT_EQ(cells[better], (Json{{"value", nullptr},
+                                   {"text", "identical"},
+                                   {"identical", true},
+                                   {"change", ""},
+                                   {"judgement", "better"},
+                                   {"worse", false}}));
+  }
+  EXPECT_THAT(comparison_page(all), HasSubstr("identical"));
+  EXPECT_THAT(all.dump(), Not(HasSubstr("inf\"")));
+  EXPECT_TRUE(compare_runs(paths({"b", "a"}), {})["worse"]);
+  EXPECT_TRUE(compare_runs(paths({"b", "c"}), {})["values"].empty());
+}
+
 TEST_F(Runs, ThePageIsSelfContainedAndEscapes) {
   leave("a", 1000, "2");
   leave("b", 900, "<4>");
@@ -224,8 +253,12 @@ class Sweeps : public Directory {
     if (front) p["front"] = true;
     return p;
   }
+  static Json identical(Json point) {
+    point["identical"] = {"psnr"};
+    return point;
+  }
   static Json sweep(Json base, Json axes, Json points) {
-    return {{"schema", 1},
+    return {{"schema", kCollectionSchema},
             {"sweep", "cache"},
             {"title", "Cache"},
             {"engine", "texture"},
@@ -252,16 +285,17 @@ class Sweeps : public Directory {
 };
 
 TEST_F(Sweeps, PointsAreMatchedByTheirConfiguration) {
-  leave("a", sweep(Json::array({Json{"latency", "100"}}), Json::array({axis("bytes")}),
-                   Json::array({point({"1024"}, {100, 30.0, 5}, true),
-                                point({"2048"}, {90, 31.0, 4}), point({"4096"}, {80, "inf", 3})})));
+  leave("a",
+        sweep(Json::array({Json{"latency", "100"}}), Json::array({axis("bytes")}),
+              Json::array({point({"1024"}, {100, 30.0, 5}, true), point({"2048"}, {90, 31.0, 4}),
+                           identical(point({"4096"}, {80, nullptr, 3}))})));
   // Another axis, whose default is what the first sweep has; another base.
   leave("b",
         sweep(Json::array({Json{"latency", "200"}}), Json::array({axis("ways"), axis("bytes")}),
               Json::array({point({"2", "2048"}, {99, 31.02, 4}),
                            point({"2", "1024"}, {50, 30.0, 6}, true),
                            point({"4", "1024"}, {40, 30.0, 5}),
-                           point({"2", "4096"}, {80, "inf", nullptr})})));
+                           identical(point({"2", "4096"}, {80, nullptr, nullptr}))})));
   const Json all = compared({"a", "b"});
   EXPECT_EQ(all["axes"], (Json{"bytes", "ways"}));
   ASSERT_EQ(all["parameters"].size(), 1u);
@@ -273,6 +307,9 @@ TEST_F(Sweeps, PointsAreMatchedByTheirConfiguration) {
   EXPECT_EQ(all["points"][0]["front"], (Json{true, true}));
   EXPECT_EQ(all["points"][1]["judgements"][0], (Json{"worse", "equal", "equal"}));
   EXPECT_EQ(all["points"][2]["judgements"][0], (Json{"equal", "equal", "worse"})) << "lost";
+  EXPECT_TRUE(all["points"][2]["values"][0][1].is_null());
+  EXPECT_EQ(all["points"][2]["identical"], (Json{{"psnr"}, {"psnr"}}));
+  EXPECT_EQ(all["points"][0]["identical"], (Json{Json::array(), Json::array()}));
   ASSERT_EQ(all["only"].size(), 1u);
   EXPECT_EQ(all["only"][0]["at"], (Json{"1024", "4"}));
   EXPECT_EQ(all["only"][0]["states"], (Json{"none", "done"}));
@@ -290,6 +327,28 @@ TEST_F(Sweeps, PointsAreMatchedByTheirConfiguration) {
   EXPECT_EQ(all["metrics"][1]["maximise"], true);
   EXPECT_FALSE(compared({"a", "a"})["worse"]);
   EXPECT_THAT(comparison_page(all), HasSubstr("1 on the front of all together"));
+}
+
+// Nobody is better than an identical picture, and one that is lost is worse.
+TEST_F(Sweeps, AnIdenticalPictureIsTheBestOfAll) {
+  const auto with = [](Json first, Json second) {
+    Json all = sweep(Json::array(), Json::array({axis("bytes")}),
+                     Json::array({std::move(first), std::move(second)}));
+    all["objectives"] = Json::array(
+        {{{"metric", "cycles"}, {"maximise", false}}, {{"metric", "psnr"}, {"maximise", true}}});
+    return all;
+  };
+  leave("a", with(point({"1"}, {100, 30.0, 1}), identical(point({"2"}, {200, nullptr, 1}))));
+  leave("b", with(point({"1"}, {100, 99.0, 1}), point({"2"}, {150, 98.0, 1})));
+  leave("c", with(point({"1"}, {100, 99.0, 1}), point({"2"}, {200, nullptr, 1})));
+  const Json lost = compared({"a", "b"});
+  EXPECT_EQ(lost["points"][1]["judgements"][0], (Json{"better", "worse", "equal"}));
+  EXPECT_EQ(lost["sweeps"][0]["joint_front"], 1) << "the identical one, whatever its clocks";
+  EXPECT_EQ(lost["sweeps"][1]["joint_front"], 1);
+  EXPECT_EQ(compared({"b", "a"})["points"][1]["judgements"][0], (Json{"worse", "better", "equal"}));
+  const Json missing = compared({"a", "c"});
+  EXPECT_EQ(missing["points"][1]["judgements"][0][1], "worse") << "null without flag is no value";
+  EXPECT_EQ(missing["points"][1]["identical"], (Json{{"psnr"}, Json::array()}));
 }
 
 TEST_F(Sweeps, NamedChoicesAreTheirValues) {
@@ -340,7 +399,7 @@ TEST_F(Sweeps, ThatAreNotWholeOrDoNotFitAreRefused) {
     return compared({"a", "b"});
   };
   EXPECT_THROW(spoiled([](Json& j) { j = "x"; }), spec::FileError);
-  EXPECT_THROW(spoiled([](Json& j) { j["schema"] = 2; }), spec::FileError);
+  EXPECT_THROW(spoiled([](Json& j) { j["schema"] = 1; }), spec::FileError);
   EXPECT_THROW(spoiled([](Json& j) { j.erase("points"); }), spec::FileError);
   EXPECT_THROW(spoiled([](Json& j) { j["points"][0]["values"].push_back(1); }), spec::FileError);
   EXPECT_THROW(spoiled([](Json& j) { j["axes"][0]["parameters"] = Json::array(); }),

@@ -73,6 +73,9 @@ Result sample_result() {
   return r;
 }
 
+// As read_result() gives it.
+Json as_read(const Result& result) { return with_infinity(to_json(result)); }
+
 TEST(Headline, IsTheWholeMessageWithoutItsDetails) {
   EXPECT_EQ(headline("one line"), "one line");
   EXPECT_EQ(headline("no such link; there are:\n  a\n  b\n"), "no such link; there are: a, b");
@@ -93,7 +96,7 @@ class Directory : public testing::Test {
   std::filesystem::path path_;
 };
 
-TEST(ResultJson, HasTheKeysOfSchemaTwoInOrder) {
+TEST(ResultJson, HasTheKeysOfSchemaThreeInOrder) {
   const Json json = to_json(sample_result());
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
@@ -101,12 +104,32 @@ TEST(ResultJson, HasTheKeysOfSchemaTwoInOrder) {
                                          "cycles", "clock_mhz", "throughput", "latency", "memory",
                                          "units", "bottleneck", "memories", "memory_bits", "work",
                                          "figures", "quality", "host", "meaning"));
-  EXPECT_EQ(json["schema"], 2);
+  EXPECT_EQ(json["schema"], 3);
   EXPECT_EQ(json["checks"]["comparisons"], 1000);
   EXPECT_EQ(json["units"]["address"]["stalls"]["downstream"], 1321);
   EXPECT_EQ(json["latency"]["histogram"][1]["count"], 200);
-  EXPECT_EQ(json["quality"]["psnr_edge_db"], "inf");
   EXPECT_TRUE(json["quality"]["psnr_silhouette_db"].is_null());
+}
+
+// A number that is none is null, never a text; why, says the flag.
+TEST_F(Directory, IdenticalPicturesAreNullInTheFileAndInfiniteForItsReaders) {
+  std::ofstream(path_ / "result.json") << to_json(sample_result()).dump();
+  const Json quality = Json::parse(read_file(path_ / "result.json", 1 << 20))["quality"];
+  EXPECT_EQ(quality["psnr_db"], 41.25);
+  EXPECT_TRUE(quality["psnr_edge_db"].is_null());
+  EXPECT_EQ(quality["identical"], (Json{{"psnr_db", false},
+                                        {"psnr_edge_db", true},
+                                        {"psnr_silhouette_db", false},
+                                        {"psnr_before_db", false},
+                                        {"psnr_edge_before_db", false},
+                                        {"psnr_silhouette_before_db", false}}));
+  const Json read = read_result(path_);
+  EXPECT_TRUE(is_infinite(read["quality"]["psnr_edge_db"]));
+  EXPECT_FALSE(is_infinite(read["quality"]["psnr_db"]));
+  EXPECT_TRUE(read["quality"]["psnr_silhouette_db"].is_null());
+  EXPECT_EQ(with_infinity(read), read);
+  EXPECT_EQ(with_infinity(Json{{"cycles", 1}}), (Json{{"cycles", 1}}));
+  EXPECT_EQ(read.dump(), to_json(sample_result()).dump()) << "and null when it is written again";
 }
 
 TEST(Results, MemoriesAddUpByKind) {
@@ -157,24 +180,27 @@ TEST_F(Directory, AnIncompleteOrForeignResultIsRefused) {
   refuse("");
   refuse("{");
   refuse("[1]");
-  refuse(R"({"schema": 2})");
+  refuse(R"({"schema": 3})");
   refuse(R"({"schema": 1, "unit": "texture"})");
+  Json old = to_json(sample_result());
+  old["schema"] = 2;
+  refuse(old.dump());
   std::ofstream(path_ / "result.json") << to_json(sample_result()).dump();
   EXPECT_EQ(read_result(path_)["cycles"], 54321);
   EXPECT_EQ(read_result(path_ / "result.json")["cycles"], 54321);
 }
 
 TEST(Compare, TheSameIsNotWorse) {
-  const Json a = to_json(sample_result());
+  const Json a = as_read(sample_result());
   EXPECT_FALSE(compare(a, a, {}).worse);
 }
 
 TEST(Compare, EachJudgedValueIsJudgedInItsDirection) {
-  const Json a = to_json(sample_result());
+  const Json a = as_read(sample_result());
   const auto worse = [&](auto change) {
     Result r = sample_result();
     change(r);
-    return compare(a, to_json(r), {}).worse;
+    return compare(a, as_read(r), {}).worse;
   };
   EXPECT_FALSE(worse([](Result& r) { r.cycles = 55000; })) << "within 2 %";
   EXPECT_TRUE(worse([](Result& r) { r.cycles = 56000; }));
@@ -189,6 +215,8 @@ TEST(Compare, EachJudgedValueIsJudgedInItsDirection) {
   EXPECT_TRUE(worse([](Result& r) { r.quality->psnr_db = 41.1; }));
   EXPECT_FALSE(worse([](Result& r) { r.quality->psnr_db = 41.22; }));
   EXPECT_TRUE(worse([](Result& r) { r.quality->psnr_edge_db = 60.0; })) << "identical before";
+  EXPECT_FALSE(worse([](Result& r) { r.quality->psnr_db = INFINITY; })) << "identical now";
+  EXPECT_TRUE(worse([](Result& r) { r.quality->psnr_edge_db.reset(); })) << "gone";
   EXPECT_TRUE(worse([](Result& r) { r.quality.reset(); })) << "a quality that is gone";
   EXPECT_FALSE(worse([](Result& r) { r.host_seconds = 100; })) << "the host is not judged";
 }
@@ -275,6 +303,7 @@ TEST_F(Page, ShowsWhatTheIssueAsksForFirst) {
   EXPECT_THAT(page, HasSubstr("<td>Whole frame</td><td class=\"n\">35.50</td><td class=\"n\">"
                               "41.25</td><td class=\"n\">+5.75</td>"));
   EXPECT_THAT(page, HasSubstr("<td class=\"n\">identical</td>"));
+  EXPECT_THAT(page, HasSubstr("PSNR, edge pixels</")) << "and not the frame's for want of a number";
   EXPECT_THAT(page, Not(HasSubstr("Silhouette pixels"))) << "there was no depth";
   EXPECT_THAT(page, HasSubstr("<td>cache_lines</td><td>flops</td><td class=\"n\">80 x 64</td>"
                               "<td>2R1W</td><td class=\"n\">1</td><td>2 copies of 1R1W</td>"
@@ -361,6 +390,32 @@ TEST(Progress, SaysRateAndTimeLeft) {
   EXPECT_EQ(Progress::line("x", "y", 100, 4000, 10), "x    2 %  10 y/s  6 min 30 s left");
   EXPECT_EQ(Progress::line("x", "y", 10, 10, 1), "x  100 %  10 y/s");
   EXPECT_EQ(Progress::line("x", "y", 0, 10, 0), "x    0 %  0 y/s");
+}
+
+TEST(Progress, FitsEveryTerminal) {
+  const auto fitted = [](std::size_t columns) {
+    return Progress::fitted(columns, "sweep", "point", 100, 4000, 10,
+                            "3 899 queued, 1 running, 99 passed, 1 failed");
+  };
+  EXPECT_EQ(fitted(119),
+            "[........................] sweep    2 %  10 point/s  6 min 30 s left  3 899 queued, 1 "
+            "running, 99 passed, 1 failed");
+  EXPECT_EQ(fitted(93),
+            "[........] sweep    2 %  10 point/s  6 min 30 s left  3 899 queued, 1 running, 99 "
+            "passed, 1 failed");
+  EXPECT_EQ(fitted(92),
+            "sweep    2 %  10 point/s  6 min 30 s left  3 899 queued, 1 running, 99 passed, 1 "
+            "failed");
+  EXPECT_EQ(fitted(79),
+            "sweep    2 %  6 min 30 s left  3 899 queued, 1 running, 99 passed, 1 failed");
+  EXPECT_EQ(fitted(60), "sweep    2 %  3 899 queued, 1 running, 99 passed, 1 failed");
+  EXPECT_EQ(fitted(50), "sweep    2 %  10 point/s  6 min 30 s left");
+  EXPECT_EQ(fitted(39), "sweep    2 %  6 min 30 s left");
+  EXPECT_EQ(fitted(20), "sweep    2 %");
+  EXPECT_EQ(fitted(3), "swe");
+  // A character is a column, whatever it takes in bytes, and stays whole.
+  EXPECT_EQ(Progress::fitted(2, "bürste", "point", 1, 2, 1, ""), "bü");
+  EXPECT_EQ(Progress::fitted(10, "bürste", "p", 1, 2, 0, ""), "bürste   5");
 }
 
 // A morphological engine takes 37 rows before it delivers a pixel.

@@ -117,11 +117,16 @@ TEST(ImageIo, StatedConversions) {
   EXPECT_EQ(linear.pixels[2], (Rgba8{255, 0, 255, 255}));
   EXPECT_EQ(linear.pixels[3], (Rgba8{0, 255, 255, 255}));
   EXPECT_THAT(report.conversions, ::testing::Contains(HasSubstr("sRGB curve")));
+  EXPECT_THAT(report.conversions,
+              ::testing::IsSupersetOf({"2 of 12 values clamped to [0, 1], the first at (2, 0)",
+                                       "1 of 12 values NaN made 0, the first at (3, 0)"}));
 
   // HDR says that it is linear as well; a float TIFF says nothing, so it holds codes. Alpha is a
   // share in both.
   write_with_oiio<float>(folder / "linear.hdr", 1, 1, 3, {0.5f, 0.25f, 1.0f});
-  EXPECT_EQ(read_image(folder / "linear.hdr").pixels[0], (Rgba8{188, 137, 255, 255}));
+  EXPECT_EQ(read_image(folder / "linear.hdr", &report).pixels[0], (Rgba8{188, 137, 255, 255}));
+  for (const std::string& conversion : report.conversions)
+    EXPECT_THAT(conversion, ::testing::Not(::testing::ContainsRegex("clamped|NaN")));
   write_with_oiio<float>(folder / "alpha.exr", 1, 1, 4, {0.5f, 0.5f, 0.5f, 0.5f});
   EXPECT_EQ(read_image(folder / "alpha.exr").pixels[0][3], 128);
   write_with_oiio<float>(folder / "codes.tif", 2, 1, 4, {0.5f, 0.25f, nan, 0.5f, 7, -1, 1, 1});
@@ -161,7 +166,21 @@ TEST(ImageIo, DepthIn24BitsOrOneFloat) {
   EXPECT_EQ(read_depth(folder / "d.png").pixels[1], 1.0f);
   EXPECT_NEAR(read_depth(folder / "d.png").pixels[3], 0.25f, 1e-7);
   write_with_oiio<float>(folder / "d.exr", 2, 1, 1, {3.5f, 90.0f});
-  EXPECT_EQ(read_depth(folder / "d.exr").pixels, (std::vector<float>{3.5f, 90.0f}));
+  ReadReport report;
+  EXPECT_EQ(read_depth(folder / "d.exr", &report).pixels, (std::vector<float>{3.5f, 90.0f}));
+  EXPECT_THAT(
+      report.conversions,
+      ::testing::ElementsAre(HasSubstr("2 of 2 values lie outside [0, 1], the first at (0, 0)")));
+  const float inf = std::numeric_limits<float>::infinity(), nan = std::nanf("");
+  write_with_oiio<float>(folder / "i.exr", 2, 2, 1, {0.5f, 1, 0, -inf});
+  EXPECT_EQ(read_depth(folder / "i.exr", &report).pixels[3], -inf);
+  EXPECT_THAT(report.conversions, ::testing::ElementsAre(HasSubstr("1 of 4 values lie outside")));
+  read_depth(folder / "d.png", &report);
+  EXPECT_THAT(report.conversions, ::testing::IsEmpty());
+  write_with_oiio<float>(folder / "n.exr", 2, 2, 1, {0.5f, 1, nan, nan});
+  EXPECT_THAT(file_error([&] { read_depth(folder / "n.exr"); }),
+              AllOf(HasSubstr("n.exr"), HasSubstr("2 of 4 values are NaN"),
+                    HasSubstr("the first at (0, 1)"), HasSubstr("write 0")));
   write_with_oiio<std::uint8_t>(folder / "grey.png", 1, 1, 1, {9});
   EXPECT_THAT(file_error([&] { read_depth(folder / "grey.png"); }), HasSubstr("24 bits"));
 }

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <cstring>
@@ -24,6 +25,7 @@ using test::file_error;
 using test::TemporaryFolder;
 using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 constexpr const char* kSquare =
@@ -183,6 +185,102 @@ TEST(Obj, DamagedBytesNeverCrash) {
   EXPECT_GT(refused, 200);
 }
 
+// ---- files --------------------------------------------------------------------------------------
+
+// Of the import, from the folder on, which has to be the list that is had without it.
+std::vector<std::string> files_of(const TemporaryFolder& folder, const std::string& name,
+                                  const ImportOptions& options = {}) {
+  std::vector<std::string> files;
+  for (const fs::path& file : import_mesh(folder / name, options).files)
+    files.push_back(fs::relative(file.parent_path(), folder.path()) / file.filename());
+  std::vector<std::string> listed;
+  for (const fs::path& file : mesh_files(folder / name, options))
+    listed.push_back(fs::relative(file.parent_path(), folder.path()) / file.filename());
+  EXPECT_EQ(files, listed);
+  for (std::string& file : files)
+    if (file.starts_with("./")) file.erase(0, 2);
+  return files;
+}
+
+TEST(MeshFiles, OfAnObj) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "sub folder");
+  write_image(folder / "wood grain.png", noise(8, 8));
+  folder.write("sub folder/my b.mtl", "newmtl b\nmap_Kd ../wood grain.png\n");
+  folder.write("a.mtl",
+               "newmtl a\nmap_Kd -s 2 2 wood grain.png\nnewmtl again\nmap_Kd wood grain.png\n"
+               "map_Bump other.png\nnewmtl plain\n");
+  folder.write("plain.obj", kSquare);
+  EXPECT_THAT(files_of(folder, "plain.obj"), ElementsAre("plain.obj"));
+  // Of the names of a line the first that is there is taken; a blank behind them is none.
+  folder.write("m.obj", std::string("mtllib none.mtl a.mtl a.mtl \n  mtllib\tgone.mtl \r"
+                                    "mtllib sub\\ folder/my\\ b.mtl\nmtllib a.mtl\nusemtl b\n") +
+                            kSquare);
+  const auto with_textures = ElementsAre("m.obj", "none.mtl", "a.mtl", "gone.mtl",
+                                         "sub folder/my b.mtl", "wood grain.png", "wood grain.png");
+  EXPECT_THAT(files_of(folder, "m.obj"), with_textures) << "by two names";
+  EXPECT_THAT(files_of(folder, "m.obj", {.textures = false}),
+              ElementsAre("m.obj", "none.mtl", "a.mtl", "gone.mtl", "sub folder/my b.mtl"));
+  // A file of a name that had none is another mesh.
+  folder.write("none.mtl", "newmtl b\n");
+  EXPECT_THAT(files_of(folder, "m.obj"),
+              ElementsAre("m.obj", "none.mtl", "gone.mtl", "sub folder/my b.mtl", "a.mtl",
+                          "wood grain.png", "wood grain.png"));
+}
+
+TEST(MeshFiles, OfAnObjThatIsRefused) {
+  const TemporaryFolder folder;
+  const auto names = [&](const std::string& name) {
+    std::vector<std::string> names;
+    for (const fs::path& file : mesh_files(folder / name)) names.push_back(file.filename());
+    return names;
+  };
+  EXPECT_THAT(names("none.obj"), ElementsAre("none.obj"));
+  EXPECT_THAT(names("picture.png"), ElementsAre()) << "nobody opens it";
+  folder.write("m.mtl", "newmtl a\nmap_Kd none.png\n");
+  folder.write("m.obj", std::string("mtllib m.mtl\nusemtl a\n") + kSquare);
+  EXPECT_THAT(import_error(folder / "m.obj"), HasSubstr("none.png"));
+  EXPECT_THAT(names("m.obj"), ElementsAre("m.obj", "m.mtl", "none.png"));
+  // What cannot be read is not what is not there; a pipe would be waited for.
+  fs::remove(folder / "m.mtl");
+  ASSERT_EQ(::mkfifo((folder / "m.mtl").c_str(), 0600), 0);
+  EXPECT_THAT(import_error(folder / "m.obj"),
+              AllOf(HasSubstr("m.mtl"), HasSubstr("not a regular file")));
+  EXPECT_THAT(names("m.obj"), ElementsAre("m.obj", "m.mtl"));
+}
+
+TEST(MeshFiles, AreFoundOnce) {
+  const TemporaryFolder folder;
+  folder.write("m.obj", std::string("mtllib m.mtl\n") + kSquare);
+  MeshFiles files;
+  EXPECT_EQ(files.of(folder / "m.obj", {}).size(), 2u);
+  folder.write("m.obj", kSquare);
+  EXPECT_EQ(files.of(folder / "m.obj", {}).size(), 2u) << "a process has looked before";
+  EXPECT_EQ(files.of(folder / "m.obj", {.textures = false}).size(), 1u);
+  EXPECT_EQ(MeshFiles().of(folder / "m.obj", {}).size(), 1u);
+}
+
+TEST(MeshFiles, OfScenes) {
+  const TemporaryFolder folder;
+  MeshFiles meshes;
+  folder.write("m.obj", std::string("mtllib m.mtl\n") + kSquare);
+  folder.write("m.mtl", "newmtl a\nmap_Kd t.png\n");
+  for (const char* name : {"t.png", "u.png"}) write_image(folder / name, noise(4, 4));
+  const std::string mesh = folder / "m.obj", texture = folder / "u.png";
+  std::vector<std::string> sources = {mesh};
+  for (const SceneName& scene : scene_names()) sources.emplace_back(scene.name);
+  for (const std::string& source : sources)
+    for (const std::string& wanted : {std::string(), std::string("brick"), texture}) {
+      SCOPED_TRACE(source + " " + wanted);
+      const SceneOptions options{.texture = wanted, .texture_size = 16};
+      EXPECT_EQ(scene_files(source, options, meshes), load_scene(source, options).mesh.files);
+    }
+  EXPECT_EQ(scene_files(mesh, {}, meshes).size(), 3u);
+  EXPECT_EQ(scene_files(mesh, {.texture = texture}, meshes).size(), 3u) << "instead of the mesh's";
+  EXPECT_EQ(scene_files("cube", {.texture = texture}, meshes).size(), 0u);
+  EXPECT_EQ(scene_files("plane", {.texture = texture}, meshes).size(), 1u);
+}
+
 // ---- glTF ---------------------------------------------------------------------------------------
 
 // Builds files piece by piece; the defaults are one textured triangle.
@@ -253,6 +351,36 @@ TEST(Gltf, ExternalBufferAndTexture) {
   EXPECT_EQ(mesh.textures[0].image, noise(8, 4));
   EXPECT_EQ(mesh.textures[0].wrap_s, spec::texture::Wrap::kMirroredRepeat);
   EXPECT_EQ(mesh.textures[0].wrap_t, spec::texture::Wrap::kClampToEdge);
+}
+
+TEST(MeshFiles, OfAGltf) {
+  const TemporaryFolder folder;
+  GltfFile file;
+  folder.write("t b.bin", file.binary);
+  write_image(folder / "wood grain.png", noise(8, 4));
+  file.image = R"({"uri":"wood%20grain.png"},{"uri":"wood%20grain.png"},{"uri":"none.png"})";
+  folder.write("t.gltf", file.json("t%20b.bin"));
+  // What is not there is looked for in the current folder, too.
+  EXPECT_THAT(import_mesh(folder / "t.gltf").files,
+              ElementsAre(folder / "t.gltf", folder / "t b.bin", folder / "wood grain.png",
+                          folder / "none.png", fs::path("none.png")));
+  EXPECT_EQ(mesh_files(folder / "t.gltf"), import_mesh(folder / "t.gltf").files);
+  EXPECT_EQ(mesh_files(folder / "t.gltf", {.textures = false}),
+            import_mesh(folder / "t.gltf", {.textures = false}).files);
+  file.image = R"({"uri":"wood grain.png"})";
+  folder.write("t.glb", file.glb());
+  EXPECT_THAT(files_of(folder, "t.glb"), ElementsAre("t.glb", "wood grain.png"));
+  file.image = R"({"uri":"data:image/png;base64,AAAA"})";
+  file.material = "{}";
+  folder.write("inside.glb", file.glb());
+  EXPECT_THAT(files_of(folder, "inside.glb"), ElementsAre("inside.glb"));
+  folder.write("gone.gltf", file.json("gone.bin"));
+  EXPECT_THAT(mesh_files(folder / "gone.gltf"),
+              ElementsAre(folder / "gone.gltf", folder / "gone.bin", fs::path("gone.bin")));
+  fs::remove(folder / "t b.bin");
+  ASSERT_EQ(::mkfifo((folder / "t b.bin").c_str(), 0600), 0);
+  EXPECT_THAT(import_error(folder / "t.gltf"),
+              AllOf(HasSubstr("t b.bin"), HasSubstr("not a regular file")));
 }
 
 TEST(Gltf, EmbeddedTexture) {

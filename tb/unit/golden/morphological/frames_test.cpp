@@ -335,6 +335,60 @@ TEST(Locality, NothingBeyondTheReachMatters) {
   EXPECT_GT(changes(6 + 4, 2), 0);
 }
 
+// Replaces all given edges farther from (12, 12) than the given distances; how often does what the
+// pixel there takes change?
+int changes_by_edges(Preset preset, int columns, int rows) {
+  Random random(5);
+  spec::morphological::Parameters p = preset_parameters(preset);
+  p.window_rows = 12;  // R = 5
+  p.reach_columns = 6;
+  p.steps = 4;
+  MorphologicalGolden golden(p);
+  constexpr int kSize = 24, kAt = 12;
+  const Frame frame(kSize, kSize, [](int x, int y) { return grey(5 * (x + y)); });
+  const auto draw = [&] {  // runs along both axes
+    golden::morphological::EdgePlanes edges{{kSize, kSize}, {kSize, kSize}};
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        if (y > 0 && random.chance(edges.top.at(x - 1, y) ? 800 : 200)) edges.top.set(x, y);
+        if (x > 0 && random.chance(edges.left.at(x, y - 1) ? 600 : 80)) edges.left.set(x, y);
+      }
+    }
+    return edges;
+  };
+  const auto near_as_in = [&](const BitPlane& plane, const BitPlane& beyond) {
+    BitPlane result(kSize, kSize);
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        const bool near = std::abs(x - kAt) <= columns && std::abs(y - kAt) <= rows;
+        if ((near ? plane : beyond).at(x, y)) result.set(x, y);
+      }
+    }
+    return result;
+  };
+  const auto tap = [&](const golden::morphological::EdgePlanes& edges) {
+    golden.process(frame.view(), edges);
+    return golden.taps()[kAt * kSize + kAt];
+  };
+  int result = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const golden::morphological::EdgePlanes edges = draw(), others = draw();
+    result +=
+        tap(edges) != tap({near_as_in(edges.left, others.left), near_as_in(edges.top, others.top)});
+  }
+  return result;
+}
+
+// docs/morphological_engine.md, "Long runs": to the edge.
+TEST(Locality, NoEdgeBeyondTheReachMatters) {
+  for (const Preset preset : {Preset::kMlaaSlope, Preset::kDeburrLine, Preset::kDeburr}) {
+    SCOPED_TRACE(spec::morphological::kPresetNames[static_cast<std::size_t>(preset)]);
+    EXPECT_EQ(changes_by_edges(preset, 6, 5), 0);
+    EXPECT_GT(changes_by_edges(preset, 5, 5), 0);
+    EXPECT_GT(changes_by_edges(preset, 6, 4), 0);
+  }
+}
+
 // ---- intermediate results -----------------------------------------------------------------------
 
 TEST(Intermediates, AgreeWithEachOther) {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Does the golden give the contract's numbers? The test vectors, the table of shares, and every
 // entry of the ROMs (docs/number_formats_morphological.md).
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <iterator>
 #include <string>
+#include <vector>
 
 #include "golden/morphological/area.h"
 #include "golden/morphological/arithmetic.h"
@@ -14,6 +17,7 @@
 #include "spec/morphological/shapes.h"
 #include "spec/morphological/tables.h"
 #include "tb/unit/golden/morphological/support.h"
+#include "tb/unit/page_table.h"
 
 namespace deburr {
 namespace {
@@ -29,7 +33,7 @@ using tb::morphological::Frame;
 // ---- test vectors -------------------------------------------------------------------------------
 
 struct Vector {
-  const char* image;
+  const char *image, *rules;  // as the page names them
   Preset preset;
   void (*change)(spec::morphological::Parameters&);
   int window_rows, reach_columns;
@@ -37,10 +41,7 @@ struct Vector {
   std::uint64_t runs, long_runs, z_runs, extended, steps, probes, blended;
 };
 
-void PrintTo(const Vector& v, std::ostream* out) {
-  *out << v.image << ' ' << spec::morphological::kPresetNames[static_cast<std::size_t>(v.preset)]
-       << " window " << v.window_rows;
-}
+void PrintTo(const Vector& v, std::ostream* out) { *out << v.image << ", " << v.rules; }
 
 Frame image(const std::string& name) {
   if (name == "noise") return tb::morphological::noise_image();
@@ -78,31 +79,39 @@ void safe_chord(spec::morphological::Parameters& p) {
 }
 
 const Vector kVectors[] = {
-    {"noise", kMlaa, as_it_is, 66, 256, 0x00b097db028f25fd, 2958, 0, 1390, 0, 0, 0, 3175},
-    {"noise", kSlope, as_it_is, 66, 256, 0x6c40266cf03f3513, 2958, 0, 1390, 671, 1062, 9200, 3282},
-    {"noise", kDeburrLine, as_it_is, 66, 256, 0x2820122eb9f04a52, 2958, 0, 1390, 10, 10, 7378,
-     3178},
-    {"noise", kDeburrLine, gamma_space, 66, 256, 0x8a5e9cf3676d7e0d, 2958, 0, 1390, 10, 10, 7378,
-     3178},
-    {"line", kMlaa, as_it_is, 66, 256, 0x5d62265609239471, 241, 0, 232, 0, 0, 0, 418},
-    {"line", kSlope, as_it_is, 66, 256, 0x75ccf871d174feaf, 241, 0, 232, 162, 871, 2560, 457},
-    {"line", kDeburrLine, as_it_is, 66, 256, 0x736d3ffd8a940ba4, 241, 0, 232, 128, 584, 2832, 425},
-    {"line", kDeburrLine, paper_contrast_16, 66, 256, 0x460d3c72f9dd7681, 241, 0, 232, 128, 728,
-     3244, 425},
-    {"line", kSlope, with_fit, 66, 256, 0x60fe73fcc1c70e9f, 241, 0, 232, 162, 871, 2560, 455},
-    {"blocks", kMlaa, as_it_is, 20, 9, 0xfd1df0fe5908eab2, 1036, 19, 470, 0, 0, 0, 1186},
-    {"blocks", kSlope, steps<4>, 20, 9, 0x5f03ca34a84ea782, 1036, 19, 470, 238, 626, 4119, 1193},
-    {"blocks", kDeburrLine, steps<4>, 20, 9, 0xbc2f9325b6057e5e, 1198, 24, 536, 204, 528, 4235,
-     1386},
-    {"blocks", kSlope, safe_chord, 20, 9, 0xdda27397e1d7e1a8, 1213, 15, 531, 262, 655, 4442, 1354},
-    {"blocks", kDeburrLine, steps<3>, 10, 7, 0xa765ccb0279eaaf0, 1198, 28, 536, 204, 314, 3587,
-     1364},
-    {"blocks", kSlope, steps<8>, 20, 30, 0xdc30d70a15925762, 1036, 14, 470, 239, 1315, 5984, 1268},
-    {"blocks", kSlope, trimmed, 20, 30, 0x4a46970faa1de0ac, 1036, 14, 470, 180, 992, 5984, 1276},
-    {"blocks", kDeburrLine, as_it_is, 66, 256, 0xe86c7f9318eacf5e, 1198, 0, 538, 168, 660, 5382,
-     1552},
-    {"blocks", kDeburrLine, not_trimmed, 66, 256, 0x464376bac387fe0d, 1198, 0, 538, 222, 970, 5382,
-     1552},
+    {"noise", "mlaa", kMlaa, as_it_is, 66, 256, 0x00b097db028f25fd, 2958, 0, 1390, 0, 0, 0, 3175},
+    {"noise", "mlaa-slope", kSlope, as_it_is, 66, 256, 0x6c40266cf03f3513, 2958, 0, 1390, 671, 1062,
+     9200, 3282},
+    {"noise", "deburr-line", kDeburrLine, as_it_is, 66, 256, 0x2820122eb9f04a52, 2958, 0, 1390, 10,
+     10, 7378, 3178},
+    {"noise", "deburr-line, linear_light off", kDeburrLine, gamma_space, 66, 256,
+     0x8a5e9cf3676d7e0d, 2958, 0, 1390, 10, 10, 7378, 3178},
+    {"line", "mlaa", kMlaa, as_it_is, 66, 256, 0x5d62265609239471, 241, 0, 232, 0, 0, 0, 418},
+    {"line", "mlaa-slope", kSlope, as_it_is, 66, 256, 0x75ccf871d174feaf, 241, 0, 232, 162, 871,
+     2560, 457},
+    {"line", "deburr-line", kDeburrLine, as_it_is, 66, 256, 0x736d3ffd8a940ba4, 241, 0, 232, 128,
+     584, 2832, 425},
+    {"line", "deburr-line, N = 16, local contrast paper", kDeburrLine, paper_contrast_16, 66, 256,
+     0x460d3c72f9dd7681, 241, 0, 232, 128, 728, 3244, 425},
+    {"line", "mlaa-slope with fit", kSlope, with_fit, 66, 256, 0x60fe73fcc1c70e9f, 241, 0, 232, 162,
+     871, 2560, 455},
+    {"blocks", "mlaa", kMlaa, as_it_is, 20, 9, 0xfd1df0fe5908eab2, 1036, 19, 470, 0, 0, 0, 1186},
+    {"blocks", "mlaa-slope, N = 4", kSlope, steps<4>, 20, 9, 0x5f03ca34a84ea782, 1036, 19, 470, 238,
+     626, 4119, 1193},
+    {"blocks", "deburr-line, N = 4", kDeburrLine, steps<4>, 20, 9, 0xbc2f9325b6057e5e, 1198, 24,
+     536, 204, 528, 4235, 1386},
+    {"blocks", "mlaa-slope, safe, T = 1311, local contrast paper, linear_light off", kSlope,
+     safe_chord, 20, 9, 0xdda27397e1d7e1a8, 1213, 15, 531, 262, 655, 4442, 1354},
+    {"blocks", "deburr-line, N = 3", kDeburrLine, steps<3>, 10, 7, 0xa765ccb0279eaaf0, 1198, 28,
+     536, 204, 314, 3587, 1364},
+    {"blocks", "mlaa-slope, N = 8", kSlope, steps<8>, 20, 30, 0xdc30d70a15925762, 1036, 14, 470,
+     239, 1315, 5984, 1268},
+    {"blocks", "mlaa-slope with trim, N = 8", kSlope, trimmed, 20, 30, 0x4a46970faa1de0ac, 1036, 14,
+     470, 180, 992, 5984, 1276},
+    {"blocks", "deburr-line", kDeburrLine, as_it_is, 66, 256, 0xe86c7f9318eacf5e, 1198, 0, 538, 168,
+     660, 5382, 1552},
+    {"blocks", "deburr-line without trim", kDeburrLine, not_trimmed, 66, 256, 0x464376bac387fe0d,
+     1198, 0, 538, 222, 970, 5382, 1552},
 };
 
 class TestVector : public testing::TestWithParam<Vector> {};
@@ -133,6 +142,29 @@ TEST_P(TestVector, IsReproduced) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Contract, TestVector, testing::ValuesIn(kVectors));
+
+TEST(TestVectors, AreThoseOfThePage) {
+  const tb::PageTable page("number_formats_morphological.md", "image | rules");
+  ASSERT_EQ(page.rows().size(), std::size(kVectors));
+  for (std::size_t i = 0; i < std::size(kVectors); ++i) {
+    const Vector& v = kVectors[i];
+    const std::string numbers = fmt::format(
+        "{}, {}; {:016x}; {} {} {} {} {} {} {}", v.window_rows / 2 - 1, v.reach_columns, v.hash,
+        v.runs, v.long_runs, v.z_runs, v.extended, v.steps, v.probes, v.blended);
+    const std::vector<std::string>& row = page.rows()[i];
+    const auto cell = [&](const char* title) { return row.at(page.column(title)); };
+    EXPECT_EQ(cell("image"), v.image);
+    EXPECT_EQ(cell("rules"), v.rules);
+    EXPECT_EQ(fmt::format("{}; {}; {} {} {} {} {} {} {}", cell("R, C"), cell("hash"), cell("runs"),
+                          cell("long"), cell("z"), cell("extended"), cell("steps"), cell("probes"),
+                          cell("blended")),
+              numbers);
+    // Rules begin with the preset that they are made of.
+    const std::string rules = v.rules;
+    EXPECT_EQ(rules.substr(0, rules.find_first_of(", ")),
+              spec::morphological::kPresetNames[static_cast<std::size_t>(v.preset)]);
+  }
+}
 
 TEST(TestVectorHash, SeesOneCodeOfOnePixel) {
   Frame frame = tb::morphological::line_image();

@@ -104,8 +104,8 @@ struct Frame {
   }
   // A frame of this size is in its edges.
   void begin(int width, int height) {
-    bus.write(reg::kSize, platform::size_register(static_cast<std::uint32_t>(width),
-                                                  static_cast<std::uint32_t>(height)));
+    bus.write(reg::kSize, spec::geometric::size_word(static_cast<std::uint32_t>(width),
+                                                     static_cast<std::uint32_t>(height)));
     bus.write(reg::kControl, reg::kControlEnable | reg::kControlStart);
     clock.run_until(
         [this] { return sequencer.phase(clock.cycle()) == rtl::geometric::Phase::kEdges; },

@@ -17,7 +17,7 @@ TEST(GeometricTokens, FieldsHaveTheBitsOfTheirFormat) {
 }
 
 TEST(GeometricTokens, LinksAreThoseOfThePage) {
-  const tb::PageTable table("geometric_hardware.md", "link");
+  const tb::EnginePage table("geometric_hardware.md", "link");
   ClockDomain clock("clock", tb::geometric_rtl::period());
   spec::geometric::Parameters one;
   one.edge_lanes = one.walkers = spec::geometric::Lanes::kOne;

@@ -99,9 +99,7 @@ TEST(EdgeDetectorBlock, EachLumaRuleIsStrictAtEquality) {
         Row{3, 60, 101, true, true}, Row{3, 60, 99, false, false}, Row{3, 61, 101, false, false},
         Row{3, 59, 99, true, true}}) {
     const std::map<std::uint32_t, std::uint32_t> writes = {
-        {reg::kRules, 1u << 2 | (r.rule & 1) << 3 | r.rule >> 1 << 17},
-        {reg::kAlpha, 32768},
-        {reg::kFloor, 1}};
+        {reg::kRules, 1u << 2 | r.rule << 3}, {reg::kAlpha, 32768}, {reg::kFloor, 1}};
     const std::string edge = r.edge ? "01" : "00", other = r.other_way ? "01" : "00";
     const Frame pair = row({r.before, r.here}), back = row({r.here, r.before});
     EXPECT_EQ(left_bits(front.detect(pair, writes)), edge) << r.rule << " " << r.before;
@@ -297,7 +295,7 @@ INSTANTIATE_TEST_SUITE_P(EdgeDetector, AtEquality,
 
 TEST(EdgeDetectorBlock, LocalContrastIsStrictTwiceTheStep) {
   Front front(preset(spec::morphological::Preset::kMlaa));
-  const std::uint32_t paper = 1u << 4, symmetric = 2u << 4;
+  const std::uint32_t paper = 1u << 5, symmetric = 2u << 5;
   for (const std::uint32_t rules : {paper, symmetric}) {
     const std::map<std::uint32_t, std::uint32_t> writes = {{reg::kRules, rules}};
     // Steps 100 and 200: 2 x 100 > 200 is false. Steps 101 and 200: both stay.
@@ -308,7 +306,7 @@ TEST(EdgeDetectorBlock, LocalContrastIsStrictTwiceTheStep) {
     EXPECT_EQ(top_bits(front.detect(transposed(row({0, 85, 255})), writes)), "001");
   }
   // `smaa` keeps what is exactly half: 85 and 170.
-  const std::map<std::uint32_t, std::uint32_t> smaa = {{reg::kRules, 3u << 4}};
+  const std::map<std::uint32_t, std::uint32_t> smaa = {{reg::kRules, 3u << 5}};
   EXPECT_EQ(left_bits(front.detect(row({0, 85, 255}), smaa)), "011");
   EXPECT_EQ(left_bits(front.detect(row({0, 84, 255}), smaa)), "001");
   EXPECT_EQ(left_bits(front.detect(row({0, 170, 255}), smaa)), "011");

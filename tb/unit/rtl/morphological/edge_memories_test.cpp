@@ -405,7 +405,7 @@ INSTANTIATE_TEST_SUITE_P(Builds, BusiestClock,
 // A rule that the engine was not built for counts as off.
 TEST(Contiguous, IsOffInAnEngineBuiltWithoutIt) {
   namespace reg = spec::morphological::reg;
-  constexpr std::uint32_t kContiguous = 1u << 13;
+  constexpr std::uint32_t kContiguous = 1u << 14;
   const auto with = forked<std::uint64_t>([] {
     EngineBench bench(built(true));
     return hash(bench.run(blocks()));

@@ -356,8 +356,8 @@ struct Trimming : Prediction {
     const auto steps = stair(kStart - before, lengths, row);
     store.store.leave();
     std::uint32_t rules = store.bus.read(reg::kRules);
-    rules &= ~(0x1Fu << 8 | 1u << 14 | kTrimBit);
-    rules |= static_cast<std::uint32_t>(s.n) << 8 | (s.safe ? 1u << 14 : 0) | (trim ? kTrimBit : 0);
+    rules &= ~(0x1Fu << 9 | 1u << 15 | kTrimBit);
+    rules |= static_cast<std::uint32_t>(s.n) << 9 | (s.safe ? 1u << 15 : 0) | (trim ? kTrimBit : 0);
     store.bus.write(reg::kRules, rules);
     frame(kWidth, kHeight, [&](int x) {
       const int y = steps(mirrored ? kWidth - 1 - x : x);
@@ -817,7 +817,7 @@ TEST_P(CrossingClasses, AreOfLearnedRecordsOnly) {
   EXPECT_GT(extended.left + extended.right, 0);
   EXPECT_EQ(extended.start_class + extended.end_class, 0);
   bench.registers.store.leave();
-  bench.registers.bus.write(reg::kRules, bench.registers.bus.read(reg::kRules) & ~(1u << 25));
+  bench.registers.bus.write(reg::kRules, bench.registers.bus.read(reg::kRules) & ~(1u << 23));
   ASSERT_TRUE(bench.registers.store.latch());
   const RunToken l = bench.record(stair, 12, 16, 3, 1, 0);
   EXPECT_FALSE(bench.classes(l).learned);

@@ -141,7 +141,7 @@ TEST_P(LeftPixels, AreAsTheyCameAndNothingElseChanges) {
   for (std::size_t i = 0; i < frame.pixel.size(); ++i)
     if ((random.next() >> 16) % 12 == 0) frame.pixel[i][3] &= 0xFE;
   const auto run = [&](std::uint32_t leave) {
-    bench.bus.write(reg::kRules, (bench.bus.read(reg::kRules) & ~(3u << 23)) | leave << 23);
+    bench.bus.write(reg::kRules, (bench.bus.read(reg::kRules) & ~(7u << 24)) | leave << 24);
     bench.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
     const std::size_t before = bench.sink.beats().size();
     bench.run(frame);
@@ -208,8 +208,8 @@ TEST_P(LeftPixels, AreAsTheyCameAndNothingElseChanges) {
 INSTANTIATE_TEST_SUITE_P(
     Any, LeftPixels,
     ::testing::Values(
-        Leaving{"deburr_1", [] { return deburr_line(); }, 0, false},
-        Leaving{"deburr_4", [] { return deburr_line(); }, 2, false},
+        Leaving{"deburr_line_1", [] { return deburr_line(); }, 0, false},
+        Leaving{"deburr_line_4", [] { return deburr_line(); }, 2, false},
         Leaving{"mlaa_2", [] { return preset(Preset::kMlaa); }, 1, false},
         Leaving{"mlaa_memory_4", [] { return preset(Preset::kMlaa); }, 2, true},
         Leaving{"slope_memory_1", [] { return preset(Preset::kMlaaSlope); }, 0, true},

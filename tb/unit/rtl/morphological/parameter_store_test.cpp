@@ -25,7 +25,7 @@ TEST(ParameterStoreBlock, TrimIsABitOfRulesLatchedWithTheFrame) {
   Registers on(preset(spec::morphological::Preset::kDeburrLine));
   const std::uint32_t reset_value = on.bus.read(reg::kRules);
   EXPECT_EQ(reset_value,
-            1u << 3 | 2u << 4 | 2u << 6 | 8u << 8 | 1u << 13 | 1u << 14 | 1u << 15 | kTrimBit);
+            1u << 3 | 2u << 5 | 2u << 7 | 8u << 9 | 1u << 14 | 1u << 15 | 1u << 16 | kTrimBit);
   on.frame(8, 8);
   EXPECT_TRUE(on.store.rules().trim);
   on.bus.write(reg::kRules, reset_value & ~kTrimBit);  // ignored: a frame is inside
@@ -154,37 +154,37 @@ TEST(FrameRules, EachBitOfRulesIsItsFields) {
                    {3, "source 3"},
                    {1u << 2, "dynamic 1"},
                    {1u << 3, "dynamic_luma 1"},
-                   {1u << 17, "dynamic_luma 2"},
-                   {1u << 3 | 1u << 17, "dynamic_luma 3"},
-                   {1u << 4, "local_contrast 1"},
-                   {2u << 4, "local_contrast 2"},
-                   {3u << 4, "local_contrast 3"},
-                   {1u << 6, "predictor 1"},
-                   {2u << 6, "predictor 2"},
-                   {3u << 6, ""},
-                   {31u << 8, ""},
-                   {1u << 6 | 1u << 8, "predictor 1, steps 1"},
-                   {1u << 6 | 2u << 8, "predictor 1, steps 2"},
-                   {1u << 6 | 4u << 8, "predictor 1, steps 4"},
-                   {1u << 6 | 8u << 8, "predictor 1, steps 8"},
-                   {2u << 6 | 16u << 8, "predictor 2, steps 16"},
-                   {1u << 13, "contiguous 1"},
-                   {1u << 14, "safe 1"},
-                   {1u << 15, "linear_light 1"},
-                   {1u << 16, "trim 1"},
+                   {2u << 3, "dynamic_luma 2"},
+                   {3u << 3, "dynamic_luma 3"},
+                   {1u << 5, "local_contrast 1"},
+                   {2u << 5, "local_contrast 2"},
+                   {3u << 5, "local_contrast 3"},
+                   {1u << 7, "predictor 1"},
+                   {2u << 7, "predictor 2"},
+                   {3u << 7, ""},
+                   {31u << 9, ""},
+                   {1u << 7 | 1u << 9, "predictor 1, steps 1"},
+                   {1u << 7 | 2u << 9, "predictor 1, steps 2"},
+                   {1u << 7 | 4u << 9, "predictor 1, steps 4"},
+                   {1u << 7 | 8u << 9, "predictor 1, steps 8"},
+                   {2u << 7 | 16u << 9, "predictor 2, steps 16"},
+                   {1u << 14, "contiguous 1"},
+                   {1u << 15, "safe 1"},
+                   {1u << 16, "linear_light 1"},
+                   {1u << 17, "trim 1"},
                    {1u << 18, "crossings 1"},
                    {1u << 19, "table 1"},
                    {1u << 20, "diagonal_steps 5"},
                    {1u << 21, "corners 1"},
                    {1u << 22, "strongest 1"},
-                   {1u << 23, "leave 1"},
-                   {2u << 23, "leave 2"},
-                   {3u << 23, "leave 3"},
-                   {1u << 26, "leave 4"},
-                   {1u << 26 | 1u << 23, ""},
-                   {1u << 26 | 2u << 23, ""},
-                   {1u << 26 | 3u << 23, ""},
-                   {1u << 25, ""},
+                   {1u << 23, ""},
+                   {1u << 24, "leave 1"},
+                   {2u << 24, "leave 2"},
+                   {3u << 24, "leave 3"},
+                   {4u << 24, "leave 4"},
+                   {5u << 24, ""},
+                   {6u << 24, ""},
+                   {7u << 24, ""},
                    {0xF8000000, ""}});
 }
 // Bits of no field count nowhere, whatever holds the registers.
@@ -194,7 +194,7 @@ TEST(FrameRules, OtherBitsAreNotLookedAt) {
   const auto decoded = [&] { return rtl::morphological::decode(raw, smaa()); };
   raw.write(reg::kRules, 0xF8000000);
   EXPECT_EQ(text_of(decoded().rules), "");
-  raw.write(reg::kRules, 0xF8000000 | 1u << 23);
+  raw.write(reg::kRules, 0xF8000000 | 1u << 24);
   EXPECT_EQ(text_of(decoded().rules), "leave 1");
   raw.write(reg::kSize, 0xC000C000 | 40 | 30 << 16);
   EXPECT_EQ(decoded().rules.width, 40);
@@ -206,10 +206,11 @@ TEST(FrameRules, OtherBitsAreNotLookedAt) {
   EXPECT_EQ(decoded().rules.corner_loss, 256);
 }
 TEST(FrameRules, OfAnEngineWithLearnedShares) {
-  expect_rules(deburr(), {{1u << 25, "learned 1"},
-                          {0x7FFFFFFu & ~(1u << 25) & ~(7u << 13) & ~0x3FFFu & ~(1u << 26),
-                           "dynamic_luma 2, trim 1, strongest 1, leave 3"},
-                          {1u << 13, "contiguous 1"}});
+  // All but what ends at bit 16, learned and the highest bit of leave.
+  expect_rules(deburr(), {{1u << 23, "learned 1"},
+                          {0x7FE0000u & ~(1u << 23) & ~(1u << 26), "trim 1, strongest 1, leave 3"},
+                          {2u << 3, "dynamic_luma 2"},
+                          {1u << 14, "contiguous 1"}});
 }
 
 // 255 times the register, U8.16; the others as they are.
@@ -284,7 +285,7 @@ TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
   ASSERT_TRUE(bench.bus.debug_write(reg::kPixelBase, 0x12345));
   ASSERT_TRUE(bench.bus.debug_write(reg::kSize, 97u | 61u << 16 | 0xC000C000u));
   ASSERT_TRUE(bench.bus.debug_write(reg::kThreshold, 0xABCD0000u | 6554u));
-  ASSERT_TRUE(bench.bus.debug_write(reg::kRules, 0xFE000000u | 1u << 15));
+  ASSERT_TRUE(bench.bus.debug_write(reg::kRules, 0xFE000000u | 1u << 16));
   const Frame in = noise();
   bench.driver.send(beats_of(in, 1));
   bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },
@@ -292,7 +293,7 @@ TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
   EXPECT_EQ(bench.bus.read(reg::kPixelBase), 0x12340u);
   EXPECT_EQ(bench.bus.read(reg::kSize), 97u | 61u << 16);
   EXPECT_EQ(bench.bus.read(reg::kThreshold), 6554u);
-  EXPECT_EQ(bench.bus.read(reg::kRules), 3u << 25 | 1u << 15);
+  EXPECT_EQ(bench.bus.read(reg::kRules), 3u << 25 | 1u << 16);
   ASSERT_FALSE(bench.memory->lines_read().empty());
   EXPECT_EQ(bench.memory->lines_read()[0], 0x12340u);
   EXPECT_EQ(bench.bus.read(reg::kMemoryErrors), 0u);
@@ -301,7 +302,7 @@ TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
 // A rule that the engine was not built for counts as off.
 TEST(Contiguous, IsOffInAnEngineBuiltWithoutIt) {
   namespace reg = spec::morphological::reg;
-  constexpr std::uint32_t kContiguous = 1u << 13;
+  constexpr std::uint32_t kContiguous = 1u << 14;
   Parameters built = deburr_line();
   built.contiguous = false;
   EngineBench bench(built);
@@ -323,7 +324,7 @@ TEST(Registers, ResetValuesAreTheParameters) {
   EXPECT_EQ(bench.bus.read(reg::kControl), reg::kControlEnable);
   // luma, fixed, max, symmetric, fit, 8 steps, contiguous, safe, linear light, trim
   EXPECT_EQ(bench.bus.read(reg::kRules),
-            1u << 3 | 2u << 4 | 2u << 6 | 8u << 8 | 1u << 13 | 1u << 14 | 1u << 15 | 1u << 16);
+            1u << 3 | 2u << 5 | 2u << 7 | 8u << 9 | 1u << 14 | 1u << 15 | 1u << 16 | 1u << 17);
   EXPECT_EQ(bench.bus.read(reg::kThreshold), 1966u);
   EXPECT_EQ(bench.bus.read(reg::kAlpha), 1234u);
   EXPECT_EQ(bench.bus.read(reg::kFloor), 514u);
@@ -338,7 +339,7 @@ TEST(Registers, ResetValuesAreTheParameters) {
 
 // Bit by bit from the contract's table.
 TEST(Registers, ResetValuesOfSmaaAreThePresets) {
-  constexpr std::uint32_t kLinear = 1u << 15, kCrossings = 1u << 18, kTable = 1u << 19,
+  constexpr std::uint32_t kLinear = 1u << 16, kCrossings = 1u << 18, kTable = 1u << 19,
                           kDiagonals = 1u << 20, kCorners = 1u << 21, kStrongest = 1u << 22;
   using spec::morphological::Quality;
   struct Row {
@@ -346,8 +347,8 @@ TEST(Registers, ResetValuesOfSmaaAreThePresets) {
     Quality quality;
     std::uint32_t rules, threshold, smaa;
   };
-  constexpr std::uint32_t kFixed = 1u << 3 | 3u << 4 | kLinear | kCrossings | kTable | kStrongest,
-                          kDynamic = 1u << 2 | 1u << 4 | kLinear | kCrossings | kTable | kStrongest;
+  constexpr std::uint32_t kFixed = 1u << 3 | 3u << 5 | kLinear | kCrossings | kTable | kStrongest,
+                          kDynamic = 1u << 2 | 1u << 5 | kLinear | kCrossings | kTable | kStrongest;
   struct Owner : sc_core::sc_module {
     Owner(const sc_core::sc_module_name& name, const Parameters& p) : sc_module(name), store(p) {}
     Registers store;
@@ -418,19 +419,19 @@ TEST(Registers, RulesCountFromTheNextFrame) {
   EXPECT_EQ(hash(bench.run(blocks())), 0xe86c7f9318eacf5eu);
   // Without trim the same trials, but every step is kept.
   EXPECT_EQ(bench.bus.read(reg::kSteps), 660u);
-  bench.bus.write(reg::kRules, bench.bus.read(reg::kRules) & ~(1u << 16));
+  bench.bus.write(reg::kRules, bench.bus.read(reg::kRules) & ~(1u << 17));
   EXPECT_EQ(hash(bench.run(blocks())), 0x464376bac387fe0du);
   EXPECT_EQ(bench.bus.read(reg::kSteps), 660u + 970u);
   EXPECT_EQ(bench.bus.read(reg::kProbes), 2u * 5382u);
   // mlaa: T = 0.1, no local contrast, no predictor.
-  bench.bus.write(reg::kRules, 1u << 15);
+  bench.bus.write(reg::kRules, 1u << 16);
   bench.bus.write(reg::kThreshold, 6554);
   EXPECT_EQ(hash(bench.run(line())), 0x5d62265609239471u);
   // mlaa-slope.
-  bench.bus.write(reg::kRules, 1u << 15 | 1u << 6 | 4u << 8);
+  bench.bus.write(reg::kRules, 1u << 16 | 1u << 7 | 4u << 9);
   EXPECT_EQ(hash(bench.run(noise())), 0x6c40266cf03f3513u);
   // Codes that no choice has: luma, none.
-  bench.bus.write(reg::kRules, 1u << 15 | 3u | 3u << 6 | 31u << 8);
+  bench.bus.write(reg::kRules, 1u << 16 | 3u | 3u << 7 | 31u << 9);
   EXPECT_EQ(hash(bench.run(line())), 0x5d62265609239471u);
 }
 
@@ -628,12 +629,12 @@ INSTANTIATE_TEST_SUITE_P(
         Field{"source_colour", depth, reg::kRules, 0, 1, 3, colour},
         Field{"source_colour_where_no_depth_is", as_it_is, reg::kRules, 0, 1, 3, colour},
         Field{"dynamic_does_not_go_with_colour", colour, reg::kRules, 2, 2, 1, as_it_is, false},
-        Field{"area_from_lines", learned, reg::kRules, 25, 25, 0, as_analytic},
-        Field{"learned_is_off_where_not_built", as_it_is, reg::kRules, 25, 25, 1, as_it_is, false},
+        Field{"area_from_lines", learned, reg::kRules, 23, 23, 0, as_analytic},
+        Field{"learned_is_off_where_not_built", as_it_is, reg::kRules, 23, 23, 1, as_it_is, false},
         Field{"tables_are_off_beside_learned", learned, reg::kRules, 19, 21, 7, as_it_is, false},
-        Field{"leave_masked", as_it_is, reg::kRules, 26, 26, 1, masked},
-        Field{"leave_5_is_none", marked, reg::kRules, 26, 26, 1, as_before},
-        Field{"leave_7_is_none", half, reg::kRules, 26, 26, 1, as_before},
+        Field{"leave_masked", as_it_is, reg::kRules, 24, 26, 4, masked},
+        Field{"leave_5_is_none", marked, reg::kRules, 24, 26, 5, as_before},
+        Field{"leave_7_is_none", half, reg::kRules, 24, 26, 7, as_before},
         Field{"mode_dynamic", as_it_is, reg::kRules, 2, 2, 1,
               [](P& p) { p.threshold_mode = spec::morphological::ThresholdMode::kDynamic; }},
         Field{"mode_fixed", dynamic, reg::kRules, 2, 2, 0,
@@ -641,58 +642,58 @@ INSTANTIATE_TEST_SUITE_P(
         Field{"dynamic_does_not_go_with_predicated", predicated, reg::kRules, 2, 2, 1, as_it_is,
               false},
         Field{"dynamic_does_not_go_with_depth", depth, reg::kRules, 2, 2, 1, as_it_is, false},
-        Field{"dynamic_luma_max", dynamic, reg::kRules, 3, 3, 1,
+        Field{"dynamic_luma_max", dynamic, reg::kRules, 3, 4, 1,
               [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kMax; }},
-        Field{"dynamic_luma_min", dynamic, reg::kRules, 17, 17, 1,
+        Field{"dynamic_luma_min", dynamic, reg::kRules, 3, 4, 2,
               [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kMin; }},
         Field{"dynamic_luma_mean",
               [](P& p) {
                 dynamic(p);
                 p.dynamic_luma = spec::morphological::DynamicLuma::kMax;
               },
-              reg::kRules, 17, 17, 1,
+              reg::kRules, 3, 4, 3,
               [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kMean; }},
         Field{"blend_strongest", as_it_is, reg::kRules, 22, 22, 1,
               [](P& p) { p.blend = spec::morphological::BlendRule::kStrongest; }},
-        Field{"leave_marked", as_it_is, reg::kRules, 23, 24, 1, marked},
-        Field{"leave_beside", as_it_is, reg::kRules, 23, 24, 2, beside},
-        Field{"leave_none", beside, reg::kRules, 23, 24, 0, as_before},
-        Field{"leave_half", as_it_is, reg::kRules, 23, 24, 3, half},
+        Field{"leave_marked", as_it_is, reg::kRules, 24, 26, 1, marked},
+        Field{"leave_beside", as_it_is, reg::kRules, 24, 26, 2, beside},
+        Field{"leave_none", beside, reg::kRules, 24, 26, 0, as_before},
+        Field{"leave_half", as_it_is, reg::kRules, 24, 26, 3, half},
         Field{"crossings_are_off_where_not_built", as_it_is, reg::kRules, 18, 18, 1, as_it_is,
               false},
         Field{"tables_are_off_where_not_built", as_it_is, reg::kRules, 19, 19, 1, as_it_is, false},
         Field{"diagonals_are_off_where_not_built", as_it_is, reg::kRules, 20, 20, 1, as_it_is,
               false},
         Field{"corners_are_off_where_not_built", as_it_is, reg::kRules, 21, 21, 1, as_it_is, false},
-        Field{"local_contrast_paper", as_it_is, reg::kRules, 4, 5, 1,
+        Field{"local_contrast_paper", as_it_is, reg::kRules, 5, 6, 1,
               [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kPaper; }},
-        Field{"local_contrast_symmetric", as_it_is, reg::kRules, 4, 5, 2,
+        Field{"local_contrast_symmetric", as_it_is, reg::kRules, 5, 6, 2,
               [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kSymmetric; }},
-        Field{"local_contrast_smaa", as_it_is, reg::kRules, 4, 5, 3,
+        Field{"local_contrast_smaa", as_it_is, reg::kRules, 5, 6, 3,
               [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kSmaa; }},
-        Field{"local_contrast_does_not_go_with_depth", depth, reg::kRules, 4, 5, 2, as_it_is,
+        Field{"local_contrast_does_not_go_with_depth", depth, reg::kRules, 5, 6, 2, as_it_is,
               false},
-        Field{"predictor_none", as_it_is, reg::kRules, 6, 7, 0,
+        Field{"predictor_none", as_it_is, reg::kRules, 7, 8, 0,
               [](P& p) { p.predictor = spec::morphological::Predictor::kNone; }},
-        Field{"predictor_chord", fit, reg::kRules, 6, 7, 1,
+        Field{"predictor_chord", fit, reg::kRules, 7, 8, 1,
               [](P& p) { p.predictor = spec::morphological::Predictor::kChord; }},
-        Field{"predictor_fit", as_it_is, reg::kRules, 6, 7, 2, fit},
-        Field{"predictor_3_is_none", as_it_is, reg::kRules, 6, 7, 3,
+        Field{"predictor_fit", as_it_is, reg::kRules, 7, 8, 2, fit},
+        Field{"predictor_3_is_none", as_it_is, reg::kRules, 7, 8, 3,
               [](P& p) { p.predictor = spec::morphological::Predictor::kNone; }},
-        Field{"steps_0", as_it_is, reg::kRules, 8, 12, 0, steps<0>},
-        Field{"steps_1", fit, reg::kRules, 8, 12, 1, steps<1>},
-        Field{"steps_16", as_it_is, reg::kRules, 8, 12, 16, steps<16>},
-        Field{"steps_31_are_16", as_it_is, reg::kRules, 8, 12, 31, steps<16>},
-        Field{"steps_17_are_16", as_it_is, reg::kRules, 8, 12, 17, steps<16>},
-        Field{"steps_16_at_the_limit", highest, reg::kRules, 8, 12, 31, steps<16>},
-        Field{"steps_6_are_R_less_1", narrow, reg::kRules, 8, 12, 6, steps<5>},
-        Field{"steps_31_are_R_less_1", narrow, reg::kRules, 8, 12, 31, steps<5>},
-        Field{"contiguous_off", [](P& p) { p.contiguous = true; }, reg::kRules, 13, 13, 0,
+        Field{"steps_0", as_it_is, reg::kRules, 9, 13, 0, steps<0>},
+        Field{"steps_1", fit, reg::kRules, 9, 13, 1, steps<1>},
+        Field{"steps_16", as_it_is, reg::kRules, 9, 13, 16, steps<16>},
+        Field{"steps_31_are_16", as_it_is, reg::kRules, 9, 13, 31, steps<16>},
+        Field{"steps_17_are_16", as_it_is, reg::kRules, 9, 13, 17, steps<16>},
+        Field{"steps_16_at_the_limit", highest, reg::kRules, 9, 13, 31, steps<16>},
+        Field{"steps_6_are_R_less_1", narrow, reg::kRules, 9, 13, 6, steps<5>},
+        Field{"steps_31_are_R_less_1", narrow, reg::kRules, 9, 13, 31, steps<5>},
+        Field{"contiguous_off", [](P& p) { p.contiguous = true; }, reg::kRules, 14, 14, 0,
               [](P& p) { p.contiguous = false; }},
-        Field{"safe", fit, reg::kRules, 14, 14, 1, [](P& p) { p.safe = true; }},
-        Field{"linear_light", as_it_is, reg::kRules, 15, 15, 0,
+        Field{"safe", fit, reg::kRules, 15, 15, 1, [](P& p) { p.safe = true; }},
+        Field{"linear_light", as_it_is, reg::kRules, 16, 16, 0,
               [](P& p) { p.linear_light = false; }},
-        Field{"trim", fit, reg::kRules, 16, 16, 1, [](P& p) { p.trim = true; }}),
+        Field{"trim", fit, reg::kRules, 17, 17, 1, [](P& p) { p.trim = true; }}),
     [](const auto& field) { return field.param.name; });
 
 // All of SMAA's blocks, each of which a bit of RULES switches off and a field of SMAA moves.
@@ -739,7 +740,7 @@ INSTANTIATE_TEST_SUITE_P(
                 dynamic(p);
                 p.dynamic_luma = spec::morphological::DynamicLuma::kMin;
               },
-              reg::kRules, 17, 17, 0,
+              reg::kRules, 3, 4, 0,
               [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kCurrent; }},
         Field{"search_steps_1", with_smaa, reg::kSmaa, 0, 6, 1, search_steps<1>},
         Field{"search_steps_5", with_smaa, reg::kSmaa, 0, 6, 5, search_steps<5>},

@@ -133,7 +133,7 @@ inline Parameters deburr_without_trim() {
   p.trim = false;
   return p;
 }
-inline constexpr std::uint32_t kTrimBit = 1u << 16;  // of RULES
+inline constexpr std::uint32_t kTrimBit = 1u << 17;  // of RULES
 
 inline rtl::morphological::RunToken run_of(int length, int start, std::uint32_t slot = 0) {
   rtl::morphological::RunToken token{};

@@ -47,7 +47,7 @@ TEST(FirstBeat, TakesTheFrameInTheClockThatTakesIt) {
   EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle);
   // A rule that is written now counts for this frame.
   const std::uint32_t rules = bench.bus.read(reg::kRules);
-  bench.bus.write(reg::kRules, 1u << 15 | 1u << 6 | 4u << 8);
+  bench.bus.write(reg::kRules, 1u << 16 | 1u << 7 | 4u << 9);
   EXPECT_NE(bench.bus.read(reg::kRules), rules);
   bench.bus.write(reg::kThreshold, 6554);
   bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },

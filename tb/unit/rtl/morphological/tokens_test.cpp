@@ -27,7 +27,7 @@ TEST(Tokens, ColumnsOfDiagonalsHaveABitOfEachRow) {
 
 TEST(Tokens, LinksAreThoseOfThePage) {
   using tb::morphological_rtl::preset;
-  const tb::PageTable table("morphological_hardware.md", "link");
+  const tb::EnginePage table("morphological_hardware.md", "link");
   ClockDomain clock("clock", tb::morphological_rtl::period());
   spec::morphological::Parameters memory = tb::morphological_rtl::in_memory();
   memory.lanes = spec::morphological::Lanes::kFour;

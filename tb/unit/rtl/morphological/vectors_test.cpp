@@ -30,17 +30,17 @@ const std::vector<Vector>& vectors() {
        2958, 0, 1390, 0, 0, 0, 3175},
       {"noise_slope", noise_image, Preset::kMlaaSlope, 32, 256, nothing,
        0x6c40266cf03f3513, 2958, 0, 1390, 671, 1062, 9200, 3282},
-      {"noise_deburr", noise_image, Preset::kDeburrLine, 32, 256, nothing,
+      {"noise_deburr_line", noise_image, Preset::kDeburrLine, 32, 256, nothing,
        0x2820122eb9f04a52, 2958, 0, 1390, 10, 10, 7378, 3178},
-      {"noise_deburr_codes", noise_image, Preset::kDeburrLine, 32, 256,
+      {"noise_deburr_line_codes", noise_image, Preset::kDeburrLine, 32, 256,
        [](auto& p) { p.linear_light = false; }, 0x8a5e9cf3676d7e0d, 2958, 0, 1390, 10, 10, 7378, 3178},
       {"line_mlaa", line_image, Preset::kMlaa, 32, 256, nothing, 0x5d62265609239471,
        241, 0, 232, 0, 0, 0, 418},
       {"line_slope", line_image, Preset::kMlaaSlope, 32, 256, nothing,
        0x75ccf871d174feaf, 241, 0, 232, 162, 871, 2560, 457},
-      {"line_deburr", line_image, Preset::kDeburrLine, 32, 256, nothing,
+      {"line_deburr_line", line_image, Preset::kDeburrLine, 32, 256, nothing,
        0x736d3ffd8a940ba4, 241, 0, 232, 128, 584, 2832, 425},
-      {"line_deburr_16", line_image, Preset::kDeburrLine, 32, 256,
+      {"line_deburr_line_16", line_image, Preset::kDeburrLine, 32, 256,
        [](auto& p) {
          p.steps = 16;
          p.local_contrast = spec::morphological::LocalContrast::kPaper;
@@ -53,7 +53,7 @@ const std::vector<Vector>& vectors() {
        1036, 19, 470, 0, 0, 0, 1186},
       {"blocks_slope", blocks_image, Preset::kMlaaSlope, 9, 9, nothing,
        0x5f03ca34a84ea782, 1036, 19, 470, 238, 626, 4119, 1193},
-      {"blocks_deburr", blocks_image, Preset::kDeburrLine, 9, 9,
+      {"blocks_deburr_line", blocks_image, Preset::kDeburrLine, 9, 9,
        [](auto& p) { p.steps = 4; }, 0xbc2f9325b6057e5e, 1198, 24, 536, 204, 528, 4235, 1386},
       {"blocks_chord_safe", blocks_image, Preset::kDeburrLine, 9, 9,
        [](auto& p) {
@@ -66,11 +66,11 @@ const std::vector<Vector>& vectors() {
          p.linear_light = false;
        },
        0xdda27397e1d7e1a8, 1213, 15, 531, 262, 655, 4442, 1354},
-      {"blocks_deburr_small", blocks_image, Preset::kDeburrLine, 4, 7,
+      {"blocks_deburr_line_small", blocks_image, Preset::kDeburrLine, 4, 7,
        [](auto& p) { p.steps = 3; }, 0xa765ccb0279eaaf0, 1198, 28, 536, 204, 314, 3587, 1364},
       {"blocks_slope_wide", blocks_image, Preset::kMlaaSlope, 9, 30,
        [](auto& p) { p.steps = 8; }, 0xdc30d70a15925762, 1036, 14, 470, 239, 1315, 5984, 1268},
-      {"blocks_deburr_default", blocks_image, Preset::kDeburrLine, 32, 256, nothing,
+      {"blocks_deburr_line_default", blocks_image, Preset::kDeburrLine, 32, 256, nothing,
        0xe86c7f9318eacf5e, 1198, 0, 538, 168, 660, 5382, 1552},
       {"blocks_slope_trim", blocks_image, Preset::kMlaaSlope, 9, 30,
        [](auto& p) {

@@ -17,7 +17,7 @@ TEST(TextureRtlTokens, FieldsHaveTheBitsOfTheirFormat) {
 }
 
 TEST(TextureRtlTokens, LinksAreThoseOfThePage) {
-  const tb::PageTable table("texture_unit.md", "link");
+  const tb::EnginePage table("texture_unit.md", "link");
   ClockDomain clock("clock", tb::texture_rtl::period());
   spec::texture::Parameters paper = tb::paper_rules(), deburr, largest;
   paper.cache_fifo_depth = deburr.cache_fifo_depth = largest.cache_fifo_depth = 107;
@@ -35,7 +35,7 @@ TEST(TextureRtlTokens, MemoriesAreThoseOfThePage) {
   p.cache_fifo_depth = 107;
   p.log2 = spec::texture::Log2Rule::kExact;
   p.srgb_output = spec::texture::SrgbOutput::kEncoded;
-  tb::PageTable("texture_unit.md", "memory").expect_memories(TextureUnit("unit", clock, p));
+  tb::EnginePage("texture_unit.md", "memory").expect_memories(TextureUnit("unit", clock, p));
 }
 
 // Without an order of the ways a set is its tags and two bits a way.

@@ -1,0 +1,76 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""What `deburr params --c-header` prints is a header that C99 and C++20 take without a warning, and
+its macros have the values of the contract, here by hand.
+
+usage: c_header_test.py DEBURR CC CXX
+"""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+# Bits by hand, from docs: a change of the register map has to be made here too.
+VALUES = {
+    "DEBURR_GEOMETRIC_ID_RESET": 0xDEB00003, "DEBURR_GEOMETRIC_SIZE": 0x0C,
+    "DEBURR_GEOMETRIC_SIZE_HEIGHT_MASK": 0x3FFF0000, "DEBURR_GEOMETRIC_SIZE_HEIGHT_SHIFT": 16,
+    "DEBURR_GEOMETRIC_CONTROL_START_MASK": 4, "DEBURR_GEOMETRIC_RULES_CREASE_MASK": 0xC,
+    "DEBURR_GEOMETRIC_RULES_CREASE_SHIFT": 2, "DEBURR_GEOMETRIC_RULES_CREASE_SHADING": 2,
+    "DEBURR_GEOMETRIC_COPY_BASE_ADDRESS_MASK": 0xFFFFFFC0,
+    "DEBURR_GEOMETRIC_REFUSAL_REASON_FACE_COUNT": 7,
+    "DEBURR_MORPHOLOGICAL_ID_RESET": 0xDEB00102, "DEBURR_MORPHOLOGICAL_RULES_LEAVE_SHIFT": 24,
+    "DEBURR_MORPHOLOGICAL_RULES_LEAVE_MASK": 0x07000000,
+    "DEBURR_MORPHOLOGICAL_RULES_LEAVE_MASKED": 4,
+    "DEBURR_MORPHOLOGICAL_RULES_EDGES_SOURCE_COLOUR": 3,
+    "DEBURR_MORPHOLOGICAL_SMAA_CORNER_ROUNDING_MASK": 0x01FF0000,
+    "DEBURR_MORPHOLOGICAL_SHARES_DATA": 0x84, "DEBURR_MORPHOLOGICAL_LEFT_PIXELS": 0x7C,
+    "DEBURR_TEXTURE_ID_RESET": 0xDEB00001, "DEBURR_TEXTURE_TEXTURE0_MODE": 0x104,
+    "DEBURR_TEXTURE_TEXTURE0_MODE_LEVELS_MASK": 0x00F00000,
+    "DEBURR_TEXTURE_TEXTURE0_MODE_MIN_FILTER_LINEAR_MIPMAP_LINEAR": 5,
+    "DEBURR_TEXTURE_TEXTURE0_BASE_12": 0x140, "DEBURR_TEXTURE_STRIDE": 0x80,
+    "DEBURR_TEXTURE_COUNT": 16,
+}
+
+
+def compiles(compiler, header, values):
+    """The compiler's words, or nothing, on a program that holds the values against the macros."""
+    checks = [f"typedef char check{i}[{name} == {value}u ? 1 : -1];"
+              for i, (name, value) in enumerate(values.items())]
+    with tempfile.TemporaryDirectory() as folder:
+        source = pathlib.Path(folder, "program.c" if compiler[1] == "-std=c99" else "program.cpp")
+        pathlib.Path(folder, "registers.h").write_text(header)
+        # Twice: the second time it must vanish.
+        source.write_text('#include "registers.h"\n#include "registers.h"\n' + "\n".join(checks)
+                          + "\nint main(void) { return 0; }\n")
+        done = subprocess.run([*compiler, "-Wall", "-Wextra", "-pedantic", "-Werror",
+                               "-fsyntax-only", str(source)],
+                              capture_output=True, text=True, check=False)
+        return done.stderr if done.returncode else ""
+
+
+def main():
+    if len(sys.argv) != 4:
+        print(__doc__)
+        return 2
+    header = subprocess.run([sys.argv[1], "params", "--c-header"], check=True,
+                            capture_output=True, text=True).stdout
+    names = re.findall(r"^#define (\w+)", header, re.M)
+    wrong = 0
+    if len(names) != len(set(names)) or len(names) < 300:
+        print(f"{len(names)} macros, {len(set(names))} of them different")
+        wrong += 1
+    for compiler in ([sys.argv[2], "-std=c99"], [sys.argv[3], "-std=c++20"]):
+        if said := compiles(compiler, header, VALUES):
+            print(said)
+            wrong += 1
+        # A wrong value is seen.
+        name, value = next(iter(VALUES.items()))
+        if not compiles(compiler, header, {name: value ^ 1}):
+            print(f"{compiler}: {name} == {value ^ 1:#x} was not noticed")
+            wrong += 1
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

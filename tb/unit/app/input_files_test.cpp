@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Question: is a file that a parameter of an engine names one of the engine's input files?
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "tb/app/run_once.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::Contains;
+using ::testing::IsEmpty;
+
+class InputFilesOfEngines : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "deburr-engines-XXXXXX").string();
+    path_ = ::mkdtemp(name.data());
+    std::ofstream(path_ / "m.obj") << "mtllib m.mtl\n";
+    std::ofstream(path_ / "f.png") << "some frame";
+  }
+  void TearDown() override { fs::remove_all(path_); }
+  fs::path path_;
+};
+
+// What a parameter needs beside it to be looked at.
+const std::map<std::string, std::string> kBeside = {{"frame.depth", "frame.source"},
+                                                    {"frame.truth", "frame.source"}};
+
+TEST_F(InputFilesOfEngines, AreAllThatParametersName) {
+  int parameters = 0;
+  for (const std::unique_ptr<Engine>& engine : engines()) {
+    const BoundEngine probe(*engine);
+    MeshFiles meshes;
+    EXPECT_THAT(engine->input_files(meshes), IsEmpty()) << engine->name() << " by default";
+    for (const Parameter& parameter : probe.set.all()) {
+      if (parameter.range.find("file") == std::string::npos) continue;
+      ++parameters;
+      const std::unique_ptr<Engine> another = engine_named(std::string(engine->name()));
+      BoundEngine bound(*another);
+      const bool mesh = parameter.name == "scene.source";
+      const fs::path file = path_ / (mesh ? "m.obj" : "f.png");
+      bound.set.set(parameter.name, file.string(), "test");
+      if (const auto beside = kBeside.find(parameter.name); beside != kBeside.end())
+        bound.set.set(beside->second, (path_ / "frame.png").string(), "test");
+      EXPECT_THAT(another->input_files(meshes), Contains(file)) << parameter.name;
+      if (mesh) EXPECT_THAT(another->input_files(meshes), Contains(path_ / "m.mtl"));
+    }
+  }
+  EXPECT_GE(parameters, 10);
+}
+
+}  // namespace
+}  // namespace deburr::tb

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+// The memory port on targets that behave in every way that TLM-2.0's base protocol allows, and in
+// some that it does not. The targets check what the port does (tb/harness/protocol_target.h, whose
+// own checks are tested in tb/unit/harness/protocol_target_test.cpp).
+#include <gtest/gtest.h>
+#include <tlm_utils/peq_with_cb_and_phase.h>
+#include <tlm_utils/simple_target_socket.h>
+
+#include <array>
+#include <string_view>
+
+#include "tb/harness/protocol_target.h"
+#include "tb/unit/fabric/memory_bench.h"
+
+namespace deburr::tb {
+namespace {
+
+using rtl::MemoryRequest;
+using rtl::MemoryResponse;
+using rtl::ResponseEnd;
+using sc_core::sc_time;
+using sc_core::SC_ZERO_TIME;
+
+constexpr std::array kAnswers = {Answer::kFourPhases, Answer::kEndRequest,    Answer::kNoEndRequest,
+                                 Answer::kAnnotated,  Answer::kBeginResponse, Answer::kComplete};
+constexpr std::array<std::string_view, 6> kAnswerNames = {
+    "FourPhases", "EndRequest", "NoEndRequest", "Annotated", "BeginResponse", "Complete"};
+constexpr std::array kEnds = {ResponseEnd::kUpdated, ResponseEnd::kCompleted, ResponseEnd::kCall};
+constexpr std::array<std::string_view, 3> kEndNames = {"Updated", "Completed", "Call"};
+
+AcceptedEnds only(ResponseEnd end) {
+  return {end == ResponseEnd::kUpdated, end == ResponseEnd::kCompleted, end == ResponseEnd::kCall};
+}
+
+struct ProtocolSystem : Side {
+  platform::MemoryModel memory;
+  ProtocolTarget target;
+  ProtocolSystem(const ProtocolTargetParameters& parameters, ResponseEnd end,
+                 std::uint32_t latency_max = 5)
+      : Side({.max_burst_lines = 4, .max_write_lines = 2}, 150),
+        memory("memory", kPeriod, with_latency(5, latency_max)),
+        target("target", parameters) {
+    port.response_end = end;
+    port.memory.bind(target.socket);
+    target.memory.bind(memory.ports);
+    fill(memory, platform::MemoryModelParameters{}.bytes);
+  }
+
+  // Reads, bursts of reads, and writes of bytes that are there already. What came of it.
+  std::string run() {
+    constexpr std::uint32_t kRequests = 200;
+    std::uint64_t beats = 0;
+    for (std::uint32_t i = 0; i < kRequests; ++i) {
+      MemoryRequest request = read_of(4 * i);
+      request.write = i % 7 == 3;
+      request.lines = request.write ? 1 + i % 2 : i % 5 == 0 ? 4 : 1;
+      request.byte_mask = ~std::uint64_t{0};
+      beats += request.write ? 1 : request.lines;
+      for (std::uint32_t beat = 0; beat < (request.write ? request.lines : 1u); ++beat) {
+        for (std::uint32_t k = 0; k < rtl::kLineBytes; ++k)
+          request.data[k] = pattern(request.address + beat * rtl::kLineBytes + k);
+        driver.send(request);
+      }
+    }
+    const bool done = clock.run_until([&] { return sink.received() == beats; }, 20'000);
+    clock.run(1);  // what is due at the time of the last edge
+    if (!target.violations().empty()) return "violation: " + target.violations()[0];
+    if (!done) return fmt::format("stuck after {}", target.ended());
+    if (port.in_flight() != 0 || target.begun() != kRequests || target.ended() != kRequests)
+      return fmt::format("leftovers: {} begun, {} ended", target.begun(), target.ended());
+    if (target.referenced() != 0) return fmt::format("{} references are left", target.referenced());
+    for (const MemoryResponse& response : sink.beats())
+      if (response.write ? response.status != rtl::MemoryStatus::kOk : !right(response))
+        return fmt::format("wrong response for {:#x}", response.address);
+    if (memory.bytes_written() == 0 || memory.dump(0, 1U << 16)[12345] != pattern(12345))
+      return "wrong contents";
+    return fingerprint();
+  }
+};
+
+class EveryAnswer : public testing::TestWithParam<Answer> {};
+
+// Neither how a response is ended nor whether the clock runs on changes a beat, a clock or a count.
+TEST_P(EveryAnswer, IsTakenWithEveryEnd) {
+  for (const std::uint32_t latency_max : {5u, 40u})
+    for (const sc_time& request_time : {SC_ZERO_TIME, 2 * kPeriod, sc_time(13, sc_core::SC_NS)}) {
+      const auto run = [&](ResponseEnd end, bool fast) {
+        return in_child([&] {
+          ProtocolSystem s({.answer = GetParam(), .request_time = request_time}, end, latency_max);
+          s.clock.set_fast_path(fast);
+          return s.run();
+        });
+      };
+      const std::string slow = run(ResponseEnd::kUpdated, false);
+      EXPECT_GT(slow.size(), 1000U) << slow;
+      for (const ResponseEnd end : kEnds) EXPECT_EQ(run(end, true), slow);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(MemoryPort, EveryAnswer, testing::ValuesIn(kAnswers),
+                         [](const auto& tested) {
+                           return std::string(kAnswerNames[static_cast<std::size_t>(tested.param)]);
+                         });
+
+// A target that accepts one end alone works with that end, and goes no further than the first
+// response with another one.
+class OneEnd : public testing::TestWithParam<std::tuple<ResponseEnd, Answer>> {};
+
+TEST_P(OneEnd, IsTheOneThatWorks) {
+  const auto [accepted, answer] = GetParam();
+  for (const ResponseEnd end : kEnds) {
+    const std::string text = in_child(
+        [&] { return ProtocolSystem({.answer = answer, .accepts = only(accepted)}, end).run(); });
+    if (end == accepted)
+      EXPECT_GT(text.size(), 1000U) << text;
+    else
+      EXPECT_EQ(text, "stuck after 0") << kEndNames[static_cast<std::size_t>(end)];
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    MemoryPort, OneEnd,
+    testing::Combine(testing::ValuesIn(kEnds),
+                     testing::Values(Answer::kFourPhases, Answer::kEndRequest,
+                                     Answer::kNoEndRequest, Answer::kAnnotated)),
+    [](const auto& tested) {
+      return fmt::format("{}_{}", kEndNames[static_cast<std::size_t>(std::get<0>(tested.param))],
+                         kAnswerNames[static_cast<std::size_t>(std::get<1>(tested.param))]);
+    });
+
+// A request that is ended at the time of an edge makes room for the next one at that edge.
+TEST(MemoryPort, NextRequestGoesWhenTheLastIsEnded) {
+  ProtocolSystem s({.answer = Answer::kFourPhases, .request_time = 2 * kPeriod},
+                   ResponseEnd::kUpdated);
+  for (std::uint32_t i = 0; i < 20; ++i) s.driver.send(read_of(i));
+  ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 20; }, 1000));
+  for (std::size_t i = 1; i < 20; ++i)
+    EXPECT_EQ(s.target.begun_times()[i] - s.target.begun_times()[i - 1], 2 * kPeriod);
+}
+
+// What no target may do.
+struct BrokenTarget : sc_core::sc_module {
+  enum class Fault { kSecondAnswer, kBackwardRequest, kSecondResponse };
+  tlm_utils::simple_target_socket<BrokenTarget> socket{"socket"};
+  tlm_utils::peq_with_cb_and_phase<BrokenTarget> queue{this, &BrokenTarget::due};
+  Fault fault;
+  BrokenTarget(const sc_core::sc_module_name& name, Fault what) : sc_module(name), fault(what) {
+    socket.register_nb_transport_fw(this, &BrokenTarget::forward);
+  }
+  tlm::tlm_sync_enum forward(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
+                             sc_time& delay) {
+    if (phase == tlm::END_RESP) return tlm::TLM_COMPLETED;
+    payload.acquire();
+    queue.notify(payload, fault == Fault::kBackwardRequest ? tlm::BEGIN_REQ : tlm::BEGIN_RESP,
+                 // The responses of the first two requests come at one time.
+                 delay + (payload.get_address() == 0 ? 5 : 4) * kPeriod);
+    phase = tlm::END_REQ;
+    return tlm::TLM_UPDATED;
+  }
+  void due(tlm::tlm_generic_payload& payload, const tlm::tlm_phase& when) {
+    for (int times = fault == Fault::kSecondAnswer ? 2 : 1; times > 0; --times) {
+      tlm::tlm_phase phase = when;
+      sc_time delay;
+      payload.set_response_status(tlm::TLM_OK_RESPONSE);
+      socket->nb_transport_bw(payload, phase, delay);
+    }
+  }
+};
+
+std::string refusal_of(BrokenTarget::Fault fault, ResponseEnd end) {
+  return in_child([&] {
+    Side side;
+    BrokenTarget target("target", fault);
+    side.port.response_end = end;
+    side.port.memory.bind(target.socket);
+    side.driver.send({read_of(0), read_of(1)});
+    side.clock.run(100);
+    return std::string("taken");
+  });
+}
+
+TEST(MemoryPort, SaysWhatATargetDoesWrong) {
+  using Fault = BrokenTarget::Fault;
+  for (const ResponseEnd end : kEnds) {
+    EXPECT_THAT(refusal_of(Fault::kSecondAnswer, end),
+                testing::HasSubstr("port: the memory answered the read of 0x0 twice"));
+    EXPECT_THAT(refusal_of(Fault::kBackwardRequest, end),
+                testing::HasSubstr("port: the memory sent phase BEGIN_REQ backwards"));
+  }
+  // Only where the first one is still open.
+  EXPECT_THAT(refusal_of(Fault::kSecondResponse, ResponseEnd::kCall),
+              testing::HasSubstr("port: the memory began the response for 0x"));
+  EXPECT_EQ(refusal_of(Fault::kSecondResponse, ResponseEnd::kUpdated), "taken");
+}
+
+// A target that knows only b_transport, behind the adapter of simple_target_socket.
+struct BlockingTarget : sc_core::sc_module {
+  tlm_utils::simple_target_socket<BlockingTarget> socket{"socket"};
+  explicit BlockingTarget(const sc_core::sc_module_name& name) : sc_module(name) {
+    socket.register_b_transport(this, &BlockingTarget::transport);
+  }
+  void transport(tlm::tlm_generic_payload& payload, sc_time&) {
+    wait(7 * kPeriod);
+    for (unsigned i = 0; i < payload.get_data_length(); ++i)
+      payload.get_data_ptr()[i] = pattern(payload.get_address() + i);
+    payload.set_response_status(tlm::TLM_OK_RESPONSE);
+  }
+};
+
+TEST(MemoryPort, WorksWithABlockingTarget) {
+  const auto run = [](ResponseEnd end, bool fast) {
+    return in_child([&] {
+      Side side;
+      BlockingTarget target("target");
+      side.port.response_end = end;
+      side.port.memory.bind(target.socket);
+      side.clock.set_fast_path(fast);
+      for (std::uint32_t i = 0; i < 200; ++i) side.driver.send(read_of(i));
+      if (!side.clock.run_until([&] { return side.sink.received() == 200; }, 10'000))
+        return std::string("not done");
+      return side.fingerprint();
+    });
+  };
+  const std::string slow = run(ResponseEnd::kUpdated, false);
+  EXPECT_GT(slow.size(), 1000U) << slow;
+  EXPECT_EQ(slow.find('!'), std::string::npos) << "wrong data";
+  for (const ResponseEnd end : kEnds) EXPECT_EQ(run(end, true), slow);
+}
+
+}  // namespace
+}  // namespace deburr::tb
