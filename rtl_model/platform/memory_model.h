@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A memory: a TLM-2.0 target (base protocol) with latency, bandwidth, banks and a
-// limit of outstanding transactions, all parameters; any number of initiators. It counts bytes and
-// keeps the order of the lines that were read, which is compared with what the golden model
+// A memory: a TLM-2.0 target (base protocol) with latency, bandwidth, banks and a limit of
+// outstanding transactions, all parameters; any number of initiators. It counts bytes and keeps the
+// order of the lines that were read and written, which is compared with what the golden model
 // predicts.
 //
 // A transaction that begins at time t and finds its bank free has its last byte at

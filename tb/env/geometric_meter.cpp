@@ -102,7 +102,7 @@ std::uint64_t GeometricMeter::clocks_bound() const {
            read(Region::kWeights) - resolve_weights + written(Region::kWeights) +
            2 * written(Region::kCopy)});
   const std::uint64_t resolve_phase =
-      std::max({words * frames_done__done_, work.blocks,
+      std::max({words * frames_done_, work.blocks,
                 resolve_weights + colours + written(Region::kColour),
                 lines_for(work.blended_pixels, count_of(p.resolve_lanes))});
   return begin * frames_done_ + edges_phase + resolve_phase;
