@@ -13,8 +13,6 @@ target_compile_options(deburr_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -ffp-contract=off
   # Of clang -Wconversion has this too, of GCC it does not.
   $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>
-  # GCC inlines less in units that it takes for large, which makes models of a batch 8 % slower.
-  $<$<AND:$<BOOL:${DEBURR_UNITY}>,$<CXX_COMPILER_ID:GNU>>:--param=large-unit-insns=200000>
   $<$<BOOL:${DEBURR_WERROR}>:-Werror>)
 if(DEBURR_SANITIZE)
   target_compile_options(deburr_options INTERFACE

@@ -8,9 +8,9 @@
 namespace deburr::golden::texture {
 namespace {
 
-constexpr std::int32_t kOne = 1 << 12;  // one level, in the 12 fraction bits of l
+constexpr std::int32_t kOneLevel = 1 << 12;  // one level, in the 12 fraction bits of l
 
-std::int32_t whole_levels_up(std::int32_t x) { return (x + kOne - 1) >> 12 << 12; }
+std::int32_t whole_levels_up(std::int32_t x) { return (x + kOneLevel - 1) >> 12 << 12; }
 
 // E, how much of L is taken as samples.
 std::int32_t sampled_part(const spec::texture::Parameters& parameters,
@@ -31,7 +31,7 @@ std::int32_t sampled_part(const spec::texture::Parameters& parameters,
     case spec::texture::CountRule::kAny:
       break;
   }
-  wanted = std::min(wanted, descriptor.max_anisotropy_log2 * kOne);
+  wanted = std::min(wanted, descriptor.max_anisotropy_log2 * kOneLevel);
   if (parameters.count_cap == spec::texture::CountCap::kTexel) wanted = std::min(wanted, texels);
   return wanted;
 }
@@ -78,7 +78,7 @@ LevelOfDetail select_level(const spec::texture::Parameters& parameters,
       break;
     case spec::texture::MinFilter::kNearestMipmapNearest:
     case spec::texture::MinFilter::kLinearMipmapNearest:
-      result.level = std::min((result.l + kOne / 2 - 1) >> 12, last);
+      result.level = std::min((result.l + kOneLevel / 2 - 1) >> 12, last);
       break;
     case spec::texture::MinFilter::kNearestMipmapLinear:
     case spec::texture::MinFilter::kLinearMipmapLinear: {

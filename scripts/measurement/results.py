@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tables of docs/results.md that are made of runs, and of papers' figures."""
-from measurement.morphological import fan
+import json
+
 from measurement.sources import recipe, spaced, write_png
 
 SCENES = ("plane", "quad", "tunnel")
@@ -21,7 +22,7 @@ def texture_rates(f):
                spaced(near["cycles"]), spaced(far["cycles"])]
 
 
-@recipe("texture-presets")
+@recipe("texture-presets", long=True)
 def texture_presets(f):
     for scene, name in (("plane", "plane"),
                         ("plane --roll 45", "plane, camera rolled by 45 degrees (`--roll 45`)"),
@@ -57,7 +58,7 @@ def frame_object(f):
             yield [f"`{texture}`", f"`{preset}`"] + [f"{quality[key + '_db']:.2f}" for key in keys]
 
 
-@recipe("frames-1080p")
+@recipe("frames-1080p", long=True)
 def frames_1080p(f):
     for line in ("texture --scene plane --preset paper", "texture --scene plane --preset deburr",
                  "morphological --scene tunnel --preset deburr-line",
@@ -98,20 +99,13 @@ def texture_kernels(f):
             (paper, "ceil, tent, 2", ("half", "mitchell", "ceil", "tent", "2.00")),
             ("`exact`, exact", "floor, box, 1", ("exact", "exact", "floor", "box", "1.00"))):
         row = rows[key]
-        yield [name, rules, row["samples a fragment"]] + [f"{float(row[c]):.1f}" for c in (
-            "box dB", "EWA whole dB", "EWA tapered dB", "EWA cut dB")]
+        yield [name, rules, row["samples a fragment"]] + [
+            row[column] for column in ("box dB", "EWA whole dB", "EWA tapered dB", "EWA cut dB")]
 
 
-@recipe("lines-short", long=True)
-def lines_short(f):
-    inner, whole = fan(f, "[0.05, 0.95]"), fan(f, "[0, 1]")
-
-    def of(row):
-        cells = list(row.values())[1:9]
-        return cells[:5] + cells[6:]
-    for name, key, both in (("`mlaa`", "mlaa", False), ("chord N = 4 (the paper)", "chord N = 4", False),
-                            ("fit N = 4", "fit N = 4", True), ("`deburr-line`", "deburr-line", True),
-                            ("`deburr`", "deburr", True), ("fit N = 16", "fit N = 16", True)):
-        yield [name] + [f"{a} ({b})" if both else a for a, b in zip(of(inner[key]), of(whole[key]))]
-    asked = next(row for name, row in inner.items() if name.startswith("(") and "fit" in name)
-    yield ["asked of the fit"] + of(asked)
+@recipe("speed-record")
+def speed_record(f):
+    """What tb/speed compares with."""
+    record = json.loads((f.root / "tb/baselines/speed.json").read_text(encoding="utf-8"))
+    for name, instructions in record.items():
+        yield [f"`{name}`", spaced(round(instructions))]

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Where figures come from: runs of the command, the tables of `deburr papers`, what tests print."""
+"""Where figures come from: runs of the command, the tables of `deburr papers`, other programs."""
 import json
 import os
 import pathlib
-import re
 import shlex
 import struct
 import subprocess
@@ -46,19 +45,6 @@ def absent(key):
 
 def spaced(number):
     return f"{number:,}".replace(",", " ")
-
-
-def pair(edges, silhouettes):
-    """PSNR on edges and on silhouettes, as `deburr` and the tests print them; some frames have none."""
-    return str(edges) if str(silhouettes) in ("nan", "-", "") else f"{edges} / {silhouettes}"
-
-
-def best(cells, choose=max):
-    """The cells, those in bold whose first number is the best."""
-    numbers = [re.match(r"[\d.]+", cell) for cell in cells]
-    found = choose(float(n[0]) for n in numbers if n)
-    return [f"**{cell}**" if n and float(n[0]) == found else cell
-            for cell, n in zip(cells, numbers)]
 
 
 # ---- pictures -----------------------------------------------------------------------------------
@@ -134,14 +120,6 @@ class Sources:
         if len(found) != 1:
             raise Problem(f"{len(found)} tables of paper {number} begin with {title!r}")
         return found[0]
-
-    def test(self, program, tests="*"):
-        """What a test program prints. It must pass; that a test was skipped is no failure."""
-        def make():
-            return self._call(f"{program} --gtest_filter={tests}",
-                              [self.build / program, f"--gtest_filter={tests}"],
-                              {"DEBURR_DATA": str(self.data)} if self.data else {})
-        return self._once(f"{program} --gtest_filter='{tests}'", make)
 
     def program(self, program, *words):
         def make():

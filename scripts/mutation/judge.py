@@ -76,8 +76,8 @@ class Judge:
         kills, last = self.kills[file], self.last[file]
 
         def order(name):
-            program = self.tests[name].program
-            return (last.index(name) if name in last else 9, not program.endswith(f"_{stem}_test"),
+            source = self.tests[name].source
+            return (last.index(name) if name in last else 9, not source.endswith(f"_{stem}_test"),
                     self.seconds[name] / (1 + kills[name]), name)
 
         return sorted(names, key=order)
@@ -116,7 +116,7 @@ class Judge:
         try:
             # The programs of the file's own tests first: most mutants need no other.
             own = {self.tests[n].program for n in names
-                   if self.tests[n].program.endswith(f"_{file.stem}_test")} & tree.programs
+                   if self.tests[n].source.endswith(f"_{file.stem}_test")} & set(tree.targets)
             groups = [own] if own else []
             for programs in groups + [set(tree.targets) - own]:
                 if not programs:

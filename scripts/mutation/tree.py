@@ -25,7 +25,8 @@ HEADER = pathlib.Path("scripts/mutation/switch.h")
 # As much optimisation as makes the switches cheap; the tests are built once and run often.
 FLAGS = "-std=c++20 -w -Wno-narrowing -O1 -finline-small-functions -findirect-inlining -DNDEBUG"
 
-Test = collections.namedtuple("Test", "name program command folder environment limit")
+# `source` is what the name begins with: the test source, in `program`, or the script.
+Test = collections.namedtuple("Test", "name source program command folder environment limit")
 
 
 class Problem(Exception):
@@ -49,8 +50,8 @@ def write(path, data):
 
 
 class Tree:
-    """`files` are those whose mutants are of interest; a program is built for each test that
-    `tests` (a regular expression) chooses."""
+    """`files` are those whose mutants are of interest; the programs of the tests are built that `tests`
+    (a regular expression) chooses."""
 
     def __init__(self, root, work, files, tests, jobs):
         self.root, self.copy, self.work, self.jobs = root, work / "tree", work, jobs
@@ -149,17 +150,24 @@ class Tree:
     def choose(self):
         """Which programs are built, and which tests they hold."""
         listed = self.run("ninja", "-C", self.build, "-t", "targets", "all", needed=True).stdout
-        self.programs = set(re.findall(r"^(?:\S*/)?(\w+): CXX_EXECUTABLE_LINKER", listed, re.M))
-        chosen = {name for name in self.programs if re.fullmatch(self.tests, name)}
+        programs = set(re.findall(r"^(?:\S*/)?(\w+): CXX_EXECUTABLE_LINKER", listed, re.M))
+        # A program is a test of its own name, or holds several (cmake/Tests.cmake).
+        self.program_of = {name: name for name in programs}
+        held = self.build / "test_programs.txt"
+        if held.exists():
+            for line in held.read_text(encoding="utf-8").splitlines():
+                name, _, program = line.split()
+                self.program_of[name] = pathlib.PurePath(program).name
+        chosen = {name for name in self.program_of if re.fullmatch(self.tests, name)}
         scripts = [test for test in self.listed()
                    if re.fullmatch(self.tests, test["name"])
-                   and test["name"].partition(".")[0] not in self.programs]
+                   and test["name"].partition(".")[0] not in self.program_of]
         if not chosen and not scripts:
             raise Problem(f"no test matches {self.tests}: choose with --tests")
         # A script is given the path of what it runs, as a word or in its environment.
         runs = {path.rpartition("/")[2] for path in
                 re.findall(rf"{re.escape(str(self.build))}/[\w/.-]+", json.dumps(scripts))}
-        self.targets = sorted(chosen | runs & self.programs)
+        self.targets = sorted({self.program_of[name] for name in chosen} | runs & programs)
         self.scripts = {test["name"] for test in scripts}
         self.chosen = chosen
 
@@ -171,14 +179,12 @@ class Tree:
         """The chosen tests that are built, by name."""
         found = {}
         for test in self.listed():
-            program = test["name"].partition(".")[0]
-            if "command" not in test or not (
-                    test["name"] in self.scripts
-                    or program in self.chosen and program in self.programs):
+            source = test["name"].partition(".")[0]
+            if "command" not in test or not (test["name"] in self.scripts or source in self.chosen):
                 continue
             properties = {p["name"]: p["value"] for p in test.get("properties", [])}
             found[test["name"]] = Test(
-                test["name"], program, test["command"],
+                test["name"], source, self.program_of.get(source, source), test["command"],
                 properties.get("WORKING_DIRECTORY", str(self.build)),
                 dict(word.split("=", 1) for word in properties.get("ENVIRONMENT", [])),
                 float(properties.get("TIMEOUT", 1500)))

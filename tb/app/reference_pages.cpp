@@ -111,9 +111,9 @@ std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines)
       "memories that nobody sells,\n"
       "without ROMs and without the copies that ports cost. Schema 3 has no text where a number "
       "stands otherwise: the PSNR of\n"
-      "identical pictures, which was \"inf\", is null with a flag in `quality.identical`. Whatever "
-      "reads results here takes it for\n"
-      "the best of all values.\n\n"
+      "identical pictures, which was \"inf\", is null with a flag in `quality.identical`, and the "
+      "best of all values wherever\n"
+      "results are read.\n\n"
       "## Every engine\n\n| key | unit | meaning |\n|---|---|---|\n",
       kResultSchema);
   for (const Statistic& s : statistics())

@@ -87,7 +87,7 @@ def command_line(run, folder, program):
     """The words of a run; its pictures are written to `folder`."""
     def picture(match):
         file = pathlib.Path(folder) / (match[0][1:] + ".png")
-        writer = program.parent.parent / "baselines/write_frame"
+        writer = program.parent / "tb/baselines/write_frame"
         subprocess.run([writer, *match.groups(), file], check=True)
         return shlex.quote(str(file))
     return shlex.split(FRAME.sub(picture, run))

@@ -12,9 +12,10 @@
 #include <vector>
 
 #include "tb/fuzz/targets.h"
+#include "tb/harness/test_paths.h"
 #include "tb/stimuli/random.h"
 
-namespace deburr::tb {
+namespace deburr::tb::replay_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,7 +33,8 @@ class Replay : public testing::TestWithParam<std::string> {
 
 TEST_P(Replay, WhatWasFound) {
   std::size_t found = 0;
-  for (const fs::directory_entry& entry : fs::directory_iterator(DEBURR_FUZZ_FOUND)) {
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(source_folder() / "tb/fuzz/found")) {
     if (!entry.path().filename().string().starts_with(std::string(target.name) + "-")) continue;
     ++found;
     EXPECT_NO_THROW(target.run(content(entry.path()))) << entry.path();
@@ -93,4 +95,4 @@ TEST(FuzzTargets, HaveSeeds) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::replay_test

@@ -7,7 +7,7 @@
 
 #include "tb/oracle/plane.h"
 
-namespace deburr::tb::texture {
+namespace deburr::tb::texture::anisotropy_test {
 namespace {
 
 constexpr Size kSize{128, 128};
@@ -87,4 +87,4 @@ TEST(AnisotropyFault, IgnoredSampleCountAndMissingSpreadAreSeen) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture
+}  // namespace deburr::tb::texture::anisotropy_test

@@ -9,17 +9,17 @@ deburr_library(conformance LAYER tb
   PRIVATE_LINK fmt::fmt)
 
 deburr_test(filtering_criterion_test LABELS oracle
-  SOURCES "${CMAKE_CURRENT_LIST_DIR}/filtering_criterion_test.cpp"
+  SOURCE "${CMAKE_CURRENT_LIST_DIR}/filtering_criterion_test.cpp"
   LINK deburr::conformance)
 deburr_test(filtering_conformance_test LABELS oracle TIMEOUT 600  # with sanitizers; 10 s without
   LONG Rules[.]TheLogarithmDecidesTheVerdict
-  SOURCES "${CMAKE_CURRENT_LIST_DIR}/filtering_conformance_test.cpp"
+  SOURCE "${CMAKE_CURRENT_LIST_DIR}/filtering_conformance_test.cpp"
   LINK deburr::conformance)
 deburr_test(filtering_faults_test LABELS negative
-  SOURCES "${CMAKE_CURRENT_LIST_DIR}/filtering_faults_test.cpp"
+  SOURCE "${CMAKE_CURRENT_LIST_DIR}/filtering_faults_test.cpp"
   LINK deburr::conformance)
 deburr_test(anisotropy_test LABELS oracle
-  SOURCES "${CMAKE_CURRENT_LIST_DIR}/anisotropy_test.cpp"
+  SOURCE "${CMAKE_CURRENT_LIST_DIR}/anisotropy_test.cpp"
   LINK deburr::conformance)
 
 add_executable(conformance_page "${CMAKE_CURRENT_LIST_DIR}/conformance_page.cpp")

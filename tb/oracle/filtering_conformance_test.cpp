@@ -8,7 +8,7 @@
 #include "tb/oracle/conformance.h"
 #include "tb/stimuli/random.h"
 
-namespace deburr::tb::texture {
+namespace deburr::tb::texture::filtering_conformance_test {
 namespace {
 
 using golden::ideal::Verdict;
@@ -151,4 +151,4 @@ TEST(Rules, TheLogarithmDecidesTheVerdict) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture
+}  // namespace deburr::tb::texture::filtering_conformance_test

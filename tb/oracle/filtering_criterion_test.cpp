@@ -9,7 +9,7 @@
 
 #include "tb/stimuli/random.h"
 
-namespace deburr {
+namespace deburr::filtering_criterion_test {
 namespace {
 
 using golden::ideal::Criterion;
@@ -279,4 +279,4 @@ TEST(Judge, OneWrongColourIsEnough) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::filtering_criterion_test

@@ -7,7 +7,7 @@
 #include "tb/oracle/conformance.h"
 #include "tb/oracle/plain_sampler.h"
 
-namespace deburr::tb::texture {
+namespace deburr::tb::texture::filtering_faults_test {
 namespace {
 
 using golden::ideal::Verdict;
@@ -159,4 +159,4 @@ TEST(GoldenWithFault, OneSwappedMipBaseFails) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture
+}  // namespace deburr::tb::texture::filtering_faults_test

@@ -17,7 +17,7 @@
 #include "tb/stimuli/geometric_frames.h"
 #include "tb/stimuli/random.h"
 
-namespace deburr {
+namespace deburr::geometric_ideal_test {
 namespace {
 
 using golden::geometric::GeometricGolden;
@@ -208,4 +208,4 @@ TEST(Line, PositionsAreTheIdealOnes) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::geometric_ideal_test

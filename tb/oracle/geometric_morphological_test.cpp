@@ -19,7 +19,7 @@
 #include "tb/stimuli/geometric_frames.h"
 #include "tb/unit/scene/fixtures.h"
 
-namespace deburr {
+namespace deburr::geometric_morphological_test {
 namespace {
 
 using golden::geometric::GeometricGolden;
@@ -333,4 +333,4 @@ TEST(NearestEdges, KeepTheNearerSide) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::geometric_morphological_test

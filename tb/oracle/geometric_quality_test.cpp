@@ -13,7 +13,7 @@
 #include "tb/stimuli/geometric_frames.h"
 #include "tb/unit/scene/fixtures.h"
 
-namespace deburr {
+namespace deburr::geometric_quality_test {
 namespace {
 
 using golden::geometric::preset_parameters;
@@ -225,4 +225,4 @@ TEST(WeakSpot, TwoEdgesWithinAPixel) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::geometric_quality_test

@@ -6,8 +6,8 @@ if(PC_OracleEgl_FOUND)
     SOURCES "${CMAKE_CURRENT_LIST_DIR}/mesa_device.cpp"
     LINK deburr::conformance
     PRIVATE_LINK PkgConfig::PC_OracleEgl)
-  deburr_test(mesa_test LABELS oracle
-    SOURCES "${CMAKE_CURRENT_LIST_DIR}/mesa_test.cpp"
+  deburr_test(mesa_test PROGRAM oracle_mesa_tests LABELS oracle
+    SOURCE "${CMAKE_CURRENT_LIST_DIR}/mesa_test.cpp"
     LINK deburr::mesa)
 else()
   add_test(NAME mesa_test.absent COMMAND "${CMAKE_COMMAND}" -E echo

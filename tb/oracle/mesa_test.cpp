@@ -13,7 +13,7 @@
 #include "golden/texture/configuration.h"
 #include "tb/oracle/mesa_device.h"
 
-namespace deburr::tb::texture {
+namespace deburr::tb::texture::mesa_test {
 namespace {
 
 using golden::ideal::Verdict;
@@ -297,4 +297,4 @@ TEST_F(Mesa, PlantedFaultsAreSeen) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture
+}  // namespace deburr::tb::texture::mesa_test

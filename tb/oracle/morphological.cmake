@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 deburr_test(morphological_quality_test LABELS oracle
-  SOURCES "${CMAKE_CURRENT_LIST_DIR}/morphological_quality_test.cpp"
+  SOURCE "${CMAKE_CURRENT_LIST_DIR}/morphological_quality_test.cpp"
   LINK deburr::line_fans)
 deburr_test(morphological_area_test LABELS oracle
-  SOURCES "${CMAKE_CURRENT_LIST_DIR}/morphological_area_test.cpp"
+  SOURCE "${CMAKE_CURRENT_LIST_DIR}/morphological_area_test.cpp"
   LINK deburr::line_fans)

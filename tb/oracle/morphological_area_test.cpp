@@ -14,7 +14,7 @@
 #include "golden/morphological/morphological_golden.h"
 #include "tb/stimuli/random.h"
 
-namespace deburr {
+namespace deburr::morphological_area_test {
 namespace {
 
 using golden::ideal::coverage;
@@ -249,4 +249,4 @@ TEST(IdealCoverage, OfTheLineIsTheAreaThatItCutsOff) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::morphological_area_test

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
 deburr_test(morphological_frames_test LABELS oracle
   LONG MorphologicalFrames[.]DeburrIsBestOnTrackFromOtherSides
-  SOURCES "${CMAKE_CURRENT_LIST_DIR}/morphological_frames_test.cpp"
+  SOURCE "${CMAKE_CURRENT_LIST_DIR}/morphological_frames_test.cpp"
   LINK deburr::golden_morphological deburr::ideal deburr::scene deburr::stimuli deburr::share_training)
-target_compile_definitions(morphological_frames_test PRIVATE DEBURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

@@ -22,13 +22,14 @@
 
 #include "golden/morphological/configuration.h"
 #include "golden/morphological/morphological_golden.h"
+#include "tb/harness/test_paths.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/truth.h"
 #include "tb/stimuli/reference_filters.h"
 #include "tb/training/stand_ins.h"
 
-namespace deburr::tb {
+namespace deburr::tb::morphological_frames_test {
 namespace {
 
 using golden::morphological::MorphologicalGolden;
@@ -165,10 +166,7 @@ void expect_deburr_best(const Judge& judge, double margin) {
   for (const auto& [name, rules] : mixed_rules()) judge.judge(name, rules);
 }
 
-std::filesystem::path data(const char* name) {
-  const char* folder = std::getenv("DEBURR_DATA");
-  return (folder ? folder : std::filesystem::path(DEBURR_SOURCE_DIR) / "../shared/data") / name;
-}
+std::filesystem::path data(const char* name) { return data_folder() / name; }
 
 TEST(MorphologicalFrames, DeburrIsBestOnTrackAt720p) {
   if (!std::filesystem::exists(data("frames/track_720p_noaa.png")))
@@ -363,4 +361,4 @@ TEST(MorphologicalFrames, AWorseFilterIsCaught) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::morphological_frames_test

@@ -10,7 +10,7 @@
 #include "tb/stimuli/discs.h"
 #include "tb/stimuli/line_fans.h"
 
-namespace deburr {
+namespace deburr::morphological_quality_test {
 namespace {
 
 using tb::morphological::FanFigures;
@@ -125,4 +125,4 @@ TEST(MorphologicalQuality, AWorseFilterIsCaught) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::morphological_quality_test

@@ -8,6 +8,6 @@ else()
   find_package(OpenImageIO REQUIRED)
   set(oracle_openimageio OpenImageIO::OpenImageIO)
 endif()
-deburr_test(openimageio_test LABELS oracle
-  SOURCES "${CMAKE_CURRENT_LIST_DIR}/openimageio_test.cpp"
+deburr_test(openimageio_test PROGRAM oracle_openimageio_tests LABELS oracle
+  SOURCE "${CMAKE_CURRENT_LIST_DIR}/openimageio_test.cpp"
   LINK deburr::conformance ${oracle_openimageio})

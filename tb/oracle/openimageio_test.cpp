@@ -13,7 +13,7 @@
 
 #include "tb/oracle/conformance.h"
 
-namespace deburr::tb::texture {
+namespace deburr::tb::texture::openimageio_test {
 namespace {
 
 class OpenImageIo : public testing::Test {
@@ -109,4 +109,4 @@ TEST_F(OpenImageIo, WrongWrapIsSeen) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture
+}  // namespace deburr::tb::texture::openimageio_test

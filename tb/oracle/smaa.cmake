@@ -1,4 +1,4 @@
 # SPDX-License-Identifier: MIT
 deburr_test(smaa_test LABELS oracle
-  SOURCES "${CMAKE_CURRENT_LIST_DIR}/smaa_test.cpp"
+  SOURCE "${CMAKE_CURRENT_LIST_DIR}/smaa_test.cpp"
   LINK deburr::golden_morphological deburr::ideal deburr::stimuli)

@@ -15,7 +15,7 @@
 #include "tb/stimuli/frames.h"
 #include "tb/stimuli/random.h"
 
-namespace deburr {
+namespace deburr::smaa_test {
 namespace {
 
 using golden::ideal::SmaaEdges;
@@ -253,4 +253,4 @@ TEST(Smaa, DiffersFromAnyOtherSetting) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::smaa_test

@@ -5,12 +5,9 @@ deburr_library(turned_photo LAYER tb
   LINK deburr::golden_texture deburr::ideal deburr::scene deburr::drivers)
 deburr_test(texture_direction_test LABELS oracle TIMEOUT 600
   LONG TextureDirection[.].*/[bg]
-  SOURCES "${CMAKE_CURRENT_LIST_DIR}/texture_direction_test.cpp"
+  SOURCE "${CMAKE_CURRENT_LIST_DIR}/texture_direction_test.cpp"
   LINK deburr::turned_photo)
 deburr_test(texture_flicker_test LABELS oracle TIMEOUT 600
   LONG TextureFlickerOnPhotographs[.].*/[gr]
-  SOURCES "${CMAKE_CURRENT_LIST_DIR}/texture_flicker_test.cpp"
+  SOURCE "${CMAKE_CURRENT_LIST_DIR}/texture_flicker_test.cpp"
   LINK deburr::ideal deburr::texture_scene)
-foreach(test texture_direction_test texture_flicker_test)
-  target_compile_definitions(${test} PRIVATE DEBURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-endforeach()

@@ -16,11 +16,12 @@
 
 #include "golden/ideal/ellipse.h"
 #include "golden/texture/configuration.h"
+#include "tb/harness/test_paths.h"
 #include "tb/oracle/turned_photo.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/textures.h"
 
-namespace deburr::tb {
+namespace deburr::tb::texture_direction_test {
 namespace {
 
 using golden::texture::preset_parameters;
@@ -38,11 +39,8 @@ const std::map<std::string, PhotoTexture>& photos() {
   static const auto all = [] {
     std::map<std::string, PhotoTexture> result;
     result.emplace("stones", make_texture("stones", 512, 512));
-    const char* const folder = std::getenv("DEBURR_DATA");
-    const std::filesystem::path data =
-        folder ? folder : std::filesystem::path(DEBURR_SOURCE_DIR) / "../shared/data";
     for (const char* const name : {"grass", "gravel", "brick"}) {
-      const auto file = data / "textures" / (std::string(name) + ".png");
+      const auto file = data_folder() / "textures" / (std::string(name) + ".png");
       if (std::filesystem::exists(file)) result.emplace(name, read_image(file));
     }
     return result;
@@ -213,4 +211,4 @@ TEST(TextureDirectionFault, AWrongSineAndMissingSpreadAreSeen) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::texture_direction_test

@@ -14,8 +14,9 @@
 #include "golden/ideal/texture_image.h"
 #include "golden/texture/configuration.h"
 #include "tb/env/texture_sequence.h"
+#include "tb/harness/test_paths.h"
 
-namespace deburr::tb {
+namespace deburr::tb::texture_flicker_test {
 namespace {
 
 using golden::texture::preset_parameters;
@@ -134,10 +135,7 @@ TEST(TextureFlicker, OnRollIsThatOfTheOtherMotions) {
 class TextureFlickerOnPhotographs : public testing::TestWithParam<const char*> {
  protected:
   std::string photo() const {
-    const char* const folder = std::getenv("DEBURR_DATA");
-    const std::filesystem::path data =
-        folder ? folder : std::filesystem::path(DEBURR_SOURCE_DIR) / "../shared/data";
-    const auto file = data / "textures" / (std::string(GetParam()) + ".png");
+    const auto file = data_folder() / "textures" / (std::string(GetParam()) + ".png");
     return std::filesystem::exists(file) ? file.string() : std::string();
   }
 };
@@ -186,4 +184,4 @@ TEST(TextureFlicker, OfPicturesThatChangeAsTheirTruthDoesIsNone) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::texture_flicker_test

@@ -184,10 +184,9 @@ int run_ninja(const SweepPlace& place, std::uint64_t points, const RunSettings& 
   int status = 0;
   for (bool told = false;;) {
     const pid_t ended = ::waitpid(ninja, &status, WNOHANG);
-    if (ended == ninja) break;
     if (ended < 0 && errno != EINTR)
       throw FileError(fmt::format("cannot wait for Ninja: {}", std::strerror(errno)));
-    if (interrupted() && !told) {
+    if (interrupted() && !told && ended != ninja) {
       ::kill(ninja, SIGTERM);
       told = true;
     }
@@ -195,6 +194,7 @@ int run_ninja(const SweepPlace& place, std::uint64_t points, const RunSettings& 
     progress.note(in_words(counts, points));
     progress.update(counts.ended());
     if (settings.watch) settings.watch(counts.ended());
+    if (ended == ninja) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   if (interrupted()) return kInterruptedExit;

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: MIT
 add_dependencies(deburr_system_tests deburr)
 add_dependencies(deburr_slurm_tests deburr)
-deburr_test(app_report_test LABELS system SOURCES app_report_test.cpp
+deburr_test(app_report_test PROGRAM system_app_tests LABELS system SOURCE app_report_test.cpp
             LINK deburr::results TIMEOUT 300)
-target_compile_definitions(app_report_test PRIVATE "DEBURR_COMMAND=\"$<TARGET_FILE:deburr>\"")
-add_dependencies(app_report_test deburr)
+add_dependencies(system_app_tests deburr)
 add_test(NAME memories COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/memories_test.py" $<TARGET_FILE:deburr>
                                "${PROJECT_SOURCE_DIR}/docs")
 set_tests_properties(memories PROPERTIES LABELS system TIMEOUT 300

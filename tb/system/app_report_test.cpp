@@ -15,11 +15,12 @@
 #include <string>
 #include <utility>
 
+#include "tb/harness/test_paths.h"
 #include "tb/results/file.h"
 #include "tb/scene/image.h"
 #include "tb/scene/image_io.h"
 
-namespace deburr::tb {
+namespace deburr::tb::app_report_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -81,10 +82,10 @@ TEST_P(Report, OpensFromDiskAndShowsChartsAndPictures) {
   const std::string chromium = browser();
   if (chromium.empty()) GTEST_SKIP() << "no Chromium here (Debian package chromium)";
   const fs::path run = directory_ / "run", picture = directory_ / "page.png";
-  ASSERT_EQ(shell(std::string(DEBURR_COMMAND) + " run texture --size 128x128 --truth --out " +
-                      run.string(),
-                  "run.log"),
-            0)
+  ASSERT_EQ(
+      shell(command_path().string() + " run texture --size 128x128 --truth --out " + run.string(),
+            "run.log"),
+      0)
       << log("run.log");
   shell(chromium +
             " --headless --no-sandbox --disable-gpu --disable-background-networking --no-first-run"
@@ -119,7 +120,7 @@ TEST_P(Report, ShowsARunOverTimeAndOverThePicture) {
   if (chromium.empty()) GTEST_SKIP() << "no Chromium here (Debian package chromium)";
   const fs::path run = directory_ / "run", picture = directory_ / "page.png";
   ASSERT_EQ(
-      shell(std::string(DEBURR_COMMAND) +
+      shell(command_path().string() +
                 " run texture --size 128x128 --windows 1000 --maps --trace 'colours' --trace-to "
                 "9 --out " +
                 run.string(),
@@ -183,7 +184,7 @@ class ComparisonPage : public Report {
   // Exit code 0 or 1 of the command, which writes its page.
   void compare(const std::string& a, const std::string& b) const {
     const int code =
-        shell(std::string(DEBURR_COMMAND) + " compare " + (directory_ / a).string() + " " +
+        shell(command_path().string() + " compare " + (directory_ / a).string() + " " +
                   (directory_ / b).string() + " --html " + (directory_ / "page.html").string(),
               "compare.log");
     ASSERT_TRUE(WIFEXITED(code) && WEXITSTATUS(code) <= 1) << log("compare.log");
@@ -211,7 +212,7 @@ TEST_P(ComparisonPage, ShowsFiguresAndPicturesOfRuns) {
   if (browser().empty()) GTEST_SKIP() << "no Chromium here (Debian package chromium)";
   for (const auto& [name, more] : {std::pair("small", " --set texture.cache.bytes=1024"),
                                    std::pair("large", " --set texture.cache.ways=4")})
-    ASSERT_EQ(shell(std::string(DEBURR_COMMAND) + " run texture --size 128x128 --truth --out " +
+    ASSERT_EQ(shell(command_path().string() + " run texture --size 128x128 --truth --out " +
                         (directory_ / name).string() + more,
                     "run.log"),
               0)
@@ -238,8 +239,8 @@ TEST_P(ComparisonPage, ShowsTheFrontsOfSweeps) {
             "[1, 2, 4]\nmetrics: {cycles: cycles, bits: memory_bits.total.physical}\n"
             "objectives: {minimise: [cycles, bits]}\n");
     for (const char* action : {"run", "collect"})
-      ASSERT_EQ(shell("cd " + directory_.string() + " && " + DEBURR_COMMAND + " sweep " + file +
-                          " " + action,
+      ASSERT_EQ(shell("cd " + directory_.string() + " && " + command_path().string() + " sweep " +
+                          file + " " + action,
                       "run.log"),
                 0)
           << log("run.log");
@@ -260,4 +261,4 @@ INSTANTIATE_TEST_SUITE_P(Scheme, Report, testing::ValuesIn(kSchemes),
                          [](const auto& scheme) { return std::string(scheme.param.name); });
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::app_report_test

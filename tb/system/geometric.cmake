@@ -5,10 +5,9 @@ foreach(suite system stress coverage)
   else()
     set(label system)
   endif()
-  deburr_test(geometric_${suite}_test LABELS ${label} SOURCES geometric_${suite}_test.cpp
+  deburr_test(geometric_${suite}_test PROGRAM system_geometric_tests LABELS ${label}
+              SOURCE geometric_${suite}_test.cpp
               LINK deburr::geometric_environment TIMEOUT 300)
-  target_compile_definitions(geometric_${suite}_test
-                             PRIVATE DEBURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 endforeach()
 add_test(NAME geometric_clocks
          COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/geometric_clocks_test.py" $<TARGET_FILE:geometric_rtl_bench>)

@@ -16,7 +16,7 @@
 #include "tb/system/coverage_text.h"
 #include "tb/system/geometric_runs.h"
 
-namespace deburr::tb::geometric_system {
+namespace deburr::tb::geometric_system::geometric_coverage_test {
 namespace {
 
 using spec::geometric::Crease;
@@ -175,4 +175,4 @@ TEST(GeometricCoverage, HolesAreListed) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::geometric_system
+}  // namespace deburr::tb::geometric_system::geometric_coverage_test

@@ -12,7 +12,7 @@
 #include "tb/harness/forked.h"
 #include "tb/system/geometric_runs.h"
 
-namespace deburr::tb::geometric_system {
+namespace deburr::tb::geometric_system::geometric_stress_test {
 namespace {
 
 using rtl::geometric::Phase;
@@ -178,4 +178,4 @@ INSTANTIATE_TEST_SUITE_P(Geometric, GeometricStress, testing::ValuesIn(kPresets)
                          [](const auto& row) { return std::to_string(row.index); });
 
 }  // namespace
-}  // namespace deburr::tb::geometric_system
+}  // namespace deburr::tb::geometric_system::geometric_stress_test

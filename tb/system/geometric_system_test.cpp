@@ -13,9 +13,10 @@
 #include "spec/error.h"
 #include "tb/env/geometric_frames.h"
 #include "tb/harness/forked.h"
+#include "tb/harness/test_paths.h"
 #include "tb/system/geometric_runs.h"
 
-namespace deburr::tb::geometric_system {
+namespace deburr::tb::geometric_system::geometric_system_test {
 namespace {
 
 using Frames = std::vector<Frame>;
@@ -150,10 +151,7 @@ class DataMesh : public testing::TestWithParam<Named> {};
 
 TEST_P(DataMesh, IsIdenticalToGolden) {
   const auto [which, name] = GetParam();
-  const char* folder = std::getenv("DEBURR_DATA");
-  const std::filesystem::path file =
-      (folder ? folder : std::filesystem::path(DEBURR_SOURCE_DIR) / "../shared/data") / "meshes" /
-      name;
+  const std::filesystem::path file = data_folder() / "meshes" / name;
   if (!std::filesystem::exists(file))
     GTEST_SKIP() << "no " << file << ": set DEBURR_DATA to the folder that holds meshes/";
   GeometricSceneParameters scene;
@@ -265,4 +263,4 @@ INSTANTIATE_TEST_SUITE_P(Geometric, BrokenMemory,
                          name_of<Broken>);
 
 }  // namespace
-}  // namespace deburr::tb::geometric_system
+}  // namespace deburr::tb::geometric_system::geometric_system_test

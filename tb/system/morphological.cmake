@@ -7,8 +7,7 @@ foreach(suite system stress coverage records shares)
   else()
     set(label system)
   endif()
-  deburr_test(morphological_${suite}_test LABELS ${label} SOURCES morphological_${suite}_test.cpp
+  deburr_test(morphological_${suite}_test PROGRAM system_morphological_tests LABELS ${label}
+              SOURCE morphological_${suite}_test.cpp
               LINK deburr::morphological_environment TIMEOUT 300)
-  target_compile_definitions(morphological_${suite}_test
-                             PRIVATE DEBURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 endforeach()

@@ -20,7 +20,7 @@
 #include "tb/system/coverage_text.h"
 #include "tb/system/morphological_runs.h"
 
-namespace deburr::tb::morphological_system {
+namespace deburr::tb::morphological_system::morphological_coverage_test {
 namespace {
 
 using golden::morphological::MorphologicalGolden;
@@ -348,4 +348,4 @@ TEST(SmaaCoverage, NoBinIsHitThatWasNotDeclared) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_system
+}  // namespace deburr::tb::morphological_system::morphological_coverage_test

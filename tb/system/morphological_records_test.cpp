@@ -10,7 +10,7 @@
 #include "tb/harness/verdict.h"
 #include "tb/system/morphological_runs.h"
 
-namespace deburr::tb::morphological_system {
+namespace deburr::tb::morphological_system::morphological_records_test {
 namespace {
 
 using testing::Contains;
@@ -82,4 +82,4 @@ TEST(Records, LinesThatAreNotComparedAreNoPass) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_system
+}  // namespace deburr::tb::morphological_system::morphological_records_test

@@ -16,7 +16,7 @@
 #include "tb/harness/forked.h"
 #include "tb/system/morphological_runs.h"
 
-namespace deburr::tb::morphological_system {
+namespace deburr::tb::morphological_system::morphological_shares_test {
 namespace {
 
 using rtl::morphological::SharesRom;
@@ -239,4 +239,4 @@ TEST(SharesCoverage, EveryClassAndEveryWordThatCanBeAskedFor) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_system
+}  // namespace deburr::tb::morphological_system::morphological_shares_test

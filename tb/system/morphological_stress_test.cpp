@@ -12,7 +12,7 @@
 #include "tb/harness/forked.h"
 #include "tb/system/morphological_runs.h"
 
-namespace deburr::tb::morphological_system {
+namespace deburr::tb::morphological_system::morphological_stress_test {
 namespace {
 
 using spec::morphological::Lanes;
@@ -200,4 +200,4 @@ INSTANTIATE_TEST_SUITE_P(MorphologicalMemory, BrokenMemory,
                          [](const auto& broken) { return broken.param.name; });
 
 }  // namespace
-}  // namespace deburr::tb::morphological_system
+}  // namespace deburr::tb::morphological_system::morphological_stress_test

@@ -11,9 +11,10 @@
 #include <tuple>
 
 #include "tb/harness/forked.h"
+#include "tb/harness/test_paths.h"
 #include "tb/system/morphological_runs.h"
 
-namespace deburr::tb::morphological_system {
+namespace deburr::tb::morphological_system::morphological_system_test {
 namespace {
 
 using Frames = std::vector<MorphologicalInput>;
@@ -91,10 +92,7 @@ class DataFrame : public testing::TestWithParam<Named> {};
 
 TEST_P(DataFrame, IsIdenticalToGolden) {
   const auto [which, name] = GetParam();
-  const char* folder = std::getenv("DEBURR_DATA");
-  const std::filesystem::path file =
-      (folder ? folder : std::filesystem::path(DEBURR_SOURCE_DIR) / "../shared/data") / "frames" /
-      name;
+  const std::filesystem::path file = data_folder() / "frames" / name;
   if (!std::filesystem::exists(file))
     GTEST_SKIP() << "no " << file << ": set DEBURR_DATA to the folder that holds frames/";
   FrameParameters p;
@@ -510,4 +508,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace deburr::tb::morphological_system
+}  // namespace deburr::tb::morphological_system::morphological_system_test

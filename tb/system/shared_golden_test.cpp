@@ -19,7 +19,7 @@
 #include "tb/system/morphological_runs.h"
 #include "tb/system/texture_runs.h"
 
-namespace deburr::tb {
+namespace deburr::tb::shared_golden_test {
 namespace {
 
 using golden::morphological::MorphologicalGolden;
@@ -216,4 +216,4 @@ TEST(SharedInputs, KeepTheLastGoldenResultOnly) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::shared_golden_test

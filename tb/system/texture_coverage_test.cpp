@@ -12,7 +12,7 @@
 #include "tb/system/coverage_text.h"
 #include "tb/system/texture_runs.h"
 
-namespace deburr::tb {
+namespace deburr::tb::texture_coverage_test {
 namespace {
 
 void run(Coverage& coverage, const SceneParameters& scene, const SamplerParameters& sampler,
@@ -70,4 +70,4 @@ TEST(TextureCoverage, AHoleIsReported) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::texture_coverage_test

@@ -24,7 +24,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/system/texture_quad_bench.h"
 
-namespace deburr::tb {
+namespace deburr::tb::texture_limits_test {
 namespace {
 
 namespace gold = golden::texture;
@@ -252,4 +252,4 @@ INSTANTIATE_TEST_SUITE_P(Texture, TextureLimits, testing::Range(0, 3), [](const 
 });
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::texture_limits_test

@@ -13,7 +13,7 @@
 #include "tb/stimuli/texture_quads.h"
 #include "tb/system/texture_quad_bench.h"
 
-namespace deburr::tb {
+namespace deburr::tb::texture_random_test {
 namespace {
 
 constexpr std::uint32_t kMemoryBytes = 2u << 20;
@@ -232,4 +232,4 @@ INSTANTIATE_TEST_SUITE_P(Texture, RandomQuadsNotice, testing::Range(0, 7), [](co
 });
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::texture_random_test

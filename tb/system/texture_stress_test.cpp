@@ -11,7 +11,7 @@
 #include "tb/system/texture_quad_bench.h"
 #include "tb/system/texture_runs.h"
 
-namespace deburr::tb {
+namespace deburr::tb::texture_stress_test {
 namespace {
 
 TextureOutcome run(const TextureRunOptions& options, const char* source = "plane", int side = 128) {
@@ -291,4 +291,4 @@ TEST(TextureStress, AShortFifoDoesNotHideIt) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::texture_stress_test

@@ -12,9 +12,10 @@
 #include <tuple>
 
 #include "tb/harness/forked.h"
+#include "tb/harness/test_paths.h"
 #include "tb/system/texture_runs.h"
 
-namespace deburr::tb {
+namespace deburr::tb::texture_system_test {
 namespace {
 
 // Everything covered was delivered and compared.
@@ -292,9 +293,7 @@ INSTANTIATE_TEST_SUITE_P(Texture, CacheTraffic,
 class RealInput : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
 
 TEST_P(RealInput, IsIdenticalToGolden) {
-  const char* folder = std::getenv("DEBURR_DATA");
-  const std::filesystem::path data =
-      folder ? folder : std::filesystem::path(DEBURR_SOURCE_DIR) / "../shared/data";
+  const std::filesystem::path data = data_folder();
   const auto [mesh, texture] = GetParam();
   if (!std::filesystem::exists(data / mesh)) {
     GTEST_SKIP() << "no " << (data / mesh) << ": set DEBURR_DATA to a folder with " << mesh;
@@ -312,4 +311,4 @@ INSTANTIATE_TEST_SUITE_P(
                     std::tuple{"kenney/racing/models/vehicle-truck-red.glb", ""}));
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::texture_system_test

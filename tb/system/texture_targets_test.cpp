@@ -15,7 +15,7 @@
 #include "tb/harness/protocol_target.h"
 #include "tb/system/texture_runs.h"
 
-namespace deburr::tb {
+namespace deburr::tb::texture_targets_test {
 namespace {
 
 using rtl::ResponseEnd;
@@ -80,4 +80,4 @@ TEST(TextureTargets, ATargetThatAcceptsOneEndNeedsThatOne) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::texture_targets_test

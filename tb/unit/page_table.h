@@ -10,13 +10,15 @@
 #include <string>
 #include <vector>
 
+#include "tb/harness/test_paths.h"
+
 namespace deburr::tb {
 
 class PageTable {
  public:
   // The table of a page whose first columns have these titles ("image | rules").
   PageTable(const std::string& page, const std::string& first) {
-    std::ifstream file(std::string(DEBURR_DOCS "/") + page);
+    std::ifstream file(source_folder() / "docs" / page);
     for (std::string line; std::getline(file, line);) {
       if (line.starts_with("| " + first + " |"))
         titles_ = cells_of(line);

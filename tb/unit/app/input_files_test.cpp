@@ -4,15 +4,17 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "tb/app/run_once.h"
 
-namespace deburr::tb {
+namespace deburr::tb::input_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -51,12 +53,13 @@ TEST_F(InputFilesOfEngines, AreAllThatParametersName) {
       bound.set.set(parameter.name, file.string(), "test");
       if (const auto beside = kBeside.find(parameter.name); beside != kBeside.end())
         bound.set.set(beside->second, (path_ / "frame.png").string(), "test");
-      EXPECT_THAT(another->input_files(meshes), Contains(file)) << parameter.name;
-      if (mesh) EXPECT_THAT(another->input_files(meshes), Contains(path_ / "m.mtl"));
+      const std::vector<fs::path> files = another->input_files(meshes);
+      EXPECT_THAT(files, Contains(file)) << parameter.name;
+      EXPECT_EQ(std::count(files.begin(), files.end(), path_ / "m.mtl"), mesh) << parameter.name;
     }
   }
   EXPECT_GE(parameters, 10);
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::input_files_test

@@ -16,7 +16,7 @@
 #include "tb/results/report.h"
 #include "tb/scene/image_io.h"
 
-namespace deburr::tb {
+namespace deburr::tb::pictures_test {
 namespace {
 
 constexpr Rgba8 kGrey = {128, 128, 128, 255}, kBlack = {0, 0, 0, 255},
@@ -136,4 +136,4 @@ TEST(EdgePictures, ShowLinesByClassAndWeights) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::pictures_test

@@ -14,7 +14,7 @@
 #include "tb/app/run_once.h"
 #include "tb/harness/forked.h"
 
-namespace deburr::tb {
+namespace deburr::tb::random_configuration_test {
 namespace {
 
 class RandomConfiguration : public testing::TestWithParam<const char*> {};
@@ -113,4 +113,4 @@ TEST(RandomConfigurations, KnowEveryEngineAndNoOther) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::random_configuration_test

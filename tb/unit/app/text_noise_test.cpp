@@ -20,10 +20,11 @@
 #include "tb/app/random_configuration.h"
 #include "tb/app/run_once.h"
 #include "tb/harness/register_noise.h"
+#include "tb/harness/test_paths.h"
 #include "tb/stimuli/random.h"
 #include "tb/sweep/definition.h"
 
-namespace deburr::tb {
+namespace deburr::tb::text_noise_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -131,7 +132,7 @@ TEST_F(TextNoise, Configurations) {
 
 TEST_F(TextNoise, Sweeps) {
   std::vector<std::string> sweeps;
-  for (const fs::directory_entry& entry : fs::directory_iterator(DEBURR_SWEEPS)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(source_folder() / "sweeps")) {
     std::ostringstream text;
     text << std::ifstream(entry.path()).rdbuf();
     sweeps.push_back(text.str());
@@ -231,4 +232,4 @@ TEST_F(TextNoise, Faults) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::text_noise_test

@@ -12,7 +12,7 @@
 #include "spec/error.h"
 #include "tb/harness/forked.h"
 
-namespace deburr::tb {
+namespace deburr::tb::frame_composition_test {
 namespace {
 
 constexpr Smoothing kAll[] = {Smoothing::kMorphological, Smoothing::kGeometric,
@@ -189,4 +189,4 @@ TEST_P(EveryFigure, HasANameOfItsOwn) {
 INSTANTIATE_TEST_SUITE_P(FrameComposition, EveryFigure, testing::ValuesIn(kAll));
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::frame_composition_test

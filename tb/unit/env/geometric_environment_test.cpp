@@ -11,7 +11,7 @@
 #include "tb/env/geometric_frames.h"
 #include "tb/harness/forked.h"
 
-namespace deburr::tb {
+namespace deburr::tb::geometric_environment_test {
 namespace {
 
 using spec::geometric::Region;
@@ -225,4 +225,4 @@ TEST(GeometricEnvironment, IsAPartOfAComposition) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::geometric_environment_test

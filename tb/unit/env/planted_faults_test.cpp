@@ -10,7 +10,7 @@
 
 #include "spec/error.h"
 
-namespace deburr::tb {
+namespace deburr::tb::planted_faults_test {
 namespace {
 
 using testing::ElementsAre;
@@ -80,4 +80,4 @@ TEST(FaultPlan, OfACompositionTakesANameThatIsUnique) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::planted_faults_test

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace deburr::tb {
+namespace deburr::tb::raster_scoreboard_test {
 namespace {
 
 using testing::HasSubstr;
@@ -96,4 +96,4 @@ TEST_F(Raster, NeedsWhatItWasAskedFor) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::raster_scoreboard_test

@@ -20,7 +20,7 @@
 #include "tb/scene/textures.h"
 #include "tb/scene/truth.h"
 
-namespace deburr::tb {
+namespace deburr::tb::texture_scene_test {
 namespace {
 
 TEST(EncodeTexel, RoundsEachChannelToTheNearestCode) {
@@ -214,4 +214,4 @@ TEST(GoldenFrame, CoversEveryFragmentOnce) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::texture_scene_test

@@ -16,7 +16,7 @@
 #include "rtl_model/fabric/trace.h"
 #include "tb/unit/fabric/support.h"
 
-namespace deburr::tb {
+namespace deburr::tb::clock_test {
 namespace {
 
 using rtl::Cycle;
@@ -541,4 +541,4 @@ TEST(ClockDomain, UnitTickedTwiceIsCaught) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::clock_test

@@ -14,7 +14,7 @@
 #include "rtl_model/platform/register_host.h"
 #include "tb/unit/fabric/support.h"
 
-namespace deburr::tb::toy {
+namespace deburr::tb::toy::engine_test {
 
 using rtl::Cycle;
 using spec::Access;
@@ -278,4 +278,4 @@ TEST(LatencyProbe, AgreesWithAQueueOfTimes) {
   EXPECT_EQ(probe.leaves(5010), 9U);
 }
 
-}  // namespace deburr::tb::toy
+}  // namespace deburr::tb::toy::engine_test

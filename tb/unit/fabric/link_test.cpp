@@ -8,7 +8,7 @@
 
 #include "tb/unit/fabric/support.h"
 
-namespace deburr::tb {
+namespace deburr::tb::link_test {
 namespace {
 
 using rtl::Cycle;
@@ -319,4 +319,4 @@ TEST(Ports, LinkBetweenTwoClocksIsRefused) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::link_test

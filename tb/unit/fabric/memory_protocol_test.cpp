@@ -12,7 +12,7 @@
 #include "tb/harness/protocol_target.h"
 #include "tb/unit/fabric/memory_bench.h"
 
-namespace deburr::tb {
+namespace deburr::tb::memory_protocol_test {
 namespace {
 
 using rtl::MemoryRequest;
@@ -228,4 +228,4 @@ TEST(MemoryPort, WorksWithABlockingTarget) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::memory_protocol_test

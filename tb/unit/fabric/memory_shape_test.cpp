@@ -17,7 +17,7 @@
 #include "rtl_model/fabric/memory_port.h"
 #include "tb/unit/fabric/support.h"
 
-namespace deburr::tb {
+namespace deburr::tb::memory_shape_test {
 namespace {
 
 using rtl::BankOrder;
@@ -987,4 +987,4 @@ TEST(MemoryCost, ADeepFifoIsSram) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::memory_shape_test

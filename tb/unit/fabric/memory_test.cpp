@@ -7,7 +7,7 @@
 #include "tb/harness/link_checker.h"
 #include "tb/unit/fabric/memory_bench.h"
 
-namespace deburr::tb {
+namespace deburr::tb::memory_test {
 namespace {
 
 using rtl::Cycle;
@@ -584,4 +584,4 @@ TEST(MemoryPort, DebugAccessTakesNoTime) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::memory_test

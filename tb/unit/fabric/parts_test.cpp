@@ -13,7 +13,7 @@
 #include "rtl_model/fabric/pipe.h"
 #include "tb/unit/fabric/support.h"
 
-namespace deburr::tb {
+namespace deburr::tb::parts_test {
 namespace {
 
 using rtl::Cycle;
@@ -387,4 +387,4 @@ TEST(Statistics, HaveEveryCounterWithUnitAndMeaning) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::parts_test

@@ -14,7 +14,7 @@
 #include "tb/unit/fabric/support.h"
 #include "tb/unit/rtl/formats.h"
 
-namespace deburr::tb {
+namespace deburr::tb::payload_test {
 namespace {
 
 using rtl::Payload;
@@ -509,4 +509,4 @@ TEST(Payload, PackageDeclaresWhatIsInIt) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::payload_test

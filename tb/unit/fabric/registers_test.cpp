@@ -11,7 +11,7 @@
 #include "rtl_model/platform/register_host.h"
 #include "spec/error.h"
 
-namespace deburr::tb {
+namespace deburr::tb::registers_test {
 namespace {
 
 using spec::Access;
@@ -270,4 +270,4 @@ TEST(RegisterTable, MistakesAreCaught) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::registers_test

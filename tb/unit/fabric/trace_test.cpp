@@ -17,7 +17,7 @@
 #include "tb/unit/fabric/support.h"
 #include "tb/unit/full_disk.h"
 
-namespace deburr::tb {
+namespace deburr::tb::trace_test {
 namespace {
 
 using rtl::Cycle;
@@ -432,4 +432,4 @@ TEST(Glob, Matches) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::trace_test

@@ -18,7 +18,7 @@
 #include "tb/harness/scoreboard.h"
 #include "tb/unit/fabric/support.h"
 
-namespace deburr::tb {
+namespace deburr::tb::negative_test {
 namespace {
 
 using rtl::Cycle;
@@ -508,4 +508,4 @@ TEST(Negative, LostResponseIsADeadlock) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::negative_test

@@ -15,7 +15,7 @@
 #include "tb/harness/window_recorder.h"
 #include "tb/unit/fabric/support.h"
 
-namespace deburr::tb {
+namespace deburr::tb::observers_test {
 namespace {
 
 using rtl::Cycle;
@@ -176,4 +176,4 @@ TEST(Timeline, HasASliceForEveryCycleThatIsNotIdle) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::observers_test

@@ -19,7 +19,7 @@
 #include "tb/harness/scoreboard.h"
 #include "tb/unit/fabric/support.h"
 
-namespace deburr::tb {
+namespace deburr::tb::parts_test {
 namespace {
 
 using rtl::Cycle;
@@ -293,4 +293,4 @@ TEST(Bench, ResetInMidRunWithEverythingAttached) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::parts_test

@@ -15,7 +15,7 @@
 #include "rtl_model/platform/memory_model.h"
 #include "tb/harness/forked.h"
 
-namespace deburr::tb {
+namespace deburr::tb::protocol_target_test {
 namespace {
 
 using sc_core::sc_time;
@@ -180,4 +180,4 @@ TEST(ProtocolTarget, SeesEachViolation) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::protocol_target_test

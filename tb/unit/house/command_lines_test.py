@@ -25,11 +25,15 @@ PROGRAMS = """case "$*" in *"-t query"*)
   echo 'deburr_unit_tests:
   input: phony
     deburr
-    tb/unit/golden/golden_test
-    tb/unit/rtl/rtl_a_test
-    tb/unit/rtl/rtl_b_test
+    tb/unit/golden/golden_tests
+    tb/unit/rtl/rtl_tests
   outputs:' ;;
 esac
+"""
+HELD = """golden_test tb/unit/golden/golden_test.cpp tb/unit/golden/golden_tests
+rtl_a_test tb/unit/rtl/a_test.cpp tb/unit/rtl/rtl_tests
+rtl_b_test tb/unit/rtl/b_test.cpp tb/unit/rtl/rtl_tests
+geometric_test tb/system/geometric_test.cpp tb/system/system_tests
 """
 # Every package but two is there.
 INSTALLED = '''#!/bin/sh
@@ -42,7 +46,7 @@ class CommandLines(unittest.TestCase):
     def setUp(self):
         tools = ("cmake", "ctest", "apt-get", "clang++")
         self.root = tiny_tree(self, {f"bin/{tool}": SAYS for tool in tools} |
-                              {DEBURR: SAYS, "bin/ninja": SAYS + PROGRAMS, "bin/dpkg-query": INSTALLED})
+                              {DEBURR: SAYS, "build/release/test_programs.txt": HELD, "bin/ninja": SAYS + PROGRAMS, "bin/dpkg-query": INSTALLED})
         for folder in ("scripts", ".ci", "cmake", "tb/testplan"):
             shutil.copytree(SOURCE / folder, self.root / "tree" / folder)
         shutil.copy(SOURCE / "CMakePresets.json", self.root / "tree")
@@ -78,6 +82,7 @@ class CommandLines(unittest.TestCase):
                 ("scripts/stand_alone", ["5/4"], 2, "5/4 is no part as 2/4"),
                 ("scripts/stand_alone", ["1/4", "2/4"], 2, "one part, and no 2/4"),
                 ("scripts/nightly", ["odd"], 2, "no feature odd: texture-rules, "),
+                ("scripts/nightly", ["--divide", "0"], 2, "--divide 0: expected a number from 1"),
                 ("scripts/everything", ["odd"], 2, "no part odd: tests sanitizers"),
                 ("scripts/everything", ["--list", "tests"], 2, "parts go with no option"),
                 ("scripts/fuzz", ["--seconds"], 2, "--seconds needs a number from 1"),
@@ -125,9 +130,10 @@ class CommandLines(unittest.TestCase):
                 (["-LE", "^(unit|stress|oracle|negative|perf|tools|long|slurm|fuzz)$"],
                  "deburr_smoke_tests deburr_system_tests"),
                 (["-R", "^rtl_"], "all"),
-                (["-L", "^unit$", "-R", "^rtl_"], "deburr rtl_a_test rtl_b_test"),
-                (["-L", "^unit$", "-R", "^(golden_|rtl_b)"], "deburr golden_test rtl_b_test"),
-                (["-L", "^unit$", "-E", "^rtl_"], "deburr golden_test"),
+                (["-L", "^unit$", "-R", "^rtl_"], "deburr rtl_tests"),
+                (["-L", "^unit$", "-R", "^(golden_|rtl_b)"], "deburr golden_tests rtl_tests"),
+                (["-L", "^unit$", "-E", "^rtl_"], "deburr golden_tests"),
+                (["-L", "^unit$", "-E", "^rtl_a"], "deburr golden_tests rtl_tests"),
                 # These may be parts of names behind that of the program.
                 (["-L", "^unit$", "-R", "rtl_"], "deburr_unit_tests"),
                 (["-L", "^unit$", "-R", "^rtl_a_test[.]Suite"], "deburr_unit_tests"),
@@ -166,6 +172,18 @@ class CommandLines(unittest.TestCase):
                                      f"deburr regress {part} --divide 100 --out {part.parent} --seed 7"])
             self.assertEqual(yaml.safe_load(part.read_text(encoding="utf-8")),
                              {**plan, "features": [f for f in plan["features"] if f["id"] in left]})
+
+    def test_few_configurations_of_the_nightly_plan_are_drawn_by_the_seed(self):
+        drawn = set()
+        for seed in ("1", "2", "3", "1"):
+            self.assertEqual(self.call("scripts/nightly", "--few", "--seed", seed)[0], 0)
+            text = (self.root / "tree/build/nightly/nightly.yaml").read_text(encoding="utf-8")
+            for feature in yaml.safe_load(text)["features"]:
+                for stimulus in feature["stimuli"]:
+                    values = list(stimulus.get("axes", {}).values())
+                    self.assertEqual([len(v) for v in values[:2]], [1] * len(values[:2]))
+            drawn.add(text)
+        self.assertEqual(len(drawn), 3)
 
     def test_the_demo_writes_to_its_callers_folder(self):
         for arguments, out in (([], f"{self.root}/tree/out/demo"), (["mine"], f"{self.root}/mine")):

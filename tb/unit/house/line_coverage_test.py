@@ -29,6 +29,7 @@ foreach(name fabric_tiny_test fabric_oracle_test other_test)
   add_executable(${name} ${name}.cpp)
   target_include_directories(${name} PRIVATE ${layer} ${CMAKE_SOURCE_DIR})
   add_test(NAME ${name}.all COMMAND ${name})
+  file(APPEND ${CMAKE_BINARY_DIR}/test_programs.txt "${name} ${name}.cpp ${name}\n")
 endforeach()
 set_tests_properties(fabric_oracle_test.all PROPERTIES LABELS oracle)
 """,
@@ -97,7 +98,7 @@ class Coverage(unittest.TestCase):
         self.assertEqual(again.stdout.splitlines()[1:], report)
 
         self.assertEqual(self.coverage("--no-build", "--only", "none").stderr,
-                         "no test program matches none\n")
+                         "no test source matches none\n")
 
     def test_a_layer_without_lines_and_a_test_that_fails(self):
         shutil.rmtree(self.root / "golden")

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """Checks that the names of all tests are the same on every build: no address, no bytes of a value that
-GoogleTest could not print, no path of the machine, and none twice; that every program of tb/unit is
-named as the path of its source: tb/unit/fabric/link_test.cpp is fabric_link_test; and that every test has
-labels, of those that cmake/Labels.cmake lists."""
+GoogleTest could not print, no path of the machine, and none twice; that every test source is in one
+program, that of its folder, has a namespace of its own, and names its tests as its path:
+tb/unit/fabric/link_test.cpp is fabric_link_test; and that every test has labels, of those that
+cmake/Labels.cmake lists."""
 import argparse
 import collections
 import json
@@ -13,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 
+SOMETIMES = {"tb/oracle/mesa_test.cpp"}  # where EGL's headers are
 UNSTABLE = re.compile(r"(?<![0-9])0x[0-9A-Fa-f]+|-byte object|GetParam\(\)|(?<![\w.])/[a-z]+/")
 
 
@@ -28,14 +30,24 @@ def problems(listed):
         yield "no tests at all"
 
 
-def misnamed(programs, built, source):
-    """Yields what is wrong with each program below `built`, whose sources are below `source`."""
-    for program in sorted(set(programs)):
-        if built in program.parents:
-            folder = program.parent.relative_to(built)
-            stem = program.name.removeprefix("_".join(folder.parts) + "_")
-            if stem == program.name or not (source / folder / f"{stem}.cpp").exists():
-                yield f"not named as the path of its source: {folder / program.name}"
+def misnamed(listed, source):
+    """Yields what is wrong with the sources of the test programs: (name, file, program) each."""
+    files = [file for _, file, _ in listed]
+    for path in sorted((source / "tb").rglob("*_test.cpp")):
+        file = path.relative_to(source).as_posix()
+        if files.count(file) != 1 and file not in SOMETIMES:
+            yield f"{file} is in {files.count(file)} test programs"
+    for name, file, program in listed:
+        path = pathlib.PurePosixPath(file)
+        folder = path.parent.parts[1:]
+        prefix = {"unit": folder[1:], "fuzz": folder}.get(folder[0], ())
+        if name != "_".join([*prefix, path.stem]):
+            yield f"{file} is called {name}"
+        if pathlib.PurePosixPath(program).parent != path.parent:
+            yield f"{file} is in {program}"
+        if not re.search(rf"^namespace deburr[\w:]*::{path.stem} {{$",
+                         (source / file).read_text(encoding="utf-8"), re.M):
+            yield f"{file} has no namespace of its own, ...::{path.stem}"
 
 
 def mislabelled(tests, known):
@@ -59,14 +71,20 @@ def planted_faults_are_caught():
             len(list(problems([*good, name]))) != 1 for name in bad):
         return False
     with tempfile.TemporaryDirectory() as folder:
-        source, built = pathlib.Path(folder), pathlib.Path("/build/tb/unit")
-        (source / "rtl/texture").mkdir(parents=True)
-        (source / "rtl/texture/log2_test.cpp").touch()
-        named = [built / "rtl/texture/rtl_texture_log2_test", pathlib.Path("/build/deburr")]
-        return not list(misnamed(named, built, source)) and all(
-            len(list(misnamed([built / name], built, source))) == 1
-            for name in ("rtl/texture/log2_test", "rtl/texture/rtl_texture_log2",
-                         "rtl/texture/rtl_texture_none_test", "rtl/rtl_log2_test"))
+        source = pathlib.Path(folder)
+        for file in ("unit/rtl/texture/log2_test.cpp", "oracle/mesa_test.cpp", "system/frame_test.cpp"):
+            (source / "tb" / file).parent.mkdir(parents=True)
+            stem = pathlib.Path(file).stem
+            (source / "tb" / file).write_text(f"namespace deburr::tb::{stem} {{\n", encoding="utf-8")
+        log2 = ("rtl_texture_log2_test", "tb/unit/rtl/texture/log2_test.cpp", "tb/unit/rtl/texture/rtl_tests")
+        frame = ("frame_test", "tb/system/frame_test.cpp", "tb/system/system_tests")
+        faults = ([log2], [log2, log2, frame], [log2, ("system_frame_test", *frame[1:])],
+                  [log2, (*frame[:2], "tb/unit/system_tests")])
+        if list(misnamed([log2, frame], source)) or any(
+                len(list(misnamed(fault, source))) != 1 for fault in faults):
+            return False
+        (source / log2[1]).write_text("namespace deburr::tb {\n", encoding="utf-8")
+        return len(list(misnamed([log2, frame], source))) == 1
 
 
 def main():
@@ -80,12 +98,13 @@ def main():
     if listing.returncode != 0:
         sys.exit(f"ctest does not list its tests:\n{listing.stderr}")
     tests = json.loads(listing.stdout)["tests"]
-    programs = [pathlib.Path(test["command"][0]) for test in tests if "command" in test]
+    programs = [line.split() for line in
+                (options.build / "test_programs.txt").read_text(encoding="utf-8").splitlines()]
     labels = re.search(r"set\(DEBURR_LABELS ([^)]*)\)",
                        (options.source / "cmake/Labels.cmake").read_text(encoding="utf-8"))
     found = [*problems(test["name"] for test in tests),
              *mislabelled(tests, set(labels[1].split())),
-             *misnamed(programs, options.build / "tb/unit", options.source / "tb/unit")]
+             *misnamed(programs, options.source)]
     for problem in found:
         print(problem)
     caught = planted_faults_are_caught()

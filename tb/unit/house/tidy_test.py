@@ -69,9 +69,9 @@ class Tidy(unittest.TestCase):
         self.assertEqual((code, clean, text.count("[modernize-use-nullptr")), (1, 2, 2))
 
     def test_looks_at_the_files_of_a_batch_and_not_at_the_batch(self):
-        batch = self.root / "build/release/CMakeFiles/x.dir/Unity/unity_0_cxx.cxx"
+        batch = self.root / "build/release/golden/x_batch_1.cpp"
         batch.parent.mkdir(parents=True)
-        batch.write_text("".join(f'#include "{self.root}/golden/{name}.cpp"\n' for name in "ab"),
+        batch.write_text("".join(f'#include "golden/{name}.cpp"\n' for name in "ab"),
                          encoding="utf-8")
         (self.root / "build/release/compile_commands.json").write_text(json.dumps(
             [{"directory": str(self.root), "file": str(batch),
@@ -83,9 +83,9 @@ class Tidy(unittest.TestCase):
         self.assertIn("1 of 1 files looked at", text)
         # Which batch a file is in does not matter to what is found in it.
         self.header(CLEAN)
-        batch.rename(batch.with_name("unity_1_cxx.cxx"))
+        batch.rename(batch.with_name("x_batch_2.cpp"))
         database = self.root / "build/release/compile_commands.json"
-        database.write_text(database.read_text().replace("unity_0", "unity_1"), encoding="utf-8")
+        database.write_text(database.read_text().replace("batch_1", "batch_2"), encoding="utf-8")
         self.assertIn("0 of 2 files looked at", self.tidy()[2])
 
     def test_does_not_take_for_clean_what_does_not_compile(self):

@@ -5,7 +5,7 @@
 
 #include "tb/unit/platform/fakes.h"
 
-namespace deburr::tb {
+namespace deburr::tb::geometric_driver_test {
 namespace {
 
 using platform::GeometricDriver;
@@ -336,4 +336,4 @@ TEST(GeometricDriver, TheCopyNeedsRoomOnlyWhereFramesAreCopied) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::geometric_driver_test

@@ -4,7 +4,7 @@
 #include "rtl_model/platform/memory_model.h"
 #include "tb/unit/platform/fakes.h"
 
-namespace deburr::tb {
+namespace deburr::tb::hosts_test {
 namespace {
 
 using testing::HasSubstr;
@@ -60,4 +60,4 @@ TEST(MemoryModel, GivesADriverItsContentsWithoutTimeOrCount) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::hosts_test

@@ -6,7 +6,7 @@
 #include "spec/morphological/registers.h"
 #include "tb/unit/platform/fakes.h"
 
-namespace deburr::tb {
+namespace deburr::tb::morphological_driver_test {
 namespace {
 
 using platform::MorphologicalDriver;
@@ -242,4 +242,4 @@ TEST(MorphologicalDriver, AFrameThatDoesNotFitIntoMemoryIsRejected) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::morphological_driver_test

@@ -6,7 +6,7 @@
 #include "spec/texture/registers.h"
 #include "tb/unit/platform/fakes.h"
 
-namespace deburr::tb {
+namespace deburr::tb::texture_driver_test {
 namespace {
 
 using platform::Texel;
@@ -189,4 +189,4 @@ TEST(TextureDriver, ATextureLargerThanTheMemoryIsRejected) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::texture_driver_test

@@ -13,7 +13,7 @@
 #include "tb/regress/regression_plan.h"
 #include "tb/regress/testplan.h"
 
-namespace deburr::tb {
+namespace deburr::tb::regress_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -105,4 +105,4 @@ TEST(Junit, CountsAndEscapes) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::regress_test

@@ -20,7 +20,7 @@
 #include "tb/results/file.h"
 #include "tb/results/run_context.h"
 
-namespace deburr::tb {
+namespace deburr::tb::input_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -172,4 +172,4 @@ TEST(DifferentInputs, AreNamed) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::input_files_test

@@ -16,7 +16,7 @@
 #include "spec/error.h"
 #include "tb/results/parameter_set.h"
 
-namespace deburr::tb {
+namespace deburr::tb::parameters_test {
 namespace {
 
 using testing::HasSubstr;
@@ -262,4 +262,4 @@ TEST(EditDistance, DidYouMeanReadsWell) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::parameters_test

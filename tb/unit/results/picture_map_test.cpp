@@ -12,7 +12,7 @@
 
 #include "spec/error.h"
 
-namespace deburr::tb {
+namespace deburr::tb::picture_map_test {
 namespace {
 
 constexpr Rgba8 kDark = {68, 1, 84, 255}, kBright = {253, 231, 37, 255}, kGrey = {58, 60, 64, 255};
@@ -98,4 +98,4 @@ TEST(PictureMap, OfOneValueHasColours) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::picture_map_test

@@ -20,7 +20,7 @@
 #include "tb/results/report.h"
 #include "tb/results/run_context.h"
 
-namespace deburr::tb {
+namespace deburr::tb::result_test {
 namespace {
 
 using testing::HasSubstr;
@@ -400,10 +400,10 @@ TEST(Progress, FitsEveryTerminal) {
   EXPECT_EQ(fitted(119),
             "[........................] sweep    2 %  10 point/s  6 min 30 s left  3 899 queued, 1 "
             "running, 99 passed, 1 failed");
-  EXPECT_EQ(fitted(93),
+  EXPECT_EQ(fitted(98),
             "[........] sweep    2 %  10 point/s  6 min 30 s left  3 899 queued, 1 running, 99 "
             "passed, 1 failed");
-  EXPECT_EQ(fitted(92),
+  EXPECT_EQ(fitted(97),
             "sweep    2 %  10 point/s  6 min 30 s left  3 899 queued, 1 running, 99 passed, 1 "
             "failed");
   EXPECT_EQ(fitted(79),
@@ -528,4 +528,4 @@ TEST(Statistics, TheMostSpecificDescriptionWins) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::result_test

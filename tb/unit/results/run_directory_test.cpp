@@ -19,7 +19,7 @@
 #include "spec/error.h"
 #include "tb/results/file.h"
 
-namespace deburr::tb {
+namespace deburr::tb::run_directory_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -263,4 +263,4 @@ TEST_F(Life, WhatIsInTheWayIsAnError) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::run_directory_test

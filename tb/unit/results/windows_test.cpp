@@ -10,7 +10,7 @@
 
 #include "spec/error.h"
 
-namespace deburr::tb {
+namespace deburr::tb::windows_test {
 namespace {
 
 using testing::HasSubstr;
@@ -75,4 +75,4 @@ TEST(Windows, WhatTheResultDoesNotHaveIsNoticed) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::windows_test

@@ -12,7 +12,7 @@
 
 #include "spec/error.h"
 
-namespace deburr::tb {
+namespace deburr::tb::yaml_file_test {
 namespace {
 
 using testing::EndsWith;
@@ -86,4 +86,4 @@ TEST_F(YamlFileTest, RefusesWhatIsNestedTooDeeply) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::yaml_file_test

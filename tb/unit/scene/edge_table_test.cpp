@@ -13,7 +13,7 @@
 #include "spec/error.h"
 #include "tb/unit/scene/fixtures.h"
 
-namespace deburr::tb {
+namespace deburr::tb::edge_table_test {
 namespace {
 
 using Imath::V2d;
@@ -317,4 +317,4 @@ TEST(DepthCodes, RoundHalvesUpAndEndAtTheLimits) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::edge_table_test

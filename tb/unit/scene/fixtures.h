@@ -17,6 +17,7 @@
 #include <string_view>
 
 #include "spec/error.h"
+#include "tb/harness/test_paths.h"
 #include "tb/scene/scenes.h"
 
 namespace deburr::tb::test {
@@ -81,19 +82,10 @@ std::string file_error(Action&& action) {
   return "";
 }
 
-// $DEBURR_DATA, or ../shared/data beside the sources.
-inline std::optional<fs::path> data_folder() {
-  const char* given = std::getenv("DEBURR_DATA");
-  const fs::path folder =
-      given != nullptr ? fs::path(given) : fs::path(DEBURR_SOURCE_DIR) / ".." / "shared" / "data";
-  if (!fs::is_directory(folder / "meshes")) return std::nullopt;
-  return folder;
-}
-
-#define DEBURR_REQUIRE_DATA(folder)                                              \
-  const auto found_##folder = ::deburr::tb::test::data_folder();                 \
-  if (!found_##folder) GTEST_SKIP() << "no data folder: set DEBURR_DATA to one"; \
-  const ::std::filesystem::path& folder = *found_##folder
+#define DEBURR_REQUIRE_DATA(folder)                                   \
+  const ::std::filesystem::path folder = ::deburr::tb::data_folder(); \
+  if (!::std::filesystem::is_directory(folder / "meshes"))            \
+  GTEST_SKIP() << "no data folder: set DEBURR_DATA to one"
 
 // A scene on the plane z = 0 in which (x, y) is a position on the screen in pixels, w = 1
 // everywhere. `size` is a power of two, so that positions are exact.

@@ -9,7 +9,7 @@
 #include "tb/scene/truth.h"
 #include "tb/unit/scene/fixtures.h"
 
-namespace deburr::tb {
+namespace deburr::tb::image_codec_test {
 namespace {
 
 bool openimageio_is_loaded() {
@@ -35,4 +35,4 @@ TEST(ImageCodec, ReadingLoadsItAndSoDoOtherFormats) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::image_codec_test

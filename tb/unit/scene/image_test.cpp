@@ -18,7 +18,7 @@ extern "C" const char* __lsan_default_suppressions() {  // NOLINT: the sanitizer
   return "leak:ImageInput::geterror";
 }
 
-namespace deburr::tb {
+namespace deburr::tb::image_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -268,4 +268,4 @@ TEST(ImageIo, OfFilesThatBelongTogetherAllAreReplacedOrNone) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::image_test

@@ -11,7 +11,7 @@
 
 #include "spec/error.h"
 
-namespace deburr::tb {
+namespace deburr::tb::label_test {
 namespace {
 
 constexpr Rgba8 kInk = {10, 20, 30, 255}, kPaper = {250, 240, 230, 255};
@@ -46,4 +46,4 @@ TEST(Label, RefusesWhatItHasNoLetterFor) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::label_test

@@ -14,7 +14,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/scene/fixtures.h"
 
-namespace deburr::tb {
+namespace deburr::tb::mesh_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -206,9 +206,9 @@ TEST(MeshFiles, OfAnObj) {
   const TemporaryFolder folder;
   fs::create_directories(folder / "sub folder");
   write_image(folder / "wood grain.png", noise(8, 8));
-  folder.write("sub folder/my b.mtl", "newmtl b\nmap_Kd ../wood grain.png\n");
+  folder.write("sub folder/my b.mtl", "newmtl b\nmap_Kd sub folder/../wood grain.png\n");
   folder.write("a.mtl",
-               "newmtl a\nmap_Kd -s 2 2 wood grain.png\nnewmtl again\nmap_Kd wood grain.png\n"
+               "newmtl a\nmap_Kd -s 2 2 1 wood grain.png\nnewmtl again\nmap_Kd wood grain.png\n"
                "map_Bump other.png\nnewmtl plain\n");
   folder.write("plain.obj", kSquare);
   EXPECT_THAT(files_of(folder, "plain.obj"), ElementsAre("plain.obj"));
@@ -231,9 +231,9 @@ TEST(MeshFiles, OfAnObj) {
 TEST(MeshFiles, OfAnObjThatIsRefused) {
   const TemporaryFolder folder;
   const auto names = [&](const std::string& name) {
-    std::vector<std::string> names;
-    for (const fs::path& file : mesh_files(folder / name)) names.push_back(file.filename());
-    return names;
+    std::vector<std::string> found;
+    for (const fs::path& file : mesh_files(folder / name)) found.push_back(file.filename());
+    return found;
   };
   EXPECT_THAT(names("none.obj"), ElementsAre("none.obj"));
   EXPECT_THAT(names("picture.png"), ElementsAre()) << "nobody opens it";
@@ -529,4 +529,4 @@ TEST(Data, EveryMeshOfTheDataFolderLoads) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::mesh_test

@@ -11,7 +11,7 @@
 #include "tb/scene/truth.h"
 #include "tb/unit/scene/fixtures.h"
 
-namespace deburr::tb {
+namespace deburr::tb::models_test {
 namespace {
 
 using Imath::V3d;
@@ -142,4 +142,4 @@ TEST(Phong, SuperAndMultisamplingUseIt) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::models_test

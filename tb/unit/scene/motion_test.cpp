@@ -8,7 +8,7 @@
 
 #include "tb/scene/quality.h"
 
-namespace deburr::tb {
+namespace deburr::tb::motion_test {
 namespace {
 
 using Imath::V3d;
@@ -64,4 +64,4 @@ TEST(Flicker, IsWhatChangesMoreOrLessThanTheTruth) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::motion_test

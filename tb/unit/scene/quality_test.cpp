@@ -10,7 +10,7 @@
 #include "spec/error.h"
 #include "tb/scene/compose.h"
 
-namespace deburr::tb {
+namespace deburr::tb::quality_test {
 namespace {
 
 TEST(Quality, PsnrKnownAnswers) {
@@ -83,4 +83,4 @@ TEST(Compose, DifferenceCropZoomAndSheet) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::quality_test

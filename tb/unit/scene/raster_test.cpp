@@ -15,7 +15,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/scene/fixtures.h"
 
-namespace deburr::tb {
+namespace deburr::tb::raster_test {
 namespace {
 
 using Imath::V3d;
@@ -631,4 +631,4 @@ TEST(Scenes, NamesCamerasAndTextures) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::raster_test

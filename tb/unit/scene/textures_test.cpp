@@ -10,7 +10,7 @@
 #include "tb/scene/exact_math.h"
 #include "tb/unit/scene/fixtures.h"
 
-namespace deburr::tb {
+namespace deburr::tb::textures_test {
 namespace {
 
 using test::fnv;
@@ -122,4 +122,4 @@ TEST(ExactMath, SineAndCosine) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::textures_test

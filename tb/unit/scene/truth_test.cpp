@@ -15,7 +15,7 @@
 #include "tb/scene/textures.h"
 #include "tb/unit/scene/fixtures.h"
 
-namespace deburr::tb {
+namespace deburr::tb::truth_test {
 namespace {
 
 using test::FlatScreen;
@@ -256,4 +256,4 @@ TEST(Data, FramesOfTheTrackLookAlike) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::truth_test

@@ -6,7 +6,7 @@
 
 #include "spec/error.h"
 
-namespace deburr::tb::stimuli {
+namespace deburr::tb::stimuli::frames_test {
 namespace {
 
 // Pixels of 1000 that differ from the pixel to the left or above.
@@ -47,4 +47,4 @@ TEST(Frames, TurnedTwiceAreThemselves) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::stimuli
+}  // namespace deburr::tb::stimuli::frames_test

@@ -16,7 +16,7 @@
 
 #include "tb/stimuli/random.h"
 
-namespace deburr::tb {
+namespace deburr::tb::pareto_search_test {
 namespace {
 
 using testing::Each;
@@ -238,4 +238,4 @@ TEST(Population, SuitsNsga2) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::pareto_search_test

@@ -15,7 +15,7 @@
 #include "tb/traces/fragment_reader.h"
 #include "tb/traces/fragment_writer.h"
 
-namespace deburr::tb {
+namespace deburr::tb::fragment_trace_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -168,4 +168,4 @@ TEST_F(FragmentTrace, ASingleFragmentGetsTheQuadAroundIt) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::fragment_trace_test

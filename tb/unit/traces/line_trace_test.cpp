@@ -19,7 +19,7 @@
 #include "spec/error.h"
 #include "tb/harness/driver.h"
 
-namespace deburr::tb {
+namespace deburr::tb::line_trace_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -145,4 +145,4 @@ TEST(TraceOutput, RemovesOnlyFiles) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::line_trace_test

@@ -7,7 +7,7 @@
 
 #include "spec/error.h"
 
-namespace deburr::tb {
+namespace deburr::tb::sent_quads_test {
 namespace {
 
 TracedQuad quad(std::uint32_t tag, std::uint8_t coverage) {
@@ -73,4 +73,4 @@ TEST(Show, PutsWhatIsToBeSeenWhereItBelongs) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::sent_quads_test

@@ -17,7 +17,7 @@
 #include "tb/scene/quality.h"
 #include "tb/training/training_frames.h"
 
-namespace deburr::tb::training {
+namespace deburr::tb::training::share_trainer_test {
 namespace {
 
 using golden::morphological::MorphologicalGolden;
@@ -140,4 +140,4 @@ TEST(ShareSamples, AreWhatTheEngineBlends) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::training
+}  // namespace deburr::tb::training::share_trainer_test

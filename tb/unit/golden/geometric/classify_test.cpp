@@ -7,7 +7,7 @@
 #include "golden/geometric/configuration.h"
 #include "spec/error.h"
 
-namespace deburr {
+namespace deburr::classify_test {
 namespace {
 
 using golden::geometric::check_frame;
@@ -197,4 +197,4 @@ TEST(Configuration, SaysWhatWouldFit) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::classify_test

@@ -11,7 +11,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/golden/geometric/support.h"
 
-namespace deburr {
+namespace deburr::coverage_test {
 namespace {
 
 using golden::geometric::CoverageBin;
@@ -396,4 +396,4 @@ TEST(Coverage, MergesAreSums) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::coverage_test

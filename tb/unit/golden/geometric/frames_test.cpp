@@ -16,7 +16,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/golden/geometric/support.h"
 
-namespace deburr {
+namespace deburr::frames_test {
 namespace {
 
 using golden::geometric::Bases;
@@ -530,4 +530,4 @@ TEST(MemoryErrors, AreCountedOnceAResponse) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::frames_test

@@ -13,7 +13,7 @@
 #include "spec/geometric/tables.h"
 #include "tb/stimuli/random.h"
 
-namespace deburr {
+namespace deburr::line_test {
 namespace {
 
 using golden::geometric::combine;
@@ -343,4 +343,4 @@ TEST(Resolve, TheHeavierAxisAndUpDownOnATie) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::line_test

@@ -9,7 +9,7 @@
 #include "spec/geometric/tables.h"
 #include "tb/unit/golden/geometric/support.h"
 
-namespace deburr {
+namespace deburr::vectors_test {
 namespace {
 
 using golden::geometric::GeometricGolden;
@@ -285,4 +285,4 @@ TEST(Tables, DeficitsAreWhatTheFormulaSays) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::vectors_test

@@ -10,7 +10,7 @@
 
 #include "tb/unit/golden/ideal/support.h"
 
-namespace deburr::golden::ideal {
+namespace deburr::golden::ideal::cmaa2_test {
 namespace {
 
 Cmaa2Settings in_codes() {
@@ -261,4 +261,4 @@ TEST(Cmaa2, KeepsAlpha) {
 }
 
 }  // namespace
-}  // namespace deburr::golden::ideal
+}  // namespace deburr::golden::ideal::cmaa2_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace deburr::golden::ideal {
+namespace deburr::golden::ideal::colour_frame_test {
 namespace {
 
 constexpr Rgba8 kPixel{10, 11, 200, 77};
@@ -57,4 +57,4 @@ TEST(ColourFrame, BordersRepeat) {
 }
 
 }  // namespace
-}  // namespace deburr::golden::ideal
+}  // namespace deburr::golden::ideal::colour_frame_test

@@ -7,7 +7,7 @@
 
 #include "tb/unit/golden/ideal/support.h"
 
-namespace deburr::golden::ideal {
+namespace deburr::golden::ideal::fxaa_test {
 namespace {
 
 // By the ends of edges alone, in codes: shares can be read off black and white.
@@ -282,4 +282,4 @@ TEST(Fxaa, KeepsAlpha) {
 }
 
 }  // namespace
-}  // namespace deburr::golden::ideal
+}  // namespace deburr::golden::ideal::fxaa_test

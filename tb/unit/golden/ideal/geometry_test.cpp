@@ -10,7 +10,7 @@
 #include "golden/ideal/integrate.h"
 #include "golden/ideal/lod.h"
 
-namespace deburr {
+namespace deburr::geometry_test {
 namespace {
 
 using golden::ideal::Ellipse;
@@ -103,4 +103,4 @@ TEST(Level, AShortSideHasOneSample) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::geometry_test

@@ -18,7 +18,7 @@
 #include "spec/morphological/shapes.h"
 #include "tb/unit/golden/morphological/support.h"
 
-namespace deburr {
+namespace deburr::area_table_test {
 namespace {
 
 using golden::ideal::smaa_area;
@@ -456,4 +456,4 @@ TEST(Corners, SplitAnEvenRunInTwo) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::area_table_test

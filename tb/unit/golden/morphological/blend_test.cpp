@@ -13,7 +13,7 @@
 #include "spec/error.h"
 #include "tb/stimuli/random.h"
 
-namespace deburr {
+namespace deburr::blend_test {
 namespace {
 
 using golden::morphological::blend;
@@ -208,4 +208,4 @@ TEST(FrameTraffic, WritesEveryLineOnceThenReadsItOnce) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::blend_test

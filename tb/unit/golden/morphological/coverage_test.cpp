@@ -17,7 +17,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
-namespace deburr {
+namespace deburr::coverage_test {
 namespace {
 
 using golden::morphological::CoverageBin;
@@ -510,4 +510,4 @@ TEST(RunCoverage, LengthBinsAreThoseOfTheirNames) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::coverage_test

@@ -12,7 +12,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
-namespace deburr {
+namespace deburr::diagonals_test {
 namespace {
 
 using golden::morphological::BitPlane;
@@ -319,4 +319,4 @@ TEST(DiagonalPixels, KeepWithinTheLimitOfTheBlendRule) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::diagonals_test

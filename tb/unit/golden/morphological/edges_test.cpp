@@ -13,7 +13,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
-namespace deburr {
+namespace deburr::edges_test {
 namespace {
 
 using golden::morphological::BitPlane;
@@ -480,4 +480,4 @@ TEST(Luma, IsExactAndSumsToOne) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::edges_test

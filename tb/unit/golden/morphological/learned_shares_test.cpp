@@ -21,10 +21,11 @@
 
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
+#include "tb/harness/test_paths.h"
 #include "tb/stimuli/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
-namespace deburr {
+namespace deburr::learned_shares_test {
 namespace {
 
 using golden::morphological::CoverageBin;
@@ -201,11 +202,13 @@ TEST(LearnedShares, AreThoseOfTheReference) {
     std::ofstream(folder / "in", std::ios::binary)
         .write(reinterpret_cast<const char*>(frame.pixels.data()),
                static_cast<std::streamsize>(4 * frame.pixels.size()));
-    const std::string command = "/usr/bin/python3 " SHARES_REFERENCE " " +
-                                std::to_string(frame.width) + " " + std::to_string(frame.height) +
-                                " " + std::to_string(p.reach_columns) + " " +
-                                std::to_string(golden::morphological::reach_rows(p)) + " " +
-                                (folder / "in").string() + " " + (folder / "out").string();
+    const std::string command =
+        "/usr/bin/python3 " +
+        (tb::source_folder() / "tb/unit/golden/morphological/shares_reference.py").string() + " " +
+        std::to_string(frame.width) + " " + std::to_string(frame.height) + " " +
+        std::to_string(p.reach_columns) + " " +
+        std::to_string(golden::morphological::reach_rows(p)) + " " + (folder / "in").string() +
+        " " + (folder / "out").string();
     ASSERT_EQ(std::system(command.c_str()), 0) << command;
     std::ifstream out(folder / "out", std::ios::binary);
     int different = 0;
@@ -560,4 +563,4 @@ TEST(LearnedCoverage, CountsTheGapOfALongRunOnce) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::learned_shares_test

@@ -11,7 +11,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
-namespace deburr {
+namespace deburr::leave_test {
 namespace {
 
 using golden::morphological::CoverageBin;
@@ -381,4 +381,4 @@ TEST(LeaveCoverage, BordersAreThoseThatThePixelLiesOn) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::leave_test

@@ -18,7 +18,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
-namespace deburr {
+namespace deburr::runs_test {
 namespace {
 
 using golden::morphological::AxisEdges;
@@ -625,4 +625,4 @@ TEST(Theorem1, AnUnevenMixtureIsCaught) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::runs_test

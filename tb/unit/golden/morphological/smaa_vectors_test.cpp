@@ -14,7 +14,7 @@
 #include "spec/morphological/tables.h"
 #include "tb/unit/golden/morphological/support.h"
 
-namespace deburr {
+namespace deburr::smaa_vectors_test {
 namespace {
 
 using golden::morphological::EdgeShares;
@@ -449,4 +449,4 @@ TEST(SmaaTables, GiveTheContractsShares) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::smaa_vectors_test

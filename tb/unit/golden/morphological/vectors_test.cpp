@@ -19,7 +19,7 @@
 #include "tb/unit/golden/morphological/support.h"
 #include "tb/unit/page_table.h"
 
-namespace deburr {
+namespace deburr::vectors_test {
 namespace {
 
 using golden::morphological::EdgeShares;
@@ -354,4 +354,4 @@ TEST(Roms, HoldTheRoundedReciprocals) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::vectors_test

@@ -11,7 +11,7 @@
 #include "golden/texture/sampling.h"
 #include "tb/unit/golden/texture/support.h"
 
-namespace deburr {
+namespace deburr::address_test {
 namespace {
 
 using namespace golden::texture;
@@ -192,4 +192,4 @@ TEST(Descriptor, EachFaultHasItsName) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::address_test

@@ -8,7 +8,7 @@
 #include "golden/texture/cache_predictor.h"
 #include "spec/error.h"
 
-namespace deburr {
+namespace deburr::cache_test {
 namespace {
 
 using golden::texture::CachePredictor;
@@ -175,4 +175,4 @@ TEST(Cache, GeometryThatCannotBeIsAConfigError) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::cache_test

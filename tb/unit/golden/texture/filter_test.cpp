@@ -11,7 +11,7 @@
 #include "golden/texture/sampling.h"
 #include "tb/stimuli/random.h"
 
-namespace deburr {
+namespace deburr::filter_test {
 namespace {
 
 using namespace golden::texture;
@@ -160,4 +160,4 @@ TEST(Filter, TwoChannelCheckFindsALostCarry) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::filter_test

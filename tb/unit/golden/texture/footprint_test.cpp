@@ -16,7 +16,7 @@
 #include "golden/texture/footprint.h"
 #include "tb/stimuli/random.h"
 
-namespace deburr {
+namespace deburr::footprint_test {
 namespace {
 
 using namespace golden::texture;
@@ -360,4 +360,4 @@ TEST(Footprint, LevelErrorsOfRulesTogether) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::footprint_test

@@ -18,7 +18,7 @@
 #include "spec/error.h"
 #include "tb/unit/golden/texture/support.h"
 
-namespace deburr {
+namespace deburr::ideal_test {
 namespace {
 
 using namespace golden::ideal;
@@ -470,4 +470,4 @@ TEST(Psnr, OfOneLevelOffEverywhere) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::ideal_test

@@ -14,7 +14,7 @@
 #include "spec/texture/tables.h"
 #include "tb/stimuli/random.h"
 
-namespace deburr {
+namespace deburr::level_test {
 namespace {
 
 using golden::texture::LevelOfDetail;
@@ -275,4 +275,4 @@ TEST(Level, ExactRulesComeCloseToRealArithmetic) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::level_test

@@ -8,7 +8,7 @@
 #include "golden/ideal/lod.h"
 #include "golden/texture/footprint.h"
 
-namespace deburr {
+namespace deburr::log2_test {
 namespace {
 
 using golden::texture::log2_fixed;
@@ -127,4 +127,4 @@ TEST(Log2, AreaAndProbabilityOfAWrongLevel) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::log2_test

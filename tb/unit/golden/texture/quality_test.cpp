@@ -19,7 +19,7 @@
 #include "golden/texture/texture_golden.h"
 #include "tb/unit/golden/texture/support.h"
 
-namespace deburr {
+namespace deburr::quality_test {
 namespace {
 
 namespace ideal = golden::ideal;
@@ -160,4 +160,4 @@ TEST(TextureQuality, ThePapersRuleOnTheSceneCalledPlane) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::quality_test

@@ -11,7 +11,7 @@
 
 #include "tb/stimuli/random.h"
 
-namespace deburr {
+namespace deburr::sampling_test {
 namespace {
 
 using namespace golden::texture;
@@ -249,4 +249,4 @@ TEST(Wrapping, EndsOfTheSampleRangeStayInside) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::sampling_test

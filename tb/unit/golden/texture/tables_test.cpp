@@ -11,7 +11,7 @@
 
 #include "spec/texture/descriptor.h"
 
-namespace deburr {
+namespace deburr::tables_test {
 namespace {
 
 // Index of the first entry that differs from formula(i), or -1.
@@ -147,4 +147,4 @@ TEST(TextureTables, CheckFindsOneWrongBitAnywhere) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::tables_test

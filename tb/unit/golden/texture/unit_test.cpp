@@ -13,7 +13,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/golden/texture/support.h"
 
-namespace deburr {
+namespace deburr::unit_test {
 namespace {
 
 using namespace golden::texture;
@@ -586,4 +586,4 @@ TEST(TextureGolden, AGeometryThatCannotBeIsAConfigError) {
 }
 
 }  // namespace
-}  // namespace deburr
+}  // namespace deburr::unit_test

@@ -8,7 +8,7 @@
 #include "tb/unit/rtl/geometric/bounds.h"
 #include "tb/unit/rtl/geometric/parts.h"
 
-namespace deburr::tb::geometric_rtl {
+namespace deburr::tb::geometric_rtl::engine_test {
 namespace {
 
 using spec::geometric::Refusal;
@@ -620,4 +620,4 @@ TEST(ClocksOf, FramesBehindEachOtherAreTheSame) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::geometric_rtl
+}  // namespace deburr::tb::geometric_rtl::engine_test

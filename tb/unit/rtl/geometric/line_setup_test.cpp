@@ -8,7 +8,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/rtl/geometric/parts.h"
 
-namespace deburr::tb::geometric_rtl {
+namespace deburr::tb::geometric_rtl::line_setup_test {
 namespace {
 
 using rtl::geometric::EdgeEnds;
@@ -276,4 +276,4 @@ TEST(LineSetup, ADroppedEdgeTakesAClock) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::geometric_rtl
+}  // namespace deburr::tb::geometric_rtl::line_setup_test

@@ -7,7 +7,7 @@
 
 #include "tb/unit/rtl/geometric/parts.h"
 
-namespace deburr::tb::geometric_rtl {
+namespace deburr::tb::geometric_rtl::parameter_store_test {
 namespace {
 
 using rtl::geometric::decode;
@@ -301,4 +301,4 @@ TEST(CounterRegisters, ShowTheirCounters) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::geometric_rtl
+}  // namespace deburr::tb::geometric_rtl::parameter_store_test

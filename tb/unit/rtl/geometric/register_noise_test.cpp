@@ -5,7 +5,7 @@
 
 #include "tb/unit/rtl/geometric/support.h"
 
-namespace deburr::tb::geometric_rtl {
+namespace deburr::tb::geometric_rtl::register_noise_test {
 namespace {
 
 using spec::geometric::CacheLines;
@@ -51,4 +51,4 @@ std::string after_noise(std::uint64_t seed) {
 TEST(RegisterNoise, LeavesNothingBehindAReset) { EXPECT_EQ(first_complaint(60, after_noise), ""); }
 
 }  // namespace
-}  // namespace deburr::tb::geometric_rtl
+}  // namespace deburr::tb::geometric_rtl::register_noise_test

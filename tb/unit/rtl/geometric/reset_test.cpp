@@ -5,7 +5,7 @@
 #include "tb/harness/statistics.h"
 #include "tb/unit/rtl/geometric/support.h"
 
-namespace deburr::tb::geometric_rtl {
+namespace deburr::tb::geometric_rtl::reset_test {
 namespace {
 
 using spec::geometric::CacheLines;
@@ -104,4 +104,4 @@ TEST_P(EveryClock, OfAFrameMayBeTheLast) {
 INSTANTIATE_TEST_SUITE_P(Configurations, EveryClock, ::testing::Values('c', 'e', 'h'));
 
 }  // namespace
-}  // namespace deburr::tb::geometric_rtl
+}  // namespace deburr::tb::geometric_rtl::reset_test

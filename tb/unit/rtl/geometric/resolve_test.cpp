@@ -12,7 +12,7 @@
 #include "rtl_model/geometric/weights/weight_combiner.h"
 #include "tb/unit/rtl/geometric/parts.h"
 
-namespace deburr::tb::geometric_rtl {
+namespace deburr::tb::geometric_rtl::resolve_test {
 namespace {
 
 using namespace rtl::geometric;  // NOLINT: names of units and tokens
@@ -403,4 +403,4 @@ TEST(FacingStore, ALineAClock) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::geometric_rtl
+}  // namespace deburr::tb::geometric_rtl::resolve_test

@@ -10,7 +10,7 @@
 #include "spec/error.h"
 #include "tb/unit/rtl/geometric/support.h"
 
-namespace deburr::tb::geometric_rtl {
+namespace deburr::tb::geometric_rtl::shared_parts_test {
 namespace {
 
 using rtl::Histogram;
@@ -273,4 +273,4 @@ TEST(EdgeLatency, AFrameBehindAnotherBeginsAnew) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::geometric_rtl
+}  // namespace deburr::tb::geometric_rtl::shared_parts_test

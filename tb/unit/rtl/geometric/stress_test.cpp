@@ -5,7 +5,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/rtl/geometric/parts.h"
 
-namespace deburr::tb::geometric_rtl {
+namespace deburr::tb::geometric_rtl::stress_test {
 namespace {
 
 using spec::geometric::CacheLines;
@@ -203,4 +203,4 @@ TEST_P(RandomFrames, InPlaceAndCopiedRowsAndTilesAreTheSame) {
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomFrames, ::testing::Range(0, 10));
 
 }  // namespace
-}  // namespace deburr::tb::geometric_rtl
+}  // namespace deburr::tb::geometric_rtl::stress_test

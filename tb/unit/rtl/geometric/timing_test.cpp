@@ -13,7 +13,7 @@
 #include "rtl_model/geometric/weights/weight_combiner.h"
 #include "tb/unit/rtl/geometric/parts.h"
 
-namespace deburr::tb::geometric_rtl {
+namespace deburr::tb::geometric_rtl::timing_test {
 namespace {
 
 using namespace rtl::geometric;  // NOLINT: names of units and tokens
@@ -629,4 +629,4 @@ TEST(WeightCombiner, ABlockThatComesBackWaitsForItsWrite) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::geometric_rtl
+}  // namespace deburr::tb::geometric_rtl::timing_test

@@ -6,7 +6,7 @@
 #include "tb/unit/rtl/geometric/support.h"
 #include "tb/unit/rtl/page_table.h"
 
-namespace deburr::rtl::geometric {
+namespace deburr::rtl::geometric::tokens_test {
 namespace {
 
 TEST(GeometricTokens, FieldsHaveTheBitsOfTheirFormat) {
@@ -26,4 +26,4 @@ TEST(GeometricTokens, LinksAreThoseOfThePage) {
 }
 
 }  // namespace
-}  // namespace deburr::rtl::geometric
+}  // namespace deburr::rtl::geometric::tokens_test

@@ -5,7 +5,7 @@
 
 #include "tb/unit/rtl/geometric/support.h"
 
-namespace deburr::tb::geometric_rtl {
+namespace deburr::tb::geometric_rtl::vectors_test {
 namespace {
 
 // The second table: boundary .. blended.
@@ -63,4 +63,4 @@ TEST_P(Vectors, PixelsWeightsAndTraffic) {
 INSTANTIATE_TEST_SUITE_P(Page, Vectors, ::testing::Values('a', 'b', 'c', 'd', 'e', 'f', 'g', 'h'));
 
 }  // namespace
-}  // namespace deburr::tb::geometric_rtl
+}  // namespace deburr::tb::geometric_rtl::vectors_test

@@ -17,7 +17,7 @@
 #include "tb/harness/forked.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::area_unit_test {
 namespace {
 
 using namespace rtl::morphological;  // NOLINT: a test of these
@@ -571,4 +571,4 @@ TEST(AreaUnitMemory, ABankTakesALineAClock) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::area_unit_test

@@ -7,7 +7,7 @@
 #include "tb/harness/forked.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::blender_test {
 namespace {
 
 using namespace rtl::morphological;  // NOLINT: a test of these
@@ -408,4 +408,4 @@ TEST(BlenderMemory, HasNoCodeForMoreThanWhite) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::blender_test

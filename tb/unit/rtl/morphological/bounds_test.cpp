@@ -8,7 +8,7 @@
 
 #include "tb/unit/rtl/morphological/support.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::bounds_test {
 namespace {
 
 using spec::morphological::Preset;
@@ -268,4 +268,4 @@ INSTANTIATE_TEST_SUITE_P(Rows, MemoryRows,
                                            Load{2, 100, 54, false}));
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::bounds_test

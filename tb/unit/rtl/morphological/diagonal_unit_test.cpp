@@ -13,7 +13,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::diagonal_unit_test {
 namespace {
 
 using namespace rtl::morphological;  // NOLINT: a test of these
@@ -574,4 +574,4 @@ TEST(DiagonalFault, AFlippedEdgeIsSeen) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::diagonal_unit_test

@@ -10,7 +10,7 @@
 
 #include "tb/unit/rtl/morphological/front.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::edge_detector_test {
 namespace {
 
 using namespace rtl::morphological;  // NOLINT: a test of these
@@ -365,4 +365,4 @@ TEST(EdgeDetectorMemory, HasNoColumnBeyondTheLongestRow) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::edge_detector_test

@@ -14,7 +14,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/rtl/morphological/support.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::edge_memories_test {
 namespace {
 
 using namespace rtl::morphological;  // NOLINT: a test of these
@@ -420,4 +420,4 @@ TEST(Contiguous, IsOffInAnEngineBuiltWithoutIt) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::edge_memories_test

@@ -14,7 +14,7 @@
 #include "tb/unit/rtl/morphological/edge_memories.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::endpoint_predictor_test {
 namespace {
 
 using namespace rtl::morphological;  // NOLINT: a test of these
@@ -873,4 +873,4 @@ INSTANTIATE_TEST_SUITE_P(Both, CrossingClasses,
                          });
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::endpoint_predictor_test

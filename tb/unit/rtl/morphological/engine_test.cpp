@@ -6,7 +6,7 @@
 
 #include "tb/unit/rtl/morphological/placed_engine.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::engine_test {
 namespace {
 
 namespace reg = spec::morphological::reg;
@@ -601,4 +601,4 @@ TEST(MemoryLinks, CarryWholeAddressesAndTags) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::engine_test

@@ -11,7 +11,7 @@
 
 #include "tb/stimuli/random.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::line_bounds_test {
 namespace {
 
 using rtl::morphological::LineBounds;
@@ -166,4 +166,4 @@ TEST(LineBounds, ABendIsTwoTurnsToTheSameSide) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::line_bounds_test

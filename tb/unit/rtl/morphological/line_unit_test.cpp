@@ -6,7 +6,7 @@
 
 #include "tb/unit/rtl/morphological/parts.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::line_unit_test {
 namespace {
 
 using namespace rtl::morphological;  // NOLINT: a test of these
@@ -276,4 +276,4 @@ TEST(LineUnitMemory, HasNoWordForMoreCornersThanThereAre) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::line_unit_test

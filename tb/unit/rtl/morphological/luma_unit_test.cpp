@@ -2,7 +2,7 @@
 // LumaUnit: the weights by hand, and its clock.
 #include "tb/unit/rtl/morphological/parts.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::luma_unit_test {
 namespace {
 
 using namespace rtl::morphological;  // NOLINT: a test of these
@@ -37,4 +37,4 @@ TEST(LumaUnitBlock, AddsTheWeightsExactlyTwoClocksLater) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::luma_unit_test

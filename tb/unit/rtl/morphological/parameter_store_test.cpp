@@ -14,7 +14,7 @@
 #include "tb/unit/rtl/morphological/parts.h"
 #include "tb/unit/rtl/morphological/placed_engine.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::parameter_store_test {
 namespace {
 
 using spec::morphological::Preset;
@@ -300,7 +300,7 @@ TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
 }
 
 // A rule that the engine was not built for counts as off.
-TEST(Contiguous, IsOffInAnEngineBuiltWithoutIt) {
+TEST(ContiguousRegister, IsOffInAnEngineBuiltWithoutIt) {
   namespace reg = spec::morphological::reg;
   constexpr std::uint32_t kContiguous = 1u << 14;
   Parameters built = deburr_line();
@@ -961,4 +961,4 @@ TEST(CounterRegisters, ShowTheirCounters) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::parameter_store_test

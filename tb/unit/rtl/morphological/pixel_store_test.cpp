@@ -7,7 +7,7 @@
 #include "tb/harness/forked.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::pixel_store_test {
 namespace {
 
 using namespace rtl::morphological;  // NOLINT: a test of these
@@ -521,4 +521,4 @@ TEST(PixelStoreLines, HaveNoBeatBeyondTheLongestRow) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::pixel_store_test

@@ -5,7 +5,7 @@
 
 #include "tb/unit/rtl/morphological/support.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::register_noise_test {
 namespace {
 
 std::string after_noise(std::uint64_t seed) {
@@ -55,4 +55,4 @@ std::string after_noise(std::uint64_t seed) {
 TEST(RegisterNoise, LeavesNothingBehindAReset) { EXPECT_EQ(first_complaint(60, after_noise), ""); }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::register_noise_test

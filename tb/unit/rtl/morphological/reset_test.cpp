@@ -10,7 +10,7 @@
 #include "tb/harness/engine_state.h"
 #include "tb/unit/rtl/morphological/support.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::reset_test {
 namespace {
 
 namespace reg = spec::morphological::reg;
@@ -349,4 +349,4 @@ INSTANTIATE_TEST_SUITE_P(Morphological, AfterReset,
                                            Sticky{spec::morphological::Storage::kMemory, true}));
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::reset_test

@@ -9,7 +9,7 @@
 #include "tb/unit/rtl/morphological/edge_memories.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::run_extractor_test {
 namespace {
 
 using namespace rtl::morphological;  // NOLINT: a test of these
@@ -378,4 +378,4 @@ TEST(RecordStalls, CountOnlyWhereASlotWaits) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::run_extractor_test

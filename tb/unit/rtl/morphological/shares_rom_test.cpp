@@ -11,7 +11,7 @@
 #include "spec/morphological/tables.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::shares_rom_test {
 namespace {
 
 using rtl::morphological::SharesRom;
@@ -179,4 +179,4 @@ TEST(SharesRomLoad, KeepsEntriesAndTheirSum) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::shares_rom_test

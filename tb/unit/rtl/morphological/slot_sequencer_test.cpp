@@ -2,7 +2,7 @@
 // SlotSequencer: what disagrees with SIZE, and the clock in which a frame is inside.
 #include "tb/unit/rtl/morphological/front.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::slot_sequencer_test {
 namespace {
 
 using namespace rtl::morphological;  // NOLINT: a test of these
@@ -104,4 +104,4 @@ TEST(Framing, SizeWinsAndDataGoOn) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::slot_sequencer_test

@@ -8,7 +8,7 @@
 #include "golden/morphological/morphological_golden.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::smaa_limits_test {
 namespace {
 
 using golden::morphological::ImageView;
@@ -166,4 +166,4 @@ INSTANTIATE_TEST_SUITE_P(Qualities, SmaaLimits,
                                            Case{Quality::kUltra, true}));
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::smaa_limits_test

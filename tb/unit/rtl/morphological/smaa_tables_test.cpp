@@ -11,7 +11,7 @@
 #include "spec/morphological/tables.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::smaa_tables_test {
 namespace {
 
 using rtl::morphological::AreaTable;
@@ -293,4 +293,4 @@ INSTANTIATE_TEST_SUITE_P(
                       "flip:engine.lines_h0:200:line.run.shape.0"));
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::smaa_tables_test

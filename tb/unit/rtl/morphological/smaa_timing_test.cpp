@@ -5,7 +5,7 @@
 
 #include "tb/unit/rtl/morphological/parts.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::smaa_timing_test {
 namespace {
 
 using spec::morphological::Preset;
@@ -79,4 +79,4 @@ TEST_P(ShortRows, WaitForTheDiagonalsOfTheRowBefore) {
 INSTANTIATE_TEST_SUITE_P(Beats, ShortRows, ::testing::Values(1, 2, 4, 5, 16, 17, 18));
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::smaa_timing_test

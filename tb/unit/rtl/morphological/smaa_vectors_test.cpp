@@ -7,7 +7,7 @@
 
 #include "tb/unit/rtl/morphological/support.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::smaa_vectors_test {
 namespace {
 
 using namespace spec::morphological;  // NOLINT: a test of these
@@ -204,4 +204,4 @@ INSTANTIATE_TEST_SUITE_P(Contract, SmaaVectors, ::testing::Range(std::size_t{0},
                          [](const auto& param) { return vectors()[param.param].name; });
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::smaa_vectors_test

@@ -11,7 +11,7 @@
 #include "tb/unit/rtl/morphological/edge_memories.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::timing_test {
 namespace {
 
 using namespace rtl::morphological;  // NOLINT: a test of these
@@ -461,4 +461,4 @@ TEST_P(WayOfARecord, OfALearnedOneTakesFive) {
 INSTANTIATE_TEST_SUITE_P(Latencies, WayOfARecord, ::testing::Values(14, 24, 64));
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::timing_test

@@ -6,7 +6,7 @@
 #include "tb/unit/rtl/morphological/support.h"
 #include "tb/unit/rtl/page_table.h"
 
-namespace deburr::rtl::morphological {
+namespace deburr::rtl::morphological::tokens_test {
 namespace {
 
 TEST(Tokens, FieldsHaveTheBitsOfTheirFormat) {
@@ -40,4 +40,4 @@ TEST(Tokens, LinksAreThoseOfThePage) {
 }
 
 }  // namespace
-}  // namespace deburr::rtl::morphological
+}  // namespace deburr::rtl::morphological::tokens_test

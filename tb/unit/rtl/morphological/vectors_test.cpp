@@ -3,7 +3,7 @@
 // number, whatever the lanes, the storage, the stalls or the order of evaluation.
 #include "tb/unit/rtl/morphological/support.h"
 
-namespace deburr::tb::morphological_rtl {
+namespace deburr::tb::morphological_rtl::vectors_test {
 namespace {
 
 using spec::morphological::Preset;
@@ -135,4 +135,4 @@ INSTANTIATE_TEST_SUITE_P(Contract, Vectors, ::testing::Range(std::size_t{0}, vec
                          [](const auto& param) { return vectors()[param.param].name; });
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rtl
+}  // namespace deburr::tb::morphological_rtl::vectors_test

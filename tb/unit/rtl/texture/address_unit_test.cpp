@@ -4,7 +4,7 @@
 
 #include "tb/unit/rtl/texture/support.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::address_unit_test {
 namespace {
 
 using namespace rtl::texture;
@@ -76,4 +76,4 @@ TEST(TextureRtlAddressUnit, LatencyByRule) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::address_unit_test

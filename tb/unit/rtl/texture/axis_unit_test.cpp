@@ -9,7 +9,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/rtl/texture/support.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::axis_unit_test {
 namespace {
 
 using namespace rtl::texture;
@@ -305,4 +305,4 @@ TEST(TextureRtlAxis, ResetForgetsTheFragmentInHand) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::axis_unit_test

@@ -7,7 +7,7 @@
 
 #include "tb/unit/rtl/texture/cache_bench.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::data_stage_test {
 namespace {
 
 using namespace rtl::texture;
@@ -319,4 +319,4 @@ TEST(TextureRtlDataBanks, HaveNoPortForAnybodyElse) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::data_stage_test

@@ -4,7 +4,7 @@
 
 #include "tb/unit/rtl/texture/support.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::derivative_unit_test {
 namespace {
 
 using namespace rtl::texture;
@@ -146,4 +146,4 @@ TEST(TextureRtlDerivative, InvalidDescriptorIsCountedAndNotSaturated) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::derivative_unit_test

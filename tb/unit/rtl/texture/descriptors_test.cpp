@@ -7,7 +7,7 @@
 #include "spec/error.h"
 #include "tb/unit/rtl/texture/support.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::descriptors_test {
 namespace {
 
 spec::texture::Descriptor some_texture() {
@@ -191,4 +191,4 @@ TEST(TextureRtlDescriptors, OneReadAClockAndPort) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::descriptors_test

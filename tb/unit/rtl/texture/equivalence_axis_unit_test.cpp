@@ -10,7 +10,7 @@
 #include "rtl_model/texture/axis_unit.h"
 #include "tb/unit/rtl/texture/equivalence.h"
 
-namespace deburr::tb {
+namespace deburr::tb::equivalence_axis_unit_test {
 namespace {
 
 namespace gold = golden::texture;
@@ -93,4 +93,4 @@ TEST(AxisEquivalence, NoticesAWrongBit) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::equivalence_axis_unit_test

@@ -8,7 +8,7 @@
 #include "rtl_model/texture/derivative_unit.h"
 #include "tb/unit/rtl/texture/equivalence.h"
 
-namespace deburr::tb {
+namespace deburr::tb::equivalence_derivative_unit_test {
 namespace {
 
 namespace gold = golden::texture;
@@ -93,4 +93,4 @@ TEST(DerivativeEquivalence, UnitIsTheFunction) { expect_equal(compare_derivative
 TEST(DerivativeEquivalence, NoticesAWrongBit) { expect_noticed(compare_derivative(true), 4); }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::equivalence_derivative_unit_test

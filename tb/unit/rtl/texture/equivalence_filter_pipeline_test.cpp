@@ -11,7 +11,7 @@
 #include "rtl_model/texture/filter_pipeline.h"
 #include "tb/unit/rtl/texture/equivalence.h"
 
-namespace deburr::tb {
+namespace deburr::tb::equivalence_filter_pipeline_test {
 namespace {
 
 namespace gold = golden::texture;
@@ -167,4 +167,4 @@ INSTANTIATE_TEST_SUITE_P(Texture, FilterEquivalence,
 TEST(FilterEquivalence, NoticesAWrongBit) { expect_noticed(compare_filter({}, true)); }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::equivalence_filter_pipeline_test

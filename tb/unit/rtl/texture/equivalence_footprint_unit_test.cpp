@@ -10,7 +10,7 @@
 #include "rtl_model/texture/footprint_unit.h"
 #include "tb/unit/rtl/texture/equivalence.h"
 
-namespace deburr::tb {
+namespace deburr::tb::equivalence_footprint_unit_test {
 namespace {
 
 namespace gold = golden::texture;
@@ -116,4 +116,4 @@ INSTANTIATE_TEST_SUITE_P(Texture, FootprintEquivalence, testing::Range(0, 5), []
 });
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::equivalence_footprint_unit_test

@@ -11,7 +11,7 @@
 #include "rtl_model/texture/level_unit.h"
 #include "tb/unit/rtl/texture/equivalence.h"
 
-namespace deburr::tb {
+namespace deburr::tb::equivalence_level_unit_test {
 namespace {
 
 namespace gold = golden::texture;
@@ -134,4 +134,4 @@ TEST(LevelEquivalence, NoticesAWrongBit) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::equivalence_level_unit_test

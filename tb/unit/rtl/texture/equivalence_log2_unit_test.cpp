@@ -10,7 +10,7 @@
 #include "rtl_model/texture/log2_unit.h"
 #include "tb/unit/rtl/texture/equivalence.h"
 
-namespace deburr::tb {
+namespace deburr::tb::equivalence_log2_unit_test {
 namespace {
 
 namespace gold = golden::texture;
@@ -60,4 +60,4 @@ TEST(Log2Equivalence, TellsRulesApart) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::equivalence_log2_unit_test

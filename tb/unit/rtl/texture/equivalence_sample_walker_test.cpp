@@ -11,7 +11,7 @@
 #include "rtl_model/texture/sample_walker.h"
 #include "tb/unit/rtl/texture/equivalence.h"
 
-namespace deburr::tb {
+namespace deburr::tb::equivalence_sample_walker_test {
 namespace {
 
 namespace gold = golden::texture;
@@ -110,4 +110,4 @@ TEST(WalkerEquivalence, NoticesAWrongBit) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::equivalence_sample_walker_test

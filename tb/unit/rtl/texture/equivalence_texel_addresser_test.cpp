@@ -8,7 +8,7 @@
 #include "rtl_model/texture/texel_addresser.h"
 #include "tb/unit/rtl/texture/equivalence.h"
 
-namespace deburr::tb {
+namespace deburr::tb::equivalence_texel_addresser_test {
 namespace {
 
 namespace gold = golden::texture;
@@ -88,4 +88,4 @@ TEST(AddresserEquivalence, UnitIsTheFunction) { expect_equal(compare_addresser(f
 TEST(AddresserEquivalence, NoticesAWrongBit) { expect_noticed(compare_addresser(true)); }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tb::equivalence_texel_addresser_test

@@ -5,7 +5,7 @@
 #include "spec/error.h"
 #include "tb/unit/rtl/texture/support.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::fill_buffer_test {
 namespace {
 
 using rtl::texture::FillBuffer;
@@ -127,4 +127,4 @@ TEST(TextureRtlFillBuffer, EachBeatComesOnce) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::fill_buffer_test

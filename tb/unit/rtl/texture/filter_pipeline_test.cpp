@@ -6,7 +6,7 @@
 
 #include "tb/unit/rtl/texture/support.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::filter_pipeline_test {
 namespace {
 
 using namespace rtl::texture;
@@ -429,4 +429,4 @@ TEST(TextureRtlFilterSrgb, HasNoPortForAnybodyElse) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::filter_pipeline_test

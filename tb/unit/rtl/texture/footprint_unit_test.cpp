@@ -7,7 +7,7 @@
 #include "tb/stimuli/random.h"
 #include "tb/unit/rtl/texture/support.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::footprint_unit_test {
 namespace {
 
 using namespace rtl::texture;
@@ -155,4 +155,4 @@ TEST(TextureRtlFootprint, EqualRootsAreOrderedByTheirSquares) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::footprint_unit_test

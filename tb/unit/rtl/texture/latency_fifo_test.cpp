@@ -2,7 +2,7 @@
 // The LatencyFifo in the cache: full, and deep enough to hide the latency of memory.
 #include "tb/unit/rtl/texture/cache_bench.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::latency_fifo_test {
 namespace {
 
 using namespace rtl::texture;
@@ -34,4 +34,4 @@ TEST(TextureRtlLatencyFifo, LatencyIsHiddenByADeepEnoughFifo) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::latency_fifo_test

@@ -4,7 +4,7 @@
 
 #include "tb/unit/rtl/texture/support.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::level_unit_test {
 namespace {
 
 using namespace rtl::texture;
@@ -175,4 +175,4 @@ TEST(TextureRtlLevel, RatioFromAnArea) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::level_unit_test

@@ -6,7 +6,7 @@
 
 #include "tb/unit/rtl/texture/support.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::log2_unit_test {
 namespace {
 
 using namespace rtl::texture;
@@ -124,4 +124,4 @@ TEST(TextureRtlLog2Table, HasNoPortForAnybodyElse) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::log2_unit_test

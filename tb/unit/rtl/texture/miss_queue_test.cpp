@@ -2,7 +2,7 @@
 // The MissQueue in the cache: what a line takes of its clocks, and a full queue.
 #include "tb/unit/rtl/texture/cache_bench.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::miss_queue_test {
 namespace {
 
 using namespace rtl::texture;
@@ -176,4 +176,4 @@ TEST(TextureRtlMissQueue, TakesEachLineOnce) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::miss_queue_test

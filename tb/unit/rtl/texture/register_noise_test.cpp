@@ -5,7 +5,7 @@
 
 #include "tb/unit/rtl/texture/support.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::register_noise_test {
 namespace {
 
 constexpr std::int32_t kTexel = spec::texture::kCoordinateOne / 64;  // of a 64 x 64 texture
@@ -57,4 +57,4 @@ std::string after_noise(std::uint64_t seed) {
 TEST(RegisterNoise, LeavesNothingBehindAReset) { EXPECT_EQ(first_complaint(40, after_noise), ""); }
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::register_noise_test

@@ -4,7 +4,7 @@
 #include "tb/harness/engine_state.h"
 #include "tb/unit/rtl/texture/support.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::reset_test {
 namespace {
 
 namespace reg = spec::texture::reg;
@@ -136,4 +136,4 @@ INSTANTIATE_TEST_SUITE_P(Texture, AfterReset,
                                                           spec::texture::Preset::kDeburr)));
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::reset_test

@@ -4,7 +4,7 @@
 
 #include "tb/unit/rtl/texture/support.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::sample_walker_test {
 namespace {
 
 using namespace rtl::texture;
@@ -203,4 +203,4 @@ TEST(TextureRtlWalker, CostsNTimesLevelsClocks) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::sample_walker_test

@@ -5,7 +5,7 @@
 
 #include "tb/unit/rtl/texture/cache_bench.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::tag_stage_test {
 namespace {
 
 using namespace rtl::texture;
@@ -140,4 +140,4 @@ TEST_P(OneMiss, WaitsForTheMissQueue) {
 INSTANTIATE_TEST_SUITE_P(TextureRtlTagStage, OneMiss, testing::Values(0, 1, 2, 3, 4));
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::tag_stage_test

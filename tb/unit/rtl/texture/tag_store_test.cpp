@@ -3,7 +3,7 @@
 #include "spec/error.h"
 #include "tb/unit/rtl/texture/cache_bench.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::tag_store_test {
 namespace {
 
 using namespace rtl::texture;
@@ -116,4 +116,4 @@ TEST(TextureRtlTagStore, EverySetThatChangesIsWritten) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::tag_store_test

@@ -4,7 +4,7 @@
 
 #include "tb/unit/rtl/texture/support.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::texel_addresser_test {
 namespace {
 
 using namespace rtl::texture;
@@ -175,4 +175,4 @@ TEST(TextureRtlAddresser, LatencyFiveAndOneAClock) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::texel_addresser_test

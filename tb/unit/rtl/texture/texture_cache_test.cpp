@@ -3,7 +3,7 @@
 // reset.
 #include "tb/unit/rtl/texture/cache_bench.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::texture_cache_test {
 namespace {
 
 using namespace rtl::texture;
@@ -160,4 +160,4 @@ TEST(TextureRtlCache, ResetDropsLinesInFlight) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::texture_cache_test

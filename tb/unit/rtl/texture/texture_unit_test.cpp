@@ -12,7 +12,7 @@
 #include "spec/error.h"
 #include "tb/unit/rtl/texture/support.h"
 
-namespace deburr::tb::texture_rtl {
+namespace deburr::tb::texture_rtl::texture_unit_test {
 namespace {
 
 namespace reg = spec::texture::reg;
@@ -621,4 +621,4 @@ TEST(TextureRtlUnit, RefusesImpossibleParameters) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_rtl
+}  // namespace deburr::tb::texture_rtl::texture_unit_test

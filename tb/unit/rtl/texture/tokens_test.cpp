@@ -6,7 +6,7 @@
 #include "tb/unit/rtl/page_table.h"
 #include "tb/unit/rtl/texture/support.h"
 
-namespace deburr::rtl::texture {
+namespace deburr::rtl::texture::tokens_test {
 namespace {
 
 TEST(TextureRtlTokens, FieldsHaveTheBitsOfTheirFormat) {
@@ -91,4 +91,4 @@ TEST(TextureRtlTokens, ListNoMoreThanTheLargestCacheNeeds) {
 }
 
 }  // namespace
-}  // namespace deburr::rtl::texture
+}  // namespace deburr::rtl::texture::tokens_test

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: MIT
+# Test programs: one a folder and kind, compiled in batches.
+
+# deburr_test(<name> SOURCE <file> LABELS ... LINK ... [PROGRAM <program>]
+#             [TIMING regex ...] [LONG regex ...] [TIMEOUT s]):
+# a source with GoogleTests. Every TEST becomes an entry of ctest, `<name>.Suite.Case`, and so a process
+# of its own: SystemC elaborates once a process. Tests whose name matches a regex of TIMING or LONG have
+# the label `timing` or `long` too; a regex that matches none is an error of the build.
+#
+# The sources of a folder are one program, named after it: rtl_texture_tests of tb/unit/rtl/texture;
+# there what is no unit test has a program of its own, by its first label: harness_negative_tests. PROGRAM
+# names another one, as for what loads a library that the others do not. Each source has a namespace of
+# its own (tb/unit/house/names_test.py).
+function(deburr_test name)
+  cmake_parse_arguments(ARG "" "SOURCE;PROGRAM;TIMEOUT" "LABELS;LINK;TIMING;LONG" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  list(GET ARG_LABELS 0 kind)
+  if(NOT ARG_PROGRAM)
+    cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY "${PROJECT_SOURCE_DIR}/tb"
+               OUTPUT_VARIABLE path)
+    string(REPLACE "/" "_" ARG_PROGRAM "${path}_tests")
+    if(ARG_PROGRAM MATCHES "^unit_(.*)_tests$")
+      set(ARG_PROGRAM "${CMAKE_MATCH_1}_tests")
+      if(NOT kind STREQUAL "unit")
+        set(ARG_PROGRAM "${CMAKE_MATCH_1}_${kind}_tests")
+      endif()
+    endif()
+  endif()
+  set(program ${ARG_PROGRAM})
+  if(NOT TARGET ${program})
+    # The main() comes first: SystemC's library has one as well.
+    add_executable(${program} $<TARGET_OBJECTS:deburr_test_support>)
+    target_link_libraries(${program} PRIVATE GTest::gmock_main)
+    cmake_language(EVAL CODE "cmake_language(DEFER CALL deburr_finish_tests ${program})")
+  endif()
+  cmake_path(ABSOLUTE_PATH ARG_SOURCE NORMALIZE)
+  target_sources(${program} PRIVATE "${ARG_SOURCE}")
+  target_link_libraries(${program} PRIVATE ${ARG_LINK})
+
+  set(labels ${ARG_LABELS})
+  foreach(label timing long)
+    string(TOUPPER ${label} regexes)
+    if(ARG_${regexes})
+      list(APPEND labels ${label})
+    endif()
+  endforeach()
+  foreach(label ${labels})
+    add_dependencies(deburr_${label}_tests ${program})
+  endforeach()
+  foreach(list LABELS TIMING LONG)
+    list(TRANSFORM ARG_${list} REPLACE "^.+$" "\"\\0\"" OUTPUT_VARIABLE json_${list})
+    list(JOIN json_${list} ", " json_${list})
+  endforeach()
+  cmake_path(RELATIVE_PATH ARG_SOURCE BASE_DIRECTORY "${PROJECT_SOURCE_DIR}" OUTPUT_VARIABLE source)
+  set_property(TARGET ${program} APPEND_STRING PROPERTY DEBURR_TESTS
+    "{\"name\": \"${name}\", \"source\": \"${source}\", \"labels\": [${json_LABELS}], \
+\"timing\": [${json_TIMING}], \"long\": [${json_LONG}], \"timeout\": ${ARG_TIMEOUT}},\n")
+  # What is not built fails, under its labels.
+  set_property(TARGET ${program} APPEND_STRING PROPERTY DEBURR_NOT_BUILT
+    "  add_test(${name}_NOT_BUILT [=[${CMAKE_CURRENT_BINARY_DIR}/${program}]=])
+  set_tests_properties(${name}_NOT_BUILT PROPERTIES LABELS \"${labels}\")\n")
+  set_property(TARGET ${program} APPEND PROPERTY DEBURR_KINDS ${kind})
+  cmake_path(RELATIVE_PATH CMAKE_CURRENT_BINARY_DIR BASE_DIRECTORY "${PROJECT_BINARY_DIR}" OUTPUT_VARIABLE folder)
+  set_property(GLOBAL APPEND_STRING PROPERTY DEBURR_TEST_PROGRAMS "${name} ${source} ${folder}/${program}\n")
+endfunction()
+
+# At the end of a folder, when all its sources are known.
+function(deburr_finish_tests program)
+  target_link_libraries(${program} PRIVATE deburr_options)
+  get_target_property(kinds ${program} DEBURR_KINDS)
+  list(REMOVE_DUPLICATES kinds)
+  if("unit" IN_LIST kinds)
+    target_link_libraries(${program} PRIVATE deburr_light_options)
+  endif()
+  deburr_batches(${program})
+  set(stem "${CMAKE_CURRENT_BINARY_DIR}/${program}")
+  get_target_property(tests ${program} DEBURR_TESTS)
+  string(REGEX REPLACE ",\n$" "\n" tests "${tests}")
+  file(CONFIGURE OUTPUT "${stem}.json" CONTENT "[\n${tests}]\n" @ONLY)
+  set(discover "${PROJECT_SOURCE_DIR}/cmake/discover_tests.py")
+  set_property(TARGET ${program} PROPERTY LINK_DEPENDS "${stem}.json" "${discover}")
+  add_custom_command(TARGET ${program} POST_BUILD
+    COMMAND "${discover}" "${stem}.json" $<TARGET_FILE:${program}> "${stem}.cmake")
+  get_target_property(not_built ${program} DEBURR_NOT_BUILT)
+  file(CONFIGURE OUTPUT "${stem}_include.cmake" CONTENT
+       "if(EXISTS [=[${stem}.cmake]=])\n  include([=[${stem}.cmake]=])\nelse()\n${not_built}endif()\n" @ONLY)
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${stem}_include.cmake")
+endfunction()
+
+# deburr_list_tests(): writes test_programs.txt, `<name> <source> <program>` a line, for scripts that build or
+# run tests by name. At the end of all lists.
+function(deburr_list_tests)
+  get_property(lines GLOBAL PROPERTY DEBURR_TEST_PROGRAMS)
+  file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/test_programs.txt" CONTENT "${lines}" @ONLY)
+endfunction()
+
+# deburr_noise_for_minutes(<engine>): its register noise with new seeds for two minutes, label fuzz.
+function(deburr_noise_for_minutes engine)
+  add_test(NAME fuzz_registers_${engine} COMMAND rtl_${engine}_tests --gtest_filter=RegisterNoise.*)
+  set_tests_properties(fuzz_registers_${engine} PROPERTIES LABELS fuzz TIMEOUT 600
+                       ENVIRONMENT DEBURR_FUZZ_SECONDS=120)
+  add_dependencies(deburr_fuzz_tests rtl_${engine}_tests)
+endfunction()
