@@ -72,6 +72,8 @@ class ControlRegisters {
   // What several blocks count for themselves.
   void show_sum(std::uint32_t offset, std::initializer_list<const Counter*> counters);
 
+  // As a bus write, from outside of time.
+  void write(std::uint32_t offset, std::uint32_t value) { written(index(offset), value); }
   void reset();
 
  private:

@@ -101,10 +101,9 @@ std::uint64_t GeometricMeter::clocks_bound() const {
        read(Region::kEdges) + read(Region::kVertices) + read(Region::kDepth) +
            read(Region::kWeights) - resolve_weights + written(Region::kWeights) +
            2 * written(Region::kCopy)});
-  const std::uint64_t resolve_phase =
-      std::max({words * frames_done_, work.blocks,
-                resolve_weights + colours + written(Region::kColour),
-                lines_for(work.blended_pixels, count_of(p.resolve_lanes))});
+  const std::uint64_t resolve_phase = std::max(
+      {words * frames_done_, work.blocks, resolve_weights + colours + written(Region::kColour),
+       lines_for(work.blended_pixels, count_of(p.resolve_lanes))});
   return begin * frames_done_ + edges_phase + resolve_phase;
 }
 
@@ -247,3 +246,5 @@ std::optional<Bottleneck> GeometricMeter::bottleneck(const Result& result) const
                       "The port takes a request in nearly every clock.", requests};
   return find_bottleneck(pipe, figure("resolver"));
 }
+
+}  // namespace deburr::tb
