@@ -147,20 +147,6 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
   control.show_sum(reg::kDivides, {&divider_h.divides, &divider_v.divides});
 }
 
-void MorphologicalEngine::set_frame_size(int width, int height) {
-  const auto check = [&](const char* side, int size, int most) {
-    if (size < 1 || size > most)
-      refuse("frame " + std::string(side) + ": expected 1.." + std::to_string(most) +
-             " pixels, got " + std::to_string(size));
-  };
-  check("width", width, spec::morphological::kMaxFrameSize);
-  check("height", height, spec::morphological::kMaxFrameSize);
-  if (width > parameters_.line_pixels)
-    refuse("line_pixels: a frame of " + std::to_string(width) + " pixels does not fit into " +
-           std::to_string(parameters_.line_pixels) + "; make it larger");
-  store.write_size(width, height);
-}
-
 bool MorphologicalEngine::idle() const {
   return !store.frame_inside() && sequencer.pixels_in.link().empty();
 }

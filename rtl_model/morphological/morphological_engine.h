@@ -79,10 +79,6 @@ class MorphologicalEngine final : public Engine {
   Blender blender;
   std::unique_ptr<MemoryPort> memory_port;  // only with storage = memory
 
-  // Size of the frames to come, pixels: a write to SIZE from outside of time. ConfigError for 0,
-  // over 8192 or wider than line_pixels. A reset puts SIZE back to 0.
-  void set_frame_size(int width, int height);
-
   // No frame is inside and no beat waits in front. Between edges.
   bool idle() const override;
   // Counts since the last reset or clear command; of one frame if there was one.

@@ -3,13 +3,13 @@
 // beat, a beat a clock. One frame at a time; a reset forgets it.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <systemc>
 #include <vector>
 
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/platform/morphological_records.h"
 #include "spec/morphological/packets.h"
 #include "tb/scene/image.h"
 
@@ -19,26 +19,8 @@ namespace deburr::tb {
 struct MorphologicalInput {
   Image image;
   std::vector<std::uint32_t> depth;
+  platform::PixelFrame view() const { return {image.width, image.height, image.pixels, depth}; }
 };
-
-inline std::uint64_t beats_a_row(int width, int lanes) {
-  return static_cast<std::uint64_t>((width + lanes - 1) / lanes);
-}
-
-// Beat of the pixels from (x, y) on.
-inline spec::morphological::PixelBeat pixel_beat(const MorphologicalInput& frame, int x, int y,
-                                                 int lanes) {
-  spec::morphological::PixelBeat beat;
-  beat.count = static_cast<std::uint8_t>(std::min(lanes, frame.image.width - x));
-  const std::size_t from = frame.image.index(x, y);
-  for (std::size_t i = 0; i < beat.count; ++i) {
-    beat.pixel[i] = frame.image.pixels[from + i];
-    if (!frame.depth.empty()) beat.depth[i] = frame.depth[from + i];
-  }
-  beat.start_of_frame = x == 0 && y == 0;
-  beat.end_of_row = x + beat.count == frame.image.width;
-  return beat;
-}
 
 class FrameSource final : public rtl::Unit {
  public:
@@ -61,7 +43,7 @@ class FrameSource final : public rtl::Unit {
     if (!pixels_out.can_push(cycle)) return rtl::kStalledDownstream;
     if (x_ == 0 && y_ == 0) first_ = cycle;
     last_ = cycle;
-    pixels_out.push(cycle, pixel_beat(*frame_, x_, y_, lanes_));
+    pixels_out.push(cycle, platform::pixel_beat(frame_->view(), x_, y_, lanes_));
     x_ += lanes_;
     if (x_ >= frame_->image.width) x_ = 0, ++y_;
     return rtl::kBusy;

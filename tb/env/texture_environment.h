@@ -21,42 +21,25 @@
 #include <vector>
 
 #include "golden/texture/texture_golden.h"
+#include "rtl_model/platform/memory_model.h"
+#include "rtl_model/platform/register_host.h"
+#include "rtl_model/platform/texture_driver.h"
 #include "rtl_model/texture/texture_unit.h"
 #include "spec/texture/packets.h"
 #include "spec/texture/parameters.h"
 #include "tb/env/environment.h"
-#include "tb/env/memory_parameters.h"
 #include "tb/env/sent_quads.h"
 #include "tb/env/texture_coverage.h"
-#include "tb/env/texture_expectation.h"
+#include "tb/env/texture_faults.h"
 #include "tb/env/texture_maps.h"
+#include "tb/env/texture_meter.h"
 #include "tb/env/texture_scene.h"
+#include "tb/env/texture_setup.h"
 #include "tb/harness/driver.h"
 #include "tb/scene/rasteriser.h"
 #include "tb/traces/fragment_trace.h"
 
 namespace deburr::tb {
-
-// Where fragments come from, if not from the scene's rasteriser.
-struct ForeignFragments {
-  std::function<QuadSource()> open;  // from the first quad on, each time
-  std::uint64_t fragments = 0;       // covered lanes in all
-};
-
-struct TextureSetup {
-  spec::texture::Parameters texture;
-  MemoryParameters memory;
-  ForeignFragments foreign{};
-  // Sees every quad as it is sent.
-  std::function<void(const TracedQuad&)> observer{};
-  // What the golden model found already; null: it works beside the hardware. Never with errors of
-  // memory.
-  std::shared_ptr<const TextureExpectation> expectation = nullptr;
-  // Connects the engine with its memory; null: directly.
-  std::function<void(rtl::Engine&, MemoryModel&)> connect{};
-};
-// The depth of the latency FIFO: as ordered, or for 0 what hides this memory's latency.
-std::int32_t fifo_depth(const TextureSetup& setup);
 
 class TextureEnvironment final : public Environment {
  public:
@@ -79,15 +62,17 @@ class TextureEnvironment final : public Environment {
   Boards outputs() const override { return {&colour_board_}; }
   Boards traffic() const override { return {&fill_board_}; }
   Boards counters() const override { return {&register_board_.board()}; }
-  void collect(Result& result) const override;
-  void show_parts(Observer& observer) const override;
+  void collect(Result& result) const override { meter_.collect(result); }
+  void show_parts(Observer& observer) const override {
+    meter_.show_parts(observer, quads_, colours);
+  }
   std::vector<PictureMap> maps() const override;
   Coverage coverage() const override;
-  void collect_headline(Result& result) const override;
+  void collect_headline(Result& result) const override { meter_.collect_headline(result); }
 
   rtl::Link<spec::texture::Colour> colours{"colours"};
   void judge(rtl::Cycle cycle, const spec::texture::Colour& colour);
-  bool sent() const { return driver_.done(); }  // every quad
+  bool sent() const { return quad_driver_.done(); }  // every quad
 
   const Image& frame() const { return frame_; }
   // By pixel, whether a colour came for it.
@@ -102,8 +87,8 @@ class TextureEnvironment final : public Environment {
   std::uint64_t colour_hash() const { return hash_.value(); }
 
   const rtl::texture::TextureUnit& unit() const { return unit_; }
-  MemoryModel& memory() { return memory_; }
-  RegisterHost& host() { return host_; }
+  platform::MemoryModel& memory() { return memory_; }
+  platform::RegisterHost& host() { return host_; }
 
  private:
   struct Fill {
@@ -116,10 +101,8 @@ class TextureEnvironment final : public Environment {
     tlm_utils::simple_initiator_socket<Stranger> memory{"memory"};
   };
 
-  static std::vector<PlantedFault> faults();
   QuadSource open() const;
   std::uint64_t fragments() const;
-  spec::texture::Parameters as_built() const;
   void expect_from_golden();
   void expect_line(std::uint32_t line);
   void clear_outputs();
@@ -129,12 +112,15 @@ class TextureEnvironment final : public Environment {
 
   const TextureScene& scene_;
   TextureSetup setup_;
+  TextureFaults faults_;
   rtl::Link<spec::texture::Quad> quads_{"quads"};
-  Driver<spec::texture::Quad> driver_;
+  Driver<spec::texture::Quad> quad_driver_;
   rtl::texture::TextureUnit unit_;
   std::unique_ptr<Sink<spec::texture::Colour>> sink_;  // alone
-  MemoryModel memory_;
-  RegisterHost host_;
+  platform::MemoryModel memory_;
+  platform::RegisterHost host_;
+  platform::TextureDriver driver_;
+  TextureMeter meter_;
   Stranger stranger_;
 
   golden::texture::TextureGolden golden_;

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "spec/error.h"
+#include "tb/env/texture_levels.h"
 #include "tb/scene/textures.h"
 
 namespace deburr::tb {
@@ -100,7 +101,7 @@ void TextureScene::lay_out(const SamplerParameters& sampler) {
     d.lod_bias = static_cast<std::int16_t>(sampler.lod_bias);
     d.min_lod = static_cast<std::uint16_t>(sampler.min_lod);
     d.max_lod = static_cast<std::uint16_t>(sampler.max_lod);
-    memory_.add(levels, d);
+    memory_.add(levels_of(levels), d);
   }
 }
 

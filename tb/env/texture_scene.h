@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "golden/texture/texture_golden.h"
+#include "rtl_model/platform/texture_memory.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/parameters.h"
 #include "tb/env/camera_parameters.h"
 #include "tb/env/memory_parameters.h"
-#include "tb/env/texture_memory.h"
 #include "tb/scene/image.h"
 #include "tb/scene/motion.h"
 #include "tb/scene/rasteriser.h"
@@ -106,7 +106,7 @@ class TextureScene {
   // With the wrap modes of the sampler, so that its truth is what the unit is asked for.
   const Scene& scene() const { return scene_; }
   const FragmentStream& stream() const { return stream_; }
-  const TextureMemory& memory() const { return memory_; }
+  const platform::TextureMemory& memory() const { return memory_; }
   // Files that it was made of, and those that were looked for in vain.
   const std::vector<std::filesystem::path>& inputs() const { return scene_.mesh.files; }
 
@@ -118,7 +118,7 @@ class TextureScene {
 
   Scene scene_;
   FragmentStream stream_;
-  TextureMemory memory_;
+  platform::TextureMemory memory_;
 };
 
 // TextureScene::inputs(), without loading.

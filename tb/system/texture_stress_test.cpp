@@ -123,7 +123,7 @@ TEST_P(FrameReset, LeavesNothingBehind) {
   spec::texture::Parameters parameters;
   parameters.cache_bytes = 2048;
   parameters.cache_replacement = spec::texture::Replacement::kRandom;
-  MemoryModelParameters memory;
+  platform::MemoryModelParameters memory;
   memory.latency_min = memory.latency_max = 100;
   BenchOptions options;
   options.stall_permille = static_cast<std::uint32_t>(stall_permille);

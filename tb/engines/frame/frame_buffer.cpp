@@ -79,7 +79,8 @@ rtl::Activity FrameBuffer::tick(rtl::Cycle cycle) {
       activity = rtl::kStalledDownstream;
     } else {
       if (x_ == 0 && y_ == 0) first_beat_ = cycle;
-      const spec::morphological::PixelBeat beat = pixel_beat(input_, x_, y_, lanes_);
+      const spec::morphological::PixelBeat beat =
+          platform::pixel_beat(input_.view(), x_, y_, lanes_);
       bytes_read += static_cast<std::uint64_t>(spec::morphological::kFramePixelBytes) * beat.count;
       pixels_out->push(cycle, beat);
       x_ += lanes_;

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "tb/engines/frame/frame_composition.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <string>
 #include <utility>
 
 #include "spec/error.h"
 #include "tb/engines/geometric/edge_table.h"
-#include "tb/env/collect.h"
 #include "tb/env/morphological_frames.h"
-#include "tb/results/report.h"
 #include "tb/scene/depth_codes.h"
 
 namespace deburr::tb {
@@ -70,11 +66,10 @@ FrameComposition::FrameComposition(Simulation& simulation, const TextureScene& s
       geometric_frames_(geometric_frames(scene, setup, golden())),
       morphological_frames_(morphological_frames(scene, setup, golden())),
       texture(simulation, scene, setup.texture, "texture"),
-      buffer("frame_buffer", simulation.clock(), scene, lanes_of(setup.morphological.morphological),
-             rows_of(setup.smoothing)),
+      buffer("frame_buffer", simulation.clock(), scene,
+             platform::lanes_of(setup.morphological.morphological), rows_of(setup.smoothing)),
       width_(scene.stream().width),
-      height_(scene.stream().height),
-      morphological_parameters_(setup.morphological.morphological) {
+      height_(scene.stream().height) {
   if (has_geometric(smoothing_)) {
     geometric = std::make_unique<GeometricEnvironment>(simulation, geometric_frames_,
                                                        setup.geometric, "geometric");
@@ -230,28 +225,13 @@ std::uint64_t FrameComposition::pixels() const {
 
 // ---- results ------------------------------------------------------------------------------------
 
-void FrameComposition::collect(Result& result) const {
-  texture.collect(result);
-  add(result, "frame_buffer", buffer);
-  if (geometric) geometric->collect(result);
-  if (morphological) morphological->collect(result);
-  const rtl::Histogram& latency = texture.unit().fragment_latency;
-  add(result, "texture_fragment_latency_p50", latency.percentile(50), "clk",
-      "Of the texture unit.");
-  add(result, "texture_fragment_latency_max", latency.max(), "clk", "Of the texture unit.");
-  add(result, "frame_buffer_bytes_written", buffer.bytes_written);
-  add(result, "frame_buffer_bytes_read", buffer.bytes_read);
-  add(result, "frame_buffer_bytes", std::uint64_t{spec::morphological::kFramePixelBytes} * pixels(),
-      "byte",
-      "Size of the frame buffer, which is not among the memories: what the texture unit writes and "
-      "the morphological engine reads of it is not modelled in time.");
+FrameMeter FrameComposition::meter() const {
+  return FrameMeter({texture, buffer, geometric.get(), morphological.get()});
 }
 
-void FrameComposition::show_parts(Observer& observer) const {
-  each_part(*this, [&](const Environment& part) { part.show_parts(observer); });
-  observer.see("frame_buffer", buffer, activity_keys(buffer));
-  observer.see("frame_buffer_bytes_written", buffer.bytes_written);
-  observer.see("frame_buffer_bytes_read", buffer.bytes_read);
+void FrameComposition::collect_headline(Result& result) const {
+  meter().collect_headline(result, {simulation().begun(), drawn_ ? drawn_until_ - drawn_from_ : 0,
+                                    simulation().complete()});
 }
 
 std::vector<PictureMap> FrameComposition::maps() const {
@@ -266,96 +246,6 @@ Coverage FrameComposition::coverage() const {
   Coverage all;
   each_part(*this, [&](const Environment& part) { all.merge(part.coverage()); });
   return all;
-}
-
-FrameComposition::Clocks FrameComposition::clocks(const Result& result) const {
-  const auto since_begin = [&](rtl::Cycle cycle) {
-    return cycle - std::min(cycle, simulation().begun());
-  };
-  Clocks c;
-  c.texturing = since_begin(buffer.last_colour());
-  c.texturing_bound = texture.unit().address.addresser.bilinears.value();
-  if (geometric) {
-    c.drawing = drawn_ ? drawn_until_ - drawn_from_ : 0;
-    c.drawing_bound = geometric->frame_clocks_bound();
-  }
-  if (morphological) {
-    c.smoothing = result.cycles - std::min(result.cycles, since_begin(buffer.first_beat()));
-    c.smoothing_bound = frame_clocks_by_formula(morphological_parameters_, width_, height_);
-  }
-  return c;
-}
-
-void FrameComposition::collect_headline(Result& result) const {
-  const Clocks c = clocks(result);
-  const std::uint64_t together = c.texturing + c.drawing + c.smoothing;
-  // Engines behind each other add up; the texture unit and the morphological engine overlap.
-  const std::uint64_t bound = geometric ? c.texturing_bound + c.drawing_bound + c.smoothing_bound
-                                        : std::max(c.texturing_bound, c.smoothing_bound);
-  add(result, "texturing_clocks", c.texturing, "clk", "From the first quad to the last colour.");
-  if (geometric)
-    add(result, "drawing_clocks", c.drawing, "clk",
-        "From the last colour in the frame buffer until the geometric engine is done.");
-  if (morphological) {
-    add(result, "smoothing_clocks", c.smoothing, "clk",
-        "From the first row out of the frame buffer to the last pixel.");
-    add(result, "smoothing_clocks_by_formula", c.smoothing_bound, "clk",
-        "Of the morphological engine alone, if nothing stalls.");
-  }
-  if (!geometric)
-    add(result, "overlapped_clocks", together - std::min(together, result.cycles), "clk",
-        "Clocks in which both engines were at this frame.");
-  add(result, geometric ? "engine_clocks_bound" : "slower_engine_clocks", bound, "clk",
-      geometric ? "Of all engines, one after the other, if nothing stalls."
-                : "Of the slower engine alone if nothing stalls: the texture unit's bilinears, one "
-                  "a clock, or smoothing_clocks_by_formula.");
-
-  result.latency = morphological ? latency_of(morphological->engine().beat_latency)
-                                 : latency_of(geometric->engine().edge_latency);
-  result.throughput = ratio(pixels(), result.cycles);
-  if (morphological) result.throughput = ratio(morphological->delivered_in_all(), result.cycles);
-  result.throughput_unit = "pixel/clk";
-  result.throughput_bound = ratio(pixels(), bound);
-  if (geometric)
-    result.throughput_bound_meaning = fmt::format(
-        "Pixels of the frame over the clocks that the engines need one after the other: texturing "
-        "{}, drawing edges {}{}.",
-        grouped(c.texturing_bound), grouped(c.drawing_bound),
-        morphological ? fmt::format(", smoothing {}", grouped(c.smoothing_bound)) : "");
-  else
-    result.throughput_bound_meaning = fmt::format(
-        "Pixels of the frame over the clocks of the slower engine alone ({}), the other one hidden "
-        "behind it: texturing takes {} clocks at least, smoothing {}.",
-        c.smoothing_bound >= c.texturing_bound ? "smoothing" : "texturing",
-        grouped(c.texturing_bound), grouped(c.smoothing_bound));
-
-  result.figures.clear();
-  if (simulation().complete()) {
-    result.figures.push_back(
-        geometric
-            ? Figure{"Frame", "cycles", "engines alone", "work.engine_clocks_bound", true}
-            : Figure{"Frame", "cycles", "slower engine alone", "work.slower_engine_clocks", true});
-    result.figures.push_back(
-        {"Texturing", "work.texturing_clocks", "bilinears", "work.texture_bilinears"});
-    if (geometric) result.figures.push_back({"Edges", "work.drawing_clocks"});
-    if (morphological)
-      result.figures.push_back(
-          {"Smoothing", "work.smoothing_clocks", "formula", "work.smoothing_clocks_by_formula"});
-    if (!geometric) result.figures.push_back({"Both at once", "work.overlapped_clocks"});
-  }
-  for (const Figure& figure : std::initializer_list<Figure>{
-           {"Latency of a texture fragment, median", "work.texture_fragment_latency_p50"},
-           {"Frame buffer, not among the memories", "work.frame_buffer_bytes"},
-           {"Written to the frame buffer", "work.frame_buffer_bytes_written"},
-           {"Read from the frame buffer", "work.frame_buffer_bytes_read"}})
-    result.figures.push_back(figure);
-  if (geometric)
-    for (Figure& figure : geometric->work_figures()) result.figures.push_back(std::move(figure));
-  if (morphological)
-    for (Figure& figure : morphological->work_figures())
-      result.figures.push_back(std::move(figure));
-  result.bottleneck =
-      find_bottleneck(result.units, morphological ? "morphological_blender" : "geometric_resolver");
 }
 
 }  // namespace deburr::tb

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "tb/engines/frame/frame_buffer.h"
+#include "tb/engines/frame/frame_meter.h"
 #include "tb/env/environment.h"
 #include "tb/env/geometric_environment.h"
 #include "tb/env/morphological_environment.h"
@@ -61,8 +62,8 @@ class FrameComposition final : public Environment {
   Boards outputs() const override;
   Boards traffic() const override;
   Boards counters() const override;
-  void collect(Result& result) const override;
-  void show_parts(Observer& observer) const override;
+  void collect(Result& result) const override { meter().collect(result); }
+  void show_parts(Observer& observer) const override { meter().show_parts(observer); }
   std::vector<PictureMap> maps() const override;
   Coverage coverage() const override;
   void collect_headline(Result& result) const override;
@@ -86,12 +87,7 @@ class FrameComposition final : public Environment {
   std::unique_ptr<MorphologicalEnvironment> morphological;  //
 
  private:
-  // Clocks of each engine at this frame, and what it needs at least.
-  struct Clocks {
-    std::uint64_t texturing = 0, drawing = 0, smoothing = 0;
-    std::uint64_t texturing_bound = 0, drawing_bound = 0, smoothing_bound = 0;
-  };
-  Clocks clocks(const Result& result) const;
+  FrameMeter meter() const;
   // Of all engines that there are, in the order of the frame's way.
   template <class Self, class Visit>
   static void each_part(Self& self, Visit&& visit);
@@ -103,7 +99,6 @@ class FrameComposition final : public Environment {
   std::uint64_t pixels() const;
 
   int width_, height_;
-  spec::morphological::Parameters morphological_parameters_;
   bool drawing_ = false, drawn_ = false;  // by the geometric engine
   bool followed_ = false;                 // the morphological engine has begun behind it
   rtl::Cycle drawn_from_ = 0, drawn_until_ = 0;

@@ -43,7 +43,7 @@ Outcome outcome_of(const Simulation& simulation, const GeometricEnvironment& env
   simulation.collect(result);
   return {environment.pixel_hash(),   result.cycles,
           result.comparisons,         result.mismatches + result.traffic_mismatches,
-          result.traffic_comparisons, environment.frames_done()};
+          result.traffic_comparisons, environment.meter().frames_done()};
 }
 
 Outcome run(const SimulationOptions& options, const GeometricSetup& setup, std::size_t count = 1,
@@ -122,7 +122,7 @@ TEST(GeometricEnvironment, RegionsFollowEachOtherAtPages) {
   GeometricSetup setup;
   for (const bool frame_copy : {false, true}) {
     setup.geometric.frame_copy = frame_copy;
-    const RegionMap map(frames, setup.geometric);
+    const platform::GeometricRegions map = regions_of(frames, setup.geometric);
     // 480 faces, 720 edges, 240 vertices and 2 poles; 12 x 8 tiles of 256 bytes; 23 x 16 blocks.
     const std::uint32_t expected[] = {0, 4096, 16384, 20480, 45056, 69632, 94208};
     for (std::size_t i = 0; i < std::size(expected); ++i)
@@ -131,7 +131,7 @@ TEST(GeometricEnvironment, RegionsFollowEachOtherAtPages) {
     EXPECT_EQ(map.region_of(4095), 0u);
     EXPECT_EQ(map.region_of(4096), 1u);
     EXPECT_EQ(map.region_of(94207), 5u);
-    EXPECT_EQ(map.region_of(118784), RegionMap::kRegions);
+    EXPECT_EQ(map.region_of(118784), platform::GeometricRegions::kCount);
   }
 }
 
@@ -214,7 +214,7 @@ TEST(GeometricEnvironment, IsAPartOfAComposition) {
       painted.check();
       const Image after = painted.part.frame();
       for (const auto& [x, y] : {std::pair(0, 0), {45, 30}, {89, 60}})
-        EXPECT_EQ(painted.part.pixel(x, y), after.at(x, y));
+        EXPECT_EQ(painted.part.driver().pixel(x, y), after.at(x, y));
       return outcome_of(simulation, painted.part);
     });
     EXPECT_EQ(part.hash, alone.hash);

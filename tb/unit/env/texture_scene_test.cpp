@@ -15,7 +15,7 @@
 #include "spec/texture/descriptor.h"
 #include "spec/texture/parameters.h"
 #include "spec/texture/registers.h"
-#include "tb/env/texture_memory.h"
+#include "tb/env/texture_levels.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/textures.h"
 #include "tb/scene/truth.h"
@@ -24,21 +24,22 @@ namespace deburr::tb::texture_scene_test {
 namespace {
 
 TEST(EncodeTexel, RoundsEachChannelToTheNearestCode) {
-  EXPECT_EQ(encode_texel(spec::texture::Format::kRgba8, {1, 2, 3, 4}), 0x04030201u);
-  EXPECT_EQ(encode_texel(spec::texture::Format::kSrgb8A8, {1, 2, 3, 4}), 0x04030201u);
-  EXPECT_EQ(encode_texel(spec::texture::Format::kRgb565, {255, 255, 255, 0}), 0xFFFFu);
-  EXPECT_EQ(encode_texel(spec::texture::Format::kRgb565, {255, 0, 0, 255}), 0xF800u);
-  EXPECT_EQ(encode_texel(spec::texture::Format::kRgba4444, {255, 0, 0, 255}), 0xF00Fu);
-  EXPECT_EQ(encode_texel(spec::texture::Format::kRgba4444, {8, 9, 255, 0}), 0x01F0u)
+  EXPECT_EQ(platform::encode_texel(spec::texture::Format::kRgba8, {1, 2, 3, 4}), 0x04030201u);
+  EXPECT_EQ(platform::encode_texel(spec::texture::Format::kSrgb8A8, {1, 2, 3, 4}), 0x04030201u);
+  EXPECT_EQ(platform::encode_texel(spec::texture::Format::kRgb565, {255, 255, 255, 0}), 0xFFFFu);
+  EXPECT_EQ(platform::encode_texel(spec::texture::Format::kRgb565, {255, 0, 0, 255}), 0xF800u);
+  EXPECT_EQ(platform::encode_texel(spec::texture::Format::kRgba4444, {255, 0, 0, 255}), 0xF00Fu);
+  EXPECT_EQ(platform::encode_texel(spec::texture::Format::kRgba4444, {8, 9, 255, 0}), 0x01F0u)
       << "17 is the step";
-  EXPECT_EQ(encode_texel(spec::texture::Format::kL8, {255, 255, 255, 255}), 255u);
-  EXPECT_EQ(encode_texel(spec::texture::Format::kL8, {200, 200, 200, 0}), 200u)
+  EXPECT_EQ(platform::encode_texel(spec::texture::Format::kL8, {255, 255, 255, 255}), 255u);
+  EXPECT_EQ(platform::encode_texel(spec::texture::Format::kL8, {200, 200, 200, 0}), 200u)
       << "grey stays grey";
   // Every 8-bit value goes to the nearest of the 32 values that the format can stand for.
   for (int v = 0; v < 256; ++v) {
-    const auto code = static_cast<int>(
-        encode_texel(spec::texture::Format::kRgb565, {static_cast<std::uint8_t>(v), 0, 0, 0}) >>
-        11);
+    const auto code =
+        static_cast<int>(platform::encode_texel(spec::texture::Format::kRgb565,
+                                                {static_cast<std::uint8_t>(v), 0, 0, 0}) >>
+                         11);
     const auto error = [&](int c) { return std::abs(v * 31 - c * 255); };
     for (int other = 0; other < 32; ++other) EXPECT_LE(error(code), error(other)) << v;
   }
@@ -53,8 +54,8 @@ TEST(TextureMemory, EveryTexelIsWhereItsFormatAndLayoutSay) {
       spec::texture::Descriptor sampler;
       sampler.format = static_cast<spec::texture::Format>(f);
       sampler.layout = layout;
-      TextureMemory memory;
-      const int handle = memory.add(levels, sampler);
+      platform::TextureMemory memory;
+      const int handle = memory.add(levels_of(levels), sampler);
       const spec::texture::Descriptor& d =
           memory.descriptors().at(static_cast<std::size_t>(handle));
       EXPECT_EQ(d.levels, levels.size());
@@ -69,7 +70,7 @@ TEST(TextureMemory, EveryTexelIsWhereItsFormatAndLayoutSay) {
             std::uint32_t value = 0;
             for (std::size_t i = 0; i < bytes; ++i)
               value |= static_cast<std::uint32_t>(memory.bytes().at(a + i)) << (8 * i);
-            EXPECT_EQ(value, encode_texel(d.format, levels[k].at(x, y)));
+            EXPECT_EQ(value, platform::encode_texel(d.format, levels[k].at(x, y)));
           }
         EXPECT_TRUE(k == 0 || used.begin()->first > d.base[k - 1]) << "levels overlap";
       }
@@ -78,15 +79,21 @@ TEST(TextureMemory, EveryTexelIsWhereItsFormatAndLayoutSay) {
 }
 
 TEST(TextureMemory, RefusesWhatTheUnitCannotHold) {
-  TextureMemory memory;
+  platform::TextureMemory memory;
+  const auto add = [&](const std::vector<Image>& levels) {
+    return memory.add(levels_of(levels), {});
+  };
   const std::vector<Image> one = {Image(1, 1)};
-  EXPECT_THROW(memory.add({}, {}), spec::ConfigError);
-  EXPECT_THROW(memory.add(std::vector<Image>{Image(4097, 1)}, {}), spec::ConfigError);
-  EXPECT_THROW(memory.add(std::vector<Image>{Image(0, 0)}, {}), spec::ConfigError);
-  EXPECT_THROW(memory.add(std::vector<Image>{Image(4, 4), Image(3, 2)}, {}), spec::ConfigError);
-  EXPECT_THROW(memory.add(std::vector<Image>{Image(1, 1), Image(1, 1)}, {}), spec::ConfigError);
-  for (int i = 0; i < spec::texture::kMaxTextures; ++i) EXPECT_EQ(memory.add(one, {}), i);
-  EXPECT_THROW(memory.add(one, {}), spec::ConfigError);
+  EXPECT_THROW(add({}), spec::ConfigError);
+  EXPECT_THROW(add({Image(4097, 1)}), spec::ConfigError);
+  EXPECT_THROW(add({Image(0, 0)}), spec::ConfigError);
+  EXPECT_THROW(add({Image(4, 4), Image(3, 2)}), spec::ConfigError);
+  EXPECT_THROW(add({Image(1, 1), Image(1, 1)}), spec::ConfigError);
+  const std::vector<platform::Texel> few(3);
+  const platform::TextureLevel torn[] = {{2, 2, few}};
+  EXPECT_THROW(memory.add(torn, {}), spec::ConfigError);
+  for (int i = 0; i < spec::texture::kMaxTextures; ++i) EXPECT_EQ(add(one), i);
+  EXPECT_THROW(add(one), spec::ConfigError);
 }
 
 TEST(DescriptorRegisters, HoldEachFieldInItsPlace) {
@@ -106,7 +113,7 @@ TEST(DescriptorRegisters, HoldEachFieldInItsPlace) {
   d.min_lod = 0x0102;
   d.max_lod = 0x0A0B;
   for (std::size_t k = 0; k < d.base.size(); ++k) d.base[k] = static_cast<std::uint32_t>(64 * k);
-  const auto writes = descriptor_registers(3, d);
+  const auto writes = platform::descriptor_registers(3, d);
   const std::map<std::uint32_t, std::uint32_t> at(writes.begin(), writes.end());
   ASSERT_EQ(at.size(), 4u + spec::texture::kMaxLevels);
   const std::uint32_t start = reg::kTextureBase + 3 * reg::kTextureStride;

@@ -11,7 +11,7 @@
 
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/latency_probe.h"
-#include "tb/harness/register_host.h"
+#include "rtl_model/platform/register_host.h"
 #include "tb/unit/fabric/support.h"
 
 namespace deburr::tb::toy::engine_test {
@@ -106,7 +106,7 @@ class Engine final : public rtl::Engine {
 struct Bed {
   rtl::ClockDomain clock{"clock", sc_core::sc_time(10, sc_core::SC_NS)};
   Engine engine;
-  RegisterHost host;
+  platform::RegisterHost host;
   explicit Bed(bool ignores) : engine("engine", clock, ignores), host("host") {
     host.bus.bind(engine.registers);
     clock.run(1);

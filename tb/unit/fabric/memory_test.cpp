@@ -63,7 +63,7 @@ TEST(MemoryPort, RateIsLimitedByOutstanding) {
 }
 
 TEST(MemoryPort, BandwidthOfTheMemoryLimits) {
-  MemoryModelParameters parameters = with_latency(10);
+  platform::MemoryModelParameters parameters = with_latency(10);
   parameters.bytes_per_clock = 16;
   System s({}, parameters);
   for (std::uint32_t i = 0; i < 100; ++i) s.driver.send(read_of(i));
@@ -75,7 +75,7 @@ TEST(MemoryPort, BandwidthOfTheMemoryLimits) {
 TEST(MemoryPort, BusyBanksLimit) {
   for (const std::uint32_t banks : {1U, 4U, 8U}) {
     const std::string text = in_child([&] {
-      MemoryModelParameters parameters = with_latency(10);
+      platform::MemoryModelParameters parameters = with_latency(10);
       parameters.banks = banks;
       parameters.bank_busy = 8;
       MemoryPortParameters port;
@@ -158,8 +158,8 @@ TEST(MemoryPort, BurstsOfReadsAndWrites) {
 
 // A request that a full memory withholds while the engine is reset comes in later, and is none of
 // those that the engine asks for afterwards.
-TEST(MemoryModel, CountsNoRequestThatWasWithheldBefore) {
-  MemoryModelParameters parameters = with_latency(50);
+TEST(platform::MemoryModel, CountsNoRequestThatWasWithheldBefore) {
+  platform::MemoryModelParameters parameters = with_latency(50);
   parameters.outstanding = 1;
   System s({}, parameters);
   s.driver.send(read_of(3));
@@ -175,8 +175,8 @@ TEST(MemoryModel, CountsNoRequestThatWasWithheldBefore) {
 }
 
 // The last of what a narrow bus still has to carry is written long after its latency.
-TEST(MemoryModel, IsAtRestWhenTheLastWriteIsDone) {
-  MemoryModelParameters parameters = with_latency(10);
+TEST(platform::MemoryModel, IsAtRestWhenTheLastWriteIsDone) {
+  platform::MemoryModelParameters parameters = with_latency(10);
   parameters.write_at_response = true;
   parameters.bytes_per_clock = 1;
   parameters.outstanding = 2;
@@ -197,7 +197,7 @@ TEST(MemoryModel, IsAtRestWhenTheLastWriteIsDone) {
   EXPECT_GT(s.clock.cycle(), Cycle{3 * 64});
 }
 
-TEST(MemoryModel, ForgetsLinesAndGoesOnCounting) {
+TEST(platform::MemoryModel, ForgetsLinesAndGoesOnCounting) {
   System s({}, with_latency(5));
   s.driver.send(read_of(3));
   ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 1; }, 1000));
@@ -208,10 +208,10 @@ TEST(MemoryModel, ForgetsLinesAndGoesOnCounting) {
 
 // Who does not wait for the answer to a write reads what was there before; who waits reads what was
 // written. A memory that takes requests one by one hides that.
-TEST(MemoryModel, AReadBehindAWriteIsARace) {
+TEST(platform::MemoryModel, AReadBehindAWriteIsARace) {
   for (const bool late : {true, false}) {
     const std::string text = in_child([&] {
-      MemoryModelParameters parameters = with_latency(10);
+      platform::MemoryModelParameters parameters = with_latency(10);
       parameters.write_at_response = late;
       System s({}, parameters);
       MemoryRequest write = read_of(3);
@@ -474,7 +474,7 @@ TEST(MemoryPort, WritesFailLikeReads) {
 }
 
 TEST(MemoryPort, RequestsBeyondTheMemorysLimitAreHeldBack) {
-  MemoryModelParameters parameters = with_latency(20);
+  platform::MemoryModelParameters parameters = with_latency(20);
   parameters.outstanding = 3;
   System s({}, parameters);
   for (std::uint32_t i = 0; i < 60; ++i) s.driver.send(read_of(i));
@@ -490,7 +490,7 @@ TEST(MemoryPort, NobodyCanTellWhetherTheDomainRunsOn) {
     for (const std::uint32_t latency_max : {20U, 90U}) {
       const auto run = [&](bool fast, std::optional<std::uint64_t> shuffle) {
         return in_child([&] {
-          MemoryModelParameters parameters = with_latency(20, latency_max);
+          platform::MemoryModelParameters parameters = with_latency(20, latency_max);
           parameters.outstanding = limit;
           parameters.bytes_per_clock = 48;
           System s({}, parameters, 200);
@@ -578,7 +578,7 @@ TEST(MemoryPort, WaitsWhileNobodyTakesItsAnswers) {
   rtl::MemoryPort port("port", clock);
   rtl::Link<MemoryRequest> requests("requests");
   rtl::Link<MemoryResponse> responses("responses");
-  MemoryModel memory("memory", kPeriod, with_latency(10));
+  platform::MemoryModel memory("memory", kPeriod, with_latency(10));
   driver.beats_out(requests);
   port.requests_in(requests);
   port.responses_out(responses);

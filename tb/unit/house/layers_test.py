@@ -20,6 +20,9 @@ ALLOWED = {
 }
 # Rooms of tb that only tests look into; what the command is built from does not.
 TESTS_ALONE = {"unit", "system", "oracle", "negative", "bench", "baselines"}
+# rtl_model/platform is software's side: it knows engines by their registers in spec, and no engine
+# knows it.
+PLATFORM_MAY_INCLUDE = {"platform", "fabric"}
 SOURCE = {".h", ".cpp", ".cmake", ".py", ".txt"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 FLOATING = re.compile(r"\b(float|double)\b")
@@ -58,6 +61,12 @@ def violations(root):
                     first = name.split("/")[0]
                     if first in ALLOWED and first not in allowed:
                         yield f"{where}:{number}: {layer} includes {first}"
+                    if first == layer == "rtl_model":
+                        room, wanted = where.parts[1], name.split("/")[1]
+                        if room == "platform" and wanted not in PLATFORM_MAY_INCLUDE:
+                            yield f"{where}:{number}: rtl_model/platform includes an engine"
+                        if room != "platform" and wanted == "platform":
+                            yield f"{where}:{number}: hardware includes rtl_model/platform"
                     if (layer == "tb" and where.parts[1] not in TESTS_ALONE
                             and first == "tb" and name.split("/")[1] in TESTS_ALONE):
                         yield f"{where}:{number}: test support in the command"
@@ -83,6 +92,11 @@ def planted_faults_are_caught():
         "rtl_model/b.cpp": "SC_THREAD(run);",
         "rtl_model/c.cpp": "SC_CTHREAD(run, clk.pos());",
         "rtl_model/d.h": "using namespace sc_core;",
+        "rtl_model/platform/a.cpp": '#include "rtl_model/geometric/tokens.h"',
+        "rtl_model/platform/b.cpp": '#include "golden/geometric/traffic.h"',
+        "rtl_model/platform/c.cpp": '#include "tb/harness/bench.h"',
+        "rtl_model/fabric/a.cpp": '#include "rtl_model/platform/memory_model.h"',
+        "golden/e.cpp": '#include "rtl_model/platform/geometric_records.h"',
         "golden/d.cpp": "#include <systemc>",
         "tb/b.cpp": "#include <systemc.h>",
         "tb/c.cpp": "assert(x > 0);",

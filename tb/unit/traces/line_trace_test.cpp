@@ -15,9 +15,9 @@
 
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/memory_port.h"
+#include "rtl_model/platform/memory_model.h"
 #include "spec/error.h"
 #include "tb/harness/driver.h"
-#include "tb/harness/memory_model.h"
 
 namespace deburr::tb::line_trace_test {
 namespace {
@@ -45,7 +45,7 @@ struct Bench {
   Sink<rtl::MemoryResponse> sink{"sink", clock};
   rtl::Link<MemoryRequest> requests;
   rtl::Link<rtl::MemoryResponse> responses;
-  MemoryModel memory{"memory", kPeriod};
+  platform::MemoryModel memory{"memory", kPeriod};
 
   explicit Bench(const rtl::MemoryPortParameters& p)
       : port("port", clock, p),

@@ -104,8 +104,8 @@ struct Frame {
   }
   // A frame of this size is in its edges.
   void begin(int width, int height) {
-    bus.write(reg::kSize, static_cast<std::uint32_t>(width) | static_cast<std::uint32_t>(height)
-                                                                  << 16);
+    bus.write(reg::kSize, spec::geometric::size_word(static_cast<std::uint32_t>(width),
+                                                     static_cast<std::uint32_t>(height)));
     bus.write(reg::kControl, reg::kControlEnable | reg::kControlStart);
     clock.run_until(
         [this] { return sequencer.phase(clock.cycle()) == rtl::geometric::Phase::kEdges; },
@@ -131,8 +131,8 @@ struct Frame {
   rtl::MemoryPortParameters port_parameters;
   rtl::geometric::MemoryArbiter arbiter;
   rtl::MemoryPort port;
-  MemoryModel memory;
-  RegisterHost bus{"bus"};
+  platform::MemoryModel memory;
+  platform::RegisterHost bus{"bus"};
   rtl::Link<rtl::MemoryRequest> requests;
   rtl::Link<rtl::MemoryResponse> responses;
 };

@@ -16,13 +16,14 @@
 
 #include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/geometric/geometric_engine.h"
+#include "rtl_model/platform/geometric_driver.h"
+#include "rtl_model/platform/memory_model.h"
+#include "rtl_model/platform/register_host.h"
 #include "spec/geometric/packets.h"
 #include "spec/geometric/parameters.h"
 #include "spec/geometric/records.h"
 #include "spec/geometric/registers.h"
 #include "tb/harness/bench.h"
-#include "tb/harness/memory_model.h"
-#include "tb/harness/register_host.h"
 
 namespace deburr::tb::geometric_rtl {
 
@@ -118,8 +119,8 @@ struct EngineOptions {
 // The engine with memory, host and checkers.
 class EngineBench {
  public:
-  static MemoryModelParameters memory_parameters(const EngineOptions& options) {
-    MemoryModelParameters p;
+  static platform::MemoryModelParameters memory_parameters(const EngineOptions& options) {
+    platform::MemoryModelParameters p;
     p.bytes = options.memory_bytes;
     p.latency_min = options.latency;
     p.latency_max = options.latency + options.scatter;
@@ -131,7 +132,8 @@ class EngineBench {
   explicit EngineBench(const Parameters& parameters = {}, const EngineOptions& options = {})
       : p(parameters),
         engine("engine", clock, parameters),
-        memory("memory", period(), memory_parameters(options)) {
+        memory("memory", period(), memory_parameters(options)),
+        driver(bus, memory, parameters) {
     engine.memory()->bind(memory.ports);
     bus.bus.bind(engine.registers);
     engine.line_setup.observer = [this](const spec::geometric::LineRecord& l) {
@@ -146,59 +148,31 @@ class EngineBench {
     bench = std::make_unique<Bench>(clock, options.bench);
   }
 
-  void store_word(std::vector<std::uint8_t>& bytes, std::uint32_t word) {
-    for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
-  }
-  // Writes a scene to memory and its sizes and bases to the registers.
+  // Writes a scene to memory and its sizes and bases to the registers: at the contract's bases if
+  // every region fits between them.
   void load(const Scene& scene) {
     width = scene.width;
     height = scene.height;
-    std::vector<std::uint8_t> bytes;
-    for (const auto& e : scene.edges)
-      for (const std::uint32_t word :
-           {e.v0, e.v1, e.f0 | std::uint32_t{e.flags} << spec::geometric::kFlagShift, e.f1})
-        store_word(bytes, word);
-    if (!bytes.empty()) memory.preload(bases.edges, bytes);
-    bytes.clear();
-    for (const auto& v : scene.vertices)
-      for (const std::uint32_t word :
-           {static_cast<std::uint32_t>(v.x), static_cast<std::uint32_t>(v.y), v.depth,
-            std::uint32_t{v.usable}})
-        store_word(bytes, word);
-    if (!bytes.empty()) memory.preload(bases.vertices, bytes);
-    bytes.assign((scene.facing.size() + 7) / 8, 0);
-    for (std::size_t f = 0; f < scene.facing.size(); ++f)
-      bytes[f / 8] = static_cast<std::uint8_t>(bytes[f / 8] | scene.facing[f] << f % 8);
-    if (!bytes.empty()) memory.preload(bases.faces, bytes);
-    load_frame(scene);
-    bus.write(reg::kSize, static_cast<std::uint32_t>(width) | static_cast<std::uint32_t>(height)
-                                                                  << 16);
-    bus.write(reg::kEdgeCount, static_cast<std::uint32_t>(scene.edges.size()));
-    bus.write(reg::kVertexCount, static_cast<std::uint32_t>(scene.vertices.size()));
-    bus.write(reg::kFaceCount, static_cast<std::uint32_t>(scene.facing.size()));
-    bus.write(reg::kEdgeBase, bases.edges);
-    bus.write(reg::kVertexBase, bases.vertices);
-    bus.write(reg::kFaceBase, bases.faces);
-    bus.write(reg::kDepthBase, bases.depth);
-    bus.write(reg::kColourBase, bases.colour);
-    bus.write(reg::kWeightBase, bases.weights);
-    bus.write(reg::kCopyBase, bases.copy);
+    const platform::GeometricSizes sizes = {width, height, scene.edges.size(),
+                                            scene.vertices.size(), scene.facing.size()};
+    const auto bytes = platform::GeometricRegions::needed(sizes, driver.rules());
+    const bool fits = std::all_of(bytes.begin(), bytes.end(),
+                                  [](std::uint64_t size) { return size <= kRegionBytes; });
+    place(fits ? contract_regions()
+               : platform::GeometricRegions::allocate({&sizes, 1}, driver.rules()));
+    Pixels pixels(scene);
+    const std::vector<std::uint8_t> facing = platform::facing_bits(scene.facing);
+    driver.load({width, height, scene.edges, scene.vertices, scene.facing.size(), facing,
+                 pixels.depths, pixels.colours});
+    driver.program();
   }
   void load_frame(const Scene& scene) {
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        const std::size_t i = static_cast<std::size_t>(y * width + x);
-        const std::uint32_t at = pixel_offset(tiled(), width, x, y);
-        if (i < scene.colours.size()) memory.preload(bases.colour + at, scene.colours[i]);
-        std::vector<std::uint8_t> depth;
-        if (i < scene.depths.size()) {
-          store_word(depth, scene.depths[i]);
-          memory.preload(bases.depth + at, depth);
-        }
-      }
+    Pixels pixels(scene);
+    driver.load_depths(pixels.depths);
+    driver.load_colours(pixels.colours);
   }
-  bool tiled() const { return layout == spec::geometric::Layout::kTiled; }
-  void start() { bus.write(reg::kControl, reg::kControlEnable | reg::kControlStart); }
+  bool tiled() const { return driver.rules().layout == spec::geometric::Layout::kTiled; }
+  void start() { driver.start(); }
   // A whole frame; gives its clocks.
   Cycle run(Cycle limit = 2'000'000) {
     lines.clear();
@@ -215,13 +189,10 @@ class EngineBench {
   }
 
   // --- What the contract hashes ---
-  std::uint64_t pixel_hash() const {
+  std::uint64_t pixel_hash() {
     Fnv hash;
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x)
-        for (const std::uint8_t byte :
-             memory.dump(bases.colour + pixel_offset(tiled(), width, x, y), 4))
-          hash.byte(byte);
+    for (const spec::geometric::Rgba8& pixel : driver.picture())
+      for (const std::uint8_t byte : pixel) hash.byte(byte);
     return hash.value;
   }
   std::uint64_t weight_hash() const {
@@ -240,9 +211,11 @@ class EngineBench {
   }
   std::vector<std::uint64_t> accesses(const std::vector<std::uint64_t>& all,
                                       std::uint32_t base) const {
+    std::uint64_t end = base + std::uint64_t{kRegionBytes};
+    if (driver.regions().bytes() != 0) end = driver.regions().end_of(base);
     std::vector<std::uint64_t> found;
     std::copy_if(all.begin(), all.end(), std::back_inserter(found),
-                 [&](std::uint64_t a) { return a >= base && a < base + kRegionBytes; });
+                 [&](std::uint64_t a) { return a >= base && a < end; });
     return found;
   }
   std::vector<std::uint64_t> reads(std::uint32_t base) const {
@@ -270,14 +243,38 @@ class EngineBench {
     return hash.value;
   }
 
+  static platform::GeometricRegions contract_regions() {
+    const Bases b;
+    return platform::GeometricRegions(
+        std::array{b.faces, b.edges, b.vertices, b.depth, b.weights, b.colour, b.copy});
+  }
+  void place(const platform::GeometricRegions& regions) {
+    using spec::geometric::Region;
+    driver.place(regions);
+    bases = {regions.base(Region::kEdges),  regions.base(Region::kVertices),
+             regions.base(Region::kFaces),  regions.base(Region::kDepth),
+             regions.base(Region::kColour), regions.base(Region::kWeights),
+             regions.base(Region::kCopy)};
+  }
+  // Of the whole frame, whatever the scene has of them.
+  struct Pixels {
+    explicit Pixels(const Scene& scene) : colours(scene.colours), depths(scene.depths) {
+      const auto count = static_cast<std::size_t>(scene.width * scene.height);
+      colours.resize(count);
+      depths.resize(count);
+    }
+    std::vector<spec::geometric::Rgba8> colours;
+    std::vector<std::uint32_t> depths;
+  };
+
   const Parameters p;
-  spec::geometric::Layout layout = p.layout;  // that RULES says
-  const Bases bases;
+  Bases bases;
   int width = 0, height = 0;
   ClockDomain clock{"clock", period()};
   rtl::geometric::GeometricEngine engine;
-  MemoryModel memory;
-  RegisterHost bus{"bus"};
+  platform::MemoryModel memory;
+  platform::RegisterHost bus{"bus"};
+  platform::GeometricDriver driver;
   std::unique_ptr<Bench> bench;
   std::vector<spec::geometric::LineRecord> lines;
   std::vector<spec::geometric::Candidate> candidates;

@@ -41,7 +41,7 @@ struct Prediction {
   // Begins a frame: the registers count.
   void frame(int width, int height, const std::function<int(int)>& boundary) {
     const bool vertical = axis == Axis::kVertical;
-    store.store.write_size(vertical ? height : width, vertical ? width : height);
+    store.software.set_size(vertical ? height : width, vertical ? width : height);
     EXPECT_TRUE(store.store.latch());
     dark = [=](int x, int y) { return vertical ? x >= boundary(y) : y >= boundary(x); };
   }

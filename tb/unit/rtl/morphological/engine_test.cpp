@@ -43,7 +43,7 @@ TEST_P(Sizes, GiveTheSamePixelsInEveryEngine) {
         std::make_unique<PlacedEngine>("k" + std::to_string(kind.lanes_code), clock, p));
   }
   for (auto& one : engines) {
-    one->engine.set_frame_size(size.width, size.height);
+    one->software.set_size(size.width, size.height);
     const auto beats = beats_of(frame, lanes_of(one->engine.parameters()));
     wanted += 2 * beats.size();
     one->driver.send(beats);
@@ -530,13 +530,13 @@ TEST(DiagonalParameters, ReachAsFarAsTheWindow) {
 
 TEST(BadFrames, AreNamed) {
   EngineBench bench(deburr_line());
-  EXPECT_THROW(bench.engine.set_frame_size(0, 5), spec::ConfigError);
-  EXPECT_THROW(bench.engine.set_frame_size(5, 8193), spec::ConfigError);
-  EXPECT_THROW(bench.engine.set_frame_size(257, 5), spec::ConfigError);
-  EXPECT_THROW(bench.engine.set_frame_size(5, 0), spec::ConfigError);
-  EXPECT_NO_THROW(bench.engine.set_frame_size(256, 5));
-  EXPECT_NO_THROW(bench.engine.set_frame_size(1, 1));
-  EXPECT_NO_THROW(bench.engine.set_frame_size(256, 8192));
+  EXPECT_THROW(bench.software.set_size(0, 5), spec::ConfigError);
+  EXPECT_THROW(bench.software.set_size(5, 8193), spec::ConfigError);
+  EXPECT_THROW(bench.software.set_size(257, 5), spec::ConfigError);
+  EXPECT_THROW(bench.software.set_size(5, 0), spec::ConfigError);
+  EXPECT_NO_THROW(bench.software.set_size(256, 5));
+  EXPECT_NO_THROW(bench.software.set_size(1, 1));
+  EXPECT_NO_THROW(bench.software.set_size(256, 8192));
   EXPECT_EQ(bench.bus.read(reg::kSize), 256u | 8192u << 16);
 }
 

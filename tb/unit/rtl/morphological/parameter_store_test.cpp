@@ -399,7 +399,7 @@ TEST(Registers, DiagonalsReadZeroWhereNotBuilt) {
 // The rules of a frame inside stand still.
 TEST(Registers, SmaaCountsFromTheNextFrame) {
   EngineBench bench(smaa());
-  bench.engine.set_frame_size(97, 61);
+  bench.software.set_size(97, 61);
   bench.driver.send(beats_of(noise(), 1));
   bench.clock.run(500);
   const std::uint32_t before = bench.bus.read(reg::kSmaa);
@@ -437,7 +437,7 @@ TEST(Registers, RulesCountFromTheNextFrame) {
 
 TEST(Registers, WritesWhileAFrameIsInsideAreIgnoredAndSaidSo) {
   EngineBench bench(deburr_line());
-  bench.engine.set_frame_size(200, 150);
+  bench.software.set_size(200, 150);
   bench.driver.send(beats_of(line(), 1));
   bench.clock.run(500);
   EXPECT_EQ(bench.bus.read(reg::kStatus), 0u) << "not idle";
@@ -481,7 +481,7 @@ TEST(Registers, CountersShowTheWorkAddUpAndAreCleared) {
 
 TEST(Registers, ClearingEnableLetsTheFrameInsideFinish) {
   EngineBench bench(deburr_line());
-  bench.engine.set_frame_size(97, 61);
+  bench.software.set_size(97, 61);
   bench.driver.send(beats_of(noise(), 1));
   bench.driver.send(beats_of(noise(), 1));
   bench.clock.run(300);
@@ -500,7 +500,7 @@ struct Engine : PlacedEngine {
   using PlacedEngine::PlacedEngine;
   // Pixels and taps of the frame.
   std::vector<spec::morphological::BlendedBeat> run(ClockDomain& clock, const Frame& frame) {
-    engine.set_frame_size(frame.width, frame.height);
+    software.set_size(frame.width, frame.height);
     bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
     const auto beats = beats_of(frame, lanes_of(engine.parameters()));
     const std::size_t before = sink.beats().size(), wanted = before + beats.size();
@@ -860,7 +860,7 @@ TEST(SharesRegisters, CountFromTheNextFrameAndStayInAReset) {
   EngineBench bench(deburr());
   const Frame frame = blocks();
   const Frame before = bench.run(frame);
-  for (std::uint32_t i = 0; i < 2304; ++i) bench.bus.write(reg::kSharesData, 0x80);
+  bench.software.load_shares(std::vector<std::int8_t>(2304, -128));
   const std::uint32_t sum = bench.bus.read(reg::kSharesSum);
   EXPECT_EQ(sum, 0x80u * (2304u * 2305u / 2));
   // All shares 0: only runs that extend are blended.
@@ -879,7 +879,7 @@ TEST(SharesRegisters, AreIgnoredWhileAFrameIsInside) {
   bench.bus.write(reg::kSharesAddress, 7);
   const std::uint32_t entry = bench.bus.read(reg::kSharesData);
   const Frame frame = noise(40, 30);
-  bench.engine.set_frame_size(frame.width, frame.height);
+  bench.software.set_size(frame.width, frame.height);
   bench.driver.send(beats_of(frame, 1));
   bench.clock.run(100);
   ASSERT_FALSE(bench.engine.idle());

@@ -147,7 +147,7 @@ struct Extraction {
     extractor.observer = [this](const RunRecord& run) { runs.push_back(run); };
   }
   void run(const Planes& planes) {
-    store.store.write_size(planes.width, planes.height);
+    store.software.set_size(planes.width, planes.height);
     ASSERT_TRUE(store.store.latch());
     const FrameRules rules = store.store.rules();
     const int lanes = store.store.lanes();
@@ -346,7 +346,7 @@ TEST(RecordStalls, CountOnlyWhereASlotWaits) {
   options.driver = {600, 40};
   EngineBench bench(p, options);
   const Frame in = noise();
-  bench.engine.set_frame_size(in.width, in.height);
+  bench.software.set_size(in.width, in.height);
   bench.driver.send(beats_of(in, lanes_of(p)));
   const auto beats = static_cast<std::uint64_t>(beats_a_row(in, p) * in.height);
   const auto& extractor = bench.engine.extractor;

@@ -316,7 +316,7 @@ TEST(FramesBackToBack, BeginTheClockAfterTheLast) {
   EngineBench bench(p);
   Times times(bench);
   const Frame a = line(120, 40), b = line(120, 40);
-  bench.engine.set_frame_size(120, 40);
+  bench.software.set_size(120, 40);
   bench.driver.send(beats_of(a, 1));
   bench.driver.send(beats_of(b, 1));
   bench.driver.send(beats_of(a, 1));

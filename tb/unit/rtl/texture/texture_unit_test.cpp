@@ -22,7 +22,7 @@ constexpr std::int32_t kOne = spec::texture::kCoordinateOne;
 constexpr std::int32_t kTexel = kOne / 64;  // of a 64 x 64 texture
 
 // Nearest, no mip levels, 64 x 64.
-spec::texture::Descriptor nearest_texture(MemoryModel& memory) {
+spec::texture::Descriptor nearest_texture(platform::MemoryModel& memory) {
   spec::texture::Descriptor d = linear_texture(memory, 64);
   d.min_filter = spec::texture::MinFilter::kNearest;
   d.mag_filter = spec::texture::MagFilter::kNearest;
@@ -409,7 +409,7 @@ std::vector<spec::texture::Quad> mixed_quads() {
   return quads;
 }
 
-spec::texture::Descriptor trilinear_texture(MemoryModel& memory) {
+spec::texture::Descriptor trilinear_texture(platform::MemoryModel& memory) {
   spec::texture::Descriptor d = linear_texture(memory, 64);
   d.max_anisotropy_log2 = 3;
   return d;

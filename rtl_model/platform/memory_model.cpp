@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/harness/memory_model.h"
+#include "rtl_model/platform/memory_model.h"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,20 @@
 
 #include "spec/error.h"
 
-namespace deburr::tb {
+namespace deburr::platform {
 namespace {
+
 constexpr std::uint64_t kLine = 64;
+
+// splitmix64, so that a seed gives the same latencies everywhere: 0..bound-1.
+std::uint32_t next_below(std::uint64_t& state, std::uint32_t bound) {
+  std::uint64_t z = (state += 0x9E3779B97F4A7C15ULL);
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
+  z ^= z >> 31;
+  return static_cast<std::uint32_t>(((z >> 32) * bound) >> 32);
+}
+
 }  // namespace
 
 MemoryModel::MemoryModel(const sc_core::sc_module_name& name, const sc_core::sc_time& clock_period,
@@ -96,7 +107,7 @@ std::uint64_t MemoryModel::transfer_clocks(std::uint64_t bytes) const {
 
 std::uint32_t MemoryModel::draw_latency() {
   const std::uint32_t span = parameters_.latency_max - parameters_.latency_min;
-  return parameters_.latency_min + (span ? random_.below(span + 1) : 0);
+  return parameters_.latency_min + (span ? next_below(random_, span + 1) : 0);
 }
 
 void MemoryModel::count(const tlm::tlm_generic_payload& payload) {
@@ -342,4 +353,4 @@ unsigned MemoryModel::transport_dbg(int, tlm::tlm_generic_payload& payload) {
   return static_cast<unsigned>(length);
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::platform

@@ -7,21 +7,22 @@
 #include <cstdint>
 #include <systemc>
 
-namespace deburr::tb {
+#include "rtl_model/platform/host.h"
 
-class RegisterHost final : public sc_core::sc_module {
+namespace deburr::platform {
+
+class RegisterHost final : public sc_core::sc_module, public RegisterBus {
  public:
   tlm_utils::simple_initiator_socket<RegisterHost> bus{"bus"};
 
   explicit RegisterHost(const sc_core::sc_module_name& name) : sc_module(name) {}
 
-  // SimulationError, with the offset and the response, where the access is refused.
-  std::uint32_t read(std::uint32_t offset);
-  void write(std::uint32_t offset, std::uint32_t value);
+  std::uint32_t read(std::uint32_t offset) override;
+  void write(std::uint32_t offset, std::uint32_t value) override;
   // The response, whatever it is.
   tlm::tlm_response_status try_write(std::uint32_t offset, std::uint32_t value);
   // As a debugger writes: whether it was taken.
   bool debug_write(std::uint32_t offset, std::uint32_t value);
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::platform

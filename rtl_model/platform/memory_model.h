@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The repository's memory: a TLM-2.0 target (base protocol) with latency, bandwidth, banks and a
-// limit of outstanding transactions, all parameters; any number of initiators. It counts bytes and
-// keeps the order of the lines that were read, which is compared with what the golden model
+// A memory: a TLM-2.0 target (base protocol) with latency, bandwidth, banks and a limit of
+// outstanding transactions, all parameters; any number of initiators. It counts bytes and keeps the
+// order of the lines that were read and written, which is compared with what the golden model
 // predicts.
 //
 // A transaction that begins at time t and finds its bank free has its last byte at
@@ -29,9 +29,9 @@
 #include <tlm>
 #include <vector>
 
-#include "tb/stimuli/random.h"
+#include "rtl_model/platform/host.h"
 
-namespace deburr::tb {
+namespace deburr::platform {
 
 struct MemoryModelParameters {
   std::uint64_t bytes = 1U << 20;       // addresses 0..bytes-1; beyond: ADDRESS_ERROR
@@ -50,7 +50,7 @@ struct MemoryModelParameters {
   bool answer_ahead = true;  // off: every response is sent at its time
 };
 
-class MemoryModel final : public sc_core::sc_module {
+class MemoryModel final : public sc_core::sc_module, public HostMemory {
  public:
   tlm_utils::multi_passthrough_target_socket<MemoryModel> ports{"ports"};
 
@@ -58,10 +58,18 @@ class MemoryModel final : public sc_core::sc_module {
               const MemoryModelParameters& parameters = {});
 
   // --- Contents, without time ---
-  void preload(std::uint64_t address,
-               std::span<const std::uint8_t> data);  // ConfigError if outside
+  // ConfigError if outside.
+  void preload(std::uint64_t address, std::span<const std::uint8_t> data);
   std::vector<std::uint8_t> dump(std::uint64_t address, std::uint64_t bytes) const;
   using sc_module::dump;  // SystemC's, into a stream
+  // The same for a driver.
+  void write(std::uint64_t address, std::span<const std::uint8_t> data) override {
+    preload(address, data);
+  }
+  std::vector<std::uint8_t> read(std::uint64_t address, std::uint64_t bytes) override {
+    return dump(address, bytes);
+  }
+  std::uint64_t size() const override { return contents_.size(); }
 
   // --- Errors on purpose; request numbers count from 0 in the order of arrival ---
   void fail_range(std::uint64_t from, std::uint64_t to,
@@ -142,7 +150,7 @@ class MemoryModel final : public sc_core::sc_module {
 
   MemoryModelParameters parameters_;
   std::uint64_t period_;
-  Random random_;
+  std::uint64_t random_;  // state of the latencies
   std::vector<std::uint8_t> contents_;
   struct Range {
     std::uint64_t from, to;
@@ -168,4 +176,4 @@ class MemoryModel final : public sc_core::sc_module {
   std::vector<std::uint64_t> lines_read_, lines_written_;
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::platform

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/harness/register_host.h"
+#include "rtl_model/platform/register_host.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "spec/error.h"
 
-namespace deburr::tb {
+namespace deburr::platform {
 namespace {
 
 // One access of 32 bits; payloads of TLM point to their data.
@@ -74,4 +74,4 @@ bool RegisterHost::debug_write(std::uint32_t offset, std::uint32_t value) {
   return bus->transport_dbg(access.payload) == access.data.size();
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::platform
