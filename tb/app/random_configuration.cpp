@@ -14,7 +14,7 @@
 #include "spec/error.h"
 #include "tb/app/run_once.h"
 #include "tb/scene/textures.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "tb/fuzz/targets.h"
 #include "tb/harness/test_paths.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb::replay_test {
 namespace {

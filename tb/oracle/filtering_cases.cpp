@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "tb/oracle/plane.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb::texture {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "golden/texture/configuration.h"
 #include "tb/oracle/conformance.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb::texture::filtering_conformance_test {
 namespace {

@@ -15,7 +15,7 @@
 #include "golden/ideal/geometric.h"
 #include "spec/geometric/tables.h"
 #include "tb/engines/geometric/geometric_stimuli.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::geometric_ideal_test {
 namespace {

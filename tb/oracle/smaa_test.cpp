@@ -13,7 +13,7 @@
 
 #include "golden/morphological/morphological_golden.h"
 #include "tb/stimuli/frames.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::smaa_test {
 namespace {

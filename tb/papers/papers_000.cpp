@@ -23,7 +23,7 @@
 #include "tb/scene/truth.h"
 #include "tb/stimuli/discs.h"
 #include "tb/stimuli/line_fans.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/training/training_frames.h"
 
 namespace deburr::tb::paper_000 {

@@ -26,7 +26,7 @@
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/scenes.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb::paper_002 {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "rtl_model/fabric/trace.h"
 #include "tb/regress/failure_message.h"
-#include "tb/results/file.h"
+#include "tb/base/file.h"
 #include "tb/results/parameter_set.h"
 
 namespace deburr::tb {

@@ -11,7 +11,7 @@
 
 #include "spec/error.h"
 #include "tb/results/compare_runs.h"
-#include "tb/results/file.h"
+#include "tb/base/file.h"
 #include "tb/results/input_files.h"
 
 namespace deburr::tb {

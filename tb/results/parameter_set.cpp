@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "spec/error.h"
-#include "tb/results/yaml_file.h"
+#include "tb/base/yaml_file.h"
 
 namespace deburr::tb {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "spec/error.h"
 #include "tb/results/embedded.h"
-#include "tb/results/file.h"
+#include "tb/base/file.h"
 #include "tb/results/input_files.h"
 #include "tb/results/result.h"
 #include "tb/scene/image_io.h"

@@ -13,7 +13,7 @@
 
 #include "spec/error.h"
 #include "tb/results/build_info.h"
-#include "tb/results/file.h"
+#include "tb/base/file.h"
 #include "tb/scene/image_io.h"
 
 namespace deburr::tb {

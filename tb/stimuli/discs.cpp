@@ -8,7 +8,7 @@
 
 #include "golden/ideal/coverage.h"
 #include "tb/stimuli/frames.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb::morphological {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "tb/scene/image.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb::stimuli {
 

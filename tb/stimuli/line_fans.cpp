@@ -10,7 +10,7 @@
 #include "golden/morphological/configuration.h"
 #include "golden/morphological/morphological_golden.h"
 #include "tb/stimuli/frames.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb::morphological {
 namespace {

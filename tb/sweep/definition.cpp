@@ -10,7 +10,7 @@
 
 #include "spec/error.h"
 #include "tb/app/run_once.h"
-#include "tb/results/yaml_file.h"
+#include "tb/base/yaml_file.h"
 
 namespace deburr::tb {
 namespace {

@@ -17,8 +17,8 @@
 
 #include "spec/error.h"
 #include "tb/results/build_info.h"
-#include "tb/results/file.h"
-#include "tb/results/headline.h"
+#include "tb/base/file.h"
+#include "tb/base/headline.h"
 #include "tb/results/progress.h"
 #include "tb/results/report.h"
 #include "tb/scene/image_io.h"

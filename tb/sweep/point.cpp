@@ -14,8 +14,8 @@
 
 #include "spec/error.h"
 #include "tb/results/build_info.h"
-#include "tb/results/file.h"
-#include "tb/results/shell.h"
+#include "tb/base/file.h"
+#include "tb/base/shell.h"
 #include "tb/scene/image_io.h"
 
 namespace deburr::tb {

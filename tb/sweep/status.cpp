@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "tb/results/file.h"
+#include "tb/base/file.h"
 #include "tb/scene/image_io.h"
 #include "tb/sweep/worker.h"
 

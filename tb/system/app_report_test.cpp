@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "tb/harness/test_paths.h"
-#include "tb/results/file.h"
+#include "tb/base/file.h"
 #include "tb/scene/image.h"
 #include "tb/scene/image_io.h"
 

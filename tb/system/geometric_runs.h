@@ -10,8 +10,8 @@
 
 #include "golden/geometric/configuration.h"
 #include "tb/engines/geometric/geometric_stimuli.h"
-#include "tb/env/geometric_environment.h"
-#include "tb/stimuli/random.h"
+#include "tb/engines/geometric/geometric_environment.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb::geometric_system {
 

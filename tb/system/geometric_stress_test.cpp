@@ -9,7 +9,7 @@
 #include <string>
 
 #include "tb/harness/engine_state.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 #include "tb/system/geometric_runs.h"
 
 namespace deburr::tb::geometric_system::geometric_stress_test {

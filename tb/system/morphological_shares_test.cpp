@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "tb/harness/coverage.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 #include "tb/system/morphological_runs.h"
 
 namespace deburr::tb::morphological_system::morphological_shares_test {

@@ -13,7 +13,7 @@
 #include "tb/scene/image_io.h"
 #include "tb/scene/label.h"
 #include "tb/scene/truth.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/training/stand_ins.h"
 
 namespace deburr::tb::training {

@@ -20,9 +20,9 @@
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/unit.h"
 #include "tb/harness/driver.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 #include "tb/harness/statistics.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb {
 

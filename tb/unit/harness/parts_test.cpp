@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "tb/harness/bench.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 #include "tb/harness/monitor.h"
 #include "tb/harness/scoreboard.h"
 #include "tb/unit/fabric/support.h"

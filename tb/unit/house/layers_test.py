@@ -55,7 +55,7 @@ def violations(root):
                     if name == "systemc.h":
                         yield f"{where}:{number}: <systemc.h> instead of <systemc>"
                     if name == "random":
-                        yield f"{where}:{number}: <random> instead of tb/stimuli/random.h"
+                        yield f"{where}:{number}: <random> instead of tb/base/random.h"
                     if layer in {"spec", "golden"} and name.split("/")[0] in {"systemc", "tlm"}:
                         yield f"{where}:{number}: SystemC in {layer}"
                     first = name.split("/")[0]
@@ -75,7 +75,7 @@ def violations(root):
                 if ASSERT.search(line) and "static_assert" not in line:
                     yield f"{where}:{number}: assert instead of DEBURR_CHECK"
                 if RANDOM.search(line):
-                    yield f"{where}:{number}: a generator besides tb/stimuli/random.h"
+                    yield f"{where}:{number}: a generator besides tb/base/random.h"
                 if path.suffix == ".h" and NAMESPACE.match(line):
                     yield f"{where}:{number}: using namespace in a header"
                 if layer == "rtl_model" and THREADS.search(line):

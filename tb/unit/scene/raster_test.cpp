@@ -12,7 +12,7 @@
 #include <map>
 
 #include "tb/scene/rasteriser.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/unit/scene/fixtures.h"
 
 namespace deburr::tb::raster_test {

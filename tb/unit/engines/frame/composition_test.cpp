@@ -9,7 +9,7 @@
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
 #include "tb/engines/frame/frame_composition.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 
 namespace deburr::tb::composition_test {
 namespace {

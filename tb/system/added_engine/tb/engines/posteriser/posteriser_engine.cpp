@@ -15,7 +15,7 @@
 #include "tb/app/pictures.h"
 #include "tb/app/simulate.h"
 #include "tb/engines/posteriser/posteriser_environment.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb {
 namespace {
