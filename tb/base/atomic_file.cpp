@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/scene/image_io.h"
 
 namespace deburr::tb {
 namespace {

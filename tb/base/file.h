@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reading what a user names (bounded, regular files only) and fingerprints for the manifest.
-// Writing is tb/scene/image_io.h: write_file_atomically.
+// Writing is atomic_file.h.
 #pragma once
 
 #include <cstddef>

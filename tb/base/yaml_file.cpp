@@ -11,7 +11,7 @@
 
 #include "spec/error.h"
 #include "tb/base/file.h"
-#include "tb/results/parameter_set.h"
+#include "tb/base/near_matches.h"
 
 namespace deburr::tb {
 

@@ -13,13 +13,13 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/command/commands.h"
 #include "tb/app/run_once.h"
+#include "tb/base/atomic_file.h"
+#include "tb/command/commands.h"
 #include "tb/results/compare_runs.h"
 #include "tb/results/compare_sweeps.h"
 #include "tb/results/comparison_page.h"
 #include "tb/results/report.h"
-#include "tb/scene/image_io.h"
 
 namespace deburr::tb {
 namespace {

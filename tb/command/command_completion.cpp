@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "tb/command/commands.h"
 #include "tb/app/engine.h"
 #include "tb/app/shorthands.h"
+#include "tb/command/commands.h"
 #include "tb/results/parameter_set.h"
 
 namespace deburr::tb {

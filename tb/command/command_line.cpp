@@ -18,12 +18,13 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/results/build_info.h"
 #include "tb/base/file.h"
 #include "tb/base/headline.h"
 #include "tb/base/interrupt.h"
-#include "tb/results/parameter_set.h"
+#include "tb/base/near_matches.h"
 #include "tb/base/shell.h"
+#include "tb/results/build_info.h"
+#include "tb/results/parameter_set.h"
 
 namespace deburr::tb {
 namespace {

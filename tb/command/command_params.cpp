@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/command/commands.h"
 #include "tb/app/engine.h"
 #include "tb/app/reference_pages.h"
+#include "tb/base/near_matches.h"
+#include "tb/command/commands.h"
 #include "tb/results/parameter_set.h"
 
 namespace deburr::tb {

@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "spec/error.h"
+#include "tb/base/interrupt.h"
 #include "tb/command/commands.h"
 #include "tb/command/point_options.h"
 #include "tb/regress/regression_plan.h"
 #include "tb/regress/regression_result.h"
 #include "tb/regress/testplan.h"
-#include "tb/base/interrupt.h"
 #include "tb/results/report.h"
 #include "tb/sweep/local_engine.h"
 #include "tb/sweep/slurm.h"

@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/command/commands.h"
 #include "tb/app/engine.h"
 #include "tb/app/run_once.h"
 #include "tb/app/shorthands.h"
 #include "tb/base/headline.h"
 #include "tb/base/interrupt.h"
+#include "tb/command/commands.h"
 #include "tb/results/report.h"
 
 namespace deburr::tb {

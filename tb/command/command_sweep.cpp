@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "spec/error.h"
+#include "tb/base/interrupt.h"
 #include "tb/command/commands.h"
 #include "tb/command/point_options.h"
-#include "tb/base/interrupt.h"
 #include "tb/results/progress.h"
 #include "tb/results/report.h"
 #include "tb/sweep/collection.h"

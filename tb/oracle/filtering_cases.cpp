@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "tb/oracle/plane.h"
 #include "tb/base/random.h"
+#include "tb/oracle/plane.h"
 
 namespace deburr::tb::texture {
 namespace {

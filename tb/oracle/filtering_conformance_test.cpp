@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "golden/texture/configuration.h"
-#include "tb/oracle/conformance.h"
 #include "tb/base/random.h"
+#include "tb/oracle/conformance.h"
 
 namespace deburr::tb::texture::filtering_conformance_test {
 namespace {

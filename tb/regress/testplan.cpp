@@ -21,8 +21,9 @@
 #include "tb/app/engine.h"
 #include "tb/app/reference_pages.h"
 #include "tb/base/file.h"
-#include "tb/results/parameter_set.h"
+#include "tb/base/near_matches.h"
 #include "tb/base/yaml_file.h"
+#include "tb/results/parameter_set.h"
 
 namespace deburr::tb {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
-#include "tb/scene/image.h"
 #include "tb/base/random.h"
+#include "tb/scene/image.h"
 
 namespace deburr::tb::stimuli {
 

@@ -10,6 +10,7 @@
 
 #include "spec/error.h"
 #include "tb/app/run_once.h"
+#include "tb/base/near_matches.h"
 #include "tb/base/yaml_file.h"
 
 namespace deburr::tb {

@@ -23,10 +23,10 @@
 
 #include "tb/engines/frame/frame_buffer.h"
 #include "tb/engines/frame/frame_meter.h"
-#include "tb/env/environment.h"
 #include "tb/engines/geometric/geometric_environment.h"
 #include "tb/engines/morphological/morphological_environment.h"
 #include "tb/engines/texture/texture_environment.h"
+#include "tb/env/environment.h"
 
 namespace deburr::tb {
 

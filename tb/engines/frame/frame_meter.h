@@ -9,9 +9,9 @@
 
 #include "tb/engines/frame/frame_buffer.h"
 #include "tb/engines/geometric/geometric_environment.h"
-#include "tb/env/meter.h"
 #include "tb/engines/morphological/morphological_environment.h"
 #include "tb/engines/texture/texture_environment.h"
+#include "tb/env/meter.h"
 
 namespace deburr::tb {
 

@@ -15,9 +15,9 @@
 #include "rtl_model/platform/host.h"
 #include "rtl_model/platform/memory_model.h"
 #include "spec/geometric/packets.h"
+#include "tb/engines/geometric/geometric_setup.h"
 #include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/env/environment.h"
-#include "tb/engines/geometric/geometric_setup.h"
 #include "tb/env/raster_scoreboard.h"
 
 namespace deburr::tb {

@@ -9,8 +9,8 @@
 #include "golden/geometric/configuration.h"
 #include "spec/error.h"
 #include "spec/geometric/registers.h"
-#include "tb/engines/geometric/geometric_coverage.h"
 #include "tb/base/random.h"
+#include "tb/engines/geometric/geometric_coverage.h"
 
 namespace deburr::tb {
 namespace {

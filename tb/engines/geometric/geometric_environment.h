@@ -24,13 +24,13 @@
 #include "rtl_model/platform/memory_model.h"
 #include "rtl_model/platform/register_host.h"
 #include "spec/geometric/packets.h"
-#include "tb/engines/geometric/geometric_stimuli.h"
-#include "tb/env/environment.h"
 #include "tb/engines/geometric/geometric_checks.h"
 #include "tb/engines/geometric/geometric_faults.h"
 #include "tb/engines/geometric/geometric_maps.h"
 #include "tb/engines/geometric/geometric_meter.h"
 #include "tb/engines/geometric/geometric_setup.h"
+#include "tb/engines/geometric/geometric_stimuli.h"
+#include "tb/env/environment.h"
 
 namespace deburr::tb {
 

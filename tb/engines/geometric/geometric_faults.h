@@ -12,8 +12,8 @@
 
 #include "rtl_model/geometric/geometric_engine.h"
 #include "spec/geometric/parameters.h"
-#include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/engines/geometric/geometric_setup.h"
+#include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/env/planted_faults.h"
 
 namespace deburr::tb {

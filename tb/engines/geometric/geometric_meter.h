@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "rtl_model/geometric/geometric_engine.h"
-#include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/engines/geometric/geometric_setup.h"
+#include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/env/meter.h"
 
 namespace deburr::tb {

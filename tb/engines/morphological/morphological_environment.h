@@ -25,7 +25,6 @@
 #include "rtl_model/platform/register_host.h"
 #include "spec/morphological/packets.h"
 #include "spec/morphological/parameters.h"
-#include "tb/env/environment.h"
 #include "tb/engines/morphological/frame_source.h"
 #include "tb/engines/morphological/morphological_checks.h"
 #include "tb/engines/morphological/morphological_coverage.h"
@@ -33,6 +32,7 @@
 #include "tb/engines/morphological/morphological_maps.h"
 #include "tb/engines/morphological/morphological_meter.h"
 #include "tb/engines/morphological/morphological_setup.h"
+#include "tb/env/environment.h"
 #include "tb/harness/driver.h"
 
 namespace deburr::tb {

@@ -10,8 +10,8 @@
 
 #include "rtl_model/morphological/morphological_engine.h"
 #include "tb/engines/morphological/frame_source.h"
-#include "tb/env/meter.h"
 #include "tb/engines/morphological/morphological_setup.h"
+#include "tb/env/meter.h"
 
 namespace deburr::tb {
 

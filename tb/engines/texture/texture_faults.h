@@ -10,8 +10,8 @@
 
 #include "rtl_model/platform/texture_memory.h"
 #include "spec/texture/parameters.h"
-#include "tb/env/planted_faults.h"
 #include "tb/engines/texture/texture_setup.h"
+#include "tb/env/planted_faults.h"
 
 namespace deburr::tb {
 

@@ -8,8 +8,8 @@
 #include "rtl_model/fabric/engine.h"
 #include "rtl_model/platform/memory_model.h"
 #include "spec/texture/parameters.h"
-#include "tb/env/memory_parameters.h"
 #include "tb/engines/texture/texture_expectation.h"
+#include "tb/env/memory_parameters.h"
 #include "tb/traces/fragment_trace.h"
 
 namespace deburr::tb {

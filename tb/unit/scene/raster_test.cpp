@@ -11,8 +11,8 @@
 #include <limits>
 #include <map>
 
-#include "tb/scene/rasteriser.h"
 #include "tb/base/random.h"
+#include "tb/scene/rasteriser.h"
 #include "tb/unit/scene/fixtures.h"
 
 namespace deburr::tb::raster_test {

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 // What surrounds the geometric engine: resets, several frames, weather, and its use as a part.
-#include "tb/engines/geometric/geometric_environment.h"
-
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/engines/geometric/geometric_frames.h"
 #include "tb/base/forked.h"
+#include "tb/engines/geometric/geometric_environment.h"
+#include "tb/engines/geometric/geometric_frames.h"
 
-namespace deburr::tb::geometric_environment_test {
+namespace deburr::tb::environment_test {
 namespace {
 
 using spec::geometric::Region;
@@ -225,4 +224,4 @@ TEST(GeometricEnvironment, IsAPartOfAComposition) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::geometric_environment_test
+}  // namespace deburr::tb::environment_test

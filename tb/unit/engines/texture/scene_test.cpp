@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Textures in memory and scenes as the unit gets them: where each texel lies, what the registers
 // hold, and that the golden model reads back what was put in.
-#include "tb/engines/texture/texture_scene.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,11 +14,12 @@
 #include "spec/texture/parameters.h"
 #include "spec/texture/registers.h"
 #include "tb/engines/texture/texture_levels.h"
+#include "tb/engines/texture/texture_scene.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/textures.h"
 #include "tb/scene/truth.h"
 
-namespace deburr::tb::texture_scene_test {
+namespace deburr::tb::scene_test {
 namespace {
 
 TEST(EncodeTexel, RoundsEachChannelToTheNearestCode) {
@@ -214,4 +213,4 @@ TEST(GoldenFrame, CoversEveryFragmentOnce) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_scene_test
+}  // namespace deburr::tb::scene_test

@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "tb/base/forked.h"
-#include "tb/harness/monitor.h"
 #include "tb/base/random.h"
+#include "tb/harness/monitor.h"
 #include "tb/unit/rtl/morphological/edge_memories.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
