@@ -62,7 +62,7 @@ NAMED = {
 
 # Rooms that name no engine: each is told what engines there are.
 GENERAL = re.compile(r"CMakeLists\.txt|cmake/|golden/CMakeLists\.txt|rtl_model/CMakeLists\.txt|spec/[^/]*$|"
-                     r"tb/(CMakeLists\.txt|app/|base/|command/|env/|baselines/check\.py|fuzz/|regress/|results/|soak/|sweep/|testplan/|"
+                     r"tb/(CMakeLists\.txt|app/|base/|command/|baselines/check\.py|fuzz/|regress/|results/|soak/|sweep/|testplan/|"
                      r"engines/[^/]*$|unit/CMakeLists\.txt|system/smoke\.cmake)|scripts/coverage")
 
 
