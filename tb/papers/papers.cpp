@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "spec/error.h"
+#include "tb/base/interrupt.h"
 #include "tb/results/build_info.h"
 #include "tb/results/embedded.h"
 #include "tb/results/progress.h"
