@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "spec/error.h"
+#include "tb/base/atomic_file.h"
 #include "tb/base/interrupt.h"
 #include "tb/results/build_info.h"
 #include "tb/results/embedded.h"
