@@ -14,7 +14,7 @@ namespace deburr::spec::geometric {
 
 inline constexpr std::array<BuildRule<Parameters>, 3> kBuildRules = {{
     {{"reciprocal_table", "pipelined"},
-     "must be 0 with pipelined dividers, which take a line every clock with a table or without",
+     "must be 0 with pipelined dividers, which take a line every clock: a table has no effect",
      [](const Parameters& p) { return !p.pipelined || p.reciprocal_table == 0; },
      [](const Parameters&) -> std::string { return "use 0, or pipelined = false"; }},
     {{"face_limit"},

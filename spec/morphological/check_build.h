@@ -31,11 +31,15 @@ inline constexpr std::array<BuildRule<Parameters>, 8> kBuildRules = {{
      "must be fixed with edges.source = predicated, which has thresholds of its own",
      [](const Parameters& p) {
        return p.edge_source != EdgeSource::kPredicated || p.threshold_mode == ThresholdMode::kFixed;
-     }},
+     },
+     [](const Parameters&) -> std::string { return "use edges.threshold_mode = fixed"; }},
     {{"edges.threshold_mode", "edges.source"},
      "must be fixed with edges.source = colour, which has no luma for a dynamic one",
      [](const Parameters& p) {
        return p.edge_source != EdgeSource::kColour || p.threshold_mode == ThresholdMode::kFixed;
+     },
+     [](const Parameters&) -> std::string {
+       return "use edges.threshold_mode = fixed, or edges.source = luma";
      }},
     {{"area", "diagonals"},
      "must not be learned with diagonals, without which shares were learned",

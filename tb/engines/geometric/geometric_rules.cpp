@@ -53,9 +53,9 @@ void refuse_unused_rules(const ParameterSet& set, const spec::geometric::Paramet
   if (p.pipelined) {
     refuse("dividers",
            "geometric.pipelined = true takes a line every clock: one divider is enough");
-    refuse("reciprocal_table",
-           "geometric.pipelined = true takes a line every clock, with a table or without; use "
-           "geometric.pipelined = false beside it");
+    // A table with entries cannot be built (spec/geometric/check_build.h).
+    if (p.reciprocal_table == 0)
+      refuse("reciprocal_table", "geometric.pipelined = true takes a line every clock without one");
   }
 }
 
