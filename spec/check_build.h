@@ -48,18 +48,21 @@ class RangeCheck {
   template <class Enum, std::size_t N>
   void choice(std::string_view name, Enum value, const std::array<std::string_view, N>& names,
               std::string_view) const {
-    if (static_cast<std::size_t>(value) < N) return;
+    check_choice(name, static_cast<std::size_t>(value), names);
+  }
+  void boolean(std::string_view, bool, std::string_view) const {}
+
+ private:
+  void check_choice(std::string_view name, std::size_t value,
+                    std::span<const std::string_view> names) const {
+    if (value < names.size()) return;
     std::string known;
     for (const std::string_view one : names) {
       if (!known.empty()) known += ", ";
       known += one;
     }
-    throw ConfigError(of(name) + " = " + std::to_string(static_cast<int>(value)) + " is none of " +
-                      known);
+    throw ConfigError(of(name) + " = " + std::to_string(value) + " is none of " + known);
   }
-  void boolean(std::string_view, bool, std::string_view) const {}
-
- private:
   std::string of(std::string_view name) const {
     return std::string(engine_) + "." + std::string(name);
   }
@@ -77,7 +80,7 @@ class ValueText {
   template <class Enum, std::size_t N>
   void choice(std::string_view name, Enum value, const std::array<std::string_view, N>& names,
               std::string_view) {
-    if (name == wanted_) text_ = names[static_cast<std::size_t>(value)];
+    if (name == wanted_) take(static_cast<std::size_t>(value), names);
   }
   void boolean(std::string_view name, bool value, std::string_view) {
     if (name == wanted_) text_ = value ? "true" : "false";
@@ -85,6 +88,9 @@ class ValueText {
   const std::string& text() const { return text_; }
 
  private:
+  void take(std::size_t value, std::span<const std::string_view> names) {
+    text_ = value < names.size() ? std::string(names[value]) : std::to_string(value);
+  }
   std::string_view wanted_;
   std::string text_;
 };

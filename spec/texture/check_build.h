@@ -37,7 +37,7 @@ inline constexpr std::array<BuildRule<Parameters>, 8> kBuildRules = {{
               ", or lines or ways fewer";
      }},
     {{"cache.fifo_depth"},
-     "must be at least 2 places, as many as are read and written in every clock; 0 sizes it from "
+     "must be at least 2 places, since one is read and one written in every clock; 0 sizes it from "
      "the latency of memory",
      [](const Parameters& p) { return p.cache_fifo_depth != 1; }},
     {{"axis_clocks"},

@@ -83,9 +83,9 @@ std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines)
       "lines that answer with an error (`error_address`) they must agree in build too, since a "
       "whole line reads as zero.\n\n"
       "Hardware can be built with what lies in the ranges and keeps the rules between parameters "
-      "that stand behind a unit's table.\nThe rest is rejected, in the same words, before "
-      "anything is simulated: by `run`, `--show-config`, `sweep` and `search`, and by\nthe "
-      "constructor of the hardware (`spec/NAME/check_build.h`).\n";
+      "that follow a unit's table.\nThe rest is rejected before anything is simulated, in the same "
+      "words by `run`, `--show-config`, `sweep`, `search` and the\nconstructor of the hardware "
+      "(`spec/NAME/check_build.h`).\n";
   for (const auto& engine : engines) {
     page += fmt::format("\n## `deburr run {}`\n", engine->name());
     ParameterSet set;

@@ -7,15 +7,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <systemc>
 #include <utility>
 #include <vector>
 
@@ -48,7 +51,7 @@ inline std::string text_of_error(const std::function<void()>& work) {
   return "taken";
 }
 
-// Whether two integers, a minimum and a maximum, end a declared range; sets one of them.
+// A visitor that sets one of the integers to a value beside its range.
 class EndSetter {
  public:
   explicit EndSetter(std::size_t number, bool above) : left_(number), above_(above) {}
@@ -194,15 +197,12 @@ class BuildChecks {
     ParameterSet set;
     set.add_engine(engine_, p);
     for (const auto& [name, value] : row.settings) set.set(engine_ + "." + name, value, "table");
-    if (const Parameter* const preset = set.find(engine_ + ".preset"))
-      for (const auto& [name, value] : implied_by_preset(row, *preset))
-        set.set(name, value, "preset");
+    for (const auto& [name, value] : implied_by_preset(row)) set.set(name, value, "preset");
     return p;
   }
 
   // What a resolved configuration has beside what is given.
-  std::vector<std::pair<std::string, std::string>> implied_by_preset(const Unbuildable& row,
-                                                                     const Parameter&) const {
+  std::vector<std::pair<std::string, std::string>> implied_by_preset(const Unbuildable& row) const {
     const std::unique_ptr<Engine> made = engine_named(engine_);
     BoundEngine bound(*made);
     give(bound, row);
