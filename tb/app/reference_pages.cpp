@@ -84,7 +84,7 @@ std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines)
       "whole line reads as zero.\n\n"
       "Hardware can be built with what lies in the ranges and keeps the rules between parameters "
       "that follow a unit's table.\nThe rest is rejected before anything is simulated, in the same "
-      "words by `run`, `--show-config`, `sweep`, `search` and the\nconstructor of the hardware "
+      "words by `run`, `--show-config`, `sweep`, `search` and\nthe constructor of the hardware "
       "(`spec/NAME/check_build.h`).\n";
   for (const auto& engine : engines) {
     page += fmt::format("\n## `deburr run {}`\n", engine->name());
