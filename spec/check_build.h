@@ -111,7 +111,7 @@ void check_ranges(std::string_view engine, Parameters parameters) {
   describe(parameters, check);  // of the namespace that declares them
 }
 
-// "texture.cache.bytes = 256 with cache.ways = 8: must hold a set; make it at least 512"
+// "unit.cache.bytes = 256 with cache.ways = 8: must hold a set; make it at least 512"
 template <class Parameters>
 std::string rejection(std::string_view engine, const BuildRule<Parameters>& rule,
                       const Parameters& parameters) {
