@@ -15,7 +15,7 @@
 #include "spec/morphological/check_build.h"
 #include "spec/texture/check_build.h"
 #include "tb/app/engine.h"
-#include "tb/env/texture_expectation.h"
+#include "tb/engines/texture/texture_expectation.h"
 #include "tb/harness/verdict.h"
 #include "tb/results/run_context.h"
 #include "tb/results/shared_inputs.h"
