@@ -1,30 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/geometric/geometric_engine.h"
 
-#include <string>
 #include <utility>
 
-#include "spec/error.h"
+#include "spec/geometric/check_build.h"
 
 namespace deburr::rtl::geometric {
 namespace {
 
 namespace reg = spec::geometric::reg;
-
-[[noreturn]] void refuse(const std::string& text) { throw spec::ConfigError("geometric." + text); }
-
-spec::geometric::Parameters checked(const spec::geometric::Parameters& parameters) {
-  const spec::geometric::Parameters p = checked_ranges("geometric", parameters);
-  if (p.pipelined && p.reciprocal_table != 0)
-    refuse("reciprocal_table: has no effect with pipelined; use 0, or pipelined = false");
-  if (p.face_limit % spec::geometric::kFacesInLine != 0)
-    refuse("face_limit: expected a multiple of " + std::to_string(spec::geometric::kFacesInLine) +
-           ", got " + std::to_string(p.face_limit) + ": a line is written at once");
-  if (p.fills > p.memory_outstanding)
-    refuse("fills: " + std::to_string(p.fills) + " lines on their way need memory.outstanding of " +
-           "as many, got " + std::to_string(p.memory_outstanding));
-  return p;
-}
 
 PayloadShape lanes(spec::geometric::Lanes code) {
   return {.lanes = spec::geometric::kLaneCount[static_cast<std::size_t>(code)]};
@@ -41,7 +25,7 @@ MemoryPortParameters port_of(const spec::geometric::Parameters& p) {
 GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
                                  const spec::geometric::Parameters& parameters)
     : Engine(name, clock, spec::geometric::kRegisters, control_layout()),
-      parameters_(checked(parameters)),
+      parameters_(check_build(parameters)),
       edge_lanes_(lanes(parameters_.edge_lanes)),
       walkers_(lanes(parameters_.walkers)),
       port_(port_of(parameters_)),

@@ -47,7 +47,7 @@ namespace deburr::rtl::geometric {
 
 class GeometricEngine final : public Engine {
  public:
-  // ConfigError if a parameter is out of range, or names or combines what is not built.
+  // ConfigError for what cannot be built (spec/geometric/check_build.h).
   GeometricEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
                   const spec::geometric::Parameters& parameters);
   const char* kind() const override { return "deburr_geometric_engine"; }

@@ -53,7 +53,7 @@ class MorphologicalEngine final : public Engine {
   In<spec::morphological::PixelBeat> pixels_in{"pixels_in"};
   Out<spec::morphological::BlendedBeat> pixels_out{"pixels_out"};
 
-  // ConfigError if a parameter is out of range, or names or combines what is not built.
+  // ConfigError for what cannot be built (spec/morphological/check_build.h).
   MorphologicalEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
                       const spec::morphological::Parameters& parameters);
   const char* kind() const override { return "deburr_morphological_engine"; }

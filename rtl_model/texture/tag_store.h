@@ -26,7 +26,8 @@ namespace deburr::rtl::texture {
 
 class TagStore {
  public:
-  static constexpr std::int32_t kMostLines = 512, kMostWays = 8;
+  static constexpr std::int32_t kMostLines = spec::texture::kMostCacheLines,
+                                kMostWays = spec::texture::kMostCacheWays;
 
   struct Place {
     std::uint32_t slot;  // set x ways + way

@@ -34,8 +34,7 @@ class TextureUnit final : public Engine {
   In<spec::texture::Quad> quads_in{"quads_in"};
   Out<spec::texture::Colour> colours_out{"colours_out"};
 
-  // ConfigError if a parameter is out of range, a cache size that must be a power of two is not, or
-  // the cache cannot be built.
+  // ConfigError for what cannot be built (spec/texture/check_build.h), and for a FIFO of depth 0.
   TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
               const spec::texture::Parameters& parameters);
 

@@ -30,8 +30,7 @@ struct RandomDraws {
   std::vector<std::string_view> frequent{};
   // What every random run is given.
   std::vector<std::pair<std::string, std::string>> given{};
-  // Each says false of what only the model of the hardware would refuse when it is built, and of
-  // what would take minutes.
+  // Each says false of what would take minutes, or show nothing.
   std::vector<bool (*)(const ParameterSet&)> wanted{};
 };
 

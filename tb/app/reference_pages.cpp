@@ -49,6 +49,20 @@ class SilentRenaming {
 
 std::string group_of(const std::string& name) { return name.substr(0, name.find('.')); }
 
+// What the group's hardware can be built with, beyond ranges.
+std::string build_rules_of(const ParameterSet& set, const std::string& group) {
+  std::string table;
+  for (const BuildLimit& limit : set.build_limits()) {
+    const std::vector<std::string>& names = limit.parameters;
+    if (group_of(names.front()) != group) continue;
+    std::string with;
+    for (std::size_t i = 1; i < names.size(); ++i)
+      with += fmt::format("{}`{}`", i > 1 ? ", " : "", names[i]);
+    table += fmt::format("| `{}` | {} | {} |\n", names.front(), with, cell(limit.must));
+  }
+  return table.empty() ? "" : "\n| to be built | beside | |\n|---|---|---|\n" + table;
+}
+
 }  // namespace
 
 std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines) {
@@ -67,7 +81,11 @@ std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines)
       "share one golden result: `golden` in their `manifest.json` is the same, which lists `rules` "
       "and `build` apart. With\n"
       "lines that answer with an error (`error_address`) they must agree in build too, since a "
-      "whole line reads as zero.\n";
+      "whole line reads as zero.\n\n"
+      "Hardware can be built with what lies in the ranges and keeps the rules between parameters "
+      "that follow a unit's table.\nThe rest is rejected before anything is simulated, in the same "
+      "words by `run`, `--show-config`, `sweep`, `search` and\nthe constructor of the hardware "
+      "(`spec/NAME/check_build.h`).\n";
   for (const auto& engine : engines) {
     page += fmt::format("\n## `deburr run {}`\n", engine->name());
     ParameterSet set;
@@ -77,6 +95,7 @@ std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines)
     std::string group;
     for (const Parameter& p : set.all()) {
       if (group_of(p.name) != group) {
+        page += build_rules_of(set, group);
         group = group_of(p.name);
         page += fmt::format(
             "\n### {}\n\n| name | kind | default | range | unit | meaning "
@@ -87,6 +106,7 @@ std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines)
                           p.default_value.empty() ? "" : "`" + p.default_value + "`", cell(p.range),
                           cell(p.unit), cell(p.meaning));
     }
+    page += build_rules_of(set, group);
   }
   return page;
 }

@@ -37,6 +37,7 @@ BoundEngine::BoundEngine(Engine& bound) : engine(bound), run(bound.run_parameter
 
 void BoundEngine::resolve() {
   engine.resolve(set);
+  set.check_build();
   if (!run.trace.empty() && run.trace_from >= run.trace_to)
     throw ConfigError(fmt::format(
         "run.trace_from = {} and run.trace_to = {} leave no cycle to trace: --trace-to is the "

@@ -21,7 +21,8 @@ class BoundEngine {
   BoundEngine(const BoundEngine&) = delete;
   BoundEngine& operator=(const BoundEngine&) = delete;
 
-  // Once everything was set: what follows from it. ConfigError for what has no effect.
+  // Once everything was set: what follows from it. ConfigError for what has no effect, and for
+  // hardware that cannot be built.
   void resolve();
 
   Engine& engine;

@@ -119,14 +119,9 @@ Choice choice(std::string_view text, const std::array<std::string_view, N>& name
 
 void frames(int count, const std::vector<std::string>& arguments) {
   Parameters p;
-  if (!arguments.empty()) {
-    p.preset = choice<spec::geometric::Preset>(arguments[0], spec::geometric::kPresetNames);
-    const auto& row = spec::geometric::kPresets[static_cast<std::size_t>(p.preset)];
-    p.select = row.select;
-    p.crease = row.crease;
-    p.combine = row.combine;
-    p.frame_copy = row.frame_copy;
-  }
+  if (!arguments.empty())
+    p = preset_parameters(
+        choice<spec::geometric::Preset>(arguments[0], spec::geometric::kPresetNames));
   using spec::geometric::kLanesNames;
   using spec::geometric::Lanes;
   if (arguments.size() > 1) p.walkers = choice<Lanes>(arguments[1], kLanesNames);

@@ -47,6 +47,7 @@ Outcome print_params(const ParamsCommand& command) {
   }
   std::vector<std::string> groups;
   std::vector<Parameter> shown;
+  std::vector<BuildLimit> limits;
   for (const auto& engine : all) {
     ParameterSet set;
     RunParameters run = engine->run_parameters();
@@ -58,6 +59,12 @@ Outcome print_params(const ParamsCommand& command) {
       const bool known = std::any_of(shown.begin(), shown.end(),
                                      [&](const Parameter& other) { return other.name == p.name; });
       if (!known && (command.unit.empty() || command.unit == group)) shown.push_back(p);
+    }
+    for (const BuildLimit& limit : set.build_limits()) {
+      const std::string& about = limit.parameters.front();
+      const bool known = std::find(limits.begin(), limits.end(), limit) != limits.end();
+      if (!known && (command.unit.empty() || command.unit == about.substr(0, about.find('.'))))
+        limits.push_back(limit);
     }
   }
   if (shown.empty())
@@ -75,6 +82,9 @@ Outcome print_params(const ParamsCommand& command) {
   for (const Parameter& p : shown)
     fmt::print("{:{}}  {:{}}  {:{}}  {:{}}  {:{}}  {}\n", p.name, name, kind_name(p), kind,
                p.default_value, value, p.range, range, p.unit, unit, p.meaning);
+  if (!limits.empty()) fmt::print("\nWhat hardware can be built with, beyond these ranges:\n");
+  for (const BuildLimit& limit : limits)
+    fmt::print("{:{}}  {}\n", limit.parameters.front(), name, limit.must);
   return {};
 }
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "golden/ideal/ellipse.h"
-#include "golden/texture/configuration.h"
+#include "spec/texture/parameters.h"
 #include "tb/harness/test_paths.h"
 #include "tb/oracle/turned_photo.h"
 #include "tb/scene/image_io.h"
@@ -24,7 +24,7 @@
 namespace deburr::tb::texture_direction_test {
 namespace {
 
-using golden::texture::preset_parameters;
+using spec::texture::preset_parameters;
 using spec::texture::Axes;
 using spec::texture::CountRule;
 using spec::texture::Parameters;

@@ -251,6 +251,10 @@ void ParameterSet::refuse_all(std::string_view prefix, std::string_view why) con
     if (p.name.starts_with(prefix)) refuse(p.name, why);
 }
 
+void ParameterSet::check_build() const {
+  for (const std::function<void()>& check : build_checks_) check();
+}
+
 void ParameterSet::set_assignment(std::string_view assignment, std::string_view where) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos)

@@ -54,6 +54,8 @@ class Added(unittest.TestCase):
             self.deburr(1, "run", NAME, "--fault", fault, "--out", "out", says="FAIL mismatch")
         self.deburr(2, "run", NAME, "--fault", "gremlin", says="wrong-rule")
         self.deburr(2, "run", NAME, "--set", "posteriser.bits=9", says="1..8")
+        for how in ((), ("--show-config",)):
+            self.deburr(2, "run", NAME, "--set", "posteriser.link_depth=3", *how, says="link_depth = 3: must be 1 or an even")
         self.deburr(2, "run", "posterise", says="did you mean 'posteriser'")
 
     def test_disturbances_change_no_pixel(self):
@@ -89,7 +91,7 @@ class Added(unittest.TestCase):
         self.assertIn("posteriser-levels", points.read_text(encoding="utf-8"))
 
     def test_parameters_and_pages(self):
-        self.deburr(0, "params", NAME, says=["posteriser.bits", "posteriser.link_depth"])
+        self.deburr(0, "params", NAME, says=["posteriser.bits", "posteriser.link_depth", "must be 1 or an even"])
         for page, says in (("parameters", f"## `deburr run {NAME}`"), ("registers", "## Posteriser\n"),
                            ("coverage", "## Posteriser: 3 bins"), ("statistics", "`work.levels_changed`")):
             self.deburr(0, "params", "--markdown", page, says=says)

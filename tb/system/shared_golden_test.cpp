@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "spec/error.h"
+#include "spec/morphological/check_build.h"
+#include "spec/texture/check_build.h"
 #include "tb/app/engine.h"
 #include "tb/engines/texture/texture_expectation.h"
 #include "tb/harness/verdict.h"

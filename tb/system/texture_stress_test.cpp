@@ -6,7 +6,7 @@
 
 #include <tuple>
 
-#include "golden/texture/configuration.h"
+#include "spec/texture/parameters.h"
 #include "tb/base/forked.h"
 #include "tb/system/texture_quad_bench.h"
 #include "tb/system/texture_runs.h"
@@ -167,7 +167,7 @@ TEST(FrameReset, IsMissedWhenThereIsNone) {
   const QuadInput input = {scene.memory().descriptors(), scene.memory().bytes(),
                            scene.stream().quads};
   // By rules whose lines fit into the cache.
-  QuadBench bench(input, golden::texture::preset_parameters(spec::texture::Preset::kPaper));
+  QuadBench bench(input, spec::texture::preset_parameters(spec::texture::Preset::kPaper));
   bench.reset();
   const QuadOutcome fresh = bench.run();
   EXPECT_EQ(bench.judge(input, fresh), "");

@@ -6,9 +6,11 @@
 #include <string>
 #include <utility>
 
-#include "golden/geometric/configuration.h"
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
+#include "spec/geometric/check_build.h"
+#include "spec/morphological/check_build.h"
+#include "spec/texture/check_build.h"
 #include "tb/app/input_rules.h"
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
@@ -165,20 +167,16 @@ class FrameCommand final : public Engine {
   // What the one engine does for the other, unless something else is given.
   void let_follow(ParameterSet& set) const {
     set.imply("geometric.mark", "true", kFollows);
-    spec::morphological::Parameters rules =
+    const spec::morphological::Parameters rules =
         golden::morphological::following_geometric(morphological_);
-    ParameterSet following;
-    following.add_engine("morphological", rules);
     std::vector<std::string> names = {"leave"};
     if (rules.edge_source != morphological_.edge_source) names.push_back("edges.source");
     if (rules.edge_source == spec::morphological::EdgeSource::kPredicated &&
         !set.given("morphological.edges.source"))
       names.insert(names.end(),
                    {"edges.threshold_on_depth_edge", "edges.threshold_off_depth_edge"});
-    for (const std::string& name : names) {
-      const std::string full = "morphological." + name;
-      set.imply(full, following.find(full)->text(), kFollows);
-    }
+    for (const std::string& name : names)
+      set.imply("morphological." + name, spec::value_text(rules, name), kFollows);
   }
 
   void resolve_geometric(ParameterSet& set) {
@@ -188,7 +186,6 @@ class FrameCommand final : public Engine {
       return;
     }
     refuse_unused_rules(set, geometric_);
-    golden::geometric::check_parameters(geometric_);
     refuse_unused_memory(set, "geometric_memory", geometric_memory_);
     refuse_slow_memory(set, "geometric_memory", geometric_memory_);
     geometric_label_ = preset_label(set, geometric_);
@@ -201,7 +198,6 @@ class FrameCommand final : public Engine {
       return;
     }
     refuse_unused_rules(set, morphological_, "frame_memory");
-    golden::morphological::check_parameters(morphological_);
     refuse_unused_memory(set, "frame_memory", frame_memory_);
     if (morphological_.storage == spec::morphological::Storage::kMemory)
       refuse_slow_memory(set, "frame_memory", frame_memory_);

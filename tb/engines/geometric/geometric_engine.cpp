@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "golden/geometric/configuration.h"
+#include "spec/geometric/check_build.h"
 #include "spec/geometric/registers.h"
 #include "tb/app/input_rules.h"
 #include "tb/app/pictures.h"
@@ -49,7 +50,6 @@ class GeometricCommand final : public Engine {
     refuse_slow_memory(set, "memory", memory_);
     if (set.find("run.truth")->text() == "false")
       set.refuse("scene.truth_samples", "nothing is judged without run.truth (--truth)");
-    golden::geometric::check_parameters(parameters_);
     preset_label_ = preset_label(set, parameters_);
   }
 

@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-#include "golden/geometric/configuration.h"
+#include "spec/check_build.h"
 
 namespace deburr::tb {
 namespace {
@@ -20,13 +20,11 @@ std::string source_of(const spec::geometric::Parameters& values) {
 }  // namespace
 
 void apply_preset(ParameterSet& set, const spec::geometric::Parameters& values) {
-  spec::geometric::Parameters rules = golden::geometric::preset_parameters(values.preset);
-  ParameterSet preset;
-  preset.add_engine("geometric", rules);
-  for (const char* const name : {"select", "crease", "combine", "frame_copy"}) {
-    const std::string full = fmt::format("{}{}", kGeometricPrefix, name);
-    set.imply(full, preset.find(full)->text(), source_of(values));
-  }
+  const spec::geometric::Parameters rules = preset_parameters(values.preset);
+  for_each_of(values.preset, [&](std::string_view name, auto, auto) {
+    set.imply(fmt::format("{}{}", kGeometricPrefix, name), spec::value_text(rules, name),
+              source_of(values));
+  });
 }
 
 std::string preset_label(const ParameterSet& set, const spec::geometric::Parameters& values) {
@@ -55,9 +53,9 @@ void refuse_unused_rules(const ParameterSet& set, const spec::geometric::Paramet
   if (p.pipelined) {
     refuse("dividers",
            "geometric.pipelined = true takes a line every clock: one divider is enough");
-    refuse("reciprocal_table",
-           "geometric.pipelined = true takes a line every clock, with a table or without; use "
-           "geometric.pipelined = false beside it");
+    // A table with entries cannot be built (spec/geometric/check_build.h).
+    if (p.reciprocal_table == 0)
+      refuse("reciprocal_table", "geometric.pipelined = true takes a line every clock without one");
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
+#include "spec/morphological/check_build.h"
 #include "spec/morphological/registers.h"
 #include "tb/app/input_rules.h"
 #include "tb/app/pictures.h"
@@ -52,7 +53,6 @@ class MorphologicalCommand final : public Engine {
         set.refuse("frame.mask", "morphological.leave = none looks at no mask");
     }
     refuse_unused_rules(set, parameters_, "memory");
-    golden::morphological::check_parameters(parameters_);
     refuse_unused_memory(set, "memory", memory_);
     if (parameters_.storage == spec::morphological::Storage::kMemory)
       refuse_slow_memory(set, "memory", memory_);

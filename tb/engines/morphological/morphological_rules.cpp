@@ -3,10 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <initializer_list>
 
-#include "golden/morphological/configuration.h"
+#include "spec/check_build.h"
 
 namespace deburr::tb {
 namespace {
@@ -17,16 +16,10 @@ std::string_view preset_name(const spec::morphological::Parameters& values) {
   return spec::morphological::kPresetNames[static_cast<std::size_t>(values.preset)];
 }
 
-bool has_qualities(const spec::morphological::Parameters& values) {
-  return std::any_of(
-      spec::morphological::kPresets.begin(), spec::morphological::kPresets.end(),
-      [&](const auto& row) { return row.preset == values.preset && row.has_qualities; });
-}
-
 // "preset mlaa", "preset smaa, quality high".
 std::string source_of(const spec::morphological::Parameters& values) {
   std::string source = fmt::format("preset {}", preset_name(values));
-  if (has_qualities(values))
+  if (has_qualities(values.preset))
     source +=
         fmt::format(", quality {}",
                     spec::morphological::kQualityNames[static_cast<std::size_t>(values.quality)]);
@@ -36,22 +29,11 @@ std::string source_of(const spec::morphological::Parameters& values) {
 }  // namespace
 
 void apply_preset(ParameterSet& set, const spec::morphological::Parameters& values) {
-  spec::morphological::Parameters rules =
-      golden::morphological::preset_parameters(values.preset, values.quality);
-  const std::string by = source_of(values);
-  ParameterSet preset;
-  preset.add_engine("morphological", rules);
-  const auto imply = [&](std::initializer_list<std::string_view> names) {
-    for (const std::string_view name : names) {
-      const std::string full = fmt::format("{}{}", kMorphologicalPrefix, name);
-      set.imply(full, preset.find(full)->text(), by);
-    }
-  };
-  imply({"edges.source", "edges.threshold_mode", "edges.dynamic_luma", "edges.threshold",
-         "edges.local_contrast", "ends", "predictor", "steps", "contiguous", "safe", "trim", "area",
-         "diagonals", "round_corners", "blend"});
-  if (has_qualities(values))
-    imply({"search_steps", "diagonal_steps", "corner_rounding", "window_rows"});
+  const spec::morphological::Parameters rules = preset_parameters(values.preset, values.quality);
+  for_each_of(values.preset, values.quality, [&](std::string_view name, auto, auto) {
+    set.imply(fmt::format("{}{}", kMorphologicalPrefix, name), spec::value_text(rules, name),
+              source_of(values));
+  });
 }
 
 std::string preset_label(const ParameterSet& set, const spec::morphological::Parameters& values) {
@@ -95,7 +77,7 @@ void refuse_unused_rules(const ParameterSet& set, const spec::morphological::Par
   if (p.predictor == spec::morphological::Predictor::kNone)
     refuse("morphological.predictor = none extends no run",
            {"steps", "contiguous", "safe", "trim"});
-  if (!has_qualities(p))
+  if (!has_qualities(p.preset))
     refuse("it belongs to morphological.preset = smaa or smaa-dynamic", {"quality"});
   if (p.area == spec::morphological::AreaSource::kAnalytic ||
       p.area == spec::morphological::AreaSource::kLearned)

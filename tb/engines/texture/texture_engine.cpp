@@ -12,6 +12,7 @@
 
 #include "rtl_model/texture/descriptors.h"
 #include "spec/error.h"
+#include "spec/texture/check_build.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/registers.h"
 #include "tb/app/input_rules.h"

@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-#include "golden/texture/configuration.h"
+#include "spec/check_build.h"
 #include "spec/error.h"
 #include "tb/app/input_rules.h"
 
@@ -22,13 +22,11 @@ std::string source_of(const spec::texture::Parameters& values) {
 }  // namespace
 
 void apply_preset(ParameterSet& set, const spec::texture::Parameters& values) {
-  spec::texture::Parameters rules = golden::texture::preset_parameters(values.preset);
-  ParameterSet preset;
-  preset.add_engine("texture", rules);
-  for (const char* const name : {"axes", "footprint", "log2", "count"}) {
-    const std::string full = fmt::format("{}{}", kTexturePrefix, name);
-    set.imply(full, preset.find(full)->text(), source_of(values));
-  }
+  const spec::texture::Parameters rules = preset_parameters(values.preset);
+  for_each_of(values.preset, [&](std::string_view name, auto, auto) {
+    set.imply(fmt::format("{}{}", kTexturePrefix, name), spec::value_text(rules, name),
+              source_of(values));
+  });
 }
 
 std::string preset_label(const ParameterSet& set, const spec::texture::Parameters& values) {

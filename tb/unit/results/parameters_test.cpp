@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Parameters by name: every way to set one, and every way in which it must be refused.
-#include "spec/texture/parameters.h"
+#include "spec/texture/check_build.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

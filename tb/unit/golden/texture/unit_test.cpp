@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "golden/texture/configuration.h"
+#include "spec/texture/parameters.h"
 #include "golden/texture/texture_golden.h"
 #include "spec/error.h"
 #include "tb/base/random.h"

@@ -287,22 +287,13 @@ struct Configuration {
   Parameters p;
   std::uint64_t pixels, weights, traffic;
 };
-inline Parameters with_preset(spec::geometric::Preset preset) {
-  const auto& row = spec::geometric::kPresets[static_cast<std::size_t>(preset)];
-  Parameters p;
-  p.preset = preset;
-  p.select = row.select;
-  p.crease = row.crease;
-  p.combine = row.combine;
-  p.frame_copy = row.frame_copy;
-  return p;
-}
 inline Configuration configuration(char name) {
   using spec::geometric::CacheLines;
   using spec::geometric::Lanes;
   using spec::geometric::Layout;
   using spec::geometric::Preset;
-  Configuration c{name, with_preset(Preset::kDeburr), 0xbfce4abe8f3b22f8, 0x6cc78624e74c2575, 0};
+  Configuration c{name, preset_parameters(Preset::kDeburr), 0xbfce4abe8f3b22f8, 0x6cc78624e74c2575,
+                  0};
   Parameters& p = c.p;
   const auto small = [&] { p.depth_lines = p.weight_blocks = p.vertex_lines = CacheLines::k16; };
   switch (name) {
@@ -325,13 +316,13 @@ inline Configuration configuration(char name) {
       c.traffic = 0x0290086e5caa5d65;
       break;
     case 'e':
-      p = with_preset(Preset::kGpaaOptimised);
+      p = preset_parameters(Preset::kGpaaOptimised);
       c.pixels = 0x31c35ac184f4e760;
       c.weights = 0xbadcaac952dfc9ed;
       c.traffic = 0x9273c837cbb2c537;
       break;
     case 'f':
-      p = with_preset(Preset::kGpaa);
+      p = preset_parameters(Preset::kGpaa);
       c.pixels = 0x9e2d94b3be2f9be4;
       c.weights = 0x9d0d9b07b9151d21;
       c.traffic = 0xe27e145fd8e2b753;

@@ -447,14 +447,14 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         BadParameter{"window_rows", [](auto& p) { p.window_rows = 67; }},
         BadParameter{"window_rows", [](auto& p) { p.window_rows = 8; }},
-        BadParameter{"steps need window_rows of at least 20", [](auto& p) { p.window_rows = 18; }},
+        BadParameter{"steps = 8 with window_rows = 18", [](auto& p) { p.window_rows = 18; }},
         BadParameter{"reach_columns", [](auto& p) { p.reach_columns = 3; }},
         BadParameter{"predicated",
                      [](auto& p) {
                        p.edge_source = spec::morphological::EdgeSource::kPredicated;
                        p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
                      }},
-        BadParameter{"diagonal_steps: 10 steps need window_rows of at least 22",
+        BadParameter{"diagonal_steps = 10 with window_rows = 20",
                      [](auto& p) {
                        p.window_rows = 20;
                        p.diagonals = true;
@@ -472,25 +472,25 @@ INSTANTIATE_TEST_SUITE_P(
         BadParameter{"1..16", [](auto& p) { p.diagonal_steps = 17; }},
         BadParameter{"corner_rounding", [](auto& p) { p.corner_rounding = -1; }},
         BadParameter{"0..256", [](auto& p) { p.corner_rounding = 257; }},
-        BadParameter{"no more than two of 24 quotient bits",
+        BadParameter{"divider.latency = 13 is outside 14..64",
                      [](auto& p) { p.divider_latency = 13; }},
-        BadParameter{"area: learned does not go with diagonals",
+        BadParameter{"area = learned with diagonals = true",
                      [](auto& p) {
                        p.area = spec::morphological::AreaSource::kLearned;
                        p.diagonals = true;
                      }},
-        BadParameter{"area: learned does not go with diagonals or round_corners",
+        BadParameter{"area = learned with round_corners = true",
                      [](auto& p) {
                        p.area = spec::morphological::AreaSource::kLearned;
                        p.round_corners = true;
                      }},
-        BadParameter{"dynamic does not go with edges.source = colour",
+        BadParameter{"threshold_mode = dynamic with edges.source = colour",
                      [](auto& p) {
                        p.edge_source = spec::morphological::EdgeSource::kColour;
                        p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
                      }},
-        BadParameter{"expected at least 14 clocks, got 1", [](auto& p) { p.divider_latency = 1; }},
-        BadParameter{"8 steps need window_rows of at least 20, got 18",
+        BadParameter{"divider.latency = 1 is outside 14..64", [](auto& p) { p.divider_latency = 1; }},
+        BadParameter{"give window_rows of at least 20",
                      [](auto& p) { p.window_rows = 18; }},
         BadParameter{"line_pixels", [](auto& p) { p.line_pixels = 8193; }}));
 

@@ -79,42 +79,18 @@ inline std::uint64_t hash(const Frame& frame) {
 // A preset's rules with R and C; line_pixels small, so that tests are quick.
 inline Parameters preset(spec::morphological::Preset which, int reach_rows = 32,
                          int reach_columns = 256) {
-  Parameters p;
-  const spec::morphological::PresetRow& row =
-      spec::morphological::kPresets[static_cast<std::size_t>(which)];
-  p.preset = which;
-  p.edge_source = row.edge_source;
-  p.threshold_mode = row.threshold_mode;
-  p.dynamic_luma = row.dynamic_luma;
-  p.threshold = row.threshold;
-  p.local_contrast = row.local_contrast;
-  p.ends = row.ends;
-  p.area = row.area;
-  p.blend = row.blend;
-  p.predictor = row.predictor;
-  p.steps = row.steps;
-  p.contiguous = row.contiguous;
-  p.safe = row.safe;
-  p.trim = row.trim;
+  Parameters p = preset_parameters(which);
   p.window_rows = 2 * reach_rows + 2;
   p.reach_columns = reach_columns;
   p.line_pixels = 256;
   return p;
 }
 
-// The SMAA presets: rules and window of the quality, then those of the preset's own row.
+// The SMAA presets, with the window of the quality.
 inline Parameters smaa(spec::morphological::Quality quality = spec::morphological::Quality::kHigh,
                        spec::morphological::Preset which = spec::morphological::Preset::kSmaa) {
-  const spec::morphological::QualityRow& row =
-      spec::morphological::kQualities[static_cast<std::size_t>(quality)];
-  Parameters p = preset(which, row.window_rows / 2 - 1);
-  p.quality = quality;
-  if (p.threshold == 0) p.threshold = row.threshold;
-  p.search_steps = row.search_steps;
-  p.diagonals = row.diagonals;
-  p.diagonal_steps = row.diagonal_steps;
-  p.round_corners = row.round_corners;
-  p.corner_rounding = row.corner_rounding;
+  Parameters p = preset_parameters(which, quality);
+  p.line_pixels = 256;
   return p;
 }
 

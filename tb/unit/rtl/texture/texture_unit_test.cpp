@@ -584,8 +584,8 @@ TEST(TextureRtlUnit, RefusesImpossibleParameters) {
                       p.cache_bytes = 256;
                       p.cache_ways = 8;
                     }),
-              HasSubstr("do not hold one set"));
-  EXPECT_THAT(error("g", [](auto& p) { p.cache_ways = 16; }), HasSubstr("choose among at most 8"));
+              HasSubstr("must hold one set"));
+  EXPECT_THAT(error("g", [](auto& p) { p.cache_ways = 16; }), HasSubstr("cache.ways = 16 is outside 1..8"));
   EXPECT_THAT(error("h", [](auto& p) { p.cache_bytes = 65536; }), HasSubstr("at most 32768"));
   EXPECT_THAT(error("i", [](auto& p) { p.cache_fifo_depth = 1; }), HasSubstr("at least 2 places"));
   EXPECT_THAT(error("j", [](auto& p) { p.cache_fifo_depth = 0; }), HasSubstr("sizes it from"));
@@ -601,7 +601,7 @@ TEST(TextureRtlUnit, RefusesImpossibleParameters) {
                       p.axes = spec::texture::Axes::kTwo;
                       p.axis_clocks = 2;
                     }),
-              HasSubstr("so at most 1"));
+              HasSubstr("at most 1 for 2 directions"));
   EXPECT_EQ(error("f",
                   [](auto& p) {
                     p.cache_bytes = 256;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/posteriser/posteriser.h"
 
+#include "spec/posteriser/check_build.h"
 #include "spec/posteriser/registers.h"
 
 namespace deburr::rtl::posteriser {
@@ -48,7 +49,7 @@ Posteriser::Posteriser(const sc_core::sc_module_name& name, ClockDomain& clock,
     : Engine(name, clock, spec::posteriser::kRegisters, kLayout),
       clock_(clock),
       levels("levels", clock, control) {
-  const spec::posteriser::Parameters p = checked_ranges("posteriser", parameters);
+  const spec::posteriser::Parameters p = check_build(parameters);
   levels.tones_in(tones_in);
   levels.tones_out(tones_out);
   control.set_reset(reg::kRules,

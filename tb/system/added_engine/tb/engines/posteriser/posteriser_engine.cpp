@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "spec/posteriser/check_build.h"
 #include "spec/posteriser/registers.h"
 #include "tb/app/pictures.h"
 #include "tb/app/simulate.h"
