@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What a run measured, and its file result.json (schema 3, docs/exploration.md).
 //
-// Written by an engine at the end of a run, read by `deburr report` and `deburr compare`. Unit and
-// meaning of each key travel with the file under "meaning": those of every engine come from
-// statistics(), those of an engine's counters and stall causes from their declaration in the model.
+// Written by an engine at the end of a run, read by `deburr report` and `deburr compare`. Its keys
+// are described in result_description.h. Unit and meaning of each travel with the file, under
+// "meaning"; those of an engine's counters and stall causes come from their declaration.
 #pragma once
 
 #include <cmath>

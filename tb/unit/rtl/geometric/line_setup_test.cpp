@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// LineSetup: the lines of docs/number_formats_geometric.md, random ones against its formulas with
+// LineSetup: the lines of spec/geometric/vectors.h, random ones against its formulas with
 // every way to a reciprocal, drops, latency and intervals.
 #include "rtl_model/geometric/lines/line_setup.h"
 
@@ -51,66 +51,30 @@ EdgeEnds edge(bool horizontal, std::array<int, 3> a, std::array<int, 3> b) {
 }
 
 TEST(LineSetup, LinesOfThePage) {
-  struct Row {
-    std::array<int, 3> a, b;
-    bool horizontal;
-    int first, count;
-    std::int64_t position;
-    std::int32_t slope;
-    std::int64_t depth, step;
-  };
-  const Row rows[] = {
-      {{2624, 128, 1000000},
-       {5184, 1408, 2000000},
-       true,
-       10,
-       10,
-       10485888,
-       8388608,
-       4198399902,
-       409599975},
-      {{7000, 100, 16777215},
-       {200000, -30000, 5},
-       false,
-       27,
-       693,
-       6144893,
-       -2616550,
-       68705230854,
-       -91151183},
-      {{-4194304, -1000, 3000000},
-       {4194303, 150000, 9000000},
-       true,
-       0,
-       1280,
-       4882583128,
-       302000,
-       24576376464,
-       750000},
-      {{128, 1000, 77777}, {129, 1000, 77777}, true, 0, 1, 65536128, 0, 318574592, 0},
-      {{1000, 1000, 500}, {1700, 700, 90000}, true, 4, 3, 61266926, -7190235, 81650820, 134067929},
-      {{1000, 1000, 500}, {1301, 1300, 400}, false, 4, 1, 75464505, 16721478, 1841159, -348364},
-      {{4000, 300, 5}, {180000, 300, 16000000}, false, 16, 687, 19660928, 0, 83426703, 95325058}};
-  SetupBench b;
+  using spec::geometric::LineEnd;
+  using spec::geometric::LineVector;
+  SetupBench b({}, spec::geometric::kLineVectorWidth, spec::geometric::kLineVectorHeight);
   std::vector<EdgeEnds> edges;
-  for (const Row& row : rows) {
-    edges.push_back(edge(row.horizontal, row.a, row.b));
-    edges.push_back(edge(row.horizontal, row.b, row.a));
+  for (const LineVector& v : spec::geometric::kLineVectors) {
+    const auto ends = [](const LineEnd& end) {
+      return std::array{end.major, end.minor, static_cast<std::int32_t>(end.depth)};
+    };
+    const bool horizontal = v.axis == Axis::kHorizontal;
+    edges.push_back(edge(horizontal, ends(v.a), ends(v.b)));
+    edges.push_back(edge(horizontal, ends(v.b), ends(v.a)));
   }
   const std::vector<LineRecord> lines = b.run(edges);
   ASSERT_EQ(lines.size(), edges.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
     SCOPED_TRACE(i);
-    const Row& row = rows[i / 2];
+    const LineVector& v = spec::geometric::kLineVectors[i / 2];
     const LineRecord& l = lines[i];
-    EXPECT_EQ(l.axis == Axis::kHorizontal, row.horizontal);
-    EXPECT_EQ(l.first, row.first);
-    EXPECT_EQ(l.count, row.count);
-    EXPECT_EQ(l.position, row.position);
-    EXPECT_EQ(l.slope, row.slope);
-    EXPECT_EQ(l.depth, row.depth);
-    EXPECT_EQ(l.depth_step, row.step);
-    EXPECT_EQ(l.tie_forward, row.horizontal && row.slope > 0);
+    EXPECT_EQ(l.axis, v.axis);
+    EXPECT_EQ(l.tie_forward, v.axis == Axis::kHorizontal && v.result.slope > 0);
+    const spec::geometric::LineResult got = {l.first, l.count, l.position,
+                                             l.slope, l.depth, l.depth_step};
+    EXPECT_EQ(differences(v.result, got), "");
+    expect_each_value_is_compared(v.result, got);
   }
 }
 

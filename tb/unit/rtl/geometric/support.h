@@ -12,6 +12,7 @@
 #include <memory>
 #include <string>
 #include <systemc>
+#include <utility>
 #include <vector>
 
 #include "rtl_model/fabric/clock_domain.h"
@@ -23,7 +24,11 @@
 #include "spec/geometric/parameters.h"
 #include "spec/geometric/records.h"
 #include "spec/geometric/registers.h"
+#include "spec/geometric/vectors.h"
 #include "tb/harness/bench.h"
+#include "tb/stimuli/vector_hash.h"
+#include "tb/unit/spec/geometric/vector_frame.h"
+#include "tb/unit/spec/vectors.h"
 
 namespace deburr::tb::geometric_rtl {
 
@@ -34,10 +39,19 @@ namespace reg = spec::geometric::reg;
 
 inline sc_core::sc_time period() { return {10, sc_core::SC_NS}; }
 
-// The contract's bases.
+constexpr std::uint32_t vector_base(spec::geometric::Region region) {
+  return spec::geometric::kVectorBases[static_cast<std::size_t>(region)];
+}
+
+// Those of the contract's vectors.
 struct Bases {
-  std::uint32_t edges = 0x10000, vertices = 0x20000, faces = 0x30000, depth = 0x40000,
-                colour = 0x50000, weights = 0x60000, copy = 0x70000;
+  std::uint32_t edges = vector_base(spec::geometric::Region::kEdges);
+  std::uint32_t vertices = vector_base(spec::geometric::Region::kVertices);
+  std::uint32_t faces = vector_base(spec::geometric::Region::kFaces);
+  std::uint32_t depth = vector_base(spec::geometric::Region::kDepth);
+  std::uint32_t colour = vector_base(spec::geometric::Region::kColour);
+  std::uint32_t weights = vector_base(spec::geometric::Region::kWeights);
+  std::uint32_t copy = vector_base(spec::geometric::Region::kCopy);
 };
 inline constexpr std::uint32_t kRegionBytes = 0x10000;
 
@@ -61,54 +75,15 @@ inline std::uint32_t pixel_offset(bool tiled, int width, int x, int y) {
 
 // The scene of the contract's vectors.
 inline Scene contract_scene() {
-  std::uint32_t s = 1;
-  const auto r = [&s] { return s = 1664525u * s + 1013904223u; };
-  Scene scene;
-  scene.width = 61;
-  scene.height = 45;
-  const std::size_t pixels = 61 * 45;
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const std::uint32_t v = r();
-    scene.colours.push_back({static_cast<std::uint8_t>(v >> 24),
-                             static_cast<std::uint8_t>(v >> 16 & 255),
-                             static_cast<std::uint8_t>(v >> 8 & 255), 255});
-  }
-  constexpr std::array<std::uint32_t, 8> kDepths = {0,       3000000, 3005000, 6000000,
-                                                    6011000, 9000000, 9017000, 16777215};
-  for (std::size_t i = 0; i < pixels; ++i) scene.depths.push_back(kDepths[r() >> 29]);
-  for (int i = 0; i < 200; ++i) {
-    spec::geometric::Vertex v;
-    v.x = static_cast<std::int32_t>((r() >> 16) % 20480) - 2304;
-    v.y = static_cast<std::int32_t>((r() >> 16) % 16384) - 2304;
-    v.depth = r() >> 8;
-    v.usable = i != 7;
-    if (i < 10) {
-      v.x &= ~127;
-      v.y &= ~127;
-    }
-    if (i == 11) v.x = 1 << 22;
-    scene.vertices.push_back(v);
-  }
-  for (int i = 0; i < 49; ++i) scene.facing.push_back(r() >> 31);
-  for (int i = 0; i < 300; ++i) {
-    spec::geometric::Edge e;
-    e.v0 = (r() >> 16) % 201;
-    e.v1 = (r() >> 16) % 200;
-    e.f0 = (r() >> 16) % 50;
-    e.f1 = (r() >> 16) % 50;
-    e.flags = static_cast<std::uint8_t>((r() >> 16) % 16);
-    scene.edges.push_back(e);
-  }
-  return scene;
+  geometric::VectorFrame frame = geometric::vector_frame();
+  return {frame.width,
+          frame.height,
+          std::move(frame.colours),
+          std::move(frame.depths),
+          std::move(frame.vertices),
+          std::move(frame.edges),
+          std::move(frame.facing)};
 }
-
-struct Fnv {
-  std::uint64_t value = 1469598103934665603u;
-  void byte(std::uint8_t b) { value = (value ^ b) * 1099511628211u; }
-  void word(std::uint64_t w) {
-    for (int i = 0; i < 4; ++i) byte(static_cast<std::uint8_t>(w >> (8 * i)));
-  }
-};
 
 struct EngineOptions {
   std::uint32_t latency = 20, scatter = 0;
@@ -190,10 +165,10 @@ class EngineBench {
 
   // --- What the contract hashes ---
   std::uint64_t pixel_hash() {
-    Fnv hash;
+    stimuli::VectorHash hash;
     for (const spec::geometric::Rgba8& pixel : driver.picture())
       for (const std::uint8_t byte : pixel) hash.byte(byte);
-    return hash.value;
+    return hash.value();
   }
   std::uint64_t weight_hash() const {
     std::vector<spec::geometric::Weights> weights(static_cast<std::size_t>(width * height));
@@ -204,10 +179,10 @@ class EngineBench {
           weights[static_cast<std::size_t>(y * width + x)] =
               block.weights[static_cast<std::size_t>(i)];
       }
-    Fnv hash;
+    stimuli::VectorHash hash;
     for (const spec::geometric::Weights& w : weights)
       for (const std::uint8_t byte : w) hash.byte(byte);
-    return hash.value;
+    return hash.value();
   }
   std::vector<std::uint64_t> accesses(const std::vector<std::uint64_t>& all,
                                       std::uint32_t base) const {
@@ -226,9 +201,9 @@ class EngineBench {
   }
   // Reads of weights while edges are drawn come before those of the resolve.
   std::uint64_t traffic_hash() const {
-    Fnv hash;
+    stimuli::VectorHash hash;
     const auto add = [&](const std::vector<std::uint64_t>& list) {
-      for (const std::uint64_t address : list) hash.word(address);
+      for (const std::uint64_t address : list) hash.lowest_first(address, 4);
     };
     for (const std::uint32_t base :
          {bases.faces, bases.edges, bases.vertices, bases.depth, bases.weights})
@@ -240,7 +215,7 @@ class EngineBench {
       add(reads(bases.colour));
       add(writes(bases.copy));
     }
-    return hash.value;
+    return hash.value();
   }
 
   static platform::GeometricRegions contract_regions() {
@@ -281,74 +256,17 @@ class EngineBench {
   std::vector<spec::geometric::BlockRecord> blocks;
 };
 
-// The contract's configurations.
+// The contract's vector of this name, and how its engine is set.
 struct Configuration {
   char name;
   Parameters p;
   std::uint64_t pixels, weights, traffic;
 };
 inline Configuration configuration(char name) {
-  using spec::geometric::CacheLines;
-  using spec::geometric::Lanes;
-  using spec::geometric::Layout;
-  using spec::geometric::Preset;
-  Configuration c{name, preset_parameters(Preset::kDeburr), 0xbfce4abe8f3b22f8, 0x6cc78624e74c2575,
-                  0};
-  Parameters& p = c.p;
-  const auto small = [&] { p.depth_lines = p.weight_blocks = p.vertex_lines = CacheLines::k16; };
-  switch (name) {
-    case 'a':
-      c.traffic = 0x05d525abe62406ac;
-      break;
-    case 'b':
-      p.layout = Layout::kRaster;
-      c.traffic = 0x1cca5c4cd350ef99;
-      break;
-    case 'c':
-      p.walkers = Lanes::kOne;
-      small();
-      c.traffic = 0x3d300c73436d0324;
-      break;
-    case 'd':
-      p.layout = Layout::kRaster;
-      p.walkers = Lanes::kTwo;
-      small();
-      c.traffic = 0x0290086e5caa5d65;
-      break;
-    case 'e':
-      p = preset_parameters(Preset::kGpaaOptimised);
-      c.pixels = 0x31c35ac184f4e760;
-      c.weights = 0xbadcaac952dfc9ed;
-      c.traffic = 0x9273c837cbb2c537;
-      break;
-    case 'f':
-      p = preset_parameters(Preset::kGpaa);
-      c.pixels = 0x9e2d94b3be2f9be4;
-      c.weights = 0x9d0d9b07b9151d21;
-      c.traffic = 0xe27e145fd8e2b753;
-      break;
-    case 'g':
-      p.crease = spec::geometric::Crease::kOff;
-      p.depth_test = spec::geometric::DepthTest::kOwn;
-      p.depth_bias = 4;
-      p.linear_light = false;
-      p.mark = true;
-      p.layout = Layout::kRaster;
-      p.walkers = Lanes::kTwo;
-      c.pixels = 0x812d11a355250433;
-      c.weights = 0xea5cdef281327420;
-      c.traffic = 0xd29f2a365f31ea07;
-      break;
-    default:
-      p.select = spec::geometric::Select::kAll;
-      p.depth_test = spec::geometric::DepthTest::kOff;
-      p.layout = Layout::kRaster;
-      p.weight_blocks = CacheLines::k16;
-      c.pixels = 0x095774cc41e669b3;
-      c.weights = 0x721dca7bb6a8d77f;
-      c.traffic = 0xd81315c6f0a3ee49;
-  }
-  return c;
+  const spec::geometric::FrameVector& v = geometric::frame_vector(name);
+  Parameters p = preset_parameters(v.preset);
+  apply_settings(p, v.settings);
+  return {name, p, v.result.hashes.pixels, v.result.hashes.weights, v.result.hashes.traffic};
 }
 
 }  // namespace deburr::tb::geometric_rtl

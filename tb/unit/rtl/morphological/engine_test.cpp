@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "tb/unit/rtl/morphological/placed_engine.h"
+#include "tb/unit/rtl/morphological/vectors.h"
 
 namespace deburr::tb::morphological_rtl::engine_test {
 namespace {
@@ -401,7 +402,7 @@ TEST(Waves, ShowTheLinksOfTheEngine) {
     options.bench.trace->file = file;
     options.bench.trace->scopes = {"engine*"};
     EngineBench bench(deburr_line(), options);
-    EXPECT_EQ(hash(bench.run(blocks())), 0xe86c7f9318eacf5eu);
+    EXPECT_EQ(hash(bench.run(blocks())), vector_hash("blocks_deburr_line_default"));
   }
   std::stringstream text;
   text << std::ifstream(file).rdbuf();
@@ -557,7 +558,7 @@ TEST_P(Faults, AreCaught) {
   EngineBench bench(preset(Preset::kMlaaSlope), options);
   bool caught = false;
   try {
-    caught = hash(bench.run(noise(), 100'000)) != 0x6c40266cf03f3513u ||
+    caught = hash(bench.run(noise(), 100'000)) != vector_hash("noise_slope") ||
              bench.engine.work().probes != 9200u;
   } catch (const spec::SimulationError& error) {
     // A planted fault that was never reached is no catch.

@@ -13,6 +13,7 @@
 #include "spec/morphological/learned_shares.h"
 #include "tb/unit/rtl/morphological/parts.h"
 #include "tb/unit/rtl/morphological/placed_engine.h"
+#include "tb/unit/rtl/morphological/vectors.h"
 
 namespace deburr::tb::morphological_rtl::parameter_store_test {
 namespace {
@@ -311,7 +312,8 @@ TEST(ContiguousRegister, IsOffInAnEngineBuiltWithoutIt) {
   bench.bus.write(reg::kRules, bench.bus.read(reg::kRules) | kContiguous);
   EXPECT_EQ(hash(bench.run(blocks())), hash(without));
   EXPECT_EQ(bench.engine.work().steps, 2 * steps);
-  EXPECT_NE(hash(without), 0xe86c7f9318eacf5eu) << "the rule would have changed the frame";
+  EXPECT_NE(hash(without), vector_hash("blocks_deburr_line_default"))
+      << "the rule would have changed the frame";
 }
 
 // ---- the register map ---------------------------------------------------------------------------
@@ -408,31 +410,31 @@ TEST(Registers, SmaaCountsFromTheNextFrame) {
   EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusWrittenWhileBusy);
   bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },
                    100'000);
-  EXPECT_EQ(hash(bench.last(97, 61)), 0x3d8c8d3867fd2bccu);
+  EXPECT_EQ(hash(bench.last(97, 61)), vector_hash("smaa_noise_high"));
   bench.wanted = bench.sink.received();
   bench.bus.write(reg::kSmaa, 1);
-  EXPECT_NE(hash(bench.run(noise())), 0x3d8c8d3867fd2bccu);
+  EXPECT_NE(hash(bench.run(noise())), vector_hash("smaa_noise_high"));
 }
 
 TEST(Registers, RulesCountFromTheNextFrame) {
   EngineBench bench(deburr_line());
-  EXPECT_EQ(hash(bench.run(blocks())), 0xe86c7f9318eacf5eu);
+  EXPECT_EQ(hash(bench.run(blocks())), vector_hash("blocks_deburr_line_default"));
   // Without trim the same trials, but every step is kept.
   EXPECT_EQ(bench.bus.read(reg::kSteps), 660u);
   bench.bus.write(reg::kRules, bench.bus.read(reg::kRules) & ~(1u << 17));
-  EXPECT_EQ(hash(bench.run(blocks())), 0x464376bac387fe0du);
+  EXPECT_EQ(hash(bench.run(blocks())), vector_hash("blocks_not_trimmed"));
   EXPECT_EQ(bench.bus.read(reg::kSteps), 660u + 970u);
   EXPECT_EQ(bench.bus.read(reg::kProbes), 2u * 5382u);
   // mlaa: T = 0.1, no local contrast, no predictor.
   bench.bus.write(reg::kRules, 1u << 16);
   bench.bus.write(reg::kThreshold, 6554);
-  EXPECT_EQ(hash(bench.run(line())), 0x5d62265609239471u);
+  EXPECT_EQ(hash(bench.run(line())), vector_hash("line_mlaa"));
   // mlaa-slope.
   bench.bus.write(reg::kRules, 1u << 16 | 1u << 7 | 4u << 9);
-  EXPECT_EQ(hash(bench.run(noise())), 0x6c40266cf03f3513u);
+  EXPECT_EQ(hash(bench.run(noise())), vector_hash("noise_slope"));
   // Codes that no choice has: luma, none.
   bench.bus.write(reg::kRules, 1u << 16 | 3u | 3u << 7 | 31u << 9);
-  EXPECT_EQ(hash(bench.run(line())), 0x5d62265609239471u);
+  EXPECT_EQ(hash(bench.run(line())), vector_hash("line_mlaa"));
 }
 
 TEST(Registers, WritesWhileAFrameIsInsideAreIgnoredAndSaidSo) {
@@ -447,7 +449,7 @@ TEST(Registers, WritesWhileAFrameIsInsideAreIgnoredAndSaidSo) {
   EXPECT_EQ(bench.bus.read(reg::kSize), 200u | 150u << 16);
   EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusWrittenWhileBusy);
   bench.bench->run([&] { return bench.sink.received() == 30000 && bench.engine.idle(); }, 100'000);
-  EXPECT_EQ(hash(bench.last(200, 150)), 0x736d3ffd8a940ba4u);
+  EXPECT_EQ(hash(bench.last(200, 150)), vector_hash("line_deburr_line"));
   EXPECT_EQ(bench.bus.read(reg::kStatus),
             reg::kStatusIdle | reg::kStatusFrameDone | reg::kStatusWrittenWhileBusy);
   bench.bus.write(reg::kStatus, reg::kStatusFrameDone);
