@@ -23,7 +23,8 @@ std::uint64_t frame_bytes(int width, int height) {
 
 std::uint32_t shares_sum(std::span<const std::int8_t> entries) {
   std::uint32_t sum = 0, place = 0;
-  for (const std::int8_t entry : entries) sum += ++place * std::uint32_t{static_cast<std::uint8_t>(entry)};
+  for (const std::int8_t entry : entries)
+    sum += ++place * std::uint32_t{static_cast<std::uint8_t>(entry)};
   return sum;
 }
 

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/results/file.h"
+#include "tb/base/file.h"
 
 namespace deburr::tb::run_directory_test {
 namespace {

@@ -12,7 +12,7 @@
 #include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/memory_arbiter.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 #include "tb/unit/rtl/geometric/support.h"
 
 namespace deburr::tb::geometric_rtl {
