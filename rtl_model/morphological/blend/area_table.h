@@ -2,7 +2,7 @@
 // SMAA's table of areas: the shares of a pixel by its distances to both ends of its run, as ROMs of
 // the layout that is built.
 //
-// Where: in the AreaUnit, which asks in three of its stages: the roots of both distances, the four
+// Where: in the TableShares, which ask in three of its stages: the roots of both distances, the four
 // entries about them, the shares between these. A reader is a lane and axis. The four entries lie
 // in four ROMs, by the parities of both roots, so each gives one a read.
 // Layouts: full: 16 tiles of two values, by the pattern; merged: 8 tiles, patterns 0, 5, 10 and 15
