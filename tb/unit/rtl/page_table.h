@@ -57,8 +57,8 @@ class EnginePage : public PageTable {
     };
     std::vector<std::string> built;
     rtl::for_each<rtl::WireBase>(engine, [&](const rtl::WireBase& wire) {
-      std::string text = fmt::format("{} {} {}:", below(wire.name()), wire.bits(),
-                                     unit_of(wire.driver()));
+      std::string text =
+          fmt::format("{} {} {}:", below(wire.name()), wire.bits(), unit_of(wire.driver()));
       for (const std::string& reader : wire.readers()) text += " " + unit_of(reader);
       built.push_back(text);
     });
