@@ -395,7 +395,7 @@ void AreaUnit::smaa_evaluate(Cycle cycle, Beat& beat) {
 void AreaUnit::smaa_edge(Beat& beat, std::size_t lane, bool vertical, const AreaWalk& walk,
                          const Edge& edge) {
   const std::size_t number = 2 * lane + vertical;
-  if (walk.learned) return learned_->ask(number, walk, edge.k, edge.after);
+  if (learned_ && walk.learned) return learned_->ask(number, walk, edge.k, edge.after);
   const std::uint8_t near = walk.part == spec::morphological::RunPart::kHead   ? 0
                             : walk.part == spec::morphological::RunPart::kTail ? 1
                                                                                : edge.near;
