@@ -12,6 +12,7 @@
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/fabric/wire.h"
 
 namespace deburr::rtl {
 

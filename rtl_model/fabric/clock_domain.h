@@ -23,11 +23,11 @@
 
 #include "rtl_model/fabric/clocked.h"
 #include "rtl_model/fabric/link.h"
-#include "rtl_model/fabric/wire.h"
 
 namespace deburr::rtl {
 
 class Unit;
+class WireBase;
 
 class ClockDomain final : public sc_core::sc_module {
  public:

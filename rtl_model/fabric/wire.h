@@ -4,7 +4,7 @@
 // A wire is a register or combinational, by its declaration:
 //
 //   Wire<Phase> phase_{"phase", Phase::kIdle, {.widths = {{"value", 2}}}};
-//   Wire<bool> moves_{"moves", kCombinational};
+//   CombinationalWire<bool> moves_{"moves"};
 //
 //   * A register: what is driven in clock t is read from t + 1 on, whichever unit is ticked first,
 //     and stays until it is driven again. Latency 1. A reset loads the value of the declaration;
@@ -32,16 +32,15 @@
 
 namespace deburr::rtl {
 
-struct CombinationalTag {};
+enum class WireKind : std::uint8_t { kRegistered, kCombinational };
 struct NoResetTag {};
-inline constexpr CombinationalTag kCombinational{};
 inline constexpr NoResetTag kNoReset{};
 
 // The part of a wire that does not depend on its type.
 class WireBase : public sc_core::sc_object {
  public:
   const char* kind() const override { return "deburr_wire"; }
-  bool combinational() const { return span_ == 0; }
+  bool combinational() const { return kind_ == WireKind::kCombinational; }
   const Payload& payload() const { return payload_; }
   std::uint32_t bits() const { return payload_.bits(); }
   // What readers see in this clock; nullptr: nothing was driven.
@@ -60,10 +59,8 @@ class WireBase : public sc_core::sc_object {
   const std::vector<std::string>& readers() const { return readers_; }
 
  protected:
-  static constexpr Cycle kHolds = kNever / 2;     // span of a register
-  static constexpr Cycle kUndriven = kHolds + 1;  // from_: no clock is within the span after it
-  WireBase(const char* name, Payload payload, bool combinational)
-      : sc_object(name), payload_(std::move(payload)), span_(combinational ? 0 : kHolds) {}
+  WireBase(const char* name, Payload payload, WireKind kind)
+      : sc_object(name), payload_(std::move(payload)), kind_(kind) {}
   // Counts a value that readers see from `from` on.
   void count(Cycle from, bool changed, bool level) {
     changes_ += changed;
@@ -88,13 +85,7 @@ class WireBase : public sc_core::sc_object {
   friend class WirePortBase;
   friend class ClockDomain;
   Payload payload_;
-
- protected:
-  // The value can be read from `from_` on, for `span_` clocks more.
-  const Cycle span_;
-  Cycle from_ = kUndriven;
-
- private:
+  WireKind kind_;
   std::uint64_t changes_ = 0, high_ = 0;
   Cycle since_ = 0;              // when readers first saw a level that is not zero
   bool level_ = false;           // of the driven value
@@ -103,27 +94,38 @@ class WireBase : public sc_core::sc_object {
   std::vector<std::string> readers_;
 };
 
-template <std::equality_comparable T>
+template <std::equality_comparable T, WireKind kKind = WireKind::kRegistered>
 class Wire final : public WireBase {
   static_assert(std::is_trivially_copyable_v<T>, "a wire is a bundle of bits");
+  static constexpr bool kRegister = kKind == WireKind::kRegistered;
 
  public:
-  Wire(const char* name, const T& reset_value, const PayloadShape& shape = {})
-      : WireBase(name, Payload::of<T>(shape), false), reset_value_(reset_value), has_reset_(true) {
+  Wire(const char* name, const T& reset_value, const PayloadShape& shape = {}) requires kRegister
+      : WireBase(name, Payload::of<T>(shape), kKind),
+        reset_value_(reset_value),
+        has_reset_(true) {
     reset();
   }
-  Wire(const char* name, NoResetTag /*tag*/, const PayloadShape& shape = {})
-      : WireBase(name, Payload::of<T>(shape), false) {}
-  Wire(const char* name, CombinationalTag /*tag*/, const PayloadShape& shape = {})
-      : WireBase(name, Payload::of<T>(shape), true) {}
+  Wire(const char* name, NoResetTag /*tag*/, const PayloadShape& shape = {}) requires kRegister
+      : WireBase(name, Payload::of<T>(shape), kKind) {}
+  explicit Wire(const char* name, const PayloadShape& shape = {}) requires(!kRegister)
+      : WireBase(name, Payload::of<T>(shape), kKind) {}
 
   const T& read(Cycle cycle) const {
-    if (cycle - from_ > span_) [[unlikely]]
-      return before(cycle);
-    return value_;
+    if constexpr (kRegister) {
+      if (cycle >= from_) [[likely]]
+        return value_;
+      if (!had_value_) [[unlikely]]
+        fail("read before it was driven", cycle);
+      return before_;
+    } else {
+      if (cycle != from_) [[unlikely]]
+        fail("read before it was driven in this clock", cycle);
+      return value_;
+    }
   }
   void drive(Cycle cycle, const T& value) {
-    const Cycle from = cycle + (span_ != 0);
+    const Cycle from = cycle + kRegister;
     if (from_ == from) [[unlikely]]
       fail("driven twice in a clock", cycle);
     count(from, was_driven_ && !(value == value_), !(value == T{}));
@@ -134,31 +136,26 @@ class Wire final : public WireBase {
     from_ = from;
   }
   const std::byte* seen(Cycle cycle) const override {
-    const T* const value = cycle - from_ <= span_ ? &value_ : holds(cycle) ? &before_ : nullptr;
-    return reinterpret_cast<const std::byte*>(value);
+    const bool there = kRegister ? cycle >= from_ || had_value_ : cycle == from_;
+    return there ? reinterpret_cast<const std::byte*>(&read(cycle)) : nullptr;
   }
   void reset() override {
     before_ = value_ = reset_value_;
     was_driven_ = had_value_ = has_reset_;
-    from_ = has_reset_ ? 0 : kUndriven;
+    from_ = has_reset_ ? 0 : kNever;
     forget(!(value_ == T{}));
   }
 
  private:
-  // A register that is driven in this clock shows what it held.
-  bool holds(Cycle cycle) const { return span_ != 0 && had_value_ && cycle + 1 == from_; }
-  [[gnu::noinline]] const T& before(Cycle cycle) const {
-    if (!holds(cycle))
-      fail(span_ != 0 ? "read before it was driven" : "read before it was driven in this clock",
-           cycle);
-    return before_;
-  }
-
   const T reset_value_{};
   const bool has_reset_ = false;
+  // The value is read from this clock on (combinational: in it), and before it what was before.
+  Cycle from_ = kNever;
   T value_{}, before_{};
   bool was_driven_ = false, had_value_ = false;  // value_, before_ are values
 };
+template <class T>
+using CombinationalWire = Wire<T, WireKind::kCombinational>;
 
 // A named end of a wire on a unit's border. Bind it to a wire, or to the port of the same kind of
 // the unit around it (in any order).
@@ -184,36 +181,36 @@ class WirePortBase : public sc_core::sc_object {
   std::vector<WirePortBase*> inner_;
 };
 
-template <class T>
+template <class T, WireKind kKind = WireKind::kRegistered>
 class WireIn final : public WirePortBase {
  public:
   explicit WireIn(const char* name) : WirePortBase(name, Side::kReader) {}
   const char* kind() const override { return "deburr_wire_in"; }
-  void operator()(Wire<T>& wire) { bind_wire(wire); }
-  void operator()(WireIn<T>& outer) { bind_port(outer); }
+  void operator()(Wire<T, kKind>& wire) { bind_wire(wire); }
+  void operator()(WireIn<T, kKind>& outer) { bind_port(outer); }
 
   const T& read(Cycle cycle) const { return wire_->read(cycle); }
 
  private:
-  void resolved(WireBase& wire) override { wire_ = static_cast<Wire<T>*>(&wire); }
-  Wire<T>* wire_ = nullptr;
+  void resolved(WireBase& wire) override { wire_ = static_cast<Wire<T, kKind>*>(&wire); }
+  Wire<T, kKind>* wire_ = nullptr;
 };
 
-template <class T>
+template <class T, WireKind kKind = WireKind::kRegistered>
 class WireOut final : public WirePortBase {
  public:
   explicit WireOut(const char* name) : WirePortBase(name, Side::kDriver) {}
   const char* kind() const override { return "deburr_wire_out"; }
-  void operator()(Wire<T>& wire) { bind_wire(wire); }
-  void operator()(WireOut<T>& outer) { bind_port(outer); }
+  void operator()(Wire<T, kKind>& wire) { bind_wire(wire); }
+  void operator()(WireOut<T, kKind>& outer) { bind_port(outer); }
 
   void drive(Cycle cycle, const T& value) { wire_->drive(cycle, value); }
   // What readers see: a driver may look at its own register.
   const T& read(Cycle cycle) const { return wire_->read(cycle); }
 
  private:
-  void resolved(WireBase& wire) override { wire_ = static_cast<Wire<T>*>(&wire); }
-  Wire<T>* wire_ = nullptr;
+  void resolved(WireBase& wire) override { wire_ = static_cast<Wire<T, kKind>*>(&wire); }
+  Wire<T, kKind>* wire_ = nullptr;
 };
 
 }  // namespace deburr::rtl

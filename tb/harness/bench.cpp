@@ -8,6 +8,7 @@
 #include "rtl_model/fabric/counters.h"
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/fabric/wire.h"
 #include "spec/error.h"
 #include "tb/harness/verdict.h"
 

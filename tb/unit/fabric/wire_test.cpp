@@ -17,11 +17,12 @@ namespace {
 
 using rtl::Activity;
 using rtl::ClockDomain;
+using rtl::CombinationalWire;
 using rtl::Cycle;
-using rtl::kCombinational;
 using rtl::kNoReset;
 using rtl::Wire;
 using rtl::WireIn;
+using rtl::WireKind;
 using rtl::WireOut;
 using testing::HasSubstr;
 
@@ -80,7 +81,7 @@ TEST(Wire, WithoutAResetValueItIsUndrivenUntilItIsDriven) {
 // ---- Combinational
 
 TEST(Wire, CombinationalIsThereInItsClockAndInNoOther) {
-  Wire<int> wire("wire", kCombinational);
+  CombinationalWire<int> wire("wire");
   const auto refused = [&](Cycle cycle) {
     return text_of<spec::CheckFailed>([&] { wire.read(cycle); });
   };
@@ -98,10 +99,11 @@ TEST(Wire, CombinationalIsThereInItsClockAndInNoOther) {
 // ---- Units
 
 // A counter that others look at.
-class Driver final : public rtl::Unit {
+template <WireKind kKind>
+class CountDriver final : public rtl::Unit {
  public:
-  WireOut<std::uint8_t> count_out{"count_out"};
-  Driver(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
+  WireOut<std::uint8_t, kKind> count_out{"count_out"};
+  CountDriver(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
   Activity tick(Cycle cycle) override {
     if (!asleep) count_out.drive(cycle, ++count_);
     return rtl::kBusy;
@@ -112,10 +114,11 @@ class Driver final : public rtl::Unit {
  private:
   std::uint8_t count_ = 0;
 };
-class Reader final : public rtl::Unit {
+template <WireKind kKind>
+class CountReader final : public rtl::Unit {
  public:
-  WireIn<std::uint8_t> count_in{"count_in"};
-  Reader(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
+  WireIn<std::uint8_t, kKind> count_in{"count_in"};
+  CountReader(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
   Activity tick(Cycle cycle) override {
     text += std::to_string(count_in.read(cycle)) + " ";
     return rtl::kBusy;
@@ -123,6 +126,10 @@ class Reader final : public rtl::Unit {
   void reset() override { text += "reset "; }
   std::string text;
 };
+using Driver = CountDriver<WireKind::kRegistered>;
+using Reader = CountReader<WireKind::kRegistered>;
+using DriverNow = CountDriver<WireKind::kCombinational>;
+using ReaderNow = CountReader<WireKind::kCombinational>;
 const sc_core::sc_time kPeriod(10, sc_core::SC_NS);
 
 // What both readers saw, in six clocks around a reset; they stand on both sides of the driver.
@@ -155,11 +162,12 @@ TEST(Wire, CombinationalKeepsItsUnitsInOrder) {
   for (std::uint64_t shuffle = 0; shuffle < 20; ++shuffle) {
     const std::string got = in_child([shuffle] {
       ClockDomain clock("clock", kPeriod);
-      Driver driver("driver", clock);
+      DriverNow driver("driver", clock);
       Driver other("other", clock);
-      Reader reader("reader", clock);
-      Reader watcher("watcher", clock);
-      Wire<std::uint8_t> wire("wire", kCombinational), apart("apart", 0);
+      ReaderNow reader("reader", clock);
+      ReaderNow watcher("watcher", clock);
+      CombinationalWire<std::uint8_t> wire("wire");
+      Wire<std::uint8_t> apart("apart", 0);
       driver.count_out(wire);
       reader.count_in(wire);
       other.count_out(apart);
@@ -174,9 +182,9 @@ TEST(Wire, CombinationalKeepsItsUnitsInOrder) {
 TEST(Wire, CombinationalNeedsItsDriverFirst) {
   EXPECT_THAT(in_child([] {
                 ClockDomain clock("clock", kPeriod);
-                Reader reader("reader", clock);
-                Driver driver("driver", clock);
-                Wire<std::uint8_t> wire("wire", kCombinational);
+                ReaderNow reader("reader", clock);
+                DriverNow driver("driver", clock);
+                CombinationalWire<std::uint8_t> wire("wire");
                 driver.count_out(wire);
                 reader.count_in(wire);
                 clock.run(1);
@@ -189,9 +197,9 @@ TEST(Wire, CombinationalNeedsItsDriverFirst) {
 TEST(Wire, ADriverThatLeavesAClockOutIsFound) {
   EXPECT_THAT(in_child([] {
                 ClockDomain clock("clock", kPeriod);
-                Driver driver("driver", clock);
-                Reader reader("reader", clock);
-                Wire<std::uint8_t> wire("wire", kCombinational);
+                DriverNow driver("driver", clock);
+                ReaderNow reader("reader", clock);
+                CombinationalWire<std::uint8_t> wire("wire");
                 driver.count_out(wire);
                 reader.count_in(wire);
                 clock.run(2);
@@ -294,7 +302,7 @@ TEST(Wire, CountsChangesAndClocksHigh) {
   EXPECT_EQ(wire.changes(), 0u);
   EXPECT_EQ(wire.high_clocks(30), 0u);
 
-  Wire<bool> moves("moves", kCombinational);
+  CombinationalWire<bool> moves("moves");
   Cycle cycle = 10;
   for (const bool value : {true, true, false, true}) moves.drive(cycle++, value);
   EXPECT_EQ(moves.changes(), 2u);
