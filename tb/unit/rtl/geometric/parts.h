@@ -109,15 +109,18 @@ struct Frame {
     if (to) (*to)(joined);
     return joined;
   }
-  // A frame of this size is in its edges. What no unit of the test drives is done at once in the
-  // begin, and never later.
-  void begin(int width, int height) {
+  // What no unit of the test drives is done at once in the begin, and never later.
+  void tie() {
     for (rtl::WireIn<bool>* const in : {&sequencer.facing_loaded_in, &sequencer.vertices_cleared_in,
                                         &sequencer.depth_cleared_in, &sequencer.weights_cleared_in})
       if (!in->bound()) (*in)(high);
     for (rtl::WireIn<bool>* const in :
          {&sequencer.drawn_in, &sequencer.copied_in, &sequencer.resolved_in})
       if (!in->bound()) (*in)(low);
+  }
+  // A frame of this size is in its edges.
+  void begin(int width, int height) {
+    tie();
     bus.write(reg::kSize, spec::geometric::size_word(static_cast<std::uint32_t>(width),
                                                      static_cast<std::uint32_t>(height)));
     bus.write(reg::kControl, reg::kControlEnable | reg::kControlStart);

@@ -218,6 +218,7 @@ struct Asker final : rtl::Unit {
 };
 TEST(MemoryArbiter, LatencyIsOneEachWay) {
   Frame b({});
+  b.tie();
   Asker asker("asker", b.clock);
   b.arbiter.connect(Client::kDepth, asker.memory);
   asker.wanted = 1;
@@ -230,6 +231,7 @@ TEST(MemoryArbiter, LatencyIsOneEachWay) {
 // Two answers lie in the link of a client that takes none, and the third waits in front of it.
 TEST(MemoryArbiter, AnAnswerWaitsForItsClient) {
   Frame b({});
+  b.tie();
   Asker asker("asker", b.clock);
   b.arbiter.connect(Client::kDepth, asker.memory);
   asker.wanted = 5;
@@ -241,6 +243,7 @@ TEST(MemoryArbiter, AnAnswerWaitsForItsClient) {
 }
 TEST(MemoryArbiter, ServesEachOfEightAfterSevenOthers) {
   Frame b({});
+  b.tie();
   std::deque<Asker> askers;
   for (std::size_t i = 0; i < kClients; ++i) {
     askers.emplace_back((std::string("asker") + std::to_string(i)).c_str(), b.clock);
