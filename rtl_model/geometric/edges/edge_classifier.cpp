@@ -14,12 +14,12 @@ using spec::geometric::Select;
 
 EdgeClassifier::EdgeClassifier(const sc_core::sc_module_name& name, ClockDomain& clock,
                                const spec::geometric::Parameters& p, ParameterStore& store,
-                               FacingStore& facing)
-    : Unit(name, clock), store_(store) {
+                               Memory<std::uint32_t>& facing, EdgeLatency& latency)
+    : Unit(name, clock), store_(store), latency_(latency) {
   for (int lane = 0; lane < spec::geometric::kLaneCount[static_cast<std::size_t>(p.edge_lanes)];
        ++lane)
     for (const char* const face : {" f0", " f1"})
-      ports_.emplace_back(facing.words, "lane " + std::to_string(lane) + face);
+      ports_.emplace_back(facing, "lane " + std::to_string(lane) + face);
 }
 
 // Stage 1.
@@ -90,7 +90,7 @@ void EdgeClassifier::classify(const Beat& beat) {
   for (std::size_t lane = 0; lane < beat.edges.count; ++lane) {
     const bool kept = keeps(beat.edges.edge[lane], beat.valid >> lane & 1, beat.facing0 >> lane & 1,
                             beat.facing1 >> lane & 1);
-    if (latency) latency->judge(kept);
+    latency_.judge(kept);
     if (!kept) continue;
     ++kept_edges;
     pending_ |= static_cast<std::uint8_t>(1u << lane);

@@ -14,9 +14,11 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/pipe.h"
+#include "rtl_model/fabric/unit.h"
 #include "rtl_model/geometric/edge_latency.h"
-#include "rtl_model/geometric/edges/facing_store.h"
+#include "rtl_model/geometric/parameter_store.h"
 #include "rtl_model/geometric/tokens.h"
 
 namespace deburr::rtl::geometric {
@@ -28,11 +30,10 @@ class EdgeClassifier final : public Unit {
 
   EdgeClassifier(const sc_core::sc_module_name& name, ClockDomain& clock,
                  const spec::geometric::Parameters& parameters, ParameterStore& store,
-                 FacingStore& facing);
+                 Memory<std::uint32_t>& facing, EdgeLatency& latency);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter edges{"edges", "edges", "edges read"};
   Counter boundary_edges{"boundary_edges", "edges", "edges of a single face"};
   Counter silhouette_edges{"silhouette_edges", "edges",
@@ -59,6 +60,7 @@ class EdgeClassifier final : public Unit {
 
   static constexpr std::uint8_t kEnd = 1u << kLanes;  // of pending_
   ParameterStore& store_;
+  EdgeLatency& latency_;                        // an instrument
   std::vector<ReadPort<std::uint32_t>> ports_;  // lane, face
   Pipe<Beat, 3> pipe_;
   std::uint8_t pending_ = 0;  // lanes of the beat in stage 3 that have not left

@@ -12,9 +12,9 @@
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/fill_store.h"
-#include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/memory_arbiter.h"
 #include "rtl_model/geometric/tokens.h"
 
@@ -22,16 +22,16 @@ namespace deburr::rtl::geometric {
 
 class EdgeReader final : public Unit {
  public:
+  WireIn<Phase> phase_in{"phase_in"};
   MemoryClient memory;
   Out<EdgeBeat> edges_out{"edges_out"};
 
   EdgeReader(const sc_core::sc_module_name& name, ClockDomain& clock,
              const spec::geometric::Parameters& parameters, const ParameterStore& store,
-             const FrameSequencer& sequencer);
+             EdgeLatency& latency);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter lines_read{"lines_read", "lines", "lines of the edge table read"};
 
  private:
@@ -39,7 +39,7 @@ class EdgeReader final : public Unit {
   Activity hand_on(Cycle cycle);
 
   const ParameterStore& store_;
-  const FrameSequencer& sequencer_;
+  EdgeLatency& latency_;  // an instrument
   const std::uint32_t lanes_;
   FillStore<Line> buffer_;
   Activity stalled_facing_, stalled_edges_;

@@ -12,7 +12,7 @@
 #include <systemc>
 
 #include "rtl_model/fabric/memory.h"
-#include "rtl_model/geometric/frame_sequencer.h"
+#include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/memory_arbiter.h"
 #include "rtl_model/geometric/tokens.h"
 #include "spec/geometric/records.h"
@@ -21,15 +21,15 @@ namespace deburr::rtl::geometric {
 
 class FacingStore final : public Unit {
  public:
+  WireIn<Phase> phase_in{"phase_in"};
+  WireOut<bool> loaded_out{"loaded_out"};
   MemoryClient memory;
 
   FacingStore(const sc_core::sc_module_name& name, ClockDomain& clock,
-              const spec::geometric::Parameters& parameters, const ParameterStore& store,
-              const FrameSequencer& sequencer);
+              const spec::geometric::Parameters& parameters, const ParameterStore& store);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  bool loaded(Cycle cycle) const { return loaded_.get(cycle); }
   Memory<std::uint32_t> words;
 
   Counter lines_read{"lines_read", "lines", "lines of facing bits read"};
@@ -38,11 +38,9 @@ class FacingStore final : public Unit {
   static constexpr std::size_t kWordsInLine = spec::geometric::kFacesInLine / 32;
 
   const ParameterStore& store_;
-  const FrameSequencer& sequencer_;
   WritePort<std::uint32_t> write_{words, "responses"};
   Activity stalled_memory_;
   std::uint32_t asked_ = 0, answered_ = 0;  // U12, lines
-  Wire<bool> loaded_{false};
 };
 
 }  // namespace deburr::rtl::geometric

@@ -16,8 +16,8 @@
 
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/pipe.h"
+#include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/fill_store.h"
-#include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/memory_arbiter.h"
 #include "rtl_model/geometric/tokens.h"
 
@@ -25,16 +25,16 @@ namespace deburr::rtl::geometric {
 
 class VertexFetch final : public Unit {
  public:
+  WireIn<Phase> phase_in{"phase_in"};
+  WireOut<bool> cleared_out{"cleared_out"};
   In<KeptEdge> edges_in{"edges_in"};
   Out<EdgeEnds> ends_out{"ends_out"};
   MemoryClient memory;
 
   VertexFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
-              const spec::geometric::Parameters& parameters, const ParameterStore& store,
-              const FrameSequencer& sequencer);
+              const spec::geometric::Parameters& parameters, const ParameterStore& store);
   Activity tick(Cycle cycle) override;
   void reset() override;
-  bool cleared(Cycle cycle) const { return cleared_.get(cycle); }
 
   Counter lookups{"lookups", "lines", "lines of vertices looked up"};
   Counter misses{"misses", "lines", "look-ups that ordered a line"};
@@ -68,7 +68,6 @@ class VertexFetch final : public Unit {
   bool install(Cycle cycle, std::size_t which);
 
   const ParameterStore& store_;
-  const FrameSequencer& sequencer_;
   const std::uint32_t lines_;
   Memory<std::uint32_t> tags_;  // line + valid bit
   std::array<ReadPort<std::uint32_t>, 2> tag_ports_{ReadPort<std::uint32_t>{tags_, "v0"},
@@ -81,7 +80,6 @@ class VertexFetch final : public Unit {
   FillStore<VertexLine> fills_;
   Fifo<Lookup> fifo_;
   Activity stalled_vertices_, stalled_fills_;
-  Wire<bool> cleared_{false};
   std::uint32_t clearing_ = 0;  // U11, tags that are cleared
 
   // Stage 2.

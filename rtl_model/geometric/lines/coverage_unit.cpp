@@ -53,7 +53,7 @@ Activity CoverageUnit::tick(Cycle cycle) {
     return kStalledDownstream;
   pipe_.move();
   if (const CandidateToken* done = pipe_.at(2)) {
-    if (latency && !done->end) latency->cover(done->candidates != 0);
+    if (!done->end) latency_.cover(done->candidates != 0);
     if (done->candidates || done->end) {
       candidates += static_cast<std::uint64_t>(std::popcount(done->candidates));
       candidates_out.push(cycle, *done);

@@ -24,18 +24,19 @@ class CoverageUnit final : public Unit {
   In<GroupToken> groups_in{"groups_in"};
   Out<CandidateToken> candidates_out{"candidates_out"};
 
-  CoverageUnit(const sc_core::sc_module_name& name, ClockDomain& clock, const ParameterStore& store)
-      : Unit(name, clock), store_(store) {}
+  CoverageUnit(const sc_core::sc_module_name& name, ClockDomain& clock, const ParameterStore& store,
+               EdgeLatency& latency)
+      : Unit(name, clock), store_(store), latency_(latency) {}
   Activity tick(Cycle cycle) override;
   void reset() override { pipe_.reset(); }
 
-  EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter candidates{"candidates", "pixels", "pixels with a neighbour and a coverage"};
 
  private:
   void find(const GroupToken& group, CandidateToken& out);
 
   const ParameterStore& store_;
+  EdgeLatency& latency_;  // an instrument
   Pipe<CandidateToken, 2> pipe_;
 };
 

@@ -22,9 +22,9 @@
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/pipe.h"
+#include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/fill_store.h"
-#include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/memory_arbiter.h"
 #include "rtl_model/geometric/tokens.h"
 
@@ -32,20 +32,20 @@ namespace deburr::rtl::geometric {
 
 class DepthTest final : public Unit {
  public:
+  WireIn<Phase> phase_in{"phase_in"};
+  WireOut<bool> cleared_out{"cleared_out"};
   In<CandidateToken> candidates_in{"candidates_in"};
   Out<WeightToken> weights_out{"weights_out"};
   MemoryClient memory;
 
   DepthTest(const sc_core::sc_module_name& name, ClockDomain& clock,
             const spec::geometric::Parameters& parameters, const ParameterStore& store,
-            const FrameSequencer& sequencer);
+            EdgeLatency& latency);
   Activity tick(Cycle cycle) override;
   void reset() override;
-  bool cleared(Cycle cycle) const { return cleared_.get(cycle); }
 
   std::function<void(const spec::geometric::Candidate&)> observer;
 
-  EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter passed{"passed", "pixels", "candidates that passed the depth test"};
   Counter lookups{"lookups", "lines", "lines of depth looked up"};
   Counter misses{"misses", "lines", "look-ups that ordered a line"};
@@ -101,7 +101,7 @@ class DepthTest final : public Unit {
   void test(Cycle cycle, Work& work);
 
   const ParameterStore& store_;
-  const FrameSequencer& sequencer_;
+  EdgeLatency& latency_;  // an instrument
   const std::uint32_t lines_, index_bits_;
   Memory<std::uint32_t> tags_;
   std::array<ReadPort<std::uint32_t>, 2> tag_ports_{ReadPort<std::uint32_t>{tags_, "even"},
@@ -114,7 +114,6 @@ class DepthTest final : public Unit {
   FillStore<DepthLine> fills_;
   Fifo<Lookup> fifo_;
   Activity stalled_depth_, stalled_fills_;
-  Wire<bool> cleared_{false};
   std::uint32_t clearing_ = 0;  // U11
 
   // Stages 2 and 3.

@@ -52,9 +52,11 @@ std::uint32_t quotient(std::uint32_t divisor) {
 }  // namespace
 
 LineSetup::LineSetup(const sc_core::sc_module_name& name, ClockDomain& clock,
-                     const spec::geometric::Parameters& p, const ParameterStore& store)
+                     const spec::geometric::Parameters& p, const ParameterStore& store,
+                     EdgeLatency& latency)
     : Unit(name, clock),
       store_(store),
+      latency_(latency),
       pipelined_(p.pipelined),
       table_bits_(static_cast<std::uint32_t>(p.reciprocal_table)),
       table_(make_table(table_bits_)),
@@ -190,7 +192,7 @@ bool LineSetup::advance_front(Cycle cycle) {
     normalise(cycle, *beat);
   if (Beat* beat = front_.at(2)) {
     find_axis(*beat);
-    if (latency && !beat->ends.end) latency->set_up(!beat->dropped);
+    if (!beat->ends.end) latency_.set_up(!beat->dropped);
   }
   if (ends_in.can_pop(cycle)) front_.enter().ends = ends_in.take(cycle);
   return true;

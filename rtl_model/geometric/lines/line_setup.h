@@ -34,13 +34,13 @@ class LineSetup final : public Unit {
   Out<LineToken> lines_out{"lines_out"};
 
   LineSetup(const sc_core::sc_module_name& name, ClockDomain& clock,
-            const spec::geometric::Parameters& parameters, const ParameterStore& store);
+            const spec::geometric::Parameters& parameters, const ParameterStore& store,
+            EdgeLatency& latency);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
   std::function<void(const spec::geometric::LineRecord&)> observer;
 
-  EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter outside_edges{"outside_edges", "edges", "kept edges with a vertex that is not usable"};
   Counter degenerate_edges{"degenerate_edges", "edges", "kept edges with both ends in one place"};
   Counter empty_edges{"empty_edges", "edges", "kept edges without a column of the frame"};
@@ -81,6 +81,7 @@ class LineSetup final : public Unit {
   bool advance_front(Cycle cycle);
 
   const ParameterStore& store_;
+  EdgeLatency& latency_;  // an instrument
   const bool pipelined_;
   const std::uint32_t table_bits_;
   std::unique_ptr<Memory<std::uint32_t>> table_;  // nullptr: none

@@ -48,7 +48,7 @@ Activity LineWalker::tick(Cycle cycle) {
   line_.depth = depth;
   line_.first = static_cast<std::uint16_t>(line_.first + count);
   line_.count = static_cast<std::uint16_t>(line_.count - count);
-  if (latency) latency->walk(line_.count == 0);
+  latency_.walk(line_.count == 0);
   columns += count;
   ++groups;
   return kBusy;

@@ -24,18 +24,19 @@ class LineWalker final : public Unit {
   Out<GroupToken> groups_out{"groups_out"};
 
   LineWalker(const sc_core::sc_module_name& name, ClockDomain& clock,
-             const spec::geometric::Parameters& parameters)
+             const spec::geometric::Parameters& parameters, EdgeLatency& latency)
       : Unit(name, clock),
+        latency_(latency),
         walkers_(spec::geometric::kLaneCount[static_cast<std::size_t>(parameters.walkers)]) {}
   Activity tick(Cycle cycle) override;
   void reset() override { line_.count = 0; }
 
-  EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter columns{"columns", "columns", "columns walked"};
   Counter groups{"groups", "groups", "clocks in which the walkers stepped"};
   Histogram line_columns{"line_columns", "columns", "columns of a line"};
 
  private:
+  EdgeLatency& latency_;  // an instrument
   const std::uint32_t walkers_;
   spec::geometric::LineRecord line_;  // the rest of it: its next column, position and depth
 };

@@ -18,11 +18,11 @@
 #include <systemc>
 
 #include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/unit.h"
 #include "rtl_model/geometric/fill_store.h"
-#include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/memory_arbiter.h"
 #include "rtl_model/geometric/tokens.h"
-#include "rtl_model/geometric/weights/weight_combiner.h"
+#include "rtl_model/geometric/weights/weight_memories.h"
 
 namespace deburr::rtl::geometric {
 
@@ -35,7 +35,7 @@ class BlockFetch final : public Unit {
 
   BlockFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
              const spec::geometric::Parameters& parameters, const ParameterStore& store,
-             const WeightCombiner& combiner);
+             const ReadPort<std::uint32_t>& tags, const ReadPort<BlockWeights>& weights);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -62,7 +62,7 @@ class BlockFetch final : public Unit {
   std::uint32_t lines_of_pixel(const BlockToken& block, std::uint32_t pixel, bool horizontal) const;
 
   const ParameterStore& store_;
-  const WeightCombiner& combiner_;
+  const WeightPlaces places_;
   ReadPort<std::uint32_t> tag_port_;
   ReadPort<BlockWeights> data_port_;
   FillStore<BlockWeights> weights_;

@@ -9,11 +9,10 @@ using spec::geometric::kBlocksInWord;
 
 BlockScanner::BlockScanner(const sc_core::sc_module_name& name, ClockDomain& clock,
                            const spec::geometric::Parameters& p, const ParameterStore& store,
-                           const FrameSequencer& sequencer, const WeightCombiner& combiner)
+                           const ReadPort<TouchedWord>& touched)
     : Unit(name, clock),
       store_(store),
-      sequencer_(sequencer),
-      touched_port_(combiner.touched_port()),
+      touched_port_(touched),
       above_("touched_above", {.words = static_cast<std::uint64_t>((p.line_pixels + 511) / 512),
                                .word_bits = kBlocksInWord,
                                .kind = MemoryKind::kFlops,
@@ -36,7 +35,7 @@ void BlockScanner::load(Cycle cycle) {
 }
 
 Activity BlockScanner::tick(Cycle cycle) {
-  if (sequencer_.phase(cycle) != Phase::kResolve) {
+  if (phase_in.read(cycle) != Phase::kResolve) {
     if (ended_) reset();
     return kIdle;
   }

@@ -26,11 +26,10 @@ spec::geometric::Rgba8 pixel_of(const Line& line, std::size_t pixel) {
 
 Resolver::Resolver(const sc_core::sc_module_name& name, ClockDomain& clock,
                    const spec::geometric::Parameters& p, const ParameterStore& store,
-                   const FrameSequencer& sequencer, BlockFetch& fetch)
+                   FillStore<Line>& colours)
     : Unit(name, clock),
       store_(store),
-      sequencer_(sequencer),
-      fetch_(fetch),
+      colours_(colours),
       lanes_(resolve_lanes_of(p)),
       originals_("originals", {.words = static_cast<std::uint64_t>((p.line_pixels + 3) / 4),
                                .word_bits = 100,
@@ -102,12 +101,12 @@ Activity Resolver::load(Cycle cycle) {
     to_load_ = token.end ? 0 : token.lines;
     if (!token.end) originals_read_.read(cycle, token.x);
     if (to_load_ == 0) return kBusy;
-    if (!fetch_.colours.ready(cycle)) return kBusy;
+    if (!colours_.ready(cycle)) return kBusy;
   }
   if (to_load_ == 0) return kStalledDownstream;
-  if (!fetch_.colours.ready(cycle)) return stalled_colours_;
-  place(fetch_.colours.line(cycle), static_cast<std::uint32_t>(std::countr_zero(to_load_)));
-  fetch_.colours.release(cycle);
+  if (!colours_.ready(cycle)) return stalled_colours_;
+  place(colours_.line(cycle), static_cast<std::uint32_t>(std::countr_zero(to_load_)));
+  colours_.release(cycle);
   to_load_ &= to_load_ - 1;
   return kBusy;
 }
@@ -299,8 +298,8 @@ bool Resolver::blend(Cycle cycle) {
 }
 
 Activity Resolver::tick(Cycle cycle) {
-  if (sequencer_.phase(cycle) != Phase::kResolve) {
-    if (done_.get(cycle)) done_.set(cycle, false);
+  if (phase_in.read(cycle) != Phase::kResolve) {
+    if (resolved_out.read(cycle)) resolved_out.drive(cycle, false);
     ended_ = false;
     return kIdle;
   }
@@ -317,15 +316,15 @@ Activity Resolver::tick(Cycle cycle) {
     did = true;
   }
   const Activity loaded = load(cycle);
-  fetch_.colours.read_ahead(cycle);
-  if (ended_ && writes_ == 0 && to_write_ == 0 && !done_.get(cycle)) done_.set(cycle, true);
+  colours_.read_ahead(cycle);
+  if (ended_ && writes_ == 0 && to_write_ == 0 && !resolved_out.read(cycle))
+    resolved_out.drive(cycle, true);
   if (did) return kBusy;
   return blocked ? kStalledDownstream : loaded;
 }
 
 void Resolver::reset() {
   pipe_.reset();
-  done_.reset();
   newest_ = 0;
   loading_ = blending_ = has_left_ = ended_ = false;
   to_load_ = to_blend_ = to_write_ = writes_ = 0;

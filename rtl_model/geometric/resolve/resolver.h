@@ -23,25 +23,27 @@
 
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/pipe.h"
-#include "rtl_model/geometric/frame_sequencer.h"
+#include "rtl_model/fabric/unit.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/geometric/fill_store.h"
 #include "rtl_model/geometric/memory_arbiter.h"
-#include "rtl_model/geometric/resolve/block_fetch.h"
 #include "rtl_model/geometric/tokens.h"
 
 namespace deburr::rtl::geometric {
 
 class Resolver final : public Unit {
  public:
+  WireIn<Phase> phase_in{"phase_in"};
+  // The frame's end has come, and every write is answered.
+  WireOut<bool> resolved_out{"resolved_out"};
   In<BlockToken> blocks_in{"blocks_in"};
   MemoryClient memory;
 
   Resolver(const sc_core::sc_module_name& name, ClockDomain& clock,
            const spec::geometric::Parameters& parameters, const ParameterStore& store,
-           const FrameSequencer& sequencer, BlockFetch& fetch);
+           FillStore<Line>& colours);
   Activity tick(Cycle cycle) override;
   void reset() override;
-  // The frame's end has come, and every write is answered.
-  bool done(Cycle cycle) const { return done_.get(cycle); }
 
   std::function<void(const spec::geometric::BlockRecord&)> observer;
 
@@ -90,8 +92,7 @@ class Resolver final : public Unit {
   bool blend(Cycle cycle);
 
   const ParameterStore& store_;
-  const FrameSequencer& sequencer_;
-  BlockFetch& fetch_;
+  FillStore<Line>& colours_;  // of the BlockFetch, which fills it
   const std::uint32_t lanes_;
   Memory<Originals> originals_;
   ReadPort<Originals> originals_read_{originals_, "above"};
@@ -128,7 +129,6 @@ class Resolver final : public Unit {
   std::array<Rgba, 16> written_{};
   std::uint32_t writes_ = 0;  // U11, that are not answered
   bool ended_ = false;
-  Wire<bool> done_{false};
 };
 
 }  // namespace deburr::rtl::geometric

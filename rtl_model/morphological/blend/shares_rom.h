@@ -2,9 +2,9 @@
 // Learned shares: those of an edge whose line no staircase tells, by what both ends of its run look
 // like, from three tables whose words add up.
 //
-// Where: in the AreaUnit, which asks in four of its stages: 4 distances, classes and codes of the
-// nearer and the farther end, addresses; 5 words of A and B, their sum, beside it the word of C; 6
-// their sum, limit, address of share_rom; 7 shares. A reader is a lane and axis; each has two
+// Where: in the LearnedShares, which ask in four of its stages: 4 distances, classes and codes of
+// the nearer and the farther end, addresses; 5 words of A and B, their sum, beside it the word of
+// C; 6 their sum, limit, address of share_rom; 7 shares. A reader is a lane and axis; each has two
 // sides, the pixels across its edge.
 // The three tables can be loaded through the registers while no frame is inside, when nobody reads:
 // so the ports that read are written. They keep their words in a reset. The sum that the registers
@@ -48,7 +48,7 @@ class SharesRom {
 
   explicit SharesRom(int lanes);
 
-  // --- Stages of the AreaUnit ---
+  // --- Stages, counted as the AreaUnit's ---
   // The pixel `before` pixels behind the record's start, `after` before its end.
   static Query ask(const Record& record, std::int32_t before, std::int32_t after);
   // An edge of no record.

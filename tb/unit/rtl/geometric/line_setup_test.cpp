@@ -19,7 +19,7 @@ using spec::geometric::LineRecord;
 
 struct SetupBench : Frame {
   explicit SetupBench(const Parameters& p = {}, int width = 1280, int height = 720)
-      : Frame(p), unit("unit", clock, p, store), ends(clock) {
+      : Frame(p), unit("unit", clock, p, store, edge_latency), ends(clock) {
     unit.ends_in(ends.in);
     unit.lines_out(ends.out);
     begin(width, height);

@@ -23,10 +23,10 @@ using spec::geometric::Layout;
 struct ResolveBench : Frame {
   explicit ResolveBench(const Parameters& p = {}, int width = 1024, int height = 64)
       : Frame(p),
-        combiner("combiner", clock, p, store, sequencer),
-        scanner("scanner", clock, p, store, sequencer, combiner),
-        fetch("fetch", clock, p, store, combiner),
-        resolver("resolver", clock, p, store, sequencer, fetch),
+        combiner("combiner", clock, p, store, edge_latency),
+        scanner("scanner", clock, p, store, combiner.touched_port()),
+        fetch("fetch", clock, p, store, combiner.tag_port(), combiner.data_port()),
+        resolver("resolver", clock, p, store, fetch.colours),
         weights("weights"),
         touched("touched"),
         blocks("blocks", 16),
@@ -40,9 +40,12 @@ struct ResolveBench : Frame {
     fetch.blocks_in(touched);
     fetch.blocks_out(blocks);
     resolver.blocks_in(blocks);
-    begun = [this](Cycle cycle) { return combiner.cleared(cycle); };
-    sequencer.edges_done = [this](Cycle cycle) { return combiner.drawn(cycle); };
-    sequencer.resolve_done = [this](Cycle cycle) { return resolver.done(cycle); };
+    for (rtl::WireIn<Phase>* const in : {&combiner.phase_in, &scanner.phase_in, &resolver.phase_in})
+      (*in)(phase);
+    wire(combiner.cleared_out, &sequencer.weights_cleared_in);
+    wire(combiner.drawn_out, &sequencer.drawn_in);
+    sequencer.copied_in(high);
+    wire(resolver.resolved_out, &sequencer.resolved_in);
     bus.write(reg::kColourBase, 0x40000);
     bus.write(reg::kWeightBase, 0x80000);
     begin(width, height);
@@ -68,7 +71,7 @@ struct ResolveBench : Frame {
     WeightToken last{};
     last.end = true;
     source.add(last);
-    while (sequencer.phase(clock.cycle()) != Phase::kResolve) clock.run(1);
+    while (phase.read(clock.cycle()) != Phase::kResolve) clock.run(1);
     if (before_resolve) before_resolve();
     resolve_from = clock.cycle();
     const std::uint64_t sent = arbiter.requests_out.link().pushes();
@@ -269,8 +272,8 @@ TEST(Resolve, IntervalOfABlock) {
 struct ReaderBench : Frame {
   explicit ReaderBench(const Parameters& p, std::uint32_t edges, std::uint32_t faces)
       : Frame(p),
-        facing("facing", clock, p, store, sequencer),
-        reader("reader", clock, p, store, sequencer),
+        facing("facing", clock, p, store),
+        reader("reader", clock, p, store, edge_latency),
         beats("beats"),
         taker("taker", clock) {
     arbiter.connect(Client::kFacing, facing.memory);
@@ -280,7 +283,9 @@ struct ReaderBench : Frame {
       ports.emplace_back(facing.words, "test");
     reader.edges_out(beats);
     taker.in(beats);
-    begun = [this](Cycle cycle) { return facing.loaded(cycle); };
+    facing.phase_in(phase);
+    reader.phase_in(phase);
+    wire(facing.loaded_out, &sequencer.facing_loaded_in);
     bus.write(reg::kEdgeCount, edges);
     bus.write(reg::kFaceCount, faces);
     bus.write(reg::kFaceBase, 0x40000);
@@ -329,12 +334,14 @@ Cycle copy_clocks(std::uint32_t latency, int width, int height) {
   Parameters p;
   p.frame_copy = true;
   Frame b(p, latency);
-  FrameCopier copier("copier", b.clock, b.store, b.sequencer);
+  FrameCopier copier("copier", b.clock, b.store);
   b.arbiter.connect(Client::kCopy, copier.memory);
+  copier.phase_in(b.phase);
+  const rtl::Wire<bool>& copied = b.wire(copier.copied_out);
   b.bus.write(reg::kCopyBase, 0x40000);
   b.begin(width, height);
   const Cycle from = b.clock.cycle();
-  b.clock.run_until([&] { return copier.done(b.clock.cycle()); }, 100'000);
+  b.clock.run_until([&] { return copied.read(b.clock.cycle()); }, 100'000);
   return b.clock.cycle() - from;
 }
 TEST(FrameCopier, TwoClocksALineUntilSixteenLinesAreTooFew) {
@@ -363,8 +370,10 @@ TEST(FrameCopier, CopiesEveryLineOnceAndThenIsIdle) {
       p.frame_copy = true;
       p.layout = layout;
       Frame b(p);
-      FrameCopier copier("copier", b.clock, b.store, b.sequencer);
+      FrameCopier copier("copier", b.clock, b.store);
       b.arbiter.connect(Client::kCopy, copier.memory);
+      copier.phase_in(b.phase);
+      const rtl::Wire<bool>& copied = b.wire(copier.copied_out);
       std::vector<std::uint8_t> bytes(kBytes);
       for (std::size_t i = 0; i < bytes.size(); ++i)
         bytes[i] = static_cast<std::uint8_t>(1 + i % 251);
@@ -373,7 +382,7 @@ TEST(FrameCopier, CopiesEveryLineOnceAndThenIsIdle) {
       b.bus.write(reg::kColourBase, kFrom);
       b.bus.write(reg::kCopyBase, kTo);
       b.begin(width, height);
-      b.clock.run_until([&] { return copier.done(b.clock.cycle()); }, 10'000);
+      b.clock.run_until([&] { return copied.read(b.clock.cycle()); }, 10'000);
       const auto lines_there = static_cast<std::size_t>(copier.lines_copied.value());
       std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(64 * lines_there), bytes.end(), 0);
       EXPECT_EQ(b.memory.dump(kTo, kBytes), bytes);

@@ -34,10 +34,12 @@ void finish(F& frame, const E& ends, std::size_t tokens) {
 struct ClassifierBench : Frame {
   explicit ClassifierBench(const Parameters& p)
       : Frame(p),
-        facing("facing", clock, p, store, sequencer),
-        unit("unit", clock, p, store, facing),
+        facing("facing", clock, p, store),
+        unit("unit", clock, p, store, facing.words, edge_latency),
         ends(clock) {
     arbiter.connect(Client::kFacing, facing.memory);
+    facing.phase_in(phase);
+    wire(facing.loaded_out);
     unit.edges_in(ends.in);
     unit.edges_out(ends.out);
     bus.write(reg::kVertexCount, 100);
@@ -121,11 +123,12 @@ TEST(EdgeClassifier, IndicesEndBeforeTheirCounts) {
 
 // ---- VertexFetch
 struct VertexBench : Frame {
-  VertexBench() : Frame({}), unit("unit", clock, {}, store, sequencer), ends(clock) {
+  VertexBench() : Frame({}), unit("unit", clock, {}, store), ends(clock) {
     arbiter.connect(Client::kVertices, unit.memory);
     unit.edges_in(ends.in);
     unit.ends_out(ends.out);
-    begun = [this](Cycle cycle) { return unit.cleared(cycle); };
+    unit.phase_in(phase);
+    wire(unit.cleared_out, &sequencer.vertices_cleared_in);
     begin(64, 64);
   }
   VertexFetch unit;
@@ -215,6 +218,7 @@ struct Asker final : rtl::Unit {
 };
 TEST(MemoryArbiter, LatencyIsOneEachWay) {
   Frame b({});
+  b.tie();
   Asker asker("asker", b.clock);
   b.arbiter.connect(Client::kDepth, asker.memory);
   asker.wanted = 1;
@@ -227,6 +231,7 @@ TEST(MemoryArbiter, LatencyIsOneEachWay) {
 // Two answers lie in the link of a client that takes none, and the third waits in front of it.
 TEST(MemoryArbiter, AnAnswerWaitsForItsClient) {
   Frame b({});
+  b.tie();
   Asker asker("asker", b.clock);
   b.arbiter.connect(Client::kDepth, asker.memory);
   asker.wanted = 5;
@@ -238,6 +243,7 @@ TEST(MemoryArbiter, AnAnswerWaitsForItsClient) {
 }
 TEST(MemoryArbiter, ServesEachOfEightAfterSevenOthers) {
   Frame b({});
+  b.tie();
   std::deque<Asker> askers;
   for (std::size_t i = 0; i < kClients; ++i) {
     askers.emplace_back((std::string("asker") + std::to_string(i)).c_str(), b.clock);
@@ -277,7 +283,7 @@ TEST(MemoryArbiter, LinksCarryWholeAddressesAndTags) {
 // ---- LineWalker
 struct WalkerBench : Frame {
   explicit WalkerBench(Lanes walkers, const Parameters& p = {})
-      : Frame(p), unit("unit", clock, with(walkers)), ends(clock) {
+      : Frame(p), unit("unit", clock, with(walkers), edge_latency), ends(clock) {
     unit.lines_in(ends.in);
     unit.groups_out(ends.out);
     begin(2048, 64);
@@ -330,7 +336,7 @@ TEST(LineWalker, GroupsEndAtBlocks) {
 
 // ---- CoverageUnit
 struct CoverageBench : Frame {
-  CoverageBench() : Frame({}), unit("unit", clock, store), ends(clock) {
+  CoverageBench() : Frame({}), unit("unit", clock, store, edge_latency), ends(clock) {
     unit.groups_in(ends.in);
     unit.candidates_out(ends.out);
     begin(64, 48);
@@ -413,11 +419,12 @@ TEST(CoverageUnit, TiesAndBorders) {
 // ---- DepthTest
 struct DepthBench : Frame {
   explicit DepthBench(const Parameters& p = {})
-      : Frame(p), unit("unit", clock, p, store, sequencer), ends(clock) {
+      : Frame(p), unit("unit", clock, p, store, edge_latency), ends(clock) {
     arbiter.connect(Client::kDepth, unit.memory);
     unit.candidates_in(ends.in);
     unit.weights_out(ends.out);
-    begun = [this](Cycle cycle) { return unit.cleared(cycle); };
+    unit.phase_in(phase);
+    wire(unit.cleared_out, &sequencer.depth_cleared_in);
     begin(256, 256);
   }
   static Parameters raster() {
@@ -561,11 +568,13 @@ TEST(DepthTest, ShowsEachCandidate) {
 // ---- WeightCombiner: nothing comes out of it
 struct CombinerBench : Frame {
   explicit CombinerBench(const Parameters& p = {})
-      : Frame(p), unit("unit", clock, p, store, sequencer), in("in"), source("source", clock) {
+      : Frame(p), unit("unit", clock, p, store, edge_latency), in("in"), source("source", clock) {
     arbiter.connect(Client::kWeights, unit.memory);
     unit.weights_in(in);
     source.out(in);
-    begun = [this](Cycle cycle) { return unit.cleared(cycle); };
+    unit.phase_in(phase);
+    wire(unit.cleared_out, &sequencer.weights_cleared_in);
+    drawn = &wire(unit.drawn_out);
     bus.write(reg::kWeightBase, 0);
     begin(2048, 16);
   }
@@ -584,10 +593,11 @@ struct CombinerBench : Frame {
   }
   Cycle until_drawn() {
     const Cycle from = clock.cycle();
-    while (!unit.drawn(clock.cycle())) clock.run(1);
+    while (!drawn->read(clock.cycle())) clock.run(1);
     return clock.cycle() - from;
   }
   WeightCombiner unit;
+  const rtl::Wire<bool>* drawn = nullptr;
   rtl::Link<WeightToken> in;
   Source<WeightToken> source;
 };
