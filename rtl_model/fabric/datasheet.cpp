@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/fabric/datasheet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "spec/error.h"
+
+namespace deburr::rtl {
+namespace {
+
+constexpr int kUsualMegahertz = 250;
+
+// But for the clocks of this build, where a text stands in their place.
+bool say_the_same(const Datasheet& a, const Datasheet& b) {
+  return a.does == b.does && a.latency.shown() == b.latency.shown() &&
+         a.interval.shown() == b.interval.shown() && a.stages == b.stages &&
+         a.formats == b.formats && a.cost == b.cost && a.megahertz == b.megahertz;
+}
+
+std::string section(const Datasheet& sheet, bool first) {
+  std::string text;
+  if (first) text += fmt::format("\n### {}\n\n{}\n", sheet.unit, sheet.does);
+  if (!sheet.variant.empty()) text += fmt::format("\n**{}**\n", sheet.variant);
+  text += fmt::format("\nLatency {}; initiation interval {}.", sheet.latency.shown(),
+                      sheet.interval.shown());
+  if (sheet.megahertz != kUsualMegahertz) text += fmt::format(" For {} MHz.", sheet.megahertz);
+  text += "\n";
+  if (!sheet.stages.empty()) {
+    text += "\n| stage | work | longest path |\n|---|---|---|\n";
+    for (const Stage& stage : sheet.stages)
+      text += fmt::format("| {} | {} | {} |\n", stage.clock, stage.work, stage.path);
+  }
+  if (!sheet.formats.empty()) text += fmt::format("\nFormats: {}\n", sheet.formats);
+  if (!sheet.cost.empty()) text += fmt::format("\nCost: {}\n", sheet.cost);
+  return text;
+}
+
+}  // namespace
+
+std::string title(const Datasheet& sheet) {
+  return sheet.variant.empty() ? sheet.unit : sheet.unit + ", " + sheet.variant;
+}
+
+std::vector<Datasheet> merged(std::span<const std::vector<Datasheet>> builds) {
+  std::vector<Datasheet> all;
+  for (const std::vector<Datasheet>& build : builds)
+    for (const Datasheet& sheet : build) {
+      const auto same = std::find_if(all.begin(), all.end(), [&](const Datasheet& other) {
+        return title(other) == title(sheet);
+      });
+      if (same != all.end()) {
+        DEBURR_CHECK(say_the_same(*same, sheet),
+                     "two datasheets that differ have one title: " + title(sheet));
+        continue;
+      }
+      const auto last = std::find_if(all.rbegin(), all.rend(), [&](const Datasheet& other) {
+        return other.unit == sheet.unit;
+      });
+      all.insert(last == all.rend() ? all.end() : last.base(), sheet);
+    }
+  return all;
+}
+
+std::string datasheets_markdown(std::span<const Datasheet> sheets) {
+  std::string text = "\n| unit | latency | initiation interval |\n|---|---|---|\n";
+  for (const Datasheet& sheet : sheets)
+    text += fmt::format("| {} | {} | {} |\n", title(sheet), sheet.latency.shown(),
+                        sheet.interval.shown());
+  const Datasheet* before = nullptr;
+  for (const Datasheet& sheet : sheets) {
+    text += section(sheet, !before || before->unit != sheet.unit);
+    before = &sheet;
+  }
+  return text;
+}
+
+}  // namespace deburr::rtl
