@@ -19,7 +19,8 @@ bool say_the_same(const Datasheet& a, const Datasheet& b) {
          a.formats == b.formats && a.cost == b.cost && a.megahertz == b.megahertz;
 }
 
-std::string section(const Datasheet& sheet, bool first) {
+// What a variant shares with the next one of its unit stands behind that.
+std::string section(const Datasheet& sheet, bool first, const Datasheet* next) {
   std::string text;
   if (first) text += fmt::format("\n### {}\n\n{}\n", sheet.unit, sheet.does);
   if (!sheet.variant.empty()) text += fmt::format("\n**{}**\n", sheet.variant);
@@ -32,8 +33,10 @@ std::string section(const Datasheet& sheet, bool first) {
     for (const Stage& stage : sheet.stages)
       text += fmt::format("| {} | {} | {} |\n", stage.clock, stage.work, stage.path);
   }
-  if (!sheet.formats.empty()) text += fmt::format("\nFormats: {}\n", sheet.formats);
-  if (!sheet.cost.empty()) text += fmt::format("\nCost: {}\n", sheet.cost);
+  if (!sheet.formats.empty() && !(next && next->formats == sheet.formats))
+    text += fmt::format("\nFormats: {}\n", sheet.formats);
+  if (!sheet.cost.empty() && !(next && next->cost == sheet.cost))
+    text += fmt::format("\nCost: {}\n", sheet.cost);
   return text;
 }
 
@@ -68,10 +71,12 @@ std::string datasheets_markdown(std::span<const Datasheet> sheets) {
   for (const Datasheet& sheet : sheets)
     text += fmt::format("| {} | {} | {} |\n", title(sheet), sheet.latency.shown(),
                         sheet.interval.shown());
-  const Datasheet* before = nullptr;
-  for (const Datasheet& sheet : sheets) {
-    text += section(sheet, !before || before->unit != sheet.unit);
-    before = &sheet;
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    const auto same_unit = [&](std::size_t other) {
+      return other < sheets.size() && sheets[other].unit == sheets[i].unit;
+    };
+    text += section(sheets[i], i == 0 || !same_unit(i - 1),
+                    same_unit(i + 1) ? &sheets[i + 1] : nullptr);
   }
   return text;
 }

@@ -39,6 +39,7 @@ class FrameSequencer final : public Unit {
   Counter frame_cycles{"frame_cycles", "clk", "clocks of the last frame"};
   Counter edge_cycles{"edge_cycles", "clk", "of these until every edge was drawn"};
   Counter resolve_cycles{"resolve_cycles", "clk", "of these the rest"};
+
   static Datasheet datasheet();
 
  private:

@@ -79,6 +79,7 @@ class MemoryArbiter final : public Unit {
   }
 
   Counter memory_errors{"memory_errors", "responses", "memory responses with an error"};
+
   static Datasheet datasheet();
 
  private:

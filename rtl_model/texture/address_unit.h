@@ -42,6 +42,7 @@ class AddressUnit final : public sc_core::sc_module {
   LevelUnit level;
   SampleWalker walker;
   TexelAddresser addresser;
+
   static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
  private:

@@ -31,6 +31,7 @@ class AxisUnit final : public Unit {
            spec::texture::FootprintRule rule, std::int32_t axis_clocks);
   Activity tick(Cycle cycle) override;
   void reset() override;
+
   static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
  private:

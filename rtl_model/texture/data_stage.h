@@ -42,6 +42,7 @@ class DataStage final : public Unit {
 
   Counter lines_written{"lines_written", "lines", "fills written into the data banks"};
   Counter conflicts{"conflicts", "requests", "requests with two words in one bank"};
+
   static Datasheet datasheet();
 
  private:

@@ -37,6 +37,7 @@ class DerivativeUnit final : public Unit {
                   "covered fragments whose coordinates were clamped before"};
   Counter saturated{"saturated", "fragments", "fragments with a derivative beyond U15.16 texels"};
   Counter invalid{"invalid", "fragments", "covered fragments of quads with an invalid descriptor"};
+
   static Datasheet datasheet();
 
  private:

@@ -81,6 +81,7 @@ class Descriptors {
 
   // Follows what is written into the registers.
   Descriptors(const char* name, ControlRegisters& registers);
+
   static Datasheet datasheet();
 
  private:

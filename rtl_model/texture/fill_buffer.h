@@ -95,6 +95,7 @@ class FillBuffer {
     released_at_ = read_at_ = kNever;
     std::fill(arrived_.begin(), arrived_.end(), kNever);
   }
+
   static Datasheet datasheet();
 
  private:

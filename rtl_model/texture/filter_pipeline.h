@@ -46,6 +46,7 @@ class FilterPipeline final : public Unit {
                              "from a quad being taken to a colour of it being delivered"};
   // Clocks in which a stage had a token to work on.
   std::array<Counter, kStages> occupancy;
+
   static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
  private:

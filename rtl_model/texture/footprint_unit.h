@@ -34,6 +34,7 @@ class FootprintUnit final : public Unit {
   // One side by every rule but `exact`: U15.16 in, U16.16 out. Of `two_segment` the longer of the
   // two lines is found in stage 2.
   static std::uint32_t side(spec::texture::FootprintRule rule, std::uint32_t s, std::uint32_t t);
+
   static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
  private:

@@ -34,6 +34,7 @@ class LatencyFifo final : public Unit {
   }
 
   Fifo<CacheToken> entries;  // read by the DataStage
+
   static Datasheet datasheet();
 };
 

@@ -31,6 +31,7 @@ class LevelUnit final : public Unit {
 
   Counter magnified{"magnified", "fragments", "fragments with a level of detail of at most 0"};
   Counter two_levels{"two_levels", "fragments", "fragments that blend two levels"};
+
   static Datasheet datasheet();
 
  private:

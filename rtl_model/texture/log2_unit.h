@@ -33,6 +33,7 @@ class Log2Unit final : public Unit {
 
   // All stages at once: lb d in S5.12 of d in U31.16.
   static std::int32_t log2(spec::texture::Log2Rule rule, std::uint64_t d);
+
   static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
  private:

@@ -32,6 +32,7 @@ class SampleWalker final : public Unit {
   void reset() override { scaled_.occupied = divided_.occupied = walking_ = false; }
 
   Counter samples{"samples", "samples", "samples along major axes, one or two requests each"};
+
   static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
  private:

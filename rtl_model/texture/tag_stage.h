@@ -48,6 +48,7 @@ class TagStage final : public Unit {
   Counter merged{"merged", "lines", "lookups of a line whose fill is under way"};
   Counter misses{"misses", "lines", "lookups that ordered a fill"};
   Counter evictions{"evictions", "lines", "valid lines that were replaced"};
+
   static Datasheet datasheet();
 
  private:

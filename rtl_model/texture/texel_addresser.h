@@ -30,6 +30,7 @@ class TexelAddresser final : public Unit {
   void reset() override { pipe_.reset(); }
 
   Counter bilinears{"bilinears", "requests", "bilinear requests sent to the cache"};
+
   static Datasheet datasheet();
 
  private:

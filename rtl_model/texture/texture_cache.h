@@ -37,6 +37,7 @@ class TextureCache final : public sc_core::sc_module {
   LatencyFifo latency_fifo;
   DataStage data_stage;
   MemoryPort memory_port;
+
   static Datasheet datasheet();
 
  private:

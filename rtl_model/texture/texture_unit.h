@@ -35,6 +35,7 @@ class TextureUnit final : public Engine {
   // the cache cannot be built.
   TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
               const spec::texture::Parameters& parameters);
+
   static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
  private:

@@ -40,6 +40,7 @@ class EdgeClassifier final : public Unit {
                      "edges between two faces turned to the eye that are no crease"};
   Counter invalid_edges{"invalid_edges", "edges", "edges with an index out of range"};
   Counter kept_edges{"kept_edges", "edges", "edges whose vertices are fetched"};
+
   static Datasheet datasheet();
 
  private:

@@ -32,6 +32,7 @@ class EdgeReader final : public Unit {
 
   EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter lines_read{"lines_read", "lines", "lines of the edge table read"};
+
   static Datasheet datasheet();
 
  private:

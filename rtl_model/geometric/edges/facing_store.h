@@ -32,6 +32,7 @@ class FacingStore final : public Unit {
   Memory<std::uint32_t> words;
 
   Counter lines_read{"lines_read", "lines", "lines of facing bits read"};
+
   static Datasheet datasheet();
 
  private:

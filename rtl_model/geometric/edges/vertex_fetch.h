@@ -35,6 +35,7 @@ class VertexFetch final : public Unit {
 
   Counter lookups{"lookups", "lines", "lines of vertices looked up"};
   Counter misses{"misses", "lines", "look-ups that ordered a line"};
+
   static Datasheet datasheet();
 
  private:

@@ -29,6 +29,7 @@ class CoverageUnit final : public Unit {
 
   EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter candidates{"candidates", "pixels", "pixels with a neighbour and a coverage"};
+
   static Datasheet datasheet();
 
  private:

@@ -42,6 +42,7 @@ class LineSetup final : public Unit {
   Counter lines{"lines", "lines", "lines set up"};
   Counter table_lines{"table_lines", "lines", "lines whose reciprocal came from the table"};
   Counter divider_clocks{"divider_clocks", "clk", "clocks of dividers in use, all dividers"};
+
   static Datasheet datasheet(const spec::geometric::Parameters& parameters);
 
  private:

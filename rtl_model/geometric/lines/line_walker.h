@@ -32,6 +32,7 @@ class LineWalker final : public Unit {
   Counter columns{"columns", "columns", "columns walked"};
   Counter groups{"groups", "groups", "clocks in which the walkers stepped"};
   Histogram line_columns{"line_columns", "columns", "columns of a line"};
+
   static Datasheet datasheet();
 
  private:

@@ -37,6 +37,7 @@ class BlockFetch final : public Unit {
 
   Counter weights_read{"weights_read", "lines", "blocks of weights read from memory"};
   Counter lines_read{"lines_read", "lines", "lines of colours read, of the frame or its copy"};
+
   static Datasheet datasheet();
 
  private:

@@ -25,6 +25,7 @@ class BlockScanner final : public Unit {
                const FrameSequencer& sequencer, const WeightCombiner& combiner);
   Activity tick(Cycle cycle) override;
   void reset() override;
+
   static Datasheet datasheet();
 
  private:

@@ -27,6 +27,7 @@ class FrameCopier final : public Unit {
   bool done(Cycle cycle) const { return done_.get(cycle); }
 
   Counter lines_copied{"lines_copied", "lines", "lines read and written"};
+
   static Datasheet datasheet();
 
  private:

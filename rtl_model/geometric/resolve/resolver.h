@@ -42,6 +42,7 @@ class Resolver final : public Unit {
   Counter blocks{"blocks", "blocks", "touched blocks"};
   Counter blended_pixels{"blended_pixels", "pixels", "pixels that were blended"};
   Counter lines_written{"lines_written", "lines", "lines of colours written"};
+
   static Datasheet datasheet();
 
  private:

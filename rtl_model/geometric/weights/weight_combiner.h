@@ -63,6 +63,7 @@ class WeightCombiner final : public Unit {
   Counter blocks_written{"blocks_written", "blocks", "replaced blocks written to memory"};
   Histogram edge_latency{"edge_latency", "clk",
                          "from an edge's leaving the EdgeReader to its last group's being written"};
+
   static Datasheet datasheet();
 
  private:
