@@ -3,6 +3,7 @@
 #include "rtl_model/texture/fill_buffer.h"
 
 #include "spec/error.h"
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/support.h"
 
 namespace deburr::tb::texture_rtl::fill_buffer_test {
@@ -16,6 +17,7 @@ constexpr std::array<std::uint8_t, 64> kBeat = {11, 22};
 // used.
 TEST(TextureRtlFillBuffer, ALineIsThereTwoClocksAfterItsBeat) {
   FillBuffer buffer("buffer", 4, 64);
+  expect_latency(FillBuffer::datasheet(), 12 - 10);
   for (int i = 0; i < 3; ++i) buffer.reserve(1);
   buffer.fill(10, 0, 0, kBeat, true);
   buffer.read_ahead(10);
