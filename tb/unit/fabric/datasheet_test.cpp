@@ -10,8 +10,10 @@
 #include "rtl_model/fabric/memory_port.h"
 #include "spec/error.h"
 
-namespace deburr::rtl::datasheet_test {
+namespace deburr::tb::datasheet_test {
 namespace {
+
+using rtl::Datasheet;
 
 Datasheet halver(const std::string& variant, std::uint64_t latency) {
   return {.unit = "Halver",
@@ -27,13 +29,13 @@ TEST(Datasheets, VariantsOfAUnitStandTogether) {
   const std::vector<std::vector<Datasheet>> builds = {{halver("slow", 3), doubler},
                                                       {halver("fast", 2), doubler}};
   std::vector<std::string> titles;
-  for (const Datasheet& sheet : merged(builds)) titles.push_back(title(sheet));
+  for (const Datasheet& sheet : rtl::merged(builds)) titles.push_back(title(sheet));
   EXPECT_EQ(titles, (std::vector<std::string>{"Halver, slow", "Halver, fast", "Doubler"}));
 }
 
 TEST(Datasheets, OneTitleSaysOneThing) {
   const std::vector<std::vector<Datasheet>> builds = {{halver("slow", 3)}, {halver("slow", 2)}};
-  EXPECT_THROW(merged(builds), spec::CheckFailed);
+  EXPECT_THROW(rtl::merged(builds), spec::CheckFailed);
 }
 
 // Where a text says what the clocks depend on, they may differ from build to build.
@@ -41,14 +43,14 @@ TEST(Datasheets, ClocksByATextMayDiffer) {
   Datasheet one = halver("", 3), other = halver("", 4);
   one.latency.text = other.latency.text = "2, and `more`";
   const std::vector<std::vector<Datasheet>> builds = {{one}, {other}};
-  EXPECT_EQ(merged(builds).size(), 1u);
+  EXPECT_EQ(rtl::merged(builds).size(), 1u);
 }
 
 TEST(Datasheets, PageHasATableOfAllThenEachWithItsStages) {
   Datasheet fast = halver("fast", 2);
   fast.megahertz = 300;
   fast.interval = {1, "a token a clock"};
-  EXPECT_EQ(datasheets_markdown(std::vector{halver("slow", 3), fast}), R"(
+  EXPECT_EQ(rtl::datasheets_markdown(std::vector{halver("slow", 3), fast}), R"(
 | unit | latency | initiation interval |
 |---|---|---|
 | Halver, slow | 3 | 1 |
@@ -81,9 +83,9 @@ Cost: a shifter.
 }
 
 TEST(Datasheets, OfTheMemoryPortIsTheContracts) {
-  EXPECT_EQ(MemoryPort::datasheet().latency.clocks, 2u);
-  EXPECT_EQ(MemoryPort::datasheet().interval.clocks, 1u);
+  EXPECT_EQ(rtl::MemoryPort::datasheet().latency.clocks, 2u);
+  EXPECT_EQ(rtl::MemoryPort::datasheet().interval.clocks, 1u);
 }
 
 }  // namespace
-}  // namespace deburr::rtl::datasheet_test
+}  // namespace deburr::tb::datasheet_test

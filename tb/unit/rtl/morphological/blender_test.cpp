@@ -99,7 +99,7 @@ TEST(BlenderBlock, ChoosesTheAxisAndRoundsTheMagnitude) {
     EXPECT_EQ(beat.pixel[0][3], 77) << "alpha passes";
   }
   // Pushed in i, popped in i + 1.
-  expect_clocks(Blender::datasheet(), {bench.sink.cycles().begin(), bench.sink.cycles().end()}, 1);
+  expect_clocks(Blender::datasheet(), bench.sink.cycles(), 1);
   EXPECT_EQ(bench.blender.blended_pixels.value(), rows.size() - 1);
 }
 

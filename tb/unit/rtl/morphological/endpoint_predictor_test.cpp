@@ -198,8 +198,7 @@ TEST(EndpointPredictorBlock, ARecordHoldsAPredictorForItsIterations) {
   for (int i = 0; i < 20; ++i) bench.ends.source.send(bench.z(11, 20, 3, true));
   bench.clock.run(40);
   ASSERT_EQ(bench.ends.sink.cycles().size(), 20u);
-  expect_clocks(EndpointPredictor::datasheet(),
-                {bench.ends.sink.cycles().begin(), bench.ends.sink.cycles().end()}, 1);
+  expect_clocks(EndpointPredictor::datasheet(), bench.ends.sink.cycles(), 1);
 }
 
 TEST(EndpointPredictorBlock, TrialsOfOneRecordBehindTheOther) {

@@ -32,8 +32,9 @@ TEST(LumaUnitBlock, AddsTheWeightsExactlyTwoClocksLater) {
   clock.run(4);
   ASSERT_EQ(ends.sink.beats().size(), 3u);
   // Pushed in 0, popped in 1; a datasheet that is a clock off is noticed.
-  const std::vector<Cycle> seen(ends.sink.cycles().begin(), ends.sink.cycles().end());
-  const auto check = [&](const rtl::Datasheet& sheet) { expect_clocks(sheet, seen, 1); };
+  const auto check = [&](const rtl::Datasheet& sheet) {
+    expect_clocks(sheet, ends.sink.cycles(), 1);
+  };
   expect_notices_a_clock(LumaUnit::datasheet(), &rtl::Datasheet::latency, check);
   expect_notices_a_clock(LumaUnit::datasheet(), &rtl::Datasheet::interval, check);
   EXPECT_EQ(ends.sink.beats()[0].luma[0], 255u * 65536u);
