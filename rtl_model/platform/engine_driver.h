@@ -13,7 +13,7 @@ namespace deburr::platform {
 
 // Offsets and bits that every engine has, at places of its own.
 struct DriverLayout {
-  std::string_view engine;  // "geometric engine", for errors
+  std::string_view engine;  // "texture unit", for errors
   std::uint32_t id, id_value;
   std::uint32_t control, clear_counters;
   std::uint32_t status, idle;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "spec/error.h"
+#include "tb/base/near_matches.h"
 
 namespace deburr::tb {
 

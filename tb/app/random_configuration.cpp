@@ -13,8 +13,8 @@
 
 #include "spec/error.h"
 #include "tb/app/run_once.h"
+#include "tb/base/random.h"
 #include "tb/scene/textures.h"
-#include "tb/stimuli/random.h"
 
 namespace deburr::tb {
 namespace {

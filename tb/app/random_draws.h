@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb {
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "spec/error.h"
+#include "tb/base/interrupt.h"
 #include "tb/scene/truth.h"
 
 namespace deburr::tb {

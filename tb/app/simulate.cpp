@@ -10,7 +10,7 @@
 
 #include "rtl_model/fabric/memory.h"
 #include "spec/error.h"
-#include "tb/results/interrupt.h"
+#include "tb/base/interrupt.h"
 #include "tb/results/progress.h"
 #include "tb/results/windows.h"
 #include "tb/traces/line_trace.h"

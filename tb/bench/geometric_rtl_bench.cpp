@@ -28,7 +28,7 @@
 #include "rtl_model/platform/geometric_driver.h"
 #include "rtl_model/platform/memory_model.h"
 #include "rtl_model/platform/register_host.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 
 namespace deburr::tb {
 namespace {

@@ -30,8 +30,8 @@
 #include "rtl_model/platform/memory_model.h"
 #include "rtl_model/platform/morphological_driver.h"
 #include "rtl_model/platform/register_host.h"
+#include "tb/base/forked.h"
 #include "tb/harness/driver.h"
-#include "tb/harness/forked.h"
 #include "tb/stimuli/frames.h"
 
 namespace deburr::tb {

@@ -18,8 +18,8 @@
 #include "rtl_model/platform/register_host.h"
 #include "spec/error.h"
 #include "spec/registers.h"
-#include "tb/harness/forked.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/forked.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb {
 

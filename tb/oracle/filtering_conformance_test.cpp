@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "golden/texture/configuration.h"
+#include "tb/base/random.h"
 #include "tb/oracle/conformance.h"
-#include "tb/stimuli/random.h"
 
 namespace deburr::tb::texture::filtering_conformance_test {
 namespace {

@@ -13,7 +13,7 @@
 #include "golden/ideal/ellipse.h"
 #include "golden/ideal/texture_image.h"
 #include "golden/texture/configuration.h"
-#include "tb/env/texture_sequence.h"
+#include "tb/engines/texture/texture_sequence.h"
 #include "tb/harness/test_paths.h"
 
 namespace deburr::tb::texture_flicker_test {

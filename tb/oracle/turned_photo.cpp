@@ -7,7 +7,7 @@
 #include "golden/ideal/box.h"
 #include "golden/ideal/ellipse.h"
 #include "spec/error.h"
-#include "tb/env/texture_levels.h"
+#include "tb/engines/texture/texture_levels.h"
 #include "tb/scene/textures.h"
 
 namespace deburr::tb {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/app/command_papers.h"
+#include "tb/base/interrupt.h"
+#include "tb/command/command_papers.h"
 #include "tb/papers/papers.h"
-#include "tb/results/interrupt.h"
 #include "tb/results/run_directory.h"
 #include "tb/scene/truth.h"
 

@@ -19,6 +19,7 @@
 #include "golden/ideal/geometric.h"
 #include "spec/geometric/packets.h"
 #include "spec/geometric/parameters.h"
+#include "tb/base/random.h"
 #include "tb/engines/geometric/edge_table.h"
 #include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/papers/papers.h"
@@ -26,7 +27,6 @@
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/scenes.h"
-#include "tb/stimuli/random.h"
 
 namespace deburr::tb::paper_002 {
 namespace {

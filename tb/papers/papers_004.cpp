@@ -20,7 +20,7 @@
 #include "spec/texture/descriptor.h"
 #include "spec/texture/packets.h"
 #include "spec/texture/parameters.h"
-#include "tb/env/texture_scene.h"
+#include "tb/engines/texture/texture_scene.h"
 #include "tb/papers/papers.h"
 #include "tb/results/progress.h"
 #include "tb/scene/compose.h"

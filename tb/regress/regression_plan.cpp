@@ -14,8 +14,8 @@
 
 #include "spec/error.h"
 #include "tb/app/random_configuration.h"
-#include "tb/results/file.h"
-#include "tb/results/headline.h"
+#include "tb/base/file.h"
+#include "tb/base/headline.h"
 #include "tb/results/progress.h"
 #include "tb/sweep/sampling.h"
 

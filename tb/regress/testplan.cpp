@@ -20,9 +20,10 @@
 #include "spec/error.h"
 #include "tb/app/engine.h"
 #include "tb/app/reference_pages.h"
-#include "tb/results/file.h"
+#include "tb/base/file.h"
+#include "tb/base/near_matches.h"
+#include "tb/base/yaml_file.h"
 #include "tb/results/parameter_set.h"
-#include "tb/results/yaml_file.h"
 
 namespace deburr::tb {
 namespace {

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "spec/error.h"
-#include "tb/results/file.h"
+#include "tb/base/file.h"
 
 namespace deburr::tb {
 namespace {

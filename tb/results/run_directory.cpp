@@ -20,9 +20,9 @@
 #include <utility>
 
 #include "spec/error.h"
-#include "tb/results/file.h"
-#include "tb/results/interrupt.h"
-#include "tb/scene/image_io.h"
+#include "tb/base/atomic_file.h"
+#include "tb/base/file.h"
+#include "tb/base/interrupt.h"
 #include "tb/scene/truth.h"
 
 namespace deburr::tb {

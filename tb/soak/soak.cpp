@@ -25,7 +25,7 @@
 #include "spec/error.h"
 #include "tb/app/random_configuration.h"
 #include "tb/app/run_once.h"
-#include "tb/results/interrupt.h"
+#include "tb/base/interrupt.h"
 #include "tb/scene/truth.h"
 #include "tb/soak/flat_memory.h"
 

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "spec/error.h"
 #include "tb/app/run_once.h"
-#include "tb/results/yaml_file.h"
+#include "tb/base/near_matches.h"
+#include "tb/base/yaml_file.h"
 
 namespace deburr::tb {
 namespace {

@@ -16,12 +16,12 @@
 #include <utility>
 
 #include "spec/error.h"
+#include "tb/base/atomic_file.h"
+#include "tb/base/file.h"
+#include "tb/base/headline.h"
 #include "tb/results/build_info.h"
-#include "tb/results/file.h"
-#include "tb/results/headline.h"
 #include "tb/results/progress.h"
 #include "tb/results/report.h"
-#include "tb/scene/image_io.h"
 
 namespace deburr::tb {
 namespace {

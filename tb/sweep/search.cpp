@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "spec/error.h"
-#include "tb/results/file.h"
-#include "tb/results/interrupt.h"
+#include "tb/base/file.h"
+#include "tb/base/interrupt.h"
 #include "tb/results/report.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/truth.h"

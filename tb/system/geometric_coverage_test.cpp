@@ -3,7 +3,7 @@
 // golden's bins (golden/geometric/edge_coverage.h), and those that the hardware alone can tell:
 // look-ups, blocks, refusals, errors of memory, stalls. Every bin must be hit, with every frame
 // identical to golden.
-#include "tb/env/geometric_coverage.h"
+#include "tb/engines/geometric/geometric_coverage.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include <string>
 
 #include "spec/error.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 #include "tb/system/coverage_text.h"
 #include "tb/system/geometric_runs.h"
 

@@ -8,8 +8,8 @@
 #include <array>
 #include <string>
 
+#include "tb/base/forked.h"
 #include "tb/harness/engine_state.h"
-#include "tb/harness/forked.h"
 #include "tb/system/geometric_runs.h"
 
 namespace deburr::tb::geometric_system::geometric_stress_test {

@@ -11,8 +11,8 @@
 #include <tuple>
 
 #include "spec/error.h"
-#include "tb/env/geometric_frames.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
+#include "tb/engines/geometric/geometric_frames.h"
 #include "tb/harness/test_paths.h"
 #include "tb/system/geometric_runs.h"
 

@@ -13,7 +13,7 @@
 
 #include "spec/error.h"
 #include "tb/app/engine.h"
-#include "tb/env/texture_expectation.h"
+#include "tb/engines/texture/texture_expectation.h"
 #include "tb/harness/verdict.h"
 #include "tb/results/run_context.h"
 #include "tb/results/shared_inputs.h"

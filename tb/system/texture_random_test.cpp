@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <string>
 
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/stimuli/texture_quads.h"
 #include "tb/system/texture_quad_bench.h"
 

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "golden/texture/configuration.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 #include "tb/system/texture_quad_bench.h"
 #include "tb/system/texture_runs.h"
 

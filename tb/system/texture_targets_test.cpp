@@ -11,7 +11,7 @@
 #include <string>
 
 #include "spec/error.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 #include "tb/harness/protocol_target.h"
 #include "tb/system/texture_runs.h"
 

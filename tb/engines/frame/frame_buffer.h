@@ -12,8 +12,8 @@
 #include "rtl_model/fabric/unit.h"
 #include "spec/morphological/packets.h"
 #include "spec/texture/packets.h"
-#include "tb/env/frame_source.h"
-#include "tb/env/texture_scene.h"
+#include "tb/engines/morphological/frame_source.h"
+#include "tb/engines/texture/texture_scene.h"
 
 namespace deburr::tb {
 

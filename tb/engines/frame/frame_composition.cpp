@@ -7,7 +7,7 @@
 
 #include "spec/error.h"
 #include "tb/engines/geometric/edge_table.h"
-#include "tb/env/morphological_frames.h"
+#include "tb/engines/morphological/morphological_frames.h"
 #include "tb/scene/depth_codes.h"
 
 namespace deburr::tb {

@@ -23,10 +23,10 @@
 
 #include "tb/engines/frame/frame_buffer.h"
 #include "tb/engines/frame/frame_meter.h"
+#include "tb/engines/geometric/geometric_environment.h"
+#include "tb/engines/morphological/morphological_environment.h"
+#include "tb/engines/texture/texture_environment.h"
 #include "tb/env/environment.h"
-#include "tb/env/geometric_environment.h"
-#include "tb/env/morphological_environment.h"
-#include "tb/env/texture_environment.h"
 
 namespace deburr::tb {
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "tb/engines/frame/frame_buffer.h"
-#include "tb/env/geometric_environment.h"
+#include "tb/engines/geometric/geometric_environment.h"
+#include "tb/engines/morphological/morphological_environment.h"
+#include "tb/engines/texture/texture_environment.h"
 #include "tb/env/meter.h"
-#include "tb/env/morphological_environment.h"
-#include "tb/env/texture_environment.h"
 
 namespace deburr::tb {
 

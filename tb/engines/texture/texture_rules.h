@@ -8,7 +8,7 @@
 
 #include "spec/texture/parameters.h"
 #include "tb/app/engine.h"
-#include "tb/env/texture_scene.h"
+#include "tb/engines/texture/texture_scene.h"
 #include "tb/results/parameter_set.h"
 
 namespace deburr::tb {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "tb/app/pictures.h"
-#include "tb/results/interrupt.h"
+#include "tb/base/interrupt.h"
 #include "tb/results/progress.h"
 #include "tb/scene/image_bytes.h"
 

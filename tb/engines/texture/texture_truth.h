@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "tb/env/texture_scene.h"
+#include "tb/engines/texture/texture_scene.h"
 #include "tb/results/result.h"
 #include "tb/results/run_context.h"
 #include "tb/scene/image.h"

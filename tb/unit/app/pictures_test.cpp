@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/results/file.h"
+#include "tb/base/file.h"
 #include "tb/results/report.h"
 #include "tb/scene/image_io.h"
 

@@ -12,7 +12,7 @@
 
 #include "spec/error.h"
 #include "tb/app/run_once.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 
 namespace deburr::tb::random_configuration_test {
 namespace {

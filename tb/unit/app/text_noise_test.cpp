@@ -19,9 +19,9 @@
 #include "spec/error.h"
 #include "tb/app/random_configuration.h"
 #include "tb/app/run_once.h"
+#include "tb/base/random.h"
 #include "tb/harness/register_noise.h"
 #include "tb/harness/test_paths.h"
-#include "tb/stimuli/random.h"
 #include "tb/sweep/definition.h"
 
 namespace deburr::tb::text_noise_test {

@@ -160,7 +160,7 @@ TEST(MemoryPort, BurstsOfReadsAndWrites) {
 
 // A request that a full memory withholds while the engine is reset comes in later, and is none of
 // those that the engine asks for afterwards.
-TEST(platform::MemoryModel, CountsNoRequestThatWasWithheldBefore) {
+TEST(MemoryModel, CountsNoRequestThatWasWithheldBefore) {
   platform::MemoryModelParameters parameters = with_latency(50);
   parameters.outstanding = 1;
   System s({}, parameters);
@@ -177,7 +177,7 @@ TEST(platform::MemoryModel, CountsNoRequestThatWasWithheldBefore) {
 }
 
 // The last of what a narrow bus still has to carry is written long after its latency.
-TEST(platform::MemoryModel, IsAtRestWhenTheLastWriteIsDone) {
+TEST(MemoryModel, IsAtRestWhenTheLastWriteIsDone) {
   platform::MemoryModelParameters parameters = with_latency(10);
   parameters.write_at_response = true;
   parameters.bytes_per_clock = 1;
@@ -199,7 +199,7 @@ TEST(platform::MemoryModel, IsAtRestWhenTheLastWriteIsDone) {
   EXPECT_GT(s.clock.cycle(), Cycle{3 * 64});
 }
 
-TEST(platform::MemoryModel, ForgetsLinesAndGoesOnCounting) {
+TEST(MemoryModel, ForgetsLinesAndGoesOnCounting) {
   System s({}, with_latency(5));
   s.driver.send(read_of(3));
   ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 1; }, 1000));
@@ -210,7 +210,7 @@ TEST(platform::MemoryModel, ForgetsLinesAndGoesOnCounting) {
 
 // Who does not wait for the answer to a write reads what was there before; who waits reads what was
 // written. A memory that takes requests one by one hides that.
-TEST(platform::MemoryModel, AReadBehindAWriteIsARace) {
+TEST(MemoryModel, AReadBehindAWriteIsARace) {
   for (const bool late : {true, false}) {
     const std::string text = in_child([&] {
       platform::MemoryModelParameters parameters = with_latency(10);
@@ -244,7 +244,7 @@ TEST(MemoryModel, ResponsesSentAheadComeAtTheirTime) {
     const auto run = [&](bool ahead) {
       const std::string text = in_child([&] {
         Random random(seed, "parameters");
-        MemoryModelParameters memory = with_latency(random.below(40));
+        platform::MemoryModelParameters memory = with_latency(random.below(40));
         memory.bytes_per_clock = std::array{0U, 16U, 64U}[random.below(3)];
         memory.banks = random.chance(500) ? 1 : 4;
         memory.bank_busy = memory.banks == 1 ? random.below(4) : 0;

@@ -13,7 +13,7 @@
 #include <string>
 
 #include "rtl_model/platform/memory_model.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 
 namespace deburr::tb::protocol_target_test {
 namespace {

@@ -244,22 +244,5 @@ TEST_F(Parameters, OfAnEngineAreRulesOrBuildChoices) {
             set.all().size());
 }
 
-TEST(EditDistance, CountsEditsAndSwaps) {
-  EXPECT_EQ(edit_distance("", ""), 0);
-  EXPECT_EQ(edit_distance("", "abc"), 3);
-  EXPECT_EQ(edit_distance("ways", "wasy"), 1);
-  EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
-  const std::vector<std::string> presets = {"mlaa", "mlaa-slope", "deburr"};
-  EXPECT_THAT(near_matches("MLAA", presets), testing::ElementsAre("mlaa"));
-  EXPECT_THAT(near_matches("Debur", presets), testing::ElementsAre("deburr"));
-  EXPECT_THAT(near_matches("ram", presets), testing::IsEmpty());
-}
-
-TEST(EditDistance, DidYouMeanReadsWell) {
-  EXPECT_EQ(did_you_mean({}), "");
-  EXPECT_EQ(did_you_mean({"a"}), ": did you mean 'a'?");
-  EXPECT_EQ(did_you_mean({"a", "b", "c"}), ": did you mean 'a', 'b' or 'c'?");
-}
-
 }  // namespace
 }  // namespace deburr::tb::parameters_test

@@ -13,9 +13,9 @@
 #include <string>
 
 #include "spec/error.h"
+#include "tb/base/file.h"
+#include "tb/base/headline.h"
 #include "tb/results/compare.h"
-#include "tb/results/file.h"
-#include "tb/results/headline.h"
 #include "tb/results/progress.h"
 #include "tb/results/report.h"
 #include "tb/results/run_context.h"

@@ -8,8 +8,8 @@
 
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
+#include "tb/base/forked.h"
 #include "tb/engines/frame/frame_composition.h"
-#include "tb/harness/forked.h"
 
 namespace deburr::tb::composition_test {
 namespace {

@@ -15,7 +15,7 @@
 #include "golden/morphological/area.h"
 #include "golden/morphological/runs.h"
 #include "spec/error.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
 namespace deburr::frames_test {

@@ -21,8 +21,8 @@
 
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
+#include "tb/base/random.h"
 #include "tb/harness/test_paths.h"
-#include "tb/stimuli/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
 namespace deburr::learned_shares_test {

@@ -12,7 +12,7 @@
 #include "golden/texture/footprint.h"
 #include "golden/texture/level_of_detail.h"
 #include "spec/texture/tables.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::level_test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <numeric>
 
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/unit/rtl/geometric/parts.h"
 
 namespace deburr::tb::geometric_rtl::line_setup_test {

@@ -10,7 +10,7 @@
 
 #include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/memory_arbiter.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/geometric/support.h"
 

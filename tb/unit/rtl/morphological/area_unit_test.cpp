@@ -14,7 +14,7 @@
 
 #include "spec/morphological/learned_shares.h"
 #include "spec/morphological/tables.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/morphological/parts.h"
 

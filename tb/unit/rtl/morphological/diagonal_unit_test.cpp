@@ -10,7 +10,7 @@
 
 #include "golden/morphological/diagonals.h"
 #include "rtl_model/morphological/blend/diagonal_table.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/morphological/parts.h"
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "rtl_model/morphological/runs/port_schedule.h"
-#include "tb/harness/forked.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/forked.h"
+#include "tb/base/random.h"
 #include "tb/unit/rtl/morphological/support.h"
 
 namespace deburr::tb::morphological_rtl::edge_memories_test {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/morphological/parts.h"
 

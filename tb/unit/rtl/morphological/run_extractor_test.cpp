@@ -5,7 +5,7 @@
 #include <set>
 #include <tuple>
 
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/morphological/edge_memories.h"
 #include "tb/unit/rtl/morphological/parts.h"

@@ -5,9 +5,9 @@
 #include <string>
 #include <tuple>
 
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
+#include "tb/base/random.h"
 #include "tb/harness/monitor.h"
-#include "tb/stimuli/random.h"
 #include "tb/unit/rtl/morphological/edge_memories.h"
 #include "tb/unit/rtl/morphological/parts.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "spec/texture/tables.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/support.h"
 

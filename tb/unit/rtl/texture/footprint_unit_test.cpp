@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/support.h"
 

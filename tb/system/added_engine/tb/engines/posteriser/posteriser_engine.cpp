@@ -14,8 +14,8 @@
 #include "spec/posteriser/registers.h"
 #include "tb/app/pictures.h"
 #include "tb/app/simulate.h"
+#include "tb/base/random.h"
 #include "tb/engines/posteriser/posteriser_environment.h"
-#include "tb/stimuli/random.h"
 
 namespace deburr::tb {
 namespace {
