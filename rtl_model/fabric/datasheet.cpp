@@ -24,7 +24,7 @@ std::string section(const Datasheet& sheet, bool first, const Datasheet* next) {
   std::string text;
   if (first) text += fmt::format("\n### {}\n\n{}\n", sheet.unit, sheet.does);
   if (!sheet.variant.empty()) text += fmt::format("\n**{}**\n", sheet.variant);
-  text += fmt::format("\nLatency {}; initiation interval {}.", sheet.latency.shown(),
+  text += fmt::format("\nLatency: {}; initiation interval: {}.", sheet.latency.shown(),
                       sheet.interval.shown());
   if (sheet.megahertz != kUsualMegahertz) text += fmt::format(" For {} MHz.", sheet.megahertz);
   text += "\n";
@@ -48,21 +48,20 @@ std::string title(const Datasheet& sheet) {
 
 std::vector<Datasheet> merged(std::span<const std::vector<Datasheet>> builds) {
   std::vector<Datasheet> all;
-  for (const std::vector<Datasheet>& build : builds)
+  for (const std::vector<Datasheet>& build : builds) {
+    auto behind = all.begin();  // the unit before it in its build
     for (const Datasheet& sheet : build) {
       const auto same = std::find_if(all.begin(), all.end(), [&](const Datasheet& other) {
         return title(other) == title(sheet);
       });
-      if (same != all.end()) {
-        DEBURR_CHECK(say_the_same(*same, sheet),
-                     "two datasheets that differ have one title: " + title(sheet));
-        continue;
-      }
-      const auto last = std::find_if(all.rbegin(), all.rend(), [&](const Datasheet& other) {
-        return other.unit == sheet.unit;
-      });
-      all.insert(last == all.rend() ? all.end() : last.base(), sheet);
+      DEBURR_CHECK(same == all.end() || say_the_same(*same, sheet),
+                   "two datasheets that differ have one title: " + title(sheet));
+      const auto of_unit = [&](const Datasheet& other) { return other.unit == sheet.unit; };
+      if (const auto last = std::find_if(all.rbegin(), all.rend(), of_unit); last != all.rend())
+        behind = last.base();
+      if (same == all.end()) behind = all.insert(behind, sheet) + 1;
     }
+  }
   return all;
 }
 

@@ -38,7 +38,7 @@ std::vector<Stage> stages_of_learned_shares() {
 }
 
 std::vector<Stage> stages_of_a_line() {
-  return {{"4", "k x growth", "24 x 24 multiply"},
+  return {{"4", "k x growth", "26 x 12 multiply"},
           {"5", "t at both ends, quantised"},
           {"6", "squares, trapezoid", "12 x 12 multiply"},
           {"7", "triangles", "24 x 24 multiply"},

@@ -136,14 +136,15 @@ Datasheet EndpointPredictor::trial_datasheet(const spec::morphological::Paramete
            "T x (trials + 1) of one of predictor_units (T = 2: T x trials + 4, T = 1: trials "
            "+ 3)"},
       .stages =
-          {{"0", "address of the right side's columns", "13-bit add, 5-bit add"},
-           {"1", "their words come, choice of groups of bits; address of the left side",
-            "SRAM read, 8 : 1 choice"},
+          {{"0", "address of the right side's columns (the left side's: here or in clock 1)",
+            "13-bit add, 5-bit add"},
+           {"1", "their words come, choice of groups of bits", "SRAM read, 8 : 1 choice"},
            {"2",
             "choice of bits, codes of the corners compared, edges between them all set; the "
             "left side's words come",
             "32 : 1 choice, 4-bit comparison"},
-           {"3", "the same for the left side", "32 : 1 choice, 4-bit comparison"},
+           {"3", "the same for the left side, if it reads a clock later",
+            "32 : 1 choice, 4-bit comparison"},
            {"4 = 0'",
             "bounds: steps taken or refused; beside it the next address, which knows the hits. "
             "A read for a side that the bounds end is dropped",

@@ -33,6 +33,16 @@ TEST(Datasheets, VariantsOfAUnitStandTogether) {
   EXPECT_EQ(titles, (std::vector<std::string>{"Halver, slow", "Halver, fast", "Doubler"}));
 }
 
+// A unit that only one build has stands where it stands in that build.
+TEST(Datasheets, UnitsKeepTheirOrder) {
+  const Datasheet first = {.unit = "First"}, last = {.unit = "Last"};
+  const std::vector<std::vector<Datasheet>> builds = {{first, halver("slow", 3), last},
+                                                      {first, {.unit = "Other"}, last}};
+  std::string units;
+  for (const Datasheet& sheet : rtl::merged(builds)) units += sheet.unit + " ";
+  EXPECT_EQ(units, "First Other Halver Last ");
+}
+
 TEST(Datasheets, OneTitleSaysOneThing) {
   const std::vector<std::vector<Datasheet>> builds = {{halver("slow", 3)}, {halver("slow", 2)}};
   EXPECT_THROW(rtl::merged(builds), spec::CheckFailed);
@@ -62,7 +72,7 @@ Halves each token.
 
 **slow**
 
-Latency 3; initiation interval 1.
+Latency: 3; initiation interval: 1.
 
 | stage | work | longest path |
 |---|---|---|
@@ -71,7 +81,7 @@ Latency 3; initiation interval 1.
 
 **fast**
 
-Latency 2; initiation interval a token a clock. For 300 MHz.
+Latency: 2; initiation interval: a token a clock. For 300 MHz.
 
 | stage | work | longest path |
 |---|---|---|

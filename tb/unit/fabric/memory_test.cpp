@@ -30,7 +30,7 @@ TEST(MemoryPort, LatencyIsExact) {
       return fmt::format("{} {}", s.sink.cycles()[0], s.port.latency.max());
     });
     // Pushed in 0, popped in 1.
-    EXPECT_EQ(text, fmt::format("{} {}", 1 + MemoryPort::datasheet().latency.clocks + latency,
+    EXPECT_EQ(text, fmt::format("{} {}", 1 + rtl::MemoryPort::datasheet().latency.clocks + latency,
                                 latency + 1));
   }
 }

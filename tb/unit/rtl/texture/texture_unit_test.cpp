@@ -62,7 +62,7 @@ TEST(TextureRtlUnit, NearestGivesTheTexelsInOrder) {
 }
 
 void check_latency(const spec::texture::Parameters& p, Cycle expected) {
-  expect_latency(TextureUnit::datasheet(p), expected);
+  expect_latency(rtl::texture::TextureUnit::datasheet(p), expected);
   UnitBench b(p);
   write_descriptor(b.bus, 0, nearest_texture(b.memory));
   b.source.add(quad_of(3, 5));
