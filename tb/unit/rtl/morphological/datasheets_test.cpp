@@ -58,8 +58,8 @@ TEST(MorphologicalDatasheets, EveryUnitHasOne) {
   expect_datasheets(b.engine, rtl::morphological::datasheets(p));
 }
 TEST(MorphologicalDatasheets, EveryUnitWithDiagonalsHasOne) {
-  Parameters p = preset(Preset::kSmaa);
-  p.diagonals = true;
+  const Parameters p = smaa(spec::morphological::Quality::kHigh);
+  ASSERT_TRUE(p.diagonals);
   const EngineBench b(p);
   expect_datasheets(b.engine, rtl::morphological::datasheets(p));
 }
