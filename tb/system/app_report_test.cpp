@@ -15,6 +15,7 @@
 #include <string>
 #include <utility>
 
+#include "tb/base/atomic_file.h"
 #include "tb/base/file.h"
 #include "tb/harness/test_paths.h"
 #include "tb/scene/image.h"

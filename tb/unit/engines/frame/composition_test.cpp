@@ -5,6 +5,7 @@
 
 #include <set>
 #include <string>
+#include <variant>
 
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
@@ -61,8 +62,8 @@ Outcome run(const SimulationOptions& options, const FrameSetup& setup) {
     if (frame.geometric) o.blended = frame.geometric->engine().work().blended_pixels;
     if (frame.morphological) o.left = frame.morphological->engine().work().left_pixels;
     for (const WorkItem& item : result.work) {
-      if (item.name == "drawing_clocks") o.drawing = item.value.get<std::uint64_t>();
-      if (item.name == "engine_clocks_bound") o.bound = item.value.get<std::uint64_t>();
+      if (item.name == "drawing_clocks") o.drawing = std::get<std::uint64_t>(item.value);
+      if (item.name == "engine_clocks_bound") o.bound = std::get<std::uint64_t>(item.value);
     }
     return o;
   });

@@ -25,6 +25,38 @@ Rgba8 colour_of(const Tone& t) { return {t.colour[0], t.colour[1], t.colour[2], 
 
 }  // namespace
 
+PosteriserDriver::PosteriserDriver(platform::RegisterBus& registers)
+    : EngineDriver(registers, {.engine = "posteriser",
+                               .id = reg::kId,
+                               .id_value = reg::kIdValue,
+                               .control = reg::kControl,
+                               .clear_counters = 1u << 1,
+                               .status = reg::kStatus,
+                               .idle = 1u << 0,
+                               .memory_errors = reg::kStatus}) {}
+
+void PosteriserMeter::collect(Result& result, const rtl::Engine& engine) const {
+  add_parts(result, engine, 0);
+  add_counters(result, engine);
+}
+
+void PosteriserMeter::show(Observer& observer, const rtl::Engine& engine, const rtl::LinkBase& in,
+                           const rtl::LinkBase& out) const {
+  Meter::show(observer, "pixels_in", in);
+  Meter::show(observer, engine);
+  Meter::show(observer, "pixels_out", out);
+  observer.see({"Pixels delivered", figure("levels_pixels"), "pixel/clk", 1});
+}
+
+void PosteriserMeter::collect_headline(Result& result, std::uint64_t delivered,
+                                       int link_depth) const {
+  result.throughput = ratio(number(delivered), number(result.cycles));
+  result.throughput_unit = "pixel/clk";
+  result.throughput_bound = link_depth > 1 ? 1 : 0.5;
+  result.throughput_bound_meaning = "A pixel a clock; every other clock by links of depth 1.";
+  result.bottleneck = find_bottleneck(result.units, figure("levels"));
+}
+
 PosteriserEnvironment::PosteriserEnvironment(Simulation& simulation, const Image& picture,
                                              const spec::posteriser::Parameters& parameters)
     : Environment(simulation, ""),
@@ -65,7 +97,7 @@ spec::posteriser::Parameters PosteriserEnvironment::as_built() const {
   return p;
 }
 
-void PosteriserEnvironment::configure() { require_id(host_, reg::kId, reg::kIdValue); }
+void PosteriserEnvironment::configure() { driver_.identify(); }
 
 bool PosteriserEnvironment::begin(std::size_t piece) {
   if (piece > 0) return false;
@@ -93,17 +125,10 @@ void PosteriserEnvironment::finish() {
                                    {{reg::kPixels, expected_.size()}, {reg::kChanged, changed}}});
 }
 
-void PosteriserEnvironment::collect(Result& result) const {
-  for (const rtl::Unit* unit : engine_.units()) add(result, name_within(engine_, *unit), *unit);
-  for (const rtl::Counter* counter : engine_.counters())
-    add(result, name_within(engine_, *counter), *counter);
-}
+void PosteriserEnvironment::collect(Result& result) const { meter_.collect(result, engine_); }
 
 void PosteriserEnvironment::show_parts(Observer& observer) const {
-  show(observer, "pixels_in", tones_in_);
-  show(observer, engine_);
-  show(observer, "pixels_out", tones_out_);
-  observer.see({"Pixels delivered", figure("levels_pixels"), "pixel/clk", 1});
+  meter_.show(observer, engine_, tones_in_, tones_out_);
 }
 
 std::vector<PictureMap> PosteriserEnvironment::maps() const {
@@ -113,7 +138,7 @@ std::vector<PictureMap> PosteriserEnvironment::maps() const {
   for (std::size_t i = 0; i < std::min(came_, frame_.pixels.size()); ++i)
     map.values[i] =
         static_cast<float>(golden::posteriser::level_of(parameters_, frame_.pixels[i][0]));
-  return named({map});
+  return meter_.named({map});
 }
 
 Coverage PosteriserEnvironment::declared_coverage() {
@@ -135,11 +160,7 @@ Coverage PosteriserEnvironment::coverage() const {
 }
 
 void PosteriserEnvironment::collect_headline(Result& result) const {
-  result.throughput = ratio(number(came_), number(result.cycles));
-  result.throughput_unit = "pixel/clk";
-  result.throughput_bound = parameters_.link_depth > 1 ? 1 : 0.5;
-  result.throughput_bound_meaning = "A pixel a clock; every other clock by links of depth 1.";
-  result.bottleneck = find_bottleneck(result.units, figure("levels"));
+  meter_.collect_headline(result, came_, parameters_.link_depth);
 }
 
 Image PosteriserEnvironment::golden_frame() const {

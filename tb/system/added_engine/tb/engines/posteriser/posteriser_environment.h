@@ -10,15 +10,34 @@
 #include <string>
 #include <vector>
 
+#include "rtl_model/platform/engine_driver.h"
+#include "rtl_model/platform/register_host.h"
 #include "rtl_model/posteriser/posteriser.h"
 #include "spec/posteriser/packets.h"
 #include "spec/posteriser/parameters.h"
 #include "tb/env/environment.h"
+#include "tb/env/meter.h"
 #include "tb/env/raster_scoreboard.h"
 #include "tb/harness/driver.h"
 #include "tb/scene/image.h"
 
 namespace deburr::tb {
+
+// What software does with it: it has no memory, and rules by its parameters alone.
+class PosteriserDriver final : public platform::EngineDriver {
+ public:
+  explicit PosteriserDriver(platform::RegisterBus& registers);
+};
+
+// What its figures are.
+class PosteriserMeter final : public Meter {
+ public:
+  PosteriserMeter() : Meter("") {}
+  void collect(Result& result, const rtl::Engine& engine) const;
+  void collect_headline(Result& result, std::uint64_t delivered, int link_depth) const;
+  void show(Observer& observer, const rtl::Engine& engine, const rtl::LinkBase& in,
+            const rtl::LinkBase& out) const;
+};
 
 class PosteriserEnvironment final : public Environment {
  public:
@@ -60,7 +79,9 @@ class PosteriserEnvironment final : public Environment {
   Driver<spec::posteriser::Tone> source_;
   rtl::posteriser::Posteriser engine_;
   Sink<spec::posteriser::Tone> sink_;
-  RegisterHost host_;
+  platform::RegisterHost host_;
+  PosteriserDriver driver_{host_};
+  PosteriserMeter meter_;
   RasterScoreboard<spec::posteriser::Tone> board_;
   RegisterScoreboard register_board_;
   Image frame_;
