@@ -404,4 +404,20 @@ unsigned MemoryPort::debug_write(std::uint64_t address, const void* data, unsign
   return memory->transport_dbg(payload);
 }
 
+Datasheet MemoryPort::datasheet() {
+  return {.unit = "MemoryPort",
+          .does = "Requests of an engine to a TLM-2.0 target, and its responses back.",
+          .latency = {2, "2, and the latency of memory"},
+          .interval = {1, "one request and one beat of a response a clock"},
+          .stages = {{"1", "a request popped in c leaves in c"},
+                     {"2",
+                      "a response that arrives before edge d > c is pushed in d, and can be popped "
+                      "in d + 1",
+                      "choice of 1 in 256 tags, nothing behind it"}},
+          .cost =
+              "response_buffer, a place for every line that may come back, written as it comes "
+              "and read into the link's slot; with bursts of writes gather_buffer, the lines of "
+              "one; a tag table, one multiplexer."};
+}
+
 }  // namespace deburr::rtl

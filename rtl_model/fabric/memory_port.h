@@ -7,17 +7,12 @@
 // the target ends requests at once. A target may also skip phases or complete early, or know only
 // b_transport (behind tlm_utils::simple_target_socket). A response is ended when it begins, since
 // there is room for each that is outstanding; ResponseEnd says in which of the protocol's forms.
-// Latency: request popped in cycle c leaves in c; a response that arrives at a time before edge d
-// is pushed in d, so d is at the earliest c+1. It can be popped in d+1. Stalls: `outstanding`
-// (limit reached), `request_channel` (the target has not ended the last request), `downstream`
-// (nobody takes the responses).
-// Cost: response_buffer, a place for every line that may come back, written as it comes and read
-// into the link's slot; with bursts of writes gather_buffer, the lines of one; a tag table, one
-// multiplexer. What the interconnect is, the model leaves open: a burst goes and comes in one
-// transaction, and all responses that come before an edge are in the buffer at that edge, however
-// many. From it goes one beat a clock. A buffer of 1R1W takes them so if the interconnect brings at
-// most a line a clock. Made for 250 MHz; longest path: a choice of 1 in 256 tags, nothing behind
-// it.
+// Stalls: `outstanding` (limit reached), `request_channel` (the target has not ended the last
+// request), `downstream` (nobody takes the responses).
+// What the interconnect is, the model leaves open: a burst goes and comes in one transaction, and
+// all responses that come before an edge are in the buffer at that edge, however many. From it goes
+// one beat a clock. A buffer of 1R1W takes them so if the interconnect brings at most a line a
+// clock.
 #pragma once
 
 #include <array>
@@ -29,6 +24,7 @@
 #include <tlm>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
 
@@ -141,6 +137,8 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   Counter errors{"errors", "transactions", "transactions with an error response"};
   Counter most_outstanding{"most_outstanding", "transactions", "largest number in flight"};
   Histogram latency{"latency", "clk", "from sending a request to having its response"};
+
+  static Datasheet datasheet();
 
  private:
   SC_HAS_PROCESS(MemoryPort);

@@ -67,4 +67,16 @@ void FrameSequencer::reset() {
   begun_ = drawn_ = 0;
 }
 
+Datasheet FrameSequencer::datasheet() {
+  return {.unit = "FrameSequencer",
+          .does = "Takes a frame through its phases: begin, edges, resolve.",
+          .latency = {0, "-"},
+          .interval = {1, "-"},
+          .stages = {{"1",
+                      "judges START in the clock after the write: products of SIZE are shifts and "
+                      "one 11 x 11 multiply over two clocks (ParameterStore)",
+                      "11 x 11 multiply"}},
+          .cost = "a state of two bits, a 32-bit counter."};
+}
+
 }  // namespace deburr::rtl::geometric

@@ -3,14 +3,13 @@
 //
 // Where: above the pipe. START is judged in the clock after its write; a refused one has an effect
 // on REFUSAL and STATUS alone. A phase begins in the clock after all units are done with the one
-// before: their wires are registers of these units, and so is the phase. Never stalls. Cost: a
-// state of two bits, a 32-bit counter. Made for 250 MHz; longest path: 11 x 11 multiply of the
-// sizes (ParameterStore).
+// before: their wires are registers of these units, and so is the phase. Never stalls.
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/parameter_store.h"
@@ -43,6 +42,8 @@ class FrameSequencer final : public Unit {
   Counter frame_cycles{"frame_cycles", "clk", "clocks of the last frame"};
   Counter edge_cycles{"edge_cycles", "clk", "of these until every edge was drawn"};
   Counter resolve_cycles{"resolve_cycles", "clk", "of these the rest"};
+
+  static Datasheet datasheet();
 
  private:
   bool begun(Cycle cycle) const;

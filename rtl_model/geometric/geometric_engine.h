@@ -13,8 +13,7 @@
 //   FrameSequencer all that read or write memory -> MemoryArbiter -> MemoryPort: memory (TLM-2.0
 //   initiator) ParameterStore: registers (TLM-2.0 target)
 //
-// Everything is in order; only memory answers in any. Made for 250 MHz; longest path: a 24 x 24
-// multiply. Source: Persson, GPAA; paper 002.
+// Everything is in order; only memory answers in any. Source: Persson, GPAA; paper 002.
 #pragma once
 
 #include <functional>

@@ -17,7 +17,6 @@
 // pushed out in clock c + (R + 5) x BPR + kPipelineLatency; one beat (1, 2 or 4 pixels) a clock.
 // Stalls:
 // `records` (extractor), `upstream` (sequencer), `memory` and `rows` (pixel store), `downstream`.
-// Made for 250 MHz; the longest path is the AreaUnit's, a 24 x 24 multiply.
 // Source: Reshetov 2009; paper 000.
 #pragma once
 

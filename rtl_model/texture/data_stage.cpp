@@ -193,4 +193,22 @@ void DataStage::reset() {
   issued_ = nullptr;
 }
 
+Datasheet DataStage::datasheet() {
+  return {
+      .unit = "DataStage",
+      .does = "Reads the texels of a request from the banks and writes the fills it ordered.",
+      .latency = {2, "2 in the last clock of a request"},
+      .interval = {1, "max(1, lines to write, bank passes) clocks a request"},
+      .stages = {{"1",
+                  "waits for the fills of its own request and takes each as it arrives in order, "
+                  "addresses the texels that hit before it writes its fills",
+                  "comparison of 14 bits, the pass of each texel (three 2-bit steps), choice of "
+                  "1 in 4 addresses"},
+                 {"2", "words, texels; missed ones from the fill buffer",
+                  "SRAM read, choice of 1 in 16 words (32 at most) and of a byte"}},
+      .cost =
+          "banks of lines x 32 bits, SRAM 1R1W, four texel registers, four word "
+          "multiplexers, six comparators."};
+}
+
 }  // namespace deburr::rtl::texture

@@ -269,4 +269,35 @@ void FilterPipeline::reset() {
   has_total_ = has_rounded_ = false;
 }
 
+Datasheet FilterPipeline::datasheet(const spec::texture::Parameters& p) {
+  const char* const kLerp =
+      "two 20 x 9 multiplies and their sum (18 rows of partial products, 24 x 24 has 24)";
+  Datasheet sheet = {
+      .unit = "FilterPipeline",
+      .variant = "`srgb_output = linear`",
+      .does = "Filters four texels a clock to the colour of a fragment.",
+      .latency = {8},
+      .stages = {{"1", "fields"},
+                 {"2", "unpack (sRGB: ROM), weight (ROM)", "ROM read"},
+                 {"3", "horizontal products", "12 x 9 multiply"},
+                 {"4", "horizontal sums"},
+                 {"5", "vertical lerp", kLerp},
+                 {"6", "level lerp", kLerp},
+                 {"7", "accumulate", "20 x 9 multiply and an addition"},
+                 {"8", "round, pack"}},
+      .formats =
+          "U8.4 after stage 2, U8.12 after 4, 5 and 6, U8.20 in 7, U8.0 out (`encoded`: U8.4 "
+          "after 8); rounded in 5, 6 and 8.",
+      .cost =
+          "four channels: 16 + 8 + 4 + 4 multipliers (12 x 9, and three times 20 x 9), 24 "
+          "adders, the ROM `srgb`, 256 x 12 bits, 12R, one word a coded channel; `weights`, "
+          "256 x 9 bits, 1R; `encoded`: the ROM `codes`, 4096 x 8 bits, 3R, three adders."};
+  if (p.srgb_output == spec::texture::SrgbOutput::kEncoded) {
+    sheet.variant = "`srgb_output = encoded`";
+    sheet.latency = {9};
+    sheet.stages.push_back({"9", "codes (ROM)", "ROM read"});
+  }
+  return sheet;
+}
+
 }  // namespace deburr::rtl::texture

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Filters four texels a clock to the colour of a fragment, in eight stages:
-// 1 fields, 2 unpack, 3 horizontal products, 4 horizontal sums, 5 vertical lerp, 6 level lerp,
-// 7 accumulate, 8 round, pack; with `srgb_output = encoded` 9 encode.
+// Filters four texels a clock to the colour of a fragment.
 //
-// Where: after the TextureCache. Latency 8, or 9, initiation interval 1 a bilinear request; stages
-// 6 and 7 wait for the requests that belong together, so a colour leaves after the last request of
-// its fragment. Stage 1 cuts a texel into its fields, which are the addresses of the ROM `srgb`;
-// its words are there in stage 2, and so is the weight of the sample, from the ROM `weights` by N
-// and i (`box` with N a power of two: 256 shifted by lb N, no ROM). The weights sum to 256, so
-// nothing is divided. The model does stages 2 to 5 in stage 2, then delays. When a colour cannot
-// leave
-// (`downstream`), the whole pipeline holds still. Made for 250 MHz; longest path: two 20 x 9 bit
-// multiplies and their sum, 18 rows of partial products where a 24 x 24 multiply has 24. Formats:
-// U8.4 after stage 2, U8.12 after 4, 5 and 6, U8.20 in 7, U8.0 out (`encoded`: U8.4 after 8);
-// rounded in 5, 6 and 8. Cost, four channels: 16 + 8 + 4 + 4 multipliers (12 x 9, and three times
-// 20 x 9 bits), 24 adders, the ROM `srgb`, 256 x 12 bits, 12R, one word a coded channel; `weights`,
-// 256 x 9 bits, 1R; `encoded`: the ROM `codes`, 4096 x 8 bits, 3R, three adders. Source: paper 2.3;
-// weights and codes are ours.
+// Where: after the TextureCache. Stages 6 and 7 wait for the requests that belong together, so a
+// colour leaves after the last request of its fragment. Stage 1 cuts a texel into its fields, which
+// are the addresses of the ROM `srgb`; its words are there in stage 2, and so is the weight of the
+// sample, from the ROM `weights` by N and i (`box` with N a power of two: 256 shifted by lb N, no
+// ROM). The weights sum to 256, so nothing is divided. The model does stages 2 to 5 in stage 2,
+// then delays. When a colour cannot leave (`downstream`), the whole pipeline holds still. Source:
+// paper 2.3; weights and codes are ours.
 #pragma once
 
 #include <array>
@@ -26,6 +17,7 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/latency_probe.h"
 #include "rtl_model/fabric/memory.h"
@@ -54,6 +46,8 @@ class FilterPipeline final : public Unit {
                              "from a quad being taken to a colour of it being delivered"};
   // Clocks in which a stage had a token to work on.
   std::array<Counter, kStages> occupancy;
+
+  static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
  private:
   // R, G, B and A. The model keeps two channels in a word, so that one of its multiplications does

@@ -140,4 +140,24 @@ inline void TexelAddresser::address(const TextureState& texture, const LevelGeom
   out.turned = {linear_layout && (low(y) & 1), linear_layout && (high(y) & 1)};
 }
 
+Datasheet TexelAddresser::datasheet() {
+  return {
+      .unit = "TexelAddresser",
+      .does = "From a sample position to the addresses of its four texels and its fractions.",
+      .latency = {5},
+      .stages = {{"1", "choice of the descriptor", "choice of 1 in 16"},
+                 {"2", "choice of the level in it, wrapping of both coordinates"},
+                 {"3", "their products with the level's width and height", "34 x 13 multiply"},
+                 {"4",
+                  "half a texel less, rounded, split into texel and fraction, both texels of each "
+                  "axis brought into range"},
+                 {"5", "two column parts, two row parts, four sums",
+                  "`linear`: 12 x 9 multiply, then a 32-bit addition of three operands"}},
+      .formats = "position S9.24, texel position rounded to 8 fraction bits, address U32.",
+      .cost =
+          "a choice of 1 in 16 descriptors and 1 in 13 levels, two 34 x 13 multipliers, two "
+          "12 x 9 ones for `linear` pitch; `tiled` is wires and multiplexers; registers of four "
+          "requests, the first with 13 level bases."};
+}
+
 }  // namespace deburr::rtl::texture

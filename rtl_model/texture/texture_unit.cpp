@@ -49,4 +49,15 @@ bool TextureUnit::idle() const {
   return probe_.inside() == 0 && address.derivative.quads_in.link().empty();
 }
 
+Datasheet TextureUnit::datasheet(const spec::texture::Parameters& p) {
+  Datasheet sheet = {
+      .unit = "TextureUnit",
+      .does = "From a quad taken to its first colour: one sample, nearest, warm cache.",
+      .interval = {1, "N x (1 or 2) clocks a fragment, or `axis_clocks` if that is more"}};
+  for (const Datasheet& part :
+       {AddressUnit::datasheet(p), TextureCache::datasheet(), FilterPipeline::datasheet(p)})
+    sheet.latency.clocks += part.latency.clocks;
+  return sheet;
+}
+
 }  // namespace deburr::rtl::texture

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "spec/registers.h"
 #include "tb/app/random_draws.h"
 #include "tb/harness/coverage.h"
@@ -124,6 +125,12 @@ struct RegisterSection {
   std::string macros{};  // what the names of its macros begin with; follows from its name
 };
 
+// Of docs/datasheets.md: an engine's units.
+struct DatasheetSection {
+  std::string module;  // as its page calls it; empty: the engine has no units of its own
+  std::vector<rtl::Datasheet> sheets;
+};
+
 // Of docs/coverage.md: every bin of an engine, those too that only directed tests meet.
 struct CoverageSection {
   std::string title;  // of its table; empty: the engine has no bins of its own
@@ -185,6 +192,7 @@ class Engine {
   // ---- reference pages
   virtual RegisterSection registers() const { return {}; }
   virtual CoverageSection coverage() const { return {}; }
+  virtual DatasheetSection datasheets() const { return {}; }
 
   // ---- runs that nobody chose
   virtual RandomDraws random_draws() const { return {}; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// docs/parameters.md, statistics.md, registers.md and coverage.md, made from the declarations that
-// the program uses.
+// docs/parameters.md, statistics.md, registers.md, coverage.md and datasheets.md, made from the
+// declarations that the program uses.
 #pragma once
 
 #include <memory>
@@ -19,6 +19,7 @@ std::string registers_page(const std::vector<std::unique_ptr<Engine>>& engines);
 // The registers of every engine as macros, for software in C or C++.
 std::string registers_header(const std::vector<std::unique_ptr<Engine>>& engines);
 std::string coverage_page(const std::vector<std::unique_ptr<Engine>>& engines);
+std::string datasheets_page(const std::vector<std::unique_ptr<Engine>>& engines);
 // Names of all bins that runs of an engine may have.
 std::set<std::string> coverage_bins(const std::string& engine);
 

@@ -45,6 +45,10 @@ Outcome print_params(const ParamsCommand& command) {
     fmt::print("{}", coverage_page(all));
     return {};
   }
+  if (command.markdown == "datasheets") {
+    fmt::print("{}", datasheets_page(all));
+    return {};
+  }
   std::vector<std::string> groups;
   std::vector<Parameter> shown;
   std::vector<BuildLimit> limits;
@@ -99,10 +103,10 @@ void add_params(CLI::App& app, CommandLine& line) {
   CLI::Option* const markdown =
       command->add_option("--markdown", options->markdown,
                           "Print a page of the docs instead: parameters, statistics, registers, "
-                          "coverage");
+                          "coverage, datasheets");
   markdown->expected(0, 1)
       ->default_str("parameters")
-      ->check(CLI::IsMember({"parameters", "statistics", "registers", "coverage"}));
+      ->check(CLI::IsMember({"parameters", "statistics", "registers", "coverage", "datasheets"}));
   command
       ->add_flag("--c-header", options->c_header,
                  "Print the registers of every engine as a C header instead")

@@ -137,4 +137,17 @@ void EdgeClassifier::reset() {
   pending_ = 0;
 }
 
+Datasheet EdgeClassifier::datasheet() {
+  return {.unit = "EdgeClassifier",
+          .does = "Decides of each edge whether it can be seen as one.",
+          .latency = {3, "3, and 1 for each kept edge that waits for another of its beat"},
+          .interval = {1, "the kept edges of a beat of edge_lanes edges, at least 1"},
+          .stages = {{"1", "ranges, addresses of the facing bits", "24-bit compare"},
+                     {"2", "their words, bit of 32", "SRAM read, 32 : 1 choice"},
+                     {"3", "class, counts; kept edges leave one a clock"}},
+          .cost =
+              "a lane four 24-bit compares and two reads of FacingStore; registers of two "
+              "beats."};
+}
+
 }  // namespace deburr::rtl::geometric

@@ -87,4 +87,13 @@ void EdgeReader::reset() {
   ended_ = false;
 }
 
+Datasheet EdgeReader::datasheet() {
+  return {.unit = "EdgeReader",
+          .does = "Reads the edge table ahead and hands its records on.",
+          .latency = {2, "2 from a line's answer"},
+          .interval = {1, "1, for edge_lanes edges"},
+          .stages = {{"1", "line", "SRAM read"}, {"2", "choice of edges", "4 : 1 choice"}},
+          .cost = "edge_buffer, counters of 25 bits."};
+}
+
 }  // namespace deburr::rtl::geometric

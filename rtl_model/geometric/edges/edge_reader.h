@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Reads the edge table ahead and hands its records on, edge_lanes a clock.
 //
-// Where: head of the pipe. Latency 2 from a line's answer to the output link (1 line, 2 choice of
-// its edges); edge_lanes edges a clock. Lines are asked for as soon as a frame begins, and each has
-// its place in edge_buffer before; edges go out once the begin is over. Stalls: `facing` (the begin
-// is not over), `edges` (the next line has not come), `downstream`. After the last record comes the
-// frame's end. Cost: edge_buffer, counters of 25 bits. Made for 250 MHz; longest path: SRAM read,
-// 4 : 1 choice.
+// Where: head of the pipe. Lines are asked for as soon as a frame begins, and each has its place in
+// edge_buffer before; edges go out once the begin is over. Stalls: `facing` (the begin is not
+// over), `edges` (the next line has not come), `downstream`. After the last record comes the
+// frame's end.
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/fill_store.h"
@@ -33,6 +32,8 @@ class EdgeReader final : public Unit {
   void reset() override;
 
   Counter lines_read{"lines_read", "lines", "lines of the edge table read"};
+
+  static Datasheet datasheet();
 
  private:
   bool ask(Cycle cycle);

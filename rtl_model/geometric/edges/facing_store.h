@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Holds the facing bits of a frame's faces, loaded while the frame begins.
 //
-// Where: beside the EdgeClassifier, which reads it. Latency 2 for a reader (word, bit of 32);
-// a line of 512 bits a clock in, two bits an edge lane out. An answer is written at once, into 16
-// banks, so nothing stalls the memory. With select = all nothing is loaded. Stalls: `downstream`
-// (requests), `memory` (answers are missing). Cost: face_limit bits, a copy for each read.
-// Made for 250 MHz; longest path: SRAM read, 32 : 1 choice (in the reader).
+// Where: beside the EdgeClassifier, which reads it. An answer is written at once, into 16 banks, so
+// nothing stalls the memory. With select = all nothing is loaded. Stalls: `downstream` (requests),
+// `memory` (answers are missing).
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/memory_arbiter.h"
@@ -33,6 +32,8 @@ class FacingStore final : public Unit {
   Memory<std::uint32_t> words;
 
   Counter lines_read{"lines_read", "lines", "lines of facing bits read"};
+
+  static Datasheet datasheet();
 
  private:
   static constexpr std::size_t kWordsInLine = spec::geometric::kFacesInLine / 32;

@@ -197,4 +197,17 @@ void VertexFetch::reset() {
   looking_ = first_done_ = working_ = false;
 }
 
+Datasheet VertexFetch::datasheet() {
+  return {.unit = "VertexFetch",
+          .does = "Fetches both vertices of each kept edge through a cache that looks ahead.",
+          .latency = {5, "5, and the wait for a line"},
+          .interval = {1, "1; 2 if both look-ups miss"},
+          .stages = {{"1", "address of the tags"},
+                     {"2", "two tags, a fill ordered a clock; FIFO", "SRAM read + 23-bit compare"},
+                     {"3", "a line installed, address of the words"},
+                     {"4", "words of the cache, choice of a vertex", "SRAM read, 4 : 1 choice"},
+                     {"5", "leave (usable is judged as a line comes)"}},
+          .cost = "tags and data 2R1W, the lines on their way, the FIFO; two 22-bit compares."};
+}
+
 }  // namespace deburr::rtl::geometric

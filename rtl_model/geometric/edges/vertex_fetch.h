@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Fetches both vertices of each kept edge through a small cache that looks ahead.
 //
-// Where: behind the EdgeClassifier. Latency 5, and the wait for a line; initiation interval 1, 2 if
-// both look-ups miss. Stages: 1 address of the tags; 2 two tags, a fill ordered a clock; FIFO; 3 a
-// line installed, address of the words; 4 the words, choice of a vertex; 5 leave. Tags change when
-// a fill is ordered, data when it is used, in the same order; what a miss wants is taken from the
-// line that came. Stalls: `vertices` (the line has not come), `fills` (no place for one),
-// `downstream`. Cost: tags and data 2R1W, the lines on their way, the FIFO; two 22-bit compares.
-// Made for 250 MHz; longest path: SRAM read + 23-bit compare.
+// Where: behind the EdgeClassifier. Tags change when a fill is ordered, data when it is used, in
+// the same order; what a miss wants is taken from the line that came. Stalls: `vertices` (the line
+// has not come), `fills` (no place for one), `downstream`.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/wire.h"
@@ -38,6 +35,8 @@ class VertexFetch final : public Unit {
 
   Counter lookups{"lookups", "lines", "lines of vertices looked up"};
   Counter misses{"misses", "lines", "look-ups that ordered a line"};
+
+  static Datasheet datasheet();
 
  private:
   using VertexLine = std::array<VertexFields, spec::geometric::kVerticesInLine>;

@@ -63,4 +63,15 @@ Activity CoverageUnit::tick(Cycle cycle) {
   return kBusy;
 }
 
+Datasheet CoverageUnit::datasheet() {
+  return {.unit = "CoverageUnit",
+          .does = "What a line cuts off each pixel of a group, and across which side.",
+          .latency = {2},
+          .interval = {1, "a group a clock; one without a candidate leaves nothing"},
+          .stages = {{"1", "distance, direction, depth", "38-bit add"},
+                     {"2", "coverage, borders, candidates"}},
+          .formats = "distance S0.16, coverage U0.8.",
+          .cost = "a lane: 17-bit add, 17-bit magnitude, two 14-bit compares; 4 adds of 38 bits."};
+}
+
 }  // namespace deburr::rtl::geometric

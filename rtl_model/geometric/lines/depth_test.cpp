@@ -297,4 +297,23 @@ void DepthTest::reset() {
   reading_ = installed_ = 0;
 }
 
+Datasheet DepthTest::datasheet() {
+  return {
+      .unit = "DepthTest",
+      .does = "Drops the candidates that lie behind what the frame shows.",
+      .latency = {6, "6, and the wait for a line"},
+      .interval = {1,
+                   "the look-ups of a group go in pairs; a pair takes a clock, two if both miss; "
+                   "at least 1"},
+      .stages = {{"1", "lines, first uses"},
+                 {"2", "address of the tags, products of the line addresses", "13 x 10 multiply"},
+                 {"3", "two tags, a fill ordered a clock; FIFO", "SRAM read + 23-bit compare"},
+                 {"4", "a line installed, address of the words"},
+                 {"5", "two lines a clock, choice of 16 twice a lane", "SRAM read, 16 : 1 choice"},
+                 {"6", "test", "24-bit shift, add and compare"}},
+      .cost =
+          "tags and data 2R1W, the lines on their way, the FIFO; 28 compares of lines, two "
+          "13 x 10 multiplies; a lane two 16 : 1 choices of 24 bits and a 24-bit compare."};
+}
+
 }  // namespace deburr::rtl::geometric

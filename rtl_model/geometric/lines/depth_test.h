@@ -2,16 +2,10 @@
 // Drops the candidates that lie behind what the frame shows: behind the farther of their own pixel
 // and the neighbour that they would take from.
 //
-// Where: behind the CoverageUnit, with a small cache of depth lines that looks ahead. Latency 6,
-// and the wait for a line; initiation interval of a group with D lines: its look-ups go in pairs,
-// each takes a clock, two if both miss; at least 1. Stages: 1 lines, first uses; 2 address of the
-// tags, line addresses; 3 two tags, a fill ordered a clock; FIFO; 4 a line installed, address of
-// the words; 5 two lines, choice of depths; 6 test. A group of which no candidate passes leaves
-// nothing. Lines of a group have different indices, so none replaces another. Stalls: `depth` (the
-// line has not come), `fills` (no place for one), `downstream`.
-// Cost: tags and data 2R1W, the lines on their way, the FIFO; 28 compares of lines, two 13 x 10
-// multiplies; a lane two 16 : 1 choices of 24 bits and a 24-bit compare. Made for 250 MHz; longest
-// path: SRAM read, 16 : 1 choice; 24-bit shift, add and compare.
+// Where: behind the CoverageUnit, with a small cache of depth lines that looks ahead. A group of
+// which no candidate passes leaves nothing. Lines of a group have different indices, so none
+// replaces another. Stalls: `depth` (the line has not come), `fills` (no place for one),
+// `downstream`.
 #pragma once
 
 #include <array>
@@ -19,6 +13,7 @@
 #include <functional>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/pipe.h"
@@ -50,6 +45,8 @@ class DepthTest final : public Unit {
   Counter lookups{"lookups", "lines", "lines of depth looked up"};
   Counter misses{"misses", "lines", "look-ups that ordered a line"};
   Histogram group_lines{"group_lines", "lines", "lines of depth of a group"};
+
+  static Datasheet datasheet();
 
  private:
   // Of a group: raster, vertical, four own lines and four neighbours beyond a multiple of 16.

@@ -2,15 +2,13 @@
 // Steps along a line, a group of columns a clock: as many of the next ones, `walkers` at most, as
 // have their pixels in one block of 4 x 4.
 //
-// Where: behind the line FIFO. Latency 1, a group a clock, over the ends of lines too. Stalls:
-// `downstream`. Cost: 9 adds of 40 bits (position + k slope, the next position), 5 of 38 (the next
-// depth), 3 compares of 14 bits, a 5 : 1 choice. Made for 250 MHz; longest path: 2 : 1 choice,
-// 40-bit add + 13-bit compare + 5 : 1 choice.
+// Where: behind the line FIFO. Stalls: `downstream`.
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/geometric/edge_latency.h"
@@ -34,6 +32,8 @@ class LineWalker final : public Unit {
   Counter columns{"columns", "columns", "columns walked"};
   Counter groups{"groups", "groups", "clocks in which the walkers stepped"};
   Histogram line_columns{"line_columns", "columns", "columns of a line"};
+
+  static Datasheet datasheet();
 
  private:
   EdgeLatency& latency_;  // an instrument

@@ -70,4 +70,17 @@ void BlockScanner::reset() {
   ended_ = false;
 }
 
+Datasheet BlockScanner::datasheet() {
+  return {.unit = "BlockScanner",
+          .does = "Finds the touched blocks of a frame, in raster order of blocks.",
+          .latency = {3, "3 from its begin to the first block"},
+          .interval = {1, "a word of 128 blocks takes a clock for each touched block, at least 1"},
+          .stages = {{"1", "address of the word"},
+                     {"2", "word", "SRAM read"},
+                     {"3", "first bit of 128, by groups of 16", "16 : 1 priority"}},
+          .cost =
+              "the touched words of the block row above (touched_above), two words of registers, "
+              "two 16 : 1 priorities."};
+}
+
 }  // namespace deburr::rtl::geometric

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Finds the touched blocks of a frame, in raster order of blocks.
 //
-// Where: head of the resolve. Latency 3 from its begin to the first block; a word of 128 blocks
-// takes a clock for each touched one, at least 1. Stages: 1 address of the word; 2 word; 3 first
-// bit of 128, by groups of 16, the next group taken up while the last bit of the one before leaves.
-// After the last block comes the frame's end. Stalls: `downstream`. Cost: the touched words of the
-// block row above (touched_above), two words of registers, two 16 : 1 priorities. Made for 250 MHz;
-// longest path: 16 : 1 priority.
+// Where: head of the resolve. The next group of 16 bits is taken up while the last bit of the one
+// before leaves. After the last block comes the frame's end. Stalls: `downstream`.
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
@@ -31,6 +28,8 @@ class BlockScanner final : public Unit {
                const ReadPort<TouchedWord>& touched);
   Activity tick(Cycle cycle) override;
   void reset() override;
+
+  static Datasheet datasheet();
 
  private:
   void load(Cycle cycle);

@@ -63,4 +63,14 @@ void FrameCopier::reset() {
   asked_ = written_ = answered_ = 0;
 }
 
+Datasheet FrameCopier::datasheet() {
+  return {.unit = "FrameCopier",
+          .does = "Copies the whole frame before it is resolved (`frame_copy`).",
+          .latency = {0, "-"},
+          .interval = {2, "2 clocks of the port a line, while M + 8 <= 32; then (M + 8) / 16"},
+          .stages = {{"1", "a line is read while a place is free, else one is written in its turn",
+                      "26-bit add"}},
+          .cost = "copy_buffer, two 32-bit addresses."};
+}
+
 }  // namespace deburr::rtl::geometric

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copies the whole frame before it is resolved, as the original method does (frame_copy).
 //
-// Where: beside the edges' pipe. Two clocks of the memory port a line: sixteen lines are on their
-// way at most, and each is written in its turn. Stalls: `memory` (the next line has not come),
-// `downstream`. Cost: copy_buffer, two 32-bit addresses. Made for 250 MHz; longest path: 26-bit
-// add.
+// Where: beside the edges' pipe. Sixteen lines are on their way at most, and each is written in its
+// turn. Stalls: `memory` (the next line has not come), `downstream`.
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/fill_store.h"
@@ -30,6 +29,8 @@ class FrameCopier final : public Unit {
   void reset() override;
 
   Counter lines_copied{"lines_copied", "lines", "lines read and written"};
+
+  static Datasheet datasheet();
 
  private:
   static constexpr std::int32_t kLines = 16;

@@ -330,4 +330,25 @@ void Resolver::reset() {
   to_load_ = to_blend_ = to_write_ = writes_ = 0;
 }
 
+Datasheet Resolver::datasheet() {
+  return {
+      .unit = "Resolver",
+      .does = "Blends the pixels of a touched block and writes them back, in place.",
+      .latency = {8, "8 for a block of one line and resolve_lanes pixels, and the wait for lines"},
+      .interval = {1,
+                   "max(1, lines, ceil(blended pixels / resolve_lanes), lines to write) a block"},
+      .stages = {{"1", "lines into a window of 16 pixels and their 16 neighbours, one a clock"},
+                 {"2", "originals over it", "SRAM read"},
+                 {"3", "choice of pixels, address of linear_rom"},
+                 {"4", "linear light, differences", "ROM read"},
+                 {"5", "products", "8 x 13 multiply + 22-bit add"},
+                 {"6", "rounding, address of encode_rom"},
+                 {"7", "codes", "ROM read"},
+                 {"8", "write"}},
+      .formats = "weights U0.8, linear light U0.12.",
+      .cost =
+          "window of 32 pixels twice, 16 pixels of results twice, originals; a lane nine reads of "
+          "linear_rom, three of encode_rom, six multiplies 8 x 13."};
+}
+
 }  // namespace deburr::rtl::geometric

@@ -240,4 +240,23 @@ void WeightCombiner::reset() {
   writes_ = 0;
 }
 
+Datasheet WeightCombiner::datasheet() {
+  return {
+      .unit = "WeightCombiner",
+      .does = "Keeps the weights of each pixel that a line has cut, and which blocks these are.",
+      .latency = {5, "5, and the wait for a block"},
+      .stages = {{"1", "address of tag and touched word, product of the block's address",
+                  "11 x 11 multiply"},
+                 {"2", "tag, touched bit; a read ordered; FIFO", "SRAM read + 23-bit compare"},
+                 {"3", "a block installed, address of the word"},
+                 {"4",
+                  "the word, or what came for it, and the maxima; a replaced block written back",
+                  "SRAM read + 8-bit compare"},
+                 {"5", "written, past the memory to the group behind"}},
+      .cost =
+          "tags, touched map and data 1R1W, the blocks on their way, the FIFO; the spill "
+          "list, 22 bits each, compared at once; two 11 x 11 multiplies; a lane a 16 : 1 "
+          "place and an 8-bit compare."};
+}
+
 }  // namespace deburr::rtl::geometric

@@ -2,17 +2,10 @@
 // Keeps the four weights of each pixel that a line has cut, block by block, and which blocks these
 // are.
 //
-// Where: end of the edges' pipe; the resolve reads its memories through handles of its ports.
-// Latency 5, and the wait for a block; initiation interval 1. Stages: 1 address of tag and touched
-// word, address of the block in memory; 2 tag, touched bit; a read ordered; FIFO; 3 a block
-// installed, address of the word; 4 the word, or what came for it, and the maxima; a replaced block
-// is written back; 5 written. A word that is written in stage 5 goes past the memory to the group
-// behind. Stalls: `weights` (the block has not come), `fills` (no place for one), `spill` (the
-// block is still on its way out, or the list of those is full), `downstream`. A write goes before a
-// read of the same clock.
-// Cost: tags, touched map and data 1R1W, the blocks on their way, the FIFO; the spill list, 22 bits
-// each, compared at once; two 11 x 11 multiplies; a lane a 16 : 1 place and an 8-bit compare. Made
-// for 250 MHz; longest path: SRAM read + 8-bit compare.
+// Where: end of the edges' pipe; the resolve reads its memories through handles of its ports. A
+// word that is written in stage 5 goes past the memory to the group behind. Stalls: `weights` (the
+// block has not come), `fills` (no place for one), `spill` (the block is still on its way out, or
+// the list of those is full), `downstream`. A write goes before a read of the same clock.
 #pragma once
 
 #include <array>
@@ -21,6 +14,7 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/pipe.h"
@@ -59,6 +53,8 @@ class WeightCombiner final : public Unit {
   Counter blocks_written{"blocks_written", "blocks", "replaced blocks written to memory"};
   Histogram edge_latency{"edge_latency", "clk",
                          "from an edge's leaving the EdgeReader to its last group's being written"};
+
+  static Datasheet datasheet();
 
  private:
   struct Lookup {

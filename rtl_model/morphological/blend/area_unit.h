@@ -11,30 +11,25 @@
 // raster passes: of each axis one edge a lane and clock. A record is written once and read at each
 // of its edges: the mark of its place says where it starts and how long it is, so pixel k of it is
 // known without a counter, and t = t(0) + k x scale x slope. Horizontal marks are read at their
-// start, and the record stays in hand from there on; vertical ones are read in every row.
-// To the Blender go the shares of row y - 1: those of the row's edges from weight_lines, those of
-// the top edges below as evaluated.
+// start, and the record stays in hand from there on; vertical ones are read in every row. To the
+// Blender go the shares of row y - 1: those of the row's edges from weight_lines, those of the top
+// edges below as evaluated.
 // With crossings there is a horizontal record a column, and each column has two vertical ones, used
 // in turn (the token's `entry`): a run may begin in the row after its predecessor's end.
-// Latency 9, initiation interval 1. All stages move together, those of the units inside too, by one
-// enable: so no beat waits between them, and what is inside needs no links. Stages: 1 marks:
-// address; 2 marks come, records: address, which does not ask the marks; 3 marks against the
-// raster, k, records: those of the marks or the one in hand; 4 to 7 the units inside; 8 choice of
-// the shares, weight_lines: address; 9 weight_lines, write back. An edge of no record (between head
-// and tail of a long run) is known by its edge bit alone: so the slot brings the edges of row y.
-// Stage 8 takes a beat of diagonals, 9 the corner factor and the choice between them. The model
-// compares the marks in stage 2, to read those records only that matter. A line that arrives is
-// popped behind its slot (stage 2), multiplied in that clock and stored in the next, which finishes
-// the record; with a table a clock later, since its ends a and b are two more multiplies. Marks and
-// records have a bank a lane (a pair of columns a bank: horizontal) with one write port each; a
-// line whose bank a lower lane takes in its clock waits, which `bank_conflicts` counts. Slot rows 0
-// and 1 clear the marks. Stalls: `downstream`; `diagonals` (those of a beat have not come: not in
-// an engine whose rows begin as the RunExtractor lets them). Formats: t S4.24, shares U0.8. Cost:
-// that of the units inside; an axis and lane two multipliers 24 x 24 at the entrance. Memory:
-// weight_lines a column (first, second and span of its left edge, second and span of its top edge);
-// row_marks and row_records, two rows of pairs of columns; column_marks and column_records, a
-// column each (with crossings a column and two a column); all 1R1W a bank. Made for 250 MHz;
-// longest path: 24 x 24 multiply. Source: Reshetov 2009; paper 000, section 2; SMAA (Jimenez et al.
+// All stages move together, those of the units inside too, by one enable: so no beat waits between
+// them, and what is inside needs no links. An edge of no record (between head and tail of a long
+// run) takes the learned shares of two ends out of sight: so the slot brings the edges of row y. The
+// model compares the marks in stage 2, to read those records only that matter. A line that arrives
+// is popped behind its slot (stage 2), multiplied in that clock and stored in the next, which
+// finishes the record; with a table a clock later, since its ends a and b are two more multiplies.
+// Marks and records have a bank a lane (a pair of columns a bank: horizontal) with one write port
+// each; a line whose bank a lower lane takes in its clock waits, which `bank_conflicts` counts. Slot
+// rows 0 and 1 clear the marks.
+// Stalls: `downstream`; `diagonals` (those of a beat have not come: not in an engine whose rows
+// begin as the RunExtractor lets them). Memory: weight_lines a column (first, second and span of
+// its left edge, second and span of its top edge); row_marks and row_records, two rows of pairs of
+// columns; column_marks and column_records, a column each (with crossings a column and two a
+// column); all 1R1W a bank. Source: Reshetov 2009; paper 000, section 2; SMAA (Jimenez et al.
 // 2012); paper 003.
 #pragma once
 
@@ -45,6 +40,7 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
@@ -80,6 +76,9 @@ class AreaUnit final : public Unit {
 
   // The tables of learned shares, for the registers; nullptr in an engine without.
   SharesRom* shares_rom() { return learned_ ? &learned_->rom : nullptr; }
+
+  static Datasheet slot_datasheet(const spec::morphological::Parameters& parameters);
+  static Datasheet line_datasheet(const spec::morphological::Parameters& parameters);
 
  private:
   static constexpr std::size_t kLanes = spec::morphological::kMaxLanes;

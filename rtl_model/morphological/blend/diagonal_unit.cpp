@@ -196,4 +196,24 @@ void DiagonalUnit::reset() {
   for (Column& column : window_) column.valid = false;
 }
 
+Datasheet DiagonalUnit::datasheet(const spec::morphological::Parameters& p) {
+  const std::uint64_t lanes = spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
+  const std::uint64_t behind = (static_cast<std::uint64_t>(p.diagonal_steps) + lanes) / lanes;
+  return {.unit = "DiagonalUnit",
+          .does = "Shares of the pixels that lie on a diagonal (`diagonals`).",
+          .latency = {behind + 5, "D + 5, D = ceil((diagonal_steps + 1) / lanes)"},
+          .stages = {{"1", "shift (D beats until the pixels are in hand)", "choice of two"},
+                     {"2", "tags, good steps, first gap, four searches",
+                      "6-bit compare, 16-bit first gap"},
+                     {"3", "the ends' extra bits and crossing bits, d1 + d2 > 2",
+                      "32 : 1 choice + 5-bit add"},
+                     {"4", "addresses of `diagonal_rom`", "three small adds (400 e, 20 d1, d2)"},
+                     {"5", "words, sum, limit, push", "ROM read + 9-bit add"}},
+          .formats = "shares U0.8, span U6.",
+          .cost =
+              "a lane: four first-gap circuits of M bits, eight choices of M + 1 : 1, two reads "
+              "of diagonal_rom (6400 x 16); diagonal_window, (D + 1) lanes + M + 1 columns x (4 "
+              "M + 2 + 7) bits; diagonal_shares, a word of 23 lanes bits a beat."};
+}
+
 }  // namespace deburr::rtl::morphological

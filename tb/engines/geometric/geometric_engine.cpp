@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "golden/geometric/configuration.h"
+#include "rtl_model/geometric/datasheets.h"
 #include "spec/geometric/check_build.h"
 #include "spec/geometric/registers.h"
 #include "tb/app/input_rules.h"
@@ -114,6 +115,9 @@ class GeometricCommand final : public Engine {
                             geometric_coverage_groups()};
     declare_directed_geometric_coverage(section.bins);
     return section;
+  }
+  DatasheetSection datasheets() const override {
+    return {"GeometricEngine", rtl::geometric::datasheets()};
   }
 
   RandomDraws random_draws() const override { return geometric_draws(); }

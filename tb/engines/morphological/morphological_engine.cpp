@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "golden/morphological/configuration.h"
+#include "rtl_model/morphological/datasheets.h"
 #include "spec/error.h"
 #include "spec/morphological/check_build.h"
 #include "spec/morphological/registers.h"
@@ -126,6 +127,9 @@ class MorphologicalCommand final : public Engine {
     return {"Morphological engine",
             morphological_coverage(golden::morphological::MorphologicalGolden({})),
             morphological_coverage_groups()};
+  }
+  DatasheetSection datasheets() const override {
+    return {"MorphologicalEngine", rtl::morphological::datasheets()};
   }
 
   RandomDraws random_draws() const override { return morphological_draws(); }

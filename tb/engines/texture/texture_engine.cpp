@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "rtl_model/texture/datasheets.h"
 #include "rtl_model/texture/descriptors.h"
 #include "spec/error.h"
 #include "spec/texture/check_build.h"
@@ -170,6 +171,9 @@ class TextureEngine final : public Engine {
   }
   CoverageSection coverage() const override {
     return {"Texture unit", TextureCoverage::declared(), TextureCoverage::groups()};
+  }
+  DatasheetSection datasheets() const override {
+    return {"TextureUnit", rtl::texture::datasheets()};
   }
 
   RandomDraws random_draws() const override { return texture_draws(); }

@@ -32,7 +32,7 @@ def main():
         return 0 if len(sys.argv) >= 2 else 2
     deburr, source = sys.argv[1:3]
     stale = 0
-    for page in ("parameters", "statistics", "registers", "coverage"):
+    for page in ("parameters", "statistics", "registers", "coverage", "datasheets"):
         done = subprocess.run([deburr, "params", "--markdown", page], check=True,
                               capture_output=True, text=True)
         printed = done.stdout

@@ -192,15 +192,15 @@ EdgeEnds some_line(int length = 5000) {
   return edge(true, {1000, 1000, 1}, {1000 + length, 2000, 7});
 }
 
-TEST(LineSetup, LatencyIsTwentyTwo) {
+TEST(LineSetup, LatencyOfTheDatasheet) {
+  Parameters p;
   for (const bool pipelined : {true, false}) {
+    p.pipelined = pipelined;
     const std::string got = in_child([&] {
-      Parameters p;
-      p.pipelined = pipelined;
       SetupBench b(p);
       return b.latency(b.ends, some_line());
     });
-    EXPECT_EQ(got, "22") << pipelined;
+    expect_latency_of(rtl::geometric::LineSetup::datasheet(p), got);
   }
 }
 
@@ -214,16 +214,22 @@ std::string spread(const Parameters& p, const std::vector<EdgeEnds>& edges) {
   });
 }
 
+// So many intervals of the datasheet.
+std::string after(std::uint64_t lines, const Parameters& p) {
+  return std::to_string(lines * rtl::geometric::LineSetup::datasheet(p).interval.clocks);
+}
+
 TEST(LineSetup, IntervalIsOneIfPipelined) {
-  EXPECT_EQ(spread({}, std::vector<EdgeEnds>(101, some_line())), "100");
+  EXPECT_EQ(spread({}, std::vector<EdgeEnds>(101, some_line())), after(100, {}));
 }
 TEST(LineSetup, IntervalIsThirteenADivider) {
   Parameters p;
   p.pipelined = false;
+  const std::string ten_lines = after(10, p);
   for (const int dividers : {1, 2, 3, 8}) {
     p.dividers = dividers;
     const auto lines = static_cast<std::size_t>(10 * dividers + 1);
-    EXPECT_EQ(spread(p, std::vector<EdgeEnds>(lines, some_line())), "130") << dividers;
+    EXPECT_EQ(spread(p, std::vector<EdgeEnds>(lines, some_line())), ten_lines) << dividers;
   }
 }
 TEST(LineSetup, LinesOfTheTableWaitForNoDivider) {

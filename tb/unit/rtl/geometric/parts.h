@@ -13,6 +13,7 @@
 #include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/memory_arbiter.h"
 #include "tb/base/forked.h"
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/geometric/support.h"
 
 namespace deburr::tb::geometric_rtl {
@@ -24,6 +25,12 @@ inline std::string in_child(const std::function<std::string()>& simulation) {
   } catch (const std::exception& error) {
     return std::string("exception: ") + error.what();
   }
+}
+
+// A latency as a simulation in a process of its own says it.
+inline void expect_latency_of(const rtl::Datasheet& sheet, const std::string& measured) {
+  EXPECT_EQ(measured, std::to_string(sheet.latency.clocks))
+      << "by the datasheet of " << title(sheet);
 }
 
 // Pushes its tokens as fast as they are taken.

@@ -110,12 +110,12 @@ TEST(Resolve, LatenciesOfABlock) {
   b.touch(0, 0, 1u << 5);
   b.run();
   // The scanner's latency counts from the first clock of the phase.
-  EXPECT_EQ(b.at["touched"][0] + 1 - b.resolve_from, 3u);
-  EXPECT_EQ(b.at["blocks"][0] + 1 - b.at["fetched"][0], 5u);
+  expect_latency(BlockScanner::datasheet(), b.at["touched"][0] + 1 - b.resolve_from);
+  expect_latency(BlockFetch::datasheet(), b.at["blocks"][0] + 1 - b.at["fetched"][0]);
   // Its line comes M + 6 after it was asked for, as that of a cache does: arbiter, port, M, port,
   // arbiter, place, register.
   EXPECT_EQ(b.at["reads"][0], b.at["blocks"][0]);
-  EXPECT_EQ(b.at["writes"][0] - b.at["reads"][0], 27u + 7);
+  expect_latency(Resolver::datasheet(), b.at["writes"][0] - b.at["reads"][0] - 27 + 1);
   EXPECT_EQ(b.resolved.size(), 1u);
 }
 TEST(Resolve, AWordTakesAClockForEachBlock) {
@@ -226,7 +226,7 @@ TEST(Resolve, WeightsOfMemoryComeALatencyLater) {
   b.run();
   EXPECT_EQ(b.fetch.weights_read.value(), 1u);
   // Stage 2 asks, arbiter, port, M + 1, port, arbiter, its place; then stages 3 to 5.
-  EXPECT_EQ(b.at["blocks"][0] + 1 - b.at["fetched"][0], 5u + 20 + 6);
+  expect_latency(BlockFetch::datasheet(), b.at["blocks"][0] + 1 - b.at["fetched"][0] - (20 + 6));
 }
 
 // Clocks a block, of many: one is max(lines, beats, lines to write) in the Resolver, and lines +
@@ -316,7 +316,7 @@ TEST(EdgeReader, EdgeLanesAClock) {
   }
 }
 // The first line comes when the begin is long over: its answer is taken, written and read.
-TEST(EdgeReader, LatencyFromAnAnswerIsTwo) {
+TEST(EdgeReader, LatencyOfTheDatasheetFromAnAnswer) {
   ReaderBench b({}, 4, 0);
   Cycle answered = 0;
   while (b.taker.taken.empty()) {
@@ -326,7 +326,7 @@ TEST(EdgeReader, LatencyFromAnAnswerIsTwo) {
         answered = b.clock.cycle() - 1;
     });
   }
-  EXPECT_EQ(b.taker.taken[0].cycle - answered, 2u + 1);
+  expect_latency(EdgeReader::datasheet(), b.taker.taken[0].cycle - answered - 1);
 }
 
 // ---- FrameCopier
@@ -352,7 +352,7 @@ TEST(FrameCopier, TwoClocksALineUntilSixteenLinesAreTooFew) {
       return std::to_string((8 * (many - few) + 256) / 512);
     });
   };
-  EXPECT_EQ(a_line(4), "16");
+  EXPECT_EQ(a_line(4), std::to_string(8 * FrameCopier::datasheet().interval.clocks));
   EXPECT_EQ(a_line(24), "16");
   EXPECT_EQ(a_line(25), "17");
   EXPECT_EQ(a_line(40), "24");  // sixteen lines in M + 8 clocks

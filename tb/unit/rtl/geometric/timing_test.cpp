@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Latency and initiation interval of each unit of the edges' pipe by itself, as
-// docs/geometric_hardware.md has them; memory answers 20 clocks after a request.
+// their datasheets have them; memory answers 20 clocks after a request.
 #include <algorithm>
 #include <deque>
 #include <numeric>
@@ -62,15 +62,18 @@ struct ClassifierBench : Frame {
   EdgeClassifier unit;
   Ends<EdgeBeat, KeptEdge> ends;
 };
-TEST(EdgeClassifier, LatencyIsThree) {
+TEST(EdgeClassifier, LatencyOfTheDatasheet) {
   ClassifierBench b(ClassifierBench::all(Lanes::kTwo));
-  EXPECT_EQ(b.latency(b.ends, ClassifierBench::beat(2, 2)), "3");
+  const std::string measured = b.latency(b.ends, ClassifierBench::beat(2, 2));
+  // A datasheet that is a clock off is noticed.
+  expect_notices_a_clock(EdgeClassifier::datasheet(), &rtl::Datasheet::latency,
+                         [&](const rtl::Datasheet& sheet) { expect_latency_of(sheet, measured); });
 }
 TEST(EdgeClassifier, ABeatAClockIfOneIsKept) {
   ClassifierBench b(ClassifierBench::all(Lanes::kFour));
   for (int i = 0; i < 100; ++i) b.ends.source.add(ClassifierBench::beat(4, 1u << i % 4));
   finish(b, b.ends, 100);
-  EXPECT_EQ(spread(b.ends), 99u);
+  EXPECT_EQ(spread(b.ends), 99 * EdgeClassifier::datasheet().interval.clocks);
 }
 TEST(EdgeClassifier, ABeatWithoutAKeptEdgeTakesAClock) {
   ClassifierBench b(ClassifierBench::all(Lanes::kTwo));
@@ -134,11 +137,11 @@ struct VertexBench : Frame {
   VertexFetch unit;
   Ends<KeptEdge, EdgeEnds> ends;
 };
-TEST(VertexFetch, LatencyIsFiveOrWaitsForALine) {
+TEST(VertexFetch, LatencyOfTheDatasheetOrWaitsForALine) {
   VertexBench b;
   EXPECT_EQ(b.latency(b.ends, {1, 9, false}), "32");  // the second miss came a clock later
   b.clock.run(10);
-  EXPECT_EQ(b.latency(b.ends, {9, 2, false}), "5");
+  expect_latency_of(VertexFetch::datasheet(), b.latency(b.ends, {9, 2, false}));
   b.clock.run(10);
   EXPECT_EQ(b.latency(b.ends, {2, 17, false}), "31");
   EXPECT_EQ(b.unit.misses.value(), 3u);
@@ -148,7 +151,7 @@ TEST(VertexFetch, AnEdgeAClockWhereAtMostOneLookUpMisses) {
   VertexBench b;
   for (std::uint32_t i = 0; i < 60; ++i) b.ends.source.add({4 * i, 4 * i + 4, false});
   finish(b, b.ends, 60);
-  EXPECT_EQ(spread(b.ends), 59u);
+  EXPECT_EQ(spread(b.ends), 59 * VertexFetch::datasheet().interval.clocks);
   EXPECT_EQ(b.unit.misses.value(), 61u);
 }
 TEST(VertexFetch, TwoClocksWhereBothMiss) {
@@ -216,7 +219,7 @@ struct Asker final : rtl::Unit {
   Cycle takes_from = 0;
   std::vector<Cycle> asked, answered;
 };
-TEST(MemoryArbiter, LatencyIsOneEachWay) {
+TEST(MemoryArbiter, LatencyOfTheDatasheetEachWay) {
   Frame b({});
   b.tie();
   Asker asker("asker", b.clock);
@@ -225,7 +228,8 @@ TEST(MemoryArbiter, LatencyIsOneEachWay) {
   b.clock.run(60);
   // Arbiter, port, M + 1, port, arbiter.
   ASSERT_EQ(asker.answered.size(), 1u);
-  EXPECT_EQ(asker.answered[0] - asker.asked[0], 1u + 1 + (20 + 1) + 1 + 1);
+  const Cycle each_way = MemoryArbiter::datasheet().latency.clocks;
+  EXPECT_EQ(asker.answered[0] - asker.asked[0], each_way + 1 + (20 + 1) + 1 + each_way);
   EXPECT_EQ(b.arbiter.read_latency(Client::kDepth).min(), asker.answered[0] - asker.asked[0] - 2);
 }
 // Two answers lie in the link of a client that takes none, and the third waits in front of it.
@@ -305,9 +309,9 @@ struct WalkerBench : Frame {
   LineWalker unit;
   Ends<LineToken, GroupToken> ends;
 };
-TEST(LineWalker, LatencyIsOne) {
+TEST(LineWalker, LatencyOfTheDatasheet) {
   WalkerBench b(Lanes::kFour);
-  EXPECT_EQ(b.latency(b.ends, WalkerBench::line(3, 1)), "1");
+  expect_latency_of(LineWalker::datasheet(), b.latency(b.ends, WalkerBench::line(3, 1)));
 }
 TEST(LineWalker, APixelAClockAndWalker) {
   for (const auto& [lanes, count] :
@@ -366,15 +370,16 @@ struct CoverageBench : Frame {
   CoverageUnit unit;
   Ends<GroupToken, CandidateToken> ends;
 };
-TEST(CoverageUnit, LatencyIsTwo) {
+TEST(CoverageUnit, LatencyOfTheDatasheet) {
   CoverageBench b;
-  EXPECT_EQ(b.latency(b.ends, CoverageBench::group(false, 7, 3)), "2");
+  expect_latency_of(CoverageUnit::datasheet(),
+                    b.latency(b.ends, CoverageBench::group(false, 7, 3)));
 }
 TEST(CoverageUnit, AGroupAClock) {
   CoverageBench b;
   for (int i = 0; i < 50; ++i) b.ends.source.add(CoverageBench::group(false, 7, i));
   finish(b, b.ends, 50);
-  EXPECT_EQ(spread(b.ends), 49u);
+  EXPECT_EQ(spread(b.ends), 49 * CoverageUnit::datasheet().interval.clocks);
 }
 TEST(CoverageUnit, AGroupWithoutACandidateTakesAClockAndLeavesNothing) {
   CoverageBench b;
@@ -454,11 +459,12 @@ struct DepthBench : Frame {
   DepthTest unit;
   Ends<CandidateToken, WeightToken> ends;
 };
-TEST(DepthTest, LatencyIsSixOrWaitsForALine) {
+TEST(DepthTest, LatencyOfTheDatasheetOrWaitsForALine) {
   DepthBench b;
   EXPECT_EQ(b.latency(b.ends, DepthBench::pixel(3, 4)), "32");
   b.clock.run(10);
-  EXPECT_EQ(b.latency(b.ends, DepthBench::pixel(3, 4)), "6");
+  expect_latency_of(rtl::geometric::DepthTest::datasheet(),
+                    b.latency(b.ends, DepthBench::pixel(3, 4)));
 }
 TEST(DepthTest, AGroupOfOneLineAClock) {
   DepthBench b;
@@ -601,10 +607,10 @@ struct CombinerBench : Frame {
   rtl::Link<WeightToken> in;
   Source<WeightToken> source;
 };
-TEST(WeightCombiner, LatencyIsFive) {
+TEST(WeightCombiner, LatencyOfTheDatasheet) {
   CombinerBench b;
   b.in.push(b.clock.cycle(), CombinerBench::end());
-  EXPECT_EQ(b.until_drawn(), 1u + 5);
+  expect_latency(WeightCombiner::datasheet(), b.until_drawn() - 1);
 }
 TEST(WeightCombiner, AGroupAClockWhateverBlock) {
   CombinerBench b;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/morphological/parts.h"
 #include "tb/unit/rtl/morphological/vectors.h"
 
@@ -106,14 +107,15 @@ TEST_P(Divider, HasItsLatencyAndInterval) {
   Lines bench(p);
   for (int i = 0; i < 10; ++i) bench.ends.source.send(sums_of({0, i + 1}, 0, i + 1));
   // Pushed in 0, popped in 1, the quotient is sent in 1 + latency.
-  const auto ready = static_cast<Cycle>(2 + time.latency);
+  const rtl::Datasheet sheet = LineUnit::datasheet(p);
+  const Cycle ready = 1 + sheet.latency.clocks;
   bench.clock.run(ready);
   EXPECT_FALSE(bench.ends.out.can_pop(ready - 1));
   EXPECT_TRUE(bench.ends.out.can_pop(ready));
   bench.clock.run(200);
   ASSERT_EQ(bench.ends.sink.cycles().size(), 10u);
   for (std::size_t i = 0; i < 10; ++i) {
-    EXPECT_EQ(bench.ends.sink.cycles()[i], ready + i * static_cast<Cycle>(time.interval)) << i;
+    EXPECT_EQ(bench.ends.sink.cycles()[i], ready + i * sheet.interval.clocks) << i;
     EXPECT_EQ(bench.ends.sink.beats()[i].line.span, i + 1);
   }
   EXPECT_EQ(bench.unit.occupancy.value(), 10u * static_cast<unsigned>(time.interval));
@@ -173,6 +175,7 @@ TEST(LineUnitBlock, ALearnedRecordPassesTheDivider) {
   bench.clock.run(60);
   ASSERT_EQ(bench.gate.cycles.size(), 4u);
   EXPECT_THAT(bench.gate.cycles, ::testing::ElementsAre(2, 4, 17, 18));
+  expect_latency(LineUnit::learned_datasheet(), bench.gate.cycles[0] - 1);
   for (const std::size_t i : {0u, 1u, 3u}) {
     const spec::morphological::LineRecord& line = bench.gate.beats[i].line;
     EXPECT_TRUE(line.learned);

@@ -151,6 +151,14 @@ struct Ends {
   Sink<To> sink;
 };
 
+// When its tokens were taken.
+template <class T>
+std::vector<Cycle> clocks_of(const Sink<T>& sink) {
+  std::vector<Cycle> clocks;
+  for (const auto& taken : sink.taken) clocks.push_back(taken.cycle);
+  return clocks;
+}
+
 // The clock in which the consumer of `link` can take its oldest token for the first time; kNever if
 // that does not happen within `limit` clocks. Proves "not ready at n - 1, ready at n".
 template <class T>

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "spec/error.h"
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/support.h"
 
 namespace deburr::tb::texture_rtl::texture_unit_test {
@@ -61,6 +62,7 @@ TEST(TextureRtlUnit, NearestGivesTheTexelsInOrder) {
 }
 
 void check_latency(const spec::texture::Parameters& p, Cycle expected) {
+  expect_latency(rtl::texture::TextureUnit::datasheet(p), expected);
   UnitBench b(p);
   write_descriptor(b.bus, 0, nearest_texture(b.memory));
   b.source.add(quad_of(3, 5));
