@@ -18,19 +18,18 @@
 // in turn (the token's `entry`): a run may begin in the row after its predecessor's end.
 // All stages move together, those of the units inside too, by one enable: so no beat waits between
 // them, and what is inside needs no links. An edge of no record (between head and tail of a long
-// run) takes the learned shares of two ends out of sight: so the slot brings the edges of row y. The
-// model compares the marks in stage 2, to read those records only that matter. A line that arrives
-// is popped behind its slot (stage 2), multiplied in that clock and stored in the next, which
-// finishes the record; with a table a clock later, since its ends a and b are two more multiplies.
-// Marks and records have a bank a lane (a pair of columns a bank: horizontal) with one write port
-// each; a line whose bank a lower lane takes in its clock waits, which `bank_conflicts` counts. Slot
-// rows 0 and 1 clear the marks.
-// Stalls: `downstream`; `diagonals` (those of a beat have not come: not in an engine whose rows
-// begin as the RunExtractor lets them). Memory: weight_lines a column (first, second and span of
-// its left edge, second and span of its top edge); row_marks and row_records, two rows of pairs of
-// columns; column_marks and column_records, a column each (with crossings a column and two a
-// column); all 1R1W a bank. Source: Reshetov 2009; paper 000, section 2; SMAA (Jimenez et al.
-// 2012); paper 003.
+// run) takes the learned shares of two ends out of sight: so the slot brings the edges of row y.
+// The model compares the marks in stage 2, to read those records only that matter. A line that
+// arrives is popped behind its slot (stage 2), multiplied in that clock and stored in the next,
+// which finishes the record; with a table a clock later, since its ends a and b are two more
+// multiplies. Marks and records have a bank a lane (a pair of columns a bank: horizontal) with one
+// write port each; a line whose bank a lower lane takes in its clock waits, which `bank_conflicts`
+// counts. Slot rows 0 and 1 clear the marks. Stalls: `downstream`; `diagonals` (those of a beat
+// have not come: not in an engine whose rows begin as the RunExtractor lets them). Memory:
+// weight_lines a column (first, second and span of its left edge, second and span of its top edge);
+// row_marks and row_records, two rows of pairs of columns; column_marks and column_records, a
+// column each (with crossings a column and two a column); all 1R1W a bank. Source: Reshetov 2009;
+// paper 000, section 2; SMAA (Jimenez et al. 2012); paper 003.
 #pragma once
 
 #include <array>
