@@ -124,6 +124,7 @@ class Wire final : public WireBase {
       return value_;
     }
   }
+  const T& driven() const { return value_; }
   void drive(Cycle cycle, const T& value) {
     const Cycle from = cycle + kRegister;
     if (from_ == from) [[unlikely]]
@@ -205,8 +206,8 @@ class WireOut final : public WirePortBase {
   void operator()(WireOut<T, kKind>& outer) { bind_port(outer); }
 
   void drive(Cycle cycle, const T& value) { wire_->drive(cycle, value); }
-  // What readers see: a driver may look at its own register.
-  const T& read(Cycle cycle) const { return wire_->read(cycle); }
+  // What it drove last, or the value after a reset: readers may see it a clock later.
+  const T& driven() const { return wire_->driven(); }
 
  private:
   void resolved(WireBase& wire) override { wire_ = static_cast<Wire<T, kKind>*>(&wire); }

@@ -38,7 +38,7 @@ Activity FacingStore::tick(Cycle cycle) {
   }
   const Phase phase = phase_in.read(cycle);
   if (phase != Phase::kBegin) {
-    if (loaded_out.read(cycle)) {
+    if (loaded_out.driven()) {
       loaded_out.drive(cycle, false);
       asked_ = answered_ = 0;
     }
@@ -56,7 +56,7 @@ Activity FacingStore::tick(Cycle cycle) {
     ++lines_read;
     return kBusy;
   }
-  if (answered_ == lines && !loaded_out.read(cycle)) loaded_out.drive(cycle, true);
+  if (answered_ == lines && !loaded_out.driven()) loaded_out.drive(cycle, true);
   return did ? kBusy : answered_ == lines ? kIdle : stalled_memory_;
 }
 

@@ -18,13 +18,13 @@ FrameCopier::FrameCopier(const sc_core::sc_module_name& name, ClockDomain& clock
 Activity FrameCopier::tick(Cycle cycle) {
   const Phase phase = phase_in.read(cycle);
   if (phase != Phase::kBegin && phase != Phase::kEdges) {
-    if (copied_out.read(cycle)) {
+    if (copied_out.driven()) {
       copied_out.drive(cycle, false);
       asked_ = written_ = answered_ = 0;
     }
     return kIdle;
   }
-  if (copied_out.read(cycle)) return kIdle;
+  if (copied_out.driven()) return kIdle;
   const FrameRules& rules = store_.rules();
   const std::uint32_t lines = rules.frame_copy ? rules.frame_lines() : 0;
   bool did = false;

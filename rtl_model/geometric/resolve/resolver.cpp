@@ -299,7 +299,7 @@ bool Resolver::blend(Cycle cycle) {
 
 Activity Resolver::tick(Cycle cycle) {
   if (phase_in.read(cycle) != Phase::kResolve) {
-    if (resolved_out.read(cycle)) resolved_out.drive(cycle, false);
+    if (resolved_out.driven()) resolved_out.drive(cycle, false);
     ended_ = false;
     return kIdle;
   }
@@ -317,7 +317,7 @@ Activity Resolver::tick(Cycle cycle) {
   }
   const Activity loaded = load(cycle);
   colours_.read_ahead(cycle);
-  if (ended_ && writes_ == 0 && to_write_ == 0 && !resolved_out.read(cycle))
+  if (ended_ && writes_ == 0 && to_write_ == 0 && !resolved_out.driven())
     resolved_out.drive(cycle, true);
   if (did) return kBusy;
   return blocked ? kStalledDownstream : loaded;

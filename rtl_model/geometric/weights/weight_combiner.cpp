@@ -226,7 +226,7 @@ Activity WeightCombiner::tick(Cycle cycle) {
     did = true;
   }
   fills_.read_ahead(cycle);
-  if (ended_ && writes_ == 0 && !drawn_out.read(cycle)) drawn_out.drive(cycle, true);
+  if (ended_ && writes_ == 0 && !drawn_out.driven()) drawn_out.drive(cycle, true);
   return did ? kBusy : data != kIdle ? data : tags;
 }
 

@@ -31,7 +31,9 @@ using testing::HasSubstr;
 TEST(Wire, AValueIsThereOneClockLaterNotEarlierAndStays) {
   Wire<int> wire("wire", 7);
   EXPECT_EQ(wire.read(0), 7);
+  EXPECT_EQ(wire.driven(), 7);
   wire.drive(5, 8);
+  EXPECT_EQ(wire.driven(), 8);
   EXPECT_EQ(wire.read(5), 7);
   EXPECT_EQ(wire.read(6), 8);
   wire.drive(6, 9);
