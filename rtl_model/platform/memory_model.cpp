@@ -86,8 +86,8 @@ bool MemoryModel::at_rest() const {
 }
 
 void MemoryModel::clear_statistics() {
+  settle(sc_core::sc_time_stamp().value());  // what comes in by it has come in before
   reads_ = writes_ = bytes_read_ = bytes_written_ = errors_ = 0;
-  settle(sc_core::sc_time_stamp().value());
   most_outstanding_ = outstanding_;
   uncounted_ = held_.size();
   forget_lines();

@@ -23,7 +23,7 @@ class Testplans(unittest.TestCase):
         scratch = tempfile.TemporaryDirectory(prefix="deburr_testplans_")
         self.addCleanup(scratch.cleanup)
         self.root = pathlib.Path(scratch.name)
-        for folder in ("docs", "tb/testplan"):
+        for folder in ("docs", "tb/testplan", "tb/engines"):
             shutil.copytree(SOURCE / folder, self.root / folder)
 
     def plan(self, name):
@@ -31,6 +31,15 @@ class Testplans(unittest.TestCase):
         done = subprocess.run([DEBURR, "regress", f"tb/testplan/{name}.yaml", "plan", "--divide", "100",
                                "--seed", "1"], cwd=self.root, capture_output=True, text=True, check=False)
         return done.returncode, done.stdout + done.stderr
+
+    @staticmethod
+    def features(name):
+        """Those of the testplan and of what it includes."""
+        path = SOURCE / f"tb/testplan/{name}.yaml"
+        plan = yaml.safe_load(path.read_text(encoding="utf-8"))
+        parts = [part for glob in plan.get("include", []) for part in sorted((SOURCE / "tb").glob(glob[3:]))]
+        return plan.get("features", []) + [feature for part in parts for feature in
+                                           yaml.safe_load(part.read_text(encoding="utf-8"))["features"]]
 
     def test_each_can_be_planned(self):
         self.assertEqual(sorted(PLANS), sorted(path.stem for path in (SOURCE / "tb/testplan").iterdir()))
@@ -42,9 +51,8 @@ class Testplans(unittest.TestCase):
     def test_none_stands_when_a_sentence_is_reworded(self):
         quotes = 0
         for name in PLANS:
-            plan = yaml.safe_load((SOURCE / f"tb/testplan/{name}.yaml").read_text(encoding="utf-8"))
-            for says, page in {(trace["says"], trace["page"]) for feature in plan["features"]
-                               for trace in feature["traces"]}:
+            for says, page in {(trace["says"], trace["page"]) for feature in self.features(name)
+                               for trace in feature.get("traces", [])}:
                 quotes += 1
                 text = (SOURCE / page).read_text(encoding="utf-8")
                 reworded, times = re.subn(r"\s+".join(map(re.escape, says.split())), "Reworded.", text)

@@ -248,6 +248,7 @@ TEST(LineUnitBlock, AResetLetsTheDividerStartAtOnce) {
   bench.clock.set_reset_n(false);
   bench.clock.run(1);
   bench.clock.set_reset_n(true);
+  bench.registers.reset();
   bench.registers.frame(40, 30);
   const Cycle begin = bench.clock.cycle();
   bench.driver.send(begin, sums_of(5));
