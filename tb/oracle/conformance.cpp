@@ -7,8 +7,8 @@
 #include <cmath>
 #include <memory>
 
-#include "spec/texture/parameters.h"
 #include "golden/texture/texture_golden.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::tb::texture {
 namespace {

@@ -24,11 +24,11 @@
 namespace deburr::tb::texture_direction_test {
 namespace {
 
-using spec::texture::preset_parameters;
 using spec::texture::Axes;
 using spec::texture::CountRule;
 using spec::texture::Parameters;
 using spec::texture::Preset;
+using spec::texture::preset_parameters;
 
 // The candidates of eight axes, of four, and the directions between that are farthest from both.
 constexpr double kDegrees[] = {0,    7.5, 11.25, 15, 22.5, 30,    33.75,

@@ -19,11 +19,11 @@
 namespace deburr::tb::texture_flicker_test {
 namespace {
 
-using spec::texture::preset_parameters;
 using spec::texture::Axes;
 using spec::texture::CountRule;
 using spec::texture::Parameters;
 using spec::texture::Preset;
+using spec::texture::preset_parameters;
 
 struct Row {
   const char* name;

@@ -129,8 +129,7 @@ TEST(Engine, RangesAreCheckedFromTheirDeclaration) {
   EXPECT_EQ(refusal({.steps = 8}), "taken");
   EXPECT_EQ(refusal({.steps = 9}), "toy.steps = 9 is outside 1..8 step");
   EXPECT_EQ(refusal({.steps = 0}), "toy.steps = 0 is outside 1..8 step");
-  EXPECT_EQ(refusal({.rule = static_cast<Rule>(2)}),
-            "toy.rule = 2 is none of plain, fancy");
+  EXPECT_EQ(refusal({.rule = static_cast<Rule>(2)}), "toy.rule = 2 is none of plain, fancy");
 }
 
 TEST(Engine, ListsWhatIsBelowIt) {

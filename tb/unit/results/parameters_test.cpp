@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Parameters by name: every way to set one, and every way in which it must be refused.
-#include "spec/texture/check_build.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -14,6 +12,7 @@
 #include <vector>
 
 #include "spec/error.h"
+#include "spec/texture/check_build.h"
 #include "tb/results/parameter_set.h"
 
 namespace deburr::tb::parameters_test {

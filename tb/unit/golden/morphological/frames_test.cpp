@@ -592,10 +592,11 @@ TEST(NamedErrors, OfParameters) {
     p.diagonal_steps = 10;
     p.window_rows = 20;
   };
-  EXPECT_EQ(error_of(too_far),
-            "morphological.diagonal_steps = 10 with window_rows = 20: must be at most window_rows / "
-            "2 - 1 with diagonals, beyond which no row is in the window; make it at most 9, or "
-            "give window_rows of at least 22");
+  EXPECT_EQ(
+      error_of(too_far),
+      "morphological.diagonal_steps = 10 with window_rows = 20: must be at most window_rows / "
+      "2 - 1 with diagonals, beyond which no row is in the window; make it at most 9, or "
+      "give window_rows of at least 22");
   EXPECT_EQ(error_of([](P& p) {
               p.steps = 4;
               p.diagonals = true;

@@ -8,9 +8,9 @@
 #include <functional>
 
 #include "golden/ideal/lod.h"
-#include "spec/texture/parameters.h"
 #include "golden/texture/footprint.h"
 #include "golden/texture/level_of_detail.h"
+#include "spec/texture/parameters.h"
 #include "spec/texture/tables.h"
 #include "tb/base/random.h"
 

@@ -15,8 +15,8 @@
 #include "golden/ideal/box.h"
 #include "golden/ideal/ewa.h"
 #include "golden/ideal/texture_image.h"
-#include "spec/texture/parameters.h"
 #include "golden/texture/texture_golden.h"
+#include "spec/texture/parameters.h"
 #include "tb/unit/golden/texture/support.h"
 
 namespace deburr::quality_test {

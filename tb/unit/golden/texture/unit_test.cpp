@@ -7,9 +7,9 @@
 #include <map>
 #include <set>
 
-#include "spec/texture/parameters.h"
 #include "golden/texture/texture_golden.h"
 #include "spec/error.h"
+#include "spec/texture/parameters.h"
 #include "tb/base/random.h"
 #include "tb/unit/golden/texture/support.h"
 

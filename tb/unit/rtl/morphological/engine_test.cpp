@@ -490,9 +490,9 @@ INSTANTIATE_TEST_SUITE_P(
                        p.edge_source = spec::morphological::EdgeSource::kColour;
                        p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
                      }},
-        BadParameter{"divider.latency = 1 is outside 14..64", [](auto& p) { p.divider_latency = 1; }},
-        BadParameter{"give window_rows of at least 20",
-                     [](auto& p) { p.window_rows = 18; }},
+        BadParameter{"divider.latency = 1 is outside 14..64",
+                     [](auto& p) { p.divider_latency = 1; }},
+        BadParameter{"give window_rows of at least 20", [](auto& p) { p.window_rows = 18; }},
         BadParameter{"line_pixels", [](auto& p) { p.line_pixels = 8193; }}));
 
 // What the refused ones would be with a row, a clock or a rule changed.

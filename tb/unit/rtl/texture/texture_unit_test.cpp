@@ -587,7 +587,8 @@ TEST(TextureRtlUnit, RefusesImpossibleParameters) {
                       p.cache_ways = 8;
                     }),
               HasSubstr("must hold one set"));
-  EXPECT_THAT(error("g", [](auto& p) { p.cache_ways = 16; }), HasSubstr("cache.ways = 16 is outside 1..8"));
+  EXPECT_THAT(error("g", [](auto& p) { p.cache_ways = 16; }),
+              HasSubstr("cache.ways = 16 is outside 1..8"));
   EXPECT_THAT(error("h", [](auto& p) { p.cache_bytes = 65536; }), HasSubstr("at most 32768"));
   EXPECT_THAT(error("i", [](auto& p) { p.cache_fifo_depth = 1; }), HasSubstr("at least 2 places"));
   EXPECT_THAT(error("j", [](auto& p) { p.cache_fifo_depth = 0; }), HasSubstr("sizes it from"));
