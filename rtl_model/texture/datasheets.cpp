@@ -8,16 +8,6 @@
 namespace deburr::rtl::texture {
 namespace {
 
-spec::texture::Parameters preset(const spec::texture::PresetRow& row) {
-  spec::texture::Parameters p;
-  p.preset = row.preset;
-  p.axes = row.axes;
-  p.footprint = row.footprint;
-  p.log2 = row.log2;
-  p.count = row.count;
-  return p;
-}
-
 // The parts that are made of blocks: their latency is a sum.
 std::vector<Datasheet> sums(const spec::texture::Parameters& p) {
   std::vector<Datasheet> sheets = {TextureUnit::datasheet(p), AddressUnit::datasheet(p)};
@@ -51,7 +41,7 @@ std::vector<Datasheet> datasheets(const spec::texture::Parameters& p) {
 std::vector<Datasheet> datasheets() {
   std::vector<std::vector<Datasheet>> builds;
   for (const spec::texture::PresetRow& row : spec::texture::kPresets) {
-    spec::texture::Parameters p = preset(row);
+    spec::texture::Parameters p = spec::texture::preset_parameters(row.preset);
     builds.push_back(sums(p));
     builds.push_back(datasheets(p));
     // What the preset has not.

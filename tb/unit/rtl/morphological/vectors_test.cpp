@@ -19,9 +19,7 @@ using spec::morphological::Preset;
 using spec::morphological::Quality;
 
 Parameters parameters_of(const FrameVector& v) {
-  Parameters p = spec::morphological::kPresets[static_cast<std::size_t>(v.preset)].has_qualities
-                     ? smaa(v.quality, v.preset)
-                     : preset(v.preset);
+  Parameters p = preset_parameters(v.preset, v.quality);
   apply_settings(p, v.settings);
   return p;
 }
