@@ -13,7 +13,8 @@ import sys
 import tempfile
 import unittest
 
-import yaml
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "engines"))
+from engine_list import testplan  # noqa: E402
 
 PLANS = ("coverage", "nightly", "smoke")
 
@@ -32,15 +33,6 @@ class Testplans(unittest.TestCase):
                                "--seed", "1"], cwd=self.root, capture_output=True, text=True, check=False)
         return done.returncode, done.stdout + done.stderr
 
-    @staticmethod
-    def features(name):
-        """Those of the testplan and of what it includes."""
-        path = SOURCE / f"tb/testplan/{name}.yaml"
-        plan = yaml.safe_load(path.read_text(encoding="utf-8"))
-        parts = [part for glob in plan.get("include", []) for part in sorted((SOURCE / "tb").glob(glob[3:]))]
-        return plan.get("features", []) + [feature for part in parts for feature in
-                                           yaml.safe_load(part.read_text(encoding="utf-8"))["features"]]
-
     def test_each_can_be_planned(self):
         self.assertEqual(sorted(PLANS), sorted(path.stem for path in (SOURCE / "tb/testplan").iterdir()))
         for name in PLANS:
@@ -51,8 +43,8 @@ class Testplans(unittest.TestCase):
     def test_none_stands_when_a_sentence_is_reworded(self):
         quotes = 0
         for name in PLANS:
-            for says, page in {(trace["says"], trace["page"]) for feature in self.features(name)
-                               for trace in feature.get("traces", [])}:
+            for says, page in {(trace["says"], trace["page"]) for feature in testplan(SOURCE / f"tb/testplan/{name}.yaml")["features"]
+                               for trace in feature["traces"]}:
                 quotes += 1
                 text = (SOURCE / page).read_text(encoding="utf-8")
                 reworded, times = re.subn(r"\s+".join(map(re.escape, says.split())), "Reworded.", text)

@@ -289,7 +289,8 @@ TEST(MemoryModel, ResponsesSentAheadComeAtTheirTime) {
     };
     const std::string with = run(true), without = run(false);
     const auto at = static_cast<std::size_t>(
-        std::mismatch(with.begin(), with.end(), without.begin(), without.end()).first - with.begin());
+        std::mismatch(with.begin(), with.end(), without.begin(), without.end()).first -
+        with.begin());
     const std::size_t from = at > 40 ? at - 40 : 0;
     EXPECT_TRUE(with == without) << "seed " << seed << ": ahead ..." << with.substr(from, 80)
                                  << "..., at its time ..." << without.substr(from, 80) << "...";

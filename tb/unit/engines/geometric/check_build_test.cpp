@@ -7,7 +7,7 @@
 #include "rtl_model/geometric/geometric_engine.h"
 #include "tb/unit/engines/check_build.h"
 
-namespace deburr::tb::geometric_check_build_test {
+namespace deburr::tb::check_build_test {
 namespace {
 
 using Parameters = spec::geometric::Parameters;
@@ -32,4 +32,4 @@ TEST(GeometricCheckBuild, LeavesNothingThatCannotBeBuilt) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::geometric_check_build_test
+}  // namespace deburr::tb::check_build_test

@@ -7,7 +7,7 @@
 #include "rtl_model/morphological/morphological_engine.h"
 #include "tb/unit/engines/check_build.h"
 
-namespace deburr::tb::morphological_check_build_test {
+namespace deburr::tb::check_build_test {
 namespace {
 
 using Parameters = spec::morphological::Parameters;
@@ -50,4 +50,4 @@ TEST(MorphologicalCheckBuild, LeavesNothingThatCannotBeBuilt) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_check_build_test
+}  // namespace deburr::tb::check_build_test

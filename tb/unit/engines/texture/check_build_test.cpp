@@ -7,7 +7,7 @@
 #include "rtl_model/texture/texture_unit.h"
 #include "tb/unit/engines/check_build.h"
 
-namespace deburr::tb::texture_check_build_test {
+namespace deburr::tb::check_build_test {
 namespace {
 
 using Parameters = spec::texture::Parameters;
@@ -50,4 +50,4 @@ TEST(TextureCheckBuild, RejectsWhatIsOutOfRange) { checks().expect_ranges(); }
 TEST(TextureCheckBuild, LeavesNothingThatCannotBeBuilt) { checks().expect_all_else_is_built(300); }
 
 }  // namespace
-}  // namespace deburr::tb::texture_check_build_test
+}  // namespace deburr::tb::check_build_test
