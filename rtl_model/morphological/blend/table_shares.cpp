@@ -51,7 +51,7 @@ void TableShares::cut(Cycle cycle, Beat& beat) {
 }
 
 // Stages 6 to 4, and the arithmetic of 7 to 9.
-void TableShares::move(Cycle cycle, BeatShares* shares) {
+void TableShares::move_on(Cycle cycle, BeatShares* shares) {
   pipe_.move();
   if (Beat* beat = pipe_.at(4))
     for_each(*beat, [&](std::size_t edge, const Search& search) {

@@ -33,7 +33,9 @@ class TableShares final : public sc_core::sc_module {
 
   // The stages move on: before stage 3 asks for its beat. `beat`: the shares of the AreaUnit's beat
   // in stage 6, if there is one.
-  void move(Cycle cycle, BeatShares* beat);
+  void move(Cycle cycle, BeatShares* beat) {
+    if (!pipe_.empty()) move_on(cycle, beat);
+  }
   // Stage 3: the edge of a beat that is pixel k of this record.
   void ask(std::size_t edge, const AreaWalk& walk, std::int32_t k, std::uint8_t near);
   void reset() { pipe_.reset(); }
@@ -57,6 +59,7 @@ class TableShares final : public sc_core::sc_module {
       visit(edge, beat.search[edge]);
     }
   }
+  void move_on(Cycle cycle, BeatShares* shares);
   void cut(Cycle cycle, Beat& beat);
 
   const ParameterStore& store_;
