@@ -208,7 +208,7 @@ tlm::tlm_sync_enum MemoryModel::nb_transport_fw(int port, tlm::tlm_generic_paylo
 // A request enters `delay` from now, and is ended.
 void MemoryModel::begin(int port, tlm::tlm_generic_payload& payload, bool counted,
                         const sc_core::sc_time& delay) {
-  const sc_core::sc_time now = sc_core::sc_time_stamp();
+  const sc_core::sc_time& now = sc_core::sc_time_stamp();
   const std::optional<std::uint64_t> response =
       accept({&payload, port, 0, false, false, counted}, (now + delay).value());
   tlm::tlm_phase phase = tlm::END_REQ;
