@@ -30,7 +30,7 @@ if(DEBURR_FUZZ)
 endif()
 if(DEBURR_COVERAGE)
   target_compile_options(deburr_options INTERFACE --coverage)
-  # tb/harness/forked.h calls it where it is there.
+  # tb/base/forked.h calls it where it is there.
   target_link_options(deburr_options INTERFACE --coverage -Wl,--undefined=__gcov_dump)
 endif()
 

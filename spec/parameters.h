@@ -5,7 +5,7 @@
 // function
 //
 //   template <class Visitor> void describe(P& p, Visitor& v) {
-//     v.integer("cache.ways", p.cache_ways, 1, 16, "way", "Associativity of the texture cache.");
+//     v.integer("cache.ways", p.cache_ways, 1, 8, "way", "Associativity of the texture cache.");
 //     v.choice("footprint", p.footprint, kFootprintNames, "Rule for the length of ...");
 //     v.boolean("mesh.two_sided", p.two_sided, "...");
 //   }

@@ -4,45 +4,10 @@
 #include <string>
 
 #include "spec/error.h"
-#include "spec/geometric/records.h"
-#include "spec/range_check.h"
 
 namespace deburr::golden::geometric {
 
 using spec::geometric::Refusal;
-
-spec::geometric::Parameters preset_parameters(spec::geometric::Preset preset) {
-  spec::geometric::Parameters p;
-  for (const spec::geometric::PresetRow& row : spec::geometric::kPresets) {
-    if (row.preset != preset) continue;
-    p.preset = row.preset;
-    p.select = row.select;
-    p.crease = row.crease;
-    p.combine = row.combine;
-    p.frame_copy = row.frame_copy;
-  }
-  return p;
-}
-
-void check_parameters(const spec::geometric::Parameters& parameters) {
-  spec::geometric::Parameters p = parameters;
-  const spec::RangeCheck ranges{"geometric"};
-  describe(p, ranges);
-  if (p.pipelined && p.reciprocal_table != 0) {
-    throw spec::ConfigError("geometric reciprocal_table = " + std::to_string(p.reciprocal_table) +
-                            " has no effect beside pipelined dividers; set one of them to 0");
-  }
-  if (p.fills > p.memory_outstanding) {
-    throw spec::ConfigError("geometric fills = " + std::to_string(p.fills) +
-                            " exceeds memory.outstanding = " +
-                            std::to_string(p.memory_outstanding) + "; raise that or lower fills");
-  }
-  if (p.face_limit % spec::geometric::kFacesInLine != 0) {
-    throw spec::ConfigError("geometric face_limit = " + std::to_string(p.face_limit) +
-                            " does not fill its banks; use a multiple of " +
-                            std::to_string(spec::geometric::kFacesInLine));
-  }
-}
 
 Refusal refusal(const spec::geometric::Parameters& p, const FrameCounts& counts) {
   constexpr int kMax = spec::geometric::kMaxFrameSize;

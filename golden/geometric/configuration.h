@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which parameters and frames the engine accepts, and the parameters of a preset.
-//
-// docs/geometric.md, "Errors"; docs/geometric_hardware.md, "Parameters".
+// Which frames the engine accepts: docs/geometric.md, "Errors". Parameters:
+// spec/geometric/check_build.h.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +10,7 @@
 
 namespace deburr::golden::geometric {
 
-// The defaults with the rules of a preset applied.
-spec::geometric::Parameters preset_parameters(spec::geometric::Preset preset);
-
-// Throws ConfigError: a value out of its range, or a mix that the engine does not have.
-void check_parameters(const spec::geometric::Parameters& parameters);
+using spec::geometric::preset_parameters;
 
 // What the registers of a start say of its size.
 struct FrameCounts {

@@ -8,6 +8,7 @@
 #include "golden/geometric/line.h"
 #include "golden/geometric/resolve.h"
 #include "spec/error.h"
+#include "spec/geometric/check_build.h"
 
 namespace deburr::golden::geometric {
 namespace {
@@ -69,7 +70,7 @@ int cache_bits(spec::geometric::CacheLines lines) {
 
 GeometricGolden::GeometricGolden(const spec::geometric::Parameters& parameters, Detail detail)
     : parameters_(parameters), everything_(detail == Detail::kEverything) {
-  check_parameters(parameters);
+  check_build(parameters);
   lanes_ = spec::geometric::kLaneCount[static_cast<std::size_t>(parameters.walkers)];
 }
 

@@ -45,7 +45,7 @@ class GeometricGolden {
   // blocks, traffic and coverage too.
   enum class Detail { kPixels, kEverything };
 
-  // Throws ConfigError (configuration.h).
+  // Throws ConfigError (spec/geometric/check_build.h).
   explicit GeometricGolden(const spec::geometric::Parameters& parameters,
                            Detail detail = Detail::kEverything);
 

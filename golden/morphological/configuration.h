@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which parameters and frames the engine accepts, and the parameters of a preset.
-//
-// docs/morphological_engine.md, "Configuration errors"; docs/morphological_smaa.md, "Presets" and
-// "Errors".
+// Which frames the engine accepts: docs/morphological_engine.md, "Configuration errors".
+// Parameters: spec/morphological/check_build.h.
 #pragma once
 
 #include "spec/morphological/packets.h"
@@ -10,17 +8,12 @@
 
 namespace deburr::golden::morphological {
 
-// The defaults with the rules of a preset applied, after those of the quality if it has any.
-spec::morphological::Parameters preset_parameters(
-    spec::morphological::Preset preset,
-    spec::morphological::Quality quality = spec::morphological::Quality::kHigh);
+using spec::morphological::preset_parameters;
 
 // These with what following the geometric engine sets; edges stay as they are where the threshold
 // is dynamic.
 spec::morphological::Parameters following_geometric(spec::morphological::Parameters parameters);
 
-// Throws ConfigError: a value out of its range, or a mix that the engine does not have.
-void check_parameters(const spec::morphological::Parameters& parameters);
 // Throws ConfigError: no pixels, over 8192 pixels a side, wider than the line buffers.
 void check_frame(const spec::morphological::Parameters& parameters, int width, int height);
 

@@ -14,6 +14,7 @@
 #include "golden/morphological/runs.h"
 #include "golden/morphological/traffic.h"
 #include "spec/error.h"
+#include "spec/morphological/check_build.h"
 
 namespace deburr::golden::morphological {
 namespace {
@@ -84,7 +85,7 @@ MorphologicalGolden::Share MorphologicalGolden::AxisShares::at(int position, int
 MorphologicalGolden::MorphologicalGolden(const spec::morphological::Parameters& parameters,
                                          Detail detail)
     : parameters_(parameters), everything_(detail == Detail::kEverything) {
-  check_parameters(parameters);
+  check_build(parameters);
 }
 
 const std::vector<spec::morphological::Rgba8>& MorphologicalGolden::process(

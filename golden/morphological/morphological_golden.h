@@ -45,7 +45,7 @@ class MorphologicalGolden {
   // coverage too.
   enum class Detail { kPixels, kEverything };
 
-  // Throws ConfigError (configuration.h).
+  // Throws ConfigError (spec/morphological/check_build.h).
   explicit MorphologicalGolden(const spec::morphological::Parameters& parameters,
                                Detail detail = Detail::kEverything);
 

@@ -60,6 +60,19 @@ std::uint32_t texel_address(const spec::texture::Descriptor& descriptor, int lev
   return base + tile * spec::texture::kTileBytes + inside * bytes;
 }
 
+// Both layouts allow the sum: a tile's number interleaves the bits of its column and its row.
+LevelAddresses level_addresses(const spec::texture::Descriptor& descriptor, int level) {
+  LevelAddresses addresses;
+  const std::uint32_t base = texel_address(descriptor, level, 0, 0);
+  for (std::int32_t x = 0; x < level_size(descriptor.width, level); ++x) {
+    addresses.column.push_back(texel_address(descriptor, level, x, 0) - base);
+  }
+  for (std::int32_t y = 0; y < level_size(descriptor.height, level); ++y) {
+    addresses.row.push_back(texel_address(descriptor, level, 0, y));
+  }
+  return addresses;
+}
+
 std::uint64_t level_bytes(const spec::texture::Descriptor& descriptor, int level) {
   if (descriptor.layout == spec::texture::Layout::kLinear) {
     return std::uint64_t{row_pitch(descriptor, level)} *

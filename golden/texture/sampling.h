@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "spec/texture/descriptor.h"
 #include "spec/texture/packets.h"
@@ -119,6 +120,12 @@ inline TexelPosition nearest_position(spec::texture::Wrap wrap, std::int64_t p, 
 // Byte address of texel (x, y) of a level, modulo 2^32. 0 <= x < level_size(width, level), y alike.
 std::uint32_t texel_address(const spec::texture::Descriptor& descriptor, int level, std::int32_t x,
                             std::int32_t y);
+
+// The same for a whole level: the address of texel (x, y) is column[x] + row[y], modulo 2^32.
+struct LevelAddresses {
+  std::vector<std::uint32_t> column, row;  // row holds the base
+};
+LevelAddresses level_addresses(const spec::texture::Descriptor& descriptor, int level);
 
 // Bytes from base[level] to the end of the level, padding of rows and of tile grids included.
 std::uint64_t level_bytes(const spec::texture::Descriptor& descriptor, int level);

@@ -54,16 +54,9 @@ void TextureGolden::set_texture(int handle, const spec::texture::Descriptor& des
   if (!texture.valid) return;
   texture.levels.resize(descriptor.levels);
   for (int k = 0; k < descriptor.levels; ++k) {
-    LevelTable& table = texture.levels[static_cast<std::size_t>(k)];
-    table.width = level_size(descriptor.width, k);
-    table.height = level_size(descriptor.height, k);
-    const std::uint32_t base = texel_address(descriptor, k, 0, 0);
-    for (std::int32_t x = 0; x < table.width; ++x) {
-      table.column.push_back(texel_address(descriptor, k, x, 0) - base);
-    }
-    for (std::int32_t y = 0; y < table.height; ++y) {
-      table.row.push_back(texel_address(descriptor, k, 0, y));
-    }
+    texture.levels[static_cast<std::size_t>(k)] = {level_addresses(descriptor, k),
+                                                   level_size(descriptor.width, k),
+                                                   level_size(descriptor.height, k)};
   }
   find_plain_levels(texture);
 }

@@ -109,11 +109,9 @@ class TextureGolden {
   const spec::texture::Parameters& parameters() const { return parameters_; }
 
  private:
-  // texel_address() split into the sum of a column's and a row's share; both layouts allow that.
-  struct LevelTable {
+  struct LevelTable : LevelAddresses {
     std::int32_t width = 0, height = 0;
-    std::vector<std::uint32_t> column, row;  // row holds the base
-    bool plain = false;                      // wholly in memory, no line of it can fail
+    bool plain = false;  // wholly in memory, no line of it can fail
   };
   // What the lanes of a quad share: a difference each of two rows and of two columns.
   struct Difference {

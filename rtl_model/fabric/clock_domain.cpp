@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/fabric/wire.h"
 
 namespace deburr::rtl {
 
@@ -38,6 +40,50 @@ void ClockDomain::claim(LinkBase& link) {
   links_.push_back(&link);
 }
 
+void ClockDomain::claim(WireBase& wire) {
+  DEBURR_CHECK(wire.clock_ == nullptr || wire.clock_ == this,
+               fmt::format("{} joins two clock domains ({} is one): a wire has one clock",
+                           wire.name(), name()));
+  if (wire.clock_ == this) return;
+  wire.clock_ = this;
+  wires_.push_back(&wire);
+}
+
+// A combinational wire is driven before it is read: its driver is added before its readers, and
+// they keep that order.
+void ClockDomain::join_combinational() {
+  std::vector<std::size_t> group(
+      units_.size());  // the lowest number of a unit that it is joined to
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  const auto unit_of = [&](const std::string& port) {
+    const sc_core::sc_object* object = sc_core::sc_find_object(port.c_str());
+    while (object && !dynamic_cast<const Unit*>(object)) object = object->get_parent_object();
+    const auto found = std::find(units_.begin(), units_.end(), object);
+    DEBURR_CHECK(found != units_.end(), fmt::format("{} is a port of no unit", port));
+    return static_cast<std::size_t>(found - units_.begin());
+  };
+  for (const WireBase* wire : wires_) {
+    if (!wire->combinational() || wire->driver().empty()) continue;
+    const std::size_t driver = unit_of(wire->driver());
+    for (const std::string& port : wire->readers()) {
+      const std::size_t reader = unit_of(port);
+      DEBURR_CHECK(driver < reader,
+                   fmt::format("{} is combinational, so {} has to be ticked before {}: construct "
+                               "it first",
+                               wire->name(), units_[driver]->name(), units_[reader]->name()));
+      const std::size_t from = std::max(group[driver], group[reader]),
+                        to = std::min(group[driver], group[reader]);
+      std::replace(group.begin(), group.end(), from, to);
+    }
+  }
+  for (std::size_t first = 0; first < units_.size(); ++first) {
+    std::vector<const Clocked*> members;
+    for (std::size_t i = first; i < units_.size(); ++i)
+      if (group[i] == first) members.push_back(units_[i]);
+    if (members.size() > 1) joined_.push_back(std::move(members));
+  }
+}
+
 void ClockDomain::end_of_elaboration() {
   std::set<sc_core::sc_object*> seen;  // units may nest
   // A memory that several units access may stand beside them.
@@ -55,6 +101,10 @@ void ClockDomain::end_of_elaboration() {
         if (port->link_base()) claim(*port->link_base());
       } else if (auto* link = dynamic_cast<LinkBase*>(&object)) {
         claim(*link);
+      } else if (auto* wire_port = dynamic_cast<WirePortBase*>(&object)) {
+        if (wire_port->wire_base()) claim(*wire_port->wire_base());
+      } else if (auto* wire = dynamic_cast<WireBase*>(&object)) {
+        claim(*wire);
       } else if (auto* memory = dynamic_cast<MemoryBase*>(&object)) {
         memories_.push_back(memory);
       } else if (auto* counter = dynamic_cast<Counter*>(&object)) {
@@ -64,6 +114,7 @@ void ClockDomain::end_of_elaboration() {
       }
     });
   }
+  join_combinational();
 }
 
 void ClockDomain::shuffle(std::optional<std::uint64_t> seed) {
@@ -82,6 +133,20 @@ void ClockDomain::reorder() {
     shuffle_state_ ^= shuffle_state_ << 17;
     std::swap(slots_[i - 1], slots_[(shuffle_state_ >> 11) % i]);
   }
+  for (const std::vector<const Clocked*>& members : joined_) keep_order(members);
+}
+
+// The places that the members have now are theirs in their own order.
+void ClockDomain::keep_order(const std::vector<const Clocked*>& members) {
+  std::vector<std::size_t> places;
+  std::vector<Slot> in_order(members.size());
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    const auto member = std::find(members.begin(), members.end(), slots_[i].clocked);
+    if (member == members.end()) continue;
+    places.push_back(i);
+    in_order[static_cast<std::size_t>(member - members.begin())] = slots_[i];
+  }
+  for (std::size_t i = 0; i < places.size(); ++i) slots_[places[i]] = in_order[i];
 }
 
 sc_core::sc_time ClockDomain::time_of(Cycle cycle) const {
@@ -171,17 +236,26 @@ void ClockDomain::evaluate() {
 // evaluate() up to the end of the block, without what is usually not there. Whatever changes that
 // (reset, stop, a call into SystemC) moves the end of the block to before the next cycle.
 void ClockDomain::evaluate_block() {
-  if (!reset_n_ || shuffled_ || !before_.empty() || !after_.empty()) {
+  if (!reset_n_ || shuffled_ || !before_.empty()) {
     while (cycle_ < block_end_) evaluate();
     return;
   }
   Cycle cycle = cycle_;
+  // Codes are below kActivities: declare_stall() has counted them.
+  const auto tick = [&cycle](const Slot& slot) { ++slot.activity[slot.clocked->tick(cycle).code]; };
   const Slot* const begin = slots_.data();
   const Slot* const end = begin + slots_.size();
+  const Slot* const end_of_fours = begin + slots_.size() / 4 * 4;
   do {
-    // Codes are below kActivities: declare_stall() has counted them.
-    for (const Slot* slot = begin; slot != end; ++slot)
-      ++slot->activity[slot->clocked->tick(cycle).code];
+    const Slot* slot = begin;
+    for (; slot != end_of_fours; slot += 4) {
+      tick(slot[0]);
+      tick(slot[1]);
+      tick(slot[2]);
+      tick(slot[3]);
+    }
+    for (; slot != end; ++slot) tick(*slot);
+    for (Clocked* clocked : after_) clocked->tick(cycle);
     cycle_ = ++cycle;
     if (done_ && (*done_)()) {
       done_reached_ = true;
@@ -215,6 +289,7 @@ void ClockDomain::reset_all() {
   for (const Slot& slot : slots_) slot.clocked->reset();
   for (Unit* unit : units_) unit->activity_.fill(0);
   for (LinkBase* link : links_) link->reset();
+  for (WireBase* wire : wires_) wire->reset();
   for (MemoryBase* memory : memories_) memory->reset();
   for (Counter* counter : counters_) counter->reset();
   for (Histogram* histogram : histograms_) histogram->reset();

@@ -27,6 +27,7 @@
 namespace deburr::rtl {
 
 class Unit;
+class WireBase;
 
 class ClockDomain final : public sc_core::sc_module {
  public:
@@ -46,6 +47,7 @@ class ClockDomain final : public sc_core::sc_module {
   // --- Options, before or between runs ---
   void set_fast_path(bool on) { fast_path_ = on; }
   // Evaluates the units in another random order each cycle; nullopt: in the order of addition.
+  // Units that combinational wires join keep their order among themselves.
   void shuffle(std::optional<std::uint64_t> seed);
   // From now on every edge is an activation of its own (traces).
   void require_cycle_by_cycle() { cycle_by_cycle_ = true; }
@@ -82,6 +84,7 @@ class ClockDomain final : public sc_core::sc_module {
 
   const std::vector<Unit*>& units() const { return units_; }
   const std::vector<LinkBase*>& links() const { return links_; }  // complete after elaboration
+  const std::vector<WireBase*>& wires() const { return wires_; }  // complete after elaboration
   std::uint64_t activations() const { return activations_; }      // to see whether it runs on
 
   // Checks busy + stalled + idle = cycles for every unit; run() and run_until() do it at their end.
@@ -102,7 +105,10 @@ class ClockDomain final : public sc_core::sc_module {
   bool may_run_on();
   void start(Cycle end, std::uint64_t horizon);
   void reorder();
+  void keep_order(const std::vector<const Clocked*>& members);
   void claim(LinkBase& link);
+  void claim(WireBase& wire);
+  void join_combinational();
 
   sc_core::sc_time period_;
   std::uint64_t period_value_;
@@ -110,6 +116,9 @@ class ClockDomain final : public sc_core::sc_module {
   std::vector<Clocked*> before_, after_;
   std::vector<Unit*> units_;
   std::vector<LinkBase*> links_;
+  std::vector<WireBase*> wires_;
+  // Groups of units that combinational wires join, each in the order of addition.
+  std::vector<std::vector<const Clocked*>> joined_;
   std::vector<class MemoryBase*> memories_;
   std::vector<class Counter*> counters_;
   std::vector<class Histogram*> histograms_;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/fabric/engine.h"
 
-#include <fmt/format.h>
-
 namespace deburr::rtl {
 namespace {
 
@@ -21,21 +19,6 @@ std::vector<const T*> below(const sc_core::sc_object& root) {
 }
 
 }  // namespace
-
-void RangeCheck::refuse_range(std::string_view name, std::int32_t value, std::int32_t min,
-                              std::int32_t max, std::string_view unit) const {
-  throw spec::ConfigError(
-      fmt::format("{}.{}: expected {}..{} {}, got {}", unit_, name, min, max, unit, value));
-}
-
-void RangeCheck::refuse_choice(std::string_view name, int value,
-                               std::span<const std::string_view> names) const {
-  std::string known;
-  for (const std::string_view one : names)
-    known += fmt::format("{}{}", known.empty() ? "" : ", ", one);
-  throw spec::ConfigError(
-      fmt::format("{}.{}: no such choice: {}; expected one of {}", unit_, name, value, known));
-}
 
 Engine::Engine(const sc_core::sc_module_name& name, ClockDomain& clock,
                std::span<const spec::RegisterInfo> table, const ControlLayout& layout)

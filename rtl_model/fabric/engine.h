@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Base of every engine: its registers, its memory socket if it has one, the check of its
-// parameters, and what reports find in it.
+// Base of every engine: its registers, its memory socket if it has one, and what reports find in
+// it.
 //
 //   class Smoother final : public Engine {
 //    public:
 //     Smoother(const sc_core::sc_module_name& name, ClockDomain& clock, const Parameters& p)
 //         : Engine(name, clock, kSmootherRegisters, kLayout),
-//           parameters_(checked_ranges("smoother", p)), ... {
+//           parameters_(check_build(p)), ... {  // spec/check_build.h
 //       control.show(kPixels, blender_.pixels);
 //     }
 //     bool idle() const override { return ...; }
@@ -32,41 +32,9 @@
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/unit.h"
-#include "spec/error.h"
 #include "spec/registers.h"
 
 namespace deburr::rtl {
-
-// A visitor of parameters (spec/parameters.h) that refuses what is out of its declared range.
-class RangeCheck {
- public:
-  explicit RangeCheck(std::string_view unit) : unit_(unit) {}
-  void integer(std::string_view name, std::int32_t value, std::int32_t min, std::int32_t max,
-               std::string_view unit, std::string_view) const {
-    if (value < min || value > max) refuse_range(name, value, min, max, unit);
-  }
-  template <class Enum, std::size_t N>
-  void choice(std::string_view name, Enum value, const std::array<std::string_view, N>& names,
-              std::string_view) const {
-    if (static_cast<std::size_t>(value) >= N) refuse_choice(name, static_cast<int>(value), names);
-  }
-  void boolean(std::string_view, bool, std::string_view) const {}
-
- private:
-  [[noreturn]] void refuse_range(std::string_view name, std::int32_t value, std::int32_t min,
-                                 std::int32_t max, std::string_view unit) const;
-  [[noreturn]] void refuse_choice(std::string_view name, int value,
-                                  std::span<const std::string_view> names) const;
-  std::string_view unit_;
-};
-
-// The parameters, if all of them are in range; ConfigError if not.
-template <class Parameters>
-Parameters checked_ranges(std::string_view unit, Parameters parameters) {
-  const RangeCheck check(unit);
-  describe(parameters, check);  // of the namespace that declares them
-  return parameters;
-}
 
 class Engine : public sc_core::sc_module {
  public:

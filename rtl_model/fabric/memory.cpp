@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <numeric>
 
 namespace deburr::rtl {
 namespace {
@@ -160,11 +161,6 @@ PortedMemory::PortedMemory(const char* name, MemoryShape shape)
       words_(words()),
       span_(this->shape().span),
       latency_(this->shape().latency),
-      plain_(this->shape().separate_banks || forbids(this->shape()) ? 0 : words_),
-      one_bank_(this->shape().separate_banks && !forbids(this->shape()) &&
-                this->shape().order == BankOrder::kInterleaved &&
-                std::has_single_bit(this->shape().banks)),
-      bank_mask_(this->shape().banks - 1),
       read_banks_(read_banks_used_),
       write_banks_(this->shape().shared_ports ? read_banks_used_ : write_banks_used_) {
   const MemoryShape& s = this->shape();
@@ -178,7 +174,20 @@ PortedMemory::PortedMemory(const char* name, MemoryShape shape)
   add(Side::kRead, s.read_ports);
   add(Side::kWrite, s.write_ports);
   add(Side::kShared, s.shared_ports);
+  if (s.separate_banks) {
+    read_banks_used_.assign(s.banks, kNever);
+    write_banks_used_.assign(s.banks, kNever);
+  }
+  const bool plain = !s.separate_banks && !forbids(s);
+  const bool one_bank = s.separate_banks && !forbids(s) && s.order == BankOrder::kInterleaved &&
+                        std::has_single_bit(s.banks);
   for (Port& port : ports_) {
+    port.latency = latency_;
+    const bool shared = port.side == Side::kShared;
+    port.plain = plain && !shared ? words_ : 0;
+    port.one_bank = one_bank && !shared ? words_ : 0;
+    port.bank_mask = s.banks - 1;
+    port.banks = read_banks_.data();
     // As many reads as can be under way, and the one whose word is on the output register.
     for (std::uint32_t i = 0; i <= latency_; ++i) {
       port.read[i].next = &port.read[i == latency_ ? 0 : i + 1];
@@ -188,10 +197,6 @@ PortedMemory::PortedMemory(const char* name, MemoryShape shape)
     port.writer = static_cast<std::uint32_t>(writers_.size());
     if (port.side != Side::kWrite) readers_.push_back(&port);
     if (port.side != Side::kRead) writers_.push_back(&port);
-  }
-  if (s.separate_banks) {
-    read_banks_used_.assign(s.banks, kNever);
-    write_banks_used_.assign(s.banks, kNever);
   }
 }
 
@@ -234,13 +239,23 @@ void PortedMemory::check_ports() const {
 
 void PortedMemory::reset() {
   for (Port& port : ports_) {
-    port.used = port.written = kNever;
+    port.written = kNever;
+    port.reads = port.writes = 0;
     for (Read& read : port.read) read.due = kNever;
   }
   std::fill(read_banks_used_.begin(), read_banks_used_.end(), kNever);
   std::fill(write_banks_used_.begin(), write_banks_used_.end(), kNever);
   written_ = kNever;
-  reads_ = writes_ = 0;
+}
+
+std::uint64_t PortedMemory::reads() const {
+  return std::accumulate(ports_.begin(), ports_.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const Port& port) { return sum + port.reads; });
+}
+
+std::uint64_t PortedMemory::writes() const {
+  return std::accumulate(ports_.begin(), ports_.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const Port& port) { return sum + port.writes; });
 }
 
 const PortedMemory::Read& PortedMemory::arrived_before(const Port& port, Cycle cycle) const {
@@ -267,6 +282,7 @@ void PortedMemory::use_banks(std::vector<Cycle>& used, const Port& port, Cycle c
 
 void PortedMemory::check_read(const Port& port, Cycle cycle, std::uint64_t address,
                               std::uint64_t count) {
+  if (port.side == Side::kShared && port.written == cycle) fail_twice(port, cycle, address);
   if (shape().separate_banks) use_banks(read_banks_, port, cycle, address, count);
   if (!forbids(shape())) return;
   for (const Port* writer : writers_)
@@ -279,6 +295,8 @@ void PortedMemory::check_read(const Port& port, Cycle cycle, std::uint64_t addre
 
 void PortedMemory::check_write(const Port& port, Cycle cycle, std::uint64_t address,
                                std::uint64_t count) {
+  if (port.side == Side::kShared && port.newest->due == cycle + latency_)
+    fail_twice(port, cycle, address);
   if (shape().separate_banks) use_banks(write_banks_, port, cycle, address, count);
   for (const Port* writer : writers_)
     if (writer != &port && writer->written == cycle &&

@@ -153,8 +153,8 @@ class PortedMemory : public MemoryBase {
   void reset() override;
   void check_ports() const override;
   // Accesses since reset, of all ports.
-  std::uint64_t reads() const { return reads_; }
-  std::uint64_t writes() const { return writes_; }
+  std::uint64_t reads() const;
+  std::uint64_t writes() const;
 
  protected:
   template <class>
@@ -177,15 +177,22 @@ class PortedMemory : public MemoryBase {
     std::size_t place = 0;  // of its words, in what the owner captures
     Read* next = nullptr;   // the one after it, in a ring
   };
+  // What an access looks at comes first, copies of the memory's among it.
   struct Port {
-    Cycle used = kNever;     // the last access
     Read* newest = nullptr;  // of the last reads
+    // Most ports have nothing to check beyond issue(): `plain` is the number of words. Of others it
+    // is 0, and `one_bank` is it where a read of a word takes a bank and that is all, which the low
+    // bits of the address say.
+    std::uint64_t plain = 0, one_bank = 0, bank_mask = 0;
+    Cycle* banks = nullptr;  // by bank, when it was last read
+    std::uint32_t latency = 0;
     Side side = Side::kRead;
-    std::uint32_t writer = 0;  // its number among those that write
-    std::array<Read, kMostLatency + 1> read;
+    std::uint64_t reads = 0, writes = 0;  // since reset
     // The last write, for reads of the same clock.
     Cycle written = kNever;
     std::uint64_t write_address = 0, write_count = 0;
+    std::uint32_t writer = 0;  // its number among those that write
+    std::array<Read, kMostLatency + 1> read;
     std::string user;  // of the first handle; empty: nobody yet
   };
 
@@ -195,40 +202,45 @@ class PortedMemory : public MemoryBase {
   // The next port of that kind that nobody uses yet.
   Port& claim(Side side, const std::string& user);
 
-  // Everything about an access that does not depend on the words. Most memories have nothing to
-  // check beyond this: plain_ is their number of words, and 0 of the others.
-  void issue(Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count) {
-    if (cycle == port.used) [[unlikely]]
+  // Everything about an access that does not depend on the words: one access a clock, of words that
+  // are there, in banks that nobody else uses.
+  void issue(const Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count,
+             bool again) const {
+    if (again) [[unlikely]]
       fail_twice(port, cycle, address);
     if (count != 1 && (count - 1 >= span_ || address + count > words_)) [[unlikely]]
       fail_address(port, cycle, address, count);
-    port.used = cycle;
   }
   void issue_read(Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count) {
-    issue(port, cycle, address, count);
+    const Cycle due = cycle + port.latency;
+    issue(port, cycle, address, count, port.newest->due == due);
     Read& read = *port.newest->next;
     port.newest = &read;
-    read.due = cycle + latency_;
+    read.due = due;
     read.address = address;
     read.count = count;
-    ++reads_;
-    if (address < plain_) [[likely]]
+    ++port.reads;
+    if (address < port.plain) [[likely]]
       return;
+    if (address < port.one_bank && count == 1) [[likely]] {
+      Cycle& used = port.banks[address & port.bank_mask];
+      if (used != cycle) [[likely]] {
+        used = cycle;
+        return;
+      }
+    }
     if (address >= words_) [[unlikely]]
       fail_address(port, cycle, address, count);
-    if (one_bank_ && count == 1 && read_banks_[address & bank_mask_] != cycle) [[likely]]
-      read_banks_[address & bank_mask_] = cycle;
-    else
-      check_read(port, cycle, address, count);
+    check_read(port, cycle, address, count);
   }
   void issue_write(Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count) {
-    issue(port, cycle, address, count);
+    issue(port, cycle, address, count, port.written == cycle);
     const bool meets = written_ == cycle;
     port.written = written_ = cycle;
     port.write_address = address;
     port.write_count = count;
-    ++writes_;
-    if (address < plain_ && !meets) [[likely]]
+    ++port.writes;
+    if (address < port.plain && !meets) [[likely]]
       return;
     if (address >= words_) [[unlikely]]
       fail_address(port, cycle, address, count);
@@ -259,7 +271,7 @@ class PortedMemory : public MemoryBase {
   // The same, of the access in clock `issued`.
   const Read& arrived(const Port& port, Cycle cycle, std::uint64_t address, Cycle issued) const {
     const Read& read = arrived(port, cycle, address);
-    if (read.due != issued + latency_) [[unlikely]]
+    if (read.due != issued + port.latency) [[unlikely]]
       fail_again(port, cycle, issued, read);
     return read;
   }
@@ -268,10 +280,6 @@ class PortedMemory : public MemoryBase {
 
   const std::uint64_t words_;
   const std::uint32_t span_, latency_;
-  const std::uint64_t plain_;
-  // A word's bank is in its low bits, and all that check_read() would look at.
-  const bool one_bank_;
-  const std::uint64_t bank_mask_;
   Cycle written_ = kNever;  // the last write through any port
   std::vector<Port> ports_;
   std::vector<Port*> readers_, writers_;  // shared ports are among both
@@ -300,7 +308,6 @@ class PortedMemory : public MemoryBase {
   // By bank, when it was last used. Shared ports use one list for both.
   std::vector<Cycle> read_banks_used_, write_banks_used_;
   std::vector<Cycle>&read_banks_, &write_banks_;
-  std::uint64_t reads_ = 0, writes_ = 0;
 };
 
 template <class Word>

@@ -7,17 +7,12 @@
 // the target ends requests at once. A target may also skip phases or complete early, or know only
 // b_transport (behind tlm_utils::simple_target_socket). A response is ended when it begins, since
 // there is room for each that is outstanding; ResponseEnd says in which of the protocol's forms.
-// Latency: request popped in cycle c leaves in c; a response that arrives at a time before edge d
-// is pushed in d, so d is at the earliest c+1. It can be popped in d+1. Stalls: `outstanding`
-// (limit reached), `request_channel` (the target has not ended the last request), `downstream`
-// (nobody takes the responses).
-// Cost: response_buffer, a place for every line that may come back, written as it comes and read
-// into the link's slot; with bursts of writes gather_buffer, the lines of one; a tag table, one
-// multiplexer. What the interconnect is, the model leaves open: a burst goes and comes in one
-// transaction, and all responses that come before an edge are in the buffer at that edge, however
-// many. From it goes one beat a clock. A buffer of 1R1W takes them so if the interconnect brings at
-// most a line a clock. Made for 250 MHz; longest path: a choice of 1 in 256 tags, nothing behind
-// it.
+// Stalls: `outstanding` (limit reached), `request_channel` (the target has not ended the last
+// request), `downstream` (nobody takes the responses).
+// What the interconnect is, the model leaves open: a burst goes and comes in one transaction, and
+// all responses that come before an edge are in the buffer at that edge, however many. From it goes
+// one beat a clock. A buffer of 1R1W takes them so if the interconnect brings at most a line a
+// clock.
 #pragma once
 
 #include <array>
@@ -29,6 +24,7 @@
 #include <tlm>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
 
@@ -142,6 +138,8 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   Counter most_outstanding{"most_outstanding", "transactions", "largest number in flight"};
   Histogram latency{"latency", "clk", "from sending a request to having its response"};
 
+  static Datasheet datasheet();
+
  private:
   SC_HAS_PROCESS(MemoryPort);
   struct Transaction;
@@ -153,6 +151,9 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   void send(Transaction& transaction, Cycle cycle);
   void arrived(Transaction& transaction, const sc_core::sc_time& when);
   void send_end_response();
+  void count(Transaction& transaction);
+  static void put_in_order(std::deque<Transaction*>& list, Transaction& transaction);
+  void take_coming(Cycle cycle);
   [[gnu::noinline]] Activity work(Cycle cycle);
   bool respond(Cycle cycle);
   bool busy() const { return gathering_ || !in_flight_.empty(); }
@@ -163,9 +164,13 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   std::vector<Transaction*> free_;
   std::deque<Transaction*> in_flight_;  // in the order of requests
   std::deque<Transaction*> arrived_;    // in the order of arrival
-  Transaction* requesting_ = nullptr;   // BEGIN_REQ sent, END_REQ not yet seen
-  Transaction* responding_ = nullptr;   // BEGIN_RESP seen, END_RESP to be sent by a call
-  Transaction* gathering_ = nullptr;    // burst write whose beats are still coming in
+  // Whose target has said already when they will arrive, in that order; and the first edge of which
+  // one of them has come.
+  std::deque<Transaction*> coming_;
+  Cycle next_comes_ = kNever;
+  Transaction* requesting_ = nullptr;  // BEGIN_REQ sent, END_REQ not yet seen
+  Transaction* responding_ = nullptr;  // BEGIN_RESP seen, END_RESP to be sent by a call
+  Transaction* gathering_ = nullptr;   // burst write whose beats are still coming in
   sc_core::sc_event end_response_;
   sc_core::sc_time channel_free_;  // end of the last request
   std::uint32_t epoch_ = 0;        // counts resets: late responses of older epochs are dropped

@@ -14,6 +14,7 @@
 #include "rtl_model/fabric/counters.h"
 #include "rtl_model/fabric/register_block.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/fabric/wire.h"
 #include "spec/error.h"
 
 namespace deburr::rtl {
@@ -106,6 +107,7 @@ std::vector<std::string> Trace::names() {
   std::vector<std::string> names;
   const auto add = [&](const sc_core::sc_object& object) { names.emplace_back(object.name()); };
   for_each<LinkBase>(add);
+  for_each<WireBase>(add);
   for_each<Unit>(add);
   for_each<Counter>(add);
   for_each<RegisterBlock>([&](const RegisterBlock& block) {
@@ -149,6 +151,24 @@ void Trace::collect(Cycle cycle) {
                             return link.empty() ? std::string("x")
                                                 : binary(field.get(link.head()),
                                                          static_cast<int>(field.bits));
+                          },
+                          {},
+                          {}});
+    }
+  });
+  for_each<WireBase>([&](const WireBase& wire) {
+    const std::string name = wire.name();
+    if (!wanted(name)) return;
+    const std::vector<Field>& fields = wire.payload().fields();
+    for (const Field& field : fields) {
+      std::string flat = field.name;
+      std::replace(flat.begin(), flat.end(), '.', '_');
+      signals_.push_back({fields.size() == 1 ? name : fmt::format("{}.{}", name, flat),
+                          static_cast<int>(field.bits),
+                          [&wire, &field](Cycle c) {
+                            const std::byte* const value = wire.seen(c);
+                            return value ? binary(field.get(value), static_cast<int>(field.bits))
+                                         : std::string("x");
                           },
                           {},
                           {}});

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// VCD waves of links, units and counters, chosen by scope and cycle window.
+// VCD waves of links, wires, units and counters, chosen by scope and cycle window.
 //
 // One scope holds all: the clock, the number of its cycle, and the hierarchy. Of each link, in a
 // scope of its own: occupancy, push, pop, and every field of the beat at its head (pixel.0.r is
-// pixel_0_r; x while the link is empty). Of each unit: its activity (as a string). Of each counter
+// pixel_0_r; x while the link is empty). Of each wire: what its readers see in that cycle (x: not
+// driven), by field if it has several. Of each unit: its activity (as a string). Of each counter
 // and register: its value. Sampled at the end of every cycle of the clock domain and written with
 // the time of the edge. While a trace is attached, the domain goes cycle by cycle, so
 // that signals that other SystemC code traces by itself are right as well. Off by default; costs

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "rtl_model/fabric/wire.h"
+
 namespace deburr::rtl {
 
 Unit::Unit(const sc_core::sc_module_name& name, ClockDomain& clock)
@@ -56,9 +58,12 @@ void Unit::check_accounting() const {
 }
 
 void Unit::check_ports() const {
-  for (const sc_core::sc_object* child : get_child_objects())
+  for (const sc_core::sc_object* child : get_child_objects()) {
     if (const auto* port = dynamic_cast<const PortBase*>(child))
       DEBURR_CHECK(port->bound(), fmt::format("{} is not bound to a link", port->name()));
+    if (const auto* port = dynamic_cast<const WirePortBase*>(child))
+      DEBURR_CHECK(port->bound(), fmt::format("{} is not bound to a wire", port->name()));
+  }
 }
 
 }  // namespace deburr::rtl

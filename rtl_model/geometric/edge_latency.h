@@ -12,14 +12,11 @@
 #include <optional>
 
 #include "rtl_model/fabric/clocked.h"
-#include "rtl_model/fabric/histogram.h"
 
 namespace deburr::rtl::geometric {
 
 class EdgeLatency {
  public:
-  explicit EdgeLatency(Histogram& histogram) : histogram_(histogram) {}
-
   void leave(Cycle cycle, std::uint32_t edges) { edges_.insert(edges_.end(), edges, cycle); }
   // Of an edge: whether it is kept.
   void judge(bool kept) {
@@ -42,17 +39,22 @@ class EdgeLatency {
   // Of a group: whether a candidate is in it, and whether one of them passed.
   void cover(bool any) { hand_on(walked_, covered_, any); }
   void test(bool any) { hand_on(covered_, passed_, any); }
-  void write(Cycle cycle) {
+  // The latency of the edge before, if this group is the first one of another.
+  std::optional<Cycle> write(Cycle cycle) {
     const auto group = take(passed_);
-    if (!group) return;
-    if (newest_ && newest_->line != group->line) record();
+    if (!group) return std::nullopt;
+    std::optional<Cycle> latency;
+    if (newest_ && newest_->line != group->line) latency = written_ - newest_->left;
     newest_ = group;
     written_ = cycle;
+    return latency;
   }
-  // The frame's end.
-  void end() {
-    if (newest_) record();
+  // The frame's end: the latency of its last edge.
+  std::optional<Cycle> end() {
+    std::optional<Cycle> latency;
+    if (newest_) latency = written_ - newest_->left;
     reset();
+    return latency;
   }
   void reset() {
     edges_.clear();
@@ -78,9 +80,7 @@ class EdgeLatency {
     const auto group = take(from);
     if (group && any) to.push_back(*group);
   }
-  void record() { histogram_.record(written_ - newest_->left); }
 
-  Histogram& histogram_;
   std::deque<Cycle> edges_, kept_, lines_;
   std::deque<Group> walked_, covered_, passed_;
   std::uint64_t number_ = 0;     // of the line that is walked

@@ -19,7 +19,12 @@ FrameSequencer::FrameSequencer(const sc_core::sc_module_name& name, ClockDomain&
 
 void FrameSequencer::enter(Cycle cycle, Phase next) {
   state_ = next;
-  phase_.set(cycle, next);
+  phase_out.drive(cycle, next);
+}
+
+bool FrameSequencer::begun(Cycle cycle) const {
+  return facing_loaded_in.read(cycle) && vertices_cleared_in.read(cycle) &&
+         depth_cleared_in.read(cycle) && weights_cleared_in.read(cycle);
 }
 
 Activity FrameSequencer::tick(Cycle cycle) {
@@ -36,15 +41,15 @@ Activity FrameSequencer::tick(Cycle cycle) {
       enter(cycle, Phase::kBegin);
       break;
     case Phase::kBegin:
-      if (phase_.get(cycle) == Phase::kBegin && begin_done(cycle)) enter(cycle, Phase::kEdges);
+      if (begun(cycle)) enter(cycle, Phase::kEdges);
       break;
     case Phase::kEdges:
-      if (!edges_done(cycle)) break;
+      if (!drawn_in.read(cycle) || !copied_in.read(cycle)) break;
       drawn_ = cycle;
       enter(cycle, Phase::kResolve);
       break;
     case Phase::kResolve:
-      if (!resolve_done(cycle)) break;
+      if (!resolved_in.read(cycle)) break;
       hold(frame_cycles, cycle - begun_ + 1);
       hold(edge_cycles, drawn_ - begun_ + 1);
       hold(resolve_cycles, cycle - drawn_);
@@ -56,11 +61,22 @@ Activity FrameSequencer::tick(Cycle cycle) {
 }
 
 void FrameSequencer::reset() {
-  phase_.reset();
   state_ = Phase::kIdle;
   started_ = start_enabled_ = false;
   refused_ = {};
   begun_ = drawn_ = 0;
+}
+
+Datasheet FrameSequencer::datasheet() {
+  return {.unit = "FrameSequencer",
+          .does = "Takes a frame through its phases: begin, edges, resolve.",
+          .latency = {0, "-"},
+          .interval = {1, "-"},
+          .stages = {{"1",
+                      "judges START in the clock after the write: products of SIZE are shifts and "
+                      "one 11 x 11 multiply over two clocks (ParameterStore)",
+                      "11 x 11 multiply"}},
+          .cost = "a state of two bits, a 32-bit counter."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -3,29 +3,32 @@
 //
 // Where: above the pipe. START is judged in the clock after its write; a refused one has an effect
 // on REFUSAL and STATUS alone. A phase begins in the clock after all units are done with the one
-// before, whose flags are registers of these units. Never stalls. Cost: a state of two bits, a
-// 32-bit counter. Made for 250 MHz; longest path: 11 x 11 multiply of the sizes (ParameterStore).
+// before: their wires are registers of these units, and so is the phase. Never stalls.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/parameter_store.h"
-#include "rtl_model/geometric/wire.h"
+#include "rtl_model/geometric/tokens.h"
 
 namespace deburr::rtl::geometric {
 
 class FrameSequencer final : public Unit {
  public:
+  WireOut<Phase> phase_out{"phase_out"};
+  // What ends the begin, the edges and the resolve.
+  WireIn<bool> facing_loaded_in{"facing_loaded_in"}, vertices_cleared_in{"vertices_cleared_in"},
+      depth_cleared_in{"depth_cleared_in"}, weights_cleared_in{"weights_cleared_in"};
+  WireIn<bool> drawn_in{"drawn_in"}, copied_in{"copied_in"};
+  WireIn<bool> resolved_in{"resolved_in"};
+
   FrameSequencer(const sc_core::sc_module_name& name, ClockDomain& clock, ParameterStore& store);
   Activity tick(Cycle cycle) override;
   void reset() override;
-
-  // What ends a phase; asked in each of its clocks.
-  std::function<bool(Cycle)> begin_done, edges_done, resolve_done;
-  Phase phase(Cycle cycle) const { return phase_.get(cycle); }
 
   // A bus write, from outside of time.
   void start(bool enabled) {
@@ -40,12 +43,14 @@ class FrameSequencer final : public Unit {
   Counter edge_cycles{"edge_cycles", "clk", "of these until every edge was drawn"};
   Counter resolve_cycles{"resolve_cycles", "clk", "of these the rest"};
 
+  static Datasheet datasheet();
+
  private:
+  bool begun(Cycle cycle) const;
   void enter(Cycle cycle, Phase next);
 
   ParameterStore& store_;
-  Wire<Phase> phase_{Phase::kIdle};
-  Phase state_ = Phase::kIdle;
+  Phase state_ = Phase::kIdle;   // on phase_out a clock later
   Cycle begun_ = 0, drawn_ = 0;  // clocks
   bool started_ = false, start_enabled_ = false;
   spec::geometric::Refusal refused_{};

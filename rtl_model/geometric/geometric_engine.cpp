@@ -1,30 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/geometric/geometric_engine.h"
 
-#include <string>
 #include <utility>
 
-#include "spec/error.h"
+#include "spec/geometric/check_build.h"
 
 namespace deburr::rtl::geometric {
 namespace {
 
 namespace reg = spec::geometric::reg;
-
-[[noreturn]] void refuse(const std::string& text) { throw spec::ConfigError("geometric." + text); }
-
-spec::geometric::Parameters checked(const spec::geometric::Parameters& parameters) {
-  const spec::geometric::Parameters p = checked_ranges("geometric", parameters);
-  if (p.pipelined && p.reciprocal_table != 0)
-    refuse("reciprocal_table: has no effect with pipelined; use 0, or pipelined = false");
-  if (p.face_limit % spec::geometric::kFacesInLine != 0)
-    refuse("face_limit: expected a multiple of " + std::to_string(spec::geometric::kFacesInLine) +
-           ", got " + std::to_string(p.face_limit) + ": a line is written at once");
-  if (p.fills > p.memory_outstanding)
-    refuse("fills: " + std::to_string(p.fills) + " lines on their way need memory.outstanding of " +
-           "as many, got " + std::to_string(p.memory_outstanding));
-  return p;
-}
 
 PayloadShape lanes(spec::geometric::Lanes code) {
   return {.lanes = spec::geometric::kLaneCount[static_cast<std::size_t>(code)]};
@@ -41,26 +25,27 @@ MemoryPortParameters port_of(const spec::geometric::Parameters& p) {
 GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
                                  const spec::geometric::Parameters& parameters)
     : Engine(name, clock, spec::geometric::kRegisters, control_layout()),
-      parameters_(checked(parameters)),
+      parameters_(check_build(parameters)),
       edge_lanes_(lanes(parameters_.edge_lanes)),
       walkers_(lanes(parameters_.walkers)),
       port_(port_of(parameters_)),
       store(control, parameters_),
       frame_sequencer("frame_sequencer", clock, store),
       memory_arbiter("memory_arbiter", clock, store, port_),
-      facing_store("facing_store", clock, parameters_, store, frame_sequencer),
-      edge_reader("edge_reader", clock, parameters_, store, frame_sequencer),
-      edge_classifier("edge_classifier", clock, parameters_, store, facing_store),
-      vertex_fetch("vertex_fetch", clock, parameters_, store, frame_sequencer),
-      line_setup("line_setup", clock, parameters_, store),
-      line_walker("line_walker", clock, parameters_),
-      coverage_unit("coverage_unit", clock, store),
-      depth_test("depth_test", clock, parameters_, store, frame_sequencer),
-      weight_combiner("weight_combiner", clock, parameters_, store, frame_sequencer),
-      frame_copier("frame_copier", clock, store, frame_sequencer),
-      block_scanner("block_scanner", clock, parameters_, store, frame_sequencer, weight_combiner),
-      block_fetch("block_fetch", clock, parameters_, store, weight_combiner),
-      resolver("resolver", clock, parameters_, store, frame_sequencer, block_fetch),
+      facing_store("facing_store", clock, parameters_, store),
+      edge_reader("edge_reader", clock, parameters_, store, latency_),
+      edge_classifier("edge_classifier", clock, parameters_, store, facing_store.words, latency_),
+      vertex_fetch("vertex_fetch", clock, parameters_, store),
+      line_setup("line_setup", clock, parameters_, store, latency_),
+      line_walker("line_walker", clock, parameters_, latency_),
+      coverage_unit("coverage_unit", clock, store, latency_),
+      depth_test("depth_test", clock, parameters_, store, latency_),
+      weight_combiner("weight_combiner", clock, parameters_, store, latency_),
+      frame_copier("frame_copier", clock, store),
+      block_scanner("block_scanner", clock, parameters_, store, weight_combiner.touched_port()),
+      block_fetch("block_fetch", clock, parameters_, store, weight_combiner.tag_port(),
+                  weight_combiner.data_port()),
+      resolver("resolver", clock, parameters_, store, block_fetch.colours),
       memory_port("memory_port", clock, port_),
       edges_("edges", 2, edge_lanes_),
       lines_("line_fifo", static_cast<std::uint32_t>(parameters_.line_fifo)),
@@ -102,19 +87,30 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
   memory_arbiter.responses_in(responses_);
   uses(memory_port);
 
-  for (EdgeLatency** const latency :
-       {&edge_reader.latency, &edge_classifier.latency, &line_setup.latency, &line_walker.latency,
-        &coverage_unit.latency, &depth_test.latency, &weight_combiner.latency})
-    *latency = &latency_;
+  frame_sequencer.phase_out(phase_);
+  facing_store.phase_in(phase_);
+  edge_reader.phase_in(phase_);
+  vertex_fetch.phase_in(phase_);
+  depth_test.phase_in(phase_);
+  weight_combiner.phase_in(phase_);
+  frame_copier.phase_in(phase_);
+  block_scanner.phase_in(phase_);
+  resolver.phase_in(phase_);
+  facing_store.loaded_out(facing_loaded_);
+  vertex_fetch.cleared_out(vertices_cleared_);
+  depth_test.cleared_out(depth_cleared_);
+  weight_combiner.cleared_out(weights_cleared_);
+  weight_combiner.drawn_out(drawn_);
+  frame_copier.copied_out(copied_);
+  resolver.resolved_out(resolved_);
+  frame_sequencer.facing_loaded_in(facing_loaded_);
+  frame_sequencer.vertices_cleared_in(vertices_cleared_);
+  frame_sequencer.depth_cleared_in(depth_cleared_);
+  frame_sequencer.weights_cleared_in(weights_cleared_);
+  frame_sequencer.drawn_in(drawn_);
+  frame_sequencer.copied_in(copied_);
+  frame_sequencer.resolved_in(resolved_);
 
-  frame_sequencer.begin_done = [this](Cycle cycle) {
-    return facing_store.loaded(cycle) && vertex_fetch.cleared(cycle) && depth_test.cleared(cycle) &&
-           weight_combiner.cleared(cycle);
-  };
-  frame_sequencer.edges_done = [this](Cycle cycle) {
-    return weight_combiner.drawn(cycle) && frame_copier.done(cycle);
-  };
-  frame_sequencer.resolve_done = [this](Cycle cycle) { return resolver.done(cycle); };
   // Enable has its new value by now.
   control.on_command(reg::kControlStart, [this] { frame_sequencer.start(store.enabled()); });
   control.registers.on_read(control.registers.index_of("REFUSAL"), [this] {

@@ -9,11 +9,11 @@
 //                                            | when all is drawn
 //   FrameCopier                        BlockScanner -> BlockFetch -> block FIFO -> Resolver
 //
-//   all that read or write memory -> MemoryArbiter -> MemoryPort: memory (TLM-2.0 initiator)
-//   ParameterStore: registers (TLM-2.0 target)
+//   FrameSequencer -- phase --> units -- loaded, cleared, drawn, copied, resolved -->
+//   FrameSequencer all that read or write memory -> MemoryArbiter -> MemoryPort: memory (TLM-2.0
+//   initiator) ParameterStore: registers (TLM-2.0 target)
 //
-// Everything is in order; only memory answers in any. Made for 250 MHz; longest path: a 24 x 24
-// multiply. Source: Persson, GPAA; paper 002.
+// Everything is in order; only memory answers in any. Source: Persson, GPAA; paper 002.
 #pragma once
 
 #include <functional>
@@ -23,6 +23,7 @@
 #include "rtl_model/fabric/engine.h"
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/memory_port.h"
+#include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/edges/edge_classifier.h"
 #include "rtl_model/geometric/edges/edge_reader.h"
@@ -47,7 +48,7 @@ namespace deburr::rtl::geometric {
 
 class GeometricEngine final : public Engine {
  public:
-  // ConfigError if a parameter is out of range, or names or combines what is not built.
+  // ConfigError for what cannot be built (spec/geometric/check_build.h).
   GeometricEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
                   const spec::geometric::Parameters& parameters);
   const char* kind() const override { return "deburr_geometric_engine"; }
@@ -56,6 +57,7 @@ class GeometricEngine final : public Engine {
   const spec::geometric::Parameters parameters_;
   const PayloadShape edge_lanes_, walkers_;
   const MemoryPortParameters port_;
+  EdgeLatency latency_;
 
  public:
   // --- The blocks, in the order of the figure ---
@@ -86,7 +88,11 @@ class GeometricEngine final : public Engine {
   spec::geometric::Work work() const;
 
  private:
-  EdgeLatency latency_{weight_combiner.edge_latency};
+  // From the FrameSequencer to the units, and back to it.
+  Wire<Phase> phase_{"phase", Phase::kIdle, phase_shape()};
+  Wire<bool> facing_loaded_{"facing_loaded", false}, vertices_cleared_{"vertices_cleared", false},
+      depth_cleared_{"depth_cleared", false}, weights_cleared_{"weights_cleared", false},
+      drawn_{"drawn", false}, copied_{"copied", false}, resolved_{"resolved", false};
   Link<EdgeBeat> edges_;
   Link<KeptEdge> kept_{"kept"};
   Link<EdgeEnds> ends_{"ends"};

@@ -71,4 +71,13 @@ Activity MemoryArbiter::tick(Cycle cycle) {
   return kBusy;
 }
 
+Datasheet MemoryArbiter::datasheet() {
+  return {.unit = "MemoryArbiter",
+          .does = "Brings the requests of all units to the memory port, and the answers back.",
+          .latency = {1, "1 each way"},
+          .interval = {1, "one request and one answer a clock"},
+          .stages = {{"1", "choice of eight, round robin", "8 : 1 priority chain, 8 : 1 choice"}},
+          .cost = "two registers of a beat a client, a choice of eight."};
+}
+
 }  // namespace deburr::rtl::geometric

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Brings the requests of all units to the one memory port, and each answer back to who asked.
 //
-// Where: between the units and the MemoryPort. Round robin, one request and one answer a clock;
-// latency 1 each way. The tag is the client and the client's own number. An answer with an error is
-// counted, sets a sticky bit and reads as zeros. Stalls: `downstream` (the port takes nothing).
-// Units take answers in the clock in which they come, so answers never wait. Cost: two registers of
-// a beat a client, a choice of eight. Made for 250 MHz; longest path: 8 : 1 priority chain, 8 : 1
-// choice.
+// Where: between the units and the MemoryPort. Round robin. The tag is the client and the client's
+// own number. An answer with an error is counted, sets a sticky bit and reads as zeros. Stalls:
+// `downstream` (the port takes nothing). Units take answers in the clock in which they come, so
+// answers never wait.
 #pragma once
 
 #include <array>
@@ -16,6 +14,7 @@
 #include <vector>
 
 #include "rtl_model/fabric/arbiter.h"
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/unit.h"
@@ -80,6 +79,8 @@ class MemoryArbiter final : public Unit {
   }
 
   Counter memory_errors{"memory_errors", "responses", "memory responses with an error"};
+
+  static Datasheet datasheet();
 
  private:
   struct Side {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The wires between the blocks of the geometric engine: one struct a link, with its fields and
-// their widths. Lanes that a token does not use hold old bits. After the last token of a frame
-// comes one with `end` and nothing else.
+// What goes between the blocks of the geometric engine: one struct a link, with its fields and
+// their widths, and the type of the wire that all of them read. Lanes that a token does not use
+// hold old bits. After the last token of a frame comes one with `end` and nothing else.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
+#include "rtl_model/fabric/payload.h"
 #include "spec/geometric/packets.h"
 #include "spec/geometric/parameters.h"
 #include "spec/geometric/records.h"
@@ -16,6 +17,10 @@ namespace deburr::rtl::geometric {
 inline constexpr std::size_t kLanes = spec::geometric::kMaxLanes;
 using Lanes8 = std::array<std::uint8_t, kLanes>;
 using Lanes32 = std::array<std::uint32_t, kLanes>;
+
+// FrameSequencer -> units: what the frame under way is doing.
+enum class Phase : std::uint8_t { kIdle, kBegin, kEdges, kResolve };
+inline PayloadShape phase_shape() { return {.widths = {{"value", 2}}}; }
 
 struct EdgeFields {
   std::uint32_t v0, v1, f0, f1;  // U24

@@ -1,53 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/morphological/morphological_engine.h"
 
-#include <string>
 #include <utility>
 
-#include "spec/error.h"
+#include "spec/morphological/check_build.h"
 
 namespace deburr::rtl::morphological {
-namespace {
-
-[[noreturn]] void refuse(const std::string& text) {
-  throw spec::ConfigError("morphological." + text);
-}
-
-spec::morphological::Parameters checked(const spec::morphological::Parameters& parameters) {
-  if (parameters.divider_latency >= 1 && parameters.divider_latency < LineUnit::kLeastLatency)
-    refuse("divider.latency: expected at least " + std::to_string(LineUnit::kLeastLatency) +
-           " clocks, got " + std::to_string(parameters.divider_latency) +
-           ": two for the products and no more than two of 24 quotient bits in each of the others");
-  const spec::morphological::Parameters p = checked_ranges("morphological", parameters);
-  if (p.window_rows % 2 != 0)
-    refuse("window_rows: expected an even number of rows, got " + std::to_string(p.window_rows));
-  const std::int32_t most_steps = p.window_rows / 2 - 2;
-  if (p.steps > most_steps)
-    refuse("steps: " + std::to_string(p.steps) + " steps need window_rows of at least " +
-           std::to_string(2 * p.steps + 4) + ", got " + std::to_string(p.window_rows));
-  if (p.edge_source == spec::morphological::EdgeSource::kPredicated &&
-      p.threshold_mode == spec::morphological::ThresholdMode::kDynamic)
-    refuse("edges.threshold_mode: dynamic does not go with edges.source = predicated; use fixed");
-  if (p.edge_source == spec::morphological::EdgeSource::kColour &&
-      p.threshold_mode == spec::morphological::ThresholdMode::kDynamic)
-    refuse("edges.threshold_mode: dynamic does not go with edges.source = colour; use fixed");
-  if (p.area == spec::morphological::AreaSource::kLearned && (p.diagonals || p.round_corners))
-    refuse(
-        "area: learned does not go with diagonals or round_corners, without which shares were "
-        "learned");
-  if (p.diagonals && p.diagonal_steps > p.window_rows / 2 - 1)
-    refuse("diagonal_steps: " + std::to_string(p.diagonal_steps) +
-           " steps need window_rows of at least " + std::to_string(2 * p.diagonal_steps + 2) +
-           ", got " + std::to_string(p.window_rows));
-  return p;
-}
-
-}  // namespace
 
 MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
                                          const spec::morphological::Parameters& parameters)
     : Engine(name, clock, spec::morphological::kRegisters, control_layout()),
-      parameters_(checked(parameters)),
+      parameters_(check_build(parameters)),
       store(control, parameters_),
       window("edge_window", parameters_, store),
       rows(parameters_, store),
@@ -145,20 +108,6 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
   control.show_sum(reg::kSteps, {&predictor_h.steps, &predictor_v.steps});
   control.show_sum(reg::kProbes, {&predictor_h.probes, &predictor_v.probes});
   control.show_sum(reg::kDivides, {&divider_h.divides, &divider_v.divides});
-}
-
-void MorphologicalEngine::set_frame_size(int width, int height) {
-  const auto check = [&](const char* side, int size, int most) {
-    if (size < 1 || size > most)
-      refuse("frame " + std::string(side) + ": expected 1.." + std::to_string(most) +
-             " pixels, got " + std::to_string(size));
-  };
-  check("width", width, spec::morphological::kMaxFrameSize);
-  check("height", height, spec::morphological::kMaxFrameSize);
-  if (width > parameters_.line_pixels)
-    refuse("line_pixels: a frame of " + std::to_string(width) + " pixels does not fit into " +
-           std::to_string(parameters_.line_pixels) + "; make it larger");
-  store.write_size(width, height);
 }
 
 bool MorphologicalEngine::idle() const {

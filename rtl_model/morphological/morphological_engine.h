@@ -17,7 +17,6 @@
 // pushed out in clock c + (R + 5) x BPR + kPipelineLatency; one beat (1, 2 or 4 pixels) a clock.
 // Stalls:
 // `records` (extractor), `upstream` (sequencer), `memory` and `rows` (pixel store), `downstream`.
-// Made for 250 MHz; the longest path is the AreaUnit's, a 24 x 24 multiply.
 // Source: Reshetov 2009; paper 000.
 #pragma once
 
@@ -53,7 +52,7 @@ class MorphologicalEngine final : public Engine {
   In<spec::morphological::PixelBeat> pixels_in{"pixels_in"};
   Out<spec::morphological::BlendedBeat> pixels_out{"pixels_out"};
 
-  // ConfigError if a parameter is out of range, or names or combines what is not built.
+  // ConfigError for what cannot be built (spec/morphological/check_build.h).
   MorphologicalEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
                       const spec::morphological::Parameters& parameters);
   const char* kind() const override { return "deburr_morphological_engine"; }
@@ -78,10 +77,6 @@ class MorphologicalEngine final : public Engine {
   PixelStore pixel_store;
   Blender blender;
   std::unique_ptr<MemoryPort> memory_port;  // only with storage = memory
-
-  // Size of the frames to come, pixels: a write to SIZE from outside of time. ConfigError for 0,
-  // over 8192 or wider than line_pixels. A reset puts SIZE back to 0.
-  void set_frame_size(int width, int height);
 
   // No frame is inside and no beat waits in front. Between edges.
   bool idle() const override;

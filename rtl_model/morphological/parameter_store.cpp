@@ -134,11 +134,6 @@ void ParameterStore::load_share(std::uint32_t value) {
   registers_.set(reg::kSharesAddress, reg::shares_address::kEntry.in(address + 1));
 }
 
-void ParameterStore::write_size(int width, int height) {
-  registers_.write(reg::kSize, spec::morphological::size_word(static_cast<std::uint32_t>(width),
-                                                              static_cast<std::uint32_t>(height)));
-}
-
 bool ParameterStore::latch() {
   registers_.mask_values();
   const Decoded decoded = decode(registers_, parameters_);

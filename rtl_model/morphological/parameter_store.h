@@ -83,9 +83,6 @@ class ParameterStore {
   int lanes() const { return lanes_; }
   int reach_rows() const { return reach_rows_; }  // R
 
-  // As a bus write to SIZE, from outside of time.
-  void write_size(int width, int height);
-
  private:
   std::uint32_t shares_address() const;
   void load_share(std::uint32_t value);

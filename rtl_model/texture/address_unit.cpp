@@ -41,4 +41,20 @@ AddressUnit::AddressUnit(const sc_core::sc_module_name& name, ClockDomain& clock
   addresser.texels_out(texels_out);
 }
 
+Datasheet AddressUnit::datasheet(const spec::texture::Parameters& p) {
+  const bool two = p.axes == spec::texture::Axes::kTwo;
+  Datasheet sheet = {
+      .unit = "AddressUnit",
+      .does =
+          "From quads to bilinear requests: the blocks above, one behind the "
+          "other.",
+      .interval = {1, "N x (1 or 2) clocks a fragment, or `axis_clocks` if that is more"}};
+  for (const Datasheet& block :
+       {DerivativeUnit::datasheet(), two ? FootprintUnit::datasheet(p) : AxisUnit::datasheet(p),
+        Log2Unit::datasheet(p), LevelUnit::datasheet(), SampleWalker::datasheet(p),
+        TexelAddresser::datasheet()})
+    sheet.latency.clocks += block.latency.clocks;
+  return sheet;
+}
+
 }  // namespace deburr::rtl::texture

@@ -2,20 +2,17 @@
 // From quads of texture coordinates to bilinear requests: the address calculation module of the
 // paper (2.2, figure 4).
 //
-//   quads_in -> DerivativeUnit -> FootprintUnit -> Log2Unit -> LevelUnit -> SampleWalker
-//                               or AxisUnit      -> TexelAddresser -> texels_out
+//     quads_in -> DerivativeUnit -> FootprintUnit -> Log2Unit -> LevelUnit -> SampleWalker
+//                                 or AxisUnit      -> TexelAddresser -> texels_out
 //
-// The AxisUnit stands there with `axes = four | eight`. Latency 17 to the first request: 3 + 2 + 1
-// + 3 + 3 + 5 in the order above; with other rules than the paper's that of the blocks is added
-// (docs/ texture_unit.md). Initiation interval N x (1 or 2) clocks a fragment, or `axis_clocks` if
-// that is more; every block is stalled by `downstream` only, and links of two places stand between
-// them. Made for 250 MHz; longest path: 34 x 13 bit multiply (TexelAddresser). Formats and cost: in
-// the header of each block. Source: paper 2.2, figure 4.
+// The AxisUnit stands there with `axes = four | eight`. Every block is stalled by `downstream`
+// only, and links of two places stand between them. Source: paper 2.2, figure 4.
 #pragma once
 
 #include <memory>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/texture/axis_unit.h"
 #include "rtl_model/texture/derivative_unit.h"
@@ -45,6 +42,8 @@ class AddressUnit final : public sc_core::sc_module {
   LevelUnit level;
   SampleWalker walker;
   TexelAddresser addresser;
+
+  static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
  private:
   Link<DerivativeToken> derivatives_{"derivatives"};

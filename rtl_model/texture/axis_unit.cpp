@@ -64,13 +64,13 @@ Activity AxisUnit::advance(Cycle cycle, Pipe<FootprintToken, kLength>& stages) {
   stages.move();
   if (const FootprintToken* done = stages.at(kLength)) footprints_out.push(cycle, *done);
   if (arrives) {
+    const DerivativeToken& in = derivatives_in.take(cycle);
     if (more_clocks_ == 0) {
-      turn(derivatives_in.front(cycle), stages.enter());
+      turn(in, stages.enter());
     } else {
-      turn(derivatives_in.front(cycle), in_hand_);
+      turn(in, in_hand_);
       clocks_left_ = more_clocks_;
     }
-    derivatives_in.pop(cycle);
   } else if (clocks_left_ != 0 && --clocks_left_ == 0) {
     stages.enter() = in_hand_;
   }
@@ -127,6 +127,60 @@ std::uint64_t AxisUnit::area(const DerivativeToken& in) {
   const bool falls = (in.s_x < 0) != (in.t_y < 0), rises = (in.t_x < 0) != (in.s_y < 0);
   if (falls != rises) return falling + rising;
   return falling > rising ? falling - rising : rising - falling;
+}
+
+Datasheet AxisUnit::datasheet(const spec::texture::Parameters& p) {
+  const bool exact = p.footprint == spec::texture::FootprintRule::kExact;
+  const auto clocks = static_cast<std::uint64_t>(p.axis_clocks);
+  Datasheet sheet = {
+      .unit = "AxisUnit",
+      .variant = exact ? "`footprint = exact`" : "other `footprint`",
+      .does =
+          "The major axis among four or eight directions, and the area of the footprint "
+          "(`axes = four`, `eight`, in place of the FootprintUnit).",
+      .latency = exact ? Clocks{22 + clocks - 1, "22, and `axis_clocks` - 1"}
+                       : Clocks{8 + clocks - 1, "8, and `axis_clocks` - 1"},
+      .interval = {clocks, "`axis_clocks`"},
+      .stages = {{"1",
+                  "multiples 118/128, 90/128 and 49/128 of the derivatives in texels; two products "
+                  "of the area",
+                  "38-bit addition of four operands; 23 x 23 multiply"},
+                 {"2", "candidates, their magnitudes; difference of the area's products",
+                  "two 40-bit additions"}}};
+  if (exact) {
+    sheet.stages.insert(
+        sheet.stages.end(),
+        {{"3", "squares of each candidate", "31-bit squarer"},
+         {"4", "their sums", "62-bit addition"},
+         {"5", "the longest of four", "two comparisons of 63 bits with a choice"},
+         {"6", "of those and of the clocks before", "two comparisons of 63 bits with a choice"},
+         {"7-22",
+          "two root bits each; beside 7 the same multiples of the coordinate differences, those of "
+          "the direction found, beside 8 their sum, rounded",
+          "two 34-bit subtractors one behind the other; two 41-bit additions"}});
+  } else {
+    sheet.stages.insert(
+        sheet.stages.end(),
+        {{"3", "measure of each candidate", "31-bit comparison with a choice, 32-bit addition"},
+         {"4", "`two_segment`'s longer line", "32-bit comparison with a choice"},
+         {"5", "the longest of four", "two comparisons of 32 bits with a choice"},
+         {"6", "of those and of the clocks before", "two comparisons of 32 bits with a choice"},
+         {"7", "the same multiples of the coordinate differences, those of the direction found"},
+         {"8", "their sum, rounded", "two 41-bit additions"}});
+  }
+  sheet.formats =
+      "U15.16 with the signs of the differences in; U16.16, U31.16 and S9.24 out; "
+      "candidates truncated, axis rounded.";
+  sheet.cost =
+      "two 23 x 23 multipliers, a 47-bit subtractor and a negation; 28 adders of 38 bits for the "
+      "multiples of the derivatives (`four`: 12) and as many of 40 bits for those of the "
+      "differences; two 41-bit adders and two roundings; a candidate and clock two 40-bit adders "
+      "with negations (the row and the column: none), the measure as in the FootprintUnit "
+      "(`exact`: "
+      "two 31-bit squarers, a 62-bit adder) and a comparator; `exact`: 16 x two 34-bit "
+      "subtractors; "
+      "registers of nine fragments (`exact`: 22).";
+  return sheet;
 }
 
 }  // namespace deburr::rtl::texture

@@ -128,7 +128,7 @@ inline bool DataStage::read_at_once(Cycle cycle, const CacheToken& request) {
   for (std::size_t i = 0; i < 4; ++i) word[i] = request.place[i] >> 2;
   const auto apart = [&](std::size_t i, std::size_t j) { return word[i] ^ word[j]; };
   const auto meet = [&](std::uint32_t difference) {
-    return difference != 0 && (difference & (words_a_line_ - 1)) == 0;
+    return (difference & (words_a_line_ - 1)) == 0 && difference != 0;
   };
   const std::uint32_t a = apart(0, 1), b = apart(0, 2), c = apart(0, 3), d = apart(1, 2),
                       e = apart(1, 3), f = apart(2, 3);
@@ -191,6 +191,24 @@ inline void DataStage::finish(Cycle cycle, const CacheToken& request) {
 void DataStage::reset() {
   started_ = waits_ = false;
   issued_ = nullptr;
+}
+
+Datasheet DataStage::datasheet() {
+  return {
+      .unit = "DataStage",
+      .does = "Reads the texels of a request from the banks and writes the fills it ordered.",
+      .latency = {2, "2 in the last clock of a request"},
+      .interval = {1, "max(1, lines to write, bank passes) clocks a request"},
+      .stages = {{"1",
+                  "waits for the fills of its own request and takes each as it arrives in order, "
+                  "addresses the texels that hit before it writes its fills",
+                  "comparison of 14 bits, the pass of each texel (three 2-bit steps), choice of "
+                  "1 in 4 addresses"},
+                 {"2", "words, texels; missed ones from the fill buffer",
+                  "SRAM read, choice of 1 in 16 words (32 at most) and of a byte"}},
+      .cost =
+          "banks of lines x 32 bits, SRAM 1R1W, four texel registers, four word "
+          "multiplexers, six comparators."};
 }
 
 }  // namespace deburr::rtl::texture

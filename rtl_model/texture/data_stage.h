@@ -5,16 +5,11 @@
 // Where: tail of the TextureCache. A bank holds one 32-bit word of each line (16 banks for lines of
 // 64 bytes), so a fill is written whole in one clock as it came, and texels of one line never meet
 // in a bank. A row of a `linear` texture follows the one above it at the same place in its lines:
-// the banks of odd rows are turned by half a tile. Two stages: 1 addresses of the banks, fills; 2
-// word, texel. Latency 2 in the last of max(1, lines to write, bank passes) clocks, which is the
-// initiation interval. Texels that hit are read before a fill of the same request can overwrite
-// them (the banks are read-first; fills begin in the clock of the last pass that reads a hit);
-// texels that missed are taken from the fill as it passes. Stalls: `wait_fill` (a line has not
-// arrived), `write_fill` (more lines to write), `bank_conflict` (more passes to read),
-// `downstream`. Made for 250 MHz; longest path: SRAM read, then a choice of 1 in 32 words and of a
-// byte in it; before: a comparison of 14 bits, the pass of each texel (three 2-bit steps) and a
-// choice of 1 in 4 addresses. Cost: banks of lines x 32 bits, SRAM 1R1W, four texel registers, four
-// word multiplexers, six comparators.
+// the banks of odd rows are turned by half a tile. Texels that hit are read before a fill of the
+// same request can overwrite them (the banks are read-first; fills begin in the clock of the last
+// pass that reads a hit); texels that missed are taken from the fill as it passes. Stalls, stage by
+// stage: `wait_fill` (a line has not arrived), `write_fill` (more lines to write), `bank_conflict`
+// (more passes to read), `downstream`.
 #pragma once
 
 #include <array>
@@ -22,6 +17,7 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/fill_buffer.h"
@@ -46,6 +42,8 @@ class DataStage final : public Unit {
 
   Counter lines_written{"lines_written", "lines", "fills written into the data banks"};
   Counter conflicts{"conflicts", "requests", "requests with two words in one bank"};
+
+  static Datasheet datasheet();
 
  private:
   // In which clock of its request a texel that hits is read, and through which port.

@@ -90,4 +90,21 @@ void DerivativeUnit::reset() {
   probe_.reset();
 }
 
+Datasheet DerivativeUnit::datasheet() {
+  return {.unit = "DerivativeUnit",
+          .does =
+              "Splits a quad into its covered fragments, with the differences of coordinates "
+              "along their row and column.",
+          .latency = {3},
+          .interval = {1, "one clock a covered lane (a quad without covered lanes: 1)"},
+          .stages = {{"1", "next covered lane, its four differences, choice of the descriptor"},
+                     {"2", "four products of a difference with the width or height of level 0",
+                      "33 x 13 multiply"},
+                     {"3", "magnitude, rounding, saturation of each"}},
+          .formats = "S7.24 in; S8.24 and U15.16 out, rounded to nearest, saturated at 2^31 - 1.",
+          .cost =
+              "four 33-bit subtractors, four 33 x 13 multipliers, four 46-bit adders, registers "
+              "of a quad and of two fragments."};
+}
+
 }  // namespace deburr::rtl::texture

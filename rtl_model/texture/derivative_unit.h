@@ -2,19 +2,15 @@
 // Splits a quad into its covered fragments and gives each the differences of its own row and
 // column, in texture coordinates and in texels of level 0.
 //
-// Where: head of the AddressUnit. Three stages: 1 the next covered lane, its four differences, and
-// the choice of the descriptor; 2 four products of a difference with the texture's width or height;
-// 3 magnitude, rounding, saturation of each. The model does all in stage 1, then delays. Latency 3,
-// initiation interval one clock a covered lane (a quad without covered lanes: 1); stalled by
-// `downstream`, and then holds still as a whole; takes no quad while CONTROL.enable is 0. Made for
-// 250 MHz; longest path: 33 x 13 bit multiply. Formats: S7.24 in; S8.24 and U15.16 out, rounded to
-// nearest, saturated at 2^31 - 1 (counted). Cost: four 33-bit subtractors, four 33 x 13 bit
-// multipliers, four 46-bit adders, registers of a quad and of two fragments. Source: paper 2.2 (1).
+// Where: head of the AddressUnit. The model does all in stage 1, then delays. Stalled by
+// `downstream`, and then holds still as a whole; takes no quad while CONTROL.enable is 0. Saturated
+// derivatives are counted. Source: paper 2.2 (1).
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/latency_probe.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
@@ -41,6 +37,8 @@ class DerivativeUnit final : public Unit {
                   "covered fragments whose coordinates were clamped before"};
   Counter saturated{"saturated", "fragments", "fragments with a derivative beyond U15.16 texels"};
   Counter invalid{"invalid", "fragments", "covered fragments of quads with an invalid descriptor"};
+
+  static Datasheet datasheet();
 
  private:
   static constexpr int kStages = 3;

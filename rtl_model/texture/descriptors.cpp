@@ -129,4 +129,12 @@ void Descriptors::written(const ControlRegisters& registers, std::uint32_t offse
   words_[handle] = decode(registers, handle);
 }
 
+Datasheet Descriptors::datasheet() {
+  return {.unit = "Descriptors",
+          .does = "16 texture descriptors, as the registers hold them.",
+          .latency = {0, "0, flip-flops without output register"},
+          .stages = {{"-", "choice of a descriptor", "choice of 1 in 16"}},
+          .cost = "16 x 432 flip-flops, a 16-to-1 multiplexer a reader."};
+}
+
 }  // namespace deburr::rtl::texture

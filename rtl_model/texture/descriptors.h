@@ -2,13 +2,11 @@
 // The texture descriptors as the pipeline sees them, and how registers become one.
 //
 // Where: beside the AddressUnit, three blocks of which read the descriptor of the fragment in hand.
-// Kept as the registers hold them: 16 words of flip-flops, read by handle, written by the register
-// bus one register at a time. What a level is (its size, pitch and tiles) is wires, shifts and
-// small adders behind the choice. Timing: flip-flops without output register, so the word is there
-// in the clock of the read; a write counts from the next clock edge on. Descriptors are static
-// while the unit is busy: a write then sets a sticky status bit. Made for 250 MHz; longest path: a
-// choice of 1 in 16. Formats: docs/texture_unit.md, registers of a descriptor. Cost: 16 x 432
-// flip-flops, a 16-to-1 multiplexer a reader. Source: paper 2.1, the parameter store.
+// Kept as the registers hold them, read by handle, written by the register bus one register at a
+// time. What a level is (its size, pitch and tiles) is wires, shifts and small adders behind the
+// choice. The word is there in the clock of the read; a write counts from the next clock edge on.
+// Descriptors are static while the unit is busy: a write then sets a sticky status bit. Formats:
+// docs/texture_unit.md, registers of a descriptor. Source: paper 2.1, the parameter store.
 #pragma once
 
 #include <array>
@@ -16,6 +14,7 @@
 #include <span>
 
 #include "rtl_model/fabric/control_registers.h"
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "spec/registers.h"
 #include "spec/texture/descriptor.h"
@@ -82,6 +81,8 @@ class Descriptors {
 
   // Follows what is written into the registers.
   Descriptors(const char* name, ControlRegisters& registers);
+
+  static Datasheet datasheet();
 
  private:
   void written(const ControlRegisters& registers, std::uint32_t offset);

@@ -2,13 +2,9 @@
 // Lines on their way from memory: entries are reserved and released in the order of fills, and
 // filled in any order.
 //
-// Where: inside the MissQueue, read by the DataStage. A memory with a line a word, 1R1W, read a
-// clock before its word is there. The oldest line is read ahead as soon as it has arrived, so that
-// it waits on the output register: what arrives in clock t is read in t+1 and there from t+2 on,
-// then a line a clock. An entry that is released in t can be reserved from t+1 on; one reservation,
-// one arriving beat and one release a clock. Made for 250 MHz; longest path: a choice of 1 in
-// 256 arrived bits (64 by default), then the memory's read enable. Cost: outstanding x line bits,
-// flip-flops up to 16 kbit and SRAM above, an arrived bit each.
+// Where: inside the MissQueue, read by the DataStage. The oldest line is read ahead as soon as it
+// has arrived, so that it waits on the output register. An entry that is released in t can be
+// reserved from t+1 on.
 #pragma once
 
 #include <algorithm>
@@ -18,6 +14,7 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "spec/error.h"
@@ -98,6 +95,8 @@ class FillBuffer {
     released_at_ = read_at_ = kNever;
     std::fill(arrived_.begin(), arrived_.end(), kNever);
   }
+
+  static Datasheet datasheet();
 
  private:
   std::uint32_t oldest() const { return static_cast<std::uint32_t>(released_ % entries_); }

@@ -110,8 +110,7 @@ Activity FilterPipeline::tick(Cycle cycle) {
   if (Request* request = requests_.at(2)) filter(cycle, *request);
   if (arrives) {
     Request& request = requests_.enter();
-    request.token = texels_in.front(cycle);
-    texels_in.pop(cycle);
+    request.token = texels_in.take(cycle);
     look_up(cycle, request.token);
   }
   return kBusy;
@@ -141,8 +140,9 @@ inline void FilterPipeline::look_up(Cycle cycle, const TexelQuadToken& token) {
       linear_[3 * i + c].read(cycle, token.texel[i] >> (8 * c) & 255);
 }
 
-// Stages 3 to 5: what is between them cannot be seen from outside.
-template <class Unpack>
+// Stages 3 to 5: what is between them cannot be seen from outside. Texels come with so many bits
+// below the point: 4, or none where these are 0.
+template <unsigned kFractionBits, class Unpack>
 inline void FilterPipeline::lerp(Request& request, Unpack&& unpack) {
   const FilterControl& control = request.token.control;
   // Stages 3 and 4: U8.4 x U1.8.
@@ -151,7 +151,7 @@ inline void FilterPipeline::lerp(Request& request, Unpack&& unpack) {
                  lower = unpack(2) * left + unpack(3) * right;
   // Stage 5: U8.20, rounded to U8.12.
   const std::uint32_t down = control.fraction_v, up = 256 - down;
-  request.row = (upper * up + lower * down).rounded(8);
+  request.row = (upper * up + lower * down).rounded(kFractionBits + 4);
 }
 
 // Stage 2. A fragment of an invalid descriptor has one sample of no weight.
@@ -166,13 +166,13 @@ inline void FilterPipeline::filter(Cycle cycle, Request& request) const {
   const TexelQuadToken& token = request.token;
   if (token.control.last_of_sample) request.weight = weight(cycle, token);
   if (format_of(token) != spec::texture::Format::kRgba8) return filter_other(cycle, request);
-  lerp(request, [&](std::size_t i) { return Channels::of_bytes(token.texel[i]); });
+  lerp<0>(request, [&](std::size_t i) { return Channels::of_bytes(token.texel[i]); });
 }
 
 void FilterPipeline::filter_other(Cycle cycle, Request& request) const {
   const TexelQuadToken& token = request.token;
   const auto lerp_each = [&](auto&& unpack_one) {
-    lerp(request, [&](std::size_t i) { return unpack_one(token.texel[i]); });
+    lerp<4>(request, [&](std::size_t i) { return unpack_one(token.texel[i]); });
   };
   switch (format_of(token)) {
     case spec::texture::Format::kRgba8:
@@ -191,7 +191,7 @@ void FilterPipeline::filter_other(Cycle cycle, Request& request) const {
       });
     case spec::texture::Format::kSrgb8A8:
       if (!token.ticket.valid) return;  // its weight is 0
-      return lerp(request, [&](std::size_t i) { return unpack_srgb(cycle, token, i); });
+      return lerp<4>(request, [&](std::size_t i) { return unpack_srgb(cycle, token, i); });
   }
 }
 
@@ -267,6 +267,37 @@ void FilterPipeline::reset() {
   has_sample_ = false;
   kernel_sum_ = {};
   has_total_ = has_rounded_ = false;
+}
+
+Datasheet FilterPipeline::datasheet(const spec::texture::Parameters& p) {
+  const char* const kLerp =
+      "two 20 x 9 multiplies and their sum (18 rows of partial products, 24 x 24 has 24)";
+  Datasheet sheet = {
+      .unit = "FilterPipeline",
+      .variant = "`srgb_output = linear`",
+      .does = "Filters four texels a clock to the colour of a fragment.",
+      .latency = {8},
+      .stages = {{"1", "fields"},
+                 {"2", "unpack (sRGB: ROM), weight (ROM)", "ROM read"},
+                 {"3", "horizontal products", "12 x 9 multiply"},
+                 {"4", "horizontal sums"},
+                 {"5", "vertical lerp", kLerp},
+                 {"6", "level lerp", kLerp},
+                 {"7", "accumulate", "20 x 9 multiply and an addition"},
+                 {"8", "round, pack"}},
+      .formats =
+          "U8.4 after stage 2, U8.12 after 4, 5 and 6, U8.20 in 7, U8.0 out (`encoded`: U8.4 "
+          "after 8); rounded in 5, 6 and 8.",
+      .cost =
+          "four channels: 16 + 8 + 4 + 4 multipliers (12 x 9, and three times 20 x 9), 24 "
+          "adders, the ROM `srgb`, 256 x 12 bits, 12R, one word a coded channel; `weights`, "
+          "256 x 9 bits, 1R; `encoded`: the ROM `codes`, 4096 x 8 bits, 3R, three adders."};
+  if (p.srgb_output == spec::texture::SrgbOutput::kEncoded) {
+    sheet.variant = "`srgb_output = encoded`";
+    sheet.latency = {9};
+    sheet.stages.push_back({"9", "codes (ROM)", "ROM read"});
+  }
+  return sheet;
 }
 
 }  // namespace deburr::rtl::texture

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Filters four texels a clock to the colour of a fragment, in eight stages:
-// 1 fields, 2 unpack, 3 horizontal products, 4 horizontal sums, 5 vertical lerp, 6 level lerp,
-// 7 accumulate, 8 round, pack; with `srgb_output = encoded` 9 encode.
+// Filters four texels a clock to the colour of a fragment.
 //
-// Where: after the TextureCache. Latency 8, or 9, initiation interval 1 a bilinear request; stages
-// 6 and 7 wait for the requests that belong together, so a colour leaves after the last request of
-// its fragment. Stage 1 cuts a texel into its fields, which are the addresses of the ROM `srgb`;
-// its words are there in stage 2, and so is the weight of the sample, from the ROM `weights` by N
-// and i (`box` with N a power of two: 256 shifted by lb N, no ROM). The weights sum to 256, so
-// nothing is divided. The model does stages 2 to 5 in stage 2, then delays. When a colour cannot
-// leave
-// (`downstream`), the whole pipeline holds still. Made for 250 MHz; longest path: two 20 x 9 bit
-// multiplies and their sum, 18 rows of partial products where a 24 x 24 multiply has 24. Formats:
-// U8.4 after stage 2, U8.12 after 4, 5 and 6, U8.20 in 7, U8.0 out (`encoded`: U8.4 after 8);
-// rounded in 5, 6 and 8. Cost, four channels: 16 + 8 + 4 + 4 multipliers (12 x 9, and three times
-// 20 x 9 bits), 24 adders, the ROM `srgb`, 256 x 12 bits, 12R, one word a coded channel; `weights`,
-// 256 x 9 bits, 1R; `encoded`: the ROM `codes`, 4096 x 8 bits, 3R, three adders. Source: paper 2.3;
-// weights and codes are ours.
+// Where: after the TextureCache. Stages 6 and 7 wait for the requests that belong together, so a
+// colour leaves after the last request of its fragment. Stage 1 cuts a texel into its fields, which
+// are the addresses of the ROM `srgb`; its words are there in stage 2, and so is the weight of the
+// sample, from the ROM `weights` by N and i (`box` with N a power of two: 256 shifted by lb N, no
+// ROM). The weights sum to 256, so nothing is divided. The model does stages 2 to 5 in stage 2,
+// then delays. When a colour cannot leave (`downstream`), the whole pipeline holds still. Source:
+// paper 2.3; weights and codes are ours.
 #pragma once
 
 #include <array>
@@ -26,6 +17,7 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/latency_probe.h"
 #include "rtl_model/fabric/memory.h"
@@ -55,6 +47,8 @@ class FilterPipeline final : public Unit {
   // Clocks in which a stage had a token to work on.
   std::array<Counter, kStages> occupancy;
 
+  static Datasheet datasheet(const spec::texture::Parameters& parameters);
+
  private:
   // R, G, B and A. The model keeps two channels in a word, so that one of its multiplications does
   // the work of two: no channel ever needs more than 32 bits.
@@ -66,10 +60,10 @@ class FilterPipeline final : public Unit {
                                  std::uint32_t a) {
       return {r | std::uint64_t{b} << 32, g | std::uint64_t{a} << 32};
     }
-    // `of` of the bytes of an RGBA8 texel as U8.4.
+    // `of` of the bytes of an RGBA8 texel.
     static constexpr Channels of_bytes(std::uint64_t rgba) {
       constexpr std::uint64_t kBytes = kBoth * 0xFF;
-      return {((rgba | rgba << 16) & kBytes) << 4, ((rgba >> 8 | rgba << 8) & kBytes) << 4};
+      return {(rgba | rgba << 16) & kBytes, (rgba >> 8 | rgba << 8) & kBytes};
     }
     constexpr std::array<std::uint32_t, 4> each() const {
       return {static_cast<std::uint32_t>(rb), static_cast<std::uint32_t>(ga),
@@ -111,7 +105,7 @@ class FilterPipeline final : public Unit {
   std::uint32_t weight(Cycle cycle, const TexelQuadToken& token) const;
   void filter(Cycle cycle, Request& request) const;
   [[gnu::noinline]] void filter_other(Cycle cycle, Request& request) const;
-  template <class Unpack>
+  template <unsigned kFractionBits, class Unpack>
   static void lerp(Request& request, Unpack&& unpack);
   Channels unpack_srgb(Cycle cycle, const TexelQuadToken& token, std::size_t texel) const;
   void lerp_levels(const Request& request);

@@ -17,7 +17,7 @@ Activity FootprintUnit::tick(Cycle cycle) {
   pipe_.move();
   if (const FootprintToken* done = pipe_.at(kStages)) footprints_out.push(cycle, *done);
   if (arrives) {
-    const DerivativeToken& in = derivatives_in.front(cycle);
+    const DerivativeToken& in = derivatives_in.take(cycle);
     const std::uint32_t d_x = side(rule_, in.size_s_x, in.size_t_x),
                         d_y = side(rule_, in.size_s_y, in.size_t_y);
     const bool x_is_major = d_x >= d_y;
@@ -28,7 +28,6 @@ Activity FootprintUnit::tick(Cycle cycle) {
                      x_is_major ? in.t_x : in.t_y,
                      x_is_major ? d_x : d_y,
                      x_is_major ? d_y : d_x};
-    derivatives_in.pop(cycle);
   }
   return kBusy;
 }
@@ -56,15 +55,52 @@ Activity FootprintUnit::tick_exact(Cycle cycle) {
   if (roots_.empty() && !waiting) return kIdle;
   if (roots_.leaving() && !footprints_out.can_push(cycle)) return kStalledDownstream;
   FootprintToken result;
-  if (roots_.step(waiting ? &derivatives_in.front(cycle) : nullptr, &result))
+  if (roots_.step(waiting ? &derivatives_in.take(cycle) : nullptr, &result))
     footprints_out.push(cycle, result);
-  if (waiting) derivatives_in.pop(cycle);
   return kBusy;
 }
 
 void FootprintUnit::reset() {
   pipe_.reset();
   roots_.reset();
+}
+
+Datasheet FootprintUnit::datasheet(const spec::texture::Parameters& p) {
+  Datasheet sheet = {.unit = "FootprintUnit",
+                     .does =
+                         "Lengths of the two sides of a footprint, and the difference of "
+                         "coordinates along the longer (`axes = two`)."};
+  if (p.footprint == spec::texture::FootprintRule::kExact) {
+    sheet.variant = "`footprint = exact`";
+    sheet.latency = {19};
+    sheet.stages = {{"1", "squares",
+                     "31-bit squarer (half the partial products of a 31 x 31 multiply, fewer than "
+                     "24 x 24 has)"},
+                    {"2", "sums", "62-bit addition"},
+                    {"3-18", "two root bits each, of both sides; beside 3: which sum is larger",
+                     "two 34-bit subtractors one behind the other"},
+                    {"19", "d_max, d_min, major axis"}};
+    sheet.formats = "U15.16 in; squares and sum exact, U31.32; root U16.16, truncated.";
+    sheet.cost =
+        "four 31-bit squarers, two 62-bit adders, 2 x 16 x two 34-bit subtractors, a 63-bit "
+        "comparator.";
+    return sheet;
+  }
+  sheet.variant = "other `footprint`";
+  sheet.latency = {2};
+  sheet.stages = {
+      {"1",
+       "of each side the longer of its two sizes, and their sum by rule (`two_segment`: "
+       "both lines)",
+       "31-bit comparison with a choice, then a 32-bit addition (`two_segment`: of three "
+       "operands)"},
+      {"2", "`two_segment`'s longer line of each side, which side is longer, its axis",
+       "two comparisons with a choice"}};
+  sheet.formats = "U15.16 in, U16.16 out.";
+  sheet.cost =
+      "`half` and `quarter` two comparators and two adders; `two_segment` four comparators "
+      "and six adders; one comparator more to order the sides; registers of a fragment.";
+  return sheet;
 }
 
 }  // namespace deburr::rtl::texture

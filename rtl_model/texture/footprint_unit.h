@@ -2,22 +2,17 @@
 // Length of the two sides of a fragment's footprint, the longer and the shorter of them, and the
 // difference of texture coordinates along the longer.
 //
-// Where: after the DerivativeUnit. Two stages: 1 for each side the longer of its two sizes, and
-// their sum by rule (`two_segment`: both lines); 2 `two_segment`'s longer line of each side, which
-// side is longer, and its axis; with `exact` the 19 of the RootPipeline. The model does both stages
-// in the first, then delays. Latency 2 or 19, initiation interval 1; stalled by `downstream`, and
-// then holds still as a whole. Made for 250 MHz; longest path: a 31-bit comparison with a choice,
-// then a 32-bit addition (`two_segment`: of three operands), or two comparisons with a choice
-// (`exact`: RootPipeline). Formats: U15.16 in, U16.16 out, every shift truncates. Cost: `half` and
-// `quarter` two comparators and two adders; `two_segment` four comparators and six adders; one
-// comparator more to order the sides; registers of a fragment. Error against the square root: half
-// 0 to +11.9 %, quarter -11.7 to +3.1 %, two_segment -2.8 to +0.8 %, max -29.3 to 0 %, exact none
-// (TextureRtlFootprint.ErrorIsAsDocumented). Source: paper 1.2, equations 10 and 11.
+// Where: after the DerivativeUnit. The model does both stages in the first, then delays; `exact`
+// has the RootPipeline. Stalled by `downstream`, and then holds still as a whole. Every shift
+// truncates. Error against the square root: half 0 to +11.9 %, quarter -11.7 to +3.1 %, two_segment
+// -2.8 to +0.8 %, max -29.3 to 0 %, exact none (TextureRtlFootprint.ErrorIsAsDocumented). Source:
+// paper 1.2, equations 10 and 11.
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/root_pipeline.h"
@@ -39,6 +34,8 @@ class FootprintUnit final : public Unit {
   // One side by every rule but `exact`: U15.16 in, U16.16 out. Of `two_segment` the longer of the
   // two lines is found in stage 2.
   static std::uint32_t side(spec::texture::FootprintRule rule, std::uint32_t s, std::uint32_t t);
+
+  static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
  private:
   static constexpr int kStages = 2;

@@ -11,9 +11,17 @@ LatencyFifo::LatencyFifo(const sc_core::sc_module_name& name, ClockDomain& clock
 Activity LatencyFifo::tick(Cycle cycle) {
   if (!requests_in.can_pop(cycle)) return kIdle;
   if (!entries.can_push(cycle)) return kStalledDownstream;
-  entries.push(cycle, requests_in.front(cycle));
-  requests_in.pop(cycle);
+  entries.push(cycle, requests_in.take(cycle));
   return kBusy;
+}
+
+Datasheet LatencyFifo::datasheet() {
+  return {.unit = "LatencyFifo",
+          .does = "Keeps requests between tag check and data read while lines come from memory.",
+          .latency = {1, "at least 1"},
+          .stages = {{"-", "requests, as deep as memory's latency in clocks",
+                      "SRAM read into an output register"}},
+          .cost = "depth x request bits, flip-flops up to 16 kbit and SRAM 1R1W above."};
 }
 
 }  // namespace deburr::rtl::texture

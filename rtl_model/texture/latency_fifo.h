@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Keeps requests between tag check and data read while their lines come from memory.
 //
-// Where: between TagStage and DataStage. Latency 1 when empty, initiation interval 1; stalled by
-// `downstream` when full. As deep as the memory's latency in clocks, misses overlap with work and
-// cost no time. Made for 250 MHz; longest path: that of the FIFO, SRAM read into an output
-// register. Cost: depth x request bits, flip-flops up to 16 kbit and SRAM 1R1W above. Source: Igehy
-// et al., 1998.
+// Where: between TagStage and DataStage. Stalled by `downstream` when full. As deep as the memory's
+// latency in clocks, misses overlap with work and cost no time. Source: Igehy et al., 1998.
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/tokens.h"
@@ -36,6 +34,8 @@ class LatencyFifo final : public Unit {
   }
 
   Fifo<CacheToken> entries;  // read by the DataStage
+
+  static Datasheet datasheet();
 };
 
 }  // namespace deburr::rtl::texture

@@ -60,10 +60,7 @@ Activity LevelUnit::tick(Cycle cycle) {
   if (pipe_.leaves() && !levels_out.can_push(cycle)) return kStalledDownstream;
   pipe_.move();
   if (const LevelToken* done = pipe_.at(kStages)) levels_out.push(cycle, *done);
-  if (arrives) {
-    choose(cycle, logs_in.front(cycle), pipe_.enter());
-    logs_in.pop(cycle);
-  }
+  if (arrives) choose(cycle, logs_in.take(cycle), pipe_.enter());
   return kBusy;
 }
 
@@ -112,6 +109,26 @@ void LevelUnit::choose(Cycle cycle, const Log2Token& in, LevelToken& out) {
       break;
     }
   }
+}
+
+Datasheet LevelUnit::datasheet() {
+  return {
+      .unit = "LevelUnit",
+      .does = "Number of samples, mip level, level fraction and filter of a fragment.",
+      .latency = {3},
+      .stages = {{"1",
+                  "difference of the logarithms (of an area: from twice that of the axis), how "
+                  "much of it is taken as samples (E); choice of the descriptor"},
+                 {"2",
+                  "level of detail with bias, clamped to its range; number of samples (`any`: 15 "
+                  "comparisons side by side, whose ones are counted)",
+                  "20-bit addition of three operands, then two 20-bit comparisons with a choice"},
+                 {"3", "level and fraction by mode, filter, magnification"}},
+      .formats = "S5.12 in; L in U6.12, E in U3.12; l in S8.12, rounded to S8.8.",
+      .cost =
+          "nine 20-bit adders or comparators and a few multiplexers; `any`: 15 comparators of "
+          "15 bits with a constant and a counter of their ones, no adder to round L; no "
+          "multiplier and no divider; registers of two fragments."};
 }
 
 }  // namespace deburr::rtl::texture

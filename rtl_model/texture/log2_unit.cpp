@@ -113,10 +113,9 @@ Activity Log2Unit::tick(Cycle cycle) {
 inline Activity Log2Unit::tick_mitchell(Cycle cycle) {
   if (!footprints_in.can_pop(cycle)) return kIdle;
   if (!logs_out.can_push(cycle)) return kStalledDownstream;
-  const FootprintToken& in = footprints_in.front(cycle);
+  const FootprintToken& in = footprints_in.take(cycle);
   logs_out.emplace(cycle) = {
       in.ticket, in.s, in.t, in.axis_s, in.axis_t, log2(rule_, in.d_max), log2(rule_, in.minor)};
-  footprints_in.pop(cycle);
   return kBusy;
 }
 
@@ -148,6 +147,34 @@ Log2Token Log2Unit::correct_both(const Entry& entry) const {
           token.axis_t,
           correct(rule_, entry.longer, entry.longer_chord),
           correct(rule_, entry.shorter, entry.shorter_chord)};
+}
+
+Datasheet Log2Unit::datasheet(const spec::texture::Parameters& p) {
+  const Stage leading_one = {"1", "leading one, shift",
+                             "32-bit leading-one detector (area: 47-bit), then a shifter of five "
+                             "levels (six)"};
+  Datasheet sheet = {
+      .unit = "Log2Unit",
+      .does =
+          "Binary logarithms of both sides of the footprint, or of the longer one and the area.",
+      .formats = "U16.16 and U31.16 in, S5.12 out.",
+      .cost =
+          "each of two sides: a 32-bit leading-one detector and a shifter (`mitchell`: nothing "
+          "else, n and y only stand side by side); `corrected` a choice of eight constants and a "
+          "13-bit adder; `segments` three adders; `exact` a 7 x 6 multiplier and two adders, and "
+          "for both sides the ROM `table`, 65 x 13 bits, 4R."};
+  if (p.log2 == spec::texture::Log2Rule::kMitchell) {
+    sheet.variant = "`log2 = mitchell`";
+    sheet.latency = {1};
+    sheet.stages = {leading_one};
+  } else {
+    sheet.variant = "other `log2`";
+    sheet.latency = {3};
+    sheet.stages = {leading_one,
+                    {"2", "table", "ROM read"},
+                    {"3", "correction", "`exact`: 7 x 6 multiply, then two 13-bit additions"}};
+  }
+  return sheet;
 }
 
 }  // namespace deburr::rtl::texture

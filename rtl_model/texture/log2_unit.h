@@ -2,15 +2,8 @@
 // Binary logarithms of the two sides of the footprint, or of the longer one and of the area:
 // leading one plus the bits below it, and a correction by rule.
 //
-// Where: after the FootprintUnit or the AxisUnit. `mitchell` is one stage; the other rules have
-// three: 1 leading one and shift, 2 table, 3 correction. Latency 1 or 3, initiation interval 1;
-// stalled by `downstream`, and then holds still as a whole. Made for 250 MHz; longest path: 32-bit
-// leading-one detector (area: 47-bit), then a shifter of five levels (six); `exact`: 7 x 6 bit
-// multiply, then two 13-bit additions. Formats: U16.16 and U31.16 in, S5.12 out; the fraction is
-// truncated. Cost, each of two sides: a 32-bit leading-one detector and a shifter (`mitchell`:
-// nothing else, n and y only stand side by side); `corrected` a choice of eight constants and a
-// 13-bit adder; `segments` three adders; `exact` a 7 x 6 bit multiplier and two adders, and for
-// both sides the ROM `table`, 65 x 13 bits, 4R. Largest error: 0.0864, 0.0228, 0.0057, 0.0006
+// Where: after the FootprintUnit or the AxisUnit. Stalled by `downstream`, and then holds still as
+// a whole. The fraction is truncated. Largest error: 0.0864, 0.0228, 0.0057, 0.0006
 // (TextureRtlLog2.ErrorIsAsDocumented). Source: paper 1.4, equation 13.
 #pragma once
 
@@ -20,6 +13,7 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
@@ -39,6 +33,8 @@ class Log2Unit final : public Unit {
 
   // All stages at once: lb d in S5.12 of d in U31.16.
   static std::int32_t log2(spec::texture::Log2Rule rule, std::uint64_t d);
+
+  static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
  private:
   static constexpr int kStages = 3;

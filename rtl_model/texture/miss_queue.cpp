@@ -103,4 +103,14 @@ void MissQueue::reset() {
   failed_.clear();
 }
 
+Datasheet MissQueue::datasheet() {
+  return {.unit = "MissQueue",
+          .does = "Sends missed lines to memory and collects them in the fill buffer.",
+          .latency = {0, "-"},
+          .interval = {1, "one line a clock each way"},
+          .stages = {{"-", "a line to send; an entry is held from issue until the line is used",
+                      "choice of 1 in 256 lines (64 by default), nothing behind it"}},
+          .cost = "flip-flops of outstanding x line number, 1R4W; the FillBuffer."};
+}
+
 }  // namespace deburr::rtl::texture

@@ -2,13 +2,11 @@
 // Sends one missed line a clock to memory, in the order of the misses, and collects the lines in
 // the fill buffer.
 //
-// Where: between TagStage and memory. One line a clock each way. A fill-buffer entry is held from
-// issue until the DataStage has used the line; there are as many entries as queue places. Stalls:
-// `fill_buffer_full` (all entries held), `downstream` (the memory port takes nothing),
-// `wait_memory` (lines are under way or held, nothing else to do). A line that memory answers with
-// an error reads as zero, is counted, and sets a sticky status bit. Made for 250 MHz; longest path:
-// a choice of 1 in 256 lines (64 by default), nothing behind it. Cost: the queue, flip-flops of
-// outstanding x line number, 1R4W; the FillBuffer. Source: Igehy et al., 1998.
+// Where: between TagStage and memory. A fill-buffer entry is held from issue until the DataStage
+// has used the line; there are as many entries as queue places. Stalls: `fill_buffer_full` (all
+// entries held), `downstream` (the memory port takes nothing), `wait_memory` (lines are under way
+// or held, nothing else to do). A line that memory answers with an error reads as zero, is counted,
+// and sets a sticky status bit. Source: Igehy et al., 1998.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +14,7 @@
 #include <vector>
 
 #include "rtl_model/fabric/control_registers.h"
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/unit.h"
@@ -42,6 +41,8 @@ class MissQueue final : public Unit {
   Counter fill_bytes{"fill_bytes", "bytes", "bytes of the lines requested"};
   Counter memory_errors{"memory_errors", "lines", "line fills answered with an error"};
   Counter most_waiting{"most_waiting", "lines", "largest number of lines waiting to be sent"};
+
+  static Datasheet datasheet();
 
  private:
   [[gnu::noinline]] Activity work(Cycle cycle);

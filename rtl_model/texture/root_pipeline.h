@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Two integer square roots side by side, sqrt(s^2 + t^2) for the x and the y side of a footprint.
 //
-// Where: inside the FootprintUnit when `footprint = exact`. 19 stages: 1 squares, 2 sums, 3 to 18
-// two root bits each, beside the first of them which sum is larger, 19 order of the sides. Latency
-// 19, initiation interval 1; the whole pipeline holds still while its last stage cannot leave. Made
-// for 250 MHz; longest path: 31-bit squarer (half the partial products of a 31 x 31 multiply, fewer
-// than those of 24 x 24), or two 34-bit subtractors in a row. Formats: U15.16 in; squares and sum
-// exact (U31.32); root U16.16, truncated. Method: digit by digit. A stage brings down two bits of
-// the radicand at a time, tries to subtract (root << 2 | 1), and appends the digit: no multiplier.
-// Cost: four 31-bit squarers, two 62-bit adders, 2 x 16 x two 34-bit subtractors, a 63-bit
-// comparator.
+// Where: inside the FootprintUnit when `footprint = exact`; stages and cost in its datasheet. The
+// whole pipeline holds still while its last stage cannot leave. Method: digit by digit. A stage
+// brings down two bits of the radicand at a time, tries to subtract (root << 2 | 1), and appends
+// the digit: no multiplier.
 #pragma once
 
 #include <cstdint>

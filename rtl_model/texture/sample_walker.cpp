@@ -49,10 +49,7 @@ Activity SampleWalker::tick(Cycle cycle) {
   Prepared& next = reciprocal_ ? divided_ : scaled_;
   if (next.occupied && !walking_) start(next);
   if (reciprocal_ && scaled_.occupied && !divided_.occupied) divide(cycle);
-  if (arrives && !scaled_.occupied) {
-    scale(cycle, levels_in.front(cycle));
-    levels_in.pop(cycle);
-  }
+  if (arrives && !scaled_.occupied) scale(cycle, levels_in.take(cycle));
   return stalled ? kStalledDownstream : kBusy;
 }
 
@@ -117,6 +114,40 @@ void SampleWalker::emit(Cycle cycle) {
   walk_s_ += step_s_ << 1;
   walk_t_ += step_t_ << 1;
   walking_ = !last;
+}
+
+Datasheet SampleWalker::datasheet(const spec::texture::Parameters& p) {
+  const Stage request = {"", "one bilinear request a clock",
+                         "57-bit rounding addition, then a 34-bit one"};
+  Datasheet sheet = {
+      .unit = "SampleWalker",
+      .does = "Walks N samples along the major axis and emits the bilinear requests of each.",
+      .interval =
+          {1, "N x (1 or 2) clocks a fragment (1 for an invalid descriptor), a request a clock"},
+      .formats =
+          "axis S9.24, spread U2.6, 1/N U1.16, step S10.46, offset rounded to S9.24, position "
+          "exact in S9.24.",
+      .cost =
+          "two 34 x 8 multipliers, two shifters and two subtractors (`any`: two 41 x 17 "
+          "multipliers, two 57 x 4 ones, and the ROM `reciprocal`, 16 x 17 bits), two 61-bit "
+          "accumulators, four adders, registers of three fragments (`any`: four)."};
+  if (p.count == spec::texture::CountRule::kAny) {
+    sheet.variant = "`count = any`";
+    sheet.latency = {4, "4 to the first request"};
+    sheet.stages = {
+        {"1", "spread times axis, 1/N from its ROM", "34 x 8 multiply"},
+        {"2", "times 1/N", "41 x 17 multiply (17 rows of partial products, 24 x 24 has 24)"},
+        {"3", "offset of the first sample", "57 x 4 multiply"},
+        {"4", request.work, request.path}};
+  } else {
+    sheet.variant = "other `count`";
+    sheet.latency = {3, "3 to the first request"};
+    sheet.stages = {{"1", "spread times axis", "34 x 8 multiply"},
+                    {"2", "shift by lb N, offset of the first sample",
+                     "1 in 5 shifts, then a 57-bit subtraction"},
+                    {"3", request.work, request.path}};
+  }
+  return sheet;
 }
 
 }  // namespace deburr::rtl::texture

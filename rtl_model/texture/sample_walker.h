@@ -2,18 +2,10 @@
 // Walks N samples along the major axis of the footprint and emits a bilinear request a clock, one
 // or two a sample.
 //
-// Where: after the LevelUnit. Stages: 1 spread times axis, with `count = any` beside a read of 1/N;
-// `any` alone: times 1/N; then offset of the first sample (where N is a power of two, division by
-// it is a shift here); then a request a clock. Latency 3 to the first request, 4 with `any`;
-// initiation interval N x (1 or 2) clocks a fragment (1 for an invalid descriptor), no clock
-// between two fragments: the next ones are prepared meanwhile. Stalled by `downstream`. Made for
-// 250 MHz; longest path: 41 x 17 bit multiply (17 rows of partial products where 24 x 24 has 24),
-// or 1 in 5 shifts, then a 57-bit subtraction (`any`: 57 x 4 bit multiply), or a 57-bit rounding
-// addition, then a 34-bit one. Formats: axis S9.24, spread U2.6, 1/N U1.16, step S10.46, offset
-// rounded to S9.24, position exact in S9.24. Cost: two 34 x 8 bit multipliers, two shifters and two
-// subtractors (`any`: two 41 x 17 bit multipliers, two 57 x 4 bit ones, and the ROM `reciprocal`,
-// 16 x 17 bits), two 61-bit accumulators that step by twice the product, four adders, registers of
-// three fragments (`any`: four). Source: paper 2.2 (4); kernels, spread and `any` are ours.
+// Where: after the LevelUnit. No clock passes between two fragments: the next ones are prepared
+// meanwhile. Where N is a power of two, the division by it is a shift. The accumulators step by
+// twice the product. Stalled by `downstream`, stage by stage. Source: paper 2.2 (4); kernels,
+// spread and `any` are ours.
 #pragma once
 
 #include <cstdint>
@@ -21,6 +13,7 @@
 #include <optional>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/tokens.h"
@@ -39,6 +32,8 @@ class SampleWalker final : public Unit {
   void reset() override { scaled_.occupied = divided_.occupied = walking_ = false; }
 
   Counter samples{"samples", "samples", "samples along major axes, one or two requests each"};
+
+  static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
  private:
   // A fragment on its way to the walk.

@@ -39,8 +39,7 @@ Activity TagStage::tick(Cycle cycle) {
 // Stage 1: a port for each distinct line.
 inline void TagStage::read_sets(Cycle cycle) {
   Request& r = request_;
-  r.token = texels_in.front(cycle);
-  texels_in.pop(cycle);
+  r.token = texels_in.take(cycle);
   occupied_ = true;
   if (!r.token.ticket.valid) return;
   r.read_at = cycle;
@@ -105,21 +104,25 @@ inline void TagStage::look_up(Cycle cycle, CacheToken& out) {
   const std::uint32_t offset_mask = (1u << line_log2_) - 1;
   const std::uint64_t released = fills_.released(cycle);
   MissToken missed{};
-  const auto place = [&](std::size_t i, const Line& line) {
-    out.place[i] = (r.token.address[i] & offset_mask) ^ line.place;
-    out.source[i] = static_cast<std::uint8_t>(line.source);
-  };
+  // To a compiler first[i] might be more than i.
+  std::array<std::uint32_t, 4> place{};
+  std::array<std::uint8_t, 4> source{};
   if (r.one_line) {
     const Line line = look_up_line(cycle, released, 0, out, missed);
-    for (std::size_t i = 0; i < 4; ++i) place(i, line);
+    place.fill(line.place);
+    source.fill(line.source);
   } else {
-    std::array<Line, 4> line{};  // to a compiler first[i] might be more than i
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t first = r.first[i];
-      line[i] = first == i ? look_up_line(cycle, released, i, out, missed) : line[first];
-      place(i, line[i]);
+      const Line line = first == i ? look_up_line(cycle, released, i, out, missed)
+                                   : Line{place[first], source[first]};
+      place[i] = line.place;
+      source[i] = line.source;
     }
   }
+  for (std::size_t i = 0; i < 4; ++i) place[i] ^= r.token.address[i] & offset_mask;
+  out.place = place;
+  out.source = source;
   tags_.commit(cycle);
   if (out.fills == 0) return;
   missed.count = out.fills;
@@ -139,6 +142,19 @@ void TagStage::reset() {
   std::fill(fill_number_.begin(), fill_number_.end(), 0);
   ordered_ = 0;
   occupied_ = false;
+}
+
+Datasheet TagStage::datasheet() {
+  return {.unit = "TagStage",
+          .does = "Looks up the lines of a request, allocates those that miss and orders them.",
+          .latency = {2},
+          .stages = {{"1", "distinct lines, read of their sets", "choice of 1 in 512 sets"},
+                     {"2", "up to four look-ups, allocation, misses to the queue",
+                      "comparison of a tag, then four choices of a way and, for a set that is read "
+                      "in the same clock, a choice of 1 in 5"}},
+          .cost =
+              "tags and order of use: sets x ways x (tag + 2) bits and ways x (ways - 1) / 2 a "
+              "set, 4 x ways comparators; six line comparators, registers of a request."};
 }
 
 }  // namespace deburr::rtl::texture

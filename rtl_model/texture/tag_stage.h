@@ -2,14 +2,12 @@
 // Looks up the up to four lines of a bilinear request, allocates those that miss, and sends them to
 // the MissQueue.
 //
-// Where: head of the TextureCache. Two stages: 1 distinct lines, read of their sets; 2 look-up and
-// allocation, one line after the other. Latency 2, initiation interval 1: what a request changes
-// reaches the sets that the next one reads in the same clock. Stalls: `miss_queue_full` (the
-// request misses and the MissQueue takes nothing), `fifo_full` (the LatencyFifo takes nothing).
-// Made for 250 MHz; longest path: TagStore. Tags change when a fill is ordered, data when it is
-// used: see Order of fills in docs/texture_unit.md. Cost: TagStore, six line comparators, registers
-// of a request. Source: Igehy, Eldridge, Proudfoot, "Prefetching in a texture cache architecture",
-// 1998.
+// Where: head of the TextureCache. The lines of a request are looked up one after the other; what
+// it changes reaches the sets that the next one reads in the same clock, so there is no bubble.
+// Stalls: `miss_queue_full` (the request misses and the MissQueue takes nothing), `fifo_full` (the
+// LatencyFifo takes nothing). Tags change when a fill is ordered, data when it is used: see Order
+// of fills in docs/texture_unit.md. Source: Igehy, Eldridge, Proudfoot, "Prefetching in a texture
+// cache architecture", 1998.
 #pragma once
 
 #include <array>
@@ -18,6 +16,7 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/fill_buffer.h"
 #include "rtl_model/texture/tag_store.h"
@@ -50,6 +49,8 @@ class TagStage final : public Unit {
   Counter misses{"misses", "lines", "lookups that ordered a fill"};
   Counter evictions{"evictions", "lines", "valid lines that were replaced"};
 
+  static Datasheet datasheet();
+
  private:
   // After stage 1.
   struct Request {
@@ -63,8 +64,8 @@ class TagStage final : public Unit {
   bool would_miss() const;
   void look_up(Cycle cycle, CacheToken& out);
   struct Line {
-    std::uint32_t place;   // of its slot, what its bytes change places by below it; 0: it missed
-    std::uint32_t source;  // as in CacheToken
+    std::uint32_t place;  // of its slot, what its bytes change places by below it; 0: it missed
+    std::uint8_t source;  // as in CacheToken
   };
   Line look_up_line(Cycle cycle, std::uint64_t released, std::size_t texel, CacheToken& out,
                     MissToken& missed);

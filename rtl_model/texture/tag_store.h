@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Tags and replacement state of the texture cache.
 //
-// Where: inside the TagStage. A word is a set: tag, valid bit and turned bit of each way, and the
-// order of their last uses, a bit for each pair of ways. Flip-flops with four read and four write
-// ports: the sets of a request's lines are read in one clock, and come in the next one with what
-// the request before them has changed (a write is seen by a read of the same clock). Then the lines
-// are looked up one after the other: a later look-up sees what an earlier one has allocated, so
-// four choices among the ways stand behind each other. Flip-flops end at 16 kbit, which is
-// kMostLines lines; the chain ends at kMostWays ways. Made for 250 MHz; longest path: a choice of 1
-// in 512 sets, or the comparison of tags, four choices of a way and, for a set that is read in the
-// same clock, a choice of 1 in 5. Cost: sets x ways x (tag + 2)
-// bits and ways x (ways - 1) / 2 a set, 4 x ways comparators. Source: docs/number_formats.md, cache
-// and traffic.
+// Where: inside the TagStage; cost and longest path in its datasheet. A word is a set: tag, valid
+// bit and turned bit of each way, and the order of their last uses, a bit for each pair of ways.
+// Flip-flops with four read and four write ports: the sets of a request's lines are read in one
+// clock, and come in the next one with what the request before them has changed (a write is seen by
+// a read of the same clock). Then the lines are looked up one after the other: a later look-up sees
+// what an earlier one has allocated, so four choices among the ways stand behind each other.
+// Flip-flops end at 16 kbit, which is kMostLines lines; the chain ends at kMostWays ways. Source:
+// docs/number_formats.md, cache and traffic.
 #pragma once
 
 #include <array>
@@ -26,7 +23,8 @@ namespace deburr::rtl::texture {
 
 class TagStore {
  public:
-  static constexpr std::int32_t kMostLines = 512, kMostWays = 8;
+  static constexpr std::int32_t kMostLines = spec::texture::kMostCacheLines,
+                                kMostWays = spec::texture::kMostCacheWays;
 
   struct Place {
     std::uint32_t slot;  // set x ways + way

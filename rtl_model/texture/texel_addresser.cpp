@@ -13,6 +13,18 @@ using spec::texture::kCoordinateFractionBits;
 
 constexpr std::int64_t kOne = std::int64_t{1} << kCoordinateFractionBits;
 
+// The model keeps the two columns, or rows, of a request in the halves of a word, so that one of
+// its operations does the work of two.
+constexpr std::uint64_t kBoth = 0x1'0000'0001;
+constexpr std::uint64_t pair(std::int32_t first, std::int32_t second) {
+  return static_cast<std::uint32_t>(first) | std::uint64_t{static_cast<std::uint32_t>(second)}
+                                                 << 32;
+}
+constexpr std::uint32_t low(std::uint64_t pair) { return static_cast<std::uint32_t>(pair); }
+constexpr std::uint32_t high(std::uint64_t pair) { return static_cast<std::uint32_t>(pair >> 32); }
+// The lowest bits of both.
+constexpr std::uint64_t ones(unsigned bits) { return kBoth * ((1U << bits) - 1); }
+
 // The bits of a 10-bit number in the even places of a 20-bit one: wires.
 constexpr auto kSpread = [] {
   std::array<std::uint32_t, 1024> table{};
@@ -33,10 +45,7 @@ Activity TexelAddresser::tick(Cycle cycle) {
   if (pipe_.leaves() && !texels_out.can_push(cycle)) return kStalledDownstream;
   pipe_.move();
   if (const TexelToken* done = pipe_.at(kStages)) texels_out.push(cycle, *done);
-  if (arrives) {
-    request(cycle, samples_in.front(cycle), pipe_.enter());
-    samples_in.pop(cycle);
-  }
+  if (arrives) request(cycle, samples_in.take(cycle), pipe_.enter());
   return kBusy;
 }
 
@@ -63,7 +72,7 @@ inline void TexelAddresser::request(Cycle cycle, const SampleToken& sample, Texe
              y = scale(sample.t, level.height, texture.wrap_t, sample.linear);
   control.fraction_u = x.fraction;
   control.fraction_v = y.fraction;
-  address(texture, level, x, y, out);
+  address(texture, level, x.texels, y.texels, out);
 }
 
 // Stages 2 to 4, one axis: wrap the coordinate; scale it to texels; split it, bring both texels
@@ -77,68 +86,78 @@ inline TexelAddresser::Axis TexelAddresser::scale(std::int64_t position, std::in
     if (position & kOne) position ^= 2 * kOne - 1;  // 2^25 - 1 - q is the complement of q
   }
   const std::int64_t scaled = position * size;  // S22.24
-  Axis axis;
+  std::int32_t first, second;
+  std::uint8_t fraction = 0;
   if (linear) {
     // Half a texel less, rounded from 24 to 8 fraction bits: both constants are one addition.
     const std::int64_t u = (scaled - (kOne >> 1) + (1 << 15)) >> 16;
-    axis.first = static_cast<std::int32_t>(u >> 8);
-    axis.second = axis.first + 1;
-    axis.fraction = static_cast<std::uint8_t>(u & 255);
+    first = static_cast<std::int32_t>(u >> 8);
+    second = first + 1;
+    fraction = static_cast<std::uint8_t>(u & 255);
   } else {
-    axis.first = axis.second = static_cast<std::int32_t>(scaled >> kCoordinateFractionBits);
-    axis.fraction = 0;
+    first = second = static_cast<std::int32_t>(scaled >> kCoordinateFractionBits);
   }
   const std::int32_t last = size - 1;
+  if (first >= 0 && second <= last) [[likely]]
+    return {pair(first, second), fraction};
   const bool repeats = wrap == spec::texture::Wrap::kRepeat;
-  if (axis.first >= 0 && axis.second <= last) [[likely]]
-    return axis;
   const auto into_range = [&](std::int32_t x) {
     if (x < 0) return repeats ? last : 0;
     if (x > last) return repeats ? 0 : last;
     return x;
   };
-  axis.first = into_range(axis.first);
-  axis.second = into_range(axis.second);
-  return axis;
+  return {pair(into_range(first), into_range(second)), fraction};
 }
 
 // Stage 5.
 inline void TexelAddresser::address(const TextureState& texture, const LevelGeometry& level,
-                                    const Axis& x, const Axis& y, TexelToken& out) {
-  const auto x0 = static_cast<std::uint32_t>(x.first), x1 = static_cast<std::uint32_t>(x.second),
-             y0 = static_cast<std::uint32_t>(y.first), y1 = static_cast<std::uint32_t>(y.second);
-
-  std::uint32_t column0, column1, row0, row1;
+                                    std::uint64_t x, std::uint64_t y, TexelToken& out) {
+  std::uint64_t column, row;  // parts of the addresses: U28
   const bool linear_layout = texture.layout == spec::texture::Layout::kLinear;
   if (linear_layout) {
-    column0 = x0 << texture.texel_log2;
-    column1 = x1 << texture.texel_log2;
-    row0 = y0 * level.pitch;
-    row1 = y1 * level.pitch;
+    column = x << texture.texel_log2;
+    row = y * level.pitch;
   } else {
-    const unsigned width_log2 = texture.tile_width_log2, height_log2 = texture.tile_height_log2;
-    const unsigned row_log2 = width_log2 + texture.texel_log2;
-    const std::uint32_t texels_x = (1u << width_log2) - 1, texels_y = (1u << height_log2) - 1;
     // The tiles stand in Morton order: the low `common` bits of their numbers interleave, those of
     // columns in the even places, the others stand above both.
     const unsigned common = level.mixed_log2;
-    const std::uint32_t mixed = (1u << common) - 1;
-    const auto column = [&](std::uint32_t at) {
-      const std::uint32_t tile = at >> width_log2, low = tile & mixed;
-      return (kSpread[low] | (tile ^ low) << common) << 6 | (at & texels_x) << texture.texel_log2;
+    const std::uint64_t mixed = ones(common);
+    const auto tiles = [&](std::uint64_t at, unsigned tile_log2, unsigned place) {
+      const std::uint64_t tile = at >> tile_log2;  // the second one reaches into the first's top
+      const std::uint64_t interleaved = tile & mixed, above = (tile ^ interleaved) & ones(12);
+      return (kSpread[low(interleaved)] | std::uint64_t{kSpread[high(interleaved)]} << 32)
+                 << place |
+             above << common;
     };
-    const auto row = [&](std::uint32_t at) {
-      const std::uint32_t tile = at >> height_log2, low = tile & mixed;
-      return (kSpread[low] << 1 | (tile ^ low) << common) << 6 | (at & texels_y) << row_log2;
-    };
-    column0 = column(x0);
-    column1 = column(x1);
-    row0 = row(y0);
-    row1 = row(y1);
+    const unsigned width_log2 = texture.tile_width_log2, height_log2 = texture.tile_height_log2;
+    column = tiles(x, width_log2, 0) << 6 | (x & ones(width_log2)) << texture.texel_log2;
+    row = tiles(y, height_log2, 1) << 6 | (y & ones(height_log2))
+                                              << (width_log2 + texture.texel_log2);
   }
-  out.address = {level.base + column0 + row0, level.base + column1 + row0,
-                 level.base + column0 + row1, level.base + column1 + row1};
-  out.turned = {linear_layout && (y0 & 1), linear_layout && (y1 & 1)};
+  const std::uint32_t upper = level.base + low(row), lower = level.base + high(row);
+  out.address = {upper + low(column), upper + high(column), lower + low(column),
+                 lower + high(column)};
+  out.turned = {linear_layout && (low(y) & 1), linear_layout && (high(y) & 1)};
+}
+
+Datasheet TexelAddresser::datasheet() {
+  return {
+      .unit = "TexelAddresser",
+      .does = "From a sample position to the addresses of its four texels and its fractions.",
+      .latency = {5},
+      .stages = {{"1", "choice of the descriptor", "choice of 1 in 16"},
+                 {"2", "choice of the level in it, wrapping of both coordinates"},
+                 {"3", "their products with the level's width and height", "34 x 13 multiply"},
+                 {"4",
+                  "half a texel less, rounded, split into texel and fraction, both texels of each "
+                  "axis brought into range"},
+                 {"5", "two column parts, two row parts, four sums",
+                  "`linear`: 12 x 9 multiply, then a 32-bit addition of three operands"}},
+      .formats = "position S9.24, texel position rounded to 8 fraction bits, address U32.",
+      .cost =
+          "a choice of 1 in 16 descriptors and 1 in 13 levels, two 34 x 13 multipliers, two "
+          "12 x 9 ones for `linear` pitch; `tiled` is wires and multiplexers; registers of four "
+          "requests, the first with 13 level bases."};
 }
 
 }  // namespace deburr::rtl::texture

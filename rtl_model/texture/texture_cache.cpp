@@ -54,4 +54,17 @@ TextureCache::TextureCache(const sc_core::sc_module_name& name, ClockDomain& clo
   miss_queue.responses_in(memory_responses_);
 }
 
+Datasheet TextureCache::datasheet() {
+  Datasheet sheet = {
+      .unit = "TextureCache",
+      .does = "TagStage, LatencyFifo and DataStage, for a request that hits.",
+      .interval = {1,
+                   "one request a clock while no line is missing and no bank is asked for two "
+                   "words"}};
+  for (const Datasheet& block :
+       {TagStage::datasheet(), LatencyFifo::datasheet(), DataStage::datasheet()})
+    sheet.latency.clocks += block.latency.clocks;
+  return sheet;
+}
+
 }  // namespace deburr::rtl::texture

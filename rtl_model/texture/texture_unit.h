@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: MIT
 // The texture unit: filters textures for quads of fragments (docs/texture_unit.md).
 //
-//   quads_in -> AddressUnit -> TextureCache -> FilterPipeline -> colours_out
-//                    ^              |
-//              Descriptors       memory (TLM-2.0 initiator)
-//                    |
-//                registers (TLM-2.0 target)
+//     quads_in -> AddressUnit -> TextureCache -> FilterPipeline -> colours_out
+//                      ^              |
+//                Descriptors       memory (TLM-2.0 initiator)
+//                      |
+//                  registers (TLM-2.0 target)
 //
-// Latency 30 clocks from a quad taken to its first colour by the paper's rules (one sample,
-// nearest, warm cache), 53 by the preset deburr, others in docs/texture_unit.md; one bilinear
-// request a clock with a warm cache, so N x (1 or 2) clocks a fragment, or `axis_clocks` if that is
-// more. Made for 250 MHz; the longest path of each block stands in its header. Source: paper 2.1,
-// figure 3.
+// Source: paper 2.1, figure 3.
 #pragma once
 
 #include <systemc>
 
 #include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/engine.h"
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/latency_probe.h"
@@ -34,10 +31,11 @@ class TextureUnit final : public Engine {
   In<spec::texture::Quad> quads_in{"quads_in"};
   Out<spec::texture::Colour> colours_out{"colours_out"};
 
-  // ConfigError if a parameter is out of range, a cache size that must be a power of two is not, or
-  // the cache cannot be built.
+  // ConfigError for what cannot be built (spec/texture/check_build.h), and for a FIFO of depth 0.
   TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
               const spec::texture::Parameters& parameters);
+
+  static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
  private:
   spec::texture::Parameters parameters_;

@@ -108,4 +108,5 @@ def speed_record(f):
     """What tb/speed compares with."""
     record = json.loads((f.root / "tb/baselines/speed.json").read_text(encoding="utf-8"))
     for name, instructions in record.items():
-        yield [f"`{name}`", spaced(round(instructions))]
+        if name != "compiler":
+            yield [f"`{name}`", spaced(round(instructions))]

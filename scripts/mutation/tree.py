@@ -168,6 +168,9 @@ class Tree:
         runs = {path.rpartition("/")[2] for path in
                 re.findall(rf"{re.escape(str(self.build))}/[\w/.-]+", json.dumps(scripts))}
         self.targets = sorted({self.program_of[name] for name in chosen} | runs & programs)
+        # PROGRAM_complete is the program with what it starts and loads.
+        self.targets += [name for name in (f"{target}_complete" for target in self.targets)
+                         if re.search(rf"^{name}: phony", listed, re.M)]
         self.scripts = {test["name"] for test in scripts}
         self.chosen = chosen
 

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "spec/parameters.h"
+#include "spec/presets.h"
 
 namespace deburr::spec::geometric {
 
@@ -164,7 +165,7 @@ void describe(Build& p, Visitor& v) {
   v.choice("resolve_lanes", p.resolve_lanes, kLanesNames, "Pixels blended a clock.");
   v.integer("resolve_lines", p.resolve_lines, 16, 256, "line",
             "Lines of colours and weights on their way to the resolve.");
-  v.integer("memory.outstanding", p.memory_outstanding, 1, 1024, "transaction",
+  v.integer("memory.outstanding", p.memory_outstanding, kMinFills, 1024, "transaction",
             "Transactions in flight.");
 }
 
@@ -187,5 +188,23 @@ inline constexpr std::array<PresetRow, 3> kPresets = {{
     {Preset::kGpaaOptimised, Select::kEdges, Crease::kPaper, Combine::kLast, true},
     {Preset::kDeburr, Select::kEdges, Crease::kShading, Combine::kMax, false},
 }};
+
+// Calls set(name, member, value) for all of it (spec/presets.h).
+template <class Set>
+constexpr void for_each_of(Preset preset, Set&& set) {
+  const PresetRow& row = row_of(kPresets, &PresetRow::preset, preset);
+  set("select", &Rules::select, row.select);
+  set("crease", &Rules::crease, row.crease);
+  set("combine", &Rules::combine, row.combine);
+  set("frame_copy", &Build::frame_copy, row.frame_copy);
+}
+
+// The defaults with the rules of a preset. ConfigError for a preset that there is not.
+constexpr Parameters preset_parameters(Preset preset) {
+  Parameters p;
+  p.preset = preset;
+  for_each_of(preset, [&](std::string_view, auto member, auto value) { p.*member = value; });
+  return p;
+}
 
 }  // namespace deburr::spec::geometric

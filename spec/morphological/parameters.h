@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "spec/parameters.h"
+#include "spec/presets.h"
 
 namespace deburr::spec::morphological {
 
@@ -326,5 +327,55 @@ inline constexpr std::array<PresetRow, 6> kPresets = {{
      LocalContrast::kSymmetric, Predictor::kFit, 8, true, true, true, AreaSource::kLearned,
      Ends::kGaps, BlendRule::kLongest, false},
 }};
+
+constexpr bool has_qualities(Preset preset) {
+  return row_of(kPresets, &PresetRow::preset, preset).has_qualities;
+}
+
+// Calls set(name, member, value) for all that a preset sets, and its quality before it
+// (spec/presets.h).
+template <class Set>
+constexpr void for_each_of(Preset preset, Quality quality, Set&& set) {
+  const PresetRow& row = row_of(kPresets, &PresetRow::preset, preset);
+  // No other preset uses what a quality alone turns on.
+  bool diagonals = false, round_corners = false;
+  std::int32_t threshold = row.threshold;
+  if (row.has_qualities) {
+    const QualityRow& of = row_of(kQualities, &QualityRow::quality, quality);
+    diagonals = of.diagonals;
+    round_corners = of.round_corners;
+    if (threshold == 0) threshold = of.threshold;
+    set("search_steps", &Rules::search_steps, of.search_steps);
+    set("diagonal_steps", &Rules::diagonal_steps, of.diagonal_steps);
+    set("corner_rounding", &Rules::corner_rounding, of.corner_rounding);
+    set("window_rows", &Rules::window_rows, of.window_rows);
+  }
+  set("edges.source", &Rules::edge_source, row.edge_source);
+  set("edges.threshold_mode", &Rules::threshold_mode, row.threshold_mode);
+  set("edges.dynamic_luma", &Rules::dynamic_luma, row.dynamic_luma);
+  set("edges.threshold", &Rules::threshold, threshold);
+  set("edges.local_contrast", &Rules::local_contrast, row.local_contrast);
+  set("ends", &Rules::ends, row.ends);
+  set("predictor", &Rules::predictor, row.predictor);
+  set("steps", &Rules::steps, row.steps);
+  set("contiguous", &Rules::contiguous, row.contiguous);
+  set("safe", &Rules::safe, row.safe);
+  set("trim", &Rules::trim, row.trim);
+  set("area", &Rules::area, row.area);
+  set("diagonals", &Rules::diagonals, diagonals);
+  set("round_corners", &Rules::round_corners, round_corners);
+  set("blend", &Rules::blend, row.blend);
+}
+
+// The defaults with the rules of a preset and of its quality. ConfigError for one that there is
+// not.
+constexpr Parameters preset_parameters(Preset preset, Quality quality = Quality::kHigh) {
+  Parameters p;
+  p.preset = preset;
+  p.quality = quality;
+  for_each_of(preset, quality,
+              [&](std::string_view, auto member, auto value) { p.*member = value; });
+  return p;
+}
 
 }  // namespace deburr::spec::morphological

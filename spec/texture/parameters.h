@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "spec/parameters.h"
+#include "spec/presets.h"
 
 namespace deburr::spec::texture {
 
@@ -31,6 +32,14 @@ enum class Kernel : std::uint8_t { kBox, kTent };
 inline constexpr std::array<std::string_view, 2> kKernelNames = {"box", "tent"};
 enum class Replacement : std::uint8_t { kLru, kFifo, kRandom };
 inline constexpr std::array<std::string_view, 3> kReplacementNames = {"lru", "fifo", "random"};
+
+// ---- limits of what can be built
+// Four lines are looked up one after the other in a clock, which leaves time for so many ways.
+inline constexpr std::int32_t kMostCacheWays = 8;
+// Tags stand in flip-flops, which end at 16 kbit.
+inline constexpr std::int32_t kMostCacheLines = 512;
+inline constexpr std::int32_t kLeastCacheBytes = 256;
+inline constexpr std::int32_t kLeastCacheLineBytes = 32, kMostCacheLineBytes = 128;
 
 // Rules: what changes pixels. Golden and hardware obey them. The defaults are the preset `deburr`.
 struct Rules {
@@ -85,12 +94,11 @@ void describe(Rules& p, Visitor& v) {
 
 template <class Visitor>
 void describe(Build& p, Visitor& v) {
-  v.integer("cache.bytes", p.cache_bytes, 256, 1 << 20, "byte",
-            "Capacity of the texture cache; a power of two; more than 512 lines cannot be built.");
-  v.integer("cache.line_bytes", p.cache_line_bytes, 32, 128, "byte",
-            "Size of a cache line; a power of two.");
-  v.integer("cache.ways", p.cache_ways, 1, 16, "way",
-            "Associativity; a power of two; 16 cannot be built.");
+  v.integer("cache.bytes", p.cache_bytes, kLeastCacheBytes, kMostCacheLines * kMostCacheLineBytes,
+            "byte", "Capacity of the texture cache; a power of two, at most 512 lines.");
+  v.integer("cache.line_bytes", p.cache_line_bytes, kLeastCacheLineBytes, kMostCacheLineBytes,
+            "byte", "Size of a cache line; a power of two.");
+  v.integer("cache.ways", p.cache_ways, 1, kMostCacheWays, "way", "Associativity; a power of two.");
   v.choice("cache.replacement", p.cache_replacement, kReplacementNames,
            "Which way of a full set is replaced.");
   v.integer("cache.outstanding", p.cache_outstanding, 4, 256, "line",
@@ -121,5 +129,23 @@ inline constexpr std::array<PresetRow, 2> kPresets = {{
     {Preset::kPaper, Axes::kTwo, FootprintRule::kHalf, Log2Rule::kMitchell, CountRule::kFloor},
     {Preset::kDeburr, Axes::kFour, FootprintRule::kExact, Log2Rule::kSegments, CountRule::kAny},
 }};
+
+// Calls set(name, member, value) for all of it (spec/presets.h).
+template <class Set>
+constexpr void for_each_of(Preset preset, Set&& set) {
+  const PresetRow& row = row_of(kPresets, &PresetRow::preset, preset);
+  set("axes", &Rules::axes, row.axes);
+  set("footprint", &Rules::footprint, row.footprint);
+  set("log2", &Rules::log2, row.log2);
+  set("count", &Rules::count, row.count);
+}
+
+// The defaults with the rules of a preset. ConfigError for a preset that there is not.
+constexpr Parameters preset_parameters(Preset preset) {
+  Parameters p;
+  p.preset = preset;
+  for_each_of(preset, [&](std::string_view, auto member, auto value) { p.*member = value; });
+  return p;
+}
 
 }  // namespace deburr::spec::texture

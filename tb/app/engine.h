@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: MIT
-// An engine that `deburr run` can run. To add one: implement this, and name it in engines().
+// An engine declares itself here, once: what it is called, what it is given, what its runs leave,
+// what its reference pages hold, and how random and long runs of it are made. Everything around it
+// reads the declaration and names no engine. To add one: implement this in tb/engines/NAME, and add
+// NAME to tb/engines/engines.txt (docs/exploration.md, "Adding an engine").
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
+#include "spec/registers.h"
+#include "tb/app/random_draws.h"
+#include "tb/harness/coverage.h"
 #include "tb/results/parameter_set.h"
 #include "tb/results/result.h"
 #include "tb/results/run_context.h"
@@ -107,11 +116,43 @@ struct Shorthand {
   std::string second_parameter{}, given = "true";
 };
 
+// Of docs/registers.md and the C header: an engine's registers, and what stands behind their table
+// and their macros.
+struct RegisterSection {
+  std::string module;  // as its page calls it; empty: the engine has no registers of its own
+  std::vector<spec::RegisterInfo> rows;
+  std::string note{}, c_text{};
+  std::string macros{};  // what the names of its macros begin with; follows from its name
+};
+
+// Of docs/datasheets.md: an engine's units.
+struct DatasheetSection {
+  std::string module;  // as its page calls it; empty: the engine has no units of its own
+  std::vector<rtl::Datasheet> sheets;
+};
+
+// Of docs/coverage.md: every bin of an engine, those too that only directed tests meet.
+struct CoverageSection {
+  std::string title;  // of its table; empty: the engine has no bins of its own
+  Coverage bins;
+  std::span<const CoverageGroup> groups;
+};
+
+// What makes a long run of random settings: many frames, or a large one.
+struct LongRun {
+  std::vector<std::pair<std::string, std::string>> settings;
+  // Ends of names that keep their defaults: what is built for small pictures.
+  std::vector<std::string_view> without{};
+};
+
 class Engine {
  public:
   virtual ~Engine() = default;
   virtual std::string_view name() const = 0;
   virtual std::string_view summary() const = 0;
+  // Engines that it is composed of, by name. Their maps (with "NAME_" in front), bins and draws are
+  // its own too.
+  virtual std::vector<std::string_view> parts() const { return {}; }
   // What its rates and times are quoted for, unless run.clock_mhz is given: the texture paper's.
   virtual double clock_mhz() const { return 166.67; }
   RunParameters run_parameters() const {
@@ -143,8 +184,28 @@ class Engine {
   // Every counter and stall cause that a run of this engine reports, for docs/statistics.md. It
   // elaborates the model, so it is called at most once a process, and not in one that runs.
   virtual void describe_statistics(Result& result) = 0;
+
+  // ---- what its runs may leave, by name: NAME.png; map_NAME.png and map_NAME.pfm
+  virtual std::vector<std::string_view> pictures() const = 0;
+  virtual std::vector<std::string_view> maps() const { return {}; }
+
+  // ---- reference pages
+  virtual RegisterSection registers() const { return {}; }
+  virtual CoverageSection coverage() const { return {}; }
+  virtual DatasheetSection datasheets() const { return {}; }
+
+  // ---- runs that nobody chose
+  virtual RandomDraws random_draws() const { return {}; }
+  virtual LongRun long_run() const = 0;
 };
 
+// Those of tb/engines/engines.txt, in its order; which they are, a program says by the list that it
+// is linked with (cmake/Engines.cmake).
 std::vector<std::unique_ptr<Engine>> engines();
+
+// ConfigError with near matches for a name that no engine has.
+std::unique_ptr<Engine> engine_named(const std::string& name);
+// The engine's own maps and those of its parts, as RunContext calls them.
+std::vector<std::string> maps_of(const Engine& engine);
 
 }  // namespace deburr::tb

@@ -20,7 +20,9 @@ bool shows_something(const DepthImage& depth) {
   return std::any_of(depth.pixels.begin(), depth.pixels.end(), [](float d) { return d > 0; });
 }
 
-[[noreturn]] void refuse(const Scene& scene, int width, int height) {
+}  // namespace
+
+void refuse_empty_picture(const Scene& scene, int width, int height) {
   const Mesh& mesh = scene.mesh;
   const Bounds box = bounds(mesh);
   throw spec::ConfigError(fmt::format(
@@ -30,15 +32,8 @@ bool shows_something(const DepthImage& depth) {
       box.high.z, width, height, kLook));
 }
 
-}  // namespace
-
-void refuse_nothing_drawn(const TextureScene& scene) {
-  if (scene.stream().counts.fragments > 0) return;
-  refuse(scene.scene(), scene.stream().width, scene.stream().height);
-}
-
 void refuse_nothing_drawn(const Scene& scene, const DepthImage& depth) {
-  if (!shows_something(depth)) refuse(scene, depth.width, depth.height);
+  if (!shows_something(depth)) refuse_empty_picture(scene, depth.width, depth.height);
 }
 
 void refuse_nothing_drawn(const DepthImage& depth, std::string_view source) {
@@ -47,13 +42,6 @@ void refuse_nothing_drawn(const DepthImage& depth, std::string_view source) {
       fmt::format("the scene '{}' draws nothing: none of its triangles covers the centre of one of "
                   "{} x {} pixels: look at the size of the mesh",
                   source, depth.width, depth.height));
-}
-
-void refuse_empty_lod_range(const SamplerParameters& sampler) {
-  if (sampler.min_lod > sampler.max_lod)
-    throw spec::ConfigError(fmt::format(
-        "sampler.min_lod = {} is above sampler.max_lod = {}: no level of detail lies between them",
-        sampler.min_lod, sampler.max_lod));
 }
 
 void refuse_slow_memory(const ParameterSet& set, std::string_view prefix,
@@ -71,6 +59,18 @@ void refuse_slow_memory(const ParameterSet& set, std::string_view prefix,
         prefix, drawn ? "latency_max" : "latency", slowest,
         memory.bank_busy > 0 ? fmt::format(" and {}.bank_busy = {}", prefix, memory.bank_busy) : "",
         clocks, 2 * (slowest + memory.bank_busy)));
+}
+
+void refuse_unused_memory(const ParameterSet& set, std::string_view prefix,
+                          const MemoryParameters& memory) {
+  const auto refuse = [&](std::string_view name, std::string_view why) {
+    set.refuse(fmt::format("{}.{}", prefix, name), why);
+  };
+  if (memory.latency_max > 0 && memory.latency_max <= memory.latency)
+    refuse("latency_max", fmt::format("it is not above {}.latency = {}", prefix, memory.latency));
+  if (memory.banks == 1) refuse("interleave_bytes", fmt::format("{}.banks = 1", prefix));
+  if (memory.error_address < 0)
+    refuse("error_bytes", fmt::format("{}.error_address names no address", prefix));
 }
 
 }  // namespace deburr::tb

@@ -1,24 +1,27 @@
 // SPDX-License-Identifier: MIT
-// What is refused since a run of it would show nothing: an input that draws no pixel, an empty
-// range of levels, a memory that the watchdog would take for dead.
+// What is refused since a run of it would show nothing: an input that draws no pixel, a memory that
+// the watchdog would take for dead, a parameter of a memory without an effect.
 #pragma once
 
 #include <string_view>
 
 #include "tb/env/memory_parameters.h"
-#include "tb/env/texture_scene.h"
 #include "tb/results/parameter_set.h"
 #include "tb/scene/image.h"
+#include "tb/scene/scenes.h"
 
 namespace deburr::tb {
 
 // ConfigError each.
-void refuse_nothing_drawn(const TextureScene& scene);
 void refuse_nothing_drawn(const Scene& scene, const DepthImage& depth);
 void refuse_nothing_drawn(const DepthImage& depth, std::string_view source);
-void refuse_empty_lod_range(const SamplerParameters& sampler);
+// Of a mesh that covers no centre of a pixel.
+[[noreturn]] void refuse_empty_picture(const Scene& scene, int width, int height);
 // `prefix` names the memory's parameters.
 void refuse_slow_memory(const ParameterSet& set, std::string_view prefix,
                         const MemoryParameters& memory);
+// What was given of a memory and has no effect under the rest.
+void refuse_unused_memory(const ParameterSet& set, std::string_view prefix,
+                          const MemoryParameters& memory);
 
 }  // namespace deburr::tb

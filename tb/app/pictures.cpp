@@ -9,11 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "tb/results/interrupt.h"
-#include "tb/results/progress.h"
 #include "tb/results/report.h"
 #include "tb/scene/compose.h"
-#include "tb/scene/image_bytes.h"
 #include "tb/scene/quality.h"
 
 namespace deburr::tb {
@@ -26,48 +23,6 @@ std::optional<double> value_of(double psnr) {
 }
 
 }  // namespace
-
-std::string truth_caption() {
-  return fmt::format("{} samples a pixel", kTruthSamples * kTruthSamples);
-}
-
-std::shared_ptr<const Image> scene_truth(const TextureScene& scene, RenderOptions options,
-                                         const RunContext& context) {
-  options.width = scene.stream().width;
-  options.height = scene.stream().height;
-  options.samples = kTruthSamples;
-  Waiting waiting("rendering the truth", context.quiet());
-  options.interrupted = [&] {
-    waiting.update();
-    return interrupted();
-  };
-  const std::string what =
-      fmt::format("truth of {}, sampling {}, averaging {}", kTruthSamples,
-                  static_cast<int>(options.sampling), static_cast<int>(options.averaging));
-  const std::initializer_list<std::string_view> depends = {"scene.", "sampler.wrap"};
-  return context.shared<Image>(what, depends, [&] {
-    const std::string bytes = context.shared_bytes(what, depends, [&] {
-      std::string made;
-      append_bytes(made, render(scene.scene(), options));
-      return made;
-    });
-    std::string_view rest = bytes;
-    return take_image<Rgba8>(rest);
-  });
-}
-
-Image judge_by_scene(const TextureScene& scene, RenderOptions options, const Image& before,
-                     const Image& after, Result& result, const RunContext& context) {
-  try {
-    Image truth = *scene_truth(scene, std::move(options), context);
-    result.quality = judge_quality(fmt::format("supersampled-{}", kTruthSamples * kTruthSamples),
-                                   before, after, truth, &scene.stream().depth);
-    return truth;
-  } catch (const Interrupted&) {
-    result.interrupted = true;
-    return {};
-  }
-}
 
 Quality judge_quality(std::string reference, const Image& before, const Image& after,
                       const Image& truth, const DepthImage* depth) {
@@ -132,36 +87,12 @@ void add_frame_pictures(RunContext& context, const SmoothedFrame& frame) {
                     fmt::format("after against before, {} times{}", kDifferenceGain, unknown));
 }
 
-void add_smoothing_pictures(RunContext& context, const SmoothedFrame& frame,
-                            const std::vector<spec::morphological::BlendTap>& taps) {
-  add_frame_pictures(context, frame);
-  context.add_image("edges", edge_picture(frame.before, taps), "Edges",
-                    "left edges red, top edges green");
-  context.add_image("weights", weight_picture(frame.after.width, frame.after.height, taps),
-                    "Weights",
-                    "share of the upper or left neighbour red, of the lower or right one green, "
-                    "blue where the two are left and right");
-}
-
-Image edge_picture(const Image& frame, const std::vector<spec::morphological::BlendTap>& taps) {
-  constexpr int kDim = 3;
-  Image picture(frame.width, frame.height);
-  for (std::size_t i = 0; i < taps.size(); ++i) {
-    const Rgba8& p = frame.pixels[i];
-    const auto grey = static_cast<std::uint8_t>((p[0] + 2 * p[1] + p[2]) / 4 / kDim);
-    picture.pixels[i] = {taps[i].edges & 1 ? std::uint8_t{255} : grey,
-                         taps[i].edges & 2 ? std::uint8_t{255} : grey, grey, 255};
-  }
-  return picture;
-}
-
-Image weight_picture(int width, int height,
-                     const std::vector<spec::morphological::BlendTap>& taps) {
+Image shares_picture(int width, int height, const std::vector<Shares>& shares) {
   const auto bright = [](int share) { return static_cast<std::uint8_t>(std::min(255, 2 * share)); };
   Image picture(width, height);
-  for (std::size_t i = 0; i < taps.size(); ++i)
-    picture.pixels[i] = {bright(taps[i].first), bright(taps[i].second),
-                         static_cast<std::uint8_t>(taps[i].horizontal ? 160 : 0), 255};
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    picture.pixels[i] = {bright(shares[i].first), bright(shares[i].second),
+                         static_cast<std::uint8_t>(shares[i].horizontal ? 160 : 0), 255};
   return picture;
 }
 

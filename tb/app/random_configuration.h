@@ -3,17 +3,18 @@
 //
 // Frames are small and odd, memories slow and uneven, links stall; each setting has an effect, and
 // the engine takes all of them. What asks for files, spends time on pictures or ends a run by
-// design stays as it is: fixed_parameters().
+// design stays as it is: is_fixed().
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 namespace deburr::tb {
+
+class Engine;
 
 // Names and values for ParameterSet::set(), in an order in which it takes them behind those that
 // are `given`, which stay as they are. The same on every machine. ConfigError for an unknown
@@ -22,8 +23,7 @@ std::vector<std::pair<std::string, std::string>> random_configuration(
     const std::string& engine, std::uint64_t seed,
     const std::vector<std::pair<std::string, std::string>>& given = {});
 
-// Parameters that it never changes; in front of a dot, of every memory.
-std::span<const std::string_view> fixed_parameters();
-bool is_fixed(std::string_view parameter);
+// Whether it never changes this parameter of the engine; in front of a dot, of every memory.
+bool is_fixed(const Engine& engine, std::string_view parameter);
 
 }  // namespace deburr::tb

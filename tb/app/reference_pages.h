@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// docs/parameters.md, statistics.md, registers.md and coverage.md, made from the declarations that
-// the program uses.
+// docs/parameters.md, statistics.md, registers.md, coverage.md and datasheets.md, made from the
+// declarations that the program uses.
 #pragma once
 
 #include <memory>
 #include <set>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "tb/app/engine.h"
@@ -16,11 +15,12 @@ namespace deburr::tb {
 std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines);
 // Elaborates every engine's model: at most once a process, and not in one that simulates.
 std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines);
-std::string registers_page();
+std::string registers_page(const std::vector<std::unique_ptr<Engine>>& engines);
 // The registers of every engine as macros, for software in C or C++.
-std::string registers_header();
-std::string coverage_page();
+std::string registers_header(const std::vector<std::unique_ptr<Engine>>& engines);
+std::string coverage_page(const std::vector<std::unique_ptr<Engine>>& engines);
+std::string datasheets_page(const std::vector<std::unique_ptr<Engine>>& engines);
 // Names of all bins that runs of an engine may have.
-std::set<std::string> coverage_bins(std::string_view engine);
+std::set<std::string> coverage_bins(const std::string& engine);
 
 }  // namespace deburr::tb

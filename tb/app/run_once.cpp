@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "spec/error.h"
+#include "tb/base/interrupt.h"
 #include "tb/scene/truth.h"
 
 namespace deburr::tb {
@@ -36,6 +37,7 @@ BoundEngine::BoundEngine(Engine& bound) : engine(bound), run(bound.run_parameter
 
 void BoundEngine::resolve() {
   engine.resolve(set);
+  set.check_build();
   if (!run.trace.empty() && run.trace_from >= run.trace_to)
     throw ConfigError(fmt::format(
         "run.trace_from = {} and run.trace_to = {} leave no cycle to trace: --trace-to is the "
@@ -60,16 +62,6 @@ void BoundEngine::resolve() {
       set.refuse(name, "nothing is traced without run.trace (--trace)");
 }
 
-std::unique_ptr<Engine> engine_named(const std::string& name) {
-  std::vector<std::string> known;
-  for (std::unique_ptr<Engine>& engine : engines()) {
-    if (engine->name() == name) return std::move(engine);
-    known.emplace_back(engine->name());
-  }
-  throw ConfigError(fmt::format("no engine '{}'{} (known: {})", name,
-                                did_you_mean(near_matches(name, known)), fmt::join(known, ", ")));
-}
-
 RunEnd run_once(BoundEngine& bound, RunContext& context, IfTaken if_taken,
                 const std::function<bool()>& claimed) {
   RunEnd end;
@@ -77,6 +69,8 @@ RunEnd run_once(BoundEngine& bound, RunContext& context, IfTaken if_taken,
   result.unit = bound.engine.name();
   result.clock_mhz = bound.run.clock_mhz;
   try {
+    const std::vector<std::string_view> pictures = bound.engine.pictures();
+    context.set_leaves({{pictures.begin(), pictures.end()}, maps_of(bound.engine)});
     context.claim(if_taken);
     if (claimed && !claimed()) {
       end.begun = false;

@@ -21,16 +21,14 @@ class BoundEngine {
   BoundEngine(const BoundEngine&) = delete;
   BoundEngine& operator=(const BoundEngine&) = delete;
 
-  // Once everything was set: what follows from it. ConfigError for what has no effect.
+  // Once everything was set: what follows from it. ConfigError for what has no effect, and for
+  // hardware that cannot be built.
   void resolve();
 
   Engine& engine;
   RunParameters run;
   ParameterSet set;
 };
-
-// ConfigError with near matches for a name that no engine has.
-std::unique_ptr<Engine> engine_named(const std::string& name);
 
 struct RunEnd {
   int code = 0;

@@ -5,14 +5,14 @@
 
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "rtl_model/fabric/memory.h"
 #include "spec/error.h"
-#include "tb/results/interrupt.h"
+#include "tb/base/interrupt.h"
 #include "tb/results/progress.h"
 #include "tb/results/windows.h"
-#include "tb/scene/truth.h"
 #include "tb/traces/line_trace.h"
 
 namespace deburr::tb {
@@ -162,12 +162,6 @@ void simulate(Simulation& simulation, Environment& environment, RunContext& cont
 void describe(Simulation& simulation, Environment& environment, Result& result) {
   simulation.elaborate(environment);
   simulation.collect(result);
-}
-
-TextureScene smallest(SceneParameters scene, const SamplerParameters& sampler) {
-  scene.width = scene.height = 2;
-  scene.texture_size = 4;
-  return {scene, sampler, 1};
 }
 
 }  // namespace deburr::tb

@@ -8,7 +8,6 @@
 #include "tb/app/engine.h"
 #include "tb/env/environment.h"
 #include "tb/env/simulation.h"
-#include "tb/env/texture_scene.h"
 #include "tb/results/result.h"
 #include "tb/results/run_context.h"
 
@@ -25,7 +24,5 @@ void simulate(Simulation& simulation, Environment& environment, RunContext& cont
 
 // For Engine::describe_statistics(): what an environment reports, without a run.
 void describe(Simulation& simulation, Environment& environment, Result& result);
-// The smallest picture of a scene, to elaborate with.
-TextureScene smallest(SceneParameters scene, const SamplerParameters& sampler);
 
 }  // namespace deburr::tb

@@ -4,11 +4,12 @@
 idle clocks, latencies, traffic, work, and how full FIFOs were. A model gives the same counts on every
 machine, so any difference fails, a better one too until it is recorded.
 
-  tb/baselines/check.py build/release/deburr            every baseline
+  tb/baselines/check.py build/release/deburr            every baseline of every engine
   tb/baselines/check.py build/release/deburr --record   writes those that pass as the record
 
-A baseline is a `deburr run` command line; @PATTERN-NUMBER-WIDTHxHEIGHT in it is a picture of
-write_frame, which is built beside this script's test."""
+An engine's baselines stand in its folder, tb/engines/NAME: a `deburr run NAME` a line in baselines.txt,
+and what they counted in baselines.json. @PATTERN-NUMBER-WIDTHxHEIGHT in one is a picture of write_frame,
+which is built beside this script's test."""
 import argparse
 import json
 import pathlib
@@ -18,49 +19,15 @@ import subprocess
 import sys
 import tempfile
 
-FILE = pathlib.Path(__file__).with_name("baselines.json")
+ENGINES = pathlib.Path(__file__).resolve().parents[1] / "engines"
 FRAME = re.compile(r"@(\w+)-(\d+)-(\d+)x(\d+)")
 SHOWN = 12  # differences of a run
 
 
-RUNS = [
-    # Anisotropic; a cache that stays warm; one that never is, far from memory; trilinear in between.
-    # By the paper's rules and by the project's own, and with directions measured in turn.
-    *(f"texture --scene {scene} --preset {preset}"
-      for preset in ("paper", "deburr")
-      for scene in ("plane --size 256x256", "quad --size 256x256",
-                    "tunnel --size 256x256 --set texture.cache.bytes=4096 --set memory.latency=200",
-                    "tunnel --size 256x256")),
-    "texture --scene quad --size 256x256 --set texture.axes=eight --set texture.axis_clocks=4"
-    " --set texture.kernel=tent --set texture.srgb_output=encoded --format srgb8_a8",
-    # A fifth and half of all pixels on edges, and the worst pattern.
-    *(f"morphological --in @{frame}-256x144 --preset {preset} --lanes {lanes}"
-      for frame in ("random_edges-200", "random_edges-500", "diagonals-2")
-      for preset in ("deburr", "deburr-line", "mlaa") for lanes in (1, 4)),
-    "morphological --in @random_edges-200-256x144 --preset smaa",
-    "morphological --in @random_edges-500-256x144 --preset smaa-dynamic",
-    "morphological --in @diagonals-2-256x144 --preset smaa --set morphological.quality=ultra --lanes 4",
-    # Records in every column, all of them extended.
-    "morphological --in @diagonals-2-256x144 --preset deburr-line --set morphological.ends=crossings"
-    " --set morphological.area=table_minimal --set morphological.round_corners=true",
-    # Learned shares of records in every column; long runs; a mask that is nowhere.
-    "morphological --in @diagonals-2-256x144 --set morphological.ends=crossings",
-    "morphological --in @random_edges-200-256x144 --set morphological.reach_columns=6"
-    " --set morphological.window_rows=22",
-    "morphological --in @random_edges-500-256x144 --set morphological.leave=masked",
-    *(f"morphological {given}{preset}"
-      for given in ("--in @random_edges-10-256x144", "--in @random_edges-500-256x144 --storage memory",
-                    "--size 256x256")
-      for preset in (" --preset deburr-line", "")),
-    # Presets; rows instead of tiles with a walker; more lines than caches hold, far from memory.
-    *(f"geometric --scene wheelcover --size 256x192 --preset {preset}"
-      for preset in ("gpaa", "gpaa-optimised", "deburr")),
-    "geometric --scene wing --size 256x192 --layout raster --walkers 1",
-    "geometric --scene terrain --size 256x192 --set geometric.pipelined=false --set memory.latency=200"
-    " --set geometric.depth_lines=16 --set geometric.weight_blocks=16 --set geometric.vertex_lines=16",
-    "frame --scene object --size 128x128 --preset deburr-line",
-    "frame --scene object --size 128x128",
-]
+def runs_of(folder):
+    """The runs of an engine's folder, whose name is the engine's."""
+    lines = (folder / "baselines.txt").read_text(encoding="utf-8").splitlines()
+    return [f"{folder.name} {line}" for line in lines if line and not line.startswith("#")]
 
 
 def flat(value, prefix=""):
@@ -121,36 +88,54 @@ def comparison_works():
             and len(list(differences(counts(one), counts({"cycles": 101})))) == 3)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", type=pathlib.Path, help="the deburr command")
-    parser.add_argument("--record", action="store_true", help="write what is measured")
-    options = parser.parse_args()
-    if not comparison_works():
-        sys.exit("the comparison itself is broken")
-    program = options.program.resolve()
-    recorded = json.loads(FILE.read_text(encoding="utf-8")) if FILE.exists() else {}
+def engine_folders():
+    lines = (ENGINES / "engines.txt").read_text(encoding="utf-8").split("\n")
+    return [ENGINES / line for line in lines if line and not line.startswith("#")]
+
+
+def check(program, folder, record):
+    """Runs a folder's baselines; how many there are, and how many differ."""
+    file = folder / "baselines.json"
+    recorded = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
+    runs = runs_of(folder)
     measured, failures = {}, 0
-    for run in RUNS:
+    for run in runs:
         measured[run] = measure(program, run)
         found = list(differences(recorded.get(run, {}), measured[run]))
         print(f"{measured[run]['cycles']:>9} cycles, {len(found)} differences: {run}", flush=True)
-        if found and not options.record:
+        if found and not record:
             failures += 1
             for line in found[:SHOWN]:
                 print(f"            {line}")
             if len(found) > SHOWN:
                 print(f"            and {len(found) - SHOWN} more")
-    for run in recorded.keys() - set(RUNS):
-        failures += not options.record
+    for run in recorded.keys() - set(runs):
+        failures += not record
         print(f"recorded, but not a baseline any more: {run}")
-    if options.record:
-        FILE.write_text(json.dumps(measured, indent=1) + "\n", encoding="utf-8")
-    elif failures:
-        print(f"{failures} of {len(RUNS)} runs differ. If that is meant, an improvement too, record it: "
+    if record:
+        lines = [f"{json.dumps(run)}: {json.dumps(counted, separators=(',', ':'))}"
+                 for run, counted in measured.items()]
+        file.write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")
+    return len(runs), failures
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=pathlib.Path, help="the deburr command")
+    parser.add_argument("folders", type=pathlib.Path, nargs="*", metavar="FOLDER",
+                        help="only these folders of engines (all of tb/engines/engines.txt)")
+    parser.add_argument("--record", action="store_true", help="write what is measured")
+    options = parser.parse_args()
+    if not comparison_works():
+        sys.exit("the comparison itself is broken")
+    counted = [check(options.program.resolve(), folder.resolve(), options.record)
+               for folder in options.folders or engine_folders()]
+    runs, failures = (sum(column) for column in zip(*counted))
+    if failures:
+        print(f"{failures} of {runs} runs differ. If that is meant, an improvement too, record it: "
               f"tb/baselines/check.py {options.program} --record")
-    sys.exit(1 if failures else 0)
+    sys.exit(0 if runs and not failures else 1)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include "golden/geometric/geometric_golden.h"
-#include "tb/stimuli/geometric_frames.h"
+#include "tb/engines/geometric/geometric_stimuli.h"
 
 namespace deburr {
 namespace {

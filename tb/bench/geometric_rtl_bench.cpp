@@ -25,22 +25,23 @@
 
 #include "golden/geometric/geometric_golden.h"
 #include "rtl_model/geometric/geometric_engine.h"
-#include "tb/harness/forked.h"
-#include "tb/harness/memory_model.h"
-#include "tb/harness/register_host.h"
+#include "rtl_model/platform/geometric_driver.h"
+#include "rtl_model/platform/memory_model.h"
+#include "rtl_model/platform/register_host.h"
+#include "tb/base/forked.h"
 
 namespace deburr::tb {
 namespace {
 
-namespace reg = spec::geometric::reg;
 namespace flag = spec::geometric::flag;
 using spec::geometric::Parameters;
 
 constexpr int kWidth = 1280, kHeight = 720;
 constexpr std::uint32_t kEdges = 33'000, kKept = kEdges / 5, kFaces = 22'000;
-constexpr std::uint32_t kEdgeBase = 0, kVertexBase = 0x100000, kFaceBase = 0x180000,
-                        kDepthBase = 0x200000, kColourBase = 0x600000, kWeightBase = 0xA00000,
-                        kCopyBase = 0xE00000, kBytes = 0x1200000;
+// In the order of the regions: faces, edges, vertices, depth, weights, colour, copy.
+constexpr std::array<std::uint32_t, 7> kBases = {0x180000, 0,        0x100000, 0x200000,
+                                                 0xA00000, 0x600000, 0xE00000};
+constexpr std::uint32_t kBytes = 0x1200000;
 
 using spec::geometric::Edge;
 using spec::geometric::Rgba8;
@@ -76,62 +77,36 @@ Scene rings(std::uint32_t passes) {
   return scene;
 }
 
-void put(std::vector<std::uint8_t>& bytes, std::uint32_t word) {
-  for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
-}
-
-void load(MemoryModel& memory, const Scene& scene) {
-  std::vector<std::uint8_t> edges, vertices, colours;
-  for (const Edge& edge : scene.edges) {
-    put(edges, edge.v0);
-    put(edges, edge.v1);
-    put(edges, edge.f0 | std::uint32_t{edge.flags} << spec::geometric::kFlagShift);
-    put(edges, edge.f1);
-  }
-  for (const Vertex& vertex : scene.vertices) {
-    put(vertices, static_cast<std::uint32_t>(vertex.x));
-    put(vertices, static_cast<std::uint32_t>(vertex.y));
-    put(vertices, vertex.depth);
-    put(vertices, vertex.usable);
-  }
-  for (const Rgba8& pixel : scene.image) colours.insert(colours.end(), pixel.begin(), pixel.end());
-  memory.preload(kEdgeBase, edges);
-  memory.preload(kVertexBase, vertices);
-  memory.preload(kFaceBase, scene.facing);
-  memory.preload(kColourBase, colours);
-}
-
 struct Frames {
   explicit Frames(const Parameters& p, std::uint32_t passes = 1)
-      : engine("engine", clock, p), memory("memory", {4, sc_core::SC_NS}, memory_parameters()) {
+      : engine("engine", clock, p),
+        memory("memory", {4, sc_core::SC_NS}, memory_parameters()),
+        driver(bus, memory, p) {
     engine.memory()->bind(memory.ports);
     bus.bus.bind(engine.registers);
-    load(memory, rings(passes));
-    const std::pair<std::uint32_t, std::uint32_t> values[] = {
-        {reg::kSize, kWidth | kHeight << 16}, {reg::kEdgeCount, kEdges},
-        {reg::kVertexCount, kKept + 1},       {reg::kFaceCount, kFaces},
-        {reg::kEdgeBase, kEdgeBase},          {reg::kVertexBase, kVertexBase},
-        {reg::kFaceBase, kFaceBase},          {reg::kDepthBase, kDepthBase},
-        {reg::kColourBase, kColourBase},      {reg::kWeightBase, kWeightBase},
-        {reg::kCopyBase, kCopyBase}};
-    for (const auto& [offset, value] : values) bus.write(offset, value);
+    const Scene scene = rings(passes);
+    driver.place(platform::GeometricRegions(kBases));
+    driver.load(
+        {kWidth, kHeight, scene.edges, scene.vertices, kFaces, scene.facing, {}, scene.image});
+    driver.program();
   }
-  static MemoryModelParameters memory_parameters() {
-    MemoryModelParameters p;
+  static platform::MemoryModelParameters memory_parameters() {
+    platform::MemoryModelParameters p;
     p.bytes = kBytes;
     p.outstanding = 1024;
     p.record_reads = false;
     return p;
   }
   void run() {
-    bus.write(reg::kControl, reg::kControlEnable | reg::kControlStart);
+    driver.start();
     if (!clock.run_until([this] { return engine.idle(); }, 10'000'000)) std::abort();
   }
 
   rtl::ClockDomain clock{"clock", {4, sc_core::SC_NS}};
   rtl::geometric::GeometricEngine engine;
-  MemoryModel memory;
-  RegisterHost bus{"bus"};
+  platform::MemoryModel memory;
+  platform::RegisterHost bus{"bus"};
+  platform::GeometricDriver driver;
 };
 
 template <class Choice, std::size_t N>
@@ -144,14 +119,9 @@ Choice choice(std::string_view text, const std::array<std::string_view, N>& name
 
 void frames(int count, const std::vector<std::string>& arguments) {
   Parameters p;
-  if (!arguments.empty()) {
-    p.preset = choice<spec::geometric::Preset>(arguments[0], spec::geometric::kPresetNames);
-    const auto& row = spec::geometric::kPresets[static_cast<std::size_t>(p.preset)];
-    p.select = row.select;
-    p.crease = row.crease;
-    p.combine = row.combine;
-    p.frame_copy = row.frame_copy;
-  }
+  if (!arguments.empty())
+    p = preset_parameters(
+        choice<spec::geometric::Preset>(arguments[0], spec::geometric::kPresetNames));
   using spec::geometric::kLanesNames;
   using spec::geometric::Lanes;
   if (arguments.size() > 1) p.walkers = choice<Lanes>(arguments[1], kLanesNames);
@@ -161,9 +131,8 @@ void frames(int count, const std::vector<std::string>& arguments) {
   Frames f(p, arguments.size() > 4 ? static_cast<std::uint32_t>(std::stoi(arguments[4])) : 1);
   for (int i = 0; i < count; ++i) f.run();
   std::cout << fmt::format("{} cycles\n", f.clock.cycle());
-  std::cout << fmt::format("last frame: {} clocks, edges {}, resolve {}\n",
-                           f.bus.read(reg::kFrameCycles), f.bus.read(reg::kEdgeCycles),
-                           f.bus.read(reg::kResolveCycles));
+  std::cout << fmt::format("last frame: {} clocks, edges {}, resolve {}\n", f.driver.clocks().frame,
+                           f.driver.clocks().edges, f.driver.clocks().resolve);
   for (const auto& row : spec::geometric::kWorkCounts)
     for (const spec::RegisterInfo& info : spec::geometric::kRegisters)
       if (info.offset == row.offset)
@@ -197,7 +166,7 @@ void dividers() {
       p.reciprocal_table = table;
       Frames f(p);
       f.run();
-      return std::to_string(f.bus.read(reg::kEdgeCycles));
+      return std::to_string(f.driver.clocks().edges);
     });
   };
   for (int units = 1; units <= 8; ++units)

@@ -27,10 +27,11 @@
 #include "golden/morphological/configuration.h"
 #include "golden/morphological/morphological_golden.h"
 #include "rtl_model/morphological/morphological_engine.h"
+#include "rtl_model/platform/memory_model.h"
+#include "rtl_model/platform/morphological_driver.h"
+#include "rtl_model/platform/register_host.h"
+#include "tb/base/forked.h"
 #include "tb/harness/driver.h"
-#include "tb/harness/forked.h"
-#include "tb/harness/memory_model.h"
-#include "tb/harness/register_host.h"
 #include "tb/stimuli/frames.h"
 
 namespace deburr::tb {
@@ -68,16 +69,10 @@ spec::morphological::Rgba8 colour(const std::string& image, int x, int y) {
 // Colour of a pixel: spec::morphological::Rgba8 picture(x, y).
 template <class Picture>
 std::vector<spec::morphological::PixelBeat> beats_of(Picture&& picture, int lanes) {
-  std::vector<spec::morphological::PixelBeat> all;
+  std::vector<spec::morphological::Rgba8> pixels;
   for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; x += lanes) {
-      spec::morphological::PixelBeat& beat = all.emplace_back();
-      beat.count = static_cast<std::uint8_t>(lanes);
-      for (int i = 0; i < lanes; ++i) beat.pixel[static_cast<std::size_t>(i)] = picture(x + i, y);
-      beat.start_of_frame = x == 0 && y == 0;
-      beat.end_of_row = x + lanes == kWidth;
-    }
-  return all;
+    for (int x = 0; x < kWidth; ++x) pixels.push_back(picture(x, y));
+  return platform::beats_of({kWidth, kHeight, pixels, {}}, lanes);
 }
 
 std::vector<spec::morphological::PixelBeat> beats(const std::string& image, int lanes) {
@@ -105,12 +100,13 @@ struct Setup {
   Driver<spec::morphological::PixelBeat> driver{"driver", clock};
   rtl::morphological::MorphologicalEngine engine;
   Sink<spec::morphological::BlendedBeat> sink{"sink", clock};
-  RegisterHost bus{"bus"};
-  std::unique_ptr<MemoryModel> memory;
+  platform::RegisterHost bus{"bus"};
+  platform::MorphologicalDriver software;
+  std::unique_ptr<platform::MemoryModel> memory;
   std::vector<spec::morphological::PixelBeat> frame;
   std::uint64_t frames = 0;
 
-  explicit Setup(const Parameters& p) : engine("engine", clock, p) {
+  explicit Setup(const Parameters& p) : engine("engine", clock, p), software(bus, p) {
     driver.beats_out(in);
     engine.pixels_in(in);
     engine.pixels_out(out);
@@ -118,9 +114,9 @@ struct Setup {
     sink.keep(false);
     bus.bus.bind(engine.registers);
     if (engine.memory()) {
-      MemoryModelParameters m;
+      platform::MemoryModelParameters m;
       m.bytes = 1u << 24;
-      memory = std::make_unique<MemoryModel>("memory", clock.period(), m);
+      memory = std::make_unique<platform::MemoryModel>("memory", clock.period(), m);
       engine.memory()->bind(memory->ports);
     }
     driver.send([this](std::uint64_t index, spec::morphological::PixelBeat& beat) {
@@ -128,7 +124,7 @@ struct Setup {
       beat = frame[index % frame.size()];
       return true;
     });
-    engine.set_frame_size(kWidth, kHeight);
+    software.set_size(kWidth, kHeight);
   }
   Cycle run(std::uint64_t count) {
     frames = count;
@@ -151,7 +147,7 @@ Cycle run_frame(Setup& setup) {
   setup.clock.set_reset_n(false);
   setup.clock.run(1);
   setup.clock.set_reset_n(true);
-  setup.engine.set_frame_size(kWidth, kHeight);
+  setup.software.set_size(kWidth, kHeight);
   return setup.run(1);
 }
 

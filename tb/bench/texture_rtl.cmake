@@ -2,5 +2,4 @@
 find_package(benchmark REQUIRED)
 add_executable(texture_rtl_bench "${CMAKE_CURRENT_LIST_DIR}/texture_rtl_bench.cpp")
 target_link_libraries(texture_rtl_bench PRIVATE deburr::rtl_texture deburr::harness deburr::golden_texture
-                                                deburr::texture_memory
                                                 benchmark::benchmark deburr_options)

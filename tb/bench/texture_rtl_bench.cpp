@@ -28,12 +28,12 @@
 #include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/platform/memory_model.h"
+#include "rtl_model/platform/register_host.h"
+#include "rtl_model/platform/texture_driver.h"
 #include "rtl_model/texture/texture_unit.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/packets.h"
-#include "tb/env/texture_memory.h"
-#include "tb/harness/memory_model.h"
-#include "tb/harness/register_host.h"
 #include "tb/stimuli/texture_quads.h"
 
 namespace deburr::tb {
@@ -126,8 +126,8 @@ class Picture final : public rtl::Unit {
   std::uint64_t sum_ = 0;
 };
 
-MemoryModelParameters memory_parameters() {
-  MemoryModelParameters p;
+platform::MemoryModelParameters memory_parameters() {
+  platform::MemoryModelParameters p;
   p.bytes = 8u << 20;
   p.latency_min = p.latency_max = 100;
   p.outstanding = 256;
@@ -145,7 +145,7 @@ struct System {
     picture.colours_in(colours);
     unit.memory()->bind(memory.ports);
     host.bus.bind(unit.registers);
-    memory.preload(0, noise());
+    driver.load(noise());
   }
   static spec::texture::Parameters with_fifo(spec::texture::Parameters p) {
     p.cache_fifo_depth = 160;
@@ -157,8 +157,9 @@ struct System {
   Fragments fragments{"fragments", clock};
   rtl::texture::TextureUnit unit;
   Picture picture{"picture", clock};
-  MemoryModel memory{"memory", clock.period(), memory_parameters()};
-  RegisterHost host{"host"};
+  platform::MemoryModel memory{"memory", clock.period(), memory_parameters()};
+  platform::RegisterHost host{"host"};
+  platform::TextureDriver driver{host, memory};
 
   // The first call says by which rules.
   static System& only(const spec::texture::Parameters& parameters = paper_rules()) {
@@ -171,9 +172,7 @@ struct System {
     clock.run(2);
     clock.set_reset_n(true);
     fragments.choose(workload);
-    for (const auto& [offset, value] :
-         descriptor_registers(static_cast<int>(workload), texture_of(workload)))
-      host.write(offset, value);
+    driver.set_texture(static_cast<int>(workload), texture_of(workload));
     clock.run(2000);
   }
   std::uint64_t bilinears() const { return unit.address.addresser.bilinears.value(); }

@@ -18,17 +18,13 @@
 #include <utility>
 #include <vector>
 
-#include "rtl_model/fabric/counters.h"
-#include "rtl_model/fabric/engine.h"
-#include "rtl_model/fabric/memory.h"
-#include "rtl_model/fabric/unit.h"
+#include "rtl_model/platform/host.h"
+#include "rtl_model/platform/memory_model.h"
 #include "spec/registers.h"
 #include "tb/env/memory_parameters.h"
 #include "tb/env/simulation.h"
 #include "tb/harness/coverage.h"
-#include "tb/harness/memory_model.h"
 #include "tb/harness/observer.h"
-#include "tb/harness/register_host.h"
 #include "tb/harness/scoreboard.h"
 #include "tb/results/picture_map.h"
 #include "tb/results/result.h"
@@ -111,38 +107,16 @@ class Environment {
     simulation_.faults().know(name_, std::move(faults));
   }
   bool planted(std::string_view fault) const { return simulation_.faults().planted(name_, fault); }
-  // What a memory can do wrong: `lost-response` and `memory-error` of request kFaultyRequest, and
-  // the range of `error_address`.
-  static constexpr std::uint64_t kFaultyRequest = 20;
-  static std::vector<PlantedFault> memory_faults(const std::string& needs = {});
-  void plant_in(MemoryModel& memory, const MemoryParameters& parameters) const;
+  // memory_faults(), and the range of `error_address`.
+  void plant_in(platform::MemoryModel& memory, const MemoryParameters& parameters) const;
   // `blind-NAME` for each scoreboard of this run: it compares nothing, which is no pass.
   void let_blind(std::initializer_list<ScoreboardBase*> boards);
   // `miscount-NAME` for each register that is judged: the engine counted one too many or too few.
   void let_miscount(RegisterScoreboard& board, std::span<const std::uint32_t> offsets);
-  static void refuse_untouched(const MemoryModel& memory, const MemoryParameters& parameters);
+  static void refuse_untouched(const platform::MemoryModel& memory,
+                               const MemoryParameters& parameters);
 
-  // ---- registers
-  static void require_id(RegisterHost& host, std::uint32_t offset, std::uint32_t expected);
-
-  // ---- figures
   const std::string& name() const { return name_; }
-  // "fragments" -> "texture_fragments"
-  std::string figure(std::string_view name) const;
-  std::string key(std::string_view name) const { return "work." + figure(name); }
-  void add(Result& result, std::string_view name, nlohmann::ordered_json value, std::string unit,
-           std::string meaning) const;
-  void add(Result& result, std::string_view name, const rtl::Counter& counter) const;
-  void add(Result& result, std::string_view name, const rtl::Unit& unit) const;
-  void add(Result& result, std::string_view name, const rtl::MemoryBase& memory, int width) const;
-  static void add(Result& result, const MemoryModel& memory);
-  // Units, counters, links and memory ports below it.
-  void show(Observer& observer, const rtl::Engine& engine) const;
-  std::vector<PictureMap> named(std::vector<PictureMap> maps) const;
-  // A link outside of every engine, by the port that it is bound to.
-  void show(Observer& observer, std::string_view port, const rtl::LinkBase& link) const {
-    observer.see(figure(port), link);
-  }
 
  private:
   Simulation& simulation_;
@@ -153,7 +127,8 @@ class Environment {
 class RegisterScoreboard {
  public:
   explicit RegisterScoreboard(std::span<const spec::RegisterInfo> table);
-  void judge(RegisterHost& host, std::span<const std::pair<std::uint32_t, std::uint64_t>> expected);
+  void judge(platform::RegisterBus& registers,
+             std::span<const std::pair<std::uint32_t, std::uint64_t>> expected);
   // A fault: the register of this offset reads wrong by its lowest bit.
   void misread(std::uint32_t offset) { misread_ = offset; }
   std::string_view name_of(std::uint32_t offset) const;
@@ -183,9 +158,5 @@ class OutputHash {
  private:
   std::uint64_t hash_ = 0xCBF29CE484222325ULL;
 };
-
-inline double number(std::uint64_t value) { return static_cast<double>(value); }
-inline double ratio(double a, double b) { return b > 0 ? a / b : 0.0; }
-inline double ratio(std::uint64_t a, std::uint64_t b) { return ratio(number(a), number(b)); }
 
 }  // namespace deburr::tb

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "tb/harness/memory_model.h"
+#include "rtl_model/platform/memory_model.h"
 #include "tb/results/parameter_set.h"
 
 namespace deburr::tb {
@@ -54,10 +54,11 @@ inline void add_memory(ParameterSet& set, std::string_view prefix, MemoryParamet
   set.add(prefix, ParameterKind::kInput, static_cast<MemoryErrors&>(p));
 }
 
-inline MemoryModelParameters memory_model_parameters(const MemoryParameters& p, std::uint64_t bytes,
-                                                     std::uint64_t seed) {
+inline platform::MemoryModelParameters memory_model_parameters(const MemoryParameters& p,
+                                                               std::uint64_t bytes,
+                                                               std::uint64_t seed) {
   constexpr std::uint64_t kSmallest = 64;
-  MemoryModelParameters m;
+  platform::MemoryModelParameters m;
   m.bytes = std::max(bytes, kSmallest);
   m.latency_min = static_cast<std::uint32_t>(p.latency);
   m.latency_max = static_cast<std::uint32_t>(std::max(p.latency, p.latency_max));

@@ -9,6 +9,11 @@
 
 namespace deburr::tb {
 
+std::vector<PlantedFault> memory_faults(const std::string& needs) {
+  return {{"lost-response", "Memory never answers request 20.", "", needs},
+          {"memory-error", "Memory answers request 20 with an error.", "", needs}};
+}
+
 std::string FaultPlan::Known::full_name() const {
   return environment.empty() ? fault.name : fmt::format("{}.{}", environment, fault.name);
 }

@@ -3,8 +3,10 @@
 // engines; docs/verification.md says what must catch each.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace deburr::tb {
@@ -15,6 +17,10 @@ struct PlantedFault {
   std::string name, meaning, link_fault{};
   std::string needs{};  // why it cannot be planted in this run; empty: it can
 };
+
+// What a memory can do wrong with request kFaultyRequest: `lost-response` and `memory-error`.
+inline constexpr std::uint64_t kFaultyRequest = 20;
+std::vector<PlantedFault> memory_faults(const std::string& needs = {});
 
 // The faults that a run was given, against those that its environments know. An environment that
 // has a name of its own in the simulation ("texture") may be named in front: texture.flip-bit.
@@ -40,6 +46,21 @@ class FaultPlan {
 
   std::vector<std::string> given_;
   std::vector<Known> known_;
+};
+
+// Base of what an engine's environment can plant: its list, and hardware and inputs with them.
+class EngineFaults {
+ public:
+  // The plan must outlive it.
+  EngineFaults(const FaultPlan& plan, std::string environment)
+      : plan_(plan), environment_(std::move(environment)) {}
+
+ protected:
+  bool planted(std::string_view fault) const { return plan_.planted(environment_, fault); }
+
+ private:
+  const FaultPlan& plan_;
+  std::string environment_;
 };
 
 }  // namespace deburr::tb

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "tb/base/random.h"
 #include "tb/fuzz/targets.h"
 #include "tb/harness/test_paths.h"
-#include "tb/stimuli/random.h"
 
 namespace deburr::tb::replay_test {
 namespace {

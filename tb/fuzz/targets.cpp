@@ -8,15 +8,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "spec/error.h"
-#include "spec/geometric/parameters.h"
-#include "spec/morphological/parameters.h"
-#include "spec/texture/parameters.h"
+#include "tb/fuzz/engine_parameters.h"
 #include "tb/results/parameter_set.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/mesh.h"
@@ -106,13 +105,9 @@ void traces(std::string_view bytes) {
 
 void configurations(std::string_view bytes) {
   const InputFile file(bytes, ".yaml");
-  spec::texture::Parameters texture;
-  spec::morphological::Parameters morphological;
-  spec::geometric::Parameters geometric;
+  EngineParameters engines;
   ParameterSet set;
-  set.add_engine("texture", texture);
-  set.add_engine("morphological", morphological);
-  set.add_engine("geometric", geometric);
+  engines.add_to(set);
   taken_or_refused([&] {
     set.load(file.path());
     // What was taken is written as what is taken again.
@@ -139,8 +134,6 @@ constexpr std::string_view kTrace =
     "deburr-fragments 1\nsize 640 480\n# comment\n"
     "quad 0 f f 0 10 20 0.5 0.25 0.51 0.25 0.5 0.26 0.51 0.26\n"
     "fragment 0 13 21 0.53 0.26 0.01 0 0 0.01\nfragment 1 - - 0.25 0.75 0.001 0 0 0.004\nend 3\n";
-constexpr std::string_view kYaml =
-    "texture:\n  cache: {bytes: 4096, ways: 4}\ngeometric.walkers: 2\nmorphological.safe: no\n";
 
 std::string made_of(std::string_view text) { return std::string(text); }
 
@@ -196,7 +189,22 @@ std::vector<std::string> traces_seeds() {
   return seeds;
 }
 
-std::vector<std::string> configurations_seeds() { return {made_of(kYaml)}; }
+// The first parameters of each engine, as a map and by dotted names; and all of them.
+std::vector<std::string> configurations_seeds() {
+  EngineParameters engines;
+  ParameterSet set;
+  engines.add_to(set);
+  std::map<std::string, std::vector<const Parameter*>> by_engine;
+  for (const Parameter& parameter : set.all())
+    by_engine[parameter.name.substr(0, parameter.name.find('.'))].push_back(&parameter);
+  std::string few;
+  for (const auto& [engine, parameters] : by_engine) {
+    const Parameter& first = *parameters.front();
+    few += engine + ": {" + first.name.substr(engine.size() + 1) + ": " + first.text() + "}\n";
+    if (parameters.size() > 1) few += parameters[1]->name + ": " + parameters[1]->text() + "\n";
+  }
+  return {few, set.yaml()};
+}
 
 constexpr std::array<FuzzTarget, 6> kTargets{
     {{"pictures", pictures, pictures_seeds},

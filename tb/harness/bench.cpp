@@ -8,6 +8,7 @@
 #include "rtl_model/fabric/counters.h"
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/fabric/wire.h"
 #include "spec/error.h"
 #include "tb/harness/verdict.h"
 
@@ -26,11 +27,12 @@ void check_scopes(const rtl::TraceOptions& trace) {
       known += std::string("\n  ") + object.name();
     };
     rtl::for_each<rtl::LinkBase>(add);
+    rtl::for_each<rtl::WireBase>(add);
     rtl::for_each<rtl::Unit>(add);
-    throw spec::ConfigError(
-        fmt::format("trace: no link, unit, counter or register matches {} (* stands for any text, "
-                    "? for a letter); links and units are:{}",
-                    scope, known));
+    throw spec::ConfigError(fmt::format(
+        "trace: no link, wire, unit, counter or register matches {} (* stands for any text, "
+        "? for a letter); links, wires and units are:{}",
+        scope, known));
   }
 }
 

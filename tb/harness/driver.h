@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "rtl_model/fabric/unit.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb {
 

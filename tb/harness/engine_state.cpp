@@ -15,7 +15,7 @@ std::string inner_name(const rtl::Engine& engine, const sc_core::sc_object& obje
 
 }  // namespace
 
-std::vector<std::string> engine_state(const rtl::Engine& engine, RegisterHost& host,
+std::vector<std::string> engine_state(const rtl::Engine& engine, platform::RegisterHost& host,
                                       const std::vector<std::uint32_t>& more_registers) {
   std::vector<std::string> state;
   const auto add = [&](const std::string& name, std::uint64_t value) {

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "rtl_model/fabric/engine.h"
-#include "tb/harness/register_host.h"
+#include "rtl_model/platform/register_host.h"
 
 namespace deburr::tb {
 
 // "units.filter.busy = 12", in an order that two engines share. `more_registers` are offsets beside
 // those of the engine's table. Reads over the bus, so it changes nothing that a driver could see.
-std::vector<std::string> engine_state(const rtl::Engine& engine, RegisterHost& host,
+std::vector<std::string> engine_state(const rtl::Engine& engine, platform::RegisterHost& host,
                                       const std::vector<std::uint32_t>& more_registers = {});
 
 // The lines that differ, "was" first; empty if nothing does.

@@ -2,7 +2,7 @@
 // Linked into every test: what a test expects in a child process (forked.h) fails the test.
 #include <gtest/gtest.h>
 
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 
 namespace deburr::tb {
 namespace {

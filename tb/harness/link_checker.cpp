@@ -84,7 +84,7 @@ inline void LinkChecker::follow(Watched& w, rtl::Cycle cycle) {
   const bool pushed = link.last_push() == cycle, popped = link.last_pop() == cycle;
   const std::uint64_t before = w.pushes - w.pops;
   if (link.pushes() != w.pushes + pushed || link.pops() != w.pops + popped ||
-      (pushed && before == w.depth) || (popped && before == 0)) [[unlikely]]
+      before + pushed > w.depth || before < popped) [[unlikely]]
     refuse_counts(w, cycle);
   if (popped) {
     // All bytes first: the list of fields is needed for the text only.
@@ -105,9 +105,10 @@ inline void LinkChecker::follow(Watched& w, rtl::Cycle cycle) {
 rtl::Activity LinkChecker::tick(rtl::Cycle cycle) {
   for (Watched& watched : watched_) {
     const rtl::LinkBase& link = *watched.link;
-    // Most links rest in most cycles, and nothing has happened to those behind anyone's back.
-    const bool rests = link.pushes() == watched.pushes && link.pops() == watched.pops &&
-                       link.last_push() != cycle && link.last_pop() != cycle;
+    // Most links rest in most cycles, and nothing has happened to those behind anyone's back. A
+    // push may have been in the place of a beat that was taken back; a pop always counts.
+    const bool rests =
+        link.pushes() == watched.pushes && link.pops() == watched.pops && link.last_push() != cycle;
     if (!rests) follow(watched, cycle);
   }
   return rtl::kIdle;

@@ -15,11 +15,11 @@
 #include <string>
 
 #include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/platform/register_host.h"
 #include "spec/error.h"
 #include "spec/registers.h"
-#include "tb/harness/forked.h"
-#include "tb/harness/register_host.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/forked.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb {
 
@@ -30,7 +30,7 @@ class RegisterNoise {
       : random_(seed), table_(table), most_offset_(most_offset) {}
 
   // One access. Most go to registers that exist.
-  void access(RegisterHost& host) {
+  void access(platform::RegisterHost& host) {
     const std::uint32_t at = offset();
     if (random_.chance(150)) {
       try {

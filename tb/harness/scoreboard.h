@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "rtl_model/fabric/clocked.h"
 #include "rtl_model/fabric/payload.h"
 #include "tb/harness/verdict.h"
 
@@ -85,20 +86,52 @@ class Scoreboard final : public ScoreboardBase {
 
   void expect(const T& value) {
     if (blind()) return;
-    expected_[key_ ? key_(value) : 0].waiting.push_back({value, number_++});
+    queue_of(value).waiting.push_back({value, number_++});
     ++waiting_;
   }
+  // `where`: the place in the run, or its clock.
   void got(const T& value, const std::string& where = {}) {
-    if (blind()) return;
+    if (!came(value)) judge(value, where);
+  }
+  void got(const T& value, rtl::Cycle cycle) {
+    if (!came(value)) judge(value, fmt::format("cycle {}", cycle));
+  }
+  std::uint64_t leftovers() const override { return waiting_; }
+  // After a reset: what was expected will not come; comparisons so far count.
+  void restart() {
+    all_ = {};
+    by_key_.clear();
+    waiting_ = 0;
+  }
+
+ private:
+  // As far as is looked for an item that came at a wrong time.
+  static constexpr std::size_t kLookAhead = 64;
+  struct Expected {
+    T value;
+    std::uint64_t number;
+    friend bool operator==(const Expected& a, const T& b) { return a.value == b; }
+  };
+  struct Queue {
+    std::deque<Expected> waiting, lost;
+    std::optional<Expected> last;  // that came
+  };
+  Queue& queue_of(const T& value) { return key_ ? by_key_[key_(value)] : all_; }
+  // It is what comes next.
+  bool came(const T& value) {
+    if (blind()) return true;
     count();
-    Queue& queue = expected_[key_ ? key_(value) : 0];
+    Queue& queue = queue_of(value);
+    if (queue.waiting.empty() || !(queue.waiting.front().value == value)) return false;
+    queue.last = queue.waiting.front();
+    queue.waiting.pop_front();
+    --waiting_;
+    return true;
+  }
+  // It is not.
+  [[gnu::noinline]] void judge(const T& value, const std::string& where) {
+    Queue& queue = queue_of(value);
     auto& waiting = queue.waiting;
-    if (!waiting.empty() && waiting.front().value == value) {
-      queue.last = waiting.front();
-      waiting.pop_front();
-      --waiting_;
-      return;
-    }
     // Out of step: it may have come before, or be one of those that are missing, or come early.
     if (const auto late = std::find(queue.lost.begin(), queue.lost.end(), value);
         late != queue.lost.end()) {
@@ -137,25 +170,6 @@ class Scoreboard final : public ScoreboardBase {
     if constexpr (rtl::HasFields<T>) fields = rtl::payload_difference(wanted.value, value);
     fail({"", where, item(wanted), fields, text(wanted.value), text(value)});
   }
-  std::uint64_t leftovers() const override { return waiting_; }
-  // After a reset: what was expected will not come; comparisons so far count.
-  void restart() {
-    expected_.clear();
-    waiting_ = 0;
-  }
-
- private:
-  // As far as is looked for an item that came at a wrong time.
-  static constexpr std::size_t kLookAhead = 64;
-  struct Expected {
-    T value;
-    std::uint64_t number;
-    friend bool operator==(const Expected& a, const T& b) { return a.value == b; }
-  };
-  struct Queue {
-    std::deque<Expected> waiting, lost;
-    std::optional<Expected> last;  // that came
-  };
   std::string item(const Expected& e) const {
     return name_ ? name_(e.value) : fmt::format("item {}", e.number);
   }
@@ -175,16 +189,17 @@ class Scoreboard final : public ScoreboardBase {
     }
   }
   std::string first_leftover() const override {
-    const auto found = std::find_if(expected_.begin(), expected_.end(), [](const auto& entry) {
+    const auto found = std::find_if(by_key_.begin(), by_key_.end(), [](const auto& entry) {
       return !entry.second.waiting.empty();
     });
-    const Expected& first = found->second.waiting.front();
+    const Expected& first = (found == by_key_.end() ? all_ : found->second).waiting.front();
     return fmt::format("{}: {}", item(first), text(first.value));
   }
 
   Describe describe_, name_;
   Key key_;
-  std::map<std::uint64_t, Queue> expected_;
+  Queue all_;  // without a key
+  std::map<std::uint64_t, Queue> by_key_;
   std::uint64_t number_ = 0, waiting_ = 0;
 };
 

@@ -10,7 +10,7 @@
 
 #include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/fabric/link.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb {
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "tb/harness/statistics.h"
 
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "rtl_model/fabric/counters.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/fabric/wire.h"
 
 namespace deburr::tb {
 
@@ -24,9 +26,13 @@ Json to_json(const rtl::Histogram& histogram, std::size_t bins) {
 }
 
 Json statistics(const rtl::ClockDomain& clock, const std::string& prefix) {
-  Json json{{"cycles", clock.cycles_since_reset()}, {"units", Json::object()},
-            {"counters", Json::object()},           {"histograms", Json::object()},
-            {"memories", Json::object()},           {"links", Json::object()}};
+  Json json{{"cycles", clock.cycles_since_reset()},
+            {"units", Json::object()},
+            {"counters", Json::object()},
+            {"histograms", Json::object()},
+            {"memories", Json::object()},
+            {"links", Json::object()},
+            {"wires", Json::object()}};
   const auto short_name = [&](const char* full) -> std::optional<std::string> {
     const std::string name = full;
     if (prefix.empty()) return name;
@@ -59,6 +65,10 @@ Json statistics(const rtl::ClockDomain& clock, const std::string& prefix) {
       json["links"][*name] = {{"depth", link->depth()},
                               {"payload_bits", link->payload_bits()},
                               {"beats", link->pops()}};
+    } else if (const auto* wire = dynamic_cast<const rtl::WireBase*>(&object)) {
+      json["wires"][*name] = {{"bits", wire->bits()},
+                              {"changes", wire->changes()},
+                              {"high", wire->high_clocks(clock.cycle())}};
     }
   });
   return json;

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # One ctest entry a class, so that they run side by side.
-add_dependencies(deburr_negative_tests deburr)
-add_dependencies(deburr_stress_tests deburr)
+add_dependencies(deburr_negative_tests deburr_complete)
+add_dependencies(deburr_stress_tests deburr_complete)
 foreach(class TextureFiles MeshFiles Notes Configuration Output EarlierResults StandardOutput Interruption
               Results)
   add_test(NAME app_bad_input.${class}

@@ -9,7 +9,7 @@ import os
 import re
 import unittest
 
-from app_support import DEBURR, CommandTest
+from app_support import CommandTest
 
 
 class Faults(CommandTest):
@@ -157,31 +157,10 @@ class Faults(CommandTest):
 class Registers(CommandTest):
     """Each status register that is judged can fail the run by itself."""
 
-    def judged(self, engine):
-        done = self.expect(2, "run", engine, "--fault", "gremlin")
-        line = next(line for line in done.stderr.splitlines() if "no fault 'gremlin'" in line)
-        return [word.strip(",") for word in line.split() if "miscount-" in word]
-
-    def miscount(self, engine, expected):
-        faults = self.judged(engine)
-        self.assertEqual([fault.split("miscount-")[1] for fault in faults], expected)
-        for fault in faults:
-            name = fault.split("miscount-")[1].upper().replace("-", "_")
-            self.expect(1, "run", engine, "--size", "24x24", "--out", self.path("out"), "--fault", fault,
-                        says=[f"status registers: 1 mismatches in", f"{name}: "])
-            self.assertEqual(self.result()["checks"]["mismatches"], 1)
-
     TEXTURE = ["fragments", "bilinears", "line-fills", "clamped", "saturated", "memory-errors", "invalid-fragments"]
     MORPHOLOGICAL = ["pixels", "edge-pixels", "horizontal-runs", "vertical-runs", "long-runs", "z-runs",
                      "extended-runs", "steps", "probes", "divides", "blended-pixels", "diagonals", "left-pixels",
                      "frame-cycles", "memory-errors"]
-
-    GEOMETRIC = ["id", "control", "status", "size", "rules", "edge-count", "vertex-count", "face-count", "edge-base",
-                 "vertex-base", "face-base", "depth-base", "colour-base", "weight-base", "copy-base", "refusal", "edges",
-                 "boundary-edges", "silhouette-edges", "back-edges", "crease-edges", "flat-edges", "invalid-edges",
-                 "kept-edges", "outside-edges", "degenerate-edges", "empty-edges", "lines", "columns", "groups",
-                 "candidates", "passed", "blocks", "blended-pixels", "memory-errors", "frame-cycles", "edge-cycles",
-                 "resolve-cycles"]
 
     def test_texture(self):
         self.miscount("texture", self.TEXTURE)
@@ -189,34 +168,11 @@ class Registers(CommandTest):
     def test_morphological(self):
         self.miscount("morphological", self.MORPHOLOGICAL)
 
-    def test_geometric(self):
-        self.miscount("geometric", self.GEOMETRIC)
-
-    def test_frame(self):
-        self.miscount("frame", self.TEXTURE + self.MORPHOLOGICAL)
-
 
 class Blind(CommandTest):
     """A scoreboard that compares nothing, although everything else of the run is right, is no pass."""
     TEXTURE = ("colours", "line-fills", "status-registers")
     MORPHOLOGICAL = ("pixels", "taps", "memory-lines", "status-registers")
-    GEOMETRIC = ("lines", "candidates", "blocks", "pixels", "memory-lines", "status-registers")
-
-    def blind(self, engine, board, *arguments):
-        name = board.split(".")[-1].removeprefix("blind-").replace("-", " ")
-        done = self.expect(1, "run", engine, "--size", "32x32", "--out", self.path("out"), "--fault", board,
-                           *arguments, says=f"{name}: 0 mismatches in 0 comparisons, only 0 comparisons, at least")
-        self.assertIn("FAIL mismatch: ", done.stdout)
-        result = self.result()
-        self.assertEqual((result["verdict"], result["checks"]["mismatches"],
-                          result["checks"]["traffic_mismatches"]), ("fail", 0, 0))
-        return int(done.stderr.split("at least ")[1].split()[0])
-
-    def known(self, engine, *arguments):
-        """All scoreboards that a run of the engine has."""
-        done = self.expect(2, "run", engine, "--fault", "gremlin", *arguments)
-        line = next(line for line in done.stderr.splitlines() if "no fault 'gremlin'" in line)
-        return {word.strip(",") for word in line.split() if "blind-" in word}
 
     def test_texture(self):
         boards = {f"blind-{board}" for board in self.TEXTURE}
@@ -235,31 +191,6 @@ class Blind(CommandTest):
         needed = {board: self.blind("morphological", board, *memory) for board in boards}
         self.assertEqual(needed, {"blind-pixels": 32 * 32, "blind-taps": 32 * 32,
                                   "blind-memory-lines": 2 * 2 * 32, "blind-status-registers": 15})
-
-    def test_geometric(self):
-        boards = {f"blind-{board}" for board in self.GEOMETRIC}
-        self.assertEqual(self.known("geometric"), boards)
-        needed = {board: self.blind("geometric", board) for board in boards}
-        self.assertEqual((needed["blind-pixels"], needed["blind-status-registers"]), (32 * 32, 38))
-        work, memory = self.result()["work"], self.result()["memory"]
-        self.assertEqual(needed["blind-lines"], work["line_setup_lines"])
-        self.assertEqual(needed["blind-candidates"], work["coverage_unit_candidates"])
-        self.assertEqual(needed["blind-blocks"], work["resolver_blocks"])
-        self.assertEqual(needed["blind-memory-lines"], memory["lines_filled"] + work["memory_port_writes"])
-
-    def test_frame(self):
-        memory = ("--storage", "memory")
-        boards = ({f"texture.blind-{board}" for board in self.TEXTURE} |
-                  {f"morphological.blind-{board}" for board in self.MORPHOLOGICAL})
-        self.assertEqual(self.known("frame", *memory), boards)
-        for board in boards:
-            self.assertGreater(self.blind("frame", board, *memory), 0)
-        smoothing = ("--smoothing", "geometric-morphological")
-        boards |= {f"geometric.blind-{board}" for board in self.GEOMETRIC}
-        self.assertEqual(self.known("frame", *memory, *smoothing), boards)
-        for board in sorted(boards):
-            if board.startswith("geometric."):
-                self.assertGreater(self.blind("frame", board, *smoothing), 0)
 
 
 if __name__ == "__main__":

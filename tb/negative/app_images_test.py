@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """What the command does without OpenImageIO, which it loads when the first picture needs it: most of it, and a clear
-error for the rest."""
+error for the rest; and without the other module and the program that are built beside it."""
 import glob
 import os
 import shutil
 import unittest
 
-from app_support import DEBURR, CommandTest, png
+from app_support import DEBURR, CommandTest, engines, png
 
 MODULE = "libdeburr_images.so"
 
@@ -40,7 +40,7 @@ class Images(CommandTest):
         picture = self.write("in.png", png(32, 24))
         self.assert_loads(False, "--version")
         self.assert_loads(False, "params")
-        for engine in ("texture", "morphological", "geometric", "frame"):
+        for engine in engines():
             self.assert_loads(False, "run", engine, "--size", "32x24", "--out", self.path(engine))
             self.assertGreater(os.path.getsize(self.path(f"{engine}/after.png")), 50)
         self.assert_loads(True, "run", "morphological", "--in", picture, "--out", self.path("read"))
@@ -57,6 +57,18 @@ class Images(CommandTest):
         shutil.copy(os.path.join(os.path.dirname(DEBURR), MODULE), self.path("bin"))
         picture = self.write("in.png", png(32, 24))
         self.expect(0, "run", "morphological", "--in", picture, program=program)
+
+    def test_a_copy_alone_says_what_searches_and_papers_need(self):
+        program = self.alone()
+        self.write("s.yaml", "engine: texture\nbase: {scene: {width: 16, height: 16}, run.images: false}\n"
+                   "axes: {memory.latency: [1, 9, 50, 200], texture.cache.ways: [1, 2, 4]}\n"
+                   "objectives: {minimise: [cycles, memory_bits]}\n")
+        self.expect(5, "search", "s.yaml", "--population", "8", "--out", self.path("found"), program=program,
+                    says=("libdeburr_evolution.so", "beside the program", "scripts/demo --complete"))
+        self.assertFalse(os.path.exists(self.path("found/points")))
+        self.expect(5, "papers", "--quick", "--out", self.path("papers"), program=program,
+                    says=("deburr_papers", "No such file", "scripts/demo --complete"))
+        self.assertFalse(os.path.exists(self.path("papers")))
 
     def test_another_library_of_that_name_is_refused(self):
         program = self.alone()

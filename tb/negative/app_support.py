@@ -4,9 +4,13 @@ import json
 import os
 import struct
 import subprocess
+import sys
 import tempfile
 import unittest
 import zlib
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../engines"))
+from engine_list import engines, trials  # noqa: E402,F401: for every test
 
 DEBURR = os.environ.get("DEBURR", "deburr")
 
@@ -102,6 +106,42 @@ class CommandTest(unittest.TestCase):
         for word in [says] if isinstance(says, str) else says:
             self.assertIn(word, done.stdout + done.stderr, context)
         return done
+
+    def expect_as_shown(self, engine, *arguments):
+        """What a run refuses, --show-config refuses in the same words."""
+        command = ("run", engine, "--size", "32x32", "--out", self.path("out"), *arguments)
+        told = [self.expect(2, *command, *more).stdout.splitlines()[-1] for more in ((), ("--show-config",))]
+        self.assertEqual(told[0], told[1])
+
+    def judged(self, engine):
+        done = self.expect(2, "run", engine, "--fault", "gremlin")
+        line = next(line for line in done.stderr.splitlines() if "no fault 'gremlin'" in line)
+        return [word.strip(",") for word in line.split() if "miscount-" in word]
+
+    def miscount(self, engine, expected):
+        faults = self.judged(engine)
+        self.assertEqual([fault.split("miscount-")[1] for fault in faults], expected)
+        for fault in faults:
+            name = fault.split("miscount-")[1].upper().replace("-", "_")
+            self.expect(1, "run", engine, "--size", "24x24", "--out", self.path("out"), "--fault", fault,
+                        says=["status registers: 1 mismatches in", f"{name}: "])
+            self.assertEqual(self.result()["checks"]["mismatches"], 1)
+
+    def blind(self, engine, board, *arguments):
+        name = board.split(".")[-1].removeprefix("blind-").replace("-", " ")
+        done = self.expect(1, "run", engine, "--size", "32x32", "--out", self.path("out"), "--fault", board,
+                           *arguments, says=f"{name}: 0 mismatches in 0 comparisons, only 0 comparisons, at least")
+        self.assertIn("FAIL mismatch: ", done.stdout)
+        result = self.result()
+        self.assertEqual((result["verdict"], result["checks"]["mismatches"],
+                          result["checks"]["traffic_mismatches"]), ("fail", 0, 0))
+        return int(done.stderr.split("at least ")[1].split()[0])
+
+    def known(self, engine, *arguments):
+        """All scoreboards that a run of the engine has."""
+        done = self.expect(2, "run", engine, "--fault", "gremlin", *arguments)
+        line = next(line for line in done.stderr.splitlines() if "no fault 'gremlin'" in line)
+        return {word.strip(",") for word in line.split() if "blind-" in word}
 
     def run_texture(self, code, *arguments, says=(), **options):
         """A tiny run of the texture unit into ./out."""

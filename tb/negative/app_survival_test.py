@@ -11,15 +11,10 @@ import subprocess
 import time
 import unittest
 
-from app_support import DEBURR, CommandTest
+from app_support import DEBURR, CommandTest, trials
 
 DRAFT = ".deburr_run"
-ENGINES = {
-    "texture": ("--size", "96x96"),
-    "morphological": ("--size", "160x120", "--set", "frame.truth_samples=2"),
-    "geometric": ("--scene", "canopy", "--size", "320x240"),
-    "frame": ("--size", "64x64"),
-}
+ENGINES = trials("killed")
 WAVES = ("--trace", "*", "--trace-to", "400")
 
 
@@ -104,30 +99,6 @@ class Killed(Survival):
         self.assert_whole()
         self.assertEqual(sorted(os.listdir(self.path("out"))), expected)
 
-    def test_texture(self):
-        self.kill_often("texture")
-
-    def test_texture_with_waves(self):
-        self.kill_often("texture", *WAVES)
-
-    def test_morphological(self):
-        self.kill_often("morphological")
-
-    def test_morphological_with_waves(self):
-        self.kill_often("morphological", *WAVES)
-
-    def test_geometric(self):
-        self.kill_often("geometric")
-
-    def test_geometric_with_waves(self):
-        self.kill_often("geometric", *WAVES)
-
-    def test_frame(self):
-        self.kill_often("frame")
-
-    def test_frame_with_waves(self):
-        self.kill_often("frame", *WAVES)
-
     def test_a_wave_of_a_dead_run_is_not_the_next_runs(self):
         process = self.long_run(*WAVES)
         self.wait_for(f"out/{DRAFT}/trace.vcd", process)
@@ -137,6 +108,11 @@ class Killed(Survival):
         self.expect(0, *self.command("texture"))
         self.assertFalse(os.path.exists(self.path("out/trace.vcd")))
         self.assert_whole()
+
+
+for each in ENGINES:
+    setattr(Killed, f"test_{each}", lambda self, engine=each: self.kill_often(engine))
+    setattr(Killed, f"test_{each}_with_waves", lambda self, engine=each: self.kill_often(engine, *WAVES))
 
 
 class SideBySide(Survival):

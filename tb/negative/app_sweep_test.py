@@ -35,7 +35,7 @@ class Definitions(Sweeps):
 
     def test_values_that_are_none(self):
         self.refuse(BASE + "axes: {texture.cache.ways: [1, 17]}\n",
-                    "'texture.cache.ways' = '17' is outside 1..16")
+                    "'texture.cache.ways' = '17' is outside 1..8")
         self.refuse(BASE + "axes: {texture.footprint: [half, hafl]}\n",
                     "s.yaml:3: 'texture.footprint' = 'hafl' wants one of", "'half'?")
         self.refuse(BASE + "axes: {texture.cache.ways: [1, 2, 1]}\n", "has the value '1' twice")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-foreach(class Meshes Configuration Faults)
+foreach(class Meshes Configuration Faults Registers Blind)
   add_test(NAME geometric_negative.${class}
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/geometric_test.py" -v ${class})
   list(APPEND GEOMETRIC_NEGATIVE_TESTS geometric_negative.${class})

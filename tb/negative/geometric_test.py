@@ -111,6 +111,15 @@ class Configuration(Base):
             self.run_engine(0, *self.SMALL, "--preset", preset, says="PASS")
             self.assertEqual(self.result()["work"]["line_setup_lines"], lines, preset)
 
+    def test_show_config_judges_as_a_run_does(self):
+        for arguments in (("--set", "scene.eye=0,0,3", "--set", "scene.target=0,0,9"), ("--fault", "gremlin"),
+                          ("--set", "geometric.touched_words=16", "--set", "geometric.line_pixels=64", "--size",
+                           "65x65")):
+            self.expect_as_shown("geometric", *arguments)
+
+    def test_a_memory_slower_than_the_watchdog(self):
+        self.run_engine(2, "--set", "memory.latency=20000", says="memory.latency = 20000")
+
     def test_show_config(self):
         done = self.run_command("run", "geometric", "--preset", "gpaa", "--show-config")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -245,6 +254,35 @@ class Faults(Base):
         self.run_engine(1, *self.SMALL, "--fault", "flip:geometric.weights:10:coverage.0.5", says="mismatch")
         self.run_engine(3, *self.SMALL, "--fault", "drop:geometric.weights:100000", says="never reached")
         self.run_engine(2, *self.SMALL, "--fault", "gremlin", says=["gremlin", "stale-neighbour"])
+
+
+class Registers(Base):
+    """Each status register that is judged can fail the run by itself."""
+    JUDGED = ["id", "control", "status", "size", "rules", "edge-count", "vertex-count", "face-count", "edge-base",
+                 "vertex-base", "face-base", "depth-base", "colour-base", "weight-base", "copy-base", "refusal", "edges",
+                 "boundary-edges", "silhouette-edges", "back-edges", "crease-edges", "flat-edges", "invalid-edges",
+                 "kept-edges", "outside-edges", "degenerate-edges", "empty-edges", "lines", "columns", "groups",
+                 "candidates", "passed", "blocks", "blended-pixels", "memory-errors", "frame-cycles", "edge-cycles",
+                 "resolve-cycles"]
+
+    def test_each(self):
+        self.miscount("geometric", self.JUDGED)
+
+
+class Blind(Base):
+    """A scoreboard that compares nothing, although everything else of the run is right, is no pass."""
+    BOARDS = ("lines", "candidates", "blocks", "pixels", "memory-lines", "status-registers")
+
+    def test_each(self):
+        boards = {f"blind-{board}" for board in self.BOARDS}
+        self.assertEqual(self.known("geometric"), boards)
+        needed = {board: self.blind("geometric", board) for board in boards}
+        self.assertEqual((needed["blind-pixels"], needed["blind-status-registers"]), (32 * 32, 38))
+        work, memory = self.result()["work"], self.result()["memory"]
+        self.assertEqual(needed["blind-lines"], work["line_setup_lines"])
+        self.assertEqual(needed["blind-candidates"], work["coverage_unit_candidates"])
+        self.assertEqual(needed["blind-blocks"], work["resolver_blocks"])
+        self.assertEqual(needed["blind-memory-lines"], memory["lines_filled"] + work["memory_port_writes"])
 
 
 if __name__ == "__main__":

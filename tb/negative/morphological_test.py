@@ -183,7 +183,8 @@ class Configuration(Base):
         self.assertNotIn("# morphological.window_rows", given)
 
     def test_impossible_mixes(self):
-        self.run_engine(2, *self.SMALL, "--set", "morphological.diagonals=true", "--set",
+        self.run_engine(2, *self.SMALL, "--set", "morphological.diagonals=true", says="learned with diagonals")
+        self.run_engine(2, *self.SMALL, "--preset", "mlaa", "--set", "morphological.diagonals=true", "--set",
                         "morphological.diagonal_steps=10", "--set", "morphological.window_rows=20",
                         says=["diagonal_steps", "window_rows of at least 22"])
         self.run_engine(2, *self.SMALL, "--preset", "smaa", "--set", "morphological.search_steps=113", says="1..112")

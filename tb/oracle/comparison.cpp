@@ -13,14 +13,14 @@
 #include "golden/morphological/configuration.h"
 #include "golden/morphological/morphological_golden.h"
 #include "spec/error.h"
-#include "tb/env/geometric_environment.h"
-#include "tb/env/morphological_environment.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
+#include "tb/engines/geometric/geometric_environment.h"
+#include "tb/engines/geometric/geometric_stimuli.h"
+#include "tb/engines/morphological/morphological_environment.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/label.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/scenes.h"
-#include "tb/stimuli/geometric_frames.h"
 #include "tb/stimuli/reference_filters.h"
 
 namespace deburr::tb {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <memory>
 
-#include "golden/texture/configuration.h"
 #include "golden/texture/texture_golden.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::tb::texture {
 namespace {
@@ -170,7 +170,7 @@ std::vector<ConformanceRow> conformance_table() {
   for (std::size_t footprint = 0; footprint < spec::texture::kFootprintNames.size(); ++footprint) {
     for (std::size_t log2 = 0; log2 < spec::texture::kLog2Names.size(); ++log2) {
       spec::texture::Parameters parameters =
-          golden::texture::preset_parameters(spec::texture::Preset::kPaper);
+          spec::texture::preset_parameters(spec::texture::Preset::kPaper);
       parameters.footprint = static_cast<spec::texture::FootprintRule>(footprint);
       parameters.log2 = static_cast<spec::texture::Log2Rule>(log2);
       ConformanceRow row;

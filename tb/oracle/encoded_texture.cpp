@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "spec/error.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb::texture {
 namespace {

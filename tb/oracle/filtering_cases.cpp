@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tb/base/random.h"
 #include "tb/oracle/plane.h"
-#include "tb/stimuli/random.h"
 
 namespace deburr::tb::texture {
 namespace {

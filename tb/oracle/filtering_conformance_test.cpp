@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "golden/texture/configuration.h"
+#include "spec/texture/parameters.h"
+#include "tb/base/random.h"
 #include "tb/oracle/conformance.h"
-#include "tb/stimuli/random.h"
 
 namespace deburr::tb::texture::filtering_conformance_test {
 namespace {
@@ -15,7 +15,7 @@ using golden::ideal::Verdict;
 
 spec::texture::Parameters segments() {
   spec::texture::Parameters parameters =
-      golden::texture::preset_parameters(spec::texture::Preset::kPaper);
+      spec::texture::preset_parameters(spec::texture::Preset::kPaper);
   parameters.log2 = spec::texture::Log2Rule::kSegments;
   return parameters;
 }

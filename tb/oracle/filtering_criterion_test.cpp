@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::filtering_criterion_test {
 namespace {

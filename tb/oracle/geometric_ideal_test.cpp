@@ -14,8 +14,8 @@
 #include "golden/ideal/coverage.h"
 #include "golden/ideal/geometric.h"
 #include "spec/geometric/tables.h"
-#include "tb/stimuli/geometric_frames.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
+#include "tb/engines/geometric/geometric_stimuli.h"
 
 namespace deburr::geometric_ideal_test {
 namespace {

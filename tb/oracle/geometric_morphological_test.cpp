@@ -16,7 +16,7 @@
 #include "golden/ideal/geometric.h"
 #include "golden/morphological/morphological_golden.h"
 #include "spec/geometric/tables.h"
-#include "tb/stimuli/geometric_frames.h"
+#include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/unit/scene/fixtures.h"
 
 namespace deburr::geometric_morphological_test {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "golden/morphological/morphological_golden.h"
-#include "tb/stimuli/geometric_frames.h"
+#include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/unit/scene/fixtures.h"
 
 namespace deburr::geometric_quality_test {

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <functional>
 
-#include "golden/texture/configuration.h"
+#include "spec/texture/parameters.h"
 #include "tb/oracle/mesa_device.h"
 
 namespace deburr::tb::texture::mesa_test {
@@ -21,7 +21,7 @@ using spec::texture::Format;
 using spec::texture::MinFilter;
 
 spec::texture::Parameters papers_rules() {
-  return golden::texture::preset_parameters(spec::texture::Preset::kPaper);
+  return spec::texture::preset_parameters(spec::texture::Preset::kPaper);
 }
 
 // The rules nearest to what Mesa does; the paper's are printed beside them.

@@ -12,7 +12,7 @@
 #include "golden/morphological/area.h"
 #include "golden/morphological/line.h"
 #include "golden/morphological/morphological_golden.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::morphological_area_test {
 namespace {

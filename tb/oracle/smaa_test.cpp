@@ -12,8 +12,8 @@
 #include <string>
 
 #include "golden/morphological/morphological_golden.h"
+#include "tb/base/random.h"
 #include "tb/stimuli/frames.h"
-#include "tb/stimuli/random.h"
 
 namespace deburr::smaa_test {
 namespace {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "golden/ideal/ellipse.h"
-#include "golden/texture/configuration.h"
+#include "spec/texture/parameters.h"
 #include "tb/harness/test_paths.h"
 #include "tb/oracle/turned_photo.h"
 #include "tb/scene/image_io.h"
@@ -24,11 +24,11 @@
 namespace deburr::tb::texture_direction_test {
 namespace {
 
-using golden::texture::preset_parameters;
 using spec::texture::Axes;
 using spec::texture::CountRule;
 using spec::texture::Parameters;
 using spec::texture::Preset;
+using spec::texture::preset_parameters;
 
 // The candidates of eight axes, of four, and the directions between that are farthest from both.
 constexpr double kDegrees[] = {0,    7.5, 11.25, 15, 22.5, 30,    33.75,

@@ -12,18 +12,18 @@
 
 #include "golden/ideal/ellipse.h"
 #include "golden/ideal/texture_image.h"
-#include "golden/texture/configuration.h"
-#include "tb/env/texture_sequence.h"
+#include "spec/texture/parameters.h"
+#include "tb/engines/texture/texture_sequence.h"
 #include "tb/harness/test_paths.h"
 
 namespace deburr::tb::texture_flicker_test {
 namespace {
 
-using golden::texture::preset_parameters;
 using spec::texture::Axes;
 using spec::texture::CountRule;
 using spec::texture::Parameters;
 using spec::texture::Preset;
+using spec::texture::preset_parameters;
 
 struct Row {
   const char* name;

@@ -7,6 +7,7 @@
 #include "golden/ideal/box.h"
 #include "golden/ideal/ellipse.h"
 #include "spec/error.h"
+#include "tb/engines/texture/texture_levels.h"
 #include "tb/scene/textures.h"
 
 namespace deburr::tb {
@@ -28,7 +29,8 @@ std::int32_t fixed(double coordinate) {
 
 PhotoTexture::PhotoTexture(Image image)
     : image_(std::move(image)), ideal_(image_.width, image_.height, bytes_of(image_)) {
-  memory_.add(mip_chain(image_), {});
+  const std::vector<Image> levels = mip_chain(image_);
+  memory_.add(levels_of(levels), {});
 }
 
 spec::texture::Descriptor PhotoTexture::descriptor(int lb_n_max) const {

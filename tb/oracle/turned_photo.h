@@ -12,9 +12,9 @@
 #include "golden/ideal/footprint.h"
 #include "golden/ideal/texture_image.h"
 #include "golden/texture/texture_golden.h"
+#include "rtl_model/platform/texture_memory.h"
 #include "spec/texture/packets.h"
 #include "spec/texture/parameters.h"
-#include "tb/env/texture_memory.h"
 #include "tb/scene/image.h"
 
 namespace deburr::tb {
@@ -31,7 +31,7 @@ class PhotoTexture {
  private:
   Image image_;
   golden::ideal::TextureImage ideal_;
-  TextureMemory memory_;
+  platform::TextureMemory memory_;
 };
 
 struct Turn {

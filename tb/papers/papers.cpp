@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "spec/error.h"
+#include "tb/base/atomic_file.h"
+#include "tb/base/interrupt.h"
 #include "tb/results/build_info.h"
 #include "tb/results/embedded.h"
 #include "tb/results/progress.h"

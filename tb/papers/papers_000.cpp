@@ -15,6 +15,7 @@
 #include "golden/morphological/morphological_golden.h"
 #include "spec/morphological/packets.h"
 #include "spec/morphological/parameters.h"
+#include "tb/base/random.h"
 #include "tb/papers/papers.h"
 #include "tb/results/progress.h"
 #include "tb/scene/compose.h"
@@ -23,7 +24,6 @@
 #include "tb/scene/truth.h"
 #include "tb/stimuli/discs.h"
 #include "tb/stimuli/line_fans.h"
-#include "tb/stimuli/random.h"
 #include "tb/training/training_frames.h"
 
 namespace deburr::tb::paper_000 {

@@ -19,14 +19,14 @@
 #include "golden/ideal/geometric.h"
 #include "spec/geometric/packets.h"
 #include "spec/geometric/parameters.h"
+#include "tb/base/random.h"
+#include "tb/engines/geometric/edge_table.h"
+#include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/papers/papers.h"
 #include "tb/results/progress.h"
 #include "tb/scene/compose.h"
-#include "tb/scene/edge_table.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/scenes.h"
-#include "tb/stimuli/geometric_frames.h"
-#include "tb/stimuli/random.h"
 
 namespace deburr::tb::paper_002 {
 namespace {

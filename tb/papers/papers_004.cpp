@@ -14,13 +14,12 @@
 #include "golden/ideal/footprint.h"
 #include "golden/ideal/integrate.h"
 #include "golden/ideal/lod.h"
-#include "golden/texture/configuration.h"
 #include "golden/texture/footprint.h"
 #include "golden/texture/level_of_detail.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/packets.h"
 #include "spec/texture/parameters.h"
-#include "tb/env/texture_scene.h"
+#include "tb/engines/texture/texture_scene.h"
 #include "tb/papers/papers.h"
 #include "tb/results/progress.h"
 #include "tb/scene/compose.h"
@@ -41,7 +40,7 @@ constexpr double kSideOne = 65536;  // U16.16
 constexpr double kAlphas[] = {0.5, 0.25, 0.3284};
 
 spec::texture::Parameters papers_rules() {
-  return gold::preset_parameters(spec::texture::Preset::kPaper);
+  return spec::texture::preset_parameters(spec::texture::Preset::kPaper);
 }
 
 template <class Enum, std::size_t N>
@@ -445,7 +444,7 @@ PaperTable over_roll(const PaperOptions& options) {
     int lb_n_max = 4;
   };
   const auto own = [](Axes axes, CountRule count) {
-    auto p = gold::preset_parameters(spec::texture::Preset::kDeburr);
+    auto p = spec::texture::preset_parameters(spec::texture::Preset::kDeburr);
     p.axes = axes;
     p.count = count;
     return p;

@@ -14,8 +14,8 @@
 
 #include "spec/error.h"
 #include "tb/app/random_configuration.h"
-#include "tb/results/file.h"
-#include "tb/results/headline.h"
+#include "tb/base/file.h"
+#include "tb/base/headline.h"
 #include "tb/results/progress.h"
 #include "tb/sweep/sampling.h"
 
@@ -204,6 +204,7 @@ Plan make_regression_plan(const Testplan& testplan, std::uint64_t base_seed,
       before && changes_since(*before, testplan.file).empty())
     return *before;
   auto [plan, points] = RegressionPlanner(testplan, base_seed).run();
+  for (const fs::path& file : testplan.included) plan.parts[file.string()] = content_of(file);
   write_points(points, place);
   write_plan(plan, place);
   return std::move(plan);

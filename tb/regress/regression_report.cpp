@@ -7,12 +7,12 @@
 #include <string>
 
 #include "spec/error.h"
+#include "tb/base/atomic_file.h"
 #include "tb/regress/junit.h"
 #include "tb/regress/regression_result.h"
 #include "tb/results/build_info.h"
 #include "tb/results/embedded.h"
 #include "tb/results/report.h"
-#include "tb/scene/atomic_file.h"
 
 namespace deburr::tb {
 namespace {

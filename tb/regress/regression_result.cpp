@@ -12,8 +12,9 @@
 #include <utility>
 
 #include "rtl_model/fabric/trace.h"
+#include "tb/base/file.h"
+#include "tb/base/near_matches.h"
 #include "tb/regress/failure_message.h"
-#include "tb/results/file.h"
 #include "tb/results/parameter_set.h"
 
 namespace deburr::tb {

@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <deque>
+#include <iterator>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -15,10 +18,12 @@
 
 #include "rtl_model/fabric/trace.h"
 #include "spec/error.h"
+#include "tb/app/engine.h"
 #include "tb/app/reference_pages.h"
-#include "tb/results/file.h"
+#include "tb/base/file.h"
+#include "tb/base/near_matches.h"
+#include "tb/base/yaml_file.h"
 #include "tb/results/parameter_set.h"
-#include "tb/results/yaml_file.h"
 
 namespace deburr::tb {
 namespace {
@@ -166,26 +171,62 @@ class Pages {
   std::vector<fs::path> found_;
 };
 
-class TestplanReader {
- public:
-  explicit TestplanReader(const YamlFile& yaml) : yaml_(yaml), pages_(yaml.path()) {}
+// A coverage glob, which is judged when every file has named the engines of its feature.
+struct PendingGlob {
+  std::string feature;
+  YAML::Node node;
+  const YamlFile* yaml;
+};
 
-  Testplan read() {
+// One file of a testplan: the file itself, or one that it includes, whose features come before its
+// own and add to those that there are already.
+class TestplanFile {
+ public:
+  TestplanFile(const YamlFile& yaml, std::vector<Feature>& common, std::vector<Feature>& included,
+               std::vector<PendingGlob>& globs)
+      : yaml_(yaml), pages_(yaml.path()), common_(common), included_(included), globs_(globs) {}
+
+  // What it says of the whole plan; files that it includes.
+  std::vector<fs::path> read_whole(Testplan& plan) {
     const YAML::Node& root = yaml_.root();
-    yaml_.require_keys(root, {"title", "features"});
-    Testplan plan;
+    yaml_.require_keys(root, {"title", "include", "features"});
     plan.file = yaml_.path();
     plan.name = plan.title = plan.file.stem().string();
     if (root["title"]) plan.title = yaml_.scalar(root["title"], "title");
+    std::vector<fs::path> files;
+    if (root["include"])
+      for (const YAML::Node& node : list_of(root, "include"))
+        for (fs::path& file : files_of(node)) files.push_back(std::move(file));
+    includes_ = !files.empty();
+    if (includes_ && !root["features"]) return files;
     for (const YAML::Node& node : list_of(root, "features")) {
       Feature feature = read_feature(node);
-      for (const Feature& other : plan.features)
-        if (other.id == feature.id)
-          yaml_.fail(node["id"], fmt::format("there are two features '{}'", feature.id));
-      plan.features.push_back(std::move(feature));
+      if (feature_named(feature.id))
+        yaml_.fail(node["id"], fmt::format("there are two features '{}'", feature.id));
+      common_.push_back(std::move(feature));
     }
-    plan.pages = pages_.found();
-    return plan;
+    return files;
+  }
+
+  void read_part() {
+    yaml_.require_keys(yaml_.root(), {"features"});
+    std::set<std::string> own;
+    for (const YAML::Node& node : list_of(yaml_.root(), "features")) {
+      const std::string id = name_of(node, "id");
+      if (!own.insert(id).second)
+        yaml_.fail(node["id"], fmt::format("there are two features '{}'", id));
+      if (Feature* const feature = feature_named(id))
+        add_to(*feature, node);
+      else
+        included_.push_back(read_feature(node));
+    }
+  }
+
+  const std::vector<fs::path>& pages() const { return pages_.found(); }
+
+  void read(const PendingGlob& glob) const {
+    Feature& feature = *feature_named(glob.feature);
+    feature.coverage.push_back({read_glob(glob.node, bins_of(feature)), yaml_.where(glob.node)});
   }
 
  private:
@@ -196,6 +237,32 @@ class TestplanReader {
     if (!list.IsSequence() || list.size() == 0)
       yaml_.fail(list, fmt::format("'{}' wants a list, got {}", key, YamlFile::kind(list)));
     return list;
+  }
+
+  // A file beside this one; with * for the name of each engine, in their order.
+  std::vector<fs::path> files_of(const YAML::Node& node) const {
+    const std::string text = yaml_.scalar(node, "include");
+    const std::size_t star = text.find('*');
+    std::vector<std::string> names;
+    if (star == std::string::npos)
+      names.push_back(text);
+    else
+      for (const std::unique_ptr<Engine>& engine : engines())
+        names.push_back(std::string(text).replace(star, 1, engine->name()));
+    std::vector<fs::path> files;
+    for (const std::string& name : names) {
+      files.push_back((yaml_.path().parent_path() / name).lexically_normal());
+      if (std::error_code error; !fs::is_regular_file(files.back(), error))
+        yaml_.fail(node, fmt::format("there is no file '{}'", files.back().string()));
+    }
+    return files;
+  }
+
+  Feature* feature_named(const std::string& id) const {
+    for (std::vector<Feature>* const features : {&common_, &included_})
+      for (Feature& feature : *features)
+        if (feature.id == id) return &feature;
+    return nullptr;
   }
 
   std::string text_of(const YAML::Node& map, const char* key) const {
@@ -218,7 +285,29 @@ class TestplanReader {
     Feature feature;
     feature.id = name_of(node, "id");
     feature.title = text_of(node, "title");
+    // What is missing here may stand in files that the plan includes.
+    if (!includes_ || node["traces"]) read_traces_of(node, feature);
+    if (!includes_ || node["stimuli"]) read_stimuli_of(node, feature);
+    if (!includes_ && !node["checks"] && !node["coverage"])
+      yaml_.fail(node, "'checks' is missing, and so is 'coverage': what must its runs show?");
+    read_checks(node, feature);
+    note_globs(node, feature);
+    return feature;
+  }
+
+  void add_to(Feature& feature, const YAML::Node& node) {
+    yaml_.require_keys(node, {"id", "traces", "stimuli", "checks", "coverage"});
+    if (node["traces"]) read_traces_of(node, feature);
+    read_stimuli_of(node, feature);
+    read_checks(node, feature);
+    note_globs(node, feature);
+  }
+
+  void read_traces_of(const YAML::Node& node, Feature& feature) {
     for (const YAML::Node& trace : list_of(node, "traces")) feature.traces.push_back(read(trace));
+  }
+
+  void read_stimuli_of(const YAML::Node& node, Feature& feature) const {
     for (const YAML::Node& entry : list_of(node, "stimuli")) {
       Stimulus stimulus = read_stimulus(entry);
       for (const Stimulus& other : feature.stimuli)
@@ -226,13 +315,12 @@ class TestplanReader {
           yaml_.fail(entry["name"], fmt::format("there are two stimuli '{}'", stimulus.name));
       feature.stimuli.push_back(std::move(stimulus));
     }
-    read_checks(node, feature);
-    if (node["coverage"]) {
-      const std::vector<std::string> bins = bins_of(feature);
-      for (const YAML::Node& glob : list_of(node, "coverage"))
-        feature.coverage.push_back({read_glob(glob, bins), yaml_.where(glob)});
-    }
-    return feature;
+  }
+
+  void note_globs(const YAML::Node& node, const Feature& feature) {
+    if (!node["coverage"]) return;
+    for (const YAML::Node& glob : list_of(node, "coverage"))
+      globs_.push_back({feature.id, glob, &yaml_});
   }
 
   // Wherever it is looked for, it leads nowhere else.
@@ -281,8 +369,6 @@ class TestplanReader {
   // Scoreboards are known only to the runs: one that none of them has is a check that failed.
   void read_checks(const YAML::Node& node, Feature& feature) const {
     const YAML::Node checks = node["checks"];
-    if (!checks && !node["coverage"])
-      yaml_.fail(node, "'checks' is missing, and so is 'coverage': what must its runs show?");
     if (!checks) return;
     if (!checks.IsMap() || checks.size() == 0)
       yaml_.fail(checks, fmt::format("'checks' wants a map of scoreboards to numbers, got {}",
@@ -321,6 +407,9 @@ class TestplanReader {
 
   const YamlFile& yaml_;
   Pages pages_;
+  std::vector<Feature>&common_, &included_;
+  std::vector<PendingGlob>& globs_;
+  bool includes_ = false;
 };
 
 std::uint64_t share_of(std::uint64_t number, std::uint64_t divisor) {
@@ -329,7 +418,46 @@ std::uint64_t share_of(std::uint64_t number, std::uint64_t divisor) {
 
 }  // namespace
 
-Testplan read_testplan(const fs::path& file) { return TestplanReader(YamlFile(file)).read(); }
+Testplan read_testplan(const fs::path& file) {
+  Testplan plan;
+  std::vector<Feature> common;
+  std::vector<PendingGlob> globs;
+  std::deque<YamlFile> files;
+  const auto open = [&](const fs::path& name) {
+    files.emplace_back(name);
+    return TestplanFile(files.back(), common, plan.features, globs);
+  };
+  const auto note_pages = [&](const TestplanFile& read) {
+    for (const fs::path& page : read.pages())
+      if (std::find(plan.pages.begin(), plan.pages.end(), page) == plan.pages.end())
+        plan.pages.push_back(page);
+  };
+  TestplanFile whole = open(file);
+  plan.included = whole.read_whole(plan);
+  note_pages(whole);
+  for (const fs::path& included : plan.included) {
+    TestplanFile part = open(included);
+    part.read_part();
+    note_pages(part);
+  }
+  for (const PendingGlob& glob : globs)
+    TestplanFile(*glob.yaml, common, plan.features, globs).read(glob);
+  plan.features.insert(plan.features.end(), std::make_move_iterator(common.begin()),
+                       std::make_move_iterator(common.end()));
+  const auto require = [&](bool has, const Feature& feature, const char* what) {
+    if (!has)
+      throw spec::ConfigError(
+          fmt::format("{}: the feature '{}' has no {}, and no file that the plan "
+                      "includes adds some",
+                      file.string(), feature.id, what));
+  };
+  for (const Feature& feature : plan.features) {
+    require(!feature.traces.empty(), feature, "traces");
+    require(!feature.stimuli.empty(), feature, "stimuli");
+    require(!feature.checks.empty() || !feature.coverage.empty(), feature, "checks");
+  }
+  return plan;
+}
 
 Testplan part_of(Testplan testplan, std::uint64_t divisor) {
   if (divisor == 1) return testplan;

@@ -47,12 +47,17 @@ struct Feature {
 
 struct Testplan {
   std::filesystem::path file;
+  std::vector<std::filesystem::path> included;  // that add features and stimuli to it
   std::string name, title;
   std::uint64_t divisor = 1;  // of N seeds there are N / divisor
   std::vector<Feature> features;
   std::vector<std::filesystem::path> pages;  // that were found
 };
 
+// With the files that it includes: `include: ["../engines/*/smoke.yaml"]` stands for one of each
+// engine, in their order. Their features come before those of the file itself; one whose id there
+// is already adds to it.
+//
 // ConfigError with file and line for everything that cannot be meant: unknown keys and parameters,
 // features and stimuli of one name, sentences that no page has, bins that no engine has. Pages are
 // looked for in the folder of the testplan and in those around it.

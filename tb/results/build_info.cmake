@@ -12,7 +12,7 @@ else()
 endif()
 # Documentation, tests and what only starts runs or shows results change no result.
 set(folders)
-foreach(folder spec golden rtl_model tb/app tb/env tb/harness tb/results tb/scene)
+foreach(folder spec golden rtl_model tb/app tb/engines tb/env tb/harness tb/results tb/scene)
   list(APPEND folders "${SOURCE}/${folder}/*.h" "${SOURCE}/${folder}/*.cpp")
 endforeach()
 file(GLOB_RECURSE sources RELATIVE "${SOURCE}" ${folders})

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "spec/error.h"
-#include "tb/results/file.h"
+#include "tb/base/file.h"
 #include "tb/results/result.h"
 
 namespace deburr::tb {

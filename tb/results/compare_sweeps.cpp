@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "spec/error.h"
+#include "tb/base/file.h"
 #include "tb/results/compare_runs.h"
-#include "tb/results/file.h"
 #include "tb/results/input_files.h"
 
 namespace deburr::tb {

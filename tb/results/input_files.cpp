@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "spec/error.h"
-#include "tb/results/file.h"
+#include "tb/base/file.h"
 
 namespace deburr::tb {
 namespace {

@@ -18,8 +18,10 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "spec/check_build.h"
 #include "spec/parameters.h"
 
 namespace deburr::tb {
@@ -55,6 +57,13 @@ inline std::string_view kind_name(const Parameter& parameter) {
   return kParameterKindNames[static_cast<std::size_t>(parameter.kind)];
 }
 
+// A rule of what can be built, beyond the ranges of its parameters.
+struct BuildLimit {
+  std::vector<std::string> parameters;  // the first is the one that it is about
+  std::string must;                     // "must be a power of two"
+  friend bool operator==(const BuildLimit&, const BuildLimit&) = default;
+};
+
 // The name of a choice, in the words of its parameter.
 template <class Enum, std::size_t N>
 std::string_view name_of(Enum value, const std::array<std::string_view, N>& names) {
@@ -70,11 +79,15 @@ class ParameterSet {
     Binder binder(*this, prefix, kind);
     describe(values, binder);
   }
-  // The same of an engine, whose parameters are a struct of Rules and one of Build.
+  // The same of an engine, whose parameters are a struct of Rules and one of Build, with what it
+  // can be built with (spec/check_build.h).
   template <class P>
   void add_engine(std::string_view prefix, P& values) {
     add(prefix, ParameterKind::kRule, static_cast<typename P::Rules&>(values));
     add(prefix, ParameterKind::kBuild, static_cast<typename P::Build&>(values));
+    for (const spec::BuildRule<P>& rule : build_rules(values)) add_build_rule(prefix, rule);
+    build_checks_.push_back(
+        [engine = std::string(prefix), &values] { spec::check_build(engine, values); });
   }
 
   enum class Origin { kCommandLine, kFile };
@@ -100,6 +113,9 @@ class ParameterSet {
   void refuse(std::string_view name, std::string_view why) const;
   // The same for every parameter whose name begins so.
   void refuse_all(std::string_view prefix, std::string_view why) const;
+  // ConfigError if hardware of one of the engines cannot be built, for the first reason.
+  void check_build() const;
+  const std::vector<BuildLimit>& build_limits() const { return build_limits_; }
   // Up to three names that a typing error could have meant, best first.
   std::vector<std::string> near_matches(std::string_view name) const;
   // name -> value for every parameter, in order of declaration.
@@ -152,17 +168,18 @@ class ParameterSet {
     Origin origin;
   };
 
+  template <class P>
+  void add_build_rule(std::string_view prefix, const spec::BuildRule<P>& rule) {
+    BuildLimit limit{{}, std::string(rule.must)};
+    for (const std::string_view name : rule.names)
+      if (!name.empty()) limit.parameters.push_back(std::string(prefix) + "." + std::string(name));
+    build_limits_.push_back(std::move(limit));
+  }
+
   std::vector<Parameter> parameters_;
+  std::vector<BuildLimit> build_limits_;
+  std::vector<std::function<void()>> build_checks_;
   std::map<std::string, Given, std::less<>> given_;
 };
-
-// Smallest number of insertions, deletions, substitutions and swaps of neighbours that turn a into
-// b.
-int edit_distance(std::string_view a, std::string_view b);
-// Up to three of `candidates` close to `name`, best first; for "did you mean".
-std::vector<std::string> near_matches(std::string_view name,
-                                      const std::vector<std::string>& candidates);
-// ": did you mean a, b or c?", or "" without candidates.
-std::string did_you_mean(const std::vector<std::string>& candidates);
 
 }  // namespace deburr::tb

@@ -12,11 +12,11 @@
 #include <utility>
 
 #include "spec/error.h"
+#include "tb/base/atomic_file.h"
+#include "tb/base/file.h"
 #include "tb/results/embedded.h"
-#include "tb/results/file.h"
 #include "tb/results/input_files.h"
 #include "tb/results/result.h"
-#include "tb/scene/image_io.h"
 
 namespace deburr::tb {
 namespace {

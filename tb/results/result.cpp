@@ -6,9 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "spec/error.h"
-#include "tb/results/file.h"
+#include "tb/base/file.h"
+#include "tb/results/result_description.h"
 
 namespace deburr::tb {
 namespace {
@@ -18,190 +24,122 @@ using spec::FileError;
 
 constexpr std::size_t kMaxResultBytes = 64u << 20;
 
-std::string_view name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kPass:
-      return "pass";
-    case Verdict::kFail:
-      return "fail";
-    case Verdict::kUnchecked:
-      return "unchecked";
-  }
-  return "unchecked";
+Json json_of(const WorkValue& value) {
+  return std::visit(
+      [](auto known) {
+        if constexpr (std::is_same_v<decltype(known), std::monostate>)
+          return Json();
+        else
+          return Json(known);
+      },
+      value);
 }
-
-// JSON has no infinity: a PSNR of identical pictures is null, and a flag of its name says why.
-Json to_json(const Quality& quality) {
-  Json json = {{"reference", quality.reference}}, identical = Json::object();
-  const std::pair<const char*, std::optional<double>> values[] = {
-      {"psnr_db", quality.psnr_db},
-      {"psnr_edge_db", quality.psnr_edge_db},
-      {"psnr_silhouette_db", quality.psnr_silhouette_db},
-      {"psnr_before_db", quality.psnr_before_db},
-      {"psnr_edge_before_db", quality.psnr_edge_before_db},
-      {"psnr_silhouette_before_db", quality.psnr_silhouette_before_db}};
-  for (const auto& [name, value] : values) {
-    json[name] = value && std::isfinite(*value) ? Json(*value) : Json();
-    identical[name] = value && std::isinf(*value);
-  }
-  json["identical"] = identical;
+Json json_of(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+Json json_of(const std::vector<LatencyBin>& bins) {
+  Json json = Json::array();
+  for (const LatencyBin& bin : bins) json.push_back({{"from", bin.from}, {"count", bin.count}});
   return json;
 }
-
-// Collects the paths of all numbers and texts below a node: "units.address.busy".
-void collect_meanings(const Json& node, const std::string& path, Json& meanings) {
-  if (node.is_object()) {
-    for (const auto& [key, value] : node.items())
-      collect_meanings(value, path.empty() ? key : fmt::format("{}.{}", path, key), meanings);
-    return;
-  }
-  if (const Statistic* s = find_statistic(path))
-    meanings[path] = {{"unit", s->unit}, {"meaning", s->meaning}};
+Json json_of(const std::vector<MismatchLine>& lines) {
+  Json json = Json::array();
+  for (const MismatchLine& m : lines)
+    json.push_back({{"check", m.check},
+                    {"where", m.where},
+                    {"item", m.item},
+                    {"field", m.field},
+                    {"expected", m.expected},
+                    {"got", m.got}});
+  return json;
 }
-
-Json to_json(const LinkFigures& link) {
-  std::uint64_t all = 0, occupancy = 0, most = 0;
-  for (std::size_t beats = 0; beats < link.clocks.size(); ++beats) {
-    all += link.clocks[beats];
-    occupancy += beats * link.clocks[beats];
-    if (link.clocks[beats] > 0) most = beats;
-  }
-  const auto mean = [&](std::uint64_t sum) {
-    return all > 0 ? static_cast<double>(sum) / static_cast<double>(all) : 0.0;
-  };
-  return {{"link", link.full_name},
-          {"depth", link.clocks.size() - 1},
-          {"beats", link.beats},
-          {"occupancy", occupancy},
-          {"mean", mean(occupancy)},
-          {"most", most},
-          {"full_percent", 100 * mean(link.clocks.back())},
-          {"histogram", link.clocks}};
-}
-
-}  // namespace
-
-Json to_json(const Result& r) {
-  Json json;
-  json["schema"] = kResultSchema;
-  json["unit"] = r.unit;
-  json["verdict"] = name_of(r.verdict);
-  if (!r.reason.empty()) json["reason"] = r.reason;
-  if (r.interrupted) json["interrupted"] = true;
-  json["checks"] = {{"comparisons", r.comparisons},
-                    {"mismatches", r.mismatches},
-                    {"traffic_comparisons", r.traffic_comparisons},
-                    {"traffic_mismatches", r.traffic_mismatches}};
-  json["scoreboards"] = Json::object();
-  for (const ScoreboardFigures& board : r.scoreboards)
-    json["scoreboards"][board.name] = {{"comparisons", board.comparisons},
-                                       {"mismatches", board.mismatches}};
-  json["cycles"] = r.cycles;
-  json["clock_mhz"] = r.clock_mhz;
-  json["throughput"] = {{"value", r.throughput},
-                        {"unit", r.throughput_unit},
-                        {"bound", r.throughput_bound},
-                        {"bound_meaning", r.throughput_bound_meaning}};
-  Json histogram = Json::array();
-  for (const LatencyBin& bin : r.latency.histogram)
-    histogram.push_back({{"from", bin.from}, {"count", bin.count}});
-  json["latency"] = {{"unit", "clk"},         {"min", r.latency.min}, {"p50", r.latency.p50},
-                     {"p95", r.latency.p95},  {"p99", r.latency.p99}, {"max", r.latency.max},
-                     {"histogram", histogram}};
-  json["memory"] = {{"bytes_read", r.bytes_read},
-                    {"bytes_written", r.bytes_written},
-                    {"lines_filled", r.lines_filled}};
-  json["units"] = Json::object();
-  for (const UnitCycles& unit : r.units) {
-    Json stalls = Json::object();
-    for (const StallCycles& stall : unit.stalls) stalls[stall.cause] = stall.cycles;
-    json["units"][unit.name] = {{"busy", unit.busy}, {"idle", unit.idle}, {"stalls", stalls}};
-  }
-  if (r.bottleneck)
-    json["bottleneck"] = {{"unit", r.bottleneck->unit},
-                          {"cause", r.bottleneck->cause},
-                          {"cycles", r.bottleneck->cycles},
-                          {"meaning", r.bottleneck->meaning}};
-  json["memories"] = Json::object();
-  Json idealised = Json::object();
-  for (const MemoryFigures& m : r.memories) {
-    json["memories"][m.name] = {{"content", m.content},
-                                {"kind", m.kind},
-                                {"words", m.words},
-                                {"word_bits", m.word_bits},
-                                {"ports", m.ports},
-                                {"read_latency", m.read_latency},
-                                {"built_as", m.built_as},
-                                {"copies", m.copies},
-                                {"banks", m.banks},
-                                {"logical_bits", m.logical_bits},
-                                {"physical_bits", m.physical_bits},
-                                {"logical_bits_at_frame_width", m.logical_bits_at_frame_width}};
-    if (m.high_water) json["memories"][m.name]["high_water"] = *m.high_water;
-    if (!m.idealised.empty()) idealised[m.name] = m.idealised;
-  }
-  json["memory_bits"] = Json::object();
-  for (const MemoryBits& bits : memory_bits(r.memories))
-    json["memory_bits"][std::string(bits.kind)] = {
-        {"memories", bits.memories},
-        {"logical", bits.logical},
-        {"physical", bits.physical},
-        {"logical_at_frame_width", bits.logical_at_frame_width}};
-  if (!idealised.empty()) json["idealised"] = idealised;
-  if (!r.links.empty()) json["links"] = Json::object();
-  for (const LinkFigures& link : r.links) json["links"][link.name] = to_json(link);
-  if (!r.maps.empty()) json["maps"] = Json::object();
-  for (const MapFigures& m : r.maps)
-    json["maps"][m.name] = {{"title", m.title},
-                            {"meaning", m.meaning},
-                            {"unit", m.unit},
-                            {"picture", fmt::format("map_{}.png", m.name)},
-                            {"values", fmt::format("map_{}.pfm", m.name)},
-                            {"pixels", m.pixels},
-                            {"min", m.min},
-                            {"max", m.max},
-                            {"mean", m.pixels > 0 ? m.sum / static_cast<double>(m.pixels) : 0.0},
-                            {"sum", m.sum},
-                            {"checked_against", m.account}};
-  json["work"] = Json::object();
-  for (const WorkItem& item : r.work) json["work"][item.name] = item.value;
-  if (!r.notes.empty()) json["notes"] = r.notes;
-  if (!r.first_mismatches.empty()) json["first_mismatches"] = Json::array();
-  for (const MismatchLine& m : r.first_mismatches)
-    json["first_mismatches"].push_back({{"check", m.check},
-                                        {"where", m.where},
-                                        {"item", m.item},
-                                        {"field", m.field},
-                                        {"expected", m.expected},
-                                        {"got", m.got}});
-  json["figures"] = Json::array();
-  for (const Figure& figure : r.figures) {
+Json json_of(const std::vector<Figure>& figures) {
+  Json json = Json::array();
+  for (const Figure& figure : figures) {
     Json entry = {{"label", figure.label}, {"key", figure.key}};
     if (!figure.against_label.empty()) entry["against"] = {{"label", figure.against_label}};
     if (!figure.against.empty()) entry["against"]["key"] = figure.against;
     if (figure.tile) entry["tile"] = true;
-    json["figures"].push_back(entry);
+    json.push_back(entry);
   }
-  if (r.quality) json["quality"] = to_json(*r.quality);
-  json["host"] = {{"seconds", r.host_seconds},
-                  {"mcycles_per_s", r.mcycles_per_s()},
-                  {"cpu_seconds", r.host_cpu_seconds}};
-  Json meanings = Json::object();
-  collect_meanings(json, "", meanings);
-  for (const UnitCycles& unit : r.units)
-    for (const StallCycles& stall : unit.stalls)
-      meanings[fmt::format("units.{}.stalls.{}", unit.name, stall.cause)] = {
-          {"unit", "clk"}, {"meaning", stall.meaning}};
-  for (const WorkItem& item : r.work)
-    meanings["work." + item.name] = {{"unit", item.unit}, {"meaning", item.meaning}};
-  if (r.coverage) {
-    json["coverage"] = {{"bins", *r.coverage}};
-    const Statistic* s = find_statistic("coverage.bins");  // one for all bins, which are many
-    meanings["coverage.bins"] = {{"unit", s->unit}, {"meaning", s->meaning}};
-  }
-  json["meaning"] = meanings;
   return json;
 }
+template <class T>
+Json json_of(const T& value) {
+  return Json(value);
+}
+
+// The file, with unit and meaning of each value by its path: "units.address.busy".
+class ResultWriter {
+ public:
+  explicit ResultWriter(const Result& result) { describe(result, *this); }
+  Json file() && {
+    Json meanings = Json::object();
+    for (const auto& list : {meanings_, last_meanings_})
+      for (const auto& [path, meaning] : list) meanings[path] = meaning;
+    json_["meaning"] = std::move(meanings);
+    return std::move(json_);
+  }
+
+  bool has(bool there) const { return there; }
+  template <class T>
+  void value(std::string_view name, const T& value, std::string_view unit,
+             std::string_view meaning) {
+    within(name, [&] { item(value, unit, meaning); });
+  }
+  // Many values with one meaning.
+  void value(std::string_view name, const std::map<std::string, std::uint64_t>& values,
+             std::string_view unit, std::string_view meaning) {
+    within(name, [&] { declared_item(values, unit, meaning); });
+  }
+  template <class Body>
+  void group(std::string_view name, const Body& body) {
+    within(name, [&] {
+      *node_ = Json::object();
+      body();
+    });
+  }
+  template <class Items, class Key, class Body>
+  void each(std::string_view name, const Items& items, Key key, const Body& body) {
+    group(name, [&] {
+      for (const auto& item : items) group(item.*key, [&] { body(item); });
+    });
+  }
+  template <class T>
+  void item(const T& value, std::string_view unit, std::string_view meaning) {
+    *node_ = json_of(value);
+    meanings_.emplace_back(path_, Json{{"unit", unit}, {"meaning", meaning}});
+  }
+  template <class T>
+  void item(const T& value, std::string_view unit, std::string_view, std::string_view own) {
+    item(value, unit, own);
+  }
+  // What an engine declares stands behind what every engine has.
+  template <class T>
+  void declared_item(const T& value, std::string_view unit, std::string_view meaning) {
+    *node_ = json_of(value);
+    last_meanings_.emplace_back(path_, Json{{"unit", unit}, {"meaning", meaning}});
+  }
+
+ private:
+  template <class Body>
+  void within(std::string_view name, const Body& body) {
+    Json* const outer = node_;
+    const std::size_t length = path_.size();
+    path_ += fmt::format("{}{}", path_.empty() ? "" : ".", name);
+    node_ = &(*outer)[std::string(name)];
+    body();
+    node_ = outer;
+    path_.resize(length);
+  }
+
+  Json json_;
+  Json* node_ = &json_;
+  std::string path_;
+  std::vector<std::pair<std::string, Json>> meanings_, last_meanings_;
+};
+
+}  // namespace
+
+Json to_json(const Result& result) { return ResultWriter(result).file(); }
 
 // ---- memories -----------------------------------------------------------------------------------
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What a run measured, and its file result.json (schema 3, docs/exploration.md).
 //
-// Written by an engine at the end of a run, read by `deburr report` and `deburr compare`. Unit and
-// meaning of each key travel with the file under "meaning": those of every engine come from
-// statistics(), those of an engine's counters and stall causes from their declaration in the model.
+// Written by an engine at the end of a run, read by `deburr report` and `deburr compare`. Its keys
+// are described in result_description.h. Unit and meaning of each travel with the file, under
+// "meaning"; those of an engine's counters and stall causes come from their declaration.
 #pragma once
 
 #include <cmath>
@@ -11,11 +11,12 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace deburr::tb {
@@ -36,10 +37,13 @@ struct UnitCycles {
   std::vector<StallCycles> stalls;
 };
 
+// null in the file: not known of this run.
+using WorkValue = std::variant<std::monostate, std::uint64_t, double, bool>;
+
 // A counter of one engine: "work.<name>".
 struct WorkItem {
   std::string name;
-  nlohmann::ordered_json value;
+  WorkValue value;
   std::string unit, meaning;
 };
 

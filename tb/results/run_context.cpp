@@ -5,15 +5,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
 
 #include "spec/error.h"
+#include "tb/base/atomic_file.h"
+#include "tb/base/file.h"
+#include "tb/base/interrupt.h"
 #include "tb/results/build_info.h"
-#include "tb/results/file.h"
-#include "tb/results/interrupt.h"
 #include "tb/results/report.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/truth.h"
@@ -33,6 +36,13 @@ std::string now_utc() {
                      fmt::gmtime(std::chrono::system_clock::to_time_t(now)));
 }
 
+// What a run leaves without having declared it could replace a file of somebody else.
+void check_declared(const std::string& name, const std::vector<std::string>& declared,
+                    std::string_view what) {
+  DEBURR_CHECK(std::find(declared.begin(), declared.end(), name) != declared.end(),
+               fmt::format("the engine declares no {} '{}'", what, name));
+}
+
 }  // namespace
 
 Json golden_dependencies(const ParameterSet& parameters, std::uint64_t seed,
@@ -45,13 +55,19 @@ Json golden_dependencies(const ParameterSet& parameters, std::uint64_t seed,
   return key;
 }
 
+struct RunContext::Listed {
+  Json inputs = Json::array(), images = Json::array(), records = Json::object();
+};
+
 RunContext::RunContext(fs::path directory, const ParameterSet& parameters, std::string command,
                        std::uint64_t seed)
     : directory_(std::move(directory)),
       parameters_(parameters),
       command_(std::move(command)),
       started_(now_utc()),
-      seed_(seed) {}
+      seed_(seed),
+      listed_(std::make_unique<Listed>()) {}
+RunContext::~RunContext() = default;
 
 fs::path RunContext::draft_file(const char* name) const {
   return judging_only_ ? "/dev/null" : directory_.draft() / name;
@@ -73,11 +89,9 @@ void RunContext::claim(IfTaken if_taken) {
   for (const auto& [parameter, nothing, file] : kAsked)
     if (is_set(parameter, nothing)) names.emplace_back(file);
   if (is_set("run.maps", "false"))
-    for (const std::string_view name : kMapNames)
-      for (const char* part : {"", "texture_", "geometric_", "morphological_"})
-        for (const char* kind : {"png", "pfm"})
-          names.push_back(fmt::format("map_{}{}.{}", part, name, kind));
-  for (const std::string_view name : kPictureNames) names.push_back(fmt::format("{}.png", name));
+    for (const std::string& name : leaves_.maps)
+      for (const char* kind : {"png", "pfm"}) names.push_back(fmt::format("map_{}.{}", name, kind));
+  for (const std::string& name : leaves_.pictures) names.push_back(fmt::format("{}.png", name));
   directory_.claim(command_, std::move(names), if_taken);
 }
 
@@ -126,36 +140,36 @@ void RunContext::list(const fs::path& file, std::string_view content, std::strin
   Json entry = input_entry(file, content, role);
   std::error_code error;
   if (entry.contains("sha256")) entry["bytes"] = fs::file_size(file, error);
-  inputs_.push_back(std::move(entry));
+  listed_->inputs.push_back(std::move(entry));
 }
 
 void RunContext::add_image(const std::string& name, const Image& image, std::string title,
                            std::string caption) {
-  DEBURR_CHECK(std::find(kPictureNames.begin(), kPictureNames.end(), name) != kPictureNames.end(),
-               "kPictureNames lacks " + name);
+  check_declared(name, leaves_.pictures, "picture");
   const Parameter* wanted = parameters_.find("run.images");
   if (wanted != nullptr && wanted->text() == "false") return;
   write_image(directory_.draft() / (name + ".png"), image);
-  images_.push_back({{"file", name + ".png"},
-                     {"role", name},
-                     {"title", std::move(title)},
-                     {"caption", std::move(caption)}});
+  listed_->images.push_back({{"file", name + ".png"},
+                             {"role", name},
+                             {"title", std::move(title)},
+                             {"caption", std::move(caption)}});
 }
 
 void RunContext::add_map(const PictureMap& map) {
+  check_declared(map.name, leaves_.maps, "map");
   const std::string file = fmt::format("map_{}", map.name);
   write_image(directory_.draft() / (file + ".png"), picture_of(map));
   write_file_atomically(directory_.draft() / (file + ".pfm"), pfm_of(map));
-  images_.push_back({{"file", file + ".png"},
-                     {"role", file},
-                     {"title", "Map: " + map.title},
-                     {"caption", fmt::format("{} Values in {}.pfm.", map.meaning, file)}});
+  listed_->images.push_back({{"file", file + ".png"},
+                             {"role", file},
+                             {"title", "Map: " + map.title},
+                             {"caption", fmt::format("{} Values in {}.pfm.", map.meaning, file)}});
 }
 
 void RunContext::add_record(const std::string& kind, std::string_view file,
                             std::string_view content) {
   write_file_atomically(directory_.draft() / file, content);
-  records_[kind] = file;
+  listed_->records[kind] = file;
 }
 
 // A hash of all that decides what the golden model computes: two runs with the same one have the
@@ -168,7 +182,7 @@ std::string RunContext::golden_key() const {
   for (const Parameter& p : parameters_.all())
     if (p.name.ends_with("error_address") && p.text() != p.default_value)
       key["build"] = parameters_.resolved(ParameterKind::kBuild);
-  for (const Json& input : inputs_)
+  for (const Json& input : listed_->inputs)
     if (!input.contains("role")) key["files"].push_back(listed_content(input));
   return sha256(key.dump());
 }
@@ -220,10 +234,10 @@ Json RunContext::manifest(const Result& result) const {
   json["rules"] = parameters_.resolved(ParameterKind::kRule);
   json["build"] = parameters_.resolved(ParameterKind::kBuild);
   json["golden"] = golden_key();
-  json["inputs"] = inputs_;
+  json["inputs"] = listed_->inputs;
   json["host"] = {{"seconds", result.host_seconds}, {"mcycles_per_s", result.mcycles_per_s()}};
-  json["images"] = images_;
-  if (!records_.empty()) json["records"] = records_;
+  json["images"] = listed_->images;
+  if (!listed_->records.empty()) json["records"] = listed_->records;
   json["parameters"] = Json::array();
   for (const Parameter& p : parameters_.all())
     json["parameters"].push_back({{"name", p.name},

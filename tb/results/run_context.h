@@ -8,13 +8,12 @@
 //   context.finish(result);         // without it, an earlier run's results stay as they were
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,16 +28,13 @@
 
 namespace deburr::tb {
 
-// Every picture that a run may leave.
-inline constexpr std::array<std::string_view, 11> kPictureNames = {
-    "before", "after", "golden",  "difference", "truth",       "error",
-    "change", "edges", "weights", "classes",    "edge_weights"};
-
 inline constexpr std::string_view kWindowsFile = "windows.json", kTimelineFile = "timeline.json";
-// Every map, in front of which an engine in a composition puts its name.
-inline constexpr std::array<std::string_view, 11> kMapNames = {
-    "samples", "level", "misses", "latency", "edges",      "run_length",
-    "steps",   "lines", "passed", "weight",  "depth_reads"};
+
+// Names of what a run may leave for people to look at, as its engine declares them.
+struct Leaves {
+  std::vector<std::string> pictures, maps;
+};
+
 // What a golden result depends on, by name and value; files by their names.
 nlohmann::ordered_json golden_dependencies(const ParameterSet& parameters, std::uint64_t seed,
                                            const std::vector<std::string_view>& built);
@@ -48,6 +44,7 @@ class RunContext {
   // `command` is the line that repeats the run.
   RunContext(std::filesystem::path directory, const ParameterSet& parameters, std::string command,
              std::uint64_t seed);
+  ~RunContext();
   // Nothing on the error stream but errors.
   void set_quiet(bool quiet) { quiet_ = quiet; }
   bool quiet() const { return quiet_; }
@@ -85,6 +82,8 @@ class RunContext {
   // What had to be decided about an input (a mesh without normals): on the error stream, in result
   // and report.
   void add_note(const std::string& note);
+  // Before claim(), which refuses to replace what somebody else left under one of these names.
+  void set_leaves(Leaves leaves) { leaves_ = std::move(leaves); }
   // The directory is this run's from here on (RunDirectory::claim).
   void claim(IfTaken if_taken = IfTaken::kRefuse);
   // Lists files that the result depends on, those too that were looked for in vain. ConfigError if
@@ -97,11 +96,11 @@ class RunContext {
   std::filesystem::path trace_file() const { return draft_file("trace.vcd"); }
   std::filesystem::path line_trace_file() const { return draft_file("lines.trace"); }
   std::filesystem::path fragment_trace_file() const { return draft_file("fragments.trace"); }
-  // Writes NAME.png and lists it for the report. NAME, which is the role too, is one of
-  // kPictureNames.
+  // Writes NAME.png and lists it for the report. NAME, which is the role too, is one of the
+  // pictures that the run may leave.
   void add_image(const std::string& name, const Image& image, std::string title,
                  std::string caption);
-  // map_NAME.png, listed for the report, and map_NAME.pfm.
+  // map_NAME.png, listed for the report, and map_NAME.pfm; NAME is one of its maps.
   void add_map(const PictureMap& map);
   // A file of the run beside its result: `kind` is what the manifest's "records" calls it.
   void add_record(const std::string& kind, std::string_view file, std::string_view content);
@@ -127,11 +126,11 @@ class RunContext {
   std::uint64_t seed_;
   bool quiet_ = false, judging_only_ = false, report_ = true;
   std::shared_ptr<SharedInputs> shared_;
+  Leaves leaves_;
   std::vector<std::filesystem::path> shared_files_;
   std::vector<std::string> notes_;
-  nlohmann::ordered_json inputs_ = nlohmann::ordered_json::array();
-  nlohmann::ordered_json images_ = nlohmann::ordered_json::array();
-  nlohmann::ordered_json records_ = nlohmann::ordered_json::object();
+  struct Listed;  // of the manifest
+  std::unique_ptr<Listed> listed_;
 };
 
 }  // namespace deburr::tb

@@ -14,14 +14,15 @@
 #include <chrono>
 #include <cstring>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <system_error>
 #include <thread>
 #include <utility>
 
 #include "spec/error.h"
-#include "tb/results/file.h"
-#include "tb/results/interrupt.h"
-#include "tb/scene/image_io.h"
+#include "tb/base/atomic_file.h"
+#include "tb/base/file.h"
+#include "tb/base/interrupt.h"
 #include "tb/scene/truth.h"
 
 namespace deburr::tb {

@@ -1,129 +1,62 @@
 // SPDX-License-Identifier: MIT
-#include <array>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "tb/results/result.h"
+#include "tb/results/result_description.h"
 
 namespace deburr::tb {
 namespace {
 
-constexpr std::array kStatistics = {
-    Statistic{"schema", "", "Version of this file's layout."},
-    Statistic{"unit", "", "The engine that ran."},
-    Statistic{"verdict", "", "pass, fail, or unchecked when no golden model ran beside it."},
-    Statistic{"reason", "", "Why the run failed or is not complete."},
-    Statistic{"interrupted", "", "The run was ended by a signal; counters cover what was done."},
-    Statistic{"checks.comparisons", "value", "Outputs compared with the golden model."},
-    Statistic{"checks.mismatches", "value", "Outputs that differ from the golden model."},
-    Statistic{"checks.traffic_comparisons", "line",
-              "Memory accesses compared with the golden model's prediction, in order."},
-    Statistic{"checks.traffic_mismatches", "line",
-              "Memory accesses that differ from the prediction."},
-    Statistic{"scoreboards.*.comparisons", "value", "What one scoreboard compared with golden."},
-    Statistic{"scoreboards.*.mismatches", "value", "What of it differs, or never came."},
-    Statistic{"cycles", "clk", "From the end of reset to the last output."},
-    Statistic{"clock_mhz", "MHz", "Clock that rates and times are quoted for."},
-    Statistic{"throughput.value", "see throughput.unit", "Work over cycles of the whole run."},
-    Statistic{"throughput.unit", "", "Unit of the rate."},
-    Statistic{"throughput.bound", "see throughput.unit", "What the hardware could do at best."},
-    Statistic{"throughput.bound_meaning", "", "Where the bound comes from."},
-    Statistic{"latency.unit", "", "Unit of the latencies."},
-    Statistic{"latency.min", "clk", "Shortest latency of a transaction, input taken to output."},
-    Statistic{"latency.p50", "clk", "Half of all transactions are at most this slow."},
-    Statistic{"latency.p95", "clk", "95 % of all transactions are at most this slow."},
-    Statistic{"latency.p99", "clk", "99 % of all transactions are at most this slow."},
-    Statistic{"latency.max", "clk", "Longest latency of a transaction."},
-    Statistic{"latency.histogram", "clk, transactions",
-              "Bins: transactions with a latency of at least `from` and below the next bin's."},
-    Statistic{"memory.bytes_read", "byte", "Bytes read from memory."},
-    Statistic{"memory.bytes_written", "byte", "Bytes written to memory."},
-    Statistic{"memory.lines_filled", "line",
-              "Reads of memory: lines of the cache, or of the frame where it waits in memory."},
-    Statistic{"units.*.busy", "clk",
-              "Cycles in which the unit did work, on one lane at least, or had some under way."},
-    Statistic{"units.*.idle", "clk",
-              "Cycles in which the unit had nothing to do, or only waited for answers of memory."},
-    Statistic{"units.*.stalls.*", "clk",
-              "Cycles in which the unit had work and could do none of it."},
-    Statistic{"bottleneck.unit", "", "The unit that held the run back most."},
-    Statistic{"bottleneck.cause", "", "Its stall cause, or busy where it worked all the time."},
-    Statistic{"bottleneck.cycles", "clk", "Cycles of that unit that went there."},
-    Statistic{"bottleneck.meaning", "", "What the cause means."},
-    Statistic{"memories.*.content", "", "What a memory of the model holds."},
-    Statistic{"memories.*.kind", "", "flops, sram or rom."},
-    Statistic{"memories.*.words", "word", "Words, as built."},
-    Statistic{"memories.*.word_bits", "bit", "Bits of a word."},
-    Statistic{"memories.*.ports", "", "Reads (R), writes (W) and either (RW) in a clock."},
-    Statistic{"memories.*.high_water", "word", "Most entries at a time; of a FIFO."},
-    Statistic{"memories.*.read_latency", "clk", "From a read to its word; 0: the same clock."},
-    Statistic{"memories.*.built_as", "", "The memories that can be bought, from which it is made."},
-    Statistic{"memories.*.copies", "", "Copies with the same words, for more read ports."},
-    Statistic{"memories.*.banks", "", "Banks that share the words."},
-    Statistic{"memories.*.logical_bits", "bit", "Words x bits of a word."},
-    Statistic{"memories.*.physical_bits", "bit",
-              "Bits that are built: with copies, and with the words that fill up the last bank."},
-    Statistic{"memories.*.logical_bits_at_frame_width", "bit",
-              "logical_bits if it were built for the width of this frame."},
-    Statistic{"memory_bits.*.memories", "",
-              "Memories of a kind (flops, sram, rom), and of all kinds (total)."},
-    Statistic{"memory_bits.*.logical", "bit", "Their logical bits."},
-    Statistic{"memory_bits.*.physical", "bit", "Their physical bits."},
-    Statistic{"memory_bits.*.logical_at_frame_width", "bit",
-              "Their logical bits for the width of this frame."},
-    Statistic{"links.*.link", "",
-              "Full name of a link or of what is inside a FIFO, to choose waves by. Links are "
-              "there in runs with run.window_cycles."},
-    Statistic{"links.*.depth", "beat", "Beats that it holds."},
-    Statistic{"links.*.beats", "beat", "Beats that went in."},
-    Statistic{"links.*.occupancy", "beat x clk", "Beats inside at the end of each clock, summed."},
-    Statistic{"links.*.mean", "beat", "Occupancy over clocks."},
-    Statistic{"links.*.most", "beat", "Most beats inside at the end of a clock."},
-    Statistic{"links.*.full_percent", "%", "Clocks at whose end it was full."},
-    Statistic{"links.*.histogram", "clk", "Clocks by the number of beats inside, from 0 to depth."},
-    Statistic{"maps.*.title", "", "Of a map over the picture, in runs with run.maps."},
-    Statistic{"maps.*.meaning", "", "What its values are."},
-    Statistic{"maps.*.unit", "", "Unit of its values."},
-    Statistic{"maps.*.picture", "", "File in false colours, with the scale."},
-    Statistic{"maps.*.values", "",
-              "File of the values: portable float map, a 32-bit float a pixel, rows from the "
-              "bottom; NaN where there is nothing."},
-    Statistic{"maps.*.pixels", "pixel", "Pixels with a value."},
-    Statistic{"maps.*.min", "see maps.*.unit", "Smallest value."},
-    Statistic{"maps.*.max", "see maps.*.unit", "Largest value."},
-    Statistic{"maps.*.mean", "see maps.*.unit", "Mean of the pixels with a value."},
-    Statistic{"maps.*.sum", "see maps.*.unit", "Sum of all values."},
-    Statistic{"maps.*.checked_against", "",
-              "What the model counted by itself, and the map had to come to; empty: nothing."},
-    Statistic{"idealised.*", "",
-              "Why no technology offers this memory. Such a result is of no hardware that can be "
-              "built."},
-    Statistic{"notes", "", "What had to be decided about an input, such as 16 bits made 8."},
-    Statistic{"first_mismatches", "",
-              "The first mismatches of each check: where, which item and field, expected and got."},
-    Statistic{"coverage.bins", "hit",
-              "Functional coverage, in runs with run.coverage: every bin of the run's engines "
-              "(docs/coverage.md) with how often it was met; 0: a hole. A merge of runs is a sum."},
-    Statistic{"figures", "", "Keys of this file that a reader looks for first."},
-    Statistic{"quality.reference", "", "What the picture is compared with."},
-    Statistic{"quality.psnr_db", "dB",
-              "PSNR over the frame; null where quality.identical.psnr_db is true."},
-    Statistic{"quality.psnr_edge_db", "dB",
-              "PSNR over edge pixels: truth and unfiltered input differ by more than 2/255."},
-    Statistic{"quality.psnr_silhouette_db", "dB",
-              "PSNR over edge pixels with a relative depth step of 5 % to a neighbour."},
-    Statistic{"quality.psnr_before_db", "dB", "The same of the picture that went in."},
-    Statistic{"quality.psnr_edge_before_db", "dB", "The same of the picture that went in."},
-    Statistic{"quality.psnr_silhouette_before_db", "dB", "The same of the picture that went in."},
-    Statistic{"quality.identical.*", "",
-              "Whether both pictures agree in each pixel that counts for the PSNR of this name, "
-              "which would be infinite and is null. Null without it: there is no such pixel."},
-    Statistic{"host.seconds", "s", "Time of the simulation on this host, set-up not included."},
-    Statistic{"host.cpu_seconds", "s",
-              "The same as time of the processor: not that of other programs."},
-    Statistic{"host.mcycles_per_s", "Mcycle/s", "Simulated cycles a second of host time."},
+// The table of all keys: a visitor that sees everything that a run may have.
+class ResultKeys {
+ public:
+  ResultKeys() { describe(Result{}, *this); }
+  std::span<const Statistic> all() const { return rows_; }
+
+  bool has(bool) const { return true; }
+  template <class T>
+  void value(std::string_view name, const T& value, std::string_view unit,
+             std::string_view meaning) {
+    within(name, [&] { item(value, unit, meaning); });
+  }
+  template <class Body>
+  void group(std::string_view name, const Body& body) {
+    within(name, body);
+  }
+  template <class Items, class Key, class Body>
+  void each(std::string_view name, const Items&, Key, const Body& body) {
+    within(name, [&] { within("*", [&] { body(typename Items::value_type{}); }); });
+  }
+  template <class T>
+  void item(const T&, std::string_view unit, std::string_view meaning, std::string_view = {}) {
+    rows_.push_back({names_.emplace_back(path_), unit, meaning});
+  }
+  template <class T>
+  void declared_item(const T&, std::string_view, std::string_view) {}
+
+ private:
+  template <class Body>
+  void within(std::string_view name, const Body& body) {
+    const std::size_t length = path_.size();
+    if (!path_.empty()) path_ += '.';
+    path_ += name;
+    body();
+    path_.resize(length);
+  }
+
+  std::string path_;
+  std::deque<std::string> names_;
+  std::vector<Statistic> rows_;
 };
 
 }  // namespace
 
-std::span<const Statistic> statistics() { return kStatistics; }
+std::span<const Statistic> statistics() {
+  static const ResultKeys keys;
+  return keys.all();
+}
 
 }  // namespace deburr::tb

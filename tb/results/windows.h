@@ -3,7 +3,7 @@
 // keys of result.json (schema 1, docs/statistics.md). WindowRecorder makes it.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 
 #include "tb/results/result.h"

@@ -19,7 +19,7 @@ const ImageCodec* load() {
     throw spec::FileError(fmt::format(
         "images cannot be read, nor written but as PNG: the module {0} cannot be loaded ({1}); put "
         "the {0} of the same build beside the program, and install OpenImageIO (in the repository: "
-        "scripts/install modules && scripts/demo)",
+        "scripts/demo --complete)",
         kImageModule, ::dlerror()));
   return reinterpret_cast<Entry>(symbol)();
 }

@@ -14,6 +14,7 @@
 #include <memory>
 
 #include "spec/error.h"
+#include "tb/base/atomic_file.h"
 #include "tb/scene/image_codec.h"
 #include "tb/scene/png.h"
 #include "tb/scene/textures.h"

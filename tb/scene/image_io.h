@@ -58,9 +58,4 @@ void write_image(const std::filesystem::path& path, const FloatImage& image);
 void write_depth24(const std::filesystem::path& path, const DepthImage& depth);
 void write_mask(const std::filesystem::path& path, const Mask& mask);  // 0 and 255
 
-// Writes `bytes` to a temporary file in the same folder, fsyncs, closes, checks the size and
-// renames it to `path`. Every step is checked: a full disk is reported here and the old file stays
-// as it was.
-void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
-
 }  // namespace deburr::tb

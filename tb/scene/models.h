@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Meshes by formula for the geometric engine: the four models of paper 002, a sphere and a terrain.
+// Meshes by formula, made for engines that draw edges: the four models of paper 002, a sphere and a
+// terrain.
 //
 // Counter-clockwise seen from outside, welded (a place has one position, bit for bit), with vertex
 // normals that are smooth where faces meet at less than 40 degrees and split where they do not.

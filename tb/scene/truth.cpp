@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "spec/error.h"
+#include "tb/base/interrupt.h"
 #include "tb/scene/setup.h"
 #include "tb/scene/textures.h"
 

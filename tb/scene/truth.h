@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <exception>
 #include <functional>
 
 #include "tb/scene/image.h"
@@ -22,11 +21,6 @@ enum class Sampling : std::uint8_t { kNearest, kBilinear };  // of level 0 in Sh
 enum class Averaging : std::uint8_t {
   kStored,  // as the texture unit filters stored bytes
   kLinear   // linear light: sRGB curve for kTexture, gamma 2.2 for kLit
-};
-
-// Thrown where work was given up because someone asked for it, and nothing of it is of use.
-struct Interrupted : std::exception {
-  const char* what() const noexcept override { return "interrupted"; }
 };
 
 struct RenderOptions {

@@ -25,7 +25,7 @@
 #include "spec/error.h"
 #include "tb/app/random_configuration.h"
 #include "tb/app/run_once.h"
-#include "tb/results/interrupt.h"
+#include "tb/base/interrupt.h"
 #include "tb/scene/truth.h"
 #include "tb/soak/flat_memory.h"
 
@@ -85,8 +85,9 @@ std::string run(const std::string& engine, const Settings& settings, const fs::p
     said["mismatches"] = end.result.mismatches + end.result.traffic_mismatches;
     said["cycles"] = end.result.cycles;
     std::uint64_t frames = 1;
-    for (const char* const name : {"frame.count", "scene.count"})
-      if (const Parameter* count = bound.set.find(name)) frames = std::stoull(count->text());
+    for (const Parameter& parameter : bound.set.all())
+      if (parameter.kind == ParameterKind::kInput && parameter.name.ends_with(".count"))
+        frames = std::stoull(parameter.text());
     said["frames"] = frames;
     // A run that is over before its reset has had none.
     said["reset"] = bound.run.reset_after > 0 &&
@@ -218,19 +219,14 @@ class Soak {
            (options_.runs > 0 && runs >= options_.runs);
   }
 
-  // Many frames where an engine takes several, else a large picture: a process that works long.
+  // As the engine declares it: a process that works long.
   static void lengthen(const std::string& engine, Settings& settings) {
-    if (engine == "morphological") {
-      settings.insert(settings.end(), {{"frame.count", "300"}});
-    } else if (engine == "geometric") {
-      settings.insert(settings.end(), {{"scene.count", "60"}});
-    } else {
-      // What is built for small pictures alone stays as it is by default.
-      std::erase_if(settings, [](const auto& setting) {
-        return setting.first.ends_with(".line_pixels") || setting.first.ends_with(".touched_words");
-      });
-      settings.insert(settings.end(), {{"scene.width", "321"}, {"scene.height", "243"}});
-    }
+    const LongRun long_run = engine_named(engine)->long_run();
+    std::erase_if(settings, [&](const auto& setting) {
+      return std::any_of(long_run.without.begin(), long_run.without.end(),
+                         [&](std::string_view end) { return setting.first.ends_with(end); });
+    });
+    settings.insert(settings.end(), long_run.settings.begin(), long_run.settings.end());
   }
 
   void one(const std::string& engine, std::uint64_t seed, bool is_long) {
@@ -353,8 +349,11 @@ class Soak {
 
 }  // namespace
 
-int soak(const SoakOptions& options) {
+int soak(SoakOptions options) {
   catch_interrupts();
+  if (options.engines.empty())
+    for (const std::unique_ptr<Engine>& engine : engines())
+      options.engines.emplace_back(engine->name());
   return Soak(options).run();
 }
 

@@ -15,7 +15,7 @@
 namespace deburr::tb {
 
 struct SoakOptions {
-  std::vector<std::string> engines = {"texture", "morphological", "geometric", "frame"};
+  std::vector<std::string> engines;  // none: all
   double seconds = 3600;
   std::uint64_t runs = 0;  // 0: as many as there is time for
   std::uint64_t seed = 1;
@@ -26,6 +26,6 @@ struct SoakOptions {
 
 // Prints as it goes; what it returns is the exit code: 0, 1 for a mismatch, a failure or memory
 // that grew.
-int soak(const SoakOptions& options);
+int soak(SoakOptions options);
 
 }  // namespace deburr::tb

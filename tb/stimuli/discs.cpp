@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "golden/ideal/coverage.h"
+#include "tb/base/random.h"
 #include "tb/stimuli/frames.h"
-#include "tb/stimuli/random.h"
 
 namespace deburr::tb::morphological {
 namespace {

@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "spec/error.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
+#include "tb/stimuli/vector_hash.h"
 
 namespace deburr::tb::stimuli {
 
@@ -44,12 +45,11 @@ Image shades_image(int width, int height) {
   });
 }
 
-// FNV-1a.
 std::uint64_t hash(const Image& image) {
-  std::uint64_t h = 1469598103934665603u;
+  VectorHash hash;
   for (const Rgba8& pixel : image.pixels)
-    for (std::size_t c = 0; c < 3; ++c) h = (h ^ pixel[c]) * 1099511628211u;
-  return h;
+    for (std::size_t c = 0; c < 3; ++c) hash.byte(pixel[c]);
+  return hash.value();
 }
 
 Image checkerboard(int width, int height) {

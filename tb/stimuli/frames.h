@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
+#include "tb/base/random.h"
 #include "tb/scene/image.h"
-#include "tb/stimuli/random.h"
 
 namespace deburr::tb::stimuli {
 

@@ -9,8 +9,8 @@
 #include "golden/ideal/coverage.h"
 #include "golden/morphological/configuration.h"
 #include "golden/morphological/morphological_golden.h"
+#include "tb/base/random.h"
 #include "tb/stimuli/frames.h"
-#include "tb/stimuli/random.h"
 
 namespace deburr::tb::morphological {
 namespace {

@@ -13,7 +13,7 @@
 #include "spec/texture/descriptor.h"
 #include "spec/texture/packets.h"
 #include "spec/texture/parameters.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb {
 
@@ -28,15 +28,7 @@ Enum any_code(Random& random, const std::array<std::string_view, N>&) {
 
 // The defaults with the rules of the paper.
 inline spec::texture::Parameters paper_rules() {
-  spec::texture::Parameters p;
-  const auto& row =
-      spec::texture::kPresets[static_cast<std::size_t>(spec::texture::Preset::kPaper)];
-  p.preset = row.preset;
-  p.axes = row.axes;
-  p.footprint = row.footprint;
-  p.log2 = row.log2;
-  p.count = row.count;
-  return p;
+  return preset_parameters(spec::texture::Preset::kPaper);
 }
 
 // Every rule and kernel; the cache stays as it is.

@@ -12,13 +12,14 @@
 #include <string_view>
 
 #include "spec/error.h"
+#include "tb/base/atomic_file.h"
+#include "tb/base/file.h"
+#include "tb/base/near_matches.h"
 #include "tb/results/build_info.h"
 #include "tb/results/compare_sweeps.h"
 #include "tb/results/embedded.h"
-#include "tb/results/file.h"
 #include "tb/results/report.h"
 #include "tb/results/result.h"
-#include "tb/scene/atomic_file.h"
 
 namespace deburr::tb {
 namespace {

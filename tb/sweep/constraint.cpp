@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "spec/error.h"
+#include "tb/base/near_matches.h"
 
 namespace deburr::tb {
 namespace {

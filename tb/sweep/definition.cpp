@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "spec/error.h"
 #include "tb/app/run_once.h"
-#include "tb/results/yaml_file.h"
+#include "tb/base/near_matches.h"
+#include "tb/base/yaml_file.h"
 
 namespace deburr::tb {
 namespace {
@@ -61,7 +63,8 @@ class Reader {
   }
 
   void read_engine(const YAML::Node& root) {
-    if (!root["engine"]) fail(root, "which engine? Say so: 'engine: texture'");
+    if (!root["engine"])
+      fail(root, fmt::format("which engine? Say so: 'engine: {}'", engines().front()->name()));
     sweep_.engine = scalar(root["engine"], "engine");
     try {
       engine_ = engine_named(sweep_.engine);

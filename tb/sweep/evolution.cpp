@@ -18,8 +18,8 @@ Evolution* load() {
   if (symbol == nullptr)
     throw spec::FileError(fmt::format(
         "nothing can be searched: the module {0} cannot be loaded ({1}); put the {0} of the same "
-        "build beside the program, and install pagmo (in the repository: scripts/install modules "
-        "&& scripts/demo)",
+        "build beside the program, and install pagmo (in the repository: scripts/demo "
+        "--complete)",
         kEvolutionModule, ::dlerror()));
   return reinterpret_cast<Entry>(symbol)();
 }

@@ -18,10 +18,10 @@
 #include <utility>
 
 #include "spec/error.h"
-#include "tb/results/interrupt.h"
+#include "tb/base/atomic_file.h"
+#include "tb/base/interrupt.h"
+#include "tb/base/shell.h"
 #include "tb/results/progress.h"
-#include "tb/results/shell.h"
-#include "tb/scene/image_io.h"
 #include "tb/sweep/worker.h"
 
 namespace deburr::tb {

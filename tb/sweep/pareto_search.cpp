@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "spec/error.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb {
 namespace {

@@ -16,12 +16,12 @@
 #include <utility>
 
 #include "spec/error.h"
+#include "tb/base/atomic_file.h"
+#include "tb/base/file.h"
+#include "tb/base/headline.h"
 #include "tb/results/build_info.h"
-#include "tb/results/file.h"
-#include "tb/results/headline.h"
 #include "tb/results/progress.h"
 #include "tb/results/report.h"
-#include "tb/scene/image_io.h"
 
 namespace deburr::tb {
 namespace {
@@ -91,10 +91,11 @@ std::string in_words(const Plan& plan, const Sample& sample) {
 }
 
 Json to_json(const Plan& plan) {
-  Json json = {{"schema", kPlanSchema}, {"engine", plan.engine},   {"title", plan.title},
-               {"file", plan.file},     {"digest", plan.digest},   {"model", plan.model},
-               {"points", plan.points}, {"inputs", plan.inputs},   {"left_out", plan.left_out},
-               {"files", plan.files},   {"reports", plan.reports}, {"chunk", plan.chunk}};
+  Json json = {{"schema", kPlanSchema}, {"engine", plan.engine}, {"title", plan.title},
+               {"file", plan.file},     {"digest", plan.digest}, {"model", plan.model},
+               {"points", plan.points}, {"inputs", plan.inputs}, {"left_out", plan.left_out},
+               {"parts", plan.parts},   {"files", plan.files},   {"reports", plan.reports},
+               {"chunk", plan.chunk}};
   json["base"] = Json::array();
   for (const Setting& s : plan.base) json["base"].push_back({s.name, s.value, s.where});
   json["axes"] = Json::array();
@@ -279,14 +280,16 @@ std::vector<std::string> changes_since(const Plan& plan, const fs::path& file) {
   std::vector<std::string> changes;
   if (!is_of_this_model(plan)) changes.emplace_back("the model");
   if (content_of(file) != plan.digest) changes.push_back(fmt::format("'{}'", file.string()));
-  for (const auto& [input, content] : plan.files)
-    if (content_of(input) != content) changes.push_back(fmt::format("'{}'", input));
+  for (const auto* const all : {&plan.parts, &plan.files})
+    for (const auto& [input, content] : *all)
+      if (content_of(input) != content) changes.push_back(fmt::format("'{}'", input));
   return changes;
 }
 
 Json inputs_of(const Plan& plan, std::string_view role) {
   Json inputs = Json::array();
   inputs.push_back(input_entry(plan.file, plan.digest, role));
+  for (const auto& [file, content] : plan.parts) inputs.push_back(input_entry(file, content, role));
   for (const auto& [file, content] : plan.files) inputs.push_back(input_entry(file, content));
   return inputs;
 }
@@ -358,6 +361,7 @@ Plan read_plan(const fs::path& directory) {
     plan.points = json.at("points");
     plan.inputs = json.at("inputs");
     plan.left_out = json.at("left_out").get<std::vector<std::string>>();
+    plan.parts = json.at("parts").get<std::map<std::string, std::string>>();
     plan.files = json.at("files").get<std::map<std::string, std::string>>();
     plan.reports = json.at("reports");
     plan.chunk = json.at("chunk");

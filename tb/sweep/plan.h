@@ -62,7 +62,8 @@ struct Plan {
   std::vector<PlanAxis> axes;
   std::uint64_t points = 0, inputs = 0;
   std::vector<std::string> left_out;         // in words, with how many
-  std::map<std::string, std::string> files;  // that the points read, and what they hold
+  std::map<std::string, std::string> parts;  // that the file includes, and what they hold
+  std::map<std::string, std::string> files;  // the same of files that the points read
   bool reports = true;
   std::uint64_t chunk = 0;
 

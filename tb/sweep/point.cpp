@@ -13,10 +13,10 @@
 #include <system_error>
 
 #include "spec/error.h"
+#include "tb/base/atomic_file.h"
+#include "tb/base/file.h"
+#include "tb/base/shell.h"
 #include "tb/results/build_info.h"
-#include "tb/results/file.h"
-#include "tb/results/shell.h"
-#include "tb/scene/image_io.h"
 
 namespace deburr::tb {
 namespace {

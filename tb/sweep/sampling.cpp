@@ -9,7 +9,7 @@
 #include <numeric>
 #include <utility>
 
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb {
 namespace {

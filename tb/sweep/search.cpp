@@ -12,12 +12,13 @@
 #include <utility>
 
 #include "spec/error.h"
-#include "tb/results/file.h"
-#include "tb/results/interrupt.h"
+#include "tb/base/file.h"
+#include "tb/base/interrupt.h"
 #include "tb/results/report.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/truth.h"
 #include "tb/sweep/collection.h"
+#include "tb/sweep/evolution.h"
 #include "tb/sweep/sampling.h"
 
 namespace deburr::tb {
@@ -84,7 +85,8 @@ class SweepSearch {
       throw ConfigError(sweep_.file.string() +
                         ": every axis is one of 'for_each': nothing is left "
                         "to search");
-    write();  // what was there is of another search
+    evolution();  // that it is missing is said before anything is run
+    write();      // what was there is of another search
     SearchEnd end;
     try {
       for (std::size_t i = 0; i < fronts.size(); ++i)

@@ -22,13 +22,13 @@
 #include <utility>
 
 #include "spec/error.h"
-#include "tb/results/file.h"
-#include "tb/results/headline.h"
-#include "tb/results/interrupt.h"
+#include "tb/base/atomic_file.h"
+#include "tb/base/file.h"
+#include "tb/base/headline.h"
+#include "tb/base/interrupt.h"
+#include "tb/base/shell.h"
+#include "tb/base/yaml_file.h"
 #include "tb/results/report.h"
-#include "tb/results/shell.h"
-#include "tb/results/yaml_file.h"
-#include "tb/scene/image_io.h"
 
 namespace deburr::tb {
 namespace {

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "tb/results/file.h"
-#include "tb/scene/image_io.h"
+#include "tb/base/atomic_file.h"
+#include "tb/base/file.h"
 #include "tb/sweep/worker.h"
 
 namespace deburr::tb {

@@ -22,9 +22,9 @@
 #include <utility>
 
 #include "spec/error.h"
-#include "tb/results/file.h"
-#include "tb/results/headline.h"
-#include "tb/results/interrupt.h"
+#include "tb/base/file.h"
+#include "tb/base/headline.h"
+#include "tb/base/interrupt.h"
 #include "tb/scene/truth.h"
 #include "tb/sweep/plan.h"
 #include "tb/sweep/point.h"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-add_dependencies(deburr_system_tests deburr)
-add_dependencies(deburr_slurm_tests deburr)
+add_dependencies(deburr_system_tests deburr_complete)
+add_dependencies(deburr_slurm_tests deburr_complete)
 deburr_test(app_report_test PROGRAM system_app_tests LABELS system SOURCE app_report_test.cpp
             LINK deburr::results TIMEOUT 300)
 add_dependencies(system_app_tests deburr)
@@ -16,9 +16,6 @@ foreach(class Terminal LastLine Bar Completion)
 endforeach()
 add_test(NAME figures COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/figures_test.py" $<TARGET_FILE:deburr>)
 set_tests_properties(figures PROPERTIES LABELS system TIMEOUT 300
-                     ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
-add_test(NAME smoothing COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/smoothing_test.py" $<TARGET_FILE:deburr>)
-set_tests_properties(smoothing PROPERTIES LABELS system TIMEOUT 300
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 add_test(NAME coverage COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/coverage_test.py" $<TARGET_FILE:deburr>
                                "${PROJECT_SOURCE_DIR}")
@@ -52,7 +49,7 @@ add_test(NAME testplans COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/testplans_test.py" 
 set_tests_properties(testplans PROPERTIES LABELS system TIMEOUT 300
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 set_property(TEST sweep.Killed APPEND PROPERTY LABELS long)
-add_dependencies(deburr_long_tests deburr)
+add_dependencies(deburr_long_tests deburr_complete)
 foreach(class Replaced Traced)
   add_test(NAME inputs.${class}
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/inputs_test.py" $<TARGET_FILE:deburr> ${class})

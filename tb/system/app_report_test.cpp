@@ -15,8 +15,9 @@
 #include <string>
 #include <utility>
 
+#include "tb/base/atomic_file.h"
+#include "tb/base/file.h"
 #include "tb/harness/test_paths.h"
-#include "tb/results/file.h"
 #include "tb/scene/image.h"
 #include "tb/scene/image_io.h"
 

@@ -12,6 +12,9 @@ import sys
 import tempfile
 import unittest
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../engines"))
+from engine_list import trials  # noqa: E402
+
 DEBURR, SOURCE = "deburr", "."
 SIZE = ("--size", "72x56")
 
@@ -40,7 +43,7 @@ def declared(engine):
         rows = re.findall(r"^\| `(\w+/[^`]*)` \| ([^|]*) \|", file.read(), re.M)
     return {prefix + name for prefix, names in rows for name in re.findall("`([^`]+)`", names)
             if prefix.startswith(engine + "/") and name != "invalid" and
-            prefix not in ("geometric/refusal/", "geometric/error/", "geometric/class/all/off/")}
+            prefix not in trials("directed").get(engine, [])}
 
 
 def total(bins, group):
@@ -85,27 +88,6 @@ class Coverage(unittest.TestCase):
         self.assertEqual(total(bins, "morphological/shape"), runs)
         self.assertGreater(runs, 0)
         self.assertEqual(total(bins, "morphological/table"), 0)
-
-    def test_geometric(self):
-        bins, work = covered("geometric", *SIZE)
-        self.assertEqual(set(bins), declared("geometric"))
-        self.assertEqual(total(bins, "geometric/line"), work["line_setup_lines"])
-        self.assertEqual(bins["geometric/look-up/depth/miss"], work["lines_read_depth"])
-        self.assertGreater(work["line_setup_lines"], 0)
-
-    # A run that ends with an error leaves what it met until then.
-    def test_an_error_is_met(self):
-        bins, _ = covered("geometric", *SIZE, "--set", "memory.error_address=0", code=3)
-        self.assertGreater(bins["geometric/error/faces"], 0)
-        self.assertEqual(total(bins, "geometric/error"), bins["geometric/error/faces"])
-
-    def test_a_frame_has_the_bins_of_its_engines(self):
-        bins, work = covered("frame", *SIZE, "--smoothing", "geometric-morphological")
-        self.assertEqual(set(bins), {name for engine in ("texture", "morphological", "geometric")
-                                     for name in declared(engine)})
-        self.assertEqual(total(bins, "texture/samples"), work["texture_fragments"])
-        self.assertEqual(total(bins, "morphological/decision"), 72 * 56)
-        self.assertEqual(total(bins, "geometric/line"), work["geometric_line_setup_lines"])
 
     def test_without_golden_there_is_none(self):
         self.assertIn("run.coverage", run("texture", *SIZE, "--check", "none", "--set", "run.coverage=true", code=2))

@@ -3,7 +3,7 @@
 // golden's bins (golden/geometric/edge_coverage.h), and those that the hardware alone can tell:
 // look-ups, blocks, refusals, errors of memory, stalls. Every bin must be hit, with every frame
 // identical to golden.
-#include "tb/env/geometric_coverage.h"
+#include "tb/engines/geometric/geometric_coverage.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include <string>
 
 #include "spec/error.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 #include "tb/system/coverage_text.h"
 #include "tb/system/geometric_runs.h"
 
@@ -101,14 +101,14 @@ void run_frames(Coverage& coverage) {
 }
 
 void run_errors(Coverage& coverage) {
-  for (std::size_t region = 0; region < RegionMap::kRegions; ++region)
+  for (std::size_t region = 0; region < platform::GeometricRegions::kCount; ++region)
     add_text(coverage, forked_text([&] {
                GeometricRunOptions options;
                options.geometric.weight_blocks = CacheLines::k16;
                options.geometric.frame_copy = static_cast<Region>(region) == Region::kCopy;
                const std::vector<Frame> frames = {random_frame(90, 50, 20)};
                options.memory.error_address =
-                   RegionMap(frames, options.geometric).base(static_cast<Region>(region));
+                   regions_of(frames, options.geometric).base(static_cast<Region>(region));
                options.memory.error_bytes = 4096;
                Simulation simulation(options);
                GeometricEnvironment environment(simulation, frames, options);

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "golden/geometric/configuration.h"
-#include "tb/env/geometric_environment.h"
-#include "tb/stimuli/geometric_frames.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
+#include "tb/engines/geometric/geometric_environment.h"
+#include "tb/engines/geometric/geometric_stimuli.h"
 
 namespace deburr::tb::geometric_system {
 

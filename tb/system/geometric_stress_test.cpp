@@ -8,8 +8,8 @@
 #include <array>
 #include <string>
 
+#include "tb/base/forked.h"
 #include "tb/harness/engine_state.h"
-#include "tb/harness/forked.h"
 #include "tb/system/geometric_runs.h"
 
 namespace deburr::tb::geometric_system::geometric_stress_test {
@@ -140,7 +140,7 @@ TEST_P(GeometricStress, AfterAResetInAnyPhaseTheStateIsThatOfANewEngine) {
   reset();
   const std::vector<std::string> fresh = engine_state(environment.engine(), environment.host());
   ASSERT_GT(fresh.size(), 150u);
-  const auto phase = [&] { return environment.engine().frame_sequencer.phase(clock.cycle()); };
+  const auto phase = [&] { return environment.engine().edge_reader.phase_in.read(clock.cycle()); };
   environment.begin(0);
   std::array<int, 4> resets{};  // by phase
   for (const auto& [wanted, clocks] : std::initializer_list<std::pair<Phase, int>>{

@@ -11,8 +11,8 @@
 #include <tuple>
 
 #include "spec/error.h"
-#include "tb/env/geometric_frames.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
+#include "tb/engines/geometric/geometric_frames.h"
 #include "tb/harness/test_paths.h"
 #include "tb/system/geometric_runs.h"
 
@@ -231,7 +231,7 @@ TEST_P(BrokenMemory, ErrorResponsesReadAsZeroAndAreReported) {
   options.geometric = preset(which);
   options.geometric.weight_blocks = CacheLines::k16;
   const std::vector<Frame> frames = {random_frame(90, 50, region + 20)};
-  const RegionMap map(frames, options.geometric);
+  const platform::GeometricRegions map = regions_of(frames, options.geometric);
   const auto index = static_cast<spec::geometric::Region>(region);
   const std::uint64_t from = map.base(index);
   options.memory.error_address = static_cast<std::int64_t>(from);
@@ -258,7 +258,8 @@ TEST_P(BrokenMemory, ErrorResponsesReadAsZeroAndAreReported) {
 
 INSTANTIATE_TEST_SUITE_P(Geometric, BrokenMemory,
                          testing::Combine(testing::ValuesIn(kPresets),
-                                          testing::Range(std::size_t{0}, RegionMap::kRegions)),
+                                          testing::Range(std::size_t{0},
+                                                         platform::GeometricRegions::kCount)),
                          name_of<Broken>);
 
 }  // namespace

@@ -18,6 +18,9 @@ import subprocess
 import sys
 import tempfile
 import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../engines"))
+from engine_list import trials  # noqa: E402
 import zlib
 
 
@@ -96,22 +99,17 @@ class InputsTest(unittest.TestCase):
 
 
 # What runs of each engine have, and an axis that changes no picture.
-ENGINES = {
-    "texture": ("scene", "run.truth: true", "memory.latency", (50, 60, 70)),
-    "geometric": ("scene", "run.truth: true", "memory.latency", (50, 60, 70)),
-    "frame": ("scene", "run.truth: true", "memory.latency", (50, 60, 70)),
-    "morphological": ("frame", "frame.truth_samples: 2", "morphological.lanes", (1, 2, 4)),
-}
+ENGINES = trials("inputs")
 
 
 class Replaced(InputsTest):
     def base(self, engine, mesh):
-        source, more, _, _ = ENGINES[engine]
+        source, more = (ENGINES[engine][key] for key in ("source", "base"))
         return (f"engine: {engine}\nbase: {{{source}: {{source: {mesh}, width: 24, height: 16}}, "
                 f"{more}, run.images: false}}\n")
 
     def write_sweep(self, engine, mesh, points):
-        _, _, axis, values = ENGINES[engine]
+        axis, values = (ENGINES[engine][key] for key in ("axis", "values"))
         self.write("s.yaml", self.base(engine, mesh) + f"axes: {{{axis}: {list(values[:points])}}}\n"
                    "metrics: {psnr: quality.psnr_db, cycles: cycles}\n"
                    "objectives: {maximise: [psnr], minimise: [cycles]}\n")
@@ -233,7 +231,7 @@ class Replaced(InputsTest):
 
     def test_searches(self):
         self.write_obj()
-        _, _, axis, values = ENGINES["texture"]
+        axis, values = (ENGINES["texture"][key] for key in ("axis", "values"))
         self.write("s.yaml", self.base("texture", "meshes/m.obj")
                    + f"axes: {{{axis}: {list(values)}, texture.cache.ways: [1, 2]}}\n"
                    "metrics: {psnr: quality.psnr_db, cycles: cycles}\n"

@@ -12,18 +12,16 @@ import sys
 import tempfile
 import unittest
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../engines"))
+from engine_list import engines, trials  # noqa: E402
+
 DEBURR = DOCS = ""
 
 
 def runs():
-    yield ("texture",)
-    presets = ("mlaa", "mlaa-slope", "deburr-line", "deburr")
-    for preset, lanes, storage in itertools.product(presets, "124", ("line_buffers", "memory")):
-        yield ("morphological", "--preset", preset, "--lanes", lanes, "--storage", storage)
-    for preset in presets:
-        yield ("frame", "--preset", preset)
-    for preset, layout in itertools.product(("gpaa", "gpaa-optimised", "deburr"), ("tiled", "raster")):
-        yield ("geometric", "--preset", preset, "--layout", layout)
+    for engine, options in trials("idealised").items():
+        for values in itertools.product(*options.values()):
+            yield (engine, *itertools.chain(*zip(options, values)))
 
 
 class Memories(unittest.TestCase):
@@ -44,7 +42,7 @@ class Memories(unittest.TestCase):
                 self.assertNotIn("cannot be built", said)
 
     def test_totals_are_sums(self):
-        for arguments in (("texture",), ("morphological",), ("geometric",), ("frame",)):
+        for arguments in ((engine,) for engine in engines()):
             _, result = self.result(*arguments)
             memories = result["memories"].values()
             self.assertTrue(memories)

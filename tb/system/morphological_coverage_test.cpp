@@ -4,7 +4,7 @@
 // long runs, frame borders, decisions of the blender; and of SMAA's blocks: shapes x distances,
 // limits, table entries, diagonals, thresholds; and of what marks do. Every bin must be hit, with
 // every frame identical to golden, runs and lines included.
-#include "tb/env/morphological_coverage.h"
+#include "tb/engines/morphological/morphological_coverage.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 #include <string>
 #include <string_view>
 
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 #include "tb/stimuli/frames.h"
 #include "tb/system/coverage_text.h"
 #include "tb/system/morphological_runs.h"

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "golden/morphological/configuration.h"
-#include "tb/env/morphological_environment.h"
-#include "tb/env/morphological_frames.h"
+#include "tb/base/random.h"
+#include "tb/engines/morphological/morphological_environment.h"
+#include "tb/engines/morphological/morphological_frames.h"
 #include "tb/scene/scenes.h"
 #include "tb/scene/truth.h"
-#include "tb/stimuli/random.h"
 
 namespace deburr::tb::morphological_system {
 

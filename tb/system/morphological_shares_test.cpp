@@ -12,8 +12,8 @@
 #include <tuple>
 #include <vector>
 
+#include "tb/base/forked.h"
 #include "tb/harness/coverage.h"
-#include "tb/harness/forked.h"
 #include "tb/system/morphological_runs.h"
 
 namespace deburr::tb::morphological_system::morphological_shares_test {

@@ -9,7 +9,7 @@
 #include <string>
 #include <tuple>
 
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 #include "tb/system/morphological_runs.h"
 
 namespace deburr::tb::morphological_system::morphological_stress_test {

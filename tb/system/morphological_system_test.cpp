@@ -10,7 +10,7 @@
 #include <string>
 #include <tuple>
 
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 #include "tb/harness/test_paths.h"
 #include "tb/system/morphological_runs.h"
 
@@ -406,7 +406,8 @@ TEST_P(Throughput, IsSustainedWithAFifthOfThePixelsOnEdges) {
   EXPECT_GE(outcome.edge_pixels * 1000, outcome.pixels * 198);
   EXPECT_EQ(
       outcome.input_clocks,
-      beats_a_row(640, spec::morphological::kLaneCount[static_cast<std::size_t>(lanes)]) * 120);
+      platform::beats_a_row(640, spec::morphological::kLaneCount[static_cast<std::size_t>(lanes)]) *
+          120);
   EXPECT_EQ(outcome.frame_clocks, frame_clocks_by_formula(options.morphological, 640, 120));
   EXPECT_EQ(outcome.record_stalls, 0u);
 }

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-deburr_test(shared_golden_test PROGRAM system_app_tests LABELS negative SOURCE shared_golden_test.cpp LINK deburr::app)
+deburr_test(shared_golden_test PROGRAM system_app_tests LABELS negative SOURCE shared_golden_test.cpp LINK deburr::engines)

@@ -7,12 +7,15 @@
 
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "spec/error.h"
+#include "spec/morphological/check_build.h"
+#include "spec/texture/check_build.h"
 #include "tb/app/engine.h"
-#include "tb/env/texture_expectation.h"
+#include "tb/engines/texture/texture_expectation.h"
 #include "tb/harness/verdict.h"
 #include "tb/results/run_context.h"
 #include "tb/results/shared_inputs.h"

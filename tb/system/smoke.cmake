@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Does every engine run with defaults on a small scene?
 add_dependencies(deburr_smoke_tests deburr)
-foreach(engine texture morphological geometric frame)
+foreach(engine ${DEBURR_ENGINES})
   add_test(NAME smoke_${engine}
            COMMAND deburr run ${engine} --size 96x96 --out ${CMAKE_CURRENT_BINARY_DIR}/smoke_${engine})
   set_tests_properties(smoke_${engine} PROPERTIES LABELS smoke TIMEOUT 60

@@ -13,7 +13,8 @@ import sys
 import tempfile
 import unittest
 
-import yaml
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "engines"))
+from engine_list import testplan  # noqa: E402
 
 PLANS = ("coverage", "nightly", "smoke")
 
@@ -23,7 +24,7 @@ class Testplans(unittest.TestCase):
         scratch = tempfile.TemporaryDirectory(prefix="deburr_testplans_")
         self.addCleanup(scratch.cleanup)
         self.root = pathlib.Path(scratch.name)
-        for folder in ("docs", "tb/testplan"):
+        for folder in ("docs", "tb/testplan", "tb/engines"):
             shutil.copytree(SOURCE / folder, self.root / folder)
 
     def plan(self, name):
@@ -42,8 +43,7 @@ class Testplans(unittest.TestCase):
     def test_none_stands_when_a_sentence_is_reworded(self):
         quotes = 0
         for name in PLANS:
-            plan = yaml.safe_load((SOURCE / f"tb/testplan/{name}.yaml").read_text(encoding="utf-8"))
-            for says, page in {(trace["says"], trace["page"]) for feature in plan["features"]
+            for says, page in {(trace["says"], trace["page"]) for feature in testplan(SOURCE / f"tb/testplan/{name}.yaml")["features"]
                                for trace in feature["traces"]}:
                 quotes += 1
                 text = (SOURCE / page).read_text(encoding="utf-8")

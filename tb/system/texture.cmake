@@ -10,10 +10,10 @@ deburr_test(texture_coverage_test PROGRAM system_texture_tests LABELS system
             LINK deburr::texture_environment)
 deburr_test(texture_random_test PROGRAM system_texture_tests LABELS system
             SOURCE texture_random_test.cpp
-            LINK deburr::texture_memory deburr::golden_texture deburr::harness deburr::rtl_texture)
+            LINK deburr::golden_texture deburr::harness deburr::rtl_texture)
 deburr_test(texture_limits_test PROGRAM system_texture_tests LABELS system
             SOURCE texture_limits_test.cpp
-            LINK deburr::texture_memory deburr::golden_texture deburr::harness deburr::rtl_texture)
+            LINK deburr::golden_texture deburr::harness deburr::rtl_texture)
 deburr_test(texture_targets_test PROGRAM system_texture_tests LABELS system
             SOURCE texture_targets_test.cpp
             LINK deburr::texture_environment)

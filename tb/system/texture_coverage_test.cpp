@@ -2,13 +2,13 @@
 // Functional coverage of the texture unit over a set of directed runs on the hardware model: each
 // mode with each wrap and layout, each N with each major axis, magnification by each filter, and
 // what can happen to a request in the cache. Every bin must be hit.
-#include "tb/env/texture_coverage.h"
+#include "tb/engines/texture/texture_coverage.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 #include "tb/system/coverage_text.h"
 #include "tb/system/texture_runs.h"
 

@@ -20,8 +20,8 @@
 #include "golden/texture/footprint.h"
 #include "golden/texture/sampling.h"
 #include "spec/texture/tables.h"
-#include "tb/harness/forked.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/forked.h"
+#include "tb/base/random.h"
 #include "tb/system/texture_quad_bench.h"
 
 namespace deburr::tb::texture_limits_test {

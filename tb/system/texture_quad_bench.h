@@ -16,16 +16,16 @@
 
 #include "golden/texture/texture_golden.h"
 #include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/platform/memory_model.h"
+#include "rtl_model/platform/register_host.h"
+#include "rtl_model/platform/texture_memory.h"
 #include "rtl_model/texture/texture_unit.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/packets.h"
 #include "spec/texture/parameters.h"
 #include "spec/texture/registers.h"
-#include "tb/env/texture_memory.h"
 #include "tb/harness/bench.h"
 #include "tb/harness/driver.h"
-#include "tb/harness/memory_model.h"
-#include "tb/harness/register_host.h"
 
 namespace deburr::tb {
 
@@ -48,7 +48,7 @@ class QuadBench {
  public:
   // One a process. `input` is what the hardware gets and must outlive the bench.
   QuadBench(const QuadInput& input, const spec::texture::Parameters& parameters,
-            MemoryModelParameters memory = {}, const BenchOptions& options = {})
+            platform::MemoryModelParameters memory = {}, const BenchOptions& options = {})
       : input_(input),
         unit_("texture", clock_, sized(parameters, memory)),
         memory_("memory", clock_.period(), sized(memory, input)),
@@ -73,7 +73,7 @@ class QuadBench {
     memory_.clear_statistics();
     for (std::size_t h = 0; h < input_.textures.size(); ++h)
       for (const auto& [offset, value] :
-           descriptor_registers(static_cast<int>(h), input_.textures[h]))
+           platform::descriptor_registers(static_cast<int>(h), input_.textures[h]))
         host_.write(offset, value);
   }
   // Sends the same quads once more, without a reset.
@@ -132,14 +132,15 @@ class QuadBench {
  private:
   // With a FIFO for this memory's latency, unless one is ordered.
   static spec::texture::Parameters sized(spec::texture::Parameters p,
-                                         const MemoryModelParameters& memory) {
+                                         const platform::MemoryModelParameters& memory) {
     const std::uint32_t latency = std::max(memory.latency_min, memory.latency_max);
     if (p.cache_fifo_depth == 0)
       p.cache_fifo_depth =
           rtl::texture::LatencyFifo::depth_for(static_cast<std::int32_t>(latency), 1);
     return p;
   }
-  static MemoryModelParameters sized(MemoryModelParameters memory, const QuadInput& input) {
+  static platform::MemoryModelParameters sized(platform::MemoryModelParameters memory,
+                                               const QuadInput& input) {
     memory.bytes = input.memory.size();
     return memory;
   }
@@ -173,8 +174,8 @@ class QuadBench {
   Driver<spec::texture::Quad> driver_{"driver", clock_};
   rtl::texture::TextureUnit unit_;
   Sink<spec::texture::Colour> sink_{"sink", clock_};
-  MemoryModel memory_;
-  RegisterHost host_{"host"};
+  platform::MemoryModel memory_;
+  platform::RegisterHost host_{"host"};
   spec::texture::Parameters parameters_;
   std::unique_ptr<Bench> bench_;
 };

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <string>
 
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/stimuli/texture_quads.h"
 #include "tb/system/texture_quad_bench.h"
 
@@ -50,8 +50,8 @@ spec::texture::Parameters random_parameters(Random& random) {
   return p;
 }
 
-MemoryModelParameters random_memory(Random& random) {
-  MemoryModelParameters m;
+platform::MemoryModelParameters random_memory(Random& random) {
+  platform::MemoryModelParameters m;
   m.latency_min = 1 + random.below(60);
   m.latency_max = m.latency_min + (random.chance(500) ? 0 : random.below(200));
   m.seed = random.next();
@@ -77,7 +77,7 @@ TEST_P(RandomQuads, AreIdenticalToGolden) {
   Random random(GetParam(), "random quads");
   const QuadInput input = random_input(random);
   const spec::texture::Parameters parameters = random_parameters(random);
-  const MemoryModelParameters memory = random_memory(random);
+  const platform::MemoryModelParameters memory = random_memory(random);
   QuadBench bench(input, parameters, memory, random_weather(random));
   bench.reset();
   const QuadOutcome outcome = bench.run();

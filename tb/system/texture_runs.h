@@ -6,8 +6,8 @@
 #include <string>
 
 #include "golden/texture/texture_golden.h"
-#include "tb/env/texture_environment.h"
-#include "tb/env/texture_scene.h"
+#include "tb/engines/texture/texture_environment.h"
+#include "tb/engines/texture/texture_scene.h"
 #include "tb/stimuli/texture_quads.h"
 
 namespace deburr::tb {

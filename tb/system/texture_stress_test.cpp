@@ -6,8 +6,8 @@
 
 #include <tuple>
 
-#include "golden/texture/configuration.h"
-#include "tb/harness/forked.h"
+#include "spec/texture/parameters.h"
+#include "tb/base/forked.h"
 #include "tb/system/texture_quad_bench.h"
 #include "tb/system/texture_runs.h"
 
@@ -123,7 +123,7 @@ TEST_P(FrameReset, LeavesNothingBehind) {
   spec::texture::Parameters parameters;
   parameters.cache_bytes = 2048;
   parameters.cache_replacement = spec::texture::Replacement::kRandom;
-  MemoryModelParameters memory;
+  platform::MemoryModelParameters memory;
   memory.latency_min = memory.latency_max = 100;
   BenchOptions options;
   options.stall_permille = static_cast<std::uint32_t>(stall_permille);
@@ -167,7 +167,7 @@ TEST(FrameReset, IsMissedWhenThereIsNone) {
   const QuadInput input = {scene.memory().descriptors(), scene.memory().bytes(),
                            scene.stream().quads};
   // By rules whose lines fit into the cache.
-  QuadBench bench(input, golden::texture::preset_parameters(spec::texture::Preset::kPaper));
+  QuadBench bench(input, spec::texture::preset_parameters(spec::texture::Preset::kPaper));
   bench.reset();
   const QuadOutcome fresh = bench.run();
   EXPECT_EQ(bench.judge(input, fresh), "");

@@ -11,7 +11,7 @@
 #include <string>
 #include <tuple>
 
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 #include "tb/harness/test_paths.h"
 #include "tb/system/texture_runs.h"
 

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "spec/error.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 #include "tb/harness/protocol_target.h"
 #include "tb/system/texture_runs.h"
 
@@ -28,7 +28,7 @@ std::string frame(const ProtocolTargetParameters& parameters,
     TextureRunOptions options;
     options.memory.latency_max = 160;
     options.patience = 3000;
-    options.connect = [&](rtl::Engine& engine, MemoryModel& memory) {
+    options.connect = [&](rtl::Engine& engine, platform::MemoryModel& memory) {
       target = std::make_unique<ProtocolTarget>("target", parameters);
       if (end) engine.end_responses(*end);
       engine.memory()->bind(target->socket);

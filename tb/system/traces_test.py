@@ -17,6 +17,9 @@ import sys
 import tempfile
 import unittest
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../engines"))
+from engine_list import trials  # noqa: E402
+
 EVENTS = ["read", "write", "hit", "merged", "miss"]
 Record = collections.namedtuple("Record", "clock event address bytes port")
 
@@ -116,13 +119,8 @@ class Lines(TracesTest):
         self.assertEqual(records, sorted(records, key=lambda r: (r.clock, r.port)))
 
     def test_every_engine_in_both_formats(self):
-        runs = {"texture": ["--size", "48x48", "--set", "run.line_trace_look_ups=true"],
-                "morphological": ["--size", "80x60", "--storage", "memory"],
-                "geometric": ["--size", "96x64"],
-                "frame": ["--size", "48x48", "--smoothing", "geometric-morphological", "--storage",
-                          "memory", "--set", "run.line_trace_look_ups=true"]}
-        ports = {"texture": 2, "morphological": 1, "geometric": 1, "frame": 4}
-        for engine, arguments in runs.items():
+        for engine, trial in trials("lines").items():
+            arguments = trial["run"]
             without = [a for a in arguments if "look_ups" not in a and a != "--set"]
             plain = self.run_engine(engine, "plain", "--no-images", *without)
             result = self.run_engine(engine, "text", "--no-images", "--line-trace", "text", *arguments)
@@ -130,7 +128,7 @@ class Lines(TracesTest):
             header, records = self.lines("text")
             self.assertEqual(self.lines("binary", read_binary), (header, records), engine)
             self.assertEqual(header[:2], [["deburr-lines", "1"], ["engine", engine]])
-            self.assertEqual(sum(line[0] == "port" for line in header), ports[engine])
+            self.assertEqual(sum(line[0] == "port" for line in header), trial["ports"])
             self.assertEqual(header[-1], ["end", str(len(records))])
             self.assertGreater(len(records), 100)
             self.check_sums(result, records)
@@ -139,8 +137,7 @@ class Lines(TracesTest):
             self.assertEqual(plain, result)
 
     def test_order_of_evaluation_changes_nothing(self):
-        arguments = ["--size", "48x48", "--no-images", "--line-trace", "text", "--smoothing",
-                     "geometric", "--set", "run.line_trace_look_ups=true"]
+        arguments = ["--no-images", "--line-trace", "text", *trials("lines")["frame"]["run"]]
         self.run_engine("frame", "plain", *arguments)
         self.run_engine("frame", "shuffled", *arguments, "--shuffle")
         self.assertEqual(self.lines("plain"), self.lines("shuffled"))
@@ -235,10 +232,14 @@ class Forms(TracesTest):
         self.check_forms("lines", "166.67")
 
     def test_reads_and_writes_at_another_clock(self):
-        result = self.run_engine("geometric", "lines", "--size", "96x64", "--no-images",
-                                 "--line-trace", "text")
-        self.assertGreater(result["memory"]["bytes_written"], 0)
-        self.check_forms("lines", "250")
+        clocks = set()
+        for engine, trial in trials("lines").items():
+            result = self.run_engine(engine, "lines", *trial["run"], "--no-images", "--line-trace", "text")
+            clock = dict(line for line in self.lines("lines")[0] if len(line) == 2)["clock_mhz"]
+            if result["memory"]["bytes_written"] > 0 and clock != "166.67":
+                clocks.add(clock)
+                self.check_forms("lines", clock)
+        self.assertIn("250", clocks)
 
     def test_the_example_of_the_page(self):
         with open(PAGE) as file:

@@ -11,7 +11,7 @@
 
 #include "spec/error.h"
 #include "spec/morphological/tables.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb::training {
 namespace {

@@ -24,7 +24,7 @@
 #include "golden/morphological/configuration.h"
 #include "golden/morphological/morphological_golden.h"
 #include "spec/error.h"
-#include "tb/scene/image_io.h"
+#include "tb/base/atomic_file.h"
 #include "tb/scene/quality.h"
 #include "tb/training/share_trainer.h"
 #include "tb/training/training_frames.h"

@@ -10,10 +10,10 @@
 #include <numbers>
 #include <utility>
 
+#include "tb/base/random.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/label.h"
 #include "tb/scene/truth.h"
-#include "tb/stimuli/random.h"
 #include "tb/training/stand_ins.h"
 
 namespace deburr::tb::training {

@@ -14,12 +14,12 @@ using spec::geometric::Select;
 
 EdgeClassifier::EdgeClassifier(const sc_core::sc_module_name& name, ClockDomain& clock,
                                const spec::geometric::Parameters& p, ParameterStore& store,
-                               FacingStore& facing)
-    : Unit(name, clock), store_(store) {
+                               Memory<std::uint32_t>& facing, EdgeLatency& latency)
+    : Unit(name, clock), store_(store), latency_(latency) {
   for (int lane = 0; lane < spec::geometric::kLaneCount[static_cast<std::size_t>(p.edge_lanes)];
        ++lane)
     for (const char* const face : {" f0", " f1"})
-      ports_.emplace_back(facing.words, "lane " + std::to_string(lane) + face);
+      ports_.emplace_back(facing, "lane " + std::to_string(lane) + face);
 }
 
 // Stage 1.
@@ -90,7 +90,7 @@ void EdgeClassifier::classify(const Beat& beat) {
   for (std::size_t lane = 0; lane < beat.edges.count; ++lane) {
     const bool kept = keeps(beat.edges.edge[lane], beat.valid >> lane & 1, beat.facing0 >> lane & 1,
                             beat.facing1 >> lane & 1);
-    if (latency) latency->judge(kept);
+    latency_.judge(kept);
     if (!kept) continue;
     ++kept_edges;
     pending_ |= static_cast<std::uint8_t>(1u << lane);
@@ -135,6 +135,19 @@ Activity EdgeClassifier::tick(Cycle cycle) {
 void EdgeClassifier::reset() {
   pipe_.reset();
   pending_ = 0;
+}
+
+Datasheet EdgeClassifier::datasheet() {
+  return {.unit = "EdgeClassifier",
+          .does = "Decides of each edge whether it can be seen as one.",
+          .latency = {3, "3, and 1 for each kept edge that waits for another of its beat"},
+          .interval = {1, "the kept edges of a beat of edge_lanes edges, at least 1"},
+          .stages = {{"1", "ranges, addresses of the facing bits", "24-bit compare"},
+                     {"2", "their words, bit of 32", "SRAM read, 32 : 1 choice"},
+                     {"3", "class, counts; kept edges leave one a clock"}},
+          .cost =
+              "a lane four 24-bit compares and two reads of FacingStore; registers of two "
+              "beats."};
 }
 
 }  // namespace deburr::rtl::geometric

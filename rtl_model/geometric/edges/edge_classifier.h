@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Decides of each edge whether it can be seen as one, and lets those through.
 //
-// Where: behind the EdgeReader. Latency 3, and a clock for each kept edge that waits for another of
-// its beat; initiation interval: the kept edges of a beat, at least 1. Stages: 1 ranges, addresses
-// of the facing bits; 2 their words, bit of 32; 3 class, counts; kept edges leave one a clock.
-// Stalls: `downstream`. Cost: a lane four 24-bit compares and two reads of FacingStore; registers
-// of two beats. Made for 250 MHz; longest path: 24-bit compare, or SRAM read and 32 : 1 choice.
-// Source: paper 002, eqs (1) to (4), as docs/geometric.md has them.
+// Where: behind the EdgeReader. Stalls: `downstream`. Source: paper 002, eqs (1) to (4), as
+// docs/geometric.md has them.
 #pragma once
 
 #include <array>
@@ -14,9 +10,12 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
+#include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/pipe.h"
+#include "rtl_model/fabric/unit.h"
 #include "rtl_model/geometric/edge_latency.h"
-#include "rtl_model/geometric/edges/facing_store.h"
+#include "rtl_model/geometric/parameter_store.h"
 #include "rtl_model/geometric/tokens.h"
 
 namespace deburr::rtl::geometric {
@@ -28,11 +27,10 @@ class EdgeClassifier final : public Unit {
 
   EdgeClassifier(const sc_core::sc_module_name& name, ClockDomain& clock,
                  const spec::geometric::Parameters& parameters, ParameterStore& store,
-                 FacingStore& facing);
+                 Memory<std::uint32_t>& facing, EdgeLatency& latency);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter edges{"edges", "edges", "edges read"};
   Counter boundary_edges{"boundary_edges", "edges", "edges of a single face"};
   Counter silhouette_edges{"silhouette_edges", "edges",
@@ -43,6 +41,8 @@ class EdgeClassifier final : public Unit {
                      "edges between two faces turned to the eye that are no crease"};
   Counter invalid_edges{"invalid_edges", "edges", "edges with an index out of range"};
   Counter kept_edges{"kept_edges", "edges", "edges whose vertices are fetched"};
+
+  static Datasheet datasheet();
 
  private:
   struct Beat {
@@ -59,6 +59,7 @@ class EdgeClassifier final : public Unit {
 
   static constexpr std::uint8_t kEnd = 1u << kLanes;  // of pending_
   ParameterStore& store_;
+  EdgeLatency& latency_;                        // an instrument
   std::vector<ReadPort<std::uint32_t>> ports_;  // lane, face
   Pipe<Beat, 3> pipe_;
   std::uint8_t pending_ = 0;  // lanes of the beat in stage 3 that have not left

@@ -13,10 +13,10 @@ using spec::geometric::kLineBytes;
 
 EdgeReader::EdgeReader(const sc_core::sc_module_name& name, ClockDomain& clock,
                        const spec::geometric::Parameters& p, const ParameterStore& store,
-                       const FrameSequencer& sequencer)
+                       EdgeLatency& latency)
     : Unit(name, clock),
       store_(store),
-      sequencer_(sequencer),
+      latency_(latency),
       lanes_(spec::geometric::kLaneCount[static_cast<std::size_t>(p.edge_lanes)]),
       buffer_("edge_buffer", p.edge_lines, kLineBytes * 8, "edges read ahead"),
       stalled_facing_(declare_stall("facing", "the frame's begin is not over")),
@@ -35,14 +35,14 @@ bool EdgeReader::ask(Cycle cycle) {
 
 Activity EdgeReader::hand_on(Cycle cycle) {
   const std::uint32_t left = store_.rules().edge_count - handed_;
-  if (sequencer_.phase(cycle) != Phase::kEdges) return left ? stalled_facing_ : kIdle;
+  if (phase_in.read(cycle) != Phase::kEdges) return left ? stalled_facing_ : kIdle;
   if (left != 0 && !buffer_.ready(cycle)) return stalled_edges_;
   if (!edges_out.can_push(cycle)) return kStalledDownstream;
   EdgeBeat& beat = edges_out.emplace(cycle);
   beat.end = ended_ = left == 0;
   beat.count = static_cast<std::uint8_t>(std::min(left, lanes_));
   if (ended_) return kBusy;
-  if (latency) latency->leave(cycle, beat.count);
+  latency_.leave(cycle, beat.count);
   const Line& line = buffer_.line(cycle);
   const std::uint32_t first = handed_ % kEdgesInLine;
   for (std::uint32_t lane = 0; lane < beat.count; ++lane) {
@@ -61,7 +61,7 @@ Activity EdgeReader::hand_on(Cycle cycle) {
 }
 
 Activity EdgeReader::tick(Cycle cycle) {
-  const Phase phase = sequencer_.phase(cycle);
+  const Phase phase = phase_in.read(cycle);
   if (phase == Phase::kIdle) return kIdle;
   if (phase == Phase::kResolve) {
     asked_ = handed_ = 0;
@@ -81,10 +81,19 @@ Activity EdgeReader::tick(Cycle cycle) {
 }
 
 void EdgeReader::reset() {
-  if (latency) latency->reset();
+  latency_.reset();
   buffer_.reset();
   asked_ = handed_ = 0;
   ended_ = false;
+}
+
+Datasheet EdgeReader::datasheet() {
+  return {.unit = "EdgeReader",
+          .does = "Reads the edge table ahead and hands its records on.",
+          .latency = {2, "2 from a line's answer"},
+          .interval = {1, "1, for edge_lanes edges"},
+          .stages = {{"1", "line", "SRAM read"}, {"2", "choice of edges", "4 : 1 choice"}},
+          .cost = "edge_buffer, counters of 25 bits."};
 }
 
 }  // namespace deburr::rtl::geometric

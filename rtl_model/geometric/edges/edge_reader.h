@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Reads the edge table ahead and hands its records on, edge_lanes a clock.
 //
-// Where: head of the pipe. Latency 2 from a line's answer to the output link (1 line, 2 choice of
-// its edges); edge_lanes edges a clock. Lines are asked for as soon as a frame begins, and each has
-// its place in edge_buffer before; edges go out once the begin is over. Stalls: `facing` (the begin
-// is not over), `edges` (the next line has not come), `downstream`. After the last record comes the
-// frame's end. Cost: edge_buffer, counters of 25 bits. Made for 250 MHz; longest path: SRAM read,
-// 4 : 1 choice.
+// Where: head of the pipe. Lines are asked for as soon as a frame begins, and each has its place in
+// edge_buffer before; edges go out once the begin is over. Stalls: `facing` (the begin is not
+// over), `edges` (the next line has not come), `downstream`. After the last record comes the
+// frame's end.
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
+#include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/fill_store.h"
-#include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/memory_arbiter.h"
 #include "rtl_model/geometric/tokens.h"
 
@@ -22,24 +21,26 @@ namespace deburr::rtl::geometric {
 
 class EdgeReader final : public Unit {
  public:
+  WireIn<Phase> phase_in{"phase_in"};
   MemoryClient memory;
   Out<EdgeBeat> edges_out{"edges_out"};
 
   EdgeReader(const sc_core::sc_module_name& name, ClockDomain& clock,
              const spec::geometric::Parameters& parameters, const ParameterStore& store,
-             const FrameSequencer& sequencer);
+             EdgeLatency& latency);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter lines_read{"lines_read", "lines", "lines of the edge table read"};
+
+  static Datasheet datasheet();
 
  private:
   bool ask(Cycle cycle);
   Activity hand_on(Cycle cycle);
 
   const ParameterStore& store_;
-  const FrameSequencer& sequencer_;
+  EdgeLatency& latency_;  // an instrument
   const std::uint32_t lanes_;
   FillStore<Line> buffer_;
   Activity stalled_facing_, stalled_edges_;

@@ -14,8 +14,7 @@ std::uint32_t edge_lanes_of(const spec::geometric::Parameters& p) {
 }  // namespace
 
 FacingStore::FacingStore(const sc_core::sc_module_name& name, ClockDomain& clock,
-                         const spec::geometric::Parameters& p, const ParameterStore& store,
-                         const FrameSequencer& sequencer)
+                         const spec::geometric::Parameters& p, const ParameterStore& store)
     : Unit(name, clock),
       words("facing", {.words = static_cast<std::uint64_t>(p.face_limit) / 32,
                        .word_bits = 32,
@@ -24,7 +23,6 @@ FacingStore::FacingStore(const sc_core::sc_module_name& name, ClockDomain& clock
                        .span = kWordsInLine,
                        .content = "facing bits"}),
       store_(store),
-      sequencer_(sequencer),
       stalled_memory_(declare_stall("memory", "waits for facing bits")) {}
 
 Activity FacingStore::tick(Cycle cycle) {
@@ -38,10 +36,10 @@ Activity FacingStore::tick(Cycle cycle) {
     ++answered_;
     did = true;
   }
-  const Phase phase = sequencer_.phase(cycle);
+  const Phase phase = phase_in.read(cycle);
   if (phase != Phase::kBegin) {
-    if (loaded_.get(cycle)) {
-      loaded_.set(cycle, false);
+    if (loaded_out.driven()) {
+      loaded_out.drive(cycle, false);
       asked_ = answered_ = 0;
     }
     return did ? kBusy : kIdle;
@@ -58,13 +56,20 @@ Activity FacingStore::tick(Cycle cycle) {
     ++lines_read;
     return kBusy;
   }
-  if (answered_ == lines && !loaded_.get(cycle)) loaded_.set(cycle, true);
+  if (answered_ == lines && !loaded_out.driven()) loaded_out.drive(cycle, true);
   return did ? kBusy : answered_ == lines ? kIdle : stalled_memory_;
 }
 
-void FacingStore::reset() {
-  asked_ = answered_ = 0;
-  loaded_.reset();
+void FacingStore::reset() { asked_ = answered_ = 0; }
+
+Datasheet FacingStore::datasheet() {
+  return {
+      .unit = "FacingStore",
+      .does = "Holds the facing bits of a frame's faces.",
+      .latency = {2, "2 for a reader"},
+      .interval = {1, "a line of 512 bits a clock in, 2 x edge_lanes bits a clock out"},
+      .stages = {{"1", "word", "SRAM read"}, {"2", "bit of 32, in the reader", "32 : 1 choice"}},
+      .cost = "face_limit bits, a copy for each read."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Holds the facing bits of a frame's faces, loaded while the frame begins.
 //
-// Where: beside the EdgeClassifier, which reads it. Latency 2 for a reader (word, bit of 32);
-// a line of 512 bits a clock in, two bits an edge lane out. An answer is written at once, into 16
-// banks, so nothing stalls the memory. With select = all nothing is loaded. Stalls: `downstream`
-// (requests), `memory` (answers are missing). Cost: face_limit bits, a copy for each read.
-// Made for 250 MHz; longest path: SRAM read, 32 : 1 choice (in the reader).
+// Where: beside the EdgeClassifier, which reads it. An answer is written at once, into 16 banks, so
+// nothing stalls the memory. With select = all nothing is loaded. Stalls: `downstream` (requests),
+// `memory` (answers are missing).
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
-#include "rtl_model/geometric/frame_sequencer.h"
+#include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/memory_arbiter.h"
 #include "rtl_model/geometric/tokens.h"
 #include "spec/geometric/records.h"
@@ -21,28 +20,28 @@ namespace deburr::rtl::geometric {
 
 class FacingStore final : public Unit {
  public:
+  WireIn<Phase> phase_in{"phase_in"};
+  WireOut<bool> loaded_out{"loaded_out"};
   MemoryClient memory;
 
   FacingStore(const sc_core::sc_module_name& name, ClockDomain& clock,
-              const spec::geometric::Parameters& parameters, const ParameterStore& store,
-              const FrameSequencer& sequencer);
+              const spec::geometric::Parameters& parameters, const ParameterStore& store);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  bool loaded(Cycle cycle) const { return loaded_.get(cycle); }
   Memory<std::uint32_t> words;
 
   Counter lines_read{"lines_read", "lines", "lines of facing bits read"};
+
+  static Datasheet datasheet();
 
  private:
   static constexpr std::size_t kWordsInLine = spec::geometric::kFacesInLine / 32;
 
   const ParameterStore& store_;
-  const FrameSequencer& sequencer_;
   WritePort<std::uint32_t> write_{words, "responses"};
   Activity stalled_memory_;
   std::uint32_t asked_ = 0, answered_ = 0;  // U12, lines
-  Wire<bool> loaded_{false};
 };
 
 }  // namespace deburr::rtl::geometric

@@ -29,11 +29,9 @@ VertexFields decode_vertex(const Line& line, std::size_t vertex) {
 }  // namespace
 
 VertexFetch::VertexFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
-                         const spec::geometric::Parameters& p, const ParameterStore& store,
-                         const FrameSequencer& sequencer)
+                         const spec::geometric::Parameters& p, const ParameterStore& store)
     : Unit(name, clock),
       store_(store),
-      sequencer_(sequencer),
       lines_(lines_of(p)),
       tags_("vertex_tags", {.words = lines_,
                             .word_bits = kVertexTagBits,
@@ -52,7 +50,7 @@ VertexFetch::VertexFetch(const sc_core::sc_module_name& name, ClockDomain& clock
 bool VertexFetch::clear(Cycle cycle) {
   if (clearing_ == lines_) return false;
   tag_write_.write(cycle, clearing_, 0);
-  if (++clearing_ == lines_) cleared_.set(cycle, true);
+  if (++clearing_ == lines_) cleared_out.drive(cycle, true);
   return true;
 }
 
@@ -167,14 +165,14 @@ Activity VertexFetch::deliver(Cycle cycle) {
 }
 
 Activity VertexFetch::tick(Cycle cycle) {
-  const Phase phase = sequencer_.phase(cycle);
+  const Phase phase = phase_in.read(cycle);
   if (phase != Phase::kEdges) {
     if (phase == Phase::kBegin) return clear(cycle) ? kBusy : kIdle;
     return kIdle;
   }
   if (clearing_ != 0) {
     clearing_ = 0;
-    cleared_.set(cycle, false);
+    cleared_out.drive(cycle, false);
   }
   const Activity data = deliver(cycle);
   const Activity tags = look_up(cycle);
@@ -195,9 +193,21 @@ void VertexFetch::reset() {
   fills_.reset();
   fifo_.reset();
   pipe_.reset();
-  cleared_.reset();
   clearing_ = 0;
   looking_ = first_done_ = working_ = false;
+}
+
+Datasheet VertexFetch::datasheet() {
+  return {.unit = "VertexFetch",
+          .does = "Fetches both vertices of each kept edge through a cache that looks ahead.",
+          .latency = {5, "5, and the wait for a line"},
+          .interval = {1, "1; 2 if both look-ups miss"},
+          .stages = {{"1", "address of the tags"},
+                     {"2", "two tags, a fill ordered a clock; FIFO", "SRAM read + 23-bit compare"},
+                     {"3", "a line installed, address of the words"},
+                     {"4", "words of the cache, choice of a vertex", "SRAM read, 4 : 1 choice"},
+                     {"5", "leave (usable is judged as a line comes)"}},
+          .cost = "tags and data 2R1W, the lines on their way, the FIFO; two 22-bit compares."};
 }
 
 }  // namespace deburr::rtl::geometric

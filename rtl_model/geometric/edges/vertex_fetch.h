@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Fetches both vertices of each kept edge through a small cache that looks ahead.
 //
-// Where: behind the EdgeClassifier. Latency 5, and the wait for a line; initiation interval 1, 2 if
-// both look-ups miss. Stages: 1 address of the tags; 2 two tags, a fill ordered a clock; FIFO; 3 a
-// line installed, address of the words; 4 the words, choice of a vertex; 5 leave. Tags change when
-// a fill is ordered, data when it is used, in the same order; what a miss wants is taken from the
-// line that came. Stalls: `vertices` (the line has not come), `fills` (no place for one),
-// `downstream`. Cost: tags and data 2R1W, the lines on their way, the FIFO; two 22-bit compares.
-// Made for 250 MHz; longest path: SRAM read + 23-bit compare.
+// Where: behind the EdgeClassifier. Tags change when a fill is ordered, data when it is used, in
+// the same order; what a miss wants is taken from the line that came. Stalls: `vertices` (the line
+// has not come), `fills` (no place for one), `downstream`.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/pipe.h"
+#include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/fill_store.h"
-#include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/memory_arbiter.h"
 #include "rtl_model/geometric/tokens.h"
 
@@ -25,19 +22,21 @@ namespace deburr::rtl::geometric {
 
 class VertexFetch final : public Unit {
  public:
+  WireIn<Phase> phase_in{"phase_in"};
+  WireOut<bool> cleared_out{"cleared_out"};
   In<KeptEdge> edges_in{"edges_in"};
   Out<EdgeEnds> ends_out{"ends_out"};
   MemoryClient memory;
 
   VertexFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
-              const spec::geometric::Parameters& parameters, const ParameterStore& store,
-              const FrameSequencer& sequencer);
+              const spec::geometric::Parameters& parameters, const ParameterStore& store);
   Activity tick(Cycle cycle) override;
   void reset() override;
-  bool cleared(Cycle cycle) const { return cleared_.get(cycle); }
 
   Counter lookups{"lookups", "lines", "lines of vertices looked up"};
   Counter misses{"misses", "lines", "look-ups that ordered a line"};
+
+  static Datasheet datasheet();
 
  private:
   using VertexLine = std::array<VertexFields, spec::geometric::kVerticesInLine>;
@@ -68,7 +67,6 @@ class VertexFetch final : public Unit {
   bool install(Cycle cycle, std::size_t which);
 
   const ParameterStore& store_;
-  const FrameSequencer& sequencer_;
   const std::uint32_t lines_;
   Memory<std::uint32_t> tags_;  // line + valid bit
   std::array<ReadPort<std::uint32_t>, 2> tag_ports_{ReadPort<std::uint32_t>{tags_, "v0"},
@@ -81,7 +79,6 @@ class VertexFetch final : public Unit {
   FillStore<VertexLine> fills_;
   Fifo<Lookup> fifo_;
   Activity stalled_vertices_, stalled_fills_;
-  Wire<bool> cleared_{false};
   std::uint32_t clearing_ = 0;  // U11, tags that are cleared
 
   // Stage 2.

@@ -53,7 +53,7 @@ Activity CoverageUnit::tick(Cycle cycle) {
     return kStalledDownstream;
   pipe_.move();
   if (const CandidateToken* done = pipe_.at(2)) {
-    if (latency && !done->end) latency->cover(done->candidates != 0);
+    if (!done->end) latency_.cover(done->candidates != 0);
     if (done->candidates || done->end) {
       candidates += static_cast<std::uint64_t>(std::popcount(done->candidates));
       candidates_out.push(cycle, *done);
@@ -61,6 +61,17 @@ Activity CoverageUnit::tick(Cycle cycle) {
   }
   if (arrives) find(groups_in.take(cycle), pipe_.enter());
   return kBusy;
+}
+
+Datasheet CoverageUnit::datasheet() {
+  return {.unit = "CoverageUnit",
+          .does = "What a line cuts off each pixel of a group, and across which side.",
+          .latency = {2},
+          .interval = {1, "a group a clock; one without a candidate leaves nothing"},
+          .stages = {{"1", "distance, direction, depth", "38-bit add"},
+                     {"2", "coverage, borders, candidates"}},
+          .formats = "distance S0.16, coverage U0.8.",
+          .cost = "a lane: 17-bit add, 17-bit magnitude, two 14-bit compares; 4 adds of 38 bits."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -25,10 +25,10 @@ void for_each_lane(std::uint32_t lanes, Visit&& visit) {
 
 DepthTest::DepthTest(const sc_core::sc_module_name& name, ClockDomain& clock,
                      const spec::geometric::Parameters& p, const ParameterStore& store,
-                     const FrameSequencer& sequencer)
+                     EdgeLatency& latency)
     : Unit(name, clock),
       store_(store),
-      sequencer_(sequencer),
+      latency_(latency),
       lines_(spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.depth_lines)]),
       index_bits_(spec::geometric::kCacheLineBits[static_cast<std::size_t>(p.depth_lines)]),
       tags_("depth_tags", {.words = lines_,
@@ -49,7 +49,7 @@ DepthTest::DepthTest(const sc_core::sc_module_name& name, ClockDomain& clock,
 bool DepthTest::clear(Cycle cycle) {
   if (clearing_ == lines_) return false;
   tag_write_.write(cycle, clearing_, 0);
-  if (++clearing_ == lines_) cleared_.set(cycle, true);
+  if (++clearing_ == lines_) cleared_out.drive(cycle, true);
   return true;
 }
 
@@ -208,7 +208,7 @@ void DepthTest::test(Cycle cycle, Work& work) {
               static_cast<spec::geometric::Direction>(2 * group.vertical + forward),
               group.coverage[lane], group.depth[lane], passes});
   });
-  if (latency && !group.end) latency->test(passing != 0);
+  if (!group.end) latency_.test(passing != 0);
   if (passing == 0 && !group.end) return;
   passed += static_cast<std::uint64_t>(std::popcount(passing));
   WeightToken& out = weights_out.emplace(cycle);
@@ -265,14 +265,14 @@ Activity DepthTest::deliver(Cycle cycle) {
 }
 
 Activity DepthTest::tick(Cycle cycle) {
-  const Phase phase = sequencer_.phase(cycle);
+  const Phase phase = phase_in.read(cycle);
   if (phase != Phase::kEdges) {
     if (phase == Phase::kBegin) return clear(cycle) ? kBusy : kIdle;
     return kIdle;
   }
   if (clearing_ != 0) {
     clearing_ = 0;
-    cleared_.set(cycle, false);
+    cleared_out.drive(cycle, false);
   }
   const Activity data = deliver(cycle);
   const Activity tags = look_up(cycle);
@@ -292,10 +292,28 @@ void DepthTest::reset() {
   fills_.reset();
   fifo_.reset();
   pipe_.reset();
-  cleared_.reset();
   clearing_ = 0;
   has_addressed_ = is_looking_ = first_done_ = working_ = false;
   reading_ = installed_ = 0;
+}
+
+Datasheet DepthTest::datasheet() {
+  return {
+      .unit = "DepthTest",
+      .does = "Drops the candidates that lie behind what the frame shows.",
+      .latency = {6, "6, and the wait for a line"},
+      .interval = {1,
+                   "the look-ups of a group go in pairs; a pair takes a clock, two if both miss; "
+                   "at least 1"},
+      .stages = {{"1", "lines, first uses"},
+                 {"2", "address of the tags, products of the line addresses", "13 x 10 multiply"},
+                 {"3", "two tags, a fill ordered a clock; FIFO", "SRAM read + 23-bit compare"},
+                 {"4", "a line installed, address of the words"},
+                 {"5", "two lines a clock, choice of 16 twice a lane", "SRAM read, 16 : 1 choice"},
+                 {"6", "test", "24-bit shift, add and compare"}},
+      .cost =
+          "tags and data 2R1W, the lines on their way, the FIFO; 28 compares of lines, two "
+          "13 x 10 multiplies; a lane two 16 : 1 choices of 24 bits and a 24-bit compare."};
 }
 
 }  // namespace deburr::rtl::geometric

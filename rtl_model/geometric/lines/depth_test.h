@@ -2,16 +2,10 @@
 // Drops the candidates that lie behind what the frame shows: behind the farther of their own pixel
 // and the neighbour that they would take from.
 //
-// Where: behind the CoverageUnit, with a small cache of depth lines that looks ahead. Latency 6,
-// and the wait for a line; initiation interval of a group with D lines: its look-ups go in pairs,
-// each takes a clock, two if both miss; at least 1. Stages: 1 lines, first uses; 2 address of the
-// tags, line addresses; 3 two tags, a fill ordered a clock; FIFO; 4 a line installed, address of
-// the words; 5 two lines, choice of depths; 6 test. A group of which no candidate passes leaves
-// nothing. Lines of a group have different indices, so none replaces another. Stalls: `depth` (the
-// line has not come), `fills` (no place for one), `downstream`.
-// Cost: tags and data 2R1W, the lines on their way, the FIFO; 28 compares of lines, two 13 x 10
-// multiplies; a lane two 16 : 1 choices of 24 bits and a 24-bit compare. Made for 250 MHz; longest
-// path: SRAM read, 16 : 1 choice; 24-bit shift, add and compare.
+// Where: behind the CoverageUnit, with a small cache of depth lines that looks ahead. A group of
+// which no candidate passes leaves nothing. Lines of a group have different indices, so none
+// replaces another. Stalls: `depth` (the line has not come), `fills` (no place for one),
+// `downstream`.
 #pragma once
 
 #include <array>
@@ -19,12 +13,13 @@
 #include <functional>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/pipe.h"
+#include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/fill_store.h"
-#include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/memory_arbiter.h"
 #include "rtl_model/geometric/tokens.h"
 
@@ -32,24 +27,26 @@ namespace deburr::rtl::geometric {
 
 class DepthTest final : public Unit {
  public:
+  WireIn<Phase> phase_in{"phase_in"};
+  WireOut<bool> cleared_out{"cleared_out"};
   In<CandidateToken> candidates_in{"candidates_in"};
   Out<WeightToken> weights_out{"weights_out"};
   MemoryClient memory;
 
   DepthTest(const sc_core::sc_module_name& name, ClockDomain& clock,
             const spec::geometric::Parameters& parameters, const ParameterStore& store,
-            const FrameSequencer& sequencer);
+            EdgeLatency& latency);
   Activity tick(Cycle cycle) override;
   void reset() override;
-  bool cleared(Cycle cycle) const { return cleared_.get(cycle); }
 
   std::function<void(const spec::geometric::Candidate&)> observer;
 
-  EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter passed{"passed", "pixels", "candidates that passed the depth test"};
   Counter lookups{"lookups", "lines", "lines of depth looked up"};
   Counter misses{"misses", "lines", "look-ups that ordered a line"};
   Histogram group_lines{"group_lines", "lines", "lines of depth of a group"};
+
+  static Datasheet datasheet();
 
  private:
   // Of a group: raster, vertical, four own lines and four neighbours beyond a multiple of 16.
@@ -101,7 +98,7 @@ class DepthTest final : public Unit {
   void test(Cycle cycle, Work& work);
 
   const ParameterStore& store_;
-  const FrameSequencer& sequencer_;
+  EdgeLatency& latency_;  // an instrument
   const std::uint32_t lines_, index_bits_;
   Memory<std::uint32_t> tags_;
   std::array<ReadPort<std::uint32_t>, 2> tag_ports_{ReadPort<std::uint32_t>{tags_, "even"},
@@ -114,7 +111,6 @@ class DepthTest final : public Unit {
   FillStore<DepthLine> fills_;
   Fifo<Lookup> fifo_;
   Activity stalled_depth_, stalled_fills_;
-  Wire<bool> cleared_{false};
   std::uint32_t clearing_ = 0;  // U11
 
   // Stages 2 and 3.

@@ -52,9 +52,11 @@ std::uint32_t quotient(std::uint32_t divisor) {
 }  // namespace
 
 LineSetup::LineSetup(const sc_core::sc_module_name& name, ClockDomain& clock,
-                     const spec::geometric::Parameters& p, const ParameterStore& store)
+                     const spec::geometric::Parameters& p, const ParameterStore& store,
+                     EdgeLatency& latency)
     : Unit(name, clock),
       store_(store),
+      latency_(latency),
       pipelined_(p.pipelined),
       table_bits_(static_cast<std::uint32_t>(p.reciprocal_table)),
       table_(make_table(table_bits_)),
@@ -190,7 +192,7 @@ bool LineSetup::advance_front(Cycle cycle) {
     normalise(cycle, *beat);
   if (Beat* beat = front_.at(2)) {
     find_axis(*beat);
-    if (latency && !beat->ends.end) latency->set_up(!beat->dropped);
+    if (!beat->ends.end) latency_.set_up(!beat->dropped);
   }
   if (ends_in.can_pop(cycle)) front_.enter().ends = ends_in.take(cycle);
   return true;
@@ -210,6 +212,33 @@ void LineSetup::reset() {
   back_.reset();
   moves_ = 0;
   free_from_.fill(0);
+}
+
+Datasheet LineSetup::datasheet(const spec::geometric::Parameters& p) {
+  constexpr std::uint64_t kDivision = 13;
+  const auto dividers = static_cast<std::uint64_t>(p.dividers);
+  return {
+      .unit = "LineSetup",
+      .variant = p.pipelined ? "`pipelined`" : "not pipelined",
+      .does = "Turns a kept edge into a line: axis, columns, slope, position and depth.",
+      .latency = {22},
+      .interval = p.pipelined
+                      ? Clocks{1}
+                      : Clocks{(kDivision + dividers - 1) / dividers,
+                               "13 / dividers; lines of the table and edges that are dropped 1"},
+      .stages = {{"1", "differences"},
+                 {"2", "axis, ends, first and last column, drops"},
+                 {"3", "leading one (e)"},
+                 {"4", "shift, address of the table"},
+                 {"5-17", "quotient, two bits a clock, a 27th where L is a power of two",
+                  "choice of 4 multiples + 26-bit add"},
+                 {"18, 19", "slope, t, depth step", "23 x 27 multiply over two clocks"},
+                 {"20, 21", "start: slope x offset, D x t", "24 x 24 multiply"},
+                 {"22", "sums"}},
+      .cost =
+          "13 stages of radix 4 (choice of 0..3 l, 26-bit add), or `dividers` of one, shared in "
+          "time; multiplies 23 x 27, 23 x 24, 24 x 25, 25 x 23, 24 x 24; registers of 22 lines; "
+          "reciprocal_rom."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Turns a kept edge into a line: axis, columns, slope, position and depth at the first column.
 //
-// Where: behind VertexFetch. Latency 22; initiation interval 1 if pipelined, else 13 / dividers for
-// a line that is not in the table, 1 for one that is and for an edge that is dropped. Stages:
-// 1 differences; 2 axis, ends, first and last column, drops; 3 leading one; 4 shift, address of the
-// table; 5-17 quotient, two bits a clock, a 27th where L is a power of two; 18, 19 slope, t, depth
-// step; 20, 21 slope x offset, D x t; 22 sums. All stages move together; before the quotient a line
-// waits for a divider. Stalls: `divider` (none is free), `downstream`.
-// Cost: 13 stages of radix 4 (choice of 0..3 l, 26-bit add), or `dividers` of one; multiplies
-// 23 x 27, 23 x 24, 24 x 25, 25 x 23, 24 x 24; registers of 22 lines; reciprocal_rom. Made for
-// 250 MHz; longest path: choice of 4 multiples + 26-bit add; 23 x 27 multiply over two clocks.
-// Error bounds: docs/number_formats_geometric.md. Source: paper 002, eqs (5), (6).
+// Where: behind VertexFetch. All stages move together; before the quotient a line waits for a
+// divider. Lines leave in order, since every line takes as long from the divider on, one of the
+// table too. Stalls: `divider` (none is free), `downstream`. Error bounds:
+// docs/number_formats_geometric.md. Source: paper 002, eqs (5), (6).
 #pragma once
 
 #include <array>
@@ -19,6 +13,7 @@
 #include <memory>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
@@ -34,19 +29,21 @@ class LineSetup final : public Unit {
   Out<LineToken> lines_out{"lines_out"};
 
   LineSetup(const sc_core::sc_module_name& name, ClockDomain& clock,
-            const spec::geometric::Parameters& parameters, const ParameterStore& store);
+            const spec::geometric::Parameters& parameters, const ParameterStore& store,
+            EdgeLatency& latency);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
   std::function<void(const spec::geometric::LineRecord&)> observer;
 
-  EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter outside_edges{"outside_edges", "edges", "kept edges with a vertex that is not usable"};
   Counter degenerate_edges{"degenerate_edges", "edges", "kept edges with both ends in one place"};
   Counter empty_edges{"empty_edges", "edges", "kept edges without a column of the frame"};
   Counter lines{"lines", "lines", "lines set up"};
   Counter table_lines{"table_lines", "lines", "lines whose reciprocal came from the table"};
   Counter divider_clocks{"divider_clocks", "clk", "clocks of dividers in use, all dividers"};
+
+  static Datasheet datasheet(const spec::geometric::Parameters& parameters);
 
  private:
   static constexpr std::size_t kFront = 4, kBack = 18;  // stages before and from the quotient on
@@ -81,6 +78,7 @@ class LineSetup final : public Unit {
   bool advance_front(Cycle cycle);
 
   const ParameterStore& store_;
+  EdgeLatency& latency_;  // an instrument
   const bool pipelined_;
   const std::uint32_t table_bits_;
   std::unique_ptr<Memory<std::uint32_t>> table_;  // nullptr: none

@@ -48,10 +48,24 @@ Activity LineWalker::tick(Cycle cycle) {
   line_.depth = depth;
   line_.first = static_cast<std::uint16_t>(line_.first + count);
   line_.count = static_cast<std::uint16_t>(line_.count - count);
-  if (latency) latency->walk(line_.count == 0);
+  latency_.walk(line_.count == 0);
   columns += count;
   ++groups;
   return kBusy;
+}
+
+Datasheet LineWalker::datasheet() {
+  return {
+      .unit = "LineWalker",
+      .does = "Steps along a line, a group of columns a clock.",
+      .latency = {1},
+      .interval = {1, "a group a clock, over the ends of lines too"},
+      .stages = {{"1",
+                  "position + k slope for k = 0..N, blocks compared, choice of the next position",
+                  "2 : 1 choice, 40-bit add + 13-bit compare + 5 : 1 choice"}},
+      .cost =
+          "9 adds of 40 bits (position + k slope, the next position), 5 of 38 (the next "
+          "depth), 3 compares of 14 bits, a 5 : 1 choice."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -16,14 +16,14 @@ constexpr std::uint32_t kColourPlace = 1u << (kPlaceBits - 1);
 
 BlockFetch::BlockFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
                        const spec::geometric::Parameters& p, const ParameterStore& store,
-                       const WeightCombiner& combiner)
+                       const ReadPort<std::uint32_t>& tags, const ReadPort<BlockWeights>& weights)
     : Unit(name, clock),
       colours("resolve_colours", p.resolve_lines / 2, 8 * spec::geometric::kLineBytes,
               "colours on their way to the resolve"),
       store_(store),
-      combiner_(combiner),
-      tag_port_(combiner.tag_port()),
-      data_port_(combiner.data_port()),
+      places_(p),
+      tag_port_(tags),
+      data_port_(weights),
       weights_("resolve_weights", p.resolve_lines / 2, 8 * spec::geometric::kLineBytes,
                "weights on their way to the resolve"),
       fifo_("latency_fifo", static_cast<std::uint32_t>(p.resolve_lines / 2)),
@@ -36,9 +36,9 @@ Activity BlockFetch::look_up(Cycle cycle) {
     if (!fifo_.can_push(cycle)) return kStalledDownstream;
     Lookup lookup{block_, 0, true};
     if (!block_.end) {
-      lookup.index = static_cast<std::uint16_t>(combiner_.index_of(block_.x, block_.y));
+      lookup.index = static_cast<std::uint16_t>(places_.index_of(block_.x, block_.y));
       lookup.cached =
-          tag_port_.at(cycle, lookup.index, looked_) == WeightCombiner::tag_of(block_.x, block_.y);
+          tag_port_.at(cycle, lookup.index, looked_) == WeightPlaces::tag_of(block_.x, block_.y);
       if (!lookup.cached) {
         if (!weights_.can_reserve(cycle)) return stalled_weights_;
         if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
@@ -57,7 +57,7 @@ Activity BlockFetch::look_up(Cycle cycle) {
   block_ = blocks_in.take(cycle);
   looking_ = true;
   looked_ = cycle;
-  if (!block_.end) tag_port_.read(cycle, combiner_.index_of(block_.x, block_.y));
+  if (!block_.end) tag_port_.read(cycle, places_.index_of(block_.x, block_.y));
   return kBusy;
 }
 
@@ -199,6 +199,22 @@ void BlockFetch::reset() {
   fifo_.reset();
   looking_ = is_fetched_ = is_asking_ = handed_ = false;
   to_ask_ = 0;
+}
+
+Datasheet BlockFetch::datasheet() {
+  return {.unit = "BlockFetch",
+          .does = "Brings the weights of a touched block and the lines of colours that it needs.",
+          .latency = {5, "5, and the wait for weights"},
+          .interval = {1, "max(1, lines to read) a block"},
+          .stages = {{"1", "tag of the block"},
+                     {"2", "a read of weights ordered; FIFO"},
+                     {"3", "weights of the cache, or the line that came", "SRAM read"},
+                     {"4", "limits of the weights, axis, lines that are needed",
+                      "limits of a weight + 10-bit compare"},
+                     {"5", "requests, one a clock, the block with the first"}},
+          .cost =
+              "weights and lines on their way, the FIFO, 16 9-bit compares, a 13 x 10 and a "
+              "11 x 11 multiply."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -2,27 +2,23 @@
 // Brings what the resolve of a touched block needs: its weights, from the cache or from memory, and
 // the lines of colours that hold its blended pixels and what these take from.
 //
-// Where: between BlockScanner and Resolver, which takes the lines out of `colours`. Latency 5, and
-// the wait for weights; initiation interval max(1, lines to read). Stages: 1 tag of the block;
-// 2 a read of weights ordered; FIFO; 3 weights, from the cache's data or the line that came; 4
-// limits, axis of each pixel, lines that are needed; 5 requests, one a clock, the block with the
-// first. Weights and colours have their places apart: weights of blocks to come cannot take those
-// of the lines that the oldest block waits for. Stalls: `weights` (a block has not come), `colours`
-// (no place for a line), `downstream`. Requests of colours go before those of weights. Whatever
-// memory gives as weights, a pixel takes a half at most of each neighbour, and nothing from outside
-// of the frame. Cost: weights and lines on their way, the FIFO, 16 9-bit compares, a 13 x 10 and a
-// 11 x 11 multiply. Made for 250 MHz; longest path: SRAM read, limits of a weight + 10-bit compare.
+// Where: between BlockScanner and Resolver, which takes the lines out of `colours`. Weights and
+// colours have their places apart: weights of blocks to come cannot take those of the lines that
+// the oldest block waits for. Stalls: `weights` (a block has not come), `colours` (no place for a
+// line), `downstream`. Requests of colours go before those of weights. Whatever memory gives as
+// weights, a pixel takes a half at most of each neighbour, and nothing from outside of the frame.
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/unit.h"
 #include "rtl_model/geometric/fill_store.h"
-#include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/memory_arbiter.h"
 #include "rtl_model/geometric/tokens.h"
-#include "rtl_model/geometric/weights/weight_combiner.h"
+#include "rtl_model/geometric/weights/weight_memories.h"
 
 namespace deburr::rtl::geometric {
 
@@ -35,12 +31,14 @@ class BlockFetch final : public Unit {
 
   BlockFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
              const spec::geometric::Parameters& parameters, const ParameterStore& store,
-             const WeightCombiner& combiner);
+             const ReadPort<std::uint32_t>& tags, const ReadPort<BlockWeights>& weights);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
   Counter weights_read{"weights_read", "lines", "blocks of weights read from memory"};
   Counter lines_read{"lines_read", "lines", "lines of colours read, of the frame or its copy"};
+
+  static Datasheet datasheet();
 
  private:
   struct Lookup {
@@ -62,7 +60,7 @@ class BlockFetch final : public Unit {
   std::uint32_t lines_of_pixel(const BlockToken& block, std::uint32_t pixel, bool horizontal) const;
 
   const ParameterStore& store_;
-  const WeightCombiner& combiner_;
+  const WeightPlaces places_;
   ReadPort<std::uint32_t> tag_port_;
   ReadPort<BlockWeights> data_port_;
   FillStore<BlockWeights> weights_;

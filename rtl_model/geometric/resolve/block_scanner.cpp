@@ -9,11 +9,10 @@ using spec::geometric::kBlocksInWord;
 
 BlockScanner::BlockScanner(const sc_core::sc_module_name& name, ClockDomain& clock,
                            const spec::geometric::Parameters& p, const ParameterStore& store,
-                           const FrameSequencer& sequencer, const WeightCombiner& combiner)
+                           const ReadPort<TouchedWord>& touched)
     : Unit(name, clock),
       store_(store),
-      sequencer_(sequencer),
-      touched_port_(combiner.touched_port()),
+      touched_port_(touched),
       above_("touched_above", {.words = static_cast<std::uint64_t>((p.line_pixels + 511) / 512),
                                .word_bits = kBlocksInWord,
                                .kind = MemoryKind::kFlops,
@@ -36,7 +35,7 @@ void BlockScanner::load(Cycle cycle) {
 }
 
 Activity BlockScanner::tick(Cycle cycle) {
-  if (sequencer_.phase(cycle) != Phase::kResolve) {
+  if (phase_in.read(cycle) != Phase::kResolve) {
     if (ended_) reset();
     return kIdle;
   }
@@ -69,6 +68,19 @@ void BlockScanner::reset() {
   asked_ = taken_ = column_ = row_ = 0;
   left_ = above_word_ = {};
   ended_ = false;
+}
+
+Datasheet BlockScanner::datasheet() {
+  return {.unit = "BlockScanner",
+          .does = "Finds the touched blocks of a frame, in raster order of blocks.",
+          .latency = {3, "3 from its begin to the first block"},
+          .interval = {1, "a word of 128 blocks takes a clock for each touched block, at least 1"},
+          .stages = {{"1", "address of the word"},
+                     {"2", "word", "SRAM read"},
+                     {"3", "first bit of 128, by groups of 16", "16 : 1 priority"}},
+          .cost =
+              "the touched words of the block row above (touched_above), two words of registers, "
+              "two 16 : 1 priorities."};
 }
 
 }  // namespace deburr::rtl::geometric

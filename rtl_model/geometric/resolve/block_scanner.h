@@ -1,39 +1,40 @@
 // SPDX-License-Identifier: MIT
 // Finds the touched blocks of a frame, in raster order of blocks.
 //
-// Where: head of the resolve. Latency 3 from its begin to the first block; a word of 128 blocks
-// takes a clock for each touched one, at least 1. Stages: 1 address of the word; 2 word; 3 first
-// bit of 128, by groups of 16, the next group taken up while the last bit of the one before leaves.
-// After the last block comes the frame's end. Stalls: `downstream`. Cost: the touched words of the
-// block row above (touched_above), two words of registers, two 16 : 1 priorities. Made for 250 MHz;
-// longest path: 16 : 1 priority.
+// Where: head of the resolve. The next group of 16 bits is taken up while the last bit of the one
+// before leaves. After the last block comes the frame's end. Stalls: `downstream`.
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
-#include "rtl_model/geometric/frame_sequencer.h"
+#include "rtl_model/fabric/unit.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/geometric/parameter_store.h"
 #include "rtl_model/geometric/tokens.h"
-#include "rtl_model/geometric/weights/weight_combiner.h"
+#include "rtl_model/geometric/weights/weight_memories.h"
 
 namespace deburr::rtl::geometric {
 
 class BlockScanner final : public Unit {
  public:
+  WireIn<Phase> phase_in{"phase_in"};
   Out<TouchedBlock> blocks_out{"blocks_out"};
 
   BlockScanner(const sc_core::sc_module_name& name, ClockDomain& clock,
                const spec::geometric::Parameters& parameters, const ParameterStore& store,
-               const FrameSequencer& sequencer, const WeightCombiner& combiner);
+               const ReadPort<TouchedWord>& touched);
   Activity tick(Cycle cycle) override;
   void reset() override;
+
+  static Datasheet datasheet();
 
  private:
   void load(Cycle cycle);
 
   const ParameterStore& store_;
-  const FrameSequencer& sequencer_;
   ReadPort<TouchedWord> touched_port_;
   Memory<TouchedWord> above_;
   ReadPort<TouchedWord> above_read_{above_, "this row"};

@@ -8,24 +8,23 @@ namespace deburr::rtl::geometric {
 using spec::geometric::kLineBytes;
 
 FrameCopier::FrameCopier(const sc_core::sc_module_name& name, ClockDomain& clock,
-                         const ParameterStore& store, const FrameSequencer& sequencer)
+                         const ParameterStore& store)
     : Unit(name, clock),
       store_(store),
-      sequencer_(sequencer),
       buffer_("copy_buffer", kLines, 8 * kLineBytes, "lines between read and write",
               MemoryKind::kFlops),
       stalled_memory_(declare_stall("memory", "the next line has not come")) {}
 
 Activity FrameCopier::tick(Cycle cycle) {
-  const Phase phase = sequencer_.phase(cycle);
+  const Phase phase = phase_in.read(cycle);
   if (phase != Phase::kBegin && phase != Phase::kEdges) {
-    if (done_.get(cycle)) {
-      done_.set(cycle, false);
+    if (copied_out.driven()) {
+      copied_out.drive(cycle, false);
       asked_ = written_ = answered_ = 0;
     }
     return kIdle;
   }
-  if (done_.get(cycle)) return kIdle;
+  if (copied_out.driven()) return kIdle;
   const FrameRules& rules = store_.rules();
   const std::uint32_t lines = rules.frame_copy ? rules.frame_lines() : 0;
   bool did = false;
@@ -54,7 +53,7 @@ Activity FrameCopier::tick(Cycle cycle) {
     did = true;
   }
   buffer_.read_ahead(cycle);
-  if (answered_ == lines) done_.set(cycle, true);
+  if (answered_ == lines) copied_out.drive(cycle, true);
   if (did || answered_ == lines) return did ? kBusy : kIdle;
   return blocked ? kStalledDownstream : stalled_memory_;
 }
@@ -62,7 +61,16 @@ Activity FrameCopier::tick(Cycle cycle) {
 void FrameCopier::reset() {
   buffer_.reset();
   asked_ = written_ = answered_ = 0;
-  done_.reset();
+}
+
+Datasheet FrameCopier::datasheet() {
+  return {.unit = "FrameCopier",
+          .does = "Copies the whole frame before it is resolved (`frame_copy`).",
+          .latency = {0, "-"},
+          .interval = {2, "2 clocks of the port a line, while M + 8 <= 32; then (M + 8) / 16"},
+          .stages = {{"1", "a line is read while a place is free, else one is written in its turn",
+                      "26-bit add"}},
+          .cost = "copy_buffer, two 32-bit addresses."};
 }
 
 }  // namespace deburr::rtl::geometric

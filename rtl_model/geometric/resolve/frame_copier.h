@@ -1,42 +1,43 @@
 // SPDX-License-Identifier: MIT
 // Copies the whole frame before it is resolved, as the original method does (frame_copy).
 //
-// Where: beside the edges' pipe. Two clocks of the memory port a line: sixteen lines are on their
-// way at most, and each is written in its turn. Stalls: `memory` (the next line has not come),
-// `downstream`. Cost: copy_buffer, two 32-bit addresses. Made for 250 MHz; longest path: 26-bit
-// add.
+// Where: beside the edges' pipe. Sixteen lines are on their way at most, and each is written in its
+// turn. Stalls: `memory` (the next line has not come), `downstream`.
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
+#include "rtl_model/fabric/unit.h"
+#include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/fill_store.h"
-#include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/memory_arbiter.h"
+#include "rtl_model/geometric/tokens.h"
 
 namespace deburr::rtl::geometric {
 
 class FrameCopier final : public Unit {
  public:
+  WireIn<Phase> phase_in{"phase_in"};
+  // Every line is copied, or none is to be.
+  WireOut<bool> copied_out{"copied_out"};
   MemoryClient memory;
 
-  FrameCopier(const sc_core::sc_module_name& name, ClockDomain& clock, const ParameterStore& store,
-              const FrameSequencer& sequencer);
+  FrameCopier(const sc_core::sc_module_name& name, ClockDomain& clock, const ParameterStore& store);
   Activity tick(Cycle cycle) override;
   void reset() override;
-  // Every line is copied, or none is to be.
-  bool done(Cycle cycle) const { return done_.get(cycle); }
 
   Counter lines_copied{"lines_copied", "lines", "lines read and written"};
+
+  static Datasheet datasheet();
 
  private:
   static constexpr std::int32_t kLines = 16;
   const ParameterStore& store_;
-  const FrameSequencer& sequencer_;
   FillStore<Line> buffer_;
   Activity stalled_memory_;
   std::uint32_t asked_ = 0, written_ = 0, answered_ = 0;  // U23, lines
-  Wire<bool> done_{false};
 };
 
 }  // namespace deburr::rtl::geometric

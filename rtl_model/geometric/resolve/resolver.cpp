@@ -26,11 +26,10 @@ spec::geometric::Rgba8 pixel_of(const Line& line, std::size_t pixel) {
 
 Resolver::Resolver(const sc_core::sc_module_name& name, ClockDomain& clock,
                    const spec::geometric::Parameters& p, const ParameterStore& store,
-                   const FrameSequencer& sequencer, BlockFetch& fetch)
+                   FillStore<Line>& colours)
     : Unit(name, clock),
       store_(store),
-      sequencer_(sequencer),
-      fetch_(fetch),
+      colours_(colours),
       lanes_(resolve_lanes_of(p)),
       originals_("originals", {.words = static_cast<std::uint64_t>((p.line_pixels + 3) / 4),
                                .word_bits = 100,
@@ -102,12 +101,12 @@ Activity Resolver::load(Cycle cycle) {
     to_load_ = token.end ? 0 : token.lines;
     if (!token.end) originals_read_.read(cycle, token.x);
     if (to_load_ == 0) return kBusy;
-    if (!fetch_.colours.ready(cycle)) return kBusy;
+    if (!colours_.ready(cycle)) return kBusy;
   }
   if (to_load_ == 0) return kStalledDownstream;
-  if (!fetch_.colours.ready(cycle)) return stalled_colours_;
-  place(fetch_.colours.line(cycle), static_cast<std::uint32_t>(std::countr_zero(to_load_)));
-  fetch_.colours.release(cycle);
+  if (!colours_.ready(cycle)) return stalled_colours_;
+  place(colours_.line(cycle), static_cast<std::uint32_t>(std::countr_zero(to_load_)));
+  colours_.release(cycle);
   to_load_ &= to_load_ - 1;
   return kBusy;
 }
@@ -299,8 +298,8 @@ bool Resolver::blend(Cycle cycle) {
 }
 
 Activity Resolver::tick(Cycle cycle) {
-  if (sequencer_.phase(cycle) != Phase::kResolve) {
-    if (done_.get(cycle)) done_.set(cycle, false);
+  if (phase_in.read(cycle) != Phase::kResolve) {
+    if (resolved_out.driven()) resolved_out.drive(cycle, false);
     ended_ = false;
     return kIdle;
   }
@@ -317,18 +316,39 @@ Activity Resolver::tick(Cycle cycle) {
     did = true;
   }
   const Activity loaded = load(cycle);
-  fetch_.colours.read_ahead(cycle);
-  if (ended_ && writes_ == 0 && to_write_ == 0 && !done_.get(cycle)) done_.set(cycle, true);
+  colours_.read_ahead(cycle);
+  if (ended_ && writes_ == 0 && to_write_ == 0 && !resolved_out.driven())
+    resolved_out.drive(cycle, true);
   if (did) return kBusy;
   return blocked ? kStalledDownstream : loaded;
 }
 
 void Resolver::reset() {
   pipe_.reset();
-  done_.reset();
   newest_ = 0;
   loading_ = blending_ = has_left_ = ended_ = false;
   to_load_ = to_blend_ = to_write_ = writes_ = 0;
+}
+
+Datasheet Resolver::datasheet() {
+  return {
+      .unit = "Resolver",
+      .does = "Blends the pixels of a touched block and writes them back, in place.",
+      .latency = {8, "8 for a block of one line and resolve_lanes pixels, and the wait for lines"},
+      .interval = {1,
+                   "max(1, lines, ceil(blended pixels / resolve_lanes), lines to write) a block"},
+      .stages = {{"1", "lines into a window of 16 pixels and their 16 neighbours, one a clock"},
+                 {"2", "originals over it", "SRAM read"},
+                 {"3", "choice of pixels, address of linear_rom"},
+                 {"4", "linear light, differences", "ROM read"},
+                 {"5", "products", "8 x 13 multiply + 22-bit add"},
+                 {"6", "rounding, address of encode_rom"},
+                 {"7", "codes", "ROM read"},
+                 {"8", "write"}},
+      .formats = "weights U0.8, linear light U0.12.",
+      .cost =
+          "window of 32 pixels twice, 16 pixels of results twice, originals; a lane nine reads of "
+          "linear_rom, three of encode_rom, six multiplies 8 x 13."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Blends the pixels of a touched block and writes them back, in place.
 //
-// Where: end of the resolve. Latency 8 for a block of one line and resolve_lanes pixels: 1 a line
-// into the window; 2 originals over it; 3 choice of pixels, linear_rom: address; 4 linear light,
-// differences; 5 products; 6 rounding, encode_rom: address; 7 codes; 8 write. Initiation interval:
-// max(1, lines, ceil(blended pixels / resolve_lanes), lines to write) of a block; loading, blending
-// and writing work on three blocks behind each other. A neighbour that was blended before is
-// replaced by what it was: `originals` keeps the last row of each block column, registers the last
-// column of the block to the left. With frame_copy neighbours come from the copy, and nothing is
-// replaced. Stalls: `colours` (the next line has not come), `downstream`.
-// Formats: weights U0.8, linear light U0.12, result rounded by magnitude. Cost: window of 32 pixels
-// twice, 16 pixels of results twice, originals; a lane nine reads of linear_rom, three of
-// encode_rom, six multiplies 8 x 13. Made for 250 MHz; longest path: 8 x 13 multiply + 22-bit add.
-// Source: paper 002, eq (8).
+// Where: end of the resolve. Loading, blending and writing work on three blocks behind each other.
+// A neighbour that was blended before is replaced by what it was: `originals` keeps the last row of
+// each block column, registers the last column of the block to the left. With frame_copy neighbours
+// come from the copy, and nothing is replaced. Results are rounded by magnitude. Stalls: `colours`
+// (the next line has not come), `downstream`. Source: paper 002, eq (8).
 #pragma once
 
 #include <array>
@@ -21,33 +14,38 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/pipe.h"
-#include "rtl_model/geometric/frame_sequencer.h"
+#include "rtl_model/fabric/unit.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/geometric/fill_store.h"
 #include "rtl_model/geometric/memory_arbiter.h"
-#include "rtl_model/geometric/resolve/block_fetch.h"
 #include "rtl_model/geometric/tokens.h"
 
 namespace deburr::rtl::geometric {
 
 class Resolver final : public Unit {
  public:
+  WireIn<Phase> phase_in{"phase_in"};
+  // The frame's end has come, and every write is answered.
+  WireOut<bool> resolved_out{"resolved_out"};
   In<BlockToken> blocks_in{"blocks_in"};
   MemoryClient memory;
 
   Resolver(const sc_core::sc_module_name& name, ClockDomain& clock,
            const spec::geometric::Parameters& parameters, const ParameterStore& store,
-           const FrameSequencer& sequencer, BlockFetch& fetch);
+           FillStore<Line>& colours);
   Activity tick(Cycle cycle) override;
   void reset() override;
-  // The frame's end has come, and every write is answered.
-  bool done(Cycle cycle) const { return done_.get(cycle); }
 
   std::function<void(const spec::geometric::BlockRecord&)> observer;
 
   Counter blocks{"blocks", "blocks", "touched blocks"};
   Counter blended_pixels{"blended_pixels", "pixels", "pixels that were blended"};
   Counter lines_written{"lines_written", "lines", "lines of colours written"};
+
+  static Datasheet datasheet();
 
  private:
   using Rgba = spec::geometric::Rgba8;
@@ -90,8 +88,7 @@ class Resolver final : public Unit {
   bool blend(Cycle cycle);
 
   const ParameterStore& store_;
-  const FrameSequencer& sequencer_;
-  BlockFetch& fetch_;
+  FillStore<Line>& colours_;  // of the BlockFetch, which fills it
   const std::uint32_t lanes_;
   Memory<Originals> originals_;
   ReadPort<Originals> originals_read_{originals_, "above"};
@@ -128,7 +125,6 @@ class Resolver final : public Unit {
   std::array<Rgba, 16> written_{};
   std::uint32_t writes_ = 0;  // U11, that are not answered
   bool ended_ = false;
-  Wire<bool> done_{false};
 };
 
 }  // namespace deburr::rtl::geometric

@@ -14,23 +14,18 @@ using spec::geometric::Weights;
 constexpr std::uint32_t kBlockMask = spec::geometric::kBlocksInWord - 1;
 constexpr std::uint64_t kWholeLine = ~std::uint64_t{0};
 
-std::size_t cache_of(const spec::geometric::Parameters& p) {
-  return static_cast<std::size_t>(p.weight_blocks);
-}
-
 }  // namespace
 
 WeightCombiner::WeightCombiner(const sc_core::sc_module_name& name, ClockDomain& clock,
                                const spec::geometric::Parameters& p, const ParameterStore& store,
-                               const FrameSequencer& sequencer)
+                               EdgeLatency& latency)
     : Unit(name, clock),
       store_(store),
-      sequencer_(sequencer),
-      blocks_(spec::geometric::kCacheLineCount[cache_of(p)]),
-      index_bits_(spec::geometric::kCacheLineBits[cache_of(p)]),
-      low_bits_((index_bits_ + 1) / 2),
+      latency_(latency),
+      places_(p),
+      blocks_(spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.weight_blocks)]),
       tags_("weight_tags", {.words = blocks_,
-                            .word_bits = kTagBits,
+                            .word_bits = WeightPlaces::kTagBits,
                             .read_during_write = ReadDuringWrite::kNewWord,
                             .content = "x, y of a block, valid"}),
       touched_("touched", {.words = static_cast<std::uint64_t>(p.touched_words),
@@ -43,7 +38,7 @@ WeightCombiner::WeightCombiner(const sc_core::sc_module_name& name, ClockDomain&
                             .content = "sixteen pixels of four weights"}),
       fills_("weight_fills", p.fills, 8 * spec::geometric::kLineBytes, "weights on their way"),
       spill_("spill", {.words = static_cast<std::uint64_t>(p.fills),
-                       .word_bits = kTagBits,
+                       .word_bits = WeightPlaces::kTagBits,
                        .kind = MemoryKind::kFlops,
                        .read_ports = static_cast<std::uint32_t>(p.fills),
                        .write_ports = 2,
@@ -61,7 +56,7 @@ Activity WeightCombiner::clear(Cycle cycle) {
   if (clearing_ == all) return kIdle;
   if (clearing_ < words) touched_write_.write(cycle, clearing_, TouchedWord{});
   if (clearing_ < blocks_) tag_write_.write(cycle, clearing_, 0);
-  if (++clearing_ == all) cleared_.set(cycle, true);
+  if (++clearing_ == all) cleared_out.drive(cycle, true);
   return kBusy;
 }
 
@@ -76,7 +71,8 @@ bool WeightCombiner::spilling(std::uint32_t tag) const {
 
 // Stage 2; kIdle: done.
 Activity WeightCombiner::look_up_block(Cycle cycle) {
-  const std::uint32_t x = lookup_.group.block_x, y = lookup_.group.block_y, tag = tag_of(x, y);
+  const std::uint32_t x = lookup_.group.block_x, y = lookup_.group.block_y,
+                      tag = WeightPlaces::tag_of(x, y);
   const std::uint32_t there = tag_port_.at(cycle, lookup_.index, looked_);
   lookup_.missed = there != tag;
   lookup_.reads = lookup_.replaces = false;
@@ -128,7 +124,7 @@ Activity WeightCombiner::look_up(Cycle cycle) {
   looked_ = cycle;
   if (lookup_.group.end) return kBusy;
   const std::uint32_t x = lookup_.group.block_x, y = lookup_.group.block_y;
-  lookup_.index = static_cast<std::uint16_t>(index_of(x, y));
+  lookup_.index = static_cast<std::uint16_t>(places_.index_of(x, y));
   touched_at_ = y * store_.rules().words_across + x / spec::geometric::kBlocksInWord;
   tag_port_.read(cycle, lookup_.index);
   touched_port_.read(cycle, touched_at_);
@@ -172,10 +168,10 @@ Activity WeightCombiner::deliver(Cycle cycle) {
   if (const Work* work = pipe_.at(3)) {
     if (work->lookup.group.end) {
       ended_ = true;
-      if (latency) latency->end();
+      note(latency_.end());
     } else {
       data_write_.write(cycle, work->lookup.index, work->block);
-      if (latency) latency->write(cycle);
+      note(latency_.write(cycle));
     }
   }
   if (Work* work = pipe_.at(2); work && !work->lookup.group.end) combine(cycle, *work);
@@ -209,18 +205,18 @@ void WeightCombiner::answer(Cycle cycle) {
 }
 
 Activity WeightCombiner::tick(Cycle cycle) {
-  const Phase phase = sequencer_.phase(cycle);
+  const Phase phase = phase_in.read(cycle);
   if (phase == Phase::kBegin) return clear(cycle);
   if (phase != Phase::kEdges) {
     if (ended_) {
       ended_ = false;
-      drawn_.set(cycle, false);
+      drawn_out.drive(cycle, false);
     }
     return kIdle;
   }
   if (clearing_ != 0) {
     clearing_ = 0;
-    cleared_.set(cycle, false);
+    cleared_out.drive(cycle, false);
   }
   const Activity data = deliver(cycle);
   const Activity tags = look_up(cycle);
@@ -230,7 +226,7 @@ Activity WeightCombiner::tick(Cycle cycle) {
     did = true;
   }
   fills_.read_ahead(cycle);
-  if (ended_ && writes_ == 0 && !drawn_.get(cycle)) drawn_.set(cycle, true);
+  if (ended_ && writes_ == 0 && !drawn_out.driven()) drawn_out.drive(cycle, true);
   return did ? kBusy : data != kIdle ? data : tags;
 }
 
@@ -238,12 +234,29 @@ void WeightCombiner::reset() {
   fills_.reset();
   fifo_.reset();
   pipe_.reset();
-  cleared_.reset();
-  drawn_.reset();
   clearing_ = 0;
   looking_ = ended_ = false;
   std::fill(spilled_.begin(), spilled_.end(), 0);
   writes_ = 0;
+}
+
+Datasheet WeightCombiner::datasheet() {
+  return {
+      .unit = "WeightCombiner",
+      .does = "Keeps the weights of each pixel that a line has cut, and which blocks these are.",
+      .latency = {5, "5, and the wait for a block"},
+      .stages = {{"1", "address of tag and touched word, product of the block's address",
+                  "11 x 11 multiply"},
+                 {"2", "tag, touched bit; a read ordered; FIFO", "SRAM read + 23-bit compare"},
+                 {"3", "a block installed, address of the word"},
+                 {"4",
+                  "the word, or what came for it, and the maxima; a replaced block written back",
+                  "SRAM read + 8-bit compare"},
+                 {"5", "written, past the memory to the group behind"}},
+      .cost =
+          "tags, touched map and data 1R1W, the blocks on their way, the FIFO; the spill "
+          "list, 22 bits each, compared at once; two 11 x 11 multiplies; a lane a 16 : 1 "
+          "place and an 8-bit compare."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -2,67 +2,51 @@
 // Keeps the four weights of each pixel that a line has cut, block by block, and which blocks these
 // are.
 //
-// Where: end of the edges' pipe; the resolve reads its memories through handles of its ports.
-// Latency 5, and the wait for a block; initiation interval 1. Stages: 1 address of tag and touched
-// word, address of the block in memory; 2 tag, touched bit; a read ordered; FIFO; 3 a block
-// installed, address of the word; 4 the word, or what came for it, and the maxima; a replaced block
-// is written back; 5 written. A word that is written in stage 5 goes past the memory to the group
-// behind. Stalls: `weights` (the block has not come), `fills` (no place for one), `spill` (the
-// block is still on its way out, or the list of those is full), `downstream`. A write goes before a
-// read of the same clock.
-// Cost: tags, touched map and data 1R1W, the blocks on their way, the FIFO; the spill list, 22 bits
-// each, compared at once; two 11 x 11 multiplies; a lane a 16 : 1 place and an 8-bit compare. Made
-// for 250 MHz; longest path: SRAM read + 8-bit compare.
+// Where: end of the edges' pipe; the resolve reads its memories through handles of its ports. A
+// word that is written in stage 5 goes past the memory to the group behind. Stalls: `weights` (the
+// block has not come), `fills` (no place for one), `spill` (the block is still on its way out, or
+// the list of those is full), `downstream`. A write goes before a read of the same clock.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/pipe.h"
+#include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/fill_store.h"
-#include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/memory_arbiter.h"
 #include "rtl_model/geometric/tokens.h"
+#include "rtl_model/geometric/weights/weight_memories.h"
 
 namespace deburr::rtl::geometric {
 
-// 128 blocks of a row.
-struct TouchedWord {
-  std::array<std::uint64_t, 2> bits{};
-  bool get(std::uint32_t bit) const { return bits[bit >> 6] >> (bit & 63) & 1; }
-  void set(std::uint32_t bit) { bits[bit >> 6] |= std::uint64_t{1} << (bit & 63); }
-};
-
 class WeightCombiner final : public Unit {
  public:
+  WireIn<Phase> phase_in{"phase_in"};
+  WireOut<bool> cleared_out{"cleared_out"};
+  // The frame's end has come, and every write is answered.
+  WireOut<bool> drawn_out{"drawn_out"};
   In<WeightToken> weights_in{"weights_in"};
   MemoryClient memory;
 
   WeightCombiner(const sc_core::sc_module_name& name, ClockDomain& clock,
                  const spec::geometric::Parameters& parameters, const ParameterStore& store,
-                 const FrameSequencer& sequencer);
+                 EdgeLatency& latency);
   Activity tick(Cycle cycle) override;
   void reset() override;
-  bool cleared(Cycle cycle) const { return cleared_.get(cycle); }
-  // The frame's end has come, and every write is answered.
-  bool drawn(Cycle cycle) const { return drawn_.get(cycle); }
 
   // --- For the resolve, which shares the ports in time ---
   ReadPort<std::uint32_t> tag_port() const { return tag_port_; }
   ReadPort<BlockWeights> data_port() const { return data_port_; }
   ReadPort<TouchedWord> touched_port() const { return touched_port_; }
-  std::uint32_t index_of(std::uint32_t x, std::uint32_t y) const {
-    return (x & ((1u << low_bits_) - 1)) | (y & ((1u << (index_bits_ - low_bits_)) - 1))
-                                               << low_bits_;
-  }
-  static std::uint32_t tag_of(std::uint32_t x, std::uint32_t y) { return kValid | y << 11 | x; }
 
-  EdgeLatency* latency = nullptr;  // an instrument, or none
   Counter lookups{"lookups", "blocks", "blocks looked up"};
   Counter misses{"misses", "blocks", "look-ups of a block that is not in the cache"};
   Counter blocks_read{"blocks_read", "blocks", "blocks that came back from memory"};
@@ -70,8 +54,9 @@ class WeightCombiner final : public Unit {
   Histogram edge_latency{"edge_latency", "clk",
                          "from an edge's leaving the EdgeReader to its last group's being written"};
 
+  static Datasheet datasheet();
+
  private:
-  static constexpr std::uint32_t kTagBits = 23, kValid = 1u << (kTagBits - 1);
   struct Lookup {
     WeightToken group;
     std::uint16_t index;         // U10
@@ -104,10 +89,14 @@ class WeightCombiner final : public Unit {
   void answer(Cycle cycle);
   std::uint32_t address_of(std::uint32_t x, std::uint32_t y) const;
   bool spilling(std::uint32_t tag) const;
+  void note(std::optional<Cycle> latency) {
+    if (latency) edge_latency.record(*latency);
+  }
 
   const ParameterStore& store_;
-  const FrameSequencer& sequencer_;
-  const std::uint32_t blocks_, index_bits_, low_bits_;
+  EdgeLatency& latency_;  // an instrument
+  const WeightPlaces places_;
+  const std::uint32_t blocks_;
   Memory<std::uint32_t> tags_;
   ReadPort<std::uint32_t> tag_port_{tags_, "look-up"};
   WritePort<std::uint32_t> tag_write_{tags_, "look-up"};
@@ -121,7 +110,6 @@ class WeightCombiner final : public Unit {
   MemoryBase spill_;  // by place: valid and tag, in spilled_
   Fifo<Lookup> fifo_;
   Activity stalled_weights_, stalled_fills_, stalled_spill_;
-  Wire<bool> cleared_{false}, drawn_{false};
   std::uint32_t clearing_ = 0;  // U17
 
   // Stage 2.

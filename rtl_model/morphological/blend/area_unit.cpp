@@ -2,8 +2,6 @@
 #include "rtl_model/morphological/blend/area_unit.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstdlib>
 #include <cstring>
 #include <string>
 
@@ -18,27 +16,6 @@ constexpr std::uint32_t kLearnedBits = 1;     // has no line: part, shape, class
 
 // Is slot a before slot b? Low bits of both, at most 2^14 apart.
 bool before(std::uint32_t a, std::uint32_t b) { return (a - b) & ((kSlotMask + 1) / 2); }
-
-// |t|, S.24, to U1.12: rounded, saturated.
-std::uint32_t quantise(std::int64_t t) {
-  constexpr int kDrop = 12;
-  const auto magnitude = static_cast<std::uint64_t>(std::abs(t));
-  return static_cast<std::uint32_t>(
-      std::min<std::uint64_t>(4096, (magnitude + (1u << (kDrop - 1))) >> kDrop));
-}
-
-std::uint32_t limit(std::uint64_t share) {
-  return static_cast<std::uint32_t>(
-      std::min<std::uint64_t>(share, spec::morphological::kMaxWeight));
-}
-
-// U1.12 + U1.12, halved, to U0.8.
-std::uint32_t trapezoid(std::uint32_t q0, std::uint32_t q1) { return limit((q0 + q1 + 16) >> 5); }
-
-// U2.24 x U12.12, halved, to U0.8.
-std::uint32_t triangle(std::uint32_t q, std::uint32_t inverse) {
-  return limit((std::uint64_t{q} * q * inverse + (std::uint64_t{1} << 28)) >> 29);
-}
 
 MemoryShape marks_shape(std::size_t words, std::size_t columns, std::size_t banks,
                         const char* content) {
@@ -126,9 +103,9 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
           // Start, length up to R.
           kCoordinateBits + 8, record_bits(p)) {
   if (p.area == spec::morphological::AreaSource::kLearned)
-    shares_.emplace(store.lanes());
+    learned_.emplace("learned", store.lanes());
   else if (p.area != spec::morphological::AreaSource::kAnalytic)
-    table_.emplace(p.area, store.lanes());
+    table_.emplace("table", p.area, store);
   if (!p.diagonals) return;
   diagonals_in.emplace("diagonals_in");
   diagonals_ = declare_stall("diagonals", "the diagonals of a beat have not come");
@@ -201,12 +178,12 @@ void AreaUnit::store(Cycle cycle, AxisRecords& side, const LineToken& token) {
   const std::size_t at = place(side, token), bank = at % side.banks;
   side.write_marks[bank].write(cycle, at);
   side.mark[at] = {line.run.start, line.run.length, line.run.line};
-  Walk walk;
+  AreaWalk walk;
   walk.t = (std::int64_t{line.shift} << (spec::morphological::kRecipFractionBits - 1)) -
            std::int64_t{line.offset} * line.slope;
   walk.growth = static_cast<std::uint32_t>(line.scale) * line.slope;
   walk.inverse = line.inverse;
-  if (store_.rules().table) set_ends(walk);
+  if (store_.rules().table) TableShares::set_ends(walk);
   if (table_ || corners_ || line.learned) {
     walk.shape = line.run.shape;
     walk.far = line.run.far;
@@ -231,9 +208,8 @@ void AreaUnit::address_marks(Cycle cycle, const AreaSlotToken& token, Beat& beat
   beat.top = token.top;
   beat.next_left = token.next_left;
   beat.next_top = token.next_top;
-  beat.asks = 0;
   beat.any = false;
-  beat.weights = {};
+  beat.shares = {};
   const std::int32_t row = evaluated_row(token.slot);
   const std::size_t x = token.slot.beat * lanes_;
   beat.x = static_cast<std::uint32_t>(x);
@@ -325,91 +301,34 @@ void AreaUnit::evaluate(Cycle cycle, Beat& beat) {
       if (along.from >= 2 && along.k == 0)
         hand_walk_ = row_.read[along.from - 2u].at(cycle, pair_of(row, beat.x + i));
       if (kLearned && hand_walk_.learned)
-        ask(beat, i, false, hand_walk_, along);
+        learned_->ask(2 * i, hand_walk_, along.k, along.after);
       else
-        beat.weights[i].top = area(hand_walk_, along.k);
+        beat.shares[i].top = AnalyticShares::of(hand_walk_, along.k);
       ++horizontal_edges;
     }
     if (down.from) {
-      const Walk& walk = column_.read[i].at(cycle, beat.x + i);
+      const AreaWalk& walk = column_.read[i].at(cycle, beat.x + i);
       if (kLearned && walk.learned)
-        ask(beat, i, true, walk, down);
+        learned_->ask(2 * i + 1, walk, down.k, down.after);
       else
-        beat.weights[i].left = area(walk, down.k);
+        beat.shares[i].left = AnalyticShares::of(walk, down.k);
       ++vertical_edges;
     }
   }
   if (kLearned && store_.rules().learned) ask_gaps(beat);
 }
 
-// ---- Learned shares -----------------------------------------------------------------------------
-
-// Stage 4: by the ends of its record.
-void AreaUnit::ask(Beat& beat, std::size_t lane, bool vertical, const Walk& walk,
-                   const Edge& edge) {
-  const std::size_t reader = 2 * lane + vertical;
-  beat.asks = static_cast<std::uint8_t>(beat.asks | 1u << reader);
-  beat.query[reader] =
-      SharesRom::ask({walk.shape, walk.start_class, walk.end_class, walk.part}, edge.k, edge.after);
-}
-
 // The edges that no record covers.
-void AreaUnit::ask_gaps(Beat& beat) {
+void AreaUnit::ask_gaps(const Beat& beat) {
   for (std::size_t i = 0; i < beat.count; ++i)
     for (const bool vertical : {false, true}) {
       const unsigned edges = vertical ? beat.next_left : beat.next_top;
-      if ((edges >> i & 1) == 0 || (vertical ? beat.vertical : beat.horizontal)[i].from != 0)
-        continue;
-      const std::size_t reader = 2 * i + vertical;
-      beat.asks = static_cast<std::uint8_t>(beat.asks | 1u << reader);
-      beat.query[reader] = SharesRom::ask_gap();
+      if ((edges >> i & 1) != 0 && (vertical ? beat.vertical : beat.horizontal)[i].from == 0)
+        learned_->ask_gap(2 * i + vertical);
     }
 }
 
-template <class Visit>
-void AreaUnit::for_each_query(Beat& beat, Visit&& visit) {
-  for (unsigned left = beat.asks; left != 0; left &= left - 1) {
-    const auto reader = static_cast<std::size_t>(std::countr_zero(left));
-    visit(reader, beat.query[reader]);
-  }
-}
-
-// Stages 7 to 4.
-void AreaUnit::learn(Cycle cycle) {
-  if (Beat* beat = pipe_.at(7); beat && beat->asks)
-    for_each_query(*beat, [&](std::size_t reader, const SharesRom::Query& query) {
-      const SharesRom::Shares shares = shares_->shares(cycle, reader, query);
-      WeightWord& word = beat->weights[reader / 2];
-      (reader % 2 ? word.left : word.top) = {shares.first, shares.second, 0};
-    });
-  if (Beat* beat = pipe_.at(6); beat && beat->asks)
-    for_each_query(*beat, [&](std::size_t reader, SharesRom::Query& query) {
-      shares_->address_shares(cycle, reader, query);
-    });
-  if (Beat* beat = pipe_.at(5); beat && beat->asks)
-    for_each_query(*beat, [&](std::size_t reader, SharesRom::Query& query) {
-      shares_->add(cycle, reader, query);
-    });
-  if (Beat* beat = pipe_.at(4); beat && beat->asks)
-    for_each_query(*beat, [&](std::size_t reader, const SharesRom::Query& query) {
-      shares_->address(cycle, reader, query);
-    });
-}
-
 // ---- With crossings, corners or a table ---------------------------------------------------------
-
-// Where the ends of the line lie: as if a step were its whole length, rounded to whole pixels.
-void AreaUnit::set_ends(Walk& walk) {
-  constexpr std::int64_t kHalf = std::int64_t{1} << (spec::morphological::kRecipFractionBits - 1);
-  // S5.12, above the line's lower end.
-  const std::int64_t height = (walk.t + kHalf + 2048) >> 12;
-  const auto limited = [](std::int64_t pixel) {
-    return static_cast<std::int32_t>(std::clamp<std::int64_t>(pixel, -4096, 4095));
-  };
-  const std::int64_t inverse = walk.inverse;
-  walk.set_ends(limited(-((height * inverse + kHalf) >> 24)),
-                limited(((4096 - height) * inverse + kHalf) >> 24));
-}
 
 // Stage 2.
 void AreaUnit::smaa_match(Cycle cycle, Beat& beat, std::int32_t row) {
@@ -456,7 +375,6 @@ void AreaUnit::smaa_match(Cycle cycle, Beat& beat, std::int32_t row) {
 void AreaUnit::smaa_evaluate(Cycle cycle, Beat& beat) {
   const std::int32_t row = evaluated_row(beat.slot);
   const std::size_t entries = std::size_t{1} << entry_bits_;
-  for (Search& search : beat.search) search.active = false;
   for (std::size_t i = 0; i < beat.count; ++i) {
     const Edge along = beat.horizontal[i], down = beat.vertical[i];
     if (along.from) {
@@ -471,106 +389,27 @@ void AreaUnit::smaa_evaluate(Cycle cycle, Beat& beat) {
       ++vertical_edges;
     }
   }
-  if (shares_ && store_.rules().learned) ask_gaps(beat);
+  if (learned_ && store_.rules().learned) ask_gaps(beat);
 }
 
-void AreaUnit::smaa_edge(Beat& beat, std::size_t lane, bool vertical, const Walk& walk,
+void AreaUnit::smaa_edge(Beat& beat, std::size_t lane, bool vertical, const AreaWalk& walk,
                          const Edge& edge) {
-  if (walk.learned) return ask(beat, lane, vertical, walk, edge);
+  const std::size_t number = 2 * lane + vertical;
+  if (learned_ && walk.learned) return learned_->ask(number, walk, edge.k, edge.after);
   const std::uint8_t near = walk.part == spec::morphological::RunPart::kHead   ? 0
                             : walk.part == spec::morphological::RunPart::kTail ? 1
                                                                                : edge.near;
-  if (!store_.rules().table) {
-    WeightWord& word = beat.weights[lane];
-    (vertical ? word.left : word.top) = rounded(area(walk, edge.k), walk.far, near);
-    return;
-  }
-  Search& search = beat.search[2 * lane + vertical];
-  search.active = true;
-  search.left = std::max(0, edge.k - walk.first_end());
-  search.right = std::max(0, walk.last_end() - 1 - edge.k);
-  search.query.shape = walk.shape;
-  search.far = walk.far;
-  search.near = near;
-  search.span = walk.span;
-}
-
-// Stage 4: searches end at their limit, and an end beyond it is not seen.
-void AreaUnit::cut(Cycle cycle, Beat& beat) {
-  const std::int32_t most_left = 2 * store_.rules().search_steps - 1, most_right = most_left + 1;
-  for (std::size_t reader = 0; reader < beat.search.size(); ++reader) {
-    Search& search = beat.search[reader];
-    if (!search.active) continue;
-    AreaTable::Query& query = search.query;
-    if (search.left > most_left) query.shape &= 0b1100;
-    if (search.right > most_right) query.shape &= 0b0011;
-    query.left = static_cast<std::uint8_t>(std::min(search.left, most_left));
-    query.right = static_cast<std::uint8_t>(std::min(search.right, most_right));
-    table_->address_roots(cycle, reader, query);
-  }
-}
-
-// Stage 5.
-void AreaUnit::address_entries(Cycle cycle, Beat& beat) {
-  for (std::size_t reader = 0; reader < beat.search.size(); ++reader)
-    if (beat.search[reader].active)
-      table_->address_entries(cycle, reader, beat.search[reader].query);
-}
-
-// Stage 6, and the arithmetic of 7 to 9.
-void AreaUnit::interpolate(Cycle cycle, Beat& beat) {
-  for (std::size_t reader = 0; reader < beat.search.size(); ++reader) {
-    const Search& search = beat.search[reader];
-    if (!search.active) continue;
-    const AreaTable::Shares shares = table_->shares(cycle, reader, search.query);
-    WeightWord& word = beat.weights[reader / 2];
-    (reader % 2 ? word.left : word.top) =
-        rounded({shares.first, shares.second, search.span}, search.far, search.near);
-  }
-}
-
-// Shares at sharp corners, U0.8; the factor is U1.9.
-AreaUnit::Weights AreaUnit::rounded(Weights weights, std::uint8_t far, std::uint8_t near) const {
-  const FrameRules& rules = store_.rules();
-  if (!rules.corners) return weights;
-  const auto side = [&](std::uint32_t share, int bit) {
-    const int start = far >> bit & 1, end = far >> (bit + 2) & 1;
-    const int sharp = near == 0 ? 2 * start : near == 1 ? 2 * end : start + end;
-    const auto factor = static_cast<std::uint32_t>(512 - rules.corner_loss * sharp);
-    return static_cast<std::uint8_t>((share * factor + 256) >> 9);
-  };
-  return {side(weights.first, 0), side(weights.second, 1), weights.span};
-}
-
-// The shares of pixel k of a record.
-AreaUnit::Weights AreaUnit::area(const Walk& walk, std::uint32_t k) {
-  const std::int64_t t0 = walk.t + std::int64_t{walk.growth} * k, t1 = t0 + walk.growth;
-  const std::uint32_t q0 = quantise(t0), q1 = quantise(t1);
-  std::uint32_t before = 0, after = 0;
-  if (t1 <= 0) {
-    before = trapezoid(q0, q1);
-  } else if (t0 >= 0) {
-    after = trapezoid(q0, q1);
-  } else {
-    before = triangle(q0, walk.inverse);
-    after = triangle(q1, walk.inverse);
-  }
-  std::uint32_t first = 0, second = 0;
-  (walk.before == spec::morphological::Side::kFirst ? first : second) +=
-      walk.before == spec::morphological::Side::kNone ? 0 : before;
-  (walk.after == spec::morphological::Side::kFirst ? first : second) +=
-      walk.after == spec::morphological::Side::kNone ? 0 : after;
-  return {static_cast<std::uint8_t>(limit(first)), static_cast<std::uint8_t>(limit(second)),
-          walk.span};
+  if (store_.rules().table) return table_->ask(number, walk, edge.k, near);
+  shares_of(beat.shares, number) =
+      at_corners(store_.rules(), AnalyticShares::of(walk, edge.k), walk.far, near);
 }
 
 // Stage 8: a diagonal gives the top edge its shares and takes those of the left one.
 void AreaUnit::take_diagonals(Cycle cycle, Beat& beat) {
-  const DiagonalSharesToken& token = diagonals_in->front(cycle);
+  const DiagonalSharesToken& token = diagonals_in->take(cycle);
   for (std::size_t i = 0; i < lanes_; ++i)
     if (token.taken >> i & 1)
-      beat.weights[i] = {{}, {token.first[i], token.second[i], token.span[i]}};
-  diagonals_in->pop(cycle);
+      beat.shares[i] = {{}, {token.first[i], token.second[i], token.span[i]}};
 }
 
 // Stage 8.
@@ -585,22 +424,22 @@ void AreaUnit::send(Cycle cycle, const Beat& beat) {
   if (!beat.works) return;
   if (beat.slot.row >= lag_) share(cycle, beat);
   write_weights_.write(cycle, beat.x, lanes_);
-  weights_[beat.slot.beat] = beat.weights;
+  weights_[beat.slot.beat] = beat.shares;
 }
 
 void AreaUnit::share(Cycle cycle, const Beat& beat) {
   const std::size_t first = beat.x, count = beat.count;
   read_weights_.check(cycle, first);
   const auto width = static_cast<std::size_t>(store_.rules().width);
-  const WeightWords* const above = &weights_[beat.slot.beat];
+  const BeatShares* const above = &weights_[beat.slot.beat];
   const auto right_of = [&](std::size_t i) {
     return i + 1 < lanes_          ? above[0][i + 1].left
            : first + i + 1 < width ? above[1][0].left
-                                   : Weights{};
+                                   : EdgeShares{};
   };
   bool any = false;
   for (std::size_t i = 0; i < count; ++i)
-    any |= (above[0][i].top.second | beat.weights[i].top.first | above[0][i].left.second |
+    any |= (above[0][i].top.second | beat.shares[i].top.first | above[0][i].left.second |
             right_of(i).first) != 0;
 
   ShareToken& out = shares_out.emplace(cycle);
@@ -610,8 +449,8 @@ void AreaUnit::share(Cycle cycle, const Beat& beat) {
   out.top = beat.top;
   if (!any) return;
   for (std::size_t i = 0; i < count; ++i) {
-    const Weights up = above[0][i].top, down = beat.weights[i].top;
-    const Weights left = above[0][i].left, right = right_of(i);
+    const EdgeShares up = above[0][i].top, down = beat.shares[i].top;
+    const EdgeShares left = above[0][i].left, right = right_of(i);
     out.shares[i] = {up.second, down.first, left.second, right.first,
                      up.span,   down.span,  left.span,   right.span};
   }
@@ -634,13 +473,9 @@ Activity AreaUnit::work(Cycle cycle) {
         if (kSmaa && takes_diagonals(*beat)) take_diagonals(cycle, *beat);
         address_weights(cycle, *beat);
       }
-      // Stages 4 to 7 are of the arithmetic that stage 3 begins.
-      if (kLearned) learn(cycle);
-      if (kSmaa && table_) {
-        if (Beat* beat = pipe_.at(6); beat && beat->any) interpolate(cycle, *beat);
-        if (Beat* beat = pipe_.at(5); beat && beat->any) address_entries(cycle, *beat);
-        if (Beat* beat = pipe_.at(4); beat && beat->any) cut(cycle, *beat);
-      }
+      // Stages 4 to 7 are those of the units inside.
+      if (kLearned) learned_->move(cycle, shares_in(7));
+      if (kSmaa && table_) table_->move(cycle, shares_in(6));
       if (Beat* beat = pipe_.at(3); beat && beat->any) {
         if constexpr (kSmaa)
           smaa_evaluate(cycle, *beat);
@@ -667,12 +502,14 @@ Activity AreaUnit::work(Cycle cycle) {
 }
 
 Activity AreaUnit::tick(Cycle cycle) {
-  if (shares_) return smaa_ ? work<true, true>(cycle) : work<false, true>(cycle);
+  if (learned_) return smaa_ ? work<true, true>(cycle) : work<false, true>(cycle);
   return smaa_ ? work<true, false>(cycle) : work<false, false>(cycle);
 }
 
 void AreaUnit::reset() {
   pipe_.reset();
+  if (table_) table_->reset();
+  if (learned_) learned_->reset();
   row_.entered_count = column_.entered_count = 0;
   row_.measured_count = column_.measured_count = 0;
   hand_.length = 0;

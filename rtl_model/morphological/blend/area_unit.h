@@ -1,43 +1,35 @@
 // SPDX-License-Identifier: MIT
-// The area that a record's line cuts off at each of its edges, as shares of the pixels across: a
-// trapezoid, or two triangles where the line crosses the edge; or SMAA's table of areas, by the
-// distances to both ends; or learned shares, of an edge whose record has no line. Shares at sharp
-// corners are reduced; a diagonal gives its own instead.
+// Stores the records and walks along them with the raster, so that each edge finds its record, and
+// brings the shares of the row above and of this one to the Blender. The shares of an edge come
+// from the units inside, which stand side by side: AnalyticShares, TableShares, LearnedShares.
+//
+//   lines -> records --+
+//   slots -> walk -----+-> analytic, table, learned --> weight_lines -> shares
+//             1, 2, 3            4 to 7 (9)                 8, 9
 //
 // Where: between the LineUnits and the Blender. In slot row s it evaluates row y = s - R - 4 as the
 // raster passes: of each axis one edge a lane and clock. A record is written once and read at each
 // of its edges: the mark of its place says where it starts and how long it is, so pixel k of it is
 // known without a counter, and t = t(0) + k x scale x slope. Horizontal marks are read at their
-// start, and the record stays in hand from there on; vertical ones are read in every row.
-// To the Blender go the shares of row y - 1: those of the row's edges from weight_lines, those of
-// the top edges below as evaluated.
+// start, and the record stays in hand from there on; vertical ones are read in every row. To the
+// Blender go the shares of row y - 1: those of the row's edges from weight_lines, those of the top
+// edges below as evaluated.
 // With crossings there is a horizontal record a column, and each column has two vertical ones, used
 // in turn (the token's `entry`): a run may begin in the row after its predecessor's end.
-// Latency 9, initiation interval 1. Stages: 1 marks: address; 2 marks come, records: address, which
-// does not ask the marks; 3 marks against the raster, k, records: those of the marks or the one in
-// hand; 4 k x growth; 5 t at both ends of the edge, quantised; 6 squares, trapezoid; 7 triangles; 8
-// limits, sides, weight_lines: address; 9 weight_lines, write back. With a table: 4 k - a, b - 1 -
-// k, limits of the searches, shape that is left, sqrt_rom: address; 5 roots, area_rom: address; 6
-// entries, differences; 7, 8 interpolation. With learned shares: 4 distances to both ends, the
-// nearer one, addresses of three tables; 5 words; 6 their sum, address of share_rom; 7 shares,
-// chosen in 8 in place of the line's. An edge of no record (between head and tail of a long run)
-// takes that of two ends out of sight: so the slot brings the edges of row y. Stage 8 takes a beat
-// of diagonals, 9 the corner factor and the choice between them. The model compares the marks in
-// stage 2, to read those records only that matter, and does the arithmetic of an edge at once, in
-// stage 3 or behind the table's words. A line that arrives is popped behind its slot (stage 2),
-// multiplied in that clock and stored in the next, which finishes the record; with a table a clock
-// later, since its ends a and b are two more multiplies. Marks and records have a bank a lane (a
-// pair of columns a bank: horizontal) with one write port each; a line whose bank a lower lane
-// takes in its clock waits, which `bank_conflicts` counts. Slot rows 0 and 1 clear the marks.
-// Stalls: `downstream`; `diagonals` (those of a beat have not come: not in an engine whose rows
-// begin as the RunExtractor lets them). Formats: t S4.24, q U1.12, a, b S13, shares U0.8. Cost an
-// axis and lane: a multiplier 26 x 12, two 12 x 12 and two 24 x 24 (triangles); at the entrance two
-// multipliers 24 x 24; with a table two 18 x 24 more there, and AreaTable's; with learned shares a
-// 12-bit subtract and SharesRom's; with corners two 10 x 8. Memory: weight_lines a column (first,
-// second and span of its left edge, second and span of its top edge); row_marks and row_records,
-// two rows of pairs of columns; column_marks and column_records, a column each (with crossings a
-// column and two a column); all 1R1W a bank. Made for 250 MHz; longest path: 24 x 24 multiply.
-// Source: Reshetov 2009; paper 000, section 2; SMAA (Jimenez et al. 2012); paper 003.
+// All stages move together, those of the units inside too, by one enable: so no beat waits between
+// them, and what is inside needs no links. An edge of no record (between head and tail of a long
+// run) takes the learned shares of two ends out of sight: so the slot brings the edges of row y.
+// The model compares the marks in stage 2, to read those records only that matter. A line that
+// arrives is popped behind its slot (stage 2), multiplied in that clock and stored in the next,
+// which finishes the record; with a table a clock later, since its ends a and b are two more
+// multiplies. Marks and records have a bank a lane (a pair of columns a bank: horizontal) with one
+// write port each; a line whose bank a lower lane takes in its clock waits, which `bank_conflicts`
+// counts. Slot rows 0 and 1 clear the marks. Stalls: `downstream`; `diagonals` (those of a beat
+// have not come: not in an engine whose rows begin as the RunExtractor lets them). Memory:
+// weight_lines a column (first, second and span of its left edge, second and span of its top edge);
+// row_marks and row_records, two rows of pairs of columns; column_marks and column_records, a
+// column each (with crossings a column and two a column); all 1R1W a bank. Source: Reshetov 2009;
+// paper 000, section 2; SMAA (Jimenez et al. 2012); paper 003.
 #pragma once
 
 #include <array>
@@ -47,11 +39,14 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/morphological/blend/area_table.h"
-#include "rtl_model/morphological/blend/shares_rom.h"
+#include "rtl_model/morphological/blend/analytic_shares.h"
+#include "rtl_model/morphological/blend/area_walk.h"
+#include "rtl_model/morphological/blend/learned_shares.h"
+#include "rtl_model/morphological/blend/table_shares.h"
 #include "rtl_model/morphological/parameter_store.h"
 #include "rtl_model/morphological/tokens.h"
 
@@ -79,7 +74,10 @@ class AreaUnit final : public Unit {
   std::function<void(const spec::morphological::LineRecord&)> observer;
 
   // The tables of learned shares, for the registers; nullptr in an engine without.
-  SharesRom* shares_rom() { return shares_ ? &*shares_ : nullptr; }
+  SharesRom* shares_rom() { return learned_ ? &learned_->rom : nullptr; }
+
+  static Datasheet slot_datasheet(const spec::morphological::Parameters& parameters);
+  static Datasheet line_datasheet(const spec::morphological::Parameters& parameters);
 
  private:
   static constexpr std::size_t kLanes = spec::morphological::kMaxLanes;
@@ -90,35 +88,6 @@ class AreaUnit final : public Unit {
     std::uint16_t length = 0;  // U12, 0: none
     std::uint16_t row = 0;     // U13, horizontal only
   };
-  // A record as it is stored.
-  struct Walk {
-    std::int64_t t = 0;         // S4.24, at the first edge
-    std::uint32_t growth = 0;   // U2.24, a pixel
-    std::uint32_t inverse = 0;  // U12.12
-    std::uint16_t span = 0;     // U12
-    spec::morphological::Side before{}, after{};
-    // Of a table: where the line's ends lie, S13, in the bits of growth and inverse.
-    void set_ends(std::int32_t first, std::int32_t last) {
-      growth = static_cast<std::uint32_t>(first);
-      inverse = static_cast<std::uint32_t>(last);
-    }
-    std::int32_t first_end() const { return static_cast<std::int32_t>(growth); }
-    std::int32_t last_end() const { return static_cast<std::int32_t>(inverse); }
-    // Of the engines with a table or corners.
-    std::uint8_t shape = 0, far = 0;
-    spec::morphological::RunPart part{};
-    // Of a record without a line, in the bits of t.
-    bool learned = false;
-    std::uint8_t start_class = 0, end_class = 0;
-  };
-  struct Weights {
-    std::uint8_t first = 0, second = 0;
-    std::uint16_t span = 0;
-  };
-  struct WeightWord {
-    Weights left{}, top{};  // of top, `first` is used as it is evaluated
-  };
-  using WeightWords = std::array<WeightWord, kLanes>;  // of a beat
   // The records of an axis, in banks.
   struct AxisRecords {
     AxisRecords(const std::string& axis, const MemoryShape& marks, std::uint32_t mark_bits,
@@ -126,10 +95,10 @@ class AreaUnit final : public Unit {
     const std::size_t banks;
     Memory<void> marks;
     ReadPort<void> read_marks{marks, "raster"};
-    Memory<Walk> records;
-    std::vector<ReadPort<Walk>> read;  // a bank each, as the others of banks
+    Memory<AreaWalk> records;
+    std::vector<ReadPort<AreaWalk>> read;  // a bank each, as the others of banks
     std::vector<WritePort<void>> write_marks;
-    std::vector<WritePort<Walk>> write;
+    std::vector<WritePort<AreaWalk>> write;
     // The words of `marks`, and as many more as make a beat of most lanes.
     std::vector<Mark> mark;
     // Lines at the entrance that are stored in this clock.
@@ -146,14 +115,6 @@ class AreaUnit final : public Unit {
     std::uint8_t near = 0;    // which end, if corners are rounded: 0 start, 1 end, 2 none
     std::uint16_t after = 0;  // pixels of the record behind it, with learned shares
   };
-  // An edge on its way through the table.
-  struct Search {
-    bool active = false;
-    std::int32_t left = 0, right = 0;  // S14, pixels before and behind
-    AreaTable::Query query;
-    std::uint8_t far = 0, near = 0;
-    std::uint16_t span = 0;
-  };
   struct Beat {
     Slot slot;
     std::uint8_t left, top, next_left, next_top;
@@ -164,11 +125,7 @@ class AreaUnit final : public Unit {
     std::array<Mark, kLanes> row_mark;         // a pair of columns, with crossings a column
     std::array<Mark, 2 * kLanes> column_mark;  // a column, with crossings two a column
     std::array<Edge, kLanes> horizontal, vertical;
-    WeightWords weights;
-    std::array<Search, 2 * kLanes> search;  // by lane, horizontal first
-    // The same of learned shares; bit: one that asks.
-    std::array<SharesRom::Query, 2 * kLanes> query;
-    std::uint8_t asks;
+    BeatShares shares;
   };
 
   // kSmaa: of an engine with crossings, corners, diagonals or a table; kLearned: with learned
@@ -187,6 +144,11 @@ class AreaUnit final : public Unit {
     return beat && takes_diagonals(*beat) && !diagonals_in->can_pop(cycle);
   }
   void take_diagonals(Cycle cycle, Beat& beat);
+  // Of the beat in this stage, for a unit inside; nullptr: a bubble.
+  BeatShares* shares_in(std::size_t stage) {
+    Beat* const beat = pipe_.at(stage);
+    return beat ? &beat->shares : nullptr;
+  }
   inline void address_weights(Cycle cycle, const Beat& beat);
   inline void send(Cycle cycle, const Beat& beat);
   inline void share(Cycle cycle, const Beat& beat);
@@ -194,26 +156,17 @@ class AreaUnit final : public Unit {
   [[gnu::noinline]] void match(Cycle cycle, Beat& beat);  // inline it costs the others registers
   template <bool kLearned>
   void evaluate(Cycle cycle, Beat& beat);
-  void ask(Beat& beat, std::size_t lane, bool vertical, const Walk& walk, const Edge& edge);
-  void ask_gaps(Beat& beat);
-  template <class Visit>
-  static void for_each_query(Beat& beat, Visit&& visit);
-  void learn(Cycle cycle);
+  void ask_gaps(const Beat& beat);
   void smaa_match(Cycle cycle, Beat& beat, std::int32_t row);
   void smaa_evaluate(Cycle cycle, Beat& beat);
-  void smaa_edge(Beat& beat, std::size_t lane, bool vertical, const Walk& walk, const Edge& edge);
-  void cut(Cycle cycle, Beat& beat);
-  void address_entries(Cycle cycle, Beat& beat);
-  void interpolate(Cycle cycle, Beat& beat);
-  Weights rounded(Weights weights, std::uint8_t far, std::uint8_t near) const;
+  void smaa_edge(Beat& beat, std::size_t lane, bool vertical, const AreaWalk& walk,
+                 const Edge& edge);
   void clear_marks(Cycle cycle, const Slot& slot);
   bool measure_lines();
   bool store_lines(Cycle cycle);
   bool take_lines(Cycle cycle, LanePorts<In<LineToken>>& lines, AxisRecords& side);
   void store(Cycle cycle, AxisRecords& side, const LineToken& token);
   std::size_t place(const AxisRecords& side, const LineToken& token) const;
-  static void set_ends(Walk& walk);
-  static Weights area(const Walk& walk, std::uint32_t k);
 
   // Rows of slots that evaluate or blend.
   std::int32_t evaluated_row(const Slot& slot) const { return slot.row - lag_ + 1; }
@@ -233,14 +186,16 @@ class AreaUnit final : public Unit {
   Memory<void> weight_lines_;
   ReadPort<void> read_weights_{weight_lines_, "row above"};
   WritePort<void> write_weights_{weight_lines_, "row"};
-  std::vector<WeightWords> weights_;  // the words of weight_lines
+  std::vector<BeatShares> weights_;  // the words of weight_lines, by beat; of top, `first` is used
+                                     // as it is evaluated
   AxisRecords row_, column_;
-  std::optional<AreaTable> table_;
-  std::optional<SharesRom> shares_;
+  AnalyticShares analytic_{"analytic"};
+  std::optional<TableShares> table_;
+  std::optional<LearnedShares> learned_;
   std::optional<Activity> diagonals_;  // waits for their shares
   Pipe<Beat, spec::morphological::kAreaLatency> pipe_;
-  Mark hand_;       // the horizontal record in hand, stage 2
-  Walk hand_walk_;  // stage 3
+  Mark hand_;           // the horizontal record in hand, stage 2
+  AreaWalk hand_walk_;  // stage 3
   // U15, low bits: the slot that comes next into stage 3; the first one of the row of the last one.
   std::uint32_t passed_ = 0, row_begin_ = 0;
   bool odd_row_ = false;  // that row

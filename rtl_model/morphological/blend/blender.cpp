@@ -278,4 +278,25 @@ Activity Blender::tick(Cycle cycle) {
   return kBusy;
 }
 
+Datasheet Blender::datasheet() {
+  return {.unit = "Blender",
+          .does = "Decides the axis of each pixel and blends it with its neighbours on that axis.",
+          .latency = {6, "6; 5 to its push into the output link"},
+          .stages = {{"1",
+                      "sums, spans, axis, neighbours, marks; address of mix_rom, of the chosen sum "
+                      "(`strongest`: two maxima, compare, sums of both pairs)"},
+                     {"2", "address of linear_rom; word of mix_rom, squares of both shares"},
+                     {"3", "linear light, differences; squares x word, rounded",
+                      "17 x 16 multiply + 33-bit add"},
+                     {"4", "products, their sum", "8 x 13 multiply"},
+                     {"5", "rounding, new value, address of encode_rom"},
+                     {"6", "codes", "ROM read"}},
+          .formats = "shares U0.8, linear light U0.12.",
+          .cost =
+              "a lane: nine reads of linear_rom, 256 x 12 bits (three a channel, behind the "
+              "choice of the axis), three of encode_rom, 4096 x 8 bits (two reads a copy), two "
+              "multipliers 8 x 13 a channel, one of mix_rom, 511 x 17 bits, two multipliers 8 x "
+              "8 and two 17 x 16, nine comparators, five bits of marks, two shifts."};
+}
+
 }  // namespace deburr::rtl::morphological

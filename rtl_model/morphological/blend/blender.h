@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Decides the axis of each pixel and blends it with its two neighbours on that axis.
 //
-// Where: last block. Latency 6 to the output link, initiation interval 1. Stages: 1 sums, spans,
-// axis and neighbours, mix_rom: address of the chosen sum; 2 linear_rom: address; beside it the
-// word of mix_rom, squares of both shares; 3 linear light, differences; beside it squares x word; 4
-// products and their sum; 5 rounding, new value, encode_rom: address; 6 codes. Stalls:
-// `downstream`. Rule `longest`: the axis that has shares at all; else the longer line; else the
-// larger sum, ties to up and down. Rule `strongest`: the axis of the largest share, ties to up and
-// down; each share w of the pair becomes w^2 / (w1 + w2). Rule `leave`: a pixel that is marked (bit
-// 0 of its alpha is 0), or beside one that is, takes no share; or it takes half of a marked one's.
-// A mask is the EdgeDetector's. The mark ends here. Formats: shares U0.8, linear light U0.12,
-// result rounded by magnitude. Cost a lane: nine reads of linear_rom, 256 x 12 bits (three a
-// channel, behind the choice of the axis), three of encode_rom, 4096 x 8 bits (two reads a copy),
-// two multipliers 8 x 13 a channel, one of mix_rom, 511 x 17 bits, two multipliers 8 x 8 and two 17
-// x 16, nine comparators, five bits of marks, two shifts. Made for 250 MHz; longest path: 17 x 16
-// multiply + 33-bit add. Source: paper 000, section 2 (D sums), SMAA 1x (strongest); the tie rules
+// Where: last block. Stalls: `downstream`. Rule `longest`: the axis that has shares at all; else
+// the longer line; else the larger sum, ties to up and down. Rule `strongest`: the axis of the
+// largest share, ties to up and down; each share w of the pair becomes w^2 / (w1 + w2). Rule
+// `leave`: a pixel that is marked (bit 0 of its alpha is 0), or beside one that is, takes no share;
+// or it takes half of a marked one's. A mask is the EdgeDetector's. The mark ends here. Results are
+// rounded by magnitude. Source: paper 000, section 2 (D sums), SMAA 1x (strongest); the tie rules
 // are ours.
 #pragma once
 
@@ -23,6 +15,7 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/latency_probe.h"
 #include "rtl_model/fabric/memory.h"
@@ -52,6 +45,8 @@ class Blender final : public Unit {
   Counter blended_pixels{"blended_pixels", "pixels", "pixels that took a share of a neighbour"};
   Counter left_pixels{"left_pixels", "pixels", "pixels that the rule left without a share"};
   Histogram beat_latency{"beat_latency", "clk", "from a beat being popped to it being pushed"};
+
+  static Datasheet datasheet();
 
  private:
   static constexpr std::size_t kLanes = spec::morphological::kMaxLanes;

@@ -174,13 +174,12 @@ Activity DiagonalUnit::tick(Cycle cycle) {
   if (const Beat* beat = pipe_.at(5); beat && beat->valid) deliver(cycle, *beat);
   if (const Beat* beat = pipe_.at(4); beat && beat->valid) address(cycle, *beat);
   if (arrives) {
-    const DiagonalColumnsToken& token = columns_in.front(cycle);
+    const DiagonalColumnsToken& token = columns_in.take(cycle);
     if (token.slot.row == store_.reach_rows() + spec::morphological::kRowLag - 2 &&
         token.slot.beat == 0)
       for (Column& column : window_) column.valid = false;
     shift(cycle, &token);
     drains_ = token.slot.beat + 1u == store_.rules().beats ? delay_ : 0;
-    columns_in.pop(cycle);
     search(cycle, pipe_.enter());
   } else if (drains_ != 0) {
     shift(cycle, nullptr);
@@ -195,6 +194,26 @@ void DiagonalUnit::reset() {
   shares_.reset();
   drains_ = 0;
   for (Column& column : window_) column.valid = false;
+}
+
+Datasheet DiagonalUnit::datasheet(const spec::morphological::Parameters& p) {
+  const std::uint64_t lanes = spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
+  const std::uint64_t behind = (static_cast<std::uint64_t>(p.diagonal_steps) + lanes) / lanes;
+  return {.unit = "DiagonalUnit",
+          .does = "Shares of the pixels that lie on a diagonal (`diagonals`).",
+          .latency = {behind + 5, "D + 5, D = ceil((diagonal_steps + 1) / lanes)"},
+          .stages = {{"1", "shift (D beats until the pixels are in hand)", "choice of two"},
+                     {"2", "tags, good steps, first gap, four searches",
+                      "6-bit compare, 16-bit first gap"},
+                     {"3", "the ends' extra bits and crossing bits, d1 + d2 > 2",
+                      "32 : 1 choice + 5-bit add"},
+                     {"4", "addresses of `diagonal_rom`", "three small adds (400 e, 20 d1, d2)"},
+                     {"5", "words, sum, limit, push", "ROM read + 9-bit add"}},
+          .formats = "shares U0.8, span U6.",
+          .cost =
+              "a lane: four first-gap circuits of M bits, eight choices of M + 1 : 1, two reads "
+              "of diagonal_rom (6400 x 16); diagonal_window, (D + 1) lanes + M + 1 columns x (4 "
+              "M + 2 + 7) bits; diagonal_shares, a word of 23 lanes bits a beat."};
 }
 
 }  // namespace deburr::rtl::morphological

@@ -2,7 +2,7 @@
 // Diagonal patterns of SMAA: follows steps of one pixel both ways from every top edge and gives the
 // shares of the pixels that lie on one.
 //
-// Where: beside the AreaUnit. In clock 1 of a slot the RunExtractor hands on the columns of its
+// Where: beside the AreaUnit. In stage 2 of a slot the RunExtractor hands on the columns of its
 // beat, 2 M + 1 rows about row y = s - R - 3, M = diagonal_steps; in a window of them in flip-flops
 // every step of every search is a fixed bit. The pixels in hand lie D = ceil((M + 1) / lanes) beats
 // behind the newest columns. Each column carries 6 bits of its slot row and a valid bit; a column
@@ -11,15 +11,8 @@
 // that the row is finished. Results go, a word a beat, in raster order, into a FIFO that the
 // AreaUnit takes them from a row later.
 //
-// Latency D + 5 clocks from the columns to the FIFO, initiation interval 1 whatever the edges.
-// Stages: 1 shift; 2 tags, good steps, first gap of four searches; 3 the ends' extra bits and
-// crossing bits, d1 + d2 > 2; 4 diagonal_rom: address; 5 words, sums, limits, push. Stalls:
-// `downstream` (never: the FIFO holds a row and 16 beats, and the AreaUnit is ten slots behind).
-// Formats: shares U0.8, span U6. Cost a lane: four first-gap circuits of M bits, eight choices of
-// M + 1 : 1, two reads of diagonal_rom (6400 x 16); diagonal_window, (D + 1) lanes + M + 1 columns
-// x (4 M + 2 + 7) bits; diagonal_shares, a word of 23 lanes bits a beat. Made for 250 MHz; longest
-// path: 32 : 1 choice + 5-bit add, ROM read + 9-bit add. Source: SMAA (Jimenez et al. 2012),
-// diagonal patterns.
+// Stalls: `downstream` (never: the FIFO holds a row and 16 beats, and the AreaUnit is ten slots
+// behind). Source: SMAA (Jimenez et al. 2012), diagonal patterns.
 #pragma once
 
 #include <array>
@@ -27,6 +20,7 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/pipe.h"
@@ -49,6 +43,8 @@ class DiagonalUnit final : public Unit {
 
   Counter diagonal_pixels{"diagonal_pixels", "pixels",
                           "pixels whose top edge took its shares from a diagonal"};
+
+  static Datasheet datasheet(const spec::morphological::Parameters& parameters);
 
  private:
   static constexpr std::size_t kLanes = spec::morphological::kMaxLanes;

@@ -285,4 +285,19 @@ void PixelStore::reset() {
   memory_->reads.reset();
 }
 
+Datasheet PixelStore::datasheet() {
+  return {.unit = "PixelStore",
+          .does = "Keeps the pixels of a frame until they are blended, R + 5 rows later.",
+          .latency = {2},
+          .stages = {{"1", "address",
+                      "storage = memory: choice of 1 in 256 lines under way (memory.outstanding), "
+                      "nothing behind it"},
+                     {"2", "words", "SRAM read + 4 : 1 choice"}},
+          .cost =
+              "pixel_lines0 to 3, together R + 7 rows (storage = memory: 4), rounded up to a "
+              "multiple of 4, a word a beat; storage = memory (8 banks) also the line that is "
+              "gathered and, for each line under way, a bit: has it come?",
+          .megahertz = 300};
+}
+
 }  // namespace deburr::rtl::morphological

@@ -4,20 +4,17 @@
 //
 // Where: beside the pipe, from the SlotSequencer to the Blender. Two sides. In: a beat a clock is
 // stored. Out: for each slot that blends, the beat of row y = s - R - 5 with the beats above and
-// below and the pixels beside it. Latency 2, initiation interval 1. Stages: 1 address, 2 words.
-// With storage = memory the in side gathers lines of 64 bytes and sends each when its last pixel
-// has come (latency 1 to the memory port), the out side loads rows y + 1, a line a request, into
-// the rows on the chip as soon as their place is free and their write has been answered; writes go
-// before reads. A line that comes is stored eight words a clock (two clocks with one lane). Answers
-// may come in any order; that all before a line have come is seen a line a clock.
+// below and the pixels beside it. With storage = memory the in side gathers lines of 64 bytes and
+// sends each when its last pixel has come (latency 1 to the memory port), the out side loads rows y
+// + 1, a line a request, into the rows on the chip as soon as their place is free and their write
+// has been answered; writes go before reads. A line that comes is stored eight words a clock (two
+// clocks with one lane). Answers may come in any order; that all before a line have come is seen a
+// line a clock.
+// Neighbouring rows lie in different memories, so that each is read and written once a clock; two
+// beats of the middle row come from two banks.
 // Stalls: `memory` (a line is not there yet, or cannot be sent), `rows` (the place of a beat that
 // comes in still holds a pixel that will be asked for: only if a row is shorter than the pipe),
-// `downstream`. Cost: pixel_lines0 to 3, together R + 7 rows (storage = memory: 4), rounded up to a
-// multiple of 4, a word a beat. Neighbouring rows lie in different ones, so that each is read and
-// written once a clock; two beats of the middle row come from two banks. storage = memory (8 banks)
-// also the line that is gathered and, for each line under way, a bit: has it come?
-// Made for 300 MHz; longest path: SRAM read + 4:1 choice, or, storage = memory,
-// a choice of 1 in 256 lines under way (memory.outstanding), nothing behind it.
+// `downstream`.
 #pragma once
 
 #include <array>
@@ -28,6 +25,7 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/unit.h"
@@ -55,6 +53,8 @@ class PixelStore final : public Unit {
   Counter lines_written{"lines_written", "lines", "lines of 64 bytes sent to memory"};
   Counter lines_read{"lines_read", "lines", "lines of 64 bytes asked of memory"};
   Counter memory_errors{"memory_errors", "lines", "memory responses with an error"};
+
+  static Datasheet datasheet();
 
  private:
   // What a side did in a clock.

@@ -226,4 +226,20 @@ bool EdgeDetector::survives(Position p, Position across, Position along) const {
   return 2 * c > most || (rule == spec::morphological::LocalContrast::kSmaa && 2 * c == most);
 }
 
+Datasheet EdgeDetector::datasheet() {
+  return {.unit = "EdgeDetector",
+          .does = "Left and top edge bits of each pixel from steps of luma, colour or depth.",
+          .latency = {4},
+          .stages = {{"1", "address"},
+                     {"2", "words of the columns, write back", "SRAM read"},
+                     {"3", "differences, maxima of two pairs, products with the thresholds",
+                      "25 x 16 multiply, or a 24-bit compare with its choice"},
+                     {"4", "last maxima, decision", "three 24-bit compares with their choices"}},
+          .formats = "U8.16 luma or three codes U0.8, U24 depth, U0.16 thresholds.",
+          .cost =
+              "a lane: two differences and compares (fixed), six differences of 8 bits and two "
+              "maxima (colour), two multipliers 25 x 16 more (dynamic, depth), nine differences "
+              "and an 8-input maximum a bit (local contrast)."};
+}
+
 }  // namespace deburr::rtl::morphological

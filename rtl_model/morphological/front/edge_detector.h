@@ -7,15 +7,9 @@
 // which needs one row below and two above. A word of luma_lines holds a column of the last three
 // rows; it is read with the word to its right, and written back with the new row in stage 2, so
 // that rows of any length read what was written. Registers hold the two columns to the left.
-// Latency 4, initiation interval 1; stalled by `downstream` only. Stages: 1 address, 2 words, 3
-// differences, maxima of two pairs, products with the thresholds, 4 the last maxima and the
-// decision. Formats: U8.16 luma or three codes U0.8, U24 depth, U0.16 thresholds. Cost a lane: two
-// differences and compares (fixed), six differences of 8 bits and two maxima (colour), two
-// multipliers 25 x 16 more (dynamic, depth), nine differences and an 8-input maximum a bit (local
-// contrast). Memory: luma_lines a column 3 rows x 25 bits (the mark), depth_lines 2 rows x 24 bits
-// if built for depth; 1R1W, a read sees what is written in its clock. Made for 250 MHz; longest
-// path: 25 x 16 multiply, or three 24-bit compares with their choices. Source: paper 003, eq (1) to
-// (3); SMAA 1x; the symmetric form, minimum and mean are ours.
+// Stalled by `downstream` only. Memory: luma_lines a column 3 rows x 25 bits (the mark),
+// depth_lines 2 rows x 24 bits if built for depth; 1R1W, a read sees what is written in its clock.
+// Source: paper 003, eq (1) to (3); SMAA 1x; the symmetric form, minimum and mean are ours.
 #pragma once
 
 #include <array>
@@ -24,6 +18,7 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
@@ -43,6 +38,8 @@ class EdgeDetector final : public Unit {
   void reset() override { pipe_.reset(); }
 
   Counter edge_pixels{"edge_pixels", "pixels", "pixels with a left or a top edge"};
+
+  static Datasheet datasheet();
 
  private:
   struct Position {

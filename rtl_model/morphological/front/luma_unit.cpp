@@ -30,4 +30,15 @@ Activity LumaUnit::tick(Cycle cycle) {
   return kBusy;
 }
 
+Datasheet LumaUnit::datasheet() {
+  return {.unit = "LumaUnit",
+          .does = "Luma of each pixel, or its three codes as they are.",
+          .latency = {2},
+          .stages = {{"1", "three products, or the three codes as they are", "8 x 16 multiply"},
+                     {"2", "their sum"}},
+          .formats = "U8.16 luma, or three codes U0.8.",
+          .cost = "a lane: three constant multipliers 8 x 16, two adders, a choice of two.",
+          .megahertz = 300};
+}
+
 }  // namespace deburr::rtl::morphological

@@ -2,13 +2,12 @@
 // Luma of each pixel: 13933 R + 46871 G + 4732 B, U8.16, exact; or, for edges from colour, its
 // three codes as they are. Beside it its mark, if the rule `leave` masks.
 //
-// Where: between SlotSequencer and EdgeDetector. Latency 2, initiation interval 1; stalled by
-// `downstream` only. Stages: 1 three products, 2 their sum. Cost a lane: three constant multipliers
-// 8 x 16, two adders, a choice of two. Made for 300 MHz; longest path: 8 x 16 multiply.
+// Where: between SlotSequencer and EdgeDetector. Stalled by `downstream` only.
 #pragma once
 
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/morphological/parameter_store.h"
@@ -25,6 +24,8 @@ class LumaUnit final : public Unit {
       : Unit(name, clock), store_(store) {}
   Activity tick(Cycle cycle) override;
   void reset() override { pipe_.reset(); }
+
+  static Datasheet datasheet();
 
  private:
   const ParameterStore& store_;

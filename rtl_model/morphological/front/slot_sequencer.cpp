@@ -75,4 +75,14 @@ void SlotSequencer::reset() {
   next_ = {};
 }
 
+Datasheet SlotSequencer::datasheet() {
+  return {.unit = "SlotSequencer",
+          .does = "Counts the slots of a frame, and takes a beat in each that has input.",
+          .latency = {1},
+          .stages = {{"1", "counts, takes, says what disagrees with SIZE",
+                      "14-bit compare + 27-bit count"}},
+          .cost = "three counters of 14 bits.",
+          .megahertz = 300};
+}
+
 }  // namespace deburr::rtl::morphological

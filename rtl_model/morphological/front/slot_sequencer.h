@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Counts the slots of a frame: takes a beat a clock in the rows that have input, then flushes.
 //
-// Where: first block of the engine. Latency 1 to the LumaUnit and the PixelStore, initiation
-// interval 1. The first slot latches the rules; the next frame begins after the last beat of this
-// one has been pushed. Stalls: `upstream` (no beat in an input slot), `downstream` (the pipe is
-// full: further on something waits for records, memory or room). A beat whose marks disagree with
-// SIZE sets the framing bit and is taken as SIZE says. Cost: three counters of 14 bits.
-// Made for 300 MHz; longest path: 14-bit compare + 27-bit count.
+// Where: first block of the engine, in front of the LumaUnit and the PixelStore. The first slot
+// latches the rules; the next frame begins after the last beat of this one has been pushed. Stalls:
+// `upstream` (no beat in an input slot), `downstream` (the pipe is full: further on something waits
+// for records, memory or room). A beat whose marks disagree with SIZE sets the framing bit and is
+// taken as SIZE says.
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/latency_probe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/morphological/parameter_store.h"
@@ -36,6 +36,8 @@ class SlotSequencer final : public Unit {
   Counter framing_errors{"framing_errors", "beats", "beats whose marks are not as SIZE says"};
   Counter frame_cycles{"frame_cycles", "clk",
                        "from first beat in to last beat out of the last frame, both counted"};
+
+  static Datasheet datasheet();
 
  private:
   void take_beat(Cycle cycle);

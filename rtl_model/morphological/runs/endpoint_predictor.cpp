@@ -91,8 +91,7 @@ Activity EndpointPredictor::work(Cycle cycle) {
       const bool takes = predictor.free() && !taken;
       if (takes) {
         taken = did = true;
-        predictor.take(cycle, reset_, in.front(cycle));
-        in.pop(cycle);
+        predictor.take(cycle, reset_, in.take(cycle));
         ++held_;
         join();
       }
@@ -111,6 +110,66 @@ void EndpointPredictor::reset() {
   std::fill(turn_.begin(), turn_.end(), 0);
   held_ = full_ = 0;
   reset_ = kNever;
+}
+
+Datasheet EndpointPredictor::datasheet() {
+  return {.unit = "EndpointPredictor",
+          .variant = "records that are not extended",
+          .does = "Extends clean Z runs to both sides and sums up their corners.",
+          .latency = {2},
+          .stages = {{"1", "a record to the first predictor that is free, its sums"},
+                     {"2", "one result a lane and clock", "choice of 1 in 16 predictors"}}};
+}
+
+Datasheet EndpointPredictor::trial_datasheet(const spec::morphological::Parameters& p) {
+  const auto trial = static_cast<std::uint64_t>(p.trial_clocks);
+  const std::uint64_t over = trial >= 3 ? trial : trial == 2 ? 4 : 3;
+  return {
+      .unit = "EndpointPredictor",
+      .variant = "records that are extended",
+      .does = datasheet().does,
+      .latency = {trial + 5,
+                  "T x trials + 5, and up to T - 1 that it waits for its first trial (T = "
+                  "`trial_clocks`)"},
+      .interval =
+          {trial + over,
+           "T x (trials + 1) of one of predictor_units (T = 2: T x trials + 4, T = 1: trials "
+           "+ 3)"},
+      .stages =
+          {{"0", "address of the right side's columns (the left side's: here or in clock 1)",
+            "13-bit add, 5-bit add"},
+           {"1", "their words come, choice of groups of bits", "SRAM read, 8 : 1 choice"},
+           {"2",
+            "choice of bits, codes of the corners compared, edges between them all set; the "
+            "left side's words come",
+            "32 : 1 choice, 4-bit comparison"},
+           {"3", "the same for the left side, if it reads a clock later",
+            "32 : 1 choice, 4-bit comparison"},
+           {"4 = 0'",
+            "bounds: steps taken or refused; beside it the next address, which knows the hits. "
+            "A read for a side that the bounds end is dropped",
+            "7-bit add, two comparisons, choice"},
+           {"5", "sums of the new corners", "13 x 5 multiply, 24-bit add"},
+           {"6", "after the last trial: the sums of both sides joined", "choice, two 24-bit adds"}},
+      .formats = "positions S13 from the start of the run, sums of a side S18 and S24.",
+      .cost =
+          "a predictor: LineBounds (safe); a side 16 flip-flops of letters, 3 x 60 of sums "
+          "(trim; else 60), five comparators of 4 bits, three adders and a multiplier of 13 x 5 "
+          "bits for its sums, trim another one of 13 x 4 and two adders, a selector 3 : 1 of 60 "
+          "bits; classes the first gap of ten edges a side. A lane predictor_units of these, "
+          "with registers of a SumsToken and their choice."};
+}
+
+Datasheet EndpointPredictor::class_datasheet(const spec::morphological::Parameters& p) {
+  const auto trial = static_cast<std::uint64_t>(p.trial_clocks);
+  return {
+      .unit = "EndpointPredictor",
+      .variant = "classes of crossings alone",
+      .does = datasheet().does,
+      .latency = {trial + 2, "T + 2, and up to T - 1 that it waits for its reads"},
+      .interval = {trial, "T of one of predictor_units"},
+      .stages = {{"0-3", "as the first trial of a record that is extended"},
+                 {"4", "class of each crossing: the corner's code, the first gap of ten edges"}}};
 }
 
 }  // namespace deburr::rtl::morphological

@@ -4,10 +4,9 @@
 // Where: between the record FIFOs and the LineUnit, one of these an axis. For each lane a FIFO
 // feeds predictor_units predictors, a record a clock to the first that is free; each has a result
 // register, and one of these a lane and clock goes to the LineUnit. The predictors share the read
-// ports of their axis' memory by a fixed schedule (PortSchedule). Timing: Predictor; a result is
-// sent in the clock after the one in which its record is let go. Stalls: `downstream` (the result
-// registers are still full). Cost: the predictors; a lane predictor_units registers of a SumsToken
-// and their choice. Made for 250 MHz; longest path: Predictor, or a choice of 1 in 16 predictors.
+// ports of their axis' memory by a fixed schedule (PortSchedule). A result is sent in the clock
+// after the one in which its record is let go (Predictor). Stalls: `downstream` (the result
+// registers are still full).
 #pragma once
 
 #include <cstdint>
@@ -15,6 +14,7 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/morphological/parameter_store.h"
 #include "rtl_model/morphological/runs/edge_port.h"
@@ -48,6 +48,11 @@ class EndpointPredictor final : public Unit {
   Counter probes{"probes", "corners", "corners tested"};
   Counter iterations{"iterations", "trials", "trials, of one side or both"};
   Counter occupancy{"occupancy", "clk", "clocks in which a predictor held a record, summed"};
+
+  static Datasheet datasheet();  // of a record that is not extended and has no class to be found
+  // Of a record that is extended by one step of both sides.
+  static Datasheet trial_datasheet(const spec::morphological::Parameters& parameters);
+  static Datasheet class_datasheet(const spec::morphological::Parameters& parameters);
 
  private:
   // A predictor and its result register.

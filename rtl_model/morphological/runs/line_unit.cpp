@@ -197,4 +197,31 @@ void LineUnit::reset() {
   in_flight_ = 0;
 }
 
+Datasheet LineUnit::datasheet(const spec::morphological::Parameters& p) {
+  return {
+      .unit = "LineUnit",
+      .variant = "lines",
+      .does = "The line through a record's corners: one division, and an inverse by a table.",
+      .latency = {static_cast<std::uint64_t>(p.divider_latency) + 1,
+                  "divider.latency, and 1 of its link"},
+      .interval = {static_cast<std::uint64_t>(p.divider_interval), "divider.interval a lane"},
+      .stages = {{"1", "products (of the corners, of their sum), address of the table"},
+                 {"2", "numerator, denominator"},
+                 {"from 3",
+                  "at most two of 24 quotient bits a clock, beside it the inverse (a multiply in "
+                  "two stages) and its rounding",
+                  "choice of 4 multiples + 29-bit add; half of a 24 x 27 multiply"}},
+      .formats = "slope U0.24 = rdiv(a 2^24, b), inverse U12.12 from U1.26.",
+      .cost =
+          "a lane: a divider 36 / 27 bits, pipelined with interval 1, two multipliers 18 x 6 "
+          "and 24 x 27, a read of inverse_rom (2 x 34 x 27 bits)."};
+}
+
+Datasheet LineUnit::learned_datasheet() {
+  return {.unit = "LineUnit",
+          .variant = "learned records",
+          .does = "The line through a record's corners: one division, and an inverse by a table.",
+          .latency = {1, "1 of its link: it passes the divider"}};
+}
+
 }  // namespace deburr::rtl::morphological

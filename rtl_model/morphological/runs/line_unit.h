@@ -3,24 +3,19 @@
 // division, its inverse by a table.
 //
 // Where: between an EndpointPredictor and the AreaUnit, one of these an axis, with one divider a
-// lane. Latency divider.latency, initiation interval divider.interval a lane; latency 1 more to
-// the AreaUnit by the link. Stages: 1 products (of the corners, of their sum), inverse_rom:
-// address; 2 P, numerator and denominator; from 3 on the division, at most two of 24 quotient bits
-// a clock (radix 4), beside it P x table in two stages and its rounding. So divider.latency is at
-// least kLeastLatency; a longer one takes fewer bits a clock. Stalls: `interval` (the divider
-// cannot start again yet), `downstream` (its pipe of latency / interval places, rounded up, is
-// full; a result leaves in its clock). A learned record has no line: it passes the divider, in the
-// clock that pops it, if no quotient leaves in that clock (else `downstream`). Formats: slope U0.24
-// = rdiv(a 2^24, b), inverse U12.12 from U1.26. Cost a lane: a divider 36 / 27 bits, pipelined with
-// interval 1, two multipliers 18 x 6 and 24 x 27, a read of inverse_rom (2 x 34 x 27 bits). Made
-// for 250 MHz; longest path: choice of 4 multiples + 29-bit add (a quotient digit), and half of a
-// 24 x 27 multiply. Source: least-squares line with equidistant heights; paper 000 for the chord.
+// lane. divider.latency is at least kLeastLatency: two clocks of products, and at most two of 24
+// quotient bits a clock (radix 4); a longer one takes fewer bits a clock. Stalls: `interval` (the
+// divider cannot start again yet), `downstream` (its pipe of latency / interval places, rounded up,
+// is full; a result leaves in its clock). A learned record has no line: it passes the divider, in
+// the clock that pops it, if no quotient leaves in that clock (else `downstream`). Source:
+// least-squares line with equidistant heights; paper 000 for the chord.
 #pragma once
 
 #include <cstdint>
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/morphological/parameter_store.h"
@@ -50,6 +45,9 @@ class LineUnit final : public Unit {
   // Against lanes x clocks: how full the dividers are.
   Counter occupancy{"occupancy", "clk",
                     "clocks in which a divider could not start another, summed"};
+
+  static Datasheet datasheet(const spec::morphological::Parameters& parameters);
+  static Datasheet learned_datasheet();  // of a record without a line
 
  private:
   struct Division {

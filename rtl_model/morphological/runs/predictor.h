@@ -2,44 +2,32 @@
 // Extends one clean Z run to both sides, a step of both sides a trial, and sums up its corners;
 // with learned shares, finds the classes of a record's crossings.
 //
-// Where: predictor_units of these a lane in an EndpointPredictor. Holds a record at a time. A trial
-// every trial_clocks clocks T, from the clock on that the schedule of the ports gives it:
-//
-//   0        address of the right side's read (the left one's: here or in clock 1)
-//   1        the words come, choice of eight groups of bits
-//   2        choice of a bit of the group, the corners' codes compared: hits of the right side
-//   3        the same of the left side, if it reads a clock later
-//   T = 0'   bounds: the steps of both sides taken or refused; beside it the next address, which
-//            knows the hits but not the refusal (a read too many is dropped)
-//   T + 1    sums of the new corners, of the old trial
-//   T + 2    after the last trial: the sums of both sides are joined
+// Where: predictor_units of these a lane in an EndpointPredictor, whose datasheet has the clocks of
+// a trial. Holds a record at a time. A trial every trial_clocks clocks T, from the clock on that
+// the schedule of the ports gives it. In clock T = 0' of a trial its bounds are decided beside the
+// next one's address, which knows the hits but not the refusal: a read too many is dropped.
 //
 // With T = 4 (the default) each stage has its clock. 5 and more leave clocks to slower memories or
 // longer paths. 3: the left side's words are chosen and compared in the clock in which they come,
 // if it reads a clock later (an odd number of ports). 2: so are both sides'. 1: besides, bounds and
 // the next address follow in the same clock. LineBounds needs four clocks a trial too: with 3, two
 // of its steps share a clock, with 1 all of them. So 3 and below are for slow clocks.
+//
 // Classes (docs/morphological_shares.md) ask for the corner at which the first trial begins and for
 // ten edges behind it, so that trial's reads give them. Any other record with a crossing makes
 // these two reads alone: it leaves in clock T - 1, with the words of both sides chosen (T below 3:
-// when they have come), and their classes are known as its result is sent. So it takes T clocks
-// (T = 2: 4 if the left side reads a clock later; T = 1: 2), and the wait for its phase if the
+// when they have come), and their classes are known as its result is sent. So it takes T clocks (T
+// = 2: 4 if the left side reads a clock later; T = 1: 2), and the wait for its phase if the
 // predictor was idle. A long clean Z keeps its line and has none.
 // Any other record leaves in the clock that takes it. One that is extended, takes from its pop to
 // the clock that may take the next one 1 clock, the wait for its phase, T clocks a trial, and 1
-// clock; one behind the other T x trials + T clocks, if T >= 3 (else T x trials + 4 or 3).
+// clock.
 //
 // Trim takes no clock of its own: beside the sums of all its steps a side keeps those without its
-// last step and those of the first half of its steps. The former are what the sums were before;
-// the latter take in one corner at every second step, which is a step L or L' on, as the side's
-// letters say. The trial that ends a side sets two bits, and the join selects by them.
-//
-// Formats: positions S13 from the start of the run, sums of a side S18 and S24. Cost: LineBounds
-// (safe); a side 16 flip-flops of letters, 3 x 60 of sums (trim; else 60), five comparators of 4
-// bits, three adders and a multiplier of 13 x 5 bits for its sums, trim another one of 13 x 4 and
-// two adders, a selector 3 : 1 of 60 bits; classes the first gap of ten edges a side. Made for 250
-// MHz; longest path: 13 x 5 multiply, 24-bit add, with trial_clocks of 4 and more. Source: paper
-// 000, sections 3 and 4; `safe`, `trim` and the sums are ours.
+// last step and those of the first half of its steps. The former are what the sums were before; the
+// latter take in one corner at every second step, which is a step L or L' on, as the side's letters
+// say. The trial that ends a side sets two bits, and the join selects by them. Source: paper 000,
+// sections 3 and 4; `safe`, `trim` and the sums are ours.
 #pragma once
 
 #include <array>

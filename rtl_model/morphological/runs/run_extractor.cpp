@@ -78,10 +78,9 @@ bool RunExtractor::waits_for_diagonals(Cycle cycle) const {
 template <bool kSmaa>
 Activity RunExtractor::work(Cycle cycle) {
   if (finished_in.can_pop(cycle)) {
-    const FinishToken& token = finished_in.front(cycle);
+    const FinishToken& token = finished_in.take(cycle);
     unfinished_[0] -= token.count[0];
     unfinished_[1] -= token.count[1];
-    finished_in.pop(cycle);
   }
   if (h_.count) drain(h_, cycle);
   if (v_.count) drain(v_, cycle);
@@ -372,6 +371,41 @@ void RunExtractor::reset() {
   found_ = 0;
   passed_ = 0;
   open_ = false;
+}
+
+Datasheet RunExtractor::slot_datasheet() {
+  return {
+      .unit = "RunExtractor",
+      .variant = "slots",
+      .does = "Finds the runs of edges of both axes while the raster passes.",
+      .latency = {2},
+      .stages = {{"1", "address of the columns"},
+                 {"2",
+                  "they come, move on by a row and go back; edges of the row that is blended, a "
+                  "row for `edge_rows`",
+                  "SRAM read"}}};
+}
+
+Datasheet RunExtractor::record_datasheet() {
+  return {
+      .unit = "RunExtractor",
+      .variant = "records",
+      .does = slot_datasheet().does,
+      .latency = {6, "6, from their slot"},
+      .interval = {1, "1 a FIFO"},
+      .stages = {{"1, 2", "as slots; end of a horizontal run or beginning of a vertical one"},
+                 {"3, 4",
+                  "length of a vertical run: first gap below row y, in groups of 16 rows; choice "
+                  "of a group, and of each group the code at its first gap",
+                  "choice of 1 in 9 groups (window_rows of 258; 3 by default)"},
+                 {"5", "code of its end: choice of a group; shape; side or none",
+                  "16 : 1 table of shapes"},
+                 {"6", "into the FIFOs of the lanes in rotation, one a FIFO and clock"}},
+      .cost =
+          "a lane: a first-gap circuit of R + 1 bits, two choices of R + 1 : 1, two "
+          "counters, 3 columns of flip-flops (window_rows + 1 pairs of bits; with corners 5, "
+          "and a circuit more); registers of 12 records that are being looked for and of 4 "
+          "that wait for their FIFOs. Memory: record_fifo entries an axis and lane."};
 }
 
 }  // namespace deburr::rtl::morphological

@@ -2,37 +2,25 @@
 // Finds the runs of edges of both axes while the raster passes: each maximal run once, as a record
 // of start, length and the crossing edges at both ends.
 //
-// Where: between EdgeDetector and AreaUnit. In slot row s it works on row y = s - R - 2:
-//
-//   0      a slot is taken, the columns of its beat are read from the EdgeWindow
-//   1      they come, move on by row s - 1 and go back; at fixed bits of them: the edges of the row
-//          that is blended and the one below (the slot goes on to AreaUnit and PixelStore), a row
-//          for EdgeRows, the end of a horizontal run (a counter), the beginning of a vertical run
-//          or of its tail
-//   2, 3   length of a vertical run: first gap below row y, in groups of 16 rows; choice of a
-//          group, and of each group the code at its first gap
-//   4      code of its end: choice of a group; shape; side or none
-//   5      into the FIFOs of the lanes in rotation, one a FIFO and clock
+// Where: between EdgeDetector and AreaUnit. In slot row s it works on row y = s - R - 2. A slot's
+// columns come from the EdgeWindow, move on by row s - 1 and go back; at fixed bits of them are the
+// edges of the row that is blended and the one below (the slot goes on to AreaUnit and PixelStore),
+// a row for EdgeRows, the end of a horizontal run (a counter), the beginning of a vertical run or
+// of its tail.
 //
 // With crossings a run also ends, and another begins, at a corner inside it that has a crossing
 // edge: a record a column and axis. Which of two entries a vertical run has is a bit of the
 // column's word, which turns over where a run begins. With rounded corners a record carries whether
 // its crossings go on for a second pixel; vertical runs need the column to the right for that and
 // are looked for a column behind, in the last slot of a row at its last column as well. With
-// diagonals clock 1 hands the columns of the beat on to the DiagonalUnit.
+// diagonals stage 2 hands the columns of the beat on to the DiagonalUnit.
 //
-// Latency 2 of a slot, initiation interval 1; a record can be taken from its FIFO 6 clocks after
-// its slot was. Records without a side are counted and, but with learned shares, go nowhere. Rows
-// of a single beat read a word that is being written: it is taken from the register that it was
-// written from. Stalls: `records` (a FIFO is full, or the interlock: slot row s waits until all
-// records found in slot row s - 2 are finished, and those that are being looked for found),
-// `diagonals` (a row of fewer beats than a diagonal takes waits until those of the row before are
-// there), `downstream`. Cost a lane: a first-gap circuit of R + 1 bits, two choices of R + 1 : 1,
-// two counters, 3 columns of flip-flops (window_rows + 1 pairs of bits; with corners 5, and a
-// circuit more); registers of 12 records that are being looked for and of 4 that wait for their
-// FIFOs. Memory: record_fifo entries an axis and lane. Made for 250 MHz; longest path: choice of 1
-// in 9 groups (window_rows of 258; 3 by default), 16 : 1 table of shapes. Source: paper 000,
-// section 2; SMAA (Jimenez et al. 2012).
+// Records without a side are counted and, but with learned shares, go nowhere. Rows of a single
+// beat read a word that is being written: it is taken from the register that it was written from.
+// Stalls: `records` (a FIFO is full, or the interlock: slot row s waits until all records found in
+// slot row s - 2 are finished, and those that are being looked for found), `diagonals` (a row of
+// fewer beats than a diagonal takes waits until those of the row before are there), `downstream`.
+// Source: paper 000, section 2; SMAA (Jimenez et al. 2012).
 #pragma once
 
 #include <array>
@@ -42,6 +30,7 @@
 #include <optional>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/morphological/parameter_store.h"
@@ -80,6 +69,9 @@ class RunExtractor final : public Unit {
   Counter record_stalls{"record_stalls", "clk", "slot waited for records, FIFO or interlock"};
 
   std::function<void(const spec::morphological::RunRecord&)> observer;
+
+  static Datasheet slot_datasheet();
+  static Datasheet record_datasheet();  // from the slot in which the run is found
 
  private:
   // From the clock in which a slot's words come to the one in which its records are known.

@@ -6,9 +6,13 @@ option of a run.
 usage: pages_test.py DEBURR SOURCE [--write]     --write brings the pages up to date
 """
 import difflib
+import pathlib
 import re
 import subprocess
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "engines"))
+from engine_list import engines  # noqa: E402
 
 
 def options_left_out(deburr, source):
@@ -16,7 +20,7 @@ def options_left_out(deburr, source):
     with open(f"{source}/docs/exploration.md") as file:
         named = set(re.findall(r"--[a-z][a-z-]+", file.read()))
     options = set()
-    for engine in ("texture", "morphological", "geometric", "frame"):
+    for engine in engines():
         text = subprocess.run([deburr, "run", engine, "--help"], check=True, capture_output=True, text=True).stdout
         options |= set(re.findall(r"^  (--[a-z-]+)", text, re.MULTILINE))
     return sorted(options - named) if options else ["every option: the help has none"]
@@ -28,7 +32,7 @@ def main():
         return 0 if len(sys.argv) >= 2 else 2
     deburr, source = sys.argv[1:3]
     stale = 0
-    for page in ("parameters", "statistics", "registers", "coverage"):
+    for page in ("parameters", "statistics", "registers", "coverage", "datasheets"):
         done = subprocess.run([deburr, "params", "--markdown", page], check=True,
                               capture_output=True, text=True)
         printed = done.stdout

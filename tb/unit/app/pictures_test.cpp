@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "tb/app/geometric_pictures.h"
-#include "tb/results/file.h"
+#include "spec/error.h"
+#include "tb/base/file.h"
 #include "tb/results/report.h"
 #include "tb/scene/image_io.h"
 
@@ -55,11 +55,12 @@ class Pictures : public testing::Test {
     golden.at(1, 0) = {13, 10, 10, 255};
     ParameterSet parameters;
     RunContext context(path_, parameters, "x", 0);
+    context.set_leaves(
+        {{"before", "after", "golden", "difference", "truth", "error", "change"}, {}});
     context.claim();
-    add_smoothing_pictures(context, {before, after, delivered, &golden, &truth, "", ""},
-                           std::vector<spec::morphological::BlendTap>(12));
+    add_frame_pictures(context, {before, after, delivered, &golden, &truth, "", ""});
     Result result;
-    result.unit = "morphological";
+    result.unit = "smoother";
     context.finish(result);
   }
   Image picture(const char* name) const { return read_image(path_ / (std::string(name) + ".png")); }
@@ -93,6 +94,24 @@ TEST_F(Pictures, OfAnInterruptedRunHideWhatDidNotCome) {
   EXPECT_NE(manifest.find("5 of 12 pixels"), std::string::npos);
 }
 
+// One that no engine declared could replace somebody's file.
+TEST_F(Pictures, OfOtherNamesAreNotLeft) {
+  ParameterSet parameters;
+  RunContext context(path_, parameters, "x", 0);
+  context.set_leaves({{"after"}, {"level"}});
+  context.claim();
+  context.add_image("after", Image(1, 1), "", "");
+  EXPECT_THROW(context.add_image("classes", Image(1, 1), "", ""), spec::CheckFailed);
+  context.add_map(PictureMap("level", "", "", "", 1, 1));
+  EXPECT_THROW(context.add_map(PictureMap("texture_level", "", "", "", 1, 1)), spec::CheckFailed);
+}
+
+TEST(SharesPicture, IsTwiceAsBrightAndBlueWhereLeftAndRight) {
+  const Image shares = shares_picture(3, 1, {{40, 10, false}, {200, 3, true}, {}});
+  EXPECT_EQ(shares.pixels,
+            (std::vector<Rgba8>{{80, 20, 0, 255}, {255, 6, 160, 255}, {0, 0, 0, 255}}));
+}
+
 TEST(DeliveredPart, ReplacesTheRest) {
   const Image white(2, 2, kWhite);
   EXPECT_EQ(delivered_part(white, 4, kBlack), white);
@@ -100,39 +119,6 @@ TEST(DeliveredPart, ReplacesTheRest) {
   EXPECT_EQ(delivered_part(white, 0, kBlack), Image(2, 2, kBlack));
   EXPECT_EQ(delivered_part(white, 3, kBlack).pixels,
             (std::vector<Rgba8>{kWhite, kWhite, kWhite, kBlack}));
-}
-
-// Two edges over a frame of 12 x 12: one through row 5, a silhouette that is seen, and one through
-// column 9, a boundary behind what the frame shows.
-TEST(EdgePictures, ShowLinesByClassAndWeights) {
-  geometric::Frame frame;
-  frame.image = Image(12, 12, {90, 90, 90, 255});
-  frame.depths.assign(144, 1000);
-  const auto at = [](int x, int y, std::uint32_t depth) {
-    return spec::geometric::Vertex{x, y, depth, true};
-  };
-  frame.screen.vertices = {at(0, 5 * 256 + 64, 2000), at(12 * 256, 5 * 256 + 64, 2000),
-                           at(9 * 256 + 64, 0, 10), at(9 * 256 + 64, 12 * 256, 10)};
-  frame.screen.edges = {{0, 1, 0, 1, 0}, {2, 3, 0, 0, spec::geometric::flag::kBoundary}};
-  frame.screen.facing = {1};
-  frame.screen.faces = 2;
-  const Image classes = class_picture(frame, {});
-  EXPECT_EQ(classes.at(3, 5), (Rgba8{255, 40, 40, 255}));
-  EXPECT_EQ(classes.at(9, 3), (Rgba8{85, 73, 0, 255}));
-  EXPECT_EQ(classes.at(9, 5), (Rgba8{255, 40, 40, 255})) << "what is seen goes over what is not";
-  EXPECT_EQ(classes.at(3, 4), (Rgba8{30, 30, 30, 255}));
-
-  spec::geometric::BlockRecord block;
-  block.x = 2;
-  block.y = 1;
-  block.weights[5] = {40, 10, 3, 3};  // up and down
-  block.weights[6] = {40, 10, 60, 3};
-  block.weights[7] = {100, 0, 0, 0};  // not blended
-  block.blended = 1u << 5 | 1u << 6;
-  const Image weights = weight_picture(12, 12, std::vector{block});
-  EXPECT_EQ(weights.at(9, 5), (Rgba8{80, 20, 0, 255}));
-  EXPECT_EQ(weights.at(10, 5), (Rgba8{120, 6, 160, 255}));
-  EXPECT_EQ(weights.at(11, 5), (Rgba8{0, 0, 0, 255}));
 }
 
 }  // namespace

@@ -12,12 +12,12 @@
 
 #include "spec/error.h"
 #include "tb/app/run_once.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
 
 namespace deburr::tb::random_configuration_test {
 namespace {
 
-class RandomConfiguration : public testing::TestWithParam<const char*> {};
+class RandomConfiguration : public testing::TestWithParam<std::string> {};
 
 constexpr std::uint64_t kSeeds = 500;
 
@@ -34,15 +34,20 @@ TEST_P(RandomConfiguration, IsAcceptedAndVariesEveryParameterThatIsNotFixed) {
     ASSERT_NO_THROW(bound.resolve()) << engine << ", seed " << seed;
     for (const Parameter& parameter : bound.set.all())
       values[parameter.name].insert(parameter.text());
-    const std::string width = engine == "morphological" ? "frame.width" : "scene.width";
-    const int pixels = std::stoi(bound.set.find(width)->text());
+    const auto& all = bound.set.all();
+    const auto width = std::find_if(all.begin(), all.end(), [](const Parameter& parameter) {
+      return parameter.name.ends_with(".width");
+    });
+    ASSERT_NE(width, all.end());
+    const int pixels = std::stoi(width->text());
     EXPECT_LE(pixels, 97);
     if (pixels % 2 == 1) ++odd_sizes;
   }
   EXPECT_GT(odd_sizes, kSeeds / 2);
   std::vector<std::string> constant;
+  const std::unique_ptr<Engine> asked = engine_named(engine);
   for (const auto& [name, seen] : values) {
-    if (is_fixed(name))
+    if (is_fixed(*asked, name))
       EXPECT_EQ(seen.size(), 1u) << name;
     else if (seen.size() < 2)
       constant.push_back(name);
@@ -76,9 +81,12 @@ TEST_P(RandomConfiguration, CanBeBuilt) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, RandomConfiguration,
-                         testing::Values("texture", "morphological", "geometric", "frame"),
-                         [](const auto& p) { return std::string(p.param); });
+INSTANTIATE_TEST_SUITE_P(Engines, RandomConfiguration, testing::ValuesIn([] {
+                           std::vector<std::string> names;
+                           for (const auto& engine : engines()) names.emplace_back(engine->name());
+                           return names;
+                         }()),
+                         [](const auto& p) { return p.param; });
 
 // The preset's two directions leave one clock for them, which only the model of the hardware says.
 TEST(RandomConfigurations, GoWithWhatIsGiven) {
@@ -107,9 +115,15 @@ TEST(RandomConfigurations, GoWithWhatIsGiven) {
 
 TEST(RandomConfigurations, KnowEveryEngineAndNoOther) {
   EXPECT_THROW(random_configuration("textur", 1), spec::ConfigError);
-  for (const std::string_view name : fixed_parameters()) EXPECT_TRUE(is_fixed(name));
-  EXPECT_TRUE(is_fixed("geometric_memory.error_bytes"));
-  EXPECT_FALSE(is_fixed("geometric_memory.latency"));
+}
+
+// Of every memory, and of the engines that it is made of.
+TEST(RandomConfigurations, OfACompositionFixWhatItsPartsFix) {
+  const std::unique_ptr<Engine> frame = engine_named("frame"), texture = engine_named("texture");
+  EXPECT_TRUE(is_fixed(*frame, "frame_memory.error_bytes"));
+  EXPECT_FALSE(is_fixed(*frame, "frame_memory.latency"));
+  EXPECT_TRUE(is_fixed(*frame, "frame.mask"));
+  EXPECT_FALSE(is_fixed(*texture, "frame.mask"));
 }
 
 }  // namespace

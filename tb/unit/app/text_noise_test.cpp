@@ -19,9 +19,9 @@
 #include "spec/error.h"
 #include "tb/app/random_configuration.h"
 #include "tb/app/run_once.h"
+#include "tb/base/random.h"
 #include "tb/harness/register_noise.h"
 #include "tb/harness/test_paths.h"
-#include "tb/stimuli/random.h"
 #include "tb/sweep/definition.h"
 
 namespace deburr::tb::text_noise_test {
@@ -29,7 +29,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kEngines = {"texture", "morphological", "geometric", "frame"};
+const std::vector<std::string> kEngines = [] {
+  std::vector<std::string> names;
+  for (const auto& engine : engines()) names.emplace_back(engine->name());
+  return names;
+}();
 const std::vector<std::string> kOddities = {"0",      "-1",    "99999999999999999999",
                                             "1e999",  "nan",   "",
                                             "true",   "~",     "[1, 2]",
@@ -109,7 +113,7 @@ TEST_F(TextNoise, Configurations) {
   EXPECT_EQ(first_complaint(12,
                             [&](std::uint64_t seed) -> std::string {
                               Random random(seed, "configurations");
-                              const std::string engine = kEngines[seed % 4];
+                              const std::string engine = kEngines[seed % kEngines.size()];
                               std::string whole;
                               for (const auto& [name, value] : random_configuration(engine, seed))
                                 whole += name + ": " + value + "\n";
@@ -165,7 +169,10 @@ std::string run_with(const std::string& engine, const std::string& fault, const 
                      std::string* said = nullptr) {
   const std::unique_ptr<Engine> made = engine_named(engine);
   BoundEngine bound(*made);
-  const std::string size = engine == "morphological" ? "frame." : "scene.";
+  const auto is_width = [](const Parameter& p) { return p.name.ends_with(".width"); };
+  const auto& all = bound.set.all();
+  const std::string width = std::find_if(all.begin(), all.end(), is_width)->name;
+  const std::string size = width.substr(0, width.find('.') + 1);
   for (const auto& [name, value] :
        std::vector<std::pair<std::string, std::string>>{{size + "width", "19"},
                                                         {size + "height", "17"},
@@ -214,7 +221,7 @@ TEST_F(TextNoise, Faults) {
           60,
           [&](std::uint64_t seed) -> std::string {
             Random random(seed, "faults");
-            const std::size_t engine = random.below(4);
+            const std::size_t engine = random.below(static_cast<std::uint32_t>(kEngines.size()));
             const auto& known = links[engine];
             const auto either = [&](const std::string& right) {
               return random.chance(100) ? odd(random) : right;

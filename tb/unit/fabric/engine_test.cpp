@@ -11,7 +11,8 @@
 
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/latency_probe.h"
-#include "tb/harness/register_host.h"
+#include "rtl_model/platform/register_host.h"
+#include "spec/check_build.h"
 #include "tb/unit/fabric/support.h"
 
 namespace deburr::tb::toy::engine_test {
@@ -106,7 +107,7 @@ class Engine final : public rtl::Engine {
 struct Bed {
   rtl::ClockDomain clock{"clock", sc_core::sc_time(10, sc_core::SC_NS)};
   Engine engine;
-  RegisterHost host;
+  platform::RegisterHost host;
   explicit Bed(bool ignores) : engine("engine", clock, ignores), host("host") {
     host.bus.bind(engine.registers);
     clock.run(1);
@@ -115,7 +116,7 @@ struct Bed {
 
 std::string refusal(const Parameters& p) {
   try {
-    rtl::checked_ranges("toy", p);
+    spec::check_ranges("toy", p);
   } catch (const spec::ConfigError& error) {
     return error.what();
   }
@@ -126,10 +127,9 @@ TEST(Engine, RangesAreCheckedFromTheirDeclaration) {
   EXPECT_EQ(refusal({}), "taken");
   EXPECT_EQ(refusal({.steps = 1}), "taken");
   EXPECT_EQ(refusal({.steps = 8}), "taken");
-  EXPECT_EQ(refusal({.steps = 9}), "toy.steps: expected 1..8 step, got 9");
-  EXPECT_EQ(refusal({.steps = 0}), "toy.steps: expected 1..8 step, got 0");
-  EXPECT_EQ(refusal({.rule = static_cast<Rule>(2)}),
-            "toy.rule: no such choice: 2; expected one of plain, fancy");
+  EXPECT_EQ(refusal({.steps = 9}), "toy.steps = 9 is outside 1..8 step");
+  EXPECT_EQ(refusal({.steps = 0}), "toy.steps = 0 is outside 1..8 step");
+  EXPECT_EQ(refusal({.rule = static_cast<Rule>(2)}), "toy.rule = 2 is none of plain, fancy");
 }
 
 TEST(Engine, ListsWhatIsBelowIt) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "rtl_model/fabric/memory_port.h"
-#include "tb/harness/memory_model.h"
+#include "rtl_model/platform/memory_model.h"
 #include "tb/unit/fabric/support.h"
 
 namespace deburr::tb {
@@ -63,24 +63,24 @@ struct Side {
 };
 
 // Every byte of memory is its pattern().
-inline void fill(MemoryModel& memory, std::uint64_t bytes) {
+inline void fill(platform::MemoryModel& memory, std::uint64_t bytes) {
   std::vector<std::uint8_t> contents(bytes);
   for (std::size_t i = 0; i < contents.size(); ++i) contents[i] = pattern(i);
   memory.preload(0, contents);
 }
 
 struct System : Side {
-  MemoryModel memory;
-  System(const rtl::MemoryPortParameters& port_parameters, const MemoryModelParameters& parameters,
-         std::uint32_t sink_stalls = 0)
+  platform::MemoryModel memory;
+  System(const rtl::MemoryPortParameters& port_parameters,
+         const platform::MemoryModelParameters& parameters, std::uint32_t sink_stalls = 0)
       : Side(port_parameters, sink_stalls), memory("memory", kPeriod, parameters) {
     port.memory.bind(memory.ports);
     fill(memory, parameters.bytes);
   }
 };
 
-inline MemoryModelParameters with_latency(std::uint32_t min, std::uint32_t max = 0) {
-  MemoryModelParameters parameters;
+inline platform::MemoryModelParameters with_latency(std::uint32_t min, std::uint32_t max = 0) {
+  platform::MemoryModelParameters parameters;
   parameters.latency_min = min;
   parameters.latency_max = max ? max : min;
   return parameters;

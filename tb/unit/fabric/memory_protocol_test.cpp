@@ -33,7 +33,7 @@ AcceptedEnds only(ResponseEnd end) {
 }
 
 struct ProtocolSystem : Side {
-  MemoryModel memory;
+  platform::MemoryModel memory;
   ProtocolTarget target;
   ProtocolSystem(const ProtocolTargetParameters& parameters, ResponseEnd end,
                  std::uint32_t latency_max = 5)
@@ -43,7 +43,7 @@ struct ProtocolSystem : Side {
     port.response_end = end;
     port.memory.bind(target.socket);
     target.memory.bind(memory.ports);
-    fill(memory, MemoryModelParameters{}.bytes);
+    fill(memory, platform::MemoryModelParameters{}.bytes);
   }
 
   // Reads, bursts of reads, and writes of bytes that are there already. What came of it.

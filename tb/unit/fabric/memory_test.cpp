@@ -2,6 +2,9 @@
 // The memory port and the repository's memory.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <set>
 
 #include "tb/harness/link_checker.h"
@@ -29,7 +32,9 @@ TEST(MemoryPort, LatencyIsExact) {
       if (s.sink.received() != 1 || !right(s.sink.beats()[0])) return std::string("too late");
       return fmt::format("{} {}", s.sink.cycles()[0], s.port.latency.max());
     });
-    EXPECT_EQ(text, fmt::format("{} {}", latency + 3, latency + 1));
+    // Pushed in 0, popped in 1.
+    EXPECT_EQ(text, fmt::format("{} {}", 1 + rtl::MemoryPort::datasheet().latency.clocks + latency,
+                                latency + 1));
   }
 }
 
@@ -63,7 +68,7 @@ TEST(MemoryPort, RateIsLimitedByOutstanding) {
 }
 
 TEST(MemoryPort, BandwidthOfTheMemoryLimits) {
-  MemoryModelParameters parameters = with_latency(10);
+  platform::MemoryModelParameters parameters = with_latency(10);
   parameters.bytes_per_clock = 16;
   System s({}, parameters);
   for (std::uint32_t i = 0; i < 100; ++i) s.driver.send(read_of(i));
@@ -75,7 +80,7 @@ TEST(MemoryPort, BandwidthOfTheMemoryLimits) {
 TEST(MemoryPort, BusyBanksLimit) {
   for (const std::uint32_t banks : {1U, 4U, 8U}) {
     const std::string text = in_child([&] {
-      MemoryModelParameters parameters = with_latency(10);
+      platform::MemoryModelParameters parameters = with_latency(10);
       parameters.banks = banks;
       parameters.bank_busy = 8;
       MemoryPortParameters port;
@@ -159,7 +164,7 @@ TEST(MemoryPort, BurstsOfReadsAndWrites) {
 // A request that a full memory withholds while the engine is reset comes in later, and is none of
 // those that the engine asks for afterwards.
 TEST(MemoryModel, CountsNoRequestThatWasWithheldBefore) {
-  MemoryModelParameters parameters = with_latency(50);
+  platform::MemoryModelParameters parameters = with_latency(50);
   parameters.outstanding = 1;
   System s({}, parameters);
   s.driver.send(read_of(3));
@@ -176,7 +181,7 @@ TEST(MemoryModel, CountsNoRequestThatWasWithheldBefore) {
 
 // The last of what a narrow bus still has to carry is written long after its latency.
 TEST(MemoryModel, IsAtRestWhenTheLastWriteIsDone) {
-  MemoryModelParameters parameters = with_latency(10);
+  platform::MemoryModelParameters parameters = with_latency(10);
   parameters.write_at_response = true;
   parameters.bytes_per_clock = 1;
   parameters.outstanding = 2;
@@ -211,7 +216,7 @@ TEST(MemoryModel, ForgetsLinesAndGoesOnCounting) {
 TEST(MemoryModel, AReadBehindAWriteIsARace) {
   for (const bool late : {true, false}) {
     const std::string text = in_child([&] {
-      MemoryModelParameters parameters = with_latency(10);
+      platform::MemoryModelParameters parameters = with_latency(10);
       parameters.write_at_response = late;
       System s({}, parameters);
       MemoryRequest write = read_of(3);
@@ -232,6 +237,65 @@ TEST(MemoryModel, AReadBehindAWriteIsARace) {
     });
     EXPECT_EQ(text, late ? "written old new " : "written new new ");
   }
+}
+
+// Nobody can tell a response that was sent ahead from one that is sent at its time: with any bus,
+// limits, errors, writes between the reads and a reset, every beat, clock and count is the same.
+TEST(MemoryModel, ResponsesSentAheadComeAtTheirTime) {
+  std::array<std::uint64_t, 2> activations{};
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const bool free = seed % 2 == 0;  // it withholds no request
+    const auto run = [&](bool ahead) {
+      const std::string text = in_child([&] {
+        Random random(seed, "parameters");
+        platform::MemoryModelParameters memory = with_latency(random.below(40));
+        memory.bytes_per_clock = std::array{0U, 16U, 64U}[random.below(3)];
+        memory.banks = random.chance(500) ? 1 : 4;
+        memory.bank_busy = memory.banks == 1 ? random.below(4) : 0;
+        memory.outstanding = free ? 64 : 1 + random.below(24);
+        memory.record_writes = true;
+        memory.answer_ahead = ahead;
+        MemoryPortParameters port;
+        port.outstanding = 1 + random.below(32);
+        port.in_order = random.chance(500);
+        System s(port, memory, random.chance(500) ? 300 : 0);
+        s.memory.fail_range(7 * 64, 9 * 64);
+        for (std::uint32_t i = 0; i < 600; ++i) {
+          MemoryRequest request = read_of(random.below(64));
+          request.write = random.chance(250);
+          request.byte_mask = random.chance(500) ? 0x0FF0 : ~std::uint64_t{0};
+          request.data.fill(static_cast<std::uint8_t>(i));
+          s.driver.send(request);
+        }
+        s.clock.run(100 + random.below(100));
+        s.clock.set_reset_n(false);
+        s.clock.run(2);
+        s.clock.set_reset_n(true);
+        s.memory.clear_statistics();
+        if (!s.clock.run_until([&] { return s.sink.received() == 600; }, 100'000))
+          return std::string("not done");
+        s.clock.run(100);
+        if (!s.memory.at_rest()) return std::string("not at rest");
+        return fmt::format(
+            "{}\n{} {} {} {} {} {} {} {} {} {}", s.clock.activations(), s.fingerprint(),
+            s.memory.reads(), s.memory.writes(), s.memory.bytes_read(), s.memory.bytes_written(),
+            s.memory.errors(), s.memory.most_outstanding(), fmt::join(s.memory.lines_read(), ","),
+            fmt::join(s.memory.lines_written(), ","), fmt::join(s.memory.dump(0, 64 * 64), ","));
+      });
+      const std::size_t line = text.find('\n');
+      EXPECT_NE(line, std::string::npos) << text;
+      if (free) activations[ahead] += std::stoull(text);
+      return text.substr(line);
+    };
+    const std::string with = run(true), without = run(false);
+    const auto at = static_cast<std::size_t>(
+        std::mismatch(with.begin(), with.end(), without.begin(), without.end()).first -
+        with.begin());
+    const std::size_t from = at > 40 ? at - 40 : 0;
+    EXPECT_TRUE(with == without) << "seed " << seed << ": ahead ..." << with.substr(from, 80)
+                                 << "..., at its time ..." << without.substr(from, 80) << "...";
+  }
+  EXPECT_LT(activations[true], activations[false] / 2);
 }
 
 // Every beat of a read fits the links as they are built for narrow lines; a mask that does not is
@@ -422,7 +486,7 @@ TEST(MemoryPort, WritesFailLikeReads) {
 }
 
 TEST(MemoryPort, RequestsBeyondTheMemorysLimitAreHeldBack) {
-  MemoryModelParameters parameters = with_latency(20);
+  platform::MemoryModelParameters parameters = with_latency(20);
   parameters.outstanding = 3;
   System s({}, parameters);
   for (std::uint32_t i = 0; i < 60; ++i) s.driver.send(read_of(i));
@@ -438,7 +502,7 @@ TEST(MemoryPort, NobodyCanTellWhetherTheDomainRunsOn) {
     for (const std::uint32_t latency_max : {20U, 90U}) {
       const auto run = [&](bool fast, std::optional<std::uint64_t> shuffle) {
         return in_child([&] {
-          MemoryModelParameters parameters = with_latency(20, latency_max);
+          platform::MemoryModelParameters parameters = with_latency(20, latency_max);
           parameters.outstanding = limit;
           parameters.bytes_per_clock = 48;
           System s({}, parameters, 200);
@@ -526,7 +590,7 @@ TEST(MemoryPort, WaitsWhileNobodyTakesItsAnswers) {
   rtl::MemoryPort port("port", clock);
   rtl::Link<MemoryRequest> requests("requests");
   rtl::Link<MemoryResponse> responses("responses");
-  MemoryModel memory("memory", kPeriod, with_latency(10));
+  platform::MemoryModel memory("memory", kPeriod, with_latency(10));
   driver.beats_out(requests);
   port.requests_in(requests);
   port.responses_out(responses);

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "rtl_model/fabric/register_block.h"
+#include "rtl_model/platform/register_host.h"
 #include "spec/error.h"
-#include "tb/harness/register_host.h"
 
 namespace deburr::tb::registers_test {
 namespace {
@@ -253,7 +253,7 @@ TEST(RegisterTable, FindsEachRegisterWhereverItStands) {
                                                  {0, "FIRST", Access::kReadWrite, 3, "c"},
                                                  {304, "BEHIND", Access::kReadWrite, 4, "d"}};
   rtl::RegisterBlock block("block", table);
-  RegisterHost host("host");
+  platform::RegisterHost host("host");
   host.bus.bind(block.bus);
   sc_core::sc_start(sc_core::SC_ZERO_TIME);
   for (const spec::RegisterInfo& r : table) EXPECT_EQ(host.read(r.offset), r.reset) << r.name;

@@ -11,6 +11,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <systemc>
 #include <vector>
@@ -18,10 +19,10 @@
 #include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/unit.h"
+#include "tb/base/forked.h"
+#include "tb/base/random.h"
 #include "tb/harness/driver.h"
-#include "tb/harness/forked.h"
 #include "tb/harness/statistics.h"
-#include "tb/stimuli/random.h"
 
 namespace deburr::tb {
 

@@ -12,8 +12,8 @@
 #include <sstream>
 
 #include "rtl_model/fabric/register_block.h"
-#include "tb/harness/memory_model.h"
-#include "tb/harness/register_host.h"
+#include "rtl_model/platform/memory_model.h"
+#include "rtl_model/platform/register_host.h"
 #include "tb/unit/fabric/support.h"
 #include "tb/unit/full_disk.h"
 
@@ -309,7 +309,7 @@ TEST(Trace, DeclaresEachSignalWithItsWidthAndAnIdentifierOfItsOwn) {
   const std::string file = testing::TempDir() + "widths.vcd";
   Pipeline p(1);
   rtl::RegisterBlock block("block", kTable);
-  RegisterHost host("host");
+  platform::RegisterHost host("host");
   host.bus.bind(block.bus);
   {
     rtl::Trace trace(p.clock, {.file = file});
@@ -383,7 +383,7 @@ TEST(Trace, ShowsRegistersByTheNamesThatAScopeCanChoose) {
       {4, "COUNT", spec::Access::kReadOnly, 0, "a count"}};
   const std::string file = testing::TempDir() + "registers.vcd";
   rtl::RegisterBlock block("block", table);
-  RegisterHost host("host");
+  platform::RegisterHost host("host");
   host.bus.bind(block.bus);
   Pipeline p(100);
   EXPECT_THAT(rtl::Trace::names(),

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "rtl_model/fabric/memory_port.h"
+#include "rtl_model/platform/memory_model.h"
 #include "tb/harness/bench.h"
-#include "tb/harness/memory_model.h"
 #include "tb/harness/scoreboard.h"
 #include "tb/unit/fabric/support.h"
 
@@ -471,9 +471,9 @@ TEST(Negative, ImpossibleStallsAndMemories) {
   Pipeline p(300);
   EXPECT_THROW(StallInjector(p.clock, {1000, 0, 1, "*"}), spec::ConfigError);
   EXPECT_THROW(StallInjector(p.clock, {10, 0, 1, "nothing"}), spec::ConfigError);
-  MemoryModelParameters parameters;
+  platform::MemoryModelParameters parameters;
   parameters.latency_max = 1;
-  EXPECT_THROW(MemoryModel("memory", p.clock.period(), parameters), spec::ConfigError);
+  EXPECT_THROW(platform::MemoryModel("memory", p.clock.period(), parameters), spec::ConfigError);
 }
 
 // A response that never comes.
@@ -484,7 +484,7 @@ TEST(Negative, LostResponseIsADeadlock) {
   Sink<rtl::MemoryResponse> sink("sink", clock);
   rtl::Link<rtl::MemoryRequest> requests("requests");
   rtl::Link<rtl::MemoryResponse> responses("responses");
-  MemoryModel memory("memory", clock.period());
+  platform::MemoryModel memory("memory", clock.period());
   driver.beats_out(requests);
   port.requests_in(requests);
   port.responses_out(responses);

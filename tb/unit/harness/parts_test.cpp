@@ -13,8 +13,8 @@
 #include <string>
 #include <utility>
 
+#include "tb/base/forked.h"
 #include "tb/harness/bench.h"
-#include "tb/harness/forked.h"
 #include "tb/harness/monitor.h"
 #include "tb/harness/scoreboard.h"
 #include "tb/unit/fabric/support.h"

@@ -12,8 +12,8 @@
 #include <functional>
 #include <string>
 
-#include "tb/harness/forked.h"
-#include "tb/harness/memory_model.h"
+#include "rtl_model/platform/memory_model.h"
+#include "tb/base/forked.h"
 
 namespace deburr::tb::protocol_target_test {
 namespace {
@@ -79,7 +79,7 @@ std::string seen(const Script& script, const ProtocolTargetParameters& parameter
     Initiator initiator("initiator");
     initiator.script = script;
     ProtocolTarget target("target", parameters);
-    MemoryModel memory("memory", kTick);
+    platform::MemoryModel memory("memory", kTick);
     initiator.socket.bind(target.socket);
     target.memory.bind(memory.ports);
     sc_core::sc_start(kTick);

@@ -18,6 +18,9 @@ sys.dont_write_bytecode = True
 from tiny_tree import tiny_tree  # noqa: E402
 
 SOURCE = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else ".").resolve()
+sys.path.insert(0, str(SOURCE / "tb/engines"))
+from engine_list import testplan  # noqa: E402
+
 SAYS = '#!/bin/sh\necho "$(basename "$0") $*" >>"$CALLS"\n'
 DEBURR = "build/release/deburr"
 # What ninja says of a target: the programs that it builds.
@@ -47,7 +50,7 @@ class CommandLines(unittest.TestCase):
         tools = ("cmake", "ctest", "apt-get", "clang++")
         self.root = tiny_tree(self, {f"bin/{tool}": SAYS for tool in tools} |
                               {DEBURR: SAYS, "build/release/test_programs.txt": HELD, "bin/ninja": SAYS + PROGRAMS, "bin/dpkg-query": INSTALLED})
-        for folder in ("scripts", ".ci", "cmake", "tb/testplan"):
+        for folder in ("scripts", ".ci", "cmake", "tb/engines", "tb/testplan"):
             shutil.copytree(SOURCE / folder, self.root / "tree" / folder)
         shutil.copy(SOURCE / "CMakePresets.json", self.root / "tree")
         (self.root / "build").rename(self.root / "tree/build")
@@ -161,7 +164,7 @@ class CommandLines(unittest.TestCase):
                 self.assertEqual(installed, [packages] if packages else [])
 
     def test_a_part_of_the_nightly_plan_has_the_features_that_are_asked_for(self):
-        plan = yaml.safe_load((SOURCE / "tb/testplan/nightly.yaml").read_text(encoding="utf-8"))
+        plan = testplan(SOURCE / "tb/testplan/nightly.yaml")
         names = [feature["id"] for feature in plan["features"]]
         for arguments, left in ((["large-frames"], ["large-frames"]), ([], names),
                                 (["--but", names[0], names[2]], [names[1], *names[3:]])):
@@ -204,6 +207,11 @@ class CommandLines(unittest.TestCase):
         (build / "build.ninja").touch()
         (build / "CMakeCache.txt").write_text("BUILD_TESTING:BOOL=ON\n", encoding="utf-8")
         self.assertIn("cmake --preset release -DBUILD_TESTING=ON", self.call("scripts/demo")[2])
+
+    def test_the_complete_demo_builds_all_that_the_command_starts_and_loads(self):
+        done, said, calls = self.call("scripts/demo", "--complete", "mine")
+        self.assertEqual((done, calls[1:]), (0, ["cmake --build build/release --target deburr_complete",
+                                                 f"deburr run texture --scene plane --out {self.root}/mine"]), said)
 
     def interrupted(self, script, *arguments):
         """The tools that were called before and after Ctrl-C, which comes while the first one runs."""

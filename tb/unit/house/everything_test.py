@@ -21,6 +21,8 @@ from tiny_tree import tiny_tree  # noqa: E402
 
 CTEST, BUILD, SOURCE = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1)), pathlib.Path(sys.argv.pop(1)).resolve()
 SCRIPT = SOURCE / "scripts/everything"
+sys.path.insert(0, str(SOURCE / "tb/engines"))
+from engine_list import engines  # noqa: E402
 PARTS = importlib.machinery.SourceFileLoader("everything", str(SCRIPT)).load_module().PARTS
 
 # Writes down how it was called, and a record of ctest with a test that passes, one that is skipped and,
@@ -49,10 +51,14 @@ class Everything(unittest.TestCase):
     def setUp(self):
         names = {shlex.split(command)[0] for command in PARTS.values()}
         self.root = tiny_tree(self, {name: STUB for name in names} |
+                              {f"rtl_model/{engine}/CMakeLists.txt": "" for engine in engines()
+                               if (SOURCE / "rtl_model" / engine).exists()} |
                               {".gitignore": "calls\nfail\n/build/\n", "docs/index.md": ""})
         for name in names:
             (self.root / name).chmod(0o755)
         shutil.copy(SCRIPT, self.root / "scripts")
+        shutil.copytree(SOURCE / "tb/engines", self.root / "tb/engines",
+                        ignore=lambda folder, names: [n for n in names if not n.startswith("engine")])
         self.git("init", "-q")
         self.commit()
 

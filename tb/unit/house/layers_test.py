@@ -20,6 +20,14 @@ ALLOWED = {
 }
 # Rooms of tb that only tests look into; what the command is built from does not.
 TESTS_ALONE = {"unit", "system", "oracle", "negative", "bench", "baselines"}
+# rtl_model/platform is software's side: it knows engines by their registers in spec, and no engine
+# knows it.
+PLATFORM_MAY_INCLUDE = {"platform", "fabric"}
+# Rooms of tb from below: a room includes itself and what stands before it. Tests and benchmarks stand above all.
+ROOMS = ["base", "scene", "stimuli", "harness", "results", "traces", "env", "training", "app", "engines", "sweep",
+         "regress", "command", "papers", "soak"]
+# Engines do not include each other; a composition stands on its parts.
+COMPOSITIONS = {"frame"}
 SOURCE = {".h", ".cpp", ".cmake", ".py", ".txt"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 FLOATING = re.compile(r"\b(float|double)\b")
@@ -28,6 +36,16 @@ ASSERT = re.compile(r"(?<![\w_])assert\s*\(")
 NAMESPACE = re.compile(r"^\s*using\s+namespace\b")
 RANDOM = re.compile(r"\bstd::(?:mt19937|minstd_rand|ranlux|default_random|random_device|s?rand\b|\w+_distribution)")
 CONDITIONAL = re.compile(r"^\s*#\s*if(n?def)?\b")
+
+
+def in_order(where, wanted):
+    """Whether a file of tb may include another one, by their rooms."""
+    room, below = where[1], wanted[1]
+    if room not in ROOMS or below not in ROOMS:
+        return True
+    if room == below == "engines" and len(where) > 3 and len(wanted) > 3:
+        return where[2] == wanted[2] or where[2] in COMPOSITIONS
+    return ROOMS.index(below) <= ROOMS.index(room)
 
 
 def violations(root):
@@ -52,12 +70,20 @@ def violations(root):
                     if name == "systemc.h":
                         yield f"{where}:{number}: <systemc.h> instead of <systemc>"
                     if name == "random":
-                        yield f"{where}:{number}: <random> instead of tb/stimuli/random.h"
+                        yield f"{where}:{number}: <random> instead of tb/base/random.h"
                     if layer in {"spec", "golden"} and name.split("/")[0] in {"systemc", "tlm"}:
                         yield f"{where}:{number}: SystemC in {layer}"
                     first = name.split("/")[0]
                     if first in ALLOWED and first not in allowed:
                         yield f"{where}:{number}: {layer} includes {first}"
+                    if first == layer == "rtl_model":
+                        room, wanted = where.parts[1], name.split("/")[1]
+                        if room == "platform" and wanted not in PLATFORM_MAY_INCLUDE:
+                            yield f"{where}:{number}: rtl_model/platform includes an engine"
+                        if room != "platform" and wanted == "platform":
+                            yield f"{where}:{number}: hardware includes rtl_model/platform"
+                    if layer == first == "tb" and not in_order(where.parts, name.split("/")):
+                        yield f"{where}:{number}: tb/{where.parts[1]} includes {name}, which does not stand below it"
                     if (layer == "tb" and where.parts[1] not in TESTS_ALONE
                             and first == "tb" and name.split("/")[1] in TESTS_ALONE):
                         yield f"{where}:{number}: test support in the command"
@@ -66,7 +92,7 @@ def violations(root):
                 if ASSERT.search(line) and "static_assert" not in line:
                     yield f"{where}:{number}: assert instead of DEBURR_CHECK"
                 if RANDOM.search(line):
-                    yield f"{where}:{number}: a generator besides tb/stimuli/random.h"
+                    yield f"{where}:{number}: a generator besides tb/base/random.h"
                 if path.suffix == ".h" and NAMESPACE.match(line):
                     yield f"{where}:{number}: using namespace in a header"
                 if layer == "rtl_model" and THREADS.search(line):
@@ -83,6 +109,11 @@ def planted_faults_are_caught():
         "rtl_model/b.cpp": "SC_THREAD(run);",
         "rtl_model/c.cpp": "SC_CTHREAD(run, clk.pos());",
         "rtl_model/d.h": "using namespace sc_core;",
+        "rtl_model/platform/a.cpp": '#include "rtl_model/foo/tokens.h"',
+        "rtl_model/platform/b.cpp": '#include "golden/foo/traffic.h"',
+        "rtl_model/platform/c.cpp": '#include "tb/harness/bench.h"',
+        "rtl_model/fabric/a.cpp": '#include "rtl_model/platform/memory_model.h"',
+        "golden/e.cpp": '#include "rtl_model/platform/foo_records.h"',
         "golden/d.cpp": "#include <systemc>",
         "tb/b.cpp": "#include <systemc.h>",
         "tb/c.cpp": "assert(x > 0);",
@@ -90,6 +121,9 @@ def planted_faults_are_caught():
         "tb/unit/a.cpp": "std::mt19937_64 random(1);",
         "tb/unit/b.cpp": "std::uniform_int_distribution<int> pick(0, 3);",
         "tb/app/a.cpp": '#include "tb/unit/scene/fixtures.h"',
+        "tb/app/b.cpp": '#include "tb/sweep/point.h"',
+        "tb/base/a.cpp": '#include "tb/results/result.h"',
+        "tb/engines/foo/a.cpp": '#include "tb/engines/bar/bar_environment.h"',
         "golden/b.cpp": "double x;",
         "golden/ideal/c.cpp": '#include "../../rtl_model/x.h"',
         "spec/a.h": '#include "tb/scene/image.h"',

@@ -225,6 +225,7 @@ inline bool lambda(int a) { return [&] { return a > 1 && a < 3; }() || (a ? a ==
         self.assertIn("fabric_link_test", found("rtl_model/fabric/link.h"))
         for file, start in (("rtl_model/texture/log2_unit.cpp", ("rtl_texture_",)),
                             ("rtl_model/morphological/runs/line_unit.h", ("rtl_morphological_",)),
+                            ("rtl_model/platform/memory_model.cpp", ("platform_",)),
                             ("golden/texture/filter.h",
                              ("golden_texture_", "rtl_texture_equivalence_")),
                             ("golden/morphological/line.cpp", ("golden_morphological_",)),

@@ -17,7 +17,7 @@
 #include <thread>
 
 #include "spec/error.h"
-#include "tb/results/file.h"
+#include "tb/base/file.h"
 #include "tb/results/run_context.h"
 
 namespace deburr::tb::input_files_test {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Parameters by name: every way to set one, and every way in which it must be refused.
-#include "spec/texture/parameters.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -14,6 +12,7 @@
 #include <vector>
 
 #include "spec/error.h"
+#include "spec/texture/check_build.h"
 #include "tb/results/parameter_set.h"
 
 namespace deburr::tb::parameters_test {
@@ -242,23 +241,6 @@ TEST_F(Parameters, OfAnEngineAreRulesOrBuildChoices) {
   EXPECT_EQ(set.resolved(ParameterKind::kRule).size() + set.resolved(ParameterKind::kBuild).size() +
                 set.resolved(ParameterKind::kRun).size(),
             set.all().size());
-}
-
-TEST(EditDistance, CountsEditsAndSwaps) {
-  EXPECT_EQ(edit_distance("", ""), 0);
-  EXPECT_EQ(edit_distance("", "abc"), 3);
-  EXPECT_EQ(edit_distance("ways", "wasy"), 1);
-  EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
-  const std::vector<std::string> presets = {"mlaa", "mlaa-slope", "deburr"};
-  EXPECT_THAT(near_matches("MLAA", presets), testing::ElementsAre("mlaa"));
-  EXPECT_THAT(near_matches("Debur", presets), testing::ElementsAre("deburr"));
-  EXPECT_THAT(near_matches("ram", presets), testing::IsEmpty());
-}
-
-TEST(EditDistance, DidYouMeanReadsWell) {
-  EXPECT_EQ(did_you_mean({}), "");
-  EXPECT_EQ(did_you_mean({"a"}), ": did you mean 'a'?");
-  EXPECT_EQ(did_you_mean({"a", "b", "c"}), ": did you mean 'a', 'b' or 'c'?");
 }
 
 }  // namespace

@@ -8,14 +8,18 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "spec/error.h"
+#include "tb/base/file.h"
+#include "tb/base/headline.h"
 #include "tb/results/compare.h"
-#include "tb/results/file.h"
-#include "tb/results/headline.h"
 #include "tb/results/progress.h"
 #include "tb/results/report.h"
 #include "tb/results/run_context.h"
@@ -63,13 +67,40 @@ Result sample_result() {
   r.bottleneck = find_bottleneck(r.units, "cache");
   r.memories = {memory("cache_data", "sram", 131072, 262144, 131072),
                 memory("cache_lines", "flops", 5120, 5120, 1280)};
-  r.work = {{"fragments", 1000, "fragment", "Colours </script><script>alert(1)</script>."}};
+  r.work = {{"fragments", 1000u, "fragment", "Colours </script><script>alert(1)</script>."}};
   r.figures = {{"Fragments", "work.fragments", "a remark"},
                {"Whole run", "cycles", "bound", "work.bound", true}};
-  r.work.push_back({"bound", 50000, "clk", "The least."});
+  r.work.push_back({"bound", 50000u, "clk", "The least."});
   r.quality = Quality{
       "supersampled-256", 41.25, std::numeric_limits<double>::infinity(), {}, 35.5, 30.25, {}};
   r.host_seconds = 0.05;
+  return r;
+}
+
+// With everything that a run may have.
+Result full_result() {
+  Result r = sample_result();
+  r.verdict = Verdict::kFail;
+  r.reason = "3 mismatches";
+  r.interrupted = true;
+  r.mismatches = 3;
+  r.traffic_comparisons = 20;
+  r.traffic_mismatches = 1;
+  r.scoreboards = {{"colours", 900, 2}, {"lines", 100, 1}};
+  r.throughput_bound_meaning = "One a clock.";
+  r.bytes_written = 64;
+  r.memories[1].high_water = 7;
+  r.memories[1].idealised = "nine ports";
+  r.links = {{"cache_in", "engine.cache.in", 30, {5, 10, 25}}, {"empty", "engine.empty", 0, {0}}};
+  r.maps = {{"samples", "Samples", "sample", "Samples of each pixel.", 1, 16, 48, 12, "the walker"},
+            {"nothing", "Nothing", "", "Of no pixel.", 0, 0, 0, 0, ""}};
+  r.coverage = {{"footprint/rule/half", 3}, {"footprint/rule/max", 0}};
+  r.work.push_back({"unknown", {}, "clk", "Not known of this run."});
+  r.work.push_back({"exact", true, "", "A switch."});
+  r.work.push_back({"share", 0.5, "line/texel", "A rate."});
+  r.notes = {"16 bits made 8"};
+  r.first_mismatches = {{"colours", "cycle 812", "pixel (3, 4)", "red", "17", "18"}};
+  r.host_cpu_seconds = 0.04;
   return r;
 }
 
@@ -109,6 +140,163 @@ TEST(ResultJson, HasTheKeysOfSchemaThreeInOrder) {
   EXPECT_EQ(json["units"]["address"]["stalls"]["downstream"], 1321);
   EXPECT_EQ(json["latency"]["histogram"][1]["count"], 200);
   EXPECT_TRUE(json["quality"]["psnr_silhouette_db"].is_null());
+}
+
+// Of a result with everything, by hand.
+constexpr const char* kFullResult = R"json({
+  "schema": 3, "unit": "texture", "verdict": "fail", "reason": "3 mismatches",
+  "interrupted": true,
+  "checks": {
+    "comparisons": 1000, "mismatches": 3, "traffic_comparisons": 20, "traffic_mismatches": 1
+  },
+  "scoreboards": {
+    "colours": {"comparisons": 900, "mismatches": 2},
+    "lines": {"comparisons": 100, "mismatches": 1}
+  },
+  "cycles": 54321, "clock_mhz": 166.67,
+  "throughput": {
+    "value": 0.98, "unit": "bilinear/clk", "bound": 1.0, "bound_meaning": "One a clock."
+  },
+  "latency": {
+    "unit": "clk", "min": 17, "p50": 20, "p95": 90, "p99": 130, "max": 180,
+    "histogram": [
+      {"from": 16, "count": 700},
+      {"from": 32, "count": 200},
+      {"from": 64, "count": 60},
+      {"from": 128, "count": 40}
+    ]
+  },
+  "memory": {"bytes_read": 640000, "bytes_written": 64, "lines_filled": 10000},
+  "units": {
+    "address": {"busy": 40000, "idle": 13000, "stalls": {"downstream": 1321}},
+    "cache": {"busy": 53000, "idle": 321, "stalls": {"downstream": 0, "wait_fill": 1000}}
+  },
+  "bottleneck": {"unit": "cache", "cause": "wait_fill", "cycles": 1000, "meaning": ""},
+  "memories": {
+    "cache_data": {
+      "content": "Lines of the cache.", "kind": "sram", "words": 2048, "word_bits": 64,
+      "ports": "2R1W", "read_latency": 1, "built_as": "2 copies of 1R1W", "copies": 2, "banks": 1,
+      "logical_bits": 131072, "physical_bits": 262144, "logical_bits_at_frame_width": 131072
+    },
+    "cache_lines": {
+      "content": "Lines of the cache.", "kind": "flops", "words": 80, "word_bits": 64,
+      "ports": "2R1W", "read_latency": 1, "built_as": "2 copies of 1R1W", "copies": 1, "banks": 1,
+      "logical_bits": 5120, "physical_bits": 5120, "logical_bits_at_frame_width": 1280,
+      "high_water": 7
+    }
+  },
+  "memory_bits": {
+    "flops": {"memories": 1, "logical": 5120, "physical": 5120, "logical_at_frame_width": 1280},
+    "sram": {
+      "memories": 1, "logical": 131072, "physical": 262144, "logical_at_frame_width": 131072
+    },
+    "total": {
+      "memories": 2, "logical": 136192, "physical": 267264, "logical_at_frame_width": 132352
+    }
+  },
+  "idealised": {"cache_lines": "nine ports"},
+  "links": {
+    "cache_in": {
+      "link": "engine.cache.in", "depth": 2, "beats": 30, "occupancy": 60, "mean": 1.5, "most": 2,
+      "full_percent": 62.5,
+      "histogram": [5, 10, 25]
+    },
+    "empty": {
+      "link": "engine.empty", "depth": 0, "beats": 0, "occupancy": 0, "mean": 0.0, "most": 0,
+      "full_percent": 0.0,
+      "histogram": [0]
+    }
+  },
+  "maps": {
+    "samples": {
+      "title": "Samples", "meaning": "Samples of each pixel.", "unit": "sample",
+      "picture": "map_samples.png", "values": "map_samples.pfm", "pixels": 12, "min": 1.0,
+      "max": 16.0, "mean": 4.0, "sum": 48.0, "checked_against": "the walker"
+    },
+    "nothing": {
+      "title": "Nothing", "meaning": "Of no pixel.", "unit": "", "picture": "map_nothing.png",
+      "values": "map_nothing.pfm", "pixels": 0, "min": 0.0, "max": 0.0, "mean": 0.0, "sum": 0.0,
+      "checked_against": ""
+    }
+  },
+  "work": {"fragments": 1000, "bound": 50000, "unknown": null, "exact": true, "share": 0.5},
+  "notes": ["16 bits made 8"],
+  "first_mismatches": [
+    {
+      "check": "colours", "where": "cycle 812", "item": "pixel (3, 4)", "field": "red",
+      "expected": "17", "got": "18"
+    }
+  ],
+  "figures": [
+    {"label": "Fragments", "key": "work.fragments", "against": {"label": "a remark"}},
+    {
+      "label": "Whole run", "key": "cycles",
+      "against": {"label": "bound", "key": "work.bound"},
+      "tile": true
+    }
+  ],
+  "quality": {
+    "reference": "supersampled-256", "psnr_db": 41.25, "psnr_edge_db": null,
+    "psnr_silhouette_db": null, "psnr_before_db": 35.5, "psnr_edge_before_db": 30.25,
+    "psnr_silhouette_before_db": null,
+    "identical": {
+      "psnr_db": false, "psnr_edge_db": true, "psnr_silhouette_db": false,
+      "psnr_before_db": false, "psnr_edge_before_db": false, "psnr_silhouette_before_db": false
+    }
+  },
+  "host": {"seconds": 0.05, "mcycles_per_s": 1.08642, "cpu_seconds": 0.04},
+  "coverage": {"bins": {"footprint/rule/half": 3, "footprint/rule/max": 0}}
+})json";
+
+TEST(ResultJson, IsThisOfAFullResult) {
+  Json json = to_json(full_result());
+  json.erase("meaning");
+  EXPECT_EQ(json.dump(1), Json::parse(kFullResult).dump(1));
+}
+
+// The order of the file, and after it what an engine declares.
+TEST(ResultJson, MeaningsStandInTheOrderOfTheFile) {
+  const Json json = to_json(full_result());
+  std::vector<std::string> paths, meanings, declared;
+  const std::function<void(const Json&, const std::string&)> collect =
+      [&](const Json& node, const std::string& path) {
+        if (!node.is_object() || path == "coverage.bins") {
+          (path.starts_with("work.") || path == "coverage.bins" ? declared : paths).push_back(path);
+          return;
+        }
+        for (const auto& [key, value] : node.items())
+          if (key != "meaning" || !path.empty())
+            collect(value, path.empty() ? key : path + "." + key);
+      };
+  collect(json, "");
+  paths.insert(paths.end(), declared.begin(), declared.end());
+  for (const auto& [path, meaning] : json["meaning"].items()) meanings.push_back(path);
+  EXPECT_EQ(meanings, paths);
+  EXPECT_EQ(json["meaning"]["units.address.stalls.downstream"]["meaning"],
+            "The next unit was not ready.");
+  EXPECT_EQ(json["meaning"]["work.unknown"],
+            (Json{{"unit", "clk"}, {"meaning", "Not known of this run."}}));
+}
+
+// The table of keys has what a full result has, and nothing else.
+TEST(Statistics, AreTheKeysOfAFullResult) {
+  std::set<std::string_view> met;
+  const Json json = to_json(full_result());
+  for (const auto& [path, meaning] : json["meaning"].items()) {
+    const Statistic* s = find_statistic(path);
+    if (path.starts_with("work.")) {
+      EXPECT_EQ(s, nullptr) << path;
+      continue;
+    }
+    ASSERT_NE(s, nullptr) << path;
+    met.insert(s->name);
+    EXPECT_EQ(meaning["unit"], s->unit) << path;
+    if (path.find(".stalls.") == std::string::npos) {
+      EXPECT_EQ(meaning["meaning"], s->meaning) << path;
+    }
+  }
+  for (const Statistic& s : statistics()) EXPECT_TRUE(met.contains(s.name)) << s.name;
+  EXPECT_EQ(met.size(), statistics().size()) << "a key is in the table twice";
 }
 
 // A number that is none is null, never a text; why, says the flag.
@@ -258,6 +446,7 @@ TEST_F(Directory, TheReportIsSelfContainedAndEscapes) {
   ParameterSet parameters;
   RunContext context(path_, parameters, "deburr run texture --set a='<b>'", 7);
   context.set_title("A <title> & more", "summary");
+  context.set_leaves({{"before", "after"}, {}});
   context.claim();
   context.add_image("before", Image(4, 3, {10, 20, 30, 255}), "Before", "");
   context.add_image("after", Image(4, 3, {11, 20, 30, 255}), "After", "");

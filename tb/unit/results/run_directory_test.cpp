@@ -12,12 +12,13 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/results/file.h"
+#include "tb/base/file.h"
 
 namespace deburr::tb::run_directory_test {
 namespace {

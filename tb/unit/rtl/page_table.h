@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Are the links and memories of an engine those of the tables in its page?
+// Are the links, wires and memories of an engine those of the tables in its page?
 #pragma once
 
 #include <fmt/format.h>
@@ -13,6 +13,7 @@
 
 #include "rtl_model/fabric/engine.h"
 #include "rtl_model/fabric/trace.h"
+#include "rtl_model/fabric/wire.h"
 #include "tb/unit/page_table.h"
 
 namespace deburr::tb {
@@ -42,6 +43,35 @@ class EnginePage : public PageTable {
     }
     for (std::size_t i = 0; i < rows().size(); ++i)
       EXPECT_TRUE(met[i] || rows()[i][bits] == "-") << build << " has no link " << rows()[i][0];
+  }
+
+  // A row a wire: its bits, the unit that drives it, those that read it in the order of their
+  // binding.
+  void expect_wires(rtl::Engine& engine) const {
+    const auto below = [&](const std::string& name) {
+      return name.substr(std::string(engine.name()).size() + 1);
+    };
+    const auto unit_of = [&](const std::string& port) {
+      const std::string name = below(port);
+      return name.substr(0, name.rfind('.'));
+    };
+    std::vector<std::string> built;
+    rtl::for_each<rtl::WireBase>(engine, [&](const rtl::WireBase& wire) {
+      std::string text =
+          fmt::format("{} {} {}:", below(wire.name()), wire.bits(), unit_of(wire.driver()));
+      for (const std::string& reader : wire.readers()) text += " " + unit_of(reader);
+      built.push_back(text);
+    });
+    std::vector<std::string> written;
+    for (const auto& cells : rows()) {
+      std::string readers = cells[column("to")];
+      std::erase(readers, ',');
+      written.push_back(fmt::format("{} {} {}: {}", cells[0], cells[column("bits")],
+                                    cells[column("from")], readers));
+    }
+    std::sort(built.begin(), built.end());
+    std::sort(written.begin(), written.end());
+    EXPECT_EQ(built, written);
   }
 
   // A row a memory, its name before anything else; those of the memory port have a page of their

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tb/scene/atomic_file.h"
+#include "tb/base/atomic_file.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/textures.h"
 #include "tb/unit/full_disk.h"

@@ -9,9 +9,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "tb/base/random.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/textures.h"
-#include "tb/stimuli/random.h"
 #include "tb/unit/scene/fixtures.h"
 
 namespace deburr::tb::mesh_test {

@@ -11,8 +11,8 @@
 #include <limits>
 #include <map>
 
+#include "tb/base/random.h"
 #include "tb/scene/rasteriser.h"
-#include "tb/stimuli/random.h"
 #include "tb/unit/scene/fixtures.h"
 
 namespace deburr::tb::raster_test {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb::pareto_search_test {
 namespace {

@@ -15,9 +15,9 @@
 
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/memory_port.h"
+#include "rtl_model/platform/memory_model.h"
 #include "spec/error.h"
 #include "tb/harness/driver.h"
-#include "tb/harness/memory_model.h"
 
 namespace deburr::tb::line_trace_test {
 namespace {
@@ -45,7 +45,7 @@ struct Bench {
   Sink<rtl::MemoryResponse> sink{"sink", clock};
   rtl::Link<MemoryRequest> requests;
   rtl::Link<rtl::MemoryResponse> responses;
-  MemoryModel memory{"memory", kPeriod};
+  platform::MemoryModel memory{"memory", kPeriod};
 
   explicit Bench(const rtl::MemoryPortParameters& p)
       : port("port", clock, p),
@@ -80,13 +80,13 @@ void send(Bench& bench) {
 TEST_F(Lines, AreRecordsWithTheClockOfTheirRequest) {
   Bench bench(bursts());
   send(bench);
-  LineTrace trace(file_, {"geometric", 148.5, TraceFormat::kText, false});
+  LineTrace trace(file_, {"some_unit", 148.5, TraceFormat::kText, false});
   bench.clock.run(100);
   trace.finish();
   EXPECT_EQ(trace.records(), 3u);
   // Pushed in 0 and 1, so sent in 1 and 2.
   EXPECT_EQ(bytes(),
-            "# deburr-lines 1\n# engine geometric\n# clock_mhz 148.5\n# port 0 memory 64 port\n"
+            "# deburr-lines 1\n# engine some_unit\n# clock_mhz 148.5\n# port 0 memory 64 port\n"
             "# clock event address bytes port\n"
             "1 read 0x00001000 64 0\n1 read 0x00001040 64 0\n2 write 0x00000040 8 0\n# end 3\n");
 }
@@ -95,7 +95,7 @@ TEST_F(Lines, AreBytesAsDocumented) {
   Bench bench(bursts());
   send(bench);
   {
-    LineTrace trace(file_, {"geometric", 148.5, TraceFormat::kBinary, false});
+    LineTrace trace(file_, {"some_unit", 148.5, TraceFormat::kBinary, false});
     bench.clock.run(100);
     trace.finish();
   }
@@ -109,7 +109,7 @@ TEST_F(Lines, AreBytesAsDocumented) {
   EXPECT_EQ(u32(20), 1u);
   EXPECT_EQ(get_little_endian<std::uint64_t>(all, 24), 3u);
   EXPECT_EQ(get_double(all, 32), 148.5);
-  EXPECT_STREQ(all.substr(40, 24).c_str(), "geometric");
+  EXPECT_STREQ(all.substr(40, 24).c_str(), "some_unit");
   EXPECT_EQ(u32(64), 64u);
   EXPECT_EQ(u32(68), 0u);
   EXPECT_STREQ(all.substr(72, 56).c_str(), "port");
@@ -125,7 +125,7 @@ TEST_F(Lines, OfNobodyAreRefused) {
   EXPECT_THROW(LineTrace(file_, {}), spec::ConfigError);
   EXPECT_FALSE(fs::exists(file_));
   Bench bench(bursts());
-  EXPECT_THROW(LineTrace(file_, {"geometric", 100, TraceFormat::kText, true}), spec::ConfigError)
+  EXPECT_THROW(LineTrace(file_, {"some_unit", 100, TraceFormat::kText, true}), spec::ConfigError)
       << "no cache";
   send(bench);
   { const LineTrace dropped(file_, {}); }

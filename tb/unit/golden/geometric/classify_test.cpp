@@ -6,12 +6,12 @@
 
 #include "golden/geometric/configuration.h"
 #include "spec/error.h"
+#include "spec/geometric/check_build.h"
 
 namespace deburr::classify_test {
 namespace {
 
 using golden::geometric::check_frame;
-using golden::geometric::check_parameters;
 using golden::geometric::classify;
 using golden::geometric::FacingBits;
 using golden::geometric::FrameCounts;
@@ -116,13 +116,13 @@ TEST(Configuration, PresetsAreThePages) {
   EXPECT_EQ(deburr.crease, untouched.crease);
   EXPECT_EQ(deburr.combine, untouched.combine);
   EXPECT_EQ(deburr.frame_copy, untouched.frame_copy);
-  for (const Parameters& p : {gpaa, optimised, deburr}) EXPECT_NO_THROW(check_parameters(p));
+  for (const Parameters& p : {gpaa, optimised, deburr}) EXPECT_NO_THROW(check_build(p));
 }
 
 void refused(void (*change)(Parameters&), const char* name) {
   Parameters p;
   change(p);
-  EXPECT_THAT([&] { check_parameters(p); },
+  EXPECT_THAT([&] { check_build(p); },
               testing::ThrowsMessage<spec::ConfigError>(testing::HasSubstr(name)));
 }
 
@@ -137,11 +137,11 @@ TEST(Configuration, RefusesByName) {
   refused([](Parameters& p) { p.fills = 7; }, "fills = 7 is outside 8..256");
   Parameters fills;
   fills.fills = fills.memory_outstanding = 64;  // as many as memory answers at once
-  EXPECT_NO_THROW(check_parameters(fills));
+  EXPECT_NO_THROW(check_build(fills));
   Parameters table;
   table.pipelined = false;
   table.reciprocal_table = 10;
-  EXPECT_NO_THROW(check_parameters(table));
+  EXPECT_NO_THROW(check_build(table));
 }
 
 TEST(Configuration, FramesEndWhereTheBuildEnds) {

@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/unit/golden/geometric/support.h"
 
 namespace deburr::coverage_test {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/unit/golden/geometric/support.h"
 
 namespace deburr::frames_test {

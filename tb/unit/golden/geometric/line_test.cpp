@@ -11,7 +11,7 @@
 #include "golden/geometric/resolve.h"
 #include "golden/morphological/blend.h"
 #include "spec/geometric/tables.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::line_test {
 namespace {

@@ -4,23 +4,15 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "golden/geometric/geometric_golden.h"
+#include "spec/geometric/vectors.h"
+#include "tb/stimuli/vector_hash.h"
+#include "tb/unit/spec/geometric/vector_frame.h"
 
 namespace deburr::tb::geometric {
-
-class Fnv {
- public:
-  void byte(unsigned value) { hash_ = (hash_ ^ value) * 1099511628211u; }
-  void word(std::uint32_t value) {
-    for (int shift = 0; shift < 32; shift += 8) byte(value >> shift & 255);
-  }
-  std::uint64_t value() const { return hash_; }
-
- private:
-  std::uint64_t hash_ = 1469598103934665603u;
-};
 
 // A frame and what it is drawn from; owns what the golden only looks at.
 struct Drawing {
@@ -50,54 +42,32 @@ struct Drawing {
   }
 };
 
-inline constexpr golden::geometric::Bases kVectorBases{.edges = 0x10000,
-                                                       .vertices = 0x20000,
-                                                       .facing = 0x30000,
-                                                       .depth = 0x40000,
-                                                       .colour = 0x50000,
-                                                       .weights = 0x60000,
-                                                       .copy = 0x70000};
+constexpr std::uint32_t vector_base(spec::geometric::Region region) {
+  return spec::geometric::kVectorBases[static_cast<std::size_t>(region)];
+}
+inline constexpr golden::geometric::Bases kVectorBases{
+    .edges = vector_base(spec::geometric::Region::kEdges),
+    .vertices = vector_base(spec::geometric::Region::kVertices),
+    .facing = vector_base(spec::geometric::Region::kFaces),
+    .depth = vector_base(spec::geometric::Region::kDepth),
+    .colour = vector_base(spec::geometric::Region::kColour),
+    .weights = vector_base(spec::geometric::Region::kWeights),
+    .copy = vector_base(spec::geometric::Region::kCopy)};
 
 inline Drawing vector_drawing() {
-  std::uint32_t state = 1;
-  const auto r = [&state] { return state = 1664525u * state + 1013904223u; };
-  Drawing d(61, 45);
-  for (auto& pixel : d.colours) {
-    const std::uint32_t v = r();
-    pixel = {static_cast<std::uint8_t>(v >> 24), static_cast<std::uint8_t>(v >> 16),
-             static_cast<std::uint8_t>(v >> 8), 255};
-  }
-  constexpr std::uint32_t kDepths[] = {0,       3000000, 3005000, 6000000,
-                                       6011000, 9000000, 9017000, 16777215};
-  for (std::uint32_t& depth : d.depths) depth = kDepths[r() >> 29];
-  for (int i = 0; i < 200; ++i) {
-    spec::geometric::Vertex v;
-    v.x = static_cast<std::int32_t>((r() >> 16) % 20480) - 2304;
-    v.y = static_cast<std::int32_t>((r() >> 16) % 16384) - 2304;
-    v.depth = r() >> 8;
-    v.usable = i != 7;
-    if (i < 10) {
-      v.x &= ~127;
-      v.y &= ~127;
-    }
-    if (i == 11) v.x = 1 << 22;
-    d.vertices.push_back(v);
-  }
-  for (std::uint32_t face = 0; face < 49; ++face) d.set_facing(face, r() >> 31 != 0);
-  for (int i = 0; i < 300; ++i) {
-    spec::geometric::Edge e;
-    e.v0 = (r() >> 16) % 201;
-    e.v1 = (r() >> 16) % 200;
-    e.f0 = (r() >> 16) % 50;
-    e.f1 = (r() >> 16) % 50;
-    e.flags = static_cast<std::uint8_t>((r() >> 16) % 16);
-    d.edges.push_back(e);
-  }
+  VectorFrame frame = vector_frame();
+  Drawing d(frame.width, frame.height);
+  d.colours = std::move(frame.colours);
+  d.depths = std::move(frame.depths);
+  d.vertices = std::move(frame.vertices);
+  d.edges = std::move(frame.edges);
+  for (std::size_t face = 0; face < frame.facing.size(); ++face)
+    d.set_facing(static_cast<std::uint32_t>(face), frame.facing[face]);
   return d;
 }
 
 inline std::uint64_t hash_of(const std::vector<std::array<std::uint8_t, 4>>& pixels) {
-  Fnv hash;
+  stimuli::VectorHash hash;
   for (const auto& pixel : pixels)
     for (const std::uint8_t value : pixel) hash.byte(value);
   return hash.value();
@@ -107,9 +77,9 @@ inline std::uint64_t hash_of(const std::vector<std::array<std::uint8_t, 4>>& pix
 // colours by the resolve, the writes of colours, and the reads and writes of the copying.
 inline std::uint64_t hash_of(const golden::geometric::Traffic& traffic, bool frame_copy) {
   using spec::geometric::Region;
-  Fnv hash;
+  stimuli::VectorHash hash;
   const auto add = [&](const std::vector<std::uint32_t>& list) {
-    for (const std::uint32_t address : list) hash.word(address);
+    for (const std::uint32_t address : list) hash.lowest_first(address, 4);
   };
   for (const Region region :
        {Region::kFaces, Region::kEdges, Region::kVertices, Region::kDepth, Region::kWeights})

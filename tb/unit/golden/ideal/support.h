@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "golden/ideal/colour_frame.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::golden::ideal {
 

@@ -11,7 +11,7 @@
 #include "golden/morphological/convert.h"
 #include "golden/morphological/traffic.h"
 #include "spec/error.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::blend_test {
 namespace {

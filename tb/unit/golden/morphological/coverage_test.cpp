@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
 namespace deburr::coverage_test {

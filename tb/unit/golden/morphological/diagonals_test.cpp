@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
 namespace deburr::diagonals_test {

@@ -10,7 +10,7 @@
 
 #include "golden/morphological/configuration.h"
 #include "golden/morphological/luma.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
 namespace deburr::edges_test {

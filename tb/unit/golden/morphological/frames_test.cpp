@@ -15,7 +15,7 @@
 #include "golden/morphological/area.h"
 #include "golden/morphological/runs.h"
 #include "spec/error.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
 namespace deburr::frames_test {
@@ -557,10 +557,11 @@ TEST(NamedErrors, OfParameters) {
   using testing::HasSubstr;
   EXPECT_EQ(error_of([](P&) {}), "");
   EXPECT_EQ(error_of([](P& p) { p.window_rows = 65; }),
-            "morphological window_rows = 65 is odd; use an even number of rows");
+            "morphological.window_rows = 65: must be an even number of rows");
   EXPECT_EQ(error_of([](P& p) { p.window_rows = 18; }),
-            "morphological steps = 8 reach beyond a window of 18 rows; at most "
-            "window_rows / 2 - 2 = 7 fit");
+            "morphological.steps = 8 with window_rows = 18: must be at most window_rows / 2 - 2, "
+            "beyond which no row is in the window; make it at most 7, or give window_rows of at "
+            "least 20");
   EXPECT_EQ(error_of([](P& p) {
               p.window_rows = 18;
               p.steps = 7;
@@ -591,9 +592,11 @@ TEST(NamedErrors, OfParameters) {
     p.diagonal_steps = 10;
     p.window_rows = 20;
   };
-  EXPECT_EQ(error_of(too_far),
-            "morphological diagonal_steps = 10 reach beyond a window of 20 rows; they need "
-            "window_rows of at least 22");
+  EXPECT_EQ(
+      error_of(too_far),
+      "morphological.diagonal_steps = 10 with window_rows = 20: must be at most window_rows / "
+      "2 - 1 with diagonals, beyond which no row is in the window; make it at most 9, or "
+      "give window_rows of at least 22");
   EXPECT_EQ(error_of([](P& p) {
               p.steps = 4;
               p.diagonals = true;

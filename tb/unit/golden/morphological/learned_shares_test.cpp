@@ -21,8 +21,9 @@
 
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
+#include "spec/morphological/check_build.h"
+#include "tb/base/random.h"
 #include "tb/harness/test_paths.h"
-#include "tb/stimuli/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
 namespace deburr::learned_shares_test {
@@ -425,7 +426,7 @@ TEST(LearnedShares, RefusesWhatDoesNotGoTogether) {
   const auto refused = [](auto&& change) {
     Parameters p = deburr();
     change(p);
-    EXPECT_THROW(golden::morphological::check_parameters(p), spec::ConfigError);
+    EXPECT_THROW(check_build(p), spec::ConfigError);
   };
   refused([](Parameters& p) { p.threshold_mode = spec::morphological::ThresholdMode::kDynamic; });
   refused([](Parameters& p) { p.diagonals = true; });
@@ -433,7 +434,7 @@ TEST(LearnedShares, RefusesWhatDoesNotGoTogether) {
   Parameters p = deburr();
   p.ends = spec::morphological::Ends::kCrossings;
   p.blend = spec::morphological::BlendRule::kStrongest;
-  EXPECT_NO_THROW(golden::morphological::check_parameters(p));
+  EXPECT_NO_THROW(check_build(p));
 }
 
 TEST(LearnedShares, TheTableOfSumsIsItsFormula) {

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
 namespace deburr::leave_test {

@@ -15,7 +15,7 @@
 
 #include "golden/morphological/edges.h"
 #include "golden/morphological/predictor.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
 namespace deburr::runs_test {

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "golden/texture/sampling.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::filter_test {
 namespace {

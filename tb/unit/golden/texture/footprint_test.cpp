@@ -14,7 +14,7 @@
 
 #include "golden/ideal/lod.h"
 #include "golden/texture/footprint.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::footprint_test {
 namespace {

@@ -8,11 +8,11 @@
 #include <functional>
 
 #include "golden/ideal/lod.h"
-#include "golden/texture/configuration.h"
 #include "golden/texture/footprint.h"
 #include "golden/texture/level_of_detail.h"
+#include "spec/texture/parameters.h"
 #include "spec/texture/tables.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::level_test {
 namespace {
@@ -222,7 +222,7 @@ TEST(Level, SwitchesOverAtZero) {
 
 // Paper 004, Fig. 1: s_x = 6, t_x = 3, sides 3 sqrt 5 and sqrt 5.
 TEST(Level, FigureOneOfThePaperTakesTwoSamples) {
-  const auto paper = golden::texture::preset_parameters(spec::texture::Preset::kPaper);
+  const auto paper = spec::texture::preset_parameters(spec::texture::Preset::kPaper);
   const auto f = golden::texture::footprint(paper.axes, paper.footprint, {6 << 16, 3 << 16},
                                             {1 << 16, 2 << 16});
   auto d = descriptor(MinFilter::kLinearMipmapLinear);

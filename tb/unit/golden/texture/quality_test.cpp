@@ -15,8 +15,8 @@
 #include "golden/ideal/box.h"
 #include "golden/ideal/ewa.h"
 #include "golden/ideal/texture_image.h"
-#include "golden/texture/configuration.h"
 #include "golden/texture/texture_golden.h"
+#include "spec/texture/parameters.h"
 #include "tb/unit/golden/texture/support.h"
 
 namespace deburr::quality_test {
@@ -37,7 +37,7 @@ struct Rule {
 
 Rule rule(const char* name, FootprintRule footprint, Log2Rule log2, CountRule count, Kernel kernel,
           int spread, int max_anisotropy_log2 = 4) {
-  Rule r{name, golden::texture::preset_parameters(spec::texture::Preset::kPaper),
+  Rule r{name, spec::texture::preset_parameters(spec::texture::Preset::kPaper),
          max_anisotropy_log2};
   r.parameters.footprint = footprint;
   r.parameters.log2 = log2;

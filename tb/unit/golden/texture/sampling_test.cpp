@@ -9,7 +9,7 @@
 #include <functional>
 #include <map>
 
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::sampling_test {
 namespace {

@@ -12,7 +12,7 @@
 #include "golden/texture/sampling.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/packets.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb::texture {
 

@@ -7,10 +7,10 @@
 #include <map>
 #include <set>
 
-#include "golden/texture/configuration.h"
 #include "golden/texture/texture_golden.h"
 #include "spec/error.h"
-#include "tb/stimuli/random.h"
+#include "spec/texture/parameters.h"
+#include "tb/base/random.h"
 #include "tb/unit/golden/texture/support.h"
 
 namespace deburr::unit_test {

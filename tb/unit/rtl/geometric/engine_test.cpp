@@ -2,6 +2,7 @@
 // The geometric engine as a whole: refusals and registers, bad input, empty frames; the clocks of a
 // frame between the bounds of docs/geometric_hardware.md, and near the one that is the largest.
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "spec/error.h"
 #include "tb/harness/statistics.h"
@@ -133,14 +134,7 @@ TEST(Registers, RulesAreThoseOfTheNextFrame) {
   const std::uint32_t built = b.bus.read(reg::kRules);
   for (const char name : {'f', 'a', 'g', 'e', 'b', 'h', 'a'}) {
     const Configuration c = configuration(name);
-    const auto code = [](auto value, int shift) {
-      return static_cast<std::uint32_t>(value) << shift;
-    };
-    b.bus.write(reg::kRules, code(c.p.select, 0) | code(c.p.crease, 2) | code(c.p.depth_test, 4) |
-                                 code(c.p.combine, 6) | code(c.p.linear_light, 7) |
-                                 code(c.p.depth_bias, 8) | code(c.p.mark, 13) |
-                                 code(c.p.layout, 14) | code(c.p.frame_copy, 15));
-    b.layout = c.p.layout;
+    b.driver.set_rules(c.p);
     b.load(contract_scene());
     b.run();
     EXPECT_EQ(b.pixel_hash(), c.pixels) << name;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// LineSetup: the lines of docs/number_formats_geometric.md, random ones against its formulas with
+// LineSetup: the lines of spec/geometric/vectors.h, random ones against its formulas with
 // every way to a reciprocal, drops, latency and intervals.
 #include "rtl_model/geometric/lines/line_setup.h"
 
 #include <numeric>
 
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/unit/rtl/geometric/parts.h"
 
 namespace deburr::tb::geometric_rtl::line_setup_test {
@@ -19,7 +19,7 @@ using spec::geometric::LineRecord;
 
 struct SetupBench : Frame {
   explicit SetupBench(const Parameters& p = {}, int width = 1280, int height = 720)
-      : Frame(p), unit("unit", clock, p, store), ends(clock) {
+      : Frame(p), unit("unit", clock, p, store, edge_latency), ends(clock) {
     unit.ends_in(ends.in);
     unit.lines_out(ends.out);
     begin(width, height);
@@ -51,66 +51,30 @@ EdgeEnds edge(bool horizontal, std::array<int, 3> a, std::array<int, 3> b) {
 }
 
 TEST(LineSetup, LinesOfThePage) {
-  struct Row {
-    std::array<int, 3> a, b;
-    bool horizontal;
-    int first, count;
-    std::int64_t position;
-    std::int32_t slope;
-    std::int64_t depth, step;
-  };
-  const Row rows[] = {
-      {{2624, 128, 1000000},
-       {5184, 1408, 2000000},
-       true,
-       10,
-       10,
-       10485888,
-       8388608,
-       4198399902,
-       409599975},
-      {{7000, 100, 16777215},
-       {200000, -30000, 5},
-       false,
-       27,
-       693,
-       6144893,
-       -2616550,
-       68705230854,
-       -91151183},
-      {{-4194304, -1000, 3000000},
-       {4194303, 150000, 9000000},
-       true,
-       0,
-       1280,
-       4882583128,
-       302000,
-       24576376464,
-       750000},
-      {{128, 1000, 77777}, {129, 1000, 77777}, true, 0, 1, 65536128, 0, 318574592, 0},
-      {{1000, 1000, 500}, {1700, 700, 90000}, true, 4, 3, 61266926, -7190235, 81650820, 134067929},
-      {{1000, 1000, 500}, {1301, 1300, 400}, false, 4, 1, 75464505, 16721478, 1841159, -348364},
-      {{4000, 300, 5}, {180000, 300, 16000000}, false, 16, 687, 19660928, 0, 83426703, 95325058}};
-  SetupBench b;
+  using spec::geometric::LineEnd;
+  using spec::geometric::LineVector;
+  SetupBench b({}, spec::geometric::kLineVectorWidth, spec::geometric::kLineVectorHeight);
   std::vector<EdgeEnds> edges;
-  for (const Row& row : rows) {
-    edges.push_back(edge(row.horizontal, row.a, row.b));
-    edges.push_back(edge(row.horizontal, row.b, row.a));
+  for (const LineVector& v : spec::geometric::kLineVectors) {
+    const auto ends = [](const LineEnd& end) {
+      return std::array{end.major, end.minor, static_cast<std::int32_t>(end.depth)};
+    };
+    const bool horizontal = v.axis == Axis::kHorizontal;
+    edges.push_back(edge(horizontal, ends(v.a), ends(v.b)));
+    edges.push_back(edge(horizontal, ends(v.b), ends(v.a)));
   }
   const std::vector<LineRecord> lines = b.run(edges);
   ASSERT_EQ(lines.size(), edges.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
     SCOPED_TRACE(i);
-    const Row& row = rows[i / 2];
+    const LineVector& v = spec::geometric::kLineVectors[i / 2];
     const LineRecord& l = lines[i];
-    EXPECT_EQ(l.axis == Axis::kHorizontal, row.horizontal);
-    EXPECT_EQ(l.first, row.first);
-    EXPECT_EQ(l.count, row.count);
-    EXPECT_EQ(l.position, row.position);
-    EXPECT_EQ(l.slope, row.slope);
-    EXPECT_EQ(l.depth, row.depth);
-    EXPECT_EQ(l.depth_step, row.step);
-    EXPECT_EQ(l.tie_forward, row.horizontal && row.slope > 0);
+    EXPECT_EQ(l.axis, v.axis);
+    EXPECT_EQ(l.tie_forward, v.axis == Axis::kHorizontal && v.result.slope > 0);
+    const spec::geometric::LineResult got = {l.first, l.count, l.position,
+                                             l.slope, l.depth, l.depth_step};
+    EXPECT_EQ(differences(v.result, got), "");
+    expect_each_value_is_compared(v.result, got);
   }
 }
 
@@ -228,15 +192,15 @@ EdgeEnds some_line(int length = 5000) {
   return edge(true, {1000, 1000, 1}, {1000 + length, 2000, 7});
 }
 
-TEST(LineSetup, LatencyIsTwentyTwo) {
+TEST(LineSetup, LatencyOfTheDatasheet) {
+  Parameters p;
   for (const bool pipelined : {true, false}) {
+    p.pipelined = pipelined;
     const std::string got = in_child([&] {
-      Parameters p;
-      p.pipelined = pipelined;
       SetupBench b(p);
       return b.latency(b.ends, some_line());
     });
-    EXPECT_EQ(got, "22") << pipelined;
+    expect_latency_of(rtl::geometric::LineSetup::datasheet(p), got);
   }
 }
 
@@ -250,16 +214,22 @@ std::string spread(const Parameters& p, const std::vector<EdgeEnds>& edges) {
   });
 }
 
+// So many intervals of the datasheet.
+std::string after(std::uint64_t lines, const Parameters& p) {
+  return std::to_string(lines * rtl::geometric::LineSetup::datasheet(p).interval.clocks);
+}
+
 TEST(LineSetup, IntervalIsOneIfPipelined) {
-  EXPECT_EQ(spread({}, std::vector<EdgeEnds>(101, some_line())), "100");
+  EXPECT_EQ(spread({}, std::vector<EdgeEnds>(101, some_line())), after(100, {}));
 }
 TEST(LineSetup, IntervalIsThirteenADivider) {
   Parameters p;
   p.pipelined = false;
+  const std::string ten_lines = after(10, p);
   for (const int dividers : {1, 2, 3, 8}) {
     p.dividers = dividers;
     const auto lines = static_cast<std::size_t>(10 * dividers + 1);
-    EXPECT_EQ(spread(p, std::vector<EdgeEnds>(lines, some_line())), "130") << dividers;
+    EXPECT_EQ(spread(p, std::vector<EdgeEnds>(lines, some_line())), ten_lines) << dividers;
   }
 }
 TEST(LineSetup, LinesOfTheTableWaitForNoDivider) {

@@ -3,14 +3,17 @@
 // and memory; and a queue of tokens at each end of the unit.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/memory_arbiter.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/geometric/support.h"
 
 namespace deburr::tb::geometric_rtl {
@@ -22,6 +25,12 @@ inline std::string in_child(const std::function<std::string()>& simulation) {
   } catch (const std::exception& error) {
     return std::string("exception: ") + error.what();
   }
+}
+
+// A latency as a simulation in a process of its own says it.
+inline void expect_latency_of(const rtl::Datasheet& sheet, const std::string& measured) {
+  EXPECT_EQ(measured, std::to_string(sheet.latency.clocks))
+      << "by the datasheet of " << title(sheet);
 }
 
 // Pushes its tokens as fast as they are taken.
@@ -98,18 +107,32 @@ struct Frame {
     port.responses_out(responses);
     arbiter.responses_in(responses);
     port.memory.bind(memory.ports);
-    sequencer.begin_done = [this](Cycle cycle) { return begun(cycle); };
-    sequencer.edges_done = [](Cycle) { return false; };
-    sequencer.resolve_done = [](Cycle) { return false; };
+    sequencer.phase_out(phase);
+  }
+  // A wire of its own for what a unit drives, which the sequencer may wait for.
+  rtl::Wire<bool>& wire(rtl::WireOut<bool>& from, rtl::WireIn<bool>* to = nullptr) {
+    rtl::Wire<bool>& joined = wires_.emplace_back(sc_core::sc_gen_unique_name("wire"), false);
+    from(joined);
+    if (to) (*to)(joined);
+    return joined;
+  }
+  // What no unit of the test drives is done at once in the begin, and never later.
+  void tie() {
+    for (rtl::WireIn<bool>* const in : {&sequencer.facing_loaded_in, &sequencer.vertices_cleared_in,
+                                        &sequencer.depth_cleared_in, &sequencer.weights_cleared_in})
+      if (!in->bound()) (*in)(high);
+    for (rtl::WireIn<bool>* const in :
+         {&sequencer.drawn_in, &sequencer.copied_in, &sequencer.resolved_in})
+      if (!in->bound()) (*in)(low);
   }
   // A frame of this size is in its edges.
   void begin(int width, int height) {
-    bus.write(reg::kSize, static_cast<std::uint32_t>(width) | static_cast<std::uint32_t>(height)
-                                                                  << 16);
+    tie();
+    bus.write(reg::kSize, spec::geometric::size_word(static_cast<std::uint32_t>(width),
+                                                     static_cast<std::uint32_t>(height)));
     bus.write(reg::kControl, reg::kControlEnable | reg::kControlStart);
-    clock.run_until(
-        [this] { return sequencer.phase(clock.cycle()) == rtl::geometric::Phase::kEdges; },
-        100'000);
+    clock.run_until([this] { return phase.read(clock.cycle()) == rtl::geometric::Phase::kEdges; },
+                    100'000);
     clock.run(1);
   }
   // Clocks from the unit's taking this token to the first clock in which the next one can take what
@@ -123,7 +146,6 @@ struct Frame {
     return std::to_string(ends.sink.taken.back().cycle - pushed - 1);
   }
 
-  std::function<bool(Cycle)> begun = [](Cycle) { return true; };
   ClockDomain clock{"clock", period()};
   rtl::ControlRegisters control;
   rtl::geometric::ParameterStore store;
@@ -131,10 +153,17 @@ struct Frame {
   rtl::MemoryPortParameters port_parameters;
   rtl::geometric::MemoryArbiter arbiter;
   rtl::MemoryPort port;
-  MemoryModel memory;
-  RegisterHost bus{"bus"};
+  platform::MemoryModel memory;
+  platform::RegisterHost bus{"bus"};
   rtl::Link<rtl::MemoryRequest> requests;
   rtl::Link<rtl::MemoryResponse> responses;
+  rtl::Wire<rtl::geometric::Phase> phase{"phase", rtl::geometric::Phase::kIdle,
+                                         rtl::geometric::phase_shape()};
+  rtl::Wire<bool> high{"high", true}, low{"low", false};
+  rtl::geometric::EdgeLatency edge_latency;
+
+ private:
+  std::deque<rtl::Wire<bool>> wires_;
 };
 
 }  // namespace deburr::tb::geometric_rtl

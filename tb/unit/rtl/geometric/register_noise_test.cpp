@@ -37,7 +37,7 @@ std::string after_noise(std::uint64_t seed) {
   RegisterNoise noise(random.next(), spec::geometric::kRegisters, 0x200);
   for (int i = 0; i < 60; ++i) {
     noise.access(b.bus);
-    if (random.chance(200)) b.start();
+    if (random.chance(200)) b.bus.write(reg::kControl, reg::kControlEnable | reg::kControlStart);
     b.clock.run(random.below(60));
   }
   b.reset(2000);  // what memory still answers goes by

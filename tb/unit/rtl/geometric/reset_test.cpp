@@ -2,6 +2,8 @@
 // Reset of the geometric engine at every clock of a frame: what comes after it is, to the bit and
 // to the clock, what comes after a reset of an engine that never had a frame; every register and
 // every counter of every unit included.
+#include <nlohmann/json.hpp>
+
 #include "tb/harness/statistics.h"
 #include "tb/unit/rtl/geometric/support.h"
 

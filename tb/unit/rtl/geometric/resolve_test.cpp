@@ -23,10 +23,10 @@ using spec::geometric::Layout;
 struct ResolveBench : Frame {
   explicit ResolveBench(const Parameters& p = {}, int width = 1024, int height = 64)
       : Frame(p),
-        combiner("combiner", clock, p, store, sequencer),
-        scanner("scanner", clock, p, store, sequencer, combiner),
-        fetch("fetch", clock, p, store, combiner),
-        resolver("resolver", clock, p, store, sequencer, fetch),
+        combiner("combiner", clock, p, store, edge_latency),
+        scanner("scanner", clock, p, store, combiner.touched_port()),
+        fetch("fetch", clock, p, store, combiner.tag_port(), combiner.data_port()),
+        resolver("resolver", clock, p, store, fetch.colours),
         weights("weights"),
         touched("touched"),
         blocks("blocks", 16),
@@ -40,9 +40,12 @@ struct ResolveBench : Frame {
     fetch.blocks_in(touched);
     fetch.blocks_out(blocks);
     resolver.blocks_in(blocks);
-    begun = [this](Cycle cycle) { return combiner.cleared(cycle); };
-    sequencer.edges_done = [this](Cycle cycle) { return combiner.drawn(cycle); };
-    sequencer.resolve_done = [this](Cycle cycle) { return resolver.done(cycle); };
+    for (rtl::WireIn<Phase>* const in : {&combiner.phase_in, &scanner.phase_in, &resolver.phase_in})
+      (*in)(phase);
+    wire(combiner.cleared_out, &sequencer.weights_cleared_in);
+    wire(combiner.drawn_out, &sequencer.drawn_in);
+    sequencer.copied_in(high);
+    wire(resolver.resolved_out, &sequencer.resolved_in);
     bus.write(reg::kColourBase, 0x40000);
     bus.write(reg::kWeightBase, 0x80000);
     begin(width, height);
@@ -68,7 +71,7 @@ struct ResolveBench : Frame {
     WeightToken last{};
     last.end = true;
     source.add(last);
-    while (sequencer.phase(clock.cycle()) != Phase::kResolve) clock.run(1);
+    while (phase.read(clock.cycle()) != Phase::kResolve) clock.run(1);
     if (before_resolve) before_resolve();
     resolve_from = clock.cycle();
     const std::uint64_t sent = arbiter.requests_out.link().pushes();
@@ -107,12 +110,12 @@ TEST(Resolve, LatenciesOfABlock) {
   b.touch(0, 0, 1u << 5);
   b.run();
   // The scanner's latency counts from the first clock of the phase.
-  EXPECT_EQ(b.at["touched"][0] + 1 - b.resolve_from, 3u);
-  EXPECT_EQ(b.at["blocks"][0] + 1 - b.at["fetched"][0], 5u);
+  expect_latency(BlockScanner::datasheet(), b.at["touched"][0] + 1 - b.resolve_from);
+  expect_latency(BlockFetch::datasheet(), b.at["blocks"][0] + 1 - b.at["fetched"][0]);
   // Its line comes M + 6 after it was asked for, as that of a cache does: arbiter, port, M, port,
   // arbiter, place, register.
   EXPECT_EQ(b.at["reads"][0], b.at["blocks"][0]);
-  EXPECT_EQ(b.at["writes"][0] - b.at["reads"][0], 27u + 7);
+  expect_latency(Resolver::datasheet(), b.at["writes"][0] - b.at["reads"][0] - 27 + 1);
   EXPECT_EQ(b.resolved.size(), 1u);
 }
 TEST(Resolve, AWordTakesAClockForEachBlock) {
@@ -223,7 +226,7 @@ TEST(Resolve, WeightsOfMemoryComeALatencyLater) {
   b.run();
   EXPECT_EQ(b.fetch.weights_read.value(), 1u);
   // Stage 2 asks, arbiter, port, M + 1, port, arbiter, its place; then stages 3 to 5.
-  EXPECT_EQ(b.at["blocks"][0] + 1 - b.at["fetched"][0], 5u + 20 + 6);
+  expect_latency(BlockFetch::datasheet(), b.at["blocks"][0] + 1 - b.at["fetched"][0] - (20 + 6));
 }
 
 // Clocks a block, of many: one is max(lines, beats, lines to write) in the Resolver, and lines +
@@ -269,8 +272,8 @@ TEST(Resolve, IntervalOfABlock) {
 struct ReaderBench : Frame {
   explicit ReaderBench(const Parameters& p, std::uint32_t edges, std::uint32_t faces)
       : Frame(p),
-        facing("facing", clock, p, store, sequencer),
-        reader("reader", clock, p, store, sequencer),
+        facing("facing", clock, p, store),
+        reader("reader", clock, p, store, edge_latency),
         beats("beats"),
         taker("taker", clock) {
     arbiter.connect(Client::kFacing, facing.memory);
@@ -280,7 +283,9 @@ struct ReaderBench : Frame {
       ports.emplace_back(facing.words, "test");
     reader.edges_out(beats);
     taker.in(beats);
-    begun = [this](Cycle cycle) { return facing.loaded(cycle); };
+    facing.phase_in(phase);
+    reader.phase_in(phase);
+    wire(facing.loaded_out, &sequencer.facing_loaded_in);
     bus.write(reg::kEdgeCount, edges);
     bus.write(reg::kFaceCount, faces);
     bus.write(reg::kFaceBase, 0x40000);
@@ -311,7 +316,7 @@ TEST(EdgeReader, EdgeLanesAClock) {
   }
 }
 // The first line comes when the begin is long over: its answer is taken, written and read.
-TEST(EdgeReader, LatencyFromAnAnswerIsTwo) {
+TEST(EdgeReader, LatencyOfTheDatasheetFromAnAnswer) {
   ReaderBench b({}, 4, 0);
   Cycle answered = 0;
   while (b.taker.taken.empty()) {
@@ -321,7 +326,7 @@ TEST(EdgeReader, LatencyFromAnAnswerIsTwo) {
         answered = b.clock.cycle() - 1;
     });
   }
-  EXPECT_EQ(b.taker.taken[0].cycle - answered, 2u + 1);
+  expect_latency(EdgeReader::datasheet(), b.taker.taken[0].cycle - answered - 1);
 }
 
 // ---- FrameCopier
@@ -329,12 +334,14 @@ Cycle copy_clocks(std::uint32_t latency, int width, int height) {
   Parameters p;
   p.frame_copy = true;
   Frame b(p, latency);
-  FrameCopier copier("copier", b.clock, b.store, b.sequencer);
+  FrameCopier copier("copier", b.clock, b.store);
   b.arbiter.connect(Client::kCopy, copier.memory);
+  copier.phase_in(b.phase);
+  const rtl::Wire<bool>& copied = b.wire(copier.copied_out);
   b.bus.write(reg::kCopyBase, 0x40000);
   b.begin(width, height);
   const Cycle from = b.clock.cycle();
-  b.clock.run_until([&] { return copier.done(b.clock.cycle()); }, 100'000);
+  b.clock.run_until([&] { return copied.read(b.clock.cycle()); }, 100'000);
   return b.clock.cycle() - from;
 }
 TEST(FrameCopier, TwoClocksALineUntilSixteenLinesAreTooFew) {
@@ -345,7 +352,7 @@ TEST(FrameCopier, TwoClocksALineUntilSixteenLinesAreTooFew) {
       return std::to_string((8 * (many - few) + 256) / 512);
     });
   };
-  EXPECT_EQ(a_line(4), "16");
+  EXPECT_EQ(a_line(4), std::to_string(8 * FrameCopier::datasheet().interval.clocks));
   EXPECT_EQ(a_line(24), "16");
   EXPECT_EQ(a_line(25), "17");
   EXPECT_EQ(a_line(40), "24");  // sixteen lines in M + 8 clocks
@@ -363,8 +370,10 @@ TEST(FrameCopier, CopiesEveryLineOnceAndThenIsIdle) {
       p.frame_copy = true;
       p.layout = layout;
       Frame b(p);
-      FrameCopier copier("copier", b.clock, b.store, b.sequencer);
+      FrameCopier copier("copier", b.clock, b.store);
       b.arbiter.connect(Client::kCopy, copier.memory);
+      copier.phase_in(b.phase);
+      const rtl::Wire<bool>& copied = b.wire(copier.copied_out);
       std::vector<std::uint8_t> bytes(kBytes);
       for (std::size_t i = 0; i < bytes.size(); ++i)
         bytes[i] = static_cast<std::uint8_t>(1 + i % 251);
@@ -373,7 +382,7 @@ TEST(FrameCopier, CopiesEveryLineOnceAndThenIsIdle) {
       b.bus.write(reg::kColourBase, kFrom);
       b.bus.write(reg::kCopyBase, kTo);
       b.begin(width, height);
-      b.clock.run_until([&] { return copier.done(b.clock.cycle()); }, 10'000);
+      b.clock.run_until([&] { return copied.read(b.clock.cycle()); }, 10'000);
       const auto lines_there = static_cast<std::size_t>(copier.lines_copied.value());
       std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(64 * lines_there), bytes.end(), 0);
       EXPECT_EQ(b.memory.dump(kTo, kBytes), bytes);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What several units of the geometric engine share, each by itself and by hand: a register that
-// others look at, the places of lines on their way from memory, the way of an edge.
+// What several units of the geometric engine share, each by itself and by hand: the places of
+// lines on their way from memory, the way of an edge.
+#include <optional>
 #include <tuple>
 #include <vector>
 
 #include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/fill_store.h"
-#include "rtl_model/geometric/wire.h"
 #include "spec/error.h"
 #include "tb/unit/rtl/geometric/support.h"
 
@@ -16,38 +16,6 @@ namespace {
 using rtl::Histogram;
 using rtl::geometric::EdgeLatency;
 using rtl::geometric::FillStore;
-using rtl::geometric::Wire;
-
-// ---- Wire
-
-TEST(Wire, IsSeenAClockLater) {
-  Wire<int> wire(7);
-  EXPECT_EQ(wire.get(0), 7);
-  wire.set(5, 8);
-  EXPECT_EQ(wire.get(5), 7);
-  EXPECT_EQ(wire.get(6), 8);
-  wire.set(6, 9);
-  EXPECT_EQ(wire.get(6), 8);
-  EXPECT_EQ(wire.get(7), 9);
-}
-TEST(Wire, SetTwiceInAClockHoldsTheLastAndShowsTheOneBefore) {
-  Wire<int> wire(7);
-  wire.set(3, 1);
-  wire.set(3, 2);
-  EXPECT_EQ(wire.get(3), 7);
-  EXPECT_EQ(wire.get(4), 2);
-}
-TEST(Wire, ResetShowsItsFirstValueAtOnce) {
-  Wire<int> wire(7);
-  wire.set(3, 1);
-  wire.set(4, 2);
-  wire.reset();
-  EXPECT_EQ(wire.get(4), 7);
-  EXPECT_EQ(wire.get(5), 7);
-  wire.set(5, 1);
-  EXPECT_EQ(wire.get(5), 7);
-  EXPECT_EQ(wire.get(6), 1);
-}
 
 // ---- FillStore
 
@@ -140,7 +108,16 @@ TEST(FillStore, AResetEmptiesEveryPlace) {
 
 struct Latencies {
   Histogram histogram{"latency", "clk", "of an edge"};
-  EdgeLatency edges{histogram};
+  // Its histogram is its user's.
+  struct Recorded : EdgeLatency {
+    Histogram& histogram;
+    explicit Recorded(Histogram& h) : histogram(h) {}
+    void write(Cycle cycle) { record(EdgeLatency::write(cycle)); }
+    void end() { record(EdgeLatency::end()); }
+    void record(std::optional<Cycle> latency) {
+      if (latency) histogram.record(*latency);
+    }
+  } edges{histogram};
   // An edge on its way to the first stage behind the reader that knows it: the walker.
   void line(Cycle left) {
     edges.leave(left, 1);

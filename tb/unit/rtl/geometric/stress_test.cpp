@@ -2,7 +2,7 @@
 // What must not change a bit: stalls on every link, memory that answers late and in any order, the
 // order in which units are evaluated, the size of everything that is built, and with combine = max
 // the order of the edges.
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 #include "tb/unit/rtl/geometric/parts.h"
 
 namespace deburr::tb::geometric_rtl::stress_test {

@@ -12,17 +12,23 @@
 #include <memory>
 #include <string>
 #include <systemc>
+#include <utility>
 #include <vector>
 
 #include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/geometric/geometric_engine.h"
+#include "rtl_model/platform/geometric_driver.h"
+#include "rtl_model/platform/memory_model.h"
+#include "rtl_model/platform/register_host.h"
 #include "spec/geometric/packets.h"
 #include "spec/geometric/parameters.h"
 #include "spec/geometric/records.h"
 #include "spec/geometric/registers.h"
+#include "spec/geometric/vectors.h"
 #include "tb/harness/bench.h"
-#include "tb/harness/memory_model.h"
-#include "tb/harness/register_host.h"
+#include "tb/stimuli/vector_hash.h"
+#include "tb/unit/spec/geometric/vector_frame.h"
+#include "tb/unit/spec/vectors.h"
 
 namespace deburr::tb::geometric_rtl {
 
@@ -33,10 +39,19 @@ namespace reg = spec::geometric::reg;
 
 inline sc_core::sc_time period() { return {10, sc_core::SC_NS}; }
 
-// The contract's bases.
+constexpr std::uint32_t vector_base(spec::geometric::Region region) {
+  return spec::geometric::kVectorBases[static_cast<std::size_t>(region)];
+}
+
+// Those of the contract's vectors.
 struct Bases {
-  std::uint32_t edges = 0x10000, vertices = 0x20000, faces = 0x30000, depth = 0x40000,
-                colour = 0x50000, weights = 0x60000, copy = 0x70000;
+  std::uint32_t edges = vector_base(spec::geometric::Region::kEdges);
+  std::uint32_t vertices = vector_base(spec::geometric::Region::kVertices);
+  std::uint32_t faces = vector_base(spec::geometric::Region::kFaces);
+  std::uint32_t depth = vector_base(spec::geometric::Region::kDepth);
+  std::uint32_t colour = vector_base(spec::geometric::Region::kColour);
+  std::uint32_t weights = vector_base(spec::geometric::Region::kWeights);
+  std::uint32_t copy = vector_base(spec::geometric::Region::kCopy);
 };
 inline constexpr std::uint32_t kRegionBytes = 0x10000;
 
@@ -60,54 +75,15 @@ inline std::uint32_t pixel_offset(bool tiled, int width, int x, int y) {
 
 // The scene of the contract's vectors.
 inline Scene contract_scene() {
-  std::uint32_t s = 1;
-  const auto r = [&s] { return s = 1664525u * s + 1013904223u; };
-  Scene scene;
-  scene.width = 61;
-  scene.height = 45;
-  const std::size_t pixels = 61 * 45;
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const std::uint32_t v = r();
-    scene.colours.push_back({static_cast<std::uint8_t>(v >> 24),
-                             static_cast<std::uint8_t>(v >> 16 & 255),
-                             static_cast<std::uint8_t>(v >> 8 & 255), 255});
-  }
-  constexpr std::array<std::uint32_t, 8> kDepths = {0,       3000000, 3005000, 6000000,
-                                                    6011000, 9000000, 9017000, 16777215};
-  for (std::size_t i = 0; i < pixels; ++i) scene.depths.push_back(kDepths[r() >> 29]);
-  for (int i = 0; i < 200; ++i) {
-    spec::geometric::Vertex v;
-    v.x = static_cast<std::int32_t>((r() >> 16) % 20480) - 2304;
-    v.y = static_cast<std::int32_t>((r() >> 16) % 16384) - 2304;
-    v.depth = r() >> 8;
-    v.usable = i != 7;
-    if (i < 10) {
-      v.x &= ~127;
-      v.y &= ~127;
-    }
-    if (i == 11) v.x = 1 << 22;
-    scene.vertices.push_back(v);
-  }
-  for (int i = 0; i < 49; ++i) scene.facing.push_back(r() >> 31);
-  for (int i = 0; i < 300; ++i) {
-    spec::geometric::Edge e;
-    e.v0 = (r() >> 16) % 201;
-    e.v1 = (r() >> 16) % 200;
-    e.f0 = (r() >> 16) % 50;
-    e.f1 = (r() >> 16) % 50;
-    e.flags = static_cast<std::uint8_t>((r() >> 16) % 16);
-    scene.edges.push_back(e);
-  }
-  return scene;
+  geometric::VectorFrame frame = geometric::vector_frame();
+  return {frame.width,
+          frame.height,
+          std::move(frame.colours),
+          std::move(frame.depths),
+          std::move(frame.vertices),
+          std::move(frame.edges),
+          std::move(frame.facing)};
 }
-
-struct Fnv {
-  std::uint64_t value = 1469598103934665603u;
-  void byte(std::uint8_t b) { value = (value ^ b) * 1099511628211u; }
-  void word(std::uint64_t w) {
-    for (int i = 0; i < 4; ++i) byte(static_cast<std::uint8_t>(w >> (8 * i)));
-  }
-};
 
 struct EngineOptions {
   std::uint32_t latency = 20, scatter = 0;
@@ -118,8 +94,8 @@ struct EngineOptions {
 // The engine with memory, host and checkers.
 class EngineBench {
  public:
-  static MemoryModelParameters memory_parameters(const EngineOptions& options) {
-    MemoryModelParameters p;
+  static platform::MemoryModelParameters memory_parameters(const EngineOptions& options) {
+    platform::MemoryModelParameters p;
     p.bytes = options.memory_bytes;
     p.latency_min = options.latency;
     p.latency_max = options.latency + options.scatter;
@@ -131,7 +107,8 @@ class EngineBench {
   explicit EngineBench(const Parameters& parameters = {}, const EngineOptions& options = {})
       : p(parameters),
         engine("engine", clock, parameters),
-        memory("memory", period(), memory_parameters(options)) {
+        memory("memory", period(), memory_parameters(options)),
+        driver(bus, memory, parameters) {
     engine.memory()->bind(memory.ports);
     bus.bus.bind(engine.registers);
     engine.line_setup.observer = [this](const spec::geometric::LineRecord& l) {
@@ -146,59 +123,31 @@ class EngineBench {
     bench = std::make_unique<Bench>(clock, options.bench);
   }
 
-  void store_word(std::vector<std::uint8_t>& bytes, std::uint32_t word) {
-    for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
-  }
-  // Writes a scene to memory and its sizes and bases to the registers.
+  // Writes a scene to memory and its sizes and bases to the registers: at the contract's bases if
+  // every region fits between them.
   void load(const Scene& scene) {
     width = scene.width;
     height = scene.height;
-    std::vector<std::uint8_t> bytes;
-    for (const auto& e : scene.edges)
-      for (const std::uint32_t word :
-           {e.v0, e.v1, e.f0 | std::uint32_t{e.flags} << spec::geometric::kFlagShift, e.f1})
-        store_word(bytes, word);
-    if (!bytes.empty()) memory.preload(bases.edges, bytes);
-    bytes.clear();
-    for (const auto& v : scene.vertices)
-      for (const std::uint32_t word :
-           {static_cast<std::uint32_t>(v.x), static_cast<std::uint32_t>(v.y), v.depth,
-            std::uint32_t{v.usable}})
-        store_word(bytes, word);
-    if (!bytes.empty()) memory.preload(bases.vertices, bytes);
-    bytes.assign((scene.facing.size() + 7) / 8, 0);
-    for (std::size_t f = 0; f < scene.facing.size(); ++f)
-      bytes[f / 8] = static_cast<std::uint8_t>(bytes[f / 8] | scene.facing[f] << f % 8);
-    if (!bytes.empty()) memory.preload(bases.faces, bytes);
-    load_frame(scene);
-    bus.write(reg::kSize, static_cast<std::uint32_t>(width) | static_cast<std::uint32_t>(height)
-                                                                  << 16);
-    bus.write(reg::kEdgeCount, static_cast<std::uint32_t>(scene.edges.size()));
-    bus.write(reg::kVertexCount, static_cast<std::uint32_t>(scene.vertices.size()));
-    bus.write(reg::kFaceCount, static_cast<std::uint32_t>(scene.facing.size()));
-    bus.write(reg::kEdgeBase, bases.edges);
-    bus.write(reg::kVertexBase, bases.vertices);
-    bus.write(reg::kFaceBase, bases.faces);
-    bus.write(reg::kDepthBase, bases.depth);
-    bus.write(reg::kColourBase, bases.colour);
-    bus.write(reg::kWeightBase, bases.weights);
-    bus.write(reg::kCopyBase, bases.copy);
+    const platform::GeometricSizes sizes = {width, height, scene.edges.size(),
+                                            scene.vertices.size(), scene.facing.size()};
+    const auto bytes = platform::GeometricRegions::needed(sizes, driver.rules());
+    const bool fits = std::all_of(bytes.begin(), bytes.end(),
+                                  [](std::uint64_t size) { return size <= kRegionBytes; });
+    place(fits ? contract_regions()
+               : platform::GeometricRegions::allocate({&sizes, 1}, driver.rules()));
+    Pixels pixels(scene);
+    const std::vector<std::uint8_t> facing = platform::facing_bits(scene.facing);
+    driver.load({width, height, scene.edges, scene.vertices, scene.facing.size(), facing,
+                 pixels.depths, pixels.colours});
+    driver.program();
   }
   void load_frame(const Scene& scene) {
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        const std::size_t i = static_cast<std::size_t>(y * width + x);
-        const std::uint32_t at = pixel_offset(tiled(), width, x, y);
-        if (i < scene.colours.size()) memory.preload(bases.colour + at, scene.colours[i]);
-        std::vector<std::uint8_t> depth;
-        if (i < scene.depths.size()) {
-          store_word(depth, scene.depths[i]);
-          memory.preload(bases.depth + at, depth);
-        }
-      }
+    Pixels pixels(scene);
+    driver.load_depths(pixels.depths);
+    driver.load_colours(pixels.colours);
   }
-  bool tiled() const { return layout == spec::geometric::Layout::kTiled; }
-  void start() { bus.write(reg::kControl, reg::kControlEnable | reg::kControlStart); }
+  bool tiled() const { return driver.rules().layout == spec::geometric::Layout::kTiled; }
+  void start() { driver.start(); }
   // A whole frame; gives its clocks.
   Cycle run(Cycle limit = 2'000'000) {
     lines.clear();
@@ -215,14 +164,11 @@ class EngineBench {
   }
 
   // --- What the contract hashes ---
-  std::uint64_t pixel_hash() const {
-    Fnv hash;
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x)
-        for (const std::uint8_t byte :
-             memory.dump(bases.colour + pixel_offset(tiled(), width, x, y), 4))
-          hash.byte(byte);
-    return hash.value;
+  std::uint64_t pixel_hash() {
+    stimuli::VectorHash hash;
+    for (const spec::geometric::Rgba8& pixel : driver.picture())
+      for (const std::uint8_t byte : pixel) hash.byte(byte);
+    return hash.value();
   }
   std::uint64_t weight_hash() const {
     std::vector<spec::geometric::Weights> weights(static_cast<std::size_t>(width * height));
@@ -233,16 +179,18 @@ class EngineBench {
           weights[static_cast<std::size_t>(y * width + x)] =
               block.weights[static_cast<std::size_t>(i)];
       }
-    Fnv hash;
+    stimuli::VectorHash hash;
     for (const spec::geometric::Weights& w : weights)
       for (const std::uint8_t byte : w) hash.byte(byte);
-    return hash.value;
+    return hash.value();
   }
   std::vector<std::uint64_t> accesses(const std::vector<std::uint64_t>& all,
                                       std::uint32_t base) const {
+    std::uint64_t end = base + std::uint64_t{kRegionBytes};
+    if (driver.regions().bytes() != 0) end = driver.regions().end_of(base);
     std::vector<std::uint64_t> found;
     std::copy_if(all.begin(), all.end(), std::back_inserter(found),
-                 [&](std::uint64_t a) { return a >= base && a < base + kRegionBytes; });
+                 [&](std::uint64_t a) { return a >= base && a < end; });
     return found;
   }
   std::vector<std::uint64_t> reads(std::uint32_t base) const {
@@ -253,9 +201,9 @@ class EngineBench {
   }
   // Reads of weights while edges are drawn come before those of the resolve.
   std::uint64_t traffic_hash() const {
-    Fnv hash;
+    stimuli::VectorHash hash;
     const auto add = [&](const std::vector<std::uint64_t>& list) {
-      for (const std::uint64_t address : list) hash.word(address);
+      for (const std::uint64_t address : list) hash.lowest_first(address, 4);
     };
     for (const std::uint32_t base :
          {bases.faces, bases.edges, bases.vertices, bases.depth, bases.weights})
@@ -267,100 +215,58 @@ class EngineBench {
       add(reads(bases.colour));
       add(writes(bases.copy));
     }
-    return hash.value;
+    return hash.value();
   }
 
+  static platform::GeometricRegions contract_regions() {
+    const Bases b;
+    return platform::GeometricRegions(
+        std::array{b.faces, b.edges, b.vertices, b.depth, b.weights, b.colour, b.copy});
+  }
+  void place(const platform::GeometricRegions& regions) {
+    using spec::geometric::Region;
+    driver.place(regions);
+    bases = {regions.base(Region::kEdges),  regions.base(Region::kVertices),
+             regions.base(Region::kFaces),  regions.base(Region::kDepth),
+             regions.base(Region::kColour), regions.base(Region::kWeights),
+             regions.base(Region::kCopy)};
+  }
+  // Of the whole frame, whatever the scene has of them.
+  struct Pixels {
+    explicit Pixels(const Scene& scene) : colours(scene.colours), depths(scene.depths) {
+      const auto count = static_cast<std::size_t>(scene.width * scene.height);
+      colours.resize(count);
+      depths.resize(count);
+    }
+    std::vector<spec::geometric::Rgba8> colours;
+    std::vector<std::uint32_t> depths;
+  };
+
   const Parameters p;
-  spec::geometric::Layout layout = p.layout;  // that RULES says
-  const Bases bases;
+  Bases bases;
   int width = 0, height = 0;
   ClockDomain clock{"clock", period()};
   rtl::geometric::GeometricEngine engine;
-  MemoryModel memory;
-  RegisterHost bus{"bus"};
+  platform::MemoryModel memory;
+  platform::RegisterHost bus{"bus"};
+  platform::GeometricDriver driver;
   std::unique_ptr<Bench> bench;
   std::vector<spec::geometric::LineRecord> lines;
   std::vector<spec::geometric::Candidate> candidates;
   std::vector<spec::geometric::BlockRecord> blocks;
 };
 
-// The contract's configurations.
+// The contract's vector of this name, and how its engine is set.
 struct Configuration {
   char name;
   Parameters p;
   std::uint64_t pixels, weights, traffic;
 };
-inline Parameters with_preset(spec::geometric::Preset preset) {
-  const auto& row = spec::geometric::kPresets[static_cast<std::size_t>(preset)];
-  Parameters p;
-  p.preset = preset;
-  p.select = row.select;
-  p.crease = row.crease;
-  p.combine = row.combine;
-  p.frame_copy = row.frame_copy;
-  return p;
-}
 inline Configuration configuration(char name) {
-  using spec::geometric::CacheLines;
-  using spec::geometric::Lanes;
-  using spec::geometric::Layout;
-  using spec::geometric::Preset;
-  Configuration c{name, with_preset(Preset::kDeburr), 0xbfce4abe8f3b22f8, 0x6cc78624e74c2575, 0};
-  Parameters& p = c.p;
-  const auto small = [&] { p.depth_lines = p.weight_blocks = p.vertex_lines = CacheLines::k16; };
-  switch (name) {
-    case 'a':
-      c.traffic = 0x05d525abe62406ac;
-      break;
-    case 'b':
-      p.layout = Layout::kRaster;
-      c.traffic = 0x1cca5c4cd350ef99;
-      break;
-    case 'c':
-      p.walkers = Lanes::kOne;
-      small();
-      c.traffic = 0x3d300c73436d0324;
-      break;
-    case 'd':
-      p.layout = Layout::kRaster;
-      p.walkers = Lanes::kTwo;
-      small();
-      c.traffic = 0x0290086e5caa5d65;
-      break;
-    case 'e':
-      p = with_preset(Preset::kGpaaOptimised);
-      c.pixels = 0x31c35ac184f4e760;
-      c.weights = 0xbadcaac952dfc9ed;
-      c.traffic = 0x9273c837cbb2c537;
-      break;
-    case 'f':
-      p = with_preset(Preset::kGpaa);
-      c.pixels = 0x9e2d94b3be2f9be4;
-      c.weights = 0x9d0d9b07b9151d21;
-      c.traffic = 0xe27e145fd8e2b753;
-      break;
-    case 'g':
-      p.crease = spec::geometric::Crease::kOff;
-      p.depth_test = spec::geometric::DepthTest::kOwn;
-      p.depth_bias = 4;
-      p.linear_light = false;
-      p.mark = true;
-      p.layout = Layout::kRaster;
-      p.walkers = Lanes::kTwo;
-      c.pixels = 0x812d11a355250433;
-      c.weights = 0xea5cdef281327420;
-      c.traffic = 0xd29f2a365f31ea07;
-      break;
-    default:
-      p.select = spec::geometric::Select::kAll;
-      p.depth_test = spec::geometric::DepthTest::kOff;
-      p.layout = Layout::kRaster;
-      p.weight_blocks = CacheLines::k16;
-      c.pixels = 0x095774cc41e669b3;
-      c.weights = 0x721dca7bb6a8d77f;
-      c.traffic = 0xd81315c6f0a3ee49;
-  }
-  return c;
+  const spec::geometric::FrameVector& v = geometric::frame_vector(name);
+  Parameters p = preset_parameters(v.preset);
+  apply_settings(p, v.settings);
+  return {name, p, v.result.hashes.pixels, v.result.hashes.weights, v.result.hashes.traffic};
 }
 
 }  // namespace deburr::tb::geometric_rtl

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Latency and initiation interval of each unit of the edges' pipe by itself, as
-// docs/geometric_hardware.md has them; memory answers 20 clocks after a request.
+// their datasheets have them; memory answers 20 clocks after a request.
 #include <algorithm>
 #include <deque>
 #include <numeric>
@@ -34,10 +34,12 @@ void finish(F& frame, const E& ends, std::size_t tokens) {
 struct ClassifierBench : Frame {
   explicit ClassifierBench(const Parameters& p)
       : Frame(p),
-        facing("facing", clock, p, store, sequencer),
-        unit("unit", clock, p, store, facing),
+        facing("facing", clock, p, store),
+        unit("unit", clock, p, store, facing.words, edge_latency),
         ends(clock) {
     arbiter.connect(Client::kFacing, facing.memory);
+    facing.phase_in(phase);
+    wire(facing.loaded_out);
     unit.edges_in(ends.in);
     unit.edges_out(ends.out);
     bus.write(reg::kVertexCount, 100);
@@ -60,15 +62,18 @@ struct ClassifierBench : Frame {
   EdgeClassifier unit;
   Ends<EdgeBeat, KeptEdge> ends;
 };
-TEST(EdgeClassifier, LatencyIsThree) {
+TEST(EdgeClassifier, LatencyOfTheDatasheet) {
   ClassifierBench b(ClassifierBench::all(Lanes::kTwo));
-  EXPECT_EQ(b.latency(b.ends, ClassifierBench::beat(2, 2)), "3");
+  const std::string measured = b.latency(b.ends, ClassifierBench::beat(2, 2));
+  // A datasheet that is a clock off is noticed.
+  expect_notices_a_clock(EdgeClassifier::datasheet(), &rtl::Datasheet::latency,
+                         [&](const rtl::Datasheet& sheet) { expect_latency_of(sheet, measured); });
 }
 TEST(EdgeClassifier, ABeatAClockIfOneIsKept) {
   ClassifierBench b(ClassifierBench::all(Lanes::kFour));
   for (int i = 0; i < 100; ++i) b.ends.source.add(ClassifierBench::beat(4, 1u << i % 4));
   finish(b, b.ends, 100);
-  EXPECT_EQ(spread(b.ends), 99u);
+  EXPECT_EQ(spread(b.ends), 99 * EdgeClassifier::datasheet().interval.clocks);
 }
 TEST(EdgeClassifier, ABeatWithoutAKeptEdgeTakesAClock) {
   ClassifierBench b(ClassifierBench::all(Lanes::kTwo));
@@ -121,21 +126,22 @@ TEST(EdgeClassifier, IndicesEndBeforeTheirCounts) {
 
 // ---- VertexFetch
 struct VertexBench : Frame {
-  VertexBench() : Frame({}), unit("unit", clock, {}, store, sequencer), ends(clock) {
+  VertexBench() : Frame({}), unit("unit", clock, {}, store), ends(clock) {
     arbiter.connect(Client::kVertices, unit.memory);
     unit.edges_in(ends.in);
     unit.ends_out(ends.out);
-    begun = [this](Cycle cycle) { return unit.cleared(cycle); };
+    unit.phase_in(phase);
+    wire(unit.cleared_out, &sequencer.vertices_cleared_in);
     begin(64, 64);
   }
   VertexFetch unit;
   Ends<KeptEdge, EdgeEnds> ends;
 };
-TEST(VertexFetch, LatencyIsFiveOrWaitsForALine) {
+TEST(VertexFetch, LatencyOfTheDatasheetOrWaitsForALine) {
   VertexBench b;
   EXPECT_EQ(b.latency(b.ends, {1, 9, false}), "32");  // the second miss came a clock later
   b.clock.run(10);
-  EXPECT_EQ(b.latency(b.ends, {9, 2, false}), "5");
+  expect_latency_of(VertexFetch::datasheet(), b.latency(b.ends, {9, 2, false}));
   b.clock.run(10);
   EXPECT_EQ(b.latency(b.ends, {2, 17, false}), "31");
   EXPECT_EQ(b.unit.misses.value(), 3u);
@@ -145,7 +151,7 @@ TEST(VertexFetch, AnEdgeAClockWhereAtMostOneLookUpMisses) {
   VertexBench b;
   for (std::uint32_t i = 0; i < 60; ++i) b.ends.source.add({4 * i, 4 * i + 4, false});
   finish(b, b.ends, 60);
-  EXPECT_EQ(spread(b.ends), 59u);
+  EXPECT_EQ(spread(b.ends), 59 * VertexFetch::datasheet().interval.clocks);
   EXPECT_EQ(b.unit.misses.value(), 61u);
 }
 TEST(VertexFetch, TwoClocksWhereBothMiss) {
@@ -213,20 +219,23 @@ struct Asker final : rtl::Unit {
   Cycle takes_from = 0;
   std::vector<Cycle> asked, answered;
 };
-TEST(MemoryArbiter, LatencyIsOneEachWay) {
+TEST(MemoryArbiter, LatencyOfTheDatasheetEachWay) {
   Frame b({});
+  b.tie();
   Asker asker("asker", b.clock);
   b.arbiter.connect(Client::kDepth, asker.memory);
   asker.wanted = 1;
   b.clock.run(60);
   // Arbiter, port, M + 1, port, arbiter.
   ASSERT_EQ(asker.answered.size(), 1u);
-  EXPECT_EQ(asker.answered[0] - asker.asked[0], 1u + 1 + (20 + 1) + 1 + 1);
+  const Cycle each_way = MemoryArbiter::datasheet().latency.clocks;
+  EXPECT_EQ(asker.answered[0] - asker.asked[0], each_way + 1 + (20 + 1) + 1 + each_way);
   EXPECT_EQ(b.arbiter.read_latency(Client::kDepth).min(), asker.answered[0] - asker.asked[0] - 2);
 }
 // Two answers lie in the link of a client that takes none, and the third waits in front of it.
 TEST(MemoryArbiter, AnAnswerWaitsForItsClient) {
   Frame b({});
+  b.tie();
   Asker asker("asker", b.clock);
   b.arbiter.connect(Client::kDepth, asker.memory);
   asker.wanted = 5;
@@ -238,6 +247,7 @@ TEST(MemoryArbiter, AnAnswerWaitsForItsClient) {
 }
 TEST(MemoryArbiter, ServesEachOfEightAfterSevenOthers) {
   Frame b({});
+  b.tie();
   std::deque<Asker> askers;
   for (std::size_t i = 0; i < kClients; ++i) {
     askers.emplace_back((std::string("asker") + std::to_string(i)).c_str(), b.clock);
@@ -277,7 +287,7 @@ TEST(MemoryArbiter, LinksCarryWholeAddressesAndTags) {
 // ---- LineWalker
 struct WalkerBench : Frame {
   explicit WalkerBench(Lanes walkers, const Parameters& p = {})
-      : Frame(p), unit("unit", clock, with(walkers)), ends(clock) {
+      : Frame(p), unit("unit", clock, with(walkers), edge_latency), ends(clock) {
     unit.lines_in(ends.in);
     unit.groups_out(ends.out);
     begin(2048, 64);
@@ -299,9 +309,9 @@ struct WalkerBench : Frame {
   LineWalker unit;
   Ends<LineToken, GroupToken> ends;
 };
-TEST(LineWalker, LatencyIsOne) {
+TEST(LineWalker, LatencyOfTheDatasheet) {
   WalkerBench b(Lanes::kFour);
-  EXPECT_EQ(b.latency(b.ends, WalkerBench::line(3, 1)), "1");
+  expect_latency_of(LineWalker::datasheet(), b.latency(b.ends, WalkerBench::line(3, 1)));
 }
 TEST(LineWalker, APixelAClockAndWalker) {
   for (const auto& [lanes, count] :
@@ -330,7 +340,7 @@ TEST(LineWalker, GroupsEndAtBlocks) {
 
 // ---- CoverageUnit
 struct CoverageBench : Frame {
-  CoverageBench() : Frame({}), unit("unit", clock, store), ends(clock) {
+  CoverageBench() : Frame({}), unit("unit", clock, store, edge_latency), ends(clock) {
     unit.groups_in(ends.in);
     unit.candidates_out(ends.out);
     begin(64, 48);
@@ -360,15 +370,16 @@ struct CoverageBench : Frame {
   CoverageUnit unit;
   Ends<GroupToken, CandidateToken> ends;
 };
-TEST(CoverageUnit, LatencyIsTwo) {
+TEST(CoverageUnit, LatencyOfTheDatasheet) {
   CoverageBench b;
-  EXPECT_EQ(b.latency(b.ends, CoverageBench::group(false, 7, 3)), "2");
+  expect_latency_of(CoverageUnit::datasheet(),
+                    b.latency(b.ends, CoverageBench::group(false, 7, 3)));
 }
 TEST(CoverageUnit, AGroupAClock) {
   CoverageBench b;
   for (int i = 0; i < 50; ++i) b.ends.source.add(CoverageBench::group(false, 7, i));
   finish(b, b.ends, 50);
-  EXPECT_EQ(spread(b.ends), 49u);
+  EXPECT_EQ(spread(b.ends), 49 * CoverageUnit::datasheet().interval.clocks);
 }
 TEST(CoverageUnit, AGroupWithoutACandidateTakesAClockAndLeavesNothing) {
   CoverageBench b;
@@ -413,11 +424,12 @@ TEST(CoverageUnit, TiesAndBorders) {
 // ---- DepthTest
 struct DepthBench : Frame {
   explicit DepthBench(const Parameters& p = {})
-      : Frame(p), unit("unit", clock, p, store, sequencer), ends(clock) {
+      : Frame(p), unit("unit", clock, p, store, edge_latency), ends(clock) {
     arbiter.connect(Client::kDepth, unit.memory);
     unit.candidates_in(ends.in);
     unit.weights_out(ends.out);
-    begun = [this](Cycle cycle) { return unit.cleared(cycle); };
+    unit.phase_in(phase);
+    wire(unit.cleared_out, &sequencer.depth_cleared_in);
     begin(256, 256);
   }
   static Parameters raster() {
@@ -447,11 +459,12 @@ struct DepthBench : Frame {
   DepthTest unit;
   Ends<CandidateToken, WeightToken> ends;
 };
-TEST(DepthTest, LatencyIsSixOrWaitsForALine) {
+TEST(DepthTest, LatencyOfTheDatasheetOrWaitsForALine) {
   DepthBench b;
   EXPECT_EQ(b.latency(b.ends, DepthBench::pixel(3, 4)), "32");
   b.clock.run(10);
-  EXPECT_EQ(b.latency(b.ends, DepthBench::pixel(3, 4)), "6");
+  expect_latency_of(rtl::geometric::DepthTest::datasheet(),
+                    b.latency(b.ends, DepthBench::pixel(3, 4)));
 }
 TEST(DepthTest, AGroupOfOneLineAClock) {
   DepthBench b;
@@ -561,11 +574,13 @@ TEST(DepthTest, ShowsEachCandidate) {
 // ---- WeightCombiner: nothing comes out of it
 struct CombinerBench : Frame {
   explicit CombinerBench(const Parameters& p = {})
-      : Frame(p), unit("unit", clock, p, store, sequencer), in("in"), source("source", clock) {
+      : Frame(p), unit("unit", clock, p, store, edge_latency), in("in"), source("source", clock) {
     arbiter.connect(Client::kWeights, unit.memory);
     unit.weights_in(in);
     source.out(in);
-    begun = [this](Cycle cycle) { return unit.cleared(cycle); };
+    unit.phase_in(phase);
+    wire(unit.cleared_out, &sequencer.weights_cleared_in);
+    drawn = &wire(unit.drawn_out);
     bus.write(reg::kWeightBase, 0);
     begin(2048, 16);
   }
@@ -584,17 +599,18 @@ struct CombinerBench : Frame {
   }
   Cycle until_drawn() {
     const Cycle from = clock.cycle();
-    while (!unit.drawn(clock.cycle())) clock.run(1);
+    while (!drawn->read(clock.cycle())) clock.run(1);
     return clock.cycle() - from;
   }
   WeightCombiner unit;
+  const rtl::Wire<bool>* drawn = nullptr;
   rtl::Link<WeightToken> in;
   Source<WeightToken> source;
 };
-TEST(WeightCombiner, LatencyIsFive) {
+TEST(WeightCombiner, LatencyOfTheDatasheet) {
   CombinerBench b;
   b.in.push(b.clock.cycle(), CombinerBench::end());
-  EXPECT_EQ(b.until_drawn(), 1u + 5);
+  expect_latency(WeightCombiner::datasheet(), b.until_drawn() - 1);
 }
 TEST(WeightCombiner, AGroupAClockWhateverBlock) {
   CombinerBench b;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What links carry, by number format and by the table of the page.
+// What links and wires carry, by number format and by the tables of the page.
 #include "rtl_model/geometric/tokens.h"
 
 #include "tb/unit/rtl/formats.h"
@@ -23,6 +23,12 @@ TEST(GeometricTokens, LinksAreThoseOfThePage) {
   one.edge_lanes = one.walkers = spec::geometric::Lanes::kOne;
   table.expect_links("bits", GeometricEngine("default", clock, {}));
   table.expect_links("one lane", GeometricEngine("one", clock, one));
+}
+
+TEST(GeometricTokens, WiresAreThoseOfThePage) {
+  ClockDomain clock("clock", tb::geometric_rtl::period());
+  GeometricEngine engine("default", clock, {});
+  tb::EnginePage("geometric_hardware.md", "wire").expect_wires(engine);
 }
 
 }  // namespace

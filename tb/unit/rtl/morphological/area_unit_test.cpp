@@ -14,7 +14,8 @@
 
 #include "spec/morphological/learned_shares.h"
 #include "spec/morphological/tables.h"
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
 namespace deburr::tb::morphological_rtl::area_unit_test {
@@ -111,15 +112,17 @@ LineToken three(Axis axis, int line, int start, std::uint32_t slot) {
 class AreaLanes : public ::testing::TestWithParam<int> {};
 
 // A slot a clock goes in; of each that blends, shares come out nine clocks later.
-TEST_P(AreaLanes, LatencyIsNineAndIntervalOne) {
+TEST_P(AreaLanes, LatencyAndIntervalOfTheDatasheet) {
+  const rtl::Datasheet sheet = AreaUnit::slot_datasheet(small(GetParam()));
   Area bench(small(GetParam()), 11, 7);
   bench.send_slots(0);
   const std::uint32_t first = bench.slots_before(kLag), last = bench.slots_before(kLag + 7);
   bench.clock.run(last + 20);
   ASSERT_EQ(bench.shares_gate.beats.size(), last - first);
   for (std::uint32_t i = 0; i < last - first; ++i) {
-    // Sent in k, popped in k + 1, sent in k + 9, taken in k + 10.
-    ASSERT_EQ(bench.shares_gate.cycles[i], first + i + 10);
+    // Sent in k, popped in k + 1.
+    ASSERT_EQ(bench.shares_gate.cycles[i],
+              first + 1 + i * sheet.interval.clocks + sheet.latency.clocks);
     ASSERT_EQ(bench.shares_gate.beats[i].slot.number, first + i);
     ASSERT_EQ(bench.shares_gate.beats[i].left, (first + i) & 1);
     ASSERT_FALSE(bench.shares_gate.beats[i].any);
@@ -192,6 +195,7 @@ TEST_P(AreaLanes, ARecordIsFinishedAClockAfterItsPopBehindItsSlot) {
   // Pairs of columns lie in half as many banks as there are lanes, so that lines wait there once.
   const int banks = std::max(1, bench.lanes / 2), clocks = bench.lanes / banks;
   ASSERT_EQ(done.beats.size(), static_cast<std::size_t>(2 * clocks));
+  expect_latency(AreaUnit::line_datasheet(small(GetParam())), done.cycles[0] - (even + 2));
   for (int i = 0; i < clocks; ++i) {
     const auto clock = static_cast<std::size_t>(i), later = static_cast<std::size_t>(clocks + i);
     // Slot k is popped in k + 1 and in its second stage in k + 2, and so is the line popped. It is
@@ -411,7 +415,9 @@ Parameters with_table(AreaSource layout, int lanes_code = 0) {
   return p;
 }
 
-TEST_P(AreaLanes, LatencyIsNineWithATableToo) {
+TEST_P(AreaLanes, LatencyOfTheDatasheetWithATableToo) {
+  const Cycle latency =
+      AreaUnit::slot_datasheet(with_table(AreaSource::kTableFull, GetParam())).latency.clocks;
   Area bench(with_table(AreaSource::kTableFull, GetParam()), 11, 7);
   bench.send_slots(0);
   // In each row a record, so that the table is read.
@@ -422,7 +428,7 @@ TEST_P(AreaLanes, LatencyIsNineWithATableToo) {
   ASSERT_EQ(bench.shares_gate.beats.size(), last - first);
   std::size_t any = 0;
   for (std::uint32_t i = 0; i < last - first; ++i) {
-    ASSERT_EQ(bench.shares_gate.cycles[i], first + i + 10);
+    ASSERT_EQ(bench.shares_gate.cycles[i], first + i + 1 + latency);
     any += bench.shares_gate.beats[i].any;
   }
   EXPECT_GE(any, 7u);
@@ -441,8 +447,9 @@ TEST_P(AreaLanes, WithATableARecordIsFinishedAClockLater) {
   }
   bench.clock.run(slot + 40);
   ASSERT_EQ(bench.finished_gate.beats.size(), 1u);
-  // Popped in slot + 2, t(0) in slot + 3, stored in slot + 4, taken a clock later.
-  EXPECT_EQ(bench.finished_gate.cycles[0], slot + 5);
+  // Popped in slot + 2.
+  expect_latency(AreaUnit::line_datasheet(with_table(AreaSource::kTableMerged, GetParam())),
+                 bench.finished_gate.cycles[0] - (slot + 2));
   EXPECT_EQ(bench.finished_gate.beats[0].count[0], 2 * bench.lanes);
   EXPECT_EQ(bench.unit.bank_conflicts.value(), 0u);
 }

@@ -10,7 +10,8 @@
 
 #include "golden/morphological/diagonals.h"
 #include "rtl_model/morphological/blend/diagonal_table.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
 namespace deburr::tb::morphological_rtl::diagonal_unit_test {
@@ -332,13 +333,10 @@ class DiagonalClocks : public ::testing::TestWithParam<Build> {};
 
 // A beat a clock goes in and a word a clock comes out, each D + 5 clocks after its columns, whether
 // nothing is an edge or everything.
-TEST_P(DiagonalClocks, AWordComesDPlusFiveClocksAfterItsColumns) {
+TEST_P(DiagonalClocks, AWordHasTheLatencyOfTheDatasheet) {
   const Parameters p = built_as(GetParam());
   Diagonals bench(p);
-  const Cycle latency =
-      (static_cast<Cycle>(p.diagonal_steps) + 1 + static_cast<Cycle>(bench.lanes) - 1) /
-          static_cast<Cycle>(bench.lanes) +
-      5;
+  const Cycle latency = DiagonalUnit::datasheet(p).latency.clocks;
   const int width = 3 * (p.diagonal_steps + 1) + 1;
   Cycle idle = 0, cycles = 0;
   for (const bool all : {false, true}) {

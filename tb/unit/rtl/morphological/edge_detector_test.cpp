@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/morphological/front.h"
 
 namespace deburr::tb::morphological_rtl::edge_detector_test {
@@ -54,10 +55,11 @@ TEST(EdgeDetectorBlock, FixedThresholdIsMetNotExceeded) {
 TEST(EdgeDetectorBlock, TakesSevenClocksFromBeatToBits) {
   Front front(preset(spec::morphological::Preset::kMlaa));
   front.detect(row({0, 255, 0}));
-  // Taken by the sequencer a clock after the driver's push; two clocks to the luma, four to the
-  // bits. The first slot carries no bits, its token still shows the time.
+  // The first slot carries no bits, its token still shows the time: sequencer -> pixel store,
+  // beside luma and edges.
   const Cycle first = front.sink.cycles()[0];
-  EXPECT_EQ(front.beat_sink.cycles()[0], first - 6);  // sequencer -> pixel store
+  expect_latency(EdgeDetector::datasheet(),
+                 first - front.beat_sink.cycles()[0] - LumaUnit::datasheet().latency.clocks);
   for (std::size_t i = 1; i < front.sink.cycles().size(); ++i)
     ASSERT_EQ(front.sink.cycles()[i], first + i) << "one slot a clock";
   EXPECT_EQ(front.sink.cycles().size(), (1u + 37u) * 3u);

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "rtl_model/morphological/runs/port_schedule.h"
-#include "tb/harness/forked.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/forked.h"
+#include "tb/base/random.h"
 #include "tb/unit/rtl/morphological/support.h"
 
 namespace deburr::tb::morphological_rtl::edge_memories_test {
@@ -33,7 +33,7 @@ struct Shown {
   Shown(const Parameters& p, int width_, int height_, int row_, std::uint32_t permille)
       : width(width_), height(height_), row(row_), store(control, p), memories(p, store) {
     bus.bus.bind(control.registers.bus);
-    store.write_size(width, height);
+    platform::MorphologicalDriver(bus, p).set_size(width, height);
     EXPECT_TRUE(store.latch());
     Random random(permille);
     for (int i = 0; i < 2 * width * height; ++i) bits.push_back(random.chance(permille));
@@ -48,7 +48,7 @@ struct Shown {
   }
   int width, height, row;
   std::vector<bool> bits;
-  RegisterHost bus{"bus"};
+  platform::RegisterHost bus{"bus"};
   rtl::ControlRegisters control{"registers", spec::morphological::kRegisters,
                                 rtl::morphological::control_layout()};
   ParameterStore store;
@@ -376,7 +376,7 @@ TEST_P(BusiestClock, UsesEveryPort) {
   p.trial_clocks = GetParam().trial_clocks;
   EngineBench bench(p);
   const Frame in = draw(96, 80, [](int x, int y) { return grey((x + y) / 2 % 2 != 0 ? 255 : 0); });
-  bench.engine.set_frame_size(in.width, in.height);
+  bench.software.set_size(in.width, in.height);
   bench.driver.send(beats_of(in, lanes_of(p)));
   const auto beats = static_cast<std::uint64_t>(beats_a_row(in, p) * in.height);
   const auto& window = bench.engine.window.memory;

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/morphological/edge_memories.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
@@ -41,7 +42,7 @@ struct Prediction {
   // Begins a frame: the registers count.
   void frame(int width, int height, const std::function<int(int)>& boundary) {
     const bool vertical = axis == Axis::kVertical;
-    store.store.write_size(vertical ? height : width, vertical ? width : height);
+    store.software.set_size(vertical ? height : width, vertical ? width : height);
     EXPECT_TRUE(store.store.latch());
     dark = [=](int x, int y) { return vertical ? x >= boundary(y) : y >= boundary(x); };
   }
@@ -197,7 +198,7 @@ TEST(EndpointPredictorBlock, ARecordHoldsAPredictorForItsIterations) {
   for (int i = 0; i < 20; ++i) bench.ends.source.send(bench.z(11, 20, 3, true));
   bench.clock.run(40);
   ASSERT_EQ(bench.ends.sink.cycles().size(), 20u);
-  for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(bench.ends.sink.cycles()[i], 3 + i);
+  expect_clocks(EndpointPredictor::datasheet(), bench.ends.sink.cycles(), 1);
 }
 
 TEST(EndpointPredictorBlock, TrialsOfOneRecordBehindTheOther) {
@@ -587,8 +588,9 @@ TEST_P(TrialClocks, ARecordWaitsForItsPhaseAndTakesThatLong) {
     bench.driver.send(sent, run_of(3, 20));
     // Popped a clock later; the first predictor has phase 0. Nothing is there to be hit: a trial.
     const Cycle first = (sent + 2 + trial - 1) / trial * trial;
-    const Cycle joined = first + trial + 2;
-    expected.push_back(joined + 2);
+    // It has waited from the clock after its pop to the one of its first trial.
+    const Cycle waited = first - (sent + 2);
+    expected.push_back(sent + 1 + EndpointPredictor::trial_datasheet(p).latency.clocks + waited);
   }
   bench.clock.run(expected.back() + 10);
   EXPECT_EQ(bench.gate.cycles, expected);
@@ -834,6 +836,24 @@ TEST_P(CrossingClasses, TakeTheClocksOfATrialButOne) {
   EXPECT_THAT(bench.ends.sink.cycles(), ::testing::ElementsAre(9, 11, 13, 15, 17, 19, 21, 23, 25));
 }
 
+// The least wait of records that come in any clock of the schedule.
+TEST_P(CrossingClasses, HaveTheLatencyOfTheDatasheet) {
+  const Parameters p = deburr();
+  Looking bench(p, GetParam());
+  const RunToken token = bench.record({{{30, 20, 25}}, {{20, 29}}}, 30, 20, 5, 1, 0);
+  Cycle least = 1000;
+  for (int phase = 0; phase < 2 * p.trial_clocks; ++phase) {
+    bench.clock.run(29);
+    const std::size_t before = bench.ends.sink.cycles().size();
+    const Cycle pushed = bench.clock.cycle();
+    bench.ends.source.send(token);
+    bench.clock.run(30);
+    ASSERT_EQ(bench.ends.sink.cycles().size(), before + 1);
+    least = std::min<Cycle>(least, bench.ends.sink.cycles().back() - (pushed + 1));
+  }
+  expect_latency(EndpointPredictor::class_datasheet(p), least);
+}
+
 class CrossingClassesTrialClocks : public ::testing::TestWithParam<int> {};
 
 // T clocks a record with one predictor, if T is 3 or more.
@@ -846,7 +866,9 @@ TEST_P(CrossingClassesTrialClocks, AreOneRecordEach) {
   for (int i = 0; i < 4; ++i) bench.ends.source.send(token);
   bench.clock.run(80);
   ASSERT_EQ(bench.ends.sink.cycles().size(), 4u);
-  const Cycle each = GetParam() >= 3 ? static_cast<Cycle>(GetParam()) : GetParam() == 2 ? 4 : 2;
+  const Cycle each = GetParam() >= 3   ? EndpointPredictor::class_datasheet(p).interval.clocks
+                     : GetParam() == 2 ? 4
+                                       : 2;
   for (std::size_t i = 1; i < 4; ++i)
     EXPECT_EQ(bench.ends.sink.cycles()[i] - bench.ends.sink.cycles()[i - 1], each);
   for (const SumsToken& sums : bench.ends.sink.beats()) EXPECT_EQ(sums.start_class, 0);

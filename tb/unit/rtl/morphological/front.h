@@ -42,7 +42,7 @@ struct Front {
     clock.run(1);
     clock.set_reset_n(true);
     for (const auto& [offset, value] : writes) store.bus.write(offset, value);
-    store.store.write_size(frame.width, frame.height);
+    store.software.set_size(frame.width, frame.height);
     const auto all = beats_of(frame, lanes);
     driver.send([all](std::uint64_t i, spec::morphological::PixelBeat& beat) {
       if (i >= all.size()) return false;

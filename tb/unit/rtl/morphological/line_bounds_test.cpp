@@ -9,7 +9,7 @@
 #include <deque>
 #include <utility>
 
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
 
 namespace deburr::tb::morphological_rtl::line_bounds_test {
 namespace {

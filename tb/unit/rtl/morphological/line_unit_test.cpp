@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// LineUnit: lines by hand from the contract, latency and interval of its divider, and how much it
-// holds.
+// LineUnit: the lines of spec/morphological/vectors.h, latency and interval of its divider, and how
+// much it holds.
 #include <cstdint>
 #include <vector>
 
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/morphological/parts.h"
+#include "tb/unit/rtl/morphological/vectors.h"
 
 namespace deburr::tb::morphological_rtl::line_unit_test {
 namespace {
@@ -44,33 +46,22 @@ struct Lines {
 
 TEST(LineUnitBlock, FitOfTheContractsTable) {
   Lines bench(preset(spec::morphological::Preset::kDeburrLine));
-  struct Row {
-    SumsToken in;
-    int scale, offset, shift;
-    std::uint32_t slope, inverse;
-    int span;
-  };
-  const std::vector<Row> rows = {{sums_of({0, 1}, 0, 1), 2, 1, 0, 8388608, 4096, 1},
-                                 {sums_of({0, 3}, 0, 3), 2, 3, 0, 2796203, 12288, 3},
-                                 {sums_of({0, 4}, 0, 4), 2, 4, 0, 2097152, 16384, 4},
-                                 {sums_of({0, 7}, 0, 7), 2, 7, 0, 1198373, 28672, 7},
-                                 {sums_of({-3, 0, 3, 5, 8}, 1, 3), 5, 13, 1, 1242757, 11059, 11},
-                                 {sums_of({0, 5, 11, 16}, 0, 5), 4, 32, 2, 776723, 22118, 16}};
-  for (const Row& row : rows) bench.ends.source.send(row.in);
+  const auto& vectors = spec::morphological::kRunVectors;
+  for (const spec::morphological::RunVector& v : vectors)
+    bench.ends.source.send(sums_of({v.corners.begin(), v.corners.begin() + v.count}, v.start,
+                                   v.corners[static_cast<std::size_t>(v.start + 1)]));
   bench.clock.run(60);
-  ASSERT_EQ(bench.ends.sink.beats().size(), rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
+  ASSERT_EQ(bench.ends.sink.beats().size(), vectors.size());
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
     const spec::morphological::LineRecord& line = bench.ends.sink.beats()[i].line;
-    EXPECT_EQ(line.scale, rows[i].scale) << i;
-    EXPECT_EQ(line.offset, rows[i].offset) << i;
-    EXPECT_EQ(line.shift, rows[i].shift) << i;
-    EXPECT_EQ(line.slope, rows[i].slope) << i;
-    EXPECT_EQ(line.inverse, rows[i].inverse) << i;
-    EXPECT_EQ(line.span, rows[i].span) << i;
+    const spec::morphological::RunResult got = {line.scale,   line.offset, line.slope,
+                                                line.inverse, line.shift,  line.span};
+    EXPECT_EQ(differences(vectors[i].result, got), "") << i;
+    expect_each_value_is_compared(vectors[i].result, got);
     EXPECT_EQ(line.before, spec::morphological::Side::kFirst);
     EXPECT_EQ(line.after, spec::morphological::Side::kSecond);
   }
-  EXPECT_EQ(bench.unit.divides.value(), rows.size());
+  EXPECT_EQ(bench.unit.divides.value(), vectors.size());
 }
 
 TEST(LineUnitBlock, ChordAndTheEndsOfALongRun) {
@@ -116,14 +107,15 @@ TEST_P(Divider, HasItsLatencyAndInterval) {
   Lines bench(p);
   for (int i = 0; i < 10; ++i) bench.ends.source.send(sums_of({0, i + 1}, 0, i + 1));
   // Pushed in 0, popped in 1, the quotient is sent in 1 + latency.
-  const auto ready = static_cast<Cycle>(2 + time.latency);
+  const rtl::Datasheet sheet = LineUnit::datasheet(p);
+  const Cycle ready = 1 + sheet.latency.clocks;
   bench.clock.run(ready);
   EXPECT_FALSE(bench.ends.out.can_pop(ready - 1));
   EXPECT_TRUE(bench.ends.out.can_pop(ready));
   bench.clock.run(200);
   ASSERT_EQ(bench.ends.sink.cycles().size(), 10u);
   for (std::size_t i = 0; i < 10; ++i) {
-    EXPECT_EQ(bench.ends.sink.cycles()[i], ready + i * static_cast<Cycle>(time.interval)) << i;
+    EXPECT_EQ(bench.ends.sink.cycles()[i], ready + i * sheet.interval.clocks) << i;
     EXPECT_EQ(bench.ends.sink.beats()[i].line.span, i + 1);
   }
   EXPECT_EQ(bench.unit.occupancy.value(), 10u * static_cast<unsigned>(time.interval));
@@ -183,6 +175,7 @@ TEST(LineUnitBlock, ALearnedRecordPassesTheDivider) {
   bench.clock.run(60);
   ASSERT_EQ(bench.gate.cycles.size(), 4u);
   EXPECT_THAT(bench.gate.cycles, ::testing::ElementsAre(2, 4, 17, 18));
+  expect_latency(LineUnit::learned_datasheet(), bench.gate.cycles[0] - 1);
   for (const std::size_t i : {0u, 1u, 3u}) {
     const spec::morphological::LineRecord& line = bench.gate.beats[i].line;
     EXPECT_TRUE(line.learned);
@@ -245,6 +238,7 @@ TEST(LineUnitBlock, AResetLetsTheDividerStartAtOnce) {
   bench.clock.set_reset_n(false);
   bench.clock.run(1);
   bench.clock.set_reset_n(true);
+  bench.registers.reset();
   bench.registers.frame(40, 30);
   const Cycle begin = bench.clock.cycle();
   bench.driver.send(begin, sums_of(5));

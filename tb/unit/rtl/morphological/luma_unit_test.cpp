@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // LumaUnit: the weights by hand, and its clock.
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
 namespace deburr::tb::morphological_rtl::luma_unit_test {
@@ -30,7 +31,12 @@ TEST(LumaUnitBlock, AddsTheWeightsExactlyTwoClocksLater) {
   EXPECT_TRUE(ends.out.can_pop(clock.cycle()));
   clock.run(4);
   ASSERT_EQ(ends.sink.beats().size(), 3u);
-  EXPECT_THAT(ends.sink.cycles(), ::testing::ElementsAre(3, 4, 5));
+  // Pushed in 0, popped in 1; a datasheet that is a clock off is noticed.
+  const auto check = [&](const rtl::Datasheet& sheet) {
+    expect_clocks(sheet, ends.sink.cycles(), 1);
+  };
+  expect_notices_a_clock(LumaUnit::datasheet(), &rtl::Datasheet::latency, check);
+  expect_notices_a_clock(LumaUnit::datasheet(), &rtl::Datasheet::interval, check);
   EXPECT_EQ(ends.sink.beats()[0].luma[0], 255u * 65536u);
   EXPECT_EQ(ends.sink.beats()[0].luma[1], 13933u + 2u * 46871u + 3u * 4732u);
   EXPECT_EQ(ends.sink.beats()[0].depth[1], 8u);

@@ -14,12 +14,12 @@ namespace deburr::tb::morphological_rtl {
 
 // A ParameterStore with its bus, and a frame inside.
 struct Registers {
-  explicit Registers(const Parameters& p) : store(control, p), bus("bus") {
+  explicit Registers(const Parameters& p) : store(control, p), bus("bus"), software(bus, p) {
     bus.bus.bind(control.registers.bus);
   }
   Registers(const Parameters& p, int width, int height) : Registers(p) { frame(width, height); }
   void frame(int width, int height) {
-    store.write_size(width, height);
+    software.set_size(width, height);
     EXPECT_TRUE(store.latch());
   }
   // As the reset of the engine does.
@@ -30,7 +30,8 @@ struct Registers {
   rtl::ControlRegisters control{"registers", spec::morphological::kRegisters,
                                 rtl::morphological::control_layout()};
   rtl::morphological::ParameterStore store;
-  RegisterHost bus;
+  platform::RegisterHost bus;
+  platform::MorphologicalDriver software;
 };
 
 // Sends each beat in its clock or, if there is no room, as soon as there is.

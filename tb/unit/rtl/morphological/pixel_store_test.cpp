@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
 namespace deburr::tb::morphological_rtl::pixel_store_test {
@@ -121,7 +122,7 @@ Parameters built(spec::morphological::Storage storage, int lanes_code) {
 class PixelStoreLanes : public ::testing::TestWithParam<int> {};
 
 // While a beat a clock comes in, a beat a clock goes out, two clocks after it was asked for.
-TEST_P(PixelStoreLanes, LatencyIsTwoAndIntervalOne) {
+TEST_P(PixelStoreLanes, LatencyAndIntervalOfTheDatasheet) {
   Storing bench(built(spec::morphological::Storage::kLineBuffers, GetParam()), colours(9, 24));
   Cycle at = 0;
   for (int y = 0; y < 24 + kLag; ++y)
@@ -134,8 +135,10 @@ TEST_P(PixelStoreLanes, LatencyIsTwoAndIntervalOne) {
   const std::size_t before = static_cast<std::size_t>(kLag * bench.beats_a_row);
   ASSERT_EQ(bench.pixel_gate.beats.size(), static_cast<std::size_t>(24 * bench.beats_a_row));
   for (std::size_t i = 0; i < bench.pixel_gate.beats.size(); ++i) {
-    // Pushed in i + before + 2, popped and read a clock later, sent in the next, taken in the next.
-    ASSERT_EQ(bench.pixel_gate.cycles[i], before + i + 5);
+    // Pushed in i + before + 2, popped and read a clock later.
+    const rtl::Datasheet sheet = PixelStore::datasheet();
+    ASSERT_EQ(bench.pixel_gate.cycles[i],
+              before + 3 + i * sheet.interval.clocks + sheet.latency.clocks);
     const int row = static_cast<int>(i) / bench.beats_a_row;
     bench.expect_around(bench.pixel_gate.beats[i], row,
                         static_cast<int>(i) - row * bench.beats_a_row);

@@ -16,6 +16,7 @@ struct PlacedEngine {
         engine((prefix + "_engine").c_str(), clock, p),
         sink((prefix + "_sink").c_str(), clock),
         bus((prefix + "_bus").c_str()),
+        software(bus, p),
         in((prefix + "_in").c_str()),
         out((prefix + "_out").c_str()) {
     driver.beats_out(in);
@@ -24,19 +25,20 @@ struct PlacedEngine {
     sink.beats_in(out);
     bus.bus.bind(engine.registers);
     if (engine.memory() != nullptr) {
-      MemoryModelParameters m;
+      platform::MemoryModelParameters m;
       m.latency_max = 50;
-      memory = std::make_unique<MemoryModel>((prefix + "_memory").c_str(), period(), m);
+      memory = std::make_unique<platform::MemoryModel>((prefix + "_memory").c_str(), period(), m);
       engine.memory()->bind(memory->ports);
     }
   }
   Driver<spec::morphological::PixelBeat> driver;
   rtl::morphological::MorphologicalEngine engine;
   Sink<spec::morphological::BlendedBeat> sink;
-  RegisterHost bus;
+  platform::RegisterHost bus;
+  platform::MorphologicalDriver software;
   Link<spec::morphological::PixelBeat> in;
   Link<spec::morphological::BlendedBeat> out;
-  std::unique_ptr<MemoryModel> memory;
+  std::unique_ptr<platform::MemoryModel> memory;
 };
 
 }  // namespace deburr::tb::morphological_rtl

@@ -36,7 +36,7 @@ std::string after_noise(std::uint64_t seed) {
   const auto run = [&] {
     frames = 1;
     reset();
-    bench.engine.set_frame_size(frame.width, frame.height);
+    bench.software.set_size(frame.width, frame.height);
     bench.bench->run([&] { return bench.sink.received() == beats.size() && bench.engine.idle(); },
                      100'000);
     return bench.last(frame.width, frame.height);

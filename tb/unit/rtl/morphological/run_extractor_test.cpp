@@ -5,7 +5,8 @@
 #include <set>
 #include <tuple>
 
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/morphological/edge_memories.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
@@ -147,7 +148,7 @@ struct Extraction {
     extractor.observer = [this](const RunRecord& run) { runs.push_back(run); };
   }
   void run(const Planes& planes) {
-    store.store.write_size(planes.width, planes.height);
+    store.software.set_size(planes.width, planes.height);
     ASSERT_TRUE(store.store.latch());
     const FrameRules rules = store.store.rules();
     const int lanes = store.store.lanes();
@@ -284,7 +285,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Extract{50, 1, 2, 4, 4, 900, 0}, Extract{3, 70, 2, 32, 256, 970, 0},
                       Extract{64, 64, 0, 6, 2048, 1000, 0}));
 
-TEST(RunExtractorBlock, RecordIsThereSixClocksAfterItsSlotWasTaken) {
+TEST(RunExtractorBlock, SlotsAndRecordsHaveTheLatenciesOfTheDatasheet) {
   Extraction bench(preset(spec::morphological::Preset::kMlaa, 4, 8));
   Planes planes(30, 12);
   for (int x = 5; x < 9; ++x) planes.top[static_cast<std::size_t>(3 * 30 + x)] = true;
@@ -300,9 +301,9 @@ TEST(RunExtractorBlock, RecordIsThereSixClocksAfterItsSlotWasTaken) {
     // Row 3 in slot row 3 + 4 + 2, closed by column 9.
     EXPECT_EQ(token.slot, 9u * 30u + 9u);
     // Slot k is taken in clock k + 1.
-    EXPECT_EQ(cycle, token.slot + 1 + 6);
-    // The slot itself can be taken two clocks later.
-    EXPECT_EQ(bench.area_sink.cycles()[token.slot], token.slot + 1 + 2);
+    expect_latency(RunExtractor::record_datasheet(), cycle - (token.slot + 1));
+    expect_latency(RunExtractor::slot_datasheet(),
+                   bench.area_sink.cycles()[token.slot] - (token.slot + 1));
   }
 }
 
@@ -346,7 +347,7 @@ TEST(RecordStalls, CountOnlyWhereASlotWaits) {
   options.driver = {600, 40};
   EngineBench bench(p, options);
   const Frame in = noise();
-  bench.engine.set_frame_size(in.width, in.height);
+  bench.software.set_size(in.width, in.height);
   bench.driver.send(beats_of(in, lanes_of(p)));
   const auto beats = static_cast<std::uint64_t>(beats_a_row(in, p) * in.height);
   const auto& extractor = bench.engine.extractor;

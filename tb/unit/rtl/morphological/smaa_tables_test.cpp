@@ -3,13 +3,16 @@
 // layouts equal, and faults in each ROM and on each link of its blocks caught.
 #include <array>
 #include <deque>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "rtl_model/morphological/blend/area_table.h"
 #include "rtl_model/morphological/blend/diagonal_table.h"
 #include "spec/morphological/tables.h"
+#include "tb/stimuli/vector_hash.h"
 #include "tb/unit/rtl/morphological/parts.h"
+#include "tb/unit/rtl/morphological/vectors.h"
 
 namespace deburr::tb::morphological_rtl::smaa_tables_test {
 namespace {
@@ -18,15 +21,7 @@ using rtl::morphological::AreaTable;
 using spec::morphological::AreaSource;
 using spec::morphological::Preset;
 using spec::morphological::Quality;
-
-// As the test vectors: FNV-1a, numbers over 255 by their bytes, highest first.
-struct Fnv {
-  std::uint64_t hash = 1469598103934665603u;
-  void add(std::uint64_t value, int bytes) {
-    for (int byte = bytes - 1; byte >= 0; --byte)
-      hash = (hash ^ (value >> (8 * byte) & 0xFF)) * 1099511628211u;
-  }
-};
+using stimuli::VectorHash;
 
 template <class Word>
 rtl::Memory<Word>& rom(const std::string& name) {
@@ -42,27 +37,23 @@ TEST(SmaaTables, WordsHaveTheContractsHashes) {
   Parameters p = smaa();
   p.area = AreaSource::kTableMinimal;
   EngineBench bench(p);
-  for (const auto& [tile, hash] :
-       {std::pair{0u, 0x08fb6f2f5185e12bu}, std::pair{1u, 0x4091cb22adf7523au}}) {
-    Fnv fnv;
+  std::array<VectorHash, 2> tiles;
+  for (unsigned tile = 0; tile < 2; ++tile)
     for (unsigned i = 0; i < 16; ++i)
       for (unsigned j = 0; j < 16; ++j)
-        fnv.add(rom<std::uint16_t>("area_rom" + std::to_string(i % 2 * 2 + j % 2))
-                    .backdoor(64u * tile + i / 2 * 8 + j / 2),
-                1);
-    EXPECT_EQ(fnv.hash, hash) << tile;
-  }
-  Fnv roots, mix, diagonals;
-  for (unsigned d = 0; d < 225; ++d) roots.add(rom<std::uint16_t>("sqrt_rom").backdoor(d), 2);
-  for (unsigned s = 0; s < 511; ++s) mix.add(rom<std::uint32_t>("mix_rom").backdoor(s), 3);
-  for (unsigned at = 0; at < 6400; ++at) {
-    const std::uint16_t word = rom<std::uint16_t>("diagonal_rom").backdoor(at);
-    diagonals.add(word & 0xFFu, 1);
-    diagonals.add(word >> 8, 1);
-  }
-  EXPECT_EQ(roots.hash, 0x0cdd319ff9fc3614u);
-  EXPECT_EQ(mix.hash, 0xd96f58a228eff378u);
-  EXPECT_EQ(diagonals.hash, 0xbd207affdb832b8fu);
+        tiles[tile].byte(rom<std::uint16_t>("area_rom" + std::to_string(i % 2 * 2 + j % 2))
+                             .backdoor(64u * tile + i / 2 * 8 + j / 2));
+  VectorHash roots, mix, diagonals;
+  for (unsigned d = 0; d < 225; ++d)
+    roots.highest_first(rom<std::uint16_t>("sqrt_rom").backdoor(d), 2);
+  for (unsigned s = 0; s < 511; ++s)
+    mix.highest_first(rom<std::uint32_t>("mix_rom").backdoor(s), 3);
+  for (unsigned at = 0; at < 6400; ++at)
+    diagonals.lowest_first(rom<std::uint16_t>("diagonal_rom").backdoor(at), 2);
+  const spec::morphological::TableHashes got = {tiles[0].value(), tiles[1].value(), roots.value(),
+                                                mix.value(), diagonals.value()};
+  EXPECT_EQ(differences(spec::morphological::kTableHashes, got), "");
+  expect_each_value_is_compared(spec::morphological::kTableHashes, got);
 }
 
 TEST(SmaaTables, LayoutsGiveTheSameShares) {
@@ -91,16 +82,16 @@ TEST(SmaaTables, LayoutsGiveTheSameShares) {
         ASSERT_EQ(read(merged.table, l, r, shape), expected) << shape << " " << l << " " << r;
         ASSERT_EQ(read(minimal.table, l, r, shape), expected) << shape << " " << l << " " << r;
       }
-  // By hand from the contract: T and U of an L and a U on the second side.
-  struct Value {
-    int l, r, half, arch;
-  };
-  for (const Value& v : {Value{0, 0, 32, 126}, Value{0, 1, 64, 89}, Value{1, 2, 33, 76},
-                         Value{2, 3, 30, 67}, Value{3, 3, 15, 56}, Value{5, 7, 24, 47},
-                         Value{31, 32, 7, 11}, Value{223, 224, 1, 1}, Value{0, 224, 128, 128}}) {
+  // The contract's: T and U of an L and a U on the second side.
+  for (const spec::morphological::TableVector& v : spec::morphological::kTableVectors) {
     for (AreaTable* table : {&full.table, &merged.table, &minimal.table}) {
-      EXPECT_EQ(read(*table, v.l, v.r, 2), std::pair(0, v.half)) << v.l;
-      EXPECT_EQ(read(*table, v.l, v.r, 10), std::pair(0, v.arch)) << v.l;
+      const auto half = read(*table, v.l, v.r, 2), dip = read(*table, v.l, v.r, 10);
+      const spec::morphological::TableResult got = {static_cast<std::uint64_t>(half.second),
+                                                    static_cast<std::uint64_t>(dip.second)};
+      EXPECT_EQ(differences(v.result, got), "") << v.l << ' ' << v.r;
+      expect_each_value_is_compared(v.result, got);
+      EXPECT_EQ(half.first, 0);
+      EXPECT_EQ(dip.first, 0);
     }
   }
 }
@@ -216,22 +207,18 @@ INSTANTIATE_TEST_SUITE_P(Each, TableClocks,
 
 // ---- planted faults -----------------------------------------------------------------------------
 
-// A falling stair of one pixel, and the hash of the contract.
-Frame stair() {
-  return draw(8, 9, [](int x, int y) { return grey(x + y >= 8 ? 255 : 0); });
-}
-constexpr std::uint64_t kStair = 0x558a9522fb4d9117;
-
-TEST(SmaaStair, HasTheContractsHash) {
-  EngineBench bench(smaa());
-  EXPECT_EQ(hash(bench.run(stair())), kStair);
+// A falling stair of one pixel.
+const spec::morphological::PatternVector& stair() {
+  for (const spec::morphological::PatternVector& v : spec::morphological::kPatternVectors)
+    if (v.name == "/") return v;
+  throw std::out_of_range("no pattern /");
 }
 
 TEST(SmaaRomFaults, AWordOfDiagonalRomIsMissed) {
   EngineBench bench(smaa());
   rom<std::uint16_t>("diagonal_rom").backdoor(rtl::morphological::diagonal_address(0, 0, 4, 3)) ^=
       1u << 4;
-  EXPECT_NE(hash(bench.run(stair())), kStair);
+  EXPECT_NE(hash(bench.run(morphological::vector_image(stair()))), stair().result.hash);
 }
 
 struct RomFault {
@@ -249,7 +236,7 @@ TEST_P(SmaaRomFault, IsCaught) {
   else
     rom<std::uint16_t>(GetParam().name).backdoor(GetParam().address) ^=
         static_cast<std::uint16_t>(std::string(GetParam().name) == "sqrt_rom" ? 64 : 1);
-  EXPECT_NE(hash(bench.run(noise())), 0x605145727a436382u);
+  EXPECT_NE(hash(bench.run(noise())), vector_hash("smaa_noise_low"));
 }
 // Entries (0, 0) to (1, 0) of pattern 6, (1, 1) of 2; of the others what short runs ask for.
 INSTANTIATE_TEST_SUITE_P(Planted, SmaaRomFault,
@@ -269,7 +256,7 @@ TEST_P(SmaaLinkFaults, AreCaught) {
   EngineBench bench(smaa(), options);
   bool caught = false;
   try {
-    caught = hash(bench.run(noise(), 100'000)) != 0x3d8c8d3867fd2bccu ||
+    caught = hash(bench.run(noise(), 100'000)) != vector_hash("smaa_noise_high") ||
              bench.engine.work().diagonal_pixels != 233;
   } catch (const spec::SimulationError& error) {
     // A planted fault that was never reached is no catch.

@@ -18,12 +18,13 @@
 #include <vector>
 
 #include "rtl_model/morphological/morphological_engine.h"
+#include "rtl_model/platform/memory_model.h"
+#include "rtl_model/platform/morphological_driver.h"
+#include "rtl_model/platform/register_host.h"
 #include "spec/morphological/packets.h"
 #include "spec/morphological/parameters.h"
 #include "tb/harness/bench.h"
 #include "tb/harness/driver.h"
-#include "tb/harness/memory_model.h"
-#include "tb/harness/register_host.h"
 #include "tb/stimuli/frames.h"
 
 namespace deburr::tb::morphological_rtl {
@@ -78,42 +79,18 @@ inline std::uint64_t hash(const Frame& frame) {
 // A preset's rules with R and C; line_pixels small, so that tests are quick.
 inline Parameters preset(spec::morphological::Preset which, int reach_rows = 32,
                          int reach_columns = 256) {
-  Parameters p;
-  const spec::morphological::PresetRow& row =
-      spec::morphological::kPresets[static_cast<std::size_t>(which)];
-  p.preset = which;
-  p.edge_source = row.edge_source;
-  p.threshold_mode = row.threshold_mode;
-  p.dynamic_luma = row.dynamic_luma;
-  p.threshold = row.threshold;
-  p.local_contrast = row.local_contrast;
-  p.ends = row.ends;
-  p.area = row.area;
-  p.blend = row.blend;
-  p.predictor = row.predictor;
-  p.steps = row.steps;
-  p.contiguous = row.contiguous;
-  p.safe = row.safe;
-  p.trim = row.trim;
+  Parameters p = preset_parameters(which);
   p.window_rows = 2 * reach_rows + 2;
   p.reach_columns = reach_columns;
   p.line_pixels = 256;
   return p;
 }
 
-// The SMAA presets: rules and window of the quality, then those of the preset's own row.
+// The SMAA presets, with the window of the quality.
 inline Parameters smaa(spec::morphological::Quality quality = spec::morphological::Quality::kHigh,
                        spec::morphological::Preset which = spec::morphological::Preset::kSmaa) {
-  const spec::morphological::QualityRow& row =
-      spec::morphological::kQualities[static_cast<std::size_t>(quality)];
-  Parameters p = preset(which, row.window_rows / 2 - 1);
-  p.quality = quality;
-  if (p.threshold == 0) p.threshold = row.threshold;
-  p.search_steps = row.search_steps;
-  p.diagonals = row.diagonals;
-  p.diagonal_steps = row.diagonal_steps;
-  p.round_corners = row.round_corners;
-  p.corner_rounding = row.corner_rounding;
+  Parameters p = preset_parameters(which, quality);
+  p.line_pixels = 256;
   return p;
 }
 
@@ -125,32 +102,16 @@ inline Parameters in_memory() {
   return p;
 }
 
-inline int lanes_of(const Parameters& p) {
-  return spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
-}
+using platform::lanes_of;
 inline int reach_of(const Parameters& p) { return p.window_rows / 2 - 1; }
 // Clocks from a slot to its output beat.
 inline constexpr unsigned kPipe = spec::morphological::kPipelineLatency;
 inline int beats_a_row(const Frame& frame, const Parameters& p) {
-  return (frame.width + lanes_of(p) - 1) / lanes_of(p);
+  return static_cast<int>(platform::beats_a_row(frame.width, lanes_of(p)));
 }
 
 inline std::vector<spec::morphological::PixelBeat> beats_of(const Frame& frame, int lanes) {
-  std::vector<spec::morphological::PixelBeat> beats;
-  for (int y = 0; y < frame.height; ++y)
-    for (int x = 0; x < frame.width; x += lanes) {
-      spec::morphological::PixelBeat beat;
-      beat.count = static_cast<std::uint8_t>(std::min(lanes, frame.width - x));
-      for (int i = 0; i < beat.count; ++i) {
-        const auto at = static_cast<std::size_t>(y * frame.width + x + i);
-        beat.pixel[static_cast<std::size_t>(i)] = frame.pixel[at];
-        beat.depth[static_cast<std::size_t>(i)] = frame.depth[at];
-      }
-      beat.start_of_frame = x == 0 && y == 0;
-      beat.end_of_row = x + beat.count == frame.width;
-      beats.push_back(beat);
-    }
-  return beats;
+  return platform::beats_of({frame.width, frame.height, frame.pixel, frame.depth}, lanes);
 }
 
 // driver -> engine -> sink, a memory if the engine wants one, and the harness around them.
@@ -159,13 +120,14 @@ struct EngineBench {
     BenchOptions bench;
     EndOptions driver, sink;
     std::uint32_t memory_latency = 20, memory_scatter = 0;
-    MemoryModelParameters memory;
+    platform::MemoryModelParameters memory;
   };
   explicit EngineBench(const Parameters& p) : EngineBench(p, Options{}) {}
   EngineBench(const Parameters& p, Options options)
       : driver("driver", clock, options.driver),
         engine("engine", clock, p),
-        sink("sink", clock, options.sink) {
+        sink("sink", clock, options.sink),
+        software(bus, p) {
     driver.beats_out(in);
     engine.pixels_in(in);
     engine.pixels_out(out);
@@ -175,7 +137,7 @@ struct EngineBench {
       options.memory.bytes = 1u << 20;
       options.memory.latency_min = options.memory_latency;
       options.memory.latency_max = options.memory_latency + options.memory_scatter;
-      memory = std::make_unique<MemoryModel>("memory", period(), options.memory);
+      memory = std::make_unique<platform::MemoryModel>("memory", period(), options.memory);
       engine.memory()->bind(memory->ports);
     }
     bench = std::make_unique<Bench>(clock, options.bench);
@@ -186,7 +148,7 @@ struct EngineBench {
 
   // Runs one frame after another that was added; the frames come back in order.
   Frame run(const Frame& frame, Cycle limit = 5'000'000) {
-    engine.set_frame_size(frame.width, frame.height);
+    software.set_size(frame.width, frame.height);
     driver.send(beats_of(frame, lanes_of(engine.parameters())));
     wanted += static_cast<std::uint64_t>(beats_a_row(frame, engine.parameters()) * frame.height);
     bench->run([&] { return sink.received() == wanted && engine.idle(); }, limit);
@@ -209,8 +171,9 @@ struct EngineBench {
   Driver<spec::morphological::PixelBeat> driver;
   rtl::morphological::MorphologicalEngine engine;
   Sink<spec::morphological::BlendedBeat> sink;
-  RegisterHost bus{"bus"};
-  std::unique_ptr<MemoryModel> memory;
+  platform::RegisterHost bus{"bus"};
+  platform::MorphologicalDriver software;
+  std::unique_ptr<platform::MemoryModel> memory;
   std::unique_ptr<Bench> bench;
   std::vector<Cycle> sent;  // when each beat was pushed into the engine's link
   std::uint64_t wanted = 0;

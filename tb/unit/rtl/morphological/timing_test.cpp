@@ -5,11 +5,12 @@
 #include <string>
 #include <tuple>
 
-#include "tb/harness/forked.h"
+#include "tb/base/forked.h"
+#include "tb/base/random.h"
 #include "tb/harness/monitor.h"
-#include "tb/stimuli/random.h"
 #include "tb/unit/rtl/morphological/edge_memories.h"
 #include "tb/unit/rtl/morphological/parts.h"
+#include "tb/unit/rtl/morphological/vectors.h"
 
 namespace deburr::tb::morphological_rtl::timing_test {
 namespace {
@@ -232,7 +233,7 @@ TEST(BackPressure, StallsAreCountedAndNothingIsLost) {
   EngineBench bench(p);
   const Frame in = noise();
   const Frame out = bench.run(in);
-  EXPECT_EQ(hash(out), 0x2820122eb9f04a52u);
+  EXPECT_EQ(hash(out), vector_hash("noise_deburr_line"));
   const std::uint64_t stalls = bench.engine.extractor.record_stalls.value();
   EXPECT_GT(stalls, 200u);
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (61u + 37u) * 97u + kPipe + stalls);
@@ -271,7 +272,7 @@ TEST_P(UnderStress, NothingIsDroppedAtAHundredPercentEdges) {
   options.memory_latency = 5;
   options.memory_scatter = 60;
   EngineBench bench(p, options);
-  EXPECT_EQ(hash(bench.run(noise())), 0x6c40266cf03f3513u);
+  EXPECT_EQ(hash(bench.run(noise())), vector_hash("noise_slope"));
   // All crossings are T: nothing to blend, but every edge is there.
   const Frame board = checkerboard(33, 30);
   const Frame out = bench.run(board);
@@ -306,7 +307,7 @@ TEST(EvaluationOrder, DoesNotMatter) {
   };
   const auto plain = forked<Digest>([&] { return digest(std::nullopt); });
   const Digest shuffled = digest(99);
-  EXPECT_EQ(shuffled.pixels, 0xe86c7f9318eacf5eu);
+  EXPECT_EQ(shuffled.pixels, vector_hash("blocks_deburr_line_default"));
   EXPECT_EQ(shuffled.with_cycles, plain.with_cycles);
 }
 
@@ -316,7 +317,7 @@ TEST(FramesBackToBack, BeginTheClockAfterTheLast) {
   EngineBench bench(p);
   Times times(bench);
   const Frame a = line(120, 40), b = line(120, 40);
-  bench.engine.set_frame_size(120, 40);
+  bench.software.set_size(120, 40);
   bench.driver.send(beats_of(a, 1));
   bench.driver.send(beats_of(b, 1));
   bench.driver.send(beats_of(a, 1));
@@ -351,7 +352,7 @@ TEST(Stalls, ASlowSinkStallsTheBlenderAndNothingIsLost) {
   EngineBench::Options options;
   options.sink = {500, 3};
   EngineBench bench(preset(Preset::kDeburrLine), options);
-  EXPECT_EQ(hash(bench.run(line())), 0x736d3ffd8a940ba4u);
+  EXPECT_EQ(hash(bench.run(line())), vector_hash("line_deburr_line"));
   EXPECT_GT(bench.engine.blender.stalled_cycles(), 10'000u);
 }
 
@@ -362,7 +363,7 @@ TEST(MemoryTime, FastMemoryCostsNothing) {
   EngineBench::Options options;
   options.memory_latency = 40;
   EngineBench bench(p, options);
-  EXPECT_EQ(hash(bench.run(line())), 0x736d3ffd8a940ba4u);
+  EXPECT_EQ(hash(bench.run(line())), vector_hash("line_deburr_line"));
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (150u + 37u) * 200u + kPipe);
 }
 
@@ -373,7 +374,7 @@ TEST(MemoryTime, SlowMemoryStallsAndNothingIsLost) {
   EngineBench::Options options;
   options.memory_latency = 40;
   EngineBench bench(p, options);
-  EXPECT_EQ(hash(bench.run(line())), 0x736d3ffd8a940ba4u);
+  EXPECT_EQ(hash(bench.run(line())), vector_hash("line_deburr_line"));
   EXPECT_GT(bench.engine.sequencer.frame_cycles.value(), (150u + 37u) * 200u + kPipe + 1000u);
   std::uint64_t memory = 0;
   for (const auto& cause : bench.engine.pixel_store.stalls())

@@ -2,6 +2,7 @@
 // The AddressUnit: what its blocks take together.
 #include "rtl_model/texture/address_unit.h"
 
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/support.h"
 
 namespace deburr::tb::texture_rtl::address_unit_test {
@@ -73,6 +74,8 @@ TEST(TextureRtlAddressUnit, LatencyByRule) {
   const Cycle taken = 1;
   for (std::size_t i = 0; i < rows.size(); ++i)
     EXPECT_EQ(ready_at(clock, benches[i]->texels), taken + rows[i].latency) << rows[i].name;
+  for (const Row& row : rows)
+    expect_latency(AddressUnit::datasheet(Bench::parameters(row)), row.latency);
 }
 
 }  // namespace

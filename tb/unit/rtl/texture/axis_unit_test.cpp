@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "spec/texture/tables.h"
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/support.h"
 
 namespace deburr::tb::texture_rtl::axis_unit_test {
@@ -224,16 +225,23 @@ struct Timed {
   Axes axes;
   FootprintRule rule;
   std::int32_t clocks;
-  Cycle latency;
+
+  rtl::Datasheet sheet() const {
+    spec::texture::Parameters p;
+    p.axes = axes;
+    p.footprint = rule;
+    p.axis_clocks = clocks;
+    return AxisUnit::datasheet(p);
+  }
 };
 constexpr std::array<Timed, 7> kTimed = {{
-    {"four_", Axes::kFour, FootprintRule::kHalf, 1, 8},
-    {"four2_", Axes::kFour, FootprintRule::kMax, 2, 9},
-    {"eight_", Axes::kEight, FootprintRule::kTwoSegment, 1, 8},
-    {"eight2_", Axes::kEight, FootprintRule::kQuarter, 2, 9},
-    {"eight4_", Axes::kEight, FootprintRule::kHalf, 4, 11},
-    {"exact_", Axes::kEight, FootprintRule::kExact, 1, 22},
-    {"exact4_", Axes::kEight, FootprintRule::kExact, 4, 25},
+    {"four_", Axes::kFour, FootprintRule::kHalf, 1},
+    {"four2_", Axes::kFour, FootprintRule::kMax, 2},
+    {"eight_", Axes::kEight, FootprintRule::kTwoSegment, 1},
+    {"eight2_", Axes::kEight, FootprintRule::kQuarter, 2},
+    {"eight4_", Axes::kEight, FootprintRule::kHalf, 4},
+    {"exact_", Axes::kEight, FootprintRule::kExact, 1},
+    {"exact4_", Axes::kEight, FootprintRule::kExact, 4},
 }};
 
 TEST(TextureRtlAxis, LatencyByRuleAndClocks) {
@@ -249,13 +257,13 @@ TEST(TextureRtlAxis, LatencyByRuleAndClocks) {
   while (clock.cycle() < taken + 30) {
     for (std::size_t i = 0; i < benches.size(); ++i)
       EXPECT_EQ(benches[i]->ends.out.can_pop(clock.cycle()),
-                clock.cycle() >= taken + kTimed[i].latency)
+                clock.cycle() >= taken + kTimed[i].sheet().latency.clocks)
           << kTimed[i].name << clock.cycle();
     clock.run(1);
   }
 }
 
-// A fragment every axis_clocks clocks, through a stall as well.
+// A fragment every so many clocks, through a stall as well.
 TEST(TextureRtlAxis, IntervalIsAxisClocks) {
   constexpr Cycle kHeld = 30, kStall = 13;  // every row is in the middle of its tokens then
   ClockDomain clock("clock", period());
@@ -272,8 +280,9 @@ TEST(TextureRtlAxis, IntervalIsAxisClocks) {
     SCOPED_TRACE(kTimed[i].name);
     const auto& got = benches[i]->ends.sink.taken;
     ASSERT_EQ(got.size(), 40u);
-    const auto clocks = static_cast<Cycle>(kTimed[i].clocks);
-    const auto alone = [&](Cycle n) { return 1 + n * clocks + kTimed[i].latency; };
+    const rtl::Datasheet sheet = kTimed[i].sheet();
+    const Cycle clocks = sheet.interval.clocks;
+    const auto alone = [&](Cycle n) { return 1 + n * clocks + sheet.latency.clocks; };
     for (std::size_t n = 0; n < 40; ++n) {
       if (alone(n) < kHeld) {
         EXPECT_EQ(got[n].cycle, alone(n));

@@ -86,7 +86,7 @@ struct CacheBench {
   Store store;
   Ends<rtl::texture::TexelToken, rtl::texture::TexelQuadToken> ends;
   rtl::texture::TextureCache cache;
-  MemoryModel memory;
+  platform::MemoryModel memory;
 };
 
 }  // namespace deburr::tb::texture_rtl

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/cache_bench.h"
 
 namespace deburr::tb::texture_rtl::data_stage_test {
@@ -147,6 +148,11 @@ struct StageBench {
   rtl::Link<TexelQuadToken> texels{"texels"};
   DataStage stage{"stage", clock, parameters(), fills};
 };
+
+TEST(TextureRtlDataStage, LatencyOfTheDatasheet) {
+  StageBench b(StageBench::hit({0, 4, 16, 20}));
+  expect_latency(DataStage::datasheet(), ready_at(b.clock, b.texels) - 1);
+}
 
 // ---- clocks of passes and fills -----------------------------------------------------------------
 

@@ -2,6 +2,7 @@
 // The DerivativeUnit alone. Expected values are worked out by hand from docs/number_formats.md.
 #include "rtl_model/texture/derivative_unit.h"
 
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/support.h"
 
 namespace deburr::tb::texture_rtl::derivative_unit_test {
@@ -90,10 +91,11 @@ TEST(TextureRtlDerivative, OneClockACoveredLane) {
     b.ends.source.add(q);
   }
   b.clock.run(20);
-  // Quads take 4, 2, 1, 1, 1 and 4 clocks; the first is pushed in 0, taken in 1, seen in 4.
-  std::vector<Cycle> when;
-  for (const auto& t : b.ends.sink.taken) when.push_back(t.cycle);
-  EXPECT_THAT(when, testing::ElementsAre(4, 5, 6, 7, 8, 9, 12, 13, 14, 15, 16));
+  // Quads take 4, 2, 1, 1, 1 and 4 clocks; the first is pushed in 0, taken in 1.
+  std::vector<Cycle> when = clocks_of(b.ends.sink);
+  expect_latency(DerivativeUnit::datasheet(), when.front() - 1);
+  for (Cycle& clock : when) clock -= DerivativeUnit::datasheet().latency.clocks;
+  EXPECT_THAT(when, testing::ElementsAre(1, 2, 3, 4, 5, 6, 9, 10, 11, 12, 13));
   EXPECT_EQ(b.unit.quads.value(), 6u);
   EXPECT_EQ(b.unit.fragments.value(), 11u);
   EXPECT_EQ(b.unit.clamped.value(), 2u + 1 + 0 + 2);

@@ -15,8 +15,8 @@
 #include <functional>
 
 #include "spec/texture/descriptor.h"
+#include "tb/base/random.h"
 #include "tb/harness/driver.h"
-#include "tb/stimuli/random.h"
 #include "tb/stimuli/texture_quads.h"
 #include "tb/unit/rtl/texture/support.h"
 

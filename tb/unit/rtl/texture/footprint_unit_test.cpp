@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "tb/stimuli/random.h"
+#include "tb/base/random.h"
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/support.h"
 
 namespace deburr::tb::texture_rtl::footprint_unit_test {
@@ -92,17 +93,28 @@ TEST(TextureRtlFootprint, ErrorIsAsDocumented) {
   }
 }
 
-TEST(TextureRtlFootprint, LatencyTwoAndNineteen) {
+rtl::Datasheet sheet_of(spec::texture::FootprintRule rule) {
+  spec::texture::Parameters p;
+  p.footprint = rule;
+  return FootprintUnit::datasheet(p);
+}
+
+TEST(TextureRtlFootprint, LatencyAndIntervalOfTheDatasheet) {
+  using spec::texture::FootprintRule;
   ClockDomain clock("clock", period());
-  FootprintBench half(clock, "half_", spec::texture::FootprintRule::kHalf);
-  FootprintBench exact(clock, "exact_", spec::texture::FootprintRule::kExact);
+  FootprintBench half(clock, "half_", FootprintRule::kHalf);
+  FootprintBench exact(clock, "exact_", FootprintRule::kExact);
   for (FootprintBench* b : {&half, &exact})
     for (int i = 0; i < 40; ++i) b->ends.source.add({});
   clock.run(100);
-  for (const auto& [bench, latency] : {std::pair{&half, 2u}, std::pair{&exact, 19u}}) {
-    ASSERT_EQ(bench->ends.sink.taken.size(), 40u);
-    for (std::size_t i = 0; i < 40; ++i)  // pushed in i, taken in i + 1
-      EXPECT_EQ(bench->ends.sink.taken[i].cycle, i + 1 + latency);
+  for (const auto& [bench, rule] :
+       {std::pair{&half, FootprintRule::kHalf}, std::pair{&exact, FootprintRule::kExact}}) {
+    const std::vector<Cycle> seen = clocks_of(bench->ends.sink);
+    ASSERT_EQ(seen.size(), 40u);
+    // Pushed in i, taken in i + 1; a datasheet that is a clock off is noticed.
+    const auto check = [&](const rtl::Datasheet& sheet) { expect_clocks(sheet, seen, 1); };
+    expect_notices_a_clock(sheet_of(rule), &rtl::Datasheet::latency, check);
+    expect_notices_a_clock(sheet_of(rule), &rtl::Datasheet::interval, check);
   }
 }
 

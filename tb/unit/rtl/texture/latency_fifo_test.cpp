@@ -1,11 +1,23 @@
 // SPDX-License-Identifier: MIT
 // The LatencyFifo in the cache: full, and deep enough to hide the latency of memory.
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/cache_bench.h"
 
 namespace deburr::tb::texture_rtl::latency_fifo_test {
 namespace {
 
 using namespace rtl::texture;
+
+TEST(TextureRtlLatencyFifo, LatencyOfTheDatasheet) {
+  ClockDomain clock("clock", period());
+  LatencyFifo fifo("fifo", clock, small_cache());
+  Link<CacheToken> requests("requests");
+  fifo.requests_in(requests);
+  requests.push(0, {});
+  Cycle latency = 0;
+  for (clock.run(1); !fifo.entries.can_pop(clock.cycle()) && latency < 9; ++latency) clock.run(1);
+  expect_latency(LatencyFifo::datasheet(), latency);  // taken in 1
+}
 
 TEST(TextureRtlLatencyFifo, FullFifoStallsTheTagStage) {
   spec::texture::Parameters p = small_cache();

@@ -2,6 +2,7 @@
 // The LevelUnit alone. Expected values are worked out by hand from docs/number_formats.md.
 #include "rtl_model/texture/level_unit.h"
 
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/support.h"
 
 namespace deburr::tb::texture_rtl::level_unit_test {
@@ -160,6 +161,7 @@ TEST(TextureRtlLevel, CountsWhatItDecides) {
     ends.source.add({ticket(), 0, 0, 0, 0, lb, lb});
   clock.run(20);
   EXPECT_EQ(ends.sink.taken.size(), 8u);
+  expect_clocks(LevelUnit::datasheet(), clocks_of(ends.sink), 1);
   EXPECT_EQ(unit.two_levels.value(), 3u);
   EXPECT_EQ(unit.magnified.value(), 1u);
 }

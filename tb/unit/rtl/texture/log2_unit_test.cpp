@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/support.h"
 
 namespace deburr::tb::texture_rtl::log2_unit_test {
@@ -51,7 +52,7 @@ TEST(TextureRtlLog2, ErrorIsAsDocumented) {
   }
 }
 
-TEST(TextureRtlLog2, LatencyOneAndThree) {
+TEST(TextureRtlLog2, LatencyAndIntervalOfTheDatasheet) {
   using spec::texture::Log2Rule;
   ClockDomain clock("clock", period());
   struct Bench {
@@ -78,9 +79,14 @@ TEST(TextureRtlLog2, LatencyOneAndThree) {
     SCOPED_TRACE(spec::texture::kLog2Names[rule]);
     const auto& taken = benches[rule]->ends.sink.taken;
     ASSERT_EQ(taken.size(), 3u);
-    const Cycle latency = rule == 0 ? 1 : 3;
-    EXPECT_EQ(taken[0].cycle, 1 + latency);
-    EXPECT_EQ(taken[1].cycle, rule == 3 ? 9 : 2 + latency);
+    spec::texture::Parameters p;
+    p.log2 = static_cast<Log2Rule>(rule);
+    const rtl::Datasheet sheet = Log2Unit::datasheet(p);
+    expect_latency(sheet, taken[0].cycle - 1);
+    if (rule == 3)
+      EXPECT_EQ(taken[1].cycle, 9u);
+    else
+      expect_interval(sheet, taken[1].cycle - taken[0].cycle);
     const auto log2 = [&](std::uint32_t d) {
       return Log2Unit::log2(static_cast<Log2Rule>(rule), d);
     };

@@ -2,6 +2,7 @@
 // The SampleWalker alone. Expected values are worked out by hand from docs/number_formats.md.
 #include "rtl_model/texture/sample_walker.h"
 
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/support.h"
 
 namespace deburr::tb::texture_rtl::sample_walker_test {
@@ -107,7 +108,13 @@ TEST(TextureRtlWalker, AnyCountByTheFormula) {
   }
 }
 
-TEST(TextureRtlWalker, LatencyThreeAndFour) {
+rtl::Datasheet sheet_of(spec::texture::CountRule count) {
+  spec::texture::Parameters p;
+  p.count = count;
+  return SampleWalker::datasheet(p);
+}
+
+TEST(TextureRtlWalker, LatencyOfTheDatasheet) {
   ClockDomain clock("clock", period());
   using spec::texture::CountRule;
   WalkerBench floor(clock, "floor_", spec::texture::Kernel::kBox, 64),
@@ -115,8 +122,8 @@ TEST(TextureRtlWalker, LatencyThreeAndFour) {
   for (WalkerBench* b : {&floor, &any}) b->ends.in.push(0, {ticket(), 0, 0, 0, 0, 0, 0, 0, true});
   clock.run(1);
   const Cycle taken = 1;
-  EXPECT_EQ(ready_at(clock, floor.ends.out), taken + 3);
-  EXPECT_EQ(ready_at(clock, any.ends.out), taken + 4);
+  expect_latency(sheet_of(CountRule::kFloor), ready_at(clock, floor.ends.out) - taken);
+  expect_latency(sheet_of(CountRule::kAny), ready_at(clock, any.ends.out) - taken);
 }
 
 // One sample each: a fragment a clock, also through the division; and nothing is lost in a stall.
@@ -129,7 +136,7 @@ TEST(TextureRtlWalker, AnyCountKeepsAFragmentAClock) {
   clock.run(100);
   ASSERT_EQ(b.ends.sink.taken.size(), 60u);
   for (std::size_t i = 0; i < 60; ++i) {
-    const Cycle alone = i + 1 + 4;
+    const Cycle alone = i + 1 + sheet_of(spec::texture::CountRule::kAny).latency.clocks;
     EXPECT_EQ(b.ends.sink.taken[i].cycle, alone < 30 ? alone : alone + 11);
     EXPECT_EQ(b.ends.sink.taken[i].token.ticket.tag, i);
   }

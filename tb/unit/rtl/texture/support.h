@@ -22,14 +22,15 @@
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/platform/memory_model.h"
+#include "rtl_model/platform/register_host.h"
+#include "rtl_model/platform/texture_memory.h"
 #include "rtl_model/texture/texture_unit.h"
 #include "spec/error.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/packets.h"
 #include "spec/texture/parameters.h"
 #include "spec/texture/registers.h"
-#include "tb/harness/memory_model.h"
-#include "tb/harness/register_host.h"
 #include "tb/stimuli/texture_quads.h"
 
 namespace deburr::tb::texture_rtl {
@@ -150,6 +151,14 @@ struct Ends {
   Sink<To> sink;
 };
 
+// When its tokens were taken.
+template <class T>
+std::vector<Cycle> clocks_of(const Sink<T>& sink) {
+  std::vector<Cycle> clocks;
+  for (const auto& taken : sink.taken) clocks.push_back(taken.cycle);
+  return clocks;
+}
+
 // The clock in which the consumer of `link` can take its oldest token for the first time; kNever if
 // that does not happen within `limit` clocks. Proves "not ready at n - 1, ready at n".
 template <class T>
@@ -162,28 +171,19 @@ Cycle ready_at(ClockDomain& clock, const Link<T>& link, Cycle limit = 1000) {
   return clock.cycle();
 }
 
-// Writes a descriptor, field by field as docs/texture_unit.md has them.
-inline void write_descriptor(RegisterHost& bus, std::uint32_t handle,
+// Writes a descriptor, valid or not; TextureDriver rejects the others.
+inline void write_descriptor(platform::RegisterHost& bus, std::uint32_t handle,
                              const spec::texture::Descriptor& d) {
-  namespace reg = spec::texture::reg;
-  const std::uint32_t at = reg::kTextureBase + handle * reg::kTextureStride;
-  const auto code = [](auto e) { return static_cast<std::uint32_t>(e); };
-  bus.write(at + reg::kSize, d.width | std::uint32_t{d.height} << 16);
-  bus.write(at + reg::kMode, code(d.format) | code(d.layout) << 4 | code(d.wrap_s) << 8 |
-                                 code(d.wrap_t) << 10 | code(d.min_filter) << 12 |
-                                 code(d.mag_filter) << 16 | std::uint32_t{d.levels} << 20 |
-                                 std::uint32_t{d.max_anisotropy_log2} << 24);
-  bus.write(at + reg::kLodBias, static_cast<std::uint16_t>(d.lod_bias));
-  bus.write(at + reg::kLodClamp, d.min_lod | std::uint32_t{d.max_lod} << 16);
-  for (std::uint32_t k = 0; k < spec::texture::kMaxLevels; ++k)
-    bus.write(at + reg::kLevelBase + 4 * k, d.base[k]);
+  for (const auto& [offset, value] : platform::descriptor_registers(static_cast<int>(handle), d))
+    bus.write(offset, value);
 }
 
 inline constexpr std::uint32_t kMemoryLatency = 10;
 
 // With `scatter`, answers come up to that many clocks later, at random, and overtake each other.
-inline MemoryModelParameters memory_parameters(std::uint32_t latency, std::uint32_t scatter) {
-  MemoryModelParameters p;
+inline platform::MemoryModelParameters memory_parameters(std::uint32_t latency,
+                                                         std::uint32_t scatter) {
+  platform::MemoryModelParameters p;
   p.latency_min = latency;
   p.latency_max = latency + scatter;
   p.outstanding = 1024;
@@ -207,7 +207,7 @@ struct Store {
   }
   rtl::ControlRegisters control;
   rtl::texture::Descriptors descriptors;
-  RegisterHost bus;
+  platform::RegisterHost bus;
 };
 
 // With a FIFO that hides this memory's latency, unless one is ordered.
@@ -247,35 +247,29 @@ struct UnitBench {
   Source<spec::texture::Quad> source{"source", clock};
   rtl::texture::TextureUnit unit;
   Sink<spec::texture::Colour> sink{"sink", clock};
-  MemoryModel memory;
-  RegisterHost bus{"bus"};
+  platform::MemoryModel memory;
+  platform::RegisterHost bus{"bus"};
 };
 
 // A power-of-two RGBA8 texture in row-major order at address 0, levels one after the other. Texel
 // (x, y) of level k is (x, y, k, 255).
-inline spec::texture::Descriptor linear_texture(MemoryModel& memory, int size) {
-  spec::texture::Descriptor d;
-  std::vector<std::uint8_t> image;
-  d.width = d.height = static_cast<std::uint16_t>(size);
-  d.layout = spec::texture::Layout::kLinear;
-  std::uint32_t base = 0;
-  for (int level = 0; size >> level > 0; ++level) {
-    const int side = size >> level, pitch = (4 * side + 63) & ~63;
-    d.base[static_cast<std::size_t>(level)] = base;
-    image.resize(base + static_cast<std::uint32_t>(side * pitch));
+inline spec::texture::Descriptor linear_texture(platform::MemoryModel& memory, int size) {
+  std::vector<std::vector<platform::Texel>> texels;
+  std::vector<platform::TextureLevel> levels;
+  for (int side = size; side > 0; side /= 2) {
+    std::vector<platform::Texel>& level = texels.emplace_back();
     for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x) {
-        std::uint8_t* const texel = &image[base + static_cast<std::uint32_t>(y * pitch + 4 * x)];
-        texel[0] = static_cast<std::uint8_t>(x);
-        texel[1] = static_cast<std::uint8_t>(y);
-        texel[2] = static_cast<std::uint8_t>(level);
-        texel[3] = 255;
-      }
-    base += static_cast<std::uint32_t>(side * pitch);
-    ++d.levels;
+      for (int x = 0; x < side; ++x)
+        level.push_back({static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y),
+                         static_cast<std::uint8_t>(levels.size()), 255});
+    levels.push_back({side, side, level});
   }
-  memory.preload(0, image);
-  return d;
+  spec::texture::Descriptor sampler;
+  sampler.layout = spec::texture::Layout::kLinear;
+  platform::TextureMemory textures;
+  textures.add(levels, sampler);
+  memory.preload(0, textures.bytes());
+  return textures.descriptors().front();
 }
 
 // A quad whose lanes are dx and dy apart: along s in the row, along t in the column.

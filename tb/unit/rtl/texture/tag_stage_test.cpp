@@ -3,6 +3,7 @@
 #include <set>
 #include <tuple>
 
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/cache_bench.h"
 
 namespace deburr::tb::texture_rtl::tag_stage_test {
@@ -27,6 +28,22 @@ TEST(TextureRtlTagStage, SecondRequestForALineInFlightIsMerged) {
   EXPECT_EQ(b.ends.sink.taken[1].cycle, first + 1);
   EXPECT_EQ(b.ends.sink.taken[2].cycle, first + 2);
   EXPECT_EQ(b.ends.sink.taken[3].cycle, first + 3);
+}
+
+// The stage alone, whose request hits nothing.
+TEST(TextureRtlTagStage, LatencyAndIntervalOfTheDatasheet) {
+  ClockDomain clock("clock", period());
+  FillBuffer fills("fills", 4, 64);
+  TagStage stage("stage", clock, small_cache(), fills);
+  Ends<TexelToken, CacheToken> ends(clock);
+  Link<MissToken> misses("misses");
+  stage.texels_in(ends.in);
+  stage.requests_out(ends.out);
+  stage.misses_out(misses);
+  for (int i = 0; i < 9; ++i) ends.source.add(in_line(0));
+  clock.run(20);
+  ASSERT_EQ(ends.sink.taken.size(), 9u);
+  expect_clocks(TagStage::datasheet(), clocks_of(ends.sink), 1);
 }
 
 // The observer sees each line once a request, in the clock of its look-up.

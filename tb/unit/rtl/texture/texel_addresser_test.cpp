@@ -2,6 +2,7 @@
 // The TexelAddresser alone. Expected values are worked out by hand from docs/number_formats.md.
 #include "rtl_model/texture/texel_addresser.h"
 
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/support.h"
 
 namespace deburr::tb::texture_rtl::texel_addresser_test {
@@ -162,16 +163,15 @@ TEST(TextureRtlAddresser, TurnsOddRowsOfLinearTextures) {
   EXPECT_THAT(turned(L::kTiled, 2), ElementsAre(false, false));
 }
 
-TEST(TextureRtlAddresser, LatencyFiveAndOneAClock) {
+TEST(TextureRtlAddresser, LatencyOfTheDatasheetAndOneAClock) {
   AddresserBench b;
   for (int i = 0; i < 5; ++i) b.ends.source.add({});
   b.ends.sink.hold_from = 9;
   b.ends.sink.hold_to = 12;
   b.clock.run(20);
-  std::vector<Cycle> when;
-  for (const auto& t : b.ends.sink.taken) when.push_back(t.cycle);
-  EXPECT_THAT(when, ElementsAre(6, 7, 8, 12, 13));  // pushed in 0, taken in 1
-  EXPECT_EQ(b.unit.bilinears.value(), 0u);          // their tickets are not valid
+  const Cycle first = 1 + TexelAddresser::datasheet().latency.clocks;  // pushed in 0, taken in 1
+  EXPECT_THAT(clocks_of(b.ends.sink), ElementsAre(first, first + 1, first + 2, 12, 13));
+  EXPECT_EQ(b.unit.bilinears.value(), 0u);  // their tickets are not valid
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "spec/error.h"
+#include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/support.h"
 
 namespace deburr::tb::texture_rtl::texture_unit_test {
@@ -22,7 +23,7 @@ constexpr std::int32_t kOne = spec::texture::kCoordinateOne;
 constexpr std::int32_t kTexel = kOne / 64;  // of a 64 x 64 texture
 
 // Nearest, no mip levels, 64 x 64.
-spec::texture::Descriptor nearest_texture(MemoryModel& memory) {
+spec::texture::Descriptor nearest_texture(platform::MemoryModel& memory) {
   spec::texture::Descriptor d = linear_texture(memory, 64);
   d.min_filter = spec::texture::MinFilter::kNearest;
   d.mag_filter = spec::texture::MagFilter::kNearest;
@@ -61,6 +62,7 @@ TEST(TextureRtlUnit, NearestGivesTheTexelsInOrder) {
 }
 
 void check_latency(const spec::texture::Parameters& p, Cycle expected) {
+  expect_latency(rtl::texture::TextureUnit::datasheet(p), expected);
   UnitBench b(p);
   write_descriptor(b.bus, 0, nearest_texture(b.memory));
   b.source.add(quad_of(3, 5));
@@ -409,7 +411,7 @@ std::vector<spec::texture::Quad> mixed_quads() {
   return quads;
 }
 
-spec::texture::Descriptor trilinear_texture(MemoryModel& memory) {
+spec::texture::Descriptor trilinear_texture(platform::MemoryModel& memory) {
   spec::texture::Descriptor d = linear_texture(memory, 64);
   d.max_anisotropy_log2 = 3;
   return d;
@@ -584,8 +586,9 @@ TEST(TextureRtlUnit, RefusesImpossibleParameters) {
                       p.cache_bytes = 256;
                       p.cache_ways = 8;
                     }),
-              HasSubstr("do not hold one set"));
-  EXPECT_THAT(error("g", [](auto& p) { p.cache_ways = 16; }), HasSubstr("choose among at most 8"));
+              HasSubstr("must hold one set"));
+  EXPECT_THAT(error("g", [](auto& p) { p.cache_ways = 16; }),
+              HasSubstr("cache.ways = 16 is outside 1..8"));
   EXPECT_THAT(error("h", [](auto& p) { p.cache_bytes = 65536; }), HasSubstr("at most 32768"));
   EXPECT_THAT(error("i", [](auto& p) { p.cache_fifo_depth = 1; }), HasSubstr("at least 2 places"));
   EXPECT_THAT(error("j", [](auto& p) { p.cache_fifo_depth = 0; }), HasSubstr("sizes it from"));
@@ -601,7 +604,7 @@ TEST(TextureRtlUnit, RefusesImpossibleParameters) {
                       p.axes = spec::texture::Axes::kTwo;
                       p.axis_clocks = 2;
                     }),
-              HasSubstr("so at most 1"));
+              HasSubstr("at most 1 for 2 directions"));
   EXPECT_EQ(error("f",
                   [](auto& p) {
                     p.cache_bytes = 256;

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: MIT
+# tb/engines/engines.txt is the one list of engines. What the build makes of it is here.
+
+# DEBURR_ENGINES: their names, in order.
+set(DEBURR_ENGINE_LIST "${PROJECT_SOURCE_DIR}/tb/engines/engines.txt")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${DEBURR_ENGINE_LIST}")
+file(STRINGS "${DEBURR_ENGINE_LIST}" DEBURR_ENGINES REGEX "^[^#]")
+
+# deburr_add_subdirectories_of(<folder> <name>...): of the folder's subfolders those that have these
+# names and a CMakeLists.txt.
+function(deburr_add_subdirectories_of folder)
+  foreach(name ${ARGN})
+    if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/${name}/CMakeLists.txt")
+      add_subdirectory("${folder}/${name}")
+    endif()
+  endforeach()
+endfunction()
+
+# deburr_engines(<library> <name>...): a library that defines engines() (tb/app/engine.h) with these
+# engines in this order; a program links one such library. It is made of objects, since parts of
+# deburr::app need engines() wherever they stand on a linker's command line.
+function(deburr_engines library)
+  set(declarations "")
+  set(calls "")
+  set(libraries "")
+  foreach(name ${ARGN})
+    string(APPEND declarations "std::unique_ptr<Engine> make_${name}_engine();\n")
+    string(APPEND calls "  all.push_back(make_${name}_engine());\n")
+    list(APPEND libraries deburr::${name}_engine)
+  endforeach()
+  set(file "${CMAKE_CURRENT_BINARY_DIR}/${library}.cpp")
+  file(CONFIGURE OUTPUT "${file}" @ONLY CONTENT [[
+// Made by cmake/Engines.cmake.
+#include "tb/app/engine.h"
+
+namespace deburr::tb {
+
+@declarations@
+std::vector<std::unique_ptr<Engine>> engines() {
+  std::vector<std::unique_ptr<Engine>> all;
+@calls@  return all;
+}
+
+}  // namespace deburr::tb
+]])
+  add_library(deburr_${library}_list OBJECT "${file}")
+  target_link_libraries(deburr_${library}_list PRIVATE deburr::app deburr_options)
+  add_library(deburr_${library} INTERFACE)
+  target_link_libraries(deburr_${library} INTERFACE
+    $<TARGET_OBJECTS:deburr_${library}_list> deburr::app ${libraries})
+  add_library(deburr::${library} ALIAS deburr_${library})
+endfunction()

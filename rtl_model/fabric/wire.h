@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// A level signal between units: one driver, any number of readers, no hand-shake.
+//
+// A wire is a register or combinational, by its declaration:
+//
+//   Wire<Phase> phase_{"phase", Phase::kIdle, {.widths = {{"value", 2}}}};
+//   CombinationalWire<bool> moves_{"moves"};
+//
+//   * A register: what is driven in clock t is read from t + 1 on, whichever unit is ticked first,
+//     and stays until it is driven again. Latency 1. A reset loads the value of the declaration;
+//     without one (`kNoReset`) the wire is undriven until it is driven.
+//   * Combinational: what is driven in clock t is read in t and in no other clock. Latency 0. The
+//     domain ticks the driver before its readers, also when it shuffles.
+//
+// Never stalls. Reading an undriven wire, driving it twice in a clock, a second driver and an
+// unbound port stop the simulation with the names of wire, driver and readers. Cost: the bits of T,
+// as registers or as gates of the driver. The clock domain of the units that it joins resets it.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <systemc>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "rtl_model/fabric/clocked.h"
+#include "rtl_model/fabric/payload.h"
+#include "spec/error.h"
+
+namespace deburr::rtl {
+
+enum class WireKind : std::uint8_t { kRegistered, kCombinational };
+struct NoResetTag {};
+inline constexpr NoResetTag kNoReset{};
+
+// The part of a wire that does not depend on its type.
+class WireBase : public sc_core::sc_object {
+ public:
+  const char* kind() const override { return "deburr_wire"; }
+  bool combinational() const { return kind_ == WireKind::kCombinational; }
+  const Payload& payload() const { return payload_; }
+  std::uint32_t bits() const { return payload_.bits(); }
+  // What readers see in this clock; nullptr: nothing was driven.
+  virtual const std::byte* seen(Cycle cycle) const = 0;
+  virtual void reset() = 0;
+
+  // Since reset: how often the driven value changed, and in how many clocks before `now` readers
+  // saw another value than zero.
+  std::uint64_t changes() const { return changes_; }
+  std::uint64_t high_clocks(Cycle now) const {
+    return high_ + (level_ && now > since_ ? now - since_ : 0);
+  }
+
+  // Who is bound to it, for diagrams and error texts; empty if used without ports.
+  const std::string& driver() const { return driver_; }
+  const std::vector<std::string>& readers() const { return readers_; }
+
+ protected:
+  WireBase(const char* name, Payload payload, WireKind kind)
+      : sc_object(name), payload_(std::move(payload)), kind_(kind) {}
+  // Counts a value that readers see from `from` on.
+  void count(Cycle from, bool changed, bool level) {
+    changes_ += changed;
+    if (combinational()) {
+      high_ += level;
+      return;
+    }
+    if (level == level_) return;
+    if (level_) high_ += from - since_;
+    level_ = level;
+    since_ = from;
+  }
+  void forget(bool level) {
+    changes_ = high_ = 0;
+    level_ = level;
+    since_ = 0;
+  }
+  // Throws CheckFailed.
+  [[noreturn, gnu::cold, gnu::noinline]] void fail(const char* what, Cycle cycle) const;
+
+ private:
+  friend class WirePortBase;
+  friend class ClockDomain;
+  Payload payload_;
+  WireKind kind_;
+  std::uint64_t changes_ = 0, high_ = 0;
+  Cycle since_ = 0;              // when readers first saw a level that is not zero
+  bool level_ = false;           // of the driven value
+  const void* clock_ = nullptr;  // the domain of all units that are bound to it
+  std::string driver_;
+  std::vector<std::string> readers_;
+};
+
+template <std::equality_comparable T, WireKind kKind = WireKind::kRegistered>
+class Wire final : public WireBase {
+  static_assert(std::is_trivially_copyable_v<T>, "a wire is a bundle of bits");
+  static constexpr bool kRegister = kKind == WireKind::kRegistered;
+
+ public:
+  Wire(const char* name, const T& reset_value, const PayloadShape& shape = {}) requires kRegister
+      : WireBase(name, Payload::of<T>(shape), kKind),
+        reset_value_(reset_value),
+        has_reset_(true) {
+    reset();
+  }
+  Wire(const char* name, NoResetTag /*tag*/, const PayloadShape& shape = {}) requires kRegister
+      : WireBase(name, Payload::of<T>(shape), kKind) {}
+  explicit Wire(const char* name, const PayloadShape& shape = {}) requires(!kRegister)
+      : WireBase(name, Payload::of<T>(shape), kKind) {}
+
+  const T& read(Cycle cycle) const {
+    if constexpr (kRegister) {
+      if (cycle >= from_) [[likely]]
+        return value_;
+      if (!had_value_) [[unlikely]]
+        fail("read before it was driven", cycle);
+      return before_;
+    } else {
+      if (cycle != from_) [[unlikely]]
+        fail("read before it was driven in this clock", cycle);
+      return value_;
+    }
+  }
+  const T& driven() const { return value_; }
+  void drive(Cycle cycle, const T& value) {
+    const Cycle from = cycle + kRegister;
+    if (from_ == from) [[unlikely]]
+      fail("driven twice in a clock", cycle);
+    count(from, was_driven_ && !(value == value_), !(value == T{}));
+    before_ = value_;
+    had_value_ = was_driven_;
+    value_ = value;
+    was_driven_ = true;
+    from_ = from;
+  }
+  const std::byte* seen(Cycle cycle) const override {
+    const bool there = kRegister ? cycle >= from_ || had_value_ : cycle == from_;
+    return there ? reinterpret_cast<const std::byte*>(&read(cycle)) : nullptr;
+  }
+  void reset() override {
+    before_ = value_ = reset_value_;
+    was_driven_ = had_value_ = has_reset_;
+    from_ = has_reset_ ? 0 : kNever;
+    forget(!(value_ == T{}));
+  }
+
+ private:
+  const T reset_value_{};
+  const bool has_reset_ = false;
+  // The value is read from this clock on (combinational: in it), and before it what was before.
+  Cycle from_ = kNever;
+  T value_{}, before_{};
+  bool was_driven_ = false, had_value_ = false;  // value_, before_ are values
+};
+template <class T>
+using CombinationalWire = Wire<T, WireKind::kCombinational>;
+
+// A named end of a wire on a unit's border. Bind it to a wire, or to the port of the same kind of
+// the unit around it (in any order).
+class WirePortBase : public sc_core::sc_object {
+ public:
+  enum class Side { kReader, kDriver };
+  Side side() const { return side_; }
+  bool bound() const { return base_ != nullptr; }
+  // The wire at the end of the chain; nullptr while not bound.
+  WireBase* wire_base() const { return base_; }
+
+ protected:
+  WirePortBase(const char* name, Side side) : sc_object(name), side_(side) {}
+  void bind_wire(WireBase& wire);
+  void bind_port(WirePortBase& outer);
+
+ private:
+  virtual void resolved(WireBase& wire) = 0;
+  void resolve(WireBase& wire);
+  Side side_;
+  WireBase* base_ = nullptr;
+  WirePortBase* outer_ = nullptr;
+  std::vector<WirePortBase*> inner_;
+};
+
+template <class T, WireKind kKind = WireKind::kRegistered>
+class WireIn final : public WirePortBase {
+ public:
+  explicit WireIn(const char* name) : WirePortBase(name, Side::kReader) {}
+  const char* kind() const override { return "deburr_wire_in"; }
+  void operator()(Wire<T, kKind>& wire) { bind_wire(wire); }
+  void operator()(WireIn<T, kKind>& outer) { bind_port(outer); }
+
+  const T& read(Cycle cycle) const { return wire_->read(cycle); }
+
+ private:
+  void resolved(WireBase& wire) override { wire_ = static_cast<Wire<T, kKind>*>(&wire); }
+  Wire<T, kKind>* wire_ = nullptr;
+};
+
+template <class T, WireKind kKind = WireKind::kRegistered>
+class WireOut final : public WirePortBase {
+ public:
+  explicit WireOut(const char* name) : WirePortBase(name, Side::kDriver) {}
+  const char* kind() const override { return "deburr_wire_out"; }
+  void operator()(Wire<T, kKind>& wire) { bind_wire(wire); }
+  void operator()(WireOut<T, kKind>& outer) { bind_port(outer); }
+
+  void drive(Cycle cycle, const T& value) { wire_->drive(cycle, value); }
+  // What it drove last, or the value after a reset: readers may see it a clock later.
+  const T& driven() const { return wire_->driven(); }
+
+ private:
+  void resolved(WireBase& wire) override { wire_ = static_cast<Wire<T, kKind>*>(&wire); }
+  Wire<T, kKind>* wire_ = nullptr;
+};
+
+}  // namespace deburr::rtl

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/geometric/datasheets.h"
+
+#include "rtl_model/geometric/geometric_engine.h"
+
+namespace deburr::rtl::geometric {
+
+std::vector<Datasheet> datasheets(const spec::geometric::Parameters& p) {
+  return {FrameSequencer::datasheet(), FacingStore::datasheet(),  EdgeReader::datasheet(),
+          EdgeClassifier::datasheet(), VertexFetch::datasheet(),  LineSetup::datasheet(p),
+          LineWalker::datasheet(),     CoverageUnit::datasheet(), DepthTest::datasheet(),
+          WeightCombiner::datasheet(), BlockScanner::datasheet(), BlockFetch::datasheet(),
+          Resolver::datasheet(),       FrameCopier::datasheet(),  MemoryArbiter::datasheet()};
+}
+
+std::vector<Datasheet> datasheets() {
+  spec::geometric::Parameters deburr, other;
+  other.pipelined = false;
+  const std::vector<std::vector<Datasheet>> builds = {datasheets(deburr), datasheets(other)};
+  return merged(builds);
+}
+
+}  // namespace deburr::rtl::geometric

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/platform/geometric_records.h"
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace deburr::platform {
+namespace {
+
+void put_words(std::vector<std::uint8_t>& bytes, std::initializer_list<std::uint32_t> words) {
+  for (const std::uint32_t word : words)
+    for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
+}
+
+// Calls pixel(index, offset) for each pixel of the frame, row by row.
+template <class Pixel>
+void each_pixel(const PixelLayout& layout, Pixel&& pixel) {
+  std::size_t index = 0;
+  for (int y = 0; y < layout.height(); ++y)
+    for (int x = 0; x < layout.width(); ++x) pixel(index++, layout.offset_of(x, y));
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> edge_records(std::span<const spec::geometric::Edge> edges) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(edges.size() * spec::geometric::kEdgeBytes);
+  for (const spec::geometric::Edge& e : edges)
+    put_words(bytes,
+              {e.v0, e.v1, e.f0 | std::uint32_t{e.flags} << spec::geometric::kFlagShift, e.f1});
+  return bytes;
+}
+
+std::vector<std::uint8_t> vertex_records(std::span<const spec::geometric::Vertex> vertices) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(vertices.size() * spec::geometric::kVertexBytes);
+  for (const spec::geometric::Vertex& v : vertices)
+    put_words(bytes, {static_cast<std::uint32_t>(v.x), static_cast<std::uint32_t>(v.y), v.depth,
+                      std::uint32_t{v.usable}});
+  return bytes;
+}
+
+std::vector<std::uint8_t> facing_bits(const std::vector<bool>& faces) {
+  std::vector<std::uint8_t> bytes((faces.size() + 7) / 8);
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if (faces[f]) bytes[f / 8] = static_cast<std::uint8_t>(bytes[f / 8] | 1u << f % 8);
+  return bytes;
+}
+
+PixelLayout::PixelLayout(spec::geometric::Layout layout, int width, int height)
+    : tiled_(layout == spec::geometric::Layout::kTiled), width_(width), height_(height) {}
+
+std::uint32_t PixelLayout::offset_of(int x, int y) const {
+  constexpr std::uint32_t kPixel = spec::geometric::kPixelBytes,
+                          kLine = spec::geometric::kLineBytes;
+  const auto column = static_cast<std::uint32_t>(x), row = static_cast<std::uint32_t>(y),
+             across = static_cast<std::uint32_t>(width_);
+  if (!tiled_) return row * ((kPixel * across + kLine - 1) / kLine * kLine) + kPixel * column;
+  const std::uint32_t tile = row / 8 * ((across + 7) / 8) + column / 8;
+  const std::uint32_t block = row / 4 % 2 * 2 + column / 4 % 2;
+  return (4 * tile + block) * kLine + kPixel * (row % 4 * 4 + column % 4);
+}
+
+std::uint64_t PixelLayout::bytes() const {
+  constexpr std::uint64_t kLine = spec::geometric::kLineBytes;
+  const auto across = static_cast<std::uint64_t>(width_),
+             down = static_cast<std::uint64_t>(height_);
+  const std::uint64_t lines =
+      tiled_
+          ? 4 * ((across + 7) / 8) * ((down + 7) / 8)
+          : down * ((across + spec::geometric::kPixelsInLine - 1) / spec::geometric::kPixelsInLine);
+  return lines * kLine;
+}
+
+std::vector<std::uint8_t> depth_buffer(const PixelLayout& layout,
+                                       std::span<const std::uint32_t> depths) {
+  std::vector<std::uint8_t> bytes(layout.bytes());
+  each_pixel(layout, [&](std::size_t index, std::uint32_t offset) {
+    for (std::size_t i = 0; i < 4; ++i)
+      bytes[offset + i] = static_cast<std::uint8_t>(depths[index] >> (8 * i));
+  });
+  return bytes;
+}
+
+std::vector<std::uint8_t> colour_buffer(const PixelLayout& layout,
+                                        std::span<const spec::geometric::Rgba8> colours) {
+  std::vector<std::uint8_t> bytes(layout.bytes());
+  each_pixel(layout, [&](std::size_t index, std::uint32_t offset) {
+    std::copy(colours[index].begin(), colours[index].end(),
+              bytes.begin() + static_cast<std::ptrdiff_t>(offset));
+  });
+  return bytes;
+}
+
+std::vector<spec::geometric::Rgba8> colours_of(const PixelLayout& layout,
+                                               std::span<const std::uint8_t> buffer) {
+  std::vector<spec::geometric::Rgba8> colours(static_cast<std::size_t>(layout.width()) *
+                                              static_cast<std::size_t>(layout.height()));
+  each_pixel(layout, [&](std::size_t index, std::uint32_t offset) {
+    std::copy_n(buffer.begin() + static_cast<std::ptrdiff_t>(offset), colours[index].size(),
+                colours[index].begin());
+  });
+  return colours;
+}
+
+}  // namespace deburr::platform

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/platform/morphological_driver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "rtl_model/platform/region_check.h"
+#include "spec/error.h"
+#include "spec/morphological/registers.h"
+
+namespace deburr::platform {
+
+DriverLayout MorphologicalDriver::layout() {
+  return {.engine = "morphological engine",
+          .id = spec::morphological::reg::kId,
+          .id_value = spec::morphological::reg::kIdValue,
+          .control = spec::morphological::reg::kControl,
+          .clear_counters = spec::morphological::reg::kControlClearCounters,
+          .status = spec::morphological::reg::kStatus,
+          .idle = spec::morphological::reg::kStatusIdle,
+          .memory_errors = spec::morphological::reg::kMemoryErrors};
+}
+
+void MorphologicalDriver::set_rules(const spec::morphological::Parameters& p) {
+  require_idle("new rules");
+  const std::pair<std::uint32_t, std::int32_t> thresholds[] = {
+      {spec::morphological::reg::kThreshold, p.threshold},
+      {spec::morphological::reg::kThresholdOn, p.threshold_on_depth_edge},
+      {spec::morphological::reg::kThresholdOff, p.threshold_off_depth_edge},
+      {spec::morphological::reg::kAlpha, p.alpha},
+      {spec::morphological::reg::kFloor, p.floor},
+      {spec::morphological::reg::kDepthThreshold, p.depth_threshold}};
+  registers_.write(spec::morphological::reg::kRules, spec::morphological::rules_word(p));
+  for (const auto& [offset, value] : thresholds)
+    registers_.write(offset, static_cast<std::uint32_t>(value));
+  registers_.write(spec::morphological::reg::kSmaa, spec::morphological::smaa_word(p));
+}
+
+void MorphologicalDriver::place(std::uint32_t base) {
+  if (base % spec::morphological::kFrameLineBytes != 0)
+    reject(fmt::format("a frame begins at {:#x}, which is no multiple of {}", base,
+                       spec::morphological::kFrameLineBytes));
+  require_idle("PIXEL_BASE");
+  registers_.write(spec::morphological::reg::kPixelBase, base);
+  base_ = base;
+}
+
+void MorphologicalDriver::set_size(int width, int height) {
+  const auto across = static_cast<std::uint64_t>(std::max(0, width)),
+             down = static_cast<std::uint64_t>(std::max(0, height));
+  require_range("width of the frame", across, 1, spec::morphological::kMaxFrameSize);
+  require_range("height of the frame", down, 1, spec::morphological::kMaxFrameSize);
+  if (width > built_.line_pixels)
+    reject(fmt::format("a frame of {} pixels does not fit into line_pixels = {}", width,
+                       built_.line_pixels));
+  if (memory_ != nullptr && built_.storage == spec::morphological::Storage::kMemory) {
+    const NamedRegion frame = {"pixels", base_, frame_bytes(width, height)};
+    if (const std::string complaint =
+            region_complaint({&frame, 1}, spec::morphological::kFrameLineBytes, memory_->size());
+        !complaint.empty())
+      reject(complaint);
+  }
+  require_idle("SIZE");
+  registers_.write(spec::morphological::reg::kSize,
+                   spec::morphological::size_word(static_cast<std::uint32_t>(width),
+                                                  static_cast<std::uint32_t>(height)));
+}
+
+void MorphologicalDriver::load_shares(std::span<const std::int8_t> entries) {
+  if (built_.area != spec::morphological::AreaSource::kLearned)
+    reject("it was built without learned shares: area = learned");
+  if (entries.size() != kShareEntries)
+    reject(fmt::format("{} learned shares, expected {}", entries.size(), kShareEntries));
+  require_idle("learned shares");
+  registers_.write(spec::morphological::reg::kSharesAddress, 0);
+  for (const std::int8_t entry : entries)
+    registers_.write(spec::morphological::reg::kSharesData, static_cast<std::uint8_t>(entry));
+  const std::uint32_t sum = registers_.read(spec::morphological::reg::kSharesSum),
+                      expected = shares_sum(entries);
+  if (sum != expected)
+    throw spec::SimulationError(fmt::format(
+        "learned shares were loaded, and SHARES_SUM reads {:#x}, expected {:#x}", sum, expected));
+}
+
+spec::morphological::Work MorphologicalDriver::work() {
+  spec::morphological::Work work;
+  for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
+    work.*each.count = registers_.read(each.offset);
+  return work;
+}
+
+std::uint32_t MorphologicalDriver::frame_clocks() {
+  return registers_.read(spec::morphological::reg::kFrameCycles);
+}
+
+}  // namespace deburr::platform

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// What software gives to the morphological engine: beats of pixels, learned shares; and the room
+// that a frame takes in memory.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "spec/morphological/learned_shares.h"
+#include "spec/morphological/packets.h"
+#include "spec/morphological/parameters.h"
+
+namespace deburr::platform {
+
+// A frame row by row; the spans are someone else's. No depth: empty.
+struct PixelFrame {
+  int width = 0, height = 0;
+  std::span<const spec::morphological::Rgba8> pixels;
+  std::span<const std::uint32_t> depth;  // U24
+};
+
+int lanes_of(const spec::morphological::Parameters& parameters);
+// A row begins a new beat.
+inline std::uint64_t beats_a_row(int width, int lanes) {
+  return static_cast<std::uint64_t>((width + lanes - 1) / lanes);
+}
+// The beat of the pixels from (x, y) on.
+inline spec::morphological::PixelBeat pixel_beat(const PixelFrame& frame, int x, int y, int lanes) {
+  spec::morphological::PixelBeat beat;
+  beat.count = static_cast<std::uint8_t>(std::min(lanes, frame.width - x));
+  const std::size_t from = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
+                           static_cast<std::size_t>(x);
+  for (std::size_t i = 0; i < beat.count; ++i) {
+    beat.pixel[i] = frame.pixels[from + i];
+    if (!frame.depth.empty()) beat.depth[i] = frame.depth[from + i];
+  }
+  beat.start_of_frame = x == 0 && y == 0;
+  beat.end_of_row = x + beat.count == frame.width;
+  return beat;
+}
+
+// All of them, row by row.
+std::vector<spec::morphological::PixelBeat> beats_of(const PixelFrame& frame, int lanes);
+
+// Of a frame with storage = memory: rows begin at multiples of 64 bytes.
+std::uint64_t frame_bytes(int width, int height);
+
+// All entries, in the order of SHARES_ADDRESS: A, B, C.
+inline constexpr std::size_t kShareEntries = spec::morphological::kSharesOfCodes.size() +
+                                             spec::morphological::kSharesOfNear.size() +
+                                             spec::morphological::kSharesOfFar.size();
+// What SHARES_SUM says of them.
+std::uint32_t shares_sum(std::span<const std::int8_t> entries);
+
+}  // namespace deburr::platform

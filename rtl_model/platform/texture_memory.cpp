@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/platform/texture_memory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "spec/error.h"
+#include "spec/texture/registers.h"
+
+namespace deburr::platform {
+namespace {
+
+// A boundary that every cache line size divides.
+constexpr std::size_t kTextureAlignment = 128;
+constexpr std::uint32_t kRowAlignment = 64;  // bytes, of layout linear
+
+std::uint32_t bytes_of(spec::texture::Format format) {
+  return spec::texture::kFormatBytes[static_cast<std::size_t>(format)];
+}
+
+std::uint32_t narrow(std::uint32_t channel, std::uint32_t bits) {
+  const std::uint32_t top = (1u << bits) - 1;
+  return (channel * top + 127) / 255;
+}
+
+void check_chain(std::span<const TextureLevel> levels) {
+  if (levels.empty()) throw spec::ConfigError("a texture needs at least its level 0");
+  const int width = levels[0].width, height = levels[0].height;
+  const int largest = std::max(width, height);
+  if (std::min(width, height) < 1 || largest > spec::texture::kMaxTextureSize) {
+    throw spec::ConfigError(fmt::format("texture of {} x {} texels: each side must be 1 to {}",
+                                        width, height, spec::texture::kMaxTextureSize));
+  }
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    const int w = std::max(1, width >> k), h = std::max(1, height >> k);
+    if ((k > 0 && (largest >> k) == 0) || levels[k].width != w || levels[k].height != h) {
+      throw spec::ConfigError(
+          fmt::format("mip level {} of a {} x {} texture is {} x {}, expected {} x {}", k, width,
+                      height, levels[k].width, levels[k].height, w, h));
+    }
+    if (levels[k].texels.size() != static_cast<std::size_t>(w) * static_cast<std::size_t>(h))
+      throw spec::ConfigError(
+          fmt::format("mip level {} of {} x {} texels has {}", k, w, h, levels[k].texels.size()));
+  }
+}
+
+// The low `mixed` bits go to every other place, from place `first` on; the others stand above.
+std::uint32_t spread(std::uint32_t value, int mixed, int first) {
+  std::uint32_t places = value >> mixed << (2 * mixed);
+  for (int bit = 0; bit < mixed; ++bit) places |= (value >> bit & 1) << (2 * bit + first);
+  return places;
+}
+
+}  // namespace
+
+std::uint32_t encode_texel(spec::texture::Format format, const Texel& texel) {
+  const std::uint32_t r = texel[0], g = texel[1], b = texel[2], a = texel[3];
+  switch (format) {
+    case spec::texture::Format::kRgba8:
+    case spec::texture::Format::kSrgb8A8:
+      return r | g << 8 | b << 16 | a << 24;
+    case spec::texture::Format::kRgb565:
+      return narrow(r, 5) << 11 | narrow(g, 6) << 5 | narrow(b, 5);
+    case spec::texture::Format::kRgba4444:
+      return narrow(r, 4) << 12 | narrow(g, 4) << 8 | narrow(b, 4) << 4 | narrow(a, 4);
+    case spec::texture::Format::kL8:
+      return (77 * r + 150 * g + 29 * b + 128) >> 8;
+  }
+  throw spec::ConfigError("unknown texture format");
+}
+
+TexelLayout::TexelLayout(spec::texture::Layout layout, spec::texture::Format format, int width,
+                         int height)
+    : column_(static_cast<std::size_t>(width)), row_(static_cast<std::size_t>(height)) {
+  const std::uint32_t bytes = bytes_of(format), across = static_cast<std::uint32_t>(width),
+                      down = static_cast<std::uint32_t>(height);
+  if (layout == spec::texture::Layout::kLinear) {
+    const std::uint32_t pitch =
+        (across * bytes + kRowAlignment - 1) / kRowAlignment * kRowAlignment;
+    for (std::uint32_t x = 0; x < across; ++x) column_[x] = x * bytes;
+    for (std::uint32_t y = 0; y < down; ++y) row_[y] = y * pitch;
+    bytes_ = std::uint64_t{down} * pitch;
+    return;
+  }
+  const std::uint32_t tile_width = spec::texture::kTileWidth[bytes],
+                      tile_height = spec::texture::kTileHeight[bytes];
+  // Tiles each way, rounded up to a power of two.
+  const std::uint32_t columns = std::bit_ceil((across + tile_width - 1) / tile_width),
+                      rows = std::bit_ceil((down + tile_height - 1) / tile_height);
+  const int mixed = std::bit_width(std::min(columns, rows)) - 1;
+  for (std::uint32_t x = 0; x < across; ++x)
+    column_[x] =
+        spread(x / tile_width, mixed, 0) * spec::texture::kTileBytes + x % tile_width * bytes;
+  for (std::uint32_t y = 0; y < down; ++y)
+    row_[y] = spread(y / tile_height, mixed, 1) * spec::texture::kTileBytes +
+              y % tile_height * tile_width * bytes;
+  bytes_ = std::uint64_t{spec::texture::kTileBytes} * columns * rows;
+}
+
+TexelLayout texel_layout(const spec::texture::Descriptor& d, int level) {
+  return {d.layout, d.format, std::max(1, d.width >> level), std::max(1, d.height >> level)};
+}
+
+int TextureMemory::add(std::span<const TextureLevel> levels, spec::texture::Descriptor sampler) {
+  if (descriptors_.size() >= spec::texture::kMaxTextures)
+    throw spec::ConfigError(
+        fmt::format("more than {} textures: merge some of them", spec::texture::kMaxTextures));
+  check_chain(levels);
+  sampler.width = static_cast<std::uint16_t>(levels[0].width);
+  sampler.height = static_cast<std::uint16_t>(levels[0].height);
+  sampler.levels = static_cast<std::uint8_t>(levels.size());
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    sampler.base[k] = static_cast<std::uint32_t>(bytes_.size());
+    add_level(levels[k], sampler, static_cast<int>(k));
+  }
+  descriptors_.push_back(sampler);
+  return static_cast<int>(descriptors_.size()) - 1;
+}
+
+void TextureMemory::add_level(const TextureLevel& level, const spec::texture::Descriptor& d,
+                              int index) {
+  const TexelLayout layout = texel_layout(d, index);
+  const std::size_t base = bytes_.size(), texel_bytes = bytes_of(d.format);
+  bytes_.resize((base + layout.bytes() + kTextureAlignment - 1) / kTextureAlignment *
+                kTextureAlignment);
+  const Texel* next = level.texels.data();
+  for (int y = 0; y < level.height; ++y)
+    for (int x = 0; x < level.width; ++x) {
+      const std::uint32_t texel = encode_texel(d.format, *next++);
+      std::uint8_t* const to = &bytes_[base + layout.offset_of(x, y)];
+      for (std::size_t i = 0; i < texel_bytes; ++i)
+        to[i] = static_cast<std::uint8_t>(texel >> (8 * i));
+    }
+}
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> descriptor_registers(
+    int handle, const spec::texture::Descriptor& d) {
+  namespace reg = spec::texture::reg;
+  const std::uint32_t start =
+      reg::kTextureBase + static_cast<std::uint32_t>(handle) * reg::kTextureStride;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> writes = {
+      {start + reg::kSize, spec::texture::size_word(d)},
+      {start + reg::kMode, spec::texture::mode_word(d)},
+      {start + reg::kLodBias, spec::texture::lod_bias_word(d)},
+      {start + reg::kLodClamp, spec::texture::lod_clamp_word(d)}};
+  for (std::uint32_t k = 0; k < spec::texture::kMaxLevels; ++k) {
+    writes.emplace_back(start + reg::kLevelBase + 4 * k, d.base[k]);
+  }
+  return writes;
+}
+
+}  // namespace deburr::platform

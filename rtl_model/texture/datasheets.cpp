@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/texture/datasheets.h"
+
+#include <string>
+
+#include "rtl_model/texture/texture_unit.h"
+
+namespace deburr::rtl::texture {
+namespace {
+
+// The parts that are made of blocks: their latency is a sum.
+std::vector<Datasheet> sums(const spec::texture::Parameters& p) {
+  std::vector<Datasheet> sheets = {TextureUnit::datasheet(p), AddressUnit::datasheet(p)};
+  for (Datasheet& sheet : sheets)
+    sheet.variant = "`preset = " +
+                    std::string(spec::texture::kPresetNames[static_cast<std::size_t>(p.preset)]) +
+                    "`";
+  sheets.push_back(TextureCache::datasheet());
+  return sheets;
+}
+
+}  // namespace
+
+std::vector<Datasheet> datasheets(const spec::texture::Parameters& p) {
+  return {
+      DerivativeUnit::datasheet(),
+      p.axes == spec::texture::Axes::kTwo ? FootprintUnit::datasheet(p) : AxisUnit::datasheet(p),
+      Log2Unit::datasheet(p),
+      LevelUnit::datasheet(),
+      SampleWalker::datasheet(p),
+      TexelAddresser::datasheet(),
+      TagStage::datasheet(),
+      MissQueue::datasheet(),
+      FillBuffer::datasheet(),
+      LatencyFifo::datasheet(),
+      DataStage::datasheet(),
+      FilterPipeline::datasheet(p),
+      Descriptors::datasheet()};
+}
+
+std::vector<Datasheet> datasheets() {
+  std::vector<std::vector<Datasheet>> builds;
+  for (const spec::texture::PresetRow& row : spec::texture::kPresets) {
+    spec::texture::Parameters p = spec::texture::preset_parameters(row.preset);
+    builds.push_back(sums(p));
+    builds.push_back(datasheets(p));
+    // What the preset has not.
+    p.footprint = p.footprint == spec::texture::FootprintRule::kExact
+                      ? spec::texture::FootprintRule::kHalf
+                      : spec::texture::FootprintRule::kExact;
+    p.srgb_output = spec::texture::SrgbOutput::kEncoded;
+    builds.push_back(datasheets(p));
+  }
+  return merged(builds);
+}
+
+}  // namespace deburr::rtl::texture

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What the geometric engine can be built with. Why: docs/geometric_hardware.md, "Parameters".
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+
+#include "spec/check_build.h"
+#include "spec/geometric/parameters.h"
+#include "spec/geometric/records.h"
+
+namespace deburr::spec::geometric {
+
+inline constexpr std::array<BuildRule<Parameters>, 3> kBuildRules = {{
+    {{"reciprocal_table", "pipelined"},
+     "must be 0 with pipelined dividers, which take a line every clock: a table has no effect",
+     [](const Parameters& p) { return !p.pipelined || p.reciprocal_table == 0; },
+     [](const Parameters&) -> std::string { return "use 0, or pipelined = false"; }},
+    {{"face_limit"},
+     "must be a multiple of 512, since a line of memory fills as many facing bits at once",
+     [](const Parameters& p) { return p.face_limit % kFacesInLine == 0; }},
+    {{"fills", "memory.outstanding"},
+     "must be at most memory.outstanding, so that every line on its way has a transaction",
+     [](const Parameters& p) { return p.fills <= p.memory_outstanding; },
+     [](const Parameters&) -> std::string { return "raise that, or lower fills"; }},
+}};
+
+inline std::span<const BuildRule<Parameters>> build_rules(const Parameters&) { return kBuildRules; }
+
+inline const Parameters& check_build(const Parameters& parameters) {
+  return spec::check_build("geometric", parameters);
+}
+
+}  // namespace deburr::spec::geometric

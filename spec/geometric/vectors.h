@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// Test vectors of the geometric engine's contract: data that golden and hardware are held to, and
+// that the tables of docs/geometric.md and docs/number_formats_geometric.md are made from. What the
+// frame holds, and what is hashed: docs/geometric.md, "Vectors".
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "spec/geometric/packets.h"
+#include "spec/geometric/parameters.h"
+
+namespace deburr::spec::geometric {
+
+// ---- frames -------------------------------------------------------------------------------------
+
+// Where the regions lie, in the order of Region.
+inline constexpr std::array<std::uint32_t, 7> kVectorBases = {0x30000, 0x10000, 0x20000, 0x40000,
+                                                              0x60000, 0x50000, 0x70000};
+
+struct FrameHashes {
+  std::uint64_t pixels = 0, weights = 0, traffic = 0;
+};
+
+// Lines of memory; colours are read from the copy with frame_copy.
+struct FrameLines {
+  std::uint64_t vertex_reads = 0, depth_reads = 0, weight_reads = 0, weight_writes = 0,
+                colour_reads = 0, colour_writes = 0;
+};
+
+struct FrameResult {
+  FrameHashes hashes;
+  Work work;
+  FrameLines lines;
+
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("pixels", self.hashes.pixels);
+    visit("weights", self.hashes.weights);
+    visit("traffic", self.hashes.traffic);
+    visit("edges", self.work.edges);
+    visit("boundary", self.work.boundary_edges);
+    visit("silhouette", self.work.silhouette_edges);
+    visit("back", self.work.back_edges);
+    visit("crease", self.work.crease_edges);
+    visit("flat", self.work.flat_edges);
+    visit("invalid", self.work.invalid_edges);
+    visit("kept", self.work.kept_edges);
+    visit("outside", self.work.outside_edges);
+    visit("degenerate", self.work.degenerate_edges);
+    visit("empty", self.work.empty_edges);
+    visit("lines", self.work.lines);
+    visit("columns", self.work.columns);
+    visit("groups", self.work.groups);
+    visit("candidates", self.work.candidates);
+    visit("passed", self.work.passed);
+    visit("blocks", self.work.blocks);
+    visit("blended", self.work.blended_pixels);
+    visit("vertex lines read", self.lines.vertex_reads);
+    visit("depth lines read", self.lines.depth_reads);
+    visit("weight lines read", self.lines.weight_reads);
+    visit("weight lines written", self.lines.weight_writes);
+    visit("colour lines read", self.lines.colour_reads);
+    visit("colour lines written", self.lines.colour_writes);
+  }
+};
+
+// The contract's frame of random edges.
+struct FrameVector {
+  char name;
+  Preset preset;
+  // Beside the preset, by the names and values of describe(): "walkers=1 mark=true".
+  std::string_view settings;
+  FrameResult result;
+};
+
+inline constexpr std::array<FrameVector, 8> kFrameVectors = {{
+    {'a',
+     Preset::kDeburr,
+     "",
+     {{0xbfce4abe8f3b22f8, 0x6cc78624e74c2575, 0x05d525abe62406ac},
+      {300, 164, 63, 29, 20, 12, 12, 247, 5, 1, 15, 226, 6686, 2332, 5953, 4779, 191, 2148},
+      {50, 722, 438, 438, 579, 191}}},
+    {'b',
+     Preset::kDeburr,
+     "layout=raster",
+     {{0xbfce4abe8f3b22f8, 0x6cc78624e74c2575, 0x1cca5c4cd350ef99},
+      {300, 164, 63, 29, 20, 12, 12, 247, 5, 1, 15, 226, 6686, 2332, 5953, 4779, 191, 2148},
+      {50, 1086, 438, 438, 989, 686}}},
+    {'c',
+     Preset::kDeburr,
+     "walkers=1 depth_lines=16 weight_blocks=16 vertex_lines=16",
+     {{0xbfce4abe8f3b22f8, 0x6cc78624e74c2575, 0x3d300c73436d0324},
+      {300, 164, 63, 29, 20, 12, 12, 247, 5, 1, 15, 226, 6686, 6686, 5953, 4779, 191, 2148},
+      {351, 2347, 1763, 1763, 579, 191}}},
+    {'d',
+     Preset::kDeburr,
+     "layout=raster walkers=2 depth_lines=16 weight_blocks=16 vertex_lines=16",
+     {{0xbfce4abe8f3b22f8, 0x6cc78624e74c2575, 0x0290086e5caa5d65},
+      {300, 164, 63, 29, 20, 12, 12, 247, 5, 1, 15, 226, 6686, 3777, 5953, 4779, 191, 2148},
+      {351, 3949, 1763, 1763, 989, 686}}},
+    {'e',
+     Preset::kGpaaOptimised,
+     "",
+     {{0x31c35ac184f4e760, 0xbadcaac952dfc9ed, 0x9273c837cbb2c537},
+      {300, 164, 63, 29, 16, 16, 12, 243, 5, 1, 15, 222, 6607, 2311, 5861, 4683, 191, 2126},
+      {50, 707, 421, 421, 535, 191}}},
+    {'f',
+     Preset::kGpaa,
+     "",
+     {{0x9e2d94b3be2f9be4, 0x9d0d9b07b9151d21, 0xe27e145fd8e2b753},
+      {300, 166, 0, 0, 0, 0, 4, 296, 5, 1, 18, 272, 8105, 2864, 7264, 5815, 191, 2302},
+      {50, 871, 539, 539, 574, 191}}},
+    {'g',
+     Preset::kDeburr,
+     "crease=off depth_test=own depth_bias=4 linear_light=false mark=true layout=raster walkers=2",
+     {{0x812d11a355250433, 0xea5cdef281327420, 0xd29f2a365f31ea07},
+      {300, 164, 63, 29, 0, 32, 12, 227, 5, 1, 15, 206, 6087, 3446, 5390, 3512, 187, 1746},
+      {50, 912, 330, 330, 941, 664}}},
+    {'h',
+     Preset::kDeburr,
+     "select=all depth_test=off layout=raster weight_blocks=16",
+     {{0x095774cc41e669b3, 0x721dca7bb6a8d77f, 0xd81315c6f0a3ee49},
+      {300, 166, 0, 0, 0, 0, 4, 296, 5, 1, 18, 272, 8105, 2864, 7264, 7264, 191, 2461},
+      {50, 0, 2372, 2372, 1069, 701}}},
+}};
+
+// ---- lines --------------------------------------------------------------------------------------
+
+inline constexpr int kLineVectorWidth = 1280, kLineVectorHeight = 720;
+
+struct LineEnd {
+  std::int32_t major, minor;  // 1/256 pixel
+  std::uint32_t depth;
+};
+
+struct LineResult {
+  std::int64_t first = 0, count = 0, position = 0, slope = 0, depth = 0, step = 0;
+
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("first", self.first);
+    visit("count", self.count);
+    visit("position", self.position);
+    visit("slope", self.slope);
+    visit("depth", self.depth);
+    visit("step", self.step);
+  }
+};
+
+struct LineVector {
+  LineEnd a, b;  // in either order
+  Axis axis;     // major
+  LineResult result;
+};
+
+inline constexpr std::array<LineVector, 7> kLineVectors = {{
+    {{2624, 128, 1000000},
+     {5184, 1408, 2000000},
+     Axis::kHorizontal,
+     {10, 10, 10485888, 8388608, 4198399902, 409599975}},
+    {{7000, 100, 16777215},
+     {200000, -30000, 5},
+     Axis::kVertical,
+     {27, 693, 6144893, -2616550, 68705230854, -91151183}},
+    {{-4194304, -1000, 3000000},
+     {4194303, 150000, 9000000},
+     Axis::kHorizontal,
+     {0, 1280, 4882583128, 302000, 24576376464, 750000}},
+    {{128, 1000, 77777}, {129, 1000, 77777}, Axis::kHorizontal, {0, 1, 65536128, 0, 318574592, 0}},
+    {{1000, 1000, 500},
+     {1700, 700, 90000},
+     Axis::kHorizontal,
+     {4, 3, 61266926, -7190235, 81650820, 134067929}},
+    {{1000, 1000, 500},
+     {1301, 1300, 400},
+     Axis::kVertical,
+     {4, 1, 75464505, 16721478, 1841159, -348364}},
+    {{4000, 300, 5},
+     {180000, 300, 16000000},
+     Axis::kVertical,
+     {16, 687, 19660928, 0, 83426703, 95325058}},
+}};
+
+}  // namespace deburr::spec::geometric

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// What the morphological engine can be built with. Why: docs/morphological_engine.md,
+// "Configuration errors"; docs/morphological_smaa.md, "Errors".
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "spec/check_build.h"
+#include "spec/morphological/parameters.h"
+
+namespace deburr::spec::morphological {
+
+// Of a line of memory.
+inline constexpr std::int32_t kLinePixels = kFrameLineBytes / kFramePixelBytes;
+
+inline constexpr std::array<BuildRule<Parameters>, 8> kBuildRules = {{
+    {{"window_rows"},
+     "must be an even number of rows",
+     [](const Parameters& p) { return p.window_rows % 2 == 0; }},
+    {{"steps", "window_rows"},
+     "must be at most window_rows / 2 - 2, beyond which no row is in the window",
+     [](const Parameters& p) { return p.steps <= p.window_rows / 2 - 2; },
+     [](const Parameters& p) {
+       return "make it at most " + std::to_string(p.window_rows / 2 - 2) +
+              ", or give window_rows of at least " + std::to_string(2 * p.steps + 4);
+     }},
+    {{"edges.threshold_mode", "edges.source"},
+     "must be fixed with edges.source = predicated, which has thresholds of its own",
+     [](const Parameters& p) {
+       return p.edge_source != EdgeSource::kPredicated || p.threshold_mode == ThresholdMode::kFixed;
+     },
+     [](const Parameters&) -> std::string { return "use edges.threshold_mode = fixed"; }},
+    {{"edges.threshold_mode", "edges.source"},
+     "must be fixed with edges.source = colour, which has no luma for a dynamic one",
+     [](const Parameters& p) {
+       return p.edge_source != EdgeSource::kColour || p.threshold_mode == ThresholdMode::kFixed;
+     },
+     [](const Parameters&) -> std::string {
+       return "use edges.threshold_mode = fixed, or edges.source = luma";
+     }},
+    {{"area", "diagonals"},
+     "must not be learned with diagonals, without which shares were learned",
+     [](const Parameters& p) { return p.area != AreaSource::kLearned || !p.diagonals; }},
+    {{"area", "round_corners"},
+     "must not be learned with round_corners, without which shares were learned",
+     [](const Parameters& p) { return p.area != AreaSource::kLearned || !p.round_corners; }},
+    {{"diagonal_steps", "window_rows"},
+     "must be at most window_rows / 2 - 1 with diagonals, beyond which no row is in the window",
+     [](const Parameters& p) { return !p.diagonals || p.diagonal_steps <= p.window_rows / 2 - 1; },
+     [](const Parameters& p) {
+       return "make it at most " + std::to_string(p.window_rows / 2 - 1) +
+              ", or give window_rows of at least " + std::to_string(2 * p.diagonal_steps + 2);
+     }},
+    {{"line_pixels", "lanes", "storage"},
+     "must be at least 17 with lanes = 4 and storage = memory: a line of memory fills eight banks "
+     "of the pixels to be blended, and 16 pixels are four words",
+     [](const Parameters& p) {
+       return p.line_pixels > kLinePixels || p.lanes != Lanes::kFour ||
+              p.storage != Storage::kMemory;
+     }},
+}};
+
+inline std::span<const BuildRule<Parameters>> build_rules(const Parameters&) { return kBuildRules; }
+
+inline const Parameters& check_build(const Parameters& parameters) {
+  return spec::check_build("morphological", parameters);
+}
+
+}  // namespace deburr::spec::morphological

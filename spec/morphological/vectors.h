@@ -1,0 +1,585 @@
+// SPDX-License-Identifier: MIT
+// Test vectors of the morphological engine's contract: data that golden and hardware are held to,
+// and that the tables of docs/number_formats_morphological.md and docs/morphological_smaa.md are
+// made from. The images and the hash: docs/number_formats_morphological.md, "Test vectors".
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "spec/morphological/parameters.h"
+
+namespace deburr::spec::morphological {
+
+// ---- frames -------------------------------------------------------------------------------------
+
+enum class VectorImage : std::uint8_t { kNoise, kLine, kBlocks, kShades };
+inline constexpr std::array<std::string_view, 4> kVectorImageNames = {"noise", "line", "blocks",
+                                                                      "shades"};
+
+struct FrameResult {
+  std::uint64_t hash = 0;
+  std::uint64_t edge_pixels = 0, runs = 0, long_runs = 0, z_runs = 0, extended_runs = 0, steps = 0,
+                probes = 0, diagonal_pixels = 0, blended_pixels = 0;
+
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("hash", self.hash);
+    visit("edges", self.edge_pixels);
+    visit("runs", self.runs);
+    visit("long", self.long_runs);
+    visit("z", self.z_runs);
+    visit("extended", self.extended_runs);
+    visit("steps", self.steps);
+    visit("probes", self.probes);
+    visit("taken", self.diagonal_pixels);
+    visit("blended", self.blended_pixels);
+  }
+};
+
+struct FrameVector {
+  std::string_view name;
+  VectorImage image;
+  Preset preset;
+  Quality quality;  // of the presets that have qualities
+  // Beside the preset, by the names and values of describe(): "steps=4 linear_light=false".
+  std::string_view settings;
+  FrameResult result;
+};
+
+inline constexpr std::array<FrameVector, 18> kFrameVectors = {{
+    {"noise_mlaa",
+     VectorImage::kNoise,
+     Preset::kMlaa,
+     Quality::kHigh,
+     "",
+     {0x00b097db028f25fd, 4407, 2958, 0, 1390, 0, 0, 0, 0, 3175}},
+    {"noise_slope",
+     VectorImage::kNoise,
+     Preset::kMlaaSlope,
+     Quality::kHigh,
+     "",
+     {0x6c40266cf03f3513, 4407, 2958, 0, 1390, 671, 1062, 9200, 0, 3282}},
+    {"noise_deburr_line",
+     VectorImage::kNoise,
+     Preset::kDeburrLine,
+     Quality::kHigh,
+     "",
+     {0x2820122eb9f04a52, 4407, 2958, 0, 1390, 10, 10, 7378, 0, 3178}},
+    {"noise_deburr_line_codes",
+     VectorImage::kNoise,
+     Preset::kDeburrLine,
+     Quality::kHigh,
+     "linear_light=false",
+     {0x8a5e9cf3676d7e0d, 4407, 2958, 0, 1390, 10, 10, 7378, 0, 3178}},
+    {"line_mlaa",
+     VectorImage::kLine,
+     Preset::kMlaa,
+     Quality::kHigh,
+     "",
+     {0x5d62265609239471, 436, 241, 0, 232, 0, 0, 0, 0, 418}},
+    {"line_slope",
+     VectorImage::kLine,
+     Preset::kMlaaSlope,
+     Quality::kHigh,
+     "",
+     {0x75ccf871d174feaf, 436, 241, 0, 232, 162, 871, 2560, 0, 457}},
+    {"line_deburr_line",
+     VectorImage::kLine,
+     Preset::kDeburrLine,
+     Quality::kHigh,
+     "",
+     {0x736d3ffd8a940ba4, 436, 241, 0, 232, 128, 584, 2832, 0, 425}},
+    {"line_deburr_line_16",
+     VectorImage::kLine,
+     Preset::kDeburrLine,
+     Quality::kHigh,
+     "steps=16 edges.local_contrast=paper",
+     {0x460d3c72f9dd7681, 436, 241, 0, 232, 128, 728, 3244, 0, 425}},
+    {"line_slope_fit",
+     VectorImage::kLine,
+     Preset::kMlaaSlope,
+     Quality::kHigh,
+     "predictor=fit",
+     {0x60fe73fcc1c70e9f, 436, 241, 0, 232, 162, 871, 2560, 0, 455}},
+    {"blocks_mlaa",
+     VectorImage::kBlocks,
+     Preset::kMlaa,
+     Quality::kHigh,
+     "window_rows=20 reach_columns=9",
+     {0xfd1df0fe5908eab2, 1595, 1036, 19, 470, 0, 0, 0, 0, 1186}},
+    {"blocks_slope",
+     VectorImage::kBlocks,
+     Preset::kMlaaSlope,
+     Quality::kHigh,
+     "steps=4 window_rows=20 reach_columns=9",
+     {0x5f03ca34a84ea782, 1595, 1036, 19, 470, 238, 626, 4119, 0, 1193}},
+    {"blocks_deburr_line",
+     VectorImage::kBlocks,
+     Preset::kDeburrLine,
+     Quality::kHigh,
+     "steps=4 window_rows=20 reach_columns=9",
+     {0xbc2f9325b6057e5e, 1870, 1198, 24, 536, 204, 528, 4235, 0, 1386}},
+    {"blocks_chord_safe",
+     VectorImage::kBlocks,
+     Preset::kMlaaSlope,
+     Quality::kHigh,
+     "safe=true edges.threshold=1311 edges.local_contrast=paper linear_light=false window_rows=20 "
+     "reach_columns=9",
+     {0xdda27397e1d7e1a8, 1808, 1213, 15, 531, 262, 655, 4442, 0, 1354}},
+    {"blocks_deburr_line_small",
+     VectorImage::kBlocks,
+     Preset::kDeburrLine,
+     Quality::kHigh,
+     "steps=3 window_rows=10 reach_columns=7",
+     {0xa765ccb0279eaaf0, 1870, 1198, 28, 536, 204, 314, 3587, 0, 1364}},
+    {"blocks_slope_wide",
+     VectorImage::kBlocks,
+     Preset::kMlaaSlope,
+     Quality::kHigh,
+     "steps=8 window_rows=20 reach_columns=30",
+     {0xdc30d70a15925762, 1595, 1036, 14, 470, 239, 1315, 5984, 0, 1268}},
+    {"blocks_slope_trim",
+     VectorImage::kBlocks,
+     Preset::kMlaaSlope,
+     Quality::kHigh,
+     "steps=8 trim=true window_rows=20 reach_columns=30",
+     {0x4a46970faa1de0ac, 1595, 1036, 14, 470, 180, 992, 5984, 0, 1276}},
+    {"blocks_deburr_line_default",
+     VectorImage::kBlocks,
+     Preset::kDeburrLine,
+     Quality::kHigh,
+     "",
+     {0xe86c7f9318eacf5e, 1870, 1198, 0, 538, 168, 660, 5382, 0, 1552}},
+    {"blocks_not_trimmed",
+     VectorImage::kBlocks,
+     Preset::kDeburrLine,
+     Quality::kHigh,
+     "trim=false",
+     {0x464376bac387fe0d, 1870, 1198, 0, 538, 222, 970, 5382, 0, 1552}},
+}};
+
+inline constexpr std::array<FrameVector, 33> kSmaaFrameVectors = {{
+    {"smaa_noise_low",
+     VectorImage::kNoise,
+     Preset::kSmaa,
+     Quality::kLow,
+     "",
+     {0x605145727a436382, 4407, 4436, 0, 925, 0, 0, 0, 0, 3623}},
+    {"smaa_noise_medium",
+     VectorImage::kNoise,
+     Preset::kSmaa,
+     Quality::kMedium,
+     "",
+     {0x605145727a436382, 4407, 4436, 0, 925, 0, 0, 0, 0, 3623}},
+    {"smaa_noise_high",
+     VectorImage::kNoise,
+     Preset::kSmaa,
+     Quality::kHigh,
+     "",
+     {0x3d8c8d3867fd2bcc, 4407, 4436, 0, 925, 0, 0, 0, 233, 3645}},
+    {"smaa_noise_ultra",
+     VectorImage::kNoise,
+     Preset::kSmaa,
+     Quality::kUltra,
+     "",
+     {0x3d8c8d3867fd2bcc, 4407, 4436, 0, 925, 0, 0, 0, 233, 3645}},
+    {"smaa_line_low",
+     VectorImage::kLine,
+     Preset::kSmaa,
+     Quality::kLow,
+     "",
+     {0x6d7640674377e6eb, 436, 243, 0, 234, 0, 0, 0, 0, 491}},
+    {"smaa_line_medium",
+     VectorImage::kLine,
+     Preset::kSmaa,
+     Quality::kMedium,
+     "",
+     {0x5729d03a1f181768, 436, 243, 0, 234, 0, 0, 0, 0, 491}},
+    {"smaa_line_high",
+     VectorImage::kLine,
+     Preset::kSmaa,
+     Quality::kHigh,
+     "",
+     {0x1038e74b0d3dfd71, 436, 243, 0, 234, 0, 0, 0, 44, 480}},
+    {"smaa_line_ultra",
+     VectorImage::kLine,
+     Preset::kSmaa,
+     Quality::kUltra,
+     "",
+     {0x1038e74b0d3dfd71, 436, 243, 0, 234, 0, 0, 0, 44, 480}},
+    {"smaa_blocks_low",
+     VectorImage::kBlocks,
+     Preset::kSmaa,
+     Quality::kLow,
+     "",
+     {0x21fbea358d934b64, 1549, 1127, 0, 452, 0, 0, 0, 0, 1331}},
+    {"smaa_blocks_medium",
+     VectorImage::kBlocks,
+     Preset::kSmaa,
+     Quality::kMedium,
+     "",
+     {0xe378f8a6cdf4e692, 1549, 1127, 0, 452, 0, 0, 0, 0, 1371}},
+    {"smaa_blocks_high",
+     VectorImage::kBlocks,
+     Preset::kSmaa,
+     Quality::kHigh,
+     "",
+     {0x7091425e2ea8d179, 1549, 1127, 0, 452, 0, 0, 0, 4, 1372}},
+    {"smaa_blocks_ultra",
+     VectorImage::kBlocks,
+     Preset::kSmaa,
+     Quality::kUltra,
+     "",
+     {0x8e93f1ba695ffc8a, 1808, 1331, 0, 540, 0, 0, 0, 8, 1608}},
+    {"smaa_blocks_dynamic",
+     VectorImage::kBlocks,
+     Preset::kSmaaDynamic,
+     Quality::kHigh,
+     "",
+     {0x8954dcb4dfbc0839, 1698, 1232, 0, 500, 0, 0, 0, 4, 1502}},
+    {"smaa_blocks_longest",
+     VectorImage::kBlocks,
+     Preset::kSmaa,
+     Quality::kHigh,
+     "blend=longest",
+     {0x3394fabdc8ce9a00, 1549, 1127, 0, 452, 0, 0, 0, 4, 1372}},
+    {"smaa_blocks_codes",
+     VectorImage::kBlocks,
+     Preset::kSmaa,
+     Quality::kHigh,
+     "linear_light=false",
+     {0x04a67b4d5a8b7973, 1549, 1127, 0, 452, 0, 0, 0, 4, 1372}},
+    {"smaa_blocks_analytic",
+     VectorImage::kBlocks,
+     Preset::kSmaa,
+     Quality::kHigh,
+     "area=analytic",
+     {0xc0ea4a726d0468d5, 1549, 1127, 0, 452, 0, 0, 0, 4, 1311}},
+    {"smaa_blocks_runs_alone",
+     VectorImage::kBlocks,
+     Preset::kSmaa,
+     Quality::kHigh,
+     "diagonals=false round_corners=false",
+     {0x475b72ab303e54ac, 1549, 1127, 0, 452, 0, 0, 0, 0, 1376}},
+    {"smaa_blocks_gaps",
+     VectorImage::kBlocks,
+     Preset::kSmaa,
+     Quality::kHigh,
+     "ends=gaps",
+     {0x3695452169102f8d, 1549, 1034, 0, 443, 0, 0, 0, 4, 1283}},
+    {"smaa_blocks_small",
+     VectorImage::kBlocks,
+     Preset::kSmaa,
+     Quality::kHigh,
+     "window_rows=20 reach_columns=9 diagonal_steps=8",
+     {0x318127a57f0754f1, 1549, 1127, 13, 451, 0, 0, 0, 4, 1269}},
+    {"smaa_blocks_blunt",
+     VectorImage::kBlocks,
+     Preset::kSmaa,
+     Quality::kHigh,
+     "corner_rounding=256",
+     {0xcd1f206fe12a7f9f, 1549, 1127, 0, 452, 0, 0, 0, 4, 1376}},
+    {"smaa_blocks_mlaa",
+     VectorImage::kBlocks,
+     Preset::kMlaa,
+     Quality::kHigh,
+     "ends=crossings diagonals=true diagonal_steps=16 round_corners=true corner_rounding=64",
+     {0x79094ad57908c708, 1595, 1179, 0, 464, 0, 0, 0, 4, 1407}},
+    {"smaa_blocks_paper",
+     VectorImage::kBlocks,
+     Preset::kSmaa,
+     Quality::kHigh,
+     "edges.local_contrast=paper",
+     {0x7091425e2ea8d179, 1549, 1127, 0, 452, 0, 0, 0, 4, 1372}},
+    {"smaa_blocks_few_steps",
+     VectorImage::kBlocks,
+     Preset::kSmaa,
+     Quality::kUltra,
+     "search_steps=1 diagonal_steps=2",
+     {0x890ac47d7405b8c7, 1808, 1331, 0, 540, 0, 0, 0, 2, 1407}},
+    {"smaa_shades_high",
+     VectorImage::kShades,
+     Preset::kSmaa,
+     Quality::kHigh,
+     "",
+     {0x707dcf0adeff2653, 722, 233, 0, 141, 0, 0, 0, 0, 740}},
+    {"smaa_shades_514",
+     VectorImage::kShades,
+     Preset::kSmaa,
+     Quality::kHigh,
+     "edges.threshold=514",
+     {0x6efbd85401fe9778, 1763, 745, 0, 346, 0, 0, 0, 0, 1446}},
+    {"smaa_shades_514_paper",
+     VectorImage::kShades,
+     Preset::kSmaa,
+     Quality::kHigh,
+     "edges.threshold=514 edges.local_contrast=paper",
+     {0xcbdfbd0fa8c57f10, 1750, 739, 0, 340, 0, 0, 0, 0, 1455}},
+    {"smaa_shades_dynamic",
+     VectorImage::kShades,
+     Preset::kSmaaDynamic,
+     Quality::kHigh,
+     "",
+     {0xcbdfbd0fa8c57f10, 1750, 739, 0, 340, 0, 0, 0, 0, 1455}},
+    {"smaa_shades_dynamic_floor",
+     VectorImage::kShades,
+     Preset::kSmaaDynamic,
+     Quality::kHigh,
+     "edges.floor=1",
+     {0x2a0a4529eba2b538, 2771, 1813, 0, 536, 0, 0, 0, 19, 2203}},
+    {"smaa_shades_dynamic_alpha",
+     VectorImage::kShades,
+     Preset::kSmaaDynamic,
+     Quality::kHigh,
+     "edges.alpha=13107",
+     {0x09daa7e5f48a7931, 1596, 663, 0, 302, 0, 0, 0, 0, 1353}},
+    {"smaa_shades_current",
+     VectorImage::kShades,
+     Preset::kSmaaDynamic,
+     Quality::kHigh,
+     "edges.dynamic_luma=current edges.alpha=52429 edges.floor=1",
+     {0x86b25eb49b0d2fee, 1233, 837, 0, 259, 0, 0, 0, 10, 893}},
+    {"smaa_shades_max",
+     VectorImage::kShades,
+     Preset::kSmaaDynamic,
+     Quality::kHigh,
+     "edges.dynamic_luma=max edges.alpha=52429 edges.floor=1",
+     {0xba424a04a7396185, 901, 531, 0, 135, 0, 0, 0, 6, 603}},
+    {"smaa_shades_min",
+     VectorImage::kShades,
+     Preset::kSmaaDynamic,
+     Quality::kHigh,
+     "edges.dynamic_luma=min edges.alpha=52429 edges.floor=1",
+     {0x1a3348ed21c1d79c, 2068, 1224, 0, 380, 0, 0, 0, 15, 1672}},
+    {"smaa_shades_mean",
+     VectorImage::kShades,
+     Preset::kSmaaDynamic,
+     Quality::kHigh,
+     "edges.dynamic_luma=mean edges.alpha=52429 edges.floor=1",
+     {0x5e97e28f2b5f7944, 1661, 826, 0, 276, 0, 0, 0, 6, 1330}},
+}};
+
+// ---- runs ---------------------------------------------------------------------------------------
+
+struct RunResult {
+  std::int64_t scale = 0, offset = 0, slope = 0, inverse = 0, shift = 0, span = 0;
+
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("scale", self.scale);
+    visit("offset", self.offset);
+    visit("slope", self.slope);
+    visit("inverse", self.inverse);
+    visit("shift", self.shift);
+    visit("span", self.span);
+  }
+};
+
+// The fitted line through a run between two of the corners, from the first side to the second.
+struct RunVector {
+  std::array<int, 5> corners;  // in order; the first `count`
+  int count;
+  int start;  // index of the corner where the run starts; it ends at the next one
+  RunResult result;
+  std::string_view shares;  // of each pixel: b before, a after
+};
+
+inline constexpr std::array<RunVector, 6> kRunVectors = {{
+    {{0, 1}, 2, 0, {2, 1, 8388608, 4096, 0, 1}, "b32/a32"},
+    {{0, 3}, 2, 0, {2, 3, 2796203, 12288, 0, 3}, "b85 b11/a11 a85"},
+    {{0, 4}, 2, 0, {2, 4, 2097152, 16384, 0, 4}, "b96 b32 a32 a96"},
+    {{0, 7}, 2, 0, {2, 7, 1198373, 28672, 0, 7}, "b110 b73 b37 b5/a5 a37 a73 a110"},
+    {{-3, 0, 3, 5, 8}, 5, 1, {5, 13, 1242757, 11059, 1, 11}, "b71 b3/a27 a119"},
+    {{0, 5, 11, 16}, 4, 0, {4, 32, 776723, 22118, 2, 16}, "b100 b52 b9/a4 a43 a90"},
+}};
+
+// ---- SMAA: shares of every edge -----------------------------------------------------------------
+
+struct PatternResult {
+  std::uint64_t hash = 0, diagonal_pixels = 0;
+
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("hash", self.hash);
+    visit("taken", self.diagonal_pixels);
+  }
+};
+
+struct PatternVector {
+  std::string_view name;
+  Quality quality;
+  std::string_view rows;    // a digit a pixel, 0 black and 1 white; a space between two rows
+  std::string_view shares;  // t(x,y), l(x,y) first/second: of the top and left edges that have some
+  PatternResult result;
+};
+
+inline constexpr std::array<PatternVector, 13> kPatternVectors = {{
+    {"L",
+     Quality::kHigh,
+     "00000000 00001111 11111111",
+     "t(4,1) 0/92, t(5,1) 0/33, t(6,1) 0/6, t(1,2) 6/0, t(2,2) 33/0, t(3,2) 92/0, l(4,1) 20/20",
+     {0xdc434f535507471c, 0}},
+    {"Z",
+     Quality::kHigh,
+     "00000000 00000011 00011111 11111111",
+     "t(6,1) 0/64, t(3,2) 0/80, t(4,2) 11/11, t(5,2) 80/0, t(1,3) 11/0, t(2,3) 80/0, l(6,1) 20/20, "
+     "l(3,2) 20/20",
+     {0xb019acef57e519cc, 0}},
+    {"U 1",
+     Quality::kHigh,
+     "00000 00100 11111",
+     "t(2,1) 0/126, t(1,2) 64/0, t(3,2) 64/0, l(2,1) 20/20, l(3,1) 20/20",
+     {0x958723b268d2f185, 0}},
+    {"U 4",
+     Quality::kHigh,
+     "000000 011110 111111",
+     "t(1,1) 0/106, t(2,1) 0/76, t(3,1) 0/76, t(4,1) 0/106, t(0,2) 32/0, t(5,2) 32/0, l(1,1) "
+     "32/20, l(5,1) 20/32",
+     {0xb8be7d490bcd6ccd, 0}},
+    {"T",
+     Quality::kHigh,
+     "000000 000111 111000 111000",
+     "t(3,1) 0/20, t(4,1) 0/7, l(3,1) 20/8",
+     {0x6a61b9241869d9bf, 0}},
+    {"box",
+     Quality::kHigh,
+     "00000000 00000000 00111100 00111100 00111100 00111100 00000000 00000000",
+     "t(2,2) 0/27, t(3,2) 0/19, t(4,2) 0/19, t(5,2) 0/27, t(2,6) 27/0, t(3,6) 19/0, t(4,6) 19/0, "
+     "t(5,6) 27/0, l(2,2) 0/27, l(6,2) 27/0, l(2,3) 0/19, l(6,3) 19/0, l(2,4) 0/19, l(6,4) 19/0, "
+     "l(2,5) 0/27, l(6,5) 27/0",
+     {0xebc16294237c987b, 0}},
+    {"dot",
+     Quality::kHigh,
+     "000 010 000",
+     "t(1,1) 0/126, t(1,2) 126/0, l(1,1) 0/126, l(2,1) 126/0",
+     {0x7a6d46cfea983378, 0}},
+    {"/",
+     Quality::kHigh,
+     "00000000 00000001 00000011 00000111 00001111 00011111 00111111 01111111 11111111",
+     "t(7,1) 62/66, t(6,2) 62/66, t(5,3) 62/66, t(4,4) 62/66, t(3,5) 62/66, t(2,6) 62/66, t(1,7) "
+     "62/66, t(0,8) 62/66",
+     {0x558a9522fb4d9117, 8}},
+    {"\\",
+     Quality::kHigh,
+     "00000000 10000000 11000000 11100000 11110000 11111000 11111100 11111110 11111111",
+     "t(0,1) 66/62, t(1,2) 66/62, t(2,3) 66/62, t(3,4) 66/62, t(4,5) 66/62, t(5,6) 66/62, t(6,7) "
+     "66/62, t(7,8) 66/62, l(1,1) 32/32, l(2,2) 32/32, l(3,3) 32/32, l(4,4) 32/32, l(5,5) 32/32, "
+     "l(6,6) 32/32, l(7,7) 32/32",
+     {0x2304187888eafbd3, 8}},
+    {"/, medium",
+     Quality::kMedium,
+     "00000000 00000001 00000011 00000111 00001111 00011111 00111111 01111111 11111111",
+     "t(7,1) 0/32, t(6,2) 32/32, t(5,3) 32/32, t(4,4) 32/32, t(3,5) 32/32, t(2,6) 32/32, t(1,7) "
+     "32/32, t(0,8) 32/0, l(7,1) 32/32, l(6,2) 32/32, l(5,3) 32/32, l(4,4) 32/32, l(3,5) 32/32, "
+     "l(2,6) 32/32, l(1,7) 32/32",
+     {0xf80969849600eed9, 0}},
+    {"/ of 3",
+     Quality::kHigh,
+     "000000 000001 000011 000111 111111",
+     "t(5,1) 62/49, t(4,2) 68/23, t(3,3) 84/7, t(1,4) 11/0, t(2,4) 110/0",
+     {0x8543d3ea87aa57c7, 4}},
+    {"line", Quality::kHigh, "0000000 1111111 0000000 0000000", "", {0x7cc1f94de234a73e, 0}},
+    {"X",
+     Quality::kHigh,
+     "1000001 0100010 0010100 0001000 0010100 0100010 1000001",
+     "t(0,1) 66/62, t(1,1) 66/62, t(5,1) 62/66, t(6,1) 62/66, t(1,2) 66/62, t(2,2) 66/62, t(4,2) "
+     "62/66, t(5,2) 62/66, t(2,3) 66/62, t(3,3) 128/128, t(4,3) 62/66, t(2,4) 62/66, t(3,4) "
+     "128/128, t(4,4) 66/62, t(1,5) 62/66, t(2,5) 62/66, t(4,5) 66/62, t(5,5) 66/62, t(0,6) 62/66, "
+     "t(1,6) 62/66, t(5,6) 66/62, t(6,6) 66/62, l(2,1) 20/32, l(3,2) 20/8, l(5,4) 20/32, l(6,5) "
+     "20/32",
+     {0x895be1fc39db8046, 22}},
+}};
+
+// ---- SMAA: the limit of the searches ------------------------------------------------------------
+
+struct LimitResult {
+  std::uint64_t hash = 0;
+
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("hash", self.hash);
+  }
+};
+
+// A Z alone in a frame, with quality low.
+struct LimitVector {
+  int length;
+  std::string_view shares;  // first/second of each pixel
+  LimitResult result;
+};
+
+inline constexpr std::array<LimitVector, 8> kLimitVectors = {{
+    {7, "0/108 0/71 1/39 15/15 39/1 71/0 108/0", {0xe0cf11779ed61561}},
+    {8, "0/111 0/77 1/47 3/20 20/3 47/1 77/0 111/0", {0x0b98d3da08cdb033}},
+    {9, "0/113 0/83 1/54 2/29 4/4 29/2 54/1 83/0 111/0", {0x397f51f99bc1832c}},
+    {10, "0/113 0/88 1/61 1/37 3/13 13/3 37/1 61/1 83/0 111/0", {0xa1c7aefa4eebd713}},
+    {16,
+     "0/113 0/88 0/67 0/52 0/38 0/30 0/22 6/14 11/0 17/0 24/0 31/0 45/0 61/0 83/0 111/0",
+     {0x8c0d81aa15da0d58}},
+    {17,
+     "0/113 0/88 0/67 0/52 0/38 0/30 0/22 0/14 6/0 11/0 17/0 24/0 31/0 45/0 61/0 83/0 111/0",
+     {0xaf167b0a5617a372}},
+    {18,
+     "0/113 0/88 0/67 0/52 0/38 0/30 0/22 0/14 0/0 6/0 11/0 17/0 24/0 31/0 45/0 61/0 83/0 111/0",
+     {0x1b0fa9c922dfd0bc}},
+    {19,
+     "0/113 0/88 0/67 0/52 0/38 0/30 0/22 0/14 0/0 0/0 6/0 11/0 17/0 24/0 31/0 45/0 61/0 83/0 "
+     "111/0",
+     {0x500ba26700ba1eb6}},
+}};
+
+// ---- SMAA: tables -------------------------------------------------------------------------------
+
+struct TableHashes {
+  std::uint64_t half = 0, dip = 0, roots = 0, mix = 0, diagonals = 0;
+
+  // By the names that the page gives the tables.
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("T", self.half);
+    visit("U", self.dip);
+    visit("S", self.roots);
+    visit("R", self.mix);
+    visit("D", self.diagonals);
+  }
+};
+
+// What is hashed, in this order; numbers over 255 by their bytes, highest first.
+inline constexpr std::array<std::string_view, 5> kTableOrders = {
+    "i, j = 0..15", "i, j = 0..15", "d = 0..224, 2 bytes", "s = 0..510, 3 bytes",
+    "e1, e2 = 0..3, d1, d2 = 0..19, A, B"};
+inline constexpr TableHashes kTableHashes = {0x08fb6f2f5185e12b, 0x4091cb22adf7523a,
+                                             0x0cdd319ff9fc3614, 0xd96f58a228eff378,
+                                             0xbd207affdb832b8f};
+
+// Shares after interpolation, of the distances l and r.
+struct TableResult {
+  std::uint64_t half = 0, dip = 0;
+
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("T", self.half);
+    visit("U", self.dip);
+  }
+};
+
+struct TableVector {
+  int l, r;
+  TableResult result;
+};
+
+inline constexpr std::array<TableVector, 9> kTableVectors = {{
+    {0, 0, {32, 126}},
+    {0, 1, {64, 89}},
+    {1, 2, {33, 76}},
+    {2, 3, {30, 67}},
+    {3, 3, {15, 56}},
+    {5, 7, {24, 47}},
+    {31, 32, {7, 11}},
+    {223, 224, {1, 1}},
+    {0, 224, {128, 128}},
+}};
+
+}  // namespace deburr::spec::morphological

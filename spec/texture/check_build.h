@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// What the texture unit can be built with. Why: docs/texture_unit.md, "Tags" and "Footprint".
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "spec/check_build.h"
+#include "spec/texture/parameters.h"
+
+namespace deburr::spec::texture {
+
+constexpr bool is_power_of_two(std::int32_t value) {
+  return value > 0 && std::has_single_bit(static_cast<std::uint32_t>(value));
+}
+// Clocks that leave two directions for each: 1, 2, 4 of two, four, eight.
+constexpr std::int32_t most_axis_clocks(Axes axes) { return 1 << static_cast<std::int32_t>(axes); }
+
+inline constexpr std::array<BuildRule<Parameters>, 8> kBuildRules = {{
+    {{"cache.bytes"},
+     "must be a power of two",
+     [](const Parameters& p) { return is_power_of_two(p.cache_bytes); }},
+    {{"cache.line_bytes"},
+     "must be a power of two",
+     [](const Parameters& p) { return is_power_of_two(p.cache_line_bytes); }},
+    {{"cache.ways"},
+     "must be a power of two",
+     [](const Parameters& p) { return is_power_of_two(p.cache_ways); }},
+    {{"cache.bytes", "cache.line_bytes", "cache.ways"},
+     "must hold one set at least, a line for each way",
+     [](const Parameters& p) { return p.cache_bytes >= p.cache_line_bytes * p.cache_ways; },
+     [](const Parameters& p) {
+       return "make it at least " + std::to_string(p.cache_line_bytes * p.cache_ways) +
+              ", or lines or ways fewer";
+     }},
+    {{"cache.fifo_depth"},
+     "must be at least 2 places, since one is read and one written in every clock; 0 sizes it from "
+     "the latency of memory",
+     [](const Parameters& p) { return p.cache_fifo_depth != 1; }},
+    {{"axis_clocks"},
+     "must be a power of two",
+     [](const Parameters& p) { return is_power_of_two(p.axis_clocks); }},
+    {{"axis_clocks", "axes"},
+     "must be at most half of the directions, since at least two are measured in a clock",
+     [](const Parameters& p) { return p.axis_clocks <= most_axis_clocks(p.axes); },
+     [](const Parameters& p) {
+       return "make it at most " + std::to_string(most_axis_clocks(p.axes)) + " for " +
+              std::to_string(2 * most_axis_clocks(p.axes)) + " directions";
+     }},
+    {{"cache.bytes", "cache.line_bytes"},
+     "must be at most 512 lines, whose tags stand in flip-flops: four sets are read and written in "
+     "a clock, and more than 16 kbit of flip-flops is no memory",
+     [](const Parameters& p) { return p.cache_bytes <= kMostCacheLines * p.cache_line_bytes; },
+     [](const Parameters& p) {
+       return "make it at most " + std::to_string(kMostCacheLines * p.cache_line_bytes) +
+              ", or lines longer";
+     }},
+}};
+
+inline std::span<const BuildRule<Parameters>> build_rules(const Parameters&) { return kBuildRules; }
+
+inline const Parameters& check_build(const Parameters& parameters) {
+  return spec::check_build("texture", parameters);
+}
+
+}  // namespace deburr::spec::texture

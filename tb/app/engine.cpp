@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "tb/app/engine.h"
+
+#include <fmt/format.h>
+
+#include "spec/error.h"
+#include "tb/base/near_matches.h"
+
+namespace deburr::tb {
+
+std::unique_ptr<Engine> engine_named(const std::string& name) {
+  std::vector<std::string> known;
+  for (std::unique_ptr<Engine>& engine : engines()) {
+    if (engine->name() == name) return std::move(engine);
+    known.emplace_back(engine->name());
+  }
+  throw spec::ConfigError(fmt::format("no engine '{}'{} (known: {})", name,
+                                      did_you_mean(near_matches(name, known)),
+                                      fmt::join(known, ", ")));
+}
+
+std::vector<std::string> maps_of(const Engine& engine) {
+  std::vector<std::string> names;
+  for (const std::string_view map : engine.maps()) names.emplace_back(map);
+  for (const std::string_view part : engine.parts())
+    for (const std::string& map : maps_of(*engine_named(std::string(part))))
+      names.push_back(fmt::format("{}_{}", part, map));
+  return names;
+}
+
+}  // namespace deburr::tb

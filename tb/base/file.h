@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Reading what a user names (bounded, regular files only) and fingerprints for the manifest.
+// Writing is atomic_file.h.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace deburr::tb {
+
+// Reads a regular file of at most `max_bytes`; FileError otherwise.
+std::string read_file(const std::filesystem::path& file, std::size_t max_bytes);
+// SHA-256 of a file's content, lower-case hexadecimal.
+std::string sha256_of_file(const std::filesystem::path& file);
+std::string sha256(std::string_view bytes);
+
+}  // namespace deburr::tb

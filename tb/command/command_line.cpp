@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "tb/command/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "spec/error.h"
+#include "tb/base/file.h"
+#include "tb/base/headline.h"
+#include "tb/base/interrupt.h"
+#include "tb/base/near_matches.h"
+#include "tb/base/shell.h"
+#include "tb/results/build_info.h"
+#include "tb/results/parameter_set.h"
+
+namespace deburr::tb {
+namespace {
+
+using spec::ExitCode;
+
+constexpr std::size_t kMaxResultBytes = std::size_t{64} << 20;
+
+std::string quoted_command(int argc, char** argv) {
+  std::string command;
+  for (int i = 0; i < argc; ++i) command += (i > 0 ? " " : "") + shell_quoted(argv[i]);
+  return command;
+}
+
+int finish(const Outcome& outcome, const std::string& command, bool json) {
+  std::fflush(stdout);
+  if (json) {
+    nlohmann::ordered_json object = {
+        {"exit_code", outcome.code}, {"outcome", outcome.text}, {"command", command}};
+    if (!outcome.directory.empty()) {
+      object["directory"] = outcome.directory.string();
+      object["result"] = nlohmann::ordered_json::parse(
+          read_file(outcome.directory / outcome.result, kMaxResultBytes));
+    }
+    if (!outcome.comparison.empty())
+      object["comparison"] = nlohmann::ordered_json::parse(outcome.comparison);
+    fmt::print("{}\n", object.dump(2));
+    return outcome.code;
+  }
+  if (outcome.code != 0) fmt::print("REPRO: {}\n", command);
+  fmt::print("RESULT: {}\n", outcome.text);
+  return outcome.code;
+}
+
+// What was printed must have arrived: a full disk behind standard output is a failure too.
+int flushed(int code) {
+  errno = 0;
+  const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  const int reason = errno != 0 ? errno : EIO;
+  if (!lost) return code;
+  fmt::print(stderr, "deburr: standard output could not be written: {}\n", std::strerror(reason));
+  return code != 0 ? code : static_cast<int>(ExitCode::kFile);
+}
+
+// The message becomes the last line; with its details (a dump) it goes to the error stream.
+Outcome failure(int code, const char* kind, const std::string& text) {
+  fmt::print(stderr, "deburr: {}\n", text);
+  return {code, fmt::format("FAIL {}: {}", kind, headline(text))};
+}
+
+// Those without a group are started by the program itself, and nobody is told of them.
+std::vector<const CLI::App*> commands_of(const CLI::App& app) {
+  std::vector<const CLI::App*> commands = app.get_subcommands(nullptr);
+  std::erase_if(commands, [](const CLI::App* command) { return command->get_group().empty(); });
+  return commands;
+}
+
+std::string quoted_names(const std::vector<const CLI::App*>& commands) {
+  std::string names;
+  for (const CLI::App* command : commands)
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  return names;
+}
+
+// What is wrong with the command line, in the order in which it was written: CLI11 names the last
+// of what it could not place first, knows no near matches and not which page of help to look at.
+std::string explain(const CLI::App& app, int argc, char** argv, const std::string& complaint) {
+  const CLI::App* command = &app;
+  std::string path = "deburr";
+  const auto see = [&](const std::string& text) {
+    return fmt::format("{} (see {} --help)", text, path);
+  };
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const auto commands = commands_of(*command);
+    if (word.starts_with("--") && word.size() > 2) {
+      const std::string name = word.substr(0, word.find('='));
+      const CLI::Option* option = command->get_option_no_throw(name);
+      if (!option) {
+        std::vector<std::string> known;
+        for (const CLI::Option* other : command->get_options())
+          for (const std::string& long_name : other->get_lnames())
+            known.push_back("--" + long_name);
+        return see(
+            fmt::format("unknown option '{}'{}", name, did_you_mean(near_matches(name, known))));
+      }
+      if (name == word && option->get_items_expected_min() > 0) ++i;  // its value
+    } else if (!word.starts_with("-") && !commands.empty()) {
+      const auto next = std::find_if(commands.begin(), commands.end(),
+                                     [&](const CLI::App* c) { return c->get_name() == word; });
+      if (next == commands.end()) {
+        std::vector<std::string> known;
+        known.reserve(commands.size());
+        for (const CLI::App* other : commands) known.push_back(other->get_name());
+        return see(fmt::format("no '{} {}'{}, known are {}", path, word,
+                               did_you_mean(near_matches(word, known)), quoted_names(commands)));
+      }
+      command = *next;
+      path += " " + word;
+    }
+  }
+  if (const auto commands = commands_of(*command); !commands.empty())
+    return see(fmt::format("{} what? Known are {}", path, quoted_names(commands)));
+  return see(complaint);
+}
+
+int run(int argc, char** argv, void (*add)(CLI::App&, CommandLine&)) {
+  CLI::App app{"Cycle-accurate models of anti-aliasing hardware, checked against golden models.",
+               "deburr"};
+  app.set_version_flag("--version", [] {
+    const auto& build = build_info();
+    return fmt::format("deburr {} ({}), {}, SystemC {}", build.version, build.commit,
+                       build.compiler, build.systemc);
+  });
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 pass, 1 mismatch or worse, 2 usage or configuration, 3 simulation error or\n"
+      "--max-cycles reached, 4 deadlock, 5 file, 130 interrupted. The last line is RESULT: ..., "
+      "on\n"
+      "failure after REPRO: ...");
+  CommandLine line{quoted_command(argc, argv), argv, false, nullptr};
+  const auto ended = [&](const Outcome& outcome) { return finish(outcome, line.text, line.json); };
+  add(app, line);
+  try {
+    app.parse(argc, argv);
+    const Outcome outcome = line.action();
+    return outcome.text.empty() ? outcome.code : ended(outcome);
+  } catch (const CLI::Success& done) {  // --help, --version
+    return app.exit(done);
+  } catch (const CLI::ParseError& error) {
+    line.json = std::any_of(argv, argv + argc,
+                            [](const char* word) { return std::string_view(word) == "--json"; });
+    return ended(failure(static_cast<int>(ExitCode::kUsage), "usage",
+                         explain(app, argc, argv, error.what())));
+  } catch (const spec::Error& error) {
+    constexpr const char* kKinds[] = {"",           "mismatch", "configuration",
+                                      "simulation", "deadlock", "file"};
+    return ended(failure(static_cast<int>(error.code()), kKinds[static_cast<int>(error.code())],
+                         error.what()));
+  } catch (const std::bad_alloc&) {
+    return ended(failure(static_cast<int>(ExitCode::kSimulation), "simulation",
+                         "out of memory: use a smaller picture or fewer textures"));
+  } catch (const std::system_error& error) {  // fmt's, when standard output is full
+    return ended(failure(static_cast<int>(ExitCode::kFile), "file", error.what()));
+  } catch (const std::exception& error) {
+    return ended(failure(static_cast<int>(ExitCode::kSimulation), "simulation", error.what()));
+  }
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv, void (*add)(CLI::App& app, CommandLine& line)) {
+  let_full_files_fail();
+  return flushed(run(argc, argv, add));
+}
+
+}  // namespace deburr::tb

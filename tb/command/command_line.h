@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What the programs of the command have in common: they read the command line, hand over to one of
+// their commands, and turn every outcome into an exit code and a last line "RESULT: ...".
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace deburr::tb {
+
+struct Outcome {
+  int code = 0;
+  std::string text;                    // after "RESULT: "; empty: a command that only prints
+  std::filesystem::path directory{};   // of the results
+  std::string result = "result.json";  // in it: what --json shows
+  std::string comparison{};            // JSON that --json shows
+};
+
+struct CommandLine {
+  std::string text;   // as typed, and what does the same on another day
+  char** words;       // as main() was given them
+  bool json = false;  // the standard output is one JSON object
+  std::function<Outcome()> action;
+};
+
+// `add` adds the commands that the program has. Each leaves an action behind when it is the one
+// that was called. Returns the exit code.
+int run_command_line(int argc, char** argv, void (*add)(CLI::App& app, CommandLine& line));
+
+}  // namespace deburr::tb

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// `deburr params [UNIT]`: every parameter with kind, default, range, unit and meaning.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "spec/error.h"
+#include "tb/app/engine.h"
+#include "tb/app/reference_pages.h"
+#include "tb/base/near_matches.h"
+#include "tb/command/commands.h"
+#include "tb/results/parameter_set.h"
+
+namespace deburr::tb {
+namespace {
+
+struct ParamsCommand {
+  std::string unit, markdown;
+  bool c_header = false;
+};
+
+Outcome print_params(const ParamsCommand& command) {
+  const auto all = engines();
+  if (command.c_header) {
+    fmt::print("{}", registers_header(all));
+    return {};
+  }
+  if (command.markdown == "parameters") {
+    fmt::print("{}", parameters_page(all));
+    return {};
+  }
+  if (command.markdown == "statistics") {
+    fmt::print("{}", statistics_page(all));
+    return {};
+  }
+  if (command.markdown == "registers") {
+    fmt::print("{}", registers_page(all));
+    return {};
+  }
+  if (command.markdown == "coverage") {
+    fmt::print("{}", coverage_page(all));
+    return {};
+  }
+  if (command.markdown == "datasheets") {
+    fmt::print("{}", datasheets_page(all));
+    return {};
+  }
+  std::vector<std::string> groups;
+  std::vector<Parameter> shown;
+  std::vector<BuildLimit> limits;
+  for (const auto& engine : all) {
+    ParameterSet set;
+    RunParameters run = engine->run_parameters();
+    set.add("run", ParameterKind::kRun, run);
+    engine->add_parameters(set);
+    for (const Parameter& p : set.all()) {
+      const std::string group = p.name.substr(0, p.name.find('.'));
+      if (std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
+      const bool known = std::any_of(shown.begin(), shown.end(),
+                                     [&](const Parameter& other) { return other.name == p.name; });
+      if (!known && (command.unit.empty() || command.unit == group)) shown.push_back(p);
+    }
+    for (const BuildLimit& limit : set.build_limits()) {
+      const std::string& about = limit.parameters.front();
+      const bool known = std::find(limits.begin(), limits.end(), limit) != limits.end();
+      if (!known && (command.unit.empty() || command.unit == about.substr(0, about.find('.'))))
+        limits.push_back(limit);
+    }
+  }
+  if (shown.empty())
+    throw spec::ConfigError(fmt::format("no unit '{}'{} (known: {})", command.unit,
+                                        did_you_mean(near_matches(command.unit, groups)),
+                                        fmt::join(groups, ", ")));
+  std::size_t name = 0, kind = 0, value = 0, range = 0, unit = 0;
+  for (const Parameter& p : shown) {
+    kind = std::max(kind, kind_name(p).size());
+    name = std::max(name, p.name.size());
+    value = std::max(value, p.default_value.size());
+    range = std::max(range, std::min<std::size_t>(p.range.size(), 40));
+    unit = std::max(unit, p.unit.size());
+  }
+  for (const Parameter& p : shown)
+    fmt::print("{:{}}  {:{}}  {:{}}  {:{}}  {:{}}  {}\n", p.name, name, kind_name(p), kind,
+               p.default_value, value, p.range, range, p.unit, unit, p.meaning);
+  if (!limits.empty()) fmt::print("\nWhat hardware can be built with, beyond these ranges:\n");
+  for (const BuildLimit& limit : limits)
+    fmt::print("{:{}}  {}\n", limit.parameters.front(), name, limit.must);
+  return {};
+}
+
+}  // namespace
+
+void add_params(CLI::App& app, CommandLine& line) {
+  CLI::App* command =
+      app.add_subcommand("params", "List every parameter: kind, default, range, unit, meaning");
+  const auto options = std::make_shared<ParamsCommand>();
+  command->add_option("UNIT", options->unit,
+                      "Only these: run, scene, sampler, texture, memory, ...");
+  CLI::Option* const markdown =
+      command->add_option("--markdown", options->markdown,
+                          "Print a page of the docs instead: parameters, statistics, registers, "
+                          "coverage, datasheets");
+  markdown->expected(0, 1)
+      ->default_str("parameters")
+      ->check(CLI::IsMember({"parameters", "statistics", "registers", "coverage", "datasheets"}));
+  command
+      ->add_flag("--c-header", options->c_header,
+                 "Print the registers of every engine as a C header instead")
+      ->excludes(markdown);
+  command->callback(
+      [options, &line] { line.action = [options] { return print_params(*options); }; });
+}
+
+}  // namespace deburr::tb

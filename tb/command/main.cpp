@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// The `deburr` command.
+#include "tb/command/command_line.h"
+#include "tb/command/commands.h"
+
+int main(int argc, char** argv) {
+  return deburr::tb::run_command_line(argc, argv, [](CLI::App& app, deburr::tb::CommandLine& line) {
+    deburr::tb::add_run(app, line);
+    deburr::tb::add_papers(app, line, deburr::tb::start_papers);
+    deburr::tb::add_params(app, line);
+    deburr::tb::add_compare(app, line);
+    deburr::tb::add_report(app, line);
+    deburr::tb::add_sweep(app, line);
+    deburr::tb::add_regress(app, line);
+    deburr::tb::add_completion(app, line);
+  });
+}

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "tb/command/point_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <optional>
+#include <system_error>
+#include <thread>
+
+#include "spec/error.h"
+#include "tb/base/interrupt.h"
+#include "tb/results/report.h"
+#include "tb/sweep/slurm.h"
+#include "tb/sweep/status.h"
+
+namespace deburr::tb {
+
+namespace fs = std::filesystem;
+using spec::ExitCode;
+
+void add_point_options(CLI::App& command, PointOptions& options) {
+  command
+      .add_option("--slurm", options.slurm,
+                  "run: on Slurm as this YAML profile says, instead of here")
+      ->type_name("PROFILE");
+  command.add_option("--out", options.out, "Directory of points, cache and what is made of them")
+      ->type_name("DIR")
+      ->capture_default_str();
+  command.add_option("-j,--jobs", options.jobs, "Points at a time (the number of processors)")
+      ->check(CLI::Range(1u, 4096u));
+  command.add_flag("--retry", options.retry, "Run again what failed, too");
+  command.add_flag("--quiet", options.quiet, "Print nothing but errors and the line RESULT: ...");
+}
+
+// By itself CLI11 takes -1, and all that is too large, for the largest number, and nothing for
+// none.
+void add_seed(CLI::App& command, const std::string& meaning,
+              const std::function<void(std::uint64_t)>& take) {
+  const auto read = [take](const std::string& text) {
+    std::uint64_t seed = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, seed);
+    if (error != std::errc() || rest != end)
+      throw CLI::ValidationError("--seed", fmt::format("'{}' is no integer 0..{}", text,
+                                                       std::numeric_limits<std::uint64_t>::max()));
+    take(seed);
+  };
+  command.add_option_function<std::string>("--seed", read, meaning)->type_name("UINT");
+}
+
+std::string points_of(std::uint64_t number) {
+  return fmt::format("{} point{}", grouped(number), number == 1 ? "" : "s");
+}
+
+void say(const PointOptions& options, const std::string& text) {
+  if (!options.quiet) fmt::print("{}\n", text);
+}
+
+void say_left_out(const PointOptions& options, const Plan& plan) {
+  for (const std::string& left_out : plan.left_out) say(options, "left out    " + left_out);
+}
+
+RunSettings run_settings(const PointOptions& options) {
+  RunSettings settings;
+  settings.program = fs::read_symlink("/proc/self/exe").string();
+  settings.jobs =
+      options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
+  settings.quiet = options.quiet;
+  return settings;
+}
+
+int run_here(const Plan& plan, const SweepPlace& place, const std::vector<PlannedPoint>& points,
+             const RunSettings& settings) {
+  write_tasks(plan, place, place.directory, points, settings, 1);
+  note_start(place, points.size());
+  return run_ninja(place, points.size(), settings);
+}
+
+Outcome run_on_slurm(const PointOptions& options, const std::string& what, const Plan& plan,
+                     const SweepPlace& place, const std::vector<PlannedPoint>& points) {
+  const SlurmJob job =
+      submit(plan, place, points, read_profile(options.slurm), run_settings(options));
+  note_start(place, points.size());
+  return {0, fmt::format("PASS {}: {} submitted as {} task{} of job {}; 'status' shows how far it "
+                         "is",
+                         what, points_of(points.size()), grouped(job.tasks),
+                         job.tasks == 1 ? "" : "s", job.id)};
+}
+
+Outcome ended(const PointOptions& options, const std::string& what, const SweepPlace& place,
+              std::uint64_t before, int code) {
+  const std::uint64_t points = read_plan(place.directory).points;
+  const Status status = look(place);
+  const std::string figures =
+      fmt::format("{}, {} done ({} in this run), {} failed, {} missing; {}", points_of(points),
+                  grouped(status.done), grouped(status.done - std::min(status.done, before)),
+                  grouped(status.failed), grouped(points - status.done - status.failed),
+                  place.directory.string());
+  if (code == kInterruptedExit) {
+    fmt::print(stderr, "deburr: interrupted; run the same command again for what is missing\n");
+    return {kInterruptedExit, fmt::format("INTERRUPTED {}: {}", what, figures)};
+  }
+  for (const std::string& failure : status.failures) say(options, "failed      " + failure);
+  if (status.done + status.failed < points)
+    return {
+        static_cast<int>(code == static_cast<int>(ExitCode::kFile) ? ExitCode::kFile
+                                                                   : ExitCode::kSimulation),
+        fmt::format("FAIL {}: {}: run the same command again for what is missing", what, figures)};
+  if (status.failed > 0)
+    return {static_cast<int>(ExitCode::kMismatch), fmt::format("FAIL {}: {}", what, figures)};
+  return {0, fmt::format("PASS {}: {}", what, figures)};
+}
+
+void say_changes(const PointOptions& options, const std::string& action, const SweepPlace& place,
+                 const fs::path& file) {
+  const std::optional<Plan> plan = find_plan(place.directory);
+  if (!plan) return;
+  const std::string changes = fmt::format("{}", fmt::join(changes_since(*plan, file), ", "));
+  if (changes.empty()) return;
+  const bool keeps_results = is_of_this_model(*plan);
+  if (action == "collect" && !keeps_results)
+    throw spec::ConfigError(
+        fmt::format("the results in '{}' are of another state of the model, and count for nothing "
+                    "in this one: 'run' them again",
+                    place.directory.string()));
+  say(options, fmt::format("changed     {} since the plan was made: {}", changes,
+                           action == "status" ? "these figures are of what it was before"
+                           : keeps_results    ? "points that are as before keep their results"
+                                              : "no result of before counts"));
+}
+
+Outcome planned_outcome(const std::string& what, const Plan& plan, const SweepPlace& place) {
+  return {0, fmt::format("PASS {}: {} over {} input{}, {} of them done; {}", what,
+                         points_of(plan.points), grouped(plan.inputs), plan.inputs == 1 ? "" : "s",
+                         grouped(look(place).done), place.directory.string())};
+}
+
+Outcome show_status(const std::string& what, const SweepPlace& place) {
+  const Plan plan = read_plan(place.directory);
+  const Status status = look(place);
+  fmt::print("points      {}\ndone        {}\nrunning     {}\nfailed      {}\nqueued      {}\n",
+             grouped(plan.points), grouped(status.done), grouped(status.running),
+             grouped(status.failed), grouped(status.missing));
+  if (const auto job = submitted_job(place)) {
+    const SlurmStatus slurm = ask_slurm(*job);
+    fmt::print("slurm       job {}: {} tasks queued, {} running\n", job->id, grouped(slurm.queued),
+               grouped(slurm.running));
+    for (const std::string& advice : slurm.advice) fmt::print("slurm       {}\n", advice);
+  }
+  if (!status.time_left.empty()) fmt::print("time left   {}\n", status.time_left);
+  for (const std::string& failure : status.failures) fmt::print("failed      {}\n", failure);
+  return {
+      0, fmt::format("PASS {}: {} of {} done", what, grouped(status.done), points_of(plan.points))};
+}
+
+}  // namespace deburr::tb

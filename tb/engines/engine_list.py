@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+"""The engines of engines.txt for scripts and tests, and what their trials.yaml says: with what tests of every engine
+run this one; testplans with what they include of the engines."""
+import pathlib
+
+FOLDER = pathlib.Path(__file__).resolve().parent
+
+
+def engines():
+    """Their names, in order."""
+    lines = (FOLDER / "engines.txt").read_text(encoding="utf-8").splitlines()
+    return [line for line in lines if line and not line.startswith("#")]
+
+
+def trials(name):
+    """{engine: its entry `name`}, of those that have one."""
+    import yaml  # not of those that want the names alone
+    found = {}
+    for engine in engines():
+        entries = yaml.safe_load((FOLDER / engine / "trials.yaml").read_text(encoding="utf-8"))
+        if name in entries:
+            found[engine] = entries[name]
+    return found
+
+
+def testplan(path):
+    """A testplan without `include`: the features that it includes, then its own (docs/regression.md)."""
+    import yaml
+    plan = yaml.safe_load(path.read_text(encoding="utf-8"))
+    own, included = plan.get("features", []), []
+    for pattern in plan.pop("include", []):
+        files = [path.parent / pattern.replace("*", name) for name in engines()] if "*" in pattern else [path.parent / pattern]
+        for feature in (f for file in files for f in yaml.safe_load(file.read_text(encoding="utf-8"))["features"]):
+            known = next((f for f in own + included if f["id"] == feature["id"]), None)
+            if known is None:
+                included.append(feature)
+                continue
+            for key in ("traces", "stimuli", "coverage"):
+                if key in feature:
+                    known[key] = known.get(key, []) + feature[key]
+            if "checks" in feature:
+                known["checks"] = {**known.get("checks", {}), **feature["checks"]}
+    plan["features"] = included + own
+    return plan

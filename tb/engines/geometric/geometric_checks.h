@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// What the geometric engine does against its golden model: lines, candidates and blocks as they
+// come, the lines of memory of each region in order, a frame's pixels in memory, the registers.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "golden/geometric/geometric_golden.h"
+#include "rtl_model/geometric/geometric_engine.h"
+#include "rtl_model/platform/geometric_driver.h"
+#include "rtl_model/platform/host.h"
+#include "rtl_model/platform/memory_model.h"
+#include "spec/geometric/packets.h"
+#include "tb/engines/geometric/geometric_setup.h"
+#include "tb/engines/geometric/geometric_stimuli.h"
+#include "tb/env/environment.h"
+#include "tb/env/raster_scoreboard.h"
+
+namespace deburr::tb {
+
+class GeometricChecks {
+ public:
+  // Setup and regions must outlive it. Without `golden` nothing is compared.
+  GeometricChecks(const GeometricSetup& setup, const platform::GeometricRegions& regions,
+                  bool golden);
+
+  // The engine's counters are 0.
+  void clear_counters();
+  // The golden model works on a frame, which must outlive its checks.
+  void begin(const geometric::Frame& frame);
+  // The frame begins again (after a reset).
+  void restart();
+
+  void got(const spec::geometric::LineRecord& line, rtl::Cycle cycle);
+  void got(const spec::geometric::Candidate& candidate, rtl::Cycle cycle);
+  void got(const spec::geometric::BlockRecord& block, rtl::Cycle cycle);
+  // What memory has recorded since the last call, or since the frame began.
+  void judge_traffic(const platform::MemoryModel& memory, rtl::Cycle cycle);
+  // The frame is done; this is what is in memory.
+  void end(const Image& after, rtl::Cycle cycle);
+  // All frames are done: so many comparisons there must be, and the registers are judged.
+  void finish(const rtl::geometric::GeometricEngine& engine, const platform::MemoryModel& memory,
+              std::uint64_t pixels, platform::RegisterBus& registers);
+
+  // The frame as it should be when the engine is done.
+  Image expected_frame() const;
+  // Where the line of memory with a pixel lies from the base of its buffer on.
+  std::uint32_t line_offset(int x, int y) const;
+  const golden::geometric::GeometricGolden& golden_model() const { return golden_; }
+
+  Scoreboard<spec::geometric::LineRecord> lines;
+  Scoreboard<spec::geometric::Candidate> candidates;
+  Scoreboard<spec::geometric::BlockRecord> blocks;
+  RasterScoreboard<Rgba8> pixels;
+  Scoreboard<spec::geometric::MemoryAccess> traffic;
+  RegisterScoreboard registers;
+
+ private:
+  golden::geometric::Bases bases() const;
+  std::vector<std::pair<std::uint32_t, std::uint64_t>> expected_registers(
+      const rtl::geometric::GeometricEngine& engine) const;
+
+  const GeometricSetup& setup_;
+  const platform::GeometricRegions& regions_;
+  bool used_;
+  golden::geometric::GeometricGolden golden_;
+  spec::geometric::Work work_;  // of the golden model, of all frames since the last reset
+  std::uint64_t errors_ = 0;
+  const geometric::Frame* frame_ = nullptr;
+  golden::geometric::FrameLayout layout_;  // of it
+  Image expected_;
+  std::size_t reads_judged_ = 0, writes_judged_ = 0;
+};
+
+}  // namespace deburr::tb

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "tb/engines/geometric/geometric_coverage.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "spec/geometric/registers.h"
+
+namespace deburr::tb {
+namespace {
+
+constexpr std::array kGroups = {
+    CoverageGroup{"geometric/class",
+                  "Edges by the rules (select, crease) and their class. In tests alone: invalid "
+                  "ones, which name what is not there, and all with off, which no run asks for."},
+    CoverageGroup{"geometric/line", "Lines by octant and length."},
+    CoverageGroup{"geometric/fate", "Kept edges by what becomes of them."},
+    CoverageGroup{"geometric/columns", "Lines by the ends that the frame cuts off."},
+    CoverageGroup{"geometric/rows", "Lines by how they cross the frame's rows."},
+    CoverageGroup{"geometric/tie", "Lines exactly through a pixel's centre."},
+    CoverageGroup{"geometric/border", "Candidates whose neighbour is outside of the frame."},
+    CoverageGroup{"geometric/depth",
+                  "Tests against the farther pixel, by which that is and the outcome."},
+    CoverageGroup{"geometric/weight", "Weights by direction and what became of the one before."},
+    CoverageGroup{"geometric/group", "Groups of columns by what ended them."},
+    CoverageGroup{"geometric/group-lines",
+                  "Groups by layout and the lines of depth that they look up."},
+    CoverageGroup{"geometric/fetch", "The golden model's look-ups by cache and outcome."},
+    CoverageGroup{"geometric/look-up", "The hardware's look-ups by cache and outcome."},
+    CoverageGroup{"geometric/block", "What the weights of a block met in their cache."},
+    CoverageGroup{"geometric/resolve", "Blended pixels by the neighbours that are taken."},
+    CoverageGroup{"geometric/original", "Where the colour before blending was taken from."},
+    CoverageGroup{"geometric/lines", "Blocks by layout and the lines of colours that they read."},
+    CoverageGroup{"geometric/stall", "Clocks that a unit lost, by cause."},
+    CoverageGroup{"geometric/error",
+                  "Lines that memory answered with an error, by region (memory.error_address). "
+                  "Such a run fails, so that only tests ask for all of them."},
+    CoverageGroup{"geometric/refusal",
+                  "Starts that are refused, in tests alone: a run is judged before it starts."}};
+
+// Causes that a unit can lose a clock to, as docs/geometric_hardware.md has them. The sequencer
+// never stalls, and the port is the fabric's.
+const std::map<std::string, std::vector<std::string>>& stalls() {
+  static const std::map<std::string, std::vector<std::string>> all = {
+      {"facing_store", {"downstream", "memory"}},
+      {"edge_reader", {"downstream", "facing", "edges"}},
+      {"edge_classifier", {"downstream"}},
+      {"vertex_fetch", {"downstream", "vertices", "fills"}},
+      {"line_setup", {"downstream", "divider"}},
+      {"line_walker", {"downstream"}},
+      {"coverage_unit", {"downstream"}},
+      {"depth_test", {"downstream", "depth", "fills"}},
+      {"weight_combiner", {"downstream", "weights", "fills", "spill"}},
+      {"block_scanner", {"downstream"}},
+      {"block_fetch", {"downstream", "weights", "colours"}},
+      {"resolver", {"downstream", "colours"}},
+      {"frame_copier", {"downstream", "memory"}},
+      {"memory_arbiter", {"downstream"}}};
+  return all;
+}
+
+// Of golden's bins. The table of a mesh names only what there is, and who draws all edges is not
+// asked what a crease is, but by presets.
+bool is_directed(const std::string& bin) {
+  return bin.ends_with("/invalid") || bin.starts_with("class/all/off/");
+}
+
+}  // namespace
+
+std::span<const CoverageGroup> geometric_coverage_groups() { return kGroups; }
+
+Coverage declared_geometric_coverage() {
+  Coverage coverage;
+  for (const auto& bin : golden::geometric::EdgeCoverage().bins())
+    if (!is_directed(bin.name)) coverage.declare("geometric/" + bin.name);
+  for (int lines = 1; lines <= 8; ++lines)
+    coverage.declare(fmt::format("geometric/group-lines/raster/{}", lines));
+  for (int lines = 1; lines <= 2; ++lines)
+    coverage.declare(fmt::format("geometric/group-lines/tiled/{}", lines));
+  for (const char* const cache : {"vertex", "depth", "weight"})
+    for (const char* const outcome : {"hit", "miss"})
+      coverage.declare(fmt::format("geometric/look-up/{}/{}", cache, outcome));
+  for (const char* const what : {"fresh", "cached", "replaced", "read-back", "waited-for"})
+    coverage.declare(fmt::format("geometric/block/{}", what));
+  for (const auto& [unit, causes] : stalls())
+    for (const std::string& cause : causes)
+      coverage.declare(fmt::format("geometric/stall/{}/{}", unit, cause));
+  return coverage;
+}
+
+void declare_directed_geometric_coverage(Coverage& coverage) {
+  for (const auto& bin : golden::geometric::EdgeCoverage().bins())
+    if (is_directed(bin.name)) coverage.declare("geometric/" + bin.name);
+  for (const std::string_view region : spec::geometric::kRegionNames)
+    coverage.declare(fmt::format("geometric/error/{}", region));
+  for (std::size_t i = 1; i < spec::geometric::kRefusalNames.size(); ++i)
+    coverage.declare(fmt::format("geometric/refusal/{}", spec::geometric::kRefusalNames[i]));
+}
+
+Coverage geometric_coverage(const rtl::geometric::GeometricEngine& e,
+                            const golden::geometric::EdgeCoverage& golden,
+                            const spec::geometric::Parameters& parameters) {
+  Coverage coverage = declared_geometric_coverage();
+  for (const auto& bin : golden.bins()) {
+    if (is_directed(bin.name) && bin.hits == 0) continue;
+    coverage.declare("geometric/" + bin.name);
+    coverage.hit("geometric/" + bin.name, bin.hits);
+  }
+  const bool tiled = parameters.layout == spec::geometric::Layout::kTiled;
+  for (const auto& bin : e.depth_test.group_lines.bins())
+    if (bin.count != 0)
+      coverage.hit(fmt::format("geometric/group-lines/{}/{}", tiled ? "tiled" : "raster", bin.low),
+                   bin.count);
+  const auto looked = [&](const char* cache, const rtl::Counter& lookups,
+                          const rtl::Counter& misses) {
+    coverage.hit(fmt::format("geometric/look-up/{}/hit", cache), lookups.value() - misses.value());
+    coverage.hit(fmt::format("geometric/look-up/{}/miss", cache), misses.value());
+  };
+  const auto& weights = e.weight_combiner;
+  looked("vertex", e.vertex_fetch.lookups, e.vertex_fetch.misses);
+  looked("depth", e.depth_test.lookups, e.depth_test.misses);
+  looked("weight", weights.lookups, weights.misses);
+  coverage.hit("geometric/block/fresh", weights.misses.value() - weights.blocks_read.value());
+  coverage.hit("geometric/block/cached", weights.lookups.value() - weights.misses.value());
+  coverage.hit("geometric/block/replaced", weights.blocks_written.value());
+  coverage.hit("geometric/block/read-back", weights.blocks_read.value());
+  for (const rtl::Unit* unit : e.units()) {
+    if (!stalls().contains(unit->basename())) continue;
+    for (const auto& cause : unit->stalls()) {
+      if (cause.cycles == 0) continue;
+      coverage.hit(fmt::format("geometric/stall/{}/{}", unit->basename(), cause.name),
+                   cause.cycles);
+      if (unit == &weights && cause.name == "spill")
+        coverage.hit("geometric/block/waited-for", cause.cycles);
+    }
+  }
+  return coverage;
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#include "tb/engines/geometric/geometric_draws.h"
+
+#include <string>
+
+namespace deburr::tb {
+
+RandomDraws geometric_draws() {
+  RandomDraws all;
+  all.draws = {{"geometric.line_pixels", evenly<96, 1100>},
+               {"geometric.touched_words", magnitude<25, 4000>},
+               {"geometric.face_limit",
+                [](Random& r) { return std::to_string(r.between(32, 100) * 1024); }}};
+  return all;
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+// `deburr run geometric`: a lit scene and the edges of its mesh through the geometric engine.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "golden/geometric/configuration.h"
+#include "rtl_model/geometric/datasheets.h"
+#include "spec/geometric/check_build.h"
+#include "spec/geometric/registers.h"
+#include "tb/app/input_rules.h"
+#include "tb/app/pictures.h"
+#include "tb/app/shorthands.h"
+#include "tb/app/simulate.h"
+#include "tb/base/interrupt.h"
+#include "tb/engines/geometric/geometric_coverage.h"
+#include "tb/engines/geometric/geometric_draws.h"
+#include "tb/engines/geometric/geometric_environment.h"
+#include "tb/engines/geometric/geometric_frames.h"
+#include "tb/engines/geometric/geometric_pictures.h"
+#include "tb/engines/geometric/geometric_rules.h"
+#include "tb/results/progress.h"
+#include "tb/results/report.h"
+
+namespace deburr::tb {
+namespace {
+
+class GeometricCommand final : public Engine {
+ public:
+  std::string_view name() const override { return "geometric"; }
+  std::string_view summary() const override {
+    return "A lit scene and the edges of its mesh through the geometric engine";
+  }
+
+  double clock_mhz() const override { return 250; }  // what its units are made for
+
+  void add_parameters(ParameterSet& set) override {
+    set.add("scene", ParameterKind::kInput, scene_);
+    set.add_engine("geometric", parameters_);
+    add_memory(set, "memory", memory_);
+  }
+
+  void resolve(ParameterSet& set) override {
+    apply_preset(set, parameters_);
+    refuse_unused_rules(set, parameters_);
+    refuse_unused_memory(set, "memory", memory_);
+    refuse_slow_memory(set, "memory", memory_);
+    if (set.find("run.truth")->text() == "false")
+      set.refuse("scene.truth_samples", "nothing is judged without run.truth (--truth)");
+    preset_label_ = preset_label(set, parameters_);
+  }
+
+  std::vector<Shorthand> shorthands() const override {
+    return joined({{"--scene", "scene.source",
+                    "Scene: cube, wheelcover (default), wing, canopy, sphere, ..."},
+                   {"--in", "scene.source", "Mesh file instead of a scene: .obj, .gltf, .glb"},
+                   {"--size", "scene.width", "Size of the frame, WxH (640x480)", "scene.height"}},
+                  edge_shorthands());
+  }
+
+  void judge(const RunParameters& run, RunContext& context) override { judge(*load(run, context)); }
+
+  void run(const RunParameters& run, RunContext& context, Result& result) override {
+    const std::shared_ptr<const LoadedGeometricFrame> shared = load(run, context);
+    const LoadedGeometricFrame& loaded = *shared;
+    judge(loaded);
+    const geometric::Frame& frame = loaded.frame;
+    context.add_inputs(loaded.inputs);
+    context.set_title(
+        "Geometric engine: " + std::filesystem::path(scene_.source).filename().string(),
+        summary_line(frame));
+    for (const std::string& note : loaded.notes) context.add_note(note);
+    for (const std::string& note : build_notes(parameters_)) context.add_note(note);
+    const std::vector<geometric::Frame> frames(static_cast<std::size_t>(scene_.count), frame);
+    Simulation simulation(simulation_options(run, context));
+    GeometricEnvironment environment(simulation, frames, {parameters_, memory_});
+    simulate(simulation, environment, context, result,
+             [&] { add_pictures(run, context, loaded, environment, result); });
+  }
+
+  std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
+    return frame_files(scene_, meshes);
+  }
+
+  void prepare(const RunParameters& run, RunContext& context) override { load(run, context); }
+
+  void describe_statistics(Result& result) override {
+    geometric::Frame smallest;
+    smallest.image = Image(2, 2);
+    smallest.depths.assign(4, 0);
+    const std::vector<geometric::Frame> frames = {smallest};
+    Simulation simulation({});
+    GeometricEnvironment environment(simulation, frames, {});
+    describe(simulation, environment, result);
+  }
+
+  std::vector<std::string_view> pictures() const override {
+    return {"before", "after",  "golden",  "difference", "truth",
+            "error",  "change", "weights", "classes"};
+  }
+  std::vector<std::string_view> maps() const override {
+    return {"lines", "passed", "weight", "depth_reads"};
+  }
+
+  RegisterSection registers() const override {
+    return {"GeometricEngine",
+            {spec::geometric::kRegisters.begin(), spec::geometric::kRegisters.end()}};
+  }
+  CoverageSection coverage() const override {
+    CoverageSection section{"Geometric engine", declared_geometric_coverage(),
+                            geometric_coverage_groups()};
+    declare_directed_geometric_coverage(section.bins);
+    return section;
+  }
+  DatasheetSection datasheets() const override {
+    return {"GeometricEngine", rtl::geometric::datasheets()};
+  }
+
+  RandomDraws random_draws() const override { return geometric_draws(); }
+  LongRun long_run() const override { return {{{"scene.count", "60"}}}; }
+
+ private:
+  void judge(const LoadedGeometricFrame& loaded) const {
+    refuse_nothing_drawn(loaded.scene, loaded.frame.depth);
+    const geometric::Frame& frame = loaded.frame;
+    golden::geometric::check_frame(
+        parameters_, {frame.image.width, frame.image.height, frame.screen.edges.size(),
+                      frame.screen.vertices.size(), frame.screen.faces});
+  }
+
+  std::shared_ptr<const LoadedGeometricFrame> load(const RunParameters& run,
+                                                   const RunContext& context) const {
+    const bool truth = run.truth && !context.judging_only();
+    return context.shared<LoadedGeometricFrame>("geometric frame", {"scene.", "run.truth"}, [&] {
+      Waiting waiting(truth ? "rendering frame and truth" : "rendering the frame", context.quiet());
+      return load_geometric_frame(scene_, static_cast<std::uint32_t>(run.seed), truth, [&] {
+        waiting.update();
+        return interrupted();
+      });
+    });
+  }
+
+  std::string summary_line(const geometric::Frame& frame) const {
+    const spec::geometric::Parameters& p = parameters_;
+    std::string clipped, crease;
+    if (frame.screen.clipped > 0)
+      clipped = fmt::format(" ({} clipped)", grouped(frame.screen.clipped));
+    if (p.select == spec::geometric::Select::kEdges)
+      crease = fmt::format(", creases {}", name_of(p.crease, spec::geometric::kCreaseNames));
+    return fmt::format(
+        "{} x {} pixels, {} faces, {} edges{}, {}: select {}{}, depth test {}, combine {}, {} "
+        "light; "
+        "{} of 8 x 8 pixels, {} edges, {} pixels a clock{}; memory latency {} clk",
+        frame.image.width, frame.image.height, grouped(frame.screen.faces),
+        grouped(frame.screen.edges.size()), clipped, preset_label_,
+        name_of(p.select, spec::geometric::kSelectNames), crease,
+        name_of(p.depth_test, spec::geometric::kDepthTestNames),
+        name_of(p.combine, spec::geometric::kCombineNames), p.linear_light ? "linear" : "stored",
+        p.layout == spec::geometric::Layout::kTiled ? "tiles" : "rows instead",
+        name_of(p.edge_lanes, spec::geometric::kLanesNames),
+        name_of(p.walkers, spec::geometric::kLanesNames),
+        p.frame_copy ? ", the frame copied first" : "", memory_.latency);
+  }
+
+  void add_pictures(const RunParameters& run, RunContext& context,
+                    const LoadedGeometricFrame& loaded, const GeometricEnvironment& engine,
+                    Result& result) const {
+    const Image& before = loaded.frame.image;
+    const Image after = engine.frame();
+    Image expected(after.width, after.height);
+    const bool golden = run.check == CheckMode::kGolden &&
+                        engine.golden_model().pixels().size() == expected.pixels.size();
+    if (golden) expected.pixels = engine.golden_model().pixels();
+    add_frame_pictures(context, {before, after, after.pixels.size(), golden ? &expected : nullptr,
+                                 loaded.truth ? &*loaded.truth : nullptr,
+                                 "the lit frame as it was rendered", loaded.truth_name});
+    add_edge_pictures(context, loaded.frame, parameters_, engine.blocks());
+    if (loaded.truth && engine.done())
+      result.quality =
+          judge_quality(loaded.truth_name, before, after, *loaded.truth, &loaded.frame.depth);
+  }
+
+  GeometricSceneParameters scene_;
+  spec::geometric::Parameters parameters_;
+  MemoryParameters memory_;
+  std::string preset_label_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_geometric_engine() { return std::make_unique<GeometricCommand>(); }
+
+}  // namespace deburr::tb

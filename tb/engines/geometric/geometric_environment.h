@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// The geometric engine on one or several frames.
+//
+//   frames ─► MemoryModel ◄─► GeometricEngine ─► lines, candidates, blocks, as they come
+//              edges, vertices, facing bits,       └ registers ◄─ RegisterHost: sizes, bases, START
+//              depth, colours; weights, copy                                    all of them at the
+//              end
+//
+// The golden model works on a frame before it begins. What the engine's observers see is judged as
+// it comes, so are the lines of memory that it reads and writes, each region's in order; when the
+// frame is done, every pixel in memory.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <systemc>
+#include <vector>
+
+#include "golden/geometric/geometric_golden.h"
+#include "rtl_model/geometric/geometric_engine.h"
+#include "rtl_model/platform/geometric_driver.h"
+#include "rtl_model/platform/memory_model.h"
+#include "rtl_model/platform/register_host.h"
+#include "spec/geometric/packets.h"
+#include "tb/engines/geometric/geometric_checks.h"
+#include "tb/engines/geometric/geometric_faults.h"
+#include "tb/engines/geometric/geometric_maps.h"
+#include "tb/engines/geometric/geometric_meter.h"
+#include "tb/engines/geometric/geometric_setup.h"
+#include "tb/engines/geometric/geometric_stimuli.h"
+#include "tb/env/environment.h"
+
+namespace deburr::tb {
+
+// Room for each of the frames. ConfigError if addresses of 32 bits do not reach.
+platform::GeometricRegions regions_of(std::span<const geometric::Frame> frames,
+                                      const spec::geometric::Parameters& parameters);
+
+class GeometricEnvironment final : public Environment {
+ public:
+  // The frames, which must outlive it, are what the golden model smooths. With a name it is part of
+  // a composition, which puts the colours into memory and says when they are complete: put(),
+  // draw(). ConfigError for wrong parameters or a frame that the engine does not take.
+  GeometricEnvironment(Simulation& simulation, std::span<const geometric::Frame> frames,
+                       const GeometricSetup& setup, std::string name = {});
+
+  void configure() override;
+  bool begin(std::size_t piece) override;
+  void watch() override;
+  bool done() const override { return started_ && engine_.idle(); }
+  void end() override;
+  void restart() override;
+  void finish() override;
+  void refuse_memory_errors() override;
+  void refuse_unused_errors() const override;
+  Amount amount() const override;
+  bool memory_at_rest() const override { return memory_.at_rest(); }
+  Boards outputs() const override;
+  Boards traffic() const override { return {&checks_.traffic}; }
+  Boards counters() const override { return {&checks_.registers.board()}; }
+  void collect(Result& result) const override { meter_.collect(result); }
+  void show_parts(Observer& observer) const override { meter_.show_parts(observer); }
+  std::vector<PictureMap> maps() const override;
+  Coverage coverage() const override;
+  void collect_headline(Result& result) const override {
+    meter_.collect_headline(result, simulation().options().clock_mhz);
+  }
+
+  // ---- the frame in memory, without time; for a composition
+  void put(int x, int y, const Rgba8& colour) { driver_.put(x, y, colour); }
+  // The frame is complete: the engine begins in the next clock. Alone, begin() does it.
+  void draw();
+
+  // The frame as it is in memory, and as it should be when the engine is done.
+  Image frame() const;
+  Image expected_frame() const { return checks_.expected_frame(); }
+  // Weights of the last frame's blended pixels, as the engine resolved them.
+  const std::vector<spec::geometric::BlockRecord>& blocks() const { return blocks_; }
+  // The golden model, which has seen every frame (none without golden).
+  const golden::geometric::GeometricGolden& golden_model() const { return checks_.golden_model(); }
+  // Over all pixels of all frames in order.
+  std::uint64_t pixel_hash() const { return hash_.value(); }
+  const GeometricMeter& meter() const { return meter_; }
+
+  rtl::geometric::GeometricEngine& engine() { return engine_; }
+  const rtl::geometric::GeometricEngine& engine() const { return engine_; }
+  platform::RegisterHost& host() { return host_; }
+  platform::MemoryModel& memory() { return memory_; }
+  const platform::GeometricDriver& driver() const { return driver_; }
+
+ private:
+  // Of the model and of its parameters; memory alone is called that.
+  std::string memory_name() const { return name().empty() ? "memory" : "geometric_memory"; }
+  const geometric::Frame& current() const { return frames_[current_]; }
+  void observe();
+  void load();
+
+  std::span<const geometric::Frame> frames_;
+  GeometricSetup setup_;
+  GeometricFaults faults_;
+  platform::GeometricRegions regions_;
+  rtl::geometric::GeometricEngine engine_;
+  platform::MemoryModel memory_;
+  platform::RegisterHost host_;
+  platform::GeometricDriver driver_;
+  GeometricMeter meter_;
+  GeometricChecks checks_;
+
+  std::size_t current_ = 0;  // of frames_
+  bool started_ = false;
+  std::vector<spec::geometric::BlockRecord> blocks_;
+  OutputHash hash_;
+  std::optional<GeometricMaps> maps_;
+};
+
+}  // namespace deburr::tb

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "tb/engines/geometric/geometric_faults.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include "golden/geometric/geometric_golden.h"
+#include "golden/geometric/resolve.h"
+
+namespace deburr::tb {
+namespace {
+
+using spec::geometric::BlockRecord;
+using spec::geometric::Edge;
+using spec::geometric::Parameters;
+using spec::geometric::Rgba8;
+namespace flag = spec::geometric::flag;
+
+spec::geometric::CacheLines other_size(spec::geometric::CacheLines lines) {
+  using spec::geometric::CacheLines;
+  return lines == CacheLines::k16 ? CacheLines::k32
+                                  : static_cast<CacheLines>(static_cast<std::uint8_t>(lines) - 1);
+}
+
+}  // namespace
+
+// A face of the first edge of two faces, whose class goes by it.
+std::optional<std::uint32_t> GeometricFaults::face_of_a_fault() const {
+  if (setup_.geometric.select == spec::geometric::Select::kAll || frames_.empty())
+    return std::nullopt;
+  const ScreenEdges& screen = frames_.front().screen;
+  for (const Edge& edge : screen.edges)
+    if (!(edge.flags & flag::kBoundary) && edge.f0 < screen.faces) return edge.f0;
+  return std::nullopt;
+}
+
+// The number of a block with a pixel that takes from a blended one in the block above, and would be
+// another if it took that as it is now. The block above was written long before: lines are read
+// ahead, and what was read before it was written is not stale.
+std::optional<std::size_t> GeometricFaults::block_that_takes_from_above() const {
+  constexpr int kInside = 16;  // blocks in the stages of the resolve
+  if (frames_.empty() || setup_.geometric.frame_copy) return std::nullopt;
+  const std::int32_t ahead = kInside + setup_.geometric.resolve_lines / 4 +
+                             std::max(setup_.memory.latency, setup_.memory.latency_max);
+  const geometric::Frame& frame = frames_.front();
+  golden::geometric::GeometricGolden golden(setup_.geometric);
+  const std::vector<Rgba8>& after = golden.process(frame.input());
+  std::map<std::pair<int, int>, int> numbers;  // of the blocks, by row and column
+  for (int i = 0; i < static_cast<int>(golden.blocks().size()); ++i) {
+    const BlockRecord& block = golden.blocks()[static_cast<std::size_t>(i)];
+    numbers[{block.y, block.x}] = i;
+    const auto above = numbers.find({block.y - 1, block.x});
+    if (above == numbers.end() || above->second + ahead > i) continue;
+    for (std::size_t k = 0; k < spec::geometric::kBlockSize; ++k) {
+      const golden::geometric::Tap tap = golden::geometric::tap_of(block.weights[k]);
+      if (tap.left_right || tap.first == 0) continue;
+      const int x = 4 * block.x + static_cast<int>(k), y = 4 * block.y;
+      const Rgba8 &pixel = frame.image.at(x, y),
+                  &below = tap.second != 0 ? frame.image.at(x, y + 1) : pixel;
+      const Rgba8& stale = after[frame.image.index(x, y - 1)];
+      if (golden::geometric::resolve(setup_.geometric, tap, pixel, stale, below) !=
+          after[frame.image.index(x, y)])
+        return static_cast<std::size_t>(i);
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<PlantedFault> GeometricFaults::list() const {
+  const Parameters& p = setup_.geometric;
+  const auto unless = [](bool there, std::string needs) {
+    return there ? std::string() : std::move(needs);
+  };
+  const std::string tested = unless(p.depth_test != spec::geometric::DepthTest::kOff,
+                                    "geometric.depth_test = own, farther");
+  std::string stale_neighbour;
+  if (planted("stale-neighbour"))
+    if (const auto block = block_that_takes_from_above())
+      stale_neighbour = fmt::format("flip:geometric.touched_blocks:{}:above", *block);
+  std::vector<PlantedFault> list = {
+      {"wrong-facing", "Flips the facing bit of a face.", "",
+       unless(face_of_a_fault().has_value(), "geometric.select = edges, an edge of two faces")},
+      {"wrong-slope", "Flips the lowest bit of every reciprocal in the table.", "",
+       unless(p.reciprocal_table > 0, "geometric.reciprocal_table of at least 1")},
+      {"drop-line", "Drops line 5 on its way to the walkers.",
+       "drop:geometric.line_fifo_entries:5"},
+      {"duplicate-line", "Walks line 5 twice.", "duplicate:geometric.line_fifo_entries:5"},
+      {"drop-group", "Drops a group of candidates.", "drop:geometric.candidates:20"},
+      {"duplicate-group", "Tests and draws a group of candidates twice.",
+       "duplicate:geometric.candidates:20"},
+      {"wrong-direction", "A group of candidates takes its neighbours along the other axis.",
+       "flip:geometric.candidates:20:vertical"},
+      {"stale-depth", "The first line of depths is taken before it has come.",
+       "flip:geometric.depth_test.latency_fifo_entries:0:missed.0", tested},
+      {"wrong-replacement", "The caches have other sizes than were ordered."},
+      {"stale-neighbour", "A block takes from the block above as that was blended.",
+       stale_neighbour,
+       unless(!planted("stale-neighbour") || !stale_neighbour.empty(),
+              "geometric.frame_copy = false, a pixel that takes from one above that was written "
+              "long before (a "
+              "larger frame, a faster memory)")},
+      {"double-blend", "Resolves block 5 twice.", "duplicate:geometric.touched_blocks:5"},
+      {"flip-weight", "Flips a bit of a weight of block 5.",
+       "flip:geometric.block_fifo_entries:5:weights.5.u.4"},
+      {"duplicate-fetch", "Sends memory request 20 twice.",
+       fmt::format("duplicate:geometric.requests:{}", kFaultyRequest)},
+      {"stuck-ready", "Holds back the touched blocks.",
+       "stuck_ready:geometric.touched_blocks:100"}};
+  for (PlantedFault& fault : memory_faults()) list.push_back(std::move(fault));
+  return list;
+}
+
+Parameters GeometricFaults::as_built() const {
+  Parameters p = setup_.geometric;
+  if (planted("wrong-replacement"))
+    for (spec::geometric::CacheLines* const lines :
+         {&p.vertex_lines, &p.depth_lines, &p.weight_blocks})
+      *lines = other_size(*lines);
+  return p;
+}
+
+void GeometricFaults::plant(rtl::geometric::GeometricEngine& engine) const {
+  if (!planted("wrong-slope")) return;
+  rtl::for_each<rtl::Memory<std::uint32_t>>(engine, [](rtl::Memory<std::uint32_t>& memory) {
+    if (memory.basename() != std::string_view("reciprocal_rom")) return;
+    for (std::uint64_t word = 0; word < memory.words(); ++word) memory.backdoor(word) ^= 1;
+  });
+}
+
+std::vector<std::uint8_t> GeometricFaults::facing(const geometric::Frame& frame) const {
+  std::vector<std::uint8_t> bits = frame.screen.facing;
+  if (planted("wrong-facing"))
+    if (const auto face = face_of_a_fault(); face && *face / 8 < bits.size())
+      bits[*face / 8] = static_cast<std::uint8_t>(bits[*face / 8] ^ 1u << (*face % 8));
+  return bits;
+}
+
+}  // namespace deburr::tb

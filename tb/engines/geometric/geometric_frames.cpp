@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "tb/engines/geometric/geometric_frames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "spec/error.h"
+#include "tb/base/random.h"
+
+namespace deburr::tb {
+namespace {
+
+void refuse_what_has_no_edges(const std::string& source) {
+  const std::string extension = std::filesystem::path(source).extension().string();
+  if (extension.empty() || extension == ".obj" || extension == ".gltf" || extension == ".glb")
+    return;
+  throw spec::ConfigError(
+      fmt::format("scene.source = '{}' is no mesh: an image has no edges; give a mesh file (.obj, "
+                  ".gltf, .glb) or the name of a scene",
+                  source));
+}
+
+void refuse_empty(const Scene& scene, const EdgeTable& table) {
+  if (!table.edges.empty()) return;
+  throw spec::ConfigError(
+      fmt::format("the mesh '{}' has no edges: none of its {} faces has an area; export a mesh "
+                  "whose faces have three different corners",
+                  scene.name, table.faces()));
+}
+
+std::vector<std::string> notes_of(const EdgeTable& table) {
+  std::vector<std::string> notes;
+  const auto note = [&](std::uint64_t count, std::string_view what) {
+    if (count > 0) notes.push_back(fmt::format("{} {}", count, what));
+  };
+  note(table.faces_without_area, "faces have no area, or a corner that is not finite: no edges");
+  note(table.disagreeing,
+       "edges belong to two faces that pass them in the same direction: drawn as boundaries");
+  note(table.crowded, "edges belong to three faces or more: drawn as boundaries");
+  return notes;
+}
+
+}  // namespace
+
+Image geometric_truth(const Scene& scene, int width, int height, int samples,
+                      const std::function<bool()>& interrupted) {
+  RenderOptions options;
+  options.width = width;
+  options.height = height;
+  options.samples = samples;
+  options.shading = Shading::kPhong;
+  options.averaging = Averaging::kLinear;
+  options.interrupted = interrupted;
+  return render(scene, options);
+}
+
+void shuffle_edges(geometric::Frame& frame, std::uint64_t seed) {
+  Random random(seed, "edges");
+  std::vector<spec::geometric::Edge>& edges = frame.screen.edges;
+  for (std::size_t i = edges.size(); i > 1; --i)
+    std::swap(edges[i - 1], edges[random.below(static_cast<std::uint32_t>(i))]);
+}
+
+LoadedGeometricFrame load_geometric_frame(const GeometricSceneParameters& p, std::uint32_t seed,
+                                          bool truth, const std::function<bool()>& interrupted) {
+  if (!is_scene_name(p.source)) refuse_what_has_no_edges(p.source);
+  LoadedGeometricFrame loaded;
+  loaded.scene = load_scene(p.source, {.seed = seed, .plain = true});
+  look(loaded.scene, p);
+  loaded.frame = geometric::make_frame(loaded.scene, p.width, p.height);
+  refuse_empty(loaded.scene, loaded.frame.table);
+  if (p.edge_order == EdgeOrder::kShuffled) shuffle_edges(loaded.frame, seed);
+  loaded.notes = loaded.scene.mesh.notes;
+  for (std::string& note : notes_of(loaded.frame.table)) loaded.notes.push_back(std::move(note));
+  loaded.inputs = loaded.scene.mesh.files;
+  if (truth) {
+    loaded.truth = geometric_truth(loaded.scene, p.width, p.height, p.truth_samples, interrupted);
+    loaded.truth_name = fmt::format("supersampled-{}", p.truth_samples * p.truth_samples);
+  }
+  return loaded;
+}
+
+std::vector<std::filesystem::path> frame_files(const GeometricSceneParameters& p,
+                                               MeshFiles& meshes) {
+  return scene_files(p.source, {.plain = true}, meshes);
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// What the geometric engine is given: a scene or a mesh file, lit without anti-aliasing, with its
+// depth, its edges and, if asked for, its supersampled truth.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tb/engines/geometric/geometric_stimuli.h"
+#include "tb/env/camera_parameters.h"
+#include "tb/scene/image.h"
+#include "tb/scene/scenes.h"
+
+namespace deburr::tb {
+
+// Of the records of the edge table.
+enum class EdgeOrder : std::uint8_t { kTable, kShuffled };
+inline constexpr std::array<std::string_view, 2> kEdgeOrderNames = {"table", "shuffled"};
+
+struct GeometricSceneParameters : CameraParameters {
+  std::string source = "wheelcover";
+  std::int32_t width = 640, height = 480;
+  EdgeOrder edge_order = EdgeOrder::kTable;
+  std::int32_t truth_samples = 16;
+  std::int32_t count = 1;
+};
+
+template <class Visitor>
+void describe(GeometricSceneParameters& p, Visitor& v) {
+  v.text("source", p.source, "name | file",
+         "A scene made by formula (cube, wheelcover, wing, canopy, sphere, terrain, plane, quad, "
+         "tunnel, object, road, cylinders) or a mesh file (.obj, .gltf, .glb).");
+  v.integer("width", p.width, 1, 8192, "pixel", "Width of the frame.");
+  v.integer("height", p.height, 1, 8192, "pixel", "Height of the frame.");
+  describe(static_cast<CameraParameters&>(p), v);
+  v.choice("edge_order", p.edge_order, kEdgeOrderNames,
+           "Order of the edge table: its own, or shuffled by run.seed.");
+  v.integer("truth_samples", p.truth_samples, 1, 32, "",
+            "N of the N x N samples a pixel of the truth.");
+  v.integer("count", p.count, 1, 100, "frame", "How often the frame is smoothed.");
+}
+
+struct LoadedGeometricFrame {
+  Scene scene;
+  geometric::Frame frame;
+  std::optional<Image> truth;
+  std::string truth_name;                     // "supersampled-256"
+  std::vector<std::string> notes;             // what had to be decided about the mesh
+  std::vector<std::filesystem::path> inputs;  // files that it was made of, or looked for in vain
+};
+
+// ConfigError for what is neither a scene nor a mesh, and for a mesh without edges; FileError as of
+// import_mesh(); Interrupted.
+LoadedGeometricFrame load_geometric_frame(const GeometricSceneParameters& parameters,
+                                          std::uint32_t seed, bool truth,
+                                          const std::function<bool()>& interrupted = nullptr);
+
+// LoadedGeometricFrame::inputs, without loading.
+std::vector<std::filesystem::path> frame_files(const GeometricSceneParameters& parameters,
+                                               MeshFiles& meshes);
+
+// The picture that a frame of the scene is judged by: as it is lit, N x N samples a pixel, averaged
+// in linear light.
+Image geometric_truth(const Scene& scene, int width, int height, int samples,
+                      const std::function<bool()>& interrupted = nullptr);
+
+// The records of the edge table in another order.
+void shuffle_edges(geometric::Frame& frame, std::uint64_t seed);
+
+}  // namespace deburr::tb

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+#include "tb/engines/geometric/geometric_meter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "golden/geometric/configuration.h"
+#include "rtl_model/platform/geometric_driver.h"
+#include "tb/env/collect.h"
+
+namespace deburr::tb {
+namespace {
+
+using spec::geometric::Parameters;
+using spec::geometric::Region;
+
+constexpr std::uint64_t kLine = spec::geometric::kLineBytes;
+constexpr double kPortBound = 0.9;  // from here on the port is what a run waits for
+constexpr std::uint64_t kDividerClocks = 13;
+
+constexpr std::size_t index_of(Region region) { return static_cast<std::size_t>(region); }
+
+std::uint64_t lines_for(std::uint64_t records, std::uint64_t in_line) {
+  return (records + in_line - 1) / in_line;
+}
+
+std::uint64_t words_of(spec::geometric::CacheLines lines) {
+  return spec::geometric::kCacheLineCount[static_cast<std::size_t>(lines)];
+}
+std::uint64_t count_of(spec::geometric::Lanes lanes) {
+  return spec::geometric::kLaneCount[static_cast<std::size_t>(lanes)];
+}
+
+// Lines of memory by region, from the counters of the units that move them.
+struct LinesMoved {
+  std::array<std::uint64_t, platform::GeometricRegions::kCount> read{}, written{};
+};
+
+LinesMoved lines_moved(const rtl::geometric::GeometricEngine& engine, bool frame_copy) {
+  LinesMoved lines;
+  const auto read = [&](Region region) -> std::uint64_t& { return lines.read[index_of(region)]; };
+  const auto written = [&](Region region) -> std::uint64_t& {
+    return lines.written[index_of(region)];
+  };
+  read(Region::kFaces) = engine.facing_store.lines_read.value();
+  read(Region::kEdges) = engine.edge_reader.lines_read.value();
+  read(Region::kVertices) = engine.vertex_fetch.misses.value();
+  read(Region::kDepth) = engine.depth_test.misses.value();
+  read(Region::kWeights) =
+      engine.weight_combiner.blocks_read.value() + engine.block_fetch.weights_read.value();
+  read(frame_copy ? Region::kCopy : Region::kColour) = engine.block_fetch.lines_read.value();
+  read(Region::kColour) += engine.frame_copier.lines_copied.value();
+  written(Region::kWeights) = engine.weight_combiner.blocks_written.value();
+  written(Region::kColour) = engine.resolver.lines_written.value();
+  written(Region::kCopy) = engine.frame_copier.lines_copied.value();
+  return lines;
+}
+
+}  // namespace
+
+GeometricMeter::GeometricMeter(std::string name, const rtl::geometric::GeometricEngine& engine,
+                               const platform::MemoryModel& memory,
+                               std::span<const geometric::Frame> frames,
+                               const GeometricSetup& setup)
+    : Meter(std::move(name)), engine_(engine), memory_(memory), frames_(frames), setup_(setup) {}
+
+void GeometricMeter::end() {
+  ++frames_done_;
+  edges_done_ += frames_[frame_].screen.edges.size();
+  edge_clocks_ += engine_.frame_sequencer.edge_cycles.value();
+  resolve_clocks_ += engine_.frame_sequencer.resolve_cycles.value();
+}
+
+// From what the engine counted in frames of the same size.
+std::uint64_t GeometricMeter::clocks_bound() const {
+  const rtl::geometric::GeometricEngine& e = engine_;
+  const geometric::Frame& frame = frames_[frame_];
+  const Parameters& p = setup_.geometric;
+  const spec::geometric::Work work = e.work();
+  const LinesMoved lines = lines_moved(e, p.frame_copy);
+  const auto read = [&](Region region) { return lines.read[index_of(region)]; };
+  const auto written = [&](Region region) { return lines.written[index_of(region)]; };
+  const auto words = static_cast<std::uint64_t>(
+      golden::geometric::touched_words(frame.image.width, frame.image.height));
+  std::uint64_t begin = std::max(
+      {words, words_of(p.vertex_lines), words_of(p.depth_lines), words_of(p.weight_blocks)});
+  if (p.select == spec::geometric::Select::kEdges)
+    begin = std::max(begin, lines_for(frame.screen.faces, spec::geometric::kFacesInLine) +
+                                static_cast<std::uint64_t>(setup_.memory.latency));
+  const std::uint64_t divided = work.lines - e.line_setup.table_lines.value();
+  const std::uint64_t resolve_weights = e.block_fetch.weights_read.value(),
+                      colours = e.block_fetch.lines_read.value();
+  const std::uint64_t edges_phase = std::max(
+      {lines_for(work.edges, count_of(p.edge_lanes)), work.kept_edges, read(Region::kVertices),
+       p.pipelined ? work.lines : kDividerClocks * divided / static_cast<std::uint64_t>(p.dividers),
+       work.groups, lines_for(e.depth_test.lookups.value(), 2), read(Region::kDepth),
+       read(Region::kEdges) + read(Region::kVertices) + read(Region::kDepth) +
+           read(Region::kWeights) - resolve_weights + written(Region::kWeights) +
+           2 * written(Region::kCopy)});
+  const std::uint64_t resolve_phase = std::max(
+      {words * frames_done_, work.blocks, resolve_weights + colours + written(Region::kColour),
+       lines_for(work.blended_pixels, count_of(p.resolve_lanes))});
+  return begin * frames_done_ + edges_phase + resolve_phase;
+}
+
+void GeometricMeter::collect_traffic(Result& result) const {
+  const rtl::geometric::GeometricEngine& e = engine_;
+  const spec::geometric::Work work = e.work();
+  const LinesMoved lines = lines_moved(e, setup_.geometric.frame_copy);
+  constexpr const char* kBytes = "byte/pixel";
+  std::uint64_t frame_bytes = e.memory_port.bytes_written.value();
+  for (const Region region : {Region::kDepth, Region::kWeights, Region::kColour, Region::kCopy})
+    frame_bytes += kLine * lines.read[index_of(region)];
+  add(result, "edge_cycles", e.frame_sequencer.edge_cycles.value(), "clk",
+      "Of the last frame, from its start until every edge was drawn.");
+  add(result, "resolve_cycles", e.frame_sequencer.resolve_cycles.value(), "clk",
+      "Of the last frame: the rest.");
+  for (std::size_t i = 0; i < spec::geometric::kRegionNames.size(); ++i)
+    add(result, fmt::format("lines_read_{}", spec::geometric::kRegionNames[i]), lines.read[i],
+        "line", fmt::format("Lines of the region {} read.", spec::geometric::kRegionNames[i]));
+  for (const Region region : {Region::kWeights, Region::kColour, Region::kCopy}) {
+    const std::string_view name = spec::geometric::kRegionNames[index_of(region)];
+    add(result, fmt::format("lines_written_{}", name), lines.written[index_of(region)], "line",
+        fmt::format("Lines of the region {} written.", name));
+  }
+  add(result, "bytes_a_blended_pixel",
+      ratio(e.memory_port.bytes_read.value() + e.memory_port.bytes_written.value(),
+            work.blended_pixels),
+      kBytes, "All bytes read and enabled in writes over blended pixels.");
+  add(result, "frame_bytes_a_blended_pixel", ratio(frame_bytes, work.blended_pixels), kBytes,
+      "The same of depth, weights, colours and copy alone: without the mesh.");
+}
+
+void GeometricMeter::collect_hits(Result& result) const {
+  const rtl::geometric::GeometricEngine& e = engine_;
+  const spec::geometric::Work work = e.work();
+  add(result, "columns_a_clock", ratio(work.columns, work.groups), "column/clk",
+      "Columns over the clocks in which the walkers stepped.");
+  const auto hits = [&](const char* name, const rtl::Counter& lookups, const rtl::Counter& misses,
+                        const char* meaning) {
+    add(result, name, 100 * ratio(lookups.value() - misses.value(), lookups.value()), "%", meaning);
+  };
+  hits("vertex_hits_percent", e.vertex_fetch.lookups, e.vertex_fetch.misses,
+       "Look-ups of lines of vertices that ordered none.");
+  hits("depth_hits_percent", e.depth_test.lookups, e.depth_test.misses,
+       "Look-ups of lines of depth that ordered none.");
+  hits("weight_hits_percent", e.weight_combiner.lookups, e.weight_combiner.misses,
+       "Look-ups of blocks of weights that were in the cache.");
+}
+
+void GeometricMeter::collect(Result& result) const {
+  const rtl::geometric::GeometricEngine& e = engine_;
+  const Parameters& p = setup_.geometric;
+  add_parts(result, e, frames_.empty() ? 0 : frames_[frame_].image.width);
+  add(result, memory_);
+  result.lines_filled += memory_.reads();
+
+  collect_traffic(result);
+  collect_hits(result);
+  const std::uint64_t dividers =
+      p.pipelined ? kDividerClocks : static_cast<std::uint64_t>(p.dividers);
+  add(result, "divider_occupancy_percent",
+      100 * ratio(e.line_setup.divider_clocks.value(), dividers * edge_clocks_), "%",
+      "Clocks of dividers (of their stages, if pipelined) in use over those of the edges' phase; "
+      "at 100 % they are the limit.");
+  add(result, "port_occupancy_percent",
+      100 * ratio(e.memory_port.reads.value() + e.memory_port.writes.value(),
+                  edge_clocks_ + resolve_clocks_),
+      "%", "Requests to memory over clocks; at 100 % the port is the limit.");
+  add_counters(result, e);
+}
+
+void GeometricMeter::show_parts(Observer& observer) const {
+  show(observer, engine_);
+  observer.see({"Edges read", figure("edge_classifier_edges"), "edge/clk",
+                number(count_of(setup_.geometric.edge_lanes))});
+  observer.see({"Pixels blended", figure("resolver_blended_pixels"), "pixel/clk",
+                number(count_of(setup_.geometric.resolve_lanes))});
+}
+
+std::vector<Figure> GeometricMeter::work_figures() const {
+  return {{"Edges kept", key("edge_classifier_kept_edges"), "of", key("edge_classifier_edges")},
+          {"Lines", key("line_setup_lines")},
+          {"Pixels walked a clock", key("columns_a_clock"), "walkers, at most"},
+          {"Vertices found in the cache", key("vertex_hits_percent")},
+          {"Depths found in the cache", key("depth_hits_percent")},
+          {"Weights found in the cache", key("weight_hits_percent")},
+          {"Divider occupancy", key("divider_occupancy_percent")},
+          {"Memory port occupancy", key("port_occupancy_percent")},
+          {"Blended pixels", key("resolver_blended_pixels")},
+          {"Traffic of frame buffers alone", key("frame_bytes_a_blended_pixel")}};
+}
+
+void GeometricMeter::collect_headline(Result& result, double clock_mhz) const {
+  const rtl::geometric::GeometricEngine& e = engine_;
+  const std::uint64_t edges = e.work().edges, frame_clocks = e.frame_sequencer.frame_cycles.value();
+  result.latency = latency_of(e.edge_latency);
+
+  result.throughput = ratio(edges, result.cycles);
+  result.throughput_unit = "edge/clk";
+  result.throughput_bound = ratio(edges, frames_done_ > 0 ? clocks_bound() : 0);
+  result.throughput_bound_meaning =
+      "Edges over the clocks of the begin and of both phases, each as its slowest unit or the port "
+      "needs for this work.";
+
+  add(result, "frame_clocks", frame_clocks, "clk", "Of the last frame, from its start to its end.");
+  add(result, "frame_clocks_bound", frame_clocks_bound(), "clk",
+      "The bound of the throughput, in clocks of a frame.");
+  add(result, "frame_rate", frame_clocks ? clock_mhz * 1e6 / number(frame_clocks) : 0.0, "frame/s",
+      "Frames like this a second at the stated clock.");
+  add(result, "clock_for_60_frames",
+      frame_clocks ? WorkValue(clock_for_60(frame_clocks)) : WorkValue(), "MHz",
+      "Clock that 60 frames like this a second need.");
+
+  result.figures.clear();
+  if (frame_clocks)
+    result.figures = {{"Frame", "work.frame_clocks", "bound", "work.frame_clocks_bound", true},
+                      {"Edges drawn", "work.edge_cycles"},
+                      {"Pixels resolved", "work.resolve_cycles"},
+                      {"Clock for 60 frames", "work.clock_for_60_frames", "", "", true},
+                      {"Frames like this", "work.frame_rate"}};
+  result.figures.push_back(
+      {"Traffic of a blended pixel", "work.bytes_a_blended_pixel", "", "", true});
+  for (Figure& figure : work_figures()) result.figures.push_back(std::move(figure));
+
+  result.bottleneck = bottleneck(result);
+}
+
+std::optional<Bottleneck> GeometricMeter::bottleneck(const Result& result) const {
+  const rtl::geometric::GeometricEngine& e = engine_;
+  // From the input of the pipe to its output.
+  std::vector<UnitCycles> pipe;
+  const rtl::Unit* const units[] = {&e.edge_reader,   &e.edge_classifier, &e.vertex_fetch,
+                                    &e.line_setup,    &e.line_walker,     &e.coverage_unit,
+                                    &e.depth_test,    &e.weight_combiner, &e.frame_copier,
+                                    &e.block_scanner, &e.block_fetch,     &e.resolver};
+  for (const rtl::Unit* unit : units)
+    pipe.push_back(unit_cycles(figure(name_within(e, *unit)), *unit));
+  const std::uint64_t requests = e.memory_port.reads.value() + e.memory_port.writes.value();
+  if (result.cycles > 0 && ratio(requests, result.cycles) >= kPortBound)
+    return Bottleneck{figure("memory_port"), "busy",
+                      "The port takes a request in nearly every clock.", requests};
+  return find_bottleneck(pipe, figure("resolver"));
+}
+
+}  // namespace deburr::tb

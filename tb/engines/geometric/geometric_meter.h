@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Figures of the geometric engine: units and counters, traffic by region, and the clocks below
+// which no frame of this work can be drawn (docs/geometric_hardware.md, "Clocks").
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rtl_model/geometric/geometric_engine.h"
+#include "tb/engines/geometric/geometric_setup.h"
+#include "tb/engines/geometric/geometric_stimuli.h"
+#include "tb/env/meter.h"
+
+namespace deburr::tb {
+
+class GeometricMeter : public Meter {
+ public:
+  // All of these must outlive it.
+  GeometricMeter(std::string name, const rtl::geometric::GeometricEngine& engine,
+                 const platform::MemoryModel& memory, std::span<const geometric::Frame> frames,
+                 const GeometricSetup& setup);
+
+  // A frame of these begins; it is done.
+  void begin(std::size_t frame) { frame_ = frame; }
+  void end();
+  std::uint64_t edges_done() const { return edges_done_; }
+  std::uint64_t frames_done() const { return frames_done_; }
+
+  void collect(Result& result) const;
+  void show_parts(Observer& observer) const;
+  void collect_headline(Result& result, double clock_mhz) const;
+  std::vector<Figure> work_figures() const;
+  // Of a frame, from the work of all frames so far.
+  std::uint64_t frame_clocks_bound() const {
+    return frames_done_ > 0 ? clocks_bound() / frames_done_ : 0;
+  }
+
+ private:
+  std::uint64_t clocks_bound() const;
+  void collect_traffic(Result& result) const;
+  void collect_hits(Result& result) const;
+  std::optional<Bottleneck> bottleneck(const Result& result) const;
+
+  const rtl::geometric::GeometricEngine& engine_;
+  const platform::MemoryModel& memory_;
+  std::span<const geometric::Frame> frames_;
+  const GeometricSetup& setup_;
+  std::size_t frame_ = 0;
+  std::uint64_t frames_done_ = 0, edges_done_ = 0, edge_clocks_ = 0, resolve_clocks_ = 0;
+};
+
+}  // namespace deburr::tb

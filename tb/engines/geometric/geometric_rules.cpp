@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "tb/engines/geometric/geometric_rules.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "spec/check_build.h"
+
+namespace deburr::tb {
+namespace {
+
+constexpr std::string_view kGeometricPrefix = "geometric.";
+
+std::string source_of(const spec::geometric::Parameters& values) {
+  return fmt::format("preset {}",
+                     spec::geometric::kPresetNames[static_cast<std::size_t>(values.preset)]);
+}
+
+}  // namespace
+
+void apply_preset(ParameterSet& set, const spec::geometric::Parameters& values) {
+  const spec::geometric::Parameters rules = preset_parameters(values.preset);
+  for_each_of(values.preset, [&](std::string_view name, auto, auto) {
+    set.imply(fmt::format("{}{}", kGeometricPrefix, name), spec::value_text(rules, name),
+              source_of(values));
+  });
+}
+
+std::string preset_label(const ParameterSet& set, const spec::geometric::Parameters& values) {
+  std::string label = source_of(values);
+  bool first = true;
+  for (const Parameter* p : set.changed()) {
+    if (!p->name.starts_with(kGeometricPrefix)) continue;
+    label += first ? ", changed: " : ", ";
+    label += p->name.substr(kGeometricPrefix.size());
+    first = false;
+  }
+  return label;
+}
+
+void refuse_unused_rules(const ParameterSet& set, const spec::geometric::Parameters& p) {
+  const auto refuse = [&](std::string_view name, std::string_view why) {
+    set.refuse(fmt::format("{}{}", kGeometricPrefix, name), why);
+  };
+  if (p.select == spec::geometric::Select::kAll) {
+    refuse("crease", "geometric.select = all draws every edge, crease or not");
+    refuse("face_limit", "geometric.select = all reads no facing bits");
+  }
+  if (p.depth_test == spec::geometric::DepthTest::kOff)
+    for (const char* const name : {"depth_bias", "depth_lines"})
+      refuse(name, "geometric.depth_test = off reads no depth");
+  if (p.pipelined) {
+    refuse("dividers",
+           "geometric.pipelined = true takes a line every clock: one divider is enough");
+    // A table with entries cannot be built (spec/geometric/check_build.h).
+    if (p.reciprocal_table == 0)
+      refuse("reciprocal_table", "geometric.pipelined = true takes a line every clock without one");
+  }
+}
+
+std::vector<std::string> build_notes(const spec::geometric::Parameters& p) {
+  if (p.latency_fifo >= p.fills) return {};
+  return {fmt::format(
+      "geometric.latency_fifo = {} is below geometric.fills = {}: look-ups wait before all lines "
+      "that may be on their way are asked for",
+      p.latency_fifo, p.fills)};
+}
+
+std::vector<Shorthand> edge_shorthands() {
+  return {
+      {"--preset", "geometric.preset", "gpaa, gpaa-optimised or deburr (default)"},
+      {"--layout", "geometric.layout",
+       "Order of pixels in colour and depth buffer: tiled (default) or raster"},
+      {"--walkers", "geometric.walkers", "Pixels of a line walked a clock: 1, 2 or 4 (default)"}};
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "tb/engines/geometric/geometric_stimuli.h"
+
+#include <cmath>
+
+#include "tb/scene/depth_codes.h"
+
+namespace deburr::tb::geometric {
+
+golden::geometric::FrameInput Frame::input(const golden::geometric::Bases& bases) const {
+  return {{image.pixels, image.width, image.height},
+          {depths, image.width, image.height},
+          screen.edges,
+          screen.vertices,
+          {screen.facing, screen.faces},
+          bases};
+}
+
+Frame make_frame(const Scene& scene, int width, int height) {
+  Frame frame;
+  const GBuffer buffer = render_gbuffer(scene, width, height);
+  frame.image = light(scene, buffer);
+  frame.depth = buffer.depth;
+  frame.depths = depth_codes(buffer.depth);
+  frame.table = build_edge_table(scene.mesh);
+  frame.screen = project_edges(frame.table, scene.camera, width, height);
+  return frame;
+}
+
+Judge::Judge(const Scene& scene, int width, int height, int samples,
+             const std::function<bool()>& interrupted)
+    : frame(make_frame(scene, width, height)) {
+  RenderOptions options;
+  options.width = width;
+  options.height = height;
+  options.samples = samples;
+  options.shading = Shading::kPhong;
+  options.averaging = Averaging::kLinear;
+  options.interrupted = interrupted;
+  truth = render(scene, options);
+  msaa = render_msaa4(scene, width, height, Shading::kPhong);
+  edges = edge_mask(truth, frame.image);
+  silhouettes = silhouette_mask(edges, frame.depth);
+}
+
+double Judge::edge_rmse(const Image& image) const {
+  return std::sqrt(mean_squared_error(image, truth, edges));
+}
+double Judge::silhouette_rmse(const Image& image) const {
+  return std::sqrt(mean_squared_error(image, truth, silhouettes));
+}
+double Judge::edge_psnr(const Image& image) const { return psnr(image, truth, edges); }
+double Judge::silhouette_psnr(const Image& image) const { return psnr(image, truth, silhouettes); }
+
+Smoothed smoothed(const Frame& frame, const spec::geometric::Parameters& parameters) {
+  golden::geometric::GeometricGolden golden(parameters,
+                                            golden::geometric::GeometricGolden::Detail::kPixels);
+  Smoothed result;
+  result.image = Image(frame.image.width, frame.image.height);
+  result.image.pixels = golden.process(frame.input());
+  result.work = golden.work();
+  return result;
+}
+
+}  // namespace deburr::tb::geometric

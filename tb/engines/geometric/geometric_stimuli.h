@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Frames for the geometric engine: a scene, lit, with the edges, depths and facing bits that belong
+// to it; and how well a smoothing of such a frame agrees with the supersampled truth.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "golden/geometric/geometric_golden.h"
+#include "tb/engines/geometric/edge_table.h"
+#include "tb/scene/image.h"
+#include "tb/scene/quality.h"
+#include "tb/scene/scenes.h"
+#include "tb/scene/truth.h"
+
+namespace deburr::tb::geometric {
+
+// What the engine finds in memory, made from a scene. Owns what the golden only looks at.
+struct Frame {
+  Image image;  // Phong's light from the G-buffer
+  DepthImage depth;
+  std::vector<std::uint32_t> depths;  // U24
+  EdgeTable table;
+  ScreenEdges screen;
+  golden::geometric::FrameInput input(const golden::geometric::Bases& bases = {}) const;
+};
+Frame make_frame(const Scene& scene, int width, int height);
+
+// A frame beside its truth.
+struct Judge {
+  Frame frame;
+  Image truth, msaa;
+  Mask edges, silhouettes;
+  Judge(const Scene& scene, int width, int height, int samples,
+        const std::function<bool()>& interrupted = nullptr);
+  double edge_rmse(const Image& image) const;  // in codes, over edge pixels
+  double silhouette_rmse(const Image& image) const;
+  double edge_psnr(const Image& image) const;  // dB
+  double silhouette_psnr(const Image& image) const;
+};
+
+// The frame as the golden of these rules smooths it, and its work.
+struct Smoothed {
+  Image image;
+  spec::geometric::Work work;
+};
+Smoothed smoothed(const Frame& frame, const spec::geometric::Parameters& parameters);
+
+}  // namespace deburr::tb::geometric

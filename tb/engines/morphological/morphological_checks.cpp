@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "tb/engines/morphological/morphological_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <tuple>
+
+#include "golden/morphological/traffic.h"
+#include "spec/morphological/registers.h"
+
+namespace deburr::tb {
+namespace {
+
+using golden::morphological::DepthView;
+using golden::morphological::ImageView;
+using spec::morphological::FrameAccess;
+using spec::morphological::LineRecord;
+using spec::morphological::RunRecord;
+namespace reg = spec::morphological::reg;
+
+std::string describe_pixel(const spec::morphological::Rgba8& p) {
+  return fmt::format("RGBA ({}, {}, {}, {})", p[0], p[1], p[2], p[3]);
+}
+std::string describe_tap(const spec::morphological::BlendTap& t) {
+  return fmt::format("{} shares {} {}, edges{}{}", t.horizontal ? "left/right" : "up/down", t.first,
+                     t.second, t.edges & 1 ? " left" : "", t.edges & 2 ? " top" : "");
+}
+std::string describe_run(const RunRecord& r) {
+  constexpr std::array<std::string_view, 3> kParts = {"", " head", " tail"};
+  return fmt::format("{} run{} line {} start {} length {} {}",
+                     r.axis == spec::morphological::Axis::kHorizontal ? "horizontal" : "vertical",
+                     kParts[static_cast<std::size_t>(r.part)], r.line, r.start, r.length,
+                     spec::morphological::kRunShapes[r.shape & 15].name);
+}
+std::string describe_line(const LineRecord& l) {
+  return fmt::format("{}: steps {} {}, scale {} offset {} shift {} slope {} inverse {} span {}",
+                     describe_run(l.run), l.left_steps, l.right_steps, l.scale, l.offset, l.shift,
+                     l.slope, l.inverse, l.span);
+}
+
+// Any order that both sides can be brought into.
+auto order_of(const RunRecord& r) { return std::tuple(r.axis, r.line, r.start, r.part); }
+
+}  // namespace
+
+MorphologicalChecks::MorphologicalChecks(const MorphologicalSetup& setup, bool golden)
+    : pixels("pixels", describe_pixel),
+      taps("taps", describe_tap),
+      runs("runs", 0, describe_run),
+      lines("lines", 0, describe_line),
+      traffic(
+          "memory lines", 0,
+          [](const FrameAccess& a) {
+            return fmt::format("{} of address {:#x}", a.write ? "write" : "read", a.address);
+          },
+          [](const FrameAccess& a) { return a.write ? 1u : 0u; }),
+      registers(spec::morphological::kRegisters),
+      setup_(setup),
+      used_(golden),
+      golden_(setup.morphological) {
+  if (const auto range = error_range(setup.memory); range && in_memory())
+    golden_.set_read_errors(
+        [range = *range](std::uint32_t line) {
+          return range.touches(line, spec::morphological::kFrameLineBytes);
+        },
+        setup.pixel_base);
+}
+
+void MorphologicalChecks::clear_counters() {
+  work_ = {};
+  unreadable_lines_ = 0;
+}
+
+void MorphologicalChecks::begin(const MorphologicalInput& frame) {
+  frame_ = &frame;
+  runs_.clear();
+  lines_.clear();
+  if (!used_) return;
+  expect_traffic();
+  const Image& image = frame.image;
+  const DepthView depth =
+      frame.depth.empty() ? DepthView() : DepthView(frame.depth, image.width, image.height);
+  if (!setup_.expectation)
+    golden_.process(ImageView(image.pixels, image.width, image.height), depth);
+  pixels.expect(golden_model().pixels(), image.width);
+  taps.expect(golden_model().taps(), image.width);
+}
+
+// All writes ascending, all reads ascending; how they interleave is timing.
+void MorphologicalChecks::expect_traffic() {
+  if (!in_memory()) return;
+  for (const FrameAccess& access : golden::morphological::frame_traffic(
+           setup_.pixel_base, frame_->image.width, frame_->image.height))
+    traffic.expect(access);
+}
+
+void MorphologicalChecks::restart() {
+  runs_.clear();
+  lines_.clear();
+  pixels.restart();
+  taps.restart();
+  traffic.restart();
+  if (used_) expect_traffic();
+}
+
+void MorphologicalChecks::got_frame(rtl::Cycle cycle, std::size_t position, std::size_t left,
+                                    const spec::morphological::BlendedBeat& beat) {
+  const auto lanes = static_cast<std::size_t>(platform::lanes_of(setup_.morphological));
+  const bool first = position == 0, last = beat.count == left;
+  if (!used_ || (beat.count == std::min(left, lanes) && beat.start_of_frame == first &&
+                 beat.end_of_row == last))
+    return;
+  pixels.complain(
+      cycle, position, "frame",
+      fmt::format("{} pixels at most, start of frame {}, end of row {}", left, first, last),
+      fmt::format("{} pixels, start of frame {}, end of row {}", beat.count, beat.start_of_frame,
+                  beat.end_of_row));
+}
+
+void MorphologicalChecks::go_on_at(std::size_t position) {
+  pixels.go_on_at(position);
+  taps.go_on_at(position);
+}
+
+void MorphologicalChecks::judge_traffic(platform::MemoryModel& memory, rtl::Cycle cycle) {
+  if (used_) {
+    const auto judge = [&](const std::vector<std::uint64_t>& moved, bool write) {
+      for (const std::uint64_t line : moved)
+        traffic.got({static_cast<std::uint32_t>(line), write}, cycle);
+    };
+    judge(memory.lines_written(), true);
+    judge(memory.lines_read(), false);
+  }
+  memory.forget_lines();
+}
+
+void MorphologicalChecks::end(rtl::Cycle cycle, std::size_t frame) {
+  if (!used_) return;
+  for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
+    work_.*each.count += golden_model().work().*each.count;
+  unreadable_lines_ += golden_model().memory_errors();
+  if (!setup_.records) return;
+  std::vector<RunRecord> all_runs;
+  std::vector<LineRecord> all_lines;
+  for (const golden::morphological::PredictedRun& run : golden_model().runs()) {
+    all_runs.push_back(run.line.run);
+    const spec::morphological::RunShape& shape =
+        spec::morphological::kRunShapes[run.line.run.shape];
+    if (run.line.learned || shape.before != spec::morphological::Side::kNone ||
+        shape.after != spec::morphological::Side::kNone)
+      all_lines.push_back(run.line);
+  }
+  const auto by_run = [](const RunRecord& a, const RunRecord& b) {
+    return order_of(a) < order_of(b);
+  };
+  const auto by_line = [&](const LineRecord& a, const LineRecord& b) {
+    return by_run(a.run, b.run);
+  };
+  for (auto* list : {&all_runs, &runs_}) std::sort(list->begin(), list->end(), by_run);
+  for (auto* list : {&all_lines, &lines_}) std::sort(list->begin(), list->end(), by_line);
+  for (const RunRecord& run : all_runs) runs.expect(run);
+  for (const LineRecord& line : all_lines) lines.expect(line);
+  // In the order of the frame, which is not that of clocks.
+  const std::string where = fmt::format("cycle {}, the end of frame {}", cycle, frame);
+  for (const RunRecord& run : runs_) runs.got(run, where);
+  for (const LineRecord& line : lines_) lines.got(line, where);
+}
+
+// As much as the frames have; of runs and lines as many as the engine counted, since a frame may
+// have none.
+void MorphologicalChecks::require(std::span<const MorphologicalInput> frames,
+                                  const spec::morphological::Work& work) {
+  std::uint64_t area = 0, moved = 0;
+  for (const MorphologicalInput& frame : frames) {
+    area += frame.image.pixels.size();
+    moved += golden::morphological::frame_stride(frame.image.width) /
+             spec::morphological::kFrameLineBytes * static_cast<std::uint64_t>(frame.image.height);
+  }
+  pixels.require(area);
+  taps.require(area);
+  if (in_memory()) traffic.require(2 * moved);
+  if (!setup_.records) return;
+  runs.require(work.horizontal_runs + work.vertical_runs);
+  lines.require(work.z_runs);
+}
+
+void MorphologicalChecks::finish(std::span<const MorphologicalInput> frames,
+                                 const spec::morphological::Work& work, std::uint64_t frame_clocks,
+                                 platform::RegisterBus& bus) {
+  if (!used_) return;
+  require(frames, work);
+  std::vector<std::pair<std::uint32_t, std::uint64_t>> expected;
+  for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
+    expected.emplace_back(each.offset, work_.*each.count);
+  expected.emplace_back(reg::kFrameCycles, frame_clocks);
+  // What cannot be read could not be written before.
+  expected.emplace_back(reg::kMemoryErrors, 2 * unreadable_lines_);
+  registers.judge(bus, expected);
+}
+
+}  // namespace deburr::tb

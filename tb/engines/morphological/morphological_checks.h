@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// What the morphological engine does against its golden model: pixels and taps as they come, runs
+// and lines inside if asked for, lines of memory, counters.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "golden/morphological/morphological_golden.h"
+#include "rtl_model/platform/host.h"
+#include "rtl_model/platform/memory_model.h"
+#include "spec/morphological/packets.h"
+#include "tb/engines/morphological/frame_source.h"
+#include "tb/engines/morphological/morphological_setup.h"
+#include "tb/env/environment.h"
+#include "tb/env/raster_scoreboard.h"
+
+namespace deburr::tb {
+
+class MorphologicalChecks {
+ public:
+  // The setup must outlive it. Without `golden` nothing is compared.
+  MorphologicalChecks(const MorphologicalSetup& setup, bool golden);
+
+  // The engine's counters are 0.
+  void clear_counters();
+  // The golden model works on a frame, which must outlive its checks.
+  void begin(const MorphologicalInput& frame);
+  // The frame begins again (after a reset).
+  void restart();
+
+  // What a beat says of the frame, `left` pixels before its row's end.
+  void got_frame(rtl::Cycle cycle, std::size_t position, std::size_t left,
+                 const spec::morphological::BlendedBeat& beat);
+  void got(const spec::morphological::Rgba8& pixel, const spec::morphological::BlendTap& tap,
+           rtl::Cycle cycle) {
+    if (!used_) return;
+    pixels.got(pixel, cycle);
+    taps.got(tap, cycle);
+  }
+  // The order is broken; from here on it is that of this pixel.
+  void go_on_at(std::size_t position);
+  // With records alone: judged at the frame's end.
+  void got(const spec::morphological::RunRecord& run) { runs_.push_back(run); }
+  void got(const spec::morphological::LineRecord& line) { lines_.push_back(line); }
+  // What memory has recorded, and forgets then.
+  void judge_traffic(platform::MemoryModel& memory, rtl::Cycle cycle);
+  // The frame of this number is done.
+  void end(rtl::Cycle cycle, std::size_t frame);
+  // All of them are: how much must have been compared, and the counters.
+  void finish(std::span<const MorphologicalInput> frames, const spec::morphological::Work& work,
+              std::uint64_t frame_clocks, platform::RegisterBus& registers);
+
+  const golden::morphological::MorphologicalGolden& golden_model() const {
+    return setup_.expectation ? *setup_.expectation : golden_;
+  }
+
+  RasterScoreboard<spec::morphological::Rgba8> pixels;
+  RasterScoreboard<spec::morphological::BlendTap> taps;
+  Scoreboard<spec::morphological::RunRecord> runs;
+  Scoreboard<spec::morphological::LineRecord> lines;
+  Scoreboard<spec::morphological::FrameAccess> traffic;
+  RegisterScoreboard registers;
+
+ private:
+  bool in_memory() const {
+    return setup_.morphological.storage == spec::morphological::Storage::kMemory;
+  }
+  void expect_traffic();
+  void require(std::span<const MorphologicalInput> frames, const spec::morphological::Work& work);
+
+  const MorphologicalSetup& setup_;
+  bool used_;
+  golden::morphological::MorphologicalGolden golden_;
+  spec::morphological::Work work_;      // of the golden model, of all frames since the last reset
+  std::uint64_t unreadable_lines_ = 0;  // the same
+  const MorphologicalInput* frame_ = nullptr;
+  std::vector<spec::morphological::RunRecord> runs_;
+  std::vector<spec::morphological::LineRecord> lines_;
+};
+
+}  // namespace deburr::tb

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// The morphological engine on one or several frames.
+//
+//   frames ─► FrameSource ─► MorphologicalEngine ─► Sink ─► pixels, taps: against the golden frame
+//                                │       └ registers ◄─ RegisterHost: SIZE, and the counters at the
+//                                end
+//                            MemoryModel (storage = memory) ─► lines written, lines read
+//
+// The golden model works on a frame before it is sent. Every pixel that leaves the engine is judged
+// as it comes, with its tap (axis, shares, edge bits); runs and lines inside too, if asked for.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <systemc>
+#include <vector>
+
+#include "golden/morphological/morphological_golden.h"
+#include "rtl_model/morphological/morphological_engine.h"
+#include "rtl_model/platform/memory_model.h"
+#include "rtl_model/platform/morphological_driver.h"
+#include "rtl_model/platform/register_host.h"
+#include "spec/morphological/packets.h"
+#include "spec/morphological/parameters.h"
+#include "tb/engines/morphological/frame_source.h"
+#include "tb/engines/morphological/morphological_checks.h"
+#include "tb/engines/morphological/morphological_coverage.h"
+#include "tb/engines/morphological/morphological_faults.h"
+#include "tb/engines/morphological/morphological_maps.h"
+#include "tb/engines/morphological/morphological_meter.h"
+#include "tb/engines/morphological/morphological_setup.h"
+#include "tb/env/environment.h"
+#include "tb/harness/driver.h"
+
+namespace deburr::tb {
+
+class MorphologicalEnvironment final : public Environment {
+ public:
+  // The frames, which must outlive it, are what the golden model smooths. With a name it is part of
+  // a composition, which puts the frames into `pixels`. ConfigError for wrong parameters or a frame
+  // that the engine does not take.
+  MorphologicalEnvironment(Simulation& simulation, std::span<const MorphologicalInput> frames,
+                           const MorphologicalSetup& setup, std::string name = {});
+
+  void configure() override;
+  bool begin(std::size_t piece) override;
+  void watch() override;
+  bool done() const override;
+  void end() override;
+  void restart() override;
+  void finish() override;
+  void refuse_memory_errors() override;
+  void refuse_unused_errors() const override;
+  Amount amount() const override;
+  bool memory_at_rest() const override { return !memory_ || memory_->at_rest(); }
+  Boards outputs() const override;
+  Boards traffic() const override;
+  Boards counters() const override { return {&checks_.registers.board()}; }
+  void collect(Result& result) const override { meter_.collect(result); }
+  void show_parts(Observer& observer) const override {
+    meter_.show_parts(observer, pixels, blended_);
+  }
+  std::vector<PictureMap> maps() const override;
+  Coverage coverage() const override { return morphological_coverage(golden_model()); }
+  void collect_headline(Result& result) const override {
+    meter_.collect_headline(result, simulation().options().clock_mhz);
+  }
+
+  rtl::Link<spec::morphological::PixelBeat> pixels;
+
+  const MorphologicalMeter& meter() const { return meter_; }
+  std::uint64_t delivered_in_all() const { return progress_.delivered; }
+  // Of the last frame: what the engine delivered, and clocks from its first to its last input beat.
+  const Image& frame() const { return frame_; }
+  std::size_t delivered() const { return position_; }
+  const std::vector<spec::morphological::BlendTap>& taps() const { return taps_; }
+  rtl::Cycle input_clocks() const { return progress_.input_clocks(); }
+  // The golden model, which has seen every frame (none without golden).
+  const golden::morphological::MorphologicalGolden& golden_model() const {
+    return checks_.golden_model();
+  }
+  // Over all pixels and taps in order.
+  std::uint64_t pixel_hash() const { return hash_.value(); }
+
+  rtl::morphological::MorphologicalEngine& engine() { return engine_; }
+  const rtl::morphological::MorphologicalEngine& engine() const { return engine_; }
+  platform::RegisterHost& host() { return host_; }
+
+ private:
+  int lanes() const { return platform::lanes_of(setup_.morphological); }
+  bool in_memory() const {
+    return setup_.morphological.storage == spec::morphological::Storage::kMemory;
+  }
+  // Of the model and of its parameters; memory alone is called that.
+  std::string memory_name() const { return name().empty() ? "memory" : "frame_memory"; }
+  std::unique_ptr<platform::MemoryModel> memory_for(
+      std::span<const MorphologicalInput> frames) const;
+  void start();
+  void judge(rtl::Cycle cycle, const spec::morphological::BlendedBeat& beat);
+
+  std::span<const MorphologicalInput> frames_;
+  MorphologicalSetup setup_;
+  MorphologicalFaults faults_;
+  rtl::Link<spec::morphological::BlendedBeat> blended_;
+  std::unique_ptr<FrameSource> source_;  // alone
+  rtl::morphological::MorphologicalEngine engine_;
+  Sink<spec::morphological::BlendedBeat> sink_;
+  std::unique_ptr<platform::MemoryModel> memory_;
+  platform::RegisterHost host_;
+  platform::MorphologicalDriver driver_;
+  MorphologicalProgress progress_;
+  MorphologicalMeter meter_;
+  MorphologicalChecks checks_;
+
+  std::size_t current_ = 0;  // of frames_
+  Image frame_;
+  std::vector<spec::morphological::BlendTap> taps_;
+  std::size_t position_ = 0;        // of the next pixel in the frame
+  std::uint64_t taken_before_ = 0;  // beats that were taken before this frame's
+  rtl::Cycle first_taken_ = 0;      // when the engine took the first of this frame
+  OutputHash hash_;
+  std::optional<MorphologicalMaps> maps_;
+};
+
+}  // namespace deburr::tb

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "tb/engines/morphological/morphological_faults.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "rtl_model/platform/morphological_records.h"
+#include "spec/error.h"
+
+namespace deburr::tb {
+namespace {
+
+constexpr std::int32_t kMostThreshold = 65535;  // of T and of the floor, U0.16
+
+}  // namespace
+
+std::vector<PlantedFault> MorphologicalFaults::list() const {
+  const int width = frames_.empty() ? 1 : frames_.front().image.width;
+  const std::uint64_t row = platform::beats_a_row(width, platform::lanes_of(setup_.morphological));
+  const std::string memory = setup_.morphological.storage == spec::morphological::Storage::kMemory
+                                 ? ""
+                                 : "morphological.storage = memory";
+  std::vector<PlantedFault> list = {
+      {"flip-bit", "Flips a bit of the red channel of output beat 100.",
+       "flip:blended:100:pixel.0.r.4"},
+      {"drop-pixel", "Drops output beat 100.", "drop:blended:100"},
+      {"duplicate-pixel", "Delivers output beat 100 twice.", "duplicate:blended:100"},
+      {"drop-input", "Drops input beat 50 on its way into the engine.", "drop:pixels:50"},
+      {"wrong-edge", "Flips the left edge of a pixel in row 1, behind the edge detector.",
+       fmt::format("flip:morphological.edge_bits:{}:left", 2 * row + row / 2)},
+      {"wrong-rule", "The engine tries one step less than was ordered.", "",
+       setup_.morphological.steps > 0 ? "" : "morphological.steps of at least 1"},
+      {"stuck-ready", "Holds back the slots of the luma unit from cycle 500 on.",
+       "stuck_ready:morphological.slots:500"},
+      {"duplicate-fetch", "Sends memory request 20 twice.",
+       fmt::format("duplicate:morphological.requests:{}", kFaultyRequest), memory}};
+  for (PlantedFault& fault : memory_faults(memory)) list.push_back(std::move(fault));
+  for (PlantedFault& fault : smaa_faults()) list.push_back(std::move(fault));
+  for (PlantedFault& fault : shares_faults()) list.push_back(std::move(fault));
+  return list;
+}
+
+// Of edges from colour and learned shares.
+std::vector<PlantedFault> MorphologicalFaults::shares_faults() const {
+  const spec::morphological::Parameters& p = setup_.morphological;
+  const std::string needs =
+      p.area == spec::morphological::AreaSource::kLearned ? "" : "morphological.area = learned";
+  return {
+      {"wrong-colour", "Edges come from luma.", "",
+       p.edge_source == spec::morphological::EdgeSource::kColour
+           ? ""
+           : "morphological.edges.source = colour"},
+      {"wrong-share",
+       "Flips a bit of the word of shares_a for a single pixel between crossings on its side.", "",
+       needs},
+      {"wrong-near", "Flips a bit of the words of shares_b for crossings that go on.", "", needs},
+      {"wrong-far", "Flips a bit of the words of shares_c for crossings that go on.", "", needs},
+      {"wrong-sum", "Flips a bit of the word of share_rom for a sum of -2.0.", "", needs},
+      {"wrong-class", "Flips a bit of the class of the crossing at the end of a vertical run.",
+       "flip:morphological.lines_v0:20:line.end_class.1", needs},
+      {"wrong-code", "Flips a bit of the codes of the ends of a horizontal run.",
+       "flip:morphological.lines_h0:20:line.run.shape.0", needs},
+      {"wrong-axis", "The line of a horizontal run that has none counts as the longest one.",
+       "flip:morphological.lines_h0:20:line.span.11", needs},
+      {"drop-line", "Drops a record behind the dividers of horizontal runs.",
+       "drop:morphological.lines_h0:20", needs}};
+}
+
+// Of SMAA's blocks. Those without a link are planted by as_built() and plant().
+std::vector<PlantedFault> MorphologicalFaults::smaa_faults() const {
+  const spec::morphological::Parameters& p = setup_.morphological;
+  const auto unless = [](bool built, std::string needs) {
+    return built ? std::string() : "morphological." + std::move(needs);
+  };
+  const bool luma = p.edge_source == spec::morphological::EdgeSource::kLuma;
+  const bool dynamic = p.threshold_mode == spec::morphological::ThresholdMode::kDynamic;
+  const bool contrast = p.local_contrast == spec::morphological::LocalContrast::kSmaa ||
+                        p.local_contrast == spec::morphological::LocalContrast::kPaper;
+  const bool table = p.area != spec::morphological::AreaSource::kAnalytic &&
+                     p.area != spec::morphological::AreaSource::kLearned;
+  const std::string for_table = unless(table, "area = table_full, table_merged or table_minimal"),
+                    for_diagonals = unless(p.diagonals, "diagonals = true");
+  return {
+      {"wrong-threshold",
+       "The threshold errs where it is just reached: T a unit higher, or alpha a unit lower.", "",
+       unless(luma && (dynamic ? p.alpha > 0 : p.threshold < kMostThreshold),
+              "edges.source = luma, alpha of at least 1, T of at most 65534")},
+      {"wrong-floor", "The floor of a dynamic threshold is a unit higher.", "",
+       unless(luma && dynamic && p.floor < kMostThreshold,
+              "edges.threshold_mode = dynamic, floor of at most 65534")},
+      {"wrong-contrast",
+       "An edge of exactly half the contrast beside it is dropped for kept, kept for dropped.", "",
+       unless(luma && contrast, "edges.local_contrast = smaa or paper")},
+      {"wrong-area", "Flips a bit of the word of area_rom0 that runs of one pixel read.", "",
+       for_table},
+      {"wrong-root", "Flips a bit of the word of sqrt_rom for two pixels.", "", for_table},
+      {"wrong-decode", "Patterns 6, 7 and 14 of the merged table read the tile of 9.", "",
+       unless(p.area == spec::morphological::AreaSource::kTableMerged, "area = table_merged")},
+      {"wrong-search", "Searches along runs end a step early.", "",
+       unless(table && p.search_steps > 1, "area = table_*, search_steps of at least 2")},
+      {"wrong-entry", "A vertical record is stored in the other entry of its column.",
+       "flip:morphological.lines_v0:20:entry",
+       unless(p.ends == spec::morphological::Ends::kCrossings, "ends = crossings")},
+      {"wrong-diagonal", "Searches along diagonals end a step early.", "",
+       unless(p.diagonals && p.diagonal_steps > 1,
+              "diagonals = true, diagonal_steps of at least 2")},
+      {"wrong-diagonal-area",
+       "Flips a bit of the words of diagonal_rom for two pixels to either end.", "", for_diagonals},
+      {"drop-diagonals", "Drops the shares of the diagonals of beat 200.",
+       "drop:morphological.diagonals.diagonal_shares_entries:200", for_diagonals},
+      {"wrong-corner", "Sharp corners keep 1/256 less of a weight.", "",
+       unless(p.round_corners && p.corner_rounding > 0,
+              "round_corners = true, corner_rounding of at least 1")},
+      {"wrong-mix", "Flips a bit of the word of mix_rom for shares that sum up to 64.", "",
+       unless(p.blend == spec::morphological::BlendRule::kStrongest, "blend = strongest")}};
+}
+
+spec::morphological::Parameters MorphologicalFaults::as_built() const {
+  spec::morphological::Parameters p = setup_.morphological;
+  // A fault that would change nothing is refused by what it needs.
+  if (planted("wrong-rule")) p.steps = std::max(0, p.steps - 1);
+  if (planted("wrong-threshold")) {
+    if (p.threshold_mode == spec::morphological::ThresholdMode::kDynamic)
+      p.alpha = std::max(0, p.alpha - 1);
+    else
+      p.threshold = std::min(kMostThreshold, p.threshold + 1);
+  }
+  if (planted("wrong-floor")) p.floor = std::min(kMostThreshold, p.floor + 1);
+  if (planted("wrong-contrast"))
+    p.local_contrast = p.local_contrast == spec::morphological::LocalContrast::kSmaa
+                           ? spec::morphological::LocalContrast::kPaper
+                           : spec::morphological::LocalContrast::kSmaa;
+  if (planted("wrong-search")) p.search_steps = std::max(1, p.search_steps - 1);
+  if (planted("wrong-diagonal")) p.diagonal_steps = std::max(1, p.diagonal_steps - 1);
+  if (planted("wrong-colour")) p.edge_source = spec::morphological::EdgeSource::kLuma;
+  if (planted("wrong-corner")) p.corner_rounding = std::max(0, p.corner_rounding - 1);
+  return p;
+}
+
+void MorphologicalFaults::plant(rtl::morphological::MorphologicalEngine& engine) const {
+  const auto in_rom = [&]<class Word>(const char* name, Word, auto&& change) {
+    rtl::for_each<rtl::MemoryBase>(engine, [&](rtl::MemoryBase& memory) {
+      if (memory.basename() != std::string_view(name)) return;
+      auto* const rom = dynamic_cast<rtl::Memory<Word>*>(&memory);
+      DEBURR_CHECK(rom != nullptr, std::string(name) + " has other words");
+      change(*rom);
+    });
+  };
+  constexpr std::uint16_t kHalf = 0;
+  constexpr std::uint32_t kWord = 0;
+  // Tiles as the layout stores them, a parity of 64 words each.
+  using spec::morphological::AreaSource;
+  const AreaSource layout = setup_.morphological.area;
+  const std::uint64_t tile_of_6 = layout == AreaSource::kTableFull     ? 6
+                                  : layout == AreaSource::kTableMerged ? 4
+                                                                       : 0;
+  constexpr std::uint64_t kTileWords = 64, kMergedTileOf9 = 6;
+  if (planted("wrong-area"))
+    in_rom("area_rom0", kHalf, [&](auto& rom) { rom.backdoor(tile_of_6 * kTileWords) ^= 1u << 5; });
+  if (planted("wrong-root"))
+    in_rom("sqrt_rom", kHalf, [](auto& rom) { rom.backdoor(2) ^= 1u << 6; });
+  if (planted("wrong-decode"))
+    for (const char* const name : {"area_rom0", "area_rom1", "area_rom2", "area_rom3"})
+      in_rom(name, kHalf, [&](auto& rom) {
+        for (std::uint64_t i = 0; i < kTileWords; ++i)
+          rom.backdoor(tile_of_6 * kTileWords + i) = rom.backdoor(kMergedTileOf9 * kTileWords + i);
+      });
+  if (planted("wrong-diagonal-area"))
+    in_rom("diagonal_rom", kHalf, [](auto& rom) {
+      constexpr std::uint64_t kDistances = spec::morphological::kDiagonalDistances;
+      for (std::uint64_t codes = 0; codes < 16; ++codes)
+        rom.backdoor((codes * kDistances + 2) * kDistances + 2) ^= 1u << 4;
+    });
+  constexpr std::int8_t kEntry = 0;
+  constexpr std::uint8_t kShare = 0;
+  if (planted("wrong-share"))
+    in_rom("shares_a", kEntry, [](auto& rom) {
+      // Codes 1 and 1, at distances 0 and 0.
+      rom.backdoor(5 * 64) = static_cast<std::int8_t>(rom.backdoor(5 * 64) ^ 1 << 4);
+    });
+  for (const auto& [fault, name] :
+       {std::pair{"wrong-near", "shares_b"}, std::pair{"wrong-far", "shares_c"}})
+    if (planted(fault))
+      in_rom(name, kEntry, [](auto& rom) {
+        constexpr std::uint64_t kGoesOn = 4, kWords = 32;  // class 2 of code 1
+        for (std::uint64_t i = kGoesOn * kWords; i < (kGoesOn + 1) * kWords; ++i)
+          rom.backdoor(i) = static_cast<std::int8_t>(rom.backdoor(i) ^ 1 << 4);
+      });
+  if (planted("wrong-sum"))
+    in_rom("share_rom", kShare, [](auto& rom) { rom.backdoor(128 - 32) ^= 1u << 2; });
+  if (planted("wrong-mix"))
+    in_rom("mix_rom", kWord, [](auto& rom) { rom.backdoor(64) ^= 1u << 9; });
+}
+
+}  // namespace deburr::tb

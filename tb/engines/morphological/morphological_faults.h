@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// What can be wrong with a morphological engine on purpose: on its links, in how it is built and in
+// its ROMs.
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rtl_model/morphological/morphological_engine.h"
+#include "spec/morphological/parameters.h"
+#include "tb/engines/morphological/frame_source.h"
+#include "tb/engines/morphological/morphological_setup.h"
+#include "tb/env/planted_faults.h"
+
+namespace deburr::tb {
+
+class MorphologicalFaults : public EngineFaults {
+ public:
+  // Frames and setup must outlive it.
+  MorphologicalFaults(const FaultPlan& plan, std::string environment,
+                      std::span<const MorphologicalInput> frames, const MorphologicalSetup& setup)
+      : EngineFaults(plan, std::move(environment)), frames_(frames), setup_(setup) {}
+
+  std::vector<PlantedFault> list() const;
+  // What the engine is built with; the golden model always gets what was ordered.
+  spec::morphological::Parameters as_built() const;
+  void plant(rtl::morphological::MorphologicalEngine& engine) const;
+
+ private:
+  std::vector<PlantedFault> smaa_faults() const;
+  std::vector<PlantedFault> shares_faults() const;
+
+  std::span<const MorphologicalInput> frames_;
+  const MorphologicalSetup& setup_;
+};
+
+}  // namespace deburr::tb

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// What the morphological engine is given: an image file with depth and truth beside it, or a scene
+// rendered without anti-aliasing, with its depth and its supersampled truth. Files become codes by
+// the rules of docs/number_formats_morphological.md, "Conversion of images".
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tb/engines/morphological/frame_source.h"
+#include "tb/scene/image.h"
+#include "tb/scene/truth.h"
+
+namespace deburr::tb {
+
+struct FrameParameters {
+  std::string source = "cylinders";
+  std::string depth, truth, mask;
+  std::int32_t width = 640, height = 480;
+  std::int32_t truth_samples = 8;
+  std::int32_t count = 1;
+};
+
+template <class Visitor>
+void describe(FrameParameters& p, Visitor& v) {
+  v.text("source", p.source, "name | file",
+         "An image file, or a scene (plane, quad, tunnel, object, road, cylinders, or a mesh file) "
+         "rendered without anti-aliasing.");
+  v.text("depth", p.depth, "file",
+         "Depth of an image: 24 bits in R, G, B, or one float channel; grows towards the eye.");
+  v.text("truth", p.truth, "file", "Anti-aliased picture that an image is judged by.");
+  v.text("mask", p.mask, "file",
+         "Pixels to leave as they are, where red is 128 or more: bit 0 of their alpha becomes 0, "
+         "that of "
+         "all others 1, and the rule leave becomes masked.");
+  v.integer("width", p.width, 1, 8192, "pixel", "Width of a rendered scene.");
+  v.integer("height", p.height, 1, 8192, "pixel", "Height of a rendered scene.");
+  v.integer("truth_samples", p.truth_samples, 0, 32, "",
+            "N of the N x N samples a pixel of a scene's truth; 0: no truth.");
+  v.integer("count", p.count, 1, 1000, "frame", "How often the frame is sent.");
+}
+
+// Whether the source is a scene or a mesh, and not an image file.
+bool is_rendered(const FrameParameters& parameters);
+
+struct LoadedFrame {
+  MorphologicalInput input;
+  std::optional<Image> truth;
+  std::optional<DepthImage> depth;
+  std::string truth_name;                     // "supersampled-64", or the file's name
+  std::vector<std::string> conversions;       // what the reader of images or meshes changed
+  std::vector<std::filesystem::path> inputs;  // files that it was made of, or looked for in vain
+};
+
+// FileError for files that cannot be read; ConfigError for sizes that do not agree; Interrupted
+// once `interrupted` says so.
+// Pictures of a scene pass through `kept`, which may know them already.
+using KeptFrames = std::function<LitFrames(const std::function<LitFrames()>& make)>;
+LoadedFrame load_frame(const FrameParameters& parameters, std::uint32_t seed,
+                       const std::function<bool()>& interrupted = nullptr,
+                       const KeptFrames& kept = nullptr);
+
+// LoadedFrame::inputs, without loading.
+std::vector<std::filesystem::path> frame_files(const FrameParameters& parameters,
+                                               MeshFiles& meshes);
+
+// Whether 24-bit depths, taken apart into R, G and B, change from pixel to pixel as a picture does:
+// two of them alike. Of depth, G and B are the lower digits of R: they fall as it rises.
+bool looks_like_a_picture(const DepthImage& depth);
+
+}  // namespace deburr::tb

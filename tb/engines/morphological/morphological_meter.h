@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Figures of the morphological engine: units and counters, and its clocks against those of the
+// formulas (docs/morphological_hardware.md).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rtl_model/morphological/morphological_engine.h"
+#include "tb/engines/morphological/frame_source.h"
+#include "tb/engines/morphological/morphological_setup.h"
+#include "tb/env/meter.h"
+
+namespace deburr::tb {
+
+// ---- figures of the engine by formula (docs/morphological_hardware.md) --------------------------
+
+// Unstalled clocks from a beat being popped to the same beat being pushed.
+std::uint64_t latency_by_formula(const spec::morphological::Parameters& parameters, int width);
+// Unstalled clocks of a frame, from its first pop to its last push.
+std::uint64_t frame_clocks_by_formula(const spec::morphological::Parameters& parameters, int width,
+                                      int height);
+
+// How far the environment is.
+struct MorphologicalProgress {
+  int width = 0, height = 0;                      // of the frame under way
+  std::uint64_t delivered = 0;                    // pixels of all frames
+  const FrameSource* source = nullptr;            // none in a composition
+  const platform::MemoryModel* memory = nullptr;  // none with line buffers
+  // Clocks of the last frame from its first to its last input beat.
+  rtl::Cycle input_clocks() const { return source->last_cycle() - source->first_cycle() + 1; }
+};
+
+class MorphologicalMeter : public Meter {
+ public:
+  // All of these must outlive it.
+  MorphologicalMeter(std::string name, const rtl::morphological::MorphologicalEngine& engine,
+                     const MorphologicalProgress& progress, const MorphologicalSetup& setup)
+      : Meter(std::move(name)), engine_(engine), progress_(progress), setup_(setup) {}
+
+  void collect(Result& result) const;
+  void show_parts(Observer& observer, const rtl::LinkBase& in, const rtl::LinkBase& out) const;
+  void collect_headline(Result& result, double clock_mhz) const;
+  std::vector<Figure> work_figures() const;
+
+ private:
+  int lanes() const { return platform::lanes_of(setup_.morphological); }
+  void collect_clocks(Result& result, double clock_mhz) const;
+  std::vector<Figure> headline_figures() const;
+
+  const rtl::morphological::MorphologicalEngine& engine_;
+  const MorphologicalProgress& progress_;
+  const MorphologicalSetup& setup_;
+};
+
+}  // namespace deburr::tb

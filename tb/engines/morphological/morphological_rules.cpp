@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "tb/engines/morphological/morphological_rules.h"
+
+#include <fmt/format.h>
+
+#include <initializer_list>
+
+#include "spec/check_build.h"
+
+namespace deburr::tb {
+namespace {
+
+constexpr std::string_view kMorphologicalPrefix = "morphological.";
+
+std::string_view preset_name(const spec::morphological::Parameters& values) {
+  return spec::morphological::kPresetNames[static_cast<std::size_t>(values.preset)];
+}
+
+// "preset mlaa", "preset smaa, quality high".
+std::string source_of(const spec::morphological::Parameters& values) {
+  std::string source = fmt::format("preset {}", preset_name(values));
+  if (has_qualities(values.preset))
+    source +=
+        fmt::format(", quality {}",
+                    spec::morphological::kQualityNames[static_cast<std::size_t>(values.quality)]);
+  return source;
+}
+
+}  // namespace
+
+void apply_preset(ParameterSet& set, const spec::morphological::Parameters& values) {
+  const spec::morphological::Parameters rules = preset_parameters(values.preset, values.quality);
+  for_each_of(values.preset, values.quality, [&](std::string_view name, auto, auto) {
+    set.imply(fmt::format("{}{}", kMorphologicalPrefix, name), spec::value_text(rules, name),
+              source_of(values));
+  });
+}
+
+std::string preset_label(const ParameterSet& set, const spec::morphological::Parameters& values) {
+  std::string label = source_of(values);
+  bool first = true;
+  for (const Parameter* p : set.changed()) {
+    if (!p->name.starts_with(kMorphologicalPrefix)) continue;
+    label += first ? ", changed: " : ", ";
+    label += p->name.substr(kMorphologicalPrefix.size());
+    first = false;
+  }
+  return label;
+}
+
+void refuse_unused_rules(const ParameterSet& set, const spec::morphological::Parameters& p,
+                         std::string_view memory) {
+  const auto refuse = [&](std::string_view why, std::initializer_list<std::string_view> names) {
+    for (const std::string_view name : names)
+      set.refuse(fmt::format("{}{}", kMorphologicalPrefix, name), why);
+  };
+  const bool depth = p.edge_source == spec::morphological::EdgeSource::kDepth;
+  const bool predicated = p.edge_source == spec::morphological::EdgeSource::kPredicated;
+  if (depth)
+    refuse("morphological.edges.source = depth compares depths, by edges.depth_threshold",
+           {"edges.threshold_mode", "edges.local_contrast"});
+  if (depth || predicated)
+    refuse("morphological.edges.source is neither luma nor colour and has thresholds of its own",
+           {"edges.threshold"});
+  if (depth || p.threshold_mode == spec::morphological::ThresholdMode::kFixed)
+    refuse("it belongs to morphological.edges.threshold_mode = dynamic",
+           {"edges.alpha", "edges.floor", "edges.dynamic_luma"});
+  else
+    refuse("morphological.edges.threshold_mode = dynamic computes the threshold",
+           {"edges.threshold"});
+  if (!depth && !predicated)
+    refuse("it belongs to morphological.edges.source = depth or predicated",
+           {"edges.depth_threshold"});
+  if (!predicated)
+    refuse("it belongs to morphological.edges.source = predicated",
+           {"edges.threshold_on_depth_edge", "edges.threshold_off_depth_edge"});
+  if (p.predictor == spec::morphological::Predictor::kNone)
+    refuse("morphological.predictor = none extends no run",
+           {"steps", "contiguous", "safe", "trim"});
+  if (!has_qualities(p.preset))
+    refuse("it belongs to morphological.preset = smaa or smaa-dynamic", {"quality"});
+  if (p.area == spec::morphological::AreaSource::kAnalytic ||
+      p.area == spec::morphological::AreaSource::kLearned)
+    refuse("morphological.area = analytic and learned search nothing", {"search_steps"});
+  if (!p.diagonals) refuse("it belongs to morphological.diagonals = true", {"diagonal_steps"});
+  if (!p.round_corners)
+    refuse("it belongs to morphological.round_corners = true", {"corner_rounding"});
+  if (p.storage == spec::morphological::Storage::kLineBuffers) {
+    constexpr std::string_view kWhy = "morphological.storage = line_buffers uses no memory";
+    refuse(kWhy, {"memory.outstanding"});
+    set.refuse_all(fmt::format("{}.", memory), kWhy);
+  }
+}
+
+std::vector<std::string> build_notes(const spec::morphological::Parameters& values) {
+  if (values.trial_clocks >= 4) return {};
+  return {fmt::format(
+      "morphological.trial_clocks = {}: steps of a trial share a clock, so the engine is not made "
+      "for 250 MHz (docs/morphological_hardware.md, Trials)",
+      values.trial_clocks)};
+}
+
+std::vector<Shorthand> smoothing_shorthands() {
+  return {{"--preset", "morphological.preset",
+           "mlaa, mlaa-slope, smaa, smaa-dynamic, deburr-line or deburr (default)"},
+          {"--lanes", "morphological.lanes",
+           "Pixels a clock of the morphological engine: 1 (default), 2 or 4"},
+          {"--storage", "morphological.storage",
+           "Of the pixels that the morphological engine delays: line_buffers (default) or memory"}};
+}
+
+}  // namespace deburr::tb

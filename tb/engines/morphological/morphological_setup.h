@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "golden/morphological/morphological_golden.h"
+#include "spec/morphological/parameters.h"
+#include "tb/env/memory_parameters.h"
+
+namespace deburr::tb {
+
+struct MorphologicalSetup {
+  spec::morphological::Parameters morphological;
+  MemoryParameters memory;  // storage = memory only
+  bool records = false;     // runs and lines inside the engine are compared too
+  std::uint32_t pixel_base = 0;
+  // A golden model that has worked on the frames, which are all the same, already; null: it works
+  // here. Its parameters may differ in what is built. Never with errors of memory.
+  std::shared_ptr<const golden::morphological::MorphologicalGolden> expectation = nullptr;
+};
+
+}  // namespace deburr::tb

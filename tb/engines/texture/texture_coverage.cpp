@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "tb/engines/texture/texture_coverage.h"
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace deburr::tb {
+namespace {
+
+using spec::texture::Kernel;
+
+constexpr std::array kGroups = {
+    CoverageGroup{"texture/mode",
+                  "Fragments that are not magnified, by filter, wrap mode (of either axis) and "
+                  "layout of the texels."},
+    CoverageGroup{"texture/format", "Fragments by the format of the texels."},
+    CoverageGroup{"texture/magnified", "Magnified fragments, by the filter for them."},
+    CoverageGroup{"texture/output",
+                  "Fragments of sRGB textures, by what the unit gives out for them."},
+    CoverageGroup{"texture/samples", "Fragments by their number of samples N."},
+    CoverageGroup{"texture/major",
+                  "Fragments by the number of directions tried and the one that is longest."},
+    CoverageGroup{"texture/tent",
+                  "Fragments with the kernel tent: of fewer than four samples, which it leaves as "
+                  "they are, and of more."},
+    CoverageGroup{"texture/cache",
+                  "Look-ups by outcome, and clocks in which the miss queue was full."}};
+
+constexpr std::array<std::string_view, 4> kCache = {"hit", "miss", "merged", "queue_full"};
+constexpr int kMaxSamples = 16;
+
+template <class Enum>
+std::size_t index(Enum e) {
+  return static_cast<std::size_t>(e);
+}
+
+}  // namespace
+
+std::span<const CoverageGroup> TextureCoverage::groups() { return kGroups; }
+
+Coverage TextureCoverage::declared() {
+  Coverage coverage;
+  for (const auto mode : spec::texture::kMinFilterNames)
+    for (const auto wrap : spec::texture::kWrapNames)
+      for (const auto layout : spec::texture::kLayoutNames)
+        coverage.declare(fmt::format("texture/mode/{}/{}/{}", mode, wrap, layout));
+  for (const auto format : spec::texture::kFormatNames)
+    coverage.declare(fmt::format("texture/format/{}", format));
+  for (const auto filter : spec::texture::kMagFilterNames)
+    coverage.declare(fmt::format("texture/magnified/{}", filter));
+  for (const auto output : spec::texture::kSrgbOutputNames)
+    coverage.declare(fmt::format("texture/output/{}", output));
+  for (int n = 1; n <= kMaxSamples; ++n) coverage.declare(fmt::format("texture/samples/{}", n));
+  for (const int axes : {2, 4, 8})
+    for (int k = 0; k < axes; ++k) coverage.declare(fmt::format("texture/major/{}/{}", axes, k));
+  coverage.declare("texture/tent/narrow");
+  coverage.declare("texture/tent/wide");
+  for (const auto outcome : kCache) coverage.declare(fmt::format("texture/cache/{}", outcome));
+  return coverage;
+}
+
+void TextureCoverage::see(const golden::texture::TextureGolden& golden,
+                          const spec::texture::Quad& quad) {
+  const spec::texture::Descriptor& texture = golden.texture(quad.texture);
+  for (int lane = 0; lane < 4; ++lane) {
+    if (!(quad.coverage >> lane & 1)) continue;
+    const golden::texture::FragmentAnalysis a = golden.analyse(quad, lane);
+    if (!a.valid) continue;
+    ++formats_[index(texture.format)];
+    ++samples_[index(a.lod.samples)];
+    ++major_[index(a.footprint.major)];
+    if (a.lod.magnified) {
+      ++magnified_[index(texture.mag_filter)];
+      continue;
+    }
+    ByWrap& wraps = modes_[index(texture.layout)][index(texture.min_filter)];
+    ++wraps[index(texture.wrap_s)];
+    if (texture.wrap_t != texture.wrap_s) ++wraps[index(texture.wrap_t)];
+  }
+}
+
+Coverage TextureCoverage::bins(const rtl::texture::TextureUnit& unit) const {
+  Coverage coverage = declared();
+  for (std::size_t layout = 0; layout < modes_.size(); ++layout)
+    for (std::size_t mode = 0; mode < modes_[layout].size(); ++mode)
+      for (std::size_t wrap = 0; wrap < modes_[layout][mode].size(); ++wrap)
+        coverage.hit(
+            fmt::format("texture/mode/{}/{}/{}", spec::texture::kMinFilterNames[mode],
+                        spec::texture::kWrapNames[wrap], spec::texture::kLayoutNames[layout]),
+            modes_[layout][mode][wrap]);
+  for (std::size_t format = 0; format < formats_.size(); ++format)
+    coverage.hit(fmt::format("texture/format/{}", spec::texture::kFormatNames[format]),
+                 formats_[format]);
+  for (std::size_t filter = 0; filter < magnified_.size(); ++filter)
+    coverage.hit(fmt::format("texture/magnified/{}", spec::texture::kMagFilterNames[filter]),
+                 magnified_[filter]);
+  coverage.hit(
+      fmt::format("texture/output/{}", spec::texture::kSrgbOutputNames[index(rules_.srgb_output)]),
+      formats_[index(spec::texture::Format::kSrgb8A8)]);
+  for (std::size_t n = 1; n < samples_.size(); ++n) {
+    coverage.hit(fmt::format("texture/samples/{}", n), samples_[n]);
+    if (rules_.kernel == Kernel::kTent)
+      coverage.hit(n < 4 ? "texture/tent/narrow" : "texture/tent/wide", samples_[n]);
+  }
+  const int axes = golden::texture::candidates(rules_.axes);
+  for (int k = 0; k < axes; ++k)
+    coverage.hit(fmt::format("texture/major/{}/{}", axes, k), major_[index(k)]);
+  const auto& tags = unit.cache.tag_stage;
+  coverage.hit("texture/cache/hit", tags.hits.value());
+  coverage.hit("texture/cache/miss", tags.misses.value());
+  coverage.hit("texture/cache/merged", tags.merged.value());
+  for (const rtl::Unit::StallCause& cause : tags.stalls())
+    if (cause.name == "miss_queue_full") coverage.hit("texture/cache/queue_full", cause.cycles);
+  return coverage;
+}
+
+}  // namespace deburr::tb

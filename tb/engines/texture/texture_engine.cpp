@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: MIT
+// `deburr run texture`: a scene through the texture unit.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rtl_model/texture/datasheets.h"
+#include "rtl_model/texture/descriptors.h"
+#include "spec/error.h"
+#include "spec/texture/check_build.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/registers.h"
+#include "tb/app/input_rules.h"
+#include "tb/app/pictures.h"
+#include "tb/app/shorthands.h"
+#include "tb/app/simulate.h"
+#include "tb/base/interrupt.h"
+#include "tb/engines/texture/texture_coverage.h"
+#include "tb/engines/texture/texture_draws.h"
+#include "tb/engines/texture/texture_environment.h"
+#include "tb/engines/texture/texture_rules.h"
+#include "tb/engines/texture/texture_sequence.h"
+#include "tb/engines/texture/texture_traces.h"
+#include "tb/engines/texture/texture_truth.h"
+#include "tb/results/progress.h"
+#include "tb/results/report.h"
+#include "tb/scene/compose.h"
+#include "tb/scene/quality.h"
+#include "tb/scene/textures.h"
+#include "tb/scene/truth.h"
+#include "tb/traces/fragment_reader.h"
+#include "tb/traces/fragment_writer.h"
+
+namespace deburr::tb {
+namespace {
+
+class TextureEngine final : public Engine {
+ public:
+  std::string_view name() const override { return "texture"; }
+  std::string_view summary() const override {
+    return "A scene through the texture unit, checked colour by colour and line by line";
+  }
+
+  void add_parameters(ParameterSet& set) override {
+    set.add("run", ParameterKind::kRun, look_up_trace_);
+    set.add("run", ParameterKind::kRun, trace_out_);
+    set.add("scene", ParameterKind::kInput, scene_);
+    set.add("scene", ParameterKind::kInput, trace_in_);
+    set.add("sampler", ParameterKind::kInput, sampler_);
+    set.add("sequence", ParameterKind::kInput, sequence_);
+    set.add_engine("texture", texture_);
+    add_memory(set, "memory", memory_);
+  }
+
+  std::vector<Shorthand> shorthands() const override {
+    return joined(
+        scene_shorthands("plane"),
+        {{"--preset", "texture.preset", "paper or deburr (default)"},
+         {"--roll", "scene.roll", "Degrees by which the camera is turned"},
+         {"--frames", "sequence.frames", "Measures flicker over so many frames of a moving camera"},
+         {"--motion", "sequence.motion", "zoom, roll (default) or pan"},
+         {"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene (default)"},
+         {"--format", "sampler.format", "rgba8 (default), rgb565, rgba4444, l8, srgb8_a8"},
+         {"--layout", "sampler.layout", "tiled (default) or linear"},
+         {"--fragments", "scene.fragments",
+          "Fragments of another rasteriser: a trace, text or binary (docs/traces.md)"},
+         {"--fragment-trace", "run.fragment_trace",
+          "Leave the fragments as such a trace: text or binary"}});
+  }
+
+  void resolve(ParameterSet& set) override {
+    apply_preset(set, texture_);
+    preset_label_ = preset_label(set, texture_);
+    refuse_unused_memory(set, "memory", memory_);
+    refuse_slow_memory(set, "memory", memory_);
+    refuse_empty_lod_range(sampler_);
+    refuse_unused_look_ups(set);
+    if (foreign()) refuse_unused_scene(set);
+    if (sequence_.frames == 1) set.refuse("sequence.motion", "sequence.frames = 1 does not move");
+  }
+
+  void judge(const RunParameters& run, RunContext& context) override {
+    const std::shared_ptr<const TextureScene> scene = load(run, context);
+    if (foreign())
+      fragments_of_file(*scene);
+    else
+      refuse_nothing_drawn(*scene);
+  }
+
+  void run(const RunParameters& run, RunContext& context, Result& result) override {
+    const std::shared_ptr<const TextureScene> shared = load(run, context);
+    const TextureScene& scene = *shared;
+    TextureSetup setup{texture_, memory_};
+    if (foreign())
+      setup.foreign = fragments_of_file(scene);
+    else
+      refuse_nothing_drawn(scene);
+    context.add_inputs(with_trace(scene.inputs()));
+    context.set_title(title(), summary_line(scene, setup));
+    for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
+    Simulation simulation(simulation_options(run, context));
+    if (!foreign()) setup.expectation = expectation(scene, context);
+    std::unique_ptr<FragmentWriter> writer;
+    if (trace_out_.fragments != TraceChoice::kNone && !context.judging_only()) {
+      writer = std::make_unique<FragmentWriter>(context.fragment_trace_file(),
+                                                format_of(trace_out_.fragments),
+                                                scene.stream().width, scene.stream().height);
+      setup.observer = [&writer](const TracedQuad& quad) { writer->put(quad); };
+    }
+    TextureEnvironment environment(simulation, scene, setup);
+    simulate(simulation, environment, context, result, [&] {
+      if (writer) writer->finish();
+      add_pictures(run, context, scene, environment, result);
+    });
+    if (sequence_.frames > 1 && !result.interrupted && !context.judging_only())
+      measure_flicker(run, context, result);
+  }
+
+  std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
+    return with_trace(scene_files(scene_, meshes));
+  }
+
+  void prepare(const RunParameters& run, RunContext& context) override {
+    const std::shared_ptr<const TextureScene> scene = load(run, context);
+    if (run.truth) scene_truth(*scene, truth_options(), context);
+    expectation(*scene, context);
+  }
+
+  std::vector<std::string_view> built_for_golden() const override {
+    return {"texture.cache.bytes", "texture.cache.line_bytes", "texture.cache.ways",
+            "texture.cache.replacement"};
+  }
+
+  void describe_statistics(Result& result) override {
+    const TextureScene scene = smallest(scene_, sampler_);
+    Simulation simulation({});
+    TextureEnvironment environment(simulation, scene, {});
+    describe(simulation, environment, result);
+    add_flicker(result, {});
+  }
+
+  std::vector<std::string_view> pictures() const override {
+    return {"before", "after", "golden", "difference", "truth", "error"};
+  }
+  std::vector<std::string_view> maps() const override {
+    return {"samples", "level", "misses", "latency"};
+  }
+
+  RegisterSection registers() const override {
+    namespace reg = spec::texture::reg;
+    // One descriptor stands for all.
+    constexpr std::uint32_t kSecond = reg::kTextureBase + reg::kTextureStride;
+    RegisterSection section{"TextureUnit", {}};
+    for (const spec::RegisterInfo& r : rtl::texture::register_table())
+      if (r.offset < kSecond) section.rows.push_back(r);
+    section.note = fmt::format(
+        "Textures 1..{} follow with the same registers, each 0x{:X} bytes after the one before.",
+        spec::texture::kMaxTextures - 1, reg::kTextureStride);
+    section.c_text = fmt::format(
+        "\n/* From a register of TEXTURE0 to the same of the next texture; there are "
+        "DEBURR_TEXTURE_COUNT. */\n"
+        "#define DEBURR_TEXTURE_STRIDE 0x{:02X}u\n#define DEBURR_TEXTURE_COUNT {}u\n",
+        reg::kTextureStride, spec::texture::kMaxTextures);
+    return section;
+  }
+  CoverageSection coverage() const override {
+    return {"Texture unit", TextureCoverage::declared(), TextureCoverage::groups()};
+  }
+  DatasheetSection datasheets() const override {
+    return {"TextureUnit", rtl::texture::datasheets()};
+  }
+
+  RandomDraws random_draws() const override { return texture_draws(); }
+  LongRun long_run() const override { return {{{"scene.width", "321"}, {"scene.height", "243"}}}; }
+
+ private:
+  std::shared_ptr<const TextureScene> load(const RunParameters& run,
+                                           const RunContext& context) const {
+    return context.shared<TextureScene>("texture scene", {"scene.", "sampler."}, [&] {
+      const auto seed = static_cast<std::uint32_t>(run.seed);
+      if (!foreign()) return TextureScene(scene_, sampler_, seed);
+      // The picture's size stands at the beginning; the textures are counted when they are there.
+      const FragmentReader reader(trace_in_.file, spec::texture::kMaxTextures);
+      return TextureScene::without_fragments(scene_, sampler_, seed, reader.width(),
+                                             reader.height());
+    });
+  }
+
+  bool foreign() const { return !trace_in_.file.empty(); }
+
+  std::vector<std::filesystem::path> with_trace(std::vector<std::filesystem::path> files) const {
+    if (foreign()) add_once(files, trace_in_.file);
+    return files;
+  }
+
+  // All of the file has been read and judged behind it.
+  ForeignFragments fragments_of_file(const TextureScene& scene) const {
+    const std::size_t textures = scene.memory().descriptors().size();
+    const FragmentSummary summary = examine_fragments(trace_in_.file, textures);
+    if (summary.fragments == 0)
+      throw spec::ConfigError(
+          fmt::format("the trace '{}' covers no fragment in {} quads: nothing would be filtered",
+                      trace_in_.file, summary.quads));
+    const auto open = [file = trace_in_.file, textures]() -> QuadSource {
+      const auto reader = std::make_shared<FragmentReader>(file, textures);
+      return [reader](TracedQuad& quad) { return reader->next(quad); };
+    };
+    return {open, summary.fragments};
+  }
+
+  std::shared_ptr<const TextureExpectation> expectation(const TextureScene& scene,
+                                                        const RunContext& context) const {
+    return context.shared_golden<TextureExpectation>(built_for_golden(),
+                                                     [&] { return expected_of(scene, texture_); });
+  }
+
+  RenderOptions truth_options() const {
+    RenderOptions options;
+    options.sampling = Sampling::kBilinear;
+    options.averaging = sampler_.format == spec::texture::Format::kSrgb8A8 ? Averaging::kLinear
+                                                                           : Averaging::kStored;
+    return options;
+  }
+
+  std::string title() const {
+    return "Texture unit: " +
+           std::filesystem::path(foreign() ? trace_in_.file : scene_.source).filename().string();
+  }
+
+  std::string summary_line(const TextureScene& scene, const TextureSetup& setup) const {
+    const auto name = [](auto value, const auto& names) {
+      return names[static_cast<std::size_t>(value)];
+    };
+    return fmt::format(
+        "{}{} fragments, {}, N_max {}, {} {}; {}; axes {}, footprint {}, log2 {}, count {}, "
+        "kernel {}; cache {} bytes, {} ways; memory latency {} clk",
+        scene.stream().width > 0
+            ? fmt::format("{} x {} pixels, ", scene.stream().width, scene.stream().height)
+            : "",
+        foreign() ? setup.foreign.fragments : scene.stream().counts.fragments,
+        name(sampler_.mode, spec::texture::kMinFilterNames),
+        name(sampler_.anisotropy, kAnisotropyNames),
+        name(sampler_.format, spec::texture::kFormatNames),
+        name(sampler_.layout, spec::texture::kLayoutNames), preset_label_,
+        name(texture_.axes, spec::texture::kAxesNames),
+        name(texture_.footprint, spec::texture::kFootprintNames),
+        name(texture_.log2, spec::texture::kLog2Names),
+        name(texture_.count, spec::texture::kCountNames),
+        name(texture_.kernel, spec::texture::kKernelNames), texture_.cache_bytes,
+        texture_.cache_ways, memory_.latency);
+  }
+
+  bool linear_light() const {
+    return sampler_.format == spec::texture::Format::kSrgb8A8 &&
+           texture_.srgb_output == spec::texture::SrgbOutput::kLinear;
+  }
+
+  // Pictures are stored as sRGB, whatever the unit delivers of sRGB textures.
+  Image stored(const Image& image, const std::vector<bool>& sky) const {
+    if (!linear_light()) return image;
+    Image out = image;
+    for (std::size_t i = 0; i < out.pixels.size(); ++i) {
+      if (sky[i]) continue;  // it is not from the unit
+      for (std::size_t c = 0; c < 3; ++c)
+        out.pixels[i][c] =
+            static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(out.pixels[i][c] / 255.0)));
+    }
+    return out;
+  }
+
+  static Image unfiltered(const TextureScene& scene) {
+    RenderOptions options;
+    options.width = scene.stream().width;
+    options.height = scene.stream().height;
+    options.sampling = Sampling::kNearest;
+    return render(scene.scene(), options);
+  }
+
+  void add_pictures(const RunParameters& run, RunContext& context, const TextureScene& scene,
+                    const TextureEnvironment& unit, Result& result) const {
+    if (unit.frame().empty()) return;
+    // Of a foreign picture nobody knows which pixels have no fragment before all have come.
+    std::vector<bool> sky(unit.came().size()), missing(sky.size());
+    for (std::size_t i = 0; i < sky.size(); ++i) {
+      sky[i] = foreign() ? unit.came()[i] == 0 : scene.stream().depth.pixels[i] == 0;
+      missing[i] = !sky[i] && unit.came()[i] == 0;
+    }
+    const Image before = foreign() ? Image() : unfiltered(scene);
+    // What was under way when the run was ended came on one side only.
+    const auto lost = static_cast<std::uint64_t>(std::count(missing.begin(), missing.end(), true));
+    const std::string note =
+        lost == 0 ? "" : fmt::format("; grey: {} pixels were not delivered", grouped(lost));
+    const Image after = without(stored(unit.frame(), sky), missing, kNotDelivered);
+    if (!foreign())
+      context.add_image("before", before, "Before", "nearest texel of level 0, no filter");
+    context.add_image("after", after, "Hardware model",
+                      "the colours that the unit delivered" + note);
+    if (run.check == CheckMode::kGolden) {
+      // Once the run is over, what did not come is lost, and differs.
+      const bool over = unit.done();
+      Image expected = stored(unit.golden_frame(), sky);
+      if (!over) expected = without(std::move(expected), missing, kNotDelivered);
+      context.add_image("golden", expected, "Golden model",
+                        over ? "the same fragments by the golden model"
+                             : "the same fragments by the golden model" + note);
+      context.add_image("difference", difference(after, expected, 255), "Difference",
+                        std::string(count_different(after, expected) == 0
+                                        ? "hardware against golden: none"
+                                        : "hardware against golden: any difference is bright") +
+                            (over || lost == 0 ? "" : "; black where nothing was delivered"));
+    }
+    if (run.truth && !result.interrupted) {
+      const Image truth = judge_by_scene(scene, truth_options(), before, after, result, context);
+      if (truth.empty()) return;
+      context.add_image("truth", truth, "Truth", truth_caption());
+      context.add_image("error", difference(after, truth, kDifferenceGain), "Error",
+                        fmt::format("hardware against truth, {} times", kDifferenceGain));
+    }
+  }
+
+  // Of the golden model's frames, which are the hardware's: the first was compared.
+  void measure_flicker(const RunParameters& run, const RunContext& context, Result& result) const {
+    Progress progress("flicker", static_cast<std::uint64_t>(sequence_.frames), "frame",
+                      context.quiet());
+    SequenceOptions options;
+    options.truth_samples = kTruthSamples;
+    options.truth = truth_options();
+    options.truth.interrupted = [] { return interrupted(); };
+    options.shown = [this](const Image& image, const TextureScene& scene) {
+      std::vector<bool> sky(image.pixels.size());
+      for (std::size_t i = 0; i < sky.size(); ++i) sky[i] = scene.stream().depth.pixels[i] == 0;
+      return stored(image, sky);
+    };
+    options.progress = [&](int frame) { progress.update(static_cast<std::uint64_t>(frame)); };
+    try {
+      add_flicker(result, flicker_of(scene_, sampler_, static_cast<std::uint32_t>(run.seed),
+                                     sequence_, {&texture_, 1}, options)
+                              .front());
+      result.figures.push_back({"Flicker over the frames", "work.flicker", "worst pair of frames",
+                                "work.flicker_worst"});
+    } catch (const Interrupted&) {
+      result.interrupted = true;
+    }
+  }
+
+  static void add_flicker(Result& result, const Flicker& flicker) {
+    result.work.push_back({"flicker", flicker.mean, "1/255",
+                           "Root mean square of what a pixel changes from frame to frame more or "
+                           "less than its truth, where sequence.frames is above 1."});
+    result.work.push_back(
+        {"flicker_worst", flicker.worst, "1/255", "The same of the pair of frames with the most."});
+  }
+
+  LookUpTrace look_up_trace_;
+  FragmentTraceOut trace_out_;
+  FragmentTraceIn trace_in_;
+  SceneParameters scene_;
+  SamplerParameters sampler_;
+  SequenceParameters sequence_;
+  spec::texture::Parameters texture_;
+  MemoryParameters memory_;
+  std::string preset_label_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_texture_engine() { return std::make_unique<TextureEngine>(); }
+
+}  // namespace deburr::tb

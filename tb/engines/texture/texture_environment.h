@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// The texture unit on a scene.
+//
+//   TextureScene ─► Driver ─► TextureUnit ─► Sink ─► scoreboard, frame
+//                     │        │      └ registers ◄─ RegisterHost
+//                     ▼      MemoryModel ─► scoreboard of line fills
+//                   golden model (expected colours, expected fills)
+//
+// The golden model gets each quad when the driver sends it, so the comparison needs no more memory
+// than what is in flight, and every output is judged as it comes.
+#pragma once
+
+#include <tlm_utils/simple_initiator_socket.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <systemc>
+#include <vector>
+
+#include "golden/texture/texture_golden.h"
+#include "rtl_model/platform/memory_model.h"
+#include "rtl_model/platform/register_host.h"
+#include "rtl_model/platform/texture_driver.h"
+#include "rtl_model/texture/texture_unit.h"
+#include "spec/texture/packets.h"
+#include "spec/texture/parameters.h"
+#include "tb/engines/texture/sent_quads.h"
+#include "tb/engines/texture/texture_coverage.h"
+#include "tb/engines/texture/texture_faults.h"
+#include "tb/engines/texture/texture_maps.h"
+#include "tb/engines/texture/texture_meter.h"
+#include "tb/engines/texture/texture_scene.h"
+#include "tb/engines/texture/texture_setup.h"
+#include "tb/env/environment.h"
+#include "tb/harness/driver.h"
+#include "tb/scene/rasteriser.h"
+#include "tb/traces/fragment_trace.h"
+
+namespace deburr::tb {
+
+class TextureEnvironment final : public Environment {
+ public:
+  // The scene must outlive it. With a name it is part of a composition, which takes the colours
+  // from `colours` and shows them to judge(). ConfigError for wrong parameters.
+  TextureEnvironment(Simulation& simulation, const TextureScene& scene, const TextureSetup& setup,
+                     std::string name = {});
+
+  void configure() override;
+  bool begin(std::size_t piece) override { return piece == 0; }
+  void watch() override;
+  bool done() const override;
+  void end() override { watch(); }
+  void restart() override;
+  void finish() override;
+  void refuse_memory_errors() override;
+  void refuse_unused_errors() const override;
+  Amount amount() const override;
+  bool memory_at_rest() const override { return memory_.at_rest(); }
+  Boards outputs() const override { return {&colour_board_}; }
+  Boards traffic() const override { return {&fill_board_}; }
+  Boards counters() const override { return {&register_board_.board()}; }
+  void collect(Result& result) const override { meter_.collect(result); }
+  void show_parts(Observer& observer) const override {
+    meter_.show_parts(observer, quads_, colours);
+  }
+  std::vector<PictureMap> maps() const override;
+  Coverage coverage() const override;
+  void collect_headline(Result& result) const override { meter_.collect_headline(result); }
+
+  rtl::Link<spec::texture::Colour> colours{"colours"};
+  void judge(rtl::Cycle cycle, const spec::texture::Colour& colour);
+  bool sent() const { return quad_driver_.done(); }  // every quad
+
+  const Image& frame() const { return frame_; }
+  // By pixel, whether a colour came for it.
+  const std::vector<std::uint8_t>& came() const { return came_; }
+  // The golden model's picture of the same fragments (empty without golden).
+  const Image& golden_frame() const { return golden_frame_; }
+  const golden::texture::TextureWork& golden_work() const {
+    return setup_.expectation ? setup_.expectation->work : golden_.work();
+  }
+  std::uint64_t delivered() const { return delivered_; }
+  // Over all colours and tags in order.
+  std::uint64_t colour_hash() const { return hash_.value(); }
+
+  const rtl::texture::TextureUnit& unit() const { return unit_; }
+  platform::MemoryModel& memory() { return memory_; }
+  platform::RegisterHost& host() { return host_; }
+
+ private:
+  struct Fill {
+    std::uint64_t address;
+    friend bool operator==(const Fill&, const Fill&) = default;
+  };
+  // For the fault of a fetch that nobody ordered.
+  struct Stranger : sc_core::sc_module {
+    explicit Stranger(const sc_core::sc_module_name& name) : sc_module(name) {}
+    tlm_utils::simple_initiator_socket<Stranger> memory{"memory"};
+  };
+
+  QuadSource open() const;
+  std::uint64_t fragments() const;
+  void expect_from_golden();
+  void expect_line(std::uint32_t line);
+  void clear_outputs();
+  void fetch_again();
+  std::string place(const spec::texture::Colour& colour) const;
+  std::string describe(const spec::texture::Colour& colour) const;
+
+  const TextureScene& scene_;
+  TextureSetup setup_;
+  TextureFaults faults_;
+  rtl::Link<spec::texture::Quad> quads_{"quads"};
+  Driver<spec::texture::Quad> quad_driver_;
+  rtl::texture::TextureUnit unit_;
+  std::unique_ptr<Sink<spec::texture::Colour>> sink_;  // alone
+  platform::MemoryModel memory_;
+  platform::RegisterHost host_;
+  platform::TextureDriver driver_;
+  TextureMeter meter_;
+  Stranger stranger_;
+
+  golden::texture::TextureGolden golden_;
+  Scoreboard<spec::texture::Colour> colour_board_;
+  Scoreboard<Fill> fill_board_;
+  RegisterScoreboard register_board_;
+  QuadSource source_;
+  TracedQuad quad_;  // the one that is being sent
+  SentQuads sent_;
+  Image frame_, golden_frame_;
+  std::vector<std::uint8_t> came_;
+  std::unique_ptr<TextureMaps> maps_;
+  std::optional<TextureCoverage> coverage_;
+  // Of the lines that memory still knows, and of those before.
+  std::size_t fills_judged_ = 0;
+  std::uint64_t delivered_ = 0;
+  OutputHash hash_;
+  bool fetch_again_ = false;
+};
+
+}  // namespace deburr::tb

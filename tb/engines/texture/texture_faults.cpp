@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "tb/engines/texture/texture_faults.h"
+
+#include <utility>
+
+namespace deburr::tb {
+
+std::vector<PlantedFault> TextureFaults::list() {
+  std::vector<PlantedFault> list = {
+      {"flip-bit", "Flips a bit of the red channel of colour 100.", "flip:colours:100:rgba.r.4"},
+      {"drop-colour", "Drops colour 100.", "drop:colours:100"},
+      {"duplicate-colour", "Delivers colour 100 twice.", "duplicate:colours:100"},
+      {"drop-quad", "Drops quad 50 on its way into the unit.", "drop:quads:50"},
+      {"duplicate-fetch", "Line fill 20 is read from memory twice; the picture stays perfect."},
+      {"duplicate-request", "The cache's request for line fill 20 is answered twice.",
+       "duplicate:texture.cache.memory_requests:20"},
+      {"stuck-ready", "Holds back the texel addresses from cycle 500 on.",
+       "stuck_ready:texture.texels:500"},
+      {"wrong-texel", "The texture in memory is not what the golden model reads."},
+      {"wrong-axis", "Flips a bit of fragment 100's major axis.",
+       "flip:texture.address.footprints:100:axis_s.22"},
+      {"wrong-ratio", "Flips a bit of what gives fragment 100's ratio of sides.",
+       "flip:texture.address.footprints:100:minor.24"},
+      {"wrong-count", "Flips a bit of fragment 100's number of samples.",
+       "flip:texture.address.levels:100:last_index.0"},
+      {"wrong-sample", "Gives request 401 the weight of another number of samples.",
+       "flip:texture.texel_quads:401:control.last_index.2"},
+      {"wrong-replacement", "The cache replaces by FIFO where LRU was ordered."}};
+  for (PlantedFault& fault : memory_faults()) list.push_back(std::move(fault));
+  return list;
+}
+
+spec::texture::Parameters TextureFaults::as_built() const {
+  spec::texture::Parameters p = setup_.texture;
+  p.cache_fifo_depth = fifo_depth(setup_);
+  if (planted("wrong-replacement")) p.cache_replacement = spec::texture::Replacement::kFifo;
+  return p;
+}
+
+std::vector<std::uint8_t> TextureFaults::contents(const platform::TextureMemory& textures) const {
+  std::vector<std::uint8_t> bytes = textures.bytes();
+  if (planted("wrong-texel"))
+    for (std::uint8_t& byte : bytes) byte ^= 0x10;
+  return bytes;
+}
+
+}  // namespace deburr::tb

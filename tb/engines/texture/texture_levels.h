@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "rtl_model/platform/texture_memory.h"
+#include "tb/scene/image.h"
+
+namespace deburr::tb {
+
+// A mip chain as textures in memory are made of it; the images are someone else's.
+inline std::vector<platform::TextureLevel> levels_of(std::span<const Image> images) {
+  std::vector<platform::TextureLevel> levels;
+  levels.reserve(images.size());
+  for (const Image& image : images) levels.push_back({image.width, image.height, image.pixels});
+  return levels;
+}
+
+}  // namespace deburr::tb

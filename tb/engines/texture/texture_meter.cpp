@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "tb/engines/texture/texture_meter.h"
+
+#include "tb/env/collect.h"
+
+namespace deburr::tb {
+
+void TextureMeter::collect(Result& result) const {
+  add_parts(result, unit_, 0);
+  add(result, memory_);
+  const std::uint64_t lines = unit_.cache.miss_queue.line_fills.value();
+  result.lines_filled += lines;
+
+  const std::uint64_t bilinears = unit_.address.addresser.bilinears.value();
+  const std::uint64_t fragments = unit_.filter.fragments.value();
+  double texel_bytes = 4;
+  if (!textures_.descriptors().empty())
+    texel_bytes =
+        spec::texture::kFormatBytes[static_cast<std::size_t>(textures_.descriptors()[0].format)];
+  add(result, "fragments", fragments, "fragment", "Colours delivered.");
+  add(result, "bilinears", bilinears, "request", "Bilinear requests, one a sample and level.");
+  add(result, "bilinears_per_fragment", ratio(bilinears, fragments), "request/fragment",
+      "Cost of a fragment in clocks while nothing stalls.");
+  add(result, "misses_per_texel", ratio(number(lines), 4 * number(bilinears)), "line/texel",
+      "Line fills over texels asked for.");
+  add(result, "texels_fetched_per_fragment",
+      ratio(number(lines) * unit_.parameters().cache_line_bytes / texel_bytes, number(fragments)),
+      "texel/fragment", "Texels of all lines fetched over fragments.");
+  add(result, "fifo_depth", static_cast<std::uint64_t>(unit_.parameters().cache_fifo_depth),
+      "request", "Entries of the latency FIFO, as ordered or as the latency of memory asks for.");
+  add_counters(result, unit_);
+}
+
+void TextureMeter::show_parts(Observer& observer, const rtl::LinkBase& in,
+                              const rtl::LinkBase& out) const {
+  show(observer, "quads_in", in);
+  show(observer, unit_);
+  show(observer, "colours_out", out);
+  observer.see({"Bilinear requests", figure("addresser_bilinears"), "bilinear/clk", 1});
+}
+
+void TextureMeter::collect_headline(Result& result) const {
+  result.latency = latency_of(unit_.fragment_latency);
+  result.throughput = ratio(unit_.address.addresser.bilinears.value(), result.cycles);
+  result.throughput_unit = "bilinear/clk";
+  result.throughput_bound = 1;
+  result.throughput_bound_meaning = "One bilinear request a clock.";
+  result.figures = {{"Fragments", key("fragments")},
+                    {"Bilinear requests of a fragment", key("bilinears_per_fragment")},
+                    {"Line fills of a texel", key("misses_per_texel")},
+                    {"Texels fetched for a fragment", key("texels_fetched_per_fragment")}};
+  result.bottleneck = find_bottleneck(result.units, figure("filter"));
+}
+
+}  // namespace deburr::tb

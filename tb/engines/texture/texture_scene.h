@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// Everything that goes into the texture unit for one picture: the scene's fragments, its textures
+// laid out in memory, and the state of the sampler. Shared by the hardware bench, the golden
+// renderings and the reports.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "golden/texture/texture_golden.h"
+#include "rtl_model/platform/texture_memory.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/parameters.h"
+#include "tb/env/camera_parameters.h"
+#include "tb/env/memory_parameters.h"
+#include "tb/scene/image.h"
+#include "tb/scene/motion.h"
+#include "tb/scene/rasteriser.h"
+#include "tb/scene/scenes.h"
+
+namespace deburr::tb {
+
+inline constexpr std::array<std::string_view, 2> kTraversalNames = {"raster", "tiles8x8"};
+inline constexpr std::array<std::string_view, 2> kVisibilityNames = {"visible", "overdraw"};
+
+struct SceneParameters : CameraParameters {
+  std::string source = "plane";
+  std::string texture;
+  std::int32_t texture_size = 1024;
+  std::int32_t width = 512, height = 512;
+  Traversal traversal = Traversal::kTiles8x8;
+  Visibility visibility = Visibility::kVisible;
+};
+
+template <class Visitor>
+void describe(SceneParameters& p, Visitor& v) {
+  v.text("source", p.source, "name | file",
+         "A scene made by formula (plane, quad, tunnel, object, road, cylinders) or a mesh file "
+         "(.obj, .gltf, .glb).");
+  v.text("texture", p.texture, "name | file",
+         "Texture instead of the scene's own: checker, road, brick, stones, zone_plate, gradient, "
+         "noise, or an image file.");
+  v.integer("texture_size", p.texture_size, 1, spec::texture::kMaxTextureSize, "texel",
+            "Side of a texture made by formula.");
+  v.integer("width", p.width, 1, 8192, "pixel", "Width of the picture.");
+  v.integer("height", p.height, 1, 8192, "pixel", "Height of the picture.");
+  v.choice("traversal", p.traversal, kTraversalNames, "Order of a triangle's quads.");
+  v.choice("visibility", p.visibility, kVisibilityNames,
+           "visible: one fragment a pixel, as after a depth pre-pass; overdraw: all of them.");
+  describe(static_cast<CameraParameters&>(p), v);
+}
+
+enum class WrapChoice : std::uint8_t { kScene, kRepeat, kMirroredRepeat, kClampToEdge };
+inline constexpr std::array<std::string_view, 4> kWrapChoiceNames = {
+    "scene", "repeat", "mirrored_repeat", "clamp_to_edge"};
+inline constexpr std::array<std::string_view, 5> kAnisotropyNames = {"1", "2", "4", "8", "16"};
+
+struct SamplerParameters {
+  spec::texture::MinFilter mode = spec::texture::MinFilter::kLinearMipmapLinear;
+  spec::texture::MagFilter magnification = spec::texture::MagFilter::kLinear;
+  std::uint8_t anisotropy = 4;  // index into kAnisotropyNames: lb N_max
+  WrapChoice wrap = WrapChoice::kScene;
+  spec::texture::Format format = spec::texture::Format::kRgba8;
+  spec::texture::Layout layout = spec::texture::Layout::kTiled;
+  std::int32_t levels = spec::texture::kMaxLevels;
+  std::int32_t lod_bias = 0;
+  std::int32_t min_lod = 0, max_lod = 12 << 8;
+};
+
+template <class Visitor>
+void describe(SamplerParameters& p, Visitor& v) {
+  v.choice("mode", p.mode, spec::texture::kMinFilterNames,
+           "Minification filter, one of GL's six modes.");
+  v.choice("magnification", p.magnification, spec::texture::kMagFilterNames,
+           "Magnification filter.");
+  v.choice("anisotropy", p.anisotropy, kAnisotropyNames, "Largest number of samples, N_max.");
+  v.choice("wrap", p.wrap, kWrapChoiceNames, "Wrap mode of both axes; scene: what the mesh says.");
+  v.choice("format", p.format, spec::texture::kFormatNames, "Texel format in memory.");
+  v.choice("layout", p.layout, spec::texture::kLayoutNames, "Order of the texels in memory.");
+  v.integer("levels", p.levels, 1, spec::texture::kMaxLevels, "level",
+            "Mip levels kept, at most those that the size has.");
+  v.integer("lod_bias", p.lod_bias, -32768, 32767, "1/256 level", "Added to the level of detail.");
+  v.integer("min_lod", p.min_lod, 0, 65535, "1/256 level", "Lower limit of the level of detail.");
+  v.integer("max_lod", p.max_lod, 0, 65535, "1/256 level", "Upper limit of the level of detail.");
+}
+
+// Which frame of which motion of the camera.
+struct CameraMove {
+  Motion motion = Motion::kRoll;
+  int frame = 0;
+};
+
+class TextureScene {
+ public:
+  // Loads, rasterises and lays out. ConfigError and FileError as of tb/scene.
+  TextureScene(const SceneParameters& scene, const SamplerParameters& sampler, std::uint32_t seed,
+               const CameraMove& move = {});
+  // Its textures and sampler alone, for fragments that come from elsewhere: an empty stream.
+  static TextureScene without_fragments(const SceneParameters& scene,
+                                        const SamplerParameters& sampler, std::uint32_t seed,
+                                        int width, int height);
+
+  // With the wrap modes of the sampler, so that its truth is what the unit is asked for.
+  const Scene& scene() const { return scene_; }
+  const FragmentStream& stream() const { return stream_; }
+  const platform::TextureMemory& memory() const { return memory_; }
+  // Files that it was made of, and those that were looked for in vain.
+  const std::vector<std::filesystem::path>& inputs() const { return scene_.mesh.files; }
+
+ private:
+  enum class Fragments { kRasterise, kNone };
+  TextureScene(const SceneParameters& scene, const SamplerParameters& sampler, std::uint32_t seed,
+               const CameraMove& move, Fragments fragments);
+  void lay_out(const SamplerParameters& sampler);
+
+  Scene scene_;
+  FragmentStream stream_;
+  platform::TextureMemory memory_;
+};
+
+// TextureScene::inputs(), without loading.
+std::vector<std::filesystem::path> scene_files(const SceneParameters& scene, MeshFiles& meshes);
+
+// A golden model with the scene's textures, of a memory that answers with errors in `errors`. The
+// scene must outlive it.
+golden::texture::TextureGolden make_golden(const TextureScene& scene,
+                                           const spec::texture::Parameters& parameters,
+                                           golden::texture::TextureGolden::Traffic traffic =
+                                               golden::texture::TextureGolden::Traffic::kIgnore,
+                                           const std::optional<ErrorRange>& errors = std::nullopt);
+
+// The whole picture by the golden model.
+struct GoldenFrame {
+  Image image;
+  std::vector<std::uint8_t> rgba;  // of all covered lanes in order, 4 bytes each
+  golden::texture::TextureWork work;
+};
+GoldenFrame golden_frame(const TextureScene& scene, const spec::texture::Parameters& parameters,
+                         const std::optional<ErrorRange>& errors = std::nullopt);
+
+}  // namespace deburr::tb

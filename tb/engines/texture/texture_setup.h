@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "rtl_model/fabric/engine.h"
+#include "rtl_model/platform/memory_model.h"
+#include "spec/texture/parameters.h"
+#include "tb/engines/texture/texture_expectation.h"
+#include "tb/env/memory_parameters.h"
+#include "tb/traces/fragment_trace.h"
+
+namespace deburr::tb {
+
+// Where fragments come from, if not from the scene's rasteriser.
+struct ForeignFragments {
+  std::function<QuadSource()> open;  // from the first quad on, each time
+  std::uint64_t fragments = 0;       // covered lanes in all
+};
+
+struct TextureSetup {
+  spec::texture::Parameters texture;
+  MemoryParameters memory;
+  ForeignFragments foreign{};
+  // Sees every quad as it is sent.
+  std::function<void(const TracedQuad&)> observer{};
+  // What the golden model found already; null: it works beside the hardware. Never with errors of
+  // memory.
+  std::shared_ptr<const TextureExpectation> expectation = nullptr;
+  // Connects the engine with its memory; null: directly.
+  std::function<void(rtl::Engine&, platform::MemoryModel&)> connect{};
+};
+// The depth of the latency FIFO: as ordered, or for 0 what hides this memory's latency.
+std::int32_t fifo_depth(const TextureSetup& setup);
+
+}  // namespace deburr::tb

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "tb/engines/texture/texture_traces.h"
+
+#include "spec/error.h"
+
+namespace deburr::tb {
+
+void refuse_unused_look_ups(const ParameterSet& set) {
+  if (set.find("run.line_trace")->text() == "none")
+    set.refuse("run.line_trace_look_ups",
+               "there is no trace without run.line_trace (--line-trace text)");
+}
+
+void refuse_unused_scene(const ParameterSet& set) {
+  for (const char* name :
+       {"scene.width", "scene.height", "scene.traversal", "scene.visibility", "scene.eye",
+        "scene.target", "scene.fov", "scene.roll", "sequence.frames", "sequence.motion"})
+    set.refuse(name, "the fragments come from the file scene.fragments (--fragments)");
+  if (set.find("run.truth")->text() == "true")
+    throw spec::ConfigError(
+        "run.truth: nobody knows the scene behind the fragments of a file: leave it out");
+  if (set.find("run.maps")->text() == "true")
+    throw spec::ConfigError(
+        "run.maps: maps follow the fragments of a scene, not those of a file: leave it out");
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/posteriser/posteriser.h"
+
+#include "spec/posteriser/check_build.h"
+#include "spec/posteriser/registers.h"
+
+namespace deburr::rtl::posteriser {
+namespace {
+
+namespace reg = spec::posteriser::reg;
+
+constexpr ControlLayout kLayout = {reg::kControl, reg::kStatus, 1u << 0, 1u << 1,
+                                   1u << 0,       1u << 1,      true};
+
+// 255 level / steps, rounded, halves up.
+std::uint32_t code(std::uint32_t level, std::uint32_t steps) {
+  return (510 * level + steps) / (2 * steps);
+}
+
+// The level at or below the exact one, and the one above it: the nearer of the two.
+std::uint32_t nearest(std::uint32_t value, std::uint32_t steps) {
+  const std::uint32_t below = value * steps / 255;
+  if (below == steps) return 255;
+  const std::uint32_t low = code(below, steps), high = code(below + 1, steps);
+  return high - value <= value - low ? high : low;
+}
+
+}  // namespace
+
+Activity LevelUnit::tick(Cycle cycle) {
+  if (!tones_in.can_pop(cycle)) return kIdle;
+  if (!tones_out.can_push(cycle)) return kStalledDownstream;
+  const std::uint32_t rules = control_.value(reg::kRules), bits = reg::rules::kBits.of(rules);
+  const std::uint32_t steps = (1u << bits) - 1;
+  spec::posteriser::Tone tone = tones_in.take(cycle);
+  const spec::posteriser::Tone before = tone;
+  for (std::uint8_t& colour : tone.colour)
+    colour = static_cast<std::uint8_t>(reg::rules::kRounding.of(rules) != 0
+                                           ? nearest(colour, steps)
+                                           : code(std::uint32_t{colour} >> (8 - bits), steps));
+  ++pixels;
+  if (!(tone == before)) ++changed;
+  tones_out.push(cycle, tone);
+  return kBusy;
+}
+
+Posteriser::Posteriser(const sc_core::sc_module_name& name, ClockDomain& clock,
+                       const spec::posteriser::Parameters& parameters)
+    : Engine(name, clock, spec::posteriser::kRegisters, kLayout),
+      clock_(clock),
+      levels("levels", clock, control) {
+  const spec::posteriser::Parameters p = check_build(parameters);
+  levels.tones_in(tones_in);
+  levels.tones_out(tones_out);
+  control.set_reset(reg::kRules,
+                    reg::rules::kBits.in(static_cast<std::uint32_t>(p.bits)) |
+                        reg::rules::kRounding.in(static_cast<std::uint32_t>(p.rounding)));
+  control.show(reg::kPixels, levels.pixels);
+  control.show(reg::kChanged, levels.changed);
+  control.reset();
+}
+
+}  // namespace deburr::rtl::posteriser

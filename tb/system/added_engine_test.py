@@ -1,0 +1,123 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""A fifth engine (tb/system/added_engine), which the program was built with and nothing else of the repository names:
+it is run, swept, regressed, completed, soaked and held to its baselines like the others.
+
+usage: added_engine_test.py DEBURR SOAK SOURCE"""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../engines"))
+from engine_list import engines  # noqa: E402
+
+HERE = pathlib.Path(__file__).resolve().parent / "added_engine"
+NAME = [line for line in (HERE / "engines.txt").read_text(encoding="utf-8").splitlines() if line[:1] != "#"][0]
+FOLDER = HERE / "tb/engines" / NAME
+DEBURR = SOAK = SOURCE = ""
+
+
+class Added(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="deburr_added_")
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+
+    def call(self, code, *command, says=()):
+        done = subprocess.run([str(word) for word in command], cwd=self.folder, text=True, capture_output=True,
+                              timeout=300, check=False)
+        self.assertEqual(done.returncode, code, f"{command}\n{done.stdout}{done.stderr}")
+        for text in [says] if isinstance(says, str) else says:
+            self.assertIn(text, done.stdout + done.stderr)
+        return done.stdout
+
+    def deburr(self, code, *arguments, says=()):
+        return self.call(code, DEBURR, *arguments, says=says)
+
+    def test_run(self):
+        self.deburr(0, "run", NAME, "--size", "31x17", "--bits", "2", "--windows", "50", "--maps", "--timeline", "--set",
+                    "run.coverage=true", "--out", "out", says="PASS posteriser: 529 outputs")
+        result = json.loads((self.folder / "out/result.json").read_text())
+        self.assertEqual(result["work"]["levels_pixels"], 31 * 17)
+        self.assertEqual(sum(result["coverage"]["bins"].values()), 31 * 17)
+        self.assertEqual(set(result["maps"]), {"level"})
+        for file in ("after.png", "change.png", "map_level.pfm", "windows.json", "timeline.json", "report.html"):
+            self.assertTrue((self.folder / "out" / file).exists(), file)
+
+    def test_what_is_wrong_is_found(self):
+        for fault in ("flip-bit", "wrong-rule", "miscount-pixels", "blind-pixels", "blind-status-registers"):
+            self.deburr(1, "run", NAME, "--fault", fault, "--out", "out", says="FAIL mismatch")
+        self.deburr(2, "run", NAME, "--fault", "gremlin", says="wrong-rule")
+        self.deburr(2, "run", NAME, "--set", "posteriser.bits=9", says="1..8")
+        for how in ((), ("--show-config",)):
+            self.deburr(2, "run", NAME, "--set", "posteriser.link_depth=3", *how, says="link_depth = 3: must be 1 or an even")
+        self.deburr(2, "run", "posterise", says="did you mean 'posteriser'")
+
+    def test_disturbances_change_no_pixel(self):
+        for more in ((), ("--stalls", "0.4", "--shuffle"), ("--set", "run.reset_after=200"), ("--set", "run.poison=true")):
+            self.deburr(0, "run", NAME, *more, "--out", "out", says="PASS")
+            after = (self.folder / "out/after.png").read_bytes()
+            self.assertEqual(after, getattr(self, "before", after))
+            self.before = after
+
+    def test_sweep(self):
+        (self.folder / "levels.yaml").write_text(
+            f"engine: {NAME}\nbase: {{picture.width: 16}}\naxes:\n  posteriser.bits: [1, 4, 8]\n"
+            "  posteriser.rounding: [truncate, nearest]\n", encoding="utf-8")
+        self.deburr(0, "sweep", "levels.yaml", "run", says="6 points, 6 done")
+
+    def test_regress(self):
+        (self.folder / "added.yaml").write_text(
+            f"include: [{FOLDER / 'smoke.yaml'}]\nfeatures:\n  - id: random-configurations\n    title: Any\n"
+            "    checks: {pixels: 100}\n", encoding="utf-8")
+        self.deburr(0, "regress", "added.yaml", "run", "--seed", "1", says="24 points, 24 passed")
+
+    # With one line of the list, and no line of the plan, the repository's own plan has it.
+    def test_regress_of_every_engine(self):
+        os.makedirs(self.folder / "tb/engines")
+        os.symlink(os.path.join(SOURCE, "docs"), self.folder / "docs")
+        shutil.copytree(os.path.join(SOURCE, "tb/testplan"), self.folder / "tb/testplan")
+        for engine in engines():
+            os.symlink(os.path.join(SOURCE, "tb/engines", engine), self.folder / "tb/engines" / engine)
+        self.deburr(2, "regress", "tb/testplan/smoke.yaml", "plan", says=f"there is no file 'tb/engines/{NAME}/smoke.yaml'")
+        os.symlink(FOLDER, self.folder / "tb/engines" / NAME)
+        self.deburr(0, "regress", "tb/testplan/smoke.yaml", "plan", "--seed", "1")
+        points = next(self.folder.rglob("points.jsonl"), None) or next(self.folder.rglob("points*"))
+        self.assertIn("posteriser-levels", points.read_text(encoding="utf-8"))
+
+    def test_parameters_and_pages(self):
+        self.deburr(0, "params", NAME, says=["posteriser.bits", "posteriser.link_depth", "must be 1 or an even"])
+        for page, says in (("parameters", f"## `deburr run {NAME}`"), ("registers", "## Posteriser\n"),
+                           ("coverage", "## Posteriser: 3 bins"), ("statistics", "`work.levels_changed`")):
+            self.deburr(0, "params", "--markdown", page, says=says)
+
+    def test_completion(self):
+        script = self.deburr(0, "completion", "bash")
+        self.assertIn(f"'deburr run {NAME}:posteriser.rounding') words='truncate nearest'", script)
+
+    def test_soak(self):
+        self.call(0, SOAK, "--engines", NAME, "--runs", "6", "--long-every", "6", says=["long run", "RESULT: PASS"])
+        self.call(1, SOAK, "--engines", NAME, "--runs", "2", "--set", "run.fault=flip-bit", "--set",
+                  "picture.width=32", "--set", "picture.height=24", says="RESULT: FAIL")
+
+    def test_baselines(self):
+        check = os.path.join(SOURCE, "tb/baselines/check.py")
+        self.call(0, check, DEBURR, FOLDER, says="0 differences")
+        moved = self.folder / NAME
+        shutil.copytree(FOLDER, moved)
+        record = moved / "baselines.json"
+        record.write_text(record.read_text().replace('"cycles":', '"cycles":1', 1))
+        self.call(1, check, DEBURR, moved, says="1 of 2 runs differ")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 4 or sys.argv[1] in ("-h", "--help"):
+        print(__doc__)
+        sys.exit(0 if len(sys.argv) >= 2 else 2)
+    DEBURR, SOAK, SOURCE = (os.path.abspath(sys.argv.pop(1)) for _ in range(3))
+    unittest.main(verbosity=2)

@@ -1,0 +1,131 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""A whole frame with each choice of what smooths it: judged by golden models, quality and figures that belong together;
+its coverage and maps are those of its engines.
+
+usage: frame_test.py DEBURR SOURCE
+"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import coverage_test
+import observers_test
+from coverage_test import SIZE, covered, declared, total
+
+SMALL = ("--scene", "object", "--size", "160x120")
+
+
+class Smoothing(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="deburr_smoothing_")
+        self.addCleanup(scratch.cleanup)
+        self.out = os.path.join(scratch.name, "out")
+
+    def command(self, code, *arguments, says=""):
+        done = subprocess.run([DEBURR, "run", "frame", *SMALL, *arguments, "--out", self.out], text=True,
+                              capture_output=True, timeout=300)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        self.assertIn(says, done.stdout + done.stderr)
+
+    def run_frame(self, *arguments):
+        self.command(0, *arguments)
+        with open(os.path.join(self.out, "result.json")) as file:
+            return json.load(file)
+
+    def pictures(self):
+        return {name[:-4] for name in os.listdir(self.out) if name.endswith(".png")}
+
+    def test_both_engines_smooth_best(self):
+        quality = {}
+        for choice in ("morphological", "geometric", "geometric-morphological"):
+            result = self.run_frame("--smoothing", choice, "--truth")
+            self.assertEqual(result["checks"]["mismatches"] + result["checks"]["traffic_mismatches"], 0)
+            quality[choice] = result["quality"]
+            self.assertEqual("classes" in self.pictures(), choice != "morphological")
+            self.assertEqual("edges" in self.pictures(), choice != "geometric")
+        for measure in ("psnr_edge_db", "psnr_silhouette_db"):
+            self.assertGreater(quality["geometric"][measure], quality["morphological"][measure] + 1)
+            self.assertGreater(quality["geometric-morphological"][measure], quality["geometric"][measure])
+
+    def test_engines_behind_each_other_add_up(self):
+        geometric = self.run_frame("--smoothing", "geometric")["work"]
+        result = self.run_frame("--smoothing", "geometric-morphological")
+        work = result["work"]
+        self.assertEqual(work["drawing_clocks"], geometric["drawing_clocks"])
+        self.assertAlmostEqual(
+            result["cycles"], work["texturing_clocks"] + work["drawing_clocks"] + work["smoothing_clocks"], delta=20)
+        self.assertLessEqual(work["engine_clocks_bound"], result["cycles"])
+        self.assertGreater(work["morphological_blender_left_pixels"], 0)
+        # Whoever is marked was blended.
+        self.assertLessEqual(work["morphological_blender_left_pixels"], work["geometric_resolver_blended_pixels"] * 2)
+
+    def test_rules_that_are_given_stay(self):
+        def configuration(*given):
+            self.run_frame("--smoothing", "geometric-morphological", *given)
+            with open(os.path.join(self.out, "manifest.json")) as file:
+                return json.load(file)["configuration"]
+        implied = configuration()
+        self.assertEqual(implied["geometric.mark"], True)
+        self.assertEqual(implied["morphological.leave"], "half")
+        self.assertEqual(implied["morphological.edges.source"], "predicated")
+        self.assertEqual(implied["morphological.edges.threshold_off_depth_edge"], 65535)
+        given = configuration("--set", "morphological.leave=beside", "--set", "morphological.edges.source=luma")
+        self.assertEqual(given["morphological.leave"], "beside")
+        self.assertEqual(given["morphological.edges.source"], "luma")
+        # A dynamic threshold has no depth beside it.
+        self.assertEqual(configuration("--preset", "smaa-dynamic")["morphological.edges.source"], "luma")
+
+    def test_every_preset_of_either_engine(self):
+        for edges in ("gpaa", "gpaa-optimised"):
+            for smoothing in ("mlaa", "smaa", "smaa-dynamic"):
+                self.run_frame("--smoothing", "geometric-morphological", "--preset", smoothing, "--set",
+                               f"geometric.preset={edges}")
+
+    def test_what_does_not_smooth_takes_no_parameters(self):
+        self.command(2, "--set", "geometric.layout=raster", says="draws no edges")
+        self.command(2, "--set", "geometric_memory.latency=9", says="draws no edges")
+        self.command(2, "--smoothing", "geometric", "--preset", "mlaa", says="has no morphological engine")
+        self.command(2, "--smoothing", "geometric", "--set", "frame_memory.latency=9",
+                     says="has no morphological engine")
+        self.command(2, "--smoothing", "both", says="geometric-morphological")
+        self.command(2, "--smoothing", "geometric", "--set", "geometric_memory.latency=20000",
+                     says="geometric_memory.latency = 20000")
+
+    def test_faults_of_either_engine_are_caught(self):
+        for fault, code in (("geometric.drop-line", 1), ("geometric.flip-weight", 1), ("wrong-rule", 1),
+                            ("geometric.memory-error", 3)):
+            self.command(code, "--smoothing", "geometric-morphological", "--fault", fault)
+
+
+class Coverage(unittest.TestCase):
+    def test_bins_are_those_of_its_engines(self):
+        bins, work = covered("frame", *SIZE, "--smoothing", "geometric-morphological")
+        self.assertEqual(set(bins), {name for engine in ("texture", "morphological", "geometric")
+                                     for name in declared(engine)})
+        self.assertEqual(total(bins, "texture/samples"), work["texture_fragments"])
+        self.assertEqual(total(bins, "morphological/decision"), 72 * 56)
+        self.assertEqual(total(bins, "geometric/line"), work["geometric_line_setup_lines"])
+
+
+class Maps(observers_test.MapSums):
+    def test_maps_are_those_of_its_engines(self):
+        with tempfile.TemporaryDirectory() as out:
+            observers_test.run(out, *observers_test.ENGINES["frame"], "--maps")
+            maps, work = self.sums(out)
+            self.assertEqual(maps["texture_samples"][0], work["texture_walker_samples"])
+            self.assertEqual(maps["geometric_lines"][0], work["geometric_coverage_unit_candidates"])
+            self.assertEqual(maps["morphological_edges"][1], work["morphological_edges_edge_pixels"])
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 3 or sys.argv[1] in ("-h", "--help"):
+        print(__doc__)
+        sys.exit(0 if len(sys.argv) >= 2 else 2)
+    DEBURR = os.path.abspath(sys.argv.pop(1))
+    coverage_test.DEBURR = observers_test.DEBURR = DEBURR
+    coverage_test.SOURCE = sys.argv.pop(1)
+    unittest.main(verbosity=2)

@@ -1,0 +1,139 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Figures, coverage and maps of `deburr run geometric`, against values found by hand or from other figures.
+
+usage: geometric_test.py DEBURR SOURCE"""
+import math
+import os
+import sys
+import tempfile
+import unittest
+
+import coverage_test
+import figures_test
+import observers_test
+from coverage_test import SIZE, covered, declared, total
+
+
+class Figures(figures_test.Figures):
+    """A square that faces the eye, 32 pixels a side: its lines are a quarter of a pixel inside columns 17 and 49 and
+    rows 17 and 49, so each cuts 32 pixels, in blocks 4..12 of rows and columns 4 and 12, by 1/4."""
+    MESH = """v -0.4609375 0.4609375 0\nv -0.4609375 -0.5390625 0\nv 0.5390625 -0.5390625 0\nv 0.5390625 0.4609375 0
+f 1 2 3\nf 1 3 4\n"""
+    # Two units high at the square; caches without conflicts.
+    VIEW = ("--size", "64x64", "--set", "scene.eye=0,0,2", "--set", "scene.target=0,0,0", "--set",
+            f"scene.fov={2 * math.atan(0.5)!r}", "--set", "memory.latency=1", "--set", "geometric.weight_blocks=256")
+    DEPTHS = ("--set", "geometric.depth_lines=256")
+    PIXELS, BLOCKS = 4 * 32 - 1, 4 * 9 - 4  # pixel (17, 17) is cut twice
+
+    def square(self, *arguments, depths=DEPTHS):
+        mesh = os.path.join(os.path.dirname(self.out), "square.obj")
+        with open(mesh, "w") as file:
+            file.write(self.MESH)
+        return self.run_engine("geometric", "--in", mesh, *self.VIEW, *depths, *arguments)
+
+    def test_figures_of_a_frame(self):
+        r = self.square()
+        work, clocks = r["work"], r["work"]["frame_clocks"]
+        expected = {"edge_classifier_edges": 5, "edge_classifier_boundary_edges": 4, "edge_classifier_flat_edges": 1,
+                    "edge_classifier_kept_edges": 4, "line_setup_lines": 4, "line_walker_columns": 128,
+                    "coverage_unit_candidates": 128, "depth_test_passed": 128, "resolver_blocks": self.BLOCKS,
+                    "resolver_blended_pixels": self.PIXELS, "line_setup_divider_clocks": 4 * 13}
+        self.assertEqual({name: work[name] for name in expected}, expected)
+        # From column 17 on in fours: 3, seven times 4, and 1; a look-up each, and a line each of the depth behind it.
+        self.assertEqual(work["line_walker_groups"], 4 * 9)
+        self.assertAlmostEqual(work["columns_a_clock"], 32 / 9)
+        self.assertEqual(work["vertex_hits_percent"], 75, "four vertices are one line")
+        for name in ("depth_hits_percent", "weight_hits_percent"):
+            self.assertAlmostEqual(work[name], 100 * (1 - self.BLOCKS / (4 * 9)))
+        read = {"faces": 1, "edges": 2, "vertices": 1, "depth": self.BLOCKS, "weights": 0, "colour": self.BLOCKS,
+                "copy": 0}
+        written = {"weights": 0, "colour": self.BLOCKS, "copy": 0}
+        self.assertEqual({name: work[f"lines_read_{name}"] for name in read}, read)
+        self.assertEqual({name: work[f"lines_written_{name}"] for name in written}, written)
+        lines, enabled = sum(read.values()), 4 * self.PIXELS
+        self.assertEqual((r["memory"]["bytes_read"], r["memory"]["bytes_written"]), (64 * lines, enabled))
+        self.assertAlmostEqual(work["bytes_a_blended_pixel"], (64 * lines + enabled) / self.PIXELS)
+        self.assertAlmostEqual(work["frame_bytes_a_blended_pixel"], (64 * 2 * self.BLOCKS + enabled) / self.PIXELS)
+        self.assertEqual(clocks, work["edge_cycles"] + work["resolve_cycles"])
+        self.assertEqual(r["cycles"], clocks)
+        self.assertAlmostEqual(work["divider_occupancy_percent"], 100 * 4 / work["edge_cycles"])
+        self.assertAlmostEqual(work["port_occupancy_percent"], 100 * (lines + self.BLOCKS) / clocks)
+        self.assertAlmostEqual(work["frame_rate"], 250e6 / clocks)
+        self.assertAlmostEqual(work["clock_for_60_frames"], 60 * clocks / 1e6)
+        # 256 tags are cleared; 36 groups; two lines of colours a block.
+        bound = 256 + 36 + 2 * self.BLOCKS
+        self.assertEqual(work["frame_clocks_bound"], bound)
+        self.assertAlmostEqual(r["throughput"]["bound"], 5 / bound)
+        self.assertAlmostEqual(r["throughput"]["value"], 5 / clocks)
+        self.assertEqual(sum(b["count"] for b in r["latency"]["histogram"]), 4, "the lines")
+        slower = 100 * (clocks - bound) / bound
+        self.assert_tile("Frame", f"{clocks:,}", "clk", f"bound {bound}, {slower:+.1f} %; {clocks / 250e3:.2f} ms at 250 MHz")
+        self.assert_tile("Clock for 60 frames", f"{60 * clocks / 1e6:.4g}", "MHz")
+        self.assert_tile("Traffic of a blended pixel", f"{work['bytes_a_blended_pixel']:.4g}", "byte/pixel")
+
+    def test_walkers(self):
+        for walkers, groups in ((1, 32), (2, 17), (4, 9)):
+            work = self.square("--walkers", str(walkers))["work"]
+            self.assertEqual(work["line_walker_groups"], 4 * groups)
+            self.assertAlmostEqual(work["columns_a_clock"], 32 / groups)
+
+    def test_the_first_line_of_an_idle_engine(self):
+        """Two edges a clock wait for nothing but vertices and depth, behind each other: the sum of the units'
+        latencies, a clock for each link, and a memory of one clock twice."""
+        r = self.square("--set", "geometric.select=all", "--walkers", "1", depths=("--set", "geometric.depth_test=off"))
+        # 3 classifier, 5 vertices, 22 setup, 1 walker, 2 coverage, 6 depth test, 5 combiner; 31 groups behind the
+        # first one; M + 6 of the vertices.
+        self.assertEqual(r["latency"]["min"], 3 + 5 + 22 + 1 + 2 + 6 + 5 + 31 + 7)
+
+    def test_traffic_of_rows(self):
+        """A row of 64 pixels is four lines; the lines of depth of a vertical line are a row each."""
+        work = self.square("--layout", "raster")["work"]
+        # Rows 16, 17, 48, 49, columns 16..49: lines 1..3; the other rows 18..47: lines 1 and 3.
+        self.assertEqual(work["lines_read_depth"], 4 * 3 + 30 * 2)
+
+    def test_frames_add_up(self):
+        one = self.square()["work"]
+        two = self.square("--set", "scene.count=2")["work"]
+        for name in ("edge_classifier_edges", "resolver_blended_pixels", "lines_read_depth"):
+            self.assertEqual(two[name], 2 * one[name])
+        for name in ("frame_clocks", "frame_clocks_bound", "columns_a_clock", "bytes_a_blended_pixel",
+                     "divider_occupancy_percent", "port_occupancy_percent"):
+            self.assertAlmostEqual(two[name], one[name])
+
+
+class Coverage(unittest.TestCase):
+    def test_every_bin(self):
+        bins, work = covered("geometric", *SIZE)
+        self.assertEqual(set(bins), declared("geometric"))
+        self.assertEqual(total(bins, "geometric/line"), work["line_setup_lines"])
+        self.assertEqual(bins["geometric/look-up/depth/miss"], work["lines_read_depth"])
+        self.assertGreater(work["line_setup_lines"], 0)
+
+    # A run that ends with an error leaves what it met until then.
+    def test_an_error_is_met(self):
+        bins, _ = covered("geometric", *SIZE, "--set", "memory.error_address=0", code=3)
+        self.assertGreater(bins["geometric/error/faces"], 0)
+        self.assertEqual(total(bins, "geometric/error"), bins["geometric/error/faces"])
+
+
+class Maps(observers_test.MapSums):
+    def test_counters(self):
+        for more in ((), ("--layout", "raster")):
+            with self.subTest(more), tempfile.TemporaryDirectory() as out:
+                observers_test.run(out, *observers_test.ENGINES["geometric"], *more, "--maps")
+                maps, work = self.sums(out)
+                self.assertEqual(maps["lines"][0], work["coverage_unit_candidates"])
+                self.assertEqual(maps["passed"][0], work["depth_test_passed"])
+                self.assertEqual(maps["weight"][1], work["resolver_blended_pixels"])
+                self.assertEqual(maps["depth_reads"][0], 16 * work["depth_test_misses"])
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 3 or sys.argv[1] in ("-h", "--help"):
+        print(__doc__)
+        sys.exit(0 if len(sys.argv) >= 2 else 2)
+    program = os.path.abspath(sys.argv.pop(1))
+    coverage_test.DEBURR = figures_test.DEBURR = observers_test.DEBURR = program
+    coverage_test.SOURCE = sys.argv.pop(1)
+    unittest.main()

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// What a YAML file must not hold, since nobody who walks it would come back.
+#include "tb/base/yaml_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "spec/error.h"
+
+namespace deburr::tb::yaml_file_test {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+
+class YamlFileTest : public testing::Test {
+ protected:
+  ~YamlFileTest() override { std::filesystem::remove(path_); }
+
+  YamlFile read(const std::string& text) {
+    std::ofstream(path_) << text;
+    return YamlFile(path_);
+  }
+  std::string refusal(const std::string& text) {
+    try {
+      read(text);
+    } catch (const spec::ConfigError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+ private:
+  std::filesystem::path path_ = std::filesystem::temp_directory_path() /
+                                ("deburr_yaml_file_" + std::to_string(::getpid()) + ".yaml");
+};
+
+// Each list is ten of the one before, so its values are 10^levels.
+std::string lists_of_lists(int levels) {
+  std::string text = "a0: &a0 x\n";
+  for (int level = 1; level <= levels; ++level) {
+    const std::string alias = "*a" + std::to_string(level - 1);
+    std::string list = alias;
+    for (int i = 1; i < 10; ++i) list += ", " + alias;
+    text += "a" + std::to_string(level) + ": &a" + std::to_string(level) + " [" + list + "]\n";
+  }
+  return text;
+}
+
+TEST_F(YamlFileTest, TakesAliasesOfAliases) {
+  const YamlFile file = read(lists_of_lists(5));
+  EXPECT_EQ(file.root()["a5"][9][8][7][6][5].Scalar(), "x");
+  EXPECT_EQ(read("a: &a {b: 1}\nc: *a\nd: [*a, *a]\n").root()["d"][1]["b"].Scalar(), "1");
+}
+
+TEST_F(YamlFileTest, RefusesAliasesThatStandForMoreThanAnyoneCanWalk) {
+  EXPECT_THAT(refusal(lists_of_lists(8)),
+              HasSubstr(".yaml:7:45: aliases stand for more than 1000000 values up to here"));
+  EXPECT_THAT(refusal(lists_of_lists(100)), HasSubstr("aliases stand for more than"));
+  // Maps count as lists do, keys as values.
+  std::string maps = "m0: &m0 {x: y}\n";
+  for (int level = 1; level <= 30; ++level) {
+    const std::string before = std::to_string(level - 1), name = std::to_string(level);
+    maps += "m" + name + ": &m" + name + " {a: *m" + before + ", b: *m" + before + "}\n";
+  }
+  EXPECT_THAT(refusal(maps), HasSubstr("aliases stand for more than"));
+}
+
+TEST_F(YamlFileTest, RefusesAListThatIsAPartOfItself) {
+  EXPECT_THAT(refusal("a: 1\nb: &b [2, *b]\n"),
+              EndsWith(".yaml:2:11: an alias of what it is a part of"));
+  EXPECT_THAT(refusal("a: &a {b: {c: *a}}\n"), HasSubstr("an alias of what it is a part of"));
+}
+
+// Where the library gives up there is a line, too, and no crash.
+TEST_F(YamlFileTest, RefusesWhatIsNestedTooDeeply) {
+  EXPECT_THAT(refusal(std::string(100'000, '[')), HasSubstr(".yaml:1:"));
+  std::string text;
+  for (int level = 0; level < 5'000; ++level) text += std::string(level, ' ') + "a:\n";
+  EXPECT_THAT(refusal(text), HasSubstr("not valid YAML"));
+}
+
+}  // namespace
+}  // namespace deburr::tb::yaml_file_test

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What the geometric engine cannot be built with.
+#include "spec/geometric/check_build.h"
+
+#include <gtest/gtest.h>
+
+#include "rtl_model/geometric/geometric_engine.h"
+#include "tb/unit/engines/check_build.h"
+
+namespace deburr::tb::check_build_test {
+namespace {
+
+using Parameters = spec::geometric::Parameters;
+
+BuildChecks<Parameters, rtl::geometric::GeometricEngine> checks() {
+  return {"geometric",
+          {
+              {{{"reciprocal_table", "4"}}, "reciprocal_table", "use 0, or pipelined = false"},
+              {{{"face_limit", "8193"}}, "face_limit", "multiple of 512"},
+              {{{"memory.outstanding", "63"}}, "fills", "fills = 64 with memory.outstanding = 63"},
+          }};
+}
+
+TEST(GeometricCheckBuild, HasARowForEveryRule) { checks().expect_a_row_a_rule(); }
+
+TEST(GeometricCheckBuild, RejectsAlikeWhereverItIsAsked) { checks().expect_the_same_words(); }
+
+TEST(GeometricCheckBuild, RejectsWhatIsOutOfRange) { checks().expect_ranges(); }
+
+TEST(GeometricCheckBuild, LeavesNothingThatCannotBeBuilt) {
+  checks().expect_all_else_is_built(300);
+}
+
+}  // namespace
+}  // namespace deburr::tb::check_build_test

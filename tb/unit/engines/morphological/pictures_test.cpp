@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// What the pictures of the morphological engine show.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <vector>
+
+#include "tb/engines/morphological/morphological_pictures.h"
+#include "tb/scene/image_io.h"
+
+namespace deburr::tb::pictures_test {
+namespace {
+
+std::vector<spec::morphological::BlendTap> taps_of_three() {
+  std::vector<spec::morphological::BlendTap> taps(3);
+  taps[0].edges = 1;
+  taps[1].edges = 2;
+  taps[1].first = 40;
+  taps[1].second = 10;
+  taps[2].second = 200;
+  taps[2].horizontal = true;
+  return taps;
+}
+
+TEST(EdgePicture, ShowsLeftEdgesRedAndTopEdgesGreenOverGrey) {
+  const Image edges = edge_picture(Image(3, 1, {90, 90, 90, 255}), taps_of_three());
+  EXPECT_EQ(edges.pixels,
+            (std::vector<Rgba8>{{255, 30, 30, 255}, {30, 255, 30, 255}, {30, 30, 30, 255}}));
+}
+
+TEST(SmoothingPictures, AreThoseOfAFrameAndEdgesAndWeights) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("deburr_smoothing_" + std::to_string(::getpid()));
+  ParameterSet parameters;
+  RunContext context(path, parameters, "x", 0);
+  context.set_leaves({{"before", "after", "change", "edges", "weights"}, {}});
+  context.claim();
+  const Image frame(3, 1, {90, 90, 90, 255});
+  add_smoothing_pictures(context, {frame, frame, 3, nullptr, nullptr, "", ""}, taps_of_three());
+  context.finish({});
+  EXPECT_EQ(read_image(path / "edges.png"), edge_picture(frame, taps_of_three()));
+  EXPECT_EQ(read_image(path / "weights.png").pixels,
+            (std::vector<Rgba8>{{0, 0, 0, 255}, {80, 20, 0, 255}, {0, 255, 160, 255}}));
+  std::filesystem::remove_all(path);
+}
+
+}  // namespace
+}  // namespace deburr::tb::pictures_test

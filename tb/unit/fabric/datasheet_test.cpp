@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Datasheets: how builds are merged into a list, and the text that pages are made of.
+#include "rtl_model/fabric/datasheet.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "rtl_model/fabric/memory_port.h"
+#include "spec/error.h"
+
+namespace deburr::tb::datasheet_test {
+namespace {
+
+using rtl::Datasheet;
+
+Datasheet halver(const std::string& variant, std::uint64_t latency) {
+  return {.unit = "Halver",
+          .variant = variant,
+          .does = "Halves each token.",
+          .latency = {latency},
+          .stages = {{"1", "table", "SRAM read"}, {"2", "shift"}},
+          .cost = "a shifter."};
+}
+
+TEST(Datasheets, VariantsOfAUnitStandTogether) {
+  const Datasheet doubler = {.unit = "Doubler", .does = "Doubles."};
+  const std::vector<std::vector<Datasheet>> builds = {{halver("slow", 3), doubler},
+                                                      {halver("fast", 2), doubler}};
+  std::vector<std::string> titles;
+  for (const Datasheet& sheet : rtl::merged(builds)) titles.push_back(title(sheet));
+  EXPECT_EQ(titles, (std::vector<std::string>{"Halver, slow", "Halver, fast", "Doubler"}));
+}
+
+// A unit that only one build has stands where it stands in that build.
+TEST(Datasheets, UnitsKeepTheirOrder) {
+  const Datasheet first = {.unit = "First"}, last = {.unit = "Last"};
+  const std::vector<std::vector<Datasheet>> builds = {{first, halver("slow", 3), last},
+                                                      {first, {.unit = "Other"}, last}};
+  std::string units;
+  for (const Datasheet& sheet : rtl::merged(builds)) units += sheet.unit + " ";
+  EXPECT_EQ(units, "First Other Halver Last ");
+}
+
+TEST(Datasheets, OneTitleSaysOneThing) {
+  const std::vector<std::vector<Datasheet>> builds = {{halver("slow", 3)}, {halver("slow", 2)}};
+  EXPECT_THROW(rtl::merged(builds), spec::CheckFailed);
+}
+
+// Where a text says what the clocks depend on, they may differ from build to build.
+TEST(Datasheets, ClocksByATextMayDiffer) {
+  Datasheet one = halver("", 3), other = halver("", 4);
+  one.latency.text = other.latency.text = "2, and `more`";
+  const std::vector<std::vector<Datasheet>> builds = {{one}, {other}};
+  EXPECT_EQ(rtl::merged(builds).size(), 1u);
+}
+
+TEST(Datasheets, PageHasATableOfAllThenEachWithItsStages) {
+  Datasheet fast = halver("fast", 2);
+  fast.megahertz = 300;
+  fast.interval = {1, "a token a clock"};
+  EXPECT_EQ(rtl::datasheets_markdown(std::vector{halver("slow", 3), fast}), R"(
+| unit | latency | initiation interval |
+|---|---|---|
+| Halver, slow | 3 | 1 |
+| Halver, fast | 2 | a token a clock |
+
+### Halver
+
+Halves each token.
+
+**slow**
+
+Latency: 3; initiation interval: 1.
+
+| stage | work | longest path |
+|---|---|---|
+| 1 | table | SRAM read |
+| 2 | shift |  |
+
+**fast**
+
+Latency: 2; initiation interval: a token a clock. For 300 MHz.
+
+| stage | work | longest path |
+|---|---|---|
+| 1 | table | SRAM read |
+| 2 | shift |  |
+
+Cost: a shifter.
+)");
+}
+
+TEST(Datasheets, OfTheMemoryPortIsTheContracts) {
+  EXPECT_EQ(rtl::MemoryPort::datasheet().latency.clocks, 2u);
+  EXPECT_EQ(rtl::MemoryPort::datasheet().interval.clocks, 1u);
+}
+
+}  // namespace
+}  // namespace deburr::tb::datasheet_test

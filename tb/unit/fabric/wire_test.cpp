@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: MIT
+// Level signals: the clock in which a value is there, what is undriven, who may drive, what is
+// counted and traced, and that the order in which units are ticked is of no account.
+#include "rtl_model/fabric/wire.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "rtl_model/fabric/trace.h"
+#include "tb/harness/bench.h"
+#include "tb/unit/fabric/support.h"
+
+namespace deburr::tb::wire_test {
+namespace {
+
+using rtl::Activity;
+using rtl::ClockDomain;
+using rtl::CombinationalWire;
+using rtl::Cycle;
+using rtl::kNoReset;
+using rtl::Wire;
+using rtl::WireIn;
+using rtl::WireKind;
+using rtl::WireOut;
+using testing::HasSubstr;
+
+// ---- A register
+
+TEST(Wire, AValueIsThereOneClockLaterNotEarlierAndStays) {
+  Wire<int> wire("wire", 7);
+  EXPECT_EQ(wire.read(0), 7);
+  EXPECT_EQ(wire.driven(), 7);
+  wire.drive(5, 8);
+  EXPECT_EQ(wire.driven(), 8);
+  EXPECT_EQ(wire.read(5), 7);
+  EXPECT_EQ(wire.read(6), 8);
+  wire.drive(6, 9);
+  EXPECT_EQ(wire.read(6), 8);
+  EXPECT_EQ(wire.read(7), 9);
+  EXPECT_EQ(wire.read(1'000'000), 9);
+}
+
+TEST(Wire, IsDrivenOnceAClock) {
+  Wire<int> wire("wire", 7);
+  wire.drive(3, 1);
+  EXPECT_THAT(text_of<spec::CheckFailed>([&] { wire.drive(3, 1); }),
+              HasSubstr("wire: cycle 3: driven twice in a clock"));
+  wire.drive(4, 2);
+}
+
+TEST(Wire, AResetShowsTheValueOfItsDeclarationAtOnce) {
+  Wire<int> wire("wire", 7);
+  wire.drive(3, 1);
+  wire.drive(4, 2);
+  wire.reset();
+  EXPECT_EQ(wire.read(4), 7);
+  EXPECT_EQ(wire.read(5), 7);
+  wire.drive(5, 1);
+  EXPECT_EQ(wire.read(5), 7);
+  EXPECT_EQ(wire.read(6), 1);
+}
+
+// Without a value in its declaration: before it is driven, and again after a reset, nobody reads
+// it.
+TEST(Wire, WithoutAResetValueItIsUndrivenUntilItIsDriven) {
+  Wire<int> wire("wire", kNoReset);
+  const auto refused = [&](Cycle cycle) {
+    return text_of<spec::CheckFailed>([&] { wire.read(cycle); });
+  };
+  EXPECT_THAT(refused(0), HasSubstr("wire: cycle 0: read before it was driven"));
+  wire.drive(9, 1);
+  EXPECT_THAT(refused(9), HasSubstr("cycle 9"));
+  EXPECT_EQ(wire.read(10), 1);
+  wire.drive(10, 2);
+  EXPECT_EQ(wire.read(10), 1);
+  wire.reset();
+  EXPECT_THAT(refused(11), HasSubstr("cycle 11: read before it was driven"));
+  EXPECT_EQ(wire.seen(11), nullptr);
+}
+
+// ---- Combinational
+
+TEST(Wire, CombinationalIsThereInItsClockAndInNoOther) {
+  CombinationalWire<int> wire("wire");
+  const auto refused = [&](Cycle cycle) {
+    return text_of<spec::CheckFailed>([&] { wire.read(cycle); });
+  };
+  EXPECT_THAT(refused(4), HasSubstr("cycle 4: read before it was driven in this clock"));
+  wire.drive(4, 8);
+  EXPECT_EQ(wire.read(4), 8);
+  EXPECT_THAT(refused(5), HasSubstr("(combinational wire;"));
+  wire.drive(5, 8);
+  EXPECT_EQ(wire.read(5), 8);
+  EXPECT_THROW(wire.drive(5, 8), spec::CheckFailed);
+  wire.reset();
+  EXPECT_THAT(refused(5), HasSubstr("cycle 5"));
+}
+
+// ---- Units
+
+// A counter that others look at.
+template <WireKind kKind>
+class CountDriver final : public rtl::Unit {
+ public:
+  WireOut<std::uint8_t, kKind> count_out{"count_out"};
+  CountDriver(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
+  Activity tick(Cycle cycle) override {
+    if (!asleep) count_out.drive(cycle, ++count_);
+    return rtl::kBusy;
+  }
+  void reset() override { count_ = 0; }
+  bool asleep = false;
+
+ private:
+  std::uint8_t count_ = 0;
+};
+template <WireKind kKind>
+class CountReader final : public rtl::Unit {
+ public:
+  WireIn<std::uint8_t, kKind> count_in{"count_in"};
+  CountReader(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
+  Activity tick(Cycle cycle) override {
+    text += std::to_string(count_in.read(cycle)) + " ";
+    return rtl::kBusy;
+  }
+  void reset() override { text += "reset "; }
+  std::string text;
+};
+using Driver = CountDriver<WireKind::kRegistered>;
+using Reader = CountReader<WireKind::kRegistered>;
+using DriverNow = CountDriver<WireKind::kCombinational>;
+using ReaderNow = CountReader<WireKind::kCombinational>;
+const sc_core::sc_time kPeriod(10, sc_core::SC_NS);
+
+// What both readers saw, in six clocks around a reset; they stand on both sides of the driver.
+std::string counted(std::uint64_t shuffle) {
+  return in_child([shuffle] {
+    ClockDomain clock("clock", kPeriod);
+    Reader first("first", clock);
+    Driver driver("driver", clock);
+    Reader last("last", clock);
+    Wire<std::uint8_t> wire("wire", 100);
+    first.count_in(wire);
+    driver.count_out(wire);
+    last.count_in(wire);
+    if (shuffle) clock.shuffle(shuffle);
+    clock.run(4);
+    clock.set_reset_n(false);
+    clock.run(1);
+    clock.set_reset_n(true);
+    clock.run(2);
+    return first.text + (first.text == last.text ? "| same" : "| " + last.text);
+  });
+}
+TEST(Wire, WhoeverIsTickedFirstReadersSeeTheSame) {
+  for (std::uint64_t shuffle = 0; shuffle < 20; ++shuffle)
+    EXPECT_EQ(counted(shuffle), "100 1 2 3 reset 100 1 | same") << shuffle;
+}
+
+// Three in a chain: the domain keeps their order however it shuffles, and nobody else's.
+TEST(Wire, CombinationalKeepsItsUnitsInOrder) {
+  for (std::uint64_t shuffle = 0; shuffle < 20; ++shuffle) {
+    const std::string got = in_child([shuffle] {
+      ClockDomain clock("clock", kPeriod);
+      DriverNow driver("driver", clock);
+      Driver other("other", clock);
+      ReaderNow reader("reader", clock);
+      ReaderNow watcher("watcher", clock);
+      CombinationalWire<std::uint8_t> wire("wire");
+      Wire<std::uint8_t> apart("apart", 0);
+      driver.count_out(wire);
+      reader.count_in(wire);
+      other.count_out(apart);
+      watcher.count_in(wire);
+      if (shuffle) clock.shuffle(shuffle);
+      clock.run(3);
+      return reader.text + watcher.text;
+    });
+    EXPECT_EQ(got, "1 2 3 1 2 3 ") << shuffle;
+  }
+}
+TEST(Wire, CombinationalNeedsItsDriverFirst) {
+  EXPECT_THAT(in_child([] {
+                ClockDomain clock("clock", kPeriod);
+                ReaderNow reader("reader", clock);
+                DriverNow driver("driver", clock);
+                CombinationalWire<std::uint8_t> wire("wire");
+                driver.count_out(wire);
+                reader.count_in(wire);
+                clock.run(1);
+                return std::string("ran");
+              }),
+              HasSubstr("wire is combinational, so driver has to be ticked before reader"));
+}
+
+// The driver stops: its readers get no old value.
+TEST(Wire, ADriverThatLeavesAClockOutIsFound) {
+  EXPECT_THAT(in_child([] {
+                ClockDomain clock("clock", kPeriod);
+                DriverNow driver("driver", clock);
+                ReaderNow reader("reader", clock);
+                CombinationalWire<std::uint8_t> wire("wire");
+                driver.count_out(wire);
+                reader.count_in(wire);
+                clock.run(2);
+                driver.asleep = true;
+                clock.run(1);
+                return std::string("ran");
+              }),
+              HasSubstr("wire: cycle 2: read before it was driven in this clock (combinational "
+                        "wire; driver driver.count_out, readers reader.count_in)"));
+}
+// A driver that forgets its first value: an error in the reader, whatever the order.
+TEST(Wire, AReaderOfNothingIsFound) {
+  EXPECT_THAT(in_child([] {
+                ClockDomain clock("clock", kPeriod);
+                Driver driver("driver", clock);
+                Reader reader("reader", clock);
+                Wire<std::uint8_t> wire("wire", kNoReset);
+                driver.count_out(wire);
+                reader.count_in(wire);
+                clock.run(1);
+                return std::string("ran");
+              }),
+              HasSubstr("wire: cycle 0: read before it was driven (registered wire"));
+}
+
+TEST(Wire, HasOneDriverOfOneClockAndNoLoosePort) {
+  EXPECT_THAT(in_child([] {
+                ClockDomain clock("clock", kPeriod);
+                Driver a("a", clock), b("b", clock);
+                Wire<std::uint8_t> wire("wire", 0);
+                a.count_out(wire);
+                b.count_out(wire);
+                return std::string("ran");
+              }),
+              HasSubstr("wire has two drivers: a.count_out and b.count_out"));
+  EXPECT_THAT(in_child([] {
+                ClockDomain clock("clock", kPeriod);
+                Reader reader("reader", clock);
+                clock.run(1);
+                return std::string("ran");
+              }),
+              HasSubstr("reader.count_in is not bound to a wire"));
+  EXPECT_THAT(in_child([] {
+                ClockDomain clock("clock", kPeriod), other("other", kPeriod);
+                Driver driver("driver", clock);
+                Reader reader("reader", other);
+                Wire<std::uint8_t> wire("wire", 0);
+                driver.count_out(wire);
+                reader.count_in(wire);
+                clock.run(1);
+                return std::string("ran");
+              }),
+              HasSubstr("wire joins two clock domains"));
+}
+
+// Ports of a module around units hand the wire on, whichever is bound first.
+TEST(Wire, GoesThroughThePortsOfAModuleAround) {
+  for (const bool inside_first : {true, false}) {
+    const std::string got = in_child([inside_first] {
+      ClockDomain clock("clock", kPeriod);
+      WireOut<std::uint8_t> out("out");
+      WireIn<std::uint8_t> in("in");
+      Driver driver("driver", clock);
+      Reader a("a", clock), b("b", clock);
+      Wire<std::uint8_t> wire("wire", 50);
+      const auto inside = [&] {
+        driver.count_out(out);
+        a.count_in(in);
+        b.count_in(in);
+      };
+      if (inside_first) inside();
+      out(wire);
+      in(wire);
+      if (!inside_first) inside();
+      clock.run(3);
+      std::string readers;
+      for (const std::string& reader : wire.readers()) readers += reader + " ";
+      return a.text + b.text + wire.driver() + " " + readers;
+    });
+    EXPECT_EQ(got, "50 1 2 50 1 2 driver.count_out a.count_in b.count_in ") << inside_first;
+  }
+}
+
+// ---- Counted
+
+TEST(Wire, CountsChangesAndClocksHigh) {
+  Wire<bool> wire("wire", false);
+  EXPECT_EQ(wire.high_clocks(10), 0u);
+  wire.drive(2, true);  // read from 3 on
+  EXPECT_EQ(wire.high_clocks(3), 0u);
+  EXPECT_EQ(wire.high_clocks(10), 7u);
+  wire.drive(9, true);  // no change
+  wire.drive(11, false);
+  EXPECT_EQ(wire.changes(), 2u);
+  EXPECT_EQ(wire.high_clocks(100), 9u);
+  wire.drive(19, true);
+  EXPECT_EQ(wire.high_clocks(25), 14u);
+  EXPECT_EQ(wire.changes(), 3u);
+  wire.reset();
+  EXPECT_EQ(wire.changes(), 0u);
+  EXPECT_EQ(wire.high_clocks(30), 0u);
+
+  CombinationalWire<bool> moves("moves");
+  Cycle cycle = 10;
+  for (const bool value : {true, true, false, true}) moves.drive(cycle++, value);
+  EXPECT_EQ(moves.changes(), 2u);
+  EXPECT_EQ(moves.high_clocks(99), 3u);
+}
+TEST(Wire, StandsInTheStatistics) {
+  EXPECT_EQ(in_child([] {
+              ClockDomain clock("clock", kPeriod);
+              Driver driver("driver", clock);
+              Wire<std::uint8_t> wire("wire", 0, {.widths = {{"value", 4}}});
+              driver.count_out(wire);
+              clock.run(7);
+              return statistics(clock)["wires"].dump();
+            }),
+            R"({"wire":{"bits":4,"changes":7,"high":6}})");
+}
+
+// ---- Traced
+
+TEST(Wire, IsInTheWavesAsReadersSeeIt) {
+  const std::string got = in_child([] {
+    const std::string file = testing::TempDir() + "wire.vcd";
+    ClockDomain clock("clock", kPeriod);
+    Driver driver("driver", clock);
+    Wire<std::uint8_t> wire("wire", kNoReset, {.widths = {{"value", 3}}});
+    driver.count_out(wire);
+    {
+      rtl::Trace trace(clock, {.file = file, .scopes = {"wire"}});
+      clock.run(3);
+    }
+    std::ifstream stream(file);
+    const std::string text((std::istreambuf_iterator<char>(stream)), {});
+    return text.substr(text.find("$scope"));
+  });
+  EXPECT_THAT(got, HasSubstr("$var wire 3 ! wire [2:0] $end"));
+  // Driven in clock 0, seen in clock 1 (at 10 ns; the resolution is 1 ps).
+  const std::size_t undriven = got.find("bx !"), one = got.find("b001 !"), two = got.find("b010 !");
+  ASSERT_NE(two, std::string::npos) << got;
+  EXPECT_LT(undriven, got.find("#10000\n"));
+  EXPECT_LT(got.find("#10000\n"), one);
+  EXPECT_LT(one, got.find("#20000\n"));
+  EXPECT_LT(got.find("#20000\n"), two);
+  EXPECT_EQ(got.find("b011 !"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace deburr::tb::wire_test

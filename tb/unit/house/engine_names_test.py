@@ -1,0 +1,159 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Counts the edits that an engine costs: no file names it but its own and one line of tb/engines/engines.txt.
+
+An engine's own files have its name in their path. What else names it stands here, with the reason. Texture and frame
+are words of every page too, so of all engines the rooms are looked at that name none: what runs, sweeps, reports and
+builds whatever engines there are. Not looked at: documentation, and the record of mutation tests, whose words are
+those of the code.
+
+usage: engine_names_test.py SOURCE"""
+import argparse
+import pathlib
+import re
+import sys
+import tempfile
+
+LIST = "tb/engines/engines.txt"
+LEFT_OUT = re.compile(r"docs/|README\.md|CHANGELOG\.md|LICENSES?|tb/mutation/|tb/unit/house/engine_names_test\.py|"
+                      r"build/|out/|\.git/|\.ci/")
+# Of the composition, which is an engine of its own: its business are its parts.
+COMPOSITION = re.compile(r"(^|/)frame([_/.]|$)")
+
+# engine -> why files name it -> which.
+NAMED = {
+    "geometric": {
+        "the rule `leave` is about what it has marked": [
+            "golden/morphological/configuration.h", "golden/morphological/leave.h",
+            "rtl_model/morphological/blend/blender.cpp", "spec/morphological/parameters.h"],
+        "methods are compared there, each by its name": ["tb/oracle/comparison.cpp"],
+        "the paper whose method it is": ["tb/papers/papers_002.cpp"],
+        "tables of pages are measured, its own among them": [
+            "scripts/measurement/results.py"],
+        "its model's speed is counted": ["tb/speed"],
+    },
+    "morphological": {
+        "it blends in the same light, by the same tables": [
+            "golden/geometric/geometric_golden.cpp", "golden/geometric/geometric_golden.h",
+            "golden/geometric/resolve.cpp", "golden/geometric/resolve.h", "spec/geometric/tables.h",
+            "tb/unit/golden/geometric/line_test.cpp"],
+        "the field's word for such methods, or what they are compared with": [
+            "golden/ideal/cmaa2.h", "golden/ideal/coverage.h", "golden/ideal/smaa.h", "tb/oracle/comparison.cpp",
+            "tb/oracle/geometric_quality_test.cpp", "tb/oracle/smaa_test.cpp", "tb/scene/truth.h"],
+        "papers whose methods it has": ["tb/papers/papers_000.cpp", "tb/papers/papers_003.cpp"],
+        "lines and discs that its shares are measured and learned by": [
+            "scripts/train-shares", "tb/stimuli/discs.cpp", "tb/stimuli/discs.h", "tb/stimuli/line_fans.cpp",
+            "tb/stimuli/line_fans.h", "tb/training/share_samples.cpp", "tb/training/share_samples.h",
+            "tb/training/share_trainer.cpp", "tb/training/share_trainer.h", "tb/training/train_shares.cpp",
+            "tb/unit/training/share_trainer_test.cpp"],
+        "an example of an engine, in tests of what every engine has": [
+            "tb/negative/app_bad_input_test.py", "tb/negative/app_faults_test.py", "tb/negative/app_images_test.py",
+            "tb/negative/app_regress_test.py", "tb/negative/app_sweep_test.py", "tb/negative/app_traces_test.py",
+            "tb/system/coverage_test.py", "tb/system/figures_test.py", "tb/system/observers_test.py", "tb/system/shared_golden_test.cpp",
+            "tb/system/inputs_test.py", "tb/system/sweep_test.py", "tb/system/terminal_test.py", "tb/unit/env/planted_faults_test.cpp",
+            "tb/unit/house/mutate_test.py", "tb/unit/results/result_test.cpp", "tb/env/collect.h"],
+        "the one choice by which an engine has no memory": ["tb/traces/line_trace.cpp"],
+        "names of memories are cut in a chart": ["tb/results/report.js"],
+        "tables of pages are measured, its own among them": [
+            "scripts/measurement/recipes.py", "scripts/measurement/results.py"],
+        "its model's speed is counted": ["tb/speed"],
+    },
+}
+
+# Rooms that name no engine: each is told what engines there are.
+GENERAL = re.compile(r"CMakeLists\.txt|cmake/|golden/CMakeLists\.txt|rtl_model/CMakeLists\.txt|spec/[^/]*$|"
+                     r"tb/(CMakeLists\.txt|app/|base/|command/|baselines/check\.py|fuzz/|regress/|results/|soak/|sweep/|testplan/|"
+                     r"engines/[^/]*$|unit/CMakeLists\.txt|system/smoke\.cmake)|scripts/coverage")
+
+
+def files(root):
+    """Every text of the tree, by its path."""
+    for path in sorted(root.rglob("*")):
+        name = path.relative_to(root).as_posix()
+        if not path.is_file() or path.is_symlink() or LEFT_OUT.match(name):
+            continue
+        try:
+            yield name, path.read_text(encoding="utf-8")
+        except UnicodeDecodeError:
+            continue
+
+
+def engines(root):
+    lines = (root / LIST).read_text(encoding="utf-8").splitlines()
+    return [line for line in lines if line and not line.startswith("#")]
+
+
+def naming(engine, texts):
+    """Files outside of the engine's own that have its name as a word."""
+    word = re.compile(rf"\b{engine}\b", re.IGNORECASE)
+    return {name for name, text in texts if engine not in name and name != LIST and word.search(text)}
+
+
+def general_naming(engine, texts):
+    """Files of general rooms that name it as code does: in quotes, as a namespace, as a folder, as a type."""
+    camel = engine.capitalize()
+    # `frame.` begins parameters of a picture, of whatever engine.
+    code = re.compile(rf"\"{engine}[\"{'' if engine == 'frame' else '.'}]|\b(spec|golden|rtl|tb)(::|/|_){engine}\b|engines/{engine}\b|"
+                      rf"\bdeburr::{engine}_|\b{camel}(Engine|Environment|Golden|Setup|Unit|Composition)\b|"
+                      rf"engine: {engine}\b")
+    # Comments of lists and scripts may take an example.
+    plain = [(name, text if name.endswith((".h", ".cpp")) else re.sub(r"(?m)^ *#.*", "", text))
+             for name, text in texts if GENERAL.match(name)]
+    return {f"{name}: {code.search(text)[0]}" for name, text in plain if code.search(text)}
+
+
+def complaints(root, named):
+    """Yields what the tree and the list of names do not agree in."""
+    texts = list(files(root))
+    for engine in engines(root):
+        for found in sorted(general_naming(engine, texts)):
+            yield f"{engine} is named where no engine is: {found}"
+        if engine not in named:
+            continue
+        reasons = {name for names in named[engine].values() for name in names}
+        found = {name for name in naming(engine, texts) if engine == "frame" or not COMPOSITION.search(name)}
+        for name in sorted(found - reasons):
+            yield f"{name} names {engine}: let {engine} declare what it is for (docs/exploration.md, \"Adding an engine\")"
+        for name in sorted(reasons - found):
+            yield f"{name} does not name {engine} any more: take it off the list"
+
+
+def planted_faults_are_caught():
+    """A small tree: what must be found, and what must not."""
+    def tree(folder, **changed):
+        texts = {LIST: "# engines\nfoo\nfrobber\n", "spec/frobber/parameters.h": "namespace spec::frobber",
+                 "tb/app/engine.cpp": "for (engine : engines())", "tb/frame_mix.cpp": "frobber",
+                 "tb/papers/one.cpp": "the frobber of 2016", "docs/a.md": "frobber", **changed}
+        root = pathlib.Path(folder)
+        for name, text in texts.items():
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / name).write_text(text, encoding="utf-8")
+        return root
+    named = {"frobber": {"a paper": ["tb/papers/one.cpp"]}}
+    expected = [({}, 0), ({"tb/soak/soak.cpp": 'if (engine == "foo")'}, 1), ({"tb/scene/a.cpp": "of the frobber"}, 1),
+                ({"tb/results/a.cpp": '"frobber."'}, 2), ({"tb/papers/one.cpp": "of 2016"}, 1),
+                ({"tb/sweep/a.h": "a foo is no engine here"}, 0)]
+    missed = []
+    for changed, count in expected:
+        with tempfile.TemporaryDirectory() as folder:
+            found = list(complaints(tree(folder, **changed), named))
+        if len(found) != count:
+            missed.append(f"{changed}: {found}")
+    return missed
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("root", type=pathlib.Path, help="the checkout")
+    root = parser.parse_args().root
+    missed = planted_faults_are_caught()
+    for fault in missed:
+        print(f"planted fault not caught: {fault}")
+    found = list(complaints(root, NAMED))
+    for complaint in found:
+        print(complaint)
+    sys.exit(1 if found or missed else 0)
+
+
+if __name__ == "__main__":
+    main()

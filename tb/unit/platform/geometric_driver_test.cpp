@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: MIT
+// Records and registers that the driver of the geometric engine writes, against docs/geometric.md
+// by hand, and what it rejects.
+#include "rtl_model/platform/geometric_driver.h"
+
+#include "tb/unit/platform/fakes.h"
+
+namespace deburr::tb::geometric_driver_test {
+namespace {
+
+using platform::GeometricDriver;
+using platform::GeometricFrame;
+using platform::GeometricRegions;
+using platform::GeometricSizes;
+using platform::PixelLayout;
+using spec::geometric::Edge;
+using spec::geometric::Layout;
+using spec::geometric::Parameters;
+using spec::geometric::Region;
+using spec::geometric::Rgba8;
+using spec::geometric::Vertex;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Bytes = std::vector<std::uint8_t>;
+namespace reg = spec::geometric::reg;
+
+// ---- records
+
+TEST(GeometricRecords, AnEdgeIsFourWords) {
+  const Edge edges[] = {{0x010203, 0x0A0B0C, 0x112233, 0x445566, 0x8F}, {1, 2, 3, 4, 0}};
+  EXPECT_EQ(platform::edge_records(edges),
+            (Bytes{0x03, 0x02, 0x01, 0,    0x0C, 0x0B, 0x0A, 0, 0x33, 0x22, 0x11,
+                   0x8F, 0x66, 0x55, 0x44, 0,    1,    0,    0, 0,    2,    0,
+                   0,    0,    3,    0,    0,    0,    4,    0, 0,    0}));
+}
+
+TEST(GeometricRecords, AVertexIsFourWords) {
+  const Vertex vertices[] = {{-2, 0x00ABCDEF, 0x123456, true}, {1, -256, 7, false}};
+  EXPECT_EQ(platform::vertex_records(vertices),
+            (Bytes{0xFE, 0xFF, 0xFF, 0xFF, 0xEF, 0xCD, 0xAB, 0, 0x56, 0x34, 0x12, 0, 1, 0, 0, 0, 1,
+                   0,    0,    0,    0,    0xFF, 0xFF, 0xFF, 7, 0,    0,    0,    0, 0, 0, 0}));
+}
+
+TEST(GeometricRecords, AFaceIsABit) {
+  EXPECT_EQ(platform::facing_bits({true, false, false, true, false, false, false, false, true}),
+            (Bytes{0x09, 0x01}));
+}
+
+TEST(GeometricRecords, PixelsLieAsTheContractSays) {
+  const PixelLayout raster(Layout::kRaster, 17, 14), tiled(Layout::kTiled, 17, 14);
+  EXPECT_EQ(raster.bytes(), 14u * 128);
+  EXPECT_EQ(tiled.bytes(), 256u * 3 * 2);
+  EXPECT_EQ(raster.offset_of(16, 2), 320u);
+  EXPECT_EQ(tiled.offset_of(9, 13), 1172u);
+  EXPECT_EQ(tiled.offset_of(7, 7), 252u);
+  EXPECT_EQ(tiled.offset_of(4, 0), 64u);
+  EXPECT_EQ(tiled.offset_of(0, 4), 128u);
+  EXPECT_EQ(tiled.offset_of(16, 0), 512u);
+  EXPECT_EQ(PixelLayout(Layout::kRaster, 16, 1).bytes(), 64u);
+  EXPECT_EQ(PixelLayout(Layout::kTiled, 8, 8).bytes(), 256u);
+}
+
+TEST(GeometricRecords, BuffersHoldEachPixelInItsPlaceAndZerosBetween) {
+  for (const Layout layout : {Layout::kRaster, Layout::kTiled}) {
+    const PixelLayout where(layout, 5, 3);
+    std::vector<std::uint32_t> depths;
+    std::vector<Rgba8> colours;
+    for (std::uint32_t i = 0; i < 15; ++i) {
+      depths.push_back(0x11223300 + i);
+      colours.push_back({static_cast<std::uint8_t>(i), 2, 3, 4});
+    }
+    const Bytes depth = platform::depth_buffer(where, depths),
+                colour = platform::colour_buffer(where, colours);
+    Bytes expected_depth(where.bytes()), expected_colour(where.bytes());
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < 5; ++x) {
+        const auto i = static_cast<std::uint8_t>(5 * y + x);
+        const std::size_t at = where.offset_of(x, y);
+        const std::uint8_t depth_bytes[] = {i, 0x33, 0x22, 0x11}, colour_bytes[] = {i, 2, 3, 4};
+        std::copy_n(depth_bytes, 4, &expected_depth[at]);
+        std::copy_n(colour_bytes, 4, &expected_colour[at]);
+      }
+    EXPECT_EQ(depth, expected_depth);
+    EXPECT_EQ(colour, expected_colour);
+    EXPECT_EQ(platform::colours_of(where, colour), colours);
+  }
+}
+
+// ---- regions
+
+TEST(GeometricRegions, FollowEachOtherAtPages) {
+  const GeometricSizes frames[] = {{61, 45, 300, 200, 49}, {16, 8, 3, 2000, 40000}};
+  Parameters p;
+  const GeometricRegions in_place = GeometricRegions::allocate(frames, p);
+  p.frame_copy = true;
+  const GeometricRegions copied = GeometricRegions::allocate(frames, p);
+  // Faces 5056 bytes, edges 4800, vertices 32000, 8 x 6 tiles of 256, 16 x 12 blocks of 64.
+  const std::uint32_t expected[] = {0, 8192, 16384, 49152, 61440, 73728, 86016};
+  for (std::size_t i = 0; i < GeometricRegions::kCount; ++i) {
+    EXPECT_EQ(in_place.base(static_cast<Region>(i)), expected[i]) << i;
+    EXPECT_EQ(copied.base(static_cast<Region>(i)), expected[i]) << i;
+  }
+  EXPECT_EQ(in_place.bytes(), 86016u);
+  EXPECT_EQ(copied.bytes(), 98304u);
+  EXPECT_EQ(copied.region_of(8191), 0u);
+  EXPECT_EQ(copied.region_of(8192), 1u);
+  EXPECT_EQ(copied.region_of(98303), 6u);
+  EXPECT_EQ(copied.region_of(98304), GeometricRegions::kCount);
+  EXPECT_EQ(copied.end_of(8192), 16384u);
+  EXPECT_EQ(copied.end_of(86016), 98304u);
+}
+
+TEST(GeometricRegions, BeyondAddressesOf32BitsAreRejected) {
+  const GeometricSizes frames[] = {{8192, 8192, 1 << 24, std::uint64_t{1} << 28, 0}};
+  EXPECT_THAT(error_of<spec::ConfigError>([&] { GeometricRegions::allocate(frames, {}); }),
+              HasSubstr("addresses of 32 bits reach 4294967296: use a smaller frame or mesh"));
+}
+
+// ---- the driver
+
+// A frame of 17 x 2 pixels with a mesh, in memory of 1 MiB.
+struct Bed {
+  explicit Bed(const Parameters& p = raster(), std::size_t bytes = 1 << 20)
+      : memory(bytes), driver(registers, memory, p) {
+    registers.values[reg::kId] = 0xDEB00003;
+    registers.values[reg::kStatus] = 1;
+    driver.place(GeometricRegions({0x1000, 0x2000, 0x3000, 0x4000, 0x5000, 0x6000, 0x7000}));
+  }
+  static Parameters raster() {
+    Parameters p;
+    p.layout = Layout::kRaster;
+    return p;
+  }
+  GeometricFrame frame() const { return {17, 2, edges, vertices, 9, facing, depths, colours}; }
+  std::vector<Edge> edges = {{0, 1, 2, 3, 4}};
+  std::vector<Vertex> vertices = {{5, 6, 7, true}, {8, 9, 10, true}};
+  Bytes facing = {0x5A, 0x01};
+  std::vector<std::uint32_t> depths = std::vector<std::uint32_t>(34, 77);
+  std::vector<Rgba8> colours = std::vector<Rgba8>(34, Rgba8{1, 2, 3, 4});
+  FakeRegisters registers;
+  FakeMemory memory;
+  GeometricDriver driver;
+};
+
+TEST(GeometricDriver, PutsEachRecordIntoItsRegion) {
+  Bed b;
+  b.driver.load(b.frame());
+  EXPECT_THAT(b.memory.read(0x1000, 3), ElementsAre(0x5A, 0x01, 0xEE));
+  EXPECT_EQ(b.memory.read(0x2000, 17),
+            (Bytes{0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 4, 3, 0, 0, 0, 0xEE}));
+  EXPECT_EQ(b.memory.read(0x3000, 33), (Bytes{5, 0, 0, 0, 6, 0, 0, 0,  7, 0, 0, 0, 1, 0, 0, 0,   8,
+                                              0, 0, 0, 9, 0, 0, 0, 10, 0, 0, 0, 1, 0, 0, 0, 0xEE}));
+  EXPECT_EQ(b.memory.read(0x4000 + 128 + 64, 5), (Bytes{77, 0, 0, 0, 0}));
+  EXPECT_EQ(b.memory.read(0x5000, 4), (Bytes{0xEE, 0xEE, 0xEE, 0xEE}))
+      << "weights are the engine's";
+  EXPECT_EQ(b.memory.read(0x6000 + 128 + 64, 5), (Bytes{1, 2, 3, 4, 0}));
+  EXPECT_EQ(b.driver.picture(), b.colours);
+  b.driver.put(16, 1, {9, 8, 7, 6});
+  EXPECT_EQ(b.driver.pixel(16, 1), (Rgba8{9, 8, 7, 6}));
+  EXPECT_EQ(b.memory.read(0x60C0, 4), (Bytes{9, 8, 7, 6}));
+  EXPECT_EQ(b.driver.colour_address(16, 1), 0x60C0u);
+  EXPECT_TRUE(b.registers.written.empty());
+}
+
+TEST(GeometricDriver, WhatAFrameDoesNotGiveStays) {
+  Bed b;
+  b.depths.clear();
+  b.colours.clear();
+  b.driver.load(b.frame());
+  EXPECT_EQ(b.memory.contents[0x4000], 0xEE);
+  EXPECT_EQ(b.memory.contents[0x6000], 0xEE);
+  b.driver.load_depths(std::vector<std::uint32_t>(34, 5));
+  EXPECT_EQ(b.memory.contents[0x4000], 5);
+}
+
+TEST(GeometricDriver, ProgramsSizesAndBasesThenStarts) {
+  Bed b;
+  b.driver.load(b.frame());
+  b.driver.draw();
+  using Write = std::pair<std::uint32_t, std::uint32_t>;
+  EXPECT_THAT(b.registers.written,
+              ElementsAre(Write{0x0C, 17 | 2 << 16}, Write{0x14, 1}, Write{0x18, 2}, Write{0x1C, 9},
+                          Write{0x20, 0x2000}, Write{0x24, 0x3000}, Write{0x28, 0x1000},
+                          Write{0x2C, 0x4000}, Write{0x30, 0x6000}, Write{0x34, 0x5000},
+                          Write{0x38, 0x7000}, Write{0x04, 5}));
+}
+
+TEST(GeometricDriver, WritesRulesAsFieldsOfARegister) {
+  Bed b;
+  const auto written = [&](const Parameters& rules) {
+    b.driver.set_rules(rules);
+    return b.registers.values[reg::kRules];
+  };
+  Parameters p;  // edges 1, shading 2, farther 2, max 0, linear light, bias 9, tiled
+  EXPECT_EQ(written(p), 0x49A9u);
+  p.select = spec::geometric::Select::kAll;
+  EXPECT_EQ(written(p), 0x49A8u);
+  p.crease = spec::geometric::Crease::kPaper;
+  EXPECT_EQ(written(p), 0x49A4u);
+  p.depth_test = spec::geometric::DepthTest::kOwn;
+  EXPECT_EQ(written(p), 0x4994u);
+  p.combine = spec::geometric::Combine::kLast;
+  EXPECT_EQ(written(p), 0x49D4u);
+  p.linear_light = false;
+  EXPECT_EQ(written(p), 0x4954u);
+  p.depth_bias = 24;
+  EXPECT_EQ(written(p), 0x5854u);
+  p.mark = true;
+  EXPECT_EQ(written(p), 0x7854u);
+  p.layout = Layout::kRaster;
+  EXPECT_EQ(written(p), 0x3854u);
+  p.frame_copy = true;
+  EXPECT_EQ(written(p), 0xB854u);
+}
+
+TEST(GeometricDriver, ReadsWhatTheEngineShows) {
+  Bed b;
+  b.driver.identify();
+  b.registers.values[reg::kEdges] = 300;
+  b.registers.values[reg::kBlendedPixels] = 7;
+  b.registers.values[reg::kFrameCycles] = 1000;
+  b.registers.values[reg::kEdgeCycles] = 600;
+  b.registers.values[reg::kResolveCycles] = 400;
+  b.registers.values[reg::kMemoryErrors] = 3;
+  EXPECT_EQ(b.driver.work().edges, 300u);
+  EXPECT_EQ(b.driver.work().blended_pixels, 7u);
+  EXPECT_EQ(b.driver.clocks().frame, 1000u);
+  EXPECT_EQ(b.driver.clocks().edges, 600u);
+  EXPECT_EQ(b.driver.clocks().resolve, 400u);
+  EXPECT_EQ(b.driver.memory_errors(), 3u);
+  b.registers.values[reg::kControl] = 1;
+  b.driver.clear_counters();
+  EXPECT_EQ(b.registers.values[reg::kControl], 3u);
+  b.driver.clear_status(2);
+  EXPECT_EQ(b.registers.written.back(), (std::pair{0x08u, 2u}));
+}
+
+// ---- wrong use
+
+TEST(GeometricDriver, AnotherEngineIsRejected) {
+  Bed b;
+  b.registers.values[reg::kId] = 0xDEB00001;
+  EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.identify(); }),
+            "the ID register reads 0xdeb00001, expected 0xdeb00003");
+}
+
+TEST(GeometricDriver, NothingIsWrittenToABusyEngine) {
+  Bed b;
+  b.driver.load(b.frame());
+  b.registers.values[reg::kStatus] = 0;
+  EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.start(); }),
+            "driver of the geometric engine: START while it is busy: wait until STATUS says idle");
+  EXPECT_THAT(error_of<spec::SimulationError>([&] { b.driver.program(); }),
+              HasSubstr("sizes and bases while it is busy"));
+  EXPECT_THAT(error_of<spec::SimulationError>([&] { b.driver.set_rules({}); }),
+              HasSubstr("new rules while it is busy"));
+  EXPECT_TRUE(b.registers.written.empty());
+}
+
+TEST(GeometricDriver, ARefusedStartSaysWhy) {
+  Bed b;
+  EXPECT_NO_THROW(b.driver.require_accepted());
+  b.registers.values[reg::kRefusal] = 4;
+  EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.require_accepted(); }),
+            "the geometric engine refused to start: touched_words");
+  b.registers.values[reg::kRefusal] = 15;
+  EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.require_accepted(); }),
+            "the geometric engine refused to start: ?");
+}
+
+std::string rejection(Bed& b, const GeometricFrame& frame) {
+  return error_of<spec::ConfigError>([&] { b.driver.load(frame); });
+}
+
+TEST(GeometricDriver, SizesOutOfRangeAreRejected) {
+  Bed b;
+  const auto with = [&](auto&& change) {
+    GeometricFrame frame = b.frame();
+    change(frame);
+    return rejection(b, frame);
+  };
+  EXPECT_EQ(with([](GeometricFrame& f) { f.width = 0; }),
+            "driver of the geometric engine: width of the frame: expected 1..8192, got 0");
+  EXPECT_THAT(with([](GeometricFrame& f) { f.width = 8193; }), HasSubstr("1..8192, got 8193"));
+  EXPECT_THAT(with([](GeometricFrame& f) { f.height = -1; }), HasSubstr("height of the frame"));
+  EXPECT_THAT(with([](GeometricFrame& f) { f.faces = (1 << 20) + 1; }), HasSubstr("faces"));
+  Parameters every = Bed::raster();
+  every.select = spec::geometric::Select::kAll;
+  b.driver.set_rules(every);
+  EXPECT_THAT(with([](GeometricFrame& f) { f.faces = (1 << 20) + 1; }), HasSubstr("too few for"));
+  EXPECT_THAT(with([](GeometricFrame& f) { f.faces = (1 << 24) + 1; }),
+              HasSubstr("faces: expected 0..16777216"));
+  EXPECT_THAT(with([](GeometricFrame& f) { f.faces = 17; }),
+              HasSubstr("2 bytes of facing bits are too few for 17 faces"));
+  EXPECT_THAT(with([](GeometricFrame& f) { f.depths = f.depths.first(33); }),
+              HasSubstr("33 depths for a frame of 17 x 2 pixels"));
+  EXPECT_THAT(with([](GeometricFrame& f) { f.height = 3; }),
+              HasSubstr("34 depths for a frame of 17 x 3 pixels"));
+  EXPECT_EQ(b.memory.contents, Bytes(1 << 20, 0xEE)) << "nothing was written";
+  EXPECT_EQ(with([](GeometricFrame&) {}), "");
+  EXPECT_THAT(error_of<spec::ConfigError>([&] { b.driver.load_colours({}); }),
+              HasSubstr("0 colours for a frame of 17 x 2 pixels"));
+}
+
+TEST(GeometricDriver, RegionsThatOverlapOrDoNotFitAreRejected) {
+  Bed b;
+  const auto at = [&](std::array<std::uint32_t, GeometricRegions::kCount> bases) {
+    b.driver.place(GeometricRegions(bases));
+    return rejection(b, b.frame());
+  };
+  // Depth: two rows of 128 bytes. Weights: five blocks of 64.
+  EXPECT_EQ(at({0x1000, 0x2000, 0x3000, 0x4000, 0x40C0, 0x6000, 0x7000}),
+            "driver of the geometric engine: region depth (0x4000 to 0x40ff) overlaps region "
+            "weights (0x40c0 to 0x41ff)");
+  EXPECT_EQ(at({0x1000, 0x2000, 0x3000, 0x4000, 0x4100, 0x4240, 0}), "");
+  EXPECT_EQ(at({0x1000, 0x2000, 0x3000, 0x4000, 0x4100, 0x6020, 0x7000}),
+            "driver of the geometric engine: region colour begins at 0x6020, which is no multiple "
+            "of 64");
+  EXPECT_EQ(at({0x1000, 0x2000, 0x3000, 0x4000, 0x5000, 0xFFF40, 0x7000}),
+            "driver of the geometric engine: region colour (0xfff40 to 0x10003f) ends behind the "
+            "memory of 1048576 bytes: make it larger, or the input smaller");
+  EXPECT_EQ(at({0x1000, 0x2000, 0x3000, 0x4000, 0x5000, 0xFFF00, 0x7000}), "");
+  EXPECT_THAT(at({0x1000, 0x2000, 0x3000, 0x4000, 0x5000, 0x200000, 0x7000}),
+              HasSubstr("ends behind the memory"));
+}
+
+TEST(GeometricDriver, TheCopyNeedsRoomOnlyWhereFramesAreCopied) {
+  Parameters p = Bed::raster();
+  p.frame_copy = true;
+  Bed b(p);
+  b.driver.place(GeometricRegions({0x1000, 0x2000, 0x3000, 0x4000, 0x5000, 0x6000, 0x6000}));
+  EXPECT_THAT(rejection(b, b.frame()), HasSubstr("overlaps"));
+  b.driver.set_rules(Bed::raster());
+  EXPECT_EQ(b.registers.written.back(), (std::pair{0x10u, 0x09A9u}));
+  EXPECT_EQ(rejection(b, b.frame()), "");
+}
+
+}  // namespace
+}  // namespace deburr::tb::geometric_driver_test

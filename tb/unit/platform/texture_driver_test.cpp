@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// Textures in memory and descriptors in registers, against docs/number_formats.md ("Addresses") and
+// docs/texture_unit.md by hand, and what the driver of the texture unit rejects.
+#include "rtl_model/platform/texture_driver.h"
+
+#include "spec/texture/registers.h"
+#include "tb/unit/platform/fakes.h"
+
+namespace deburr::tb::texture_driver_test {
+namespace {
+
+using platform::Texel;
+using platform::TexelLayout;
+using platform::TextureDriver;
+using spec::texture::Descriptor;
+using spec::texture::Format;
+using spec::texture::Layout;
+using testing::ElementsAre;
+using testing::HasSubstr;
+namespace reg = spec::texture::reg;
+
+// ---- records
+
+TEST(TexelLayout, RowsBeginAtMultiplesOf64Bytes) {
+  const TexelLayout words(Layout::kLinear, Format::kRgba8, 17, 5),
+      bytes(Layout::kLinear, Format::kL8, 64, 3);
+  EXPECT_EQ(words.bytes(), 640u);
+  EXPECT_EQ(words.offset_of(16, 0), 64u);
+  EXPECT_EQ(words.offset_of(3, 4), 4u * 128 + 12);
+  EXPECT_EQ(bytes.bytes(), 192u);
+  EXPECT_EQ(bytes.offset_of(63, 2), 191u);
+  EXPECT_EQ(TexelLayout(Layout::kLinear, Format::kRgb565, 33, 1).bytes(), 128u);
+}
+
+TEST(TexelLayout, TilesHold64BytesRowByRow) {
+  const TexelLayout words(Layout::kTiled, Format::kSrgb8A8, 4, 4),
+      halves(Layout::kTiled, Format::kRgba4444, 8, 4), bytes(Layout::kTiled, Format::kL8, 8, 8);
+  EXPECT_EQ(words.offset_of(3, 2), 4u * 11);
+  EXPECT_EQ(halves.offset_of(7, 3), 62u);
+  EXPECT_EQ(bytes.offset_of(5, 6), 53u);
+  for (const TexelLayout* layout : {&words, &halves, &bytes}) EXPECT_EQ(layout->bytes(), 64u);
+}
+
+// 8 x 2 tiles: a bit of the row between two of the column, what is left of the column above.
+TEST(TexelLayout, TilesLieInMortonOrder) {
+  const TexelLayout wide(Layout::kTiled, Format::kRgba8, 32, 8),
+      high(Layout::kTiled, Format::kRgba8, 8, 32);
+  std::vector<std::uint32_t> across, down;
+  for (int tile = 0; tile < 8; ++tile) across.push_back(wide.offset_of(4 * tile, 4) / 64);
+  for (int tile = 0; tile < 8; ++tile) down.push_back(high.offset_of(4, 4 * tile) / 64);
+  EXPECT_THAT(across, ElementsAre(2, 3, 6, 7, 10, 11, 14, 15));
+  EXPECT_THAT(down, ElementsAre(1, 3, 5, 7, 9, 11, 13, 15));
+  EXPECT_EQ(wide.bytes(), 1024u);
+  // Five tiles take the room of eight, three of four.
+  EXPECT_EQ(TexelLayout(Layout::kTiled, Format::kRgba8, 17, 9).bytes(), 64u * 8 * 4);
+}
+
+TEST(TextureMemory, LaysLevelsBehindEachOther) {
+  const std::vector<Texel> large(16, Texel{1, 2, 3, 4}), small(4, Texel{5, 6, 7, 8});
+  const platform::TextureLevel levels[] = {{4, 4, large}, {2, 2, small}};
+  platform::TextureMemory textures;
+  EXPECT_EQ(textures.add(levels, {}), 0);
+  EXPECT_EQ(textures.add(levels, {}), 1);
+  const Descriptor& d = textures.descriptors()[1];
+  EXPECT_EQ(d.width, 4);
+  EXPECT_EQ(d.height, 4);
+  EXPECT_EQ(d.levels, 2);
+  EXPECT_EQ(d.base[0], 256u);
+  EXPECT_EQ(d.base[1], 384u);
+  EXPECT_EQ(textures.bytes().size(), 512u);
+  EXPECT_EQ(textures.bytes()[256 + 60], 1);
+  EXPECT_EQ(textures.bytes()[384 + 16 + 4 + 3], 8) << "second texel of the second row";
+  EXPECT_EQ(textures.bytes()[384 + 8], 0);
+}
+
+// ---- the driver
+
+struct Bed {
+  Bed() {
+    registers.values[reg::kId] = 0xDEB00001;
+    registers.values[reg::kStatus] = 1;
+  }
+  FakeRegisters registers;
+  FakeMemory memory{4096};
+  TextureDriver driver{registers, memory};
+};
+
+// 16 x 8 texels, two levels of 512 and 128 bytes.
+Descriptor valid() {
+  Descriptor d;
+  d.width = 16;
+  d.height = 8;
+  d.levels = 2;
+  d.base[1] = 512;
+  return d;
+}
+
+std::string rejection(const Descriptor& d, int handle = 0) {
+  Bed b;
+  const std::string text = error_of<spec::ConfigError>([&] { b.driver.set_texture(handle, d); });
+  EXPECT_EQ(b.registers.written.empty(), !text.empty());
+  return text;
+}
+
+TEST(TextureDriver, WritesADescriptor) {
+  Bed b;
+  Descriptor d = valid();
+  d.format = Format::kRgb565;
+  d.wrap_s = spec::texture::Wrap::kClampToEdge;
+  d.lod_bias = -2;
+  b.driver.set_texture(3, d);
+  ASSERT_EQ(b.registers.written.size(), 17u);
+  using Write = std::pair<std::uint32_t, std::uint32_t>;
+  EXPECT_EQ(b.registers.written[0], (Write{0x280, 16 | 8 << 16}));
+  EXPECT_EQ(b.registers.written[1],
+            (Write{0x284, 1u | 1u << 4 | 2u << 8 | 5u << 12 | 1u << 16 | 2u << 20}));
+  EXPECT_EQ(b.registers.written[2], (Write{0x288, 0xFFFE}));
+  EXPECT_EQ(b.registers.written[3], (Write{0x28C, 0x0C000000}));
+  EXPECT_EQ(b.registers.written[5], (Write{0x294, 512}));
+}
+
+TEST(TextureDriver, LoadsInvalidatesAndReads) {
+  Bed b;
+  b.driver.identify();
+  b.driver.load(std::vector<std::uint8_t>{1, 2, 3});
+  EXPECT_THAT(b.memory.read(0, 4), ElementsAre(1, 2, 3, 0xEE));
+  b.registers.values[reg::kControl] = 1;
+  b.driver.invalidate();
+  EXPECT_EQ(b.registers.values[reg::kControl], 3u);
+  b.registers.values[reg::kControl] = 1;
+  b.driver.clear_counters();
+  EXPECT_EQ(b.registers.values[reg::kControl], 5u);
+  for (std::uint32_t i = 0; i < 7; ++i) b.registers.values[reg::kFragments + 4 * i] = 10 + i;
+  const platform::TextureWork work = b.driver.work();
+  EXPECT_EQ(work.fragments, 10u);
+  EXPECT_EQ(work.bilinears, 11u);
+  EXPECT_EQ(work.line_fills, 12u);
+  EXPECT_EQ(work.clamped, 13u);
+  EXPECT_EQ(work.saturated, 14u);
+  EXPECT_EQ(work.memory_errors, 15u);
+  EXPECT_EQ(work.invalid_fragments, 16u);
+  EXPECT_EQ(b.driver.memory_errors(), 15u);
+}
+
+TEST(TextureDriver, NothingIsWrittenToABusyUnit) {
+  Bed b;
+  b.registers.values[reg::kStatus] = 0;
+  EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.set_texture(0, valid()); }),
+            "driver of the texture unit: a descriptor while it is busy: wait until STATUS says "
+            "idle");
+  EXPECT_THAT(error_of<spec::SimulationError>([&] { b.driver.invalidate(); }),
+              HasSubstr("invalidate the cache while it is busy"));
+  EXPECT_TRUE(b.registers.written.empty());
+}
+
+TEST(TextureDriver, WhatTheUnitDoesNotTakeIsRejected) {
+  const auto with = [](auto&& change) {
+    Descriptor d = valid();
+    change(d);
+    return rejection(d);
+  };
+  EXPECT_EQ(rejection(valid()), "");
+  EXPECT_EQ(rejection(valid(), 15), "");
+  EXPECT_EQ(rejection(valid(), 16),
+            "driver of the texture unit: handle of a texture: expected 0..15, got 16");
+  EXPECT_THAT(rejection(valid(), -1), HasSubstr("got -1"));
+  EXPECT_THAT(with([](Descriptor& d) { d.width = 0; }),
+              HasSubstr("width of a texture: expected 1..4096, got 0"));
+  EXPECT_THAT(with([](Descriptor& d) { d.height = 4097; }), HasSubstr("height of a texture"));
+  EXPECT_THAT(with([](Descriptor& d) { d.levels = 0; }),
+              HasSubstr("levels of a texture: expected 1..5, got 0"));
+  EXPECT_THAT(with([](Descriptor& d) { d.levels = 6; }), HasSubstr("got 6"));
+  EXPECT_THAT(with([](Descriptor& d) { d.base[1] = 544; }),
+              HasSubstr("texture 0: region level 1 begins at 0x220, which is no multiple of 64"));
+  EXPECT_THAT(with([](Descriptor& d) { d.base[1] = 448; }),
+              HasSubstr("texture 0: region level 0 (0x0 to 0x1ff) overlaps region level 1 (0x1c0 "
+                        "to 0x23f)"));
+  EXPECT_THAT(with([](Descriptor& d) { d.base[0] = 3648; }),
+              HasSubstr("region level 0 (0xe40 to 0x103f) ends behind the memory of 4096 bytes"));
+  EXPECT_EQ(with([](Descriptor& d) { d.base[0] = 3584; }), "");
+  EXPECT_EQ(with([](Descriptor& d) { d.base[2] = 7; }), "") << "there is no such level";
+}
+
+TEST(TextureDriver, ATextureLargerThanTheMemoryIsRejected) {
+  Bed b;
+  EXPECT_THAT(error_of<spec::ConfigError>([&] { b.driver.load(std::vector<std::uint8_t>(4097)); }),
+              HasSubstr("region textures (0x0 to 0x1000) ends behind the memory of 4096 bytes"));
+  EXPECT_NO_THROW(b.driver.load(std::vector<std::uint8_t>(4096)));
+}
+
+}  // namespace
+}  // namespace deburr::tb::texture_driver_test

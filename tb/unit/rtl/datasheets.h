@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// What simulated hardware takes against what its datasheet says, and which units have one.
+#pragma once
+
+#include <cxxabi.h>
+#include <gtest/gtest-spi.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <typeinfo>
+#include <vector>
+
+#include "rtl_model/fabric/datasheet.h"
+#include "rtl_model/fabric/engine.h"
+#include "rtl_model/fabric/unit.h"
+
+namespace deburr::tb {
+
+// `seen`: the clocks in which tokens can be popped behind a unit that may take one after the other
+// and has popped the first of them in `taken`.
+inline void expect_clocks(const rtl::Datasheet& sheet, const std::vector<rtl::Cycle>& seen,
+                          rtl::Cycle taken) {
+  ASSERT_FALSE(seen.empty());
+  std::vector<rtl::Cycle> expected;
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    expected.push_back(taken + sheet.latency.clocks + i * sheet.interval.clocks);
+  EXPECT_EQ(seen, expected) << "by the datasheet of " << title(sheet);
+}
+inline void expect_latency(const rtl::Datasheet& sheet, rtl::Cycle measured) {
+  EXPECT_EQ(measured, sheet.latency.clocks) << "by the datasheet of " << title(sheet);
+}
+inline void expect_interval(const rtl::Datasheet& sheet, rtl::Cycle measured) {
+  EXPECT_EQ(measured, sheet.interval.clocks) << "by the datasheet of " << title(sheet);
+}
+
+// A planted fault: with a datasheet that is a clock off in either direction the check must fail.
+template <class Check>
+void expect_notices_a_clock(const rtl::Datasheet& sheet, rtl::Clocks rtl::Datasheet::*which,
+                            const Check& check) {
+  rtl::Datasheet less = sheet, more = sheet;
+  --(less.*which).clocks;
+  ++(more.*which).clocks;
+  check(sheet);
+  EXPECT_NONFATAL_FAILURE(check(less), "by the datasheet of");
+  EXPECT_NONFATAL_FAILURE(check(more), "by the datasheet of");
+}
+
+// Without its namespaces.
+inline std::string class_of(const rtl::Unit& unit) {
+  const std::unique_ptr<char, decltype(&std::free)> name(
+      abi::__cxa_demangle(typeid(unit).name(), nullptr, nullptr, nullptr), &std::free);
+  const std::string whole = name.get();
+  return whole.substr(whole.rfind(':') + 1);
+}
+
+// Each unit of this engine has one; the memory port's is the fabric's.
+inline void expect_datasheets(const rtl::Engine& engine,
+                              const std::vector<rtl::Datasheet>& sheets) {
+  for (const rtl::Unit* unit : engine.units()) {
+    const std::string name = class_of(*unit);
+    const bool found = std::any_of(sheets.begin(), sheets.end(),
+                                   [&](const rtl::Datasheet& sheet) { return sheet.unit == name; });
+    EXPECT_TRUE(found || name == "MemoryPort") << name << " has no datasheet";
+  }
+}
+
+// The contract's numbers, by hand: neither a datasheet nor hardware may move without them.
+struct Contract {
+  std::string title;
+  rtl::Cycle latency, interval;
+};
+inline void expect_contract(const std::vector<rtl::Datasheet>& sheets,
+                            const std::vector<Contract>& contract) {
+  for (const rtl::Datasheet& sheet : sheets) {
+    const auto row = std::find_if(contract.begin(), contract.end(),
+                                  [&](const Contract& c) { return c.title == title(sheet); });
+    if (row == contract.end()) {
+      ADD_FAILURE() << "no number by hand of " << title(sheet);
+      continue;
+    }
+    EXPECT_EQ(sheet.latency.clocks, row->latency) << row->title;
+    EXPECT_EQ(sheet.interval.clocks, row->interval) << row->title;
+  }
+  EXPECT_EQ(sheets.size(), contract.size());
+}
+
+}  // namespace deburr::tb

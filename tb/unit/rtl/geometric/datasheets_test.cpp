@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The datasheets of the geometric engine: every unit has one, and their numbers are the contract's.
+#include "rtl_model/geometric/datasheets.h"
+
+#include "tb/unit/rtl/datasheets.h"
+#include "tb/unit/rtl/geometric/support.h"
+
+namespace deburr::tb::geometric_rtl::datasheets_test {
+namespace {
+
+TEST(GeometricDatasheets, AreTheContracts) {
+  expect_contract(rtl::geometric::datasheets(), {{"FrameSequencer", 0, 1},
+                                                 {"FacingStore", 2, 1},
+                                                 {"EdgeReader", 2, 1},
+                                                 {"EdgeClassifier", 3, 1},
+                                                 {"VertexFetch", 5, 1},
+                                                 {"LineSetup, `pipelined`", 22, 1},
+                                                 {"LineSetup, not pipelined", 22, 13},
+                                                 {"LineWalker", 1, 1},
+                                                 {"CoverageUnit", 2, 1},
+                                                 {"DepthTest", 6, 1},
+                                                 {"WeightCombiner", 5, 1},
+                                                 {"BlockScanner", 3, 1},
+                                                 {"BlockFetch", 5, 1},
+                                                 {"Resolver", 8, 1},
+                                                 {"FrameCopier", 0, 2},
+                                                 {"MemoryArbiter", 1, 1}});
+}
+
+TEST(GeometricDatasheets, EveryUnitHasOne) {
+  const EngineBench b;
+  expect_datasheets(b.engine, rtl::geometric::datasheets({}));
+}
+
+}  // namespace
+}  // namespace deburr::tb::geometric_rtl::datasheets_test

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// The contract's test vectors, as tests of the hardware model ask for them.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "spec/morphological/vectors.h"
+#include "tb/unit/spec/morphological/vector_images.h"
+#include "tb/unit/spec/vectors.h"
+
+namespace deburr::tb::morphological_rtl {
+
+// Of what comes of a frame, by the name of its vector.
+inline std::uint64_t vector_hash(std::string_view name) {
+  return morphological::frame_vector(name).result.hash;
+}
+
+}  // namespace deburr::tb::morphological_rtl

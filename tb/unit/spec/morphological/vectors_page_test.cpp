@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// The tables of docs/number_formats_morphological.md and docs/morphological_smaa.md are made from
+// spec/morphological/vectors.h.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "spec/morphological/vectors.h"
+#include "tb/unit/spec/generated_table.h"
+#include "tb/unit/spec/morphological/vector_images.h"
+
+namespace deburr::tb::morphological::vectors_page_test {
+namespace {
+
+using namespace spec::morphological;  // NOLINT: a test of these
+
+std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+// "mlaa", "smaa high".
+std::string rules_of(const FrameVector& v) {
+  const auto preset = static_cast<std::size_t>(v.preset);
+  return kPresets[preset].has_qualities
+             ? fmt::format("{} {}", kPresetNames[preset],
+                           kQualityNames[static_cast<std::size_t>(v.quality)])
+             : std::string(kPresetNames[preset]);
+}
+
+std::string frames(std::span<const FrameVector> vectors) {
+  std::vector<std::string> titles = {"vector", "image", "preset", "beside it"};
+  FrameResult::fields(vectors[0].result,
+                      [&](std::string_view title, std::uint64_t) { titles.emplace_back(title); });
+  MarkdownTable table(titles);
+  for (const FrameVector& v : vectors) {
+    std::vector<std::string> row = {
+        std::string(v.name), std::string(kVectorImageNames[static_cast<std::size_t>(v.image)]),
+        rules_of(v), v.settings.empty() ? "" : fmt::format("`{}`", v.settings)};
+    FrameResult::fields(v.result, [&](std::string_view title, std::uint64_t value) {
+      row.push_back(title == "hash" ? hash_text(value) : std::to_string(value));
+    });
+    table.row(row);
+  }
+  return table.text();
+}
+
+std::string runs(std::span<const RunVector> vectors) {
+  MarkdownTable table({"corners", "scale", "offset", "slope", "inverse", "shift", "span",
+                       "shares (b before, a after)"});
+  for (const RunVector& v : vectors) {
+    std::string corners;
+    for (int i = 0; i < v.count; ++i)
+      corners += fmt::format("{}{}{}{}", i == 0 ? "" : ", ", v.count > 2 && i == v.start ? "[" : "",
+                             v.corners[static_cast<std::size_t>(i)],
+                             v.count > 2 && i == v.start + 1 ? "]" : "");
+    std::vector<std::string> row = {corners};
+    RunResult::fields(v.result, [&](std::string_view, std::int64_t value) {
+      row.push_back(std::to_string(value));
+    });
+    row.emplace_back(v.shares);
+    table.row(row);
+  }
+  return table.text();
+}
+
+std::string patterns(std::span<const PatternVector> vectors) {
+  MarkdownTable table({"frame", "quality", "rows", "shares", "taken", "hash"});
+  for (const PatternVector& v : vectors) {
+    std::string rows;
+    for (const char c : v.rows) rows += c == ' ' ? std::string("` `") : std::string(1, c);
+    table.row({std::string(v.name), std::string(kQualityNames[static_cast<std::size_t>(v.quality)]),
+               fmt::format("`{}`", rows), std::string(v.shares),
+               std::to_string(v.result.diagonal_pixels), hash_text(v.result.hash)});
+  }
+  return table.text();
+}
+
+std::string limits(std::span<const LimitVector> vectors) {
+  MarkdownTable table({"L", "first/second of each pixel", "hash"});
+  for (const LimitVector& v : vectors)
+    table.row({std::to_string(v.length), std::string(v.shares), hash_text(v.result.hash)});
+  return table.text();
+}
+
+std::string hashes(const TableHashes& all) {
+  MarkdownTable table({"table", "order", "hash"});
+  auto order = kTableOrders.begin();
+  TableHashes::fields(all, [&](std::string_view name, std::uint64_t hash) {
+    table.row({std::string(name), std::string(*order++), hash_text(hash)});
+  });
+  return table.text();
+}
+
+std::string shares(std::span<const TableVector> vectors) {
+  MarkdownTable table({"l, r", "T(l, r)", "U(l, r)"});
+  for (const TableVector& v : vectors)
+    table.row({fmt::format("{}, {}", v.l, v.r), std::to_string(v.result.half),
+               std::to_string(v.result.dip)});
+  return table.text();
+}
+
+constexpr const char* kFormats = "number_formats_morphological.md";
+constexpr const char* kSmaaPage = "morphological_smaa.md";
+
+TEST(MorphologicalVectorsPage, HasTheFrames) {
+  expect_generated(kFormats, "MorphologicalVectorsPage.HasTheFrames", frames(kFrameVectors));
+  expect_table_has_each_value(kFrameVectors, frames);
+}
+
+TEST(MorphologicalVectorsPage, HasTheFramesOfSmaa) {
+  expect_generated(kSmaaPage, "MorphologicalVectorsPage.HasTheFramesOfSmaa",
+                   frames(kSmaaFrameVectors));
+}
+
+TEST(MorphologicalVectorsPage, HasTheRuns) {
+  expect_generated(kFormats, "MorphologicalVectorsPage.HasTheRuns", runs(kRunVectors));
+  expect_table_has_each_value(kRunVectors, runs);
+}
+
+TEST(MorphologicalVectorsPage, HasThePatterns) {
+  expect_generated(kSmaaPage, "MorphologicalVectorsPage.HasThePatterns", patterns(kPatternVectors));
+  expect_table_has_each_value(kPatternVectors, patterns);
+}
+
+TEST(MorphologicalVectorsPage, HasTheLimits) {
+  expect_generated(kSmaaPage, "MorphologicalVectorsPage.HasTheLimits", limits(kLimitVectors));
+  expect_table_has_each_value(kLimitVectors, limits);
+}
+
+TEST(MorphologicalVectorsPage, HasTheTables) {
+  expect_generated(kSmaaPage, "MorphologicalVectorsPage.HasTheTables", hashes(kTableHashes));
+  TableHashes changed = kTableHashes;
+  changed.mix ^= 1;  // the planted fault
+  EXPECT_NE(hashes(changed), hashes(kTableHashes));
+}
+
+TEST(MorphologicalVectorsPage, HasTheSharesOfTheTables) {
+  expect_generated(kSmaaPage, "MorphologicalVectorsPage.HasTheSharesOfTheTables",
+                   shares(kTableVectors));
+  expect_table_has_each_value(kTableVectors, shares);
+}
+
+TEST(MorphologicalVectors, HaveNamesOfTheirOwn) {
+  std::set<std::string_view> names;
+  for (const FrameVector& v : frame_vectors()) EXPECT_TRUE(names.insert(v.name).second) << v.name;
+  EXPECT_EQ(names.size(), 51u);
+}
+
+}  // namespace
+}  // namespace deburr::tb::morphological::vectors_page_test
