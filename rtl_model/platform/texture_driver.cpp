@@ -42,8 +42,10 @@ void TextureDriver::check(int handle, const spec::texture::Descriptor& d) const 
   require_range("levels of a texture", d.levels, 1,
                 static_cast<std::uint64_t>(std::bit_width(longest)));
   std::vector<std::string> names;
+  names.reserve(d.levels);
   for (int k = 0; k < d.levels; ++k) names.push_back(fmt::format("level {}", k));
   std::vector<NamedRegion> levels;
+  levels.reserve(d.levels);
   for (int k = 0; k < d.levels; ++k)
     levels.push_back({names[static_cast<std::size_t>(k)], d.base[static_cast<std::size_t>(k)],
                       texel_layout(d, k).bytes()});
