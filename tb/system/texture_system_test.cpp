@@ -40,8 +40,8 @@ TEST_P(EveryMode, IsIdenticalToGolden) {
   sampler.mode = static_cast<spec::texture::MinFilter>(mode);
   sampler.anisotropy = static_cast<std::uint8_t>(lb_n);
   for (const TextureRunOptions& options : {paper_options(), TextureRunOptions{}})
-    expect_identical(
-        forked<TextureOutcome>([&] { return simulate(picture(source, 128), sampler, options); }));
+    expect_identical(forked<TextureOutcome>(
+        [&, &name = source] { return simulate(picture(name, 128), sampler, options); }));
 }
 
 INSTANTIATE_TEST_SUITE_P(
