@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "rtl_model/platform/memory_model.h"
+#include "rtl_model/platform/memory_model_parameters.h"
 #include "tb/results/parameter_set.h"
 
 namespace deburr::tb {

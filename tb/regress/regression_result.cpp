@@ -11,7 +11,7 @@
 #include <tuple>
 #include <utility>
 
-#include "rtl_model/fabric/trace.h"
+#include "rtl_model/fabric/glob.h"
 #include "tb/base/file.h"
 #include "tb/base/near_matches.h"
 #include "tb/regress/failure_message.h"
