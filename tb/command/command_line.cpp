@@ -25,13 +25,12 @@
 #include "tb/base/shell.h"
 #include "tb/results/build_info.h"
 #include "tb/results/parameter_set.h"
+#include "tb/results/result.h"
 
 namespace deburr::tb {
 namespace {
 
 using spec::ExitCode;
-
-constexpr std::size_t kMaxResultBytes = std::size_t{64} << 20;
 
 std::string quoted_command(int argc, char** argv) {
   std::string command;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -22,6 +23,8 @@
 namespace deburr::tb {
 
 inline constexpr int kResultSchema = 3;
+// No reader takes more of one of our JSON files.
+inline constexpr std::size_t kMaxResultBytes = std::size_t{64} << 20;
 
 enum class Verdict { kPass, kFail, kUnchecked };
 

@@ -28,7 +28,6 @@ namespace fs = std::filesystem;
 namespace mustache = kainjow::mustache;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMaxResultBytes = 64u << 20;
 constexpr const char* kUnitOfThroughput = "see throughput.unit";  // statistics()
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
