@@ -3,6 +3,7 @@
 """Bad input to the command: each kind has its exit code and says what is wrong. See --help."""
 import json
 import os
+import pty
 import resource
 import shutil
 import signal
@@ -501,6 +502,40 @@ class Interruption(CommandTest):
         self.assertEqual(result["checks"]["mismatches"], 0)
         self.assertGreater(result["checks"]["comparisons"], 0)
         self.assertTrue(os.path.exists(self.path("out/report.html")))
+
+    def test_a_terminal_that_is_closed(self):
+        """SIGHUP, from the kernel and from the shell, and nobody reads what goes to the terminal."""
+        with open(self.path("said"), "w") as said:
+            process, terminal = pty.fork()
+            if process == 0:
+                os.dup2(said.fileno(), 1)
+                os.execl(DEBURR, "deburr", "run", "texture", "--size", "2048x2048", "--trace", "texture.texels",
+                         "--out", self.path("out"))
+        seen = b""
+        while b"texture  " not in seen:
+            seen += os.read(terminal, 4096)
+        os.close(terminal)
+        os.kill(process, signal.SIGHUP)
+        _, status = os.waitpid(process, 0)
+        self.assertEqual(os.waitstatus_to_exitcode(status), 130)
+        with open(self.path("said")) as said:
+            self.assertRegex(said.read(), r"\nRESULT: INTERRUPTED texture: [^\n]*\n\Z")
+        result = self.result()
+        self.assertEqual((result["verdict"], result["interrupted"], result["checks"]["mismatches"]),
+                         ("unchecked", True, 0))
+        self.assertGreater(result["checks"]["comparisons"], 0)
+        self.assertTrue(os.path.exists(self.path("out/report.html")))
+
+    def test_nohup(self):
+        """A hangup that is ignored stays ignored."""
+        process = subprocess.Popen(["nohup", DEBURR, "run", "texture", "--size", "300x300", "--out", self.path("out")],
+                                   text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        while not self.claimed():
+            self.assertIsNone(process.poll())
+            time.sleep(0.01)
+        process.send_signal(signal.SIGHUP)
+        out, err = process.communicate(timeout=300)
+        self.assertEqual(process.returncode, 0, out + err)
 
     def interrupt(self, when, *arguments):
         """The command, interrupted once when(); how long it took from then, and its output."""
