@@ -26,6 +26,8 @@ class YamlFile {
   // FileError for a file that cannot be read, or has more bytes; ConfigError for what is no YAML,
   // for more than one document, and for aliases without an end.
   explicit YamlFile(const std::filesystem::path& file, std::size_t most = kMaxBytes);
+  // The same of a text that was read already.
+  YamlFile(std::filesystem::path file, const std::string& text);
 
   const YAML::Node& root() const { return root_; }
   const std::filesystem::path& path() const { return path_; }

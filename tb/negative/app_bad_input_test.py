@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """Bad input to the command: each kind has its exit code and says what is wrong. See --help."""
+import hashlib
 import json
 import os
 import pty
@@ -217,6 +218,68 @@ class Configuration(CommandTest):
 
     def test_missing_file(self):
         self.run_texture(5, "--config", self.path("none.yaml"), says="none.yaml")
+
+    def manifest(self):
+        with open(self.path("out/manifest.json")) as file:
+            return json.load(file)
+
+    def test_a_manifest(self):
+        """It gives what its run was given; presets and options count as they did."""
+        self.write("t.png", png(8, 8))
+        self.run_texture(0, "--texture", "t.png", "--preset", "paper", "--set", "texture.cache.ways=2", "--seed", "7")
+        first = self.manifest()
+        self.assertEqual(first["working_directory"], os.path.realpath(self.directory))
+        self.assertEqual({p["name"]: p["from"] for p in first["parameters"] if p["name"] in
+                          ("texture.cache.ways", "texture.footprint", "memory.latency")},
+                         {"texture.cache.ways": "given", "texture.footprint": "preset paper", "memory.latency": "default"})
+        os.rename(self.path("out"), self.path("first"))
+        config = ("--config", self.path("first/manifest.json"))
+        command = ("run", "texture", *config, "--out", self.path("out"))
+        self.expect(0, *command)
+        again = self.manifest()
+        for key in ("configuration", "golden", "seed"):
+            self.assertEqual(again[key], first[key])
+        self.assertEqual([p["from"] for p in again["parameters"]], [p["from"] for p in first["parameters"]])
+        # From another folder the files are where they were; another preset can be chosen.
+        os.mkdir(self.path("elsewhere"))
+        self.expect(0, *command, "--preset", "deburr", cwd=self.path("elsewhere"))
+        again = self.manifest()
+        self.assertEqual(again["configuration"]["scene.texture"], os.path.realpath(self.path("t.png")))
+        self.assertNotEqual(again["configuration"]["texture.footprint"], first["configuration"]["texture.footprint"])
+        self.assertEqual(again["configuration"]["texture.cache.ways"], 2)
+        self.expect(2, "run", "frame", *config, "--out", self.path("out"),
+                    says="first/manifest.json:3: this manifest is of a run of 'texture', and not of 'frame'")
+        self.expect(2, "run", "texture", *config, "--out", self.path("first"), says="its results would replace it")
+
+    def test_a_manifest_of_other_defaults(self):
+        self.run_texture(0)
+        manifest = self.manifest()
+        manifest["configuration"].update({"memory.latency": 77, "no.more": 1})
+        file = self.write("old.json", json.dumps(manifest, indent=2))
+        done = self.run_texture(2, "--config", file, says="old.json:")
+        self.assertIn("unknown parameter 'no.more'", done.stderr)
+        del manifest["configuration"]["no.more"]
+        self.write("old.json", json.dumps(manifest, indent=2))
+        self.run_texture(0, "--config", file)
+        self.assertEqual(self.manifest()["configuration"]["memory.latency"], 77)
+
+    def test_the_standard_input(self):
+        text = "texture:\n  cache: {bytes: 8192}\t# it's 8 \\n\nsampler.mode: linear\n"
+        done = self.run_texture(1, "--config", "/dev/stdin", "--fault", "flip-bit", input=text)
+        repro = next(line for line in done.stdout.splitlines() if line.startswith("REPRO: "))
+        manifest = self.manifest()
+        self.assertEqual(manifest["configuration"]["texture.cache.bytes"], 8192)
+        self.assertEqual(manifest["inputs"][-1], {
+            "file": "/dev/stdin", "sha256": hashlib.sha256(text.encode()).hexdigest(), "role": "configuration",
+            "bytes": len(text)})
+        again = subprocess.run(["bash", "-c", repro.removeprefix("REPRO: ")], cwd=self.directory, text=True,
+                               capture_output=True, stdin=subprocess.DEVNULL)
+        self.assertEqual(again.returncode, 1, again.stderr)
+        self.assertEqual(self.manifest()["configuration"], manifest["configuration"])
+        self.run_texture(2, "--config", "/dev/stdin", input="a: 1\nb: 2\n", says="/dev/stdin:1: unknown parameter 'a'")
+        self.run_texture(5, "--config", "/dev/stdin", input="#" * (2 << 20), says="'/dev/stdin': it is larger than")
+        with open(self.write("run.yaml", text)) as file:
+            self.run_texture(0, "--config", "/dev/stdin", stdin=file)
 
     def test_set_unknown(self):
         self.run_texture(2, "--set", "texture.fotprint=half", says=["--set", "texture.footprint"])

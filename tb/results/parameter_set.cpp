@@ -10,6 +10,8 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <system_error>
 #include <utility>
 
 #include "spec/error.h"
@@ -31,19 +33,84 @@ std::string join(const std::vector<std::string_view>& names, std::string_view se
   return fmt::format("{}", fmt::join(names, separator));
 }
 
-// A configuration has a few dozen keys; anything far beyond is not a configuration.
-constexpr std::size_t kMaxConfigurationBytes = 1 << 20;
 constexpr int kMaxNesting = 16;
+constexpr std::string_view kGiven = "given", kDefault = "default";  // in a manifest's parameters
+
+// An entry of a map; undefined where the map has none.
+YAML::Node entry_of(const YAML::Node& map, const char* key) {
+  return map.IsMap() ? map[key] : YAML::Node(YAML::NodeType::Undefined);
+}
+std::string scalar_of(const YAML::Node& map, const char* key) {
+  const YAML::Node entry = entry_of(map, key);
+  return entry.IsDefined() && entry.IsScalar() ? entry.Scalar() : "";
+}
+bool is_map(const YAML::Node& node) { return node.IsDefined() && node.IsMap(); }
+
+// A run's manifest.json: what the run was given. The rest follows from that again, but a default
+// that was another one stays as it was.
+class Manifest {
+ public:
+  static bool is_one(const YAML::Node& root) {
+    return !scalar_of(root, "schema").empty() && !scalar_of(root, "unit").empty() &&
+           is_map(entry_of(root, "configuration"));
+  }
+
+  Manifest(const YamlFile& yaml, std::string_view engine)
+      : yaml_(yaml), folder_(scalar_of(yaml.root(), "working_directory")) {
+    const YAML::Node& root = yaml.root();
+    if (const std::string unit = scalar_of(root, "unit"); !engine.empty() && unit != engine)
+      yaml.fail(root["unit"],
+                fmt::format("this manifest is of a run of '{}', and not of '{}'", unit, engine));
+    for (const YAML::Node& parameter : entry_of(root, "parameters"))
+      from_[scalar_of(parameter, "name")] = scalar_of(parameter, "from");
+    for (const YAML::Node& input : entry_of(root, "inputs"))
+      if (scalar_of(input, "role").empty()) inputs_.insert(scalar_of(input, "file"));
+  }
+
+  void apply(ParameterSet& set) const {
+    for (const auto& entry : yaml_.root()["configuration"]) {
+      const std::string name = yaml_.scalar(entry.first, "configuration");
+      const std::string value = yaml_.scalar(entry.second, name);
+      if (!follows(set.find(name), value))
+        set.set(name, where_it_was(value), yaml_.where(entry.first), ParameterSet::Origin::kFile);
+    }
+  }
+
+ private:
+  // Whether it comes to this by itself. A manifest that does not say is taken as it is.
+  bool follows(const Parameter* parameter, const std::string& value) const {
+    if (!parameter) return false;
+    const auto found = from_.find(parameter->name);
+    if (found == from_.end() || found->second.empty() || found->second == kGiven) return false;
+    return found->second != kDefault || parameter->text() == value;
+  }
+
+  // Names of files are as seen from the folder in which the run was started.
+  std::string where_it_was(const std::string& value) const {
+    std::error_code error;
+    if (folder_.empty() || value.empty() || !inputs_.contains(value) ||
+        folder_ == std::filesystem::current_path(error))
+      return value;
+    return (folder_ / value).lexically_normal().string();
+  }
+
+  const YamlFile& yaml_;
+  std::filesystem::path folder_;
+  std::map<std::string, std::string> from_;
+  std::set<std::string> inputs_;
+};
 
 class YamlLoader {
  public:
-  YamlLoader(ParameterSet& set, const YamlFile& yaml) : set_(set), yaml_(yaml) {}
+  YamlLoader(ParameterSet& set, const YamlFile& yaml, std::string_view engine)
+      : set_(set), yaml_(yaml), engine_(engine) {}
 
   void load() {
     const YAML::Node& root = yaml_.root();
     if (root.IsNull()) return;
     if (!root.IsMap())
       yaml_.fail(root, fmt::format("expected a map of parameters, got {}", YamlFile::kind(root)));
+    if (Manifest::is_one(root)) return Manifest(yaml_, engine_).apply(set_);
     walk(root, "", 0);
   }
 
@@ -74,6 +141,7 @@ class YamlLoader {
 
   ParameterSet& set_;
   const YamlFile& yaml_;
+  std::string_view engine_;
   std::map<std::string, std::string> seen_;
 };
 
@@ -263,7 +331,17 @@ void ParameterSet::set_assignment(std::string_view assignment, std::string_view 
 }
 
 void ParameterSet::load(const std::filesystem::path& file) {
-  YamlLoader(*this, YamlFile(file, kMaxConfigurationBytes)).load();
+  YamlLoader(*this, YamlFile(file, kMaxConfigurationBytes), "").load();
+}
+
+void ParameterSet::load(const std::filesystem::path& file, const std::string& text,
+                        std::string_view engine) {
+  YamlLoader(*this, YamlFile(file, text), engine).load();
+}
+
+std::string_view ParameterSet::origin(const Parameter& parameter) const {
+  if (given(parameter.name)) return kGiven;
+  return parameter.implied_by.empty() ? kDefault : std::string_view(parameter.implied_by);
 }
 
 nlohmann::ordered_json ParameterSet::resolved() const {
