@@ -39,11 +39,14 @@ std::string quoted_command(int argc, char** argv) {
   return command;
 }
 
-int finish(const Outcome& outcome, const std::string& command, bool json) {
+int finish(const Outcome& outcome, const CommandLine& line) {
   std::fflush(stdout);
-  if (json) {
+  const std::string repro =
+      outcome.repro.empty() ? line.text : shell_quoted(line.words[0]) + " " + outcome.repro;
+  if (line.json) {
     nlohmann::ordered_json object = {
-        {"exit_code", outcome.code}, {"outcome", outcome.text}, {"command", command}};
+        {"exit_code", outcome.code}, {"outcome", outcome.text}, {"command", line.text}};
+    if (outcome.code != 0) object["repro"] = repro;
     if (!outcome.directory.empty()) {
       object["directory"] = outcome.directory.string();
       object["result"] = nlohmann::ordered_json::parse(
@@ -54,7 +57,7 @@ int finish(const Outcome& outcome, const std::string& command, bool json) {
     fmt::print("{}\n", object.dump(2));
     return outcome.code;
   }
-  if (outcome.code != 0) fmt::print("REPRO: {}\n", command);
+  if (outcome.code != 0) fmt::print("REPRO: {}\n", repro);
   fmt::print("RESULT: {}\n", outcome.text);
   return outcome.code;
 }
@@ -146,7 +149,7 @@ int run(int argc, char** argv, void (*add)(CLI::App&, CommandLine&)) {
       "on\n"
       "failure after REPRO: ...");
   CommandLine line{quoted_command(argc, argv), argv, false, nullptr};
-  const auto ended = [&](const Outcome& outcome) { return finish(outcome, line.text, line.json); };
+  const auto ended = [&](const Outcome& outcome) { return finish(outcome, line); };
   add(app, line);
   try {
     app.parse(argc, argv);

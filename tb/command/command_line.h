@@ -19,6 +19,8 @@ struct Outcome {
   std::filesystem::path directory{};   // of the results
   std::string result = "result.json";  // in it: what --json shows
   std::string comparison{};            // JSON that --json shows
+  // Arguments of `deburr` that show a failure again where the same command would not; empty: that.
+  std::string repro{};
 };
 
 struct CommandLine {

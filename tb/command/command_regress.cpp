@@ -118,8 +118,18 @@ class Regression {
     if (result.missing > 0)
       return {static_cast<int>(ExitCode::kSimulation),
               fmt::format("FAIL {}: 'run' it again for what is missing", figures)};
-    if (!result.holds()) return {static_cast<int>(ExitCode::kMismatch), "FAIL " + figures};
+    if (!result.holds()) {
+      Outcome outcome{static_cast<int>(ExitCode::kMismatch), "FAIL " + figures};
+      if (!result.buckets.empty()) outcome.repro = arguments_of_example(result);
+      return outcome;
+    }
     return {0, "PASS " + figures};
+  }
+
+  // Of the bucket with the most runs.
+  static std::string arguments_of_example(const RegressionResult& result) {
+    const PlannedPoint& point = result.runs[result.buckets.front().runs.front()].point;
+    return arguments_of(point.engine, point.settings);
   }
 
   static std::string reasons(const FeatureResult& feature) {

@@ -60,6 +60,15 @@ void say(const PointOptions& options, const std::string& text) {
   if (!options.quiet) fmt::print("{}\n", text);
 }
 
+namespace {
+
+std::string in_words(const FailedPoint& point) {
+  return fmt::format("failed      {}: {}: {}", point.directory.string(), point.failure.kind,
+                     point.failure.reason);
+}
+
+}  // namespace
+
 void say_left_out(const PointOptions& options, const Plan& plan) {
   for (const std::string& left_out : plan.left_out) say(options, "left out    " + left_out);
 }
@@ -93,8 +102,9 @@ Outcome run_on_slurm(const PointOptions& options, const std::string& what, const
 
 Outcome ended(const PointOptions& options, const std::string& what, const SweepPlace& place,
               std::uint64_t before, int code) {
-  const std::uint64_t points = read_plan(place.directory).points;
-  const Status status = look(place);
+  const Plan plan = read_plan(place.directory);
+  const std::uint64_t points = plan.points;
+  const Status status = look(place, plan);
   const std::string figures =
       fmt::format("{}, {} done ({} in this run), {} failed, {} missing; {}", points_of(points),
                   grouped(status.done), grouped(status.done - std::min(status.done, before)),
@@ -104,14 +114,18 @@ Outcome ended(const PointOptions& options, const std::string& what, const SweepP
     fmt::print(stderr, "deburr: interrupted; run the same command again for what is missing\n");
     return {kInterruptedExit, fmt::format("INTERRUPTED {}: {}", what, figures)};
   }
-  for (const std::string& failure : status.failures) say(options, "failed      " + failure);
+  for (const FailedPoint& point : status.failures) say(options, in_words(point));
   if (status.done + status.failed < points)
     return {
         static_cast<int>(code == static_cast<int>(ExitCode::kFile) ? ExitCode::kFile
                                                                    : ExitCode::kSimulation),
         fmt::format("FAIL {}: {}: run the same command again for what is missing", what, figures)};
-  if (status.failed > 0)
-    return {static_cast<int>(ExitCode::kMismatch), fmt::format("FAIL {}: {}", what, figures)};
+  if (status.failed > 0) {
+    Outcome outcome{static_cast<int>(ExitCode::kMismatch),
+                    fmt::format("FAIL {}: {}", what, figures)};
+    outcome.repro = status.failures.front().arguments;
+    return outcome;
+  }
   return {0, fmt::format("PASS {}: {}", what, figures)};
 }
 
@@ -136,12 +150,12 @@ void say_changes(const PointOptions& options, const std::string& action, const S
 Outcome planned_outcome(const std::string& what, const Plan& plan, const SweepPlace& place) {
   return {0, fmt::format("PASS {}: {} over {} input{}, {} of them done; {}", what,
                          points_of(plan.points), grouped(plan.inputs), plan.inputs == 1 ? "" : "s",
-                         grouped(look(place).done), place.directory.string())};
+                         grouped(look(place, plan).done), place.directory.string())};
 }
 
 Outcome show_status(const std::string& what, const SweepPlace& place) {
   const Plan plan = read_plan(place.directory);
-  const Status status = look(place);
+  const Status status = look(place, plan);
   fmt::print("points      {}\ndone        {}\nrunning     {}\nfailed      {}\nqueued      {}\n",
              grouped(plan.points), grouped(status.done), grouped(status.running),
              grouped(status.failed), grouped(status.missing));
@@ -152,7 +166,7 @@ Outcome show_status(const std::string& what, const SweepPlace& place) {
     for (const std::string& advice : slurm.advice) fmt::print("slurm       {}\n", advice);
   }
   if (!status.time_left.empty()) fmt::print("time left   {}\n", status.time_left);
-  for (const std::string& failure : status.failures) fmt::print("failed      {}\n", failure);
+  for (const FailedPoint& point : status.failures) fmt::print("{}\n", in_words(point));
   return {
       0, fmt::format("PASS {}: {} of {} done", what, grouped(status.done), points_of(plan.points))};
 }

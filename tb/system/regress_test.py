@@ -254,6 +254,9 @@ class Failing(RegressTest):
         out = self.regress("-j2", code=1)
         self.assertIn(f"{POINTS} passed, 3 failed in 2 buckets, 0 missing", out)
         self.check_fault(POINTS)
+        # The line that shows it again is the example of the largest bucket, and no other run.
+        repro = out[out.index("REPRO: "):].splitlines()[0].removeprefix("REPRO: ")
+        self.assertEqual(repro.removeprefix(DEBURR), self.collected()["buckets"][0]["example"]["command"].removeprefix("deburr"))
         before = self.inodes()
         self.regress("run", code=1)
         self.assertEqual(self.inodes(), before, "neither failures nor waves are made again")

@@ -9,6 +9,7 @@ import csv
 import glob
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -421,6 +422,23 @@ class Failing(SweepTest):
         self.assertIn("0 done (0 in this run), 12 failed", self.run_sweep("faulty.yaml", "run", "-j2", code=1))
         for reason in reasons:
             self.assertTrue(os.path.exists(reason))
+
+    def test_the_command_that_shows_a_failure_again_runs_that_point(self):
+        for command in ("sweep", "search"):
+            done = subprocess.run([DEBURR, command, "faulty.yaml", "run", "-j2"], cwd=self.directory, text=True,
+                                  capture_output=True)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            failed = re.search(r"(?m)^failed      (\S+): mismatch: ", done.stdout)[1]
+            repro = re.search(r"(?m)^REPRO: (.*)$", done.stdout)[1]
+            self.assertTrue(repro.startswith(f"{DEBURR} run texture --set "), repro)
+            again = subprocess.run(["bash", "-c", repro], cwd=self.directory, text=True, capture_output=True)
+            self.assertEqual(again.returncode, 1, again.stderr)
+            with open(os.path.join(self.directory, "out/texture/manifest.json")) as file:
+                alone = json.load(file)
+            with open(os.path.join(self.directory, failed, "manifest.json")) as file:
+                point = json.load(file)
+            for key in ("configuration", "golden"):
+                self.assertEqual(alone[key], point[key])
 
     def test_two_at_the_same_points(self):
         self.write("other.yaml", self.faulty)
