@@ -22,6 +22,25 @@ namespace deburr::tb {
 namespace fs = std::filesystem;
 using spec::ExitCode;
 
+namespace {
+
+// What begins with a dash would be an option to the programs that are given it.
+CLI::Validator as_a_name() {
+  return CLI::Validator(
+      [](std::string& name) {
+        if (name.starts_with('-')) name.insert(0, "./");
+        return std::string();
+      },
+      "");
+}
+
+std::string in_words(const FailedPoint& point) {
+  return fmt::format("failed      {}: {}: {}", point.directory.string(), point.failure.kind,
+                     point.failure.reason);
+}
+
+}  // namespace
+
 void add_point_options(CLI::App& command, PointOptions& options) {
   command
       .add_option("--slurm", options.slurm,
@@ -29,6 +48,7 @@ void add_point_options(CLI::App& command, PointOptions& options) {
       ->type_name("PROFILE");
   command.add_option("--out", options.out, "Directory of points, cache and what is made of them")
       ->type_name("DIR")
+      ->transform(as_a_name())
       ->capture_default_str();
   command.add_option("-j,--jobs", options.jobs, "Points at a time (the number of processors)")
       ->check(CLI::Range(1u, 4096u));
@@ -59,15 +79,6 @@ std::string points_of(std::uint64_t number) {
 void say(const PointOptions& options, const std::string& text) {
   if (!options.quiet) fmt::print("{}\n", text);
 }
-
-namespace {
-
-std::string in_words(const FailedPoint& point) {
-  return fmt::format("failed      {}: {}: {}", point.directory.string(), point.failure.kind,
-                     point.failure.reason);
-}
-
-}  // namespace
 
 void say_left_out(const PointOptions& options, const Plan& plan) {
   for (const std::string& left_out : plan.left_out) say(options, "left out    " + left_out);
