@@ -356,6 +356,13 @@ class Configuration(CommandTest):
                         "sampler.max_lod=511", "--out", self.path("out"),
                         says=["sampler.min_lod = 512", "sampler.max_lod = 511"])
 
+    def test_hexadecimal_addresses(self):
+        """As errors print them."""
+        self.run_texture(3, "--set", "memory.error_address=0x40", "--set", "memory.error_bytes=0x40")
+        with open(self.path("out/manifest.json")) as file:
+            configuration = json.load(file)["configuration"]
+        self.assertEqual((configuration["memory.error_address"], configuration["memory.error_bytes"]), (64, 64))
+
     def test_errors_that_nobody_meets(self):
         self.run_texture(2, "--set", "memory.error_address=2147483584",
                          says=["memory.error_address", "from 0x7fffffc0 to 0x7fffffff, so no access failed"])

@@ -29,6 +29,14 @@ bool parse_number(std::string_view text, Number& value) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
+// Decimal, or hexadecimal as addresses are printed: 0x7fffffc0.
+bool parse_integer(std::string_view text, std::int64_t& value) {
+  if (!text.starts_with("0x")) return parse_number(text, value);
+  text.remove_prefix(2);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+  return error == std::errc() && end == text.data() + text.size() && !text.starts_with('-');
+}
+
 std::string join(const std::vector<std::string_view>& names, std::string_view separator) {
   return fmt::format("{}", fmt::join(names, separator));
 }
@@ -176,7 +184,7 @@ void ParameterSet::Binder::integer(std::string_view name, std::int64_t& value, s
       [&value] { return nlohmann::ordered_json(value); },
       [&value, min, max](std::string_view text) -> std::string {
         std::int64_t parsed = 0;
-        if (!parse_number(text, parsed)) return fmt::format("wants an integer {}..{}", min, max);
+        if (!parse_integer(text, parsed)) return fmt::format("wants an integer {}..{}", min, max);
         if (parsed < min || parsed > max) return fmt::format("is outside {}..{}", min, max);
         value = parsed;
         return "";
@@ -192,7 +200,7 @@ void ParameterSet::Binder::integer(std::string_view name, std::int32_t& value, s
       [&value] { return nlohmann::ordered_json(value); },
       [&value, min, max](std::string_view text) -> std::string {
         std::int64_t parsed = 0;
-        if (!parse_number(text, parsed)) return fmt::format("wants an integer {}..{}", min, max);
+        if (!parse_integer(text, parsed)) return fmt::format("wants an integer {}..{}", min, max);
         if (parsed < min || parsed > max) return fmt::format("is outside {}..{}", min, max);
         value = static_cast<std::int32_t>(parsed);
         return "";
