@@ -255,6 +255,8 @@ Outcome rebuild_reports(const std::vector<std::string>& directories) {
 void add_compare(CLI::App& app, CommandLine& line) {
   CLI::App* command = app.add_subcommand(
       "compare", "Runs or sweeps side by side; fails when one is worse than the first");
+  show_examples(*command, {"deburr compare out/a out/b --html out/a_b.html",
+                           "deburr compare out/sweeps/before out/sweeps/after --cycles-percent 5"});
   const auto options = std::make_shared<CompareOptions>();
   command
       ->add_option("DIR", options->paths,
@@ -292,6 +294,7 @@ void add_compare(CLI::App& app, CommandLine& line) {
 void add_report(CLI::App& app, CommandLine& line) {
   CLI::App* command =
       app.add_subcommand("report", "Rebuild report.html from result.json and manifest.json");
+  show_examples(*command, {"deburr report out/a out/b"});
   const auto directories = std::make_shared<std::vector<std::string>>();
   command->add_option("DIR", *directories, "Run directories")->required();
   command->callback([directories, &line] {

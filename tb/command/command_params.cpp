@@ -97,6 +97,8 @@ Outcome print_params(const ParamsCommand& command) {
 void add_params(CLI::App& app, CommandLine& line) {
   CLI::App* command =
       app.add_subcommand("params", "List every parameter: kind, default, range, unit, meaning");
+  show_examples(*command, {"deburr params memory", "deburr params --markdown registers",
+                           "deburr params --c-header"});
   const auto options = std::make_shared<ParamsCommand>();
   command->add_option("UNIT", options->unit,
                       "Only these: run, scene, sampler, texture, memory, ...");

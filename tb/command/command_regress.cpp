@@ -165,6 +165,8 @@ class Regression {
 void add_regress(CLI::App& app, CommandLine& line) {
   CLI::App* command = app.add_subcommand(
       "regress", "A testplan: many seeds of many configurations, and what failed of them");
+  show_examples(*command, {"deburr regress", "deburr regress tb/testplan/nightly.yaml --divide 100",
+                           "deburr regress tb/testplan/nightly.yaml status --seed 20261122"});
   const auto options = std::make_shared<RegressOptions>();
   command->add_option("TESTPLAN", options->file, "YAML file of the testplan")
       ->capture_default_str();

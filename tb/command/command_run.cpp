@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -250,10 +251,16 @@ void add_run(CLI::App& app, CommandLine& line) {
   CLI::App* run =
       app.add_subcommand("run", "Simulate an engine and check it against its golden model");
   run->require_subcommand(1);
+  std::vector<std::string> examples;
   for (std::unique_ptr<Engine>& owned : engines()) {
     const std::shared_ptr<Engine> engine = std::move(owned);
     CLI::App* command =
         run->add_subcommand(std::string(engine->name()), std::string(engine->summary()));
+    std::vector<std::string> lines;
+    for (const std::string_view arguments : engine->examples())
+      lines.push_back(fmt::format("deburr run {} {}", engine->name(), arguments));
+    examples.push_back(lines.front());
+    show_examples(*command, lines);
     const auto options = std::make_shared<RunOptions>();
     command
         ->add_option("--config", options->config,
@@ -286,6 +293,7 @@ void add_run(CLI::App& app, CommandLine& line) {
       line.action = [engine, options, &line] { return run_engine(*engine, *options, line); };
     });
   }
+  show_examples(*run, examples);
 }
 
 }  // namespace deburr::tb

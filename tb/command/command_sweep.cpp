@@ -144,6 +144,8 @@ Outcome search(const SweepOptions& options) {
 
 void add_sweep(CLI::App& app, CommandLine& line) {
   CLI::App* command = app.add_subcommand("sweep", "Many runs of an engine over axes of parameters");
+  show_examples(*command, {"deburr sweep first.yaml plan", "deburr sweep first.yaml run --jobs 4",
+                           "deburr sweep first.yaml collect"});
   const auto options = std::make_shared<SweepOptions>();
   command->add_option("FILE", options->file, "YAML file of the sweep")->required();
   command
@@ -157,6 +159,8 @@ void add_sweep(CLI::App& app, CommandLine& line) {
 
   CLI::App* searching = app.add_subcommand(
       "search", "The Pareto front of a sweep with a part of its points, by NSGA-II");
+  show_examples(*searching,
+                {"deburr search first.yaml --runs 100", "deburr search first.yaml status"});
   const auto sought = std::make_shared<SweepOptions>();
   sought->action = "run";
   sought->search.population = 0;

@@ -202,6 +202,55 @@ class LastLine(Many):
             self.assertNotIn("RESULT:", self.last_line(*arguments))
 
 
+class Help(unittest.TestCase):
+    """Every page of help has examples, and `help` shows them all."""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="deburr_help_")
+        self.addCleanup(scratch.cleanup)
+        self.directory = scratch.name
+
+    def said(self, *arguments, code=0):
+        done = subprocess.run([DEBURR, *arguments], cwd=self.directory, text=True, capture_output=True, timeout=300)
+        self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout}{done.stderr}")
+        return done.stdout
+
+    def pages(self):
+        commands = re.findall(r"(?m)^  ([a-z-]+) ", self.said("--help").split("Subcommands:\n")[1].split("\n\n")[0])
+        self.assertTrue({"run", "sweep", "compare", "completion", "help"} <= set(commands), commands)
+        return [(), *((command,) for command in commands), *(("run", engine) for engine in engines())]
+
+    def examples(self, page):
+        lines = self.said(*page, "--help").split("\nExamples:\n")[1].split("\n\n")[0].splitlines()
+        self.assertGreater(len(lines), 0)
+        return [line.strip() for line in lines]
+
+    def test_help_is_what_the_option_says(self):
+        for page in self.pages():
+            self.assertEqual(self.said("help", *page), self.said(*page, "--help"))
+        self.assertIn("no 'deburr rum': did you mean 'run'?, known are run, ", self.said("help", "rum", code=2))
+        self.assertIn(f"no 'deburr run {engines()[0]} x'", self.said("help", "run", engines()[0], "x", code=2))
+
+    def test_examples(self):
+        for page in self.pages():
+            for line in self.examples(page):
+                self.assertTrue(line.startswith(" ".join(("deburr", *page))), f"{page}: {line}")
+                command = [word for word in line.split()[1:] if word.isalpha()][:2 if "run" in line.split() else 1]
+                known = self.said(*command, "--help")
+                for option in re.findall(r" (--[a-z-]+)", line):
+                    self.assertIn(option, known, line)
+
+    def test_examples_of_runs(self):
+        """What they read is there, and each is taken as it is."""
+        with open(os.path.join(self.directory, "mesh.obj"), "w") as file:
+            file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.said("run", engines()[0], "--size", "32x32", "--out", "picture")
+        os.rename(os.path.join(self.directory, "picture/after.png"), os.path.join(self.directory, "frame.png"))
+        for engine in engines():
+            for line in self.examples(("run", engine)):
+                self.assertIn("run.seed: 1", self.said(*line.split()[1:], "--show-config"), line)
+
+
 class Screen:
     """What a terminal of so many columns shows: its rows, and how often one was begun by itself."""
 

@@ -87,6 +87,10 @@ class FrameCommand final : public Engine {
           "texture.srgb_output = encoded");
   }
 
+  std::vector<std::string_view> examples() const override {
+    return {"--scene object --size 512x512 --storage memory --truth --out out/whole",
+            "--in mesh.obj --smoothing geometric-morphological --out out/joined"};
+  }
   std::vector<Shorthand> shorthands() const override {
     return joined(joined(scene_shorthands("object"), smoothing_shorthands()),
                   {{"--smoothing", "frame.smoothing",

@@ -54,6 +54,10 @@ class GeometricCommand final : public Engine {
     preset_label_ = preset_label(set, parameters_);
   }
 
+  std::vector<std::string_view> examples() const override {
+    return {"--in mesh.obj --size 1280x720 --truth --out out/mesh",
+            "--scene wing --preset gpaa --walkers 2"};
+  }
   std::vector<Shorthand> shorthands() const override {
     return joined({{"--scene", "scene.source",
                     "Scene: cube, wheelcover (default), wing, canopy, sphere, ..."},

@@ -58,6 +58,11 @@ class TextureEngine final : public Engine {
     add_memory(set, "memory", memory_);
   }
 
+  std::vector<std::string_view> examples() const override {
+    return {"--scene tunnel --size 640x360 --aniso 8 --truth --out out/tunnel",
+            "--in mesh.obj --preset paper --mode trilinear --out out/mesh",
+            "--windows 2000 --maps --set memory.latency=200"};
+  }
   std::vector<Shorthand> shorthands() const override {
     return joined(
         scene_shorthands("plane"),
