@@ -281,6 +281,14 @@ class Configuration(CommandTest):
         with open(self.write("run.yaml", text)) as file:
             self.run_texture(0, "--config", "/dev/stdin", stdin=file)
 
+    def test_trilinear(self):
+        for engine in ("texture", "frame"):
+            for given in (("--mode", "trilinear"), ("--set", "sampler.mode=trilinear")):
+                done = self.run_command("run", engine, *given, "--size", "16x16", "--show-config")
+                self.assertIn('sampler.mode: "linear_mipmap_linear"', done.stdout, done.stderr)
+        self.config(0, "sampler.mode: trilinear\n")
+        self.assertEqual(self.manifest()["configuration"]["sampler.mode"], "linear_mipmap_linear")
+
     def test_set_unknown(self):
         self.run_texture(2, "--set", "texture.fotprint=half", says=["--set", "texture.footprint"])
 

@@ -276,6 +276,18 @@ const Parameter* ParameterSet::find(std::string_view name) const {
   return found == parameters_.end() ? nullptr : &*found;
 }
 
+void ParameterSet::alias(std::string_view name, std::string_view word, std::string_view value) {
+  const auto found = std::find_if(parameters_.begin(), parameters_.end(),
+                                  [&](const Parameter& p) { return p.name == name; });
+  DEBURR_CHECK(found != parameters_.end(),
+               fmt::format("'{}' is a word of unknown '{}'", word, name));
+  found->aliases.emplace_back(word);
+  found->parse = [parse = std::move(found->parse), word = std::string(word),
+                  value = std::string(value)](std::string_view text) {
+    return parse(text == word ? std::string_view(value) : text);
+  };
+}
+
 std::vector<std::string> ParameterSet::near_matches(std::string_view name) const {
   std::vector<std::string> names;
   for (const Parameter& p : parameters_) names.push_back(p.name);

@@ -55,6 +55,7 @@ struct Parameter {
   std::function<std::string()> text;                   // the value now
   std::function<nlohmann::ordered_json()> json;        // the same, typed
   std::function<std::string(std::string_view)> parse;  // "" or why the text is refused
+  std::vector<std::string> aliases{};                  // other words for values, as of alias()
 };
 
 inline std::string_view kind_name(const Parameter& parameter) {
@@ -93,6 +94,9 @@ class ParameterSet {
     build_checks_.push_back(
         [engine = std::string(prefix), &values] { spec::check_build(engine, values); });
   }
+
+  // Another word for a value of a parameter: what the field calls it.
+  void alias(std::string_view name, std::string_view word, std::string_view value);
 
   enum class Origin { kCommandLine, kFile };
   // `where` is put in front of every complaint: "run.yaml:12" or "--set".

@@ -54,7 +54,7 @@ class FrameCommand final : public Engine {
   void add_parameters(ParameterSet& set) override {
     set.add("run", ParameterKind::kRun, look_up_trace_);
     set.add("scene", ParameterKind::kInput, scene_);
-    set.add("sampler", ParameterKind::kInput, sampler_);
+    add_sampler(set, sampler_);
     set.add("frame", ParameterKind::kRule, choice_);
     set.add_engine("texture", texture_);
     add_memory(set, "memory", memory_);

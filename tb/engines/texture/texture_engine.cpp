@@ -52,7 +52,7 @@ class TextureEngine final : public Engine {
     set.add("run", ParameterKind::kRun, trace_out_);
     set.add("scene", ParameterKind::kInput, scene_);
     set.add("scene", ParameterKind::kInput, trace_in_);
-    set.add("sampler", ParameterKind::kInput, sampler_);
+    add_sampler(set, sampler_);
     set.add("sequence", ParameterKind::kInput, sequence_);
     set.add_engine("texture", texture_);
     add_memory(set, "memory", memory_);

@@ -133,6 +133,19 @@ TEST_F(Parameters, IntegersMayBeHexadecimal) {
               HasSubstr("is outside 1..16"));
 }
 
+TEST_F(Parameters, AnotherWordForAValue) {
+  EXPECT_THAT(complaint([&] { set_.set("unit.colour", "scarlet", "test"); }),
+              HasSubstr("wants one of"));
+  set_.alias("unit.colour", "scarlet", "red");
+  set_.set("unit.colour", "scarlet", "test");
+  EXPECT_EQ(values_.colour, Colour::kRed);
+  EXPECT_EQ(set_.find("unit.colour")->text(), "red") << "results have one word for it";
+  set_.set("unit.colour", "green", "test");
+  EXPECT_EQ(values_.colour, Colour::kGreen);
+  EXPECT_THAT(complaint([&] { set_.set("unit.colour", "carlet", "test"); }),
+              HasSubstr("wants one of"));
+}
+
 TEST_F(Parameters, UnknownNamesShowNearMatches) {
   EXPECT_THAT(complaint([&] { set_.set("unit.cache.wasy", "1", "--set"); }),
               HasSubstr("did you mean 'unit.cache.ways'?"));
