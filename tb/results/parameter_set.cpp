@@ -69,9 +69,9 @@ class Manifest {
     if (const std::string unit = scalar_of(root, "unit"); !engine.empty() && unit != engine)
       yaml.fail(root["unit"],
                 fmt::format("this manifest is of a run of '{}', and not of '{}'", unit, engine));
-    for (const YAML::Node& parameter : entry_of(root, "parameters"))
+    for (const auto& parameter : entry_of(root, "parameters"))
       from_[scalar_of(parameter, "name")] = scalar_of(parameter, "from");
-    for (const YAML::Node& input : entry_of(root, "inputs"))
+    for (const auto& input : entry_of(root, "inputs"))
       if (scalar_of(input, "role").empty()) inputs_.insert(scalar_of(input, "file"));
   }
 
@@ -118,8 +118,10 @@ class YamlLoader {
     if (root.IsNull()) return;
     if (!root.IsMap())
       yaml_.fail(root, fmt::format("expected a map of parameters, got {}", YamlFile::kind(root)));
-    if (Manifest::is_one(root)) return Manifest(yaml_, engine_).apply(set_);
-    walk(root, "", 0);
+    if (Manifest::is_one(root))
+      Manifest(yaml_, engine_).apply(set_);
+    else
+      walk(root, "", 0);
   }
 
  private:

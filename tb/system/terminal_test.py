@@ -9,6 +9,7 @@ import json
 import os
 import pty
 import re
+import shutil
 import signal
 import struct
 import subprocess
@@ -198,7 +199,8 @@ class LastLine(Many):
             self.assertRegex(out.splitlines()[-1], f"^RESULT: (INTERRUPTED|PASS) {name}: ")
 
     def test_what_only_prints_has_none(self):
-        for arguments in (["params", "texture"], ["completion", "bash"], ["--version"]):
+        for arguments in (["params", "texture"], ["completion", "bash"], ["completion", "zsh"], ["completion", "fish"], ["help"],
+                          ["--version"]):
             self.assertNotIn("RESULT:", self.last_line(*arguments))
 
 
@@ -365,21 +367,54 @@ class Bar(Many):
 
 
 class Completion(unittest.TestCase):
-    """As bash does it: `deburr completion bash` is sourced, and asked."""
+    """As bash does it: `deburr completion bash` is sourced, and asked. The other shells ask the same below."""
 
     def complete(self, *words):
         script = (f'source <("{DEBURR}" completion bash) || exit 9\n'
                   'COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _deburr\n'
                   'printf "%s\\n" "${COMPREPLY[@]}"')
-        done = subprocess.run(["bash", "-c", script, "bash", "deburr", *words], text=True,
-                              capture_output=True)
+        return self.asked("bash", "-c", script, "bash", "deburr", *words)
+
+    def asked(self, *command):
+        done = subprocess.run(command, text=True, capture_output=True, cwd=FOLDER)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         return done.stdout.split()
+
+    # The words of `--set NAME=VALUE` as the shell counts them.
+    def setting(self, name, value):
+        return (name, "=", value) if value else (name, "=")
+
+    # What it makes of a value of a setting.
+    def value(self, name, value):
+        return value
+
+    FILES = []  # where the shell itself looks for files
 
     def test_commands(self):
         self.assertEqual(self.complete("pa"), ["papers", "params"])
         self.assertEqual(set(self.complete("run", "")) - {"--help"},
                          set(engines()))
+        self.assertEqual(self.complete("help", "swe"), ["sweep"])
+        self.assertEqual(self.complete("help", "run", engines()[0][:3]), [engines()[0]])
+
+    def test_actions(self):
+        for command, actions in (("sweep", ["collect", "plan", "run", "status"]), ("search", ["collect", "run", "status"]),
+                                 ("regress", ["collect", "plan", "rerun", "run", "status"])):
+            self.assertEqual(sorted(self.complete(command, "a.yaml", "")), actions)
+            self.assertEqual(self.complete(command, "--jobs", "4", "a.yaml", "--quiet", "st"), ["status"])
+        self.assertEqual(self.complete("regress", "st"), ["status"])
+        self.assertEqual(self.complete("sweep", ""), self.FILES)
+        self.assertEqual(self.complete("sweep", "a.yaml", "run", "--re"), ["--retry"])
+
+    def test_units(self):
+        self.assertEqual(self.complete("params", "mem"), ["memory"])
+        self.assertEqual(self.complete("params", "--markdown", "reg"), ["registers"])
+
+    def test_faults(self):
+        self.assertEqual(self.complete("run", "texture", "--fault", "flip-b"), ["flip-bit"])
+        self.assertIn("texture.flip-bit", self.complete("run", "frame", "--fault", "texture.flip"))
+        self.assertEqual(self.complete("run", "texture", "--set", *self.setting("run.fault", "flip-b")),
+                         [self.value("run.fault", "flip-bit")])
 
     def test_options(self):
         self.assertEqual(self.complete("run", "texture", "--trace-f"), ["--trace-from"])
@@ -389,17 +424,18 @@ class Completion(unittest.TestCase):
 
     def test_values(self):
         self.assertIn("linear_mipmap_linear", self.complete("run", "texture", "--mode", "linear"))
+        self.assertEqual(self.complete("run", "texture", "--mode", "tri"), ["trilinear"])
         self.assertEqual(self.complete("run", "frame", "--preset", "mlaa-"), ["mlaa-slope"])
         self.assertEqual(self.complete("completion", "b"), ["bash"])
-        self.assertEqual(self.complete("run", "texture", "--in", ""), [], "bash knows the files")
+        self.assertEqual(self.complete("run", "texture", "--in", ""), self.FILES)
 
     def test_parameters(self):
         self.assertEqual(self.complete("run", "texture", "--set", "texture.cache.by"),
                          ["texture.cache.bytes="])
-        self.assertEqual(self.complete("run", "texture", "--set", "sampler.layout", "=", "li"),
-                         ["linear"])
-        self.assertEqual(self.complete("run", "texture", "--set", "sampler.layout", "="),
-                         ["linear", "tiled"])
+        self.assertEqual(self.complete("run", "texture", "--set", *self.setting("sampler.layout", "li")),
+                         [self.value("sampler.layout", "linear")])
+        self.assertEqual(self.complete("run", "texture", "--set", *self.setting("sampler.layout", "")),
+                         [self.value("sampler.layout", value) for value in ("linear", "tiled")])
 
     def test_every_parameter_and_option_is_there(self):
         known = set(self.complete("run", "texture", "--set", ""))
@@ -415,9 +451,52 @@ class Completion(unittest.TestCase):
                          - {"--truth-samples"} - options, set())
 
 
+class OneWord:
+    """Shells for which NAME=VALUE is one word."""
+
+    def setting(self, name, value):
+        return (f"{name}={value}",)
+
+
+@unittest.skipUnless(shutil.which("zsh"), "no zsh")
+class CompletionZsh(OneWord, Completion):
+    """As zsh does it, whose own functions only say what they were given."""
+
+    FILES = ["files"]
+
+    def complete(self, *words):
+        script = (f'source <("{DEBURR}" completion zsh) || exit 9\n'
+                  'compset() { prefix=${words[CURRENT]%%=*}=; }\n'
+                  '_files() { print files; }\n'
+                  'compadd() {\n'
+                  '  local word found=1; while [[ $1 != -- ]]; do shift; done; shift\n'
+                  '  for word; do [[ $prefix$word != ${words[CURRENT]}* ]] || { print -- $word; found=0; }; done\n'
+                  '  return $found\n'
+                  '}\n'
+                  'words=("$@"); CURRENT=$#; prefix=; _deburr; true')
+        return self.asked("zsh", "-fc", script, "zsh", "deburr", *words)
+
+
+@unittest.skipUnless(shutil.which("fish"), "no fish")
+class CompletionFish(OneWord, Completion):
+    """As fish does it."""
+
+    FILES = ["here.yaml"]
+
+    def value(self, name, value):
+        return f"{name}={value}"
+
+    def complete(self, *words):
+        line = " ".join(("deburr", *words)) if words[-1] else " ".join(("deburr", *words[:-1], ""))
+        return self.asked("fish", "--no-config", "-c", f"'{DEBURR}' completion fish | source; complete -C '{line}'")
+
+
 if __name__ == "__main__":
     if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
         print(__doc__)
         sys.exit(0 if len(sys.argv) >= 2 else 2)
-    DEBURR = sys.argv.pop(1)
-    unittest.main()
+    DEBURR = os.path.abspath(sys.argv.pop(1))
+    with tempfile.TemporaryDirectory(prefix="deburr_terminal_") as FOLDER:
+        with open(os.path.join(FOLDER, "here.yaml"), "w"):
+            pass
+        unittest.main()
