@@ -163,6 +163,7 @@ class FrameCommand final : public Engine {
 
   void judge(const TextureScene& scene) const {
     refuse_nothing_drawn(scene);
+    if (has_geometric(choice_.smoothing)) refuse_too_many_faces(scene.scene(), geometric_);
     if (has_morphological(choice_.smoothing))
       golden::morphological::check_frame(morphological_, scene.stream().width,
                                          scene.stream().height);
