@@ -5,6 +5,7 @@ import hashlib
 import json
 import os
 import pty
+import re
 import resource
 import shutil
 import signal
@@ -688,6 +689,33 @@ class Results(CommandTest):
         self.expect(1, "compare", self.path("a"), self.path("b"), says=["cycles", "WORSE"])
         self.expect(0, "compare", self.path("b"), self.path("a"))
         self.expect(0, "compare", self.path("a"), self.path("b"), "--cycles-percent", "1e12")
+
+    def test_what_matters_comes_first(self):
+        """About twenty rows; counters are asked for."""
+        self.run_texture(0, "--set", "texture.cache.bytes=1024", "--set", "memory.latency=400")
+        loose = ("--cycles-percent", "1000", "--throughput-percent", "99")
+        command = ("compare", self.path("a"), self.path("out"), *loose)
+        short = self.expect(0, *command).stdout
+        more = re.search(r"(?m)^(\d+) more values differ: --all shows counters and the rest$", short)
+        rows = short[short.index("\n\n") + 2:more.start()].splitlines()[1:]
+        self.assertEqual([row.split()[0] for row in rows][:2], ["cycles", "throughput.value"])
+        self.assertLess(len(rows), 26)
+        whole = self.expect(0, *command, "--all").stdout
+        all_rows = whole[whole.index("\n\n") + 2:whole.index("RESULT: ")].splitlines()[1:]
+        self.assertEqual([row.split() for row in all_rows[:len(rows)]], [row.split() for row in rows])
+        self.assertEqual(len(all_rows), len(rows) + int(more[1]))
+        self.assertGreater(int(more[1]), 50)
+        self.assertTrue(any(row.startswith("units.") for row in all_rows))
+        self.assertFalse(any(row.startswith("units.") for row in rows))
+        answer = json.loads(self.run_command(*command, "--json").stdout)
+        self.assertEqual(len(answer["comparison"]["values"]), len(all_rows))
+
+    def test_what_is_worse_is_shown_whatever_it_is(self):
+        with open(self.path("b/result.json")) as file:
+            checks = json.load(file)["checks"]
+        self.change(checks={**checks, "mismatches": 3})
+        done = self.expect(1, "compare", self.path("a"), self.path("b"))
+        self.assertRegex(done.stdout, r"(?m)^checks.mismatches .* WORSE$")
 
     def test_no_tolerance(self):
         self.change(cycles=10**9)
