@@ -267,7 +267,7 @@ Outcome compare_results(const CompareOptions& options, bool json) {
   } else {
     outcome.text = "PASS compare: nothing is worse by more than its tolerance" + idealised;
   }
-  if (json) outcome.comparison = comparison.dump();
+  if (json) outcome.details = Json{{"comparison", comparison}}.dump();
   return outcome;
 }
 

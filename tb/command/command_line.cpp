@@ -52,8 +52,7 @@ int finish(const Outcome& outcome, const CommandLine& line) {
       object["result"] = nlohmann::ordered_json::parse(
           read_file(outcome.directory / outcome.result, kMaxResultBytes));
     }
-    if (!outcome.comparison.empty())
-      object["comparison"] = nlohmann::ordered_json::parse(outcome.comparison);
+    if (!outcome.details.empty()) object.update(nlohmann::ordered_json::parse(outcome.details));
     fmt::print("{}\n", object.dump(2));
     return outcome.code;
   }

@@ -19,7 +19,7 @@ struct Outcome {
   std::string text;                    // after "RESULT: "; empty: a command that only prints
   std::filesystem::path directory{};   // of the results
   std::string result = "result.json";  // in it: what --json shows
-  std::string comparison{};            // JSON that --json shows
+  std::string details{};               // a JSON object whose members --json shows, too
   // Arguments of `deburr` that show a failure again where the same command would not; empty: that.
   std::string repro{};
 };

@@ -7,6 +7,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -27,6 +28,7 @@
 namespace deburr::tb {
 namespace {
 
+using Json = nlohmann::ordered_json;
 using spec::ExitCode;
 
 constexpr std::array kActions = {"plan", "run", "rerun", "status", "collect"};
@@ -68,7 +70,7 @@ class Regression {
   Outcome act() {
     if (options_.failed) failed_ = failed_in_report(place_);
     say_changes(options_, options_.action, place_, testplan_.file);
-    if (options_.action == "status") return show_status(what_, place_);
+    if (options_.action == "status") return show_status(options_, what_, place_);
     plan_ = make_regression_plan(testplan_, base_seed_, place_);
     say_left_out(options_, plan_);
     if (options_.action == "plan") return planned_outcome(what_, plan_, place_);
@@ -139,17 +141,31 @@ class Regression {
         "{}: {}; other runs have no result of this state, so the report stays as it "
         "is: 'run' it for all of them",
         what_, figures);
+    Json failures = Json::array();
     for (const PlannedPoint* point : failed) {
       const Failure failure = read_failure(point_directory(place_.points(), point->name));
-      say(options_, fmt::format("failed      {}: {}: {}", origin_of(*point).name(), failure.kind,
-                                failure.reason));
+      const std::string name = origin_of(*point).name();
+      say(options_, fmt::format("failed      {}: {}: {}", name, failure.kind, failure.reason));
+      failures.push_back({{"name", name},
+                          {"kind", failure.kind},
+                          {"reason", failure.reason},
+                          {"command", command_of(point->engine, point->settings)}});
     }
-    if (interrupted()) return {kInterruptedExit, fmt::format("INTERRUPTED {}: {}", what_, figures)};
-    if (passed + failed.size() < points.size())
-      return {static_cast<int>(ExitCode::kSimulation), "FAIL " + text};
     Outcome outcome{failed.empty() ? 0 : static_cast<int>(ExitCode::kMismatch),
                     (failed.empty() ? "PASS " : "FAIL ") + text};
+    outcome.details =
+        Json{{"counts", {{"rerun", points.size()}, {"passed", passed}, {"failed", failed.size()}}},
+             {"failures", std::move(failures)}}
+            .dump(-1, ' ', false, Json::error_handler_t::replace);
     if (!failed.empty()) outcome.repro = arguments_of(failed[0]->engine, failed[0]->settings);
+    if (passed + failed.size() < points.size()) {
+      outcome.code = static_cast<int>(ExitCode::kSimulation);
+      outcome.text = "FAIL " + text;
+    }
+    if (interrupted()) {
+      outcome.code = kInterruptedExit;
+      outcome.text = fmt::format("INTERRUPTED {}: {}", what_, figures);
+    }
     return outcome;
   }
 
@@ -179,6 +195,10 @@ class Regression {
   }
 
   Outcome judge(const RegressionResult& result) const {
+    return with_collection(outcome_of(result), place_);
+  }
+
+  Outcome outcome_of(const RegressionResult& result) const {
     const std::string figures =
         fmt::format("{}: {}, {} passed, {} failed in {} bucket{}, {} missing; {}", what_,
                     points_of(plan_.points), grouped(result.passed), grouped(result.failed),
@@ -266,7 +286,7 @@ void add_regress(CLI::App& app, CommandLine& line) {
           "Of each configuration one of N seeds, at least one, and of what must be compared")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000}));
-  add_point_options(*command, *options);
+  add_point_options(*command, *options, line);
   command->callback([options, action, &line] {
     if (action->count() == 0) options->take_lone_action();
     line.action = [options, &line] {

@@ -253,6 +253,82 @@ class Help(unittest.TestCase):
                 self.assertIn("run.seed: 1", self.said(*line.split()[1:], "--show-config"), line)
 
 
+class Documents(Many):
+    """With --json the standard output is one document, and everything else goes to the error stream."""
+
+    def answer(self, *arguments, code=0):
+        done = subprocess.run([DEBURR, *arguments, "--json"], cwd=self.directory, text=True, capture_output=True,
+                              timeout=300)
+        self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout}{done.stderr}")
+        answer = json.loads(done.stdout)
+        self.assertEqual(answer["exit_code"], code)
+        self.assertIn(arguments[0], answer["command"])
+        return answer, done.stderr
+
+    def collected(self, place):
+        with open(os.path.join(self.directory, place, "collected.json")) as file:
+            return json.load(file)
+
+    def test_sweep(self):
+        with open(os.path.join(self.directory, "cache.yaml"), "a") as file:
+            file.write("constraints: ['texture.cache.bytes < 4096']\n")
+        planned, said = self.answer("sweep", "cache.yaml", "plan")
+        self.assertEqual(planned["counts"], {"points": 8, "inputs": 1, "done": 0})
+        self.assertEqual(planned["left_out"], ["4 by the constraint 'texture.cache.bytes < 4096'"])
+        self.assertIn("left out    4 by the constraint", said)
+        ran, _ = self.answer("sweep", "cache.yaml", "run", "-j2")
+        self.assertEqual(ran["counts"], {"points": 8, "done": 8, "done_in_this_run": 8, "failed": 0, "missing": 0})
+        self.assertEqual((ran["directory"], ran["failures"]), ("out/sweeps/cache", []))
+        self.assertTrue(ran["outcome"].startswith("PASS sweep cache: "))
+        status, _ = self.answer("sweep", "cache.yaml", "status")
+        self.assertEqual(status["counts"], {"points": 8, "done": 8, "running": 0, "failed": 0, "queued": 0})
+        collected, _ = self.answer("sweep", "cache.yaml", "collect")
+        self.assertEqual(collected["result"], self.collected("out/sweeps/cache"))
+
+    def test_a_sweep_that_fails(self):
+        with open(os.path.join(self.directory, "faulty.yaml"), "w") as file:
+            file.write(SWEEP.replace("run.images: false", "run: {images: false, fault: flip-bit}"))
+        for action, code in (("run", 1), ("status", 0)):
+            answer, _ = self.answer("sweep", "faulty.yaml", action, code=code)
+            self.assertEqual(answer["counts"]["failed"], 12)
+            self.assertEqual(len(answer["failures"]), 10, "the first ones")
+            failure = answer["failures"][0]
+            self.assertEqual(failure["kind"], "mismatch")
+            self.assertTrue(failure["command"].startswith("deburr run texture --set "))
+            self.assertTrue(os.path.exists(os.path.join(self.directory, failure["directory"], "failure.json")))
+            if code:
+                self.assertEqual(answer["repro"].split(" ", 1)[1], failure["command"].split(" ", 1)[1])
+        self.assertEqual(self.answer("sweep", "none.yaml", "run", code=5)[0]["outcome"][:10], "FAIL file:")
+
+    def test_search(self):
+        answer, _ = self.answer("search", "cache.yaml", "--runs", "8")
+        self.assertEqual(answer["counts"]["done"], 8)
+        self.assertEqual(answer["result"], self.collected("out/searches/cache"))
+
+    def test_regress(self):
+        self.assertEqual(self.answer("regress", "small.yaml", "plan", "--seed", "3")[0]["counts"]["points"], 12)
+        for arguments in (("run", "--seed", "3"), ("collect", "--seed", "3"), ("rerun", "--failed")):
+            answer, said = self.answer("regress", "small.yaml", *arguments)
+            self.assertEqual(answer["result"], self.collected("out/regressions/small-3"))
+            self.assertIn("--seed 3", answer["command"])
+        self.assertIn("rerun       0 of 0", said)
+        self.assertEqual(self.answer("regress", "small.yaml", "status", "--seed", "3")[0]["counts"]["done"], 12)
+
+    def test_params(self):
+        answer, _ = self.answer("params")
+        engine = engines()[0]
+        modes = [p for p in answer["parameters"] if p["name"] == "sampler.mode"]
+        self.assertEqual({p["engine"] for p in modes} & {engine}, {engine})
+        self.assertEqual((modes[0]["default"], modes[0]["aliases"]), ("linear_mipmap_linear", ["trilinear"]))
+        self.assertTrue(any("texture.cache.bytes" in rule["parameters"] for rule in answer["limits"]))
+        clocks = {p["engine"]: p["default"] for p in answer["parameters"] if p["name"] == "run.clock_mhz"}
+        self.assertEqual(set(clocks), set(engines()))
+        some, _ = self.answer("params", "memory")
+        self.assertTrue(all(p["name"].startswith("memory.") for p in some["parameters"]))
+        self.answer("params", "memry", code=2)
+        self.answer("params", "--markdown", code=2)
+
+
 class Screen:
     """What a terminal of so many columns shows: its rows, and how often one was begun by itself."""
 
