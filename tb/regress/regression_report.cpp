@@ -88,6 +88,10 @@ Json to_json(const FailureBucket& bucket, const RegressionResult& result, const 
         {"reason", example.failure.reason},
         {"directory", seen_from(place, point_directory(place.points(), example.point.name))},
         {"command", command_of(example.point)}}}};
+  // A run that was refused or killed has left none.
+  const fs::path result_file = point_directory(place.points(), example.point.name) / "result.json";
+  if (std::error_code error; fs::exists(result_file, error))
+    json["example"]["result"] = seen_from(place, result_file);
   if (!bucket.directory.empty())
     json["waves"] = {{"file", seen_from(place, bucket.directory / "trace.vcd")},
                      {"report", seen_from(place, bucket.directory / "report.html")}};
@@ -263,6 +267,7 @@ mustache::data row_of(const Json& feature) {
   }
   row.set("covered", bins == 0 ? "-" : fmt::format("{} of {}", grouped(hit), grouped(bins)));
   row.set("traces", traces);
+  row.set("has_checks", all_checks > 0);
   row.set("checks", checks);
   row.set("coverage", coverage);
   return row;
@@ -289,8 +294,10 @@ mustache::data card_of(const Json& bucket) {
     card.set(key, bucket.at(key).get<std::string>());
   card.set("runs", grouped(bucket.at("runs").get<std::uint64_t>()));
   const Json& example = bucket.at("example");
-  for (const char* key : {"name", "reason", "directory", "command"})
+  for (const char* key : {"name", "reason", "command"})
     card.set(std::string("example_") + key, example.at(key).get<std::string>());
+  card.set("has_result", example.contains("result"));
+  card.set("example_result", example.value("result", ""));
   card.set("has_waves", bucket.contains("waves"));
   if (bucket.contains("waves")) {
     card.set("waves", bucket.at("waves").at("file").get<std::string>());
@@ -344,6 +351,7 @@ std::string page_of(const Json& json) {
   page.set("features", features);
   page.set("has_buckets", !json.at("buckets").empty());
   page.set("buckets", buckets);
+  page.set("has_coverage", !json.at("coverage").empty());
   page.set("coverage", coverage);
   page.set("data", json_for_script(drawn));
   mustache::mustache text{std::string(embedded::regression_template())};

@@ -46,6 +46,13 @@
     return made;
   };
 
+  // By a click, or by Enter where the keyboard is.
+  function pressable(item, act) {
+    item.tabIndex = 0;
+    item.addEventListener('click', act);
+    item.addEventListener('keydown', (event) => { if (event.key === 'Enter') act(); });
+  }
+
   // ---- one point ----
   const quoted = (word) =>
     /^[A-Za-z0-9_\-./=,:+@%]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
@@ -59,6 +66,7 @@
     return `deburr run ${data.engine}` + settings.map(([n, v]) => ' --set ' + quoted(`${n}=${v}`)).join('');
   }
   const directoryOf = (p) => `${data.points_directory}/${p.name.slice(0, 2)}/${p.name}`;
+  const filesOf = [...(data.reports ? ['report.html'] : []), 'result.json', 'manifest.json'];
   let chosen = null;
   function choose(p) {
     chosen = p;
@@ -72,7 +80,7 @@
     const pre = element('pre', commandOf(p), box, 'code');
     pre.style.whiteSpace = 'pre-wrap';
     const links = element('p', '', box);
-    for (const name of ['report.html', 'result.json', 'manifest.json']) {
+    for (const name of p.state === 'done' ? filesOf : []) {
       const link = element('a', name, links);
       link.href = `${directoryOf(p)}/${name}`;
       links.append(' ');
@@ -224,7 +232,7 @@
       const cell = element('th', titled(column) + (sortBy === column ? (descending ? ' ▾' : ' ▴') : ''), titles,
                            'sort' + (column.metric !== undefined ? ' n' : ''));
       cell.title = column.meaning ?? '';
-      cell.addEventListener('click', () => {
+      pressable(cell, () => {
         descending = sortBy === column && !descending;
         sortBy = column;
         drawTable();
@@ -242,12 +250,12 @@
                           (p.front ? 'front ' : '') + (p.state === 'failed' ? 'failed ' : '') + (p === chosen ? 'chosen' : ''));
       for (const column of columns) element('td', column.text(p), row, column.metric !== undefined ? 'n' : '');
       const last = element('td', undefined, row);
-      if (p.state === 'done') element('a', p.name.slice(0, 8), last).href = `${directoryOf(p)}/report.html`;
+      if (p.state === 'done') element('a', p.name.slice(0, 8), last).href = `${directoryOf(p)}/${filesOf[0]}`;
       else element('span', p.failure ? `${p.state}: ${p.failure}` : p.state, last);
-      row.addEventListener('click', () => choose(p));
+      pressable(row, () => choose(p));
     }
     byId('shown').textContent = `${points.length} of ${data.points.length} points` +
-      (points.length > kMostRows ? `, the first ${kMostRows} are shown` : '') + '; a click on a row shows its command.';
+      (points.length > kMostRows ? `, the first ${kMostRows} are shown` : '') + '; a click on a row, or Enter, shows its command.';
   }
 
   // ---- parallel coordinates ----

@@ -8,6 +8,7 @@ usage: regress_test.py DEBURR [CLASS]
 import glob
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -260,6 +261,36 @@ class Failing(RegressTest):
         before = self.inodes()
         self.regress("run", code=1)
         self.assertEqual(self.inodes(), before, "neither failures nor waves are made again")
+
+    def test_the_page_has_no_dead_links_and_no_empty_sections(self):
+        """A run that cannot read its texture leaves no result, and no coverage."""
+        self.write("bad.png", "no picture")
+        unread = """  - id: unread
+    title: A texture that cannot be read
+    traces: [{page: docs/unit.md, says: Stalls change nothing.}]
+    stimuli: [{name: bad, engine: texture, base: {scene: {width: 24, height: 16, texture: bad.png}}}]
+    checks: {colours: 1}
+"""
+        self.write("plans/small.yaml", TESTPLAN + FAULT + unread)
+        self.assertIn("failed in 3 buckets", self.regress("-j2", code=1))
+        page = self.page()
+        self.assertIn("Coverage of all runs", page)
+        self.assertEqual(page.count(">result.json</a>"), 2)
+        self.write("plans/alone.yaml", "title: Alone\nfeatures:\n" + unread)
+        self.regress("-j2", code=1, name="alone")
+        page = self.page("alone")
+        self.assertNotIn("Coverage of all runs", page)
+        self.assertNotIn(">result.json</a>", page)
+        self.assertRegex(page, "<h1>Alone <span")
+
+    def page(self, name="small"):
+        place = self.path(f"out/regressions/{name}-7")
+        with open(os.path.join(place, "index.html")) as file:
+            page = file.read()
+        for link in re.findall(r'href="([^"#]*)"', page):
+            self.assertTrue(os.path.exists(os.path.join(place, link)), link)
+        self.assertNotRegex(page, r"<(ul|tbody|section)[^>]*>\s*</")
+        return page
 
     def test_what_failed_is_run_again_by_one_command(self):
         self.write("plans/small.yaml", TESTPLAN + FAULT)

@@ -102,6 +102,27 @@ class Points(SweepTest):
             dominated = any(o[0] <= mine[0] and o[1] <= mine[1] and o != mine for o in cost)
             self.assertEqual(row["front"], "0" if dominated else "1")
 
+    def test_the_table_without_script(self):
+        """Every point with its values, the front first, and links to what is there."""
+        self.write("cache.yaml", SWEEP + "reports: false\n")
+        self.run_sweep("cache.yaml", "run")
+        rows = self.rows("cache")
+        place = os.path.join(self.directory, "out/sweeps/cache")
+        with open(os.path.join(place, "index.html")) as file:
+            page = file.read()
+        table = re.search(r"(?s)<noscript>.*?</noscript>", page)[0]
+        self.assertIn('<th class="n">cycles (clk)</th>', table)
+        lines = re.findall(r'<tr class="(front)?">(.*?)</tr>', table)
+        cells = [[re.sub("<[^>]*>", "", cell) for cell in re.findall("<td.*?</td>", line)] for _, line in lines]
+        fronts = sum(row["front"] == "1" for row in rows)
+        self.assertEqual([front for front, _ in lines], ["front"] * fronts + [""] * (POINTS - fronts))
+        axes = ("texture.cache.bytes", "texture.cache.ways", "memory.latency", "cycles", "bits", "lines")
+        self.assertEqual(sorted(cells), sorted([row[axis] for axis in axes] + [row["point"][:8]] for row in rows))
+        for link in re.findall(r'href="([^"]*)"', table):
+            self.assertTrue(os.path.exists(os.path.join(place, link)), link)
+        data = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', page)[1])
+        self.assertFalse(data["reports"], "so the script links no report")
+
     def test_a_point_is_what_its_command_runs(self):
         self.write("cache.yaml", SWEEP)
         self.run_sweep("cache.yaml", "run")
