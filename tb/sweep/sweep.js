@@ -178,7 +178,11 @@
       element('h3', `${effect.axis} (moves it by ${shown(span)})`, box);
       const frame = element('div', undefined, box, 'chart');
       frame.style.height = '150px';
-      effectCharts.push(new Chart(element('canvas', undefined, frame), {
+      const canvas = element('canvas', undefined, frame);
+      canvas.setAttribute('role', 'img');
+      canvas.setAttribute('aria-label', `Mean of ${name} by ${effect.axis}: ` +
+          effect.means.map(([label, mean]) => `${label}: ${shown(mean)}`).join(', '));
+      effectCharts.push(new Chart(canvas, {
         type: 'line',
         data: {labels: effect.means.map((m) => m[0]),
                datasets: [{data: means, borderColor: accent, backgroundColor: accent, pointRadius: 3}]},

@@ -110,6 +110,7 @@ class Points(SweepTest):
         place = os.path.join(self.directory, "out/sweeps/cache")
         with open(os.path.join(place, "index.html")) as file:
             page = file.read()
+        self.assertNotRegex(page, r'<canvas id="[^"]*">', "each chart says in words what it shows")
         table = re.search(r"(?s)<noscript>.*?</noscript>", page)[0]
         self.assertIn('<th class="n">cycles (clk)</th>', table)
         lines = re.findall(r'<tr class="(front)?">(.*?)</tr>', table)
