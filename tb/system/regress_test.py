@@ -289,6 +289,7 @@ class Failing(RegressTest):
             page = file.read()
         for link in re.findall(r'href="([^"#]*)"', page):
             self.assertTrue(os.path.exists(os.path.join(place, link)), link)
+        self.assertEqual(page.count("<table"), page.count('class="scroll"><table'), "none is wider than a phone")
         self.assertNotRegex(page, r'<canvas id="[^"]*">', "each chart says in words what it shows")
         self.assertNotRegex(page, r"<(ul|tbody|section)[^>]*>\s*</")
         return page

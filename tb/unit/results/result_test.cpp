@@ -466,6 +466,15 @@ TEST_F(Directory, TheReportIsSelfContainedAndEscapes) {
     EXPECT_THAT(page, Not(HasSubstr(reference)));
   // Each chart says in words what it shows, contents lead somewhere, a cause has one colour.
   EXPECT_THAT(page, Not(testing::ContainsRegex("<canvas id=\"[a-z-]*\">")));
+  // No table is wider than a phone: each has a box of its own that scrolls.
+  const auto count = [&](std::string_view text) {
+    std::size_t found = 0;
+    for (std::size_t at = page.find(text); at != std::string::npos; at = page.find(text, at + 1))
+      ++found;
+    return found;
+  };
+  EXPECT_GT(count("<table"), 5u);
+  EXPECT_EQ(count("<table"), count("class=\"scroll\"><table"));
   const std::regex link("href=\"#([a-z-]+)\"");
   std::size_t links = 0;
   for (std::sregex_iterator i(page.begin(), page.end(), link), end; i != end; ++i, ++links)
