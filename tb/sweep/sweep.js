@@ -114,6 +114,29 @@
     const beyond = values.length > 0 ? high + ((high - low) * 0.08 || 1) : 1;
     return (p) => column.value(p) === Infinity ? beyond : column.value(p);
   }
+  // The fronts, one for each circumstance that points must agree in, by what tells them apart.
+  const frontAxes = data.for_each.map((name) => data.axes.findIndex((axis) => axis.name === name));
+  const fronts = new Map();
+  for (const p of done.filter((q) => q.front)) {
+    const where = frontAxes.map((i) => `${data.axes[i].name} = ${p.at[i]}`).join(', ');
+    if (!fronts.has(where)) fronts.set(where, []);
+    fronts.get(where).push(p);
+  }
+  if (fronts.size > 1)
+    byId('fronts').textContent = 'Fronts: ' +
+      [...fronts].map(([where, points]) => `${where}: ${points.length}`).join('; ') + ' points.';
+  const dashes = [[], [7, 4], [2, 3], [9, 3, 2, 3]];
+  function linesOfFronts(x, y, across, up, colour, groups) {
+    if (!goals.includes(x.name) || !goals.includes(y.name) || x === y) return [];
+    const same = frontAxes.length === 1 && frontAxes[0] === colour.axis;
+    return [...fronts].map(([where, points], i) => ({
+      label: `front${where === '' ? '' : ' of ' + where}`,
+      data: points.map((p) => ({x: across(p), y: up(p), point: p})).sort((a, b) => a.x - b.x || a.y - b.y),
+      showLine: true, pointRadius: 0, pointHitRadius: 0, borderWidth: 1.5,
+      borderColor: same ? palette[groups.indexOf(points[0].at[colour.axis])] ?? ink : ink,
+      backgroundColor: 'transparent', borderDash: same ? [] : dashes[i % dashes.length],
+    }));
+  }
   function drawScatter() {
     const x = columnOf(byId('across').value), y = columnOf(byId('up').value);
     const colour = columnOf(byId('colour').value);
@@ -131,6 +154,8 @@
         pointRadius: points.map((p) => p.front ? 6 : 3),
       };
     });
+    const lines = linesOfFronts(x, y, across, up, colour, groups);
+    sets.push(...lines);
     scatter?.destroy();
     const scale = (column) => ({
       title: {display: true, text: titled(column), color: ink},
@@ -146,7 +171,7 @@
           if (items.length > 0) choose(sets[items[0].datasetIndex].data[items[0].index].point);
         },
         plugins: {
-          legend: {display: groups.length > 1, labels: {boxWidth: 12}},
+          legend: {display: groups.length > 1 || lines.length > 1, labels: {boxWidth: 12}},
           tooltip: {callbacks: {label: (item) => {
             const p = item.raw.point;
             return [`${x.name} ${x.text(p)}, ${y.name} ${y.text(p)}`,
