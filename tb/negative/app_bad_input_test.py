@@ -367,10 +367,10 @@ class Configuration(CommandTest):
 
     def test_hexadecimal_addresses(self):
         """As errors print them."""
-        self.run_texture(3, "--set", "memory.error_address=0x40", "--set", "memory.error_bytes=0x40")
+        self.run_texture(3, "--set", "memory.error_address=0x40", "--set", "memory.error_bytes=0x4000000")
         with open(self.path("out/manifest.json")) as file:
             configuration = json.load(file)["configuration"]
-        self.assertEqual((configuration["memory.error_address"], configuration["memory.error_bytes"]), (64, 64))
+        self.assertEqual((configuration["memory.error_address"], configuration["memory.error_bytes"]), (64, 4 << 24))
 
     def test_errors_that_nobody_meets(self):
         self.run_texture(2, "--set", "memory.error_address=2147483584",

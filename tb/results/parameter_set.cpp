@@ -90,7 +90,8 @@ class Manifest {
     if (!parameter) return false;
     const auto found = from_.find(parameter->name);
     if (found == from_.end() || found->second.empty() || found->second == kGiven) return false;
-    return found->second != kDefault || parameter->text() == value;
+    return found->second != kDefault || parameter->text() == value ||
+           parameter->json().dump() == value;
   }
 
   // Names of files are as seen from the folder in which the run was started.
