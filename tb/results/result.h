@@ -166,6 +166,7 @@ struct Result {
   std::vector<Figure> figures;
   std::optional<Quality> quality;
   double host_seconds = 0, host_cpu_seconds = 0;
+  std::vector<std::string> faults;  // that can be planted; of a model that is described, not run
 
   double mcycles_per_s() const {
     return host_seconds > 0 ? static_cast<double>(cycles) / host_seconds / 1e6 : 0;
