@@ -219,6 +219,15 @@ class Passing(RegressTest):
         collected = self.regress("collect", code=3)
         self.assertIn(changed + "points that are as before keep their results", collected)
         self.assertIn(f"{POINTS + 3} points, {POINTS} passed, 0 failed in 0 buckets, 3 missing", collected)
+        # Nothing failed, and what there is was checked and covered: it is the missing runs that count.
+        report = self.collected()
+        self.assertEqual([report["counts"][k] for k in ("failed", "failed_checks", "holes")], [0, 0, 0])
+        self.assertEqual([(f["missing"], f["holds"]) for f in report["features"]], [(2, False), (1, False)])
+        self.assertFalse(report["holds"])
+        with open(self.path("out/regressions/small-7/index.html")) as file:
+            page = file.read()
+        self.assertIn(">FAILED</span>", page)
+        self.assertEqual(page.count(">does not hold</span>"), 2)
         self.assertNotIn("changed  ", self.regress("status"))
         self.regress("run")
         after = self.inodes()

@@ -410,6 +410,16 @@ TEST(Compare, EachJudgedValueIsJudgedInItsDirection) {
   EXPECT_FALSE(worse([](Result& r) { r.host_seconds = 100; })) << "the host is not judged";
 }
 
+TEST(Compare, AResultWithoutItsMismatchesIsWorse) {
+  const Json a = as_read(sample_result());
+  for (const char* key : {"mismatches", "traffic_mismatches"}) {
+    Json b = a;
+    b["checks"].erase(key);
+    EXPECT_TRUE(compare(a, b, {}).worse) << key;
+    EXPECT_FALSE(compare(b, a, {}).worse) << key;
+  }
+}
+
 TEST(Compare, OnlyWhatDiffersOrIsWorseIsListed) {
   const Json a = to_json(sample_result());
   EXPECT_TRUE(compare(a, a, {}).values.empty());
