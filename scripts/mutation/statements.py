@@ -136,6 +136,8 @@ def scan(code):
             closed, frame = frames.pop(), frames[-1]
             if closed.control and frame.kind == "code":
                 frame.begin(at + 1, closed.control == "if")
+            elif closed.kind == frame.kind == "code" and code[at + 1:at + 2] in ("(", ")", ",", ".", ";"):
+                pass  # of a lambda in the midst of a statement
             elif closed.kind not in ("(", "init") and frame.kind in ("code", "class", "namespace"):
                 frame.begin(at + 1)
     return statements, defaults

@@ -332,6 +332,8 @@ inline int early(int a) { if (a < 1) return 5; try { if (a == 2) throw a; } catc
                          ["if (a) ; else [[unlikely]] c = 1;", "if (a) b(); else [[unlikely]] ;"])
         self.assertEqual(left("for (i = 0; i < n; ++i) go(i);"), ["for (i = 0; i < n; ++i) ;"])
         self.assertEqual(left("run([&](int b) { go(b); });"), [";", "run([&](int b) { ; });"])
+        self.assertEqual(left("const auto b = [] { c(); }(), d = e;"), ["const auto b = [] { ; }(), d = e;"])
+        self.assertEqual(left("b = [&] { return c; };"), [";"])
         self.assertEqual(left("switch (a) { case A::kB: c(); break; default: d(); }"),
                          ["switch (a) { case A::kB: ; break; default: d(); }",
                           "switch (a) { case A::kB: c(); ; default: d(); }",
