@@ -367,9 +367,10 @@ constexpr std::size_t kMostRows = 200;
 
 void set_table(const Json& json, mustache::data& page) {
   mustache::data columns{mustache::data::type::list}, rows{mustache::data::type::list};
-  const auto add_to = [](mustache::data& list, const char* key, std::string text, bool metric) {
+  const auto add_to = [](mustache::data& list, const char* key, const std::string& text,
+                         bool metric) {
     mustache::data entry;
-    entry.set(key, std::move(text));
+    entry.set(key, text);
     entry.set("metric", metric);
     list << entry;
   };
