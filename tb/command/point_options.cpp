@@ -21,11 +21,11 @@
 
 namespace deburr::tb {
 
+namespace {
+
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using spec::ExitCode;
-
-namespace {
 
 // What begins with a dash would be an option to the programs that are given it.
 CLI::Validator as_a_name() {
